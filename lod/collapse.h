@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Simplification by edge collapse [Ehmann & Lin 2000, sec. 4.5]. Knows nothing of enclosing.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "polytope.h"
+
+namespace swiftlet::lod {
+
+/// Points whose hull approximates `body`, left by collapsing edges in the order of Garland & Heckbert's quadric errors, each
+/// placed where its error is least, until `triangle_count` triangles remain or no edge may collapse.
+std::vector<Vec3> collapse(const Polytope& body, std::size_t triangle_count);
+
+}  // namespace swiftlet::lod

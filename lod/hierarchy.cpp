@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Level after level: simplify the one before, not yet grown, and make it hold level 0 [Ehmann & Lin 2000, sec. 4.3]. Errors of
+// enclosing thus never add up. What cannot be built ends the hierarchy.
+#include "hierarchy.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include "collapse.h"
+#include "enclose.h"
+#include "hull.h"
+#include "peel.h"
+
+namespace swiftlet::lod {
+namespace {
+
+constexpr double kWorthwhile = 0.8;  ///< a level with more of the triangles of the one before is not worth its memory
+
+/// Coordinates in which the surface of a solid spreads alike in all directions: a plate or a needle simplifies as a sphere does.
+/// Affine, so that it keeps hulls, volume ratios and which body holds which, up to rounding.
+class Whitening {
+ public:
+  explicit Whitening(const Polytope& body) : centre_(area_centroid(body)) {
+    const Eigen::LLT<Mat3> factor(area_covariance(body));
+    if (factor.info() == Eigen::Success) spread_ = factor.matrixL();
+    if (!spread_.allFinite() || !(spread_.diagonal().minCoeff() > 0x1p-30 * spread_.diagonal().maxCoeff())) spread_.setIdentity();
+  }
+  Polytope whitened(Polytope body) const {
+    for (Vec3& p : body.points) p = spread_.triangularView<Eigen::Lower>().solve(p - centre_);
+    return body;
+  }
+  std::vector<Vec3> restored(std::vector<Vec3> points) const {
+    for (Vec3& p : points) p = centre_ + spread_.triangularView<Eigen::Lower>() * p;
+    return points;
+  }
+
+ private:
+  Vec3 centre_;
+  Mat3 spread_ = Mat3::Identity();
+};
+
+/// What a method makes next: a level, or the sentence why there is none.
+struct Step {
+  std::optional<CoarseLevel> level;
+  std::string end;
+};
+
+/// Garland & Heckbert levels [sec. 4.5].
+class Collapser {
+ public:
+  Collapser(const Polytope& level0, const BuildOptions& options)
+      : options_(options), level0_(level0), plain_(level0), whitening_(level0), shape_(tight() ? whitening_.whitened(level0) : level0),
+        simple_(shape_), body_(shape_) {}
+
+  Step next() {
+    const std::size_t before = simple_.triangles.size();
+    const std::size_t target = std::max({std::size_t(options_.rate * double(before)), std::size_t(options_.cutoff), std::size_t(4)});
+    if (double(target) > kWorthwhile * double(before)) return {{}, "the next level would have fewer triangles than the cutoff"};
+    const std::vector<Vec3> points = collapse(simple_, target);
+    const Hull shape = hull(points);
+    if (shape.dimension < 3) return {{}, "the next level would be flat"};
+    simple_ = solid(points, shape);
+    if (double(simple_.triangles.size()) > kWorthwhile * double(before)) return {{}, "no more edges could be collapsed"};
+    return enclosed();
+  }
+
+ private:
+  bool tight() const { return options_.enclosing == Enclosing::Tight; }
+
+  Step enclosed() const {
+    const Vec3 centre = area_centroid(shape_), drift = centre - area_centroid(simple_);
+    Polytope moved = simple_;
+    for (Vec3& p : moved.points) p += drift;
+    Result<Polytope> scaled = scale_to_hold(std::move(moved), body_, centre);
+    if (!scaled) return {{}, scaled.error().message};
+    std::vector<Vec3> points = tight() ? whitening_.restored(tighten(std::move(scaled).value(), body_).points) : scaled.value().points;
+    Result<Proved> proved = prove(std::move(points), plain_, area_centroid(level0_));
+    if (!proved) return {{}, proved.error().message};
+    return {CoarseLevel{std::move(proved.value().level), {}, {}}, {}};
+  }
+
+  const BuildOptions& options_;
+  const Polytope& level0_;
+  Climber plain_;        ///< level 0
+  Whitening whitening_;
+  Polytope shape_;       ///< level 0, whitened for Tight
+  Polytope simple_;      ///< the last level before it was grown
+  Climber body_;         ///< over shape_
+};
+
+/// Dobkin & Kirkpatrick levels [sec. 4.4]: each is the hull of vertices of level 0.
+class Peeler {
+ public:
+  Peeler(const Polytope& level0, const BuildOptions& options)
+      : options_(options), plain_(level0), centre_(area_centroid(level0)), simple_(level0), finer_(level0.points.size()) {
+    std::iota(finer_.begin(), finer_.end(), 0u);
+  }
+
+  Step next() {
+    const std::size_t fewest = std::max<std::size_t>(options_.cutoff, 4);
+    if (simple_.triangles.size() < fewest + 2) return {{}, "the next level would have fewer triangles than the cutoff"};
+    const std::vector<std::uint32_t> removed = independent_set(simple_, (simple_.triangles.size() - fewest) / 2);
+    const std::vector<std::uint32_t> kept = complement(removed, simple_.points.size());
+    std::vector<Vec3> points;
+    for (std::uint32_t v : kept) points.push_back(simple_.points[v]);
+    const Hull shape = hull(points);
+    if (shape.dimension < 3) return {{}, "the next level would be flat"};
+    const Polytope coarse = solid(points, shape);
+
+    Result<Polytope> scaled = scale_to_hold(coarse, plain_, centre_);
+    if (!scaled) return {{}, scaled.error().message};
+    const bool tight = options_.enclosing == Enclosing::Tight;
+    const Polytope level = tight ? tighten(std::move(scaled).value(), plain_) : relax(std::move(scaled).value(), plain_, centre_);
+    Result<Proved> proved = prove(level.points, plain_, centre_);
+    if (!proved) return {{}, proved.error().message};
+    Step step{CoarseLevel{proved.value().level, {}, {}}, {}};
+    if (!tight) link(proved.value(), kept, removed, *step.level);
+    simple_ = coarse;
+    return step;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  static std::vector<std::uint32_t> complement(const std::vector<std::uint32_t>& removed, std::size_t count) {
+    std::vector<bool> gone(count);
+    for (std::uint32_t v : removed) gone[v] = true;
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t v = 0; v < count; ++v)
+      if (!gone[v]) kept.push_back(v);
+    return kept;
+  }
+
+  /// A vertex's child is its own copy, a new triangle's the vertex whose hole it fills [sec. 4.4.3].
+  void link(const Proved& proved, const std::vector<std::uint32_t>& kept, const std::vector<std::uint32_t>& removed,
+            CoarseLevel& level) {
+    std::vector<Triangle> triangles = proved.level.triangles;
+    for (Triangle& triangle : triangles)
+      for (std::uint32_t& corner : triangle) corner = kept[proved.vertices[corner]];
+    for (std::uint32_t v : proved.vertices) level.vertex_child.push_back(finer_[kept[v]]);
+    for (std::uint32_t v : removed_above(simple_, removed, triangles)) level.triangle_child.push_back(finer_[v]);
+    const auto lost = [](const std::vector<std::uint32_t>& links) { return std::find(links.begin(), links.end(), kNone) != links.end(); };
+    if (lost(level.vertex_child) || lost(level.triangle_child)) level.vertex_child.clear(), level.triangle_child.clear();
+
+    finer_.assign(kept.size(), kNone);
+    for (std::uint32_t k = 0; k < proved.vertices.size(); ++k) finer_[proved.vertices[k]] = k;
+  }
+
+  const BuildOptions& options_;
+  Climber plain_;
+  Vec3 centre_;
+  Polytope simple_;                   ///< the last level before it was grown
+  std::vector<std::uint32_t> finer_;  ///< per vertex of simple_, its place in the level made of it, kNone where rounding lost it
+};
+
+template <class Stepper>
+Hierarchy stepped(Stepper&& method, const Polytope& level0, const BuildOptions& options, const std::function<bool(double)>& keep_on) {
+  Hierarchy result;
+  std::size_t left = level0.triangles.size();
+  while (int(result.levels.size()) + 1 < options.max_levels) {
+    if (!keep_on(1 - double(left) / double(level0.triangles.size()))) {
+      result.cancelled = true;
+      return result;
+    }
+    Step step = method.next();
+    result.end = step.end;
+    if (!step.level) return result;
+    left = std::min(left, step.level->body.triangles.size());
+    result.levels.push_back(std::move(*step.level));
+  }
+  result.end = "the greatest number of levels was reached";
+  return result;
+}
+
+}  // namespace
+
+Hierarchy hierarchy(const Polytope& level0, const BuildOptions& options, const std::function<bool(double)>& keep_on) {
+  if (options.method == Method::Peel) return stepped(Peeler(level0, options), level0, options, keep_on);
+  return stepped(Collapser(level0, options), level0, options, keep_on);
+}
+
+}  // namespace swiftlet::lod

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Measures of a closed triangle surface, its half-edges, and the climb to a support. Plain doubles; no truth rests on them.
+#include "polytope.h"
+
+#include <algorithm>
+
+namespace swiftlet::lod {
+
+Vec3 area_normal(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a).cross(c - a); }
+
+double area(const Polytope& body) {
+  double twice = 0;
+  for (const auto& [a, b, c] : body.triangles) twice += area_normal(body.points[a], body.points[b], body.points[c]).norm();
+  return twice / 2;
+}
+
+double volume(const Polytope& body) {
+  if (body.triangles.empty()) return 0;
+  const Vec3 apex = body.points[body.triangles.front()[0]];
+  double six_times = 0;
+  for (const auto& [a, b, c] : body.triangles)
+    six_times += (body.points[a] - apex).dot((body.points[b] - apex).cross(body.points[c] - apex));
+  return six_times / 6;
+}
+
+Vec3 area_centroid(const Polytope& body) {
+  const Vec3 base = body.points.front();
+  Vec3 moment = Vec3::Zero();
+  double total = 0;
+  for (const auto& [a, b, c] : body.triangles) {
+    const double weight = area_normal(body.points[a], body.points[b], body.points[c]).norm();
+    moment += weight * ((body.points[a] - base) + (body.points[b] - base) + (body.points[c] - base));
+    total += weight;
+  }
+  return base + moment / (3 * total);
+}
+
+Mat3 area_covariance(const Polytope& body) {
+  const Vec3 centroid = area_centroid(body);
+  Mat3 moment = Mat3::Zero();
+  double total = 0;
+  for (const auto& [ia, ib, ic] : body.triangles) {
+    const Vec3 a = body.points[ia] - centroid, b = body.points[ib] - centroid, c = body.points[ic] - centroid, sum = a + b + c;
+    const double weight = area_normal(a, b, c).norm();
+    moment += weight / 12 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+    total += weight;
+  }
+  return moment / total;
+}
+
+HalfEdges half_edges(const Polytope& body) {
+  struct Side {
+    std::uint32_t low, high, half_edge;
+    auto operator<=>(const Side&) const = default;
+  };
+  const std::uint32_t count = 3 * std::uint32_t(body.triangles.size());
+  std::vector<Side> sides(count);
+  HalfEdges edges{std::vector<std::uint32_t>(count), std::vector<std::uint32_t>(body.points.size())};
+  for (std::uint32_t h = 0; h < count; ++h) {
+    const std::uint32_t from = origin(body, h), to = origin(body, HalfEdges::next(h));
+    sides[h] = {std::min(from, to), std::max(from, to), h};
+    edges.outgoing[from] = h;
+  }
+  std::sort(sides.begin(), sides.end());
+  for (std::uint32_t k = 0; k < count; k += 2) {
+    edges.twin[sides[k].half_edge] = sides[k + 1].half_edge;
+    edges.twin[sides[k + 1].half_edge] = sides[k].half_edge;
+  }
+  return edges;
+}
+
+// Every directed edge occurs once, so that the triangles' sides list each neighbour once.
+Climber::Climber(const Polytope& body) : body_(body), begin_(body.points.size() + 1), neighbour_(3 * body.triangles.size()) {
+  for (const Triangle& triangle : body.triangles)
+    for (std::uint32_t corner : triangle) ++begin_[corner + 1];
+  for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
+  std::vector<std::uint32_t> slot(begin_.begin(), begin_.end() - 1);
+  for (const auto& [a, b, c] : body.triangles) {
+    neighbour_[slot[a]++] = b;
+    neighbour_[slot[b]++] = c;
+    neighbour_[slot[c]++] = a;
+  }
+}
+
+std::span<const std::uint32_t> Climber::neighbours(std::uint32_t vertex) const {
+  return {neighbour_.data() + begin_[vertex], begin_[vertex + 1] - begin_[vertex]};
+}
+
+std::uint32_t Climber::climb(const Vec3& direction, std::uint32_t start) const {
+  std::uint32_t best = start;
+  double height = direction.dot(body_.points[start]);
+  while (true) {
+    const std::uint32_t from = best;
+    for (std::uint32_t to : neighbours(from)) {
+      const double to_height = direction.dot(body_.points[to]);
+      if (to_height > height) height = to_height, best = to;
+    }
+    if (best == from) return best;
+  }
+}
+
+}  // namespace swiftlet::lod

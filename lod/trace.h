@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What became of the user's mesh in the hull: which triangles lie on which face, and how far the mesh dents. Knows nothing of levels.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <swiftlet/build.h>
+
+#include "hull.h"
+
+namespace swiftlet::lod {
+
+/// How far from flat or convex a mesh may be by rounding alone, in its unit: 8 units in the last place of its largest coordinate, as
+/// doubles, or as floats where all coordinates are floats.
+double rounding_of(std::span<const Vec3> points);
+
+/// Per hull triangle, the user's triangles whose corners lie on its plane up to rounding and whose normal agrees; a triangle is
+/// listed once, under the hull triangle with its corners where there is one.
+std::vector<std::vector<std::uint32_t>> triangles_on(const Mesh& mesh, const Hull& hull, const Polytope& body);
+
+/// The mesh's volume over the hull's; 1 where an edge of the mesh lacks its opposite.
+double volume_ratio(const Mesh& mesh, const Polytope& body);
+
+/// The greatest distance from the hull's surface of a vertex that the mesh's triangles use.
+double deepest_dent(const Mesh& mesh, const Polytope& body);
+
+}  // namespace swiftlet::lod

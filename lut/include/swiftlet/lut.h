@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Directions on the sphere as small integers: the latitude-longitude samples of [Ehmann & Lin 2000, sec. 4.6].
+// Knows nothing of hulls.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace swiftlet::lut {
+
+/// Samples at multiples of 22.5, 11.25 or 5.625 degrees in altitude and azimuth, the poles once each.
+enum class Resolution : std::uint8_t { None, Degrees22, Degrees11, Degrees5 };
+
+/// 0, 114, 482 or 1986.
+std::uint32_t sample_count(Resolution resolution);
+
+/// The unit direction of a sample; `index` < sample_count(resolution).
+std::array<double, 3> sample(Resolution resolution, std::uint32_t index);
+
+/// The sample nearest to a direction of any length, in altitude first, then azimuth. The zero vector is the north pole's.
+std::uint32_t nearest(Resolution resolution, const std::array<double, 3>& direction);
+
+}  // namespace swiftlet::lut

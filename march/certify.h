@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// From a feature pair to bounds that are true whatever brought it: a direction, the supports of both bodies in it, two points.
+// Knows nothing of how the march came here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "scene.h"
+
+namespace swiftlet {
+
+/// Vertex pairs and convex weights: a point of each body. What certified progress starts from.
+struct ActiveSet {
+  int count = 0;
+  std::array<std::uint32_t, 4> a{}, b{};
+  std::array<double, 4> weight{};
+};
+
+struct Certificate {
+  double lower = 0, upper = 0;        ///< proved bounds on the distance of the two polytopes; upper >= lower >= 0
+  Vec normal{0, 0, 0};                ///< unit, from A to B; what lower is proved along
+  Vec point_a{0, 0, 0}, point_b{0, 0, 0};
+  ActiveSet active;                   ///< whose weights make the points
+  std::uint32_t support_a = 0, support_b = 0;  ///< vertices extreme along normal and -normal
+};
+
+/// Bounds from the features of `a` and `b`, any kinds but two faces. Cost: about 40 comparisons.
+Certificate certify(const Scene& scene, Handle a, Handle b, std::uint32_t& plane_tests);
+
+/// The vertex of A farthest along n, climbed from `start` by exact comparisons: no vertex is farther.
+std::uint32_t support_a(const Scene& scene, const Vec& n, std::uint32_t start, std::uint32_t& plane_tests);
+/// The vertex of B least far along n.
+std::uint32_t support_b(const Scene& scene, const Vec& n, std::uint32_t start, std::uint32_t& plane_tests);
+
+/// A lower bound on n . (b - a) for unit n, which may be negative.
+double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb);
+
+/// A vertex of a feature.
+std::uint32_t any_vertex(const ConvexView& view, Handle feature);
+
+}  // namespace swiftlet

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Nothing here climbs or marches but `verify`'s deviations: supports are maxima over all vertices.
+#include <swiftlet/check.h>
+
+#include <cstdio>
+
+#include "double_double.h"
+#include "exact.h"
+#include "scene.h"
+#include "surface.h"
+#include "tolerance.h"
+
+namespace swiftlet {
+namespace {
+
+using Wide = V3<DoubleDouble>;
+Wide wide(const Vec& v) { return {v.x, v.y, v.z}; }
+Wide wide(const Motion& m, const Vec& p) {
+  const Wide q = wide(p);
+  return Wide{dot(wide(m.row_x), q), dot(wide(m.row_y), q), dot(wide(m.row_z), q)} + wide(m.t);
+}
+
+template <class... Values>
+Check failed(const char* format, Values... values) {
+  char message[256];
+  std::snprintf(message, sizeof message, format, values...);
+  return {false, message};
+}
+const Check kPassed{true, ""};
+
+/// Whether a point lies in a body, up to `slack`: below every face's plane by then.
+bool holds(const ConvexView& view, const Vec& p, double slack) {
+  if (view.face_first.empty() || view.vertices.size() < 4) return true;  // flat bodies: the distance to them is checked by lower
+  bool inside = true;
+  each_facet(view, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const Vec o = vec(view.vertices[a]), n = cross(vec(view.vertices[b]) - o, vec(view.vertices[c]) - o);
+    inside = inside && dot(n, p - o) <= slack * norm(n);
+  });
+  return inside;
+}
+
+}  // namespace
+
+Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer) {
+  if (answer.status == Status::InvalidPose) {
+    return pose_quality(motion(b_in_a)).legal ? failed("the pose is legal") : kPassed;
+  }
+  const Motion m = motion(b_in_a);
+  const PoseQuality quality = pose_quality(m);
+  if (!quality.legal) return failed("the pose is not legal");
+  if (answer.level_a < 0 || answer.level_a >= a.level_count() || answer.level_b < 0 || answer.level_b >= b.level_count()) {
+    return failed("levels (%d, %d) do not exist", answer.level_a, answer.level_b);
+  }
+  if (!(answer.lower >= 0 && answer.upper >= answer.lower)) return failed("[%.17g, %.17g] is no interval", answer.lower, answer.upper);
+  const ConvexView &exact_a = a.level(0).view, &exact_b = b.level(0).view;
+  const Scene whole = scene(exact_a, exact_b, m, quality.error);
+
+  if (answer.lower > 0) {
+    const Vec n = vec(answer.normal);
+    const Wide direction = wide(n);
+    DoubleDouble most_a = dot(direction, wide(vec(exact_a.vertices[0]))), least_b = dot(direction, wide(m, vec(exact_b.vertices[0])));
+    for (const Vertex& v : exact_a.vertices) {
+      if (const DoubleDouble h = dot(direction, wide(vec(v))); h > most_a) most_a = h;
+    }
+    for (const Vertex& v : exact_b.vertices) {
+      if (const DoubleDouble h = dot(direction, wide(m, vec(v))); h < least_b) least_b = h;
+    }
+    const double gap = double(least_b - most_a) / norm(n);
+    if (!(gap * (1 + kNormError) + kDoubleDoubleError * whole.magnitude >= answer.lower)) {
+      return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap);
+    }
+  }
+  if (std::isfinite(answer.upper)) {
+    const Level &level_a = a.level(answer.level_a), &level_b = b.level(answer.level_b);
+    const Scene pair = scene(level_a.view, level_b.view, m, quality.error);
+    const Vec p = vec(answer.point_a), q = vec(answer.point_b);
+    const double slack = pair.law_two, apart = norm(q - p) + level_a.deviation + level_b.deviation * (1 + 2 * quality.error);
+    const bool overlap = answer.proof.count != 0;
+    if (!overlap && !(apart <= answer.upper + 2 * slack)) return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart);
+    const Motion back = motion(inverse(b_in_a));
+    if (!holds(level_a.view, p, slack)) return failed("point_a is not on level %d of A", answer.level_a);
+    if (!holds(level_b.view, apply(back, q), slack)) return failed("point_b is not on level %d of B", answer.level_b);
+  }
+  switch (answer.verdict) {
+    case Verdict::Disjoint:
+      if (!(answer.lower > 0)) return failed("disjoint without a lower bound");
+      break;
+    case Verdict::Touching:
+      if (!(answer.upper <= whole.law_two)) return failed("touching with an upper bound of %.17g", answer.upper);
+      break;
+    case Verdict::Overlapping: {
+      if (answer.level_a != 0 || answer.level_b != 0 || answer.proof.count != 4) return failed("overlap without a proof on level 0");
+      std::array<std::array<double, 3>, 4> pa, pb;
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (answer.proof.vertex_a[k] >= exact_a.vertices.size() || answer.proof.vertex_b[k] >= exact_b.vertices.size()) return failed("the proof names no vertex");
+        const Vertex &va = exact_a.vertices[answer.proof.vertex_a[k]], &vb = exact_b.vertices[answer.proof.vertex_b[k]];
+        pa[k] = {va.x, va.y, va.z};
+        pb[k] = {vb.x, vb.y, vb.z};
+      }
+      if (!exact::tetrahedron_holds_origin(pa, pb, m)) return failed("the proof does not hold the origin");
+      break;
+    }
+    case Verdict::Undecided: break;
+  }
+  return kPassed;
+}
+
+Check verify(const Model& model) {
+  const ConvexView& exact_hull = model.level(0).view;
+  for (int i = 0; i < model.level_count(); ++i) {
+    const Level& level = model.level(i);
+    const ConvexView& view = level.view;
+    // The arrays of this level, proved convex again from nothing.
+    std::vector<Vec3> points;
+    for (const Vertex& v : view.vertices) points.emplace_back(v.x, v.y, v.z);
+    std::vector<std::uint32_t> corners, sizes;
+    std::vector<bool> seen(view.head.size(), false);
+    for (std::uint32_t first = 0; first < view.head.size(); ++first) {
+      if (seen[first] || view.face[first] == kNone) continue;
+      std::uint32_t size = 0, h = first;
+      for (; !seen[h]; h = next_in_facet(view, h), ++size) {
+        seen[h] = true;
+        corners.push_back(origin(view, h));
+      }
+      sizes.push_back(size);
+    }
+    LevelArrays arrays;
+    arrays.vertices = points;
+    arrays.face_vertices = corners;
+    arrays.face_sizes = sizes;
+    const Result<Surface> surface = make_surface(arrays, false);
+    if (!surface) return {false, "level " + std::to_string(i) + ": " + surface.error().message};
+    if (surface.value().vertices.size() != view.vertices.size()) return failed("level %d: a vertex is no corner of the hull", i);
+    if (i == 0) continue;
+    bool enclosed = true;
+    each_facet(view, [&](std::uint32_t p, std::uint32_t q, std::uint32_t r) {
+      std::uint32_t highest = 0;
+      const auto above = [&](std::uint32_t w, std::uint32_t v) {
+        return exact::compare_along_normal(&view.vertices[p].x, &view.vertices[q].x, &view.vertices[r].x, &exact_hull.vertices[w].x, &exact_hull.vertices[v].x) > 0;
+      };
+      for (bool climbing = true; climbing;) {
+        climbing = false;
+        const Vertex ring = exact_hull.vertices[highest];
+        for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
+          if (above(exact_hull.head[h], highest)) highest = exact_hull.head[h], climbing = true;
+        }
+      }
+      enclosed = enclosed && exact::orientation(view.vertices[p], view.vertices[q], view.vertices[r], exact_hull.vertices[highest]) <= 0;
+    });
+    if (!enclosed) return failed("level %d does not enclose level 0", i);
+    MarchStart start;
+    for (const Vertex& v : view.vertices) {
+      const Vertex record{v.x, v.y, v.z, 0, 0};
+      ConvexView point;
+      point.vertices = {&record, 1};
+      point.extent = max_abs(vec(v));
+      const MarchResult r = march(point, exact_hull, Pose{}, start);
+      start.b = r.b;
+      if (r.lower > level.deviation) return failed("level %d: a vertex is %.17g from level 0, the deviation is %.17g", i, r.lower, level.deviation);
+    }
+  }
+  return kPassed;
+}
+
+}  // namespace swiftlet

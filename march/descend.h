@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// From level pair to finer level pair, until the question is answered [Ehmann & Lin 2000, sec. 5.2].
+#pragma once
+
+#include <swiftlet/query.h>
+
+namespace swiftlet {
+
+/// The question: an interval narrow enough, or a threshold passed.
+struct Target {
+  double absolute, relative;
+  double clear_above;  ///< answered when lower > this
+  double hit_below;    ///< answered when upper <= this
+};
+
+Answer descend(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options, const Target& target);
+
+}  // namespace swiftlet

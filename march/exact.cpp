@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Expansions of fixed capacity: the sum of `count` doubles, none overlapping another, least first. Everything is on the stack.
+#include "exact.h"
+
+#include <cmath>
+
+#include "double_double.h"
+#include "tolerance.h"
+
+namespace swiftlet::exact {
+namespace {
+
+template <int N>
+struct Expansion {
+  int count = 0;
+  double part[N];
+
+  void push(double value) {
+    if (value != 0) part[count++] = value;
+  }
+  int sign() const { return count == 0 ? 0 : part[count - 1] > 0 ? 1 : -1; }
+};
+
+/// e + b. [Shewchuk, Grow-Expansion] with zeros eliminated.
+template <int N>
+void grow(Expansion<N>& e, double b) {
+  double carry = b;
+  int kept = 0;
+  for (int i = 0; i < e.count; ++i) {
+    const Pair s = two_sum(carry, e.part[i]);
+    if (s.low != 0) e.part[kept++] = s.low;
+    carry = s.high;
+  }
+  if (carry != 0) e.part[kept++] = carry;
+  e.count = kept;
+}
+
+template <int N, int M>
+Expansion<N + M> operator+(const Expansion<N>& a, const Expansion<M>& b) {
+  Expansion<N + M> sum;
+  sum.count = a.count;
+  for (int i = 0; i < a.count; ++i) sum.part[i] = a.part[i];
+  for (int i = 0; i < b.count; ++i) grow(sum, b.part[i]);
+  return sum;
+}
+
+template <int N>
+Expansion<N> operator-(Expansion<N> a) {
+  for (int i = 0; i < a.count; ++i) a.part[i] = -a.part[i];
+  return a;
+}
+
+template <int N, int M>
+Expansion<N + M> operator-(const Expansion<N>& a, const Expansion<M>& b) {
+  return a + -b;
+}
+
+template <int N, int M>
+Expansion<2 * N * M> operator*(const Expansion<N>& a, const Expansion<M>& b) {
+  Expansion<2 * N * M> product;
+  for (int i = 0; i < a.count; ++i) {
+    for (int j = 0; j < b.count; ++j) {
+      const Pair p = two_product(a.part[i], b.part[j]);
+      grow(product, p.low);
+      grow(product, p.high);
+    }
+  }
+  return product;
+}
+
+Expansion<1> expansion(double value) {
+  Expansion<1> e;
+  e.push(value);
+  return e;
+}
+Expansion<2> difference(double a, double b) {
+  const Pair s = two_sum(a, -b);
+  Expansion<2> e;
+  e.push(s.low);
+  e.push(s.high);
+  return e;
+}
+
+template <int N>
+using Expansion3 = std::array<Expansion<N>, 3>;
+
+Expansion3<2> difference3(const double a[3], const double b[3]) {
+  return {difference(a[0], b[0]), difference(a[1], b[1]), difference(a[2], b[2])};
+}
+
+template <int N, int M>
+auto dot3(const Expansion3<N>& a, const Expansion3<M>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+template <int N, int M>
+auto cross3(const Expansion3<N>& a, const Expansion3<M>& b) {
+  return Expansion3<4 * N * M>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Vec subtract(const double a[3], const double b[3]) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vec absolute(const Vec& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
+
+/// The magnitude that bounds the rounding of a triple product of rounded differences.
+double permanent(const Vec& u, const Vec& v, const Vec& w) {
+  const Vec a = absolute(u), b = absolute(v), c = absolute(w);
+  return (a.y * b.z + a.z * b.y) * c.x + (a.z * b.x + a.x * b.z) * c.y + (a.x * b.y + a.y * b.x) * c.z;
+}
+
+/// The sign of `value` if no error up to `bound` can change it, else 0.
+int certain_sign(double value, double bound) { return value > bound ? 1 : value < -bound ? -1 : 0; }
+
+/// a - (R b + t), one coordinate.
+Expansion<8> offset(double a, const Vec& row, const double b[3], double t) {
+  Expansion<8> e;
+  grow(e, a);
+  grow(e, -t);
+  for (const auto& [r, x] : {Pair{row.x, b[0]}, Pair{row.y, b[1]}, Pair{row.z, b[2]}}) {
+    const Pair p = two_product(-r, x);
+    grow(e, p.low);
+    grow(e, p.high);
+  }
+  return e;
+}
+
+}  // namespace
+
+int orientation(const double a[3], const double b[3], const double c[3], const double d[3]) {
+  const Vec u = subtract(b, a), v = subtract(c, a), w = subtract(d, a);
+  if (const int sign = certain_sign(dot(cross(u, v), w), kTripleProductError * permanent(u, v, w))) return sign;
+  return dot3(cross3(difference3(b, a), difference3(c, a)), difference3(d, a)).sign();
+}
+
+bool collinear(const double a[3], const double b[3], const double c[3]) {
+  const auto n = cross3(difference3(b, a), difference3(c, a));
+  return n[0].sign() == 0 && n[1].sign() == 0 && n[2].sign() == 0;
+}
+
+int compare_along(const double n[3], const double w[3], const double v[3]) {
+  const Vec direction{n[0], n[1], n[2]}, e = subtract(w, v);
+  if (const int sign = certain_sign(dot(direction, e), kDotError * dot(absolute(direction), absolute(e)))) return sign;
+  return dot3(Expansion3<1>{expansion(n[0]), expansion(n[1]), expansion(n[2])}, difference3(w, v)).sign();
+}
+
+int compare_along_normal(const double a[3], const double b[3], const double c[3], const double w[3], const double v[3]) {
+  const Vec p = subtract(b, a), q = subtract(c, a), e = subtract(w, v);
+  if (const int sign = certain_sign(dot(cross(p, q), e), kTripleProductError * permanent(p, q, e))) return sign;
+  return dot3(cross3(difference3(b, a), difference3(c, a)), difference3(w, v)).sign();
+}
+
+int compare_along_turned(const double n[3], const Motion& m, const double w[3], const double v[3]) {
+  const Vec direction{n[0], n[1], n[2]}, e = subtract(w, v), a = absolute(e), b = absolute(direction);
+  const double magnitude = b.x * dot(absolute(m.row_x), a) + b.y * dot(absolute(m.row_y), a) + b.z * dot(absolute(m.row_z), a);
+  if (const int sign = certain_sign(dot(direction, turn(m, e)), kTurnedDotError * magnitude)) return sign;
+  const Expansion3<2> d = difference3(w, v);
+  const auto row = [&](const Vec& r) { return dot3(Expansion3<1>{expansion(r.x), expansion(r.y), expansion(r.z)}, d); };
+  return (expansion(n[0]) * row(m.row_x) + expansion(n[1]) * row(m.row_y) + expansion(n[2]) * row(m.row_z)).sign();
+}
+
+bool tetrahedron_holds_origin(const std::array<std::array<double, 3>, 4>& a, const std::array<std::array<double, 3>, 4>& b,
+                              const Motion& m) {
+  // With p_k = a_k - (R b_k + t), the origin's barycentric coordinates are triple products of the p's over their sum.
+  std::array<Vec, 4> p;
+  std::array<Vec, 4> size;  // |a| + |R| |b| + |t|, which scales the rounding of p
+  for (int k = 0; k < 4; ++k) {
+    const Vec va{a[k][0], a[k][1], a[k][2]}, vb{b[k][0], b[k][1], b[k][2]}, ab = absolute(vb);
+    p[k] = va - apply(m, vb);
+    size[k] = absolute(va) + absolute(m.t) + Vec{dot(absolute(m.row_x), ab), dot(absolute(m.row_y), ab), dot(absolute(m.row_z), ab)};
+  }
+  constexpr int kFace[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};  // opposite point k, counter-clockwise from outside
+  std::array<int, 4> sign;
+  bool certain = true;
+  for (int k = 0; k < 4; ++k) {
+    const auto [i, j, l] = kFace[k];
+    sign[k] = certain_sign(dot(cross(p[i], p[j]), p[l]), kOffsetTripleProductError * permanent(size[i], size[j], size[l]));
+    certain = certain && sign[k] != 0;
+  }
+  if (!certain) {
+    std::array<Expansion3<8>, 4> e;
+    for (int k = 0; k < 4; ++k) {
+      e[k] = {offset(a[k][0], m.row_x, b[k].data(), m.t.x), offset(a[k][1], m.row_y, b[k].data(), m.t.y),
+              offset(a[k][2], m.row_z, b[k].data(), m.t.z)};
+    }
+    bool flat = true;
+    for (int k = 0; k < 4; ++k) {
+      const auto [i, j, l] = kFace[k];
+      sign[k] = dot3(cross3(e[i], e[j]), e[l]).sign();
+      flat = flat && sign[k] == 0;
+    }
+    if (flat) return false;  // coplanar with the origin, or all four on planes through it
+  }
+  // The four products sum to six times the volume: with none of the opposite sign, the origin is inside or on the boundary.
+  const bool any_positive = sign[0] > 0 || sign[1] > 0 || sign[2] > 0 || sign[3] > 0;
+  const bool any_negative = sign[0] < 0 || sign[1] < 0 || sign[2] < 0 || sign[3] < 0;
+  return any_positive != any_negative;
+}
+
+}  // namespace swiftlet::exact

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Exact signs of polynomials in stored doubles: filtered first, expansions after. Knows points and poses, nothing of bodies.
+// After [Shewchuk 1997, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates].
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "vec.h"
+
+namespace swiftlet::exact {
+
+/// The sign of (b - a) x (c - a) . (d - a): positive when d lies on the side from which a, b, c appear counter-clockwise
+/// (outside, for a face). Exact for coordinates within 1e-70 and 1e+70 in magnitude, or zero.
+int orientation(const double a[3], const double b[3], const double c[3], const double d[3]);
+inline int orientation(const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& d) {
+  return orientation(&a.x, &b.x, &c.x, &d.x);
+}
+
+/// Whether a, b, c lie on one line.
+bool collinear(const double a[3], const double b[3], const double c[3]);
+
+/// The sign of n . (w - v).
+int compare_along(const double n[3], const double w[3], const double v[3]);
+
+/// The sign of (b - a) x (c - a) . (w - v): compares w and v along the exact normal of the triangle a, b, c.
+int compare_along_normal(const double a[3], const double b[3], const double c[3], const double w[3], const double v[3]);
+
+/// The sign of n . R (w - v), where R is `motion`'s rotation as stored.
+int compare_along_turned(const double n[3], const Motion& motion, const double w[3], const double v[3]);
+
+/// Whether the origin lies in the closed hull of the four points a[k] - (R b[k] + t), which must not be coplanar (false if so).
+bool tetrahedron_holds_origin(const std::array<std::array<double, 3>, 4>& a, const std::array<std::array<double, 3>, 4>& b,
+                              const Motion& motion);
+
+}  // namespace swiftlet::exact

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Certificates that anyone can recompute: of an answer, and of a model. Slow and plain on purpose.
+#pragma once
+
+#include <string>
+
+#include <swiftlet/march.h>
+#include <swiftlet/model.h>
+#include <swiftlet/query.h>
+
+namespace swiftlet {
+
+struct Check {
+  bool ok = false;
+  std::string message;  ///< what failed first, with numbers; empty when ok
+  explicit operator bool() const { return ok; }
+};
+
+/// Recomputes what `answer` claims, by brute force over every vertex of the levels it names: `lower` by the gap along `normal`,
+/// `upper` by the two points and the deviations, overlap by exact arithmetic on the proof's vertices, the verdict by all these.
+/// Cost: linear in the vertices and faces.
+Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer);
+
+/// Proves that every level is convex and encloses level 0, that every deviation holds, and that links and tables name features.
+/// Exact. Cost: a support climb per face and a distance query per vertex.
+Check verify(const Model& model);
+
+}  // namespace swiftlet

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The atomic kernel: one level pair, one march. What the queries are made of, and what a bounding volume hierarchy of convex
+// pieces calls at each node pair. Knows nothing of levels.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include <swiftlet/model.h>
+#include <swiftlet/pose.h>
+
+namespace swiftlet {
+
+/// Which violated Voronoi plane a step follows [Ehmann & Lin 2000, sec. 5.1].
+enum class PlaneRule : std::uint8_t { MostViolated, FirstViolated };
+
+enum class MarchStatus : std::uint8_t {
+  Disjoint,      ///< the interval is as narrow as asked, and lower > 0
+  Touching,      ///< the signed distance is within tolerance of 0: upper is at most law 2's bound
+  Overlapping,   ///< proved by `proof`; lower = upper = 0
+  Near,          ///< the interval is as narrow as asked and begins at 0: the sign was not asked for
+  Beyond,        ///< stopped because lower > rule.beyond
+  Budget,        ///< rule.step_budget ended the march; the bounds hold
+  NotConverged,  ///< neither of the above could be proved; the bounds hold. No valid body is known that answers so
+  InvalidPose,   ///< bounds are [0, inf]
+};
+
+/// Up to four vertex pairs whose differences hold the origin in their hull: the bodies share a point.
+struct OverlapProof {
+  std::uint32_t count = 0;
+  std::array<std::uint32_t, 4> vertex_a{}, vertex_b{};
+};
+
+/// Where to begin. Default: where the bodies face each other along the line of their centres. Anything is legal: a handle that
+/// names no feature of its view counts as the default.
+struct MarchStart {
+  Handle a, b;
+};
+
+/// When to stop: as soon as upper - lower <= max(absolute, relative * lower), or lower > beyond.
+struct MarchRule {
+  double absolute = 0, relative = 0;
+  double beyond = std::numeric_limits<double>::infinity();
+  double floor = 0;                  ///< a lower bound already proved; the answer's is never less
+  std::uint32_t step_budget = ~0u;   ///< steps, not time
+  PlaneRule plane_rule = PlaneRule::MostViolated;
+};
+
+struct MarchResult {
+  MarchStatus status = MarchStatus::NotConverged;
+  Handle a, b;                 ///< the nearest features, or those that met; storable, start of the next march
+  double lower = 0;            ///< proved bounds on the distance between the two polytopes
+  double upper = std::numeric_limits<double>::infinity();
+  Vec3 normal = Vec3::Zero();  ///< unit, A's frame, from A to B: the direction `lower` is proved in; 0 without one
+  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< nearest points, A's frame
+  OverlapProof proof;
+  std::uint32_t steps = 0;        ///< changes of feature
+  std::uint32_t plane_tests = 0;  ///< Voronoi planes and support comparisons evaluated
+};
+
+/// Marches from `start` to the nearest features of `a` and `b`. Allocates nothing. Cost: about 20 ns per step, and a certificate.
+MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, const MarchStart& start = {},
+                  const MarchRule& rule = {});
+
+/// The caller's tag of a feature: a face's own, of an edge or vertex the largest among its faces; 0 without tags.
+std::uint8_t tag(const ConvexView& view, Handle feature);
+
+}  // namespace swiftlet

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A convex body at several levels of detail: immutable, shared, one block of memory. Knows nothing of poses or queries.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include <swiftlet/lut.h>
+#include <swiftlet/pose.h>
+#include <swiftlet/result.h>
+
+namespace swiftlet {
+
+enum class FeatureKind : std::uint8_t { None, Vertex, Edge, Face };
+
+/// A feature of one level in 32 bits: two for the kind, thirty for the index. An edge is named by either of its half-edges.
+/// The default is no feature.
+class Handle {
+ public:
+  constexpr Handle() = default;
+  constexpr Handle(FeatureKind kind, std::uint32_t index) : bits_(std::uint32_t(kind) << 30 | index) {}
+  constexpr FeatureKind kind() const { return FeatureKind(bits_ >> 30); }
+  constexpr std::uint32_t index() const { return bits_ & 0x3fffffffu; }
+  constexpr bool operator==(const Handle&) const = default;
+
+ private:
+  std::uint32_t bits_ = 0;
+};
+
+/// "No index": the face beside a segment's edge, the source of a vertex the builder invented.
+inline constexpr std::uint32_t kNone = 0xffffffffu;
+
+/// A vertex and where its ring lies: half-edges [ring_begin, ring_begin + ring_count), counter-clockwise seen from outside.
+struct Vertex {
+  double x, y, z;
+  std::uint32_t ring_begin, ring_count;
+};
+
+/// The plane of a face of more than three vertices: unit outward normal, and the greatest distance of its vertices from the
+/// plane through the first of them, rounding included.
+struct FacePlane {
+  double x, y, z;
+  double thickness;
+};
+
+/// One convex polytope as the march sees it: non-owning, trivially copyable. Half-edges are sorted by origin.
+///
+///        head[h]           The left face of h is face[h], the right one face[twin[h]]. The half-edge after h around its
+///          /|\             left face is the one before twin[h] in the ring of head[h].
+///         / | \            A half-edge with the same face on both sides is a *diagonal*: a true edge of the exact hull
+///        / h|  \           inside a face that is flat only up to rounding. Support climbs use it, face loops skip it.
+///   right \ | / left       Faces with more than three vertices come first and have a FacePlane.
+///          \|/             A segment has half-edges without faces (kNone), a point has no half-edge.
+///        origin
+struct ConvexView {
+  std::span<const Vertex> vertices;
+  std::span<const std::uint32_t> head, twin, face;  ///< one entry per half-edge
+  std::span<const std::uint32_t> face_first;        ///< per face, a half-edge of its loop
+  std::span<const FacePlane> planes;                ///< of faces [0, planes.size())
+  std::span<const std::uint8_t> tags;               ///< per face, the caller's; may be empty
+  double extent = 0;                                ///< largest absolute coordinate
+  Vec3 centre = Vec3::Zero();                       ///< any point of the body, where a cold start looks from
+};
+
+/// A level of a model: its polytope, its links to the levels beside it, and how far it stands off the exact hull.
+struct Level {
+  ConvexView view;
+  std::span<const std::uint32_t> child_vertex;  ///< per vertex, the vertex one level finer (empty on level 0)
+  std::span<const Handle> child_face;           ///< per face, the face or vertex one level finer (empty on level 0)
+  std::span<const std::uint32_t> parent_face;   ///< per face, the vertex one level coarser (empty on the coarsest)
+  double deviation = 0;     ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
+  double volume = 0;
+  std::size_t bytes = 0;    ///< of this level in the model's block
+  std::size_t edge_count = 0, triangle_count = 0;  ///< without diagonals; 2 V - 4 for a solid
+};
+
+/// Level 0 given as the user knows it: which of the user's vertices and triangles a feature stands for.
+struct SourceMap {
+  std::span<const std::uint32_t> vertex;      ///< per vertex of level 0, the user's vertex
+  std::span<const std::uint32_t> face_begin;  ///< per face of level 0 and one more, where its list begins in `face`
+  std::span<const std::uint32_t> face;        ///< the user's triangles, none or several per face
+};
+
+/// One level as plain arrays. Faces are counter-clockwise seen from outside. A two-sided polygon is two opposite faces, a
+/// segment two vertices without faces, a point one vertex.
+struct LevelArrays {
+  std::span<const Vec3> vertices;
+  std::span<const std::uint32_t> face_vertices;  ///< the faces' loops one after the other
+  std::span<const std::uint32_t> face_sizes;     ///< vertices per face; empty: all are triangles
+
+  std::span<const std::uint32_t> vertex_source;      ///< level 0: the user's vertex ids; empty: 0, 1, 2, ...
+  std::span<const std::uint32_t> face_source_begin;  ///< level 0: as SourceMap::face_begin, per face given; empty: face k is k
+  std::span<const std::uint32_t> face_source;
+
+  std::span<const std::uint32_t> child_vertex;  ///< per vertex, a vertex of the finer arrays; empty: the nearest [sec. 4.3]
+  std::span<const std::uint32_t> child_of_face; ///< per face that the finer level lacks, a vertex of the finer arrays; empty: as its vertices
+};
+
+/// Which start table a model carries [Ehmann & Lin 2000, sec. 4.6].
+struct TableSpec {
+  lut::Resolution resolution = lut::Resolution::Degrees11;  ///< 0, 114, 482 or 1986 entries of 4 bytes
+  double radius_factor = 2;  ///< samples lie on the sphere of this many bounding radii, at least 1
+};
+
+struct ModelOptions {
+  bool repair = false;  ///< flip the reflex edges that rounding left in the faces given
+  TableSpec table;
+};
+
+/// A block of memory that is also the file. Copies share it; it never changes; any number of threads may query it.
+class Model {
+ public:
+  /// From one or several levels given finest first, without CGAL. Convexity and enclosure are decided exactly; the error names
+  /// the reflex edge and its height. Cost: linear in the features, times the levels.
+  static Result<Model> from_levels(std::span<const LevelArrays> levels, const ModelOptions& options = {});
+  /// One level.
+  static Result<Model> from_level(const LevelArrays& level, const ModelOptions& options = {});
+
+  int level_count() const;              ///< at least 1; level 0 is the exact hull, larger is coarser
+  const Level& level(int index) const;
+  SourceMap source() const;
+
+  Vec3 centre() const;                  ///< area centroid of level 0 (of its edges or point, where flatter)
+  double radius() const;                ///< largest distance of a vertex of level 0 from the centre, rounded up
+  double extent() const;                ///< largest absolute coordinate over all levels
+  Vec3 box_min() const;                 ///< of level 0
+  Vec3 box_max() const;
+  double volume() const;                ///< of level 0
+  int dimension() const;                ///< 3 solid, 2 flat, 1 segment, 0 point
+  /// A vertex of level 0 that no other exceeds in `direction` (body frame, any length). Exact; a climb from the start table.
+  std::uint32_t support(const Vec3& direction) const;
+
+  TableSpec table_spec() const;
+  std::span<const std::uint32_t> table() const;      ///< a vertex of level 0 per sample of lut.h, empty without one
+  Model with_table(const TableSpec& spec) const;     ///< the same levels with another table
+
+  std::span<const std::byte> bytes() const;          ///< the block: what model_file.h writes
+  std::uint64_t hash() const;                        ///< of the block; equal hash, equal model
+
+ private:
+  friend class BlockReader;
+  struct Body;
+  explicit Model(std::shared_ptr<const Body> body) : body_(std::move(body)) {}
+  std::shared_ptr<const Body> body_;
+};
+
+}  // namespace swiftlet

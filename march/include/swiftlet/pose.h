@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Rigid motions and the two Eigen types the public surface uses. Knows nothing of bodies.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace swiftlet {
+
+/// A point or direction in the frame its name ends with (`p_a`: body A's frame). Any length unit, the caller's.
+using Vec3 = Eigen::Matrix<double, 3, 1>;
+/// Column-major whatever the consumer's EIGEN_DEFAULT_TO_ROW_MAJOR says.
+using Mat3 = Eigen::Matrix<double, 3, 3, Eigen::ColMajor>;
+
+/// Maps a point p of its own frame to `rotation * p + translation`. Used as given: a rotation that is rounded, orthonormal to
+/// 1e-6, is legal, and the answer is the one for these very doubles.
+struct Pose {
+  Mat3 rotation = Mat3::Identity();
+  Vec3 translation = Vec3::Zero();
+};
+
+/// The pose of B in A's frame, from both poses in a common frame. Translations are subtracted first, so that a common
+/// translation exact in double changes no bit, and A's rotation is inverted, not transposed.
+Pose relative(const Pose& a_in_world, const Pose& b_in_world);
+
+/// The pose that undoes `pose`; its rotation is the matrix inverse.
+Pose inverse(const Pose& pose);
+
+}  // namespace swiftlet

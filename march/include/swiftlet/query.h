@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// How near are two bodies? Four queries on models at several levels. All points and directions are in A's frame.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include <swiftlet/march.h>
+#include <swiftlet/model.h>
+#include <swiftlet/pose.h>
+
+namespace swiftlet {
+
+enum class Status : std::uint8_t {
+  Converged,     ///< the interval is as narrow as asked, or the verdict is proved
+  Beyond,        ///< stopped early, as asked: lower > options.beyond
+  Budget,        ///< options.step_budget ended the march; the interval is true
+  LevelLimit,    ///< options.finest_level forbade the level that the tolerance needs; the interval is true
+  NotConverged,  ///< the interval is true but wider than asked. No valid model and pose is known that answers so
+  InvalidPose,   ///< not finite, or not orthonormal to 1e-6: the interval is [0, inf]
+};
+
+/// What is proved of the two exact hulls as closed sets.
+enum class Verdict : std::uint8_t {
+  Undecided,
+  Disjoint,     ///< lower > 0
+  Touching,     ///< the signed distance is within law 2's bound of 0
+  Overlapping,  ///< proved by `Answer::proof`
+};
+
+/// The levels in which order are refined [Ehmann & Lin 2000, sec. 5.2]: one level of one body (the coarser one), of both,
+/// or two of both.
+enum class Refinement : std::uint8_t { Single, SingleSingle, DoubleDouble };
+
+/// Where a query starts. All give the same verdict and true intervals.
+enum class StartPolicy : std::uint8_t {
+  Automatic,  ///< the seed's features at the seed's level; when they turn out to be far away, or cold: Coarsest
+  Paper,      ///< as Automatic, but the seed climbs to where the motion it can absorb is the distance [sec. 5.2]
+  Finest,     ///< the seed's features on level 0, without hierarchy
+  Coarsest,   ///< the coarsest pair, from the seed's features there
+  Table,      ///< level 0, from the start tables, without hierarchy, whatever the seed [sec. 5.3]
+};
+
+/// What one query leaves for the next one of the same pair. The caller carries it; `PairSeed{}` is cold. Any bits are legal: a
+/// seed changes the work, never the truth.
+struct PairSeed {
+  Handle a, b;                        ///< features at the levels below
+  Handle coarse_a, coarse_b;          ///< features on the coarsest levels
+  std::uint8_t level_a = 0, level_b = 0;
+};
+
+/// One level pair that a query visited.
+struct LevelRecord {
+  int level_a = 0, level_b = 0;
+  double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved so far, of the exact hulls
+  std::uint32_t steps = 0, plane_tests = 0;                           ///< spent here
+};
+
+struct QueryOptions {
+  double absolute_error = 0;  ///< stop when upper - lower <= max(absolute_error, relative_error * lower)
+  double relative_error = 0;
+  double beyond = std::numeric_limits<double>::infinity();  ///< stop when lower > beyond
+  int finest_level = 0;       ///< read no level finer than this
+  std::uint32_t step_budget = ~0u;
+  StartPolicy start = StartPolicy::Automatic;
+  Refinement refinement = Refinement::SingleSingle;
+  PlaneRule plane_rule = PlaneRule::MostViolated;
+  std::span<LevelRecord> trace;  ///< filled with the level pairs visited, the last one in the last place if too short;
+                                 ///< a trace asks for bounds at every level, which costs a certificate each
+};
+
+struct Answer {
+  Status status = Status::NotConverged;
+  Verdict verdict = Verdict::Undecided;
+  double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved bounds on the distance of the exact hulls
+  Vec3 normal = Vec3::Zero();  ///< unit, from A to B; `lower` is proved by the gap in this direction; 0 without one
+  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< nearest points of the levels below
+  int level_a = 0, level_b = 0;                         ///< the level pair that answered
+  Handle feature_a, feature_b;                          ///< on those levels
+  OverlapProof proof;                                   ///< vertices of those levels
+  std::uint32_t steps = 0, plane_tests = 0;
+  int levels_visited = 0;                               ///< entries of options.trace that were wanted
+};
+
+/// The distance between `a` and `b`, where `b_in_a` maps B's frame into A's: exact by default, that is within law 2's bound.
+Answer distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options = {});
+
+/// Do they share a point? Read `verdict`. Ends at the first level pair that is disjoint.
+Answer intersects(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options = {});
+
+enum class Decision : std::uint8_t { Undecided, No, Yes };
+
+struct Within {
+  Decision decision = Decision::Undecided;  ///< Undecided only within law 2's bound of the threshold, or as the status says
+  Answer answer;
+};
+
+/// Is the distance at most `threshold` (>= 0)? Ends at the first level pair that decides.
+Within within(const Model& a, const Model& b, const Pose& b_in_a, double threshold, PairSeed& seed,
+              const QueryOptions& options = {});
+
+/// The user's ids of a nearest feature.
+struct SourceFeature {
+  FeatureKind kind = FeatureKind::None;
+  std::array<std::uint32_t, 2> vertices{kNone, kNone};  ///< a vertex's one id, an edge's two
+  std::span<const std::uint32_t> triangles;             ///< a face's; none or several; lives as long as the model
+};
+
+struct Contact {
+  Answer answer;  ///< exact, on level 0
+  SourceFeature source_a, source_b;
+};
+
+/// The nearest features, their points and normal, and the user's own ids for them. While the bodies are disjoint.
+Contact contact(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options = {});
+
+}  // namespace swiftlet

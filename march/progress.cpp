@@ -1,0 +1,374 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The distance is the least norm over the Minkowski difference {p - q}, whose vertices are differences of vertices. The active set
+// method of [Gilbert, Johnson & Keerthi 1988] is used for its certificate: every step ends in a supporting plane.
+#include "progress.h"
+
+#include <limits>
+
+#include "double_double.h"
+#include "exact.h"
+#include "ring.h"
+
+namespace swiftlet {
+namespace {
+
+/// A vertex of the Minkowski difference: p = a - (R b + t).
+template <class Real>
+struct Difference {
+  V3<Real> p;
+  std::uint32_t a, b;
+};
+
+template <class Real>
+V3<Real> widened(const Vec& v) { return {Real(v.x), Real(v.y), Real(v.z)}; }
+double rounded(double x) { return x; }
+double rounded(const DoubleDouble& x) { return double(x); }
+template <class Real>
+Vec rounded(const V3<Real>& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
+
+template <class Real>
+Difference<Real> difference(const Scene& s, std::uint32_t a, std::uint32_t b) {
+  const V3<Real> q = widened<Real>(vec(s.b.vertices[b]));
+  const V3<Real> moved = V3<Real>{dot(widened<Real>(s.b_in_a.row_x), q), dot(widened<Real>(s.b_in_a.row_y), q),
+                                  dot(widened<Real>(s.b_in_a.row_z), q)} + widened<Real>(s.b_in_a.t);
+  return {widened<Real>(vec(s.a.vertices[a])) - moved, a, b};
+}
+
+/// What rounding may do to a difference and to convex combinations of differences.
+template <class Real>
+double rounding(const Scene& s) {
+  return std::is_same_v<Real, double> ? s.point_error : kDoubleDoubleError * s.magnitude;
+}
+
+/// The point of a simplex nearest to the origin, as a convex combination.
+template <class Real>
+struct Nearest {
+  int count = 0;
+  std::array<int, 4> index{};
+  std::array<Real, 4> weight{};
+  V3<Real> point{Real(0), Real(0), Real(0)};
+  double norm2 = std::numeric_limits<double>::infinity();
+  bool holds_origin = false;  ///< four points around it
+};
+
+/// By every subset: a candidate with weights >= 0 is a point of the simplex, so the least of them is an upper bound whatever
+/// rounding does to the others.
+template <class Real>
+Nearest<Real> nearest_to_origin(const std::array<Difference<Real>, 4>& set, int count) {
+  Nearest<Real> best;
+  const Real zero(0);
+  const auto offer = [&](int n, std::array<int, 4> index, std::array<Real, 4> weight, const V3<Real>& point) {
+    const double norm2 = rounded(dot(point, point));
+    if (norm2 < best.norm2) best = {n, index, weight, point, norm2, false};
+  };
+  for (int i = 0; i < count; ++i) offer(1, {i}, {Real(1)}, set[i].p);
+  for (int i = 0; i < count; ++i) {
+    for (int j = i + 1; j < count; ++j) {
+      const V3<Real>&p = set[i].p, u = set[j].p - p;
+      const Real length2 = dot(u, u), along = -dot(p, u);
+      if (!(along > zero && along < length2)) continue;
+      const Real t = along / length2;
+      offer(2, {i, j}, {Real(1) - t, t}, p + u * t);
+    }
+  }
+  for (int i = 0; i < count; ++i) {
+    for (int j = i + 1; j < count; ++j) {
+      for (int k = j + 1; k < count; ++k) {
+        const V3<Real>&p = set[i].p, &q = set[j].p, &r = set[k].p;
+        const V3<Real> n = cross(q - p, r - p);
+        const Real n2 = dot(n, n), wp = dot(n, cross(q, r)), wq = dot(n, cross(r, p)), wr = dot(n, cross(p, q));
+        if (!(n2 > zero && wp > zero && wq > zero && wr > zero)) continue;
+        offer(3, {i, j, k}, {wp / n2, wq / n2, wr / n2}, n * (dot(n, p) / n2));
+      }
+    }
+  }
+  if (count == 4) {
+    const V3<Real>&p = set[0].p, &q = set[1].p, &r = set[2].p, &s = set[3].p;
+    const std::array<Real, 4> w{dot(cross(q, s), r), dot(cross(p, r), s), dot(cross(p, s), q), dot(cross(p, q), r)};
+    const bool positive = w[0] > zero && w[1] > zero && w[2] > zero && w[3] > zero;
+    const bool negative = w[0] < zero && w[1] < zero && w[2] < zero && w[3] < zero;
+    if (positive || negative) {
+      const Real sum = w[0] + w[1] + w[2] + w[3];
+      best = {4, {0, 1, 2, 3}, {w[0] / sum, w[1] / sum, w[2] / sum, w[3] / sum}, {zero, zero, zero}, 0, true};
+    }
+  }
+  return best;
+}
+
+Vec normalised(const Vec& v) {
+  const double scale = max_abs(v);
+  if (!(scale > 0)) return {0, 0, 0};
+  const Vec w = v * (1 / scale);
+  return w * (1 / norm(w));
+}
+
+std::array<double, 3> coordinates(const Vertex& v) { return {v.x, v.y, v.z}; }
+
+/// Whether four vertex pairs prove the overlap.
+bool proves(const Scene& s, const OverlapProof& proof) {
+  std::array<std::array<double, 3>, 4> a, b;
+  for (int k = 0; k < 4; ++k) {
+    a[k] = coordinates(s.a.vertices[proof.vertex_a[k]]);
+    b[k] = coordinates(s.b.vertices[proof.vertex_b[k]]);
+  }
+  return exact::tetrahedron_holds_origin(a, b, s.b_in_a);
+}
+
+/// The inner polytope of bodies that meet: differences of vertices, their hull taken by brute force over triples, which no
+/// degeneracy confuses. Finds out whether the origin is deeper inside than law 2's bound.
+class Contact {
+ public:
+  Contact(const Scene& scene, std::uint32_t& plane_tests) : scene_(scene), tests_(plane_tests) {}
+
+  void add(std::uint32_t a, std::uint32_t b) {
+    if (count_ == kContactPoints || known(a, b)) return;
+    points_[count_++] = difference<double>(scene_, a, b);
+  }
+
+  /// Touching when a plane is found that the bodies overlap by no more than the bound; Overlapping when the inner polytope
+  /// reaches farther on all sides, or no more points help. `normal` is the plane's, or the last tried.
+  MarchStatus decide(Vec& normal, OverlapProof& proof) {
+    if (count_ == 4 && nearest_facet(normal) > scene_.law_two && prove(proof)) return MarchStatus::Overlapping;
+    for (const Vec& n : {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}}) {
+      for (const Vec& direction : {n, -n}) {
+        if (width(normal = direction) <= scene_.law_two) return MarchStatus::Touching;
+      }
+    }
+    while (count_ < kContactPoints) {
+      Vec n{0, 0, 0};
+      const double nearest = nearest_facet(n);
+      if (nearest > scene_.law_two) break;
+      normal = n;
+      const int before = count_;
+      if (width(n) <= scene_.law_two) return MarchStatus::Touching;
+      if (count_ == before) break;
+    }
+    return prove(proof) ? MarchStatus::Overlapping : MarchStatus::NotConverged;
+  }
+
+ private:
+  bool known(std::uint32_t a, std::uint32_t b) const {
+    for (int k = 0; k < count_; ++k) {
+      if (points_[k].a == a && points_[k].b == b) return true;
+    }
+    return false;
+  }
+
+  /// An upper bound on how far the Minkowski difference reaches along n; its vertex there joins the polytope.
+  double width(const Vec& n) {
+    const std::uint32_t a = support_a(scene_, n, count_ ? points_[0].a : 0, tests_);
+    const std::uint32_t b = support_b(scene_, n, count_ ? points_[0].b : 0, tests_);
+    add(a, b);
+    const Difference<DoubleDouble> d = difference<DoubleDouble>(scene_, a, b);
+    return double(dot(widened<DoubleDouble>(n), d.p)) * (1 + kGapError) + kDoubleDoubleError * scene_.magnitude;
+  }
+
+  /// The distance from the origin to the nearest facet, with its outward normal.
+  double nearest_facet(Vec& normal) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < count_; ++i) {
+      for (int j = i + 1; j < count_; ++j) {
+        for (int k = j + 1; k < count_; ++k) {
+          const Vec n = normalised(cross(points_[j].p - points_[i].p, points_[k].p - points_[i].p));
+          if (dot(n, n) == 0) continue;
+          const double offset = dot(n, points_[i].p);
+          bool above = false, below = false;
+          for (int l = 0; l < count_; ++l) {
+            const double height = dot(n, points_[l].p) - offset;
+            above = above || height > scene_.point_error;
+            below = below || height < -scene_.point_error;
+          }
+          if (above && below) continue;
+          const double distance = above ? -offset : offset;
+          if (distance < nearest) nearest = distance, normal = above ? -n : n;
+        }
+      }
+    }
+    return nearest;
+  }
+
+  bool prove(OverlapProof& proof) const {
+    for (int i = 0; i < count_; ++i) {
+      for (int j = i + 1; j < count_; ++j) {
+        for (int k = j + 1; k < count_; ++k) {
+          for (int l = k + 1; l < count_; ++l) {
+            proof = {4, {points_[i].a, points_[j].a, points_[k].a, points_[l].a},
+                     {points_[i].b, points_[j].b, points_[k].b, points_[l].b}};
+            if (proves(scene_, proof)) return true;
+          }
+        }
+      }
+    }
+    proof = {};
+    return false;
+  }
+
+  const Scene& scene_;
+  std::uint32_t& tests_;
+  int count_ = 0;
+  std::array<Difference<double>, kContactPoints> points_{};
+};
+
+/// One arithmetic's turn at the active set method.
+template <class Real>
+class Descent {
+ public:
+  Descent(const Scene& scene, const Goal& goal, std::uint32_t& plane_tests) : scene_(scene), goal_(goal), tests_(plane_tests) {}
+
+  /// Improves `m` until the goal is met, the bodies meet, or this arithmetic cannot tell any more.
+  void run(Meeting& m) {
+    seed(m.certificate);
+    int patience = kProgressPatience;
+    for (int iteration = 0; iteration < kProgressLimit && patience > 0; ++iteration) {
+      const Nearest<Real> nearest = nearest_to_origin(set_, count_);
+      keep(nearest);
+      const double distance = std::sqrt(nearest.norm2), upper = distance * (1 + kNormError) + rounding<Real>(scene_);
+      if (upper < m.certificate.upper) take_points(m.certificate, upper);
+      if (nearest.holds_origin || distance <= rounding<Real>(scene_)) {
+        met_ = true;
+        return;
+      }
+      const Vec n = normalised(-rounded(nearest.point));
+      const std::uint32_t a = support_a(scene_, n, set_[0].a, tests_), b = support_b(scene_, n, set_[0].b, tests_);
+      const double lower = bound(n, a, b);
+      if (lower > m.certificate.lower) take_plane(m.certificate, n, a, b, lower);
+      if (goal_.met(m.certificate.lower, m.certificate.upper)) {
+        m.status = MarchStatus::Disjoint;
+        return;
+      }
+      if (holds(a, b)) return;
+      if (distance < least_) least_ = distance, patience = kProgressPatience;
+      else --patience;
+      set_[count_++] = difference<Real>(scene_, a, b);
+      weight_[count_ - 1] = 0;
+    }
+  }
+
+  bool met() const { return met_; }
+  int count() const { return count_; }
+  const Difference<Real>& operator[](int k) const { return set_[k]; }
+
+ private:
+  void seed(const Certificate& c) {
+    for (int k = 0; k < c.active.count; ++k) set_[count_++] = difference<Real>(scene_, c.active.a[k], c.active.b[k]);
+    if (count_ < 4 && !holds(c.support_a, c.support_b)) set_[count_++] = difference<Real>(scene_, c.support_a, c.support_b);
+  }
+
+  bool holds(std::uint32_t a, std::uint32_t b) const {
+    for (int k = 0; k < count_; ++k) {
+      if (set_[k].a == a && set_[k].b == b) return true;
+    }
+    return false;
+  }
+
+  void keep(const Nearest<Real>& nearest) {
+    std::array<Difference<Real>, 4> kept{};
+    for (int k = 0; k < nearest.count; ++k) {
+      kept[k] = set_[nearest.index[k]];
+      weight_[k] = rounded(nearest.weight[k]);
+    }
+    set_ = kept;
+    count_ = nearest.count;
+  }
+
+  void take_points(Certificate& c, double upper) {
+    c.upper = upper;
+    c.point_a = c.point_b = {0, 0, 0};
+    c.active.count = count_;
+    V3<Real> a{Real(0), Real(0), Real(0)}, b = a;
+    for (int k = 0; k < count_; ++k) {
+      c.active.a[k] = set_[k].a;
+      c.active.b[k] = set_[k].b;
+      c.active.weight[k] = weight_[k];
+      const V3<Real> p = widened<Real>(vec(scene_.a.vertices[set_[k].a]));
+      a = a + p * Real(weight_[k]);
+      b = b + (p - set_[k].p) * Real(weight_[k]);
+    }
+    c.point_a = rounded(a);
+    c.point_b = rounded(b);
+  }
+
+  static void take_plane(Certificate& c, const Vec& n, std::uint32_t a, std::uint32_t b, double lower) {
+    c.normal = n;
+    c.support_a = a;
+    c.support_b = b;
+    c.lower = lower;
+  }
+
+  /// A lower bound on the distance from the supports along unit n.
+  double bound(const Vec& n, std::uint32_t a, std::uint32_t b) const {
+    if constexpr (std::is_same_v<Real, double>) return gap(scene_, n, a, b);
+    const double value = -double(dot(widened<DoubleDouble>(n), difference<DoubleDouble>(scene_, a, b).p));
+    return value * (value > 0 ? 1 - kGapError : 1 + kGapError) - kDoubleDoubleError * scene_.magnitude;
+  }
+
+  const Scene& scene_;
+  const Goal& goal_;
+  std::uint32_t& tests_;
+  std::array<Difference<Real>, 4> set_{};
+  std::array<double, 4> weight_{};
+  int count_ = 0;
+  double least_ = std::numeric_limits<double>::infinity();
+  bool met_ = false;
+};
+
+template <class Real>
+bool settle(const Scene& scene, const Goal& goal, Meeting& m, std::uint32_t& plane_tests) {
+  Descent<Real> descent(scene, goal, plane_tests);
+  descent.run(m);
+  const bool near_zero = m.certificate.upper <= scene.law_two && m.certificate.lower == 0;
+  if (m.status == MarchStatus::Disjoint && !near_zero) return true;
+  m.status = MarchStatus::NotConverged;
+  if (!descent.met() && !near_zero) return false;
+  Contact contact(scene, plane_tests);
+  for (int k = 0; k < descent.count(); ++k) contact.add(descent[k].a, descent[k].b);
+  Vec normal{0, 0, 0};
+  const MarchStatus status = contact.decide(normal, m.proof);
+  if (status == MarchStatus::NotConverged) return false;
+  if (status == MarchStatus::Touching && !near_zero) return false;  // thin bodies may be thin far apart
+  m.status = status;
+  m.certificate.lower = 0;
+  m.certificate.normal = normal;
+  if (status == MarchStatus::Overlapping) m.certificate.upper = 0;
+  return true;
+}
+
+}  // namespace
+
+Meeting progress(const Scene& scene, const Certificate& start, const Goal& goal, std::uint32_t& plane_tests) {
+  Meeting m;
+  m.certificate = start;
+  if (!settle<double>(scene, goal, m, plane_tests)) settle<DoubleDouble>(scene, goal, m, plane_tests);
+  return m;
+}
+
+Handle feature_of(const ConvexView& view, const ActiveSet& active, const std::array<std::uint32_t, 4>& vertices) {
+  std::array<std::uint32_t, 4> distinct{};
+  int count = 0, heaviest = 0;
+  for (int k = 0; k < active.count; ++k) {
+    if (active.weight[k] > active.weight[heaviest]) heaviest = k;
+    bool seen = false;
+    for (int i = 0; i < count; ++i) seen = seen || distinct[i] == vertices[k];
+    if (!seen) distinct[count++] = vertices[k];
+  }
+  const Vertex& first = view.vertices[distinct[0]];
+  if (count == 1) return {FeatureKind::Vertex, distinct[0]};
+  for (std::uint32_t h = first.ring_begin; count == 2 && h < first.ring_begin + first.ring_count; ++h) {
+    if (view.head[h] == distinct[1] && !is_diagonal(view, h)) return {FeatureKind::Edge, h};
+  }
+  for (std::uint32_t h = first.ring_begin; h < first.ring_begin + first.ring_count; ++h) {
+    if (view.face[h] == kNone) continue;
+    int held = 0;
+    std::uint32_t side = view.face_first[view.face[h]];
+    const std::uint32_t begin = side;
+    do {
+      for (int i = 0; i < count; ++i) held += view.head[side] == distinct[i];
+      side = next_in_face(view, side);
+    } while (side != begin);
+    if (held == count) return {FeatureKind::Face, view.face[h]};
+  }
+  return {FeatureKind::Vertex, vertices[heaviest]};
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Certified progress: the way on where a walk stalls, a certificate fails, or bodies meet. Each step adds the vertex pair that
+// the certificate exposed and takes the nearest point of at most four. Knows one level pair.
+#pragma once
+
+#include "certify.h"
+#include "scene.h"
+
+#include <swiftlet/march.h>
+
+namespace swiftlet {
+
+/// When bounds are narrow enough: see MarchRule.
+struct Goal {
+  double absolute, relative, beyond;
+  bool met(double lower, double upper) const {
+    return upper - lower <= std::fmax(absolute, relative * lower) || lower > beyond;
+  }
+};
+
+struct Meeting {
+  MarchStatus status = MarchStatus::NotConverged;  ///< Disjoint (the goal is met), Touching, Overlapping or NotConverged
+  Certificate certificate;
+  OverlapProof proof;
+};
+
+/// Continues from `start`, first in doubles, then with about 106 bits. The bounds it returns are true in any case.
+Meeting progress(const Scene& scene, const Certificate& start, const Goal& goal, std::uint32_t& plane_tests);
+
+/// The smallest feature that holds the active vertices of one body.
+Handle feature_of(const ConvexView& view, const ActiveSet& active, const std::array<std::uint32_t, 4>& vertices);
+
+}  // namespace swiftlet

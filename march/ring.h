@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Ways around a ConvexView: from half-edge to half-edge. Knows the data structure, nothing of coordinates.
+#pragma once
+
+#include <cstdint>
+
+#include <swiftlet/model.h>
+
+namespace swiftlet {
+
+static inline std::uint32_t origin(const ConvexView& v, std::uint32_t half_edge) { return v.head[v.twin[half_edge]]; }
+static inline std::uint32_t right_face(const ConvexView& v, std::uint32_t half_edge) { return v.face[v.twin[half_edge]]; }
+static inline bool is_diagonal(const ConvexView& v, std::uint32_t half_edge) {
+  return v.face[half_edge] == right_face(v, half_edge) && v.face[half_edge] != kNone;
+}
+
+/// The half-edge before `half_edge`, clockwise, in the ring of `vertex`, its origin.
+static inline std::uint32_t clockwise(const Vertex& vertex, std::uint32_t half_edge) {
+  return half_edge == vertex.ring_begin ? half_edge + vertex.ring_count - 1 : half_edge - 1;
+}
+
+/// The half-edge after `half_edge` around the exact facet on its left.
+static inline std::uint32_t next_in_facet(const ConvexView& v, std::uint32_t half_edge) {
+  return clockwise(v.vertices[v.head[half_edge]], v.twin[half_edge]);
+}
+
+/// The half-edge after `half_edge` around the face on its left: as in the facet, past diagonals.
+static inline std::uint32_t next_in_face(const ConvexView& v, std::uint32_t half_edge) {
+  std::uint32_t h = next_in_facet(v, half_edge);
+  while (is_diagonal(v, h)) h = clockwise(v.vertices[origin(v, h)], h);
+  return h;
+}
+
+}  // namespace swiftlet

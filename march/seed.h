@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Where a march starts: from stored features, from the line of centres, from a table. Knows levels and links, walks nothing.
+#pragma once
+
+#include <cstdint>
+
+#include <swiftlet/march.h>
+#include <swiftlet/model.h>
+#include <swiftlet/query.h>
+
+#include "scene.h"
+
+namespace swiftlet {
+
+/// A feature pair and the levels it lies on.
+struct Place {
+  int level_a, level_b;
+  MarchStart start;
+  bool trial = false;  ///< a guess from the seed: given kTrialSteps before the coarsest pair is tried
+};
+
+/// The start as features of the scene's views: what is no feature of its view, or a face against a face, becomes vertices.
+/// `plane_tests` grows by the climbs along the line of centres.
+MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& plane_tests);
+
+/// Where a query begins.
+Place first_place(const Model& a, const Model& b, const Motion& b_in_a, const PairSeed& seed, const QueryOptions& options);
+
+/// The coarsest pair, from nothing.
+Place coarsest_place(const Model& a, const Model& b);
+
+/// The feature one level finer, or coarser.
+Handle child(const Model& model, int level, Handle feature);
+Handle parent(const Model& model, int level, Handle feature);
+
+}  // namespace swiftlet

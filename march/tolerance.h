@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Every epsilon of the runtime: its unit, what it scales with, and why it is that large. u is half an ulp of 1.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace swiftlet {
+
+inline constexpr double kU = 0x1p-53;
+
+// ---- Laws -------------------------------------------------------------------------------------------------------------------
+
+/// Law 2: an exact answer has upper - lower <= 64 u size. Length over length.
+inline constexpr double kLawTwo = 64 * kU;
+
+/// A rotation R is accepted while every entry of R^T R - I is at most this. Dimensionless; the design's figure.
+inline constexpr double kOrthonormality = 1e-6;
+
+// ---- Filters of exact.cpp: relative to the sum of the magnitudes of the terms ----------------------------------------------
+// A term that is a product of k rounded factors, each a sum of few, carries one u per operation on its path. The figures are the
+// operation counts, rounded up by a quarter for the second order and for the rounding of the magnitude itself.
+
+/// n . (w - v): 1 difference, 1 product, 2 sums.
+inline constexpr double kDotError = 5 * kU;
+/// (b - a) x (c - a) . (w - v): 3 differences, 2 products, 1 difference, 2 sums = 8; [Shewchuk 1997] proves 7.
+inline constexpr double kTripleProductError = 10 * kU;
+/// n . R (w - v): 1 difference, 2 products, 2 + 2 sums.
+inline constexpr double kTurnedDotError = 9 * kU;
+/// The same with n rotated first, relative to |n|_1 |w - v|_1, which bounds every product of a rotation's rows (|R_ij| <= 1 + 1e-6).
+inline constexpr double kTurnedSupportError = 9 * kU;
+/// Three factors a - (R b + t) of 1 product and 4 sums each, then 2 products, 1 difference, 2 sums.
+inline constexpr double kOffsetTripleProductError = 26 * kU;
+
+/// Coordinates between these, or 0, keep every product of three of them, and its rounding errors, inside the range of doubles.
+/// Length.
+inline constexpr double kLeastCoordinate = 1e-70, kMostCoordinate = 1e70;
+
+// ---- Rounding of a certificate in doubles (certify.cpp): lengths -----------------------------------------------------------
+
+/// R b + t: a coordinate of R b is 3 products and 2 sums of terms that |b| bounds, 4 u |b| each with the last sum, sqrt(3) for the
+/// vector; the last sum also rounds t once.
+inline constexpr double kTurnError = 7 * kU, kShiftError = 2 * kU;
+/// n . c, normalised: 3 (difference, product, two sums) + 2 (|n| of a normalised n) on the sum of |n_i c_i|, rounded up.
+inline constexpr double kGapError = 7 * kU;
+/// A convex combination of three points: 1 product and 2 sums, and weights whose sum is 1 only to 3 u. Relative to |p|.
+inline constexpr double kPointError = 7 * kU;
+/// sqrt of a sum of three squares of rounded differences, relative.
+inline constexpr double kNormError = 5 * kU;
+
+/// Double-double arithmetic as progress.cpp uses it keeps at least 90 bits of the largest term, whatever cancels. Relative to
+/// the magnitude of coordinates and translation.
+inline constexpr double kDoubleDoubleError = 0x1p-90;
+
+// ---- Faces -----------------------------------------------------------------------------------------------------------------
+
+/// Facets join one walking face while its vertices stay within this height of its plane, relative to the body's extent: each
+/// coordinate of a rounded planar polygon is off by half an ulp, sqrt(3)/2 for the vector, and the plane through three such
+/// points is off by as much at each, extrapolated up to twice. In ulps of the input's own precision.
+inline constexpr double kWalkingFaceUlps = 4;
+/// The ulp of input that was float32 when every coordinate is a float, and of doubles.
+inline constexpr double kFloatUlp = 0x1p-23, kDoubleUlp = 0x1p-52;
+
+// ---- Bounds on work: counts ------------------------------------------------------------------------------------------------
+
+/// States in a row that do not shorten the distance before a walk is given to certified progress. In exact arithmetic at most
+/// three (face, edge, vertex) go by; twelve lets rounding waver on a flat spot.
+inline constexpr std::uint32_t kStallLimit = 12;
+/// Iterations of certified progress per arithmetic: a Frank-Wolfe step on an active set of at most four. Each shortens the
+/// distance or is the last but `kProgressPatience`.
+inline constexpr int kProgressLimit = 400, kProgressPatience = 4;
+/// Automatic starts give the seed's level this many steps before they start over from the coarsest pair: what a descent through
+/// four or five levels costs (ski rental: never more than twice the better choice).
+inline constexpr std::uint32_t kTrialSteps = 24;
+/// Points of the inner polytope that tells touching from overlapping. Twenty facets of it have been the most ever needed.
+inline constexpr int kContactPoints = 20;
+
+}  // namespace swiftlet

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The runtime's arithmetic on three numbers. Functions are static on purpose: every unit compiles its own copy under its own
+// floating-point flags, and none can be replaced at link time by a consumer's.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include <swiftlet/model.h>
+#include <swiftlet/pose.h>
+
+namespace swiftlet {
+
+/// Three numbers; Real is double, or DoubleDouble where doubles cannot tell.
+template <class Real>
+struct V3 {
+  Real x, y, z;
+};
+using Vec = V3<double>;
+
+template <class R> static inline V3<R> operator+(const V3<R>& a, const V3<R>& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+template <class R> static inline V3<R> operator-(const V3<R>& a, const V3<R>& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+template <class R> static inline V3<R> operator-(const V3<R>& a) { return {-a.x, -a.y, -a.z}; }
+template <class R> static inline V3<R> operator*(const V3<R>& a, const R& s) { return {a.x * s, a.y * s, a.z * s}; }
+template <class R> static inline R dot(const V3<R>& a, const V3<R>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+template <class R> static inline V3<R> cross(const V3<R>& a, const V3<R>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static inline double norm(const Vec& a) { return std::sqrt(dot(a, a)); }
+static inline double max_abs(const Vec& a) { return std::fmax(std::fmax(std::fabs(a.x), std::fabs(a.y)), std::fabs(a.z)); }
+
+static inline Vec vec(const Vertex& v) { return {v.x, v.y, v.z}; }
+static inline Vec vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
+static inline Vec3 eigen(const Vec& v) { return Vec3(v.x, v.y, v.z); }
+
+/// A pose unpacked: rows of the rotation, translation.
+struct Motion {
+  Vec row_x, row_y, row_z, t;
+};
+static inline Motion motion(const Pose& pose) {
+  const Mat3& r = pose.rotation;
+  return {{r(0, 0), r(0, 1), r(0, 2)}, {r(1, 0), r(1, 1), r(1, 2)}, {r(2, 0), r(2, 1), r(2, 2)}, vec(pose.translation)};
+}
+static inline Vec turn(const Motion& m, const Vec& p) { return {dot(m.row_x, p), dot(m.row_y, p), dot(m.row_z, p)}; }
+static inline Vec apply(const Motion& m, const Vec& p) { return turn(m, p) + m.t; }
+/// The transposed rotation: carries a direction n of the common frame to where n . (R p) = result . p.
+static inline Vec turn_back(const Motion& m, const Vec& n) { return m.row_x * n.x + m.row_y * n.y + m.row_z * n.z; }
+
+}  // namespace swiftlet

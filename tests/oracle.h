@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The truth about two point sets and a pose, in rational arithmetic. Knows Vec3 and Pose; shares no algorithm, predicate or
+// epsilon with march, so that both being wrong alike is unlikely.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include <swiftlet/pose.h>
+
+namespace swiftlet::oracle {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// Doubles around a real number, as near to it as doubles come: equal where it is one, else neighbours.
+struct Interval {
+  double lower = 0, upper = 0;
+};
+
+/// What no double holds: the squared distance as a rational.
+struct Exact;
+
+struct Truth {
+  bool overlapping = false;       ///< the closed hulls share a point
+  double distance = 0;            ///< within `bounds`; 0 exactly when overlapping
+  Interval bounds;                ///< of the distance
+  Interval bounds2;               ///< of its square
+  Vec3 witness_a = Vec3::Zero();  ///< nearest points in A's frame, rounded; one of many pairs where not unique
+  Vec3 witness_b = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();  ///< unit, from A to B, rounded from the exact one; 0 when overlapping
+  std::shared_ptr<const Exact> exact;
+};
+
+/// The distance between the convex hulls of `a` and of R `b` + t, for these very doubles, orthonormal or not. The point sets
+/// are finite, non-empty, and otherwise anything: inner points, flat, repeated.
+/// Cost: about 0.15 ms for a cube, 0.3 ms for 1002 points, 1.5 ms for 10 002; ten times that at worst.
+Truth distance(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_in_a);
+
+/// lower <= distance <= upper, decided exactly; `upper` may be infinite. `holds(truth, 0, x)` asks whether distance <= x.
+bool holds(const Truth& truth, double lower, double upper);
+
+/// How far apart the two bodies are along `direction` (A's frame, any length but 0, used as if normalised exactly): least
+/// coordinate of B less greatest of A. Negative when that direction does not separate them.
+Interval gap(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_in_a, const Vec3& direction);
+
+/// No point lies outside of any triangle's plane; triangles are counter-clockwise seen from outside.
+bool encloses(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::span<const Vec3> points);
+
+/// The triangles have area, close to one surface of genus 0 that uses every vertex, and enclose all vertices.
+bool is_convex(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+
+}  // namespace swiftlet::oracle
