@@ -34,8 +34,8 @@ bool holds(const ConvexView& view, const Vec& p, double slack) {
   if (view.face_first.empty() || view.vertices.size() < 4) return true;  // flat bodies: the distance to them is checked by lower
   bool inside = true;
   each_facet(view, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const Vec o = vec(view.vertices[a]), n = cross(vec(view.vertices[b]) - o, vec(view.vertices[c]) - o);
-    inside = inside && dot(n, p - o) <= slack * norm(n);
+    const Wide o = wide(vec(view.vertices[a])), n = cross(wide(vec(view.vertices[b])) - o, wide(vec(view.vertices[c])) - o);
+    inside = inside && double(dot(n, wide(p) - o)) <= slack * norm({double(n.x), double(n.y), double(n.z)});
   });
   return inside;
 }

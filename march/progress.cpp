@@ -52,15 +52,21 @@ struct Nearest {
   bool holds_origin = false;  ///< four points around it
 };
 
-/// By every subset: a candidate with weights >= 0 is a point of the simplex, so the least of them is an upper bound whatever
-/// rounding does to the others.
+/// By every subset: a candidate with weights >= 0 is a point of the simplex. The nearest is the one whose plane cuts off the
+/// least of the simplex: its norm alone is flat about the optimum, and would hide a step of 1e-9 under a rounding of 1e-17.
 template <class Real>
 Nearest<Real> nearest_to_origin(const std::array<Difference<Real>, 4>& set, int count) {
   Nearest<Real> best;
   const Real zero(0);
+  double least_cut = std::numeric_limits<double>::infinity();
   const auto offer = [&](int n, std::array<int, 4> index, std::array<Real, 4> weight, const V3<Real>& point) {
-    const double norm2 = rounded(dot(point, point));
-    if (norm2 < best.norm2) best = {n, index, weight, point, norm2, false};
+    const Real norm2 = dot(point, point);
+    Real cut = zero;
+    for (int i = 0; i < count; ++i) {
+      if (const Real beyond = norm2 - dot(set[i].p, point); beyond > cut) cut = beyond;
+    }
+    const double length = std::sqrt(rounded(norm2)), relative = length > 0 ? rounded(cut) / length : 0;
+    if (relative < least_cut) least_cut = relative, best = {n, index, weight, point, rounded(norm2), false};
   };
   for (int i = 0; i < count; ++i) offer(1, {i}, {Real(1)}, set[i].p);
   for (int i = 0; i < count; ++i) {
@@ -232,14 +238,14 @@ class Descent {
       const Vec n = normalised(-rounded(nearest.point));
       const std::uint32_t a = support_a(scene_, n, set_[0].a, tests_), b = support_b(scene_, n, set_[0].b, tests_);
       const double lower = bound(n, a, b);
+      if (lower > m.certificate.lower || distance < least_) patience = kProgressPatience; else --patience;
+      least_ = std::fmin(least_, distance);
       if (lower > m.certificate.lower) take_plane(m.certificate, n, a, b, lower);
       if (goal_.met(m.certificate.lower, m.certificate.upper)) {
         m.status = MarchStatus::Disjoint;
         return;
       }
       if (holds(a, b)) return;
-      if (distance < least_) least_ = distance, patience = kProgressPatience;
-      else --patience;
       set_[count_++] = difference<Real>(scene_, a, b);
       weight_[count_ - 1] = 0;
     }
