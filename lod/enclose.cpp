@@ -3,6 +3,8 @@
 // Scaling, relaxation and tightening in plain doubles, and the exact proof that ends them. Supports are climbs from nearby starts.
 #include "enclose.h"
 
+#include <Eigen/LU>
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
@@ -193,9 +195,71 @@ class Mover {
   bool convex_ = true;
 };
 
-constexpr double kRelaxed = 0.999;          ///< of a move: short of the limit, edges stay strictly convex
-constexpr double kEarlyPart = 0.3;          ///< of a move in the first half of the sweeps, so that neighbours share the gain
-constexpr std::size_t kVertexMoves = 20000, kMostSweeps = 40;
+/// A surface under two forces, on the way to the least greatest height: every vertex is drawn to the body, the highest the
+/// most, and every triangle that cuts the body is pushed off it, its corners by their share in the place of contact. Keeps the
+/// triangles; the level ends near holding the body, not holding it.
+class Balance {
+ public:
+  Balance(Polytope& level, const Climber& body, const Mat3& metric)
+      : level_(level), body_(body), to_normal_(metric.inverse().transpose()), starts_(level.points.size()) {}
+
+  void run(int rounds) {
+    for (int round = 0; round < rounds; ++round) {
+      draw(kPull * (1 - 0.9 * round / rounds));
+      for (int pass = 0; pass < kPasses; ++pass)
+        for (const Triangle& face : level_.triangles) push(face);
+    }
+  }
+
+ private:
+  static constexpr double kPull = 0.2;      ///< of the highest vertex's height, at first
+  static constexpr double kSharpness = 6;   ///< the pull falls with this power of the height over the greatest
+  static constexpr double kMetric = 0.25;   ///< power of the metric's say in heights: all of it starves the flat sides of plates
+  static constexpr int kPasses = 4;
+
+  void draw(double pull) {
+    std::vector<Vec3> normals(level_.points.size(), Vec3::Zero());
+    for (const Triangle& face : level_.triangles)
+      for (std::uint32_t corner : face) normals[corner] += normal_of(face);
+    std::vector<double> heights(normals.size()), felt(normals.size());
+    for (std::uint32_t v = 0; v < normals.size(); ++v) {
+      normals[v].normalize();
+      heights[v] = std::max(0.0, normals[v].dot(level_.points[v] - support(normals[v], {v, v, v})));
+      felt[v] = heights[v] * std::pow((to_normal_ * normals[v]).norm(), -kMetric);
+    }
+    const double most = *std::max_element(felt.begin(), felt.end());
+    for (std::uint32_t v = 0; v < normals.size() && most > 0; ++v)
+      level_.points[v] -= pull * heights[v] * std::pow(felt[v] / most, kSharpness) * normals[v];
+  }
+
+  void push(const Triangle& face) {
+    Vec3 &a = level_.points[face[0]], &b = level_.points[face[1]], &c = level_.points[face[2]];
+    const Vec3 normal = normal_of(face);
+    const Vec3& contact = support(normal, face);
+    const double depth2 = normal.dot(contact - a), length2 = normal.squaredNorm();
+    if (!(depth2 > 0) || !(length2 > 0)) return;
+    Vec3 share{area_normal(contact, b, c).dot(normal), area_normal(a, contact, c).dot(normal), area_normal(a, b, contact).dot(normal)};
+    share = share.cwiseMax(0);
+    const Vec3 push = normal * (depth2 / length2 * share.sum() / share.squaredNorm());
+    a += share[0] * push, b += share[1] * push, c += share[2] * push;
+  }
+
+  Vec3 normal_of(const Triangle& face) const { return area_normal(level_.points[face[0]], level_.points[face[1]], level_.points[face[2]]); }
+  const Vec3& support(const Vec3& direction, const Triangle& near) {
+    return body_.body().points[starts_.climb(body_, direction, near)];
+  }
+
+  Polytope& level_;
+  const Climber& body_;
+  Mat3 to_normal_;
+  Starts starts_;
+};
+
+constexpr double kRelaxed = 0.999;  ///< of a move: short of the limit, edges stay strictly convex
+/// Rounds of balancing and sweeps of moves that a level of so many vertices is worth: much for the few of coarse levels, linear for fine ones.
+int effort(std::size_t moves, std::size_t vertex_count, int least, int most) {
+  return int(std::clamp<std::size_t>(moves / vertex_count, std::size_t(least), std::size_t(most)));
+}
 
 }  // namespace
 
@@ -240,17 +304,26 @@ Polytope relax(Polytope level, const Climber& body, const Vec3& centre) {
   return level;
 }
 
-Polytope tighten(Polytope level, const Climber& body) {
-  const int sweeps = int(std::clamp<std::size_t>(kVertexMoves / level.points.size(), 2, kMostSweeps));
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    Mover mover(level, body);
-    for (std::uint32_t v = 0; v < level.points.size(); ++v) {
-      mover.look_around(v);
-      level.points[v] += (2 * sweep < sweeps ? kEarlyPart : 1) * mover.least_volume_move();
-    }
-    level = solid(level.points, hull(level.points));
+Polytope tighten(Polytope level, const Climber& body, const Mat3& metric) {
+  const Vec3 centre = area_centroid(body.body());
+  const auto rehulled = [](const Polytope& moved) { return solid(moved.points, hull(moved.points)); };
+  Polytope best = level;
+  const int rounds = effort(40000, level.points.size(), 8, 100);
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    Balance(level, body, metric).run(rounds);
+    Result<Polytope> scaled = scale_to_hold(rehulled(level), body, centre);
+    if (!scaled) break;
+    level = best = std::move(scaled).value();
   }
-  return level;
+  for (int sweep = effort(20000, best.points.size(), 1, 10); sweep > 0; --sweep) {
+    Mover mover(best, body);
+    for (std::uint32_t v = 0; v < best.points.size(); ++v) {
+      mover.look_around(v);
+      best.points[v] += mover.least_volume_move();
+    }
+    best = rehulled(best);
+  }
+  return best;
 }
 
 }  // namespace swiftlet::lod

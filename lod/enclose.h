@@ -31,7 +31,9 @@ Result<Polytope> scale_to_hold(Polytope level, const Climber& body, const Vec3& 
 /// binds without lists, and looks at all of level 0.
 Polytope relax(Polytope level, const Climber& body, const Vec3& centre);
 
-/// A level that holds the body, each vertex in turn moved to where the volume is least while its faces clear the body.
-Polytope tighten(Polytope level, const Climber& body);
+/// Ours: a level that deviates less and still holds the body. Vertices are balanced against the body until the highest stand alike,
+/// and then each in turn moves to where the volume is least while its faces clear the body. `metric` maps these coordinates to
+/// those in which deviations count.
+Polytope tighten(Polytope level, const Climber& body, const Mat3& metric);
 
 }  // namespace swiftlet::lod

@@ -33,6 +33,7 @@ class Whitening {
     for (Vec3& p : body.points) p = spread_.triangularView<Eigen::Lower>().solve(p - centre_);
     return body;
   }
+  const Mat3& spread() const { return spread_; }
   std::vector<Vec3> restored(std::vector<Vec3> points) const {
     for (Vec3& p : points) p = centre_ + spread_.triangularView<Eigen::Lower>() * p;
     return points;
@@ -77,7 +78,7 @@ class Collapser {
     for (Vec3& p : moved.points) p += drift;
     Result<Polytope> scaled = scale_to_hold(std::move(moved), body_, centre);
     if (!scaled) return {{}, scaled.error().message};
-    std::vector<Vec3> points = tight() ? whitening_.restored(tighten(std::move(scaled).value(), body_).points) : scaled.value().points;
+    std::vector<Vec3> points = tight() ? whitening_.restored(tighten(std::move(scaled).value(), body_, whitening_.spread()).points) : scaled.value().points;
     Result<Proved> proved = prove(std::move(points), plain_, area_centroid(level0_));
     if (!proved) return {{}, proved.error().message};
     return {CoarseLevel{std::move(proved.value().level), {}, {}}, {}};
@@ -114,7 +115,7 @@ class Peeler {
     Result<Polytope> scaled = scale_to_hold(coarse, plain_, centre_);
     if (!scaled) return {{}, scaled.error().message};
     const bool tight = options_.enclosing == Enclosing::Tight;
-    const Polytope level = tight ? tighten(std::move(scaled).value(), plain_) : relax(std::move(scaled).value(), plain_, centre_);
+    const Polytope level = tight ? tighten(std::move(scaled).value(), plain_, Mat3::Identity()) : relax(std::move(scaled).value(), plain_, centre_);
     Result<Proved> proved = prove(level.points, plain_, centre_);
     if (!proved) return {{}, proved.error().message};
     Step step{CoarseLevel{proved.value().level, {}, {}}, {}};

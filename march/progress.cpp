@@ -85,7 +85,8 @@ Nearest<Real> nearest_to_origin(const std::array<Difference<Real>, 4>& set, int 
         const V3<Real> n = cross(q - p, r - p);
         const Real n2 = dot(n, n), wp = dot(n, cross(q, r)), wq = dot(n, cross(r, p)), wr = dot(n, cross(p, q));
         if (!(n2 > zero && wp > zero && wq > zero && wr > zero)) continue;
-        offer(3, {i, j, k}, {wp / n2, wq / n2, wr / n2}, n * (dot(n, p) / n2));
+        const Real sum = wp + wq + wr;  // n2, but for rounding
+        offer(3, {i, j, k}, {wp / sum, wq / sum, wr / sum}, n * (dot(n, p) / n2));
       }
     }
   }
@@ -229,8 +230,8 @@ class Descent {
     for (int iteration = 0; iteration < kProgressLimit && patience > 0; ++iteration) {
       const Nearest<Real> nearest = nearest_to_origin(set_, count_);
       keep(nearest);
-      const double distance = std::sqrt(nearest.norm2), upper = distance * (1 + kNormError) + rounding<Real>(scene_);
-      if (upper < m.certificate.upper) take_points(m.certificate, upper);
+      const double distance = std::sqrt(nearest.norm2);
+      take_points(m.certificate);
       if (nearest.holds_origin || distance <= rounding<Real>(scene_)) {
         met_ = true;
         return;
@@ -247,7 +248,7 @@ class Descent {
       }
       if (holds(a, b)) return;
       set_[count_++] = difference<Real>(scene_, a, b);
-      weight_[count_ - 1] = 0;
+      weight_[count_ - 1] = Real(0);
     }
   }
 
@@ -272,27 +273,30 @@ class Descent {
     std::array<Difference<Real>, 4> kept{};
     for (int k = 0; k < nearest.count; ++k) {
       kept[k] = set_[nearest.index[k]];
-      weight_[k] = rounded(nearest.weight[k]);
+      weight_[k] = nearest.weight[k];
     }
     set_ = kept;
     count_ = nearest.count;
   }
 
-  void take_points(Certificate& c, double upper) {
+  /// The convex combinations themselves bound the distance from above.
+  void take_points(Certificate& c) const {
+    V3<Real> a{Real(0), Real(0), Real(0)}, apart = a;
+    for (int k = 0; k < count_; ++k) {
+      a = a + widened<Real>(vec(scene_.a.vertices[set_[k].a])) * weight_[k];
+      apart = apart - set_[k].p * weight_[k];
+    }
+    const double upper = norm(rounded(apart)) * (1 + kNormError) + rounding<Real>(scene_);
+    if (!(upper < c.upper)) return;
     c.upper = upper;
-    c.point_a = c.point_b = {0, 0, 0};
+    c.point_a = rounded(a);
+    c.point_b = rounded(a + apart);
     c.active.count = count_;
-    V3<Real> a{Real(0), Real(0), Real(0)}, b = a;
     for (int k = 0; k < count_; ++k) {
       c.active.a[k] = set_[k].a;
       c.active.b[k] = set_[k].b;
-      c.active.weight[k] = weight_[k];
-      const V3<Real> p = widened<Real>(vec(scene_.a.vertices[set_[k].a]));
-      a = a + p * Real(weight_[k]);
-      b = b + (p - set_[k].p) * Real(weight_[k]);
+      c.active.weight[k] = rounded(weight_[k]);
     }
-    c.point_a = rounded(a);
-    c.point_b = rounded(b);
   }
 
   static void take_plane(Certificate& c, const Vec& n, std::uint32_t a, std::uint32_t b, double lower) {
@@ -313,7 +317,7 @@ class Descent {
   const Goal& goal_;
   std::uint32_t& tests_;
   std::array<Difference<Real>, 4> set_{};
-  std::array<double, 4> weight_{};
+  std::array<Real, 4> weight_{};
   int count_ = 0;
   double least_ = std::numeric_limits<double>::infinity();
   bool met_ = false;
