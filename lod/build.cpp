@@ -112,8 +112,10 @@ Result<Built> build(const Mesh& users, const BuildOptions& options) {
   const Mesh mesh = scaled(users, scale);
   const Hull shape = hull(mesh.points);
   const Polytope body = solid(mesh.points, shape);
-  BuildReport report{.points_read = mesh.points.size(), .triangles_read = mesh.triangles.size(), .duplicates_dropped = shape.duplicates,
-                     .interior_dropped = shape.interior, .hull_triangles = body.triangles.size()};
+  BuildReport report;
+  report.points_read = mesh.points.size(), report.triangles_read = mesh.triangles.size();
+  report.duplicates_dropped = shape.duplicates, report.interior_dropped = shape.interior;
+  report.hull_triangles = body.triangles.size();
   Hierarchy levels{{}, "the body is not solid and has one level", false};
   if (shape.dimension == 3) {
     report.volume_ratio = volume_ratio(mesh, body);

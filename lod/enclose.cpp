@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "hull.h"
 
@@ -256,9 +257,26 @@ class Balance {
 };
 
 constexpr double kRelaxed = 0.999;  ///< of a move: short of the limit, edges stay strictly convex
+constexpr double kEarlyPart = 0.3;  ///< of a move in the first half of the sweeps, so that neighbours share the gain
+constexpr double kStillWhole = 0.95;  ///< of the triangles; fewer, and the balance has folded the surface
+constexpr int kRepeats = 3;
+
 /// Rounds of balancing and sweeps of moves that a level of so many vertices is worth: much for the few of coarse levels, linear for fine ones.
 int effort(std::size_t moves, std::size_t vertex_count, int least, int most) {
   return int(std::clamp<std::size_t>(moves / vertex_count, std::size_t(least), std::size_t(most)));
+}
+
+Polytope rehulled(const Polytope& level) { return solid(level.points, hull(level.points)); }
+
+/// The level balanced and scaled to hold the body, where that keeps its triangles and lessens its volume.
+std::optional<Polytope> balanced(Polytope level, const Climber& body, const Mat3& metric) {
+  const double enough = kStillWhole * double(level.triangles.size()), most = volume(level);
+  Balance(level, body, metric).run(effort(40000, level.points.size(), 8, 100));
+  const Hull shape = hull(level.points);
+  if (double(shape.triangles.size()) < enough) return std::nullopt;
+  Result<Polytope> scaled = scale_to_hold(solid(level.points, shape), body, area_centroid(body.body()));
+  if (!scaled || volume(scaled.value()) > most) return std::nullopt;
+  return std::move(scaled).value();
 }
 
 }  // namespace
@@ -305,25 +323,21 @@ Polytope relax(Polytope level, const Climber& body, const Vec3& centre) {
 }
 
 Polytope tighten(Polytope level, const Climber& body, const Mat3& metric) {
-  const Vec3 centre = area_centroid(body.body());
-  const auto rehulled = [](const Polytope& moved) { return solid(moved.points, hull(moved.points)); };
-  Polytope best = level;
-  const int rounds = effort(40000, level.points.size(), 8, 100);
-  for (int repeat = 0; repeat < 3; ++repeat) {
-    Balance(level, body, metric).run(rounds);
-    Result<Polytope> scaled = scale_to_hold(rehulled(level), body, centre);
-    if (!scaled) break;
-    level = best = std::move(scaled).value();
+  for (int repeat = 0; repeat < kRepeats; ++repeat) {
+    std::optional<Polytope> better = balanced(level, body, metric);
+    if (!better) break;
+    level = std::move(*better);
   }
-  for (int sweep = effort(20000, best.points.size(), 1, 10); sweep > 0; --sweep) {
-    Mover mover(best, body);
-    for (std::uint32_t v = 0; v < best.points.size(); ++v) {
+  const int sweeps = effort(20000, level.points.size(), 2, 20);
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    Mover mover(level, body);
+    for (std::uint32_t v = 0; v < level.points.size(); ++v) {
       mover.look_around(v);
-      best.points[v] += mover.least_volume_move();
+      level.points[v] += (2 * sweep < sweeps ? kEarlyPart : 1) * mover.least_volume_move();
     }
-    best = rehulled(best);
+    level = rehulled(level);
   }
-  return best;
+  return level;
 }
 
 }  // namespace swiftlet::lod

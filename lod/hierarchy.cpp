@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Level after level: simplify the one before, not yet grown, and make it hold level 0 [Ehmann & Lin 2000, sec. 4.3]. Errors of
-// enclosing thus never add up. What cannot be built ends the hierarchy.
+// Level after level: simplify the one before and make the result hold level 0 [Ehmann & Lin 2000, sec. 4.3]. What cannot be built
+// ends the hierarchy.
 #include "hierarchy.h"
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 
 #include "collapse.h"
@@ -50,7 +49,7 @@ struct Step {
   std::string end;
 };
 
-/// Garland & Heckbert levels [sec. 4.5].
+/// Garland & Heckbert levels [sec. 4.5]. Each simplifies the one before as it was before growing, so that growth never adds up.
 class Collapser {
  public:
   Collapser(const Polytope& level0, const BuildOptions& options)
@@ -93,21 +92,20 @@ class Collapser {
   Climber body_;         ///< over shape_
 };
 
-/// Dobkin & Kirkpatrick levels [sec. 4.4]: each is the hull of vertices of level 0.
+/// Dobkin & Kirkpatrick levels [sec. 4.4]: each keeps vertices of the one before, as it was grown: built on the
+/// exact hulls of level 0's vertices instead, plates deviate many times more.
 class Peeler {
  public:
   Peeler(const Polytope& level0, const BuildOptions& options)
-      : options_(options), plain_(level0), centre_(area_centroid(level0)), simple_(level0), finer_(level0.points.size()) {
-    std::iota(finer_.begin(), finer_.end(), 0u);
-  }
+      : options_(options), plain_(level0), centre_(area_centroid(level0)), last_(level0) {}
 
   Step next() {
     const std::size_t fewest = std::max<std::size_t>(options_.cutoff, 4);
-    if (simple_.triangles.size() < fewest + 2) return {{}, "the next level would have fewer triangles than the cutoff"};
-    const std::vector<std::uint32_t> removed = independent_set(simple_, (simple_.triangles.size() - fewest) / 2);
-    const std::vector<std::uint32_t> kept = complement(removed, simple_.points.size());
+    if (last_.triangles.size() < fewest + 2) return {{}, "the next level would have fewer triangles than the cutoff"};
+    const std::vector<std::uint32_t> removed = independent_set(last_, (last_.triangles.size() - fewest) / 2);
+    const std::vector<std::uint32_t> kept = complement(removed, last_.points.size());
     std::vector<Vec3> points;
-    for (std::uint32_t v : kept) points.push_back(simple_.points[v]);
+    for (std::uint32_t v : kept) points.push_back(last_.points[v]);
     const Hull shape = hull(points);
     if (shape.dimension < 3) return {{}, "the next level would be flat"};
     const Polytope coarse = solid(points, shape);
@@ -120,13 +118,11 @@ class Peeler {
     if (!proved) return {{}, proved.error().message};
     Step step{CoarseLevel{proved.value().level, {}, {}}, {}};
     if (!tight) link(proved.value(), kept, removed, *step.level);
-    simple_ = coarse;
+    last_ = step.level->body;
     return step;
   }
 
  private:
-  static constexpr std::uint32_t kNone = 0xffffffffu;
-
   static std::vector<std::uint32_t> complement(const std::vector<std::uint32_t>& removed, std::size_t count) {
     std::vector<bool> gone(count);
     for (std::uint32_t v : removed) gone[v] = true;
@@ -138,24 +134,18 @@ class Peeler {
 
   /// A vertex's child is its own copy, a new triangle's the vertex whose hole it fills [sec. 4.4.3].
   void link(const Proved& proved, const std::vector<std::uint32_t>& kept, const std::vector<std::uint32_t>& removed,
-            CoarseLevel& level) {
+            CoarseLevel& level) const {
+    for (std::uint32_t v : proved.vertices) level.vertex_child.push_back(kept[v]);
     std::vector<Triangle> triangles = proved.level.triangles;
     for (Triangle& triangle : triangles)
-      for (std::uint32_t& corner : triangle) corner = kept[proved.vertices[corner]];
-    for (std::uint32_t v : proved.vertices) level.vertex_child.push_back(finer_[kept[v]]);
-    for (std::uint32_t v : removed_above(simple_, removed, triangles)) level.triangle_child.push_back(finer_[v]);
-    const auto lost = [](const std::vector<std::uint32_t>& links) { return std::find(links.begin(), links.end(), kNone) != links.end(); };
-    if (lost(level.vertex_child) || lost(level.triangle_child)) level.vertex_child.clear(), level.triangle_child.clear();
-
-    finer_.assign(kept.size(), kNone);
-    for (std::uint32_t k = 0; k < proved.vertices.size(); ++k) finer_[proved.vertices[k]] = k;
+      for (std::uint32_t& corner : triangle) corner = level.vertex_child[corner];
+    level.triangle_child = removed_above(last_, removed, triangles);
   }
 
   const BuildOptions& options_;
   Climber plain_;
   Vec3 centre_;
-  Polytope simple_;                   ///< the last level before it was grown
-  std::vector<std::uint32_t> finer_;  ///< per vertex of simple_, its place in the level made of it, kNone where rounding lost it
+  Polytope last_;
 };
 
 template <class Stepper>

@@ -26,7 +26,7 @@ class Descent {
       std::uint32_t climbs = 0;
       const MarchStart from = settled(pair, place.start, climbs);
       const std::uint32_t left = options_.step_budget - answer_.steps;
-      const Walk walked = walk(pair, from.a, from.b, options_.plane_rule, place.trial ? std::min(left, kTrialSteps) : left);
+      const Walk walked = walk(pair, from.a, from.b, options_.plane_rule, std::min(left, place.trial_steps));
       answer_.steps += walked.steps;
       answer_.plane_tests += walked.plane_tests + climbs;
       const bool spent = walked.end == WalkEnd::Budget && answer_.steps >= options_.step_budget;
@@ -158,6 +158,7 @@ class Descent {
       if (!absorbs && !suffices) break;
       kept.start = {parent(a_, kept.level_a++, kept.start.a), parent(b_, kept.level_b++, kept.start.b)};
     }
+    remember_line(a_, b_, motion_, seed);
     seed.a = kept.start.a;
     seed.b = kept.start.b;
     seed.level_a = std::uint8_t(kept.level_a);

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seed.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "certify.h"
 #include "ring.h"
@@ -23,17 +25,43 @@ bool legal_level(const Model& model, int level, int finest) { return level >= fi
 
 Place level_place(int level_a, int level_b, const MarchStart& start) { return {level_a, level_b, start}; }
 
+/// The line of centres from A to B in A's frame, and from B to A in B's; zero vectors where the centres coincide.
+struct Line {
+  Vec in_a, in_b;
+};
+Line line_of_centres(const Model& a, const Model& b, const Motion& m) {
+  const Vec d = apply(m, vec(b.centre())) - vec(a.centre());
+  const double length = norm(d);
+  const Vec in_a = length > 0 ? d * (1 / length) : Vec{0, 0, 0};
+  return {in_a, -turn_back(m, in_a)};
+}
+
+constexpr double kLineUnit = 32767;
+Vec unpacked(const std::array<std::int16_t, 3>& v) { return Vec{double(v[0]), double(v[1]), double(v[2])} * (1 / kLineUnit); }
+std::array<std::int16_t, 3> packed(const Vec& v) {
+  const auto unit = [](double x) { return std::int16_t(std::lround(std::fmax(-1, std::fmin(1, x)) * kLineUnit)); };
+  return {unit(v.x), unit(v.y), unit(v.z)};
+}
+
+/// The steps a walk will take from features found when the line of centres was `seed`'s.
+double predicted_steps(const Model& a, const Model& b, const Motion& m, const PairSeed& seed) {
+  const Line line = line_of_centres(a, b, m);
+  const double edges_a = norm(line.in_a - unpacked(seed.line_in_a)) * std::sqrt(double(a.level(seed.level_a).view.vertices.size()));
+  const double edges_b = norm(line.in_b - unpacked(seed.line_in_b)) * std::sqrt(double(b.level(seed.level_b).view.vertices.size()));
+  return kStepsPerEdge * (edges_a + edges_b);
+}
+
 /// The table's vertices for the direction between the centres.
 MarchStart from_tables(const Model& a, const Model& b, const Motion& m) {
   MarchStart start;
-  const Vec d = apply(m, vec(b.centre())) - vec(a.centre()), e = -turn_back(m, d);
+  const Line line = line_of_centres(a, b, m);
   const auto look_up = [](const Model& model, const Vec& direction) -> Handle {
     if (model.table().empty()) return {};
     const std::uint32_t sample = lut::nearest(model.table_spec().resolution, {direction.x, direction.y, direction.z});
     return {FeatureKind::Vertex, model.table()[sample]};
   };
-  start.a = look_up(a, d);
-  start.b = look_up(b, e);
+  start.a = look_up(a, line.in_a);
+  start.b = look_up(b, line.in_b);
   return start;
 }
 
@@ -73,11 +101,20 @@ Place first_place(const Model& a, const Model& b, const Motion& b_in_a, const Pa
       return coarsest;
     default:
       if (!seed_fits) return coarsest;
-      const bool coarser = seed.level_a < coarsest.level_a || seed.level_b < coarsest.level_b;
       Place place = level_place(seed.level_a, seed.level_b, {seed.a, seed.b});
-      place.trial = coarser && options.start == StartPolicy::Automatic;
+      const int above = std::max(coarsest.level_a - seed.level_a, coarsest.level_b - seed.level_b);
+      if (options.start == StartPolicy::Paper || above <= 0) return place;
+      const double descent = kStepsPerLevel * (above + 1);
+      if (predicted_steps(a, b, b_in_a, seed) > descent) return coarsest;
+      place.trial_steps = std::uint32_t(kTrialFactor * descent);
       return place;
   }
+}
+
+void remember_line(const Model& a, const Model& b, const Motion& b_in_a, PairSeed& seed) {
+  const Line line = line_of_centres(a, b, b_in_a);
+  seed.line_in_a = packed(line.in_a);
+  seed.line_in_b = packed(line.in_b);
 }
 
 Handle child(const Model& model, int level, Handle feature) {

@@ -17,7 +17,7 @@ namespace swiftlet {
 struct Place {
   int level_a, level_b;
   MarchStart start;
-  bool trial = false;  ///< a guess from the seed: given kTrialSteps before the coarsest pair is tried
+  std::uint32_t trial_steps = ~0u;  ///< after which the coarsest pair is tried instead
 };
 
 /// The start as features of the scene's views: what is no feature of its view, or a face against a face, becomes vertices.
@@ -26,6 +26,9 @@ MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& p
 
 /// Where a query begins.
 Place first_place(const Model& a, const Model& b, const Motion& b_in_a, const PairSeed& seed, const QueryOptions& options);
+
+/// Notes the line of centres in the seed.
+void remember_line(const Model& a, const Model& b, const Motion& b_in_a, PairSeed& seed);
 
 /// The coarsest pair, from nothing.
 Place coarsest_place(const Model& a, const Model& b);

@@ -70,9 +70,12 @@ inline constexpr std::uint32_t kStallLimit = 12;
 /// Iterations of certified progress per arithmetic: a Frank-Wolfe step on an active set of at most four. Each shortens the
 /// distance or is the last but `kProgressPatience`.
 inline constexpr int kProgressLimit = 400, kProgressPatience = 4;
-/// Automatic starts give the seed's level this many steps before they start over from the coarsest pair: what a descent through
-/// four or five levels costs (ski rental: never more than twice the better choice).
-inline constexpr std::uint32_t kTrialSteps = 24;
+/// What an Automatic start weighs. A walk takes about half a step per edge that it crosses, and sqrt(V) edges make a radian of a
+/// level of V vertices (measured on ellipsoids of 2 000 and 20 000 triangles, 0.5 to 180 degrees); a descent six steps per level.
+inline constexpr double kStepsPerEdge = 0.5, kStepsPerLevel = 6;
+/// A walk from the seed that takes this many times what a descent would is given up for one (ski rental: never more than three
+/// times the better choice).
+inline constexpr double kTrialFactor = 2;
 /// Points of the inner polytope that tells touching from overlapping. Twenty facets of it have been the most ever needed.
 inline constexpr int kContactPoints = 20;
 

@@ -37,7 +37,7 @@ enum class Refinement : std::uint8_t { Single, SingleSingle, DoubleDouble };
 
 /// Where a query starts. All give the same verdict and true intervals.
 enum class StartPolicy : std::uint8_t {
-  Automatic,  ///< the seed's features at the seed's level; when they turn out to be far away, or cold: Coarsest
+  Automatic,  ///< the seed's features at the seed's level; when the bodies turned too far for that, or cold: the coarsest pair
   Paper,      ///< as Automatic, but the seed climbs to where the motion it can absorb is the distance [sec. 5.2]
   Finest,     ///< the seed's features on level 0, without hierarchy
   Coarsest,   ///< the coarsest pair, from the seed's features there
@@ -49,8 +49,11 @@ enum class StartPolicy : std::uint8_t {
 struct PairSeed {
   Handle a, b;                        ///< features at the levels below
   Handle coarse_a, coarse_b;          ///< features on the coarsest levels
+  std::array<std::int16_t, 3> line_in_a{}, line_in_b{};  ///< the line of centres, in units of 1/32767: how far it turned tells
+                                                         ///< whether the features are worth a try
   std::uint8_t level_a = 0, level_b = 0;
 };
+static_assert(sizeof(PairSeed) <= 32);
 
 /// One level pair that a query visited.
 struct LevelRecord {

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_text.h"
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "scene.h"
+#include "text.h"
+
+namespace swiftlet::tool {
+namespace {
+
+Error bad_pose(const std::string& text, const std::string& why) { return {ErrorCode::BadValue, "the pose " + text + " " + why}; }
+
+/// The numbers of a text, with blanks or a comma between any two; nothing if it holds anything else.
+std::optional<std::vector<double>> read_numbers(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r\n";
+  std::vector<double> values;
+  const auto skip_blanks = [&] { text.remove_prefix(std::min(text.find_first_not_of(kBlank), text.size())); };
+  for (skip_blanks(); !text.empty(); skip_blanks()) {
+    if (!values.empty() && text.front() == ',') text.remove_prefix(1), skip_blanks();
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc()) return std::nullopt;
+    text.remove_prefix(std::size_t(end - text.data()));
+    if (!text.empty() && text.front() != ',' && kBlank.find(text.front()) == kBlank.npos) return std::nullopt;
+    values.push_back(value);
+  }
+  return values;
+}
+
+bool all_finite(const std::vector<double>& values) {
+  for (double value : values)
+    if (!std::isfinite(value)) return false;
+  return true;
+}
+
+/// The rotation of the quaternion w + xi + yj + zk, which need not be a unit one.
+std::optional<Mat3> rotation(double w, double x, double y, double z) {
+  const double largest = std::max({std::fabs(w), std::fabs(x), std::fabs(y), std::fabs(z)});
+  if (!(largest > 0)) return std::nullopt;
+  w /= largest, x /= largest, y /= largest, z /= largest;
+  const double s = 2 / (w * w + x * x + y * y + z * z);
+  Mat3 r;
+  r << 1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w),  //
+      s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w),   //
+      s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y);
+  return r;
+}
+
+Result<Pose> typed_pose(const std::string& text, const std::vector<double>& values) {
+  if (values.size() != 3 && values.size() != 7)
+    return bad_pose(text, "has " + std::to_string(values.size()) + " numbers; x,y,z has 3 and x,y,z,qw,qx,qy,qz has 7");
+  if (!all_finite(values)) return bad_pose(text, "is not finite");
+  Pose pose;
+  pose.translation = Vec3(values[0], values[1], values[2]);
+  if (values.size() == 3) return pose;
+  const std::optional<Mat3> turned = rotation(values[3], values[4], values[5], values[6]);
+  if (!turned) return bad_pose(text, "has a zero quaternion");
+  pose.rotation = *turned;
+  return pose;
+}
+
+Result<Pose> filed_pose(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  const auto values = read_numbers(content);
+  if (!values) return bad_pose(path, "holds something that is no number");
+  if (values->size() != 12) return bad_pose(path, "holds " + std::to_string(values->size()) + " numbers; a row-major 3x4 has 12");
+  if (!all_finite(*values)) return bad_pose(path, "is not finite");
+  Pose pose;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) pose.rotation(row, column) = (*values)[std::size_t(4 * row + column)];
+    pose.translation[row] = (*values)[std::size_t(4 * row + 3)];
+  }
+  const PoseQuality quality = pose_quality(motion(pose));
+  if (!quality.legal) return bad_pose(path, "is not orthonormal: an entry of R^T R is off by " + format("%.3g", quality.error) + ", and 1e-6 is allowed");
+  if (pose.rotation.col(0).cross(pose.rotation.col(1)).dot(pose.rotation.col(2)) < 0) return bad_pose(path, "is a mirror image, not a rotation");
+  return pose;
+}
+
+}  // namespace
+
+Result<Pose> read_pose(const std::string& text) {
+  std::error_code ignored;
+  if (const auto values = read_numbers(text); values && !values->empty()) return typed_pose(text, *values);
+  if (std::filesystem::is_regular_file(text, ignored)) return filed_pose(text);
+  return bad_pose("\"" + text + "\"", "is neither x,y,z nor x,y,z,qw,qx,qy,qz nor a file");
+}
+
+}  // namespace swiftlet::tool

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "text.h"
+
+#include <charconv>
+#include <cstdarg>
+#include <cstdio>
+#include <fstream>
+#include <system_error>
+
+namespace swiftlet::tool {
+
+std::string format(const char* pattern, ...) {
+  char text[401];
+  va_list values;
+  va_start(values, pattern);
+  std::vsnprintf(text, sizeof text, pattern, values);
+  va_end(values);
+  return text;
+}
+
+std::string number(double value) {
+  char text[32];
+  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
+  return {text, end};
+}
+
+std::string numbers(const Vec3& v) { return number(v.x()) + " " + number(v.y()) + " " + number(v.z()); }
+
+std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
+Result<bool> may_write(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const auto refused = [&](const char* why) { return Error{ErrorCode::CannotWrite, path.string() + ": " + why}; };
+  if (std::filesystem::is_directory(path, ignored)) return refused("is a folder");
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) return refused("is no regular file");
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder, ignored)) return refused("its folder does not exist");
+  return true;
+}
+
+Result<std::size_t> write_file(const std::filesystem::path& path, const std::string& text) {
+  if (const auto may = may_write(path); !may) return may.error();
+  std::filesystem::path part = path;
+  part += ".part";
+  std::error_code failure;
+  std::ofstream file(part, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (file) std::filesystem::rename(part, path, failure);
+  if (file && !failure) return text.size();
+  const std::string why = file ? failure.message() : "cannot write " + std::to_string(text.size()) + " bytes";
+  std::filesystem::remove(part, failure);
+  return Error{ErrorCode::CannotWrite, path.string() + ": " + why};
+}
+
+}  // namespace swiftlet::tool

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Numbers, names and whole files as the tool writes them. Knows nothing of models.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+#include <swiftlet/pose.h>
+#include <swiftlet/result.h>
+
+namespace swiftlet::tool {
+
+/// printf, in a string of at most 400 characters.
+#if defined(__GNUC__)
+[[gnu::format(printf, 1, 2)]]
+#endif
+std::string format(const char* pattern, ...);
+
+/// The shortest decimal that reads back as the same double.
+std::string number(double value);
+/// Three numbers, one blank between.
+std::string numbers(const Vec3& v);
+
+/// The file's name without folders and extension.
+std::string stem(const std::string& path);
+
+/// Whether a file could be written there, as far as can be told before.
+Result<bool> may_write(const std::filesystem::path& path);
+/// Writes beside `path` and renames, so that a failure leaves the old file. Returns the bytes written.
+Result<std::size_t> write_file(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace swiftlet::tool

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What the tool's words say about models: text for people, JSON for programs. Knows nothing of the command line.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+#include <swiftlet/model.h>
+#include <swiftlet/query.h>
+#include <swiftlet/result.h>
+
+namespace swiftlet::tool {
+
+/// What a word says when it went well; one of the two is printed.
+struct Output {
+  std::string text, json;
+};
+
+/// A model and where it came from.
+struct Body {
+  std::string path;
+  Model model;
+};
+
+/// A row per level, finest first: vertices, faces, triangles, deviation, volume_ratio (over level 0's; 1 where that is 0), bytes.
+nlohmann::ordered_json levels_json(const Model& model);
+std::string levels_text(const Model& model);
+
+Output info(const Body& body);
+Result<Output> verify(const Body& body);
+
+/// The distance, and with `show_levels` one line per level pair on the way. Its nanoseconds are those of a cold query that asks
+/// for no narrower an interval than that pair gave: the median of many repeats, from a warm cache.
+Output distance(const Body& a, const Body& b, const Pose& b_in_a, const QueryOptions& options, bool show_levels);
+
+/// Writes one level as OFF.
+Result<Output> export_level(const Body& body, int level, const std::filesystem::path& path);
+/// Writes all levels as SVG.
+Result<Output> draw_levels(const Body& body, const std::filesystem::path& path);
+
+}  // namespace swiftlet::tool
