@@ -119,7 +119,7 @@ Result<Built> build(const Mesh& users, const BuildOptions& options) {
   Hierarchy levels{{}, "the body is not solid and has one level", false};
   if (shape.dimension == 3) {
     report.volume_ratio = volume_ratio(mesh, body);
-    report.deepest_dent = deepest_dent(mesh, body) / scale;
+    report.deepest_dent = deepest_dent(mesh, shape, body) / scale;
     if (options.require_convex && has_dents(mesh, body, report, scale))
       return Error{ErrorCode::NotConvex, "the mesh has dents, the deepest " + std::to_string(report.deepest_dent)};
     levels = hierarchy(body, options, [&](double done) { return keep_on(kHullDone + (kLevelsDone - kHullDone) * done, "levels"); });

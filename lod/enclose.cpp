@@ -137,7 +137,8 @@ class Mover {
   static constexpr double kAltitudeLeft = 0.1;    ///< of a triangle's altitude after one move
   static constexpr double kFlattest = 0.05;       ///< altitude over base that no move goes below
   static constexpr std::size_t kLongRing = 24;    ///< 17296 triples
-  static constexpr int kTurns = 20;
+  static constexpr double kFirstTilt = 0x1p-6;    ///< tangent of the angle; a small one keeps the climb short
+  static constexpr int kTurns = 30;
 
   void look_at(std::uint32_t vertex, std::uint32_t side) {
     const Triangle face{vertex, origin(level_, side), origin(level_, HalfEdges::next(side))};
@@ -155,14 +156,20 @@ class Mover {
     altitudes_.push_back({inward, std::min(0.0, std::max((kAltitudeLeft - 1) * altitude, kFlattest * (b - a).norm() - altitude))});
   }
 
-  /// The normal of the plane through ab that touches the body on the vertex's side. Newton's method on the angle about ab: a
-  /// support turns the plane on to itself, from past the tangent back to it.
-  Vec3 tangent(const Triangle& face, const Vec3& a, const Vec3& b, Vec3 normal, const Vec3& inward) {
+  /// The normal of the plane through ab that touches the body on the vertex's side. The plane is tilted until its support lies
+  /// on that side; then, by Newton's method on the angle, each support turns it on to itself, from past the tangent back to it.
+  Vec3 tangent(const Triangle& face, const Vec3& a, const Vec3& b, const Vec3& face_normal, const Vec3& inward) {
+    const Vec3 unit = face_normal.normalized();
+    Vec3 normal = unit;
+    double tilt = kFirstTilt;
+    bool turned = false;
     for (int turn = 0; turn < kTurns; ++turn) {
       const Vec3 arm = body_.body().points[starts_.climb(body_, normal, face)] - a;
       const bool beside = inward.dot(arm) > kBeside * (b - a).norm();
-      if (turn > 0 && (!beside || normal.dot(arm) <= kTouching * normal.norm())) break;
-      normal = beside ? Vec3((b - a).cross(arm)) : inward;
+      if (turned && (!beside || normal.dot(arm) <= kTouching * normal.norm())) break;
+      turned = beside;
+      normal = beside ? Vec3((b - a).cross(arm)) : Vec3(unit + tilt * inward);
+      if (!beside) tilt *= 4;
     }
     return normal;
   }
@@ -260,18 +267,14 @@ constexpr double kRelaxed = 0.999;  ///< of a move: short of the limit, edges st
 constexpr double kEarlyPart = 0.3;  ///< of a move in the first half of the sweeps, so that neighbours share the gain
 constexpr double kStillWhole = 0.95;  ///< of the triangles; fewer, and the balance has folded the surface
 constexpr int kRepeats = 3;
-
-/// Rounds of balancing and sweeps of moves that a level of so many vertices is worth: much for the few of coarse levels, linear for fine ones.
-int effort(std::size_t moves, std::size_t vertex_count, int least, int most) {
-  return int(std::clamp<std::size_t>(moves / vertex_count, std::size_t(least), std::size_t(most)));
-}
-
-Polytope rehulled(const Polytope& level) { return solid(level.points, hull(level.points)); }
+constexpr std::size_t kFewestRounds = 8;  ///< fewer change nothing: fine levels are not balanced
 
 /// The level balanced and scaled to hold the body, where that keeps its triangles and lessens its volume.
 std::optional<Polytope> balanced(Polytope level, const Climber& body, const Mat3& metric) {
+  const std::size_t rounds = std::min<std::size_t>(40000 / level.points.size(), 100);
+  if (rounds < kFewestRounds) return std::nullopt;
   const double enough = kStillWhole * double(level.triangles.size()), most = volume(level);
-  Balance(level, body, metric).run(effort(40000, level.points.size(), 8, 100));
+  Balance(level, body, metric).run(int(rounds));
   const Hull shape = hull(level.points);
   if (double(shape.triangles.size()) < enough) return std::nullopt;
   Result<Polytope> scaled = scale_to_hold(solid(level.points, shape), body, area_centroid(body.body()));
@@ -328,14 +331,16 @@ Polytope tighten(Polytope level, const Climber& body, const Mat3& metric) {
     if (!better) break;
     level = std::move(*better);
   }
-  const int sweeps = effort(20000, level.points.size(), 2, 20);
+  const int sweeps = int(std::clamp<std::size_t>(20000 / level.points.size(), 2, 20));
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     Mover mover(level, body);
     for (std::uint32_t v = 0; v < level.points.size(); ++v) {
       mover.look_around(v);
       level.points[v] += (2 * sweep < sweeps ? kEarlyPart : 1) * mover.least_volume_move();
     }
-    level = rehulled(level);
+    const Hull shape = hull(level.points);
+    if (shape.dimension < 3) break;
+    level = solid(level.points, shape);
   }
   return level;
 }

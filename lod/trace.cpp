@@ -5,8 +5,14 @@
 
 #include <swiftlet/lut.h>
 
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Simple_cartesian.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -77,6 +83,45 @@ class PlaneFinder {
   std::uint32_t last_ = 0;
 };
 
+using Kernel = CGAL::Simple_cartesian<double>;
+using Faces = std::vector<Kernel::Triangle_3>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Faces::const_iterator>>>;
+
+Kernel::Point_3 cgal(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+/// No less than the depth of a point, from the supports in a few directions: most points are seen not to be the deepest by it.
+class CoarseDepth {
+ public:
+  explicit CoarseDepth(const Polytope& body) {
+    const Climber climber(body);
+    std::uint32_t top = 0;
+    for (std::uint32_t k = 0; k < lut::sample_count(lut::Resolution::Degrees22); ++k) {
+      const std::array<double, 3> sample = lut::sample(lut::Resolution::Degrees22, k);
+      const Vec3 direction(sample[0], sample[1], sample[2]);
+      top = climber.climb(direction, top);
+      planes_.emplace_back(direction, direction.dot(body.points[top]));
+    }
+  }
+  double operator()(const Vec3& p) const {
+    double depth = std::numeric_limits<double>::infinity();
+    for (const auto& [normal, height] : planes_) depth = std::min(depth, height - normal.dot(p));
+    return depth;
+  }
+
+ private:
+  std::vector<std::pair<Vec3, double>> planes_;
+};
+
+/// The vertices of the mesh's triangles that are none of the hull's.
+Ids inner_vertices(const Mesh& mesh, const Hull& hull) {
+  Ids used, inner;
+  for (const Triangle& triangle : mesh.triangles) used.insert(used.end(), triangle.begin(), triangle.end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::set_difference(used.begin(), used.end(), hull.vertices.begin(), hull.vertices.end(), std::back_inserter(inner));
+  return inner;
+}
+
 }  // namespace
 
 double rounding_of(std::span<const Vec3> points) {
@@ -121,37 +166,19 @@ double volume_ratio(const Mesh& mesh, const Polytope& body) {
   return !surface.triangles.empty() && closes(surface.triangles) ? std::abs(volume(surface)) / volume(body) : 1;
 }
 
-double deepest_dent(const Mesh& mesh, const Polytope& body) {
-  std::vector<std::pair<Vec3, double>> planes;
-  const Climber climber(body);
-  std::uint32_t top = 0;
-  for (std::uint32_t k = 0; k < lut::sample_count(lut::Resolution::Degrees22); ++k) {
-    const Vec3 direction{lut::sample(lut::Resolution::Degrees22, k).data()};
-    top = climber.climb(direction, top);
-    planes.emplace_back(direction, direction.dot(body.points[top]));
-  }
-  const auto depth_below = [](const auto& many, const Vec3& p) {
-    double depth = std::numeric_limits<double>::infinity();
-    for (const auto& [normal, height] : many) depth = std::min(depth, height - normal.dot(p));
-    return depth;
-  };
-  std::vector<std::pair<Vec3, double>> faces;
-  for (const auto& [a, b, c] : body.triangles) {
-    const Vec3 normal = area_normal(body.points[a], body.points[b], body.points[c]).normalized();
-    faces.emplace_back(normal, normal.dot(body.points[a]));
-  }
+double deepest_dent(const Mesh& mesh, const Hull& hull, const Polytope& body) {
+  Faces faces;
+  for (const auto& [a, b, c] : body.triangles) faces.emplace_back(cgal(body.points[a]), cgal(body.points[b]), cgal(body.points[c]));
+  const Tree tree(faces.cbegin(), faces.cend());
+  const CoarseDepth bound(body);
 
-  Ids used;
-  for (const Triangle& triangle : mesh.triangles) used.insert(used.end(), triangle.begin(), triangle.end());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
   std::vector<std::pair<double, std::uint32_t>> at_most;
-  for (std::uint32_t v : used) at_most.emplace_back(depth_below(planes, mesh.points[v]), v);
+  for (std::uint32_t v : inner_vertices(mesh, hull)) at_most.emplace_back(bound(mesh.points[v]), v);
   std::sort(at_most.begin(), at_most.end(), std::greater<>());
   double deepest = 0;
-  for (const auto& [bound, v] : at_most) {
-    if (bound <= deepest) break;
-    deepest = std::max(deepest, depth_below(faces, mesh.points[v]));
+  for (const auto& [depth, v] : at_most) {
+    if (depth <= deepest) break;
+    deepest = std::max(deepest, std::sqrt(tree.squared_distance(cgal(mesh.points[v]))));
   }
   return deepest;
 }

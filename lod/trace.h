@@ -24,6 +24,6 @@ std::vector<std::vector<std::uint32_t>> triangles_on(const Mesh& mesh, const Hul
 double volume_ratio(const Mesh& mesh, const Polytope& body);
 
 /// The greatest distance from the hull's surface of a vertex that the mesh's triangles use.
-double deepest_dent(const Mesh& mesh, const Polytope& body);
+double deepest_dent(const Mesh& mesh, const Hull& hull, const Polytope& body);
 
 }  // namespace swiftlet::lod

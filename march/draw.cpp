@@ -3,6 +3,8 @@
 // Front faces of one convex body never hide each other, so nothing is sorted by depth.
 #include "draw.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_text.h"
 
+#include <Eigen/LU>
+
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -83,7 +86,7 @@ Result<Pose> filed_pose(const std::string& path) {
   }
   const PoseQuality quality = pose_quality(motion(pose));
   if (!quality.legal) return bad_pose(path, "is not orthonormal: an entry of R^T R is off by " + format("%.3g", quality.error) + ", and 1e-6 is allowed");
-  if (pose.rotation.col(0).cross(pose.rotation.col(1)).dot(pose.rotation.col(2)) < 0) return bad_pose(path, "is a mirror image, not a rotation");
+  if (pose.rotation.determinant() < 0) return bad_pose(path, "is a mirror image, not a rotation");
   return pose;
 }
 

@@ -94,7 +94,7 @@ std::string text_of(const Witness& w) {
 
 Json json_of(const Witness& w) {
   Json json{{"kind", name(w.feature.kind())}, {"level", w.level}, {"index", w.feature.index()}};
-  if (w.source.kind == FeatureKind::Vertex) json["vertices"] = {w.source.vertices[0]};
+  if (w.source.kind == FeatureKind::Vertex) json["vertices"] = Json::array({w.source.vertices[0]});
   if (w.source.kind == FeatureKind::Edge) json["vertices"] = w.source.vertices;
   if (w.source.kind == FeatureKind::Face) json["triangles"] = std::vector<std::uint32_t>(w.source.triangles.begin(), w.source.triangles.end());
   return json;

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The tool with the builder: adds the word `build`, and reads meshes wherever a model is expected.
+#include <CLI/CLI.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <swiftlet/build.h>
+#include <swiftlet/model_file.h>
+
+#include "text.h"
+#include "tool.h"
+
+namespace swiftlet::tool {
+namespace {
+
+Error in_file(const std::string& path, Error error) {
+  if (!error.message.starts_with(path)) error.message = path + ": " + error.message;
+  return error;
+}
+
+Result<Built> build_file(const std::string& path, const BuildOptions& options) {
+  const Result<Mesh> mesh = read_mesh(path);
+  if (!mesh) return in_file(path, mesh.error());
+  Result<Built> built = build(mesh.value(), options);
+  if (!built) return in_file(path, built.error());
+  return built;
+}
+
+Result<Model> model_of_mesh(const std::filesystem::path& path) {
+  Result<Built> built = build_file(path.string(), {});
+  if (!built) return built.error();
+  return std::move(built).value().model;
+}
+
+/// A bar on stderr, where that is a terminal. It clears its line when it ends.
+class ProgressBar {
+ public:
+  explicit ProgressBar(bool wanted) : shown_(wanted && isatty(STDERR_FILENO)) {}
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+  ~ProgressBar() {
+    if (shown_) std::fputs("\r\033[K", stderr);
+  }
+  bool operator()(double fraction, std::string_view stage) const {
+    if (!shown_) return true;
+    constexpr int kWidth = 40;
+    const int done = std::clamp(int(fraction * kWidth), 0, kWidth);
+    std::fprintf(stderr, "\r\033[K[%s%s] %3.0f %%  %.*s", std::string(std::size_t(done), '#').c_str(),
+                 std::string(std::size_t(kWidth - done), '.').c_str(), 100 * fraction, int(stage.size()), stage.data());
+    return true;
+  }
+
+ private:
+  const bool shown_;
+};
+
+struct Request {
+  std::string in, out;
+  BuildOptions options;
+  bool quiet = false;
+};
+
+std::string report_text(const Request& request, const Built& built) {
+  const BuildReport& r = built.report;
+  std::string text = request.in + "\n";
+  text += format(" read       %zu points, %zu triangles\n", r.points_read, r.triangles_read);
+  text += format(" dropped    %zu duplicates, %zu points that are no corner of the hull\n", r.duplicates_dropped, r.interior_dropped);
+  text += format(" grouped    %zu triangles of the hull into %zu faces, of which %zu have more than three vertices\n", r.hull_triangles,
+                 r.levels.empty() ? 0 : r.levels[0].faces, r.faces_grouped);
+  text += format(" dents      the deepest %.6g; the mesh fills %.6g of the hull\n", r.deepest_dent, r.volume_ratio);
+  text += levels_text(built.model) + " ended      " + r.end + "\n wrote      " + request.out;
+  return text + format(", %zu bytes\n", built.model.bytes().size());
+}
+
+nlohmann::ordered_json report_json(const Request& request, const Built& built) {
+  const BuildReport& r = built.report;
+  return {{"path", request.out}, {"mesh", request.in}, {"bytes", built.model.bytes().size()}, {"points_read", r.points_read},
+          {"triangles_read", r.triangles_read}, {"duplicates_dropped", r.duplicates_dropped}, {"interior_dropped", r.interior_dropped},
+          {"hull_triangles", r.hull_triangles}, {"faces_grouped", r.faces_grouped}, {"volume_ratio", r.volume_ratio},
+          {"deepest_dent", r.deepest_dent}, {"levels", levels_json(built.model)}, {"end", r.end}};
+}
+
+Result<Output> build_word(const Request& request) {
+  if (const auto may = may_write(request.out); !may) return may.error();
+  BuildOptions options = request.options;
+  const auto built = [&]() -> Result<Built> {
+    const ProgressBar bar(!request.quiet);
+    options.progress = [&bar](double fraction, std::string_view stage) { return bar(fraction, stage); };
+    return build_file(request.in, options);
+  }();
+  if (!built) return built.error();
+  if (const auto saved = save(built.value().model, request.out); !saved) return saved.error();
+  using Json = nlohmann::ordered_json;
+  return Output{request.quiet ? "" : report_text(request, built.value()),
+                report_json(request, built.value()).dump(2, ' ', false, Json::error_handler_t::replace) + "\n"};
+}
+
+template <class Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+/// An option whose argument is one of a few words.
+template <class Value>
+void add_choice(CLI::App& word, const std::string& name, const Choices<Value>& choices, Value& value, const char* standard, const char* help) {
+  std::string all;
+  for (const auto& [key, ignored] : choices) all += (all.empty() ? "" : "|") + key;
+  const auto read = [name, choices, all, &value](const std::string& text) {
+    for (const auto& [key, meant] : choices) {
+      if (key != text) continue;
+      value = meant;
+      return;
+    }
+    throw CLI::ValidationError(name, text + " is none of " + all);
+  };
+  word.add_option_function<std::string>(name, read, help)->type_name(all)->default_str(standard);
+}
+
+Action declare_build(CLI::App& word) {
+  const auto request = std::make_shared<Request>();
+  BuildOptions& o = request->options;
+  const Choices<Method> methods{{"peel", Method::Peel}, {"collapse", Method::Collapse}};
+  const Choices<Enclosing> enclosings{{"tight", Enclosing::Tight}, {"scale", Enclosing::Scale}};
+  const Choices<lut::Resolution> tables{{"none", lut::Resolution::None}, {"22.5", lut::Resolution::Degrees22},
+                                        {"11.25", lut::Resolution::Degrees11}, {"5.625", lut::Resolution::Degrees5}};
+  word.add_option("IN", request->in, "a mesh: .obj .off .stl .ply .tri .poly; only its points shape the model")->required();
+  word.add_option("-o,--output", request->out, "the .swl model to write")->required();
+  add_choice(word, "--method", methods, o.method, "collapse", "quadric error edge collapse, or peeling of independent sets");
+  add_choice(word, "--enclosing", enclosings, o.enclosing, "tight", "how a level is made to hold level 0: vertex by vertex, or by scaling");
+  word.add_option("--rate", o.rate, "triangles of a level over those of the one before, between 0 and 1")->capture_default_str();
+  word.add_option("--cutoff", o.cutoff, "no level has fewer triangles")->capture_default_str();
+  word.add_option("--levels", o.max_levels, "at most so many, level 0 included, 1 to 32")->capture_default_str();
+  word.add_option("--max-deviation", o.max_deviation, "no level deviates more, in the mesh's unit; 0: no limit")->capture_default_str();
+  add_choice(word, "--table", tables, o.table.resolution, "11.25", "degrees between the samples of the start table");
+  word.add_option("--radius-factor", o.table.radius_factor, "its samples lie on a sphere of so many bounding radii, at least 1")->capture_default_str();
+  word.add_flag("--require-convex", o.require_convex, "refuse a mesh with dents");
+  word.add_flag("--require-solid", o.require_solid, "refuse flat, collinear and single-point input");
+  word.add_flag("--quiet", request->quiet, "no progress bar, no report");
+  return [request] { return build_word(*request); };
+}
+
+}  // namespace
+}  // namespace swiftlet::tool
+
+int main(int argc, char** argv) {
+  using namespace swiftlet::tool;
+  const Word build{"build", "makes a model of a mesh: its hull and coarser levels that enclose it", declare_build};
+  return run_tool(argc, argv, model_of_mesh, {&build, 1});
+}

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <swiftlet/model_file.h>
+
+#include "pose_text.h"
+
+namespace swiftlet::tool {
+namespace {
+
+constexpr const char* kBodyHelp = "a .swl model, or a mesh where the tool has the builder";
+
+Result<Body> open(const std::string& path, const ModelOfMesh& model_of_mesh) {
+  if (std::filesystem::path(path).extension() != ".swl" && !model_of_mesh)
+    return Error{ErrorCode::BadFormat, path + ": is no .swl model, and this tool was made without the builder that reads meshes"};
+  Result<Model> model = std::filesystem::path(path).extension() == ".swl" ? load(std::filesystem::path(path)) : model_of_mesh(path);
+  if (!model) return model.error();
+  return Body{path, std::move(model).value()};
+}
+
+/// A word whose one input is a body.
+template <class Do>
+Action on_body(CLI::App& word, const ModelOfMesh& model_of_mesh, Do act) {
+  const auto path = std::make_shared<std::string>();
+  word.add_option("X", *path, kBodyHelp)->required();
+  return [path, model_of_mesh, act]() -> Result<Output> {
+    const Result<Body> body = open(*path, model_of_mesh);
+    if (!body) return body.error();
+    return act(body.value());
+  };
+}
+
+Action declare_info(CLI::App& word, const ModelOfMesh& model_of_mesh) {
+  return on_body(word, model_of_mesh, [](const Body& body) -> Result<Output> { return info(body); });
+}
+
+Action declare_verify(CLI::App& word, const ModelOfMesh& model_of_mesh) { return on_body(word, model_of_mesh, verify); }
+
+Action declare_export(CLI::App& word, const ModelOfMesh& model_of_mesh) {
+  struct Options {
+    int level = 0;
+    std::string out;
+  };
+  const auto options = std::make_shared<Options>();
+  word.add_option("--level", options->level, "0 is the exact hull, larger is coarser")->required();
+  word.add_option("-o,--output", options->out, "the OFF file to write; its doubles read back bit for bit")->required();
+  return on_body(word, model_of_mesh, [options](const Body& body) { return export_level(body, options->level, options->out); });
+}
+
+Action declare_draw(CLI::App& word, const ModelOfMesh& model_of_mesh) {
+  const auto out = std::make_shared<std::string>();
+  word.add_option("-o,--output", *out, "the SVG file to write")->required();
+  return on_body(word, model_of_mesh, [out](const Body& body) { return draw_levels(body, *out); });
+}
+
+Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
+  struct Options {
+    std::string a, b, pose;
+    QueryOptions query;
+    bool levels = false;
+  };
+  const auto options = std::make_shared<Options>();
+  word.footer(
+      "The pose is that of B in A's frame: it maps B's frame into A's, so that a point p of B lies at R p + t. POSE is t alone\n"
+      "as x,y,z, or x,y,z,qw,qx,qy,qz with a quaternion (which is normalised), or a file with the row-major 3x4 matrix [R t]\n"
+      "(which is taken as it stands and must be orthonormal to 1e-6). All points and directions of the answer are in A's frame;\n"
+      "the normal points from A to B. Ids of vertices and triangles are the mesh file's, counted from 0, and are given with\n"
+      "exact answers, which are those without --max-error, --relative-error and --beyond.");
+  word.add_option("A", options->a, kBodyHelp)->required();
+  word.add_option("B", options->b, kBodyHelp)->required();
+  word.add_option("--pose", options->pose, "of B in A's frame, see below")->required();
+  const auto absolute = word.add_option("--max-error", options->query.absolute_error, "stop when upper - lower is at most this");
+  const auto relative = word.add_option("--relative-error", options->query.relative_error, "stop when upper - lower is at most this times lower");
+  absolute->check(CLI::NonNegativeNumber)->excludes(relative);
+  relative->check(CLI::NonNegativeNumber);
+  word.add_option("--beyond", options->query.beyond, "stop when the distance is proved greater than this")->check(CLI::NonNegativeNumber);
+  word.add_flag("--levels", options->levels, "show what each level pair proved, coarsest first, and how long a query takes that stops there");
+  return [options, model_of_mesh]() -> Result<Output> {
+    const Result<Pose> pose = read_pose(options->pose);
+    if (!pose) return pose.error();
+    const Result<Body> a = open(options->a, model_of_mesh);
+    if (!a) return a.error();
+    const Result<Body> b = open(options->b, model_of_mesh);
+    if (!b) return b.error();
+    return distance(a.value(), b.value(), pose.value(), options->query, options->levels);
+  };
+}
+
+std::vector<Word> all_words(const ModelOfMesh& model_of_mesh, std::span<const Word> more) {
+  const auto bind = [&](Action (*declare)(CLI::App&, const ModelOfMesh&)) {
+    return [declare, model_of_mesh](CLI::App& word) { return declare(word, model_of_mesh); };
+  };
+  std::vector<Word> words(more.begin(), more.end());
+  words.push_back({"info", "what a model holds, level by level", bind(declare_info)});
+  words.push_back({"verify", "proves that all levels are convex, enclose level 0, and deviate no more than they say", bind(declare_verify)});
+  words.push_back({"distance", "how near two bodies are, with proved bounds, and where", bind(declare_distance)});
+  words.push_back({"export", "writes one level as an OFF mesh", bind(declare_export)});
+  words.push_back({"draw", "draws the levels side by side as an SVG", bind(declare_draw)});
+  return words;
+}
+
+/// One line on stderr, whatever the message holds.
+int fail(std::string message, int code) {
+  while (!message.empty() && message.back() == '\n') message.pop_back();
+  for (char& c : message)
+    if (c == '\n' || c == '\r') c = ' ';
+  std::fprintf(stderr, "swiftlet: %s\n", message.c_str());
+  return code;
+}
+
+int print(const std::string& text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  return written ? 0 : fail("cannot write to standard output", 1);
+}
+
+std::string names(const std::vector<Word>& words) {
+  std::string all;
+  for (const Word& word : words) all += std::string(all.empty() ? "" : ", ") + word.name;
+  return all;
+}
+
+/// What CLI11 would call an unexpected argument or a missing subcommand; empty when the first argument is a word or an option.
+std::string word_fault(int argc, char** argv, const std::vector<Word>& words, bool has_builder) {
+  if (argc < 2) return "say a word: " + names(words) + "; swiftlet --help tells more";
+  const std::string first = argv[1];
+  if (first.starts_with('-')) return {};
+  for (const Word& word : words)
+    if (first == word.name) return {};
+  if (first == "build" && !has_builder) return "this tool was made without the builder (SWIFTLET_LOD=OFF) and has no word build";
+  return "there is no word \"" + first + "\"; there are " + names(words);
+}
+
+int run(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const Word> more_words) {
+  const std::vector<Word> words = all_words(model_of_mesh, more_words);
+  if (const std::string fault = word_fault(argc, argv, words, bool(model_of_mesh)); !fault.empty()) return fail(fault, 2);
+
+  CLI::App app("Convex bodies at several levels of detail: how near are they, as precisely as asked?", "swiftlet");
+  app.set_version_flag("--version", "swiftlet " SWIFTLET_VERSION);
+  app.require_subcommand(1);
+  app.footer("swiftlet WORD --help tells a word's options.");
+  bool as_json = false;
+  Action chosen;
+  for (const Word& word : words) {
+    CLI::App* const sub = app.add_subcommand(word.name, word.summary);
+    sub->add_flag("--json", as_json, "print JSON");
+    sub->final_callback([action = word.declare(*sub), &chosen] { chosen = action; });
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    return app.exit(help_or_version);
+  } catch (const CLI::ParseError& fault) {
+    return fail(fault.what(), 2);
+  }
+  const Result<Output> output = chosen();
+  if (!output) return fail(output.error().message, 1);
+  return print(as_json ? output.value().json : output.value().text);
+}
+
+}  // namespace
+
+int run_tool(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const Word> more_words) try {
+  return run(argc, argv, model_of_mesh, more_words);
+} catch (const std::bad_alloc&) {
+  return fail("out of memory", 1);
+} catch (const std::exception& exception) {
+  return fail(exception.what(), 1);
+}
+
+}  // namespace swiftlet::tool

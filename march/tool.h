@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line: words, options, and where output and errors go. Knows nothing of what the words do, nor of meshes.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+
+#include <swiftlet/model.h>
+#include <swiftlet/result.h>
+
+#include "words.h"
+
+namespace CLI {
+class App;
+}
+
+namespace swiftlet::tool {
+
+using Action = std::function<Result<Output>()>;
+
+/// A word of the tool. `declare` adds its options to the command line and returns what to do once they are read; what the
+/// options are read into lives as long as the action does.
+struct Word {
+  const char* name;
+  const char* summary;
+  std::function<Action(CLI::App&)> declare;
+};
+
+/// How a mesh becomes a model; empty in a tool without the builder.
+using ModelOfMesh = std::function<Result<Model>(const std::filesystem::path&)>;
+
+/// Does what the command line says and returns the exit code: 0, 1 where a word failed, 2 where the command line is wrong. Then
+/// stderr holds one line, "swiftlet: ...", and stdout nothing.
+int run_tool(int argc, char** argv, const ModelOfMesh& model_of_mesh = {}, std::span<const Word> more_words = {});
+
+}  // namespace swiftlet::tool

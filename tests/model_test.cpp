@@ -1,0 +1,701 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Models from hand-written arrays: what is accepted, what is refused and in which words, and what the views then hold.
+#include <swiftlet/check.h>
+#include <swiftlet/model.h>
+#include <swiftlet/model_file.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <set>
+#include <string>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "bodies.h"
+#include "exact.h"
+#include "ring.h"
+
+namespace swiftlet {
+namespace {
+
+using namespace bodies;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Vec3 at(const Vertex& v) { return {v.x, v.y, v.z}; }
+Vec3 at(const ConvexView& view, std::uint32_t v) { return at(view.vertices[v]); }
+
+/// A seeded unit quaternion's rotation.
+class Turns {
+ public:
+  explicit Turns(std::uint64_t seed) : engine_(seed) {}
+  Mat3 operator()() { return rotation(normal_(engine_), normal_(engine_), normal_(engine_), normal_(engine_)); }
+
+ private:
+  std::mt19937_64 engine_;
+  std::normal_distribution<double> normal_;
+};
+
+Body meshed_cube(std::uint32_t cells) {
+  // Grid points of the surface by their coordinates' number, quads as two triangles each.
+  Body b;
+  const std::uint32_t n = cells + 1;
+  std::vector<std::uint32_t> id(n * n * n, kNone);
+  const auto point = [&](std::array<std::uint32_t, 3> c) {
+    std::uint32_t& known = id[(c[0] * n + c[1]) * n + c[2]];
+    if (known == kNone) {
+      known = std::uint32_t(b.points.size());
+      b.points.emplace_back(2.0 * c[0] / cells - 1, 2.0 * c[1] / cells - 1, 2.0 * c[2] / cells - 1);
+    }
+    return known;
+  };
+  for (std::uint32_t side = 0; side < 6; ++side) {
+    const std::uint32_t axis = side / 2, u = (axis + 1 + side % 2) % 3, v = (axis + 2 - side % 2) % 3;
+    for (std::uint32_t i = 0; i < cells; ++i) {
+      for (std::uint32_t j = 0; j < cells; ++j) {
+        std::array<std::uint32_t, 4> q{};
+        for (std::uint32_t k = 0; k < 4; ++k) {
+          std::array<std::uint32_t, 3> c{};
+          c[axis] = side % 2 ? 0 : cells;
+          c[u] = i + (k == 1 || k == 2);
+          c[v] = j + (k >= 2);
+          q[k] = point(c);
+        }
+        b.add({q[0], q[1], q[2]});
+        b.add({q[0], q[2], q[3]});
+      }
+    }
+  }
+  return b;
+}
+
+/// The invariants of every view, whatever the body.
+void expect_sound(const Model& model) {
+  for (int i = 0; i < model.level_count(); ++i) {
+    const ConvexView& v = model.level(i).view;
+    double extent = 0;
+    for (const Vertex& p : v.vertices) extent = std::max(extent, at(p).cwiseAbs().maxCoeff());
+    EXPECT_EQ(v.extent, extent);
+    if (model.dimension() < 2) continue;
+    // Euler, with and without diagonals.
+    std::size_t diagonals = 0;
+    for (std::uint32_t h = 0; h < v.head.size(); ++h) diagonals += is_diagonal(v, h);
+    EXPECT_EQ(v.vertices.size() + v.face_first.size(), (v.head.size() - diagonals) / 2 + 2);
+    EXPECT_EQ(model.level(i).edge_count, (v.head.size() - diagonals) / 2);
+    EXPECT_EQ(model.level(i).triangle_count, 2 * v.vertices.size() - 4);
+    std::vector<std::size_t> sides(v.face_first.size(), 0);
+    for (std::uint32_t h = 0; h < v.head.size(); ++h) {
+      EXPECT_EQ(v.twin[v.twin[h]], h);
+      if (is_diagonal(v, h)) continue;
+      ++sides[v.face[h]];
+      EXPECT_EQ(v.face[next_in_face(v, h)], v.face[h]);
+      EXPECT_EQ(origin(v, next_in_face(v, h)), v.head[h]);
+    }
+    for (std::size_t f = 0; f < sides.size(); ++f) {
+      EXPECT_EQ(v.face[v.face_first[f]], f);
+      EXPECT_GE(sides[f], 3u);
+      EXPECT_TRUE(sides[f] == 3 || f < v.planes.size());
+    }
+    // Rings: the left face of a half-edge lies between it and the next one, seen from outside.
+    for (std::uint32_t p = 0; p < v.vertices.size(); ++p) {
+      const Vertex& ring = v.vertices[p];
+      for (std::uint32_t k = 0; k < ring.ring_count; ++k) {
+        const std::uint32_t h = ring.ring_begin + k, next = ring.ring_begin + (k + 1) % ring.ring_count;
+        EXPECT_EQ(origin(v, h), p);
+        EXPECT_EQ(v.face[h], right_face(v, next));
+        if (model.dimension() != 3) continue;
+        for (std::uint32_t other = 0; other < v.vertices.size(); ++other) {
+          EXPECT_LE(exact::orientation(ring, v.vertices[v.head[h]], v.vertices[v.head[next]], v.vertices[other]), 0);
+        }
+      }
+    }
+    for (std::size_t f = 0; f < v.planes.size(); ++f) {
+      const Vec3 n(v.planes[f].x, v.planes[f].y, v.planes[f].z);
+      EXPECT_NEAR(n.norm(), 1, 1e-15);
+      const Vec3 o = at(v, origin(v, v.face_first[f]));
+      for (const Vertex& p : v.vertices) EXPECT_LE(n.dot(at(p) - o), model.dimension() == 3 ? v.planes[f].thickness : 1e-15);
+    }
+  }
+  if (const Check c = verify(model); !c) ADD_FAILURE() << c.message;
+}
+
+void expect_counts(const Model& m, std::size_t vertices, std::size_t edges, std::size_t faces) {
+  EXPECT_EQ(m.level(0).view.vertices.size(), vertices);
+  EXPECT_EQ(m.level(0).edge_count, edges);
+  EXPECT_EQ(m.level(0).view.face_first.size(), faces);
+}
+
+std::string refusal(const Body& body, ErrorCode code, bool repair = false) {
+  const Result<Model> m = Model::from_level(body.level(), {repair, {}});
+  if (m) {
+    ADD_FAILURE() << "accepted";
+    return "";
+  }
+  EXPECT_EQ(m.error().code, code) << m.error().message;
+  return m.error().message;
+}
+void expect_says(const std::string& message, const std::string& words) { EXPECT_NE(message.find(words), std::string::npos) << message; }
+
+// ---- Solids --------------------------------------------------------------------------------------------------------------------
+
+TEST(Model, CubeOfQuadsHasItsSixFaces) {
+  const Model m = model(cube());
+  expect_sound(m);
+  expect_counts(m, 8, 12, 6);
+  EXPECT_EQ(m.level(0).view.head.size(), 24u);
+  EXPECT_EQ(m.level(0).view.planes.size(), 6u);
+  EXPECT_EQ(m.dimension(), 3);
+  EXPECT_EQ(m.volume(), 8);
+  EXPECT_EQ(m.centre(), Vec3(0, 0, 0));
+  EXPECT_EQ(m.box_min(), Vec3(-1, -1, -1));
+  EXPECT_EQ(m.box_max(), Vec3(1, 1, 1));
+  EXPECT_GE(m.radius(), std::sqrt(3.0));
+  EXPECT_LE(m.radius(), std::sqrt(3.0) * (1 + 1e-14));
+}
+
+TEST(Model, CoplanarTrianglesAreOneFaceWithoutDiagonals) {
+  const Model quads = model(cube()), triangles = model(triangulated(cube()));
+  expect_sound(triangles);
+  expect_counts(triangles, 8, 12, 6);
+  EXPECT_EQ(triangles.level(0).view.head.size(), 24u);
+  EXPECT_TRUE(std::ranges::equal(quads.level(0).view.head, triangles.level(0).view.head));
+  EXPECT_TRUE(std::ranges::equal(quads.level(0).view.face, triangles.level(0).view.face));
+}
+
+TEST(Model, MeshedCubeIsTheCube) {
+  for (const std::uint32_t cells : {1u, 2u, 3u, 7u}) {
+    const Body mesh = meshed_cube(cells);
+    const Model m = model(mesh);
+    expect_sound(m);
+    expect_counts(m, 8, 12, 6);
+    EXPECT_NEAR(m.volume(), 8, 1e-12);
+    // Every vertex comes from a corner, every face holds its own triangles.
+    for (std::uint32_t v = 0; v < 8; ++v) EXPECT_EQ(mesh.points[m.source().vertex[v]], at(m.level(0).view, v));
+    for (std::uint32_t f = 0; f < 6; ++f) {
+      const std::uint32_t begin = m.source().face_begin[f], end = m.source().face_begin[f + 1];
+      ASSERT_EQ(end - begin, 2 * cells * cells);
+      const FacePlane& n = m.level(0).view.planes[f];
+      for (std::uint32_t k = begin; k < end; ++k) {
+        for (int c = 0; c < 3; ++c) {
+          const Vec3& p = mesh.points[mesh.corners[3 * m.source().face[k] + std::size_t(c)]];
+          EXPECT_EQ(n.x * p.x() + n.y * p.y() + n.z * p.z(), 1);
+        }
+      }
+    }
+  }
+}
+
+TEST(Model, PlatonicSolidsCount) {
+  const Model o = model(octahedron()), t = model(tetrahedron());
+  expect_sound(o);
+  expect_sound(t);
+  expect_counts(o, 6, 12, 8);
+  expect_counts(t, 4, 6, 4);
+  EXPECT_DOUBLE_EQ(o.volume(), 4.0 / 3);
+  EXPECT_DOUBLE_EQ(t.volume(), 8.0 / 3);
+  EXPECT_TRUE(o.level(0).view.planes.empty());  // triangles carry none
+}
+
+TEST(Model, RotatedCubesOfQuadsNeedNoRepair) {
+  Turns turn(1);
+  int bent = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Model m = model(moved(cube(), turn()));
+    if (i < 30) expect_sound(m);
+    expect_counts(m, 8, 12, 6);
+    EXPECT_NEAR(m.volume(), 8, 1e-14);
+    bent += m.level(0).view.head.size() > 24;  // a diagonal stays where the rounded quad folds
+  }
+  EXPECT_GE(bent, 200);
+}
+
+TEST(Model, RotatedCubesOfTrianglesAreRepaired) {
+  Turns turn(2);
+  int refused = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Body b = moved(triangulated(cube()), turn());
+    const Result<Model> strict = Model::from_level(b.level());
+    refused += !strict;
+    if (!strict) {
+      EXPECT_EQ(strict.error().code, ErrorCode::NotConvex);
+      expect_says(strict.error().message, "reflex edge (");
+    }
+    const Model m = model(b, {true, {}});
+    if (i < 30) expect_sound(m);
+    expect_counts(m, 8, 12, 6);
+  }
+  EXPECT_GE(refused, 200);
+}
+
+TEST(Model, FloatRoundedCubesWalkOnSixFaces) {
+  Turns turn(3);
+  int with_diagonals = 0;
+  for (int i = 0; i < 300; ++i) {
+    Body b = moved(cube(), turn(), Vec3(0.3, 0, 0));
+    for (Vec3& p : b.points) p = p.cast<float>().cast<double>();
+    const Model m = model(b);
+    if (i < 30) expect_sound(m);
+    expect_counts(m, 8, 12, 6);
+    with_diagonals += m.level(0).view.head.size() == 36;
+    for (const FacePlane& p : m.level(0).view.planes) EXPECT_LE(p.thickness, 4 * 0x1p-23 * m.extent() + 1e-14);
+  }
+  EXPECT_GE(with_diagonals, 200);
+}
+
+TEST(Model, CentroidIsOfTheSurfaceNotOfTheVertices) {
+  const Model m = model(moved(meshed_cube(3), Mat3::Identity(), Vec3(4, 5, 6)));
+  EXPECT_TRUE(m.centre().isApprox(Vec3(4, 5, 6), 1e-15));
+  // A square pyramid: base 4, sides 4 sqrt(5)/2 ... of height 2: the sides' centroid is a third up.
+  Body pyramid{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 2}}, {}, {}};
+  pyramid.add({0, 3, 2, 1}), pyramid.add({0, 1, 4}), pyramid.add({1, 2, 4}), pyramid.add({2, 3, 4}), pyramid.add({3, 0, 4});
+  const double sides = 4 * std::sqrt(5.0);
+  EXPECT_NEAR(model(pyramid).centre().z(), sides * (2.0 / 3) / (sides + 4), 1e-15);
+}
+
+// ---- Convexity -----------------------------------------------------------------------------------------------------------------
+
+/// The cube with vertex 6 lowered by `drop`: the top folds along 5-7.
+Body dented(double drop) {
+  Body b = cube();
+  b.points[6].z() -= drop;
+  return b;
+}
+
+TEST(Model, ReflexEdgeIsNamedWithItsHeight) {
+  const std::string message = refusal(triangulated(dented(0.25)), ErrorCode::NotConvex);  // fanned along 4-6
+  expect_says(message, "reflex edge (");
+  EXPECT_TRUE(message.find("(4, 6)") != std::string::npos || message.find("(6, 4)") != std::string::npos) << message;
+  // Vertex 7 (or 5) above the plane through 4, 6 and 5 (or 7): a drop of h tilts it to x h/2 = z - 1 at distance 2.
+  const Vec3 n = Vec3(2, 0, 0).cross(Vec3(2, 2, -0.25)), up = Vec3(0, 2, 0);
+  char height[32];
+  std::snprintf(height, sizeof height, "%.3g", n.dot(up) / n.norm());
+  expect_says(message, height);
+}
+
+TEST(Model, RepairFlipsTheDiagonalToTheConvexOne) {
+  const Model m = model(triangulated(dented(0.25)), {true, {}});
+  expect_sound(m);
+  expect_counts(m, 8, 13, 7);
+  EXPECT_NEAR(m.volume(), 8 - 0.25 * 2 / 3, 1e-14);  // less a tetrahedron of base 2 and height 0.25
+}
+
+TEST(Model, APolygonsOwnDiagonalsFlipFreely) {
+  const Model m = model(dented(0.25));
+  expect_sound(m);
+  expect_counts(m, 8, 13, 7);
+  EXPECT_NEAR(m.volume(), 8 - 0.25 * 2 / 3, 1e-14);
+}
+
+TEST(Model, RepairDoesNotMakeDentsConvex) {
+  // A pyramid into the top face: no flip helps.
+  Body b = cube();
+  b.points.emplace_back(0, 0, 0.5);
+  b.corners.erase(b.corners.begin() + 4, b.corners.begin() + 8);
+  b.sizes.pop_back();
+  b.add({4, 5, 8}), b.add({5, 6, 8}), b.add({6, 7, 8}), b.add({7, 4, 8});
+  for (const bool repair : {false, true}) refusal(b, ErrorCode::NotConvex, repair);
+  b.points[8].z() = 1.5;  // out of it: a roof
+  EXPECT_EQ(model(b).level(0).view.vertices.size(), 9u);
+}
+
+TEST(Model, SurfaceMustCloseOnce) {
+  Body open = cube();
+  open.sizes.pop_back();
+  open.corners.resize(20);
+  expect_says(refusal(open, ErrorCode::NotConvex), "belongs to 1 faces, not 2");
+
+  Body twice = octahedron();
+  twice.add({0, 2, 4});
+  expect_says(refusal(twice, ErrorCode::NotConvex), "faces, not 2");
+
+  Body apart = cube();
+  const Body other = moved(cube(), Mat3::Identity(), Vec3(5, 0, 0));
+  apart.points.insert(apart.points.end(), other.points.begin(), other.points.end());
+  for (const std::uint32_t v : other.corners) apart.corners.push_back(v + 8);
+  apart.sizes.insert(apart.sizes.end(), other.sizes.begin(), other.sizes.end());
+  expect_says(refusal(apart, ErrorCode::NotConvex), "do not close to one sphere");
+
+  // Two tetrahedra that share a vertex.
+  Body pinched = tetrahedron();
+  for (const Vec3& p : {Vec3(5, 1, 1), Vec3(5, 3, 1), Vec3(5, 1, 3)}) pinched.points.push_back(p);
+  pinched.add({0, 4, 5}), pinched.add({0, 5, 6}), pinched.add({0, 6, 4}), pinched.add({4, 6, 5});
+  expect_says(refusal(pinched, ErrorCode::NotConvex), "form 2 fans");
+}
+
+TEST(Model, WindingIsCounterClockwiseFromOutside) {
+  Body inside_out = cube();
+  std::reverse(inside_out.corners.begin(), inside_out.corners.end());
+  refusal(inside_out, ErrorCode::NotConvex);
+  refusal(inside_out, ErrorCode::NotConvex, true);
+  Body one = cube();
+  std::reverse(one.corners.begin(), one.corners.begin() + 4);
+  expect_says(refusal(one, ErrorCode::NotConvex), "wound against each other");
+}
+
+TEST(Model, SurfaceWoundTwiceIsRefused) {
+  // A bipyramid over the pentagram: nowhere reflex, Euler holds, and yet twice around.
+  for (const int step : {1, 2}) {
+    Body b{{{0, 0, 1}, {0, 0, -1}}, {}, {}};
+    for (int i = 0; i < 5; ++i) {
+      const double angle = 2 * std::numbers::pi * step * i / 5;
+      b.points.emplace_back(std::cos(angle), std::sin(angle), 0);
+    }
+    for (std::uint32_t i = 0; i < 5; ++i) {
+      const std::uint32_t p = 2 + i, q = 2 + (i + 1) % 5;
+      b.add({p, q, 0}), b.add({q, p, 1});
+    }
+    if (step == 1) expect_counts(model(b), 7, 15, 10);
+    else expect_says(refusal(b, ErrorCode::NotConvex), "winds about itself 2 times");
+  }
+}
+
+TEST(Model, DegenerateFacesAreRefused) {
+  Body repeated = cube();
+  repeated.add({0, 0, 1});
+  expect_says(refusal(repeated, ErrorCode::NotConvex), "face 6 is degenerate");
+  Body collinear = octahedron();
+  collinear.points.emplace_back(0.5, 0.5, 0);
+  collinear.add({0, 6, 2});
+  expect_says(refusal(collinear, ErrorCode::NotConvex), "face 8 is degenerate");
+  Body flat = triangulated(cube());  // a box without height
+  for (Vec3& p : flat.points) p.z() = 0;
+  refusal(flat, ErrorCode::NotConvex);
+}
+
+TEST(Model, UnreferencedVerticesAreNamed) {
+  Body b = cube();
+  b.points.emplace_back(0, 0, 0);
+  expect_says(refusal(b, ErrorCode::BadValue), "vertex 8 belongs to no face");
+}
+
+TEST(Model, ArraysMustFit) {
+  EXPECT_EQ(refusal({}, ErrorCode::Empty), "no vertices");
+  Body out_of_range = octahedron();
+  out_of_range.corners[4] = 6;
+  expect_says(refusal(out_of_range, ErrorCode::BadValue), "face 1 names vertex 6 of 6");
+  Body two_corners = octahedron();
+  two_corners.sizes[2] = 2;
+  expect_says(refusal(two_corners, ErrorCode::BadValue), "face 2 has 2 vertices");
+  Body long_list = octahedron();
+  long_list.corners.push_back(0);
+  refusal(long_list, ErrorCode::BadValue);
+  Body short_list = octahedron();
+  short_list.corners.pop_back();
+  refusal(short_list, ErrorCode::BadValue);
+  Body huge = octahedron();
+  huge.sizes[7] = 0xffffffff;
+  refusal(huge, ErrorCode::BadValue);
+  const Body o = octahedron();
+  LevelArrays ragged = o.level();
+  ragged.face_sizes = {};
+  EXPECT_TRUE(Model::from_level(ragged));
+  ragged.face_vertices = ragged.face_vertices.first(23);
+  EXPECT_FALSE(Model::from_level(ragged));
+}
+
+TEST(Model, CoordinatesOutOfRangeAreNamed) {
+  for (const double x : {std::nan(""), kInfinity, -kInfinity, 1e71, -1e300, 1e-71, 5e-324}) {
+    Body b = cube();
+    b.points[5].y() = x;
+    expect_says(refusal(b, ErrorCode::BadValue), "vertex 5");
+  }
+  for (const double scale : {1e-18, 1e18, 0x1p-200, 0x1p200}) {
+    Body b = octahedron();
+    for (Vec3& p : b.points) p *= scale;
+    expect_sound(model(b));
+  }
+}
+
+// ---- Flatter bodies --------------------------------------------------------------------------------------------------------------
+
+TEST(Model, FlatPolygonsHaveTwoSides) {
+  const Model square = model(two_sided({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}})), triangle = model(two_sided({{0, 0, 1}, {1, 0, 2}, {0, 1, 3}}));
+  expect_sound(square);
+  expect_sound(triangle);
+  expect_counts(square, 4, 4, 2);
+  expect_counts(triangle, 3, 3, 2);
+  EXPECT_EQ(square.dimension(), 2);
+  EXPECT_EQ(square.volume(), 0);
+  EXPECT_EQ(square.centre(), Vec3(1, 1, 0));
+  for (const Vertex& v : square.level(0).view.vertices) EXPECT_EQ(v.ring_count, 2u);
+  expect_says(refusal(two_sided({{0, 0, 0}, {2, 0, 0}, {2, 2, 1e-300}, {0, 2, 0}}), ErrorCode::BadValue), "vertex 2");
+  expect_says(refusal(two_sided({{0, 0, 0}, {2, 0, 0}, {2, 2, 1e-60}, {0, 2, 0}}), ErrorCode::NotConvex), "not flat");
+  expect_says(refusal(two_sided({{0, 0, 0}, {2, 0, 0}, {0.5, 0.5, 0}, {0, 2, 0}}), ErrorCode::NotConvex), "not strictly convex");
+  expect_says(refusal(two_sided({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 2, 0}}), ErrorCode::NotConvex), "not strictly convex");
+  refusal(two_sided({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}), ErrorCode::NotConvex);
+}
+
+TEST(Model, SegmentsAndPointsHaveNoFaces) {
+  const Model s = model(segment({0, 0, 0}, {3, 4, 0})), p = model(point({1, 2, 3}));
+  expect_sound(s);
+  expect_sound(p);
+  EXPECT_EQ(s.dimension(), 1);
+  EXPECT_EQ(p.dimension(), 0);
+  expect_counts(s, 2, 1, 0);
+  expect_counts(p, 1, 0, 0);
+  EXPECT_EQ(s.centre(), Vec3(1.5, 2, 0));
+  EXPECT_NEAR(s.radius(), 2.5, 1e-14);
+  EXPECT_EQ(p.radius(), 0);
+  EXPECT_EQ(s.level(0).view.face[0], kNone);
+  refusal(segment({1, 1, 1}, {1, 1, 1}), ErrorCode::BadValue);
+  refusal({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {}, {}}, ErrorCode::BadValue);
+}
+
+// ---- Levels ------------------------------------------------------------------------------------------------------------------------
+
+Result<Model> levels(std::initializer_list<Body> bodies) {
+  std::vector<Body> owned(bodies);
+  std::vector<LevelArrays> arrays;
+  for (const Body& b : owned) arrays.push_back(b.level());
+  return Model::from_levels(arrays);
+}
+
+TEST(Model, DeviationsAreTheLargestDistances) {
+  const Model m = nested();
+  expect_sound(m);
+  ASSERT_EQ(m.level_count(), 3);
+  EXPECT_EQ(m.level(0).deviation, 0);
+  const double truth[] = {0, 2 / std::sqrt(3.0), 8 / std::sqrt(3.0)};
+  for (int i = 1; i < 3; ++i) {
+    EXPECT_GE(m.level(i).deviation, truth[i]);
+    EXPECT_LE(m.level(i).deviation, truth[i] * 1.01);
+  }
+  EXPECT_EQ(m.extent(), 3);
+  EXPECT_EQ(m.level(1).volume, 8);
+}
+
+TEST(Model, LinksNameFeaturesOfTheNeighbourLevel) {
+  const Model m = nested();
+  for (int i = 0; i < 3; ++i) {
+    const Level& level = m.level(i);
+    const std::size_t faces = level.view.face_first.size();
+    ASSERT_EQ(level.child_vertex.size(), i == 0 ? 0 : level.view.vertices.size());
+    ASSERT_EQ(level.child_face.size(), i == 0 ? 0 : faces);
+    ASSERT_EQ(level.parent_face.size(), i == 2 ? 0 : faces);
+    if (i > 0) {  // the nearest vertex, by brute force
+      const ConvexView& finer = m.level(i - 1).view;
+      for (std::uint32_t v = 0; v < level.view.vertices.size(); ++v) {
+        double nearest = kInfinity;
+        for (const Vertex& w : finer.vertices) nearest = std::min(nearest, (at(w) - at(level.view, v)).norm());
+        ASSERT_LT(level.child_vertex[v], finer.vertices.size());
+        EXPECT_EQ((at(finer, level.child_vertex[v]) - at(level.view, v)).norm(), nearest);
+      }
+      for (const Handle h : level.child_face) {
+        const bool face = h.kind() == FeatureKind::Face;
+        EXPECT_TRUE(face || h.kind() == FeatureKind::Vertex);
+        EXPECT_LT(h.index(), face ? finer.face_first.size() : finer.vertices.size());
+      }
+    }
+    if (i < 2) {  // an extremal vertex along the face's normal, by brute force
+      const ConvexView& coarser = m.level(i + 1).view;
+      for (std::uint32_t f = 0; f < faces; ++f) {
+        const std::uint32_t h = level.view.face_first[f];
+        const Vec3 p = at(level.view, origin(level.view, h)), q = at(level.view, level.view.head[h]);
+        const Vec3 n = (q - p).cross(at(level.view, level.view.head[next_in_face(level.view, h)]) - q);
+        ASSERT_LT(level.parent_face[f], coarser.vertices.size());
+        for (const Vertex& w : coarser.vertices) EXPECT_LE(n.dot(at(w)), n.dot(at(coarser, level.parent_face[f])));
+      }
+    }
+  }
+}
+
+TEST(Model, ALevelThatMissesLevelZeroByAnUlpIsRefused) {
+  const double inside = std::nextafter(1, 0);
+  EXPECT_TRUE(levels({octahedron(), box(1, 1, 1)}));
+  const Result<Model> m = levels({octahedron(), box(1, inside, 1)});
+  ASSERT_FALSE(m);
+  EXPECT_EQ(m.error().code, ErrorCode::NotEnclosing);
+  expect_says(m.error().message, "level 1: vertex ");
+  EXPECT_TRUE(m.error().message.find("vertex 2 ") != std::string::npos || m.error().message.find("vertex 3 ") != std::string::npos);
+  // Each level against level 0, not against the one before: the last need not hold the middle one.
+  EXPECT_TRUE(levels({octahedron(), box(2, 2, 2), box(1, 1, 1)}));
+  EXPECT_EQ(levels({octahedron(), cube(), box(1, 1, inside)}).error().code, ErrorCode::NotEnclosing);
+}
+
+TEST(Model, ALevelGivenTwiceIsItsOwnChild) {
+  const Model m = must(levels({cube(), cube()}));
+  expect_sound(m);
+  EXPECT_LE(m.level(1).deviation, 1e-14);
+  for (std::uint32_t v = 0; v < 8; ++v) EXPECT_EQ(m.level(1).child_vertex[v], v);
+  for (std::uint32_t f = 0; f < 6; ++f) EXPECT_EQ(m.level(1).child_face[f], Handle(FeatureKind::Face, f));
+}
+
+TEST(Model, ChildrenCanBeGiven) {
+  const Body fine = octahedron(), coarse = cube();
+  std::vector<std::uint32_t> child(8, 4), child_of_face(6, 5);
+  LevelArrays arrays[] = {fine.level(), coarse.level()};
+  arrays[1].child_vertex = child;
+  arrays[1].child_of_face = child_of_face;
+  const Model m = must(Model::from_levels(arrays));
+  const auto source = [&](std::uint32_t v) { return m.source().vertex[v]; };
+  for (const std::uint32_t c : m.level(1).child_vertex) EXPECT_EQ(source(c), 4u);
+  for (const Handle c : m.level(1).child_face) EXPECT_EQ(source(c.index()), 5u);
+  child[3] = 6;
+  const Result<Model> bad = Model::from_levels(arrays);
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().code, ErrorCode::BadValue);
+  child.pop_back();
+  arrays[1].child_vertex = child;
+  EXPECT_FALSE(Model::from_levels(arrays));
+}
+
+TEST(Model, OnlySolidsHaveCoarserLevels) {
+  const Body square = two_sided({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  EXPECT_EQ(levels({square, box(2, 2, 2)}).error().code, ErrorCode::NotSolid);
+  EXPECT_EQ(levels({octahedron(), square}).error().code, ErrorCode::NotSolid);
+  EXPECT_EQ(Model::from_levels({}).error().code, ErrorCode::Empty);
+  const Body b = cube();
+  EXPECT_EQ(Model::from_levels(std::vector<LevelArrays>(33, b.level())).error().code, ErrorCode::TooLarge);
+  EXPECT_EQ(must(Model::from_levels(std::vector<LevelArrays>(32, b.level()))).level_count(), 32);
+}
+
+// ---- Sources, tables, supports, scale ------------------------------------------------------------------------------------------
+
+TEST(Model, SourceIdsAreTheUsers) {
+  const Body b = triangulated(cube());
+  std::vector<std::uint32_t> vertex(8), begin{0}, faces;
+  for (std::uint32_t v = 0; v < 8; ++v) vertex[v] = 100 + v;
+  for (std::uint32_t f = 0; f < 12; ++f) {  // triangle f stands for f % 3 of the user's
+    for (std::uint32_t k = 0; k < f % 3; ++k) faces.push_back(1000 + 10 * f + k);
+    begin.push_back(std::uint32_t(faces.size()));
+  }
+  LevelArrays arrays = b.level();
+  arrays.vertex_source = vertex;
+  arrays.face_source_begin = begin;
+  arrays.face_source = faces;
+  const Model m = must(Model::from_level(arrays));
+  for (std::uint32_t v = 0; v < 8; ++v) EXPECT_EQ(b.points[m.source().vertex[v] - 100], at(m.level(0).view, v));
+  std::multiset<std::uint32_t> all(m.source().face.begin(), m.source().face.end());
+  EXPECT_EQ(all, std::multiset<std::uint32_t>(faces.begin(), faces.end()));
+  for (std::uint32_t f = 0; f < 6; ++f) {
+    const FacePlane& n = m.level(0).view.planes[f];
+    for (std::uint32_t k = m.source().face_begin[f]; k < m.source().face_begin[f + 1]; ++k) {
+      const std::uint32_t given = (m.source().face[k] - 1000) / 10;
+      const Vec3& p = b.points[b.corners[3 * given]];
+      EXPECT_EQ(n.x * p.x() + n.y * p.y() + n.z * p.z(), 1);
+    }
+  }
+  begin.back() += 1;
+  EXPECT_EQ(Model::from_level(arrays).error().code, ErrorCode::BadValue);
+  begin.back() -= 1;
+  std::swap(begin[4], begin[6]);
+  EXPECT_EQ(Model::from_level(arrays).error().code, ErrorCode::BadValue);
+  std::swap(begin[4], begin[6]);
+  vertex.pop_back();
+  arrays.vertex_source = vertex;
+  EXPECT_EQ(Model::from_level(arrays).error().code, ErrorCode::BadValue);
+}
+
+TEST(Model, TableHoldsTheNearestVertexPerSample) {
+  const Body b = moved(octahedron(), rotation(1, 2, 3, 4), Vec3(7, 8, 9));
+  for (const lut::Resolution r : {lut::Resolution::None, lut::Resolution::Degrees22, lut::Resolution::Degrees11, lut::Resolution::Degrees5}) {
+    for (const double factor : {1.0, 2.0, 50.0}) {
+      const Model m = model(b, {false, {r, factor}});
+      EXPECT_EQ(m.table_spec().resolution, r);
+      EXPECT_EQ(m.table_spec().radius_factor, factor);
+      ASSERT_EQ(m.table().size(), lut::sample_count(r));
+      for (std::uint32_t i = 0; i < m.table().size(); ++i) {
+        const auto d = lut::sample(r, i);
+        const Vec3 sample = m.centre() + factor * m.radius() * Vec3(d[0], d[1], d[2]);
+        double nearest = kInfinity;
+        for (const Vertex& v : m.level(0).view.vertices) nearest = std::min(nearest, (at(v) - sample).norm());
+        EXPECT_NEAR((at(m.level(0).view, m.table()[i]) - sample).norm(), nearest, 1e-13 * factor);
+      }
+      // The same levels with another table are the model built with it, bit for bit.
+      EXPECT_EQ(model(b).with_table({r, factor}).hash(), m.hash());
+      EXPECT_EQ(bytes_of(model(b).with_table({r, factor})), bytes_of(m));
+    }
+  }
+  for (const double factor : {0.99, -1.0, 1e7, kInfinity, std::nan("")}) {
+    EXPECT_EQ(Model::from_level(b.level(), {false, {lut::Resolution::Degrees22, factor}}).error().code, ErrorCode::BadValue);
+  }
+}
+
+TEST(Model, SupportIsExtreme) {
+  std::mt19937_64 engine(5);
+  std::uniform_int_distribution<int> draw(-2, 2);
+  for (const Body& b : {cube(), octahedron(), tetrahedron(), segment({0, 0, 0}, {1, 0, 0}), point({1, 1, 1})}) {
+    for (const lut::Resolution r : {lut::Resolution::None, lut::Resolution::Degrees5}) {
+      const Model m = model(b, {false, {r, 2}});
+      for (int i = 0; i < 200; ++i) {
+        const Vec3 d = Vec3(draw(engine), draw(engine), draw(engine)) * std::ldexp(1, draw(engine) * 100);
+        const std::uint32_t s = m.support(d);
+        for (const Vertex& v : m.level(0).view.vertices) ASSERT_LE(d.dot(at(v)), d.dot(at(m.level(0).view, s)));
+      }
+    }
+  }
+}
+
+TEST(Model, ScalingByAPowerOfTwoScalesBitForBit) {
+  const Body o = octahedron(), c = cube();
+  for (const int k : {-120, -7, 1, 100}) {
+    const double s = std::ldexp(1, k);
+    Body fine = moved(o, rotation(1, 2, 3, 4)), coarse = moved(c, 1.001 * rotation(1, 2, 3, 4));
+    const LevelArrays plain[] = {fine.level(), coarse.level()};
+    const Model m = must(Model::from_levels(plain));
+    for (Body* b : {&fine, &coarse}) for (Vec3& p : b->points) p *= s;
+    const LevelArrays scaled[] = {fine.level(), coarse.level()};
+    const Model n = must(Model::from_levels(scaled));
+    EXPECT_EQ(n.centre(), s * m.centre());
+    EXPECT_EQ(n.radius(), s * m.radius());
+    EXPECT_EQ(n.level(1).deviation, s * m.level(1).deviation);
+    EXPECT_EQ(n.volume(), s * s * s * m.volume());
+    EXPECT_TRUE(std::ranges::equal(m.table(), n.table()));
+    for (int i = 0; i < 2; ++i) {
+      const Level &a = m.level(i), &b = n.level(i);
+      EXPECT_TRUE(std::ranges::equal(a.view.head, b.view.head));
+      EXPECT_TRUE(std::ranges::equal(a.view.face, b.view.face));
+      EXPECT_TRUE(std::ranges::equal(a.child_vertex, b.child_vertex));
+      EXPECT_TRUE(std::ranges::equal(a.child_face, b.child_face));
+      EXPECT_TRUE(std::ranges::equal(a.parent_face, b.parent_face));
+      for (std::uint32_t v = 0; v < a.view.vertices.size(); ++v) EXPECT_EQ(s * at(a.view, v), at(b.view, v));
+      for (std::size_t f = 0; f < a.view.planes.size(); ++f) EXPECT_EQ(s * a.view.planes[f].thickness, b.view.planes[f].thickness);
+    }
+  }
+}
+
+TEST(Model, SameInputSameBytes) { EXPECT_EQ(bytes_of(nested()), bytes_of(nested())); }
+
+// ---- verify ------------------------------------------------------------------------------------------------------------------------
+
+/// A block changed by hand, its hashes made right.
+Model tampered(const Model& m, const std::function<void(Bytes&)>& change) {
+  Bytes block = bytes_of(m);
+  change(block);
+  rehash(block);
+  return must(load(block));
+}
+
+TEST(Verify, FindsWhatTheHashesCannot) {
+  const Model m = nested();
+  const auto vertex_at = [](const Bytes& block, std::size_t level, std::size_t v) {
+    return std::size_t(read<LevelHeader>(block, level_header_at(level)).section.offset) + v * sizeof(Vertex);
+  };
+  EXPECT_TRUE(verify(tampered(m, [](Bytes&) {})));
+
+  const Model dent = tampered(m, [&](Bytes& block) {  // a corner of level 0 moves inwards past its neighbours
+    const std::size_t v = vertex_at(block, 0, 0);
+    for (int i = 0; i < 3; ++i) write(block, v + 8 * i, -0.2 * read<double>(block, v + 8 * i));
+  });
+  EXPECT_FALSE(verify(dent));
+
+  const Model shrunk = tampered(m, [&](Bytes& block) {  // a whole level that no longer encloses, by an ulp
+    for (std::size_t v = 0; v < 8; ++v) write(block, vertex_at(block, 1, v), std::nextafter(1.0, 0) * read<double>(block, vertex_at(block, 1, v)));
+  });
+  expect_says(verify(shrunk).message, "level 1 does not enclose");
+
+  const Model boast = tampered(m, [&](Bytes& block) {
+    auto header = read<LevelHeader>(block, level_header_at(2));
+    header.deviation *= 0.99;
+    write(block, level_header_at(2), header);
+  });
+  expect_says(verify(boast).message, "deviation");
+}
+
+}  // namespace
+}  // namespace swiftlet

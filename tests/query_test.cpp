@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The queries on the paper's ellipsoids of 2 000 triangles: many random pairs, and the steps that hierarchies save on the orbit.
+// The laws have a file of their own.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include <swiftlet/build.h>
+#include <swiftlet/check.h>
+#include <swiftlet/query.h>
+
+#include "oracle.h"
+#include "shapes.h"
+
+namespace swiftlet {
+namespace {
+
+struct Bodies {
+  shapes::Pair meshes;
+  Model a, b;
+};
+
+const Bodies& bodies(shapes::Family family) {
+  static const auto make = [](shapes::Family f) {
+    shapes::Pair meshes = shapes::pair(f, 2000);
+    Model a = std::move(build(meshes.a)).value().model, b = std::move(build(meshes.b)).value().model;
+    return Bodies{std::move(meshes), std::move(a), std::move(b)};
+  };
+  static const std::array<Bodies, 3> all{make(shapes::kFamilies[0]), make(shapes::kFamilies[1]), make(shapes::kFamilies[2])};
+  return all[std::size_t(family)];
+}
+
+double law_two(const Bodies& pair, const Pose& pose) {
+  const double size = std::max(pair.a.level(0).view.extent, pair.b.level(0).view.extent) + pose.translation.norm();
+  const double orthonormality = (pose.rotation.transpose() * pose.rotation - Mat3::Identity()).cwiseAbs().maxCoeff();
+  return (64 * 0x1p-53 + 2 * orthonormality) * size;
+}
+
+class RandomPairs : public testing::TestWithParam<shapes::Family> {};
+
+/// A third of 10^5 pairs per family; the answer of each is recomputed, that of every tenth compared with the oracle.
+TEST_P(RandomPairs, AgreeWithinLawTwo) {
+  const Bodies& pair = bodies(GetParam());
+  shapes::Random random(2000 + std::uint64_t(GetParam()));
+  constexpr int kPairs = 33'400;
+  int disjoint = 0;
+  double widest = 0;
+  for (int i = 0; disjoint < kPairs; ++i) {
+    ASSERT_LT(i, 3 * kPairs) << "the poses overlap too often";
+    Pose pose{random.rotation(), random.on_sphere() * random.uniform(0.2, 3)};
+    PairSeed seed;
+    const Answer answer = distance(pair.a, pair.b, pose, seed);
+    ASSERT_EQ(answer.status, Status::Converged) << "pair " << i;
+    if (answer.verdict == Verdict::Overlapping) continue;
+    ++disjoint;
+    ASSERT_LE(answer.upper - answer.lower, law_two(pair, pose)) << "pair " << i;
+    widest = std::max(widest, (answer.upper - answer.lower) / law_two(pair, pose));
+    if (i % 10 == 0) {
+      const oracle::Truth truth = oracle::distance(pair.meshes.a.points, pair.meshes.b.points, pose);
+      ASSERT_TRUE(oracle::holds(truth, answer.lower, answer.upper)) << "pair " << i << ": " << truth.distance;
+    }
+    const Check checked = check(pair.a, pair.b, pose, answer);
+    ASSERT_TRUE(checked) << "pair " << i << ": " << checked.message;
+  }
+  std::printf("%s: %d disjoint pairs, widest interval %.2f of law 2's bound\n", shapes::name(GetParam()), disjoint, widest);
+}
+
+/// Mean steps per query over 20 orbits.
+double mean_steps(const Bodies& pair, StartPolicy start, double degrees) {
+  QueryOptions options;
+  options.start = start;
+  std::uint64_t steps = 0, queries = 0;
+  for (std::uint64_t orbit = 0; orbit < 20; ++orbit) {
+    const shapes::Orbit motion(100 + orbit, 2 * pair.a.radius(), degrees);
+    PairSeed seed;
+    for (int i = 1; i <= 100; ++i) {
+      const Answer answer = distance(pair.a, pair.b, motion.pose(std::uint64_t(i)), seed, options);
+      EXPECT_EQ(answer.status, Status::Converged);
+      steps += answer.steps;
+      ++queries;
+    }
+  }
+  return double(steps) / double(queries);
+}
+
+TEST_P(RandomPairs, TakeAtMostSixTenthsOfThePlainWalksStepsWhenFarApart) {
+  const Bodies& pair = bodies(GetParam());
+  for (const double degrees : {120.377, 160.377}) {
+    const double plain = mean_steps(pair, StartPolicy::Finest, degrees), levels = mean_steps(pair, StartPolicy::Automatic, degrees);
+    std::printf("%s at %.0f degrees: plain %.1f steps, levels %.1f\n", shapes::name(GetParam()), degrees, plain, levels);
+    EXPECT_LE(levels, 0.6 * plain) << degrees;
+  }
+}
+
+TEST_P(RandomPairs, CostAtMostHalfAsManyMoreStepsWhenCoherent) {
+  const Bodies& pair = bodies(GetParam());
+  for (const double degrees : {0.377, 0.777, 0.977}) {
+    const double plain = mean_steps(pair, StartPolicy::Finest, degrees), levels = mean_steps(pair, StartPolicy::Automatic, degrees);
+    std::printf("%s at %.2f degrees: plain %.2f steps, levels %.2f\n", shapes::name(GetParam()), degrees, plain, levels);
+    EXPECT_LE(levels, 1.5 * plain) << degrees;
+  }
+}
+
+/// G14: the steps of a far motion are spent on coarse levels.
+TEST_P(RandomPairs, SpendFarStepsOnCoarseLevels) {
+  const Bodies& pair = bodies(GetParam());
+  const shapes::Orbit motion(7, 2 * pair.a.radius(), 160.377);
+  PairSeed seed;
+  std::uint64_t coarse = 0, fine = 0;
+  for (std::uint64_t i = 1; i <= 200; ++i) {
+    std::array<LevelRecord, 8> trace;
+    QueryOptions options;
+    options.trace = trace;
+    const Answer answer = distance(pair.a, pair.b, motion.pose(i), seed, options);
+    ASSERT_LE(std::size_t(answer.levels_visited), trace.size());
+    for (int k = 0; k < answer.levels_visited; ++k) (trace[std::size_t(k)].level_a > 0 ? coarse : fine) += trace[std::size_t(k)].steps;
+  }
+  EXPECT_GT(coarse, fine);
+  EXPECT_GT(fine, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, RandomPairs, testing::ValuesIn(shapes::kFamilies), [](const auto& family) { return std::string(shapes::name(family.param)); });
+
+Model cube() {
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+  return std::move(build(corners)).value().model;
+}
+
+TEST(Contact, NamesTheUsersFeatures) {
+  const Mesh mesh = shapes::cube();
+  const Model body = std::move(build(mesh)).value().model;
+  Pose above;
+  above.translation = {0.25, 0.125, 2.5};
+  above.rotation = shapes::rotation(Vec3(1, 2, 0).normalized(), 0.4);
+  PairSeed seed;
+  const Contact met = contact(body, body, above, seed);
+  ASSERT_EQ(met.answer.verdict, Verdict::Disjoint);
+  ASSERT_EQ(met.source_a.kind, FeatureKind::Face);
+  ASSERT_EQ(met.source_a.triangles.size(), 2u) << "a square of two triangles";
+  for (const std::uint32_t t : met.source_a.triangles) {
+    for (const std::uint32_t v : mesh.triangles[t]) EXPECT_EQ(mesh.points[v][2], 1) << "the top";
+  }
+  ASSERT_EQ(met.source_b.kind, FeatureKind::Vertex);
+  const Vec3 corner = above.rotation * mesh.points[met.source_b.vertices[0]] + above.translation;
+  EXPECT_LT((corner - met.answer.point_b).norm(), 1e-14);
+  EXPECT_LT((met.answer.normal - Vec3(0, 0, 1)).norm(), 1e-15);
+}
+
+TEST(Contact, NamesBothEndsOfAnEdge) {
+  const Model body = cube();
+  Pose beside;
+  beside.translation = {4, 4, 0};
+  beside.rotation = shapes::rotation(Vec3(1, -1, 0).normalized(), 1);
+  PairSeed seed;
+  const Contact met = contact(body, body, beside, seed);
+  ASSERT_EQ(met.source_a.kind, FeatureKind::Edge);
+  // The builder got bare points: vertex i of the user has the signs of i's bits.
+  EXPECT_EQ(met.source_a.vertices[0] & met.source_a.vertices[1], 3u) << "x = y = 1";
+  EXPECT_EQ(met.source_a.vertices[0] ^ met.source_a.vertices[1], 4u) << "along z";
+}
+
+TEST(Within, DecidesBothWaysAndStaysUndecidedOnlyAtTheThreshold) {
+  const Model body = cube();
+  Pose beside;
+  beside.translation = {3, 0, 0};
+  PairSeed seed;
+  EXPECT_EQ(within(body, body, beside, 0.999, seed).decision, Decision::No);
+  EXPECT_EQ(within(body, body, beside, 1.001, seed).decision, Decision::Yes);
+  EXPECT_EQ(within(body, body, beside, 1, seed).decision, Decision::Undecided);
+  beside.translation = {1, 0, 0};
+  EXPECT_EQ(within(body, body, beside, 0, seed).decision, Decision::Yes);
+}
+
+TEST(Distance, StopsBeyondTheCutOff) {
+  const Bodies& pair = bodies(shapes::Family::Fat);
+  Pose far;
+  far.translation = {9, 0, 0};
+  PairSeed seed, seed_exact;
+  QueryOptions options;
+  options.beyond = 2;
+  const Answer cut = distance(pair.a, pair.b, far, seed, options), exact = distance(pair.a, pair.b, far, seed_exact);
+  EXPECT_EQ(cut.status, Status::Beyond);
+  EXPECT_GT(cut.lower, 2);
+  EXPECT_GT(cut.level_a, 0) << "the coarsest pair is far enough";
+  EXPECT_LT(cut.steps + cut.plane_tests, exact.steps + exact.plane_tests);
+}
+
+TEST(Distance, SaysWhichPrecisionWasOutOfReach) {
+  const Bodies& pair = bodies(shapes::Family::Fat);
+  Pose far;
+  far.translation = {2.5, 0, 0};
+  PairSeed seed, seed_exact;
+  QueryOptions options;
+  options.finest_level = 1;
+  const Answer coarse = distance(pair.a, pair.b, far, seed, options), exact = distance(pair.a, pair.b, far, seed_exact);
+  EXPECT_EQ(coarse.status, Status::LevelLimit);
+  EXPECT_EQ(coarse.level_a, 1);
+  EXPECT_LE(coarse.lower, exact.upper);
+  EXPECT_GE(coarse.upper, exact.lower);
+}
+
+TEST(Distance, RefusesPosesThatAreNone) {
+  const Model body = cube();
+  const double nan = std::nan(""), infinity = HUGE_VAL;
+  std::vector<Pose> poses(6);
+  poses[0].translation = {nan, 0, 0};
+  poses[1].translation = {0, infinity, 0};
+  poses[2].rotation(1, 1) = nan;
+  poses[3].rotation *= 1.001;
+  poses[4].rotation.setZero();
+  poses[5].rotation(0, 1) = 1e-5;
+  for (const Pose& pose : poses) {
+    PairSeed seed;
+    const Answer answer = distance(body, body, pose, seed);
+    EXPECT_EQ(answer.status, Status::InvalidPose);
+    EXPECT_EQ(answer.lower, 0);
+    EXPECT_EQ(answer.upper, infinity);
+    EXPECT_EQ(answer.verdict, Verdict::Undecided);
+    EXPECT_TRUE(check(body, body, pose, answer));
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet
