@@ -74,9 +74,11 @@ std::string report_text(const Request& request, const Built& built) {
   std::string text = request.in + "\n";
   text += format(" read       %zu points, %zu triangles\n", r.points_read, r.triangles_read);
   text += format(" dropped    %zu duplicates, %zu points that are no corner of the hull\n", r.duplicates_dropped, r.interior_dropped);
-  text += format(" grouped    %zu triangles of the hull into %zu faces, of which %zu have more than three vertices\n", r.hull_triangles,
-                 r.levels.empty() ? 0 : r.levels[0].faces, r.faces_grouped);
-  text += format(" dents      the deepest %.6g; the mesh fills %.6g of the hull\n", r.deepest_dent, r.volume_ratio);
+  if (built.model.dimension() == 3) {
+    text += format(" grouped    %zu triangles of the hull into %zu faces, %zu of them with more than three vertices\n", r.hull_triangles,
+                   built.model.level(0).view.face_first.size(), r.faces_grouped);
+    text += format(" dents      the deepest %.6g; the mesh's volume is %.6g of the hull's\n", r.deepest_dent, r.volume_ratio);
+  }
   text += levels_text(built.model) + " ended      " + r.end + "\n wrote      " + request.out;
   return text + format(", %zu bytes\n", built.model.bytes().size());
 }

@@ -10,6 +10,7 @@
 #include <swiftlet/model_file.h>
 
 #include "ring.h"
+#include "tolerance.h"
 
 namespace swiftlet {
 namespace {
@@ -49,6 +50,13 @@ bool finite(std::initializer_list<double> values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
+/// Whether exact signs of products of these are exact: beyond, a climb need not end.
+bool in_range(std::initializer_list<double> coordinates) {
+  return std::all_of(coordinates.begin(), coordinates.end(), [](double x) {
+    return x == 0 || (std::fabs(x) >= kLeastCoordinate && std::fabs(x) <= kMostCoordinate);
+  });
+}
+
 bool all_below(std::span<const std::uint32_t> values, std::size_t limit) {
   return std::all_of(values.begin(), values.end(), [limit](std::uint32_t v) { return v < limit; });
 }
@@ -60,7 +68,7 @@ std::string topology_fault(const ConvexView& v) {
   std::uint64_t next_ring = 0;
   for (std::size_t i = 0; i < v.vertices.size(); ++i) {
     const Vertex& r = v.vertices[i];
-    if (!finite({r.x, r.y, r.z})) return "vertex " + std::to_string(i) + " is not finite";
+    if (!in_range({r.x, r.y, r.z})) return "vertex " + std::to_string(i) + " is out of range";
     if (std::fmax(std::fmax(std::fabs(r.x), std::fabs(r.y)), std::fabs(r.z)) > v.extent) return "the extent is too small";
     if (r.ring_begin != next_ring || (r.ring_count == 0 && half_edges != 0)) return "ring of vertex " + std::to_string(i);
     next_ring += r.ring_count;
@@ -213,9 +221,10 @@ Result<Model> BlockReader::read(AlignedBytes block) {
   if (!fault.empty()) return bad(fault);
   if (expected != bytes.size()) return bad("bytes after the end");
 
-  const bool numbers = finite({header.radius_factor, header.centre[0], header.centre[1], header.centre[2], header.radius, header.box_min[0],
-                               header.box_min[1], header.box_min[2], header.box_max[0], header.box_max[1], header.box_max[2]});
-  if (!numbers || header.resolution > 3 || header.dimension > 3 || !(header.radius_factor >= 1) || !(header.radius >= 0) || header.reserved != 0) {
+  const bool numbers = finite({header.radius_factor, header.radius, header.box_min[0], header.box_min[1], header.box_min[2], header.box_max[0],
+                               header.box_max[1], header.box_max[2]});
+  const bool near = std::all_of(header.centre, header.centre + 3, [](double c) { return std::fabs(c) <= kMostCoordinate; });
+  if (!numbers || !near || header.resolution > 3 || header.dimension > 3 || !(header.radius_factor >= 1) || !(header.radius >= 0) || header.reserved != 0) {
     return bad("a number in the header is out of range");
   }
 
@@ -223,7 +232,7 @@ Result<Model> BlockReader::read(AlignedBytes block) {
   for (int i = 0; i < count; ++i) {
     const LevelHeader& l = level_headers[i];
     const std::string name = "level " + std::to_string(i) + ": ";
-    if (!finite({l.extent, l.deviation, l.volume}) || !(l.deviation >= 0) || (i == 0 && l.deviation != 0)) return bad(name + "a number is out of range");
+    if (!finite({l.deviation, l.volume}) || !(l.extent <= kMostCoordinate) || !(l.deviation >= 0) || (i == 0 && l.deviation != 0)) return bad(name + "a number is out of range");
     Cursor cursor(parts[i]);
     Level level;
     level.view.vertices = cursor.take<Vertex>(l.vertex_count);

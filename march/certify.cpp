@@ -4,6 +4,7 @@
 // above a face certifies only to 2e-8, from the face normal to 6e-16.
 #include "certify.h"
 
+#include "double_double.h"
 #include "exact.h"
 #include "ring.h"
 
@@ -117,22 +118,63 @@ Witness witness(const A& a, Handle fa, const B& b, Handle fb) {
   return vertex_vertex(a, i, b, j);
 }
 
-/// Climbs the rings while `farther(w, v)` finds a better neighbour. On an exactly convex body the end is extreme.
-template <class Farther>
-std::uint32_t climb(const ConvexView& view, std::uint32_t v, std::uint32_t& plane_tests, Farther farther) {
+double sum_abs(const Vec& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
+
+using Wide = V3<DoubleDouble>;
+Wide wide(const Vec& v) { return {v.x, v.y, v.z}; }
+
+/// Orders the vertices of one body along a direction of the common frame, exactly: in doubles, in 106 bits where these tie (the
+/// corners of the very face that the direction is normal to), by expansions where those do.
+class Ordering {
+ public:
+  explicit Ordering(const Vec& n) : n_(n), own_(n), error_(kDotError * sum_abs(n)) {}
+  Ordering(const Vec& n, const Motion& motion) : n_(n), motion_(&motion), own_(turn_back(motion, n)), error_(kTurnedSupportError * sum_abs(n)) {}
+
+  /// The sign of n . (w - v), w and v carried into the common frame.
+  int compare(const Vertex& w, const Vertex& v) {
+    const Vec e = vec(w) - vec(v);
+    const double value = dot(own_, e), bound = error_ * sum_abs(e);
+    if (value > bound) return 1;
+    if (value < -bound) return -1;
+    return compare_ties(w, v, kWideDotError * sum_abs(n_) * sum_abs(e));
+  }
+
+ private:
+  int compare_ties(const Vertex& w, const Vertex& v, double bound) {
+    if (!has_wide_) {
+      has_wide_ = true;
+      wide_own_ = wide(n_);
+      if (motion_) wide_own_ = wide(motion_->row_x) * wide_own_.x + wide(motion_->row_y) * wide_own_.y + wide(motion_->row_z) * wide_own_.z;
+    }
+    const Wide e{two_sum(w.x, -v.x), two_sum(w.y, -v.y), two_sum(w.z, -v.z)};
+    const double value = double(dot(wide_own_, e));
+    if (value > bound) return 1;
+    if (value < -bound) return -1;
+    return motion_ ? exact::compare_along_turned(&n_.x, *motion_, &w.x, &v.x) : exact::compare_along(&n_.x, &w.x, &v.x);
+  }
+
+  const Vec n_;
+  const Motion* const motion_ = nullptr;
+  const Vec own_;  ///< n in the body's own frame, rounded
+  const double error_;
+  bool has_wide_ = false;
+  Wide wide_own_;
+};
+
+/// Climbs the rings to the vertex that is last in `sign` times the order. On an exactly convex body the end is extreme.
+std::uint32_t climb(const ConvexView& view, std::uint32_t v, Ordering order, int sign, std::uint32_t& plane_tests) {
   for (;;) {
     const Vertex& record = view.vertices[v];
     std::uint32_t best = v;
     for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
-      if (farther(view.vertices[view.head[h]], view.vertices[best])) best = view.head[h];
+      const std::uint32_t w = view.head[h];
+      if (sign * order.compare(view.vertices[w], view.vertices[best]) > 0) best = w;
     }
     plane_tests += record.ring_count;
     if (best == v) return v;
     v = best;
   }
 }
-
-double sum_abs(const Vec& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
 
 }  // namespace
 
@@ -142,23 +184,11 @@ std::uint32_t any_vertex(const ConvexView& view, Handle feature) {
 }
 
 std::uint32_t support_a(const Scene& scene, const Vec& n, std::uint32_t start, std::uint32_t& plane_tests) {
-  const double error = kDotError * max_abs(n);
-  return climb(scene.a, start, plane_tests, [&](const Vertex& w, const Vertex& v) {
-    const Vec e = vec(w) - vec(v);
-    const double value = dot(n, e), bound = error * sum_abs(e);
-    return value > bound || (value >= -bound && exact::compare_along(&n.x, &w.x, &v.x) > 0);
-  });
+  return climb(scene.a, start, Ordering(n), 1, plane_tests);
 }
 
 std::uint32_t support_b(const Scene& scene, const Vec& n, std::uint32_t start, std::uint32_t& plane_tests) {
-  // Filtered in B's own frame with n rotated once; exact comparisons use the stored rotation.
-  const Vec n_b = turn_back(scene.b_in_a, n);
-  const double error = kTurnedSupportError * sum_abs(n);
-  return climb(scene.b, start, plane_tests, [&](const Vertex& w, const Vertex& v) {
-    const Vec e = vec(w) - vec(v);
-    const double value = dot(n_b, e), bound = error * sum_abs(e);
-    return value < -bound || (value <= bound && exact::compare_along_turned(&n.x, scene.b_in_a, &w.x, &v.x) < 0);
-  });
+  return climb(scene.b, start, Ordering(n, scene.b_in_a), -1, plane_tests);
 }
 
 double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb) {

@@ -168,7 +168,7 @@ std::string caption(const Model& model, int k, double top) {
   std::string deviation = "deviation 0: the exact hull";
   if (k > 0) {
     deviation = format("deviation %.3g", level.deviation);
-    if (model.radius() > 0) deviation += format(" (%.2g %% of the radius)", 100 * level.deviation / model.radius());
+    if (model.radius() > 0) deviation += format(" (%.2g %%)", 100 * level.deviation / model.radius());
   }
   return line(0, "font-weight=\"bold\" fill=\"#16263c\"", "level " + std::to_string(k)) +
          line(1, "fill=\"#3d4c60\"", std::to_string(level.triangle_count) + " triangles") + line(2, "fill=\"#3d4c60\"", deviation);
@@ -178,7 +178,7 @@ std::string heading(const Model& model, const std::string& title) {
   const int last = model.level_count() - 1;
   std::string what = format("%zu triangles, %zu bytes", model.level(0).triangle_count, model.bytes().size());
   if (last > 0) {
-    what = format("%d levels, %zu to %zu triangles, %zu bytes. Dashed: the outline of the exact hull, which every level encloses",
+    what = format("%d levels, %zu to %zu triangles, %zu bytes. Dashed: the exact hull's outline. Percent: of the bounding radius",
                   last + 1, model.level(0).triangle_count, model.level(last).triangle_count, model.bytes().size());
   }
   return format("<text x=\"%.0f\" y=\"40\" font-size=\"22\" font-weight=\"bold\" fill=\"#16263c\">", kMargin) + escaped(title) + "</text>\n" +

@@ -50,12 +50,13 @@ static inline PoseQuality pose_quality(const Motion& m) {
                        entry(x.z * x.z, y.z * y.z, z.z * z.z) - 1, entry(x.x * x.y, y.x * y.y, z.x * z.y),
                        entry(x.x * x.z, y.x * y.z, z.x * z.z),     entry(x.y * x.z, y.y * y.z, z.y * z.z)};
   double worst = 0;
-  bool finite = std::isfinite(m.t.x) && std::isfinite(m.t.y) && std::isfinite(m.t.z);
+  // Farther away exact signs and squares overflow, and a climb need not end.
+  bool in_range = std::fabs(m.t.x) <= kMostCoordinate && std::fabs(m.t.y) <= kMostCoordinate && std::fabs(m.t.z) <= kMostCoordinate;
   for (const double value : e) {
     worst = std::fmax(worst, std::fabs(value));
-    finite = finite && std::isfinite(value);
+    in_range = in_range && std::isfinite(value);
   }
-  return {finite && worst <= kOrthonormality, worst};
+  return {in_range && worst <= kOrthonormality, worst};
 }
 
 static inline Scene scene(const ConvexView& a, const ConvexView& b, const Motion& m, double pose_error) {

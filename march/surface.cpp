@@ -659,10 +659,11 @@ Result<Surface> without_faces(const Input& in) {
   return out;
 }
 
-double volume_of(const Input& in) {
+/// Of the facets, not of the faces given: flips move volume.
+double volume_of(const Input& in, const Facets& facets) {
   double six = 0;
   const Vec o = in.point(0);
-  for (const Loop& loop : in.faces) {
+  for (const Loop& loop : facets.loops) {
     for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
       six += dot(cross(in.point(loop[0]) - o, in.point(loop[i]) - o), in.point(loop[i + 1]) - o);
     }
@@ -695,7 +696,7 @@ Result<Surface> make_surface(const LevelArrays& level, bool repair) {
     if (!facets) return facets.error();
     Surface linked = link(in, facets.value());
     linked.dimension = flat ? 2 : 3;
-    linked.volume = flat ? 0 : volume_of(in);
+    linked.volume = flat ? 0 : volume_of(in, facets.value());
     return linked;
   }();
   if (surface) surface.value().extent = extent_of(in);

@@ -30,6 +30,8 @@ inline constexpr double kTripleProductError = 10 * kU;
 inline constexpr double kTurnedDotError = 9 * kU;
 /// The same with n rotated first, relative to |n|_1 |w - v|_1, which bounds every product of a rotation's rows (|R_ij| <= 1 + 1e-6).
 inline constexpr double kTurnedSupportError = 9 * kU;
+/// Either in double-double arithmetic, whose sums and products keep at least 100 bits each.
+inline constexpr double kWideDotError = 0x1p-96;
 /// Three factors a - (R b + t) of 1 product and 4 sums each, then 2 products, 1 difference, 2 sums.
 inline constexpr double kOffsetTripleProductError = 26 * kU;
 

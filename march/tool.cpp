@@ -27,6 +27,13 @@ Result<Body> open(const std::string& path, const ModelOfMesh& model_of_mesh) {
   return Body{path, std::move(model).value()};
 }
 
+const CLI::Validator not_negative(
+    [](std::string& text) {
+      double value = -1;
+      return CLI::detail::lexical_cast(text, value) && value >= 0 ? std::string() : text + " is no number from 0 up";
+    },
+    "");
+
 /// A word whose one input is a body.
 template <class Do>
 Action on_body(CLI::App& word, const ModelOfMesh& model_of_mesh, Do act) {
@@ -80,9 +87,9 @@ Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   word.add_option("--pose", options->pose, "of B in A's frame, see below")->required();
   const auto absolute = word.add_option("--max-error", options->query.absolute_error, "stop when upper - lower is at most this");
   const auto relative = word.add_option("--relative-error", options->query.relative_error, "stop when upper - lower is at most this times lower");
-  absolute->check(CLI::NonNegativeNumber)->excludes(relative);
-  relative->check(CLI::NonNegativeNumber);
-  word.add_option("--beyond", options->query.beyond, "stop when the distance is proved greater than this")->check(CLI::NonNegativeNumber);
+  absolute->check(not_negative)->excludes(relative);
+  relative->check(not_negative);
+  word.add_option("--beyond", options->query.beyond, "stop when the distance is proved greater than this")->check(not_negative);
   word.add_flag("--levels", options->levels, "show what each level pair proved, coarsest first, and how long a query takes that stops there");
   return [options, model_of_mesh]() -> Result<Output> {
     const Result<Pose> pose = read_pose(options->pose);
@@ -128,11 +135,11 @@ std::string names(const std::vector<Word>& words) {
   return all;
 }
 
-/// What CLI11 would call an unexpected argument or a missing subcommand; empty when the first argument is a word or an option.
+/// What CLI11 would call an unexpected argument or a missing subcommand; empty when the first argument is none of these.
 std::string word_fault(int argc, char** argv, const std::vector<Word>& words, bool has_builder) {
   if (argc < 2) return "say a word: " + names(words) + "; swiftlet --help tells more";
   const std::string first = argv[1];
-  if (first.starts_with('-')) return {};
+  if (first == "-h" || first == "--help" || first == "--version") return {};
   for (const Word& word : words)
     if (first == word.name) return {};
   if (first == "build" && !has_builder) return "this tool was made without the builder (SWIFTLET_LOD=OFF) and has no word build";

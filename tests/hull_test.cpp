@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The builder's hull: rank, strictly extreme vertices, exact convexity, sizes from 1e-18 to 1e18, and what is told of the mesh.
+#include <gtest/gtest.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+#include <set>
+
+#include "hull.h"
+#include "shapes.h"
+#include "trace.h"
+
+namespace swiftlet::lod {
+namespace {
+
+CGAL::Exact_predicates_inexact_constructions_kernel::Point_3 exact(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+/// Euler, every edge convex or flat, and no point beyond any face, all by exact predicates.
+void expect_hull_of(const std::vector<Vec3>& points, const Hull& hull) {
+  ASSERT_EQ(hull.dimension, 3);
+  const Polytope body = solid(points, hull);
+  EXPECT_EQ(body.triangles.size(), 2 * body.points.size() - 4);
+  const HalfEdges edges = half_edges(body);
+  for (std::uint32_t h = 0; h < edges.twin.size(); ++h) {
+    ASSERT_EQ(edges.twin[edges.twin[h]], h);
+    ASSERT_EQ(origin(body, edges.twin[h]), origin(body, HalfEdges::next(h)));
+  }
+  for (const auto& [a, b, c] : body.triangles)
+    for (const Vec3& p : points)
+      ASSERT_NE(CGAL::orientation(exact(body.points[a]), exact(body.points[b]), exact(body.points[c]), exact(p)), CGAL::POSITIVE);
+}
+
+TEST(Hull, DropsPointsInsideFacesAndEdges) {
+  const Mesh mesh = shapes::meshed_cube(6);
+  const Hull result = hull(mesh.points);
+  EXPECT_EQ(result.vertices.size(), 8u);
+  EXPECT_EQ(result.triangles.size(), 12u);
+  EXPECT_EQ(result.vertices.size() + result.interior + result.duplicates, mesh.points.size());
+  expect_hull_of(mesh.points, result);
+}
+
+TEST(Hull, IsExactOnRotatedAndFloatRoundedCad) {
+  const Pose turn{shapes::rotation(Vec3(1, 2, 3).normalized(), 0.7), Vec3(1e4, -3, 2)};
+  for (const Mesh& mesh : {shapes::meshed_cube(5), shapes::prism(40, 1, 2), shapes::dodecahedron(), shapes::needle(), shapes::sliver()}) {
+    const Mesh turned = shapes::moved(mesh, turn), rounded = shapes::float_rounded(turned);
+    expect_hull_of(turned.points, hull(turned.points));
+    expect_hull_of(rounded.points, hull(rounded.points));
+  }
+}
+
+TEST(Hull, NamesTheFirstOfEqualPoints) {
+  std::vector<Vec3> points = shapes::tetrahedron().points;
+  points.insert(points.end(), points.begin(), points.begin() + 4);
+  const Hull result = hull(points);
+  EXPECT_EQ(result.vertices, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+  EXPECT_EQ(result.duplicates, 4u);
+}
+
+TEST(Hull, KnowsTheRankOfFlatPoints) {
+  EXPECT_EQ(hull(std::vector<Vec3>{Vec3(3, 3, 3), Vec3(3, 3, 3)}).dimension, 0);
+  std::vector<Vec3> line, plane;
+  for (int i = 0; i < 5; ++i) line.emplace_back(i, 2 * i, -i);
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) plane.emplace_back(i, j, i + 2 * j);
+  const Hull segment = hull(line);
+  EXPECT_EQ(segment.dimension, 1);
+  EXPECT_EQ(segment.vertices, (std::vector<std::uint32_t>{0, 4}));
+  EXPECT_EQ(segment.interior, 3u);
+  const Hull square = hull(plane);
+  EXPECT_EQ(square.dimension, 2);
+  EXPECT_EQ(std::set(square.vertices.begin(), square.vertices.end()), (std::set<std::uint32_t>{0, 3, 12, 15}));
+  plane[5].z() += 1e-15;
+  EXPECT_EQ(hull(plane).dimension, 3);
+}
+
+TEST(Hull, OfAMillionPointsHalfDuplicatesOrInside) {
+  shapes::Random random(1);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 250000; ++i) points.push_back(random.in_ball());
+  for (int i = 0; i < 250000; ++i) points.push_back(1.5 * random.in_ball().cwiseQuotient(Vec3(1, 2, 3)));
+  for (int i = 0; i < 500000; ++i) points.push_back(points[std::size_t(i)]);
+  const Hull result = hull(points);
+  EXPECT_EQ(result.dimension, 3);
+  EXPECT_EQ(result.duplicates, 500000u);
+  EXPECT_EQ(result.triangles.size(), 2 * result.vertices.size() - 4);
+}
+
+TEST(Hull, IsTheSameInAnyOrderOfPoints) {
+  Mesh mesh = shapes::random_polytope(200, 3);
+  const Polytope body = solid(mesh.points, hull(mesh.points));
+  std::reverse(mesh.points.begin(), mesh.points.end());
+  const Polytope again = solid(mesh.points, hull(mesh.points));
+  EXPECT_TRUE(std::equal(body.points.begin(), body.points.end(), again.points.rbegin(), again.points.rend()));
+}
+
+TEST(Trace, EveryTriangleOfAMeshedCubeLiesOnAFace) {
+  const Pose turn{shapes::rotation(Vec3(1, 2, 3).normalized(), 0.7), Vec3::Zero()};
+  const Mesh plain = shapes::meshed_cube(5);
+  for (const Mesh& mesh : {plain, shapes::moved(plain, turn), shapes::float_rounded(shapes::moved(plain, turn))}) {
+    const Hull shape = hull(mesh.points);
+    const Polytope body = solid(mesh.points, shape);
+    std::multiset<std::uint32_t> seen;
+    for (const auto& list : triangles_on(mesh, shape, body)) seen.insert(list.begin(), list.end());
+    EXPECT_EQ(seen.size(), mesh.triangles.size());
+    EXPECT_EQ(std::set(seen.begin(), seen.end()).size(), mesh.triangles.size());
+  }
+}
+
+TEST(Trace, MeasuresADent) {
+  // A cube of side 2 whose top is pushed in to depth 1/2 at its middle.
+  Mesh mesh = shapes::cube();
+  const auto top = [&](std::uint32_t v) { return mesh.points[v].z() > 0; };
+  const auto on_top = [&](const auto& t) { return top(t[0]) && top(t[1]) && top(t[2]); };
+  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), on_top), mesh.triangles.end());
+  std::vector<std::uint32_t> rim;
+  for (std::uint32_t v = 0; v < 8; ++v)
+    if (top(v)) rim.push_back(v);
+  std::sort(rim.begin(), rim.end(), [&](std::uint32_t i, std::uint32_t j) {
+    return std::atan2(mesh.points[i].y(), mesh.points[i].x()) < std::atan2(mesh.points[j].y(), mesh.points[j].x());
+  });
+  mesh.points.emplace_back(0, 0, 0.5);
+  for (std::uint32_t k = 0; k < 4; ++k) mesh.triangles.push_back({rim[k], rim[(k + 1) % 4], 8});
+  const auto built = build(mesh);
+  ASSERT_TRUE(built) << built.error().message;
+  EXPECT_DOUBLE_EQ(built.value().report.deepest_dent, 0.5);
+  EXPECT_NEAR(built.value().report.volume_ratio, (8 - 2.0 / 3) / 8, 1e-15);
+  BuildOptions strict;
+  strict.require_convex = true;
+  const auto refused = build(mesh, strict);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::NotConvex);
+}
+
+TEST(Trace, RoundingIsNoDent) {
+  const Pose turn{shapes::rotation(Vec3(1, 2, 3).normalized(), 0.7), Vec3::Zero()};
+  BuildOptions strict;
+  strict.require_convex = true;
+  for (const Mesh& mesh : {shapes::meshed_cube(5), shapes::prism(50, 1, 1), shapes::dodecahedron()}) {
+    EXPECT_TRUE(build(shapes::moved(mesh, turn), strict));
+    EXPECT_TRUE(build(shapes::float_rounded(shapes::moved(mesh, turn)), strict));
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet::lod

@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Models on disk: what is saved comes back bit for bit, and what is damaged, cut short, foreign or hostile is refused or harmless.
+#include <swiftlet/model_file.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <swiftlet/check.h>
+#include <swiftlet/query.h>
+
+#include "bodies.h"
+
+namespace swiftlet {
+namespace {
+
+using namespace bodies;
+
+/// A directory of this test's own.
+class ModelFile : public testing::Test {
+ protected:
+  ModelFile() : folder_(std::filesystem::temp_directory_path() / ("swiftlet_model_file_test_" + std::to_string(std::random_device{}()))) {
+    std::filesystem::create_directory(folder_);
+  }
+  ~ModelFile() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path path(const char* name) const { return folder_ / name; }
+  std::filesystem::path write_file(const char* name, std::span<const std::byte> bytes) const {
+    std::ofstream(path(name), std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    return path(name);
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+Model small() { return nested(2, {false, {lut::Resolution::Degrees22, 2}}); }
+
+ErrorCode code_of(const Result<Model>& m) {
+  EXPECT_FALSE(m) << "accepted";
+  if (m) return ErrorCode::Cancelled;
+  EXPECT_FALSE(m.error().message.empty());
+  return m.error().code;
+}
+
+TEST_F(ModelFile, ComesBackBitForBit) {
+  const Model all[] = {small(), nested(3), model(cube(), {false, {lut::Resolution::None, 2}}), model(point({1, 2, 3})),
+                       model(segment({0, 0, 0}, {1, 0, 0})), model(two_sided({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}))};
+  for (const Model& m : all) {
+    const auto file = path("m.swl");
+    EXPECT_EQ(must(save(m, file)), m.bytes().size());
+    EXPECT_EQ(std::filesystem::file_size(file), m.bytes().size());
+    const Model back = must(load(file));
+    EXPECT_EQ(bytes_of(back), bytes_of(m));
+    EXPECT_EQ(back.hash(), m.hash());
+    EXPECT_EQ(back.level_count(), m.level_count());
+    EXPECT_EQ(back.centre(), m.centre());
+    EXPECT_TRUE(verify(back));
+    EXPECT_EQ(bytes_of(must(load(m.bytes()))), bytes_of(m));
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(back.bytes().data()) % 64, 0u);
+  }
+}
+
+TEST_F(ModelFile, CoarseLevelsComeFirst) {
+  const Bytes block = bytes_of(nested(3));
+  std::uint64_t offset[3];
+  for (std::size_t i = 0; i < 3; ++i) offset[i] = read<LevelHeader>(block, level_header_at(i)).section.offset;
+  EXPECT_LT(offset[2], offset[1]);
+  EXPECT_LT(offset[1], offset[0]);
+  for (const std::uint64_t o : offset) EXPECT_EQ(o % 64, 0u);
+}
+
+TEST_F(ModelFile, SaveReplacesAndLeavesNothingBeside) {
+  const auto file = path("m.swl");
+  ASSERT_TRUE(save(nested(3), file));
+  ASSERT_TRUE(save(small(), file));
+  EXPECT_EQ(must(load(file)).hash(), small().hash());
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file.parent_path()), {}), 1);
+}
+
+TEST_F(ModelFile, UnwritableAndMissingPathsAreErrors) {
+  const Result<std::size_t> saved = save(small(), path("no/such/folder.swl"));
+  ASSERT_FALSE(saved);
+  EXPECT_EQ(saved.error().code, ErrorCode::CannotWrite);
+  EXPECT_NE(saved.error().message.find("folder.swl"), std::string::npos);
+  std::filesystem::create_directory(path("taken.swl"));
+  write_file("taken.swl/inside", {});
+  EXPECT_FALSE(save(small(), path("taken.swl")));
+  EXPECT_FALSE(std::filesystem::exists(path("taken.swl.part")));
+  EXPECT_EQ(code_of(load(path("missing.swl"))), ErrorCode::CannotRead);
+  EXPECT_EQ(code_of(load(path("taken.swl"))), ErrorCode::CannotRead);  // a directory
+}
+
+TEST_F(ModelFile, EveryTruncationIsRefused) {
+  const Bytes whole = bytes_of(small());
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    Bytes cut(whole.begin(), whole.begin() + std::ptrdiff_t(size));
+    ASSERT_EQ(code_of(load(cut)), ErrorCode::BadFormat) << size;
+    if (size < sizeof(BlockHeader)) continue;
+    auto header = read<BlockHeader>(cut, 0);  // also when it claims to be all there is
+    header.total_bytes = size;
+    write(cut, 0, header);
+    if (size >= level_header_at(2)) rehash(cut);
+    ASSERT_EQ(code_of(load(cut)), ErrorCode::BadFormat) << size;
+  }
+  Bytes longer = whole;
+  longer.resize(whole.size() + 64);
+  EXPECT_EQ(code_of(load(longer)), ErrorCode::BadFormat);
+  EXPECT_EQ(code_of(load(write_file("cut.swl", std::span(whole).first(whole.size() - 1)))), ErrorCode::BadFormat);
+  EXPECT_EQ(code_of(load(write_file("empty.swl", {}))), ErrorCode::BadFormat);
+}
+
+TEST_F(ModelFile, ForeignFilesAreNamedSo) {
+  Bytes text(1000, std::byte{'a'});
+  const Result<Model> foreign = load(write_file("text.swl", text));
+  ASSERT_FALSE(foreign);
+  EXPECT_EQ(foreign.error().code, ErrorCode::BadFormat);
+  EXPECT_NE(foreign.error().message.find("text.swl"), std::string::npos);
+  EXPECT_NE(foreign.error().message.find("not a swiftlet model"), std::string::npos);
+  Bytes newer = bytes_of(small());
+  write(newer, offsetof(BlockHeader, version), kModelFileVersion + 1);
+  rehash(newer);
+  EXPECT_EQ(code_of(load(newer)), ErrorCode::BadVersion);
+  Bytes as_text = bytes_of(small());  // what a transfer that rewrites line ends does
+  as_text.erase(as_text.begin() + 4);
+  EXPECT_EQ(code_of(load(as_text)), ErrorCode::BadFormat);
+}
+
+// ---- Hostile ---------------------------------------------------------------------------------------------------------------------
+
+TEST_F(ModelFile, HugeCountsAreRefused) {
+  const Bytes whole = bytes_of(small());
+  for (std::size_t level = 0; level < 2; ++level) {
+    for (const std::size_t field : {offsetof(LevelHeader, vertex_count), offsetof(LevelHeader, half_edge_count), offsetof(LevelHeader, face_count),
+                                    offsetof(LevelHeader, plane_count)}) {
+      for (const std::uint32_t count : {0u, 1u, 0x3fffffffu, 0x40000000u, 0x7fffffffu, 0x80000000u, 0xffffffffu}) {
+        Bytes block = whole;
+        if (read<std::uint32_t>(block, level_header_at(level) + field) == count) continue;
+        write(block, level_header_at(level) + field, count);
+        rehash(block);
+        EXPECT_EQ(code_of(load(block)), ErrorCode::BadFormat) << level << ' ' << field << ' ' << count;
+      }
+    }
+    for (const std::uint64_t value : {std::uint64_t{0}, ~std::uint64_t{0}, ~std::uint64_t{63}, std::uint64_t{1} << 63}) {
+      for (const std::size_t field : {offsetof(Section, offset), offsetof(Section, bytes)}) {
+        Bytes block = whole;
+        write(block, level_header_at(level) + field, value);
+        rehash(block);
+        EXPECT_EQ(code_of(load(block)), ErrorCode::BadFormat);
+      }
+    }
+  }
+  for (const std::uint32_t count : {0u, 33u, 0xffffffffu}) {
+    Bytes block = whole;
+    write(block, offsetof(BlockHeader, level_count), count);
+    if (count == 0) rehash(block);
+    EXPECT_EQ(code_of(load(block)), ErrorCode::BadFormat) << count;
+  }
+  // A header that promises more than there is: refused before it is believed, also from a file.
+  Bytes promise = whole;
+  write(promise, offsetof(BlockHeader, total_bytes), std::uint64_t{1} << 50);
+  EXPECT_EQ(code_of(load(write_file("promise.swl", promise))), ErrorCode::BadFormat);
+}
+
+/// Every query from several poses and seeds, cold and garbage. What a hostile model may cost is bounded, what it answers is an interval.
+struct Work {
+  std::uint32_t steps = 0, plane_tests = 0;
+};
+void exercise(const Model& hostile, const Model& honest, Work& most) {
+  const Pose poses[] = {{}, {rotation(1, 2, 3, 4), Vec3(2.5, 1, 0.25)}, {Mat3::Identity(), Vec3(2, 0, 0)}};
+  const auto expect_harmless = [&most](const Answer& answer) {
+    most.steps = std::max(most.steps, answer.steps);
+    most.plane_tests = std::max(most.plane_tests, answer.plane_tests);
+    ASSERT_LE(answer.lower, answer.upper);
+    ASSERT_GE(answer.lower, 0);
+  };
+  std::uint32_t garbage = 12345;
+  const auto handle = [&garbage] {
+    garbage = garbage * 1664525 + 1013904223;
+    return Handle(FeatureKind(garbage >> 30), (garbage >> 8) % 29);
+  };
+  for (const Pose& pose : poses) {
+    PairSeed seed;
+    expect_harmless(distance(hostile, honest, pose, seed));
+    expect_harmless(distance(honest, hostile, pose, seed));
+    seed.a = handle(), seed.b = handle(), seed.coarse_a = handle(), seed.coarse_b = handle();
+    seed.level_a = std::uint8_t(garbage % 3);
+    seed.level_b = std::uint8_t(garbage % 5);
+    expect_harmless(intersects(hostile, hostile, pose, seed));
+    QueryOptions options;
+    options.start = StartPolicy::Table;
+    expect_harmless(within(hostile, honest, pose, 0.5, seed, options).answer);
+    options.start = StartPolicy::Paper;
+    expect_harmless(contact(hostile, hostile, pose, seed, options).answer);
+  }
+  hostile.support(Vec3(1, 2, 3));
+  verify(hostile);
+}
+
+/// The work that a small honest pair can cost at all, certified progress through both arithmetics at every level included.
+constexpr std::uint32_t kMostSteps = 400, kMostPlaneTests = 200000;
+
+TEST_F(ModelFile, EveryCorruptByteIsFoundByTheHashes) {
+  const Bytes whole = bytes_of(small());
+  std::mt19937 engine(1);
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    Bytes block = whole;
+    for (int bit = 0; bit < 8; ++bit) {
+      block[at] = whole[at] ^ std::byte(1 << bit);
+      ASSERT_FALSE(load(block)) << at << ' ' << bit;
+    }
+    for (int i = 0; i < 8; ++i) {
+      block[at] = whole[at] ^ std::byte(1 + engine() % 255);
+      ASSERT_FALSE(load(block)) << at;
+    }
+  }
+}
+
+TEST_F(ModelFile, EveryCorruptByteWithRightHashesIsRefusedOrHarmless) {
+  const Model honest = small();
+  const Bytes whole = bytes_of(honest);
+  std::mt19937 engine(2);
+  int refused = 0, accepted = 0;
+  Work most;
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    for (int i = 0; i < 12; ++i) {
+      Bytes block = whole;
+      block[at] = whole[at] ^ (i < 8 ? std::byte(1 << i) : std::byte(1 + engine() % 255));
+      rehash(block);
+      const Result<Model> m = load(block);
+      ++(m ? accepted : refused);
+      if (m) exercise(m.value(), honest, most);
+      if (HasFatalFailure()) FAIL() << "byte " << at << " as " << int(block[at]);
+    }
+  }
+  EXPECT_GE(refused, 5000);
+  EXPECT_GE(accepted, 5000);
+  EXPECT_LE(most.steps, kMostSteps);
+  EXPECT_LE(most.plane_tests, kMostPlaneTests);
+  RecordProperty("most_steps", int(most.steps));
+  RecordProperty("most_plane_tests", int(most.plane_tests));
+  std::printf("refused %d, accepted %d, at most %u steps and %u plane tests\n", refused, accepted, most.steps, most.plane_tests);
+}
+
+TEST_F(ModelFile, RandomWordsWithRightHashesAreRefusedOrHarmless) {
+  // Several words at once: indices swapped for others in range, coordinates for other doubles.
+  const Model honest = small();
+  const Bytes whole = bytes_of(honest);
+  std::mt19937 engine(3);
+  int accepted = 0;
+  Work most;
+  for (int i = 0; i < 20000; ++i) {
+    Bytes block = whole;
+    for (int k = int(engine() % 3); k >= 0; --k) {
+      const std::size_t word = level_header_at(0) / 4 + engine() % ((whole.size() - level_header_at(0)) / 4);
+      write(block, word * 4, read<std::uint32_t>(whole, 4 * (word - engine() % 8)));
+    }
+    rehash(block);
+    const Result<Model> m = load(block);
+    if (!m) continue;
+    ++accepted;
+    exercise(m.value(), honest, most);
+    if (HasFatalFailure()) FAIL() << "round " << i;
+  }
+  EXPECT_GE(accepted, 1000);
+  EXPECT_LE(most.steps, kMostSteps);
+  EXPECT_LE(most.plane_tests, kMostPlaneTests);
+}
+
+TEST_F(ModelFile, CoordinatesBeyondExactArithmeticAreRefused) {
+  // Signs of products of three such coordinates are not exact any more, and a climb on them need not end.
+  for (const double scale : {1e100, 1e300, 1e-100, 1e-300}) {
+    Bytes block = bytes_of(small());
+    for (std::size_t level = 0; level < 2; ++level) {
+      auto header = read<LevelHeader>(block, level_header_at(level));
+      header.extent *= scale;
+      write(block, level_header_at(level), header);
+      for (std::size_t v = 0; v < header.vertex_count; ++v) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          const std::size_t at = std::size_t(header.section.offset) + v * sizeof(Vertex) + c * 8;
+          write(block, at, scale * read<double>(block, at));
+        }
+      }
+    }
+    rehash(block);
+    EXPECT_EQ(code_of(load(block)), ErrorCode::BadFormat) << scale;
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet

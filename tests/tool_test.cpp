@@ -1,0 +1,368 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line tool, run as a user runs it: by its path, with its output, its one line of complaint and its exit code.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <swiftlet/model_file.h>
+
+namespace swiftlet {
+namespace {
+
+#ifdef SWIFTLET_TOOL_PATH
+const std::string kTool = SWIFTLET_TOOL_PATH;
+#else
+const std::string kTool;  // a build without the tool
+#endif
+#if defined(SWIFTLET_TOOL_BUILDS) && SWIFTLET_TOOL_BUILDS
+constexpr bool kBuilds = true;
+#else
+constexpr bool kBuilds = false;
+#endif
+
+using nlohmann::json;
+
+struct Ran {
+  int code = -1;
+  std::string out, err;
+};
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write(const std::filesystem::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+
+/// An octahedron whose coordinates no short decimal holds, in a box.
+Model two_levels() {
+  const double x = 1.0 / 3, y = 2.0 / 7, z = std::sqrt(0.1);
+  const std::vector<Vec3> inner{{x, 0, 0}, {-x, 0, 0}, {0, y, 0}, {0, -y, 0}, {0, 0, z}, {0, 0, -z}};
+  const std::vector<std::uint32_t> inner_faces{0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+  std::vector<Vec3> outer;
+  for (int i = 0; i < 8; ++i) outer.emplace_back(i & 1 ? 0.4 : -0.4, i & 2 ? 0.4 : -0.4, i & 4 ? 0.4 : -0.4);
+  const std::vector<std::uint32_t> outer_faces{0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6};
+  const std::vector<std::uint32_t> outer_sizes(6, 4);
+  std::array<LevelArrays, 2> levels;
+  levels[0].vertices = inner;
+  levels[0].face_vertices = inner_faces;
+  levels[1].vertices = outer;
+  levels[1].face_vertices = outer_faces;
+  levels[1].face_sizes = outer_sizes;
+  Result<Model> model = Model::from_levels(levels);
+  if (!model) throw std::runtime_error(model.error().message);
+  return std::move(model).value();
+}
+
+class Tool : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (kTool.empty()) GTEST_SKIP() << "this build has no tool";
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              ("swiftlet_tool_" + std::to_string(getpid()) + testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_);
+    ASSERT_TRUE(save(two_levels(), folder_ / "a.swl"));
+    write(folder_ / "cube.off", "OFF\n8 6 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n"
+                                "4 0 4 6 2\n4 1 3 7 5\n4 0 1 5 4\n4 2 6 7 3\n4 0 2 3 1\n4 4 5 7 6\n");
+    before_ = names();
+  }
+  void TearDown() override {
+    std::error_code ignored;
+    if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
+  }
+
+  /// In the test's own folder.
+  Ran run(const std::string& arguments) const {
+    const std::filesystem::path streams = folder_.string() + ".streams";
+    std::filesystem::create_directories(streams);
+    const std::string command = "cd '" + folder_.string() + "' && '" + kTool + "' " + arguments + " >'" + (streams / "out").string() +
+                                "' 2>'" + (streams / "err").string() + "' </dev/null";
+    const int status = std::system(command.c_str());
+    Ran ran{WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(streams / "out"), content(streams / "err")};
+    std::filesystem::remove_all(streams);
+    return ran;
+  }
+
+  std::string says(const std::string& arguments) const {
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.code, 0) << arguments << "\n" << ran.err;
+    EXPECT_EQ(ran.err, "") << arguments;
+    return ran.out;
+  }
+
+  json says_json(const std::string& arguments) const {
+    const json parsed = json::parse(says(arguments + " --json"), nullptr, false);
+    EXPECT_FALSE(parsed.is_discarded()) << arguments;
+    return parsed;
+  }
+
+  /// Fails with one line that holds `why`, and leaves no file behind.
+  void refuses(const std::string& arguments, const std::string& why) const {
+    const Ran ran = run(arguments);
+    EXPECT_GT(ran.code, 0) << arguments;
+    EXPECT_EQ(ran.out, "") << arguments;
+    EXPECT_TRUE(ran.err.starts_with("swiftlet: ")) << arguments << "\n" << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << arguments << "\n" << ran.err;
+    EXPECT_TRUE(ran.err.ends_with("\n")) << arguments;
+    EXPECT_NE(ran.err.find(why), std::string::npos) << arguments << "\n" << ran.err;
+    EXPECT_EQ(names(), before_) << arguments;
+  }
+
+  std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) all.push_back(entry.path().filename());
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+  std::filesystem::path folder_;
+  std::vector<std::string> before_;
+};
+
+std::vector<Vec3> off_vertices(const std::string& text) {
+  std::istringstream words(text);
+  std::string magic, number;
+  std::size_t vertices = 0, faces = 0, edges = 0;
+  words >> magic >> vertices >> faces >> edges;
+  std::vector<Vec3> points(vertices);
+  for (Vec3& p : points) {
+    for (int k = 0; k < 3; ++k) {
+      words >> number;
+      p[k] = std::strtod(number.c_str(), nullptr);
+    }
+  }
+  return points;
+}
+
+TEST_F(Tool, TellsItsVersionAndWords) {
+  EXPECT_TRUE(says("--version").starts_with("swiftlet "));
+  const std::string help = says("--help");
+  for (const char* word : {"info", "verify", "distance", "export", "draw"}) EXPECT_NE(help.find(word), std::string::npos) << word;
+  EXPECT_EQ(help.find("\n  build ") != std::string::npos, kBuilds);
+}
+
+TEST_F(Tool, HelpOfDistanceNamesTheFrame) {
+  const std::string help = says("distance --help");
+  EXPECT_NE(help.find("A's frame"), std::string::npos);
+  EXPECT_NE(help.find("R p + t"), std::string::npos);
+}
+
+TEST_F(Tool, InfoListsTheLevelsFinestFirst) {
+  const Result<Model> model = load(folder_ / "a.swl");
+  ASSERT_TRUE(model);
+  const json info = says_json("info a.swl");
+  ASSERT_EQ(info["levels"].size(), 2u);
+  for (int k = 0; k < 2; ++k) {
+    const Level& level = model.value().level(k);
+    const json& row = info["levels"][std::size_t(k)];
+    EXPECT_EQ(row["vertices"], level.view.vertices.size());
+    EXPECT_EQ(row["faces"], level.view.face_first.size());
+    EXPECT_EQ(row["triangles"], level.triangle_count);
+    EXPECT_EQ(row["deviation"], level.deviation);
+    EXPECT_EQ(row["bytes"], level.bytes);
+    EXPECT_EQ(row["volume_ratio"], level.volume / model.value().volume());
+  }
+  EXPECT_EQ(info["bytes"], std::filesystem::file_size(folder_ / "a.swl"));
+  EXPECT_EQ(info["dimension"], 3);
+  EXPECT_EQ(info["radius"], model.value().radius());
+  for (const char* key : {"hash", "box_min", "box_max", "table", "bytes_per_triangle"}) EXPECT_TRUE(info.contains(key)) << key;
+  EXPECT_NE(says("info a.swl").find("deviation"), std::string::npos);
+}
+
+TEST_F(Tool, VerifyProvesAModel) {
+  EXPECT_EQ(says_json("verify a.swl")["verified"], true);
+  EXPECT_NE(says("verify a.swl").find("verified"), std::string::npos);
+}
+
+TEST_F(Tool, ExportReadsBackBitForBit) {
+  const Result<Model> model = load(folder_ / "a.swl");
+  ASSERT_TRUE(model);
+  for (int k = 0; k < 2; ++k) {
+    says("export a.swl --level " + std::to_string(k) + " -o level.off");
+    const std::vector<Vec3> points = off_vertices(content(folder_ / "level.off"));
+    const auto vertices = model.value().level(k).view.vertices;
+    ASSERT_EQ(points.size(), vertices.size());
+    for (std::size_t v = 0; v < points.size(); ++v) EXPECT_EQ(std::memcmp(points[v].data(), &vertices[v].x, 3 * sizeof(double)), 0) << v;
+  }
+  EXPECT_EQ(says_json("export a.swl --level 1 -o level.off")["level"], 1);
+}
+
+TEST_F(Tool, DrawWritesOnePanelPerLevel) {
+  says("draw a.swl -o a.svg");
+  const std::string svg = content(folder_ / "a.svg");
+  EXPECT_TRUE(svg.starts_with("<svg"));
+  EXPECT_TRUE(svg.ends_with("</svg>\n"));
+  EXPECT_NE(svg.find("level 0"), std::string::npos);
+  EXPECT_NE(svg.find("level 1"), std::string::npos);
+  EXPECT_EQ(svg.find("level 2"), std::string::npos);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(says_json("draw a.swl -o a.svg")["levels"], 2);
+}
+
+TEST_F(Tool, DistanceAnswersInTheFrameOfA) {
+  const json answer = says_json("distance a.swl a.swl --pose 2,0,0");
+  const double truth = 2 - 2.0 / 3;
+  EXPECT_LE(answer["lower"].get<double>(), truth);
+  EXPECT_GE(answer["upper"].get<double>(), truth);
+  EXPECT_NEAR(answer["normal"][0].get<double>(), 1, 1e-12);
+  EXPECT_NEAR(answer["point_a"][0].get<double>(), 1.0 / 3, 1e-12);
+  EXPECT_NEAR(answer["point_b"][0].get<double>(), 2 - 1.0 / 3, 1e-12);
+  EXPECT_EQ(answer["verdict"], "Disjoint");
+  EXPECT_EQ(answer["status"], "Converged");
+  EXPECT_EQ(answer["feature_a"]["vertices"], json::array({0}));
+  EXPECT_EQ(answer["feature_b"]["vertices"], json::array({1}));
+  EXPECT_NE(says("distance a.swl a.swl --pose 2,0,0").find("normal"), std::string::npos);
+  EXPECT_EQ(says_json("distance a.swl a.swl --pose 0.1,0,0")["verdict"], "Overlapping");
+}
+
+TEST_F(Tool, LevelsRefineFromTheCoarsestToTheAnswer) {
+  const json answer = says_json("distance a.swl a.swl --pose 2,0.5,0.25 --levels");
+  const json& levels = answer["levels"];
+  ASSERT_EQ(levels.size(), 2u);
+  EXPECT_EQ(levels[0]["level_a"], 1);
+  EXPECT_EQ(levels[1]["level_a"], 0);
+  EXPECT_LE(levels[0]["lower"], levels[1]["lower"]);
+  EXPECT_GE(levels[0]["upper"], levels[1]["upper"]);
+  EXPECT_EQ(levels[1]["lower"], answer["lower"]);
+  EXPECT_EQ(levels[1]["upper"], answer["upper"]);
+  for (const json& line : levels) EXPECT_GT(line["nanoseconds"].get<double>(), 0);
+  EXPECT_EQ(says_json("distance a.swl a.swl --pose 2,0.5,0.25 --levels --max-error 1e3")["levels"].size(), 1u);
+  EXPECT_EQ(says_json("distance a.swl a.swl --pose 2,0.5,0.25 --relative-error 1e3")["level_a"], 1);
+  EXPECT_EQ(says_json("distance a.swl a.swl --pose 2,0.5,0.25 --beyond 0.1")["status"], "Beyond");
+}
+
+TEST_F(Tool, PosesInAllThreeFormsAgree) {
+  write(folder_ / "shift", "1 0 0 2\n0 1 0 -0.5\n0 0 1 0.25\n");
+  const json shift = says_json("distance a.swl a.swl --pose 2,-0.5,0.25");
+  EXPECT_EQ(shift, says_json("distance a.swl a.swl --pose 2,-0.5,0.25,1,0,0,0"));
+  EXPECT_EQ(shift, says_json("distance a.swl a.swl --pose 2,-0.5,0.25,-3,0,0,0"));
+  EXPECT_EQ(shift, says_json("distance a.swl a.swl --pose shift"));
+  EXPECT_EQ(says_json("distance a.swl a.swl --pose -2,0.5,0.25")["b_in_a"][0][3], -2.0);
+
+  write(folder_ / "turn", "0, -1, 0, 2\n1, 0, 0, -0.5\n0, 0, 1, 0.25\n");  // x becomes y
+  const json typed = says_json("distance a.swl a.swl --pose 2,-0.5,0.25,7,0,0,7"), filed = says_json("distance a.swl a.swl --pose turn");
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column)
+      EXPECT_NEAR(typed["b_in_a"][row][column].get<double>(), filed["b_in_a"][row][column].get<double>(), 1e-15);
+  EXPECT_NEAR(typed["lower"].get<double>(), filed["lower"].get<double>(), 1e-13);
+}
+
+TEST_F(Tool, RefusesBadPosesInOneLine) {
+  write(folder_ / "sheared", "1 0 0 0\n0 1 0.01 0\n0 0 1 0\n");
+  write(folder_ / "mirror", "1 0 0 0\n0 1 0 0\n0 0 -1 0\n");
+  write(folder_ / "short", "1 0 0 0\n0 1 0 0\n");
+  write(folder_ / "words", "one two three\n");
+  before_ = names();
+  const auto bad = [&](const std::string& pose, const std::string& why) { refuses("distance a.swl a.swl --pose " + pose, why); };
+  bad("1,2", "2 numbers");
+  bad("1,2,3,4", "4 numbers");
+  bad("1,nan,3", "not finite");
+  bad("1,2,3,inf,0,0,0", "not finite");
+  bad("1,2,3,0,0,0,0", "zero quaternion");
+  bad("1,2,x", "neither");
+  bad("sheared", "off by 0.01");
+  bad("mirror", "mirror image");
+  bad("short", "8 numbers");
+  bad("words", "no number");
+  bad("nowhere", "neither");
+}
+
+TEST_F(Tool, RefusesWhatIsWrongInOneLine) {
+  write(folder_ / "damaged.swl", content(folder_ / "a.swl").substr(0, 500));
+  std::filesystem::create_symlink("a.swl", folder_ / "link");
+  before_ = names();
+  refuses("", "say a word");
+  refuses("fly", "no word \"fly\"");
+  refuses("--fly", "no word");
+  refuses("info", "required");
+  refuses("info a.swl --fly", "--fly");
+  refuses("info nowhere.swl", "nowhere.swl");
+  refuses("info damaged.swl", "damaged.swl");
+  refuses("verify damaged.swl", "damaged.swl");
+  refuses("distance a.swl damaged.swl --pose 1,2,3", "damaged.swl");
+  refuses("distance a.swl a.swl", "--pose");
+  refuses("distance a.swl a.swl --pose 1,2,3 --max-error -1", "-1");
+  refuses("distance a.swl a.swl --pose 1,2,3 --max-error nan", "nan");
+  refuses("distance a.swl a.swl --pose 1,2,3 --max-error 1 --relative-error 1", "excludes");
+  refuses("export a.swl --level 2 -o e.off", "no level 2");
+  refuses("export a.swl --level -1 -o e.off", "no level -1");
+  refuses("export a.swl --level 0 -o nowhere/e.off", "folder");
+  refuses("export a.swl --level 0 -o link", "link");
+  refuses("draw a.swl -o .", "folder");
+}
+
+TEST_F(Tool, KeepsTheOldFileWhenItFails) {
+  write(folder_ / "kept.off", "old");
+  before_ = names();
+  refuses("export a.swl --level 7 -o kept.off", "no level 7");
+  EXPECT_EQ(content(folder_ / "kept.off"), "old");
+  says("export a.swl --level 0 -o kept.off");
+  EXPECT_TRUE(content(folder_ / "kept.off").starts_with("OFF"));
+  EXPECT_EQ(names(), before_);
+}
+
+TEST_F(Tool, WithoutTheBuilderAMeshIsAClearError) {
+  if (kBuilds) GTEST_SKIP() << "this tool has the builder";
+  refuses("build cube.off -o c.swl", "without the builder");
+  refuses("info cube.off", "without the builder");
+  refuses("distance a.swl cube.off --pose 1,2,3", "without the builder");
+}
+
+TEST_F(Tool, BuildsAModelAndTellsWhatItDid) {
+  if (!kBuilds) GTEST_SKIP() << "this tool has no builder";
+  const std::string report = says("build cube.off -o c.swl --method peel --enclosing scale --table 22.5 --radius-factor 3 --levels 1");
+  EXPECT_NE(report.find("8 points, 12 triangles"), std::string::npos) << report;
+  EXPECT_NE(report.find("ended"), std::string::npos) << report;
+  const json info = says_json("info c.swl");
+  EXPECT_EQ(info["table"]["entries"], 114);
+  EXPECT_EQ(info["table"]["radius_factor"], 3.0);
+  EXPECT_EQ(info["levels"][0]["faces"], 6);
+  EXPECT_EQ(says("build cube.off -o c.swl --quiet"), "");
+  EXPECT_EQ(says_json("build cube.off -o c.swl")["points_read"], 8);
+  EXPECT_EQ(says_json("info c.swl")["levels"], says_json("info cube.off")["levels"]);
+}
+
+TEST_F(Tool, TakesMeshesForModels) {
+  if (!kBuilds) GTEST_SKIP() << "this tool has no builder";
+  const json answer = says_json("distance cube.off a.swl --pose 3,0.5,0.5");
+  EXPECT_NEAR(answer["lower"].get<double>(), 2 - 1.0 / 3, 1e-12);
+  EXPECT_EQ(answer["feature_a"]["kind"], "face");
+  EXPECT_EQ(answer["feature_a"]["triangles"], json::array({2, 3}));
+  says("draw cube.off -o cube.svg");
+  says("export cube.off --level 0 -o again.off");
+  EXPECT_EQ(says_json("info again.off")["levels"][0]["faces"], 6);
+}
+
+TEST_F(Tool, BuildRefusesWhatIsWrongInOneLine) {
+  if (!kBuilds) GTEST_SKIP() << "this tool has no builder";
+  write(folder_ / "flat.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  write(folder_ / "empty.off", "OFF\n0 0 0\n");
+  write(folder_ / "damaged.off", "OFF\n3 1 0\n0 0\n");
+  before_ = names();
+  refuses("build cube.off", "output");
+  refuses("build nowhere.off -o c.swl", "nowhere.off");
+  refuses("build empty.off -o c.swl", "empty.off");
+  refuses("build damaged.off -o c.swl", "damaged.off");
+  refuses("build flat.off -o c.swl --require-solid", "plane");
+  refuses("build cube.off -o nowhere/c.swl", "folder");
+  refuses("build cube.off -o c.swl --method melt", "melt is none of peel|collapse");
+  refuses("build cube.off -o c.swl --table 3", "none|22.5|11.25|5.625");
+  refuses("build cube.off -o c.swl --rate 2", "rate");
+  refuses("build cube.off -o c.swl --levels 99", "max_levels");
+  refuses("build cube.off -o c.swl --cutoff -3", "--cutoff");
+}
+
+}  // namespace
+}  // namespace swiftlet
