@@ -33,7 +33,8 @@ Storage stored(const Finest& finest) {
 Storage stored(const CoarseLevel& coarse, double scale) {
   Storage level;
   for (const Vec3& p : coarse.body.points) level.vertices.push_back(p / scale);
-  for (const Triangle& triangle : coarse.body.triangles) level.loops.insert(level.loops.end(), triangle.begin(), triangle.end());
+  for (const Triangle& triangle : coarse.body.triangles)
+    level.loops.insert(level.loops.end(), triangle.begin(), triangle.end());
   level.vertex_child = coarse.vertex_child;
   level.face_child = coarse.triangle_child;
   return level;

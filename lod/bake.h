@@ -16,13 +16,13 @@ namespace swiftlet::lod {
 /// Level 0 of any rank, in the user's coordinates.
 struct Finest {
   std::vector<Vec3> vertices;
-  std::vector<std::uint32_t> sources;                ///< the user's vertex of each
-  std::vector<std::vector<std::uint32_t>> faces;     ///< loops; two for a flat body, none below
+  std::vector<std::uint32_t> sources;                    ///< the user's vertex of each
+  std::vector<std::vector<std::uint32_t>> faces;         ///< loops; two for a flat body, none below
   std::vector<std::vector<std::uint32_t>> face_sources;  ///< per face, the user's triangles on it
 };
 
-/// Joins the levels, whose coordinates are `scale` times the user's, into a model, up to the first that the model refuses or that
-/// deviates more than allowed; `end` then says so.
+/// Joins the levels, whose coordinates are `scale` times the user's, into a model, up to the first that the model refuses or
+/// that deviates more than allowed; `end` then says so.
 Result<Model> bake(const Finest& finest, const std::vector<CoarseLevel>& coarse, double scale, const BuildOptions& options,
                    std::string& end);
 

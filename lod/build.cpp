@@ -24,8 +24,10 @@ std::optional<Error> problem(const BuildOptions& options) {
   if (!(options.rate > 0 && options.rate < 1)) return bad("rate must lie between 0 and 1, without either");
   if (options.max_levels < 1 || options.max_levels > 32) return bad("max_levels must be from 1 to 32");
   if (!std::isfinite(options.max_deviation)) return bad("max_deviation must be finite");
-  if (options.method > Method::Peel || options.enclosing > Enclosing::Scale) return bad("method or enclosing is none that there is");
-  if (!std::isfinite(options.table.radius_factor) || options.table.radius_factor < 1) return bad("table.radius_factor must be at least 1");
+  if (options.method > Method::Peel || options.enclosing > Enclosing::Scale)
+    return bad("method or enclosing is none that there is");
+  if (!std::isfinite(options.table.radius_factor) || options.table.radius_factor < 1)
+    return bad("table.radius_factor must be at least 1");
   return std::nullopt;
 }
 
@@ -105,7 +107,9 @@ Error cancelled() { return {ErrorCode::Cancelled, "the progress callback cancell
 Result<Built> build(const Mesh& users, const BuildOptions& options) {
   if (const auto error = problem(options)) return *error;
   if (const auto error = problem(users)) return *error;
-  const auto keep_on = [&](double fraction, std::string_view stage) { return !options.progress || options.progress(fraction, stage); };
+  const auto keep_on = [&](double fraction, std::string_view stage) {
+    return !options.progress || options.progress(fraction, stage);
+  };
   if (!keep_on(0, "hull")) return cancelled();
 
   const double scale = unit_scale(users.points);
@@ -122,7 +126,8 @@ Result<Built> build(const Mesh& users, const BuildOptions& options) {
     report.deepest_dent = deepest_dent(mesh, shape, body) / scale;
     if (options.require_convex && has_dents(mesh, body, report, scale))
       return Error{ErrorCode::NotConvex, "the mesh has dents, the deepest " + std::to_string(report.deepest_dent)};
-    levels = hierarchy(body, options, [&](double done) { return keep_on(kHullDone + (kLevelsDone - kHullDone) * done, "levels"); });
+    levels =
+        hierarchy(body, options, [&](double done) { return keep_on(kHullDone + (kLevelsDone - kHullDone) * done, "levels"); });
   } else if (options.require_solid) {
     return Error{ErrorCode::NotSolid, "all points lie in one plane"};
   }

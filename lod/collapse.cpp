@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Garland & Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH 1997, as CGAL has it. Knows nothing of hulls.
+// Garland & Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH 1997, as CGAL has it. Knows nothing of
+// hulls.
 #include "collapse.h"
 
 #include <CGAL/Simple_cartesian.h>
@@ -19,7 +20,8 @@ Mesh3 to_mesh(const Polytope& body) {
   Mesh3 mesh;
   mesh.reserve(body.points.size(), 3 * body.triangles.size() / 2, body.triangles.size());
   for (const Vec3& p : body.points) mesh.add_vertex({p.x(), p.y(), p.z()});
-  for (const auto& [a, b, c] : body.triangles) mesh.add_face(Mesh3::Vertex_index(a), Mesh3::Vertex_index(b), Mesh3::Vertex_index(c));
+  for (const auto& [a, b, c] : body.triangles)
+    mesh.add_face(Mesh3::Vertex_index(a), Mesh3::Vertex_index(b), Mesh3::Vertex_index(c));
   return mesh;
 }
 

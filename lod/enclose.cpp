@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Scaling, relaxation and tightening in plain doubles, and the exact proof that ends them. Supports are climbs from nearby starts.
+// Scaling, relaxation and tightening in plain doubles, and the exact proof that ends them. Supports are climbs from nearby
+// starts.
 #include "enclose.h"
 
 #include <Eigen/LU>
@@ -45,10 +46,14 @@ std::uint32_t exact_climb(const Climber& body, const Point3& a, const Point3& b,
   while (true) {
     const std::uint32_t from = best;
     for (std::uint32_t to : body.neighbours(from))
-      if (CGAL::has_larger_signed_distance_to_plane(a, b, c, exact(body.body().points[to]), exact(body.body().points[best]))) best = to;
+      if (CGAL::has_larger_signed_distance_to_plane(a, b, c, exact(body.body().points[to]), exact(body.body().points[best])))
+        best = to;
     if (best == from) return best;
   }
 }
+
+constexpr double kSliver =
+    0x1p-40;  ///< altitude over base; below, a triangle's normal is noise and its edges' other triangles count
 
 /// The least factor about `centre` by which every face of the level clears the body; infinite where the centre is not inside.
 double least_scale(const Polytope& level, const Climber& body, const Vec3& centre) {
@@ -57,6 +62,7 @@ double least_scale(const Polytope& level, const Climber& body, const Vec3& centr
   for (const Triangle& face : level.triangles) {
     const Vec3 &a = level.points[face[0]], &b = level.points[face[1]], &c = level.points[face[2]];
     const Vec3 normal = area_normal(a, b, c);
+    if (normal.norm() <= kSliver * std::max((b - a).squaredNorm(), (c - a).squaredNorm())) continue;
     const double offset = normal.dot(a - centre);
     if (!(offset > 0)) return std::numeric_limits<double>::infinity();
     scale = std::max(scale, normal.dot(body.body().points[starts.climb(body, normal, face)] - centre) / offset);
@@ -76,9 +82,9 @@ struct HalfSpace {
 
 /// One vertex and all that bounds its moves while its ring stays.
 ///
-///            b ----- across      Each triangle (vertex, a, b) asks that the vertex stay outside the plane that touches the body
-///          / |     /             and turns about ab, so that the body stays below the triangle, and inside the plane of the face
-///   vertex   |   /               across ab, so that the edge ab stays convex. Between these planes it may not reach ab either.
+///            b ----- across    Each triangle (vertex, a, b) asks that the vertex stay outside the plane that turns about
+///          / |     /           ab and touches the body, so that the body stays below the triangle, and inside the plane
+///   vertex   |   /             of the face across ab, so that the edge ab stays convex. Nor may it come too near ab.
 ///          \ | /
 ///            a
 class Mover {
@@ -112,7 +118,8 @@ class Mover {
           const double det = line.dot(limits[k].normal);
           if (std::abs(det) < kParallel) continue;
           const Vec3 move = (limits[i].offset * limits[j].normal.cross(limits[k].normal) +
-                             limits[j].offset * limits[k].normal.cross(limits[i].normal) + limits[k].offset * line) / det;
+                             limits[j].offset * limits[k].normal.cross(limits[i].normal) + limits[k].offset * line) /
+                            det;
           if (gradient_.dot(move) < gradient_.dot(best) && allows(limits, move)) best = move;
         }
       }
@@ -130,14 +137,14 @@ class Mover {
   }
 
  private:
-  static constexpr double kParallel = 1e-9;       ///< triple product of unit normals whose planes meet nowhere useful
-  static constexpr double kTouching = 1e-15;      ///< height over the distance of two points, a few ulp
-  static constexpr double kBeside = 1e-9;         ///< over the edge's length: nearer to its line, a support turns no plane
-  static constexpr double kSlack = 1e-13;         ///< of the limits, in units of the level, whose size is about 1
-  static constexpr double kAltitudeLeft = 0.1;    ///< of a triangle's altitude after one move
-  static constexpr double kFlattest = 0.05;       ///< altitude over base that no move goes below
-  static constexpr std::size_t kLongRing = 24;    ///< 17296 triples
-  static constexpr double kFirstTilt = 0x1p-6;    ///< tangent of the angle; a small one keeps the climb short
+  static constexpr double kParallel = 1e-9;     ///< triple product of unit normals whose planes meet nowhere useful
+  static constexpr double kTouching = 1e-15;    ///< height over the distance of two points, a few ulp
+  static constexpr double kBeside = 1e-9;       ///< over the edge's length: nearer to its line, a support turns no plane
+  static constexpr double kSlack = 1e-13;       ///< of the limits, in units of the level, whose size is about 1
+  static constexpr double kAltitudeLeft = 0.1;  ///< of a triangle's altitude after one move
+  static constexpr double kFlattest = 0.05;     ///< altitude over base that no move goes below
+  static constexpr std::size_t kLongRing = 24;  ///< 17296 triples
+  static constexpr double kFirstTilt = 0x1p-6;  ///< tangent of the angle; a small one keeps the climb short
   static constexpr int kTurns = 30;
 
   void look_at(std::uint32_t vertex, std::uint32_t side) {
@@ -153,7 +160,8 @@ class Mover {
     ring_.push_back(a);
     add(clearance_, tangent(face, a, b, normal, inward), a);
     add(bounds_, -outside, a);
-    altitudes_.push_back({inward, std::min(0.0, std::max((kAltitudeLeft - 1) * altitude, kFlattest * (b - a).norm() - altitude))});
+    altitudes_.push_back(
+        {inward, std::min(0.0, std::max((kAltitudeLeft - 1) * altitude, kFlattest * (b - a).norm() - altitude))});
   }
 
   /// The normal of the plane through ab that touches the body on the vertex's side. The plane is tilted until its support lies
@@ -181,7 +189,8 @@ class Mover {
   }
 
   static bool allows(const std::vector<HalfSpace>& limits, const Vec3& move) {
-    return std::all_of(limits.begin(), limits.end(), [&](const HalfSpace& s) { return s.normal.dot(move) >= s.offset - kSlack; });
+    return std::all_of(limits.begin(), limits.end(),
+                       [&](const HalfSpace& s) { return s.normal.dot(move) >= s.offset - kSlack; });
   }
 
   /// The greatest part of `move`, from 0 to 1, within the limits.
@@ -198,7 +207,7 @@ class Mover {
   Starts starts_;
   Vec3 x_ = Vec3::Zero();
   std::vector<HalfSpace> clearance_, bounds_, altitudes_;
-  std::vector<Vec3> ring_;  ///< counter-clockwise
+  std::vector<Vec3> ring_;        ///< counter-clockwise
   Vec3 gradient_ = Vec3::Zero();  ///< of six times the volume
   bool convex_ = true;
 };
@@ -220,9 +229,9 @@ class Balance {
   }
 
  private:
-  static constexpr double kPull = 0.2;      ///< of the highest vertex's height, at first
-  static constexpr double kSharpness = 6;   ///< the pull falls with this power of the height over the greatest
-  static constexpr double kMetric = 0.25;   ///< power of the metric's say in heights: all of it starves the flat sides of plates
+  static constexpr double kPull = 0.2;     ///< of the highest vertex's height, at first
+  static constexpr double kSharpness = 6;  ///< the pull falls with this power of the height over the greatest
+  static constexpr double kMetric = 0.25;  ///< power of the metric's say in heights: all of it starves the flat sides of plates
   static constexpr int kPasses = 4;
 
   void draw(double pull) {
@@ -246,13 +255,16 @@ class Balance {
     const Vec3& contact = support(normal, face);
     const double depth2 = normal.dot(contact - a), length2 = normal.squaredNorm();
     if (!(depth2 > 0) || !(length2 > 0)) return;
-    Vec3 share{area_normal(contact, b, c).dot(normal), area_normal(a, contact, c).dot(normal), area_normal(a, b, contact).dot(normal)};
+    Vec3 share{area_normal(contact, b, c).dot(normal), area_normal(a, contact, c).dot(normal),
+               area_normal(a, b, contact).dot(normal)};
     share = share.cwiseMax(0);
     const Vec3 push = normal * (depth2 / length2 * share.sum() / share.squaredNorm());
     a += share[0] * push, b += share[1] * push, c += share[2] * push;
   }
 
-  Vec3 normal_of(const Triangle& face) const { return area_normal(level_.points[face[0]], level_.points[face[1]], level_.points[face[2]]); }
+  Vec3 normal_of(const Triangle& face) const {
+    return area_normal(level_.points[face[0]], level_.points[face[1]], level_.points[face[2]]);
+  }
   const Vec3& support(const Vec3& direction, const Triangle& near) {
     return body_.body().points[starts_.climb(body_, direction, near)];
   }
@@ -263,8 +275,8 @@ class Balance {
   Starts starts_;
 };
 
-constexpr double kRelaxed = 0.999;  ///< of a move: short of the limit, edges stay strictly convex
-constexpr double kEarlyPart = 0.3;  ///< of a move in the first half of the sweeps, so that neighbours share the gain
+constexpr double kRelaxed = 0.999;    ///< of a move: short of the limit, edges stay strictly convex
+constexpr double kEarlyPart = 0.3;    ///< of a move in the first half of the sweeps, so that neighbours share the gain
 constexpr double kStillWhole = 0.95;  ///< of the triangles; fewer, and the balance has folded the surface
 constexpr int kRepeats = 3;
 constexpr std::size_t kFewestRounds = 8;  ///< fewer change nothing: fine levels are not balanced

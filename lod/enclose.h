@@ -23,7 +23,8 @@ struct Proved {
 /// NotEnclosing where the points do not surround the centre, or not nearly hold the body.
 Result<Proved> prove(std::vector<Vec3> points, const Climber& body, const Vec3& centre);
 
-/// Scaled about `centre`, up or down, until every face clears the body and one touches it [Ehmann & Lin 2000, sec. 4.3, step 4].
+/// Scaled about `centre`, up or down, until every face clears the body and one touches it [Ehmann & Lin 2000, sec. 4.3, step
+/// 4].
 Result<Polytope> scale_to_hold(Polytope level, const Climber& body, const Vec3& centre);
 
 /// A level that holds the body, its vertices moved along their rays towards the centre as far as convexity and the body allow
@@ -31,9 +32,9 @@ Result<Polytope> scale_to_hold(Polytope level, const Climber& body, const Vec3& 
 /// binds without lists, and looks at all of level 0.
 Polytope relax(Polytope level, const Climber& body, const Vec3& centre);
 
-/// Ours: a level that deviates less and still holds the body. Vertices are balanced against the body until the highest stand alike,
-/// and then each in turn moves to where the volume is least while its faces clear the body. `metric` maps these coordinates to
-/// those in which deviations count.
+/// Ours: a level that deviates less and still holds the body. Vertices are balanced against the body until the highest stand
+/// alike, and then each in turn moves to where the volume is least while its faces clear the body. `metric` maps these
+/// coordinates to those in which deviations count.
 Polytope tighten(Polytope level, const Climber& body, const Mat3& metric);
 
 }  // namespace swiftlet::lod

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Level after level: simplify the one before and make the result hold level 0 [Ehmann & Lin 2000, sec. 4.3]. What cannot be built
-// ends the hierarchy.
+// Level after level: simplify the one before and make the result hold level 0 [Ehmann & Lin 2000, sec. 4.3]. What cannot be
+// built ends the hierarchy.
 #include "hierarchy.h"
 
 #include <Eigen/Cholesky>
@@ -19,14 +19,15 @@ namespace {
 
 constexpr double kWorthwhile = 0.8;  ///< a level with more of the triangles of the one before is not worth its memory
 
-/// Coordinates in which the surface of a solid spreads alike in all directions: a plate or a needle simplifies as a sphere does.
-/// Affine, so that it keeps hulls, volume ratios and which body holds which, up to rounding.
+/// Coordinates in which the surface of a solid spreads alike in all directions: a plate or a needle simplifies as a sphere
+/// does. Affine, so that it keeps hulls, volume ratios and which body holds which, up to rounding.
 class Whitening {
  public:
   explicit Whitening(const Polytope& body) : centre_(area_centroid(body)) {
     const Eigen::LLT<Mat3> factor(area_covariance(body));
     if (factor.info() == Eigen::Success) spread_ = factor.matrixL();
-    if (!spread_.allFinite() || !(spread_.diagonal().minCoeff() > 0x1p-30 * spread_.diagonal().maxCoeff())) spread_.setIdentity();
+    if (!spread_.allFinite() || !(spread_.diagonal().minCoeff() > 0x1p-30 * spread_.diagonal().maxCoeff()))
+      spread_.setIdentity();
   }
   Polytope whitened(Polytope body) const {
     for (Vec3& p : body.points) p = spread_.triangularView<Eigen::Lower>().solve(p - centre_);
@@ -53,12 +54,18 @@ struct Step {
 class Collapser {
  public:
   Collapser(const Polytope& level0, const BuildOptions& options)
-      : options_(options), level0_(level0), plain_(level0), whitening_(level0), shape_(tight() ? whitening_.whitened(level0) : level0),
-        simple_(shape_), body_(shape_) {}
+      : options_(options),
+        level0_(level0),
+        plain_(level0),
+        whitening_(level0),
+        shape_(tight() ? whitening_.whitened(level0) : level0),
+        simple_(shape_),
+        body_(shape_) {}
 
   Step next() {
     const std::size_t before = simple_.triangles.size();
-    const std::size_t target = std::max({std::size_t(options_.rate * double(before)), std::size_t(options_.cutoff), std::size_t(4)});
+    const std::size_t target =
+        std::max({std::size_t(options_.rate * double(before)), std::size_t(options_.cutoff), std::size_t(4)});
     if (double(target) > kWorthwhile * double(before)) return {{}, "the next level would have fewer triangles than the cutoff"};
     const std::vector<Vec3> points = collapse(simple_, target);
     const Hull shape = hull(points);
@@ -77,7 +84,9 @@ class Collapser {
     for (Vec3& p : moved.points) p += drift;
     Result<Polytope> scaled = scale_to_hold(std::move(moved), body_, centre);
     if (!scaled) return {{}, scaled.error().message};
-    std::vector<Vec3> points = tight() ? whitening_.restored(tighten(std::move(scaled).value(), body_, whitening_.spread()).points) : scaled.value().points;
+    std::vector<Vec3> points = tight()
+                                   ? whitening_.restored(tighten(std::move(scaled).value(), body_, whitening_.spread()).points)
+                                   : scaled.value().points;
     Result<Proved> proved = prove(std::move(points), plain_, area_centroid(level0_));
     if (!proved) return {{}, proved.error().message};
     return {CoarseLevel{std::move(proved.value().level), {}, {}}, {}};
@@ -85,11 +94,11 @@ class Collapser {
 
   const BuildOptions& options_;
   const Polytope& level0_;
-  Climber plain_;        ///< level 0
+  Climber plain_;  ///< level 0
   Whitening whitening_;
-  Polytope shape_;       ///< level 0, whitened for Tight
-  Polytope simple_;      ///< the last level before it was grown
-  Climber body_;         ///< over shape_
+  Polytope shape_;   ///< level 0, whitened for Tight
+  Polytope simple_;  ///< the last level before it was grown
+  Climber body_;     ///< over shape_
 };
 
 /// Dobkin & Kirkpatrick levels [sec. 4.4]: each keeps vertices of the one before, as it was grown: built on the
@@ -113,7 +122,8 @@ class Peeler {
     Result<Polytope> scaled = scale_to_hold(coarse, plain_, centre_);
     if (!scaled) return {{}, scaled.error().message};
     const bool tight = options_.enclosing == Enclosing::Tight;
-    const Polytope level = tight ? tighten(std::move(scaled).value(), plain_, Mat3::Identity()) : relax(std::move(scaled).value(), plain_, centre_);
+    const Polytope level = tight ? tighten(std::move(scaled).value(), plain_, Mat3::Identity())
+                                 : relax(std::move(scaled).value(), plain_, centre_);
     Result<Proved> proved = prove(level.points, plain_, centre_);
     if (!proved) return {{}, proved.error().message};
     Step step{CoarseLevel{proved.value().level, {}, {}}, {}};
@@ -149,7 +159,8 @@ class Peeler {
 };
 
 template <class Stepper>
-Hierarchy stepped(Stepper&& method, const Polytope& level0, const BuildOptions& options, const std::function<bool(double)>& keep_on) {
+Hierarchy stepped(Stepper&& method, const Polytope& level0, const BuildOptions& options,
+                  const std::function<bool(double)>& keep_on) {
   Hierarchy result;
   std::size_t left = level0.triangles.size();
   while (int(result.levels.size()) + 1 < options.max_levels) {

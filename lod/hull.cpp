@@ -21,7 +21,9 @@ using Ids = std::vector<std::uint32_t>;
 
 Point3 exact(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
-bool before(const Vec3& p, const Vec3& q) { return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3); }
+bool before(const Vec3& p, const Vec3& q) {
+  return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+}
 
 /// The first of every set of equal points, in lexicographic order.
 Ids distinct(std::span<const Vec3> points) {
@@ -60,7 +62,8 @@ Ids polygon(std::span<const Vec3> points, const Ids& sorted, const Projection& o
   for (int pass = 0; pass < 2; ++pass, std::reverse(order.begin(), order.end())) {
     const std::size_t base = loop.size();
     for (std::uint32_t id : order) {
-      while (loop.size() >= base + 2 && !CGAL::left_turn(onto(points[loop.end()[-2]]), onto(points[loop.back()]), onto(points[id])))
+      while (loop.size() >= base + 2 &&
+             !CGAL::left_turn(onto(points[loop.end()[-2]]), onto(points[loop.back()]), onto(points[id])))
         loop.pop_back();
       loop.push_back(id);
     }
@@ -78,12 +81,14 @@ Mesh3 quickhull(std::span<const Vec3> points, const Ids& ids) {
   return mesh;
 }
 
-/// A vertex of the hull has at least three edges with a true dihedral angle; quickhull also returns points inside faces and edges.
+/// A vertex of the hull has at least three edges with a true dihedral angle; quickhull also returns points inside faces and
+/// edges.
 bool is_extreme(const Mesh3& mesh, Mesh3::Vertex_index vertex) {
   int sharp = 0;
   for (Mesh3::Halfedge_index h : CGAL::halfedges_around_target(vertex, mesh)) {
     const auto apex = [&](Mesh3::Halfedge_index side) { return mesh.point(mesh.target(mesh.next(side))); };
-    if (!CGAL::coplanar(mesh.point(mesh.source(h)), mesh.point(vertex), apex(h), apex(mesh.opposite(h))) && ++sharp == 3) return true;
+    if (!CGAL::coplanar(mesh.point(mesh.source(h)), mesh.point(vertex), apex(h), apex(mesh.opposite(h))) && ++sharp == 3)
+      return true;
   }
   return false;
 }
@@ -93,7 +98,8 @@ Ids identify(const Mesh3& mesh, std::span<const Vec3> points, const Ids& sorted)
   Ids ids;
   for (Mesh3::Vertex_index v : mesh.vertices()) {
     const Vec3 p{mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()};
-    ids.push_back(*std::lower_bound(sorted.begin(), sorted.end(), p, [&](std::uint32_t id, const Vec3& q) { return before(points[id], q); }));
+    ids.push_back(*std::lower_bound(sorted.begin(), sorted.end(), p,
+                                    [&](std::uint32_t id, const Vec3& q) { return before(points[id], q); }));
   }
   return ids;
 }

@@ -73,10 +73,11 @@ std::string report_text(const Request& request, const Built& built) {
   const BuildReport& r = built.report;
   std::string text = request.in + "\n";
   text += format(" read       %zu points, %zu triangles\n", r.points_read, r.triangles_read);
-  text += format(" dropped    %zu duplicates, %zu points that are no corner of the hull\n", r.duplicates_dropped, r.interior_dropped);
+  text += format(" dropped    %zu duplicates, %zu points that are no corner of the hull\n", r.duplicates_dropped,
+                 r.interior_dropped);
   if (built.model.dimension() == 3) {
-    text += format(" grouped    %zu triangles of the hull into %zu faces, %zu of them with more than three vertices\n", r.hull_triangles,
-                   built.model.level(0).view.face_first.size(), r.faces_grouped);
+    text += format(" grouped    %zu triangles of the hull into %zu faces, %zu of them with more than three vertices\n",
+                   r.hull_triangles, built.model.level(0).view.face_first.size(), r.faces_grouped);
     text += format(" dents      the deepest %.6g; the mesh's volume is %.6g of the hull's\n", r.deepest_dent, r.volume_ratio);
   }
   text += levels_text(built.model) + " ended      " + r.end + "\n wrote      " + request.out;
@@ -85,10 +86,19 @@ std::string report_text(const Request& request, const Built& built) {
 
 nlohmann::ordered_json report_json(const Request& request, const Built& built) {
   const BuildReport& r = built.report;
-  return {{"path", request.out}, {"mesh", request.in}, {"bytes", built.model.bytes().size()}, {"points_read", r.points_read},
-          {"triangles_read", r.triangles_read}, {"duplicates_dropped", r.duplicates_dropped}, {"interior_dropped", r.interior_dropped},
-          {"hull_triangles", r.hull_triangles}, {"faces_grouped", r.faces_grouped}, {"volume_ratio", r.volume_ratio},
-          {"deepest_dent", r.deepest_dent}, {"levels", levels_json(built.model)}, {"end", r.end}};
+  return {{"path", request.out},
+          {"mesh", request.in},
+          {"bytes", built.model.bytes().size()},
+          {"points_read", r.points_read},
+          {"triangles_read", r.triangles_read},
+          {"duplicates_dropped", r.duplicates_dropped},
+          {"interior_dropped", r.interior_dropped},
+          {"hull_triangles", r.hull_triangles},
+          {"faces_grouped", r.faces_grouped},
+          {"volume_ratio", r.volume_ratio},
+          {"deepest_dent", r.deepest_dent},
+          {"levels", levels_json(built.model)},
+          {"end", r.end}};
 }
 
 Result<Output> build_word(const Request& request) {
@@ -111,7 +121,8 @@ using Choices = std::vector<std::pair<std::string, Value>>;
 
 /// An option whose argument is one of a few words.
 template <class Value>
-void add_choice(CLI::App& word, const std::string& name, const Choices<Value>& choices, Value& value, const char* standard, const char* help) {
+void add_choice(CLI::App& word, const std::string& name, const Choices<Value>& choices, Value& value, const char* standard,
+                const char* help) {
   std::string all;
   for (const auto& [key, ignored] : choices) all += (all.empty() ? "" : "|") + key;
   const auto read = [name, choices, all, &value](const std::string& text) {
@@ -130,18 +141,24 @@ Action declare_build(CLI::App& word) {
   BuildOptions& o = request->options;
   const Choices<Method> methods{{"peel", Method::Peel}, {"collapse", Method::Collapse}};
   const Choices<Enclosing> enclosings{{"tight", Enclosing::Tight}, {"scale", Enclosing::Scale}};
-  const Choices<lut::Resolution> tables{{"none", lut::Resolution::None}, {"22.5", lut::Resolution::Degrees22},
-                                        {"11.25", lut::Resolution::Degrees11}, {"5.625", lut::Resolution::Degrees5}};
+  const Choices<lut::Resolution> tables{{"none", lut::Resolution::None},
+                                        {"22.5", lut::Resolution::Degrees22},
+                                        {"11.25", lut::Resolution::Degrees11},
+                                        {"5.625", lut::Resolution::Degrees5}};
   word.add_option("IN", request->in, "a mesh: .obj .off .stl .ply .tri .poly; only its points shape the model")->required();
   word.add_option("-o,--output", request->out, "the .swl model to write")->required();
   add_choice(word, "--method", methods, o.method, "collapse", "quadric error edge collapse, or peeling of independent sets");
-  add_choice(word, "--enclosing", enclosings, o.enclosing, "tight", "how a level is made to hold level 0: vertex by vertex, or by scaling");
-  word.add_option("--rate", o.rate, "triangles of a level over those of the one before, between 0 and 1")->capture_default_str();
+  add_choice(word, "--enclosing", enclosings, o.enclosing, "tight",
+             "how a level is made to hold level 0: vertex by vertex, or by scaling");
+  word.add_option("--rate", o.rate, "triangles of a level over those of the one before, between 0 and 1")
+      ->capture_default_str();
   word.add_option("--cutoff", o.cutoff, "no level has fewer triangles")->capture_default_str();
   word.add_option("--levels", o.max_levels, "at most so many, level 0 included, 1 to 32")->capture_default_str();
-  word.add_option("--max-deviation", o.max_deviation, "no level deviates more, in the mesh's unit; 0: no limit")->capture_default_str();
+  word.add_option("--max-deviation", o.max_deviation, "no level deviates more, in the mesh's unit; 0: no limit")
+      ->capture_default_str();
   add_choice(word, "--table", tables, o.table.resolution, "11.25", "degrees between the samples of the start table");
-  word.add_option("--radius-factor", o.table.radius_factor, "its samples lie on a sphere of so many bounding radii, at least 1")->capture_default_str();
+  word.add_option("--radius-factor", o.table.radius_factor, "its samples lie on a sphere of so many bounding radii, at least 1")
+      ->capture_default_str();
   word.add_flag("--require-convex", o.require_convex, "refuse a mesh with dents");
   word.add_flag("--require-solid", o.require_solid, "refuse flat, collinear and single-point input");
   word.add_flag("--quiet", request->quiet, "no progress bar, no report");

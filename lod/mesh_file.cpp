@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Mesh files, by extension: CGAL's readers of polygon soups (its LGPL part), and SWIFT's two formats. Knows nothing of hulls.
-// The readers are not trusted: what they return is checked for points, finite coordinates and indices in range.
+// Mesh files, by extension: OFF, STL and PLY by CGAL's readers of polygon soups (its LGPL part), OBJ and SWIFT's two formats by
+// our own. Knows nothing of hulls. CGAL's OBJ reader refuses point clouds and names no line. The readers are not trusted: what
+// they return is checked for points, finite coordinates and indices in range.
 #include <swiftlet/build.h>
 
-#include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/OFF.h>
 #include <CGAL/IO/PLY.h>
 #include <CGAL/IO/STL.h>
@@ -15,6 +15,8 @@
 #include <charconv>
 #include <exception>
 #include <fstream>
+#include <sstream>
+#include <string_view>
 
 namespace swiftlet {
 namespace {
@@ -28,6 +30,14 @@ struct Soup {
 
 Error fault(const std::filesystem::path& path, ErrorCode code, const std::string& what) {
   return {code, path.string() + ": " + what};
+}
+
+/// Whether all of `word` is one number.
+template <class Number>
+bool parse(std::string_view word, Number& number) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  return !word.empty() && error == std::errc() && end == word.data() + word.size();
 }
 
 /// Words of a text and the line each stands on.
@@ -53,10 +63,7 @@ class Words {
 
   template <class Number>
   bool read(Number& number) {
-    const std::string word = next();
-    const char* first = word.data() + (word.starts_with('+') ? 1 : 0);
-    const auto [end, error] = std::from_chars(first, word.data() + word.size(), number);
-    return !word.empty() && error == std::errc() && end == word.data() + word.size();
+    return parse(next(), number);
   }
 
  private:
@@ -64,8 +71,8 @@ class Words {
   std::size_t line_ = 1;
 };
 
-/// "TRI" or "POLY", the counts of vertices and faces, three coordinates per vertex, and per face its vertices, counted from 0; in
-/// POLY after their number. White space is free.
+/// "TRI" or "POLY", the counts of vertices and faces, three coordinates per vertex, and per face its vertices, counted from 0;
+/// in POLY after their number. White space is free.
 std::string read_swift(std::istream& file, Soup& soup) {
   Words words(file);
   const auto at_line = [&](const std::string& what) { return "line " + std::to_string(words.line()) + ": " + what; };
@@ -87,7 +94,8 @@ std::string read_swift(std::istream& file, Soup& soup) {
     for (std::size_t k = 0; k < size; ++k) {
       std::size_t corner = 0;
       if (!words.read(corner)) return at_line("expected a vertex of " + face);
-      if (corner >= vertex_count) return at_line(face + " names vertex " + std::to_string(corner) + " of " + std::to_string(vertex_count));
+      if (corner >= vertex_count)
+        return at_line(face + " names vertex " + std::to_string(corner) + " of " + std::to_string(vertex_count));
       polygon.push_back(corner);
     }
     soup.polygons.push_back(std::move(polygon));
@@ -95,13 +103,67 @@ std::string read_swift(std::istream& file, Soup& soup) {
   return {};
 }
 
+/// A corner of an OBJ face is v, v/t, v//n or v/t/n, counted from 1 or, if negative, back from the last vertex read.
+bool obj_corner(const std::string& word, std::size_t vertex_count, std::size_t& corner) {
+  long long index = 0;
+  if (!parse(std::string_view(word).substr(0, word.find('/')), index)) return false;
+  const long long from_zero = index > 0 ? index - 1 : index + static_cast<long long>(vertex_count);
+  corner = std::size_t(from_zero);
+  return index != 0 && from_zero >= 0;
+}
+
+/// Vertices and faces; all else in the file is not for us.
+std::string read_obj(std::istream& file, Soup& soup) {
+  std::string line;
+  for (std::size_t number = 1; std::getline(file, line); ++number) {
+    std::istringstream text(line);
+    Words words(text);
+    const std::string keyword = words.next(), at_line = "line " + std::to_string(number) + ": ";
+    if (keyword == "v") {
+      double x = 0, y = 0, z = 0;
+      if (!words.read(x) || !words.read(y) || !words.read(z)) return at_line + "expected three coordinates";
+      soup.points.emplace_back(x, y, z);
+    } else if (keyword == "f") {
+      soup.polygons.emplace_back();
+      for (std::string word = words.next(); !word.empty(); word = words.next()) {
+        std::size_t corner = 0;
+        if (!obj_corner(word, soup.points.size(), corner)) return at_line + "\"" + word + "\" is no vertex";
+        soup.polygons.back().push_back(corner);
+      }
+    }
+  }
+  return {};
+}
+
+/// CGAL's reader dereferences the element that a property belongs to without asking whether there is one.
+bool has_sound_ply_header(std::istream& file) {
+  bool element = false;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string keyword;
+    words >> keyword;
+    element = element || keyword == "element";
+    if (keyword == "property" && !element) return false;
+    if (keyword == "end_header") {
+      file.clear();
+      file.seekg(0);
+      return true;
+    }
+  }
+  return false;
+}
+
 /// An empty string, or what is wrong.
 std::string read_soup(const std::string& extension, std::istream& file, Soup& soup) try {
-  const auto outcome = [&](bool read) { return read ? std::string() : "is no " + extension.substr(1) + " file, or is damaged"; };
-  if (extension == ".obj") return outcome(CGAL::IO::read_OBJ(file, soup.points, soup.polygons));
-  if (extension == ".off") return outcome(CGAL::IO::read_OFF(file, soup.points, soup.polygons));
-  if (extension == ".stl") return outcome(CGAL::IO::read_STL(file, soup.points, soup.polygons));
-  if (extension == ".ply") return outcome(CGAL::IO::read_PLY(file, soup.points, soup.polygons));
+  const auto outcome = [&](bool read) {
+    return read ? std::string() : "is no " + extension.substr(1) + " file, or is damaged";
+  };
+  const auto quietly = CGAL::parameters::verbose(false);
+  if (extension == ".obj") return read_obj(file, soup);
+  if (extension == ".off") return outcome(CGAL::IO::read_OFF(file, soup.points, soup.polygons, quietly));
+  if (extension == ".stl") return outcome(CGAL::IO::read_STL(file, soup.points, soup.polygons, quietly));
+  if (extension == ".ply")
+    return outcome(has_sound_ply_header(file) && CGAL::IO::read_PLY(file, soup.points, soup.polygons, quietly));
   return read_swift(file, soup);
 } catch (const std::exception& exception) {
   return std::string("is damaged: ") + exception.what();
@@ -126,7 +188,8 @@ Result<Mesh> checked(const Soup& soup, const std::filesystem::path& path) {
     if (polygon.size() < 3) return fault(path, ErrorCode::BadFormat, face() + " has fewer than three vertices");
     for (std::size_t corner : polygon)
       if (corner >= mesh.points.size())
-        return fault(path, ErrorCode::BadFormat, face() + " names vertex " + std::to_string(corner) + " of " + std::to_string(mesh.points.size()));
+        return fault(path, ErrorCode::BadFormat,
+                     face() + " names vertex " + std::to_string(corner) + " of " + std::to_string(mesh.points.size()));
     for (std::size_t k = 2; k < polygon.size(); ++k)
       mesh.triangles.push_back({std::uint32_t(polygon[0]), std::uint32_t(polygon[k - 1]), std::uint32_t(polygon[k])});
   }
@@ -139,7 +202,8 @@ Result<Mesh> read_mesh(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
   if (!is_known(extension))
-    return fault(path, ErrorCode::BadFormat, "unknown extension \"" + extension + "\"; known are .obj .off .stl .ply .tri .poly");
+    return fault(path, ErrorCode::BadFormat,
+                 "unknown extension \"" + extension + "\"; known are .obj .off .stl .ply .tri .poly");
   std::error_code ignored;
   std::ifstream file(path, std::ios::binary);
   if (!file || std::filesystem::is_directory(path, ignored)) return fault(path, ErrorCode::CannotRead, "cannot be opened");

@@ -13,8 +13,8 @@ constexpr double kImportant = 1;
 constexpr std::size_t kEnough = 20;  ///< one in so many vertices makes a level worth having
 
 /// Greedy over `order`, up to an importance above `bound`.
-std::vector<std::uint32_t> greedy(const Climber& body, const std::vector<std::uint32_t>& order, const std::vector<double>& importance,
-                                  double bound, std::size_t most) {
+std::vector<std::uint32_t> greedy(const Climber& body, const std::vector<std::uint32_t>& order,
+                                  const std::vector<double>& importance, double bound, std::size_t most) {
   std::vector<bool> taken(order.size());
   std::vector<std::uint32_t> set;
   for (std::uint32_t v : order) {

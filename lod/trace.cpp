@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles are found by corners, else by a climb to where their plane would touch the hull. Depths are bounded by a few planes first.
+// Triangles are found by corners, else by a climb to where their plane would touch the hull. Depths are bounded by a few planes
+// first.
 #include "trace.h"
 
 #include <swiftlet/lut.h>
@@ -21,7 +22,9 @@ namespace {
 
 using Ids = std::vector<std::uint32_t>;
 
-bool before(const Vec3& p, const Vec3& q) { return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3); }
+bool before(const Vec3& p, const Vec3& q) {
+  return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+}
 
 Triangle from_lowest(Triangle triangle) {
   std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
@@ -32,8 +35,9 @@ Triangle from_lowest(Triangle triangle) {
 Ids first_of_equals(std::span<const Vec3> points) {
   Ids order(points.size()), first(points.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t i, std::uint32_t j) { return before(points[i], points[j]) || (points[i] == points[j] && i < j); });
+  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+    return before(points[i], points[j]) || (points[i] == points[j] && i < j);
+  });
   for (std::size_t k = 0; k < order.size(); ++k)
     first[order[k]] = k > 0 && points[order[k]] == points[order[k - 1]] ? first[order[k - 1]] : order[k];
   return first;
@@ -42,7 +46,8 @@ Ids first_of_equals(std::span<const Vec3> points) {
 bool closes(const std::vector<Triangle>& triangles) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> forth, back;
   for (const auto& [a, b, c] : triangles)
-    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) forth.emplace_back(from, to), back.emplace_back(to, from);
+    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}})
+      forth.emplace_back(from, to), back.emplace_back(to, from);
   std::sort(forth.begin(), forth.end());
   std::sort(back.begin(), back.end());
   return forth == back;
@@ -51,7 +56,8 @@ bool closes(const std::vector<Triangle>& triangles) {
 /// Finds hull triangles by the plane they lie on.
 class PlaneFinder {
  public:
-  PlaneFinder(const Polytope& body, double rounding) : body_(body), climber_(body), edges_(half_edges(body)), rounding_(rounding) {}
+  PlaneFinder(const Polytope& body, double rounding)
+      : body_(body), climber_(body), edges_(half_edges(body)), rounding_(rounding) {}
 
   /// The largest hull triangle at the vertex where the plane of p, q, r touches, if all lie on one plane; else kNone.
   std::uint32_t find(const Vec3& p, const Vec3& q, const Vec3& r) {
@@ -68,7 +74,8 @@ class PlaneFinder {
     do {
       const auto& [a, b, c] = body_.triangles[h / 3];
       const double along = normal.dot(area_normal(body_.points[a], body_.points[b], body_.points[c]));
-      if (along > largest && on_plane(body_.points[a]) && on_plane(body_.points[b]) && on_plane(body_.points[c])) largest = along, best = h / 3;
+      if (along > largest && on_plane(body_.points[a]) && on_plane(body_.points[b]) && on_plane(body_.points[c]))
+        largest = along, best = h / 3;
       h = edges_.rotate(h);
     } while (h != first);
     return best;
@@ -168,7 +175,8 @@ double volume_ratio(const Mesh& mesh, const Polytope& body) {
 
 double deepest_dent(const Mesh& mesh, const Hull& hull, const Polytope& body) {
   Faces faces;
-  for (const auto& [a, b, c] : body.triangles) faces.emplace_back(cgal(body.points[a]), cgal(body.points[b]), cgal(body.points[c]));
+  for (const auto& [a, b, c] : body.triangles)
+    faces.emplace_back(cgal(body.points[a]), cgal(body.points[b]), cgal(body.points[c]));
   const Tree tree(faces.cbegin(), faces.cend());
   const CoarseDepth bound(body);
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What became of the user's mesh in the hull: which triangles lie on which face, and how far the mesh dents. Knows nothing of levels.
+// What became of the user's mesh in the hull: which triangles lie on which face, and how far the mesh dents. Knows nothing of
+// levels.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,8 @@
 
 namespace swiftlet::lod {
 
-/// How far from flat or convex a mesh may be by rounding alone, in its unit: 8 units in the last place of its largest coordinate, as
-/// doubles, or as floats where all coordinates are floats.
+/// How far from flat or convex a mesh may be by rounding alone, in its unit: 8 units in the last place of its largest
+/// coordinate, as doubles, or as floats where all coordinates are floats.
 double rounding_of(std::span<const Vec3> points);
 
 /// Per hull triangle, the user's triangles whose corners lie on its plane up to rounding and whose normal agrees; a triangle is

@@ -232,7 +232,7 @@ Result<Model> BlockReader::read(AlignedBytes block) {
   for (int i = 0; i < count; ++i) {
     const LevelHeader& l = level_headers[i];
     const std::string name = "level " + std::to_string(i) + ": ";
-    if (!finite({l.deviation, l.volume}) || !(l.extent <= kMostCoordinate) || !(l.deviation >= 0) || (i == 0 && l.deviation != 0)) return bad(name + "a number is out of range");
+    if (!finite({l.deviation, l.volume}) || !(l.extent == 0 || (l.extent >= kLeastExtent && l.extent <= kMostCoordinate)) || !(l.deviation >= 0) || (i == 0 && l.deviation != 0)) return bad(name + "a number is out of range");
     Cursor cursor(parts[i]);
     Level level;
     level.view.vertices = cursor.take<Vertex>(l.vertex_count);

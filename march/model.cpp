@@ -41,7 +41,7 @@ std::uint32_t Model::support(const Vec3& direction) const {
   if (!body_->table.empty()) {
     start = body_->table[lut::nearest(lut::Resolution(body_->header.resolution), {direction[0], direction[1], direction[2]})];
   }
-  return support_a(alone, vec(direction), start, comparisons);
+  return support_a(alone, rescaled(vec(direction)), start, comparisons);
 }
 
 TableSpec Model::table_spec() const { return {lut::Resolution(body_->header.resolution), body_->header.radius_factor}; }

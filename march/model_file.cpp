@@ -23,6 +23,9 @@ Result<std::size_t> save(const Model& model, const std::filesystem::path& path) 
   std::filesystem::path part = path;
   part += ".part";
   std::error_code failure;
+  if (std::filesystem::exists(path, failure) && !std::filesystem::is_regular_file(path, failure)) {
+    return Error{ErrorCode::CannotWrite, path.string() + ": exists and is no file"};
+  }
   {
     std::ofstream file(part, std::ios::binary | std::ios::trunc);
     file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));

@@ -105,7 +105,7 @@ Nearest<Real> nearest_to_origin(const std::array<Difference<Real>, 4>& set, int 
 
 Vec normalised(const Vec& v) {
   const double scale = max_abs(v);
-  if (!(scale > 0)) return {0, 0, 0};
+  if (!(scale > kLeastDirection)) return {0, 0, 0};
   const Vec w = v * (1 / scale);
   return w * (1 / norm(w));
 }

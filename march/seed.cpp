@@ -71,7 +71,7 @@ MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& p
   MarchStart s = start;
   const bool known_a = names_feature(scene.a, s.a), known_b = names_feature(scene.b, s.b);
   if (!known_a || !known_b) {
-    const Vec d = apply(scene.b_in_a, vec(scene.b.centre)) - vec(scene.a.centre);
+    const Vec d = rescaled(apply(scene.b_in_a, vec(scene.b.centre)) - vec(scene.a.centre));
     if (!known_a) s.a = {FeatureKind::Vertex, support_a(scene, d, 0, plane_tests)};
     if (!known_b) s.b = {FeatureKind::Vertex, support_b(scene, d, 0, plane_tests)};
   }

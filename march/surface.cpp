@@ -28,6 +28,12 @@ std::string text(double value) {
 }
 std::string edge_text(Index u, Index v) { return "edge (" + std::to_string(u) + ", " + std::to_string(v) + ")"; }
 
+double extent_of(std::span<const Vec3> points) {
+  double extent = 0;
+  for (const Vec3& p : points) extent = std::max(extent, max_abs(vec(p)));
+  return extent;
+}
+
 /// The input faces as loops of input vertices.
 struct Input {
   std::span<const Vec3> points;
@@ -48,6 +54,7 @@ Result<Input> read_input(const LevelArrays& level) {
       if (!in_range) return bad_value("vertex " + std::to_string(i) + " has the coordinate " + text(x));
     }
   }
+  if (const double extent = extent_of(in.points); extent > 0 && extent < kLeastExtent) return bad_value("the body's extent is " + text(extent));
   std::size_t at = 0;
   const bool triangles = level.face_sizes.empty();
   if (triangles && level.face_vertices.size() % 3 != 0) return bad_value("face_vertices is no list of triangles");
@@ -457,12 +464,6 @@ bool all_float(const Input& in) {
   });
 }
 
-double extent_of(const Input& in) {
-  double extent = 0;
-  for (Index v = 0; v < in.points.size(); ++v) extent = std::max(extent, max_abs(in.point(v)));
-  return extent;
-}
-
 /// Which facets walk as one face: per facet, its group. A group is flat to kWalkingFaceUlps, faces one way, and is a disc.
 class Grouping {
  public:
@@ -475,7 +476,7 @@ class Grouping {
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return dot(area_[a], area_[a]) > dot(area_[b], area_[b]); });
     group_.assign(count, kNone);
-    tolerance_ = kWalkingFaceUlps * (all_float(in) ? kFloatUlp : kDoubleUlp) * extent_of(in);
+    tolerance_ = kWalkingFaceUlps * (all_float(in) ? kFloatUlp : kDoubleUlp) * extent_of(in.points);
     for (const Index seed : order) {
       if (group_[seed] == kNone) grow(seed);
     }
@@ -545,7 +546,7 @@ class Grouping {
 
 /// Input vertices in the order of a space-filling curve, so that neighbours share cache lines.
 std::vector<Index> along_curve(const Input& in, std::vector<Index> corners) {
-  const double extent = extent_of(in);
+  const double extent = extent_of(in.points);
   const auto spread = [](std::uint64_t x) {  // two zero bits before each of 21
     x = (x | x << 32) & 0x1f00000000ffff;
     x = (x | x << 16) & 0x1f0000ff0000ff;
@@ -569,7 +570,7 @@ FacePlane plane_of(const Input& in, const Loop& border, const Loop& members) {
   const Vec n = unit(area_vector(in, border)), p = in.point(border[0]);
   double thickness = 0;
   for (const Index v : members) thickness = std::max(thickness, std::fabs(dot(n, in.point(v) - p)));
-  return {n.x, n.y, n.z, thickness + 8 * kU * extent_of(in)};
+  return {n.x, n.y, n.z, thickness + 8 * kU * extent_of(in.points)};
 }
 
 Surface link(const Input& in, const Facets& facets) {
@@ -699,7 +700,7 @@ Result<Surface> make_surface(const LevelArrays& level, bool repair) {
     linked.volume = flat ? 0 : volume_of(in, facets.value());
     return linked;
   }();
-  if (surface) surface.value().extent = extent_of(in);
+  if (surface) surface.value().extent = extent_of(in.points);
   return surface;
 }
 

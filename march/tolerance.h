@@ -35,9 +35,14 @@ inline constexpr double kWideDotError = 0x1p-96;
 /// Three factors a - (R b + t) of 1 product and 4 sums each, then 2 products, 1 difference, 2 sums.
 inline constexpr double kOffsetTripleProductError = 26 * kU;
 
-/// Coordinates between these, or 0, keep every product of three of them, and its rounding errors, inside the range of doubles.
+/// Coordinates are 0 or at least this, so that products of three of them keep their rounding errors inside the range of doubles.
 /// Length.
-inline constexpr double kLeastCoordinate = 1e-70, kMostCoordinate = 1e70;
+inline constexpr double kLeastCoordinate = 1e-70;
+/// A body's extent and a pose's translation are at most the second, an extent not below the first: sixth powers, the squared
+/// height of a vertex over an unnormalised normal, stay inside that range too. Length.
+inline constexpr double kLeastExtent = 1e-45, kMostCoordinate = 1e45;
+/// The largest coordinate of a vector that is still normalised: below, its inverse may overflow. Products of two lengths.
+inline constexpr double kLeastDirection = 0x1p-1000;
 
 // ---- Rounding of a certificate in doubles (certify.cpp): lengths -----------------------------------------------------------
 

@@ -31,6 +31,14 @@ template <class R> static inline V3<R> cross(const V3<R>& a, const V3<R>& b) {
 static inline double norm(const Vec& a) { return std::sqrt(dot(a, a)); }
 static inline double max_abs(const Vec& a) { return std::fmax(std::fmax(std::fabs(a.x), std::fabs(a.y)), std::fabs(a.z)); }
 
+/// The same direction, at a length where no product of its coordinates with a body's over- or underflows; 0 where it names none.
+static inline Vec rescaled(const Vec& v) {
+  const double largest = max_abs(v);
+  if (!(largest > 0) || !std::isfinite(dot(v, {0, 0, 0}))) return {0, 0, 0};
+  const int exponent = 400 - std::ilogb(largest);
+  return {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
+}
+
 static inline Vec vec(const Vertex& v) { return {v.x, v.y, v.z}; }
 static inline Vec vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
 static inline Vec3 eigen(const Vec& v) { return Vec3(v.x, v.y, v.z); }

@@ -127,6 +127,17 @@ Body body_of(const Mesh& mesh) {
   return b;
 }
 
+inline std::vector<Vec3> points_of(const ConvexView& view) {
+  std::vector<Vec3> points;
+  for (const Vertex& v : view.vertices) points.emplace_back(v.x, v.y, v.z);
+  return points;
+}
+/// How narrow law 2 wants an exact answer.
+inline double law_two(const ConvexView& a, const ConvexView& b, const Pose& pose) {
+  const double orthonormality = (pose.rotation.transpose() * pose.rotation - Mat3::Identity()).cwiseAbs().maxCoeff();
+  return (64 * 0x1p-53 + 2 * orthonormality) * (std::max(a.extent, b.extent) + pose.translation.norm()) * (1 + 1e-9);
+}
+
 /// Octahedron in cube in tetrahedron: level 1 deviates by 2 / sqrt(3), level 2 by 8 / sqrt(3).
 inline Model nested(int levels = 3, const ModelOptions& options = {}) {
   const Body all[] = {octahedron(), cube(), tetrahedron(3)};

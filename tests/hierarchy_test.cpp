@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Levels of every method: exact convexity and enclosure proved apart from march, deviations by brute force, importances by hand.
+// Levels of every method: exact convexity and enclosure proved apart from march, deviations by brute force, importances by
+// hand.
 #include <gtest/gtest.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -17,8 +18,10 @@
 namespace swiftlet {
 namespace {
 
-constexpr std::pair<Method, Enclosing> kMethods[] = {{Method::Collapse, Enclosing::Tight}, {Method::Collapse, Enclosing::Scale},
-                                                     {Method::Peel, Enclosing::Tight}, {Method::Peel, Enclosing::Scale}};
+constexpr std::pair<Method, Enclosing> kMethods[] = {{Method::Collapse, Enclosing::Tight},
+                                                     {Method::Collapse, Enclosing::Scale},
+                                                     {Method::Peel, Enclosing::Tight},
+                                                     {Method::Peel, Enclosing::Scale}};
 
 BuildOptions options(Method method, Enclosing enclosing, std::uint32_t cutoff) {
   BuildOptions result;
@@ -44,10 +47,13 @@ void expect_sound(const Model& model) {
     ASSERT_EQ(shape.vertices.size(), own.size()) << "level " << k;
     ASSERT_EQ(model.level(k).triangle_count, shape.triangles.size()) << "level " << k;
     const lod::Polytope body = lod::solid(own, shape);
-    const auto exact = [](const Vec3& p) { return CGAL::Exact_predicates_inexact_constructions_kernel::Point_3(p.x(), p.y(), p.z()); };
+    const auto exact = [](const Vec3& p) {
+      return CGAL::Exact_predicates_inexact_constructions_kernel::Point_3(p.x(), p.y(), p.z());
+    };
     for (const auto& [a, b, c] : body.triangles)
       for (const Vec3& p : finest)
-        ASSERT_NE(CGAL::orientation(exact(body.points[a]), exact(body.points[b]), exact(body.points[c]), exact(p)), CGAL::POSITIVE)
+        ASSERT_NE(CGAL::orientation(exact(body.points[a]), exact(body.points[b]), exact(body.points[c]), exact(p)),
+                  CGAL::POSITIVE)
             << "level " << k;
   }
 }
@@ -59,7 +65,8 @@ double distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
     const double t = std::clamp((p - s).dot(e - s) / (e - s).squaredNorm(), 0.0, 1.0);
     return (p - s - t * (e - s)).norm();
   };
-  const bool above = normal.cross(b - a).dot(p - a) >= 0 && normal.cross(c - b).dot(p - b) >= 0 && normal.cross(a - c).dot(p - c) >= 0;
+  const bool above =
+      normal.cross(b - a).dot(p - a) >= 0 && normal.cross(c - b).dot(p - b) >= 0 && normal.cross(a - c).dot(p - c) >= 0;
   if (above) return std::abs(normal.dot(p - a)) / normal.norm();
   return std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)});
 }
@@ -70,7 +77,8 @@ double brute_deviation(const Model& model, int k) {
   double greatest = 0;
   for (const Vec3& p : points(model.level(k))) {
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& [a, b, c] : body.triangles) least = std::min(least, distance(p, body.points[a], body.points[b], body.points[c]));
+    for (const auto& [a, b, c] : body.triangles)
+      least = std::min(least, distance(p, body.points[a], body.points[b], body.points[c]));
     greatest = std::max(greatest, least);
   }
   return greatest;
@@ -114,7 +122,8 @@ TEST(Hierarchy, DeviationIsThatOfBruteForce) {
 }
 
 TEST(Hierarchy, CoarsestTightLevelIsNear) {
-  const std::pair<Vec3, double> shapes_and_bounds[] = {{Vec3(1, 1, 1), 0.13}, {Vec3(1, 1, 0.1), 0.11}, {Vec3(1, 0.1, 0.1), 0.08}};
+  const std::pair<Vec3, double> shapes_and_bounds[] = {
+      {Vec3(1, 1, 1), 0.13}, {Vec3(1, 1, 0.1), 0.11}, {Vec3(1, 0.1, 0.1), 0.08}};
   for (const auto& [axes, bound] : shapes_and_bounds)
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       const auto built = build(shapes::ellipsoid(axes, 2000, seed));
@@ -263,7 +272,9 @@ TEST(Peel, NoTwoOfASetAreNeighbours) {
   const std::vector<std::uint32_t> set = lod::independent_set(body, body.points.size());
   ASSERT_FALSE(set.empty());
   for (const lod::Triangle& triangle : body.triangles)
-    EXPECT_LE(std::count_if(triangle.begin(), triangle.end(), [&](std::uint32_t v) { return std::find(set.begin(), set.end(), v) != set.end(); }), 1);
+    EXPECT_LE(std::count_if(triangle.begin(), triangle.end(),
+                            [&](std::uint32_t v) { return std::find(set.begin(), set.end(), v) != set.end(); }),
+              1);
   EXPECT_EQ(lod::independent_set(body, 3).size(), 3u);
 }
 

@@ -29,7 +29,8 @@ void expect_hull_of(const std::vector<Vec3>& points, const Hull& hull) {
   }
   for (const auto& [a, b, c] : body.triangles)
     for (const Vec3& p : points)
-      ASSERT_NE(CGAL::orientation(exact(body.points[a]), exact(body.points[b]), exact(body.points[c]), exact(p)), CGAL::POSITIVE);
+      ASSERT_NE(CGAL::orientation(exact(body.points[a]), exact(body.points[b]), exact(body.points[c]), exact(p)),
+                CGAL::POSITIVE);
 }
 
 TEST(Hull, DropsPointsInsideFacesAndEdges) {
@@ -43,7 +44,8 @@ TEST(Hull, DropsPointsInsideFacesAndEdges) {
 
 TEST(Hull, IsExactOnRotatedAndFloatRoundedCad) {
   const Pose turn{shapes::rotation(Vec3(1, 2, 3).normalized(), 0.7), Vec3(1e4, -3, 2)};
-  for (const Mesh& mesh : {shapes::meshed_cube(5), shapes::prism(40, 1, 2), shapes::dodecahedron(), shapes::needle(), shapes::sliver()}) {
+  for (const Mesh& mesh :
+       {shapes::meshed_cube(5), shapes::prism(40, 1, 2), shapes::dodecahedron(), shapes::needle(), shapes::sliver()}) {
     const Mesh turned = shapes::moved(mesh, turn), rounded = shapes::float_rounded(turned);
     expect_hull_of(turned.points, hull(turned.points));
     expect_hull_of(rounded.points, hull(rounded.points));

@@ -107,7 +107,9 @@ TEST(MeshFile, KeepsDoublesBitForBit) {
   EXPECT_EQ(mesh.value().points[0], Vec3(0.1, 1e-300, 123456789.123456789));
 }
 
-TEST(MeshFile, MissingFileIsNamed) { expect_error(read_mesh("/nowhere/at_all.off"), ErrorCode::CannotRead, "/nowhere/at_all.off"); }
+TEST(MeshFile, MissingFileIsNamed) {
+  expect_error(read_mesh("/nowhere/at_all.off"), ErrorCode::CannotRead, "/nowhere/at_all.off");
+}
 
 TEST(MeshFile, DirectoryIsNoFile) {
   const auto path = std::filesystem::temp_directory_path() / "swiftlet_directory.off";
@@ -123,7 +125,9 @@ TEST(MeshFile, NoPointsIsAnError) {
   expect_error(read("e.tri", "TRI 0 0"), ErrorCode::Empty, "no points");
 }
 
-TEST(MeshFile, NonFiniteVertexIsNamed) { expect_error(read("n.tri", "TRI 2 0  0 0 0  0 nan 0"), ErrorCode::BadValue, "vertex 1"); }
+TEST(MeshFile, NonFiniteVertexIsNamed) {
+  expect_error(read("n.tri", "TRI 2 0  0 0 0  0 nan 0"), ErrorCode::BadValue, "vertex 1");
+}
 
 TEST(MeshFile, TextFaultsNameTheLine) {
   expect_error(read("l.tri", "TRI\n2 0\n0 0 0\n0 zero 0\n"), ErrorCode::BadFormat, "line 4");
@@ -144,8 +148,9 @@ TEST(MeshFile, BinaryStlCutShortIsAnError) {
 }
 
 TEST(MeshFile, DamagedFilesNeverCrash) {
-  const std::pair<const char*, std::string> files[] = {{"c.off", kOff}, {"c.obj", kObj}, {"c.ply", kPly},          {"c.stl", kStl},
-                                                       {"c.tri", kTri}, {"c.poly", kPoly}, {"c.stl", binary_stl()}};
+  const std::pair<const char*, std::string> files[] = {{"c.off", kOff},        {"c.obj", kObj}, {"c.ply", kPly},
+                                                       {"c.stl", kStl},        {"c.tri", kTri}, {"c.poly", kPoly},
+                                                       {"c.stl", binary_stl()}};
   for (const auto& [name, bytes] : files)
     for (std::size_t at = 0; at < bytes.size(); at += 3) {
       (void)read(name, bytes.substr(0, at));

@@ -204,7 +204,7 @@ void exercise(const Model& hostile, const Model& honest, Work& most) {
 }
 
 /// The work that a small honest pair can cost at all, certified progress through both arithmetics at every level included.
-constexpr std::uint32_t kMostSteps = 400, kMostPlaneTests = 200000;
+constexpr std::uint32_t kMostSteps = 60, kMostPlaneTests = 2000;
 
 TEST_F(ModelFile, EveryCorruptByteIsFoundByTheHashes) {
   const Bytes whole = bytes_of(small());
@@ -240,7 +240,7 @@ TEST_F(ModelFile, EveryCorruptByteWithRightHashesIsRefusedOrHarmless) {
     }
   }
   EXPECT_GE(refused, 5000);
-  EXPECT_GE(accepted, 5000);
+  EXPECT_GE(accepted, 4000);
   EXPECT_LE(most.steps, kMostSteps);
   EXPECT_LE(most.plane_tests, kMostPlaneTests);
   RecordProperty("most_steps", int(most.steps));
@@ -275,7 +275,7 @@ TEST_F(ModelFile, RandomWordsWithRightHashesAreRefusedOrHarmless) {
 
 TEST_F(ModelFile, CoordinatesBeyondExactArithmeticAreRefused) {
   // Signs of products of three such coordinates are not exact any more, and a climb on them need not end.
-  for (const double scale : {1e100, 1e300, 1e-100, 1e-300}) {
+  for (const double scale : {1e50, 1e300, 1e-50, 1e-300}) {
     Bytes block = bytes_of(small());
     for (std::size_t level = 0; level < 2; ++level) {
       auto header = read<LevelHeader>(block, level_header_at(level));

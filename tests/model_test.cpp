@@ -404,16 +404,19 @@ TEST(Model, ArraysMustFit) {
 }
 
 TEST(Model, CoordinatesOutOfRangeAreNamed) {
-  for (const double x : {std::nan(""), kInfinity, -kInfinity, 1e71, -1e300, 1e-71, 5e-324}) {
+  for (const double x : {std::nan(""), kInfinity, -kInfinity, 1e46, -1e300, 1e-71, 5e-324}) {
     Body b = cube();
     b.points[5].y() = x;
     expect_says(refusal(b, ErrorCode::BadValue), "vertex 5");
   }
-  for (const double scale : {1e-18, 1e18, 0x1p-200, 0x1p200}) {
+  for (const double scale : {1e-18, 1e18, 0x1p-140, 0x1p140}) {
     Body b = octahedron();
     for (Vec3& p : b.points) p *= scale;
     expect_sound(model(b));
   }
+  Body tiny = octahedron();
+  for (Vec3& p : tiny.points) p *= 1e-50;
+  expect_says(refusal(tiny, ErrorCode::BadValue), "extent");
 }
 
 // ---- Flatter bodies --------------------------------------------------------------------------------------------------------------
@@ -634,6 +637,19 @@ TEST(Model, SupportIsExtreme) {
       }
     }
   }
+}
+
+TEST(Model, SupportTakesAnyDirection) {
+  const Model m = model(moved(cube(), rotation(1, 2, 3, 4)));
+  constexpr double least = std::numeric_limits<double>::denorm_min(), most = std::numeric_limits<double>::max(), nan = std::numeric_limits<double>::quiet_NaN();
+  const Vec3 d(0.3, -0.5, 0.1);
+  for (const double length : {1e-300, 1e-280, 1e300, most}) EXPECT_EQ(m.support(d * length), m.support(d)) << length;
+  for (const Vec3& any : {Vec3(least, least, 0), Vec3(most, -most, most), Vec3(nan, 0, 1), Vec3(kInfinity, 0, 0), Vec3(0, 0, 0), Vec3(1, least, -least)}) {
+    EXPECT_LT(m.support(any), 8u);
+  }
+  // The far smaller coordinate still decides between the corners of a face.
+  const Model c = model(cube());
+  EXPECT_EQ(at(c.level(0).view, c.support({1, 1e-200, -1e-300})), Vec3(1, 1, -1));
 }
 
 TEST(Model, ScalingByAPowerOfTwoScalesBitForBit) {

@@ -5,6 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -13,6 +15,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -74,8 +77,9 @@ class Tool : public testing::Test {
               ("swiftlet_tool_" + std::to_string(getpid()) + testing::UnitTest::GetInstance()->current_test_info()->name());
     std::filesystem::create_directories(folder_);
     ASSERT_TRUE(save(two_levels(), folder_ / "a.swl"));
-    write(folder_ / "cube.off", "OFF\n8 6 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n"
-                                "4 0 4 6 2\n4 1 3 7 5\n4 0 1 5 4\n4 2 6 7 3\n4 0 2 3 1\n4 4 5 7 6\n");
+    write(folder_ / "cube.off",
+          "OFF\n8 6 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n"
+          "4 0 4 6 2\n4 1 3 7 5\n4 0 1 5 4\n4 2 6 7 3\n4 0 2 3 1\n4 4 5 7 6\n");
     before_ = names();
   }
   void TearDown() override {
@@ -87,8 +91,8 @@ class Tool : public testing::Test {
   Ran run(const std::string& arguments) const {
     const std::filesystem::path streams = folder_.string() + ".streams";
     std::filesystem::create_directories(streams);
-    const std::string command = "cd '" + folder_.string() + "' && '" + kTool + "' " + arguments + " >'" + (streams / "out").string() +
-                                "' 2>'" + (streams / "err").string() + "' </dev/null";
+    const std::string command = "cd '" + folder_.string() + "' && '" + kTool + "' " + arguments + " >'" +
+                                (streams / "out").string() + "' 2>'" + (streams / "err").string() + "' </dev/null";
     const int status = std::system(command.c_str());
     Ran ran{WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(streams / "out"), content(streams / "err")};
     std::filesystem::remove_all(streams);
@@ -149,7 +153,8 @@ std::vector<Vec3> off_vertices(const std::string& text) {
 TEST_F(Tool, TellsItsVersionAndWords) {
   EXPECT_TRUE(says("--version").starts_with("swiftlet "));
   const std::string help = says("--help");
-  for (const char* word : {"info", "verify", "distance", "export", "draw"}) EXPECT_NE(help.find(word), std::string::npos) << word;
+  for (const char* word : {"info", "verify", "distance", "export", "draw"})
+    EXPECT_NE(help.find(word), std::string::npos) << word;
   EXPECT_EQ(help.find("\n  build ") != std::string::npos, kBuilds);
 }
 
@@ -194,7 +199,8 @@ TEST_F(Tool, ExportReadsBackBitForBit) {
     const std::vector<Vec3> points = off_vertices(content(folder_ / "level.off"));
     const auto vertices = model.value().level(k).view.vertices;
     ASSERT_EQ(points.size(), vertices.size());
-    for (std::size_t v = 0; v < points.size(); ++v) EXPECT_EQ(std::memcmp(points[v].data(), &vertices[v].x, 3 * sizeof(double)), 0) << v;
+    for (std::size_t v = 0; v < points.size(); ++v)
+      EXPECT_EQ(std::memcmp(points[v].data(), &vertices[v].x, 3 * sizeof(double)), 0) << v;
   }
   EXPECT_EQ(says_json("export a.swl --level 1 -o level.off")["level"], 1);
 }
@@ -252,7 +258,8 @@ TEST_F(Tool, PosesInAllThreeFormsAgree) {
   EXPECT_EQ(says_json("distance a.swl a.swl --pose -2,0.5,0.25")["b_in_a"][0][3], -2.0);
 
   write(folder_ / "turn", "0, -1, 0, 2\n1, 0, 0, -0.5\n0, 0, 1, 0.25\n");  // x becomes y
-  const json typed = says_json("distance a.swl a.swl --pose 2,-0.5,0.25,7,0,0,7"), filed = says_json("distance a.swl a.swl --pose turn");
+  const json typed = says_json("distance a.swl a.swl --pose 2,-0.5,0.25,7,0,0,7"),
+             filed = says_json("distance a.swl a.swl --pose turn");
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 4; ++column)
       EXPECT_NEAR(typed["b_in_a"][row][column].get<double>(), filed["b_in_a"][row][column].get<double>(), 1e-15);
@@ -265,7 +272,9 @@ TEST_F(Tool, RefusesBadPosesInOneLine) {
   write(folder_ / "short", "1 0 0 0\n0 1 0 0\n");
   write(folder_ / "words", "one two three\n");
   before_ = names();
-  const auto bad = [&](const std::string& pose, const std::string& why) { refuses("distance a.swl a.swl --pose " + pose, why); };
+  const auto bad = [&](const std::string& pose, const std::string& why) {
+    refuses("distance a.swl a.swl --pose " + pose, why);
+  };
   bad("1,2", "2 numbers");
   bad("1,2,3,4", "4 numbers");
   bad("1,nan,3", "not finite");
@@ -322,7 +331,8 @@ TEST_F(Tool, WithoutTheBuilderAMeshIsAClearError) {
 
 TEST_F(Tool, BuildsAModelAndTellsWhatItDid) {
   if (!kBuilds) GTEST_SKIP() << "this tool has no builder";
-  const std::string report = says("build cube.off -o c.swl --method peel --enclosing scale --table 22.5 --radius-factor 3 --levels 1");
+  const std::string report =
+      says("build cube.off -o c.swl --method peel --enclosing scale --table 22.5 --radius-factor 3 --levels 1");
   EXPECT_NE(report.find("8 points, 12 triangles"), std::string::npos) << report;
   EXPECT_NE(report.find("ended"), std::string::npos) << report;
   const json info = says_json("info c.swl");

@@ -20,7 +20,7 @@ enum class Status : std::uint8_t {
   Budget,        ///< options.step_budget ended the march; the interval is true
   LevelLimit,    ///< options.finest_level forbade the level that the tolerance needs; the interval is true
   NotConverged,  ///< the interval is true but wider than asked. No valid model and pose is known that answers so
-  InvalidPose,   ///< not finite, translated beyond 1e70, or not orthonormal to 1e-6: the interval is [0, inf]
+  InvalidPose,   ///< not finite, translated beyond 1e45, or not orthonormal to 1e-6: the interval is [0, inf]
 };
 
 /// What is proved of the two exact hulls as closed sets.

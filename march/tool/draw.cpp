@@ -69,7 +69,8 @@ struct Placement {
   }
   double height() const { return std::max(frame.height() * scale, 40.0); }
   Point2 operator()(const Point2& p) const {
-    return {kCell / 2 + (p.x - (frame.left + frame.right) / 2) * scale, height() / 2 + (p.y - (frame.top + frame.bottom) / 2) * scale};
+    return {kCell / 2 + (p.x - (frame.left + frame.right) / 2) * scale,
+            height() / 2 + (p.y - (frame.top + frame.bottom) / 2) * scale};
   }
 };
 
@@ -78,10 +79,14 @@ std::string at(const Point2& p) { return format("%.2f %.2f", p.x, p.y); }
 std::string escaped(const std::string& text) {
   std::string result;
   for (char c : text) {
-    if (c == '&') result += "&amp;";
-    else if (c == '<') result += "&lt;";
-    else if (c == '>') result += "&gt;";
-    else if (static_cast<unsigned char>(c) >= ' ') result += c;
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (static_cast<unsigned char>(c) >= ' ')
+      result += c;
   }
   return result;
 }
@@ -124,7 +129,8 @@ std::string draw_faces(const ConvexView& view, const Eye& eye, const Placement& 
     const std::uint32_t twin = view.twin[h];
     const bool visible = view.face[h] == kNone || front[h] || front[twin];
     if (h > twin || !visible || is_diagonal(view, h)) continue;
-    edges += "M" + at(place(eye.project(view.vertices[origin(view, h)]))) + "L" + at(place(eye.project(view.vertices[view.head[h]])));
+    edges += "M" + at(place(eye.project(view.vertices[origin(view, h)]))) + "L" +
+             at(place(eye.project(view.vertices[view.head[h]])));
   }
   std::string svg;
   for (const auto& [shade, path] : paths) {
@@ -133,7 +139,8 @@ std::string draw_faces(const ConvexView& view, const Eye& eye, const Placement& 
   }
   const double width = std::clamp(14 / std::sqrt(double(loops.size() + 1)), 0.15, 0.9);
   if (!edges.empty())
-    svg += format("<path fill=\"none\" stroke=\"#16263c\" stroke-opacity=\".45\" stroke-width=\"%.2f\" d=\"", width) + edges + "\"/>\n";
+    svg += format("<path fill=\"none\" stroke=\"#16263c\" stroke-opacity=\".45\" stroke-width=\"%.2f\" d=\"", width) + edges +
+           "\"/>\n";
   if (view.vertices.size() == 1) {
     const Point2 p = place(eye.project(view.vertices[0]));
     svg += format("<circle cx=\"%.2f\" cy=\"%.2f\" r=\"3\" fill=\"#16263c\"/>\n", p.x, p.y);
@@ -145,8 +152,11 @@ std::string draw_faces(const ConvexView& view, const Eye& eye, const Placement& 
 std::string draw_outline(const ConvexView& view, const Eye& eye, const Placement& place) {
   std::vector<Point2> points, chain;
   for (const Vertex& v : view.vertices) points.push_back(place(eye.project(v)));
-  std::sort(points.begin(), points.end(), [](const Point2& p, const Point2& q) { return p.x < q.x || (p.x == q.x && p.y < q.y); });
-  const auto turn = [](const Point2& o, const Point2& p, const Point2& q) { return (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x); };
+  std::sort(points.begin(), points.end(),
+            [](const Point2& p, const Point2& q) { return p.x < q.x || (p.x == q.x && p.y < q.y); });
+  const auto turn = [](const Point2& o, const Point2& p, const Point2& q) {
+    return (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x);
+  };
   for (int side = 0; side < 2; ++side, std::reverse(points.begin(), points.end())) {
     const std::size_t begin = chain.size();
     for (const Point2& p : points) {
@@ -163,7 +173,8 @@ std::string draw_outline(const ConvexView& view, const Eye& eye, const Placement
 std::string caption(const Model& model, int k, double top) {
   const Level& level = model.level(k);
   const auto line = [&](int index, const char* look, const std::string& text) {
-    return format("<text x=\"%.0f\" y=\"%.1f\" text-anchor=\"middle\" %s>", kCell / 2, top + 20 + 17 * index, look) + text + "</text>\n";
+    return format("<text x=\"%.0f\" y=\"%.1f\" text-anchor=\"middle\" %s>", kCell / 2, top + 20 + 17 * index, look) + text +
+           "</text>\n";
   };
   std::string deviation = "deviation 0: the exact hull";
   if (k > 0) {
@@ -171,18 +182,20 @@ std::string caption(const Model& model, int k, double top) {
     if (model.radius() > 0) deviation += format(" (%.2g %%)", 100 * level.deviation / model.radius());
   }
   return line(0, "font-weight=\"bold\" fill=\"#16263c\"", "level " + std::to_string(k)) +
-         line(1, "fill=\"#3d4c60\"", std::to_string(level.triangle_count) + " triangles") + line(2, "fill=\"#3d4c60\"", deviation);
+         line(1, "fill=\"#3d4c60\"", std::to_string(level.triangle_count) + " triangles") +
+         line(2, "fill=\"#3d4c60\"", deviation);
 }
 
 std::string heading(const Model& model, const std::string& title) {
   const int last = model.level_count() - 1;
   std::string what = format("%zu triangles, %zu bytes", model.level(0).triangle_count, model.bytes().size());
   if (last > 0) {
-    what = format("%d levels, %zu to %zu triangles, %zu bytes. Dashed: the exact hull's outline. Percent: of the bounding radius",
-                  last + 1, model.level(0).triangle_count, model.level(last).triangle_count, model.bytes().size());
+    what =
+        format("%d levels, %zu to %zu triangles, %zu bytes. Dashed: the exact hull's outline. Percent: of the bounding radius",
+               last + 1, model.level(0).triangle_count, model.level(last).triangle_count, model.bytes().size());
   }
-  return format("<text x=\"%.0f\" y=\"40\" font-size=\"22\" font-weight=\"bold\" fill=\"#16263c\">", kMargin) + escaped(title) + "</text>\n" +
-         format("<text x=\"%.0f\" y=\"62\" fill=\"#3d4c60\">", kMargin) + what + "</text>\n";
+  return format("<text x=\"%.0f\" y=\"40\" font-size=\"22\" font-weight=\"bold\" fill=\"#16263c\">", kMargin) + escaped(title) +
+         "</text>\n" + format("<text x=\"%.0f\" y=\"62\" fill=\"#3d4c60\">", kMargin) + what + "</text>\n";
 }
 
 }  // namespace
@@ -190,16 +203,18 @@ std::string heading(const Model& model, const std::string& title) {
 std::string draw(const Model& model, const std::string& title) {
   const Eye eye;
   const Placement place(frame_of(model, eye));
-  const std::size_t count = std::size_t(model.level_count()), rows = (count + kPerRow - 1) / kPerRow, columns = (count + rows - 1) / rows;
+  const std::size_t count = std::size_t(model.level_count()), rows = (count + kPerRow - 1) / kPerRow,
+                    columns = (count + rows - 1) / rows;
   const double row_height = place.height() + kCaption + kGap;
   // As wide as its heading, also with few levels.
   const double width = std::max(2 * kMargin + double(columns) * kCell + double(columns - 1) * kGap, count > 1 ? 860.0 : 420.0);
   const double height = kHeading + kGap / 2 + double(rows) * row_height;
 
-  std::string svg = format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" ", width, height,
-                           width, height) +
-                    "font-family=\"sans-serif\" font-size=\"13\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<title>" + escaped(title) +
-                    "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n" + heading(model, title);
+  std::string svg =
+      format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" ", width,
+             height, width, height) +
+      "font-family=\"sans-serif\" font-size=\"13\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<title>" +
+      escaped(title) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n" + heading(model, title);
   for (std::size_t k = 0; k < count; ++k) {
     const double x = kMargin + double(k % columns) * (kCell + kGap), y = kHeading + kGap / 2 + double(k / columns) * row_height;
     svg += format("<g transform=\"translate(%.1f %.1f)\">\n", x, y) + draw_faces(model.level(int(k)).view, eye, place);

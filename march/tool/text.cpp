@@ -36,7 +36,8 @@ Result<bool> may_write(const std::filesystem::path& path) {
   // A link too: the rename would replace it, /dev/stdout for one.
   const std::filesystem::file_type kind = std::filesystem::symlink_status(path, ignored).type();
   if (kind == std::filesystem::file_type::symlink) return refused("is a link, which would be replaced");
-  if (kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::regular) return refused("is no regular file");
+  if (kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::regular)
+    return refused("is no regular file");
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (!std::filesystem::is_directory(folder, ignored)) return refused("its folder does not exist");
   return true;

@@ -20,7 +20,9 @@
 namespace swiftlet::tool {
 namespace {
 
-Error bad_pose(const std::string& text, const std::string& why) { return {ErrorCode::BadValue, "the pose " + text + " " + why}; }
+Error bad_pose(const std::string& text, const std::string& why) {
+  return {ErrorCode::BadValue, "the pose " + text + " " + why};
+}
 
 /// The numbers of a text, with blanks or a comma between any two; nothing if it holds anything else.
 std::optional<std::vector<double>> read_numbers(std::string_view text) {
@@ -77,7 +79,8 @@ Result<Pose> filed_pose(const std::string& path) {
   const std::string content{std::istreambuf_iterator<char>(file), {}};
   const auto values = read_numbers(content);
   if (!values) return bad_pose(path, "holds something that is no number");
-  if (values->size() != 12) return bad_pose(path, "holds " + std::to_string(values->size()) + " numbers; a row-major 3x4 has 12");
+  if (values->size() != 12)
+    return bad_pose(path, "holds " + std::to_string(values->size()) + " numbers; a row-major 3x4 has 12");
   if (!all_finite(*values)) return bad_pose(path, "is not finite");
   Pose pose;
   for (int row = 0; row < 3; ++row) {
@@ -85,7 +88,9 @@ Result<Pose> filed_pose(const std::string& path) {
     pose.translation[row] = (*values)[std::size_t(4 * row + 3)];
   }
   const PoseQuality quality = pose_quality(motion(pose));
-  if (!quality.legal) return bad_pose(path, "is not orthonormal: an entry of R^T R is off by " + format("%.3g", quality.error) + ", and 1e-6 is allowed");
+  if (!quality.legal)
+    return bad_pose(
+        path, "is not orthonormal: an entry of R^T R is off by " + format("%.3g", quality.error) + ", and 1e-6 is allowed");
   if (pose.rotation.determinant() < 0) return bad_pose(path, "is a mirror image, not a rotation");
   return pose;
 }

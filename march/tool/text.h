@@ -16,7 +16,8 @@ namespace swiftlet::tool {
 #if defined(__GNUC__)
 [[gnu::format(printf, 1, 2)]]
 #endif
-std::string format(const char* pattern, ...);
+std::string
+format(const char* pattern, ...);
 
 /// The shortest decimal that reads back as the same double.
 std::string number(double value);

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <string>
 
-#include <nlohmann/json_fwd.hpp>
 #include <swiftlet/model.h>
 #include <swiftlet/query.h>
 #include <swiftlet/result.h>
+#include <nlohmann/json_fwd.hpp>
 
 namespace swiftlet::tool {
 
@@ -24,7 +24,8 @@ struct Body {
   Model model;
 };
 
-/// A row per level, finest first: vertices, faces, triangles, deviation, volume_ratio (over level 0's; 1 where that is 0), bytes.
+/// A row per level, finest first: vertices, faces, triangles, deviation, volume_ratio (over level 0's; 1 where that is 0),
+/// bytes.
 nlohmann::ordered_json levels_json(const Model& model);
 std::string levels_text(const Model& model);
 

@@ -21,8 +21,10 @@ constexpr const char* kBodyHelp = "a .swl model, or a mesh where the tool has th
 
 Result<Body> open(const std::string& path, const ModelOfMesh& model_of_mesh) {
   if (std::filesystem::path(path).extension() != ".swl" && !model_of_mesh)
-    return Error{ErrorCode::BadFormat, path + ": is no .swl model, and this tool was made without the builder that reads meshes"};
-  Result<Model> model = std::filesystem::path(path).extension() == ".swl" ? load(std::filesystem::path(path)) : model_of_mesh(path);
+    return Error{ErrorCode::BadFormat,
+                 path + ": is no .swl model, and this tool was made without the builder that reads meshes"};
+  Result<Model> model =
+      std::filesystem::path(path).extension() == ".swl" ? load(std::filesystem::path(path)) : model_of_mesh(path);
   if (!model) return model.error();
   return Body{path, std::move(model).value()};
 }
@@ -77,20 +79,25 @@ Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   };
   const auto options = std::make_shared<Options>();
   word.footer(
-      "The pose is that of B in A's frame: it maps B's frame into A's, so that a point p of B lies at R p + t. POSE is t alone\n"
+      "The pose is that of B in A's frame: it maps B's frame into A's, so that a point p of B lies at R p + t. POSE is t "
+      "alone\n"
       "as x,y,z, or x,y,z,qw,qx,qy,qz with a quaternion (which is normalised), or a file with the row-major 3x4 matrix [R t]\n"
-      "(which is taken as it stands and must be orthonormal to 1e-6). All points and directions of the answer are in A's frame;\n"
+      "(which is taken as it stands and must be orthonormal to 1e-6). All points and directions of the answer are in A's "
+      "frame;\n"
       "the normal points from A to B. Ids of vertices and triangles are the mesh file's, counted from 0, and are given with\n"
       "exact answers, which are those without --max-error, --relative-error and --beyond.");
   word.add_option("A", options->a, kBodyHelp)->required();
   word.add_option("B", options->b, kBodyHelp)->required();
   word.add_option("--pose", options->pose, "of B in A's frame, see below")->required();
-  const auto absolute = word.add_option("--max-error", options->query.absolute_error, "stop when upper - lower is at most this");
-  const auto relative = word.add_option("--relative-error", options->query.relative_error, "stop when upper - lower is at most this times lower");
+  const auto absolute =
+      word.add_option("--max-error", options->query.absolute_error, "stop when upper - lower is at most this");
+  const auto relative =
+      word.add_option("--relative-error", options->query.relative_error, "stop when upper - lower is at most this times lower");
   absolute->check(not_negative)->excludes(relative);
   relative->check(not_negative);
   word.add_option("--beyond", options->query.beyond, "stop when the distance is proved greater than this")->check(not_negative);
-  word.add_flag("--levels", options->levels, "show what each level pair proved, coarsest first, and how long a query takes that stops there");
+  word.add_flag("--levels", options->levels,
+                "show what each level pair proved, coarsest first, and how long a query takes that stops there");
   return [options, model_of_mesh]() -> Result<Output> {
     const Result<Pose> pose = read_pose(options->pose);
     if (!pose) return pose.error();
@@ -108,7 +115,8 @@ std::vector<Word> all_words(const ModelOfMesh& model_of_mesh, std::span<const Wo
   };
   std::vector<Word> words(more.begin(), more.end());
   words.push_back({"info", "what a model holds, level by level", bind(declare_info)});
-  words.push_back({"verify", "proves that all levels are convex, enclose level 0, and deviate no more than they say", bind(declare_verify)});
+  words.push_back({"verify", "proves that all levels are convex, enclose level 0, and deviate no more than they say",
+                   bind(declare_verify)});
   words.push_back({"distance", "how near two bodies are, with proved bounds, and where", bind(declare_distance)});
   words.push_back({"export", "writes one level as an OFF mesh", bind(declare_export)});
   words.push_back({"draw", "draws the levels side by side as an SVG", bind(declare_draw)});
@@ -142,7 +150,8 @@ std::string word_fault(int argc, char** argv, const std::vector<Word>& words, bo
   if (first == "-h" || first == "--help" || first == "--version") return {};
   for (const Word& word : words)
     if (first == word.name) return {};
-  if (first == "build" && !has_builder) return "this tool was made without the builder (SWIFTLET_LOD=OFF) and has no word build";
+  if (first == "build" && !has_builder)
+    return "this tool was made without the builder (SWIFTLET_LOD=OFF) and has no word build";
   return "there is no word \"" + first + "\"; there are " + names(words);
 }
 

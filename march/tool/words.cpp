@@ -25,32 +25,46 @@ Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 const char* name(Status status) {
   switch (status) {
-    case Status::Converged: return "Converged";
-    case Status::Beyond: return "Beyond";
-    case Status::Budget: return "Budget";
-    case Status::LevelLimit: return "LevelLimit";
-    case Status::NotConverged: return "NotConverged";
-    case Status::InvalidPose: break;
+    case Status::Converged:
+      return "Converged";
+    case Status::Beyond:
+      return "Beyond";
+    case Status::Budget:
+      return "Budget";
+    case Status::LevelLimit:
+      return "LevelLimit";
+    case Status::NotConverged:
+      return "NotConverged";
+    case Status::InvalidPose:
+      break;
   }
   return "InvalidPose";
 }
 
 const char* name(Verdict verdict) {
   switch (verdict) {
-    case Verdict::Disjoint: return "Disjoint";
-    case Verdict::Touching: return "Touching";
-    case Verdict::Overlapping: return "Overlapping";
-    case Verdict::Undecided: break;
+    case Verdict::Disjoint:
+      return "Disjoint";
+    case Verdict::Touching:
+      return "Touching";
+    case Verdict::Overlapping:
+      return "Overlapping";
+    case Verdict::Undecided:
+      break;
   }
   return "Undecided";
 }
 
 const char* name(FeatureKind kind) {
   switch (kind) {
-    case FeatureKind::Vertex: return "vertex";
-    case FeatureKind::Edge: return "edge";
-    case FeatureKind::Face: return "face";
-    case FeatureKind::None: break;
+    case FeatureKind::Vertex:
+      return "vertex";
+    case FeatureKind::Edge:
+      return "edge";
+    case FeatureKind::Face:
+      return "face";
+    case FeatureKind::None:
+      break;
   }
   return "none";
 }
@@ -59,13 +73,19 @@ double volume_ratio(const Model& model, const Level& level) { return model.volum
 
 double degrees(lut::Resolution resolution) {
   switch (resolution) {
-    case lut::Resolution::Degrees22: return 22.5;
-    case lut::Resolution::Degrees11: return 11.25;
-    case lut::Resolution::Degrees5: return 5.625;
-    case lut::Resolution::None: break;
+    case lut::Resolution::Degrees22:
+      return 22.5;
+    case lut::Resolution::Degrees11:
+      return 11.25;
+    case lut::Resolution::Degrees5:
+      return 5.625;
+    case lut::Resolution::None:
+      break;
   }
   return 0;
 }
+
+std::string counted(int levels) { return std::to_string(levels) + (levels == 1 ? " level" : " levels"); }
 
 double per_triangle(std::size_t bytes, const Model& model) {
   return model.level(0).triangle_count > 0 ? double(bytes) / double(model.level(0).triangle_count) : 0;
@@ -83,7 +103,8 @@ std::string text_of(const Witness& w) {
   std::string text = name(w.feature.kind());
   if (w.source.kind == FeatureKind::None) return text + format(" %u of level %d", w.feature.index(), w.level);
   if (w.source.kind == FeatureKind::Vertex) return text + format(" %u", w.source.vertices[0]);
-  if (w.source.kind == FeatureKind::Edge) return text + format(" between vertices %u and %u", w.source.vertices[0], w.source.vertices[1]);
+  if (w.source.kind == FeatureKind::Edge)
+    return text + format(" between vertices %u and %u", w.source.vertices[0], w.source.vertices[1]);
   constexpr std::size_t kShown = 8;
   if (w.source.triangles.empty()) return text + " of the hull, on no triangle of the input";
   text += w.source.triangles.size() == 1 ? ", triangle" : ", triangles";
@@ -96,27 +117,9 @@ Json json_of(const Witness& w) {
   Json json{{"kind", name(w.feature.kind())}, {"level", w.level}, {"index", w.feature.index()}};
   if (w.source.kind == FeatureKind::Vertex) json["vertices"] = Json::array({w.source.vertices[0]});
   if (w.source.kind == FeatureKind::Edge) json["vertices"] = w.source.vertices;
-  if (w.source.kind == FeatureKind::Face) json["triangles"] = std::vector<std::uint32_t>(w.source.triangles.begin(), w.source.triangles.end());
+  if (w.source.kind == FeatureKind::Face)
+    json["triangles"] = std::vector<std::uint32_t>(w.source.triangles.begin(), w.source.triangles.end());
   return json;
-}
-
-/// Nanoseconds of one run: the median of batches that are each long enough for the clock.
-template <class Run>
-double median_nanoseconds(Run run) {
-  using Clock = std::chrono::steady_clock;
-  const auto batch = [&](int repeats) {
-    const auto begin = Clock::now();
-    for (int k = 0; k < repeats; ++k) run();
-    return std::chrono::duration<double, std::nano>(Clock::now() - begin).count();
-  };
-  constexpr double kLongEnough = 20'000;
-  constexpr int kMostRepeats = 1 << 20;
-  int repeats = 1;
-  while (batch(repeats) < kLongEnough && repeats < kMostRepeats) repeats *= 2;
-  std::vector<double> times(61);
-  for (double& time : times) time = batch(repeats) / repeats;
-  std::nth_element(times.begin(), times.begin() + 30, times.end());
-  return times[30];
 }
 
 /// What a line of the levels' table says.
@@ -125,24 +128,61 @@ struct Visit {
   double nanoseconds = 0;
 };
 
-Visit timed(const Model& a, const Model& b, const Pose& b_in_a, const QueryOptions& asked, const LevelRecord& record) {
-  QueryOptions limited = asked;
-  limited.trace = {};
-  limited.finest_level = std::min(record.level_a, record.level_b);
-  limited.absolute_error = std::max(asked.absolute_error, record.upper - record.lower);
-  volatile double kept = 0;
-  const double time = median_nanoseconds([&] {
-    PairSeed cold;
-    kept = distance(a, b, b_in_a, cold, limited).lower;
-  });
-  return {record, time};
+/// A cold query, limited to the precision that one level pair gave.
+class LimitedQuery {
+ public:
+  LimitedQuery(const Model& a, const Model& b, const Pose& b_in_a, const QueryOptions& asked, const LevelRecord& record)
+      : a_(a), b_(b), b_in_a_(b_in_a), options_(asked) {
+    options_.trace = {};
+    options_.finest_level = std::min(record.level_a, record.level_b);
+    options_.absolute_error = std::max(asked.absolute_error, record.upper - record.lower);
+    constexpr double kLongEnough = 20'000;  // for the clock, in nanoseconds
+    constexpr int kMostRepeats = 1 << 20;
+    while (repeats_ * nanoseconds() < kLongEnough && repeats_ < kMostRepeats) repeats_ *= 2;
+  }
+
+  /// Of one query, averaged over a batch.
+  double nanoseconds() const {
+    using Clock = std::chrono::steady_clock;
+    volatile double kept = 0;  // lest the query be left out
+    const auto begin = Clock::now();
+    for (int k = 0; k < repeats_; ++k) {
+      PairSeed cold;
+      kept = distance(a_, b_, b_in_a_, cold, options_).lower;
+    }
+    return std::chrono::duration<double, std::nano>(Clock::now() - begin).count() / repeats_;
+  }
+
+ private:
+  const Model& a_;
+  const Model& b_;
+  const Pose& b_in_a_;
+  QueryOptions options_;
+  int repeats_ = 1;
+};
+
+/// The median of many batches; the lines take turns, so that a machine that slows down slows all of them.
+std::vector<Visit> timed(const Model& a, const Model& b, const Pose& b_in_a, const QueryOptions& asked,
+                         const std::vector<LevelRecord>& trace) {
+  constexpr std::size_t kBatches = 61;
+  std::vector<LimitedQuery> queries;
+  for (const LevelRecord& record : trace) queries.emplace_back(a, b, b_in_a, asked, record);
+  std::vector<std::vector<double>> times(trace.size());
+  for (std::size_t batch = 0; batch < kBatches; ++batch)
+    for (std::size_t k = 0; k < queries.size(); ++k) times[k].push_back(queries[k].nanoseconds());
+  std::vector<Visit> visits;
+  for (std::size_t k = 0; k < trace.size(); ++k) {
+    std::nth_element(times[k].begin(), times[k].begin() + kBatches / 2, times[k].end());
+    visits.push_back({trace[k], times[k][kBatches / 2]});
+  }
+  return visits;
 }
 
 std::string text_of(const std::vector<Visit>& visits) {
   std::string text = "   levels                  lower                  upper  steps  plane tests       ns\n";
   for (const auto& [record, time] : visits) {
-    text += format(" %8s %22s %22s %6u %12u %8.0f\n", format("(%d, %d)", record.level_a, record.level_b).c_str(), number(record.lower).c_str(),
-                   number(record.upper).c_str(), record.steps, record.plane_tests, time);
+    text += format(" %8s %22s %22s %6u %12u %8.0f\n", format("(%d, %d)", record.level_a, record.level_b).c_str(),
+                   number(record.lower).c_str(), number(record.upper).c_str(), record.steps, record.plane_tests, time);
   }
   return text;
 }
@@ -150,8 +190,13 @@ std::string text_of(const std::vector<Visit>& visits) {
 Json json_of(const std::vector<Visit>& visits) {
   Json rows = Json::array();
   for (const auto& [record, time] : visits) {
-    rows.push_back({{"level_a", record.level_a}, {"level_b", record.level_b}, {"lower", record.lower}, {"upper", record.upper},
-                    {"steps", record.steps}, {"plane_tests", record.plane_tests}, {"nanoseconds", time}});
+    rows.push_back({{"level_a", record.level_a},
+                    {"level_b", record.level_b},
+                    {"lower", record.lower},
+                    {"upper", record.upper},
+                    {"steps", record.steps},
+                    {"plane_tests", record.plane_tests},
+                    {"nanoseconds", time}});
   }
   return rows;
 }
@@ -172,7 +217,8 @@ Json json_of(const Pose& pose) {
 }
 
 /// The user's vertices that prove an overlap, of one body.
-std::vector<std::uint32_t> proof_of(const Model& model, const OverlapProof& proof, const std::array<std::uint32_t, 4>& vertices) {
+std::vector<std::uint32_t> proof_of(const Model& model, const OverlapProof& proof,
+                                    const std::array<std::uint32_t, 4>& vertices) {
   std::vector<std::uint32_t> ids;
   for (std::uint32_t k = 0; k < proof.count; ++k) ids.push_back(model.source().vertex[vertices[k]]);
   return ids;
@@ -190,8 +236,12 @@ Json levels_json(const Model& model) {
   Json levels = Json::array();
   for (int k = 0; k < model.level_count(); ++k) {
     const Level& level = model.level(k);
-    levels.push_back({{"vertices", level.view.vertices.size()}, {"faces", level.view.face_first.size()}, {"triangles", level.triangle_count},
-                      {"deviation", level.deviation}, {"volume_ratio", volume_ratio(model, level)}, {"bytes", level.bytes}});
+    levels.push_back({{"vertices", level.view.vertices.size()},
+                      {"faces", level.view.face_first.size()},
+                      {"triangles", level.triangle_count},
+                      {"deviation", level.deviation},
+                      {"volume_ratio", volume_ratio(model, level)},
+                      {"bytes", level.bytes}});
   }
   return levels;
 }
@@ -200,8 +250,8 @@ std::string levels_text(const Model& model) {
   std::string text = " level  vertices     faces  triangles     deviation  volume ratio      bytes\n";
   for (int k = 0; k < model.level_count(); ++k) {
     const Level& level = model.level(k);
-    text += format("%6d %9zu %9zu %10zu %13.6g %13.6g %10zu\n", k, level.view.vertices.size(), level.view.face_first.size(), level.triangle_count,
-                   level.deviation, volume_ratio(model, level), level.bytes);
+    text += format("%6d %9zu %9zu %10zu %13.6g %13.6g %10zu\n", k, level.view.vertices.size(), level.view.face_first.size(),
+                   level.triangle_count, level.deviation, volume_ratio(model, level), level.bytes);
   }
   return text;
 }
@@ -211,23 +261,35 @@ Output info(const Body& body) {
   const std::size_t bytes = model.bytes().size();
   const TableSpec table = model.table_spec();
   const std::string hash = format("%016llx", static_cast<unsigned long long>(model.hash()));
-  const Json json{{"path", body.path}, {"bytes", bytes}, {"bytes_per_triangle", per_triangle(bytes, model)},
-                  {"level_0_bytes_per_triangle", per_triangle(model.level(0).bytes, model)}, {"hash", hash}, {"dimension", model.dimension()},
-                  {"centre", json_of(model.centre())}, {"radius", model.radius()}, {"box_min", json_of(model.box_min())},
-                  {"box_max", json_of(model.box_max())}, {"volume", model.volume()},
-                  {"table", {{"degrees", degrees(table.resolution)}, {"entries", model.table().size()}, {"radius_factor", table.radius_factor}}},
-                  {"levels", levels_json(model)}};
+  const Json json{
+      {"path", body.path},
+      {"bytes", bytes},
+      {"bytes_per_triangle", per_triangle(bytes, model)},
+      {"level_0_bytes_per_triangle", per_triangle(model.level(0).bytes, model)},
+      {"hash", hash},
+      {"dimension", model.dimension()},
+      {"centre", json_of(model.centre())},
+      {"radius", model.radius()},
+      {"box_min", json_of(model.box_min())},
+      {"box_max", json_of(model.box_max())},
+      {"volume", model.volume()},
+      {"table",
+       {{"degrees", degrees(table.resolution)}, {"entries", model.table().size()}, {"radius_factor", table.radius_factor}}},
+      {"levels", levels_json(model)}};
   std::string text = body.path + "\n";
-  text += format(" bytes      %zu, %.1f per triangle of level 0; level 0 alone %.1f\n", bytes, per_triangle(bytes, model),
-                 per_triangle(model.level(0).bytes, model));
+  text += format(" bytes      %zu", bytes);
+  if (model.level(0).triangle_count > 0)
+    text += format(", %.1f per triangle of level 0; level 0 alone %.1f", per_triangle(bytes, model),
+                   per_triangle(model.level(0).bytes, model));
+  text += "\n";
   text += " hash       " + hash + "\n";
   text += format(" dimension  %d\n", model.dimension());
   text += " centre     " + numbers(model.centre()) + "\n radius     " + number(model.radius()) + "\n";
   text += " box        " + numbers(model.box_min()) + "  to  " + numbers(model.box_max()) + "\n";
   text += " volume     " + number(model.volume()) + "\n";
   text += model.table().empty() ? " table      none\n"
-                                : format(" table      %zu entries, every %g degrees, on a sphere of %g radii\n", model.table().size(),
-                                         degrees(table.resolution), table.radius_factor);
+                                : format(" table      %zu entries, every %g degrees, on a sphere of %g radii\n",
+                                         model.table().size(), degrees(table.resolution), table.radius_factor);
   return {text + levels_text(model), dump(json)};
 }
 
@@ -235,7 +297,7 @@ Result<Output> verify(const Body& body) {
   const Check outcome = swiftlet::verify(body.model);
   if (!outcome) return Error{ErrorCode::BadValue, body.path + ": " + outcome.message};
   const int levels = body.model.level_count();
-  return Output{body.path + format(": verified: %d level%s convex, enclosing level 0, within the stated deviation\n", levels, levels > 1 ? "s" : ""),
+  return Output{body.path + ": verified: " + counted(levels) + " convex, enclosing level 0, within the stated deviation\n",
                 dump({{"path", body.path}, {"verified", true}, {"levels", levels}})};
 }
 
@@ -248,24 +310,35 @@ Output distance(const Body& a, const Body& b, const Pose& b_in_a, const QueryOpt
   std::vector<Visit> visits;
   if (show_levels) {
     trace.resize(std::min(trace.size(), std::size_t(answer.levels_visited)));
-    for (const LevelRecord& record : trace) visits.push_back(timed(a.model, b.model, b_in_a, asked, record));
+    visits = timed(a.model, b.model, b_in_a, asked, trace);
   }
   const Witness on_a{answer.feature_a, answer.level_a, found.source_a}, on_b{answer.feature_b, answer.level_b, found.source_b};
 
   Json json{{"a", a.path}, {"b", b.path}, {"b_in_a", json_of(b_in_a)}};
   if (show_levels) json["levels"] = json_of(visits);
-  json.update({{"lower", answer.lower}, {"upper", answer.upper}, {"point_a", json_of(answer.point_a)}, {"point_b", json_of(answer.point_b)},
-               {"normal", json_of(answer.normal)}, {"level_a", answer.level_a}, {"level_b", answer.level_b}, {"feature_a", json_of(on_a)},
-               {"feature_b", json_of(on_b)}, {"verdict", name(answer.verdict)}, {"status", name(answer.status)}, {"steps", answer.steps},
+  json.update({{"lower", answer.lower},
+               {"upper", answer.upper},
+               {"point_a", json_of(answer.point_a)},
+               {"point_b", json_of(answer.point_b)},
+               {"normal", json_of(answer.normal)},
+               {"level_a", answer.level_a},
+               {"level_b", answer.level_b},
+               {"feature_a", json_of(on_a)},
+               {"feature_b", json_of(on_b)},
+               {"verdict", name(answer.verdict)},
+               {"status", name(answer.status)},
+               {"steps", answer.steps},
                {"plane_tests", answer.plane_tests}});
 
   std::string text = show_levels ? text_of(visits) : "";
-  text += "distance   [" + number(answer.lower) + ", " + number(answer.upper) + "]" + format(" at levels (%d, %d)\n", answer.level_a, answer.level_b);
+  text += "distance   [" + number(answer.lower) + ", " + number(answer.upper) + "]" +
+          format(" at levels (%d, %d)\n", answer.level_a, answer.level_b);
   text += "point_a    " + numbers(answer.point_a) + "\npoint_b    " + numbers(answer.point_b) + "   in A's frame\n";
   text += "normal     " + numbers(answer.normal) + "   from A to B\n";
   text += "feature_a  " + text_of(on_a) + "\nfeature_b  " + text_of(on_b) + "\n";
   if (answer.verdict == Verdict::Overlapping) {
-    const auto proof_a = proof_of(a.model, answer.proof, answer.proof.vertex_a), proof_b = proof_of(b.model, answer.proof, answer.proof.vertex_b);
+    const auto proof_a = proof_of(a.model, answer.proof, answer.proof.vertex_a),
+               proof_b = proof_of(b.model, answer.proof, answer.proof.vertex_b);
     json["proof"] = {{"vertices_a", proof_a}, {"vertices_b", proof_b}};
     text += "proof      vertices" + joined(proof_a) + " of A minus" + joined(proof_b) + " of B hold the origin\n";
   }
@@ -276,7 +349,8 @@ Output distance(const Body& a, const Body& b, const Pose& b_in_a, const QueryOpt
 
 Result<Output> export_level(const Body& body, int level, const std::filesystem::path& path) {
   if (level < 0 || level >= body.model.level_count())
-    return Error{ErrorCode::BadValue, body.path + format(": there is no level %d, the coarsest is %d", level, body.model.level_count() - 1)};
+    return Error{ErrorCode::BadValue,
+                 body.path + format(": there is no level %d, the coarsest is %d", level, body.model.level_count() - 1)};
   const Result<std::size_t> bytes = write_file(path, off_text(body.model.level(level).view));
   if (!bytes) return bytes.error();
   return Output{path.string() + format(": level %d, %zu bytes\n", level, bytes.value()),
@@ -286,7 +360,7 @@ Result<Output> export_level(const Body& body, int level, const std::filesystem::
 Result<Output> draw_levels(const Body& body, const std::filesystem::path& path) {
   const Result<std::size_t> bytes = write_file(path, draw(body.model, stem(body.path)));
   if (!bytes) return bytes.error();
-  return Output{path.string() + format(": %d levels, %zu bytes\n", body.model.level_count(), bytes.value()),
+  return Output{path.string() + ": " + counted(body.model.level_count()) + format(", %zu bytes\n", bytes.value()),
                 dump({{"path", path.string()}, {"levels", body.model.level_count()}, {"bytes", bytes.value()}})};
 }
 

@@ -9,8 +9,8 @@
 
 namespace swiftlet::tool {
 
-/// An SVG of all levels side by side, finest first: orthographic, seen from the front, the right and a little above, z up, all to
-/// one scale. Over each coarser level lies the outline of level 0. Cost: about 40 bytes per triangle.
+/// An SVG of all levels side by side, finest first: orthographic, seen from the front, the right and a little above, z up, all
+/// to one scale. Over each coarser level lies the outline of level 0. Cost: about 40 bytes per triangle.
 std::string draw(const Model& model, const std::string& title);
 
 }  // namespace swiftlet::tool

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The baseline: V-Clip written from the paper [Mirtich 1997, MERL TR-97-05]. Knows ConvexView and Pose; shares no algorithm with
+// march, proves nothing, and says so when it gives up. Where it differs from the paper: vclip.cpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <swiftlet/model.h>
+#include <swiftlet/pose.h>
+
+namespace swiftlet::bench {
+
+/// n . p - offset, positive beyond the plane; n is a unit vector.
+struct alignas(32) VclipPlane {
+  double x, y, z, offset;
+};
+
+struct VclipVertex {
+  double x, y, z;
+  std::uint32_t ring_begin, ring_count;
+};
+
+/// An edge with the four planes of its Voronoi region; the two along the axis differ in their offset only.
+struct alignas(64) VclipEdge {
+  double axis_x, axis_y, axis_z;     ///< unit, from tail to head
+  double tail_at, head_at, length;   ///< axis . tail, axis . head
+  std::uint32_t tail, head;
+  std::uint32_t face[2];             ///< left and right, seen from outside; kNone beside a segment
+  VclipPlane side[2];                ///< through the edge and the normal of that face, pointing away from the face
+};
+static_assert(sizeof(VclipEdge) == 128);
+
+/// One polytope with the Voronoi planes of all features. Immutable; queries share it.
+class VclipBody {
+ public:
+  /// Polygonal faces as the view has them, diagonals dropped. Needs a solid, a flat polygon or a segment. For vertices and faces:
+  /// the view of Model::from_level.
+  explicit VclipBody(const ConvexView& view);
+  std::size_t bytes() const;  ///< heap
+
+  // Rings: per vertex its half-edges, that is edges (index >> 1) that begin (& 1 == 0) or end there, with the planes of the
+  // vertex's region: the same numbers as in the edge, so that neighbours agree bit for bit. Loops: per face its half-edges.
+  std::vector<VclipVertex> vertices;
+  std::vector<VclipPlane> ring_planes;
+  std::vector<std::uint32_t> ring;
+  std::vector<VclipEdge> edges;
+  std::vector<VclipPlane> faces;
+  std::vector<std::uint32_t> loop_begin, loop;
+};
+
+/// The features where the last query of the pair ended. Default: cold, the first vertex of each. Handles number the edges of
+/// VclipBody.
+struct VclipSeed {
+  Handle a, b;
+};
+
+enum class VclipEnd : std::uint8_t {
+  Disjoint,
+  Penetrating,
+  Capped,  ///< no end within the cap on steps: distance and points are NaN
+};
+
+struct VclipResult {
+  VclipEnd end = VclipEnd::Capped;
+  double distance = 0;            ///< 0 when penetrating
+  Vec3 point_a, point_b;          ///< nearest points in A's frame while disjoint; else NaN
+  std::uint32_t steps = 0;        ///< changes of feature. The paper counts visits of a state: one more
+  std::uint32_t plane_tests = 0;  ///< points against planes, and directions against edges
+  bool penetrating() const { return end == VclipEnd::Penetrating; }
+};
+
+/// Allocates nothing. A seed that names no feature counts as cold.
+VclipResult vclip(const VclipBody& a, const VclipBody& b, const Pose& b_in_a, VclipSeed& seed);
+
+}  // namespace swiftlet::bench

@@ -1,0 +1,404 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The atomic kernel: every kind of body against every other, from every start, under every stop rule. Truth is the oracle's.
+#include <swiftlet/march.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "bodies.h"
+#include "oracle.h"
+#include "shapes.h"
+
+namespace swiftlet {
+namespace {
+
+using bodies::model;
+using bodies::law_two;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Named {
+  const char* name;
+  Model model;
+  const ConvexView& view() const { return model.level(0).view; }
+  std::vector<Vec3> points() const { return bodies::points_of(view()); }
+};
+
+std::vector<Named> all_kinds() {
+  std::vector<Vec3> pentagon = shapes::polygon(5).points;
+  return {{"point", model(bodies::point({0.1, 0.2, 0.3}))},
+          {"segment", model(bodies::segment({-1, 0, 0}, {1, 0.5, 0}))},
+          {"triangle", model(bodies::two_sided({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}))},
+          {"polygon", model(bodies::two_sided(pentagon))},
+          {"cube", model(bodies::cube())},
+          {"solid", model(bodies::body_of(shapes::random_polytope(30, 4)))}};
+}
+
+std::vector<Named> small_solids() {
+  return {{"tetrahedron", model(bodies::tetrahedron())},
+          {"cube", model(bodies::cube())},
+          {"octahedron", model(bodies::octahedron())},
+          {"prism", model(bodies::body_of(shapes::prism(5, 1, 0.6)), {true, {}})}};
+}
+
+std::vector<Handle> features(const ConvexView& v) {
+  std::vector<Handle> all;
+  for (std::uint32_t i = 0; i < v.vertices.size(); ++i) all.emplace_back(FeatureKind::Vertex, i);
+  for (std::uint32_t i = 0; i < v.head.size(); ++i) all.emplace_back(FeatureKind::Edge, i);
+  for (std::uint32_t i = 0; i < v.face_first.size(); ++i) all.emplace_back(FeatureKind::Face, i);
+  return all;
+}
+
+/// Law 7's function for one level pair, as march/tolerance.h's kStallLimit gives it: a state that shortens the distance never comes
+/// back, and twelve that do not in a row end the walk. What is ever seen is far below; see the census at the end.
+std::size_t most_steps(const ConvexView& a, const ConvexView& b) { return 12 * (features(a).size() * features(b).size() + 1); }
+
+/// What the whole file saw, printed once.
+struct Census : testing::Environment {
+  std::uint32_t steps = 0, plane_tests = 0;
+  double share = 0;  ///< of the features of both bodies
+  int marches = 0, disjoint = 0, touching = 0, overlapping = 0;
+  double widest = 0;  ///< interval over law 2's bound
+
+  void TearDown() override {
+    if (marches == 0) return;
+    std::printf("march: %d marches, %d disjoint, %d touching, %d overlapping; at most %u steps (%.2f of the features), %u plane tests; widest interval %.3f of law 2\n",
+                marches, disjoint, touching, overlapping, steps, share, plane_tests, widest);
+  }
+};
+Census& census = *static_cast<Census*>(testing::AddGlobalTestEnvironment(new Census));
+
+/// Everything that a result must be, whatever was asked.
+void expect_true(const ConvexView& a, const ConvexView& b, const Pose& pose, const oracle::Truth& truth, const MarchResult& r) {
+  ++census.marches;
+  census.steps = std::max(census.steps, r.steps);
+  census.plane_tests = std::max(census.plane_tests, r.plane_tests);
+  const std::size_t count = features(a).size() + features(b).size();
+  census.share = std::max(census.share, double(r.steps) / double(count));
+  ASSERT_LE(r.steps, most_steps(a, b));
+  ASSERT_LE(r.steps, count + 12) << "not wrong, but never seen: look";
+  ASSERT_TRUE(oracle::holds(truth, r.lower, r.upper)) << "[" << r.lower << ", " << r.upper << "] does not hold " << truth.distance;
+  switch (r.status) {
+    case MarchStatus::Disjoint:
+      ++census.disjoint;
+      ASSERT_GT(r.lower, 0);
+      ASSERT_FALSE(truth.overlapping);
+      ASSERT_NEAR(r.normal.norm(), 1, 1e-15);
+      break;
+    case MarchStatus::Touching:
+      ++census.touching;
+      ASSERT_LE(r.upper, law_two(a, b, pose));
+      break;
+    case MarchStatus::Overlapping:
+      ++census.overlapping;
+      ASSERT_EQ(r.upper, 0);
+      ASSERT_TRUE(truth.overlapping);
+      ASSERT_TRUE(r.proof.count >= 1 && r.proof.count <= 4);
+      break;
+    default: break;
+  }
+}
+
+/// An exact march: an answer, and within law 2.
+void expect_exact(const ConvexView& a, const ConvexView& b, const Pose& pose, const oracle::Truth& truth, const MarchResult& r) {
+  expect_true(a, b, pose, truth, r);
+  ASSERT_TRUE(r.status == MarchStatus::Disjoint || r.status == MarchStatus::Touching || r.status == MarchStatus::Overlapping) << int(r.status);
+  ASSERT_LE(r.upper - r.lower, law_two(a, b, pose));
+  census.widest = std::max(census.widest, (r.upper - r.lower) / law_two(a, b, pose));
+  if (r.status != MarchStatus::Disjoint) return;
+  ASSERT_LE(((r.point_b - r.point_a) - (r.point_b - r.point_a).norm() * r.normal).norm(), law_two(a, b, pose));
+}
+
+TEST(March, EveryKindOfBodyAgainstEveryOther) {
+  const std::vector<Named> kinds = all_kinds();
+  shapes::Random random(31);
+  int apart = 0, meeting = 0;
+  for (const Named& a : kinds) {
+    for (const Named& b : kinds) {
+      SCOPED_TRACE(std::string(a.name) + " and " + b.name);
+      const std::vector<Vec3> points_a = a.points(), points_b = b.points();
+      for (int i = 0; i < 40; ++i) {
+        const Pose pose{random.rotation(), random.in_ball() * random.uniform(0, 3)};
+        const oracle::Truth truth = oracle::distance(points_a, points_b, pose);
+        expect_exact(a.view(), b.view(), pose, truth, march(a.view(), b.view(), pose));
+        if (HasFatalFailure()) return;
+        ++(truth.overlapping ? meeting : apart);
+      }
+    }
+  }
+  EXPECT_GE(apart, 500);
+  EXPECT_GE(meeting, 50);
+}
+
+TEST(March, EveryKindOfBodyTouchesItself) {
+  // A point of each put onto a point of the other: contact by construction, where coordinates allow it exactly.
+  const std::vector<Named> kinds = all_kinds();
+  for (const Named& a : kinds) {
+    for (const Named& b : kinds) {
+      SCOPED_TRACE(std::string(a.name) + " and " + b.name);
+      const std::vector<Vec3> points_a = a.points(), points_b = b.points();
+      for (std::size_t i = 0; i < points_a.size(); i += 3) {
+        for (std::size_t j = 0; j < points_b.size(); j += 3) {
+          const Pose pose{Mat3::Identity(), points_a[i] - points_b[j]};
+          const oracle::Truth truth = oracle::distance(points_a, points_b, pose);
+          expect_exact(a.view(), b.view(), pose, truth, march(a.view(), b.view(), pose));
+          if (HasFatalFailure()) FAIL() << i << ' ' << j;
+        }
+      }
+    }
+  }
+}
+
+TEST(March, EveryStartGivesTheSameVerdictAndDistance) {
+  const std::vector<Named> solids = small_solids();
+  shapes::Random random(32);
+  const Mat3 quarter = (Mat3() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished();
+  const Pose poses[] = {{random.rotation(), {2.5, 0.3, -0.4}}, {random.rotation(), {0.3, 0.1, 0.2}}, {Mat3::Identity(), {0, 0, 0}},
+                        {Mat3::Identity(), {2, 0, 0}},         {quarter, {0.5, 2.5, 0}},             {Mat3::Identity(), {0, 0.3, 0.1}}};
+  int verdicts[3] = {0, 0, 0};
+  for (const Named& a : solids) {
+    for (const Named& b : solids) {
+      SCOPED_TRACE(std::string(a.name) + " and " + b.name);
+      const std::vector<Vec3> points_a = a.points(), points_b = b.points();
+      const std::vector<Handle> starts_a = features(a.view()), starts_b = features(b.view());
+      for (const Pose& pose : poses) {
+        const oracle::Truth truth = oracle::distance(points_a, points_b, pose);
+        const MarchResult cold = march(a.view(), b.view(), pose);
+        ++verdicts[cold.status == MarchStatus::Disjoint ? 0 : cold.status == MarchStatus::Touching ? 1 : 2];
+        for (const PlaneRule rule : {PlaneRule::MostViolated, PlaneRule::FirstViolated}) {
+          MarchRule stop;
+          stop.plane_rule = rule;
+          for (const Handle from_a : starts_a) {
+            for (const Handle from_b : starts_b) {
+              const MarchResult r = march(a.view(), b.view(), pose, {from_a, from_b}, stop);
+              expect_exact(a.view(), b.view(), pose, truth, r);
+              EXPECT_EQ(r.status, cold.status);
+              if (HasFatalFailure()) {
+                FAIL() << "from " << int(from_a.kind()) << ' ' << from_a.index() << " and " << int(from_b.kind()) << ' ' << from_b.index();
+              }
+            }
+          }
+        }
+      }
+    }
+  }
+  for (const int n : verdicts) EXPECT_GE(n, 8);
+}
+
+TEST(March, SmallBodiesInLargeOnesOverlapFromEveryStart) {
+  const Model outer = model(bodies::body_of(shapes::icosahedron()));
+  const Model inner = model(bodies::moved(bodies::tetrahedron(), 0.05 * Mat3::Identity()));
+  const ConvexView &a = outer.level(0).view, &b = inner.level(0).view;
+  for (const Vec3& at : {Vec3(0, 0, 0), Vec3(0.1, 0.3, -0.2), Vec3(0.6, 0, 0)}) {
+    for (const Handle from_a : features(a)) {
+      for (const Handle from_b : features(b)) {
+        ASSERT_EQ(march(a, b, {Mat3::Identity(), at}, {from_a, from_b}).status, MarchStatus::Overlapping);
+        ASSERT_EQ(march(b, a, {Mat3::Identity(), -at}, {from_b, from_a}).status, MarchStatus::Overlapping);
+      }
+    }
+  }
+}
+
+TEST(March, GarbageHandlesCountAsCold) {
+  const Model cube = model(bodies::cube());
+  const ConvexView& v = cube.level(0).view;
+  const Pose pose{bodies::rotation(1, 2, 3, 4), {3, 1, 0.5}};
+  const MarchResult cold = march(v, v, pose);
+  for (const FeatureKind kind : {FeatureKind::None, FeatureKind::Vertex, FeatureKind::Edge, FeatureKind::Face}) {
+    for (const std::uint32_t index : {24u, 25u, 1000u, 0x3fffffffu}) {
+      const MarchResult r = march(v, v, pose, {{kind, index}, {kind, index}});
+      EXPECT_EQ(r.lower, cold.lower);
+      EXPECT_EQ(r.upper, cold.upper);
+      EXPECT_EQ(r.steps, cold.steps);
+      EXPECT_EQ(march(v, v, pose, {{kind, index}, cold.b}).status, MarchStatus::Disjoint);
+    }
+  }
+}
+
+TEST(March, StoredHandlesStartTheNextMarchAtItsEnd) {
+  shapes::Random random(33);
+  const Model m = model(bodies::body_of(shapes::ellipsoid({1, 1, 1}, 500, 1)));
+  const ConvexView& v = m.level(0).view;
+  for (int i = 0; i < 200; ++i) {
+    const Pose pose{random.rotation(), 2.5 * random.on_sphere()};
+    const MarchResult cold = march(v, v, pose), warm = march(v, v, pose, {cold.a, cold.b});
+    ASSERT_EQ(warm.steps, 0u) << i;
+    ASSERT_EQ(warm.a, cold.a);
+    ASSERT_EQ(warm.lower, cold.lower);
+    ASSERT_LT(warm.plane_tests, cold.plane_tests + 1);
+  }
+}
+
+// ---- Stop rules --------------------------------------------------------------------------------------------------------------------
+
+struct Rules : testing::Test {
+  Model m = model(bodies::body_of(shapes::ellipsoid({1, 0.5, 0.3}, 200, 2)));
+  const ConvexView& v = m.level(0).view;
+  std::vector<Vec3> points = bodies::points_of(v);
+  shapes::Random random{34};
+  Pose pose() { return {random.rotation(), random.on_sphere() * random.uniform(1, 3)}; }
+};
+using MarchRules = Rules;
+
+TEST_F(MarchRules, BeyondStopsAboveAndOnlyAbove) {
+  int stopped = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Pose p = pose();
+    const oracle::Truth truth = oracle::distance(points, points, p);
+    MarchRule rule;
+    rule.beyond = i % 2 ? 0.5 : truth.distance;
+    const MarchResult r = march(v, v, p, {}, rule);
+    expect_true(v, v, p, truth, r);
+    if (HasFatalFailure()) return;
+    if (r.status == MarchStatus::Beyond) {
+      ASSERT_GT(r.lower, rule.beyond);
+      ++stopped;
+    } else {
+      ASSERT_FALSE(r.lower > rule.beyond);
+      expect_exact(v, v, p, truth, r);
+    }
+    ASSERT_FALSE(truth.distance > rule.beyond + law_two(v, v, p) && r.status != MarchStatus::Beyond);
+  }
+  EXPECT_GE(stopped, 50);
+}
+
+TEST_F(MarchRules, FloorIsNeverUndercut) {
+  for (int i = 0; i < 200; ++i) {
+    const Pose p = pose();
+    const MarchResult plain = march(v, v, p);
+    MarchRule rule;
+    rule.floor = plain.lower * (i % 2 ? 0.5 : 1);
+    const MarchResult r = march(v, v, p, {}, rule);
+    ASSERT_GE(r.lower, rule.floor);
+    ASSERT_GE(r.lower, plain.lower);
+    ASSERT_GE(r.upper, r.lower);
+  }
+}
+
+TEST_F(MarchRules, ErrorsAreKeptAndNarrowEnoughIsEnough) {
+  int near = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Pose p{random.rotation(), random.on_sphere() * random.uniform(0.2, 2)};
+    const oracle::Truth truth = oracle::distance(points, points, p);
+    MarchRule rule;
+    rule.absolute = i % 3 == 0 ? 0.3 : 0;
+    rule.relative = i % 3 == 1 ? 0.1 : 0;
+    const MarchResult r = march(v, v, p, {}, rule), exact = march(v, v, p);
+    expect_true(v, v, p, truth, r);
+    if (HasFatalFailure()) return;
+    ASSERT_LE(r.upper - r.lower, std::max({rule.absolute, rule.relative * r.lower, law_two(v, v, p)}));
+    ASSERT_LE(r.steps + r.plane_tests, exact.steps + exact.plane_tests);
+    ASSERT_NE(r.status, MarchStatus::NotConverged);
+    near += r.status == MarchStatus::Near;
+    if (r.status == MarchStatus::Near) {
+      ASSERT_EQ(r.lower, 0);
+    }
+  }
+  EXPECT_GE(near, 20);
+}
+
+TEST_F(MarchRules, BudgetEndsWithTrueBounds) {
+  int ended = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Pose p = pose();
+    const oracle::Truth truth = oracle::distance(points, points, p);
+    const MarchStart far{{FeatureKind::Vertex, std::uint32_t(random.bits() % v.vertices.size())}, {FeatureKind::Vertex, std::uint32_t(random.bits() % v.vertices.size())}};
+    for (std::uint32_t budget = 0; budget < 12; ++budget) {
+      MarchRule rule;
+      rule.step_budget = budget;
+      const MarchResult r = march(v, v, p, far, rule);
+      expect_true(v, v, p, truth, r);
+      if (HasFatalFailure()) FAIL() << "budget " << budget;
+      ASSERT_LE(r.steps, budget + 1);
+      if (r.status == MarchStatus::Budget) ++ended;
+      else expect_exact(v, v, p, truth, r);
+    }
+  }
+  EXPECT_GE(ended, 300);
+}
+
+// ---- Status, poses, tags --------------------------------------------------------------------------------------------------------
+
+TEST(March, IllegalPosesAreSaidSo) {
+  const Model cube = model(bodies::cube());
+  const ConvexView& v = cube.level(0).view;
+  const auto expect_invalid = [&](const Pose& pose, bool invalid) {
+    const MarchResult r = march(v, v, pose);
+    EXPECT_EQ(r.status == MarchStatus::InvalidPose, invalid);
+    if (!invalid) return;
+    EXPECT_EQ(r.lower, 0);
+    EXPECT_EQ(r.upper, kInfinity);
+  };
+  for (const double bad : {std::nan(""), kInfinity, -kInfinity, 1e46, 1e308}) {
+    Pose p;
+    p.translation.y() = bad;
+    expect_invalid(p, true);
+    p = {};
+    p.rotation(1, 2) = bad;
+    expect_invalid(p, true);
+  }
+  for (const double off : {0.0, 1e-17, 2e-7, 4.9e-7, 5.1e-7, 1e-3, -4.9e-7, -5.1e-7, -1.0, -2.0}) {
+    Pose p{(1 + off) * Mat3::Identity(), {5, 0, 0}};  // R^T R - I is about 2 off; at -2, a reflection, it is 0
+    expect_invalid(p, !(std::fabs(2 * off + off * off) <= 1e-6));
+  }
+  expect_invalid({Mat3::Zero(), {5, 0, 0}}, true);
+}
+
+TEST(March, ReflectionsAreAnsweredAsGiven) {
+  // R^T R = I: legal, and the truth is of these very doubles.
+  const Model m = model(bodies::body_of(shapes::random_polytope(20, 7)));
+  const ConvexView& v = m.level(0).view;
+  const std::vector<Vec3> points = bodies::points_of(v);
+  shapes::Random random(35);
+  for (int i = 0; i < 100; ++i) {
+    const Pose pose{random.rotation() * Vec3(1, 1, -1).asDiagonal(), random.in_ball() * 3};
+    expect_exact(v, v, pose, oracle::distance(points, points, pose), march(v, v, pose));
+    if (HasFatalFailure()) FAIL() << i;
+  }
+}
+
+TEST(March, TagsOfEdgesAndVerticesAreTheLargestBeside) {
+  const Model cube = model(bodies::cube());
+  ConvexView v = cube.level(0).view;
+  EXPECT_EQ(tag(v, {FeatureKind::Face, 3}), 0);
+  const std::uint8_t tags[] = {5, 0, 9, 2, 7, 3};
+  v.tags = tags;
+  for (std::uint32_t f = 0; f < 6; ++f) EXPECT_EQ(tag(v, {FeatureKind::Face, f}), tags[f]);
+  for (std::uint32_t h = 0; h < v.head.size(); ++h) {
+    EXPECT_EQ(tag(v, {FeatureKind::Edge, h}), std::max(tags[v.face[h]], tags[v.face[v.twin[h]]]));
+  }
+  for (std::uint32_t i = 0; i < v.vertices.size(); ++i) {
+    std::uint8_t largest = 0;
+    for (std::uint32_t h = 0; h < v.head.size(); ++h) {
+      if (v.head[h] == i) largest = std::max(largest, tags[v.face[h]]);
+    }
+    EXPECT_EQ(tag(v, {FeatureKind::Vertex, i}), largest);
+  }
+  EXPECT_EQ(tag(v, {}), 0);
+  const Model segment = model(bodies::segment({0, 0, 0}, {1, 0, 0}));
+  EXPECT_EQ(tag(segment.level(0).view, {FeatureKind::Edge, 0}), 0);
+}
+
+TEST(March, FeaturesOfAnOverlapAreReadable) {
+  const Model cube = model(bodies::cube());
+  ConvexView v = cube.level(0).view;
+  const std::uint8_t tags[] = {1, 1, 1, 1, 1, 1};
+  v.tags = tags;
+  shapes::Random random(36);
+  for (int i = 0; i < 200; ++i) {
+    const MarchResult r = march(v, v, {random.rotation(), random.in_ball()});
+    ASSERT_EQ(r.status, MarchStatus::Overlapping);
+    ASSERT_EQ(tag(v, r.a), 1);
+    ASSERT_EQ(tag(v, r.b), 1);
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet
