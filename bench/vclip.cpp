@@ -16,9 +16,14 @@
 #include "vclip.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 #include "ring.h"
 #include "vec.h"
@@ -28,8 +33,10 @@ namespace {
 
 Vec normal(const VclipPlane& p) { return {p.x, p.y, p.z}; }
 Vec axis(const VclipEdge& e) { return {e.axis_x, e.axis_y, e.axis_z}; }
-Vec point(const VclipVertex& v) { return {v.x, v.y, v.z}; }
-Vec point(const VclipBody& body, std::uint32_t v) { return point(body.vertices[v]); }
+Vec point(const VclipBody& body, Handle v) {
+  const VclipVertex& record = body.vertices[v.index()];
+  return {record.x, record.y, record.z};
+}
 double beyond(const VclipPlane& plane, const Vec& p) { return dot(normal(plane), p) - plane.offset; }
 
 Handle vertex(std::uint32_t index) { return {FeatureKind::Vertex, index}; }
@@ -62,8 +69,10 @@ VclipEdge make_edge(const ConvexView& view, std::uint32_t h, const std::vector<V
   const Vec p = vec(view.vertices[tail]), q = vec(view.vertices[head]), d = q - p;
   const double length = norm(d);
   const Vec u = d * (1 / length);
-  return {u.x, u.y, u.z, dot(u, p), dot(u, q), length, tail, head, {left, right},
-          {left == kNone ? kOpen : side_plane(u, faces[left], p), right == kNone ? kOpen : side_plane(-u, faces[right], p)}};
+  const auto neighbour = [](std::uint32_t f) { return f == kNone ? Handle{} : face(f); };
+  const auto side = [&](std::uint32_t f, const Vec& along) { return f == kNone ? kOpen : side_plane(along, faces[f], p); };
+  return {u.x, u.y, u.z, dot(u, p), dot(u, q), length, vertex(tail), vertex(head), neighbour(left), neighbour(right),
+          {side(left, u), side(right, -u)}};
 }
 
 /// Every second place, then the others. In the order around the vertex, the first plane violated would mostly be the one at the
@@ -71,6 +80,24 @@ VclipEdge make_edge(const ConvexView& view, std::uint32_t h, const std::vector<V
 std::uint32_t scattered(std::uint32_t k, std::uint32_t count) {
   const std::uint32_t evens = (count + 1) / 2;
   return k < evens ? 2 * k : 2 * (k - evens) + 1;
+}
+
+VclipVertex empty_vertex(const Vec& p) {
+  VclipVertex v{p.x, p.y, p.z, kNone, 0, {}, {}, {}, {}, {}, {}, {}};
+  std::fill(std::begin(v.offset), std::end(v.offset), 1);
+  std::fill(std::begin(v.far_offset), std::end(v.far_offset), 1);
+  return v;
+}
+
+void set_plane(VclipVertex& v, std::uint32_t place, std::uint32_t half_edge, const VclipEdge& e) {
+  const double sign = half_edge % 2 == 0 ? 1 : -1;
+  v.edge[place] = edge(half_edge / 2);
+  v.neighbour[place] = half_edge % 2 == 0 ? e.head : e.tail;
+  v.plane_x[place] = sign * e.axis_x;
+  v.plane_y[place] = sign * e.axis_y;
+  v.plane_z[place] = sign * e.axis_z;
+  v.offset[place] = half_edge % 2 == 0 ? e.tail_at : -e.head_at;
+  v.far_offset[place] = half_edge % 2 == 0 ? e.head_at : -e.tail_at;
 }
 
 }  // namespace
@@ -86,17 +113,21 @@ VclipBody::VclipBody(const ConvexView& view) {
     half_edge[view.twin[h]] = half_edge[h] + 1;
     edges.push_back(make_edge(view, h, faces));
   }
-  for (const Vertex& v : view.vertices) {
-    const auto begin = std::uint32_t(ring.size());
+  vertex_count = view.vertices.size();
+  for (const Vertex& v : view.vertices) vertices.push_back(empty_vertex(vec(v)));
+  for (std::uint32_t i = 0; i < vertex_count; ++i) {
+    const Vertex& v = view.vertices[i];
+    std::uint32_t record = i, place = 0;
     for (std::uint32_t k = 0; k < v.ring_count; ++k) {
-      const std::uint32_t h = v.ring_begin + scattered(k, v.ring_count);
-      if (half_edge[h] == kNone) continue;
-      const VclipEdge& e = edges[half_edge[h] / 2];
-      const Vec u = axis(e);
-      ring.push_back(half_edge[h]);
-      ring_planes.push_back(half_edge[h] % 2 == 0 ? VclipPlane{u.x, u.y, u.z, e.tail_at} : VclipPlane{-u.x, -u.y, -u.z, -e.head_at});
+      const std::uint32_t h = half_edge[v.ring_begin + scattered(k, v.ring_count)];
+      if (h == kNone) continue;
+      if (place == 8) {
+        record = vertices[record].next = std::uint32_t(vertices.size());
+        vertices.push_back(empty_vertex(vec(v)));
+        place = 0;
+      }
+      set_plane(vertices[record], place++, h, edges[h / 2]);
     }
-    vertices.push_back({v.x, v.y, v.z, begin, std::uint32_t(ring.size()) - begin});
   }
   loop_begin.push_back(0);
   for (const std::uint32_t first : view.face_first) {
@@ -109,28 +140,80 @@ VclipBody::VclipBody(const ConvexView& view) {
 
 std::size_t VclipBody::bytes() const {
   const auto of = [](const auto& v) { return v.size() * sizeof v[0]; };
-  return of(vertices) + of(ring_planes) + of(ring) + of(edges) + of(faces) + of(loop_begin) + of(loop);
+  return of(vertices) + of(edges) + of(faces) + of(loop_begin) + of(loop);
 }
 
 // ---- A query ---------------------------------------------------------------------------------------------------------------
 
 namespace {
 
-/// One body of a query: its feature, and its last vertex as the other body sees it.
-struct Side {
-  const VclipBody& body;
-  Motion out;  ///< into the other's frame
-  Handle feature;
-  std::uint32_t carried = kNone;
-  Vec carried_at{0, 0, 0};
+/// The pose, from B's frame into A's.
+struct IntoA {
+  const double* r;  ///< columns
+  Vec t;
+  Vec turn(const Vec& n) const {
+    return {r[0] * n.x + r[3] * n.y + r[6] * n.z, r[1] * n.x + r[4] * n.y + r[7] * n.z, r[2] * n.x + r[5] * n.y + r[8] * n.z};
+  }
+  Vec apply(const Vec& p) const { return turn(p) + t; }
+};
+/// Its inverse, where the rotation is one.
+struct IntoB {
+  const double* r;
+  Vec t;
+  Vec turn(const Vec& n) const {
+    return {r[0] * n.x + r[1] * n.y + r[2] * n.z, r[3] * n.x + r[4] * n.y + r[5] * n.z, r[6] * n.x + r[7] * n.y + r[8] * n.z};
+  }
+  Vec apply(const Vec& p) const { return turn(p) + t; }
 };
 
-Vec carry(Side& side, std::uint32_t v) {
-  if (side.carried != v) {
-    side.carried = v;
-    side.carried_at = apply(side.out, point(side.body, v));
+/// One body of a query: its feature, and its last vertex as the other body sees it.
+template <class IntoOther>
+struct Side {
+  const VclipBody& body;
+  IntoOther out;
+  Handle feature;
+  Handle carried{};
+  Vec carried_at{0, 0, 0};
+
+  Vec carry() {
+    if (carried != feature) {
+      carried = feature;
+      carried_at = out.apply(point(body, feature));
+    }
+    return carried_at;
   }
-  return side.carried_at;
+};
+
+/// Bit k: n . p - offset > 0 for plane k of a vertex.
+unsigned violated(const VclipVertex& v, const Vec& p) {
+  unsigned bits = 0;
+#ifdef __SSE2__
+  const __m128d x = _mm_set1_pd(p.x), y = _mm_set1_pd(p.y), z = _mm_set1_pd(p.z);
+  for (int k = 0; k < 8; k += 2) {
+    const __m128d xy = _mm_add_pd(_mm_mul_pd(_mm_load_pd(v.plane_x + k), x), _mm_mul_pd(_mm_load_pd(v.plane_y + k), y));
+    const __m128d xyz = _mm_add_pd(xy, _mm_mul_pd(_mm_load_pd(v.plane_z + k), z));
+    bits |= unsigned(_mm_movemask_pd(_mm_cmpgt_pd(xyz, _mm_load_pd(v.offset + k)))) << k;
+  }
+#else
+  for (int k = 0; k < 8; ++k) bits |= unsigned(v.plane_x[k] * p.x + v.plane_y[k] * p.y + v.plane_z[k] * p.z > v.offset[k]) << k;
+#endif
+  return bits;
+}
+
+/// Bit k: n . d > 0.
+unsigned leading(const VclipVertex& v, const Vec& d) {
+  unsigned bits = 0;
+#ifdef __SSE2__
+  const __m128d x = _mm_set1_pd(d.x), y = _mm_set1_pd(d.y), z = _mm_set1_pd(d.z);
+  for (int k = 0; k < 8; k += 2) {
+    const __m128d xy = _mm_add_pd(_mm_mul_pd(_mm_load_pd(v.plane_x + k), x), _mm_mul_pd(_mm_load_pd(v.plane_y + k), y));
+    const __m128d xyz = _mm_add_pd(xy, _mm_mul_pd(_mm_load_pd(v.plane_z + k), z));
+    bits |= unsigned(_mm_movemask_pd(_mm_cmpgt_pd(xyz, _mm_setzero_pd()))) << k;
+  }
+#else
+  for (int k = 0; k < 8; ++k) bits |= unsigned(v.plane_x[k] * d.x + v.plane_y[k] * d.y + v.plane_z[k] * d.z > 0) << k;
+#endif
+  return bits;
 }
 
 /// An edge in the other's frame, and the point of it that is tested.
@@ -144,39 +227,43 @@ enum class Outcome : std::uint8_t { Moved, Disjoint, Penetrating };
 class Clip {
  public:
   std::uint32_t plane_tests = 0;
+  std::uint32_t hops = 0;  ///< moves that were two steps of the paper's
   double distance = 0;
   Vec first{0, 0, 0}, second{0, 0, 0};  ///< nearest points, of the first argument's body and the second's, both in the second's frame
 
-  Outcome vertex_vertex(Side& a, Side& b) {
-    const std::uint32_t i = a.feature.index(), j = b.feature.index();
-    if (leave_vertex(a, i, carry(b, j)) || leave_vertex(b, j, carry(a, i))) return Outcome::Moved;
-    return settle(carry(a, i), point(b.body, j));
+  template <class A, class B>
+  Outcome vertex_vertex(A& a, B& b) {
+    const Vec q = b.carry();
+    if (follow_edge(a, q)) return Outcome::Moved;
+    const Vec p = a.carry();
+    if (follow_edge(b, p)) return Outcome::Moved;
+    return settle(p, point(b.body, b.feature));
   }
 
-  Outcome vertex_edge(Side& a, Side& b) {
-    const std::uint32_t i = a.feature.index();
+  template <class A, class B>
+  Outcome vertex_edge(A& a, B& b) {
     const VclipEdge& e = b.body.edges[b.feature.index()];
-    const Vec p = carry(a, i), u = axis(e);
-    const double at = dot(u, p);
+    const Vec p = a.carry();
+    const Violations out(e, p);
     plane_tests += 4;
-    if (at < e.tail_at) return move(b, vertex(e.tail));
-    if (at > e.head_at) return move(b, vertex(e.head));
-    if (beyond(e.side[0], p) < 0) return move(b, face(e.face[0]));
-    if (beyond(e.side[1], p) < 0) return move(b, face(e.face[1]));
-    const Vec foot = point(b.body, e.tail) + u * (at - e.tail_at);
-    if (clip_to_vertex(a, i, b, e, foot, at - e.tail_at)) return Outcome::Moved;
+    if (out.bits != 0) return move(b, out.first(e));
+    const double at = out.at - e.tail_at;
+    const Vec foot = point(b.body, e.tail) + axis(e) * at;
+    if (clip_to_vertex(a, b, e, foot, at)) return Outcome::Moved;
     return settle(p, foot);
   }
 
-  Outcome vertex_face(Side& a, Side& b) {
-    const std::uint32_t i = a.feature.index(), f = b.feature.index();
-    const Vec p = carry(a, i);
+  template <class A, class B>
+  Outcome vertex_face(A& a, B& b) {
+    const std::uint32_t f = b.feature.index();
+    const Vec p = a.carry();
     double most = 0;
     std::uint32_t out = kNone;
     for (std::uint32_t k = b.body.loop_begin[f]; k < b.body.loop_begin[f + 1]; ++k) {
       const std::uint32_t h = b.body.loop[k];
       const double violation = beyond(b.body.edges[h / 2].side[h % 2], p);
-      if (violation > most) most = violation, out = h / 2;
+      out = violation > most ? h / 2 : out;
+      most = violation > most ? violation : most;
     }
     plane_tests += b.body.loop_begin[f + 1] - b.body.loop_begin[f] + 1;
     if (out != kNone) return move(b, edge(out));
@@ -184,37 +271,35 @@ class Clip {
     const VclipPlane& plane = b.body.faces[f];
     const double height = beyond(plane, p);
     if (height == 0) return Outcome::Penetrating;
-    const Vec up = turn(b.out, normal(plane)), away = height > 0 ? up : -up;
-    const VclipVertex& v = a.body.vertices[i];
-    for (std::uint32_t k = v.ring_begin; k < v.ring_begin + v.ring_count; ++k) {
-      ++plane_tests;
-      if (dot(normal(a.body.ring_planes[k]), away) < 0) return move(a, edge(a.body.ring[k] / 2));
-    }
+    const Vec up = b.out.turn(normal(plane)), toward = height > 0 ? -up : up;
+    if (leave_vertex(a, [&](const VclipVertex& v) { return leading(v, toward); })) return Outcome::Moved;
     if (height > 0) return settle(p, p - normal(plane) * height);
     return escape(b, p);
   }
 
-  Outcome edge_edge(Side& a, Side& b) {
+  template <class A, class B>
+  Outcome edge_edge(A& a, B& b) {
     const VclipEdge &ea = a.body.edges[a.feature.index()], &eb = b.body.edges[b.feature.index()];
-    Segment sa{apply(a.out, point(a.body, ea.tail)), turn(a.out, axis(ea)), ea.length, 0};
+    Segment sa{a.out.apply(point(a.body, ea.tail)), a.out.turn(axis(ea)), ea.length, 0};
     Segment sb{point(b.body, eb.tail), axis(eb), eb.length, 0};
     nearest(sa, sb);
     const Vec pa = sa.tail + sa.along * sa.at, pb = sb.tail + sb.along * sb.at;
     plane_tests += 4;
-    if (outside(eb, pa)) return move(b, leave_edge(eb, pa, sa));
+    if (const Violations out(eb, pa); out.bits != 0) return move(b, out.single() ? out.first(eb) : leave_edge(eb, pa, sa));
     plane_tests += 4;
-    const Vec pb_a = apply(b.out, pb);
-    if (outside(ea, pb_a)) {
-      sb.along = turn(b.out, sb.along);
-      return move(a, leave_edge(ea, pb_a, sb));
+    const Vec pb_a = b.out.apply(pb);
+    if (const Violations out(ea, pb_a); out.bits != 0) {
+      sb.along = b.out.turn(sb.along);
+      return move(a, out.single() ? out.first(ea) : leave_edge(ea, pb_a, sb));
     }
     return settle(pa, pb);
   }
 
-  Outcome edge_face(Side& a, Side& b) {
+  template <class A, class B>
+  Outcome edge_face(A& a, B& b) {
     const VclipEdge& e = a.body.edges[a.feature.index()];
     const std::uint32_t f = b.feature.index(), begin = b.body.loop_begin[f], end = b.body.loop_begin[f + 1];
-    const Segment s{apply(a.out, point(a.body, e.tail)), turn(a.out, axis(e)), e.length, 0};
+    const Segment s{a.out.apply(point(a.body, e.tail)), a.out.turn(axis(e)), e.length, 0};
     double low = 0, high = s.length;
     std::uint32_t low_side = kNone, high_side = kNone;
     plane_tests += 2 * (end - begin);
@@ -240,11 +325,24 @@ class Clip {
     const bool take_low = std::fabs(at_low) <= std::fabs(at_high);
     const std::uint32_t side = take_low ? low_side : high_side;
     if (side != kNone) return move(b, edge(b.body.loop[side] / 2));
-    return move(a, vertex(take_low ? e.tail : e.head));
+    return move(a, take_low ? e.tail : e.head);
   }
 
  private:
-  static Outcome move(Side& side, Handle to) {
+  /// Which planes of an edge's region a point is beyond: tail, head, left, right.
+  struct Violations {
+    double at;  ///< along the axis
+    unsigned bits;
+    Violations(const VclipEdge& e, const Vec& p) : at(dot(axis(e), p)) {
+      bits = unsigned(at < e.tail_at) | unsigned(at > e.head_at) << 1 | unsigned(beyond(e.side[0], p) < 0) << 2 |
+             unsigned(beyond(e.side[1], p) < 0) << 3;
+    }
+    bool single() const { return std::has_single_bit(bits); }
+    Handle first(const VclipEdge& e) const { return (&e.tail)[std::countr_zero(bits)]; }
+  };
+
+  template <class A>
+  static Outcome move(A& side, Handle to) {
     side.feature = to;
     return Outcome::Moved;
   }
@@ -259,51 +357,84 @@ class Clip {
     return Outcome::Disjoint;
   }
 
-  /// Moves to the first edge of vertex `i` whose plane `p` is beyond.
-  bool leave_vertex(Side& side, std::uint32_t i, const Vec& p) {
-    const VclipVertex& v = side.body.vertices[i];
-    for (std::uint32_t k = v.ring_begin; k < v.ring_begin + v.ring_count; ++k) {
-      ++plane_tests;
-      if (beyond(side.body.ring_planes[k], p) > 0) {
-        side.feature = edge(side.body.ring[k] / 2);
+  /// Moves to the first edge whose plane `p` is beyond; and on to its other end, as the next state would, if `p` is beyond that
+  /// too: planes of tail and head come first there.
+  template <class A>
+  bool follow_edge(A& side, const Vec& p) {
+    for (std::uint32_t record = side.feature.index(); record != kNone;) {
+      const VclipVertex& v = side.body.vertices[record];
+      const unsigned bits = violated(v, p);
+      plane_tests += 8;
+      if (bits != 0) {
+        const int k = std::countr_zero(bits);
+        const bool past = v.plane_x[k] * p.x + v.plane_y[k] * p.y + v.plane_z[k] * p.z > v.far_offset[k];
+        side.feature = past ? v.neighbour[k] : v.edge[k];
+        hops += past;
+        ++plane_tests;
         return true;
       }
+      record = v.next;
     }
     return false;
   }
 
-  /// Clips edge `e` of b, whose point nearest to vertex `i` of a is `foot`, `at` from its tail.
-  bool clip_to_vertex(Side& a, std::uint32_t i, const Side& b, const VclipEdge& e, const Vec& foot, double at) {
-    const VclipVertex& v = a.body.vertices[i];
-    const Vec q = apply(b.out, foot);
-    std::uint32_t low_edge = kNone, high_edge = kNone;
-    double low = 0, high = 0;
-    for (std::uint32_t k = v.ring_begin; k < v.ring_begin + v.ring_count; ++k) {
-      const VclipPlane& plane = a.body.ring_planes[k];
-      const double violation = beyond(plane, q);
-      ++plane_tests;
-      if (!(violation > 0)) continue;
-      const double slope = dot(normal(plane), turn(b.out, axis(e)));
-      ++plane_tests;
-      const double at_tail = violation - slope * at, at_head = violation + slope * (e.length - at), crossing = violation / -slope;
-      if (at_tail > 0 && at_head > 0) {
-        a.feature = edge(a.body.ring[k] / 2);
+  /// Moves to the first edge of the vertex that `test` names.
+  template <class A, class Test>
+  bool leave_vertex(A& side, Test test) {
+    for (std::uint32_t record = side.feature.index(); record != kNone;) {
+      const VclipVertex& v = side.body.vertices[record];
+      const unsigned bits = test(v);
+      plane_tests += 8;
+      if (bits != 0) {
+        side.feature = v.edge[std::countr_zero(bits)];
         return true;
       }
-      if (at_tail > 0) {
-        if (crossing > low) low = crossing, low_edge = k;
-      } else if (crossing < high) {
-        high = crossing, high_edge = k;
+      record = v.next;
+    }
+    return false;
+  }
+
+  /// Clips edge `e` of b to the vertex of a; `foot` is its point nearest to that, `at` from its tail.
+  template <class A, class B>
+  bool clip_to_vertex(A& a, const B& b, const VclipEdge& e, const Vec& foot, double at) {
+    const Vec q = b.out.apply(foot);
+    Handle low_edge, high_edge;
+    double low = 0, high = 0;
+    for (std::uint32_t record = a.feature.index(); record != kNone;) {
+      const VclipVertex& v = a.body.vertices[record];
+      plane_tests += 8;
+      unsigned bits = violated(v, q);
+      record = v.next;
+      if (record == kNone && low_edge == Handle{} && high_edge == Handle{} && std::has_single_bit(bits)) {
+        a.feature = v.edge[std::countr_zero(bits)];  // whatever its clip
+        return true;
+      }
+      for (; bits != 0; bits &= bits - 1) {
+        const int k = std::countr_zero(bits);
+        const Vec n{v.plane_x[k], v.plane_y[k], v.plane_z[k]};
+        const double violation = dot(n, q) - v.offset[k], slope = dot(n, b.out.turn(axis(e)));
+        ++plane_tests;
+        const double at_tail = violation - slope * at, at_head = violation + slope * (e.length - at), crossing = violation / -slope;
+        if (at_tail > 0 && at_head > 0) {
+          a.feature = v.edge[k];
+          return true;
+        }
+        if (at_tail > 0) {
+          if (crossing > low) low = crossing, low_edge = v.edge[k];
+        } else if (crossing < high) {
+          high = crossing, high_edge = v.edge[k];
+        }
       }
     }
-    const std::uint32_t out = low_edge != kNone ? low_edge : high_edge;
-    if (out == kNone) return false;
-    a.feature = edge(a.body.ring[out] / 2);
+    const Handle out = low_edge != Handle{} ? low_edge : high_edge;
+    if (out == Handle{}) return false;
+    a.feature = out;
     return true;
   }
 
   /// A vertex below a face and no edge that leads up: if no face has it outside, the bodies overlap.
-  Outcome escape(Side& b, const Vec& p) {
+  template <class B>
+  Outcome escape(B& b, const Vec& p) {
     double most = 0;
     std::uint32_t out = kNone;
     for (std::uint32_t f = 0; f < b.body.faces.size(); ++f) {
@@ -329,16 +460,13 @@ class Clip {
     a.at = clamp(at, a.length);
   }
 
-  static double clamp(double x, double high) { return std::fmin(std::fmax(x, 0), high); }
-
-  static bool outside(const VclipEdge& e, const Vec& p) {
-    const double at = dot(axis(e), p);
-    return at < e.tail_at || at > e.head_at || beyond(e.side[0], p) < 0 || beyond(e.side[1], p) < 0;
+  static double clamp(double x, double high) {
+    const double above = x > 0 ? x : 0.0;
+    return above < high ? above : high;
   }
 
   /// Where to go from `e` when the point `p` of the other edge `s` nearest to it is outside of its region.
   Handle leave_edge(const VclipEdge& e, const Vec& p, const Segment& s) {
-    const Handle ends[2] = {vertex(e.tail), vertex(e.head)};
     const double at = dot(axis(e), p), along = dot(axis(e), s.along);
     const double inside[4] = {at - e.tail_at, e.head_at - at, beyond(e.side[0], p), beyond(e.side[1], p)};
     const double slopes[4] = {along, -along, dot(normal(e.side[0]), s.along), dot(normal(e.side[1]), s.along)};
@@ -347,7 +475,7 @@ class Clip {
     Handle low_to, high_to, end, excluding;
     for (int k = 0; k < 4; ++k) {
       if (!(inside[k] < 0)) continue;
-      const Handle to = k < 2 ? ends[k] : face(e.face[k - 2]);
+      const Handle to = (&e.tail)[k];
       const double at_tail = inside[k] - slopes[k] * s.at, at_head = inside[k] + slopes[k] * (s.length - s.at);
       if (at_tail < 0 && at_head < 0) {  // all of s
         if (k < 2) return to;
@@ -385,7 +513,7 @@ class Clip {
         break;  // that side would send us back
       }
       const bool past_tail = at < e.tail_at, forward = past_tail == (h % 2 == 1);
-      if (heading == (forward ? -1 : 1)) return vertex(past_tail ? e.tail : e.head);
+      if (heading == (forward ? -1 : 1)) return past_tail ? e.tail : e.head;
       heading = forward ? 1 : -1;
       k = forward ? (k + 1 == end ? begin : k + 1) : (k == begin ? end : k) - 1;
     }
@@ -408,7 +536,7 @@ class Clip {
       plane_tests += 2;
       if (const double distance2 = dot(d, d); distance2 < least2) {
         least2 = distance2;
-        best = side.at > 0 ? side.at < side.length ? edge(at) : vertex(e.head) : vertex(e.tail);
+        best = side.at > 0 ? side.at < side.length ? edge(at) : e.head : e.tail;
       }
     }
     return best;
@@ -418,55 +546,58 @@ class Clip {
   static constexpr double kParallel = 1e-14;
 };
 
-Outcome visit(Clip& clip, Side& a, Side& b, bool& first_is_a) {
+Outcome visit(Clip& clip, Side<IntoB>& a, Side<IntoA>& b) {
+  constexpr auto state = [](FeatureKind ka, FeatureKind kb) { return unsigned(ka) * 4 + unsigned(kb); };
   using enum FeatureKind;
-  const FeatureKind ka = a.feature.kind(), kb = b.feature.kind();
-  first_is_a = ka < kb || ka == kb;
-  if (ka == Vertex && kb == Vertex) return clip.vertex_vertex(a, b);
-  if (ka == Vertex && kb == Edge) return clip.vertex_edge(a, b);
-  if (ka == Edge && kb == Vertex) return clip.vertex_edge(b, a);
-  if (ka == Edge && kb == Edge) return clip.edge_edge(a, b);
-  if (ka == Vertex) return clip.vertex_face(a, b);
-  if (kb == Vertex) return clip.vertex_face(b, a);
-  return ka == Edge ? clip.edge_face(a, b) : clip.edge_face(b, a);
+  switch (state(a.feature.kind(), b.feature.kind())) {
+    case state(Vertex, Vertex): return clip.vertex_vertex(a, b);
+    case state(Vertex, Edge): return clip.vertex_edge(a, b);
+    case state(Edge, Vertex): return clip.vertex_edge(b, a);
+    case state(Vertex, Face): return clip.vertex_face(a, b);
+    case state(Face, Vertex): return clip.vertex_face(b, a);
+    case state(Edge, Edge): return clip.edge_edge(a, b);
+    case state(Edge, Face): return clip.edge_face(a, b);
+    case state(Face, Edge): return clip.edge_face(b, a);
+    default: __builtin_unreachable();
+  }
 }
 
 Handle valid(const VclipBody& body, Handle h) {
-  const std::size_t counts[4] = {0, body.vertices.size(), body.edges.size(), body.faces.size()};
-  return h.index() < counts[std::size_t(h.kind())] ? h : vertex(0);
-}
-
-/// The inverse for a rotation that is one.
-Motion inverse(const Motion& m) {
-  const Vec x{m.row_x.x, m.row_y.x, m.row_z.x}, y{m.row_x.y, m.row_y.y, m.row_z.y}, z{m.row_x.z, m.row_y.z, m.row_z.z};
-  return {x, y, z, {-dot(x, m.t), -dot(y, m.t), -dot(z, m.t)}};
+  const bool names = h.kind() == FeatureKind::Vertex ? h.index() < body.vertex_count
+                     : h.kind() == FeatureKind::Edge ? h.index() < body.edges.size()
+                                                     : h.kind() == FeatureKind::Face && h.index() < body.faces.size();
+  return names ? h : vertex(0);
 }
 
 }  // namespace
 
 VclipResult vclip(const VclipBody& body_a, const VclipBody& body_b, const Pose& b_in_a, VclipSeed& seed) {
-  const Motion b_to_a = motion(b_in_a);
-  Side a{body_a, inverse(b_to_a), valid(body_a, seed.a)}, b{body_b, b_to_a, valid(body_b, seed.b)};
+  const IntoA into_a{b_in_a.rotation.data(), vec(b_in_a.translation)};
+  IntoB into_b{into_a.r, {0, 0, 0}};
+  into_b.t = -into_b.turn(into_a.t);
+  Side<IntoB> a{body_a, into_b, valid(body_a, seed.a)};
+  Side<IntoA> b{body_b, into_a, valid(body_b, seed.b)};
   if (a.feature.kind() == FeatureKind::Face && b.feature.kind() == FeatureKind::Face) b.feature = vertex(0);
   const auto cap = std::uint32_t(5000 + 2 * (body_a.edges.size() + body_b.edges.size()));
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   VclipResult result{VclipEnd::Capped, kUnknown, Vec3::Constant(kUnknown), Vec3::Constant(kUnknown)};
   Clip clip;
   while (result.steps < cap) {
-    bool first_is_a;
-    const Outcome outcome = visit(clip, a, b, first_is_a);
+    const Outcome outcome = visit(clip, a, b);
     if (outcome == Outcome::Moved) {
       ++result.steps;
       continue;
     }
     result.end = outcome == Outcome::Disjoint ? VclipEnd::Disjoint : VclipEnd::Penetrating;
     result.distance = outcome == Outcome::Disjoint ? clip.distance : 0;
-    if (outcome == Outcome::Disjoint) {  // the points are in the frame of the second argument
-      result.point_a = eigen(first_is_a ? apply(b_to_a, clip.first) : clip.second);
-      result.point_b = eigen(first_is_a ? apply(b_to_a, clip.second) : clip.first);
+    if (outcome == Outcome::Disjoint) {
+      const bool first_is_a = a.feature.kind() <= b.feature.kind();  // the points are in the frame of the second argument
+      result.point_a = eigen(first_is_a ? into_a.apply(clip.first) : clip.second);
+      result.point_b = eigen(first_is_a ? into_a.apply(clip.second) : clip.first);
     }
     break;
   }
+  result.steps += clip.hops;
   result.plane_tests = clip.plane_tests;
   seed = {a.feature, b.feature};
   return result;

@@ -18,18 +18,23 @@ struct alignas(32) VclipPlane {
   double x, y, z, offset;
 };
 
-struct VclipVertex {
+/// A vertex with the planes of its Voronoi region, eight beside each other: one per edge, which leads away from the vertex. Places
+/// without an edge hold a plane that nothing is beyond. More than eight edges continue in another record.
+struct alignas(64) VclipVertex {
   double x, y, z;
-  std::uint32_t ring_begin, ring_count;
+  std::uint32_t next, unused;  ///< record; kNone
+  Handle edge[8], neighbour[8];  ///< the edge and its other end
+  double plane_x[8], plane_y[8], plane_z[8];
+  double offset[8], far_offset[8];  ///< of the planes through the vertex, and through the other ends
 };
+static_assert(sizeof(VclipVertex) == 448);
 
 /// An edge with the four planes of its Voronoi region; the two along the axis differ in their offset only.
 struct alignas(64) VclipEdge {
-  double axis_x, axis_y, axis_z;     ///< unit, from tail to head
-  double tail_at, head_at, length;   ///< axis . tail, axis . head
-  std::uint32_t tail, head;
-  std::uint32_t face[2];             ///< left and right, seen from outside; kNone beside a segment
-  VclipPlane side[2];                ///< through the edge and the normal of that face, pointing away from the face
+  double axis_x, axis_y, axis_z;    ///< unit, from tail to head
+  double tail_at, head_at, length;  ///< axis . tail, axis . head
+  Handle tail, head, left, right;   ///< the neighbours in the order of the tests, seen from outside; None beside a segment
+  VclipPlane side[2];               ///< through the edge and the normal of the left, right face, pointing away from that face
 };
 static_assert(sizeof(VclipEdge) == 128);
 
@@ -41,14 +46,11 @@ class VclipBody {
   explicit VclipBody(const ConvexView& view);
   std::size_t bytes() const;  ///< heap
 
-  // Rings: per vertex its half-edges, that is edges (index >> 1) that begin (& 1 == 0) or end there, with the planes of the
-  // vertex's region: the same numbers as in the edge, so that neighbours agree bit for bit. Loops: per face its half-edges.
-  std::vector<VclipVertex> vertices;
-  std::vector<VclipPlane> ring_planes;
-  std::vector<std::uint32_t> ring;
+  std::vector<VclipVertex> vertices;  ///< the first `vertex_count`, then their continuations
+  std::size_t vertex_count = 0;
   std::vector<VclipEdge> edges;
   std::vector<VclipPlane> faces;
-  std::vector<std::uint32_t> loop_begin, loop;
+  std::vector<std::uint32_t> loop_begin, loop;  ///< per face its edges (index >> 1), left of which it lies, or right (index & 1)
 };
 
 /// The features where the last query of the pair ended. Default: cold, the first vertex of each. Handles number the edges of

@@ -3,6 +3,10 @@
 // Lays levels out as flat arrays; the model proves them again and derives what links and bounds they lack.
 #include "bake.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace swiftlet::lod {
 namespace {
 
@@ -40,6 +44,24 @@ Storage stored(const CoarseLevel& coarse, double scale) {
   return level;
 }
 
+/// Without the levels that deviate more than allowed, and those that a coarser one beats.
+std::vector<LevelArrays> worth_keeping(const Model& model, const std::vector<LevelArrays>& levels, double max_deviation, std::string& end) {
+  std::vector<LevelArrays> kept;
+  double least = std::numeric_limits<double>::infinity();
+  if (max_deviation > 0) least = std::nextafter(max_deviation, least);
+  if (max_deviation > 0 && model.level(model.level_count() - 1).deviation > max_deviation) end = "the next level would deviate more than allowed";
+  for (int i = model.level_count() - 1; i >= 0; --i) {
+    if (i == 0 || model.level(i).deviation < least) {
+      kept.push_back(levels[std::size_t(i)]);
+      least = model.level(i).deviation;
+    } else if (!kept.empty()) {
+      kept.back().child_vertex = kept.back().child_of_face = {};  // they named the level that goes
+    }
+  }
+  std::reverse(kept.begin(), kept.end());
+  return kept;
+}
+
 }  // namespace
 
 Result<Model> bake(const Finest& finest, const std::vector<CoarseLevel>& coarse, double scale, const BuildOptions& options,
@@ -55,14 +77,9 @@ Result<Model> bake(const Finest& finest, const std::vector<CoarseLevel>& coarse,
     levels.pop_back();
     model = Model::from_levels(levels, {.repair = false, .table = options.table});
   }
-  if (!model || !(options.max_deviation > 0)) return model;
-
-  int kept = 1;
-  while (kept < model.value().level_count() && model.value().level(kept).deviation <= options.max_deviation) ++kept;
-  if (kept == model.value().level_count()) return model;
-  end = "the next level would deviate more than allowed";
-  levels.resize(std::size_t(kept));
-  return Model::from_levels(levels, {.repair = false, .table = options.table});
+  if (!model) return model;
+  const std::vector<LevelArrays> worth = worth_keeping(model.value(), levels, options.max_deviation, end);
+  return worth.size() == levels.size() ? std::move(model) : Model::from_levels(worth, {.repair = false, .table = options.table});
 }
 
 }  // namespace swiftlet::lod

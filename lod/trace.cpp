@@ -43,6 +43,7 @@ Ids first_of_equals(std::span<const Vec3> points) {
   return first;
 }
 
+/// Every edge once in each direction: two-sided triangles do not close.
 bool closes(const std::vector<Triangle>& triangles) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> forth, back;
   for (const auto& [a, b, c] : triangles)
@@ -50,7 +51,7 @@ bool closes(const std::vector<Triangle>& triangles) {
       forth.emplace_back(from, to), back.emplace_back(to, from);
   std::sort(forth.begin(), forth.end());
   std::sort(back.begin(), back.end());
-  return forth == back;
+  return forth == back && std::adjacent_find(forth.begin(), forth.end()) == forth.end();
 }
 
 /// Finds hull triangles by the plane they lie on.

@@ -117,7 +117,7 @@ std::uint32_t kept_face(const ConvexView& level, std::uint32_t face, const std::
   const std::uint32_t c0 = child[origin(level, h)], c1 = child[level.head[h]];
   const Vertex& ring = finer.vertices[c0];
   for (std::uint32_t k = ring.ring_begin; k < ring.ring_begin + ring.ring_count; ++k) {
-    if (finer.head[k] != c1) continue;
+    if (finer.head[k] != c1 || is_diagonal(finer, k)) continue;
     std::uint32_t coarse = h, fine = k;
     do {
       if (child[level.head[coarse]] != finer.head[fine]) return kNone;

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The one interface behind which every method stands in the benchmark. Knows models and poses; nothing of scenes, clocks or truth.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <swiftlet/model.h>
+#include <swiftlet/pose.h>
+
+namespace swiftlet::bench {
+
+/// What one query answered.
+struct Outcome {
+  double distance = 0;       ///< >= 0; 0 with overlapping; meaningless with failed
+  bool overlapping = false;  ///< the method says that the bodies share a point
+  bool failed = false;       ///< the method says itself that it has no answer
+  std::uint32_t steps = 0, plane_tests = 0;  ///< iterations and support calls where a method has no features; 0 where it hides both
+};
+
+/// One body as every method gets it: the same vertices and faces for all.
+struct Body {
+  const Model* model = nullptr;  ///< with its hierarchy and table; outlives the session
+  ConvexView view;               ///< its level 0
+  double build_seconds = 0;      ///< what the builder took from hull to model, as the scene measured it
+};
+
+/// Two bodies that are asked about: indices into the scene's bodies.
+struct BodyPair {
+  std::uint32_t a = 0, b = 0;
+};
+
+struct Query {
+  std::uint32_t pair = 0;  ///< index into the pairs of the session
+  Pose b_in_a;
+};
+
+/// What a session's bodies cost before the first query. Its states per pair are not counted.
+struct Preparation {
+  double seconds = 0;
+  std::size_t heap_bytes = 0;  ///< live after preparing, less live before, in malloc's own count; 0 where that is not known
+};
+
+/// A method with the bodies of one scene prepared and one warm-start state per pair. Not to be shared between threads.
+class Session {
+ public:
+  virtual ~Session() = default;
+  virtual Outcome distance(std::uint32_t pair, const Pose& b_in_a) = 0;
+  /// As cheap as the method can. Where it cannot decide, `true`.
+  virtual bool intersects(std::uint32_t pair, const Pose& b_in_a) = 0;
+  /// Allowed to be off by max(absolute, relative * distance).
+  virtual Outcome approximate(std::uint32_t pair, const Pose& b_in_a, double absolute, double relative) = 0;
+
+  /// The same, one after the other in one virtual call: what a timed pass calls, so that dispatch costs a fast method no more
+  /// than a slow one. The outputs are as long as the queries.
+  virtual void distances(std::span<const Query> queries, std::span<Outcome> outcomes) = 0;
+  virtual void intersections(std::span<const Query> queries, std::span<std::uint8_t> meet) = 0;
+  virtual void approximations(std::span<const Query> queries, double absolute, double relative, std::span<Outcome> outcomes) = 0;
+
+  /// Makes every pair cold again.
+  virtual void forget() = 0;
+  Preparation preparation() const { return preparation_; }
+
+ protected:
+  Preparation preparation_;
+};
+
+/// The loops for a final class `Self`, which the compiler then calls directly.
+template <class Self>
+class SessionOf : public Session {
+ public:
+  Outcome approximate(std::uint32_t, const Pose&, double, double) override { return {.failed = true}; }
+  void distances(std::span<const Query> queries, std::span<Outcome> outcomes) final {
+    for (std::size_t i = 0; i < queries.size(); ++i) outcomes[i] = self().distance(queries[i].pair, queries[i].b_in_a);
+  }
+  void intersections(std::span<const Query> queries, std::span<std::uint8_t> meet) final {
+    for (std::size_t i = 0; i < queries.size(); ++i) meet[i] = self().intersects(queries[i].pair, queries[i].b_in_a);
+  }
+  void approximations(std::span<const Query> queries, double absolute, double relative, std::span<Outcome> outcomes) final {
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      outcomes[i] = self().approximate(queries[i].pair, queries[i].b_in_a, absolute, relative);
+    }
+  }
+
+ private:
+  Self& self() { return static_cast<Self&>(*this); }
+};
+
+/// What a method can answer at all, and how well by its own account.
+struct Capabilities {
+  bool distance = false, intersects = false, approximate = false;
+  bool certified = false;    ///< its answers carry a proof
+  double stated_error = 0;   ///< of `distance`, in units of the larger bounding radius, on bodies not flatter or longer than 10:1
+                             ///< and at distances up to a few radii. For peers: what was measured, rounded up, as none states one
+  double grazing = 0;        ///< below this distance, in the same unit, it may call disjoint bodies overlapping, or fail
+  std::uint32_t max_triangles = std::numeric_limits<std::uint32_t>::max();  ///< beyond, preparing or a query takes seconds
+};
+
+class Method {
+ public:
+  virtual ~Method() = default;
+  virtual std::string name() const = 0;      ///< as in the results and the legends; unique
+  virtual std::string settings() const = 0;  ///< one line: version, precision, tolerance, what is cached
+  virtual Capabilities capabilities() const = 0;
+  /// The bodies' models outlive the session. Solids only.
+  virtual std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const = 0;
+};
+
+using Methods = std::vector<std::unique_ptr<Method>>;
+
+/// Ours first, then the baselines, then the peers that the build found.
+Methods all_methods();
+/// The peers that the build did not find.
+std::vector<std::string> absent_peers();
+
+// Each in its own source, called where CMake found the library.
+void add_fcl(Methods& methods);
+void add_fcl_native(Methods& methods);  ///< the same sources and FCL's templates compiled for this very machine
+void add_ccd(Methods& methods);
+void add_bullet(Methods& methods);
+void add_ode(Methods& methods);
+
+}  // namespace swiftlet::bench

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Bullet 3.24 as a method: its two GJKs, on its own hull shape and on one that climbs. Knows Bullet's headers and Method.
+//
+// Settings: Debian's double-precision libraries (-float64), BT_USE_DOUBLE_PRECISION, margin 0 (else every distance is 0.08 short
+// and rounded bodies are compared), no depth solver, so that an overlap ends the query.
+// - "bullet": btGjkPairDetector on btConvexHullShape, what the engine does for two hulls. Every support scans all vertices. Detector and
+//   Voronoi simplex solver live with the pair, but Bullet resets both at each query: it has no warm start to offer.
+// - "bullet climb": the same detector on a custom btConvexInternalShape whose support climbs from the pair's last vertex.
+// - "bullet guess climb": btGjkEpaSolver2::Distance on that shape with the last separating vector as its guess: Bullet's only
+//   distance with a warm start, and its most accurate.
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+#include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+
+#include "hull.h"
+#include "method.h"
+
+namespace swiftlet::bench {
+namespace {
+
+#ifdef BT_USE_DOUBLE_PRECISION
+constexpr const char* kBuild = "Bullet 3.24, double, margin 0, ";
+constexpr double kStatedError = 1e-6, kGrazing = 1e-5;
+#else
+constexpr const char* kBuild = "Bullet 3.24, SINGLE precision (no double build found), margin 0, ";
+constexpr double kStatedError = 1e-3, kGrazing = 1e-3;
+#endif
+
+btTransform transform_of(const Pose& pose) {
+  const Mat3& r = pose.rotation;
+  const Vec3& t = pose.translation;
+  return {btMatrix3x3(btScalar(r(0, 0)), btScalar(r(0, 1)), btScalar(r(0, 2)), btScalar(r(1, 0)), btScalar(r(1, 1)),
+                      btScalar(r(1, 2)), btScalar(r(2, 0)), btScalar(r(2, 1)), btScalar(r(2, 2))),
+          btVector3(btScalar(t[0]), btScalar(t[1]), btScalar(t[2]))};
+}
+
+std::unique_ptr<btConvexHullShape> shape_of(const ConvexView& view) {
+  auto shape = std::make_unique<btConvexHullShape>();
+  for (const Vertex& v : view.vertices) shape->addPoint(btVector3(btScalar(v.x), btScalar(v.y), btScalar(v.z)), false);
+  shape->recalcLocalAabb();
+  shape->setMargin(0);
+  return shape;
+}
+
+/// A convex shape of the user's own, as Bullet lets one write it.
+class ClimbShape final : public btConvexInternalShape {
+ public:
+  explicit ClimbShape(const Graph& graph) : climber_(graph) {
+    m_shapeType = CUSTOM_CONVEX_SHAPE_TYPE;
+    setMargin(0);
+  }
+  btVector3 localGetSupportingVertexWithoutMargin(const btVector3& direction) const override {
+    const Graph::Node& n = climber_.support(direction.x(), direction.y(), direction.z());
+    return btVector3(btScalar(n.x), btScalar(n.y), btScalar(n.z));
+  }
+  btVector3 localGetSupportingVertex(const btVector3& direction) const override {
+    return localGetSupportingVertexWithoutMargin(direction);
+  }
+  void batchedUnitVectorGetSupportingVertexWithoutMargin(const btVector3* directions, btVector3* points, int count) const override {
+    for (int i = 0; i < count; ++i) points[i] = localGetSupportingVertexWithoutMargin(directions[i]);
+  }
+  void calculateLocalInertia(btScalar, btVector3& inertia) const override { inertia.setZero(); }
+  const char* getName() const override { return "climb"; }
+  void forget() { climber_.forget(); }
+
+ private:
+  mutable Climber climber_;
+};
+
+// ---- What the two kinds of shape give to a pair --------------------------------------------------------------------------------
+
+struct Hulls {
+  std::vector<std::unique_ptr<btConvexHullShape>> all;
+  void prepare(std::span<const Body> bodies) {
+    for (const Body& body : bodies) all.push_back(shape_of(body.view));
+  }
+  btConvexShape* share(std::uint32_t body) { return all[body].get(); }
+  void forget() {}
+};
+
+struct Climbs {
+  std::vector<Graph> graphs;
+  std::vector<std::unique_ptr<ClimbShape>> all;
+  void prepare(std::span<const Body> bodies) {
+    graphs.reserve(bodies.size());
+    for (const Body& body : bodies) graphs.emplace_back(body.view);
+  }
+  btConvexShape* share(std::uint32_t body) {  // one per pair and side, for its last vertex
+    all.push_back(std::make_unique<ClimbShape>(graphs[body]));
+    return all.back().get();
+  }
+  void forget() {
+    for (const auto& shape : all) shape->forget();
+  }
+};
+
+// ---- btGjkPairDetector ---------------------------------------------------------------------------------------------------------
+
+template <class Shapes>
+class DetectorSession final : public SessionOf<DetectorSession<Shapes>> {
+ public:
+  DetectorSession(std::span<const Body> bodies, std::span<const BodyPair> pairs) {
+    this->preparation_ = measured([&] { shapes_.prepare(bodies); });
+    for (const BodyPair& p : pairs) pairs_.push_back(std::make_unique<State>(shapes_.share(p.a), shapes_.share(p.b)));
+  }
+  Outcome distance(std::uint32_t pair, const Pose& b_in_a) override {
+    State& s = *pairs_[pair];
+    btGjkPairDetector::ClosestPointInput input;
+    input.m_transformA.setIdentity();
+    input.m_transformB = transform_of(b_in_a);
+    btPointCollector collector;
+    s.detector.getClosestPoints(input, collector, nullptr);
+    const auto steps = std::uint32_t(std::max(0, s.detector.m_curIter));
+    // Without a depth solver nothing is reported for an overlap, nor where the simplex degenerates just above one.
+    if (!collector.m_hasResult) return {.overlapping = true, .steps = steps, .plane_tests = 2 * steps};
+    if (!std::isfinite(collector.m_distance)) return {.failed = true, .steps = steps, .plane_tests = 2 * steps};
+    return {.distance = std::max(0., double(collector.m_distance)), .steps = steps, .plane_tests = 2 * steps};
+  }
+  bool intersects(std::uint32_t pair, const Pose& b_in_a) override {
+    const Outcome o = distance(pair, b_in_a);  // there is no cheaper one
+    return o.overlapping || o.failed;
+  }
+  void forget() override { shapes_.forget(); }
+
+ private:
+  struct State {
+    btVoronoiSimplexSolver simplex;
+    btGjkPairDetector detector;
+    State(btConvexShape* a, btConvexShape* b) : detector(a, b, &simplex, nullptr) {}
+  };
+  Shapes shapes_;
+  std::vector<std::unique_ptr<State>> pairs_;
+};
+
+// ---- btGjkEpaSolver2 -----------------------------------------------------------------------------------------------------------
+
+class GuessSession final : public SessionOf<GuessSession> {
+ public:
+  GuessSession(std::span<const Body> bodies, std::span<const BodyPair> pairs) {
+    preparation_ = measured([&] { shapes_.prepare(bodies); });
+    for (const BodyPair& p : pairs) pairs_.push_back({shapes_.share(p.a), shapes_.share(p.b), kCold});
+  }
+  Outcome distance(std::uint32_t pair, const Pose& b_in_a) override {
+    State& s = pairs_[pair];
+    btGjkEpaSolver2::sResults results;
+    if (!btGjkEpaSolver2::Distance(s.a, btTransform::getIdentity(), s.b, transform_of(b_in_a), s.guess, results)) {
+      s.guess = kCold;
+      const bool inside = results.status == btGjkEpaSolver2::sResults::Penetrating;
+      return {.overlapping = inside, .failed = !inside};
+    }
+    if (!std::isfinite(results.distance)) return {.failed = true};
+    s.guess = results.witnesses[0] - results.witnesses[1];
+    return {.distance = double(results.distance)};
+  }
+  bool intersects(std::uint32_t pair, const Pose& b_in_a) override {
+    const Outcome o = distance(pair, b_in_a);
+    return o.overlapping || o.failed;
+  }
+  void forget() override {
+    shapes_.forget();
+    for (State& s : pairs_) s.guess = kCold;
+  }
+
+ private:
+  inline static const btVector3 kCold{1, 0, 0};
+  struct State {
+    const btConvexShape *a, *b;
+    btVector3 guess;
+  };
+  Climbs shapes_;
+  std::vector<State> pairs_;
+};
+
+template <class SessionType>
+class BulletMethod final : public Method {
+ public:
+  BulletMethod(const char* name, const char* settings) : name_(name), settings_(std::string(kBuild) + settings) {}
+  std::string name() const override { return name_; }
+  std::string settings() const override { return settings_; }
+  Capabilities capabilities() const override {
+    return {.distance = true, .intersects = true, .stated_error = kStatedError, .grazing = kGrazing};
+  }
+  std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
+    return std::make_unique<SessionType>(bodies, pairs);
+  }
+
+ private:
+  std::string name_, settings_;
+};
+
+}  // namespace
+
+void add_bullet(Methods& methods) {
+  methods.push_back(std::make_unique<BulletMethod<DetectorSession<Hulls>>>("bullet", "btGjkPairDetector on btConvexHullShape"));
+  methods.push_back(std::make_unique<BulletMethod<DetectorSession<Climbs>>>(
+      "bullet climb", "btGjkPairDetector with our support from the last vertex"));
+  methods.push_back(std::make_unique<BulletMethod<GuessSession>>(
+      "bullet guess climb", "btGjkEpaSolver2 with our support from the last vertex, last separating vector as guess"));
+}
+
+}  // namespace swiftlet::bench

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// ODE 0.16 as a method: a boolean, as it has no distance. Knows ODE's headers and Method.
+//
+// Settings: double precision, as Debian builds it; dCollide on two convex geoms of one pair, one contact asked for. It tests every
+// face of both against every vertex of the other, then every pair of edges, and keeps nothing between queries: there is nothing to set.
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include <ode/ode.h>
+
+#include "hull.h"
+#include "method.h"
+
+namespace swiftlet::bench {
+namespace {
+
+#ifndef dDOUBLE
+#error "ODE in single precision: its rows would not be comparable"
+#endif
+
+/// What dCreateConvex points into.
+struct Arrays {
+  std::vector<dReal> planes, points;
+  std::vector<unsigned> loops;
+  unsigned face_count = 0;
+
+  explicit Arrays(const ConvexView& view) : loops(face_loops<unsigned>(view)), face_count(unsigned(view.face_first.size())) {
+    for (const Vertex& v : view.vertices) points.insert(points.end(), {v.x, v.y, v.z});
+    for (std::size_t at = 0; at < loops.size(); at += 1 + loops[at]) {
+      const auto point = [&](std::size_t k) {
+        const dReal* p = &points[3 * loops[at + 1 + k]];
+        return Vec3(p[0], p[1], p[2]);
+      };
+      Vec3 normal = Vec3::Zero();  // Newell's, about the first vertex
+      for (std::size_t k = 1; k + 1 < loops[at]; ++k) {
+        const Vec3 u = point(k) - point(0), v = point(k + 1) - point(0);
+        normal += Vec3(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+      }
+      normal /= normal.norm();
+      planes.insert(planes.end(), {normal[0], normal[1], normal[2], normal.dot(point(0))});
+    }
+  }
+  dGeomID geom() const {
+    return dCreateConvex(nullptr, planes.data(), face_count, points.data(), unsigned(points.size() / 3), loops.data());
+  }
+};
+
+class OdeSession final : public SessionOf<OdeSession> {
+ public:
+  OdeSession(std::span<const Body> bodies, std::span<const BodyPair> pairs) {
+    static std::once_flag once;
+    std::call_once(once, [] { dInitODE2(0); });
+    preparation_ = measured([&] {
+      arrays_.reserve(bodies.size());
+      for (const Body& body : bodies) arrays_.emplace_back(body.view);
+      for (const BodyPair& p : pairs) pairs_.push_back({arrays_[p.a].geom(), arrays_[p.b].geom()});
+    });
+  }
+  ~OdeSession() override {
+    for (const State& s : pairs_) dGeomDestroy(s.a), dGeomDestroy(s.b);
+  }
+  Outcome distance(std::uint32_t, const Pose&) override { return {.failed = true}; }
+  bool intersects(std::uint32_t pair, const Pose& b_in_a) override {
+    const State& s = pairs_[pair];
+    dMatrix3 rotation{};
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) rotation[4 * i + j] = b_in_a.rotation(i, j);
+    }
+    dGeomSetRotation(s.b, rotation);
+    dGeomSetPosition(s.b, b_in_a.translation[0], b_in_a.translation[1], b_in_a.translation[2]);
+    dContactGeom contact;
+    return dCollide(s.a, s.b, 1, &contact, sizeof contact) > 0;
+  }
+  void forget() override {}
+
+ private:
+  struct State {
+    dGeomID a, b;
+  };
+  std::vector<Arrays> arrays_;
+  std::vector<State> pairs_;
+};
+
+class OdeMethod final : public Method {
+ public:
+  std::string name() const override { return "ode"; }
+  std::string settings() const override { return "ODE 0.16, double, dCollide on convex geoms, one contact, no cache; boolean only"; }
+  Capabilities capabilities() const override { return {.intersects = true, .grazing = 1e-6, .max_triangles = 200}; }
+  std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
+    return std::make_unique<OdeSession>(bodies, pairs);
+  }
+};
+
+}  // namespace
+
+void add_ode(Methods& methods) { methods.push_back(std::make_unique<OdeMethod>()); }
+
+}  // namespace swiftlet::bench
