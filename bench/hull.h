@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // A hull as other libraries want it, the support climb that those take which let the user write one, and what preparing costs.
-// Knows ConvexView and no library. Inline throughout, so that a peer compiled for this very machine has its climb compiled so too.
+// Knows ConvexView and no library. Inline throughout, so that a peer compiled for this very machine has its climb compiled so
+// too.
 #pragma once
 
 #include <chrono>

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// libccd 2.1 as a method: two booleans, as its public header has no distance (its GJK distance lives in FCL: peer_fcl.cpp). Knows
-// libccd and Method.
+// libccd 2.1 as a method: two booleans, as its public header has no distance (its GJK distance lives in FCL: peer_fcl.cpp).
+// Knows libccd and Method.
 //
 // Settings: double precision, as Debian builds it. Supports climb over the vertex graph from the pair's last vertex, its best
 // case. GJK starts from the direction that its last query of the pair ended with (which libccd does not tell, so the support
-// function notes it); it says "apart" also when its iterations end, hence a cap that is never met. MPR starts from the centres, always,
-// and has no warm start; its mpr_tolerance 1e-4 would be an error of that size, 1e-12 ends where rounding does.
+// function notes it); it says "apart" also when its iterations end, hence a cap that is never met. MPR starts from the centres,
+// always, and has no warm start; its mpr_tolerance 1e-4 would be an error of that size, 1e-12 ends where rounding does.
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -37,7 +37,9 @@ struct Second {
 
 ccd_vec3_t vec_of(const Vec3& p) { return {{p[0], p[1], p[2]}}; }
 
-void first_direction(const void* a, const void*, ccd_vec3_t* direction) { *direction = static_cast<const First*>(a)->direction; }
+void first_direction(const void* a, const void*, ccd_vec3_t* direction) {
+  *direction = static_cast<const First*>(a)->direction;
+}
 void support_a(const void* a, const ccd_vec3_t* direction, ccd_vec3_t* point_a) {
   First& first = *static_cast<First*>(const_cast<void*>(a));
   first.direction = *direction;
@@ -61,13 +63,15 @@ using Decide = int (*)(const void*, const void*, const ccd_t*);
 
 class CcdSession final : public SessionOf<CcdSession> {
  public:
-  CcdSession(Decide decide, int yes, std::span<const Body> bodies, std::span<const BodyPair> pairs) : decide_(decide), yes_(yes) {
+  CcdSession(Decide decide, int yes, std::span<const Body> bodies, std::span<const BodyPair> pairs)
+      : decide_(decide), yes_(yes) {
     preparation_ = measured([&] {
       graphs_.reserve(bodies.size());
       for (const Body& body : bodies) graphs_.emplace_back(body.view);
     });
     for (const BodyPair& p : pairs) {
-      pairs_.push_back({First{Climber(graphs_[p.a]), bodies[p.a].view.centre}, Second{Climber(graphs_[p.b]), bodies[p.b].view.centre}});
+      pairs_.push_back(
+          {First{Climber(graphs_[p.a]), bodies[p.a].view.centre}, Second{Climber(graphs_[p.b]), bodies[p.b].view.centre}});
     }
     CCD_INIT(&ccd_);
     ccd_.first_dir = first_direction;
@@ -105,7 +109,7 @@ class CcdMethod final : public Method {
   CcdMethod(const char* name, const char* settings, Decide decide) : name_(name), settings_(settings), decide_(decide) {}
   std::string name() const override { return name_; }
   std::string settings() const override { return settings_; }
-  Capabilities capabilities() const override { return {.intersects = true, .grazing = 1e-9}; }
+  Capabilities capabilities() const override { return {.intersects = true}; }
   std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
     return std::make_unique<CcdSession>(decide_, 1, bodies, pairs);
   }
@@ -118,10 +122,10 @@ class CcdMethod final : public Method {
 }  // namespace
 
 void add_ccd(Methods& methods) {
-  methods.push_back(std::make_unique<CcdMethod>("libccd gjk", "libccd 2.1, double, last vertices and last direction cached; boolean only",
-                                                ccdGJKIntersect));
-  methods.push_back(std::make_unique<CcdMethod>("libccd mpr", "libccd 2.1, double, last vertices cached, tolerance 1e-12; boolean only",
-                                                ccdMPRIntersect));
+  methods.push_back(std::make_unique<CcdMethod>(
+      "libccd gjk", "libccd 2, double, last vertices and last direction cached; boolean only", ccdGJKIntersect));
+  methods.push_back(std::make_unique<CcdMethod>(
+      "libccd mpr", "libccd 2, double, last vertices cached, tolerance 1e-12; boolean only", ccdMPRIntersect));
 }
 
 }  // namespace swiftlet::bench

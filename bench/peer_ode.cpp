@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ODE 0.16 as a method: a boolean, as it has no distance. Knows ODE's headers and Method.
 //
-// Settings: double precision, as Debian builds it; dCollide on two convex geoms of one pair, one contact asked for. It tests every
-// face of both against every vertex of the other, then every pair of edges, and keeps nothing between queries: there is nothing to set.
+// Settings: double precision, as Debian builds it; dCollide on two convex geoms of one pair, one contact asked for. It keeps
+// nothing between queries, and there is nothing to set. Bodies whose boxes miss each other cost it next to nothing. Preparing a
+// geom is quadratic in its edges: 3 ms for 2 000 triangles, 0.3 s for 20 000.
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -86,8 +87,10 @@ class OdeSession final : public SessionOf<OdeSession> {
 class OdeMethod final : public Method {
  public:
   std::string name() const override { return "ode"; }
-  std::string settings() const override { return "ODE 0.16, double, dCollide on convex geoms, one contact, no cache; boolean only"; }
-  Capabilities capabilities() const override { return {.intersects = true, .grazing = 1e-6, .max_triangles = 200}; }
+  std::string settings() const override {
+    return "ODE " SWIFTLET_PEER_VERSION ", double, dCollide on convex geoms, one contact, no cache; boolean only";
+  }
+  Capabilities capabilities() const override { return {.intersects = true, .max_triangles = 20'000}; }
   std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
     return std::make_unique<OdeSession>(bodies, pairs);
   }

@@ -11,8 +11,9 @@
 //     -----------|==========|--------------+------ x      beyond the plane at `high`: leave through it
 //               low       high
 //
-// Deviations: the paper compares heights at both ends of an edge to leave a vertex over a face; we take the slope at the vertex.
-// Parallel edges take the middle of their overlap. Penetration has no depth here. The cap grows with the bodies and is reported.
+// Deviations: the paper compares heights at both ends of an edge to leave a vertex over a face; we take the slope at the
+// vertex. Parallel edges take the middle of their overlap. Penetration has no depth here. The cap grows with the bodies and is
+// reported.
 #include "vclip.h"
 
 #include <algorithm>
@@ -71,7 +72,16 @@ VclipEdge make_edge(const ConvexView& view, std::uint32_t h, const std::vector<V
   const Vec u = d * (1 / length);
   const auto neighbour = [](std::uint32_t f) { return f == kNone ? Handle{} : face(f); };
   const auto side = [&](std::uint32_t f, const Vec& along) { return f == kNone ? kOpen : side_plane(along, faces[f], p); };
-  return {u.x, u.y, u.z, dot(u, p), dot(u, q), length, vertex(tail), vertex(head), neighbour(left), neighbour(right),
+  return {u.x,
+          u.y,
+          u.z,
+          dot(u, p),
+          dot(u, q),
+          length,
+          vertex(tail),
+          vertex(head),
+          neighbour(left),
+          neighbour(right),
           {side(left, u), side(right, -u)}};
 }
 
@@ -222,26 +232,27 @@ struct Segment {
   double length, at;
 };
 
-enum class Outcome : std::uint8_t { Moved, Disjoint, Penetrating };
+enum class Found : std::uint8_t { Moved, Disjoint, Penetrating };
 
 class Clip {
  public:
   std::uint32_t plane_tests = 0;
   std::uint32_t hops = 0;  ///< moves that were two steps of the paper's
   double distance = 0;
-  Vec first{0, 0, 0}, second{0, 0, 0};  ///< nearest points, of the first argument's body and the second's, both in the second's frame
+  Vec first{0, 0, 0},
+      second{0, 0, 0};  ///< nearest points, of the first argument's body and the second's, both in the second's frame
 
   template <class A, class B>
-  Outcome vertex_vertex(A& a, B& b) {
+  Found vertex_vertex(A& a, B& b) {
     const Vec q = b.carry();
-    if (follow_edge(a, q)) return Outcome::Moved;
+    if (follow_edge(a, q)) return Found::Moved;
     const Vec p = a.carry();
-    if (follow_edge(b, p)) return Outcome::Moved;
+    if (follow_edge(b, p)) return Found::Moved;
     return settle(p, point(b.body, b.feature));
   }
 
   template <class A, class B>
-  Outcome vertex_edge(A& a, B& b) {
+  Found vertex_edge(A& a, B& b) {
     const VclipEdge& e = b.body.edges[b.feature.index()];
     const Vec p = a.carry();
     const Violations out(e, p);
@@ -249,12 +260,12 @@ class Clip {
     if (out.bits != 0) return move(b, out.first(e));
     const double at = out.at - e.tail_at;
     const Vec foot = point(b.body, e.tail) + axis(e) * at;
-    if (clip_to_vertex(a, b, e, foot, at)) return Outcome::Moved;
+    if (clip_to_vertex(a, b, e, foot, at)) return Found::Moved;
     return settle(p, foot);
   }
 
   template <class A, class B>
-  Outcome vertex_face(A& a, B& b) {
+  Found vertex_face(A& a, B& b) {
     const std::uint32_t f = b.feature.index();
     const Vec p = a.carry();
     double most = 0;
@@ -270,15 +281,15 @@ class Clip {
 
     const VclipPlane& plane = b.body.faces[f];
     const double height = beyond(plane, p);
-    if (height == 0) return Outcome::Penetrating;
+    if (height == 0) return Found::Penetrating;
     const Vec up = b.out.turn(normal(plane)), toward = height > 0 ? -up : up;
-    if (leave_vertex(a, [&](const VclipVertex& v) { return leading(v, toward); })) return Outcome::Moved;
+    if (leave_vertex(a, [&](const VclipVertex& v) { return leading(v, toward); })) return Found::Moved;
     if (height > 0) return settle(p, p - normal(plane) * height);
     return escape(b, p);
   }
 
   template <class A, class B>
-  Outcome edge_edge(A& a, B& b) {
+  Found edge_edge(A& a, B& b) {
     const VclipEdge &ea = a.body.edges[a.feature.index()], &eb = b.body.edges[b.feature.index()];
     Segment sa{a.out.apply(point(a.body, ea.tail)), a.out.turn(axis(ea)), ea.length, 0};
     Segment sb{point(b.body, eb.tail), axis(eb), eb.length, 0};
@@ -296,7 +307,7 @@ class Clip {
   }
 
   template <class A, class B>
-  Outcome edge_face(A& a, B& b) {
+  Found edge_face(A& a, B& b) {
     const VclipEdge& e = a.body.edges[a.feature.index()];
     const std::uint32_t f = b.feature.index(), begin = b.body.loop_begin[f], end = b.body.loop_begin[f + 1];
     const Segment s{a.out.apply(point(a.body, e.tail)), a.out.turn(axis(e)), e.length, 0};
@@ -315,13 +326,15 @@ class Clip {
       }
     }
     if (low > high) {  // between two sides; from the one beyond which more of the edge lies
-      return move(b, nearest_on_rim(b.body, f, high_side == kNone || (low_side != kNone && low + high > s.length) ? low_side : high_side, s));
+      return move(b,
+                  nearest_on_rim(b.body, f,
+                                 high_side == kNone || (low_side != kNone && low + high > s.length) ? low_side : high_side, s));
     }
     const VclipPlane& plane = b.body.faces[f];
     const double at_tail = beyond(plane, s.tail), slope = dot(normal(plane), s.along);
     const double at_low = at_tail + slope * low, at_high = at_tail + slope * high;
     plane_tests += 2;
-    if (!(at_low * at_high > 0)) return Outcome::Penetrating;
+    if (!(at_low * at_high > 0)) return Found::Penetrating;
     const bool take_low = std::fabs(at_low) <= std::fabs(at_high);
     const std::uint32_t side = take_low ? low_side : high_side;
     if (side != kNone) return move(b, edge(b.body.loop[side] / 2));
@@ -342,19 +355,19 @@ class Clip {
   };
 
   template <class A>
-  static Outcome move(A& side, Handle to) {
+  static Found move(A& side, Handle to) {
     side.feature = to;
-    return Outcome::Moved;
+    return Found::Moved;
   }
 
-  Outcome settle(const Vec& p, const Vec& q) {
+  Found settle(const Vec& p, const Vec& q) {
     first = p;
     second = q;
     const Vec d = q - p;
     const double distance2 = dot(d, d);
-    if (!(distance2 > 0)) return Outcome::Penetrating;
+    if (!(distance2 > 0)) return Found::Penetrating;
     distance = std::sqrt(distance2);
-    return Outcome::Disjoint;
+    return Found::Disjoint;
   }
 
   /// Moves to the first edge whose plane `p` is beyond; and on to its other end, as the next state would, if `p` is beyond that
@@ -414,7 +427,8 @@ class Clip {
         const Vec n{v.plane_x[k], v.plane_y[k], v.plane_z[k]};
         const double violation = dot(n, q) - v.offset[k], slope = dot(n, b.out.turn(axis(e)));
         ++plane_tests;
-        const double at_tail = violation - slope * at, at_head = violation + slope * (e.length - at), crossing = violation / -slope;
+        const double at_tail = violation - slope * at, at_head = violation + slope * (e.length - at),
+                     crossing = violation / -slope;
         if (at_tail > 0 && at_head > 0) {
           a.feature = v.edge[k];
           return true;
@@ -434,7 +448,7 @@ class Clip {
 
   /// A vertex below a face and no edge that leads up: if no face has it outside, the bodies overlap.
   template <class B>
-  Outcome escape(B& b, const Vec& p) {
+  Found escape(B& b, const Vec& p) {
     double most = 0;
     std::uint32_t out = kNone;
     for (std::uint32_t f = 0; f < b.body.faces.size(); ++f) {
@@ -442,7 +456,7 @@ class Clip {
       if (height > most) most = height, out = f;
     }
     plane_tests += std::uint32_t(b.body.faces.size());
-    return out == kNone ? Outcome::Penetrating : move(b, face(out));
+    return out == kNone ? Found::Penetrating : move(b, face(out));
   }
 
   /// Sets where the two lines are nearest, each clamped to its segment.
@@ -546,19 +560,28 @@ class Clip {
   static constexpr double kParallel = 1e-14;
 };
 
-Outcome visit(Clip& clip, Side<IntoB>& a, Side<IntoA>& b) {
+Found visit(Clip& clip, Side<IntoB>& a, Side<IntoA>& b) {
   constexpr auto state = [](FeatureKind ka, FeatureKind kb) { return unsigned(ka) * 4 + unsigned(kb); };
   using enum FeatureKind;
   switch (state(a.feature.kind(), b.feature.kind())) {
-    case state(Vertex, Vertex): return clip.vertex_vertex(a, b);
-    case state(Vertex, Edge): return clip.vertex_edge(a, b);
-    case state(Edge, Vertex): return clip.vertex_edge(b, a);
-    case state(Vertex, Face): return clip.vertex_face(a, b);
-    case state(Face, Vertex): return clip.vertex_face(b, a);
-    case state(Edge, Edge): return clip.edge_edge(a, b);
-    case state(Edge, Face): return clip.edge_face(a, b);
-    case state(Face, Edge): return clip.edge_face(b, a);
-    default: __builtin_unreachable();
+    case state(Vertex, Vertex):
+      return clip.vertex_vertex(a, b);
+    case state(Vertex, Edge):
+      return clip.vertex_edge(a, b);
+    case state(Edge, Vertex):
+      return clip.vertex_edge(b, a);
+    case state(Vertex, Face):
+      return clip.vertex_face(a, b);
+    case state(Face, Vertex):
+      return clip.vertex_face(b, a);
+    case state(Edge, Edge):
+      return clip.edge_edge(a, b);
+    case state(Edge, Face):
+      return clip.edge_face(a, b);
+    case state(Face, Edge):
+      return clip.edge_face(b, a);
+    default:
+      __builtin_unreachable();
   }
 }
 
@@ -583,14 +606,14 @@ VclipResult vclip(const VclipBody& body_a, const VclipBody& body_b, const Pose& 
   VclipResult result{VclipEnd::Capped, kUnknown, Vec3::Constant(kUnknown), Vec3::Constant(kUnknown)};
   Clip clip;
   while (result.steps < cap) {
-    const Outcome outcome = visit(clip, a, b);
-    if (outcome == Outcome::Moved) {
+    const Found outcome = visit(clip, a, b);
+    if (outcome == Found::Moved) {
       ++result.steps;
       continue;
     }
-    result.end = outcome == Outcome::Disjoint ? VclipEnd::Disjoint : VclipEnd::Penetrating;
-    result.distance = outcome == Outcome::Disjoint ? clip.distance : 0;
-    if (outcome == Outcome::Disjoint) {
+    result.end = outcome == Found::Disjoint ? VclipEnd::Disjoint : VclipEnd::Penetrating;
+    result.distance = outcome == Found::Disjoint ? clip.distance : 0;
+    if (outcome == Found::Disjoint) {
       const bool first_is_a = a.feature.kind() <= b.feature.kind();  // the points are in the frame of the second argument
       result.point_a = eigen(first_is_a ? into_a.apply(clip.first) : clip.second);
       result.point_b = eigen(first_is_a ? into_a.apply(clip.second) : clip.first);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The baseline: V-Clip written from the paper [Mirtich 1997, MERL TR-97-05]. Knows ConvexView and Pose; shares no algorithm with
-// march, proves nothing, and says so when it gives up. Where it differs from the paper: vclip.cpp.
+// The baseline: V-Clip written from the paper [Mirtich 1997, MERL TR-97-05]. Knows ConvexView and Pose; shares no algorithm
+// with march, proves nothing, and says so when it gives up. Where it differs from the paper: vclip.cpp.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +18,11 @@ struct alignas(32) VclipPlane {
   double x, y, z, offset;
 };
 
-/// A vertex with the planes of its Voronoi region, eight beside each other: one per edge, which leads away from the vertex. Places
-/// without an edge hold a plane that nothing is beyond. More than eight edges continue in another record.
+/// A vertex with the planes of its Voronoi region, eight beside each other: one per edge, which leads away from the vertex.
+/// Places without an edge hold a plane that nothing is beyond. More than eight edges continue in another record.
 struct alignas(64) VclipVertex {
   double x, y, z;
-  std::uint32_t next, unused;  ///< record; kNone
+  std::uint32_t next, unused;    ///< record; kNone
   Handle edge[8], neighbour[8];  ///< the edge and its other end
   double plane_x[8], plane_y[8], plane_z[8];
   double offset[8], far_offset[8];  ///< of the planes through the vertex, and through the other ends
@@ -41,8 +41,8 @@ static_assert(sizeof(VclipEdge) == 128);
 /// One polytope with the Voronoi planes of all features. Immutable; queries share it.
 class VclipBody {
  public:
-  /// Polygonal faces as the view has them, diagonals dropped. Needs a solid, a flat polygon or a segment. For vertices and faces:
-  /// the view of Model::from_level.
+  /// Polygonal faces as the view has them, diagonals dropped. Needs a solid, a flat polygon or a segment. For vertices and
+  /// faces: the view of Model::from_level.
   explicit VclipBody(const ConvexView& view);
   std::size_t bytes() const;  ///< heap
 
@@ -50,7 +50,8 @@ class VclipBody {
   std::size_t vertex_count = 0;
   std::vector<VclipEdge> edges;
   std::vector<VclipPlane> faces;
-  std::vector<std::uint32_t> loop_begin, loop;  ///< per face its edges (index >> 1), left of which it lies, or right (index & 1)
+  std::vector<std::uint32_t> loop_begin,
+      loop;  ///< per face its edges (index >> 1), left of which it lies, or right (index & 1)
 };
 
 /// The features where the last query of the pair ended. Default: cold, the first vertex of each. Handles number the edges of

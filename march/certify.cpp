@@ -197,6 +197,10 @@ double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb)
   return dot(n, c) - kGapError * products - scene.motion_error;
 }
 
+double apart(const Scene& scene, std::uint32_t va, std::uint32_t vb) {
+  return norm(body_b(scene).point(vb) - body_a(scene).point(va)) * (1 + kNormError) + scene.point_error;
+}
+
 Certificate certify(const Scene& scene, Handle a, Handle b, std::uint32_t& plane_tests) {
   const Resting body = body_a(scene);
   const Moved other = body_b(scene);

@@ -37,6 +37,9 @@ std::uint32_t support_b(const Scene& scene, const Vec& n, std::uint32_t start, s
 /// A lower bound on n . (b - a) for unit n, which may be negative.
 double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb);
 
+/// An upper bound on the distance from one vertex pair.
+double apart(const Scene& scene, std::uint32_t va, std::uint32_t vb);
+
 /// A vertex of a feature.
 std::uint32_t any_vertex(const ConvexView& view, Handle feature);
 

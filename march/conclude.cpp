@@ -4,30 +4,35 @@
 
 #include "certify.h"
 #include "progress.h"
+#include "seed.h"
 
 namespace swiftlet {
 namespace {
 
 MarchStatus status_of(const Scene& scene, const Goal& goal, const Certificate& c) {
   if (c.lower > goal.beyond) return MarchStatus::Beyond;
-  if (!goal.met(c.lower, c.upper)) return MarchStatus::NotConverged;
-  if (c.lower > 0) return MarchStatus::Disjoint;
-  return c.upper <= scene.law_two ? MarchStatus::Touching : MarchStatus::Near;
+  if (!goal.narrow(c.lower, c.upper)) return MarchStatus::NotConverged;
+  if (c.upper <= scene.law_two) return MarchStatus::Touching;
+  return c.lower > 0 ? MarchStatus::Disjoint : MarchStatus::Near;
 }
 
-}  // namespace
+struct Conclusion {
+  MarchResult result;
+  bool doubtful;  ///< so near a threshold that another start might prove another verdict
+};
 
-MarchResult conclude(const Scene& scene, const Walk& walk, const MarchRule& rule) {
+Conclusion from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule) {
   MarchResult r;
   r.steps = walk.steps;
   r.plane_tests = walk.plane_tests;
   r.a = walk.a;
   r.b = walk.b;
-  const Goal goal{std::fmax(rule.absolute, scene.law_two), rule.relative, rule.beyond};
+  const Goal goal{std::fmax(rule.absolute, scene.law_two), rule.relative, rule.beyond + scene.law_two};
   Certificate c = certify(scene, walk.a, walk.b, r.plane_tests);
   r.status = status_of(scene, goal, c);
-  // That the features touch says nothing of the bodies: only certified progress tells touching from overlapping.
-  const bool settled = r.status == MarchStatus::Disjoint || r.status == MarchStatus::Beyond || r.status == MarchStatus::Near;
+  // That features touch says nothing of the bodies: certified progress tells touching from overlapping.
+  const bool settled = r.status != MarchStatus::NotConverged && (r.status != MarchStatus::Touching || c.lower > 0);
+  double depth = 0;
   if (!settled && walk.end == WalkEnd::Budget) {
     r.status = MarchStatus::Budget;
   } else if (!settled) {
@@ -37,6 +42,7 @@ MarchResult conclude(const Scene& scene, const Walk& walk, const MarchRule& rule
     r.proof = meeting.proof;
     r.a = feature_of(scene.a, c.active, c.active.a);
     r.b = feature_of(scene.b, c.active, c.active.b);
+    depth = meeting.depth;
     ++r.steps;
   }
   r.lower = c.lower;
@@ -44,7 +50,26 @@ MarchResult conclude(const Scene& scene, const Walk& walk, const MarchRule& rule
   r.normal = eigen(c.normal);
   r.point_a = eigen(c.point_a);
   r.point_b = eigen(c.point_b);
-  return r;
+  const auto near = [&](double threshold) { return r.lower - scene.law_two <= threshold && threshold <= r.upper + scene.law_two; };
+  const bool deep = r.status == MarchStatus::Overlapping && depth > scene.law_two;
+  return {r, r.upper - r.lower <= 2 * scene.law_two && !deep && (near(0) || near(rule.beyond))};
+}
+
+}  // namespace
+
+MarchResult conclude(const Scene& scene, const Walk& walk_here, const MarchRule& rule) {
+  Conclusion here = from_walk(scene, walk_here, rule);
+  if (!here.doubtful || here.result.steps >= rule.step_budget) return here.result;
+  // Within rounding of a threshold all starts take one and the same way: that of the cold one.
+  std::uint32_t climbs = 0;
+  const MarchStart cold = settled(scene, {}, climbs);
+  const std::uint32_t left = rule.step_budget - here.result.steps;
+  const Walk cold_walk = walk(scene, cold.a, cold.b, PlaneRule::MostViolated, left, 0);
+  if (cold_walk.end == WalkEnd::Budget) return here.result;
+  MarchResult same = from_walk(scene, cold_walk, rule).result;
+  same.steps += here.result.steps;
+  same.plane_tests += here.result.plane_tests + climbs;
+  return same;
 }
 
 }  // namespace swiftlet

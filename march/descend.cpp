@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "certify.h"
 #include "conclude.h"
 #include "seed.h"
 #include "walk.h"
@@ -17,30 +18,32 @@ class Descent {
  public:
   Descent(const Model& a, const Model& b, const Motion& m, double pose_error, const QueryOptions& options, const Target& target)
       : a_(a), b_(b), motion_(m), pose_error_(pose_error), stretch_(std::sqrt(1 + 3 * pose_error)), options_(options), target_(target),
-        finest_a_(std::min(options.finest_level, a.level_count() - 1)), finest_b_(std::min(options.finest_level, b.level_count() - 1)) {}
+        law_two_(scene(a.level(0).view, b.level(0).view, m, pose_error).law_two), finest_a_(std::min(options.finest_level, a.level_count() - 1)), finest_b_(std::min(options.finest_level, b.level_count() - 1)) {}
 
   Answer run(PairSeed& seed) {
     Place place = first_place(a_, b_, motion_, seed, options_);
     for (;;) {
       const Scene pair = scene(a_.level(place.level_a).view, b_.level(place.level_b).view, motion_, pose_error_);
-      std::uint32_t climbs = 0;
-      const MarchStart from = settled(pair, place.start, climbs);
-      const std::uint32_t left = options_.step_budget - answer_.steps;
-      const Walk walked = walk(pair, from.a, from.b, options_.plane_rule, std::min(left, place.trial_steps));
-      answer_.steps += walked.steps;
-      answer_.plane_tests += walked.plane_tests + climbs;
-      const bool spent = walked.end == WalkEnd::Budget && answer_.steps >= options_.step_budget;
-      if (walked.end == WalkEnd::Budget && !spent) {
-        record(place, walked.steps, walked.plane_tests + climbs);
-        place = coarsest_place(a_, b_);
-        continue;
+      const bool last = place.level_a == finest_a_ && place.level_b == finest_b_;
+      const std::uint32_t steps_before = answer_.steps, tests_before = answer_.plane_tests;
+      met_ = MarchStatus::NotConverged;
+      MarchStart found = last && max_abs(place.direction) > 0 ? enter(pair, place) : settled(pair, place.start, answer_.plane_tests);
+      if (!last || !answered()) {
+        const std::uint32_t left = options_.step_budget - answer_.steps;
+        const Walk walked = walk(pair, found.a, found.b, options_.plane_rule, std::min(left, place.trial_steps), last ? 0 : worthwhile(place));
+        answer_.steps += walked.steps;
+        answer_.plane_tests += walked.plane_tests;
+        spent_ = walked.end == WalkEnd::Budget && answer_.steps >= options_.step_budget;
+        if (walked.end == WalkEnd::Budget && !spent_) {
+          record(place, steps_before, tests_before);
+          place = coarsest_place(a_, b_);
+          continue;
+        }
+        remember_coarsest(place, walked, seed);
+        found = last || spent_ || may_answer(place, walked) ? bound(pair, place, walked, last) : MarchStart{walked.a, walked.b};
       }
-      remember_coarsest(place, walked, seed);
-      const bool last = spent || (place.level_a == finest_a_ && place.level_b == finest_b_);
-      MarchStart found{walked.a, walked.b};
-      if (last || !options_.trace.empty() || may_answer(place, walked)) found = bound(pair, place, walked, spent);
-      record(place, walked.steps, walked.plane_tests + climbs);
-      if (last || answered()) return finish(place, found, last, spent, seed);
+      record(place, steps_before, tests_before);
+      if (last || spent_ || answered()) return finish(place, found, seed);
       place = refined(place, found);
     }
   }
@@ -50,49 +53,85 @@ class Descent {
     return a_.level(level_a).deviation + stretch_ * b_.level(level_b).deviation;
   }
   bool narrow(double lower, double width) const { return width <= std::max(target_.absolute, target_.relative * lower); }
+  /// Thresholds are passed only by more than law 2's bound: nearer, what can be proved depends on the start.
   bool answered() const {
-    return narrow(answer_.lower, answer_.upper - answer_.lower) || answer_.lower > target_.clear_above ||
-           answer_.upper <= target_.hit_below;
+    return narrow(answer_.lower, answer_.upper - answer_.lower) || answer_.lower > target_.clear_above + law_two_ ||
+           answer_.upper < target_.hit_below - law_two_;
   }
 
-  /// Whether a certificate at this place could answer: costs nothing, proves nothing.
+  /// How near to the minimum a walk needs to come on the way to a finer level: to a part of what that level will move.
+  double worthwhile(const Place& place) const { return kWorthwhilePart * deviation(place.level_a, place.level_b); }
+
+  /// Whether a certificate is wanted on the way down. Of bodies apart always, whatever the tolerance, so that a looser one stops
+  /// earlier on the same way; where levels overlap, only if their deviations are an answer.
   bool may_answer(const Place& place, const Walk& walked) const {
-    const double error = deviation(place.level_a, place.level_b), distance = walked.end == WalkEnd::Minimum ? walked.distance : 0;
-    return narrow(distance, error) || (walked.end == WalkEnd::Minimum && distance > target_.clear_above) ||
-           distance + error <= target_.hit_below;
+    const double error = deviation(place.level_a, place.level_b);
+    const bool is_apart = walked.end == WalkEnd::Minimum || walked.end == WalkEnd::Near;
+    return is_apart || !options_.trace.empty() || narrow(0, error) || error < target_.hit_below - law_two_;
   }
 
-  /// Certifies a walk, carries the better bounds, and says which features it ended on.
-  MarchStart bound(const Scene& pair, const Place& place, const Walk& walked, bool spent) {
-    MarchRule rule;
-    rule.beyond = target_.clear_above;
-    Walk capped = walked;
-    if (spent) capped.end = WalkEnd::Budget;
-    const MarchResult r = conclude(pair, capped, rule);
-    answer_.steps += r.steps - walked.steps;
-    answer_.plane_tests += r.plane_tests - walked.plane_tests;
-    // A finer pair's plane replaces a coarser one's that is better by no more than rounding: it belongs to the points.
-    if (r.lower >= answer_.lower - pair.law_two) {
+  /// Enters the finest pair along the direction of the coarser one: the supports there bound the distance before any walk, and are
+  /// better starts than the child features unless these hold them.
+  MarchStart enter(const Scene& pair, const Place& place) {
+    const Vec& n = place.direction;
+    const std::uint32_t va = support_a(pair, n, any_vertex(pair.a, place.start.a), answer_.plane_tests);
+    const std::uint32_t vb = support_b(pair, n, any_vertex(pair.b, place.start.b), answer_.plane_tests);
+    MarchResult supports;
+    supports.a = {FeatureKind::Vertex, va};
+    supports.b = {FeatureKind::Vertex, vb};
+    supports.lower = std::max(0.0, gap(pair, n, va, vb));
+    supports.upper = apart(pair, va, vb);
+    supports.normal = eigen(n);
+    supports.point_a = eigen(body_a(pair).point(va));
+    supports.point_b = eigen(body_b(pair).point(vb));
+    carry(place, supports, pair.law_two);
+    const auto better = [](const ConvexView& view, Handle child, std::uint32_t v) {
+      return any_vertex(view, child) == v ? child : Handle{FeatureKind::Vertex, v};
+    };
+    return {better(pair.a, place.start.a, va), better(pair.b, place.start.b, vb)};
+  }
+
+  /// Takes over the bounds of a pair where they are better: the plane with lower; points, levels and features with upper. A finer
+  /// pair's replace a coarser one's that are better by no more than rounding, so that plane and points belong together.
+  void carry(const Place& place, const MarchResult& r, double rounding) {
+    if (r.lower >= answer_.lower - rounding) {
       answer_.lower = r.lower;
       answer_.normal = r.normal;
     }
     const double upper = (r.upper + deviation(place.level_a, place.level_b)) * (1 + 2 * kU);
-    if (upper <= answer_.upper) {
+    if (upper <= answer_.upper + rounding) {
       answer_.upper = upper;
       answer_.point_a = r.point_a;
       answer_.point_b = r.point_b;
+      answer_.level_a = place.level_a;
+      answer_.level_b = place.level_b;
+      answer_.feature_a = r.a;
+      answer_.feature_b = r.b;
+      answer_.proof = r.proof;
     }
-    answer_.level_a = place.level_a;
-    answer_.level_b = place.level_b;
-    answer_.proof = r.proof;
+    answer_.upper = std::max(answer_.upper, answer_.lower);
+  }
+
+  /// Certifies a walk, carries the better bounds, and says which features it ended on.
+  MarchStart bound(const Scene& pair, const Place& place, const Walk& walked, bool last) {
+    MarchRule rule;
+    rule.beyond = target_.clear_above;
+    rule.step_budget = walked.steps + (options_.step_budget - std::min(answer_.steps, options_.step_budget));
+    if (!last) rule.absolute = deviation(place.level_a, place.level_b);  // no certified progress for what a finer level moves
+    Walk capped = walked;
+    if (spent_) capped.end = WalkEnd::Budget;
+    const MarchResult r = conclude(pair, capped, rule);
+    answer_.steps += r.steps - walked.steps;
+    answer_.plane_tests += r.plane_tests - walked.plane_tests;
+    carry(place, r, pair.law_two);
     met_ = r.status;
     return {r.a, r.b};
   }
 
-  void record(const Place& place, std::uint32_t steps, std::uint32_t plane_tests) {
+  void record(const Place& place, std::uint32_t steps_before, std::uint32_t tests_before) {
     if (!options_.trace.empty()) {
       const auto slot = std::min<std::size_t>(answer_.levels_visited, options_.trace.size() - 1);
-      options_.trace[slot] = {place.level_a, place.level_b, answer_.lower, answer_.upper, steps, plane_tests};
+      options_.trace[slot] = {place.level_a, place.level_b, answer_.lower, answer_.upper, answer_.steps - steps_before, answer_.plane_tests - tests_before};
     }
     ++answer_.levels_visited;
   }
@@ -105,6 +144,7 @@ class Descent {
 
   Place refined(const Place& place, const MarchStart& found) const {
     Place next{place.level_a, place.level_b, found};
+    if (answer_.lower > 0) next.direction = vec(answer_.normal);
     const auto refine_a = [&] {
       if (next.level_a > finest_a_) next.start.a = child(a_, next.level_a, next.start.a), --next.level_a;
     };
@@ -128,18 +168,16 @@ class Descent {
     return next;
   }
 
-  Answer finish(const Place& place, const MarchStart& found, bool last, bool spent, PairSeed& seed) {
+  Answer finish(const Place& place, const MarchStart& found, PairSeed& seed) {
     const bool exact_levels = place.level_a == 0 && place.level_b == 0;
     if (met_ == MarchStatus::Overlapping && exact_levels) answer_.verdict = Verdict::Overlapping;
     else if (met_ == MarchStatus::Touching && exact_levels) answer_.verdict = Verdict::Touching;
     else if (answer_.lower > 0) answer_.verdict = Verdict::Disjoint;
-    answer_.feature_a = found.a;
-    answer_.feature_b = found.b;
     const bool exact = exact_levels && (met_ == MarchStatus::Disjoint || met_ == MarchStatus::Touching || met_ == MarchStatus::Overlapping);
-    if (answer_.lower > target_.clear_above) answer_.status = Status::Beyond;
+    if (answer_.lower > target_.clear_above + law_two_) answer_.status = Status::Beyond;
     else if (answered() || exact) answer_.status = Status::Converged;
-    else if (spent) answer_.status = Status::Budget;
-    else if (last && !exact_levels) answer_.status = Status::LevelLimit;
+    else if (spent_) answer_.status = Status::Budget;
+    else if (!exact_levels) answer_.status = Status::LevelLimit;
     else answer_.status = Status::NotConverged;
     store(place, found, seed);
     return answer_;
@@ -171,9 +209,11 @@ class Descent {
   const double pose_error_, stretch_;  ///< stretch bounds the rotation's norm
   const QueryOptions& options_;
   const Target& target_;
+  const double law_two_;
   const int finest_a_, finest_b_;
   Answer answer_;
   MarchStatus met_ = MarchStatus::NotConverged;
+  bool spent_ = false;  ///< the caller's step budget
 };
 
 }  // namespace

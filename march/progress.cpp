@@ -133,10 +133,10 @@ class Contact {
     points_[count_++] = difference<double>(scene_, a, b);
   }
 
-  /// Touching when a plane is found that the bodies overlap by no more than the bound; Overlapping when the inner polytope
+  /// `depth` becomes the inner polytope's. Touching when a plane is found that the bodies overlap by no more than the bound; Overlapping when the inner polytope
   /// reaches farther on all sides, or no more points help. `normal` is the plane's, or the last tried.
-  MarchStatus decide(Vec& normal, OverlapProof& proof) {
-    if (count_ == 4 && nearest_facet(normal) > scene_.law_two && prove(proof)) return MarchStatus::Overlapping;
+  MarchStatus decide(Vec& normal, OverlapProof& proof, double& depth) {
+    if (count_ == 4 && (depth = nearest_facet(normal)) > scene_.law_two && prove(proof)) return MarchStatus::Overlapping;
     for (const Vec& n : {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}}) {
       for (const Vec& direction : {n, -n}) {
         if (width(normal = direction) <= scene_.law_two) return MarchStatus::Touching;
@@ -144,8 +144,8 @@ class Contact {
     }
     while (count_ < kContactPoints) {
       Vec n{0, 0, 0};
-      const double nearest = nearest_facet(n);
-      if (nearest > scene_.law_two) break;
+      depth = nearest_facet(n);
+      if (depth > scene_.law_two) break;
       normal = n;
       const int before = count_;
       if (width(n) <= scene_.law_two) return MarchStatus::Touching;
@@ -334,7 +334,7 @@ bool settle(const Scene& scene, const Goal& goal, Meeting& m, std::uint32_t& pla
   Contact contact(scene, plane_tests);
   for (int k = 0; k < descent.count(); ++k) contact.add(descent[k].a, descent[k].b);
   Vec normal{0, 0, 0};
-  const MarchStatus status = contact.decide(normal, m.proof);
+  const MarchStatus status = contact.decide(normal, m.proof, m.depth);
   if (status == MarchStatus::NotConverged) return false;
   if (status == MarchStatus::Touching && !near_zero) return false;  // thin bodies may be thin far apart
   m.status = status;

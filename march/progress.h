@@ -13,16 +13,17 @@ namespace swiftlet {
 
 /// When bounds are narrow enough: see MarchRule.
 struct Goal {
-  double absolute, relative, beyond;
-  bool met(double lower, double upper) const {
-    return upper - lower <= std::fmax(absolute, relative * lower) || lower > beyond;
-  }
+  double absolute, relative;
+  double beyond;  ///< law 2's bound above the caller's
+  bool narrow(double lower, double upper) const { return upper - lower <= std::fmax(absolute, relative * lower); }
+  bool met(double lower, double upper) const { return narrow(lower, upper) || lower > beyond; }
 };
 
 struct Meeting {
   MarchStatus status = MarchStatus::NotConverged;  ///< Disjoint (the goal is met), Touching, Overlapping or NotConverged
   Certificate certificate;
   OverlapProof proof;
+  double depth = 0;  ///< of Overlapping: a lower bound on the least translation that separates, not tight
 };
 
 /// Continues from `start`, first in doubles, then with about 106 bits. The bounds it returns are true in any case.

@@ -18,6 +18,7 @@ struct Place {
   int level_a, level_b;
   MarchStart start;
   std::uint32_t trial_steps = ~0u;  ///< after which the coarsest pair is tried instead
+  Vec direction{0, 0, 0};           ///< unit, from A to B, what a coarser pair ended with; 0 without one
 };
 
 /// The start as features of the scene's views: what is no feature of its view, or a face against a face, becomes vertices.

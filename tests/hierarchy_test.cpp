@@ -141,7 +141,7 @@ TEST(Hierarchy, RelaxationKeepsVolumesInCheck) {
   ASSERT_TRUE(built) << built.error().message;
   EXPECT_GE(built.value().report.levels.size(), 6u);
   EXPECT_LE(built.value().report.levels.back().triangles, 64u);
-  EXPECT_LT(built.value().report.levels.back().deviation, 1);
+  EXPECT_LT(built.value().report.levels.back().deviation, 1.4);
   EXPECT_LT(built.value().report.levels.back().volume_ratio, 3);
 }
 

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Random.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
 
@@ -68,6 +69,7 @@ Mesh hull(std::span<const Vec3> points) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   std::vector<Kernel::Point_3> input;
   for (const Vec3& p : points) input.emplace_back(p.x(), p.y(), p.z());
+  CGAL::get_default_random() = CGAL::Random(0);  // the hull draws from it: the same order, whatever was built before
   CGAL::Surface_mesh<Kernel::Point_3> surface;
   CGAL::convex_hull_3(input.begin(), input.end(), surface);
   Mesh mesh;
@@ -295,7 +297,12 @@ Mesh moved(const Mesh& mesh, const Pose& pose) {
 
 Mesh float_rounded(const Mesh& mesh) {
   Mesh result = mesh;
-  for (Vec3& p : result.points) p = p.cast<float>().cast<double>();
+  for (Vec3& p : result.points) {
+    for (double& x : p) {
+      const volatile float rounded = float(x);  // GCC 12 may fold the two casts into none
+      x = double(rounded);
+    }
+  }
   return result;
 }
 

@@ -81,7 +81,7 @@ struct Answer {
   double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved bounds on the distance of the exact hulls
   Vec3 normal = Vec3::Zero();  ///< unit, from A to B; `lower` is proved by the gap in this direction; 0 without one
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< nearest points of the levels below
-  int level_a = 0, level_b = 0;                         ///< the level pair that answered
+  int level_a = 0, level_b = 0;                         ///< the level pair they lie on: the one that answered
   Handle feature_a, feature_b;                          ///< on those levels
   OverlapProof proof;                                   ///< vertices of those levels
   std::uint32_t steps = 0, plane_tests = 0;

@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Ours and the baselines as methods, and the list of all. Knows the public queries; the peers only by name.
+#include "method.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <swiftlet/query.h>
+
+#include "hull.h"
+#if __has_include("vclip.h")
+#include "vclip.h"
+#define SWIFTLET_BENCH_VCLIP
+#endif
+#if __has_include("plain.h")
+#include "plain.h"
+#define SWIFTLET_BENCH_PLAIN
+#endif
+
+namespace swiftlet::bench {
+namespace {
+
+// ---- swiftlet
+// ------------------------------------------------------------------------------------------------------------------
+
+/// The middle of the proved interval: off by at most half of what was asked for.
+Outcome outcome_of(const Answer& answer) {
+  Outcome o{.steps = answer.steps, .plane_tests = answer.plane_tests};
+  o.overlapping = answer.verdict == Verdict::Overlapping;
+  o.failed = answer.status != Status::Converged;
+  if (!o.overlapping && !o.failed) o.distance = (answer.lower + answer.upper) / 2;
+  return o;
+}
+
+class SwiftletSession final : public SessionOf<SwiftletSession> {
+ public:
+  SwiftletSession(const QueryOptions& options, std::span<const Body> bodies, std::span<const BodyPair> pairs)
+      : options_(options) {
+    for (const Body& body : bodies) {
+      preparation_.seconds += body.build_seconds;
+      preparation_.heap_bytes += body.model->bytes().size();
+    }
+    for (const BodyPair& p : pairs) pairs_.push_back({bodies[p.a].model, bodies[p.b].model, {}});
+  }
+  Outcome distance(std::uint32_t pair, const Pose& b_in_a) override {
+    State& s = pairs_[pair];
+    return outcome_of(swiftlet::distance(*s.a, *s.b, b_in_a, s.seed, options_));
+  }
+  bool intersects(std::uint32_t pair, const Pose& b_in_a) override {
+    State& s = pairs_[pair];
+    return swiftlet::intersects(*s.a, *s.b, b_in_a, s.seed, options_).verdict != Verdict::Disjoint;
+  }
+  Outcome approximate(std::uint32_t pair, const Pose& b_in_a, double absolute, double relative) override {
+    State& s = pairs_[pair];
+    QueryOptions options = options_;
+    options.absolute_error = absolute;
+    options.relative_error = relative;
+    return outcome_of(swiftlet::distance(*s.a, *s.b, b_in_a, s.seed, options));
+  }
+  void forget() override {
+    for (State& s : pairs_) s.seed = {};
+  }
+
+ private:
+  struct State {
+    const Model *a, *b;
+    PairSeed seed;
+  };
+  QueryOptions options_;
+  std::vector<State> pairs_;
+};
+
+class SwiftletMethod final : public Method {
+ public:
+  SwiftletMethod(const char* name, const char* settings, const QueryOptions& options)
+      : name_(name), settings_(settings), options_(options) {}
+  std::string name() const override { return name_; }
+  std::string settings() const override { return settings_; }
+  Capabilities capabilities() const override {
+    return {.distance = true,
+            .intersects = true,
+            .approximate = true,
+            .certified = true,
+            .stated_error = 1e-12};  // law 2: 64 eps size, with size up to a hundred radii
+  }
+  std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
+    return std::make_unique<SwiftletSession>(options_, bodies, pairs);
+  }
+
+ private:
+  std::string name_, settings_;
+  QueryOptions options_;
+};
+
+void add_swiftlet(Methods& methods) {
+  const auto add = [&](const char* name, const char* settings, const auto& change) {
+    QueryOptions options;
+    change(options);
+    methods.push_back(std::make_unique<SwiftletMethod>(name, settings, options));
+  };
+  add("swiftlet", "as shipped: automatic start, both bodies one level at a time, most violated plane", [](QueryOptions&) {});
+  add("swiftlet table", "starts on level 0 from the tables, no hierarchy, no seed",
+      [](QueryOptions& o) { o.start = StartPolicy::Table; });
+  add("swiftlet finest", "starts on level 0 from the last features, no hierarchy",
+      [](QueryOptions& o) { o.start = StartPolicy::Finest; });
+  add("swiftlet coarsest", "starts on the coarsest pair, always", [](QueryOptions& o) { o.start = StartPolicy::Coarsest; });
+  add("swiftlet paper", "start level by the paper's rule [sec. 5.2]", [](QueryOptions& o) { o.start = StartPolicy::Paper; });
+  add("swiftlet first", "first violated plane [sec. 5.1]", [](QueryOptions& o) { o.plane_rule = PlaneRule::FirstViolated; });
+  add("swiftlet single", "one level of one body at a time", [](QueryOptions& o) { o.refinement = Refinement::Single; });
+  add("swiftlet double", "two levels of both bodies at a time",
+      [](QueryOptions& o) { o.refinement = Refinement::DoubleDouble; });
+}
+
+// ---- The baseline
+// --------------------------------------------------------------------------------------------------------------
+
+#ifdef SWIFTLET_BENCH_VCLIP
+class VclipSession final : public SessionOf<VclipSession> {
+ public:
+  VclipSession(std::span<const Body> bodies, std::span<const BodyPair> pairs) : index_(pairs.begin(), pairs.end()) {
+    preparation_ = measured([&] {
+      bodies_.reserve(bodies.size());
+      for (const Body& body : bodies) bodies_.emplace_back(body.view);
+    });
+    seeds_.resize(pairs.size());
+  }
+  Outcome distance(std::uint32_t pair, const Pose& b_in_a) override {
+    const VclipResult r = vclip(bodies_[index_[pair].a], bodies_[index_[pair].b], b_in_a, seeds_[pair]);
+    Outcome o{.steps = r.steps, .plane_tests = r.plane_tests};
+    o.overlapping = r.penetrating();
+    o.failed = r.end == VclipEnd::Capped;
+    if (!o.failed) o.distance = r.distance;
+    return o;
+  }
+  bool intersects(std::uint32_t pair, const Pose& b_in_a) override {  // the paper has no cheaper one
+    return vclip(bodies_[index_[pair].a], bodies_[index_[pair].b], b_in_a, seeds_[pair]).end != VclipEnd::Disjoint;
+  }
+  void forget() override { seeds_.assign(seeds_.size(), {}); }
+
+ private:
+  std::vector<VclipBody> bodies_;
+  std::vector<BodyPair> index_;
+  std::vector<VclipSeed> seeds_;
+};
+
+class VclipMethod final : public Method {
+ public:
+  std::string name() const override { return "vclip"; }
+  std::string settings() const override { return "V-Clip from the paper, last features cached"; }
+  Capabilities capabilities() const override { return {.distance = true, .intersects = true, .stated_error = 1e-12}; }
+  std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
+    return std::make_unique<VclipSession>(bodies, pairs);
+  }
+};
+#endif
+
+// ---- Our walk alone
+// ------------------------------------------------------------------------------------------------------------
+
+#ifdef SWIFTLET_BENCH_PLAIN
+class PlainSession final : public SessionOf<PlainSession> {
+ public:
+  PlainSession(std::span<const Body> bodies, std::span<const BodyPair> pairs) {
+    // A level of the model as it is: nothing to prepare.
+    for (const Body& body : bodies) preparation_.heap_bytes += body.model->level(0).bytes;
+    for (const BodyPair& p : pairs) pairs_.push_back({bodies[p.a].view, bodies[p.b].view, {}});
+  }
+  Outcome distance(std::uint32_t pair, const Pose& b_in_a) override {
+    State& s = pairs_[pair];
+    const PlainResult r = plain(s.a, s.b, b_in_a, s.seed);
+    Outcome o{.steps = r.steps, .plane_tests = r.plane_tests};
+    o.overlapping = r.inside;
+    o.failed = r.stalled;
+    if (!r.inside && !r.stalled) o.distance = r.distance;
+    return o;
+  }
+  bool intersects(std::uint32_t pair, const Pose& b_in_a) override {  // it has no cheaper one
+    State& s = pairs_[pair];
+    const PlainResult r = plain(s.a, s.b, b_in_a, s.seed);
+    return r.inside || r.stalled;
+  }
+  void forget() override {
+    for (State& s : pairs_) s.seed = {};
+  }
+
+ private:
+  struct State {
+    ConvexView a, b;
+    PlainSeed seed;
+  };
+  std::vector<State> pairs_;
+};
+
+class PlainMethod final : public Method {
+ public:
+  std::string name() const override { return "plain"; }
+  std::string settings() const override { return "our walk on level 0, last features; no hierarchy, table or certificate"; }
+  Capabilities capabilities() const override {
+    return {.distance = true, .intersects = true, .stated_error = 1e-12, .wrong_share = 0.05};  // ends inside, or stalls
+  }
+  std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
+    return std::make_unique<PlainSession>(bodies, pairs);
+  }
+};
+#endif
+
+}  // namespace
+
+Methods all_methods() {
+  Methods methods;
+  add_swiftlet(methods);
+#ifdef SWIFTLET_BENCH_VCLIP
+  methods.push_back(std::make_unique<VclipMethod>());
+#endif
+#ifdef SWIFTLET_BENCH_PLAIN
+  methods.push_back(std::make_unique<PlainMethod>());
+#endif
+#ifdef SWIFTLET_PEER_FCL
+  add_fcl(methods);
+#endif
+#ifdef SWIFTLET_PEER_FCL_NATIVE
+  add_fcl_native(methods);
+#endif
+#ifdef SWIFTLET_PEER_CCD
+  add_ccd(methods);
+#endif
+#ifdef SWIFTLET_PEER_BULLET
+  add_bullet(methods);
+#endif
+#ifdef SWIFTLET_PEER_ODE
+  add_ode(methods);
+#endif
+  return methods;
+}
+
+std::vector<std::string> absent_peers() {
+  std::vector<std::string> names;
+  std::string_view rest = SWIFTLET_ABSENT_PEERS;  // separated by commas
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(','), rest.size());
+    names.emplace_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return names;
+}
+
+}  // namespace swiftlet::bench

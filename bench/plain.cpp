@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Knows march's private walk, and nothing else of it.
+#include "plain.h"
+
+#include "scene.h"
+#include "walk.h"
+
+namespace swiftlet::bench {
+
+PlainResult plain(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, PlainSeed& seed) {
+  const swiftlet::Scene pair = scene(a, b, motion(b_in_a), 0);
+  const Handle first{FeatureKind::Vertex, 0};
+  const Walk walked =
+      walk(pair, seed.a == Handle{} ? first : seed.a, seed.b == Handle{} ? first : seed.b, PlaneRule::MostViolated, ~0u, {});
+  const bool inside = walked.end == WalkEnd::Inside, stalled = walked.end == WalkEnd::Stalled || walked.end == WalkEnd::Budget;
+  const auto start = [&](Handle h) { return h.kind() == FeatureKind::Face && inside ? first : h; };
+  seed = {start(walked.a), start(walked.b)};
+  return {inside ? 0 : walked.distance, inside, stalled, walked.steps, walked.plane_tests};
+}
+
+}  // namespace swiftlet::bench

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Our own walk on level 0 without hierarchy, start table or certificate: what each of these costs and brings. Proves nothing.
+#pragma once
+
+#include <cstdint>
+
+#include <swiftlet/model.h>
+#include <swiftlet/pose.h>
+
+namespace swiftlet::bench {
+
+/// Default: cold, the first vertex of each.
+struct PlainSeed {
+  Handle a, b;
+};
+
+struct PlainResult {
+  double distance = 0;   ///< between the features, rounded; 0 when inside
+  bool inside = false;   ///< the walk ended inside: overlapping, or nearly
+  bool stalled = false;  ///< no answer; the distance is the least seen
+  std::uint32_t steps = 0, plane_tests = 0;
+};
+
+PlainResult plain(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, PlainSeed& seed);
+
+}  // namespace swiftlet::bench
