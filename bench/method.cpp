@@ -73,8 +73,8 @@ class SwiftletSession final : public SessionOf<SwiftletSession> {
 
 class SwiftletMethod final : public Method {
  public:
-  SwiftletMethod(const char* name, const char* settings, const QueryOptions& options)
-      : name_(name), settings_(settings), options_(options) {}
+  SwiftletMethod(std::string name, std::string settings, const QueryOptions& options)
+      : name_(std::move(name)), settings_(std::move(settings)), options_(options) {}
   std::string name() const override { return name_; }
   std::string settings() const override { return settings_; }
   Capabilities capabilities() const override {
@@ -161,14 +161,14 @@ class VclipMethod final : public Method {
 #ifdef SWIFTLET_BENCH_PLAIN
 class PlainSession final : public SessionOf<PlainSession> {
  public:
-  PlainSession(std::span<const Body> bodies, std::span<const BodyPair> pairs) {
+  PlainSession(PlaneRule rule, std::span<const Body> bodies, std::span<const BodyPair> pairs) : rule_(rule) {
     // A level of the model as it is: nothing to prepare.
     for (const Body& body : bodies) preparation_.heap_bytes += body.model->level(0).bytes;
     for (const BodyPair& p : pairs) pairs_.push_back({bodies[p.a].view, bodies[p.b].view, {}});
   }
   Outcome distance(std::uint32_t pair, const Pose& b_in_a) override {
     State& s = pairs_[pair];
-    const PlainResult r = plain(s.a, s.b, b_in_a, s.seed);
+    const PlainResult r = plain(s.a, s.b, b_in_a, s.seed, rule_);
     Outcome o{.steps = r.steps, .plane_tests = r.plane_tests};
     o.overlapping = r.inside;
     o.failed = r.stalled;
@@ -177,7 +177,7 @@ class PlainSession final : public SessionOf<PlainSession> {
   }
   bool intersects(std::uint32_t pair, const Pose& b_in_a) override {  // it has no cheaper one
     State& s = pairs_[pair];
-    const PlainResult r = plain(s.a, s.b, b_in_a, s.seed);
+    const PlainResult r = plain(s.a, s.b, b_in_a, s.seed, rule_);
     return r.inside || r.stalled;
   }
   void forget() override {
@@ -189,23 +189,40 @@ class PlainSession final : public SessionOf<PlainSession> {
     ConvexView a, b;
     PlainSeed seed;
   };
+  PlaneRule rule_;
   std::vector<State> pairs_;
 };
 
 class PlainMethod final : public Method {
  public:
-  std::string name() const override { return "plain"; }
-  std::string settings() const override { return "our walk on level 0, last features; no hierarchy, table or certificate"; }
+  PlainMethod(std::string name, std::string settings, PlaneRule rule)
+      : name_(std::move(name)), settings_(std::move(settings)), rule_(rule) {}
+  std::string name() const override { return name_; }
+  std::string settings() const override { return settings_; }
   Capabilities capabilities() const override {
     return {.distance = true, .intersects = true, .stated_error = 1e-12, .wrong_share = 0.05};  // ends inside, or stalls
   }
   std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
-    return std::make_unique<PlainSession>(bodies, pairs);
+    return std::make_unique<PlainSession>(rule_, bodies, pairs);
   }
+
+ private:
+  std::string name_, settings_;
+  PlaneRule rule_;
 };
 #endif
 
 }  // namespace
+
+std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, const QueryOptions& options) {
+  return std::make_unique<SwiftletMethod>(std::move(name), std::move(settings), options);
+}
+
+#ifdef SWIFTLET_BENCH_PLAIN
+std::unique_ptr<Method> plain_method(std::string name, std::string settings, PlaneRule rule) {
+  return std::make_unique<PlainMethod>(std::move(name), std::move(settings), rule);
+}
+#endif
 
 Methods all_methods() {
   Methods methods;
@@ -214,7 +231,8 @@ Methods all_methods() {
   methods.push_back(std::make_unique<VclipMethod>());
 #endif
 #ifdef SWIFTLET_BENCH_PLAIN
-  methods.push_back(std::make_unique<PlainMethod>());
+  methods.push_back(plain_method("plain", "our walk on level 0, last features; no hierarchy, table or certificate",
+                                 PlaneRule::MostViolated));
 #endif
 #ifdef SWIFTLET_PEER_FCL
   add_fcl(methods);

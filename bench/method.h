@@ -14,6 +14,7 @@
 
 #include <swiftlet/model.h>
 #include <swiftlet/pose.h>
+#include <swiftlet/query.h>
 
 namespace swiftlet::bench {
 
@@ -122,6 +123,10 @@ using Methods = std::vector<std::unique_ptr<Method>>;
 
 /// Ours first, then the baselines, then the peers that the build found.
 Methods all_methods();
+/// Ours with other options. The models that a session is opened with decide levels and table.
+std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, const QueryOptions& options);
+/// Our walk alone, by another rule than `plain` in all_methods.
+std::unique_ptr<Method> plain_method(std::string name, std::string settings, PlaneRule rule);
 /// The peers that the build did not find.
 std::vector<std::string> absent_peers();
 

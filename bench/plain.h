@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include <swiftlet/march.h>
 #include <swiftlet/model.h>
 #include <swiftlet/pose.h>
 
@@ -22,6 +23,7 @@ struct PlainResult {
   std::uint32_t steps = 0, plane_tests = 0;
 };
 
-PlainResult plain(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, PlainSeed& seed);
+PlainResult plain(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, PlainSeed& seed,
+                  PlaneRule rule = PlaneRule::MostViolated);
 
 }  // namespace swiftlet::bench

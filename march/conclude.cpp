@@ -64,7 +64,7 @@ MarchResult conclude(const Scene& scene, const Walk& walk_here, const MarchRule&
   std::uint32_t climbs = 0;
   const MarchStart cold = settled(scene, {}, climbs);
   const std::uint32_t left = rule.step_budget - here.result.steps;
-  const Walk cold_walk = walk(scene, cold.a, cold.b, PlaneRule::MostViolated, left, 0);
+  const Walk cold_walk = walk(scene, cold.a, cold.b, PlaneRule::MostViolated, left);
   if (cold_walk.end == WalkEnd::Budget) return here.result;
   MarchResult same = from_walk(scene, cold_walk, rule).result;
   same.steps += here.result.steps;

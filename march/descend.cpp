@@ -30,7 +30,7 @@ class Descent {
       MarchStart found = last && max_abs(place.direction) > 0 ? enter(pair, place) : settled(pair, place.start, answer_.plane_tests);
       if (!last || !answered()) {
         const std::uint32_t left = options_.step_budget - answer_.steps;
-        const Walk walked = walk(pair, found.a, found.b, options_.plane_rule, std::min(left, place.trial_steps), last ? 0 : worthwhile(place));
+        const Walk walked = walk(pair, found.a, found.b, options_.plane_rule, std::min(left, place.trial_steps));
         answer_.steps += walked.steps;
         answer_.plane_tests += walked.plane_tests;
         spent_ = walked.end == WalkEnd::Budget && answer_.steps >= options_.step_budget;
@@ -40,7 +40,7 @@ class Descent {
           continue;
         }
         remember_coarsest(place, walked, seed);
-        found = last || spent_ || may_answer(place, walked) ? bound(pair, place, walked, last) : MarchStart{walked.a, walked.b};
+        found = last || spent_ || may_answer(place, walked) ? bound(pair, place, walked) : MarchStart{walked.a, walked.b};
       }
       record(place, steps_before, tests_before);
       if (last || spent_ || answered()) return finish(place, found, seed);
@@ -59,15 +59,11 @@ class Descent {
            answer_.upper < target_.hit_below - law_two_;
   }
 
-  /// How near to the minimum a walk needs to come on the way to a finer level: to a part of what that level will move.
-  double worthwhile(const Place& place) const { return kWorthwhilePart * deviation(place.level_a, place.level_b); }
-
   /// Whether a certificate is wanted on the way down. Of bodies apart always, whatever the tolerance, so that a looser one stops
   /// earlier on the same way; where levels overlap, only if their deviations are an answer.
   bool may_answer(const Place& place, const Walk& walked) const {
     const double error = deviation(place.level_a, place.level_b);
-    const bool is_apart = walked.end == WalkEnd::Minimum || walked.end == WalkEnd::Near;
-    return is_apart || !options_.trace.empty() || narrow(0, error) || error < target_.hit_below - law_two_;
+    return walked.end == WalkEnd::Minimum || !options_.trace.empty() || narrow(0, error) || error < target_.hit_below - law_two_;
   }
 
   /// Enters the finest pair along the direction of the coarser one: the supports there bound the distance before any walk, and are
@@ -113,11 +109,10 @@ class Descent {
   }
 
   /// Certifies a walk, carries the better bounds, and says which features it ended on.
-  MarchStart bound(const Scene& pair, const Place& place, const Walk& walked, bool last) {
+  MarchStart bound(const Scene& pair, const Place& place, const Walk& walked) {
     MarchRule rule;
     rule.beyond = target_.clear_above;
     rule.step_budget = walked.steps + (options_.step_budget - std::min(answer_.steps, options_.step_budget));
-    if (!last) rule.absolute = deviation(place.level_a, place.level_b);  // no certified progress for what a finer level moves
     Walk capped = walked;
     if (spent_) capped.end = WalkEnd::Budget;
     const MarchResult r = conclude(pair, capped, rule);

@@ -21,7 +21,7 @@ MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, 
   const Scene pair = scene(a, b, m, quality.error);
   std::uint32_t climbs = 0;
   const MarchStart from = settled(pair, start, climbs);
-  MarchResult result = conclude(pair, walk(pair, from.a, from.b, rule.plane_rule, rule.step_budget, 0), rule);
+  MarchResult result = conclude(pair, walk(pair, from.a, from.b, rule.plane_rule, rule.step_budget), rule);
   result.plane_tests += climbs;
   result.lower = std::max(result.lower, rule.floor);
   result.upper = std::max(result.upper, result.lower);

@@ -83,9 +83,6 @@ inline constexpr double kStepsPerEdge = 0.5, kStepsPerLevel = 6;
 /// A walk from the seed that takes this many times what a descent would is given up for one (ski rental: never more than three
 /// times the better choice).
 inline constexpr double kTrialFactor = 2;
-/// A walk on the way to a finer level ends with the step that shortens the distance by less than this part of the deviations,
-/// which is what the finer level will move (0.06 to 1 cost the same within 10 %).
-inline constexpr double kWorthwhilePart = 0.25;
 /// Points of the inner polytope that tells touching from overlapping: 300 vertices slid into contact needed 20 to 32.
 inline constexpr int kContactPoints = 32;
 

@@ -29,9 +29,8 @@ struct Move {
   Handle first, second;
   double distance2;  ///< between the features left, for the stall guard
   bool minimum = false, inside = false;
-  double fall2 = std::numeric_limits<double>::infinity();  ///< how much less the next state's is, where that is known
 };
-Move swapped(const Move& m) { return {m.second, m.first, m.distance2, m.minimum, m.inside, m.fall2}; }
+Move swapped(const Move& m) { return {m.second, m.first, m.distance2, m.minimum, m.inside}; }
 
 /// The way out of a feature along which the distance falls fastest.
 struct Descent {
@@ -50,9 +49,9 @@ class Marcher {
     const Descent from_a = ring(a, va, p, d), from_b = ring(b, vb, q, -d);
     const double distance2 = dot(d, d);
     if (from_a.to == kNone && from_b.to == kNone) return {vertex(va), vertex(vb), distance2, true};
-    if (from_b.to == kNone) return {along(a, from_a), vertex(vb), distance2, false, false, from_a.rate2};
-    if (from_a.to == kNone) return {vertex(va), along(b, from_b), distance2, false, false, from_b.rate2};
-    return {edge(from_a.to), edge(from_b.to), distance2, false, false, from_a.rate2 + from_b.rate2};
+    if (from_b.to == kNone) return {along(a, from_a), vertex(vb), distance2};
+    if (from_a.to == kNone) return {vertex(va), along(b, from_b), distance2};
+    return {edge(from_a.to), edge(from_b.to), distance2};
   }
 
   template <class P, class Q>
@@ -68,8 +67,8 @@ class Marcher {
     const Descent rise = sides(b, h, q0, u, length2, -d);
     const Descent from_a = first_only_ && rise.to != kNone ? Descent{} : ring(a, va, p, d);
     if (rise.to == kNone && from_a.to == kNone) return {vertex(va), edge(h), distance2, true};
-    if (rise.rate2 > from_a.rate2) return {vertex(va), face(rise.to), distance2, false, false, rise.rate2};
-    return {along(a, from_a), edge(h), distance2, false, false, from_a.rate2};
+    if (rise.rate2 > from_a.rate2) return {vertex(va), face(rise.to), distance2};
+    return {along(a, from_a), edge(h), distance2};
   }
 
   template <class P, class Q>
@@ -83,10 +82,7 @@ class Marcher {
     const Vec e = a.point(a.view.head[down.to]) - p;
     const Exit exit = leave_along(b, f, p, e, n);
     if (!(height + exit.at * dot(n, e) > 0)) return {edge(down.to), face(f), distance2, false, true};
-    if (exit.side == kNone) {
-      const double fall = -dot(n, e);
-      return {vertex(a.view.head[down.to]), face(f), distance2, false, false, fall * (2 * height - fall) / dot(n, n)};
-    }
+    if (exit.side == kNone) return {vertex(a.view.head[down.to]), face(f), distance2};
     return {edge(down.to), edge(exit.side), distance2};
   }
 
@@ -106,7 +102,7 @@ class Marcher {
     const Descent rise_b = first_only_ && rise_a.to != kNone ? Descent{} : sides(b, hb, q0, v, dot(v, v), -d);
     if (rise_a.to == kNone && rise_b.to == kNone) return {edge(ha), edge(hb), distance2, true};
     if (rise_a.rate2 >= rise_b.rate2) return {face(rise_a.to), edge(hb), distance2};
-    return {edge(ha), face(rise_b.to), distance2};  // passing: no state to end in
+    return {edge(ha), face(rise_b.to), distance2};
   }
 
   template <class P, class Q>
@@ -277,7 +273,7 @@ Move state(Marcher& march, const A& a, Handle fa, const B& b, Handle fb) {
 
 }  // namespace
 
-Walk walk(const Scene& scene, Handle a, Handle b, PlaneRule rule, std::uint32_t step_budget, double worthwhile) {
+Walk walk(const Scene& scene, Handle a, Handle b, PlaneRule rule, std::uint32_t step_budget) {
   Walk result{WalkEnd::Budget, a, b, 0};
   Marcher march(rule, result.plane_tests);
   double least2 = std::numeric_limits<double>::infinity();
@@ -287,8 +283,6 @@ Walk walk(const Scene& scene, Handle a, Handle b, PlaneRule rule, std::uint32_t 
     if (move.inside) return WalkEnd::Inside;
     if (stalled >= kStallLimit) return WalkEnd::Stalled;
     if (result.steps >= step_budget) return WalkEnd::Budget;
-    // (distance - gain)^2 is distance2 - fall2, nearly
-    if (worthwhile > 0 && move.fall2 < 2 * std::sqrt(move.distance2) * worthwhile) return WalkEnd::Near;
     return std::nullopt;
   };
   for (;;) {

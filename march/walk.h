@@ -14,7 +14,6 @@ namespace swiftlet {
 
 enum class WalkEnd : std::uint8_t {
   Minimum,  ///< no Voronoi plane of either feature is violated
-  Near,     ///< the last step shortened the distance by less than was worthwhile
   Inside,   ///< a vertex below a face, or an edge through one: overlapping, or a start behind the body
   Stalled,  ///< kStallLimit states did not shorten the distance
   Budget,
@@ -27,8 +26,7 @@ struct Walk {
   std::uint32_t steps = 0, plane_tests = 0;
 };
 
-/// `a` and `b` name features of the scene's views, not both faces. A step that shortens the distance by less than `worthwhile` is
-/// the last; 0 walks to the minimum.
-Walk walk(const Scene& scene, Handle a, Handle b, PlaneRule rule, std::uint32_t step_budget, double worthwhile);
+/// `a` and `b` name features of the scene's views, not both faces.
+Walk walk(const Scene& scene, Handle a, Handle b, PlaneRule rule, std::uint32_t step_budget);
 
 }  // namespace swiftlet
