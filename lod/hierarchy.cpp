@@ -17,7 +17,7 @@
 namespace swiftlet::lod {
 namespace {
 
-constexpr double kWorthwhile = 0.8;  ///< a level with more of the triangles of the one before is not worth its memory
+constexpr double kWorthwhile = 0.65;  ///< a level with more of the triangles of the one before is not worth its memory, unless asked for
 
 /// Coordinates in which the surface of a solid spreads alike in all directions: a plate or a needle simplifies as a sphere
 /// does. Affine, so that it keeps hulls, volume ratios and which body holds which, up to rounding.
@@ -66,12 +66,13 @@ class Collapser {
     const std::size_t before = simple_.triangles.size();
     const std::size_t target =
         std::max({std::size_t(options_.rate * double(before)), std::size_t(options_.cutoff), std::size_t(4)});
-    if (double(target) > kWorthwhile * double(before)) return {{}, "the next level would have fewer triangles than the cutoff"};
+    const double worthwhile = std::max(kWorthwhile, options_.rate);
+    if (double(target) > worthwhile * double(before)) return {{}, "the next level would have fewer triangles than the cutoff"};
     const std::vector<Vec3> points = collapse(simple_, target);
     const Hull shape = hull(points);
     if (shape.dimension < 3) return {{}, "the next level would be flat"};
     simple_ = solid(points, shape);
-    if (double(simple_.triangles.size()) > kWorthwhile * double(before)) return {{}, "no more edges could be collapsed"};
+    if (double(simple_.triangles.size()) > (1 + worthwhile) / 2 * double(before)) return {{}, "no more edges could be collapsed"};
     return enclosed();
   }
 

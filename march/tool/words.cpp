@@ -144,7 +144,7 @@ class LimitedQuery {
   /// Of one query, averaged over a batch.
   double nanoseconds() const {
     using Clock = std::chrono::steady_clock;
-    volatile double kept = 0;  // lest the query be left out
+    [[maybe_unused]] volatile double kept = 0;  // lest the query be left out
     const auto begin = Clock::now();
     for (int k = 0; k < repeats_; ++k) {
       PairSeed cold;
