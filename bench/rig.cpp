@@ -19,11 +19,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-constexpr std::size_t kWarmUp = 5'000;     // queries
-constexpr double kSlowPass = 0.2;          // seconds
+constexpr std::size_t kWarmUp = 5'000, kSlowWarmUp = 500;  // queries
+constexpr double kSlow = 1e-5;                             // seconds per query
 constexpr int kSlowRounds = 3;
 constexpr std::size_t kFloorPoses = 20;
-constexpr double kFloorMove = 1e-9;        // radii
+constexpr double kFloorMove = 1e-9;  // radii
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 std::string text(const char* format, ...) {
@@ -47,9 +47,11 @@ class Runner {
     meet.resize(question == Question::Intersects ? queries.size() : 0);
   }
 
-  /// Queries from `first` on.
-  void pass(std::size_t first = 0) {
+  /// Seconds for the scene's last `count` queries.
+  double last(std::size_t count) {
+    const std::size_t first = queries_.size() - std::min(queries_.size(), count);
     const auto queries = queries_.subspan(first);
+    const auto begin = Clock::now();
     if (question_ == Question::Intersects) {
       session_->intersections(queries, std::span(meet).subspan(first));
     } else if (allowed_ > 0) {
@@ -57,13 +59,18 @@ class Runner {
     } else {
       session_->distances(queries, std::span(outcomes).subspan(first));
     }
-  }
-  /// Seconds.
-  double timed_pass() {
-    pass(queries_.size() - std::min(queries_.size(), kWarmUp));
-    const auto begin = Clock::now();
-    pass();
     return seconds_since(begin);
+  }
+  /// Asks some, to see.
+  bool is_slow() {
+    last(kSlowWarmUp / 2);
+    slow_ = last(kSlowWarmUp) > kSlow * double(std::min(kSlowWarmUp, queries_.size()));
+    return slow_;
+  }
+  /// Seconds for all.
+  double timed_pass() {
+    last(slow_ ? kSlowWarmUp : kWarmUp);
+    return last(queries_.size());
   }
   Preparation preparation() const { return session_->preparation(); }
 
@@ -75,6 +82,7 @@ class Runner {
   Question question_;
   std::span<const Query> queries_;
   double allowed_, relative_;
+  bool slow_ = false;
 };
 
 /// Keeps the times of each benchmark's repetitions.
@@ -179,9 +187,7 @@ std::vector<Row> measure(const Asked& asked, Question question, std::span<const 
   all.add("floor", floor, rounds);
   for (const Entrant& e : entrants) {
     runners.push_back(std::make_unique<Runner>(e, question, asked.scene->pairs, queries, e.allowed * asked.radius));
-    const auto begin = Clock::now();
-    runners.back()->pass();
-    all.add(e.series, *runners.back(), seconds_since(begin) > kSlowPass ? std::min(rounds, kSlowRounds) : rounds);
+    all.add(e.series, *runners.back(), runners.back()->is_slow() ? std::min(rounds, kSlowRounds) : rounds);
   }
   auto seconds = all.run();
 
@@ -194,6 +200,7 @@ std::vector<Row> measure(const Asked& asked, Question question, std::span<const 
     row.scene = asked.scene->name;
     row.question = question;
     row.series = e.series;
+    row.choice = e.choice;
     row.allowed = e.allowed;
     row.queries = queries.size();
     row.rounds = times.size();
@@ -210,14 +217,14 @@ std::vector<Row> measure(const Asked& asked, Question question, std::span<const 
 }
 
 std::string csv_header() {
-  return "group,scene,shape,triangles,step,question,series,levels,allowed,queries,rounds,ns,spread,floor_ns,ratio,error,"
+  return "group,scene,shape,triangles,step,question,series,choice,levels,allowed,queries,rounds,ns,spread,floor_ns,ratio,error,"
          "mean_error,wrong,failed,flagged,hash,hash_true,steps,plane_tests,bytes,build_seconds\n";
 }
 
 std::string csv_line(const Row& r) {
-  return text("%s,%s,%s,%u,%g,%s,%s,%d,%g,%zu,%zu,%.5g,%.3g,%.5g,%.4g,%.3g,%.3g,%zu,%zu,%d,%016llx,%d,%.5g,%.5g,%.5g,%.4g\n",
+  return text("%s,%s,%s,%u,%g,%s,%s,%s,%d,%g,%zu,%zu,%.5g,%.3g,%.5g,%.4g,%.3g,%.3g,%zu,%zu,%d,%016llx,%d,%.5g,%.5g,%.5g,%.4g\n",
               r.group.c_str(), r.scene.c_str(), r.shape.c_str(), r.triangles, r.step, name(r.question), r.series.c_str(),
-              r.levels, r.allowed, r.queries, r.rounds, r.ns, r.spread, r.floor_ns, r.ratio(), r.error, r.mean_error, r.wrong,
+              r.choice.c_str(), r.levels, r.allowed, r.queries, r.rounds, r.ns, r.spread, r.floor_ns, r.ratio(), r.error, r.mean_error, r.wrong,
               r.failed, int(r.flagged), static_cast<unsigned long long>(r.hash), int(r.hash_true), r.steps, r.plane_tests,
               r.bytes, r.build_seconds);
 }

@@ -20,10 +20,11 @@ const char* name(Question question);
 
 /// Who is asked in a cell, with what, and how precisely.
 struct Entrant {
-  std::string series;  ///< as in the results and the legends; unique in the cell
+  std::string series;  ///< as in the results and the legends, without commas; unique in the cell
   const Method* method = nullptr;
   std::vector<Body> bodies;  ///< as many as the scene's, of the same hulls
   double allowed = 0;        ///< in radii; 0: exact
+  std::string choice = {};   ///< what stands behind a series that is the best of several
 };
 
 /// A scene with what is proved of it. The scene outlives it.
@@ -43,7 +44,7 @@ struct Row {
   double step = 0;  ///< degrees; kRandomStep for random poses
   std::uint32_t triangles = 0;
   Question question = Question::Distance;
-  std::string series;
+  std::string series, choice;
   double allowed = 0;          ///< in radii
   std::size_t queries = 0;     ///< timed, per round
   std::size_t rounds = 0;
@@ -66,7 +67,7 @@ struct Row {
 inline constexpr double kRandomStep = 400;
 
 /// Every entrant's passes over the scene, in rounds whose order Google Benchmark shuffles. Each timed pass follows an untimed
-/// one over the scene's last queries, at most 5 000. A method that takes longer than 0.2 s per pass gets three rounds.
+/// one over the scene's last 5 000 queries. A method that takes longer than 10 us per query gets 500, and at most three rounds.
 std::vector<Row> measure(const Asked& asked, Question question, std::span<const Entrant> entrants, int rounds);
 
 std::string csv_header();

@@ -34,24 +34,6 @@ Vec outward(const ConvexView& view, std::uint32_t face) {
   return cross(q - p, vec(view.vertices[view.head[next_in_facet(view, h)]]) - p);
 }
 
-/// Whether level 0 lies below every facet, by exact support climbs. Returns the vertex that does not, or kNone.
-std::uint32_t vertex_outside(const ConvexView& exact_hull, const ConvexView& level) {
-  std::uint32_t outside = kNone, v = 0;
-  each_facet(level, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const Vertex &p = level.vertices[a], &q = level.vertices[b], &r = level.vertices[c];
-    for (bool climbing = true; climbing;) {
-      climbing = false;
-      const Vertex ring = exact_hull.vertices[v];
-      for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
-        const std::uint32_t w = exact_hull.head[h];
-        if (exact::compare_along_normal(&p.x, &q.x, &r.x, &exact_hull.vertices[w].x, &exact_hull.vertices[v].x) > 0) v = w, climbing = true;
-      }
-    }
-    if (exact::orientation(p, q, r, exact_hull.vertices[v]) > 0) outside = v;
-  });
-  return outside;
-}
-
 /// One point as a body.
 class PointBody {
  public:

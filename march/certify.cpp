@@ -11,14 +11,6 @@
 namespace swiftlet {
 namespace {
 
-Vec normalised(const Vec& v) {
-  // Scaled by its largest coordinate first: squares of 1e-200 are 0.
-  const double scale = max_abs(v);
-  if (!(scale > kLeastDirection)) return {0, 0, 0};
-  const Vec w = v * (1 / scale);
-  return w * (1 / norm(w));
-}
-
 struct Segment {
   std::uint32_t tail, head;
   Vec p, u;

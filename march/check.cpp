@@ -133,22 +133,7 @@ Check verify(const Model& model) {
     if (!surface) return {false, "level " + std::to_string(i) + ": " + surface.error().message};
     if (surface.value().vertices.size() != view.vertices.size()) return failed("level %d: a vertex is no corner of the hull", i);
     if (i == 0) continue;
-    bool enclosed = true;
-    each_facet(view, [&](std::uint32_t p, std::uint32_t q, std::uint32_t r) {
-      std::uint32_t highest = 0;
-      const auto above = [&](std::uint32_t w, std::uint32_t v) {
-        return exact::compare_along_normal(&view.vertices[p].x, &view.vertices[q].x, &view.vertices[r].x, &exact_hull.vertices[w].x, &exact_hull.vertices[v].x) > 0;
-      };
-      for (bool climbing = true; climbing;) {
-        climbing = false;
-        const Vertex ring = exact_hull.vertices[highest];
-        for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
-          if (above(exact_hull.head[h], highest)) highest = exact_hull.head[h], climbing = true;
-        }
-      }
-      enclosed = enclosed && exact::orientation(view.vertices[p], view.vertices[q], view.vertices[r], exact_hull.vertices[highest]) <= 0;
-    });
-    if (!enclosed) return failed("level %d does not enclose level 0", i);
+    if (vertex_outside(exact_hull, view) != kNone) return failed("level %d does not enclose level 0", i);
     MarchStart start;
     for (const Vertex& v : view.vertices) {
       const Vertex record{v.x, v.y, v.z, 0, 0};

@@ -13,7 +13,7 @@
 namespace swiftlet::exact {
 
 /// The sign of (b - a) x (c - a) . (d - a): positive when d lies on the side from which a, b, c appear counter-clockwise
-/// (outside, for a face). Exact for coordinates within 1e-70 and 1e+70 in magnitude, or zero.
+/// (outside, for a face). Exact for coordinates that are 0 or between kLeastCoordinate and kMostCoordinate in magnitude.
 int orientation(const double a[3], const double b[3], const double c[3], const double d[3]);
 inline int orientation(const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& d) {
   return orientation(&a.x, &b.x, &c.x, &d.x);

@@ -103,13 +103,6 @@ Nearest<Real> nearest_to_origin(const std::array<Difference<Real>, 4>& set, int 
   return best;
 }
 
-Vec normalised(const Vec& v) {
-  const double scale = max_abs(v);
-  if (!(scale > kLeastDirection)) return {0, 0, 0};
-  const Vec w = v * (1 / scale);
-  return w * (1 / norm(w));
-}
-
 std::array<double, 3> coordinates(const Vertex& v) { return {v.x, v.y, v.z}; }
 
 /// Whether four vertex pairs prove the overlap.

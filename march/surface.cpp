@@ -451,13 +451,6 @@ Vec area_vector(const Input& in, const Loop& loop) {
   return sum;
 }
 
-Vec unit(const Vec& v) {
-  const double scale = max_abs(v);
-  if (!(scale > 0)) return {0, 0, 0};
-  const Vec w = v * (1 / scale);
-  return w * (1 / norm(w));
-}
-
 bool all_float(const Input& in) {
   return std::all_of(in.points.begin(), in.points.end(), [](const Vec3& p) {
     return double(float(p[0])) == p[0] && double(float(p[1])) == p[1] && double(float(p[2])) == p[2];
@@ -490,13 +483,13 @@ class Grouping {
   }
 
   bool joins(Index facet, const Vec& n, const Vec& p) const {
-    if (group_[facet] != kNone || !(dot(unit(area_[facet]), n) > 0.5)) return false;
+    if (group_[facet] != kNone || !(dot(normalised(area_[facet]), n) > 0.5)) return false;
     return std::all_of(facets_.loops[facet].begin(), facets_.loops[facet].end(),
                        [&](Index v) { return std::fabs(dot(n, in_.point(v) - p)) <= tolerance_; });
   }
 
   void grow(Index seed) {
-    const Vec n = unit(area_[seed]), p = in_.point(facets_.loops[seed][0]);
+    const Vec n = normalised(area_[seed]), p = in_.point(facets_.loops[seed][0]);
     std::vector<Index> members{seed};
     group_[seed] = seed;
     for (std::size_t i = 0; i < members.size(); ++i) {
@@ -567,7 +560,7 @@ std::vector<Index> along_curve(const Input& in, std::vector<Index> corners) {
 }
 
 FacePlane plane_of(const Input& in, const Loop& border, const Loop& members) {
-  const Vec n = unit(area_vector(in, border)), p = in.point(border[0]);
+  const Vec n = normalised(area_vector(in, border)), p = in.point(border[0]);
   double thickness = 0;
   for (const Index v : members) thickness = std::max(thickness, std::fabs(dot(n, in.point(v) - p)));
   return {n.x, n.y, n.z, thickness + 8 * kU * extent_of(in.points)};
@@ -673,6 +666,25 @@ double volume_of(const Input& in, const Facets& facets) {
 }
 
 }  // namespace
+
+std::uint32_t vertex_outside(const ConvexView& exact_hull, const ConvexView& level) {
+  std::uint32_t outside = kNone, highest = 0;
+  each_facet(level, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const Vertex &p = level.vertices[a], &q = level.vertices[b], &r = level.vertices[c];
+    const auto above = [&](std::uint32_t w) {
+      return exact::compare_along_normal(&p.x, &q.x, &r.x, &exact_hull.vertices[w].x, &exact_hull.vertices[highest].x) > 0;
+    };
+    for (bool climbing = true; climbing;) {
+      climbing = false;
+      const Vertex ring = exact_hull.vertices[highest];
+      for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
+        if (above(exact_hull.head[h])) highest = exact_hull.head[h], climbing = true;
+      }
+    }
+    if (exact::orientation(p, q, r, exact_hull.vertices[highest]) > 0) outside = highest;
+  });
+  return outside;
+}
 
 ConvexView Surface::view() const {
   ConvexView v;

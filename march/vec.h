@@ -10,6 +10,8 @@
 #include <swiftlet/model.h>
 #include <swiftlet/pose.h>
 
+#include "tolerance.h"
+
 namespace swiftlet {
 
 /// Three numbers; Real is double, or DoubleDouble where doubles cannot tell.
@@ -30,6 +32,14 @@ template <class R> static inline V3<R> cross(const V3<R>& a, const V3<R>& b) {
 
 static inline double norm(const Vec& a) { return std::sqrt(dot(a, a)); }
 static inline double max_abs(const Vec& a) { return std::fmax(std::fmax(std::fabs(a.x), std::fabs(a.y)), std::fabs(a.z)); }
+
+/// At length 1; 0 where v names no direction. Scaled by its largest coordinate first: squares of 1e-200 are 0.
+static inline Vec normalised(const Vec& v) {
+  const double scale = max_abs(v);
+  if (!(scale > kLeastDirection)) return {0, 0, 0};
+  const Vec w = v * (1 / scale);
+  return w * (1 / norm(w));
+}
 
 /// The same direction, at a length where no product of its coordinates with a body's over- or underflows; 0 where it names none.
 static inline Vec rescaled(const Vec& v) {

@@ -24,7 +24,7 @@ enum class MarchStatus : std::uint8_t {
   Beyond,        ///< stopped because lower > rule.beyond
   Budget,        ///< rule.step_budget ended the march; the bounds hold
   NotConverged,  ///< neither of the above could be proved; the bounds hold. No valid body is known that answers so
-  InvalidPose,   ///< bounds are [0, inf]
+  InvalidPose,   ///< not finite, translated beyond 1e45, or not orthonormal to 1e-6: bounds are [0, inf]
 };
 
 /// Up to four vertex pairs whose differences hold the origin in their hull: the bodies share a point.
@@ -44,7 +44,7 @@ struct MarchRule {
   double absolute = 0, relative = 0;
   double beyond = std::numeric_limits<double>::infinity();
   double floor = 0;                  ///< a lower bound already proved; the answer's is never less
-  std::uint32_t step_budget = ~0u;   ///< steps, not time
+  std::uint32_t step_budget = ~0u;   ///< steps of the walk, not time; certified progress counts as one more
   PlaneRule plane_rule = PlaneRule::MostViolated;
 };
 
@@ -60,7 +60,10 @@ struct MarchResult {
   std::uint32_t plane_tests = 0;  ///< Voronoi planes and support comparisons evaluated
 };
 
-/// Marches from `start` to the nearest features of `a` and `b`. Allocates nothing. Cost: about 20 ns per step, and a certificate.
+/// Marches from `start` to the nearest features of `a` and `b`. Allocates nothing.
+/// Law 7: at most 2 * (12 |A| |B| + 1) steps, where |X| counts vertices, half-edges and faces: a state that shortens the distance
+/// never returns, twelve in a row that do not end the walk, and within rounding of a threshold a cold walk follows. The most ever
+/// seen is |A| + |B|; on 2 000 triangles about 50.
 MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, const MarchStart& start = {},
                   const MarchRule& rule = {});
 

@@ -13,7 +13,7 @@ using Vec3 = Eigen::Matrix<double, 3, 1>;
 using Mat3 = Eigen::Matrix<double, 3, 3, Eigen::ColMajor>;
 
 /// Maps a point p of its own frame to `rotation * p + translation`. Used as given: a rotation that is rounded, orthonormal to
-/// 1e-6, is legal, and the answer is the one for these very doubles.
+/// 1e-6, is legal, as is a reflection, and the answer is the one for these very doubles. Translations reach to 1e45.
 struct Pose {
   Mat3 rotation = Mat3::Identity();
   Vec3 translation = Vec3::Zero();

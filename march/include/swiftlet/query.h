@@ -27,7 +27,7 @@ enum class Status : std::uint8_t {
 enum class Verdict : std::uint8_t {
   Undecided,
   Disjoint,     ///< lower > 0
-  Touching,     ///< the signed distance is within law 2's bound of 0
+  Touching,     ///< the signed distance is within law 2's bound of 0; lower may still be above 0
   Overlapping,  ///< proved by `Answer::proof`
 };
 
