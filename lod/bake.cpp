@@ -45,11 +45,13 @@ Storage stored(const CoarseLevel& coarse, double scale) {
 }
 
 /// Without the levels that deviate more than allowed, and those that a coarser one beats.
-std::vector<LevelArrays> worth_keeping(const Model& model, const std::vector<LevelArrays>& levels, double max_deviation, std::string& end) {
+std::vector<LevelArrays> worth_keeping(const Model& model, const std::vector<LevelArrays>& levels, double max_deviation,
+                                       std::string& end) {
   std::vector<LevelArrays> kept;
   double least = std::numeric_limits<double>::infinity();
   if (max_deviation > 0) least = std::nextafter(max_deviation, least);
-  if (max_deviation > 0 && model.level(model.level_count() - 1).deviation > max_deviation) end = "the next level would deviate more than allowed";
+  if (max_deviation > 0 && model.level(model.level_count() - 1).deviation > max_deviation)
+    end = "the next level would deviate more than allowed";
   for (int i = model.level_count() - 1; i >= 0; --i) {
     if (i == 0 || model.level(i).deviation < least) {
       kept.push_back(levels[std::size_t(i)]);
@@ -79,7 +81,8 @@ Result<Model> bake(const Finest& finest, const std::vector<CoarseLevel>& coarse,
   }
   if (!model) return model;
   const std::vector<LevelArrays> worth = worth_keeping(model.value(), levels, options.max_deviation, end);
-  return worth.size() == levels.size() ? std::move(model) : Model::from_levels(worth, {.repair = false, .table = options.table});
+  return worth.size() == levels.size() ? std::move(model)
+                                       : Model::from_levels(worth, {.repair = false, .table = options.table});
 }
 
 }  // namespace swiftlet::lod

@@ -17,7 +17,8 @@
 namespace swiftlet::lod {
 namespace {
 
-constexpr double kWorthwhile = 0.65;  ///< a level with more of the triangles of the one before is not worth its memory, unless asked for
+constexpr double kWorthwhile =
+    0.65;  ///< a level with more of the triangles of the one before is not worth its memory, unless asked for
 
 /// Coordinates in which the surface of a solid spreads alike in all directions: a plate or a needle simplifies as a sphere
 /// does. Affine, so that it keeps hulls, volume ratios and which body holds which, up to rounding.
@@ -72,7 +73,8 @@ class Collapser {
     const Hull shape = hull(points);
     if (shape.dimension < 3) return {{}, "the next level would be flat"};
     simple_ = solid(points, shape);
-    if (double(simple_.triangles.size()) > (1 + worthwhile) / 2 * double(before)) return {{}, "no more edges could be collapsed"};
+    if (double(simple_.triangles.size()) > (1 + worthwhile) / 2 * double(before))
+      return {{}, "no more edges could be collapsed"};
     return enclosed();
   }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces, finest first, to a Model: enclosure proved, deviations measured, links and tables filled [Ehmann & Lin 2000, sec. 4.3].
+// Surfaces, finest first, to a Model: enclosure proved, deviations measured, links and tables filled [Ehmann & Lin 2000,
+// sec. 4.3].
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -94,7 +95,8 @@ std::vector<std::uint32_t> nearest_vertices(const ConvexView& level, const Conve
 }
 
 /// The face of `finer` whose corners are the children of `face`'s, or kNone: a face that refinement keeps.
-std::uint32_t kept_face(const ConvexView& level, std::uint32_t face, const std::vector<std::uint32_t>& child, const ConvexView& finer) {
+std::uint32_t kept_face(const ConvexView& level, std::uint32_t face, const std::vector<std::uint32_t>& child,
+                        const ConvexView& finer) {
   const std::uint32_t h = level.face_first[face];
   const std::uint32_t c0 = child[origin(level, h)], c1 = child[level.head[h]];
   const Vertex& ring = finer.vertices[c0];
@@ -113,13 +115,17 @@ std::uint32_t kept_face(const ConvexView& level, std::uint32_t face, const std::
 
 Result<bool> link_to_finer(Draft& level, const LevelArrays& arrays, const Draft& finer, const std::string& name) {
   const ConvexView view = level.surface.view(), fine = finer.surface.view();
-  const auto ours = [&](std::uint32_t input) { return input < finer.surface.input_vertex.size() ? finer.surface.input_vertex[input] : kNone; };
+  const auto ours = [&](std::uint32_t input) {
+    return input < finer.surface.input_vertex.size() ? finer.surface.input_vertex[input] : kNone;
+  };
   if (arrays.child_vertex.empty()) {
     level.child_vertex = nearest_vertices(view, fine);
   } else {
     for (const std::uint32_t input : level.surface.vertex_input) {
       const std::uint32_t child = input < arrays.child_vertex.size() ? ours(arrays.child_vertex[input]) : kNone;
-      if (child == kNone) return Error{ErrorCode::BadValue, name + "vertex " + std::to_string(input) + " has no child among the finer level's vertices"};
+      if (child == kNone)
+        return Error{ErrorCode::BadValue,
+                     name + "vertex " + std::to_string(input) + " has no child among the finer level's vertices"};
       level.child_vertex.push_back(child);
     }
   }
@@ -129,8 +135,11 @@ Result<bool> link_to_finer(Draft& level, const LevelArrays& arrays, const Draft&
   }
   for (std::uint32_t f = 0; f < view.face_first.size(); ++f) {
     const std::uint32_t kept = kept_face(view, f, level.child_vertex, fine);
-    if (kept != kNone) level.child_face.push_back({FeatureKind::Face, kept});
-    else level.child_face.push_back({FeatureKind::Vertex, removed[f] != kNone ? removed[f] : level.child_vertex[origin(view, view.face_first[f])]});
+    if (kept != kNone)
+      level.child_face.push_back({FeatureKind::Face, kept});
+    else
+      level.child_face.push_back(
+          {FeatureKind::Vertex, removed[f] != kNone ? removed[f] : level.child_vertex[origin(view, view.face_first[f])]});
   }
   return true;
 }
@@ -228,7 +237,8 @@ Result<std::uint64_t> write_source(BlockParts& parts, const LevelArrays& arrays,
   const bool own_ids = arrays.face_source_begin.empty();
   if (!own_ids) {
     const auto& begin = arrays.face_source_begin;
-    if (begin.size() != inputs + 1 || begin.back() != arrays.face_source.size() || !std::is_sorted(begin.begin(), begin.end())) {
+    if (begin.size() != inputs + 1 || begin.back() != arrays.face_source.size() ||
+        !std::is_sorted(begin.begin(), begin.end())) {
       return Error{ErrorCode::BadValue, "face_source_begin does not fit the faces"};
     }
   }
@@ -236,12 +246,16 @@ Result<std::uint64_t> write_source(BlockParts& parts, const LevelArrays& arrays,
     return Error{ErrorCode::BadValue, "vertex_source does not fit the vertices"};
   }
   std::vector<std::uint32_t> vertex, face_begin(surface.face_first.size() + 1, 0), face;
-  for (const std::uint32_t v : surface.vertex_input) vertex.push_back(arrays.vertex_source.empty() ? v : arrays.vertex_source[v]);
+  for (const std::uint32_t v : surface.vertex_input)
+    vertex.push_back(arrays.vertex_source.empty() ? v : arrays.vertex_source[v]);
   std::vector<std::vector<std::uint32_t>> held(surface.face_first.size());
   for (std::uint32_t f = 0; f < inputs; ++f) {
     auto& list = held[surface.input_face[f]];
-    if (own_ids) list.push_back(f);
-    else list.insert(list.end(), arrays.face_source.begin() + arrays.face_source_begin[f], arrays.face_source.begin() + arrays.face_source_begin[f + 1]);
+    if (own_ids)
+      list.push_back(f);
+    else
+      list.insert(list.end(), arrays.face_source.begin() + arrays.face_source_begin[f],
+                  arrays.face_source.begin() + arrays.face_source_begin[f + 1]);
   }
   for (std::size_t f = 0; f < held.size(); ++f) {
     std::sort(held[f].begin(), held[f].end());
@@ -258,8 +272,10 @@ Result<std::uint64_t> write_source(BlockParts& parts, const LevelArrays& arrays,
 
 Result<Model> Model::from_levels(std::span<const LevelArrays> levels, const ModelOptions& options) {
   if (levels.empty()) return Error{ErrorCode::Empty, "no levels"};
-  if (levels.size() > kMaxLevels) return Error{ErrorCode::TooLarge, std::to_string(levels.size()) + " levels, at most " + std::to_string(kMaxLevels)};
-  if (options.table.resolution != lut::Resolution::None && !(options.table.radius_factor >= 1 && options.table.radius_factor <= 1e6)) {
+  if (levels.size() > kMaxLevels)
+    return Error{ErrorCode::TooLarge, std::to_string(levels.size()) + " levels, at most " + std::to_string(kMaxLevels)};
+  if (options.table.resolution != lut::Resolution::None &&
+      !(options.table.radius_factor >= 1 && options.table.radius_factor <= 1e6)) {
     return Error{ErrorCode::BadValue, "the table's radius factor is not between 1 and 1e6"};
   }
   std::vector<Draft> drafts;
@@ -271,9 +287,11 @@ Result<Model> Model::from_levels(std::span<const LevelArrays> levels, const Mode
     draft.surface = std::move(surface).value();
     if (i > 0) {
       const ConvexView exact_hull = drafts[0].surface.view(), view = draft.surface.view();
-      if (drafts[0].surface.dimension < 3 || draft.surface.dimension < 3) return Error{ErrorCode::NotSolid, name + "only solids have coarser levels"};
+      if (drafts[0].surface.dimension < 3 || draft.surface.dimension < 3)
+        return Error{ErrorCode::NotSolid, name + "only solids have coarser levels"};
       if (const std::uint32_t v = vertex_outside(exact_hull, view); v != kNone) {
-        return Error{ErrorCode::NotEnclosing, name + "vertex " + std::to_string(drafts[0].surface.vertex_input[v]) + " of level 0 is outside"};
+        return Error{ErrorCode::NotEnclosing,
+                     name + "vertex " + std::to_string(drafts[0].surface.vertex_input[v]) + " of level 0 is outside"};
       }
       draft.deviation = deviation_from(exact_hull, view);
       if (auto linked = link_to_finer(draft, levels[i], drafts.back(), name); !linked) return linked.error();

@@ -52,9 +52,8 @@ bool finite(std::initializer_list<double> values) {
 
 /// Whether exact signs of products of these are exact: beyond, a climb need not end.
 bool in_range(std::initializer_list<double> coordinates) {
-  return std::all_of(coordinates.begin(), coordinates.end(), [](double x) {
-    return x == 0 || (std::fabs(x) >= kLeastCoordinate && std::fabs(x) <= kMostCoordinate);
-  });
+  return std::all_of(coordinates.begin(), coordinates.end(),
+                     [](double x) { return x == 0 || (std::fabs(x) >= kLeastCoordinate && std::fabs(x) <= kMostCoordinate); });
 }
 
 bool all_below(std::span<const std::uint32_t> values, std::size_t limit) {
@@ -74,11 +73,13 @@ std::string topology_fault(const ConvexView& v) {
     next_ring += r.ring_count;
   }
   if (next_ring != half_edges) return "rings do not cover the half-edges";
-  if (!all_below(v.head, v.vertices.size()) || !all_below(v.twin, half_edges) || !all_below(v.face_first, half_edges)) return "index out of range";
+  if (!all_below(v.head, v.vertices.size()) || !all_below(v.twin, half_edges) || !all_below(v.face_first, half_edges))
+    return "index out of range";
   for (std::size_t i = 0; i < v.vertices.size(); ++i) {
     const Vertex& r = v.vertices[i];
     for (std::uint32_t h = r.ring_begin; h < r.ring_begin + r.ring_count; ++h) {
-      if (v.twin[h] == h || v.twin[v.twin[h]] != h || v.head[v.twin[h]] != i || v.head[h] == i) return "twin of half-edge " + std::to_string(h);
+      if (v.twin[h] == h || v.twin[v.twin[h]] != h || v.head[v.twin[h]] != i || v.head[h] == i)
+        return "twin of half-edge " + std::to_string(h);
       if (v.face[h] >= faces && !(v.face[h] == kNone && faces == 0)) return "face of half-edge " + std::to_string(h);
     }
   }
@@ -162,7 +163,8 @@ AlignedBytes compose(const BlockParts& parts) {
   write(sizeof header, levels.data(), levels.size() * sizeof(LevelHeader));
   header.header_hash = hash_of(block.view().first(header_bytes(levels.size())));
   write(0, &header, sizeof header);
-  for (std::size_t i = 0; i < levels.size(); ++i) write(levels[i].section.offset, parts.levels[i].data(), parts.levels[i].size());
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    write(levels[i].section.offset, parts.levels[i].data(), parts.levels[i].size());
   write(header.table.offset, parts.table.data(), parts.table.size());
   write(header.source.offset, parts.source.data(), parts.source.size());
   return block;
@@ -180,7 +182,8 @@ Result<BlockHeader> BlockReader::read_header(std::span<const std::byte> start, s
   if (header.total_bytes != file_size) {
     return bad("the file has " + std::to_string(file_size) + " bytes, its header says " + std::to_string(header.total_bytes));
   }
-  if (header.level_count < 1 || header.level_count > kMaxLevels || header_bytes(header.level_count) > file_size) return bad("bad level count");
+  if (header.level_count < 1 || header.level_count > kMaxLevels || header_bytes(header.level_count) > file_size)
+    return bad("bad level count");
   return header;
 }
 
@@ -201,9 +204,11 @@ Result<Model> BlockReader::read(AlignedBytes block) {
   std::string fault;
   const auto section = [&](const Section& s, const std::string& name) -> std::span<const std::byte> {
     if (!fault.empty()) return {};
-    if (s.offset != aligned(expected) || s.bytes > bytes.size() || s.offset > bytes.size() - s.bytes) return fault = name + " lies outside the file", bytes.first(0);
+    if (s.offset != aligned(expected) || s.bytes > bytes.size() || s.offset > bytes.size() - s.bytes)
+      return fault = name + " lies outside the file", bytes.first(0);
     const auto gap = bytes.subspan(expected, s.offset - expected);
-    if (std::any_of(gap.begin(), gap.end(), [](std::byte b) { return b != std::byte{0}; })) return fault = "damaged before " + name, bytes.first(0);
+    if (std::any_of(gap.begin(), gap.end(), [](std::byte b) { return b != std::byte{0}; }))
+      return fault = "damaged before " + name, bytes.first(0);
     expected = s.offset + s.bytes;
     const auto part = bytes.subspan(s.offset, s.bytes);
     if (hash_of(part) != s.hash) fault = "damaged " + name;
@@ -213,7 +218,8 @@ Result<Model> BlockReader::read(AlignedBytes block) {
   std::vector<std::span<const std::byte>> parts(header.level_count);
   for (int i = count - 1; i >= 0; --i) {
     const std::string name = "level " + std::to_string(i);
-    if (level_headers[i].section.bytes != section_bytes(level_headers[i], i == 0, i == count - 1)) return bad(name + " has the wrong size");
+    if (level_headers[i].section.bytes != section_bytes(level_headers[i], i == 0, i == count - 1))
+      return bad(name + " has the wrong size");
     if (level_headers[i].vertex_count < 1) return bad(name + " is empty");
     parts[i] = section(level_headers[i].section, name);
   }
@@ -221,10 +227,11 @@ Result<Model> BlockReader::read(AlignedBytes block) {
   if (!fault.empty()) return bad(fault);
   if (expected != bytes.size()) return bad("bytes after the end");
 
-  const bool numbers = finite({header.radius_factor, header.radius, header.box_min[0], header.box_min[1], header.box_min[2], header.box_max[0],
-                               header.box_max[1], header.box_max[2]});
+  const bool numbers = finite({header.radius_factor, header.radius, header.box_min[0], header.box_min[1], header.box_min[2],
+                               header.box_max[0], header.box_max[1], header.box_max[2]});
   const bool near = std::all_of(header.centre, header.centre + 3, [](double c) { return std::fabs(c) <= kMostCoordinate; });
-  if (!numbers || !near || header.resolution > 3 || header.dimension > 3 || !(header.radius_factor >= 1) || !(header.radius >= 0) || header.reserved != 0) {
+  if (!numbers || !near || header.resolution > 3 || header.dimension > 3 || !(header.radius_factor >= 1) ||
+      !(header.radius >= 0) || header.reserved != 0) {
     return bad("a number in the header is out of range");
   }
 
@@ -232,7 +239,9 @@ Result<Model> BlockReader::read(AlignedBytes block) {
   for (int i = 0; i < count; ++i) {
     const LevelHeader& l = level_headers[i];
     const std::string name = "level " + std::to_string(i) + ": ";
-    if (!finite({l.deviation, l.volume}) || !(l.extent == 0 || (l.extent >= kLeastExtent && l.extent <= kMostCoordinate)) || !(l.deviation >= 0) || (i == 0 && l.deviation != 0)) return bad(name + "a number is out of range");
+    if (!finite({l.deviation, l.volume}) || !(l.extent == 0 || (l.extent >= kLeastExtent && l.extent <= kMostCoordinate)) ||
+        !(l.deviation >= 0) || (i == 0 && l.deviation != 0))
+      return bad(name + "a number is out of range");
     Cursor cursor(parts[i]);
     Level level;
     level.view.vertices = cursor.take<Vertex>(l.vertex_count);
@@ -251,13 +260,15 @@ Result<Model> BlockReader::read(AlignedBytes block) {
     level.bytes = l.section.bytes;
     level.edge_count = l.edge_count;
     level.triangle_count = l.triangle_count;
-    if (l.plane_count > l.face_count || l.half_edge_count > kMaxIndex || l.vertex_count > kMaxIndex) return bad(name + "bad counts");
+    if (l.plane_count > l.face_count || l.half_edge_count > kMaxIndex || l.vertex_count > kMaxIndex)
+      return bad(name + "bad counts");
     if (const std::string f = topology_fault(level.view); !f.empty()) return bad(name + f);
     if (const std::string f = plane_fault(level.view); !f.empty()) return bad(name + f);
     body->levels.push_back(level);
   }
   for (int i = 0; i < count; ++i) {
-    const std::string f = link_fault(body->levels[i], i > 0 ? &body->levels[i - 1] : nullptr, i + 1 < count ? &body->levels[i + 1] : nullptr);
+    const std::string f =
+        link_fault(body->levels[i], i > 0 ? &body->levels[i - 1] : nullptr, i + 1 < count ? &body->levels[i + 1] : nullptr);
     if (!f.empty()) return bad("level " + std::to_string(i) + ": " + f);
   }
 
@@ -268,13 +279,15 @@ Result<Model> BlockReader::read(AlignedBytes block) {
   if (!all_below(body->table, exact.vertices.size())) return bad("the table names no vertex");
 
   const std::uint64_t v = exact.vertices.size(), f = exact.face_first.size();
-  if (header.source_face_count > bytes.size() || source_part.size() != 4 * (v + f + 1 + header.source_face_count)) return bad("the source map has the wrong size");
+  if (header.source_face_count > bytes.size() || source_part.size() != 4 * (v + f + 1 + header.source_face_count))
+    return bad("the source map has the wrong size");
   Cursor cursor(source_part);
   body->source.vertex = cursor.take<std::uint32_t>(v);
   body->source.face_begin = cursor.take<std::uint32_t>(f + 1);
   body->source.face = cursor.take<std::uint32_t>(header.source_face_count);
   const auto& begin = body->source.face_begin;
-  if (begin.front() != 0 || begin.back() != header.source_face_count || !std::is_sorted(begin.begin(), begin.end())) return bad("the source map is out of order");
+  if (begin.front() != 0 || begin.back() != header.source_face_count || !std::is_sorted(begin.begin(), begin.end()))
+    return bad("the source map is out of order");
   return Model(std::move(body));
 }
 

@@ -76,8 +76,8 @@ std::uint64_t hash_of(std::span<const std::byte> bytes);
 
 /// The sections of a block to be.
 struct BlockParts {
-  BlockHeader header{};                        ///< sizes, offsets and hashes are filled in by compose
-  std::vector<LevelHeader> level_headers;      ///< finest first
+  BlockHeader header{};                    ///< sizes, offsets and hashes are filled in by compose
+  std::vector<LevelHeader> level_headers;  ///< finest first
   std::vector<std::vector<std::byte>> levels;
   std::vector<std::byte> table, source;
 };

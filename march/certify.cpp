@@ -66,7 +66,10 @@ Witness edge_edge(const P& a, std::uint32_t ha, const Q& b, std::uint32_t hb) {
     if (weight > 0) active.a[active.count] = va, active.b[active.count] = vb, active.weight[active.count++] = weight;
   };
   add(e.tail, f.tail, std::fmin(1 - s, 1 - t));
-  if (s <= t) add(e.tail, f.head, t - s); else add(e.head, f.tail, s - t);
+  if (s <= t)
+    add(e.tail, f.head, t - s);
+  else
+    add(e.head, f.tail, s - t);
   add(e.head, f.head, std::fmin(s, t));
   // Edges within the rounding of parallel have no cross product worth the name.
   if (!(area2 > kU * uu * vv)) return {d - e.u * (dot(d, e.u) / uu), active};
@@ -120,7 +123,8 @@ Wide wide(const Vec& v) { return {v.x, v.y, v.z}; }
 class Ordering {
  public:
   explicit Ordering(const Vec& n) : n_(n), own_(n), error_(kDotError * sum_abs(n)) {}
-  Ordering(const Vec& n, const Motion& motion) : n_(n), motion_(&motion), own_(turn_back(motion, n)), error_(kTurnedSupportError * sum_abs(n)) {}
+  Ordering(const Vec& n, const Motion& motion)
+      : n_(n), motion_(&motion), own_(turn_back(motion, n)), error_(kTurnedSupportError * sum_abs(n)) {}
 
   /// The sign of n . (w - v), w and v carried into the common frame.
   int compare(const Vertex& w, const Vertex& v) {
@@ -136,7 +140,9 @@ class Ordering {
     if (!has_wide_) {
       has_wide_ = true;
       wide_own_ = wide(n_);
-      if (motion_) wide_own_ = wide(motion_->row_x) * wide_own_.x + wide(motion_->row_y) * wide_own_.y + wide(motion_->row_z) * wide_own_.z;
+      if (motion_)
+        wide_own_ =
+            wide(motion_->row_x) * wide_own_.x + wide(motion_->row_y) * wide_own_.y + wide(motion_->row_z) * wide_own_.z;
     }
     const Wide e{two_sum(w.x, -v.x), two_sum(w.y, -v.y), two_sum(w.z, -v.z)};
     const double value = double(dot(wide_own_, e));

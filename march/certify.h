@@ -19,10 +19,10 @@ struct ActiveSet {
 };
 
 struct Certificate {
-  double lower = 0, upper = 0;        ///< proved bounds on the distance of the two polytopes; upper >= lower >= 0
-  Vec normal{0, 0, 0};                ///< unit, from A to B; what lower is proved along
+  double lower = 0, upper = 0;  ///< proved bounds on the distance of the two polytopes; upper >= lower >= 0
+  Vec normal{0, 0, 0};          ///< unit, from A to B; what lower is proved along
   Vec point_a{0, 0, 0}, point_b{0, 0, 0};
-  ActiveSet active;                   ///< whose weights make the points
+  ActiveSet active;                            ///< whose weights make the points
   std::uint32_t support_a = 0, support_b = 0;  ///< vertices extreme along normal and -normal
 };
 

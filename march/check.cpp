@@ -31,7 +31,8 @@ const Check kPassed{true, ""};
 
 /// Whether a point lies in a body, up to `slack`: below every face's plane by then.
 bool holds(const ConvexView& view, const Vec& p, double slack) {
-  if (view.face_first.empty() || view.vertices.size() < 4) return true;  // flat bodies: the distance to them is checked by lower
+  if (view.face_first.empty() || view.vertices.size() < 4)
+    return true;  // flat bodies: the distance to them is checked by lower
   bool inside = true;
   each_facet(view, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const Wide o = wide(vec(view.vertices[a])), n = cross(wide(vec(view.vertices[b])) - o, wide(vec(view.vertices[c])) - o);
@@ -52,14 +53,16 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
   if (answer.level_a < 0 || answer.level_a >= a.level_count() || answer.level_b < 0 || answer.level_b >= b.level_count()) {
     return failed("levels (%d, %d) do not exist", answer.level_a, answer.level_b);
   }
-  if (!(answer.lower >= 0 && answer.upper >= answer.lower)) return failed("[%.17g, %.17g] is no interval", answer.lower, answer.upper);
+  if (!(answer.lower >= 0 && answer.upper >= answer.lower))
+    return failed("[%.17g, %.17g] is no interval", answer.lower, answer.upper);
   const ConvexView &exact_a = a.level(0).view, &exact_b = b.level(0).view;
   const Scene whole = scene(exact_a, exact_b, m, quality.error);
 
   if (answer.lower > 0) {
     const Vec n = vec(answer.normal);
     const Wide direction = wide(n);
-    DoubleDouble most_a = dot(direction, wide(vec(exact_a.vertices[0]))), least_b = dot(direction, wide(m, vec(exact_b.vertices[0])));
+    DoubleDouble most_a = dot(direction, wide(vec(exact_a.vertices[0]))),
+                 least_b = dot(direction, wide(m, vec(exact_b.vertices[0])));
     for (const Vertex& v : exact_a.vertices) {
       if (const DoubleDouble h = dot(direction, wide(vec(v))); h > most_a) most_a = h;
     }
@@ -77,7 +80,8 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
     const Vec p = vec(answer.point_a), q = vec(answer.point_b);
     const double slack = pair.law_two, apart = norm(q - p) + level_a.deviation + level_b.deviation * (1 + 2 * quality.error);
     const bool overlap = answer.proof.count != 0;
-    if (!overlap && !(apart <= answer.upper + 2 * slack)) return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart);
+    if (!overlap && !(apart <= answer.upper + 2 * slack))
+      return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart);
     const Motion back = motion(inverse(b_in_a));
     if (!holds(level_a.view, p, slack)) return failed("point_a is not on level %d of A", answer.level_a);
     if (!holds(level_b.view, apply(back, q), slack)) return failed("point_b is not on level %d of B", answer.level_b);
@@ -90,10 +94,12 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
       if (!(answer.upper <= whole.law_two)) return failed("touching with an upper bound of %.17g", answer.upper);
       break;
     case Verdict::Overlapping: {
-      if (answer.level_a != 0 || answer.level_b != 0 || answer.proof.count != 4) return failed("overlap without a proof on level 0");
+      if (answer.level_a != 0 || answer.level_b != 0 || answer.proof.count != 4)
+        return failed("overlap without a proof on level 0");
       std::array<std::array<double, 3>, 4> pa, pb;
       for (std::size_t k = 0; k < 4; ++k) {
-        if (answer.proof.vertex_a[k] >= exact_a.vertices.size() || answer.proof.vertex_b[k] >= exact_b.vertices.size()) return failed("the proof names no vertex");
+        if (answer.proof.vertex_a[k] >= exact_a.vertices.size() || answer.proof.vertex_b[k] >= exact_b.vertices.size())
+          return failed("the proof names no vertex");
         const Vertex &va = exact_a.vertices[answer.proof.vertex_a[k]], &vb = exact_b.vertices[answer.proof.vertex_b[k]];
         pa[k] = {va.x, va.y, va.z};
         pb[k] = {vb.x, vb.y, vb.z};
@@ -131,7 +137,8 @@ Check verify(const Model& model) {
     arrays.face_sizes = sizes;
     const Result<Surface> surface = make_surface(arrays, false);
     if (!surface) return {false, "level " + std::to_string(i) + ": " + surface.error().message};
-    if (surface.value().vertices.size() != view.vertices.size()) return failed("level %d: a vertex is no corner of the hull", i);
+    if (surface.value().vertices.size() != view.vertices.size())
+      return failed("level %d: a vertex is no corner of the hull", i);
     if (i == 0) continue;
     if (vertex_outside(exact_hull, view) != kNone) return failed("level %d does not enclose level 0", i);
     MarchStart start;
@@ -142,7 +149,8 @@ Check verify(const Model& model) {
       point.extent = max_abs(vec(v));
       const MarchResult r = march(point, exact_hull, Pose{}, start);
       start.b = r.b;
-      if (r.lower > level.deviation) return failed("level %d: a vertex is %.17g from level 0, the deviation is %.17g", i, r.lower, level.deviation);
+      if (r.lower > level.deviation)
+        return failed("level %d: a vertex is %.17g from level 0, the deviation is %.17g", i, r.lower, level.deviation);
     }
   }
   return kPassed;

@@ -50,7 +50,9 @@ Conclusion from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule
   r.normal = eigen(c.normal);
   r.point_a = eigen(c.point_a);
   r.point_b = eigen(c.point_b);
-  const auto near = [&](double threshold) { return r.lower - scene.law_two <= threshold && threshold <= r.upper + scene.law_two; };
+  const auto near = [&](double threshold) {
+    return r.lower - scene.law_two <= threshold && threshold <= r.upper + scene.law_two;
+  };
   const bool deep = r.status == MarchStatus::Overlapping && depth > scene.law_two;
   return {r, r.upper - r.lower <= 2 * scene.law_two && !deep && (near(0) || near(rule.beyond))};
 }

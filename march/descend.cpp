@@ -17,8 +17,16 @@ namespace {
 class Descent {
  public:
   Descent(const Model& a, const Model& b, const Motion& m, double pose_error, const QueryOptions& options, const Target& target)
-      : a_(a), b_(b), motion_(m), pose_error_(pose_error), stretch_(std::sqrt(1 + 3 * pose_error)), options_(options), target_(target),
-        law_two_(scene(a.level(0).view, b.level(0).view, m, pose_error).law_two), finest_a_(std::min(options.finest_level, a.level_count() - 1)), finest_b_(std::min(options.finest_level, b.level_count() - 1)) {}
+      : a_(a),
+        b_(b),
+        motion_(m),
+        pose_error_(pose_error),
+        stretch_(std::sqrt(1 + 3 * pose_error)),
+        options_(options),
+        target_(target),
+        law_two_(scene(a.level(0).view, b.level(0).view, m, pose_error).law_two),
+        finest_a_(std::min(options.finest_level, a.level_count() - 1)),
+        finest_b_(std::min(options.finest_level, b.level_count() - 1)) {}
 
   Answer run(PairSeed& seed) {
     Place place = first_place(a_, b_, motion_, seed, options_);
@@ -27,7 +35,8 @@ class Descent {
       const bool last = place.level_a == finest_a_ && place.level_b == finest_b_;
       const std::uint32_t steps_before = answer_.steps, tests_before = answer_.plane_tests;
       met_ = MarchStatus::NotConverged;
-      MarchStart found = last && max_abs(place.direction) > 0 ? enter(pair, place) : settled(pair, place.start, answer_.plane_tests);
+      MarchStart found =
+          last && max_abs(place.direction) > 0 ? enter(pair, place) : settled(pair, place.start, answer_.plane_tests);
       if (!last || !answered()) {
         const std::uint32_t left = options_.step_budget - answer_.steps;
         const Walk walked = walk(pair, found.a, found.b, options_.plane_rule, std::min(left, place.trial_steps));
@@ -59,15 +68,16 @@ class Descent {
            answer_.upper < target_.hit_below - law_two_;
   }
 
-  /// Whether a certificate is wanted on the way down. Of bodies apart always, whatever the tolerance, so that a looser one stops
-  /// earlier on the same way; where levels overlap, only if their deviations are an answer.
+  /// Whether a certificate is wanted on the way down. Of bodies apart always, whatever the tolerance, so that a looser one
+  /// stops earlier on the same way; where levels overlap, only if their deviations are an answer.
   bool may_answer(const Place& place, const Walk& walked) const {
     const double error = deviation(place.level_a, place.level_b);
-    return walked.end == WalkEnd::Minimum || !options_.trace.empty() || narrow(0, error) || error < target_.hit_below - law_two_;
+    return walked.end == WalkEnd::Minimum || !options_.trace.empty() || narrow(0, error) ||
+           error < target_.hit_below - law_two_;
   }
 
-  /// Enters the finest pair along the direction of the coarser one: the supports there bound the distance before any walk, and are
-  /// better starts than the child features unless these hold them.
+  /// Enters the finest pair along the direction of the coarser one: the supports there bound the distance before any walk, and
+  /// are better starts than the child features unless these hold them.
   MarchStart enter(const Scene& pair, const Place& place) {
     const Vec& n = place.direction;
     const std::uint32_t va = support_a(pair, n, any_vertex(pair.a, place.start.a), answer_.plane_tests);
@@ -87,8 +97,8 @@ class Descent {
     return {better(pair.a, place.start.a, va), better(pair.b, place.start.b, vb)};
   }
 
-  /// Takes over the bounds of a pair where they are better: the plane with lower; points, levels and features with upper. A finer
-  /// pair's replace a coarser one's that are better by no more than rounding, so that plane and points belong together.
+  /// Takes over the bounds of a pair where they are better: the plane with lower; points, levels and features with upper. A
+  /// finer pair's replace a coarser one's that are better by no more than rounding, so that plane and points belong together.
   void carry(const Place& place, const MarchResult& r, double rounding) {
     if (r.lower >= answer_.lower - rounding) {
       answer_.lower = r.lower;
@@ -126,7 +136,12 @@ class Descent {
   void record(const Place& place, std::uint32_t steps_before, std::uint32_t tests_before) {
     if (!options_.trace.empty()) {
       const auto slot = std::min<std::size_t>(answer_.levels_visited, options_.trace.size() - 1);
-      options_.trace[slot] = {place.level_a, place.level_b, answer_.lower, answer_.upper, answer_.steps - steps_before, answer_.plane_tests - tests_before};
+      options_.trace[slot] = {place.level_a,
+                              place.level_b,
+                              answer_.lower,
+                              answer_.upper,
+                              answer_.steps - steps_before,
+                              answer_.plane_tests - tests_before};
     }
     ++answer_.levels_visited;
   }
@@ -149,31 +164,41 @@ class Descent {
     switch (options_.refinement) {
       case Refinement::Single: {
         const bool a_is_coarser = a_.level(next.level_a).deviation >= b_.level(next.level_b).deviation;
-        if (next.level_b == finest_b_ || (a_is_coarser && next.level_a > finest_a_)) refine_a(); else refine_b();
+        if (next.level_b == finest_b_ || (a_is_coarser && next.level_a > finest_a_))
+          refine_a();
+        else
+          refine_b();
         break;
       }
       case Refinement::DoubleDouble:
         refine_a();
         refine_b();
         [[fallthrough]];
-      case Refinement::SingleSingle:
-        refine_a();
-        refine_b();
+      case Refinement::SingleSingle: refine_a(); refine_b();
     }
     return next;
   }
 
   Answer finish(const Place& place, const MarchStart& found, PairSeed& seed) {
     const bool exact_levels = place.level_a == 0 && place.level_b == 0;
-    if (met_ == MarchStatus::Overlapping && exact_levels) answer_.verdict = Verdict::Overlapping;
-    else if (met_ == MarchStatus::Touching && exact_levels) answer_.verdict = Verdict::Touching;
-    else if (answer_.lower > 0) answer_.verdict = Verdict::Disjoint;
-    const bool exact = exact_levels && (met_ == MarchStatus::Disjoint || met_ == MarchStatus::Touching || met_ == MarchStatus::Overlapping);
-    if (answer_.lower > target_.clear_above + law_two_) answer_.status = Status::Beyond;
-    else if (answered() || exact) answer_.status = Status::Converged;
-    else if (spent_) answer_.status = Status::Budget;
-    else if (!exact_levels) answer_.status = Status::LevelLimit;
-    else answer_.status = Status::NotConverged;
+    if (met_ == MarchStatus::Overlapping && exact_levels)
+      answer_.verdict = Verdict::Overlapping;
+    else if (met_ == MarchStatus::Touching && exact_levels)
+      answer_.verdict = Verdict::Touching;
+    else if (answer_.lower > 0)
+      answer_.verdict = Verdict::Disjoint;
+    const bool exact =
+        exact_levels && (met_ == MarchStatus::Disjoint || met_ == MarchStatus::Touching || met_ == MarchStatus::Overlapping);
+    if (answer_.lower > target_.clear_above + law_two_)
+      answer_.status = Status::Beyond;
+    else if (answered() || exact)
+      answer_.status = Status::Converged;
+    else if (spent_)
+      answer_.status = Status::Budget;
+    else if (!exact_levels)
+      answer_.status = Status::LevelLimit;
+    else
+      answer_.status = Status::NotConverged;
     store(place, found, seed);
     return answer_;
   }
@@ -187,7 +212,8 @@ class Descent {
       const double error = deviation(kept.level_a + 1, kept.level_b + 1);
       const double lower = answer_.lower - (error - deviation(place.level_a, place.level_b));
       const bool absorbs = options_.start == StartPolicy::Paper && (slack -= std::max(0.0, grown)) >= 0 && answer_.lower > 0;
-      const bool suffices = options_.start != StartPolicy::Finest && (lower > target_.clear_above || (lower > 0 && narrow(lower, error)));
+      const bool suffices =
+          options_.start != StartPolicy::Finest && (lower > target_.clear_above || (lower > 0 && narrow(lower, error)));
       if (!absorbs && !suffices) break;
       kept.start = {parent(a_, kept.level_a++, kept.start.a), parent(b_, kept.level_b++, kept.start.b)};
     }
@@ -213,7 +239,8 @@ class Descent {
 
 }  // namespace
 
-Answer descend(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options, const Target& target) {
+Answer descend(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
+               const Target& target) {
   const Motion m = motion(b_in_a);
   const PoseQuality quality = pose_quality(m);
   if (!quality.legal) {

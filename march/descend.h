@@ -14,6 +14,7 @@ struct Target {
   double hit_below;    ///< answered when upper <= this
 };
 
-Answer descend(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options, const Target& target);
+Answer descend(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
+               const Target& target);
 
 }  // namespace swiftlet

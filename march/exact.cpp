@@ -166,7 +166,8 @@ bool tetrahedron_holds_origin(const std::array<std::array<double, 3>, 4>& a, con
   for (int k = 0; k < 4; ++k) {
     const Vec va{a[k][0], a[k][1], a[k][2]}, vb{b[k][0], b[k][1], b[k][2]}, ab = absolute(vb);
     p[k] = va - apply(m, vb);
-    size[k] = absolute(va) + absolute(m.t) + Vec{dot(absolute(m.row_x), ab), dot(absolute(m.row_y), ab), dot(absolute(m.row_z), ab)};
+    size[k] =
+        absolute(va) + absolute(m.t) + Vec{dot(absolute(m.row_x), ab), dot(absolute(m.row_y), ab), dot(absolute(m.row_z), ab)};
   }
   constexpr int kFace[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};  // opposite point k, counter-clockwise from outside
   std::array<int, 4> sign;

@@ -10,7 +10,8 @@
 
 namespace swiftlet {
 
-MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, const MarchStart& start, const MarchRule& rule) {
+MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, const MarchStart& start,
+                  const MarchRule& rule) {
   const Motion m = motion(b_in_a);
   const PoseQuality quality = pose_quality(m);
   if (!quality.legal) {
@@ -37,7 +38,8 @@ std::uint8_t tag(const ConvexView& view, Handle feature) {
     case FeatureKind::Vertex: {
       const Vertex& ring = view.vertices[feature.index()];
       std::uint8_t largest = 0;
-      for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) largest = std::max(largest, of_half_edge(h));
+      for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h)
+        largest = std::max(largest, of_half_edge(h));
       return largest;
     }
     default: return 0;

@@ -10,7 +10,9 @@
 
 namespace swiftlet {
 
-Result<Model> Model::from_level(const LevelArrays& level, const ModelOptions& options) { return from_levels({&level, 1}, options); }
+Result<Model> Model::from_level(const LevelArrays& level, const ModelOptions& options) {
+  return from_levels({&level, 1}, options);
+}
 
 int Model::level_count() const { return int(body_->levels.size()); }
 

@@ -52,7 +52,8 @@ Result<Model> load(const std::filesystem::path& path) {
   std::array<std::byte, sizeof(BlockHeader)> start;
   file.read(reinterpret_cast<char*>(start.data()), start.size());
   const auto got = std::size_t(file.gcount());
-  if (const auto header = BlockReader::read_header(std::span(start).first(got), size); !header) return named(path, header.error());
+  if (const auto header = BlockReader::read_header(std::span(start).first(got), size); !header)
+    return named(path, header.error());
   AlignedBytes block(size);
   file.seekg(0);
   file.read(reinterpret_cast<char*>(block.data()), std::streamsize(size));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The distance is the least norm over the Minkowski difference {p - q}, whose vertices are differences of vertices. The active set
-// method of [Gilbert, Johnson & Keerthi 1988] is used for its certificate: every step ends in a supporting plane.
+// The distance is the least norm over the Minkowski difference {p - q}, whose vertices are differences of vertices. The active
+// set method of [Gilbert, Johnson & Keerthi 1988] is used for its certificate: every step ends in a supporting plane.
 #include "progress.h"
 
 #include <limits>
@@ -21,17 +21,22 @@ struct Difference {
 };
 
 template <class Real>
-V3<Real> widened(const Vec& v) { return {Real(v.x), Real(v.y), Real(v.z)}; }
+V3<Real> widened(const Vec& v) {
+  return {Real(v.x), Real(v.y), Real(v.z)};
+}
 double rounded(double x) { return x; }
 double rounded(const DoubleDouble& x) { return double(x); }
 template <class Real>
-Vec rounded(const V3<Real>& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
+Vec rounded(const V3<Real>& v) {
+  return {rounded(v.x), rounded(v.y), rounded(v.z)};
+}
 
 template <class Real>
 Difference<Real> difference(const Scene& s, std::uint32_t a, std::uint32_t b) {
   const V3<Real> q = widened<Real>(vec(s.b.vertices[b]));
   const V3<Real> moved = V3<Real>{dot(widened<Real>(s.b_in_a.row_x), q), dot(widened<Real>(s.b_in_a.row_y), q),
-                                  dot(widened<Real>(s.b_in_a.row_z), q)} + widened<Real>(s.b_in_a.t);
+                                  dot(widened<Real>(s.b_in_a.row_z), q)} +
+                         widened<Real>(s.b_in_a.t);
   return {widened<Real>(vec(s.a.vertices[a])) - moved, a, b};
 }
 
@@ -126,8 +131,9 @@ class Contact {
     points_[count_++] = difference<double>(scene_, a, b);
   }
 
-  /// `depth` becomes the inner polytope's. Touching when a plane is found that the bodies overlap by no more than the bound; Overlapping when the inner polytope
-  /// reaches farther on all sides, or no more points help. `normal` is the plane's, or the last tried.
+  /// `depth` becomes the inner polytope's. Touching when a plane is found that the bodies overlap by no more than the bound;
+  /// Overlapping when the inner polytope reaches farther on all sides, or no more points help. `normal` is the plane's, or the
+  /// last tried.
   MarchStatus decide(Vec& normal, OverlapProof& proof, double& depth) {
     if (count_ == 4 && (depth = nearest_facet(normal)) > scene_.law_two && prove(proof)) return MarchStatus::Overlapping;
     for (const Vec& n : {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}}) {
@@ -193,7 +199,8 @@ class Contact {
       for (int j = i + 1; j < count_; ++j) {
         for (int k = j + 1; k < count_; ++k) {
           for (int l = k + 1; l < count_; ++l) {
-            proof = {4, {points_[i].a, points_[j].a, points_[k].a, points_[l].a},
+            proof = {4,
+                     {points_[i].a, points_[j].a, points_[k].a, points_[l].a},
                      {points_[i].b, points_[j].b, points_[k].b, points_[l].b}};
             if (proves(scene_, proof)) return true;
           }
@@ -232,7 +239,10 @@ class Descent {
       const Vec n = normalised(-rounded(nearest.point));
       const std::uint32_t a = support_a(scene_, n, set_[0].a, tests_), b = support_b(scene_, n, set_[0].b, tests_);
       const double lower = bound(n, a, b);
-      if (lower > m.certificate.lower || distance < least_) patience = kProgressPatience; else --patience;
+      if (lower > m.certificate.lower || distance < least_)
+        patience = kProgressPatience;
+      else
+        --patience;
       least_ = std::fmin(least_, distance);
       if (lower > m.certificate.lower) take_plane(m.certificate, n, a, b, lower);
       if (goal_.met(m.certificate.lower, m.certificate.upper)) {

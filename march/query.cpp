@@ -37,7 +37,8 @@ Answer intersects(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& 
   return answer;
 }
 
-Within within(const Model& a, const Model& b, const Pose& b_in_a, double threshold, PairSeed& seed, const QueryOptions& options) {
+Within within(const Model& a, const Model& b, const Pose& b_in_a, double threshold, PairSeed& seed,
+              const QueryOptions& options) {
   Within result{Decision::Undecided, descend(a, b, b_in_a, seed, options, {0, 0, threshold, threshold})};
   if (result.answer.status == Status::Beyond) result.answer.status = Status::Converged;
   if (result.answer.lower > threshold) result.decision = Decision::No;

@@ -51,7 +51,8 @@ static inline PoseQuality pose_quality(const Motion& m) {
                        entry(x.x * x.z, y.x * y.z, z.x * z.z),     entry(x.y * x.z, y.y * y.z, z.y * z.z)};
   double worst = 0;
   // Farther away exact signs and squares overflow, and a climb need not end.
-  bool in_range = std::fabs(m.t.x) <= kMostCoordinate && std::fabs(m.t.y) <= kMostCoordinate && std::fabs(m.t.z) <= kMostCoordinate;
+  bool in_range =
+      std::fabs(m.t.x) <= kMostCoordinate && std::fabs(m.t.y) <= kMostCoordinate && std::fabs(m.t.z) <= kMostCoordinate;
   for (const double value : e) {
     worst = std::fmax(worst, std::fabs(value));
     in_range = in_range && std::isfinite(value);
@@ -61,8 +62,14 @@ static inline PoseQuality pose_quality(const Motion& m) {
 
 static inline Scene scene(const ConvexView& a, const ConvexView& b, const Motion& m, double pose_error) {
   const double t = norm(m.t), stretch = std::sqrt(3.0) * (1 + pose_error);
-  const double magnitude = stretch * (a.extent + b.extent) + t, motion_error = kTurnError * stretch * b.extent + kShiftError * t;
-  return {a, b, m, magnitude, motion_error, kPointError * magnitude + motion_error,
+  const double magnitude = stretch * (a.extent + b.extent) + t,
+               motion_error = kTurnError * stretch * b.extent + kShiftError * t;
+  return {a,
+          b,
+          m,
+          magnitude,
+          motion_error,
+          kPointError * magnitude + motion_error,
           (kLawTwo + 2 * pose_error) * (std::fmax(a.extent, b.extent) + t)};
 }
 

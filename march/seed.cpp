@@ -46,8 +46,10 @@ std::array<std::int16_t, 3> packed(const Vec& v) {
 /// The steps a walk will take from features found when the line of centres was `seed`'s.
 double predicted_steps(const Model& a, const Model& b, const Motion& m, const PairSeed& seed) {
   const Line line = line_of_centres(a, b, m);
-  const double edges_a = norm(line.in_a - unpacked(seed.line_in_a)) * std::sqrt(double(a.level(seed.level_a).view.vertices.size()));
-  const double edges_b = norm(line.in_b - unpacked(seed.line_in_b)) * std::sqrt(double(b.level(seed.level_b).view.vertices.size()));
+  const double edges_a =
+      norm(line.in_a - unpacked(seed.line_in_a)) * std::sqrt(double(a.level(seed.level_a).view.vertices.size()));
+  const double edges_b =
+      norm(line.in_b - unpacked(seed.line_in_b)) * std::sqrt(double(b.level(seed.level_b).view.vertices.size()));
   return kStepsPerEdge * (edges_a + edges_b);
 }
 
@@ -96,9 +98,7 @@ Place first_place(const Model& a, const Model& b, const Motion& b_in_a, const Pa
         return level_place(finest_a, finest_b, {seed.a, seed.b});
       }
       return level_place(finest_a, finest_b, {});
-    case StartPolicy::Coarsest:
-      coarsest.start = {seed.coarse_a, seed.coarse_b};
-      return coarsest;
+    case StartPolicy::Coarsest: coarsest.start = {seed.coarse_a, seed.coarse_b}; return coarsest;
     default:
       if (!seed_fits) return coarsest;
       Place place = level_place(seed.level_a, seed.level_b, {seed.a, seed.b});
@@ -124,7 +124,8 @@ Handle child(const Model& model, int level, Handle feature) {
   if (feature.kind() == FeatureKind::Vertex) return {FeatureKind::Vertex, vertex_child(feature.index())};
   if (feature.kind() == FeatureKind::Face) return from.child_face[feature.index()];
   // An edge that the finer level still has is its own child; else whatever stands for a face beside it.
-  const std::uint32_t tail = vertex_child(origin(from.view, feature.index())), head = vertex_child(from.view.head[feature.index()]);
+  const std::uint32_t tail = vertex_child(origin(from.view, feature.index())),
+                      head = vertex_child(from.view.head[feature.index()]);
   const Vertex& ring = fine.vertices[tail];
   for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
     if (fine.head[h] == head) return {FeatureKind::Edge, h};

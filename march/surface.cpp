@@ -54,17 +54,21 @@ Result<Input> read_input(const LevelArrays& level) {
       if (!in_range) return bad_value("vertex " + std::to_string(i) + " has the coordinate " + text(x));
     }
   }
-  if (const double extent = extent_of(in.points); extent > 0 && extent < kLeastExtent) return bad_value("the body's extent is " + text(extent));
+  if (const double extent = extent_of(in.points); extent > 0 && extent < kLeastExtent)
+    return bad_value("the body's extent is " + text(extent));
   std::size_t at = 0;
   const bool triangles = level.face_sizes.empty();
   if (triangles && level.face_vertices.size() % 3 != 0) return bad_value("face_vertices is no list of triangles");
   const std::size_t count = triangles ? level.face_vertices.size() / 3 : level.face_sizes.size();
   for (std::size_t f = 0; f < count; ++f) {
     const std::size_t size = triangles ? 3 : level.face_sizes[f];
-    if (size < 3 || size > level.face_vertices.size() - at) return bad_value("face " + std::to_string(f) + " has " + std::to_string(size) + " vertices");
+    if (size < 3 || size > level.face_vertices.size() - at)
+      return bad_value("face " + std::to_string(f) + " has " + std::to_string(size) + " vertices");
     const auto loop = level.face_vertices.subspan(at, size);
     for (const Index v : loop) {
-      if (v >= in.points.size()) return bad_value("face " + std::to_string(f) + " names vertex " + std::to_string(v) + " of " + std::to_string(in.points.size()));
+      if (v >= in.points.size())
+        return bad_value("face " + std::to_string(f) + " names vertex " + std::to_string(v) + " of " +
+                         std::to_string(in.points.size()));
     }
     in.faces.emplace_back(loop.begin(), loop.end());
     at += size;
@@ -79,7 +83,8 @@ struct Facets {
   std::vector<Index> input_facet;  ///< per input face
 };
 
-// ---- Solids: a mesh of triangles ---------------------------------------------------------------------------------------------
+// ---- Solids: a mesh of triangles
+// ---------------------------------------------------------------------------------------------
 
 struct Triangle {
   Index v[3];
@@ -131,8 +136,10 @@ class Mesh {
     for (std::size_t i = 0; i < edges.size();) {
       std::size_t end = i;
       while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
-      if (end - i != 2) return not_convex(edge_text(edges[i].low, edges[i].high) + " belongs to " + std::to_string(end - i) + " faces, not 2");
-      if (edges[i].forward == edges[i + 1].forward) return not_convex("the faces at " + edge_text(edges[i].low, edges[i].high) + " are wound against each other");
+      if (end - i != 2)
+        return not_convex(edge_text(edges[i].low, edges[i].high) + " belongs to " + std::to_string(end - i) + " faces, not 2");
+      if (edges[i].forward == edges[i + 1].forward)
+        return not_convex("the faces at " + edge_text(edges[i].low, edges[i].high) + " are wound against each other");
       triangles_[edges[i].triangle].beside[edges[i].side] = edges[i + 1].triangle;
       triangles_[edges[i + 1].triangle].beside[edges[i + 1].side] = edges[i].triangle;
       i = end;
@@ -272,10 +279,12 @@ class Mesh {
     }
     for (Index v = 0; v < fans.size(); ++v) {
       if (fans[v] == 0) return bad_value("vertex " + std::to_string(v) + " belongs to no face");
-      if (fans[v] > 1) return not_convex("the faces at vertex " + std::to_string(v) + " form " + std::to_string(fans[v]) + " fans, not 1");
+      if (fans[v] > 1)
+        return not_convex("the faces at vertex " + std::to_string(v) + " form " + std::to_string(fans[v]) + " fans, not 1");
     }
     if (2 * in_.points.size() != triangles_.size() + 4) {
-      return not_convex("the faces do not close to one sphere: " + std::to_string(in_.points.size()) + " vertices and " + std::to_string(triangles_.size()) + " triangles");
+      return not_convex("the faces do not close to one sphere: " + std::to_string(in_.points.size()) + " vertices and " +
+                        std::to_string(triangles_.size()) + " triangles");
     }
     return true;
   }
@@ -284,7 +293,8 @@ class Mesh {
   bool flip(Index t, int i) {
     const Index s = triangles_[t].beside[i];
     const int j = side_towards(s, t);
-    const Index u = triangles_[t].v[i], w = triangles_[t].v[next(i)], x = triangles_[t].v[next(next(i))], y = triangles_[s].v[next(next(j))];
+    const Index u = triangles_[t].v[i], w = triangles_[t].v[next(i)], x = triangles_[t].v[next(next(i))],
+                y = triangles_[s].v[next(next(j))];
     if (x == y || neighbours(x, t, y)) return false;
     const Index a = triangles_[t].beside[next(i)], b = triangles_[t].beside[next(next(i))];
     const Index c = triangles_[s].beside[next(j)], d = triangles_[s].beside[next(next(j))];
@@ -311,18 +321,20 @@ class Mesh {
     const Triangle& a = triangles_[t];
     const Vec n = cross(in_.point(a.v[1]) - in_.point(a.v[0]), in_.point(a.v[2]) - in_.point(a.v[0]));
     const double height = dot(n, in_.point(opposite(t, i)) - in_.point(a.v[0])) / norm(n);
-    return not_convex("reflex " + edge_text(a.v[i], a.v[next(i)]) + ": vertex " + std::to_string(opposite(t, i)) + " is " + text(height) + " above face " + std::to_string(a.input));
+    return not_convex("reflex " + edge_text(a.v[i], a.v[next(i)]) + ": vertex " + std::to_string(opposite(t, i)) + " is " +
+                      text(height) + " above face " + std::to_string(a.input));
   }
 
-  /// Edges that are nowhere reflex bound a convex body unless the surface winds about it twice or folds. With a point below every
-  /// face, a ray from it that meets the surface once rules both out [Mehlhorn et al. 1999, sec. 4]. Small or flat bodies:
+  /// Edges that are nowhere reflex bound a convex body unless the surface winds about it twice or folds. With a point below
+  /// every face, a ray from it that meets the surface once rules both out [Mehlhorn et al. 1999, sec. 4]. Small or flat bodies:
   /// every vertex against every face.
   Result<bool> globally_convex() const {
     Vec middle{0, 0, 0};
     for (Index v = 0; v < in_.points.size(); ++v) middle = middle + in_.point(v) * (1.0 / double(in_.points.size()));
     const double* o = &middle.x;
     bool inside = true;
-    for (const Triangle& t : triangles_) inside = inside && exact::orientation(in_.at(t.v[0]), in_.at(t.v[1]), in_.at(t.v[2]), o) < 0;
+    for (const Triangle& t : triangles_)
+      inside = inside && exact::orientation(in_.at(t.v[0]), in_.at(t.v[1]), in_.at(t.v[2]), o) < 0;
     if (!inside) return every_vertex_below();
     for (const Triangle& target : triangles_) {
       const Vec c = (in_.point(target.v[0]) + in_.point(target.v[1]) + in_.point(target.v[2])) * (1.0 / 3);
@@ -373,7 +385,8 @@ Result<Facets> solid(const Input& in, bool repair) {
   return mesh.facets();
 }
 
-// ---- Flat bodies ---------------------------------------------------------------------------------------------------------------
+// ---- Flat bodies
+// ---------------------------------------------------------------------------------------------------------------
 
 bool is_two_sided(const Input& in) {
   if (in.faces.size() != 2 || in.faces[0].size() != in.points.size() || in.faces[1].size() != in.points.size()) return false;
@@ -389,7 +402,10 @@ bool is_two_sided(const Input& in) {
 
 /// The turn at b in the plane of two coordinates.
 int turn_sign(const Input& in, Index a, Index b, Index c, int x, int y) {
-  const double p[4][3] = {{in.at(a)[x], in.at(a)[y], 0}, {in.at(b)[x], in.at(b)[y], 0}, {in.at(c)[x], in.at(c)[y], 0}, {in.at(a)[x], in.at(a)[y], 1}};
+  const double p[4][3] = {{in.at(a)[x], in.at(a)[y], 0},
+                          {in.at(b)[x], in.at(b)[y], 0},
+                          {in.at(c)[x], in.at(c)[y], 0},
+                          {in.at(a)[x], in.at(a)[y], 1}};
   return exact::orientation(p[0], p[1], p[2], p[3]);
 }
 
@@ -397,7 +413,8 @@ Result<Facets> two_sided(const Input& in) {
   const Loop& loop = in.faces[0];
   const std::size_t n = loop.size();
   for (std::size_t i = 3; i < n; ++i) {
-    if (in.orientation(loop[0], loop[1], loop[2], loop[i]) != 0) return not_convex("the polygon is not flat: vertex " + std::to_string(loop[i]) + " is off the plane of the first three");
+    if (in.orientation(loop[0], loop[1], loop[2], loop[i]) != 0)
+      return not_convex("the polygon is not flat: vertex " + std::to_string(loop[i]) + " is off the plane of the first three");
   }
   // The two coordinates in which the polygon is largest: the projection along the third is exact and keeps every turn.
   const Vec normal = cross(in.point(loop[1]) - in.point(loop[0]), in.point(loop[2]) - in.point(loop[0]));
@@ -416,12 +433,13 @@ Result<Facets> two_sided(const Input& in) {
   return Facets{in.faces, {0, 1}};
 }
 
-// ---- Half-edges ------------------------------------------------------------------------------------------------------------------
+// ---- Half-edges
+// ------------------------------------------------------------------------------------------------------------------
 
 /// One facet's side.
 struct Side {
   Index tail, head, facet;
-  Index before;      ///< the side before it around the facet
+  Index before;  ///< the side before it around the facet
   Index twin = kNone;
 };
 
@@ -434,7 +452,9 @@ std::vector<Side> sides_of(const Facets& facets) {
   }
   std::vector<Index> order(sides.size());
   std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](Index s) { return std::tuple(std::min(sides[s].tail, sides[s].head), std::max(sides[s].tail, sides[s].head), s); };
+  const auto key = [&](Index s) {
+    return std::tuple(std::min(sides[s].tail, sides[s].head), std::max(sides[s].tail, sides[s].head), s);
+  };
   std::sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b); });
   for (std::size_t i = 0; i + 1 < order.size(); i += 2) {
     sides[order[i]].twin = order[i + 1];
@@ -467,7 +487,8 @@ class Grouping {
     for (const Loop& loop : facets.loops) area_.push_back(area_vector(in, loop));
     std::vector<Index> order(count);
     std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return dot(area_[a], area_[a]) > dot(area_[b], area_[b]); });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Index a, Index b) { return dot(area_[a], area_[a]) > dot(area_[b], area_[b]); });
     group_.assign(count, kNone);
     tolerance_ = kWalkingFaceUlps * (all_float(in) ? kFloatUlp : kDoubleUlp) * extent_of(in.points);
     for (const Index seed : order) {
@@ -617,7 +638,8 @@ Surface link(const Input& in, const Facets& facets) {
   }
   std::vector<Loop> held(sequence.size());
   for (Index f = 0; f < facets.loops.size(); ++f) {
-    if (has_plane(group[f])) held[number[group[f]]].insert(held[number[group[f]]].end(), facets.loops[f].begin(), facets.loops[f].end());
+    if (has_plane(group[f]))
+      held[number[group[f]]].insert(held[number[group[f]]].end(), facets.loops[f].begin(), facets.loops[f].end());
   }
   const ConvexView view = out.view();
   for (Index f = 0; f < sequence.size() && has_plane(sequence[f]); ++f) {
@@ -636,7 +658,8 @@ Surface link(const Input& in, const Facets& facets) {
 
 /// A segment or a point.
 Result<Surface> without_faces(const Input& in) {
-  if (in.points.size() > 2) return bad_value(std::to_string(in.points.size()) + " vertices without faces: a point has one, a segment two");
+  if (in.points.size() > 2)
+    return bad_value(std::to_string(in.points.size()) + " vertices without faces: a point has one, a segment two");
   Surface out;
   out.dimension = int(in.points.size()) - 1;
   for (Index v = 0; v < in.points.size(); ++v) {

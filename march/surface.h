@@ -28,7 +28,8 @@ struct Surface {
 /// vertices were rounded.
 Result<Surface> make_surface(const LevelArrays& level, bool repair);
 
-/// A vertex of `exact_hull` above some facet of `level`, by exact support climbs from facet to facet; kNone: the level encloses it.
+/// A vertex of `exact_hull` above some facet of `level`, by exact support climbs from facet to facet; kNone: the level encloses
+/// it.
 std::uint32_t vertex_outside(const ConvexView& exact_hull, const ConvexView& level);
 
 /// Calls visit(a, b, c) with three vertices of each exact facet, which span its plane, counter-clockwise from outside.

@@ -19,8 +19,8 @@ inline constexpr double kLawTwo = 64 * kU;
 inline constexpr double kOrthonormality = 1e-6;
 
 // ---- Filters of exact.cpp: relative to the sum of the magnitudes of the terms ----------------------------------------------
-// A term that is a product of k rounded factors, each a sum of few, carries one u per operation on its path. The figures are the
-// operation counts, rounded up by a quarter for the second order and for the rounding of the magnitude itself.
+// A term that is a product of k rounded factors, each a sum of few, carries one u per operation on its path. The figures are
+// the operation counts, rounded up by a quarter for the second order and for the rounding of the magnitude itself.
 
 /// n . (w - v): 1 difference, 1 product, 2 sums.
 inline constexpr double kDotError = 5 * kU;
@@ -28,15 +28,16 @@ inline constexpr double kDotError = 5 * kU;
 inline constexpr double kTripleProductError = 10 * kU;
 /// n . R (w - v): 1 difference, 2 products, 2 + 2 sums.
 inline constexpr double kTurnedDotError = 9 * kU;
-/// The same with n rotated first, relative to |n|_1 |w - v|_1, which bounds every product of a rotation's rows (|R_ij| <= 1 + 1e-6).
+/// The same with n rotated first, relative to |n|_1 |w - v|_1, which bounds every product of a rotation's rows (|R_ij| <= 1 +
+/// 1e-6).
 inline constexpr double kTurnedSupportError = 9 * kU;
 /// Either in double-double arithmetic, whose sums and products keep at least 100 bits each.
 inline constexpr double kWideDotError = 0x1p-96;
 /// Three factors a - (R b + t) of 1 product and 4 sums each, then 2 products, 1 difference, 2 sums.
 inline constexpr double kOffsetTripleProductError = 26 * kU;
 
-/// Coordinates are 0 or at least this, so that products of three of them keep their rounding errors inside the range of doubles.
-/// Length.
+/// Coordinates are 0 or at least this, so that products of three of them keep their rounding errors inside the range of
+/// doubles. Length.
 inline constexpr double kLeastCoordinate = 1e-70;
 /// A body's extent and a pose's translation are at most the second, an extent not below the first: sixth powers, the squared
 /// height of a vertex over an unnormalised normal, stay inside that range too. Length.
@@ -46,8 +47,8 @@ inline constexpr double kLeastDirection = 0x1p-1000;
 
 // ---- Rounding of a certificate in doubles (certify.cpp): lengths -----------------------------------------------------------
 
-/// R b + t: a coordinate of R b is 3 products and 2 sums of terms that |b| bounds, 4 u |b| each with the last sum, sqrt(3) for the
-/// vector; the last sum also rounds t once.
+/// R b + t: a coordinate of R b is 3 products and 2 sums of terms that |b| bounds, 4 u |b| each with the last sum, sqrt(3) for
+/// the vector; the last sum also rounds t once.
 inline constexpr double kTurnError = 7 * kU, kShiftError = 2 * kU;
 /// n . c, normalised: 3 (difference, product, two sums) + 2 (|n| of a normalised n) on the sum of |n_i c_i|, rounded up.
 inline constexpr double kGapError = 7 * kU;
@@ -77,8 +78,9 @@ inline constexpr std::uint32_t kStallLimit = 12;
 /// Iterations of certified progress per arithmetic: a Frank-Wolfe step on an active set of at most four. Each shortens the
 /// distance or is the last but `kProgressPatience`.
 inline constexpr int kProgressLimit = 400, kProgressPatience = 4;
-/// What an Automatic start weighs. A walk takes about half a step per edge that it crosses, and sqrt(V) edges make a radian of a
-/// level of V vertices (measured on ellipsoids of 2 000 and 20 000 triangles, 0.5 to 180 degrees); a descent six steps per level.
+/// What an Automatic start weighs. A walk takes about half a step per edge that it crosses, and sqrt(V) edges make a radian of
+/// a level of V vertices (measured on ellipsoids of 2 000 and 20 000 triangles, 0.5 to 180 degrees); a descent six steps per
+/// level.
 inline constexpr double kStepsPerEdge = 0.5, kStepsPerLevel = 6;
 /// A walk from the seed that takes this many times what a descent would is given up for one (ski rental: never more than three
 /// times the better choice).

@@ -21,12 +21,28 @@ struct V3 {
 };
 using Vec = V3<double>;
 
-template <class R> static inline V3<R> operator+(const V3<R>& a, const V3<R>& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-template <class R> static inline V3<R> operator-(const V3<R>& a, const V3<R>& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-template <class R> static inline V3<R> operator-(const V3<R>& a) { return {-a.x, -a.y, -a.z}; }
-template <class R> static inline V3<R> operator*(const V3<R>& a, const R& s) { return {a.x * s, a.y * s, a.z * s}; }
-template <class R> static inline R dot(const V3<R>& a, const V3<R>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-template <class R> static inline V3<R> cross(const V3<R>& a, const V3<R>& b) {
+template <class R>
+static inline V3<R> operator+(const V3<R>& a, const V3<R>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class R>
+static inline V3<R> operator-(const V3<R>& a, const V3<R>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class R>
+static inline V3<R> operator-(const V3<R>& a) {
+  return {-a.x, -a.y, -a.z};
+}
+template <class R>
+static inline V3<R> operator*(const V3<R>& a, const R& s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+template <class R>
+static inline R dot(const V3<R>& a, const V3<R>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class R>
+static inline V3<R> cross(const V3<R>& a, const V3<R>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
@@ -41,7 +57,8 @@ static inline Vec normalised(const Vec& v) {
   return w * (1 / norm(w));
 }
 
-/// The same direction, at a length where no product of its coordinates with a body's over- or underflows; 0 where it names none.
+/// The same direction, at a length where no product of its coordinates with a body's over- or underflows; 0 where it names
+/// none.
 static inline Vec rescaled(const Vec& v) {
   const double largest = max_abs(v);
   if (!(largest > 0) || !std::isfinite(dot(v, {0, 0, 0}))) return {0, 0, 0};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Each state finds the nearest points of its two closed features. A point on a feature's boundary drops to the boundary; else the
-// feature rises to the neighbour in whose direction the distance falls fastest. Mirrored states run with the roles swapped.
+// Each state finds the nearest points of its two closed features. A point on a feature's boundary drops to the boundary; else
+// the feature rises to the neighbour in whose direction the distance falls fastest. Mirrored states run with the roles swapped.
 //
 //     VV  --ring-->  VE  --ring-->  EE  --face-->  EF  (passing: the edge is clipped to the face's prism)
 //     VV <--clamp--  VE <--clamp--  EE              |

@@ -21,7 +21,7 @@ enum class WalkEnd : std::uint8_t {
 
 struct Walk {
   WalkEnd end;
-  Handle a, b;  ///< kinds VV, VE, EV, EE, VF, FV; with Inside also EF and FE
+  Handle a, b;      ///< kinds VV, VE, EV, EE, VF, FV; with Inside also EF and FE
   double distance;  ///< between the features, rounded; what Minimum found, elsewhere the least seen
   std::uint32_t steps = 0, plane_tests = 0;
 };

@@ -52,7 +52,8 @@ inline Body cube() { return box(1, 1, 1); }
 
 inline Body octahedron() {
   Body b{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}, {}, {}};
-  b.add({0, 2, 4}), b.add({2, 1, 4}), b.add({1, 3, 4}), b.add({3, 0, 4}), b.add({2, 0, 5}), b.add({1, 2, 5}), b.add({3, 1, 5}), b.add({0, 3, 5});
+  b.add({0, 2, 4}), b.add({2, 1, 4}), b.add({1, 3, 4}), b.add({3, 0, 4}), b.add({2, 0, 5}), b.add({1, 2, 5}), b.add({3, 1, 5}),
+      b.add({0, 3, 5});
   return b;
 }
 /// Four corners of a cube of side 2 s.
@@ -117,7 +118,9 @@ T must(Result<T> result) {
   if (!result) throw std::runtime_error(result.error().message);
   return std::move(result).value();
 }
-inline Model model(const Body& body, const ModelOptions& options = {}) { return must(Model::from_level(body.level(), options)); }
+inline Model model(const Body& body, const ModelOptions& options = {}) {
+  return must(Model::from_level(body.level(), options));
+}
 
 /// A triangle mesh (anything with points and triangles) as it is.
 template <class Mesh>
@@ -146,7 +149,8 @@ inline Model nested(int levels = 3, const ModelOptions& options = {}) {
   return must(Model::from_levels(arrays, options));
 }
 
-// ---- Blocks ------------------------------------------------------------------------------------------------------------------
+// ---- Blocks
+// ------------------------------------------------------------------------------------------------------------------
 
 using Bytes = std::vector<std::byte>;
 
@@ -168,7 +172,8 @@ inline std::size_t level_header_at(std::size_t level) { return sizeof(BlockHeade
 inline void rehash(Bytes& block) {
   auto header = read<BlockHeader>(block, 0);
   const auto fix = [&](Section& s) {
-    if (s.offset <= block.size() && s.bytes <= block.size() - s.offset) s.hash = hash_of(std::span(block).subspan(s.offset, s.bytes));
+    if (s.offset <= block.size() && s.bytes <= block.size() - s.offset)
+      s.hash = hash_of(std::span(block).subspan(s.offset, s.bytes));
   };
   fix(header.table);
   fix(header.source);

@@ -8,8 +8,8 @@
 
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Simple_cartesian.h>
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "shapes.h"
 
@@ -25,7 +25,8 @@ Point rational(const Vec3& p) { return {Number(p.x()), Number(p.y()), Number(p.z
 Point rational(const Pose& pose, const Vec3& p) {
   const Point q = rational(p);
   const auto row = [&](int i) -> Number {
-    return Number(pose.rotation(i, 0)) * q.x() + Number(pose.rotation(i, 1)) * q.y() + Number(pose.rotation(i, 2)) * q.z() + Number(pose.translation[i]);
+    return Number(pose.rotation(i, 0)) * q.x() + Number(pose.rotation(i, 1)) * q.y() + Number(pose.rotation(i, 2)) * q.z() +
+           Number(pose.translation[i]);
   };
   return {row(0), row(1), row(2)};
 }
@@ -35,7 +36,8 @@ int sign(const Number& x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 Vec3 nudged(shapes::Random& random, Vec3 p) {
   for (double& x : p) {
     for (int steps = int(random.uniform(0, 3)); steps > 0; --steps) {
-      x = std::nextafter(x, random.uniform() < 0.5 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity());
+      x = std::nextafter(
+          x, random.uniform() < 0.5 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity());
     }
   }
   return p;
@@ -105,7 +107,8 @@ TEST(ExactOracle, TetrahedronAgreesWhenTheOriginIsNearAFace) {
     const bool expected = !tetrahedron.is_degenerate() && !tetrahedron.has_on_unbounded_side(Point(0, 0, 0));
     ASSERT_EQ(tetrahedron_holds_origin(a, b, motion(pose)), expected) << i;
     held += expected;
-    bounded_by_rounding += CGAL::abs((exactly[0] - CGAL::ORIGIN) * CGAL::cross_product(exactly[1] - CGAL::ORIGIN, exactly[2] - CGAL::ORIGIN)) < Number(1e-14);
+    bounded_by_rounding += CGAL::abs((exactly[0] - CGAL::ORIGIN) *
+                                     CGAL::cross_product(exactly[1] - CGAL::ORIGIN, exactly[2] - CGAL::ORIGIN)) < Number(1e-14);
   }
   EXPECT_GE(held, kTries / 20);
   EXPECT_GE(kTries - held, kTries / 20);

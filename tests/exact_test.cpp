@@ -68,9 +68,12 @@ TEST(Exact, OrientationIsTheDeterminantsSign) {
       const std::int64_t limit = i % 2 ? kSmall : kLarge;
       const Integers a = draw.vector(limit), b = draw.vector(limit), c = draw.vector(limit);
       // In the plane of a, b, c, or beside it by one unit.
-      const Integers d = i % 4 < 2 ? draw.vector(limit) : a + draw.integer(3) * (b - a) + draw.integer(3) * (c - a) + draw.speck();
+      const Integers d =
+          i % 4 < 2 ? draw.vector(limit) : a + draw.integer(3) * (b - a) + draw.integer(3) * (c - a) + draw.speck();
       const int expected = sign(determinant(b - a, c - a, d - a));
-      ASSERT_EQ(orientation(scaled(a, scale).data(), scaled(b, scale).data(), scaled(c, scale).data(), scaled(d, scale).data()), expected) << i;
+      ASSERT_EQ(orientation(scaled(a, scale).data(), scaled(b, scale).data(), scaled(c, scale).data(), scaled(d, scale).data()),
+                expected)
+          << i;
       census.add(expected);
     }
     census.expect_each_at_least(kTries / 8);
@@ -124,8 +127,10 @@ TEST(Exact, CompareAlongNormalIsTheDeterminantsSign) {
       const Integers a = draw.vector(kLarge), b = draw.vector(kLarge), c = draw.vector(kLarge), v = draw.vector(kLarge);
       const Integers w = v + draw.integer(3) * (b - a) + draw.integer(3) * (c - a) + draw.speck();
       const int expected = sign(determinant(b - a, c - a, w - v));
-      ASSERT_EQ(compare_along_normal(scaled(a, scale).data(), scaled(b, scale).data(), scaled(c, scale).data(), scaled(w, scale).data(),
-                                     scaled(v, scale).data()), expected) << i;
+      ASSERT_EQ(compare_along_normal(scaled(a, scale).data(), scaled(b, scale).data(), scaled(c, scale).data(),
+                                     scaled(w, scale).data(), scaled(v, scale).data()),
+                expected)
+          << i;
       census.add(expected);
     }
     census.expect_each_at_least(kTries / 8);
@@ -158,21 +163,26 @@ TEST(Exact, CompareAlongTurnedIsTheDotsSign) {
       const Integers w = v + Integers{std::int64_t(across[0]), std::int64_t(across[1]), std::int64_t(across[2])} + draw.speck();
       const Integers e = w - v;
       const int expected = sign(dot(n_b, {e[0], e[1], e[2]}));
-      ASSERT_EQ(compare_along_turned(scaled(n, 0).data(), r.motion({}, 0), scaled(w, scale).data(), scaled(v, scale).data()), expected) << i;
+      ASSERT_EQ(compare_along_turned(scaled(n, 0).data(), r.motion({}, 0), scaled(w, scale).data(), scaled(v, scale).data()),
+                expected)
+          << i;
       census.add(expected);
     }
     census.expect_each_at_least(kTries / 8);
   }
 }
 
-// ---- The origin in a tetrahedron ---------------------------------------------------------------------------------------------
+// ---- The origin in a tetrahedron
+// ---------------------------------------------------------------------------------------------
 
 using Four = std::array<Integers, 4>;
 
 /// By the definition: on each face's plane, or on the side of the vertex opposite.
 bool holds_origin(const Four& p) {
   const Integers origin{};
-  const auto side = [&](int i, int j, int k, const Integers& q) { return sign(determinant(p[j] - p[i], p[k] - p[i], q - p[i])); };
+  const auto side = [&](int i, int j, int k, const Integers& q) {
+    return sign(determinant(p[j] - p[i], p[k] - p[i], q - p[i]));
+  };
   bool inside = true;
   for (int k = 0; k < 4; ++k) {
     const int i = (k + 1) % 4, j = (k + 2) % 4, l = (k + 3) % 4, own = side(i, j, l, p[k]), of_origin = side(i, j, l, origin);
@@ -202,17 +212,18 @@ TEST(Exact, TetrahedronHoldsOriginByDefinition) {
     for (int i = 0; i < kTries; ++i) {
       const std::int64_t limit = i % 2 ? 2 : 1 << 30;
       Four p{draw.vector(limit), draw.vector(limit), draw.vector(limit), draw.vector(limit)};
-      if (i % 8 == 0) p[3] = p[0] + draw.integer(2) * (p[1] - p[0]) + draw.integer(2) * (p[2] - p[0]) + draw.speck();  // near flat
-      if (i % 8 == 2) p[2] = -2 * p[0] + -1 * p[1];          // the origin in the face 0, 1, 2
-      if (i % 8 == 4) p[1] = -3 * p[0] + draw.speck();       // on, or one unit off, the edge 0, 1
-      if (i % 8 == 6) p[1] = {};                             // at a vertex
+      if (i % 8 == 0)
+        p[3] = p[0] + draw.integer(2) * (p[1] - p[0]) + draw.integer(2) * (p[2] - p[0]) + draw.speck();  // near flat
+      if (i % 8 == 2) p[2] = -2 * p[0] + -1 * p[1];     // the origin in the face 0, 1, 2
+      if (i % 8 == 4) p[1] = -3 * p[0] + draw.speck();  // on, or one unit off, the edge 0, 1
+      if (i % 8 == 6) p[1] = {};                        // at a vertex
       if (i % 4 == 0) std::swap(p[0], p[3]);
       const bool expected = holds_origin(p);
       ASSERT_EQ(tetrahedron_of(p, draw, scale), expected) << i;
       held += expected;
       flat += determinant(p[1] - p[0], p[2] - p[0], p[3] - p[0]) == 0;
-      border += expected && (determinant(p[0], p[1], p[2]) == 0 || determinant(p[0], p[1], p[3]) == 0 || determinant(p[0], p[2], p[3]) == 0 ||
-                             determinant(p[1], p[2], p[3]) == 0);
+      border += expected && (determinant(p[0], p[1], p[2]) == 0 || determinant(p[0], p[1], p[3]) == 0 ||
+                             determinant(p[0], p[2], p[3]) == 0 || determinant(p[1], p[2], p[3]) == 0);
     }
     EXPECT_GE(held, kTries / 8);
     EXPECT_LE(held, kTries * 3 / 4);
@@ -223,13 +234,15 @@ TEST(Exact, TetrahedronHoldsOriginByDefinition) {
 
 TEST(Exact, FlatTetrahedraHoldNothing) {
   Draw draw(7);
-  const Four around_origin{{{2, 0, 0}, {-1, 2, 0}, {-1, -2, 0}, {0, 0, 0}}}, beside{{{2, 0, 1}, {-1, 2, 1}, {-1, -2, 1}, {0, 0, 1}}};
+  const Four around_origin{{{2, 0, 0}, {-1, 2, 0}, {-1, -2, 0}, {0, 0, 0}}},
+      beside{{{2, 0, 1}, {-1, 2, 1}, {-1, -2, 1}, {0, 0, 1}}};
   const Four needle{{{-1, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}}, nowhere{};
   for (const Four& p : {around_origin, beside, needle, nowhere}) EXPECT_FALSE(tetrahedron_of(p, draw, 0));
 }
 
 TEST(Exact, OneUlpDecidesWhetherAFaceHoldsTheOrigin) {
-  // The unit tetrahedron about the origin with one face in z = height, moved up and down by the smallest step of its neighbours.
+  // The unit tetrahedron about the origin with one face in z = height, moved up and down by the smallest step of its
+  // neighbours.
   for (const double height : {0.0, 0x1p-52, -0x1p-52, 0x1p-200, -0x1p-200}) {
     const std::array<Doubles, 4> a{{{1, 0, height}, {-1, 1, height}, {-1, -1, height}, {0, 0, 5}}}, b{};
     EXPECT_EQ(tetrahedron_holds_origin(a, b, motion(Pose{})), height <= 0) << height;

@@ -21,8 +21,8 @@
 #include <thread>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "bodies.h"
 #include "oracle.h"
@@ -49,7 +49,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// ---- The cases -------------------------------------------------------------------------------------------------------------------
+// ---- The cases
+// -------------------------------------------------------------------------------------------------------------------
 
 struct Subject {
   Mesh mesh;
@@ -75,27 +76,51 @@ class Cases {
     using namespace shapes;
     shapes::Random random(1);
     const auto keep = [this](const Mesh& mesh) { return &subjects_.emplace_back(subject(mesh)); };
-    const Subject *fat = keep(ellipsoid({1, 1, 1}, 800, 1)), *fat2 = keep(ellipsoid({1, 1, 1}, 500, 2)), *plate = keep(ellipsoid({1, 1, .1}, 600, 3));
-    const Subject *plate2 = keep(ellipsoid({1, 1, .01}, 600, 4)), *rod = keep(ellipsoid({1, .1, .1}, 600, 5)), *cloud = keep(random_polytope(40, 6));
-    const Subject *box_ = keep(cube()), *octa = keep(octahedron()), *tetra = keep(tetrahedron()), *column = keep(prism(6, 1, 1));
+    const Subject *fat = keep(ellipsoid({1, 1, 1}, 800, 1)), *fat2 = keep(ellipsoid({1, 1, 1}, 500, 2)),
+                  *plate = keep(ellipsoid({1, 1, .1}, 600, 3));
+    const Subject *plate2 = keep(ellipsoid({1, 1, .01}, 600, 4)), *rod = keep(ellipsoid({1, .1, .1}, 600, 5)),
+                  *cloud = keep(random_polytope(40, 6));
+    const Subject *box_ = keep(cube()), *octa = keep(octahedron()), *tetra = keep(tetrahedron()),
+                  *column = keep(prism(6, 1, 1));
     const Subject *slim = keep(needle()), *thin = keep(sliver()), *small = keep(box({0.1, 0.2, 0.3}));
-    const Subject *turned = keep(moved(cube(), {rotation(Vec3(1, 2, 3).normalized(), 1), Vec3(0.1, 0.2, 0.3)}));
+    const Subject* turned = keep(moved(cube(), {rotation(Vec3(1, 2, 3).normalized(), 1), Vec3(0.1, 0.2, 0.3)}));
     const Subject *square = keep(polygon(4)), *pentagon = keep(polygon(5)), *line = keep(segment(2)), *dot = keep(point());
 
     const auto any = [&](double reach) { return Pose{random.rotation(), random.on_sphere() * random.uniform(0, reach)}; };
     const auto shift = [](double x, double y, double z) { return Pose{Mat3::Identity(), Vec3(x, y, z)}; };
     for (int i = 0; i < 15; ++i) {
-      for (const auto& [p, q] : {std::pair{fat, fat2}, {fat2, cloud}, {cloud, tetra}, {rod, fat2}, {box_, turned}, {column, octa}}) add("random", p, q, any(4));
-      for (const auto& [p, q] : {std::pair{plate, plate}, {plate, plate2}, {plate2, box_}, {plate2, thin}}) add("plate", p, q, any(3));
+      for (const auto& [p, q] :
+           {std::pair{fat, fat2}, {fat2, cloud}, {cloud, tetra}, {rod, fat2}, {box_, turned}, {column, octa}})
+        add("random", p, q, any(4));
+      for (const auto& [p, q] : {std::pair{plate, plate}, {plate, plate2}, {plate2, box_}, {plate2, thin}})
+        add("plate", p, q, any(3));
       for (const auto& [p, q] : {std::pair{slim, slim}, {slim, box_}, {slim, rod}, {slim, fat2}}) add("needle", p, q, any(2.5));
-      for (const auto& [p, q] : {std::pair{square, pentagon}, {pentagon, box_}, {line, line}, {line, fat2}, {dot, cloud}, {square, square}}) add("flat", p, q, any(2.5));
-      for (const auto& [p, q] : {std::pair{fat, small}, {small, fat}, {box_, small}, {plate, small}}) add("nested", p, q, {random.rotation(), random.in_ball() * 0.1});
+      for (const auto& [p, q] :
+           {std::pair{square, pentagon}, {pentagon, box_}, {line, line}, {line, fat2}, {dot, cloud}, {square, square}})
+        add("flat", p, q, any(2.5));
+      for (const auto& [p, q] : {std::pair{fat, small}, {small, fat}, {box_, small}, {plate, small}})
+        add("nested", p, q, {random.rotation(), random.in_ball() * 0.1});
     }
-    for (const auto& [p, q] : {std::pair{box_, box_}, {box_, column}, {turned, turned}, {octa, octa}, {square, square}, {square, box_}, {line, line}}) {
-      for (const double x : {0.0, 0.3, 2.5}) for (const double y : {0.0, 0.1, 0.5, -2.25}) add("coplanar", p, q, shift(x, y, 0));
+    for (const auto& [p, q] : {std::pair{box_, box_},
+                               {box_, column},
+                               {turned, turned},
+                               {octa, octa},
+                               {square, square},
+                               {square, box_},
+                               {line, line}}) {
+      for (const double x : {0.0, 0.3, 2.5})
+        for (const double y : {0.0, 0.1, 0.5, -2.25}) add("coplanar", p, q, shift(x, y, 0));
     }
-    for (const auto& [p, q] : {std::pair{box_, box_}, {box_, octa}, {octa, box_}, {octa, octa}, {tetra, tetra}, {box_, dot}, {square, box_}, {column, column}}) {
-      for (const Vec3& t : {Vec3(2, 0, 0), Vec3(2, 0.25, -1), Vec3(2, 2, 0), Vec3(2, 2, 2), Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(1, 1, 1), Vec3(0.5, 0.5, 0), Vec3(2 + 0x1p-51, 0.5, 0), Vec3(2 - 0x1p-51, 0.5, 0)}) {
+    for (const auto& [p, q] : {std::pair{box_, box_},
+                               {box_, octa},
+                               {octa, box_},
+                               {octa, octa},
+                               {tetra, tetra},
+                               {box_, dot},
+                               {square, box_},
+                               {column, column}}) {
+      for (const Vec3& t : {Vec3(2, 0, 0), Vec3(2, 0.25, -1), Vec3(2, 2, 0), Vec3(2, 2, 2), Vec3(1, 0, 0), Vec3(0, 0, 1),
+                            Vec3(1, 1, 1), Vec3(0.5, 0.5, 0), Vec3(2 + 0x1p-51, 0.5, 0), Vec3(2 - 0x1p-51, 0.5, 0)}) {
         add("touching", p, q, shift(t.x(), t.y(), t.z()));
       }
     }
@@ -132,9 +157,11 @@ struct Census : testing::Environment {
 
   void TearDown() override {
     if (queries == 0) return;
-    std::printf("laws: %ld queries; %ld undecided, %ld disjoint, %ld touching, %ld overlapping; %ld not converged, %ld thresholds undecided; "
-                "at most %u steps, %u plane tests; widest exact interval %.1f u size\n",
-                queries, verdicts[0], verdicts[1], verdicts[2], verdicts[3], not_converged, undecided, steps, plane_tests, widest);
+    std::printf(
+        "laws: %ld queries; %ld undecided, %ld disjoint, %ld touching, %ld overlapping; %ld not converged, %ld thresholds "
+        "undecided; "
+        "at most %u steps, %u plane tests; widest exact interval %.1f u size\n",
+        queries, verdicts[0], verdicts[1], verdicts[2], verdicts[3], not_converged, undecided, steps, plane_tests, widest);
   }
 };
 Census& census = *static_cast<Census*>(testing::AddGlobalTestEnvironment(new Census));
@@ -146,7 +173,8 @@ void expect_true(const Case& c, const Answer& answer) {
   census.not_converged += answer.status == Status::NotConverged;
   census.steps = std::max(census.steps, answer.steps);
   census.plane_tests = std::max(census.plane_tests, answer.plane_tests);
-  ASSERT_TRUE(oracle::holds(c.truth, answer.lower, answer.upper)) << "[" << answer.lower << ", " << answer.upper << "] does not hold " << c.truth.distance;
+  ASSERT_TRUE(oracle::holds(c.truth, answer.lower, answer.upper))
+      << "[" << answer.lower << ", " << answer.upper << "] does not hold " << c.truth.distance;
   ASSERT_NE(answer.status, Status::NotConverged);
   ASSERT_TRUE(answer.verdict != Verdict::Overlapping || c.truth.overlapping);
   ASSERT_TRUE(answer.verdict != Verdict::Disjoint || !c.truth.overlapping);
@@ -167,7 +195,8 @@ void for_each_case(const std::function<void(const Case&)>& test) {
   for (const Case& c : cases()) {
     test(c);
     if (testing::Test::HasFatalFailure()) {
-      FAIL() << c.kind << ", case " << number << ": " << c.model_a().level(0).view.vertices.size() << " and " << c.model_b().level(0).view.vertices.size() << " vertices, distance " << c.truth.distance;
+      FAIL() << c.kind << ", case " << number << ": " << c.model_a().level(0).view.vertices.size() << " and "
+             << c.model_b().level(0).view.vertices.size() << " vertices, distance " << c.truth.distance;
     }
     ++number;
   }
@@ -183,14 +212,18 @@ PairSeed garbage_seed(shapes::Random& random) {
     const std::uint64_t bits = random.bits();
     std::memcpy(static_cast<void*>(&field), &bits, std::min(sizeof field, sizeof bits));
   };
-  fill(seed.a), fill(seed.b), fill(seed.coarse_a), fill(seed.coarse_b), fill(seed.line_in_a), fill(seed.line_in_b), fill(seed.level_a), fill(seed.level_b);
+  fill(seed.a), fill(seed.b), fill(seed.coarse_a), fill(seed.coarse_b), fill(seed.line_in_a), fill(seed.line_in_b),
+      fill(seed.level_a), fill(seed.level_b);
   return seed;
 }
 Handle some_feature(const ConvexView& v, shapes::Random& random) {
   switch (random.bits() % 3) {
     case 0: return {FeatureKind::Vertex, std::uint32_t(random.bits() % v.vertices.size())};
-    case 1: if (!v.head.empty()) return {FeatureKind::Edge, std::uint32_t(random.bits() % v.head.size())}; [[fallthrough]];
-    default: if (!v.face_first.empty()) return {FeatureKind::Face, std::uint32_t(random.bits() % v.face_first.size())};
+    case 1:
+      if (!v.head.empty()) return {FeatureKind::Edge, std::uint32_t(random.bits() % v.head.size())};
+      [[fallthrough]];
+    default:
+      if (!v.face_first.empty()) return {FeatureKind::Face, std::uint32_t(random.bits() % v.face_first.size())};
   }
   return {FeatureKind::Vertex, 0};
 }
@@ -206,11 +239,13 @@ PairSeed random_seed(const Model& a, const Model& b, shapes::Random& random) {
   return seed;
 }
 bool same_bits(const Answer& a, const Answer& b) {
-  return a.status == b.status && a.verdict == b.verdict && a.lower == b.lower && a.upper == b.upper && a.normal == b.normal && a.point_a == b.point_a &&
-         a.point_b == b.point_b && a.level_a == b.level_a && a.level_b == b.level_b && a.feature_a == b.feature_a && a.feature_b == b.feature_b &&
-         a.proof.count == b.proof.count && a.steps == b.steps && a.plane_tests == b.plane_tests && a.levels_visited == b.levels_visited;
+  return a.status == b.status && a.verdict == b.verdict && a.lower == b.lower && a.upper == b.upper && a.normal == b.normal &&
+         a.point_a == b.point_a && a.point_b == b.point_b && a.level_a == b.level_a && a.level_b == b.level_b &&
+         a.feature_a == b.feature_a && a.feature_b == b.feature_b && a.proof.count == b.proof.count && a.steps == b.steps &&
+         a.plane_tests == b.plane_tests && a.levels_visited == b.levels_visited;
 }
-constexpr StartPolicy kPolicies[] = {StartPolicy::Automatic, StartPolicy::Paper, StartPolicy::Finest, StartPolicy::Coarsest, StartPolicy::Table};
+constexpr StartPolicy kPolicies[] = {StartPolicy::Automatic, StartPolicy::Paper, StartPolicy::Finest, StartPolicy::Coarsest,
+                                     StartPolicy::Table};
 constexpr Refinement kRefinements[] = {Refinement::Single, Refinement::SingleSingle, Refinement::DoubleDouble};
 constexpr PlaneRule kRules[] = {PlaneRule::MostViolated, PlaneRule::FirstViolated};
 
@@ -224,12 +259,14 @@ TEST(Cases, AreOfEveryKindAndVerdict) {
   }
   EXPECT_EQ(seen.size(), 7u);
   for (const auto& [kind, count] : seen) EXPECT_GE(count[0] + count[1], 50) << kind;
-  for (const char* kind : {"random", "plate", "flat", "coplanar", "touching"}) EXPECT_GE(std::min(seen[kind][0], seen[kind][1]), 5) << kind;
+  for (const char* kind : {"random", "plate", "flat", "coplanar", "touching"})
+    EXPECT_GE(std::min(seen[kind][0], seen[kind][1]), 5) << kind;
   EXPECT_GE(levels, 3);
   EXPECT_GE(barely, 2);
 }
 
-// ---- Law 1: lower <= true distance <= upper, always -----------------------------------------------------------------------------
+// ---- Law 1: lower <= true distance <= upper, always
+// -----------------------------------------------------------------------------
 
 TEST(Law1, IntervalsHoldTheTruthWhenTheQueryConverges) {
   for_each_case([](const Case& c) { expect_true(c, exact(c)); });
@@ -283,7 +320,8 @@ TEST(Law1, IntervalsHoldTheTruthAtCoarseLevels) {
 
 TEST(Law1, IntervalsHoldTheTruthUnderEveryTolerance) {
   for_each_case([](const Case& c) {
-    for (const auto& [absolute, relative] : {std::pair{0.3, 0.0}, {1e-3, 0.0}, {0.0, 0.5}, {0.0, 1e-2}, {0.0, 1e-6}, {0.1, 0.1}}) {
+    for (const auto& [absolute, relative] :
+         {std::pair{0.3, 0.0}, {1e-3, 0.0}, {0.0, 0.5}, {0.0, 1e-2}, {0.0, 1e-6}, {0.1, 0.1}}) {
       QueryOptions options;
       options.absolute_error = absolute;
       options.relative_error = relative;
@@ -315,7 +353,8 @@ TEST(Law1, IntervalsHoldTheTruthWhenCutOff) {
   EXPECT_GE(cut, 300);
 }
 
-// ---- Law 2: every query converges; exact ones to 64 eps size ---------------------------------------------------------------------
+// ---- Law 2: every query converges; exact ones to 64 eps size
+// ---------------------------------------------------------------------
 
 TEST(Law2, ExactIntervalsAreNarrowAndWitnessesLieOnBothBodies) {
   for_each_case([](const Case& c) {
@@ -327,7 +366,8 @@ TEST(Law2, ExactIntervalsAreNarrowAndWitnessesLieOnBothBodies) {
     const Vec3 p = answer.point_a, q = answer.point_b;
     ASSERT_LE(oracle::distance({&p, 1}, c.a->mesh.points, {}).distance, c.law_two());
     ASSERT_LE(oracle::distance({&q, 1}, c.b->mesh.points, c.pose).distance, c.law_two());
-    ASSERT_LE(((q - p) - (q - p).norm() * answer.normal).norm(), c.law_two()) << "the points differ by their distance times the normal (trap G13)";
+    ASSERT_LE(((q - p) - (q - p).norm() * answer.normal).norm(), c.law_two())
+        << "the points differ by their distance times the normal (trap G13)";
   });
 }
 
@@ -363,10 +403,14 @@ TEST(Law2, EveryKindOfFeaturePairHasItsNormal) {  // trap G13
     if (answer.verdict != Verdict::Disjoint || answer.lower < 1e-9) continue;
     ++seen[{answer.feature_a.kind(), answer.feature_b.kind()}];
     const Vec3 d = answer.point_b - answer.point_a;
-    ASSERT_LE((d.normalized() - answer.normal).norm(), 1e-9 + bodies::law_two(small.level(0).view, other.level(0).view, pose) / answer.lower) << i;
+    ASSERT_LE((d.normalized() - answer.normal).norm(),
+              1e-9 + bodies::law_two(small.level(0).view, other.level(0).view, pose) / answer.lower)
+        << i;
   }
   using enum FeatureKind;
-  for (const auto& kinds : {std::pair{Vertex, Vertex}, {Vertex, Edge}, {Edge, Vertex}, {Vertex, Face}, {Face, Vertex}, {Edge, Edge}}) EXPECT_GE(seen[kinds], 20);
+  for (const auto& kinds :
+       {std::pair{Vertex, Vertex}, {Vertex, Edge}, {Edge, Vertex}, {Vertex, Face}, {Face, Vertex}, {Edge, Edge}})
+    EXPECT_GE(seen[kinds], 20);
 }
 
 TEST(Law2, ContactsLieOnTheExactHulls) {  // trap G12
@@ -390,7 +434,8 @@ TEST(Law2, ContactsLieOnTheExactHulls) {  // trap G12
   EXPECT_GE(coarse_start, 100);
 }
 
-// ---- Law 3: a seed changes the work, never the truth -------------------------------------------------------------------------------
+// ---- Law 3: a seed changes the work, never the truth
+// -------------------------------------------------------------------------------
 
 void expect_agreement(const Case& c, const Answer& one, const Answer& other) {
   expect_law_two(c, other);
@@ -447,23 +492,25 @@ TEST(Law3, SameSeedSameBits) {
       QueryOptions options;
       options.start = policy;
       PairSeed one = seed, two = seed;
-      const Answer first = distance(c.model_a(), c.model_b(), c.pose, one, options), second = distance(c.model_a(), c.model_b(), c.pose, two, options);
+      const Answer first = distance(c.model_a(), c.model_b(), c.pose, one, options),
+                   second = distance(c.model_a(), c.model_b(), c.pose, two, options);
       ASSERT_TRUE(same_bits(first, second));
-      ASSERT_TRUE(one.a == two.a && one.b == two.b && one.coarse_a == two.coarse_a && one.coarse_b == two.coarse_b && one.level_a == two.level_a && one.level_b == two.level_b);
+      ASSERT_TRUE(one.a == two.a && one.b == two.b && one.coarse_a == two.coarse_a && one.coarse_b == two.coarse_b &&
+                  one.level_a == two.level_a && one.level_b == two.level_b);
     }
   });
 }
 
-TEST(Law3, SeedsAreSmallAndTrivial) {
-  static_assert(std::is_trivially_copyable_v<PairSeed> && sizeof(PairSeed) <= 32);
-}
+TEST(Law3, SeedsAreSmallAndTrivial) { static_assert(std::is_trivially_copyable_v<PairSeed> && sizeof(PairSeed) <= 32); }
 
 TEST(Law3, TableStartsFromAnyDirection) {  // trap G21
   const Model centred = bodies::must(build(shapes::ellipsoid({1, 1, 1}, 400, 9))).model;
-  const Model aside = bodies::must(build(shapes::moved(shapes::ellipsoid({1, .5, .2}, 400, 10), {Mat3::Identity(), {50, -7, 3}}))).model;
+  const Model aside =
+      bodies::must(build(shapes::moved(shapes::ellipsoid({1, .5, .2}, 400, 10), {Mat3::Identity(), {50, -7, 3}}))).model;
   QueryOptions options;
   options.start = StartPolicy::Table;
-  for (const lut::Resolution resolution : {lut::Resolution::None, lut::Resolution::Degrees22, lut::Resolution::Degrees11, lut::Resolution::Degrees5}) {
+  for (const lut::Resolution resolution :
+       {lut::Resolution::None, lut::Resolution::Degrees22, lut::Resolution::Degrees11, lut::Resolution::Degrees5}) {
     const Model a = centred.with_table({resolution, 2}), b = aside.with_table({resolution, 2});
     const auto agree = [&](const Pose& pose) {
       PairSeed seed, plain;
@@ -484,7 +531,8 @@ TEST(Law3, TableStartsFromAnyDirection) {  // trap G21
   }
 }
 
-// ---- Law 4: swapping negates the normal and swaps the points -------------------------------------------------------------------------
+// ---- Law 4: swapping negates the normal and swaps the points
+// -------------------------------------------------------------------------
 
 TEST(Law4, SwappingTheBodiesSwapsTheAnswer) {
   for_each_case([](const Case& c) {
@@ -503,13 +551,15 @@ TEST(Law4, SwappingTheBodiesSwapsTheAnswer) {
     ASSERT_LE((there.normal + c.pose.rotation * back.normal).norm(), angle);
     const Vec3 p = c.pose.rotation * back.point_b + c.pose.translation, q = c.pose.rotation * back.point_a + c.pose.translation;
     ASSERT_LE(((there.point_b - there.point_a) - (q - p)).norm(), angle * there.lower + 2 * slack);
-    if (std::string(c.kind) != "random" && std::string(c.kind) != "needle") return;  // elsewhere the nearest pair need not be unique
+    if (std::string(c.kind) != "random" && std::string(c.kind) != "needle")
+      return;  // elsewhere the nearest pair need not be unique
     ASSERT_LE((p - there.point_a).norm(), 1e-6);
     ASSERT_LE((q - there.point_b).norm(), 1e-6);
   });
 }
 
-// ---- Law 5: only the relative pose enters ----------------------------------------------------------------------------------------------
+// ---- Law 5: only the relative pose enters
+// ----------------------------------------------------------------------------------------------
 
 TEST(Law5, ExactCommonTranslationsChangeNoBit) {
   shapes::Random random(7);
@@ -521,7 +571,9 @@ TEST(Law5, ExactCommonTranslationsChangeNoBit) {
     for (const double far : {1.0, 0x1p10, 0x1p30}) {
       const Vec3 shift = grid(random.in_ball()) * far;
       seed = {};
-      ASSERT_TRUE(same_bits(here, distance(c.model_a(), c.model_b(), relative({a.rotation, a.translation + shift}, {b.rotation, b.translation + shift}), seed)));
+      ASSERT_TRUE(
+          same_bits(here, distance(c.model_a(), c.model_b(),
+                                   relative({a.rotation, a.translation + shift}, {b.rotation, b.translation + shift}), seed)));
     }
   });
 }
@@ -569,12 +621,14 @@ TEST(Law5, ScalingByAPowerOfTwoScalesTheAnswerBitForBit) {
       PairSeed seed;
       const Answer answer = distance(scaled.at(c.a), scaled.at(c.b), {c.pose.rotation, s * c.pose.translation}, seed);
       plain.lower *= s, plain.upper *= s, plain.point_a *= s, plain.point_b *= s;
-      ASSERT_TRUE(same_bits(plain, answer)) << k << ": " << plain.lower << ' ' << answer.lower << ", " << plain.steps << ' ' << answer.steps;
+      ASSERT_TRUE(same_bits(plain, answer))
+          << k << ": " << plain.lower << ' ' << answer.lower << ", " << plain.steps << ' ' << answer.steps;
     });
   }
 }
 
-// ---- Law 6: every level encloses P0 ------------------------------------------------------------------------------------------------------
+// ---- Law 6: every level encloses P0
+// ------------------------------------------------------------------------------------------------------
 
 void expect_enclosing(const Model& model, std::span<const Vec3> points) {
   for (int i = 0; i < model.level_count(); ++i) {
@@ -593,7 +647,8 @@ TEST(Law6, EveryLevelEnclosesTheInputAfterBuildAndAfterLoad) {
   for (Vec3& p : large.points) p *= 1e15;
   for (Vec3& p : small.points) p *= 1e-15;
   const Mesh far = shapes::moved(round, {shapes::rotation(Vec3(0, 0.6, 0.8), 2), {1e4, -3e4, 2e4}});
-  for (const Mesh& mesh : {round, far, shapes::float_rounded(round), large, small, shapes::ellipsoid({1, 1, .01}, 1000, 22), shapes::ellipsoid({1, .02, .01}, 1000, 23)}) {
+  for (const Mesh& mesh : {round, far, shapes::float_rounded(round), large, small, shapes::ellipsoid({1, 1, .01}, 1000, 22),
+                           shapes::ellipsoid({1, .02, .01}, 1000, 23)}) {
     for (const Method method : {Method::Collapse, Method::Peel}) {
       BuildOptions options;
       options.method = method;
@@ -609,13 +664,15 @@ TEST(Law6, EveryLevelEnclosesTheInputAfterBuildAndAfterLoad) {
   EXPECT_GE(levels, 14 * 2);
 }
 
-// ---- Law 7: every query ends within a documented function of the feature counts -----------------------------------------------------------
+// ---- Law 7: every query ends within a documented function of the feature counts
+// -----------------------------------------------------------
 
 /// Trap G18: all translations by halves, with all rotations by right angles about the axes. The truth has a closed form.
 TEST(Law7, TheCubeLatticeEnds) {
   const Model cube = bodies::model(bodies::cube());
   shapes::Random random(10);
-  const Mat3 about_z = (Mat3() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished(), about_x = (Mat3() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished();
+  const Mat3 about_z = (Mat3() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished(),
+             about_x = (Mat3() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished();
   const Mat3 turns[] = {Mat3::Identity(), about_z, about_x, about_z * about_z, about_x * about_x, about_z * about_x};
   std::uint32_t steps = 0, plane_tests = 0;
   int verdicts[4] = {0, 0, 0, 0};
@@ -650,7 +707,8 @@ TEST(Law7, TheCubeLatticeEnds) {
 }
 
 TEST(Law7, NearlyDegenerateLatticesEnd) {
-  const Model quads = bodies::model(bodies::cube()), folded = bodies::model(bodies::moved(bodies::cube(), bodies::rotation(1, 2, 3, 4)));
+  const Model quads = bodies::model(bodies::cube()),
+              folded = bodies::model(bodies::moved(bodies::cube(), bodies::rotation(1, 2, 3, 4)));
   const Mat3 home = bodies::rotation(1, -2, -3, -4);  // turns `folded` back to the axes, nearly
   shapes::Random random(11);
   std::uint32_t steps = 0, plane_tests = 0;
@@ -705,7 +763,8 @@ TEST(Law7, EveryFiniteTranslationEnds) {
   EXPECT_GE(coincident, 1500);
 }
 
-// ---- Law 8: queries allocate nothing and may run concurrently -------------------------------------------------------------------------------
+// ---- Law 8: queries allocate nothing and may run concurrently
+// -------------------------------------------------------------------------------
 
 TEST(Law8, QueriesAllocateNothing) {
   LevelRecord records[8];
@@ -747,7 +806,8 @@ TEST(Law8, SharedModelsAnswerAllThreadsAlike) {  // trap G23
   for (std::size_t i = 0; i < hashes.size(); ++i) EXPECT_EQ(cases().subjects()[i].model.hash(), hashes[i]);
 }
 
-// ---- Law 9: misses are visible ---------------------------------------------------------------------------------------------------------------
+// ---- Law 9: misses are visible
+// ---------------------------------------------------------------------------------------------------------------
 
 TEST(Law9, TouchingIsAnsweredOnlyWithinLawTwoOfContact) {  // trap G17
   int touching = 0, near_contact = 0;
@@ -777,9 +837,11 @@ TEST(Law9, MovingApartAlongTheNormalFlipsTheVerdict) {
     const Verdict out = exact(apart).verdict, in = exact(into).verdict;
     ASSERT_EQ(out, Verdict::Disjoint);
     ASSERT_NE(in, Verdict::Undecided);
-    // Into a face, or crossing edges: a step against the normal leads inside. From a sharp corner it may lead past the other body.
+    // Into a face, or crossing edges: a step against the normal leads inside. From a sharp corner it may lead past the other
+    // body.
     const FeatureKind kind_a = answer.feature_a.kind(), kind_b = answer.feature_b.kind();
-    const bool faces = kind_a == FeatureKind::Face || kind_b == FeatureKind::Face || (kind_a == FeatureKind::Edge && kind_b == FeatureKind::Edge);
+    const bool faces = kind_a == FeatureKind::Face || kind_b == FeatureKind::Face ||
+                       (kind_a == FeatureKind::Edge && kind_b == FeatureKind::Edge);
     if (answer.verdict == Verdict::Disjoint && faces && c.model_a().dimension() == 3 && c.model_b().dimension() == 3) {
       ASSERT_EQ(in, Verdict::Overlapping);
       ++flipped;
@@ -792,7 +854,8 @@ TEST(Law9, ThresholdsAreUndecidedOnlyWithinLawTwo) {
   int yes = 0, no = 0;
   for_each_case([&](const Case& c) {
     const double d = c.truth.distance, bound = c.law_two();
-    for (const double threshold : {0.0, 0.5 * d, d - 2 * bound, d - bound / 8, d, d + bound / 8, d + 2 * bound, 2 * d, 1.0, kInfinity}) {
+    for (const double threshold :
+         {0.0, 0.5 * d, d - 2 * bound, d - bound / 8, d, d + bound / 8, d + 2 * bound, 2 * d, 1.0, kInfinity}) {
       if (threshold < 0) continue;
       PairSeed seed;
       const Within result = within(c.model_a(), c.model_b(), c.pose, threshold, seed);
@@ -830,7 +893,8 @@ TEST(Law9, ImpossibleDemandsAreSaidSo) {
   EXPECT_GT(limited.upper - limited.lower, c.law_two());
 }
 
-// ---- Law 10: a looser tolerance never costs more --------------------------------------------------------------------------------------------
+// ---- Law 10: a looser tolerance never costs more
+// --------------------------------------------------------------------------------------------
 
 struct Cost {
   std::uint32_t work;
@@ -846,7 +910,10 @@ Cost cost(const Model& a, const Model& b, const Pose& pose, PairSeed seed, doubl
 
 class Law10 : public testing::TestWithParam<shapes::Family> {
  protected:
-  Law10() : meshes_(shapes::pair(GetParam(), 2000)), a_(bodies::must(build(meshes_.a)).model), b_(bodies::must(build(meshes_.b)).model) {}
+  Law10()
+      : meshes_(shapes::pair(GetParam(), 2000)),
+        a_(bodies::must(build(meshes_.a)).model),
+        b_(bodies::must(build(meshes_.b)).model) {}
   static constexpr double kTolerances[] = {0, 1e-4, 1e-3, 1e-2, 1e-1};
   static constexpr int kPoses = 300;
   shapes::Pair meshes_;
@@ -870,10 +937,12 @@ TEST_P(Law10, EachDecadeLooserCostsStrictlyLessOverAColdOrbit) {
     }
   }
   for (std::size_t t = 1; t < 5; ++t) {
-    EXPECT_TRUE(totals[t] < totals[t - 1] || coarsest[t - 1] == kPoses) << kTolerances[t] << ": " << totals[t - 1] << " then " << totals[t];
+    EXPECT_TRUE(totals[t] < totals[t - 1] || coarsest[t - 1] == kPoses)
+        << kTolerances[t] << ": " << totals[t - 1] << " then " << totals[t];
   }
-  std::printf("%s: work at tolerance 0, 1e-4, 1e-3, 1e-2, 1e-1: %.0f %.0f %.0f %.0f %.0f\n", shapes::name(GetParam()), double(totals[0]) / kPoses,
-              double(totals[1]) / kPoses, double(totals[2]) / kPoses, double(totals[3]) / kPoses, double(totals[4]) / kPoses);
+  std::printf("%s: work at tolerance 0, 1e-4, 1e-3, 1e-2, 1e-1: %.0f %.0f %.0f %.0f %.0f\n", shapes::name(GetParam()),
+              double(totals[0]) / kPoses, double(totals[1]) / kPoses, double(totals[2]) / kPoses, double(totals[3]) / kPoses,
+              double(totals[4]) / kPoses);
 }
 
 TEST_P(Law10, FromTheSameSeedALooserToleranceNeverCostsMore) {
@@ -885,7 +954,8 @@ TEST_P(Law10, FromTheSameSeedALooserToleranceNeverCostsMore) {
         Cost before{~0u, 0, 0};
         for (const double tolerance : kTolerances) {
           const Cost now = cost(a_, b_, orbit.pose(i), seed, tolerance);
-          ASSERT_LE(now.work, before.work) << "step " << step << ", pose " << i << ", tolerance " << tolerance << " after " << kept;
+          ASSERT_LE(now.work, before.work) << "step " << step << ", pose " << i << ", tolerance " << tolerance << " after "
+                                           << kept;
           before = now;
         }
         QueryOptions options;
@@ -945,7 +1015,8 @@ TEST_P(Law10, VerdictsAreCheaperThanDistances) {  // trap G15
   EXPECT_LT(2 * verdicts, distances);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, Law10, testing::ValuesIn(shapes::kFamilies), [](const auto& shape) { return shapes::name(shape.param); });
+INSTANTIATE_TEST_SUITE_P(Shapes, Law10, testing::ValuesIn(shapes::kFamilies),
+                         [](const auto& shape) { return shapes::name(shape.param); });
 
 }  // namespace
 }  // namespace swiftlet

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "bodies.h"
 #include "oracle.h"
@@ -19,8 +19,8 @@
 namespace swiftlet {
 namespace {
 
-using bodies::model;
 using bodies::law_two;
+using bodies::model;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -56,8 +56,8 @@ std::vector<Handle> features(const ConvexView& v) {
   return all;
 }
 
-/// Law 7's function for one level pair, as march/tolerance.h's kStallLimit gives it: a state that shortens the distance never comes
-/// back, and twelve that do not in a row end the walk. What is ever seen is far below; see the census at the end.
+/// Law 7's function for one level pair, as march/tolerance.h's kStallLimit gives it: a state that shortens the distance never
+/// comes back, and twelve that do not in a row end the walk. What is ever seen is far below; see the census at the end.
 std::size_t most_steps(const ConvexView& a, const ConvexView& b) { return 12 * (features(a).size() * features(b).size() + 1); }
 
 /// What the whole file saw, printed once.
@@ -69,8 +69,10 @@ struct Census : testing::Environment {
 
   void TearDown() override {
     if (marches == 0) return;
-    std::printf("march: %d marches, %d disjoint, %d touching, %d overlapping; at most %u steps (%.2f of the features), %u plane tests; widest interval %.3f of law 2\n",
-                marches, disjoint, touching, overlapping, steps, share, plane_tests, widest);
+    std::printf(
+        "march: %d marches, %d disjoint, %d touching, %d overlapping; at most %u steps (%.2f of the features), %u plane tests; "
+        "widest interval %.3f of law 2\n",
+        marches, disjoint, touching, overlapping, steps, share, plane_tests, widest);
   }
 };
 Census& census = *static_cast<Census*>(testing::AddGlobalTestEnvironment(new Census));
@@ -84,7 +86,8 @@ void expect_true(const ConvexView& a, const ConvexView& b, const Pose& pose, con
   census.share = std::max(census.share, double(r.steps) / double(count));
   ASSERT_LE(r.steps, most_steps(a, b));
   ASSERT_LE(r.steps, count + 12) << "not wrong, but never seen: look";
-  ASSERT_TRUE(oracle::holds(truth, r.lower, r.upper)) << "[" << r.lower << ", " << r.upper << "] does not hold " << truth.distance;
+  ASSERT_TRUE(oracle::holds(truth, r.lower, r.upper))
+      << "[" << r.lower << ", " << r.upper << "] does not hold " << truth.distance;
   switch (r.status) {
     case MarchStatus::Disjoint:
       ++census.disjoint;
@@ -107,9 +110,11 @@ void expect_true(const ConvexView& a, const ConvexView& b, const Pose& pose, con
 }
 
 /// An exact march: an answer, and within law 2.
-void expect_exact(const ConvexView& a, const ConvexView& b, const Pose& pose, const oracle::Truth& truth, const MarchResult& r) {
+void expect_exact(const ConvexView& a, const ConvexView& b, const Pose& pose, const oracle::Truth& truth,
+                  const MarchResult& r) {
   expect_true(a, b, pose, truth, r);
-  ASSERT_TRUE(r.status == MarchStatus::Disjoint || r.status == MarchStatus::Touching || r.status == MarchStatus::Overlapping) << int(r.status);
+  ASSERT_TRUE(r.status == MarchStatus::Disjoint || r.status == MarchStatus::Touching || r.status == MarchStatus::Overlapping)
+      << int(r.status);
   ASSERT_LE(r.upper - r.lower, law_two(a, b, pose));
   census.widest = std::max(census.widest, (r.upper - r.lower) / law_two(a, b, pose));
   if (r.status != MarchStatus::Disjoint) return;
@@ -160,8 +165,12 @@ TEST(March, EveryStartGivesTheSameVerdictAndDistance) {
   const std::vector<Named> solids = small_solids();
   shapes::Random random(32);
   const Mat3 quarter = (Mat3() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished();
-  const Pose poses[] = {{random.rotation(), {2.5, 0.3, -0.4}}, {random.rotation(), {0.3, 0.1, 0.2}}, {Mat3::Identity(), {0, 0, 0}},
-                        {Mat3::Identity(), {2, 0, 0}},         {quarter, {0.5, 2.5, 0}},             {Mat3::Identity(), {0, 0.3, 0.1}}};
+  const Pose poses[] = {{random.rotation(), {2.5, 0.3, -0.4}},
+                        {random.rotation(), {0.3, 0.1, 0.2}},
+                        {Mat3::Identity(), {0, 0, 0}},
+                        {Mat3::Identity(), {2, 0, 0}},
+                        {quarter, {0.5, 2.5, 0}},
+                        {Mat3::Identity(), {0, 0.3, 0.1}}};
   int verdicts[3] = {0, 0, 0};
   for (const Named& a : solids) {
     for (const Named& b : solids) {
@@ -181,7 +190,8 @@ TEST(March, EveryStartGivesTheSameVerdictAndDistance) {
               expect_exact(a.view(), b.view(), pose, truth, r);
               EXPECT_EQ(r.status, cold.status);
               if (HasFatalFailure()) {
-                FAIL() << "from " << int(from_a.kind()) << ' ' << from_a.index() << " and " << int(from_b.kind()) << ' ' << from_b.index();
+                FAIL() << "from " << int(from_a.kind()) << ' ' << from_a.index() << " and " << int(from_b.kind()) << ' '
+                       << from_b.index();
               }
             }
           }
@@ -236,7 +246,8 @@ TEST(March, StoredHandlesStartTheNextMarchAtItsEnd) {
   }
 }
 
-// ---- Stop rules --------------------------------------------------------------------------------------------------------------------
+// ---- Stop rules
+// --------------------------------------------------------------------------------------------------------------------
 
 struct Rules : testing::Test {
   Model m = model(bodies::body_of(shapes::ellipsoid({1, 0.5, 0.3}, 200, 2)));
@@ -309,7 +320,8 @@ TEST_F(MarchRules, BudgetEndsWithTrueBounds) {
   for (int i = 0; i < 100; ++i) {
     const Pose p = pose();
     const oracle::Truth truth = oracle::distance(points, points, p);
-    const MarchStart far{{FeatureKind::Vertex, std::uint32_t(random.bits() % v.vertices.size())}, {FeatureKind::Vertex, std::uint32_t(random.bits() % v.vertices.size())}};
+    const MarchStart far{{FeatureKind::Vertex, std::uint32_t(random.bits() % v.vertices.size())},
+                         {FeatureKind::Vertex, std::uint32_t(random.bits() % v.vertices.size())}};
     for (std::uint32_t budget = 0; budget < 12; ++budget) {
       MarchRule rule;
       rule.step_budget = budget;
@@ -317,14 +329,17 @@ TEST_F(MarchRules, BudgetEndsWithTrueBounds) {
       expect_true(v, v, p, truth, r);
       if (HasFatalFailure()) FAIL() << "budget " << budget;
       ASSERT_LE(r.steps, budget + 1);
-      if (r.status == MarchStatus::Budget) ++ended;
-      else expect_exact(v, v, p, truth, r);
+      if (r.status == MarchStatus::Budget)
+        ++ended;
+      else
+        expect_exact(v, v, p, truth, r);
     }
   }
   EXPECT_GE(ended, 300);
 }
 
-// ---- Status, poses, tags --------------------------------------------------------------------------------------------------------
+// ---- Status, poses, tags
+// --------------------------------------------------------------------------------------------------------
 
 TEST(March, IllegalPosesAreSaidSo) {
   const Model cube = model(bodies::cube());

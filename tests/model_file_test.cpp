@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Models on disk: what is saved comes back bit for bit, and what is damaged, cut short, foreign or hostile is refused or harmless.
+// Models on disk: what is saved comes back bit for bit, and what is damaged, cut short, foreign or hostile is refused or
+// harmless.
 #include <swiftlet/model_file.h>
 
 #include <cmath>
@@ -25,14 +26,17 @@ using namespace bodies;
 /// A directory of this test's own.
 class ModelFile : public testing::Test {
  protected:
-  ModelFile() : folder_(std::filesystem::temp_directory_path() / ("swiftlet_model_file_test_" + std::to_string(std::random_device{}()))) {
+  ModelFile()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("swiftlet_model_file_test_" + std::to_string(std::random_device{}()))) {
     std::filesystem::create_directory(folder_);
   }
   ~ModelFile() override { std::filesystem::remove_all(folder_); }
 
   std::filesystem::path path(const char* name) const { return folder_ / name; }
   std::filesystem::path write_file(const char* name, std::span<const std::byte> bytes) const {
-    std::ofstream(path(name), std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    std::ofstream(path(name), std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
     return path(name);
   }
 
@@ -50,8 +54,12 @@ ErrorCode code_of(const Result<Model>& m) {
 }
 
 TEST_F(ModelFile, ComesBackBitForBit) {
-  const Model all[] = {small(), nested(3), model(cube(), {false, {lut::Resolution::None, 2}}), model(point({1, 2, 3})),
-                       model(segment({0, 0, 0}, {1, 0, 0})), model(two_sided({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}))};
+  const Model all[] = {small(),
+                       nested(3),
+                       model(cube(), {false, {lut::Resolution::None, 2}}),
+                       model(point({1, 2, 3})),
+                       model(segment({0, 0, 0}, {1, 0, 0})),
+                       model(two_sided({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}))};
   for (const Model& m : all) {
     const auto file = path("m.swl");
     EXPECT_EQ(must(save(m, file)), m.bytes().size());
@@ -132,13 +140,14 @@ TEST_F(ModelFile, ForeignFilesAreNamedSo) {
   EXPECT_EQ(code_of(load(as_text)), ErrorCode::BadFormat);
 }
 
-// ---- Hostile ---------------------------------------------------------------------------------------------------------------------
+// ---- Hostile
+// ---------------------------------------------------------------------------------------------------------------------
 
 TEST_F(ModelFile, HugeCountsAreRefused) {
   const Bytes whole = bytes_of(small());
   for (std::size_t level = 0; level < 2; ++level) {
-    for (const std::size_t field : {offsetof(LevelHeader, vertex_count), offsetof(LevelHeader, half_edge_count), offsetof(LevelHeader, face_count),
-                                    offsetof(LevelHeader, plane_count)}) {
+    for (const std::size_t field : {offsetof(LevelHeader, vertex_count), offsetof(LevelHeader, half_edge_count),
+                                    offsetof(LevelHeader, face_count), offsetof(LevelHeader, plane_count)}) {
       for (const std::uint32_t count : {0u, 1u, 0x3fffffffu, 0x40000000u, 0x7fffffffu, 0x80000000u, 0xffffffffu}) {
         Bytes block = whole;
         if (read<std::uint32_t>(block, level_header_at(level) + field) == count) continue;
@@ -168,7 +177,8 @@ TEST_F(ModelFile, HugeCountsAreRefused) {
   EXPECT_EQ(code_of(load(write_file("promise.swl", promise))), ErrorCode::BadFormat);
 }
 
-/// Every query from several poses and seeds, cold and garbage. What a hostile model may cost is bounded, what it answers is an interval.
+/// Every query from several poses and seeds, cold and garbage. What a hostile model may cost is bounded, what it answers is an
+/// interval.
 struct Work {
   std::uint32_t steps = 0, plane_tests = 0;
 };
@@ -245,7 +255,8 @@ TEST_F(ModelFile, EveryCorruptByteWithRightHashesIsRefusedOrHarmless) {
   EXPECT_LE(most.plane_tests, kMostPlaneTests);
   RecordProperty("most_steps", int(most.steps));
   RecordProperty("most_plane_tests", int(most.plane_tests));
-  std::printf("refused %d, accepted %d, at most %u steps and %u plane tests\n", refused, accepted, most.steps, most.plane_tests);
+  std::printf("refused %d, accepted %d, at most %u steps and %u plane tests\n", refused, accepted, most.steps,
+              most.plane_tests);
 }
 
 TEST_F(ModelFile, RandomWordsWithRightHashesAreRefusedOrHarmless) {

@@ -13,8 +13,8 @@
 #include <set>
 #include <string>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "bodies.h"
 #include "exact.h"
@@ -139,9 +139,12 @@ std::string refusal(const Body& body, ErrorCode code, bool repair = false) {
   EXPECT_EQ(m.error().code, code) << m.error().message;
   return m.error().message;
 }
-void expect_says(const std::string& message, const std::string& words) { EXPECT_NE(message.find(words), std::string::npos) << message; }
+void expect_says(const std::string& message, const std::string& words) {
+  EXPECT_NE(message.find(words), std::string::npos) << message;
+}
 
-// ---- Solids --------------------------------------------------------------------------------------------------------------------
+// ---- Solids
+// --------------------------------------------------------------------------------------------------------------------
 
 TEST(Model, CubeOfQuadsHasItsSixFaces) {
   const Model m = model(cube());
@@ -255,7 +258,8 @@ TEST(Model, CentroidIsOfTheSurfaceNotOfTheVertices) {
   EXPECT_NEAR(model(pyramid).centre().z(), sides * (2.0 / 3) / (sides + 4), 1e-15);
 }
 
-// ---- Convexity -----------------------------------------------------------------------------------------------------------------
+// ---- Convexity
+// -----------------------------------------------------------------------------------------------------------------
 
 /// The cube with vertex 6 lowered by `drop`: the top folds along 5-7.
 Body dented(double drop) {
@@ -354,8 +358,10 @@ TEST(Model, SurfaceWoundTwiceIsRefused) {
       const std::uint32_t p = 2 + i, q = 2 + (i + 1) % 5;
       b.add({p, q, 0}), b.add({q, p, 1});
     }
-    if (step == 1) expect_counts(model(b), 7, 15, 10);
-    else expect_says(refusal(b, ErrorCode::NotConvex), "winds about itself 2 times");
+    if (step == 1)
+      expect_counts(model(b), 7, 15, 10);
+    else
+      expect_says(refusal(b, ErrorCode::NotConvex), "winds about itself 2 times");
   }
 }
 
@@ -419,10 +425,12 @@ TEST(Model, CoordinatesOutOfRangeAreNamed) {
   expect_says(refusal(tiny, ErrorCode::BadValue), "extent");
 }
 
-// ---- Flatter bodies --------------------------------------------------------------------------------------------------------------
+// ---- Flatter bodies
+// --------------------------------------------------------------------------------------------------------------
 
 TEST(Model, FlatPolygonsHaveTwoSides) {
-  const Model square = model(two_sided({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}})), triangle = model(two_sided({{0, 0, 1}, {1, 0, 2}, {0, 1, 3}}));
+  const Model square = model(two_sided({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}})),
+              triangle = model(two_sided({{0, 0, 1}, {1, 0, 2}, {0, 1, 3}}));
   expect_sound(square);
   expect_sound(triangle);
   expect_counts(square, 4, 4, 2);
@@ -433,7 +441,8 @@ TEST(Model, FlatPolygonsHaveTwoSides) {
   for (const Vertex& v : square.level(0).view.vertices) EXPECT_EQ(v.ring_count, 2u);
   expect_says(refusal(two_sided({{0, 0, 0}, {2, 0, 0}, {2, 2, 1e-300}, {0, 2, 0}}), ErrorCode::BadValue), "vertex 2");
   expect_says(refusal(two_sided({{0, 0, 0}, {2, 0, 0}, {2, 2, 1e-60}, {0, 2, 0}}), ErrorCode::NotConvex), "not flat");
-  expect_says(refusal(two_sided({{0, 0, 0}, {2, 0, 0}, {0.5, 0.5, 0}, {0, 2, 0}}), ErrorCode::NotConvex), "not strictly convex");
+  expect_says(refusal(two_sided({{0, 0, 0}, {2, 0, 0}, {0.5, 0.5, 0}, {0, 2, 0}}), ErrorCode::NotConvex),
+              "not strictly convex");
   expect_says(refusal(two_sided({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 2, 0}}), ErrorCode::NotConvex), "not strictly convex");
   refusal(two_sided({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}), ErrorCode::NotConvex);
 }
@@ -454,7 +463,8 @@ TEST(Model, SegmentsAndPointsHaveNoFaces) {
   refusal({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {}, {}}, ErrorCode::BadValue);
 }
 
-// ---- Levels ------------------------------------------------------------------------------------------------------------------------
+// ---- Levels
+// ------------------------------------------------------------------------------------------------------------------------
 
 Result<Model> levels(std::initializer_list<Body> bodies) {
   std::vector<Body> owned(bodies);
@@ -519,7 +529,8 @@ TEST(Model, ALevelThatMissesLevelZeroByAnUlpIsRefused) {
   ASSERT_FALSE(m);
   EXPECT_EQ(m.error().code, ErrorCode::NotEnclosing);
   expect_says(m.error().message, "level 1: vertex ");
-  EXPECT_TRUE(m.error().message.find("vertex 2 ") != std::string::npos || m.error().message.find("vertex 3 ") != std::string::npos);
+  EXPECT_TRUE(m.error().message.find("vertex 2 ") != std::string::npos ||
+              m.error().message.find("vertex 3 ") != std::string::npos);
   // Each level against level 0, not against the one before: the last need not hold the middle one.
   EXPECT_TRUE(levels({octahedron(), box(2, 2, 2), box(1, 1, 1)}));
   EXPECT_EQ(levels({octahedron(), cube(), box(1, 1, inside)}).error().code, ErrorCode::NotEnclosing);
@@ -562,7 +573,8 @@ TEST(Model, OnlySolidsHaveCoarserLevels) {
   EXPECT_EQ(must(Model::from_levels(std::vector<LevelArrays>(32, b.level()))).level_count(), 32);
 }
 
-// ---- Sources, tables, supports, scale ------------------------------------------------------------------------------------------
+// ---- Sources, tables, supports, scale
+// ------------------------------------------------------------------------------------------
 
 TEST(Model, SourceIdsAreTheUsers) {
   const Body b = triangulated(cube());
@@ -601,7 +613,8 @@ TEST(Model, SourceIdsAreTheUsers) {
 
 TEST(Model, TableHoldsTheNearestVertexPerSample) {
   const Body b = moved(octahedron(), rotation(1, 2, 3, 4), Vec3(7, 8, 9));
-  for (const lut::Resolution r : {lut::Resolution::None, lut::Resolution::Degrees22, lut::Resolution::Degrees11, lut::Resolution::Degrees5}) {
+  for (const lut::Resolution r :
+       {lut::Resolution::None, lut::Resolution::Degrees22, lut::Resolution::Degrees11, lut::Resolution::Degrees5}) {
     for (const double factor : {1.0, 2.0, 50.0}) {
       const Model m = model(b, {false, {r, factor}});
       EXPECT_EQ(m.table_spec().resolution, r);
@@ -641,10 +654,12 @@ TEST(Model, SupportIsExtreme) {
 
 TEST(Model, SupportTakesAnyDirection) {
   const Model m = model(moved(cube(), rotation(1, 2, 3, 4)));
-  constexpr double least = std::numeric_limits<double>::denorm_min(), most = std::numeric_limits<double>::max(), nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double least = std::numeric_limits<double>::denorm_min(), most = std::numeric_limits<double>::max(),
+                   nan = std::numeric_limits<double>::quiet_NaN();
   const Vec3 d(0.3, -0.5, 0.1);
   for (const double length : {1e-300, 1e-280, 1e300, most}) EXPECT_EQ(m.support(d * length), m.support(d)) << length;
-  for (const Vec3& any : {Vec3(least, least, 0), Vec3(most, -most, most), Vec3(nan, 0, 1), Vec3(kInfinity, 0, 0), Vec3(0, 0, 0), Vec3(1, least, -least)}) {
+  for (const Vec3& any : {Vec3(least, least, 0), Vec3(most, -most, most), Vec3(nan, 0, 1), Vec3(kInfinity, 0, 0), Vec3(0, 0, 0),
+                          Vec3(1, least, -least)}) {
     EXPECT_LT(m.support(any), 8u);
   }
   // The far smaller coordinate still decides between the corners of a face.
@@ -659,7 +674,8 @@ TEST(Model, ScalingByAPowerOfTwoScalesBitForBit) {
     Body fine = moved(o, rotation(1, 2, 3, 4)), coarse = moved(c, 1.001 * rotation(1, 2, 3, 4));
     const LevelArrays plain[] = {fine.level(), coarse.level()};
     const Model m = must(Model::from_levels(plain));
-    for (Body* b : {&fine, &coarse}) for (Vec3& p : b->points) p *= s;
+    for (Body* b : {&fine, &coarse})
+      for (Vec3& p : b->points) p *= s;
     const LevelArrays scaled[] = {fine.level(), coarse.level()};
     const Model n = must(Model::from_levels(scaled));
     EXPECT_EQ(n.centre(), s * m.centre());
@@ -675,14 +691,16 @@ TEST(Model, ScalingByAPowerOfTwoScalesBitForBit) {
       EXPECT_TRUE(std::ranges::equal(a.child_face, b.child_face));
       EXPECT_TRUE(std::ranges::equal(a.parent_face, b.parent_face));
       for (std::uint32_t v = 0; v < a.view.vertices.size(); ++v) EXPECT_EQ(s * at(a.view, v), at(b.view, v));
-      for (std::size_t f = 0; f < a.view.planes.size(); ++f) EXPECT_EQ(s * a.view.planes[f].thickness, b.view.planes[f].thickness);
+      for (std::size_t f = 0; f < a.view.planes.size(); ++f)
+        EXPECT_EQ(s * a.view.planes[f].thickness, b.view.planes[f].thickness);
     }
   }
 }
 
 TEST(Model, SameInputSameBytes) { EXPECT_EQ(bytes_of(nested()), bytes_of(nested())); }
 
-// ---- verify ------------------------------------------------------------------------------------------------------------------------
+// ---- verify
+// ------------------------------------------------------------------------------------------------------------------------
 
 /// A block changed by hand, its hashes made right.
 Model tampered(const Model& m, const std::function<void(Bytes&)>& change) {
@@ -706,7 +724,8 @@ TEST(Verify, FindsWhatTheHashesCannot) {
   EXPECT_FALSE(verify(dent));
 
   const Model shrunk = tampered(m, [&](Bytes& block) {  // a whole level that no longer encloses, by an ulp
-    for (std::size_t v = 0; v < 8; ++v) write(block, vertex_at(block, 1, v), std::nextafter(1.0, 0) * read<double>(block, vertex_at(block, 1, v)));
+    for (std::size_t v = 0; v < 8; ++v)
+      write(block, vertex_at(block, 1, v), std::nextafter(1.0, 0) * read<double>(block, vertex_at(block, 1, v)));
   });
   expect_says(verify(shrunk).message, "level 1 does not enclose");
 

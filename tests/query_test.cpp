@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The queries on the paper's ellipsoids of 2 000 triangles: many random pairs, and the steps that hierarchies save on the orbit.
-// The laws have a file of their own.
+// The queries on the paper's ellipsoids of 2 000 triangles: many random pairs, and the steps that hierarchies save on the
+// orbit. The laws have a file of their own.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -90,7 +90,8 @@ double mean_steps(const Bodies& pair, StartPolicy start, double degrees) {
 TEST_P(RandomPairs, TakeAtMostSixTenthsOfThePlainWalksStepsWhenFarApart) {
   const Bodies& pair = bodies(GetParam());
   for (const double degrees : {120.377, 160.377}) {
-    const double plain = mean_steps(pair, StartPolicy::Finest, degrees), levels = mean_steps(pair, StartPolicy::Automatic, degrees);
+    const double plain = mean_steps(pair, StartPolicy::Finest, degrees),
+                 levels = mean_steps(pair, StartPolicy::Automatic, degrees);
     std::printf("%s at %.0f degrees: plain %.1f steps, levels %.1f\n", shapes::name(GetParam()), degrees, plain, levels);
     EXPECT_LE(levels, 0.6 * plain) << degrees;
   }
@@ -99,7 +100,8 @@ TEST_P(RandomPairs, TakeAtMostSixTenthsOfThePlainWalksStepsWhenFarApart) {
 TEST_P(RandomPairs, CostAtMostHalfAsManyMoreStepsWhenCoherent) {
   const Bodies& pair = bodies(GetParam());
   for (const double degrees : {0.377, 0.777, 0.977}) {
-    const double plain = mean_steps(pair, StartPolicy::Finest, degrees), levels = mean_steps(pair, StartPolicy::Automatic, degrees);
+    const double plain = mean_steps(pair, StartPolicy::Finest, degrees),
+                 levels = mean_steps(pair, StartPolicy::Automatic, degrees);
     std::printf("%s at %.2f degrees: plain %.2f steps, levels %.2f\n", shapes::name(GetParam()), degrees, plain, levels);
     EXPECT_LE(levels, 1.5 * plain) << degrees;
   }
@@ -117,13 +119,15 @@ TEST_P(RandomPairs, SpendFarStepsOnCoarseLevels) {
     options.trace = trace;
     const Answer answer = distance(pair.a, pair.b, motion.pose(i), seed, options);
     ASSERT_LE(std::size_t(answer.levels_visited), trace.size());
-    for (int k = 0; k < answer.levels_visited; ++k) (trace[std::size_t(k)].level_a > 0 ? coarse : fine) += trace[std::size_t(k)].steps;
+    for (int k = 0; k < answer.levels_visited; ++k)
+      (trace[std::size_t(k)].level_a > 0 ? coarse : fine) += trace[std::size_t(k)].steps;
   }
   EXPECT_GT(coarse, fine);
   EXPECT_GT(fine, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, RandomPairs, testing::ValuesIn(shapes::kFamilies), [](const auto& family) { return std::string(shapes::name(family.param)); });
+INSTANTIATE_TEST_SUITE_P(Families, RandomPairs, testing::ValuesIn(shapes::kFamilies),
+                         [](const auto& family) { return std::string(shapes::name(family.param)); });
 
 Model cube() {
   std::vector<Vec3> corners;

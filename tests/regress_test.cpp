@@ -27,12 +27,22 @@ Body prism(std::vector<Vec3> corners) {  // the lower loop, then the upper one, 
   return b;
 }
 Body prism3() {
-  return prism({{0x1p+0, 0x0p+0, -0x1.3333333333333p-3}, {-0x1.ffffffffffffcp-2, 0x1.bb67ae8584cabp-1, -0x1.3333333333333p-3}, {-0x1.0000000000004p-1, -0x1.bb67ae8584ca8p-1, -0x1.3333333333333p-3},
-                {0x1p+0, 0x0p+0, 0x1.3333333333333p-3}, {-0x1.ffffffffffffcp-2, 0x1.bb67ae8584cabp-1, 0x1.3333333333333p-3}, {-0x1.0000000000004p-1, -0x1.bb67ae8584ca8p-1, 0x1.3333333333333p-3}});
+  return prism({{0x1p+0, 0x0p+0, -0x1.3333333333333p-3},
+                {-0x1.ffffffffffffcp-2, 0x1.bb67ae8584cabp-1, -0x1.3333333333333p-3},
+                {-0x1.0000000000004p-1, -0x1.bb67ae8584ca8p-1, -0x1.3333333333333p-3},
+                {0x1p+0, 0x0p+0, 0x1.3333333333333p-3},
+                {-0x1.ffffffffffffcp-2, 0x1.bb67ae8584cabp-1, 0x1.3333333333333p-3},
+                {-0x1.0000000000004p-1, -0x1.bb67ae8584ca8p-1, 0x1.3333333333333p-3}});
 }
 Body prism4() {
-  return prism({{0x1p+0, 0x0p+0, -0x1.3333333333333p-3}, {0x1.1a62633145c07p-54, 0x1p+0, -0x1.3333333333333p-3}, {-0x1p+0, 0x1.1a62633145c07p-53, -0x1.3333333333333p-3}, {-0x1.a79394c9e8a0ap-53, -0x1p+0, -0x1.3333333333333p-3},
-                {0x1p+0, 0x0p+0, 0x1.3333333333333p-3}, {0x1.1a62633145c07p-54, 0x1p+0, 0x1.3333333333333p-3}, {-0x1p+0, 0x1.1a62633145c07p-53, 0x1.3333333333333p-3}, {-0x1.a79394c9e8a0ap-53, -0x1p+0, 0x1.3333333333333p-3}});
+  return prism({{0x1p+0, 0x0p+0, -0x1.3333333333333p-3},
+                {0x1.1a62633145c07p-54, 0x1p+0, -0x1.3333333333333p-3},
+                {-0x1p+0, 0x1.1a62633145c07p-53, -0x1.3333333333333p-3},
+                {-0x1.a79394c9e8a0ap-53, -0x1p+0, -0x1.3333333333333p-3},
+                {0x1p+0, 0x0p+0, 0x1.3333333333333p-3},
+                {0x1.1a62633145c07p-54, 0x1p+0, 0x1.3333333333333p-3},
+                {-0x1p+0, 0x1.1a62633145c07p-53, 0x1.3333333333333p-3},
+                {-0x1.a79394c9e8a0ap-53, -0x1p+0, 0x1.3333333333333p-3}});
 }
 
 /// Exact, true, within law 2, and what `check` recomputes, both ways round.
@@ -40,14 +50,15 @@ void expect_sound(const Model& a, const Model& b, const Pose& pose) {
   PairSeed seed;
   const Answer answer = distance(a, b, pose, seed);
   EXPECT_EQ(answer.status, Status::Converged);
-  EXPECT_TRUE(oracle::holds(oracle::distance(points_of(a.level(0).view), points_of(b.level(0).view), pose), answer.lower, answer.upper));
+  EXPECT_TRUE(oracle::holds(oracle::distance(points_of(a.level(0).view), points_of(b.level(0).view), pose), answer.lower,
+                            answer.upper));
   EXPECT_LE(answer.upper - answer.lower, law_two(a.level(0).view, b.level(0).view, pose));
   const Check checked = check(a, b, pose, answer);
   EXPECT_TRUE(checked) << checked.message;
 }
 
-/// Certified progress chose its active set by the norm, which is flat at the optimum: a step of 1e-9 hid under a rounding of 1e-17,
-/// and the march ended NotConverged.
+/// Certified progress chose its active set by the norm, which is flat at the optimum: a step of 1e-9 hid under a rounding of
+/// 1e-17, and the march ended NotConverged.
 TEST(Regress, ActiveSetWasChosenByAFlatNorm) {
   for (const double tilt : {0x1.3962e9a6af5b5p-31, -0x1.3962e9a6af5b5p-31}) {  // 5.7e-10
     Pose pose{Mat3::Identity(), {2.5, -2.5, 0.5}};
@@ -73,8 +84,9 @@ TEST(Regress, DeepOverlapWithCoplanarFacesWasCalledTouching) {
   }
 }
 
-/// The line of centres as it came was climbed along with exact comparisons that underflowed or overflowed, and the support climb
-/// went round for ever: identical cubes 1e-310 apart, and cubes 1e308 apart, where the answer, where one came, was [0, 0].
+/// The line of centres as it came was climbed along with exact comparisons that underflowed or overflowed, and the support
+/// climb went round for ever: identical cubes 1e-310 apart, and cubes 1e308 apart, where the answer, where one came, was [0,
+/// 0].
 TEST(Regress, TinyAndHugeTranslationsLooped) {
   const Model m = nested(2);
   for (const Vec3& t : {Vec3(1e-310, 1e-310, 0), Vec3(0x1p-1073, 0x1p-1074, 0), Vec3(1e-300, 1e-300, 1e-301)}) {
@@ -91,10 +103,18 @@ TEST(Regress, TinyAndHugeTranslationsLooped) {
 
 /// Tetrahedra 3.2e-16 apart: some starts proved the gap and answered Disjoint, others answered Touching, which law 3 forbids.
 TEST(Regress, VerdictNearContactDependedOnTheStart) {
-  Body a{{{0x1.7f7559069a93p-4, -0x1.549bc0acc0b68p-3, -0x1.75625412040ap-3}, {0x1.5f8048252321p-2, -0x1.73ca7aa11d3aap-1, 0x1.45566e494c588p-3},
-          {0x1.6154cb0d2797p-3, 0x1.5dd22471b432ap-1, 0x1.85ca28a14ca7cp-2}, {-0x1.5a0de9ffbcb02p-1, -0x1.6ea9b760568bp-2, 0x1.41594e05fb8ep-5}}, {}, {}};
-  Body b{{{0x1.8f50f91c297bp-2, -0x1.2649ea26a8104p-2, -0x1.684877b13bd6ep-1}, {-0x1.da04a139fb2bp-3, 0x1.64202a21cc0bp-2, 0x1.6585e48c70e6ep-1},
-          {-0x1.75e552a7fbedp-2, 0x1.6e22b56b58fe8p-3, 0x1.c8ef212892dep-2}, {0x1.370441f033a88p-3, 0x1.b74ac2bfb33e8p-3, 0x1.6d71fb2f99daep-1}}, {}, {}};
+  Body a{{{0x1.7f7559069a93p-4, -0x1.549bc0acc0b68p-3, -0x1.75625412040ap-3},
+          {0x1.5f8048252321p-2, -0x1.73ca7aa11d3aap-1, 0x1.45566e494c588p-3},
+          {0x1.6154cb0d2797p-3, 0x1.5dd22471b432ap-1, 0x1.85ca28a14ca7cp-2},
+          {-0x1.5a0de9ffbcb02p-1, -0x1.6ea9b760568bp-2, 0x1.41594e05fb8ep-5}},
+         {},
+         {}};
+  Body b{{{0x1.8f50f91c297bp-2, -0x1.2649ea26a8104p-2, -0x1.684877b13bd6ep-1},
+          {-0x1.da04a139fb2bp-3, 0x1.64202a21cc0bp-2, 0x1.6585e48c70e6ep-1},
+          {-0x1.75e552a7fbedp-2, 0x1.6e22b56b58fe8p-3, 0x1.c8ef212892dep-2},
+          {0x1.370441f033a88p-3, 0x1.b74ac2bfb33e8p-3, 0x1.6d71fb2f99daep-1}},
+         {},
+         {}};
   for (Body* body : {&a, &b}) body->add({2, 1, 0}), body->add({0, 3, 2}), body->add({2, 3, 1}), body->add({1, 3, 0});
   const Model model_a = model(a), model_b = model(b);
   const Pose pose{Mat3::Identity(), {-0x1.d7a59fb700848p-4, -0x1.a8ed805adf87cp-1, -0x1.2e88b9ba946a2p-1}};
@@ -102,7 +122,10 @@ TEST(Regress, VerdictNearContactDependedOnTheStart) {
   const MarchStatus cold = march(model_a.level(0).view, model_b.level(0).view, pose).status;
   for (std::uint32_t i = 0; i < 4; ++i) {
     for (std::uint32_t j = 0; j < 4; ++j) {
-      EXPECT_EQ(march(model_a.level(0).view, model_b.level(0).view, pose, {{FeatureKind::Vertex, i}, {FeatureKind::Vertex, j}}).status, cold) << i << ' ' << j;
+      EXPECT_EQ(march(model_a.level(0).view, model_b.level(0).view, pose, {{FeatureKind::Vertex, i}, {FeatureKind::Vertex, j}})
+                    .status,
+                cold)
+          << i << ' ' << j;
     }
   }
 }

@@ -88,24 +88,18 @@ Mesh hull(std::span<const Vec3> points) {
 
 const char* name(Family family) {
   switch (family) {
-    case Family::Fat:
-      return "fat";
-    case Family::Plate:
-      return "plate";
-    case Family::Long:
-      return "long";
+    case Family::Fat: return "fat";
+    case Family::Plate: return "plate";
+    case Family::Long: return "long";
   }
   return "";
 }
 
 Vec3 semi_axes(Family family) {
   switch (family) {
-    case Family::Fat:
-      return {1, 1, 1};
-    case Family::Plate:
-      return {1, 1, .1};
-    case Family::Long:
-      return {1, .1, .1};
+    case Family::Fat: return {1, 1, 1};
+    case Family::Plate: return {1, 1, .1};
+    case Family::Long: return {1, .1, .1};
   }
   return Vec3::Zero();
 }

@@ -9,14 +9,15 @@ set termoption noenhanced
 set grid xtics ytics lc rgb "#dddddd"
 set border 3
 set tics nomirror
+set tmargin 4
 set logscale y
 set format y "%g"
 set ylabel "ns per query"
 
 # Three panels beside each other, the key right of the last.
 shapes = "fat plate long"
-panel_left(i) = sprintf("set lmargin at screen %g; set rmargin at screen %g", 0.05 + 0.265 * (i - 1), 0.285 + 0.265 * (i - 1))
-key_at(i) = i == 3 ? "set key at screen 0.995, graph 1 right top samplen 2 spacing 0.95 font ',10' noenhanced" : "unset key"
+panel_left(i) = sprintf("set lmargin at screen %g; set rmargin at screen %g", 0.05 + 0.27 * (i - 1), 0.28 + 0.27 * (i - 1))
+key_at(i) = i == 3 ? "set key at screen 0.825, graph 1 left Left reverse top samplen 2 spacing 0.95 font ',10' noenhanced" : "unset key"
 
 # A series has its place's colour and mark; swiftlet and V-Clip are the same everywhere.
 colours = "#4477aa #ee6677 #228833 #ccbb44 #66ccee #aa3377 #999933 #882255 #44aa99 #997700 #6699cc #ee99aa"

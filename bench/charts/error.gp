@@ -9,6 +9,7 @@ set output out . "/error.svg"
 set logscale x
 set xrange [1e-14:2]
 set xtics ("exact" 1e-13, "1e-9" 1e-9, "1e-6" 1e-6, "1e-4" 1e-4, "1e-3" 1e-3, "1e-2" 1e-2, "0.1" 1e-1, "1" 1) rotate by -45
+set bmargin 6
 set xlabel "error in radii: allowed (swiftlet), measured (others)"
 tilde(series) = strstrt(series, " ~")
 base(series) = tilde(series) > 0 ? series[1:tilde(series) - 1] : series

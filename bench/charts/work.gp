@@ -18,8 +18,8 @@ do for [row = 1:2] {
     all = values(file, "series", "question", "distance")
     list = ""
     do for [i = 1:words(all)] { s = word(all, i); if (strstrt(s, "swiftlet") == 1 || s eq "vclip" || s eq "plain") { list = list . " \"" . s . "\"" } }
-    set title sprintf("%s, %s", shape, what)
-    set ylabel what . " per query"
+    set title sprintf("%s, %s", shape, row == 1 ? "steps" : "plane tests")
+    set ylabel row == 1 ? "steps per query" : "plane tests per query"
     plot for [i = 1:words(list)] file using (kept(strcol("shape") eq shape && strcol("question") eq "distance" && \
         strcol("series") eq word(list, i), column("step"))):(column(what)) \
       with linespoints lc rgb colour(word(list, i), i) lw width(word(list, i)) pt mark(word(list, i), i) ps 0.6 title word(list, i)

@@ -25,46 +25,32 @@ Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 const char* name(Status status) {
   switch (status) {
-    case Status::Converged:
-      return "Converged";
-    case Status::Beyond:
-      return "Beyond";
-    case Status::Budget:
-      return "Budget";
-    case Status::LevelLimit:
-      return "LevelLimit";
-    case Status::NotConverged:
-      return "NotConverged";
-    case Status::InvalidPose:
-      break;
+    case Status::Converged: return "Converged";
+    case Status::Beyond: return "Beyond";
+    case Status::Budget: return "Budget";
+    case Status::LevelLimit: return "LevelLimit";
+    case Status::NotConverged: return "NotConverged";
+    case Status::InvalidPose: break;
   }
   return "InvalidPose";
 }
 
 const char* name(Verdict verdict) {
   switch (verdict) {
-    case Verdict::Disjoint:
-      return "Disjoint";
-    case Verdict::Touching:
-      return "Touching";
-    case Verdict::Overlapping:
-      return "Overlapping";
-    case Verdict::Undecided:
-      break;
+    case Verdict::Disjoint: return "Disjoint";
+    case Verdict::Touching: return "Touching";
+    case Verdict::Overlapping: return "Overlapping";
+    case Verdict::Undecided: break;
   }
   return "Undecided";
 }
 
 const char* name(FeatureKind kind) {
   switch (kind) {
-    case FeatureKind::Vertex:
-      return "vertex";
-    case FeatureKind::Edge:
-      return "edge";
-    case FeatureKind::Face:
-      return "face";
-    case FeatureKind::None:
-      break;
+    case FeatureKind::Vertex: return "vertex";
+    case FeatureKind::Edge: return "edge";
+    case FeatureKind::Face: return "face";
+    case FeatureKind::None: break;
   }
   return "none";
 }
@@ -73,14 +59,10 @@ double volume_ratio(const Model& model, const Level& level) { return model.volum
 
 double degrees(lut::Resolution resolution) {
   switch (resolution) {
-    case lut::Resolution::Degrees22:
-      return 22.5;
-    case lut::Resolution::Degrees11:
-      return 11.25;
-    case lut::Resolution::Degrees5:
-      return 5.625;
-    case lut::Resolution::None:
-      break;
+    case lut::Resolution::Degrees22: return 22.5;
+    case lut::Resolution::Degrees11: return 11.25;
+    case lut::Resolution::Degrees5: return 5.625;
+    case lut::Resolution::None: break;
   }
   return 0;
 }

@@ -17,7 +17,8 @@
 
 namespace swiftlet {
 
-/// Points and the triangles over them (polygons are fanned). Only the points shape a convex model; the triangles name its faces.
+/// Points and the triangles over them (polygons are fanned). Only the points shape a convex model; the triangles name its
+/// faces.
 struct Mesh {
   std::vector<Vec3> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -44,12 +45,12 @@ using Progress = std::function<bool(double fraction, std::string_view stage)>;
 struct BuildOptions {
   Method method = Method::Collapse;
   Enclosing enclosing = Enclosing::Tight;
-  double rate = 0.25;               ///< triangles of a level over those one level finer, in (0, 1); Peel removes what it can
-  std::uint32_t cutoff = 60;        ///< no level has fewer triangles than this, nor a solid fewer than 4
-  int max_levels = 32;              ///< level 0 included, 1 to 32
-  double max_deviation = 0;         ///< when > 0: the hierarchy ends before a level deviates more, in the mesh's unit
-  bool require_convex = false;      ///< refuse a mesh with dents
-  bool require_solid = false;       ///< refuse flat, collinear and single-point input
+  double rate = 0.25;           ///< triangles of a level over those one level finer, in (0, 1); Peel removes what it can
+  std::uint32_t cutoff = 60;    ///< no level has fewer triangles than this, nor a solid fewer than 4
+  int max_levels = 32;          ///< level 0 included, 1 to 32
+  double max_deviation = 0;     ///< when > 0: the hierarchy ends before a level deviates more, in the mesh's unit
+  bool require_convex = false;  ///< refuse a mesh with dents
+  bool require_solid = false;   ///< refuse flat, collinear and single-point input
   TableSpec table;
   Progress progress;
 };
@@ -64,10 +65,10 @@ struct BuildReport {
   std::size_t duplicates_dropped = 0;  ///< points equal to an earlier one
   std::size_t interior_dropped = 0;    ///< points that are no vertex of the hull: inside it, in a face or on an edge
   std::size_t hull_triangles = 0, faces_grouped = 0;  ///< triangles before grouping; faces of more than three vertices
-  double volume_ratio = 1;             ///< mesh over hull; 1 for convex input, and where the mesh does not close
-  double deepest_dent = 0;             ///< distance from the hull to the farthest mesh vertex inside it
+  double volume_ratio = 1;                            ///< mesh over hull; 1 for convex input, and where the mesh does not close
+  double deepest_dent = 0;                            ///< distance from the hull to the farthest mesh vertex inside it
   std::vector<LevelReport> levels;
-  std::string end;                     ///< why the hierarchy ended where it did
+  std::string end;  ///< why the hierarchy ended where it did
 };
 
 struct Built {

@@ -43,15 +43,15 @@ struct MarchStart {
 struct MarchRule {
   double absolute = 0, relative = 0;
   double beyond = std::numeric_limits<double>::infinity();
-  double floor = 0;                  ///< a lower bound already proved; the answer's is never less
-  std::uint32_t step_budget = ~0u;   ///< steps of the walk, not time; certified progress counts as one more
+  double floor = 0;                 ///< a lower bound already proved; the answer's is never less
+  std::uint32_t step_budget = ~0u;  ///< steps of the walk, not time; certified progress counts as one more
   PlaneRule plane_rule = PlaneRule::MostViolated;
 };
 
 struct MarchResult {
   MarchStatus status = MarchStatus::NotConverged;
-  Handle a, b;                 ///< the nearest features, or those that met; storable, start of the next march
-  double lower = 0;            ///< proved bounds on the distance between the two polytopes
+  Handle a, b;       ///< the nearest features, or those that met; storable, start of the next march
+  double lower = 0;  ///< proved bounds on the distance between the two polytopes
   double upper = std::numeric_limits<double>::infinity();
   Vec3 normal = Vec3::Zero();  ///< unit, A's frame, from A to B: the direction `lower` is proved in; 0 without one
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< nearest points, A's frame
@@ -61,9 +61,9 @@ struct MarchResult {
 };
 
 /// Marches from `start` to the nearest features of `a` and `b`. Allocates nothing.
-/// Law 7: at most 2 * (12 |A| |B| + 1) steps, where |X| counts vertices, half-edges and faces: a state that shortens the distance
-/// never returns, twelve in a row that do not end the walk, and within rounding of a threshold a cold walk follows. The most ever
-/// seen is |A| + |B|; on 2 000 triangles about 50.
+/// Law 7: at most 2 * (12 |A| |B| + 1) steps, where |X| counts vertices, half-edges and faces: a state that shortens the
+/// distance never returns, twelve in a row that do not end the walk, and within rounding of a threshold a cold walk follows.
+/// The most ever seen is |A| + |B|; on 2 000 triangles about 50.
 MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, const MarchStart& start = {},
                   const MarchRule& rule = {});
 

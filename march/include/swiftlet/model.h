@@ -71,9 +71,9 @@ struct Level {
   std::span<const std::uint32_t> child_vertex;  ///< per vertex, the vertex one level finer (empty on level 0)
   std::span<const Handle> child_face;           ///< per face, the face or vertex one level finer (empty on level 0)
   std::span<const std::uint32_t> parent_face;   ///< per face, the vertex one level coarser (empty on the coarsest)
-  double deviation = 0;     ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
+  double deviation = 0;  ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
   double volume = 0;
-  std::size_t bytes = 0;    ///< of this level in the model's block
+  std::size_t bytes = 0;                           ///< of this level in the model's block
   std::size_t edge_count = 0, triangle_count = 0;  ///< without diagonals; 2 V - 4 for a solid
 };
 
@@ -96,7 +96,8 @@ struct LevelArrays {
   std::span<const std::uint32_t> face_source;
 
   std::span<const std::uint32_t> child_vertex;  ///< per vertex, a vertex of the finer arrays; empty: the nearest [sec. 4.3]
-  std::span<const std::uint32_t> child_of_face; ///< per face that the finer level lacks, a vertex of the finer arrays; empty: as its vertices
+  /// Per face that the finer level lacks, a vertex of the finer arrays; empty: as the face's first vertex.
+  std::span<const std::uint32_t> child_of_face;
 };
 
 /// Which start table a model carries [Ehmann & Lin 2000, sec. 4.6].
@@ -119,26 +120,26 @@ class Model {
   /// One level.
   static Result<Model> from_level(const LevelArrays& level, const ModelOptions& options = {});
 
-  int level_count() const;              ///< at least 1; level 0 is the exact hull, larger is coarser
+  int level_count() const;  ///< at least 1; level 0 is the exact hull, larger is coarser
   const Level& level(int index) const;
   SourceMap source() const;
 
-  Vec3 centre() const;                  ///< area centroid of level 0 (of its edges or point, where flatter)
-  double radius() const;                ///< largest distance of a vertex of level 0 from the centre, rounded up
-  double extent() const;                ///< largest absolute coordinate over all levels
-  Vec3 box_min() const;                 ///< of level 0
+  Vec3 centre() const;    ///< area centroid of level 0 (of its edges or point, where flatter)
+  double radius() const;  ///< largest distance of a vertex of level 0 from the centre, rounded up
+  double extent() const;  ///< largest absolute coordinate over all levels
+  Vec3 box_min() const;   ///< of level 0
   Vec3 box_max() const;
-  double volume() const;                ///< of level 0
-  int dimension() const;                ///< 3 solid, 2 flat, 1 segment, 0 point
+  double volume() const;  ///< of level 0
+  int dimension() const;  ///< 3 solid, 2 flat, 1 segment, 0 point
   /// A vertex of level 0 that no other exceeds in `direction` (body frame, any length). Exact; a climb from the start table.
   std::uint32_t support(const Vec3& direction) const;
 
   TableSpec table_spec() const;
-  std::span<const std::uint32_t> table() const;      ///< a vertex of level 0 per sample of lut.h, empty without one
-  Model with_table(const TableSpec& spec) const;     ///< the same levels with another table
+  std::span<const std::uint32_t> table() const;   ///< a vertex of level 0 per sample of lut.h, empty without one
+  Model with_table(const TableSpec& spec) const;  ///< the same levels with another table
 
-  std::span<const std::byte> bytes() const;          ///< the block: what model_file.h writes
-  std::uint64_t hash() const;                        ///< of the block; equal hash, equal model
+  std::span<const std::byte> bytes() const;  ///< the block: what model_file.h writes
+  std::uint64_t hash() const;                ///< of the block; equal hash, equal model
 
  private:
   friend class BlockReader;

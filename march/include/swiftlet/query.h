@@ -47,8 +47,8 @@ enum class StartPolicy : std::uint8_t {
 /// What one query leaves for the next one of the same pair. The caller carries it; `PairSeed{}` is cold. Any bits are legal: a
 /// seed changes the work, never the truth.
 struct PairSeed {
-  Handle a, b;                        ///< features at the levels below
-  Handle coarse_a, coarse_b;          ///< features on the coarsest levels
+  Handle a, b;                                           ///< features at the levels below
+  Handle coarse_a, coarse_b;                             ///< features on the coarsest levels
   std::array<std::int16_t, 3> line_in_a{}, line_in_b{};  ///< the line of centres, in units of 1/32767: how far it turned tells
                                                          ///< whether the features are worth a try
   std::uint8_t level_a = 0, level_b = 0;
@@ -66,7 +66,7 @@ struct QueryOptions {
   double absolute_error = 0;  ///< stop when upper - lower <= max(absolute_error, relative_error * lower)
   double relative_error = 0;
   double beyond = std::numeric_limits<double>::infinity();  ///< stop when lower > beyond
-  int finest_level = 0;       ///< read no level finer than this
+  int finest_level = 0;                                     ///< read no level finer than this
   std::uint32_t step_budget = ~0u;
   StartPolicy start = StartPolicy::Automatic;
   Refinement refinement = Refinement::SingleSingle;
@@ -85,7 +85,7 @@ struct Answer {
   Handle feature_a, feature_b;                          ///< on those levels
   OverlapProof proof;                                   ///< vertices of those levels
   std::uint32_t steps = 0, plane_tests = 0;
-  int levels_visited = 0;                               ///< entries of options.trace that were wanted
+  int levels_visited = 0;  ///< entries of options.trace that were wanted
 };
 
 /// The distance between `a` and `b`, where `b_in_a` maps B's frame into A's: exact by default, that is within law 2's bound.

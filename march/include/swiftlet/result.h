@@ -37,10 +37,22 @@ class [[nodiscard]] Result {
   Result(Error error) : state_(std::move(error)) {}
 
   explicit operator bool() const { return state_.index() == 0; }
-  T& value() & { assert(*this); return std::get<0>(state_); }
-  const T& value() const& { assert(*this); return std::get<0>(state_); }
-  T&& value() && { assert(*this); return std::get<0>(std::move(state_)); }
-  const Error& error() const { assert(!*this); return std::get<1>(state_); }
+  T& value() & {
+    assert(*this);
+    return std::get<0>(state_);
+  }
+  const T& value() const& {
+    assert(*this);
+    return std::get<0>(state_);
+  }
+  T&& value() && {
+    assert(*this);
+    return std::get<0>(std::move(state_));
+  }
+  const Error& error() const {
+    assert(!*this);
+    return std::get<1>(state_);
+  }
 
  private:
   std::variant<T, Error> state_;

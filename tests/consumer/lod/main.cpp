@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The program of the README; consumer/run compares both, and what it prints.
-#include <cstdio>
 #include <swiftlet/build.h>
 #include <swiftlet/query.h>
+#include <cstdio>
 
 int main() {
   const swiftlet::Vec3 corners[] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
