@@ -32,8 +32,8 @@ struct Options {
   bool quick() const { return size == Size::Quick; }
   bool all() const { return size == Size::All; }
   int rounds() const { return all() ? 5 : 3; }
-  /// 20 000 queries, of 40 orbits; quick 1 000, of 4.
-  Extent extent() const { return quick() ? Extent{4, 250} : Extent{40, 500}; }
+  /// Queries a round: 10 000, of 20 orbits; all 20 000, of 40; quick 1 000, of 4.
+  Extent extent() const { return quick() ? Extent{4, 250} : all() ? Extent{40, 500} : Extent{20, 500}; }
   std::vector<double> steps() const {
     if (quick()) return {1.04, 10.4, 45.4};
     return {kSteps.begin(), kSteps.end()};
@@ -108,7 +108,7 @@ class Field {
   }
 
   inline static const std::vector<std::pair<std::string, StartPolicy>> kStarts{{"paper ", StartPolicy::Paper},
-                                                                              {"ours ", StartPolicy::Automatic}};
+                                                                               {"ours ", StartPolicy::Automatic}};
   inline static const std::vector<std::pair<std::string, Refinement>> kRefinements{
       {"Single", Refinement::Single}, {"Single-Single", Refinement::SingleSingle}, {"Double-Double", Refinement::DoubleDouble}};
 
@@ -138,7 +138,8 @@ std::vector<Entrant> everyone(const Field& field, const Asked& asked, Question q
   for (const auto& m : field.everyone()) {
     if (!can(*m, question) || !(peers || of_this_house(*m)) || largest > m->capabilities().max_triangles) continue;
     const std::string name = m->name();
-    const bool main = name == "swiftlet" || name.ends_with(" table") || name.ends_with(" finest") || name.ends_with(" coarsest");
+    const bool main =
+        name == "swiftlet" || name.ends_with(" table") || name.ends_with(" finest") || name.ends_with(" coarsest");
     if (variants == Variants::Main && name.starts_with("swiftlet") && !main) continue;
     result.push_back({m->name(), m.get(), asked.bodies});
   }
@@ -237,9 +238,8 @@ PaperModels paper_models(const Options& options, Family family) {
     }));
   }
   for (const double rate : kRates) {
-    models.collapsed.push_back(make("rate " + brief(rate), [&](BuildOptions& b) {
-      b.enclosing = Enclosing::Scale, b.cutoff = 50, b.rate = rate;
-    }));
+    models.collapsed.push_back(
+        make("rate " + brief(rate), [&](BuildOptions& b) { b.enclosing = Enclosing::Scale, b.cutoff = 50, b.rate = rate; }));
   }
   const std::pair<const char*, lut::Resolution> resolutions[] = {
       {"22.5", lut::Resolution::Degrees22}, {"11.25", lut::Resolution::Degrees11}, {"5.625", lut::Resolution::Degrees5}};
@@ -268,7 +268,8 @@ void paper_cells(const Options& options, const Field& field, const PaperModels& 
   const Entrant shipped{"swiftlet", &field.named("swiftlet"), asked.bodies}, clip{"vclip", &field.named("vclip"), asked.bodies};
   if (options.wants("fig5")) {
     run("fig5", Question::Distance,
-        {clip, {"walk alone most violated", &field.named("plain"), asked.bodies},
+        {clip,
+         {"walk alone most violated", &field.named("plain"), asked.bodies},
          {"walk alone first violated", &field.named("plain first"), asked.bodies},
          entrant("certified most violated", "swiftlet finest", models.nothing),
          entrant("certified first violated", "finest first", models.nothing)});
@@ -278,8 +279,7 @@ void paper_cells(const Options& options, const Field& field, const PaperModels& 
     for (const Variant& v : models.tables) entrants.push_back(entrant(v.name, "swiftlet table", v));
     run("fig6", Question::Distance, entrants);
   }
-  const auto hierarchy = [&](const char* group, Question question, const std::deque<Variant>& variants,
-                             bool every_refinement) {
+  const auto hierarchy = [&](const char* group, Question question, const std::deque<Variant>& variants, bool every_refinement) {
     if (!options.wants(group)) return;
     std::vector<Entrant> entrants;
     for (const Variant& v : variants) {
@@ -384,7 +384,8 @@ void errors(const Options& options, const Field& field, const Shelf& shelf, Resu
                                  : orbit(shelf, family, kPaperTriangles, 2, 10.4, options.extent());
       const Asked asked(scene);
       std::vector<Entrant> entrants = everyone(field, asked, Question::Distance, true);
-      std::erase_if(entrants, [](const Entrant& e) { return e.series.starts_with("swiftlet ") && e.series != "swiftlet coarsest"; });
+      std::erase_if(entrants,
+                    [](const Entrant& e) { return e.series.starts_with("swiftlet ") && e.series != "swiftlet coarsest"; });
       for (Entrant exact : std::vector<Entrant>(entrants)) {
         const Capabilities can = exact.method->capabilities();
         if (!can.approximate) continue;
@@ -419,8 +420,9 @@ void sizes(const Options& options, const Field& field, const Shelf& shelf, Resul
                                                 : orbit(shelf, family, triangles, 2, step, options.extent());
         const Asked asked(scene);
         for (const Question question : {Question::Distance, Question::Intersects}) {
-          results.add("triangles", shapes::name(family), step, triangles,
-                      measure(asked, question, everyone(field, asked, question, options.all(), Variants::Main), options.rounds()));
+          results.add(
+              "triangles", shapes::name(family), step, triangles,
+              measure(asked, question, everyone(field, asked, question, options.all(), Variants::Main), options.rounds()));
         }
       }
     }
@@ -451,7 +453,7 @@ void others(const Options& options, const Field& field, const Shelf& shelf, Resu
   if (options.quick()) return;
   run(ten_to_one(shelf, kPaperTriangles, kStep, extent), "10:1", options.all());
   run(plate_and_long(shelf, kPaperTriangles, kStep, extent), "plate and long", options.all());
-  run(crowd(shelf, kPaperTriangles, kStep), "crowd", true);
+  run(crowd(shelf, kPaperTriangles, kStep, options.all() ? 200 : 100), "crowd", true);
   const auto links = robot_links(options.meshes);
   if (links.empty()) std::puts("\nno robot links: models/fetch brings them");
   for (std::size_t i = 0; i + 1 < links.size(); i += options.all() ? 1 : 2) {

@@ -21,7 +21,7 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 
 constexpr std::size_t kWarmUp = 5'000, kSlowWarmUp = 500;  // queries
 constexpr double kSlow = 1e-5;                             // seconds per query
-constexpr int kSlowRounds = 3;
+constexpr int kSlowRounds = 2;
 constexpr std::size_t kFloorPoses = 20;
 constexpr double kFloorMove = 1e-9;  // radii
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
@@ -122,9 +122,13 @@ class Rounds {
     benchmark::ClearRegisteredBenchmarks();
   }
   void add(const std::string& name, Runner& runner, int rounds) {
-    benchmark::RegisterBenchmark(name.c_str(), [&runner](benchmark::State& state) {
-      for (auto _ : state) state.SetIterationTime(runner.timed_pass());
-    })->UseManualTime()->Iterations(1)->Repetitions(rounds);
+    benchmark::RegisterBenchmark(name.c_str(),
+                                 [&runner](benchmark::State& state) {
+                                   for (auto _ : state) state.SetIterationTime(runner.timed_pass());
+                                 })
+        ->UseManualTime()
+        ->Iterations(1)
+        ->Repetitions(rounds);
   }
   std::map<std::string, std::vector<double>> run() {
     Collector collector;
@@ -224,9 +228,9 @@ std::string csv_header() {
 std::string csv_line(const Row& r) {
   return text("%s,%s,%s,%u,%g,%s,%s,%s,%d,%g,%zu,%zu,%.5g,%.3g,%.5g,%.4g,%.3g,%.3g,%zu,%zu,%d,%016llx,%d,%.5g,%.5g,%.5g,%.4g\n",
               r.group.c_str(), r.scene.c_str(), r.shape.c_str(), r.triangles, r.step, name(r.question), r.series.c_str(),
-              r.choice.c_str(), r.levels, r.allowed, r.queries, r.rounds, r.ns, r.spread, r.floor_ns, r.ratio(), r.error, r.mean_error, r.wrong,
-              r.failed, int(r.flagged), static_cast<unsigned long long>(r.hash), int(r.hash_true), r.steps, r.plane_tests,
-              r.bytes, r.build_seconds);
+              r.choice.c_str(), r.levels, r.allowed, r.queries, r.rounds, r.ns, r.spread, r.floor_ns, r.ratio(), r.error,
+              r.mean_error, r.wrong, r.failed, int(r.flagged), static_cast<unsigned long long>(r.hash), int(r.hash_true),
+              r.steps, r.plane_tests, r.bytes, r.build_seconds);
 }
 
 std::string table(std::span<const Row> rows) {

@@ -33,8 +33,8 @@ struct Asked {
   const Scene* scene;
   std::vector<Body> bodies;
   Truth truth;
-  double radius = 0;      ///< the largest bounding radius
-  double triangles = 0;   ///< of all bodies on level 0
+  double radius = 0;         ///< the largest bounding radius
+  double triangles = 0;      ///< of all bodies on level 0
   std::vector<Query> floor;  ///< a few poses of the scene, each alternating many times with one that is 1e-9 radii farther
 };
 
@@ -45,20 +45,20 @@ struct Row {
   std::uint32_t triangles = 0;
   Question question = Question::Distance;
   std::string series, choice;
-  double allowed = 0;          ///< in radii
-  std::size_t queries = 0;     ///< timed, per round
+  double allowed = 0;       ///< in radii
+  std::size_t queries = 0;  ///< timed, per round
   std::size_t rounds = 0;
-  double ns = 0, spread = 0;   ///< median over the rounds; the quartiles' distance over the median
-  double floor_ns = 0;         ///< what a swiftlet query takes whose features stay, in the same rounds
+  double ns = 0, spread = 0;         ///< median over the rounds; the quartiles' distance over the median
+  double floor_ns = 0;               ///< what a swiftlet query takes whose features stay, in the same rounds
   double error = 0, mean_error = 0;  ///< beyond the proved interval, in radii
   std::size_t wrong = 0, failed = 0;
-  bool flagged = false;        ///< a failure, a wrong verdict, or an error beyond what the method states or was allowed
+  bool flagged = false;  ///< a failure, a wrong verdict, or an error beyond what the method states or was allowed
   std::uint64_t hash = 0;
-  bool hash_true = false;      ///< every answer right to 0.5e-9 radii
+  bool hash_true = false;             ///< every answer right to 0.5e-9 radii
   double steps = 0, plane_tests = 0;  ///< per query; NaN where a boolean hides them
-  double bytes = 0;            ///< on the heap, per triangle
+  double bytes = 0;                   ///< on the heap, per triangle
   double build_seconds = 0;
-  int levels = 1;              ///< of the first body
+  int levels = 1;  ///< of the first body
 
   double ratio() const { return ns / floor_ns; }
 };
@@ -67,7 +67,7 @@ struct Row {
 inline constexpr double kRandomStep = 400;
 
 /// Every entrant's passes over the scene, in rounds whose order Google Benchmark shuffles. Each timed pass follows an untimed
-/// one over the scene's last 5 000 queries. A method that takes longer than 10 us per query gets 500, and at most three rounds.
+/// one over the scene's last 5 000 queries. A method that takes longer than 10 us per query gets 500, and two rounds.
 std::vector<Row> measure(const Asked& asked, Question question, std::span<const Entrant> entrants, int rounds);
 
 std::string csv_header();
