@@ -81,14 +81,18 @@ Mesh3 quickhull(std::span<const Vec3> points, const Ids& ids) {
   return mesh;
 }
 
+/// Whether the faces beside an edge lie in one plane.
+bool is_flat(const Mesh3& mesh, Mesh3::Halfedge_index h) {
+  const auto apex = [&](Mesh3::Halfedge_index side) { return mesh.point(mesh.target(mesh.next(side))); };
+  return CGAL::coplanar(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)), apex(h), apex(mesh.opposite(h)));
+}
+
 /// A vertex of the hull has at least three edges with a true dihedral angle; quickhull also returns points inside faces and
 /// edges.
 bool is_extreme(const Mesh3& mesh, Mesh3::Vertex_index vertex) {
   int sharp = 0;
   for (Mesh3::Halfedge_index h : CGAL::halfedges_around_target(vertex, mesh)) {
-    const auto apex = [&](Mesh3::Halfedge_index side) { return mesh.point(mesh.target(mesh.next(side))); };
-    if (!CGAL::coplanar(mesh.point(mesh.source(h)), mesh.point(vertex), apex(h), apex(mesh.opposite(h))) && ++sharp == 3)
-      return true;
+    if (!is_flat(mesh, h) && ++sharp == 3) return true;
   }
   return false;
 }
@@ -104,18 +108,28 @@ Ids identify(const Mesh3& mesh, std::span<const Vec3> points, const Ids& sorted)
   return ids;
 }
 
-/// Vertices ascending, triangles from their lowest corner on and sorted: independent of the order quickhull met them in.
+/// Vertices ascending; facets fanned from their lowest corner, the triangles sorted: independent of the order quickhull met
+/// points in and of how it cut coplanar ones into triangles.
 void put_in_order(const Mesh3& mesh, const Ids& ids, Hull& hull) {
   hull.vertices = ids;
   std::sort(hull.vertices.begin(), hull.vertices.end());
   Ids rank;
   for (std::uint32_t id : ids)
     rank.push_back(std::uint32_t(std::lower_bound(hull.vertices.begin(), hull.vertices.end(), id) - hull.vertices.begin()));
-  for (Mesh3::Face_index face : mesh.faces()) {
-    const Mesh3::Halfedge_index h = mesh.halfedge(face);
-    Triangle triangle{rank[mesh.source(h)], rank[mesh.target(h)], rank[mesh.target(mesh.next(h))]};
-    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-    hull.triangles.push_back(triangle);
+  std::vector<bool> flat(mesh.num_halfedges()), passed(mesh.num_halfedges());
+  for (Mesh3::Halfedge_index h : mesh.halfedges()) flat[h] = is_flat(mesh, h);
+  for (Mesh3::Halfedge_index first : mesh.halfedges()) {
+    if (flat[first] || passed[first]) continue;
+    Ids border;
+    Mesh3::Halfedge_index h = first;
+    do {
+      passed[h] = true;
+      border.push_back(rank[mesh.source(h)]);
+      h = mesh.next(h);
+      while (flat[h]) h = mesh.next(mesh.opposite(h));
+    } while (h != first);
+    std::rotate(border.begin(), std::min_element(border.begin(), border.end()), border.end());
+    for (std::size_t i = 1; i + 1 < border.size(); ++i) hull.triangles.push_back({border[0], border[i], border[i + 1]});
   }
   std::sort(hull.triangles.begin(), hull.triangles.end());
 }

@@ -102,6 +102,10 @@ nlohmann::ordered_json report_json(const Request& request, const Built& built) {
 }
 
 Result<Output> build_word(const Request& request) {
+  std::error_code none;
+  if (std::filesystem::equivalent(request.in, request.out, none)) {
+    return Error{ErrorCode::CannotWrite, request.out + ": is the mesh itself"};
+  }
   if (const auto may = may_write(request.out); !may) return may.error();
   BuildOptions options = request.options;
   const auto built = [&]() -> Result<Built> {

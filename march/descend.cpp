@@ -25,8 +25,8 @@ class Descent {
         options_(options),
         target_(target),
         law_two_(scene(a.level(0).view, b.level(0).view, m, pose_error).law_two),
-        finest_a_(std::min(options.finest_level, a.level_count() - 1)),
-        finest_b_(std::min(options.finest_level, b.level_count() - 1)) {}
+        finest_a_(std::clamp(options.finest_level, 0, a.level_count() - 1)),
+        finest_b_(std::clamp(options.finest_level, 0, b.level_count() - 1)) {}
 
   Answer run(PairSeed& seed) {
     Place place = first_place(a_, b_, motion_, seed, options_);
@@ -104,7 +104,8 @@ class Descent {
       answer_.lower = r.lower;
       answer_.normal = r.normal;
     }
-    const double upper = (r.upper + deviation(place.level_a, place.level_b)) * (1 + 2 * kU);
+    const double error = deviation(place.level_a, place.level_b);
+    const double upper = error > 0 ? (r.upper + error) * (1 + 2 * kU) : r.upper;
     if (upper <= answer_.upper + rounding) {
       answer_.upper = upper;
       answer_.point_a = r.point_a;

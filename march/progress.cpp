@@ -132,14 +132,19 @@ class Contact {
   }
 
   /// `depth` becomes the inner polytope's. Touching when a plane is found that the bodies overlap by no more than the bound;
-  /// Overlapping when the inner polytope reaches farther on all sides, or no more points help. `normal` is the plane's, or the
-  /// last tried.
+  /// Overlapping when the inner polytope reaches farther on all sides, or no more points help. `normal` is tried first, and
+  /// becomes the plane's, or the last tried.
   MarchStatus decide(Vec& normal, OverlapProof& proof, double& depth) {
+    const Vec hint = normal;
     if (count_ == 4 && (depth = nearest_facet(normal)) > scene_.law_two && prove(proof)) return MarchStatus::Overlapping;
+    if (touches(hint, normal)) return MarchStatus::Touching;
     for (const Vec& n : {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}}) {
-      for (const Vec& direction : {n, -n}) {
-        if (width(normal = direction) <= scene_.law_two) return MarchStatus::Touching;
-      }
+      if (touches(n, normal) || touches(-n, normal)) return MarchStatus::Touching;
+    }
+    // Points on a line have no facet: look across it.
+    const Vec line = longest(), across = normalised(cross(line, least_axis(line)));
+    for (const Vec& n : {across, normalised(cross(line, across))}) {
+      if (touches(n, normal) || touches(-n, normal)) return MarchStatus::Touching;
     }
     while (count_ < kContactPoints) {
       Vec n{0, 0, 0};
@@ -154,6 +159,27 @@ class Contact {
   }
 
  private:
+  /// Whether the bodies overlap along unit n by no more than the bound; the vertex there joins the polytope either way.
+  bool touches(const Vec& n, Vec& normal) {
+    if (dot(n, n) == 0) return false;
+    normal = n;
+    return width(n) <= scene_.law_two;
+  }
+
+  /// The longest difference from the first point to another.
+  Vec longest() const {
+    Vec best{0, 0, 0};
+    for (int k = 1; k < count_; ++k) {
+      const Vec d = points_[k].p - points_[0].p;
+      if (dot(d, d) > dot(best, best)) best = d;
+    }
+    return best;
+  }
+  static Vec least_axis(const Vec& v) {
+    const double x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z);
+    return x <= y && x <= z ? Vec{1, 0, 0} : y <= z ? Vec{0, 1, 0} : Vec{0, 0, 1};
+  }
+
   bool known(std::uint32_t a, std::uint32_t b) const {
     for (int k = 0; k < count_; ++k) {
       if (points_[k].a == a && points_[k].b == b) return true;
@@ -239,11 +265,12 @@ class Descent {
       const Vec n = normalised(-rounded(nearest.point));
       const std::uint32_t a = support_a(scene_, n, set_[0].a, tests_), b = support_b(scene_, n, set_[0].b, tests_);
       const double lower = bound(n, a, b);
-      if (lower > m.certificate.lower || distance < least_)
+      if (lower > greatest_ || distance < least_)
         patience = kProgressPatience;
       else
         --patience;
       least_ = std::fmin(least_, distance);
+      greatest_ = std::fmax(greatest_, lower);
       if (lower > m.certificate.lower) take_plane(m.certificate, n, a, b, lower);
       if (goal_.met(m.certificate.lower, m.certificate.upper)) {
         m.status = MarchStatus::Disjoint;
@@ -322,7 +349,7 @@ class Descent {
   std::array<Difference<Real>, 4> set_{};
   std::array<Real, 4> weight_{};
   int count_ = 0;
-  double least_ = std::numeric_limits<double>::infinity();
+  double least_ = std::numeric_limits<double>::infinity(), greatest_ = -least_;  ///< distance, and gap, may be negative
   bool met_ = false;
 };
 
@@ -336,7 +363,7 @@ bool settle(const Scene& scene, const Goal& goal, Meeting& m, std::uint32_t& pla
   if (!descent.met() && !near_zero) return false;
   Contact contact(scene, plane_tests);
   for (int k = 0; k < descent.count(); ++k) contact.add(descent[k].a, descent[k].b);
-  Vec normal{0, 0, 0};
+  Vec normal = m.certificate.normal;
   const MarchStatus status = contact.decide(normal, m.proof, m.depth);
   if (status == MarchStatus::NotConverged) return false;
   if (status == MarchStatus::Touching && !near_zero) return false;  // thin bodies may be thin far apart

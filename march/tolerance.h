@@ -77,7 +77,7 @@ inline constexpr double kFloatUlp = 0x1p-23, kDoubleUlp = 0x1p-52;
 inline constexpr std::uint32_t kStallLimit = 12;
 /// Iterations of certified progress per arithmetic: a Frank-Wolfe step on an active set of at most four. Each shortens the
 /// distance or is the last but `kProgressPatience`.
-inline constexpr int kProgressLimit = 400, kProgressPatience = 4;
+inline constexpr int kProgressLimit = 400, kProgressPatience = 8;
 /// What an Automatic start weighs. A walk takes about half a step per edge that it crosses, and sqrt(V) edges make a radian of
 /// a level of V vertices (measured on ellipsoids of 2 000 and 20 000 triangles, 0.5 to 180 degrees); a descent six steps per
 /// level.

@@ -130,5 +130,33 @@ TEST(Regress, VerdictNearContactDependedOnTheStart) {
   }
 }
 
+/// Differences on one line have no facet: bodies on one line ended NotConverged unless an axis lay across it.
+TEST(Regress, CollinearBodiesHadNoFacetToLookAcross) {
+  const Model segment = model({{{-1, -1, -1}, {1, 1, 1}}, {}, {}}), point = model({{{0, 0, 0}}, {}, {}});
+  for (const Model* other : {&segment, &point}) {
+    PairSeed seed;
+    const Answer answer = distance(segment, *other, Pose{}, seed);
+    EXPECT_EQ(answer.status, Status::Converged);
+    EXPECT_EQ(answer.verdict, Verdict::Touching);
+  }
+  expect_sound(segment, segment, {Mat3::Identity(), {0.5, 0.5, 0.5}});
+}
+
+/// The upper bound was rounded up once more after the march had met law 2's bound.
+TEST(Regress, TwoPointsWereWiderThanLawTwo) {
+  const Model a = model({{{0x1.12223de3eb026p-1, -0x1.5327a9fda26e6p-1, 0x1.8f693dabc6dp-7}}, {}, {}});
+  const Model b = model({{{-0x1.e95786ae1bbe8p-2, 0x1.7a9ab55736c04p-2, 0x1.a6e8b833c9c4p-2}}, {}, {}});
+  expect_sound(a, b, Pose{});
+}
+
+/// A level below 0 was read: out of bounds.
+TEST(Regress, NegativeFinestLevelCrashed) {
+  const Model cube = model(bodies::cube());
+  QueryOptions options;
+  options.finest_level = -1;
+  PairSeed seed;
+  EXPECT_EQ(distance(cube, cube, {Mat3::Identity(), {5, 0, 0}}, seed, options).status, Status::Converged);
+}
+
 }  // namespace
 }  // namespace swiftlet
