@@ -70,7 +70,8 @@ Nearest<Real> nearest_to_origin(const std::array<Difference<Real>, 4>& set, int 
     for (int i = 0; i < count; ++i) {
       if (const Real beyond = norm2 - dot(set[i].p, point); beyond > cut) cut = beyond;
     }
-    const double length = std::sqrt(rounded(norm2)), relative = length > 0 ? rounded(cut) / length : 0;
+    const double length = std::sqrt(rounded(norm2));
+    const double relative = length > 0 ? std::fmin(rounded(cut) / length, length) : 0;  // no plane proves less than 0
     if (relative < least_cut) least_cut = relative, best = {n, index, weight, point, rounded(norm2), false};
   };
   for (int i = 0; i < count; ++i) offer(1, {i}, {Real(1)}, set[i].p);
