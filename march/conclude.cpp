@@ -53,7 +53,7 @@ Conclusion from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule
   const auto near = [&](double threshold) {
     return r.lower - scene.law_two <= threshold && threshold <= r.upper + scene.law_two;
   };
-  const bool deep = r.status == MarchStatus::Overlapping && depth > 16 * scene.law_two;  // doubles measured it
+  const bool deep = r.status == MarchStatus::Overlapping && depth > scene.law_two;
   return {r, r.upper - r.lower <= 2 * scene.law_two && !deep && (near(0) || near(rule.beyond))};
 }
 

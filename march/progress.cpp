@@ -132,12 +132,13 @@ class Contact {
     points_[count_++] = difference<double>(scene_, a, b);
   }
 
-  /// `depth` becomes the inner polytope's. Touching when a plane is found that the bodies overlap by no more than the bound;
-  /// Overlapping when the inner polytope reaches farther on all sides, or no more points help. `normal` is tried first, and
-  /// becomes the plane's, or the last tried.
+  /// `depth` becomes the radius of a ball about the origin inside a tetrahedron, or 0 where it took more points. Touching when
+  /// a plane is found that the bodies overlap by no more than the bound; Overlapping when the inner polytope reaches farther on
+  /// all sides, or no more points help. `normal` is tried first, and becomes the plane's, or the last tried.
   MarchStatus decide(Vec& normal, OverlapProof& proof, double& depth) {
     const Vec hint = normal;
-    if (count_ == 4 && (depth = nearest_facet(normal)) > scene_.law_two && prove(proof)) return MarchStatus::Overlapping;
+    if (count_ == 4 && (depth = inner_radius()) > scene_.law_two && prove(proof)) return MarchStatus::Overlapping;
+    depth = 0;
     if (touches(hint, normal)) return MarchStatus::Touching;
     for (const Vec& n : {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}}) {
       if (touches(n, normal) || touches(-n, normal)) return MarchStatus::Touching;
@@ -149,8 +150,7 @@ class Contact {
     }
     while (count_ < kContactPoints) {
       Vec n{0, 0, 0};
-      depth = nearest_facet(n);
-      if (depth > scene_.law_two) break;
+      if (nearest_facet(n) > scene_.law_two) break;
       normal = n;
       const int before = count_;
       if (width(n) <= scene_.law_two) return MarchStatus::Touching;
@@ -195,6 +195,21 @@ class Contact {
     add(a, b);
     const Difference<DoubleDouble> d = difference<DoubleDouble>(scene_, a, b);
     return double(dot(widened<DoubleDouble>(n), d.p)) * (1 + kGapError) + kDoubleDoubleError * scene_.magnitude;
+  }
+
+  /// The distance from the origin to the nearest face of the first four points; negative outside. In 106 bits: doubles see
+  /// slivers as deep as their own noise.
+  double inner_radius() const {
+    std::array<V3<DoubleDouble>, 4> p;
+    for (std::size_t k = 0; k < 4; ++k) p[k] = difference<DoubleDouble>(scene_, points_[k].a, points_[k].b).p;
+    double radius = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 4; ++k) {
+      const V3<DoubleDouble>&a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4], n = cross(b - a, c - a);
+      const double length = norm(rounded(n)), offset = rounded(dot(n, a)), apex = rounded(dot(n, p[k] - a));
+      if (!(length > 0) || apex == 0) return 0;
+      radius = std::fmin(radius, (apex < 0 ? offset : -offset) / length);
+    }
+    return radius;
   }
 
   /// The distance from the origin to the nearest facet, with its outward normal.

@@ -23,7 +23,7 @@ struct Meeting {
   MarchStatus status = MarchStatus::NotConverged;  ///< Disjoint (the goal is met), Touching, Overlapping or NotConverged
   Certificate certificate;
   OverlapProof proof;
-  double depth = 0;  ///< of Overlapping: a lower bound on the least translation that separates, not tight
+  double depth = 0;  ///< of Overlapping: a lower bound on the least translation that separates, 0 where none was needed
 };
 
 /// Continues from `start`, first in doubles, then with about 106 bits. The bounds it returns are true in any case.
