@@ -288,7 +288,9 @@ class Descent {
       least_ = std::fmin(least_, distance);
       greatest_ = std::fmax(greatest_, lower);
       if (lower > m.certificate.lower) take_plane(m.certificate, n, a, b, lower);
-      if (goal_.met(m.certificate.lower, m.certificate.upper)) {
+      // Bounds around 0 may be narrow enough, and the sign still open.
+      const bool open = m.certificate.lower == 0 && m.certificate.upper <= scene_.law_two;
+      if (!open && goal_.met(m.certificate.lower, m.certificate.upper)) {
         m.status = MarchStatus::Disjoint;
         return;
       }
