@@ -54,7 +54,7 @@ class PointBody {
 /// The largest distance of a vertex from level 0: the distance to a convex body is convex, so no other point is farther.
 double deviation_from(const ConvexView& exact_hull, const ConvexView& level) {
   MarchRule rule;
-  rule.relative = 1e-3;
+  rule.relative = kDeviationPrecision;
   MarchStart start;
   double deviation = 0;
   PointBody point;

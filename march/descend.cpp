@@ -38,7 +38,7 @@ class Descent {
       MarchStart found =
           last && max_abs(place.direction) > 0 ? enter(pair, place) : settled(pair, place.start, answer_.plane_tests);
       if (!last || !answered()) {
-        const std::uint32_t left = options_.step_budget - answer_.steps;
+        const std::uint32_t left = steps_left();
         const Walk walked = walk(pair, found.a, found.b, options_.plane_rule, std::min(left, place.trial_steps));
         answer_.steps += walked.steps;
         answer_.plane_tests += walked.plane_tests;
@@ -61,6 +61,8 @@ class Descent {
   double deviation(int level_a, int level_b) const {
     return a_.level(level_a).deviation + stretch_ * b_.level(level_b).deviation;
   }
+  /// Certified progress may have taken one more than the budget.
+  std::uint32_t steps_left() const { return options_.step_budget - std::min(answer_.steps, options_.step_budget); }
   bool narrow(double lower, double width) const { return width <= std::max(target_.absolute, target_.relative * lower); }
   /// Thresholds are passed only by more than law 2's bound: nearer, what can be proved depends on the start.
   bool answered() const {
@@ -123,7 +125,7 @@ class Descent {
   MarchStart bound(const Scene& pair, const Place& place, const Walk& walked) {
     MarchRule rule;
     rule.beyond = target_.clear_above;
-    rule.step_budget = walked.steps + (options_.step_budget - std::min(answer_.steps, options_.step_budget));
+    rule.step_budget = walked.steps + steps_left();
     Walk capped = walked;
     if (spent_) capped.end = WalkEnd::Budget;
     const MarchResult r = conclude(pair, capped, rule);

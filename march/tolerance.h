@@ -70,6 +70,11 @@ inline constexpr double kWalkingFaceUlps = 4;
 /// The ulp of input that was float32 when every coordinate is a float, and of doubles.
 inline constexpr double kFloatUlp = 0x1p-23, kDoubleUlp = 0x1p-52;
 
+/// A stored normal's squared length is 1 to this, or the file is damaged: far above rounding, far below harm to a walk.
+inline constexpr double kUnitNormalError = 1e-9;
+/// A level's deviation is measured to this part of itself: a tenth of the 1 % that the design allows above the truth.
+inline constexpr double kDeviationPrecision = 1e-3;
+
 // ---- Bounds on work: counts ------------------------------------------------------------------------------------------------
 
 /// States in a row that do not shorten the distance before a walk is given to certified progress. In exact arithmetic at most
