@@ -35,7 +35,7 @@ constexpr Published kPublished[] = {
     {shapes::Family::Long, 2, {1.8, 4.0, 14.8, 51.1, 88.7, 119}},
     {shapes::Family::Fat, 3, {1.8, 3.7, 14.5, 50.0, 84.4, 120}},
 };
-/// Nanoseconds per query of V-Clip 1.0, 2 000 triangles, R = 2 r, at 1 and 10 degrees; fat, plate, long.
+/// Nanoseconds per query of V-Clip 1.0, 2 000 triangles, R = 2 r, at 1 and 10 degrees, whole: poses repeat; fat, plate, long.
 constexpr double kPublishedTime[3][2] = {{138, 538}, {166, 611}, {118, 395}};
 
 double mean_states(const VclipBody& body, double closest, double step) {
@@ -146,7 +146,7 @@ void print_times(const Shelf& shelf, int repeats) {
   for (const shapes::Family family : shapes::kFamilies) {
     const double* published = kPublishedTime[std::size_t(family)];
     std::printf("\nV-Clip 1.0, %s: %g ns at 1 degree, %g ns at 10\n", shapes::name(family), published[0], published[1]);
-    for (const double step : {1.04, 10.4, 45.4}) print_scene(orbit(shelf, family, 2000, 2, step), repeats);
+    for (const double step : {1.0, 10.0, 1.04, 10.4, 45.4}) print_scene(orbit(shelf, family, 2000, 2, step), repeats);
     print_scene(random_poses(shelf, family, 2000), repeats);
   }
 }

@@ -47,9 +47,9 @@ class SwiftletSession final : public SessionOf<SwiftletSession> {
     State& s = pairs_[pair];
     return outcome_of(swiftlet::distance(*s.a, *s.b, b_in_a, s.seed, options_));
   }
-  bool intersects(std::uint32_t pair, const Pose& b_in_a) override {
+  Outcome intersects(std::uint32_t pair, const Pose& b_in_a) override {
     State& s = pairs_[pair];
-    return swiftlet::intersects(*s.a, *s.b, b_in_a, s.seed, options_).verdict != Verdict::Disjoint;
+    return outcome_of(swiftlet::intersects(*s.a, *s.b, b_in_a, s.seed, options_));
   }
   Outcome approximate(std::uint32_t pair, const Pose& b_in_a, double absolute, double relative) override {
     State& s = pairs_[pair];
@@ -133,8 +133,8 @@ class VclipSession final : public SessionOf<VclipSession> {
     if (!o.failed) o.distance = r.distance;
     return o;
   }
-  bool intersects(std::uint32_t pair, const Pose& b_in_a) override {  // the paper has no cheaper one
-    return vclip(bodies_[index_[pair].a], bodies_[index_[pair].b], b_in_a, seeds_[pair]).end != VclipEnd::Disjoint;
+  Outcome intersects(std::uint32_t pair, const Pose& b_in_a) override {
+    return distance(pair, b_in_a);  // the paper has no cheaper one
   }
   void forget() override { seeds_.assign(seeds_.size(), {}); }
 
@@ -175,11 +175,7 @@ class PlainSession final : public SessionOf<PlainSession> {
     if (!r.inside && !r.stalled) o.distance = r.distance;
     return o;
   }
-  bool intersects(std::uint32_t pair, const Pose& b_in_a) override {  // it has no cheaper one
-    State& s = pairs_[pair];
-    const PlainResult r = plain(s.a, s.b, b_in_a, s.seed, rule_);
-    return r.inside || r.stalled;
-  }
+  Outcome intersects(std::uint32_t pair, const Pose& b_in_a) override { return distance(pair, b_in_a); }
   void forget() override {
     for (State& s : pairs_) s.seed = {};
   }
@@ -231,8 +227,8 @@ Methods all_methods() {
   methods.push_back(std::make_unique<VclipMethod>());
 #endif
 #ifdef SWIFTLET_BENCH_PLAIN
-  methods.push_back(plain_method("plain", "our walk on level 0, last features; no hierarchy, table or certificate",
-                                 PlaneRule::MostViolated));
+  methods.push_back(
+      plain_method("plain", "our walk on level 0, last features; no hierarchy, table or certificate", PlaneRule::MostViolated));
 #endif
 #ifdef SWIFTLET_PEER_FCL
   add_fcl(methods);

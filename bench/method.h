@@ -55,15 +55,15 @@ class Session {
  public:
   virtual ~Session() = default;
   virtual Outcome distance(std::uint32_t pair, const Pose& b_in_a) = 0;
-  /// As cheap as the method can. Where it cannot decide, `true`.
-  virtual bool intersects(std::uint32_t pair, const Pose& b_in_a) = 0;
+  /// As cheap as the method can: read `overlapping` only.
+  virtual Outcome intersects(std::uint32_t pair, const Pose& b_in_a) = 0;
   /// Allowed to be off by max(absolute, relative * distance).
   virtual Outcome approximate(std::uint32_t pair, const Pose& b_in_a, double absolute, double relative) = 0;
 
   /// The same, one after the other in one virtual call: what a timed pass calls, so that dispatch costs a fast method no more
   /// than a slow one. The outputs are as long as the queries.
   virtual void distances(std::span<const Query> queries, std::span<Outcome> outcomes) = 0;
-  virtual void intersections(std::span<const Query> queries, std::span<std::uint8_t> meet) = 0;
+  virtual void intersections(std::span<const Query> queries, std::span<Outcome> outcomes) = 0;
   virtual void approximations(std::span<const Query> queries, double absolute, double relative,
                               std::span<Outcome> outcomes) = 0;
 
@@ -83,8 +83,8 @@ class SessionOf : public Session {
   void distances(std::span<const Query> queries, std::span<Outcome> outcomes) final {
     for (std::size_t i = 0; i < queries.size(); ++i) outcomes[i] = self().distance(queries[i].pair, queries[i].b_in_a);
   }
-  void intersections(std::span<const Query> queries, std::span<std::uint8_t> meet) final {
-    for (std::size_t i = 0; i < queries.size(); ++i) meet[i] = self().intersects(queries[i].pair, queries[i].b_in_a);
+  void intersections(std::span<const Query> queries, std::span<Outcome> outcomes) final {
+    for (std::size_t i = 0; i < queries.size(); ++i) outcomes[i] = self().intersects(queries[i].pair, queries[i].b_in_a);
   }
   void approximations(std::span<const Query> queries, double absolute, double relative, std::span<Outcome> outcomes) final {
     for (std::size_t i = 0; i < queries.size(); ++i) {

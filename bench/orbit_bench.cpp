@@ -62,7 +62,7 @@ class WrongMethod final : public Method {
       outcome.distance += 1e-6;
       return outcome;
     }
-    bool intersects(std::uint32_t, const Pose&) override { return false; }
+    Outcome intersects(std::uint32_t, const Pose&) override { return {}; }
     void forget() override { right_->forget(); }
 
    private:
@@ -345,6 +345,13 @@ void overall_cells(const Options& options, const Field& field, const PaperModels
   }
 }
 
+/// Does the approximate distance cost less than the exact one and more than the boolean [sec. 6.5]? Ours, allowed so many
+/// radii.
+void add_approximate(std::vector<Entrant>& entrants, const Field& field, const Asked& asked) {
+  entrants.push_back({"swiftlet ~0.1", &field.named("swiftlet"), asked.bodies, 0.1});
+  entrants.push_back({"swiftlet ~0.01", &field.named("swiftlet"), asked.bodies, 0.01});
+}
+
 /// Everyone on the orbit, in random poses, and the paper's figures.
 void orbits(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
   if (!options.wants_any("orbit", "fig5", "fig6", "fig7", "fig8", "fig9", "fig10", "fig11", "fig12")) return;
@@ -363,12 +370,29 @@ void orbits(const Options& options, const Field& field, const Shelf& shelf, Resu
       const double step = steps[i];
       for (const Question question : {Question::Distance, Question::Intersects}) {
         if (!options.wants("orbit")) continue;
-        results.add("orbit", shape, step, kPaperTriangles,
-                    measure(asked, question, everyone(field, asked, question, options.peers_at(step)), options.rounds()));
+        std::vector<Entrant> entrants = everyone(field, asked, question, options.peers_at(step));
+        if (question == Question::Distance) add_approximate(entrants, field, asked);
+        results.add("orbit", shape, step, kPaperTriangles, measure(asked, question, entrants, options.rounds()));
       }
       if (figures && options.figures_at(step)) paper_cells(options, field, models, asked, shape, step, results);
     }
     if (figures) overall_cells(options, field, models, motions, steps, shape, results);
+  }
+}
+
+/// The paper's wider orbit.
+void wide_orbits(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
+  if (!options.wants("wide")) return;
+  for (const Family family : kFamilies) {
+    for (const double step : options.all() ? options.steps() : std::vector<double>{10.4}) {
+      const Scene scene = orbit(shelf, family, kPaperTriangles, 3, step, options.extent());
+      const Asked asked(scene);
+      for (const Question question : {Question::Distance, Question::Intersects}) {
+        results.add(
+            "wide", shapes::name(family), step, kPaperTriangles,
+            measure(asked, question, everyone(field, asked, question, options.all(), Variants::Main), options.rounds()));
+      }
+    }
   }
 }
 
@@ -430,42 +454,48 @@ void sizes(const Options& options, const Field& field, const Shelf& shelf, Resul
 }
 
 /// Poses and pairs other than the paper's.
-void others(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
-  if (!options.wants("scenes")) return;
-  constexpr double kStep = 10.4;
+void others_at(double step, const Options& options, const Field& field, const Shelf& shelf, Results& results) {
   const auto run = [&](const Scene& scene, const std::string& shape, bool peers) {
     const Asked asked(scene);
     const std::uint32_t triangles = std::uint32_t(scene.models.front().level(0).triangle_count);
     for (const Question question : {Question::Distance, Question::Intersects}) {
-      results.add("scenes", shape, kStep, triangles,
+      results.add("scenes", shape, step, triangles,
                   measure(asked, question, everyone(field, asked, question, peers, Variants::Main), options.rounds()));
     }
   };
   const Extent extent = options.extent();
   for (const Family family : kFamilies) {
     const bool peers = options.all() || family == Family::Fat;
-    run(mixed(shelf, family, kPaperTriangles, kStep, extent), "mixed", peers);
+    run(mixed(shelf, family, kPaperTriangles, step, extent), "mixed", peers);
     if (options.quick()) break;
-    run(at_distance(shelf, family, kPaperTriangles, kClose, kStep, extent), "close", peers);
-    run(at_distance(shelf, family, kPaperTriangles, kSliding, kStep, extent), "sliding", peers);
-    run(shallow(shelf, family, kPaperTriangles, kStep, 1e-3, extent), "shallow", peers);
+    run(at_distance(shelf, family, kPaperTriangles, kClose, step, extent), "close", peers);
+    run(at_distance(shelf, family, kPaperTriangles, kSliding, step, extent), "sliding", peers);
+    run(shallow(shelf, family, kPaperTriangles, step, 1e-3, extent), "shallow", peers);
   }
   if (options.quick()) return;
-  run(ten_to_one(shelf, kPaperTriangles, kStep, extent), "10:1", options.all());
-  run(plate_and_long(shelf, kPaperTriangles, kStep, extent), "plate and long", options.all());
-  run(crowd(shelf, kPaperTriangles, kStep, options.all() ? 200 : 100), "crowd", true);
+  run(ten_to_one(shelf, kPaperTriangles, step, extent), "10:1", options.all());
+  run(plate_and_long(shelf, kPaperTriangles, step, extent), "plate and long", options.all());
+  run(crowd(shelf, kPaperTriangles, step, options.all() ? 200 : 100), "crowd", true);
   const auto links = robot_links(options.meshes);
   if (links.empty()) std::puts("\nno robot links: models/fetch brings them");
   for (std::size_t i = 0; i + 1 < links.size(); i += options.all() ? 1 : 2) {
-    run(link_pair(shelf, links[i], links[i + 1], kStep, extent), "links", options.all());
+    run(link_pair(shelf, links[i], links[i + 1], step, extent), "links", options.all());
   }
-  if (!links.empty()) run(link_and_fat(shelf, links.front(), kPaperTriangles, kStep, extent), "link and fat", options.all());
+  if (!links.empty()) run(link_and_fat(shelf, links.front(), kPaperTriangles, step, extent), "link and fat", options.all());
+}
+
+void others(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
+  if (!options.wants("scenes")) return;
+  for (const double step : options.all() ? std::vector{1.04, 10.4, 45.4} : std::vector{10.4}) {
+    others_at(step, options, field, shelf, results);
+  }
 }
 
 int usage() {
   std::fputs(
       "swiftlet_bench [--quick | --all] [--only GROUP]... [--wrong] [--cache DIR] [--meshes DIR] [--results DIR]\n"
-      "groups: orbit error triangles scenes fig5 fig6 fig7 fig8 fig9 fig10 fig11 fig12 (these two need 6 to 10 beside them)\n"
+      "groups: orbit wide error triangles scenes fig5 fig6 fig7 fig8 fig9 fig10 fig11 fig12 (these two need 6 to 10 beside "
+      "them)\n"
       "--quick  1000 queries a round, three steps; --all adds 200000 triangles and peers in every cell\n"
       "--wrong  adds a method that is 1e-6 off: the table must flag it\n",
       stderr);
@@ -506,6 +536,7 @@ int run(const Options& options) {
   const Shelf shelf(options.cache);
   Results results(options);
   orbits(options, field, shelf, results);
+  wide_orbits(options, field, shelf, results);
   errors(options, field, shelf, results);
   sizes(options, field, shelf, results);
   others(options, field, shelf, results);

@@ -129,10 +129,7 @@ class DetectorSession final : public SessionOf<DetectorSession<Shapes>> {
     if (!std::isfinite(collector.m_distance)) return {.failed = true, .steps = steps, .plane_tests = 2 * steps};
     return {.distance = std::max(0., double(collector.m_distance)), .steps = steps, .plane_tests = 2 * steps};
   }
-  bool intersects(std::uint32_t pair, const Pose& b_in_a) override {
-    const Outcome o = distance(pair, b_in_a);  // there is no cheaper one
-    return o.overlapping || o.failed;
-  }
+  Outcome intersects(std::uint32_t pair, const Pose& b_in_a) override { return distance(pair, b_in_a); }  // none is cheaper
   void forget() override { shapes_.forget(); }
 
  private:
@@ -166,10 +163,7 @@ class GuessSession final : public SessionOf<GuessSession> {
     s.guess = results.witnesses[0] - results.witnesses[1];
     return {.distance = double(results.distance)};
   }
-  bool intersects(std::uint32_t pair, const Pose& b_in_a) override {
-    const Outcome o = distance(pair, b_in_a);
-    return o.overlapping || o.failed;
-  }
+  Outcome intersects(std::uint32_t pair, const Pose& b_in_a) override { return distance(pair, b_in_a); }
   void forget() override {
     shapes_.forget();
     for (State& s : pairs_) s.guess = kCold;

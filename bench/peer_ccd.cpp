@@ -83,10 +83,10 @@ class CcdSession final : public SessionOf<CcdSession> {
     ccd_.mpr_tolerance = 1e-12;
   }
   Outcome distance(std::uint32_t, const Pose&) override { return {.failed = true}; }
-  bool intersects(std::uint32_t pair, const Pose& b_in_a) override {
+  Outcome intersects(std::uint32_t pair, const Pose& b_in_a) override {
     State& s = pairs_[pair];
     s.b.pose = &b_in_a;
-    return decide_(&s.a, &s.b, &ccd_) == yes_;
+    return {.overlapping = decide_(&s.a, &s.b, &ccd_) == yes_};
   }
   void forget() override {
     for (State& s : pairs_) s.a.climber.forget(), s.b.climber.forget(), s.a.direction = {{1, 0, 0}};

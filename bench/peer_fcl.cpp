@@ -100,10 +100,9 @@ class IndepSession final : public SessionOf<IndepSession> {
     for (const BodyPair& p : pairs) pairs_.push_back({shapes_.all[p.a].get(), shapes_.all[p.b].get(), kCold});
   }
   Outcome distance(std::uint32_t pair, const Pose& b_in_a) override { return run(pair, b_in_a, kIndepTolerance); }
-  bool intersects(std::uint32_t pair, const Pose& b_in_a) override {
+  Outcome intersects(std::uint32_t pair, const Pose& b_in_a) override {
     // FCL has no cheaper boolean: GJK runs to its end, and only then is asked which side it ended on.
-    const Outcome o = distance(pair, b_in_a);
-    return o.overlapping || o.failed;
+    return distance(pair, b_in_a);
   }
   Outcome approximate(std::uint32_t pair, const Pose& b_in_a, double absolute, double relative) override {
     // Its test C ends when upper - lower <= tolerance * upper; there is no absolute one. Its test B squares, hence the product.
@@ -151,9 +150,10 @@ class LibccdSession final : public SessionOf<LibccdSession> {
     solver_.max_collision_iterations = kMaxIterations;
   }
   Outcome distance(std::uint32_t pair, const Pose& b_in_a) override { return run(pair, b_in_a, kCcdTolerance); }
-  bool intersects(std::uint32_t pair, const Pose& b_in_a) override {
+  Outcome intersects(std::uint32_t pair, const Pose& b_in_a) override {
     const Convex &a = *shapes_.all[pairs_[pair].a], &b = *shapes_.all[pairs_[pair].b];
-    return solver_.shapeIntersect(a, fcl::Transform3d::Identity(), b, transform_of(b_in_a), nullptr);  // MPR, to 1e-6
+    return {.overlapping =
+                solver_.shapeIntersect(a, fcl::Transform3d::Identity(), b, transform_of(b_in_a), nullptr)};  // MPR, to 1e-6
   }
   Outcome approximate(std::uint32_t pair, const Pose& b_in_a, double absolute, double) override {
     return run(pair, b_in_a, std::max(kCcdTolerance, absolute));
@@ -207,11 +207,11 @@ class ClimbSession final : public SessionOf<ClimbSession> {
     ccd_.max_iterations = kMaxIterations;
   }
   Outcome distance(std::uint32_t pair, const Pose& b_in_a) override { return run(pair, b_in_a, kCcdTolerance); }
-  bool intersects(std::uint32_t pair, const Pose& b_in_a) override {
+  Outcome intersects(std::uint32_t pair, const Pose& b_in_a) override {
     State& s = pairs_[pair];
     s.b.pose = &b_in_a;
     ccd_simplex_t simplex;
-    return fcl::detail::libccd_extension::__ccdGJK(&s.a, &s.b, &ccd_, &simplex) == 0;
+    return {.overlapping = fcl::detail::libccd_extension::__ccdGJK(&s.a, &s.b, &ccd_, &simplex) == 0};
   }
   Outcome approximate(std::uint32_t pair, const Pose& b_in_a, double absolute, double) override {
     return run(pair, b_in_a, std::max(kCcdTolerance, absolute));

@@ -63,7 +63,7 @@ class OdeSession final : public SessionOf<OdeSession> {
     for (const State& s : pairs_) dGeomDestroy(s.a), dGeomDestroy(s.b);
   }
   Outcome distance(std::uint32_t, const Pose&) override { return {.failed = true}; }
-  bool intersects(std::uint32_t pair, const Pose& b_in_a) override {
+  Outcome intersects(std::uint32_t pair, const Pose& b_in_a) override {
     const State& s = pairs_[pair];
     dMatrix3 rotation{};
     for (int i = 0; i < 3; ++i) {
@@ -72,7 +72,7 @@ class OdeSession final : public SessionOf<OdeSession> {
     dGeomSetRotation(s.b, rotation);
     dGeomSetPosition(s.b, b_in_a.translation[0], b_in_a.translation[1], b_in_a.translation[2]);
     dContactGeom contact;
-    return dCollide(s.a, s.b, 1, &contact, sizeof contact) > 0;
+    return {.overlapping = dCollide(s.a, s.b, 1, &contact, sizeof contact) > 0};
   }
   void forget() override {}
 

@@ -43,21 +43,21 @@ class Runner {
       : session_(entrant.method->open(entrant.bodies, pairs)), question_(question), queries_(queries), allowed_(allowed) {
     const bool certified = entrant.method->capabilities().certified;
     relative_ = certified ? 0 : entrant.allowed;  // some peers know only that; what they make of it is measured
-    outcomes.resize(question == Question::Distance ? queries.size() : 0);
-    meet.resize(question == Question::Intersects ? queries.size() : 0);
+    outcomes.resize(queries.size());
   }
 
   /// Seconds for the scene's last `count` queries.
   double last(std::size_t count) {
     const std::size_t first = queries_.size() - std::min(queries_.size(), count);
     const auto queries = queries_.subspan(first);
+    const auto answers = std::span(outcomes).subspan(first);
     const auto begin = Clock::now();
     if (question_ == Question::Intersects) {
-      session_->intersections(queries, std::span(meet).subspan(first));
+      session_->intersections(queries, answers);
     } else if (allowed_ > 0) {
-      session_->approximations(queries, allowed_, relative_, std::span(outcomes).subspan(first));
+      session_->approximations(queries, allowed_, relative_, answers);
     } else {
-      session_->distances(queries, std::span(outcomes).subspan(first));
+      session_->distances(queries, answers);
     }
     return seconds_since(begin);
   }
@@ -75,7 +75,6 @@ class Runner {
   Preparation preparation() const { return session_->preparation(); }
 
   std::vector<Outcome> outcomes;
-  std::vector<std::uint8_t> meet;
 
  private:
   std::unique_ptr<Session> session_;
@@ -152,8 +151,9 @@ std::vector<Query> floor_of(const Scene& scene, double radius) {
 
 void judge(Row& row, const Asked& asked, const Entrant& entrant, const Runner& runner) {
   const bool booleans = row.question == Question::Intersects;
+  const std::vector<Outcome>& outcomes = runner.outcomes;
   const Comparison c =
-      booleans ? compare(runner.meet, asked.truth.queries) : compare(runner.outcomes, asked.truth.queries, asked.radius);
+      booleans ? compare_verdicts(outcomes, asked.truth.queries) : compare(outcomes, asked.truth.queries, asked.radius);
   row.error = booleans ? kNoValue : c.max_error / asked.radius;
   row.mean_error = booleans ? kNoValue : c.mean_error / asked.radius;
   row.wrong = c.wrong();
@@ -161,8 +161,7 @@ void judge(Row& row, const Asked& asked, const Entrant& entrant, const Runner& r
   row.flagged = !c.right(std::max(entrant.allowed, entrant.method->capabilities().stated_error) * asked.radius);
   row.hash = c.hash;
   row.hash_true = c.hash == c.true_hash;
-  row.steps = row.plane_tests = booleans ? kNoValue : 0;
-  for (const Outcome& o : runner.outcomes) {
+  for (const Outcome& o : outcomes) {
     row.steps += double(o.steps) / double(row.queries);
     row.plane_tests += double(o.plane_tests) / double(row.queries);
   }

@@ -564,24 +564,15 @@ Found visit(Clip& clip, Side<IntoB>& a, Side<IntoA>& b) {
   constexpr auto state = [](FeatureKind ka, FeatureKind kb) { return unsigned(ka) * 4 + unsigned(kb); };
   using enum FeatureKind;
   switch (state(a.feature.kind(), b.feature.kind())) {
-    case state(Vertex, Vertex):
-      return clip.vertex_vertex(a, b);
-    case state(Vertex, Edge):
-      return clip.vertex_edge(a, b);
-    case state(Edge, Vertex):
-      return clip.vertex_edge(b, a);
-    case state(Vertex, Face):
-      return clip.vertex_face(a, b);
-    case state(Face, Vertex):
-      return clip.vertex_face(b, a);
-    case state(Edge, Edge):
-      return clip.edge_edge(a, b);
-    case state(Edge, Face):
-      return clip.edge_face(a, b);
-    case state(Face, Edge):
-      return clip.edge_face(b, a);
-    default:
-      __builtin_unreachable();
+    case state(Vertex, Vertex): return clip.vertex_vertex(a, b);
+    case state(Vertex, Edge): return clip.vertex_edge(a, b);
+    case state(Edge, Vertex): return clip.vertex_edge(b, a);
+    case state(Vertex, Face): return clip.vertex_face(a, b);
+    case state(Face, Vertex): return clip.vertex_face(b, a);
+    case state(Edge, Edge): return clip.edge_edge(a, b);
+    case state(Edge, Face): return clip.edge_face(a, b);
+    case state(Face, Edge): return clip.edge_face(b, a);
+    default: __builtin_unreachable();
   }
 }
 

@@ -112,12 +112,13 @@ Comparison compare(std::span<const Outcome> outcomes, std::span<const Certified>
   return c;
 }
 
-Comparison compare(std::span<const std::uint8_t> meet, std::span<const Certified> truth) {
-  assert(meet.size() == truth.size());
-  Comparison c{.count = meet.size()};
+Comparison compare_verdicts(std::span<const Outcome> outcomes, std::span<const Certified> truth) {
+  assert(outcomes.size() == truth.size());
+  Comparison c{.count = outcomes.size()};
   Hashes hashes;
-  for (std::size_t i = 0; i < meet.size(); ++i) {
-    const Kind kind = meet[i] ? Kind::Overlapping : Kind::Disjoint;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const Outcome& o = outcomes[i];
+    const Kind kind = o.failed ? Kind::Failed : o.overlapping ? Kind::Overlapping : Kind::Disjoint;
     hashes.add(kind, 0, truth[i], 0);
     count_verdict(kind, 0, truth[i], c);
   }

@@ -60,8 +60,8 @@ struct Comparison {
 /// among 20 000 queries some always do. So methods right to 0.5e-9 radius hash alike, and any that is off by more does not.
 Comparison compare(std::span<const Outcome> outcomes, std::span<const Certified> truth, double radius);
 
-/// The same for booleans (0: disjoint).
-Comparison compare(std::span<const std::uint8_t> meet, std::span<const Certified> truth);
+/// The same where only `overlapping` was asked for: no distance is read, and every error is 0.
+Comparison compare_verdicts(std::span<const Outcome> outcomes, std::span<const Certified> truth);
 
 /// "wrong 3 of 20000 (2 false overlaps up to 1.2e-09, ...), ..." for one line of a report; errors in units of `radius`.
 std::string text(const Comparison& comparison, double radius);

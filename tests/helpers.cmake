@@ -18,6 +18,11 @@ if(NOT TARGET swiftlet_shapes)
   target_include_directories(swiftlet_shapes PUBLIC ${CMAKE_CURRENT_LIST_DIR})
   target_link_libraries(swiftlet_shapes PUBLIC swiftlet::lod PRIVATE CGAL::CGAL)
 
+  find_package(nlohmann_json 3 REQUIRED)
+  swiftlet_helper(swiftlet_cases ${CMAKE_CURRENT_LIST_DIR}/stability/case.cpp)
+  target_include_directories(swiftlet_cases PUBLIC ${CMAKE_CURRENT_LIST_DIR}/stability)
+  target_link_libraries(swiftlet_cases PUBLIC swiftlet::march PRIVATE nlohmann_json::nlohmann_json)
+
   set(bench_dir ${PROJECT_SOURCE_DIR}/bench)
   foreach(baseline vclip plain)
     swiftlet_helper(swiftlet_${baseline} ${bench_dir}/${baseline}.cpp)

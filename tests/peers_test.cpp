@@ -120,9 +120,9 @@ Comparison run_distances(const Method& method, const Scene& scene) {
 }
 Comparison run_booleans(const Method& method, const Scene& scene) {
   const auto session = method.open(scene.bodies, scene.pairs);
-  std::vector<std::uint8_t> meet(scene.queries.size());
-  session->intersections(scene.queries, meet);
-  return compare(meet, scene.truth);
+  std::vector<Outcome> outcomes(scene.queries.size());
+  session->intersections(scene.queries, outcomes);
+  return compare_verdicts(outcomes, scene.truth);
 }
 
 void print(const Scene& scene, const Method& method, const Comparison& c) {
