@@ -189,6 +189,9 @@ struct Slope {
   }
 };
 
+Slope slope_a(const Vec& n) { return {n, 0}; }
+Slope slope_b(const Scene& scene, const Vec& n) { return {-body_b(scene).into(n), kTurnedError}; }
+
 /// A vertex that no other of its body exceeds by more than `slack`.
 struct Extreme {
   std::uint32_t vertex = 0;
@@ -317,6 +320,14 @@ double apart(const Scene& scene, std::uint32_t va, std::uint32_t vb) {
   return norm(body_b(scene).point(vb) - body_a(scene).point(va)) * (1 + kNormError) + scene.point_error;
 }
 
+Supports supports(const Scene& scene, const Vec& n, std::uint32_t start_a, std::uint32_t start_b, std::uint32_t& plane_tests) {
+  const auto a_top = top(scene.a, slope_a(n), start_a, plane_tests);
+  const auto b_top = top(scene.b, slope_b(scene, n), start_b, plane_tests);
+  const std::uint32_t va = a_top ? a_top->vertex : support_a(scene, n, start_a, plane_tests);
+  const std::uint32_t vb = b_top ? b_top->vertex : support_b(scene, n, start_b, plane_tests);
+  return {va, vb, gap(scene, n, va, vb, (a_top ? a_top->slack : 0) + (b_top ? b_top->slack : 0))};
+}
+
 Certificate certify(const Scene& scene, Handle a, Handle b, std::uint32_t& plane_tests) {
   const Resting body = body_a(scene);
   const Moved other = body_b(scene);
@@ -329,23 +340,25 @@ Certificate certify(const Scene& scene, Handle a, Handle b, std::uint32_t& plane
   }
   c.upper = norm(c.point_b - c.point_a) * (1 + kNormError) + scene.point_error;
   c.normal = normalised(found.normal);
-  const auto proved = [&](std::uint32_t va, std::uint32_t vb, double slack) {
+  const auto proved = [&](std::uint32_t va, std::uint32_t vb, double lower) {
     c.support_a = va;
     c.support_b = vb;
-    c.lower = larger(0, gap(scene, c.normal, va, vb, slack));
+    c.lower = larger(0, lower);
     return c.upper - c.lower <= scene.law_two;
   };
   // Ever dearer: what stands beside the features, what is as high as doubles can tell, exact order.
-  const Slope slope_a{c.normal, 0}, slope_b{-other.into(c.normal), kTurnedError};
-  if (const auto over_a = overhang(scene.a, a, slope_a, plane_tests)) {
-    const auto over_b = overhang(scene.b, b, slope_b, plane_tests);
-    if (over_b && proved(any_vertex(scene.a, a), any_vertex(scene.b, b), *over_a + *over_b)) return c;
+  if (const auto over_a = overhang(scene.a, a, slope_a(c.normal), plane_tests)) {
+    const auto over_b = overhang(scene.b, b, slope_b(scene, c.normal), plane_tests);
+    if (over_b && proved(any_vertex(scene.a, a), any_vertex(scene.b, b),
+                         gap(scene, c.normal, any_vertex(scene.a, a), any_vertex(scene.b, b), *over_a + *over_b))) {
+      return c;
+    }
   }
-  const auto a_top = top(scene.a, slope_a, c.active.a[0], plane_tests);
-  const auto b_top = top(scene.b, slope_b, c.active.b[0], plane_tests);
-  if (a_top && b_top && proved(a_top->vertex, b_top->vertex, a_top->slack + b_top->slack)) return c;
-  proved(support_a(scene, c.normal, a_top ? a_top->vertex : c.active.a[0], plane_tests),
-         support_b(scene, c.normal, b_top ? b_top->vertex : c.active.b[0], plane_tests), 0);
+  const Supports near = supports(scene, c.normal, c.active.a[0], c.active.b[0], plane_tests);
+  if (proved(near.a, near.b, near.lower)) return c;
+  const std::uint32_t va = support_a(scene, c.normal, near.a, plane_tests);
+  const std::uint32_t vb = support_b(scene, c.normal, near.b, plane_tests);
+  proved(va, vb, gap(scene, c.normal, va, vb, 0));
   return c;
 }
 

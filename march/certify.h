@@ -34,6 +34,13 @@ std::uint32_t support_a(const Scene& scene, const Vec& n, std::uint32_t start, s
 /// The vertex of B least far along n.
 std::uint32_t support_b(const Scene& scene, const Vec& n, std::uint32_t start, std::uint32_t& plane_tests);
 
+/// Vertices extreme along a unit direction, as far as doubles can tell, and the gap that they prove, which may be negative.
+struct Supports {
+  std::uint32_t a, b;
+  double lower;
+};
+Supports supports(const Scene& scene, const Vec& n, std::uint32_t start_a, std::uint32_t start_b, std::uint32_t& plane_tests);
+
 /// A lower bound on n . (b - a) for unit n, less `slack`; may be negative.
 double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack = 0);
 

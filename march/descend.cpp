@@ -79,21 +79,21 @@ class Descent {
            error < target_.hit_below - law_two_;
   }
 
-  /// Enters the finest pair along the direction of the coarser one: the supports there bound the distance before any walk, and
-  /// are better starts than the child features unless these hold them.
+  /// Enters a pair along a direction, the finest one along the coarser one's: the supports there bound the distance before any
+  /// walk, and are better starts than the child features unless these hold them.
   MarchStart enter(const Scene& pair, const Place& place) {
     const Vec& n = place.direction;
-    const std::uint32_t va = support_a(pair, n, any_vertex(pair.a, place.start.a), answer_.plane_tests);
-    const std::uint32_t vb = support_b(pair, n, any_vertex(pair.b, place.start.b), answer_.plane_tests);
-    MarchResult supports;
-    supports.a = {FeatureKind::Vertex, va};
-    supports.b = {FeatureKind::Vertex, vb};
-    supports.lower = std::max(0.0, gap(pair, n, va, vb));
-    supports.upper = apart(pair, va, vb);
-    supports.normal = eigen(n);
-    supports.point_a = eigen(body_a(pair).point(va));
-    supports.point_b = eigen(body_b(pair).point(vb));
-    carry(place, supports, pair.law_two);
+    const auto [va, vb, lower] =
+        supports(pair, n, any_vertex(pair.a, place.start.a), any_vertex(pair.b, place.start.b), answer_.plane_tests);
+    MarchResult r;
+    r.a = {FeatureKind::Vertex, va};
+    r.b = {FeatureKind::Vertex, vb};
+    r.lower = std::max(0.0, lower);
+    r.upper = apart(pair, va, vb);
+    r.normal = eigen(n);
+    r.point_a = eigen(body_a(pair).point(va));
+    r.point_b = eigen(body_b(pair).point(vb));
+    carry(place, r, pair.law_two);
     const auto better = [](const ConvexView& view, Handle child, std::uint32_t v) {
       return any_vertex(view, child) == v ? child : Handle{FeatureKind::Vertex, v};
     };
