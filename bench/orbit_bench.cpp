@@ -32,8 +32,8 @@ struct Options {
   bool quick() const { return size == Size::Quick; }
   bool all() const { return size == Size::All; }
   int rounds() const { return all() ? 5 : 3; }
-  /// Queries a round: 10 000, of 20 orbits; all 20 000, of 40; quick 1 000, of 4.
-  Extent extent() const { return quick() ? Extent{4, 250} : all() ? Extent{40, 500} : Extent{20, 500}; }
+  /// Queries a round: 7 000, of 14 orbits; all 20 000, of 40; quick 1 000, of 4.
+  Extent extent() const { return quick() ? Extent{4, 250} : all() ? Extent{40, 500} : Extent{14, 500}; }
   std::vector<double> steps() const {
     if (quick()) return {1.04, 10.4, 45.4};
     return {kSteps.begin(), kSteps.end()};

@@ -218,12 +218,13 @@ std::optional<double> overhang(const ConvexView& view, Handle feature, const Slo
       return 0.0;
     }
     case FeatureKind::Edge: {
-      const Vec p = vec(view.vertices[origin(view, i)]), u = vec(view.vertices[view.head[i]]) - p;
+      const Vertex& tail = view.vertices[origin(view, i)];
+      const Vec p = vec(tail), u = vec(view.vertices[view.head[i]]) - p;
+      if (tail.ring_count < 2) return std::nullopt;  // a segment
       const double overhang = (std::fabs(slope.along(u)) / norm(u) + error) * far;
       plane_tests += 2;
-      for (const std::uint32_t side : {i, view.twin[i]}) {
-        if (view.face[side] == kNone) return std::nullopt;
-        const Vec r = vec(view.vertices[view.head[next_in_facet(view, side)]]) - p;
+      for (const std::uint32_t beside : {counter_clockwise(tail, i), clockwise(tail, i)}) {
+        const Vec r = vec(view.vertices[view.head[beside]]) - p;
         if (!(slope.along(r) < -(overhang + error * far))) return std::nullopt;
       }
       return overhang;

@@ -20,6 +20,11 @@ static inline std::uint32_t clockwise(const Vertex& vertex, std::uint32_t half_e
   return half_edge == vertex.ring_begin ? half_edge + vertex.ring_count - 1 : half_edge - 1;
 }
 
+/// The one after it, counter-clockwise.
+static inline std::uint32_t counter_clockwise(const Vertex& vertex, std::uint32_t half_edge) {
+  return half_edge + 1 == vertex.ring_begin + vertex.ring_count ? vertex.ring_begin : half_edge + 1;
+}
+
 /// The half-edge after `half_edge` around the exact facet on its left.
 static inline std::uint32_t next_in_facet(const ConvexView& v, std::uint32_t half_edge) {
   return clockwise(v.vertices[v.head[half_edge]], v.twin[half_edge]);

@@ -67,7 +67,7 @@ class Marcher {
     if (s >= 1) return {vertex(va), vertex(v1), dot(r - u, r - u)};
     const Vec up = r - u * s;
     const double distance2 = dot(up, up);
-    const Descent rise = sides(b, h, q0, u, length2, up);
+    const Descent rise = sides(b, v0, h, q0, u, length2, up);
     const Descent from_a = first_only_ && rise.to != kNone ? Descent{} : ring(a, va, a.into(b.turned(-up)));
     if (rise.to == kNone && from_a.to == kNone) return {vertex(va), edge(h), distance2, true};
     if (rise.rate2 > from_a.rate2) return {vertex(va), face(rise.to), distance2};
@@ -102,8 +102,8 @@ class Marcher {
     if (end_a || end_b) {
       return {end_a ? vertex(at.s == 0 ? a0 : a1) : edge(ha), end_b ? vertex(at.t == 0 ? b0 : b1) : edge(hb), distance2};
     }
-    const Descent rise_a = sides(a, ha, own_a, along_a, dot(along_a, along_a), a.into(b.turned(d)));
-    const Descent rise_b = first_only_ && rise_a.to != kNone ? Descent{} : sides(b, hb, q0, v, dot(v, v), -d);
+    const Descent rise_a = sides(a, a0, ha, own_a, along_a, dot(along_a, along_a), a.into(b.turned(d)));
+    const Descent rise_b = first_only_ && rise_a.to != kNone ? Descent{} : sides(b, b0, hb, q0, v, dot(v, v), -d);
     if (rise_a.to == kNone && rise_b.to == kNone) return {edge(ha), edge(hb), distance2, true};
     if (rise_a.rate2 >= rise_b.rate2) return {face(rise_a.to), edge(hb), distance2};
     return {edge(ha), face(rise_b.to), distance2};
@@ -173,18 +173,21 @@ class Marcher {
     return ring.reach >= 1 ? vertex(body.view.head[ring.to]) : edge(ring.to);
   }
 
-  /// Of the two faces beside an edge q0 + s u, the one that rises most steeply along `d`, which is perpendicular to u.
+  /// Of the two faces beside an edge q0 + s u from vertex `v0`, the one that rises most steeply along `d`, which is
+  /// perpendicular to u. A face is told by its other edge at that vertex.
   template <class Q>
-  Descent sides(const Q& body, std::uint32_t h, const Vec& q0, const Vec& u, double length2, const Vec& d) {
+  Descent sides(const Q& body, std::uint32_t v0, std::uint32_t h, const Vec& q0, const Vec& u, double length2, const Vec& d) {
+    const Vertex& record = body.view.vertices[v0];
+    const std::uint32_t left = counter_clockwise(record, h), right = clockwise(record, h);
     Descent best;
-    for (const std::uint32_t side : {h, body.view.twin[h]}) {
-      if (body.view.face[side] == kNone) continue;
-      const Vec r = body.own(body.view.head[next_in_facet(body.view, side)]) - q0;
+    if (left == h) return best;  // a segment
+    for (const bool is_left : {true, false}) {
+      const Vec r = body.own(body.view.head[is_left ? left : right]) - q0;
       const double along_d = dot(d, r);
       ++tests_;
       if (!(along_d > 0)) continue;
       const double along_u = dot(r, u), rate2 = along_d * along_d / (dot(r, r) - along_u * along_u / length2);
-      if (rate2 > best.rate2) best = {body.view.face[side], rate2};
+      if (rate2 > best.rate2) best = {body.view.face[is_left ? h : right], rate2};
       if (first_only_) break;
     }
     return best;
