@@ -84,7 +84,7 @@ Judgement judge_claims(const Problem& p, const Model& a, const Model& b, const A
 Problem problem_of(const Case& c) {
   Problem p;
   p.b_in_a = c.b_in_a();
-  p.size = largest_coordinate(c.a) + largest_coordinate(c.b) + p.b_in_a.translation.norm();
+  p.size = std::max(largest_coordinate(c.a), largest_coordinate(c.b)) + p.b_in_a.translation.norm();
   const double error = orthonormality_error(p.b_in_a.rotation);
   p.bound = (64 * kEps + 2 * error) * p.size * kRoundingOfBound;
   p.world_bound = (64 * kEps + 2 * std::max(error, c.orthonormality_error())) * p.size * kRoundingOfBound;

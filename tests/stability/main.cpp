@@ -24,7 +24,7 @@ struct Options {
   std::vector<std::string> files;
   bool all_methods = false, as_json = false;
   std::string csv;
-  double tolerance = 1e-6;
+  double tolerance = 1e-9;
   int limit = 60;
 };
 

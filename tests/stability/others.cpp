@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <vector>
 
 #include <swiftlet/build.h>
 
@@ -54,6 +55,18 @@ class Others {
   Findings& findings_;
 };
 
+/// Whether every vertex has an edge between two faces: peers get faces without their diagonals, and would lack the others.
+bool survives_without_diagonals(const ConvexView& view) {
+  std::vector<bool> kept(view.vertices.size(), false);
+  for (std::size_t h = 0; h < view.head.size(); ++h) {
+    if (view.face[h] != view.face[view.twin[h]]) kept[view.head[h]] = true;
+  }
+  return std::find(kept.begin(), kept.end(), false) == kept.end();
+}
+
+/// Solids only, as Method asks for.
+bool is_taken(const Model& model) { return model.dimension() == 3 && survives_without_diagonals(model.level(0).view); }
+
 Findings ask_other(const bench::Method& method, double tolerance, const Case& c, const Problems& problems) {
   Findings findings;
   const Result<Built> a = build(c.a), b = build(c.b);
@@ -62,7 +75,7 @@ Findings ask_other(const bench::Method& method, double tolerance, const Case& c,
     return findings;
   }
   const std::array models{&a.value().model, &b.value().model};
-  findings.applicable = models[0]->dimension() == 3 && models[1]->dimension() == 3;
+  findings.applicable = is_taken(*models[0]) && is_taken(*models[1]);
   if (!findings.applicable) return findings;
   std::array<bench::Body, 2> bodies;
   for (std::size_t i = 0; i < 2; ++i) bodies[i] = {models[i], models[i]->level(0).view, 0};
