@@ -107,8 +107,7 @@ std::string plane_fault(const ConvexView& v) {
   for (std::size_t i = 0; i < v.planes.size(); ++i) {
     const FacePlane& p = v.planes[i];
     const double length2 = p.x * p.x + p.y * p.y + p.z * p.z;
-    if (!(std::fabs(length2 - 1) < kUnitNormalError) || !(p.thickness >= 0) || !finite({p.thickness}))
-      return "plane " + std::to_string(i);
+    if (!(std::fabs(length2 - 1) < kUnitNormalError) || !(p.thickness >= 0) || !finite({p.thickness})) return "plane " + std::to_string(i);
   }
   return "";
 }

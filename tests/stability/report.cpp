@@ -13,40 +13,40 @@ namespace {
 
 const std::map<std::string, std::string>& groups() {
   static const std::map<std::string, std::string> map{
-      {"kissing", "kissing, touching"},
-      {"touching", "kissing, touching"},
-      {"near-touching", "kissing, touching"},
-      {"edge-face", "kissing, touching"},
-      {"face-vertex", "kissing, touching"},
-      {"vertex-vertex", "kissing, touching"},
+      {"kissing", "kissing and touching"},
+      {"touching", "kissing and touching"},
+      {"near-touching", "kissing and touching"},
+      {"edge-face", "kissing and touching"},
+      {"face-vertex", "kissing and touching"},
+      {"vertex-vertex", "kissing and touching"},
       {"near-parallel", "parallel faces"},
       {"parallel-faces", "parallel faces"},
       {"near-parallel-faces", "parallel faces"},
       {"coplanar-caps", "parallel faces"},
       {"near-parallel-edges", "near-parallel edges"},
-      {"needle", "needles, slivers"},
-      {"needle-triangle", "needles, slivers"},
-      {"near-collinear", "needles, slivers"},
-      {"near-zero-volume", "needles, slivers"},
-      {"flat", "flat bodies, points"},
-      {"point-query", "flat bodies, points"},
-      {"degenerate-hull", "coplanar, duplicate points"},
-      {"general", "coplanar, duplicate points"},
-      {"coplanar", "coplanar, duplicate points"},
-      {"many-coplanar", "coplanar, duplicate points"},
-      {"duplicates", "coplanar, duplicate points"},
+      {"needle", "needles and slivers"},
+      {"needle-triangle", "needles and slivers"},
+      {"near-collinear", "needles and slivers"},
+      {"near-zero-volume", "needles and slivers"},
+      {"flat", "flat bodies and points"},
+      {"point-query", "flat bodies and points"},
+      {"degenerate-hull", "coplanar and duplicate points"},
+      {"general", "coplanar and duplicate points"},
+      {"coplanar", "coplanar and duplicate points"},
+      {"many-coplanar", "coplanar and duplicate points"},
+      {"duplicates", "coplanar and duplicate points"},
       {"scale", "scale"},
       {"scale-invariance", "scale"},
       {"tiny", "scale"},
       {"huge-vs-tiny", "huge against tiny"},
       {"far-from-origin", "far from the origin"},
-      {"overlap", "deep, nested, coincident"},
-      {"containment", "deep, nested, coincident"},
-      {"coincident", "deep, nested, coincident"},
+      {"overlap", "deep and nested"},
+      {"containment", "deep and nested"},
+      {"coincident", "deep and nested"},
       {"exact", "integer lattices"},
       {"asymmetric", "order of the bodies"},
       {"fuzz-found", "found by fuzzing"},
-      {"peer-suite", "peers' own suites"},
+      {"peer-suite", "suites of peers"},
   };
   return map;
 }
@@ -140,13 +140,30 @@ std::string totals_text(const std::vector<MethodReport>& reports) {
   return all;
 }
 
+std::string matrix(const std::vector<MethodReport>& reports) {
+  const auto cell = [](const Sum& s) { return s.cases ? line("%d / %d", s.failed, s.cases) : std::string("-"); };
+  std::string head = "| family |", rule = "|---|", total = "| **all** |";
+  for (const MethodReport& r : reports) {
+    head += " " + r.name + " |";
+    rule += "---|";
+    total += " **" + cell(r.total) + "** |";
+  }
+  std::string all = head + "\n" + rule + "\n";
+  for (std::size_t i = 0; i < reports.front().groups.size(); ++i) {  // all methods were asked the same cases
+    all += "| " + reports.front().groups[i].first + " |";
+    for (const MethodReport& r : reports) all += " " + cell(r.groups[i].second) + " |";
+    all += "\n";
+  }
+  return all + total + "\n";
+}
+
 std::string csv(const std::vector<MethodReport>& reports) {
   std::string all =
       "method,group,cases,not_taken,failed,wrong_verdict,wrong_distance,nan_or_thrown,not_terminated,no_answer,undecided,"
       "touching,worst_error\n";
   for (const MethodReport& r : reports) {
     for (const auto& [name, s] : r.groups) {
-      all += line("\"%s\",\"%s\",%d,%d,%d,%d,%d,%d,%d,%d,%d,%d,%.2g\n", r.name.c_str(), name.c_str(), s.cases, s.not_applicable,
+      all += line("%s,%s,%d,%d,%d,%d,%d,%d,%d,%d,%d,%d,%.2g\n", r.name.c_str(), name.c_str(), s.cases, s.not_applicable,
                   s.failed, s.wrong_verdict, s.wrong_distance, s.no_number, s.not_terminated, s.not_converged, s.undecided,
                   s.touching, s.worst_error);
     }

@@ -35,11 +35,12 @@ struct MethodReport {
   void add(const Case& c, const Findings& findings);
 };
 
-/// The row of the tables that a family counts to; families unknown here have their own.
+/// The row of the tables that a family counts to, without commas or quotes; families unknown here have their own.
 std::string group_of(const std::string& family);
 
 std::string text(const MethodReport& report);                       ///< a line per group
 std::string totals_text(const std::vector<MethodReport>& reports);  ///< a line per method
+std::string matrix(const std::vector<MethodReport>& reports);       ///< Markdown: groups by methods, failed / cases
 std::string csv(const std::vector<MethodReport>& reports);
 std::string json(const std::vector<MethodReport>& reports);
 
