@@ -86,15 +86,11 @@ Findings ask_other(const bench::Method& method, double tolerance, const Case& c,
   return findings;
 }
 
-/// Ours are judged by the laws; what is only compiled otherwise is the same algorithm.
-bool is_other(const std::string& name) { return !name.starts_with("swiftlet") && !name.ends_with(" native"); }
-
 }  // namespace
 
 std::vector<Contender> other_contenders(double tolerance) {
   std::vector<Contender> all;
-  for (auto& unique : bench::all_methods()) {
-    if (!is_other(unique->name())) continue;
+  for (auto& unique : bench::judged_methods()) {
     const std::shared_ptr<bench::Method> method = std::move(unique);
     all.push_back(
         {method->name(), method->settings(), method->capabilities().distance,
