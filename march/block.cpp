@@ -107,7 +107,8 @@ std::string plane_fault(const ConvexView& v) {
   for (std::size_t i = 0; i < v.planes.size(); ++i) {
     const FacePlane& p = v.planes[i];
     const double length2 = p.x * p.x + p.y * p.y + p.z * p.z;
-    if (!(std::fabs(length2 - 1) < kUnitNormalError) || !(p.thickness >= 0) || !finite({p.thickness})) return "plane " + std::to_string(i);
+    if (!(std::fabs(length2 - 1) < kUnitNormalError) || !(p.thickness >= 0) || !finite({p.thickness}))
+      return "plane " + std::to_string(i);
   }
   return "";
 }
@@ -288,7 +289,8 @@ Result<Model> BlockReader::read(AlignedBytes block) {
   const auto& begin = body->source.face_begin;
   if (begin.front() != 0 || begin.back() != header.source_face_count || !std::is_sorted(begin.begin(), begin.end()))
     return bad("the source map is out of order");
-  return Model(std::move(body));
+  const std::span<const Level> levels = body->levels;
+  return Model(std::move(body), levels);
 }
 
 }  // namespace swiftlet

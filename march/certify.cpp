@@ -4,6 +4,9 @@
 // above a face certifies only to 2e-8, from the face normal to 6e-16.
 #include "certify.h"
 
+#include <algorithm>
+#include <optional>
+
 #include "double_double.h"
 #include "exact.h"
 #include "ring.h"
@@ -18,8 +21,7 @@ struct Segment {
 template <class P>
 Segment segment(const P& body, std::uint32_t h) {
   const std::uint32_t tail = origin(body.view, h), head = body.view.head[h];
-  const Vec p = body.point(tail);
-  return {tail, head, p, body.point(head) - p};
+  return {tail, head, body.point(tail), body.turned(body.own(head) - body.own(tail))};
 }
 
 double clamped(double x) { return x > 0 ? x < 1 ? x : 1.0 : 0.0; }
@@ -65,12 +67,12 @@ Witness edge_edge(const P& a, std::uint32_t ha, const Q& b, std::uint32_t hb) {
   const auto add = [&](std::uint32_t va, std::uint32_t vb, double weight) {
     if (weight > 0) active.a[active.count] = va, active.b[active.count] = vb, active.weight[active.count++] = weight;
   };
-  add(e.tail, f.tail, std::fmin(1 - s, 1 - t));
+  add(e.tail, f.tail, smaller(1 - s, 1 - t));
   if (s <= t)
     add(e.tail, f.head, t - s);
   else
     add(e.head, f.tail, s - t);
-  add(e.head, f.head, std::fmin(s, t));
+  add(e.head, f.head, smaller(s, t));
   // Edges within the rounding of parallel have no cross product worth the name.
   if (!(area2 > kU * uu * vv)) return {d - e.u * (dot(d, e.u) / uu), active};
   return {dot(n, d) < 0 ? -n : n, active};
@@ -83,16 +85,17 @@ Witness vertex_face(const P& a, std::uint32_t va, const Q& b, std::uint32_t f) {
   const Vec q0 = b.point(root);
   Vec n{0, 0, 0};
   if (f < b.view.planes.size()) n = b.turned({b.view.planes[f].x, b.view.planes[f].y, b.view.planes[f].z});
+  const auto own = [&](std::uint32_t v) { return b.own(v) - b.own(root); };
   // The triangle of the fan about the root that holds the projection of p; failing that, the last one.
   std::uint32_t h = next_in_face(b.view, first), v1 = b.view.head[first];
   for (;;) {
     const std::uint32_t v2 = b.view.head[h], next = next_in_face(b.view, h);
     const Vec q1 = b.point(v1), q2 = b.point(v2);
-    if (f >= b.view.planes.size()) n = cross(q1 - q0, q2 - q0);
+    if (f >= b.view.planes.size()) n = b.turned(cross(own(v1), own(v2)));
     const double w0 = dot(n, cross(q1 - p, q2 - p)), w1 = dot(n, cross(q2 - p, q0 - p)), w2 = dot(n, cross(q0 - p, q1 - p));
     const bool last = b.view.head[next] == root;
     if ((w2 >= 0 && w1 >= 0) || last) {
-      const double c0 = std::fmax(w0, 0), c1 = std::fmax(w1, 0), c2 = std::fmax(w2, 0), sum = c0 + c1 + c2;
+      const double c0 = larger(w0, 0), c1 = larger(w1, 0), c2 = larger(w2, 0), sum = c0 + c1 + c2;
       if (!(sum > 0)) return {-n, {1, {va}, {root}, {1}}};
       return {-n, {3, {va, va, va}, {root, v1, v2}, {c0 / sum, c1 / sum, c2 / sum}}};
     }
@@ -174,6 +177,121 @@ std::uint32_t climb(const ConvexView& view, std::uint32_t v, Ordering order, int
   }
 }
 
+/// A direction of the common frame as one body's vertices see it, for comparisons in doubles that know their error.
+struct Slope {
+  Vec own;            ///< in the body's frame
+  double turn_error;  ///< of own . e, relative to |e|_1
+  double along(const Vec& e) const { return dot(own, e); }
+  double error(const Vec& e) const {
+    const Vec m{std::fabs(e.x), std::fabs(e.y), std::fabs(e.z)};
+    return kDotError * (std::fabs(own.x) * m.x + std::fabs(own.y) * m.y + std::fabs(own.z) * m.z) +
+           turn_error * (m.x + m.y + m.z);
+  }
+};
+
+/// A vertex that no other of its body exceeds by more than `slack`.
+struct Extreme {
+  std::uint32_t vertex = 0;
+  double slack = 0;
+};
+
+/// The farthest that two points of a body can be apart.
+double reach(const ConvexView& view) { return 2 * kSqrt3 * view.extent; }
+
+/// How far the body may stand above a feature along a slope, where the features beside it tell: the body is exactly convex. Its
+/// neighbours must be below for certain; what is level with it only up to rounding, an edge or a triangle, leaves a tilt.
+/// Nothing where doubles do not tell, or the face has more than three vertices.
+std::optional<double> overhang(const ConvexView& view, Handle feature, const Slope& slope, std::uint32_t& plane_tests) {
+  const double error = kDotError + kSqrt3 * slope.turn_error, far = reach(view);
+  const std::uint32_t i = feature.index();
+  switch (feature.kind()) {
+    case FeatureKind::Vertex: {
+      const Vertex& record = view.vertices[i];
+      const Vec p = vec(record);
+      plane_tests += record.ring_count;
+      for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
+        if (!(slope.along(vec(view.vertices[view.head[h]]) - p) < -error * far)) return std::nullopt;
+      }
+      return 0.0;
+    }
+    case FeatureKind::Edge: {
+      const Vec p = vec(view.vertices[origin(view, i)]), u = vec(view.vertices[view.head[i]]) - p;
+      const double overhang = (std::fabs(slope.along(u)) / norm(u) + error) * far;
+      plane_tests += 2;
+      for (const std::uint32_t side : {i, view.twin[i]}) {
+        if (view.face[side] == kNone) return std::nullopt;
+        const Vec r = vec(view.vertices[view.head[next_in_facet(view, side)]]) - p;
+        if (!(slope.along(r) < -(overhang + error * far))) return std::nullopt;
+      }
+      return overhang;
+    }
+    case FeatureKind::Face: {
+      if (i < view.planes.size()) return std::nullopt;
+      const std::uint32_t h = view.face_first[i];
+      const Vec p = vec(view.vertices[origin(view, h)]), e = vec(view.vertices[view.head[h]]) - p,
+                f = vec(view.vertices[view.head[next_in_facet(view, h)]]) - p, n = cross(e, f);
+      const double area = norm(n);
+      const Vec tilt = slope.own - n * (1 / area);
+      return (norm(tilt) + kCrossError * std::sqrt(dot(e, e) * dot(f, f)) / area + error) * far;
+    }
+    default: return std::nullopt;
+  }
+}
+
+/// Climbs in doubles and decides no tie: whatever may be as high as the top is visited too, until every neighbour of every one
+/// visited is itself visited or certainly below. On an exactly convex body the highest vertex is then among them. Nothing when
+/// more than `kPlateau` are as high.
+std::optional<Extreme> top(const ConvexView& view, const Slope& slope, std::uint32_t v, std::uint32_t& plane_tests) {
+  std::array<std::uint32_t, kPlateau> plateau;
+  std::size_t count = 0;
+  const auto add = [&](std::uint32_t w) {
+    if (std::find(plateau.begin(), plateau.begin() + count, w) != plateau.begin() + count) return true;
+    if (count == kPlateau) return false;
+    plateau[count++] = w;
+    return true;
+  };
+  const auto ring = [&](std::uint32_t u, auto visit) {
+    const Vertex& record = view.vertices[u];
+    const Vec p = vec(record);
+    plane_tests += record.ring_count;
+    for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
+      const std::uint32_t w = view.head[h];
+      const Vec e = vec(view.vertices[w]) - p;
+      visit(w, slope.along(e), slope.error(e));
+    }
+  };
+  for (bool rises = true, fits = true; rises;) {
+    rises = false, fits = true, count = 0;
+    add(v);
+    double most = 0;
+    const std::uint32_t from = v;
+    ring(from, [&](std::uint32_t w, double rise, double error) {
+      if (rise > error && rise > most) most = rise, v = w, rises = true;
+      if (rise >= -error) fits = add(w) && fits;
+    });
+    if (!rises && !fits) return std::nullopt;
+  }
+  bool fits = true;
+  for (std::size_t i = 1; i < count && fits; ++i) {
+    ring(plateau[i], [&](std::uint32_t w, double rise, double error) {
+      if (rise >= -error) fits = add(w) && fits;
+    });
+  }
+  if (!fits) return std::nullopt;
+  // Heights over the first; the top may be lower than any other by what both are uncertain.
+  const Vec p = vec(view.vertices[v]);
+  Extreme result{v, 0};
+  double height = 0, highest = 0, uncertain = 0;
+  for (std::size_t i = 1; i < count; ++i) {
+    const Vec e = vec(view.vertices[plateau[i]]) - p;
+    const double rise = slope.along(e), error = slope.error(e);
+    if (rise > height) result.vertex = plateau[i], height = rise, uncertain = error;
+    highest = larger(highest, rise + error);
+  }
+  result.slack = larger(0, highest - height + uncertain);
+  return result;
+}
+
 }  // namespace
 
 std::uint32_t any_vertex(const ConvexView& view, Handle feature) {
@@ -189,10 +307,10 @@ std::uint32_t support_b(const Scene& scene, const Vec& n, std::uint32_t start, s
   return climb(scene.b, start, Ordering(n, scene.b_in_a), -1, plane_tests);
 }
 
-double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb) {
+double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack) {
   const Vec c = body_b(scene).point(vb) - body_a(scene).point(va);
   const double products = std::fabs(n.x * c.x) + std::fabs(n.y * c.y) + std::fabs(n.z * c.z);
-  return dot(n, c) - kGapError * products - scene.motion_error;
+  return dot(n, c) - (kGapError * products + scene.motion_error + slack);
 }
 
 double apart(const Scene& scene, std::uint32_t va, std::uint32_t vb) {
@@ -211,9 +329,23 @@ Certificate certify(const Scene& scene, Handle a, Handle b, std::uint32_t& plane
   }
   c.upper = norm(c.point_b - c.point_a) * (1 + kNormError) + scene.point_error;
   c.normal = normalised(found.normal);
-  c.support_a = support_a(scene, c.normal, c.active.a[0], plane_tests);
-  c.support_b = support_b(scene, c.normal, c.active.b[0], plane_tests);
-  c.lower = std::fmax(0, gap(scene, c.normal, c.support_a, c.support_b));
+  const auto proved = [&](std::uint32_t va, std::uint32_t vb, double slack) {
+    c.support_a = va;
+    c.support_b = vb;
+    c.lower = larger(0, gap(scene, c.normal, va, vb, slack));
+    return c.upper - c.lower <= scene.law_two;
+  };
+  // Ever dearer: what stands beside the features, what is as high as doubles can tell, exact order.
+  const Slope slope_a{c.normal, 0}, slope_b{-other.into(c.normal), kTurnedError};
+  if (const auto over_a = overhang(scene.a, a, slope_a, plane_tests)) {
+    const auto over_b = overhang(scene.b, b, slope_b, plane_tests);
+    if (over_b && proved(any_vertex(scene.a, a), any_vertex(scene.b, b), *over_a + *over_b)) return c;
+  }
+  const auto a_top = top(scene.a, slope_a, c.active.a[0], plane_tests);
+  const auto b_top = top(scene.b, slope_b, c.active.b[0], plane_tests);
+  if (a_top && b_top && proved(a_top->vertex, b_top->vertex, a_top->slack + b_top->slack)) return c;
+  proved(support_a(scene, c.normal, a_top ? a_top->vertex : c.active.a[0], plane_tests),
+         support_b(scene, c.normal, b_top ? b_top->vertex : c.active.b[0], plane_tests), 0);
   return c;
 }
 

@@ -38,8 +38,8 @@ std::uint32_t support_a(const Scene& scene, const Vec& n, std::uint32_t start, s
 /// The vertex of B least far along n.
 std::uint32_t support_b(const Scene& scene, const Vec& n, std::uint32_t start, std::uint32_t& plane_tests);
 
-/// A lower bound on n . (b - a) for unit n, which may be negative.
-double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb);
+/// A lower bound on n . (b - a) for unit n, less `slack`; may be negative.
+double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack = 0);
 
 /// An upper bound on the distance from one vertex pair.
 double apart(const Scene& scene, std::uint32_t va, std::uint32_t vb);

@@ -27,7 +27,7 @@ Conclusion from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule
   r.plane_tests = walk.plane_tests;
   r.a = walk.a;
   r.b = walk.b;
-  const Goal goal{std::fmax(rule.absolute, scene.law_two), rule.relative, rule.beyond + scene.law_two};
+  const Goal goal{larger(rule.absolute, scene.law_two), rule.relative, rule.beyond + scene.law_two};
   Certificate c = certify(scene, walk.a, walk.b, r.plane_tests);
   r.status = status_of(scene, goal, c);
   // That features touch says nothing of the bodies: certified progress tells touching from overlapping. It also finds the plane
@@ -48,7 +48,7 @@ Conclusion from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule
     ++r.steps;
   }
   r.lower = c.lower;
-  r.upper = std::fmax(c.upper, c.lower);
+  r.upper = larger(c.upper, c.lower);
   r.normal = eigen(c.normal);
   r.point_a = eigen(c.point_a);
   r.point_b = eigen(c.point_b);

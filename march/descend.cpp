@@ -20,6 +20,7 @@ class Descent {
       : a_(a),
         b_(b),
         motion_(m),
+        line_(line_of_centres(a, b, m)),
         pose_error_(pose_error),
         stretch_(std::sqrt(1 + 3 * pose_error)),
         options_(options),
@@ -29,7 +30,7 @@ class Descent {
         finest_b_(std::clamp(options.finest_level, 0, b.level_count() - 1)) {}
 
   Answer run(PairSeed& seed) {
-    Place place = first_place(a_, b_, motion_, seed, options_);
+    Place place = first_place(a_, b_, line_, seed, options_);
     for (;;) {
       const Scene pair = scene(a_.level(place.level_a).view, b_.level(place.level_b).view, motion_, pose_error_);
       const bool last = place.level_a == finest_a_ && place.level_b == finest_b_;
@@ -220,7 +221,7 @@ class Descent {
       if (!absorbs && !suffices) break;
       kept.start = {parent(a_, kept.level_a++, kept.start.a), parent(b_, kept.level_b++, kept.start.b)};
     }
-    remember_line(a_, b_, motion_, seed);
+    remember_line(line_, seed);
     seed.a = kept.start.a;
     seed.b = kept.start.b;
     seed.level_a = std::uint8_t(kept.level_a);
@@ -230,6 +231,7 @@ class Descent {
   const Model& a_;
   const Model& b_;
   const Motion motion_;
+  const Line line_;
   const double pose_error_, stretch_;  ///< stretch bounds the rotation's norm
   const QueryOptions& options_;
   const Target& target_;

@@ -14,13 +14,6 @@ Result<Model> Model::from_level(const LevelArrays& level, const ModelOptions& op
   return from_levels({&level, 1}, options);
 }
 
-int Model::level_count() const { return int(body_->levels.size()); }
-
-const Level& Model::level(int index) const {
-  assert(index >= 0 && index < level_count());
-  return body_->levels[std::size_t(index)];
-}
-
 SourceMap Model::source() const { return body_->source; }
 
 Vec3 Model::centre() const { return body_->levels[0].view.centre; }

@@ -21,18 +21,24 @@ struct Scene {
   double law_two;       ///< law 2's bound for this pair: the width an exact answer keeps
 };
 
-/// A body of a scene at rest in the common frame.
+/// A body of a scene at rest in the common frame, which is its own.
 struct Resting {
   const ConvexView& view;
-  Vec point(std::uint32_t v) const { return vec(view.vertices[v]); }
-  Vec turned(const Vec& n) const { return n; }
+  Vec own(std::uint32_t v) const { return vec(view.vertices[v]); }
+  Vec point(std::uint32_t v) const { return own(v); }
+  Vec turned(const Vec& n) const { return n; }  ///< a direction of its own frame in the common one
+  Vec local(const Vec& p) const { return p; }   ///< a point of the common frame in its own
+  Vec into(const Vec& n) const { return n; }    ///< orders its own points as `n` orders their images
 };
-/// A body of a scene that the pose moves into it.
+/// A body of a scene that the pose moves into it. `local` takes the pose for a rigid motion.
 struct Moved {
   const ConvexView& view;
   const Motion& motion;
-  Vec point(std::uint32_t v) const { return apply(motion, vec(view.vertices[v])); }
+  Vec own(std::uint32_t v) const { return vec(view.vertices[v]); }
+  Vec point(std::uint32_t v) const { return apply(motion, own(v)); }
   Vec turned(const Vec& n) const { return turn(motion, n); }
+  Vec local(const Vec& p) const { return turn_back(motion, p - motion.t); }
+  Vec into(const Vec& n) const { return turn_back(motion, n); }
 };
 
 static inline Resting body_a(const Scene& s) { return {s.a}; }
@@ -46,22 +52,22 @@ struct PoseQuality {
 static inline PoseQuality pose_quality(const Motion& m) {
   const auto entry = [](double a, double b, double c) { return a + b + c; };
   const Vec &x = m.row_x, &y = m.row_y, &z = m.row_z;
-  const double e[6] = {entry(x.x * x.x, y.x * y.x, z.x * z.x) - 1, entry(x.y * x.y, y.y * y.y, z.y * z.y) - 1,
-                       entry(x.z * x.z, y.z * y.z, z.z * z.z) - 1, entry(x.x * x.y, y.x * y.y, z.x * z.y),
-                       entry(x.x * x.z, y.x * y.z, z.x * z.z),     entry(x.y * x.z, y.y * y.z, z.y * z.z)};
+  const double entries[6] = {entry(x.x * x.x, y.x * y.x, z.x * z.x) - 1, entry(x.y * x.y, y.y * y.y, z.y * z.y) - 1,
+                             entry(x.z * x.z, y.z * y.z, z.z * z.z) - 1, entry(x.x * x.y, y.x * y.y, z.x * z.y),
+                             entry(x.x * x.z, y.x * y.z, z.x * z.z),     entry(x.y * x.z, y.y * y.z, z.y * z.z)};
   double worst = 0;
   // Farther away exact signs and squares overflow, and a climb need not end.
-  bool in_range =
-      std::fabs(m.t.x) <= kMostCoordinate && std::fabs(m.t.y) <= kMostCoordinate && std::fabs(m.t.z) <= kMostCoordinate;
-  for (const double value : e) {
-    worst = std::fmax(worst, std::fabs(value));
-    in_range = in_range && std::isfinite(value);
+  const auto within = [](double value, double most) { return std::fabs(value) <= most; };  // no NaN is
+  bool legal = within(m.t.x, kMostCoordinate) && within(m.t.y, kMostCoordinate) && within(m.t.z, kMostCoordinate);
+  for (const double value : entries) {
+    legal = legal && within(value, kOrthonormality);
+    worst = larger(worst, std::fabs(value));
   }
-  return {in_range && worst <= kOrthonormality, worst};
+  return {legal, worst};
 }
 
 static inline Scene scene(const ConvexView& a, const ConvexView& b, const Motion& m, double pose_error) {
-  const double t = norm(m.t), stretch = std::sqrt(3.0) * (1 + pose_error);
+  const double t = norm(m.t), stretch = kSqrt3 * (1 + pose_error);
   const double magnitude = stretch * (a.extent + b.extent) + t,
                motion_error = kTurnError * stretch * b.extent + kShiftError * t;
   return {a,
@@ -70,7 +76,7 @@ static inline Scene scene(const ConvexView& a, const ConvexView& b, const Motion
           magnitude,
           motion_error,
           kPointError * magnitude + motion_error,
-          (kLawTwo + 2 * pose_error) * (std::fmax(a.extent, b.extent) + t)};
+          (kLawTwo + 2 * pose_error) * (larger(a.extent, b.extent) + t)};
 }
 
 }  // namespace swiftlet

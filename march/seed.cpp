@@ -25,27 +25,18 @@ bool legal_level(const Model& model, int level, int finest) { return level >= fi
 
 Place level_place(int level_a, int level_b, const MarchStart& start) { return {level_a, level_b, start}; }
 
-/// The line of centres from A to B in A's frame, and from B to A in B's; zero vectors where the centres coincide.
-struct Line {
-  Vec in_a, in_b;
-};
-Line line_of_centres(const Model& a, const Model& b, const Motion& m) {
-  const Vec d = apply(m, vec(b.centre())) - vec(a.centre());
-  const double length = norm(d);
-  const Vec in_a = length > 0 ? d * (1 / length) : Vec{0, 0, 0};
-  return {in_a, -turn_back(m, in_a)};
-}
-
 constexpr double kLineUnit = 32767;
 Vec unpacked(const std::array<std::int16_t, 3>& v) { return Vec{double(v[0]), double(v[1]), double(v[2])} * (1 / kLineUnit); }
 std::array<std::int16_t, 3> packed(const Vec& v) {
-  const auto unit = [](double x) { return std::int16_t(std::lround(std::fmax(-1, std::fmin(1, x)) * kLineUnit)); };
+  const auto unit = [](double x) {
+    const double units = larger(-1, smaller(1, x)) * kLineUnit;
+    return std::int16_t(units < 0 ? units - 0.5 : units + 0.5);
+  };
   return {unit(v.x), unit(v.y), unit(v.z)};
 }
 
 /// The steps a walk will take from features found when the line of centres was `seed`'s.
-double predicted_steps(const Model& a, const Model& b, const Motion& m, const PairSeed& seed) {
-  const Line line = line_of_centres(a, b, m);
+double predicted_steps(const Model& a, const Model& b, const Line& line, const PairSeed& seed) {
   const double edges_a =
       norm(line.in_a - unpacked(seed.line_in_a)) * std::sqrt(double(a.level(seed.level_a).view.vertices.size()));
   const double edges_b =
@@ -54,9 +45,8 @@ double predicted_steps(const Model& a, const Model& b, const Motion& m, const Pa
 }
 
 /// The table's vertices for the direction between the centres.
-MarchStart from_tables(const Model& a, const Model& b, const Motion& m) {
+MarchStart from_tables(const Model& a, const Model& b, const Line& line) {
   MarchStart start;
-  const Line line = line_of_centres(a, b, m);
   const auto look_up = [](const Model& model, const Vec& direction) -> Handle {
     if (model.table().empty()) return {};
     const std::uint32_t sample = lut::nearest(model.table_spec().resolution, {direction.x, direction.y, direction.z});
@@ -68,6 +58,13 @@ MarchStart from_tables(const Model& a, const Model& b, const Motion& m) {
 }
 
 }  // namespace
+
+Line line_of_centres(const Model& a, const Model& b, const Motion& m) {
+  const Vec d = apply(m, vec(b.level(0).view.centre)) - vec(a.level(0).view.centre);
+  const double length = norm(d);
+  const Vec in_a = length > 0 ? d * (1 / length) : Vec{0, 0, 0};
+  return {in_a, -turn_back(m, in_a)};
+}
 
 MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& plane_tests) {
   MarchStart s = start;
@@ -83,7 +80,7 @@ MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& p
 
 Place coarsest_place(const Model& a, const Model& b) { return level_place(a.level_count() - 1, b.level_count() - 1, {}); }
 
-Place first_place(const Model& a, const Model& b, const Motion& b_in_a, const PairSeed& seed, const QueryOptions& options) {
+Place first_place(const Model& a, const Model& b, const Line& line, const PairSeed& seed, const QueryOptions& options) {
   const int finest_a = std::clamp(options.finest_level, 0, a.level_count() - 1);
   const int finest_b = std::clamp(options.finest_level, 0, b.level_count() - 1);
   const bool seed_fits = seed.a.kind() != FeatureKind::None && seed.b.kind() != FeatureKind::None &&
@@ -91,7 +88,7 @@ Place first_place(const Model& a, const Model& b, const Motion& b_in_a, const Pa
   Place coarsest = coarsest_place(a, b);
   switch (options.start) {
     case StartPolicy::Table:
-      if (finest_a == 0 && finest_b == 0) return level_place(0, 0, from_tables(a, b, b_in_a));
+      if (finest_a == 0 && finest_b == 0) return level_place(0, 0, from_tables(a, b, line));
       return level_place(finest_a, finest_b, {});
     case StartPolicy::Finest:
       if (seed_fits && seed.level_a == finest_a && seed.level_b == finest_b) {
@@ -105,14 +102,13 @@ Place first_place(const Model& a, const Model& b, const Motion& b_in_a, const Pa
       const int above = std::max(coarsest.level_a - seed.level_a, coarsest.level_b - seed.level_b);
       if (options.start == StartPolicy::Paper || above <= 0) return place;
       const double descent = kStepsPerLevel * (above + 1);
-      if (predicted_steps(a, b, b_in_a, seed) > descent) return coarsest;
+      if (predicted_steps(a, b, line, seed) > descent) return coarsest;
       place.trial_steps = std::uint32_t(kTrialFactor * descent);
       return place;
   }
 }
 
-void remember_line(const Model& a, const Model& b, const Motion& b_in_a, PairSeed& seed) {
-  const Line line = line_of_centres(a, b, b_in_a);
+void remember_line(const Line& line, PairSeed& seed) {
   seed.line_in_a = packed(line.in_a);
   seed.line_in_b = packed(line.in_b);
 }

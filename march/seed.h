@@ -25,11 +25,17 @@ struct Place {
 /// `plane_tests` grows by the climbs along the line of centres.
 MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& plane_tests);
 
+/// The line of centres from A to B in A's frame, and from B to A in B's; unit vectors, or zero where the centres coincide.
+struct Line {
+  Vec in_a, in_b;
+};
+Line line_of_centres(const Model& a, const Model& b, const Motion& b_in_a);
+
 /// Where a query begins.
-Place first_place(const Model& a, const Model& b, const Motion& b_in_a, const PairSeed& seed, const QueryOptions& options);
+Place first_place(const Model& a, const Model& b, const Line& line, const PairSeed& seed, const QueryOptions& options);
 
 /// Notes the line of centres in the seed.
-void remember_line(const Model& a, const Model& b, const Motion& b_in_a, PairSeed& seed);
+void remember_line(const Line& line, PairSeed& seed);
 
 /// The coarsest pair, from nothing.
 Place coarsest_place(const Model& a, const Model& b);

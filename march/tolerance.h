@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace swiftlet {
 
 inline constexpr double kU = 0x1p-53;
+inline constexpr double kSqrt3 = 1.7320508075688774;  ///< above the root
 
 // ---- Laws -------------------------------------------------------------------------------------------------------------------
 
@@ -31,6 +33,8 @@ inline constexpr double kTurnedDotError = 9 * kU;
 /// The same with n rotated first, relative to |n|_1 |w - v|_1, which bounds every product of a rotation's rows (|R_ij| <= 1 +
 /// 1e-6).
 inline constexpr double kTurnedSupportError = 9 * kU;
+/// A coordinate of R^T n for unit n: 3 products of one sum of magnitudes at most 1 + 1e-6, 2 sums.
+inline constexpr double kTurnedError = 4 * kU;
 /// Either in double-double arithmetic, whose sums and products keep at least 100 bits each.
 inline constexpr double kWideDotError = 0x1p-96;
 /// Three factors a - (R b + t) of 1 product and 4 sums each, then 2 products, 1 difference, 2 sums.
@@ -52,6 +56,9 @@ inline constexpr double kLeastDirection = 0x1p-1000;
 inline constexpr double kTurnError = 7 * kU, kShiftError = 2 * kU;
 /// n . c, normalised: 3 (difference, product, two sums) + 2 (|n| of a normalised n) on the sum of |n_i c_i|, rounded up.
 inline constexpr double kGapError = 7 * kU;
+/// The cross product of two rounded differences: 2 differences, 1 product, 1 difference per term, two terms per coordinate; the
+/// vector's error relative to the product of the lengths.
+inline constexpr double kCrossError = 8 * kU;
 /// A convex combination of three points: 1 product and 2 sums, and weights whose sum is 1 only to 3 u. Relative to |p|.
 inline constexpr double kPointError = 7 * kU;
 /// sqrt of a sum of three squares of rounded differences, relative.
@@ -90,6 +97,9 @@ inline constexpr double kStepsPerEdge = 0.5, kStepsPerLevel = 6;
 /// A walk from the seed that takes this many times what a descent would is given up for one (ski rental: never more than three
 /// times the better choice).
 inline constexpr double kTrialFactor = 2;
+/// Vertices that doubles may find equally high before a certificate asks exact arithmetic which is the highest: two triangles
+/// and room for a flat spot.
+inline constexpr std::size_t kPlateau = 8;
 /// Points of the inner polytope that tells touching from overlapping: 300 vertices slid into contact needed 20 to 32.
 inline constexpr int kContactPoints = 32;
 

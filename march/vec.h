@@ -46,8 +46,13 @@ static inline V3<R> cross(const V3<R>& a, const V3<R>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// Of two numbers that are no NaN. std::fmax is a call.
+static inline double larger(double x, double y) { return x < y ? y : x; }
+static inline double smaller(double x, double y) { return y < x ? y : x; }
+
 static inline double norm(const Vec& a) { return std::sqrt(dot(a, a)); }
-static inline double max_abs(const Vec& a) { return std::fmax(std::fmax(std::fabs(a.x), std::fabs(a.y)), std::fabs(a.z)); }
+/// Numbers only: a NaN may go unseen.
+static inline double max_abs(const Vec& a) { return larger(larger(std::fabs(a.x), std::fabs(a.y)), std::fabs(a.z)); }
 
 /// At length 1; 0 where v names no direction. Scaled by its largest coordinate first: squares of 1e-200 are 0.
 static inline Vec normalised(const Vec& v) {

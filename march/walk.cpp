@@ -10,6 +10,9 @@
 //
 // Where we leave the paper: nearest points on closed features instead of clipped intervals with derivatives, so that no state
 // carries values from the one before (its stale values looped); vertex to vertex in one step where the whole edge falls.
+//
+// A state is computed in the frame of its second body, and a ring in its own body's, so that of all points read only the
+// first body's feature is carried over.
 #include "walk.h"
 
 #include <limits>
@@ -45,8 +48,8 @@ class Marcher {
 
   template <class P, class Q>
   Move vertex_vertex(const P& a, std::uint32_t va, const Q& b, std::uint32_t vb) {
-    const Vec p = a.point(va), q = b.point(vb), d = q - p;
-    const Descent from_a = ring(a, va, p, d), from_b = ring(b, vb, q, -d);
+    const Vec d = b.point(vb) - a.point(va);
+    const Descent from_a = ring(a, va, a.into(d)), from_b = ring(b, vb, b.into(-d));
     const double distance2 = dot(d, d);
     if (from_a.to == kNone && from_b.to == kNone) return {vertex(va), vertex(vb), distance2, true};
     if (from_b.to == kNone) return {along(a, from_a), vertex(vb), distance2};
@@ -57,15 +60,15 @@ class Marcher {
   template <class P, class Q>
   Move vertex_edge(const P& a, std::uint32_t va, const Q& b, std::uint32_t h) {
     const std::uint32_t v0 = origin(b.view, h), v1 = b.view.head[h];
-    const Vec p = a.point(va), q0 = b.point(v0), u = b.point(v1) - q0;
-    const double length2 = dot(u, u), s = dot(p - q0, u) / length2;
+    const Vec q0 = b.own(v0), u = b.own(v1) - q0, r = b.local(a.point(va)) - q0;
+    const double length2 = dot(u, u), s = dot(r, u) / length2;
     tests_ += 2;
-    if (!(s > 0)) return {vertex(va), vertex(v0), dot(p - q0, p - q0)};
-    if (s >= 1) return {vertex(va), vertex(v1), dot(p - q0 - u, p - q0 - u)};
-    const Vec d = q0 + u * s - p;
-    const double distance2 = dot(d, d);
-    const Descent rise = sides(b, h, q0, u, length2, -d);
-    const Descent from_a = first_only_ && rise.to != kNone ? Descent{} : ring(a, va, p, d);
+    if (!(s > 0)) return {vertex(va), vertex(v0), dot(r, r)};
+    if (s >= 1) return {vertex(va), vertex(v1), dot(r - u, r - u)};
+    const Vec up = r - u * s;
+    const double distance2 = dot(up, up);
+    const Descent rise = sides(b, h, q0, u, length2, up);
+    const Descent from_a = first_only_ && rise.to != kNone ? Descent{} : ring(a, va, a.into(b.turned(-up)));
     if (rise.to == kNone && from_a.to == kNone) return {vertex(va), edge(h), distance2, true};
     if (rise.rate2 > from_a.rate2) return {vertex(va), face(rise.to), distance2};
     return {along(a, from_a), edge(h), distance2};
@@ -73,13 +76,13 @@ class Marcher {
 
   template <class P, class Q>
   Move vertex_face(const P& a, std::uint32_t va, const Q& b, std::uint32_t f) {
-    const Vec p = a.point(va), n = normal(b, f);
+    const Vec p = b.local(a.point(va)), n = normal(b, f);
     if (const Descent out = leave(b, f, p, n); out.to != kNone) return {vertex(va), edge(out.to), kUnknown};
-    const double height = dot(n, p - b.point(origin(b.view, b.view.face_first[f]))), distance2 = height * height / dot(n, n);
+    const double height = dot(n, p - b.own(origin(b.view, b.view.face_first[f]))), distance2 = height * height / dot(n, n);
     if (!(height > 0)) return {vertex(va), face(f), distance2, false, true};
-    const Descent down = ring(a, va, p, -n);
+    const Descent down = ring(a, va, a.into(b.turned(-n)));
     if (down.to == kNone) return {vertex(va), face(f), distance2, true};
-    const Vec e = a.point(a.view.head[down.to]) - p;
+    const Vec e = b.local(a.point(a.view.head[down.to])) - p;
     const Exit exit = leave_along(b, f, p, e, n);
     if (!(height + exit.at * dot(n, e) > 0)) return {edge(down.to), face(f), distance2, false, true};
     if (exit.side == kNone) return {vertex(a.view.head[down.to]), face(f), distance2};
@@ -89,7 +92,8 @@ class Marcher {
   template <class P, class Q>
   Move edge_edge(const P& a, std::uint32_t ha, const Q& b, std::uint32_t hb) {
     const std::uint32_t a0 = origin(a.view, ha), a1 = a.view.head[ha], b0 = origin(b.view, hb), b1 = b.view.head[hb];
-    const Vec p0 = a.point(a0), u = a.point(a1) - p0, q0 = b.point(b0), v = b.point(b1) - q0;
+    const Vec own_a = a.own(a0), along_a = a.own(a1) - own_a;
+    const Vec p0 = b.local(a.point(a0)), u = b.into(a.turned(along_a)), q0 = b.own(b0), v = b.own(b1) - q0;
     const Parameters at = nearest_on_segments(p0, u, q0, v);
     const Vec d = q0 + v * at.t - (p0 + u * at.s);
     const double distance2 = dot(d, d);
@@ -98,7 +102,7 @@ class Marcher {
     if (end_a || end_b) {
       return {end_a ? vertex(at.s == 0 ? a0 : a1) : edge(ha), end_b ? vertex(at.t == 0 ? b0 : b1) : edge(hb), distance2};
     }
-    const Descent rise_a = sides(a, ha, p0, u, dot(u, u), d);
+    const Descent rise_a = sides(a, ha, own_a, along_a, dot(along_a, along_a), a.into(b.turned(d)));
     const Descent rise_b = first_only_ && rise_a.to != kNone ? Descent{} : sides(b, hb, q0, v, dot(v, v), -d);
     if (rise_a.to == kNone && rise_b.to == kNone) return {edge(ha), edge(hb), distance2, true};
     if (rise_a.rate2 >= rise_b.rate2) return {face(rise_a.to), edge(hb), distance2};
@@ -107,14 +111,14 @@ class Marcher {
 
   template <class P, class Q>
   Move edge_face(const P& a, std::uint32_t h, const Q& b, std::uint32_t f) {
-    const Vec p = a.point(origin(a.view, h)), e = a.point(a.view.head[h]) - p, n = normal(b, f);
+    const Vec p = b.local(a.point(origin(a.view, h))), e = b.local(a.point(a.view.head[h])) - p, n = normal(b, f);
     double low = 0, high = 1, farthest2 = 0;
     std::uint32_t low_side = kNone, high_side = kNone, outside = kNone;
     each_side(b, f, [&](std::uint32_t side, const Vec& q, const Vec& u) {
       const Vec m = cross(u, n);
       const double at_tail = dot(p - q, m), at_head = at_tail + dot(e, m), crossing = at_tail / (at_tail - at_head);
       if (at_tail > 0 && at_head > 0) {
-        const double nearer = std::fmin(at_tail, at_head), violation2 = nearer * nearer / dot(u, u);
+        const double nearer = smaller(at_tail, at_head), violation2 = nearer * nearer / dot(u, u);
         if (violation2 > farthest2) farthest2 = violation2, outside = side;
       } else if (at_tail > 0) {
         if (crossing > low) low = crossing, low_side = side;
@@ -124,7 +128,7 @@ class Marcher {
     });
     if (outside != kNone) return {edge(h), edge(outside), kUnknown};
     if (low > high) return {edge(h), edge(low_side != kNone ? low_side : high_side), kUnknown};
-    const double height = dot(n, p - b.point(origin(b.view, b.view.face_first[f]))), slope = dot(n, e);
+    const double height = dot(n, p - b.own(origin(b.view, b.view.face_first[f]))), slope = dot(n, e);
     const double height_low = height + low * slope, height_high = height + high * slope;
     if (!(height_low > 0 && height_high > 0)) return {edge(h), face(f), kUnknown, false, true};
     const bool take_low = height_low <= height_high;
@@ -144,13 +148,16 @@ class Marcher {
     std::uint32_t side = kNone;
   };
 
-  /// Among the edges of a vertex at `p`, the one that leads most steeply along `d`.
+  // From here on all is in the body's own frame.
+
+  /// Among the edges of a vertex, the one that leads most steeply along `d`.
   template <class P>
-  Descent ring(const P& body, std::uint32_t v, const Vec& p, const Vec& d) {
+  Descent ring(const P& body, std::uint32_t v, const Vec& d) {
     const Vertex& record = body.view.vertices[v];
+    const Vec p = vec(record);
     Descent best;
     for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
-      const Vec e = body.point(body.view.head[h]) - p;
+      const Vec e = body.own(body.view.head[h]) - p;
       const double along_d = dot(d, e);
       ++tests_;
       if (!(along_d > 0)) continue;
@@ -172,7 +179,7 @@ class Marcher {
     Descent best;
     for (const std::uint32_t side : {h, body.view.twin[h]}) {
       if (body.view.face[side] == kNone) continue;
-      const Vec r = body.point(body.view.head[next_in_facet(body.view, side)]) - q0;
+      const Vec r = body.own(body.view.head[next_in_facet(body.view, side)]) - q0;
       const double along_d = dot(d, r);
       ++tests_;
       if (!(along_d > 0)) continue;
@@ -188,9 +195,9 @@ class Marcher {
   void each_side(const Q& body, std::uint32_t f, Visit visit) {
     const std::uint32_t first = body.view.face_first[f];
     std::uint32_t h = first;
-    Vec tail = body.point(origin(body.view, first));
+    Vec tail = body.own(origin(body.view, first));
     do {
-      const Vec head = body.point(body.view.head[h]);
+      const Vec head = body.own(body.view.head[h]);
       ++tests_;
       visit(h, tail, head - tail);
       tail = head;
@@ -217,7 +224,7 @@ class Marcher {
     Exit exit;
     each_side(body, f, [&](std::uint32_t side, const Vec& tail, const Vec& u) {
       const Vec m = cross(u, n);
-      const double at_tail = std::fmin(dot(p - tail, m), 0.0), slope = dot(e, m);
+      const double at_tail = smaller(dot(p - tail, m), 0.0), slope = dot(e, m);
       if (at_tail + slope > 0 && -at_tail < exit.at * slope) exit = {-at_tail / slope, side};
     });
     return exit;
@@ -228,11 +235,11 @@ class Marcher {
   static Vec normal(const Q& body, std::uint32_t f) {
     if (f < body.view.planes.size()) {
       const FacePlane& plane = body.view.planes[f];
-      return body.turned({plane.x, plane.y, plane.z});
+      return {plane.x, plane.y, plane.z};
     }
     const std::uint32_t h = body.view.face_first[f];
-    const Vec q0 = body.point(origin(body.view, h)), q1 = body.point(body.view.head[h]);
-    return cross(q1 - q0, body.point(body.view.head[next_in_facet(body.view, h)]) - q0);
+    const Vec q0 = body.own(origin(body.view, h)), q1 = body.own(body.view.head[h]);
+    return cross(q1 - q0, body.own(body.view.head[next_in_facet(body.view, h)]) - q0);
   }
 
   /// Nearest points p0 + s u and q0 + t v, with s and t in [0, 1]. [Ericson 2004, sec. 5.1.9], and s once more from t, so that
@@ -288,7 +295,7 @@ Walk walk(const Scene& scene, Handle a, Handle b, PlaneRule rule, std::uint32_t 
   for (;;) {
     const Move move = state(march, body_a(scene), result.a, body_b(scene), result.b);
     stalled = move.distance2 < least2 ? 0 : stalled + 1;
-    least2 = std::fmin(least2, move.distance2);
+    least2 = smaller(least2, move.distance2);
     result.steps += !(move.first == result.a && move.second == result.b);
     result.a = move.first;
     result.b = move.second;

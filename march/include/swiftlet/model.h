@@ -3,6 +3,7 @@
 // A convex body at several levels of detail: immutable, shared, one block of memory. Knows nothing of poses or queries.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -120,8 +121,11 @@ class Model {
   /// One level.
   static Result<Model> from_level(const LevelArrays& level, const ModelOptions& options = {});
 
-  int level_count() const;  ///< at least 1; level 0 is the exact hull, larger is coarser
-  const Level& level(int index) const;
+  int level_count() const { return level_count_; }  ///< at least 1; level 0 is the exact hull, larger is coarser
+  const Level& level(int index) const {
+    assert(index >= 0 && index < level_count_);
+    return levels_[index];
+  }
   SourceMap source() const;
 
   Vec3 centre() const;    ///< area centroid of level 0 (of its edges or point, where flatter)
@@ -144,8 +148,11 @@ class Model {
  private:
   friend class BlockReader;
   struct Body;
-  explicit Model(std::shared_ptr<const Body> body) : body_(std::move(body)) {}
+  Model(std::shared_ptr<const Body> body, std::span<const Level> levels)
+      : body_(std::move(body)), levels_(levels.data()), level_count_(int(levels.size())) {}
   std::shared_ptr<const Body> body_;
+  const Level* levels_;  ///< the body's
+  int level_count_;
 };
 
 }  // namespace swiftlet
