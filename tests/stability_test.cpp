@@ -42,7 +42,7 @@ TEST(Stability, SwiftletFailsNoStoredCase) {
 // ---- The judge --------------------------------------------------------------------------------------------------------------
 
 /// Two cubes `gap` apart, or overlapping by -gap, a right answer, and what the judge says when it is bent.
-class Judge : public testing::Test {
+class CaseJudge : public testing::Test {
  protected:
   static Case cubes(double gap) {
     Case c;
@@ -72,7 +72,7 @@ class Judge : public testing::Test {
   Model model_ = build(shapes::cube()).value().model;
 };
 
-TEST_F(Judge, PassesWhatIsRight) {
+TEST_F(CaseJudge, PassesWhatIsRight) {
   for (const double gap : {1., 1e-6, 1e-14, 0., -1e-14, -1e-6, -1.}) {
     EXPECT_EQ(of_bent(gap, [](Answer&) {}), Fault::None) << gap;
   }
@@ -81,7 +81,7 @@ TEST_F(Judge, PassesWhatIsRight) {
   EXPECT_EQ(of_within(1, 1, Decision::Undecided), Fault::None);
 }
 
-TEST_F(Judge, CatchesADistanceOffByAMillionth) {
+TEST_F(CaseJudge, CatchesADistanceOffByAMillionth) {
   for (const double off : {1e-6, -1e-6, 1e-12, -1e-12}) {
     const auto shift = [&](Answer& a) {
       a.lower += off;
@@ -92,7 +92,7 @@ TEST_F(Judge, CatchesADistanceOffByAMillionth) {
   }
 }
 
-TEST_F(Judge, CatchesALyingInterval) {
+TEST_F(CaseJudge, CatchesALyingInterval) {
   EXPECT_EQ(of_bent(1, [](Answer& a) { a.lower = a.upper = 1 + 0x1p-52; }), Fault::WrongDistance);
   EXPECT_EQ(of_bent(1, [](Answer& a) { a.lower = a.upper = 1 - 0x1p-53; }), Fault::WrongDistance);
   EXPECT_EQ(of_bent(1, [](Answer& a) { a.upper += 1e-12; }), Fault::WrongDistance) << "true but too wide";
@@ -100,7 +100,7 @@ TEST_F(Judge, CatchesALyingInterval) {
   EXPECT_EQ(of_bent(1, [](Answer& a) { a.point_a.y() += 3; }), Fault::WrongDistance) << "beside the body";
 }
 
-TEST_F(Judge, CatchesAWrongVerdict) {
+TEST_F(CaseJudge, CatchesAWrongVerdict) {
   EXPECT_EQ(of_bent(1, [](Answer& a) { a.verdict = Verdict::Touching; }), Fault::WrongDistance) << "against its own interval";
   for (const Verdict v : {Verdict::Touching, Verdict::Undecided, Verdict::Disjoint}) {
     for (const double gap : {-1e-6, -1.}) {
@@ -115,7 +115,7 @@ TEST_F(Judge, CatchesAWrongVerdict) {
   EXPECT_EQ(of_within(1, 1 + 1e-12, Decision::Undecided), Fault::WrongVerdict);
 }
 
-TEST_F(Judge, CatchesNoAnswer) {
+TEST_F(CaseJudge, CatchesNoAnswer) {
   EXPECT_EQ(of_bent(1, [](Answer& a) { a.status = Status::NotConverged; }), Fault::NotConverged);
   EXPECT_EQ(of_bent(1, [](Answer& a) { a.status = Status::Budget; }), Fault::NotConverged);
   EXPECT_EQ(of_bent(1, [](Answer& a) { a.lower = std::numeric_limits<double>::quiet_NaN(); }), Fault::NoNumber);
