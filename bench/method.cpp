@@ -248,6 +248,20 @@ Methods all_methods() {
   return methods;
 }
 
+Methods judged_methods() {
+  Methods methods = all_methods();
+  // Ours are judged by the laws; what is compiled otherwise is the same algorithm; Bullet's detector is run with its depth
+  // solver.
+  std::erase_if(methods, [](const std::unique_ptr<Method>& method) {
+    const std::string name = method->name();
+    return name.starts_with("swiftlet") || name.ends_with(" native") || name == "bullet" || name == "bullet climb";
+  });
+#ifdef SWIFTLET_PEER_BULLET
+  add_bullet_epa(methods);
+#endif
+  return methods;
+}
+
 std::vector<std::string> absent_peers() {
   std::vector<std::string> names;
   std::string_view rest = SWIFTLET_ABSENT_PEERS;  // separated by commas

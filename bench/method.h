@@ -123,6 +123,8 @@ using Methods = std::vector<std::unique_ptr<Method>>;
 
 /// Ours first, then the baselines, then the peers that the build found.
 Methods all_methods();
+/// The baselines and the peers, each as its users run it where a timed row leaves something out: for verdicts, not for clocks.
+Methods judged_methods();
 /// Ours with other options. The models that a session is opened with decide levels and table.
 std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, const QueryOptions& options);
 /// Our walk alone, by another rule than `plain` in all_methods.
@@ -135,6 +137,7 @@ void add_fcl(Methods& methods);
 void add_fcl_native(Methods& methods);  ///< the same sources and FCL's templates compiled for this very machine
 void add_ccd(Methods& methods);
 void add_bullet(Methods& methods);
+void add_bullet_epa(Methods& methods);
 void add_ode(Methods& methods);
 
 }  // namespace swiftlet::bench

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Knows rationals and one algorithm, the minimum-norm point of the difference body by growing and shrinking a simplex of
-// vertex pairs. Run in double it is a guess where to start; run in rationals every comparison is exact, each round strictly
-// nearer, the simplices finitely many: it ends at the truth.
+// Knows rationals and one algorithm for bodies apart, the minimum-norm point of the difference body by growing and shrinking a
+// simplex of vertex pairs. Run in double it is a guess where to start; run in rationals every comparison is exact, each round
+// strictly nearer, the simplices finitely many: it ends at the truth. How deep bodies overlap is the nearest facet of the
+// difference body, whose hull CGAL computes exactly.
 //
 //   P. Wolfe, Finding the nearest point in a polytope. Mathematical Programming 11, 1976.
 //   E. G. Gilbert, D. W. Johnson, S. S. Keerthi, A fast procedure for computing the distance between complex objects in
@@ -15,12 +16,18 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <sstream>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Gmpq.h>
+#include <CGAL/Lazy_exact_nt.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/convex_hull_3.h>
 
 namespace swiftlet::oracle {
 
@@ -56,16 +63,16 @@ struct Motion {
       : column{point<N>(pose.rotation.col(0)), point<N>(pose.rotation.col(1)), point<N>(pose.rotation.col(2))},
         translation(point<N>(pose.translation)) {}
 
-  Point<N> operator()(const Vec3& p_b) const {
-    const Point<N> p = point<N>(p_b);
-    Point<N> p_a = translation;
+  Point<N> operator()(const Vec3& p_body) const {
+    const Point<N> p = point<N>(p_body);
+    Point<N> moved = translation;
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) p_a[i] = p_a[i] + column[j][i] * p[j];
-    return p_a;
+      for (int j = 0; j < 3; ++j) moved[i] = moved[i] + column[j][i] * p[j];
+    return moved;
   }
 
-  /// The direction in B's frame in which B's points order as their images do in `n_a`.
-  Point<N> direction_in_b(const Point<N>& n_a) const { return {dot(column[0], n_a), dot(column[1], n_a), dot(column[2], n_a)}; }
+  /// The direction in the body's frame in which its points order as their images do along `n`.
+  Point<N> direction_in_body(const Point<N>& n) const { return {dot(column[0], n), dot(column[1], n), dot(column[2], n)}; }
 };
 
 template <class N>
@@ -233,6 +240,21 @@ Nearest<N> nearest(const std::vector<Point<N>>& points) {
 
 // --- The nearest point of the difference body ------------------------------------------------------------------------------
 
+/// Points where their pose puts them; without one, where they are.
+template <class N>
+class Placed {
+ public:
+  explicit Placed(std::span<const Vec3> points) : points_(points) {}
+  Placed(std::span<const Vec3> points, const Pose& pose) : points_(points), motion_(pose) {}
+
+  Point<N> operator[](std::uint32_t i) const { return motion_ ? (*motion_)(points_[i]) : point<N>(points_[i]); }
+  std::uint32_t support_along(const Point<N>& n) const { return support(points_, motion_ ? motion_->direction_in_body(n) : n); }
+
+ private:
+  std::span<const Vec3> points_;
+  std::optional<Motion<N>> motion_;
+};
+
 struct VertexPair {
   std::uint32_t a, b;
   bool operator==(const VertexPair&) const = default;
@@ -249,7 +271,7 @@ struct Solution {
 template <class N>
 class Solver {
  public:
-  Solver(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_in_a) : a_(a), b_(b), b_in_a_(b_in_a) {}
+  Solver(Placed<N> a, Placed<N> b) : a_(std::move(a)), b_(std::move(b)) {}
 
   // In rationals neither a repeated pair nor a standstill can occur before the end; in double they are the end.
   Solution<N> solve(std::vector<VertexPair> pairs) const {
@@ -269,10 +291,10 @@ class Solver {
   }
 
   Point<N> point_a(const Solution<N>& solution) const {
-    return combination(solution, [&](const VertexPair& pair) { return point<N>(a_[pair.a]); });
+    return combination(solution, [&](const VertexPair& pair) { return a_[pair.a]; });
   }
   Point<N> point_b(const Solution<N>& solution) const {
-    return combination(solution, [&](const VertexPair& pair) { return b_in_a_(b_[pair.b]); });
+    return combination(solution, [&](const VertexPair& pair) { return b_[pair.b]; });
   }
 
   /// The least of n.(a - b).
@@ -280,14 +302,12 @@ class Solver {
 
  private:
   Point<N> difference(const VertexPair& pair) const {
-    const Point<N> p = point<N>(a_[pair.a]), q = b_in_a_(b_[pair.b]);
+    const Point<N> p = a_[pair.a], q = b_[pair.b];
     return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
   }
 
   // The pair with the least n.(a - b).
-  VertexPair support_pair(const Point<N>& n) const {
-    return {support(a_, opposite(n)), support(b_, b_in_a_.direction_in_b(n))};
-  }
+  VertexPair support_pair(const Point<N>& n) const { return {a_.support_along(opposite(n)), b_.support_along(n)}; }
 
   template <class PointOf>
   Point<N> combination(const Solution<N>& solution, PointOf point_of) const {
@@ -311,16 +331,92 @@ class Solver {
     return solution;
   }
 
-  std::span<const Vec3> a_, b_;
-  Motion<N> b_in_a_;
+  Placed<N> a_, b_;
 };
+
+// --- The nearest facet of the difference body ------------------------------------------------------------------------------
+
+using Filtered = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
+
+Filtered filtered(const Vec3& p) { return {p[0], p[1], p[2]}; }
+
+/// The points that are vertices of their hull, whatever its dimension.
+std::vector<Vec3> extreme(std::span<const Vec3> points) {
+  std::vector<Filtered> all, kept;
+  for (const Vec3& p : points) all.push_back(filtered(p));
+  CGAL::extreme_points_3(all, std::back_inserter(kept));
+  std::vector<Vec3> result;
+  for (const Filtered& p : kept) result.emplace_back(p.x(), p.y(), p.z());
+  return result;
+}
+
+using Lazy = CGAL::Lazy_exact_nt<Rational>;
+using LazyPoint = CGAL::Simple_cartesian<Lazy>::Point_3;
+
+Point<Rational> exactly(const LazyPoint& p) { return {p.x().exact(), p.y().exact(), p.z().exact()}; }
+
+template <class N>
+Point<N> operator-(const Point<N>& p, const Point<N>& q) {
+  return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+}
+template <class N>
+Point<N> cross(const Point<N>& p, const Point<N>& q) {
+  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+}
+
+std::vector<LazyPoint> differences(std::span<const Vec3> a, const Pose& a_in_world, std::span<const Vec3> b,
+                                   const Pose& b_in_world) {
+  const std::vector<Vec3> corners_a = extreme(a), corners_b = extreme(b);
+  const Placed<Rational> placed_a(corners_a, a_in_world), placed_b(corners_b, b_in_world);
+  std::vector<Point<Rational>> moved_b;
+  for (std::uint32_t j = 0; j < corners_b.size(); ++j) moved_b.push_back(placed_b[j]);
+  std::vector<LazyPoint> result;
+  for (std::uint32_t i = 0; i < corners_a.size(); ++i) {
+    const Point<Rational> p = placed_a[i];
+    for (const Point<Rational>& q : moved_b) result.emplace_back(Lazy(p[0] - q[0]), Lazy(p[1] - q[1]), Lazy(p[2] - q[2]));
+  }
+  return result;
+}
+
+bool is_solid(const std::vector<LazyPoint>& points) {
+  const LazyPoint& o = points[0];
+  const auto find = [&](const auto& condition) { return std::find_if(points.begin(), points.end(), condition); };
+  const auto p = find([&](const LazyPoint& x) { return x != o; });
+  if (p == points.end()) return false;
+  const auto q = find([&](const LazyPoint& x) { return !CGAL::collinear(o, *p, x); });
+  return q != points.end() && find([&](const LazyPoint& x) { return !CGAL::coplanar(o, *p, *q, x); }) != points.end();
+}
+
+struct Depth {
+  Rational square{0};
+  Point<Rational> normal{};  ///< outward, any length
+};
+
+/// From the origin, which the hull of the points holds, to the nearest plane of a facet.
+Depth depth_of_origin(const std::vector<LazyPoint>& points) {
+  if (!is_solid(points)) return {};
+  CGAL::Surface_mesh<LazyPoint> hull;
+  CGAL::convex_hull_3(points.begin(), points.end(), hull);
+  std::optional<Depth> least;
+  for (const auto face : hull.faces()) {
+    const auto h = hull.halfedge(face);
+    const Point<Rational> p = exactly(hull.point(hull.source(h))), q = exactly(hull.point(hull.target(h))),
+                          r = exactly(hull.point(hull.target(hull.next(h))));
+    const Point<Rational> n = cross(q - p, r - p);
+    const Rational along = dot(n, p);
+    if (along < 0) throw std::logic_error("the minimum norm is 0, but the hull of the differences does not hold the origin");
+    const Rational square = along * along / dot(n, n);
+    if (!least || square < least->square) least = Depth{square, n};
+  }
+  return *least;
+}
 
 }  // namespace
 
 Truth distance(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_in_a) {
   assert(!a.empty() && !b.empty());
-  const auto guess = Solver<double>(a, b, b_in_a).solve({{0, 0}});
-  const Solver<Rational> solver(a, b, b_in_a);
+  const auto guess = Solver<double>(Placed<double>(a), {b, b_in_a}).solve({{0, 0}});
+  const Solver<Rational> solver(Placed<Rational>(a), {b, b_in_a});
   const auto solution = solver.solve(guess.pairs);
   Truth truth;
   truth.overlapping = CGAL::sign(solution.distance2) == CGAL::ZERO;
@@ -334,6 +430,43 @@ Truth distance(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_i
   return truth;
 }
 
+SignedTruth signed_distance(std::span<const Vec3> a, const Pose& a_in_world, std::span<const Vec3> b, const Pose& b_in_world) {
+  assert(!a.empty() && !b.empty());
+  const auto guess = Solver<double>({a, a_in_world}, {b, b_in_world}).solve({{0, 0}});
+  const auto solution = Solver<Rational>({a, a_in_world}, {b, b_in_world}).solve(guess.pairs);
+  SignedTruth truth;
+  Rational square = solution.distance2;
+  Point<Rational> normal = opposite(solution.b_to_a);
+  truth.sign = int(CGAL::sign(square));
+  if (truth.sign == 0) {
+    const Depth depth = depth_of_origin(differences(a, a_in_world, b, b_in_world));
+    square = depth.square;
+    normal = depth.normal;
+    truth.sign = -int(CGAL::sign(square));
+  }
+  truth.bounds = square_root(square);
+  if (truth.sign < 0) truth.bounds = {-truth.bounds.upper, -truth.bounds.lower};
+  truth.distance = truth.sign < 0 ? truth.bounds.upper : truth.bounds.lower;
+  if (truth.sign != 0) truth.normal = rounded_direction(normal).stableNormalized();
+  truth.exact = std::make_shared<const Exact>(Exact{square});
+  return truth;
+}
+
+int compare(const SignedTruth& truth, double x) {
+  const int sign_x = x > 0 ? 1 : x < 0 ? -1 : 0;
+  if (truth.sign != sign_x) return truth.sign < sign_x ? -1 : 1;
+  if (std::isinf(x)) return -sign_x;
+  const Rational& square = truth.exact->distance2;
+  return sign_x * int(CGAL::compare(square, Rational(x) * Rational(x)));
+}
+
+std::string squared_text(const SignedTruth& truth) {
+  std::ostringstream text;
+  text << truth.exact->distance2.numerator();
+  if (truth.exact->distance2.denominator() != 1) text << '/' << truth.exact->distance2.denominator();
+  return text.str();
+}
+
 bool holds(const Truth& truth, double lower, double upper) {
   const Rational& distance2 = truth.exact->distance2;
   const bool above = lower <= 0 || (std::isfinite(lower) && Rational(lower) * Rational(lower) <= distance2);
@@ -343,7 +476,7 @@ bool holds(const Truth& truth, double lower, double upper) {
 
 Interval gap(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_in_a, const Vec3& direction) {
   const Point<Rational> n = point<Rational>(direction);
-  const Rational along = Solver<Rational>(a, b, b_in_a).least_along(opposite(n));
+  const Rational along = Solver<Rational>(Placed<Rational>(a), {b, b_in_a}).least_along(opposite(n));
   const Interval size = square_root(along * along / dot(n, n));
   return along >= 0 ? size : Interval{-size.upper, -size.lower};
 }
@@ -351,10 +484,6 @@ Interval gap(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_in_
 // --- Convexity -------------------------------------------------------------------------------------------------------------
 
 namespace {
-
-using Filtered = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
-
-Filtered filtered(const Vec3& p) { return {p[0], p[1], p[2]}; }
 
 // Every directed edge occurs once and so does its opposite; V - E + F = 2; every vertex is used.
 bool is_closed_surface(std::size_t vertex_count, std::span<const Triangle> triangles) {

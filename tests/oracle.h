@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 #include <swiftlet/pose.h>
 
@@ -20,7 +21,7 @@ struct Interval {
   double lower = 0, upper = 0;
 };
 
-/// What no double holds: the squared distance as a rational.
+/// What no double holds: the squared distance, or depth, as a rational.
 struct Exact;
 
 struct Truth {
@@ -41,6 +42,29 @@ Truth distance(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_i
 
 /// lower <= distance <= upper, decided exactly; `upper` may be infinite. `holds(truth, 0, x)` asks whether distance <= x.
 bool holds(const Truth& truth, double lower, double upper);
+
+/// The distance with a sign: apart positive, touching exactly 0, overlapping minus the depth, the least translation that parts
+/// the interiors. 0 where both bodies share a plane, for no translation along its normal is too short.
+struct SignedTruth {
+  int sign = 0;                ///< exact: 1 apart, 0 touching, -1 overlapping
+  double distance = 0;         ///< within `bounds`
+  Interval bounds;             ///< of the signed distance
+  Vec3 normal = Vec3::Zero();  ///< unit, in the world, from A to B, along which distance or depth is taken; one of several
+                               ///< where not unique, 0 where touching
+  std::shared_ptr<const Exact> exact;
+};
+
+/// Between the convex hulls of the moved points, for these very doubles: neither pose is combined with the other, so nothing is
+/// rounded, and neither needs to be orthonormal. The point sets are anything, as above.
+/// Cost: apart as `distance`; overlapping that of the exact hull of all vertex differences: 2 ms for two cubes, a second for
+/// two bodies of 40 vertices.
+SignedTruth signed_distance(std::span<const Vec3> a, const Pose& a_in_world, std::span<const Vec3> b, const Pose& b_in_world);
+
+/// The sign of the signed distance less `x`, decided exactly; `x` may be infinite.
+int compare(const SignedTruth& truth, double x);
+
+/// The square of the signed distance in lowest terms: "25/16", "0".
+std::string squared_text(const SignedTruth& truth);
 
 /// How far apart the two bodies are along `direction` (A's frame, any length but 0, used as if normalised exactly): least
 /// coordinate of B less greatest of A. Negative when that direction does not separate them.

@@ -158,5 +158,23 @@ TEST(Regress, NegativeFinestLevelCrashed) {
   EXPECT_EQ(distance(cube, cube, {Mat3::Identity(), {5, 0, 0}}, seed, options).status, Status::Converged);
 }
 
+/// Faces tilted by 2^-32 stall the walk on a pair of edges, whose plane bounds the distance to the last bit, but lies 1e-10 of
+/// an angle beside the line between the points: the normal was not theirs.
+TEST(Regress, NearlyParallelFacesLeftTheNormalBesideThePoints) {
+  Body tilted = cube();
+  for (Vec3& p : tilted.points) p.z() += 0x1p-32 * p.x();
+  const Model a = model(tilted), b = model(cube());
+  const ConvexView &view_a = a.level(0).view, &view_b = b.level(0).view;
+  const Pose pose{Mat3::Identity(), {0, 0, -2.5}};
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    for (std::uint32_t j = 0; j < 8; ++j) {
+      const MarchResult r = march(view_a, view_b, pose, {{FeatureKind::Vertex, i}, {FeatureKind::Vertex, j}});
+      EXPECT_EQ(r.status, MarchStatus::Disjoint);
+      const Vec3 d = r.point_b - r.point_a;
+      EXPECT_LE((d - d.norm() * r.normal).norm(), law_two(view_a, view_b, pose)) << i << ' ' << j;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace swiftlet
