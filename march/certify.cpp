@@ -363,9 +363,4 @@ Certificate certify(const Scene& scene, Handle a, Handle b, std::uint32_t& plane
   return c;
 }
 
-bool belong_together(const Scene& scene, const Certificate& c) {
-  const Vec d = c.point_b - c.point_a;
-  return norm(d - c.normal * norm(d)) <= scene.law_two;
-}
-
 }  // namespace swiftlet

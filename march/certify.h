@@ -29,10 +29,6 @@ struct Certificate {
 /// Bounds from the features of `a` and `b`, any kinds but two faces. Cost: about 40 comparisons.
 Certificate certify(const Scene& scene, Handle a, Handle b, std::uint32_t& plane_tests);
 
-/// Whether the points lie apart along the normal, within law 2's bound. At a minimum of the distance they do; a walk that
-/// stalled may leave a plane that bounds the distance as well, 1e-10 of an angle beside its points.
-bool belong_together(const Scene& scene, const Certificate& c);
-
 /// The vertex of A farthest along n, climbed from `start` by exact comparisons: no vertex is farther.
 std::uint32_t support_a(const Scene& scene, const Vec& n, std::uint32_t start, std::uint32_t& plane_tests);
 /// The vertex of B least far along n.

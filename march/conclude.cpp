@@ -30,10 +30,8 @@ Conclusion from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule
   const Goal goal{larger(rule.absolute, scene.law_two), rule.relative, rule.beyond + scene.law_two};
   Certificate c = certify(scene, walk.a, walk.b, r.plane_tests);
   r.status = status_of(scene, goal, c);
-  // That features touch says nothing of the bodies: certified progress tells touching from overlapping. It also finds the plane
-  // that belongs to the points.
-  const bool settled = r.status != MarchStatus::NotConverged && (r.status != MarchStatus::Touching || c.lower > 0) &&
-                       (r.status != MarchStatus::Disjoint || belong_together(scene, c));
+  // That features touch says nothing of the bodies: certified progress tells touching from overlapping.
+  const bool settled = r.status != MarchStatus::NotConverged && (r.status != MarchStatus::Touching || c.lower > 0);
   double depth = 0;
   if (!settled && walk.end == WalkEnd::Budget) {
     r.status = MarchStatus::Budget;

@@ -287,9 +287,7 @@ class Descent {
         --patience;
       least_ = std::fmin(least_, distance);
       greatest_ = std::fmax(greatest_, lower);
-      // A plane as good as asked belongs to these points, though an earlier one was higher by rounding.
-      const bool as_good = lower > m.certificate.lower - scene_.law_two && goal_.narrow(lower, m.certificate.upper);
-      if (lower > m.certificate.lower || as_good) take_plane(m.certificate, n, a, b, lower);
+      if (lower > m.certificate.lower) take_plane(m.certificate, n, a, b, lower);
       // Bounds around 0 may be narrow enough, and the sign still open.
       const bool open = m.certificate.lower == 0 && m.certificate.upper <= scene_.law_two;
       if (!open && goal_.met(m.certificate.lower, m.certificate.upper)) {
