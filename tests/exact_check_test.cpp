@@ -10,6 +10,7 @@
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "bodies.h"
 #include "exact_check.h"

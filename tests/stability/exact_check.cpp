@@ -199,13 +199,18 @@ std::string Judge::exact(const Answer& answer) {
 std::string Judge::witnesses(const Answer& answer) {
   const Vec3 &p = answer.point_a, &q = answer.point_b;
   if (!p.allFinite() || !q.allFinite()) return "a witness point is not finite";
-  const Vec3 d = q - p;
-  // The rounding of d, its length and the product is a few eps of the points, far below the bound that it adds to.
-  if (!((d - d.norm() * answer.normal).norm() <= law_two_ + 16 * kEpsilon * size_))
-    return "the points do not differ by their distance times the normal";
+  // A plane that proves the distance d to within s leans by at most sqrt(2 s / d), and the points differ along the line across
+  // it by as much of d; s is the width and what the points are off their bodies.
+  if (!(askew(answer) <= 2 * std::sqrt(2 * law_two_ * answer.upper) + 2 * law_two_))
+    return text("the points differ by their distance times the normal only within %g", askew(answer));
   if (!within_law_two(p, a_, vertices_of(a_.model.level(0).view, answer.feature_a), {})) return "point_a is not on A";
   if (!within_law_two(q, b_, vertices_of(b_.model.level(0).view, answer.feature_b), b_in_a_)) return "point_b is not on B";
   return "";
+}
+
+double Judge::askew(const Answer& answer) {
+  const Vec3 d = answer.point_b - answer.point_a;
+  return (d - d.norm() * answer.normal).norm();
 }
 
 bool Judge::within_law_two(const Vec3& p_a, const Subject& subject, std::span<const Vec3> feature, const Pose& pose) const {
