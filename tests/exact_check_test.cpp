@@ -111,8 +111,10 @@ TEST(Judge, FlagsEveryFieldOfADisjointAnswer) {
   flagged("ended by its budget", [](Answer& x) { x.status = Status::Budget; });
   flagged("a level that is not there", [](Answer& x) { x.level_a = 1; });
   flagged("endless", [](Answer& x) { x.steps = ~0u; });
-  flagged("point of A off along the normal", [&](Answer& x) { x.point_a += 2 * bound * x.normal; });
-  flagged("point of B off along the normal", [&](Answer& x) { x.point_b += 2 * bound * x.normal; });
+  flagged("point of A off along the normal", [&](Answer& x) { x.point_a += 3 * bound * x.normal; });
+  flagged("point of B off along the normal", [&](Answer& x) { x.point_b += 3 * bound * x.normal; });
+  flagged("point of A off against the normal", [&](Answer& x) { x.point_a -= 3 * bound * x.normal; });
+  flagged("point of B off against the normal", [&](Answer& x) { x.point_b -= 3 * bound * x.normal; });
   flagged("points swapped", [](Answer& x) { std::swap(x.point_a, x.point_b); });
   flagged("both points aside", [](Answer& x) {
     const Vec3 aside = x.normal.unitOrthogonal() * 3;

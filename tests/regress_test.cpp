@@ -158,5 +158,24 @@ TEST(Regress, NegativeFinestLevelCrashed) {
   EXPECT_EQ(distance(cube, cube, {Mat3::Identity(), {5, 0, 0}}, seed, options).status, Status::Converged);
 }
 
+/// Law 2's bound was taken with |R^T R - I| in doubles, which rounding made larger than it is: an interval of 3.9968e-14 passed
+/// where the law allows 3.97188e-14.
+TEST(Regress, LawTwoAllowedForTheRoundingOfOrthonormality) {
+  const Model cube = model(bodies::cube());
+  Pose pose;
+  pose.rotation << 0x1.fffffffffffffp-1, -0x1.161dd27da3843p-29, -0x1.9d1a4f195fc0ap-27,  //
+      0x1.161dd24a3bea1p-29, 0x1p+0, -0x1.fdb0319588b59p-30,                              //
+      0x1.9d1a4f1b89796p-27, 0x1.fdb0312556093p-30, 0x1.fffffffffffffp-1;
+  pose.translation = {-0x1.00000051cd626p+1, 0x1.718f104ec0fa4p-3, 0x1p+2};
+  PairSeed seed;
+  seed.a = seed.coarse_a = {FeatureKind::Edge, 18};
+  seed.b = seed.coarse_b = {FeatureKind::Edge, 4};
+  seed.line_in_a = {-14642, 1321, 29284};
+  seed.line_in_b = {14642, -1321, -29284};
+  const Answer answer = distance(cube, cube, pose, seed);
+  EXPECT_EQ(answer.status, Status::Converged);
+  EXPECT_LE(answer.upper - answer.lower, 3.97188e-14);
+}
+
 }  // namespace
 }  // namespace swiftlet

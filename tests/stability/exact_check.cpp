@@ -199,6 +199,8 @@ std::string Judge::exact(const Answer& answer) {
 std::string Judge::witnesses(const Answer& answer) {
   const Vec3 &p = answer.point_a, &q = answer.point_b;
   if (!p.allFinite() || !q.allFinite()) return "a witness point is not finite";
+  if (const double apart = (q - p).norm(); !(apart >= answer.lower - 2 * law_two_ && apart <= answer.upper + law_two_))
+    return text("the points are %a apart, the interval is [%a, %a]", apart, answer.lower, answer.upper);
   // A plane that proves the distance d to within s leans by at most sqrt(2 s / d), and the points differ along the line across
   // it by as much of d; s is the width and what the points are off their bodies.
   if (!(askew(answer) <= 2 * std::sqrt(2 * law_two_ * answer.upper) + 2 * law_two_))

@@ -40,9 +40,9 @@ class Judge {
   /// a normal along which the bodies overlap by no more than that. The steps stay below law 7's bound.
   std::string interval(const Answer& answer);
 
-  /// The answer to a query for the exact distance: `interval`, and it converged on level 0 with a verdict, is no wider than law
-  /// 2 allows, and, unless overlapping, its points lie within that bound of both bodies and differ by their distance times the
-  /// normal, within the bound.
+  /// The answer to a query for the exact distance: `interval`, and it converged on level 0 with a verdict and is no wider than
+  /// law 2 allows. Unless overlapping, its points lie within law 2's bound of both bodies, are as far apart as the interval
+  /// says, and differ by their distance times the normal as nearly as the interval implies.
   std::string exact(const Answer& answer);
 
   /// The answer to `intersects`: `interval`, and it converged with a verdict.

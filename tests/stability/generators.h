@@ -13,6 +13,7 @@ namespace swiftlet::stability {
 
 struct Family {
   const char* name;
+  const char* traps;   ///< of the literature that it is for, by the numbers of our list of traps; may be empty
   const char* hit;     ///< what counts as one
   double least, most;  ///< the range that the hit rate lies in
   int batches;         ///< so many, from index 0, are a fair sample: what the tests run
