@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <thread>
 #include <vector>
@@ -75,6 +76,20 @@ TEST(Traps, G23SharedModelsAnswerEightThreadsInTheSameBits) {
   for (std::size_t t = 0; t < seen.size(); ++t) threads.emplace_back([&, t] { seen[t] = hashes(5 * t + 1); });
   for (std::thread& thread : threads) thread.join();
   for (const auto& s : seen) EXPECT_EQ(s, alone);
+}
+
+/// Pairs that failed once, as the soak stored them; from a cold start and from two hundred others.
+TEST(Found, PairsThatFailedOnceFailNoMore) {
+  int pairs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(SWIFTLET_FOUND_DIR)) {
+    for (const Case& c : read_cases(entry.path())) {
+      const Examiner seen = ask_case(c, kSeed);
+      for (const Case& failure : seen.failures) ADD_FAILURE() << entry.path() << ": " << failure.symptom;
+      EXPECT_EQ(seen.tally.failed, 0u) << entry.path();
+      ++pairs;
+    }
+  }
+  EXPECT_GE(pairs, 3);
 }
 
 TEST(Generators, AreReproducible) {

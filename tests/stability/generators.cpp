@@ -762,4 +762,16 @@ Examiner run_batch(const Family& family, std::uint64_t seed, std::uint64_t index
   return examiner;
 }
 
+Examiner ask_case(const Case& stored, std::uint64_t seed) {
+  Examiner examiner(stored.family(), stored.name, seed);
+  const Subject a = built(stored.a), b = built(stored.b);
+  Pair pair(examiner, a, b, stored.b_in_a());
+  const Answer cold = pair.ask();
+  for (int i = 0; i < 200; ++i) {
+    PairSeed some = some_seed(a, b, examiner.random);
+    pair.agree(cold, pair.ask(some), "another start");
+  }
+  return examiner;
+}
+
 }  // namespace swiftlet::stability

@@ -26,4 +26,7 @@ std::span<const Family> families();
 /// The examiner of batch `index` of a family after it has run. Depends on nothing but its arguments.
 Examiner run_batch(const Family& family, std::uint64_t seed, std::uint64_t index);
 
+/// A stored pair, asked from a cold start and from two hundred pairs of features.
+Examiner ask_case(const Case& stored, std::uint64_t seed);
+
 }  // namespace swiftlet::stability
