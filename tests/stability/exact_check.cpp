@@ -201,18 +201,13 @@ std::string Judge::witnesses(const Answer& answer) {
   if (!p.allFinite() || !q.allFinite()) return "a witness point is not finite";
   if (const double apart = (q - p).norm(); !(apart >= answer.lower - 2 * law_two_ && apart <= answer.upper + law_two_))
     return text("the points are %a apart, the interval is [%a, %a]", apart, answer.lower, answer.upper);
-  // A plane that proves the distance d to within s leans by at most sqrt(2 s / d), and the points differ along the line across
-  // it by as much of d; s is the width and what the points are off their bodies.
-  if (!(askew(answer) <= 2 * std::sqrt(2 * law_two_ * answer.upper) + 2 * law_two_))
-    return text("the points differ by their distance times the normal only within %g", askew(answer));
+  // Their rounding in doubles is a few eps of the points.
+  const double aside = ((q - p) - (q - p).norm() * answer.normal).norm();
+  if (!(aside <= law_two_ + 16 * kEpsilon * size_))
+    return text("the points differ by their distance times the normal only within %g, law 2's bound is %g", aside, law_two_);
   if (!within_law_two(p, a_, vertices_of(a_.model.level(0).view, answer.feature_a), {})) return "point_a is not on A";
   if (!within_law_two(q, b_, vertices_of(b_.model.level(0).view, answer.feature_b), b_in_a_)) return "point_b is not on B";
   return "";
-}
-
-double Judge::askew(const Answer& answer) {
-  const Vec3 d = answer.point_b - answer.point_a;
-  return (d - d.norm() * answer.normal).norm();
 }
 
 bool Judge::within_law_two(const Vec3& p_a, const Subject& subject, std::span<const Vec3> feature, const Pose& pose) const {

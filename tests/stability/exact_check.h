@@ -51,9 +51,6 @@ class Judge {
   /// The answer to `within`: `interval`; Yes and No are shown by the bounds; Undecided only within law 2 of the threshold.
   std::string decision(const Within& within, double threshold);
 
-  /// How far the points' difference is from their distance times the normal, rounded.
-  static double askew(const Answer& answer);
-
   /// The distance by exact minimum norm, found at the first call; from then on every interval and verdict is held against it.
   const oracle::Truth& truth();
   bool has_truth() const { return has_truth_; }

@@ -39,7 +39,7 @@ std::string hex(const PairSeed& seed) {
 Tally& Tally::operator+=(const Tally& other) {
   pairs += other.pairs, answers += other.answers, solved += other.solved, trials += other.trials, hits += other.hits;
   for (std::size_t v = 0; v < verdicts.size(); ++v) verdicts[v] += other.verdicts[v];
-  failed += other.failed, askew += other.askew;
+  failed += other.failed;
   steps = std::max(steps, other.steps);
   widest = std::max(widest, other.widest);
   hash += other.hash;
@@ -83,7 +83,6 @@ Answer Pair::exact(PairSeed& seed, const QueryOptions& options) {
   const Answer answer = distance(a_.model, b_.model, b_in_a_, seed, options);
   count(answer);
   judged(judge_.exact(answer), "distance", start);
-  examiner_.tally.askew += answer.verdict == Verdict::Disjoint && Judge::askew(answer) > judge_.law_two();
   examiner_.tally.widest = std::max(examiner_.tally.widest, (answer.upper - answer.lower) / judge_.law_two());
   return answer;
 }

@@ -24,10 +24,9 @@ struct Tally {
   std::uint64_t trials = 0, hits = 0;       ///< of what the family is made for
   std::array<std::uint64_t, 4> verdicts{};  ///< of answers, by Verdict
   std::uint64_t failed = 0;                 ///< answers, or relations between them, that are wrong
-  std::uint64_t askew = 0;  ///< disjoint exact answers whose points differ by distance * normal within more than law 2
-  std::uint32_t steps = 0;  ///< most of one answer
-  double widest = 0;        ///< exact interval, in units of law 2's bound
-  std::uint64_t hash = 0;   ///< of all bits of all answers, in order
+  std::uint32_t steps = 0;                  ///< most of one answer
+  double widest = 0;                        ///< exact interval, in units of law 2's bound
+  std::uint64_t hash = 0;                   ///< of all bits of all answers, in order
 
   double hit_rate() const { return trials ? double(hits) / double(trials) : 0; }
   Tally& operator+=(const Tally& other);  ///< the hash becomes that of both, in any order
