@@ -115,6 +115,7 @@ TEST(Judge, FlagsEveryFieldOfADisjointAnswer) {
   flagged("point of B off along the normal", [&](Answer& x) { x.point_b += 3 * bound * x.normal; });
   flagged("point of A off against the normal", [&](Answer& x) { x.point_a -= 3 * bound * x.normal; });
   flagged("point of B off against the normal", [&](Answer& x) { x.point_b -= 3 * bound * x.normal; });
+  flagged("points lean from the normal", [&](Answer& x) { x.point_a += 3 * bound * x.normal.unitOrthogonal(); });
   flagged("points swapped", [](Answer& x) { std::swap(x.point_a, x.point_b); });
   flagged("both points aside", [](Answer& x) {
     const Vec3 aside = x.normal.unitOrthogonal() * 3;
