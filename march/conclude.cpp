@@ -33,17 +33,21 @@ Conclusion from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule
   // That features touch says nothing of the bodies: certified progress tells touching from overlapping.
   const bool settled = r.status != MarchStatus::NotConverged && (r.status != MarchStatus::Touching || c.lower > 0);
   double depth = 0;
-  if (!settled && walk.end == WalkEnd::Budget) {
+  const bool progressed = !settled && walk.end != WalkEnd::Budget;
+  if (!settled && !progressed) {
     r.status = MarchStatus::Budget;
-  } else if (!settled) {
+  } else if (progressed) {
     const Meeting meeting = progress(scene, c, goal, r.plane_tests);
     c = meeting.certificate;
     r.status = meeting.status == MarchStatus::Disjoint ? status_of(scene, goal, c) : meeting.status;
     r.proof = meeting.proof;
-    r.a = feature_of(scene.a, c.active, c.active.a);
-    r.b = feature_of(scene.b, c.active, c.active.b);
     depth = meeting.depth;
     ++r.steps;
+  }
+  const bool straightened = r.status == MarchStatus::Disjoint && straighten(scene, c, r.plane_tests);
+  if (progressed || straightened) {
+    r.a = feature_of(scene.a, c.active, c.active.a);
+    r.b = feature_of(scene.b, c.active, c.active.b);
   }
   r.lower = c.lower;
   r.upper = larger(c.upper, c.lower);

@@ -259,11 +259,15 @@ class Contact {
   std::array<Difference<double>, kContactPoints> points_{};
 };
 
+/// Which bounds a certificate gathers: the best of all iterates, or plane and points of the same one.
+enum class Keep { Best, Last };
+
 /// One arithmetic's turn at the active set method.
 template <class Real>
 class Descent {
  public:
-  Descent(const Scene& scene, const Goal& goal, std::uint32_t& plane_tests) : scene_(scene), goal_(goal), tests_(plane_tests) {}
+  Descent(const Scene& scene, const Goal& goal, std::uint32_t& plane_tests, Keep keep_bounds = Keep::Best)
+      : scene_(scene), goal_(goal), tests_(plane_tests), keep_bounds_(keep_bounds) {}
 
   /// Improves `m` until the goal is met, the bodies meet, or this arithmetic cannot tell any more.
   void run(Meeting& m) {
@@ -273,6 +277,7 @@ class Descent {
       const Nearest<Real> nearest = nearest_to_origin(set_, count_);
       keep(nearest);
       const double distance = std::sqrt(nearest.norm2);
+      if (keep_bounds_ == Keep::Last) m.certificate.lower = 0, m.certificate.upper = std::numeric_limits<double>::infinity();
       take_points(m.certificate);
       if (nearest.holds_origin || distance <= rounding<Real>(scene_)) {
         met_ = true;
@@ -364,6 +369,7 @@ class Descent {
   const Scene& scene_;
   const Goal& goal_;
   std::uint32_t& tests_;
+  const Keep keep_bounds_;
   std::array<Difference<Real>, 4> set_{};
   std::array<Real, 4> weight_{};
   int count_ = 0;
@@ -399,6 +405,18 @@ Meeting progress(const Scene& scene, const Certificate& start, const Goal& goal,
   m.certificate = start;
   if (!settle<double>(scene, goal, m, plane_tests)) settle<DoubleDouble>(scene, goal, m, plane_tests);
   return m;
+}
+
+bool straighten(const Scene& scene, Certificate& c, std::uint32_t& plane_tests) {
+  const Vec apart = c.point_b - c.point_a;
+  if (!(c.upper - c.lower <= scene.law_two) || norm(apart - c.normal * norm(apart)) <= scene.law_two) return false;
+  const Goal goal{scene.law_two, 0, std::numeric_limits<double>::infinity()};
+  Meeting m;
+  m.certificate = c;
+  Descent<DoubleDouble>(scene, goal, plane_tests, Keep::Last).run(m);
+  if (m.status != MarchStatus::Disjoint) return false;
+  c = m.certificate;
+  return true;
 }
 
 Handle feature_of(const ConvexView& view, const ActiveSet& active, const std::array<std::uint32_t, 4>& vertices) {

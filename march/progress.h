@@ -29,6 +29,11 @@ struct Meeting {
 /// Continues from `start`, first in doubles, then with about 106 bits. The bounds it returns are true in any case.
 Meeting progress(const Scene& scene, const Certificate& start, const Goal& goal, std::uint32_t& plane_tests);
 
+/// Bounds within law 2's of each other leave a plane room to lean by the root of that: nearly parallel faces 1e-8, say. Where
+/// the points of such a certificate do not differ by their distance times the normal within law 2's bound, takes plane and
+/// points of one iterate of certified progress in 106 bits, which do; true if so.
+bool straighten(const Scene& scene, Certificate& certificate, std::uint32_t& plane_tests);
+
 /// The smallest feature that holds the active vertices of one body.
 Handle feature_of(const ConvexView& view, const ActiveSet& active, const std::array<std::uint32_t, 4>& vertices);
 

@@ -18,7 +18,7 @@ struct Scene {
   double magnitude;     ///< bounds |p| and |R q + t| over all points, summed
   double motion_error;  ///< bounds the rounding of a vertex of B carried into A's frame
   double point_error;   ///< bounds the rounding of two convex combinations of such vertices, one of each body
-  double law_two;       ///< law 2's bound for this pair: the width an exact answer keeps
+  double law_two;       ///< at most law 2's bound for this pair: the width an exact answer keeps
 };
 
 /// A body of a scene at rest in the common frame, which is its own.
@@ -76,7 +76,7 @@ static inline Scene scene(const ConvexView& a, const ConvexView& b, const Motion
           magnitude,
           motion_error,
           kPointError * magnitude + motion_error,
-          (kLawTwo + 2 * pose_error) * (larger(a.extent, b.extent) + t)};
+          (kLawTwo + 2 * larger(0, pose_error - kOrthonormalityError)) * (larger(a.extent, b.extent) + t)};
 }
 
 }  // namespace swiftlet

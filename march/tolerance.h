@@ -19,6 +19,9 @@ inline constexpr double kLawTwo = 64 * kU;
 
 /// A rotation R is accepted while every entry of R^T R - I is at most this. Dimensionless; the design's figure.
 inline constexpr double kOrthonormality = 1e-6;
+/// Rounding of such an entry: 3 products and 2 sums of terms whose sum is 1, 3 u, rounded up by a quarter. Law 2 allows for the
+/// exact entry and no more, so that its bound is taken with what is surely there. Dimensionless.
+inline constexpr double kOrthonormalityError = 4 * kU;
 
 // ---- Filters of exact.cpp: relative to the sum of the magnitudes of the terms ----------------------------------------------
 // A term that is a product of k rounded factors, each a sum of few, carries one u per operation on its path. The figures are

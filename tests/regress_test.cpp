@@ -176,5 +176,41 @@ TEST(Regress, NearlyParallelFacesLeftTheNormalBesideThePoints) {
   }
 }
 
+/// Law 2's bound was taken with |R^T R - I| in doubles, which rounding made larger than it is: an interval of 3.9968e-14 passed
+/// where the law allows 3.97188e-14.
+TEST(Regress, LawTwoAllowedForTheRoundingOfOrthonormality) {
+  const Model cube = model(bodies::cube());
+  Pose pose;
+  pose.rotation << 0x1.fffffffffffffp-1, -0x1.161dd27da3843p-29, -0x1.9d1a4f195fc0ap-27,  //
+      0x1.161dd24a3bea1p-29, 0x1p+0, -0x1.fdb0319588b59p-30,                              //
+      0x1.9d1a4f1b89796p-27, 0x1.fdb0312556093p-30, 0x1.fffffffffffffp-1;
+  pose.translation = {-0x1.00000051cd626p+1, 0x1.718f104ec0fa4p-3, 0x1p+2};
+  PairSeed seed;
+  seed.a = seed.coarse_a = {FeatureKind::Edge, 18};
+  seed.b = seed.coarse_b = {FeatureKind::Edge, 4};
+  seed.line_in_a = {-14642, 1321, 29284};
+  seed.line_in_b = {14642, -1321, -29284};
+  const Answer answer = distance(cube, cube, pose, seed);
+  EXPECT_EQ(answer.status, Status::Converged);
+  EXPECT_LE(answer.upper - answer.lower, 3.97188e-14);
+}
+
+/// Cubes turned by 1e-8: plane and points came from different iterates, and the points differed by their distance times the
+/// normal only within 2.7e-10. On others within 9e-8: the root of law 2's bound.
+TEST(Regress, PointsLeanedFromTheNormal) {
+  const Model cube = model(bodies::cube());
+  Pose pose;
+  pose.rotation << 0x1p+0, 0x1.3793ac44199bdp-32, -0x1.68b15c8f99f1fp-34,  //
+      -0x1.3793ac4419073p-32, 0x1p+0, 0x1.a5dab248fa80cp-40,               //
+      0x1.68b15c8fa1f7bp-34, -0x1.a5dab1db3a9ecp-40, 0x1p+0;
+  pose.translation = {-0x1.ac84a9dd1534cp-34, -0x1.ffffffff556eap-1, 0x1.3fffffffa0a7bp+1};
+  PairSeed seed;
+  const Answer answer = distance(cube, cube, pose, seed);
+  EXPECT_EQ(answer.verdict, Verdict::Disjoint);
+  const Vec3 apart = answer.point_b - answer.point_a;
+  EXPECT_LE((apart - apart.norm() * answer.normal).norm(), law_two(cube.level(0).view, cube.level(0).view, pose));
+  expect_sound(cube, cube, pose);
+}
+
 }  // namespace
 }  // namespace swiftlet

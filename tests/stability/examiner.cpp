@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "examiner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+namespace swiftlet::stability {
+namespace {
+
+constexpr std::uint64_t kSolveEvery = 24, kColdEvery = 8;
+constexpr std::size_t kMostFailures = 8;
+
+template <class T>
+void mix(std::uint64_t& hash, const T& value) {
+  std::uint64_t bits = 0;
+  static_assert(sizeof value <= sizeof bits);
+  std::memcpy(&bits, &value, sizeof value);
+  hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
+  hash ^= hash >> 29;
+}
+
+std::string hex(const PairSeed& seed) {
+  unsigned char bytes[sizeof seed];
+  std::memcpy(bytes, &seed, sizeof seed);
+  std::string result;
+  for (const unsigned char byte : bytes) {
+    char digits[3];
+    std::snprintf(digits, sizeof digits, "%02x", byte);
+    result += digits;
+  }
+  return result;
+}
+
+}  // namespace
+
+Tally& Tally::operator+=(const Tally& other) {
+  pairs += other.pairs, answers += other.answers, solved += other.solved, trials += other.trials, hits += other.hits;
+  for (std::size_t v = 0; v < verdicts.size(); ++v) verdicts[v] += other.verdicts[v];
+  failed += other.failed;
+  steps = std::max(steps, other.steps);
+  widest = std::max(widest, other.widest);
+  hash += other.hash;
+  return *this;
+}
+
+Pair::Pair(Examiner& examiner, const Subject& a, const Subject& b, const Pose& b_in_a)
+    : examiner_(examiner), a_(a), b_(b), b_in_a_(b_in_a), judge_(a, b, b_in_a) {
+  if (examiner_.tally.pairs++ % kSolveEvery == 0) judge_.truth();
+}
+
+Pair::~Pair() { examiner_.tally.solved += judge_.has_truth(); }
+
+Answer Pair::ask(PairSeed& seed) {
+  const PairSeed start = seed;
+  const Answer answer = exact(seed);
+  PairSeed used = start;
+  const Answer met = swiftlet::intersects(a_.model, b_.model, b_in_a_, used);
+  count(met);
+  judged(judge_.verdict(met), "intersects", start);
+  require(met.verdict == answer.verdict, "intersects and distance differ in their verdict");
+
+  const double bound = law_two(), d = answer.lower;
+  const double thresholds[] = {
+      0, answer.lower, answer.upper, d + bound / 8, d + 2 * bound, d / 2, 2 * d, d + 1e3 * bound, std::max(0.0, d - 2 * bound)};
+  const double threshold = thresholds[examiner_.random.bits() % std::size(thresholds)];
+  used = start;
+  const Within within = swiftlet::within(a_.model, b_.model, b_in_a_, threshold, used);
+  count(within.answer);
+  judged(judge_.decision(within, threshold), "within", start);
+
+  if (examiner_.tally.pairs % kColdEvery == 0) {
+    PairSeed cold;
+    agree(answer, exact(cold), "a cold start");
+  }
+  return answer;
+}
+
+Answer Pair::exact(PairSeed& seed, const QueryOptions& options) {
+  const PairSeed start = seed;
+  const Answer answer = distance(a_.model, b_.model, b_in_a_, seed, options);
+  count(answer);
+  judged(judge_.exact(answer), "distance", start);
+  examiner_.tally.widest = std::max(examiner_.tally.widest, (answer.upper - answer.lower) / judge_.law_two());
+  return answer;
+}
+
+Answer Pair::loose(PairSeed& seed, const QueryOptions& options) {
+  const PairSeed start = seed;
+  const Answer answer = distance(a_.model, b_.model, b_in_a_, seed, options);
+  count(answer);
+  judged(judge_.interval(answer), "distance, not exact,", start);
+  return answer;
+}
+
+void Pair::agree(const Answer& one, const Answer& other, const char* what) {
+  const double bound = law_two();
+  require(one.verdict == other.verdict && std::fabs(one.lower - other.lower) <= bound &&
+              std::fabs(one.upper - other.upper) <= bound,
+          std::string("another answer from ") + what);
+}
+
+void Pair::require(bool holds, const std::string& what) {
+  if (holds) return;
+  Examiner& e = examiner_;
+  ++e.tally.failed;
+  if (has_failed_ || e.failures.size() >= kMostFailures) return;
+  has_failed_ = true;
+  Case c;
+  c.name = e.label_ + "-" + std::to_string(e.failures.size());
+  c.category = {e.family_};
+  c.source = "generated";
+  c.license = "BSD-3-Clause";
+  c.symptom = what;
+  c.a = a_.points;
+  c.b = b_.points;
+  c.b_in_world = b_in_a_;
+  if (const oracle::Truth& truth = judge_.truth(); !truth.overlapping) c.expected = Expected{1, truth.distance};
+  e.failures.push_back(std::move(c));
+}
+
+void Pair::judged(const std::string& wrong, const char* query, const PairSeed& seed) {
+  if (wrong.empty()) return;
+  require(false, std::string(query) + " from the seed " + hex(seed) + ": " + wrong);
+}
+
+void Pair::count(const Answer& answer) {
+  Tally& tally = examiner_.tally;
+  ++tally.answers;
+  ++tally.verdicts[std::size_t(answer.verdict)];
+  tally.steps = std::max(tally.steps, answer.steps);
+  mix(tally.hash, answer.status), mix(tally.hash, answer.verdict), mix(tally.hash, answer.lower), mix(tally.hash, answer.upper);
+  for (const Vec3& v : {answer.normal, answer.point_a, answer.point_b})
+    for (const double x : v) mix(tally.hash, x);
+  mix(tally.hash, answer.feature_a), mix(tally.hash, answer.feature_b), mix(tally.hash, answer.steps);
+}
+
+bool same_bits(const Answer& one, const Answer& other) {
+  return one.status == other.status && one.verdict == other.verdict && one.lower == other.lower && one.upper == other.upper &&
+         one.normal == other.normal && one.point_a == other.point_a && one.point_b == other.point_b &&
+         one.level_a == other.level_a && one.level_b == other.level_b && one.feature_a == other.feature_a &&
+         one.feature_b == other.feature_b && one.steps == other.steps && one.plane_tests == other.plane_tests;
+}
+
+}  // namespace swiftlet::stability

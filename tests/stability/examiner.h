@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Asks a generated pair everything, has every answer judged, and counts. Knows queries and the judge; not how pairs are made.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <swiftlet/query.h>
+
+#include "case.h"
+#include "exact_check.h"
+#include "shapes.h"
+
+namespace swiftlet::stability {
+
+/// What was seen of a family.
+struct Tally {
+  std::uint64_t pairs = 0;                  ///< bodies and pose, however often asked
+  std::uint64_t answers = 0;                ///< each judged
+  std::uint64_t solved = 0;                 ///< pairs whose distance was also found exactly
+  std::uint64_t trials = 0, hits = 0;       ///< of what the family is made for
+  std::array<std::uint64_t, 4> verdicts{};  ///< of answers, by Verdict
+  std::uint64_t failed = 0;                 ///< answers, or relations between them, that are wrong
+  std::uint32_t steps = 0;                  ///< most of one answer
+  double widest = 0;                        ///< exact interval, in units of law 2's bound
+  std::uint64_t hash = 0;                   ///< of all bits of all answers, in order
+
+  double hit_rate() const { return trials ? double(hits) / double(trials) : 0; }
+  Tally& operator+=(const Tally& other);  ///< the hash becomes that of both, in any order
+};
+
+/// What one batch of a family sees and finds wrong.
+class Examiner {
+ public:
+  /// `label` names the batch in the cases of failures. The same seed gives the same batch.
+  Examiner(std::string family, std::string label, std::uint64_t seed)
+      : random(seed), family_(std::move(family)), label_(std::move(label)) {}
+
+  void hit(bool is_hit) { ++tally.trials, tally.hits += is_hit; }
+
+  shapes::Random random;
+  Tally tally;
+  std::vector<Case> failures;  ///< the pairs that failed, once each, with what was wrong; at most 8
+
+ private:
+  friend class Pair;
+  std::string family_, label_;
+};
+
+/// One generated pair under examination. Every answer is judged; every 24th pair is solved exactly before it is asked.
+class Pair {
+ public:
+  /// The subjects outlive it.
+  Pair(Examiner& examiner, const Subject& a, const Subject& b, const Pose& b_in_a);
+  ~Pair();
+  Pair(const Pair&) = delete;
+  Pair& operator=(const Pair&) = delete;
+
+  /// The distance from `seed`, which moves on; then `intersects`, and `within` at a threshold near the truth, from copies of
+  /// it. Every eighth time the distance from a cold start as well, which must agree.
+  Answer ask(PairSeed& seed);
+  Answer ask() {
+    PairSeed cold;
+    return ask(cold);
+  }
+  /// The exact distance alone. `options` change the way, not what is asked.
+  Answer exact(PairSeed& seed, const QueryOptions& options = {});
+  /// The distance to whatever precision, budget or level.
+  Answer loose(PairSeed& seed, const QueryOptions& options);
+
+  /// Both are exact answers of this pair or of one with the same truth: the same verdict, intervals within law 2's bound.
+  void agree(const Answer& one, const Answer& other, const char* what);
+  void require(bool holds, const std::string& what);
+  void solve() { judge_.truth(); }
+  double law_two() const { return judge_.law_two(); }
+
+ private:
+  void count(const Answer& answer);
+  void judged(const std::string& wrong, const char* query, const PairSeed& seed);
+
+  Examiner& examiner_;
+  const Subject &a_, &b_;
+  Pose b_in_a_;
+  Judge judge_;
+  bool has_failed_ = false;
+};
+
+/// Equal in every bit.
+bool same_bits(const Answer& one, const Answer& other);
+
+}  // namespace swiftlet::stability

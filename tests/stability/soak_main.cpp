@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs the generators on every core for so many minutes, tells what they saw, and stores the pairs that failed.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "case.h"
+#include "generators.h"
+
+namespace swiftlet::stability {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  double minutes = 0;
+  std::uint64_t seed = 1;
+  std::string family;  ///< only this one
+  std::uint64_t first_batch = 0;
+  std::uint64_t most_batches = ~std::uint64_t{0};
+  unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+  std::filesystem::path found = "tests/data/found";
+};
+
+/// A walk without end is a failure too: a batch may take this long after time is up.
+constexpr auto kGrace = std::chrono::minutes(2);
+
+class Soak {
+ public:
+  explicit Soak(Options options) : options_(std::move(options)), running_(options_.threads, -1) {
+    for (const Family& family : families())
+      if (options_.family.empty() || options_.family == family.name) chosen_.push_back(&family);
+    tallies_.resize(chosen_.size());
+  }
+
+  int run() {
+    if (chosen_.empty()) {
+      std::fprintf(stderr, "no family is called '%s'; there are:\n", options_.family.c_str());
+      for (const Family& family : families()) std::fprintf(stderr, "  %s\n", family.name);
+      return 2;
+    }
+    const auto end = begin_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(60 * options_.minutes));
+    std::vector<std::thread> threads;
+    for (unsigned t = 0; t < options_.threads; ++t) threads.emplace_back([this, t, end] { work(t, end); });
+    for (auto next = begin_ + std::chrono::seconds(10); working_ > 0;
+         std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
+      if (Clock::now() < next) continue;
+      next += std::chrono::seconds(10);
+      progress();
+      if (Clock::now() > end + kGrace) stuck();
+    }
+    for (std::thread& thread : threads) thread.join();
+    return report();
+  }
+
+ private:
+  void work(unsigned thread, Clock::time_point end) {
+    while (options_.minutes <= 0 || Clock::now() < end) {
+      const std::uint64_t job = next_++;
+      const std::size_t family = job % chosen_.size();
+      const std::uint64_t batch = job / chosen_.size();
+      if (batch >= options_.most_batches) break;
+      {
+        const std::lock_guard lock(mutex_);
+        running_[thread] = std::int64_t(job);
+      }
+      const Examiner seen = run_batch(*chosen_[family], options_.seed, options_.first_batch + batch);
+      const std::lock_guard lock(mutex_);
+      running_[thread] = -1;
+      tallies_[family] += seen.tally;
+      for (const Case& c : seen.failures) store(c, *chosen_[family], options_.first_batch + batch);
+    }
+    --working_;
+  }
+
+  std::string rerun(const Family& family, std::uint64_t batch) const {
+    return "./run soak 0 --seed " + std::to_string(options_.seed) + " --family '" + family.name + "' --batch " +
+           std::to_string(batch);
+  }
+
+  void store(const Case& c, const Family& family, std::uint64_t batch) {
+    if (++stored_ > kMostStored) return;
+    std::filesystem::create_directories(options_.found);
+    const std::filesystem::path path = options_.found / (c.name + ".json");
+    write_cases(path, {&c, 1});
+    std::printf("FAILED %s\n  stored as %s; again: %s\n", c.symptom.c_str(), path.c_str(), rerun(family, batch).c_str());
+  }
+
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+  Tally total() const {
+    Tally sum;
+    for (const Tally& tally : tallies_) sum += tally;
+    return sum;
+  }
+
+  void progress() {
+    const std::lock_guard lock(mutex_);
+    const Tally sum = total();
+    std::printf("%5.0f s: %llu pairs, %llu answers, %llu solved exactly, %llu failed; %.0f pairs a minute\n", seconds(),
+                count(sum.pairs), count(sum.answers), count(sum.solved), count(sum.failed), 60 * double(sum.pairs) / seconds());
+    std::fflush(stdout);
+  }
+
+  [[noreturn]] void stuck() {
+    for (const std::int64_t job : running_) {
+      if (job < 0) continue;
+      const Family& family = *chosen_[std::size_t(job) % chosen_.size()];
+      std::printf("FAILED a batch does not end; again: %s\n",
+                  rerun(family, options_.first_batch + std::uint64_t(job) / chosen_.size()).c_str());
+    }
+    std::fflush(stdout);
+    std::_Exit(1);
+  }
+
+  int report() const {
+    std::printf("\n%-26s %9s %9s %8s %7s  %8s %8s %8s %6s %7s %7s\n", "family", "pairs", "answers", "solved", "hits",
+                "disjoint", "touching", "overlap", "steps", "widest", "failed");
+    bool missed = false;
+    for (std::size_t i = 0; i < chosen_.size(); ++i) {
+      const Family& family = *chosen_[i];
+      const Tally& tally = tallies_[i];
+      row(family.name, tally);
+      // A fair sample lies in the range.
+      const bool fair = tally.trials >= 1000;
+      if (!fair || (tally.hit_rate() >= family.least && tally.hit_rate() <= family.most)) continue;
+      missed = true;
+      std::printf("FAILED '%s' hits (%s) %.4f of the time, not %g to %g\n", family.name, family.hit, tally.hit_rate(),
+                  family.least, family.most);
+    }
+    const Tally sum = total();
+    row("all", sum);
+    std::printf("\n%.0f s on %u threads, %.0f pairs a minute; widest is in units of law 2's bound; answer hash %016llx\n",
+                seconds(), options_.threads, 60 * double(sum.pairs) / seconds(), count(sum.hash));
+    return sum.failed > 0 || missed ? 1 : 0;
+  }
+
+  static void row(const char* name, const Tally& t) {
+    std::printf("%-26s %9llu %9llu %8llu %6.1f%%  %8llu %8llu %8llu %6u %7.3f %7llu\n", name, count(t.pairs), count(t.answers),
+                count(t.solved), 100 * t.hit_rate(), count(t.verdicts[1]), count(t.verdicts[2]), count(t.verdicts[3]), t.steps,
+                t.widest, count(t.failed));
+  }
+  static unsigned long long count(std::uint64_t n) { return n; }
+
+  static constexpr int kMostStored = 100;
+
+  const Options options_;
+  const Clock::time_point begin_ = Clock::now();
+  std::vector<const Family*> chosen_;
+  std::atomic<std::uint64_t> next_{0};
+  std::atomic<unsigned> working_{options_.threads};
+  std::mutex mutex_;  // of all below
+  std::vector<Tally> tallies_;
+  std::vector<std::int64_t> running_;
+  int stored_ = 0;
+};
+
+}  // namespace
+}  // namespace swiftlet::stability
+
+int main(int argc, char** argv) {
+  using namespace swiftlet::stability;
+  Options options;
+  std::uint64_t batch = 0;
+  CLI::App app("Asks generated hard pairs for so many minutes and has every answer judged by exact arithmetic");
+  app.add_option("minutes", options.minutes, "how long; 0 with --batch")->required();
+  app.add_option("--seed", options.seed, "what the pairs are generated from")->capture_default_str();
+  app.add_option("--family", options.family, "one family only");
+  CLI::Option* const one = app.add_option("--batch", batch, "one batch only, as a failure names it");
+  app.add_option("--threads", options.threads, "all cores by default")->capture_default_str();
+  app.add_option("--found", options.found, "where failing pairs are stored")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  if (one->count() > 0) {
+    options.minutes = 0;
+    options.first_batch = batch;
+    options.most_batches = 1;
+  } else if (options.minutes <= 0) {
+    std::fputs("minutes must be above 0\n", stderr);
+    return 2;
+  }
+  return Soak(options).run();
+}
