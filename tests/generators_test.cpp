@@ -15,6 +15,9 @@
 #include "generators.h"
 
 namespace swiftlet::stability {
+/// The name stands in the test's own.
+void PrintTo(const Family& family, std::ostream* out) { *out << family.name; }
+
 namespace {
 
 constexpr std::uint64_t kSeed = 20261121;

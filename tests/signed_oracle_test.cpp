@@ -45,7 +45,9 @@ TEST(SignedOracle, KnowsTwoCubes) {
   for (const double x : {5., 2.5, 2., 1.5, .25, -1.5}) {
     const SignedTruth truth = oracle::signed_distance(cube(), at(10, 0, 0), cube(), at(10 + x, .125, -.125));
     expect_exactly(truth, std::abs(x) - 2);
-    if (truth.sign != 0) EXPECT_EQ(truth.normal, Vec3(x > 0 ? 1 : -1, 0, 0)) << x;
+    if (truth.sign != 0) {
+      EXPECT_EQ(truth.normal, Vec3(x > 0 ? 1 : -1, 0, 0)) << x;
+    }
   }
   expect_exactly(oracle::signed_distance(cube(), Pose{}, cube(), Pose{}), -2);
 }
