@@ -70,7 +70,7 @@ static inline Scene scene(const ConvexView& a, const ConvexView& b, const Motion
           magnitude,
           motion_error,
           kPointError * magnitude + motion_error,
-          (kLawTwo + 2 * pose_error) * (std::fmax(a.extent, b.extent) + t)};
+          std::fmax((kLawTwo + 2 * pose_error) * (std::fmax(a.extent, b.extent) + t), kLeastWidth)};
 }
 
 }  // namespace swiftlet

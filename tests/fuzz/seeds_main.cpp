@@ -7,6 +7,7 @@
 #include <string>
 
 #include <swiftlet/build.h>
+#include <swiftlet/query.h>
 
 #include "bodies.h"
 #include "fuzz.h"
