@@ -208,7 +208,7 @@ std::vector<std::uint32_t> proof_of(const Model& model, const OverlapProof& proo
 
 std::string joined(const std::vector<std::uint32_t>& ids) {
   std::string text;
-  for (std::uint32_t id : ids) text += " " + std::to_string(id);
+  for (std::uint32_t id : ids) text.append(" ").append(std::to_string(id));
   return text;
 }
 

@@ -48,7 +48,9 @@ std::string hulls(Input input) {
     PairSeed seed = start;
     for (int i = 0; i < 2; ++i)  // cold or garbage, then warm
       if (const auto fault = judge.fault(distance(a, b, pose, seed), true); !fault.empty()) return fault;
-    if (const auto fault = judge.fault(intersects(a, b, pose, seed), false); !fault.empty()) return "intersects: " + fault;
+    const Answer verdict = intersects(a, b, pose, seed);
+    if (const auto fault = judge.fault(verdict, false); !fault.empty()) return "intersects: " + fault;
+    if (verdict.verdict == Verdict::Undecided) return "intersects: undecided";
     for (const double threshold : {judge.truth().distance, judge.truth().distance * 0.5, judge.truth().distance * 2})
       if (const auto fault = judge.fault(within(a, b, pose, threshold, seed), threshold); !fault.empty()) return fault;
   }
