@@ -23,7 +23,8 @@ std::optional<Error> problem(const BuildOptions& options) {
   const auto bad = [](const char* message) { return Error{ErrorCode::BadValue, message}; };
   if (!(options.rate > 0 && options.rate < 1)) return bad("rate must lie between 0 and 1, without either");
   if (options.max_levels < 1 || options.max_levels > 32) return bad("max_levels must be from 1 to 32");
-  if (!std::isfinite(options.max_deviation)) return bad("max_deviation must be finite");
+  if (!(options.max_deviation >= 0) || !std::isfinite(options.max_deviation))
+    return bad("max_deviation must be finite and not negative");
   if (options.method > Method::Peel || options.enclosing > Enclosing::Scale)
     return bad("method or enclosing is none that there is");
   if (!std::isfinite(options.table.radius_factor) || options.table.radius_factor < 1)

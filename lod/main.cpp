@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -155,14 +157,19 @@ Action declare_build(CLI::App& word) {
   add_choice(word, "--enclosing", enclosings, o.enclosing, "tight",
              "how a level is made to hold level 0: vertex by vertex, or by scaling");
   word.add_option("--rate", o.rate, "triangles of a level over those of the one before, between 0 and 1")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(number_in(std::nextafter(0.0, 1.0), std::nextafter(1.0, 0.0), "between 0 and 1"));
   word.add_option("--cutoff", o.cutoff, "no level has fewer triangles")->capture_default_str();
-  word.add_option("--levels", o.max_levels, "at most so many, level 0 included, 1 to 32")->capture_default_str();
+  word.add_option("--levels", o.max_levels, "at most so many, level 0 included, 1 to 32")
+      ->capture_default_str()
+      ->check(number_in(1, 32, "from 1 to 32"));
   word.add_option("--max-deviation", o.max_deviation, "no level deviates more, in the mesh's unit; 0: no limit")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(number_in(0, std::numeric_limits<double>::max(), "from 0 up"));
   add_choice(word, "--table", tables, o.table.resolution, "11.25", "degrees between the samples of the start table");
-  word.add_option("--radius-factor", o.table.radius_factor, "its samples lie on a sphere of so many bounding radii, at least 1")
-      ->capture_default_str();
+  word.add_option("--radius-factor", o.table.radius_factor, "its samples lie on a sphere of so many bounding radii, 1 to 1e6")
+      ->capture_default_str()
+      ->check(number_in(1, 1e6, "from 1 to 1e6"));
   word.add_flag("--require-convex", o.require_convex, "refuse a mesh with dents");
   word.add_flag("--require-solid", o.require_solid, "refuse flat, collinear and single-point input");
   word.add_flag("--quiet", request->quiet, "no progress bar, no report");

@@ -1,195 +1,473 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Mesh files, by extension: OFF, STL and PLY by CGAL's readers of polygon soups (its LGPL part), OBJ and SWIFT's two formats by
-// our own. Knows nothing of hulls. CGAL's OBJ reader refuses point clouds and names no line. The readers are not trusted: what
-// they return is checked for points, finite coordinates and indices in range.
-#include <swiftlet/build.h>
-
-#include <CGAL/IO/OFF.h>
-#include <CGAL/IO/PLY.h>
-#include <CGAL/IO/STL.h>
-#include <CGAL/Simple_cartesian.h>
+// Mesh files, by extension, each format by a reader of our own. Knows nothing of hulls. CGAL's readers were tried: they
+// allocate what a count claims, take a file cut short for a whole one, refuse point clouds, and name no line. A count here is
+// believed only as far as the file goes on.
+#include "mesh_file.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cctype>
 #include <charconv>
-#include <exception>
+#include <cmath>
+#include <cstring>
 #include <fstream>
-#include <sstream>
-#include <string_view>
+#include <iterator>
+#include <map>
+#include <new>
+#include <optional>
+#include <utility>
 
 namespace swiftlet {
 namespace {
 
-using Point3 = CGAL::Simple_cartesian<double>::Point_3;
-
-struct Soup {
-  std::vector<Point3> points;
-  std::vector<std::vector<std::size_t>> polygons;
+/// Thrown by the readers, caught in mesh_of_bytes.
+struct Damage {
+  std::string what;
 };
 
-Error fault(const std::filesystem::path& path, ErrorCode code, const std::string& what) {
-  return {code, path.string() + ": " + what};
+struct Soup {
+  std::vector<Vec3> points;
+  std::vector<std::vector<std::uint64_t>> polygons;
+};
+
+bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)); }
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return result;
 }
 
-/// Whether all of `word` is one number.
-template <class Number>
-bool parse(std::string_view word, Number& number) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  return !word.empty() && error == std::errc() && end == word.data() + word.size();
+/// As a message shows what was found.
+std::string shown(std::string_view word) {
+  constexpr std::size_t kMost = 40;
+  std::string text = "\"";
+  for (const char c : word.substr(0, kMost)) text += std::isprint(static_cast<unsigned char>(c)) ? c : '?';
+  return text += word.size() > kMost ? "...\"" : "\"";
 }
 
-/// Words of a text and the line each stands on.
+std::string numbered(const char* what, std::uint64_t index, std::uint64_t count) {
+  return what + std::to_string(index) + " of " + std::to_string(count);
+}
+
+// ---- Text -------------------------------------------------------------------------------------------------------------------
+
+/// Words of a text and the line each stands on. `comment` begins what is no word, up to the end of its line.
 class Words {
  public:
-  explicit Words(std::istream& text) : text_(text) {}
-  std::size_t line() const { return line_; }
+  explicit Words(std::string_view text, char comment = '\0', std::size_t first_line = 1)
+      : rest_(text), comment_(comment), line_(first_line) {}
 
+  bool at_end() { return skip_blanks(), rest_.empty(); }
   /// Empty at the end of the text.
-  std::string next() {
-    std::string word;
-    for (int c = text_.get(); c != EOF; c = text_.get()) {
-      const bool space = std::isspace(c);
-      if (space && !word.empty()) {
-        text_.unget();
-        break;
-      }
-      if (c == '\n') ++line_;
-      if (!space) word.push_back(char(c));
-    }
-    return word;
+  std::string_view next() {
+    skip_blanks();
+    return take(std::size_t(std::find_if(rest_.begin(), rest_.end(), is_space) - rest_.begin()));
   }
+  void skip_line() { take(std::min(rest_.find('\n'), rest_.size())); }
+
+  [[noreturn]] void fail(const std::string& what) const { throw Damage{"line " + std::to_string(line_) + ": " + what}; }
 
   template <class Number>
-  bool read(Number& number) {
-    return parse(next(), number);
+  Number number(const std::string& what) {
+    const std::string_view word = next();
+    return parse<Number>(word, word, what);
+  }
+  /// Of a part of a word.
+  template <class Number>
+  Number parse(std::string_view digits, std::string_view word, const std::string& what) const {
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    Number value{};
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (!digits.empty() && error == std::errc() && end == digits.data() + digits.size()) return value;
+    if (word.empty()) fail("expected " + what + ", and the file ends");
+    if (error == std::errc::result_out_of_range) fail(shown(word) + " is beyond the range of numbers");
+    fail("expected " + what + ", not " + shown(word));
+  }
+  Vec3 point(const std::string& what) {
+    const double x = number<double>(what), y = number<double>(what), z = number<double>(what);
+    return {x, y, z};
   }
 
  private:
-  std::istream& text_;
-  std::size_t line_ = 1;
+  std::string_view take(std::size_t length) {
+    const std::string_view part = rest_.substr(0, length);
+    rest_.remove_prefix(part.size());
+    return part;
+  }
+  void skip_blanks() {
+    for (; !rest_.empty(); rest_.remove_prefix(1)) {
+      if (rest_.front() == comment_ && comment_ != '\0') skip_line();
+      if (rest_.empty() || !is_space(rest_.front())) return;
+      line_ += rest_.front() == '\n';
+    }
+  }
+
+  std::string_view rest_;
+  char comment_;
+  std::size_t line_;
 };
 
-/// "TRI" or "POLY", the counts of vertices and faces, three coordinates per vertex, and per face its vertices, counted from 0;
-/// in POLY after their number. White space is free.
-std::string read_swift(std::istream& file, Soup& soup) {
-  Words words(file);
-  const auto at_line = [&](const std::string& what) { return "line " + std::to_string(words.line()) + ": " + what; };
-  const std::string magic = words.next();
-  if (magic != "TRI" && magic != "POLY") return at_line("expected TRI or POLY");
-  std::size_t vertex_count = 0, face_count = 0;
-  if (!words.read(vertex_count) || !words.read(face_count)) return at_line("expected the counts of vertices and faces");
-  for (std::size_t v = 0; v < vertex_count; ++v) {
-    double x = 0, y = 0, z = 0;
-    if (!words.read(x) || !words.read(y) || !words.read(z))
-      return at_line("expected three coordinates of vertex " + std::to_string(v) + " of " + std::to_string(vertex_count));
-    soup.points.emplace_back(x, y, z);
+std::uint64_t corner(Words& words, const std::string& face, std::uint64_t vertex_count) {
+  const auto index = words.number<long long>("a vertex of " + face);
+  if (index < 0 || std::uint64_t(index) >= vertex_count)
+    words.fail(face + " names vertex " + std::to_string(index) + " of " + std::to_string(vertex_count));
+  return std::uint64_t(index);
+}
+
+/// Size and corners, counted from 0; the size only where the format gives it.
+std::vector<std::uint64_t> polygon(Words& words, std::uint64_t f, std::uint64_t face_count, std::uint64_t vertex_count,
+                                   bool sized) {
+  const std::string face = numbered("face ", f, face_count);
+  const auto size = sized ? words.number<std::uint64_t>("the number of vertices of " + face) : 3;
+  std::vector<std::uint64_t> corners;
+  for (std::uint64_t k = 0; k < size; ++k) corners.push_back(corner(words, face, vertex_count));
+  return corners;
+}
+
+/// "TRI" or "POLY", the counts of vertices and faces, three coordinates per vertex, and per face its vertices, in POLY after
+/// their number. White space is free.
+Soup read_swift(std::string_view text) {
+  Words words(text);
+  const std::string_view magic = words.next();
+  if (magic != "TRI" && magic != "POLY") words.fail("expected TRI or POLY");
+  Soup soup;
+  const auto vertex_count = words.number<std::uint64_t>("the count of vertices"),
+             face_count = words.number<std::uint64_t>("the count of faces");
+  for (std::uint64_t v = 0; v < vertex_count; ++v)
+    soup.points.push_back(words.point("three coordinates of " + numbered("vertex ", v, vertex_count)));
+  for (std::uint64_t f = 0; f < face_count; ++f)
+    soup.polygons.push_back(polygon(words, f, face_count, vertex_count, magic == "POLY"));
+  return soup;
+}
+
+/// As read_swift, but what follows on a line (normals, colours) is skipped.
+Soup read_off(std::string_view text) {
+  Words words(text, '#');
+  std::string_view magic = words.next();
+  const std::string_view found = magic;
+  for (const char* prefix : {"ST", "C", "N"})  // what the skipped rest of a vertex's line holds
+    if (magic.starts_with(prefix)) magic.remove_prefix(std::strlen(prefix));
+  if (magic != "OFF") words.fail("expected OFF, not " + shown(found));
+  Soup soup;
+  const auto vertex_count = words.number<std::uint64_t>("the count of vertices, in text"),
+             face_count = words.number<std::uint64_t>("the count of faces");
+  words.skip_line();
+  for (std::uint64_t v = 0; v < vertex_count; ++v) {
+    soup.points.push_back(words.point("three coordinates of " + numbered("vertex ", v, vertex_count)));
+    words.skip_line();
   }
-  for (std::size_t f = 0; f < face_count; ++f) {
-    const std::string face = "face " + std::to_string(f) + " of " + std::to_string(face_count);
-    std::size_t size = 3;
-    if (magic == "POLY" && !words.read(size)) return at_line("expected the number of vertices of " + face);
-    std::vector<std::size_t> polygon;
-    for (std::size_t k = 0; k < size; ++k) {
-      std::size_t corner = 0;
-      if (!words.read(corner)) return at_line("expected a vertex of " + face);
-      if (corner >= vertex_count)
-        return at_line(face + " names vertex " + std::to_string(corner) + " of " + std::to_string(vertex_count));
-      polygon.push_back(corner);
-    }
-    soup.polygons.push_back(std::move(polygon));
+  for (std::uint64_t f = 0; f < face_count; ++f) {
+    soup.polygons.push_back(polygon(words, f, face_count, vertex_count, true));
+    words.skip_line();
   }
-  return {};
+  return soup;
 }
 
 /// A corner of an OBJ face is v, v/t, v//n or v/t/n, counted from 1 or, if negative, back from the last vertex read.
-bool obj_corner(const std::string& word, std::size_t vertex_count, std::size_t& corner) {
-  long long index = 0;
-  if (!parse(std::string_view(word).substr(0, word.find('/')), index)) return false;
-  const long long from_zero = index > 0 ? index - 1 : index + static_cast<long long>(vertex_count);
-  corner = std::size_t(from_zero);
-  return index != 0 && from_zero >= 0;
+std::uint64_t obj_corner(const Words& words, std::string_view word, std::size_t vertex_count) {
+  const auto index = words.parse<long long>(word.substr(0, word.find('/')), word, "a vertex");
+  const long long count = static_cast<long long>(vertex_count);
+  if (index == 0 || index < -count)
+    words.fail(shown(word) + " is no vertex: they count from 1, or back from -1, and " + std::to_string(count) + " are read");
+  return std::uint64_t(index > 0 ? index - 1 : index + count);
 }
 
-/// Vertices and faces; all else in the file is not for us.
-std::string read_obj(std::istream& file, Soup& soup) {
-  std::string line;
-  for (std::size_t number = 1; std::getline(file, line); ++number) {
-    std::istringstream text(line);
-    Words words(text);
-    const std::string keyword = words.next(), at_line = "line " + std::to_string(number) + ": ";
-    if (keyword == "v") {
-      double x = 0, y = 0, z = 0;
-      if (!words.read(x) || !words.read(y) || !words.read(z)) return at_line + "expected three coordinates";
-      soup.points.emplace_back(x, y, z);
-    } else if (keyword == "f") {
-      soup.polygons.emplace_back();
-      for (std::string word = words.next(); !word.empty(); word = words.next()) {
-        std::size_t corner = 0;
-        if (!obj_corner(word, soup.points.size(), corner)) return at_line + "\"" + word + "\" is no vertex";
-        soup.polygons.back().push_back(corner);
-      }
-    }
-  }
-  return {};
-}
-
-/// CGAL's reader dereferences the element that a property belongs to without asking whether there is one.
-bool has_sound_ply_header(std::istream& file) {
-  bool element = false;
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream words(line);
-    std::string keyword;
-    words >> keyword;
-    element = element || keyword == "element";
-    if (keyword == "property" && !element) return false;
-    if (keyword == "end_header") {
-      file.clear();
-      file.seekg(0);
-      return true;
-    }
-  }
-  return false;
-}
-
-/// An empty string, or what is wrong.
-std::string read_soup(const std::string& extension, std::istream& file, Soup& soup) try {
-  const auto outcome = [&](bool read) {
-    return read ? std::string() : "is no " + extension.substr(1) + " file, or is damaged";
+/// Vertices and faces; all else in the file is not for us. A line goes on where it ends in a backslash.
+Soup read_obj(std::string_view text) {
+  Soup soup;
+  std::size_t number = 1;
+  const auto next_line = [&] {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    ++number;
+    return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
   };
-  const auto quietly = CGAL::parameters::verbose(false);
-  if (extension == ".obj") return read_obj(file, soup);
-  if (extension == ".off") return outcome(CGAL::IO::read_OFF(file, soup.points, soup.polygons, quietly));
-  if (extension == ".stl") return outcome(CGAL::IO::read_STL(file, soup.points, soup.polygons, quietly));
-  if (extension == ".ply")
-    return outcome(has_sound_ply_header(file) && CGAL::IO::read_PLY(file, soup.points, soup.polygons, quietly));
-  return read_swift(file, soup);
-} catch (const std::exception& exception) {
-  return std::string("is damaged: ") + exception.what();
-}
-
-bool is_known(const std::string& extension) {
-  constexpr std::array kKnown{".obj", ".off", ".stl", ".ply", ".tri", ".poly"};
-  return std::find(kKnown.begin(), kKnown.end(), extension) != kKnown.end();
-}
-
-Result<Mesh> checked(const Soup& soup, const std::filesystem::path& path) {
-  Mesh mesh;
-  if (soup.points.empty()) return fault(path, ErrorCode::Empty, "has no points");
-  for (const Point3& p : soup.points) {
-    mesh.points.emplace_back(p.x(), p.y(), p.z());
-    if (!mesh.points.back().allFinite())
-      return fault(path, ErrorCode::BadValue, "vertex " + std::to_string(mesh.points.size() - 1) + " is not finite");
+  while (!text.empty()) {
+    const std::size_t first_line = number;
+    std::string line(next_line());
+    while (line.ends_with('\\') && !text.empty()) {
+      line.back() = ' ';
+      line += next_line();
+    }
+    Words words(line, '#', first_line);
+    const std::string_view keyword = words.next();
+    if (keyword == "v") soup.points.push_back(words.point("three coordinates"));
+    if (keyword == "f") {
+      soup.polygons.emplace_back();
+      while (!words.at_end()) soup.polygons.back().push_back(obj_corner(words, words.next(), soup.points.size()));
+    }
   }
+  return soup;
+}
+
+// ---- Bytes ------------------------------------------------------------------------------------------------------------------
+
+/// Numbers one after the other.
+class Numbers {
+ public:
+  Numbers(std::string_view bytes, bool big_endian) : rest_(bytes), big_endian_(big_endian) {}
+  template <class Number>
+  Number next() {
+    if (rest_.size() < sizeof(Number)) throw Damage{"ends early"};
+    std::array<char, sizeof(Number)> bytes;
+    std::memcpy(bytes.data(), rest_.data(), bytes.size());
+    rest_.remove_prefix(bytes.size());
+    if (big_endian_) std::reverse(bytes.begin(), bytes.end());
+    return std::bit_cast<Number>(bytes);
+  }
+  void skip(std::size_t count) { rest_.remove_prefix(std::min(count, rest_.size())); }
+
+ private:
+  std::string_view rest_;
+  bool big_endian_;
+};
+
+/// Points that are equal are one.
+class Welder {
+ public:
+  explicit Welder(std::vector<Vec3>& points) : points_(points) {}
+  std::uint64_t index(const Vec3& p) {
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };  // -0 is 0; a NaN equals itself
+    const auto [at, added] = known_.try_emplace({bits(p.x()), bits(p.y()), bits(p.z())}, points_.size());
+    if (added) points_.push_back(p);
+    return at->second;
+  }
+
+ private:
+  std::vector<Vec3>& points_;
+  std::map<std::array<std::uint64_t, 3>, std::uint64_t> known_;
+};
+
+constexpr std::size_t kStlHeader = 80, kStlFacet = 50;
+
+/// Header, count, and per facet a normal, three corners and two bytes.
+Soup read_binary_stl(std::string_view bytes) {
+  if (bytes.size() < kStlHeader + 4) throw Damage{"is no STL file: too short, and does not begin with \"solid\""};
+  Numbers numbers(bytes.substr(kStlHeader), false);
+  const auto count = numbers.next<std::uint32_t>();
+  if ((bytes.size() - kStlHeader - 4) / kStlFacet < count)
+    throw Damage{"ends early: " + std::to_string(bytes.size()) + " bytes for " + std::to_string(count) + " facets"};
+  Soup soup;
+  Welder welder(soup.points);
+  for (std::uint32_t f = 0; f < count; ++f) {
+    numbers.skip(12);
+    soup.polygons.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      const auto x = numbers.next<float>(), y = numbers.next<float>(), z = numbers.next<float>();
+      soup.polygons.back().push_back(welder.index(Vec3(x, y, z)));
+    }
+    numbers.skip(2);
+  }
+  return soup;
+}
+
+/// One or several of: solid NAME, facets, endsolid NAME.
+Soup read_text_stl(std::string_view text) {
+  Words words(text);
+  const auto expect = [&words](const char* wanted) {
+    const std::string_view word = words.next();
+    if (lower(word) != wanted)
+      words.fail(std::string("expected ") + wanted + (word.empty() ? ", and the file ends" : ", not " + shown(word)));
+  };
+  Soup soup;
+  Welder welder(soup.points);
+  while (!words.at_end()) {
+    expect("solid");
+    words.skip_line();
+    std::string_view word = words.next();
+    for (; lower(word) == "facet"; word = words.next()) {
+      expect("normal");
+      for (int k = 0; k < 3; ++k) words.next();
+      expect("outer"), expect("loop");
+      soup.polygons.emplace_back();
+      for (int k = 0; k < 3; ++k) {
+        expect("vertex");
+        soup.polygons.back().push_back(welder.index(words.point("three coordinates")));
+      }
+      expect("endloop"), expect("endfacet");
+    }
+    if (word.empty()) words.fail("the file ends before endsolid");
+    if (lower(word) != "endsolid") words.fail("expected facet or endsolid, not " + shown(word));
+    words.skip_line();
+  }
+  return soup;
+}
+
+Soup read_stl(std::string_view bytes) {
+  std::uint32_t count = 0;
+  if (bytes.size() >= kStlHeader + 4) std::memcpy(&count, bytes.data() + kStlHeader, sizeof count);
+  const bool fits = bytes.size() == kStlHeader + 4 + kStlFacet * std::uint64_t{count};  // binary headers may say "solid" too
+  return !fits && lower(Words(bytes).next()) == "solid" ? read_text_stl(bytes) : read_binary_stl(bytes);
+}
+
+// ---- PLY --------------------------------------------------------------------------------------------------------------------
+
+enum class PlyType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float, Double };
+
+std::optional<PlyType> ply_type(std::string_view name) {
+  constexpr std::array<const char*, 8> kOld{"char", "uchar", "short", "ushort", "int", "uint", "float", "double"},
+      kNew{"int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
+  for (std::size_t i = 0; i < kOld.size(); ++i)
+    if (name == kOld[i] || name == kNew[i]) return PlyType(i);
+  return std::nullopt;
+}
+
+struct PlyProperty {
+  std::string name;
+  PlyType type;
+  std::optional<PlyType> size_type;  ///< of a list
+};
+struct PlyElement {
+  std::string name;
+  std::uint64_t count;
+  std::vector<PlyProperty> properties;
+};
+struct PlyHeader {
+  std::string format;
+  std::vector<PlyElement> elements;
+  std::size_t size = 0, lines = 0;
+};
+
+PlyHeader read_ply_header(std::string_view bytes) {
+  PlyHeader header;
+  const auto fail = [&header](const std::string& what) { throw Damage{"line " + std::to_string(header.lines) + ": " + what}; };
+  for (std::string_view keyword; keyword != "end_header";) {
+    ++header.lines;
+    const std::string_view line = bytes.substr(header.size, bytes.find('\n', header.size) - header.size);
+    if (header.size + line.size() >= bytes.size()) fail("the header has no end");
+    header.size += line.size() + 1;
+    Words words(line);
+    keyword = words.next();
+    if (header.lines == 1 && keyword != "ply") fail("expected ply");
+    if (keyword == "format") header.format = words.next();
+    if (keyword == "element") {
+      const std::string name(words.next());
+      std::uint64_t count = 0;
+      const std::string_view digits = words.next();
+      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
+      if (digits.empty() || error != std::errc() || end != digits.data() + digits.size()) fail("expected an element's count");
+      header.elements.push_back({name, count, {}});
+    }
+    if (keyword != "property") continue;
+    if (header.elements.empty()) fail("a property of no element");
+    PlyProperty property{};
+    std::string_view type = words.next();
+    if (type == "list") {
+      property.size_type = ply_type(words.next());
+      if (!property.size_type) fail("unknown type of a list's size");
+      type = words.next();
+    }
+    const std::optional<PlyType> known = ply_type(type);
+    if (!known) fail("unknown type " + shown(type));
+    property.type = *known;
+    property.name = words.next();
+    header.elements.back().properties.push_back(property);
+  }
+  return header;
+}
+
+/// The body of a PLY file. Every number of its types is a double exactly.
+class PlyBody {
+ public:
+  PlyBody(std::string_view bytes, const PlyHeader& header)
+      : text_(header.format == "ascii"),
+        words_(bytes, '\0', header.lines + 1),
+        numbers_(bytes, header.format == "binary_big_endian") {
+    if (!text_ && header.format != "binary_little_endian" && header.format != "binary_big_endian")
+      throw Damage{"unknown format " + shown(header.format)};
+  }
+  double next(PlyType type) {
+    if (text_) return words_.number<double>("a number");
+    switch (type) {
+      case PlyType::Int8: return numbers_.next<std::int8_t>();
+      case PlyType::UInt8: return numbers_.next<std::uint8_t>();
+      case PlyType::Int16: return numbers_.next<std::int16_t>();
+      case PlyType::UInt16: return numbers_.next<std::uint16_t>();
+      case PlyType::Int32: return numbers_.next<std::int32_t>();
+      case PlyType::UInt32: return numbers_.next<std::uint32_t>();
+      case PlyType::Float: return numbers_.next<float>();
+      case PlyType::Double: break;
+    }
+    return numbers_.next<double>();
+  }
+  /// A size or an index.
+  std::uint64_t count(PlyType type, const std::string& what) {
+    const double value = next(type);
+    constexpr double kMost = 0x1p32;  // what no type of PLY exceeds that counts
+    if (value >= 0 && value < kMost && value == std::floor(value)) return std::uint64_t(value);
+    std::array<char, 32> digits;
+    throw Damage{what + std::string(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr)};
+  }
+
+ private:
+  bool text_;
+  Words words_;
+  Numbers numbers_;
+};
+
+Soup read_ply(std::string_view bytes) {
+  const PlyHeader header = read_ply_header(bytes);
+  PlyBody body(bytes.substr(header.size), header);
+  Soup soup;
+  for (const PlyElement& element : header.elements) {
+    if (element.properties.empty()) continue;  // takes no room
+    const bool vertices = element.name == "vertex", faces = element.name == "face";
+    const std::string what = element.name + " ";
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      Vec3 point = Vec3::Zero();
+      std::vector<std::uint64_t> polygon;
+      for (const PlyProperty& property : element.properties) {
+        if (!property.size_type) {
+          const double value = body.next(property.type);
+          if (property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z')
+            point[property.name[0] - 'x'] = value;
+          continue;
+        }
+        const bool corners = faces && (property.name == "vertex_indices" || property.name == "vertex_index");
+        const std::string where = numbered(what.c_str(), i, element.count);
+        const std::uint64_t size = body.count(*property.size_type, where + " has a list of size ");
+        for (std::uint64_t k = 0; k < size; ++k) {
+          if (corners)
+            polygon.push_back(body.count(property.type, where + " names vertex "));
+          else
+            body.next(property.type);
+        }
+      }
+      if (vertices) soup.points.push_back(point);
+      if (faces) soup.polygons.push_back(std::move(polygon));
+    }
+  }
+  return soup;
+}
+
+// ---- All --------------------------------------------------------------------------------------------------------------------
+
+using Reader = Soup (*)(std::string_view);
+
+Reader reader_of(const std::string& extension) {
+  constexpr std::pair<const char*, Reader> kReaders[] = {{".obj", read_obj}, {".off", read_off},   {".stl", read_stl},
+                                                         {".ply", read_ply}, {".tri", read_swift}, {".poly", read_swift}};
+  for (const auto& [known, reader] : kReaders)
+    if (extension == known) return reader;
+  return nullptr;
+}
+
+Result<Mesh> checked(Soup soup) {
+  Mesh mesh{std::move(soup.points), {}};
+  if (mesh.points.empty()) return Error{ErrorCode::Empty, "has no points"};
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    if (!mesh.points[v].allFinite()) return Error{ErrorCode::BadValue, "vertex " + std::to_string(v) + " is not finite"};
   for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
-    const std::vector<std::size_t>& polygon = soup.polygons[f];
-    const auto face = [&] { return "face " + std::to_string(f) + " of " + std::to_string(soup.polygons.size()); };
-    if (polygon.size() < 3) return fault(path, ErrorCode::BadFormat, face() + " has fewer than three vertices");
-    for (std::size_t corner : polygon)
+    const std::vector<std::uint64_t>& polygon = soup.polygons[f];
+    const auto face = [&] { return numbered("face ", f, soup.polygons.size()); };
+    if (polygon.size() < 3) return Error{ErrorCode::BadFormat, face() + " has fewer than three vertices"};
+    for (const std::uint64_t corner : polygon)
       if (corner >= mesh.points.size())
-        return fault(path, ErrorCode::BadFormat,
-                     face() + " names vertex " + std::to_string(corner) + " of " + std::to_string(mesh.points.size()));
+        return Error{ErrorCode::BadFormat,
+                     face() + " names vertex " + std::to_string(corner) + " of " + std::to_string(mesh.points.size())};
     for (std::size_t k = 2; k < polygon.size(); ++k)
       mesh.triangles.push_back({std::uint32_t(polygon[0]), std::uint32_t(polygon[k - 1]), std::uint32_t(polygon[k])});
   }
@@ -198,18 +476,33 @@ Result<Mesh> checked(const Soup& soup, const std::filesystem::path& path) {
 
 }  // namespace
 
-Result<Mesh> read_mesh(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  if (!is_known(extension))
-    return fault(path, ErrorCode::BadFormat,
-                 "unknown extension \"" + extension + "\"; known are .obj .off .stl .ply .tri .poly");
-  std::error_code ignored;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path, ignored)) return fault(path, ErrorCode::CannotRead, "cannot be opened");
-  Soup soup;
-  if (const std::string what = read_soup(extension, file, soup); !what.empty()) return fault(path, ErrorCode::BadFormat, what);
-  return checked(soup, path);
+Result<Mesh> lod::mesh_of_bytes(std::string_view bytes, const std::string& extension) try {
+  if (const Reader read = reader_of(extension)) return checked(read(bytes));
+  return Error{ErrorCode::BadFormat, "unknown extension \"" + extension + "\"; known are .obj .off .stl .ply .tri .poly"};
+} catch (const Damage& damage) {
+  return Error{ErrorCode::BadFormat, damage.what};
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::TooLarge, "is too large for this machine's memory"};
+}
+
+Result<Mesh> read_mesh(const std::filesystem::path& path) try {
+  const auto named = [&path](Error error) {
+    error.message = path.string() + ": " + error.message;
+    return error;
+  };
+  const std::string extension = lower(path.extension().string());
+  std::string bytes;
+  if (reader_of(extension)) {
+    std::error_code ignored;
+    std::ifstream file(path, std::ios::binary);
+    if (!file || std::filesystem::is_directory(path, ignored)) return named({ErrorCode::CannotRead, "cannot be opened"});
+    bytes.assign(std::istreambuf_iterator<char>(file), {});
+  }
+  Result<Mesh> mesh = lod::mesh_of_bytes(bytes, extension);
+  if (!mesh) return named(mesh.error());
+  return mesh;
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::TooLarge, path.string() + ": is too large for this machine's memory"};
 }
 
 }  // namespace swiftlet

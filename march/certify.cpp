@@ -236,7 +236,7 @@ std::optional<double> overhang(const ConvexView& view, Handle feature, const Slo
                 f = vec(view.vertices[view.head[next_in_facet(view, h)]]) - p, n = cross(e, f);
       const double area = norm(n);
       const Vec tilt = slope.own - n * (1 / area);
-      return (norm(tilt) + kCrossError * std::sqrt(dot(e, e) * dot(f, f)) / area + error) * far;
+      return (norm(tilt) + kCrossError * norm(e) * norm(f) / area + error) * far;
     }
     default: return std::nullopt;
   }

@@ -23,9 +23,13 @@ Wide wide(const Motion& m, const Vec& p) {
 
 template <class... Values>
 Check failed(const char* format, Values... values) {
-  char message[256];
-  std::snprintf(message, sizeof message, format, values...);
-  return {false, message};
+  if constexpr (sizeof...(Values) == 0) {
+    return {false, format};
+  } else {
+    char message[256];
+    std::snprintf(message, sizeof message, format, values...);
+    return {false, message};
+  }
 }
 const Check kPassed{true, ""};
 

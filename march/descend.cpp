@@ -165,21 +165,16 @@ class Descent {
     const auto refine_b = [&] {
       if (next.level_b > finest_b_) next.start.b = child(b_, next.level_b, next.start.b), --next.level_b;
     };
-    switch (options_.refinement) {
-      case Refinement::Single: {
-        const bool a_is_coarser = a_.level(next.level_a).deviation >= b_.level(next.level_b).deviation;
-        if (next.level_b == finest_b_ || (a_is_coarser && next.level_a > finest_a_))
-          refine_a();
-        else
-          refine_b();
-        break;
-      }
-      case Refinement::DoubleDouble:
+    if (options_.refinement == Refinement::Single) {
+      const bool a_is_coarser = a_.level(next.level_a).deviation >= b_.level(next.level_b).deviation;
+      if (next.level_b == finest_b_ || (a_is_coarser && next.level_a > finest_a_))
         refine_a();
+      else
         refine_b();
-        [[fallthrough]];
-      case Refinement::SingleSingle: refine_a(); refine_b();
+      return next;
     }
+    if (options_.refinement == Refinement::DoubleDouble) refine_a(), refine_b();
+    refine_a(), refine_b();  // whatever the value: a descent ends
     return next;
   }
 

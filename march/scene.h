@@ -76,7 +76,7 @@ static inline Scene scene(const ConvexView& a, const ConvexView& b, const Motion
           magnitude,
           motion_error,
           kPointError * magnitude + motion_error,
-          (kLawTwo + 2 * larger(0, pose_error - kOrthonormalityError)) * (larger(a.extent, b.extent) + t)};
+          larger((kLawTwo + 2 * larger(0, pose_error - kOrthonormalityError)) * (larger(a.extent, b.extent) + t), kLeastWidth)};
 }
 
 }  // namespace swiftlet

@@ -49,6 +49,11 @@ inline constexpr double kLeastCoordinate = 1e-70;
 /// A body's extent and a pose's translation are at most the second, an extent not below the first: sixth powers, the squared
 /// height of a vertex over an unnormalised normal, stay inside that range too. Length.
 inline constexpr double kLeastExtent = 1e-45, kMostCoordinate = 1e45;
+/// A sum of squares above this has lost nothing to underflow. Length squared.
+inline constexpr double kLeastSquare = 0x1p-900;
+/// Law 2 promises no interval narrower than this: the products of a walk underflow below. Only two points, each the origin of
+/// its frame, are a pair so small. Length.
+inline constexpr double kLeastWidth = 0x1p-450;
 /// The largest coordinate of a vector that is still normalised: below, its inverse may overflow. Products of two lengths.
 inline constexpr double kLeastDirection = 0x1p-1000;
 

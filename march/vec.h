@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include <swiftlet/model.h>
 #include <swiftlet/pose.h>
@@ -50,9 +51,15 @@ static inline V3<R> cross(const V3<R>& a, const V3<R>& b) {
 static inline double larger(double x, double y) { return x < y ? y : x; }
 static inline double smaller(double x, double y) { return y < x ? y : x; }
 
-static inline double norm(const Vec& a) { return std::sqrt(dot(a, a)); }
 /// Numbers only: a NaN may go unseen.
 static inline double max_abs(const Vec& a) { return larger(larger(std::fabs(a.x), std::fabs(a.y)), std::fabs(a.z)); }
+/// To kNormError; where squares underflow never less than the length.
+static inline double norm(const Vec& a) {
+  const double square = dot(a, a), scale = max_abs(a);
+  if (!(square < kLeastSquare) || scale == 0) return std::sqrt(square);
+  const Vec w{a.x / scale, a.y / scale, a.z / scale};
+  return scale * std::sqrt(dot(w, w)) * (1 + kNormError) + std::numeric_limits<double>::denorm_min();
+}
 
 /// At length 1; 0 where v names no direction. Scaled by its largest coordinate first: squares of 1e-200 are 0.
 static inline Vec normalised(const Vec& v) {

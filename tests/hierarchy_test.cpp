@@ -215,6 +215,7 @@ TEST(Hierarchy, OptionsOutOfRangeAreRefused) {
   EXPECT_TRUE(refused([](BuildOptions& o) { o.max_levels = 0; }));
   EXPECT_TRUE(refused([](BuildOptions& o) { o.max_levels = 33; }));
   EXPECT_TRUE(refused([&](BuildOptions& o) { o.max_deviation = nan; }));
+  EXPECT_TRUE(refused([&](BuildOptions& o) { o.max_deviation = -1; }));
   EXPECT_TRUE(refused([&](BuildOptions& o) { o.table.radius_factor = nan; }));
   Mesh broken = shapes::cube();
   broken.points[3].y() = nan;

@@ -3,6 +3,7 @@
 // read_mesh on every format it knows, and on files cut short or otherwise damaged.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -140,6 +141,82 @@ TEST(MeshFile, IndexOutOfRangeIsAnError) {
   EXPECT_FALSE(read("i.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"));
   EXPECT_FALSE(read("i.ply", std::string(kPly).replace(kPly.rfind("3 0 3 2"), 7, "3 0 3 8")));
   EXPECT_FALSE(read("p.poly", "POLY 1 1  0 0 0  2 0 0"));
+}
+
+TEST(MeshFile, NegativeIndicesAreNamed) {
+  expect_error(read("i.ply", std::string(kPly).replace(kPly.rfind("3 0 3 2"), 7, "3 0 -1 2")), ErrorCode::BadFormat,
+               "face 3 of 4 names vertex -1");
+  expect_error(read("i.off", std::string(kOff).replace(kOff.rfind("3 0 3 2"), 7, "3 0 -1 2")), ErrorCode::BadFormat,
+               "face 3 of 4 names vertex -1 of 4");
+  expect_error(read("i.obj", kObj + "f 1 2 -5\n"), ErrorCode::BadFormat, "line 9: \"-5\" is no vertex");
+  expect_tetrahedron(read("i.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 -1\nf -3 -2 -1\nf 1 4 3\n"));
+}
+
+TEST(MeshFile, CountsAreNotBelievedBeforeTheFileHoldsThem) {  // each took all memory, or hours
+  expect_error(read("c.off", "OFF\n1 1 0\n0 0 0\n99999999999 0 0"), ErrorCode::BadFormat, "the file ends");
+  expect_error(read("c.off", "OFF\n99999999999 1 0\n0 0 0\n"), ErrorCode::BadFormat, "vertex 1 of 99999999999");
+  expect_error(read("c.poly", "POLY 1 1  0 0 0  99999999999 0 0"), ErrorCode::BadFormat, "the file ends");
+  const std::string binary = "ply\nformat binary_little_endian 1.0\n";
+  expect_error(read("c.ply", binary + "element vertex 99999999999\nproperty float x\nend_header\n1234"), ErrorCode::BadFormat,
+               "ends early");
+  expect_error(read("c.ply", binary + "element face 1\nproperty list uint int vertex_index\nend_header\n\xff\xff\xff\xff"),
+               ErrorCode::BadFormat, "ends early");
+  expect_error(read("c.ply", binary + "element vertex 99999999999\nend_header\n"), ErrorCode::Empty, "no points");
+  std::string stl = binary_stl();
+  stl.replace(80, 4, "\xff\xff\xff\xff");
+  expect_error(read("c.stl", stl), ErrorCode::BadFormat, "ends early");
+}
+
+TEST(MeshFile, TextCutShortIsAnError) {
+  for (const auto& [name, whole] : {std::pair{"cut.stl", kStl}, {"cut.off", kOff}, {"cut.ply", kPly}, {"cut.poly", kPoly}}) {
+    const std::size_t last_word = whole.find_last_of(" \n", whole.find_last_not_of(" \n")) + 1;
+    for (std::size_t size = 0; size <= (std::string(name) == "cut.stl" ? whole.rfind("endsolid") : last_word); ++size)
+      ASSERT_FALSE(read(name, whole.substr(0, size))) << name << ", " << size << " bytes";
+  }
+}
+
+TEST(MeshFile, ObjLinesGoOnAfterABackslash) {
+  expect_tetrahedron(read("l.obj", "v 0 0 0\nv 1 \\\n0 0\nv 0 1 0\r\nv 0 0 1\nf 1 \\\r\n3 \\\n2\nf 1 2 4\nf 2 3 4\nf 1 4 3"));
+  expect_error(read("l.obj", "v 0 0 0\nv 1 \\\n0 0\nv 0 x 0\n"), ErrorCode::BadFormat,
+               "line 4: expected three coordinates, not \"x\"");
+}
+
+TEST(MeshFile, NumbersBeyondDoublesAreNamed) {
+  expect_error(read("n.off", "OFF\n1 0 0\n0 1e-400 0\n"), ErrorCode::BadFormat, "line 3: \"1e-400\" is beyond the range");
+  expect_error(read("n.obj", "v 0 1e400 0\n"), ErrorCode::BadFormat, "line 1: \"1e400\" is beyond the range");
+}
+
+TEST(MeshFile, OffSkipsCommentsNormalsAndColours) {
+  expect_tetrahedron(read("c.off",
+                          "STCNOFF # all\n# four\n4 4 6 # edges\n0 0 0  0 0 1  255 0 0\n1 0 0\n\n0 1 0 # y\n0 0 1\n"
+                          "3 0 2 1  0.5 0.5 0.5\n3 0 1 3 7\n3 1 2 3\n3 0 3 2"));
+  expect_error(read("c.off", "4OFF\n1 0 0\n0 0 0 1\n"), ErrorCode::BadFormat, "expected OFF, not \"4OFF\"");
+  expect_error(read("c.off", "OFF BINARY\n1 0 0\n"), ErrorCode::BadFormat, "in text, not \"BINARY\"");
+}
+
+TEST(MeshFile, PlyInAllThreeFormatsAgrees) {
+  for (const bool big : {false, true}) {
+    std::string bytes = std::string("ply\nformat binary_") + (big ? "big" : "little") +
+                        "_endian 1.0\ncomment t\nelement vertex 4\nproperty float x\nproperty uchar red\nproperty double z\n"
+                        "property short y\nelement strip 1\nproperty list uchar float weights\nelement face 4\n"
+                        "property list uint8 int32 vertex_index\nend_header\n";
+    const auto put = [&](auto value) {
+      std::string part(reinterpret_cast<const char*>(&value), sizeof value);
+      bytes += big ? std::string(part.rbegin(), part.rend()) : part;
+    };
+    for (int v = 0; v < 4; ++v) put(float(v == 1)), put(std::uint8_t(9)), put(double(v == 3)), put(std::int16_t(v == 2));
+    put(std::uint8_t(2)), put(0.5f), put(0.25f);
+    for (const auto& f : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}) {
+      put(std::uint8_t(3));
+      for (const int corner : f) put(std::int32_t(corner));
+    }
+    expect_tetrahedron(read("b.ply", bytes));
+  }
+  expect_error(read("u.ply", "ply\nformat binary 1.0\nend_header\n"), ErrorCode::BadFormat, "unknown format \"binary\"");
+  expect_error(read("u.ply", "ply\nformat ascii 1.0\nproperty int x\nend_header\n"), ErrorCode::BadFormat,
+               "line 3: a property of no");
+  expect_error(read("u.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n"), ErrorCode::BadFormat,
+               "unknown type \"real\"");
 }
 
 TEST(MeshFile, BinaryStlCutShortIsAnError) {

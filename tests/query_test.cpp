@@ -208,6 +208,26 @@ TEST(Distance, SaysWhichPrecisionWasOutOfReach) {
   EXPECT_GE(coarse.upper, exact.lower);
 }
 
+TEST(Distance, EndsWhateverTheOptionsBitsAre) {  // an order of refinement that is none went on for ever
+  const Bodies& pair = bodies(shapes::Family::Fat);
+  const Pose apart{Mat3::Identity(), {2.5, 0.5, 0.25}};
+  PairSeed cold;
+  const Answer expected = distance(pair.a, pair.b, apart, cold);
+  for (const int value : {3, 4, 100, 255}) {
+    for (int field = 0; field < 3; ++field) {
+      QueryOptions options;
+      if (field == 0) options.refinement = Refinement(value);
+      if (field == 1) options.start = StartPolicy(value);
+      if (field == 2) options.plane_rule = PlaneRule(value);
+      PairSeed seed;
+      const Answer answer = distance(pair.a, pair.b, apart, seed, options);
+      EXPECT_EQ(answer.status, Status::Converged);
+      EXPECT_LE(answer.lower, expected.upper);
+      EXPECT_GE(answer.upper, expected.lower);
+    }
+  }
+}
+
 TEST(Distance, RefusesPosesThatAreNone) {
   const Model body = cube();
   const double nan = std::nan(""), infinity = HUGE_VAL;

@@ -113,9 +113,10 @@ class Tool : public testing::Test {
   }
 
   /// Fails with one line that holds `why`, and leaves no file behind.
-  void refuses(const std::string& arguments, const std::string& why) const {
+  void refuses(const std::string& arguments, const std::string& why, int code = 0) const {
     const Ran ran = run(arguments);
     EXPECT_GT(ran.code, 0) << arguments;
+    EXPECT_TRUE(code == 0 || ran.code == code) << arguments << ": " << ran.code;
     EXPECT_EQ(ran.out, "") << arguments;
     EXPECT_TRUE(ran.err.starts_with("swiftlet: ")) << arguments << "\n" << ran.err;
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << arguments << "\n" << ran.err;
@@ -271,9 +272,11 @@ TEST_F(Tool, RefusesBadPosesInOneLine) {
   write(folder_ / "mirror", "1 0 0 0\n0 1 0 0\n0 0 -1 0\n");
   write(folder_ / "short", "1 0 0 0\n0 1 0 0\n");
   write(folder_ / "words", "one two three\n");
+  write(folder_ / "far", "1 0 0 1e46\n0 1 0 0\n0 0 1 0\n");
+  write(folder_ / "tiny", "1 0 0 1e-400\n0 1 0 0\n0 0 1 0\n");
   before_ = names();
   const auto bad = [&](const std::string& pose, const std::string& why) {
-    refuses("distance a.swl a.swl --pose " + pose, why);
+    refuses("distance a.swl a.swl --pose " + pose, why, 2);
   };
   bad("1,2", "2 numbers");
   bad("1,2,3,4", "4 numbers");
@@ -286,6 +289,12 @@ TEST_F(Tool, RefusesBadPosesInOneLine) {
   bad("short", "8 numbers");
   bad("words", "no number");
   bad("nowhere", "neither");
+  bad("1e46,0,0", "translates by more than 1e+45");
+  bad("0,0,-2e45,1,0,0,0", "translates by more than 1e+45");
+  bad("far", "translates by more than 1e+45");
+  bad("0,1e-400,0", "1e-400, which is beyond the range of doubles");
+  bad("0,1e400,0", "1e400, which is beyond the range of doubles");
+  bad("tiny", "1e-400, which is beyond the range of doubles");
 }
 
 TEST_F(Tool, RefusesWhatIsWrongInOneLine) {
@@ -310,6 +319,21 @@ TEST_F(Tool, RefusesWhatIsWrongInOneLine) {
   refuses("export a.swl --level 0 -o nowhere/e.off", "folder");
   refuses("export a.swl --level 0 -o link", "link");
   refuses("draw a.swl -o .", "folder");
+}
+
+TEST_F(Tool, AnOptionOutOfItsRangeIsExitCodeTwo) {
+  for (const char* option : {"--max-error -1", "--relative-error -1e-3", "--beyond -1", "--max-error nan"})
+    refuses(std::string("distance a.swl a.swl --pose 1,2,3 ") + option, "no number from 0 up", 2);
+  refuses("export a.swl --level 2 -o e.off", "no level 2", 2);
+  refuses("export a.swl --level -1 -o e.off", "no level -1", 2);
+  if (!kBuilds) return;
+  for (const char* option :
+       {"--rate 0", "--rate 1", "--rate nan", "--levels 0", "--levels 33", "--cutoff -3", "--max-deviation -1",
+        "--max-deviation inf", "--radius-factor 0.5", "--radius-factor 1e7", "--table 3"}) {
+    const std::string name(option, std::strchr(option, ' '));
+    refuses(std::string("build cube.off -o c.swl ") + option, name, 2);
+  }
+  refuses("info nowhere.swl", "nowhere.swl", 1);
 }
 
 TEST_F(Tool, KeepsTheOldFileWhenItFails) {
@@ -370,7 +394,7 @@ TEST_F(Tool, BuildRefusesWhatIsWrongInOneLine) {
   refuses("build cube.off -o c.swl --method melt", "melt is none of peel|collapse");
   refuses("build cube.off -o c.swl --table 3", "none|22.5|11.25|5.625");
   refuses("build cube.off -o c.swl --rate 2", "rate");
-  refuses("build cube.off -o c.swl --levels 99", "max_levels");
+  refuses("build cube.off -o c.swl --levels 99", "--levels");
   refuses("build cube.off -o c.swl --cutoff -3", "--cutoff");
 }
 

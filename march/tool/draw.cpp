@@ -119,7 +119,7 @@ std::string draw_faces(const ConvexView& view, const Eye& eye, const Placement& 
     const double lit = 0.16 + 0.84 * std::max(0.0, normal.dot(eye.light));
     std::string& path = paths[std::clamp(int(lit * kShades), 0, kShades - 1)];
     for (std::size_t k = 0; k < loop.size(); ++k) {
-      path += (k == 0 ? "M" : "L") + at(place(eye.project(view.vertices[origin(view, loop[k])])));
+      path.append(k == 0 ? "M" : "L").append(at(place(eye.project(view.vertices[origin(view, loop[k])]))));
       front[loop[k]] = true;
     }
     path += "Z";
@@ -129,8 +129,8 @@ std::string draw_faces(const ConvexView& view, const Eye& eye, const Placement& 
     const std::uint32_t twin = view.twin[h];
     const bool visible = view.face[h] == kNone || front[h] || front[twin];
     if (h > twin || !visible || is_diagonal(view, h)) continue;
-    edges += "M" + at(place(eye.project(view.vertices[origin(view, h)]))) + "L" +
-             at(place(eye.project(view.vertices[view.head[h]])));
+    edges.append("M").append(at(place(eye.project(view.vertices[origin(view, h)]))));
+    edges.append("L").append(at(place(eye.project(view.vertices[view.head[h]]))));
   }
   std::string svg;
   for (const auto& [shade, path] : paths) {
@@ -166,7 +166,7 @@ std::string draw_outline(const ConvexView& view, const Eye& eye, const Placement
     chain.pop_back();  // the other side begins with it
   }
   std::string path;
-  for (const Point2& p : chain) path += (path.empty() ? "M" : "L") + at(p);
+  for (const Point2& p : chain) path.append(path.empty() ? "M" : "L").append(at(p));
   return "<path fill=\"none\" stroke=\"#e4572e\" stroke-width=\"1.3\" stroke-dasharray=\"4 3\" d=\"" + path + "Z\"/>\n";
 }
 

@@ -27,7 +27,7 @@ std::string off_text(const ConvexView& view) {
   for (const Vertex& v : view.vertices) text += format("%.17g %.17g %.17g\n", v.x, v.y, v.z);
   for (const auto& loop : loops) {
     text += std::to_string(loop.size());
-    for (std::uint32_t h : loop) text += " " + std::to_string(origin(view, h));
+    for (std::uint32_t h : loop) text.append(" ").append(std::to_string(origin(view, h)));
     text += "\n";
   }
   return text;

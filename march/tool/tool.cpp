@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include <swiftlet/model_file.h>
 
 #include "pose_text.h"
+#include "text.h"
 
 namespace swiftlet::tool {
 namespace {
@@ -28,13 +30,6 @@ Result<Body> open(const std::string& path, const ModelOfMesh& model_of_mesh) {
   if (!model) return model.error();
   return Body{path, std::move(model).value()};
 }
-
-const CLI::Validator not_negative(
-    [](std::string& text) {
-      double value = -1;
-      return CLI::detail::lexical_cast(text, value) && value >= 0 ? std::string() : text + " is no number from 0 up";
-    },
-    "");
 
 /// A word whose one input is a body.
 template <class Do>
@@ -62,7 +57,13 @@ Action declare_export(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   const auto options = std::make_shared<Options>();
   word.add_option("--level", options->level, "0 is the exact hull, larger is coarser")->required();
   word.add_option("-o,--output", options->out, "the OFF file to write; its doubles read back bit for bit")->required();
-  return on_body(word, model_of_mesh, [options](const Body& body) { return export_level(body, options->level, options->out); });
+  return on_body(word, model_of_mesh, [options](const Body& body) {
+    const int coarsest = body.model.level_count() - 1;
+    if (options->level < 0 || options->level > coarsest)
+      throw CLI::ValidationError("--level",
+                                 body.path + format(": there is no level %d, the coarsest is %d", options->level, coarsest));
+    return export_level(body, options->level, options->out);
+  });
 }
 
 Action declare_draw(CLI::App& word, const ModelOfMesh& model_of_mesh) {
@@ -73,7 +74,8 @@ Action declare_draw(CLI::App& word, const ModelOfMesh& model_of_mesh) {
 
 Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   struct Options {
-    std::string a, b, pose;
+    std::string a, b;
+    Pose b_in_a;
     QueryOptions query;
     bool levels = false;
   };
@@ -88,24 +90,28 @@ Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
       "exact answers, which are those without --max-error, --relative-error and --beyond.");
   word.add_option("A", options->a, kBodyHelp)->required();
   word.add_option("B", options->b, kBodyHelp)->required();
-  word.add_option("--pose", options->pose, "of B in A's frame, see below")->required();
+  const auto take_pose = [options](const std::string& text) {
+    const Result<Pose> pose = read_pose(text);
+    if (!pose) throw CLI::ValidationError("--pose", pose.error().message);
+    options->b_in_a = pose.value();
+  };
+  word.add_option_function<std::string>("--pose", take_pose, "of B in A's frame, see below")->required();
   const auto absolute =
       word.add_option("--max-error", options->query.absolute_error, "stop when upper - lower is at most this");
   const auto relative =
       word.add_option("--relative-error", options->query.relative_error, "stop when upper - lower is at most this times lower");
+  const CLI::Validator not_negative = number_in(0, std::numeric_limits<double>::infinity(), "from 0 up");
   absolute->check(not_negative)->excludes(relative);
   relative->check(not_negative);
   word.add_option("--beyond", options->query.beyond, "stop when the distance is proved greater than this")->check(not_negative);
   word.add_flag("--levels", options->levels,
                 "show what each level pair proved, coarsest first, and how long a query takes that stops there");
   return [options, model_of_mesh]() -> Result<Output> {
-    const Result<Pose> pose = read_pose(options->pose);
-    if (!pose) return pose.error();
     const Result<Body> a = open(options->a, model_of_mesh);
     if (!a) return a.error();
     const Result<Body> b = open(options->b, model_of_mesh);
     if (!b) return b.error();
-    return distance(a.value(), b.value(), pose.value(), options->query, options->levels);
+    return distance(a.value(), b.value(), options->b_in_a, options->query, options->levels);
   };
 }
 
@@ -172,17 +178,26 @@ int run(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const
   }
   try {
     app.parse(argc, argv);
+    const Result<Output> output = chosen();
+    if (!output) return fail(output.error().message, 1);
+    return print(as_json ? output.value().json : output.value().text);
   } catch (const CLI::Success& help_or_version) {
     return app.exit(help_or_version);
   } catch (const CLI::ParseError& fault) {
     return fail(fault.what(), 2);
   }
-  const Result<Output> output = chosen();
-  if (!output) return fail(output.error().message, 1);
-  return print(as_json ? output.value().json : output.value().text);
 }
 
 }  // namespace
+
+CLI::Validator number_in(double least, double most, const std::string& said) {
+  const auto fault = [least, most, said](std::string& text) {
+    double value = 0;
+    const bool number = CLI::detail::lexical_cast(text, value);
+    return number && value >= least && value <= most ? std::string() : text + " is no number " + said;
+  };
+  return {fault, ""};
+}
 
 int run_tool(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const Word> more_words) try {
   return run(argc, argv, model_of_mesh, more_words);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <string>
 
 #include <swiftlet/model.h>
 #include <swiftlet/result.h>
@@ -14,7 +15,8 @@
 
 namespace CLI {
 class App;
-}
+class Validator;
+}  // namespace CLI
 
 namespace swiftlet::tool {
 
@@ -31,7 +33,11 @@ struct Word {
 /// How a mesh becomes a model; empty in a tool without the builder.
 using ModelOfMesh = std::function<Result<Model>(const std::filesystem::path&)>;
 
-/// Does what the command line says and returns the exit code: 0, 1 where a word failed, 2 where the command line is wrong. Then
+/// Refuses what is no number in [least, most]: "... is no number SAID".
+CLI::Validator number_in(double least, double most, const std::string& said);
+
+/// Does what the command line says and returns the exit code: 0, 1 where a word failed, 2 where the command line is wrong, an
+/// option out of its range included. Then
 /// stderr holds one line, "swiftlet: ...", and stdout nothing.
 int run_tool(int argc, char** argv, const ModelOfMesh& model_of_mesh = {}, std::span<const Word> more_words = {});
 

@@ -208,7 +208,7 @@ std::vector<std::uint32_t> proof_of(const Model& model, const OverlapProof& proo
 
 std::string joined(const std::vector<std::uint32_t>& ids) {
   std::string text;
-  for (std::uint32_t id : ids) text += " " + std::to_string(id);
+  for (std::uint32_t id : ids) text.append(" ").append(std::to_string(id));
   return text;
 }
 
@@ -330,9 +330,6 @@ Output distance(const Body& a, const Body& b, const Pose& b_in_a, const QueryOpt
 }
 
 Result<Output> export_level(const Body& body, int level, const std::filesystem::path& path) {
-  if (level < 0 || level >= body.model.level_count())
-    return Error{ErrorCode::BadValue,
-                 body.path + format(": there is no level %d, the coarsest is %d", level, body.model.level_count() - 1)};
   const Result<std::size_t> bytes = write_file(path, off_text(body.model.level(level).view));
   if (!bytes) return bytes.error();
   return Output{path.string() + format(": level %d, %zu bytes\n", level, bytes.value()),

@@ -36,7 +36,7 @@ Result<Output> verify(const Body& body);
 /// for no narrower an interval than that pair gave: the median of many repeats, from a warm cache.
 Output distance(const Body& a, const Body& b, const Pose& b_in_a, const QueryOptions& options, bool show_levels);
 
-/// Writes one level as OFF.
+/// Writes one level, which exists, as OFF.
 Result<Output> export_level(const Body& body, int level, const std::filesystem::path& path);
 /// Writes all levels as SVG.
 Result<Output> draw_levels(const Body& body, const std::filesystem::path& path);

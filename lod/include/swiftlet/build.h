@@ -48,7 +48,7 @@ struct BuildOptions {
   double rate = 0.25;           ///< triangles of a level over those one level finer, in (0, 1); Peel removes what it can
   std::uint32_t cutoff = 60;    ///< no level has fewer triangles than this, nor a solid fewer than 4
   int max_levels = 32;          ///< level 0 included, 1 to 32
-  double max_deviation = 0;     ///< when > 0: the hierarchy ends before a level deviates more, in the mesh's unit
+  double max_deviation = 0;     ///< the hierarchy ends before a level deviates more, in the mesh's unit; 0: no limit
   bool require_convex = false;  ///< refuse a mesh with dents
   bool require_solid = false;   ///< refuse flat, collinear and single-point input
   TableSpec table;

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "judge.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include <swiftlet/check.h>
+
+#include "bodies.h"
+#include "scene.h"
+
+namespace swiftlet::fuzz {
+namespace {
+
+std::string described(const char* what, const Answer& answer, double truth) {
+  std::array<char, 200> text;
+  std::snprintf(text.data(), text.size(), "%s: [%a, %a], truth %a, verdict %d, status %d, %u steps", what, answer.lower,
+                answer.upper, truth, int(answer.verdict), int(answer.status), answer.steps);
+  return text.data();
+}
+
+}  // namespace
+
+Pose take_pose(Bytes& bytes) {
+  Pose pose;
+  const auto kind = bytes.take<std::uint8_t>();
+  if (kind % 4 == 0) {
+    for (int i = 0; i < 9; ++i) pose.rotation(i / 3, i % 3) = bytes.take<double>();
+    for (double& x : pose.translation) x = bytes.take<double>();
+    return pose;
+  }
+  if (kind % 4 == 1) {  // a sixteenth apart: faces, edges and vertices meet
+    for (double& x : pose.translation) x = bytes.take<std::int8_t>() / 16.0;
+    return pose;
+  }
+  std::array<double, 4> q;
+  for (double& x : q) x = bytes.take<std::int16_t>();
+  if (q != std::array<double, 4>{}) pose.rotation = bodies::rotation(q[0], q[1], q[2], q[3]);
+  for (double& x : pose.translation) x = kind % 4 == 2 ? bytes.take<std::int16_t>() * 0x1p-12 : bytes.take<double>();
+  return pose;
+}
+
+PairSeed take_seed(Bytes& bytes) { return bytes.take<PairSeed>(); }
+
+bool is_legal(const Pose& pose) { return pose_quality(motion(pose)).legal; }
+
+Judge::Judge(const Model& a, const Model& b, const Pose& b_in_a)
+    : a_(a),
+      b_(b),
+      b_in_a_(b_in_a),
+      truth_(oracle::distance(bodies::points_of(a.level(0).view), bodies::points_of(b.level(0).view), b_in_a)),
+      law_two_(scene(a.level(0).view, b.level(0).view, motion(b_in_a), pose_quality(motion(b_in_a)).error).law_two) {}
+
+std::string Judge::fault(const Answer& answer, bool exact) const {
+  const auto wrong = [&](const char* what) { return described(what, answer, truth_.distance); };
+  if (!oracle::holds(truth_, answer.lower, answer.upper)) return wrong("the interval does not hold the truth");
+  if (const Check checked = check(a_, b_, b_in_a_, answer); !checked) return wrong(checked.message.c_str());
+  if (answer.status == Status::NotConverged || answer.status == Status::InvalidPose) return wrong("not converged");
+  if (answer.verdict == Verdict::Overlapping && !truth_.overlapping) return wrong("no overlap");
+  if (answer.verdict == Verdict::Disjoint && truth_.overlapping) return wrong("not disjoint");
+  if (answer.verdict == Verdict::Touching && truth_.distance > law_two_) return wrong("not touching");
+  if (!exact) return {};
+  if (answer.status != Status::Converged || answer.verdict == Verdict::Undecided) return wrong("undecided");
+  if (answer.upper - answer.lower > law_two_) return wrong("wider than law 2 allows");
+  return {};
+}
+
+std::string Judge::fault(const Within& within, double threshold) const {
+  if (within.decision == Decision::Undecided) {
+    if (within.answer.status == Status::Converged && !(std::fabs(threshold - truth_.distance) <= law_two_))
+      return described("undecided", within.answer, truth_.distance);
+  } else if ((within.decision == Decision::Yes) != oracle::holds(truth_, 0, threshold)) {
+    return described("within, wrong", within.answer, truth_.distance);
+  }
+  return fault(within.answer, false);
+}
+
+}  // namespace swiftlet::fuzz

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Law 8 under many threads: shared models, seeds of one's own, any order, the bits of one thread. Run by ./run threads under
+// the thread sanitizer.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include "answers.h"
+
+namespace swiftlet {
+namespace {
+
+constexpr std::size_t kThreads = 8;
+constexpr int kPoses = 200;
+
+using Fields = std::vector<std::uint64_t>;
+
+const std::vector<Model>& models() {
+  static const std::vector<Model> all = answers::models(SWIFTLET_TEST_DIR "/data/models");
+  return all;
+}
+
+/// What one seed lives through: a pair of models and its poses.
+struct Motion {
+  const Model* a;
+  const Model* b;
+  std::vector<Pose> poses;
+};
+
+/// Every ordered pair, a model with itself included, so that each model is in many.
+const std::vector<Motion>& motions() {
+  static const std::vector<Motion> all = [] {
+    std::vector<Motion> made;
+    answers::Poses poses(5);
+    for (const Model& a : models()) {
+      for (const Model& b : models()) {
+        made.push_back({&a, &b, {}});
+        for (int i = 0; i < kPoses; ++i) made.back().poses.push_back(poses.next());
+      }
+    }
+    return made;
+  }();
+  return all;
+}
+
+/// The i-th question of a motion.
+Fields ask(const Motion& motion, std::size_t i, PairSeed& seed) {
+  Fields fields;
+  QueryOptions options;
+  options.start = StartPolicy(i % 5);
+  options.refinement = Refinement(i % 3);
+  options.plane_rule = PlaneRule(i / 5 % 2);
+  const Pose& pose = motion.poses[i];
+  answers::append(distance(*motion.a, *motion.b, pose, seed, options), fields);
+  if (i % 4 == 0) answers::append(intersects(*motion.a, *motion.b, pose, seed, options), fields);
+  if (i % 4 == 1) answers::append(within(*motion.a, *motion.b, pose, 0.25, seed, options).answer, fields);
+  if (i % 4 == 2) answers::append(contact(*motion.a, *motion.b, pose, seed, options).answer, fields);
+  if (i % 4 == 3) fields.push_back(motion.a->support(pose.translation));
+  return fields;
+}
+
+/// All answers of all motions, motion by motion.
+std::vector<std::vector<Fields>> alone() {
+  std::vector<std::vector<Fields>> answers;
+  for (const Motion& motion : motions()) {
+    PairSeed seed;
+    answers.emplace_back();
+    for (std::size_t i = 0; i < motion.poses.size(); ++i) answers.back().push_back(ask(motion, i, seed));
+  }
+  return answers;
+}
+
+template <class Work>
+void in_threads(Work work) {
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < kThreads; ++t) threads.emplace_back(work, t);
+  for (std::thread& thread : threads) thread.join();
+}
+
+class Threads : public testing::Test {
+ protected:
+  Threads() {
+    for (const Model& model : models()) {
+      hashes_.push_back(model.hash());
+      bytes_.emplace_back(model.bytes().begin(), model.bytes().end());
+    }
+  }
+  ~Threads() override {  // trap G23: a query that writes into shared geometry
+    for (std::size_t i = 0; i < models().size(); ++i) {
+      EXPECT_EQ(models()[i].hash(), hashes_[i]);
+      EXPECT_TRUE(std::equal(bytes_[i].begin(), bytes_[i].end(), models()[i].bytes().begin(), models()[i].bytes().end()));
+    }
+  }
+  std::vector<std::uint64_t> hashes_;
+  std::vector<std::vector<std::byte>> bytes_;
+};
+
+TEST_F(Threads, WarmQueriesOfInterleavedMotionsAnswerAsOneThread) {
+  const auto expected = alone();
+  std::atomic<int> different{0}, asked{0};
+  in_threads([&](std::size_t t) {
+    std::mt19937 engine{std::uint32_t(t)};
+    std::vector<PairSeed> seeds(motions().size());
+    std::vector<std::size_t> next(motions().size(), 0), open(motions().size());
+    for (std::size_t m = 0; m < open.size(); ++m) open[m] = m;
+    while (!open.empty()) {  // any motion's next question
+      const std::size_t at = engine() % open.size(), m = open[at], i = next[m]++;
+      different += ask(motions()[m], i, seeds[m]) != expected[m][i];
+      ++asked;
+      if (next[m] == motions()[m].poses.size()) open.erase(open.begin() + std::ptrdiff_t(at));
+    }
+  });
+  EXPECT_EQ(different, 0);
+  EXPECT_EQ(asked, int(kThreads * motions().size()) * kPoses);
+  EXPECT_GE(motions().size(), 25u);
+}
+
+TEST_F(Threads, ColdQueriesInAnyOrderAnswerAsOneThread) {
+  std::vector<Fields> expected;
+  for (const Motion& motion : motions()) {
+    for (std::size_t i = 0; i < motion.poses.size(); ++i) {
+      PairSeed cold;
+      expected.push_back(ask(motion, i, cold));
+    }
+  }
+  std::atomic<int> different{0};
+  in_threads([&](std::size_t t) {
+    std::vector<std::size_t> order(expected.size());
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+    std::shuffle(order.begin(), order.end(), std::mt19937{std::uint32_t(100 + t)});
+    for (const std::size_t k : order) {
+      PairSeed cold;
+      different += ask(motions()[k / kPoses], k % kPoses, cold) != expected[k];
+    }
+  });
+  EXPECT_EQ(different, 0);
+}
+
+TEST_F(Threads, ModelsAreCopiedAndDroppedWhileOthersAsk) {
+  const auto expected = alone();
+  std::atomic<int> different{0};
+  in_threads([&](std::size_t t) {
+    for (std::size_t m = t; m < motions().size(); m += kThreads / 2) {
+      const Model a = *motions()[m].a, b = *motions()[m].b;
+      const Motion own{&a, &b, motions()[m].poses};
+      PairSeed seed;
+      for (std::size_t i = 0; i < own.poses.size(); ++i) different += ask(own, i, seed) != expected[m][i];
+      different += a.with_table({lut::Resolution::None, 1}).table().size() != 0;
+    }
+  });
+  EXPECT_EQ(different, 0);
+}
+
+}  // namespace
+}  // namespace swiftlet
