@@ -416,10 +416,10 @@ Result<Facets> two_sided(const Input& in) {
     if (in.orientation(loop[0], loop[1], loop[2], loop[i]) != 0)
       return not_convex("the polygon is not flat: vertex " + std::to_string(loop[i]) + " is off the plane of the first three");
   }
-  // The two coordinates in which the polygon is largest: the projection along the third is exact and keeps every turn.
-  const Vec normal = cross(in.point(loop[1]) - in.point(loop[0]), in.point(loop[2]) - in.point(loop[0]));
-  const Vec size{std::fabs(normal.x), std::fabs(normal.y), std::fabs(normal.z)};
-  const int drop = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  // A projection along an axis that the plane does not hold keeps every turn; exact signs find one, where the rounded normal of
+  // a thin polygon would not.
+  int drop = 0;
+  while (drop < 2 && turn_sign(in, loop[0], loop[1], loop[2], (drop + 1) % 3, (drop + 2) % 3) == 0) ++drop;
   const int x = (drop + 1) % 3, y = (drop + 2) % 3;
   int winding = 0;
   for (std::size_t i = 0; i < n; ++i) {
