@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <filesystem>
@@ -28,6 +29,7 @@ struct Options {
   std::filesystem::path cache = "build/bench-cache", meshes = "models/cache", results = "bench/results";
   std::set<std::string> only;  ///< groups; empty: all
   bool wrong = false;          ///< with the test double
+  std::uint32_t largest = 0;   ///< triangles, in the group of that name; 0: by the size of the run
 
   bool quick() const { return size == Size::Quick; }
   bool all() const { return size == Size::All; }
@@ -434,7 +436,8 @@ void errors(const Options& options, const Field& field, const Shelf& shelf, Resu
 /// Cost against size.
 void sizes(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
   if (!options.wants("triangles")) return;
-  const std::uint32_t most = options.quick() ? 2'000 : options.all() ? 200'000 : 20'000;
+  const std::uint32_t usual = options.quick() ? 2'000 : options.all() ? 200'000 : 20'000;
+  const std::uint32_t most = options.largest > 0 ? options.largest : usual;
   for (const Family family : kFamilies) {
     for (const std::uint32_t triangles : kTriangles) {
       if (triangles > most) continue;
@@ -493,10 +496,12 @@ void others(const Options& options, const Field& field, const Shelf& shelf, Resu
 
 int usage() {
   std::fputs(
-      "swiftlet_bench [--quick | --all] [--only GROUP]... [--wrong] [--cache DIR] [--meshes DIR] [--results DIR]\n"
+      "swiftlet_bench [--quick | --all] [--only GROUP]... [--largest TRIANGLES] [--wrong] [--cache DIR] [--meshes DIR]\n"
+      "               [--results DIR]\n"
       "groups: orbit wide error triangles scenes fig5 fig6 fig7 fig8 fig9 fig10 fig11 fig12 (these two need 6 to 10 beside "
       "them)\n"
       "--quick  1000 queries a round, three steps; --all adds 200000 triangles and peers in every cell\n"
+      "--largest 200000  of the group triangles: beyond 20000 without --all\n"
       "--wrong  adds a method that is 1e-6 off: the table must flag it\n",
       stderr);
   return 2;
@@ -515,6 +520,8 @@ std::optional<Options> parse(int argc, char** argv) {
       options.only.insert(next());
     } else if (word == "--wrong") {
       options.wrong = true;
+    } else if (word == "--largest") {
+      options.largest = std::uint32_t(std::max(0, std::atoi(next().c_str())));
     } else if (word == "--cache") {
       options.cache = next();
     } else if (word == "--meshes") {
