@@ -27,7 +27,7 @@ Mesh3 to_mesh(const Polytope& body) {
 
 }  // namespace
 
-std::vector<Vec3> collapse(const Polytope& body, std::size_t triangle_count) {
+std::vector<Vec3> collapse(const Polytope& body, std::size_t triangle_count) try {
   namespace SMS = CGAL::Surface_mesh_simplification;
   Mesh3 mesh = to_mesh(body);
   SMS::GarlandHeckbert_triangle_policies<Mesh3, Kernel> policies(mesh);
@@ -39,6 +39,8 @@ std::vector<Vec3> collapse(const Polytope& body, std::size_t triangle_count) {
     if (p.allFinite()) points.push_back(p);
   }
   return points;
+} catch (const CGAL::Failure_exception&) {
+  return {};
 }
 
 }  // namespace swiftlet::lod

@@ -70,6 +70,7 @@ class Collapser {
     const double worthwhile = std::max(kWorthwhile, options_.rate);
     if (double(target) > worthwhile * double(before)) return {{}, "the next level would have fewer triangles than the cutoff"};
     const std::vector<Vec3> points = collapse(simple_, target);
+    if (points.empty()) return {{}, "too thin for quadric errors"};
     const Hull shape = hull(points);
     if (shape.dimension < 3) return {{}, "the next level would be flat"};
     simple_ = solid(points, shape);

@@ -8,9 +8,13 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <ostream>
 #include <vector>
 
 namespace swiftlet::fuzz {
+
+void PrintTo(const Target& target, std::ostream* out) { *out << target.name; }  // not its bytes, which are addresses
+
 namespace {
 
 class Fuzz : public testing::TestWithParam<Target> {};
