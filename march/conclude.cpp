@@ -44,7 +44,8 @@ Conclusion from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule
     depth = meeting.depth;
     ++r.steps;
   }
-  const bool straightened = r.status == MarchStatus::Disjoint && straighten(scene, c, r.plane_tests);
+  const bool apart = r.status == MarchStatus::Disjoint || r.status == MarchStatus::Touching;
+  const bool straightened = apart && straighten(scene, c, r.plane_tests);
   if (progressed || straightened) {
     r.a = feature_of(scene.a, c.active, c.active.a);
     r.b = feature_of(scene.b, c.active, c.active.b);
