@@ -494,7 +494,7 @@ void others(const Options& options, const Field& field, const Shelf& shelf, Resu
   }
 }
 
-int usage() {
+void usage(std::FILE* out) {
   std::fputs(
       "swiftlet_bench [--quick | --all] [--only GROUP]... [--largest TRIANGLES] [--wrong] [--cache DIR] [--meshes DIR]\n"
       "               [--results DIR]\n"
@@ -503,8 +503,7 @@ int usage() {
       "--quick  1000 queries a round, three steps; --all adds 200000 triangles and peers in every cell\n"
       "--largest 200000  of the group triangles: beyond 20000 without --all\n"
       "--wrong  adds a method that is 1e-6 off: the table must flag it\n",
-      stderr);
-  return 2;
+      out);
 }
 
 std::optional<Options> parse(int argc, char** argv) {
@@ -556,6 +555,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace swiftlet::bench;
+  if (argc == 2 && std::strcmp(argv[1], "--help") == 0) return usage(stdout), 0;
   const std::optional<Options> options = parse(argc, argv);
-  return options ? run(*options) : usage();
+  return options ? run(*options) : (usage(stderr), 2);
 }
