@@ -26,7 +26,8 @@ struct Certificate {
   std::uint32_t support_a = 0, support_b = 0;  ///< vertices extreme along normal and -normal
 };
 
-/// Bounds from the features of `a` and `b`, any kinds but two faces. Cost: about 40 comparisons.
+/// Bounds from the features of `a` and `b`, any kinds but two faces. Cost: about 8 comparisons where the
+/// features' own neighbours prove them extreme, else a climb.
 Certificate certify(const Scene& scene, Handle a, Handle b, std::uint32_t& plane_tests);
 
 /// The vertex of A farthest along n, climbed from `start` by exact comparisons: no vertex is farther.
