@@ -9,7 +9,8 @@
 namespace swiftlet::bench {
 
 PlainResult plain(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, PlainSeed& seed, PlaneRule rule) {
-  const swiftlet::Scene pair = scene(a, b, motion(b_in_a), 0);
+  const Motion m = motion(b_in_a);
+  const swiftlet::Scene pair = scene(a, b, m, 0);
   const Handle first{FeatureKind::Vertex, 0};
   const Walk walked = walk(pair, seed.a == Handle{} ? first : seed.a, seed.b == Handle{} ? first : seed.b, rule, ~0u);
   const bool inside = walked.end == WalkEnd::Inside, stalled = walked.end == WalkEnd::Stalled || walked.end == WalkEnd::Budget;

@@ -3,6 +3,7 @@
 // Surfaces, finest first, to a Model: enclosure proved, deviations measured, links and tables filled [Ehmann & Lin 2000,
 // sec. 4.3].
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -25,7 +26,7 @@ struct Draft {
   double deviation = 0;
 };
 
-Scene alone(const ConvexView& view) { return scene(view, view, motion(Pose{}), 0); }
+Scene alone(const ConvexView& view) { return scene(view, view, kAtRest, 0); }
 
 /// A direction out of a face.
 Vec outward(const ConvexView& view, std::uint32_t face) {
@@ -184,7 +185,12 @@ LevelHeader level_header(const Draft& d) {
   header.face_count = std::uint32_t(s.face_first.size());
   header.plane_count = std::uint32_t(s.planes.size());
   std::size_t borders = 0;
-  for (std::uint32_t h = 0; h < s.head.size(); ++h) borders += !is_diagonal(view, h);
+  double length = 0;
+  for (std::uint32_t h = 0; h < s.head.size(); ++h) {
+    borders += !is_diagonal(view, h);
+    length += norm(vec(view.vertices[view.head[h]]) - vec(view.vertices[origin(view, h)]));
+  }
+  header.edge_length = s.head.empty() ? 0 : length / double(s.head.size());
   header.edge_count = borders / 2;
   header.triangle_count = s.dimension >= 2 ? 2 * s.vertices.size() - 4 : 0;
   header.extent = s.extent;
@@ -278,6 +284,8 @@ Result<Model> Model::from_levels(std::span<const LevelArrays> levels, const Mode
       !(options.table.radius_factor >= 1 && options.table.radius_factor <= 1e6)) {
     return Error{ErrorCode::BadValue, "the table's radius factor is not between 1 and 1e6"};
   }
+  if (options.table.map_side > kMaxMapSide || !(options.table.map_side == 0 || std::has_single_bit(options.table.map_side)))
+    return Error{ErrorCode::BadValue, "the support map's side is neither 0 nor a power of two up to 64"};
   std::vector<Draft> drafts;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const std::string name = levels.size() == 1 ? "" : "level " + std::to_string(i) + ": ";
@@ -309,6 +317,9 @@ Result<Model> Model::from_levels(std::span<const LevelArrays> levels, const Mode
   if (!sources) return sources.error();
   parts.header.source_face_count = sources.value();
   fill_table(parts, options.table, drafts[0].surface.vertices);
+  std::vector<std::span<const Vertex>> vertices;
+  for (const Draft& draft : drafts) vertices.push_back(draft.surface.vertices);
+  fill_maps(parts, options.table, vertices);
   return BlockReader::read(compose(parts));
 }
 

@@ -10,6 +10,7 @@
 #include <swiftlet/model_file.h>
 
 #include "ring.h"
+#include "support_map.h"
 #include "tolerance.h"
 
 namespace swiftlet {
@@ -147,6 +148,7 @@ AlignedBytes compose(const BlockParts& parts) {
     section = {offset, bytes.size(), hash_of(bytes)};
     offset += bytes.size();
   };
+  place(header.maps, parts.maps);
   for (std::size_t i = levels.size(); i-- > 0;) place(levels[i].section, parts.levels[i]);
   place(header.table, parts.table);
   place(header.source, parts.source);
@@ -155,7 +157,7 @@ AlignedBytes compose(const BlockParts& parts) {
   header.version = kModelFileVersion;
   header.level_count = std::uint32_t(levels.size());
   header.total_bytes = offset;
-  header.header_hash = header.reserved = 0;
+  header.header_hash = 0;
   AlignedBytes block(offset);
   const auto write = [&block](std::uint64_t at, const void* from, std::size_t bytes) {
     if (bytes != 0) std::memcpy(block.data() + at, from, bytes);
@@ -166,6 +168,7 @@ AlignedBytes compose(const BlockParts& parts) {
   write(0, &header, sizeof header);
   for (std::size_t i = 0; i < levels.size(); ++i)
     write(levels[i].section.offset, parts.levels[i].data(), parts.levels[i].size());
+  write(header.maps.offset, parts.maps.data(), parts.maps.size());
   write(header.table.offset, parts.table.data(), parts.table.size());
   write(header.source.offset, parts.source.data(), parts.source.size());
   return block;
@@ -217,6 +220,7 @@ Result<Model> BlockReader::read(AlignedBytes block) {
   };
   const int count = int(header.level_count);
   std::vector<std::span<const std::byte>> parts(header.level_count);
+  const auto maps_part = section(header.maps, "the support maps");
   for (int i = count - 1; i >= 0; --i) {
     const std::string name = "level " + std::to_string(i);
     if (level_headers[i].section.bytes != section_bytes(level_headers[i], i == 0, i == count - 1))
@@ -232,15 +236,21 @@ Result<Model> BlockReader::read(AlignedBytes block) {
                                header.box_max[0], header.box_max[1], header.box_max[2]});
   const bool near = std::all_of(header.centre, header.centre + 3, [](double c) { return std::fabs(c) <= kMostCoordinate; });
   if (!numbers || !near || header.resolution > 3 || header.dimension > 3 || !(header.radius_factor >= 1) ||
-      !(header.radius >= 0) || header.reserved != 0) {
+      !(header.radius >= 0) || header.map_side > kMaxMapSide || header.reserved != 0) {
     return bad("a number in the header is out of range");
   }
 
   auto body = std::make_shared<Model::Body>(Model::Body{std::move(block), header, {}, {}, {}});
+  std::uint64_t map_cells = 0;
+  for (const LevelHeader& l : level_headers) {
+    if (l.map_side > kMaxMapSide) return bad("a support map's side is out of range");
+    map_cells += lut::cube_cell_count(l.map_side);
+  }
+  if (maps_part.size() != 4 * map_cells) return bad("the support maps have the wrong size");
   for (int i = 0; i < count; ++i) {
     const LevelHeader& l = level_headers[i];
     const std::string name = "level " + std::to_string(i) + ": ";
-    if (!finite({l.deviation, l.volume}) || !(l.extent == 0 || (l.extent >= kLeastExtent && l.extent <= kMostCoordinate)) ||
+    if (!finite({l.deviation, l.volume, l.edge_length}) || l.reserved != 0 || !(l.extent == 0 || (l.extent >= kLeastExtent && l.extent <= kMostCoordinate)) ||
         !(l.deviation >= 0) || (i == 0 && l.deviation != 0))
       return bad(name + "a number is out of range");
     Cursor cursor(parts[i]);
@@ -254,6 +264,13 @@ Result<Model> BlockReader::read(AlignedBytes block) {
     if (i != 0) level.child_vertex = cursor.take<std::uint32_t>(l.vertex_count);
     if (i != 0) level.child_face = cursor.take<Handle>(l.face_count);
     if (i != count - 1) level.parent_face = cursor.take<std::uint32_t>(l.face_count);
+    map_cells -= lut::cube_cell_count(l.map_side);  // coarsest first
+    level.support_map = Cursor(maps_part.subspan(4 * map_cells)).take<std::uint32_t>(lut::cube_cell_count(l.map_side));
+    level.map_side = l.map_side;
+    for (const std::uint32_t entry : level.support_map) {
+      if (map_vertex(entry) >= l.vertex_count) return bad(name + "the support map names no vertex");
+    }
+    level.edge_length = l.edge_length;
     level.view.extent = l.extent;
     level.view.centre = Vec3(header.centre[0], header.centre[1], header.centre[2]);
     level.deviation = l.deviation;
@@ -290,7 +307,9 @@ Result<Model> BlockReader::read(AlignedBytes block) {
   if (begin.front() != 0 || begin.back() != header.source_face_count || !std::is_sorted(begin.begin(), begin.end()))
     return bad("the source map is out of order");
   const std::span<const Level> levels = body->levels;
-  return Model(std::move(body), levels);
+  int map_level = count;  // every level from the finest map on has one
+  while (map_level > 0 && levels[map_level - 1].map_side > 0) --map_level;
+  return Model(std::move(body), levels, map_level);
 }
 
 }  // namespace swiftlet

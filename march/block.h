@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The one block of memory that a model is, and that its file is. Layout, hashes and structural checks; no geometry.
 //
-//   BlockHeader | LevelHeader x level_count | coarsest level | ... | level 0 | table | source map
+//   BlockHeader | LevelHeader x level_count | support maps | coarsest level | ... | level 0 | table | source map
 //
 // Sections begin at multiples of 64 bytes. Little-endian, IEEE doubles. A level section holds, one after the other: Vertex[V],
 // FacePlane[P], then 32-bit words head[H] twin[H] face[H] face_first[F], child_vertex[V] child_face[F] (not on level 0),
-// parent_face[F] (not on the coarsest). The source section: vertex[V] face_begin[F + 1] face[...].
+// parent_face[F] (not on the coarsest). The maps: 6 map_side^2 words per level, coarsest first. The source section: vertex[V]
+// face_begin[F + 1] face[...].
 #pragma once
 
 #include <cstddef>
@@ -21,6 +22,7 @@
 namespace swiftlet {
 
 inline constexpr int kMaxLevels = 32;
+inline constexpr std::uint32_t kMaxMapSide = 64;
 inline constexpr std::uint32_t kMaxIndex = (1u << 30) - 1;  ///< what a Handle names
 
 struct Section {
@@ -34,19 +36,21 @@ struct BlockHeader {
   std::uint32_t dimension, resolution;
   double radius_factor;
   double centre[3], radius, box_min[3], box_max[3];
-  Section table, source;
+  Section maps, table, source;
   std::uint64_t source_face_count;
-  std::uint64_t reserved;  ///< 0
+  std::uint32_t map_side;  ///< TableSpec::map_side
+  std::uint32_t reserved;  ///< 0
 };
-static_assert(sizeof(BlockHeader) == 192);
+static_assert(sizeof(BlockHeader) == 216);
 
 struct LevelHeader {
   Section section;
   std::uint32_t vertex_count, half_edge_count, face_count, plane_count;
   std::uint64_t edge_count, triangle_count;
-  double extent, deviation, volume;
+  double extent, deviation, volume, edge_length;
+  std::uint32_t map_side, reserved;  ///< 0
 };
-static_assert(sizeof(LevelHeader) == 80);
+static_assert(sizeof(LevelHeader) == 96);
 
 /// Bytes at a multiple of 64.
 class AlignedBytes {
@@ -79,7 +83,7 @@ struct BlockParts {
   BlockHeader header{};                    ///< sizes, offsets and hashes are filled in by compose
   std::vector<LevelHeader> level_headers;  ///< finest first
   std::vector<std::vector<std::byte>> levels;
-  std::vector<std::byte> table, source;
+  std::vector<std::byte> maps, table, source;
 };
 AlignedBytes compose(const BlockParts& parts);
 

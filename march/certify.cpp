@@ -5,6 +5,7 @@
 #include "certify.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "double_double.h"
@@ -14,93 +15,80 @@
 namespace swiftlet {
 namespace {
 
-struct Segment {
-  std::uint32_t tail, head;
-  Vec p, u;
+double clamped(double x) { return x > 0 ? x < 1 ? x : 1.0 : 0.0; }
+
+/// A convex combination of vertices of one body, those with weights first.
+struct Combination {
+  std::array<std::uint32_t, 3> vertex;
+  std::array<double, 3> weight;
 };
-template <class P>
-Segment segment(const P& body, std::uint32_t h) {
-  const std::uint32_t tail = origin(body.view, h), head = body.view.head[h];
-  return {tail, head, body.point(tail), body.turned(body.own(head) - body.own(tail))};
+Combination only(std::uint32_t v) { return {{v, v, v}, {1, 0, 0}}; }
+Combination between(std::uint32_t tail, std::uint32_t head, double t) {
+  if (t == 0) return only(tail);
+  if (t == 1) return only(head);
+  return {{tail, head, head}, {1 - t, t, 0}};
 }
 
-double clamped(double x) { return x > 0 ? x < 1 ? x : 1.0 : 0.0; }
+template <class P>
+Vec point(const P& body, const Combination& c) {
+  Vec p = body.own(c.vertex[0]) * c.weight[0];
+  if (c.weight[1] != 0) p = p + body.own(c.vertex[1]) * c.weight[1];
+  if (c.weight[2] != 0) p = p + body.own(c.vertex[2]) * c.weight[2];
+  return body.common(p);
+}
 
 /// A direction and the points it comes from, with the roles of `certify`'s states already sorted out.
 struct Witness {
-  Vec normal;  ///< from the first body to the second, any length
-  ActiveSet active;
+  Vec normal;  ///< from the first body to the second, common frame, any length
+  Combination first, second;
 };
-Witness swapped(Witness w) {
-  w.normal = -w.normal;
-  std::swap(w.active.a, w.active.b);
-  return w;
-}
+Witness swapped(const Witness& w) { return {-w.normal, w.second, w.first}; }
 
 template <class P, class Q>
 Witness vertex_vertex(const P& a, std::uint32_t va, const Q& b, std::uint32_t vb) {
-  return {b.point(vb) - a.point(va), {1, {va}, {vb}, {1}}};
+  return {b.point(vb) - a.point(va), only(va), only(vb)};
 }
 
 template <class P, class Q>
 Witness vertex_edge(const P& a, std::uint32_t va, const Q& b, std::uint32_t h) {
-  const Segment e = segment(b, h);
-  const Vec p = a.point(va);
-  const double uu = dot(e.u, e.u), t = clamped(dot(p - e.p, e.u) / uu);
-  const Vec d = e.p + e.u * t - p;
-  return {t > 0 && t < 1 ? d - e.u * (dot(d, e.u) / uu) : d, {2, {va, va}, {e.tail, e.head}, {1 - t, t}}};
+  const std::uint32_t tail = origin(b.view, h), head = b.view.head[h];
+  const Vec q = b.point(tail), u = b.turned(b.own(head) - b.own(tail)), r = q - a.point(va);
+  const double uu = dot(u, u), t = clamped(-dot(r, u) / uu);
+  const Vec d = r + u * t;
+  return {t > 0 && t < 1 ? d - u * (dot(d, u) / uu) : d, only(va), between(tail, head, t)};
 }
 
 template <class P, class Q>
 Witness edge_edge(const P& a, std::uint32_t ha, const Q& b, std::uint32_t hb) {
-  const Segment e = segment(a, ha), f = segment(b, hb);
-  const Vec r = e.p - f.p;
-  const double uu = dot(e.u, e.u), vv = dot(f.u, f.u), uv = dot(e.u, f.u), ur = dot(e.u, r), vr = dot(f.u, r);
-  const Vec n = cross(e.u, f.u);
+  const std::uint32_t a0 = origin(a.view, ha), a1 = a.view.head[ha], b0 = origin(b.view, hb), b1 = b.view.head[hb];
+  const Vec u = a.turned(a.own(a1) - a.own(a0)), v = b.turned(b.own(b1) - b.own(b0)), r = a.point(a0) - b.point(b0);
+  const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), ur = dot(u, r), vr = dot(v, r);
+  const Vec n = cross(u, v);
   const double area2 = dot(n, n);
   double s = area2 > 0 ? clamped((uv * vr - ur * vv) / area2) : 0.0;
   const double t = clamped((uv * s + vr) / vv);
   s = clamped((uv * t - ur) / uu);
-  const Vec d = f.p + f.u * t - (e.p + e.u * s);
-  // Four vertex pairs of a parallelogram; the weights of the transport that fills them in order.
-  ActiveSet active;
-  const auto add = [&](std::uint32_t va, std::uint32_t vb, double weight) {
-    if (weight > 0) active.a[active.count] = va, active.b[active.count] = vb, active.weight[active.count++] = weight;
-  };
-  add(e.tail, f.tail, smaller(1 - s, 1 - t));
-  if (s <= t)
-    add(e.tail, f.head, t - s);
-  else
-    add(e.head, f.tail, s - t);
-  add(e.head, f.head, smaller(s, t));
+  const Vec d = v * t - (r + u * s);
   // Edges within the rounding of parallel have no cross product worth the name.
-  if (!(area2 > kU * uu * vv)) return {d - e.u * (dot(d, e.u) / uu), active};
-  return {dot(n, d) < 0 ? -n : n, active};
+  const Vec normal = !(area2 > kU * uu * vv) ? d - u * (dot(d, u) / uu) : dot(n, d) < 0 ? -n : n;
+  return {normal, between(a0, a1, s), between(b0, b1, t)};
 }
 
 template <class P, class Q>
 Witness vertex_face(const P& a, std::uint32_t va, const Q& b, std::uint32_t f) {
-  const Vec p = a.point(va);
   const std::uint32_t first = b.view.face_first[f], root = origin(b.view, first);
-  const Vec q0 = b.point(root);
-  Vec n{0, 0, 0};
-  if (f < b.view.planes.size()) n = b.turned({b.view.planes[f].x, b.view.planes[f].y, b.view.planes[f].z});
-  const auto own = [&](std::uint32_t v) { return b.own(v) - b.own(root); };
-  // The triangle of the fan about the root that holds the projection of p; failing that, the last one.
-  std::uint32_t h = next_in_face(b.view, first), v1 = b.view.head[first];
-  for (;;) {
-    const std::uint32_t v2 = b.view.head[h], next = next_in_face(b.view, h);
-    const Vec q1 = b.point(v1), q2 = b.point(v2);
-    if (f >= b.view.planes.size()) n = b.turned(cross(own(v1), own(v2)));
-    const double w0 = dot(n, cross(q1 - p, q2 - p)), w1 = dot(n, cross(q2 - p, q0 - p)), w2 = dot(n, cross(q0 - p, q1 - p));
-    const bool last = b.view.head[next] == root;
-    if ((w2 >= 0 && w1 >= 0) || last) {
+  const Vec q0 = b.own(root), r = b.local(a.point(va)) - q0;
+  // The triangle of the fan about the root that holds the projection of the vertex; failing that, the last one.
+  for (std::uint32_t v1 = b.view.head[first], h = next_in_face(b.view, first);; v1 = b.view.head[h], h = next_in_face(b.view, h)) {
+    const std::uint32_t v2 = b.view.head[h];
+    const Vec u = b.own(v1) - q0, v = b.own(v2) - q0, area = cross(u, v);
+    const Vec n = f < b.view.planes.size() ? Vec{b.view.planes[f].x, b.view.planes[f].y, b.view.planes[f].z} : area;
+    const double w1 = dot(n, cross(r, v)), w2 = dot(n, cross(u, r)), w0 = dot(n, area) - w1 - w2;
+    if ((w2 >= 0 && w1 >= 0) || b.view.head[next_in_face(b.view, h)] == root) {
       const double c0 = larger(w0, 0), c1 = larger(w1, 0), c2 = larger(w2, 0), sum = c0 + c1 + c2;
-      if (!(sum > 0)) return {-n, {1, {va}, {root}, {1}}};
-      return {-n, {3, {va, va, va}, {root, v1, v2}, {c0 / sum, c1 / sum, c2 / sum}}};
+      if (!(sum > 0)) return {-b.turned(n), only(va), only(root)};
+      return {-b.turned(n), only(va), {{root, v1, v2}, {c0 / sum, c1 / sum, c2 / sum}}};
     }
-    v1 = v2;
-    h = next;
   }
 }
 
@@ -114,6 +102,22 @@ Witness witness(const A& a, Handle fa, const B& b, Handle fb) {
   if (fa.kind() == Edge) return swapped(vertex_edge(b, j, a, i));
   if (fb.kind() == Edge) return vertex_edge(a, i, b, j);
   return vertex_vertex(a, i, b, j);
+}
+
+/// Vertex pairs that have both combinations as their own: the transport that fills one from the other in order. At most
+/// four, for one of them has at most two vertices.
+ActiveSet pairs(const Combination& a, const Combination& b) {
+  ActiveSet set;
+  std::size_t i = 0, j = 0;
+  double rest_a = a.weight[0], rest_b = b.weight[0];
+  while (i < 3 && j < 3) {
+    const double weight = smaller(rest_a, rest_b);
+    if (weight > 0) set.a[set.count] = a.vertex[i], set.b[set.count] = b.vertex[j], set.weight[set.count++] = weight;
+    rest_a -= weight, rest_b -= weight;
+    if (rest_a <= 0 && ++i < 3) rest_a = a.weight[i];
+    if (rest_b <= 0 && ++j < 3) rest_b = b.weight[j];
+  }
+  return set;
 }
 
 double sum_abs(const Vec& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
@@ -192,6 +196,8 @@ struct Slope {
 Slope slope_a(const Vec& n) { return {n, 0}; }
 Slope slope_b(const Scene& scene, const Vec& n) { return {-body_b(scene).into(n), kTurnedError}; }
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// A vertex that no other of its body exceeds by more than `slack`.
 struct Extreme {
   std::uint32_t vertex = 0;
@@ -203,8 +209,8 @@ double reach(const ConvexView& view) { return 2 * kSqrt3 * view.extent; }
 
 /// How far the body may stand above a feature along a slope, where the features beside it tell: the body is exactly convex. Its
 /// neighbours must be below for certain; what is level with it only up to rounding, an edge or a triangle, leaves a tilt.
-/// Nothing where doubles do not tell, or the face has more than three vertices.
-std::optional<double> overhang(const ConvexView& view, Handle feature, const Slope& slope, std::uint32_t& plane_tests) {
+/// Infinite where doubles do not tell, or the face has more than three vertices.
+double overhang(const ConvexView& view, Handle feature, const Slope& slope, std::uint32_t& plane_tests) {
   const double error = kDotError + kSqrt3 * slope.turn_error, far = reach(view);
   const std::uint32_t i = feature.index();
   switch (feature.kind()) {
@@ -212,33 +218,32 @@ std::optional<double> overhang(const ConvexView& view, Handle feature, const Slo
       const Vertex& record = view.vertices[i];
       const Vec p = vec(record);
       plane_tests += record.ring_count;
+      double highest = -kInfinity;
       for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
-        if (!(slope.along(vec(view.vertices[view.head[h]]) - p) < -error * far)) return std::nullopt;
+        highest = larger(highest, slope.along(vec(view.vertices[view.head[h]]) - p));
       }
-      return 0.0;
+      return highest < -error * far ? 0.0 : kInfinity;
     }
     case FeatureKind::Edge: {
       const Vertex& tail = view.vertices[origin(view, i)];
       const Vec p = vec(tail), u = vec(view.vertices[view.head[i]]) - p;
-      if (tail.ring_count < 2) return std::nullopt;  // a segment
+      if (tail.ring_count < 2) return kInfinity;  // a segment
       const double overhang = (std::fabs(slope.along(u)) / norm(u) + error) * far;
       plane_tests += 2;
-      for (const std::uint32_t beside : {counter_clockwise(tail, i), clockwise(tail, i)}) {
-        const Vec r = vec(view.vertices[view.head[beside]]) - p;
-        if (!(slope.along(r) < -(overhang + error * far))) return std::nullopt;
-      }
-      return overhang;
+      const double left = slope.along(vec(view.vertices[view.head[counter_clockwise(tail, i)]]) - p),
+                   right = slope.along(vec(view.vertices[view.head[clockwise(tail, i)]]) - p);
+      return larger(left, right) < -(overhang + error * far) ? overhang : kInfinity;
     }
     case FeatureKind::Face: {
-      if (i < view.planes.size()) return std::nullopt;
+      if (i < view.planes.size()) return kInfinity;
       const std::uint32_t h = view.face_first[i];
       const Vec p = vec(view.vertices[origin(view, h)]), e = vec(view.vertices[view.head[h]]) - p,
                 f = vec(view.vertices[view.head[next_in_facet(view, h)]]) - p, n = cross(e, f);
       const double area = norm(n);
       const Vec tilt = slope.own - n * (1 / area);
-      return (norm(tilt) + kCrossError * norm(e) * norm(f) / area + error) * far;
+      return (norm(tilt) + kCrossError * std::sqrt(dot(e, e) * dot(f, f)) / area + error) * far;
     }
-    default: return std::nullopt;
+    default: return kInfinity;
   }
 }
 
@@ -311,10 +316,13 @@ std::uint32_t support_b(const Scene& scene, const Vec& n, std::uint32_t start, s
   return climb(scene.b, start, Ordering(n, scene.b_in_a), -1, plane_tests);
 }
 
-double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack) {
-  const Vec c = body_b(scene).point(vb) - body_a(scene).point(va);
+double gap(const Scene& scene, const Vec& n, const Vec& c, double slack) {
   const double products = std::fabs(n.x * c.x) + std::fabs(n.y * c.y) + std::fabs(n.z * c.z);
   return dot(n, c) - (kGapError * products + scene.motion_error + slack);
+}
+
+double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack) {
+  return gap(scene, n, body_b(scene).point(vb) - body_a(scene).point(va), slack);
 }
 
 double apart(const Scene& scene, std::uint32_t va, std::uint32_t vb) {
@@ -334,13 +342,11 @@ Certificate certify(const Scene& scene, Handle a, Handle b, std::uint32_t& plane
   const Moved other = body_b(scene);
   const Witness found = witness(body, a, other, b);
   Certificate c;
-  c.active = found.active;
-  for (int k = 0; k < c.active.count; ++k) {
-    c.point_a = c.point_a + body.point(c.active.a[k]) * c.active.weight[k];
-    c.point_b = c.point_b + other.point(c.active.b[k]) * c.active.weight[k];
-  }
+  c.point_a = point(body, found.first);
+  c.point_b = point(other, found.second);
   c.upper = norm(c.point_b - c.point_a) * (1 + kNormError) + scene.point_error;
   c.normal = normalised(found.normal);
+  c.active = pairs(found.first, found.second);
   const auto proved = [&](std::uint32_t va, std::uint32_t vb, double lower) {
     c.support_a = va;
     c.support_b = vb;
@@ -348,14 +354,13 @@ Certificate certify(const Scene& scene, Handle a, Handle b, std::uint32_t& plane
     return c.upper - c.lower <= scene.law_two;
   };
   // Ever dearer: what stands beside the features, what is as high as doubles can tell, exact order.
-  if (const auto over_a = overhang(scene.a, a, slope_a(c.normal), plane_tests)) {
-    const auto over_b = overhang(scene.b, b, slope_b(scene, c.normal), plane_tests);
-    if (over_b && proved(any_vertex(scene.a, a), any_vertex(scene.b, b),
-                         gap(scene, c.normal, any_vertex(scene.a, a), any_vertex(scene.b, b), *over_a + *over_b))) {
-      return c;
-    }
+  const std::uint32_t any_a = found.first.vertex[0], any_b = found.second.vertex[0];
+  const double over_a = overhang(scene.a, a, slope_a(c.normal), plane_tests);
+  if (over_a < kInfinity) {
+    const double over_b = overhang(scene.b, b, slope_b(scene, c.normal), plane_tests);
+    if (over_b < kInfinity && proved(any_a, any_b, gap(scene, c.normal, any_a, any_b, over_a + over_b))) return c;
   }
-  const Supports near = supports(scene, c.normal, c.active.a[0], c.active.b[0], plane_tests);
+  const Supports near = supports(scene, c.normal, any_a, any_b, plane_tests);
   if (proved(near.a, near.b, near.lower)) return c;
   const std::uint32_t va = support_a(scene, c.normal, near.a, plane_tests);
   const std::uint32_t vb = support_b(scene, c.normal, near.b, plane_tests);

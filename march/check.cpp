@@ -8,6 +8,7 @@
 #include "double_double.h"
 #include "exact.h"
 #include "scene.h"
+#include "support_map.h"
 #include "surface.h"
 #include "tolerance.h"
 
@@ -43,6 +44,29 @@ bool holds(const ConvexView& view, const Vec& p, double slack) {
     inside = inside && double(dot(n, wide(p) - o)) <= slack * norm({double(n.x), double(n.y), double(n.z)});
   });
   return inside;
+}
+
+/// The cell of a level's support map that promises too much, or kNone: over a cell the heights above its vertex are highest at
+/// a corner.
+std::uint32_t map_fault(const Level& level) {
+  const std::uint32_t side = level.map_side;
+  std::vector<double> heights((side + 1) * (side + 1));  // of the body, at the corners of one face's cells
+  for (std::uint32_t cell = 0; cell < lut::cube_cell_count(side); ++cell) {
+    const std::uint32_t face = cell / (side * side), row = cell / side % side, column = cell % side;
+    for (const std::uint32_t corner : {0, 1, 2, 3}) {
+      const std::array<double, 3> d = lut::cube_point(side, face, 2 * (column + corner % 2), 2 * (row + corner / 2));
+      const Vec n{d[0], d[1], d[2]};
+      double& most = heights[(row + corner / 2) * (side + 1) + column + corner % 2];
+      if (corner == 3 || row == 0 || column == 0) {
+        most = dot(n, vec(level.view.vertices[0]));
+        for (const Vertex& v : level.view.vertices) most = larger(most, dot(n, vec(v)));
+      }
+      const std::uint32_t entry = level.support_map[cell];
+      const double excess = most - dot(n, vec(level.view.vertices[map_vertex(entry)]));
+      if (!(excess <= (map_excess(entry) + kMapError) * level.view.extent)) return cell;
+    }
+  }
+  return kNone;
 }
 
 }  // namespace
@@ -143,6 +167,8 @@ Check verify(const Model& model) {
     if (!surface) return {false, "level " + std::to_string(i) + ": " + surface.error().message};
     if (surface.value().vertices.size() != view.vertices.size())
       return failed("level %d: a vertex is no corner of the hull", i);
+    if (const std::uint32_t cell = map_fault(level); cell != kNone)
+      return failed("level %d: its support map is wrong in cell %u", i, unsigned(cell));
     if (i == 0) continue;
     if (vertex_outside(exact_hull, view) != kNone) return failed("level %d does not enclose level 0", i);
     MarchStart start;

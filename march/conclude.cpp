@@ -16,13 +16,8 @@ MarchStatus status_of(const Scene& scene, const Goal& goal, const Certificate& c
   return c.lower > 0 ? MarchStatus::Disjoint : MarchStatus::Near;
 }
 
-struct Conclusion {
-  MarchResult result;
-  bool doubtful;  ///< so near a threshold that another start might prove another verdict
-};
-
-Conclusion from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule) {
-  MarchResult r;
+/// Fills `r`; true where it is so near a threshold that another start might prove another verdict.
+bool from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule, MarchResult& r) {
   r.steps = walk.steps;
   r.plane_tests = walk.plane_tests;
   r.a = walk.a;
@@ -45,7 +40,7 @@ Conclusion from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule
     ++r.steps;
   }
   const bool apart = r.status == MarchStatus::Disjoint || r.status == MarchStatus::Touching;
-  const bool straightened = apart && straighten(scene, c, r.plane_tests);
+  const bool straightened = apart && leans(scene, c) && straighten(scene, c, r.plane_tests);
   if (progressed || straightened) {
     r.a = feature_of(scene.a, c.active, c.active.a);
     r.b = feature_of(scene.b, c.active, c.active.b);
@@ -59,24 +54,28 @@ Conclusion from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule
     return r.lower - scene.law_two <= threshold && threshold <= r.upper + scene.law_two;
   };
   const bool deep = r.status == MarchStatus::Overlapping && depth > scene.law_two;
-  return {r, r.upper - r.lower <= 2 * scene.law_two && !deep && (near(0) || near(rule.beyond))};
+  return r.upper - r.lower <= 2 * scene.law_two && !deep && (near(0) || near(rule.beyond));
+}
+
+/// Within rounding of a threshold all starts take one and the same way: that of the cold one.
+void from_nothing(const Scene& scene, const MarchRule& rule, MarchResult& r) {
+  std::uint32_t climbs = 0;
+  const MarchStart cold = settled(scene, {}, climbs);
+  const Walk cold_walk = walk(scene, cold.a, cold.b, PlaneRule::MostViolated, rule.step_budget - r.steps);
+  if (cold_walk.end == WalkEnd::Budget) return;
+  MarchResult same;
+  from_walk(scene, cold_walk, rule, same);
+  same.steps += r.steps;
+  same.plane_tests += r.plane_tests + climbs;
+  r = same;
 }
 
 }  // namespace
 
-MarchResult conclude(const Scene& scene, const Walk& walk_here, const MarchRule& rule) {
-  Conclusion here = from_walk(scene, walk_here, rule);
-  if (!here.doubtful || here.result.steps >= rule.step_budget) return here.result;
-  // Within rounding of a threshold all starts take one and the same way: that of the cold one.
-  std::uint32_t climbs = 0;
-  const MarchStart cold = settled(scene, {}, climbs);
-  const std::uint32_t left = rule.step_budget - here.result.steps;
-  const Walk cold_walk = walk(scene, cold.a, cold.b, PlaneRule::MostViolated, left);
-  if (cold_walk.end == WalkEnd::Budget) return here.result;
-  MarchResult same = from_walk(scene, cold_walk, rule).result;
-  same.steps += here.result.steps;
-  same.plane_tests += here.result.plane_tests + climbs;
-  return same;
+MarchResult conclude(const Scene& scene, const Walk& walk, const MarchRule& rule) {
+  MarchResult r;
+  if (from_walk(scene, walk, rule, r) && r.steps < rule.step_budget) from_nothing(scene, rule, r);
+  return r;
 }
 
 }  // namespace swiftlet

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "aim.h"
 #include "certify.h"
 #include "conclude.h"
+#include "progress.h"
 #include "seed.h"
 #include "walk.h"
 
@@ -16,7 +18,8 @@ namespace {
 
 class Descent {
  public:
-  Descent(const Model& a, const Model& b, const Motion& m, double pose_error, const QueryOptions& options, const Target& target)
+  Descent(const Model& a, const Model& b, const Motion& m, double pose_error, const QueryOptions& options, const Target& target,
+          Answer& answer)
       : a_(a),
         b_(b),
         motion_(m),
@@ -25,40 +28,35 @@ class Descent {
         stretch_(std::sqrt(1 + 3 * pose_error)),
         options_(options),
         target_(target),
-        law_two_(scene(a.level(0).view, b.level(0).view, m, pose_error).law_two),
+        shift_(norm(m.t)),
+        law_two_(law_two(a.level(0).view, b.level(0).view, shift_, pose_error)),
         finest_a_(std::clamp(options.finest_level, 0, a.level_count() - 1)),
-        finest_b_(std::clamp(options.finest_level, 0, b.level_count() - 1)) {}
+        finest_b_(std::clamp(options.finest_level, 0, b.level_count() - 1)),
+        may_aim_(options.start == StartPolicy::Automatic && a.map_level() < a.level_count() && b.map_level() < b.level_count()),
+        exact_(target.absolute == 0 && target.relative == 0 && options.start != StartPolicy::Paper && !is_threshold()),
+        answer_(answer) {}
 
-  Answer run(PairSeed& seed) {
+  void run(PairSeed& seed) {
     Place place = first_place(a_, b_, line_, seed, options_);
-    for (;;) {
-      const Scene pair = scene(a_.level(place.level_a).view, b_.level(place.level_b).view, motion_, pose_error_);
-      const bool last = place.level_a == finest_a_ && place.level_b == finest_b_;
-      const std::uint32_t steps_before = answer_.steps, tests_before = answer_.plane_tests;
-      met_ = MarchStatus::NotConverged;
-      MarchStart found =
-          last && max_abs(place.direction) > 0 ? enter(pair, place) : settled(pair, place.start, answer_.plane_tests);
-      if (!last || !answered()) {
-        const std::uint32_t left = steps_left();
-        const Walk walked = walk(pair, found.a, found.b, options_.plane_rule, std::min(left, place.trial_steps));
-        answer_.steps += walked.steps;
-        answer_.plane_tests += walked.plane_tests;
-        spent_ = walked.end == WalkEnd::Budget && answer_.steps >= options_.step_budget;
-        if (walked.end == WalkEnd::Budget && !spent_) {
-          record(place, steps_before, tests_before);
-          place = coarsest_place(a_, b_);
-          continue;
-        }
-        remember_coarsest(place, walked, seed);
-        found = last || spent_ || may_answer(place, walked) ? bound(pair, place, walked) : MarchStart{walked.a, walked.b};
+    const bool warm = is_warm(place.start) && !(may_aim_ && is_threshold());
+    if (!(warm && march(place, may_aim_))) {
+      if (may_aim_ && aim(place)) {
+        if (!is_threshold()) store(place, seed);  // else what the seed knows is better
+        return finish(place);
       }
-      record(place, steps_before, tests_before);
-      if (last || spent_ || answered()) return finish(place, found, seed);
-      place = refined(place, found);
+      march(place, false);
     }
+    store(place, seed);
+    finish(place);
   }
 
  private:
+  bool is_threshold() const { return target_.clear_above < std::numeric_limits<double>::infinity(); }
+  static bool is_warm(const MarchStart& start) { return start.a.kind() != FeatureKind::None; }
+  bool finest(const Place& place) const { return place.level_a == finest_a_ && place.level_b == finest_b_; }
+  Scene scene_at(const Place& place) const {
+    return scene(a_.level(place.level_a).view, b_.level(place.level_b).view, motion_, shift_, pose_error_);
+  }
   double deviation(int level_a, int level_b) const {
     return a_.level(level_a).deviation + stretch_ * b_.level(level_b).deviation;
   }
@@ -69,6 +67,97 @@ class Descent {
   bool answered() const {
     return narrow(answer_.lower, answer_.upper - answer_.lower) || answer_.lower > target_.clear_above + law_two_ ||
            answer_.upper < target_.hit_below - law_two_;
+  }
+
+  /// Looks along support maps, on the coarsest pair that might answer and on finer ones. Whether that answers; else `place`
+  /// becomes where to walk from. Each pair is looked at afresh, so that a looser tolerance only stops earlier.
+  bool aim(Place& place) {
+    const int least_a = std::max(a_.map_level(), finest_a_), least_b = std::max(b_.map_level(), finest_b_);
+    place = coarsest_place(a_, b_);
+    // The bodies are no farther apart than their centres: a pair that deviates by more than that allows cannot answer.
+    // About their centres they may touch: a coarse pair hardly tells that they do not.
+    const double most = norm(line_.in_a), close = a_.radius() + b_.radius() + target_.clear_above;
+    const auto too_coarse = [&] {
+      return is_threshold() ? most <= close : !narrow(most, deviation(place.level_a, place.level_b));
+    };
+    const auto last = [&] { return place.level_a == least_a && place.level_b == least_b; };
+    const auto refine = [&] {
+      place = {std::max(place.level_a - 1, least_a), std::max(place.level_b - 1, least_b), {}};
+    };
+    if (exact_)
+      place = {least_a, least_b, {}};
+    else
+      while (!last() && too_coarse()) refine();
+    for (;;) {
+      const Scene pair = scene_at(place);
+      const auto take = [&](const Sight& s) {
+        place.start = {{FeatureKind::Vertex, s.a}, {FeatureKind::Vertex, s.b}};
+        carry(place, {std::max(0.0, s.lower), s.upper, s.normal, s.point_a, s.point_b}, pair.law_two);
+      };
+      const Sight sight = look(pair, a_.level(place.level_a), b_.level(place.level_b), line_.in_a, [&](const Sight& s) {
+        if (exact_) return false;
+        take(s);
+        return answered();
+      });
+      take(sight);
+      if (answered() || (sight.meets && overlap(place, sight))) return record(place), true;
+      if (finest(place)) return false;  // a walk on the same pair follows
+      record(place);
+      if (last()) return place = refined(place), false;
+      refine();
+    }
+  }
+
+  /// Whether the vertices that seem to meet prove that the exact hulls do: their descendants on level 0.
+  bool overlap(Place& place, const Sight& sight) {
+    OverlapProof proof = sight.proof;
+    if (finest_a_ != 0 || finest_b_ != 0) return false;
+    for (std::size_t k = 0; k < proof.count; ++k) {
+      proof.vertex_a[k] = descendant(a_, place.level_a, proof.vertex_a[k]);
+      proof.vertex_b[k] = descendant(b_, place.level_b, proof.vertex_b[k]);
+    }
+    const Place exact{0, 0, {}};
+    const Scene pair = scene_at(exact);
+    if (!proves_deep_overlap(pair, proof)) return false;
+    met_ = MarchStatus::Overlapping;
+    place = exact;
+    answer_.lower = 0;
+    answer_.upper = std::numeric_limits<double>::infinity();
+    const Vec p = body_a(pair).point(proof.vertex_a[0]), q = body_b(pair).point(proof.vertex_b[0]);
+    carry(place, {0, 0, sight.normal, p, q, proof}, pair.law_two);
+    return true;
+  }
+
+  /// Walks and certifies from level pair to finer level pair until the question is answered; false when the start turned out to
+  /// be worse than none, and `may_give_up`.
+  bool march(Place& place, bool may_give_up) {
+    for (;;) {
+      const Scene pair = scene_at(place);
+      const bool last = finest(place);
+      met_ = MarchStatus::NotConverged;
+      place.start = last && max_abs(place.direction) > 0 ? enter(pair, place) : settled(pair, place.start, answer_.plane_tests);
+      if (!last || !answered()) {
+        const std::uint32_t left = steps_left();
+        const Walk walked =
+            walk(pair, place.start.a, place.start.b, options_.plane_rule, std::min(left, place.trial_steps));
+        answer_.steps += walked.steps;
+        answer_.plane_tests += walked.plane_tests;
+        spent_ = walked.end == WalkEnd::Budget && answer_.steps >= options_.step_budget;
+        const bool lost = walked.end == WalkEnd::Budget && !spent_;
+        if (lost || (may_give_up && walked.end == WalkEnd::Inside)) {
+          record(place);
+          if (may_give_up) return false;
+          place = coarsest_place(a_, b_);
+          continue;
+        }
+        place.start = {walked.a, walked.b};
+        if (place.level_a + 1 == a_.level_count() && place.level_b + 1 == b_.level_count()) coarsest_ = place.start;
+        if (last || spent_ || may_answer(place, walked)) bound(pair, place, walked);
+      }
+      record(place);
+      if (last || spent_ || answered()) return true;
+      place = refined(place);
+    }
   }
 
   /// Whether a certificate is wanted on the way down. Of bodies apart always, whatever the tolerance, so that a looser one
@@ -85,45 +174,48 @@ class Descent {
     const Vec& n = place.direction;
     const auto [va, vb, lower] =
         supports(pair, n, any_vertex(pair.a, place.start.a), any_vertex(pair.b, place.start.b), answer_.plane_tests);
-    MarchResult r;
-    r.a = {FeatureKind::Vertex, va};
-    r.b = {FeatureKind::Vertex, vb};
-    r.lower = std::max(0.0, lower);
-    r.upper = apart(pair, va, vb);
-    r.normal = eigen(n);
-    r.point_a = eigen(body_a(pair).point(va));
-    r.point_b = eigen(body_b(pair).point(vb));
-    carry(place, r, pair.law_two);
     const auto better = [](const ConvexView& view, Handle child, std::uint32_t v) {
       return any_vertex(view, child) == v ? child : Handle{FeatureKind::Vertex, v};
     };
-    return {better(pair.a, place.start.a, va), better(pair.b, place.start.b, vb)};
+    const MarchStart start{better(pair.a, place.start.a, va), better(pair.b, place.start.b, vb)};
+    const Vec p = body_a(pair).point(va), q = body_b(pair).point(vb);
+    Place at = place;
+    at.start = {{FeatureKind::Vertex, va}, {FeatureKind::Vertex, vb}};
+    carry(at, {std::max(0.0, lower), apart(pair, va, vb), n, p, q}, pair.law_two);
+    return start;
   }
+
+  /// What a level pair says of its own distance, between the features of its place.
+  struct Bounds {
+    double lower, upper;
+    Vec normal, point_a, point_b;
+    OverlapProof proof{};
+  };
 
   /// Takes over the bounds of a pair where they are better: the plane with lower; points, levels and features with upper. A
   /// finer pair's replace a coarser one's that are better by no more than rounding, so that plane and points belong together.
-  void carry(const Place& place, const MarchResult& r, double rounding) {
-    if (r.lower >= answer_.lower - rounding) {
-      answer_.lower = r.lower;
-      answer_.normal = r.normal;
+  void carry(const Place& place, const Bounds& of, double rounding) {
+    if (of.lower >= answer_.lower - rounding) {
+      answer_.lower = of.lower;
+      answer_.normal = eigen(of.normal);
     }
     const double error = deviation(place.level_a, place.level_b);
-    const double upper = error > 0 ? (r.upper + error) * (1 + 2 * kU) : r.upper;
+    const double upper = error > 0 ? (of.upper + error) * (1 + 2 * kU) : of.upper;
     if (upper <= answer_.upper + rounding) {
       answer_.upper = upper;
-      answer_.point_a = r.point_a;
-      answer_.point_b = r.point_b;
+      answer_.point_a = eigen(of.point_a);
+      answer_.point_b = eigen(of.point_b);
       answer_.level_a = place.level_a;
       answer_.level_b = place.level_b;
-      answer_.feature_a = r.a;
-      answer_.feature_b = r.b;
-      answer_.proof = r.proof;
+      answer_.feature_a = place.start.a;
+      answer_.feature_b = place.start.b;
+      answer_.proof = of.proof;
     }
     answer_.upper = std::max(answer_.upper, answer_.lower);
   }
 
-  /// Certifies a walk, carries the better bounds, and says which features it ended on.
-  MarchStart bound(const Scene& pair, const Place& place, const Walk& walked) {
+  /// Certifies a walk and carries the better bounds; the place's features become those it ended on.
+  void bound(const Scene& pair, Place& place, const Walk& walked) {
     MarchRule rule;
     rule.beyond = target_.clear_above;
     rule.step_budget = walked.steps + steps_left();
@@ -132,39 +224,27 @@ class Descent {
     const MarchResult r = conclude(pair, capped, rule);
     answer_.steps += r.steps - walked.steps;
     answer_.plane_tests += r.plane_tests - walked.plane_tests;
-    carry(place, r, pair.law_two);
     met_ = r.status;
-    return {r.a, r.b};
+    place.start = {r.a, r.b};
+    carry(place, {r.lower, r.upper, vec(r.normal), vec(r.point_a), vec(r.point_b), r.proof}, pair.law_two);
   }
 
-  void record(const Place& place, std::uint32_t steps_before, std::uint32_t tests_before) {
+  void record(const Place& place) {
     if (!options_.trace.empty()) {
       const auto slot = std::min<std::size_t>(answer_.levels_visited, options_.trace.size() - 1);
-      options_.trace[slot] = {place.level_a,
-                              place.level_b,
-                              answer_.lower,
-                              answer_.upper,
-                              answer_.steps - steps_before,
-                              answer_.plane_tests - tests_before};
+      options_.trace[slot] = {place.level_a, place.level_b, answer_.lower, answer_.upper, answer_.steps - recorded_steps_,
+                              answer_.plane_tests - recorded_tests_};
     }
+    recorded_steps_ = answer_.steps;
+    recorded_tests_ = answer_.plane_tests;
     ++answer_.levels_visited;
   }
 
-  void remember_coarsest(const Place& place, const Walk& walked, PairSeed& seed) const {
-    if (place.level_a != a_.level_count() - 1 || place.level_b != b_.level_count() - 1) return;
-    seed.coarse_a = walked.a;
-    seed.coarse_b = walked.b;
-  }
-
-  Place refined(const Place& place, const MarchStart& found) const {
-    Place next{place.level_a, place.level_b, found};
-    if (answer_.lower > 0) next.direction = vec(answer_.normal);
-    const auto refine_a = [&] {
-      if (next.level_a > finest_a_) next.start.a = child(a_, next.level_a, next.start.a), --next.level_a;
-    };
-    const auto refine_b = [&] {
-      if (next.level_b > finest_b_) next.start.b = child(b_, next.level_b, next.start.b), --next.level_b;
-    };
+  /// The next finer levels, from no features.
+  Place finer(const Place& place) const {
+    Place next{place.level_a, place.level_b, {}};
+    const auto refine_a = [&] { next.level_a = std::max(next.level_a - 1, finest_a_); };
+    const auto refine_b = [&] { next.level_b = std::max(next.level_b - 1, finest_b_); };
     if (options_.refinement == Refinement::Single) {
       const bool a_is_coarser = a_.level(next.level_a).deviation >= b_.level(next.level_b).deviation;
       if (next.level_b == finest_b_ || (a_is_coarser && next.level_a > finest_a_))
@@ -178,7 +258,17 @@ class Descent {
     return next;
   }
 
-  Answer finish(const Place& place, const MarchStart& found, PairSeed& seed) {
+  /// The same, from the children of the place's features.
+  Place refined(const Place& place) const {
+    Place next = finer(place);
+    next.start = place.start;
+    for (int level = place.level_a; level > next.level_a; --level) next.start.a = child(a_, level, next.start.a);
+    for (int level = place.level_b; level > next.level_b; --level) next.start.b = child(b_, level, next.start.b);
+    if (answer_.lower > 0) next.direction = vec(answer_.normal);
+    return next;
+  }
+
+  void finish(const Place& place) {
     const bool exact_levels = place.level_a == 0 && place.level_b == 0;
     if (met_ == MarchStatus::Overlapping && exact_levels)
       answer_.verdict = Verdict::Overlapping;
@@ -198,29 +288,36 @@ class Descent {
       answer_.status = Status::LevelLimit;
     else
       answer_.status = Status::NotConverged;
-    store(place, found, seed);
-    return answer_;
   }
 
   /// The features found, or their parents as long as the coarser pair would have answered as well.
-  void store(const Place& place, const MarchStart& found, PairSeed& seed) const {
-    Place kept{place.level_a, place.level_b, found};
-    double slack = answer_.upper;  // Paper: the motion a coarser start can absorb is the distance
-    while (kept.level_a + 1 < a_.level_count() && kept.level_b + 1 < b_.level_count()) {
-      const double grown = deviation(kept.level_a + 1, kept.level_b + 1) - deviation(kept.level_a, kept.level_b);
-      const double error = deviation(kept.level_a + 1, kept.level_b + 1);
-      const double lower = answer_.lower - (error - deviation(place.level_a, place.level_b));
-      const bool absorbs = options_.start == StartPolicy::Paper && (slack -= std::max(0.0, grown)) >= 0 && answer_.lower > 0;
-      const bool suffices =
-          options_.start != StartPolicy::Finest && (lower > target_.clear_above || (lower > 0 && narrow(lower, error)));
-      if (!absorbs && !suffices) break;
-      kept.start = {parent(a_, kept.level_a++, kept.start.a), parent(b_, kept.level_b++, kept.start.b)};
+  void store(const Place& place, PairSeed& seed) const {
+    Place kept{place.level_a, place.level_b, place.start};
+    if (options_.start == StartPolicy::Coarsest) {
+      kept = coarsest_place(a_, b_);
+      kept.start = coarsest_;
+    } else if (met_ == MarchStatus::Overlapping && may_aim_) {
+      kept.start = {};  // features that meet are no start for a walk
+    } else if (options_.start != StartPolicy::Finest && !exact_) {
+      climb(kept);
     }
     remember_line(line_, seed);
     seed.a = kept.start.a;
     seed.b = kept.start.b;
     seed.level_a = std::uint8_t(kept.level_a);
     seed.level_b = std::uint8_t(kept.level_b);
+  }
+  void climb(Place& kept) const {
+    const double found = deviation(kept.level_a, kept.level_b);
+    double slack = answer_.upper;  // Paper: the motion a coarser start can absorb is the distance
+    while (kept.level_a + 1 < a_.level_count() && kept.level_b + 1 < b_.level_count()) {
+      const double error = deviation(kept.level_a + 1, kept.level_b + 1);
+      const double grown = error - deviation(kept.level_a, kept.level_b), lower = answer_.lower - (error - found);
+      const bool absorbs = options_.start == StartPolicy::Paper && (slack -= std::max(0.0, grown)) >= 0 && answer_.lower > 0;
+      const bool suffices = lower > target_.clear_above || (lower > 0 && narrow(lower, error));
+      if (!absorbs && !suffices) break;
+      kept.start = {parent(a_, kept.level_a++, kept.start.a), parent(b_, kept.level_b++, kept.start.b)};
+    }
   }
 
   const Model& a_;
@@ -230,25 +327,29 @@ class Descent {
   const double pose_error_, stretch_;  ///< stretch bounds the rotation's norm
   const QueryOptions& options_;
   const Target& target_;
-  const double law_two_;
+  const double shift_, law_two_;
   const int finest_a_, finest_b_;
-  Answer answer_;
+  const bool may_aim_;  ///< both models have support maps and the caller leaves us the choice
+  const bool exact_;    ///< no coarser pair will do
+  Answer& answer_;
   MarchStatus met_ = MarchStatus::NotConverged;
+  MarchStart coarsest_;  ///< features on the coarsest pair, for StartPolicy::Coarsest
   bool spent_ = false;  ///< the caller's step budget
+  std::uint32_t recorded_steps_ = 0, recorded_tests_ = 0;
 };
 
 }  // namespace
 
 Answer descend(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
                const Target& target) {
+  Answer answer;
   const Motion m = motion(b_in_a);
   const PoseQuality quality = pose_quality(m);
-  if (!quality.legal) {
-    Answer invalid;
-    invalid.status = Status::InvalidPose;
-    return invalid;
-  }
-  return Descent(a, b, m, quality.error, options, target).run(seed);
+  if (quality.legal)
+    Descent(a, b, m, quality.error, options, target, answer).run(seed);
+  else
+    answer.status = Status::InvalidPose;
+  return answer;
 }
 
 }  // namespace swiftlet

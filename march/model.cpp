@@ -6,6 +6,7 @@
 
 #include "block.h"
 #include "certify.h"
+#include "support_map.h"
 #include "table.h"
 
 namespace swiftlet {
@@ -31,9 +32,11 @@ double Model::extent() const {
 
 std::uint32_t Model::support(const Vec3& direction) const {
   const ConvexView& view = body_->levels[0].view;
-  const Scene alone = scene(view, view, motion(Pose{}), 0);
+  const Scene alone = scene(view, view, kAtRest, 0);
   std::uint32_t start = 0, comparisons = 0;
-  if (!body_->table.empty()) {
+  if (const Level& exact = body_->levels[0]; exact.map_side > 0) {
+    start = look_up(exact, rescaled(vec(direction))).vertex;
+  } else if (!body_->table.empty()) {
     start = body_->table[lut::nearest(lut::Resolution(body_->header.resolution), {direction[0], direction[1], direction[2]})];
   }
   return support_a(alone, rescaled(vec(direction)), start, comparisons);
@@ -54,7 +57,11 @@ Model Model::with_table(const TableSpec& spec) const {
   std::memcpy(parts.level_headers.data(), block.data() + sizeof(BlockHeader), parts.level_headers.size() * sizeof(LevelHeader));
   for (const LevelHeader& level : parts.level_headers) parts.levels.push_back(copy(level.section));
   parts.source = copy(body_->header.source);
+  for (LevelHeader& level : parts.level_headers) level.map_side = 0;
   fill_table(parts, spec, body_->levels[0].view.vertices);
+  std::vector<std::span<const Vertex>> vertices;
+  for (const Level& level : body_->levels) vertices.push_back(level.view.vertices);
+  fill_maps(parts, spec, vertices);
   return std::move(BlockReader::read(compose(parts))).value();
 }
 

@@ -407,9 +407,19 @@ Meeting progress(const Scene& scene, const Certificate& start, const Goal& goal,
   return m;
 }
 
+bool proves_deep_overlap(const Scene& scene, const OverlapProof& proof) {
+  std::array<Vec, 4> p;
+  for (std::size_t k = 0; k < 4; ++k) p[k] = difference<double>(scene, proof.vertex_a[k], proof.vertex_b[k]).p;
+  const double m = scene.magnitude, rounding = 8 * kOffsetTripleProductError * m * m * m;  // differences of two, six terms
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec &a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4], n = cross(b - a, c - a);
+    if (!(std::fabs(dot(n, a)) > 2 * scene.law_two * norm(n) + rounding)) return false;
+  }
+  return proves(scene, proof);
+}
+
 bool straighten(const Scene& scene, Certificate& c, std::uint32_t& plane_tests) {
-  const Vec apart = c.point_b - c.point_a;
-  if (!(c.upper - c.lower <= scene.law_two) || norm(apart - c.normal * norm(apart)) <= scene.law_two) return false;
+  if (!(c.upper - c.lower <= scene.law_two)) return false;
   const Goal goal{scene.law_two, 0, std::numeric_limits<double>::infinity()};
   Meeting m;
   m.certificate = c;

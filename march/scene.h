@@ -14,10 +14,11 @@ namespace swiftlet {
 struct Scene {
   const ConvexView& a;
   const ConvexView& b;
-  Motion b_in_a;
+  const Motion& b_in_a;
   double magnitude;     ///< bounds |p| and |R q + t| over all points, summed
   double motion_error;  ///< bounds the rounding of a vertex of B carried into A's frame
   double point_error;   ///< bounds the rounding of two convex combinations of such vertices, one of each body
+  double pose_error;    ///< largest entry of |R^T R - I|
   double law_two;       ///< at most law 2's bound for this pair: the width an exact answer keeps
 };
 
@@ -25,6 +26,7 @@ struct Scene {
 struct Resting {
   const ConvexView& view;
   Vec own(std::uint32_t v) const { return vec(view.vertices[v]); }
+  Vec common(const Vec& p) const { return p; }  ///< a point of its own frame in the common one
   Vec point(std::uint32_t v) const { return own(v); }
   Vec turned(const Vec& n) const { return n; }  ///< a direction of its own frame in the common one
   Vec local(const Vec& p) const { return p; }   ///< a point of the common frame in its own
@@ -35,7 +37,8 @@ struct Moved {
   const ConvexView& view;
   const Motion& motion;
   Vec own(std::uint32_t v) const { return vec(view.vertices[v]); }
-  Vec point(std::uint32_t v) const { return apply(motion, own(v)); }
+  Vec common(const Vec& p) const { return apply(motion, p); }
+  Vec point(std::uint32_t v) const { return common(own(v)); }
   Vec turned(const Vec& n) const { return turn(motion, n); }
   Vec local(const Vec& p) const { return turn_back(motion, p - motion.t); }
   Vec into(const Vec& n) const { return turn_back(motion, n); }
@@ -50,33 +53,30 @@ struct PoseQuality {
   double error;  ///< largest entry of |R^T R - I|
 };
 static inline PoseQuality pose_quality(const Motion& m) {
-  const auto entry = [](double a, double b, double c) { return a + b + c; };
   const Vec &x = m.row_x, &y = m.row_y, &z = m.row_z;
-  const double entries[6] = {entry(x.x * x.x, y.x * y.x, z.x * z.x) - 1, entry(x.y * x.y, y.y * y.y, z.y * z.y) - 1,
-                             entry(x.z * x.z, y.z * y.z, z.z * z.z) - 1, entry(x.x * x.y, y.x * y.y, z.x * z.y),
-                             entry(x.x * x.z, y.x * y.z, z.x * z.z),     entry(x.y * x.z, y.y * y.z, z.y * z.z)};
-  double worst = 0;
-  // Farther away exact signs and squares overflow, and a climb need not end.
-  const auto within = [](double value, double most) { return std::fabs(value) <= most; };  // no NaN is
-  bool legal = within(m.t.x, kMostCoordinate) && within(m.t.y, kMostCoordinate) && within(m.t.z, kMostCoordinate);
-  for (const double value : entries) {
-    legal = legal && within(value, kOrthonormality);
-    worst = larger(worst, std::fabs(value));
-  }
-  return {legal, worst};
+  const auto entry = [&](double Vec::*i, double Vec::*j) { return x.*i * x.*j + y.*i * y.*j + z.*i * z.*j; };
+  const double worst =
+      larger(larger(larger(std::fabs(entry(&Vec::x, &Vec::x) - 1), std::fabs(entry(&Vec::y, &Vec::y) - 1)),
+                    larger(std::fabs(entry(&Vec::z, &Vec::z) - 1), std::fabs(entry(&Vec::x, &Vec::y)))),
+             larger(std::fabs(entry(&Vec::x, &Vec::z)), std::fabs(entry(&Vec::y, &Vec::z))));
+  // Farther away exact signs and squares overflow, and a climb need not end. A NaN or infinity anywhere makes this one.
+  const double any = (x.x + x.y + x.z) + (y.x + y.y + y.z) + (z.x + z.y + z.z) + (m.t.x + m.t.y + m.t.z);
+  return {worst <= kOrthonormality && max_abs(m.t) <= kMostCoordinate && std::fabs(any) < std::numeric_limits<double>::infinity(),
+          worst};
 }
 
+/// At most law 2's bound of a pair: the width an exact answer keeps. `shift` is |t|.
+static inline double law_two(const ConvexView& a, const ConvexView& b, double shift, double pose_error) {
+  return larger((kLawTwo + 2 * larger(0, pose_error - kOrthonormalityError)) * (larger(a.extent, b.extent) + shift), kLeastWidth);
+}
+
+static inline Scene scene(const ConvexView& a, const ConvexView& b, const Motion& m, double shift, double pose_error) {
+  const double stretch = kSqrt3 * (1 + pose_error), magnitude = stretch * (a.extent + b.extent) + shift,
+               motion_error = kTurnError * stretch * b.extent + kShiftError * shift;
+  return {a, b, m, magnitude, motion_error, kPointError * magnitude + motion_error, pose_error, law_two(a, b, shift, pose_error)};
+}
 static inline Scene scene(const ConvexView& a, const ConvexView& b, const Motion& m, double pose_error) {
-  const double t = norm(m.t), stretch = kSqrt3 * (1 + pose_error);
-  const double magnitude = stretch * (a.extent + b.extent) + t,
-               motion_error = kTurnError * stretch * b.extent + kShiftError * t;
-  return {a,
-          b,
-          m,
-          magnitude,
-          motion_error,
-          kPointError * magnitude + motion_error,
-          larger((kLawTwo + 2 * larger(0, pose_error - kOrthonormalityError)) * (larger(a.extent, b.extent) + t), kLeastWidth)};
+  return scene(a, b, m, norm(m.t), pose_error);
 }
 
 }  // namespace swiftlet

@@ -26,22 +26,18 @@ bool legal_level(const Model& model, int level, int finest) { return level >= fi
 Place level_place(int level_a, int level_b, const MarchStart& start) { return {level_a, level_b, start}; }
 
 constexpr double kLineUnit = 32767;
-Vec unpacked(const std::array<std::int16_t, 3>& v) { return Vec{double(v[0]), double(v[1]), double(v[2])} * (1 / kLineUnit); }
-std::array<std::int16_t, 3> packed(const Vec& v) {
-  const auto unit = [](double x) {
-    const double units = larger(-1, smaller(1, x)) * kLineUnit;
-    return std::int16_t(units < 0 ? units - 0.5 : units + 0.5);
-  };
-  return {unit(v.x), unit(v.y), unit(v.z)};
+std::array<std::int16_t, 3> packed(const Vec& unit) {
+  const auto units = [](double x) { return std::int16_t(x * kLineUnit); };
+  return {units(unit.x), units(unit.y), units(unit.z)};
 }
 
-/// The steps a walk will take from features found when the line of centres was `seed`'s.
-double predicted_steps(const Model& a, const Model& b, const Line& line, const PairSeed& seed) {
-  const double edges_a =
-      norm(line.in_a - unpacked(seed.line_in_a)) * std::sqrt(double(a.level(seed.level_a).view.vertices.size()));
-  const double edges_b =
-      norm(line.in_b - unpacked(seed.line_in_b)) * std::sqrt(double(b.level(seed.level_b).view.vertices.size()));
-  return kStepsPerEdge * (edges_a + edges_b);
+/// Whether a line of centres of squared length `length2` turned since a seed packed it by so much that a walk would cross more
+/// than `kWarmEdges` edges of the level: sqrt(V) edges make a radian. From the square of the chord, 2 - 2 cos.
+bool turned_far(const Vec& line, double length2, const std::array<std::int16_t, 3>& was, const ConvexView& view) {
+  if ((was[0] | was[1] | was[2]) == 0) return false;  // of a seed made by hand nothing is known
+  const double along = dot(line, {double(was[0]), double(was[1]), double(was[2])});
+  const double whole = 2 * double(view.vertices.size()), least = whole - kWarmEdges * kWarmEdges;
+  return least > 0 && !(along > 0 && along * along * (whole * whole) >= least * least * length2 * (kLineUnit * kLineUnit));
 }
 
 /// The table's vertices for the direction between the centres.
@@ -61,9 +57,7 @@ MarchStart from_tables(const Model& a, const Model& b, const Line& line) {
 
 Line line_of_centres(const Model& a, const Model& b, const Motion& m) {
   const Vec d = apply(m, vec(b.level(0).view.centre)) - vec(a.level(0).view.centre);
-  const double length = norm(d);
-  const Vec in_a = length > 0 ? d * (1 / length) : Vec{0, 0, 0};
-  return {in_a, -turn_back(m, in_a)};
+  return {d, -turn_back(m, d)};
 }
 
 MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& plane_tests) {
@@ -95,22 +89,28 @@ Place first_place(const Model& a, const Model& b, const Line& line, const PairSe
         return level_place(finest_a, finest_b, {seed.a, seed.b});
       }
       return level_place(finest_a, finest_b, {});
-    case StartPolicy::Coarsest: coarsest.start = {seed.coarse_a, seed.coarse_b}; return coarsest;
+    case StartPolicy::Coarsest:
+      if (seed.level_a == coarsest.level_a && seed.level_b == coarsest.level_b) coarsest.start = {seed.a, seed.b};
+      return coarsest;
     default:
       if (!seed_fits) return coarsest;
       Place place = level_place(seed.level_a, seed.level_b, {seed.a, seed.b});
-      const int above = std::max(coarsest.level_a - seed.level_a, coarsest.level_b - seed.level_b);
-      if (options.start == StartPolicy::Paper || above <= 0) return place;
-      const double descent = kStepsPerLevel * (above + 1);
-      if (predicted_steps(a, b, line, seed) > descent) return coarsest;
-      place.trial_steps = std::uint32_t(kTrialFactor * descent);
+      const Level &level_a = a.level(seed.level_a), &level_b = b.level(seed.level_b);
+      const bool has_choice = seed.level_a < coarsest.level_a || seed.level_b < coarsest.level_b || level_a.map_side > 0;
+      if (options.start == StartPolicy::Paper || !has_choice) return place;
+      const double length2 = dot(line.in_a, line.in_a);
+      if (turned_far(line.in_a, length2, seed.line_in_a, level_a.view) ||
+          turned_far(line.in_b, length2, seed.line_in_b, level_b.view))
+        return coarsest;
+      place.trial_steps = kTrialSteps;
       return place;
   }
 }
 
 void remember_line(const Line& line, PairSeed& seed) {
-  seed.line_in_a = packed(line.in_a);
-  seed.line_in_b = packed(line.in_b);
+  const double length = norm(line.in_a), scale = length > 0 ? (1 - 4 * kU) / length : 0;  // no coordinate above 1
+  seed.line_in_a = packed(line.in_a * scale);
+  seed.line_in_b = packed(line.in_b * scale);
 }
 
 Handle child(const Model& model, int level, Handle feature) {
@@ -136,6 +136,11 @@ Handle parent(const Model& model, int level, Handle feature) {
   if (feature.kind() == FeatureKind::Vertex) face = from.view.face[from.view.vertices[feature.index()].ring_begin];
   if (feature.kind() == FeatureKind::Edge) face = from.view.face[feature.index()];
   return {FeatureKind::Vertex, from.parent_face[face]};
+}
+
+std::uint32_t descendant(const Model& model, int level, std::uint32_t vertex) {
+  for (; level > 0; --level) vertex = model.level(level).child_vertex[vertex];
+  return vertex;
 }
 
 }  // namespace swiftlet

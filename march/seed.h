@@ -25,7 +25,7 @@ struct Place {
 /// `plane_tests` grows by the climbs along the line of centres.
 MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& plane_tests);
 
-/// The line of centres from A to B in A's frame, and from B to A in B's; unit vectors, or zero where the centres coincide.
+/// From the centre of A to that of B in A's frame, and back in B's.
 struct Line {
   Vec in_a, in_b;
 };
@@ -43,5 +43,8 @@ Place coarsest_place(const Model& a, const Model& b);
 /// The feature one level finer, or coarser.
 Handle child(const Model& model, int level, Handle feature);
 Handle parent(const Model& model, int level, Handle feature);
+
+/// The vertex of level 0 that stands for one of `level`.
+std::uint32_t descendant(const Model& model, int level, std::uint32_t vertex);
 
 }  // namespace swiftlet

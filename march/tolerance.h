@@ -72,6 +72,11 @@ inline constexpr double kPointError = 7 * kU;
 /// sqrt of a sum of three squares of rounded differences, relative.
 inline constexpr double kNormError = 5 * kU;
 
+/// What a support map says of a unit direction, over the extent: two heights of 3 products and 2 sums of terms of at most the
+/// extent when it was made, 24 u; a cell's border off by 4 u in each coordinate of the direction, times 2, 16 u; the direction
+/// turned into the body's frame, kTurnedError in each coordinate, times 2, 24 u; and two heights again. Rounded up.
+inline constexpr double kMapError = 128 * kU;
+
 /// Double-double arithmetic as progress.cpp uses it keeps at least 90 bits of the largest term, whatever cancels. Relative to
 /// the magnitude of coordinates and translation.
 inline constexpr double kDoubleDoubleError = 0x1p-90;
@@ -98,13 +103,14 @@ inline constexpr std::uint32_t kStallLimit = 12;
 /// Iterations of certified progress per arithmetic: a Frank-Wolfe step on an active set of at most four. Each shortens the
 /// distance or is the last but `kProgressPatience`.
 inline constexpr int kProgressLimit = 400, kProgressPatience = 8;
-/// What an Automatic start weighs. A walk takes about half a step per edge that it crosses, and sqrt(V) edges make a radian of
-/// a level of V vertices (measured on ellipsoids of 2 000 and 20 000 triangles, 0.5 to 180 degrees); a descent six steps per
-/// level.
-inline constexpr double kStepsPerEdge = 0.5, kStepsPerLevel = 6;
-/// A walk from the seed that takes this many times what a descent would is given up for one (ski rental: never more than three
-/// times the better choice).
-inline constexpr double kTrialFactor = 2;
+/// An Automatic start walks from the seed's features while the line of centres turned by no more than so many edges of a body,
+/// at half a step each; a cold start costs as much as about six steps. A walk that takes more than the second is given up for
+/// a cold start (ski rental).
+inline constexpr double kWarmEdges = 6;
+inline constexpr std::uint32_t kTrialSteps = 16;
+/// A cold start looks along maps until its supports lie this many edges of both bodies aside, or so many times.
+inline constexpr double kAimEdges = 2;
+inline constexpr int kAimSteps = 12;
 /// Vertices that doubles may find equally high before a certificate asks exact arithmetic which is the highest: two triangles
 /// and room for a flat spot.
 inline constexpr std::size_t kPlateau = 8;

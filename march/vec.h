@@ -61,8 +61,9 @@ static inline double norm(const Vec& a) {
   return scale * std::sqrt(dot(w, w)) * (1 + kNormError) + std::numeric_limits<double>::denorm_min();
 }
 
-/// At length 1; 0 where v names no direction. Scaled by its largest coordinate first: squares of 1e-200 are 0.
+/// At length 1; 0 where v names no direction. Short ones are scaled by their largest coordinate: squares of 1e-200 are 0.
 static inline Vec normalised(const Vec& v) {
+  if (const double square = dot(v, v); square >= kLeastSquare && square < std::numeric_limits<double>::infinity()) return v * (1 / std::sqrt(square));
   const double scale = max_abs(v);
   if (!(scale > kLeastDirection)) return {0, 0, 0};
   const Vec w = v * (1 / scale);
@@ -86,6 +87,7 @@ static inline Vec3 eigen(const Vec& v) { return Vec3(v.x, v.y, v.z); }
 struct Motion {
   Vec row_x, row_y, row_z, t;
 };
+static constexpr Motion kAtRest{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
 static inline Motion motion(const Pose& pose) {
   const Mat3& r = pose.rotation;
   return {{r(0, 0), r(0, 1), r(0, 2)}, {r(1, 0), r(1, 1), r(1, 2)}, {r(2, 0), r(2, 1), r(2, 2)}, vec(pose.translation)};

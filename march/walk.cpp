@@ -16,7 +16,6 @@
 #include "walk.h"
 
 #include <limits>
-#include <optional>
 
 #include "ring.h"
 
@@ -155,17 +154,21 @@ class Marcher {
   Descent ring(const P& body, std::uint32_t v, const Vec& d) {
     const Vertex& record = body.view.vertices[v];
     const Vec p = vec(record);
-    Descent best;
-    for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
+    std::uint32_t best = kNone;
+    double best_along = 0, best_length2 = 1;
+    const std::uint32_t end = record.ring_begin + record.ring_count;
+    std::uint32_t h = record.ring_begin;
+    for (; h < end; ++h) {
       const Vec e = body.own(body.view.head[h]) - p;
       const double along_d = dot(d, e);
-      ++tests_;
       if (!(along_d > 0)) continue;
-      const double length2 = dot(e, e), rate2 = along_d * along_d / length2;
-      if (rate2 > best.rate2) best = {h, rate2, along_d / length2};
+      const double length2 = dot(e, e);
+      if (along_d * along_d * best_length2 > best_along * best_along * length2) best = h, best_along = along_d, best_length2 = length2;
       if (first_only_) break;
     }
-    return best;
+    tests_ += h - record.ring_begin + (h < end);
+    if (best == kNone) return {};
+    return {best, best_along * best_along / best_length2, best_along / best_length2};
   }
 
   template <class P>
@@ -287,23 +290,18 @@ Walk walk(const Scene& scene, Handle a, Handle b, PlaneRule rule, std::uint32_t 
   Walk result{WalkEnd::Budget, a, b, 0};
   Marcher march(rule, result.plane_tests);
   double least2 = std::numeric_limits<double>::infinity();
-  std::uint32_t stalled = 0;
-  const auto ends = [&](const Move& move) -> std::optional<WalkEnd> {
-    if (move.minimum) return WalkEnd::Minimum;
-    if (move.inside) return WalkEnd::Inside;
-    if (stalled >= kStallLimit) return WalkEnd::Stalled;
-    if (result.steps >= step_budget) return WalkEnd::Budget;
-    return std::nullopt;
-  };
-  for (;;) {
+  for (std::uint32_t stalled = 0;;) {
     const Move move = state(march, body_a(scene), result.a, body_b(scene), result.b);
     stalled = move.distance2 < least2 ? 0 : stalled + 1;
     least2 = smaller(least2, move.distance2);
     result.steps += !(move.first == result.a && move.second == result.b);
     result.a = move.first;
     result.b = move.second;
-    if (const auto end = ends(move)) {
-      result.end = *end;
+    if (move.minimum || move.inside || stalled >= kStallLimit || result.steps >= step_budget) {
+      result.end = move.minimum             ? WalkEnd::Minimum
+                   : move.inside            ? WalkEnd::Inside
+                   : stalled >= kStallLimit ? WalkEnd::Stalled
+                                            : WalkEnd::Budget;
       result.distance = std::sqrt(move.minimum ? move.distance2 : least2);
       return result;
     }

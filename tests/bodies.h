@@ -175,6 +175,7 @@ inline void rehash(Bytes& block) {
     if (s.offset <= block.size() && s.bytes <= block.size() - s.offset)
       s.hash = hash_of(std::span(block).subspan(s.offset, s.bytes));
   };
+  fix(header.maps);
   fix(header.table);
   fix(header.source);
   header.header_hash = 0;

@@ -51,7 +51,8 @@ struct Trial {
   const ConvexView &a, &b;
   Pose pose;
   std::vector<Vec3> points_a = points(a), points_b = points(b);
-  Scene scene() const { return swiftlet::scene(a, b, motion(pose), 4e-16); }
+  Motion b_in_a = motion(pose);
+  Scene scene() const { return swiftlet::scene(a, b, b_in_a, 4e-16); }
 };
 
 /// Rotations of a cube too, so that faces and edges are parallel.

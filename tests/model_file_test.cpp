@@ -199,7 +199,7 @@ void exercise(const Model& hostile, const Model& honest, Work& most) {
     PairSeed seed;
     expect_harmless(distance(hostile, honest, pose, seed));
     expect_harmless(distance(honest, hostile, pose, seed));
-    seed.a = handle(), seed.b = handle(), seed.coarse_a = handle(), seed.coarse_b = handle();
+    seed.a = handle(), seed.b = handle();
     seed.level_a = std::uint8_t(garbage % 3);
     seed.level_b = std::uint8_t(garbage % 5);
     expect_harmless(intersects(hostile, hostile, pose, seed));

@@ -116,6 +116,7 @@ TEST_P(RandomPairs, SpendFarStepsOnCoarseLevels) {
   for (std::uint64_t i = 1; i <= 200; ++i) {
     std::array<LevelRecord, 8> trace;
     QueryOptions options;
+    options.start = StartPolicy::Paper;
     options.trace = trace;
     const Answer answer = distance(pair.a, pair.b, motion.pose(i), seed, options);
     ASSERT_LE(std::size_t(answer.levels_visited), trace.size());

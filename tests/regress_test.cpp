@@ -186,8 +186,8 @@ TEST(Regress, LawTwoAllowedForTheRoundingOfOrthonormality) {
       0x1.9d1a4f1b89796p-27, 0x1.fdb0312556093p-30, 0x1.fffffffffffffp-1;
   pose.translation = {-0x1.00000051cd626p+1, 0x1.718f104ec0fa4p-3, 0x1p+2};
   PairSeed seed;
-  seed.a = seed.coarse_a = {FeatureKind::Edge, 18};
-  seed.b = seed.coarse_b = {FeatureKind::Edge, 4};
+  seed.a = {FeatureKind::Edge, 18};
+  seed.b = {FeatureKind::Edge, 4};
   seed.line_in_a = {-14642, 1321, 29284};
   seed.line_in_b = {14642, -1321, -29284};
   const Answer answer = distance(cube, cube, pose, seed);

@@ -286,13 +286,13 @@ Result<Output> verify(const Body& body) {
 Output distance(const Body& a, const Body& b, const Pose& b_in_a, const QueryOptions& asked, bool show_levels) {
   std::vector<LevelRecord> trace(std::size_t(a.model.level_count() + b.model.level_count()));
   QueryOptions options = asked;
-  if (show_levels) options.trace = trace;
+  if (show_levels) options.trace = trace, options.start = StartPolicy::Coarsest;
   const Contact found = ask(a, b, b_in_a, options);
   const Answer& answer = found.answer;
   std::vector<Visit> visits;
   if (show_levels) {
     trace.resize(std::min(trace.size(), std::size_t(answer.levels_visited)));
-    visits = timed(a.model, b.model, b_in_a, asked, trace);
+    visits = timed(a.model, b.model, b_in_a, options, trace);
   }
   const Witness on_a{answer.feature_a, answer.level_a, found.source_a}, on_b{answer.feature_b, answer.level_b, found.source_b};
 

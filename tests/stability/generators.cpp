@@ -73,8 +73,6 @@ PairSeed some_seed(const Subject& a, const Subject& b, Random& random) {
   seed.level_b = std::uint8_t(below(random, std::uint32_t(b.model.level_count())));
   seed.a = some_feature(a.model.level(seed.level_a).view, random);
   seed.b = some_feature(b.model.level(seed.level_b).view, random);
-  seed.coarse_a = some_feature(a.model.level(a.model.level_count() - 1).view, random);
-  seed.coarse_b = some_feature(b.model.level(b.model.level_count() - 1).view, random);
   return seed;
 }
 PairSeed random_bytes(Random& random) {

@@ -72,6 +72,10 @@ struct Level {
   std::span<const std::uint32_t> child_vertex;  ///< per vertex, the vertex one level finer (empty on level 0)
   std::span<const Handle> child_face;           ///< per face, the face or vertex one level finer (empty on level 0)
   std::span<const std::uint32_t> parent_face;   ///< per face, the vertex one level coarser (empty on the coarsest)
+  std::span<const std::uint32_t> support_map;   ///< per cell of a cube around the body, which vertex is extreme there and by
+                                                ///< how much it may not be; a query's cold start. Empty: none at this level
+  std::uint32_t map_side = 0;                   ///< its cells on an edge of that cube
+  double edge_length = 0;                       ///< mean over the level's edges
   double deviation = 0;  ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
   double volume = 0;
   std::size_t bytes = 0;                           ///< of this level in the model's block
@@ -101,10 +105,14 @@ struct LevelArrays {
   std::span<const std::uint32_t> child_of_face;
 };
 
-/// Which start table a model carries [Ehmann & Lin 2000, sec. 4.6].
+/// What a model carries to start cold queries from.
 struct TableSpec {
-  lut::Resolution resolution = lut::Resolution::Degrees11;  ///< 0, 114, 482 or 1986 entries of 4 bytes
-  double radius_factor = 2;  ///< samples lie on the sphere of this many bounding radii, at least 1
+  /// The paper's table, for StartPolicy::Table [Ehmann & Lin 2000, sec. 4.6]: 0, 114, 482 or 1986 entries of 4 bytes.
+  lut::Resolution resolution = lut::Resolution::None;
+  double radius_factor = 2;  ///< its samples lie on the sphere of this many bounding radii, at least 1
+  /// Of the finest support map: 6 side^2 entries of 4 bytes. It lies on the finest level of at most 4 096 vertices, else on the
+  /// coarsest; each coarser level has one of half the side, at least 1. 16 take about 8 kB. A power of two up to 64; 0: no maps.
+  std::uint32_t map_side = 16;
 };
 
 struct ModelOptions {
@@ -126,6 +134,7 @@ class Model {
     assert(index >= 0 && index < level_count_);
     return levels_[index];
   }
+  int map_level() const { return map_level_; }  ///< the finest with a support map; level_count() where none has
   SourceMap source() const;
 
   Vec3 centre() const;    ///< area centroid of level 0 (of its edges or point, where flatter)
@@ -148,11 +157,11 @@ class Model {
  private:
   friend class BlockReader;
   struct Body;
-  Model(std::shared_ptr<const Body> body, std::span<const Level> levels)
-      : body_(std::move(body)), levels_(levels.data()), level_count_(int(levels.size())) {}
+  Model(std::shared_ptr<const Body> body, std::span<const Level> levels, int map_level)
+      : body_(std::move(body)), levels_(levels.data()), level_count_(int(levels.size())), map_level_(map_level) {}
   std::shared_ptr<const Body> body_;
   const Level* levels_;  ///< the body's
-  int level_count_;
+  int level_count_, map_level_;
 };
 
 }  // namespace swiftlet

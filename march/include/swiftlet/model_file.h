@@ -14,7 +14,7 @@
 namespace swiftlet {
 
 /// The version written; files of another version are refused.
-inline constexpr std::uint32_t kModelFileVersion = 1;
+inline constexpr std::uint32_t kModelFileVersion = 2;
 
 /// Writes beside `path` and renames, so that a failure leaves the old file.
 Result<std::size_t> save(const Model& model, const std::filesystem::path& path);

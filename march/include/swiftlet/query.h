@@ -48,7 +48,6 @@ enum class StartPolicy : std::uint8_t {
 /// seed changes the work, never the truth.
 struct PairSeed {
   Handle a, b;                                           ///< features at the levels below
-  Handle coarse_a, coarse_b;                             ///< features on the coarsest levels
   std::array<std::int16_t, 3> line_in_a{}, line_in_b{};  ///< the line of centres, in units of 1/32767: how far it turned tells
                                                          ///< whether the features are worth a try
   std::uint8_t level_a = 0, level_b = 0;

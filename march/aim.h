@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A cold start: from the line of centres towards the direction of the distance by steps of [Gilbert, Johnson & Keerthi 1988]
+// whose supports come from maps, one look-up each and no climb. Every step proves bounds. Knows one level pair.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include <swiftlet/march.h>
+
+#include "certify.h"
+#include "scene.h"
+#include "support_map.h"
+
+namespace swiftlet {
+
+/// What one step saw.
+struct Sight {
+  std::uint32_t a = 0, b = 0;  ///< supports along `normal` and against it, as the maps know them
+  double lower = 0;            ///< proved along `normal`; may be negative
+  double upper = 0;            ///< the distance of the points
+  Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};
+  bool meets = false;  ///< the pair seems to overlap: the differences of `proof`'s vertices look to hold the origin
+  OverlapProof proof{};
+};
+
+/// The vertices of the Minkowski difference that a direction is taken from.
+class Simplex {
+ public:
+  struct Corner {
+    Vec p, a;  ///< b - a, and a, in the common frame
+    std::uint32_t va, vb;
+  };
+  struct Nearest {
+    Vec point{0, 0, 0};  ///< to the origin
+    int count = 0;       ///< of corners that hold it; 4: the simplex holds the origin
+    std::array<int, 4> index{};  ///< ascending
+    std::array<double, 4> weight{};
+  };
+
+  bool has(std::uint32_t va, std::uint32_t vb) const;
+  /// Adds a corner and finds the nearest point, the new corner among those that hold it.
+  Nearest add(const Corner& corner);
+  /// Keeps what holds the nearest point; returns the point of A that it is the difference of.
+  Vec reduce(const Nearest& nearest);
+  OverlapProof proof() const;
+
+ private:
+  Nearest on_segment(int i, int j) const;
+  Nearest on_triangle(int i, int j, int k) const;
+  Nearest on_tetrahedron() const;
+
+  std::array<Corner, 4> corner_;
+  int count_ = 0;
+};
+
+/// Looks from `direction`, of any length, until the supports lie no more than a few edges aside of each other, where a walk is
+/// cheaper; or until nothing changes; or until `enough`, called with each sight, says so. Both levels have maps.
+template <class Enough>
+Sight look(const Scene& scene, const Level& a, const Level& b, const Vec& direction, Enough enough) {
+  const Resting body = body_a(scene);
+  const Moved other = body_b(scene);
+  const double few = kAimEdges * (a.edge_length + b.edge_length);
+  Simplex simplex;
+  Sight s;
+  s.upper = std::numeric_limits<double>::infinity();
+  Vec n = normalised(direction);
+  for (int steps = 0;; ++steps) {
+    const MapSupport top_a = look_up(a, n), top_b = look_up(b, -other.into(n));
+    const Vec q = body.point(top_a.vertex), p = other.point(top_b.vertex) - q, aside = p - n * dot(n, p);
+    s.a = top_a.vertex, s.b = top_b.vertex;
+    s.lower = gap(scene, n, p, top_a.excess + top_b.excess);
+    s.normal = n;
+    const double upper = norm(p) * (1 + kNormError) + scene.point_error;
+    if (upper < s.upper) s.upper = upper, s.point_a = q, s.point_b = q + p;
+    if (enough(s) || dot(aside, aside) <= few * few || steps == kAimSteps || simplex.has(s.a, s.b)) return s;
+    const Simplex::Nearest nearest = simplex.add({p, q, s.a, s.b});
+    if (nearest.count == 4) {
+      s.meets = true;
+      s.proof = simplex.proof();
+      return s;
+    }
+    const Vec point_a = simplex.reduce(nearest);
+    const double distance = norm(nearest.point), nearer = distance * (1 + kNormError) + scene.point_error;
+    if (nearer < s.upper) s.upper = nearer, s.point_a = point_a, s.point_b = point_a + nearest.point;
+    if (!(distance > scene.point_error)) return s;
+    n = nearest.point * (1 / distance);
+  }
+}
+
+}  // namespace swiftlet
