@@ -62,7 +62,11 @@ class Descent {
   }
   /// Certified progress may have taken one more than the budget.
   std::uint32_t steps_left() const { return options_.step_budget - std::min(answer_.steps, options_.step_budget); }
-  bool narrow(double lower, double width) const { return width <= std::max(target_.absolute, target_.relative * lower); }
+  /// Where nothing is allowed, nothing is narrow: an exact answer is known by its verdict.
+  bool narrow(double lower, double width) const {
+    const double allowed = larger(target_.absolute, target_.relative * lower);
+    return allowed > 0 && width <= allowed;
+  }
   /// Thresholds are passed only by more than law 2's bound: nearer, what can be proved depends on the start.
   bool answered() const {
     return narrow(answer_.lower, answer_.upper - answer_.lower) || answer_.lower > target_.clear_above + law_two_ ||
