@@ -27,7 +27,8 @@ function(swiftlet_package component package section description)
   set(CPACK_COMPONENT_${component_key}_DESCRIPTION ${description} PARENT_SCOPE)
   set(CPACK_DEBIAN_${component_key}_PACKAGE_NAME ${package} PARENT_SCOPE)
   set(CPACK_DEBIAN_${component_key}_PACKAGE_SECTION ${section} PARENT_SCOPE)
-  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${package} RENAME copyright COMPONENT ${component} EXCLUDE_FROM_ALL)
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${package} RENAME copyright
+    COMPONENT ${component} EXCLUDE_FROM_ALL)
 endfunction()
 
 swiftlet_package(march libswiftlet-dev libdevel "The runtime: headers and static libraries.")
