@@ -738,7 +738,7 @@ constexpr Family kFamilies[] = {
     {"same truth", "", "disjoint", 0.2, 0.9, 40, same_truth},
     {"flat bodies", "", "touching", 0.05, 0.6, 40, flat},
     {"coarse levels", "", "several levels visited", 0.5, 1, 40, coarse_levels},
-    {"seeds", "", "warm is less work than cold", 0.5, 1, 40, seeds},
+    {"seeds", "", "warm is less work than cold", 0.2, 1, 40, seeds},
     {"stretched rotations", "", "disjoint", 0.2, 0.95, 40, stretched},
     {"random hulls", "", "disjoint", 0.3, 0.7, 40, random_hulls},
 };

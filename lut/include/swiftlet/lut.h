@@ -7,10 +7,16 @@
 #include <array>
 #include <cstdint>
 
+/// Directions as small integers, for start tables.
 namespace swiftlet::lut {
 
 /// Samples at multiples of 22.5, 11.25 or 5.625 degrees in altitude and azimuth, the poles once each.
-enum class Resolution : std::uint8_t { None, Degrees22, Degrees11, Degrees5 };
+enum class Resolution : std::uint8_t {
+  None,       ///< no samples
+  Degrees22,  ///< 22.5 degrees apart
+  Degrees11,  ///< 11.25 degrees
+  Degrees5,   ///< 5.625 degrees
+};
 
 /// 0, 114, 482 or 1986.
 std::uint32_t sample_count(Resolution resolution);
@@ -19,6 +25,7 @@ std::uint32_t sample_count(Resolution resolution);
 std::array<double, 3> sample(Resolution resolution, std::uint32_t index);
 
 /// The sample nearest to a direction of any length, in altitude first, then azimuth. The zero vector is the north pole's.
+/// Cost: constant, no trigonometry.
 std::uint32_t nearest(Resolution resolution, const std::array<double, 3>& direction);
 
 }  // namespace swiftlet::lut

@@ -11,9 +11,11 @@
 
 namespace swiftlet {
 
+/// Whether a certificate holds.
 struct Check {
-  bool ok = false;
+  bool ok = false;      ///< it does
   std::string message;  ///< what failed first, with numbers; empty when ok
+  /// `ok`.
   explicit operator bool() const { return ok; }
 };
 

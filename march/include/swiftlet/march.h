@@ -14,8 +14,12 @@
 namespace swiftlet {
 
 /// Which violated Voronoi plane a step follows [Ehmann & Lin 2000, sec. 5.1].
-enum class PlaneRule : std::uint8_t { MostViolated, FirstViolated };
+enum class PlaneRule : std::uint8_t {
+  MostViolated,   ///< the plane that the point is farthest beyond
+  FirstViolated,  ///< the first one found
+};
 
+/// How a march ended. The bounds hold in every case.
 enum class MarchStatus : std::uint8_t {
   Disjoint,      ///< the interval is as narrow as asked, and lower > 0
   Touching,      ///< the signed distance is within tolerance of 0: upper is at most law 2's bound
@@ -29,35 +33,36 @@ enum class MarchStatus : std::uint8_t {
 
 /// Up to four vertex pairs whose differences hold the origin in their hull: the bodies share a point.
 struct OverlapProof {
-  std::uint32_t count = 0;
-  std::array<std::uint32_t, 4> vertex_a{}, vertex_b{};
+  std::uint32_t count = 0;                              ///< of pairs; 0: nothing is proved
+  std::array<std::uint32_t, 4> vertex_a{}, vertex_b{};  ///< pair i is vertex_a[i] of A and vertex_b[i] of B, i < count
 };
 
 /// Where to begin. Default: where the bodies face each other along the line of their centres. Anything is legal: a handle that
 /// names no feature of its view counts as the default.
 struct MarchStart {
-  Handle a, b;
+  Handle a, b;  ///< features of A's view and of B's
 };
 
 /// When to stop: as soon as upper - lower <= max(absolute, relative * lower), or lower > beyond.
 struct MarchRule {
-  double absolute = 0, relative = 0;
-  double beyond = std::numeric_limits<double>::infinity();
-  double floor = 0;                 ///< a lower bound already proved; the answer's is never less
-  std::uint32_t step_budget = ~0u;  ///< steps of the walk, not time; certified progress counts as one more
-  PlaneRule plane_rule = PlaneRule::MostViolated;
+  double absolute = 0, relative = 0;  ///< in the bodies' unit, and of `lower`; never narrower than law 2's bound
+  double beyond = std::numeric_limits<double>::infinity();  ///< the bodies' unit; 0: only whether they are apart
+  double floor = 0;                                         ///< a lower bound already proved; the answer's is never less
+  std::uint32_t step_budget = ~0u;                 ///< steps of the walk, not time; certified progress counts as one more
+  PlaneRule plane_rule = PlaneRule::MostViolated;  ///< changes the way, never the truth
 };
 
+/// What a march found. Lengths are in the bodies' unit.
 struct MarchResult {
-  MarchStatus status = MarchStatus::NotConverged;
+  MarchStatus status = MarchStatus::NotConverged;  ///< why it ended
   Handle a, b;       ///< the nearest features, or those that met; storable, start of the next march
   double lower = 0;  ///< proved bounds on the distance between the two polytopes
-  double upper = std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();  ///< the other bound
   Vec3 normal = Vec3::Zero();  ///< unit, A's frame, from A to B: the direction `lower` is proved in; 0 without one
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< nearest points, A's frame
-  OverlapProof proof;
-  std::uint32_t steps = 0;        ///< changes of feature
-  std::uint32_t plane_tests = 0;  ///< Voronoi planes and support comparisons evaluated
+  OverlapProof proof;                                   ///< where the status is Overlapping
+  std::uint32_t steps = 0;                              ///< changes of feature
+  std::uint32_t plane_tests = 0;                        ///< Voronoi planes and support comparisons evaluated
 };
 
 /// Marches from `start` to the nearest features of `a` and `b`. Allocates nothing.

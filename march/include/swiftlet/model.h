@@ -15,16 +15,24 @@
 
 namespace swiftlet {
 
-enum class FeatureKind : std::uint8_t { None, Vertex, Edge, Face };
+/// What a Handle names.
+enum class FeatureKind : std::uint8_t {
+  None,    ///< nothing; the index means nothing
+  Vertex,  ///< indexes ConvexView::vertices
+  Edge,    ///< indexes the half-edges: ConvexView::head
+  Face,    ///< indexes ConvexView::face_first
+};
 
 /// A feature of one level in 32 bits: two for the kind, thirty for the index. An edge is named by either of its half-edges.
 /// The default is no feature.
 class Handle {
  public:
   constexpr Handle() = default;
+  /// `index` < 2^30.
   constexpr Handle(FeatureKind kind, std::uint32_t index) : bits_(std::uint32_t(kind) << 30 | index) {}
-  constexpr FeatureKind kind() const { return FeatureKind(bits_ >> 30); }
-  constexpr std::uint32_t index() const { return bits_ & 0x3fffffffu; }
+  constexpr FeatureKind kind() const { return FeatureKind(bits_ >> 30); }  ///< None for Handle{}
+  constexpr std::uint32_t index() const { return bits_ & 0x3fffffffu; }    ///< within its kind, on its level
+  /// Same bits: an edge's two half-edges differ.
   constexpr bool operator==(const Handle&) const = default;
 
  private:
@@ -36,15 +44,15 @@ inline constexpr std::uint32_t kNone = 0xffffffffu;
 
 /// A vertex and where its ring lies: half-edges [ring_begin, ring_begin + ring_count), counter-clockwise seen from outside.
 struct Vertex {
-  double x, y, z;
-  std::uint32_t ring_begin, ring_count;
+  double x, y, z;                        ///< body frame, the caller's unit
+  std::uint32_t ring_begin, ring_count;  ///< indices of half-edges that start here
 };
 
 /// The plane of a face of more than three vertices: unit outward normal, and the greatest distance of its vertices from the
 /// plane through the first of them, rounding included.
 struct FacePlane {
-  double x, y, z;
-  double thickness;
+  double x, y, z;    ///< unit outward normal, body frame
+  double thickness;  ///< the greatest distance, the caller's unit
 };
 
 /// One convex polytope as the march sees it: non-owning, trivially copyable. Half-edges are sorted by origin.
@@ -57,7 +65,7 @@ struct FacePlane {
 ///          \|/             A segment has half-edges without faces (kNone), a point has no half-edge.
 ///        origin
 struct ConvexView {
-  std::span<const Vertex> vertices;
+  std::span<const Vertex> vertices;                 ///< at least one
   std::span<const std::uint32_t> head, twin, face;  ///< one entry per half-edge
   std::span<const std::uint32_t> face_first;        ///< per face, a half-edge of its loop
   std::span<const FacePlane> planes;                ///< of faces [0, planes.size())
@@ -68,7 +76,7 @@ struct ConvexView {
 
 /// A level of a model: its polytope, its links to the levels beside it, and how far it stands off the exact hull.
 struct Level {
-  ConvexView view;
+  ConvexView view;                              ///< its features, as long as the model lives
   std::span<const std::uint32_t> child_vertex;  ///< per vertex, the vertex one level finer (empty on level 0)
   std::span<const Handle> child_face;           ///< per face, the face or vertex one level finer (empty on level 0)
   std::span<const std::uint32_t> parent_face;   ///< per face, the vertex one level coarser (empty on the coarsest)
@@ -76,9 +84,9 @@ struct Level {
                                                 ///< how much it may not be; a query's cold start. Empty: none at this level
   std::uint32_t map_side = 0;                   ///< its cells on an edge of that cube
   double edge_length = 0;                       ///< mean over the level's edges
-  double deviation = 0;  ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
-  double volume = 0;
-  std::size_t bytes = 0;                           ///< of this level in the model's block
+  double deviation = 0;   ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
+  double volume = 0;      ///< cubic units; 0 where flatter than a solid
+  std::size_t bytes = 0;  ///< of this level in the model's block
   std::size_t edge_count = 0, triangle_count = 0;  ///< without diagonals; 2 V - 4 for a solid
 };
 
@@ -92,13 +100,13 @@ struct SourceMap {
 /// One level as plain arrays. Faces are counter-clockwise seen from outside. A two-sided polygon is two opposite faces, a
 /// segment two vertices without faces, a point one vertex.
 struct LevelArrays {
-  std::span<const Vec3> vertices;
+  std::span<const Vec3> vertices;                ///< 0 or 1e-70 to 1e45 in magnitude, the caller's unit
   std::span<const std::uint32_t> face_vertices;  ///< the faces' loops one after the other
   std::span<const std::uint32_t> face_sizes;     ///< vertices per face; empty: all are triangles
 
   std::span<const std::uint32_t> vertex_source;      ///< level 0: the user's vertex ids; empty: 0, 1, 2, ...
   std::span<const std::uint32_t> face_source_begin;  ///< level 0: as SourceMap::face_begin, per face given; empty: face k is k
-  std::span<const std::uint32_t> face_source;
+  std::span<const std::uint32_t> face_source;        ///< level 0: the user's triangle ids, one list after the other
 
   std::span<const std::uint32_t> child_vertex;  ///< per vertex, a vertex of the finer arrays; empty: the nearest [sec. 4.3]
   /// Per face that the finer level lacks, a vertex of the finer arrays; empty: as the face's first vertex.
@@ -115,9 +123,10 @@ struct TableSpec {
   std::uint32_t map_side = 16;
 };
 
+/// What Model::from_levels does beside proving.
 struct ModelOptions {
   bool repair = false;  ///< flip the reflex edges that rounding left in the faces given
-  TableSpec table;
+  TableSpec table;      ///< the tables and maps to fill
 };
 
 /// A block of memory that is also the file. Copies share it; it never changes; any number of threads may query it.
@@ -130,24 +139,25 @@ class Model {
   static Result<Model> from_level(const LevelArrays& level, const ModelOptions& options = {});
 
   int level_count() const { return level_count_; }  ///< at least 1; level 0 is the exact hull, larger is coarser
+  /// Level `index` < level_count(); lives as long as the model.
   const Level& level(int index) const {
     assert(index >= 0 && index < level_count_);
     return levels_[index];
   }
   int map_level() const { return map_level_; }  ///< the finest with a support map; level_count() where none has
-  SourceMap source() const;
+  SourceMap source() const;                     ///< the user's ids of level 0; lives as long as the model
 
-  Vec3 centre() const;    ///< area centroid of level 0 (of its edges or point, where flatter)
+  Vec3 centre() const;    ///< body frame: area centroid of level 0 (of its edges or point, where flatter)
   double radius() const;  ///< largest distance of a vertex of level 0 from the centre, rounded up
   double extent() const;  ///< largest absolute coordinate over all levels
   Vec3 box_min() const;   ///< of level 0
-  Vec3 box_max() const;
+  Vec3 box_max() const;   ///< the corner across
   double volume() const;  ///< of level 0
   int dimension() const;  ///< 3 solid, 2 flat, 1 segment, 0 point
   /// A vertex of level 0 that no other exceeds in `direction` (body frame, any length). Exact; a climb from the start table.
   std::uint32_t support(const Vec3& direction) const;
 
-  TableSpec table_spec() const;
+  TableSpec table_spec() const;                   ///< of the table that follows
   std::span<const std::uint32_t> table() const;   ///< a vertex of level 0 per sample of lut.h, empty without one
   Model with_table(const TableSpec& spec) const;  ///< the same levels with another table
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+/// How near are two convex bodies? models (model.h), queries (query.h), and the builder (build.h).
 namespace swiftlet {
 
 /// A point or direction in the frame its name ends with (`p_a`: body A's frame). Any length unit, the caller's.
@@ -15,8 +16,8 @@ using Mat3 = Eigen::Matrix<double, 3, 3, Eigen::ColMajor>;
 /// Maps a point p of its own frame to `rotation * p + translation`. Used as given: a rotation that is rounded, orthonormal to
 /// 1e-6, is legal, as is a reflection, and the answer is the one for these very doubles. Translations reach to 1e45.
 struct Pose {
-  Mat3 rotation = Mat3::Identity();
-  Vec3 translation = Vec3::Zero();
+  Mat3 rotation = Mat3::Identity();  ///< abs(R^T R - I) <= 1e-6 in every entry, or queries answer InvalidPose
+  Vec3 translation = Vec3::Zero();   ///< in the frame mapped to, the bodies' unit
 };
 
 /// The pose of B in A's frame, from both poses in a common frame. Translations are subtracted first, so that a common

@@ -14,6 +14,7 @@
 
 namespace swiftlet {
 
+/// How a query ended.
 enum class Status : std::uint8_t {
   Converged,     ///< the interval is as narrow as asked, or the verdict is proved
   Beyond,        ///< stopped early, as asked: lower > options.beyond
@@ -25,7 +26,7 @@ enum class Status : std::uint8_t {
 
 /// What is proved of the two exact hulls as closed sets.
 enum class Verdict : std::uint8_t {
-  Undecided,
+  Undecided,    ///< none is proved: lower is 0, and the interval is as narrow as asked or the query ended early
   Disjoint,     ///< lower > 0
   Touching,     ///< the signed distance is within law 2's bound of 0; lower may still be above 0
   Overlapping,  ///< proved by `Answer::proof`
@@ -33,7 +34,11 @@ enum class Verdict : std::uint8_t {
 
 /// The levels in which order are refined [Ehmann & Lin 2000, sec. 5.2]: one level of one body (the coarser one), of both,
 /// or two of both.
-enum class Refinement : std::uint8_t { Single, SingleSingle, DoubleDouble };
+enum class Refinement : std::uint8_t {
+  Single,        ///< one level of the coarser body at a time
+  SingleSingle,  ///< one level of both
+  DoubleDouble,  ///< two levels of both
+};
 
 /// Where a query starts. All give the same verdict and true intervals.
 enum class StartPolicy : std::uint8_t {
@@ -50,73 +55,86 @@ struct PairSeed {
   Handle a, b;                                           ///< features at the levels below
   std::array<std::int16_t, 3> line_in_a{}, line_in_b{};  ///< the line of centres, in units of 1/32767: how far it turned tells
                                                          ///< whether the features are worth a try
-  std::uint8_t level_a = 0, level_b = 0;
+  std::uint8_t level_a = 0, level_b = 0;                 ///< where `a` and `b` lie
 };
 static_assert(sizeof(PairSeed) <= 32);
 
 /// One level pair that a query visited.
 struct LevelRecord {
-  int level_a = 0, level_b = 0;
+  int level_a = 0, level_b = 0;                                       ///< the pair
   double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved so far, of the exact hulls
   std::uint32_t steps = 0, plane_tests = 0;                           ///< spent here
 };
 
+/// When a query may stop and how it goes there. Lengths are in the bodies' unit.
 struct QueryOptions {
   double absolute_error = 0;  ///< stop when upper - lower <= max(absolute_error, relative_error * lower)
-  double relative_error = 0;
+  double relative_error = 0;  ///< a fraction of lower
   double beyond = std::numeric_limits<double>::infinity();  ///< stop when lower > beyond
   int finest_level = 0;                                     ///< read no level finer than this
-  std::uint32_t step_budget = ~0u;
-  StartPolicy start = StartPolicy::Automatic;
-  Refinement refinement = Refinement::SingleSingle;
-  PlaneRule plane_rule = PlaneRule::MostViolated;
+  std::uint32_t step_budget = ~0u;                          ///< over all levels; steps, not time
+  StartPolicy start = StartPolicy::Automatic;               ///< where it starts
+  Refinement refinement = Refinement::SingleSingle;         ///< how it descends
+  PlaneRule plane_rule = PlaneRule::MostViolated;           ///< how it walks
   std::span<LevelRecord> trace;  ///< filled with the level pairs visited, the last one in the last place if too short;
                                  ///< a trace asks for bounds at every level, which costs a certificate each
 };
 
+/// What a query found. Points and directions are in A's frame, lengths in the bodies' unit.
 struct Answer {
-  Status status = Status::NotConverged;
-  Verdict verdict = Verdict::Undecided;
+  Status status = Status::NotConverged;                               ///< how it ended
+  Verdict verdict = Verdict::Undecided;                               ///< what is proved; also where a distance was asked for
   double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved bounds on the distance of the exact hulls
   Vec3 normal = Vec3::Zero();  ///< unit, from A to B; `lower` is proved by the gap in this direction; 0 without one
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< nearest points of the levels below
   int level_a = 0, level_b = 0;                         ///< the level pair they lie on: the one that answered
   Handle feature_a, feature_b;                          ///< on those levels
   OverlapProof proof;                                   ///< vertices of those levels
-  std::uint32_t steps = 0, plane_tests = 0;
-  int levels_visited = 0;  ///< entries of options.trace that were wanted
+  std::uint32_t steps = 0, plane_tests = 0;             ///< work, as MarchResult counts it, over all levels
+  int levels_visited = 0;                               ///< entries of options.trace that were wanted
 };
 
 /// The distance between `a` and `b`, where `b_in_a` maps B's frame into A's: exact by default, that is within law 2's bound.
+/// Cost: law 7 bounds the steps (march.h); nothing is allocated. Errors are statuses, and the interval is always true.
 Answer distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options = {});
 
 /// Do they share a point? Read `verdict`. Ends at the first level pair that is disjoint.
+/// The options' errors and `beyond` are not read.
 Answer intersects(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options = {});
 
-enum class Decision : std::uint8_t { Undecided, No, Yes };
+/// Is the distance at most the threshold?
+enum class Decision : std::uint8_t {
+  Undecided,  ///< the interval holds the threshold
+  No,         ///< proved: lower > threshold
+  Yes,        ///< proved: upper <= threshold
+};
 
+/// A decision and what it rests on.
 struct Within {
   Decision decision = Decision::Undecided;  ///< Undecided only within law 2's bound of the threshold, or as the status says
-  Answer answer;
+  Answer answer;                            ///< as far as the decision needed
 };
 
 /// Is the distance at most `threshold` (>= 0)? Ends at the first level pair that decides.
+/// The options' errors and `beyond` are not read.
 Within within(const Model& a, const Model& b, const Pose& b_in_a, double threshold, PairSeed& seed,
               const QueryOptions& options = {});
 
 /// The user's ids of a nearest feature.
 struct SourceFeature {
-  FeatureKind kind = FeatureKind::None;
+  FeatureKind kind = FeatureKind::None;                 ///< None: the answer is not on level 0
   std::array<std::uint32_t, 2> vertices{kNone, kNone};  ///< a vertex's one id, an edge's two
   std::span<const std::uint32_t> triangles;             ///< a face's; none or several; lives as long as the model
 };
 
+/// Where the bodies are nearest.
 struct Contact {
-  Answer answer;  ///< exact, on level 0
-  SourceFeature source_a, source_b;
+  Answer answer;                     ///< exact, on level 0
+  SourceFeature source_a, source_b;  ///< of the answer's features
 };
 
 /// The nearest features, their points and normal, and the user's own ids for them. While the bodies are disjoint.
+/// Of the options, `step_budget`, `start`, `refinement`, `plane_rule` and `trace` are read.
 Contact contact(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options = {});
 
 }  // namespace swiftlet

@@ -10,6 +10,7 @@
 
 namespace swiftlet {
 
+/// What is wrong with data that enters.
 enum class ErrorCode {
   CannotRead,    ///< the file is missing, unreadable, or ends early
   CannotWrite,   ///< the file cannot be created or the disk is full; nothing half-written is left
@@ -24,31 +25,39 @@ enum class ErrorCode {
   Cancelled,     ///< the progress callback asked to stop
 };
 
+/// Why there is no value.
 struct Error {
-  ErrorCode code;
-  std::string message;  ///< one sentence; names the file, line, vertex or edge
+  ErrorCode code;       ///< for the program
+  std::string message;  ///< for people: one sentence; names the file, line, vertex or edge
 };
 
 /// A value or an Error. Reading the one that is not there is misuse and asserts.
 template <class T>
 class [[nodiscard]] Result {
  public:
+  /// Success.
   Result(T value) : state_(std::move(value)) {}
+  /// Failure.
   Result(Error error) : state_(std::move(error)) {}
 
+  /// Whether there is a value.
   explicit operator bool() const { return state_.index() == 0; }
+  /// The value. Asserts that there is one.
   T& value() & {
     assert(*this);
     return std::get<0>(state_);
   }
+  /// The same, read only.
   const T& value() const& {
     assert(*this);
     return std::get<0>(state_);
   }
+  /// The same, to be moved out of a result that goes away.
   T&& value() && {
     assert(*this);
     return std::get<0>(std::move(state_));
   }
+  /// The error. Asserts that there is one.
   const Error& error() const {
     assert(!*this);
     return std::get<1>(state_);
