@@ -9,6 +9,7 @@
 #include "aim.h"
 #include "certify.h"
 #include "conclude.h"
+#include "overlap.h"
 #include "progress.h"
 #include "seed.h"
 #include "walk.h"
@@ -38,15 +39,12 @@ class Descent {
 
   void run(PairSeed& seed) {
     Place place = first_place(a_, b_, line_, seed, options_);
-    const bool warm = is_warm(place.start) && !(may_aim_ && is_threshold());
-    if (!(warm && march(place, may_aim_))) {
-      if (may_aim_ && aim(place)) {
-        if (!is_threshold()) store(place, seed);  // else what the seed knows is better
-        return finish(place);
-      }
-      march(place, false);
+    const bool warm = is_warm(place.start), verdict = may_aim_ && is_threshold();
+    const bool seen = verdict && (warm ? !seed.met && (glance(place, direction(seed)) || glance(place, line_.in_a)) : aim(place));
+    if (!seen) {
+      if (!(warm && march(place, may_aim_)) && !(may_aim_ && !(verdict && !warm) && aim(place))) march(place, false);
+      store(place, seed);
     }
-    store(place, seed);
     finish(place);
   }
 
@@ -79,8 +77,7 @@ class Descent {
     const int least_a = std::max(a_.map_level(), finest_a_), least_b = std::max(b_.map_level(), finest_b_);
     place = coarsest_place(a_, b_);
     // The bodies are no farther apart than their centres: a pair that deviates by more than that allows cannot answer.
-    // About their centres they may touch: a coarse pair hardly tells that they do not.
-    const double most = norm(line_.in_a), close = a_.radius() + b_.radius() + target_.clear_above;
+    const double most = norm(line_.in_a), close = kCloseRadii * (a_.radius() + b_.radius()) + target_.clear_above;
     const auto too_coarse = [&] {
       return is_threshold() ? most <= close : !narrow(most, deviation(place.level_a, place.level_b));
     };
@@ -94,22 +91,33 @@ class Descent {
       while (!last() && too_coarse()) refine();
     for (;;) {
       const Scene pair = scene_at(place);
-      const auto take = [&](const Sight& s) {
-        place.start = {{FeatureKind::Vertex, s.a}, {FeatureKind::Vertex, s.b}};
-        carry(place, {std::max(0.0, s.lower), s.upper, s.normal, s.point_a, s.point_b}, pair.law_two);
-      };
       const Sight sight = look(pair, a_.level(place.level_a), b_.level(place.level_b), line_.in_a, [&](const Sight& s) {
         if (exact_) return false;
-        take(s);
+        take(place, s, pair);
         return answered();
       });
-      take(sight);
+      take(place, sight, pair);
       if (answered() || (sight.meets && overlap(place, sight))) return record(place), true;
       if (finest(place)) return false;  // a walk on the same pair follows
       record(place);
       if (last()) return place = refined(place), false;
       refine();
     }
+  }
+
+  void take(Place& place, const Sight& s, const Scene& pair) {
+    place.start = {{FeatureKind::Vertex, s.a}, {FeatureKind::Vertex, s.b}};
+    carry(place, {std::max(0.0, s.lower), s.upper, s.normal, s.point_a, s.point_b}, pair.law_two);
+  }
+
+  /// Looks once along a direction on the finest pair with maps. Whether that answers.
+  bool glance(Place& place, const Vec& direction) {
+    Place at{std::max(a_.map_level(), finest_a_), std::max(b_.map_level(), finest_b_), {}};
+    const Scene pair = scene_at(at);
+    take(at, look(pair, a_.level(at.level_a), b_.level(at.level_b), direction, [](const Sight&) { return true; }), pair);
+    if (!answered()) return false;
+    place = at;
+    return record(place), true;
   }
 
   /// Whether the vertices that seem to meet prove that the exact hulls do: their descendants on level 0.
@@ -120,16 +128,33 @@ class Descent {
       proof.vertex_a[k] = descendant(a_, place.level_a, proof.vertex_a[k]);
       proof.vertex_b[k] = descendant(b_, place.level_b, proof.vertex_b[k]);
     }
-    const Place exact{0, 0, {}};
-    const Scene pair = scene_at(exact);
+    const Scene pair = scene_at({0, 0, {}});
     if (!proves_deep_overlap(pair, proof)) return false;
+    place = {0, 0, {}};
+    take_overlap(pair, place, sight.normal, proof);
+    return true;
+  }
+
+  /// Whether features of the exact hulls at which a walk got inside prove that these overlap.
+  bool overlap(const Scene& pair, const Place& place) {
+    if (place.level_a != 0 || place.level_b != 0 || !may_aim_) return false;
+    const Vec n = across(pair, place.start);
+    const std::uint32_t behind_a = farthest(a_, -n), behind_b = farthest(b_, body_b(pair).into(n));
+    OverlapProof proof;
+    if (!meet(pair, place.start, behind_a, behind_b, proof)) return false;
+    take_overlap(pair, place, normalised(n), proof);
+    return true;
+  }
+  /// About the farthest vertex of level 0 in a direction.
+  static std::uint32_t farthest(const Model& model, const Vec& direction) {
+    return descendant(model, model.map_level(), look_up(model.level(model.map_level()), direction).vertex);
+  }
+  void take_overlap(const Scene& pair, const Place& place, const Vec& normal, const OverlapProof& proof) {
     met_ = MarchStatus::Overlapping;
-    place = exact;
     answer_.lower = 0;
     answer_.upper = std::numeric_limits<double>::infinity();
     const Vec p = body_a(pair).point(proof.vertex_a[0]), q = body_b(pair).point(proof.vertex_b[0]);
-    carry(place, {0, 0, sight.normal, p, q, proof}, pair.law_two);
-    return true;
+    carry(place, {0, 0, normal, p, q, proof}, pair.law_two);
   }
 
   /// Walks and certifies from level pair to finer level pair until the question is answered; false when the start turned out to
@@ -139,25 +164,25 @@ class Descent {
       const Scene pair = scene_at(place);
       const bool last = finest(place);
       met_ = MarchStatus::NotConverged;
-      place.start = last && max_abs(place.direction) > 0 ? enter(pair, place) : settled(pair, place.start, answer_.plane_tests);
-      if (!last || !answered()) {
-        const std::uint32_t left = steps_left();
-        const Walk walked =
-            walk(pair, place.start.a, place.start.b, options_.plane_rule, std::min(left, place.trial_steps));
-        answer_.steps += walked.steps;
-        answer_.plane_tests += walked.plane_tests;
-        spent_ = walked.end == WalkEnd::Budget && answer_.steps >= options_.step_budget;
-        const bool lost = walked.end == WalkEnd::Budget && !spent_;
-        if (lost || (may_give_up && walked.end == WalkEnd::Inside)) {
-          record(place);
-          if (may_give_up) return false;
-          place = coarsest_place(a_, b_);
-          continue;
-        }
+      place.start = settled(pair, place.start, answer_.plane_tests);
+      const Walk walked = walk(pair, place.start.a, place.start.b, options_.plane_rule, std::min(steps_left(), place.trial_steps));
+      answer_.steps += walked.steps;
+      answer_.plane_tests += walked.plane_tests;
+      spent_ = walked.end == WalkEnd::Budget && answer_.steps >= options_.step_budget;
+      const bool lost = walked.end == WalkEnd::Budget && !spent_;
+      if (walked.end == WalkEnd::Inside && overlap(pair, {place.level_a, place.level_b, {walked.a, walked.b}})) {
         place.start = {walked.a, walked.b};
-        if (place.level_a + 1 == a_.level_count() && place.level_b + 1 == b_.level_count()) coarsest_ = place.start;
-        if (last || spent_ || may_answer(place, walked)) bound(pair, place, walked);
+        return record(place), true;
       }
+      if (lost || (may_give_up && walked.end == WalkEnd::Inside)) {
+        record(place);
+        if (may_give_up) return false;
+        place = coarsest_place(a_, b_);
+        continue;
+      }
+      place.start = {walked.a, walked.b};
+      if (place.level_a + 1 == a_.level_count() && place.level_b + 1 == b_.level_count()) coarsest_ = place.start;
+      if (last || spent_ || may_answer(place, walked)) bound(pair, place, walked);
       record(place);
       if (last || spent_ || answered()) return true;
       place = refined(place);
@@ -170,23 +195,6 @@ class Descent {
     const double error = deviation(place.level_a, place.level_b);
     return walked.end == WalkEnd::Minimum || !options_.trace.empty() || narrow(0, error) ||
            error < target_.hit_below - law_two_;
-  }
-
-  /// Enters a pair along a direction, the finest one along the coarser one's: the supports there bound the distance before any
-  /// walk, and are better starts than the child features unless these hold them.
-  MarchStart enter(const Scene& pair, const Place& place) {
-    const Vec& n = place.direction;
-    const auto [va, vb, lower] =
-        supports(pair, n, any_vertex(pair.a, place.start.a), any_vertex(pair.b, place.start.b), answer_.plane_tests);
-    const auto better = [](const ConvexView& view, Handle child, std::uint32_t v) {
-      return any_vertex(view, child) == v ? child : Handle{FeatureKind::Vertex, v};
-    };
-    const MarchStart start{better(pair.a, place.start.a, va), better(pair.b, place.start.b, vb)};
-    const Vec p = body_a(pair).point(va), q = body_b(pair).point(vb);
-    Place at = place;
-    at.start = {{FeatureKind::Vertex, va}, {FeatureKind::Vertex, vb}};
-    carry(at, {std::max(0.0, lower), apart(pair, va, vb), n, p, q}, pair.law_two);
-    return start;
   }
 
   /// What a level pair says of its own distance, between the features of its place.
@@ -268,7 +276,6 @@ class Descent {
     next.start = place.start;
     for (int level = place.level_a; level > next.level_a; --level) next.start.a = child(a_, level, next.start.a);
     for (int level = place.level_b; level > next.level_b; --level) next.start.b = child(b_, level, next.start.b);
-    if (answer_.lower > 0) next.direction = vec(answer_.normal);
     return next;
   }
 
@@ -300,12 +307,11 @@ class Descent {
     if (options_.start == StartPolicy::Coarsest) {
       kept = coarsest_place(a_, b_);
       kept.start = coarsest_;
-    } else if (met_ == MarchStatus::Overlapping && may_aim_) {
-      kept.start = {};  // features that meet are no start for a walk
     } else if (options_.start != StartPolicy::Finest && !exact_) {
       climb(kept);
     }
-    remember_line(line_, seed);
+    remember(line_, vec(answer_.normal), seed);
+    seed.met = met_ == MarchStatus::Overlapping;
     seed.a = kept.start.a;
     seed.b = kept.start.b;
     seed.level_a = std::uint8_t(kept.level_a);

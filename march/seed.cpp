@@ -107,7 +107,12 @@ Place first_place(const Model& a, const Model& b, const Line& line, const PairSe
   }
 }
 
-void remember_line(const Line& line, PairSeed& seed) {
+Vec direction(const PairSeed& seed) {
+  return {double(seed.normal[0]), double(seed.normal[1]), double(seed.normal[2])};
+}
+
+void remember(const Line& line, const Vec& normal, PairSeed& seed) {
+  seed.normal = packed(normal * (1 - 4 * kU));
   const double length = norm(line.in_a), scale = length > 0 ? (1 - 4 * kU) / length : 0;  // no coordinate above 1
   seed.line_in_a = packed(line.in_a * scale);
   seed.line_in_b = packed(line.in_b * scale);

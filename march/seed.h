@@ -18,7 +18,6 @@ struct Place {
   int level_a, level_b;
   MarchStart start;
   std::uint32_t trial_steps = ~0u;  ///< after which the coarsest pair is tried instead
-  Vec direction{0, 0, 0};           ///< unit, from A to B, what a coarser pair ended with; 0 without one
 };
 
 /// The start as features of the scene's views: what is no feature of its view, or a face against a face, becomes vertices.
@@ -34,8 +33,9 @@ Line line_of_centres(const Model& a, const Model& b, const Motion& b_in_a);
 /// Where a query begins.
 Place first_place(const Model& a, const Model& b, const Line& line, const PairSeed& seed, const QueryOptions& options);
 
-/// Notes the line of centres in the seed.
-void remember_line(const Line& line, PairSeed& seed);
+/// Notes the line of centres and the direction of an answer in the seed; and the latter as it was noted.
+void remember(const Line& line, const Vec& normal, PairSeed& seed);
+Vec direction(const PairSeed& seed);
 
 /// The coarsest pair, from nothing.
 Place coarsest_place(const Model& a, const Model& b);

@@ -108,6 +108,9 @@ inline constexpr int kProgressLimit = 400, kProgressPatience = 8;
 /// a cold start (ski rental).
 inline constexpr double kWarmEdges = 6;
 inline constexpr std::uint32_t kTrialSteps = 16;
+/// Bodies nearer than so many times the sum of their radii are told apart on fine levels: coarse ones deviate by a tenth, and
+/// their maps by as much.
+inline constexpr double kCloseRadii = 1.25;
 /// A cold start looks along maps until its supports lie this many edges of both bodies aside, or so many times.
 inline constexpr double kAimEdges = 2;
 inline constexpr int kAimSteps = 12;
