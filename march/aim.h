@@ -19,7 +19,8 @@ namespace swiftlet {
 /// What one step saw.
 struct Sight {
   std::uint32_t a = 0, b = 0;  ///< supports along `normal` and against it, as the maps know them
-  double lower = 0;            ///< proved along `normal`; may be negative
+  double gap = 0;              ///< of these vertices along `normal`
+  double lower = 0;            ///< proved along `normal`: less than the gap by what the maps are uncertain of; may be negative
   double upper = 0;            ///< the distance of the points
   Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};
   bool meets = false;  ///< the pair seems to overlap: the differences of `proof`'s vertices look to hold the origin
@@ -69,12 +70,14 @@ Sight look(const Scene& scene, const Level& a, const Level& b, const Vec& direct
   Vec n = normalised(direction);
   for (int steps = 0;; ++steps) {
     const MapSupport top_a = look_up(a, n), top_b = look_up(b, -other.into(n));
-    const Vec q = body.point(top_a.vertex), p = other.point(top_b.vertex) - q, aside = p - n * dot(n, p);
+    const Vec q = body.point(top_a.vertex), p = other.point(top_b.vertex) - q;
     s.a = top_a.vertex, s.b = top_b.vertex;
-    s.lower = gap(scene, n, p, top_a.excess + top_b.excess);
+    s.gap = dot(n, p);
+    s.lower = swiftlet::gap(scene, n, p, top_a.excess + top_b.excess);
     s.normal = n;
     const double upper = norm(p) * (1 + kNormError) + scene.point_error;
     if (upper < s.upper) s.upper = upper, s.point_a = q, s.point_b = q + p;
+    const Vec aside = p - n * s.gap;
     if (enough(s) || dot(aside, aside) <= few * few || steps == kAimSteps || simplex.has(s.a, s.b)) return s;
     const Simplex::Nearest nearest = simplex.add({p, q, s.a, s.b});
     if (nearest.count == 4) {

@@ -97,6 +97,7 @@ class Descent {
         return answered();
       });
       take(place, sight, pair);
+      if (is_threshold() && last() && sight.gap > target_.clear_above) climb(place, sight, pair);
       if (answered() || (sight.meets && overlap(place, sight))) return record(place), true;
       if (finest(place)) return false;  // a walk on the same pair follows
       record(place);
@@ -105,6 +106,13 @@ class Descent {
     }
   }
 
+  /// The same direction, by supports that a climb makes certain: maps are uncertain by some 1e-3 of a body.
+  void climb(Place& place, const Sight& s, const Scene& pair) {
+    const auto [va, vb, lower] = supports(pair, s.normal, s.a, s.b, answer_.plane_tests);
+    place.start = {{FeatureKind::Vertex, va}, {FeatureKind::Vertex, vb}};
+    const Vec p = body_a(pair).point(va), q = body_b(pair).point(vb);
+    carry(place, {std::max(0.0, lower), apart(pair, va, vb), s.normal, p, q}, pair.law_two);
+  }
   void take(Place& place, const Sight& s, const Scene& pair) {
     place.start = {{FeatureKind::Vertex, s.a}, {FeatureKind::Vertex, s.b}};
     carry(place, {std::max(0.0, s.lower), s.upper, s.normal, s.point_a, s.point_b}, pair.law_two);
@@ -308,7 +316,7 @@ class Descent {
       kept = coarsest_place(a_, b_);
       kept.start = coarsest_;
     } else if (options_.start != StartPolicy::Finest && !exact_) {
-      climb(kept);
+      coarsen(kept);
     }
     remember(line_, vec(answer_.normal), seed);
     seed.met = met_ == MarchStatus::Overlapping;
@@ -317,7 +325,7 @@ class Descent {
     seed.level_a = std::uint8_t(kept.level_a);
     seed.level_b = std::uint8_t(kept.level_b);
   }
-  void climb(Place& kept) const {
+  void coarsen(Place& kept) const {
     const double found = deviation(kept.level_a, kept.level_b);
     double slack = answer_.upper;  // Paper: the motion a coarser start can absorb is the distance
     while (kept.level_a + 1 < a_.level_count() && kept.level_b + 1 < b_.level_count()) {

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The direction tables: every bin, every border between bins, and directions that are none. Knows only lut.h.
+// The direction tables: every bin, every border between bins, and directions that are none. Knows only lut.
 #include <swiftlet/lut.h>
+
+#include <cube.h>
 
 #include <cmath>
 #include <limits>
@@ -135,6 +137,47 @@ TEST(Lut, NoDirectionIsTheNorthPole) {
     EXPECT_EQ(nearest(grid.resolution, {-0.0, -0.0, -0.0}), 0u);
     EXPECT_EQ(nearest(grid.resolution, {nan, 1, -1}), 0u);
     EXPECT_EQ(nearest(grid.resolution, {0, -kInfinity, -1}), 0u);
+  }
+}
+
+// ---- The cube
+
+TEST(Cube, EveryDirectionLiesInItsCell) {
+  std::mt19937_64 engine(1);
+  std::uniform_real_distribution<double> draw(-1, 1);
+  for (const std::uint32_t side : {1u, 2u, 3u, 16u, 64u}) {
+    std::set<std::uint32_t> seen;
+    for (int i = 0; i < 20000; ++i) {
+      const Direction d{draw(engine), draw(engine), draw(engine)};
+      const std::uint32_t cell = cube_cell(side, d[0], d[1], d[2]);
+      ASSERT_LT(cell, cube_cell_count(side));
+      seen.insert(cell);
+      const std::uint32_t face = cell / (side * side), row = cell / side % side, column = cell % side;
+      const Direction low = cube_point(side, face, 2 * column, 2 * row), high = cube_point(side, face, 2 * column + 2, 2 * row + 2);
+      const double scale = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_GE(d[k] / scale, std::min(low[k], high[k]) - 1e-15);
+        ASSERT_LE(d[k] / scale, std::max(low[k], high[k]) + 1e-15);
+      }
+      ASSERT_EQ(cell, cube_cell(side, d[0] * 0x1p-900, d[1] * 0x1p-900, d[2] * 0x1p-900));
+    }
+    if (side <= 16) {
+      EXPECT_EQ(seen.size(), cube_cell_count(side));
+    }
+  }
+}
+
+TEST(Cube, MiddlesAreInTheirCellsAndNoDirectionIsTheFirst) {
+  for (const std::uint32_t side : {1u, 4u, 16u}) {
+    for (std::uint32_t cell = 0; cell < cube_cell_count(side); ++cell) {
+      const Direction d = cube_point(side, cell / (side * side), 2 * (cell % side) + 1, 2 * (cell / side % side) + 1);
+      EXPECT_EQ(cube_cell(side, d[0], d[1], d[2]), cell);
+    }
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(cube_cell(side, 0, 0, 0), 0u);
+    EXPECT_EQ(cube_cell(side, nan, nan, nan), 0u);
+    for (const Direction& d : {Direction{kInfinity, 0, 0}, {1, 1, 1}, {-1, -1, -1}, {5e-324, 0, 0}, {nan, 1, 0}, {0, 1, nan}})
+      EXPECT_LT(cube_cell(side, d[0], d[1], d[2]), cube_cell_count(side));
   }
 }
 

@@ -19,6 +19,7 @@
 #include "bodies.h"
 #include "exact.h"
 #include "ring.h"
+#include "support_map.h"
 
 namespace swiftlet {
 namespace {
@@ -635,6 +636,58 @@ TEST(Model, TableHoldsTheNearestVertexPerSample) {
   for (const double factor : {0.99, -1.0, 1e7, kInfinity, std::nan("")}) {
     EXPECT_EQ(Model::from_level(b.level(), {false, {lut::Resolution::Degrees22, factor}}).error().code, ErrorCode::BadValue);
   }
+}
+
+/// The heights of all vertices in long doubles, beside what the map of each level promises.
+TEST(Model, SupportMapsBoundEveryDirection) {
+  std::mt19937_64 engine(6);
+  std::normal_distribution<double> draw;
+  using Real = long double;
+  const auto height = [](const Vec3& d, const Vertex& v) { return Real(d.x()) * v.x + Real(d.y()) * v.y + Real(d.z()) * v.z; };
+  int exact = 0, loose = 0;
+  for (const Model& m : {nested(), model(moved(octahedron(), rotation(1, 2, 3, 4))), model(segment({0, 0, 0}, {1, 0, 0})),
+                         model(point({1, 1, 1})), model(cube(), {false, {lut::Resolution::None, 2, 64}})}) {
+    ASSERT_EQ(m.map_level(), 0);
+    for (int k = 0; k < m.level_count(); ++k) {
+      const Level& level = m.level(k);
+      ASSERT_EQ(level.support_map.size(), 6 * level.map_side * level.map_side);
+      for (int i = 0; i < 2000; ++i) {
+        const Vec3 d = Vec3(draw(engine), draw(engine), i % 5 ? draw(engine) : 0).normalized();
+        const MapSupport s = look_up(level, vec(d));
+        Real most = -kInfinity;
+        for (const Vertex& v : level.view.vertices) most = std::max(most, height(d, v));
+        const Real excess = most - height(d, level.view.vertices[s.vertex]);
+        ASSERT_LE(excess, s.excess);
+        ASSERT_LE(s.excess, 8 * level.view.extent);
+        ++(excess > 0 ? loose : exact);
+      }
+    }
+  }
+  EXPECT_GE(exact, 1000);
+  EXPECT_GE(loose, 50);
+}
+
+TEST(Model, VerifyFindsAMapThatPromisesTooMuch) {
+  const Model good = model(moved(octahedron(), rotation(1, 2, 3, 4)));
+  ASSERT_TRUE(verify(good));
+  bodies::Bytes block = bodies::bytes_of(good);
+  const std::size_t at = bodies::read<BlockHeader>(block, 0).maps.offset + 4 * 777;
+  bodies::write(block, at, (bodies::read<std::uint32_t>(block, at) + 1) % 6);  // another vertex, and no doubt about it
+  bodies::rehash(block);
+  AlignedBytes copy(block.size());
+  std::copy(block.begin(), block.end(), copy.data());
+  const Check outcome = verify(must(BlockReader::read(std::move(copy))));
+  EXPECT_FALSE(outcome);
+  EXPECT_NE(outcome.message.find("cell 777"), std::string::npos) << outcome.message;
+}
+
+TEST(Model, MapsNeedAPowerOfTwo) {
+  const Body b = cube();
+  for (const std::uint32_t side : {3u, 128u, ~0u}) {
+    EXPECT_EQ(Model::from_level(b.level(), {false, {lut::Resolution::None, 2, side}}).error().code, ErrorCode::BadValue);
+  }
+  EXPECT_EQ(model(b, {false, {lut::Resolution::None, 2, 0}}).map_level(), 1);
+  EXPECT_TRUE(verify(model(b, {false, {lut::Resolution::None, 2, 0}})));
 }
 
 TEST(Model, SupportIsExtreme) {

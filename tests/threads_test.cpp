@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Law 8 under many threads: shared models, seeds of one's own, any order, the bits of one thread. Run by ./run threads under
 // the thread sanitizer.
+#include <swiftlet/batch.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -154,6 +156,34 @@ TEST_F(Threads, ModelsAreCopiedAndDroppedWhileOthersAsk) {
     }
   });
   EXPECT_EQ(different, 0);
+}
+
+TEST_F(Threads, BatchesAnswerAsOneAfterTheOther) {
+  const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) {
+    while (count > 0) task(--count);
+  };
+  for (const auto& executor : {on_threads(1), on_threads(unsigned(kThreads)), backwards}) {
+    std::vector<PairSeed> seeds(motions().size()), own(motions().size());
+    for (std::size_t i = 0; i < std::size_t(kPoses); ++i) {  // seeds carry from batch to batch
+      std::vector<PairQuery> pairs;
+      for (std::size_t m = 0; m < motions().size(); ++m) {
+        pairs.push_back({motions()[m].a, motions()[m].b, motions()[m].poses[i], &seeds[m]});
+        pairs.push_back({motions()[m].a, motions()[m].b, motions()[m].poses[i], nullptr});
+      }
+      std::vector<Answer> answers(pairs.size());
+      i % 2 == 0 ? distance(pairs, answers, {}, executor) : intersects(pairs, answers, {}, executor);
+      for (std::size_t k = 0; k < pairs.size(); ++k) {
+        PairSeed cold;
+        const PairQuery& q = pairs[k];
+        PairSeed& seed = q.seed ? own[k / 2] : cold;
+        Fields expected, got;
+        answers::append(i % 2 == 0 ? distance(*q.a, *q.b, q.b_in_a, seed) : intersects(*q.a, *q.b, q.b_in_a, seed), expected);
+        answers::append(answers[k], got);
+        ASSERT_EQ(expected, got) << "pose " << i << ", pair " << k;
+      }
+    }
+  }
+  distance({}, {}, {}, on_threads(4));
 }
 
 }  // namespace

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Many pairs at once, on the caller's threads or on some of our own. The answers are those of one query after the other, bit for
+// bit.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+
+#include <swiftlet/query.h>
+
+namespace swiftlet {
+
+/// One pair of a batch.
+struct PairQuery {
+  const Model* a = nullptr;  ///< never null; pairs may share models
+  const Model* b = nullptr;  ///< likewise
+  Pose b_in_a;               ///< maps B's frame into A's
+  PairSeed* seed = nullptr;  ///< no two pairs of a batch share one; null: a cold query
+};
+
+/// Calls task(0) to task(count - 1), each once, in any order, on any threads, and returns when all are done.
+using Executor = std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)>;
+
+/// Runs on the calling thread and `count` - 1 more, which it starts and ends: worth it from some 100 microseconds of work on.
+Executor on_threads(unsigned count);
+
+/// `distance` for each of `pairs`, into the answer of the same index. `answers` has room for all. The trace of `options` is not
+/// used. Cost: that of the queries; a task of the executor is 32 of them.
+void distance(std::span<const PairQuery> pairs, std::span<Answer> answers, const QueryOptions& options = {},
+              const Executor& executor = on_threads(1));
+
+/// Likewise `intersects`.
+void intersects(std::span<const PairQuery> pairs, std::span<Answer> answers, const QueryOptions& options = {},
+                const Executor& executor = on_threads(1));
+
+}  // namespace swiftlet
