@@ -128,7 +128,7 @@ Methods judged_methods();
 /// Ours with other options. The models that a session is opened with decide levels and table.
 std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, const QueryOptions& options);
 /// Our walk alone, by another rule than `plain` in all_methods.
-std::unique_ptr<Method> plain_method(std::string name, std::string settings, PlaneRule rule);
+std::unique_ptr<Method> plain_method(std::string name, std::string settings, PlaneRule rule, bool table = false);
 /// The peers that the build did not find.
 std::vector<std::string> absent_peers();
 

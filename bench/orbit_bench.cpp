@@ -96,6 +96,11 @@ class Field {
     for (const auto& [start, policy] : kStarts) {
       for (const auto& [refinement, kind] : kRefinements) figure((start + refinement).c_str(), policy, kind);
     }
+    for (const auto& [name, error] : {std::pair{"swiftlet 10%", 0.1}, {"swiftlet 1%", 0.01}}) {
+      QueryOptions query;
+      query.relative_error = error;
+      figures_.push_back(swiftlet_method(name, "as shipped, to so much of the distance", query));
+    }
     figures_.push_back(plain_method("plain first", "our walk alone, first violated plane", PlaneRule::FirstViolated));
   }
   const Methods& everyone() const { return everyone_; }
@@ -120,7 +125,7 @@ class Field {
 
 bool of_this_house(const Method& method) {
   const std::string name = method.name();
-  return name.starts_with("swiftlet") || name == "vclip" || name == "plain" || name == "test double";
+  return name.starts_with("swiftlet") || name == "vclip" || name.starts_with("plain") || name == "test double";
 }
 
 bool can(const Method& method, Question question) {
@@ -494,14 +499,126 @@ void others(const Options& options, const Field& field, const Shelf& shelf, Resu
   }
 }
 
+/// What swiftlet should take over the fastest classic in the cell: V-Clip, the plain walk from the last features, the plain walk
+/// from the paper's table. Prints every cell beside its goal, the crowd last.
+class Goals {
+ public:
+  void cell(const std::string& where, std::span<const Row> distances, std::span<const Row> verdicts, double distance_goal,
+            double verdict_goal) {
+    const Row* envelope = nullptr;
+    for (const char* classic : {"vclip", "plain", "plain table"}) {
+      const Row* row = find(distances, classic);
+      if (row && (!envelope || row->ns < envelope->ns)) envelope = row;
+    }
+    const Row* exact = find(distances, "swiftlet");
+    if (!envelope || !exact) return;
+    line(where, "distance", *exact, *envelope, envelope->ns * distance_goal, distance_goal);
+    for (const char* loose : {"swiftlet 10%", "swiftlet 1%"}) {
+      if (const Row* row = find(distances, loose)) line(where, loose + 9, *row, *exact, exact->ns, 1);
+    }
+    const Row* verdict = find(verdicts, "swiftlet");
+    if (verdict && verdict_goal > 0) line(where, "intersects", *verdict, *envelope, envelope->ns * verdict_goal, verdict_goal);
+  }
+  void print() const {
+    std::printf("\n%-26s %-10s %9s %9s  %-14s %6s %6s\n", "cell", "question", "ns", "beside", "", "ratio", "goal");
+    std::fputs(lines_.c_str(), stdout);
+    std::printf("%d of %d goals reached\n", reached_, goals_);
+  }
+
+ private:
+  static const Row* find(std::span<const Row> rows, const std::string& series) {
+    for (const Row& row : rows) {
+      if (row.series == series) return &row;
+    }
+    return nullptr;
+  }
+  void line(const std::string& where, const char* question, const Row& row, const Row& beside, double most, double goal) {
+    char buffer[160];
+    const bool reached = row.ns <= most;
+    std::snprintf(buffer, sizeof buffer, "%-26s %-10s %9.0f %9.0f  %-14s %6.2f %6.2f %s\n", where.c_str(), question, row.ns,
+                  beside.ns, beside.series.c_str(), row.ns / beside.ns, goal, reached ? "reached" : "");
+    lines_ += buffer;
+    ++goals_;
+    reached_ += reached;
+  }
+  std::string lines_;
+  int goals_ = 0, reached_ = 0;
+};
+
+/// The flat cost curve: ours beside the classics alone, at three sizes and five motions.
+void goals(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
+  if (!options.wants("goals")) return;
+  constexpr double kSteps[] = {0, 1.04, 10.4, 45.4, kRandomStep};
+  struct Size {
+    std::uint32_t triangles;
+    double distance[5];  ///< per step; random: of slender bodies
+    double fat_at_random;
+  };
+  constexpr Size kSizes[] = {{2'000, {0.6, 0.4, 0.5, 0.45, 0.25}, 0.25},
+                             {20'000, {0.6, 0.4, 0.3, 0.3, 0.1}, 0.2},
+                             {200'000, {0.6, 0.12, 0.1, 0.12, 0.05}, 0.12}};
+  const auto entrants = [&](const Asked& asked, bool approximate) {
+    std::vector<Entrant> list;
+    for (const char* series : {"swiftlet", "vclip", "plain", "plain table"}) {
+      list.push_back({series, &field.named(series), asked.bodies});
+    }
+    if (approximate) {
+      list.push_back({"swiftlet 10%", &field.named("swiftlet 10%"), asked.bodies});
+      list.push_back({"swiftlet 1%", &field.named("swiftlet 1%"), asked.bodies});
+    }
+    return list;
+  };
+  Goals table;
+  const std::uint32_t most = options.largest > 0 ? options.largest : options.quick() ? 2'000 : 20'000;
+  for (const Size& size : kSizes) {
+    if (size.triangles > most) continue;
+    for (const Family family : kFamilies) {
+      for (std::size_t i = 0; i < std::size(kSteps); ++i) {
+        const bool random = kSteps[i] == kRandomStep;
+        const Scene scene = random ? random_poses(shelf, family, size.triangles, options.extent())
+                                   : orbit(shelf, family, size.triangles, 2, kSteps[i], options.extent());
+        const Asked asked(scene);
+        const auto cell = [&](Question question, std::vector<Entrant> list) {
+          std::vector<Row> rows = measure(asked, question, list, options.rounds());
+          results.add("goals", shapes::name(family), kSteps[i], size.triangles, rows);
+          return rows;
+        };
+        const auto distances = cell(Question::Distance, entrants(asked, true));
+        const auto verdicts = cell(Question::Intersects, {{"swiftlet", &field.named("swiftlet"), asked.bodies}});
+        char where[64];
+        std::snprintf(where, sizeof where, random ? "%u %s random" : "%u %s %g deg", unsigned(size.triangles),
+                      shapes::name(family), kSteps[i]);
+        const double goal = random && family == Family::Fat ? size.fat_at_random : size.distance[i];
+        table.cell(where, distances, verdicts, goal, size.triangles == 2'000 ? 0.2 : 0);
+      }
+    }
+  }
+  for (const Family family : kFamilies) {
+    const Scene scene = mixed(shelf, family, kPaperTriangles, 10.4, options.extent());
+    const Asked asked(scene);
+    const auto distances = measure(asked, Question::Distance, entrants(asked, false), options.rounds());
+    const std::vector<Entrant> own{{"swiftlet", &field.named("swiftlet"), asked.bodies}};
+    const auto verdicts = measure(asked, Question::Intersects, own, options.rounds());
+    results.add("goals", "mixed", 10.4, kPaperTriangles, distances);
+    results.add("goals", "mixed", 10.4, kPaperTriangles, verdicts);
+    table.cell(std::string("hits ") + shapes::name(family), distances, verdicts, 0.5, 0.2);
+  }
+  const Scene scene = crowd(shelf, kPaperTriangles, 10.4, 100);
+  const Asked asked(scene);
+  const auto distances = measure(asked, Question::Distance, entrants(asked, false), options.rounds());
+  results.add("goals", "crowd", 10.4, kPaperTriangles, distances);
+  table.cell("crowd", distances, {}, 0.4, 0);
+  table.print();
+}
+
 void usage(std::FILE* out) {
   std::fputs(
       "swiftlet_bench [--quick | --all] [--only GROUP]... [--largest TRIANGLES] [--wrong] [--cache DIR] [--meshes DIR]\n"
       "               [--results DIR]\n"
-      "groups: orbit wide error triangles scenes fig5 fig6 fig7 fig8 fig9 fig10 fig11 fig12 (these two need 6 to 10 beside "
+      "groups: goals orbit wide error triangles scenes fig5 fig6 fig7 fig8 fig9 fig10 fig11 fig12 (these two need 6 to 10 beside "
       "them)\n"
       "--quick  1000 queries a round, three steps; --all adds 200000 triangles and peers in every cell\n"
-      "--largest 200000  of the group triangles: beyond 20000 without --all\n"
+      "--largest 200000  of the groups triangles and goals: beyond 20000 without --all\n"
       "--wrong  adds a method that is 1e-6 off: the table must flag it\n",
       out);
 }
@@ -546,6 +663,7 @@ int run(const Options& options) {
   errors(options, field, shelf, results);
   sizes(options, field, shelf, results);
   others(options, field, shelf, results);
+  goals(options, field, shelf, results);
   std::printf("\n%zu rows flagged as wrong; results in %s\n", results.flagged(), options.results.c_str());
   return 0;
 }

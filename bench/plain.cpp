@@ -19,4 +19,13 @@ PlainResult plain(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, 
   return {inside ? 0 : walked.distance, inside, stalled, walked.steps, walked.plane_tests};
 }
 
+PlainSeed table_start(const Model& a, const Model& b, const Pose& b_in_a) {
+  const Motion m = motion(b_in_a);
+  const Vec line = apply(m, vec(b.centre())) - vec(a.centre()), back = -turn_back(m, line);
+  const auto look_up = [](const Model& model, const Vec& d) {
+    return Handle{FeatureKind::Vertex, model.table()[lut::nearest(model.table_spec().resolution, {d.x, d.y, d.z})]};
+  };
+  return {look_up(a, line), look_up(b, back)};
+}
+
 }  // namespace swiftlet::bench

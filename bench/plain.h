@@ -26,4 +26,7 @@ struct PlainResult {
 PlainResult plain(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, PlainSeed& seed,
                   PlaneRule rule = PlaneRule::MostViolated);
 
+/// The paper's start: the vertices that the models' tables name for the line of centres [Ehmann & Lin 2000, sec. 4.6].
+PlainSeed table_start(const Model& a, const Model& b, const Pose& b_in_a);
+
 }  // namespace swiftlet::bench
