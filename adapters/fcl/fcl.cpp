@@ -47,3 +47,6 @@ Touch touch(const Placed& a, const Placed& b, PairSeed& seed) {
 }
 
 }  // namespace swiftlet::fcl
+
+template struct fcl::detail::CollisionFunctionMatrix<swiftlet::fcl::Solver<double>>;
+template struct fcl::detail::DistanceFunctionMatrix<swiftlet::fcl::Solver<double>>;

@@ -12,6 +12,8 @@
 
 #include <fcl/geometry/shape/convex.h>
 #include <fcl/narrowphase/contact_point.h>
+#include <fcl/narrowphase/detail/collision_func_matrix.h>
+#include <fcl/narrowphase/detail/distance_func_matrix.h>
 #include <fcl/narrowphase/detail/gjk_solver_libccd.h>
 
 #include <swiftlet/model.h>
@@ -143,3 +145,7 @@ struct Solver {
 };
 
 }  // namespace swiftlet::fcl
+
+/// FCL's tables of functions by shape, compiled once; they are half a minute of a translation unit otherwise.
+extern template struct fcl::detail::CollisionFunctionMatrix<swiftlet::fcl::Solver<double>>;
+extern template struct fcl::detail::DistanceFunctionMatrix<swiftlet::fcl::Solver<double>>;
