@@ -1,15 +1,17 @@
 # SPDX-FileCopyrightText: 2026 the swiftlet authors
 # SPDX-License-Identifier: BSD-3-Clause
-# How other programs find an installed swiftlet, and the Debian packages: one for each of the components march, lod and tools.
+# How other programs find an installed swiftlet, and the Debian packages: one for each component, but both precisions of Bullet
+# share theirs, as they share a header.
 include(CMakePackageConfigHelpers)
 configure_package_config_file(swiftletConfig.cmake.in swiftletConfig.cmake INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(swiftletConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/swiftletConfig.cmake ${PROJECT_BINARY_DIR}/swiftletConfigVersion.cmake
   DESTINATION ${config_dir} COMPONENT march)
-install(EXPORT swiftlet-march-targets NAMESPACE swiftlet:: DESTINATION ${config_dir} COMPONENT march)
-if(SWIFTLET_LOD)
-  install(EXPORT swiftlet-lod-targets NAMESPACE swiftlet:: DESTINATION ${config_dir} COMPONENT lod)
-endif()
+foreach(component march lod bullet bullet_float64 fcl)
+  if(TARGET swiftlet_${component})
+    install(EXPORT swiftlet-${component}-targets NAMESPACE swiftlet:: DESTINATION ${config_dir} COMPONENT ${component})
+  endif()
+endforeach()
 
 # Paths from the file itself, so that a prefix can be moved.
 file(RELATIVE_PATH include_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_FULL_INCLUDEDIR})
@@ -42,6 +44,22 @@ endif()
 if(SWIFTLET_TOOL)
   swiftlet_package(tools swiftlet-tools science "The command line tool. With `build` in it, it comes under CGAL's GPL.")
   set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
+endif()
+if(TARGET swiftlet_bullet)
+  swiftlet_package(bullet libswiftlet-bullet-dev libdevel "The adapter to Bullet: header and static libraries.")
+  set(CPACK_DEBIAN_BULLET_PACKAGE_DEPENDS "libbullet-dev, pkg-config")
+  set(CPACK_COMPONENT_BULLET_DEPENDS march)
+  if(TARGET swiftlet_bullet_float64)
+    list(APPEND CPACK_COMPONENTS_ALL bullet_float64)
+    set(CPACK_COMPONENT_BULLET_GROUP bullet)
+    set(CPACK_COMPONENT_BULLET_FLOAT64_GROUP bullet)
+    string(APPEND CPACK_DEBIAN_BULLET_PACKAGE_DEPENDS ", libbullet-extras-dev")
+  endif()
+endif()
+if(TARGET swiftlet_fcl)
+  swiftlet_package(fcl libswiftlet-fcl-dev libdevel "The adapter to FCL: header and static library.")
+  set(CPACK_DEBIAN_FCL_PACKAGE_DEPENDS "libfcl-dev (>= 0.7)")
+  set(CPACK_COMPONENT_FCL_DEPENDS march)
 endif()
 set(CPACK_PACKAGE_CONTACT "the swiftlet authors")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)

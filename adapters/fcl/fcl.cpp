@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <swiftlet/fcl.h>
+
+namespace swiftlet::fcl {
+namespace {
+
+bool is_diagonal(const ConvexView& view, std::uint32_t h) { return view.face[h] == view.face[view.twin[h]]; }
+
+/// The half-edge after h around its left face.
+std::uint32_t next_in_face(const ConvexView& view, std::uint32_t h) {
+  const Vertex& head = view.vertices[view.head[h]];
+  std::uint32_t next = view.twin[h];
+  do next = next == head.ring_begin ? next + head.ring_count - 1 : next - 1;
+  while (is_diagonal(view, next));
+  return next;
+}
+
+Vec3 centre_in_world(const Placed& body) { return body.in_world.rotation * body.model->centre() + body.in_world.translation; }
+
+}  // namespace
+
+std::vector<int> face_loops(const Model& model) {
+  const ConvexView& view = model.level(0).view;
+  std::vector<int> loops;
+  for (const std::uint32_t first : view.face_first) {
+    const std::size_t size_at = loops.size();
+    loops.push_back(0);
+    std::uint32_t h = first;
+    do {
+      loops.push_back(int(view.head[h]));
+      ++loops[size_at];
+      h = next_in_face(view, h);
+    } while (h != first);
+  }
+  return loops;
+}
+
+Touch touch(const Placed& a, const Placed& b, PairSeed& seed) {
+  const Nearest near = nearest(a, b, 0, seed);
+  const Vec3 line = centre_in_world(b) - centre_in_world(a);
+  Touch result;
+  result.normal = !near.normal.isZero() ? near.normal : line.isZero() ? Vec3::UnitX() : line.normalized();
+  result.point = (near.point_a + near.point_b) / 2;
+  result.depth = 64 * 0x1p-53 * (a.model->extent() + b.model->extent() + line.norm());  // law 2's bound on touching
+  return result;
+}
+
+}  // namespace swiftlet::fcl
+
+template struct fcl::detail::CollisionFunctionMatrix<swiftlet::fcl::Solver<double>>;
+template struct fcl::detail::DistanceFunctionMatrix<swiftlet::fcl::Solver<double>>;

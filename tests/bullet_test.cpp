@@ -1,0 +1,337 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// swiftlet in Bullet, in both precisions: margins, signs and normals against exact answers; who answers which pair; what
+// lives as long as a pair does. Piles of hulls are pile_test.cpp's.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <btBulletDynamicsCommon.h>
+
+#include <swiftlet/bullet.h>
+#include <swiftlet/model_file.h>
+#include <swiftlet/query.h>
+
+#include "bodies.h"
+
+namespace swiftlet {
+namespace {
+
+using bullet::HullPairs;
+using bullet::HullShape;
+
+const btScalar kRounding = sizeof(btScalar) == 4 ? btScalar(4e-6) : btScalar(1e-13);  // at sizes of a few units
+
+/// A collision world without and with swiftlet's hull pairs.
+struct World {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  std::optional<HullPairs> hull_pairs;
+  btDbvtBroadphase broadphase;
+  btCollisionWorld world{&dispatcher, &broadphase, &configuration};
+
+  explicit World(bool with_swiftlet = true) {
+    if (with_swiftlet) hull_pairs.emplace(dispatcher);
+  }
+};
+
+struct Point {
+  btVector3 normal_on_b, on_a, on_b;
+  btScalar distance;
+};
+
+/// What contactPairTest reports, as seen with `a` first.
+std::vector<Point> closest_points(World& w, btCollisionShape& a, const btTransform& a_in_world, btCollisionShape& b,
+                                  const btTransform& b_in_world, btScalar threshold = 0) {
+  struct Collector : btCollisionWorld::ContactResultCallback {
+    const btCollisionObject* first = nullptr;
+    std::vector<Point> points;
+    btScalar addSingleResult(btManifoldPoint& p, const btCollisionObjectWrapper* object, int, int,
+                             const btCollisionObjectWrapper*, int, int) override {
+      EXPECT_EQ(object->getCollisionObject(), first);
+      points.push_back({p.m_normalWorldOnB, p.getPositionWorldOnA(), p.getPositionWorldOnB(), p.getDistance()});
+      return 0;
+    }
+  } collector;
+  btCollisionObject object_a, object_b;
+  object_a.setCollisionShape(&a), object_b.setCollisionShape(&b);
+  object_a.setWorldTransform(a_in_world), object_b.setWorldTransform(b_in_world);
+  collector.first = &object_a;
+  collector.m_closestDistanceThreshold = threshold;
+  w.world.contactPairTest(&object_a, &object_b, collector);
+  return collector.points;
+}
+
+/// Moves the points that Bullet sees far aside: only the model can give the answer from then on.
+void blind_bullet(HullShape& hull) {
+  for (int i = 0; i < hull.getNumPoints(); ++i) hull.getUnscaledPoints()[i] += btVector3(50, 50, 50);
+}
+
+btTransform at(double x, double y, double z) {
+  return btTransform(btQuaternion::getIdentity(), btVector3(btScalar(x), btScalar(y), btScalar(z)));
+}
+
+Model stored(const char* name) { return load(std::string(SWIFTLET_TEST_DIR) + "/data/models/" + name + ".swl").value(); }
+
+Pose pose_of(const btTransform& t) {
+  Pose pose;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) pose.rotation(i, j) = t.getBasis()[i][j];
+    pose.translation[i] = t.getOrigin()[i];
+  }
+  return pose;
+}
+
+void expect_near(const btVector3& p, const btVector3& q, btScalar tolerance) {
+  EXPECT_LE((p - q).length(), tolerance) << p.x() << " " << p.y() << " " << p.z() << " and " << q.x() << " " << q.y() << " "
+                                         << q.z();
+}
+
+TEST(HullShape, IsABtConvexHullShapeOfTheModelsVertices) {
+  const HullShape hull(bodies::model(bodies::box(1, 2, 3)));
+  btConvexHullShape bullets;
+  for (int i = 0; i < hull.getNumPoints(); ++i) bullets.addPoint(hull.getUnscaledPoints()[i]);
+  EXPECT_EQ(hull.getNumPoints(), 8);
+  EXPECT_EQ(hull.getShapeType(), bullets.getShapeType());
+  EXPECT_EQ(hull.getMargin(), bullets.getMargin());
+  btVector3 low, high, bullets_low, bullets_high;
+  hull.getAabb(at(1, 0, 0), low, high);
+  bullets.getAabb(at(1, 0, 0), bullets_low, bullets_high);
+  EXPECT_EQ(low, bullets_low);
+  EXPECT_EQ(high, bullets_high);
+}
+
+TEST(ClosestPoints, LieOnTheMarginsAndTheNormalPointsFromBToA) {
+  World w;
+  HullShape a(bodies::model(bodies::box(1, 1, 1))), b(bodies::model(bodies::box(2, 2, 2)));
+  for (const btScalar margin : {btScalar(0), btScalar(0.04), btScalar(0.25)}) {
+    b.setMargin(margin);
+    const auto points = closest_points(w, a, at(10, 0, 0), b, at(14, 0, 0), 2);  // hulls 1 apart along x
+    ASSERT_EQ(points.size(), 1u);
+    const btScalar from_a = a.getMargin();
+    EXPECT_NEAR(points[0].distance, 1 - from_a - margin, kRounding * 10);
+    expect_near(points[0].normal_on_b, btVector3(-1, 0, 0), kRounding);
+    EXPECT_NEAR(points[0].on_a.x(), 11 + from_a, kRounding * 10);
+    EXPECT_NEAR(points[0].on_b.x(), 12 - margin, kRounding * 10);
+  }
+}
+
+TEST(ClosestPoints, AreNegativeWhereOnlyTheMarginsOverlap) {
+  World w;
+  HullShape a(bodies::model(bodies::cube())), b(bodies::model(bodies::octahedron()));
+  a.setMargin(btScalar(0.1)), b.setMargin(btScalar(0.1));
+  const auto points = closest_points(w, a, at(0, 0, 0), b, at(0, 0, 2.05));  // its lower tip 0.05 above the cube
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_NEAR(points[0].distance, -0.15, kRounding);
+  expect_near(points[0].normal_on_b, btVector3(0, 0, -1), kRounding);
+  expect_near(points[0].on_a, btVector3(0, 0, btScalar(1.1)), kRounding);
+  expect_near(points[0].on_b, btVector3(0, 0, btScalar(0.95)), kRounding);
+}
+
+TEST(ClosestPoints, KeepTheirNormalWhereTheHullsJustTouch) {
+  World w;
+  HullShape a(bodies::model(bodies::cube())), b(bodies::model(bodies::octahedron()));
+  blind_bullet(a), blind_bullet(b);
+  const auto points = closest_points(w, a, at(0, 0, 0), b, at(0, 2, 0));
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_NEAR(points[0].distance, -a.getMargin() - b.getMargin(), kRounding);
+  expect_near(points[0].normal_on_b, btVector3(0, -1, 0), kRounding);
+}
+
+TEST(ClosestPoints, MirrorUnderSwap) {
+  World w;
+  HullShape a(stored("fat_a")), b(stored("plate"));
+  const btTransform a_in_world = at(1, 2, 3), b_in_world(btQuaternion(btVector3(1, 2, 3), 1), btVector3(2, 4, 5));
+  const auto forth = closest_points(w, a, a_in_world, b, b_in_world, 5),
+             back = closest_points(w, b, b_in_world, a, a_in_world, 5);
+  ASSERT_EQ(forth.size(), 1u);
+  ASSERT_EQ(back.size(), 1u);
+  EXPECT_NEAR(forth[0].distance, back[0].distance, kRounding);
+  expect_near(forth[0].normal_on_b, -back[0].normal_on_b, kRounding * 10);
+  expect_near(forth[0].on_a, back[0].on_b, kRounding * 10);
+}
+
+/// In single precision the rounding of rotation and points, 1e-7 of the size each, is all the error. Bullet's own has 2e-3.
+TEST(ClosestPoints, AgreeWithTheExactDistanceLessBothMargins) {
+  World w, bullets(false);
+  const std::array models{stored("fat_a"), stored("fat_b"), stored("long"), stored("plate")};
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto transform = [&] {
+    const btQuaternion q(btScalar(uniform(random)), btScalar(uniform(random)), btScalar(uniform(random)),
+                         btScalar(uniform(random)));
+    return btTransform(q.normalized(),
+                       btVector3(btScalar(uniform(random)), btScalar(uniform(random)), btScalar(uniform(random))) * 2);
+  };
+  int apart = 0;
+  double worst = 0, bullets_worst = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Model &model_a = models[random() % 4], &model_b = models[random() % 4];
+    HullShape a(model_a), b(model_b);
+    const btTransform a_in_world = transform(), b_in_world = transform();
+    PairSeed seed;
+    const Answer truth = distance(model_a, model_b, relative(pose_of(a_in_world), pose_of(b_in_world)), seed);
+    ASSERT_NE(truth.status, Status::InvalidPose);
+    if (truth.verdict != Verdict::Disjoint) continue;
+    ++apart;
+    const double margins = a.getMargin() + b.getMargin();
+    const auto points = closest_points(w, a, a_in_world, b, b_in_world, 10);
+    ASSERT_EQ(points.size(), 1u) << i;
+    worst = std::max(worst, std::abs(points[0].distance + margins - truth.lower));
+    EXPECT_NEAR(points[0].normal_on_b.length(), 1, kRounding);
+    expect_near(points[0].on_a - points[0].on_b, points[0].normal_on_b * points[0].distance, kRounding * 4);
+    const auto others = closest_points(bullets, a, a_in_world, b, b_in_world, 10);
+    ASSERT_EQ(others.size(), 1u) << i;
+    bullets_worst = std::max(bullets_worst, std::abs(others[0].distance + margins - truth.lower));
+  }
+  EXPECT_GT(apart, 1000);
+  EXPECT_LE(worst, kRounding);
+  EXPECT_LE(bullets_worst, 1e-2) << "the two mean different things";
+  std::printf("%d pairs: farthest from the exact distance %.1e, Bullet's own %.1e\n", apart, worst, bullets_worst);
+}
+
+TEST(ClosestPoints, ReachAsFarAsBullets) {
+  World w, bullets(false);
+  HullShape a(bodies::model(bodies::cube())), b(bodies::model(bodies::cube()));
+  for (const double gap : {0.05, 0.15, 0.25, 0.35, 1.0}) {
+    for (const btScalar threshold : {btScalar(0), btScalar(0.1)}) {
+      const btTransform b_in_world = at(2 + gap, 0, 0);
+      EXPECT_EQ(closest_points(w, a, at(0, 0, 0), b, b_in_world, threshold).size(),
+                closest_points(bullets, a, at(0, 0, 0), b, b_in_world, threshold).size())
+          << gap << " " << threshold;
+    }
+  }
+}
+
+TEST(HullPairs, AnswerBothTablesThemselves) {
+  World w;
+  HullShape a(bodies::model(bodies::cube())), b(bodies::model(bodies::cube()));
+  btCollisionObject object_a, object_b;
+  object_a.setCollisionShape(&a), object_b.setCollisionShape(&b);
+  object_b.setWorldTransform(at(0, 0, 2.05));
+  w.world.addCollisionObject(&object_a), w.world.addCollisionObject(&object_b);
+  blind_bullet(a), blind_bullet(b);
+
+  w.world.performDiscreteCollisionDetection();
+  ASSERT_EQ(w.dispatcher.getNumManifolds(), 1);
+  const btPersistentManifold& manifold = *w.dispatcher.getManifoldByIndexInternal(0);
+  ASSERT_EQ(manifold.getNumContacts(), 1);
+  EXPECT_NEAR(manifold.getContactPoint(0).getDistance(), 0.05 - 2 * CONVEX_DISTANCE_MARGIN, kRounding);
+  const btScalar up = manifold.getBody0() == &object_a ? btScalar(-1) : btScalar(1);
+  expect_near(manifold.getContactPoint(0).m_normalWorldOnB, btVector3(0, 0, up), kRounding);
+
+  const auto points = closest_points(w, a, at(0, 0, 0), b, at(0, 0, 3), 2);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_NEAR(points[0].distance, 1 - 2 * CONVEX_DISTANCE_MARGIN, kRounding);
+
+  w.world.removeCollisionObject(&object_a), w.world.removeCollisionObject(&object_b);
+  EXPECT_EQ(w.dispatcher.getNumManifolds(), 0);
+}
+
+/// A pair that separates keeps no contact, and one that comes back gets it again: one algorithm, one seed, many poses.
+TEST(HullPairs, FollowAMovingPair) {
+  World w;
+  HullShape a(stored("fat_a")), b(stored("fat_b"));
+  btCollisionObject object_a, object_b;
+  object_a.setCollisionShape(&a), object_b.setCollisionShape(&b);
+  w.world.addCollisionObject(&object_a), w.world.addCollisionObject(&object_b);
+  int contacts = 0;
+  for (int step = 0; step < 400; ++step) {
+    const double angle = step * 0.05;
+    object_b.setWorldTransform(btTransform(btQuaternion(btVector3(1, 1, 0).normalized(), btScalar(angle)),
+                                           btVector3(btScalar(2.05 + 0.15 * std::sin(angle)), 0, 0)));
+    w.world.performDiscreteCollisionDetection();
+    PairSeed cold;
+    const Answer truth = distance(a.model(), b.model(), pose_of(object_b.getWorldTransform()), cold);
+    const btPersistentManifold* const manifold =
+        w.dispatcher.getNumManifolds() ? w.dispatcher.getManifoldByIndexInternal(0) : nullptr;
+    btScalar least = 1;
+    for (int i = 0; manifold && i < manifold->getNumContacts(); ++i) {
+      least = std::min(least, manifold->getContactPoint(i).getDistance());
+    }
+    const double expected = truth.lower - a.getMargin() - b.getMargin();
+    if (manifold && expected < manifold->getContactBreakingThreshold() - 1e-5) {
+      ++contacts;
+      EXPECT_LE(least, expected + kRounding * 2) << step;
+    } else if (expected > 0.1) {
+      EXPECT_EQ(least, 1) << step;
+    }
+  }
+  EXPECT_GT(contacts, 50);
+  w.world.removeCollisionObject(&object_a), w.world.removeCollisionObject(&object_b);
+}
+
+TEST(HullPairs, AnswerInsideCompoundsToo) {
+  World w;
+  HullShape child(bodies::model(bodies::cube())), other(bodies::model(bodies::cube()));
+  btCompoundShape compound;
+  compound.addChildShape(at(-2, 0, 0), &child);
+  compound.addChildShape(at(2, 0, 0), &child);
+  const auto points = closest_points(w, compound, at(0, 0, 0), other, at(2, 0, 2.05));
+  ASSERT_FALSE(points.empty());
+  EXPECT_NEAR(points[0].distance, 0.05 - 2 * CONVEX_DISTANCE_MARGIN, kRounding);
+  expect_near(points[0].normal_on_b, btVector3(0, 0, -1), kRounding);
+}
+
+/// What is not swiftlet's is Bullet's, to the bit.
+void expect_bullets_own(btCollisionShape& a, btCollisionShape& b, const btTransform& b_in_world) {
+  World w, bullets(false);
+  const auto ours = closest_points(w, a, at(0, 0, 0), b, b_in_world, 2);
+  const auto theirs = closest_points(bullets, a, at(0, 0, 0), b, b_in_world, 2);
+  ASSERT_EQ(ours.size(), 1u);
+  ASSERT_EQ(theirs.size(), 1u);
+  EXPECT_EQ(ours[0].distance, theirs[0].distance);
+  EXPECT_EQ(ours[0].normal_on_b, theirs[0].normal_on_b);
+  EXPECT_EQ(ours[0].on_b, theirs[0].on_b);
+}
+
+TEST(HullPairs, LeaveOverlappingHullsToBulletsDepth) {
+  HullShape a(stored("fat_a")), b(stored("fat_b"));
+  expect_bullets_own(a, b, at(1.2, 0.3, 0.1));
+}
+
+TEST(HullPairs, LeaveScaledHullsToBullet) {
+  HullShape a(bodies::model(bodies::cube())), b(bodies::model(bodies::cube()));
+  b.setLocalScaling(btVector3(2, 1, 1));
+  expect_bullets_own(a, b, at(4, 0, 0));
+  World w;
+  EXPECT_NEAR(closest_points(w, a, at(0, 0, 0), b, at(4, 0, 0), 2)[0].distance, 1 - 2 * CONVEX_DISTANCE_MARGIN, 1e-5);
+  b.setLocalScaling(btVector3(1, 1, 1));
+  blind_bullet(a), blind_bullet(b);
+  EXPECT_NEAR(closest_points(w, a, at(0, 0, 0), b, at(4, 0, 0), 4)[0].distance, 2 - 2 * CONVEX_DISTANCE_MARGIN, kRounding);
+}
+
+TEST(HullPairs, LeaveOtherShapesToBullet) {
+  HullShape hull(bodies::model(bodies::cube()));
+  btConvexHullShape without_model;
+  for (int i = 0; i < hull.getNumPoints(); ++i) without_model.addPoint(hull.getUnscaledPoints()[i]);
+  btBoxShape box(btVector3(1, 1, 1));  // its margin lies inside
+  btSphereShape sphere(1);
+  expect_bullets_own(hull, without_model, at(3, 0.2, 0.1));
+  expect_bullets_own(without_model, hull, at(3, 0.2, 0.1));
+  expect_bullets_own(hull, box, at(3, 0.2, 0.1));
+  expect_bullets_own(hull, sphere, at(3, 0.2, 0.1));
+}
+
+/// A simulation leaves up to 1e-6, which a query as such refuses.
+TEST(HullPairs, AcceptRotationsOfSinglePrecision) {
+  World w;
+  HullShape a(bodies::model(bodies::cube())), b(bodies::model(bodies::cube()));
+  blind_bullet(a), blind_bullet(b);
+  for (const double wrong : {1e-7, 1e-6, 1e-5, 1e-4}) {
+    btTransform tilted = at(3, 0, 0);
+    tilted.getBasis() = btMatrix3x3(btScalar(1 + wrong), 0, 0, 0, btScalar(1 - wrong), 0, 0, btScalar(wrong), 1);
+    const auto points = closest_points(w, a, at(0, 0, 0), b, tilted, 4);
+    ASSERT_EQ(points.size(), 1u) << wrong;
+    EXPECT_NEAR(points[0].distance, 1 - 2 * CONVEX_DISTANCE_MARGIN, 2 * wrong + kRounding);
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet
