@@ -96,11 +96,6 @@ class Field {
     for (const auto& [start, policy] : kStarts) {
       for (const auto& [refinement, kind] : kRefinements) figure((start + refinement).c_str(), policy, kind);
     }
-    for (const auto& [name, error] : {std::pair{"swiftlet 10%", 0.1}, {"swiftlet 1%", 0.01}}) {
-      QueryOptions query;
-      query.relative_error = error;
-      figures_.push_back(swiftlet_method(name, "as shipped, to so much of the distance", query));
-    }
     figures_.push_back(plain_method("plain first", "our walk alone, first violated plane", PlaneRule::FirstViolated));
   }
   const Methods& everyone() const { return everyone_; }
@@ -513,7 +508,7 @@ class Goals {
     const Row* exact = find(distances, "swiftlet");
     if (!envelope || !exact) return;
     line(where, "distance", *exact, *envelope, envelope->ns * distance_goal, distance_goal);
-    for (const char* loose : {"swiftlet 10%", "swiftlet 1%"}) {
+    for (const char* loose : {"swiftlet ~0.1", "swiftlet ~0.01"}) {
       if (const Row* row = find(distances, loose)) line(where, loose + 9, *row, *exact, exact->ns, 1);
     }
     const Row* verdict = find(verdicts, "swiftlet");
@@ -562,10 +557,7 @@ void goals(const Options& options, const Field& field, const Shelf& shelf, Resul
     for (const char* series : {"swiftlet", "vclip", "plain", "plain table"}) {
       list.push_back({series, &field.named(series), asked.bodies});
     }
-    if (approximate) {
-      list.push_back({"swiftlet 10%", &field.named("swiftlet 10%"), asked.bodies});
-      list.push_back({"swiftlet 1%", &field.named("swiftlet 1%"), asked.bodies});
-    }
+    if (approximate) add_approximate(list, field, asked);
     return list;
   };
   Goals table;

@@ -166,7 +166,9 @@ Action declare_build(CLI::App& word) {
   word.add_option("--max-deviation", o.max_deviation, "no level deviates more, in the mesh's unit; 0: no limit")
       ->capture_default_str()
       ->check(number_in(0, std::numeric_limits<double>::max(), "from 0 up"));
-  add_choice(word, "--table", tables, o.table.resolution, "11.25", "degrees between the samples of the start table");
+  word.add_option("--map", o.table.map_side, "cells on an edge of the finest support map: 0 or a power of two up to 64")
+      ->capture_default_str();
+  add_choice(word, "--table", tables, o.table.resolution, "none", "degrees between the samples of the paper's start table");
   word.add_option("--radius-factor", o.table.radius_factor, "its samples lie on a sphere of so many bounding radii, 1 to 1e6")
       ->capture_default_str()
       ->check(number_in(1, 1e6, "from 1 to 1e6"));

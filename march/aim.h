@@ -78,7 +78,8 @@ Sight look(const Scene& scene, const Level& a, const Level& b, const Vec& direct
     const double upper = norm(p) * (1 + kNormError) + scene.point_error;
     if (upper < s.upper) s.upper = upper, s.point_a = q, s.point_b = q + p;
     const Vec aside = p - n * s.gap;
-    if (enough(s) || dot(aside, aside) <= few * few || steps == kAimSteps || simplex.has(s.a, s.b)) return s;
+    const bool near = s.gap > 0 && dot(aside, aside) <= few * few;
+    if (enough(s) || near || steps == kAimSteps || simplex.has(s.a, s.b)) return s;
     const Simplex::Nearest nearest = simplex.add({p, q, s.a, s.b});
     if (nearest.count == 4) {
       s.meets = true;

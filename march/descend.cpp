@@ -96,8 +96,8 @@ class Descent {
         take(place, s, pair);
         return answered();
       });
-      take(place, sight, pair);
-      if (is_threshold() && last() && sight.gap > target_.clear_above) climb(place, sight, pair);
+      if (exact_) take(place, sight, pair);
+      if (is_threshold() && last() && !answered() && sight.gap > target_.clear_above) climb(place, sight, pair);
       if (answered() || (sight.meets && overlap(place, sight))) return record(place), true;
       if (finest(place)) return false;  // a walk on the same pair follows
       record(place);
@@ -147,22 +147,18 @@ class Descent {
   bool overlap(const Scene& pair, const Place& place) {
     if (place.level_a != 0 || place.level_b != 0 || !may_aim_) return false;
     const Vec n = across(pair, place.start);
-    const std::uint32_t behind_a = farthest(a_, -n), behind_b = farthest(b_, body_b(pair).into(n));
+    const std::uint32_t behind_a = about_farthest(a_, -n), behind_b = about_farthest(b_, body_b(pair).into(n));
     OverlapProof proof;
     if (!meet(pair, place.start, behind_a, behind_b, proof)) return false;
     take_overlap(pair, place, normalised(n), proof);
     return true;
   }
-  /// About the farthest vertex of level 0 in a direction.
-  static std::uint32_t farthest(const Model& model, const Vec& direction) {
-    return descendant(model, model.map_level(), look_up(model.level(model.map_level()), direction).vertex);
-  }
   void take_overlap(const Scene& pair, const Place& place, const Vec& normal, const OverlapProof& proof) {
     met_ = MarchStatus::Overlapping;
     answer_.lower = 0;
     answer_.upper = std::numeric_limits<double>::infinity();
-    const Vec p = body_a(pair).point(proof.vertex_a[0]), q = body_b(pair).point(proof.vertex_b[0]);
-    carry(place, {0, 0, normal, p, q, proof}, pair.law_two);
+    const Vec common = common_point(pair, proof);
+    carry(place, {0, 0, normal, common, common, proof}, pair.law_two);
   }
 
   /// Walks and certifies from level pair to finer level pair until the question is answered; false when the start turned out to

@@ -56,6 +56,22 @@ Vec across(const Scene& scene, const MarchStart& met) {
   return {0, 0, 0};
 }
 
+Vec common_point(const Scene& scene, const OverlapProof& proof) {
+  std::array<Vec, 4> a, p;
+  for (int k = 0; k < 4; ++k) {
+    a[k] = body_a(scene).point(proof.vertex_a[k]);
+    p[k] = a[k] - body_b(scene).point(proof.vertex_b[k]);
+  }
+  Vec sum{0, 0, 0};
+  double whole = 0;
+  for (int k = 0; k < 4; ++k) {
+    const double weight = std::fabs(dot(cross(p[(k + 1) % 4], p[(k + 2) % 4]), p[(k + 3) % 4]));
+    sum = sum + a[k] * weight;
+    whole += weight;
+  }
+  return sum * (1 / whole);
+}
+
 bool meet(const Scene& scene, const MarchStart& met, std::uint32_t behind_a, std::uint32_t behind_b, OverlapProof& proof) {
   const Corners a = corners(body_a(scene), met.a, behind_a), b = corners(body_b(scene), met.b, behind_b);
   Simplex simplex;

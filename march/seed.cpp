@@ -8,6 +8,7 @@
 
 #include "certify.h"
 #include "ring.h"
+#include "support_map.h"
 
 namespace swiftlet {
 namespace {
@@ -40,11 +41,12 @@ bool turned_far(const Vec& line, double length2, const std::array<std::int16_t, 
   return least > 0 && !(along > 0 && along * along * (whole * whole) >= least * least * length2 * (kLineUnit * kLineUnit));
 }
 
-/// The table's vertices for the direction between the centres.
+/// The vertices that the paper's tables, or else the support maps, name for the direction between the centres.
 MarchStart from_tables(const Model& a, const Model& b, const Line& line) {
   MarchStart start;
   const auto look_up = [](const Model& model, const Vec& direction) -> Handle {
-    if (model.table().empty()) return {};
+    if (model.table().empty() && model.map_level() == model.level_count()) return {};
+    if (model.table().empty()) return {FeatureKind::Vertex, about_farthest(model, direction)};
     const std::uint32_t sample = lut::nearest(model.table_spec().resolution, {direction.x, direction.y, direction.z});
     return {FeatureKind::Vertex, model.table()[sample]};
   };
@@ -141,6 +143,10 @@ Handle parent(const Model& model, int level, Handle feature) {
   if (feature.kind() == FeatureKind::Vertex) face = from.view.face[from.view.vertices[feature.index()].ring_begin];
   if (feature.kind() == FeatureKind::Edge) face = from.view.face[feature.index()];
   return {FeatureKind::Vertex, from.parent_face[face]};
+}
+
+std::uint32_t about_farthest(const Model& model, const Vec& direction) {
+  return descendant(model, model.map_level(), look_up(model.level(model.map_level()), direction).vertex);
 }
 
 std::uint32_t descendant(const Model& model, int level, std::uint32_t vertex) {

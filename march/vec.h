@@ -55,8 +55,10 @@ static inline double smaller(double x, double y) { return y < x ? y : x; }
 static inline double max_abs(const Vec& a) { return larger(larger(std::fabs(a.x), std::fabs(a.y)), std::fabs(a.z)); }
 /// To kNormError; where squares underflow never less than the length.
 static inline double norm(const Vec& a) {
-  const double square = dot(a, a), scale = max_abs(a);
-  if (!(square < kLeastSquare) || scale == 0) return std::sqrt(square);
+  const double square = dot(a, a);
+  if (!(square < kLeastSquare)) return std::sqrt(square);
+  const double scale = max_abs(a);
+  if (scale == 0) return 0;
   const Vec w{a.x / scale, a.y / scale, a.z / scale};
   return scale * std::sqrt(dot(w, w)) * (1 + kNormError) + std::numeric_limits<double>::denorm_min();
 }

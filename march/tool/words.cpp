@@ -238,6 +238,12 @@ std::string levels_text(const Model& model) {
   return text;
 }
 
+std::size_t map_entries(const Model& model) {
+  std::size_t entries = 0;
+  for (int k = 0; k < model.level_count(); ++k) entries += model.level(k).support_map.size();
+  return entries;
+}
+
 Output info(const Body& body) {
   const Model& model = body.model;
   const std::size_t bytes = model.bytes().size();
@@ -257,6 +263,7 @@ Output info(const Body& body) {
       {"volume", model.volume()},
       {"table",
        {{"degrees", degrees(table.resolution)}, {"entries", model.table().size()}, {"radius_factor", table.radius_factor}}},
+      {"map", {{"side", table.map_side}, {"entries", map_entries(model)}}},
       {"levels", levels_json(model)}};
   std::string text = body.path + "\n";
   text += format(" bytes      %zu", bytes);
@@ -272,6 +279,9 @@ Output info(const Body& body) {
   text += model.table().empty() ? " table      none\n"
                                 : format(" table      %zu entries, every %g degrees, on a sphere of %g radii\n",
                                          model.table().size(), degrees(table.resolution), table.radius_factor);
+  text += map_entries(model) == 0 ? " maps       none\n"
+                                  : format(" maps       %zu entries from level %d on, %u x %u on each face of the finest\n",
+                                           map_entries(model), model.map_level(), table.map_side, table.map_side);
   return {text + levels_text(model), dump(json)};
 }
 

@@ -42,11 +42,12 @@ enum class Refinement : std::uint8_t {
 
 /// Where a query starts. All give the same verdict and true intervals.
 enum class StartPolicy : std::uint8_t {
-  Automatic,  ///< the seed's features at the seed's level; when the bodies turned too far for that, or cold: the coarsest pair
+  Automatic,  ///< the seed's features at the seed's level; when the bodies turned too far for that, or cold: the support maps,
+              ///< or without these the coarsest pair. Questions of yes or no look along the maps first
   Paper,      ///< as Automatic, but the seed climbs to where the motion it can absorb is the distance [sec. 5.2]
   Finest,     ///< the seed's features on level 0, without hierarchy
   Coarsest,   ///< the coarsest pair, from the seed's features there
-  Table,      ///< level 0, from the start tables, without hierarchy, whatever the seed [sec. 5.3]
+  Table,      ///< level 0, from the start tables or else the maps, without hierarchy, whatever the seed [sec. 5.3]
 };
 
 /// What one query leaves for the next one of the same pair. The caller carries it; `PairSeed{}` is cold. Any bits are legal: a
