@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Asks every query of a written scene once, for callgrind: see cost.
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <swiftlet/model_file.h>
+#include <swiftlet/query.h>
+
+int main(int argc, char** argv) {
+  using namespace swiftlet;
+  if (argc != 3) return std::fputs("swiftlet_cost_ask PREFIX distance|intersects\n", stderr), 2;
+  const std::string prefix = argv[1], question = argv[2];
+  const Result<Model> a = load(prefix + "-a.swl"), b = load(prefix + "-b.swl");
+  if (!a || !b) return std::fprintf(stderr, "%s\n", (a ? b : a).error().message.c_str()), 1;
+  std::vector<Pose> poses;
+  std::FILE* file = std::fopen((prefix + ".poses").c_str(), "rb");
+  if (!file) return std::fprintf(stderr, "cannot read %s.poses\n", prefix.c_str()), 1;
+  for (Pose p; std::fread(&p, sizeof p, 1, file) == 1;) poses.push_back(p);
+  std::fclose(file);
+  PairSeed seed;
+  double steps = 0, tests = 0;
+  for (const Pose& pose : poses) {
+    const Answer answer = question == "distance" ? distance(a.value(), b.value(), pose, seed) : intersects(a.value(), b.value(), pose, seed);
+    steps += answer.steps;
+    tests += answer.plane_tests;
+  }
+  const double n = double(poses.size());
+  std::printf("queries %.0f steps %.2f tests %.1f\n", n, steps / n, tests / n);
+}
