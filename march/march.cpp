@@ -4,11 +4,35 @@
 
 #include <algorithm>
 
+#include "certify.h"
 #include "conclude.h"
+#include "crossing.h"
 #include "ring.h"
 #include "seed.h"
 
 namespace swiftlet {
+namespace {
+
+/// Where the budget ends a walk no nearer than it began, certified progress goes on: marches that follow one another do not
+/// come round.
+MarchResult concluded(const Scene& pair, const MarchStart& from, Walk walked, const MarchRule& rule) {
+  const MarchResult r = conclude(pair, walked, rule);
+  if (r.status != MarchStatus::Budget) return r;
+  std::uint32_t tests = 0;
+  if (r.upper < certify(pair, from.a, from.b, tests).upper) return r;
+  walked.end = WalkEnd::Stalled;
+  return conclude(pair, walked, rule);
+}
+
+/// Features that overlap are where the surfaces cross, not where the proof was found.
+void cross(const Scene& pair, MarchResult& r) {
+  const Crossing where = crossing(pair, r.proof, r.plane_tests);
+  r.a = where.a;
+  r.b = where.b;
+  r.point_a = r.point_b = eigen(where.point);
+}
+
+}  // namespace
 
 MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, const MarchStart& start,
                   const MarchRule& rule) {
@@ -22,7 +46,8 @@ MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, 
   const Scene pair = scene(a, b, m, quality.error);
   std::uint32_t climbs = 0;
   const MarchStart from = settled(pair, start, climbs);
-  MarchResult result = conclude(pair, walk(pair, from.a, from.b, rule.plane_rule, rule.step_budget), rule);
+  MarchResult result = concluded(pair, from, walk(pair, from.a, from.b, rule.plane_rule, rule.step_budget), rule);
+  if (result.status == MarchStatus::Overlapping) cross(pair, result);
   result.plane_tests += climbs;
   result.lower = std::max(result.lower, rule.floor);
   result.upper = std::max(result.upper, result.lower);
