@@ -349,7 +349,57 @@ class Search {
   std::array<std::uint32_t, 2> hint_{};  ///< the facet last seen of each
 };
 
+/// The distance from p to the segment from q0 to q1.
+double off_segment(const Vec& p, const Vec& q0, const Vec& q1) {
+  const Vec u = q1 - q0, r = p - q0;
+  const double t = dot(r, u) / dot(u, u);
+  return norm(r - u * (t > 0 ? smaller(t, 1) : 0.0));
+}
+
+template <class Body>
+Handle feature_at(const Body& body, const Vec& p, double bound, std::uint32_t& tests) {
+  const ConvexView& view = body.view;
+  double least = 2 * bound;
+  std::uint32_t nearest = kNone;
+  for (std::uint32_t facet = 0; facet < view.head.size(); ++facet) {
+    const Vec q = body.point(origin(view, facet)), e = body.point(view.head[facet]) - q,
+              n = cross(e, body.point(view.head[next_in_facet(view, facet)]) - q);
+    const double height = std::fabs(dot(n, p - q)), length = norm(n);
+    ++tests;
+    if (!(height <= least * length)) continue;
+    bool above = length > 0;
+    double off = kInfinity;
+    std::uint32_t h = facet;
+    do {
+      const Vec q0 = body.point(origin(view, h)), q1 = body.point(view.head[h]);
+      above = above && dot(cross(q1 - q0, p - q0), n) >= 0;
+      off = smaller(off, off_segment(p, q0, q1));
+      h = next_in_facet(view, h);
+    } while (h != facet);
+    if (above) off = smaller(off, height / length);
+    if (off < least) least = off, nearest = facet;
+  }
+  if (nearest == kNone) return {};
+  Handle smallest{view.face[nearest] == kNone ? FeatureKind::Edge : FeatureKind::Face,
+                  view.face[nearest] == kNone ? nearest : view.face[nearest]};
+  std::uint32_t h = nearest;
+  do {
+    const std::uint32_t v0 = origin(view, h), v1 = view.head[h];
+    if (norm(p - body.point(v0)) <= bound) return {FeatureKind::Vertex, v0};
+    if (!is_diagonal(view, h) && off_segment(p, body.point(v0), body.point(v1)) <= bound) smallest = {FeatureKind::Edge, h};
+    h = next_in_facet(view, h);
+  } while (h != nearest);
+  return smallest;
+}
+
 }  // namespace
+
+Handle feature_at_a(const Scene& scene, const Vec& p, std::uint32_t& plane_tests) {
+  return feature_at(body_a(scene), p, scene.law_two, plane_tests);
+}
+Handle feature_at_b(const Scene& scene, const Vec& p, std::uint32_t& plane_tests) {
+  return feature_at(body_b(scene), p, scene.law_two, plane_tests);
+}
 
 Crossing crossing(const Scene& scene, const OverlapProof& proof, std::uint32_t& plane_tests) {
   return Search(scene, plane_tests).run(proof);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the surfaces of bodies that overlap meet: features of both that share a point, proved exactly. What reads tags wants it;
-// the queries do not. Knows one level pair.
+// Features where bodies meet: of those that overlap two that share a point, proved exactly; of one the feature at a point. What
+// reads tags wants these; the queries do not. Knows one level pair.
 #pragma once
 
 #include <swiftlet/march.h>
@@ -20,5 +20,10 @@ struct Crossing {
 /// `proof` proves that the bodies overlap. Cost: walks over facets, about as many as a cold march; where one body lies inside the
 /// other once over its vertices; where doubles cannot tell, over all edges and facets.
 Crossing crossing(const Scene& scene, const OverlapProof& proof, std::uint32_t& plane_tests);
+
+/// The smallest feature within law 2's bound of a point of the common frame that lies on the surface but for that bound; none
+/// where no facet comes near. Cost: all facets.
+Handle feature_at_a(const Scene& scene, const Vec& p, std::uint32_t& plane_tests);
+Handle feature_at_b(const Scene& scene, const Vec& p, std::uint32_t& plane_tests);
 
 }  // namespace swiftlet

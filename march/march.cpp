@@ -32,6 +32,19 @@ void cross(const Scene& pair, MarchResult& r) {
   r.point_a = r.point_b = eigen(where.point);
 }
 
+/// Certified progress may end on vertices that no feature holds: the origin was in their midst, and near the surface all the
+/// same. It names one of them then, and the witness point is elsewhere.
+void name_features(const Scene& pair, MarchResult& r) {
+  const auto lies_off = [&](const Vec& p, const Vec& vertex) { return norm(p - vertex) > pair.law_two; };
+  const Vec p = vec(r.point_a), q = vec(r.point_b);
+  if (r.a.kind() == FeatureKind::Vertex && lies_off(p, body_a(pair).point(r.a.index()))) {
+    if (const Handle at = feature_at_a(pair, p, r.plane_tests); at != Handle{}) r.a = at;
+  }
+  if (r.b.kind() == FeatureKind::Vertex && lies_off(q, body_b(pair).point(r.b.index()))) {
+    if (const Handle at = feature_at_b(pair, q, r.plane_tests); at != Handle{}) r.b = at;
+  }
+}
+
 }  // namespace
 
 MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, const MarchStart& start,
@@ -47,7 +60,10 @@ MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, 
   std::uint32_t climbs = 0;
   const MarchStart from = settled(pair, start, climbs);
   MarchResult result = concluded(pair, from, walk(pair, from.a, from.b, rule.plane_rule, rule.step_budget), rule);
-  if (result.status == MarchStatus::Overlapping) cross(pair, result);
+  if (result.status == MarchStatus::Overlapping)
+    cross(pair, result);
+  else
+    name_features(pair, result);
   result.plane_tests += climbs;
   result.lower = std::max(result.lower, rule.floor);
   result.upper = std::max(result.upper, result.lower);
