@@ -265,15 +265,14 @@ class Search {
     const Vec apart = centre(k) - centre(1 - k);
     std::uint32_t v = origin(view(k), hint_[std::size_t(k)]);
     for (Vec n : {apart, Vec{1, 0, 0}, Vec{-1, 0, 0}, Vec{0, 1, 0}, Vec{0, -1, 0}, Vec{0, 0, 1}, Vec{0, 0, -1}}) {
-      for (std::uint32_t last = kNone; last != v;) {
-        last = v;
-        n = rescaled(n);
-        v = extreme(k, n, v);
+      for (int step = 0; step < kAimSteps; ++step) {  // rounding may turn in a circle
+        const std::uint32_t farthest = extreme(k, rescaled(n), v);
+        if (step > 0 && farthest == v) break;
+        v = farthest;
         const Exit exit = towards(1 - k, x, point(k, v));
         if (exit.ends_outside()) return v;
-        const Vec facing = normal(1 - k, exit.facet);
-        n = dot(facing, point(k, v) - x) < 0 ? -facing : facing;  // on from here, over the facet that the ray leaves through
-        if (dot(n, point(k, extreme(k, rescaled(n), v)) - point(k, v)) <= 0) break;
+        const Vec facing = normal(1 - k, exit.facet);  // on from here, over the facet that the ray leaves through
+        n = dot(facing, point(k, v) - x) < 0 ? -facing : facing;
       }
     }
     for (v = 0; v < view(k).vertices.size(); ++v) {

@@ -32,17 +32,26 @@ void cross(const Scene& pair, MarchResult& r) {
   r.point_a = r.point_b = eigen(where.point);
 }
 
-/// Certified progress may end on vertices that no feature holds: the origin was in their midst, and near the surface all the
-/// same. It names one of them then, and the witness point is elsewhere.
-void name_features(const Scene& pair, MarchResult& r) {
+/// Certified progress may end on vertices that no feature holds: near 0 the origin was in their midst, near the surface all the
+/// same. It names one of them then, and the witness point is elsewhere. False where that is not on the surface either.
+bool name_features(const Scene& pair, MarchResult& r) {
   const auto lies_off = [&](const Vec& p, const Vec& vertex) { return norm(p - vertex) > pair.law_two; };
   const Vec p = vec(r.point_a), q = vec(r.point_b);
   if (r.a.kind() == FeatureKind::Vertex && lies_off(p, body_a(pair).point(r.a.index()))) {
-    if (const Handle at = feature_at_a(pair, p, r.plane_tests); at != Handle{}) r.a = at;
+    const Handle at = feature_at_a(pair, p, r.plane_tests);
+    if (at == Handle{}) return false;
+    r.a = at;
   }
   if (r.b.kind() == FeatureKind::Vertex && lies_off(q, body_b(pair).point(r.b.index()))) {
-    if (const Handle at = feature_at_b(pair, q, r.plane_tests); at != Handle{}) r.b = at;
+    const Handle at = feature_at_b(pair, q, r.plane_tests);
+    if (at == Handle{}) return false;
+    r.b = at;
   }
+  return true;
+}
+
+bool has_witness(const MarchResult& r) {
+  return r.status == MarchStatus::Disjoint || r.status == MarchStatus::Touching || r.status == MarchStatus::Near;
 }
 
 }  // namespace
@@ -59,11 +68,16 @@ MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, 
   const Scene pair = scene(a, b, m, quality.error);
   std::uint32_t climbs = 0;
   const MarchStart from = settled(pair, start, climbs);
-  MarchResult result = concluded(pair, from, walk(pair, from.a, from.b, rule.plane_rule, rule.step_budget), rule);
-  if (result.status == MarchStatus::Overlapping)
-    cross(pair, result);
-  else
-    name_features(pair, result);
+  const Walk walked = walk(pair, from.a, from.b, rule.plane_rule, rule.step_budget);
+  MarchResult result = concluded(pair, from, walked, rule);
+  if (has_witness(result) && !name_features(pair, result)) {
+    MarchRule exact = rule;  // progress that ends early ends inside the bodies
+    exact.absolute = exact.relative = 0;
+    climbs += result.plane_tests;
+    result = concluded(pair, from, walked, exact);
+    if (has_witness(result)) name_features(pair, result);
+  }
+  if (result.status == MarchStatus::Overlapping) cross(pair, result);
   result.plane_tests += climbs;
   result.lower = std::max(result.lower, rule.floor);
   result.upper = std::max(result.upper, result.lower);
