@@ -17,7 +17,7 @@ MarchStatus status_of(const Scene& scene, const Goal& goal, const Certificate& c
 }
 
 /// Fills `r`; true where it is so near a threshold that another start might prove another verdict.
-bool from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule, MarchResult& r) {
+bool from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule, Until until, MarchResult& r) {
   r.steps = walk.steps;
   r.plane_tests = walk.plane_tests;
   r.a = walk.a;
@@ -32,7 +32,8 @@ bool from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule, Marc
   if (!settled && !progressed) {
     r.status = MarchStatus::Budget;
   } else if (progressed) {
-    const Meeting meeting = progress(scene, c, goal, r.plane_tests);
+    const Goal exact{scene.law_two, 0, goal.beyond};
+    const Meeting meeting = progress(scene, c, until == Until::Exact ? exact : goal, r.plane_tests);
     c = meeting.certificate;
     r.status = meeting.status == MarchStatus::Disjoint ? status_of(scene, goal, c) : meeting.status;
     r.proof = meeting.proof;
@@ -58,13 +59,13 @@ bool from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule, Marc
 }
 
 /// Within rounding of a threshold all starts take one and the same way: that of the cold one.
-void from_nothing(const Scene& scene, const MarchRule& rule, MarchResult& r) {
+void from_nothing(const Scene& scene, const MarchRule& rule, Until until, MarchResult& r) {
   std::uint32_t climbs = 0;
   const MarchStart cold = settled(scene, {}, climbs);
   const Walk cold_walk = walk(scene, cold.a, cold.b, PlaneRule::MostViolated, rule.step_budget - r.steps);
   if (cold_walk.end == WalkEnd::Budget) return;
   MarchResult same;
-  from_walk(scene, cold_walk, rule, same);
+  from_walk(scene, cold_walk, rule, until, same);
   same.steps += r.steps;
   same.plane_tests += r.plane_tests + climbs;
   r = same;
@@ -72,9 +73,9 @@ void from_nothing(const Scene& scene, const MarchRule& rule, MarchResult& r) {
 
 }  // namespace
 
-MarchResult conclude(const Scene& scene, const Walk& walk, const MarchRule& rule) {
+MarchResult conclude(const Scene& scene, const Walk& walk, const MarchRule& rule, Until until) {
   MarchResult r;
-  if (from_walk(scene, walk, rule, r) && r.steps < rule.step_budget) from_nothing(scene, rule, r);
+  if (from_walk(scene, walk, rule, until, r) && r.steps < rule.step_budget) from_nothing(scene, rule, until, r);
   return r;
 }
 

@@ -10,6 +10,12 @@
 
 namespace swiftlet {
 
-MarchResult conclude(const Scene& scene, const Walk& walk, const MarchRule& rule);
+/// How far certified progress goes where features alone do not prove enough.
+enum class Until : std::uint8_t {
+  Narrow,  ///< as the rule says; the points may lie inside the bodies, whose distance they bound
+  Exact,   ///< within law 2, or beyond the rule's threshold: the points are on the surfaces
+};
+
+MarchResult conclude(const Scene& scene, const Walk& walk, const MarchRule& rule, Until until = Until::Narrow);
 
 }  // namespace swiftlet

@@ -16,12 +16,12 @@ namespace {
 /// Where the budget ends a walk no nearer than it began, certified progress goes on: marches that follow one another do not
 /// come round.
 MarchResult concluded(const Scene& pair, const MarchStart& from, Walk walked, const MarchRule& rule) {
-  const MarchResult r = conclude(pair, walked, rule);
+  const MarchResult r = conclude(pair, walked, rule, Until::Exact);
   if (r.status != MarchStatus::Budget) return r;
   std::uint32_t tests = 0;
   if (r.upper < certify(pair, from.a, from.b, tests).upper) return r;
   walked.end = WalkEnd::Stalled;
-  return conclude(pair, walked, rule);
+  return conclude(pair, walked, rule, Until::Exact);
 }
 
 /// Features that overlap are where the surfaces cross, not where the proof was found.
@@ -33,21 +33,15 @@ void cross(const Scene& pair, MarchResult& r) {
 }
 
 /// Certified progress may end on vertices that no feature holds: near 0 the origin was in their midst, near the surface all the
-/// same. It names one of them then, and the witness point is elsewhere. False where that is not on the surface either.
-bool name_features(const Scene& pair, MarchResult& r) {
+/// same. It names one of them then, and the witness point is elsewhere.
+void name_features(const Scene& pair, MarchResult& r) {
   const auto lies_off = [&](const Vec& p, const Vec& vertex) { return norm(p - vertex) > pair.law_two; };
+  const auto improve = [](Handle& feature, Handle found) { feature = found == Handle{} ? feature : found; };
   const Vec p = vec(r.point_a), q = vec(r.point_b);
-  if (r.a.kind() == FeatureKind::Vertex && lies_off(p, body_a(pair).point(r.a.index()))) {
-    const Handle at = feature_at_a(pair, p, r.plane_tests);
-    if (at == Handle{}) return false;
-    r.a = at;
-  }
-  if (r.b.kind() == FeatureKind::Vertex && lies_off(q, body_b(pair).point(r.b.index()))) {
-    const Handle at = feature_at_b(pair, q, r.plane_tests);
-    if (at == Handle{}) return false;
-    r.b = at;
-  }
-  return true;
+  if (r.a.kind() == FeatureKind::Vertex && lies_off(p, body_a(pair).point(r.a.index())))
+    improve(r.a, feature_at_a(pair, p, r.plane_tests));
+  if (r.b.kind() == FeatureKind::Vertex && lies_off(q, body_b(pair).point(r.b.index())))
+    improve(r.b, feature_at_b(pair, q, r.plane_tests));
 }
 
 bool has_witness(const MarchResult& r) {
@@ -68,15 +62,8 @@ MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, 
   const Scene pair = scene(a, b, m, quality.error);
   std::uint32_t climbs = 0;
   const MarchStart from = settled(pair, start, climbs);
-  const Walk walked = walk(pair, from.a, from.b, rule.plane_rule, rule.step_budget);
-  MarchResult result = concluded(pair, from, walked, rule);
-  if (has_witness(result) && !name_features(pair, result)) {
-    MarchRule exact = rule;  // progress that ends early ends inside the bodies
-    exact.absolute = exact.relative = 0;
-    climbs += result.plane_tests;
-    result = concluded(pair, from, walked, exact);
-    if (has_witness(result)) name_features(pair, result);
-  }
+  MarchResult result = concluded(pair, from, walk(pair, from.a, from.b, rule.plane_rule, rule.step_budget), rule);
+  if (has_witness(result)) name_features(pair, result);
   if (result.status == MarchStatus::Overlapping) cross(pair, result);
   result.plane_tests += climbs;
   result.lower = std::max(result.lower, rule.floor);

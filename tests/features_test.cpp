@@ -117,11 +117,13 @@ struct Count {
 };
 
 /// One march, cold or from anywhere.
-void expect_features(const ConvexView& a, const ConvexView& b, const Pose& pose, Count& count, const MarchStart& start = {}) {
-  const MarchResult r = march(a, b, pose, start);
+void expect_features(const ConvexView& a, const ConvexView& b, const Pose& pose, Count& count, const MarchStart& start = {},
+                     const MarchRule& rule = {}) {
+  const MarchResult r = march(a, b, pose, start, rule);
   const double bound = law_two(a, b, pose);
   if (r.status != MarchStatus::Overlapping) {
-    ASSERT_TRUE(r.status == MarchStatus::Disjoint || r.status == MarchStatus::Touching);
+    if (r.status == MarchStatus::Budget) return;
+    ASSERT_TRUE(r.status == MarchStatus::Disjoint || r.status == MarchStatus::Touching || r.status == MarchStatus::Near);
     ++(r.status == MarchStatus::Disjoint ? count.disjoint : count.touching);
     EXPECT_TRUE(holds(a, r.a, {}, r.point_a, bound)) << "A's point is not on its feature, " << int(r.status);
     EXPECT_TRUE(holds(b, r.b, pose, r.point_b, bound)) << "B's point is not on its feature, " << int(r.status);
@@ -170,6 +172,26 @@ TEST(Features, OfRandomPairsAreWhereTheMarchSaysThatTheyMeet) {
     }
   }
   EXPECT_GE(count.overlapping, 1000);
+  EXPECT_GE(count.disjoint, 500);
+}
+
+TEST(Features, HoldTheWitnessesOfALooseMarchToo) {
+  const std::vector<Model> all = kinds();
+  shapes::Random random(47);
+  Count count;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      SCOPED_TRACE(std::to_string(i) + ' ' + std::to_string(j));
+      for (int k = 0; k < 40; ++k) {
+        MarchRule rule;
+        rule.relative = k % 2 ? 0.3 : 0;
+        rule.absolute = k % 2 ? 0 : 0.2;
+        rule.step_budget = std::uint32_t(k % 5);
+        expect_features(all[i].level(0).view, all[j].level(0).view, {random.rotation(), 2 * random.in_ball()}, count, {}, rule);
+        if (testing::Test::HasFailure()) FAIL() << k;
+      }
+    }
+  }
   EXPECT_GE(count.disjoint, 500);
 }
 
