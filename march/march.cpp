@@ -16,12 +16,12 @@ namespace {
 /// Where the budget ends a walk no nearer than it began, certified progress goes on: marches that follow one another do not
 /// come round.
 MarchResult concluded(const Scene& pair, const MarchStart& from, Walk walked, const MarchRule& rule) {
-  const MarchResult r = conclude(pair, walked, rule, Until::Exact);
+  const MarchResult r = conclude<Until::Exact>(pair, walked, rule);
   if (r.status != MarchStatus::Budget) return r;
   std::uint32_t tests = 0;
   if (r.upper < certify(pair, from.a, from.b, tests).upper) return r;
   walked.end = WalkEnd::Stalled;
-  return conclude(pair, walked, rule, Until::Exact);
+  return conclude<Until::Exact>(pair, walked, rule);
 }
 
 /// Features that overlap are where the surfaces cross, not where the proof was found.

@@ -101,15 +101,15 @@ bool surfaces_share_point(const ConvexView& a, const ConvexView& b, const Pose& 
   return false;
 }
 
-/// Whether a point of the common frame lies on a feature but for law 2's bound.
+/// Whether a point of the common frame lies on a feature but for law 2's bound. A face flat only up to rounding is as thick as
+/// its vertices make it.
 bool holds(const ConvexView& view, Handle feature, const Pose& in_a, const Vec3& p_a, double bound) {
   const Vec3 p[] = {p_a};
+  std::vector<Vec3> corners;
   for (const Cell& cell : cells(view, feature)) {
-    std::vector<Vec3> corners;
     for (const std::uint32_t v : cell) corners.emplace_back(view.vertices[v].x, view.vertices[v].y, view.vertices[v].z);
-    if (oracle::holds(oracle::distance(p, corners, in_a), 0, bound)) return true;
   }
-  return false;
+  return oracle::holds(oracle::distance(p, corners, in_a), 0, bound);
 }
 
 struct Count {

@@ -58,7 +58,7 @@ struct MarchRule {
 struct MarchResult {
   MarchStatus status = MarchStatus::NotConverged;  ///< why it ended
   /// Features, storable, start of the next march. Disjoint, Touching or Near: `point_a` and `point_b` lie on them, within law
-  /// 2's bound. Overlapping: they share a point, exactly, mostly an edge of one and a face of the other; where one body lies
+  /// 2's bound and, of a face flat only up to rounding, its thickness. Overlapping: they share a point, exactly, mostly an edge of one and a face of the other; where one body lies
   /// inside the other and their surfaces share none, `Handle{}` for the outer body and any vertex of the inner one. Elsewhere
   /// where the march stopped.
   Handle a, b;
