@@ -17,6 +17,7 @@ MarchStatus status_of(const Scene& scene, const Goal& goal, const Certificate& c
 }
 
 /// Fills `r`; true where it is so near a threshold that another start might prove another verdict.
+template <Until until>
 bool from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule, MarchResult& r) {
   r.steps = walk.steps;
   r.plane_tests = walk.plane_tests;
@@ -32,7 +33,8 @@ bool from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule, Marc
   if (!settled && !progressed) {
     r.status = MarchStatus::Budget;
   } else if (progressed) {
-    const Meeting meeting = progress(scene, c, goal, r.plane_tests);
+    const Goal until_there = until == Until::Exact ? Goal{scene.law_two, 0, goal.beyond} : goal;
+    const Meeting meeting = progress(scene, c, until_there, r.plane_tests);
     c = meeting.certificate;
     r.status = meeting.status == MarchStatus::Disjoint ? status_of(scene, goal, c) : meeting.status;
     r.proof = meeting.proof;
@@ -58,13 +60,14 @@ bool from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule, Marc
 }
 
 /// Within rounding of a threshold all starts take one and the same way: that of the cold one.
+template <Until until>
 void from_nothing(const Scene& scene, const MarchRule& rule, MarchResult& r) {
   std::uint32_t climbs = 0;
   const MarchStart cold = settled(scene, {}, climbs);
   const Walk cold_walk = walk(scene, cold.a, cold.b, PlaneRule::MostViolated, rule.step_budget - r.steps);
   if (cold_walk.end == WalkEnd::Budget) return;
   MarchResult same;
-  from_walk(scene, cold_walk, rule, same);
+  from_walk<until>(scene, cold_walk, rule, same);
   same.steps += r.steps;
   same.plane_tests += r.plane_tests + climbs;
   r = same;
@@ -72,10 +75,14 @@ void from_nothing(const Scene& scene, const MarchRule& rule, MarchResult& r) {
 
 }  // namespace
 
+template <Until until>
 MarchResult conclude(const Scene& scene, const Walk& walk, const MarchRule& rule) {
   MarchResult r;
-  if (from_walk(scene, walk, rule, r) && r.steps < rule.step_budget) from_nothing(scene, rule, r);
+  if (from_walk<until>(scene, walk, rule, r) && r.steps < rule.step_budget) from_nothing<until>(scene, rule, r);
   return r;
 }
+
+template MarchResult conclude<Until::Narrow>(const Scene&, const Walk&, const MarchRule&);
+template MarchResult conclude<Until::Exact>(const Scene&, const Walk&, const MarchRule&);
 
 }  // namespace swiftlet

@@ -10,6 +10,13 @@
 
 namespace swiftlet {
 
+/// How far certified progress goes where the features alone do not prove enough.
+enum class Until {
+  Narrow,  ///< as the rule says; the points may then lie inside the bodies, whose distance they bound
+  Exact,   ///< within law 2, or beyond the rule's threshold: the points are on the surfaces
+};
+
+template <Until until = Until::Narrow>
 MarchResult conclude(const Scene& scene, const Walk& walk, const MarchRule& rule);
 
 }  // namespace swiftlet

@@ -123,6 +123,9 @@ Expansion<8> offset(double a, const Vec& row, const double b[3], double t) {
   }
   return e;
 }
+Expansion3<8> offset3(const double a[3], const double b[3], const Motion& m) {
+  return {offset(a[0], m.row_x, b, m.t.x), offset(a[1], m.row_y, b, m.t.y), offset(a[2], m.row_z, b, m.t.z)};
+}
 
 }  // namespace
 
@@ -158,6 +161,20 @@ int compare_along_turned(const double n[3], const Motion& m, const double w[3], 
   return (expansion(n[0]) * row(m.row_x) + expansion(n[1]) * row(m.row_y) + expansion(n[2]) * row(m.row_z)).sign();
 }
 
+int triple_product(const std::array<const double*, 3>& a, const std::array<const double*, 3>& b, const Motion& m) {
+  std::array<Vec, 3> p;
+  std::array<Vec, 3> size;  // |a| + |R| |b| + |t|, which scales the rounding of p
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec va{a[k][0], a[k][1], a[k][2]}, vb{b[k][0], b[k][1], b[k][2]}, ab = absolute(vb);
+    p[k] = va - apply(m, vb);
+    size[k] =
+        absolute(va) + absolute(m.t) + Vec{dot(absolute(m.row_x), ab), dot(absolute(m.row_y), ab), dot(absolute(m.row_z), ab)};
+  }
+  const double bound = kOffsetTripleProductError * permanent(size[0], size[1], size[2]);
+  if (const int sign = certain_sign(dot(cross(p[0], p[1]), p[2]), bound)) return sign;
+  return dot3(cross3(offset3(a[0], b[0], m), offset3(a[1], b[1], m)), offset3(a[2], b[2], m)).sign();
+}
+
 bool tetrahedron_holds_origin(const std::array<std::array<double, 3>, 4>& a, const std::array<std::array<double, 3>, 4>& b,
                               const Motion& m) {
   // With p_k = a_k - (R b_k + t), the origin's barycentric coordinates are triple products of the p's over their sum.
@@ -180,8 +197,7 @@ bool tetrahedron_holds_origin(const std::array<std::array<double, 3>, 4>& a, con
   if (!certain) {
     std::array<Expansion3<8>, 4> e;
     for (int k = 0; k < 4; ++k) {
-      e[k] = {offset(a[k][0], m.row_x, b[k].data(), m.t.x), offset(a[k][1], m.row_y, b[k].data(), m.t.y),
-              offset(a[k][2], m.row_z, b[k].data(), m.t.z)};
+      e[k] = offset3(a[k].data(), b[k].data(), m);
     }
     bool flat = true;
     for (int k = 0; k < 4; ++k) {

@@ -443,15 +443,18 @@ Handle feature_of(const ConvexView& view, const ActiveSet& active, const std::ar
   for (std::uint32_t h = first.ring_begin; count == 2 && h < first.ring_begin + first.ring_count; ++h) {
     if (view.head[h] == distinct[1] && !is_diagonal(view, h)) return {FeatureKind::Edge, h};
   }
+  // A vertex may lie inside a face, where its loop does not come by.
+  const auto holds = [&](std::uint32_t face, std::uint32_t v) {
+    const Vertex& ring = view.vertices[v];
+    for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
+      if (view.face[h] == face) return true;
+    }
+    return false;
+  };
   for (std::uint32_t h = first.ring_begin; h < first.ring_begin + first.ring_count; ++h) {
     if (view.face[h] == kNone) continue;
-    int held = 0;
-    std::uint32_t side = view.face_first[view.face[h]];
-    const std::uint32_t begin = side;
-    do {
-      for (int i = 0; i < count; ++i) held += view.head[side] == distinct[i];
-      side = next_in_face(view, side);
-    } while (side != begin);
+    int held = 1;
+    while (held < count && holds(view.face[h], distinct[std::size_t(held)])) ++held;
     if (held == count) return {FeatureKind::Face, view.face[h]};
   }
   return {FeatureKind::Vertex, vertices[heaviest]};

@@ -81,6 +81,16 @@ inline constexpr double kMapError = 128 * kU;
 /// the magnitude of coordinates and translation.
 inline constexpr double kDoubleDoubleError = 0x1p-90;
 
+// ---- Where surfaces cross (crossing.cpp): doubles guide, exact signs decide --------------------------------------------------
+
+/// A triple product u x v . w of points in the common frame, |w| at most twice the magnitude: each difference is off by two
+/// point errors, 4 + 2, and kTripleProductError on six terms of at most |u||v||w|, 17 of the point error, which is at least 7 u
+/// of the magnitude. Relative to point error * magnitude * (|u| + |v|).
+inline constexpr double kFacetSideError = 32;
+/// Where a ray leaves a body, in point errors over the height of the facet above where it starts: ten of these, rounded up. A
+/// wrong guess costs a longer search, never a wrong answer.
+inline constexpr double kExitError = 16;
+
 // ---- Faces -----------------------------------------------------------------------------------------------------------------
 
 /// Facets join one walking face while its vertices stay within this height of its plane, relative to the body's extent: each

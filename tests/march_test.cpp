@@ -338,6 +338,36 @@ TEST_F(MarchRules, BudgetEndsWithTrueBounds) {
   EXPECT_GE(ended, 300);
 }
 
+TEST_F(MarchRules, BudgetsResumedFromTheirHandlesEnd) {
+  // Boxes in a grid of poses came round for ever: a face, an edge, the face again.
+  const Model one = model(bodies::box(1, 2, 0.5)), other = model(bodies::triangulated(bodies::cube()));
+  std::uint32_t most = 0;
+  const auto expect_end = [&](const ConvexView& a, const ConvexView& b, const Pose& p, std::uint32_t budget) {
+    MarchRule rule;
+    rule.step_budget = budget;
+    MarchResult r = march(a, b, p, {}, rule);
+    double upper = kInfinity;
+    for (std::uint32_t marches = 1; r.status == MarchStatus::Budget; ++marches) {
+      ASSERT_LT(r.upper, upper) << "budget " << budget;
+      upper = r.upper;
+      r = march(a, b, p, {r.a, r.b}, rule);
+      most = std::max(most, marches);
+    }
+    const MarchResult whole = march(a, b, p);
+    ASSERT_EQ(r.status, whole.status);
+    ASSERT_NEAR(r.lower, whole.lower, law_two(a, b, p));
+  };
+  for (int i = 0; i < 2000; ++i) {
+    const Pose p{i % 2 ? random.rotation() : Mat3(Mat3::Identity()), 4 * random.in_ball()};
+    for (const std::uint32_t budget : {0u, 1u, 2u, 3u, 5u, 13u}) {
+      expect_end(one.level(0).view, other.level(0).view, p, budget);
+      if (i % 10 == 0) expect_end(v, v, p, budget);
+      if (HasFatalFailure()) FAIL() << i;
+    }
+  }
+  std::printf("at most %u marches\n", most);
+}
+
 // ---- Status, poses, tags
 // --------------------------------------------------------------------------------------------------------
 
@@ -410,7 +440,7 @@ TEST(March, FeaturesOfAnOverlapAreReadable) {
   for (int i = 0; i < 200; ++i) {
     const MarchResult r = march(v, v, {random.rotation(), random.in_ball()});
     ASSERT_EQ(r.status, MarchStatus::Overlapping);
-    ASSERT_EQ(tag(v, r.a), 1);
+    ASSERT_EQ(tag(v, r.a), 1);  // and they share a point: features_test.cpp
     ASSERT_EQ(tag(v, r.b), 1);
   }
 }

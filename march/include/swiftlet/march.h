@@ -26,7 +26,8 @@ enum class MarchStatus : std::uint8_t {
   Overlapping,   ///< proved by `proof`; lower = upper = 0
   Near,          ///< the interval is as narrow as asked and begins at 0: the sign was not asked for
   Beyond,        ///< stopped because lower > rule.beyond
-  Budget,        ///< rule.step_budget ended the march; the bounds hold
+  Budget,        ///< rule.step_budget ended the march nearer than it began; the bounds hold. Marches that go on from the
+                 ///< handles of one another come to an end, whatever the budget
   NotConverged,  ///< neither of the above could be proved; the bounds hold. No valid body is known that answers so
   InvalidPose,   ///< not finite, translated beyond 1e45, or not orthonormal to 1e-6: bounds are [0, inf]
 };
@@ -48,18 +49,24 @@ struct MarchRule {
   double absolute = 0, relative = 0;  ///< in the bodies' unit, and of `lower`; never narrower than law 2's bound
   double beyond = std::numeric_limits<double>::infinity();  ///< the bodies' unit; 0: only whether they are apart
   double floor = 0;                                         ///< a lower bound already proved; the answer's is never less
-  std::uint32_t step_budget = ~0u;                 ///< steps of the walk, not time; certified progress counts as one more
+  std::uint32_t step_budget = ~0u;  ///< steps of the walk, not time; certified progress, which follows a walk that the budget
+                                    ///< ended no nearer than it began, counts as one more
   PlaneRule plane_rule = PlaneRule::MostViolated;  ///< changes the way, never the truth
 };
 
 /// What a march found. Lengths are in the bodies' unit.
 struct MarchResult {
   MarchStatus status = MarchStatus::NotConverged;  ///< why it ended
-  Handle a, b;       ///< the nearest features, or those that met; storable, start of the next march
+  /// Features, storable, start of the next march. Disjoint, Touching or Near: `point_a` and `point_b` lie on them, within law
+  /// 2's bound and, of a face flat only up to rounding, its thickness. Overlapping: they share a point, exactly, mostly an edge of one and a face of the other; where one body lies
+  /// inside the other and their surfaces share none, `Handle{}` for the outer body and any vertex of the inner one. Elsewhere
+  /// where the march stopped.
+  Handle a, b;
   double lower = 0;  ///< proved bounds on the distance between the two polytopes
   double upper = std::numeric_limits<double>::infinity();  ///< the other bound
   Vec3 normal = Vec3::Zero();  ///< unit, A's frame, from A to B: the direction `lower` is proved in; 0 without one
-  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< nearest points, A's frame
+  /// Nearest points, A's frame; Overlapping: both the point that the features share, or one inside both bodies.
+  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();
   OverlapProof proof;                                   ///< where the status is Overlapping
   std::uint32_t steps = 0;                              ///< changes of feature
   std::uint32_t plane_tests = 0;                        ///< Voronoi planes and support comparisons evaluated
@@ -72,7 +79,8 @@ struct MarchResult {
 MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, const MarchStart& start = {},
                   const MarchRule& rule = {});
 
-/// The caller's tag of a feature: a face's own, of an edge or vertex the largest among its faces; 0 without tags.
+/// The caller's tag of a feature: a face's own, of an edge or vertex the largest among its faces; 0 without tags, and of
+/// `Handle{}`.
 std::uint8_t tag(const ConvexView& view, Handle feature);
 
 }  // namespace swiftlet

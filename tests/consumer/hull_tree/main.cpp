@@ -59,21 +59,18 @@ double off_surface(const Body& b, const Node& node, swiftlet::Handle feature, co
   return least;
 }
 
-int strays = 0, witnesses = 0;
-
 /// The witness points are as far apart as the bounds say, on the features they came with, and on the surface where those are
-/// the surface's. The kernel does not promise the second yet: such features are counted and believed nothing.
+/// the surface's.
 void expect_witness(const Body& a, const Body& b, const Pose& pose, const Witness& w, double slack, const std::string& where) {
-  if (w.overlapping) return;
   const double apart = (w.point_b - w.point_a).norm();
   expect(apart >= w.lower - slack && apart <= w.upper + slack, "the points are as far apart as the bounds", where, apart,
          w.upper);
   const Node &node_a = a.tree.nodes[w.node_a], &node_b = b.tree.nodes[w.node_b];
-  ++witnesses;
-  if (off_feature(node_a, w.a, {}, w.point_a) > slack || off_feature(node_b, w.b, pose, w.point_b) > slack) {
-    ++strays;
-    return;
-  }
+  if (w.a == swiftlet::Handle{} || w.b == swiftlet::Handle{})  // a leaf inside another: no feature
+    return expect(w.overlapping, "only nodes that overlap lack a feature", where, w.upper, 0);
+  const double off_a = off_feature(node_a, w.a, {}, w.point_a), off_b = off_feature(node_b, w.b, pose, w.point_b);
+  expect(off_a <= slack, "A's point is on its feature", where, off_a, 0);
+  expect(off_b <= slack, "B's point is on its feature", where, off_b, 0);
   if (tag_of(node_a, w.a) == Original) {
     const double off = off_surface(a, node_a, w.a, {}, w.point_a);
     expect(off <= slack, "A's point is on the surface", where, off, 0);
@@ -198,7 +195,7 @@ class Trial {
       double& entry = missing[std::size_t(w.node_a) * b_.tree.leaf_count + w.node_b];
       // A patch is part of its hull's surface; where two hulls are nearest between contained faces, another patch is nearer.
       expect(w.lower <= entry + slack, "no patches are nearer than their hulls", where, w.lower, entry);
-      if (is_original(a_, w.node_a, w.a, {}, w.point_a, slack) && is_original(b_, w.node_b, w.b, pose, w.point_b, slack) &&
+      if (tag_of(a_.tree.nodes[w.node_a], w.a) == Original && tag_of(b_.tree.nodes[w.node_b], w.b) == Original &&
           w.upper < reach - slack)
         expect(std::fabs(w.upper - entry) <= slack, "a contact is as far as its patches", where, w.upper, entry);
       expect_witness(a_, b_, pose, w, slack, where);
@@ -206,11 +203,6 @@ class Trial {
     }
     for (const double left : missing)
       if (left < kInfinity) expect(left >= reach - slack, "every contact is found", where, left, reach);
-  }
-
-  static bool is_original(const Body& b, std::uint32_t node, swiftlet::Handle feature, const Pose& in_a, const Vec3& p_a,
-                          double slack) {
-    return tag_of(b.tree.nodes[node], feature) == Original && off_feature(b.tree.nodes[node], feature, in_a, p_a) <= slack;
   }
 
   const Body &a_, &b_;
@@ -359,8 +351,7 @@ int run() {
   rows.push_back(lattice_poses(cog, cog, 40, 8, 16));
   rows.push_back(lattice_poses(comb, frame, 40, 1, 7));
   print(rows);
-  std::printf("\n%d of %d witnesses of bodies apart off the features that they came with\n", strays, witnesses);
-  std::printf("%d claims checked, %d wrong; %.1f s\n", checked, failed, (now() - begin) * 1e-9);
+  std::printf("\n%d claims checked, %d wrong; %.1f s\n", checked, failed, (now() - begin) * 1e-9);
   return failed == 0 ? 0 : 1;
 }
 

@@ -142,20 +142,15 @@ MarchResult Pair::visit(Item& item, MarchRule rule) {
   return r;
 }
 
-/// A feature in the body, with the nearest point on it, which the kernel does not promise.
-bool Pair::lies_in_body(const Node& node, const Pose& in_a, Handle feature, const Vec3& p_a) const {
-  return tag_of(node, feature) != Free && off_feature(node, feature, in_a, p_a) <= rounding();
-}
-
-/// Whether no pair of nodes below is nearer. The features of an overlap need not have met, so that only leaves answer for it.
+/// Whether no pair of nodes below is nearer: the features in which the bodies are nearest, or meet, are in the bodies. A node
+/// inside another has met nothing, and names no feature.
 bool Pair::answers(const Item& item, const MarchResult& r) {
   switch (r.status) {
-    case MarchStatus::Overlapping: return is_leaf_pair(item);
+    case MarchStatus::Overlapping:
     case MarchStatus::Disjoint:
     case MarchStatus::Touching:
     case MarchStatus::Near:
-      return is_leaf_pair(item) ||
-             (lies_in_body(a_.nodes[item.a], {}, r.a, r.point_a) && lies_in_body(b_.nodes[item.b], pose_, r.b, r.point_b));
+      return is_leaf_pair(item) || (tag_of(a_.nodes[item.a], r.a) != Free && tag_of(b_.nodes[item.b], r.b) != Free);
     default: unanswered_ += is_leaf_pair(item); return is_leaf_pair(item);
   }
 }
@@ -164,8 +159,7 @@ bool Pair::answers(const Item& item, const MarchResult& r) {
 bool Pair::splits_a(const Item& item, const MarchResult& r) const {
   const Node &a = a_.nodes[item.a], &b = b_.nodes[item.b];
   if (a.is_leaf() || b.is_leaf()) return b.is_leaf();
-  const bool apart = r.status != MarchStatus::Overlapping;
-  const bool free_a = apart && tag_of(a, r.a) == Free, free_b = apart && tag_of(b, r.b) == Free;
+  const bool free_a = tag_of(a, r.a) == Free, free_b = tag_of(b, r.b) == Free;
   return free_a != free_b ? free_a : a.model.radius() > b.model.radius();
 }
 

@@ -69,7 +69,6 @@ class Pair {
   void traverse(const Pose& b_in_a, swiftlet::MarchRule& rule, Judge judge, Worth worth);
   swiftlet::MarchResult visit(Item& item, swiftlet::MarchRule rule);
   double rounding() const;
-  bool lies_in_body(const Node& node, const Pose& in_a, swiftlet::Handle feature, const Vec3& p_a) const;
   bool answers(const Item& item, const swiftlet::MarchResult& result);
   bool splits_a(const Item& item, const swiftlet::MarchResult& result) const;
   std::uint32_t split(std::uint32_t item, bool split_a);

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Features where bodies meet: of those that overlap two that share a point, proved exactly; of one the feature at a point. What
+// reads tags wants these; the queries do not. Knows one level pair.
+#pragma once
+
+#include <swiftlet/march.h>
+
+#include "scene.h"
+
+namespace swiftlet {
+
+/// Features of both bodies and a point that they share, rounded. Where one body lies inside the other and the surfaces share
+/// nothing: a vertex of the inner one, no feature of the outer, and a point of both bodies.
+struct Crossing {
+  Handle a, b;
+  Vec point;
+};
+
+/// `proof` proves that the bodies overlap. Cost: walks over facets, about as many as a cold march; where one body lies inside the
+/// other once over its vertices; where doubles cannot tell, over all edges and facets.
+Crossing crossing(const Scene& scene, const OverlapProof& proof, std::uint32_t& plane_tests);
+
+/// The smallest feature within law 2's bound of a point of the common frame that lies on the surface but for that bound; none
+/// where no facet comes near. Cost: all facets.
+Handle feature_at_a(const Scene& scene, const Vec& p, std::uint32_t& plane_tests);
+Handle feature_at_b(const Scene& scene, const Vec& p, std::uint32_t& plane_tests);
+
+}  // namespace swiftlet
