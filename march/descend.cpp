@@ -39,12 +39,12 @@ class Descent {
 
   void run(PairSeed& seed) {
     Place place = first_place(a_, b_, line_, seed, options_);
-    const bool warm = is_warm(place.start), verdict = may_aim_ && is_threshold();
-    const bool seen = verdict && (warm ? !seed.met && (glance(place, direction(seed)) || glance(place, line_.in_a)) : aim(place));
-    if (!seen) {
-      if (!(warm && march(place, may_aim_)) && !(may_aim_ && !(verdict && !warm) && aim(place))) march(place, false);
-      store(place, seed);
-    }
+    const bool warm = is_warm(place.start);
+    if (warm && may_aim_ && is_threshold() && !seed.met && (glance(place, direction(seed)) || glance(place, line_.in_a)))
+      return finish(place);
+    const bool walked = warm && march(place, may_aim_), seen = !walked && may_aim_ && aim(place);
+    if (!walked && !seen) march(place, false);
+    if (warm || !seen || !is_threshold()) store(place, seed);  // vertices that were only looked at are no better start than none
     finish(place);
   }
 
