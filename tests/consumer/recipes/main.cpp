@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The program of RECIPES.md: a function per recipe. The page shows what stands between `recipe` and `end`; consumer/run
+// compares both. Ends with 1 where a recipe does not do what the page says of it.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <future>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <swiftlet/batch.h>
+#include <swiftlet/build.h>
+#include <swiftlet/check.h>
+#include <swiftlet/model_file.h>
+#include <swiftlet/query.h>
+
+namespace {
+
+using swiftlet::Model;
+using swiftlet::Pose;
+using swiftlet::Result;
+using swiftlet::Vec3;
+
+int failed = 0;
+
+void expect(bool holds, const char* claim) {
+  if (!holds) ++failed, std::printf("WRONG: %s\n", claim);
+}
+
+bool same(const swiftlet::Answer& left, const swiftlet::Answer& right) {
+  return left.lower == right.lower && left.upper == right.upper && left.normal == right.normal && left.steps == right.steps;
+}
+
+Result<Model> raw_arrays() {
+  // recipe
+  const Vec3 corners[] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 2}};  // a pyramid
+  const std::uint32_t loops[] = {3, 2, 1, 0, 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};      // counter-clockwise seen from outside
+  const std::uint32_t sizes[] = {4, 3, 3, 3, 3};                                       // left out where all are triangles
+  swiftlet::LevelArrays arrays;
+  arrays.vertices = corners;
+  arrays.face_vertices = loops;
+  arrays.face_sizes = sizes;
+  return Model::from_level(arrays);  // copies; a dent is an error that names the edge
+  // end
+}
+
+Result<Model> mesh(const std::filesystem::path& input, const std::filesystem::path& output) {
+  // recipe
+  const auto mesh = swiftlet::read_mesh(input);  // OBJ, OFF, STL, PLY, TRI, POLY
+  if (!mesh) return mesh.error();
+  swiftlet::BuildOptions options;
+  options.cutoff = 30;  // go on to coarser levels than by default
+  const auto built = swiftlet::build(mesh.value(), options);
+  if (!built) return built.error();
+  for (const auto& level : built.value().report.levels)
+    std::printf("%zu triangles, at most %.3f off the hull\n", level.triangles, level.deviation);
+  const auto bytes = swiftlet::save(built.value().model, output);
+  if (!bytes) return bytes.error();
+  return swiftlet::load(output);
+  // end
+}
+
+void one_pair(const Model& a, const Model& b, const Pose& a_in_world, const Pose& b_in_world) {
+  // recipe
+  swiftlet::PairSeed seed;
+  const swiftlet::Answer answer = swiftlet::distance(a, b, swiftlet::relative(a_in_world, b_in_world), seed);
+  if (answer.verdict == swiftlet::Verdict::Disjoint) {
+    const Vec3 normal = a_in_world.rotation * answer.normal;  // from A to B, in the world
+    const Vec3 point_a = a_in_world.rotation * answer.point_a + a_in_world.translation;
+    const Vec3 point_b = a_in_world.rotation * answer.point_b + a_in_world.translation;
+    std::printf("%.6f apart, (%.3f, %.3f, %.3f) to (%.3f, %.3f, %.3f), normal (%.3f, %.3f, %.3f)\n", answer.lower, point_a[0],
+                point_a[1], point_a[2], point_b[0], point_b[1], point_b[2], normal[0], normal[1], normal[2]);
+  }
+  // end
+  expect(answer.verdict == swiftlet::Verdict::Disjoint, "the pair is apart");
+  expect(bool(swiftlet::check(a, b, swiftlet::relative(a_in_world, b_in_world), answer)), "the answer's certificate holds");
+}
+
+std::vector<swiftlet::Answer> many_pairs(const Model& a, const Model& b, const std::vector<Pose>& poses,
+                                         std::vector<swiftlet::PairSeed>& seeds) {
+  // recipe
+  std::vector<swiftlet::PairQuery> pairs;
+  for (std::size_t i = 0; i < poses.size(); ++i) pairs.push_back({&a, &b, poses[i], &seeds[i]});
+  std::vector<swiftlet::Answer> answers(pairs.size());
+  swiftlet::distance(pairs, answers);
+  // end
+  return answers;
+}
+
+void threads(const std::vector<swiftlet::PairQuery>& pairs, const std::vector<swiftlet::Answer>& alone) {
+  // recipe
+  std::vector<swiftlet::Answer> answers(pairs.size());
+  swiftlet::distance(pairs, answers, {}, swiftlet::on_threads(4));
+
+  const swiftlet::Executor ours = [](std::size_t count, const std::function<void(std::size_t)>& task) {
+    std::vector<std::future<void>> running;  // here your own job system
+    for (std::size_t i = 0; i < count; ++i) running.push_back(std::async(std::launch::async, std::cref(task), i));
+    for (std::future<void>& one : running) one.wait();
+  };
+  std::vector<swiftlet::Answer> again(pairs.size());
+  swiftlet::distance(pairs, again, {}, ours);
+  // end
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    expect(same(answers[i], alone[i]) && same(again[i], alone[i]),
+           "on threads the answers are those of one query after the other");
+}
+
+void seeds(const Model& a, const Model& b) {
+  // recipe
+  swiftlet::PairSeed seed;  // cold; lives as long as the pair
+  std::uint32_t warm = 0, cold = 0;
+  for (int degree = 0; degree < 90; ++degree) {
+    Pose b_in_a;
+    b_in_a.rotation = Eigen::AngleAxisd(degree * EIGEN_PI / 180, Vec3(0.6, 0, 0.8)).toRotationMatrix();
+    b_in_a.translation = {3, 0, 0};
+    warm += swiftlet::distance(a, b, b_in_a, seed).steps;
+    swiftlet::PairSeed none;
+    cold += swiftlet::distance(a, b, b_in_a, none).steps;
+  }
+  std::printf("90 queries: %u steps with one seed, %u without\n", warm, cold);
+  // end
+  expect(warm < cold, "a seed saves steps");
+}
+
+void tolerance(const Model& a, const Model& b, const Pose& b_in_a, swiftlet::PairSeed& seed) {
+  // recipe
+  swiftlet::QueryOptions rough;
+  rough.relative_error = 0.01;  // done when upper - lower <= 1 % of lower
+  const swiftlet::Answer percent = swiftlet::distance(a, b, b_in_a, seed, rough);
+
+  swiftlet::QueryOptions near;
+  near.beyond = 0.5;  // exact up to here; status Beyond as soon as lower > 0.5 is proved
+  const swiftlet::Answer far = swiftlet::distance(a, b, b_in_a, seed, near);
+
+  const swiftlet::Decision close = swiftlet::within(a, b, b_in_a, 0.5, seed).decision;  // Yes, No, Undecided
+  const swiftlet::Verdict verdict = swiftlet::intersects(a, b, b_in_a, seed).verdict;   // Disjoint, Touching, Overlapping
+  // end
+  expect(percent.upper - percent.lower <= 0.01 * percent.lower, "the interval is as narrow as asked");
+  expect(far.status == swiftlet::Status::Beyond && far.lower > 0.5, "farther than 0.5 is Beyond");
+  expect(close == swiftlet::Decision::No, "farther than 0.5 is not within");
+  expect(verdict == swiftlet::Verdict::Disjoint, "apart is disjoint");
+}
+
+/// Points of an ellipsoid on a spiral, as an OFF file without faces.
+void write_points(const std::filesystem::path& path) {
+  std::ofstream file(path);
+  file.precision(17);
+  const int count = 500;
+  file << "OFF\n" << count << " 0 0\n";
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - (2 * i + 1.0) / count, turn = 2.399963 * i, r = std::sqrt(1 - z * z);
+    file << r * std::cos(turn) << ' ' << 0.8 * r * std::sin(turn) << ' ' << 0.6 * z << '\n';
+  }
+}
+
+}  // namespace
+
+int main(int, char** arguments) {
+  const std::filesystem::path here = std::filesystem::path(arguments[0]).parent_path();
+  write_points(here / "link.off");
+  const auto pyramid = raw_arrays(), link = mesh(here / "link.off", here / "link.swl");
+  if (!pyramid || !link) return std::puts((pyramid ? link : pyramid).error().message.c_str()), 1;
+  const Model &a = link.value(), &b = pyramid.value();
+  expect(a.level_count() > 1 && bool(swiftlet::verify(a)), "the mesh's model has coarse levels, and they hold");
+  expect(bool(swiftlet::verify(b)), "the arrays' model holds");
+
+  Pose a_in_world, b_in_world;
+  a_in_world.translation = {10, 0, 0};
+  b_in_world.translation = {13, 0, 0};
+  one_pair(a, b, a_in_world, b_in_world);
+
+  std::vector<Pose> poses(100);
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].translation = {3, 0.01 * double(i), 0};
+  std::vector<swiftlet::PairSeed> kept(poses.size());
+  const auto alone = many_pairs(a, b, poses, kept);
+  std::vector<swiftlet::PairQuery> pairs;
+  std::vector<swiftlet::Answer> cold;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    swiftlet::PairSeed none;
+    pairs.push_back({&a, &b, poses[i], nullptr});
+    cold.push_back(swiftlet::distance(a, b, poses[i], none));
+    expect(same(alone[i], cold[i]), "a batch answers as one query after the other");
+  }
+  threads(pairs, cold);
+  seeds(a, a);
+  swiftlet::PairSeed seed;
+  tolerance(a, b, poses[0], seed);
+  return failed ? 1 : 0;
+}
