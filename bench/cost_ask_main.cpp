@@ -22,7 +22,8 @@ int main(int argc, char** argv) {
   PairSeed seed;
   double steps = 0, tests = 0;
   for (const Pose& pose : poses) {
-    const Answer answer = question == "distance" ? distance(a.value(), b.value(), pose, seed) : intersects(a.value(), b.value(), pose, seed);
+    const Answer answer =
+        question == "distance" ? distance(a.value(), b.value(), pose, seed) : intersects(a.value(), b.value(), pose, seed);
     steps += answer.steps;
     tests += answer.plane_tests;
   }

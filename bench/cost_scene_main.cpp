@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes a scene of the bench as files that swiftlet_cost_ask reads: CGAL, which builds the models, does not run under valgrind.
+// Writes a scene of the bench as files that swiftlet_cost_ask reads: CGAL, which builds the models, does not run under
+// valgrind.
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -12,14 +13,16 @@
 int main(int argc, char** argv) {
   using namespace swiftlet;
   using namespace swiftlet::bench;
-  if (argc != 6) return std::fputs("swiftlet_cost_scene CACHE fat|plate|long TRIANGLES STEP PREFIX; step 400: random\n", stderr), 2;
+  if (argc != 6)
+    return std::fputs("swiftlet_cost_scene CACHE fat|plate|long TRIANGLES STEP PREFIX; step 400: random\n", stderr), 2;
   const Shelf shelf(argv[1]);
   const double step = std::atof(argv[4]);
   const auto triangles = std::uint32_t(std::atoi(argv[3]));
   for (const shapes::Family family : shapes::kFamilies) {
     if (std::string(argv[2]) != shapes::name(family)) continue;
     constexpr Extent kExtent{4, 500};
-    const Scene scene = step == 400 ? random_poses(shelf, family, triangles, kExtent) : orbit(shelf, family, triangles, 2, step, kExtent);
+    const Scene scene =
+        step == 400 ? random_poses(shelf, family, triangles, kExtent) : orbit(shelf, family, triangles, 2, step, kExtent);
     const std::string prefix = argv[5];
     for (const int i : {0, 1}) {
       if (const auto failed = save(scene.models[std::size_t(i)], prefix + (i == 0 ? "-a.swl" : "-b.swl")); !failed)

@@ -494,8 +494,8 @@ void others(const Options& options, const Field& field, const Shelf& shelf, Resu
   }
 }
 
-/// What swiftlet should take over the fastest classic in the cell: V-Clip, the plain walk from the last features, the plain walk
-/// from the paper's table. Prints every cell beside its goal, the crowd last.
+/// What swiftlet should take over the fastest classic in the cell: V-Clip, the plain walk from the last features, the plain
+/// walk from the paper's table. Prints every cell beside its goal, the crowd last.
 class Goals {
  public:
   void cell(const std::string& where, std::span<const Row> distances, std::span<const Row> verdicts, double distance_goal,
@@ -607,7 +607,8 @@ void usage(std::FILE* out) {
   std::fputs(
       "swiftlet_bench [--quick | --all] [--only GROUP]... [--largest TRIANGLES] [--wrong] [--cache DIR] [--meshes DIR]\n"
       "               [--results DIR]\n"
-      "groups: goals orbit wide error triangles scenes fig5 fig6 fig7 fig8 fig9 fig10 fig11 fig12 (these two need 6 to 10 beside "
+      "groups: goals orbit wide error triangles scenes fig5 fig6 fig7 fig8 fig9 fig10 fig11 fig12 (these two need 6 to 10 "
+      "beside "
       "them)\n"
       "--quick  1000 queries a round, three steps; --all adds 200000 triangles and peers in every cell\n"
       "--largest 200000  of the groups triangles and goals: beyond 20000 without --all\n"

@@ -35,8 +35,8 @@ class Simplex {
     std::uint32_t va, vb;
   };
   struct Nearest {
-    Vec point{0, 0, 0};  ///< to the origin
-    int count = 0;       ///< of corners that hold it; 4: the simplex holds the origin
+    Vec point{0, 0, 0};          ///< to the origin
+    int count = 0;               ///< of corners that hold it; 4: the simplex holds the origin
     std::array<int, 4> index{};  ///< ascending
     std::array<double, 4> weight{};
   };

@@ -250,8 +250,9 @@ Result<Model> BlockReader::read(AlignedBytes block) {
   for (int i = 0; i < count; ++i) {
     const LevelHeader& l = level_headers[i];
     const std::string name = "level " + std::to_string(i) + ": ";
-    if (!finite({l.deviation, l.volume, l.edge_length}) || l.reserved != 0 || !(l.extent == 0 || (l.extent >= kLeastExtent && l.extent <= kMostCoordinate)) ||
-        !(l.deviation >= 0) || (i == 0 && l.deviation != 0))
+    if (!finite({l.deviation, l.volume, l.edge_length}) || l.reserved != 0 ||
+        !(l.extent == 0 || (l.extent >= kLeastExtent && l.extent <= kMostCoordinate)) || !(l.deviation >= 0) ||
+        (i == 0 && l.deviation != 0))
       return bad(name + "a number is out of range");
     Cursor cursor(parts[i]);
     Level level;

@@ -79,7 +79,8 @@ Witness vertex_face(const P& a, std::uint32_t va, const Q& b, std::uint32_t f) {
   const std::uint32_t first = b.view.face_first[f], root = origin(b.view, first);
   const Vec q0 = b.own(root), r = b.local(a.point(va)) - q0;
   // The triangle of the fan about the root that holds the projection of the vertex; failing that, the last one.
-  for (std::uint32_t v1 = b.view.head[first], h = next_in_face(b.view, first);; v1 = b.view.head[h], h = next_in_face(b.view, h)) {
+  for (std::uint32_t v1 = b.view.head[first], h = next_in_face(b.view, first);;
+       v1 = b.view.head[h], h = next_in_face(b.view, h)) {
     const std::uint32_t v2 = b.view.head[h];
     const Vec u = b.own(v1) - q0, v = b.own(v2) - q0, area = cross(u, v);
     const Vec n = f < b.view.planes.size() ? Vec{b.view.planes[f].x, b.view.planes[f].y, b.view.planes[f].z} : area;

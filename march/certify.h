@@ -42,7 +42,8 @@ struct Supports {
 };
 Supports supports(const Scene& scene, const Vec& n, std::uint32_t start_a, std::uint32_t start_b, std::uint32_t& plane_tests);
 
-/// A lower bound on n . c for unit n, less `slack`, where c is the rounded difference of a vertex of each body; may be negative.
+/// A lower bound on n . c for unit n, less `slack`, where c is the rounded difference of a vertex of each body; may be
+/// negative.
 double gap(const Scene& scene, const Vec& n, const Vec& c, double slack);
 double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack = 0);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// From a point x inside both bodies the rays to vertices that stick out of the other body leave through facets; between one that
-// leaves A last and one that leaves B last the surfaces change places:
+// From a point x inside both bodies the rays to vertices that stick out of the other body leave through facets; between one
+// that leaves A last and one that leaves B last the surfaces change places:
 //
 //            w        The ray to v, a vertex of A, leaves B in y, which is inside A. From there over B's facets towards w,
 //       B ___/\       a vertex of B outside A, until one has a corner q outside A: its way there leaves A
@@ -103,8 +103,8 @@ class Search {
       const Wide q = wide(vec(scene_.b.vertices[proof.vertex_b[k]]));
       p[k] = a[k] - (Wide{dot(wide(m.row_x), q), dot(wide(m.row_y), q), dot(wide(m.row_z), q)} + wide(m.t));
     }
-    const std::array<DoubleDouble, 4> w{dot(cross(p[1], p[3]), p[2]), dot(cross(p[0], p[2]), p[3]), dot(cross(p[0], p[3]), p[1]),
-                                        dot(cross(p[0], p[1]), p[2])};
+    const std::array<DoubleDouble, 4> w{dot(cross(p[1], p[3]), p[2]), dot(cross(p[0], p[2]), p[3]),
+                                        dot(cross(p[0], p[3]), p[1]), dot(cross(p[0], p[1]), p[2])};
     const DoubleDouble sum = w[0] + w[1] + w[2] + w[3];
     Wide x{0.0, 0.0, 0.0};
     for (std::size_t k = 0; k < 4; ++k) x = x + a[k] * (w[k] / sum);
@@ -145,7 +145,8 @@ class Search {
   Crossing named(int k, std::uint32_t edge, std::uint32_t facet) const {
     const ConvexView &own = view(k), &other = view(1 - k);
     const Handle pierced{FeatureKind::Face, other.face[facet]};
-    const Handle piercing = is_diagonal(own, edge) ? Handle{FeatureKind::Face, own.face[edge]} : Handle{FeatureKind::Edge, edge};
+    const Handle piercing =
+        is_diagonal(own, edge) ? Handle{FeatureKind::Face, own.face[edge]} : Handle{FeatureKind::Edge, edge};
     const Vec p = point(k, origin(own, edge)), e = point(k, own.head[edge]) - p, n = normal(1 - k, facet),
               q = point(1 - k, origin(other, facet));
     const double at_tail = dot(n, p - q), at_head = at_tail + dot(n, e), t = at_tail / (at_tail - at_head);

@@ -17,8 +17,8 @@ struct Crossing {
   Vec point;
 };
 
-/// `proof` proves that the bodies overlap. Cost: walks over facets, about as many as a cold march; where one body lies inside the
-/// other once over its vertices; where doubles cannot tell, over all edges and facets.
+/// `proof` proves that the bodies overlap. Cost: walks over facets, about as many as a cold march; where one body lies inside
+/// the other once over its vertices; where doubles cannot tell, over all edges and facets.
 Crossing crossing(const Scene& scene, const OverlapProof& proof, std::uint32_t& plane_tests);
 
 /// The smallest feature within law 2's bound of a point of the common frame that lies on the surface but for that bound; none

@@ -44,7 +44,8 @@ class Descent {
       return finish(place);
     const bool walked = warm && march(place, may_aim_), seen = !walked && may_aim_ && aim(place);
     if (!walked && !seen) march(place, false);
-    if (warm || !seen || !is_threshold()) store(place, seed);  // vertices that were only looked at are no better start than none
+    if (warm || !seen || !is_threshold())
+      store(place, seed);  // vertices that were only looked at are no better start than none
     finish(place);
   }
 
@@ -82,9 +83,7 @@ class Descent {
       return is_threshold() ? most <= close : !narrow(most, deviation(place.level_a, place.level_b));
     };
     const auto last = [&] { return place.level_a == least_a && place.level_b == least_b; };
-    const auto refine = [&] {
-      place = {std::max(place.level_a - 1, least_a), std::max(place.level_b - 1, least_b), {}};
-    };
+    const auto refine = [&] { place = {std::max(place.level_a - 1, least_a), std::max(place.level_b - 1, least_b), {}}; };
     if (exact_)
       place = {least_a, least_b, {}};
     else
@@ -169,7 +168,8 @@ class Descent {
       const bool last = finest(place);
       met_ = MarchStatus::NotConverged;
       place.start = settled(pair, place.start, answer_.plane_tests);
-      const Walk walked = walk(pair, place.start.a, place.start.b, options_.plane_rule, std::min(steps_left(), place.trial_steps));
+      const Walk walked =
+          walk(pair, place.start.a, place.start.b, options_.plane_rule, std::min(steps_left(), place.trial_steps));
       answer_.steps += walked.steps;
       answer_.plane_tests += walked.plane_tests;
       spent_ = walked.end == WalkEnd::Budget && answer_.steps >= options_.step_budget;
@@ -248,7 +248,11 @@ class Descent {
   void record(const Place& place) {
     if (!options_.trace.empty()) {
       const auto slot = std::min<std::size_t>(answer_.levels_visited, options_.trace.size() - 1);
-      options_.trace[slot] = {place.level_a, place.level_b, answer_.lower, answer_.upper, answer_.steps - recorded_steps_,
+      options_.trace[slot] = {place.level_a,
+                              place.level_b,
+                              answer_.lower,
+                              answer_.upper,
+                              answer_.steps - recorded_steps_,
                               answer_.plane_tests - recorded_tests_};
     }
     recorded_steps_ = answer_.steps;
@@ -348,7 +352,7 @@ class Descent {
   Answer& answer_;
   MarchStatus met_ = MarchStatus::NotConverged;
   MarchStart coarsest_;  ///< features on the coarsest pair, for StartPolicy::Coarsest
-  bool spent_ = false;  ///< the caller's step budget
+  bool spent_ = false;   ///< the caller's step budget
   std::uint32_t recorded_steps_ = 0, recorded_tests_ = 0;
 };
 

@@ -31,8 +31,8 @@ int compare_along_normal(const double a[3], const double b[3], const double c[3]
 /// The sign of n . R (w - v), where R is `motion`'s rotation as stored.
 int compare_along_turned(const double n[3], const Motion& motion, const double w[3], const double v[3]);
 
-/// The sign of the determinant of the three differences a[k] - (R b[k] + t): with b three points of a plane and a thrice the same
-/// point, on which side of the moved plane that is; with a, a, a' and b, b', b, on which side one line passes the other.
+/// The sign of the determinant of the three differences a[k] - (R b[k] + t): with b three points of a plane and a thrice the
+/// same point, on which side of the moved plane that is; with a, a, a' and b, b', b, on which side one line passes the other.
 int triple_product(const std::array<const double*, 3>& a, const std::array<const double*, 3>& b, const Motion& motion);
 
 /// Whether the origin lies in the closed hull of the four points a[k] - (R b[k] + t), which must not be coplanar (false if so).

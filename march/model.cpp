@@ -42,7 +42,9 @@ std::uint32_t Model::support(const Vec3& direction) const {
   return support_a(alone, rescaled(vec(direction)), start, comparisons);
 }
 
-TableSpec Model::table_spec() const { return {lut::Resolution(body_->header.resolution), body_->header.radius_factor, body_->header.map_side}; }
+TableSpec Model::table_spec() const {
+  return {lut::Resolution(body_->header.resolution), body_->header.radius_factor, body_->header.map_side};
+}
 std::span<const std::uint32_t> Model::table() const { return body_->table; }
 
 Model Model::with_table(const TableSpec& spec) const {

@@ -55,25 +55,27 @@ struct PoseQuality {
 static inline PoseQuality pose_quality(const Motion& m) {
   const Vec &x = m.row_x, &y = m.row_y, &z = m.row_z;
   const auto entry = [&](double Vec::*i, double Vec::*j) { return x.*i * x.*j + y.*i * y.*j + z.*i * z.*j; };
-  const double worst =
-      larger(larger(larger(std::fabs(entry(&Vec::x, &Vec::x) - 1), std::fabs(entry(&Vec::y, &Vec::y) - 1)),
-                    larger(std::fabs(entry(&Vec::z, &Vec::z) - 1), std::fabs(entry(&Vec::x, &Vec::y)))),
-             larger(std::fabs(entry(&Vec::x, &Vec::z)), std::fabs(entry(&Vec::y, &Vec::z))));
+  const double worst = larger(larger(larger(std::fabs(entry(&Vec::x, &Vec::x) - 1), std::fabs(entry(&Vec::y, &Vec::y) - 1)),
+                                     larger(std::fabs(entry(&Vec::z, &Vec::z) - 1), std::fabs(entry(&Vec::x, &Vec::y)))),
+                              larger(std::fabs(entry(&Vec::x, &Vec::z)), std::fabs(entry(&Vec::y, &Vec::z))));
   // Farther away exact signs and squares overflow, and a climb need not end. A NaN or infinity anywhere makes this one.
   const double any = (x.x + x.y + x.z) + (y.x + y.y + y.z) + (z.x + z.y + z.z) + (m.t.x + m.t.y + m.t.z);
-  return {worst <= kOrthonormality && max_abs(m.t) <= kMostCoordinate && std::fabs(any) < std::numeric_limits<double>::infinity(),
-          worst};
+  return {
+      worst <= kOrthonormality && max_abs(m.t) <= kMostCoordinate && std::fabs(any) < std::numeric_limits<double>::infinity(),
+      worst};
 }
 
 /// At most law 2's bound of a pair: the width an exact answer keeps. `shift` is |t|.
 static inline double law_two(const ConvexView& a, const ConvexView& b, double shift, double pose_error) {
-  return larger((kLawTwo + 2 * larger(0, pose_error - kOrthonormalityError)) * (larger(a.extent, b.extent) + shift), kLeastWidth);
+  return larger((kLawTwo + 2 * larger(0, pose_error - kOrthonormalityError)) * (larger(a.extent, b.extent) + shift),
+                kLeastWidth);
 }
 
 static inline Scene scene(const ConvexView& a, const ConvexView& b, const Motion& m, double shift, double pose_error) {
   const double stretch = kSqrt3 * (1 + pose_error), magnitude = stretch * (a.extent + b.extent) + shift,
                motion_error = kTurnError * stretch * b.extent + kShiftError * shift;
-  return {a, b, m, magnitude, motion_error, kPointError * magnitude + motion_error, pose_error, law_two(a, b, shift, pose_error)};
+  return {
+      a, b, m, magnitude, motion_error, kPointError * magnitude + motion_error, pose_error, law_two(a, b, shift, pose_error)};
 }
 static inline Scene scene(const ConvexView& a, const ConvexView& b, const Motion& m, double pose_error) {
   return scene(a, b, m, norm(m.t), pose_error);

@@ -109,9 +109,7 @@ Place first_place(const Model& a, const Model& b, const Line& line, const PairSe
   }
 }
 
-Vec direction(const PairSeed& seed) {
-  return {double(seed.normal[0]), double(seed.normal[1]), double(seed.normal[2])};
-}
+Vec direction(const PairSeed& seed) { return {double(seed.normal[0]), double(seed.normal[1]), double(seed.normal[2])}; }
 
 void remember(const Line& line, const Vec& normal, PairSeed& seed) {
   seed.normal = packed(normal * (1 - 4 * kU));

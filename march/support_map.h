@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The vertex that is extreme in a direction, without a climb, and a bound on how wrong that may be. h(n), the height of a body
-// along n, is convex in n, and n . v is linear: over a cell of the cube, h(n) - n . v is nowhere more than at the cell's corners.
+// along n, is convex in n, and n . v is linear: over a cell of the cube, h(n) - n . v is nowhere more than at the cell's
+// corners.
 #pragma once
 
 #include <bit>

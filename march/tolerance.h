@@ -81,7 +81,8 @@ inline constexpr double kMapError = 128 * kU;
 /// the magnitude of coordinates and translation.
 inline constexpr double kDoubleDoubleError = 0x1p-90;
 
-// ---- Where surfaces cross (crossing.cpp): doubles guide, exact signs decide --------------------------------------------------
+// ---- Where surfaces cross (crossing.cpp): doubles guide, exact signs decide
+// --------------------------------------------------
 
 /// A triple product u x v . w of points in the common frame, |w| at most twice the magnitude: each difference is off by two
 /// point errors, 4 + 2, and kTripleProductError on six terms of at most |u||v||w|, 17 of the point error, which is at least 7 u

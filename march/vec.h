@@ -65,7 +65,8 @@ static inline double norm(const Vec& a) {
 
 /// At length 1; 0 where v names no direction. Short ones are scaled by their largest coordinate: squares of 1e-200 are 0.
 static inline Vec normalised(const Vec& v) {
-  if (const double square = dot(v, v); square >= kLeastSquare && square < std::numeric_limits<double>::infinity()) return v * (1 / std::sqrt(square));
+  if (const double square = dot(v, v); square >= kLeastSquare && square < std::numeric_limits<double>::infinity())
+    return v * (1 / std::sqrt(square));
   const double scale = max_abs(v);
   if (!(scale > kLeastDirection)) return {0, 0, 0};
   const Vec w = v * (1 / scale);

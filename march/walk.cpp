@@ -163,7 +163,8 @@ class Marcher {
       const double along_d = dot(d, e);
       if (!(along_d > 0)) continue;
       const double length2 = dot(e, e);
-      if (along_d * along_d * best_length2 > best_along * best_along * length2) best = h, best_along = along_d, best_length2 = length2;
+      if (along_d * along_d * best_length2 > best_along * best_along * length2)
+        best = h, best_along = along_d, best_length2 = length2;
       if (first_only_) break;
     }
     tests_ += h - record.ring_begin + (h < end);

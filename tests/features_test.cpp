@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The features that a march names: of bodies that overlap they share a point, of others they hold the witness points. Decided in
-// rational arithmetic.
+// The features that a march names: of bodies that overlap they share a point, of others they hold the witness points. Decided
+// in rational arithmetic.
 #include <swiftlet/march.h>
 
 #include <algorithm>

@@ -153,7 +153,8 @@ TEST(Cube, EveryDirectionLiesInItsCell) {
       ASSERT_LT(cell, cube_cell_count(side));
       seen.insert(cell);
       const std::uint32_t face = cell / (side * side), row = cell / side % side, column = cell % side;
-      const Direction low = cube_point(side, face, 2 * column, 2 * row), high = cube_point(side, face, 2 * column + 2, 2 * row + 2);
+      const Direction low = cube_point(side, face, 2 * column, 2 * row),
+                      high = cube_point(side, face, 2 * column + 2, 2 * row + 2);
       const double scale = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
       for (int k = 0; k < 3; ++k) {
         ASSERT_GE(d[k] / scale, std::min(low[k], high[k]) - 1e-15);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Many pairs at once, on the caller's threads or on some of our own. The answers are those of one query after the other, bit for
-// bit.
+// Many pairs at once, on the caller's threads or on some of our own. The answers are those of one query after the other, bit
+// for bit.
 #pragma once
 
 #include <cstddef>

@@ -119,7 +119,8 @@ struct TableSpec {
   lut::Resolution resolution = lut::Resolution::None;
   double radius_factor = 2;  ///< its samples lie on the sphere of this many bounding radii, at least 1
   /// Of the finest support map: 6 side^2 entries of 4 bytes. It lies on the finest level of at most 4 096 vertices, else on the
-  /// coarsest; each coarser level has one of half the side, at least 1. 16 take about 8 kB. A power of two up to 64; 0: no maps.
+  /// coarsest; each coarser level has one of half the side, at least 1. 16 take about 8 kB. A power of two up to 64; 0: no
+  /// maps.
   std::uint32_t map_side = 16;
 };
 

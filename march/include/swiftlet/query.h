@@ -53,7 +53,7 @@ enum class StartPolicy : std::uint8_t {
 /// What one query leaves for the next one of the same pair. The caller carries it; `PairSeed{}` is cold. Any bits are legal: a
 /// seed changes the work, never the truth.
 struct PairSeed {
-  Handle a, b;  ///< features at the levels below
+  Handle a, b;                                           ///< features at the levels below
   std::array<std::int16_t, 3> line_in_a{}, line_in_b{};  ///< the line of centres, in units of 1/32767: how far it turned tells
                                                          ///< whether the features are worth a try
   std::array<std::int16_t, 3> normal{};                  ///< the answer's, in the same units: a verdict is tried along it first
