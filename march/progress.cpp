@@ -236,7 +236,16 @@ class Contact {
     return nearest;
   }
 
+  /// A tetrahedron that holds the origin, well inside if there is one: on a face, a translation of 1e-300 decides.
   bool prove(OverlapProof& proof) const {
+    const auto deep = [&](const OverlapProof& p) { return proves_deep_overlap(scene_, p); };
+    const auto any = [&](const OverlapProof& p) { return proves(scene_, p); };
+    if (first_that(deep, proof) || first_that(any, proof)) return true;
+    proof = {};
+    return false;
+  }
+  template <class Holds>
+  bool first_that(Holds holds, OverlapProof& proof) const {
     for (int i = 0; i < count_; ++i) {
       for (int j = i + 1; j < count_; ++j) {
         for (int k = j + 1; k < count_; ++k) {
@@ -244,12 +253,11 @@ class Contact {
             proof = {4,
                      {points_[i].a, points_[j].a, points_[k].a, points_[l].a},
                      {points_[i].b, points_[j].b, points_[k].b, points_[l].b}};
-            if (proves(scene_, proof)) return true;
+            if (holds(proof)) return true;
           }
         }
       }
     }
-    proof = {};
     return false;
   }
 
