@@ -61,12 +61,14 @@ struct MarchResult {
   /// 2's bound and, of a face flat only up to rounding, its thickness. Overlapping: they share a point, exactly, mostly an edge
   /// of one and a face of the other; where one body lies inside the other and their surfaces share none, `Handle{}` for the
   /// outer body and any vertex of the inner one. Elsewhere where the march stopped.
-  Handle a, b;
+  Handle a;
+  Handle b;                                                ///< likewise, of B
   double lower = 0;                                        ///< proved bounds on the distance between the two polytopes
   double upper = std::numeric_limits<double>::infinity();  ///< the other bound
   Vec3 normal = Vec3::Zero();  ///< unit, A's frame, from A to B: the direction `lower` is proved in; 0 without one
   /// Nearest points, A's frame; Overlapping: both the point that the features share, or one inside both bodies.
-  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();
+  Vec3 point_a = Vec3::Zero();
+  Vec3 point_b = Vec3::Zero();    ///< on B
   OverlapProof proof;             ///< where the status is Overlapping
   std::uint32_t steps = 0;        ///< changes of feature
   std::uint32_t plane_tests = 0;  ///< Voronoi planes and support comparisons evaluated
