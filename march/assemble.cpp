@@ -28,14 +28,6 @@ struct Draft {
 
 Scene alone(const ConvexView& view) { return scene(view, view, kAtRest, 0); }
 
-/// A direction out of a face.
-Vec outward(const ConvexView& view, std::uint32_t face) {
-  if (face < view.planes.size()) return {view.planes[face].x, view.planes[face].y, view.planes[face].z};
-  const std::uint32_t h = view.face_first[face];
-  const Vec p = vec(view.vertices[origin(view, h)]), q = vec(view.vertices[view.head[h]]);
-  return cross(q - p, vec(view.vertices[view.head[next_in_facet(view, h)]]) - p);
-}
-
 /// One point as a body.
 class PointBody {
  public:
@@ -151,7 +143,7 @@ void link_to_coarser(Draft& level, const ConvexView& coarser) {
   const Scene climb = alone(coarser);
   std::uint32_t v = 0, comparisons = 0;
   for (std::uint32_t f = 0; f < view.face_first.size(); ++f) {
-    v = support_a(climb, outward(view, f), v, comparisons);
+    v = support_a(climb, face_normal(Resting{view}, f), v, comparisons);
     level.parent_face.push_back(v);
   }
 }

@@ -5,22 +5,15 @@
 
 #include <cstdio>
 
-#include "double_double.h"
 #include "exact.h"
 #include "scene.h"
 #include "support_map.h"
 #include "surface.h"
 #include "tolerance.h"
+#include "wide.h"
 
 namespace swiftlet {
 namespace {
-
-using Wide = V3<DoubleDouble>;
-Wide wide(const Vec& v) { return {v.x, v.y, v.z}; }
-Wide wide(const Motion& m, const Vec& p) {
-  const Wide q = wide(p);
-  return Wide{dot(wide(m.row_x), q), dot(wide(m.row_y), q), dot(wide(m.row_z), q)} + wide(m.t);
-}
 
 template <class... Values>
 Check failed(const char* format, Values... values) {

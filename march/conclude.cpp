@@ -24,7 +24,9 @@ bool from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule, Marc
   r.a = walk.a;
   r.b = walk.b;
   const Goal goal{larger(rule.absolute, scene.law_two), rule.relative, rule.beyond + scene.law_two};
-  Certificate c = certify(scene, walk.a, walk.b, r.plane_tests);
+  Witness afresh;
+  const Witness& seen = walk.end == WalkEnd::Minimum ? walk.witness : (afresh = witness(scene, walk.a, walk.b));
+  Certificate c = certify(scene, walk.a, walk.b, seen, r.plane_tests);
   r.status = status_of(scene, goal, c);
   // That features touch says nothing of the bodies: certified progress tells touching from overlapping.
   const bool settled = r.status != MarchStatus::NotConverged && (r.status != MarchStatus::Touching || c.lower > 0);
@@ -42,7 +44,7 @@ bool from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule, Marc
     ++r.steps;
   }
   const bool apart = r.status == MarchStatus::Disjoint || r.status == MarchStatus::Touching;
-  const bool straightened = apart && leans(scene, c) && straighten(scene, c, r.plane_tests);
+  const bool straightened = apart && c.active.count > 0 && leans(scene, c) && straighten(scene, c, r.plane_tests);
   if (progressed || straightened) {
     r.a = feature_of(scene.a, c.active, c.active.a);
     r.b = feature_of(scene.b, c.active, c.active.b);

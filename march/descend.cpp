@@ -156,7 +156,7 @@ class Descent {
     met_ = MarchStatus::Overlapping;
     answer_.lower = 0;
     answer_.upper = std::numeric_limits<double>::infinity();
-    const Vec common = common_point(pair, proof);
+    const Vec common = common_point<double>(pair, proof);
     carry(place, {0, 0, normal, common, common, proof}, pair.law_two);
   }
 
@@ -235,9 +235,7 @@ class Descent {
     MarchRule rule;
     rule.beyond = target_.clear_above;
     rule.step_budget = walked.steps + steps_left();
-    Walk capped = walked;
-    if (spent_) capped.end = WalkEnd::Budget;
-    const MarchResult r = conclude(pair, capped, rule);
+    const MarchResult r = conclude(pair, walked, rule);
     answer_.steps += r.steps - walked.steps;
     answer_.plane_tests += r.plane_tests - walked.plane_tests;
     met_ = r.status;

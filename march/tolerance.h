@@ -69,6 +69,9 @@ inline constexpr double kGapError = 7 * kU;
 inline constexpr double kCrossError = 8 * kU;
 /// A convex combination of three points: 1 product and 2 sums, and weights whose sum is 1 only to 3 u. Relative to |p|.
 inline constexpr double kPointError = 7 * kU;
+/// What a walk saw rise along a direction, said of its image at unit length: kDotError; turned there and back, 2 sqrt(3)
+/// kTurnedError; normalised, 4. Relative to both lengths.
+inline constexpr double kRiseError = 24 * kU;
 /// sqrt of a sum of three squares of rounded differences, relative.
 inline constexpr double kNormError = 5 * kU;
 
