@@ -67,10 +67,10 @@ class Descent {
     return allowed > 0 && width <= allowed;
   }
   /// Thresholds are passed only by more than law 2's bound: nearer, what can be proved depends on the start.
-  bool answered() const {
-    return narrow(answer_.lower, answer_.upper - answer_.lower) || answer_.lower > target_.clear_above + law_two_ ||
-           answer_.upper < target_.hit_below - law_two_;
+  bool answers(double lower, double upper) const {
+    return narrow(lower, upper - lower) || lower > target_.clear_above + law_two_ || upper < target_.hit_below - law_two_;
   }
+  bool answered() const { return answers(answer_.lower, answer_.upper); }
 
   /// Looks along support maps, on the coarsest pair that might answer and on finer ones. Whether that answers; else `place`
   /// becomes where to walk from. Each pair is looked at afresh, so that a looser tolerance only stops earlier.
@@ -90,12 +90,14 @@ class Descent {
       while (!last() && too_coarse()) refine();
     for (;;) {
       const Scene pair = scene_at(place);
+      const double error = deviation(place.level_a, place.level_b);
       const Sight sight = look(pair, a_.level(place.level_a), b_.level(place.level_b), line_.in_a, [&](const Sight& s) {
-        if (exact_) return false;
-        take(place, s, pair);
-        return answered();
+        if (exact_) return Look::Near;
+        const double lower = larger(answer_.lower, s.lower);
+        if (answers(lower, smaller(answer_.upper, s.upper + error))) return Look::Enough;
+        return narrow(lower, kDoubtShare * (s.gap - s.lower) + error) ? Look::On : Look::Near;
       });
-      if (exact_) take(place, sight, pair);
+      take(place, sight, pair);
       if (is_threshold() && last() && !answered() && sight.gap > target_.clear_above) climb(place, sight, pair);
       if (answered() || (sight.meets && overlap(place, sight))) return record(place), true;
       if (finest(place)) return false;  // a walk on the same pair follows
@@ -121,7 +123,7 @@ class Descent {
   bool glance(Place& place, const Vec& direction) {
     Place at{std::max(a_.map_level(), finest_a_), std::max(b_.map_level(), finest_b_), {}};
     const Scene pair = scene_at(at);
-    take(at, look(pair, a_.level(at.level_a), b_.level(at.level_b), direction, [](const Sight&) { return true; }), pair);
+    take(at, look(pair, a_.level(at.level_a), b_.level(at.level_b), direction, [](const Sight&) { return Look::Enough; }), pair);
     if (!answered()) return false;
     place = at;
     return record(place), true;

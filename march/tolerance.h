@@ -128,6 +128,8 @@ inline constexpr double kCloseRadii = 1.25;
 /// A cold start looks along maps until its supports lie this many edges of both bodies aside, or so many times.
 inline constexpr double kAimEdges = 2;
 inline constexpr int kAimSteps = 12;
+/// Looks go on past that while what the maps leave in doubt times this is within the tolerance; beyond, they turn in circles.
+inline constexpr double kDoubtShare = 3;
 /// Vertices that doubles may find equally high before a certificate asks exact arithmetic which is the highest: two triangles
 /// and room for a flat spot.
 inline constexpr std::size_t kPlateau = 8;
