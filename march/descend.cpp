@@ -63,7 +63,7 @@ class Descent {
   std::uint32_t steps_left() const { return options_.step_budget - std::min(answer_.steps, options_.step_budget); }
   /// Where nothing is allowed, nothing is narrow: an exact answer is known by its verdict.
   bool narrow(double lower, double width) const {
-    const double allowed = larger(target_.absolute, target_.relative * lower);
+    const double allowed = larger(target_.absolute, target_.relative * (lower - target_.zero)) - target_.rounding;
     return allowed > 0 && width <= allowed;
   }
   /// Thresholds are passed only by more than law 2's bound: nearer, what can be proved depends on the start.
@@ -95,7 +95,7 @@ class Descent {
         take(place, s, pair);
         return answered();
       });
-      if (exact_) take(place, sight, pair);
+      take(place, sight, pair);  // also where it ended in a point, after it last asked
       if (is_threshold() && last() && !answered() && sight.gap > target_.clear_above) climb(place, sight, pair);
       if (answered() || (sight.meets && overlap(place, sight))) return record(place), true;
       if (finest(place)) return false;  // a walk on the same pair follows
@@ -237,7 +237,7 @@ class Descent {
     rule.step_budget = walked.steps + steps_left();
     Walk capped = walked;
     if (spent_) capped.end = WalkEnd::Budget;
-    const MarchResult r = conclude(pair, capped, rule);
+    const MarchResult r = conclude(pair, capped, rule, target_.zero);
     answer_.steps += r.steps - walked.steps;
     answer_.plane_tests += r.plane_tests - walked.plane_tests;
     met_ = r.status;

@@ -10,8 +10,10 @@ namespace swiftlet {
 /// The question: an interval narrow enough, or a threshold passed.
 struct Target {
   double absolute, relative;
-  double clear_above;  ///< answered when lower > this
-  double hit_below;    ///< answered when upper <= this
+  double clear_above;   ///< answered when lower > this
+  double hit_below;     ///< answered when upper <= this
+  double zero = 0;      ///< the hulls' distance that `relative` counts from, where the bodies touch
+  double rounding = 0;  ///< by so much narrower than `absolute` and `relative` say
 };
 
 Answer descend(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
