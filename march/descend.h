@@ -16,7 +16,8 @@ struct Target {
   double rounding = 0;  ///< by so much narrower than `absolute` and `relative` say
 };
 
+/// From the seed, or on from `so_far`, an answer about the hulls of these models in this pose.
 Answer descend(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
-               const Target& target);
+               const Target& target, const Answer* so_far = nullptr);
 
 }  // namespace swiftlet

@@ -53,6 +53,17 @@ class Dilation {
     answer.upper = larger(answer.lower, high);
   }
 
+  /// An answer about the bodies, as it was of the hulls, as far as it tells.
+  Answer of_hulls(Answer of) const {
+    if (of.proof.count != 0) return of;
+    of.verdict = of.verdict == Verdict::Disjoint ? Verdict::Disjoint : Verdict::Undecided;
+    of.point_a = eigen(vec(of.point_a) - vec(of.normal) * a_);
+    of.point_b = eigen(vec(of.point_b) + vec(of.normal) * b_);
+    of.lower = of.lower > 0 ? more(of.lower, -kInfinity) : 0;
+    of.upper = more(of.upper, kInfinity);
+    return of;
+  }
+
   void dilate(LevelRecord& record) const {
     record.lower = larger(0, lower(record.lower));
     record.upper = larger(record.lower, upper(record.upper));
@@ -67,6 +78,11 @@ class Dilation {
     return lost == 0 ? rest.high : std::nextafter(rest.high + lost, side);
   }
 
+  /// bound + a + b, likewise.
+  double more(double bound, double side) const { return Dilation(-a_, -b_).less(bound, side); }
+
+  Dilation(double a, double b) : a_(a), b_(b) {}
+
   static Verdict verdict(double lower, double upper, double law_two) {
     if (upper < 0) return Verdict::Overlapping;
     if (lower > 0) return Verdict::Disjoint;
@@ -76,14 +92,26 @@ class Dilation {
   double a_, b_;
 };
 
+/// The same answer, for no work.
+Answer known(Answer answer, Status status) {
+  answer.status = status;
+  answer.steps = answer.plane_tests = 0;
+  answer.levels_visited = 0;
+  return answer;
+}
+
 }  // namespace
 
 Answer ask(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
-           const Target& target) {
+           const Target& target, const Answer* so_far) {
   const Dilation dilation(options);
-  if (dilation.none()) return descend(a, b, b_in_a, seed, options, target);
+  if (dilation.none()) return descend(a, b, b_in_a, seed, options, target, so_far);
+  if (so_far && so_far->verdict == Verdict::Overlapping) return known(*so_far, Status::Converged);
   const double law_two = dilation.law_two(a, b, motion(b_in_a));
-  Answer answer = descend(a, b, b_in_a, seed, options, dilation.of_hulls(target, law_two));
+  Answer hulls;
+  if (so_far) hulls = dilation.of_hulls(*so_far);
+  Answer answer = descend(a, b, b_in_a, seed, options, dilation.of_hulls(target, law_two), so_far ? &hulls : nullptr);
+  if (so_far && answer.levels_visited == 0 && answer.status != Status::InvalidPose) return known(*so_far, answer.status);
   dilation.dilate(answer, law_two);
   const std::size_t recorded = std::min(options.trace.size(), std::size_t(answer.levels_visited));
   for (LevelRecord& record : options.trace.first(recorded)) dilation.dilate(record);

@@ -8,8 +8,8 @@
 
 namespace swiftlet {
 
-/// Answers `target` of the hulls of `a` and `b` dilated by the options' radii.
+/// Answers `target` of the hulls of `a` and `b` dilated by the options' radii: from the seed, or on from `so_far`.
 Answer ask(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
-           const Target& target);
+           const Target& target, const Answer* so_far = nullptr);
 
 }  // namespace swiftlet

@@ -30,6 +30,12 @@ Answer distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& se
   return ask(a, b, b_in_a, seed, options, {options.absolute_error, options.relative_error, options.beyond, 0});
 }
 
+Answer refine(const Model& a, const Model& b, const Pose& b_in_a, const Answer& so_far, PairSeed& seed,
+              const QueryOptions& options) {
+  const Target target{options.absolute_error, options.relative_error, options.beyond, 0};
+  return ask(a, b, b_in_a, seed, options, target, &so_far);
+}
+
 Answer intersects(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options) {
   Answer answer = ask(a, b, b_in_a, seed, options, {0, 0, 0, 0});
   if (answer.status == Status::Beyond) answer.status = Status::Converged;

@@ -74,7 +74,8 @@ struct QueryOptions {
   /// A body is all that lies within its radius of its hull: a margin, a sphere around a point, a capsule around a segment. 0 to
   /// 1e45, asserted; else 0. Whatever is asked and answered is of these bodies; law 2's size counts the radii, and each bound
   /// may be off by its last place more.
-  double radius_a = 0, radius_b = 0;
+  double radius_a = 0;
+  double radius_b = 0;        ///< likewise, of B
   double absolute_error = 0;  ///< stop when upper - lower <= max(absolute_error, relative_error * lower)
   double relative_error = 0;  ///< a fraction of lower
   double beyond = std::numeric_limits<double>::infinity();  ///< stop when lower > beyond
@@ -97,7 +98,8 @@ struct Answer {
   /// inside the other body, and they are deepest if the answer is a contact's. Where the hulls do, they are points of A's hull
   /// and of B's where the search ended, mostly one and the same, and the normal is the last direction looked along: neither is
   /// a place or a way to separate.
-  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();
+  Vec3 point_a = Vec3::Zero();
+  Vec3 point_b = Vec3::Zero();               ///< likewise, of B
   int level_a = 0, level_b = 0;              ///< the level pair they lie on: the one that answered
   Handle feature_a, feature_b;               ///< on those levels
   OverlapProof proof;                        ///< that the hulls overlap: vertices of those levels
@@ -108,6 +110,14 @@ struct Answer {
 /// The distance between `a` and `b`, where `b_in_a` maps B's frame into A's: exact by default, that is within law 2's bound.
 /// Cost: law 7 bounds the steps (march.h); nothing is allocated. Errors are statuses, and the interval is always true.
 Answer distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options = {});
+
+/// `distance`, on from an answer of any of these queries about the same models, pose and radii, to the precision that the
+/// options ask for: from its features, with its bounds, at the cost of the difference. The interval is never wider than before,
+/// but for law 2's bound, by which a plane that fits its points may be worse; one that is as narrow as asked comes back as it
+/// is. Steps and plane tests are this call's. Bounds are taken at their word: another pair's or pose's answer makes these
+/// wrong.
+Answer refine(const Model& a, const Model& b, const Pose& b_in_a, const Answer& so_far, PairSeed& seed,
+              const QueryOptions& options = {});
 
 /// Do they share a point? Read `verdict`. Ends at the first level pair that is disjoint.
 /// The options' errors and `beyond` are not read.
