@@ -64,7 +64,7 @@ std::uint32_t map_fault(const Level& level) {
 
 }  // namespace
 
-Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer) {
+Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer, double radius_a, double radius_b) {
   if (answer.status == Status::InvalidPose) {
     return pose_quality(motion(b_in_a)).legal ? failed("the pose is legal") : kPassed;
   }
@@ -78,6 +78,10 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
     return failed("[%.17g, %.17g] is no interval", answer.lower, answer.upper);
   const ConvexView &exact_a = a.level(0).view, &exact_b = b.level(0).view;
   const Scene whole = scene(exact_a, exact_b, m, quality.error);
+  const double radii = radius_a + radius_b,
+               touching = law_two(exact_a.extent + radius_a, exact_b.extent + radius_b, norm(m.t), quality.error);
+  const bool hulls_overlap = answer.proof.count != 0;
+  double apart = std::numeric_limits<double>::infinity();  // the hulls, as the points prove it
 
   if (answer.lower > 0) {
     const Vec n = vec(answer.normal);
@@ -91,18 +95,20 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
       if (const DoubleDouble h = dot(direction, wide(m, vec(v))); h < least_b) least_b = h;
     }
     const double gap = double(least_b - most_a) / norm(n);
-    if (!(gap * (1 + kNormError) + kDoubleDoubleError * whole.magnitude >= answer.lower)) {
-      return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap);
+    const DoubleDouble claimed = DoubleDouble(answer.lower) + radius_a + radius_b;
+    if (!(double(claimed - gap * (1 + kNormError)) <= kDoubleDoubleError * (whole.magnitude + radii))) {
+      return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap - radii);
     }
   }
   if (std::isfinite(answer.upper)) {
     const Level &level_a = a.level(answer.level_a), &level_b = b.level(answer.level_b);
     const Scene pair = scene(level_a.view, level_b.view, m, quality.error);
-    const Vec p = vec(answer.point_a), q = vec(answer.point_b);
-    const double slack = pair.law_two, apart = norm(q - p) + level_a.deviation + level_b.deviation * (1 + 2 * quality.error);
-    const bool overlap = answer.proof.count != 0;
-    if (!overlap && !(apart <= answer.upper + 2 * slack))
-      return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart);
+    const Vec n = hulls_overlap ? Vec{0, 0, 0} : vec(answer.normal);
+    const Vec p = vec(answer.point_a) - n * radius_a, q = vec(answer.point_b) + n * radius_b;
+    const double slack = larger(pair.law_two, touching);
+    apart = norm(q - p) + level_a.deviation + level_b.deviation * (1 + 2 * quality.error);
+    if (!hulls_overlap && !(apart <= answer.upper + radii + 2 * slack))
+      return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart - radii);
     const Motion back = motion(inverse(b_in_a));
     if (!holds(level_a.view, p, slack)) return failed("point_a is not on level %d of A", answer.level_a);
     if (!holds(level_b.view, apply(back, q), slack)) return failed("point_b is not on level %d of B", answer.level_b);
@@ -112,9 +118,14 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
       if (!(answer.lower > 0)) return failed("disjoint without a lower bound");
       break;
     case Verdict::Touching:
-      if (!(answer.upper <= whole.law_two)) return failed("touching with an upper bound of %.17g", answer.upper);
+      if (!(answer.upper <= touching)) return failed("touching with an upper bound of %.17g", answer.upper);
       break;
     case Verdict::Overlapping: {
+      if (!hulls_overlap && radii > 0) {
+        if (!(answer.upper == 0 && apart <= radii + 2 * touching))
+          return failed("overlap of radii with points %.17g apart", apart);
+        break;
+      }
       if (answer.level_a != 0 || answer.level_b != 0 || answer.proof.count != 4)
         return failed("overlap without a proof on level 0");
       std::array<std::array<double, 3>, 4> pa, pb;

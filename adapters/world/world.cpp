@@ -14,31 +14,39 @@ Pose orthonormal(const Pose& pose) {
 
 Vec3 transform(const Pose& pose, const Vec3& p) { return pose.rotation * p + pose.translation; }
 
-Found found(const Answer& hulls) {
-  if (hulls.status == Status::InvalidPose) return Found::Nothing;
-  if (hulls.status == Status::Beyond) return Found::Beyond;
-  return hulls.verdict == Verdict::Overlapping || hulls.normal.isZero() ? Found::Overlap : Found::Nearest;
+QueryOptions with_radii(const Placed& a, const Placed& b) {
+  QueryOptions options;
+  options.radius_a = a.radius;
+  options.radius_b = b.radius;
+  return options;
+}
+
+Found found(const Answer& bodies) {
+  if (bodies.status == Status::InvalidPose) return Found::Nothing;
+  if (bodies.status == Status::Beyond) return Found::Beyond;
+  return bodies.proof.count != 0 || bodies.normal.isZero() ? Found::Overlap : Found::Nearest;
 }
 
 }  // namespace
 
 Nearest nearest(const Placed& a, const Placed& b, double beyond, PairSeed& seed) {
   const Pose a_in_world = orthonormal(a.in_world), b_in_world = orthonormal(b.in_world);
-  QueryOptions options;
-  options.beyond = beyond + a.radius + b.radius;
-  const Answer hulls = distance(*a.model, *b.model, relative(a_in_world, b_in_world), seed, options);
+  QueryOptions options = with_radii(a, b);
+  options.beyond = beyond;
+  const Answer bodies = contact(*a.model, *b.model, relative(a_in_world, b_in_world), seed, options).answer;
 
   Nearest result;
-  result.found = found(hulls);
-  result.distance = hulls.lower - (a.radius + b.radius);
-  result.normal = a_in_world.rotation * hulls.normal;
-  result.point_a = transform(a_in_world, hulls.point_a) + a.radius * result.normal;
-  result.point_b = transform(a_in_world, hulls.point_b) - b.radius * result.normal;
+  result.found = found(bodies);
+  result.distance = bodies.lower > 0 ? bodies.lower : bodies.normal.dot(bodies.point_b - bodies.point_a);
+  result.normal = a_in_world.rotation * bodies.normal;
+  result.point_a = transform(a_in_world, bodies.point_a);
+  result.point_b = transform(a_in_world, bodies.point_b);
   return result;
 }
 
 Verdict meeting(const Placed& a, const Placed& b, PairSeed& seed) {
-  return intersects(*a.model, *b.model, relative(orthonormal(a.in_world), orthonormal(b.in_world)), seed).verdict;
+  const Pose b_in_a = relative(orthonormal(a.in_world), orthonormal(b.in_world));
+  return intersects(*a.model, *b.model, b_in_a, seed, with_radii(a, b)).verdict;
 }
 
 }  // namespace swiftlet

@@ -21,8 +21,8 @@ struct Check {
 
 /// Recomputes what `answer` claims, by brute force over every vertex of the levels it names: `lower` by the gap along `normal`,
 /// `upper` by the two points and the deviations, overlap by exact arithmetic on the proof's vertices, the verdict by all these.
-/// Cost: linear in the vertices and faces.
-Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer);
+/// Cost: linear in the vertices and faces. The radii are those of the options that the answer was asked with.
+Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer, double radius_a = 0, double radius_b = 0);
 
 /// Proves that every level is convex and encloses level 0, that every deviation holds, and that links and tables name features.
 /// Exact. Cost: a support climb per face and a distance query per vertex.

@@ -30,7 +30,8 @@ enum class Found : std::uint8_t {
 /// Points and normal in the world's frame.
 struct Nearest {
   Found found = Found::Nothing;  ///< Nothing: all else is void
-  double distance = 0;           ///< of the bodies, below 0 where their roundings overlap; `lower`, never above the truth
+  double distance = 0;           ///< of the bodies: `lower`, never above the truth; where their roundings overlap minus the
+                                 ///< depth, within law 2's bound
   Vec3 normal = Vec3::Zero();    ///< unit, from A to B
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< on the bodies' surfaces
 };
@@ -38,7 +39,7 @@ struct Nearest {
 /// `beyond`: a distance of the bodies; those farther apart answer Beyond, early.
 Nearest nearest(const Placed& a, const Placed& b, double beyond, PairSeed& seed);
 
-/// Of the hulls without their roundings; Undecided: a pose is no rigid motion.
+/// Of the bodies, exactly; Undecided: a pose is no rigid motion.
 Verdict meeting(const Placed& a, const Placed& b, PairSeed& seed);
 
 }  // namespace swiftlet
