@@ -37,6 +37,9 @@ Place first_place(const Model& a, const Model& b, const Line& line, const PairSe
 void remember(const Line& line, const Vec& normal, PairSeed& seed);
 Vec direction(const PairSeed& seed);
 
+/// The finest level of a model that a query may read.
+int finest_allowed(const Model& model, const QueryOptions& options);
+
 /// The coarsest pair, from nothing.
 Place coarsest_place(const Model& a, const Model& b);
 
