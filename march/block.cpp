@@ -203,6 +203,7 @@ Level described(const BlockHeader& block, const LevelHeader& l) {
   level.deviation = l.deviation;
   level.volume = l.volume;
   level.bytes = l.section.bytes;
+  level.prefix = l.section.offset == 0 ? 0 : end_of(l.section);
   level.edge_count = l.edge_count;
   level.triangle_count = l.triangle_count;
   return level;

@@ -91,9 +91,10 @@ struct Level {
                                                 ///< how much it may not be; a query's cold start. Empty: none at this level
   std::uint32_t map_side = 0;                   ///< its cells on an edge of that cube
   double edge_length = 0;                       ///< mean over the level's edges
-  double deviation = 0;   ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
-  double volume = 0;      ///< cubic units; 0 where flatter than a solid
-  std::size_t bytes = 0;  ///< of this level in a whole model's block
+  double deviation = 0;    ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
+  double volume = 0;       ///< cubic units; 0 where flatter than a solid
+  std::size_t bytes = 0;   ///< of this level in a whole model's block
+  std::size_t prefix = 0;  ///< of the model's block, from its beginning to this level's end; 0 where the block lacks it
   std::size_t edge_count = 0, triangle_count = 0;  ///< without diagonals; 2 V - 4 for a solid
 };
 
