@@ -72,11 +72,14 @@ MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& p
   return s;
 }
 
+int finest_allowed(const Model& model, const QueryOptions& options) {
+  return std::clamp(options.finest_level, model.finest_level(), model.level_count() - 1);
+}
+
 Place coarsest_place(const Model& a, const Model& b) { return {a.level_count() - 1, b.level_count() - 1, {}}; }
 
 Place first_place(const Model& a, const Model& b, const Line& line, const PairSeed& seed, const QueryOptions& options) {
-  const int finest_a = std::clamp(options.finest_level, 0, a.level_count() - 1);
-  const int finest_b = std::clamp(options.finest_level, 0, b.level_count() - 1);
+  const int finest_a = finest_allowed(a, options), finest_b = finest_allowed(b, options);
   const bool seed_fits = seed.a.kind() != FeatureKind::None && seed.b.kind() != FeatureKind::None &&
                          legal_level(a, seed.level_a, finest_a) && legal_level(b, seed.level_b, finest_b);
   Place coarsest = coarsest_place(a, b);
