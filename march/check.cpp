@@ -3,48 +3,12 @@
 // Nothing here climbs or marches but `verify`'s deviations: supports are maxima over all vertices.
 #include <swiftlet/check.h>
 
-#include <cstdio>
-
-#include "double_double.h"
+#include "brute.h"
 #include "exact.h"
-#include "scene.h"
 #include "support_map.h"
-#include "surface.h"
-#include "tolerance.h"
 
 namespace swiftlet {
 namespace {
-
-using Wide = V3<DoubleDouble>;
-Wide wide(const Vec& v) { return {v.x, v.y, v.z}; }
-Wide wide(const Motion& m, const Vec& p) {
-  const Wide q = wide(p);
-  return Wide{dot(wide(m.row_x), q), dot(wide(m.row_y), q), dot(wide(m.row_z), q)} + wide(m.t);
-}
-
-template <class... Values>
-Check failed(const char* format, Values... values) {
-  if constexpr (sizeof...(Values) == 0) {
-    return {false, format};
-  } else {
-    char message[256];
-    std::snprintf(message, sizeof message, format, values...);
-    return {false, message};
-  }
-}
-const Check kPassed{true, ""};
-
-/// Whether a point lies in a body, up to `slack`: below every face's plane by then.
-bool holds(const ConvexView& view, const Vec& p, double slack) {
-  if (view.face_first.empty() || view.vertices.size() < 4)
-    return true;  // flat bodies: the distance to them is checked by lower
-  bool inside = true;
-  each_facet(view, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const Wide o = wide(vec(view.vertices[a])), n = cross(wide(vec(view.vertices[b])) - o, wide(vec(view.vertices[c])) - o);
-    inside = inside && double(dot(n, wide(p) - o)) <= slack * norm({double(n.x), double(n.y), double(n.z)});
-  });
-  return inside;
-}
 
 /// The cell of a level's support map that promises too much, or kNone: over a cell the heights above its vertex are highest at
 /// a corner.
@@ -87,17 +51,7 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
   const Scene whole = scene(exact_a, exact_b, m, quality.error);
 
   if (answer.lower > 0) {
-    const Vec n = vec(answer.normal);
-    const Wide direction = wide(n);
-    DoubleDouble most_a = dot(direction, wide(vec(exact_a.vertices[0]))),
-                 least_b = dot(direction, wide(m, vec(exact_b.vertices[0])));
-    for (const Vertex& v : exact_a.vertices) {
-      if (const DoubleDouble h = dot(direction, wide(vec(v))); h > most_a) most_a = h;
-    }
-    for (const Vertex& v : exact_b.vertices) {
-      if (const DoubleDouble h = dot(direction, wide(m, vec(v))); h < least_b) least_b = h;
-    }
-    const double gap = double(least_b - most_a) / norm(n);
+    const double gap = gap_along(whole, vec(answer.normal));
     if (!(gap * (1 + kNormError) + kDoubleDoubleError * whole.magnitude >= answer.lower)) {
       return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap);
     }

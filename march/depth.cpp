@@ -129,7 +129,8 @@ class Deepening {
     const Depth found = expand(pair, of_a, of_b, start(pair, seed, direction), goal, plane_tests);
     end = found.end;
     steps += found.steps;
-    if (found.lower > 0) lower = larger(lower, error > 0 ? (found.lower - error) - 2 * kU * (found.lower + error) : found.lower);
+    if (found.lower > 0)
+      lower = larger(lower, error > 0 ? (found.lower - error) - 2 * kU * (found.lower + error) : found.lower);
     if (found.upper > upper + law_two_) return;
     upper = smaller(upper, found.upper);
     normal = found.normal;

@@ -24,7 +24,7 @@ struct Facet {
   V3<Real> normal;
   Real height;  ///< of the plane above the origin
   std::array<std::uint8_t, 3> corner;
-  double above = kInfinity;  ///< proved: no point of M is as high; once the support is found and is no way on
+  double above;  ///< proved: no point of M is higher; infinite until the support is found and is no way on
 };
 
 /// A cone of directions: the span of three corners of a cell of the octahedron, counter-clockwise from outside.
@@ -45,31 +45,28 @@ struct Foot {
   V3<Real> point;
 };
 
-/// [Ericson 2004, sec. 5.1.5]
+/// Inside by areas over the normal, which slivers keep; else on the nearest edge.
 template <class Real>
 Foot<Real> foot(const V3<Real>& a, const V3<Real>& b, const V3<Real>& c) {
   const Real zero(0), one(1);
-  const auto at = [&](const Real& v, const Real& w) {
-    const Real u = one - v - w;
-    return Foot<Real>{{u, v, w}, a * u + b * v + c * w};
+  const V3<Real> n = cross(b - a, c - a);
+  const Real u = dot(n, cross(b, c)), v = dot(n, cross(c, a)), w = dot(n, cross(a, b));
+  if (u > zero && v > zero && w > zero) {
+    const Real sum = u + v + w, share_v = v / sum, share_w = w / sum;
+    return {{one - share_v - share_w, share_v, share_w}, a + (b - a) * share_v + (c - a) * share_w};
+  }
+  Foot<Real> best{};
+  const auto along = [&](std::size_t from, std::size_t to, const V3<Real>& p, const V3<Real>& q) {
+    const V3<Real> e = q - p;
+    const Real length2 = dot(e, e), rise = -dot(p, e);
+    const Real t = !(rise > zero) ? zero : !(rise < length2) ? one : rise / length2;
+    const V3<Real> point = t < one ? p + e * t : q;
+    if (from > 0 && !(dot(point, point) < dot(best.point, best.point))) return;
+    best = {{zero, zero, zero}, point};
+    best.weight[from] = one - t, best.weight[to] = t;
   };
-  const V3<Real> ab = b - a, ac = c - a;
-  const Real d1 = -dot(ab, a), d2 = -dot(ac, a);
-  if (!(d1 > zero) && !(d2 > zero)) return at(zero, zero);
-  const Real d3 = -dot(ab, b), d4 = -dot(ac, b);
-  if (!(d3 < zero) && !(d4 > d3)) return at(one, zero);
-  const Real vc = d1 * d4 - d3 * d2;
-  if (!(vc > zero) && !(d1 < zero) && !(d3 > zero) && d1 > d3) return at(d1 / (d1 - d3), zero);
-  const Real d5 = -dot(ab, c), d6 = -dot(ac, c);
-  if (!(d6 < zero) && !(d5 > d6)) return at(zero, one);
-  const Real vb = d5 * d2 - d1 * d6;
-  if (!(vb > zero) && !(d2 < zero) && !(d6 > zero) && d2 > d6) return at(zero, d2 / (d2 - d6));
-  const Real va = d3 * d6 - d5 * d4, rise = d4 - d3, fall = d5 - d6;
-  if (!(va > zero) && !(rise < zero) && !(fall < zero) && rise + fall > zero)
-    return at(fall / (rise + fall), rise / (rise + fall));
-  const Real sum = va + vb + vc;
-  if (!(sum > zero)) return at(zero, zero);
-  return at(vb / sum, vc / sum);
+  along(0, 1, a, b), along(1, 2, b, c), along(2, 0, c, a);
+  return best;
 }
 
 /// At length 1, but for a rounding of the length that a double shows.
@@ -247,6 +244,11 @@ class Polytope {
     if (last_.height < search_.best.height) search_.best = last_;
     return top;
   }
+  /// A vertex pair about as high, as maps know it.
+  Corner glance(const Vec& n) const {
+    return difference<Real>(scene_, look_up(search_.level_a, n).vertex,
+                            look_up(search_.level_b, body_b(scene_).into(-n)).vertex);
+  }
   Corner support(const Facet<Real>& f) {
     const Corner* near = &corner(f, 0);
     for (const std::size_t k : {1, 2}) near = near->a == kNone ? &corner(f, k) : near;
@@ -276,11 +278,13 @@ class Polytope {
   }
   /// Pushes a point of M off the plane through the first one, on the side of `direction` or else the other.
   bool leave_plane(const Vec& direction) {
-    for (const Vec& n : {direction, -direction}) {
-      const Corner top = support(n, corner_[0].a, corner_[0].b);
-      if (rounded(dot(widened<Real>(n), top.p - corner_[0].p)) > kRoom * resolution_) return push(top), true;
-    }
-    return false;
+    const auto leaves = [&](const Vec& n, const Corner& top) {
+      return std::fabs(rounded(dot(widened<Real>(n), top.p - corner_[0].p))) > kRoom * resolution_ && (push(top), true);
+    };
+    const bool has_maps = search_.level_a.map_side > 0 && search_.level_b.map_side > 0;
+    return (has_maps && leaves(direction, glance(direction))) ||
+           leaves(direction, support(direction, corner_[0].a, corner_[0].b)) ||
+           leaves(direction, support(-direction, corner_[0].a, corner_[0].b));
   }
 
   /// The tetrahedron of the first four points.
