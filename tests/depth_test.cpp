@@ -312,7 +312,7 @@ TEST(SignedDistance, LooserNeverCostsMore) {
         EXPECT_GE(s.upper, exact.lower);
         EXPECT_LE(s.upper - s.lower,
                   std::max(options.relative_error * -s.upper, bound_of(scene.a, scene.b, pose)) * (1 + 1e-12));
-        if (pose.translation == scene.poses[0].translation) {
+        if (k + 1 == work.size() && pose.translation == scene.poses[0].translation) {
           EXPECT_EQ(check(scene.a.model, scene.b.model, pose, s).message, "");
         }
         work[k] += s.steps + s.plane_tests;
