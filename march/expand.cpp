@@ -310,14 +310,15 @@ class Polytope {
     facet_[std::size_t(facet_count_++)] = f;
     return true;
   }
-  /// Takes unit n if it makes the plane higher and has the inside below; whether all corners lie on that plane.
+  /// Takes unit n if it makes the plane higher and has the inside below; whether all corners lie on that plane, well within law
+  /// 2's bound: then no other is wanted, for a plane that leans is no way on.
   bool offer(Facet<Real>& f, const V3<Real>& n) const {
     const Real h[3] = {dot(n, corner(f, 0).p), dot(n, corner(f, 1).p), dot(n, corner(f, 2).p)};
     const Real &low = h[0] < h[1] ? h[0] : h[1], &high = h[0] < h[1] ? h[1] : h[0];
     const Real &least = h[2] < low ? h[2] : low, &most = h[2] > high ? h[2] : high;
     if (!(dot(n, inside_) + Real(2 * resolution_) < least)) return false;  // nor if n is 0
     if (least > f.height) f.normal = n, f.height = least;
-    return !(most > least + Real(resolution_));
+    return !(most > least + Real(scene_.law_two / 8));
   }
 
   std::size_t nearest_facet() const {
