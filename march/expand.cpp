@@ -267,7 +267,7 @@ class Polytope {
   bool span_triangle() const {
     if (corner_count_ < 3) return false;
     const Vec u = rounded(corner_[1].p - corner_[0].p), v = rounded(corner_[2].p - corner_[0].p);
-    return norm(cross(u, v)) > kRoom * resolution_ * larger(norm(u), norm(v));
+    return norm(cross(u, v)) > kRoom * scene_.point_error * larger(norm(u), norm(v));
   }
   bool find_triangle(const Vec& hint) {
     corner_count_ = 0;
@@ -279,7 +279,7 @@ class Polytope {
   /// Pushes a point of M off the plane through the first one, on the side of `direction` or else the other.
   bool leave_plane(const Vec& direction) {
     const auto leaves = [&](const Vec& n, const Corner& top) {
-      return std::fabs(rounded(dot(widened<Real>(n), top.p - corner_[0].p))) > kRoom * resolution_ && (push(top), true);
+      return std::fabs(rounded(dot(widened<Real>(n), top.p - corner_[0].p))) > kRoom * scene_.point_error && (push(top), true);
     };
     const bool has_maps = search_.level_a.map_side > 0 && search_.level_b.map_side > 0;
     return (has_maps && leaves(direction, glance(direction))) ||
