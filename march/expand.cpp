@@ -126,18 +126,10 @@ class Polytope {
   explicit Polytope(Search& search)
       : search_(search), scene_(search.scene), resolution_(rounding<Real>(scene_) * (std::is_same_v<Real, double> ? 1 : 4)) {}
 
-  /// Four points of M, the start's first. False where M has no room for them: planes were found that say so.
+  /// Four points of M, the start's first; if need be nearer to one plane than doubles could tell. False where M has no room for
+  /// them: planes were found that say so.
   bool begin(const DepthStart& start) {
-    clear();
-    const Vec hint = normalised(dot(start.direction, start.direction) > 0 ? start.direction : Vec{1, 0, 0});
-    for (int k = 0; k < start.count; ++k) push(difference<Real>(scene_, start.a[std::size_t(k)], start.b[std::size_t(k)]));
-    const bool has_fourth = corner_count_ == 4;
-    const Corner fourth = has_fourth ? corner_[3] : Corner{};
-    if (!span_triangle() && !find_triangle(hint)) return false;
-    corner_count_ = 3;
-    const Vec n = rounded(across(0, 1, 2));
-    if (dot(n, n) == 0 || !leave_plane(dot(n, hint) > 0 ? -n : n) || !close()) return false;
-    return !has_fourth || !rises(fourth) || add(fourth);
+    return begin(start, kRoom * scene_.point_error) || (resolution_ < scene_.point_error && begin(start, kRoom * resolution_));
   }
 
   /// M and three points far away that no direction of the cone sees above the origin: over the cone its heights are those of M,
@@ -263,28 +255,40 @@ class Polytope {
     const V3<Real>& p = corner_[std::size_t(i)].p;
     return unit(cross(corner_[std::size_t(j)].p - p, corner_[std::size_t(k)].p - p));
   }
-  /// Whether the first three points are there and clearly on no line.
-  bool span_triangle() const {
+  /// With each point farther than `room` off the others.
+  bool begin(const DepthStart& start, double room) {
+    clear();
+    const Vec hint = normalised(dot(start.direction, start.direction) > 0 ? start.direction : Vec{1, 0, 0});
+    for (int k = 0; k < start.count; ++k) push(difference<Real>(scene_, start.a[std::size_t(k)], start.b[std::size_t(k)]));
+    const bool has_fourth = corner_count_ == 4;
+    const Corner fourth = has_fourth ? corner_[3] : Corner{};
+    if (!span_triangle(room) && !find_triangle(hint, room)) return false;
+    corner_count_ = 3;
+    const Vec n = rounded(across(0, 1, 2));
+    if (dot(n, n) == 0 || !leave_plane(dot(n, hint) > 0 ? -n : n, room) || !close()) return false;
+    return !has_fourth || !rises(fourth) || add(fourth);
+  }
+  /// Whether the first three points are there and on no line.
+  bool span_triangle(double room) const {
     if (corner_count_ < 3) return false;
     const Vec u = rounded(corner_[1].p - corner_[0].p), v = rounded(corner_[2].p - corner_[0].p);
-    return norm(cross(u, v)) > kRoom * scene_.point_error * larger(norm(u), norm(v));
+    return norm(cross(u, v)) > room * larger(norm(u), norm(v));
   }
-  bool find_triangle(const Vec& hint) {
+  bool find_triangle(const Vec& hint, double room) {
     corner_count_ = 0;
     push(support(hint, 0, 0));
-    if (!leave_plane(-hint)) return false;
+    if (!leave_plane(-hint, room)) return false;
     const Vec u = normalised(rounded(corner_[1].p - corner_[0].p)), v = normalised(cross(u, least_axis(u)));
-    return (leave_plane(v) || leave_plane(cross(u, v))) && span_triangle();
+    return (leave_plane(v, room) || leave_plane(cross(u, v), room)) && span_triangle(room);
   }
   /// Pushes a point of M off the plane through the first one, on the side of `direction` or else the other.
-  bool leave_plane(const Vec& direction) {
-    const auto leaves = [&](const Vec& n, const Corner& top) {
-      return std::fabs(rounded(dot(widened<Real>(n), top.p - corner_[0].p))) > kRoom * scene_.point_error && (push(top), true);
+  bool leave_plane(const Vec& direction, double room) {
+    const auto leaves = [&](const Corner& top) {
+      return std::fabs(rounded(dot(widened<Real>(direction), top.p - corner_[0].p))) > room && (push(top), true);
     };
     const bool has_maps = search_.level_a.map_side > 0 && search_.level_b.map_side > 0;
-    return (has_maps && leaves(direction, glance(direction))) ||
-           leaves(direction, support(direction, corner_[0].a, corner_[0].b)) ||
-           leaves(direction, support(-direction, corner_[0].a, corner_[0].b));
+    return (has_maps && leaves(glance(direction))) || leaves(support(direction, corner_[0].a, corner_[0].b)) ||
+           leaves(support(-direction, corner_[0].a, corner_[0].b));
   }
 
   /// The tetrahedron of the first four points.
