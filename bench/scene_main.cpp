@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // What precision costs: bytes, build time and query time of models that are no finer than asked, of single shapes and of a
-// scene of 1 000 robot links, which is also asked of other methods. Writes detail.csv and scene.csv: README.md.
+// scene of 1 000 robot links, which is also asked of other methods. Writes precision.csv and links.csv: README.md.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -220,7 +220,7 @@ void measure_scene(const std::vector<Shape>& shapes, std::ostream& csv) {
 void run(const std::filesystem::path& results, const std::filesystem::path& cache) {
   std::filesystem::create_directories(results);
   std::vector<Shape> real = links(cache);
-  std::ofstream detail(results / "detail.csv");
+  std::ofstream detail(results / "precision.csv");
   detail << "shape,tolerance,triangles,finest_triangles,bytes,build_seconds,ns,widest,short\n";
   std::vector<Shape> shapes = ellipsoids();
   shapes.insert(shapes.end(), real.begin(), real.end());
@@ -230,7 +230,7 @@ void run(const std::filesystem::path& results, const std::filesystem::path& cach
     std::fputs("no robot links: models/fetch has not run; the scene is of ellipsoids\n", stderr);
     real = ellipsoids();
   }
-  std::ofstream scene(results / "scene.csv");
+  std::ofstream scene(results / "links.csv");
   scene << "method,tolerance,bytes_per_link,seconds_per_link,ns,worst_error,failed\n";
   measure_scene(real, scene);
 }
