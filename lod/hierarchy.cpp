@@ -235,7 +235,7 @@ class AimedCollapse {
  private:
   static constexpr double kStated = 1.01;  ///< the deviations that models state are at most so many times the true ones
   static constexpr double kAim = 0.95;     ///< of the deviation allowed; the estimate is a power law through two levels
-  static constexpr int kTries = 2;
+  static constexpr int kTries = 3;
 
   bool keep_on() {
     result_.cancelled = !keep_on_(std::min(1.0, double(++stages_) / double(2 * options_.max_levels)));
@@ -263,12 +263,13 @@ class AimedCollapse {
     const double most = double(simple.triangles.size()), fewest = double(result_.levels.back().body.triangles.size());
     const double power = deviation > 0 ? std::log(last_deviation_ / deviation) / std::log(most / fewest) : 1;
     double triangles = fewest * std::pow(last_deviation_ / (kAim * allowed_), 1 / power);
-    for (int k = 0; k < kTries && triangles < kWorthwhile * most && keep_on(); ++k, triangles = std::sqrt(triangles * most)) {
+    for (int k = 0; k < kTries && triangles < kWorthwhile * most && keep_on(); ++k) {
       const Collapser::Simpler shape = collapser_.simpler(simple, std::size_t(triangles));
       if (!shape.shape) break;
       Step step = collapser_.enclosed(*shape.shape);
       const double found = step.level ? deviation_(step.level->body.points) : allowed_;
       if (found < allowed_) return push(std::move(*step.level), found), true;
+      triangles *= std::pow(found / (kAim * allowed_), 1 / power);
     }
     return false;
   }
