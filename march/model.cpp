@@ -6,6 +6,7 @@
 
 #include "block.h"
 #include "certify.h"
+#include "ring.h"
 #include "support_map.h"
 #include "table.h"
 
@@ -40,6 +41,12 @@ std::uint32_t Model::support(const Vec3& direction) const {
     start = body_->table[lut::nearest(lut::Resolution(body_->header.resolution), {direction[0], direction[1], direction[2]})];
   }
   return support_a(alone, rescaled(vec(direction)), start, comparisons);
+}
+
+FaceLoop::Iterator& FaceLoop::Iterator::operator++() {
+  half_edge_ = next_in_face(*view_, half_edge_);
+  started_ = true;
+  return *this;
 }
 
 TableSpec Model::table_spec() const {
