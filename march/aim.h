@@ -23,6 +23,7 @@ struct Sight {
   double lower = 0;            ///< proved along `normal`: less than the gap by what the maps are uncertain of; may be negative
   double upper = 0;            ///< the distance of the points
   Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};
+  std::uint32_t start_a = 0, start_b = 0;  ///< where a walk begins: the first supports that were near, else these
   bool meets = false;  ///< the pair seems to overlap: the differences of `proof`'s vertices look to hold the origin
   OverlapProof proof{};
 };
@@ -72,6 +73,7 @@ Sight look(const Scene& scene, const Level& a, const Level& b, const Vec& direct
   const double few = kAimEdges * (a.edge_length + b.edge_length);
   Simplex simplex;
   Sight s;
+  bool was_near = false;
   s.upper = std::numeric_limits<double>::infinity();
   Vec n = normalised(direction);
   for (int steps = 0;; ++steps) {
@@ -85,6 +87,8 @@ Sight look(const Scene& scene, const Level& a, const Level& b, const Vec& direct
     if (upper < s.upper) s.upper = upper, s.point_a = q, s.point_b = q + p;
     const Vec aside = p - n * s.gap;
     const bool near = s.gap > 0 && dot(aside, aside) <= few * few;
+    if (!was_near) s.start_a = s.a, s.start_b = s.b;
+    was_near = was_near || near;
     const Look verdict = judge(s);
     if (verdict == Look::Enough || (verdict == Look::Near && near) || steps == kAimSteps || simplex.has(s.a, s.b)) return s;
     const Simplex::Nearest nearest = simplex.add({p, q, s.a, s.b});

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dilate.h"
 #include "expand.h"
 #include "progress.h"
 #include "ring.h"
@@ -18,7 +19,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// What is asked: an interval narrow enough, or on which side of a threshold.
-struct Target {
+struct DepthTarget {
   double absolute = 0, relative = 0;
   double depth = -1;  ///< the threshold where it is not negative
   bool is_threshold() const { return depth >= 0; }
@@ -41,7 +42,7 @@ Span span_of(const ConvexView& view, Handle feature) {
 class Deepening {
  public:
   Deepening(const Model& a, const Model& b, const Motion& m, double pose_error, const QueryOptions& options,
-            const Target& target)
+            const DepthTarget& target)
       : a_(a),
         b_(b),
         motion_(m),
@@ -150,7 +151,7 @@ class Deepening {
   const Line line_;
   const double pose_error_, stretch_, shift_;
   const QueryOptions& options_;
-  const Target target_;
+  const DepthTarget target_;
   const double law_two_;
   const int finest_a_, finest_b_;
   Place place_{};
@@ -209,10 +210,19 @@ SignedAnswer signed_distance(const Model& a, const Model& b, const Pose& b_in_a,
   const Motion m = motion(b_in_a);
   const PoseQuality quality = pose_quality(m);
   if (!quality.legal) return invalid();
+  const Dilation dilation(options);
+  const double law_two = dilation.law_two(a, b, m);
   Deepening deep(a, b, m, quality.error, options, {options.absolute_error, options.relative_error});
   if (seed.met) deep.run(seed);
-  if (deep.proved()) return deep.store(seed), overlap_part(deep);
-  SignedAnswer answer = apart(distance(a, b, b_in_a, seed, options));
+  SignedAnswer answer;
+  if (deep.proved()) {
+    deep.store(seed);
+    answer = overlap_part(deep);
+    dilation.dilate(answer, law_two);
+    return answer;
+  }
+  const Target target{options.absolute_error, options.relative_error, options.beyond, -kInfinity};
+  answer = apart(descend(a, b, b_in_a, seed, options, dilation.of_hulls(target, law_two)));
   if (!(answer.lower > 0)) {
     if (deep.steps == 0) deep.run(seed);
     const bool overlapping = deep.proved() || answer.verdict == Verdict::Overlapping;
@@ -223,28 +233,33 @@ SignedAnswer signed_distance(const Model& a, const Model& b, const Pose& b_in_a,
     take(deep, answer);
     if (overlapping) deep.store(seed);
   }
-  return add_work(deep, answer), answer;
+  add_work(deep, answer);
+  dilation.dilate(answer, law_two);
+  return answer;
 }
 
 SignedWithin signed_within(const Model& a, const Model& b, const Pose& b_in_a, double threshold, PairSeed& seed,
                            const QueryOptions& options) {
+  const Motion m = motion(b_in_a);
+  const PoseQuality quality = pose_quality(m);
+  if (!quality.legal) return {Decision::Undecided, invalid()};
+  const Dilation dilation(options);
+  const double of_hulls = threshold + dilation.sum();
   SignedWithin result;
-  if (threshold < 0) {
-    const Motion m = motion(b_in_a);
-    const PoseQuality quality = pose_quality(m);
-    if (!quality.legal) return {Decision::Undecided, invalid()};
-    Deepening deep(a, b, m, quality.error, options, {0, 0, -threshold});
+  if (of_hulls < 0) {
+    Deepening deep(a, b, m, quality.error, options, {0, 0, -of_hulls});
     deep.run(seed);
     if (deep.proved()) deep.store(seed);
     result.answer = overlap_part(deep);
-    if (result.answer.lower > threshold) result.decision = Decision::No;
-    if (result.answer.upper <= threshold) result.decision = Decision::Yes;
   } else {
-    const Within near = within(a, b, b_in_a, threshold, seed, options);
-    result.answer = apart(near.answer);
-    if (!(near.answer.lower > 0)) result.answer.lower = -kInfinity;
-    result.decision = near.decision;
+    const Answer near = descend(a, b, b_in_a, seed, options, {0, 0, of_hulls, of_hulls});
+    result.answer = apart(near);
+    if (result.answer.status == Status::Beyond) result.answer.status = Status::Converged;
+    if (!(near.lower > 0)) result.answer.lower = -kInfinity;
   }
+  dilation.dilate(result.answer, dilation.law_two(a, b, m));
+  if (result.answer.lower > threshold) result.decision = Decision::No;
+  if (result.answer.upper <= threshold) result.decision = Decision::Yes;
   return result;
 }
 

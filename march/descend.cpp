@@ -149,6 +149,7 @@ class Descent {
       take(place, sight, pair);
       if (is_threshold() && last && !answered() && sight.gap > target_.clear_above) climb(place, sight, pair);
       if (answered() || (sight.meets && overlap(place, sight))) return record(place), true;
+      if (!is_threshold()) place.start = {{FeatureKind::Vertex, sight.start_a}, {FeatureKind::Vertex, sight.start_b}};
       if (finest(place)) return false;  // a walk on the same pair follows
       record(place);
       if (last) return place = refined(place), false;

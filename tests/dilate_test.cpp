@@ -5,6 +5,7 @@
 #include <swiftlet/batch.h>
 #include <swiftlet/build.h>
 #include <swiftlet/check.h>
+#include <swiftlet/depth.h>
 #include <swiftlet/query.h>
 
 #include <algorithm>
@@ -243,6 +244,35 @@ TEST(Radii, ContactsOfRoundingsThatOverlapAreAsDeepAsTheyOverlap) {
     ASSERT_LE(oracle::distance({&p, 1}, c.a->mesh.points, {}).distance, c.law_two());
   });
   EXPECT_GE(shallow, 250);
+}
+
+TEST(Radii, ShiftSignedDistances) {
+  int apart = 0, shallow = 0, deep = 0;
+  for_each_case([&](const Case& c) {
+    PairSeed seed, other;
+    const double sum = c.radius_a + c.radius_b;
+    const SignedAnswer hulls = signed_distance(c.model_a(), c.model_b(), c.pose, seed);
+    const SignedAnswer bodies = signed_distance(c.model_a(), c.model_b(), c.pose, other, c.options());
+    ASSERT_LE(bodies.lower, hulls.upper - sum + c.law_two());
+    ASSERT_GE(bodies.upper, hulls.lower - sum - c.law_two());
+    ASSERT_LE(bodies.upper - bodies.lower, 2 * c.law_two());
+    if (!c.hulls.overlapping) {
+      ASSERT_LE(c.compare(bodies.upper), 0);
+      ASSERT_GE(c.compare(bodies.lower), 0);
+    }
+    ASSERT_NEAR(bodies.normal.dot(bodies.point_b - bodies.point_a), bodies.lower, 3 * c.law_two());
+    for (const double by : {-1.0, 1.0}) {  // a threshold on either side
+      const double threshold = bodies.lower + by * 1e3 * c.law_two();
+      const SignedWithin within = signed_within(c.model_a(), c.model_b(), c.pose, threshold, other, c.options());
+      ASSERT_EQ(within.decision, by > 0 ? Decision::Yes : Decision::No);
+    }
+    apart += bodies.verdict == Verdict::Disjoint;
+    shallow += !c.hulls.overlapping && bodies.verdict == Verdict::Overlapping;
+    deep += c.hulls.overlapping;
+  });
+  EXPECT_GE(apart, 250);
+  EXPECT_GE(shallow, 250);
+  EXPECT_GE(deep, 50);
 }
 
 TEST(Radii, SeedsChangeTheWorkNeverTheTruth) {  // law 3

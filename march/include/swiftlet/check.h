@@ -29,7 +29,7 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
 /// Recomputes what `answer` claims of a distance in the same way. Of an overlap: `lower` by the gap along `normal`, `upper` by
 /// the least height of all planes that can bound the Minkowski difference: parallel to a face of A, to one of B, or to an edge
 /// of each whose neighbours are below, in about 100 bits; and that each point lies in its body. Cost: the product of the edges,
-/// 0.2 s for two bodies of 2 000 triangles.
+/// 0.2 s for two bodies of 2 000 triangles. Of bodies without radii: with them a signed distance is the hulls' less both.
 Check check(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnswer& answer);
 
 /// Proves that every level is convex and encloses level 0, that every deviation holds, and that links and tables name features.
