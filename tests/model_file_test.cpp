@@ -211,6 +211,9 @@ void exercise(const Model& hostile, const Model& honest, Work& most) {
   }
   hostile.support(Vec3(1, 2, 3));
   verify(hostile);
+  const Model cut = hostile.cut({std::numeric_limits<double>::infinity()});
+  PairSeed seed;
+  expect_harmless(distance(cut, honest, poses[1], seed));
 }
 
 /// The work that a small honest pair can cost at all, certified progress through both arithmetics at every level included.

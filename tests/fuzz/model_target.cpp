@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <limits>
 
 #include <swiftlet/check.h>
 #include <swiftlet/model_file.h>
@@ -75,7 +76,8 @@ std::string model(Input input) {
   for (const Vec3& d : {Vec3(1, 2, 3), Vec3(0, 0, -1), Vec3(0, 0, 0)}) hostile.support(d);
   (void)hostile.with_table({lut::Resolution::Degrees22, 2});
   (void)verify(hostile);
-  for (const auto& [a, b] : {std::pair{&hostile, &honest}, {&honest, &hostile}, {&hostile, &hostile}})
+  const Model cut = hostile.cut({std::numeric_limits<double>::infinity()});
+  for (const auto& [a, b] : {std::pair{&hostile, &honest}, {&honest, &hostile}, {&hostile, &hostile}, {&cut, &hostile}})
     if (const std::string fault = exercise(*a, *b); !fault.empty()) return fault;
   return {};
 }
