@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Where two bodies lie on each other: few points that stand for the whole area of contact, as a simulation wants them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <swiftlet/model.h>
+#include <swiftlet/pose.h>
+#include <swiftlet/query.h>
+
+namespace swiftlet {
+
+/// The most points that a patch holds.
+inline constexpr std::uint32_t kMostPatchPoints = 8;
+
+/// A place of contact: a point of each body, one above the other along the patch's normal. In A's frame.
+struct PatchPoint {
+  Vec3 point_a = Vec3::Zero();  ///< in A, at most `flatness` below its surface
+  Vec3 point_b = Vec3::Zero();  ///< in B likewise: `point_a` + `separation` * normal, within twice law 2's bound
+  double separation = 0;        ///< along the normal, the bodies' unit; negative where the bodies overlap
+  /// What the point lies on, on level 0: a corner of one body and the contact face of the other, or an edge of each, which is
+  /// named by the lesser of its half-edges. It names the point from patch to patch: the same pair, the same place of the bodies.
+  Handle feature_a;
+  Handle feature_b;  ///< likewise, of B
+};
+
+/// The area in which two bodies face each other, seen along one normal, by its corners.
+struct Patch {
+  Vec3 normal = Vec3::Zero();              ///< that of the answer: unit, from A to B, A's frame
+  Handle face_a;                           ///< the contact face of A on level 0; none where A has no faces
+  Handle face_b;                           ///< likewise, of B
+  std::uint32_t count = 0;                 ///< of points; 0: the bodies are farther apart than asked, or the answer gives none
+  std::array<PatchPoint, kMostPatchPoints> points{};  ///< the first `count`, in order around the area
+};
+
+/// What a patch shall hold.
+struct PatchOptions {
+  double margin = 0;              ///< points farther apart than this, and than law 2's bound more, are left out; bodies' unit
+  std::uint32_t most_points = 4;  ///< 1 to kMostPatchPoints
+  /// Faces that lie within so much of a body's contact face are one face with it, which makes two triangles of a rounded square
+  /// one. Over the body's extent; by default 4 ulps of single precision, from which such squares come.
+  double flatness = 0x1p-21;
+};
+
+/// The patch around the nearest features of `answer`, which is exact, on level 0, of this pair at this pose; none of bodies that
+/// overlap, for which such an answer has no normal. The contact face of a body is, of those at its nearest feature, the one that
+/// faces along the normal best, by which it is no worse than any; both are projected along the normal, and their intersection's corners
+/// that are near enough are the points. Where there are more than asked for, those stay that hold the least separation and much
+/// of the area; those of `previous`, the patch of this pair a moment ago, are preferred. The least separation of a patch is the
+/// answer's, within law 2's bound.
+/// Cost: the product of both faces' sides. Of a face of more than 64 sides the 64 corners count that keep most of its area.
+Patch patch(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer, const PatchOptions& options = {},
+            const Patch& previous = {});
+
+}  // namespace swiftlet

@@ -1,0 +1,382 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Both contact faces seen along one normal: the incident one is clipped by the sides of the reference one [Sutherland &
+// Hodgman 1974], which decides nothing but what the corners of the intersection are. Where they lie follows from what they are,
+// by convex combinations of vertices, so that no point leaves its body.
+//
+//         r3________r2         i: corners of the incident outline, r: of the reference
+//          |  i3    |          what is left: i3 over the reference face, the crossings x and y of two edges,
+//          |  / \   |          and r1 over the incident face. The reference is the one that is seen flatter:
+//          | /   \  |          its sides have clear directions, while the incident one may be seen as a line.
+//          |/     \ |
+//          x       \|y
+//         /|        |\         .
+//        / r0_x____r1 i2
+#include <swiftlet/patch.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "outline.h"
+#include "ring.h"
+#include "scene.h"
+
+namespace swiftlet {
+namespace {
+
+/// What a corner of the intersection is: corner `incident` where reference is none, corner `reference` where incident is none,
+/// else the crossing of the sides that leave both.
+struct Mark {
+  static constexpr int kNo = -1;
+  int incident = kNo, reference = kNo;
+};
+
+/// A corner of what is left, and what the side that leaves it lies on.
+struct Left {
+  double x, y;
+  Mark corner, side;
+};
+
+/// The sides of an outline that count: corners that stand out by no more than a bound are none.
+class Reference {
+ public:
+  Reference(const Outline& outline, double bound) : outline_(outline), bound_(bound), sense_(sense(outline)) {
+    for (int i = 0; i < outline.count; ++i) {
+      while (count_ > 1 && flat(index_[at(count_ - 2)], index_[at(count_ - 1)], i)) --count_;
+      index_[at(count_++)] = i;
+    }
+    while (count_ > 2 && flat(index_[at(count_ - 2)], index_[at(count_ - 1)], index_[0])) --count_;
+    int skipped = 0;
+    while (count_ - skipped > 2 && flat(index_[at(count_ - 1)], index_[at(skipped)], index_[at(skipped + 1)])) ++skipped;
+    count_ -= skipped;
+    for (int i = 0; skipped > 0 && i < count_; ++i) index_[at(i)] = index_[at(i + skipped)];
+  }
+
+  int sides() const { return count_ > 1 ? count_ : 0; }
+  const Corner& corner(int side) const { return outline_[index_[at(side)]]; }
+  const Corner& next_corner(int side) const { return corner(side + 1 == count_ ? 0 : side + 1); }
+  /// Positive inside.
+  double height(int side, double x, double y) const {
+    const Corner &p = corner(side), &q = next_corner(side);
+    const double dx = q.x - p.x, dy = q.y - p.y, length = std::sqrt(dx * dx + dy * dy);
+    return length > 0 ? sense_ * (dx * (y - p.y) - dy * (x - p.x)) / length : 0;
+  }
+
+ private:
+  static std::size_t at(int i) { return std::size_t(i); }
+  static double sense(const Outline& o) {
+    double area = 0;
+    for (int i = 0; i < o.count; ++i) area += o[i].x * o[o.after(i)].y - o[i].y * o[o.after(i)].x;
+    return area < 0 ? -1 : 1;
+  }
+  bool flat(int i, int j, int k) const {
+    const Corner &p = outline_[i], &q = outline_[j], &r = outline_[k];
+    const double dx = r.x - p.x, dy = r.y - p.y;
+    return sense_ * (dy * (q.x - p.x) - dx * (q.y - p.y)) <= bound_ * std::sqrt(dx * dx + dy * dy);
+  }
+
+  const Outline& outline_;
+  double bound_, sense_;
+  int count_ = 0;
+  std::array<int, kMostCorners> index_;
+};
+
+/// The corners of the intersection of two outlines.
+class Clip {
+ public:
+  Clip(const Outline& incident, const Reference& reference, double bound) : reference_(reference), bound_(bound) {
+    for (int i = 0; i < incident.count; ++i) keep({incident[i].x, incident[i].y, {i, Mark::kNo}, {i, Mark::kNo}});
+    for (int side = 0; side < reference.sides() && count_ > 0; ++side) cut(side);
+  }
+
+  int count() const { return count_; }
+  Mark operator[](int i) const { return left_[std::size_t(i)].corner; }
+
+ private:
+  static constexpr int kMost = 2 * kMostCorners;
+
+  void keep(const Left& corner) {
+    if (count_ < kMost) left_[std::size_t(count_++)] = corner;
+  }
+
+  /// Each corner is judged once; what stands out by no more than the bound stays.
+  void cut(int side) {
+    const std::array<Left, kMost> whole = left_;
+    const int size = count_;
+    count_ = 0;
+    const double first = reference_.height(side, whole[0].x, whole[0].y);
+    double height = first;
+    for (int i = 0; i < size; ++i) {
+      const Left &p = whole[std::size_t(i)], &q = whole[std::size_t(i + 1 == size ? 0 : i + 1)];
+      const double next = i + 1 == size ? first : reference_.height(side, q.x, q.y);
+      const bool inside = height >= -bound_, next_inside = next >= -bound_;
+      if (inside) keep(p);
+      if (inside != next_inside) {
+        const double t = smaller(larger(height / (height - next), 0), 1);
+        keep({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), crossing(p.side, side), inside ? Mark{Mark::kNo, side} : p.side});
+      }
+      height = next;
+    }
+  }
+
+  /// A side that lies on the reference's outline was cut from there before, and meets this one in a corner.
+  Mark crossing(const Mark& of, int side) const {
+    if (of.reference == Mark::kNo) return {of.incident, side};
+    return {Mark::kNo, of.reference == 0 && side + 1 == reference_.sides() ? 0 : side};
+  }
+
+  const Reference& reference_;
+  double bound_;
+  int count_ = 0;
+  std::array<Left, kMost> left_;
+};
+
+// ---- Where corners lie ------------------------------------------------------------------------------------------------------
+
+double clamped(double t) { return t > 0 ? smaller(t, 1) : 0; }
+Vec between(const Vec& p, const Vec& q, double t) { return p + (q - p) * t; }
+
+/// The point of an outline's face over a place within, or over the nearest one on a line: between the two sides there, which
+/// are looked for across the outline's longer way.
+Vec over(const Outline& o, double x, double y) {
+  double low_x = o[0].x, high_x = low_x, low_y = o[0].y, high_y = low_y;
+  for (int i = 1; i < o.count; ++i) {
+    low_x = smaller(low_x, o[i].x), high_x = larger(high_x, o[i].x);
+    low_y = smaller(low_y, o[i].y), high_y = larger(high_y, o[i].y);
+  }
+  const bool by_x = high_x - low_x > high_y - low_y;
+  const auto along = [&](const Corner& c) { return by_x ? c.x : c.y; };
+  const auto across = [&](const Corner& c) { return by_x ? c.y : c.x; };
+  const double at = by_x ? smaller(larger(x, low_x), high_x) : smaller(larger(y, low_y), high_y);
+  double low = 0, high = 0;
+  Vec p_low = o[0].p, p_high = p_low;
+  bool found = false;
+  for (int i = 0; i < o.count; ++i) {
+    const Corner &c = o[i], &d = o[o.after(i)];
+    if (!(smaller(along(c), along(d)) <= at && at <= larger(along(c), along(d)))) continue;
+    const double length = along(d) - along(c), t = length != 0 ? (at - along(c)) / length : 0,
+                 place = across(c) + t * (across(d) - across(c));
+    if (!found || place < low) low = place, p_low = between(c.p, d.p, t);
+    if (!found || place > high) high = place, p_high = between(c.p, d.p, t);
+    found = true;
+  }
+  const double wanted = by_x ? y : x;
+  return high > low ? between(p_low, p_high, clamped((wanted - low) / (high - low))) : p_low;
+}
+
+/// The nearest points of two sides, as they are seen.
+struct Pair {
+  Vec incident, reference;
+};
+Pair nearest(const Corner& i0, const Corner& i1, const Corner& r0, const Corner& r1) {
+  const double ix = i1.x - i0.x, iy = i1.y - i0.y, rx = r1.x - r0.x, ry = r1.y - r0.y;
+  const auto part = [](double px, double py, double dx, double dy) {
+    const double length2 = dx * dx + dy * dy;
+    return length2 > 0 ? clamped((px * dx + py * dy) / length2) : 0;
+  };
+  const double h0 = rx * (i0.y - r0.y) - ry * (i0.x - r0.x), h1 = rx * (i1.y - r0.y) - ry * (i1.x - r0.x);
+  double t = h0 != h1 ? clamped(h0 / (h0 - h1)) : 0;
+  const double s = part(i0.x + t * ix - r0.x, i0.y + t * iy - r0.y, rx, ry);
+  t = part(r0.x + s * rx - i0.x, r0.y + s * ry - i0.y, ix, iy);  // of sides nearly parallel, the same place
+  return {between(i0.p, i1.p, t), between(r0.p, r1.p, s)};
+}
+
+Handle side_handle(const ConvexView& view, const Corner& corner) {
+  if (corner.half_edge == kNone) return {FeatureKind::Vertex, corner.vertex};
+  const std::uint32_t twin = view.twin[corner.half_edge];
+  return {FeatureKind::Edge, twin < corner.half_edge ? twin : corner.half_edge};
+}
+Handle corner_handle(const Corner& corner) { return {FeatureKind::Vertex, corner.vertex}; }
+Handle face_handle(const ConvexView& view, const Outline& outline) {
+  if (outline.face != kNone) return {FeatureKind::Face, outline.face};
+  return side_handle(view, outline[0]);  // the whole body
+}
+
+/// A point of the patch and where it is seen.
+struct Candidate {
+  double x, y;
+  bool known;  ///< of the patch before
+  PatchPoint point;
+};
+
+/// All that both outlines say of one pair.
+class Faces {
+ public:
+  Faces(const Scene& scene, const Across& across, const Outline& a, const Outline& b)
+      : scene_(scene), across_(across), a_(a), b_(b), a_is_reference_(std::fabs(a.facing) >= std::fabs(b.facing)),
+        reference_(a_is_reference_ ? a : b, scene.law_two) {}
+
+  /// Calls visit(candidate) with each corner of the intersection.
+  template <class Visit>
+  void each_corner(Visit visit) const {
+    const Clip clip(incident(), reference_, scene_.law_two);
+    for (int i = 0; i < clip.count(); ++i) {
+      const Candidate c = placed(clip[i]);
+      const Vec aside = vec(c.point.point_b) - vec(c.point.point_a) - across_.n * c.point.separation;
+      if (norm(aside) <= 2 * scene_.law_two) visit(c);  // else both were seen as lines, and it lies beyond an end
+    }
+  }
+
+  Candidate candidate(const Vec& p_a, const Vec& p_b, Handle feature_a, Handle feature_b) const {
+    const Vec seen = p_a - across_.middle;
+    return {dot(across_.u, seen),
+            dot(across_.v, seen),
+            false,
+            {eigen(p_a), eigen(p_b), dot(across_.n, p_b - p_a), feature_a, feature_b}};
+  }
+
+ private:
+  const Outline& incident() const { return a_is_reference_ ? b_ : a_; }
+  const Outline& reference() const { return a_is_reference_ ? a_ : b_; }
+
+  Candidate placed(const Mark& mark) const {
+    const ConvexView &view_i = a_is_reference_ ? scene_.b : scene_.a, &view_r = a_is_reference_ ? scene_.a : scene_.b;
+    Pair p;
+    Handle feature_i, feature_r;
+    if (mark.reference == Mark::kNo) {
+      const Corner& c = incident()[mark.incident];
+      p = {c.p, over(reference(), c.x, c.y)};
+      feature_i = corner_handle(c), feature_r = face_handle(view_r, reference());
+    } else if (mark.incident == Mark::kNo) {
+      const Corner& c = reference_.corner(mark.reference);
+      p = {over(incident(), c.x, c.y), c.p};
+      feature_i = face_handle(view_i, incident()), feature_r = corner_handle(c);
+    } else {
+      const Corner &i = incident()[mark.incident], &r = reference_.corner(mark.reference);
+      p = nearest(i, incident()[incident().after(mark.incident)], r, reference_.next_corner(mark.reference));
+      feature_i = side_handle(view_i, i), feature_r = side_handle(view_r, r);
+    }
+    return a_is_reference_ ? candidate(p.reference, p.incident, feature_r, feature_i)
+                           : candidate(p.incident, p.reference, feature_i, feature_r);
+  }
+
+  const Scene& scene_;
+  const Across& across_;
+  const Outline &a_, &b_;
+  bool a_is_reference_;
+  Reference reference_;
+};
+
+// ---- Which corners stay -----------------------------------------------------------------------------------------------------
+
+bool same_place(const PatchPoint& p, const PatchPoint& q) { return p.feature_a == q.feature_a && p.feature_b == q.feature_b; }
+
+/// The corners of an intersection and one point more.
+class Candidates {
+ public:
+  explicit Candidates(const Patch& previous) : previous_(previous) {}
+
+  void add(Candidate c) {
+    for (std::uint32_t i = 0; i < previous_.count; ++i) c.known = c.known || same_place(previous_.points[i], c.point);
+    all_[std::size_t(count_++)] = c;
+  }
+  bool empty() const { return count_ == 0; }
+  double least() const {
+    double least = all_[0].point.separation;
+    for (int i = 1; i < count_; ++i) least = smaller(least, all_[std::size_t(i)].point.separation);
+    return least;
+  }
+
+  /// Fills the patch's points: one of least separation, the one farthest from it, then whichever adds most to the area.
+  void choose(std::uint32_t most, double margin, double bound, Patch& patch) {
+    drop_beyond(margin + bound);
+    if (count_ == 0 || most == 0) return;
+    loop_[0] = deepest(bound);
+    for (size_ = 1; size_ < int(most) && grow(bound);) {
+    }
+    for (int i = 0; i < size_; ++i) patch.points[std::size_t(i)] = chosen(i).point;
+    patch.count = std::uint32_t(size_);
+  }
+
+ private:
+  const Candidate& chosen(int i) const { return all_[std::size_t(loop_[std::size_t(i)])]; }
+  static double preferred(const Candidate& c, double worth) { return c.known ? worth * (1 + kKeptWorth) : worth; }
+
+  void drop_beyond(double separation) {
+    int kept = 0;
+    for (int i = 0; i < count_; ++i) {
+      if (all_[std::size_t(i)].point.separation <= separation) all_[std::size_t(kept++)] = all_[std::size_t(i)];
+    }
+    count_ = kept;
+  }
+
+  int deepest(double bound) const {
+    const double enough = least() + bound;
+    int found = -1;
+    for (int i = 0; i < count_; ++i) {
+      const Candidate& c = all_[std::size_t(i)];
+      if (c.point.separation <= enough && (found < 0 || (c.known && !all_[std::size_t(found)].known))) found = i;
+    }
+    return found;
+  }
+
+  /// How far a candidate lies from the only point, or the area that it adds beyond a side of those chosen; 0 where it hardly
+  /// stands out.
+  double worth(const Candidate& c, int side, double bound) const {
+    const Candidate &p = chosen(side), &q = chosen(side + 1 == size_ ? 0 : side + 1);
+    const double cx = c.x - p.x, cy = c.y - p.y, dx = q.x - p.x, dy = q.y - p.y;
+    if (size_ == 1) return std::sqrt(cx * cx + cy * cy) - bound;
+    const double length = std::sqrt(dx * dx + dy * dy);
+    return cx * dy - cy * dx > bound * length ? cx * dy - cy * dx : 0;
+  }
+
+  /// Adds a point to those chosen, which go around counter-clockwise; false where none adds anything.
+  bool grow(double bound) {
+    int best = -1, best_side = 0;
+    double most = 0;
+    for (int i = 0; i < count_; ++i) {
+      for (int side = 0; side < size_; ++side) {
+        const Candidate& c = all_[std::size_t(i)];
+        if (const double w = preferred(c, worth(c, side, bound)); w > most) most = w, best = i, best_side = side;
+      }
+    }
+    if (best < 0) return false;
+    for (int i = size_++; i > best_side + 1; --i) loop_[std::size_t(i)] = loop_[std::size_t(i - 1)];
+    loop_[std::size_t(best_side + 1)] = best;
+    return true;
+  }
+
+  const Patch& previous_;
+  int count_ = 0, size_ = 0;
+  std::array<int, kMostPatchPoints> loop_;
+  std::array<Candidate, 2 * kMostCorners + 1> all_;
+};
+
+/// The nearest features that a patch grows from, in A's frame.
+struct Witness {
+  Vec normal, point_a, point_b;
+  Handle feature_a, feature_b;
+};
+
+Patch grown(const Scene& scene, const Witness& w, const PatchOptions& options, const Patch& previous) {
+  Patch patch;
+  const Across across(w.normal, w.point_a);
+  Outline a, b;
+  outline_a(scene, across, w.feature_a, previous.face_a, options.flatness, a);
+  outline_b(scene, across, w.feature_b, previous.face_b, options.flatness, b);
+  patch.normal = eigen(w.normal);
+  if (a.face != kNone) patch.face_a = {FeatureKind::Face, a.face};
+  if (b.face != kNone) patch.face_b = {FeatureKind::Face, b.face};
+
+  Candidates candidates(previous);
+  const Faces faces(scene, across, a, b);
+  faces.each_corner([&](const Candidate& c) { candidates.add(c); });
+  const Candidate witness = faces.candidate(w.point_a, w.point_b, w.feature_a, w.feature_b);
+  if (candidates.empty() || witness.point.separation < candidates.least() - scene.law_two) candidates.add(witness);
+  candidates.choose(std::min(options.most_points, kMostPatchPoints), options.margin, scene.law_two, patch);
+  return patch;
+}
+
+}  // namespace
+
+Patch patch(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer, const PatchOptions& options,
+            const Patch& previous) {
+  if (answer.normal.isZero() || answer.verdict == Verdict::Overlapping) return {};
+  assert(answer.level_a == 0 && answer.level_b == 0);
+  const Motion m = motion(b_in_a);
+  const Scene pair = scene(a.level(0).view, b.level(0).view, m, pose_quality(m).error);
+  return grown(pair, {vec(answer.normal), vec(answer.point_a), vec(answer.point_b), answer.feature_a, answer.feature_b}, options,
+               previous);
+}
+
+}  // namespace swiftlet
