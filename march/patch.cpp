@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 #include "outline.h"
 #include "ring.h"
@@ -113,14 +114,14 @@ class Clip {
       if (inside) keep(p);
       if (inside != next_inside) {
         const double t = smaller(larger(height / (height - next), 0), 1);
-        keep({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), crossing(p.side, side), inside ? Mark{Mark::kNo, side} : p.side});
+        keep({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), cut_off(p.side, side), inside ? Mark{Mark::kNo, side} : p.side});
       }
       height = next;
     }
   }
 
   /// A side that lies on the reference's outline was cut from there before, and meets this one in a corner.
-  Mark crossing(const Mark& of, int side) const {
+  Mark cut_off(const Mark& of, int side) const {
     if (of.reference == Mark::kNo) return {of.incident, side};
     return {Mark::kNo, of.reference == 0 && side + 1 == reference_.sides() ? 0 : side};
   }
@@ -133,52 +134,60 @@ class Clip {
 
 // ---- Where corners lie ------------------------------------------------------------------------------------------------------
 
-double clamped(double t) { return t > 0 ? smaller(t, 1) : 0; }
 Vec between(const Vec& p, const Vec& q, double t) { return p + (q - p) * t; }
 
-/// The point of an outline's face over a place within, or over the nearest one on a line: between the two sides there, which
-/// are looked for across the outline's longer way.
-Vec over(const Outline& o, double x, double y) {
-  double low_x = o[0].x, high_x = low_x, low_y = o[0].y, high_y = low_y;
-  for (int i = 1; i < o.count; ++i) {
-    low_x = smaller(low_x, o[i].x), high_x = larger(high_x, o[i].x);
-    low_y = smaller(low_y, o[i].y), high_y = larger(high_y, o[i].y);
-  }
-  const bool by_x = high_x - low_x > high_y - low_y;
-  const auto along = [&](const Corner& c) { return by_x ? c.x : c.y; };
-  const auto across = [&](const Corner& c) { return by_x ? c.y : c.x; };
-  const double at = by_x ? smaller(larger(x, low_x), high_x) : smaller(larger(y, low_y), high_y);
-  double low = 0, high = 0;
-  Vec p_low = o[0].p, p_high = p_low;
-  bool found = false;
-  for (int i = 0; i < o.count; ++i) {
-    const Corner &c = o[i], &d = o[o.after(i)];
-    if (!(smaller(along(c), along(d)) <= at && at <= larger(along(c), along(d)))) continue;
-    const double length = along(d) - along(c), t = length != 0 ? (at - along(c)) / length : 0,
-                 place = across(c) + t * (across(d) - across(c));
-    if (!found || place < low) low = place, p_low = between(c.p, d.p, t);
-    if (!found || place > high) high = place, p_high = between(c.p, d.p, t);
-    found = true;
-  }
-  const double wanted = by_x ? y : x;
-  return high > low ? between(p_low, p_high, clamped((wanted - low) / (high - low))) : p_low;
+/// How far along a side the place is that is seen nearest to another: 0 at p, 1 at q.
+double along(const Corner& p, const Corner& q, double x, double y) {
+  const double dx = q.x - p.x, dy = q.y - p.y, length2 = dx * dx + dy * dy, t = (x - p.x) * dx + (y - p.y) * dy;
+  return length2 > 0 && t > 0 ? smaller(t / length2, 1) : 0;
 }
 
-/// The nearest points of two sides, as they are seen.
+/// The point of an outline's side that is seen nearest to a place.
+struct Nearest {
+  Vec p{0, 0, 0};
+  double distance2 = std::numeric_limits<double>::infinity();
+};
+Nearest on_sides(const Outline& o, double x, double y) {
+  Nearest nearest;
+  for (int i = 0; i < o.count; ++i) {
+    const Corner &p = o[i], &q = o[o.after(i)];
+    const double t = along(p, q, x, y), dx = p.x + t * (q.x - p.x) - x, dy = p.y + t * (q.y - p.y) - y,
+                 distance2 = dx * dx + dy * dy;
+    if (distance2 < nearest.distance2) nearest = {between(p.p, q.p, t), distance2};
+  }
+  return nearest;
+}
+
+/// The point of an outline's face over a place inside: between the sides to the left and to the right.
+Vec on_chord(const Outline& o, double x, double y) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  Vec p_low = o[0].p, p_high = p_low;
+  for (int i = 0; i < o.count; ++i) {
+    const Corner &p = o[i], &q = o[o.after(i)];
+    if ((p.y <= y) == (q.y <= y)) continue;
+    const double t = (y - p.y) / (q.y - p.y), place = p.x + t * (q.x - p.x);
+    if (place < low) low = place, p_low = between(p.p, q.p, t);
+    if (place > high) high = place, p_high = between(p.p, q.p, t);
+  }
+  return high > low ? between(p_low, p_high, smaller(larger((x - low) / (high - low), 0), 1)) : p_low;
+}
+
+/// Over a place inside an outline, but for a bound.
+Vec over(const Outline& o, double x, double y, double bound) {
+  const Nearest nearest = on_sides(o, x, y);
+  return nearest.distance2 <= bound * bound ? nearest.p : on_chord(o, x, y);
+}
+
+/// The points of two sides where they cross, as they are seen.
 struct Pair {
   Vec incident, reference;
 };
-Pair nearest(const Corner& i0, const Corner& i1, const Corner& r0, const Corner& r1) {
+Pair crossing(const Corner& i0, const Corner& i1, const Corner& r0, const Corner& r1) {
   const double ix = i1.x - i0.x, iy = i1.y - i0.y, rx = r1.x - r0.x, ry = r1.y - r0.y;
-  const auto part = [](double px, double py, double dx, double dy) {
-    const double length2 = dx * dx + dy * dy;
-    return length2 > 0 ? clamped((px * dx + py * dy) / length2) : 0;
-  };
   const double h0 = rx * (i0.y - r0.y) - ry * (i0.x - r0.x), h1 = rx * (i1.y - r0.y) - ry * (i1.x - r0.x);
-  double t = h0 != h1 ? clamped(h0 / (h0 - h1)) : 0;
-  const double s = part(i0.x + t * ix - r0.x, i0.y + t * iy - r0.y, rx, ry);
-  t = part(r0.x + s * rx - i0.x, r0.y + s * ry - i0.y, ix, iy);  // of sides nearly parallel, the same place
-  return {between(i0.p, i1.p, t), between(r0.p, r1.p, s)};
+  const double t = h0 != h1 ? h0 / (h0 - h1) : 0, s = along(r0, r1, i0.x + t * ix, i0.y + t * iy);
+  // Of sides nearly parallel the first t is uncertain, the second one belongs to s.
+  return {between(i0.p, i1.p, along(i0, i1, r0.x + s * rx, r0.y + s * ry)), between(r0.p, r1.p, s)};
 }
 
 Handle side_handle(const ConvexView& view, const Corner& corner) {
@@ -213,7 +222,7 @@ class Faces {
     for (int i = 0; i < clip.count(); ++i) {
       const Candidate c = placed(clip[i]);
       const Vec aside = vec(c.point.point_b) - vec(c.point.point_a) - across_.n * c.point.separation;
-      if (norm(aside) <= 2 * scene_.law_two) visit(c);  // else both were seen as lines, and it lies beyond an end
+      if (norm(aside) <= 2 * scene_.law_two) visit(c);  // else it lies beyond the end of a face that is seen as a line
     }
   }
 
@@ -235,15 +244,15 @@ class Faces {
     Handle feature_i, feature_r;
     if (mark.reference == Mark::kNo) {
       const Corner& c = incident()[mark.incident];
-      p = {c.p, over(reference(), c.x, c.y)};
+      p = {c.p, over(reference(), c.x, c.y, scene_.law_two)};
       feature_i = corner_handle(c), feature_r = face_handle(view_r, reference());
     } else if (mark.incident == Mark::kNo) {
       const Corner& c = reference_.corner(mark.reference);
-      p = {over(incident(), c.x, c.y), c.p};
+      p = {over(incident(), c.x, c.y, scene_.law_two), c.p};
       feature_i = face_handle(view_i, incident()), feature_r = corner_handle(c);
     } else {
       const Corner &i = incident()[mark.incident], &r = reference_.corner(mark.reference);
-      p = nearest(i, incident()[incident().after(mark.incident)], r, reference_.next_corner(mark.reference));
+      p = crossing(i, incident()[incident().after(mark.incident)], r, reference_.next_corner(mark.reference));
       feature_i = side_handle(view_i, i), feature_r = side_handle(view_r, r);
     }
     return a_is_reference_ ? candidate(p.reference, p.incident, feature_r, feature_i)
