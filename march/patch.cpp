@@ -286,12 +286,18 @@ class Candidates {
     return least;
   }
 
-  /// Fills the patch's points: one of least separation, the one farthest from it, then whichever adds most to the area.
+  /// Fills the patch's points: one of least separation, the one farthest from it, then whichever adds most to the area; then
+  /// each but the first is chosen again beside the others.
   void choose(std::uint32_t most, double margin, double bound, Patch& patch) {
     drop_beyond(margin + bound);
     if (count_ == 0 || most == 0) return;
     loop_[0] = deepest(bound);
     for (size_ = 1; size_ < int(most) && grow(bound);) {
+    }
+    for (int i = 1; i < size_ && size_ < count_; ++i) {
+      std::copy(loop_.begin() + i + 1, loop_.begin() + size_, loop_.begin() + i);
+      --size_;
+      grow(bound);
     }
     for (int i = 0; i < size_; ++i) patch.points[std::size_t(i)] = chosen(i).point;
     patch.count = std::uint32_t(size_);
@@ -340,8 +346,9 @@ class Candidates {
       }
     }
     if (best < 0) return false;
-    for (int i = size_++; i > best_side + 1; --i) loop_[std::size_t(i)] = loop_[std::size_t(i - 1)];
+    std::copy_backward(loop_.begin() + best_side + 1, loop_.begin() + size_, loop_.begin() + size_ + 1);
     loop_[std::size_t(best_side + 1)] = best;
+    ++size_;
     return true;
   }
 
