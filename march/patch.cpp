@@ -212,7 +212,11 @@ struct Candidate {
 class Faces {
  public:
   Faces(const Scene& scene, const Across& across, const Outline& a, const Outline& b)
-      : scene_(scene), across_(across), a_(a), b_(b), a_is_reference_(std::fabs(a.facing) >= std::fabs(b.facing)),
+      : scene_(scene),
+        across_(across),
+        a_(a),
+        b_(b),
+        a_is_reference_(std::fabs(a.facing) >= std::fabs(b.facing)),
         reference_(a_is_reference_ ? a : b, scene.law_two) {}
 
   /// Calls visit(candidate) with each corner of the intersection.
@@ -391,8 +395,8 @@ Patch patch(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
   assert(answer.level_a == 0 && answer.level_b == 0);
   const Motion m = motion(b_in_a);
   const Scene pair = scene(a.level(0).view, b.level(0).view, m, pose_quality(m).error);
-  return grown(pair, {vec(answer.normal), vec(answer.point_a), vec(answer.point_b), answer.feature_a, answer.feature_b}, options,
-               previous);
+  return grown(pair, {vec(answer.normal), vec(answer.point_a), vec(answer.point_b), answer.feature_a, answer.feature_b},
+               options, previous);
 }
 
 }  // namespace swiftlet

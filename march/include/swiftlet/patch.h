@@ -21,17 +21,18 @@ struct PatchPoint {
   Vec3 point_b = Vec3::Zero();  ///< in B likewise: `point_a` + `separation` * normal, within twice law 2's bound
   double separation = 0;        ///< along the normal, the bodies' unit; negative where the bodies overlap
   /// What the point lies on, on level 0: a corner of one body and the contact face of the other, or an edge of each, which is
-  /// named by the lesser of its half-edges. It names the point from patch to patch: the same pair, the same place of the bodies.
+  /// named by the lesser of its half-edges. It names the point from patch to patch: the same pair, the same place of the
+  /// bodies.
   Handle feature_a;
   Handle feature_b;  ///< likewise, of B
 };
 
 /// The area in which two bodies face each other, seen along one normal, by its corners.
 struct Patch {
-  Vec3 normal = Vec3::Zero();              ///< that of the answer: unit, from A to B, A's frame
-  Handle face_a;                           ///< the contact face of A on level 0; none where A has no faces
-  Handle face_b;                           ///< likewise, of B
-  std::uint32_t count = 0;                 ///< of points; 0: the bodies are farther apart than asked, or the answer gives none
+  Vec3 normal = Vec3::Zero();  ///< that of the answer: unit, from A to B, A's frame
+  Handle face_a;               ///< the contact face of A on level 0; none where A has no faces
+  Handle face_b;               ///< likewise, of B
+  std::uint32_t count = 0;     ///< of points; 0: the bodies are farther apart than asked, or the answer gives none
   std::array<PatchPoint, kMostPatchPoints> points{};  ///< the first `count`, in order around the area
 };
 
@@ -44,13 +45,13 @@ struct PatchOptions {
   double flatness = 0x1p-21;
 };
 
-/// The patch around the nearest features of `answer`, which is exact, on level 0, of this pair at this pose; none of bodies that
-/// overlap, for which such an answer has no normal. The contact face of a body is, of those at its nearest feature, the one that
-/// faces along the normal best, by which it is no worse than any; both are projected along the normal, and their intersection's corners
-/// that are near enough are the points. Where there are more than asked for, those stay that hold the least separation and much
-/// of the area; those of `previous`, the patch of this pair a moment ago, are preferred. The least separation of a patch is the
-/// answer's, within law 2's bound.
-/// Cost: the product of both faces' sides. Of a face of more than 64 sides the 64 corners count that keep most of its area.
+/// The patch around the nearest features of `answer`, which is exact, on level 0, of this pair at this pose; none of bodies
+/// that overlap, for which such an answer has no normal. The contact face of a body is, of those at its nearest feature, the
+/// one that faces along the normal best, by which it is no worse than any; both are projected along the normal, and their
+/// intersection's corners that are near enough are the points. Where there are more than asked for, those stay that hold the
+/// least separation and much of the area; those of `previous`, the patch of this pair a moment ago, are preferred. The least
+/// separation of a patch is the answer's, within law 2's bound. Cost: the product of both faces' sides. Of a face of more than
+/// 64 sides the 64 corners count that keep most of its area.
 Patch patch(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer, const PatchOptions& options = {},
             const Patch& previous = {});
 
