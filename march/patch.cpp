@@ -56,6 +56,17 @@ class Reference {
   int sides() const { return count_ > 1 ? count_ : 0; }
   const Corner& corner(int side) const { return outline_[index_[at(side)]]; }
   const Corner& next_corner(int side) const { return corner(side + 1 == count_ ? 0 : side + 1); }
+  int nearest_corner(double x, double y) const {
+    const auto distance2 = [&](int i) {
+      const double dx = corner(i).x - x, dy = corner(i).y - y;
+      return dx * dx + dy * dy;
+    };
+    int nearest = 0;
+    for (int i = 1; i < count_; ++i) {
+      if (distance2(i) < distance2(nearest)) nearest = i;
+    }
+    return nearest;
+  }
   /// Positive inside.
   double height(int side, double x, double y) const {
     const Corner &p = corner(side), &q = next_corner(side);
@@ -158,10 +169,13 @@ Nearest on_sides(const Outline& o, double x, double y) {
   return nearest;
 }
 
-/// The point of an outline's face over a place inside: between the sides to the left and to the right.
-Vec on_chord(const Outline& o, double x, double y) {
+/// The point of an outline's face over a place: between the sides to the left and to the right, or where there are none, or the
+/// place is hardly inside, on the nearest side.
+Vec over(const Outline& o, double x, double y, double bound) {
+  const Nearest nearest = on_sides(o, x, y);
+  if (nearest.distance2 <= bound * bound) return nearest.p;
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  Vec p_low = o[0].p, p_high = p_low;
+  Vec p_low{0, 0, 0}, p_high{0, 0, 0};
   for (int i = 0; i < o.count; ++i) {
     const Corner &p = o[i], &q = o[o.after(i)];
     if ((p.y <= y) == (q.y <= y)) continue;
@@ -169,13 +183,7 @@ Vec on_chord(const Outline& o, double x, double y) {
     if (place < low) low = place, p_low = between(p.p, q.p, t);
     if (place > high) high = place, p_high = between(p.p, q.p, t);
   }
-  return high > low ? between(p_low, p_high, smaller(larger((x - low) / (high - low), 0), 1)) : p_low;
-}
-
-/// Over a place inside an outline, but for a bound.
-Vec over(const Outline& o, double x, double y, double bound) {
-  const Nearest nearest = on_sides(o, x, y);
-  return nearest.distance2 <= bound * bound ? nearest.p : on_chord(o, x, y);
+  return low < x && x < high ? between(p_low, p_high, (x - low) / (high - low)) : nearest.p;
 }
 
 /// The points of two sides where they cross, as they are seen.
@@ -219,14 +227,15 @@ class Faces {
         a_is_reference_(std::fabs(a.facing) >= std::fabs(b.facing)),
         reference_(a_is_reference_ ? a : b, scene.law_two) {}
 
-  /// Calls visit(candidate) with each corner of the intersection.
+  /// Calls visit(candidate) with each corner of the intersection. What stays may reach beyond a tip of the reference, or beyond
+  /// the end of one that is seen as a line: then the corner there is meant.
   template <class Visit>
   void each_corner(Visit visit) const {
     const Clip clip(incident(), reference_, scene_.law_two);
     for (int i = 0; i < clip.count(); ++i) {
-      const Candidate c = placed(clip[i]);
-      const Vec aside = vec(c.point.point_b) - vec(c.point.point_a) - across_.n * c.point.separation;
-      if (norm(aside) <= 2 * scene_.law_two) visit(c);  // else it lies beyond the end of a face that is seen as a line
+      Candidate c = placed(clip[i]);
+      if (!fits(c)) c = placed({Mark::kNo, reference_.nearest_corner(c.x, c.y)});
+      if (fits(c)) visit(c);
     }
   }
 
@@ -241,6 +250,11 @@ class Faces {
  private:
   const Outline& incident() const { return a_is_reference_ ? b_ : a_; }
   const Outline& reference() const { return a_is_reference_ ? a_ : b_; }
+
+  /// Whether the points lie one above the other.
+  bool fits(const Candidate& c) const {
+    return norm(vec(c.point.point_b) - vec(c.point.point_a) - across_.n * c.point.separation) <= 2 * scene_.law_two;
+  }
 
   Candidate placed(const Mark& mark) const {
     const ConvexView &view_i = a_is_reference_ ? scene_.b : scene_.a, &view_r = a_is_reference_ ? scene_.a : scene_.b;
