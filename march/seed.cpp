@@ -13,15 +13,6 @@
 namespace swiftlet {
 namespace {
 
-bool names_feature(const ConvexView& view, Handle h) {
-  switch (h.kind()) {
-    case FeatureKind::Vertex: return h.index() < view.vertices.size();
-    case FeatureKind::Edge: return h.index() < view.head.size();
-    case FeatureKind::Face: return h.index() < view.face_first.size();
-    default: return false;
-  }
-}
-
 bool legal_level(const Model& model, int level, int finest) { return level >= finest && level < model.level_count(); }
 
 Place level_place(int level_a, int level_b, const MarchStart& start) { return {level_a, level_b, start}; }
@@ -56,6 +47,15 @@ MarchStart from_tables(const Model& a, const Model& b, const Line& line) {
 }
 
 }  // namespace
+
+bool names_feature(const ConvexView& view, Handle h) {
+  switch (h.kind()) {
+    case FeatureKind::Vertex: return h.index() < view.vertices.size();
+    case FeatureKind::Edge: return h.index() < view.head.size();
+    case FeatureKind::Face: return h.index() < view.face_first.size();
+    default: return false;
+  }
+}
 
 Line line_of_centres(const Model& a, const Model& b, const Motion& m) {
   const Vec d = apply(m, vec(b.level(0).view.centre)) - vec(a.level(0).view.centre);
