@@ -15,7 +15,6 @@
 #include <swiftlet/patch.h>
 
 #include <algorithm>
-#include <cassert>
 #include <limits>
 
 #include "outline.h"
@@ -219,19 +218,20 @@ struct Candidate {
 /// All that both outlines say of one pair.
 class Faces {
  public:
-  Faces(const Scene& scene, const Across& across, const Outline& a, const Outline& b)
+  Faces(const Scene& scene, const Across& across, const Outline& a, const Outline& b, double bound)
       : scene_(scene),
         across_(across),
         a_(a),
         b_(b),
         a_is_reference_(std::fabs(a.facing) >= std::fabs(b.facing)),
-        reference_(a_is_reference_ ? a : b, scene.law_two) {}
+        bound_(bound),
+        reference_(a_is_reference_ ? a : b, bound) {}
 
   /// Calls visit(candidate) with each corner of the intersection. What stays may reach beyond a tip of the reference, or beyond
   /// the end of one that is seen as a line: then the corner there is meant.
   template <class Visit>
   void each_corner(Visit visit) const {
-    const Clip clip(incident(), reference_, scene_.law_two);
+    const Clip clip(incident(), reference_, bound_);
     for (int i = 0; i < clip.count(); ++i) {
       Candidate c = placed(clip[i]);
       if (!fits(c)) c = placed({Mark::kNo, reference_.nearest_corner(c.x, c.y)});
@@ -253,7 +253,7 @@ class Faces {
 
   /// Whether the points lie one above the other.
   bool fits(const Candidate& c) const {
-    return norm(vec(c.point.point_b) - vec(c.point.point_a) - across_.n * c.point.separation) <= 2 * scene_.law_two;
+    return norm(vec(c.point.point_b) - vec(c.point.point_a) - across_.n * c.point.separation) <= 2 * bound_;
   }
 
   Candidate placed(const Mark& mark) const {
@@ -262,11 +262,11 @@ class Faces {
     Handle feature_i, feature_r;
     if (mark.reference == Mark::kNo) {
       const Corner& c = incident()[mark.incident];
-      p = {c.p, over(reference(), c.x, c.y, scene_.law_two)};
+      p = {c.p, over(reference(), c.x, c.y, bound_)};
       feature_i = corner_handle(c), feature_r = face_handle(view_r, reference());
     } else if (mark.incident == Mark::kNo) {
       const Corner& c = reference_.corner(mark.reference);
-      p = {over(incident(), c.x, c.y, scene_.law_two), c.p};
+      p = {over(incident(), c.x, c.y, bound_), c.p};
       feature_i = face_handle(view_i, incident()), feature_r = corner_handle(c);
     } else {
       const Corner &i = incident()[mark.incident], &r = reference_.corner(mark.reference);
@@ -281,6 +281,7 @@ class Faces {
   const Across& across_;
   const Outline &a_, &b_;
   bool a_is_reference_;
+  double bound_;
   Reference reference_;
 };
 
@@ -376,13 +377,15 @@ class Candidates {
   std::array<Candidate, 2 * kMostCorners + 1> all_;
 };
 
-/// The nearest features that a patch grows from, in A's frame.
+/// What a patch grows from, in A's frame; the points are on the hulls.
 struct Witness {
   Vec normal, point_a, point_b;
   Handle feature_a, feature_b;
 };
 
-Patch grown(const Scene& scene, const Witness& w, const PatchOptions& options, const Patch& previous) {
+/// The patch of two hulls, within a margin of theirs.
+Patch grown(const Scene& scene, const Witness& w, double margin, double bound, const PatchOptions& options,
+            const Patch& previous) {
   Patch patch;
   const Across across(w.normal, w.point_a);
   Outline a, b;
@@ -393,24 +396,45 @@ Patch grown(const Scene& scene, const Witness& w, const PatchOptions& options, c
   if (b.face != kNone) patch.face_b = {FeatureKind::Face, b.face};
 
   Candidates candidates(previous);
-  const Faces faces(scene, across, a, b);
+  const Faces faces(scene, across, a, b, bound);
   faces.each_corner([&](const Candidate& c) { candidates.add(c); });
   const Candidate witness = faces.candidate(w.point_a, w.point_b, w.feature_a, w.feature_b);
-  if (candidates.empty() || witness.point.separation < candidates.least() - scene.law_two) candidates.add(witness);
-  candidates.choose(std::min(options.most_points, kMostPatchPoints), options.margin, scene.law_two, patch);
+  if (candidates.empty() || witness.point.separation < candidates.least() - bound) candidates.add(witness);
+  candidates.choose(std::min(options.most_points, kMostPatchPoints), margin, bound, patch);
+  return patch;
+}
+
+template <class AnyAnswer>
+Patch around(const Model& a, const Model& b, const Pose& b_in_a, const AnyAnswer& answer, const PatchOptions& options,
+             const Patch& previous) {
+  if (answer.normal.isZero() || answer.level_a != 0 || answer.level_b != 0) return {};
+  const Motion m = motion(b_in_a);
+  const Scene hulls = scene(a.level(0).view, b.level(0).view, m, pose_quality(m).error);
+  const double radii = options.radius_a + options.radius_b;
+  const Vec n = vec(answer.normal);
+  Patch patch = grown(hulls,
+                      {n, vec(answer.point_a) - n * options.radius_a, vec(answer.point_b) + n * options.radius_b,
+                       answer.feature_a, answer.feature_b},
+                      options.margin + radii, hulls.law_two + kLawTwo * radii, options, previous);
+  for (std::uint32_t i = 0; i < patch.count; ++i) {
+    PatchPoint& p = patch.points[i];
+    p.point_a = eigen(vec(p.point_a) + n * options.radius_a);
+    p.point_b = eigen(vec(p.point_b) - n * options.radius_b);
+    p.separation -= radii;
+  }
   return patch;
 }
 
 }  // namespace
 
+Patch patch(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnswer& answer, const PatchOptions& options,
+            const Patch& previous) {
+  return around(a, b, b_in_a, answer, options, previous);
+}
+
 Patch patch(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer, const PatchOptions& options,
             const Patch& previous) {
-  if (answer.normal.isZero() || answer.verdict == Verdict::Overlapping) return {};
-  assert(answer.level_a == 0 && answer.level_b == 0);
-  const Motion m = motion(b_in_a);
-  const Scene pair = scene(a.level(0).view, b.level(0).view, m, pose_quality(m).error);
-  return grown(pair, {vec(answer.normal), vec(answer.point_a), vec(answer.point_b), answer.feature_a, answer.feature_b},
-               options, previous);
+  return answer.proof.count ? Patch{} : around(a, b, b_in_a, answer, options, previous);
 }
 
 }  // namespace swiftlet

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include <swiftlet/depth.h>
 #include <swiftlet/model.h>
 #include <swiftlet/pose.h>
 #include <swiftlet/query.h>
@@ -36,22 +37,27 @@ struct Patch {
   std::array<PatchPoint, kMostPatchPoints> points{};  ///< the first `count`, in order around the area
 };
 
-/// What a patch shall hold.
+/// What a patch shall hold. Lengths are in the bodies' unit.
 struct PatchOptions {
-  double margin = 0;              ///< points farther apart than this, and than law 2's bound more, are left out; bodies' unit
+  double margin = 0;              ///< points farther apart than this, and than law 2's bound more, are left out
   std::uint32_t most_points = 4;  ///< 1 to kMostPatchPoints
-  /// Faces that lie within so much of a body's contact face are one face with it, which makes two triangles of a rounded square
-  /// one. Over the body's extent; by default 4 ulps of single precision, from which such squares come.
+  /// Those that the answer was asked with: so far along the normal the points lie outside of the hulls.
+  double radius_a = 0, radius_b = 0;
+  /// Faces that lie within so much of a body's contact face are one face with it, which makes one square of the two triangles
+  /// of a rounded one. Over the body's extent; by default 4 ulps of single precision, from which such squares come.
   double flatness = 0x1p-21;
 };
 
-/// The patch around the nearest features of `answer`, which is exact, on level 0, of this pair at this pose; none of bodies
-/// that overlap, for which such an answer has no normal. The contact face of a body is, of those at its nearest feature, the
-/// one that faces along the normal best, by which it is no worse than any; both are projected along the normal, and their
-/// intersection's corners that are near enough are the points. Where there are more than asked for, those stay that hold the
-/// least separation and much of the area; those of `previous`, the patch of this pair a moment ago, are preferred. The least
-/// separation of a patch is the answer's, within law 2's bound. Cost: the product of both faces' sides. Of a face of more than
-/// 64 sides the 64 corners count that keep most of its area.
+/// The patch around the deepest or nearest features of `answer`, an exact one of this pair at this pose. The contact face of a
+/// body is, of those at that feature, the one that faces best along the normal; both are projected along it, and the corners of
+/// what they have in common are the points. Where there are more than asked for those stay that hold the least separation and
+/// most of the area: of a round face four keep 0.6, eight 0.9, of a square all; those of `previous`, the patch of this pair a
+/// moment ago, are preferred. The least separation of a patch is the answer's, within law 2's bound. Nothing is allocated.
+/// Cost: the product of both faces' sides; of a face of more than 64 sides the 64 corners count that keep most of its area.
+Patch patch(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnswer& answer, const PatchOptions& options = {},
+            const Patch& previous = {});
+
+/// Likewise of hulls that are apart or touch. Of hulls that overlap such an answer gives no patch: it knows no way out.
 Patch patch(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer, const PatchOptions& options = {},
             const Patch& previous = {});
 
