@@ -34,7 +34,7 @@ struct Patch {
   Handle face_a;               ///< the contact face of A on level 0; none where A has no faces
   Handle face_b;               ///< likewise, of B
   std::uint32_t count = 0;     ///< of points; 0: the bodies are farther apart than asked, or the answer gives none
-  std::array<PatchPoint, kMostPatchPoints> points{};  ///< the first `count`, in order around the area
+  std::array<PatchPoint, kMostPatchPoints> points{};  ///< the first `count`, in order around the area from the deepest on
 };
 
 /// What a patch shall hold. Lengths are in the bodies' unit.
