@@ -42,6 +42,7 @@ Nearest nearest(const Placed& a, const Placed& b, double beyond, PairSeed& seed)
   const Hulls hulls = hulls_of(a, b, beyond, seed);
   Nearest result;
   result.found = hulls.found;
+  result.verdict = hulls.answer.verdict;
   result.distance = hulls.answer.lower - (a.radius + b.radius);
   result.normal = hulls.a_in_world.rotation * hulls.answer.normal;
   result.point_a = transform(hulls.a_in_world, hulls.answer.point_a) + a.radius * result.normal;
