@@ -45,21 +45,16 @@ struct Facing {
 /// Of faces that face along n equally well the one there was before, else the largest: it has the truest plane.
 template <class Body>
 Facing contact_face(const Body& body, const Vec& n, Handle feature, Handle before) {
-  const auto facing = [&](std::uint32_t face) -> Facing {
-    if (face == kNone) return {};
-    const Vec area = area_of(body, face);
-    return {face, area, dot(normalised(area), n)};
-  };
-  double best = -2;
-  each_face_at(body.view, feature, [&](std::uint32_t face) { best = larger(best, facing(face).cosine); });
   Facing chosen;
-  double most = -1;
+  double most = 0;
   each_face_at(body.view, feature, [&](std::uint32_t face) {
-    const Facing f = facing(face);
-    if (f.face == kNone || f.cosine < best - kSameFacing) return;
-    const bool kept = Handle(FeatureKind::Face, face) == before;
-    const double size = kept ? std::numeric_limits<double>::infinity() : dot(f.area, f.area);
-    if (size > most) chosen = f, most = size;
+    if (face == kNone || face == chosen.face) return;
+    const Vec area = area_of(body, face);
+    const double length = norm(area), cosine = length > 0 ? dot(area, n) / length : -1,
+                 size = Handle(FeatureKind::Face, face) == before ? std::numeric_limits<double>::infinity() : length;
+    if (cosine < chosen.cosine - kSameFacing || (cosine <= chosen.cosine + kSameFacing && size <= most)) return;
+    chosen = {face, area, cosine};
+    most = size;
   });
   return chosen;
 }
@@ -102,10 +97,11 @@ class Plateau {
     return dot(normal_, area_of(body_, face)) > 0;  // not the other side of a thin body
   }
 
-  /// From corner to corner outwards, until one has something else beside it.
+  /// A side of the face, mostly; else from corner to corner outwards, until one has something else beside it.
   std::uint32_t border() const {
     const ConvexView& view = body_.view;
     const std::uint32_t first = view.face_first[top_];
+    if (!holds(right_face(view, first))) return first;
     const Vec out = body_.own(view.head[first]) - body_.own(origin(view, first));
     const auto height = [&](std::uint32_t v) { return dot(out, body_.own(v)); };
     const auto flat = [&](std::uint32_t h) { return holds(view.face[h]) || holds(right_face(view, h)); };

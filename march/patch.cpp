@@ -28,13 +28,19 @@ namespace {
 /// else the crossing of the sides that leave both.
 struct Mark {
   static constexpr int kNo = -1;
-  int incident = kNo, reference = kNo;
+  int incident, reference;
 };
 
 /// A corner of what is left, and what the side that leaves it lies on.
 struct Left {
   double x, y;
   Mark corner, side;
+};
+
+/// What a side lies on.
+struct Line {
+  double px, py, nx, ny;
+  double height(const Left& c) const { return nx * (c.x - px) + ny * (c.y - py); }  ///< positive inside
 };
 
 /// The sides of an outline that count: corners that stand out by no more than a bound are none.
@@ -66,11 +72,10 @@ class Reference {
     }
     return nearest;
   }
-  /// Positive inside.
-  double height(int side, double x, double y) const {
+  Line line(int side) const {
     const Corner &p = corner(side), &q = next_corner(side);
-    const double dx = q.x - p.x, dy = q.y - p.y, length = std::sqrt(dx * dx + dy * dy);
-    return length > 0 ? sense_ * (dx * (y - p.y) - dy * (x - p.x)) / length : 0;
+    const double dx = q.x - p.x, dy = q.y - p.y, length = std::sqrt(dx * dx + dy * dy), unit = length > 0 ? sense_ / length : 0;
+    return {p.x, p.y, -dy * unit, dx * unit};
   }
 
  private:
@@ -101,25 +106,26 @@ class Clip {
   }
 
   int count() const { return count_; }
-  Mark operator[](int i) const { return left_[std::size_t(i)].corner; }
+  Mark operator[](int i) const { return left_[now_][std::size_t(i)].corner; }
 
  private:
   static constexpr int kMost = 2 * kMostCorners;
 
   void keep(const Left& corner) {
-    if (count_ < kMost) left_[std::size_t(count_++)] = corner;
+    if (count_ < kMost) left_[now_][std::size_t(count_++)] = corner;
   }
 
   /// Each corner is judged once; what stands out by no more than the bound stays.
   void cut(int side) {
-    const std::array<Left, kMost> whole = left_;
+    const std::array<Left, kMost>& whole = left_[now_];
     const int size = count_;
-    count_ = 0;
-    const double first = reference_.height(side, whole[0].x, whole[0].y);
+    now_ = 1 - now_, count_ = 0;
+    const Line line = reference_.line(side);
+    const double first = line.height(whole[0]);
     double height = first;
     for (int i = 0; i < size; ++i) {
       const Left &p = whole[std::size_t(i)], &q = whole[std::size_t(i + 1 == size ? 0 : i + 1)];
-      const double next = i + 1 == size ? first : reference_.height(side, q.x, q.y);
+      const double next = i + 1 == size ? first : line.height(q);
       const bool inside = height >= -bound_, next_inside = next >= -bound_;
       if (inside) keep(p);
       if (inside != next_inside) {
@@ -138,8 +144,8 @@ class Clip {
 
   const Reference& reference_;
   double bound_;
-  int count_ = 0;
-  std::array<Left, kMost> left_;
+  int count_ = 0, now_ = 0;
+  std::array<Left, kMost> left_[2];  ///< before a cut and after it
 };
 
 // ---- Where corners lie ------------------------------------------------------------------------------------------------------
@@ -210,9 +216,10 @@ Handle face_handle(const ConvexView& view, const Outline& outline) {
 
 /// A point of the patch and where it is seen.
 struct Candidate {
-  double x, y;
+  double x, y, separation;
+  Vec point_a, point_b;
+  Handle feature_a, feature_b;
   bool known;  ///< of the patch before
-  PatchPoint point;
 };
 
 /// All that both outlines say of one pair.
@@ -241,10 +248,7 @@ class Faces {
 
   Candidate candidate(const Vec& p_a, const Vec& p_b, Handle feature_a, Handle feature_b) const {
     const Vec seen = p_a - across_.middle;
-    return {dot(across_.u, seen),
-            dot(across_.v, seen),
-            false,
-            {eigen(p_a), eigen(p_b), dot(across_.n, p_b - p_a), feature_a, feature_b}};
+    return {dot(across_.u, seen), dot(across_.v, seen), dot(across_.n, p_b - p_a), p_a, p_b, feature_a, feature_b, false};
   }
 
  private:
@@ -252,9 +256,7 @@ class Faces {
   const Outline& reference() const { return a_is_reference_ ? a_ : b_; }
 
   /// Whether the points lie one above the other.
-  bool fits(const Candidate& c) const {
-    return norm(vec(c.point.point_b) - vec(c.point.point_a) - across_.n * c.point.separation) <= 2 * bound_;
-  }
+  bool fits(const Candidate& c) const { return norm(c.point_b - c.point_a - across_.n * c.separation) <= 2 * bound_; }
 
   Candidate placed(const Mark& mark) const {
     const ConvexView &view_i = a_is_reference_ ? scene_.b : scene_.a, &view_r = a_is_reference_ ? scene_.a : scene_.b;
@@ -287,7 +289,7 @@ class Faces {
 
 // ---- Which corners stay -----------------------------------------------------------------------------------------------------
 
-bool same_place(const PatchPoint& p, const PatchPoint& q) { return p.feature_a == q.feature_a && p.feature_b == q.feature_b; }
+bool same_place(const PatchPoint& p, const Candidate& q) { return p.feature_a == q.feature_a && p.feature_b == q.feature_b; }
 
 /// The corners of an intersection and one point more.
 class Candidates {
@@ -295,13 +297,13 @@ class Candidates {
   explicit Candidates(const Patch& previous) : previous_(previous) {}
 
   void add(Candidate c) {
-    for (std::uint32_t i = 0; i < previous_.count; ++i) c.known = c.known || same_place(previous_.points[i], c.point);
+    for (std::uint32_t i = 0; i < previous_.count; ++i) c.known = c.known || same_place(previous_.points[i], c);
     all_[std::size_t(count_++)] = c;
   }
   bool empty() const { return count_ == 0; }
   double least() const {
-    double least = all_[0].point.separation;
-    for (int i = 1; i < count_; ++i) least = smaller(least, all_[std::size_t(i)].point.separation);
+    double least = all_[0].separation;
+    for (int i = 1; i < count_; ++i) least = smaller(least, all_[std::size_t(i)].separation);
     return least;
   }
 
@@ -318,7 +320,10 @@ class Candidates {
       --size_;
       grow(bound);
     }
-    for (int i = 0; i < size_; ++i) patch.points[std::size_t(i)] = chosen(i).point;
+    for (int i = 0; i < size_; ++i) {
+      const Candidate& c = chosen(i);
+      patch.points[std::size_t(i)] = {eigen(c.point_a), eigen(c.point_b), c.separation, c.feature_a, c.feature_b};
+    }
     patch.count = std::uint32_t(size_);
   }
 
@@ -329,7 +334,7 @@ class Candidates {
   void drop_beyond(double separation) {
     int kept = 0;
     for (int i = 0; i < count_; ++i) {
-      if (all_[std::size_t(i)].point.separation <= separation) all_[std::size_t(kept++)] = all_[std::size_t(i)];
+      if (all_[std::size_t(i)].separation <= separation) all_[std::size_t(kept++)] = all_[std::size_t(i)];
     }
     count_ = kept;
   }
@@ -339,7 +344,7 @@ class Candidates {
     int found = -1;
     for (int i = 0; i < count_; ++i) {
       const Candidate& c = all_[std::size_t(i)];
-      if (c.point.separation <= enough && (found < 0 || (c.known && !all_[std::size_t(found)].known))) found = i;
+      if (c.separation <= enough && (found < 0 || (c.known && !all_[std::size_t(found)].known))) found = i;
     }
     return found;
   }
@@ -399,7 +404,7 @@ Patch grown(const Scene& scene, const Witness& w, double margin, double bound, c
   const Faces faces(scene, across, a, b, bound);
   faces.each_corner([&](const Candidate& c) { candidates.add(c); });
   const Candidate witness = faces.candidate(w.point_a, w.point_b, w.feature_a, w.feature_b);
-  if (candidates.empty() || witness.point.separation < candidates.least() - bound) candidates.add(witness);
+  if (candidates.empty() || witness.separation < candidates.least() - bound) candidates.add(witness);
   candidates.choose(std::min(options.most_points, kMostPatchPoints), margin, bound, patch);
   return patch;
 }
