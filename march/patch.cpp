@@ -412,11 +412,11 @@ Patch grown(const Scene& scene, const Witness& w, double margin, double bound, c
 template <class AnyAnswer>
 Patch around(const Model& a, const Model& b, const Pose& b_in_a, const AnyAnswer& answer, const PatchOptions& options,
              const Patch& previous) {
-  if (answer.normal.isZero() || answer.level_a != 0 || answer.level_b != 0) return {};
+  const Vec n = vec(answer.normal);
+  if (max_abs(n) == 0 || answer.level_a != 0 || answer.level_b != 0) return {};
   const Motion m = motion(b_in_a);
   const Scene hulls = scene(a.level(0).view, b.level(0).view, m, pose_quality(m).error);
   const double radii = options.radius_a + options.radius_b;
-  const Vec n = vec(answer.normal);
   Patch patch = grown(hulls,
                       {n, vec(answer.point_a) - n * options.radius_a, vec(answer.point_b) + n * options.radius_b,
                        answer.feature_a, answer.feature_b},
