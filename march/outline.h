@@ -9,6 +9,7 @@
 #include <swiftlet/model.h>
 
 #include "scene.h"
+#include "tolerance.h"
 
 namespace swiftlet {
 
@@ -25,9 +26,6 @@ struct Corner {
   std::uint32_t vertex;     ///< of the body
   std::uint32_t half_edge;  ///< leaves the corner along the outline; kNone of a point
 };
-
-/// Corners of an outline: as many as keep the cost of clipping one by another at some microseconds.
-inline constexpr int kMostCorners = 64;
 
 /// Either sense of rotation; not quite convex where faces are flat only nearly.
 struct Outline {

@@ -137,6 +137,8 @@ inline constexpr int kAimSteps = 12;
 /// Vertices that doubles may find equally high before a certificate asks exact arithmetic which is the highest: two triangles
 /// and room for a flat spot.
 inline constexpr std::size_t kPlateau = 8;
+/// Corners of a contact face: as many as keep the cost of clipping one by another at some microseconds.
+inline constexpr int kMostCorners = 64;
 /// Points of the inner polytope that tells touching from overlapping: 300 vertices slid into contact needed 20 to 32.
 inline constexpr int kContactPoints = 32;
 
