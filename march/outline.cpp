@@ -94,7 +94,8 @@ class Plateau {
       if (!(dot(normal_, body_.own(view.head[h])) >= level_)) return false;
       h = next_in_face(view, h);
     } while (h != first);
-    return dot(normal_, area_of(body_, face)) > 0;  // not the other side of a thin body
+    const Vec area = area_of(body_, face);
+    return dot(normal_, area) > 0.5 * norm(area);  // not a side of a thin body, nor its other face
   }
 
   /// A side of the face, mostly; else from corner to corner outwards, until one has something else beside it.
@@ -126,25 +127,15 @@ class Plateau {
   double level_;
 };
 
-/// Whether a vertex belongs to a feature.
-bool touches(const ConvexView& view, Handle feature, std::uint32_t vertex) {
-  switch (feature.kind()) {
-    case FeatureKind::Vertex: return feature.index() == vertex;
-    case FeatureKind::Edge: return view.head[feature.index()] == vertex || origin(view, feature.index()) == vertex;
-    default: return false;
-  }
-}
-
 double twice_area(const Corner& a, const Corner& b, const Corner& c) {
   return std::fabs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
 }
 
-/// Leaves out the corner that takes the least area with it, but none of `kept`.
-void thin(const ConvexView& view, Handle kept, Outline& outline) {
+/// Leaves out the corner that takes the least area with it.
+void thin(Outline& outline) {
   double least = std::numeric_limits<double>::infinity();
   int flattest = 0;
   for (int before = outline.count - 1, i = 0; i < outline.count; before = i++) {
-    if (touches(view, kept, outline[i].vertex)) continue;
     const double area = twice_area(outline[before], outline[i], outline[outline.after(i)]);
     if (area < least) least = area, flattest = i;
   }
@@ -157,7 +148,7 @@ void outline_of(const Body& body, const Across& across, const Vec& n, Handle fea
                 Outline& outline) {
   const ConvexView& view = body.view;
   const auto add = [&](std::uint32_t vertex, std::uint32_t half_edge) {
-    if (outline.count == kMostCorners) thin(view, feature, outline);
+    if (outline.count == kMostCorners) thin(outline);
     const Vec p = body.point(vertex), seen = p - across.middle;
     outline.corners[std::size_t(outline.count++)] = {p, dot(across.u, seen), dot(across.v, seen), vertex, half_edge};
   };

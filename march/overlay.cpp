@@ -14,6 +14,8 @@
 
 #include <limits>
 
+#include "ring.h"
+
 namespace swiftlet {
 namespace {
 
@@ -155,27 +157,21 @@ double along(const Corner& p, const Corner& q, double x, double y) {
   return length2 > 0 && t > 0 ? smaller(t / length2, 1) : 0;
 }
 
-/// The point of an outline's side that is seen nearest to a place.
-struct Nearest {
-  Vec p{0, 0, 0};
-  double distance2 = std::numeric_limits<double>::infinity();
-};
-Nearest on_sides(const Outline& o, double x, double y) {
-  Nearest nearest;
+/// The point of an outline's sides that is seen nearest to a place.
+Vec on_sides(const Outline& o, double x, double y) {
+  double least = std::numeric_limits<double>::infinity();
+  Vec nearest{0, 0, 0};
   for (int i = 0; i < o.count; ++i) {
     const Corner &p = o[i], &q = o[o.after(i)];
-    const double t = along(p, q, x, y), dx = p.x + t * (q.x - p.x) - x, dy = p.y + t * (q.y - p.y) - y,
-                 distance2 = dx * dx + dy * dy;
-    if (distance2 < nearest.distance2) nearest = {between(p.p, q.p, t), distance2};
+    const double t = along(p, q, x, y), dx = p.x + t * (q.x - p.x) - x, dy = p.y + t * (q.y - p.y) - y;
+    if (dx * dx + dy * dy < least) least = dx * dx + dy * dy, nearest = between(p.p, q.p, t);
   }
   return nearest;
 }
 
-/// The point of an outline's face over a place: between the sides to the left and to the right, or where there are none, or the
-/// place is hardly inside, on the nearest side.
-Vec over(const Outline& o, double x, double y, double bound) {
-  const Nearest nearest = on_sides(o, x, y);
-  if (nearest.distance2 <= bound * bound) return nearest.p;
+/// The point of an outline's face over a place: between the sides to the left and to the right; where the place is not inside,
+/// on the nearest side.
+Vec over(const Outline& o, double x, double y) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   Vec p_low{0, 0, 0}, p_high{0, 0, 0};
   for (int i = 0; i < o.count; ++i) {
@@ -185,7 +181,7 @@ Vec over(const Outline& o, double x, double y, double bound) {
     if (place < low) low = place, p_low = between(p.p, q.p, t);
     if (place > high) high = place, p_high = between(p.p, q.p, t);
   }
-  return low < x && x < high ? between(p_low, p_high, (x - low) / (high - low)) : nearest.p;
+  return low < x && x < high ? between(p_low, p_high, (x - low) / (high - low)) : on_sides(o, x, y);
 }
 
 /// The points of two sides where they cross, as they are seen.
@@ -202,8 +198,7 @@ Pair crossing(const Corner& i0, const Corner& i1, const Corner& r0, const Corner
 
 Handle side_handle(const ConvexView& view, const Corner& corner) {
   if (corner.half_edge == kNone) return {FeatureKind::Vertex, corner.vertex};
-  const std::uint32_t twin = view.twin[corner.half_edge];
-  return {FeatureKind::Edge, twin < corner.half_edge ? twin : corner.half_edge};
+  return named(view, {FeatureKind::Edge, corner.half_edge});
 }
 Handle corner_handle(const Corner& corner) { return {FeatureKind::Vertex, corner.vertex}; }
 Handle face_handle(const ConvexView& view, const Outline& outline) {
@@ -249,11 +244,11 @@ class Faces {
     Handle feature_i, feature_r;
     if (mark.reference == Mark::kNo) {
       const Corner& c = incident()[mark.incident];
-      p = {c.p, over(reference(), c.x, c.y, bound_)};
+      p = {c.p, over(reference(), c.x, c.y)};
       feature_i = corner_handle(c), feature_r = face_handle(view_r, reference());
     } else if (mark.incident == Mark::kNo) {
       const Corner& c = reference_.corner(mark.reference);
-      p = {over(incident(), c.x, c.y, bound_), c.p};
+      p = {over(incident(), c.x, c.y), c.p};
       feature_i = face_handle(view_i, incident()), feature_r = corner_handle(c);
     } else {
       const Corner &i = incident()[mark.incident], &r = reference_.corner(mark.reference);

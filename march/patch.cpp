@@ -8,6 +8,7 @@
 
 #include "outline.h"
 #include "overlay.h"
+#include "ring.h"
 #include "scene.h"
 
 namespace swiftlet {
@@ -133,7 +134,7 @@ Patch grown(const Scene& scene, const Witness& w, double margin, double bound, c
   if (a.face != kNone) patch.face_a = {FeatureKind::Face, a.face};
   if (b.face != kNone) patch.face_b = {FeatureKind::Face, b.face};
 
-  const Place witness = place(across, w.point_a, w.point_b, w.feature_a, w.feature_b);
+  const Place witness = place(across, w.point_a, w.point_b, named(scene.a, w.feature_a), named(scene.b, w.feature_b));
   Candidates candidates(scene, across, a, b, witness, bound);
   candidates.choose(std::min(options.most_points, kMostPatchPoints), margin, previous, patch);
   return patch;

@@ -140,6 +140,10 @@ void expect_sound(const Contacting& c, const Patch& p, double separation, double
     EXPECT_TRUE(oracle::lies_in(c.b.level(0).view, c.b_in_a, q.point_b, bound)) << i;
     EXPECT_LE((q.point_b - q.point_a - q.separation * p.normal).norm(), 2 * bound) << i;
     EXPECT_LE(q.separation, margin + bound);
+    const auto well_named = [](const ConvexView& view, Handle feature) {
+      return feature.kind() != FeatureKind::Edge || feature.index() < view.twin[feature.index()];
+    };
+    EXPECT_TRUE(well_named(c.a.level(0).view, q.feature_a) && well_named(c.b.level(0).view, q.feature_b)) << i;
     for (std::uint32_t j = 0; j < i; ++j) {
       EXPECT_FALSE(q.feature_a == p.points[j].feature_a && q.feature_b == p.points[j].feature_b) << i << " and " << j;
     }
@@ -149,6 +153,20 @@ void expect_sound(const Contacting& c, const Patch& p, double separation, double
   } else {
     EXPECT_GT(separation, margin);
   }
+}
+
+Patch touching(const Model& a, const Model& b, const Pose& b_in_a) {
+  const Contacting c{a, b, b_in_a, nearest(a, b, b_in_a)};
+  const Patch p = patch(a, b, b_in_a, c.answer);
+  expect_sound(c, p, 0, 0);
+  return p;
+}
+
+Pose at(double x, double y, double z, const Mat3& rotation = Mat3::Identity()) {
+  Pose pose;
+  pose.rotation = rotation;
+  pose.translation = {x, y, z};
+  return pose;
 }
 
 /// The contact face first, then all others within 2^-21 of its plane and on its side.
@@ -246,6 +264,9 @@ TEST(Patch, OfEqualFlushCubesIsTheirFace) {
     const Patch p = patch(cube, cube, b_in_a, nearest(cube, cube, b_in_a));
     ASSERT_EQ(p.count, 4u) << shift;
     EXPECT_NEAR(shown_area(p), 4, 4 * shift + 1e-14);
+    for (std::uint32_t i = 0; i < 4 && shift < 1e-14; ++i) {  // no crossings of sides that lie on one another
+      EXPECT_NE(p.points[i].feature_a.kind(), FeatureKind::Edge) << shift;
+    }
   }
 }
 
@@ -298,8 +319,10 @@ TEST(Patch, OfRandomHullsIsTheIntersectionOfTheirFaces) {
 
 /// A square's two triangles make an angle; the patch is still the square.
 TEST(Patch, OfNearlyCoplanarFacetsIsOneFace) {
-  for (const double height : {1e-15, 1e-14, 1e-12, 1e-10, 1e-8}) {
+  for (const auto& [height, thickness] : {std::pair{1e-15, 2.}, std::pair{1e-14, 2.}, std::pair{1e-12, 2.},
+                                          std::pair{1e-10, 2.}, std::pair{1e-8, 2.}, std::pair{1e-10, 1e-7}}) {
     bodies::Body bent = bodies::triangulated(bodies::cube());
+    for (int i = 0; i < 4; ++i) bent.points[i][2] = 1 - thickness;
     bent.points[4][2] -= height, bent.points[6][2] -= height;  // the ends of the diagonal that the top does not have
     bodies::Body roof{bent.points, {}, {}};
     for (std::size_t i = 0; i < bent.corners.size(); i += 3) {
@@ -343,6 +366,34 @@ TEST(Patch, OfRoundedFacesLiesInBothBodies) {
   }
 }
 
+/// Corners that are two by rounding have sides without a direction; a cut along one of these would take half the face.
+TEST(Patch, OfFacesWithTinySidesIsAsWithout) {
+  Random random(12);
+  for (int i = 0; i < 100; ++i) {
+    bodies::Body a = prism(4, 1, 1);
+    for (int k = 0; k < 8; ++k) a.points.push_back(a.points[k] + 1e-15 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 0));
+    const Mat3 turn = random.rotation();
+    Contacting c{hull_of({bodies::moved(a, turn).points, {}}), bodies::model(bodies::moved(prism(5, 3, 1), turn)), {}, {}};
+    c.b_in_a.translation = turn * Vec3(0, 0, 1 + 1e-9);
+    c.answer = nearest(c.a, c.b, c.b_in_a);
+    PatchOptions options;
+    options.margin = 1e-8;
+    EXPECT_NEAR(shown_area(patch(c.a, c.b, c.b_in_a, c.answer, options)), 2, 1e-8) << i;
+  }
+}
+
+/// Tips that are farthest apart are not the corners to keep.
+TEST(Patch, OfALongFaceKeepsItsShoulders) {
+  bodies::Body hexagon;
+  for (const double z : {-1., 1.}) {
+    for (const auto& [x, y] : {std::pair{11., 0.}, std::pair{10., 0.5}, std::pair{-10., 0.5}, std::pair{-11., 0.},
+                               std::pair{-10., -0.5}, std::pair{10., -0.5}})
+      hexagon.points.emplace_back(x, y, z);
+  }
+  const Model a = hull_of({hexagon.points, {}}), b = bodies::model(bodies::box(20, 20, 1));
+  EXPECT_GE(shown_area(touching(a, b, at(0, 0, 2))), 0.7 * 21);
+}
+
 TEST(Patch, OfFacesOfAThousandSidesKeepsTheirArea) {
   const Model round = bodies::model(prism(1000, 1, 1));
   Pose b_in_a;
@@ -353,6 +404,10 @@ TEST(Patch, OfFacesOfAThousandSidesKeepsTheirArea) {
   const Patch p = patch(round, round, b_in_a, c.answer, options);
   expect_sound(c, p, 0, 0);
   EXPECT_EQ(p.count, 8u);
+  const Contacting tilted = stacked(prism(1000, 1, 1), 0.5, prism(1000, 1, 1),
+                                    at(0.1, 0.2, 0, shapes::rotation({0.6, 0.8, 0}, 1e-4)), 1e-3, Mat3::Identity());
+  options.margin = kInfinity;
+  expect_sound(tilted, patch(tilted.a, tilted.b, tilted.b_in_a, tilted.answer, options), tilted.answer.lower, kInfinity);
   // Two circles of radius 1 whose centres are sqrt(0.05) apart.
   const double d = std::sqrt(0.05), lens = 2 * std::acos(d / 2) - d / 2 * std::sqrt(4 - d * d);
   EXPECT_GE(shown_area(p), 0.88 * lens);
@@ -378,20 +433,6 @@ TEST(Patch, OfSliversIsTheIntersectionOfTheirFaces) {
 }
 
 // ---- Edges and corners ------------------------------------------------------------------------------------------------------
-
-Patch touching(const Model& a, const Model& b, const Pose& b_in_a) {
-  const Contacting c{a, b, b_in_a, nearest(a, b, b_in_a)};
-  const Patch p = patch(a, b, b_in_a, c.answer);
-  expect_sound(c, p, 0, 0);
-  return p;
-}
-
-Pose at(double x, double y, double z, const Mat3& rotation = Mat3::Identity()) {
-  Pose pose;
-  pose.rotation = rotation;
-  pose.translation = {x, y, z};
-  return pose;
-}
 
 const Mat3 kEighthAboutX = shapes::rotation(Vec3::UnitX(), std::numbers::pi / 4),
            kQuarterAboutZ = shapes::rotation(Vec3::UnitZ(), std::numbers::pi / 2);
@@ -446,6 +487,25 @@ TEST(Patch, OfFlatBodiesIsTheirPartOfTheFace) {
     EXPECT_EQ(touching(*a, *b, pose).count, count);
   }
   EXPECT_EQ(touching(segment, segment, at(0, 0, 0, kQuarterAboutZ)).count, 1u);
+  const Mat3 across = kQuarterAboutZ * upright;
+  for (const double x : {-0.5, 0., 0.7}) {  // upright on upright: edges that cross, and edges along one another
+    Contacting c{square, square, at(x, 0.3, 2 + 1e-12, upright.transpose() * across), {}};
+    c.a = bodies::model(
+        bodies::moved({{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {0, 1, 2, 3, 3, 2, 1, 0}, {4, 4}}, upright));
+    c.b_in_a.rotation = across;
+    c.answer = nearest(c.a, c.b, c.b_in_a);
+    PatchOptions options;
+    options.margin = 1e-9;
+    const Patch p = patch(c.a, c.b, c.b_in_a, c.answer, options);
+    expect_sound(c, p, 1e-12, 1e-9);
+    EXPECT_EQ(p.count, 1u);
+    c.b_in_a.rotation = upright;
+    c.b_in_a.translation = {x, 0, 2 + 1e-12};
+    c.answer = nearest(c.a, c.b, c.b_in_a);
+    const Patch along = patch(c.a, c.b, c.b_in_a, c.answer, options);
+    expect_sound(c, along, 1e-12, 1e-9);
+    EXPECT_EQ(along.count, 2u);
+  }
   EXPECT_EQ(touching(segment, segment, at(1, 0, 0)).count, 2u);
   EXPECT_EQ(touching(point, point, at(0, 0, 0)).count, 1u);
 }
@@ -689,6 +749,20 @@ TEST(Patch, KeepsThePointsOfTheFrameBefore) {
   }
   EXPECT_EQ(with, 0);
   EXPECT_GT(without, 20) << "the test is too easy";
+}
+
+/// A cube that balances on an edge faces along the normal with two faces alike: the one of the frame before stays.
+TEST(Patch, KeepsTheFaceOfTheFrameBefore) {
+  const Model cube = bodies::model(bodies::cube());
+  const Pose pose = at(0, 0, 1.1 + std::sqrt(2), kEighthAboutX);
+  const Answer answer = nearest(cube, cube, pose);
+  int kept = 0;
+  for (std::uint32_t face = 0; face < 6; ++face) {
+    Patch before;
+    before.face_b = {FeatureKind::Face, face};
+    kept += patch(cube, cube, pose, answer, {}, before).face_b == before.face_b;
+  }
+  EXPECT_EQ(kept, 2);
 }
 
 }  // namespace
