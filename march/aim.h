@@ -57,10 +57,16 @@ class Simplex {
   int count_ = 0;
 };
 
-/// Looks from `direction`, of any length, until the supports lie no more than a few edges aside of each other, where a walk is
-/// cheaper; or until nothing changes; or until `enough`, called with each sight, says so. Both levels have maps.
-template <class Enough>
-Sight look(const Scene& scene, const Level& a, const Level& b, const Vec& direction, Enough enough) {
+/// What a caller makes of a sight.
+enum class Look {
+  Enough,
+  Near,  ///< on, until a walk is cheaper: the supports lie no more than a few edges aside of each other
+  On,    ///< on, until nothing changes
+};
+
+/// Looks from `direction`, of any length, for as long as `judge` says of each sight. Both levels have maps.
+template <class Judge>
+Sight look(const Scene& scene, const Level& a, const Level& b, const Vec& direction, Judge judge) {
   const Resting body = body_a(scene);
   const Moved other = body_b(scene);
   const double few = kAimEdges * (a.edge_length + b.edge_length);
@@ -79,7 +85,8 @@ Sight look(const Scene& scene, const Level& a, const Level& b, const Vec& direct
     if (upper < s.upper) s.upper = upper, s.point_a = q, s.point_b = q + p;
     const Vec aside = p - n * s.gap;
     const bool near = s.gap > 0 && dot(aside, aside) <= few * few;
-    if (enough(s) || near || steps == kAimSteps || simplex.has(s.a, s.b)) return s;
+    const Look verdict = judge(s);
+    if (verdict == Look::Enough || (verdict == Look::Near && near) || steps == kAimSteps || simplex.has(s.a, s.b)) return s;
     const Simplex::Nearest nearest = simplex.add({p, q, s.a, s.b});
     if (nearest.count == 4) {
       s.meets = true;

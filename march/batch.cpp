@@ -17,14 +17,14 @@ template <class Ask>
 void each(std::span<const PairQuery> pairs, std::span<Answer> answers, const QueryOptions& options, const Executor& executor,
           Ask ask) {
   assert(answers.size() >= pairs.size());
-  QueryOptions common = options;
-  common.trace = {};
   executor((pairs.size() + kPairsPerTask - 1) / kPairsPerTask, [&](std::size_t task) {
     const std::size_t first = task * kPairsPerTask, end = std::min(first + kPairsPerTask, pairs.size());
     for (std::size_t i = first; i < end; ++i) {
       PairSeed cold;
       const PairQuery& q = pairs[i];
-      answers[i] = ask(*q.a, *q.b, q.b_in_a, q.seed ? *q.seed : cold, common);
+      QueryOptions own = q.options ? *q.options : options;
+      own.trace = {};
+      answers[i] = ask(*q.a, *q.b, q.b_in_a, q.seed ? *q.seed : cold, own);
     }
   });
 }

@@ -1,33 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The direction comes from the features, not from the difference of two close points: from the difference, a cube's corner 1e-8
-// above a face certifies only to 2e-8, from the face normal to 6e-16.
 #include "certify.h"
 
 #include <algorithm>
 #include <limits>
 #include <optional>
 
-#include "double_double.h"
 #include "exact.h"
 #include "ring.h"
+#include "wide.h"
 
 namespace swiftlet {
 namespace {
-
-double clamped(double x) { return x > 0 ? x < 1 ? x : 1.0 : 0.0; }
-
-/// A convex combination of vertices of one body, those with weights first.
-struct Combination {
-  std::array<std::uint32_t, 3> vertex;
-  std::array<double, 3> weight;
-};
-Combination only(std::uint32_t v) { return {{v, v, v}, {1, 0, 0}}; }
-Combination between(std::uint32_t tail, std::uint32_t head, double t) {
-  if (t == 0) return only(tail);
-  if (t == 1) return only(head);
-  return {{tail, head, head}, {1 - t, t, 0}};
-}
 
 template <class P>
 Vec point(const P& body, const Combination& c) {
@@ -35,74 +19,6 @@ Vec point(const P& body, const Combination& c) {
   if (c.weight[1] != 0) p = p + body.own(c.vertex[1]) * c.weight[1];
   if (c.weight[2] != 0) p = p + body.own(c.vertex[2]) * c.weight[2];
   return body.common(p);
-}
-
-/// A direction and the points it comes from, with the roles of `certify`'s states already sorted out.
-struct Witness {
-  Vec normal;  ///< from the first body to the second, common frame, any length
-  Combination first, second;
-};
-Witness swapped(const Witness& w) { return {-w.normal, w.second, w.first}; }
-
-template <class P, class Q>
-Witness vertex_vertex(const P& a, std::uint32_t va, const Q& b, std::uint32_t vb) {
-  return {b.point(vb) - a.point(va), only(va), only(vb)};
-}
-
-template <class P, class Q>
-Witness vertex_edge(const P& a, std::uint32_t va, const Q& b, std::uint32_t h) {
-  const std::uint32_t tail = origin(b.view, h), head = b.view.head[h];
-  const Vec q = b.point(tail), u = b.turned(b.own(head) - b.own(tail)), r = q - a.point(va);
-  const double uu = dot(u, u), t = clamped(-dot(r, u) / uu);
-  const Vec d = r + u * t;
-  return {t > 0 && t < 1 ? d - u * (dot(d, u) / uu) : d, only(va), between(tail, head, t)};
-}
-
-template <class P, class Q>
-Witness edge_edge(const P& a, std::uint32_t ha, const Q& b, std::uint32_t hb) {
-  const std::uint32_t a0 = origin(a.view, ha), a1 = a.view.head[ha], b0 = origin(b.view, hb), b1 = b.view.head[hb];
-  const Vec u = a.turned(a.own(a1) - a.own(a0)), v = b.turned(b.own(b1) - b.own(b0)), r = a.point(a0) - b.point(b0);
-  const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), ur = dot(u, r), vr = dot(v, r);
-  const Vec n = cross(u, v);
-  const double area2 = dot(n, n);
-  double s = area2 > 0 ? clamped((uv * vr - ur * vv) / area2) : 0.0;
-  const double t = clamped((uv * s + vr) / vv);
-  s = clamped((uv * t - ur) / uu);
-  const Vec d = v * t - (r + u * s);
-  // Edges within the rounding of parallel have no cross product worth the name.
-  const Vec normal = !(area2 > kU * uu * vv) ? d - u * (dot(d, u) / uu) : dot(n, d) < 0 ? -n : n;
-  return {normal, between(a0, a1, s), between(b0, b1, t)};
-}
-
-template <class P, class Q>
-Witness vertex_face(const P& a, std::uint32_t va, const Q& b, std::uint32_t f) {
-  const std::uint32_t first = b.view.face_first[f], root = origin(b.view, first);
-  const Vec q0 = b.own(root), r = b.local(a.point(va)) - q0;
-  // The triangle of the fan about the root that holds the projection of the vertex; failing that, the last one.
-  for (std::uint32_t v1 = b.view.head[first], h = next_in_face(b.view, first);;
-       v1 = b.view.head[h], h = next_in_face(b.view, h)) {
-    const std::uint32_t v2 = b.view.head[h];
-    const Vec u = b.own(v1) - q0, v = b.own(v2) - q0, area = cross(u, v);
-    const Vec n = f < b.view.planes.size() ? Vec{b.view.planes[f].x, b.view.planes[f].y, b.view.planes[f].z} : area;
-    const double w1 = dot(n, cross(r, v)), w2 = dot(n, cross(u, r)), w0 = dot(n, area) - w1 - w2;
-    if ((w2 >= 0 && w1 >= 0) || b.view.head[next_in_face(b.view, h)] == root) {
-      const double c0 = larger(w0, 0), c1 = larger(w1, 0), c2 = larger(w2, 0), sum = c0 + c1 + c2;
-      if (!(sum > 0)) return {-b.turned(n), only(va), only(root)};
-      return {-b.turned(n), only(va), {{root, v1, v2}, {c0 / sum, c1 / sum, c2 / sum}}};
-    }
-  }
-}
-
-template <class A, class B>
-Witness witness(const A& a, Handle fa, const B& b, Handle fb) {
-  using enum FeatureKind;
-  const std::uint32_t i = fa.index(), j = fb.index();
-  if (fa.kind() == Face) return swapped(vertex_face(b, any_vertex(b.view, fb), a, i));
-  if (fb.kind() == Face) return vertex_face(a, any_vertex(a.view, fa), b, j);
-  if (fa.kind() == Edge && fb.kind() == Edge) return edge_edge(a, i, b, j);
-  if (fa.kind() == Edge) return swapped(vertex_edge(b, j, a, i));
-  if (fb.kind() == Edge) return vertex_edge(a, i, b, j);
-  return vertex_vertex(a, i, b, j);
 }
 
 /// Vertex pairs that have both combinations as their own: the transport that fills one from the other in order. At most
@@ -122,9 +38,6 @@ ActiveSet pairs(const Combination& a, const Combination& b) {
 }
 
 double sum_abs(const Vec& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
-
-using Wide = V3<DoubleDouble>;
-Wide wide(const Vec& v) { return {v.x, v.y, v.z}; }
 
 /// Orders the vertices of one body along a direction of the common frame, exactly: in doubles, in 106 bits where these tie (the
 /// corners of the very face that the direction is normal to), by expansions where those do.
@@ -208,44 +121,28 @@ struct Extreme {
 /// The farthest that two points of a body can be apart.
 double reach(const ConvexView& view) { return 2 * kSqrt3 * view.extent; }
 
-/// How far the body may stand above a feature along a slope, where the features beside it tell: the body is exactly convex. Its
-/// neighbours must be below for certain; what is level with it only up to rounding, an edge or a triangle, leaves a tilt.
-/// Infinite where doubles do not tell, or the face has more than three vertices.
-double overhang(const ConvexView& view, Handle feature, const Slope& slope, std::uint32_t& plane_tests) {
-  const double error = kDotError + kSqrt3 * slope.turn_error, far = reach(view);
-  const std::uint32_t i = feature.index();
-  switch (feature.kind()) {
-    case FeatureKind::Vertex: {
-      const Vertex& record = view.vertices[i];
-      const Vec p = vec(record);
-      plane_tests += record.ring_count;
-      double highest = -kInfinity;
-      for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
-        highest = larger(highest, slope.along(vec(view.vertices[view.head[h]]) - p));
-      }
-      return highest < -error * far ? 0.0 : kInfinity;
-    }
-    case FeatureKind::Edge: {
-      const Vertex& tail = view.vertices[origin(view, i)];
-      const Vec p = vec(tail), u = vec(view.vertices[view.head[i]]) - p;
-      if (tail.ring_count < 2) return kInfinity;  // a segment
-      const double overhang = (std::fabs(slope.along(u)) / norm(u) + error) * far;
-      plane_tests += 2;
-      const double left = slope.along(vec(view.vertices[view.head[counter_clockwise(tail, i)]]) - p),
-                   right = slope.along(vec(view.vertices[view.head[clockwise(tail, i)]]) - p);
-      return larger(left, right) < -(overhang + error * far) ? overhang : kInfinity;
-    }
-    case FeatureKind::Face: {
-      if (i < view.planes.size()) return kInfinity;
-      const std::uint32_t h = view.face_first[i];
-      const Vec p = vec(view.vertices[origin(view, h)]), e = vec(view.vertices[view.head[h]]) - p,
-                f = vec(view.vertices[view.head[next_in_facet(view, h)]]) - p, n = cross(e, f);
-      const double area = norm(n);
-      const Vec tilt = slope.own - n * (1 / area);
-      return (norm(tilt) + kCrossError * std::sqrt(dot(e, e) * dot(f, f)) / area + error) * far;
-    }
-    default: return kInfinity;
-  }
+/// By how much the direction leans along a feature, a unit length of it.
+double lean(const ConvexView& view, Handle feature, const Slope& slope) {
+  const std::uint32_t h = feature.kind() == FeatureKind::Edge ? feature.index() : view.face_first[feature.index()];
+  const Vec p = vec(view.vertices[origin(view, h)]), e = vec(view.vertices[view.head[h]]) - p;
+  if (feature.kind() == FeatureKind::Edge) return std::fabs(slope.along(e)) / norm(e);
+  const Vec f = vec(view.vertices[view.head[next_in_facet(view, h)]]) - p, n = cross(e, f);
+  const double area = norm(n);
+  return norm(slope.own - n * (1 / area)) + kCrossError * std::sqrt(dot(e, e) * dot(f, f)) / area;
+}
+
+/// How far the body may stand above a feature along a slope, where the features beside it tell: the body is exactly convex, and
+/// these rise by at most `rise`, but for `rise_error` of the body's reach. They must be below for certain; what is level with
+/// the feature only up to rounding, itself, leaves a tilt. Infinite where doubles do not tell, or a face has more than three
+/// vertices.
+double overhang(const ConvexView& view, Handle feature, const Slope& slope, double rise, double rise_error) {
+  const double far = reach(view);
+  if (feature.kind() == FeatureKind::Vertex) return rise < -rise_error * far ? 0.0 : kInfinity;
+  const bool is_edge = feature.kind() == FeatureKind::Edge;
+  if (is_edge ? view.vertices[origin(view, feature.index())].ring_count < 2 : feature.index() < view.planes.size())
+    return kInfinity;  // a segment; a walking face
+  const double tilt = (lean(view, feature, slope) + kDotError + kSqrt3 * slope.turn_error) * far;
+  return !is_edge || rise < -(tilt + rise_error * far) ? tilt : kInfinity;
 }
 
 /// Climbs in doubles and decides no tie: whatever may be as high as the top is visited too, until every neighbour of every one
@@ -304,11 +201,6 @@ std::optional<Extreme> top(const ConvexView& view, const Slope& slope, std::uint
 
 }  // namespace
 
-std::uint32_t any_vertex(const ConvexView& view, Handle feature) {
-  if (feature.kind() == FeatureKind::Vertex) return feature.index();
-  return origin(view, feature.kind() == FeatureKind::Edge ? feature.index() : view.face_first[feature.index()]);
-}
-
 std::uint32_t support_a(const Scene& scene, const Vec& n, std::uint32_t start, std::uint32_t& plane_tests) {
   return climb(scene.a, start, Ordering(n), 1, plane_tests);
 }
@@ -338,16 +230,13 @@ Supports supports(const Scene& scene, const Vec& n, std::uint32_t start_a, std::
   return {va, vb, gap(scene, n, va, vb, (a_top ? a_top->slack : 0) + (b_top ? b_top->slack : 0))};
 }
 
-Certificate certify(const Scene& scene, Handle a, Handle b, std::uint32_t& plane_tests) {
-  const Resting body = body_a(scene);
-  const Moved other = body_b(scene);
-  const Witness found = witness(body, a, other, b);
+Certificate certify(const Scene& scene, Handle a, Handle b, const Witness& seen, std::uint32_t& plane_tests) {
   Certificate c;
-  c.point_a = point(body, found.first);
-  c.point_b = point(other, found.second);
+  c.point_a = point(body_a(scene), seen.first);
+  c.point_b = point(body_b(scene), seen.second);
   c.upper = norm(c.point_b - c.point_a) * (1 + kNormError) + scene.point_error;
-  c.normal = normalised(found.normal);
-  c.active = pairs(found.first, found.second);
+  const double length = norm(seen.normal);
+  c.normal = normalised(seen.normal);
   const auto proved = [&](std::uint32_t va, std::uint32_t vb, double lower) {
     c.support_a = va;
     c.support_b = vb;
@@ -355,12 +244,17 @@ Certificate certify(const Scene& scene, Handle a, Handle b, std::uint32_t& plane
     return c.upper - c.lower <= scene.law_two;
   };
   // Ever dearer: what stands beside the features, what is as high as doubles can tell, exact order.
-  const std::uint32_t any_a = found.first.vertex[0], any_b = found.second.vertex[0];
-  const double over_a = overhang(scene.a, a, slope_a(c.normal), plane_tests);
+  const std::uint32_t any_a = seen.first.vertex[0], any_b = seen.second.vertex[0];
+  const double rise_error = kRiseError + 3 * (scene.pose_error + kOrthonormalityError);
+  const double over_a = overhang(scene.a, a, slope_a(c.normal), seen.rise_first / length, rise_error);
   if (over_a < kInfinity) {
-    const double over_b = overhang(scene.b, b, slope_b(scene, c.normal), plane_tests);
-    if (over_b < kInfinity && proved(any_a, any_b, gap(scene, c.normal, any_a, any_b, over_a + over_b))) return c;
+    const double over_b = overhang(scene.b, b, slope_b(scene, c.normal), seen.rise_second / length, rise_error);
+    if (over_b < kInfinity && proved(any_a, any_b, gap(scene, c.normal, any_a, any_b, over_a + over_b))) {
+      if (leans(scene, c)) c.active = pairs(seen.first, seen.second);
+      return c;
+    }
   }
+  c.active = pairs(seen.first, seen.second);
   const Supports near = supports(scene, c.normal, any_a, any_b, plane_tests);
   if (proved(near.a, near.b, near.lower)) return c;
   const std::uint32_t va = support_a(scene, c.normal, near.a, plane_tests);

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "scene.h"
+#include "witness.h"
 
 namespace swiftlet {
 
@@ -22,13 +23,21 @@ struct Certificate {
   double lower = 0, upper = 0;  ///< proved bounds on the distance of the two polytopes; upper >= lower >= 0
   Vec normal{0, 0, 0};          ///< unit, from A to B; what lower is proved along
   Vec point_a{0, 0, 0}, point_b{0, 0, 0};
-  ActiveSet active;                            ///< whose weights make the points
+  ActiveSet active;                            ///< whose weights make the points; empty of features that prove all there is to
+                                               ///< prove
   std::uint32_t support_a = 0, support_b = 0;  ///< vertices extreme along normal and -normal
 };
 
-/// Bounds from the features of `a` and `b`, any kinds but two faces. Cost: about 8 comparisons where the
-/// features' own neighbours prove them extreme, else a climb.
-Certificate certify(const Scene& scene, Handle a, Handle b, std::uint32_t& plane_tests);
+/// Bounds from what features of `a` and `b`, any kinds but two faces, say of each other. Nothing more is read than the features
+/// where what stands beside them is known to be below, else a climb.
+Certificate certify(const Scene& scene, Handle a, Handle b, const Witness& seen, std::uint32_t& plane_tests);
+
+/// Bounds within law 2's of each other leave a plane room to lean by the root of that: nearly parallel faces 1e-8, say. Whether
+/// the points of a certificate do not differ by their distance times the normal within law 2's bound.
+static inline bool leans(const Scene& scene, const Certificate& c) {
+  const Vec apart = c.point_b - c.point_a, aside = apart - c.normal * norm(apart);
+  return c.upper - c.lower <= scene.law_two && norm(aside) > scene.law_two;
+}
 
 /// The vertex of A farthest along n, climbed from `start` by exact comparisons: no vertex is farther.
 std::uint32_t support_a(const Scene& scene, const Vec& n, std::uint32_t start, std::uint32_t& plane_tests);
@@ -49,8 +58,5 @@ double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb,
 
 /// An upper bound on the distance from one vertex pair.
 double apart(const Scene& scene, std::uint32_t va, std::uint32_t vb);
-
-/// A vertex of a feature.
-std::uint32_t any_vertex(const ConvexView& view, Handle feature);
 
 }  // namespace swiftlet

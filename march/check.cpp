@@ -5,22 +5,15 @@
 
 #include <cstdio>
 
-#include "double_double.h"
 #include "exact.h"
 #include "scene.h"
 #include "support_map.h"
 #include "surface.h"
 #include "tolerance.h"
+#include "wide.h"
 
 namespace swiftlet {
 namespace {
-
-using Wide = V3<DoubleDouble>;
-Wide wide(const Vec& v) { return {v.x, v.y, v.z}; }
-Wide wide(const Motion& m, const Vec& p) {
-  const Wide q = wide(p);
-  return Wide{dot(wide(m.row_x), q), dot(wide(m.row_y), q), dot(wide(m.row_z), q)} + wide(m.t);
-}
 
 template <class... Values>
 Check failed(const char* format, Values... values) {
@@ -69,47 +62,67 @@ std::uint32_t map_fault(const Level& level) {
   return kNone;
 }
 
+/// How far the exact hull reaches along a direction, when `place` has placed its points: as far as itself; without it, no
+/// farther than any level that encloses it.
+template <class Placing>
+DoubleDouble reach(const Model& model, const Wide& direction, Placing place) {
+  const auto of_level = [&](int i) {
+    const std::span<const Vertex> vertices = model.level(i).view.vertices;
+    DoubleDouble most = dot(direction, place(vec(vertices[0])));
+    for (const Vertex& v : vertices) {
+      if (const DoubleDouble h = dot(direction, place(vec(v))); h > most) most = h;
+    }
+    return most;
+  };
+  DoubleDouble least = of_level(model.finest_level());
+  for (int i = model.finest_level() + 1; model.finest_level() > 0 && i < model.level_count(); ++i) {
+    if (const DoubleDouble h = of_level(i); least > h) least = h;
+  }
+  return least;
+}
+
 }  // namespace
 
-Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer) {
+Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer, double radius_a, double radius_b) {
   if (answer.status == Status::InvalidPose) {
     return pose_quality(motion(b_in_a)).legal ? failed("the pose is legal") : kPassed;
   }
   const Motion m = motion(b_in_a);
   const PoseQuality quality = pose_quality(m);
   if (!quality.legal) return failed("the pose is not legal");
-  if (answer.level_a < 0 || answer.level_a >= a.level_count() || answer.level_b < 0 || answer.level_b >= b.level_count()) {
-    return failed("levels (%d, %d) do not exist", answer.level_a, answer.level_b);
+  if (answer.level_a < a.finest_level() || answer.level_a >= a.level_count() || answer.level_b < b.finest_level() ||
+      answer.level_b >= b.level_count()) {
+    return failed("levels (%d, %d) are not there", answer.level_a, answer.level_b);
   }
   if (!(answer.lower >= 0 && answer.upper >= answer.lower))
     return failed("[%.17g, %.17g] is no interval", answer.lower, answer.upper);
   const ConvexView &exact_a = a.level(0).view, &exact_b = b.level(0).view;
   const Scene whole = scene(exact_a, exact_b, m, quality.error);
+  const double radii = radius_a + radius_b,
+               touching = law_two(exact_a.extent + radius_a, exact_b.extent + radius_b, norm(m.t), quality.error);
+  const bool hulls_overlap = answer.proof.count != 0;
+  double apart = std::numeric_limits<double>::infinity();  // the hulls, as the points prove it
 
   if (answer.lower > 0) {
     const Vec n = vec(answer.normal);
     const Wide direction = wide(n);
-    DoubleDouble most_a = dot(direction, wide(vec(exact_a.vertices[0]))),
-                 least_b = dot(direction, wide(m, vec(exact_b.vertices[0])));
-    for (const Vertex& v : exact_a.vertices) {
-      if (const DoubleDouble h = dot(direction, wide(vec(v))); h > most_a) most_a = h;
-    }
-    for (const Vertex& v : exact_b.vertices) {
-      if (const DoubleDouble h = dot(direction, wide(m, vec(v))); h < least_b) least_b = h;
-    }
+    const DoubleDouble most_a = reach(a, direction, [](const Vec&p) { return wide(p); }),
+                       least_b = -reach(b, -direction, [&m](const Vec&p) { return wide(m, p); });
     const double gap = double(least_b - most_a) / norm(n);
-    if (!(gap * (1 + kNormError) + kDoubleDoubleError * whole.magnitude >= answer.lower)) {
-      return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap);
+    const DoubleDouble claimed = DoubleDouble(answer.lower) + radius_a + radius_b;
+    if (!(double(claimed - gap * (1 + kNormError)) <= kDoubleDoubleError * (whole.magnitude + radii))) {
+      return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap - radii);
     }
   }
   if (std::isfinite(answer.upper)) {
     const Level &level_a = a.level(answer.level_a), &level_b = b.level(answer.level_b);
     const Scene pair = scene(level_a.view, level_b.view, m, quality.error);
-    const Vec p = vec(answer.point_a), q = vec(answer.point_b);
-    const double slack = pair.law_two, apart = norm(q - p) + level_a.deviation + level_b.deviation * (1 + 2 * quality.error);
-    const bool overlap = answer.proof.count != 0;
-    if (!overlap && !(apart <= answer.upper + 2 * slack))
-      return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart);
+    const Vec n = hulls_overlap ? Vec{0, 0, 0} : vec(answer.normal);
+    const Vec p = vec(answer.point_a) - n * radius_a, q = vec(answer.point_b) + n * radius_b;
+    const double slack = larger(pair.law_two, touching);
+    apart = norm(q - p) + level_a.deviation + level_b.deviation * (1 + 2 * quality.error);
+    if (!hulls_overlap && !(apart <= answer.upper + radii + 2 * slack))
+      return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart - radii);
     const Motion back = motion(inverse(b_in_a));
     if (!holds(level_a.view, p, slack)) return failed("point_a is not on level %d of A", answer.level_a);
     if (!holds(level_b.view, apply(back, q), slack)) return failed("point_b is not on level %d of B", answer.level_b);
@@ -119,9 +132,14 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
       if (!(answer.lower > 0)) return failed("disjoint without a lower bound");
       break;
     case Verdict::Touching:
-      if (!(answer.upper <= whole.law_two)) return failed("touching with an upper bound of %.17g", answer.upper);
+      if (!(answer.upper <= touching)) return failed("touching with an upper bound of %.17g", answer.upper);
       break;
     case Verdict::Overlapping: {
+      if (!hulls_overlap && radii > 0) {
+        if (!(answer.upper == 0 && apart <= radii + 2 * touching))
+          return failed("overlap of radii with points %.17g apart", apart);
+        break;
+      }
       if (answer.level_a != 0 || answer.level_b != 0 || answer.proof.count != 4)
         return failed("overlap without a proof on level 0");
       std::array<std::array<double, 3>, 4> pa, pb;
@@ -141,6 +159,7 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
 }
 
 Check verify(const Model& model) {
+  if (model.finest_level() > 0) return failed("level 0 is not there: nothing tells whether the others enclose it");
   const ConvexView& exact_hull = model.level(0).view;
   for (int i = 0; i < model.level_count(); ++i) {
     const Level& level = model.level(i);

@@ -18,13 +18,15 @@ MarchStatus status_of(const Scene& scene, const Goal& goal, const Certificate& c
 
 /// Fills `r`; true where it is so near a threshold that another start might prove another verdict.
 template <Until until>
-bool from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule, MarchResult& r) {
+bool from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule, double zero, MarchResult& r) {
   r.steps = walk.steps;
   r.plane_tests = walk.plane_tests;
   r.a = walk.a;
   r.b = walk.b;
   const Goal goal{larger(rule.absolute, scene.law_two), rule.relative, rule.beyond + scene.law_two};
-  Certificate c = certify(scene, walk.a, walk.b, r.plane_tests);
+  Witness afresh;
+  const Witness& seen = walk.end == WalkEnd::Minimum ? walk.witness : (afresh = witness(scene, walk.a, walk.b));
+  Certificate c = certify(scene, walk.a, walk.b, seen, r.plane_tests);
   r.status = status_of(scene, goal, c);
   // That features touch says nothing of the bodies: certified progress tells touching from overlapping.
   const bool settled = r.status != MarchStatus::NotConverged && (r.status != MarchStatus::Touching || c.lower > 0);
@@ -42,7 +44,7 @@ bool from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule, Marc
     ++r.steps;
   }
   const bool apart = r.status == MarchStatus::Disjoint || r.status == MarchStatus::Touching;
-  const bool straightened = apart && leans(scene, c) && straighten(scene, c, r.plane_tests);
+  const bool straightened = apart && c.active.count > 0 && leans(scene, c) && straighten(scene, c, r.plane_tests);
   if (progressed || straightened) {
     r.a = feature_of(scene.a, c.active, c.active.a);
     r.b = feature_of(scene.b, c.active, c.active.b);
@@ -56,18 +58,18 @@ bool from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule, Marc
     return r.lower - scene.law_two <= threshold && threshold <= r.upper + scene.law_two;
   };
   const bool deep = r.status == MarchStatus::Overlapping && depth > scene.law_two;
-  return r.upper - r.lower <= 2 * scene.law_two && !deep && (near(0) || near(rule.beyond));
+  return r.upper - r.lower <= 2 * scene.law_two && !deep && (near(0) || near(zero) || near(rule.beyond));
 }
 
 /// Within rounding of a threshold all starts take one and the same way: that of the cold one.
 template <Until until>
-void from_nothing(const Scene& scene, const MarchRule& rule, MarchResult& r) {
+void from_nothing(const Scene& scene, const MarchRule& rule, double zero, MarchResult& r) {
   std::uint32_t climbs = 0;
   const MarchStart cold = settled(scene, {}, climbs);
   const Walk cold_walk = walk(scene, cold.a, cold.b, PlaneRule::MostViolated, rule.step_budget - r.steps);
   if (cold_walk.end == WalkEnd::Budget) return;
   MarchResult same;
-  from_walk<until>(scene, cold_walk, rule, same);
+  from_walk<until>(scene, cold_walk, rule, zero, same);
   same.steps += r.steps;
   same.plane_tests += r.plane_tests + climbs;
   r = same;
@@ -76,13 +78,13 @@ void from_nothing(const Scene& scene, const MarchRule& rule, MarchResult& r) {
 }  // namespace
 
 template <Until until>
-MarchResult conclude(const Scene& scene, const Walk& walk, const MarchRule& rule) {
+MarchResult conclude(const Scene& scene, const Walk& walk, const MarchRule& rule, double zero) {
   MarchResult r;
-  if (from_walk<until>(scene, walk, rule, r) && r.steps < rule.step_budget) from_nothing<until>(scene, rule, r);
+  if (from_walk<until>(scene, walk, rule, zero, r) && r.steps < rule.step_budget) from_nothing<until>(scene, rule, zero, r);
   return r;
 }
 
-template MarchResult conclude<Until::Narrow>(const Scene&, const Walk&, const MarchRule&);
-template MarchResult conclude<Until::Exact>(const Scene&, const Walk&, const MarchRule&);
+template MarchResult conclude<Until::Narrow>(const Scene&, const Walk&, const MarchRule&, double);
+template MarchResult conclude<Until::Exact>(const Scene&, const Walk&, const MarchRule&, double);
 
 }  // namespace swiftlet

@@ -16,7 +16,8 @@ enum class Until {
   Exact,   ///< within law 2, or beyond the rule's threshold: the points are on the surfaces
 };
 
+/// `zero`: a distance whose two sides are different verdicts, as 0 is in any case.
 template <Until until = Until::Narrow>
-MarchResult conclude(const Scene& scene, const Walk& walk, const MarchRule& rule);
+MarchResult conclude(const Scene& scene, const Walk& walk, const MarchRule& rule, double zero = 0);
 
 }  // namespace swiftlet

@@ -17,9 +17,10 @@
 #include <optional>
 
 #include "certify.h"
-#include "double_double.h"
 #include "exact.h"
+#include "overlap.h"
 #include "ring.h"
+#include "wide.h"
 
 namespace swiftlet {
 namespace {
@@ -63,7 +64,7 @@ class Search {
   Search(const Scene& scene, std::uint32_t& tests) : scene_(scene), tests_(tests) {}
 
   Crossing run(const OverlapProof& proof) {
-    const Vec x = common_point(proof);
+    const Vec x = common_point<DoubleDouble>(scene_, proof);
     const Handle a = feature_holding(scene_.a, proof.vertex_a), b = feature_holding(scene_.b, proof.vertex_b);
     if (a != Handle{} && b != Handle{}) return {a, b, x};
     std::optional<Crossing> found;
@@ -90,25 +91,6 @@ class Search {
       visit(h);
       h = next_in_facet(view(k), h);
     } while (h != facet);
-  }
-
-  /// The point that the proof's vertex pairs have in common, of which they are combinations.
-  Vec common_point(const OverlapProof& proof) const {
-    using Wide = V3<DoubleDouble>;
-    const auto wide = [](const Vec& v) { return Wide{v.x, v.y, v.z}; };
-    const Motion& m = scene_.b_in_a;
-    std::array<Wide, 4> a, p;
-    for (std::size_t k = 0; k < 4; ++k) {
-      a[k] = wide(vec(scene_.a.vertices[proof.vertex_a[k]]));
-      const Wide q = wide(vec(scene_.b.vertices[proof.vertex_b[k]]));
-      p[k] = a[k] - (Wide{dot(wide(m.row_x), q), dot(wide(m.row_y), q), dot(wide(m.row_z), q)} + wide(m.t));
-    }
-    const std::array<DoubleDouble, 4> w{dot(cross(p[1], p[3]), p[2]), dot(cross(p[0], p[2]), p[3]),
-                                        dot(cross(p[0], p[3]), p[1]), dot(cross(p[0], p[1]), p[2])};
-    const DoubleDouble sum = w[0] + w[1] + w[2] + w[3];
-    Wide x{0.0, 0.0, 0.0};
-    for (std::size_t k = 0; k < 4; ++k) x = x + a[k] * (w[k] / sum);
-    return {double(x.x), double(x.y), double(x.z)};
   }
 
   // ---- Exactly ----

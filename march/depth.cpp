@@ -52,8 +52,8 @@ class Deepening {
         options_(options),
         target_(target),
         law_two_(law_two(a.level(0).view, b.level(0).view, shift_, pose_error)),
-        finest_a_(std::clamp(options.finest_level, 0, a.level_count() - 1)),
-        finest_b_(std::clamp(options.finest_level, 0, b.level_count() - 1)) {}
+        finest_a_(finest_allowed(a, options)),
+        finest_b_(finest_allowed(b, options)) {}
 
   void run(const PairSeed& seed) {
     const bool exact = target_.absolute == 0 && target_.relative == 0 && !target_.is_threshold();

@@ -31,21 +31,37 @@ class Descent {
         target_(target),
         shift_(norm(m.t)),
         law_two_(law_two(a.level(0).view, b.level(0).view, shift_, pose_error)),
-        finest_a_(std::clamp(options.finest_level, 0, a.level_count() - 1)),
-        finest_b_(std::clamp(options.finest_level, 0, b.level_count() - 1)),
+        finest_a_(finest_allowed(a, options)),
+        finest_b_(finest_allowed(b, options)),
         may_aim_(options.start == StartPolicy::Automatic && a.map_level() < a.level_count() && b.map_level() < b.level_count()),
         exact_(target.absolute == 0 && target.relative == 0 && options.start != StartPolicy::Paper && !is_threshold()),
         answer_(answer) {}
 
-  void run(PairSeed& seed) {
+  void start(PairSeed& seed) {
     Place place = first_place(a_, b_, line_, seed, options_);
     const bool warm = is_warm(place.start);
     if (warm && may_aim_ && is_threshold() && !seed.met && (glance(place, direction(seed)) || glance(place, line_.in_a)))
       return finish(place);
-    const bool walked = warm && march(place, may_aim_), seen = !walked && may_aim_ && aim(place);
+    const bool walked = warm && march(place, may_aim_), seen = !walked && may_aim_ && aim(place = first_sight(), line_.in_a);
     if (!walked && !seen) march(place, false);
     if (warm || !seen || !is_threshold())
       store(place, seed);  // vertices that were only looked at are no better start than none
+    finish(place);
+  }
+
+  /// From where another descent ended.
+  void go_on(const Answer& so_far, PairSeed& seed) {
+    Place place{std::clamp(so_far.level_a, a_.finest_level(), a_.level_count() - 1),
+                std::clamp(so_far.level_b, b_.finest_level(), b_.level_count() - 1),
+                {so_far.feature_a, so_far.feature_b}};
+    if (!is_warm(place.start)) return start(seed);
+    answer_ = so_far;
+    answer_.steps = answer_.plane_tests = 0;
+    answer_.levels_visited = 0;
+    place.start = settled(scene_at(place), place.start, answer_.plane_tests);
+    met_ = met_before();
+    if (!answered() && met_ == MarchStatus::NotConverged) narrow_down(place);
+    if (options_.start != StartPolicy::Coarsest) store(place, seed);  // whose seed is the first descent's
     finish(place);
   }
 
@@ -63,45 +79,80 @@ class Descent {
   std::uint32_t steps_left() const { return options_.step_budget - std::min(answer_.steps, options_.step_budget); }
   /// Where nothing is allowed, nothing is narrow: an exact answer is known by its verdict.
   bool narrow(double lower, double width) const {
-    const double allowed = larger(target_.absolute, target_.relative * lower);
+    const double allowed = larger(target_.absolute, target_.relative * (lower - target_.zero)) - target_.rounding;
     return allowed > 0 && width <= allowed;
   }
   /// Thresholds are passed only by more than law 2's bound: nearer, what can be proved depends on the start.
-  bool answered() const {
-    return narrow(answer_.lower, answer_.upper - answer_.lower) || answer_.lower > target_.clear_above + law_two_ ||
-           answer_.upper < target_.hit_below - law_two_;
+  bool answers(double lower, double upper) const {
+    return narrow(lower, upper - lower) || lower > target_.clear_above + law_two_ || upper < target_.hit_below - law_two_;
+  }
+  bool answered() const { return answers(answer_.lower, answer_.upper); }
+
+  /// From a pair that was not narrow enough to finer ones.
+  void narrow_down(Place& place) {
+    if (!finest(place)) place = refined(place);
+    const bool has_maps = may_aim_ && place.level_a >= a_.map_level() && place.level_b >= b_.map_level();
+    const Vec normal = vec(answer_.normal);
+    if (has_maps && aim(place = exact_ ? finest_sight() : place, max_abs(normal) > 0 ? normal : line_.in_a)) return;
+    march(place, false);
   }
 
-  /// Looks along support maps, on the coarsest pair that might answer and on finer ones. Whether that answers; else `place`
-  /// becomes where to walk from. Each pair is looked at afresh, so that a looser tolerance only stops earlier.
-  bool aim(Place& place) {
-    const int least_a = std::max(a_.map_level(), finest_a_), least_b = std::max(b_.map_level(), finest_b_);
-    place = coarsest_place(a_, b_);
+  /// What an answer that cannot be narrowed says of the exact hulls.
+  MarchStatus met_before() const {
+    if (answer_.level_a != 0 || answer_.level_b != 0 || !(answer_.upper - answer_.lower <= law_two_ + target_.rounding))
+      return MarchStatus::NotConverged;
+    switch (answer_.verdict) {
+      case Verdict::Overlapping: return MarchStatus::Overlapping;
+      case Verdict::Touching: return MarchStatus::Touching;
+      case Verdict::Disjoint: return MarchStatus::Disjoint;
+      default: return MarchStatus::NotConverged;
+    }
+  }
+
+  /// The finest pair with maps.
+  Place finest_sight() const { return {std::max(a_.map_level(), finest_a_), std::max(b_.map_level(), finest_b_), {}}; }
+  Place finer_sight(const Place& place) const {
+    const Place least = finest_sight();
+    return {std::max(place.level_a - 1, least.level_a), std::max(place.level_b - 1, least.level_b), {}};
+  }
+  bool is_finest_sight(const Place& place) const {
+    const Place least = finest_sight();
+    return place.level_a == least.level_a && place.level_b == least.level_b;
+  }
+
+  /// The coarsest pair with maps that might answer.
+  Place first_sight() const {
+    if (exact_) return finest_sight();
+    Place place = coarsest_place(a_, b_);
     // The bodies are no farther apart than their centres: a pair that deviates by more than that allows cannot answer.
     const double most = norm(line_.in_a), close = kCloseRadii * (a_.radius() + b_.radius()) + target_.clear_above;
     const auto too_coarse = [&] {
       return is_threshold() ? most <= close : !narrow(most, deviation(place.level_a, place.level_b));
     };
-    const auto last = [&] { return place.level_a == least_a && place.level_b == least_b; };
-    const auto refine = [&] { place = {std::max(place.level_a - 1, least_a), std::max(place.level_b - 1, least_b), {}}; };
-    if (exact_)
-      place = {least_a, least_b, {}};
-    else
-      while (!last() && too_coarse()) refine();
+    while (!is_finest_sight(place) && too_coarse()) place = finer_sight(place);
+    return place;
+  }
+
+  /// Looks along support maps, on the pair given and on finer ones. Whether that answers; else `place` becomes where to walk
+  /// from. Each pair is looked at afresh, so that a looser tolerance only stops earlier.
+  bool aim(Place& place, const Vec& direction) {
     for (;;) {
+      const bool last = is_finest_sight(place);
       const Scene pair = scene_at(place);
-      const Sight sight = look(pair, a_.level(place.level_a), b_.level(place.level_b), line_.in_a, [&](const Sight& s) {
-        if (exact_) return false;
-        take(place, s, pair);
-        return answered();
+      const double error = deviation(place.level_a, place.level_b);
+      const Sight sight = look(pair, a_.level(place.level_a), b_.level(place.level_b), direction, [&](const Sight& s) {
+        if (exact_) return Look::Near;
+        const double lower = larger(answer_.lower, s.lower);
+        if (answers(lower, smaller(answer_.upper, s.upper + error))) return Look::Enough;
+        return narrow(lower, kDoubtShare * (s.gap - s.lower) + error) ? Look::On : Look::Near;
       });
-      if (exact_) take(place, sight, pair);
-      if (is_threshold() && last() && !answered() && sight.gap > target_.clear_above) climb(place, sight, pair);
+      take(place, sight, pair);
+      if (is_threshold() && last && !answered() && sight.gap > target_.clear_above) climb(place, sight, pair);
       if (answered() || (sight.meets && overlap(place, sight))) return record(place), true;
       if (finest(place)) return false;  // a walk on the same pair follows
       record(place);
-      if (last()) return place = refined(place), false;
-      refine();
+      if (last) return place = refined(place), false;
+      place = finer_sight(place);
     }
   }
 
@@ -119,9 +170,9 @@ class Descent {
 
   /// Looks once along a direction on the finest pair with maps. Whether that answers.
   bool glance(Place& place, const Vec& direction) {
-    Place at{std::max(a_.map_level(), finest_a_), std::max(b_.map_level(), finest_b_), {}};
+    Place at = finest_sight();
     const Scene pair = scene_at(at);
-    take(at, look(pair, a_.level(at.level_a), b_.level(at.level_b), direction, [](const Sight&) { return true; }), pair);
+    take(at, look(pair, a_.level(at.level_a), b_.level(at.level_b), direction, [](const Sight&) { return Look::Enough; }), pair);
     if (!answered()) return false;
     place = at;
     return record(place), true;
@@ -156,7 +207,7 @@ class Descent {
     met_ = MarchStatus::Overlapping;
     answer_.lower = 0;
     answer_.upper = std::numeric_limits<double>::infinity();
-    const Vec common = common_point(pair, proof);
+    const Vec common = common_point<double>(pair, proof);
     carry(place, {0, 0, normal, common, common, proof}, pair.law_two);
   }
 
@@ -235,9 +286,7 @@ class Descent {
     MarchRule rule;
     rule.beyond = target_.clear_above;
     rule.step_budget = walked.steps + steps_left();
-    Walk capped = walked;
-    if (spent_) capped.end = WalkEnd::Budget;
-    const MarchResult r = conclude(pair, capped, rule);
+    const MarchResult r = conclude(pair, walked, rule, target_.zero);
     answer_.steps += r.steps - walked.steps;
     answer_.plane_tests += r.plane_tests - walked.plane_tests;
     met_ = r.status;
@@ -359,14 +408,16 @@ class Descent {
 }  // namespace
 
 Answer descend(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
-               const Target& target) {
+               const Target& target, const Answer* so_far) {
   Answer answer;
   const Motion m = motion(b_in_a);
   const PoseQuality quality = pose_quality(m);
-  if (quality.legal)
-    Descent(a, b, m, quality.error, options, target, answer).run(seed);
-  else
+  if (!quality.legal) {
     answer.status = Status::InvalidPose;
+    return answer;
+  }
+  Descent descent(a, b, m, quality.error, options, target, answer);
+  so_far ? descent.go_on(*so_far, seed) : descent.start(seed);
   return answer;
 }
 

@@ -10,11 +10,14 @@ namespace swiftlet {
 /// The question: an interval narrow enough, or a threshold passed.
 struct Target {
   double absolute, relative;
-  double clear_above;  ///< answered when lower > this
-  double hit_below;    ///< answered when upper <= this
+  double clear_above;   ///< answered when lower > this
+  double hit_below;     ///< answered when upper <= this
+  double zero = 0;      ///< the hulls' distance that `relative` counts from, where the bodies touch
+  double rounding = 0;  ///< by so much narrower than `absolute` and `relative` say
 };
 
+/// From the seed, or on from `so_far`, an answer about the hulls of these models in this pose.
 Answer descend(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
-               const Target& target);
+               const Target& target, const Answer* so_far = nullptr);
 
 }  // namespace swiftlet

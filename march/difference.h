@@ -5,15 +5,11 @@
 
 #include <type_traits>
 
-#include "double_double.h"
 #include "scene.h"
+#include "wide.h"
 
 namespace swiftlet {
 
-template <class Real>
-static inline V3<Real> widened(const Vec& v) {
-  return {Real(v.x), Real(v.y), Real(v.z)};
-}
 static inline double rounded(double x) { return x; }
 static inline double rounded(const DoubleDouble& x) { return double(x); }
 template <class Real>
@@ -30,11 +26,7 @@ struct Difference {
 
 template <class Real>
 static inline Difference<Real> difference(const Scene& s, std::uint32_t a, std::uint32_t b) {
-  const V3<Real> q = widened<Real>(vec(s.b.vertices[b]));
-  const V3<Real> moved = V3<Real>{dot(widened<Real>(s.b_in_a.row_x), q), dot(widened<Real>(s.b_in_a.row_y), q),
-                                  dot(widened<Real>(s.b_in_a.row_z), q)} +
-                         widened<Real>(s.b_in_a.t);
-  return {widened<Real>(vec(s.a.vertices[a])) - moved, a, b};
+  return {widened<Real>(vec(s.a.vertices[a])) - moved<Real>(s.b_in_a, vec(s.b.vertices[b])), a, b};
 }
 
 /// What rounding may do to a difference and to convex combinations of differences.

@@ -24,6 +24,7 @@ struct Facet {
   V3<Real> normal;
   Real height;  ///< of the plane above the origin
   std::array<std::uint8_t, 3> corner;
+  double above = kInfinity;  ///< proved: no point of M is as high; once the support is found and is no way on
 };
 
 /// A cone of directions: the span of three corners of a cell of the octahedron, counter-clockwise from outside.
@@ -103,7 +104,7 @@ struct Search {
   const Level &level_a, &level_b;
   const DepthGoal& goal;
   std::uint32_t& plane_tests;
-  const bool exact;  ///< no wider bounds will do
+  const bool exact;  ///< the facet itself is wanted: bounds that are narrow leave its plane room to lean
   std::uint32_t steps = 0;
   Plane best{};
 
@@ -111,10 +112,7 @@ struct Search {
     return larger(larger(goal.absolute, goal.relative * (lower - goal.error)) - goal.error, scene.law_two);
   }
   bool narrow(double lower) const { return best.height - lower <= allowed(lower); }
-  /// Whether the bounds say enough. An exact depth is known by its facet: bounds that are narrow leave its plane room to lean.
-  bool enough(double lower) const {
-    return (!exact && narrow(lower)) || lower - goal.error > goal.deeper || best.height < goal.shallower;
-  }
+  bool passed(double lower) const { return lower - goal.error > goal.deeper || best.height < goal.shallower; }
   /// Whether no bounds of this pair can, for its error.
   bool hopeless(double lower) const {
     return goal.error > 0 && larger(goal.absolute, goal.relative * (best.height - goal.error)) < goal.error &&
@@ -158,18 +156,28 @@ class Polytope {
     return close();
   }
 
-  /// Adds the support of the nearest facet until the goal is met, or, where it is the exact depth, the facet is one of M.
+  /// Adds the support of the nearest facet until the goal is met and the plane is that of the nearest point: of several facets
+  /// as near, points and plane are to be of one.
   End grow() {
     for (;;) {
-      const Facet<Real> nearest = facet_[nearest_facet()];
-      lower_ = below(rounded(nearest.height));
-      if (search_.enough(lower_)) return End::Enough;
+      std::size_t next = nearest_facet();
+      lower_ = below(rounded(facet_[next].height));
+      if (search_.passed(lower_)) return End::Enough;
       if (search_.hopeless(lower_)) return End::TooCoarse;
       if (search_.best.height < -scene_.law_two) return End::Apart;
+      if (search_.narrow(lower_)) next = nearest_point().facet;
+      if (facet_[next].above < kInfinity) {
+        if (facet_[next].above - lower_ > search_.allowed(lower_)) return End::Stuck;
+        search_.best = {facet_[next].above, rounded(facet_[next].normal)};
+        return End::Enough;
+      }
       if (search_.steps >= search_.goal.step_budget) return End::Budget;
-      const Corner top = support(nearest);
-      if (search_.enough(lower_)) return End::Enough;
-      if (!sees(nearest, top) || known(top)) return search_.narrow(lower_) ? End::Enough : End::Stuck;
+      const Corner top = support(facet_[next]);
+      const bool will_do = !search_.exact && last_.height - lower_ <= search_.allowed(lower_);
+      if (will_do || !sees(facet_[next], top) || known(top)) {
+        facet_[next].above = last_.height;
+        continue;
+      }
       if (corner_count_ == kDepthPoints || facet_count_ + 2 > kDepthFacets) return End::Full;
       if (!add(top)) return End::Stuck;
     }
@@ -178,32 +186,22 @@ class Polytope {
   /// Proved of the heights of M, over all directions or the cone; 0 before anything is.
   double lower() const { return lower_; }
 
-  /// The point of the surface nearest to the origin, among facets that may be the nearest, and its plane. Whether the point
-  /// lies along the plane's normal.
-  bool witness(Depth& depth) {
-    Foot<Real> nearest{};
-    const Facet<Real>* under = nullptr;
-    for (int k = 0; k < facet_count_; ++k) {
-      const Facet<Real>& f = facet_[k];
-      if (rounded(f.height) > search_.best.height + scene_.law_two || is_far(f)) continue;
-      const Foot<Real> at = foot(corner(f, 0).p, corner(f, 1).p, corner(f, 2).p);
-      if (!under || dot(at.point, at.point) < dot(nearest.point, nearest.point)) nearest = at, under = &f;
-    }
-    if (!under) return false;
-    // Of several facets as near, points and plane are to be of one.
-    if (const Plane plane = plane_above(*under); plane.height - lower_ <= search_.allowed(lower_)) search_.best = plane;
+  /// The points that the nearest point is the difference of. Whether it lies along the plane's normal.
+  bool witness(Depth& depth) const {
+    const Nearest nearest = nearest_point();
+    if (facet_count_ == 0 || is_far(facet_[nearest.facet])) return false;
     depth.active.count = 0;
     depth.point_a = depth.point_b = {0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
-      const double weight = rounded(nearest.weight[k]);
+      const double weight = rounded(nearest.foot.weight[k]);
       if (weight == 0) continue;
-      const Corner& c = corner(*under, k);
+      const Corner& c = corner(facet_[nearest.facet], k);
       const auto slot = std::size_t(depth.active.count++);
       depth.active.a[slot] = c.a, depth.active.b[slot] = c.b, depth.active.weight[slot] = weight;
       depth.point_a = depth.point_a + body_a(scene_).point(c.a) * weight;
       depth.point_b = depth.point_b + body_b(scene_).point(c.b) * weight;
     }
-    return norm(rounded(nearest.point) - search_.best.normal * search_.best.height) <= scene_.law_two;
+    return norm(rounded(nearest.foot.point) - search_.best.normal * search_.best.height) <= scene_.law_two;
   }
 
  private:
@@ -259,14 +257,6 @@ class Polytope {
     const std::uint32_t seen = look_up(level, own).vertex;
     return dot(own, vec(level.view.vertices[seen]) - vec(level.view.vertices[other])) > 0 ? seen : other;
   }
-  /// The supporting plane parallel to a facet.
-  Plane plane_above(const Facet<Real>& f) {
-    const Vec n = rounded(f.normal), &best = search_.best.normal;
-    if (n.x == best.x && n.y == best.y && n.z == best.z) return search_.best;
-    support(f);
-    return last_;
-  }
-
   V3<Real> across(int i, int j, int k) const {
     const V3<Real>& p = corner_[std::size_t(i)].p;
     return unit(cross(corner_[std::size_t(j)].p - p, corner_[std::size_t(k)].p - p));
@@ -304,7 +294,7 @@ class Polytope {
   /// False if neither has the inside below it.
   bool face(int i, int j, int k) {
     if (facet_count_ == kDepthFacets) return false;
-    Facet<Real> f{{}, Real(-kInfinity), {std::uint8_t(i), std::uint8_t(j), std::uint8_t(k)}};
+    Facet<Real> f{{}, Real(-kInfinity), {std::uint8_t(i), std::uint8_t(j), std::uint8_t(k)}, kInfinity};
     if (!offer(f, across(i, j, k))) {
       const V3<Real> e[3] = {corner(f, 1).p - corner(f, 0).p, corner(f, 2).p - corner(f, 1).p, corner(f, 0).p - corner(f, 2).p};
       std::size_t longest = 0;
@@ -333,6 +323,22 @@ class Polytope {
     }
     return std::size_t(nearest);
   }
+  struct Nearest {
+    std::size_t facet = 0;
+    Foot<Real> foot{};
+  };
+  /// The point of the surface nearest to the origin: none of a facet higher than the best plane is.
+  Nearest nearest_point() const {
+    Nearest best{nearest_facet(), {}};
+    best.foot = foot_of(facet_[best.facet]);
+    for (std::size_t k = 0; int(k) < facet_count_; ++k) {
+      if (k == best.facet || rounded(facet_[k].height) > search_.best.height + scene_.law_two) continue;
+      const Foot<Real> at = foot_of(facet_[k]);
+      if (dot(at.point, at.point) < dot(best.foot.point, best.foot.point)) best = {k, at};
+    }
+    return best;
+  }
+  Foot<Real> foot_of(const Facet<Real>& f) const { return foot(corner(f, 0).p, corner(f, 1).p, corner(f, 2).p); }
   bool sees(const Facet<Real>& f, const Corner& c) const { return dot(f.normal, c.p) > f.height + Real(resolution_); }
   bool rises(const Corner& c) const {
     return std::any_of(facet_.begin(), facet_.begin() + facet_count_, [&](const Facet<Real>& f) { return sees(f, c); });

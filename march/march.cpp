@@ -19,7 +19,7 @@ MarchResult concluded(const Scene& pair, const MarchStart& from, Walk walked, co
   const MarchResult r = conclude<Until::Exact>(pair, walked, rule);
   if (r.status != MarchStatus::Budget) return r;
   std::uint32_t tests = 0;
-  if (r.upper < certify(pair, from.a, from.b, tests).upper) return r;
+  if (r.upper < certify(pair, from.a, from.b, witness(pair, from.a, from.b), tests).upper) return r;
   walked.end = WalkEnd::Stalled;
   return conclude<Until::Exact>(pair, walked, rule);
 }

@@ -3,13 +3,13 @@
 #include "overlap.h"
 
 #include "aim.h"
+#include "difference.h"
 #include "progress.h"
 #include "ring.h"
+#include "witness.h"
 
 namespace swiftlet {
 namespace {
-
-constexpr int kMostIterations = 12;
 
 /// A few vertices of one body in the common frame.
 struct Corners {
@@ -41,42 +41,36 @@ Corners corners(const P& body, Handle feature, std::uint32_t behind) {
   return c;
 }
 
-template <class P>
-Vec outward(const P& body, std::uint32_t face) {
-  const std::uint32_t h = body.view.face_first[face];
-  const Vec p = body.own(origin(body.view, h)), q = body.own(body.view.head[h]);
-  return body.turned(cross(q - p, body.own(body.view.head[next_in_facet(body.view, h)]) - p));
-}
-
 }  // namespace
 
 Vec across(const Scene& scene, const MarchStart& met) {
-  if (met.a.kind() == FeatureKind::Face) return outward(body_a(scene), met.a.index());
-  if (met.b.kind() == FeatureKind::Face) return -outward(body_b(scene), met.b.index());
+  if (met.a.kind() == FeatureKind::Face) return face_normal(body_a(scene), met.a.index());
+  if (met.b.kind() == FeatureKind::Face) return -body_b(scene).turned(face_normal(body_b(scene), met.b.index()));
   return {0, 0, 0};
 }
 
+template <class Real>
 Vec common_point(const Scene& scene, const OverlapProof& proof) {
-  std::array<Vec, 4> a, p;
-  for (int k = 0; k < 4; ++k) {
-    a[k] = body_a(scene).point(proof.vertex_a[k]);
-    p[k] = a[k] - body_b(scene).point(proof.vertex_b[k]);
+  std::array<V3<Real>, 4> a, p;
+  for (std::size_t k = 0; k < 4; ++k) {
+    a[k] = widened<Real>(vec(scene.a.vertices[proof.vertex_a[k]]));
+    p[k] = difference<Real>(scene, proof.vertex_a[k], proof.vertex_b[k]).p;
   }
-  Vec sum{0, 0, 0};
-  double whole = 0;
-  for (int k = 0; k < 4; ++k) {
-    const double weight = std::fabs(dot(cross(p[(k + 1) % 4], p[(k + 2) % 4]), p[(k + 3) % 4]));
-    sum = sum + a[k] * weight;
-    whole += weight;
-  }
-  return sum * (1 / whole);
+  const std::array<Real, 4> w{dot(cross(p[1], p[3]), p[2]), dot(cross(p[0], p[2]), p[3]), dot(cross(p[0], p[3]), p[1]),
+                              dot(cross(p[0], p[1]), p[2])};
+  const Real sum = w[0] + w[1] + w[2] + w[3];
+  V3<Real> x{Real(0), Real(0), Real(0)};
+  for (std::size_t k = 0; k < 4; ++k) x = x + a[k] * (w[k] / sum);
+  return {double(x.x), double(x.y), double(x.z)};
 }
+template Vec common_point<double>(const Scene&, const OverlapProof&);
+template Vec common_point<DoubleDouble>(const Scene&, const OverlapProof&);
 
 bool meet(const Scene& scene, const MarchStart& met, std::uint32_t behind_a, std::uint32_t behind_b, OverlapProof& proof) {
   const Corners a = corners(body_a(scene), met.a, behind_a), b = corners(body_b(scene), met.b, behind_b);
   Simplex simplex;
   Vec n = across(scene, met);
-  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+  for (int iteration = 0; iteration < kAimSteps; ++iteration) {
     const int i = a.highest(n), j = b.highest(-n);
     const Vec p = b.point[j] - a.point[i];
     if (dot(n, p) > 0 || simplex.has(a.vertex[i], b.vertex[j])) return false;

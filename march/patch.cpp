@@ -144,9 +144,9 @@ template <class AnyAnswer>
 Patch around(const Model& a, const Model& b, const Pose& b_in_a, const AnyAnswer& answer, const PatchOptions& options,
              const Patch& previous) {
   const Vec n = vec(answer.normal);
-  if (max_abs(n) == 0 || answer.level_a != 0 || answer.level_b != 0) return {};
+  if (max_abs(n) == 0) return {};
   const Motion m = motion(b_in_a);
-  const Scene hulls = scene(a.level(0).view, b.level(0).view, m, pose_quality(m).error);
+  const Scene hulls = scene(a.level(answer.level_a).view, b.level(answer.level_b).view, m, pose_quality(m).error);
   const double radii = options.radius_a + options.radius_b;
   Patch patch = grown(hulls,
                       {n, vec(answer.point_a) - n * options.radius_a, vec(answer.point_b) + n * options.radius_b,

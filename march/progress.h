@@ -32,13 +32,8 @@ Meeting progress(const Scene& scene, const Certificate& start, const Goal& goal,
 /// Whether four vertex pairs prove that the bodies overlap, by clearly more than law 2's bound.
 bool proves_deep_overlap(const Scene& scene, const OverlapProof& proof);
 
-/// Bounds within law 2's of each other leave a plane room to lean by the root of that: nearly parallel faces 1e-8, say. Whether
-/// the points of a certificate do not differ by their distance times the normal within law 2's bound.
-static inline bool leans(const Scene& scene, const Certificate& c) {
-  const Vec apart = c.point_b - c.point_a, aside = apart - c.normal * norm(apart);
-  return norm(aside) > scene.law_two;
-}
-/// Takes plane and points of such a certificate from one iterate of certified progress in 106 bits, which do; true if so.
+/// Takes plane and points of a certificate that leans from one iterate of certified progress in 106 bits, which does not; true
+/// if so.
 bool straighten(const Scene& scene, Certificate& certificate, std::uint32_t& plane_tests);
 
 /// The smallest feature that holds the active vertices of one body.

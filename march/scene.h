@@ -66,9 +66,12 @@ static inline PoseQuality pose_quality(const Motion& m) {
 }
 
 /// At most law 2's bound of a pair: the width an exact answer keeps. `shift` is |t|.
-static inline double law_two(const ConvexView& a, const ConvexView& b, double shift, double pose_error) {
-  return larger((kLawTwo + 2 * larger(0, pose_error - kOrthonormalityError)) * (larger(a.extent, b.extent) + shift),
+static inline double law_two(double extent_a, double extent_b, double shift, double pose_error) {
+  return larger((kLawTwo + 2 * larger(0, pose_error - kOrthonormalityError)) * (larger(extent_a, extent_b) + shift),
                 kLeastWidth);
+}
+static inline double law_two(const ConvexView& a, const ConvexView& b, double shift, double pose_error) {
+  return law_two(a.extent, b.extent, shift, pose_error);
 }
 
 static inline Scene scene(const ConvexView& a, const ConvexView& b, const Motion& m, double shift, double pose_error) {

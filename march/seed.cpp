@@ -15,8 +15,6 @@ namespace {
 
 bool legal_level(const Model& model, int level, int finest) { return level >= finest && level < model.level_count(); }
 
-Place level_place(int level_a, int level_b, const MarchStart& start) { return {level_a, level_b, start}; }
-
 constexpr double kLineUnit = 32767;
 std::array<std::int16_t, 3> packed(const Vec& unit) {
   const auto units = [](double x) { return std::int16_t(x * kLineUnit); };
@@ -74,29 +72,32 @@ MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& p
   return s;
 }
 
-Place coarsest_place(const Model& a, const Model& b) { return level_place(a.level_count() - 1, b.level_count() - 1, {}); }
+int finest_allowed(const Model& model, const QueryOptions& options) {
+  return std::clamp(options.finest_level, model.finest_level(), model.level_count() - 1);
+}
+
+Place coarsest_place(const Model& a, const Model& b) { return {a.level_count() - 1, b.level_count() - 1, {}}; }
 
 Place first_place(const Model& a, const Model& b, const Line& line, const PairSeed& seed, const QueryOptions& options) {
-  const int finest_a = std::clamp(options.finest_level, 0, a.level_count() - 1);
-  const int finest_b = std::clamp(options.finest_level, 0, b.level_count() - 1);
+  const int finest_a = finest_allowed(a, options), finest_b = finest_allowed(b, options);
   const bool seed_fits = seed.a.kind() != FeatureKind::None && seed.b.kind() != FeatureKind::None &&
                          legal_level(a, seed.level_a, finest_a) && legal_level(b, seed.level_b, finest_b);
   Place coarsest = coarsest_place(a, b);
   switch (options.start) {
     case StartPolicy::Table:
-      if (finest_a == 0 && finest_b == 0) return level_place(0, 0, from_tables(a, b, line));
-      return level_place(finest_a, finest_b, {});
+      if (finest_a == 0 && finest_b == 0) return {0, 0, from_tables(a, b, line)};
+      return {finest_a, finest_b, {}};
     case StartPolicy::Finest:
       if (seed_fits && seed.level_a == finest_a && seed.level_b == finest_b) {
-        return level_place(finest_a, finest_b, {seed.a, seed.b});
+        return {finest_a, finest_b, {seed.a, seed.b}};
       }
-      return level_place(finest_a, finest_b, {});
+      return {finest_a, finest_b, {}};
     case StartPolicy::Coarsest:
       if (seed.level_a == coarsest.level_a && seed.level_b == coarsest.level_b) coarsest.start = {seed.a, seed.b};
       return coarsest;
     default:
       if (!seed_fits) return coarsest;
-      Place place = level_place(seed.level_a, seed.level_b, {seed.a, seed.b});
+      Place place{seed.level_a, seed.level_b, {seed.a, seed.b}};
       const Level &level_a = a.level(seed.level_a), &level_b = b.level(seed.level_b);
       const bool has_choice = seed.level_a < coarsest.level_a || seed.level_b < coarsest.level_b || level_a.map_side > 0;
       if (options.start == StartPolicy::Paper || !has_choice) return place;

@@ -69,6 +69,9 @@ inline constexpr double kGapError = 7 * kU;
 inline constexpr double kCrossError = 8 * kU;
 /// A convex combination of three points: 1 product and 2 sums, and weights whose sum is 1 only to 3 u. Relative to |p|.
 inline constexpr double kPointError = 7 * kU;
+/// What a walk saw rise along a direction, said of its image at unit length: kDotError; turned there and back, 2 sqrt(3)
+/// kTurnedError; normalised, 4. Relative to both lengths.
+inline constexpr double kRiseError = 24 * kU;
 /// sqrt of a sum of three squares of rounded differences, relative.
 inline constexpr double kNormError = 5 * kU;
 
@@ -134,6 +137,8 @@ inline constexpr double kCloseRadii = 1.25;
 /// A cold start looks along maps until its supports lie this many edges of both bodies aside, or so many times.
 inline constexpr double kAimEdges = 2;
 inline constexpr int kAimSteps = 12;
+/// Looks go on past that while what the maps leave in doubt times this is within the tolerance; beyond, they turn in circles.
+inline constexpr double kDoubtShare = 3;
 /// Vertices that doubles may find equally high before a certificate asks exact arithmetic which is the highest: two triangles
 /// and room for a flat spot.
 inline constexpr std::size_t kPlateau = 8;

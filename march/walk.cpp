@@ -17,8 +17,6 @@
 
 #include <limits>
 
-#include "ring.h"
-
 namespace swiftlet {
 namespace {
 
@@ -32,25 +30,32 @@ struct Move {
   double distance2;  ///< between the features left, for the stall guard
   bool minimum = false, inside = false;
 };
-Move swapped(const Move& m) { return {m.second, m.first, m.distance2, m.minimum, m.inside}; }
+
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
 /// The way out of a feature along which the distance falls fastest.
 struct Descent {
-  std::uint32_t to = kNone;  ///< half-edge of a ring, or face
-  double rate2 = 0;          ///< squared rate of fall, times the squared distance
-  double reach = 0;          ///< for a ring: where on the edge the fall ends, 1 at its head
+  std::uint32_t to = kNone;    ///< half-edge of a ring, or face
+  double rate2 = 0;            ///< squared rate of fall, times the squared distance
+  double reach = 0;            ///< for a ring: where on the edge the fall ends, 1 at its head
+  double highest = -kUnknown;  ///< of what stands beside, along the direction; where nothing falls
 };
 
 class Marcher {
  public:
-  Marcher(PlaneRule rule, std::uint32_t& plane_tests) : first_only_(rule == PlaneRule::FirstViolated), tests_(plane_tests) {}
+  /// `seen` becomes what a state that is a minimum sees.
+  Marcher(PlaneRule rule, std::uint32_t& plane_tests, Witness& seen)
+      : first_only_(rule == PlaneRule::FirstViolated), tests_(plane_tests), seen_(seen) {}
 
   template <class P, class Q>
   Move vertex_vertex(const P& a, std::uint32_t va, const Q& b, std::uint32_t vb) {
     const Vec d = b.point(vb) - a.point(va);
     const Descent from_a = ring(a, va, a.into(d)), from_b = ring(b, vb, b.into(-d));
     const double distance2 = dot(d, d);
-    if (from_a.to == kNone && from_b.to == kNone) return {vertex(va), vertex(vb), distance2, true};
+    if (from_a.to == kNone && from_b.to == kNone) {
+      seen_ = {d, only(va), only(vb), from_a.highest, from_b.highest};
+      return {vertex(va), vertex(vb), distance2, true};
+    }
     if (from_b.to == kNone) return {along(a, from_a), vertex(vb), distance2};
     if (from_a.to == kNone) return {vertex(va), along(b, from_b), distance2};
     return {edge(from_a.to), edge(from_b.to), distance2};
@@ -64,23 +69,29 @@ class Marcher {
     tests_ += 2;
     if (!(s > 0)) return {vertex(va), vertex(v0), dot(r, r)};
     if (s >= 1) return {vertex(va), vertex(v1), dot(r - u, r - u)};
-    const Vec up = r - u * s;
+    const Vec up = across(r - u * s, u, length2), down = b.turned(-up);
     const double distance2 = dot(up, up);
     const Descent rise = sides(b, v0, h, q0, u, length2, up);
-    const Descent from_a = first_only_ && rise.to != kNone ? Descent{} : ring(a, va, a.into(b.turned(-up)));
-    if (rise.to == kNone && from_a.to == kNone) return {vertex(va), edge(h), distance2, true};
+    const Descent from_a = first_only_ && rise.to != kNone ? Descent{} : ring(a, va, a.into(down));
+    if (rise.to == kNone && from_a.to == kNone) {
+      seen_ = {down, only(va), between(v0, v1, s), from_a.highest, rise.highest};
+      return {vertex(va), edge(h), distance2, true};
+    }
     if (rise.rate2 > from_a.rate2) return {vertex(va), face(rise.to), distance2};
     return {along(a, from_a), edge(h), distance2};
   }
 
   template <class P, class Q>
   Move vertex_face(const P& a, std::uint32_t va, const Q& b, std::uint32_t f) {
-    const Vec p = b.local(a.point(va)), n = normal(b, f);
+    const Vec p = b.local(a.point(va)), n = face_normal(b, f), towards = b.turned(-n);
     if (const Descent out = leave(b, f, p, n); out.to != kNone) return {vertex(va), edge(out.to), kUnknown};
     const double height = dot(n, p - b.own(origin(b.view, b.view.face_first[f]))), distance2 = height * height / dot(n, n);
     if (!(height > 0)) return {vertex(va), face(f), distance2, false, true};
-    const Descent down = ring(a, va, a.into(b.turned(-n)));
-    if (down.to == kNone) return {vertex(va), face(f), distance2, true};
+    const Descent down = ring(a, va, a.into(towards));
+    if (down.to == kNone) {
+      seen_ = {towards, only(va), below(b, f, p), down.highest, kUnknown};
+      return {vertex(va), face(f), distance2, true};
+    }
     const Vec e = b.local(a.point(a.view.head[down.to])) - p;
     const Exit exit = leave_along(b, f, p, e, n);
     if (!(height + exit.at * dot(n, e) > 0)) return {edge(down.to), face(f), distance2, false, true};
@@ -93,7 +104,8 @@ class Marcher {
     const std::uint32_t a0 = origin(a.view, ha), a1 = a.view.head[ha], b0 = origin(b.view, hb), b1 = b.view.head[hb];
     const Vec own_a = a.own(a0), along_a = a.own(a1) - own_a;
     const Vec p0 = b.local(a.point(a0)), u = b.into(a.turned(along_a)), q0 = b.own(b0), v = b.own(b1) - q0;
-    const Parameters at = nearest_on_segments(p0, u, q0, v);
+    const double uu = dot(u, u), vv = dot(v, v);
+    const Parameters at = nearest_on_segments(p0, u, uu, q0, v, vv);
     const Vec d = q0 + v * at.t - (p0 + u * at.s);
     const double distance2 = dot(d, d);
     tests_ += 4;
@@ -101,16 +113,20 @@ class Marcher {
     if (end_a || end_b) {
       return {end_a ? vertex(at.s == 0 ? a0 : a1) : edge(ha), end_b ? vertex(at.t == 0 ? b0 : b1) : edge(hb), distance2};
     }
-    const Descent rise_a = sides(a, a0, ha, own_a, along_a, dot(along_a, along_a), a.into(b.turned(d)));
-    const Descent rise_b = first_only_ && rise_a.to != kNone ? Descent{} : sides(b, b0, hb, q0, v, dot(v, v), -d);
-    if (rise_a.to == kNone && rise_b.to == kNone) return {edge(ha), edge(hb), distance2, true};
+    const Vec n = between_edges(u, uu, v, vv, d), normal = b.turned(n);
+    const Descent rise_a = sides(a, a0, ha, own_a, along_a, dot(along_a, along_a), a.into(normal));
+    const Descent rise_b = first_only_ && rise_a.to != kNone ? Descent{} : sides(b, b0, hb, q0, v, vv, -n);
+    if (rise_a.to == kNone && rise_b.to == kNone) {
+      seen_ = {normal, between(a0, a1, at.s), between(b0, b1, at.t), rise_a.highest, rise_b.highest};
+      return {edge(ha), edge(hb), distance2, true};
+    }
     if (rise_a.rate2 >= rise_b.rate2) return {face(rise_a.to), edge(hb), distance2};
     return {edge(ha), face(rise_b.to), distance2};
   }
 
   template <class P, class Q>
   Move edge_face(const P& a, std::uint32_t h, const Q& b, std::uint32_t f) {
-    const Vec p = b.local(a.point(origin(a.view, h))), e = b.local(a.point(a.view.head[h])) - p, n = normal(b, f);
+    const Vec p = b.local(a.point(origin(a.view, h))), e = b.local(a.point(a.view.head[h])) - p, n = face_normal(b, f);
     double low = 0, high = 1, farthest2 = 0;
     std::uint32_t low_side = kNone, high_side = kNone, outside = kNone;
     each_side(b, f, [&](std::uint32_t side, const Vec& q, const Vec& u) {
@@ -136,12 +152,13 @@ class Marcher {
     return {vertex(take_low ? origin(a.view, h) : a.view.head[h]), face(f), kUnknown};
   }
 
- private:
-  static constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  /// A state computed with the roles swapped.
+  Move swapped(const Move& m) {
+    if (m.minimum) seen_ = swiftlet::swapped(seen_);
+    return {m.second, m.first, m.distance2, m.minimum, m.inside};
+  }
 
-  struct Parameters {
-    double s, t;
-  };
+ private:
   struct Exit {
     double at = 1;
     std::uint32_t side = kNone;
@@ -155,12 +172,13 @@ class Marcher {
     const Vertex& record = body.view.vertices[v];
     const Vec p = vec(record);
     std::uint32_t best = kNone;
-    double best_along = 0, best_length2 = 1;
+    double best_along = 0, best_length2 = 1, highest = -kUnknown;
     const std::uint32_t end = record.ring_begin + record.ring_count;
     std::uint32_t h = record.ring_begin;
     for (; h < end; ++h) {
       const Vec e = body.own(body.view.head[h]) - p;
       const double along_d = dot(d, e);
+      highest = larger(highest, along_d);
       if (!(along_d > 0)) continue;
       const double length2 = dot(e, e);
       if (along_d * along_d * best_length2 > best_along * best_along * length2)
@@ -168,7 +186,7 @@ class Marcher {
       if (first_only_) break;
     }
     tests_ += h - record.ring_begin + (h < end);
-    if (best == kNone) return {};
+    if (best == kNone) return {.highest = highest};
     return {best, best_along * best_along / best_length2, best_along / best_length2};
   }
 
@@ -189,9 +207,10 @@ class Marcher {
       const Vec r = body.own(body.view.head[is_left ? left : right]) - q0;
       const double along_d = dot(d, r);
       ++tests_;
+      best.highest = larger(best.highest, along_d);
       if (!(along_d > 0)) continue;
       const double along_u = dot(r, u), rate2 = along_d * along_d / (dot(r, r) - along_u * along_u / length2);
-      if (rate2 > best.rate2) best = {body.view.face[is_left ? h : right], rate2};
+      if (rate2 > best.rate2) best.to = body.view.face[is_left ? h : right], best.rate2 = rate2;
       if (first_only_) break;
     }
     return best;
@@ -237,32 +256,9 @@ class Marcher {
     return exit;
   }
 
-  /// An outward normal of any length.
-  template <class Q>
-  static Vec normal(const Q& body, std::uint32_t f) {
-    if (f < body.view.planes.size()) {
-      const FacePlane& plane = body.view.planes[f];
-      return {plane.x, plane.y, plane.z};
-    }
-    const std::uint32_t h = body.view.face_first[f];
-    const Vec q0 = body.own(origin(body.view, h)), q1 = body.own(body.view.head[h]);
-    return cross(q1 - q0, body.own(body.view.head[next_in_facet(body.view, h)]) - q0);
-  }
-
-  /// Nearest points p0 + s u and q0 + t v, with s and t in [0, 1]. [Ericson 2004, sec. 5.1.9], and s once more from t, so that
-  /// nearly parallel lines keep their difference perpendicular.
-  static Parameters nearest_on_segments(const Vec& p0, const Vec& u, const Vec& q0, const Vec& v) {
-    const auto clamp = [](double x) { return x > 0 ? x < 1 ? x : 1.0 : 0.0; };
-    const Vec r = p0 - q0;
-    const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), ur = dot(u, r), vr = dot(v, r);
-    const double area2 = uu * vv - uv * uv;
-    const double s = area2 > 0 ? clamp((uv * vr - ur * vv) / area2) : 0.0;
-    const double t = clamp((uv * s + vr) / vv);
-    return {clamp((uv * t - ur) / uu), t};
-  }
-
   const bool first_only_;
   std::uint32_t& tests_;
+  Witness& seen_;
 };
 
 /// The state of a feature pair. Both faces is no state: a face pair has an edge or vertex pair that is as near.
@@ -276,20 +272,22 @@ Move state(Marcher& march, const A& a, Handle fa, const B& b, Handle fb) {
       if (fb.kind() == Edge) return march.vertex_edge(a, i, b, j);
       return march.vertex_face(a, i, b, j);
     case Edge:
-      if (fb.kind() == Vertex) return swapped(march.vertex_edge(b, j, a, i));
+      if (fb.kind() == Vertex) return march.swapped(march.vertex_edge(b, j, a, i));
       if (fb.kind() == Edge) return march.edge_edge(a, i, b, j);
       return march.edge_face(a, i, b, j);
     default:
-      if (fb.kind() == Vertex) return swapped(march.vertex_face(b, j, a, i));
-      return swapped(march.edge_face(b, j, a, i));
+      if (fb.kind() == Vertex) return march.swapped(march.vertex_face(b, j, a, i));
+      return march.swapped(march.edge_face(b, j, a, i));
   }
 }
 
 }  // namespace
 
 Walk walk(const Scene& scene, Handle a, Handle b, PlaneRule rule, std::uint32_t step_budget) {
-  Walk result{WalkEnd::Budget, a, b, 0};
-  Marcher march(rule, result.plane_tests);
+  Walk result;
+  result.a = a;
+  result.b = b;
+  Marcher march(rule, result.plane_tests, result.witness);
   double least2 = std::numeric_limits<double>::infinity();
   for (std::uint32_t stalled = 0;;) {
     const Move move = state(march, body_a(scene), result.a, body_b(scene), result.b);

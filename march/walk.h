@@ -9,6 +9,7 @@
 #include <swiftlet/march.h>
 
 #include "scene.h"
+#include "witness.h"
 
 namespace swiftlet {
 
@@ -20,10 +21,11 @@ enum class WalkEnd : std::uint8_t {
 };
 
 struct Walk {
-  WalkEnd end;
-  Handle a, b;      ///< kinds VV, VE, EV, EE, VF, FV; with Inside also EF and FE
-  double distance;  ///< between the features, rounded; what Minimum found, elsewhere the least seen
+  WalkEnd end = WalkEnd::Budget;
+  Handle a, b;          ///< kinds VV, VE, EV, EE, VF, FV; with Inside also EF and FE
+  double distance = 0;  ///< between the features, rounded; what Minimum found, elsewhere the least seen
   std::uint32_t steps = 0, plane_tests = 0;
+  Witness witness;  ///< with Minimum: what the last state saw
 };
 
 /// `a` and `b` name features of the scene's views, not both faces.

@@ -78,12 +78,14 @@ TEST(Certify, FromAnyFeaturesTheIntervalHoldsTheDistance) {
     for (int k = 0; k < 6; ++k) {
       Handle fa = any_feature(random, t.a), fb = any_feature(random, t.b);
       if (fa.kind() == FeatureKind::Face && fb.kind() == FeatureKind::Face) fb = {FeatureKind::Vertex, any_vertex(t.b, fb)};
+      Witness seen = witness(t.scene(), fa, fb);
       if (k >= 3) {
         const Walk end = walk(t.scene(), fa, fb, PlaneRule::MostViolated, ~0u);
         fa = end.a, fb = end.b;
+        seen = end.end == WalkEnd::Minimum ? end.witness : witness(t.scene(), fa, fb);
       }
       std::uint32_t tests = 0;
-      const Certificate c = certify(t.scene(), fa, fb, tests);
+      const Certificate c = certify(t.scene(), fa, fb, seen, tests);
       EXPECT_TRUE(oracle::holds(truth, c.lower, c.upper)) << c.lower << " " << truth.distance << " " << c.upper;
       ++trials;
       parted += c.lower > 0;
@@ -126,7 +128,8 @@ TEST(Certify, NearestFeaturesOfSmoothBodiesProveThemselvesCheaply) {
   for (int k = 0; k < kTrials; ++k) {
     const Trial t{a.level(0).view, b.level(0).view, {random.rotation(), random.on_sphere() * 2.2}};
     const Walk end = walk(t.scene(), {FeatureKind::Vertex, 0}, {FeatureKind::Vertex, 0}, PlaneRule::MostViolated, ~0u);
-    const Certificate c = certify(t.scene(), end.a, end.b, tests);
+    ASSERT_EQ(end.end, WalkEnd::Minimum);
+    const Certificate c = certify(t.scene(), end.a, end.b, end.witness, tests);
     wide += !(c.upper - c.lower <= t.scene().law_two);
   }
   EXPECT_EQ(wide, 0);

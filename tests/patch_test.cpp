@@ -590,6 +590,23 @@ TEST(Patch, HoldsTheDepthOfOverlappingBodies) {
   }
 }
 
+/// A loose answer is on a coarser level, and so is its patch: cubes around octahedra.
+TEST(Patch, OfALooseAnswerIsThatOfItsLevels) {
+  const Model a = bodies::nested(2);
+  PairSeed cold;
+  QueryOptions loose;
+  loose.finest_level = 1;
+  const Pose b_in_a = at(0, 0.5, 2.5);
+  const Answer answer = distance(a, a, b_in_a, cold, loose);
+  ASSERT_EQ(answer.level_a, 1);
+  PatchOptions options;
+  options.margin = 0.6;
+  const Patch p = patch(a, a, b_in_a, answer, options);
+  EXPECT_EQ(p.count, 4u);
+  EXPECT_NEAR(shown_area(p), 3, 1e-14);
+  EXPECT_NEAR(least(p), 0.5, 1e-14);
+}
+
 /// A margin around the hulls moves the points outwards, by that and nothing else.
 TEST(Patch, OfBodiesWithARadiusLiesOnIt) {
   const Model cube = bodies::model(bodies::cube());

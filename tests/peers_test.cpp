@@ -287,9 +287,10 @@ TEST(Verdict, CountsEveryKindOfWrongAnswer) {
   EXPECT_EQ(all({.failed = true}).failures, scene.truth.size());
   EXPECT_EQ(all({.distance = std::numeric_limits<double>::quiet_NaN()}).failures, scene.truth.size());
   EXPECT_EQ(all({.distance = -1}).failures, scene.truth.size());
-  const std::vector<std::uint8_t> never(scene.queries.size(), 0);  // `return false` wins no row
-  EXPECT_EQ(compare(never, scene.truth).missed_overlaps, overlapping);
-  EXPECT_NE(compare(never, scene.truth).hash, compare(never, scene.truth).true_hash);
+  const std::vector<Outcome> never(scene.queries.size());  // `return false` wins no row
+  const Comparison verdicts = compare_verdicts(never, scene.truth);
+  EXPECT_EQ(verdicts.missed_overlaps, overlapping);
+  EXPECT_NE(verdicts.hash, verdicts.true_hash);
 }
 
 TEST(Verdict, CertifiesWhatTheOracleKnows) {

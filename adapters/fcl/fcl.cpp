@@ -23,7 +23,7 @@ Vec3 centre_in_world(const Placed& body) { return body.in_world.rotation * body.
 }  // namespace
 
 std::vector<int> face_loops(const Model& model) {
-  const ConvexView& view = model.level(0).view;
+  const ConvexView& view = model.level(model.finest_level()).view;
   std::vector<int> loops;
   for (const std::uint32_t first : view.face_first) {
     const std::size_t size_at = loops.size();

@@ -14,6 +14,13 @@ Pose orthonormal(const Pose& pose) {
 
 Vec3 transform(const Pose& pose, const Vec3& p) { return pose.rotation * p + pose.translation; }
 
+QueryOptions with_radii(const Placed& a, const Placed& b) {
+  QueryOptions options;
+  options.radius_a = a.radius;
+  options.radius_b = b.radius;
+  return options;
+}
+
 /// Both hulls, how far apart or how deep.
 struct Hulls {
   Pose a_in_world, b_in_a;
@@ -68,7 +75,8 @@ Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t mo
 }
 
 Verdict meeting(const Placed& a, const Placed& b, PairSeed& seed) {
-  return intersects(*a.model, *b.model, relative(orthonormal(a.in_world), orthonormal(b.in_world)), seed).verdict;
+  const Pose b_in_a = relative(orthonormal(a.in_world), orthonormal(b.in_world));
+  return intersects(*a.model, *b.model, b_in_a, seed, with_radii(a, b)).verdict;
 }
 
 }  // namespace swiftlet

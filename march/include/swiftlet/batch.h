@@ -14,10 +14,11 @@ namespace swiftlet {
 
 /// One pair of a batch.
 struct PairQuery {
-  const Model* a = nullptr;  ///< never null; pairs may share models
-  const Model* b = nullptr;  ///< likewise
-  Pose b_in_a;               ///< maps B's frame into A's
-  PairSeed* seed = nullptr;  ///< no two pairs of a batch share one; null: a cold query
+  const Model* a = nullptr;               ///< never null; pairs may share models
+  const Model* b = nullptr;               ///< likewise
+  Pose b_in_a;                            ///< maps B's frame into A's
+  PairSeed* seed = nullptr;               ///< no two pairs of a batch share one; null: a cold query
+  const QueryOptions* options = nullptr;  ///< the pair's own, its radii for one; its trace is not used; null: the batch's
 };
 
 /// Calls task(0) to task(count - 1), each once, in any order, on any threads, and returns when all are done.

@@ -18,12 +18,12 @@ inline constexpr std::uint32_t kMostPatchPoints = 8;
 
 /// A place of contact: a point of each body, one above the other along the patch's normal. In A's frame.
 struct PatchPoint {
-  Vec3 point_a = Vec3::Zero();  ///< in A, at most `flatness` below its surface
+  Vec3 point_a = Vec3::Zero();  ///< in A, below its surface by no more than the flatness asked for
   Vec3 point_b = Vec3::Zero();  ///< in B likewise: `point_a` + `separation` * normal, within twice law 2's bound
   double separation = 0;        ///< along the normal, the bodies' unit; negative where the bodies overlap
-  /// What the point lies on, on level 0: a corner of one body and the contact face of the other, or an edge of each, which is
-  /// named by the lesser of its half-edges. It names the point from patch to patch: the same pair, the same place of the
-  /// bodies.
+  /// What the point lies on, on the answer's levels: a corner of one body and the contact face of the other, or an edge of
+  /// each, which is named by the lesser of its half-edges. It names the point from patch to patch: the same pair, the same
+  /// place of the bodies.
   Handle feature_a;
   Handle feature_b;  ///< likewise, of B
 };
@@ -31,7 +31,7 @@ struct PatchPoint {
 /// The area in which two bodies face each other, seen along one normal, by its corners.
 struct Patch {
   Vec3 normal = Vec3::Zero();  ///< that of the answer: unit, from A to B, A's frame
-  Handle face_a;               ///< the contact face of A on level 0; none where A has no faces
+  Handle face_a;               ///< the contact face of A, on the answer's level; none where A has no faces
   Handle face_b;               ///< likewise, of B
   std::uint32_t count = 0;     ///< of points; 0: the bodies are farther apart than asked, or the answer gives none
   std::array<PatchPoint, kMostPatchPoints> points{};  ///< the first `count`, in order around the area from the deepest on
@@ -41,8 +41,8 @@ struct Patch {
 struct PatchOptions {
   double margin = 0;              ///< points farther apart than this, and than law 2's bound more, are left out
   std::uint32_t most_points = 4;  ///< 1 to kMostPatchPoints
-  /// Those that the answer was asked with: so far along the normal the points lie outside of the hulls.
-  double radius_a = 0, radius_b = 0;
+  double radius_a = 0;            ///< that of A which the answer was asked with: so far the points lie outside of A's hull
+  double radius_b = 0;            ///< likewise, of B
   /// Faces that lie within so much of a body's contact face are one face with it, which makes one square of the two triangles
   /// of a rounded one. Over the body's extent; by default 4 ulps of single precision, from which such squares come.
   double flatness = 0x1p-21;

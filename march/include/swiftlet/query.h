@@ -19,17 +19,18 @@ enum class Status : std::uint8_t {
   Converged,     ///< the interval is as narrow as asked, or the verdict is proved
   Beyond,        ///< stopped early, as asked: lower > options.beyond
   Budget,        ///< options.step_budget ended the march; the interval is true
-  LevelLimit,    ///< options.finest_level forbade the level that the tolerance needs; the interval is true
+  LevelLimit,    ///< a level that the tolerance needs is absent from a model or forbidden by options.finest_level; the interval
+                 ///< is true, and as narrow as the levels that the answer names allow
   NotConverged,  ///< the interval is true but wider than asked. No valid model and pose is known that answers so
   InvalidPose,   ///< not finite, translated beyond 1e45, or not orthonormal to 1e-6: the interval is [0, inf]
 };
 
-/// What is proved of the two exact hulls as closed sets.
+/// What is proved of the two bodies as closed sets.
 enum class Verdict : std::uint8_t {
   Undecided,    ///< none is proved: lower is 0, and the interval is as narrow as asked or the query ended early
   Disjoint,     ///< lower > 0
   Touching,     ///< the signed distance is within law 2's bound of 0; lower may still be above 0
-  Overlapping,  ///< proved by `Answer::proof`
+  Overlapping,  ///< proved by `Answer::proof`, or without one by points of the hulls less than both radii apart
 };
 
 /// The levels in which order are refined [Ehmann & Lin 2000, sec. 5.2]: one level of one body (the coarser one), of both,
@@ -65,16 +66,21 @@ static_assert(sizeof(PairSeed) <= 32);
 /// One level pair that a query visited.
 struct LevelRecord {
   int level_a = 0, level_b = 0;                                       ///< the pair
-  double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved so far, of the exact hulls
+  double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved so far, of the bodies
   std::uint32_t steps = 0, plane_tests = 0;                           ///< spent here
 };
 
-/// When a query may stop and how it goes there. Lengths are in the bodies' unit.
+/// What the bodies are, when a query may stop, and how it goes there. Lengths are in the bodies' unit.
 struct QueryOptions {
+  /// A body is all that lies within its radius of its hull: a margin, a sphere around a point, a capsule around a segment. 0 to
+  /// 1e45, asserted; else 0. Whatever is asked and answered is of these bodies; law 2's size counts the radii, and each bound
+  /// may be off by its last place more.
+  double radius_a = 0;
+  double radius_b = 0;        ///< likewise, of B
   double absolute_error = 0;  ///< stop when upper - lower <= max(absolute_error, relative_error * lower)
   double relative_error = 0;  ///< a fraction of lower
   double beyond = std::numeric_limits<double>::infinity();  ///< stop when lower > beyond
-  int finest_level = 0;                                     ///< read no level finer than this
+  int finest_level = 0;                                     ///< read no level finer than this; models may hold less
   std::uint32_t step_budget = ~0u;                          ///< over all levels; steps, not time
   StartPolicy start = StartPolicy::Automatic;               ///< where it starts
   Refinement refinement = Refinement::SingleSingle;         ///< how it descends
@@ -87,19 +93,32 @@ struct QueryOptions {
 struct Answer {
   Status status = Status::NotConverged;                               ///< how it ended
   Verdict verdict = Verdict::Undecided;                               ///< what is proved; also where a distance was asked for
-  double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved bounds on the distance of the exact hulls
-  Vec3 normal = Vec3::Zero();  ///< unit, from A to B; `lower` is proved by the gap in this direction; 0 without one
-  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< nearest points of the levels below
-  int level_a = 0, level_b = 0;                         ///< the level pair they lie on: the one that answered
-  Handle feature_a, feature_b;                          ///< on those levels
-  OverlapProof proof;                                   ///< vertices of those levels
-  std::uint32_t steps = 0, plane_tests = 0;             ///< work, as MarchResult counts it, over all levels
-  int levels_visited = 0;                               ///< entries of options.trace that were wanted
+  double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved bounds on the distance of the bodies
+  Vec3 normal = Vec3::Zero();  ///< unit, from A to B; `lower` is proved by the gap in this direction; 0 if none is known
+  /// Nearest points of the levels below, each moved by its body's radius along the normal. Where only the radii overlap each is
+  /// inside the other body, and they are deepest if the answer is a contact's. Where the hulls do, they are points of A's hull
+  /// and of B's where the search ended, mostly one and the same, and the normal is the last direction looked along: neither is
+  /// a place or a way to separate.
+  Vec3 point_a = Vec3::Zero();
+  Vec3 point_b = Vec3::Zero();               ///< likewise, of B
+  int level_a = 0, level_b = 0;              ///< the level pair they lie on: the one that answered
+  Handle feature_a, feature_b;               ///< on those levels
+  OverlapProof proof;                        ///< that the hulls overlap: vertices of those levels
+  std::uint32_t steps = 0, plane_tests = 0;  ///< work, as MarchResult counts it, over all levels
+  int levels_visited = 0;                    ///< entries of options.trace that were wanted
 };
 
 /// The distance between `a` and `b`, where `b_in_a` maps B's frame into A's: exact by default, that is within law 2's bound.
 /// Cost: law 7 bounds the steps (march.h); nothing is allocated. Errors are statuses, and the interval is always true.
 Answer distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options = {});
+
+/// `distance`, on from an answer of any of these queries about the same models, pose and radii, to the precision that the
+/// options ask for: from its features, with its bounds, at the cost of the difference. The interval is never wider than before,
+/// but for law 2's bound, by which a plane that fits its points may be worse; one that is as narrow as asked comes back as it
+/// is. Steps and plane tests are this call's. Bounds are taken at their word: another pair's or pose's answer makes these
+/// wrong.
+Answer refine(const Model& a, const Model& b, const Pose& b_in_a, const Answer& so_far, PairSeed& seed,
+              const QueryOptions& options = {});
 
 /// Do they share a point? Read `verdict`. Ends at the first level pair that is disjoint.
 /// The options' errors and `beyond` are not read.
@@ -132,12 +151,13 @@ struct SourceFeature {
 
 /// Where the bodies are nearest.
 struct Contact {
-  Answer answer;                     ///< exact, on level 0
+  Answer answer;                     ///< exact, on level 0; Beyond: as far as that needed
   SourceFeature source_a, source_b;  ///< of the answer's features
 };
 
-/// The nearest features, their points and normal, and the user's own ids for them. While the bodies are disjoint.
-/// Of the options, `step_budget`, `start`, `refinement`, `plane_rule` and `trace` are read.
+/// The nearest features, their points and normal, and the user's own ids for them, while the hulls are disjoint: where only the
+/// radii overlap, by normal . (point_a - point_b), `distance` stops at that verdict, and this goes on to the nearest features.
+/// The options' errors and `finest_level` are not read.
 Contact contact(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options = {});
 
 }  // namespace swiftlet

@@ -184,6 +184,35 @@ void tolerance(const Model& a, const Model& b, const Pose& b_in_a, swiftlet::Pai
   expect(verdict == swiftlet::Verdict::Disjoint, "apart is disjoint");
 }
 
+void radii(const Model& a, const Model& b, const Pose& b_in_a, swiftlet::PairSeed& seed) {
+  // recipe
+  swiftlet::QueryOptions padded;
+  padded.radius_a = 0.9;  // all that lies within 0.9 of A's hull; a sphere is a point with a radius, a capsule a segment
+  padded.radius_b = 0.2;
+  const swiftlet::Verdict verdict = swiftlet::intersects(a, b, b_in_a, seed, padded).verdict;
+  const swiftlet::Answer deepest = swiftlet::contact(a, b, b_in_a, seed, padded).answer;
+  const double depth = deepest.normal.dot(deepest.point_a - deepest.point_b);  // where the hulls are apart, the radii's
+  std::printf("the margins overlap by %.6f\n", depth);
+  // end
+  swiftlet::PairSeed none;
+  expect(verdict == swiftlet::Verdict::Overlapping && deepest.verdict == verdict, "the margins overlap");
+  expect(std::fabs(depth + swiftlet::distance(a, b, b_in_a, none).lower - 1.1) < 1e-12, "by what the hulls lack of the radii");
+}
+
+void refinement(const Model& a, const Model& b, const Pose& b_in_a, double needed) {
+  // recipe
+  swiftlet::PairSeed seed;
+  swiftlet::Answer answer;  // nothing is known yet
+  for (const double error : {0.1, 0.01, 0.0}) {
+    swiftlet::QueryOptions options;
+    options.relative_error = error;
+    answer = swiftlet::refine(a, b, b_in_a, answer, seed, options);
+    if (answer.lower > needed || answer.upper <= needed) break;  // the next precision is not needed
+  }
+  // end
+  expect(answer.lower > needed || answer.upper <= needed, "exact decides");
+}
+
 /// Points of an ellipsoid on a spiral, as an OFF file without faces.
 void write_points(const std::filesystem::path& path) {
   std::ofstream file(path);
@@ -229,5 +258,7 @@ int main(int, char** arguments) {
   seeds(a, a);
   swiftlet::PairSeed seed;
   tolerance(a, b, poses[0], seed);
+  radii(a, b, poses[0], seed);
+  refinement(a, b, poses[0], 0.99);
   return failed ? 1 : 0;
 }

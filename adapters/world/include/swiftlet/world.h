@@ -43,7 +43,7 @@ Nearest nearest(const Placed& a, const Placed& b, double beyond, PairSeed& seed)
 /// the pair's patch of the step before, or none.
 Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t most_points, PairSeed& seed, Patch& patch);
 
-/// Of the hulls without their roundings; Undecided: a pose is no rigid motion.
+/// Of the bodies, exactly; Undecided: a pose is no rigid motion.
 Verdict meeting(const Placed& a, const Placed& b, PairSeed& seed);
 
 }  // namespace swiftlet

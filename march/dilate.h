@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Bodies that are all within a radius of their hulls: what is asked of them becomes a question of the hulls, and the hulls'
+// answer becomes theirs. The only place that knows radii, but for `check`. Knows nothing of the way between.
+#pragma once
+
+#include "descend.h"
+
+namespace swiftlet {
+
+/// Answers `target` of the hulls of `a` and `b` dilated by the options' radii: from the seed, or on from `so_far`.
+Answer ask(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
+           const Target& target, const Answer* so_far = nullptr);
+
+}  // namespace swiftlet
