@@ -45,20 +45,11 @@ Preparation measured(const Prepare& prepare) {
 template <class Int>
 std::vector<Int> face_loops(const ConvexView& view) {
   std::vector<Int> loops;
-  for (const std::uint32_t first : view.face_first) {
+  for (std::uint32_t face = 0; face < view.face_first.size(); ++face) {
     const std::size_t size_at = loops.size();
     loops.push_back(0);
-    std::uint32_t h = first;
-    do {
-      loops.push_back(Int(view.head[view.twin[h]]));
-      ++loops[size_at];
-      const Vertex& v = view.vertices[view.head[h]];
-      std::uint32_t back = view.twin[h];
-      do {  // clockwise around the head, past diagonals
-        back = back == v.ring_begin ? v.ring_begin + v.ring_count - 1 : back - 1;
-      } while (view.face[back] == view.face[view.twin[back]]);
-      h = back;
-    } while (h != first);
+    for (const std::uint32_t v : FaceLoop(view, face)) loops.push_back(Int(v));
+    loops[size_at] = Int(loops.size() - size_at - 1);
   }
   return loops;
 }

@@ -7,6 +7,7 @@
 
 #include "block.h"
 #include "certify.h"
+#include "ring.h"
 #include "support_map.h"
 #include "table.h"
 
@@ -48,6 +49,12 @@ std::uint32_t Model::support(const Vec3& direction) const {
             ->table[lut::nearest(lut::Resolution(body_->headers.block.resolution), {direction[0], direction[1], direction[2]})];
   }
   return support_a(alone, rescaled(vec(direction)), start, comparisons);
+}
+
+FaceLoop::Iterator& FaceLoop::Iterator::operator++() {
+  half_edge_ = next_in_face(*view_, half_edge_);
+  started_ = true;
+  return *this;
 }
 
 TableSpec Model::table_spec() const {

@@ -30,18 +30,8 @@ bool turned_far(const Vec& line, double length2, const std::array<std::int16_t, 
   return least > 0 && !(along > 0 && along * along * (whole * whole) >= least * least * length2 * (kLineUnit * kLineUnit));
 }
 
-/// The vertices that the paper's tables, or else the support maps, name for the direction between the centres.
 MarchStart from_tables(const Model& a, const Model& b, const Line& line) {
-  MarchStart start;
-  const auto look_up = [](const Model& model, const Vec& direction) -> Handle {
-    if (model.table().empty() && model.map_level() == model.level_count()) return {};
-    if (model.table().empty()) return {FeatureKind::Vertex, about_farthest(model, direction)};
-    const std::uint32_t sample = lut::nearest(model.table_spec().resolution, {direction.x, direction.y, direction.z});
-    return {FeatureKind::Vertex, model.table()[sample]};
-  };
-  start.a = look_up(a, line.in_a);
-  start.b = look_up(b, line.in_b);
-  return start;
+  return {table_start(a, eigen(line.in_a)), table_start(b, eigen(line.in_b))};
 }
 
 }  // namespace
@@ -53,6 +43,13 @@ bool names_feature(const ConvexView& view, Handle h) {
     case FeatureKind::Face: return h.index() < view.face_first.size();
     default: return false;
   }
+}
+
+Handle table_start(const Model& model, const Vec3& direction) {
+  if (model.table().empty() && model.map_level() == model.level_count()) return {};
+  if (model.table().empty()) return {FeatureKind::Vertex, about_farthest(model, vec(direction))};
+  const std::uint32_t sample = lut::nearest(model.table_spec().resolution, {direction[0], direction[1], direction[2]});
+  return {FeatureKind::Vertex, model.table()[sample]};
 }
 
 Line line_of_centres(const Model& a, const Model& b, const Motion& m) {

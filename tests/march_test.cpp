@@ -246,6 +246,33 @@ TEST(March, StoredHandlesStartTheNextMarchAtItsEnd) {
   }
 }
 
+TEST(March, TablesStartWhereTheBodiesFaceEachOther) {
+  shapes::Random random(36);
+  const Model none = model(bodies::body_of(shapes::ellipsoid({1, 0.8, 0.6}, 2000, 1)), {false, {lut::Resolution::None, 2, 0}});
+  ASSERT_EQ(table_start(none, {1, 0, 0}), Handle{});
+  const ConvexView& v = none.level(0).view;
+  for (const TableSpec& spec : {TableSpec{}, TableSpec{lut::Resolution::Degrees5, 2, 0}}) {
+    const Model m = none.with_table(spec);
+    std::uint64_t looked_up = 0, climbed = 0;
+    for (int i = 0; i < 200; ++i) {
+      const Pose pose{random.rotation(), random.on_sphere() * random.uniform(2, 6)};
+      const Vec3 line = pose.rotation * m.centre() + pose.translation - m.centre();
+      const MarchStart start{table_start(m, line), table_start(m, pose.rotation.transpose() * -line)};
+      ASSERT_EQ(start.a.kind(), FeatureKind::Vertex);
+      const Vertex& named = v.vertices[start.a.index()];
+      const auto height = [&](const Vertex& w) { return line.normalized().dot(Vec3(w.x, w.y, w.z)); };
+      for (const Vertex& w : v.vertices) ASSERT_LE(height(w), height(named) + 0.05) << i;
+      const MarchResult by_table = march(v, v, pose, start), cold = march(v, v, pose);
+      ASSERT_EQ(by_table.status, cold.status);
+      ASSERT_NEAR(by_table.lower, cold.lower, law_two(v, v, pose));
+      looked_up += by_table.plane_tests, climbed += cold.plane_tests;
+    }
+    EXPECT_LT(looked_up, climbed / 2);
+  }
+  for (const Vec3& odd : {Vec3(0, 0, 0), Vec3(std::nan(""), 1, 0), Vec3(kInfinity, 0, 0)})
+    ASSERT_LT(table_start(none.with_table({}), odd).index(), v.vertices.size());
+}
+
 // ---- Stop rules
 // --------------------------------------------------------------------------------------------------------------------
 

@@ -75,6 +75,14 @@ Body meshed_cube(std::uint32_t cells) {
   return b;
 }
 
+/// Whether an edge of the body from `tail` to `head` has a face on its left.
+bool is_side(const ConvexView& v, std::uint32_t face, std::uint32_t tail, std::uint32_t head) {
+  for (std::uint32_t h = 0; h < v.head.size(); ++h) {
+    if (v.face[h] == face && v.head[h] == head && v.head[v.twin[h]] == tail) return v.face[v.twin[h]] != face;
+  }
+  return false;
+}
+
 /// The invariants of every view, whatever the body.
 void expect_sound(const Model& model) {
   for (int i = 0; i < model.level_count(); ++i) {
@@ -97,7 +105,11 @@ void expect_sound(const Model& model) {
       EXPECT_EQ(v.face[next_in_face(v, h)], v.face[h]);
       EXPECT_EQ(origin(v, next_in_face(v, h)), v.head[h]);
     }
-    for (std::size_t f = 0; f < sides.size(); ++f) {
+    for (std::uint32_t f = 0; f < sides.size(); ++f) {
+      std::vector<std::uint32_t> loop;
+      for (const std::uint32_t vertex : FaceLoop(v, f)) loop.push_back(vertex);
+      EXPECT_EQ(loop.size(), sides[f]);
+      for (std::size_t k = 0; k < loop.size(); ++k) EXPECT_TRUE(is_side(v, f, loop[k], loop[(k + 1) % loop.size()])) << f;
       EXPECT_EQ(v.face[v.face_first[f]], f);
       EXPECT_GE(sides[f], 3u);
       EXPECT_TRUE(sides[f] == 3 || f < v.planes.size());

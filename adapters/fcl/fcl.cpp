@@ -7,17 +7,6 @@
 namespace swiftlet::fcl {
 namespace {
 
-bool is_diagonal(const ConvexView& view, std::uint32_t h) { return view.face[h] == view.face[view.twin[h]]; }
-
-/// The half-edge after h around its left face.
-std::uint32_t next_in_face(const ConvexView& view, std::uint32_t h) {
-  const Vertex& head = view.vertices[view.head[h]];
-  std::uint32_t next = view.twin[h];
-  do next = next == head.ring_begin ? next + head.ring_count - 1 : next - 1;
-  while (is_diagonal(view, next));
-  return next;
-}
-
 Vec3 centre_in_world(const Placed& body) { return body.in_world.rotation * body.model->centre() + body.in_world.translation; }
 
 }  // namespace
@@ -25,15 +14,11 @@ Vec3 centre_in_world(const Placed& body) { return body.in_world.rotation * body.
 std::vector<int> face_loops(const Model& model) {
   const ConvexView& view = model.level(model.finest_level()).view;
   std::vector<int> loops;
-  for (const std::uint32_t first : view.face_first) {
+  for (std::uint32_t face = 0; face < view.face_first.size(); ++face) {
     const std::size_t size_at = loops.size();
     loops.push_back(0);
-    std::uint32_t h = first;
-    do {
-      loops.push_back(int(view.head[h]));
-      ++loops[size_at];
-      h = next_in_face(view, h);
-    } while (h != first);
+    for (const std::uint32_t v : FaceLoop(view, face)) loops.push_back(int(v));
+    loops[size_at] = int(loops.size() - size_at - 1);
   }
   return loops;
 }

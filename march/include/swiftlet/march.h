@@ -38,8 +38,9 @@ struct OverlapProof {
   std::array<std::uint32_t, 4> vertex_a{}, vertex_b{};  ///< pair i is vertex_a[i] of A and vertex_b[i] of B, i < count
 };
 
-/// Where to begin. Default: where the bodies face each other along the line of their centres. Anything is legal: a handle that
-/// names no feature of its view counts as the default.
+/// Where to begin: from what another march ended on, from `table_start`, from features of a parent's. Default: where the bodies
+/// face each other along the line of their centres. Anything is legal: a handle that names no feature of its view counts as the
+/// default.
 struct MarchStart {
   Handle a, b;  ///< features of A's view and of B's
 };
@@ -80,6 +81,11 @@ struct MarchResult {
 /// The most ever seen is |A| + |B|; on 2 000 triangles about 50.
 MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, const MarchStart& start = {},
                   const MarchRule& rule = {});
+
+/// A vertex of level 0 that faces a direction (body frame, any length), by one look-up: in the start table, or else in the
+/// support maps. `Handle{}` where a model has neither. For a march of two models' level 0 from tables the line of centres is
+/// the direction, to B in A's frame and to A in B's; it saves the climbs of the default.
+Handle table_start(const Model& model, const Vec3& direction);
 
 /// The caller's tag of a feature: a face's own, of an edge or vertex the largest among its faces; 0 without tags, and of
 /// `Handle{}`.

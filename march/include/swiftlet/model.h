@@ -81,6 +81,37 @@ struct Detail {
   std::uint64_t bytes = ~std::uint64_t{0};  ///< none that the first so many bytes of the block do not hold
 };
 
+/// The vertices of a face, counter-clockwise seen from outside, diagonals passed over: `for (std::uint32_t v : FaceLoop(view,
+/// f))`. Of a flat body's face too. As long as the view's arrays live.
+class FaceLoop {
+ public:
+  /// Where a loop is: at the vertex that its half-edge leads to.
+  class Iterator {
+   public:
+    Iterator(const ConvexView& view, std::uint32_t half_edge, bool started)
+        : view_(&view), half_edge_(half_edge), started_(started) {}      ///< of FaceLoop
+    std::uint32_t operator*() const { return view_->head[half_edge_]; }  ///< the vertex
+    Iterator& operator++();                                              ///< the next one
+    bool operator==(const Iterator& other) const {
+      return half_edge_ == other.half_edge_ && started_ == other.started_;
+    }  ///< of one loop
+
+   private:
+    const ConvexView* view_;
+    std::uint32_t half_edge_;
+    bool started_;  ///< tells the end from the beginning
+  };
+
+  /// `face` < view.face_first.size().
+  FaceLoop(const ConvexView& view, std::uint32_t face) : view_(view), first_(view.face_first[face]) {}
+  Iterator begin() const { return {view_, first_, false}; }  ///< the vertex after the first half-edge's origin
+  Iterator end() const { return {view_, first_, true}; }     ///< round once
+
+ private:
+  const ConvexView& view_;
+  std::uint32_t first_;
+};
+
 /// A level of a model: its polytope, its links to the levels beside it, and how far it stands off the exact hull.
 struct Level {
   ConvexView view;                              ///< its features, as long as the model lives; none finer than finest_level()

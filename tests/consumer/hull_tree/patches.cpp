@@ -148,16 +148,7 @@ PartialHull hull_of(const Mesh& mesh, const std::vector<std::uint32_t>& triangle
 
 std::vector<std::uint32_t> corners(const ConvexView& view, std::uint32_t face) {
   std::vector<std::uint32_t> loop;
-  std::uint32_t h = view.face_first[face];
-  do {
-    loop.push_back(view.head[h]);
-    // The next half-edge is the one before the twin in its ring, past those that are diagonals of the face.
-    const auto& ring = view.vertices[view.head[h]];
-    h = view.twin[h];
-    do {
-      h = h == ring.ring_begin ? ring.ring_begin + ring.ring_count - 1 : h - 1;
-    } while (view.face[h] == view.face[view.twin[h]]);
-  } while (h != view.face_first[face]);
+  for (const std::uint32_t v : swiftlet::FaceLoop(view, face)) loop.push_back(v);
   return loop;
 }
 

@@ -16,12 +16,6 @@ using swiftlet::MarchRule;
 using swiftlet::MarchStart;
 using swiftlet::MarchStatus;
 
-Handle from_table(const swiftlet::Model& model, const Vec3& direction) {
-  const std::uint32_t sample =
-      swiftlet::lut::nearest(model.table_spec().resolution, {direction[0], direction[1], direction[2]});
-  return {FeatureKind::Vertex, model.table()[sample]};
-}
-
 /// A corner of the parent's feature that the child has; no feature where it has none.
 Handle from_parent(const Node& parent, Handle feature, std::size_t side) {
   for (const std::uint32_t v : corners(parent.view, feature)) {
@@ -196,7 +190,7 @@ MarchStart Pair::fresh_start(std::uint32_t a, std::uint32_t b) const {
   if (settings_.start != Start::Table) return {};
   const swiftlet::Model &model_a = a_.nodes[a].model, &model_b = b_.nodes[b].model;
   const Vec3 line = pose_.rotation * model_b.centre() + pose_.translation - model_a.centre();
-  return {from_table(model_a, line), from_table(model_b, pose_.rotation.transpose() * -line)};
+  return {table_start(model_a, line), table_start(model_b, pose_.rotation.transpose() * -line)};
 }
 
 /// The pairs without children, nearest first as of the last query.
