@@ -15,6 +15,12 @@ static inline bool is_diagonal(const ConvexView& v, std::uint32_t half_edge) {
   return v.face[half_edge] == right_face(v, half_edge) && v.face[half_edge] != kNone;
 }
 
+/// One name for an edge's two half-edges: the lesser.
+static inline Handle named(const ConvexView& v, Handle feature) {
+  if (feature.kind() != FeatureKind::Edge || feature.index() < v.twin[feature.index()]) return feature;
+  return {FeatureKind::Edge, v.twin[feature.index()]};
+}
+
 /// The half-edge before `half_edge`, clockwise, in the ring of `vertex`, its origin.
 static inline std::uint32_t clockwise(const Vertex& vertex, std::uint32_t half_edge) {
   return half_edge == vertex.ring_begin ? half_edge + vertex.ring_count - 1 : half_edge - 1;

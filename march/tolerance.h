@@ -109,6 +109,15 @@ inline constexpr double kUnitNormalError = 1e-9;
 /// A level's deviation is measured to this part of itself: a tenth of the 1 % that the design allows above the truth.
 inline constexpr double kDeviationPrecision = 1e-3;
 
+// ---- Patches ---------------------------------------------------------------------------------------------------------------
+
+/// Faces turn as much towards a normal where the cosines differ by no more than this: an angle of 4 ulps of single precision,
+/// 2^-21, takes half its square from a cosine. Dimensionless.
+inline constexpr double kSameFacing = 0x1p-43;
+/// A point of the patch before counts for so much more area than another: enough that the corners of a regular polygon, of which
+/// any four opposite ones are as good, do not take turns. A fraction.
+inline constexpr double kKeptWorth = 0.125;
+
 // ---- Bounds on work: counts ------------------------------------------------------------------------------------------------
 
 /// States in a row that do not shorten the distance before a walk is given to certified progress. In exact arithmetic at most
@@ -133,6 +142,8 @@ inline constexpr double kDoubtShare = 3;
 /// Vertices that doubles may find equally high before a certificate asks exact arithmetic which is the highest: two triangles
 /// and room for a flat spot.
 inline constexpr std::size_t kPlateau = 8;
+/// Corners of a contact face: as many as keep the cost of clipping one by another at some microseconds.
+inline constexpr int kMostCorners = 64;
 /// Points of the inner polytope that tells touching from overlapping: 300 vertices slid into contact needed 20 to 32.
 inline constexpr int kContactPoints = 32;
 

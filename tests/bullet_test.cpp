@@ -221,10 +221,15 @@ TEST(HullPairs, AnswerBothTablesThemselves) {
   w.world.performDiscreteCollisionDetection();
   ASSERT_EQ(w.dispatcher.getNumManifolds(), 1);
   const btPersistentManifold& manifold = *w.dispatcher.getManifoldByIndexInternal(0);
-  ASSERT_EQ(manifold.getNumContacts(), 1);
-  EXPECT_NEAR(manifold.getContactPoint(0).getDistance(), 0.05 - 2 * CONVEX_DISTANCE_MARGIN, kRounding);
+  ASSERT_EQ(manifold.getNumContacts(), 4);  // the corners of the common face, in one step
   const btScalar up = manifold.getBody0() == &object_a ? btScalar(-1) : btScalar(1);
-  expect_near(manifold.getContactPoint(0).m_normalWorldOnB, btVector3(0, 0, up), kRounding);
+  for (int i = 0; i < 4; ++i) {
+    const btManifoldPoint& p = manifold.getContactPoint(i);
+    EXPECT_NEAR(p.getDistance(), 0.05 - 2 * CONVEX_DISTANCE_MARGIN, kRounding);
+    expect_near(p.m_normalWorldOnB, btVector3(0, 0, up), kRounding);
+    EXPECT_NEAR(std::abs(p.getPositionWorldOnA().x()), 1, kRounding);
+    EXPECT_NEAR(std::abs(p.getPositionWorldOnA().y()), 1, kRounding);
+  }
 
   const auto points = closest_points(w, a, at(0, 0, 0), b, at(0, 0, 3), 2);
   ASSERT_EQ(points.size(), 1u);
@@ -291,9 +296,58 @@ void expect_bullets_own(btCollisionShape& a, btCollisionShape& b, const btTransf
   EXPECT_EQ(ours[0].on_b, theirs[0].on_b);
 }
 
-TEST(HullPairs, LeaveOverlappingHullsToBulletsDepth) {
-  HullShape a(stored("fat_a")), b(stored("fat_b"));
-  expect_bullets_own(a, b, at(1.2, 0.3, 0.1));
+/// Overlaps too: a cube sunk half into another, where Bullet sees nothing.
+TEST(HullPairs, AnswerOverlappingHullsThemselves) {
+  World w;
+  HullShape a(bodies::model(bodies::cube())), b(bodies::model(bodies::cube()));
+  blind_bullet(a), blind_bullet(b);
+  const auto expect_half = [](const btVector3& normal_on_b, const btVector3& on_a, btScalar distance) {
+    EXPECT_NEAR(distance, -0.5 - 2 * CONVEX_DISTANCE_MARGIN, kRounding);
+    expect_near(normal_on_b, btVector3(0, 0, -1), kRounding);
+    EXPECT_NEAR(on_a.z(), 1 + CONVEX_DISTANCE_MARGIN, kRounding);
+  };
+  const auto points = closest_points(w, a, at(0, 0, 0), b, at(0.25, 0.5, 1.5));
+  ASSERT_EQ(points.size(), 1u);
+  expect_half(points[0].normal_on_b, points[0].on_a, points[0].distance);
+
+  btCollisionObject object_a, object_b;
+  object_a.setCollisionShape(&a), object_b.setCollisionShape(&b);
+  object_b.setWorldTransform(at(0.25, 0.5, 1.5));
+  w.world.addCollisionObject(&object_a), w.world.addCollisionObject(&object_b);
+  w.world.performDiscreteCollisionDetection();
+  const btPersistentManifold& manifold = *w.dispatcher.getManifoldByIndexInternal(0);
+  ASSERT_EQ(manifold.getNumContacts(), 4);
+  ASSERT_EQ(manifold.getBody0(), &object_a);
+  for (int i = 0; i < 4; ++i) {
+    const btManifoldPoint& p = manifold.getContactPoint(i);
+    expect_half(p.m_normalWorldOnB, p.getPositionWorldOnA(), p.getDistance());
+  }
+  w.world.removeCollisionObject(&object_a), w.world.removeCollisionObject(&object_b);
+}
+
+/// A point keeps the impulse that the solver left with it; what the patch no longer holds goes at once.
+TEST(HullPairs, KeepThePointsOfTheStepBefore) {
+  World w;
+  HullShape a(bodies::model(bodies::cube())), b(bodies::model(bodies::cube()));
+  btCollisionObject object_a, object_b;
+  object_a.setCollisionShape(&a), object_b.setCollisionShape(&b);
+  object_b.setWorldTransform(at(0, 0, 2.07));
+  w.world.addCollisionObject(&object_a), w.world.addCollisionObject(&object_b);
+  w.world.performDiscreteCollisionDetection();
+  btPersistentManifold& manifold = *w.dispatcher.getManifoldByIndexInternal(0);
+  ASSERT_EQ(manifold.getNumContacts(), 4);
+  for (int i = 0; i < 4; ++i) manifold.getContactPoint(i).m_appliedImpulse = btScalar(i + 1);
+  object_b.setWorldTransform(at(0.001, 0.001, 2.07));
+  w.world.performDiscreteCollisionDetection();
+  ASSERT_EQ(manifold.getNumContacts(), 4);
+  btScalar impulses = 0;
+  for (int i = 0; i < 4; ++i) impulses += manifold.getContactPoint(i).m_appliedImpulse;
+  EXPECT_EQ(impulses, 10);
+  object_b.setWorldTransform(at(1, 1, 2.07));
+  w.world.performDiscreteCollisionDetection();
+  ASSERT_EQ(manifold.getNumContacts(), 4);
+  for (int i = 0; i < 4; ++i) EXPECT_GE(manifold.getContactPoint(i).getPositionWorldOnA().x(), -kRounding);
+  w.world.removeCollisionObject(&object_a), w.world.removeCollisionObject(&object_b);
 }
 
 TEST(HullPairs, LeaveScaledHullsToBullet) {

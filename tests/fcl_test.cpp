@@ -154,14 +154,19 @@ TEST(Distance, SwapsItsPoints) {
   EXPECT_LE((forth.on_a - back.on_b).norm(), 1e-12);
 }
 
-TEST(Distance, IsSignedAsTheOtherSolverSays) {
+TEST(Distance, IsSignedWhereBodiesOverlap) {
   const Convex a(bodies::model(bodies::cube())), b(bodies::model(bodies::octahedron()));
   const Transform b_in_world = at(0, 0, 1.9);  // its tip 0.1 deep in the cube
-  const Measured ours = measure(a, at(0, 0, 0), b, b_in_world, Solver(), true),
-                 theirs = measure(a, at(0, 0, 0), b, b_in_world, FclsOwn(), true);
-  EXPECT_NEAR(theirs.distance, -0.1, 1e-4);
-  EXPECT_NEAR(ours.distance, theirs.distance, 1e-4);
+  const Measured ours = measure(a, at(0, 0, 0), b, b_in_world, Solver(), true);
+  EXPECT_NEAR(measure(a, at(0, 0, 0), b, b_in_world, FclsOwn(), true).distance, -0.1, 1e-4);
+  EXPECT_NEAR(ours.distance, -0.1, 1e-13);
   EXPECT_NEAR(measure(a, at(0, 0, 0), b, at(0, 0, 2.5), Solver(), true).distance, 0.5, 1e-13);
+  // fcl::distance hands out a contact's place instead of these.
+  const ::fcl::Convexd &plain_a = a, &plain_b = b;
+  Vec3 on_a, on_b;
+  EXPECT_FALSE(Solver().shapeSignedDistance(plain_a, at(0, 0, 0), plain_b, b_in_world, nullptr, &on_a, &on_b));
+  EXPECT_LE((on_a - Vec3(0, 0, 1)).norm(), 1e-13);
+  EXPECT_LE((on_b - Vec3(0, 0, 0.9)).norm(), 1e-13);
 }
 
 TEST(Collision, IsTheVerdictAndTouchingCollides) {
@@ -186,16 +191,17 @@ TEST(Collision, OfTouchingBodiesHasTheNormalFromOneToTwo) {
   EXPECT_EQ(contact.o1, &a);
 }
 
-TEST(Collision, OfOverlappingBodiesHasFclsContact) {
-  const Convex a(stored("fat_a")), b(stored("fat_b"));
-  const Transform b_in_world = at(1.1, 0.4, 0.2);
-  const auto ours = collide(a, at(0, 0, 0), b, b_in_world, Solver()),
-             theirs = collide(a, at(0, 0, 0), b, b_in_world, FclsOwn());
-  ASSERT_EQ(ours.numContacts(), 1u);
-  ASSERT_EQ(theirs.numContacts(), 1u);
-  EXPECT_EQ(ours.getContact(0).penetration_depth, theirs.getContact(0).penetration_depth);
-  EXPECT_EQ(ours.getContact(0).normal, theirs.getContact(0).normal);
-  EXPECT_GT(ours.getContact(0).normal.dot(b_in_world.translation()), 0) << "from 1 to 2";
+TEST(Collision, OfOverlappingBodiesHasTheirDepth) {
+  const Convex a(bodies::model(bodies::cube())), b(bodies::model(bodies::octahedron()));
+  const auto tip = collide(a, at(5, 0, 0), b, at(5, 0.5, 1.75), Solver());
+  ASSERT_EQ(tip.numContacts(), 1u);
+  EXPECT_NEAR(tip.getContact(0).penetration_depth, 0.25, 1e-13);
+  EXPECT_LE((tip.getContact(0).normal - Vec3(0, 0, 1)).norm(), 1e-13);
+  EXPECT_LE((tip.getContact(0).pos - Vec3(5, 0.5, 0.875)).norm(), 1e-13);
+  const auto face = collide(a, at(0, 0, 0), a, at(0.5, 0.25, 1.5), Solver());
+  ASSERT_EQ(face.numContacts(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(face.getContact(i).penetration_depth, 0.5, 1e-13);
+  EXPECT_EQ(collide(a, at(0, 0, 0), a, at(0, 0, 0), Solver()).numContacts(), 4u);  // two in one place
 }
 
 /// Also where the other solver sees no overlap, so that the proof has no contact to go with it. Asked as FCL's tables ask.
@@ -213,7 +219,7 @@ int overlooked_by_others() {
     b_in_world.translation() -= (apart.distance + std::pow(10, -(6 + i % 7))) * normal;
     std::vector<::fcl::ContactPointd> ours, theirs;
     EXPECT_TRUE((fcl::Solver<double, Others>().shapeIntersect(plain_a, at(0, 0, 0), plain_b, b_in_world, &ours))) << i;
-    if (ours.size() != 1) ADD_FAILURE() << ours.size() << " contacts of pair " << i;
+    if (ours.empty()) ADD_FAILURE() << "no contact of pair " << i;
     if (Others().shapeIntersect(plain_a, at(0, 0, 0), plain_b, b_in_world, &theirs)) continue;
     ++overlooked;
     EXPECT_GT(ours[0].penetration_depth, 0) << i;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <swiftlet/bullet.h>
 
+#include <memory>
 #include <new>
 
 #include <BulletCollision/CollisionDispatch/btCollisionConfiguration.h>
@@ -36,8 +37,9 @@ Placed placed(const btCollisionObjectWrapper& body) {
 class HullAlgorithm final : public btActivatingCollisionAlgorithm {
  public:
   HullAlgorithm(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper& a,
-                const btCollisionObjectWrapper& b, btConvexPenetrationDepthSolver& depth_solver)
+                const btCollisionObjectWrapper& b, btConvexPenetrationDepthSolver& depth_solver, bool patches)
       : btActivatingCollisionAlgorithm(info), depth_solver_(&depth_solver), manifold_(info.m_manifold) {
+    if (patches) patch_ = std::make_unique<Patch>();
     if (manifold_) return;
     manifold_ = m_dispatcher->getNewManifold(a.getCollisionObject(), b.getCollisionObject());
     owns_manifold_ = true;
@@ -64,15 +66,46 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
   /// False where it has nothing to say, and Bullet's algorithm shall.
   bool answer(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btManifoldResult& result) {
     if (hull_of(a).is_scaled() || hull_of(b).is_scaled()) return false;
+    const btScalar touching = manifold_->getContactBreakingThreshold() + result.m_closestPointDistanceThreshold;
+    return patch_ ? fill(a, b, touching, result) : add_nearest(a, b, touching, result);
+  }
+
+  /// Bullet's normal is on B and points to A.
+  bool add_nearest(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btScalar touching,
+                   btManifoldResult& result) {
     // As far as Bullet's own algorithm looks.
-    const btScalar reach = hull_of(a).getMargin() + hull_of(b).getMargin() + manifold_->getContactBreakingThreshold() +
-                           result.m_closestPointDistanceThreshold;
-    const Nearest near = nearest(placed(a), placed(b), reach, seed_);
-    if (near.found == Found::Overlap || near.found == Found::Nothing) return false;
-    // Bullet's normal is on B and points to A.
+    const Nearest near = nearest(placed(a), placed(b), hull_of(a).getMargin() + hull_of(b).getMargin() + touching, seed_);
+    if (near.found == Found::Nothing) return false;
     if (near.found == Found::Nearest)
       result.addContactPoint(vector_of(-near.normal), vector_of(near.point_b), btScalar(near.distance));
     return true;
+  }
+
+  /// All points of this step. A manifold that is shared keeps those of others.
+  bool fill(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btScalar touching, btManifoldResult& result) {
+    if (contacts(placed(a), placed(b), touching, MANIFOLD_CACHE_SIZE, seed_, *patch_) == Found::Nothing) return false;
+    if (owns_manifold_) forget_others(a);
+    for (std::uint32_t i = patch_->count; i-- > 0;) {  // the deepest is the first and comes last: it takes the place of others
+      const PatchPoint& p = patch_->points[i];
+      result.addContactPoint(vector_of(-patch_->normal), vector_of(p.point_b), btScalar(p.separation));
+    }
+    return true;
+  }
+
+  /// Bullet adds a point to those of the steps before, or carries the impulse of the one nearby over to it. Those that are near
+  /// none of the patch's go.
+  void forget_others(const btCollisionObjectWrapper& a) {
+    const bool swapped = manifold_->getBody0() != a.getCollisionObject();
+    const btTransform& in_world = manifold_->getBody0()->getWorldTransform();
+    for (int i = manifold_->getNumContacts(); i-- > 0;) {
+      const btVector3 old = in_world(manifold_->getContactPoint(i).m_localPointA);
+      bool stays = false;
+      for (std::uint32_t k = 0; k < patch_->count; ++k) {
+        const btVector3 p = vector_of(swapped ? patch_->points[k].point_b : patch_->points[k].point_a);
+        stays = stays || (p - old).length() < manifold_->getContactBreakingThreshold();
+      }
+      if (!stays) manifold_->removeContactPoint(i);
+    }
   }
 
   /// Bullet's algorithm on this pair's manifold. It keeps nothing from step to step.
@@ -84,6 +117,7 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
   btConvexPenetrationDepthSolver* depth_solver_;
   btPersistentManifold* manifold_;
   PairSeed seed_;
+  std::unique_ptr<Patch> patch_;  ///< of the step before; none where closest points are asked for
   bool owns_manifold_ = false;
 };
 
@@ -108,7 +142,7 @@ btCollisionAlgorithm* HullPairs::Create::CreateCollisionAlgorithm(btCollisionAlg
                                                                   const btCollisionObjectWrapper* b) {
   if (!holds_model(*a) || !holds_model(*b)) return others->CreateCollisionAlgorithm(info, a, b);
   void* const place = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(HullAlgorithm));
-  return new (place) HullAlgorithm(info, *a, *b, *depth_solver);
+  return new (place) HullAlgorithm(info, *a, *b, *depth_solver, patches);
 }
 
 HullPairs::HullPairs(btCollisionDispatcher& dispatcher) {
@@ -116,6 +150,7 @@ HullPairs::HullPairs(btCollisionDispatcher& dispatcher) {
   btCollisionConfiguration& configuration = *dispatcher.getCollisionConfiguration();
   contact_points_.others = configuration.getCollisionAlgorithmCreateFunc(kHull, kHull);
   closest_points_.others = configuration.getClosestPointsAlgorithmCreateFunc(kHull, kHull);
+  contact_points_.patches = true;
   contact_points_.depth_solver = closest_points_.depth_solver = &depth_solver_;
   dispatcher.registerCollisionCreateFunc(kHull, kHull, &contact_points_);
   dispatcher.registerClosestPointsCreateFunc(kHull, kHull, &closest_points_);

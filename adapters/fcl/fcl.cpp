@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <swiftlet/fcl.h>
 
+#include <algorithm>
+
 namespace swiftlet::fcl {
 namespace {
 
@@ -21,13 +23,17 @@ std::vector<int> face_loops(const Model& model) {
   return loops;
 }
 
-Touch touch(const Placed& a, const Placed& b, PairSeed& seed) {
-  const Nearest near = nearest(a, b, 0, seed);
+std::vector<Touch> touches(const Placed& a, const Placed& b, PairSeed& seed) {
   const Vec3 line = centre_in_world(b) - centre_in_world(a);
-  Touch result;
-  result.normal = !near.normal.isZero() ? near.normal : line.isZero() ? Vec3::UnitX() : line.normalized();
-  result.point = (near.point_a + near.point_b) / 2;
-  result.depth = 64 * 0x1p-53 * (a.model->extent() + b.model->extent() + line.norm());  // law 2's bound on touching
+  const double touching = 64 * 0x1p-53 * (a.model->extent() + b.model->extent() + line.norm());  // law 2's bound, at least
+  Patch patch;
+  contacts(a, b, touching, 4, seed, patch);
+  std::vector<Touch> result;
+  for (std::uint32_t i = 0; i < patch.count; ++i) {
+    const PatchPoint& p = patch.points[i];
+    result.push_back({patch.normal, (p.point_a + p.point_b) / 2, std::max(-p.separation, touching)});
+  }
+  if (result.empty()) result.push_back({line.isZero() ? Vec3::UnitX() : line.normalized(), centre_in_world(a), touching});
   return result;
 }
 

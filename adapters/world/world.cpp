@@ -21,27 +21,57 @@ QueryOptions with_radii(const Placed& a, const Placed& b) {
   return options;
 }
 
-Found found(const Answer& bodies) {
-  if (bodies.status == Status::InvalidPose) return Found::Nothing;
-  if (bodies.status == Status::Beyond) return Found::Beyond;
-  return bodies.proof.count != 0 || bodies.normal.isZero() ? Found::Overlap : Found::Nearest;
+/// Both hulls, how far apart or how deep.
+struct Hulls {
+  Pose a_in_world, b_in_a;
+  SignedAnswer answer;
+  Found found = Found::Nothing;
+};
+
+Hulls hulls_of(const Placed& a, const Placed& b, double beyond, PairSeed& seed) {
+  Hulls hulls;
+  hulls.a_in_world = orthonormal(a.in_world);
+  hulls.b_in_a = relative(hulls.a_in_world, orthonormal(b.in_world));
+  QueryOptions options;
+  options.beyond = beyond + a.radius + b.radius;
+  hulls.answer = signed_distance(*a.model, *b.model, hulls.b_in_a, seed, options);
+  if (hulls.answer.status == Status::InvalidPose) return hulls;
+  if (hulls.answer.status == Status::Beyond)
+    hulls.found = Found::Beyond;
+  else if (!hulls.answer.normal.isZero())
+    hulls.found = Found::Nearest;
+  return hulls;
 }
 
 }  // namespace
 
 Nearest nearest(const Placed& a, const Placed& b, double beyond, PairSeed& seed) {
-  const Pose a_in_world = orthonormal(a.in_world), b_in_world = orthonormal(b.in_world);
-  QueryOptions options = with_radii(a, b);
-  options.beyond = beyond;
-  const Answer bodies = contact(*a.model, *b.model, relative(a_in_world, b_in_world), seed, options).answer;
-
+  const Hulls hulls = hulls_of(a, b, beyond, seed);
   Nearest result;
-  result.found = found(bodies);
-  result.distance = bodies.lower > 0 ? bodies.lower : bodies.normal.dot(bodies.point_b - bodies.point_a);
-  result.normal = a_in_world.rotation * bodies.normal;
-  result.point_a = transform(a_in_world, bodies.point_a);
-  result.point_b = transform(a_in_world, bodies.point_b);
+  result.found = hulls.found;
+  result.verdict = hulls.answer.verdict;
+  result.distance = hulls.answer.lower - (a.radius + b.radius);
+  result.normal = hulls.a_in_world.rotation * hulls.answer.normal;
+  result.point_a = transform(hulls.a_in_world, hulls.answer.point_a) + a.radius * result.normal;
+  result.point_b = transform(hulls.a_in_world, hulls.answer.point_b) - b.radius * result.normal;
   return result;
+}
+
+Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t most_points, PairSeed& seed, Patch& patch) {
+  const Hulls hulls = hulls_of(a, b, beyond, seed);
+  PatchOptions options;
+  options.margin = beyond + a.radius + b.radius;
+  options.most_points = most_points;
+  patch =
+      hulls.found == Found::Nearest ? swiftlet::patch(*a.model, *b.model, hulls.b_in_a, hulls.answer, options, patch) : Patch{};
+  patch.normal = hulls.a_in_world.rotation * patch.normal;
+  for (std::uint32_t i = 0; i < patch.count; ++i) {
+    PatchPoint& p = patch.points[i];
+    p.point_a = transform(hulls.a_in_world, p.point_a) + a.radius * patch.normal;
+    p.point_b = transform(hulls.a_in_world, p.point_b) - b.radius * patch.normal;
+    p.separation -= a.radius + b.radius;
+  }
+  return hulls.found;
 }
 
 Verdict meeting(const Placed& a, const Placed& b, PairSeed& seed) {

@@ -17,6 +17,7 @@
 #include <swiftlet/build.h>
 #include <swiftlet/check.h>
 #include <swiftlet/model_file.h>
+#include <swiftlet/patch.h>
 #include <swiftlet/query.h>
 
 namespace {
@@ -128,6 +129,43 @@ void threads(const std::vector<swiftlet::PairQuery>& pairs, const std::vector<sw
            "on threads the answers are those of one query after the other");
 }
 
+swiftlet::Patch contacts(const Model& a, const Model& b, const Pose& a_in_world, const Pose& b_in_world,
+                         swiftlet::PairSeed& seed, const swiftlet::Patch& before) {
+  // recipe
+  const Pose b_in_a = swiftlet::relative(a_in_world, b_in_world);
+  swiftlet::PatchOptions options;
+  options.margin = 0.02;  // of each pair of points; most_points is 4
+  swiftlet::QueryOptions near;
+  near.beyond = options.margin;
+  const swiftlet::SignedAnswer answer = swiftlet::signed_distance(a, b, b_in_a, seed, near);  // below 0: so deep
+  const swiftlet::Patch patch = swiftlet::patch(a, b, b_in_a, answer, options, before);
+  const Vec3 normal = a_in_world.rotation * patch.normal;  // from A to B, one for all points
+  for (std::uint32_t i = 0; i < patch.count; ++i) {
+    const swiftlet::PatchPoint& p = patch.points[i];
+    const Vec3 middle = a_in_world.rotation * (p.point_a + p.point_b) / 2 + a_in_world.translation;
+    std::printf("(%.3f, %.3f, %.3f), %.3f apart along (%.0f, %.0f, %.0f)\n", middle[0], middle[1], middle[2], p.separation,
+                normal[0], normal[1], normal[2]);
+  }
+  return patch;
+  // end
+}
+
+void two_steps_of_contact(const Model& pyramid) {
+  Pose below;  // base to base
+  below.rotation = Vec3(1, -1, -1).asDiagonal();
+  below.translation = {0.5, 0, -0.01};
+  swiftlet::PairSeed seed;
+  const swiftlet::Patch first = contacts(pyramid, pyramid, Pose{}, below, seed, {});
+  below.translation[2] = 0.01;
+  const swiftlet::Patch second = contacts(pyramid, pyramid, Pose{}, below, seed, first);
+  expect(first.count == 4 && second.count == 4, "two bases have four corners in common");
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    expect(std::abs(first.points[i].separation - 0.01) < 1e-12, "the pyramids are 0.01 apart");
+    expect(std::abs(second.points[i].separation + 0.01) < 1e-12, "the pyramids are 0.01 deep in one another");
+    expect(first.points[i].feature_a == second.points[i].feature_a, "points keep their names");
+  }
+}
+
 void seeds(const Model& a, const Model& b) {
   // recipe
   swiftlet::PairSeed seed;  // cold; lives as long as the pair
@@ -220,6 +258,7 @@ int main(int, char** arguments) {
   a_in_world.translation = {10, 0, 0};
   b_in_world.translation = {13, 0, 0};
   one_pair(a, b, a_in_world, b_in_world);
+  two_steps_of_contact(b);
 
   std::vector<Pose> poses(100);
   for (std::size_t i = 0; i < poses.size(); ++i) poses[i].translation = {3, 0.01 * double(i), 0};

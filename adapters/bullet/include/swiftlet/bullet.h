@@ -26,9 +26,9 @@ class HullShape : public btConvexHullShape {
   Model model_;
 };
 
-/// Makes pairs of two unscaled HullShapes swiftlet's, in contacts and in closest-point queries. All other pairs stay with what
-/// the dispatcher's configuration has for them, and so do, while there is no depth, two hulls that overlap beyond their
-/// margins. Create one after the dispatcher and before the world; it outlives the world.
+/// Makes pairs of two unscaled HullShapes swiftlet's, in contacts, up to four a step, and in closest-point queries, apart or
+/// overlapping. All other pairs stay with what the dispatcher's configuration has for them. Create one after the dispatcher and
+/// before the world; it outlives the world.
 class HullPairs {
  public:
   explicit HullPairs(btCollisionDispatcher& dispatcher);  ///< registers itself in both of the dispatcher's tables
@@ -39,6 +39,7 @@ class HullPairs {
   struct Create : btCollisionAlgorithmCreateFunc {
     btCollisionAlgorithmCreateFunc* others = nullptr;
     btConvexPenetrationDepthSolver* depth_solver = nullptr;
+    bool patches = false;  ///< all points of contact, not the nearest one alone
     btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                                    const btCollisionObjectWrapper* a,
                                                    const btCollisionObjectWrapper* b) override;

@@ -47,15 +47,14 @@ class Convex final : public ::fcl::Convex<S> {
 /// A contact in the world's frame.
 struct Touch {
   Vec3 normal, point;  ///< from 1 to 2; between the bodies
-  double depth = 0;    ///< above 0, as FCL's signed distance wants it
+  double depth = 0;    ///< above 0, as FCL wants it: law 2's bound where they only touch
 };
-/// Of two bodies that touch, or that overlap less than others see.
-Touch touch(const Placed& a, const Placed& b, PairSeed& seed);
+/// Of two bodies that touch or overlap: one to four.
+std::vector<Touch> touches(const Placed& a, const Placed& b, PairSeed& seed);
 
-/// A NarrowPhaseSolver. Pairs of two swiftlet::fcl::Convex are swiftlet's: distances, nearest points, and whether they collide,
-/// which touching bodies do. All other pairs go to `Others`, and so do, while there is no depth, the contacts and the signed
-/// distance of overlapping ones. Keep one solver per pair and its seed makes the next query of that pair cheap; one for all is
-/// as right. Not to be shared by threads.
+/// A NarrowPhaseSolver. Pairs of two swiftlet::fcl::Convex are swiftlet's: distances, signed ones too, nearest points,
+/// contacts, and whether they collide, which touching bodies do. All other pairs go to `Others`. Keep one solver per pair and
+/// its seed makes the next query of that pair cheap; one for all is as right. Not to be shared by threads.
 template <class S_, class Others = ::fcl::detail::GJKSolver_libccd<S_>>
 struct Solver {
   using S = S_;                                          ///< FCL's scalar; queries of ours are in double
@@ -81,11 +80,9 @@ struct Solver {
     if (verdict == Verdict::Undecided) return others.shapeIntersect(s1, tf1, s2, tf2, contacts);
     if (verdict == Verdict::Disjoint) return false;
     if (!contacts) return true;
-    const std::size_t kept = contacts->size();
-    if (verdict == Verdict::Overlapping && others.shapeIntersect(s1, tf1, s2, tf2, contacts)) return true;
-    const Touch t = touch(a, b, seed);
-    contacts->resize(kept);  // FCL's solvers add a contact where they see none
-    contacts->emplace_back(t.normal.template cast<S>(), t.point.template cast<S>(), S(t.depth));
+    for (const Touch& t : touches(a, b, seed)) {
+      contacts->emplace_back(t.normal.template cast<S>(), t.point.template cast<S>(), S(t.depth));
+    }
     return true;
   }
 
@@ -98,7 +95,8 @@ struct Solver {
                      S* distance = nullptr, Point* p1 = nullptr, Point* p2 = nullptr) const {
     const Nearest near = between(s1, tf1, s2, tf2);
     if (near.found == Found::Nothing) return others.shapeDistance(s1, tf1, s2, tf2, distance, p1, p2);
-    if (near.found == Found::Nearest) return hand_out(near, distance, p1, p2);
+    hand_out(near, distance, p1, p2);
+    if (near.verdict != Verdict::Overlapping) return true;
     if (distance) *distance = -1;  // FCL's word for a collision
     return false;
   }
@@ -111,8 +109,9 @@ struct Solver {
   bool shapeSignedDistance(const ::fcl::Convex<S>& s1, const Transform& tf1, const ::fcl::Convex<S>& s2, const Transform& tf2,
                            S* distance = nullptr, Point* p1 = nullptr, Point* p2 = nullptr) const {
     const Nearest near = between(s1, tf1, s2, tf2);
-    if (near.found == Found::Nearest) return hand_out(near, distance, p1, p2);
-    return others.shapeSignedDistance(s1, tf1, s2, tf2, distance, p1, p2);
+    if (near.found == Found::Nothing) return others.shapeSignedDistance(s1, tf1, s2, tf2, distance, p1, p2);
+    hand_out(near, distance, p1, p2);
+    return near.verdict != Verdict::Overlapping;
   }
 
   template <class... Arguments>
@@ -141,11 +140,10 @@ struct Solver {
     if (!a.model || !b.model) return {};
     return nearest(a, b, std::numeric_limits<double>::infinity(), seed);
   }
-  static bool hand_out(const Nearest& near, S* distance, Point* p1, Point* p2) {
+  static void hand_out(const Nearest& near, S* distance, Point* p1, Point* p2) {
     if (distance) *distance = S(near.distance);
     if (p1) *p1 = near.point_a.template cast<S>();
     if (p2) *p2 = near.point_b.template cast<S>();
-    return true;
   }
 };
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include <swiftlet/model.h>
+#include <swiftlet/patch.h>
 #include <swiftlet/pose.h>
 #include <swiftlet/query.h>
 
@@ -21,23 +22,26 @@ struct Placed {
 
 /// What a pair of bodies is found to be.
 enum class Found : std::uint8_t {
-  Nearest,  ///< the hulls are apart, or touch in a known direction
+  Nearest,  ///< how far apart or how deep in one another, and along which direction
   Beyond,   ///< the bodies are farther apart than asked
-  Overlap,  ///< the hulls overlap, proved; no depth yet. Normal, which may be 0, and points are where the search ended
-  Nothing,  ///< a pose is no rigid motion
+  Nothing,  ///< a pose is no rigid motion, or no direction leads out, as of two points in one place
 };
 
 /// Points and normal in the world's frame.
 struct Nearest {
-  Found found = Found::Nothing;  ///< Nothing: all else is void
-  double distance = 0;           ///< of the bodies: `lower`, never above the truth; where their roundings overlap minus the
-                                 ///< depth, within law 2's bound
-  Vec3 normal = Vec3::Zero();    ///< unit, from A to B
-  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< on the bodies' surfaces
+  Found found = Found::Nothing;          ///< Nothing: all else is void
+  Verdict verdict = Verdict::Undecided;  ///< of the hulls without their roundings
+  double distance = 0;                   ///< of the bodies, below 0 where they overlap; `lower`, never above the truth
+  Vec3 normal = Vec3::Zero();            ///< unit, from A to B
+  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< on the bodies' surfaces, where they overlap the deepest
 };
 
 /// `beyond`: a distance of the bodies; those farther apart answer Beyond, early.
 Nearest nearest(const Placed& a, const Placed& b, double beyond, PairSeed& seed);
+
+/// Fills `patch` with at most `most_points` points of contact in the world's frame, none farther apart than `beyond`. It brings
+/// the pair's patch of the step before, or none.
+Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t most_points, PairSeed& seed, Patch& patch);
 
 /// Of the bodies, exactly; Undecided: a pose is no rigid motion.
 Verdict meeting(const Placed& a, const Placed& b, PairSeed& seed);

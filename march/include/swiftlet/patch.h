@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Where two bodies lie on each other: few points that stand for the whole area of contact, as a simulation wants them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <swiftlet/depth.h>
+#include <swiftlet/model.h>
+#include <swiftlet/pose.h>
+#include <swiftlet/query.h>
+
+namespace swiftlet {
+
+/// The most points that a patch holds.
+inline constexpr std::uint32_t kMostPatchPoints = 8;
+
+/// A place of contact: a point of each body, one above the other along the patch's normal. In A's frame.
+struct PatchPoint {
+  Vec3 point_a = Vec3::Zero();  ///< in A, below its surface by no more than the flatness asked for
+  Vec3 point_b = Vec3::Zero();  ///< in B likewise: `point_a` + `separation` * normal, within twice law 2's bound
+  double separation = 0;        ///< along the normal, the bodies' unit; negative where the bodies overlap
+  /// What the point lies on, on the answer's levels: a corner of one body and the contact face of the other, or an edge of
+  /// each, which is named by the lesser of its half-edges. It names the point from patch to patch: the same pair, the same
+  /// place of the bodies.
+  Handle feature_a;
+  Handle feature_b;  ///< likewise, of B
+};
+
+/// The area in which two bodies face each other, seen along one normal, by its corners.
+struct Patch {
+  Vec3 normal = Vec3::Zero();  ///< that of the answer: unit, from A to B, A's frame
+  Handle face_a;               ///< the contact face of A, on the answer's level; none where A has no faces
+  Handle face_b;               ///< likewise, of B
+  std::uint32_t count = 0;     ///< of points; 0: the bodies are farther apart than asked, or the answer gives none
+  std::array<PatchPoint, kMostPatchPoints> points{};  ///< the first `count`, in order around the area from the deepest on
+};
+
+/// What a patch shall hold. Lengths are in the bodies' unit.
+struct PatchOptions {
+  double margin = 0;              ///< points farther apart than this, and than law 2's bound more, are left out
+  std::uint32_t most_points = 4;  ///< 1 to kMostPatchPoints
+  double radius_a = 0;            ///< that of A which the answer was asked with: so far the points lie outside of A's hull
+  double radius_b = 0;            ///< likewise, of B
+  /// Faces that lie within so much of a body's contact face are one face with it, which makes one square of the two triangles
+  /// of a rounded one. Over the body's extent; by default 4 ulps of single precision, from which such squares come.
+  double flatness = 0x1p-21;
+};
+
+/// The patch around the deepest or nearest features of `answer`, an exact one of this pair at this pose. The contact face of a
+/// body is, of those at that feature, the one that faces best along the normal; both are projected along it, and the corners of
+/// what they have in common are the points. Where there are more than asked for those stay that hold the least separation and
+/// most of the area: of a round face four keep 0.6, eight 0.9, of a square all; those of `previous`, the patch of this pair a
+/// moment ago, are preferred. The least separation of a patch is the answer's, within law 2's bound. Nothing is allocated.
+/// Cost: the product of both faces' sides; of a face of more than 64 sides the 64 corners count that keep most of its area.
+Patch patch(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnswer& answer, const PatchOptions& options = {},
+            const Patch& previous = {});
+
+/// Likewise of hulls that are apart or touch. Of hulls that overlap such an answer gives no patch: it knows no way out.
+Patch patch(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer, const PatchOptions& options = {},
+            const Patch& previous = {});
+
+}  // namespace swiftlet

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Few of the corners that two contact faces have in common: the deepest, and those that keep most of the area.
+#include <swiftlet/patch.h>
+
+#include <algorithm>
+#include <span>
+
+#include "outline.h"
+#include "overlay.h"
+#include "ring.h"
+#include "scene.h"
+
+namespace swiftlet {
+namespace {
+
+/// The corners of a common area and the witness.
+class Candidates {
+ public:
+  Candidates(const Scene& scene, const Across& across, const Outline& a, const Outline& b, const Place& witness, double bound)
+      : bound_(bound) {
+    count_ = overlay(scene, across, a, b, bound, std::span(all_).first<kMostPlaces>());
+    if (count_ == 0 || witness.separation < least() - bound) all_[std::size_t(count_++)] = witness;
+  }
+
+  /// Fills the patch's points: one of least separation, the one farthest from it, then whichever adds most to the area; then
+  /// each but the first is chosen again beside the others.
+  void choose(std::uint32_t most, double margin, const Patch& previous, Patch& patch) {
+    drop_beyond(margin + bound_);
+    if (count_ == 0 || most == 0) return;
+    recognise(previous);
+    loop_[0] = deepest();
+    for (size_ = 1; size_ < int(most) && grow();) {
+    }
+    for (int i = 1; i < size_ && size_ < count_; ++i) {
+      std::copy(loop_.begin() + i + 1, loop_.begin() + size_, loop_.begin() + i);
+      --size_;
+      grow();
+    }
+    for (int i = 0; i < size_; ++i) {
+      const Place& c = chosen(i);
+      patch.points[std::size_t(i)] = {eigen(c.point_a), eigen(c.point_b), c.separation, c.feature_a, c.feature_b};
+    }
+    patch.count = std::uint32_t(size_);
+  }
+
+ private:
+  const Place& at(int i) const { return all_[std::size_t(i)]; }
+  const Place& chosen(int i) const { return at(loop_[std::size_t(i)]); }
+
+  double least() const {
+    double least = all_[0].separation;
+    for (int i = 1; i < count_; ++i) least = smaller(least, at(i).separation);
+    return least;
+  }
+
+  void drop_beyond(double separation) {
+    int kept = 0;
+    for (int i = 0; i < count_; ++i) {
+      if (at(i).separation <= separation) all_[std::size_t(kept++)] = at(i);
+    }
+    count_ = kept;
+  }
+
+  void recognise(const Patch& previous) {
+    for (int i = 0; i < count_; ++i) {
+      bool& known = known_[std::size_t(i)] = false;
+      for (std::uint32_t k = 0; k < previous.count; ++k) {
+        const PatchPoint& p = previous.points[k];
+        known = known || (p.feature_a == at(i).feature_a && p.feature_b == at(i).feature_b);
+      }
+    }
+  }
+
+  int deepest() const {
+    const double enough = least() + bound_;
+    int found = -1;
+    for (int i = 0; i < count_; ++i) {
+      if (at(i).separation > enough) continue;
+      if (found < 0 || (known_[std::size_t(i)] && !known_[std::size_t(found)])) found = i;
+    }
+    return found;
+  }
+
+  /// How far a candidate lies from the only point, or the area that it adds beyond a side of those chosen; 0 where it hardly
+  /// stands out. One of the patch before is worth more.
+  double worth(int candidate, int side) const {
+    const Place &c = at(candidate), &p = chosen(side), &q = chosen(side + 1 == size_ ? 0 : side + 1);
+    const double cx = c.x - p.x, cy = c.y - p.y, dx = q.x - p.x, dy = q.y - p.y, area = cx * dy - cy * dx;
+    const bool stands_out =
+        size_ == 1 ? cx * cx + cy * cy > bound_ * bound_ : area > 0 && area * area > bound_ * bound_ * (dx * dx + dy * dy);
+    if (!stands_out) return 0;
+    return (size_ == 1 ? std::sqrt(cx * cx + cy * cy) : area) * (known_[std::size_t(candidate)] ? 1 + kKeptWorth : 1);
+  }
+
+  /// Adds a point to those chosen, which go around counter-clockwise; false where none adds anything.
+  bool grow() {
+    int best = -1, best_side = 0;
+    double most = 0;
+    for (int i = 0; i < count_; ++i) {
+      for (int side = 0; side < size_; ++side) {
+        if (const double w = worth(i, side); w > most) most = w, best = i, best_side = side;
+      }
+    }
+    if (best < 0) return false;
+    std::copy_backward(loop_.begin() + best_side + 1, loop_.begin() + size_, loop_.begin() + size_ + 1);
+    loop_[std::size_t(best_side + 1)] = best;
+    ++size_;
+    return true;
+  }
+
+  double bound_;
+  int count_ = 0, size_ = 0;
+  std::array<int, kMostPatchPoints> loop_;
+  std::array<bool, kMostPlaces + 1> known_;  ///< of the patch before
+  std::array<Place, kMostPlaces + 1> all_;
+};
+
+/// What a patch grows from, in A's frame; the points are on the hulls.
+struct Witness {
+  Vec normal, point_a, point_b;
+  Handle feature_a, feature_b;
+};
+
+/// The patch of two hulls, within a margin of theirs.
+Patch grown(const Scene& scene, const Witness& w, double margin, double bound, const PatchOptions& options,
+            const Patch& previous) {
+  Patch patch;
+  const Across across(w.normal, w.point_a);
+  Outline a, b;
+  outline_a(scene, across, w.feature_a, previous.face_a, options.flatness, a);
+  outline_b(scene, across, w.feature_b, previous.face_b, options.flatness, b);
+  patch.normal = eigen(w.normal);
+  if (a.face != kNone) patch.face_a = {FeatureKind::Face, a.face};
+  if (b.face != kNone) patch.face_b = {FeatureKind::Face, b.face};
+
+  const Place witness = place(across, w.point_a, w.point_b, named(scene.a, w.feature_a), named(scene.b, w.feature_b));
+  Candidates candidates(scene, across, a, b, witness, bound);
+  candidates.choose(std::min(options.most_points, kMostPatchPoints), margin, previous, patch);
+  return patch;
+}
+
+template <class AnyAnswer>
+Patch around(const Model& a, const Model& b, const Pose& b_in_a, const AnyAnswer& answer, const PatchOptions& options,
+             const Patch& previous) {
+  const Vec n = vec(answer.normal);
+  if (max_abs(n) == 0) return {};
+  const Motion m = motion(b_in_a);
+  const Scene hulls = scene(a.level(answer.level_a).view, b.level(answer.level_b).view, m, pose_quality(m).error);
+  const double radii = options.radius_a + options.radius_b;
+  Patch patch = grown(hulls,
+                      {n, vec(answer.point_a) - n * options.radius_a, vec(answer.point_b) + n * options.radius_b,
+                       answer.feature_a, answer.feature_b},
+                      options.margin + radii, hulls.law_two + kLawTwo * radii, options, previous);
+  for (std::uint32_t i = 0; i < patch.count; ++i) {
+    PatchPoint& p = patch.points[i];
+    p.point_a = eigen(vec(p.point_a) + n * options.radius_a);
+    p.point_b = eigen(vec(p.point_b) - n * options.radius_b);
+    p.separation -= radii;
+  }
+  return patch;
+}
+
+}  // namespace
+
+Patch patch(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnswer& answer, const PatchOptions& options,
+            const Patch& previous) {
+  return around(a, b, b_in_a, answer, options, previous);
+}
+
+Patch patch(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer, const PatchOptions& options,
+            const Patch& previous) {
+  return answer.proof.count ? Patch{} : around(a, b, b_in_a, answer, options, previous);
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,786 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Patches of generated contacts beside the exact intersection of their faces, and what they keep while bodies move.
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <vector>
+
+#include <swiftlet/build.h>
+#include <swiftlet/patch.h>
+
+#include "bodies.h"
+#include "patch_oracle.h"
+#include "shapes.h"
+
+namespace swiftlet {
+namespace {
+
+using shapes::Random;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Two bodies that lie on each other, or nearly.
+struct Contacting {
+  Model a, b;
+  Pose b_in_a;
+  Answer answer;
+
+  double bound() const { return bodies::law_two(a.level(0).view, b.level(0).view, b_in_a); }
+};
+
+Answer nearest(const Model& a, const Model& b, const Pose& b_in_a) {
+  PairSeed cold;
+  return contact(a, b, b_in_a, cold).answer;
+}
+
+Model hull_of(const Mesh& mesh) { return std::move(build(mesh.points)).value().model; }
+
+/// B over A, whose top is at height `top`: turned about z, tilted, at x and y, its lowest point so far above the top; then
+/// everything turned, so that no face is flat but up to rounding.
+Contacting stacked(const bodies::Body& a, double top, const bodies::Body& b, const Pose& on_top, double gap, const Mat3& turn) {
+  double lowest = kInfinity;
+  for (const Vec3& p : b.points) lowest = std::min(lowest, (on_top.rotation * p)[2]);
+  Contacting c{bodies::model(bodies::moved(a, turn)), bodies::model(b), {}, {}};
+  c.b_in_a.rotation = turn * on_top.rotation;
+  c.b_in_a.translation = turn * Vec3(on_top.translation[0], on_top.translation[1], top + gap - lowest);
+  c.answer = nearest(c.a, c.b, c.b_in_a);
+  return c;
+}
+
+template <class T, std::size_t N>
+T any(const std::array<T, N>& values, Random& random) {
+  return values[random.bits() % N];
+}
+
+constexpr std::array kAngles{0., 0., 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 0.3, std::numbers::pi / 4};
+constexpr std::array kTilts{0., 0., 1e-15, 1e-12, 1e-9, 1e-6, 1e-3};
+constexpr std::array kGaps{1e-14, 1e-12, 1e-9, 1e-6, 1e-3};
+
+Pose random_top(Random& random, double x, double y) {
+  Pose pose;
+  pose.rotation = shapes::rotation(Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 0).normalized(), any(kTilts, random)) *
+                  shapes::rotation(Vec3::UnitZ(), any(kAngles, random));
+  pose.translation = {x, y, 0};
+  return pose;
+}
+
+/// Two boxes, in one of three ways: centred, with sides flush, anyhow.
+Contacting stacked_boxes(Random& random) {
+  const auto size = [&] { return any(std::array{1., 1., 0.5, 2., 1e-3, random.uniform(0.1, 3)}, random); };
+  const Vec3 a(size(), size(), size()), b(size(), size(), size());
+  const Vec3 flush(a[0] - b[0], a[1] - b[1], 0), anyhow(random.uniform(-1, 1) * a[0], random.uniform(-1, 1) * a[1], 0);
+  const Vec3 at = any(std::array{Vec3(0, 0, 0), flush, anyhow}, random);
+  const Mat3 turn = random.bits() % 2 ? random.rotation() : Mat3::Identity();
+  return stacked(bodies::box(a[0], a[1], a[2]), a[2], bodies::box(b[0], b[1], b[2]), random_top(random, at[0], at[1]),
+                 any(kGaps, random), turn);
+}
+
+bodies::Body prism(std::uint32_t sides, double radius, double height) {
+  bodies::Body b;
+  for (const double z : {-height / 2, height / 2}) {
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const double angle = 2 * std::numbers::pi * i / sides;
+      b.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+    }
+  }
+  for (std::uint32_t i = 0; i < sides; ++i) b.corners.push_back(sides - 1 - i);
+  for (std::uint32_t i = 0; i < sides; ++i) b.corners.push_back(sides + i);
+  b.sizes = {sides, sides};
+  for (std::uint32_t i = 0; i < sides; ++i) b.add({i, (i + 1) % sides, sides + (i + 1) % sides, sides + i});
+  return b;
+}
+
+Contacting stacked_prisms(Random& random, std::uint32_t sides_a, std::uint32_t sides_b) {
+  const double radius = random.uniform(0.3, 2);
+  return stacked(prism(sides_a, 1, 1), 0.5, prism(sides_b, radius, 1),
+                 random_top(random, random.uniform(-1, 1), random.uniform(-1, 1)), any(kGaps, random),
+                 random.bits() % 2 ? random.rotation() : Mat3::Identity());
+}
+
+/// Hulls of random points, B at a random place beside A.
+Contacting random_hulls(Random& random) {
+  const auto body = [&] { return hull_of(shapes::random_polytope(8 + random.bits() % 40, random.bits())); };
+  Contacting c{body(), body(), {}, {}};
+  c.b_in_a.rotation = random.rotation();
+  c.b_in_a.translation = 3 * random.on_sphere();
+  c.answer = nearest(c.a, c.b, c.b_in_a);
+  c.b_in_a.translation -= (c.answer.lower - any(kGaps, random)) * c.answer.normal;
+  c.answer = nearest(c.a, c.b, c.b_in_a);
+  return c;
+}
+
+bool is_apart(const Contacting& c) {
+  return (c.answer.verdict == Verdict::Disjoint || c.answer.verdict == Verdict::Touching) && !c.answer.normal.isZero();
+}
+
+double least(const Patch& p) {
+  double least = kInfinity;
+  for (std::uint32_t i = 0; i < p.count; ++i) least = std::min(least, p.points[i].separation);
+  return least;
+}
+
+double shown_area(const Patch& p) {
+  std::vector<Vec3> points;
+  for (std::uint32_t i = 0; i < p.count; ++i) points.push_back(p.points[i].point_a);
+  return oracle::area(points, p.normal);
+}
+
+/// What holds of every patch.
+void expect_sound(const Contacting& c, const Patch& p, double separation, double margin) {
+  const double bound = c.bound();
+  EXPECT_EQ(p.normal, c.answer.normal);
+  for (std::uint32_t i = 0; i < p.count; ++i) {
+    const PatchPoint& q = p.points[i];
+    EXPECT_TRUE(oracle::lies_in(c.a.level(0).view, Pose{}, q.point_a, bound)) << i;
+    EXPECT_TRUE(oracle::lies_in(c.b.level(0).view, c.b_in_a, q.point_b, bound)) << i;
+    EXPECT_LE((q.point_b - q.point_a - q.separation * p.normal).norm(), 2 * bound) << i;
+    EXPECT_LE(q.separation, margin + bound);
+    const auto well_named = [](const ConvexView& view, Handle feature) {
+      return feature.kind() != FeatureKind::Edge || feature.index() < view.twin[feature.index()];
+    };
+    EXPECT_TRUE(well_named(c.a.level(0).view, q.feature_a) && well_named(c.b.level(0).view, q.feature_b)) << i;
+    for (std::uint32_t j = 0; j < i; ++j) {
+      EXPECT_FALSE(q.feature_a == p.points[j].feature_a && q.feature_b == p.points[j].feature_b) << i << " and " << j;
+    }
+  }
+  if (p.count > 0) {
+    EXPECT_NEAR(least(p), separation, 2 * bound);
+  } else {
+    EXPECT_GT(separation, margin);
+  }
+}
+
+Patch touching(const Model& a, const Model& b, const Pose& b_in_a) {
+  const Contacting c{a, b, b_in_a, nearest(a, b, b_in_a)};
+  const Patch p = patch(a, b, b_in_a, c.answer);
+  expect_sound(c, p, 0, 0);
+  return p;
+}
+
+Pose at(double x, double y, double z, const Mat3& rotation = Mat3::Identity()) {
+  Pose pose;
+  pose.rotation = rotation;
+  pose.translation = {x, y, z};
+  return pose;
+}
+
+/// The contact face first, then all others within 2^-21 of its plane and on its side.
+std::vector<std::uint32_t> flat_faces(const ConvexView& view, Handle contact) {
+  const auto corners = [&](std::uint32_t face) {
+    std::vector<Vec3> result;
+    for (std::uint32_t h = 0; h < view.head.size(); ++h) {
+      if (view.face[h] != face || view.face[view.twin[h]] == face) continue;
+      for (const std::uint32_t v : {view.head[view.twin[h]], view.head[h]}) {
+        result.emplace_back(view.vertices[v].x, view.vertices[v].y, view.vertices[v].z);
+      }
+    }
+    return result;  // by sides, each from tail to head
+  };
+  const auto normal = [&](std::uint32_t face) {
+    const std::vector<Vec3> sides = corners(face);
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < sides.size(); i += 2) sum += (sides[i] - sides[0]).cross(sides[i + 1] - sides[0]);
+    return sum.normalized().eval();
+  };
+  const Vec3 n = normal(contact.index()), p = corners(contact.index())[0];
+  std::vector<std::uint32_t> faces{contact.index()};
+  for (std::uint32_t face = 0; face < view.face_first.size(); ++face) {
+    const std::vector<Vec3> all = corners(face);
+    const bool flat =
+        std::all_of(all.begin(), all.end(), [&](const Vec3& q) { return n.dot(q - p) >= -0x1p-21 * view.extent; });
+    if (face != contact.index() && flat && n.dot(normal(face)) > 0) faces.push_back(face);
+  }
+  return faces;
+}
+
+/// What a patch is beside the truth. `shares` gathers how much of the area four and eight points keep.
+struct Shares {
+  double four = 1, eight = 1;
+  int counted = 0;
+};
+void expect_true(const Contacting& c, Shares& shares) {
+  PatchOptions options;
+  options.margin = kInfinity, options.most_points = kMostPatchPoints;
+  const Patch eight = patch(c.a, c.b, c.b_in_a, c.answer, options);
+  options.most_points = 4;
+  const Patch four = patch(c.a, c.b, c.b_in_a, c.answer, options);
+  const double separation = (c.answer.point_b - c.answer.point_a).dot(c.answer.normal);
+  for (const Patch* p : {&eight, &four}) expect_sound(c, *p, separation, kInfinity);
+  ASSERT_EQ(eight.face_a, four.face_a);
+
+  const ConvexView &a = c.a.level(0).view, &b = c.b.level(0).view;
+  const oracle::Overlay truth =
+      oracle::overlay(a, flat_faces(a, eight.face_a), b, flat_faces(b, eight.face_b), c.b_in_a, c.answer.normal);
+  const double size = c.a.extent() + c.b.extent(), blur = 16 * c.bound() * size;
+  if (truth.corners.size() <= 8) {
+    EXPECT_NEAR(shown_area(eight), truth.area, blur);
+  } else {
+    EXPECT_LE(shown_area(eight), truth.area + blur);
+  }
+  if (truth.area < 1e4 * blur) return;
+  ++shares.counted;
+  shares.four = std::min(shares.four, shown_area(four) / truth.area);
+  shares.eight = std::min(shares.eight, shown_area(eight) / truth.area);
+}
+
+/// Of a round face no four corners keep more than 2 / pi = 0.637, no eight more than 0.901.
+void expect_much_kept(const Shares& shares) {
+  EXPECT_GE(shares.counted, 50);
+  EXPECT_GE(shares.four, 0.59);
+  EXPECT_GE(shares.eight, 0.89);
+  std::printf("%d areas: four points keep at least %.3f, eight %.3f\n", shares.counted, shares.four, shares.eight);
+}
+
+TEST(Patch, OfTwoCubesIsTheirCommonSquare) {
+  const Model cube = bodies::model(bodies::cube());
+  Pose b_in_a;
+  b_in_a.translation = {0.5, 0.25, 2};
+  const Patch p = patch(cube, cube, b_in_a, nearest(cube, cube, b_in_a));
+  ASSERT_EQ(p.count, 4u);
+  EXPECT_EQ(p.normal, Vec3(0, 0, 1));
+  EXPECT_DOUBLE_EQ(shown_area(p), 1.5 * 1.75);
+  int corners_a = 0, corners_b = 0, crossings = 0;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(p.points[i].separation, 0, 1e-15);
+    corners_a += p.points[i].feature_a.kind() == FeatureKind::Vertex && p.points[i].feature_b == p.face_b;
+    corners_b += p.points[i].feature_b.kind() == FeatureKind::Vertex && p.points[i].feature_a == p.face_a;
+    crossings += p.points[i].feature_a.kind() == FeatureKind::Edge && p.points[i].feature_b.kind() == FeatureKind::Edge;
+  }
+  EXPECT_EQ(corners_a, 1);
+  EXPECT_EQ(corners_b, 1);
+  EXPECT_EQ(crossings, 2);
+}
+
+TEST(Patch, OfEqualFlushCubesIsTheirFace) {
+  const Model cube = bodies::model(bodies::cube());
+  for (const double shift : {0., 1e-17, 1e-15, 1e-12, 1e-9}) {
+    Pose b_in_a;
+    b_in_a.translation = {shift, -shift, 2};
+    const Patch p = patch(cube, cube, b_in_a, nearest(cube, cube, b_in_a));
+    ASSERT_EQ(p.count, 4u) << shift;
+    EXPECT_NEAR(shown_area(p), 4, 4 * shift + 1e-14);
+    for (std::uint32_t i = 0; i < 4 && shift < 1e-14; ++i) {  // no crossings of sides that lie on one another
+      EXPECT_NE(p.points[i].feature_a.kind(), FeatureKind::Edge) << shift;
+    }
+  }
+}
+
+TEST(Patch, OfStackedBoxesIsTheIntersectionOfTheirFaces) {
+  Random random(1);
+  Shares shares;
+  int overlapping = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Contacting c = stacked_boxes(random);
+    SCOPED_TRACE(i);
+    if (!is_apart(c)) {
+      ++overlapping;
+      continue;
+    }
+    expect_true(c, shares);
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_LT(overlapping, 10);
+  expect_much_kept(shares);
+}
+
+TEST(Patch, OfPrismsIsTheIntersectionOfTheirFaces) {
+  Random random(2);
+  Shares shares;
+  for (int i = 0; i < 60; ++i) {
+    const std::array<std::uint32_t, 4> sides{3, 5, 12, 60};
+    const Contacting c = stacked_prisms(random, any(sides, random), any(sides, random));
+    SCOPED_TRACE(i);
+    if (!is_apart(c)) continue;
+    expect_true(c, shares);
+    if (testing::Test::HasFailure()) return;
+  }
+  expect_much_kept(shares);
+}
+
+TEST(Patch, OfRandomHullsIsTheIntersectionOfTheirFaces) {
+  Random random(3);
+  Shares shares;
+  for (int i = 0; i < 300; ++i) {
+    const Contacting c = random_hulls(random);
+    SCOPED_TRACE(i);
+    if (!is_apart(c)) continue;
+    expect_true(c, shares);
+    if (testing::Test::HasFailure()) return;
+  }
+  expect_much_kept(shares);
+}
+
+// ---- Faces that are hard ----------------------------------------------------------------------------------------------------
+
+/// A square's two triangles make an angle; the patch is still the square.
+TEST(Patch, OfNearlyCoplanarFacetsIsOneFace) {
+  for (const auto& [height, thickness] : {std::pair{1e-15, 2.}, std::pair{1e-14, 2.}, std::pair{1e-12, 2.},
+                                          std::pair{1e-10, 2.}, std::pair{1e-8, 2.}, std::pair{1e-10, 1e-7}}) {
+    bodies::Body bent = bodies::triangulated(bodies::cube());
+    for (int i = 0; i < 4; ++i) bent.points[i][2] = 1 - thickness;
+    bent.points[4][2] -= height, bent.points[6][2] -= height;  // the ends of the diagonal that the top does not have
+    bodies::Body roof{bent.points, {}, {}};
+    for (std::size_t i = 0; i < bent.corners.size(); i += 3) {
+      if (i == 6 || i == 9) continue;
+      roof.add({bent.corners[i], bent.corners[i + 1], bent.corners[i + 2]});
+    }
+    roof.add({4, 5, 7}), roof.add({5, 6, 7});
+    const Model a = bodies::model(roof), b = bodies::model(bodies::cube());
+    Pose b_in_a;
+    b_in_a.translation = {0, 0, 2 + 1e-9};
+    const Contacting c{a, b, b_in_a, nearest(a, b, b_in_a)};
+    PatchOptions options;
+    options.margin = 1e-6;
+    const Patch p = patch(a, b, b_in_a, c.answer, options);
+    EXPECT_EQ(p.count, 4u) << height;
+    EXPECT_NEAR(shown_area(p), 4, 1e-6) << height;
+    expect_sound(c, p, 1e-9, 1e-6);
+    options.flatness = 0;
+    if (height > 1e-13) {
+      EXPECT_NEAR(shown_area(patch(a, b, b_in_a, c.answer, options)), 2, 1e-6) << height;
+    }
+  }
+}
+
+/// Faces of single precision are planes with a thickness; no point leaves its body for that.
+TEST(Patch, OfRoundedFacesLiesInBothBodies) {
+  Random random(4);
+  for (int i = 0; i < 200; ++i) {
+    const Mat3 turn = random.rotation();
+    const bodies::Body a = bodies::float_rounded(bodies::moved(prism(5 + i % 8, 1, 1), turn)),
+                       b = bodies::float_rounded(bodies::moved(prism(3 + i % 5, 1, 1), turn));
+    Contacting c{hull_of({a.points, {}}), hull_of({b.points, {}}), {}, {}};
+    c.b_in_a.translation = turn * Vec3(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), 1 + 1e-6);
+    c.answer = nearest(c.a, c.b, c.b_in_a);
+    ASSERT_TRUE(is_apart(c)) << i;
+    PatchOptions options;
+    options.margin = 1e-5;
+    const Patch p = patch(c.a, c.b, c.b_in_a, c.answer, options);
+    expect_sound(c, p, (c.answer.point_b - c.answer.point_a).dot(c.answer.normal), 1e-5);
+    EXPECT_GE(p.count, 3u) << i;
+  }
+}
+
+/// Corners that are two by rounding have sides without a direction; a cut along one of these would take half the face.
+TEST(Patch, OfFacesWithTinySidesIsAsWithout) {
+  Random random(12);
+  for (int i = 0; i < 100; ++i) {
+    bodies::Body a = prism(4, 1, 1);
+    for (int k = 0; k < 8; ++k) a.points.push_back(a.points[k] + 1e-15 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 0));
+    const Mat3 turn = random.rotation();
+    Contacting c{hull_of({bodies::moved(a, turn).points, {}}), bodies::model(bodies::moved(prism(5, 3, 1), turn)), {}, {}};
+    c.b_in_a.translation = turn * Vec3(0, 0, 1 + 1e-9);
+    c.answer = nearest(c.a, c.b, c.b_in_a);
+    PatchOptions options;
+    options.margin = 1e-8;
+    EXPECT_NEAR(shown_area(patch(c.a, c.b, c.b_in_a, c.answer, options)), 2, 1e-8) << i;
+  }
+}
+
+/// Tips that are farthest apart are not the corners to keep.
+TEST(Patch, OfALongFaceKeepsItsShoulders) {
+  bodies::Body hexagon;
+  for (const double z : {-1., 1.}) {
+    for (const auto& [x, y] : {std::pair{11., 0.}, std::pair{10., 0.5}, std::pair{-10., 0.5}, std::pair{-11., 0.},
+                               std::pair{-10., -0.5}, std::pair{10., -0.5}})
+      hexagon.points.emplace_back(x, y, z);
+  }
+  const Model a = hull_of({hexagon.points, {}}), b = bodies::model(bodies::box(20, 20, 1));
+  EXPECT_GE(shown_area(touching(a, b, at(0, 0, 2))), 0.7 * 21);
+}
+
+TEST(Patch, OfFacesOfAThousandSidesKeepsTheirArea) {
+  const Model round = bodies::model(prism(1000, 1, 1));
+  Pose b_in_a;
+  b_in_a.translation = {0.1, 0.2, 1};
+  PatchOptions options;
+  const Contacting c{round, round, b_in_a, nearest(round, round, b_in_a)};
+  options.most_points = 8;
+  const Patch p = patch(round, round, b_in_a, c.answer, options);
+  expect_sound(c, p, 0, 0);
+  EXPECT_EQ(p.count, 8u);
+  const Contacting tilted = stacked(prism(1000, 1, 1), 0.5, prism(1000, 1, 1),
+                                    at(0.1, 0.2, 0, shapes::rotation({0.6, 0.8, 0}, 1e-4)), 1e-3, Mat3::Identity());
+  options.margin = kInfinity;
+  expect_sound(tilted, patch(tilted.a, tilted.b, tilted.b_in_a, tilted.answer, options), tilted.answer.lower, kInfinity);
+  // Two circles of radius 1 whose centres are sqrt(0.05) apart.
+  const double d = std::sqrt(0.05), lens = 2 * std::acos(d / 2) - d / 2 * std::sqrt(4 - d * d);
+  EXPECT_GE(shown_area(p), 0.88 * lens);
+}
+
+TEST(Patch, OfSliversIsTheIntersectionOfTheirFaces) {
+  Random random(5);
+  Shares shares;
+  for (int i = 0; i < 300; ++i) {
+    const double thin = any(std::array{1e-3, 1e-5, 1e-7}, random);
+    const bodies::Body sliver{{{0, 0, 0}, {1, 0, 0}, {random.uniform(), thin, 0}, {0.5, thin / 3, 1}}, {}, {}};
+    const Model b = hull_of({sliver.points, {}});
+    Contacting c{bodies::model(bodies::box(1, random.uniform() * thin, 1)), b, {}, {}};
+    c.b_in_a.rotation = shapes::rotation(Vec3::UnitZ(), any(kAngles, random));
+    c.b_in_a.translation = {0, 0, 1 + any(kGaps, random)};
+    c.answer = nearest(c.a, c.b, c.b_in_a);
+    SCOPED_TRACE(i);
+    ASSERT_TRUE(is_apart(c));
+    expect_true(c, shares);
+    if (testing::Test::HasFailure()) return;
+  }
+  expect_much_kept(shares);
+}
+
+// ---- Edges and corners ------------------------------------------------------------------------------------------------------
+
+const Mat3 kEighthAboutX = shapes::rotation(Vec3::UnitX(), std::numbers::pi / 4),
+           kQuarterAboutZ = shapes::rotation(Vec3::UnitZ(), std::numbers::pi / 2);
+
+TEST(Patch, OfAnEdgeOnAFaceIsItsTwoEnds) {
+  const Model cube = bodies::model(bodies::cube());
+  const Patch p = touching(cube, cube, at(0.5, 0, 1 + std::sqrt(2), kEighthAboutX));
+  ASSERT_EQ(p.count, 2u);
+  EXPECT_NEAR((p.points[1].point_a - p.points[0].point_a).norm(), 1.5, 1e-14);
+}
+
+TEST(Patch, OfCrossingEdgesIsTheirCrossing) {
+  const bodies::Body ridge = bodies::moved(bodies::cube(), kEighthAboutX);
+  const Model a = bodies::model(ridge), b = bodies::model(bodies::moved(ridge, kQuarterAboutZ));
+  const Patch p = touching(a, b, at(0.25, 0.5, 2 * std::sqrt(2)));
+  ASSERT_EQ(p.count, 1u);
+  EXPECT_EQ(p.points[0].feature_a.kind(), FeatureKind::Edge);
+  EXPECT_EQ(p.points[0].feature_b.kind(), FeatureKind::Edge);
+  EXPECT_LE((p.points[0].point_a - Vec3(0.25, 0, std::sqrt(2))).norm(), 1e-14);
+}
+
+TEST(Patch, OfEdgesAlongOneAnotherIsTwoPoints) {
+  const Model a = bodies::model(bodies::moved(bodies::cube(), kEighthAboutX));
+  const Patch p = touching(a, a, at(0.5, 0, 2 * std::sqrt(2)));
+  ASSERT_EQ(p.count, 2u);
+  EXPECT_NEAR((p.points[1].point_a - p.points[0].point_a).norm(), 1.5, 1e-13);
+}
+
+TEST(Patch, OfACornerIsTheCorner) {
+  const Model cube = bodies::model(bodies::cube()), octahedron = bodies::model(bodies::octahedron());
+  const Patch on_face = touching(cube, octahedron, at(0.5, 0, 2));
+  ASSERT_EQ(on_face.count, 1u);
+  EXPECT_EQ(on_face.points[0].feature_b.kind(), FeatureKind::Vertex);
+  EXPECT_EQ(on_face.points[0].feature_a, on_face.face_a);
+  EXPECT_EQ(touching(octahedron, octahedron, at(0, 0, 2)).count, 1u);  // corner on corner
+  EXPECT_EQ(touching(cube, cube, at(2, 2, 2)).count, 1u);
+}
+
+/// Bodies of one dimension less than solids, seen flat and from the side.
+TEST(Patch, OfFlatBodiesIsTheirPartOfTheFace) {
+  const Model cube = bodies::model(bodies::cube()),
+              square = bodies::model(bodies::two_sided({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}})),
+              segment = bodies::model(bodies::segment({-3, 0, 0}, {3, 0, 0})), point = bodies::model(bodies::point({0, 0, 0}));
+  const Mat3 upright = shapes::rotation(Vec3::UnitX(), std::numbers::pi / 2);
+  EXPECT_NEAR(shown_area(touching(cube, square, at(0.5, 0, 1))), 3, 1e-14);
+  EXPECT_NEAR(shown_area(touching(square, cube, at(0.5, 0, -1))), 3, 1e-14);
+  EXPECT_NEAR(shown_area(touching(square, square, at(0.5, 0, 0))), 3, 1e-14);
+  for (const auto& [a, b, pose, count] :
+       {std::tuple{&cube, &square, at(0.5, 0, 2, upright), 2u}, std::tuple{&cube, &segment, at(0, 0.5, 1), 2u},
+        std::tuple{&segment, &cube, at(0, 0.5, 1), 2u}, std::tuple{&cube, &point, at(0, 0.5, 1), 1u},
+        std::tuple{&point, &cube, at(0, 0.5, 1), 1u}, std::tuple{&square, &point, at(0, 0.5, 0), 1u}}) {
+    EXPECT_EQ(touching(*a, *b, pose).count, count);
+  }
+  EXPECT_EQ(touching(segment, segment, at(0, 0, 0, kQuarterAboutZ)).count, 1u);
+  const Mat3 across = kQuarterAboutZ * upright;
+  for (const double x : {-0.5, 0., 0.7}) {  // upright on upright: edges that cross, and edges along one another
+    Contacting c{square, square, at(x, 0.3, 2 + 1e-12, upright.transpose() * across), {}};
+    c.a = bodies::model(
+        bodies::moved({{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {0, 1, 2, 3, 3, 2, 1, 0}, {4, 4}}, upright));
+    c.b_in_a.rotation = across;
+    c.answer = nearest(c.a, c.b, c.b_in_a);
+    PatchOptions options;
+    options.margin = 1e-9;
+    const Patch p = patch(c.a, c.b, c.b_in_a, c.answer, options);
+    expect_sound(c, p, 1e-12, 1e-9);
+    EXPECT_EQ(p.count, 1u);
+    c.b_in_a.rotation = upright;
+    c.b_in_a.translation = {x, 0, 2 + 1e-12};
+    c.answer = nearest(c.a, c.b, c.b_in_a);
+    const Patch along = patch(c.a, c.b, c.b_in_a, c.answer, options);
+    expect_sound(c, along, 1e-12, 1e-9);
+    EXPECT_EQ(along.count, 2u);
+  }
+  EXPECT_EQ(touching(segment, segment, at(1, 0, 0)).count, 2u);
+  EXPECT_EQ(touching(point, point, at(0, 0, 0)).count, 1u);
+}
+
+// ---- What is asked for ------------------------------------------------------------------------------------------------------
+
+TEST(Patch, HoldsWhatIsNearEnough) {
+  const Model cube = bodies::model(bodies::cube());
+  const double tilt = 1e-3;  // of 2: the far side is 2e-3 higher
+  const Mat3 rotation = shapes::rotation(Vec3::UnitY(), tilt);
+  const Contacting c{cube, cube, at(0, 0, 2.01, rotation), nearest(cube, cube, at(0, 0, 2.01, rotation))};
+  PatchOptions options;
+  const auto count = [&](double margin) {
+    options.margin = margin;
+    return patch(c.a, c.b, c.b_in_a, c.answer, options).count;
+  };
+  EXPECT_EQ(count(0), 0u);
+  EXPECT_EQ(count(c.answer.lower - 1e-12), 0u);
+  EXPECT_EQ(count(c.answer.upper), 2u);
+  EXPECT_EQ(count(c.answer.upper + 1.9e-3), 2u);
+  EXPECT_EQ(count(c.answer.upper + 2.1e-3), 4u);
+}
+
+TEST(Patch, HoldsAsManyPointsAsAskedFor) {
+  const Model cube = bodies::model(bodies::cube());
+  const Pose b_in_a = at(0, 0, 2, shapes::rotation(Vec3::UnitZ(), std::numbers::pi / 4));
+  const Answer answer = nearest(cube, cube, b_in_a);
+  PatchOptions options;
+  double before = -1;
+  for (const std::uint32_t most : {0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 100u}) {
+    options.most_points = most;
+    const Patch p = patch(cube, cube, b_in_a, answer, options);
+    EXPECT_EQ(p.count, std::min(most, 8u));
+    EXPECT_GE(shown_area(p), before);
+    before = shown_area(p);
+  }
+  EXPECT_NEAR(before, 8 * (std::sqrt(2) - 1), 1e-14);  // a regular octagon of inradius 1
+}
+
+TEST(Patch, OfOverlappingBodiesNeedsADirection) {
+  const Model cube = bodies::model(bodies::cube());
+  EXPECT_EQ(patch(cube, cube, at(0, 0, 1), nearest(cube, cube, at(0, 0, 1))).count, 0u);
+}
+
+// ---- Laws -------------------------------------------------------------------------------------------------------------------
+
+/// B moved along the normal changes the separations by that and nothing else: bodies that overlap have the same patch.
+TEST(Patch, IsTheSameAtAnyDepth) {
+  Random random(6);
+  for (int i = 0; i < 300; ++i) {
+    const Contacting c = i % 2 ? stacked_boxes(random) : random_hulls(random);
+    if (!is_apart(c)) continue;
+    PatchOptions options;
+    options.margin = kInfinity;
+    const Patch near = patch(c.a, c.b, c.b_in_a, c.answer, options);
+    const double depth = random.uniform(0, 0.1);
+    Contacting overlapping = c;
+    overlapping.b_in_a.translation -= depth * c.answer.normal;
+    overlapping.answer.point_b -= depth * c.answer.normal;
+    const Patch deep = patch(c.a, c.b, overlapping.b_in_a, overlapping.answer, options);
+    expect_sound(overlapping, deep, (c.answer.point_b - c.answer.point_a).dot(c.answer.normal) - depth, kInfinity);
+    if (shown_area(near) > 1e-6) {
+      EXPECT_NEAR(shown_area(deep), shown_area(near), 1e-9 + 0.4 * shown_area(near)) << i;
+    }
+  }
+}
+
+/// Depth's own answers: deep in one another, the deepest point is the depth.
+TEST(Patch, HoldsTheDepthOfOverlappingBodies) {
+  Random random(11);
+  for (int i = 0; i < 200; ++i) {
+    Contacting c = i % 2 ? stacked_boxes(random) : random_hulls(random);
+    if (!is_apart(c)) continue;
+    c.b_in_a.translation -= random.uniform(0, 0.2) * c.answer.normal + 0.05 * random.in_ball();
+    PairSeed cold;
+    const SignedAnswer deep = signed_distance(c.a, c.b, c.b_in_a, cold);
+    if (deep.normal.isZero()) continue;
+    c.answer.normal = deep.normal;
+    PatchOptions options;
+    options.margin = kInfinity;
+    expect_sound(c, patch(c.a, c.b, c.b_in_a, deep, options), deep.lower, kInfinity);
+  }
+}
+
+/// A loose answer is on a coarser level, and so is its patch: cubes around octahedra.
+TEST(Patch, OfALooseAnswerIsThatOfItsLevels) {
+  const Model a = bodies::nested(2);
+  PairSeed cold;
+  QueryOptions loose;
+  loose.finest_level = 1;
+  const Pose b_in_a = at(0, 0.5, 2.5);
+  const Answer answer = distance(a, a, b_in_a, cold, loose);
+  ASSERT_EQ(answer.level_a, 1);
+  PatchOptions options;
+  options.margin = 0.6;
+  const Patch p = patch(a, a, b_in_a, answer, options);
+  EXPECT_EQ(p.count, 4u);
+  EXPECT_NEAR(shown_area(p), 3, 1e-14);
+  EXPECT_NEAR(least(p), 0.5, 1e-14);
+}
+
+/// A margin around the hulls moves the points outwards, by that and nothing else.
+TEST(Patch, OfBodiesWithARadiusLiesOnIt) {
+  const Model cube = bodies::model(bodies::cube());
+  const Pose b_in_a = at(0.5, 0.25, 2.05);
+  Answer answer = nearest(cube, cube, b_in_a);
+  PatchOptions options;
+  options.margin = 0.05;
+  const Patch hulls = patch(cube, cube, b_in_a, answer, options);
+  options.radius_a = 0.03, options.radius_b = 0.04, options.margin = 0;
+  answer.point_a += options.radius_a * answer.normal;
+  answer.point_b -= options.radius_b * answer.normal;
+  const Patch bodies = patch(cube, cube, b_in_a, answer, options);
+  ASSERT_EQ(hulls.count, 4u);
+  ASSERT_EQ(bodies.count, 4u);
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(bodies.points[i].separation, -0.02, 1e-15);
+    EXPECT_NEAR((bodies.points[i].point_a - hulls.points[i].point_a - Vec3(0, 0, 0.03)).norm(), 0, 1e-15);
+    EXPECT_NEAR((bodies.points[i].point_b - hulls.points[i].point_b + Vec3(0, 0, 0.04)).norm(), 0, 1e-15);
+    EXPECT_EQ(bodies.points[i].feature_a, hulls.points[i].feature_a);
+  }
+}
+
+TEST(Patch, IsMirroredUnderSwap) {
+  Random random(7);
+  for (int i = 0; i < 300; ++i) {
+    const Contacting c = i % 2 ? stacked_boxes(random) : random_hulls(random);
+    if (!is_apart(c)) continue;
+    PatchOptions options;
+    options.margin = kInfinity, options.most_points = 8;
+    const Patch forth = patch(c.a, c.b, c.b_in_a, c.answer, options);
+    Contacting s{c.b, c.a, inverse(c.b_in_a), c.answer};
+    const auto into_b = [&](const Vec3& p) { return Vec3(s.b_in_a.rotation * p + s.b_in_a.translation); };
+    s.answer.normal = -(s.b_in_a.rotation * c.answer.normal).normalized();
+    s.answer.point_a = into_b(c.answer.point_b), s.answer.point_b = into_b(c.answer.point_a);
+    std::swap(s.answer.feature_a, s.answer.feature_b);
+    const Patch back = patch(s.a, s.b, s.b_in_a, s.answer, options);
+    expect_sound(s, back, (c.answer.point_b - c.answer.point_a).dot(c.answer.normal), kInfinity);
+    EXPECT_NEAR(shown_area(forth), shown_area(back), 16 * c.bound() * (c.a.extent() + c.b.extent())) << i;
+  }
+}
+
+TEST(Patch, ScalesBitForBit) {
+  Random random(8);
+  for (int i = 0; i < 100; ++i) {
+    const bodies::Body a = bodies::moved(bodies::box(1, random.uniform(), 1), random.rotation());
+    const Mat3 rotation = random.rotation();
+    const Vec3 translation = 3 * random.on_sphere();
+    const auto at_scale = [&](double scale) {
+      const bodies::Body scaled = bodies::moved(a, scale * Mat3::Identity());
+      const Model model = bodies::model(scaled);
+      Pose pose;
+      pose.rotation = rotation, pose.translation = scale * translation;
+      const Answer answer = nearest(model, model, pose);
+      PatchOptions options;
+      options.margin = kInfinity;
+      return answer.normal.isZero() ? Patch{} : patch(model, model, pose, answer, options);
+    };
+    const Patch one = at_scale(1), large = at_scale(0x1p40);
+    ASSERT_EQ(one.count, large.count);
+    for (std::uint32_t k = 0; k < one.count; ++k) {
+      EXPECT_EQ(one.points[k].point_a * 0x1p40, large.points[k].point_a);
+      EXPECT_EQ(one.points[k].point_b * 0x1p40, large.points[k].point_b);
+      EXPECT_EQ(one.points[k].separation * 0x1p40, large.points[k].separation);
+    }
+  }
+}
+
+// ---- Motion -----------------------------------------------------------------------------------------------------------------
+
+Vec3 direction(const ConvexView& view, Handle edge, const Mat3& rotation) {
+  const Vertex &p = view.vertices[view.head[view.twin[edge.index()]]], &q = view.vertices[view.head[edge.index()]];
+  return (rotation * Vec3(q.x - p.x, q.y - p.y, q.z - p.z)).normalized();
+}
+
+/// B slides, turns and tilts by 1e-6 a frame. A point that keeps its name moves by no more than the bodies do there, where
+/// edges cross divided by the sine of their angle, with room for a factor of 4.
+TEST(Patch, MovesNoPointFartherThanTheBodies) {
+  Random random(9);
+  int frames = 0, changes = 0, followed = 0;
+  double worst = 0;
+  for (int scene = 0; scene < 60; ++scene) {
+    const bodies::Body a = scene % 3 ? bodies::box(1, 0.7, 0.5) : prism(60, 1, 1),
+                       b = scene % 2 ? bodies::box(0.8, 1.1, 0.4) : prism(5, 0.9, 1);
+    const Model model_a = bodies::model(a), model_b = bodies::model(b);
+    Pose pose =
+        stacked(a, 0.5, b, random_top(random, random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)), 1e-2, Mat3::Identity())
+            .b_in_a;
+    constexpr double kStep = 1e-6;
+    const Vec3 slide = kStep * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 0);
+    const Mat3 turn = shapes::rotation(random.on_sphere(), kStep);
+    Patch before;
+    for (int frame = 0; frame < 200; ++frame, ++frames) {
+      const Contacting c{model_a, model_b, pose, nearest(model_a, model_b, pose)};
+      PatchOptions options;
+      options.margin = 0.02;
+      const Patch now = patch(c.a, c.b, pose, c.answer, options, before);
+      const double motion = 2 * kStep + 2 * kStep * 0.02 / std::max(1e-9, c.answer.lower);
+      bool same = now.count == before.count;
+      for (std::uint32_t i = 0; i < now.count; ++i) {
+        const PatchPoint& p = now.points[i];
+        const PatchPoint* old = nullptr;
+        for (std::uint32_t k = 0; k < before.count; ++k) {
+          const PatchPoint& q = before.points[k];
+          if (q.feature_a == p.feature_a && q.feature_b == p.feature_b) old = &q;
+        }
+        same = same && old;
+        if (!old) continue;
+        double allowed = 4 * motion;
+        if (p.feature_a.kind() == FeatureKind::Edge && p.feature_b.kind() == FeatureKind::Edge) {
+          const Vec3 u = direction(c.a.level(0).view, p.feature_a, Mat3::Identity()),
+                     v = direction(c.b.level(0).view, p.feature_b, pose.rotation);
+          allowed /= std::max(1e-9, u.cross(v).norm());
+        }
+        ++followed;
+        const double moved = std::max((p.point_a - old->point_a).norm(), (p.point_b - old->point_b).norm());
+        worst = std::max(worst, 4 * moved / allowed);
+        EXPECT_LE(moved, allowed) << scene << " " << frame;
+      }
+      changes += frame > 0 && !same;
+      before = now;
+      pose.rotation = (turn * pose.rotation).eval();
+      pose.translation += slide;
+    }
+  }
+  EXPECT_GT(followed, 20000);
+  EXPECT_LT(changes, frames / 50);
+  std::printf("%d frames, %d changes of points, greatest motion %.2f\n", frames, changes, worst);
+}
+
+/// Two triangles turned against one another have a hexagon in common, of which four corners are as good as other four: those of
+/// the frame before stay, whatever a body at rest trembles.
+TEST(Patch, KeepsThePointsOfTheFrameBefore) {
+  const Model prism_3 = bodies::model(prism(3, 1, 1));
+  Random random(10);
+  int with = 0, without = 0;
+  Patch before, alone;
+  for (int frame = 0; frame < 200; ++frame) {
+    const Pose pose = at(random.uniform(-1e-3, 1e-3), random.uniform(-1e-3, 1e-3), 1.001,
+                         shapes::rotation(Vec3::UnitZ(), std::numbers::pi + random.uniform(-1e-3, 1e-3)));
+    const Answer answer = nearest(prism_3, prism_3, pose);
+    PatchOptions options;
+    options.margin = 0.01;
+    const auto differ = [](const Patch& p, const Patch& q) {
+      int known = 0;
+      for (std::uint32_t i = 0; i < p.count; ++i) {
+        for (std::uint32_t k = 0; k < q.count; ++k) {
+          known += p.points[i].feature_a == q.points[k].feature_a && p.points[i].feature_b == q.points[k].feature_b;
+        }
+      }
+      return known < 4;
+    };
+    const Patch now = patch(prism_3, prism_3, pose, answer, options, before),
+                now_alone = patch(prism_3, prism_3, pose, answer, options);
+    with += frame > 0 && differ(now, before);
+    without += frame > 0 && differ(now_alone, alone);
+    before = now, alone = now_alone;
+  }
+  EXPECT_EQ(with, 0);
+  EXPECT_GT(without, 20) << "the test is too easy";
+}
+
+/// A cube that balances on an edge faces along the normal with two faces alike: the one of the frame before stays.
+TEST(Patch, KeepsTheFaceOfTheFrameBefore) {
+  const Model cube = bodies::model(bodies::cube());
+  const Pose pose = at(0, 0, 1.1 + std::sqrt(2), kEighthAboutX);
+  const Answer answer = nearest(cube, cube, pose);
+  int kept = 0;
+  for (std::uint32_t face = 0; face < 6; ++face) {
+    Patch before;
+    before.face_b = {FeatureKind::Face, face};
+    kept += patch(cube, cube, pose, answer, {}, before).face_b == before.face_b;
+  }
+  EXPECT_EQ(kept, 2);
+}
+
+}  // namespace
+}  // namespace swiftlet
