@@ -139,7 +139,7 @@ Result<Built> build(const Mesh& users, const BuildOptions& options) {
   if (!model) return model.error();
   describe(model.value(), report);
   if (!keep_on(1, "done")) return cancelled();
-  return Built{std::move(model).value(), std::move(report)};
+  return Built{model.value().cut(options.detail), std::move(report)};
 }
 
 Result<Built> build(std::span<const Vec3> points, const BuildOptions& options) {

@@ -79,7 +79,7 @@ std::string report_text(const Request& request, const Built& built) {
                  r.interior_dropped);
   if (built.model.dimension() == 3) {
     text += format(" grouped    %zu triangles of the hull into %zu faces, %zu of them with more than three vertices\n",
-                   r.hull_triangles, built.model.level(0).view.face_first.size(), r.faces_grouped);
+                   r.hull_triangles, r.levels.front().faces, r.faces_grouped);
     text += format(" dents      the deepest %.6g; the mesh's volume is %.6g of the hull's\n", r.deepest_dent, r.volume_ratio);
   }
   text += levels_text(built.model) + " ended      " + r.end + "\n wrote      " + request.out;
@@ -91,6 +91,7 @@ nlohmann::ordered_json report_json(const Request& request, const Built& built) {
   return {{"path", request.out},
           {"mesh", request.in},
           {"bytes", built.model.bytes().size()},
+          {"finest_level", built.model.finest_level()},
           {"points_read", r.points_read},
           {"triangles_read", r.triangles_read},
           {"duplicates_dropped", r.duplicates_dropped},
@@ -166,6 +167,7 @@ Action declare_build(CLI::App& word) {
   word.add_option("--max-deviation", o.max_deviation, "no level deviates more, in the mesh's unit; 0: no limit")
       ->capture_default_str()
       ->check(number_in(0, std::numeric_limits<double>::max(), "from 0 up"));
+  add_detail(word, o.detail);
   word.add_option("--map", o.table.map_side, "cells on an edge of the finest support map: 0 or a power of two up to 64")
       ->capture_default_str();
   add_choice(word, "--table", tables, o.table.resolution, "none", "degrees between the samples of the paper's start table");

@@ -4,6 +4,7 @@
 #include "polytope.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace swiftlet::lod {
 
@@ -70,6 +71,31 @@ HalfEdges half_edges(const Polytope& body) {
   return edges;
 }
 
+namespace {
+
+/// Along Morton's space-filling curve.
+std::vector<std::uint32_t> along_curve(std::span<const Vec3> points) {
+  Vec3 low = points.front(), high = low;
+  for (const Vec3& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const double size = (high - low).maxCoeff();
+  const auto code = [&](const Vec3& p) {
+    constexpr int kBits = 20;
+    std::uint64_t bits = 0;
+    const Vec3 cell = size > 0 ? Vec3((p - low) / size * ((1 << kBits) - 1)) : Vec3::Zero();
+    for (int bit = kBits; bit-- > 0;)
+      for (const double x : cell) bits = bits << 1 | (std::uint64_t(x) >> bit & 1);
+    return bits;
+  };
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
+  for (std::uint32_t v = 0; v < points.size(); ++v) keyed.emplace_back(code(points[v]), v);
+  std::sort(keyed.begin(), keyed.end());
+  std::vector<std::uint32_t> order;
+  for (const auto& [key, v] : keyed) order.push_back(v);
+  return order;
+}
+
+}  // namespace
+
 // Every directed edge occurs once, so that the triangles' sides list each neighbour once.
 Climber::Climber(const Polytope& body) : body_(body), begin_(body.points.size() + 1), neighbour_(3 * body.triangles.size()) {
   for (const Triangle& triangle : body.triangles)
@@ -81,6 +107,14 @@ Climber::Climber(const Polytope& body) : body_(body), begin_(body.points.size() 
     neighbour_[slot[b]++] = c;
     neighbour_[slot[c]++] = a;
   }
+  node_.resize(body.points.size());
+  for (const std::uint32_t v : along_curve(body.points)) {
+    node_[v] = std::uint32_t(nodes_.size());
+    nodes_.push_back({body.points[v], std::uint32_t(near_.size()), v});
+    near_.insert(near_.end(), neighbours(v).begin(), neighbours(v).end());
+  }
+  nodes_.push_back({Vec3::Zero(), std::uint32_t(near_.size()), 0});
+  for (std::uint32_t& v : near_) v = node_[v];
 }
 
 std::span<const std::uint32_t> Climber::neighbours(std::uint32_t vertex) const {
@@ -88,15 +122,15 @@ std::span<const std::uint32_t> Climber::neighbours(std::uint32_t vertex) const {
 }
 
 std::uint32_t Climber::climb(const Vec3& direction, std::uint32_t start) const {
-  std::uint32_t best = start;
-  double height = direction.dot(body_.points[start]);
+  std::uint32_t best = node_[start];
+  double height = direction.dot(nodes_[best].point);
   while (true) {
     const std::uint32_t from = best;
-    for (std::uint32_t to : neighbours(from)) {
-      const double to_height = direction.dot(body_.points[to]);
-      if (to_height > height) height = to_height, best = to;
+    for (std::uint32_t k = nodes_[from].begin; k < nodes_[from + 1].begin; ++k) {
+      const double to_height = direction.dot(nodes_[near_[k]].point);
+      if (to_height > height) height = to_height, best = near_[k];
     }
-    if (best == from) return best;
+    if (best == from) return nodes_[best].vertex;
   }
 }
 

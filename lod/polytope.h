@@ -46,7 +46,8 @@ HalfEdges half_edges(const Polytope& body);
 
 inline std::uint32_t origin(const Polytope& body, std::uint32_t h) { return body.triangles[h / 3][h % 3]; }
 
-/// Finds extreme vertices of one solid by walking uphill; cheap when the start is near. Keeps a reference to the body.
+/// Finds extreme vertices of one solid by walking uphill; cheap when the start is near. Keeps a reference to the body, and its
+/// points in an order of its own, in which neighbours in space are neighbours in memory.
 class Climber {
  public:
   explicit Climber(const Polytope& body);
@@ -56,8 +57,14 @@ class Climber {
   std::uint32_t climb(const Vec3& direction, std::uint32_t start) const;
 
  private:
+  struct Node {
+    Vec3 point;
+    std::uint32_t begin, vertex;  ///< of its neighbours; the body's
+  };
   const Polytope& body_;
-  std::vector<std::uint32_t> begin_, neighbour_;
+  std::vector<std::uint32_t> begin_, neighbour_;  ///< per vertex
+  std::vector<Node> nodes_;                       ///< along a curve, and one more where neighbours end
+  std::vector<std::uint32_t> node_, near_;        ///< of each vertex; neighbours of the nodes
 };
 
 }  // namespace swiftlet::lod

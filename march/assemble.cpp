@@ -12,8 +12,10 @@
 #include "block.h"
 #include "certify.h"
 #include "exact.h"
+#include "seed.h"
 #include "surface.h"
 #include "table.h"
+#include "walk.h"
 
 namespace swiftlet {
 namespace {
@@ -60,18 +62,45 @@ double deviation_from(const ConvexView& exact_hull, const ConvexView& level) {
   return deviation * (1 + 2 * kU);
 }
 
-/// The vertex of `finer` nearest to each vertex of `level`: of the nearest feature's corners, the nearest.
+double squared_distance(const ConvexView& view, std::uint32_t v, const Vec& p) {
+  const Vec d = vec(view.vertices[v]) - p;
+  return dot(d, d);
+}
+
+/// A vertex that none of its ring is nearer to `p` than.
+std::uint32_t nearest_of_rings(const ConvexView& view, const Vec& p, std::uint32_t start) {
+  for (std::uint32_t best = start;; start = best) {
+    const Vertex& ring = view.vertices[start];
+    for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
+      if (squared_distance(view, view.head[h], p) < squared_distance(view, best, p)) best = view.head[h];
+    }
+    if (best == start) return best;
+  }
+}
+
+/// The feature of `body` nearest to `point`, or none where a walk finds the point inside.
+Handle nearest_feature(const ConvexView& point, const ConvexView& body, const MarchStart& start) {
+  const Scene pair = scene(point, body, kAtRest, 0);
+  std::uint32_t climbs = 0;
+  const MarchStart from = settled(pair, start, climbs);
+  if (walk(pair, from.a, from.b, PlaneRule::MostViolated, ~0u).end == WalkEnd::Inside) return {};
+  return march(point, body, Pose{}, start).b;
+}
+
+/// The vertex of `finer` nearest to each vertex of `level`: of the nearest feature's corners, the nearest. Of a vertex inside,
+/// which a level that was grown may have, the nearest along the rings from the one before.
 std::vector<std::uint32_t> nearest_vertices(const ConvexView& level, const ConvexView& finer) {
   std::vector<std::uint32_t> nearest;
   MarchStart start;
   PointBody point;
+  std::uint32_t best = 0;
   for (const Vertex& v : level.vertices) {
     point.move_to(v);
-    start.b = march(point.view(), finer, Pose{}, start).b;
-    std::uint32_t best = any_vertex(finer, start.b);
+    start.b = nearest_feature(point.view(), finer, start);
+    if (start.b.kind() == FeatureKind::None) start.b = {FeatureKind::Vertex, nearest_of_rings(finer, vec(v), best)};
+    best = any_vertex(finer, start.b);
     const auto offer = [&](std::uint32_t w) {
-      const Vec d = vec(finer.vertices[w]) - vec(v), e = vec(finer.vertices[best]) - vec(v);
-      if (dot(d, d) < dot(e, e)) best = w;
+      if (squared_distance(finer, w, vec(v)) < squared_distance(finer, best, vec(v))) best = w;
     };
     if (start.b.kind() == FeatureKind::Edge) offer(finer.head[start.b.index()]);
     if (start.b.kind() == FeatureKind::Face) {

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The one block of memory that a model is, and that its file is. Layout, hashes and structural checks; no geometry.
+// The one block of memory that a model is, and that its file is: layout and hashes. Knows nothing of files or geometry.
 //
 //   BlockHeader | LevelHeader x level_count | support maps | coarsest level | ... | level 0 | table | source map
+//
+// A block cut short at a level says so in its header: of the finer levels only the LevelHeaders are left, at offset 0, and
+// table and source map are empty.
 //
 // Sections begin at multiples of 64 bytes. Little-endian, IEEE doubles. A level section holds, one after the other: Vertex[V],
 // FacePlane[P], then 32-bit words head[H] twin[H] face[H] face_first[F], child_vertex[V] child_face[F] (not on level 0),
@@ -15,6 +18,7 @@
 #include <cstring>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <swiftlet/model.h>
@@ -38,8 +42,8 @@ struct BlockHeader {
   double centre[3], radius, box_min[3], box_max[3];
   Section maps, table, source;
   std::uint64_t source_face_count;
-  std::uint32_t map_side;  ///< TableSpec::map_side
-  std::uint32_t reserved;  ///< 0
+  std::uint32_t map_side;      ///< TableSpec::map_side
+  std::uint32_t finest_level;  ///< of those in the block
 };
 static_assert(sizeof(BlockHeader) == 216);
 
@@ -52,25 +56,49 @@ struct LevelHeader {
 };
 static_assert(sizeof(LevelHeader) == 96);
 
-/// Bytes at a multiple of 64.
+inline constexpr std::size_t kMostHeaderBytes = sizeof(BlockHeader) + kMaxLevels * sizeof(LevelHeader);
+
+/// What is known of a block before any of its sections is read.
+struct Headers {
+  BlockHeader block;
+  std::vector<LevelHeader> levels;  ///< finest first
+
+  /// Bytes of the shortest beginning of the block that holds `level` and all coarser ones; the whole where it is the finest.
+  std::uint64_t prefix(int level) const;
+  /// The finest of the block's levels that `detail` asks for.
+  int finest(const Detail& detail) const;
+};
+
+/// Whether a file of so many bytes is the whole block.
+std::string length_fault(const Headers& headers, std::uint64_t bytes);
+
+/// Memory and who keeps it: the heap, or a mapping of a file.
+struct Block {
+  std::shared_ptr<const std::byte[]> owner;
+  std::span<const std::byte> bytes;  ///< from a multiple of 64 on
+};
+
+/// A block to be written.
 class AlignedBytes {
  public:
-  explicit AlignedBytes(std::size_t size) : size_(size), data_(new (std::align_val_t{64}) std::byte[size]()) {}
+  explicit AlignedBytes(std::size_t size)
+      : size_(size), data_(new (std::align_val_t{64}) std::byte[size](), [](std::byte* p) {
+          ::operator delete[](p, std::align_val_t{64});
+        }) {}
   std::byte* data() { return data_.get(); }
   std::span<const std::byte> view() const { return {data_.get(), size_}; }
+  operator Block() && { return {data_, view()}; }
 
  private:
-  struct Free {
-    void operator()(std::byte* p) const { ::operator delete[](p, std::align_val_t{64}); }
-  };
   std::size_t size_;
-  std::unique_ptr<std::byte[], Free> data_;
+  std::shared_ptr<std::byte[]> data_;
 };
 
 struct Model::Body {
-  AlignedBytes block;
-  BlockHeader header;
-  std::vector<Level> levels;
+  Block block;
+  Headers headers;
+  int finest;                 ///< of the levels whose views are ready
+  std::vector<Level> levels;  ///< finest first; of those finer than `finest` only the numbers
   SourceMap source;
   std::span<const std::uint32_t> table;
 };
@@ -78,7 +106,7 @@ struct Model::Body {
 /// FNV-1a over 8-byte words, the last one filled with zeros. Finds damage, not malice.
 std::uint64_t hash_of(std::span<const std::byte> bytes);
 
-/// The sections of a block to be.
+/// The sections of a block to be. Those of levels finer than `header.finest_level` are empty, as are its table and source map.
 struct BlockParts {
   BlockHeader header{};                    ///< sizes, offsets and hashes are filled in by compose
   std::vector<LevelHeader> level_headers;  ///< finest first
@@ -90,10 +118,21 @@ AlignedBytes compose(const BlockParts& parts);
 /// The way into a Model, from the builder as from a file.
 class BlockReader {
  public:
-  /// What the first bytes of a file of `file_size` bytes promise, checked before more is read.
-  static Result<BlockHeader> read_header(std::span<const std::byte> start, std::uint64_t file_size);
-  /// Checks hashes, ranges and topology, never geometry, and makes the views.
-  static Result<Model> read(AlignedBytes block);
+  /// The headers at the start of a block: their hash, numbers in range, sizes that fit the counts, sections one after the
+  /// other.
+  static Result<Headers> read_headers(std::span<const std::byte> start);
+  /// A model of a whole block.
+  static Result<Model> read(Block block);
+  /// A model of a block's levels from `finest` on. Of the finer ones nothing is read, and they may be missing at the block's
+  /// end.
+  static Result<Model> read(Block block, int finest);
+  /// The same with more levels of the block.
+  static Result<Model> refined(const Model& model, int finest);
+  /// What a block of a model's levels from `finest` on is made of; these are ready.
+  static BlockParts parts(const Model& model, int finest);
+
+ private:
+  static Result<Model> with_levels(std::shared_ptr<Model::Body> body, int finest);
 };
 
 }  // namespace swiftlet

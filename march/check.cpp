@@ -62,6 +62,25 @@ std::uint32_t map_fault(const Level& level) {
   return kNone;
 }
 
+/// How far the exact hull reaches along a direction, when `place` has placed its points: as far as itself; without it, no
+/// farther than any level that encloses it.
+template <class Placing>
+DoubleDouble reach(const Model& model, const Wide& direction, Placing place) {
+  const auto of_level = [&](int i) {
+    const std::span<const Vertex> vertices = model.level(i).view.vertices;
+    DoubleDouble most = dot(direction, place(vec(vertices[0])));
+    for (const Vertex& v : vertices) {
+      if (const DoubleDouble h = dot(direction, place(vec(v))); h > most) most = h;
+    }
+    return most;
+  };
+  DoubleDouble least = of_level(model.finest_level());
+  for (int i = model.finest_level() + 1; model.finest_level() > 0 && i < model.level_count(); ++i) {
+    if (const DoubleDouble h = of_level(i); least > h) least = h;
+  }
+  return least;
+}
+
 }  // namespace
 
 Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer, double radius_a, double radius_b) {
@@ -71,8 +90,9 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
   const Motion m = motion(b_in_a);
   const PoseQuality quality = pose_quality(m);
   if (!quality.legal) return failed("the pose is not legal");
-  if (answer.level_a < 0 || answer.level_a >= a.level_count() || answer.level_b < 0 || answer.level_b >= b.level_count()) {
-    return failed("levels (%d, %d) do not exist", answer.level_a, answer.level_b);
+  if (answer.level_a < a.finest_level() || answer.level_a >= a.level_count() || answer.level_b < b.finest_level() ||
+      answer.level_b >= b.level_count()) {
+    return failed("levels (%d, %d) are not there", answer.level_a, answer.level_b);
   }
   if (!(answer.lower >= 0 && answer.upper >= answer.lower))
     return failed("[%.17g, %.17g] is no interval", answer.lower, answer.upper);
@@ -86,14 +106,8 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
   if (answer.lower > 0) {
     const Vec n = vec(answer.normal);
     const Wide direction = wide(n);
-    DoubleDouble most_a = dot(direction, wide(vec(exact_a.vertices[0]))),
-                 least_b = dot(direction, wide(m, vec(exact_b.vertices[0])));
-    for (const Vertex& v : exact_a.vertices) {
-      if (const DoubleDouble h = dot(direction, wide(vec(v))); h > most_a) most_a = h;
-    }
-    for (const Vertex& v : exact_b.vertices) {
-      if (const DoubleDouble h = dot(direction, wide(m, vec(v))); h < least_b) least_b = h;
-    }
+    const DoubleDouble most_a = reach(a, direction, [](const Vec&p) { return wide(p); }),
+                       least_b = -reach(b, -direction, [&m](const Vec&p) { return wide(m, p); });
     const double gap = double(least_b - most_a) / norm(n);
     const DoubleDouble claimed = DoubleDouble(answer.lower) + radius_a + radius_b;
     if (!(double(claimed - gap * (1 + kNormError)) <= kDoubleDoubleError * (whole.magnitude + radii))) {
@@ -145,6 +159,7 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
 }
 
 Check verify(const Model& model) {
+  if (model.finest_level() > 0) return failed("level 0 is not there: nothing tells whether the others enclose it");
   const ConvexView& exact_hull = model.level(0).view;
   for (int i = 0; i < model.level_count(); ++i) {
     const Level& level = model.level(i);

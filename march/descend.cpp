@@ -31,8 +31,8 @@ class Descent {
         target_(target),
         shift_(norm(m.t)),
         law_two_(law_two(a.level(0).view, b.level(0).view, shift_, pose_error)),
-        finest_a_(std::clamp(options.finest_level, 0, a.level_count() - 1)),
-        finest_b_(std::clamp(options.finest_level, 0, b.level_count() - 1)),
+        finest_a_(finest_allowed(a, options)),
+        finest_b_(finest_allowed(b, options)),
         may_aim_(options.start == StartPolicy::Automatic && a.map_level() < a.level_count() && b.map_level() < b.level_count()),
         exact_(target.absolute == 0 && target.relative == 0 && options.start != StartPolicy::Paper && !is_threshold()),
         answer_(answer) {}
@@ -51,8 +51,8 @@ class Descent {
 
   /// From where another descent ended.
   void go_on(const Answer& so_far, PairSeed& seed) {
-    Place place{std::clamp(so_far.level_a, 0, a_.level_count() - 1),
-                std::clamp(so_far.level_b, 0, b_.level_count() - 1),
+    Place place{std::clamp(so_far.level_a, a_.finest_level(), a_.level_count() - 1),
+                std::clamp(so_far.level_b, b_.finest_level(), b_.level_count() - 1),
                 {so_far.feature_a, so_far.feature_b}};
     if (!is_warm(place.start)) return start(seed);
     answer_ = so_far;

@@ -3,6 +3,7 @@
 #include <swiftlet/model.h>
 
 #include <algorithm>
+#include <string>
 
 #include "block.h"
 #include "certify.h"
@@ -19,11 +20,15 @@ Result<Model> Model::from_level(const LevelArrays& level, const ModelOptions& op
 SourceMap Model::source() const { return body_->source; }
 
 Vec3 Model::centre() const { return body_->levels[0].view.centre; }
-double Model::radius() const { return body_->header.radius; }
-Vec3 Model::box_min() const { return Vec3(body_->header.box_min[0], body_->header.box_min[1], body_->header.box_min[2]); }
-Vec3 Model::box_max() const { return Vec3(body_->header.box_max[0], body_->header.box_max[1], body_->header.box_max[2]); }
+double Model::radius() const { return body_->headers.block.radius; }
+Vec3 Model::box_min() const {
+  return Vec3(body_->headers.block.box_min[0], body_->headers.block.box_min[1], body_->headers.block.box_min[2]);
+}
+Vec3 Model::box_max() const {
+  return Vec3(body_->headers.block.box_max[0], body_->headers.block.box_max[1], body_->headers.block.box_max[2]);
+}
 double Model::volume() const { return body_->levels[0].volume; }
-int Model::dimension() const { return int(body_->header.dimension); }
+int Model::dimension() const { return int(body_->headers.block.dimension); }
 
 double Model::extent() const {
   double extent = 0;
@@ -32,13 +37,16 @@ double Model::extent() const {
 }
 
 std::uint32_t Model::support(const Vec3& direction) const {
-  const ConvexView& view = body_->levels[0].view;
+  const Level& finest = level(finest_level_);
+  const ConvexView& view = finest.view;
   const Scene alone = scene(view, view, kAtRest, 0);
   std::uint32_t start = 0, comparisons = 0;
-  if (const Level& exact = body_->levels[0]; exact.map_side > 0) {
-    start = look_up(exact, rescaled(vec(direction))).vertex;
+  if (finest.map_side > 0) {
+    start = look_up(finest, rescaled(vec(direction))).vertex;
   } else if (!body_->table.empty()) {
-    start = body_->table[lut::nearest(lut::Resolution(body_->header.resolution), {direction[0], direction[1], direction[2]})];
+    start =
+        body_
+            ->table[lut::nearest(lut::Resolution(body_->headers.block.resolution), {direction[0], direction[1], direction[2]})];
   }
   return support_a(alone, rescaled(vec(direction)), start, comparisons);
 }
@@ -50,23 +58,14 @@ FaceLoop::Iterator& FaceLoop::Iterator::operator++() {
 }
 
 TableSpec Model::table_spec() const {
-  return {lut::Resolution(body_->header.resolution), body_->header.radius_factor, body_->header.map_side};
+  return {lut::Resolution(body_->headers.block.resolution), body_->headers.block.radius_factor, body_->headers.block.map_side};
 }
 std::span<const std::uint32_t> Model::table() const { return body_->table; }
 
 Model Model::with_table(const TableSpec& spec) const {
-  const std::span<const std::byte> block = bytes();
-  const auto copy = [&](const Section& s) {
-    const auto part = block.subspan(s.offset, s.bytes);
-    return std::vector<std::byte>(part.begin(), part.end());
-  };
-  BlockParts parts;
-  parts.header = body_->header;
-  parts.level_headers.resize(body_->levels.size());
-  std::memcpy(parts.level_headers.data(), block.data() + sizeof(BlockHeader), parts.level_headers.size() * sizeof(LevelHeader));
-  for (const LevelHeader& level : parts.level_headers) parts.levels.push_back(copy(level.section));
-  parts.source = copy(body_->header.source);
+  BlockParts parts = BlockReader::parts(*this, finest_level_);
   for (LevelHeader& level : parts.level_headers) level.map_side = 0;
+  parts.maps.clear();
   fill_table(parts, spec, body_->levels[0].view.vertices);
   std::vector<std::span<const Vertex>> vertices;
   for (const Level& level : body_->levels) vertices.push_back(level.view.vertices);
@@ -74,7 +73,27 @@ Model Model::with_table(const TableSpec& spec) const {
   return std::move(BlockReader::read(compose(parts))).value();
 }
 
-std::span<const std::byte> Model::bytes() const { return body_->block.view(); }
+Model Model::cut(const Detail& detail) const {
+  const int finest = std::max(body_->headers.finest(detail), finest_level_);
+  if (finest == int(body_->headers.block.finest_level)) return *this;
+  return std::move(BlockReader::read(compose(BlockReader::parts(*this, finest)))).value();
+}
+
+Result<int> Model::ensure(int level) {
+  if (level < finest_level_) {
+    const auto present = int(body_->headers.block.finest_level);
+    if (level < present) {
+      return Error{ErrorCode::BadValue, "level " + std::to_string(level) + " is not in this model, whose finest is level " +
+                                            std::to_string(present)};
+    }
+    Result<Model> finer = BlockReader::refined(*this, level);
+    if (!finer) return finer.error();
+    *this = std::move(finer).value();
+  }
+  return finest_level_;
+}
+
+std::span<const std::byte> Model::bytes() const { return body_->block.bytes; }
 std::uint64_t Model::hash() const { return hash_of(bytes()); }
 
 }  // namespace swiftlet

@@ -2,7 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <swiftlet/model_file.h>
 
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <system_error>
 
@@ -14,6 +20,62 @@ namespace {
 Error named(const std::filesystem::path& path, Error error) {
   error.message = path.string() + ": " + error.message;
   return error;
+}
+
+/// A file whose headers are in order.
+struct File {
+  Headers headers;
+  std::uint64_t bytes;
+};
+
+Result<File> open(const std::filesystem::path& path) {
+  std::error_code failure;
+  const std::uint64_t bytes = std::filesystem::file_size(path, failure);
+  if (failure) return Error{ErrorCode::CannotRead, path.string() + ": " + failure.message()};
+  std::ifstream file(path, std::ios::binary);
+  std::array<std::byte, kMostHeaderBytes> start;
+  file.read(reinterpret_cast<char*>(start.data()), start.size());
+  Result<Headers> headers = BlockReader::read_headers(std::span(start).first(std::size_t(file.gcount())));
+  if (!headers) return named(path, headers.error());
+  return File{std::move(headers).value(), bytes};
+}
+
+/// A block's levels from `finest` on, in a block of their own where finer ones are left out.
+Result<Model> kept(AlignedBytes block, int finest) {
+  const Result<Model> model = BlockReader::read(std::move(block), finest);
+  if (!model) return model.error();
+  return model.value().cut({});
+}
+
+Result<Model> read(const std::filesystem::path& path, const Headers& headers, int finest) {
+  AlignedBytes block(headers.prefix(finest));
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(block.data()), std::streamsize(block.view().size()));
+  if (!file) return Error{ErrorCode::CannotRead, path.string() + ": ends early"};
+  Result<Model> model = kept(std::move(block), finest);
+  if (!model) return named(path, model.error());
+  return model;
+}
+
+Result<Block> mapped(const std::filesystem::path& path) {
+  const auto refused = [&path] {
+    return Error{ErrorCode::CannotRead, path.string() + ": " + std::generic_category().message(errno)};
+  };
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return refused();
+  struct stat about {};
+  const bool known = fstat(file, &about) == 0;
+  const auto size = std::size_t(about.st_size);
+  void* const pages = known && size > 0 ? mmap(nullptr, size, PROT_READ, MAP_SHARED, file, 0) : MAP_FAILED;
+  if (known && size == 0) errno = EINVAL;
+  if (pages == MAP_FAILED) {
+    const Error error = refused();
+    close(file);
+    return error;
+  }
+  close(file);
+  const auto* const bytes = static_cast<const std::byte*>(pages);
+  return Block{{bytes, [pages, size](const std::byte*) { munmap(pages, size); }}, {bytes, size}};
 }
 
 }  // namespace
@@ -44,30 +106,54 @@ Result<std::size_t> save(const Model& model, const std::filesystem::path& path) 
   return bytes.size();
 }
 
-Result<Model> load(const std::filesystem::path& path) {
-  std::error_code failure;
-  const std::uint64_t size = std::filesystem::file_size(path, failure);
-  if (failure) return Error{ErrorCode::CannotRead, path.string() + ": " + failure.message()};
-  std::ifstream file(path, std::ios::binary);
-  std::array<std::byte, sizeof(BlockHeader)> start;
-  file.read(reinterpret_cast<char*>(start.data()), start.size());
-  const auto got = std::size_t(file.gcount());
-  if (const auto header = BlockReader::read_header(std::span(start).first(got), size); !header)
-    return named(path, header.error());
-  AlignedBytes block(size);
-  file.seekg(0);
-  file.read(reinterpret_cast<char*>(block.data()), std::streamsize(size));
-  if (!file) return Error{ErrorCode::CannotRead, path.string() + ": ends early"};
-  Result<Model> model = BlockReader::read(std::move(block));
+Result<Model> load(const std::filesystem::path& path, const Detail& detail) {
+  const Result<File> file = open(path);
+  if (!file) return file.error();
+  const Headers& headers = file.value().headers;
+  if (const std::string f = length_fault(headers, file.value().bytes); !f.empty())
+    return Error{ErrorCode::BadFormat, path.string() + ": " + f};
+  return read(path, headers, headers.finest(detail));
+}
+
+Result<Model> load(std::span<const std::byte> bytes, const Detail& detail) {
+  const Result<Headers> headers = BlockReader::read_headers(bytes);
+  if (!headers) return headers.error();
+  if (const std::string f = length_fault(headers.value(), bytes.size()); !f.empty()) return Error{ErrorCode::BadFormat, f};
+  const int finest = headers.value().finest(detail);
+  AlignedBytes block(headers.value().prefix(finest));
+  std::memcpy(block.data(), bytes.data(), block.view().size());
+  return kept(std::move(block), finest);
+}
+
+Result<Model> map(const std::filesystem::path& path, const Detail& detail) {
+  Result<Block> block = mapped(path);
+  if (!block) return block.error();
+  const auto bytes = block.value().bytes;
+  const Result<Headers> headers = BlockReader::read_headers(bytes);
+  if (!headers) return named(path, headers.error());
+  if (const std::string f = length_fault(headers.value(), bytes.size()); !f.empty())
+    return Error{ErrorCode::BadFormat, path.string() + ": " + f};
+  Result<Model> model = BlockReader::read(std::move(block).value(), headers.value().finest(detail));
   if (!model) return named(path, model.error());
   return model;
 }
 
-Result<Model> load(std::span<const std::byte> bytes) {
-  if (const auto header = BlockReader::read_header(bytes, bytes.size()); !header) return header.error();
-  AlignedBytes block(bytes.size());
-  std::memcpy(block.data(), bytes.data(), bytes.size());
-  return BlockReader::read(std::move(block));
+Result<Salvaged> salvage(const std::filesystem::path& path) {
+  const Result<File> file = open(path);
+  if (!file) return file.error();
+  const Headers& headers = file.value().headers;
+  const std::uint64_t bytes = file.value().bytes;
+  const std::string cut = length_fault(headers, bytes);
+  if (bytes > headers.block.total_bytes) return Error{ErrorCode::BadFormat, path.string() + ": " + cut};
+  const int finest = headers.finest({0, bytes});
+  if (headers.prefix(finest) > bytes) {
+    return Error{ErrorCode::BadFormat,
+                 path.string() + ": " + cut + ", and its coarsest level needs " + std::to_string(headers.prefix(finest))};
+  }
+  Result<Model> model = read(path, headers, finest);
+  if (!model) return model.error();
+  const std::string note = path.string() + ": " + cut + ": levels finer than " + std::to_string(finest) + " are missing";
+  return Salvaged{std::move(model).value(), cut.empty() ? "" : note};
 }
 
 }  // namespace swiftlet

@@ -3,9 +3,9 @@
 #include "overlap.h"
 
 #include "aim.h"
+#include "difference.h"
 #include "progress.h"
 #include "ring.h"
-#include "wide.h"
 #include "witness.h"
 
 namespace swiftlet {
@@ -51,11 +51,10 @@ Vec across(const Scene& scene, const MarchStart& met) {
 
 template <class Real>
 Vec common_point(const Scene& scene, const OverlapProof& proof) {
-  const Motion& m = scene.b_in_a;
   std::array<V3<Real>, 4> a, p;
   for (std::size_t k = 0; k < 4; ++k) {
     a[k] = widened<Real>(vec(scene.a.vertices[proof.vertex_a[k]]));
-    p[k] = a[k] - moved<Real>(m, vec(scene.b.vertices[proof.vertex_b[k]]));
+    p[k] = difference<Real>(scene, proof.vertex_a[k], proof.vertex_b[k]).p;
   }
   const std::array<Real, 4> w{dot(cross(p[1], p[3]), p[2]), dot(cross(p[0], p[2]), p[3]), dot(cross(p[0], p[3]), p[1]),
                               dot(cross(p[0], p[1]), p[2])};

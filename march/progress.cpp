@@ -6,37 +6,12 @@
 
 #include <limits>
 
+#include "difference.h"
 #include "exact.h"
 #include "ring.h"
-#include "wide.h"
 
 namespace swiftlet {
 namespace {
-
-/// A vertex of the Minkowski difference: p = a - (R b + t).
-template <class Real>
-struct Difference {
-  V3<Real> p;
-  std::uint32_t a, b;
-};
-
-double rounded(double x) { return x; }
-double rounded(const DoubleDouble& x) { return double(x); }
-template <class Real>
-Vec rounded(const V3<Real>& v) {
-  return {rounded(v.x), rounded(v.y), rounded(v.z)};
-}
-
-template <class Real>
-Difference<Real> difference(const Scene& s, std::uint32_t a, std::uint32_t b) {
-  return {widened<Real>(vec(s.a.vertices[a])) - moved<Real>(s.b_in_a, vec(s.b.vertices[b])), a, b};
-}
-
-/// What rounding may do to a difference and to convex combinations of differences.
-template <class Real>
-double rounding(const Scene& s) {
-  return std::is_same_v<Real, double> ? s.point_error : kDoubleDoubleError * s.magnitude;
-}
 
 /// The point of a simplex nearest to the origin, as a convex combination.
 template <class Real>

@@ -13,15 +13,6 @@
 namespace swiftlet {
 namespace {
 
-bool names_feature(const ConvexView& view, Handle h) {
-  switch (h.kind()) {
-    case FeatureKind::Vertex: return h.index() < view.vertices.size();
-    case FeatureKind::Edge: return h.index() < view.head.size();
-    case FeatureKind::Face: return h.index() < view.face_first.size();
-    default: return false;
-  }
-}
-
 bool legal_level(const Model& model, int level, int finest) { return level >= finest && level < model.level_count(); }
 
 constexpr double kLineUnit = 32767;
@@ -46,10 +37,19 @@ MarchStart from_tables(const Model& a, const Model& b, const Line& line) {
 }  // namespace
 
 Handle table_start(const Model& model, const Vec3& direction) {
-  if (model.table().empty() && model.map_level() == model.level_count()) return {};
+  if (model.finest_level() > 0 || (model.table().empty() && model.map_level() == model.level_count())) return {};
   if (model.table().empty()) return {FeatureKind::Vertex, about_farthest(model, vec(direction))};
   const std::uint32_t sample = lut::nearest(model.table_spec().resolution, {direction[0], direction[1], direction[2]});
   return {FeatureKind::Vertex, model.table()[sample]};
+}
+
+bool names_feature(const ConvexView& view, Handle h) {
+  switch (h.kind()) {
+    case FeatureKind::Vertex: return h.index() < view.vertices.size();
+    case FeatureKind::Edge: return h.index() < view.head.size();
+    case FeatureKind::Face: return h.index() < view.face_first.size();
+    default: return false;
+  }
 }
 
 Line line_of_centres(const Model& a, const Model& b, const Motion& m) {
@@ -69,11 +69,14 @@ MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& p
   return s;
 }
 
+int finest_allowed(const Model& model, const QueryOptions& options) {
+  return std::clamp(options.finest_level, model.finest_level(), model.level_count() - 1);
+}
+
 Place coarsest_place(const Model& a, const Model& b) { return {a.level_count() - 1, b.level_count() - 1, {}}; }
 
 Place first_place(const Model& a, const Model& b, const Line& line, const PairSeed& seed, const QueryOptions& options) {
-  const int finest_a = std::clamp(options.finest_level, 0, a.level_count() - 1);
-  const int finest_b = std::clamp(options.finest_level, 0, b.level_count() - 1);
+  const int finest_a = finest_allowed(a, options), finest_b = finest_allowed(b, options);
   const bool seed_fits = seed.a.kind() != FeatureKind::None && seed.b.kind() != FeatureKind::None &&
                          legal_level(a, seed.level_a, finest_a) && legal_level(b, seed.level_b, finest_b);
   Place coarsest = coarsest_place(a, b);

@@ -37,6 +37,12 @@ Place first_place(const Model& a, const Model& b, const Line& line, const PairSe
 void remember(const Line& line, const Vec& normal, PairSeed& seed);
 Vec direction(const PairSeed& seed);
 
+/// Whether a handle, of any bits, is a feature of the view.
+bool names_feature(const ConvexView& view, Handle feature);
+
+/// The finest level of a model that a query may read.
+int finest_allowed(const Model& model, const QueryOptions& options);
+
 /// The coarsest pair, from nothing.
 Place coarsest_place(const Model& a, const Model& b);
 

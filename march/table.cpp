@@ -11,12 +11,13 @@
 namespace swiftlet {
 
 void fill_table(BlockParts& parts, const TableSpec& spec, std::span<const Vertex> vertices) {
-  const std::uint32_t samples = lut::sample_count(spec.resolution);
+  const lut::Resolution resolution = vertices.empty() ? lut::Resolution::None : spec.resolution;  // it names level 0's
+  const std::uint32_t samples = lut::sample_count(resolution);
   const Vec centre{parts.header.centre[0], parts.header.centre[1], parts.header.centre[2]};
   const double distance = spec.radius_factor * parts.header.radius;
   std::vector<std::uint32_t> table(samples);
   for (std::uint32_t i = 0; i < samples; ++i) {
-    const std::array<double, 3> direction = lut::sample(spec.resolution, i);
+    const std::array<double, 3> direction = lut::sample(resolution, i);
     const Vec point = centre + Vec{direction[0], direction[1], direction[2]} * distance;
     double least2 = std::numeric_limits<double>::infinity();
     for (std::uint32_t v = 0; v < vertices.size(); ++v) {
@@ -26,7 +27,7 @@ void fill_table(BlockParts& parts, const TableSpec& spec, std::span<const Vertex
   }
   const auto bytes = std::as_bytes(std::span(table));
   parts.table.assign(bytes.begin(), bytes.end());
-  parts.header.resolution = std::uint32_t(spec.resolution);
+  parts.header.resolution = std::uint32_t(resolution);
   parts.header.radius_factor = spec.radius_factor;
 }
 
@@ -76,7 +77,7 @@ std::vector<std::uint32_t> support_map(std::span<const Vertex> vertices, std::ui
 
 void fill_maps(BlockParts& parts, const TableSpec& spec, std::span<const std::span<const Vertex>> levels) {
   parts.header.map_side = spec.map_side;
-  std::size_t finest = 0;
+  std::size_t finest = parts.header.finest_level;
   while (finest + 1 < levels.size() && levels[finest].size() > kMappedVertices) ++finest;
   if (levels[finest].size() > kMapVertices) return;
   std::vector<std::vector<std::uint32_t>> maps;

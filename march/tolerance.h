@@ -136,4 +136,16 @@ inline constexpr std::size_t kPlateau = 8;
 /// Points of the inner polytope that tells touching from overlapping: 300 vertices slid into contact needed 20 to 32.
 inline constexpr int kContactPoints = 32;
 
+// ---- Depth (expand.cpp)
+// ------------------------------------------------------------------------------------------------------
+
+/// A tetrahedron is begun where each point lies so many resolutions off the others: its centre, at a quarter of its height,
+/// then lies below each face by more than the two that a facet asks for. Dimensionless.
+inline constexpr double kRoom = 16;
+/// Points of the inner polytope: overlaps by a tenth of the bodies take 10 to 30. One that needs more is proved octant by
+/// octant, and these by quarters of theirs, so many times.
+inline constexpr int kDepthPoints = 128, kDepthCells = 6;
+/// The half-angle of the cone that is searched for the facet of a known plane: any shows all of its corners. Radians.
+inline constexpr double kNarrowCone = 0x1p-6;
+
 }  // namespace swiftlet

@@ -182,7 +182,7 @@ inline void rehash(Bytes& block) {
   const std::size_t levels = std::min<std::size_t>(header.level_count, (block.size() - sizeof header) / sizeof(LevelHeader));
   for (std::size_t i = 0; i < levels; ++i) {
     auto level = read<LevelHeader>(block, level_header_at(i));
-    fix(level.section);
+    if (i >= header.finest_level) fix(level.section);
     write(block, level_header_at(i), level);
   }
   write(block, 0, header);

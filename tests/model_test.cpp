@@ -679,6 +679,16 @@ TEST(Model, SupportMapsBoundEveryDirection) {
   EXPECT_GE(loose, 50);
 }
 
+TEST(Model, AVertexInsideTheFinerLevelHasTheNearestAsItsChild) {
+  const Body all[] = {moved(octahedron(), 0.1 * Mat3::Identity()), cube(), box(0.5, 0.25, 0.75)};
+  const LevelArrays levels[] = {all[0].level(), all[1].level(), all[2].level()};
+  const Model m = must(Model::from_levels(levels));
+  for (std::size_t v = 0; v < 8; ++v) {
+    const Vertex &vertex = m.level(2).view.vertices[v], &child = m.level(1).view.vertices[m.level(2).child_vertex[v]];
+    EXPECT_TRUE(vertex.x * child.x > 0 && vertex.y * child.y > 0 && vertex.z * child.z > 0) << v;
+  }
+}
+
 TEST(Model, VerifyFindsAMapThatPromisesTooMuch) {
   const Model good = model(moved(octahedron(), rotation(1, 2, 3, 4)));
   ASSERT_TRUE(verify(good));

@@ -154,7 +154,7 @@ std::vector<Vec3> off_vertices(const std::string& text) {
 TEST_F(Tool, TellsItsVersionAndWords) {
   EXPECT_TRUE(says("--version").starts_with("swiftlet "));
   const std::string help = says("--help");
-  for (const char* word : {"info", "verify", "distance", "export", "draw"})
+  for (const char* word : {"info", "verify", "distance", "export", "cut", "draw"})
     EXPECT_NE(help.find(word), std::string::npos) << word;
   EXPECT_EQ(help.find("\n  build ") != std::string::npos, kBuilds);
 }
@@ -185,6 +185,52 @@ TEST_F(Tool, InfoListsTheLevelsFinestFirst) {
   EXPECT_EQ(info["radius"], model.value().radius());
   for (const char* key : {"hash", "box_min", "box_max", "table", "bytes_per_triangle"}) EXPECT_TRUE(info.contains(key)) << key;
   EXPECT_NE(says("info a.swl").find("deviation"), std::string::npos);
+}
+
+TEST_F(Tool, InfoAccountsForEveryByte) {
+  const json info = says_json("info a.swl");
+  std::size_t sum = 0;
+  for (const char* part : {"header_bytes", "map_bytes", "table_bytes", "source_bytes"}) sum += info[part].get<std::size_t>();
+  for (const json& level : info["levels"]) {
+    EXPECT_GT(level["prefix"], level["bytes"]);
+    sum += level["bytes"].get<std::size_t>();
+  }
+  EXPECT_EQ(sum, info["bytes"]);
+}
+
+TEST_F(Tool, CutLeavesTheFinestLevelsOut) {
+  const json cut = says_json("cut a.swl -o b.swl --deviation 1e9");
+  EXPECT_EQ(cut["finest_level"], 1);
+  EXPECT_EQ(cut["bytes"], std::filesystem::file_size(folder_ / "b.swl"));
+  EXPECT_EQ(says_json("cut a.swl -o c.swl --bytes " + says_json("info a.swl")["levels"][1]["prefix"].dump())["finest_level"],
+            1);
+  const json info = says_json("info b.swl");
+  EXPECT_EQ(info["levels"][0]["prefix"], 0);
+  EXPECT_NE(says("info b.swl").find("absent"), std::string::npos);
+  const json answer = says_json("distance b.swl a.swl --pose 9,0,0");
+  EXPECT_EQ(answer["status"], "LevelLimit");
+  EXPECT_EQ(answer["level_a"], 1);
+  EXPECT_EQ(answer["level_b"], 0);
+  EXPECT_EQ(says_json("draw b.swl -o b.svg")["levels"], 2);
+  EXPECT_EQ(says_json("cut a.swl -o whole.swl")["finest_level"], 0);
+  EXPECT_EQ(content(folder_ / "whole.swl"), content(folder_ / "a.swl"));
+  before_ = names();
+  refuses("export b.swl --level 0 -o level.off", "finest is 1", 2);
+  refuses("verify b.swl", "level 0 is not there", 1);
+  refuses("cut a.swl -o d.swl --deviation -1", "--deviation", 2);
+}
+
+TEST_F(Tool, CutSalvagesWhatIsComplete) {
+  const std::string whole = content(folder_ / "a.swl");
+  write(folder_ / "short.swl", whole.substr(0, whole.size() - 1));
+  before_ = names();
+  refuses("info short.swl", "its header says", 1);
+  refuses("cut short.swl -o left.swl", "its header says", 1);
+  EXPECT_NE(says("cut short.swl -o left.swl --salvage").find("finer than 1 are missing"), std::string::npos);
+  EXPECT_EQ(says_json("cut a.swl -o c.swl --deviation 1e9")["bytes"], std::filesystem::file_size(folder_ / "left.swl"));
+  write(folder_ / "stump.swl", whole.substr(0, 500));
+  before_ = names();
+  refuses("cut stump.swl -o left.swl --salvage", "coarsest level needs", 1);
 }
 
 TEST_F(Tool, VerifyProvesAModel) {
@@ -364,6 +410,7 @@ TEST_F(Tool, BuildsAModelAndTellsWhatItDid) {
   EXPECT_EQ(info["table"]["radius_factor"], 3.0);
   EXPECT_EQ(info["levels"][0]["faces"], 6);
   EXPECT_EQ(says("build cube.off -o c.swl --quiet"), "");
+  EXPECT_EQ(says_json("build cube.off -o c.swl --deviation 9 --bytes 100")["finest_level"], 0) << "a cube has one level";
   EXPECT_EQ(says_json("build cube.off -o c.swl")["points_read"], 8);
   EXPECT_EQ(says_json("info c.swl")["levels"], says_json("info cube.off")["levels"]);
 }

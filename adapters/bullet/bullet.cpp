@@ -97,7 +97,7 @@ bool holds_model(const btCollisionObjectWrapper& body) {
 }  // namespace
 
 HullShape::HullShape(const Model& model) : model_(model) {
-  for (const Vertex& v : model.level(0).view.vertices) addPoint(vector_of({v.x, v.y, v.z}), false);
+  for (const Vertex& v : model.level(model.finest_level()).view.vertices) addPoint(vector_of({v.x, v.y, v.z}), false);
   recalcLocalAabb();
 }
 

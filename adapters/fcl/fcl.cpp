@@ -10,7 +10,7 @@ Vec3 centre_in_world(const Placed& body) { return body.in_world.rotation * body.
 }  // namespace
 
 std::vector<int> face_loops(const Model& model) {
-  const ConvexView& view = model.level(0).view;
+  const ConvexView& view = model.level(model.finest_level()).view;
   std::vector<int> loops;
   for (std::uint32_t face = 0; face < view.face_first.size(); ++face) {
     const std::size_t size_at = loops.size();

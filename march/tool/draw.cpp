@@ -187,12 +187,12 @@ std::string caption(const Model& model, int k, double top) {
 }
 
 std::string heading(const Model& model, const std::string& title) {
-  const int last = model.level_count() - 1;
-  std::string what = format("%zu triangles, %zu bytes", model.level(0).triangle_count, model.bytes().size());
-  if (last > 0) {
-    what =
-        format("%d levels, %zu to %zu triangles, %zu bytes. Dashed: the exact hull's outline. Percent: of the bounding radius",
-               last + 1, model.level(0).triangle_count, model.level(last).triangle_count, model.bytes().size());
+  const int finest = model.finest_level(), last = model.level_count() - 1;
+  std::string what = format("%zu triangles, %zu bytes", model.level(finest).triangle_count, model.bytes().size());
+  if (last > finest) {
+    what = format("%d levels, %zu to %zu triangles, %zu bytes. Dashed: %s outline. Percent: of the bounding radius",
+                  last + 1 - finest, model.level(finest).triangle_count, model.level(last).triangle_count, model.bytes().size(),
+                  finest == 0 ? "the exact hull's" : "the finest level's");
   }
   return format("<text x=\"%.0f\" y=\"40\" font-size=\"22\" font-weight=\"bold\" fill=\"#16263c\">", kMargin) + escaped(title) +
          "</text>\n" + format("<text x=\"%.0f\" y=\"62\" fill=\"#3d4c60\">", kMargin) + what + "</text>\n";
@@ -203,7 +203,8 @@ std::string heading(const Model& model, const std::string& title) {
 std::string draw(const Model& model, const std::string& title) {
   const Eye eye;
   const Placement place(frame_of(model, eye));
-  const std::size_t count = std::size_t(model.level_count()), rows = (count + kPerRow - 1) / kPerRow,
+  const int finest = model.finest_level();
+  const std::size_t count = std::size_t(model.level_count() - finest), rows = (count + kPerRow - 1) / kPerRow,
                     columns = (count + rows - 1) / rows;
   const double row_height = place.height() + kCaption + kGap;
   // As wide as its heading, also with few levels.
@@ -215,11 +216,12 @@ std::string draw(const Model& model, const std::string& title) {
              height, width, height) +
       "font-family=\"sans-serif\" font-size=\"13\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<title>" +
       escaped(title) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n" + heading(model, title);
-  for (std::size_t k = 0; k < count; ++k) {
-    const double x = kMargin + double(k % columns) * (kCell + kGap), y = kHeading + kGap / 2 + double(k / columns) * row_height;
-    svg += format("<g transform=\"translate(%.1f %.1f)\">\n", x, y) + draw_faces(model.level(int(k)).view, eye, place);
-    if (k > 0) svg += draw_outline(model.level(0).view, eye, place);
-    svg += caption(model, int(k), place.height()) + "</g>\n";
+  for (std::size_t i = 0; i < count; ++i) {
+    const int k = finest + int(i);
+    const double x = kMargin + double(i % columns) * (kCell + kGap), y = kHeading + kGap / 2 + double(i / columns) * row_height;
+    svg += format("<g transform=\"translate(%.1f %.1f)\">\n", x, y) + draw_faces(model.level(k).view, eye, place);
+    if (k > finest) svg += draw_outline(model.level(finest).view, eye, place);
+    svg += caption(model, k, place.height()) + "</g>\n";
   }
   return svg + "</svg>\n";
 }

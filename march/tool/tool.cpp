@@ -58,10 +58,10 @@ Action declare_export(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   word.add_option("--level", options->level, "0 is the exact hull, larger is coarser")->required();
   word.add_option("-o,--output", options->out, "the OFF file to write; its doubles read back bit for bit")->required();
   return on_body(word, model_of_mesh, [options](const Body& body) {
-    const int coarsest = body.model.level_count() - 1;
-    if (options->level < 0 || options->level > coarsest)
-      throw CLI::ValidationError("--level",
-                                 body.path + format(": there is no level %d, the coarsest is %d", options->level, coarsest));
+    const int finest = body.model.finest_level(), coarsest = body.model.level_count() - 1;
+    if (options->level < finest || options->level > coarsest)
+      throw CLI::ValidationError("--level", body.path + format(": there is no level %d, the finest is %d, the coarsest %d",
+                                                               options->level, finest, coarsest));
     return export_level(body, options->level, options->out);
   });
 }
@@ -115,6 +115,20 @@ Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   };
 }
 
+Action declare_cut(CLI::App& word, const ModelOfMesh&) {
+  struct Options {
+    std::string in, out;
+    Detail detail;
+    bool salvage = false;
+  };
+  const auto options = std::make_shared<Options>();
+  word.add_option("X", options->in, "a .swl model")->required();
+  word.add_option("-o,--output", options->out, "the .swl model to write")->required();
+  add_detail(word, options->detail);
+  word.add_flag("--salvage", options->salvage, "take what is complete of a file that ends early");
+  return [options]() -> Result<Output> { return cut(options->in, options->out, options->detail, options->salvage); };
+}
+
 std::vector<Word> all_words(const ModelOfMesh& model_of_mesh, std::span<const Word> more) {
   const auto bind = [&](Action (*declare)(CLI::App&, const ModelOfMesh&)) {
     return [declare, model_of_mesh](CLI::App& word) { return declare(word, model_of_mesh); };
@@ -125,6 +139,7 @@ std::vector<Word> all_words(const ModelOfMesh& model_of_mesh, std::span<const Wo
                    bind(declare_verify)});
   words.push_back({"distance", "how near two bodies are, with proved bounds, and where", bind(declare_distance)});
   words.push_back({"export", "writes one level as an OFF mesh", bind(declare_export)});
+  words.push_back({"cut", "writes a model without its finest levels", bind(declare_cut)});
   words.push_back({"draw", "draws the levels side by side as an SVG", bind(declare_draw)});
   return words;
 }
@@ -197,6 +212,13 @@ CLI::Validator number_in(double least, double most, const std::string& said) {
     return number && value >= least && value <= most ? std::string() : text + " is no number " + said;
   };
   return {fault, ""};
+}
+
+void add_detail(CLI::App& word, Detail& detail) {
+  word.add_option("--deviation", detail.deviation, "keep no level finer than the coarsest that deviates less; 0: all")
+      ->capture_default_str()
+      ->check(number_in(0, std::numeric_limits<double>::infinity(), "from 0 up"));
+  word.add_option("--bytes", detail.bytes, "keep no level that these first bytes of the whole model do not hold");
 }
 
 int run_tool(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const Word> more_words) try {

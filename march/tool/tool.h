@@ -36,6 +36,9 @@ using ModelOfMesh = std::function<Result<Model>(const std::filesystem::path&)>;
 /// Refuses what is no number in [least, most]: "... is no number SAID".
 CLI::Validator number_in(double least, double most, const std::string& said);
 
+/// The options --deviation and --bytes.
+void add_detail(CLI::App& word, Detail& detail);
+
 /// Does what the command line says and returns the exit code: 0, 1 where a word failed, 2 where the command line is wrong, an
 /// option out of its range included. Then
 /// stderr holds one line, "swiftlet: ...", and stdout nothing.

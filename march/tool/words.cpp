@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <swiftlet/check.h>
+#include <swiftlet/model_file.h>
 
 #include "draw.h"
 #include "off_text.h"
@@ -223,17 +224,19 @@ Json levels_json(const Model& model) {
                       {"triangles", level.triangle_count},
                       {"deviation", level.deviation},
                       {"volume_ratio", volume_ratio(model, level)},
-                      {"bytes", level.bytes}});
+                      {"bytes", level.bytes},
+                      {"prefix", level.prefix}});
   }
   return levels;
 }
 
 std::string levels_text(const Model& model) {
-  std::string text = " level  vertices     faces  triangles     deviation  volume ratio      bytes\n";
+  std::string text = " level  vertices     faces  triangles     deviation  volume ratio      bytes     prefix\n";
   for (int k = 0; k < model.level_count(); ++k) {
     const Level& level = model.level(k);
-    text += format("%6d %9zu %9zu %10zu %13.6g %13.6g %10zu\n", k, level.view.vertices.size(), level.view.face_first.size(),
+    text += format("%6d %9zu %9zu %10zu %13.6g %13.6g %10zu", k, level.view.vertices.size(), level.view.face_first.size(),
                    level.triangle_count, level.deviation, volume_ratio(model, level), level.bytes);
+    text += k < model.finest_level() ? "     absent\n" : format(" %10zu\n", level.prefix);
   }
   return text;
 }
@@ -244,9 +247,23 @@ std::size_t map_entries(const Model& model) {
   return entries;
 }
 
+/// Bytes by what they hold. Levels have their own table.
+struct Account {
+  explicit Account(const Model& model) {
+    const SourceMap source = model.source();
+    maps = 4 * map_entries(model);
+    table = 4 * model.table().size();
+    ids = 4 * (source.vertex.size() + source.face_begin.size() + source.face.size());
+    headers = model.bytes().size() - maps - table - ids;
+    for (int k = model.finest_level(); k < model.level_count(); ++k) headers -= model.level(k).bytes;
+  }
+  std::size_t headers, maps, table, ids;
+};
+
 Output info(const Body& body) {
   const Model& model = body.model;
   const std::size_t bytes = model.bytes().size();
+  const Account account(model);
   const TableSpec table = model.table_spec();
   const std::string hash = format("%016llx", static_cast<unsigned long long>(model.hash()));
   const Json json{
@@ -254,6 +271,10 @@ Output info(const Body& body) {
       {"bytes", bytes},
       {"bytes_per_triangle", per_triangle(bytes, model)},
       {"level_0_bytes_per_triangle", per_triangle(model.level(0).bytes, model)},
+      {"header_bytes", account.headers},
+      {"map_bytes", account.maps},
+      {"table_bytes", account.table},
+      {"source_bytes", account.ids},
       {"hash", hash},
       {"dimension", model.dimension()},
       {"centre", json_of(model.centre())},
@@ -271,6 +292,8 @@ Output info(const Body& body) {
     text += format(", %.1f per triangle of level 0; level 0 alone %.1f", per_triangle(bytes, model),
                    per_triangle(model.level(0).bytes, model));
   text += "\n";
+  text += format(" of these   %zu headers, %zu support maps, %zu table, %zu the mesh's ids; levels below\n", account.headers,
+                 account.maps, account.table, account.ids);
   text += " hash       " + hash + "\n";
   text += format(" dimension  %d\n", model.dimension());
   text += " centre     " + numbers(model.centre()) + "\n radius     " + number(model.radius()) + "\n";
@@ -344,6 +367,25 @@ Result<Output> export_level(const Body& body, int level, const std::filesystem::
   if (!bytes) return bytes.error();
   return Output{path.string() + format(": level %d, %zu bytes\n", level, bytes.value()),
                 dump({{"path", path.string()}, {"level", level}, {"bytes", bytes.value()}})};
+}
+
+Result<Output> cut(const std::string& path, const std::string& to, const Detail& detail, bool salvaging) {
+  std::string note;
+  Result<Model> model = [&]() -> Result<Model> {
+    if (!salvaging) return load(std::filesystem::path(path), detail);
+    Result<Salvaged> left = salvage(path);
+    if (!left) return left.error();
+    note = left.value().note;
+    return left.value().model.cut(detail);
+  }();
+  if (!model) return model.error();
+  if (const auto may = may_write(to); !may) return may.error();
+  const Result<std::size_t> bytes = save(model.value(), to);
+  if (!bytes) return bytes.error();
+  const int finest = model.value().finest_level(), coarsest = model.value().level_count() - 1;
+  return Output{
+      (note.empty() ? "" : note + "\n") + to + format(": levels %d to %d, %zu bytes\n", finest, coarsest, bytes.value()),
+      dump({{"path", to}, {"finest_level", finest}, {"levels", coarsest + 1}, {"bytes", bytes.value()}, {"note", note}})};
 }
 
 Result<Output> draw_levels(const Body& body, const std::filesystem::path& path) {

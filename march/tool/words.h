@@ -24,8 +24,8 @@ struct Body {
   Model model;
 };
 
-/// A row per level, finest first: vertices, faces, triangles, deviation, volume_ratio (over level 0's; 1 where that is 0),
-/// bytes.
+/// A row per level, finest first: vertices, faces (0 where the level is absent), triangles, deviation, volume_ratio (over level
+/// 0's; 1 where that is 0), bytes, prefix (of the file, to the level's end; 0 where it is absent).
 nlohmann::ordered_json levels_json(const Model& model);
 std::string levels_text(const Model& model);
 
@@ -38,6 +38,9 @@ Output distance(const Body& a, const Body& b, const Pose& b_in_a, const QueryOpt
 
 /// Writes one level, which exists, as OFF.
 Result<Output> export_level(const Body& body, int level, const std::filesystem::path& path);
+/// Writes the levels of a file that `detail` asks for; what is left of it where it ends early, if `salvaging`.
+Result<Output> cut(const std::string& path, const std::string& to, const Detail& detail, bool salvaging);
+
 /// Writes all levels as SVG.
 Result<Output> draw_levels(const Body& body, const std::filesystem::path& path);
 

@@ -11,6 +11,8 @@
 
 #include <CGAL/Gmpq.h>
 
+#include "depth_check.h"
+
 namespace swiftlet::stability {
 namespace {
 
@@ -221,6 +223,65 @@ std::string Judge::verdict(const Answer& answer) {
   if (std::string wrong = interval(answer); !wrong.empty()) return wrong;
   if (answer.status != Status::Converged) return text("the status is %d", int(answer.status));
   return answer.verdict == Verdict::Undecided ? "no verdict" : "";
+}
+
+std::string Judge::interval(const SignedAnswer& answer) {
+  if (answer.status == Status::InvalidPose || answer.status == Status::NotConverged)
+    return text("the status is %d", int(answer.status));
+  if (!(answer.upper >= answer.lower)) return text("[%a, %a] is no interval", answer.lower, answer.upper);
+  if (std::isfinite(answer.lower)) {
+    const double square = answer.normal.squaredNorm();
+    if (!(std::fabs(square - 1) <= 8 * kEpsilon)) return text("|normal|^2 - 1 is %g", square - 1);
+    const oracle::Interval gap = oracle::gap(a_.points, b_.points, b_in_a_, answer.normal);
+    if (!(answer.lower <= gap.lower)) return text("lower is %a, the gap along the normal %a", answer.lower, gap.lower);
+  }
+  return signed_upper_bound(answer);
+}
+
+std::string Judge::signed_upper_bound(const SignedAnswer& answer) {
+  if (answer.verdict == Verdict::Touching && !(answer.lower >= -law_two_ && answer.upper <= law_two_))
+    return text("touching with [%g, %g], law 2's bound is %g", answer.lower, answer.upper, law_two_);
+  if (answer.upper >= 0) {
+    if (answer.verdict == Verdict::Overlapping && answer.proof.count == 4) {
+      Answer met;
+      met.verdict = answer.verdict, met.lower = met.upper = 0, met.proof = answer.proof;
+      return proved_verdict(met);
+    }
+    if (answer.verdict == Verdict::Disjoint && !(answer.lower > 0)) return "disjoint without a lower bound";
+    if (!has_truth_ && answer.level_a == 0 && answer.level_b == 0) {
+      const std::vector<Vec3> feature_a = vertices_of(a_.model.level(0).view, answer.feature_a);
+      const std::vector<Vec3> feature_b = vertices_of(b_.model.level(0).view, answer.feature_b);
+      if (!feature_a.empty() && !feature_b.empty() &&
+          oracle::holds(oracle::distance(feature_a, feature_b, b_in_a_), 0, answer.upper))
+        return "";
+    }
+    if (oracle::holds(truth(), 0, answer.upper)) return "";
+    return text("upper is %a, the distance %a", answer.upper, truth().distance);
+  }
+  if (answer.verdict == Verdict::Disjoint) return "disjoint, but below 0";
+  if (const auto n = shallower(a_, b_, b_in_a_, -answer.upper)) {
+    const oracle::Interval gap = oracle::gap(a_.points, b_.points, b_in_a_, n->isZero() ? Vec3(1, 0, 0) : *n);
+    return text("upper is %a, but along (%a, %a, %a) the gap is %a", answer.upper, (*n)[0], (*n)[1], (*n)[2], gap.lower);
+  }
+  return "";
+}
+
+std::string Judge::exact(const SignedAnswer& answer) {
+  if (std::string wrong = interval(answer); !wrong.empty()) return wrong;
+  if (answer.status != Status::Converged) return text("the status is %d", int(answer.status));
+  if (answer.verdict == Verdict::Undecided) return "exact without a verdict";
+  if (answer.level_a != 0 || answer.level_b != 0) return text("exact on levels (%d, %d)", answer.level_a, answer.level_b);
+  const double width = answer.verdict == Verdict::Touching ? 2 * law_two_ : law_two_;  // a depth and a distance
+  if (!(answer.upper - answer.lower <= width)) return text("%g wide, law 2 allows %g", answer.upper - answer.lower, width);
+  const Vec3 &p = answer.point_a, &q = answer.point_b;
+  if (!p.allFinite() || !q.allFinite()) return "a witness point is not finite";
+  const double aside = ((q - p) - (answer.lower + answer.upper) / 2 * answer.normal).norm();
+  if (!(aside <= 2 * law_two_ + 16 * kEpsilon * size_))
+    return text("the points differ by the signed distance times the normal only within %g, law 2's bound is %g", aside,
+                law_two_);
+  if (!within_law_two(p, a_, vertices_of(a_.model.level(0).view, answer.feature_a), {})) return "point_a is not on A";
+  if (!within_law_two(q, b_, vertices_of(b_.model.level(0).view, answer.feature_b), b_in_a_)) return "point_b is not on B";
+  return "";
 }
 
 std::string Judge::decision(const Within& within, double threshold) {

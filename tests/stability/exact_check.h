@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <swiftlet/depth.h>
 #include <swiftlet/model.h>
 #include <swiftlet/query.h>
 
@@ -51,6 +52,15 @@ class Judge {
   /// The answer to `within`: `interval`; Yes and No are shown by the bounds; Undecided only within law 2 of the threshold.
   std::string decision(const Within& within, double threshold);
 
+  /// The answer to a query for the exact signed distance: converged with a verdict, no wider than law 2 allows, `lower` at most
+  /// the gap along the normal, `upper` at least the truth: of bodies apart as in `interval`, of an overlap by every plane that
+  /// bounds the Minkowski difference. The points lie within law 2's bound of both bodies, and differ by the signed distance
+  /// times the normal.
+  std::string exact(const SignedAnswer& answer);
+
+  /// Any answer to a query for the signed distance: lower <= truth <= upper.
+  std::string interval(const SignedAnswer& answer);
+
   /// The distance by exact minimum norm, found at the first call; from then on every interval and verdict is held against it.
   const oracle::Truth& truth();
   bool has_truth() const { return has_truth_; }
@@ -59,6 +69,7 @@ class Judge {
   std::string upper_bound(const Answer& answer);
   std::string proved_verdict(const Answer& answer);
   std::string witnesses(const Answer& answer);
+  std::string signed_upper_bound(const SignedAnswer& answer);
   bool within_law_two(const Vec3& p_a, const Subject& subject, std::span<const Vec3> feature, const Pose& pose) const;
 
   const Subject &a_, &b_;

@@ -41,6 +41,8 @@ Tally& Tally::operator+=(const Tally& other) {
   for (std::size_t v = 0; v < verdicts.size(); ++v) verdicts[v] += other.verdicts[v];
   failed += other.failed;
   steps = std::max(steps, other.steps);
+  depths += other.depths;
+  supports = std::max(supports, other.supports);
   widest = std::max(widest, other.widest);
   hash += other.hash;
   return *this;
@@ -71,8 +73,13 @@ Answer Pair::ask(PairSeed& seed) {
   count(within.answer);
   judged(judge_.decision(within, threshold), "within", start);
 
+  used = start;
+  const SignedAnswer deep = exact_depth(used);
+  require(deep.verdict == answer.verdict, "the signed distance differs in its verdict");
   if (examiner_.tally.pairs % kColdEvery == 0) {
     PairSeed cold;
+    used = {};
+    agree(deep, exact_depth(used), "a cold start");
     agree(answer, exact(cold), "a cold start");
   }
   return answer;
@@ -93,6 +100,22 @@ Answer Pair::loose(PairSeed& seed, const QueryOptions& options) {
   count(answer);
   judged(judge_.interval(answer), "distance, not exact,", start);
   return answer;
+}
+
+SignedAnswer Pair::exact_depth(PairSeed& seed) {
+  const PairSeed start = seed;
+  const SignedAnswer answer = signed_distance(a_.model, b_.model, b_in_a_, seed);
+  count(answer);
+  judged(judge_.exact(answer), "signed distance", start);
+  PairSeed again = seed;
+  agree(answer, signed_distance(a_.model, b_.model, b_in_a_, again), "where it ended");
+  return answer;
+}
+
+void Pair::agree(const SignedAnswer& one, const SignedAnswer& other, const char* what) {
+  require(one.verdict == other.verdict && std::fabs(one.lower - other.lower) <= law_two() &&
+              std::fabs(one.upper - other.upper) <= law_two(),
+          std::string("another signed distance from ") + what);
 }
 
 void Pair::agree(const Answer& one, const Answer& other, const char* what) {
@@ -131,6 +154,20 @@ void Pair::count(const Answer& answer) {
   ++tally.answers;
   ++tally.verdicts[std::size_t(answer.verdict)];
   tally.steps = std::max(tally.steps, answer.steps);
+  mix(tally.hash, answer.status), mix(tally.hash, answer.verdict), mix(tally.hash, answer.lower), mix(tally.hash, answer.upper);
+  for (const Vec3& v : {answer.normal, answer.point_a, answer.point_b})
+    for (const double x : v) mix(tally.hash, x);
+  mix(tally.hash, answer.feature_a), mix(tally.hash, answer.feature_b), mix(tally.hash, answer.steps);
+}
+
+void Pair::count(const SignedAnswer& answer) {
+  Tally& tally = examiner_.tally;
+  ++tally.answers;
+  ++tally.verdicts[std::size_t(answer.verdict)];
+  if (answer.verdict == Verdict::Overlapping) {
+    ++tally.depths;
+    tally.supports = std::max(tally.supports, answer.steps);
+  }
   mix(tally.hash, answer.status), mix(tally.hash, answer.verdict), mix(tally.hash, answer.lower), mix(tally.hash, answer.upper);
   for (const Vec3& v : {answer.normal, answer.point_a, answer.point_b})
     for (const double x : v) mix(tally.hash, x);

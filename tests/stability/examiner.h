@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <swiftlet/depth.h>
 #include <swiftlet/query.h>
 
 #include "case.h"
@@ -25,6 +26,8 @@ struct Tally {
   std::array<std::uint64_t, 4> verdicts{};  ///< of answers, by Verdict
   std::uint64_t failed = 0;                 ///< answers, or relations between them, that are wrong
   std::uint32_t steps = 0;                  ///< most of one answer
+  std::uint64_t depths = 0;                 ///< of answers, those of an overlap with its depth
+  std::uint32_t supports = 0;               ///< most steps of one of these
   double widest = 0;                        ///< exact interval, in units of law 2's bound
   std::uint64_t hash = 0;                   ///< of all bits of all answers, in order
 
@@ -59,8 +62,8 @@ class Pair {
   Pair(const Pair&) = delete;
   Pair& operator=(const Pair&) = delete;
 
-  /// The distance from `seed`, which moves on; then `intersects`, and `within` at a threshold near the truth, from copies of
-  /// it. Every eighth time the distance from a cold start as well, which must agree.
+  /// The distance from `seed`, which moves on; then `intersects`, `within` at a threshold near the truth, and the signed
+  /// distance, which must agree, from copies of it. Every eighth time the distance from a cold start as well, which must agree.
   Answer ask(PairSeed& seed);
   Answer ask() {
     PairSeed cold;
@@ -71,14 +74,19 @@ class Pair {
   /// The distance to whatever precision, budget or level.
   Answer loose(PairSeed& seed, const QueryOptions& options);
 
+  /// The exact signed distance, and again from where that ended.
+  SignedAnswer exact_depth(PairSeed& seed);
+
   /// Both are exact answers of this pair or of one with the same truth: the same verdict, intervals within law 2's bound.
   void agree(const Answer& one, const Answer& other, const char* what);
+  void agree(const SignedAnswer& one, const SignedAnswer& other, const char* what);
   void require(bool holds, const std::string& what);
   void solve() { judge_.truth(); }
   double law_two() const { return judge_.law_two(); }
 
  private:
   void count(const Answer& answer);
+  void count(const SignedAnswer& answer);
   void judged(const std::string& wrong, const char* query, const PairSeed& seed);
 
   Examiner& examiner_;

@@ -51,6 +51,7 @@ struct BuildOptions {
   std::uint32_t cutoff = 60;    ///< no level has fewer triangles than this, nor a solid fewer than 4
   int max_levels = 32;          ///< level 0 included, 1 to 32
   double max_deviation = 0;     ///< the hierarchy ends before a level deviates more, in the mesh's unit; 0: no limit
+  Detail detail;                ///< what the model keeps of the levels built; a prefix in `bytes` is that of the whole model
   bool require_convex = false;  ///< refuse a mesh with dents
   bool require_solid = false;   ///< refuse flat, collinear and single-point input
   TableSpec table;              ///< the start table
@@ -71,7 +72,7 @@ struct BuildReport {
   std::size_t hull_triangles = 0, faces_grouped = 0;  ///< triangles before grouping; faces of more than three vertices
   double volume_ratio = 1;                            ///< mesh over hull; 1 for convex input, and where the mesh does not close
   double deepest_dent = 0;                            ///< distance from the hull to the farthest mesh vertex inside it
-  std::vector<LevelReport> levels;                    ///< level 0 first
+  std::vector<LevelReport> levels;                    ///< level 0 first; also those that BuildOptions::detail drops
   std::string end;                                    ///< why the hierarchy ended where it did
 };
 

@@ -19,13 +19,14 @@ struct Check {
   explicit operator bool() const { return ok; }
 };
 
-/// Recomputes what `answer` claims, by brute force over every vertex of the levels it names: `lower` by the gap along `normal`,
-/// `upper` by the two points and the deviations, overlap by exact arithmetic on the proof's vertices, the verdict by all these.
-/// Cost: linear in the vertices and faces. The radii are those of the options that the answer was asked with.
+/// Recomputes what `answer` claims, by brute force over every vertex: `lower` by the gap of the exact hulls along `normal` (of
+/// the levels present, where these lack), `upper` by the two points and the deviations, overlap by exact arithmetic on the
+/// proof's vertices, the verdict by all these. Cost: linear in the vertices and faces. The radii are those of the options that
+/// the answer was asked with.
 Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer, double radius_a = 0, double radius_b = 0);
 
 /// Proves that every level is convex and encloses level 0, that every deviation holds, and that links and tables name features.
-/// Exact. Cost: a support climb per face and a distance query per vertex.
+/// Exact. Fails on a model whose level 0 is absent. Cost: a support climb per face and a distance query per vertex.
 Check verify(const Model& model);
 
 }  // namespace swiftlet

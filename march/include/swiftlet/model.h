@@ -105,9 +105,16 @@ class FaceLoop {
   std::uint32_t first_;
 };
 
+/// How much of a model a scene needs. The coarsest level always comes along, finer ones as far as both members allow. Two
+/// bodies that deviate by d each answer any distance to 2 d.
+struct Detail {
+  double deviation = 0;  ///< none finer than the coarsest level that deviates less, in the body's unit; 0: all
+  std::uint64_t bytes = ~std::uint64_t{0};  ///< none that the first so many bytes of the block do not hold
+};
+
 /// A level of a model: its polytope, its links to the levels beside it, and how far it stands off the exact hull.
 struct Level {
-  ConvexView view;                              ///< its features, as long as the model lives
+  ConvexView view;                              ///< its features, as long as the model lives; none finer than finest_level()
   std::span<const std::uint32_t> child_vertex;  ///< per vertex, the vertex one level finer (empty on level 0)
   std::span<const Handle> child_face;           ///< per face, the face or vertex one level finer (empty on level 0)
   std::span<const std::uint32_t> parent_face;   ///< per face, the vertex one level coarser (empty on the coarsest)
@@ -115,9 +122,10 @@ struct Level {
                                                 ///< how much it may not be; a query's cold start. Empty: none at this level
   std::uint32_t map_side = 0;                   ///< its cells on an edge of that cube
   double edge_length = 0;                       ///< mean over the level's edges
-  double deviation = 0;   ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
-  double volume = 0;      ///< cubic units; 0 where flatter than a solid
-  std::size_t bytes = 0;  ///< of this level in the model's block
+  double deviation = 0;    ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
+  double volume = 0;       ///< cubic units; 0 where flatter than a solid
+  std::size_t bytes = 0;   ///< of this level in a whole model's block
+  std::size_t prefix = 0;  ///< of the model's block, from its beginning to this level's end; 0 where the block lacks it
   std::size_t edge_count = 0, triangle_count = 0;  ///< without diagonals; 2 V - 4 for a solid
 };
 
@@ -162,6 +170,10 @@ struct ModelOptions {
 };
 
 /// A block of memory that is also the file. Copies share it; it never changes; any number of threads may query it.
+///
+/// A model may lack its finest levels, cut away or not read from its file: level ids still count from the exact hull, and what
+/// is known of an absent level are its numbers. Queries answer as well as the finest level present allows, and their status
+/// says when that was not enough.
 class Model {
  public:
   /// From one or several levels given finest first, without CGAL. Convexity and enclosure are decided exactly; the error names
@@ -170,14 +182,15 @@ class Model {
   /// One level.
   static Result<Model> from_level(const LevelArrays& level, const ModelOptions& options = {});
 
-  int level_count() const { return level_count_; }  ///< at least 1; level 0 is the exact hull, larger is coarser
+  int level_count() const { return level_count_; }    ///< at least 1; level 0 is the exact hull, larger is coarser
+  int finest_level() const { return finest_level_; }  ///< of those present; 0 in a whole model
   /// Level `index` < level_count(); lives as long as the model.
   const Level& level(int index) const {
     assert(index >= 0 && index < level_count_);
     return levels_[index];
   }
   int map_level() const { return map_level_; }  ///< the finest with a support map; level_count() where none has
-  SourceMap source() const;                     ///< the user's ids of level 0; lives as long as the model
+  SourceMap source() const;                     ///< the user's ids of level 0; lives as long as the model; empty without it
 
   Vec3 centre() const;    ///< body frame: area centroid of level 0 (of its edges or point, where flatter)
   double radius() const;  ///< largest distance of a vertex of level 0 from the centre, rounded up
@@ -186,24 +199,36 @@ class Model {
   Vec3 box_max() const;   ///< the corner across
   double volume() const;  ///< of level 0
   int dimension() const;  ///< 3 solid, 2 flat, 1 segment, 0 point
-  /// A vertex of level 0 that no other exceeds in `direction` (body frame, any length). Exact; a climb from the start table.
+  /// The model without the levels that `detail` does not ask for, in a block of its own. Cost: a copy of what is left.
+  Model cut(const Detail& detail) const;
+  /// Makes the levels from `level` (>= 0) on ready for queries, where the block holds them: a mapped one does. Proves their
+  /// hashes and structure; returns finest_level(). Copies made before stay as they are, seeds fit the same levels as before.
+  /// Not while a query reads this very object. Errors: BadValue where the block lacks the level, BadFormat where it is damaged;
+  /// either leaves the model as it was.
+  Result<int> ensure(int level);
+
+  /// A vertex of the finest level that no other exceeds in `direction` (body frame, any length). Exact; a climb from a look-up.
   std::uint32_t support(const Vec3& direction) const;
 
   TableSpec table_spec() const;                   ///< of the table that follows
   std::span<const std::uint32_t> table() const;   ///< a vertex of level 0 per sample of lut.h, empty without one
-  Model with_table(const TableSpec& spec) const;  ///< the same levels with another table
+  Model with_table(const TableSpec& spec) const;  ///< the levels present, with other maps, and with level 0 another table
 
-  std::span<const std::byte> bytes() const;  ///< the block: what model_file.h writes
-  std::uint64_t hash() const;                ///< of the block; equal hash, equal model
+  std::span<const std::byte> bytes() const;  ///< the block: what model_file.h writes; of a mapped model the whole file
+  std::uint64_t hash() const;                ///< of the block, which it reads to the end; equal hash, equal model
 
  private:
   friend class BlockReader;
   struct Body;
-  Model(std::shared_ptr<const Body> body, std::span<const Level> levels, int map_level)
-      : body_(std::move(body)), levels_(levels.data()), level_count_(int(levels.size())), map_level_(map_level) {}
+  Model(std::shared_ptr<const Body> body, std::span<const Level> levels, int map_level, int finest_level)
+      : body_(std::move(body)),
+        levels_(levels.data()),
+        level_count_(int(levels.size())),
+        map_level_(map_level),
+        finest_level_(finest_level) {}
   std::shared_ptr<const Body> body_;
   const Level* levels_;  ///< the body's
-  int level_count_, map_level_;
+  int level_count_, map_level_, finest_level_;
 };
 
 }  // namespace swiftlet

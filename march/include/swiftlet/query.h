@@ -19,7 +19,8 @@ enum class Status : std::uint8_t {
   Converged,     ///< the interval is as narrow as asked, or the verdict is proved
   Beyond,        ///< stopped early, as asked: lower > options.beyond
   Budget,        ///< options.step_budget ended the march; the interval is true
-  LevelLimit,    ///< options.finest_level forbade the level that the tolerance needs; the interval is true
+  LevelLimit,    ///< a level that the tolerance needs is absent from a model or forbidden by options.finest_level; the interval
+                 ///< is true, and as narrow as the levels that the answer names allow
   NotConverged,  ///< the interval is true but wider than asked. No valid model and pose is known that answers so
   InvalidPose,   ///< not finite, translated beyond 1e45, or not orthonormal to 1e-6: the interval is [0, inf]
 };
@@ -79,7 +80,7 @@ struct QueryOptions {
   double absolute_error = 0;  ///< stop when upper - lower <= max(absolute_error, relative_error * lower)
   double relative_error = 0;  ///< a fraction of lower
   double beyond = std::numeric_limits<double>::infinity();  ///< stop when lower > beyond
-  int finest_level = 0;                                     ///< read no level finer than this
+  int finest_level = 0;                                     ///< read no level finer than this; models may hold less
   std::uint32_t step_budget = ~0u;                          ///< over all levels; steps, not time
   StartPolicy start = StartPolicy::Automatic;               ///< where it starts
   Refinement refinement = Refinement::SingleSingle;         ///< how it descends

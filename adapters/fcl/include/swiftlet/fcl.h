@@ -21,16 +21,16 @@
 
 namespace swiftlet::fcl {
 
-/// Per face of level 0 its number of vertices and then these, counter-clockwise seen from outside: fcl::Convex's layout.
+/// Per face of the finest level present its number of vertices and then these, counter-clockwise seen from outside: fcl::Convex's layout.
 std::vector<int> face_loops(const Model& model);
 
-/// An fcl::Convex of a model's level 0; to every other solver it is just that. The model must be a solid.
+/// An fcl::Convex of a model's finest level; to every other solver it is just that. The model must be a solid.
 template <class S>
 class Convex final : public ::fcl::Convex<S> {
  public:
   /// Shares the model's block.
   explicit Convex(const Model& model)
-      : ::fcl::Convex<S>(points(model), int(model.level(0).view.face_first.size()),
+      : ::fcl::Convex<S>(points(model), int(model.level(model.finest_level()).view.face_first.size()),
                          std::make_shared<const std::vector<int>>(face_loops(model))),
         model_(model) {}
   const Model& model() const { return model_; }  ///< in double precision, as given
@@ -38,7 +38,7 @@ class Convex final : public ::fcl::Convex<S> {
  private:
   static std::shared_ptr<const std::vector<::fcl::Vector3<S>>> points(const Model& model) {
     auto result = std::make_shared<std::vector<::fcl::Vector3<S>>>();
-    for (const Vertex& v : model.level(0).view.vertices) result->emplace_back(S(v.x), S(v.y), S(v.z));
+    for (const Vertex& v : model.level(model.finest_level()).view.vertices) result->emplace_back(S(v.x), S(v.y), S(v.z));
     return result;
   }
   Model model_;

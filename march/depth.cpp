@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Which body is deep in which is asked of polytopes, from level pair to finer level pair: a coarse one is around the exact one,
+// so that its heights are no less, and more by no more than its deviation. Signs near 0 are those of `distance`.
+#include <swiftlet/depth.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "expand.h"
+#include "progress.h"
+#include "ring.h"
+#include "seed.h"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What is asked: an interval narrow enough, or on which side of a threshold.
+struct Target {
+  double absolute = 0, relative = 0;
+  double depth = -1;  ///< the threshold where it is not negative
+  bool is_threshold() const { return depth >= 0; }
+};
+
+/// The vertices of a feature that span it: one, two or three.
+struct Span {
+  int count = 0;
+  std::array<std::uint32_t, 3> vertex{};
+};
+Span span_of(const ConvexView& view, Handle feature) {
+  const std::uint32_t i = feature.index();
+  if (feature.kind() == FeatureKind::Vertex) return {1, {i}};
+  if (feature.kind() == FeatureKind::Edge) return {2, {origin(view, i), view.head[i]}};
+  const std::uint32_t h = view.face_first[i];
+  return {3, {origin(view, h), view.head[h], view.head[next_in_facet(view, h)]}};
+}
+
+/// From level pair to finer level pair until the target is met.
+class Deepening {
+ public:
+  Deepening(const Model& a, const Model& b, const Motion& m, double pose_error, const QueryOptions& options,
+            const Target& target)
+      : a_(a),
+        b_(b),
+        motion_(m),
+        line_(line_of_centres(a, b, m)),
+        pose_error_(pose_error),
+        stretch_(std::sqrt(1 + 3 * pose_error)),
+        shift_(norm(m.t)),
+        options_(options),
+        target_(target),
+        law_two_(law_two(a.level(0).view, b.level(0).view, shift_, pose_error)),
+        finest_a_(finest_allowed(a, options)),
+        finest_b_(finest_allowed(b, options)) {}
+
+  void run(const PairSeed& seed) {
+    const bool exact = target_.absolute == 0 && target_.relative == 0 && !target_.is_threshold();
+    place_ = exact ? Place{finest_a_, finest_b_, {}} : coarsest_place(a_, b_);
+    Vec direction =
+        (seed.normal[0] | seed.normal[1] | seed.normal[2]) != 0 && seed.met ? swiftlet::direction(seed) : line_.in_a;
+    for (;;) {
+      const double error = deviation();
+      const bool last = place_.level_a == finest_a_ && place_.level_b == finest_b_;
+      if (last || !(error > larger(target_.absolute, target_.relative * upper)) || target_.is_threshold()) {
+        solve(seed, direction, error);
+        if (last || end != DepthEnd::NotConverged || answered()) break;
+        direction = normal;
+      }
+      place_ = {std::max(place_.level_a - 1, finest_a_), std::max(place_.level_b - 1, finest_b_), {}};
+    }
+    if (end != DepthEnd::Apart && end != DepthEnd::Budget && answered()) end = DepthEnd::Converged;
+  }
+
+  Status status() const {
+    if (end == DepthEnd::Converged) return Status::Converged;
+    if (end == DepthEnd::Budget) return Status::Budget;
+    return place_.level_a == 0 && place_.level_b == 0 ? Status::NotConverged : Status::LevelLimit;
+  }
+  /// Overlapping for certain, and not to be taken for touching.
+  bool proved() const { return lower > law_two_; }
+
+  void store(PairSeed& seed) const {
+    remember(line_, normal, seed);
+    seed.a = feature_a, seed.b = feature_b;
+    seed.level_a = std::uint8_t(place_.level_a), seed.level_b = std::uint8_t(place_.level_b);
+    seed.met = true;
+  }
+
+  DepthEnd end = DepthEnd::NotConverged;
+  double lower = -kInfinity, upper = kInfinity;  ///< of the depth of the exact hulls
+  Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};
+  bool has_points = false;
+  Handle feature_a, feature_b;
+  int level_a = 0, level_b = 0;
+  std::uint32_t steps = 0, plane_tests = 0;
+
+ private:
+  double deviation() const { return a_.level(place_.level_a).deviation + stretch_ * b_.level(place_.level_b).deviation; }
+  bool answered() const {
+    if (target_.is_threshold()) return lower > target_.depth + law_two_ || upper < target_.depth - law_two_;
+    return upper - lower <= larger(larger(target_.absolute, target_.relative * lower), law_two_);
+  }
+
+  DepthStart start(const Scene& pair, const PairSeed& seed, const Vec& direction) const {
+    DepthStart s;
+    s.direction = direction;
+    const bool fits = seed.level_a == place_.level_a && seed.level_b == place_.level_b && names_feature(pair.a, seed.a) &&
+                      names_feature(pair.b, seed.b);
+    if (!fits) return s;
+    const Span a = span_of(pair.a, seed.a);
+    Span b = span_of(pair.b, seed.b);
+    if (a.count * b.count > 4) b.count = 1;
+    for (int i = 0; i < a.count; ++i) {
+      for (int j = 0; j < b.count; ++j) {
+        s.a[std::size_t(s.count)] = a.vertex[std::size_t(i)];
+        s.b[std::size_t(s.count++)] = b.vertex[std::size_t(j)];
+      }
+    }
+    return s;
+  }
+
+  void solve(const PairSeed& seed, const Vec& direction, double error) {
+    const Level &of_a = a_.level(place_.level_a), &of_b = b_.level(place_.level_b);
+    const Scene pair = scene(of_a.view, of_b.view, motion_, shift_, pose_error_);
+    DepthGoal goal{target_.absolute, target_.relative, error, kInfinity, -kInfinity, options_.step_budget - steps};
+    if (target_.is_threshold()) goal.deeper = target_.depth + law_two_, goal.shallower = target_.depth - law_two_;
+    const Depth found = expand(pair, of_a, of_b, start(pair, seed, direction), goal, plane_tests);
+    end = found.end;
+    steps += found.steps;
+    if (found.lower > 0) lower = larger(lower, error > 0 ? (found.lower - error) - 2 * kU * (found.lower + error) : found.lower);
+    if (found.upper > upper + law_two_) return;
+    upper = smaller(upper, found.upper);
+    normal = found.normal;
+    level_a = place_.level_a, level_b = place_.level_b;
+    has_points = found.active.count > 0;
+    if (!has_points) return;
+    point_a = found.point_a, point_b = found.point_b;
+    feature_a = feature_of(of_a.view, found.active, found.active.a);
+    feature_b = feature_of(of_b.view, found.active, found.active.b);
+  }
+
+  const Model &a_, &b_;
+  const Motion& motion_;
+  const Line line_;
+  const double pose_error_, stretch_, shift_;
+  const QueryOptions& options_;
+  const Target target_;
+  const double law_two_;
+  const int finest_a_, finest_b_;
+  Place place_{};
+};
+
+SignedAnswer apart(const Answer& near) {
+  SignedAnswer s;
+  s.status = near.status;
+  s.verdict = near.verdict;
+  s.lower = near.lower, s.upper = near.upper;
+  s.normal = near.normal;
+  s.point_a = near.point_a, s.point_b = near.point_b;
+  s.level_a = near.level_a, s.level_b = near.level_b;
+  s.feature_a = near.feature_a, s.feature_b = near.feature_b;
+  s.proof = near.proof;
+  s.steps = near.steps, s.plane_tests = near.plane_tests;
+  return s;
+}
+
+/// The depth found, as a signed distance of at most `upper`; what it lacks stays.
+void take(const Deepening& deep, SignedAnswer& s) {
+  s.lower = -deep.upper;
+  s.normal = eigen(deep.normal);
+  s.level_a = deep.level_a, s.level_b = deep.level_b;
+  if (deep.has_points && s.verdict != Verdict::Touching) {  // those of a distance of 0 are as near, on any shape
+    s.point_a = eigen(deep.point_a), s.point_b = eigen(deep.point_b);
+    s.feature_a = deep.feature_a, s.feature_b = deep.feature_b;
+  }
+}
+
+void add_work(const Deepening& deep, SignedAnswer& s) {
+  s.steps += deep.steps;
+  s.plane_tests += deep.plane_tests;
+}
+
+/// `near` asks the question of bodies that are apart.
+template <class Near>
+SignedAnswer ask(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
+                 const Target& target, Near near) {
+  const Motion m = motion(b_in_a);
+  const PoseQuality quality = pose_quality(m);
+  SignedAnswer answer;
+  if (!quality.legal) {
+    answer.status = Status::InvalidPose;
+    return answer;
+  }
+  Deepening deep(a, b, m, quality.error, options, target);
+  if (seed.met) deep.run(seed);
+  if (!deep.proved()) {
+    answer = apart(near(seed));
+    if (answer.lower > 0) return add_work(deep, answer), answer;
+    if (deep.end == DepthEnd::NotConverged && deep.steps == 0) deep.run(seed);
+  }
+  add_work(deep, answer);
+  const bool overlapping = deep.proved() || answer.verdict == Verdict::Overlapping;
+  if (deep.proved() || answer.status == Status::Converged) answer.status = deep.status();
+  if (overlapping) answer.verdict = Verdict::Overlapping;
+  answer.upper = smaller(overlapping ? smaller(answer.upper, 0) : answer.upper, -deep.lower);
+  if (answer.upper < 0) answer.proof = {};
+  take(deep, answer);
+  if (overlapping) deep.store(seed);
+  return answer;
+}
+
+}  // namespace
+
+SignedAnswer signed_distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options) {
+  return ask(a, b, b_in_a, seed, options, {options.absolute_error, options.relative_error},
+             [&](PairSeed& from) { return distance(a, b, b_in_a, from, options); });
+}
+
+SignedWithin signed_within(const Model& a, const Model& b, const Pose& b_in_a, double threshold, PairSeed& seed,
+                           const QueryOptions& options) {
+  SignedWithin result;
+  if (threshold < 0) {
+    result.answer = ask(a, b, b_in_a, seed, options, {0, 0, -threshold},
+                        [&](PairSeed& from) { return intersects(a, b, b_in_a, from, options); });
+    if (result.answer.lower > threshold) result.decision = Decision::No;
+    if (result.answer.upper <= threshold) result.decision = Decision::Yes;
+  } else {
+    const Within near = within(a, b, b_in_a, threshold, seed, options);
+    result.answer = apart(near.answer);
+    if (!(near.answer.lower > 0)) result.answer.lower = -kInfinity;
+    result.decision = near.decision;
+  }
+  return result;
+}
+
+}  // namespace swiftlet

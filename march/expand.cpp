@@ -1,0 +1,465 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The expanding polytope [van den Bergen 2001], with a proof that needs no convexity: a closed surface of triangles between
+// points of the Minkowski difference M winds once around a point c inside. Triangles are replaced by a cone of triangles to a
+// new point only where a plane has c below it, and the triangle and the new point not, so that the tetrahedra between old and
+// new surface miss c. Where at last all planes have c and the origin below them, the surface winds around the origin as well:
+// every ray leaves through a triangle no nearer than the nearest plane, and M is convex. So the planes may be rounded as they
+// like, and the polytope need not be convex.
+#include "expand.h"
+
+#include <algorithm>
+
+#include "difference.h"
+#include "support_map.h"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Of the polytope; counter-clockwise from outside, no corner below the plane.
+template <class Real>
+struct Facet {
+  V3<Real> normal;
+  Real height;  ///< of the plane above the origin
+  std::array<std::uint8_t, 3> corner;
+  double above = kInfinity;  ///< proved: no point of M is as high; once the support is found and is no way on
+};
+
+/// A cone of directions: the span of three corners of a cell of the octahedron, counter-clockwise from outside.
+struct Cone {
+  Vec x, y, z;
+};
+
+/// A supporting plane of M.
+struct Plane {
+  double height = kInfinity;  ///< proved: no point of M is higher
+  Vec normal{0, 0, 0};
+};
+
+/// The point of a triangle nearest to the origin.
+template <class Real>
+struct Foot {
+  std::array<Real, 3> weight;
+  V3<Real> point;
+};
+
+/// [Ericson 2004, sec. 5.1.5]
+template <class Real>
+Foot<Real> foot(const V3<Real>& a, const V3<Real>& b, const V3<Real>& c) {
+  const Real zero(0), one(1);
+  const auto at = [&](const Real& v, const Real& w) {
+    const Real u = one - v - w;
+    return Foot<Real>{{u, v, w}, a * u + b * v + c * w};
+  };
+  const V3<Real> ab = b - a, ac = c - a;
+  const Real d1 = -dot(ab, a), d2 = -dot(ac, a);
+  if (!(d1 > zero) && !(d2 > zero)) return at(zero, zero);
+  const Real d3 = -dot(ab, b), d4 = -dot(ac, b);
+  if (!(d3 < zero) && !(d4 > d3)) return at(one, zero);
+  const Real vc = d1 * d4 - d3 * d2;
+  if (!(vc > zero) && !(d1 < zero) && !(d3 > zero) && d1 > d3) return at(d1 / (d1 - d3), zero);
+  const Real d5 = -dot(ab, c), d6 = -dot(ac, c);
+  if (!(d6 < zero) && !(d5 > d6)) return at(zero, one);
+  const Real vb = d5 * d2 - d1 * d6;
+  if (!(vb > zero) && !(d2 < zero) && !(d6 > zero) && d2 > d6) return at(zero, d2 / (d2 - d6));
+  const Real va = d3 * d6 - d5 * d4, rise = d4 - d3, fall = d5 - d6;
+  if (!(va > zero) && !(rise < zero) && !(fall < zero) && rise + fall > zero)
+    return at(fall / (rise + fall), rise / (rise + fall));
+  const Real sum = va + vb + vc;
+  if (!(sum > zero)) return at(zero, zero);
+  return at(vb / sum, vc / sum);
+}
+
+/// At length 1, but for a rounding of the length that a double shows.
+template <class Real>
+V3<Real> unit(const V3<Real>& v) {
+  if constexpr (std::is_same_v<Real, double>) {
+    return normalised(v);
+  } else {
+    const double length = norm(rounded(v));
+    return length > kLeastDirection ? v * Real(1 / length) : V3<Real>{Real(0), Real(0), Real(0)};
+  }
+}
+
+Vec least_axis(const Vec& v) {
+  const double x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z);
+  return x <= y && x <= z ? Vec{1, 0, 0} : y <= z ? Vec{0, 1, 0} : Vec{0, 0, 1};
+}
+
+/// How an expansion ended.
+enum class End : std::uint8_t {
+  Enough,     ///< the goal is met
+  TooCoarse,  ///< it cannot be, on these levels
+  Apart,
+  Budget,
+  Full,   ///< no room for another point
+  Stuck,  ///< this arithmetic cannot tell any more
+};
+
+/// What all polytopes of one question share.
+struct Search {
+  const Scene& scene;
+  const Level &level_a, &level_b;
+  const DepthGoal& goal;
+  std::uint32_t& plane_tests;
+  const bool exact;  ///< the facet itself is wanted: bounds that are narrow leave its plane room to lean
+  std::uint32_t steps = 0;
+  Plane best{};
+
+  double allowed(double lower) const {
+    return larger(larger(goal.absolute, goal.relative * (lower - goal.error)) - goal.error, scene.law_two);
+  }
+  bool narrow(double lower) const { return best.height - lower <= allowed(lower); }
+  bool passed(double lower) const { return lower - goal.error > goal.deeper || best.height < goal.shallower; }
+  /// Whether no bounds of this pair can, for its error.
+  bool hopeless(double lower) const {
+    return goal.error > 0 && larger(goal.absolute, goal.relative * (best.height - goal.error)) < goal.error &&
+           best.height - goal.error <= goal.deeper && lower >= goal.shallower;
+  }
+};
+
+/// A polytope inside the Minkowski difference M, and what it proves.
+template <class Real>
+class Polytope {
+  using Corner = Difference<Real>;
+
+ public:
+  explicit Polytope(Search& search)
+      : search_(search), scene_(search.scene), resolution_(rounding<Real>(scene_) * (std::is_same_v<Real, double> ? 1 : 4)) {}
+
+  /// Four points of M, the start's first. False where M has no room for them: planes were found that say so.
+  bool begin(const DepthStart& start) {
+    clear();
+    const Vec hint = normalised(dot(start.direction, start.direction) > 0 ? start.direction : Vec{1, 0, 0});
+    for (int k = 0; k < start.count; ++k) push(difference<Real>(scene_, start.a[std::size_t(k)], start.b[std::size_t(k)]));
+    const bool has_fourth = corner_count_ == 4;
+    const Corner fourth = has_fourth ? corner_[3] : Corner{};
+    if (!span_triangle() && !find_triangle(hint)) return false;
+    corner_count_ = 3;
+    const Vec n = rounded(across(0, 1, 2));
+    if (dot(n, n) == 0 || !leave_plane(dot(n, hint) > 0 ? -n : n) || !close()) return false;
+    return !has_fourth || !rises(fourth) || add(fourth);
+  }
+
+  /// M and three points far away that no direction of the cone sees above the origin: over the cone its heights are those of M,
+  /// elsewhere no less.
+  bool begin(const Cone& cone) {
+    clear();
+    push(support(normalised(cone.x + cone.y + cone.z), 0, 0));
+    for (const Vec& edge : {cross(cone.x, cone.y), cross(cone.y, cone.z), cross(cone.z, cone.x)}) {
+      const int exponent = std::ilogb(scene_.magnitude) - std::ilogb(max_abs(edge)) + 1;
+      const Vec far{std::ldexp(edge.x, exponent), std::ldexp(edge.y, exponent), std::ldexp(edge.z, exponent)};
+      push({widened<Real>(-far), kNone, kNone});
+    }
+    return close();
+  }
+
+  /// Adds the support of the nearest facet until the goal is met and the plane is that of the nearest point: of several facets
+  /// as near, points and plane are to be of one.
+  End grow() {
+    for (;;) {
+      std::size_t next = nearest_facet();
+      lower_ = below(rounded(facet_[next].height));
+      if (search_.passed(lower_)) return End::Enough;
+      if (search_.hopeless(lower_)) return End::TooCoarse;
+      if (search_.best.height < -scene_.law_two) return End::Apart;
+      if (search_.narrow(lower_)) next = nearest_point().facet;
+      if (facet_[next].above < kInfinity) {
+        if (facet_[next].above - lower_ > search_.allowed(lower_)) return End::Stuck;
+        search_.best = {facet_[next].above, rounded(facet_[next].normal)};
+        return End::Enough;
+      }
+      if (search_.steps >= search_.goal.step_budget) return End::Budget;
+      const Corner top = support(facet_[next]);
+      const bool will_do = !search_.exact && last_.height - lower_ <= search_.allowed(lower_);
+      if (will_do || !sees(facet_[next], top) || known(top)) {
+        facet_[next].above = last_.height;
+        continue;
+      }
+      if (corner_count_ == kDepthPoints || facet_count_ + 2 > kDepthFacets) return End::Full;
+      if (!add(top)) return End::Stuck;
+    }
+  }
+
+  /// Proved of the heights of M, over all directions or the cone; 0 before anything is.
+  double lower() const { return lower_; }
+
+  /// The points that the nearest point is the difference of. Whether it lies along the plane's normal.
+  bool witness(Depth& depth) const {
+    const Nearest nearest = nearest_point();
+    if (facet_count_ == 0 || is_far(facet_[nearest.facet])) return false;
+    depth.active.count = 0;
+    depth.point_a = depth.point_b = {0, 0, 0};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double weight = rounded(nearest.foot.weight[k]);
+      if (weight == 0) continue;
+      const Corner& c = corner(facet_[nearest.facet], k);
+      const auto slot = std::size_t(depth.active.count++);
+      depth.active.a[slot] = c.a, depth.active.b[slot] = c.b, depth.active.weight[slot] = weight;
+      depth.point_a = depth.point_a + body_a(scene_).point(c.a) * weight;
+      depth.point_b = depth.point_b + body_b(scene_).point(c.b) * weight;
+    }
+    return norm(rounded(nearest.foot.point) - search_.best.normal * search_.best.height) <= scene_.law_two;
+  }
+
+ private:
+  static constexpr int kDepthFacets = 2 * kDepthPoints;  // a sphere of n points has 2 n - 4
+
+  void clear() {
+    corner_count_ = facet_count_ = 0;
+    lower_ = 0;
+  }
+  void push(const Corner& c) { corner_[std::size_t(corner_count_++)] = c; }
+  const Corner& corner(const Facet<Real>& f, std::size_t k) const { return corner_[f.corner[k]]; }
+  bool is_far(const Facet<Real>& f) const {
+    return corner(f, 0).a == kNone || corner(f, 1).a == kNone || corner(f, 2).a == kNone;
+  }
+  bool known(const Corner& c) const {
+    return std::any_of(corner_.begin(), corner_.begin() + corner_count_,
+                       [&](const Corner& k) { return k.a == c.a && k.b == c.b; });
+  }
+
+  /// A proved lower bound of a height that this arithmetic computed.
+  double below(double height) const {
+    if constexpr (std::is_same_v<Real, double>) return height - scene_.point_error;
+    return height - (kGapError * std::fabs(height) + kDoubleDoubleError * scene_.magnitude);
+  }
+
+  /// A vertex pair highest along unit n, climbed to from what a map says or the vertices given; the plane there is kept if it
+  /// is the best.
+  Corner support(const Vec& n, std::uint32_t a, std::uint32_t b) {
+    ++search_.steps;
+    a = higher(search_.level_a, n, a);
+    b = higher(search_.level_b, body_b(scene_).into(-n), b);
+    Corner top;
+    if constexpr (std::is_same_v<Real, double>) {
+      const Supports s = supports(scene_, n, a, b, search_.plane_tests);
+      top = difference<Real>(scene_, s.a, s.b);
+      last_ = {-s.lower, n};
+    } else {
+      top =
+          difference<Real>(scene_, support_a(scene_, n, a, search_.plane_tests), support_b(scene_, n, b, search_.plane_tests));
+      const double height = rounded(dot(widened<Real>(n), top.p));
+      last_ = {height + (kGapError * std::fabs(height) + kDoubleDoubleError * scene_.magnitude), n};
+    }
+    if (last_.height < search_.best.height) search_.best = last_;
+    return top;
+  }
+  Corner support(const Facet<Real>& f) {
+    const Corner* near = &corner(f, 0);
+    for (const std::size_t k : {1, 2}) near = near->a == kNone ? &corner(f, k) : near;
+    return near->a == kNone ? support(rounded(f.normal), 0, 0) : support(rounded(f.normal), near->a, near->b);
+  }
+  static std::uint32_t higher(const Level& level, const Vec& own, std::uint32_t other) {
+    if (level.map_side == 0) return other;
+    const std::uint32_t seen = look_up(level, own).vertex;
+    return dot(own, vec(level.view.vertices[seen]) - vec(level.view.vertices[other])) > 0 ? seen : other;
+  }
+  V3<Real> across(int i, int j, int k) const {
+    const V3<Real>& p = corner_[std::size_t(i)].p;
+    return unit(cross(corner_[std::size_t(j)].p - p, corner_[std::size_t(k)].p - p));
+  }
+  /// Whether the first three points are there and clearly on no line.
+  bool span_triangle() const {
+    if (corner_count_ < 3) return false;
+    const Vec u = rounded(corner_[1].p - corner_[0].p), v = rounded(corner_[2].p - corner_[0].p);
+    return norm(cross(u, v)) > kRoom * resolution_ * larger(norm(u), norm(v));
+  }
+  bool find_triangle(const Vec& hint) {
+    corner_count_ = 0;
+    push(support(hint, 0, 0));
+    if (!leave_plane(-hint)) return false;
+    const Vec u = normalised(rounded(corner_[1].p - corner_[0].p)), v = normalised(cross(u, least_axis(u)));
+    return (leave_plane(v) || leave_plane(cross(u, v))) && span_triangle();
+  }
+  /// Pushes a point of M off the plane through the first one, on the side of `direction` or else the other.
+  bool leave_plane(const Vec& direction) {
+    for (const Vec& n : {direction, -direction}) {
+      const Corner top = support(n, corner_[0].a, corner_[0].b);
+      if (rounded(dot(widened<Real>(n), top.p - corner_[0].p)) > kRoom * resolution_) return push(top), true;
+    }
+    return false;
+  }
+
+  /// The tetrahedron of the first four points.
+  bool close() {
+    inside_ = (corner_[0].p + corner_[1].p + corner_[2].p + corner_[3].p) * Real(0.25);
+    if (dot(across(0, 1, 2), corner_[3].p - corner_[0].p) > Real(0)) std::swap(corner_[1], corner_[2]);
+    return face(0, 1, 2) && face(0, 2, 3) && face(0, 3, 1) && face(1, 3, 2);
+  }
+
+  /// A facet with the best plane of two: across the triangle, or, where that is uncertain, from the origin to its longest edge.
+  /// False if neither has the inside below it.
+  bool face(int i, int j, int k) {
+    if (facet_count_ == kDepthFacets) return false;
+    Facet<Real> f{{}, Real(-kInfinity), {std::uint8_t(i), std::uint8_t(j), std::uint8_t(k)}, kInfinity};
+    if (!offer(f, across(i, j, k))) {
+      const V3<Real> e[3] = {corner(f, 1).p - corner(f, 0).p, corner(f, 2).p - corner(f, 1).p, corner(f, 0).p - corner(f, 2).p};
+      std::size_t longest = 0;
+      for (const std::size_t m : {1, 2}) longest = dot(e[m], e[m]) > dot(e[longest], e[longest]) ? m : longest;
+      const V3<Real>&u = e[longest], &p = corner(f, longest).p;
+      offer(f, unit(p * dot(u, u) - u * dot(p, u)));
+    }
+    if (!(f.height > Real(-kInfinity))) return false;
+    facet_[std::size_t(facet_count_++)] = f;
+    return true;
+  }
+  /// Takes unit n if it makes the plane higher and has the inside below; whether all corners lie on that plane.
+  bool offer(Facet<Real>& f, const V3<Real>& n) const {
+    const Real h[3] = {dot(n, corner(f, 0).p), dot(n, corner(f, 1).p), dot(n, corner(f, 2).p)};
+    const Real &low = h[0] < h[1] ? h[0] : h[1], &high = h[0] < h[1] ? h[1] : h[0];
+    const Real &least = h[2] < low ? h[2] : low, &most = h[2] > high ? h[2] : high;
+    if (!(dot(n, inside_) + Real(2 * resolution_) < least)) return false;  // nor if n is 0
+    if (least > f.height) f.normal = n, f.height = least;
+    return !(most > least + Real(resolution_));
+  }
+
+  std::size_t nearest_facet() const {
+    int nearest = 0;
+    for (int k = 1; k < facet_count_; ++k) {
+      if (facet_[std::size_t(k)].height < facet_[std::size_t(nearest)].height) nearest = k;
+    }
+    return std::size_t(nearest);
+  }
+  struct Nearest {
+    std::size_t facet = 0;
+    Foot<Real> foot{};
+  };
+  /// The point of the surface nearest to the origin: none of a facet higher than the best plane is.
+  Nearest nearest_point() const {
+    Nearest best{nearest_facet(), {}};
+    best.foot = foot_of(facet_[best.facet]);
+    for (std::size_t k = 0; int(k) < facet_count_; ++k) {
+      if (k == best.facet || rounded(facet_[k].height) > search_.best.height + scene_.law_two) continue;
+      const Foot<Real> at = foot_of(facet_[k]);
+      if (dot(at.point, at.point) < dot(best.foot.point, best.foot.point)) best = {k, at};
+    }
+    return best;
+  }
+  Foot<Real> foot_of(const Facet<Real>& f) const { return foot(corner(f, 0).p, corner(f, 1).p, corner(f, 2).p); }
+  bool sees(const Facet<Real>& f, const Corner& c) const { return dot(f.normal, c.p) > f.height + Real(resolution_); }
+  bool rises(const Corner& c) const {
+    return std::any_of(facet_.begin(), facet_.begin() + facet_count_, [&](const Facet<Real>& f) { return sees(f, c); });
+  }
+
+  /// Replaces the facets that see `top` above them by a cone to it. Their edges, each both ways, leave the border.
+  bool add(const Corner& top) {
+    std::array<std::array<std::uint8_t, 2>, kDepthFacets> border;
+    std::size_t border_count = 0;
+    const auto toggle = [&](std::uint8_t from, std::uint8_t to) {
+      for (std::size_t k = 0; k < border_count; ++k) {
+        if (border[k][0] == to && border[k][1] == from) return border[k] = border[--border_count], true;
+      }
+      if (border_count == border.size()) return false;
+      border[border_count++] = {from, to};
+      return true;
+    };
+    for (std::size_t k = 0; int(k) < facet_count_;) {
+      const Facet<Real> f = facet_[k];
+      if (!sees(f, top)) {
+        ++k;
+        continue;
+      }
+      facet_[k] = facet_[std::size_t(--facet_count_)];
+      for (std::size_t e = 0; e < 3; ++e) {
+        if (!toggle(f.corner[e], f.corner[(e + 1) % 3])) return false;
+      }
+    }
+    push(top);
+    for (std::size_t k = 0; k < border_count; ++k) {
+      if (!face(border[k][0], border[k][1], corner_count_ - 1)) return false;
+    }
+    return true;
+  }
+
+  Search& search_;
+  const Scene& scene_;
+  const double resolution_;  ///< what heights are uncertain of
+  V3<Real> inside_{};
+  int corner_count_ = 0, facet_count_ = 0;
+  double lower_ = 0;
+  Plane last_;  ///< of the last support
+  std::array<Corner, kDepthPoints> corner_;
+  std::array<Facet<Real>, kDepthFacets> facet_;
+};
+
+/// A cone in four.
+std::array<Cone, 4> quarters(const Cone& c) {
+  const Vec xy = (c.x + c.y) * 0.5, yz = (c.y + c.z) * 0.5, zx = (c.z + c.x) * 0.5;
+  return {{{c.x, xy, zx}, {xy, c.y, yz}, {zx, yz, c.z}, {xy, yz, zx}}};
+}
+
+bool ends_all(End end) { return end == End::TooCoarse || end == End::Apart || end == End::Budget; }
+
+/// Bounds the heights over a cone from below, by a polytope of its own or of each of its parts.
+template <class Real>
+End cover(Polytope<Real>& polytope, const Cone& cone, int depth, double& lower) {
+  End end = polytope.begin(cone) ? polytope.grow() : End::Stuck;
+  if (end == End::Full && depth < kDepthCells) {
+    end = End::Enough;
+    for (const Cone& quarter : quarters(cone)) {
+      if (const End of = cover(polytope, quarter, depth + 1, lower); of != End::Enough) end = of;
+      if (ends_all(end)) return end;
+    }
+    return end;
+  }
+  lower = smaller(lower, polytope.lower());
+  return end;
+}
+
+/// All directions, one octant after the other.
+template <class Real>
+End cover_all(Polytope<Real>& polytope, double& lower) {
+  End end = End::Enough;
+  lower = kInfinity;
+  for (int octant = 0; octant < 8; ++octant) {
+    const Vec x{octant & 1 ? -1.0 : 1.0, 0, 0}, y{0, octant & 2 ? -1.0 : 1.0, 0}, z{0, 0, octant & 4 ? -1.0 : 1.0};
+    const bool odd = x.x * y.y * z.z < 0;
+    if (const End of = cover(polytope, odd ? Cone{x, z, y} : Cone{x, y, z}, 0, lower); of != End::Enough) end = of;
+    if (ends_all(end)) return lower = 0, end;
+  }
+  return end;
+}
+
+/// A narrow cone about a direction.
+Cone about(const Vec& n) {
+  const Vec u = normalised(cross(n, least_axis(n))), v = cross(n, u);
+  return {n + u * kNarrowCone, n + (v * kSqrt3 - u) * (kNarrowCone / 2), n - (v * kSqrt3 + u) * (kNarrowCone / 2)};
+}
+
+/// One arithmetic's turn; whether the goal is met or no other arithmetic would help.
+template <class Real>
+bool settle(Search& search, const DepthStart& start, Depth& depth) {
+  Polytope<Real> polytope(search);
+  End end = polytope.begin(start) ? polytope.grow() : End::Stuck;
+  double lower = polytope.lower();
+  if (end == End::Full) {
+    end = cover_all(polytope, lower);
+    if (polytope.begin(about(search.best.normal))) polytope.grow();  // its facet again, for the points
+  }
+  depth.lower = larger(depth.lower, lower);
+  const bool straight = polytope.witness(depth) || !search.exact;
+  const bool flat = search.best.height <= search.allowed(0);
+  if (end == End::Enough || (end == End::Stuck && flat)) depth.end = DepthEnd::Converged;
+  if (end == End::Apart) depth.end = DepthEnd::Apart;
+  if (end == End::Budget) depth.end = DepthEnd::Budget;
+  return (depth.end != DepthEnd::NotConverged && (straight || flat)) || end == End::TooCoarse;
+}
+
+}  // namespace
+
+Depth expand(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
+             std::uint32_t& plane_tests) {
+  const bool exact = goal.absolute == 0 && goal.relative == 0 && goal.deeper == kInfinity;
+  Search search{scene, a, b, goal, plane_tests, exact};
+  Depth depth;
+  if (!settle<double>(search, start, depth)) settle<DoubleDouble>(search, start, depth);
+  depth.upper = larger(search.best.height, depth.lower);
+  depth.normal = search.best.normal;
+  depth.steps = search.steps;
+  return depth;
+}
+
+}  // namespace swiftlet
