@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dilate.h"
 #include "expand.h"
 #include "progress.h"
 #include "ring.h"
@@ -18,7 +19,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// What is asked: an interval narrow enough, or on which side of a threshold.
-struct Target {
+struct DepthTarget {
   double absolute = 0, relative = 0;
   double depth = -1;  ///< the threshold where it is not negative
   bool is_threshold() const { return depth >= 0; }
@@ -41,7 +42,7 @@ Span span_of(const ConvexView& view, Handle feature) {
 class Deepening {
  public:
   Deepening(const Model& a, const Model& b, const Motion& m, double pose_error, const QueryOptions& options,
-            const Target& target)
+            const DepthTarget& target)
       : a_(a),
         b_(b),
         motion_(m),
@@ -129,7 +130,8 @@ class Deepening {
     const Depth found = expand(pair, of_a, of_b, start(pair, seed, direction), goal, plane_tests);
     end = found.end;
     steps += found.steps;
-    if (found.lower > 0) lower = larger(lower, error > 0 ? (found.lower - error) - 2 * kU * (found.lower + error) : found.lower);
+    if (found.lower > 0)
+      lower = larger(lower, error > 0 ? (found.lower - error) - 2 * kU * (found.lower + error) : found.lower);
     if (found.upper > upper + law_two_) return;
     upper = smaller(upper, found.upper);
     normal = found.normal;
@@ -146,7 +148,7 @@ class Deepening {
   const Line line_;
   const double pose_error_, stretch_, shift_;
   const QueryOptions& options_;
-  const Target target_;
+  const DepthTarget target_;
   const double law_two_;
   const int finest_a_, finest_b_;
   Place place_{};
@@ -185,7 +187,7 @@ void add_work(const Deepening& deep, SignedAnswer& s) {
 /// `near` asks the question of bodies that are apart.
 template <class Near>
 SignedAnswer ask(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
-                 const Target& target, Near near) {
+                 const DepthTarget& target, Near near) {
   const Motion m = motion(b_in_a);
   const PoseQuality quality = pose_quality(m);
   SignedAnswer answer;
@@ -211,27 +213,36 @@ SignedAnswer ask(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& s
   return answer;
 }
 
+/// Of the hulls: whether the signed distance is at most `threshold`, as far as the answer's bounds say.
+SignedAnswer decided(const Model& a, const Model& b, const Pose& b_in_a, double threshold, PairSeed& seed,
+                     const QueryOptions& hulls) {
+  if (threshold < 0) {
+    return ask(a, b, b_in_a, seed, hulls, {0, 0, -threshold},
+               [&](PairSeed& from) { return intersects(a, b, b_in_a, from, hulls); });
+  }
+  SignedAnswer answer = apart(within(a, b, b_in_a, threshold, seed, hulls).answer);
+  if (!(answer.lower > 0)) answer.lower = -kInfinity;
+  return answer;
+}
+
 }  // namespace
 
 SignedAnswer signed_distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options) {
-  return ask(a, b, b_in_a, seed, options, {options.absolute_error, options.relative_error},
-             [&](PairSeed& from) { return distance(a, b, b_in_a, from, options); });
+  const QueryOptions hulls = of_hulls(options);
+  SignedAnswer answer = ask(a, b, b_in_a, seed, hulls, {hulls.absolute_error, hulls.relative_error},
+                            [&](PairSeed& from) { return distance(a, b, b_in_a, from, hulls); });
+  dilate(answer, a, b, b_in_a, options);
+  return answer;
 }
 
 SignedWithin signed_within(const Model& a, const Model& b, const Pose& b_in_a, double threshold, PairSeed& seed,
                            const QueryOptions& options) {
   SignedWithin result;
-  if (threshold < 0) {
-    result.answer = ask(a, b, b_in_a, seed, options, {0, 0, -threshold},
-                        [&](PairSeed& from) { return intersects(a, b, b_in_a, from, options); });
-    if (result.answer.lower > threshold) result.decision = Decision::No;
-    if (result.answer.upper <= threshold) result.decision = Decision::Yes;
-  } else {
-    const Within near = within(a, b, b_in_a, threshold, seed, options);
-    result.answer = apart(near.answer);
-    if (!(near.answer.lower > 0)) result.answer.lower = -kInfinity;
-    result.decision = near.decision;
-  }
+  const double hulls_threshold = threshold + options.radius_a + options.radius_b;
+  result.answer = decided(a, b, b_in_a, hulls_threshold, seed, of_hulls(options));
+  dilate(result.answer, a, b, b_in_a, options);
+  if (result.answer.lower > threshold) result.decision = Decision::No;
+  if (result.answer.upper <= threshold) result.decision = Decision::Yes;
   return result;
 }
 

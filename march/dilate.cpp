@@ -64,6 +64,15 @@ class Dilation {
     return of;
   }
 
+  void dilate(SignedAnswer& answer, double law_two) const {
+    answer.lower = lower(answer.lower);
+    answer.upper = upper(answer.upper);
+    answer.verdict = verdict(answer.lower, answer.upper, law_two);
+    answer.point_a = eigen(vec(answer.point_a) + vec(answer.normal) * a_);
+    answer.point_b = eigen(vec(answer.point_b) - vec(answer.normal) * b_);
+    if (answer.upper < 0) answer.proof = {};
+  }
+
   void dilate(LevelRecord& record) const {
     record.lower = larger(0, lower(record.lower));
     record.upper = larger(record.lower, upper(record.upper));
@@ -72,7 +81,7 @@ class Dilation {
  private:
   /// bound - a - b, at most a place off, to the side that is named.
   double less(double bound, double side) const {
-    if (!(bound < kInfinity)) return bound;
+    if (!std::isfinite(bound)) return bound;
     const Pair sum = two_sum(a_, b_), rest = two_sum(bound, -sum.high);
     const double lost = rest.low - sum.low;
     return lost == 0 ? rest.high : std::nextafter(rest.high + lost, side);
@@ -116,6 +125,21 @@ Answer ask(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, c
   const std::size_t recorded = std::min(options.trace.size(), std::size_t(answer.levels_visited));
   for (LevelRecord& record : options.trace.first(recorded)) dilation.dilate(record);
   return answer;
+}
+
+QueryOptions of_hulls(const QueryOptions& options) {
+  const Dilation dilation(options);
+  if (dilation.none()) return options;
+  QueryOptions hulls = options;
+  hulls.radius_a = hulls.radius_b = 0;
+  hulls.relative_error = 0;
+  hulls.beyond = dilation.of_hulls({0, 0, options.beyond, 0}, 0).clear_above;
+  return hulls;
+}
+
+void dilate(SignedAnswer& answer, const Model& a, const Model& b, const Pose& b_in_a, const QueryOptions& options) {
+  const Dilation dilation(options);
+  if (!dilation.none() && answer.status != Status::InvalidPose) dilation.dilate(answer, dilation.law_two(a, b, motion(b_in_a)));
 }
 
 }  // namespace swiftlet

@@ -5,6 +5,7 @@
 #include <swiftlet/batch.h>
 #include <swiftlet/build.h>
 #include <swiftlet/check.h>
+#include <swiftlet/depth.h>
 #include <swiftlet/query.h>
 
 #include <algorithm>
@@ -357,6 +358,31 @@ TEST(Radii, ALooserToleranceCostsLess) {  // law 10; of each pair by itself laws
     EXPECT_LE(total, before) << relative;
     before = total;
   }
+}
+
+TEST(Radii, ComeOffTheSignedDistance) {
+  int deep = 0, shallow = 0;
+  for_each_case([&](const Case& c) {
+    const double radii = c.radius_a + c.radius_b, d = c.hulls.distance - radii;
+    PairSeed seed, of_hulls;
+    const SignedAnswer answer = signed_distance(c.model_a(), c.model_b(), c.pose, seed, c.options());
+    const SignedAnswer hulls = signed_distance(c.model_a(), c.model_b(), c.pose, of_hulls);
+    ASSERT_EQ(answer.status, Status::Converged);
+    ASSERT_NE(answer.verdict, Verdict::Undecided);
+    ASSERT_LE(answer.upper - answer.lower, c.law_two());
+    ASSERT_TRUE(answer.lower <= hulls.upper - radii + c.law_two() && answer.upper >= hulls.lower - radii - c.law_two());
+    ASSERT_TRUE(c.hulls.overlapping || (c.compare(answer.lower) >= 0 && c.compare(answer.upper) <= 0));
+    ASSERT_TRUE(answer.verdict != Verdict::Overlapping || answer.upper < 0 || answer.proof.count == 4);
+    ASSERT_NEAR(answer.normal.dot(answer.point_b - answer.point_a), answer.upper, 2 * c.law_two());
+    for (const double threshold : {answer.lower - 1e-3, answer.upper + 1e-3, 2 * d, -1.0}) {
+      const SignedWithin within = signed_within(c.model_a(), c.model_b(), c.pose, threshold, seed, c.options());
+      const bool near = std::fabs(threshold - answer.lower) <= 2 * c.law_two();
+      ASSERT_TRUE(near || within.decision == (answer.upper <= threshold ? Decision::Yes : Decision::No)) << threshold;
+    }
+    deep += c.hulls.overlapping, shallow += !c.hulls.overlapping && answer.verdict == Verdict::Overlapping;
+  });
+  EXPECT_GE(deep, 50);
+  EXPECT_GE(shallow, 250);
 }
 
 TEST(Radii, MakeSpheresAndCapsules) {

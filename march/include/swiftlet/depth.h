@@ -9,7 +9,7 @@
 
 namespace swiftlet {
 
-/// What a query found of the signed distance of the two exact hulls: the distance where they are apart; where they overlap,
+/// What a query found of the signed distance of the two bodies: the distance where they are apart; where they overlap,
 /// minus the depth, which is the length of the least translation that separates them (their interiors: they still touch then).
 struct SignedAnswer {
   Status status = Status::NotConverged;  ///< how it ended
@@ -34,6 +34,7 @@ struct SignedAnswer {
 /// The signed distance between `a` and `b`, where `b_in_a` maps B's frame into A's: exact by default, that is within law 2's
 /// bound, or to the options' errors, of which `relative_error` is one of the bound nearer to 0. A body without thickness has no
 /// depth along it: 0 where both share a plane.
+/// Of bodies with radii it is the hulls' less both; exact then, or to `absolute_error`.
 /// Of the options, `trace` is not read; `beyond`, `start`, `refinement` and `plane_rule` matter only while the bodies are
 /// apart. Cost: apart that of `distance`; overlapping one climb for each point of a polytope, 5 to 30 where the overlap is
 /// shallow, all vertices of the Minkowski difference at worst, where many facets are about as deep. Nothing is allocated.
