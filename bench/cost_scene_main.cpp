@@ -13,9 +13,13 @@
 int main(int argc, char** argv) {
   using namespace swiftlet;
   using namespace swiftlet::bench;
-  if (argc != 6)
-    return std::fputs("swiftlet_cost_scene CACHE fat|plate|long TRIANGLES STEP PREFIX; step 400: random\n", stderr), 2;
-  const Shelf shelf(argv[1]);
+  if (argc != 6 && argc != 7) {
+    return std::fputs("swiftlet_cost_scene CACHE fat|plate|long TRIANGLES STEP PREFIX [DEVIATION]; step 400: random\n", stderr),
+           2;
+  }
+  BuildOptions options;
+  if (argc == 7) options.detail.deviation = std::atof(argv[6]);
+  const Shelf shelf(argv[1], options);
   const double step = std::atof(argv[4]);
   const auto triangles = std::uint32_t(std::atoi(argv[3]));
   for (const shapes::Family family : shapes::kFamilies) {

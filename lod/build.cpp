@@ -127,8 +127,10 @@ Result<Built> build(const Mesh& users, const BuildOptions& options) {
     report.deepest_dent = deepest_dent(mesh, shape, body) / scale;
     if (options.require_convex && has_dents(mesh, body, report, scale))
       return Error{ErrorCode::NotConvex, "the mesh has dents, the deepest " + std::to_string(report.deepest_dent)};
+    BuildOptions in_scale = options;
+    in_scale.detail.deviation *= scale;
     levels =
-        hierarchy(body, options, [&](double done) { return keep_on(kHullDone + (kLevelsDone - kHullDone) * done, "levels"); });
+        hierarchy(body, in_scale, [&](double done) { return keep_on(kHullDone + (kLevelsDone - kHullDone) * done, "levels"); });
   } else if (options.require_solid) {
     return Error{ErrorCode::NotSolid, "all points lie in one plane"};
   }

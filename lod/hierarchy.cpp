@@ -7,9 +7,11 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "collapse.h"
+#include "deviation.h"
 #include "enclose.h"
 #include "hull.h"
 #include "peel.h"
@@ -64,27 +66,42 @@ class Collapser {
         body_(shape_) {}
 
   Step next() {
-    const std::size_t before = simple_.triangles.size();
+    Simpler coarser = simpler(simple_);
+    if (!coarser.shape) return {{}, coarser.end};
+    simple_ = std::move(*coarser.shape);
+    return enclosed(simple_);
+  }
+
+  /// A shape with fewer triangles, before it is grown, or the sentence why there is none.
+  struct Simpler {
+    std::optional<Polytope> shape;
+    std::string end;
+  };
+  /// `rate` times as many, no fewer than the cutoff.
+  Simpler simpler(const Polytope& shape) const {
+    const std::size_t before = shape.triangles.size();
     const std::size_t target =
         std::max({std::size_t(options_.rate * double(before)), std::size_t(options_.cutoff), std::size_t(4)});
     const double worthwhile = std::max(kWorthwhile, options_.rate);
     if (double(target) > worthwhile * double(before)) return {{}, "the next level would have fewer triangles than the cutoff"};
-    const std::vector<Vec3> points = collapse(simple_, target);
-    if (points.empty()) return {{}, "too thin for quadric errors"};
-    const Hull shape = hull(points);
-    if (shape.dimension < 3) return {{}, "the next level would be flat"};
-    simple_ = solid(points, shape);
-    if (double(simple_.triangles.size()) > (1 + worthwhile) / 2 * double(before))
+    Simpler coarser = simpler(shape, target);
+    if (coarser.shape && double(coarser.shape->triangles.size()) > (1 + worthwhile) / 2 * double(before))
       return {{}, "no more edges could be collapsed"};
-    return enclosed();
+    return coarser;
+  }
+  Simpler simpler(const Polytope& shape, std::size_t target) const {
+    const std::vector<Vec3> points = collapse(shape, target);
+    if (points.empty()) return {{}, "too thin for quadric errors"};
+    const Hull coarse = hull(points);
+    if (coarse.dimension < 3) return {{}, "the next level would be flat"};
+    return {solid(points, coarse), {}};
   }
 
- private:
-  bool tight() const { return options_.enclosing == Enclosing::Tight; }
+  const Polytope& shape() const { return shape_; }  ///< level 0 as it is simplified
 
-  Step enclosed() const {
-    const Vec3 centre = area_centroid(shape_), drift = centre - area_centroid(simple_);
-    Polytope moved = simple_;
+  Step enclosed(const Polytope& simple) const {
+    const Vec3 centre = area_centroid(shape_), drift = centre - area_centroid(simple);
+    Polytope moved = simple;
     for (Vec3& p : moved.points) p += drift;
     Result<Polytope> scaled = scale_to_hold(std::move(moved), body_, centre);
     if (!scaled) return {{}, scaled.error().message};
@@ -95,6 +112,9 @@ class Collapser {
     if (!proved) return {{}, proved.error().message};
     return {CoarseLevel{std::move(proved.value().level), {}, {}}, {}};
   }
+
+ private:
+  bool tight() const { return options_.enclosing == Enclosing::Tight; }
 
   const BuildOptions& options_;
   const Polytope& level0_;
@@ -182,10 +202,94 @@ Hierarchy stepped(Stepper&& method, const Polytope& level0, const BuildOptions& 
   return result;
 }
 
+/// Collapsed levels for a model that need be no finer than to deviate less than `options.detail` says. All are simplified,
+/// which is cheap, but only those from the coarsest up are made to hold level 0, which is dear, until one deviates less; in its
+/// stead one of as few triangles as will do.
+class AimedCollapse {
+ public:
+  AimedCollapse(const Polytope& level0, const BuildOptions& options, const std::function<bool(double)>& keep_on)
+      : options_(options),
+        keep_on_(keep_on),
+        collapser_(level0, options),
+        deviation_(level0),
+        allowed_(options.detail.deviation / kStated) {}
+
+  Hierarchy run() {
+    simplify();
+    bool fine = false;
+    for (std::size_t k = simple_.size(); k-- > 0 && !fine && keep_on();) {
+      Step step = collapser_.enclosed(simple_[k]);
+      if (!step.level) {
+        result_.end = step.end;
+        continue;
+      }
+      const double deviation = deviation_(step.level->body.points);
+      fine = deviation < allowed_;
+      if (!fine || !push_leaner(simple_[k], deviation)) push(std::move(*step.level), deviation);
+    }
+    if (!fine && int(result_.levels.size()) + 1 < options_.max_levels) push_leaner(collapser_.shape(), 0);
+    std::reverse(result_.levels.begin(), result_.levels.end());
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr double kStated = 1.01;  ///< the deviations that models state are at most so many times the true ones
+  static constexpr double kAim = 0.95;     ///< of the deviation allowed; the estimate is a power law through two levels
+  static constexpr int kTries = 3;
+
+  bool keep_on() {
+    result_.cancelled = !keep_on_(std::min(1.0, double(++stages_) / double(2 * options_.max_levels)));
+    return !result_.cancelled;
+  }
+
+  void simplify() {
+    while (int(simple_.size()) + 1 < options_.max_levels && keep_on()) {
+      Collapser::Simpler coarser = collapser_.simpler(simple_.empty() ? collapser_.shape() : simple_.back());
+      result_.end = coarser.end;
+      if (!coarser.shape) return;
+      simple_.push_back(std::move(*coarser.shape));
+    }
+  }
+
+  void push(CoarseLevel level, double deviation) {
+    result_.levels.push_back(std::move(level));
+    last_deviation_ = deviation;
+  }
+
+  /// Whether there is a level between the last one, which deviates too much, and `simple`, whose own deviates by `deviation`,
+  /// that deviates no more than allowed with fewer triangles than `simple`.
+  bool push_leaner(const Polytope& simple, double deviation) {
+    if (result_.levels.empty()) return false;
+    const double most = double(simple.triangles.size()), fewest = double(result_.levels.back().body.triangles.size());
+    const double power = deviation > 0 ? std::log(last_deviation_ / deviation) / std::log(most / fewest) : 1;
+    double triangles = fewest * std::pow(last_deviation_ / (kAim * allowed_), 1 / power);
+    for (int k = 0; k < kTries && triangles < kWorthwhile * most && keep_on(); ++k) {
+      const Collapser::Simpler shape = collapser_.simpler(simple, std::size_t(triangles));
+      if (!shape.shape) break;
+      Step step = collapser_.enclosed(*shape.shape);
+      const double found = step.level ? deviation_(step.level->body.points) : allowed_;
+      if (found < allowed_) return push(std::move(*step.level), found), true;
+      triangles *= std::pow(found / (kAim * allowed_), 1 / power);
+    }
+    return false;
+  }
+
+  const BuildOptions& options_;
+  const std::function<bool(double)>& keep_on_;
+  Collapser collapser_;
+  Deviation deviation_;
+  const double allowed_;
+  std::vector<Polytope> simple_;  ///< finest first
+  Hierarchy result_;              ///< coarsest first until the end
+  double last_deviation_ = 0;     ///< of the last level in it
+  int stages_ = 0;
+};
+
 }  // namespace
 
 Hierarchy hierarchy(const Polytope& level0, const BuildOptions& options, const std::function<bool(double)>& keep_on) {
   if (options.method == Method::Peel) return stepped(Peeler(level0, options), level0, options, keep_on);
+  if (options.detail.deviation > 0) return AimedCollapse(level0, options, keep_on).run();
   return stepped(Collapser(level0, options), level0, options, keep_on);
 }
 

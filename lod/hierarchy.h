@@ -26,7 +26,8 @@ struct Hierarchy {
   bool cancelled = false;
 };
 
-/// `keep_on` is asked before every level, with the part of the triangles that is gone.
+/// Of `options.detail` the deviation is read. `keep_on` is asked before every level, with the part that is done, never less
+/// than before.
 Hierarchy hierarchy(const Polytope& level0, const BuildOptions& options, const std::function<bool(double)>& keep_on);
 
 }  // namespace swiftlet::lod

@@ -3,41 +3,12 @@
 // Nothing here climbs or marches but `verify`'s deviations: supports are maxima over all vertices.
 #include <swiftlet/check.h>
 
-#include <cstdio>
-
+#include "brute.h"
 #include "exact.h"
-#include "scene.h"
 #include "support_map.h"
-#include "surface.h"
-#include "tolerance.h"
-#include "wide.h"
 
 namespace swiftlet {
 namespace {
-
-template <class... Values>
-Check failed(const char* format, Values... values) {
-  if constexpr (sizeof...(Values) == 0) {
-    return {false, format};
-  } else {
-    char message[256];
-    std::snprintf(message, sizeof message, format, values...);
-    return {false, message};
-  }
-}
-const Check kPassed{true, ""};
-
-/// Whether a point lies in a body, up to `slack`: below every face's plane by then.
-bool holds(const ConvexView& view, const Vec& p, double slack) {
-  if (view.face_first.empty() || view.vertices.size() < 4)
-    return true;  // flat bodies: the distance to them is checked by lower
-  bool inside = true;
-  each_facet(view, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const Wide o = wide(vec(view.vertices[a])), n = cross(wide(vec(view.vertices[b])) - o, wide(vec(view.vertices[c])) - o);
-    inside = inside && double(dot(n, wide(p) - o)) <= slack * norm({double(n.x), double(n.y), double(n.z)});
-  });
-  return inside;
-}
 
 /// The cell of a level's support map that promises too much, or kNone: over a cell the heights above its vertex are highest at
 /// a corner.
@@ -60,25 +31,6 @@ std::uint32_t map_fault(const Level& level) {
     }
   }
   return kNone;
-}
-
-/// How far the exact hull reaches along a direction, when `place` has placed its points: as far as itself; without it, no
-/// farther than any level that encloses it.
-template <class Placing>
-DoubleDouble reach(const Model& model, const Wide& direction, Placing place) {
-  const auto of_level = [&](int i) {
-    const std::span<const Vertex> vertices = model.level(i).view.vertices;
-    DoubleDouble most = dot(direction, place(vec(vertices[0])));
-    for (const Vertex& v : vertices) {
-      if (const DoubleDouble h = dot(direction, place(vec(v))); h > most) most = h;
-    }
-    return most;
-  };
-  DoubleDouble least = of_level(model.finest_level());
-  for (int i = model.finest_level() + 1; model.finest_level() > 0 && i < model.level_count(); ++i) {
-    if (const DoubleDouble h = of_level(i); least > h) least = h;
-  }
-  return least;
 }
 
 }  // namespace
@@ -104,11 +56,7 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
   double apart = std::numeric_limits<double>::infinity();  // the hulls, as the points prove it
 
   if (answer.lower > 0) {
-    const Vec n = vec(answer.normal);
-    const Wide direction = wide(n);
-    const DoubleDouble most_a = reach(a, direction, [](const Vec&p) { return wide(p); }),
-                       least_b = -reach(b, -direction, [&m](const Vec&p) { return wide(m, p); });
-    const double gap = double(least_b - most_a) / norm(n);
+    const double gap = gap_along(a, b, m, vec(answer.normal));
     const DoubleDouble claimed = DoubleDouble(answer.lower) + radius_a + radius_b;
     if (!(double(claimed - gap * (1 + kNormError)) <= kDoubleDoubleError * (whole.magnitude + radii))) {
       return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap - radii);

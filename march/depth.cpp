@@ -57,6 +57,8 @@ class Deepening {
         finest_b_(finest_allowed(b, options)) {}
 
   void run(const PairSeed& seed) {
+    // No farther than their centres and radii allow: a pair that deviates by more than that allows cannot answer.
+    const double most = a_.radius() + stretch_ * b_.radius() - norm(line_.in_a);
     const bool exact = target_.absolute == 0 && target_.relative == 0 && !target_.is_threshold();
     place_ = exact ? Place{finest_a_, finest_b_, {}} : coarsest_place(a_, b_);
     Vec direction =
@@ -64,7 +66,8 @@ class Deepening {
     for (;;) {
       const double error = deviation();
       const bool last = place_.level_a == finest_a_ && place_.level_b == finest_b_;
-      if (last || !(error > larger(target_.absolute, target_.relative * upper)) || target_.is_threshold()) {
+      const double allowed = larger(target_.absolute, target_.relative * smaller(upper, most));
+      if (last || error <= allowed || target_.is_threshold()) {
         solve(seed, direction, error);
         if (last || end != DepthEnd::NotConverged || answered()) break;
         direction = normal;
@@ -75,7 +78,7 @@ class Deepening {
   }
 
   Status status() const {
-    if (end == DepthEnd::Converged) return Status::Converged;
+    if (end == DepthEnd::Converged || (target_.is_threshold() && end == DepthEnd::Apart)) return Status::Converged;
     if (end == DepthEnd::Budget) return Status::Budget;
     return place_.level_a == 0 && place_.level_b == 0 ? Status::NotConverged : Status::LevelLimit;
   }
@@ -154,6 +157,12 @@ class Deepening {
   Place place_{};
 };
 
+SignedAnswer invalid() {
+  SignedAnswer s;
+  s.status = Status::InvalidPose;
+  return s;
+}
+
 SignedAnswer apart(const Answer& near) {
   SignedAnswer s;
   s.status = near.status;
@@ -184,43 +193,52 @@ void add_work(const Deepening& deep, SignedAnswer& s) {
   s.plane_tests += deep.plane_tests;
 }
 
-/// `near` asks the question of bodies that are apart.
-template <class Near>
-SignedAnswer ask(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
-                 const DepthTarget& target, Near near) {
-  const Motion m = motion(b_in_a);
-  const PoseQuality quality = pose_quality(m);
-  SignedAnswer answer;
-  if (!quality.legal) {
-    answer.status = Status::InvalidPose;
-    return answer;
-  }
-  Deepening deep(a, b, m, quality.error, options, target);
-  if (seed.met) deep.run(seed);
-  if (!deep.proved()) {
-    answer = apart(near(seed));
-    if (answer.lower > 0) return add_work(deep, answer), answer;
-    if (deep.end == DepthEnd::NotConverged && deep.steps == 0) deep.run(seed);
-  }
-  add_work(deep, answer);
-  const bool overlapping = deep.proved() || answer.verdict == Verdict::Overlapping;
-  if (deep.proved() || answer.status == Status::Converged) answer.status = deep.status();
-  if (overlapping) answer.verdict = Verdict::Overlapping;
-  answer.upper = smaller(overlapping ? smaller(answer.upper, 0) : answer.upper, -deep.lower);
-  if (answer.upper < 0) answer.proof = {};
-  take(deep, answer);
-  if (overlapping) deep.store(seed);
-  return answer;
+/// What the depth alone says.
+SignedAnswer overlap_part(const Deepening& deep) {
+  SignedAnswer s;
+  s.status = deep.status();
+  s.upper = -deep.lower;
+  take(deep, s);
+  if (deep.proved()) s.verdict = Verdict::Overlapping;
+  if (deep.upper < 0) s.verdict = Verdict::Disjoint;
+  return add_work(deep, s), s;
 }
 
-/// Of the hulls: whether the signed distance is at most `threshold`, as far as the answer's bounds say.
-SignedAnswer decided(const Model& a, const Model& b, const Pose& b_in_a, double threshold, PairSeed& seed,
-                     const QueryOptions& hulls) {
-  if (threshold < 0) {
-    return ask(a, b, b_in_a, seed, hulls, {0, 0, -threshold},
-               [&](PairSeed& from) { return intersects(a, b, b_in_a, from, hulls); });
+/// Of the hulls.
+SignedAnswer found(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options) {
+  const Motion m = motion(b_in_a);
+  const PoseQuality quality = pose_quality(m);
+  if (!quality.legal) return invalid();
+  Deepening deep(a, b, m, quality.error, options, {options.absolute_error, options.relative_error});
+  if (seed.met) deep.run(seed);
+  if (deep.proved()) return deep.store(seed), overlap_part(deep);
+  SignedAnswer answer = apart(distance(a, b, b_in_a, seed, options));
+  if (!(answer.lower > 0)) {
+    if (deep.steps == 0) deep.run(seed);
+    const bool overlapping = deep.proved() || answer.verdict == Verdict::Overlapping;
+    if (answer.status == Status::Converged) answer.status = deep.status();
+    if (overlapping) answer.verdict = Verdict::Overlapping;
+    answer.upper = smaller(overlapping ? smaller(answer.upper, 0) : answer.upper, -deep.lower);
+    if (answer.upper < 0) answer.proof = {};
+    take(deep, answer);
+    if (overlapping) deep.store(seed);
   }
-  SignedAnswer answer = apart(within(a, b, b_in_a, threshold, seed, hulls).answer);
+  return add_work(deep, answer), answer;
+}
+
+/// Of the hulls: as far as tells whether it is at most `threshold`.
+SignedAnswer found_within(const Model& a, const Model& b, const Pose& b_in_a, double threshold, PairSeed& seed,
+                          const QueryOptions& options) {
+  if (threshold < 0) {
+    const Motion m = motion(b_in_a);
+    const PoseQuality quality = pose_quality(m);
+    if (!quality.legal) return invalid();
+    Deepening deep(a, b, m, quality.error, options, {0, 0, -threshold});
+    deep.run(seed);
+    if (deep.proved()) deep.store(seed);
+    return overlap_part(deep);
+  }
+  SignedAnswer answer = apart(within(a, b, b_in_a, threshold, seed, options).answer);
   if (!(answer.lower > 0)) answer.lower = -kInfinity;
   return answer;
 }
@@ -228,9 +246,7 @@ SignedAnswer decided(const Model& a, const Model& b, const Pose& b_in_a, double 
 }  // namespace
 
 SignedAnswer signed_distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options) {
-  const QueryOptions hulls = of_hulls(options);
-  SignedAnswer answer = ask(a, b, b_in_a, seed, hulls, {hulls.absolute_error, hulls.relative_error},
-                            [&](PairSeed& from) { return distance(a, b, b_in_a, from, hulls); });
+  SignedAnswer answer = found(a, b, b_in_a, seed, of_hulls(options));
   dilate(answer, a, b, b_in_a, options);
   return answer;
 }
@@ -239,7 +255,7 @@ SignedWithin signed_within(const Model& a, const Model& b, const Pose& b_in_a, d
                            const QueryOptions& options) {
   SignedWithin result;
   const double hulls_threshold = threshold + options.radius_a + options.radius_b;
-  result.answer = decided(a, b, b_in_a, hulls_threshold, seed, of_hulls(options));
+  result.answer = found_within(a, b, b_in_a, hulls_threshold, seed, of_hulls(options));
   dilate(result.answer, a, b, b_in_a, options);
   if (result.answer.lower > threshold) result.decision = Decision::No;
   if (result.answer.upper <= threshold) result.decision = Decision::Yes;

@@ -24,7 +24,7 @@ struct Facet {
   V3<Real> normal;
   Real height;  ///< of the plane above the origin
   std::array<std::uint8_t, 3> corner;
-  double above = kInfinity;  ///< proved: no point of M is as high; once the support is found and is no way on
+  double above;  ///< proved: no point of M is higher; infinite until the support is found and is no way on
 };
 
 /// A cone of directions: the span of three corners of a cell of the octahedron, counter-clockwise from outside.
@@ -45,31 +45,28 @@ struct Foot {
   V3<Real> point;
 };
 
-/// [Ericson 2004, sec. 5.1.5]
+/// Inside by areas over the normal, which slivers keep; else on the nearest edge.
 template <class Real>
 Foot<Real> foot(const V3<Real>& a, const V3<Real>& b, const V3<Real>& c) {
   const Real zero(0), one(1);
-  const auto at = [&](const Real& v, const Real& w) {
-    const Real u = one - v - w;
-    return Foot<Real>{{u, v, w}, a * u + b * v + c * w};
+  const V3<Real> n = cross(b - a, c - a);
+  const Real u = dot(n, cross(b, c)), v = dot(n, cross(c, a)), w = dot(n, cross(a, b));
+  if (u > zero && v > zero && w > zero) {
+    const Real sum = u + v + w, share_v = v / sum, share_w = w / sum;
+    return {{one - share_v - share_w, share_v, share_w}, a + (b - a) * share_v + (c - a) * share_w};
+  }
+  Foot<Real> best{};
+  const auto along = [&](std::size_t from, std::size_t to, const V3<Real>& p, const V3<Real>& q) {
+    const V3<Real> e = q - p;
+    const Real length2 = dot(e, e), rise = -dot(p, e);
+    const Real t = !(rise > zero) ? zero : !(rise < length2) ? one : rise / length2;
+    const V3<Real> point = t < one ? p + e * t : q;
+    if (from > 0 && !(dot(point, point) < dot(best.point, best.point))) return;
+    best = {{zero, zero, zero}, point};
+    best.weight[from] = one - t, best.weight[to] = t;
   };
-  const V3<Real> ab = b - a, ac = c - a;
-  const Real d1 = -dot(ab, a), d2 = -dot(ac, a);
-  if (!(d1 > zero) && !(d2 > zero)) return at(zero, zero);
-  const Real d3 = -dot(ab, b), d4 = -dot(ac, b);
-  if (!(d3 < zero) && !(d4 > d3)) return at(one, zero);
-  const Real vc = d1 * d4 - d3 * d2;
-  if (!(vc > zero) && !(d1 < zero) && !(d3 > zero) && d1 > d3) return at(d1 / (d1 - d3), zero);
-  const Real d5 = -dot(ab, c), d6 = -dot(ac, c);
-  if (!(d6 < zero) && !(d5 > d6)) return at(zero, one);
-  const Real vb = d5 * d2 - d1 * d6;
-  if (!(vb > zero) && !(d2 < zero) && !(d6 > zero) && d2 > d6) return at(zero, d2 / (d2 - d6));
-  const Real va = d3 * d6 - d5 * d4, rise = d4 - d3, fall = d5 - d6;
-  if (!(va > zero) && !(rise < zero) && !(fall < zero) && rise + fall > zero)
-    return at(fall / (rise + fall), rise / (rise + fall));
-  const Real sum = va + vb + vc;
-  if (!(sum > zero)) return at(zero, zero);
-  return at(vb / sum, vc / sum);
+  along(0, 1, a, b), along(1, 2, b, c), along(2, 0, c, a);
+  return best;
 }
 
 /// At length 1, but for a rounding of the length that a double shows.
@@ -129,18 +126,10 @@ class Polytope {
   explicit Polytope(Search& search)
       : search_(search), scene_(search.scene), resolution_(rounding<Real>(scene_) * (std::is_same_v<Real, double> ? 1 : 4)) {}
 
-  /// Four points of M, the start's first. False where M has no room for them: planes were found that say so.
+  /// Four points of M, the start's first; if need be nearer to one plane than doubles could tell. False where M has no room for
+  /// them: planes were found that say so.
   bool begin(const DepthStart& start) {
-    clear();
-    const Vec hint = normalised(dot(start.direction, start.direction) > 0 ? start.direction : Vec{1, 0, 0});
-    for (int k = 0; k < start.count; ++k) push(difference<Real>(scene_, start.a[std::size_t(k)], start.b[std::size_t(k)]));
-    const bool has_fourth = corner_count_ == 4;
-    const Corner fourth = has_fourth ? corner_[3] : Corner{};
-    if (!span_triangle() && !find_triangle(hint)) return false;
-    corner_count_ = 3;
-    const Vec n = rounded(across(0, 1, 2));
-    if (dot(n, n) == 0 || !leave_plane(dot(n, hint) > 0 ? -n : n) || !close()) return false;
-    return !has_fourth || !rises(fourth) || add(fourth);
+    return begin(start, kRoom * scene_.point_error) || (resolution_ < scene_.point_error && begin(start, kRoom * resolution_));
   }
 
   /// M and three points far away that no direction of the cone sees above the origin: over the cone its heights are those of M,
@@ -247,6 +236,11 @@ class Polytope {
     if (last_.height < search_.best.height) search_.best = last_;
     return top;
   }
+  /// A vertex pair about as high, as maps know it.
+  Corner glance(const Vec& n) const {
+    return difference<Real>(scene_, look_up(search_.level_a, n).vertex,
+                            look_up(search_.level_b, body_b(scene_).into(-n)).vertex);
+  }
   Corner support(const Facet<Real>& f) {
     const Corner* near = &corner(f, 0);
     for (const std::size_t k : {1, 2}) near = near->a == kNone ? &corner(f, k) : near;
@@ -261,26 +255,40 @@ class Polytope {
     const V3<Real>& p = corner_[std::size_t(i)].p;
     return unit(cross(corner_[std::size_t(j)].p - p, corner_[std::size_t(k)].p - p));
   }
-  /// Whether the first three points are there and clearly on no line.
-  bool span_triangle() const {
+  /// With each point farther than `room` off the others.
+  bool begin(const DepthStart& start, double room) {
+    clear();
+    const Vec hint = normalised(dot(start.direction, start.direction) > 0 ? start.direction : Vec{1, 0, 0});
+    for (int k = 0; k < start.count; ++k) push(difference<Real>(scene_, start.a[std::size_t(k)], start.b[std::size_t(k)]));
+    const bool has_fourth = corner_count_ == 4;
+    const Corner fourth = has_fourth ? corner_[3] : Corner{};
+    if (!span_triangle(room) && !find_triangle(hint, room)) return false;
+    corner_count_ = 3;
+    const Vec n = rounded(across(0, 1, 2));
+    if (dot(n, n) == 0 || !leave_plane(dot(n, hint) > 0 ? -n : n, room) || !close()) return false;
+    return !has_fourth || !rises(fourth) || add(fourth);
+  }
+  /// Whether the first three points are there and on no line.
+  bool span_triangle(double room) const {
     if (corner_count_ < 3) return false;
     const Vec u = rounded(corner_[1].p - corner_[0].p), v = rounded(corner_[2].p - corner_[0].p);
-    return norm(cross(u, v)) > kRoom * resolution_ * larger(norm(u), norm(v));
+    return norm(cross(u, v)) > room * larger(norm(u), norm(v));
   }
-  bool find_triangle(const Vec& hint) {
+  bool find_triangle(const Vec& hint, double room) {
     corner_count_ = 0;
     push(support(hint, 0, 0));
-    if (!leave_plane(-hint)) return false;
+    if (!leave_plane(-hint, room)) return false;
     const Vec u = normalised(rounded(corner_[1].p - corner_[0].p)), v = normalised(cross(u, least_axis(u)));
-    return (leave_plane(v) || leave_plane(cross(u, v))) && span_triangle();
+    return (leave_plane(v, room) || leave_plane(cross(u, v), room)) && span_triangle(room);
   }
   /// Pushes a point of M off the plane through the first one, on the side of `direction` or else the other.
-  bool leave_plane(const Vec& direction) {
-    for (const Vec& n : {direction, -direction}) {
-      const Corner top = support(n, corner_[0].a, corner_[0].b);
-      if (rounded(dot(widened<Real>(n), top.p - corner_[0].p)) > kRoom * resolution_) return push(top), true;
-    }
-    return false;
+  bool leave_plane(const Vec& direction, double room) {
+    const auto leaves = [&](const Corner& top) {
+      return std::fabs(rounded(dot(widened<Real>(direction), top.p - corner_[0].p))) > room && (push(top), true);
+    };
+    const bool has_maps = search_.level_a.map_side > 0 && search_.level_b.map_side > 0;
+    return (has_maps && leaves(glance(direction))) || leaves(support(direction, corner_[0].a, corner_[0].b)) ||
+           leaves(support(-direction, corner_[0].a, corner_[0].b));
   }
 
   /// The tetrahedron of the first four points.
@@ -306,14 +314,15 @@ class Polytope {
     facet_[std::size_t(facet_count_++)] = f;
     return true;
   }
-  /// Takes unit n if it makes the plane higher and has the inside below; whether all corners lie on that plane.
+  /// Takes unit n if it makes the plane higher and has the inside below; whether all corners lie on that plane, well within law
+  /// 2's bound: then no other is wanted, for a plane that leans is no way on.
   bool offer(Facet<Real>& f, const V3<Real>& n) const {
     const Real h[3] = {dot(n, corner(f, 0).p), dot(n, corner(f, 1).p), dot(n, corner(f, 2).p)};
     const Real &low = h[0] < h[1] ? h[0] : h[1], &high = h[0] < h[1] ? h[1] : h[0];
     const Real &least = h[2] < low ? h[2] : low, &most = h[2] > high ? h[2] : high;
     if (!(dot(n, inside_) + Real(2 * resolution_) < least)) return false;  // nor if n is 0
     if (least > f.height) f.normal = n, f.height = least;
-    return !(most > least + Real(resolution_));
+    return !(most > least + Real(scene_.law_two / 8));
   }
 
   std::size_t nearest_facet() const {

@@ -36,13 +36,6 @@ MarchStart from_tables(const Model& a, const Model& b, const Line& line) {
 
 }  // namespace
 
-Handle table_start(const Model& model, const Vec3& direction) {
-  if (model.finest_level() > 0 || (model.table().empty() && model.map_level() == model.level_count())) return {};
-  if (model.table().empty()) return {FeatureKind::Vertex, about_farthest(model, vec(direction))};
-  const std::uint32_t sample = lut::nearest(model.table_spec().resolution, {direction[0], direction[1], direction[2]});
-  return {FeatureKind::Vertex, model.table()[sample]};
-}
-
 bool names_feature(const ConvexView& view, Handle h) {
   switch (h.kind()) {
     case FeatureKind::Vertex: return h.index() < view.vertices.size();
@@ -50,6 +43,13 @@ bool names_feature(const ConvexView& view, Handle h) {
     case FeatureKind::Face: return h.index() < view.face_first.size();
     default: return false;
   }
+}
+
+Handle table_start(const Model& model, const Vec3& direction) {
+  if (model.finest_level() > 0 || (model.table().empty() && model.map_level() == model.level_count())) return {};
+  if (model.table().empty()) return {FeatureKind::Vertex, about_farthest(model, vec(direction))};
+  const std::uint32_t sample = lut::nearest(model.table_spec().resolution, {direction[0], direction[1], direction[2]});
+  return {FeatureKind::Vertex, model.table()[sample]};
 }
 
 Line line_of_centres(const Model& a, const Model& b, const Motion& m) {

@@ -139,7 +139,7 @@ inline constexpr int kContactPoints = 32;
 // ---- Depth (expand.cpp)
 // ------------------------------------------------------------------------------------------------------
 
-/// A tetrahedron is begun where each point lies so many resolutions off the others: its centre, at a quarter of its height,
+/// A tetrahedron is begun where each point lies so many point errors off the others: its centre, at a quarter of its height,
 /// then lies below each face by more than the two that a facet asks for. Dimensionless.
 inline constexpr double kRoom = 16;
 /// Points of the inner polytope: overlaps by a tenth of the bodies take 10 to 30. One that needs more is proved octant by

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -14,6 +15,7 @@
 #include <swiftlet/check.h>
 #include <swiftlet/depth.h>
 
+#include "bodies.h"
 #include "case.h"
 #include "oracle.h"
 #include "shapes.h"
@@ -133,6 +135,283 @@ TEST(SignedDistance, HoldsTheTruthOfTheSuite) {
     }
   }
   std::printf("%d overlapping\n", overlapping);
+}
+
+/// Bodies of several levels, and poses at which they overlap by any part of themselves.
+struct Scenery {
+  Body a, b;
+  std::vector<Pose> poses;
+};
+Scenery scenery(shapes::Family family, std::uint32_t triangles, int poses, std::uint64_t seed) {
+  const shapes::Pair pair = shapes::pair(family, triangles);
+  Scenery scene{body(pair.a), body(pair.b), {}};
+  shapes::Random random(seed);
+  while (int(scene.poses.size()) < poses) {
+    const Pose pose{random.rotation(), random.in_ball() * 1.2};
+    PairSeed cold;
+    if (intersects(scene.a.model, scene.b.model, pose, cold).verdict == Verdict::Overlapping) scene.poses.push_back(pose);
+  }
+  return scene;
+}
+
+SignedAnswer cold(const Body& a, const Body& b, const Pose& pose, const QueryOptions& options = {}) {
+  PairSeed seed;
+  return signed_distance(a.model, b.model, pose, seed, options);
+}
+
+TEST(SignedDistance, IsTheLeastTranslationThatSeparates) {
+  for (const shapes::Family family : shapes::kFamilies) {
+    const Scenery scene = scenery(family, 300, 30, 5);
+    for (const Pose& pose : scene.poses) {
+      const SignedAnswer s = cold(scene.a, scene.b, pose);
+      ASSERT_EQ(s.verdict, Verdict::Overlapping);
+      ASSERT_EQ(s.status, Status::Converged);
+      const double bound = bound_of(scene.a, scene.b, pose);
+      for (const double out : {-bound, bound}) {
+        Pose moved = pose;
+        moved.translation += (out - (s.lower + s.upper) / 2) * s.normal;
+        // Translations are rounded once more, which the bound covers.
+        EXPECT_EQ(oracle::distance(scene.a.points, scene.b.points, moved).overlapping, out < 0) << describe(s);
+      }
+    }
+  }
+}
+
+TEST(SignedDistance, IsSymmetricUnderSwap) {
+  for (const shapes::Family family : shapes::kFamilies) {
+    const Scenery scene = scenery(family, 300, 40, 6);
+    for (const Pose& pose : scene.poses) {
+      const SignedAnswer s = cold(scene.a, scene.b, pose), t = cold(scene.b, scene.a, inverse(pose));
+      const double bound = bound_of(scene.a, scene.b, pose) + bound_of(scene.b, scene.a, inverse(pose));
+      EXPECT_LE(std::abs(s.lower - t.lower), bound);
+      EXPECT_LE(std::abs(s.upper - t.upper), bound);
+      EXPECT_LE((s.normal + pose.rotation * t.normal).norm(), 1e-9) << describe(s) << describe(t);
+    }
+  }
+}
+
+TEST(SignedDistance, ScalesBitForBit) {
+  for (const int exponent : {-40, -1, 3, 60}) {
+    const double scale = std::ldexp(1.0, exponent);
+    for (const shapes::Family family : shapes::kFamilies) {
+      const Scenery scene = scenery(family, 100, 10, 7);
+      const auto scaled = [&](Points points) {
+        for (Vec3& p : points) p *= scale;
+        return body(points);
+      };
+      const Body a = scaled(scene.a.points), b = scaled(scene.b.points);
+      for (const Pose& pose : scene.poses) {
+        const SignedAnswer s = cold(scene.a, scene.b, pose), t = cold(a, b, {pose.rotation, pose.translation * scale});
+        EXPECT_EQ(s.lower * scale, t.lower);
+        EXPECT_EQ(s.upper * scale, t.upper);
+        EXPECT_EQ(s.normal, t.normal);
+        EXPECT_EQ(s.point_a * scale, t.point_a);
+        EXPECT_EQ(s.steps, t.steps);
+      }
+    }
+  }
+}
+
+TEST(SignedDistance, TakesAnySeed) {
+  shapes::Random random(8);
+  for (const shapes::Family family : shapes::kFamilies) {
+    const Scenery scene = scenery(family, 300, 20, 9);
+    PairSeed chain;
+    for (const Pose& pose : scene.poses) {
+      const double bound = bound_of(scene.a, scene.b, pose);
+      const SignedAnswer s = cold(scene.a, scene.b, pose);
+      const auto agree = [&](PairSeed& seed, const char* what) {
+        const SignedAnswer t = signed_distance(scene.a.model, scene.b.model, pose, seed);
+        EXPECT_EQ(s.verdict, t.verdict) << what;
+        EXPECT_EQ(t.status, Status::Converged) << what;
+        EXPECT_LE(std::abs(s.lower - t.lower), bound) << what << describe(s) << describe(t);
+        EXPECT_LE(std::abs(s.upper - t.upper), bound) << what << describe(s) << describe(t);
+      };
+      agree(chain, "of another pose");
+      agree(chain, "of this pose");
+      for (int k = 0; k < 10; ++k) {
+        PairSeed garbage;
+        std::array<std::uint64_t, 4> bits;
+        for (std::uint64_t& word : bits) word = random.bits();
+        std::memcpy(static_cast<void*>(&garbage), bits.data(), sizeof garbage);
+        garbage.met = k % 2;
+        agree(garbage, "garbage");
+      }
+    }
+  }
+}
+
+TEST(SignedDistance, IsContinuousThroughContact) {
+  for (const shapes::Family family : shapes::kFamilies) {
+    const Scenery scene = scenery(family, 300, 4, 10);
+    for (const Pose& pose : scene.poses) {
+      const SignedAnswer start = cold(scene.a, scene.b, pose);
+      PairSeed seed;
+      const double step = -start.lower / 100;
+      double before = 0;
+      for (int k = 0; k <= 200; ++k) {  // from that deep to as far apart
+        Pose moved = pose;
+        moved.translation += k * step * start.normal;
+        const SignedAnswer s = signed_distance(scene.a.model, scene.b.model, moved, seed);
+        ASSERT_EQ(s.status, Status::Converged);
+        const double bound = bound_of(scene.a, scene.b, moved);
+        if (k > 0) {
+          ASSERT_LE(std::abs(s.lower - before), step + 2 * bound) << k;  // no faster than B moves
+        }
+        if (k == 100) {
+          ASSERT_LE(std::abs(s.lower), 2 * bound);
+        }
+        ASSERT_EQ(s.verdict, k < 100 ? Verdict::Overlapping : k > 100 ? Verdict::Disjoint : s.verdict) << k;
+        before = s.lower;
+      }
+    }
+  }
+}
+
+TEST(SignedDistance, IsCheckedByAnyone) {
+  for (const shapes::Family family : shapes::kFamilies) {
+    const Scenery scene = scenery(family, 300, 5, 11);
+    for (const Pose& pose : scene.poses) {
+      const double bound = bound_of(scene.a, scene.b, pose);
+      const SignedAnswer s = cold(scene.a, scene.b, pose);
+      const auto checked = [&](auto change) {
+        SignedAnswer wrong = s;
+        change(wrong);
+        return check(scene.a.model, scene.b.model, pose, wrong);
+      };
+      EXPECT_EQ(checked([](SignedAnswer&) {}).message, "");
+      EXPECT_FALSE(checked([&](SignedAnswer& w) {
+        w.lower += bound;
+        w.upper += bound;
+      })) << describe(s);
+      EXPECT_FALSE(checked([&](SignedAnswer& w) {
+        w.lower -= bound;
+        w.upper -= bound;
+      })) << describe(s);
+      EXPECT_FALSE(checked([&](SignedAnswer& w) { w.normal = -w.normal; }));
+      EXPECT_FALSE(checked([&](SignedAnswer& w) { w.point_a += w.normal * .01; }));
+      EXPECT_FALSE(checked([&](SignedAnswer& w) { w.verdict = Verdict::Disjoint; }));
+    }
+    const Pose far{Mat3::Identity(), {3, 1, 0}};
+    EXPECT_TRUE(check(scene.a.model, scene.b.model, far, cold(scene.a, scene.b, far)));
+  }
+}
+
+TEST(SignedDistance, LooserNeverCostsMore) {
+  for (const shapes::Family family : shapes::kFamilies) {
+    const Scenery scene = scenery(family, 2000, 25, 12);
+    std::array<double, 6> work{};
+    for (const Pose& pose : scene.poses) {
+      const SignedAnswer exact = cold(scene.a, scene.b, pose);
+      for (std::size_t k = 0; k < work.size(); ++k) {
+        QueryOptions options;
+        options.relative_error = k == 0 ? 0 : std::pow(10, -double(work.size() - k));
+        const SignedAnswer s = cold(scene.a, scene.b, pose, options);
+        EXPECT_EQ(s.status, Status::Converged);
+        EXPECT_LE(s.lower, exact.upper);
+        EXPECT_GE(s.upper, exact.lower);
+        EXPECT_LE(s.upper - s.lower,
+                  std::max(options.relative_error * -s.upper, bound_of(scene.a, scene.b, pose)) * (1 + 1e-12));
+        if (k + 1 == work.size() && pose.translation == scene.poses[0].translation) {
+          EXPECT_EQ(check(scene.a.model, scene.b.model, pose, s).message, "");
+        }
+        work[k] += s.steps + s.plane_tests;
+      }
+    }
+    std::printf("%s: steps plus tests at relative error 0, 1e-5, ... 1e-1:", shapes::name(family));
+    for (const double w : work) std::printf(" %.0f", w / double(scene.poses.size()));
+    std::printf("\n");
+    for (std::size_t k = 1; k < work.size(); ++k) EXPECT_LE(work[k], work[k - 1]);
+  }
+}
+
+TEST(SignedDistance, StopsAtABudgetAndAtALevel) {
+  const Scenery scene = scenery(shapes::Family::Fat, 2000, 10, 13);
+  for (const Pose& pose : scene.poses) {
+    const SignedAnswer exact = cold(scene.a, scene.b, pose);
+    for (const std::uint32_t budget : {0u, 1u, 5u, 12u}) {
+      QueryOptions options;
+      options.step_budget = budget;
+      const SignedAnswer s = cold(scene.a, scene.b, pose, options);
+      EXPECT_TRUE(s.status == Status::Budget || s.status == Status::Converged) << int(s.status);
+      EXPECT_LE(s.lower, exact.upper);
+      EXPECT_GE(s.upper, exact.lower);
+    }
+    for (int level = 1; level < scene.a.model.level_count(); ++level) {
+      QueryOptions options;
+      options.finest_level = level;
+      const SignedAnswer s = cold(scene.a, scene.b, pose, options);
+      EXPECT_EQ(s.status, Status::LevelLimit);
+      EXPECT_LE(s.lower, exact.upper);
+      EXPECT_GE(s.upper, exact.lower);
+    }
+  }
+  Pose illegal;
+  illegal.rotation(0, 0) = 2;
+  EXPECT_EQ(cold(scene.a, scene.b, illegal).status, Status::InvalidPose);
+}
+
+TEST(SignedWithin, DecidesOnBothSidesOfTheThreshold) {
+  for (const shapes::Family family : shapes::kFamilies) {
+    const Scenery scene = scenery(family, 2000, 20, 14);
+    double decided = 0, exact_work = 0;
+    for (const Pose& pose : scene.poses) {
+      const SignedAnswer exact = cold(scene.a, scene.b, pose);
+      exact_work += exact.steps + exact.plane_tests;
+      for (const double part : {.5, .9, .999, 1.001, 1.1, 2.}) {
+        PairSeed seed;
+        const SignedWithin w = signed_within(scene.a.model, scene.b.model, pose, part * exact.lower, seed);
+        EXPECT_EQ(w.decision, part < 1 ? Decision::Yes : Decision::No) << part << describe(w.answer);
+        EXPECT_LE(w.answer.lower, exact.upper);
+        EXPECT_GE(w.answer.upper, exact.lower);
+        if (part == .5) decided += w.answer.steps + w.answer.plane_tests;
+      }
+      PairSeed seed;
+      EXPECT_EQ(signed_within(scene.a.model, scene.b.model, pose, .25, seed).decision, Decision::Yes);
+    }
+    EXPECT_LT(decided, exact_work);
+  }
+}
+
+/// Thousands of planes about as near: more points than there is room for.
+TEST(SignedDistance, IsExactWhereManyFacetsAreAsDeep) {
+  const shapes::Pair pair = shapes::pair(shapes::Family::Fat, 400);
+  const Body a = body(pair.a), b = body(pair.b);
+  for (const double shift : {0., 1e-9, 1e-3}) {
+    const Pose pose{bodies::rotation(.3, .2, .5, .1), {shift, 0, 0}};
+    const SignedAnswer s = cold(a, b, pose);
+    EXPECT_EQ(s.status, Status::Converged);
+    EXPECT_EQ(check(a.model, b.model, pose, s).message, "");
+    EXPECT_LE(s.upper - s.lower, bound_of(a, b, pose));
+    EXPECT_LE((s.point_b - s.point_a - s.normal * s.lower).norm(), 2 * bound_of(a, b, pose));
+    EXPECT_GT(s.steps, std::uint32_t(kDepthPoints));
+    std::printf("%u steps\n", s.steps);
+  }
+  // A prism of many sides about its own axis: all of them tie.
+  const Body prism = body(shapes::prism(600, 1, 4)), turned = body(shapes::prism(500, .5, 6));
+  const SignedAnswer s = cold(prism, turned, Pose{});
+  EXPECT_EQ(s.status, Status::Converged);
+  EXPECT_NEAR(s.lower, -1.5, 1e-4);
+  std::printf("%u steps\n", s.steps);
+}
+
+TEST(SignedDistance, OfBodiesWithoutThicknessIsNone) {
+  const Body square = body(Points{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}), cube = body(shapes::cube());
+  const Body segment = body(Points{{-3, 0, 0}, {3, 0, 0}}), point = body(Points{{0, 0, 0}});
+  const auto expect = [](const Body& a, const Body& b, const Pose& pose, double distance) {
+    const SignedAnswer s = cold(a, b, pose);
+    EXPECT_EQ(fault(a, b, pose, s), "");
+    EXPECT_NEAR(s.lower, distance, 1e-13);
+  };
+  const auto at = [](double x, double y, double z) { return Pose{Mat3::Identity(), {x, y, z}}; };
+  expect(square, square, at(.5, .5, 0), 0);
+  expect(square, segment, Pose{}, 0);
+  expect(segment, segment, at(1, 0, 0), 0);
+  expect(point, point, Pose{}, 0);
+  expect(point, cube, at(.5, 0, 0), -.5);
+  expect(cube, point, at(.5, 0, 0), -.5);
+  expect(segment, cube, at(0, .25, 0), -.75);
+  expect(square, cube, at(0, 0, .25), -.75);
 }
 
 }  // namespace

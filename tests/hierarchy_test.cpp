@@ -37,10 +37,9 @@ std::vector<Vec3> points(const Level& level) {
   return result;
 }
 
-/// Every vertex is a vertex of the exact hull of the level, and no vertex of level 0 is beyond a face of that hull.
-void expect_sound(const Model& model) {
-  const std::vector<Vec3> finest = points(model.level(0));
-  for (int k = 0; k < model.level_count(); ++k) {
+/// Of each level present: every vertex is a vertex of its exact hull, and no vertex of level 0 is beyond a face of that hull.
+void expect_sound(const Model& model, const std::vector<Vec3>& finest) {
+  for (int k = model.finest_level(); k < model.level_count(); ++k) {
     const std::vector<Vec3> own = points(model.level(k));
     const lod::Hull shape = lod::hull(own);
     ASSERT_EQ(shape.dimension, 3);
@@ -58,6 +57,8 @@ void expect_sound(const Model& model) {
   }
 }
 
+void expect_sound(const Model& model) { expect_sound(model, points(model.level(0))); }
+
 /// Distance from a point to a triangle, by its regions.
 double distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 normal = (b - a).cross(c - a);
@@ -71,8 +72,7 @@ double distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)});
 }
 
-double brute_deviation(const Model& model, int k) {
-  const std::vector<Vec3> finest = points(model.level(0));
+double brute_deviation(const Model& model, int k, const std::vector<Vec3>& finest) {
   const lod::Polytope body = lod::solid(finest, lod::hull(finest));
   double greatest = 0;
   for (const Vec3& p : points(model.level(k))) {
@@ -82,6 +82,70 @@ double brute_deviation(const Model& model, int k) {
     greatest = std::max(greatest, least);
   }
   return greatest;
+}
+
+double brute_deviation(const Model& model, int k) { return brute_deviation(model, k, points(model.level(0))); }
+
+TEST(Hierarchy, ADeviationAskedForIsMetByFewTriangles) {
+  int cut = 0, leaner = 0;
+  for (const shapes::Family family : shapes::kFamilies) {
+    const Mesh mesh = shapes::ellipsoid(shapes::semi_axes(family), 1000, 1);
+    const Model whole = build(mesh).value().model;
+    const std::vector<Vec3> finest = points(whole.level(0));
+    for (const double deviation : {1e-3, 1e-2, 3e-2, 1e-1, 1.0}) {
+      BuildOptions asked;
+      asked.detail.deviation = deviation;
+      const auto built = build(mesh, asked);
+      ASSERT_TRUE(built) << built.error().message;
+      const Model& model = built.value().model;
+      const int k = model.finest_level();
+      expect_sound(model, finest);
+      EXPECT_LT(model.level(k).deviation, deviation);
+      EXPECT_GE(model.level(k).deviation + 1e-15, brute_deviation(model, k, finest));
+      const Model trimmed = whole.cut(asked.detail);
+      EXPECT_LE(model.level(k).triangle_count, trimmed.level(trimmed.finest_level()).triangle_count) << deviation;
+      cut += k > 0;
+      leaner += model.bytes().size() < trimmed.bytes().size() * 0.9;
+      if (k > 0 && k + 1 < model.level_count()) {
+        EXPECT_GE(model.level(k + 1).deviation, deviation / 1.02) << "no finer than needed";
+      }
+    }
+  }
+  EXPECT_GE(cut, 9);
+  EXPECT_GE(leaner, 3);
+}
+
+TEST(Hierarchy, ABudgetOfBytesIsKept) {
+  const Mesh mesh = shapes::ellipsoid(Vec3(1, 1, 1), 1000, 1);
+  for (const std::uint64_t bytes : {15'000, 30'000, 100'000, 1'000'000}) {
+    BuildOptions asked;
+    asked.detail.bytes = bytes;
+    const Model model = build(mesh, asked).value().model;
+    EXPECT_LE(model.bytes().size(), bytes);
+    EXPECT_EQ(model.finest_level() == 0, bytes >= build(mesh).value().model.bytes().size());
+  }
+}
+
+TEST(Hierarchy, AimedBuildsCanBeCancelledAnywhere) {
+  const Mesh mesh = shapes::ellipsoid(Vec3(1, 1, 1), 1000, 1);
+  BuildOptions asked;
+  asked.detail.deviation = 0.02;
+  int calls = 0, allowed = 1 << 30;
+  double last = 0;
+  asked.progress = [&](double fraction, std::string_view) {
+    EXPECT_GE(fraction, last);
+    EXPECT_LE(fraction, 1);
+    last = fraction;
+    return ++calls <= allowed;
+  };
+  ASSERT_TRUE(build(mesh, asked));
+  EXPECT_EQ(last, 1);
+  for (allowed = calls - 1; allowed >= 0; --allowed) {
+    calls = 0, last = 0;
+    const auto cancelled = build(mesh, asked);
+    ASSERT_FALSE(cancelled) << allowed;
+    EXPECT_EQ(cancelled.error().code, ErrorCode::Cancelled);
+  }
 }
 
 TEST(Hierarchy, EveryLevelHoldsTheFinestExactly) {

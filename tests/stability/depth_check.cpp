@@ -36,6 +36,7 @@ struct Moved {
   std::vector<Exact> exact_points;
   struct Edge {
     std::uint32_t from, to;
+    std::array<std::uint32_t, 2> beside{kNone, kNone};  ///< a vertex of the facet to each side
   };
   std::vector<Edge> edges;
   std::vector<std::array<Edge, 2>> faces;  ///< two edges of each
@@ -51,12 +52,15 @@ Moved moved(const Subject& subject, const Pose& pose) {
     m.extent = std::max(m.extent, m.points.back().lpNorm<Eigen::Infinity>());
   }
   for (std::uint32_t h = 0; h < view.head.size(); ++h) {
+    // The ring is sorted: the half-edges before and after span a facet with this one.
     const std::uint32_t from = view.head[view.twin[h]];
-    if (h < view.twin[h]) m.edges.push_back({from, view.head[h]});
-    // The ring is sorted: the half-edge that follows spans a facet with this one.
     const Vertex& ring = view.vertices[from];
-    const std::uint32_t next = h + 1 < ring.ring_begin + ring.ring_count ? h + 1 : ring.ring_begin;
-    if (view.face[h] != kNone) m.faces.push_back({{{from, view.head[h]}, {from, view.head[next]}}});
+    const std::uint32_t next = h + 1 < ring.ring_begin + ring.ring_count ? h + 1 : ring.ring_begin,
+                        last = h > ring.ring_begin ? h - 1 : ring.ring_begin + ring.ring_count - 1;
+    const bool has_facets = view.face[h] != kNone;
+    if (h < view.twin[h])
+      m.edges.push_back({from, view.head[h], {has_facets ? view.head[next] : kNone, has_facets ? view.head[last] : kNone}});
+    if (has_facets) m.faces.push_back({{{from, view.head[h]}, {from, view.head[next]}}});
   }
   return m;
 }
@@ -84,10 +88,11 @@ class Difference {
     const Vec3 u = x.points[e.to] - x.points[e.from], v = y.points[f.to] - y.points[f.from], n = u.cross(v);
     const double size = a_.extent + b_.extent,
                  doubt = 0x1p-44 * size * (u.norm() + size * 0x1p-50) * (v.norm() + size * 0x1p-50);
-    bool below = false, above = false;  // either may be: no farther than the depth, along n and against it
+    // Either may be: no farther than the depth, along n and against it.
     const double enough = depth_ * n.norm() + doubt;
     if (n.norm() * size > 4 * doubt) found_ = true;
-    below = !reaches(n, enough), above = !reaches(-n, enough);
+    const bool below = !rises(x, e, n, doubt) && !rises(y, f, -n, doubt) && !reaches(n, enough);
+    const bool above = !rises(x, e, -n, doubt) && !rises(y, f, n, doubt) && !reaches(-n, enough);
     if (!below && !above) return std::nullopt;
     const Exact normal =
         cross(minus(x.exact_points[e.to], x.exact_points[e.from]), minus(y.exact_points[f.to], y.exact_points[f.from]));
@@ -100,6 +105,11 @@ class Difference {
     return std::nullopt;
   }
 
+  /// Whether a vertex beside the edge surely is above it: it then spans no facet with this normal.
+  static bool rises(const Moved& body, const Moved::Edge& e, const Vec3& n, double doubt) {
+    return std::any_of(e.beside.begin(), e.beside.end(),
+                       [&](std::uint32_t v) { return v != kNone && n.dot(body.points[v] - body.points[e.from]) > doubt; });
+  }
   /// Whether some difference surely is as far along n.
   bool reaches(const Vec3& n, double enough) const {
     double most = n.dot(a_.points[0]), least = n.dot(b_.points[0]);

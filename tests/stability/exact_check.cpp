@@ -239,7 +239,7 @@ std::string Judge::interval(const SignedAnswer& answer) {
 }
 
 std::string Judge::signed_upper_bound(const SignedAnswer& answer) {
-  if (answer.verdict == Verdict::Touching && !(answer.lower >= -law_two_ && answer.upper <= law_two_))
+  if (answer.verdict == Verdict::Touching && !(answer.lower <= law_two_ && answer.upper >= -law_two_))
     return text("touching with [%g, %g], law 2's bound is %g", answer.lower, answer.upper, law_two_);
   if (answer.upper >= 0) {
     if (answer.verdict == Verdict::Overlapping && answer.proof.count == 4) {

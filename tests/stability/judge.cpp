@@ -128,6 +128,33 @@ Judgement judge_within(const Problem& p, const Model& a, const Model& b, double 
   return within.answer.verdict == Verdict::Undecided ? Judgement{} : judge_verdict(p, within.answer.verdict);
 }
 
+Judgement judge_signed(const Problem& p, const Model& a, const Model& b, const SignedAnswer& answer) {
+  if (answer.status != Status::Converged) return fault(Fault::NotConverged, "status %d", int(answer.status));
+  const bool finite = answer.normal.allFinite() && answer.point_a.allFinite() && answer.point_b.allFinite();
+  if (!(answer.upper >= answer.lower && std::isfinite(answer.lower) && finite))
+    return fault(Fault::NoNumber, "[%.17g, %.17g]", answer.lower, answer.upper);
+  const auto holds = [&](const oracle::SignedTruth& truth, double slack) {
+    return oracle::compare(truth, answer.lower - slack) >= 0 && oracle::compare(truth, answer.upper + slack) <= 0;
+  };
+  if (!holds(p.asked, 0))
+    return fault(Fault::WrongDistance, "[%.17g, %.17g] does not hold %.17g", answer.lower, answer.upper, p.asked.distance);
+  if (!holds(p.in_world, p.world_bound))
+    return fault(Fault::WrongDistance, "[%.17g, %.17g] is farther than %.3g from %.17g in the world", answer.lower,
+                 answer.upper, p.world_bound, p.in_world.distance);
+  const double width = answer.verdict == Verdict::Touching ? 2 * p.bound : p.bound;  // a depth and a distance
+  if (!(answer.upper - answer.lower <= width))
+    return fault(Fault::WrongDistance, "[%.17g, %.17g] is wider than law 2's %.3g", answer.lower, answer.upper, width);
+  const Vec3 aside = answer.point_b - answer.point_a - (answer.lower + answer.upper) / 2 * answer.normal;
+  if (!(aside.norm() <= 2 * p.bound))
+    return fault(Fault::WrongDistance, "the points are %.17g off the signed distance along the normal", aside.norm());
+  if (const Check c = check(a, b, p.b_in_a, answer); !c) return {Fault::WrongDistance, c.message};
+  return judge_verdict(p, answer.verdict);
+}
+
+double error_of(const Problem& p, const SignedAnswer& answer) {
+  return std::max(std::abs(answer.lower - p.in_world.distance), std::abs(answer.upper - p.in_world.distance));
+}
+
 double error_of(const Problem& p, const Answer& answer) {
   const double distance = std::max(p.in_world.distance, 0.);
   return std::max(std::abs(answer.lower - distance), std::abs(answer.upper - distance));

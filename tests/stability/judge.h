@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include <swiftlet/depth.h>
 #include <swiftlet/model.h>
 #include <swiftlet/query.h>
 
@@ -43,11 +44,14 @@ struct Judgement {
 
 /// An answer of `distance` or `contact` without tolerance.
 Judgement judge_exact(const Problem& problem, const Model& a, const Model& b, const Answer& answer);
+/// Of `signed_distance` without tolerance.
+Judgement judge_signed(const Problem& problem, const Model& a, const Model& b, const SignedAnswer& answer);
 /// Of `intersects`: the interval may be wide.
 Judgement judge_intersects(const Problem& problem, const Model& a, const Model& b, const Answer& answer);
 Judgement judge_within(const Problem& problem, const Model& a, const Model& b, double threshold, const Within& within);
 
 /// The interval's farther end from the distance in the world. Length.
 double error_of(const Problem& problem, const Answer& answer);
+double error_of(const Problem& problem, const SignedAnswer& answer);
 
 }  // namespace swiftlet::stability

@@ -76,6 +76,15 @@ class Trial {
       add(way, "intersects", judge_intersects(problem_, a_, b_, answer), answer);
       add_verdict(way, answer.verdict);
     }
+    // Overlapping it goes by no option; apart as the distance does.
+    if (way.options.start == StartPolicy::Automatic && way.options.refinement == Refinement::SingleSingle) {
+      const SignedAnswer answer = signed_distance(a_, b_, pose, next(), way.options);
+      ++findings_.answers;
+      if (const Judgement j = judge_signed(problem_, a_, b_, answer); j.fault != Fault::None)
+        findings_.add(j.fault, "signed_distance (" + text(way) + "): " + j.message);
+      findings_.worst_error = std::max(findings_.worst_error, error_of(problem_, answer) / problem_.size);
+      add_verdict(way, answer.verdict);
+    }
     for (const double threshold : thresholds_) {
       const Within answer = within(a_, b_, pose, threshold, next(), way.options);
       add(way, "within", judge_within(problem_, a_, b_, threshold, answer), answer.answer);

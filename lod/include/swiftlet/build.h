@@ -47,11 +47,13 @@ using Progress = std::function<bool(double fraction, std::string_view stage)>;
 struct BuildOptions {
   Method method = Method::Collapse;        ///< how a level is simplified
   Enclosing enclosing = Enclosing::Tight;  ///< how it is made to hold level 0
-  double rate = 0.25;           ///< triangles of a level over those one level finer, in (0, 1); Peel removes what it can
-  std::uint32_t cutoff = 60;    ///< no level has fewer triangles than this, nor a solid fewer than 4
-  int max_levels = 32;          ///< level 0 included, 1 to 32
-  double max_deviation = 0;     ///< the hierarchy ends before a level deviates more, in the mesh's unit; 0: no limit
-  Detail detail;                ///< what the model keeps of the levels built; a prefix in `bytes` is that of the whole model
+  double rate = 0.25;         ///< triangles of a level over those one level finer, in (0, 1); Peel removes what it can
+  std::uint32_t cutoff = 60;  ///< no level has fewer triangles than this, nor a solid fewer than 4
+  int max_levels = 32;        ///< level 0 included, 1 to 32
+  double max_deviation = 0;   ///< the hierarchy ends before a level deviates more, in the mesh's unit; 0: no limit
+  /// What the model keeps of the levels built; a prefix in `bytes` is that of the whole model. With Collapse no level finer
+  /// than its deviation asks for is built at all, and the finest has as few triangles as that allows.
+  Detail detail;
   bool require_convex = false;  ///< refuse a mesh with dents
   bool require_solid = false;   ///< refuse flat, collinear and single-point input
   TableSpec table;              ///< the start table

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include <swiftlet/depth.h>
 #include <swiftlet/march.h>
 #include <swiftlet/model.h>
 #include <swiftlet/query.h>
@@ -24,6 +25,12 @@ struct Check {
 /// proof's vertices, the verdict by all these. Cost: linear in the vertices and faces. The radii are those of the options that
 /// the answer was asked with.
 Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer, double radius_a = 0, double radius_b = 0);
+
+/// Recomputes what `answer` claims of a distance in the same way. Of an overlap: `lower` by the gap along `normal`, `upper` by
+/// the least height of all planes that can bound the Minkowski difference: parallel to a face of A, to one of B, or to an edge
+/// of each whose neighbours are below, in about 100 bits; and that each point lies in its body. Cost: the product of the edges,
+/// 0.2 s for two bodies of 2 000 triangles.
+Check check(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnswer& answer);
 
 /// Proves that every level is convex and encloses level 0, that every deviation holds, and that links and tables name features.
 /// Exact. Fails on a model whose level 0 is absent. Cost: a support climb per face and a distance query per vertex.

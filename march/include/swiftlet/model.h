@@ -74,6 +74,13 @@ struct ConvexView {
   Vec3 centre = Vec3::Zero();                       ///< any point of the body, where a cold start looks from
 };
 
+/// How much of a model a scene needs. The coarsest level always comes along, finer ones as far as both members allow. Two
+/// bodies that deviate by d each answer any distance to 2 d.
+struct Detail {
+  double deviation = 0;  ///< none finer than the coarsest level that deviates less, in the body's unit; 0: all
+  std::uint64_t bytes = ~std::uint64_t{0};  ///< none that the first so many bytes of the block do not hold
+};
+
 /// The vertices of a face, counter-clockwise seen from outside, diagonals passed over: `for (std::uint32_t v : FaceLoop(view,
 /// f))`. Of a flat body's face too. As long as the view's arrays live.
 class FaceLoop {
@@ -103,13 +110,6 @@ class FaceLoop {
  private:
   const ConvexView& view_;
   std::uint32_t first_;
-};
-
-/// How much of a model a scene needs. The coarsest level always comes along, finer ones as far as both members allow. Two
-/// bodies that deviate by d each answer any distance to 2 d.
-struct Detail {
-  double deviation = 0;  ///< none finer than the coarsest level that deviates less, in the body's unit; 0: all
-  std::uint64_t bytes = ~std::uint64_t{0};  ///< none that the first so many bytes of the block do not hold
 };
 
 /// A level of a model: its polytope, its links to the levels beside it, and how far it stands off the exact hull.

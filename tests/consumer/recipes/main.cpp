@@ -81,6 +81,24 @@ void one_pair(const Model& a, const Model& b, const Pose& a_in_world, const Pose
   expect(bool(swiftlet::check(a, b, swiftlet::relative(a_in_world, b_in_world), answer)), "the answer's certificate holds");
 }
 
+Result<Model> no_more_than_needed(const std::filesystem::path& file, const Pose& b_in_a) {
+  // recipe
+  Result<Model> model = swiftlet::map(file, {.deviation = 0.05});  // finer levels are neither read nor checked
+  if (!model) return model.error();
+  swiftlet::QueryOptions rough;
+  rough.absolute_error = 0.1;  // of two such bodies
+  swiftlet::PairSeed seed;
+  const auto coarse = swiftlet::distance(model.value(), model.value(), b_in_a, seed, rough);  // Converged
+  const auto limited = swiftlet::distance(model.value(), model.value(), b_in_a, seed);        // LevelLimit, the interval true
+  if (const auto finer = model.value().ensure(0); !finer) return finer.error();               // where the scene needs more
+  const auto exact = swiftlet::distance(model.value(), model.value(), b_in_a, seed);          // the seed still fits
+  // end
+  expect(coarse.status == swiftlet::Status::Converged, "a coarse model answers what it was loaded for");
+  expect(limited.status == swiftlet::Status::LevelLimit && exact.status == swiftlet::Status::Converged, "levels are added");
+  expect(limited.lower <= exact.upper && exact.lower <= limited.upper, "the coarse interval is true");
+  return model;
+}
+
 std::vector<swiftlet::Answer> many_pairs(const Model& a, const Model& b, const std::vector<Pose>& poses,
                                          std::vector<swiftlet::PairSeed>& seeds) {
   // recipe
@@ -221,5 +239,6 @@ int main(int, char** arguments) {
   tolerance(a, b, poses[0], seed);
   radii(a, b, poses[0], seed);
   refinement(a, b, poses[0], 0.99);
+  expect(bool(no_more_than_needed(here / "link.swl", poses[0])), "a part of a file is a model");
   return failed ? 1 : 0;
 }
