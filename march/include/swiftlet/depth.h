@@ -24,7 +24,8 @@ struct SignedAnswer {
   Vec3 normal = Vec3::Zero();
   /// Nearest points, or those deepest inside the other body, of the levels below: point_b - point_a is the signed distance
   /// times the normal.
-  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();
+  Vec3 point_a = Vec3::Zero();
+  Vec3 point_b = Vec3::Zero();               ///< likewise, of B
   int level_a = 0, level_b = 0;              ///< the level pair they lie on
   Handle feature_a, feature_b;               ///< on those levels; of an overlap, a pair of the deepest
   OverlapProof proof;                        ///< Overlapping with `upper` = 0: vertices of level 0
