@@ -46,7 +46,7 @@ bool names_feature(const ConvexView& view, Handle h) {
 }
 
 Handle table_start(const Model& model, const Vec3& direction) {
-  if (model.table().empty() && model.map_level() == model.level_count()) return {};
+  if (model.finest_level() > 0 || (model.table().empty() && model.map_level() == model.level_count())) return {};
   if (model.table().empty()) return {FeatureKind::Vertex, about_farthest(model, vec(direction))};
   const std::uint32_t sample = lut::nearest(model.table_spec().resolution, {direction[0], direction[1], direction[2]});
   return {FeatureKind::Vertex, model.table()[sample]};

@@ -35,7 +35,8 @@ struct SignedAnswer {
 /// The signed distance between `a` and `b`, where `b_in_a` maps B's frame into A's: exact by default, that is within law 2's
 /// bound, or to the options' errors, of which `relative_error` is one of the bound nearer to 0. A body without thickness has no
 /// depth along it: 0 where both share a plane.
-/// Of bodies with radii, those of the rounded ones. Of the options, `trace` is not read; `beyond`, `start`, `refinement` and `plane_rule` matter only while the bodies are
+/// Of bodies with radii it is the hulls' less both.
+/// Of the options, `trace` is not read; `beyond`, `start`, `refinement` and `plane_rule` matter only while the bodies are
 /// apart. Cost: apart that of `distance`; overlapping one climb for each point of a polytope, 5 to 30 where the overlap is
 /// shallow, all vertices of the Minkowski difference at worst, where many facets are about as deep. Nothing is allocated.
 /// Errors are statuses, and the interval is always true. Source: [van den Bergen 2001]; the proof is our own (march/README.md).
