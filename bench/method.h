@@ -66,6 +66,7 @@ class Session {
   /// than a slow one. The outputs are as long as the queries.
   virtual void distances(std::span<const Query> queries, std::span<Outcome> outcomes) = 0;
   virtual void intersections(std::span<const Query> queries, std::span<Outcome> outcomes) = 0;
+  virtual void depths(std::span<const Query> queries, std::span<Outcome> outcomes) = 0;
   virtual void approximations(std::span<const Query> queries, double absolute, double relative,
                               std::span<Outcome> outcomes) = 0;
 
@@ -88,6 +89,9 @@ class SessionOf : public Session {
   }
   void intersections(std::span<const Query> queries, std::span<Outcome> outcomes) final {
     for (std::size_t i = 0; i < queries.size(); ++i) outcomes[i] = self().intersects(queries[i].pair, queries[i].b_in_a);
+  }
+  void depths(std::span<const Query> queries, std::span<Outcome> outcomes) final {
+    for (std::size_t i = 0; i < queries.size(); ++i) outcomes[i] = self().depth(queries[i].pair, queries[i].b_in_a);
   }
   void approximations(std::span<const Query> queries, double absolute, double relative, std::span<Outcome> outcomes) final {
     for (std::size_t i = 0; i < queries.size(); ++i) {

@@ -103,7 +103,7 @@ class OdeMethod final : public Method {
  public:
   std::string name() const override { return "ode"; }
   std::string settings() const override {
-    return "ODE " SWIFTLET_PEER_VERSION ", double, dCollide on convex geoms, one contact, no cache; boolean only";
+    return "ODE " SWIFTLET_PEER_VERSION ", double, dCollide on convex geoms, no cache; depth the deepest of its contacts";
   }
   Capabilities capabilities() const override { return {.intersects = true, .depth = true, .max_triangles = 20'000}; }
   std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
