@@ -543,7 +543,7 @@ class Goals {
 /// The flat cost curve: ours beside the classics alone, at three sizes and five motions.
 /// How deep, shallow and deep, beside all who answer that; 45.4 degrees are as good as cold.
 void depths(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
-  if (!options.wants("depth")) return;
+  if (!options.only.contains("depth")) return;  // minutes, for ODE and Bullet
   const Methods judged = judged_methods();
   for (const Family family : kFamilies) {
     for (const double depth : {0.01, 0.3}) {
