@@ -4,8 +4,10 @@
 #include "method.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
+#include <swiftlet/depth.h>
 #include <swiftlet/query.h>
 
 #include "hull.h"
@@ -51,6 +53,15 @@ class SwiftletSession final : public SessionOf<SwiftletSession> {
     State& s = pairs_[pair];
     return outcome_of(swiftlet::intersects(*s.a, *s.b, b_in_a, s.seed, options_));
   }
+  Outcome depth(std::uint32_t pair, const Pose& b_in_a) override {
+    State& s = pairs_[pair];
+    const SignedAnswer a = swiftlet::signed_distance(*s.a, *s.b, b_in_a, s.seed, options_);
+    return {.distance = std::fabs(a.lower),
+            .overlapping = a.upper <= 0,
+            .failed = a.status != Status::Converged,
+            .steps = a.steps,
+            .plane_tests = a.plane_tests};
+  }
   Outcome approximate(std::uint32_t pair, const Pose& b_in_a, double absolute, double relative) override {
     State& s = pairs_[pair];
     QueryOptions options = options_;
@@ -81,6 +92,7 @@ class SwiftletMethod final : public Method {
     return {.distance = true,
             .intersects = true,
             .approximate = true,
+            .depth = true,
             .certified = true,
             .stated_error = 1e-12};  // law 2: 64 eps size, with size up to a hundred radii
   }

@@ -20,7 +20,7 @@ namespace swiftlet::bench {
 
 /// What one query answered.
 struct Outcome {
-  double distance = 0;       ///< >= 0; 0 with overlapping; meaningless with failed
+  double distance = 0;       ///< >= 0; with overlapping 0, or the depth where that was asked for; meaningless with failed
   bool overlapping = false;  ///< the method says that the bodies share a point
   bool failed = false;       ///< the method says itself that it has no answer
   std::uint32_t steps = 0,
@@ -57,6 +57,8 @@ class Session {
   virtual Outcome distance(std::uint32_t pair, const Pose& b_in_a) = 0;
   /// As cheap as the method can: read `overlapping` only.
   virtual Outcome intersects(std::uint32_t pair, const Pose& b_in_a) = 0;
+  /// Of bodies that overlap the depth, as `distance`; apart as `intersects`.
+  virtual Outcome depth(std::uint32_t pair, const Pose& b_in_a) = 0;
   /// Allowed to be off by max(absolute, relative * distance).
   virtual Outcome approximate(std::uint32_t pair, const Pose& b_in_a, double absolute, double relative) = 0;
 
@@ -64,6 +66,7 @@ class Session {
   /// than a slow one. The outputs are as long as the queries.
   virtual void distances(std::span<const Query> queries, std::span<Outcome> outcomes) = 0;
   virtual void intersections(std::span<const Query> queries, std::span<Outcome> outcomes) = 0;
+  virtual void depths(std::span<const Query> queries, std::span<Outcome> outcomes) = 0;
   virtual void approximations(std::span<const Query> queries, double absolute, double relative,
                               std::span<Outcome> outcomes) = 0;
 
@@ -79,12 +82,16 @@ class Session {
 template <class Self>
 class SessionOf : public Session {
  public:
+  Outcome depth(std::uint32_t, const Pose&) override { return {.failed = true}; }
   Outcome approximate(std::uint32_t, const Pose&, double, double) override { return {.failed = true}; }
   void distances(std::span<const Query> queries, std::span<Outcome> outcomes) final {
     for (std::size_t i = 0; i < queries.size(); ++i) outcomes[i] = self().distance(queries[i].pair, queries[i].b_in_a);
   }
   void intersections(std::span<const Query> queries, std::span<Outcome> outcomes) final {
     for (std::size_t i = 0; i < queries.size(); ++i) outcomes[i] = self().intersects(queries[i].pair, queries[i].b_in_a);
+  }
+  void depths(std::span<const Query> queries, std::span<Outcome> outcomes) final {
+    for (std::size_t i = 0; i < queries.size(); ++i) outcomes[i] = self().depth(queries[i].pair, queries[i].b_in_a);
   }
   void approximations(std::span<const Query> queries, double absolute, double relative, std::span<Outcome> outcomes) final {
     for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -98,7 +105,7 @@ class SessionOf : public Session {
 
 /// What a method can answer at all, and how well by its own account.
 struct Capabilities {
-  bool distance = false, intersects = false, approximate = false;
+  bool distance = false, intersects = false, approximate = false, depth = false;
   bool certified = false;  ///< its answers carry a proof
   double stated_error =
       0;  ///< of `distance`, in units of the larger bounding radius, on bodies not flatter or longer than 10:1

@@ -541,6 +541,27 @@ class Goals {
 };
 
 /// The flat cost curve: ours beside the classics alone, at three sizes and five motions.
+/// How deep, shallow and deep, beside all who answer that; 45.4 degrees are as good as cold.
+void depths(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
+  if (!options.only.contains("depth")) return;  // minutes, for ODE and Bullet
+  const Methods judged = judged_methods();
+  for (const Family family : kFamilies) {
+    for (const double depth : {0.01, 0.3}) {
+      for (const double step : {0.1, 1.04, 10.4, 45.4}) {
+        const Scene scene =
+            shallow(shelf, family, kPaperTriangles, step, depth * shapes::semi_axes(family).minCoeff(), options.extent());
+        const Asked asked(scene, Question::Depth);
+        std::vector<Entrant> list{{"swiftlet", &field.named("swiftlet"), asked.bodies}};
+        for (const auto& m : judged) {
+          if (m->capabilities().depth) list.push_back({m->name(), m.get(), asked.bodies});
+        }
+        results.add("depth", depth < 0.1 ? "shallow" : "deep", step, kPaperTriangles,
+                    measure(asked, Question::Depth, list, options.rounds()));
+      }
+    }
+  }
+}
+
 void goals(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
   if (!options.wants("goals")) return;
   constexpr double kSteps[] = {0, 1.04, 10.4, 45.4, kRandomStep};
@@ -607,7 +628,8 @@ void usage(std::FILE* out) {
   std::fputs(
       "swiftlet_bench [--quick | --all] [--only GROUP]... [--largest TRIANGLES] [--wrong] [--cache DIR] [--meshes DIR]\n"
       "               [--results DIR]\n"
-      "groups: goals orbit wide error triangles scenes fig5 fig6 fig7 fig8 fig9 fig10 fig11 fig12 (these two need 6 to 10 "
+      "groups: goals depth orbit wide error triangles scenes fig5 fig6 fig7 fig8 fig9 fig10 fig11 fig12 (these two need 6 to "
+      "10 "
       "beside "
       "them)\n"
       "--quick  1000 queries a round, three steps; --all adds 200000 triangles and peers in every cell\n"
@@ -657,6 +679,7 @@ int run(const Options& options) {
   sizes(options, field, shelf, results);
   others(options, field, shelf, results);
   goals(options, field, shelf, results);
+  depths(options, field, shelf, results);
   std::printf("\n%zu rows flagged as wrong; results in %s\n", results.flagged(), options.results.c_str());
   return 0;
 }

@@ -137,6 +137,15 @@ class DetectorSession final : public SessionOf<DetectorSession<Shapes, kDepth>> 
       return {.overlapping = true, .steps = steps, .plane_tests = 2 * steps};
     return {.distance = std::max(0., double(collector.m_distance)), .steps = steps, .plane_tests = 2 * steps};
   }
+  Outcome depth(std::uint32_t pair, const Pose& b_in_a) override {
+    btGjkPairDetector::ClosestPointInput input;
+    input.m_transformA.setIdentity();
+    input.m_transformB = transform_of(b_in_a);
+    btPointCollector collector;
+    pairs_[pair]->detector.getClosestPoints(input, collector, nullptr);
+    if (!collector.m_hasResult || !std::isfinite(collector.m_distance)) return {.failed = true};
+    return {.distance = std::fabs(double(collector.m_distance)), .overlapping = collector.m_distance <= 0};
+  }
   Outcome intersects(std::uint32_t pair, const Pose& b_in_a) override { return distance(pair, b_in_a); }  // none is cheaper
   void forget() override { shapes_.forget(); }
 
@@ -191,12 +200,12 @@ class GuessSession final : public SessionOf<GuessSession> {
 template <class SessionType>
 class BulletMethod final : public Method {
  public:
-  BulletMethod(const char* name, const char* settings, double wrong_share)
-      : name_(name), settings_(std::string(kBuild) + settings), wrong_share_(wrong_share) {}
+  BulletMethod(const char* name, const char* settings, double wrong_share, bool depth = false)
+      : name_(name), settings_(std::string(kBuild) + settings), wrong_share_(wrong_share), depth_(depth) {}
   std::string name() const override { return name_; }
   std::string settings() const override { return settings_; }
   Capabilities capabilities() const override {
-    return {.distance = true, .intersects = true, .stated_error = kStatedError, .wrong_share = wrong_share_};
+    return {.distance = true, .intersects = true, .depth = depth_, .stated_error = kStatedError, .wrong_share = wrong_share_};
   }
   std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
     return std::make_unique<SessionType>(bodies, pairs);
@@ -205,13 +214,14 @@ class BulletMethod final : public Method {
  private:
   std::string name_, settings_;
   double wrong_share_;
+  bool depth_;
 };
 
 }  // namespace
 
 void add_bullet_epa(Methods& methods) {
   methods.push_back(std::make_unique<BulletMethod<DetectorSession<Hulls, Depth::Epa>>>(
-      "bullet epa", "btGjkPairDetector on btConvexHullShape with btGjkEpaPenetrationDepthSolver", 0));
+      "bullet epa", "btGjkPairDetector on btConvexHullShape with btGjkEpaPenetrationDepthSolver", 0, true));
 }
 
 void add_bullet(Methods& methods) {

@@ -60,11 +60,12 @@ void centre_b(const void* b, ccd_vec3_t* point_a) {
 }
 
 using Decide = int (*)(const void*, const void*, const ccd_t*);
+using Deepen = int (*)(const void*, const void*, const ccd_t*, ccd_real_t* depth, ccd_vec3_t* direction, ccd_vec3_t* point);
 
 class CcdSession final : public SessionOf<CcdSession> {
  public:
-  CcdSession(Decide decide, int yes, std::span<const Body> bodies, std::span<const BodyPair> pairs)
-      : decide_(decide), yes_(yes) {
+  CcdSession(Decide decide, Deepen deepen, std::span<const Body> bodies, std::span<const BodyPair> pairs)
+      : decide_(decide), deepen_(deepen) {
     preparation_ = measured([&] {
       graphs_.reserve(bodies.size());
       for (const Body& body : bodies) graphs_.emplace_back(body.view);
@@ -80,13 +81,21 @@ class CcdSession final : public SessionOf<CcdSession> {
     ccd_.center1 = centre_a;
     ccd_.center2 = centre_b;
     ccd_.max_iterations = 1000;
-    ccd_.mpr_tolerance = 1e-12;
+    ccd_.mpr_tolerance = ccd_.epa_tolerance = 1e-12;
   }
   Outcome distance(std::uint32_t, const Pose&) override { return {.failed = true}; }
   Outcome intersects(std::uint32_t pair, const Pose& b_in_a) override {
     State& s = pairs_[pair];
     s.b.pose = &b_in_a;
-    return {.overlapping = decide_(&s.a, &s.b, &ccd_) == yes_};
+    return {.overlapping = decide_(&s.a, &s.b, &ccd_) == 1};
+  }
+  Outcome depth(std::uint32_t pair, const Pose& b_in_a) override {
+    State& s = pairs_[pair];
+    s.b.pose = &b_in_a;
+    ccd_real_t depth = 0;
+    ccd_vec3_t direction, point;
+    const int result = deepen_(&s.a, &s.b, &ccd_, &depth, &direction, &point);
+    return {.distance = depth, .overlapping = result == 0, .failed = result < -1};
   }
   void forget() override {
     for (State& s : pairs_) s.a.climber.forget(), s.b.climber.forget(), s.a.direction = {{1, 0, 0}};
@@ -98,7 +107,7 @@ class CcdSession final : public SessionOf<CcdSession> {
     Second b;
   };
   Decide decide_;
-  int yes_;
+  Deepen deepen_;
   std::vector<Graph> graphs_;
   std::vector<State> pairs_;
   ccd_t ccd_;
@@ -106,26 +115,30 @@ class CcdSession final : public SessionOf<CcdSession> {
 
 class CcdMethod final : public Method {
  public:
-  CcdMethod(const char* name, const char* settings, Decide decide) : name_(name), settings_(settings), decide_(decide) {}
+  CcdMethod(const char* name, const char* settings, Decide decide, Deepen deepen)
+      : name_(name), settings_(settings), decide_(decide), deepen_(deepen) {}
   std::string name() const override { return name_; }
   std::string settings() const override { return settings_; }
-  Capabilities capabilities() const override { return {.intersects = true}; }
+  Capabilities capabilities() const override { return {.intersects = true, .depth = true}; }
   std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
-    return std::make_unique<CcdSession>(decide_, 1, bodies, pairs);
+    return std::make_unique<CcdSession>(decide_, deepen_, bodies, pairs);
   }
 
  private:
   std::string name_, settings_;
   Decide decide_;
+  Deepen deepen_;
 };
 
 }  // namespace
 
 void add_ccd(Methods& methods) {
   methods.push_back(std::make_unique<CcdMethod>(
-      "libccd gjk", "libccd 2, double, last vertices and last direction cached; boolean only", ccdGJKIntersect));
+      "libccd gjk", "libccd 2, double, last vertices and last direction cached; depth by its EPA to 1e-12", ccdGJKIntersect,
+      ccdGJKPenetration));
   methods.push_back(std::make_unique<CcdMethod>(
-      "libccd mpr", "libccd 2, double, last vertices cached, tolerance 1e-12; boolean only", ccdMPRIntersect));
+      "libccd mpr", "libccd 2, double, last vertices cached, tolerance 1e-12; depth along its portal", ccdMPRIntersect,
+      ccdMPRPenetration));
 }
 
 }  // namespace swiftlet::bench

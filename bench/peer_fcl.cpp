@@ -30,6 +30,7 @@
 #include <fcl/geometry/shape/convex.h>
 #include <fcl/narrowphase/detail/convexity_based_algorithm/gjk.h>
 #include <fcl/narrowphase/detail/convexity_based_algorithm/gjk_libccd.h>
+#include <fcl/narrowphase/detail/gjk_solver_indep.h>
 #include <fcl/narrowphase/detail/gjk_solver_libccd.h>
 
 #include "hull.h"
@@ -98,6 +99,7 @@ class IndepSession final : public SessionOf<IndepSession> {
   IndepSession(std::span<const Body> bodies, std::span<const BodyPair> pairs) {
     preparation_ = shapes_.prepare(bodies);
     for (const BodyPair& p : pairs) pairs_.push_back({shapes_.all[p.a].get(), shapes_.all[p.b].get(), kCold});
+    solver_.epa_tolerance = kIndepTolerance;
   }
   Outcome distance(std::uint32_t pair, const Pose& b_in_a) override { return run(pair, b_in_a, kIndepTolerance); }
   Outcome intersects(std::uint32_t pair, const Pose& b_in_a) override {
@@ -108,6 +110,14 @@ class IndepSession final : public SessionOf<IndepSession> {
     // Its test C ends when upper - lower <= tolerance * upper; there is no absolute one. Its test B squares, hence the product.
     (void)absolute;
     return run(pair, b_in_a, std::max(kIndepTolerance, relative * relative));
+  }
+  Outcome depth(std::uint32_t pair, const Pose& b_in_a) override {
+    const State& s = pairs_[pair];
+    std::vector<fcl::ContactPoint<double>> contacts;
+    if (!solver_.shapeIntersect(*s.a, fcl::Transform3d::Identity(), *s.b, transform_of(b_in_a), &contacts)) return {};
+    return {.distance = contacts.empty() ? 0 : std::fabs(contacts[0].penetration_depth),
+            .overlapping = true,
+            .failed = contacts.empty()};
   }
   void forget() override {
     for (State& s : pairs_) s.ray = kCold;
@@ -137,6 +147,7 @@ class IndepSession final : public SessionOf<IndepSession> {
 
   Shapes shapes_;
   std::vector<State> pairs_;
+  fcl::detail::GJKSolver_indep<double> solver_;  // of depths only
 };
 
 // ---- GJK on libccd, as FCL calls it
@@ -154,6 +165,15 @@ class LibccdSession final : public SessionOf<LibccdSession> {
     const Convex &a = *shapes_.all[pairs_[pair].a], &b = *shapes_.all[pairs_[pair].b];
     return {.overlapping =
                 solver_.shapeIntersect(a, fcl::Transform3d::Identity(), b, transform_of(b_in_a), nullptr)};  // MPR, to 1e-6
+  }
+  Outcome depth(std::uint32_t pair, const Pose& b_in_a) override {
+    const Convex &a = *shapes_.all[pairs_[pair].a], &b = *shapes_.all[pairs_[pair].b];
+    solver_.collision_tolerance = kCcdTolerance;
+    std::vector<fcl::ContactPoint<double>> contacts;
+    if (!solver_.shapeIntersect(a, fcl::Transform3d::Identity(), b, transform_of(b_in_a), &contacts)) return {};
+    return {.distance = contacts.empty() ? 0 : std::fabs(contacts[0].penetration_depth),
+            .overlapping = true,
+            .failed = contacts.empty()};
   }
   Outcome approximate(std::uint32_t pair, const Pose& b_in_a, double absolute, double) override {
     return run(pair, b_in_a, std::max(kCcdTolerance, absolute));
@@ -286,9 +306,13 @@ void add_fcl_native(Methods& methods) {
 #else
 void add_fcl(Methods& methods) {
 #endif
-  const auto capabilities = [](double wrong_share) {
-    return Capabilities{
-        .distance = true, .intersects = true, .approximate = true, .stated_error = 1e-9, .wrong_share = wrong_share};
+  const auto capabilities = [](double wrong_share, bool depth = true) {
+    return Capabilities{.distance = true,
+                        .intersects = true,
+                        .approximate = true,
+                        .depth = depth,
+                        .stated_error = 1e-9,
+                        .wrong_share = wrong_share};
   };
   methods.push_back(std::make_unique<FclMethod<IndepSession>>("fcl indep", "GST_INDEP, tolerance 1e-12, last ray as guess",
                                                               capabilities(0.02)));
@@ -296,7 +320,7 @@ void add_fcl(Methods& methods) {
       std::make_unique<FclMethod<LibccdSession>>("fcl libccd", "GST_LIBCCD, tolerance 1e-12, no cache", capabilities(0)));
   methods.push_back(std::make_unique<FclMethod<ClimbSession>>(
       "fcl libccd climb", "its GJK on libccd with our support from the last vertex, tolerance 1e-12, last direction first",
-      capabilities(0)));
+      capabilities(0, false)));
 }
 
 }  // namespace swiftlet::bench

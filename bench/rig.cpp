@@ -54,6 +54,8 @@ class Runner {
     const auto begin = Clock::now();
     if (question_ == Question::Intersects) {
       session_->intersections(queries, answers);
+    } else if (question_ == Question::Depth) {
+      session_->depths(queries, answers);
     } else if (allowed_ > 0) {
       session_->approximations(queries, allowed_, relative_, answers);
     } else {
@@ -149,9 +151,15 @@ std::vector<Query> floor_of(const Scene& scene, double radius) {
   return result;
 }
 
+/// Depths compare as distances do; none is a failure.
+std::vector<Outcome> depths_of(std::vector<Outcome> outcomes) {
+  for (Outcome& o : outcomes) o.failed = o.failed || !o.overlapping, o.overlapping = false;
+  return outcomes;
+}
+
 void judge(Row& row, const Asked& asked, const Entrant& entrant, const Runner& runner) {
   const bool booleans = row.question == Question::Intersects;
-  const std::vector<Outcome>& outcomes = runner.outcomes;
+  const std::vector<Outcome> outcomes = row.question == Question::Depth ? depths_of(runner.outcomes) : runner.outcomes;
   const Comparison c =
       booleans ? compare_verdicts(outcomes, asked.truth.queries) : compare(outcomes, asked.truth.queries, asked.radius);
   row.error = booleans ? kNoValue : c.max_error / asked.radius;
@@ -169,10 +177,12 @@ void judge(Row& row, const Asked& asked, const Entrant& entrant, const Runner& r
 
 }  // namespace
 
-const char* name(Question question) { return question == Question::Distance ? "distance" : "intersects"; }
+const char* name(Question question) {
+  return question == Question::Distance ? "distance" : question == Question::Depth ? "depth" : "intersects";
+}
 
-Asked::Asked(const Scene& s) : scene(&s), bodies(bench::bodies(s)) {
-  truth = certify(bodies, s.pairs, s.queries);
+Asked::Asked(const Scene& s, Question question) : scene(&s), bodies(bench::bodies(s)) {
+  truth = question == Question::Depth ? certify_depths(bodies, s.pairs, s.queries) : certify(bodies, s.pairs, s.queries);
   for (const Model& model : s.models) {
     radius = std::max(radius, model.radius());
     triangles += double(model.level(0).triangle_count);

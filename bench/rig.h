@@ -15,7 +15,7 @@
 
 namespace swiftlet::bench {
 
-enum class Question : std::uint8_t { Distance, Intersects };
+enum class Question : std::uint8_t { Distance, Intersects, Depth };
 const char* name(Question question);
 
 /// Who is asked in a cell, with what, and how precisely.
@@ -29,7 +29,8 @@ struct Entrant {
 
 /// A scene with what is proved of it. The scene outlives it.
 struct Asked {
-  explicit Asked(const Scene& scene);
+  /// The truth of distances and verdicts, or of depths: then all of the scene's bodies overlap.
+  explicit Asked(const Scene& scene, Question question = Question::Distance);
   const Scene* scene;
   std::vector<Body> bodies;
   Truth truth;

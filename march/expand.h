@@ -46,7 +46,8 @@ struct Depth {
   std::uint32_t steps = 0;                                 ///< supports found
 };
 
-/// Nothing is allocated. The levels are those of the scene's views. Law 7: at most 8 * 4^kDepthCells * kDepthPoints supports.
+/// Nothing is allocated. The levels are those of the scene's views. Law 7: at most 12 * 4^kDepthCells * kDepthPoints supports
+/// in each of two arithmetics.
 Depth expand(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
              std::uint32_t& plane_tests);
 

@@ -13,12 +13,13 @@ namespace swiftlet::stability {
 
 struct Contender {
   std::string name, settings;
-  bool gives_distance = true;  ///< else verdicts only
+  bool gives_distance = true;  ///< else verdicts, and depths as far as the next says
+  bool gives_depth = true;
   std::function<Findings(const Case&, const Problems&)> ask;
 };
 
-/// The baselines and the peers behind the benchmark's Method, each asked for distance and intersection as far as it answers
-/// them, cold and again, as given and swapped. Wrong is what is off by more than `tolerance` times size; verdicts count
+/// The baselines and the peers behind the benchmark's Method, each asked for distance, intersection and depth as far as it
+/// answers them, cold and again, as given and swapped. Wrong is what is off by more than `tolerance` times size; verdicts count
 /// where the bodies are farther than that from touching.
 std::vector<Contender> other_contenders(double tolerance);
 

@@ -129,6 +129,7 @@ Judgement judge_within(const Problem& p, const Model& a, const Model& b, double 
 }
 
 Judgement judge_signed(const Problem& p, const Model& a, const Model& b, const SignedAnswer& answer) {
+  const Fault wrong = answer.lower < 0 ? Fault::WrongDepth : Fault::WrongDistance;
   if (answer.status != Status::Converged) return fault(Fault::NotConverged, "status %d", int(answer.status));
   const bool finite = answer.normal.allFinite() && answer.point_a.allFinite() && answer.point_b.allFinite();
   if (!(answer.upper >= answer.lower && std::isfinite(answer.lower) && finite))
@@ -137,17 +138,17 @@ Judgement judge_signed(const Problem& p, const Model& a, const Model& b, const S
     return oracle::compare(truth, answer.lower - slack) >= 0 && oracle::compare(truth, answer.upper + slack) <= 0;
   };
   if (!holds(p.asked, 0))
-    return fault(Fault::WrongDistance, "[%.17g, %.17g] does not hold %.17g", answer.lower, answer.upper, p.asked.distance);
+    return fault(wrong, "[%.17g, %.17g] does not hold %.17g", answer.lower, answer.upper, p.asked.distance);
   if (!holds(p.in_world, p.world_bound))
-    return fault(Fault::WrongDistance, "[%.17g, %.17g] is farther than %.3g from %.17g in the world", answer.lower,
-                 answer.upper, p.world_bound, p.in_world.distance);
+    return fault(wrong, "[%.17g, %.17g] is farther than %.3g from %.17g in the world", answer.lower, answer.upper,
+                 p.world_bound, p.in_world.distance);
   const double width = answer.verdict == Verdict::Touching ? 2 * p.bound : p.bound;  // a depth and a distance
   if (!(answer.upper - answer.lower <= width))
-    return fault(Fault::WrongDistance, "[%.17g, %.17g] is wider than law 2's %.3g", answer.lower, answer.upper, width);
+    return fault(wrong, "[%.17g, %.17g] is wider than law 2's %.3g", answer.lower, answer.upper, width);
   const Vec3 aside = answer.point_b - answer.point_a - (answer.lower + answer.upper) / 2 * answer.normal;
   if (!(aside.norm() <= 2 * p.bound))
-    return fault(Fault::WrongDistance, "the points are %.17g off the signed distance along the normal", aside.norm());
-  if (const Check c = check(a, b, p.b_in_a, answer); !c) return {Fault::WrongDistance, c.message};
+    return fault(wrong, "the points are %.17g off the signed distance along the normal", aside.norm());
+  if (const Check c = check(a, b, p.b_in_a, answer); !c) return {wrong, c.message};
   return judge_verdict(p, answer.verdict);
 }
 

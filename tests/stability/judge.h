@@ -33,6 +33,7 @@ enum class Fault {
   None,
   WrongVerdict,
   WrongDistance,  ///< an interval that lies or is wider than allowed, points or a normal that do not fit it
+  WrongDepth,     ///< likewise, of an overlap
   NoNumber,       ///< NaN, or no interval at all
   NotConverged,   ///< any status but Converged: no budget, limit or illegal pose was asked for
 };

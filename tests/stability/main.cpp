@@ -3,6 +3,7 @@
 // The program behind `./run stability`: reads files of cases, asks every contender each of them, and prints who was wrong.
 // Exit code 0: swiftlet failed none; 1: it did; 2: bad options or files.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include <cstdio>
 #include <exception>
@@ -21,7 +22,7 @@ namespace swiftlet::stability {
 namespace {
 
 struct Options {
-  std::vector<std::string> files;
+  std::vector<std::string> files, depths;
   bool all_methods = false, as_json = false;
   std::string csv;
   double tolerance = 1e-9;
@@ -30,7 +31,7 @@ struct Options {
 
 std::vector<Contender> contenders(const Options& options) {
   std::vector<Contender> all{{"swiftlet", "every start, refinement and plane rule, cold and warm, swapped; judged by the laws",
-                              true, [](const Case& c, const Problems& problems) { return ask_swiftlet(c, problems); }}};
+                              true, true, [](const Case& c, const Problems& problems) { return ask_swiftlet(c, problems); }}};
   if (!options.all_methods) return all;
 #ifdef SWIFTLET_STABILITY_OTHERS
   for (Contender& other : other_contenders(options.tolerance)) all.push_back(std::move(other));
@@ -45,7 +46,10 @@ std::vector<Case> cases_of(const Options& options) {
   const std::vector<std::filesystem::path> paths =
       options.files.empty() ? suite_files() : std::vector<std::filesystem::path>(options.files.begin(), options.files.end());
   for (const auto& path : paths) {
-    for (Case& c : read_cases(path)) all.push_back(std::move(c));
+    for (Case& c : read_cases(path)) {
+      const bool wanted = options.depths.empty() || std::count(options.depths.begin(), options.depths.end(), c.name) > 0;
+      if (wanted) all.push_back(std::move(c));
+    }
   }
   return all;
 }
@@ -59,7 +63,7 @@ int run(const Options& options) {
     if (!table) throw std::runtime_error(options.csv + ": cannot be written");
   }
   std::vector<MethodReport> reports;
-  for (const Contender& c : asked) reports.push_back({c.name, c.settings, c.gives_distance, {}, {}, {}});
+  for (const Contender& c : asked) reports.push_back({c.name, c.settings, c.gives_distance, c.gives_depth, {}, {}, {}, {}});
   for (const Case& c : cases) {
     const Problems problems = problems_of(c);
     for (std::size_t i = 0; i < asked.size(); ++i)
@@ -69,7 +73,9 @@ int run(const Options& options) {
     table << csv(reports);
     if (!table.flush()) throw std::runtime_error(options.csv + ": cannot be written");
   }
-  if (options.as_json) {
+  if (!options.depths.empty()) {
+    std::fputs(depths(cases, reports).c_str(), stdout);
+  } else if (options.as_json) {
     std::fputs(json(reports).c_str(), stdout);
   } else {
     for (const MethodReport& report : reports) std::fputs(text(report).c_str(), stdout);
@@ -96,6 +102,8 @@ int main(int argc, char** argv) {
   CLI::App app("Asks hard pairs of convex bodies, whose exact answers are computed beside, and counts what is wrong.");
   app.add_option("FILE", options.files, "cases as in tests/data/cases.json; by default that and tests/data/found/*.json");
   app.add_flag("--all-methods", options.all_methods, "also the baselines and the peers that the build found");
+  app.add_option("--depths", options.depths, "of these cases only, and print the depths that each method returns")
+      ->delimiter(',');
   app.add_flag("--json", options.as_json, "print JSON");
   app.add_option("--csv", options.csv, "also write methods by families to this file");
   app.add_option("--tolerance", options.tolerance, "what others may be off by, over size")

@@ -26,6 +26,7 @@ class Others {
     for (int round = 0; round < 2; ++round) {
       if (can_.distance) judge(problem, session.distance(pair, problem.b_in_a), true);
       if (can_.intersects) judge(problem, session.intersects(pair, problem.b_in_a), false);
+      if (can_.depth) judge_depth(problem, session.depth(pair, problem.b_in_a));
     }
   }
 
@@ -48,6 +49,22 @@ class Others {
     const double error = std::abs(o.distance - std::max(truth, 0.));
     findings_.worst_error = std::max(findings_.worst_error, error / p.size);
     if (error > slack) add(Fault::WrongDistance, "distance");
+  }
+
+  /// Of bodies that overlap by more than the tolerance; whether they do was asked before.
+  void judge_depth(const Problem& p, const bench::Outcome& o) const {
+    const double slack = tolerance_ * p.size, truth = -p.in_world.distance;
+    if (std::isnan(findings_.depth) && !o.failed) findings_.depth = o.overlapping ? o.distance : 0;
+    if (truth <= slack) return;
+    ++findings_.answers;
+    const double error = o.overlapping && !o.failed ? std::abs(o.distance - truth) : truth;
+    if (!(error <= slack)) {
+      char line[200];
+      std::snprintf(line, sizeof line, "depth: %.17g%s, in truth %.17g", o.overlapping ? o.distance : 0,
+                    o.failed ? ", says that it failed" : "", truth);
+      findings_.add(Fault::WrongDepth, line);
+    }
+    if (error > findings_.worst_depth_error * p.size) findings_.worst_depth_error = error / p.size;
   }
 
   bench::Capabilities can_;
@@ -93,7 +110,7 @@ std::vector<Contender> other_contenders(double tolerance) {
   for (auto& unique : bench::judged_methods()) {
     const std::shared_ptr<bench::Method> method = std::move(unique);
     all.push_back(
-        {method->name(), method->settings(), method->capabilities().distance,
+        {method->name(), method->settings(), method->capabilities().distance, method->capabilities().depth,
          [method, tolerance](const Case& c, const Problems& problems) { return ask_other(*method, tolerance, c, problems); }});
   }
   return all;

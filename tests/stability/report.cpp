@@ -3,6 +3,7 @@
 #include "report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 
@@ -58,19 +59,22 @@ std::string line(const char* format, Values... values) {
   return buffer;
 }
 
-constexpr const char* kHeader = "%-28s %5s %8s %8s %8s %8s %8s %8s %8s %8s %9s\n";
+constexpr const char* kHeader = "%-28s %5s %8s %8s %8s %8s %8s %8s %8s %8s %8s %9s %9s\n";
 
 std::string header(const char* first) {
-  std::string words =
-      line(kHeader, first, "cases", "wrong", "wrong", "NaN or", "not ter-", "no", "un-", "touching", "not", "worst");
-  return words + line(kHeader, "", "", "verdict", "distance", "thrown", "minated", "answer", "decided", "", "taken", "error");
+  std::string words = line(kHeader, first, "cases", "wrong", "wrong", "wrong", "NaN or", "not ter-", "no", "un-", "touching",
+                           "not", "worst", "worst");
+  return words + line(kHeader, "", "", "verdict", "distance", "depth", "thrown", "minated", "answer", "decided", "", "taken",
+                      "distance", "depth");
 }
 
-std::string row(const std::string& name, const Sum& s, bool gives_distance) {
-  const std::string distance = gives_distance ? std::to_string(s.wrong_distance) : "n/a";
-  const std::string error = gives_distance && s.cases ? line("%.1e", s.worst_error) : "n/a";
-  return line("%-28s %5d %8d %8s %8d %8d %8d %8d %8d %8d %9s\n", name.c_str(), s.cases, s.wrong_verdict, distance.c_str(),
-              s.no_number, s.not_terminated, s.not_converged, s.undecided, s.touching, s.not_applicable, error.c_str());
+std::string row(const std::string& name, const Sum& s, const MethodReport& method) {
+  const auto count = [](bool given, int n) { return given ? std::to_string(n) : std::string("n/a"); };
+  const auto error = [&](bool given, double e) { return given && s.cases ? line("%.1e", e) : std::string("n/a"); };
+  return line("%-28s %5d %8d %8s %8s %8d %8d %8d %8d %8d %8d %9s %9s\n", name.c_str(), s.cases, s.wrong_verdict,
+              count(method.gives_distance, s.wrong_distance).c_str(), count(method.gives_depth, s.wrong_depth).c_str(),
+              s.no_number, s.not_terminated, s.not_converged, s.undecided, s.touching, s.not_applicable,
+              error(method.gives_distance, s.worst_error).c_str(), error(method.gives_depth, s.worst_depth_error).c_str());
 }
 
 nlohmann::ordered_json json_of(const Sum& s) {
@@ -79,6 +83,7 @@ nlohmann::ordered_json json_of(const Sum& s) {
           {"failed", s.failed},
           {"wrong_verdict", s.wrong_verdict},
           {"wrong_distance", s.wrong_distance},
+          {"wrong_depth", s.wrong_depth},
           {"nan_or_thrown", s.no_number},
           {"not_terminated", s.not_terminated},
           {"no_answer", s.not_converged},
@@ -86,7 +91,8 @@ nlohmann::ordered_json json_of(const Sum& s) {
           {"touching", s.touching},
           {"answers", s.answers},
           {"most_steps", s.most_steps},
-          {"worst_error", s.worst_error}};
+          {"worst_error", s.worst_error},
+          {"worst_depth_error", s.worst_depth_error}};
 }
 
 }  // namespace
@@ -105,6 +111,7 @@ void Sum::add(const Findings& f) {
   failed += f.failed();
   wrong_verdict += f.wrong_verdict;
   wrong_distance += f.wrong_distance;
+  wrong_depth += f.wrong_depth;
   no_number += f.no_number;
   not_terminated += f.not_terminated;
   not_converged += f.not_converged;
@@ -113,6 +120,7 @@ void Sum::add(const Findings& f) {
   answers += f.answers;
   most_steps = std::max(most_steps, f.most_steps);
   worst_error = std::max(worst_error, f.worst_error);
+  worst_depth_error = std::max(worst_depth_error, f.worst_depth_error);
 }
 
 void MethodReport::add(const Case& c, const Findings& findings) {
@@ -122,13 +130,14 @@ void MethodReport::add(const Case& c, const Findings& findings) {
   if (it == groups.end()) it = groups.insert(groups.end(), {group, Sum{}});
   it->second.add(findings);
   total.add(findings);
+  depths.push_back(findings.depth);
   if (findings.failed()) failures.push_back({c.name, findings.first_fault});
 }
 
 std::string text(const MethodReport& report) {
   std::string all = report.name + ": " + report.settings + "\n" + header("family");
-  for (const auto& [name, sum] : report.groups) all += row(name, sum, report.gives_distance);
-  all += row("all", report.total, report.gives_distance);
+  for (const auto& [name, sum] : report.groups) all += row(name, sum, report);
+  all += row("all", report.total, report);
   all += line("%llu answers, most steps %u\n", static_cast<unsigned long long>(report.total.answers), report.total.most_steps);
   for (const Failure& f : report.failures) all += "  " + f.name + ": " + f.text + "\n";
   return all + "\n";
@@ -136,7 +145,7 @@ std::string text(const MethodReport& report) {
 
 std::string totals_text(const std::vector<MethodReport>& reports) {
   std::string all = header("method");
-  for (const MethodReport& r : reports) all += row(r.name, r.total, r.gives_distance);
+  for (const MethodReport& r : reports) all += row(r.name, r.total, r);
   return all;
 }
 
@@ -157,15 +166,30 @@ std::string matrix(const std::vector<MethodReport>& reports) {
   return all + total + "\n";
 }
 
+std::string depths(const std::vector<Case>& cases, const std::vector<MethodReport>& reports) {
+  std::string head = "| case | depth |", rule = "|---|---|", all;
+  for (const MethodReport& r : reports) {
+    if (r.gives_depth) head += " " + r.name + " |", rule += "---|";
+  }
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    all += "| " + cases[i].name + " | " + (cases[i].expected ? line("%.6g", -cases[i].expected->distance) : "-") + " |";
+    for (const MethodReport& r : reports) {
+      if (r.gives_depth) all += std::isnan(r.depths[i]) ? " none |" : line(" %.6g |", r.depths[i]);
+    }
+    all += "\n";
+  }
+  return head + "\n" + rule + "\n" + all;
+}
+
 std::string csv(const std::vector<MethodReport>& reports) {
   std::string all =
       "method,group,cases,not_taken,failed,wrong_verdict,wrong_distance,nan_or_thrown,not_terminated,no_answer,undecided,"
-      "touching,worst_error\n";
+      "touching,worst_error,wrong_depth,worst_depth_error\n";
   for (const MethodReport& r : reports) {
     for (const auto& [name, s] : r.groups) {
-      all += line("%s,%s,%d,%d,%d,%d,%d,%d,%d,%d,%d,%d,%.2g\n", r.name.c_str(), name.c_str(), s.cases, s.not_applicable,
+      all += line("%s,%s,%d,%d,%d,%d,%d,%d,%d,%d,%d,%d,%.2g,%d,%.2g\n", r.name.c_str(), name.c_str(), s.cases, s.not_applicable,
                   s.failed, s.wrong_verdict, s.wrong_distance, s.no_number, s.not_terminated, s.not_converged, s.undecided,
-                  s.touching, s.worst_error);
+                  s.touching, s.worst_error, s.wrong_depth, s.worst_depth_error);
     }
   }
   return all;

@@ -3,6 +3,7 @@
 #include "trial.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -82,7 +83,9 @@ class Trial {
       ++findings_.answers;
       if (const Judgement j = judge_signed(problem_, a_, b_, answer); j.fault != Fault::None)
         findings_.add(j.fault, "signed_distance (" + text(way) + "): " + j.message);
-      findings_.worst_error = std::max(findings_.worst_error, error_of(problem_, answer) / problem_.size);
+      double& worst = answer.lower < 0 ? findings_.worst_depth_error : findings_.worst_error;
+      worst = std::max(worst, error_of(problem_, answer) / problem_.size);
+      if (std::isnan(findings_.depth)) findings_.depth = -answer.lower;
       add_verdict(way, answer.verdict);
     }
     for (const double threshold : thresholds_) {
@@ -132,6 +135,7 @@ Problems problems_of(const Case& c) { return {problem_of(c), problem_of(swapped(
 void Findings::add(Fault fault, std::string_view message) {
   wrong_verdict |= fault == Fault::WrongVerdict;
   wrong_distance |= fault == Fault::WrongDistance;
+  wrong_depth |= fault == Fault::WrongDepth;
   no_number |= fault == Fault::NoNumber;
   not_converged |= fault == Fault::NotConverged;
   note(message);

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <type_traits>
 
@@ -21,16 +22,18 @@ Problems problems_of(const Case& c);
 /// What a method made of one case. Flags: of at least one of its answers. Plain bytes, so that another process can send it.
 struct Findings {
   bool applicable = true;  ///< the method takes bodies like these
-  bool wrong_verdict = false, wrong_distance = false;
+  bool wrong_verdict = false, wrong_distance = false, wrong_depth = false;
   bool no_number = false;       ///< NaN, an exception or a crash
   bool not_terminated = false;  ///< within the wall-clock limit
   bool not_converged = false;   ///< it says itself that it has no answer
   bool undecided = false, touching = false;
   std::uint32_t answers = 0, most_steps = 0;
-  double worst_error = 0;       ///< over size, of the distances of all answers with the right verdict
-  char first_fault[320] = {0};  ///< in words
+  double worst_error = 0;        ///< over size, of the distances of all answers with the right verdict
+  double worst_depth_error = 0;  ///< likewise, of depths
+  double depth = std::numeric_limits<double>::quiet_NaN();  ///< the first answer to that question
+  char first_fault[320] = {0};                              ///< in words
 
-  bool failed() const { return wrong_verdict || wrong_distance || no_number || not_terminated || not_converged; }
+  bool failed() const { return wrong_verdict || wrong_distance || wrong_depth || no_number || not_terminated || not_converged; }
   void add(Fault fault, std::string_view message);
   void note(std::string_view message);  ///< the first fault's words stay
 };

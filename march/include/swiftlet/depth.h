@@ -22,10 +22,8 @@ struct SignedAnswer {
   /// Unit, from A to B; 0 without one. `lower` is proved by the gap of the bodies in this direction, negative where they
   /// overlap: B moved along it by -lower is free.
   Vec3 normal = Vec3::Zero();
-  /// Nearest points, or those deepest inside the other body, of the levels below: point_b - point_a is the signed distance
-  /// times the normal.
-  Vec3 point_a = Vec3::Zero();
-  Vec3 point_b = Vec3::Zero();  ///< on B
+  Vec3 point_a = Vec3::Zero();               ///< the nearest point of A, or that deepest inside B, on the level below
+  Vec3 point_b = Vec3::Zero();               ///< of B: point_b - point_a is the signed distance times the normal
   int level_a = 0, level_b = 0;              ///< the level pair they lie on
   Handle feature_a, feature_b;               ///< on those levels; of an overlap, a pair of the deepest
   OverlapProof proof;                        ///< Overlapping with `upper` = 0: vertices of level 0
