@@ -16,6 +16,10 @@
 namespace swiftlet {
 namespace {
 
+struct FreeAligned {
+  void operator()(std::byte* p) const { ::operator delete[](p, std::align_val_t{64}); }
+};
+
 static_assert(std::endian::native == std::endian::little, "the block is little-endian; a byte-swapping reader is not written");
 static_assert(sizeof(Vertex) == 32 && sizeof(FacePlane) == 32 && sizeof(Handle) == 4);
 
@@ -69,6 +73,9 @@ std::uint64_t hash_of(std::span<const std::byte> bytes) {
   }
   return hash;
 }
+
+AlignedBytes::AlignedBytes(std::size_t size)
+    : size_(size), data_(new (std::align_val_t{64}) std::byte[size](), FreeAligned()) {}
 
 AlignedBytes compose(const BlockParts& parts) {
   BlockHeader header = parts.header;

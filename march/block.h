@@ -81,10 +81,7 @@ struct Block {
 /// A block to be written.
 class AlignedBytes {
  public:
-  explicit AlignedBytes(std::size_t size)
-      : size_(size), data_(new (std::align_val_t{64}) std::byte[size](), [](std::byte* p) {
-          ::operator delete[](p, std::align_val_t{64});
-        }) {}
+  explicit AlignedBytes(std::size_t size);
   std::byte* data() { return data_.get(); }
   std::span<const std::byte> view() const { return {data_.get(), size_}; }
   operator Block() && { return {data_, view()}; }

@@ -49,8 +49,8 @@ static inline DoubleDouble reach(const Model& model, const Wide& direction, Plac
 template <class Body>
 static inline double gap_along(const Body& a, const Body& b, const Motion& b_in_a, const Vec& n) {
   const Wide direction = wide(n);
-  const DoubleDouble most_a = reach(a, direction, [](const Vec& p) { return wide(p); }),
-                     least_b = -reach(b, -direction, [&](const Vec& p) { return wide(b_in_a, p); });
+  const DoubleDouble most_a = reach(a, direction, [](const Vec&p) { return wide(p); }),
+                     least_b = -reach(b, -direction, [&](const Vec&p) { return wide(b_in_a, p); });
   return double(least_b - most_a) / norm(n);
 }
 

@@ -173,7 +173,8 @@ class Descent {
   bool glance(Place& place, const Vec& direction) {
     Place at = finest_sight();
     const Scene pair = scene_at(at);
-    take(at, look(pair, a_.level(at.level_a), b_.level(at.level_b), direction, [](const Sight&) { return Look::Enough; }), pair);
+    take(at, look(pair, a_.level(at.level_a), b_.level(at.level_b), direction, [](const Sight&) { return Look::Enough; }),
+         pair);
     if (!answered()) return false;
     place = at;
     return record(place), true;

@@ -114,8 +114,8 @@ inline constexpr double kDeviationPrecision = 1e-3;
 /// Faces turn as much towards a normal where the cosines differ by no more than this: an angle of 4 ulps of single precision,
 /// 2^-21, takes half its square from a cosine. Dimensionless.
 inline constexpr double kSameFacing = 0x1p-43;
-/// A point of the patch before counts for so much more area than another: enough that the corners of a regular polygon, of which
-/// any four opposite ones are as good, do not take turns. A fraction.
+/// A point of the patch before counts for so much more area than another: enough that the corners of a regular polygon, of
+/// which any four opposite ones are as good, do not take turns. A fraction.
 inline constexpr double kKeptWorth = 0.125;
 
 // ---- Bounds on work: counts ------------------------------------------------------------------------------------------------

@@ -83,8 +83,8 @@ MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, 
                   const MarchRule& rule = {});
 
 /// A vertex of level 0 that faces a direction (body frame, any length), by one look-up: in the start table, or else in the
-/// support maps. `Handle{}` where a model has neither, or no level 0. For a march of two level 0 from tables the line of centres
-/// is the direction, to B in A's frame and to A in B's; it saves the climbs of the default.
+/// support maps. `Handle{}` where a model has neither, or no level 0. For a march of two level 0 from tables the line of
+/// centres is the direction, to B in A's frame and to A in B's; it saves the climbs of the default.
 Handle table_start(const Model& model, const Vec3& direction);
 
 /// The caller's tag of a feature: a face's own, of an edge or vertex the largest among its faces; 0 without tags, and of

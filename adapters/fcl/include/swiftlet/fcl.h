@@ -21,7 +21,8 @@
 
 namespace swiftlet::fcl {
 
-/// Per face of the finest level present its number of vertices and then these, counter-clockwise seen from outside: fcl::Convex's layout.
+/// Per face of the finest level present its number of vertices and then these, counter-clockwise seen from outside:
+/// fcl::Convex's layout.
 std::vector<int> face_loops(const Model& model);
 
 /// An fcl::Convex of a model's finest level; to every other solver it is just that. The model must be a solid.
