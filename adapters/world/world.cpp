@@ -21,57 +21,55 @@ QueryOptions with_radii(const Placed& a, const Placed& b) {
   return options;
 }
 
-/// Both hulls, how far apart or how deep.
-struct Hulls {
+/// Both bodies in A's frame, how far apart or how deep.
+struct Pair {
   Pose a_in_world, b_in_a;
   SignedAnswer answer;
   Found found = Found::Nothing;
 };
 
-Hulls hulls_of(const Placed& a, const Placed& b, double beyond, PairSeed& seed) {
-  Hulls hulls;
-  hulls.a_in_world = orthonormal(a.in_world);
-  hulls.b_in_a = relative(hulls.a_in_world, orthonormal(b.in_world));
-  QueryOptions options;
-  options.beyond = beyond + a.radius + b.radius;
-  hulls.answer = signed_distance(*a.model, *b.model, hulls.b_in_a, seed, options);
-  if (hulls.answer.status == Status::InvalidPose) return hulls;
-  if (hulls.answer.status == Status::Beyond)
-    hulls.found = Found::Beyond;
-  else if (!hulls.answer.normal.isZero())
-    hulls.found = Found::Nearest;
-  return hulls;
+Pair pair_of(const Placed& a, const Placed& b, double beyond, PairSeed& seed) {
+  Pair pair;
+  pair.a_in_world = orthonormal(a.in_world);
+  pair.b_in_a = relative(pair.a_in_world, orthonormal(b.in_world));
+  QueryOptions options = with_radii(a, b);
+  options.beyond = beyond;
+  pair.answer = signed_distance(*a.model, *b.model, pair.b_in_a, seed, options);
+  if (pair.answer.status == Status::InvalidPose) return pair;
+  if (pair.answer.status == Status::Beyond)
+    pair.found = Found::Beyond;
+  else if (!pair.answer.normal.isZero())
+    pair.found = Found::Nearest;
+  return pair;
 }
 
 }  // namespace
 
 Nearest nearest(const Placed& a, const Placed& b, double beyond, PairSeed& seed) {
-  const Hulls hulls = hulls_of(a, b, beyond, seed);
-  Nearest result;
-  result.found = hulls.found;
-  result.verdict = hulls.answer.verdict;
-  result.distance = hulls.answer.lower - (a.radius + b.radius);
-  result.normal = hulls.a_in_world.rotation * hulls.answer.normal;
-  result.point_a = transform(hulls.a_in_world, hulls.answer.point_a) + a.radius * result.normal;
-  result.point_b = transform(hulls.a_in_world, hulls.answer.point_b) - b.radius * result.normal;
-  return result;
+  const Pair pair = pair_of(a, b, beyond, seed);
+  return {pair.found,
+          pair.answer.verdict,
+          pair.answer.lower,
+          pair.a_in_world.rotation * pair.answer.normal,
+          transform(pair.a_in_world, pair.answer.point_a),
+          transform(pair.a_in_world, pair.answer.point_b)};
 }
 
 Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t most_points, PairSeed& seed, Patch& patch) {
-  const Hulls hulls = hulls_of(a, b, beyond, seed);
+  const Pair pair = pair_of(a, b, beyond, seed);
   PatchOptions options;
-  options.margin = beyond + a.radius + b.radius;
+  options.margin = beyond;
   options.most_points = most_points;
-  patch =
-      hulls.found == Found::Nearest ? swiftlet::patch(*a.model, *b.model, hulls.b_in_a, hulls.answer, options, patch) : Patch{};
-  patch.normal = hulls.a_in_world.rotation * patch.normal;
+  options.radius_a = a.radius;
+  options.radius_b = b.radius;
+  patch = pair.found == Found::Nearest ? swiftlet::patch(*a.model, *b.model, pair.b_in_a, pair.answer, options, patch) : Patch{};
+  patch.normal = pair.a_in_world.rotation * patch.normal;
   for (std::uint32_t i = 0; i < patch.count; ++i) {
     PatchPoint& p = patch.points[i];
-    p.point_a = transform(hulls.a_in_world, p.point_a) + a.radius * patch.normal;
-    p.point_b = transform(hulls.a_in_world, p.point_b) - b.radius * patch.normal;
-    p.separation -= a.radius + b.radius;
+    p.point_a = transform(pair.a_in_world, p.point_a);
+    p.point_b = transform(pair.a_in_world, p.point_b);
   }
-  return hulls.found;
+  return pair.found;
 }
 
 Verdict meeting(const Placed& a, const Placed& b, PairSeed& seed) {

@@ -30,7 +30,7 @@ enum class Found : std::uint8_t {
 /// Points and normal in the world's frame.
 struct Nearest {
   Found found = Found::Nothing;          ///< Nothing: all else is void
-  Verdict verdict = Verdict::Undecided;  ///< of the hulls without their roundings
+  Verdict verdict = Verdict::Undecided;  ///< of the bodies
   double distance = 0;                   ///< of the bodies, below 0 where they overlap; `lower`, never above the truth
   Vec3 normal = Vec3::Zero();            ///< unit, from A to B
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< on the bodies' surfaces, where they overlap the deepest
