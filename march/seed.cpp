@@ -22,11 +22,12 @@ std::array<std::int16_t, 3> packed(const Vec& unit) {
 }
 
 /// Whether a line of centres of squared length `length2` turned since a seed packed it by so much that a walk would cross more
-/// than `kWarmEdges` edges of the level: sqrt(V) edges make a radian. From the square of the chord, 2 - 2 cos.
-bool turned_far(const Vec& line, double length2, const std::array<std::int16_t, 3>& was, const ConvexView& view) {
+/// than `kWarmEdges` edges of the level, or so: sqrt(V) edges make a radian. From the square of the chord, 2 - 2 cos.
+bool turned_far(const Vec& line, double length2, const std::array<std::int16_t, 3>& was, const Level& level) {
   if ((was[0] | was[1] | was[2]) == 0) return false;  // of a seed made by hand nothing is known
   const double along = dot(line, {double(was[0]), double(was[1]), double(was[2])});
-  const double whole = 2 * double(view.vertices.size()), least = whole - kWarmEdges * kWarmEdges;
+  const double edges = level.map_side > 0 ? kWarmEdges : kWarmEdgesUnmapped;
+  const double whole = 2 * double(level.view.vertices.size()), least = whole - edges * edges;
   return least > 0 && !(along > 0 && along * along * (whole * whole) >= least * least * length2 * (kLineUnit * kLineUnit));
 }
 
@@ -99,8 +100,8 @@ Place first_place(const Model& a, const Model& b, const Line& line, const PairSe
       const bool has_choice = seed.level_a < coarsest.level_a || seed.level_b < coarsest.level_b || level_a.map_side > 0;
       if (options.start == StartPolicy::Paper || !has_choice) return place;
       const double length2 = dot(line.in_a, line.in_a);
-      if (turned_far(line.in_a, length2, seed.line_in_a, level_a.view) ||
-          turned_far(line.in_b, length2, seed.line_in_b, level_b.view))
+      if (turned_far(line.in_a, length2, seed.line_in_a, level_a) ||
+          turned_far(line.in_b, length2, seed.line_in_b, level_b))
         return coarsest;
       place.trial_steps = kTrialSteps;
       return place;

@@ -127,9 +127,9 @@ inline constexpr std::uint32_t kStallLimit = 12;
 /// distance or is the last but `kProgressPatience`.
 inline constexpr int kProgressLimit = 400, kProgressPatience = 8;
 /// An Automatic start walks from the seed's features while the line of centres turned by no more than so many edges of a body,
-/// at half a step each; a cold start costs as much as about six steps. A walk that takes more than the second is given up for
-/// a cold start (ski rental).
-inline constexpr double kWarmEdges = 6;
+/// at half a step each; a cold start costs as much as about six steps, on a level without a map, which is come down to, twice
+/// that. A walk that takes more than the last is given up for a cold start (ski rental).
+inline constexpr double kWarmEdges = 6, kWarmEdgesUnmapped = 12;
 inline constexpr std::uint32_t kTrialSteps = 16;
 /// Bodies nearer than so many times the sum of their radii are told apart on fine levels: coarse ones deviate by a tenth, and
 /// their maps by as much.
