@@ -78,10 +78,9 @@ Timed timed(Work work) {
   return t;
 }
 
-Timed in_threads(Load& load, unsigned count) {
-  return timed([&] {
-    return load.run(0, load.pairs(), [&](auto pairs, auto answers) { distance(pairs, answers, {}, on_threads(count)); });
-  });
+Timed in_threads(Load& load, const Executor& threads) {
+  return timed(
+      [&] { return load.run(0, load.pairs(), [&](auto pairs, auto answers) { distance(pairs, answers, {}, threads); }); });
 }
 
 /// Each process says when it is ready, waits for all, and sends its hash.
@@ -131,12 +130,13 @@ int main(int argc, char** argv) {
   const auto count = unsigned(std::atoi(argv[2]));
   const Shelf shelf(argv[1]);
   Load load(shelf);
+  const swiftlet::Executor on_all = swiftlet::on_threads(count);
   std::vector<double> ratios, threads, processes, one;
   const double queries = double(load.pairs()) * (kMovesPerRound + 1);
   bool same = true;
   for (int round = 0; round < kRounds; ++round) {
     // The processes leave the seeds here as they were; so the threads begin from those of the round before, and both alike.
-    const Timed p = in_processes(load, count), single = in_processes(load, 1), t = in_threads(load, count);
+    const Timed p = in_processes(load, count), single = in_processes(load, 1), t = in_threads(load, on_all);
     same = same && p.hash == t.hash && p.hash == single.hash;
     ratios.push_back(p.seconds / t.seconds);
     threads.push_back(1e9 * t.seconds / queries);

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <barrier>
 #include <cassert>
+#include <memory>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -29,18 +32,58 @@ void each(std::span<const PairQuery> pairs, std::span<Answer> answers, const Que
   });
 }
 
+/// Threads that wait for tasks: one that starts with each batch may get a core milliseconds late. Each has a range of tasks of
+/// its own, the same in every batch, so that what it touches stays in its core's cache; then it takes what the others have
+/// left.
+class Workers {
+ public:
+  explicit Workers(std::size_t count) : next_(count), gate_(std::ptrdiff_t(count)) {
+    for (std::size_t worker = 1; worker < count; ++worker) {
+      threads_.emplace_back([this, worker] {
+        for (gate_.arrive_and_wait(); task_; gate_.arrive_and_wait()) {
+          work(worker);
+          gate_.arrive_and_wait();
+        }
+      });
+    }
+  }
+  ~Workers() { gate_.arrive_and_wait(); }
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  void run(std::size_t tasks, const std::function<void(std::size_t)>& task) {
+    const std::lock_guard<std::mutex> turn(turn_);
+    tasks_ = tasks;
+    task_ = &task;
+    for (std::size_t range = 0; range < next_.size(); ++range) next_[range] = begin(range);
+    gate_.arrive_and_wait();
+    work(0);
+    gate_.arrive_and_wait();
+    task_ = nullptr;
+  }
+
+ private:
+  std::size_t begin(std::size_t range) const { return tasks_ * range / next_.size(); }
+  void work(std::size_t own) {
+    for (std::size_t k = 0; k < next_.size(); ++k) {
+      const std::size_t range = (own + k) % next_.size();
+      for (std::size_t i; (i = next_[range].fetch_add(1, std::memory_order_relaxed)) < begin(range + 1);) (*task_)(i);
+    }
+  }
+
+  std::vector<std::atomic<std::size_t>> next_;  ///< task of each range
+  std::size_t tasks_ = 0;
+  const std::function<void(std::size_t)>* task_ = nullptr;
+  std::mutex turn_;
+  std::barrier<> gate_;  ///< opens when a batch is there, and when it is done
+  std::vector<std::jthread> threads_;
+};
+
 }  // namespace
 
 Executor on_threads(unsigned count) {
-  return [count](std::size_t tasks, const std::function<void(std::size_t)>& task) {
-    std::atomic<std::size_t> next{0};
-    const auto work = [&] {
-      for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < tasks;) task(i);
-    };
-    std::vector<std::jthread> others;
-    for (std::size_t i = 1; i < std::min<std::size_t>(count, tasks); ++i) others.emplace_back(work);
-    work();
-  };
+  return [workers = std::make_shared<Workers>(std::max(1u, count))](
+             std::size_t tasks, const std::function<void(std::size_t)>& task) { workers->run(tasks, task); };
 }
 
 void distance(std::span<const PairQuery> pairs, std::span<Answer> answers, const QueryOptions& options,

@@ -24,7 +24,8 @@ struct PairQuery {
 /// Calls task(0) to task(count - 1), each once, in any order, on any threads, and returns when all are done.
 using Executor = std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)>;
 
-/// Runs on the calling thread and `count` - 1 more, which it starts and ends: worth it from some 100 microseconds of work on.
+/// Runs on the calling thread and `count` - 1 more, which wait for batches as long as the executor or a copy of it lives: keep
+/// it. Batches that share one take turns. Worth it from some 100 microseconds of work on.
 Executor on_threads(unsigned count);
 
 /// `distance` for each of `pairs`, into the answer of the same index. `answers` has room for all. The trace of `options` is not

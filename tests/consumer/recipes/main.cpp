@@ -114,7 +114,8 @@ std::vector<swiftlet::Answer> many_pairs(const Model& a, const Model& b, const s
 void threads(const std::vector<swiftlet::PairQuery>& pairs, const std::vector<swiftlet::Answer>& alone) {
   // recipe
   std::vector<swiftlet::Answer> answers(pairs.size());
-  swiftlet::distance(pairs, answers, {}, swiftlet::on_threads(4));
+  const swiftlet::Executor threads = swiftlet::on_threads(4);  // kept: they wait for the next batch
+  swiftlet::distance(pairs, answers, {}, threads);
 
   const swiftlet::Executor ours = [](std::size_t count, const std::function<void(std::size_t)>& task) {
     std::vector<std::future<void>> running;  // here your own job system
