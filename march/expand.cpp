@@ -80,11 +80,6 @@ V3<Real> unit(const V3<Real>& v) {
   }
 }
 
-Vec least_axis(const Vec& v) {
-  const double x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z);
-  return x <= y && x <= z ? Vec{1, 0, 0} : y <= z ? Vec{0, 1, 0} : Vec{0, 0, 1};
-}
-
 /// How an expansion ended.
 enum class End : std::uint8_t {
   Enough,     ///< the goal is met

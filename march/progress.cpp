@@ -143,10 +143,6 @@ class Contact {
     }
     return best;
   }
-  static Vec least_axis(const Vec& v) {
-    const double x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z);
-    return x <= y && x <= z ? Vec{1, 0, 0} : y <= z ? Vec{0, 1, 0} : Vec{0, 0, 1};
-  }
 
   bool known(std::uint32_t a, std::uint32_t b) const {
     for (int k = 0; k < count_; ++k) {

@@ -100,8 +100,7 @@ Place first_place(const Model& a, const Model& b, const Line& line, const PairSe
       const bool has_choice = seed.level_a < coarsest.level_a || seed.level_b < coarsest.level_b || level_a.map_side > 0;
       if (options.start == StartPolicy::Paper || !has_choice) return place;
       const double length2 = dot(line.in_a, line.in_a);
-      if (turned_far(line.in_a, length2, seed.line_in_a, level_a) ||
-          turned_far(line.in_b, length2, seed.line_in_b, level_b))
+      if (turned_far(line.in_a, length2, seed.line_in_a, level_a) || turned_far(line.in_b, length2, seed.line_in_b, level_b))
         return coarsest;
       place.trial_steps = kTrialSteps;
       return place;

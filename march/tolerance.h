@@ -84,8 +84,7 @@ inline constexpr double kMapError = 128 * kU;
 /// the magnitude of coordinates and translation.
 inline constexpr double kDoubleDoubleError = 0x1p-90;
 
-// ---- Where surfaces cross (crossing.cpp): doubles guide, exact signs decide
-// --------------------------------------------------
+// ---- Where surfaces cross (crossing.cpp): doubles guide, exact signs decide ------------------------------------------------
 
 /// A triple product u x v . w of points in the common frame, |w| at most twice the magnitude: each difference is off by two
 /// point errors, 4 + 2, and kTripleProductError on six terms of at most |u||v||w|, 17 of the point error, which is at least 7 u
@@ -147,8 +146,7 @@ inline constexpr int kMostCorners = 64;
 /// Points of the inner polytope that tells touching from overlapping: 300 vertices slid into contact needed 20 to 32.
 inline constexpr int kContactPoints = 32;
 
-// ---- Depth (expand.cpp)
-// ------------------------------------------------------------------------------------------------------
+// ---- Depth (expand.cpp) -----------------------------------------------------------------------------------------------------
 
 /// A tetrahedron is begun where each point lies so many point errors off the others: its centre, at a quarter of its height,
 /// then lies below each face by more than the two that a facet asks for. Dimensionless.

@@ -51,6 +51,12 @@ static inline V3<R> cross(const V3<R>& a, const V3<R>& b) {
 static inline double larger(double x, double y) { return x < y ? y : x; }
 static inline double smaller(double x, double y) { return y < x ? y : x; }
 
+/// The axis that `v` goes least along: one across it is far from it.
+static inline Vec least_axis(const Vec& v) {
+  const double x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z);
+  return x <= y && x <= z ? Vec{1, 0, 0} : y <= z ? Vec{0, 1, 0} : Vec{0, 0, 1};
+}
+
 /// Numbers only: a NaN may go unseen.
 static inline double max_abs(const Vec& a) { return larger(larger(std::fabs(a.x), std::fabs(a.y)), std::fabs(a.z)); }
 /// To kNormError; where squares underflow never less than the length.

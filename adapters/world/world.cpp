@@ -62,7 +62,8 @@ Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t mo
   options.most_points = most_points;
   options.radius_a = a.radius;
   options.radius_b = b.radius;
-  patch = pair.found == Found::Nearest ? swiftlet::patch(*a.model, *b.model, pair.b_in_a, pair.answer, options, patch) : Patch{};
+  patch =
+      pair.found == Found::Nearest ? swiftlet::patch(*a.model, *b.model, pair.b_in_a, pair.answer, options, patch) : Patch{};
   patch.normal = pair.a_in_world.rotation * patch.normal;
   for (std::uint32_t i = 0; i < patch.count; ++i) {
     PatchPoint& p = patch.points[i];

@@ -78,6 +78,15 @@ double step_limit(const Level& a, const Level& b) {
   return 2 * (12 * features(a) * features(b) + 1);
 }
 
+/// What an exact answer, signed or not, must not be.
+template <class AnyAnswer>
+std::string unsettled(const AnyAnswer& answer) {
+  if (answer.status != Status::Converged) return text("the status is %d", int(answer.status));
+  if (answer.verdict == Verdict::Undecided) return "exact without a verdict";
+  if (answer.level_a != 0 || answer.level_b != 0) return text("exact on levels (%d, %d)", answer.level_a, answer.level_b);
+  return "";
+}
+
 }  // namespace
 
 Subject make_subject(std::vector<Vec3> points, Model model) {
@@ -190,9 +199,7 @@ std::string Judge::proved_verdict(const Answer& answer) {
 
 std::string Judge::exact(const Answer& answer) {
   if (std::string wrong = interval(answer); !wrong.empty()) return wrong;
-  if (answer.status != Status::Converged) return text("the status is %d", int(answer.status));
-  if (answer.verdict == Verdict::Undecided) return "exact without a verdict";
-  if (answer.level_a != 0 || answer.level_b != 0) return text("exact on levels (%d, %d)", answer.level_a, answer.level_b);
+  if (std::string wrong = unsettled(answer); !wrong.empty()) return wrong;
   if (!(answer.upper - answer.lower <= law_two_))
     return text("%g wide, law 2 allows %g", answer.upper - answer.lower, law_two_);
   return answer.verdict == Verdict::Overlapping ? "" : witnesses(answer);
@@ -268,9 +275,7 @@ std::string Judge::signed_upper_bound(const SignedAnswer& answer) {
 
 std::string Judge::exact(const SignedAnswer& answer) {
   if (std::string wrong = interval(answer); !wrong.empty()) return wrong;
-  if (answer.status != Status::Converged) return text("the status is %d", int(answer.status));
-  if (answer.verdict == Verdict::Undecided) return "exact without a verdict";
-  if (answer.level_a != 0 || answer.level_b != 0) return text("exact on levels (%d, %d)", answer.level_a, answer.level_b);
+  if (std::string wrong = unsettled(answer); !wrong.empty()) return wrong;
   const double width = answer.verdict == Verdict::Touching ? 2 * law_two_ : law_two_;  // a depth and a distance
   if (!(answer.upper - answer.lower <= width)) return text("%g wide, law 2 allows %g", answer.upper - answer.lower, width);
   const Vec3 &p = answer.point_a, &q = answer.point_b;
