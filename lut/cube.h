@@ -12,16 +12,23 @@ namespace swiftlet::lut {
 
 static inline std::uint32_t cube_cell_count(std::uint32_t side) { return 6 * side * side; }
 
-/// The cell of a direction of any length; of no direction (0, NaN) the first one. side >= 1.
-static inline std::uint32_t cube_cell(std::uint32_t side, double x, double y, double z) {
+/// Where a direction leaves the cube.
+struct CubeHit {
+  std::uint32_t cell;
+  double major;  ///< the direction's largest coordinate, as a magnitude
+};
+/// Of a direction of any length; of no direction (0, NaN) some cell. side >= 1.
+static inline CubeHit cube_hit(std::uint32_t side, double x, double y, double z) {
   const double d[5] = {x, y, z, x, y}, ax = std::fabs(x), ay = std::fabs(y), az = std::fabs(z);
   const std::uint32_t axis = ax >= ay ? (ax >= az ? 0 : 2) : (ay >= az ? 1 : 2);
-  const double major = d[axis], half = 0.5 * side, scale = half / std::fabs(major);
-  const double u = d[axis + 1] * scale + half, v = d[axis + 2] * scale + half;
-  if (!(u >= 0 && v >= 0)) return 0;
-  const auto clipped = [side](double at) { return at < side ? std::uint32_t(at) : side - 1; };
-  return ((2 * axis + (major < 0)) * side + clipped(v)) * side + clipped(u);
+  const double major = std::fabs(d[axis]), half = 0.5 * side, scale = half / major, last = side - 0.5;
+  const auto index = [&](double along) {  // -1 rounded to a little less is still cell 0; NaN and 1 the last one
+    const double at = along * scale + half;
+    return std::uint32_t(at < last ? at : last);
+  };
+  return {((2 * axis + (d[axis] < 0)) * side + index(d[axis + 2])) * side + index(d[axis + 1]), major};
 }
+static inline std::uint32_t cube_cell(std::uint32_t side, double x, double y, double z) { return cube_hit(side, x, y, z).cell; }
 
 /// The corner (i, j) of the grid on a face of the cube [-1, 1]^3, i and j in 0..2 side: even on the borders between cells, odd
 /// in their middle. `face` is cell / side^2, the cell's row and column are (j - 1) / 2 and (i - 1) / 2 of its middle.

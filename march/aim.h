@@ -65,23 +65,34 @@ enum class Look {
   On,    ///< on, until nothing changes
 };
 
-/// Looks from `direction`, of any length, for as long as `judge` says of each sight. Both levels have maps.
-template <class Judge>
-Sight look(const Scene& scene, const Level& a, const Level& b, const Vec& direction, Judge judge) {
-  const Resting body = body_a(scene);
+/// What maps say along one direction, of any length.
+struct Glimpse {
+  Vec normal{0, 0, 0};                            ///< the direction at length 1; 0 where it names none
+  std::uint32_t a = 0, b = 0;                     ///< supports along it and against it, as the maps know them
+  Vec point{0, 0, 0}, apart{0, 0, 0};             ///< A's, and from there to B's
+  double gap = 0, lower = 0;                      ///< as in Sight
+};
+/// Looks up before the length is known: cells are where a direction of any length goes.
+static inline Glimpse glimpse(const Scene& scene, const Level& a, const Level& b, const Vec& direction) {
   const Moved other = body_b(scene);
+  const MapSupport top_a = look_up(a, direction), top_b = look_up(b, -other.into(direction));
+  const Vec q = body_a(scene).point(top_a.vertex), p = other.point(top_b.vertex) - q;
+  const auto [n, scale] = unit_of(direction);
+  return {n, top_a.vertex, top_b.vertex, q, p, dot(n, p), gap(scene, n, p, (top_a.excess + top_b.excess) * scale)};
+}
+
+/// Looks on from what was seen, for as long as `judge` says of each sight. Both levels have maps.
+template <class Judge>
+Sight look(const Scene& scene, const Level& a, const Level& b, Glimpse seen, Judge judge) {
   const double few = kAimEdges * (a.edge_length + b.edge_length);
   Simplex simplex;
   Sight s;
   bool was_near = false;
   s.upper = std::numeric_limits<double>::infinity();
-  Vec n = normalised(direction);
   for (int steps = 0;; ++steps) {
-    const MapSupport top_a = look_up(a, n), top_b = look_up(b, -other.into(n));
-    const Vec q = body.point(top_a.vertex), p = other.point(top_b.vertex) - q;
-    s.a = top_a.vertex, s.b = top_b.vertex;
-    s.gap = dot(n, p);
-    s.lower = swiftlet::gap(scene, n, p, top_a.excess + top_b.excess);
+    const Vec &n = seen.normal, &q = seen.point, &p = seen.apart;
+    s.a = seen.a, s.b = seen.b;
+    s.gap = seen.gap, s.lower = seen.lower;
     s.normal = n;
     const double upper = norm(p) * (1 + kNormError) + scene.point_error;
     if (upper < s.upper) s.upper = upper, s.point_a = q, s.point_b = q + p;
@@ -101,7 +112,7 @@ Sight look(const Scene& scene, const Level& a, const Level& b, const Vec& direct
     const double distance = norm(nearest.point), nearer = distance * (1 + kNormError) + scene.point_error;
     if (nearer < s.upper) s.upper = nearer, s.point_a = point_a, s.point_b = point_a + nearest.point;
     if (!(distance > scene.point_error)) return s;
-    n = nearest.point * (1 / distance);
+    seen = glimpse(scene, a, b, nearest.point);
   }
 }
 

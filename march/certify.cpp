@@ -209,11 +209,6 @@ std::uint32_t support_b(const Scene& scene, const Vec& n, std::uint32_t start, s
   return climb(scene.b, start, Ordering(n, scene.b_in_a), -1, plane_tests);
 }
 
-double gap(const Scene& scene, const Vec& n, const Vec& c, double slack) {
-  const double products = std::fabs(n.x * c.x) + std::fabs(n.y * c.y) + std::fabs(n.z * c.z);
-  return dot(n, c) - (kGapError * products + scene.motion_error + slack);
-}
-
 double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack) {
   return gap(scene, n, body_b(scene).point(vb) - body_a(scene).point(va), slack);
 }

@@ -53,7 +53,10 @@ Supports supports(const Scene& scene, const Vec& n, std::uint32_t start_a, std::
 
 /// A lower bound on n . c for unit n, less `slack`, where c is the rounded difference of a vertex of each body; may be
 /// negative.
-double gap(const Scene& scene, const Vec& n, const Vec& c, double slack);
+static inline double gap(const Scene& scene, const Vec& n, const Vec& c, double slack) {
+  const double products = std::fabs(n.x * c.x) + std::fabs(n.y * c.y) + std::fabs(n.z * c.z);
+  return dot(n, c) - (kGapError * products + scene.motion_error + slack);
+}
 double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack = 0);
 
 /// An upper bound on the distance from one vertex pair.

@@ -46,7 +46,7 @@ class Deepening {
       : a_(a),
         b_(b),
         motion_(m),
-        line_(line_of_centres(a, b, m)),
+        line_(line_of_centres(m, between_centres(a, b, m))),
         pose_error_(pose_error),
         stretch_(std::sqrt(1 + 3 * pose_error)),
         shift_(norm(m.t)),

@@ -9,7 +9,9 @@
 #include "aim.h"
 #include "certify.h"
 #include "conclude.h"
+#include "glance.h"
 #include "overlap.h"
+#include "pair.h"
 #include "progress.h"
 #include "seed.h"
 #include "walk.h"
@@ -19,33 +21,34 @@ namespace {
 
 class Descent {
  public:
-  Descent(const Model& a, const Model& b, const Motion& m, double pose_error, const QueryOptions& options, const Target& target,
-          Answer& answer)
-      : a_(a),
-        b_(b),
-        motion_(m),
-        line_(line_of_centres(a, b, m)),
-        pose_error_(pose_error),
-        stretch_(std::sqrt(1 + 3 * pose_error)),
+  Descent(const Pair& pair, const QueryOptions& options, const Target& target, const Glance& first, Answer& answer)
+      : pair_(pair),
+        a_(pair.a),
+        b_(pair.b),
+        line_(line_of_centres(pair.motion, pair.line)),
         options_(options),
         target_(target),
-        shift_(norm(m.t)),
-        law_two_(law_two(a.level(0).view, b.level(0).view, shift_, pose_error)),
-        finest_a_(finest_allowed(a, options)),
-        finest_b_(finest_allowed(b, options)),
-        may_aim_(options.start == StartPolicy::Automatic && a.map_level() < a.level_count() && b.map_level() < b.level_count()),
-        exact_(target.absolute == 0 && target.relative == 0 && options.start != StartPolicy::Paper && !is_threshold()),
+        law_two_(pair.law_two),
+        finest_a_(pair.finest_a),
+        finest_b_(pair.finest_b),
+        exact_(target.absolute == 0 && target.relative == 0 && options.start != StartPolicy::Paper && !target.is_threshold()),
+        first_(first),
         answer_(answer) {}
 
   void start(PairSeed& seed) {
     Place place = first_place(a_, b_, line_, seed, options_);
     const bool warm = is_warm(place.start);
-    if (warm && may_aim_ && is_threshold() && !seed.met && (glance(place, direction(seed)) || glance(place, line_.in_a)))
-      return finish(place);
-    const bool walked = warm && march(place, may_aim_), seen = !walked && may_aim_ && aim(place = first_sight(), line_.in_a);
+    const bool walked = warm && march(place, pair_.may_look);
+    const bool seen = !walked && pair_.may_look && aim(place, last_direction(line_.in_a, seed));
     if (!walked && !seen) march(place, false);
-    if (warm || !seen || !is_threshold())
-      store(place, seed);  // vertices that were only looked at are no better start than none
+    const bool met = met_ == MarchStatus::Overlapping;
+    if (seen && (target_.is_threshold() || !met)) {  // vertices that were only looked at are no better start than none
+      remember(line_, vec(answer_.normal), seed);
+      seed.a = seed.b = {};
+      seed.met = met;
+    } else {
+      store(place, seed);
+    }
     finish(place);
   }
 
@@ -66,15 +69,11 @@ class Descent {
   }
 
  private:
-  bool is_threshold() const { return target_.clear_above < std::numeric_limits<double>::infinity(); }
   static bool is_warm(const MarchStart& start) { return start.a.kind() != FeatureKind::None; }
+  static bool same_levels(const Place& x, const Place& y) { return x.level_a == y.level_a && x.level_b == y.level_b; }
   bool finest(const Place& place) const { return place.level_a == finest_a_ && place.level_b == finest_b_; }
-  Scene scene_at(const Place& place) const {
-    return scene(a_.level(place.level_a).view, b_.level(place.level_b).view, motion_, shift_, pose_error_);
-  }
-  double deviation(int level_a, int level_b) const {
-    return a_.level(level_a).deviation + stretch_ * b_.level(level_b).deviation;
-  }
+  Scene scene_at(const Place& place) const { return pair_.scene_at(place); }
+  double deviation(int level_a, int level_b) const { return pair_.deviation(level_a, level_b); }
   /// Certified progress may have taken one more than the budget.
   std::uint32_t steps_left() const { return options_.step_budget - std::min(answer_.steps, options_.step_budget); }
   /// Where nothing is allowed, nothing is narrow: an exact answer is known by its verdict.
@@ -83,17 +82,17 @@ class Descent {
     return allowed > 0 && width <= allowed;
   }
   /// Thresholds are passed only by more than law 2's bound: nearer, what can be proved depends on the start.
+  bool clears(double lower) const { return lower > target_.clear_above + law_two_; }
   bool answers(double lower, double upper) const {
-    return narrow(lower, upper - lower) || lower > target_.clear_above + law_two_ || upper < target_.hit_below - law_two_;
+    return clears(lower) || narrow(lower, upper - lower) || upper < target_.hit_below - law_two_;
   }
   bool answered() const { return answers(answer_.lower, answer_.upper); }
 
   /// From a pair that was not narrow enough to finer ones.
   void narrow_down(Place& place) {
     if (!finest(place)) place = refined(place);
-    const bool has_maps = may_aim_ && place.level_a >= a_.map_level() && place.level_b >= b_.map_level();
-    const Vec normal = vec(answer_.normal);
-    if (has_maps && aim(place = exact_ ? finest_sight() : place, max_abs(normal) > 0 ? normal : line_.in_a)) return;
+    const bool has_maps = pair_.may_look && place.level_a >= a_.map_level() && place.level_b >= b_.map_level();
+    if (has_maps && aim(place, vec(answer_.normal))) return;
     march(place, false);
   }
 
@@ -109,51 +108,46 @@ class Descent {
     }
   }
 
-  /// The finest pair with maps.
-  Place finest_sight() const { return {std::max(a_.map_level(), finest_a_), std::max(b_.map_level(), finest_b_), {}}; }
-  Place finer_sight(const Place& place) const {
-    const Place least = finest_sight();
-    return {std::max(place.level_a - 1, least.level_a), std::max(place.level_b - 1, least.level_b), {}};
-  }
-  bool is_finest_sight(const Place& place) const {
-    const Place least = finest_sight();
-    return place.level_a == least.level_a && place.level_b == least.level_b;
-  }
-
-  /// The coarsest pair with maps that might answer.
-  Place first_sight() const {
-    if (exact_) return finest_sight();
-    Place place = coarsest_place(a_, b_);
-    // The bodies are no farther apart than their centres: a pair that deviates by more than that allows cannot answer.
-    const double most = norm(line_.in_a), close = kCloseRadii * (a_.radius() + b_.radius()) + target_.clear_above;
-    const auto too_coarse = [&] {
-      return is_threshold() ? most <= close : !narrow(most, deviation(place.level_a, place.level_b));
-    };
-    while (!is_finest_sight(place) && too_coarse()) place = finer_sight(place);
+  /// The coarsest pair with maps, none coarser than `most_a` and `most_b`, that is likely to answer bodies no farther apart than
+  /// `distance`, or the finest.
+  Place sight_for(double distance, int most_a, int most_b) const {
+    Place place = pair_.finest_sight();
+    while (place.level_a < most_a || place.level_b < most_b) {
+      const Place coarser{std::min(place.level_a + 1, most_a), std::min(place.level_b + 1, most_b), {}};
+      if (!narrow(distance, kSightShare * pair_.sight_error(coarser))) break;
+      place = coarser;
+    }
     return place;
   }
 
-  /// Looks along support maps, on the pair given and on finer ones. Whether that answers; else `place` becomes where to walk
-  /// from. Each pair is looked at afresh, so that a looser tolerance only stops earlier.
-  bool aim(Place& place, const Vec& direction) {
+  /// Looks along support maps, where a glance did or on the coarsest pair that might answer, then on finer ones. Whether that
+  /// answers; else `place` becomes where to walk from. Each pair is looked at afresh, from the same direction: a looser
+  /// tolerance only stops earlier.
+  bool aim(Place& place, const Vec& likely) {
+    const bool glanced = max_abs(first_.seen.normal) > 0;
+    const Vec direction = glanced ? first_.seen.normal : max_abs(likely) > 0 ? likely : line_.in_a;
+    const Place least = pair_.finest_sight();
+    place = glanced ? first_.at : exact_ ? least : sight_for(norm(line_.in_a), a_.level_count() - 1, b_.level_count() - 1);
     for (;;) {
-      const bool last = is_finest_sight(place);
+      const bool last = same_levels(place, least);
       const Scene pair = scene_at(place);
+      const Level &of_a = a_.level(place.level_a), &of_b = b_.level(place.level_b);
       const double error = deviation(place.level_a, place.level_b);
-      const Sight sight = look(pair, a_.level(place.level_a), b_.level(place.level_b), direction, [&](const Sight& s) {
+      const Glimpse seen = glanced && same_levels(place, first_.at) ? first_.seen : glimpse(pair, of_a, of_b, direction);
+      const Sight sight = look(pair, of_a, of_b, seen, [&](const Sight& s) {
         if (exact_) return Look::Near;
-        const double lower = larger(answer_.lower, s.lower);
-        if (answers(lower, smaller(answer_.upper, s.upper + error))) return Look::Enough;
+        const double lower = larger(answer_.lower, s.lower), upper = smaller(answer_.upper, s.upper + error);
+        if (answers(lower, upper) || (!last && !narrow(upper, error))) return Look::Enough;
         return narrow(lower, kDoubtShare * (s.gap - s.lower) + error) ? Look::On : Look::Near;
       });
       take(place, sight, pair);
-      if (is_threshold() && last && !answered() && sight.gap > target_.clear_above) climb(place, sight, pair);
+      if (target_.is_threshold() && last && !answered() && sight.gap > target_.clear_above) climb(place, sight, pair);
       if (answered() || (sight.meets && overlap(place, sight))) return record(place), true;
-      if (!is_threshold()) place.start = {{FeatureKind::Vertex, sight.start_a}, {FeatureKind::Vertex, sight.start_b}};
+      if (!target_.is_threshold()) place.start = {{FeatureKind::Vertex, sight.start_a}, {FeatureKind::Vertex, sight.start_b}};
       if (finest(place)) return false;  // a walk on the same pair follows
       record(place);
       if (last) return place = refined(place), false;
-      place = finer_sight(place);
+      place = sight_for(answer_.upper, std::max(place.level_a - 1, least.level_a), std::max(place.level_b - 1, least.level_b));
     }
   }
 
@@ -167,17 +161,6 @@ class Descent {
   void take(Place& place, const Sight& s, const Scene& pair) {
     place.start = {{FeatureKind::Vertex, s.a}, {FeatureKind::Vertex, s.b}};
     carry(place, {std::max(0.0, s.lower), s.upper, s.normal, s.point_a, s.point_b}, pair.law_two);
-  }
-
-  /// Looks once along a direction on the finest pair with maps. Whether that answers.
-  bool glance(Place& place, const Vec& direction) {
-    Place at = finest_sight();
-    const Scene pair = scene_at(at);
-    take(at, look(pair, a_.level(at.level_a), b_.level(at.level_b), direction, [](const Sight&) { return Look::Enough; }),
-         pair);
-    if (!answered()) return false;
-    place = at;
-    return record(place), true;
   }
 
   /// Whether the vertices that seem to meet prove that the exact hulls do: their descendants on level 0.
@@ -197,7 +180,7 @@ class Descent {
 
   /// Whether features of the exact hulls at which a walk got inside prove that these overlap.
   bool overlap(const Scene& pair, const Place& place) {
-    if (place.level_a != 0 || place.level_b != 0 || !may_aim_) return false;
+    if (place.level_a != 0 || place.level_b != 0 || !pair_.may_look) return false;
     const Vec n = across(pair, place.start);
     const std::uint32_t behind_a = about_farthest(a_, -n), behind_b = about_farthest(b_, body_b(pair).into(n));
     OverlapProof proof;
@@ -348,7 +331,7 @@ class Descent {
       answer_.verdict = Verdict::Disjoint;
     const bool exact =
         exact_levels && (met_ == MarchStatus::Disjoint || met_ == MarchStatus::Touching || met_ == MarchStatus::Overlapping);
-    if (answer_.lower > target_.clear_above + law_two_)
+    if (clears(answer_.lower))
       answer_.status = Status::Beyond;
     else if (answered() || exact)
       answer_.status = Status::Converged;
@@ -389,17 +372,16 @@ class Descent {
     }
   }
 
+  const Pair& pair_;
   const Model& a_;
   const Model& b_;
-  const Motion motion_;
   const Line line_;
-  const double pose_error_, stretch_;  ///< stretch bounds the rotation's norm
   const QueryOptions& options_;
   const Target& target_;
-  const double shift_, law_two_;
+  const double law_two_;
   const int finest_a_, finest_b_;
-  const bool may_aim_;  ///< both models have support maps and the caller leaves us the choice
-  const bool exact_;    ///< no coarser pair will do
+  const bool exact_;  ///< no coarser pair will do
+  const Glance& first_;
   Answer& answer_;
   MarchStatus met_ = MarchStatus::NotConverged;
   MarchStart coarsest_;  ///< features on the coarsest pair, for StartPolicy::Coarsest
@@ -418,7 +400,11 @@ Answer descend(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& see
     answer.status = Status::InvalidPose;
     return answer;
   }
-  Descent descent(a, b, m, quality.error, options, target, answer);
+  const Pair pair(a, b, m, quality.error, options);
+  Glance first;
+  const bool asks = target.is_threshold() && pair.may_look && !seed.met && !so_far && options.trace.empty();
+  if (asks && glance(pair, target, seed, first, answer)) return answer;
+  Descent descent(pair, options, target, first, answer);
   so_far ? descent.go_on(*so_far, seed) : descent.start(seed);
   return answer;
 }

@@ -3,7 +3,6 @@
 #include "dilate.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "double_double.h"
@@ -13,12 +12,6 @@ namespace swiftlet {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// What is no radius counts as 0 where asserts are off.
-double radius(double value) {
-  assert(value >= 0 && value <= kMostCoordinate);
-  return larger(0, value);
-}
 
 Verdict verdict(double lower, double upper, double law_two) {
   if (upper < 0) return Verdict::Overlapping;
@@ -35,8 +28,6 @@ Answer known(Answer answer, Status status) {
 }
 
 }  // namespace
-
-Dilation::Dilation(const QueryOptions& options) : a_(radius(options.radius_a)), b_(radius(options.radius_b)) {}
 
 double Dilation::law_two(const Model& a, const Model& b, const Motion& b_in_a) const {
   const ConvexView &hull_a = a.level(0).view, &hull_b = b.level(0).view;
@@ -99,9 +90,7 @@ void Dilation::move_points(AnyAnswer& answer) const {
 }
 
 Answer ask(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
-           const Target& target, const Answer* so_far) {
-  const Dilation dilation(options);
-  if (dilation.none()) return descend(a, b, b_in_a, seed, options, target, so_far);
+           const Target& target, const Dilation& dilation, const Answer* so_far) {
   if (so_far && so_far->verdict == Verdict::Overlapping) return known(*so_far, Status::Converged);
   const double law_two = dilation.law_two(a, b, motion(b_in_a));
   Answer hulls;

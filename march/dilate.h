@@ -4,6 +4,8 @@
 // answer becomes theirs. The only place that knows radii, but for checks. Knows nothing of the way between.
 #pragma once
 
+#include <cassert>
+
 #include <swiftlet/depth.h>
 
 #include "descend.h"
@@ -14,7 +16,7 @@ namespace swiftlet {
 /// By the radii of some options. Without any, all that it makes of questions and answers is themselves.
 class Dilation {
  public:
-  explicit Dilation(const QueryOptions& options);
+  explicit Dilation(const QueryOptions& options) : a_(radius(options.radius_a)), b_(radius(options.radius_b)) {}
 
   bool none() const { return a_ + b_ == 0; }
   double sum() const { return a_ + b_; }
@@ -32,6 +34,11 @@ class Dilation {
 
  private:
   Dilation(double a, double b) : a_(a), b_(b) {}
+  /// What is no radius counts as 0 where asserts are off.
+  static double radius(double value) {
+    assert(value >= 0 && value <= kMostCoordinate);
+    return larger(0, value);
+  }
   /// bound - a - b, at most a place off, to the side that is named.
   double less(double bound, double side) const;
   double more(double bound, double side) const;
@@ -45,7 +52,13 @@ class Dilation {
 };
 
 /// Answers `target` of the hulls of `a` and `b` dilated by the options' radii: from the seed, or on from `so_far`.
-Answer ask(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
-           const Target& target, const Answer* so_far = nullptr);
+Answer ask(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options, const Target& target,
+           const Dilation& dilation, const Answer* so_far);
+static inline Answer ask(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
+                         const Target& target, const Answer* so_far = nullptr) {
+  const Dilation dilation(options);
+  return dilation.none() ? descend(a, b, b_in_a, seed, options, target, so_far)
+                         : ask(a, b, b_in_a, seed, options, target, dilation, so_far);
+}
 
 }  // namespace swiftlet

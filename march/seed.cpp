@@ -53,11 +53,6 @@ Handle table_start(const Model& model, const Vec3& direction) {
   return {FeatureKind::Vertex, model.table()[sample]};
 }
 
-Line line_of_centres(const Model& a, const Model& b, const Motion& m) {
-  const Vec d = apply(m, vec(b.level(0).view.centre)) - vec(a.level(0).view.centre);
-  return {d, -turn_back(m, d)};
-}
-
 MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& plane_tests) {
   MarchStart s = start;
   const bool known_a = names_feature(scene.a, s.a), known_b = names_feature(scene.b, s.b);
@@ -69,12 +64,6 @@ MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& p
   if (s.a.kind() == FeatureKind::Face && s.b.kind() == FeatureKind::Face) s.b = {FeatureKind::Vertex, any_vertex(scene.b, s.b)};
   return s;
 }
-
-int finest_allowed(const Model& model, const QueryOptions& options) {
-  return std::clamp(options.finest_level, model.finest_level(), model.level_count() - 1);
-}
-
-Place coarsest_place(const Model& a, const Model& b) { return {a.level_count() - 1, b.level_count() - 1, {}}; }
 
 Place first_place(const Model& a, const Model& b, const Line& line, const PairSeed& seed, const QueryOptions& options) {
   const int finest_a = finest_allowed(a, options), finest_b = finest_allowed(b, options);
@@ -106,8 +95,6 @@ Place first_place(const Model& a, const Model& b, const Line& line, const PairSe
       return place;
   }
 }
-
-Vec direction(const PairSeed& seed) { return {double(seed.normal[0]), double(seed.normal[1]), double(seed.normal[2])}; }
 
 void remember(const Line& line, const Vec& normal, PairSeed& seed) {
   seed.normal = packed(normal * (1 - 4 * kU));

@@ -3,6 +3,7 @@
 // Where a march starts: from stored features, from the line of centres, from a table. Knows levels and links, walks nothing.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include <swiftlet/march.h>
@@ -28,23 +29,37 @@ MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& p
 struct Line {
   Vec in_a, in_b;
 };
-Line line_of_centres(const Model& a, const Model& b, const Motion& b_in_a);
+static inline Vec between_centres(const Model& a, const Model& b, const Motion& b_in_a) {
+  return apply(b_in_a, vec(b.level(0).view.centre)) - vec(a.level(0).view.centre);
+}
+static inline Line line_of_centres(const Motion& b_in_a, const Vec& between) { return {between, -turn_back(b_in_a, between)}; }
 
 /// Where a query begins.
 Place first_place(const Model& a, const Model& b, const Line& line, const PairSeed& seed, const QueryOptions& options);
 
-/// Notes the line of centres and the direction of an answer in the seed; and the latter as it was noted.
+/// Notes the line of centres and the direction of an answer in the seed.
 void remember(const Line& line, const Vec& normal, PairSeed& seed);
-Vec direction(const PairSeed& seed);
+static inline Vec direction(const PairSeed& seed) {
+  return {double(seed.normal[0]), double(seed.normal[1]), double(seed.normal[2])};
+}
+/// That direction while the line of centres has not turned by more than kSameLine, else 0.
+static inline Vec last_direction(const Vec& line, const PairSeed& seed) {
+  const Vec was{double(seed.line_in_a[0]), double(seed.line_in_a[1]), double(seed.line_in_a[2])};
+  const double along = dot(line, was);
+  const bool same = along > 0 && along * along > kSameLine * kSameLine * dot(line, line) * dot(was, was);
+  return same ? direction(seed) : Vec{0, 0, 0};
+}
 
 /// Whether a handle, of any bits, is a feature of the view.
 bool names_feature(const ConvexView& view, Handle feature);
 
 /// The finest level of a model that a query may read.
-int finest_allowed(const Model& model, const QueryOptions& options);
+static inline int finest_allowed(const Model& model, const QueryOptions& options) {
+  return std::clamp(options.finest_level, model.finest_level(), model.level_count() - 1);
+}
 
 /// The coarsest pair, from nothing.
-Place coarsest_place(const Model& a, const Model& b);
+static inline Place coarsest_place(const Model& a, const Model& b) { return {a.level_count() - 1, b.level_count() - 1, {}}; }
 
 /// The feature one level finer, or coarser.
 Handle child(const Model& model, int level, Handle feature);

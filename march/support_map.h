@@ -41,8 +41,9 @@ struct MapSupport {
   double excess;  ///< times the direction's length; rounding included
 };
 static inline MapSupport look_up(const Level& level, const Vec& n) {
-  const std::uint32_t entry = level.support_map[lut::cube_cell(level.map_side, n.x, n.y, n.z)];
-  return {map_vertex(entry), (map_excess(entry) + kMapError) * level.view.extent * max_abs(n)};
+  const lut::CubeHit hit = lut::cube_hit(level.map_side, n.x, n.y, n.z);
+  const std::uint32_t entry = level.support_map[hit.cell];
+  return {map_vertex(entry), (map_excess(entry) + kMapError) * level.view.extent * hit.major};
 }
 
 }  // namespace swiftlet

@@ -130,12 +130,17 @@ inline constexpr int kProgressLimit = 400, kProgressPatience = 8;
 /// that. A walk that takes more than the last is given up for a cold start (ski rental).
 inline constexpr double kWarmEdges = 6, kWarmEdgesUnmapped = 12;
 inline constexpr std::uint32_t kTrialSteps = 16;
+/// An answer's direction is tried again while the line of centres turned by less than this cosine says, 8 degrees.
+inline constexpr double kSameLine = 0.99;
 /// Bodies nearer than so many times the sum of their radii are told apart on fine levels: coarse ones deviate by a tenth, and
 /// their maps by as much.
 inline constexpr double kCloseRadii = 1.25;
 /// A cold start looks along maps until its supports lie this many edges of both bodies aside, or so many times.
 inline constexpr double kAimEdges = 2;
 inline constexpr int kAimSteps = 12;
+/// What a map of side s leaves in doubt on average, times s^2 over the extent: 1.1 to 1.7 on ellipsoids. A pair of levels is
+/// looked at where this and its deviation, so many times, are within the tolerance.
+inline constexpr double kMapDoubt = 1.7, kSightShare = 4;
 /// Looks go on past that while what the maps leave in doubt times this is within the tolerance; beyond, they turn in circles.
 inline constexpr double kDoubtShare = 3;
 /// Vertices that doubles may find equally high before a certificate asks exact arithmetic which is the highest: two triangles

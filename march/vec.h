@@ -69,15 +69,24 @@ static inline double norm(const Vec& a) {
   return scale * std::sqrt(dot(w, w)) * (1 + kNormError) + std::numeric_limits<double>::denorm_min();
 }
 
-/// At length 1; 0 where v names no direction. Short ones are scaled by their largest coordinate: squares of 1e-200 are 0.
-static inline Vec normalised(const Vec& v) {
-  if (const double square = dot(v, v); square >= kLeastSquare && square < std::numeric_limits<double>::infinity())
-    return v * (1 / std::sqrt(square));
-  const double scale = max_abs(v);
-  if (!(scale > kLeastDirection)) return {0, 0, 0};
-  const Vec w = v * (1 / scale);
-  return w * (1 / norm(w));
+/// A vector at length 1, and what it was multiplied by; 0 and 0 where it names no direction. Short ones are scaled by their
+/// largest coordinate: squares of 1e-200 are 0.
+struct Unit {
+  Vec n;
+  double scale;
+};
+static inline Unit unit_of(const Vec& v) {
+  if (const double square = dot(v, v); square >= kLeastSquare && square < std::numeric_limits<double>::infinity()) {
+    const double scale = 1 / std::sqrt(square);
+    return {v * scale, scale};
+  }
+  const double largest = max_abs(v);
+  if (!(largest > kLeastDirection)) return {{0, 0, 0}, 0};
+  const Vec w = v * (1 / largest);
+  const double scale = 1 / norm(w);
+  return {w * scale, scale * (1 / largest)};
 }
+static inline Vec normalised(const Vec& v) { return unit_of(v).n; }
 
 /// The same direction, at a length where no product of its coordinates with a body's over- or underflows; 0 where it names
 /// none.
