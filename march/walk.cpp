@@ -1,18 +1,21 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Each state finds the nearest points of its two closed features. A point on a feature's boundary drops to the boundary; else
-// the feature rises to the neighbour in whose direction the distance falls fastest. Mirrored states run with the roles swapped.
+// the feature rises to the neighbour that is highest along the direction between them; where both features have one, on the way
+// to which the distance falls faster. Mirrored states run with the roles swapped.
 //
-//     VV  --ring-->  VE  --ring-->  EE  --face-->  EF  (passing: the edge is clipped to the face's prism)
-//     VV <--clamp--  VE <--clamp--  EE              |
-//                    VE --face-->   VF <------------+-- or EE with a side of the face, or Inside
-//                    VE <--side---  VF --ring--> VF, EE with a side, or Inside
+//     VV  --ring-->  VE  --ring-->  EE  --face--> over the face
+//     VV <--clamp--  VE <--clamp--  EE
+//                    VE --face-->   VF  --ring--> over the face: to VF, EE with a side of it, or Inside
+//                    VE <--side---  VF
 //
 // Where we leave the paper: nearest points on closed features instead of clipped intervals with derivatives, so that no state
-// carries values from the one before (its stale values looped); vertex to vertex in one step where the whole edge falls.
+// carries values from the one before (its stale values looped); vertex to vertex in one step where the whole edge falls; an
+// edge is taken over a face and down to where it ends in one step, so that the two are no state.
 //
 // A state is computed in the frame of its second body, and a ring in its own body's, so that of all points read only the
-// first body's feature is carried over.
+// first body's feature is carried over. Of a state's choices the likely ones are taken without branches, which processors
+// would guess wrong every other time.
 #include "walk.h"
 
 #include <limits>
@@ -34,8 +37,8 @@ struct Move {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-/// What stands beside a feature and rises highest along a direction: as long as that is above the feature, the distance falls
-/// on the way there.
+/// What rises highest along a direction of all that stands beside a feature: the distance falls on the way there if it is above
+/// the feature.
 struct Rise {
   std::uint32_t to = kNone;    ///< half-edge of a ring, or face
   double highest = -kUnknown;  ///< what it rises, times the direction's length
@@ -99,7 +102,7 @@ class Marcher {
       return {vertex(va), face(f), distance2};
     }
     const std::uint32_t to = a.view.head[down.to];
-    return over_face(down.to, to, f, prism, p, b.local(a.point(to)) - p, distance2);
+    return over_face(down.to, to, p, b.local(a.point(to)) - p, prism, f, distance2);
   }
 
   template <class P, class Q>
@@ -124,8 +127,8 @@ class Marcher {
       return {edge(ha), edge(hb), distance2};
     }
     if (rise_a.rate2() >= rise_b.rate2())
-      return swapped(edge_over_face(hb, b0, b1, a, rise_a.to, a.local(b.common(q)), a.into(b.turned(v)), at.t, distance2));
-    return edge_over_face(ha, a0, a1, b, rise_b.to, p, u, at.s, distance2);
+      return swapped(edge_over_face(hb, b0, b1, a.local(b.common(q)), a.into(b.turned(v)), at.t, a, rise_a.to, distance2));
+    return edge_over_face(ha, a0, a1, p, u, at.s, b, rise_b.to, distance2);
   }
 
   static Move swapped(const Move& m) { return {m.second, m.first, m.distance2}; }
@@ -141,7 +144,7 @@ class Marcher {
 
   // From here on all is in the body's own frame.
 
-  /// Among the neighbours of a vertex, the highest along `d`.
+  /// Among the neighbours of a vertex, the highest along `d`. The steepest would take fewer states and more time.
   template <class P>
   Rise ring(P body, std::uint32_t v, const Vec& d) {
     const Vertex& record = body.view.vertices[v];
@@ -152,7 +155,7 @@ class Marcher {
     for (; h < end && !(first_only_ && rise.falls()); ++h) {
       const double along_d = dot(d, body.own(body.view.head[h]) - p);
       rise.to = along_d > rise.highest ? h : rise.to;
-      rise.highest = larger(rise.highest, along_d);
+      rise.highest = larger(along_d, rise.highest);
     }
     walk_.plane_tests += h - begin;
     if (!rise.falls()) return rise;
@@ -177,10 +180,10 @@ class Marcher {
     const Vec to_left = body.own(body.view.head[left]) - q0, to_right = body.own(body.view.head[right]) - q0;
     const double left_rise = dot(d, to_left), right_rise = dot(d, to_right);
     walk_.plane_tests += 2;
-    const bool is_left = left_rise > right_rise || (first_only_ && left_rise > 0);
     Rise rise;
     rise.highest = larger(left_rise, right_rise);
     if (!rise.falls()) return rise;
+    const bool is_left = first_only_ ? left_rise > 0 : left_rise > right_rise;
     const Vec r = is_left ? to_left : to_right;
     rise.to = body.view.face[is_left ? h : right];
     rise.length2 = dot(r, r) - dot(r, u) * dot(r, u) / dot(u, u);
@@ -200,20 +203,19 @@ class Marcher {
     return out;
   }
 
-  /// An edge beside a face, p + x u with x = 0 at its point nearest to the face's side, from vertex `tail` to `head`, where it
-  /// is at s: down to what it meets first.
+  /// Edge `h`, from `tail` along u to `head`, from its point p at s on: over a face that rises towards p.
   template <class Q>
-  Move edge_over_face(std::uint32_t h, std::uint32_t tail, std::uint32_t head, Q body, std::uint32_t f, const Vec& p,
-                      const Vec& u, double s, double distance2) {
+  Move edge_over_face(std::uint32_t h, std::uint32_t tail, std::uint32_t head, const Vec& p, const Vec& u, double s, Q body,
+                      std::uint32_t f, double distance2) {
     const Prism prism(body, f);
     const bool forward = dot(prism.normal(), u) < 0;
-    return over_face(h, forward ? head : tail, f, prism, p, u * (forward ? 1 - s : -s), distance2);
+    return over_face(h, forward ? head : tail, p, u * (forward ? 1 - s : -s), prism, f, distance2);
   }
 
-  /// From p above a face along e, a part of edge `h` that falls, to vertex `to`: there, or to the side where it leaves the
-  /// face's prism, if it does not get below the face before.
+  /// The part p + x e of edge `h` that falls towards a face, x from 0 to 1 at vertex `to`: there, or to the side where it
+  /// leaves the face's prism, if it does not get below the face before.
   template <class Q>
-  Move over_face(std::uint32_t h, std::uint32_t to, std::uint32_t f, const Prism<Q>& prism, const Vec& p, const Vec& e,
+  Move over_face(std::uint32_t h, std::uint32_t to, const Vec& p, const Vec& e, const Prism<Q>& prism, std::uint32_t f,
                  double distance2) {
     double exit = 1;
     std::uint32_t out = kNone;
@@ -232,7 +234,7 @@ class Marcher {
   Walk& walk_;
 };
 
-/// Neither both faces nor an edge and a face is a state: a vertex or an edge of one is as near.
+/// The state of a feature pair. A face and an edge or face is none: a vertex or an edge of one is as near.
 template <class A, class B>
 Move state(Marcher& march, A a, Handle fa, B b, Handle fb) {
   using enum FeatureKind;
@@ -252,19 +254,20 @@ Move state(Marcher& march, A a, Handle fa, B b, Handle fb) {
 }  // namespace
 
 Walk walk(const Scene& scene, Handle a, Handle b, PlaneRule rule, std::uint32_t step_budget) {
-  using enum FeatureKind;
   Walk result;
-  result.a = a.kind() == Edge && b.kind() == Face ? vertex(origin(scene.a, a.index())) : a;
-  result.b = b.kind() == Edge && a.kind() == Face ? vertex(origin(scene.b, b.index())) : b;
+  result.a = a;
+  result.b = b;
+  if (a.kind() == FeatureKind::Edge && b.kind() == FeatureKind::Face) result.a = vertex(origin(scene.a, a.index()));
+  if (b.kind() == FeatureKind::Edge && a.kind() == FeatureKind::Face) result.b = vertex(origin(scene.b, b.index()));
   Marcher march(rule, result);
   double distance2, least2 = kUnknown;
   std::uint32_t stalled = 0;
   do {
     const Move move = state(march, body_a(scene), result.a, body_b(scene), result.b);
     distance2 = move.distance2;
-    stalled = distance2 < least2 ? 0 : stalled + 1;
+    stalled = (stalled + 1) * !(distance2 < least2);
     least2 = smaller(least2, distance2);
-    result.steps += !(move.first == result.a && move.second == result.b);
+    result.steps += (move.first != result.a) | (move.second != result.b);
     result.a = move.first;
     result.b = move.second;
     if (stalled >= kStallLimit && result.end == WalkEnd::Budget) result.end = WalkEnd::Stalled;
