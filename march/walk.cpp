@@ -267,7 +267,7 @@ Walk walk(const Scene& scene, Handle a, Handle b, PlaneRule rule, std::uint32_t 
     distance2 = move.distance2;
     stalled = (stalled + 1) * !(distance2 < least2);
     least2 = smaller(least2, distance2);
-    result.steps += (move.first != result.a) | (move.second != result.b);
+    result.steps += 1 - (move.first == result.a) * (move.second == result.b);
     result.a = move.first;
     result.b = move.second;
     if (stalled >= kStallLimit && result.end == WalkEnd::Budget) result.end = WalkEnd::Stalled;
