@@ -21,14 +21,16 @@ static inline Handle named(const ConvexView& v, Handle feature) {
   return {FeatureKind::Edge, v.twin[feature.index()]};
 }
 
+// Around a ring by arithmetic: of branches some would be guessed wrong in every ring.
+
 /// The half-edge before `half_edge`, clockwise, in the ring of `vertex`, its origin.
 static inline std::uint32_t clockwise(const Vertex& vertex, std::uint32_t half_edge) {
-  return half_edge == vertex.ring_begin ? half_edge + vertex.ring_count - 1 : half_edge - 1;
+  return half_edge - 1 + (half_edge == vertex.ring_begin) * vertex.ring_count;
 }
 
 /// The one after it, counter-clockwise.
 static inline std::uint32_t counter_clockwise(const Vertex& vertex, std::uint32_t half_edge) {
-  return half_edge + 1 == vertex.ring_begin + vertex.ring_count ? vertex.ring_begin : half_edge + 1;
+  return half_edge + 1 - (half_edge + 1 == vertex.ring_begin + vertex.ring_count) * vertex.ring_count;
 }
 
 /// The half-edge after `half_edge` around the exact facet on its left.

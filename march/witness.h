@@ -51,7 +51,7 @@ struct Parameters {
 };
 /// [Ericson 2004, sec. 5.1.9], and s once more from t, so that nearly parallel lines keep their difference perpendicular.
 static inline Parameters nearest_on_segments(const Vec& p0, const Vec& u, double uu, const Vec& q0, const Vec& v, double vv) {
-  const auto clamp = [](double x) { return x > 0 ? x < 1 ? x : 1.0 : 0.0; };
+  const auto clamp = [](double x) { return smaller(1, larger(0, x)); };
   const Vec r = p0 - q0;
   const double uv = dot(u, v), ur = dot(u, r), vr = dot(v, r), area2 = uu * vv - uv * uv;
   const double s = area2 > 0 ? clamp((uv * vr - ur * vv) / area2) : 0.0, t = clamp((uv * s + vr) / vv);

@@ -15,7 +15,7 @@ namespace swiftlet {
 
 /// Which violated Voronoi plane a step follows [Ehmann & Lin 2000, sec. 5.1].
 enum class PlaneRule : std::uint8_t {
-  MostViolated,   ///< the plane that the point is farthest beyond
+  MostViolated,   ///< the plane that the point is farthest beyond; of a vertex's, that of the neighbour highest towards it
   FirstViolated,  ///< the first one found
 };
 
