@@ -51,7 +51,15 @@ class Reference {
 
   int sides() const { return count_ > 1 ? count_ : 0; }
   const Corner& corner(int side) const { return outline_[index_[at(side)]]; }
-  const Corner& next_corner(int side) const { return corner(side + 1 == count_ ? 0 : side + 1); }
+  const Corner& next_corner(int side) const { return corner(next(side)); }
+  /// Of the outline's sides that this one stands for, the one that a place on it belongs to, by the corner it leaves.
+  int part(int side, double x, double y) const {
+    const Corner &p = corner(side), &q = next_corner(side);
+    const auto before = [&](const Corner& c) { return (q.x - p.x) * (c.x - x) + (q.y - p.y) * (c.y - y) < 0; };
+    int i = index_[at(side)];
+    while (outline_.after(i) != index_[at(next(side))] && before(outline_[outline_.after(i)])) i = outline_.after(i);
+    return i;
+  }
   int nearest_corner(double x, double y) const {
     const auto distance2 = [&](int i) {
       const double dx = corner(i).x - x, dy = corner(i).y - y;
@@ -71,6 +79,7 @@ class Reference {
 
  private:
   static std::size_t at(int i) { return std::size_t(i); }
+  int next(int side) const { return side + 1 == count_ ? 0 : side + 1; }
   /// A corner that stands out whatever else does.
   static int rightmost(const Outline& o) {
     int found = 0;
@@ -105,7 +114,7 @@ class Clip {
   }
 
   int count() const { return count_; }
-  Mark operator[](int i) const { return left_[now_][std::size_t(i)].corner; }
+  const Left& operator[](int i) const { return left_[now_][std::size_t(i)]; }
 
  private:
   static constexpr int kMost = int(kMostPlaces);
@@ -224,8 +233,8 @@ class Faces {
     const Clip clip(incident(), reference_, bound_);
     std::size_t count = 0;
     for (int i = 0; i < clip.count(); ++i) {
-      Place c = placed(clip[i]);
-      if (!fits(c)) c = placed({Mark::kNo, reference_.nearest_corner(c.x, c.y)});
+      Place c = placed(clip[i].corner, clip[i].x, clip[i].y);
+      if (!fits(c)) c = placed({Mark::kNo, reference_.nearest_corner(c.x, c.y)}, c.x, c.y);
       if (fits(c)) places[count++] = c;
     }
     return int(count);
@@ -238,7 +247,8 @@ class Faces {
   /// Whether the points lie one above the other.
   bool fits(const Place& c) const { return norm(c.point_b - c.point_a - across_.n * c.separation) <= 2 * bound_; }
 
-  Place placed(const Mark& mark) const {
+  /// What a mark means, seen about there.
+  Place placed(const Mark& mark, double x, double y) const {
     const ConvexView &view_i = a_is_reference_ ? scene_.b : scene_.a, &view_r = a_is_reference_ ? scene_.a : scene_.b;
     Pair p;
     Handle feature_i, feature_r;
@@ -251,8 +261,9 @@ class Faces {
       p = {over(incident(), c.x, c.y), c.p};
       feature_i = face_handle(view_i, incident()), feature_r = corner_handle(c);
     } else {
-      const Corner &i = incident()[mark.incident], &r = reference_.corner(mark.reference);
-      p = crossing(i, incident()[incident().after(mark.incident)], r, reference_.next_corner(mark.reference));
+      const int side = reference_.part(mark.reference, x, y);
+      const Corner &i = incident()[mark.incident], &r = reference()[side];
+      p = crossing(i, incident()[incident().after(mark.incident)], r, reference()[reference().after(side)]);
       feature_i = side_handle(view_i, i), feature_r = side_handle(view_r, r);
     }
     return a_is_reference_ ? place(across_, p.reference, p.incident, feature_r, feature_i)

@@ -10,6 +10,7 @@
 
 #include <swiftlet/depth.h>
 #include <swiftlet/model.h>
+#include <swiftlet/patch.h>
 #include <swiftlet/query.h>
 
 #include "oracle.h"
@@ -58,6 +59,12 @@ class Judge {
   /// times the normal.
   std::string exact(const SignedAnswer& answer);
 
+  /// The patch of an exact answer of these bodies: its normal; as many points as fit and are asked for, none farther apart than
+  /// the margin and law 2's bound; each pair named, no two alike, one above the other, on the vertices and edges that it names,
+  /// within law 2's bound in both bodies and below their surfaces by no more than the flatness; the first as deep as the answer
+  /// says; in order around an area which is most of what both contact faces have in common, by exact clipping.
+  std::string patch(const Patch& patch, const SignedAnswer& answer, const PatchOptions& options) const;
+
   /// Any answer to a query for the signed distance: lower <= truth <= upper.
   std::string interval(const SignedAnswer& answer);
 
@@ -70,6 +77,7 @@ class Judge {
   std::string proved_verdict(const Answer& answer);
   std::string witnesses(const Answer& answer);
   std::string signed_upper_bound(const SignedAnswer& answer);
+  std::string area_of(const Patch& patch, const PatchOptions& options, double bound) const;
   bool within_law_two(const Vec3& p_a, const Subject& subject, std::span<const Vec3> feature, const Pose& pose) const;
 
   const Subject &a_, &b_;
