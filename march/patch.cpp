@@ -23,19 +23,21 @@ class Candidates {
     if (count_ == 0 || witness.separation < least() - bound) all_[std::size_t(count_++)] = witness;
   }
 
-  /// Fills the patch's points: one of least separation, the one farthest from it, then whichever adds most to the area; then
-  /// each but the first is chosen again beside the others.
+  /// Fills the patch's points: one of least separation, the one farthest from it, then whichever adds most to the area, those of
+  /// the patch before first; then each but the first is chosen again beside the others, until all stay.
   void choose(std::uint32_t most, double margin, const Patch& previous, Patch& patch) {
     drop_beyond(margin + bound_);
     if (count_ == 0 || most == 0) return;
     recognise(previous);
     loop_[0] = deepest();
-    for (size_ = 1; size_ < int(most) && grow();) {
+    size_ = 1;
+    for (const Among those : {Among::Known, Among::All}) {
+      while (size_ < int(most) && grow(those)) {
+      }
     }
-    for (int i = 1; i < size_ && size_ < count_; ++i) {
-      std::copy(loop_.begin() + i + 1, loop_.begin() + size_, loop_.begin() + i);
-      --size_;
-      grow();
+    int stayed = size_ < count_ ? 0 : size_;
+    for (int i = 1, rest = kChoices * size_; stayed + 1 < size_ && rest > 0; --rest, i = i + 1 < size_ ? i + 1 : 1) {
+      stayed = stays(i) ? stayed + 1 : 0;
     }
     for (int i = 0; i < size_; ++i) {
       const Place& c = chosen(i);
@@ -45,6 +47,8 @@ class Candidates {
   }
 
  private:
+  enum class Among { Known, All };
+
   const Place& at(int i) const { return all_[std::size_t(i)]; }
   const Place& chosen(int i) const { return at(loop_[std::size_t(i)]); }
 
@@ -65,7 +69,7 @@ class Candidates {
   void recognise(const Patch& previous) {
     for (int i = 0; i < count_; ++i) {
       bool& known = known_[std::size_t(i)] = false;
-      for (std::uint32_t k = 0; k < previous.count; ++k) {
+      for (std::uint32_t k = 0; k < std::min(previous.count, kMostPatchPoints); ++k) {
         const PatchPoint& p = previous.points[k];
         known = known || (p.feature_a == at(i).feature_a && p.feature_b == at(i).feature_b);
       }
@@ -94,10 +98,11 @@ class Candidates {
   }
 
   /// Adds a point to those chosen, which go around counter-clockwise; false where none adds anything.
-  bool grow() {
+  bool grow(Among those) {
     int best = -1, best_side = 0;
     double most = 0;
     for (int i = 0; i < count_; ++i) {
+      if (those == Among::Known && !known_[std::size_t(i)]) continue;
       for (int side = 0; side < size_; ++side) {
         if (const double w = worth(i, side); w > most) most = w, best = i, best_side = side;
       }
@@ -107,6 +112,14 @@ class Candidates {
     loop_[std::size_t(best_side + 1)] = best;
     ++size_;
     return true;
+  }
+
+  /// Chooses one again.
+  bool stays(int i) {
+    const int before = loop_[std::size_t(i)];
+    std::copy(loop_.begin() + i + 1, loop_.begin() + size_, loop_.begin() + i);
+    --size_;
+    return grow(Among::All) && loop_[std::size_t(i)] == before;
   }
 
   double bound_;
