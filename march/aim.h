@@ -49,8 +49,8 @@ class Simplex {
   struct Points {
     Vec a{0, 0, 0}, apart{0, 0, 0};
   };
-  /// Keeps what holds the nearest point; returns the points that its weights stand for: of a triangle seen as a line the nearest
-  /// point is no combination of the corners, and off by more than rounding.
+  /// Keeps what holds the nearest point; returns the points that its weights stand for: of a triangle seen as a line the
+  /// nearest point is no combination of the corners, and off by more than rounding.
   Points reduce(const Nearest& nearest);
   OverlapProof proof() const;
 

@@ -17,18 +17,13 @@ MarchStatus status_of(const Scene& scene, const Goal& goal, const Certificate& c
   return c.lower > 0 ? MarchStatus::Disjoint : MarchStatus::Near;
 }
 
-/// Certified progress may end on vertices that no feature holds: near 0 the origin was in their midst, near the surface all the
-/// same. It names one of them then, and the witness point is elsewhere.
+/// Where certified progress ended.
 void name_features(const Scene& scene, const Certificate& c, MarchResult& r) {
-  const auto lies_off = [&](const Vec& p, const Vec& vertex) { return norm(p - vertex) > scene.law_two; };
-  const auto improve = [](Handle& feature, Handle found) { feature = found == Handle{} ? feature : found; };
   r.a = feature_of(scene.a, c.active, c.active.a);
   r.b = feature_of(scene.b, c.active, c.active.b);
   if (r.status == MarchStatus::Overlapping) return;  // no place
-  if (r.a.kind() == FeatureKind::Vertex && lies_off(c.point_a, body_a(scene).point(r.a.index())))
-    improve(r.a, feature_at_a(scene, c.point_a, r.plane_tests));
-  if (r.b.kind() == FeatureKind::Vertex && lies_off(c.point_b, body_b(scene).point(r.b.index())))
-    improve(r.b, feature_at_b(scene, c.point_b, r.plane_tests));
+  r.a = feature_at_a(scene, r.a, c.point_a, r.plane_tests);
+  r.b = feature_at_b(scene, r.b, c.point_b, r.plane_tests);
 }
 
 /// Fills `r`; true where it is so near a threshold that another start might prove another verdict.

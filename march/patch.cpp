@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <span>
 
+#include "crossing.h"
 #include "outline.h"
 #include "overlay.h"
 #include "ring.h"
@@ -23,8 +24,8 @@ class Candidates {
     if (count_ == 0 || witness.separation < least() - bound) all_[std::size_t(count_++)] = witness;
   }
 
-  /// Fills the patch's points: one of least separation, the one farthest from it, then whichever adds most to the area, those of
-  /// the patch before first; then each but the first is chosen again beside the others, until all stay.
+  /// Fills the patch's points: one of least separation, the one farthest from it, then whichever adds most to the area, those
+  /// of the patch before first; then each but the first is chosen again beside the others, until all stay.
   void choose(std::uint32_t most, double margin, const Patch& previous, Patch& patch) {
     drop_beyond(margin + bound_);
     if (count_ == 0 || most == 0) return;
@@ -140,14 +141,17 @@ Patch grown(const Scene& scene, const Witness& w, double margin, double bound, c
             const Patch& previous) {
   Patch patch;
   const Across across(w.normal, w.point_a);
+  std::uint32_t tests = 0;
+  const Handle at_a = feature_at_a(scene, w.feature_a, w.point_a, tests),
+               at_b = feature_at_b(scene, w.feature_b, w.point_b, tests);
   Outline a, b;
-  outline_a(scene, across, w.feature_a, previous.face_a, options.flatness, a);
-  outline_b(scene, across, w.feature_b, previous.face_b, options.flatness, b);
+  outline_a(scene, across, at_a, previous.face_a, options.flatness, a);
+  outline_b(scene, across, at_b, previous.face_b, options.flatness, b);
   patch.normal = eigen(w.normal);
   if (a.face != kNone) patch.face_a = {FeatureKind::Face, a.face};
   if (b.face != kNone) patch.face_b = {FeatureKind::Face, b.face};
 
-  const Place witness = place(across, w.point_a, w.point_b, named(scene.a, w.feature_a), named(scene.b, w.feature_b));
+  const Place witness = place(across, w.point_a, w.point_b, named(scene.a, at_a), named(scene.b, at_b));
   Candidates candidates(scene, across, a, b, witness, bound);
   candidates.choose(std::min(options.most_points, kMostPatchPoints), margin, previous, patch);
   return patch;

@@ -129,7 +129,8 @@ std::vector<std::uint32_t> flat_faces(const ConvexView& body, Handle face, doubl
     std::vector<std::array<Vec3, 2>> result;
     const auto point = [&](std::uint32_t v) { return Vec3(body.vertices[v].x, body.vertices[v].y, body.vertices[v].z); };
     for (std::uint32_t h = 0; h < body.head.size(); ++h) {
-      if (body.face[h] == f && body.face[body.twin[h]] != f) result.push_back({point(body.head[body.twin[h]]), point(body.head[h])});
+      if (body.face[h] == f && body.face[body.twin[h]] != f)
+        result.push_back({point(body.head[body.twin[h]]), point(body.head[h])});
     }
     return result;
   };

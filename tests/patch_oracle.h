@@ -26,8 +26,8 @@ Overlay overlay(const ConvexView& a, const std::vector<std::uint32_t>& faces_a, 
 /// The area of the hull of some points, as `n` shows them.
 double area(const std::vector<Vec3>& points, const Vec3& n);
 
-/// How far a point is outside of the facet's plane that it is farthest outside of, rounded at last: below 0 in the body, so deep
-/// under its surface. 0 of a body without facets. `in_a`: where the body is.
+/// How far a point is outside of the facet's plane that it is farthest outside of, rounded at last: below 0 in the body, so
+/// deep under its surface. 0 of a body without facets. `in_a`: where the body is.
 double height_over(const ConvexView& body, const Pose& in_a, const Vec3& point);
 
 /// A face, and after it all others whose corners lie within `flatness` times the extent of its plane and on its side.

@@ -185,9 +185,8 @@ void expect_true(const Contacting& c, Shares& shares) {
   ASSERT_EQ(eight.face_a, four.face_a);
 
   const ConvexView &a = c.a.level(0).view, &b = c.b.level(0).view;
-  const oracle::Overlay truth =
-      oracle::overlay(a, oracle::flat_faces(a, eight.face_a, 0x1p-21), b, oracle::flat_faces(b, eight.face_b, 0x1p-21), c.b_in_a,
-                      c.answer.normal);
+  const oracle::Overlay truth = oracle::overlay(a, oracle::flat_faces(a, eight.face_a, 0x1p-21), b,
+                                                oracle::flat_faces(b, eight.face_b, 0x1p-21), c.b_in_a, c.answer.normal);
   const double size = c.a.extent() + c.b.extent(), blur = 16 * c.bound() * size;
   if (truth.corners <= 8) {
     EXPECT_NEAR(shown_area(eight), truth.area, blur);

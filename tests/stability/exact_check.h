@@ -43,8 +43,8 @@ class Judge {
   std::string interval(const Answer& answer);
 
   /// The answer to a query for the exact distance: `interval`, and it converged on level 0 with a verdict and is no wider than
-  /// law 2 allows. Unless overlapping, its points lie within law 2's bound of both bodies, are as far apart as the interval
-  /// says, and differ by their distance times the normal as nearly as the interval implies.
+  /// law 2 allows. Unless overlapping, its points lie within law 2's bound of the features named, are as far apart as the
+  /// interval says, and differ by their distance times the normal as nearly as the interval implies.
   std::string exact(const Answer& answer);
 
   /// The answer to `intersects`: `interval`, and it converged with a verdict.
@@ -55,8 +55,8 @@ class Judge {
 
   /// The answer to a query for the exact signed distance: converged with a verdict, no wider than law 2 allows, `lower` at most
   /// the gap along the normal, `upper` at least the truth: of bodies apart as in `interval`, of an overlap by every plane that
-  /// bounds the Minkowski difference. The points lie within law 2's bound of both bodies, and differ by the signed distance
-  /// times the normal.
+  /// bounds the Minkowski difference. The points lie within law 2's bound of the features named, of an overlap at least of both
+  /// bodies, and differ by the signed distance times the normal.
   std::string exact(const SignedAnswer& answer);
 
   /// The patch of an exact answer of these bodies: its normal; as many points as fit and are asked for, none farther apart than
@@ -78,7 +78,7 @@ class Judge {
   std::string witnesses(const Answer& answer);
   std::string signed_upper_bound(const SignedAnswer& answer);
   std::string area_of(const Patch& patch, const PatchOptions& options, double bound) const;
-  bool within_law_two(const Vec3& p_a, const Subject& subject, std::span<const Vec3> feature, const Pose& pose) const;
+  bool within_law_two(const Vec3& p_a, std::span<const Vec3> points, const Pose& pose) const;
 
   const Subject &a_, &b_;
   Pose b_in_a_;

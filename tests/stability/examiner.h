@@ -81,8 +81,8 @@ class Pair {
   /// The exact signed distance, and again from where that ended.
   SignedAnswer exact_depth(PairSeed& seed);
 
-  /// Of one in 32 exact answers, but of overlaps without depth, the patch, as options of all kinds ask for it; from that of another pair, and again from
-  /// itself, which must keep its points.
+  /// Of one in 32 exact answers, but of overlaps without depth, the patch, as options of all kinds ask for it; from that of
+  /// another pair, and again from itself, which must keep its points.
   template <class AnyAnswer>
   void patches(const AnyAnswer& answer);
 

@@ -92,7 +92,7 @@ std::string Judge::area_of(const Patch& patch, const PatchOptions& options, doub
   const double common = oracle::overlay(a, oracle::flat_faces(a, patch.face_a, options.flatness), b,
                                         oracle::flat_faces(b, patch.face_b, options.flatness), b_in_a_, patch.normal)
                             .area;
-  const auto text = [&](const char* what) { 
+  const auto text = [&](const char* what) {
     return std::to_string(patch.count) + what + std::to_string(shown / common) + " of the area in common";
   };
   if (!(shown <= common + blur)) return text(" points span ");

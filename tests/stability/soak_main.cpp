@@ -147,8 +147,8 @@ class Soak {
 
   static void row(const char* name, const Tally& t) {
     std::printf("%-26s %9llu %9llu %8llu %8llu %6.1f%%  %8llu %8llu %8llu %6u %7.3f %7llu\n", name, count(t.pairs),
-                count(t.answers), count(t.patches), count(t.solved), 100 * t.hit_rate(), count(t.verdicts[1]), count(t.verdicts[2]), count(t.verdicts[3]), t.steps,
-                t.widest, count(t.failed));
+                count(t.answers), count(t.patches), count(t.solved), 100 * t.hit_rate(), count(t.verdicts[1]),
+                count(t.verdicts[2]), count(t.verdicts[3]), t.steps, t.widest, count(t.failed));
   }
   static unsigned long long count(std::uint64_t n) { return n; }
 
