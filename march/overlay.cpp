@@ -117,7 +117,7 @@ class Clip {
   const Left& operator[](int i) const { return left_[now_][std::size_t(i)]; }
 
  private:
-  static constexpr int kMost = int(kMostPlaces);
+  static constexpr int kMost = int(kMostSpots);
 
   void keep(const Left& corner) {
     if (count_ < kMost) left_[now_][std::size_t(count_++)] = corner;
@@ -229,13 +229,13 @@ class Faces {
 
   /// What stays may reach beyond a tip of the reference, or beyond the end of one that is seen as a line: then the corner there
   /// is meant.
-  int corners(std::span<Place, kMostPlaces> places) const {
+  int corners(std::span<Spot, kMostSpots> spots) const {
     const Clip clip(incident(), reference_, bound_);
     std::size_t count = 0;
     for (int i = 0; i < clip.count(); ++i) {
-      Place c = placed(clip[i].corner, clip[i].x, clip[i].y);
+      Spot c = placed(clip[i].corner, clip[i].x, clip[i].y);
       if (!fits(c)) c = placed({Mark::kNo, reference_.nearest_corner(c.x, c.y)}, c.x, c.y);
-      if (fits(c)) places[count++] = c;
+      if (fits(c)) spots[count++] = c;
     }
     return int(count);
   }
@@ -245,10 +245,10 @@ class Faces {
   const Outline& reference() const { return a_is_reference_ ? a_ : b_; }
 
   /// Whether the points lie one above the other.
-  bool fits(const Place& c) const { return norm(c.point_b - c.point_a - across_.n * c.separation) <= 2 * bound_; }
+  bool fits(const Spot& c) const { return norm(c.point_b - c.point_a - across_.n * c.separation) <= 2 * bound_; }
 
   /// What a mark means, seen about there.
-  Place placed(const Mark& mark, double x, double y) const {
+  Spot placed(const Mark& mark, double x, double y) const {
     const ConvexView &view_i = a_is_reference_ ? scene_.b : scene_.a, &view_r = a_is_reference_ ? scene_.a : scene_.b;
     Pair p;
     Handle feature_i, feature_r;
@@ -266,8 +266,8 @@ class Faces {
       p = crossing(i, incident()[incident().after(mark.incident)], r, reference()[reference().after(side)]);
       feature_i = side_handle(view_i, i), feature_r = side_handle(view_r, r);
     }
-    return a_is_reference_ ? place(across_, p.reference, p.incident, feature_r, feature_i)
-                           : place(across_, p.incident, p.reference, feature_i, feature_r);
+    return a_is_reference_ ? spot(across_, p.reference, p.incident, feature_r, feature_i)
+                           : spot(across_, p.incident, p.reference, feature_i, feature_r);
   }
 
   const Scene& scene_;
@@ -280,14 +280,14 @@ class Faces {
 
 }  // namespace
 
-Place place(const Across& across, const Vec& point_a, const Vec& point_b, Handle feature_a, Handle feature_b) {
+Spot spot(const Across& across, const Vec& point_a, const Vec& point_b, Handle feature_a, Handle feature_b) {
   const Vec seen = point_a - across.middle;
   return {dot(across.u, seen), dot(across.v, seen), dot(across.n, point_b - point_a), point_a, point_b, feature_a, feature_b};
 }
 
 int overlay(const Scene& scene, const Across& across, const Outline& a, const Outline& b, double bound,
-            std::span<Place, kMostPlaces> places) {
-  return Faces(scene, across, a, b, bound).corners(places);
+            std::span<Spot, kMostSpots> spots) {
+  return Faces(scene, across, a, b, bound).corners(spots);
 }
 
 }  // namespace swiftlet

@@ -11,6 +11,7 @@
 #include "overlay.h"
 #include "ring.h"
 #include "scene.h"
+#include "seed.h"
 
 namespace swiftlet {
 namespace {
@@ -18,9 +19,9 @@ namespace {
 /// The corners of a common area and the witness.
 class Candidates {
  public:
-  Candidates(const Scene& scene, const Across& across, const Outline& a, const Outline& b, const Place& witness, double bound)
+  Candidates(const Scene& scene, const Across& across, const Outline& a, const Outline& b, const Spot& witness, double bound)
       : bound_(bound) {
-    count_ = overlay(scene, across, a, b, bound, std::span(all_).first<kMostPlaces>());
+    count_ = overlay(scene, across, a, b, bound, std::span(all_).first<kMostSpots>());
     if (count_ == 0 || witness.separation < least() - bound) all_[std::size_t(count_++)] = witness;
   }
 
@@ -41,7 +42,7 @@ class Candidates {
       stayed = stays(i) ? stayed + 1 : 0;
     }
     for (int i = 0; i < size_; ++i) {
-      const Place& c = chosen(i);
+      const Spot& c = chosen(i);
       patch.points[std::size_t(i)] = {eigen(c.point_a), eigen(c.point_b), c.separation, c.feature_a, c.feature_b};
     }
     patch.count = std::uint32_t(size_);
@@ -50,8 +51,8 @@ class Candidates {
  private:
   enum class Among { Known, All };
 
-  const Place& at(int i) const { return all_[std::size_t(i)]; }
-  const Place& chosen(int i) const { return at(loop_[std::size_t(i)]); }
+  const Spot& at(int i) const { return all_[std::size_t(i)]; }
+  const Spot& chosen(int i) const { return at(loop_[std::size_t(i)]); }
 
   double least() const {
     double least = all_[0].separation;
@@ -90,7 +91,7 @@ class Candidates {
   /// How far a candidate lies from the only point, or the area that it adds beyond a side of those chosen; 0 where it hardly
   /// stands out. One of the patch before is worth more.
   double worth(int candidate, int side) const {
-    const Place &c = at(candidate), &p = chosen(side), &q = chosen(side + 1 == size_ ? 0 : side + 1);
+    const Spot &c = at(candidate), &p = chosen(side), &q = chosen(side + 1 == size_ ? 0 : side + 1);
     const double cx = c.x - p.x, cy = c.y - p.y, dx = q.x - p.x, dy = q.y - p.y, area = cx * dy - cy * dx;
     const bool stands_out =
         size_ == 1 ? cx * cx + cy * cy > bound_ * bound_ : area > 0 && area * area > bound_ * bound_ * (dx * dx + dy * dy);
@@ -126,8 +127,8 @@ class Candidates {
   double bound_;
   int count_ = 0, size_ = 0;
   std::array<int, kMostPatchPoints> loop_;
-  std::array<bool, kMostPlaces + 1> known_;  ///< of the patch before
-  std::array<Place, kMostPlaces + 1> all_;
+  std::array<bool, kMostSpots + 1> known_;  ///< of the patch before
+  std::array<Spot, kMostSpots + 1> all_;
 };
 
 /// What a patch grows from, in A's frame; the points are on the hulls.
@@ -151,17 +152,22 @@ Patch grown(const Scene& scene, const Witness& w, double margin, double bound, c
   if (a.face != kNone) patch.face_a = {FeatureKind::Face, a.face};
   if (b.face != kNone) patch.face_b = {FeatureKind::Face, b.face};
 
-  const Place witness = place(across, w.point_a, w.point_b, named(scene.a, at_a), named(scene.b, at_b));
+  const Spot witness = spot(across, w.point_a, w.point_b, named(scene.a, at_a), named(scene.b, at_b));
   Candidates candidates(scene, across, a, b, witness, bound);
   candidates.choose(std::min(options.most_points, kMostPatchPoints), margin, previous, patch);
   return patch;
+}
+
+bool exists(const Model& model, int level, Handle feature) {
+  return level >= 0 && level < model.level_count() && names_feature(model.level(level).view, feature);
 }
 
 template <class AnyAnswer>
 Patch around(const Model& a, const Model& b, const Pose& b_in_a, const AnyAnswer& answer, const PatchOptions& options,
              const Patch& previous) {
   const Vec n = vec(answer.normal);
-  if (max_abs(n) == 0) return {};
+  if (max_abs(n) == 0 || !exists(a, answer.level_a, answer.feature_a) || !exists(b, answer.level_b, answer.feature_b))
+    return {};
   const Motion m = motion(b_in_a);
   const Scene hulls = scene(a.level(answer.level_a).view, b.level(answer.level_b).view, m, pose_quality(m).error);
   const double radii = options.radius_a + options.radius_b;

@@ -52,7 +52,8 @@ struct PatchOptions {
 /// body is, of those at that feature, the one that faces best along the normal; both are projected along it, and the corners of
 /// what they have in common are the points. Where there are more than asked for those stay that hold the least separation and
 /// most of the area: of a round face four keep 0.6, eight 0.9, of a square all; those of `previous`, the patch of this pair a
-/// moment ago, are preferred. The least separation of a patch is the answer's, within law 2's bound. Nothing is allocated.
+/// moment ago, are preferred. The least separation of a patch is the answer's, within law 2's bound. No points of
+/// an answer without a normal, or of levels and features that these models do not have. Nothing is allocated.
 /// Cost: the product of both faces' sides; of a face of more than 64 sides the 64 corners count that keep most of its area.
 Patch patch(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnswer& answer, const PatchOptions& options = {},
             const Patch& previous = {});
