@@ -127,20 +127,24 @@ class Clip {
   void cut(int side) {
     const std::array<Left, kMost>& whole = left_[now_];
     const int size = count_;
-    now_ = 1 - now_, count_ = 0;
     const Line line = reference_.line(side);
-    const double first = line.height(whole[0]);
-    double height = first;
+    std::array<double, kMost> height;
+    bool is_whole = true;
     for (int i = 0; i < size; ++i) {
-      const Left &p = whole[std::size_t(i)], &q = whole[std::size_t(i + 1 == size ? 0 : i + 1)];
-      const double next = i + 1 == size ? first : line.height(q);
-      const bool inside = height >= -bound_, next_inside = next >= -bound_;
+      height[std::size_t(i)] = line.height(whole[std::size_t(i)]);
+      is_whole = is_whole && height[std::size_t(i)] >= -bound_;
+    }
+    if (is_whole) return;
+    now_ = 1 - now_, count_ = 0;
+    for (int i = 0; i < size; ++i) {
+      const std::size_t k = std::size_t(i), l = std::size_t(i + 1 == size ? 0 : i + 1);
+      const Left &p = whole[k], &q = whole[l];
+      const bool inside = height[k] >= -bound_, next_inside = height[l] >= -bound_;
       if (inside) keep(p);
       if (inside != next_inside) {
-        const double t = smaller(larger(height / (height - next), 0), 1);
+        const double t = smaller(larger(height[k] / (height[k] - height[l]), 0), 1);
         keep({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), cut_off(p.side, side), inside ? Mark{Mark::kNo, side} : p.side});
       }
-      height = next;
     }
   }
 

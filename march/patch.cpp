@@ -88,25 +88,38 @@ class Candidates {
     return found;
   }
 
+  /// From one of the points chosen to the next.
+  struct Side {
+    double x, y, dx, dy, least2;  ///< the last: of an area that stands out, squared
+  };
+  Side side_at(int i) const {
+    const Spot &p = chosen(i), &q = chosen(i + 1 == size_ ? 0 : i + 1);
+    const double dx = q.x - p.x, dy = q.y - p.y;
+    return {p.x, p.y, dx, dy, bound_ * bound_ * (dx * dx + dy * dy)};
+  }
+
   /// How far a candidate lies from the only point, or the area that it adds beyond a side of those chosen; 0 where it hardly
   /// stands out. One of the patch before is worth more.
-  double worth(int candidate, int side) const {
-    const Spot &c = at(candidate), &p = chosen(side), &q = chosen(side + 1 == size_ ? 0 : side + 1);
-    const double cx = c.x - p.x, cy = c.y - p.y, dx = q.x - p.x, dy = q.y - p.y, area = cx * dy - cy * dx;
-    const bool stands_out =
-        size_ == 1 ? cx * cx + cy * cy > bound_ * bound_ : area > 0 && area * area > bound_ * bound_ * (dx * dx + dy * dy);
-    if (!stands_out) return 0;
-    return (size_ == 1 ? std::sqrt(cx * cx + cy * cy) : area) * (known_[std::size_t(candidate)] ? 1 + kKeptWorth : 1);
+  double worth(int candidate, const Side& side) const {
+    const Spot& c = at(candidate);
+    const double cx = c.x - side.x, cy = c.y - side.y, more = known_[std::size_t(candidate)] ? 1 + kKeptWorth : 1;
+    if (size_ == 1) {
+      const double length2 = cx * cx + cy * cy;
+      return length2 > bound_ * bound_ ? std::sqrt(length2) * more : 0;
+    }
+    const double area = cx * side.dy - cy * side.dx;
+    return area > 0 && area * area > side.least2 ? area * more : 0;
   }
 
   /// Adds a point to those chosen, which go around counter-clockwise; false where none adds anything.
   bool grow(Among those) {
     int best = -1, best_side = 0;
     double most = 0;
-    for (int i = 0; i < count_; ++i) {
-      if (those == Among::Known && !known_[std::size_t(i)]) continue;
-      for (int side = 0; side < size_; ++side) {
-        if (const double w = worth(i, side); w > most) most = w, best = i, best_side = side;
+    for (int side = 0; side < size_; ++side) {
+      const Side beyond = side_at(side);
+      for (int i = 0; i < count_; ++i) {
+        if (those == Among::Known && !known_[std::size_t(i)]) continue;
+        if (const double w = worth(i, beyond); w > most) most = w, best = i, best_side = side;
       }
     }
     if (best < 0) return false;
