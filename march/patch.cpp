@@ -111,6 +111,9 @@ class Candidates {
     return area > 0 && area * area > side.least2 ? area * more : 0;
   }
 
+  /// Of faces seen from the side, which are no convex loops, one chosen may lie beyond a side.
+  bool is_chosen(int i) const { return std::find(loop_.begin(), loop_.begin() + size_, i) != loop_.begin() + size_; }
+
   /// Adds a point to those chosen, which go around counter-clockwise; false where none adds anything.
   bool grow(Among those) {
     int best = -1, best_side = 0;
@@ -118,7 +121,7 @@ class Candidates {
     for (int side = 0; side < size_; ++side) {
       const Side beyond = side_at(side);
       for (int i = 0; i < count_; ++i) {
-        if (those == Among::Known && !known_[std::size_t(i)]) continue;
+        if (is_chosen(i) || (those == Among::Known && !known_[std::size_t(i)])) continue;
         if (const double w = worth(i, beyond); w > most) most = w, best = i, best_side = side;
       }
     }

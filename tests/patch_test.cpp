@@ -521,6 +521,103 @@ TEST(Patch, OfOverlappingBodiesNeedsADirection) {
   EXPECT_EQ(patch(cube, cube, at(0, 0, 1), nearest(cube, cube, at(0, 0, 1))).count, 0u);
 }
 
+// ---- What nobody should ask -------------------------------------------------------------------------------------------------
+
+/// Counts, names and numbers that no patch has.
+Patch absurd(Random& random) {
+  Patch p;
+  p.count = std::uint32_t(random.bits());
+  p.face_a = {FeatureKind::Face, 1u << 29}, p.face_b = {FeatureKind::Edge, 3};
+  p.normal.setConstant(std::numeric_limits<double>::quiet_NaN());
+  for (PatchPoint& q : p.points) {
+    q.feature_a = {FeatureKind(random.bits() % 4), std::uint32_t(random.bits() % 9)};
+    q.feature_b = {FeatureKind(random.bits() % 4), std::uint32_t(random.bits() % 9)};
+    q.point_a = q.point_b = p.normal;
+  }
+  return p;
+}
+
+/// Needles, slivers, flat bodies and round ones in themselves and in each other, from the least sizes to the largest.
+TEST(Patch, IsSoundOfAnyBodiesAndAnyPatchBefore) {
+  Random random(13);
+  for (const double scale : {1., 1e-40, 1e40}) {
+    std::vector<Model> models;
+    for (const Mesh& mesh :
+         {shapes::cube(), shapes::needle(), shapes::sliver(), shapes::polygon(7), shapes::segment(2), shapes::point(),
+          shapes::prism(100, 1, 1), shapes::prism(12, 1e-6, 1), shapes::prism(9, 1, 1e-9)}) {
+      Mesh scaled = mesh;
+      for (Vec3& p : scaled.points) p *= scale;
+      models.push_back(hull_of(scaled));
+    }
+    for (const Model& a : models) {
+      for (const Model& b : models) {
+        Pose pose;
+        if (random.bits() % 2) pose.rotation = random.rotation(), pose.translation = scale * random.in_ball();
+        PairSeed cold;
+        const SignedAnswer deep = signed_distance(a, b, pose, cold);
+        ASSERT_EQ(deep.status, Status::Converged);
+        Contacting c{a, b, pose, {}};
+        c.answer.normal = deep.normal;
+        PatchOptions options;
+        options.margin = kInfinity, options.most_points = 1 + std::uint32_t(random.bits() % 12);
+        expect_sound(c, patch(a, b, pose, deep, options, absurd(random)), deep.lower, kInfinity);
+        options.flatness = any(std::array{0., 1e-3, kInfinity, -1., std::numeric_limits<double>::quiet_NaN()}, random);
+        expect_sound(c, patch(a, b, pose, deep, options, absurd(random)), deep.lower, kInfinity);
+        if (testing::Test::HasFailure()) return;
+      }
+    }
+  }
+}
+
+TEST(Patch, OfAnAnswerOfOtherModelsIsNone) {
+  const Model whole = hull_of(shapes::ellipsoid({1, 1, 0.5}, 2000, 3)), cut = whole.cut({0.1}),
+              cube = bodies::model(bodies::cube());
+  ASSERT_GT(cut.finest_level(), 0);
+  const Pose pose = at(0.3, 0.2, 0.7);
+  PairSeed cold;
+  const SignedAnswer exact = signed_distance(whole, whole, pose, cold);
+  PatchOptions options;
+  options.margin = kInfinity;
+  EXPECT_GT(patch(whole, whole, pose, exact, options).count, 0u);
+  EXPECT_EQ(patch(cut, whole, pose, exact, options).count, 0u);
+  EXPECT_EQ(patch(whole, cut, pose, exact, options).count, 0u);
+  cold = {};
+  EXPECT_GT(patch(cut, cut, pose, signed_distance(cut, cut, pose, cold), options).count, 0u);
+  SignedAnswer wrong = exact;
+  wrong.level_a = -1;
+  EXPECT_EQ(patch(whole, whole, pose, wrong, options).count, 0u);
+  wrong = exact;
+  wrong.feature_b = {FeatureKind::Face, 1u << 29};
+  EXPECT_EQ(patch(cube, cube, pose, wrong, options).count, 0u);
+  wrong = exact;
+  wrong.normal.setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(patch(whole, whole, pose, wrong, options).count, 0u);
+  for (const double absurd : {std::numeric_limits<double>::quiet_NaN(), -kInfinity}) {
+    options.margin = absurd;
+    EXPECT_EQ(patch(whole, whole, pose, exact, options).count, 0u);
+  }
+}
+
+/// Points chosen anew beside those of the patch before move no more.
+TEST(Patch, OfTheSamePoseStays) {
+  Random random(14);
+  for (int i = 0; i < 100; ++i) {
+    const Contacting c = i % 2 ? stacked_prisms(random, 12, 7) : stacked_boxes(random);
+    if (!is_apart(c)) continue;
+    PatchOptions options;
+    options.margin = kInfinity, options.most_points = 3 + std::uint32_t(i % 6);
+    const Patch first = patch(c.a, c.b, c.b_in_a, c.answer, options),
+                again = patch(c.a, c.b, c.b_in_a, c.answer, options, first);
+    ASSERT_EQ(first.count, again.count);
+    for (std::uint32_t k = 0; k < first.count; ++k) {
+      const bool kept = std::any_of(again.points.begin(), again.points.begin() + again.count, [&](const PatchPoint& p) {
+        return p.feature_a == first.points[k].feature_a && p.feature_b == first.points[k].feature_b;
+      });
+      EXPECT_TRUE(kept) << i;
+    }
+  }
+}
+
 // ---- Laws -------------------------------------------------------------------------------------------------------------------
 
 /// B moved along the normal changes the separations by that and nothing else: bodies that overlap have the same patch.

@@ -140,7 +140,8 @@ class Soak {
     }
     const Tally sum = total();
     row("all", sum);
-    std::printf("\n%.0f s on %u threads, %.0f pairs a minute; widest is in units of law 2's bound; answer hash %016llx\n",
+    std::printf("\n%llu depths, of at most %u supports\n", count(sum.depths), sum.supports);
+    std::printf("%.0f s on %u threads, %.0f pairs a minute; widest is in units of law 2's bound; answer hash %016llx\n",
                 seconds(), options_.threads, 60 * double(sum.pairs) / seconds(), count(sum.hash));
     return sum.failed > 0 || missed ? 1 : 0;
   }
