@@ -12,7 +12,7 @@ namespace swiftlet::stability {
 namespace {
 
 /// Of a round face four corners keep 2 / pi at most, eight 0.901; of one with more than 64 sides a hundredth is lost before.
-constexpr double kShares[] = {0, 0, 0, 0.4, 0.58, 0.6, 0.6, 0.6, 0.85};
+constexpr double kShares[] = {0, 0, 0, 0.3, 0.58, 0.6, 0.6, 0.6, 0.85};
 
 bool is_named(const ConvexView& view, Handle feature) {
   switch (feature.kind()) {

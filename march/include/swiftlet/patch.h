@@ -22,8 +22,8 @@ struct PatchPoint {
   Vec3 point_b = Vec3::Zero();  ///< in B likewise: `point_a` + `separation` * normal, within twice law 2's bound
   double separation = 0;        ///< along the normal, the bodies' unit; negative where the bodies overlap
   /// What the point lies on, on the answer's levels: a corner of one body and the contact face of the other, or an edge of
-  /// each, which is named by the lesser of its half-edges. It names the point from patch to patch: the same pair, the same
-  /// place of the bodies.
+  /// each, which is named by the lesser of its half-edges; of a face of more than 64 sides one edge may stand for those after
+  /// it. It names the point from patch to patch: the same pair, the same place of the bodies.
   Handle feature_a;
   Handle feature_b;  ///< likewise, of B
 };
