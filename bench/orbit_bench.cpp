@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "patch_cell.h"
 #include "rig.h"
 
 namespace swiftlet::bench {
@@ -562,6 +563,14 @@ void depths(const Options& options, const Field& field, const Shelf& shelf, Resu
   }
 }
 
+/// Contact points, where boxes, prisms and ellipsoids lie on each other.
+void patches(const Options& options, const Shelf& shelf, Results& results) {
+  if (!options.only.contains("patch")) return;
+  for (const PatchCell& cell : patch_cells(shelf, options.quick() ? 1'000 : 4'000)) {
+    results.add("patch", cell.name, 0.1, std::uint32_t(cell.a.level(0).triangle_count), measure(cell, options.rounds()));
+  }
+}
+
 void goals(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
   if (!options.wants("goals")) return;
   constexpr double kSteps[] = {0, 1.04, 10.4, 45.4, kRandomStep};
@@ -628,7 +637,7 @@ void usage(std::FILE* out) {
   std::fputs(
       "swiftlet_bench [--quick | --all] [--only GROUP]... [--largest TRIANGLES] [--wrong] [--cache DIR] [--meshes DIR]\n"
       "               [--results DIR]\n"
-      "groups: goals depth orbit wide error triangles scenes fig5 fig6 fig7 fig8 fig9 fig10 fig11 fig12 (these two need 6 to "
+      "groups: goals depth patch orbit wide error triangles scenes fig5 fig6 fig7 fig8 fig9 fig10 fig11 fig12 (these two need 6 to "
       "10 "
       "beside "
       "them)\n"
@@ -680,6 +689,7 @@ int run(const Options& options) {
   others(options, field, shelf, results);
   goals(options, field, shelf, results);
   depths(options, field, shelf, results);
+  patches(options, shelf, results);
   std::printf("\n%zu rows flagged as wrong; results in %s\n", results.flagged(), options.results.c_str());
   return 0;
 }

@@ -19,6 +19,12 @@
 #include <memory>
 #include <vector>
 
+#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
@@ -28,6 +34,7 @@
 
 #include "hull.h"
 #include "method.h"
+#include "patches.h"
 
 namespace swiftlet::bench {
 namespace {
@@ -197,6 +204,63 @@ class GuessSession final : public SessionOf<GuessSession> {
   std::vector<State> pairs_;
 };
 
+// ---- btConvexConvexAlgorithm ------------------------------------------------------------------------------------------------
+
+/// A world's pair: its algorithm, and the manifold of up to four points that it keeps.
+class ManifoldPatches final : public PatchSession {
+ public:
+  ManifoldPatches(const Body& a, const Body& b, bool polyhedral, bool cold)
+      : cold_(cold), shape_a_(shape_of(a.view)), shape_b_(shape_of(b.view)) {
+    if (polyhedral) shape_a_->initializePolyhedralFeatures(), shape_b_->initializePolyhedralFeatures();
+    object_a_.setCollisionShape(shape_a_.get()), object_b_.setCollisionShape(shape_b_.get());
+    object_a_.setWorldTransform(btTransform::getIdentity());
+    renew();
+  }
+  ~ManifoldPatches() override { release(); }
+  void ask(std::span<const Pose> poses, std::span<Contacts> contacts) override {
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      if (cold_) release(), renew();
+      object_b_.setWorldTransform(transform_of(poses[i]));
+      const btCollisionObjectWrapper a(nullptr, shape_a_.get(), &object_a_, object_a_.getWorldTransform(), -1, -1),
+          b(nullptr, shape_b_.get(), &object_b_, object_b_.getWorldTransform(), -1, -1);
+      btManifoldResult result(&a, &b);
+      algorithm_->processCollision(&a, &b, info_, &result);
+      take(contacts[i]);
+    }
+  }
+
+ private:
+  void renew() {
+    const btCollisionObjectWrapper a(nullptr, shape_a_.get(), &object_a_, object_a_.getWorldTransform(), -1, -1),
+        b(nullptr, shape_b_.get(), &object_b_, object_b_.getWorldTransform(), -1, -1);
+    algorithm_ = dispatcher_.findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+  }
+  void release() {
+    algorithm_->~btCollisionAlgorithm();
+    dispatcher_.freeCollisionAlgorithm(algorithm_);
+  }
+  void take(Contacts& c) {
+    btManifoldArray manifolds;
+    algorithm_->getAllContactManifolds(manifolds);
+    c.count = 0;
+    for (int m = 0; m < manifolds.size(); ++m) {
+      for (int k = 0; k < manifolds[m]->getNumContacts() && c.count < Contacts::kMost; ++k) {
+        const btManifoldPoint& p = manifolds[m]->getContactPoint(k);
+        const btVector3 &on_a = p.getPositionWorldOnA(), &on_b = p.getPositionWorldOnB();
+        c.points[c.count++] = {Vec3(on_a.x(), on_a.y(), on_a.z()), Vec3(on_b.x(), on_b.y(), on_b.z())};
+      }
+    }
+  }
+
+  const bool cold_;
+  std::unique_ptr<btConvexHullShape> shape_a_, shape_b_;
+  btCollisionObject object_a_, object_b_;
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDispatcherInfo info_;
+  btCollisionAlgorithm* algorithm_ = nullptr;
+};
+
 template <class SessionType>
 class BulletMethod final : public Method {
  public:
@@ -222,6 +286,16 @@ class BulletMethod final : public Method {
 void add_bullet_epa(Methods& methods) {
   methods.push_back(std::make_unique<BulletMethod<DetectorSession<Hulls, Depth::Epa>>>(
       "bullet epa", "btGjkPairDetector on btConvexHullShape with btGjkEpaPenetrationDepthSolver", 0, true));
+}
+
+void add_bullet_patches(PatchMethods& methods) {
+  for (const bool polyhedral : {true, false}) {
+    methods.push_back({polyhedral ? "bullet polyhedral" : "bullet manifold",
+                       std::string(kBuild) + "btConvexConvexAlgorithm and its manifold" + (polyhedral ? ", clipped faces" : ""),
+                       true, [polyhedral](const Body& a, const Body& b, bool cold) {
+                         return std::make_unique<ManifoldPatches>(a, b, polyhedral, cold);
+                       }});
+  }
 }
 
 void add_bullet(Methods& methods) {

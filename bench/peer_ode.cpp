@@ -15,6 +15,7 @@
 
 #include "hull.h"
 #include "method.h"
+#include "patches.h"
 
 namespace swiftlet::bench {
 namespace {
@@ -50,11 +51,25 @@ struct Arrays {
   }
 };
 
+void start() {
+  static std::once_flag once;
+  std::call_once(once, [] { dInitODE2(0); });
+}
+
+int collide(dGeomID a, dGeomID b, const Pose& b_in_a, int most, dContactGeom* contacts) {
+  dMatrix3 rotation{};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) rotation[4 * i + j] = b_in_a.rotation(i, j);
+  }
+  dGeomSetRotation(b, rotation);
+  dGeomSetPosition(b, b_in_a.translation[0], b_in_a.translation[1], b_in_a.translation[2]);
+  return dCollide(a, b, most, contacts, sizeof(dContactGeom));
+}
+
 class OdeSession final : public SessionOf<OdeSession> {
  public:
   OdeSession(std::span<const Body> bodies, std::span<const BodyPair> pairs) {
-    static std::once_flag once;
-    std::call_once(once, [] { dInitODE2(0); });
+    start();
     preparation_ = measured([&] {
       arrays_.reserve(bodies.size());
       for (const Body& body : bodies) arrays_.emplace_back(body.view);
@@ -82,14 +97,7 @@ class OdeSession final : public SessionOf<OdeSession> {
 
  private:
   int collide(std::uint32_t pair, const Pose& b_in_a, int most, dContactGeom* contacts) const {
-    const State& s = pairs_[pair];
-    dMatrix3 rotation{};
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) rotation[4 * i + j] = b_in_a.rotation(i, j);
-    }
-    dGeomSetRotation(s.b, rotation);
-    dGeomSetPosition(s.b, b_in_a.translation[0], b_in_a.translation[1], b_in_a.translation[2]);
-    return dCollide(s.a, s.b, most, contacts, sizeof(dContactGeom));
+    return bench::collide(pairs_[pair].a, pairs_[pair].b, b_in_a, most, contacts);
   }
 
   struct State {
@@ -111,7 +119,38 @@ class OdeMethod final : public Method {
   }
 };
 
+/// The first contacts that fit; a normal points into A, a place lies halfway between the surfaces.
+class OdePatches final : public PatchSession {
+ public:
+  OdePatches(const Body& a, const Body& b) : arrays_a_(a.view), arrays_b_(b.view) {
+    start();
+    a_ = arrays_a_.geom(), b_ = arrays_b_.geom();
+  }
+  ~OdePatches() override { dGeomDestroy(a_), dGeomDestroy(b_); }
+  void ask(std::span<const Pose> poses, std::span<Contacts> contacts) override {
+    std::array<dContactGeom, Contacts::kMost> found;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      Contacts& c = contacts[i];
+      c.count = std::uint32_t(collide(a_, b_, poses[i], int(found.size()), found.data()));
+      for (std::uint32_t k = 0; k < c.count; ++k) {
+        const Vec3 place(found[k].pos[0], found[k].pos[1], found[k].pos[2]),
+            normal(found[k].normal[0], found[k].normal[1], found[k].normal[2]);
+        c.points[k] = {place - found[k].depth / 2 * normal, place + found[k].depth / 2 * normal};
+      }
+    }
+  }
+
+ private:
+  Arrays arrays_a_, arrays_b_;
+  dGeomID a_, b_;
+};
+
 }  // namespace
+
+void add_ode_patches(PatchMethods& methods) {
+  methods.push_back({"ode", "dCollide on convex geoms, at most eight contacts", false,
+                     [](const Body& a, const Body& b, bool) { return std::make_unique<OdePatches>(a, b); }});
+}
 
 void add_ode(Methods& methods) { methods.push_back(std::make_unique<OdeMethod>()); }
 

@@ -6,7 +6,7 @@ find_package(PkgConfig QUIET)
 
 include(${PROJECT_SOURCE_DIR}/tests/helpers.cmake)  # the baselines
 
-add_library(swiftlet_methods STATIC method.cpp verdict.cpp)
+add_library(swiftlet_methods STATIC method.cpp patches.cpp verdict.cpp)
 target_compile_options(swiftlet_methods PRIVATE -ffp-contract=off -Wall -Wextra -Wshadow)
 target_include_directories(swiftlet_methods PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(swiftlet_methods PUBLIC swiftlet::march swiftlet_vclip swiftlet_plain)

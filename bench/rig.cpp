@@ -178,7 +178,13 @@ void judge(Row& row, const Asked& asked, const Entrant& entrant, const Runner& r
 }  // namespace
 
 const char* name(Question question) {
-  return question == Question::Distance ? "distance" : question == Question::Depth ? "depth" : "intersects";
+  switch (question) {
+    case Question::Distance: return "distance";
+    case Question::Intersects: return "intersects";
+    case Question::Depth: return "depth";
+    case Question::Patch: return "patch";
+  }
+  return "";
 }
 
 Asked::Asked(const Scene& s, Question question) : scene(&s), bodies(bench::bodies(s)) {

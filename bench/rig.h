@@ -15,7 +15,7 @@
 
 namespace swiftlet::bench {
 
-enum class Question : std::uint8_t { Distance, Intersects, Depth };
+enum class Question : std::uint8_t { Distance, Intersects, Depth, Patch };
 const char* name(Question question);
 
 /// Who is asked in a cell, with what, and how precisely.

@@ -57,14 +57,15 @@ Simplex::Nearest Simplex::add(const Corner& corner) {
   }
 }
 
-Vec Simplex::reduce(const Nearest& nearest) {
-  Vec point_a{0, 0, 0};
+Simplex::Points Simplex::reduce(const Nearest& nearest) {
+  Points points;
   for (int k = 0; k < nearest.count; ++k) {
     if (nearest.index[k] != k) corner_[k] = corner_[nearest.index[k]];
-    point_a = point_a + corner_[k].a * nearest.weight[k];
+    points.a = points.a + corner_[k].a * nearest.weight[k];
+    points.apart = points.apart + corner_[k].p * nearest.weight[k];
   }
   count_ = nearest.count;
-  return point_a;
+  return points;
 }
 
 OverlapProof Simplex::proof() const {

@@ -45,8 +45,13 @@ class Simplex {
   bool has(std::uint32_t va, std::uint32_t vb) const;
   /// Adds a corner and finds the nearest point, the new corner among those that hold it.
   Nearest add(const Corner& corner);
-  /// Keeps what holds the nearest point; returns the point of A that it is the difference of.
-  Vec reduce(const Nearest& nearest);
+  /// A point of A, and from there to one of B.
+  struct Points {
+    Vec a{0, 0, 0}, apart{0, 0, 0};
+  };
+  /// Keeps what holds the nearest point; returns the points that its weights stand for: of a triangle seen as a line the
+  /// nearest point is no combination of the corners, and off by more than rounding.
+  Points reduce(const Nearest& nearest);
   OverlapProof proof() const;
 
  private:
@@ -108,9 +113,9 @@ Sight look(const Scene& scene, const Level& a, const Level& b, Glimpse seen, Jud
       s.proof = simplex.proof();
       return s;
     }
-    const Vec point_a = simplex.reduce(nearest);
-    const double distance = norm(nearest.point), nearer = distance * (1 + kNormError) + scene.point_error;
-    if (nearer < s.upper) s.upper = nearer, s.point_a = point_a, s.point_b = point_a + nearest.point;
+    const Simplex::Points points = simplex.reduce(nearest);
+    const double distance = norm(nearest.point), nearer = norm(points.apart) * (1 + kNormError) + scene.point_error;
+    if (nearer < s.upper) s.upper = nearer, s.point_a = points.a, s.point_b = points.a + points.apart;
     if (!(distance > scene.point_error)) return s;
     seen = glimpse(scene, a, b, nearest.point);
   }

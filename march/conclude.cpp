@@ -3,6 +3,7 @@
 #include "conclude.h"
 
 #include "certify.h"
+#include "crossing.h"
 #include "progress.h"
 #include "seed.h"
 
@@ -14,6 +15,15 @@ MarchStatus status_of(const Scene& scene, const Goal& goal, const Certificate& c
   if (!goal.narrow(c.lower, c.upper)) return MarchStatus::NotConverged;
   if (c.upper <= scene.law_two) return MarchStatus::Touching;
   return c.lower > 0 ? MarchStatus::Disjoint : MarchStatus::Near;
+}
+
+/// Where certified progress ended.
+void name_features(const Scene& scene, const Certificate& c, MarchResult& r) {
+  r.a = feature_of(scene.a, c.active, c.active.a);
+  r.b = feature_of(scene.b, c.active, c.active.b);
+  if (r.status == MarchStatus::Overlapping) return;  // no place
+  r.a = feature_at_a(scene, r.a, c.point_a, r.plane_tests);
+  r.b = feature_at_b(scene, r.b, c.point_b, r.plane_tests);
 }
 
 /// Fills `r`; true where it is so near a threshold that another start might prove another verdict.
@@ -45,10 +55,7 @@ bool from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule, doub
   }
   const bool apart = r.status == MarchStatus::Disjoint || r.status == MarchStatus::Touching;
   const bool straightened = apart && c.active.count > 0 && leans(scene, c) && straighten(scene, c, r.plane_tests);
-  if (progressed || straightened) {
-    r.a = feature_of(scene.a, c.active, c.active.a);
-    r.b = feature_of(scene.b, c.active, c.active.b);
-  }
+  if (progressed || straightened) name_features(scene, c, r);
   r.lower = c.lower;
   r.upper = larger(c.upper, c.lower);
   r.normal = eigen(c.normal);

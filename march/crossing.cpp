@@ -339,8 +339,9 @@ double off_segment(const Vec& p, const Vec& q0, const Vec& q1) {
 }
 
 template <class Body>
-Handle feature_at(const Body& body, const Vec& p, double bound, std::uint32_t& tests) {
+Handle feature_at(const Body& body, Handle known, const Vec& p, double bound, std::uint32_t& tests) {
   const ConvexView& view = body.view;
+  if (known.kind() != FeatureKind::Vertex || norm(p - body.point(known.index())) <= bound) return known;
   double least = 2 * bound;
   std::uint32_t nearest = kNone;
   for (std::uint32_t facet = 0; facet < view.head.size(); ++facet) {
@@ -361,7 +362,7 @@ Handle feature_at(const Body& body, const Vec& p, double bound, std::uint32_t& t
     if (above) off = smaller(off, height / length);
     if (off < least) least = off, nearest = facet;
   }
-  if (nearest == kNone) return {};
+  if (nearest == kNone) return known;
   Handle smallest{view.face[nearest] == kNone ? FeatureKind::Edge : FeatureKind::Face,
                   view.face[nearest] == kNone ? nearest : view.face[nearest]};
   std::uint32_t h = nearest;
@@ -376,11 +377,11 @@ Handle feature_at(const Body& body, const Vec& p, double bound, std::uint32_t& t
 
 }  // namespace
 
-Handle feature_at_a(const Scene& scene, const Vec& p, std::uint32_t& plane_tests) {
-  return feature_at(body_a(scene), p, scene.law_two, plane_tests);
+Handle feature_at_a(const Scene& scene, Handle known, const Vec& p, std::uint32_t& plane_tests) {
+  return feature_at(body_a(scene), known, p, scene.law_two, plane_tests);
 }
-Handle feature_at_b(const Scene& scene, const Vec& p, std::uint32_t& plane_tests) {
-  return feature_at(body_b(scene), p, scene.law_two, plane_tests);
+Handle feature_at_b(const Scene& scene, Handle known, const Vec& p, std::uint32_t& plane_tests) {
+  return feature_at(body_b(scene), known, p, scene.law_two, plane_tests);
 }
 
 Crossing crossing(const Scene& scene, const OverlapProof& proof, std::uint32_t& plane_tests) {

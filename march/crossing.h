@@ -21,9 +21,11 @@ struct Crossing {
 /// the other once over its vertices; where doubles cannot tell, over all edges and facets.
 Crossing crossing(const Scene& scene, const OverlapProof& proof, std::uint32_t& plane_tests);
 
-/// The smallest feature within law 2's bound of a point of the common frame that lies on the surface but for that bound; none
-/// where no facet comes near. Cost: all facets.
-Handle feature_at_a(const Scene& scene, const Vec& p, std::uint32_t& plane_tests);
-Handle feature_at_b(const Scene& scene, const Vec& p, std::uint32_t& plane_tests);
+/// What holds a point of the common frame that lies on the surface but for law 2's bound: `known`, but where that is a vertex
+/// and the point is elsewhere, the smallest feature within the bound; `known` again where no facet comes near. Certified
+/// progress and the depth may end on vertices that no feature holds, near 0 or near the surface, and name one of them. Cost: of
+/// the search all facets.
+Handle feature_at_a(const Scene& scene, Handle known, const Vec& p, std::uint32_t& plane_tests);
+Handle feature_at_b(const Scene& scene, Handle known, const Vec& p, std::uint32_t& plane_tests);
 
 }  // namespace swiftlet

@@ -32,22 +32,6 @@ void cross(const Scene& pair, MarchResult& r) {
   r.point_a = r.point_b = eigen(where.point);
 }
 
-/// Certified progress may end on vertices that no feature holds: near 0 the origin was in their midst, near the surface all the
-/// same. It names one of them then, and the witness point is elsewhere.
-void name_features(const Scene& pair, MarchResult& r) {
-  const auto lies_off = [&](const Vec& p, const Vec& vertex) { return norm(p - vertex) > pair.law_two; };
-  const auto improve = [](Handle& feature, Handle found) { feature = found == Handle{} ? feature : found; };
-  const Vec p = vec(r.point_a), q = vec(r.point_b);
-  if (r.a.kind() == FeatureKind::Vertex && lies_off(p, body_a(pair).point(r.a.index())))
-    improve(r.a, feature_at_a(pair, p, r.plane_tests));
-  if (r.b.kind() == FeatureKind::Vertex && lies_off(q, body_b(pair).point(r.b.index())))
-    improve(r.b, feature_at_b(pair, q, r.plane_tests));
-}
-
-bool has_witness(const MarchResult& r) {
-  return r.status == MarchStatus::Disjoint || r.status == MarchStatus::Touching || r.status == MarchStatus::Near;
-}
-
 }  // namespace
 
 MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, const MarchStart& start,
@@ -63,7 +47,6 @@ MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, 
   std::uint32_t climbs = 0;
   const MarchStart from = settled(pair, start, climbs);
   MarchResult result = concluded(pair, from, walk(pair, from.a, from.b, rule.plane_rule, rule.step_budget), rule);
-  if (has_witness(result)) name_features(pair, result);
   if (result.status == MarchStatus::Overlapping) cross(pair, result);
   result.plane_tests += climbs;
   result.lower = std::max(result.lower, rule.floor);

@@ -51,7 +51,15 @@ class Reference {
 
   int sides() const { return count_ > 1 ? count_ : 0; }
   const Corner& corner(int side) const { return outline_[index_[at(side)]]; }
-  const Corner& next_corner(int side) const { return corner(side + 1 == count_ ? 0 : side + 1); }
+  const Corner& next_corner(int side) const { return corner(next(side)); }
+  /// Of the outline's sides that this one stands for, the one that a place on it belongs to, by the corner it leaves.
+  int part(int side, double x, double y) const {
+    const Corner &p = corner(side), &q = next_corner(side);
+    const auto before = [&](const Corner& c) { return (q.x - p.x) * (c.x - x) + (q.y - p.y) * (c.y - y) < 0; };
+    int i = index_[at(side)];
+    while (outline_.after(i) != index_[at(next(side))] && before(outline_[outline_.after(i)])) i = outline_.after(i);
+    return i;
+  }
   int nearest_corner(double x, double y) const {
     const auto distance2 = [&](int i) {
       const double dx = corner(i).x - x, dy = corner(i).y - y;
@@ -71,6 +79,7 @@ class Reference {
 
  private:
   static std::size_t at(int i) { return std::size_t(i); }
+  int next(int side) const { return side + 1 == count_ ? 0 : side + 1; }
   /// A corner that stands out whatever else does.
   static int rightmost(const Outline& o) {
     int found = 0;
@@ -105,10 +114,10 @@ class Clip {
   }
 
   int count() const { return count_; }
-  Mark operator[](int i) const { return left_[now_][std::size_t(i)].corner; }
+  const Left& operator[](int i) const { return left_[now_][std::size_t(i)]; }
 
  private:
-  static constexpr int kMost = int(kMostPlaces);
+  static constexpr int kMost = int(kMostSpots);
 
   void keep(const Left& corner) {
     if (count_ < kMost) left_[now_][std::size_t(count_++)] = corner;
@@ -118,20 +127,24 @@ class Clip {
   void cut(int side) {
     const std::array<Left, kMost>& whole = left_[now_];
     const int size = count_;
-    now_ = 1 - now_, count_ = 0;
     const Line line = reference_.line(side);
-    const double first = line.height(whole[0]);
-    double height = first;
+    std::array<double, kMost> height;
+    bool is_whole = true;
     for (int i = 0; i < size; ++i) {
-      const Left &p = whole[std::size_t(i)], &q = whole[std::size_t(i + 1 == size ? 0 : i + 1)];
-      const double next = i + 1 == size ? first : line.height(q);
-      const bool inside = height >= -bound_, next_inside = next >= -bound_;
+      height[std::size_t(i)] = line.height(whole[std::size_t(i)]);
+      is_whole = is_whole && height[std::size_t(i)] >= -bound_;
+    }
+    if (is_whole) return;
+    now_ = 1 - now_, count_ = 0;
+    for (int i = 0; i < size; ++i) {
+      const std::size_t k = std::size_t(i), l = std::size_t(i + 1 == size ? 0 : i + 1);
+      const Left &p = whole[k], &q = whole[l];
+      const bool inside = height[k] >= -bound_, next_inside = height[l] >= -bound_;
       if (inside) keep(p);
       if (inside != next_inside) {
-        const double t = smaller(larger(height / (height - next), 0), 1);
+        const double t = smaller(larger(height[k] / (height[k] - height[l]), 0), 1);
         keep({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), cut_off(p.side, side), inside ? Mark{Mark::kNo, side} : p.side});
       }
-      height = next;
     }
   }
 
@@ -220,13 +233,13 @@ class Faces {
 
   /// What stays may reach beyond a tip of the reference, or beyond the end of one that is seen as a line: then the corner there
   /// is meant.
-  int corners(std::span<Place, kMostPlaces> places) const {
+  int corners(std::span<Spot, kMostSpots> spots) const {
     const Clip clip(incident(), reference_, bound_);
     std::size_t count = 0;
     for (int i = 0; i < clip.count(); ++i) {
-      Place c = placed(clip[i]);
-      if (!fits(c)) c = placed({Mark::kNo, reference_.nearest_corner(c.x, c.y)});
-      if (fits(c)) places[count++] = c;
+      Spot c = placed(clip[i].corner, clip[i].x, clip[i].y);
+      if (!fits(c)) c = placed({Mark::kNo, reference_.nearest_corner(c.x, c.y)}, c.x, c.y);
+      if (fits(c)) spots[count++] = c;
     }
     return int(count);
   }
@@ -236,9 +249,10 @@ class Faces {
   const Outline& reference() const { return a_is_reference_ ? a_ : b_; }
 
   /// Whether the points lie one above the other.
-  bool fits(const Place& c) const { return norm(c.point_b - c.point_a - across_.n * c.separation) <= 2 * bound_; }
+  bool fits(const Spot& c) const { return norm(c.point_b - c.point_a - across_.n * c.separation) <= 2 * bound_; }
 
-  Place placed(const Mark& mark) const {
+  /// What a mark means, seen about there.
+  Spot placed(const Mark& mark, double x, double y) const {
     const ConvexView &view_i = a_is_reference_ ? scene_.b : scene_.a, &view_r = a_is_reference_ ? scene_.a : scene_.b;
     Pair p;
     Handle feature_i, feature_r;
@@ -251,12 +265,13 @@ class Faces {
       p = {over(incident(), c.x, c.y), c.p};
       feature_i = face_handle(view_i, incident()), feature_r = corner_handle(c);
     } else {
-      const Corner &i = incident()[mark.incident], &r = reference_.corner(mark.reference);
-      p = crossing(i, incident()[incident().after(mark.incident)], r, reference_.next_corner(mark.reference));
+      const int side = reference_.part(mark.reference, x, y);
+      const Corner &i = incident()[mark.incident], &r = reference()[side];
+      p = crossing(i, incident()[incident().after(mark.incident)], r, reference()[reference().after(side)]);
       feature_i = side_handle(view_i, i), feature_r = side_handle(view_r, r);
     }
-    return a_is_reference_ ? place(across_, p.reference, p.incident, feature_r, feature_i)
-                           : place(across_, p.incident, p.reference, feature_i, feature_r);
+    return a_is_reference_ ? spot(across_, p.reference, p.incident, feature_r, feature_i)
+                           : spot(across_, p.incident, p.reference, feature_i, feature_r);
   }
 
   const Scene& scene_;
@@ -269,14 +284,14 @@ class Faces {
 
 }  // namespace
 
-Place place(const Across& across, const Vec& point_a, const Vec& point_b, Handle feature_a, Handle feature_b) {
+Spot spot(const Across& across, const Vec& point_a, const Vec& point_b, Handle feature_a, Handle feature_b) {
   const Vec seen = point_a - across.middle;
   return {dot(across.u, seen), dot(across.v, seen), dot(across.n, point_b - point_a), point_a, point_b, feature_a, feature_b};
 }
 
 int overlay(const Scene& scene, const Across& across, const Outline& a, const Outline& b, double bound,
-            std::span<Place, kMostPlaces> places) {
-  return Faces(scene, across, a, b, bound).corners(places);
+            std::span<Spot, kMostSpots> spots) {
+  return Faces(scene, across, a, b, bound).corners(spots);
 }
 
 }  // namespace swiftlet

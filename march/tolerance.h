@@ -116,6 +116,8 @@ inline constexpr double kSameFacing = 0x1p-43;
 /// A point of the patch before counts for so much more area than another: enough that the corners of a regular polygon, of
 /// which any four opposite ones are as good, do not take turns. A fraction.
 inline constexpr double kKeptWorth = 0.125;
+/// Times that each point of a patch is chosen again: two or three leave all as they are. A count.
+inline constexpr int kChoices = 8;
 
 // ---- Bounds on work: counts ------------------------------------------------------------------------------------------------
 

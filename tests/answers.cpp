@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cinttypes>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 
 #include <swiftlet/model_file.h>
@@ -82,6 +84,45 @@ void Fingerprint::add(const Answer& answer) {
 
 namespace {
 
+/// Words of one answer.
+struct Fields {
+  Fingerprint& print;
+  void number(double x) { print.add(std::bit_cast<std::uint64_t>(x)); }
+  void numbers(const Vec3& v) { number(v.x()), number(v.y()), number(v.z()); }
+  void handle(Handle h) { print.add(std::uint64_t(h.kind()) << 32 | h.index()); }
+  void pair(std::uint64_t high, std::uint64_t low) { print.add(high << 32 | low); }
+};
+
+}  // namespace
+
+void Fingerprint::add(const SignedAnswer& s) {
+  Fields fields{*this};
+  fields.pair(std::uint64_t(s.status), std::uint64_t(s.verdict));
+  fields.number(s.lower), fields.number(s.upper);
+  for (const Vec3& v : {s.normal, s.point_a, s.point_b}) fields.numbers(v);
+  fields.pair(std::uint64_t(s.level_a), std::uint64_t(s.level_b));
+  fields.handle(s.feature_a), fields.handle(s.feature_b);
+  add(s.proof.count);
+  for (std::size_t k = 0; k < s.proof.count; ++k) fields.pair(s.proof.vertex_a[k], s.proof.vertex_b[k]);
+  fields.pair(s.steps, s.plane_tests);
+  ++answers;
+}
+
+void Fingerprint::add(const Patch& patch) {
+  Fields fields{*this};
+  fields.numbers(patch.normal);
+  fields.handle(patch.face_a), fields.handle(patch.face_b);
+  add(patch.count);
+  for (std::uint32_t i = 0; i < patch.count; ++i) {
+    const PatchPoint& p = patch.points[i];
+    fields.numbers(p.point_a), fields.numbers(p.point_b), fields.number(p.separation);
+    fields.handle(p.feature_a), fields.handle(p.feature_b);
+  }
+  ++answers;
+}
+
+namespace {
+
 constexpr StartPolicy kPolicies[] = {StartPolicy::Automatic, StartPolicy::Paper, StartPolicy::Finest, StartPolicy::Coarsest,
                                      StartPolicy::Table};
 constexpr Refinement kRefinements[] = {Refinement::Single, Refinement::SingleSingle, Refinement::DoubleDouble};
@@ -137,6 +178,75 @@ Fingerprint fingerprint(const std::vector<Model>& models, int rounds) {
   for (const Model& a : models)
     for (const Model& b : models) ask_pair(a, b, poses, rounds, print);
   return print;
+}
+
+namespace {
+
+/// Calls ask(a, b, pose) for so many poses of each pair.
+template <class Ask>
+void each(const std::vector<Model>& models, int rounds, Poses& poses, Ask ask) {
+  for (const Model& a : models) {
+    for (const Model& b : models) {
+      for (int i = 0; i < rounds; ++i) ask(a, b, poses.next(), i);
+    }
+  }
+}
+
+}  // namespace
+
+Fingerprint signed_fingerprint(const std::vector<Model>& models, int rounds) {
+  Fingerprint print;
+  Poses poses(2);
+  PairSeed warm, met;
+  QueryOptions loose, limited;
+  loose.relative_error = 0.01;
+  each(models, rounds, poses, [&](const Model& a, const Model& b, Pose pose, int i) {
+    if (i % 4) pose.translation *= 0.25;  // mostly inside one another
+    PairSeed cold, random = poses.seed();
+    print.add(signed_distance(a, b, pose, warm));
+    print.add(signed_distance(a, b, pose, cold));
+    print.add(signed_distance(a, b, pose, random));
+    print.add(signed_distance(b, a, inverse(pose), cold = {}));
+    print.add(signed_distance(a, b, pose, cold = {}, loose));
+    limited.step_budget = std::uint32_t(i % 7);
+    limited.finest_level = i % 2;
+    print.add(signed_distance(a, b, pose, cold = {}, limited));
+    print.add(signed_within(a, b, pose, -0.25, met).answer);
+  });
+  return print;
+}
+
+Fingerprint patch_fingerprint(const std::vector<Model>& models, int rounds) {
+  Fingerprint print;
+  Poses poses(3);
+  PairSeed seed, near;
+  Patch before;
+  each(models, rounds, poses, [&](const Model& a, const Model& b, const Pose& pose, int i) {
+    PatchOptions options;
+    options.margin = i % 3 ? 4 : 0;
+    options.most_points = 1 + std::uint32_t(poses.bits() % kMostPatchPoints);
+    if (i % 4 == 0) options.flatness = 0;
+    if (i % 5 == 0) options.radius_a = 0.25, options.radius_b = 0.125;
+    QueryOptions query;
+    query.radius_a = options.radius_a, query.radius_b = options.radius_b;
+    const SignedAnswer deep = signed_distance(a, b, pose, seed, query);
+    print.add(patch(a, b, pose, deep, options));
+    print.add(before = patch(a, b, pose, deep, options, before));
+    print.add(patch(a, b, pose, contact(a, b, pose, near, query).answer, options));
+  });
+  return print;
+}
+
+std::vector<Print> prints(const std::vector<Model>& models, int rounds) {
+  return {{"answers", fingerprint(models, rounds)},
+          {"signed", signed_fingerprint(models, rounds)},
+          {"patches", patch_fingerprint(models, rounds)}};
+}
+
+std::string text(const Print& print) {
+  char line[80];
+  std::snprintf(line, sizeof line, "%016" PRIx64 " %" PRIu64 " %s", print.print.hash, print.print.answers, print.name);
+  return line;
 }
 
 }  // namespace swiftlet::answers

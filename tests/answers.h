@@ -6,8 +6,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <random>
+#include <string>
 #include <vector>
 
+#include <swiftlet/depth.h>
+#include <swiftlet/patch.h>
 #include <swiftlet/query.h>
 
 namespace swiftlet::answers {
@@ -37,11 +40,31 @@ void append(const Answer& answer, std::vector<std::uint64_t>& fields);
 struct Fingerprint {
   std::uint64_t hash = 0xcbf29ce484222325u, answers = 0;
   void add(const Answer& answer);
+  void add(const SignedAnswer& answer);
+  void add(const Patch& patch);
   void add(std::uint64_t word);
 };
+
+/// What was asked, and the hash of all answers to it.
+struct Print {
+  const char* name;
+  Fingerprint print;
+};
+std::string text(const Print& print);
+
+/// All there is, one after the other: distances first.
+std::vector<Print> prints(const std::vector<Model>& models, int rounds);
 
 /// All policies, refinements and plane rules, warm over `rounds` poses per pair of models, cold, from random seeds; all
 /// queries, tolerances and budgets; tables and models made at run time.
 Fingerprint fingerprint(const std::vector<Model>& models, int rounds);
+
+/// Signed distances warm, cold, from random seeds, swapped, loose, limited and against thresholds, of overlaps for the most
+/// part.
+Fingerprint signed_fingerprint(const std::vector<Model>& models, int rounds);
+
+/// Patches of both kinds of exact answers: with and without a margin, radii and flatness, few points and many, after one
+/// another and alone.
+Fingerprint patch_fingerprint(const std::vector<Model>& models, int rounds);
 
 }  // namespace swiftlet::answers

@@ -3,8 +3,6 @@
 // The answers of today are those that were recorded, bit for bit. `./run determinism` compares more of them between compilers.
 #include <gtest/gtest.h>
 
-#include <cinttypes>
-#include <cstdio>
 #include <fstream>
 #include <string>
 
@@ -14,14 +12,14 @@ namespace swiftlet {
 namespace {
 
 TEST(Determinism, AnswersAreTheRecordedOnes) {
-  const answers::Fingerprint print = answers::fingerprint(answers::models(SWIFTLET_TEST_DIR "/data/models"), 10);
-  char text[60];
-  std::snprintf(text, sizeof text, "%016" PRIx64 " %" PRIu64 " answers", print.hash, print.answers);
-  std::string recorded;
-  std::getline(std::ifstream(SWIFTLET_TEST_DIR "/data/answers.txt"), recorded);
-  EXPECT_EQ(text, recorded)
-      << "Answers, steps or models changed. If that is meant, the first line is the new tests/data/answers.txt";
-  EXPECT_GE(print.answers, 9000u);
+  std::ifstream file(SWIFTLET_TEST_DIR "/data/answers.txt");
+  for (const answers::Print& print : answers::prints(answers::models(SWIFTLET_TEST_DIR "/data/models"), 10)) {
+    std::string recorded;
+    std::getline(file, recorded);
+    EXPECT_EQ(answers::text(print), recorded)
+        << "Answers, steps or models changed. If that is meant, the first text is the new line of tests/data/answers.txt";
+    EXPECT_GE(print.print.answers, 700u);
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 // one that lie in the other and of all crossings of their sides. Shares nothing with march but the data structure.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,24 +13,24 @@
 
 namespace swiftlet::oracle {
 
-/// What two faces have in common as a direction shows them; rounded at last.
+/// What two faces have in common as a direction shows them.
 struct Overlay {
-  struct Corner {
-    Vec3 point_a;  ///< on the plane of A's face
-    double gap;    ///< from there to the plane of B's, along the unit direction
-  };
-  std::vector<Corner> corners;
-  double area = 0;  ///< across the direction
+  std::size_t corners = 0;
+  double area = 0;  ///< across the direction; rounded
 };
 
-/// Of the hulls of all corners of some faces of each body. The planes are those of the first three corners.
+/// Of the hulls of all corners of some faces of each body.
 Overlay overlay(const ConvexView& a, const std::vector<std::uint32_t>& faces_a, const ConvexView& b,
                 const std::vector<std::uint32_t>& faces_b, const Pose& b_in_a, const Vec3& n);
 
 /// The area of the hull of some points, as `n` shows them.
 double area(const std::vector<Vec3>& points, const Vec3& n);
 
-/// Whether a point lies within so much of the inner side of every facet's plane. `in_a`: where the body is.
-bool lies_in(const ConvexView& body, const Pose& in_a, const Vec3& point, double tolerance);
+/// How far a point is outside of the facet's plane that it is farthest outside of, rounded at last: below 0 in the body, so
+/// deep under its surface. 0 of a body without facets. `in_a`: where the body is.
+double height_over(const ConvexView& body, const Pose& in_a, const Vec3& point);
+
+/// A face, and after it all others whose corners lie within `flatness` times the extent of its plane and on its side.
+std::vector<std::uint32_t> flat_faces(const ConvexView& body, Handle face, double flatness);
 
 }  // namespace swiftlet::oracle

@@ -136,8 +136,8 @@ void expect_sound(const Contacting& c, const Patch& p, double separation, double
   EXPECT_EQ(p.normal, c.answer.normal);
   for (std::uint32_t i = 0; i < p.count; ++i) {
     const PatchPoint& q = p.points[i];
-    EXPECT_TRUE(oracle::lies_in(c.a.level(0).view, Pose{}, q.point_a, bound)) << i;
-    EXPECT_TRUE(oracle::lies_in(c.b.level(0).view, c.b_in_a, q.point_b, bound)) << i;
+    EXPECT_LE(oracle::height_over(c.a.level(0).view, Pose{}, q.point_a), bound) << i;
+    EXPECT_LE(oracle::height_over(c.b.level(0).view, c.b_in_a, q.point_b), bound) << i;
     EXPECT_LE((q.point_b - q.point_a - q.separation * p.normal).norm(), 2 * bound) << i;
     EXPECT_LE(q.separation, margin + bound);
     const auto well_named = [](const ConvexView& view, Handle feature) {
@@ -169,35 +169,6 @@ Pose at(double x, double y, double z, const Mat3& rotation = Mat3::Identity()) {
   return pose;
 }
 
-/// The contact face first, then all others within 2^-21 of its plane and on its side.
-std::vector<std::uint32_t> flat_faces(const ConvexView& view, Handle contact) {
-  const auto corners = [&](std::uint32_t face) {
-    std::vector<Vec3> result;
-    for (std::uint32_t h = 0; h < view.head.size(); ++h) {
-      if (view.face[h] != face || view.face[view.twin[h]] == face) continue;
-      for (const std::uint32_t v : {view.head[view.twin[h]], view.head[h]}) {
-        result.emplace_back(view.vertices[v].x, view.vertices[v].y, view.vertices[v].z);
-      }
-    }
-    return result;  // by sides, each from tail to head
-  };
-  const auto normal = [&](std::uint32_t face) {
-    const std::vector<Vec3> sides = corners(face);
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < sides.size(); i += 2) sum += (sides[i] - sides[0]).cross(sides[i + 1] - sides[0]);
-    return sum.normalized().eval();
-  };
-  const Vec3 n = normal(contact.index()), p = corners(contact.index())[0];
-  std::vector<std::uint32_t> faces{contact.index()};
-  for (std::uint32_t face = 0; face < view.face_first.size(); ++face) {
-    const std::vector<Vec3> all = corners(face);
-    const bool flat =
-        std::all_of(all.begin(), all.end(), [&](const Vec3& q) { return n.dot(q - p) >= -0x1p-21 * view.extent; });
-    if (face != contact.index() && flat && n.dot(normal(face)) > 0) faces.push_back(face);
-  }
-  return faces;
-}
-
 /// What a patch is beside the truth. `shares` gathers how much of the area four and eight points keep.
 struct Shares {
   double four = 1, eight = 1;
@@ -214,10 +185,10 @@ void expect_true(const Contacting& c, Shares& shares) {
   ASSERT_EQ(eight.face_a, four.face_a);
 
   const ConvexView &a = c.a.level(0).view, &b = c.b.level(0).view;
-  const oracle::Overlay truth =
-      oracle::overlay(a, flat_faces(a, eight.face_a), b, flat_faces(b, eight.face_b), c.b_in_a, c.answer.normal);
+  const oracle::Overlay truth = oracle::overlay(a, oracle::flat_faces(a, eight.face_a, 0x1p-21), b,
+                                                oracle::flat_faces(b, eight.face_b, 0x1p-21), c.b_in_a, c.answer.normal);
   const double size = c.a.extent() + c.b.extent(), blur = 16 * c.bound() * size;
-  if (truth.corners.size() <= 8) {
+  if (truth.corners <= 8) {
     EXPECT_NEAR(shown_area(eight), truth.area, blur);
   } else {
     EXPECT_LE(shown_area(eight), truth.area + blur);
@@ -548,6 +519,103 @@ TEST(Patch, HoldsAsManyPointsAsAskedFor) {
 TEST(Patch, OfOverlappingBodiesNeedsADirection) {
   const Model cube = bodies::model(bodies::cube());
   EXPECT_EQ(patch(cube, cube, at(0, 0, 1), nearest(cube, cube, at(0, 0, 1))).count, 0u);
+}
+
+// ---- What nobody should ask -------------------------------------------------------------------------------------------------
+
+/// Counts, names and numbers that no patch has.
+Patch absurd(Random& random) {
+  Patch p;
+  p.count = std::uint32_t(random.bits());
+  p.face_a = {FeatureKind::Face, 1u << 29}, p.face_b = {FeatureKind::Edge, 3};
+  p.normal.setConstant(std::numeric_limits<double>::quiet_NaN());
+  for (PatchPoint& q : p.points) {
+    q.feature_a = {FeatureKind(random.bits() % 4), std::uint32_t(random.bits() % 9)};
+    q.feature_b = {FeatureKind(random.bits() % 4), std::uint32_t(random.bits() % 9)};
+    q.point_a = q.point_b = p.normal;
+  }
+  return p;
+}
+
+/// Needles, slivers, flat bodies and round ones in themselves and in each other, from the least sizes to the largest.
+TEST(Patch, IsSoundOfAnyBodiesAndAnyPatchBefore) {
+  Random random(13);
+  for (const double scale : {1., 1e-40, 1e40}) {
+    std::vector<Model> models;
+    for (const Mesh& mesh :
+         {shapes::cube(), shapes::needle(), shapes::sliver(), shapes::polygon(7), shapes::segment(2), shapes::point(),
+          shapes::prism(100, 1, 1), shapes::prism(12, 1e-6, 1), shapes::prism(9, 1, 1e-9)}) {
+      Mesh scaled = mesh;
+      for (Vec3& p : scaled.points) p *= scale;
+      models.push_back(hull_of(scaled));
+    }
+    for (const Model& a : models) {
+      for (const Model& b : models) {
+        Pose pose;
+        if (random.bits() % 2) pose.rotation = random.rotation(), pose.translation = scale * random.in_ball();
+        PairSeed cold;
+        const SignedAnswer deep = signed_distance(a, b, pose, cold);
+        ASSERT_EQ(deep.status, Status::Converged);
+        Contacting c{a, b, pose, {}};
+        c.answer.normal = deep.normal;
+        PatchOptions options;
+        options.margin = kInfinity, options.most_points = 1 + std::uint32_t(random.bits() % 12);
+        expect_sound(c, patch(a, b, pose, deep, options, absurd(random)), deep.lower, kInfinity);
+        options.flatness = any(std::array{0., 1e-3, kInfinity, -1., std::numeric_limits<double>::quiet_NaN()}, random);
+        expect_sound(c, patch(a, b, pose, deep, options, absurd(random)), deep.lower, kInfinity);
+        if (testing::Test::HasFailure()) return;
+      }
+    }
+  }
+}
+
+TEST(Patch, OfAnAnswerOfOtherModelsIsNone) {
+  const Model whole = hull_of(shapes::ellipsoid({1, 1, 0.5}, 2000, 3)), cut = whole.cut({0.1}),
+              cube = bodies::model(bodies::cube());
+  ASSERT_GT(cut.finest_level(), 0);
+  const Pose pose = at(0.3, 0.2, 0.7);
+  PairSeed cold;
+  const SignedAnswer exact = signed_distance(whole, whole, pose, cold);
+  PatchOptions options;
+  options.margin = kInfinity;
+  EXPECT_GT(patch(whole, whole, pose, exact, options).count, 0u);
+  EXPECT_EQ(patch(cut, whole, pose, exact, options).count, 0u);
+  EXPECT_EQ(patch(whole, cut, pose, exact, options).count, 0u);
+  cold = {};
+  EXPECT_GT(patch(cut, cut, pose, signed_distance(cut, cut, pose, cold), options).count, 0u);
+  SignedAnswer wrong = exact;
+  wrong.level_a = -1;
+  EXPECT_EQ(patch(whole, whole, pose, wrong, options).count, 0u);
+  wrong = exact;
+  wrong.feature_b = {FeatureKind::Face, 1u << 29};
+  EXPECT_EQ(patch(cube, cube, pose, wrong, options).count, 0u);
+  wrong = exact;
+  wrong.normal.setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(patch(whole, whole, pose, wrong, options).count, 0u);
+  for (const double absurd : {std::numeric_limits<double>::quiet_NaN(), -kInfinity}) {
+    options.margin = absurd;
+    EXPECT_EQ(patch(whole, whole, pose, exact, options).count, 0u);
+  }
+}
+
+/// Points chosen anew beside those of the patch before move no more.
+TEST(Patch, OfTheSamePoseStays) {
+  Random random(14);
+  for (int i = 0; i < 100; ++i) {
+    const Contacting c = i % 2 ? stacked_prisms(random, 12, 7) : stacked_boxes(random);
+    if (!is_apart(c)) continue;
+    PatchOptions options;
+    options.margin = kInfinity, options.most_points = 3 + std::uint32_t(i % 6);
+    const Patch first = patch(c.a, c.b, c.b_in_a, c.answer, options),
+                again = patch(c.a, c.b, c.b_in_a, c.answer, options, first);
+    ASSERT_EQ(first.count, again.count);
+    for (std::uint32_t k = 0; k < first.count; ++k) {
+      const bool kept = std::any_of(again.points.begin(), again.points.begin() + again.count, [&](const PatchPoint& p) {
+        return p.feature_a == first.points[k].feature_a && p.feature_b == first.points[k].feature_b;
+      });
+      EXPECT_TRUE(kept) << i;
+    }
+  }
 }
 
 // ---- Laws -------------------------------------------------------------------------------------------------------------------

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "judge.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include <swiftlet/check.h>
 
@@ -44,6 +46,23 @@ Pose take_pose(Bytes& bytes) {
 
 PairSeed take_seed(Bytes& bytes) { return bytes.take<PairSeed>(); }
 
+PatchOptions take_patch_options(Bytes& bytes) {
+  PatchOptions options;
+  options.margin = bytes.take<double>();
+  options.flatness = bytes.take<double>();
+  options.most_points = bytes.take<std::uint32_t>();
+  return options;
+}
+
+Patch take_patch(Bytes& bytes) {
+  const auto handle = [&] { return Handle(FeatureKind(bytes.take<std::uint8_t>() % 4), bytes.take<std::uint8_t>()); };
+  Patch patch;
+  patch.count = bytes.take<std::uint32_t>();
+  patch.face_a = handle(), patch.face_b = handle();
+  for (PatchPoint& p : patch.points) p.feature_a = handle(), p.feature_b = handle();
+  return patch;
+}
+
 bool is_legal(const Pose& pose) { return pose_quality(motion(pose)).legal; }
 
 Judge::Judge(const Model& a, const Model& b, const Pose& b_in_a)
@@ -75,6 +94,36 @@ std::string Judge::fault(const Within& within, double threshold) const {
     return described("within, wrong", within.answer, truth_.distance);
   }
   return fault(within.answer, false);
+}
+
+std::string Judge::fault(const SignedAnswer& answer) const {
+  Answer interval;  // to print
+  interval.lower = answer.lower, interval.upper = answer.upper, interval.verdict = answer.verdict,
+  interval.status = answer.status;
+  const auto wrong = [&](const char* what) { return described(what, interval, truth_.distance); };
+  if (const Check checked = check(a_, b_, b_in_a_, answer); !checked) return wrong(checked.message.c_str());
+  if (answer.status != Status::Converged || answer.verdict == Verdict::Undecided) return wrong("undecided");
+  if (answer.upper - answer.lower > 2 * law_two_) return wrong("wider than law 2 allows");
+  if (truth_.overlapping ? answer.lower > 0 : !oracle::holds(truth_, answer.lower, answer.upper)) return wrong("signed");
+  return {};
+}
+
+std::string Judge::fault(const Patch& patch, const SignedAnswer& answer, const PatchOptions& options) const {
+  if (patch.count > std::min(options.most_points, kMostPatchPoints)) return "too many points";
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = 0; i < patch.count; ++i) {
+    const PatchPoint& p = patch.points[i];
+    if (!(p.point_a + p.point_b).allFinite() || !(p.separation <= options.margin + law_two_)) return "no point of a patch";
+    if (!((p.point_b - p.point_a - p.separation * patch.normal).norm() <= 2 * law_two_)) return "not one above the other";
+    const auto off = [&](const Vec3& point, const Model& body, const Pose& pose) {
+      return !oracle::holds(oracle::distance({&point, 1}, bodies::points_of(body.level(0).view), pose), 0, law_two_);
+    };
+    if (off(p.point_a, a_, Pose{}) || off(p.point_b, b_, b_in_a_)) return "a point outside its body";
+    least = std::min(least, p.separation);
+  }
+  if (patch.count == 0 && options.most_points > 0 && answer.upper <= options.margin) return "no patch";
+  if (patch.count > 0 && !(least >= answer.lower - law_two_ && least <= answer.upper + law_two_)) return "not the deepest";
+  return {};
 }
 
 }  // namespace swiftlet::fuzz

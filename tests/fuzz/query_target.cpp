@@ -27,18 +27,29 @@ const std::vector<Model>& models() {
   return all;
 }
 
-QueryOptions take_options(Bytes& bytes) {
+/// What is asked besides poses. A bit of `which` per part that is not the default.
+struct Question {
   QueryOptions options;
-  options.start = StartPolicy(bytes.take<std::uint8_t>());
-  options.refinement = Refinement(bytes.take<std::uint8_t>());
-  options.plane_rule = PlaneRule(bytes.take<std::uint8_t>());
-  const auto which = bytes.take<std::uint8_t>();  // a bit per option that is not the default
-  if (which & 1) options.absolute_error = bytes.take<double>();
-  if (which & 2) options.relative_error = bytes.take<double>();
-  if (which & 4) options.beyond = bytes.take<double>();
-  if (which & 8) options.finest_level = bytes.take<std::int32_t>();
-  if (which & 16) options.step_budget = bytes.take<std::uint16_t>();
-  return options;
+  PatchOptions patch_options;
+  Patch before;
+  double threshold = 0;
+  PairSeed seed;
+};
+Question take_question(Bytes& bytes) {
+  Question q;
+  q.options.start = StartPolicy(bytes.take<std::uint8_t>());
+  q.options.refinement = Refinement(bytes.take<std::uint8_t>());
+  q.options.plane_rule = PlaneRule(bytes.take<std::uint8_t>());
+  const auto which = bytes.take<std::uint8_t>();
+  if (which & 1) q.options.absolute_error = bytes.take<double>();
+  if (which & 2) q.options.relative_error = bytes.take<double>();
+  if (which & 4) q.options.beyond = bytes.take<double>();
+  if (which & 8) q.options.finest_level = bytes.take<std::int32_t>();
+  if (which & 16) q.options.step_budget = bytes.take<std::uint16_t>();
+  q.threshold = std::fabs(bytes.take<float>());
+  q.seed = take_seed(bytes);
+  if (which & 32) q.patch_options = take_patch_options(bytes), q.before = take_patch(bytes);
+  return q;
 }
 
 bool is_exact(const QueryOptions& o) {
@@ -52,9 +63,7 @@ std::string query(Input input) {
   Bytes bytes(input);
   const Model &a = models()[bytes.take<std::uint8_t>() % models().size()],
               &b = models()[bytes.take<std::uint8_t>() % models().size()];
-  const QueryOptions options = take_options(bytes);
-  const double threshold = std::fabs(bytes.take<float>());
-  PairSeed seed = take_seed(bytes);
+  auto [options, patch_options, before, threshold, seed] = take_question(bytes);
   for (int i = 0; i < 4 && !(i > 0 && bytes.empty()); ++i) {
     const Pose pose = take_pose(bytes);
     if (!is_legal(pose)) {
@@ -79,6 +88,10 @@ std::string query(Input input) {
     if (const auto fault = judge.fault(contact(a, b, pose, other, options).answer, false); !fault.empty())
       return "contact: " + fault;
     if (const auto fault = judge.fault(distance(a, b, pose, seed, options), exact); !fault.empty()) return "distance: " + fault;
+    const SignedAnswer deep = signed_distance(a, b, pose, other);
+    if (const auto fault = judge.fault(deep); !fault.empty()) return "signed distance: " + fault;
+    before = patch(a, b, pose, deep, patch_options, before);
+    if (const auto fault = judge.fault(before, deep, patch_options); !fault.empty()) return "patch: " + fault;
   }
   return {};
 }

@@ -80,10 +80,11 @@ void write_queries(Folder folder) {
   shapes::Random random(1);
   for (int i = 0; i < 40; ++i) {
     const auto byte = [&](unsigned below) { return std::uint8_t(random.bits() % below); };
-    std::string bytes =
-        packed(byte(10), byte(10), byte(6), byte(4), byte(2), std::uint8_t(i % 4 ? 0 : 16 + 2), 0.01, std::uint16_t(3));
+    std::string bytes = packed(byte(10), byte(10), byte(6), byte(4), byte(2),
+                               std::uint8_t((i % 4 ? 0 : 16 + 2) + (i % 3 ? 0 : 32)), 0.01, std::uint16_t(3));
     if (i % 4) bytes.resize(6);
     bytes += packed(0.5f, PairSeed{});
+    if (i % 3 == 0) bytes += packed(i % 2 ? 1.0 : 0.0, 0x1p-21, std::uint32_t(i % 9), 4u) + std::string(2 * 2 * 9, char(1));
     for (int k = 0; k < 2; ++k)
       bytes += i % 2 ? shifted(int(random.bits() % 64), int(random.bits() % 64), 32)
                      : raw({random.rotation(), 2 * random.on_sphere()});

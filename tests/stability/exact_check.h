@@ -10,6 +10,7 @@
 
 #include <swiftlet/depth.h>
 #include <swiftlet/model.h>
+#include <swiftlet/patch.h>
 #include <swiftlet/query.h>
 
 #include "oracle.h"
@@ -42,8 +43,8 @@ class Judge {
   std::string interval(const Answer& answer);
 
   /// The answer to a query for the exact distance: `interval`, and it converged on level 0 with a verdict and is no wider than
-  /// law 2 allows. Unless overlapping, its points lie within law 2's bound of both bodies, are as far apart as the interval
-  /// says, and differ by their distance times the normal as nearly as the interval implies.
+  /// law 2 allows. Unless overlapping, its points lie within law 2's bound of the features named, are as far apart as the
+  /// interval says, and differ by their distance times the normal as nearly as the interval implies.
   std::string exact(const Answer& answer);
 
   /// The answer to `intersects`: `interval`, and it converged with a verdict.
@@ -54,9 +55,15 @@ class Judge {
 
   /// The answer to a query for the exact signed distance: converged with a verdict, no wider than law 2 allows, `lower` at most
   /// the gap along the normal, `upper` at least the truth: of bodies apart as in `interval`, of an overlap by every plane that
-  /// bounds the Minkowski difference. The points lie within law 2's bound of both bodies, and differ by the signed distance
-  /// times the normal.
+  /// bounds the Minkowski difference. The points lie within law 2's bound of the features named, of an overlap at least of both
+  /// bodies, and differ by the signed distance times the normal.
   std::string exact(const SignedAnswer& answer);
+
+  /// The patch of an exact answer of these bodies: its normal; as many points as fit and are asked for, none farther apart than
+  /// the margin and law 2's bound; each pair named, no two alike, one above the other, on the vertices and edges that it names,
+  /// within law 2's bound in both bodies and below their surfaces by no more than the flatness; the first as deep as the answer
+  /// says; in order around an area which is most of what both contact faces have in common, by exact clipping.
+  std::string patch(const Patch& patch, const SignedAnswer& answer, const PatchOptions& options) const;
 
   /// Any answer to a query for the signed distance: lower <= truth <= upper.
   std::string interval(const SignedAnswer& answer);
@@ -70,7 +77,8 @@ class Judge {
   std::string proved_verdict(const Answer& answer);
   std::string witnesses(const Answer& answer);
   std::string signed_upper_bound(const SignedAnswer& answer);
-  bool within_law_two(const Vec3& p_a, const Subject& subject, std::span<const Vec3> feature, const Pose& pose) const;
+  std::string area_of(const Patch& patch, const PatchOptions& options, double bound) const;
+  bool within_law_two(const Vec3& p_a, std::span<const Vec3> points, const Pose& pose) const;
 
   const Subject &a_, &b_;
   Pose b_in_a_;

@@ -6,11 +6,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 
 namespace swiftlet::stability {
 namespace {
 
-constexpr std::uint64_t kSolveEvery = 24, kColdEvery = 8;
+constexpr std::uint64_t kSolveEvery = 24, kColdEvery = 8, kPatchEvery = 32;
 constexpr std::size_t kMostFailures = 8;
 
 template <class T>
@@ -34,6 +35,23 @@ std::string hex(const PairSeed& seed) {
   return result;
 }
 
+const SignedAnswer& signed_answer(const SignedAnswer& answer) { return answer; }
+/// What a patch of hulls that are apart is held against.
+SignedAnswer signed_answer(const Answer& answer) {
+  SignedAnswer s;
+  s.lower = answer.lower, s.upper = answer.upper, s.normal = answer.normal;
+  return s;
+}
+
+bool same_points(const Patch& one, const Patch& other) {
+  const auto kept = [&](const PatchPoint& p) {
+    return std::any_of(other.points.begin(), other.points.begin() + other.count, [&](const PatchPoint& q) {
+      return p.feature_a == q.feature_a && p.feature_b == q.feature_b && p.point_a == q.point_a && p.point_b == q.point_b;
+    });
+  };
+  return one.count == other.count && std::all_of(one.points.begin(), one.points.begin() + one.count, kept);
+}
+
 }  // namespace
 
 Tally& Tally::operator+=(const Tally& other) {
@@ -42,6 +60,7 @@ Tally& Tally::operator+=(const Tally& other) {
   failed += other.failed;
   steps = std::max(steps, other.steps);
   depths += other.depths;
+  patches += other.patches;
   supports = std::max(supports, other.supports);
   widest = std::max(widest, other.widest);
   hash += other.hash;
@@ -90,6 +109,7 @@ Answer Pair::exact(PairSeed& seed, const QueryOptions& options) {
   const Answer answer = distance(a_.model, b_.model, b_in_a_, seed, options);
   count(answer);
   judged(judge_.exact(answer), "distance", start);
+  if (answer.verdict != Verdict::Overlapping) patches(answer);
   examiner_.tally.widest = std::max(examiner_.tally.widest, (answer.upper - answer.lower) / judge_.law_two());
   return answer;
 }
@@ -109,7 +129,28 @@ SignedAnswer Pair::exact_depth(PairSeed& seed) {
   judged(judge_.exact(answer), "signed distance", start);
   PairSeed again = seed;
   agree(answer, signed_distance(a_.model, b_.model, b_in_a_, again), "where it ended");
+  patches(answer);
   return answer;
+}
+
+template <class AnyAnswer>
+void Pair::patches(const AnyAnswer& answer) {
+  shapes::Random& random = examiner_.patch_options_;
+  if (random.bits() % kPatchEvery > 0 || answer.status != Status::Converged) return;
+  const double infinity = std::numeric_limits<double>::infinity(), size = a_.extent + b_.extent;
+  const double margins[] = {0, infinity, infinity, law_two(), 1e-3 * size, size};
+  PatchOptions options;
+  options.margin = margins[random.bits() % std::size(margins)];
+  if (random.bits() % 2) options.most_points = 1 + std::uint32_t(random.bits() % kMostPatchPoints);
+  if (random.bits() % 4 == 0) options.flatness = 0;
+  const Patch first = patch(a_.model, b_.model, b_in_a_, answer, options, examiner_.patch_),
+              again = patch(a_.model, b_.model, b_in_a_, answer, options, first);
+  examiner_.patch_ = first;
+  for (const Patch* p : {&first, &again}) {
+    count(*p);
+    judged(judge_.patch(*p, signed_answer(answer), options), p == &first ? "patch" : "patch, again,", {});
+  }
+  require(same_points(first, again), "a patch does not keep its points");
 }
 
 void Pair::agree(const SignedAnswer& one, const SignedAnswer& other, const char* what) {
@@ -158,6 +199,18 @@ void Pair::count(const Answer& answer) {
   for (const Vec3& v : {answer.normal, answer.point_a, answer.point_b})
     for (const double x : v) mix(tally.hash, x);
   mix(tally.hash, answer.feature_a), mix(tally.hash, answer.feature_b), mix(tally.hash, answer.steps);
+}
+
+void Pair::count(const Patch& patch) {
+  ++examiner_.tally.patches;
+  std::uint64_t& hash = examiner_.tally.hash;
+  mix(hash, patch.count), mix(hash, patch.face_a), mix(hash, patch.face_b);
+  for (std::uint32_t i = 0; i < patch.count; ++i) {
+    const PatchPoint& p = patch.points[i];
+    for (const Vec3& v : {p.point_a, p.point_b})
+      for (const double x : v) mix(hash, x);
+    mix(hash, p.separation), mix(hash, p.feature_a), mix(hash, p.feature_b);
+  }
 }
 
 void Pair::count(const SignedAnswer& answer) {

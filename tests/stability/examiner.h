@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <swiftlet/depth.h>
+#include <swiftlet/patch.h>
 #include <swiftlet/query.h>
 
 #include "case.h"
@@ -28,6 +29,7 @@ struct Tally {
   std::uint32_t steps = 0;                  ///< most of one answer
   std::uint64_t depths = 0;                 ///< of answers, those of an overlap with its depth
   std::uint32_t supports = 0;               ///< most steps of one of these
+  std::uint64_t patches = 0;                ///< judged
   double widest = 0;                        ///< exact interval, in units of law 2's bound
   std::uint64_t hash = 0;                   ///< of all bits of all answers, in order
 
@@ -40,7 +42,7 @@ class Examiner {
  public:
   /// `label` names the batch in the cases of failures. The same seed gives the same batch.
   Examiner(std::string family, std::string label, std::uint64_t seed)
-      : random(seed), family_(std::move(family)), label_(std::move(label)) {}
+      : random(seed), patch_options_(~seed), family_(std::move(family)), label_(std::move(label)) {}
 
   void hit(bool is_hit) { ++tally.trials, tally.hits += is_hit; }
 
@@ -50,6 +52,8 @@ class Examiner {
 
  private:
   friend class Pair;
+  shapes::Random patch_options_;  ///< apart, so that the pairs do not depend on it
+  Patch patch_;                   ///< the latest, of whatever pair
   std::string family_, label_;
 };
 
@@ -77,6 +81,11 @@ class Pair {
   /// The exact signed distance, and again from where that ended.
   SignedAnswer exact_depth(PairSeed& seed);
 
+  /// Of one in 32 exact answers, but of overlaps without depth, the patch, as options of all kinds ask for it; from that of
+  /// another pair, and again from itself, which must keep its points.
+  template <class AnyAnswer>
+  void patches(const AnyAnswer& answer);
+
   /// Both are exact answers of this pair or of one with the same truth: the same verdict, intervals within law 2's bound.
   void agree(const Answer& one, const Answer& other, const char* what);
   void agree(const SignedAnswer& one, const SignedAnswer& other, const char* what);
@@ -87,6 +96,7 @@ class Pair {
  private:
   void count(const Answer& answer);
   void count(const SignedAnswer& answer);
+  void count(const Patch& patch);
   void judged(const std::string& wrong, const char* query, const PairSeed& seed);
 
   Examiner& examiner_;

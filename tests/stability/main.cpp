@@ -84,7 +84,10 @@ int run(const Options& options) {
     std::printf("swiftlet: wrong is what breaks a law, 64 * 2^-53 of size. Others: what is off by more than %g of size.\n\n",
                 options.tolerance);
     std::fputs(totals_text(reports).c_str(), stdout);
-    if (reports.size() > 1) std::printf("\nFailed / cases:\n\n%s", matrix(reports).c_str());
+    if (reports.size() > 1) {
+      std::printf("\nFailed / cases:\n\n%s", matrix(reports).c_str());
+      std::printf("\nWrong depths, worst error over size:\n\n%s", depth_matrix(reports).c_str());
+    }
   }
   return reports.front().total.failed == 0 ? 0 : 1;
 }

@@ -149,10 +149,14 @@ std::string totals_text(const std::vector<MethodReport>& reports) {
   return all;
 }
 
-std::string matrix(const std::vector<MethodReport>& reports) {
-  const auto cell = [](const Sum& s) { return s.cases ? line("%d / %d", s.failed, s.cases) : std::string("-"); };
+namespace {
+
+/// A row per family, a column per method that `shown` says is.
+template <class Shown, class Cell>
+std::string table(const std::vector<MethodReport>& reports, Shown shown, Cell cell) {
   std::string head = "| family |", rule = "|---|", total = "| **all** |";
   for (const MethodReport& r : reports) {
+    if (!shown(r)) continue;
     head += " " + r.name + " |";
     rule += "---|";
     total += " **" + cell(r.total) + "** |";
@@ -160,10 +164,24 @@ std::string matrix(const std::vector<MethodReport>& reports) {
   std::string all = head + "\n" + rule + "\n";
   for (std::size_t i = 0; i < reports.front().groups.size(); ++i) {  // all methods were asked the same cases
     all += "| " + reports.front().groups[i].first + " |";
-    for (const MethodReport& r : reports) all += " " + cell(r.groups[i].second) + " |";
+    for (const MethodReport& r : reports) all += shown(r) ? " " + cell(r.groups[i].second) + " |" : "";
     all += "\n";
   }
   return all + total + "\n";
+}
+
+}  // namespace
+
+std::string matrix(const std::vector<MethodReport>& reports) {
+  return table(
+      reports, [](const MethodReport&) { return true; },
+      [](const Sum& s) { return s.cases ? line("%d / %d", s.failed, s.cases) : std::string("-"); });
+}
+
+std::string depth_matrix(const std::vector<MethodReport>& reports) {
+  return table(
+      reports, [](const MethodReport& r) { return r.gives_depth; },
+      [](const Sum& s) { return s.cases ? line("%d, %.0e", s.wrong_depth, s.worst_depth_error) : std::string("-"); });
 }
 
 std::string depths(const std::vector<Case>& cases, const std::vector<MethodReport>& reports) {

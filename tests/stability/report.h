@@ -42,6 +42,8 @@ std::string group_of(const std::string& family);
 std::string text(const MethodReport& report);                       ///< a line per group
 std::string totals_text(const std::vector<MethodReport>& reports);  ///< a line per method
 std::string matrix(const std::vector<MethodReport>& reports);       ///< Markdown: groups by methods, failed / cases
+/// As a table in Markdown: families by methods that give depths, wrong ones and the worst error over size.
+std::string depth_matrix(const std::vector<MethodReport>& reports);
 /// Markdown: cases by methods, what each returned as the depth; `cases` are those that were added.
 std::string depths(const std::vector<Case>& cases, const std::vector<MethodReport>& reports);
 std::string csv(const std::vector<MethodReport>& reports);

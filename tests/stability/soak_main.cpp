@@ -124,8 +124,8 @@ class Soak {
   }
 
   int report() const {
-    std::printf("\n%-26s %9s %9s %8s %7s  %8s %8s %8s %6s %7s %7s\n", "family", "pairs", "answers", "solved", "hits",
-                "disjoint", "touching", "overlap", "steps", "widest", "failed");
+    std::printf("\n%-26s %9s %9s %8s %8s %7s  %8s %8s %8s %6s %7s %7s\n", "family", "pairs", "answers", "patches", "solved",
+                "hits", "disjoint", "touching", "overlap", "steps", "widest", "failed");
     bool missed = false;
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
       const Family& family = *chosen_[i];
@@ -140,15 +140,16 @@ class Soak {
     }
     const Tally sum = total();
     row("all", sum);
-    std::printf("\n%.0f s on %u threads, %.0f pairs a minute; widest is in units of law 2's bound; answer hash %016llx\n",
+    std::printf("\n%llu depths, of at most %u supports\n", count(sum.depths), sum.supports);
+    std::printf("%.0f s on %u threads, %.0f pairs a minute; widest is in units of law 2's bound; answer hash %016llx\n",
                 seconds(), options_.threads, 60 * double(sum.pairs) / seconds(), count(sum.hash));
     return sum.failed > 0 || missed ? 1 : 0;
   }
 
   static void row(const char* name, const Tally& t) {
-    std::printf("%-26s %9llu %9llu %8llu %6.1f%%  %8llu %8llu %8llu %6u %7.3f %7llu\n", name, count(t.pairs), count(t.answers),
-                count(t.solved), 100 * t.hit_rate(), count(t.verdicts[1]), count(t.verdicts[2]), count(t.verdicts[3]), t.steps,
-                t.widest, count(t.failed));
+    std::printf("%-26s %9llu %9llu %8llu %8llu %6.1f%%  %8llu %8llu %8llu %6u %7.3f %7llu\n", name, count(t.pairs),
+                count(t.answers), count(t.patches), count(t.solved), 100 * t.hit_rate(), count(t.verdicts[1]),
+                count(t.verdicts[2]), count(t.verdicts[3]), t.steps, t.widest, count(t.failed));
   }
   static unsigned long long count(std::uint64_t n) { return n; }
 

@@ -22,8 +22,8 @@ struct PatchPoint {
   Vec3 point_b = Vec3::Zero();  ///< in B likewise: `point_a` + `separation` * normal, within twice law 2's bound
   double separation = 0;        ///< along the normal, the bodies' unit; negative where the bodies overlap
   /// What the point lies on, on the answer's levels: a corner of one body and the contact face of the other, or an edge of
-  /// each, which is named by the lesser of its half-edges. It names the point from patch to patch: the same pair, the same
-  /// place of the bodies.
+  /// each, which is named by the lesser of its half-edges; of a face of more than 64 sides one edge may stand for those after
+  /// it. It names the point from patch to patch: the same pair, the same place of the bodies.
   Handle feature_a;
   Handle feature_b;  ///< likewise, of B
 };
@@ -52,7 +52,8 @@ struct PatchOptions {
 /// body is, of those at that feature, the one that faces best along the normal; both are projected along it, and the corners of
 /// what they have in common are the points. Where there are more than asked for those stay that hold the least separation and
 /// most of the area: of a round face four keep 0.6, eight 0.9, of a square all; those of `previous`, the patch of this pair a
-/// moment ago, are preferred. The least separation of a patch is the answer's, within law 2's bound. Nothing is allocated.
+/// moment ago, are preferred. The least separation of a patch is the answer's, within law 2's bound. No points of
+/// an answer without a normal, or of levels and features that these models do not have. Nothing is allocated.
 /// Cost: the product of both faces' sides; of a face of more than 64 sides the 64 corners count that keep most of its area.
 Patch patch(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnswer& answer, const PatchOptions& options = {},
             const Patch& previous = {});

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "patch_cell.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <swiftlet/build.h>
+
+#include "shapes.h"
+
+namespace swiftlet::bench {
+namespace {
+
+constexpr double kOutside = 1e-6, kDegree = std::numbers::pi / 180, kStep = 0.1 * kDegree;
+constexpr double kShallow[] = {1e-6, 1e-2};
+
+/// The facets' planes, for heights over a body.
+class Planes {
+ public:
+  explicit Planes(const ConvexView& view) {
+    const auto point = [&](std::uint32_t v) { return Vec3(view.vertices[v].x, view.vertices[v].y, view.vertices[v].z); };
+    for (std::uint32_t h = 0; h < view.head.size(); ++h) {
+      const Vertex& ring = view.vertices[view.head[h]];  // the facet's next half-edge follows the twin, clockwise
+      const std::uint32_t back = view.twin[h], next = back == ring.ring_begin ? back + ring.ring_count - 1 : back - 1;
+      const Vec3 p = point(view.head[back]), u = point(view.head[h]) - p, v = point(view.head[next]) - p;
+      const Vec3 n(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+      if (n.norm() > 0) planes_.push_back({n / n.norm(), n.dot(p) / n.norm()});
+    }
+  }
+  /// Below 0 inside.
+  double height(const Vec3& p) const {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const auto& [n, offset] : planes_) most = std::max(most, n.dot(p) - offset);
+    return most;
+  }
+
+ private:
+  std::vector<std::pair<Vec3, double>> planes_;
+};
+
+/// What a pass of answers is worth.
+void judge(const PatchCell& cell, std::span<const Contacts> all, Row& row) {
+  const Planes a(cell.a.level(0).view), b(cell.b.level(0).view);
+  const double radius = std::max(cell.a.radius(), cell.b.radius());
+  double sum = 0, points = 0;
+  const auto mix = [&](std::uint64_t word) { row.hash = (row.hash ^ word) * 0x100000001b3u, row.hash ^= row.hash >> 29; };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Pose &pose = cell.poses[i], back = inverse(pose);
+    const Contacts& c = all[i];
+    row.failed += c.count == 0;
+    mix(c.count);
+    for (std::uint32_t k = 0; k < c.count; ++k) {
+      const auto& [p, q] = c.points[k];
+      const double over_a = a.height(p), over_b = b.height(back.rotation * q + back.translation),
+                   off = std::max(std::fabs(over_a), std::fabs(over_b)) / radius;
+      row.error = std::max(row.error, off);
+      row.wrong += std::max(over_a, over_b) > kOutside * radius;
+      sum += off, ++points;
+      mix(std::uint64_t(std::llround((q - p).norm() / (1e-9 * radius))));
+    }
+  }
+  row.mean_error = points > 0 ? sum / points : 0;
+  row.steps = points / double(all.size());
+  row.flagged = row.failed > 0 || row.wrong > 0 || row.error > kOutside;
+}
+
+/// B on A's top, turning and sliding about.
+PatchCell stacked(std::string name, const Mesh& mesh, double height, double depth, std::uint32_t poses) {
+  const Model model = std::move(build(mesh.points)).value().model;
+  PatchCell cell{std::move(name), model, model, {}};
+  for (std::uint32_t i = 0; i < poses; ++i) {
+    Pose pose;
+    pose.rotation = shapes::rotation(Vec3::UnitZ(), i * kStep);
+    pose.translation = {0.4 * std::cos(0.7 * i * kStep), 0.4 * std::sin(0.7 * i * kStep), height - depth};
+    cell.poses.push_back(pose);
+  }
+  return cell;
+}
+
+}  // namespace
+
+std::vector<PatchCell> patch_cells(const Shelf& shelf, std::uint32_t poses) {
+  std::vector<PatchCell> cells;
+  for (const double depth : kShallow) {
+    const std::string end = depth < 1e-3 ? "/touching" : "/shallow";
+    cells.push_back(stacked("box" + end, shapes::cube(), 2, depth, poses));
+    for (const std::uint32_t sides : {12u, 60u})
+      cells.push_back(stacked("prism" + std::to_string(sides) + end, shapes::prism(sides, 1, 1), 1, depth, poses));
+    const Scene scene = shallow(shelf, shapes::Family::Fat, 2'000, 0.1, depth, {1, poses});
+    PatchCell fat{"fat2000" + end, scene.models[0], scene.models[1], {}};
+    for (const Query& query : scene.queries) fat.poses.push_back(query.b_in_a);
+    cells.push_back(std::move(fat));
+  }
+  return cells;
+}
+
+std::vector<Row> measure(const PatchCell& cell, int rounds) {
+  const Body a{&cell.a, cell.a.level(0).view, 0}, b{&cell.b, cell.b.level(0).view, 0};
+  const double to_ns = 1e9 / double(cell.poses.size());
+  std::vector<Row> rows;
+  std::vector<std::unique_ptr<PatchSession>> sessions;
+  for (const PatchMethod& method : patch_methods()) {
+    for (const bool cold : {false, true}) {
+      if (cold && !method.keeps_state) continue;
+      sessions.push_back(method.open(a, b, cold));
+      Row row;
+      row.scene = cell.name, row.question = Question::Patch, row.series = method.name + (cold ? " cold" : "");
+      row.queries = cell.poses.size(), row.rounds = std::size_t(rounds), row.floor_ns = 1;
+      rows.push_back(row);
+    }
+  }
+  std::vector<std::vector<double>> times(rows.size());
+  std::vector<Contacts> contacts(cell.poses.size());
+  for (int round = 0; round <= rounds; ++round) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto begin = std::chrono::steady_clock::now();
+      sessions[i]->ask(cell.poses, contacts);
+      const double ns = to_ns * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      if (round > 0) times[i].push_back(ns);
+      if (round == rounds) judge(cell, contacts, rows[i]);
+    }
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::sort(times[i].begin(), times[i].end());
+    rows[i].ns = times[i][times[i].size() / 2];
+    rows[i].spread = (times[i].back() - times[i].front()) / rows[i].ns;
+  }
+  return rows;
+}
+
+}  // namespace swiftlet::bench

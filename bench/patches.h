@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The interface behind which methods that answer with several contact points stand in the benchmark. Knows models and poses;
+// nothing of scenes, clocks or truth.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <swiftlet/pose.h>
+
+#include "method.h"
+
+namespace swiftlet::bench {
+
+/// What one query answered, in A's frame.
+struct Contacts {
+  static constexpr std::uint32_t kMost = 8;
+  struct Point {
+    Vec3 on_a, on_b;
+  };
+  std::uint32_t count = 0;
+  std::array<Point, kMost> points;
+};
+
+/// A method with one pair of bodies.
+class PatchSession {
+ public:
+  virtual ~PatchSession() = default;
+  /// One after the other. The outputs are as long as the poses.
+  virtual void ask(std::span<const Pose> poses, std::span<Contacts> contacts) = 0;
+};
+
+struct PatchMethod {
+  std::string name, settings;
+  bool keeps_state = false;  ///< from query to query: else coherent and cold are one
+  /// The bodies outlive the session. Cold: nothing is kept from query to query.
+  std::function<std::unique_ptr<PatchSession>(const Body& a, const Body& b, bool cold)> open;
+};
+using PatchMethods = std::vector<PatchMethod>;
+
+/// Ours first, then the peers that the build found and that give more than one point of two hulls.
+PatchMethods patch_methods();
+
+// Each in its own source.
+void add_bullet_patches(PatchMethods& methods);
+void add_ode_patches(PatchMethods& methods);
+
+}  // namespace swiftlet::bench

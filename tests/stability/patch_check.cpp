@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The judge of contact patches, in rational arithmetic.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "exact_check.h"
+#include "patch_oracle.h"
+
+namespace swiftlet::stability {
+namespace {
+
+/// Of a round face four corners keep 2 / pi at most, eight 0.901; of one with more than 64 sides a hundredth is lost before.
+constexpr double kShares[] = {0, 0, 0, 0.3, 0.58, 0.6, 0.6, 0.6, 0.85};
+
+bool is_named(const ConvexView& view, Handle feature) {
+  switch (feature.kind()) {
+    case FeatureKind::None: return false;
+    case FeatureKind::Vertex: return feature.index() < view.vertices.size();
+    case FeatureKind::Edge: return feature.index() < view.head.size() && feature.index() < view.twin[feature.index()];
+    case FeatureKind::Face: return feature.index() < view.face_first.size();
+  }
+  return false;
+}
+
+/// Of one body: a point less its radius, what it is said to lie on, and where the body is.
+struct Claim {
+  const Subject& subject;
+  const Pose& pose;
+  Vec3 point;
+  Handle feature;
+
+  std::string fault(const PatchOptions& options, double bound) const {
+    const ConvexView& view = subject.model.level(0).view;
+    if (!is_named(view, feature)) return "no feature is named";
+    const bool on_face = feature.kind() == FeatureKind::Face;
+    const std::vector<Vec3> corners = on_face ? subject.points : vertices_of(view, feature);
+    if (!oracle::holds(oracle::distance({&point, 1}, corners, pose), 0, bound))
+      return on_face ? "is not in the body" : "is not on what it is named after";
+    const double height = oracle::height_over(view, pose, point), depth = options.flatness * view.extent + bound;
+    return height >= -depth ? "" : "is " + std::to_string(-height / depth) + " times the flatness below the surface";
+  }
+};
+
+}  // namespace
+
+std::string Judge::patch(const Patch& patch, const SignedAnswer& answer, const PatchOptions& options) const {
+  const double bound = law_two_ + 0x1p-47 * (options.radius_a + options.radius_b);
+  const Vec3& n = patch.normal;
+  if (patch.count > std::min(options.most_points, kMostPatchPoints)) return "more points than asked for";
+  if (patch.count == 0)
+    return answer.upper > options.margin || options.most_points == 0 ? "" : "no point, but the bodies are near enough";
+  if (n != answer.normal) return "another normal than the answer's";
+  double least = patch.points[0].separation;
+  for (std::uint32_t i = 0; i < patch.count; ++i) {
+    const PatchPoint& p = patch.points[i];
+    const std::string name = "point " + std::to_string(i);
+    if (!(p.point_a + p.point_b).allFinite()) return name + " is not finite";
+    if (!(p.separation <= options.margin + bound)) return name + " is farther apart than the margin";
+    if (!((p.point_b - p.point_a - p.separation * n).norm() <= 2 * bound)) return name + ": not one above the other";
+    for (std::uint32_t k = 0; k < i; ++k) {
+      const PatchPoint& q = patch.points[k];
+      if (p.feature_a == q.feature_a && p.feature_b == q.feature_b) return name + " has the name of another";
+    }
+    const Claim of_a{a_, Pose{}, p.point_a - options.radius_a * n, p.feature_a},
+        of_b{b_, b_in_a_, p.point_b + options.radius_b * n, p.feature_b};
+    if (const std::string wrong = of_a.fault(options, bound); !wrong.empty()) return name + " of A " + wrong;
+    if (const std::string wrong = of_b.fault(options, bound); !wrong.empty()) return name + " of B " + wrong;
+    least = std::min(least, p.separation);
+  }
+  if (!(least >= answer.lower - bound && least <= answer.upper + bound))
+    return "the least separation is off the answer's by " +
+           std::to_string(std::max(answer.lower - least, least - answer.upper) / bound) + " of law 2's bound";
+  if (!(patch.points[0].separation <= least + bound)) return "the first point is not the deepest";
+  return area_of(patch, options, bound);
+}
+
+std::string Judge::area_of(const Patch& patch, const PatchOptions& options, double bound) const {
+  std::vector<Vec3> points;
+  for (std::uint32_t i = 0; i < patch.count; ++i) points.push_back(patch.points[i].point_a);
+  Vec3 around = Vec3::Zero();
+  for (std::uint32_t i = 0; i < patch.count; ++i) {
+    const Vec3 p = points[i] - points[0], q = points[i + 1 == patch.count ? 0 : i + 1] - points[0];
+    around += Vec3(p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]);
+  }
+  const double shown = oracle::area(points, patch.normal), blur = 16 * bound * (a_.extent + b_.extent);
+  if (!(std::fabs(around.dot(patch.normal) / 2 - shown) <= blur)) return "the points are not in order around their area";
+  if (!std::isinf(options.margin) || patch.face_a.kind() != FeatureKind::Face || patch.face_b.kind() != FeatureKind::Face)
+    return "";
+  const ConvexView &a = a_.model.level(0).view, &b = b_.model.level(0).view;
+  const double common = oracle::overlay(a, oracle::flat_faces(a, patch.face_a, options.flatness), b,
+                                        oracle::flat_faces(b, patch.face_b, options.flatness), b_in_a_, patch.normal)
+                            .area;
+  const auto text = [&](const char* what) {
+    return std::to_string(patch.count) + what + std::to_string(shown / common) + " of the area in common";
+  };
+  if (!(shown <= common + blur)) return text(" points span ");
+  const double share = kShares[std::min(options.most_points, kMostPatchPoints)];
+  return shown >= share * common - blur ? "" : text(" points keep but ");
+}
+
+}  // namespace swiftlet::stability
