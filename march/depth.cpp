@@ -56,7 +56,9 @@ class Deepening {
         finest_a_(finest_allowed(a, options)),
         finest_b_(finest_allowed(b, options)) {}
 
-  void run(const PairSeed& seed) {
+  /// `floor`: at most 0, as DepthGoal's.
+  void run(const PairSeed& seed, double floor = 0) {
+    floor_ = floor;
     // No farther than their centres and radii allow: a pair that deviates by more than that allows cannot answer.
     const double most = a_.radius() + stretch_ * b_.radius() - norm(line_.in_a);
     const bool exact = target_.absolute == 0 && target_.relative == 0 && !target_.is_threshold();
@@ -84,6 +86,9 @@ class Deepening {
   }
   /// Overlapping for certain, and not to be taken for touching.
   bool proved() const { return lower > law_two_; }
+
+  /// With `floor`, where the depth has no other bound.
+  bool narrow(double floor) const { return upper - larger(lower, floor) <= larger(target_.absolute, law_two_); }
 
   void store(PairSeed& seed) const {
     remember(line_, normal, seed);
@@ -128,7 +133,7 @@ class Deepening {
   void solve(const PairSeed& seed, const Vec& direction, double error) {
     const Level &of_a = a_.level(place_.level_a), &of_b = b_.level(place_.level_b);
     const Scene pair = scene(of_a.view, of_b.view, motion_, shift_, pose_error_);
-    DepthGoal goal{target_.absolute, target_.relative, error, kInfinity, -kInfinity, options_.step_budget - steps};
+    DepthGoal goal{target_.absolute, target_.relative, error, floor_, kInfinity, -kInfinity, options_.step_budget - steps};
     if (target_.is_threshold()) goal.deeper = target_.depth + law_two_, goal.shallower = target_.depth - law_two_;
     const Depth found = expand(pair, of_a, of_b, start(pair, seed, direction), goal, plane_tests);
     end = found.end;
@@ -154,6 +159,7 @@ class Deepening {
   const DepthTarget target_;
   const double law_two_;
   const int finest_a_, finest_b_;
+  double floor_ = 0;
   Place place_{};
 };
 
@@ -224,7 +230,8 @@ SignedAnswer signed_distance(const Model& a, const Model& b, const Pose& b_in_a,
   const Target target{options.absolute_error, options.relative_error, options.beyond, -kInfinity};
   answer = apart(descend(a, b, b_in_a, seed, options, dilation.of_hulls(target, law_two)));
   if (!(answer.lower > 0)) {
-    if (deep.steps == 0) deep.run(seed);
+    const bool touching = answer.verdict == Verdict::Touching;  // the distance bounds the depth then
+    if (deep.steps == 0 || (touching && !deep.narrow(-answer.upper))) deep.run(seed, touching ? -answer.upper : 0);
     const bool overlapping = deep.proved() || answer.verdict == Verdict::Overlapping;
     if (answer.status == Status::Converged) answer.status = deep.status();
     if (overlapping) answer.verdict = Verdict::Overlapping;

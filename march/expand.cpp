@@ -103,7 +103,10 @@ struct Search {
   double allowed(double lower) const {
     return larger(larger(goal.absolute, goal.relative * (lower - goal.error)) - goal.error, scene.law_two);
   }
-  bool narrow(double lower) const { return best.height - lower <= allowed(lower); }
+  /// What is known where a polytope says so: one that does not hold the origin says nothing.
+  double known(double lower) const { return lower > 0 ? lower : goal.floor; }
+  bool suffices(double upper, double lower) const { return upper - known(lower) <= allowed(lower); }
+  bool narrow(double lower) const { return suffices(best.height, lower); }
   bool passed(double lower) const { return lower - goal.error > goal.deeper || best.height < goal.shallower; }
   /// Whether no bounds of this pair can, for its error.
   bool hopeless(double lower) const {
@@ -151,13 +154,13 @@ class Polytope {
       if (search_.best.height < -scene_.law_two) return End::Apart;
       if (search_.narrow(lower_)) next = nearest_point().facet;
       if (facet_[next].above < kInfinity) {
-        if (facet_[next].above - lower_ > search_.allowed(lower_)) return End::Stuck;
+        if (!search_.suffices(facet_[next].above, lower_)) return End::Stuck;
         search_.best = {facet_[next].above, rounded(facet_[next].normal)};
         return End::Enough;
       }
       if (search_.steps >= search_.goal.step_budget) return End::Budget;
       const Corner top = support(facet_[next]);
-      const bool will_do = !search_.exact && last_.height - lower_ <= search_.allowed(lower_);
+      const bool will_do = !search_.exact && search_.suffices(last_.height, lower_);
       if (will_do || !sees(facet_[next], top) || known(top)) {
         facet_[next].above = last_.height;
         continue;
@@ -348,34 +351,70 @@ class Polytope {
     return std::any_of(facet_.begin(), facet_.begin() + facet_count_, [&](const Facet<Real>& f) { return sees(f, c); });
   }
 
-  /// Replaces the facets that see `top` above them by a cone to it. Their edges, each both ways, leave the border.
-  bool add(const Corner& top) {
-    std::array<std::array<std::uint8_t, 2>, kDepthFacets> border;
-    std::size_t border_count = 0;
-    const auto toggle = [&](std::uint8_t from, std::uint8_t to) {
-      for (std::size_t k = 0; k < border_count; ++k) {
-        if (border[k][0] == to && border[k][1] == from) return border[k] = border[--border_count], true;
+  /// Edges around a hole in the surface, each as the facets taken out of it went.
+  class Border {
+   public:
+    int count() const { return count_; }
+    std::array<std::uint8_t, 2> operator[](int k) const { return edge_[std::size_t(k)]; }
+    /// Takes a facet's edges in; those that are there the other way leave. False if there is no room.
+    bool take(const Facet<Real>& f) {
+      return toggle(f.corner[0], f.corner[1]) && toggle(f.corner[1], f.corner[2]) && toggle(f.corner[2], f.corner[0]);
+    }
+
+   private:
+    bool toggle(std::uint8_t from, std::uint8_t to) {
+      for (std::size_t k = 0; int(k) < count_; ++k) {
+        if (edge_[k][0] == to && edge_[k][1] == from) return edge_[k] = edge_[std::size_t(--count_)], true;
       }
-      if (border_count == border.size()) return false;
-      border[border_count++] = {from, to};
+      if (count_ == kDepthFacets) return false;
+      edge_[std::size_t(count_++)] = {from, to};
       return true;
-    };
+    }
+    int count_ = 0;
+    std::array<std::array<std::uint8_t, 2>, kDepthFacets> edge_;
+  };
+
+  bool take_out(std::size_t k, Border& border) {
+    const Facet<Real> f = facet_[k];
+    facet_[k] = facet_[std::size_t(--facet_count_)];
+    return border.take(f);
+  }
+  /// Replaces the facets that see `top` above them by a cone to it.
+  bool add(const Corner& top) {
+    Border border;
     for (std::size_t k = 0; int(k) < facet_count_;) {
-      const Facet<Real> f = facet_[k];
-      if (!sees(f, top)) {
+      if (!sees(facet_[k], top))
         ++k;
-        continue;
-      }
-      facet_[k] = facet_[std::size_t(--facet_count_)];
-      for (std::size_t e = 0; e < 3; ++e) {
-        if (!toggle(f.corner[e], f.corner[(e + 1) % 3])) return false;
-      }
+      else if (!take_out(k, border))
+        return false;
     }
     push(top);
-    for (std::size_t k = 0; k < border_count; ++k) {
-      if (!face(border[k][0], border[k][1], corner_count_ - 1)) return false;
+    const auto cone = [&] {
+      const int kept = facet_count_;
+      for (int k = 0; k < border.count(); ++k) {
+        if (face(border[k][0], border[k][1], corner_count_ - 1)) continue;
+        facet_count_ = kept;
+        return k;
+      }
+      return -1;
+    };
+    for (int folded = cone(); folded >= 0; folded = cone()) {
+      if (!widen(border, border[folded])) return false;
     }
     return true;
+  }
+  /// Takes out the facet across an edge of the border, over which the cone would fold back. Only rounding hid the new corner from
+  /// it: it sees one of a plane that both lie in, or nearly. Any facet may go that has the inside below itself and that corner.
+  bool widen(Border& border, std::array<std::uint8_t, 2> edge) {
+    for (std::size_t k = 0; int(k) < facet_count_; ++k) {
+      const Facet<Real>& f = facet_[k];
+      for (std::size_t e = 0; e < 3; ++e) {
+        if (f.corner[e] != edge[1] || f.corner[(e + 1) % 3] != edge[0]) continue;
+        const V3<Real>& top = corner_[std::size_t(corner_count_ - 1)].p;
+        return dot(f.normal, inside_) + Real(2 * resolution_) < dot(f.normal, top) && take_out(k, border);
+      }
+    }
+    return false;
   }
 
   Search& search_;
@@ -445,7 +484,7 @@ bool settle(Search& search, const DepthStart& start, Depth& depth) {
   }
   depth.lower = larger(depth.lower, lower);
   const bool straight = polytope.witness(depth) || !search.exact;
-  const bool flat = search.best.height <= search.allowed(0);
+  const bool flat = search.narrow(0);
   if (end == End::Enough || (end == End::Stuck && flat)) depth.end = DepthEnd::Converged;
   if (end == End::Apart) depth.end = DepthEnd::Apart;
   if (end == End::Budget) depth.end = DepthEnd::Budget;

@@ -15,6 +15,7 @@ namespace swiftlet {
 struct DepthGoal {
   double absolute = 0, relative = 0;  ///< lengths, and of the lower bound; law 2's bound is always enough
   double error = 0;  ///< the exact hulls' depth is less by at most this: it counts as width, and takes away from `lower`
+  double floor = 0;  ///< at most 0: the depth is not less, or nobody cares; stands for a `lower` that is not above 0
   double deeper = std::numeric_limits<double>::infinity();      ///< enough when lower > this
   double shallower = -std::numeric_limits<double>::infinity();  ///< enough when upper < this
   std::uint32_t step_budget = ~0u;                              ///< supports
