@@ -59,6 +59,7 @@ class Deepening {
   /// `floor`: at most 0, as DepthGoal's.
   void run(const PairSeed& seed, double floor = 0) {
     floor_ = floor;
+    lower = -kInfinity, upper = kInfinity;
     // No farther than their centres and radii allow: a pair that deviates by more than that allows cannot answer.
     const double most = a_.radius() + stretch_ * b_.radius() - norm(line_.in_a);
     const bool exact = target_.absolute == 0 && target_.relative == 0 && !target_.is_threshold();
