@@ -30,6 +30,10 @@ struct Line {
 };
 Line line_of_centres(const Model& a, const Model& b, const Motion& b_in_a);
 
+/// Whether the line of centres turned since the seed was left by so much that a walk from its features costs more than a cold
+/// start.
+bool turned_far(const Line& line, const PairSeed& seed, const Level& a, const Level& b);
+
 /// Where a query begins.
 Place first_place(const Model& a, const Model& b, const Line& line, const PairSeed& seed, const QueryOptions& options);
 
@@ -52,6 +56,9 @@ Handle parent(const Model& model, int level, Handle feature);
 
 /// A vertex of level 0 that is about the farthest in a direction. The model has support maps.
 std::uint32_t about_farthest(const Model& model, const Vec& direction);
+
+/// The same on any level; with no map that is any vertex.
+std::uint32_t outlook(const Model& model, int level, const Vec& direction);
 
 /// The vertex of level 0 that stands for one of `level`.
 std::uint32_t descendant(const Model& model, int level, std::uint32_t vertex);
