@@ -123,8 +123,8 @@ class Deepening {
     return upper - lower <= larger(larger(target_.absolute, target_.relative * lower), law_two_);
   }
 
-  /// The line of centres, or where maps show the difference of the bodies lower, across the thinner side of either's box; `most`
-  /// becomes its height, if that is less.
+  /// The line of centres, or where maps show the difference of the bodies lower, across the thinner side of either's box;
+  /// `most` becomes its height, if that is less.
   Vec lowest_seen(double& most) const {
     const auto across = [](const Model& model) { return least_axis(vec(model.box_max()) - vec(model.box_min())); };
     const ConvexView &view_a = a_.level(finest_a_).view, &view_b = b_.level(finest_b_).view;
@@ -156,16 +156,19 @@ class Deepening {
     return s;
   }
 
-  /// Where the depth is locally least: B is moved along a direction until it is free, and whatever is nearest then names the next
-  /// direction. Proves nothing.
+  /// Where the depth is locally least: B is moved along a direction until it is free, and whatever is nearest then names the
+  /// next direction. Proves nothing.
   DepthStart local_least(const Scene& pair, const Level& of_a, const Level& of_b, MarchStart at, const Vec& direction) {
     Vec n = normalised(direction);
     const Resting body = body_a(pair);
     const Moved other = body_b(pair);
     const bool cold = at.a.kind() == FeatureKind::None, has_maps = of_a.map_side > 0 && of_b.map_side > 0;
-    if (cold) at = {{FeatureKind::Vertex, outlook(a_, place_.level_a, n)}, {FeatureKind::Vertex, outlook(b_, place_.level_b, other.into(-n))}};
+    if (cold)
+      at = {{FeatureKind::Vertex, outlook(a_, place_.level_a, n)},
+            {FeatureKind::Vertex, outlook(b_, place_.level_b, other.into(-n))}};
     for (int round = 0; round < kSlides; ++round) {
-      const std::uint32_t va = ascend(pair.a, n, any_vertex(pair.a, at.a), plane_tests), vb = ascend(pair.b, other.into(-n), any_vertex(pair.b, at.b), plane_tests);
+      const std::uint32_t va = ascend(pair.a, n, any_vertex(pair.a, at.a), plane_tests),
+                          vb = ascend(pair.b, other.into(-n), any_vertex(pair.b, at.b), plane_tests);
       const double height = dot(n, body.point(va) - other.point(vb));
       if (!(height > 0)) break;
       Motion m = motion_;
@@ -179,7 +182,8 @@ class Deepening {
         if (turns) continue;
       }
       at = settled(apart, at, plane_tests);
-      const Walk w = walk(apart, at.a, at.b, PlaneRule::MostViolated, options_.step_budget - std::min(steps, options_.step_budget));
+      const Walk w =
+          walk(apart, at.a, at.b, PlaneRule::MostViolated, options_.step_budget - std::min(steps, options_.step_budget));
       steps += w.steps, plane_tests += w.plane_tests;
       if (w.end != WalkEnd::Minimum) break;
       at = {w.a, w.b};
@@ -190,7 +194,7 @@ class Deepening {
     }
     return start_at(pair, settled(pair, at, plane_tests), n);
   }
-  /// Whether the origin lies below the middle of a polygon.
+  /// Whether the point nearest to the origin lies within a polygon.
   static bool stands_over(const Scene& pair, const DepthStart& s) {
     std::array<Vec, 4> p;
     for (std::size_t k = 0; int(k) < s.count; ++k) p[k] = body_a(pair).point(s.a[k]) - body_b(pair).point(s.b[k]);
@@ -201,14 +205,16 @@ class Deepening {
     return left == 0 || left == s.count;
   }
 
-  Depth find(const Scene& pair, const Level& of_a, const Level& of_b, const PairSeed& seed, const Vec& direction, DepthGoal goal) {
+  /// At the seed's features, at the local least from there, or wherever it is: ever dearer.
+  Depth depth_of(const Scene& pair, const Level& of_a, const Level& of_b, const PairSeed& seed, const Vec& direction,
+                 DepthGoal goal) {
     const auto confirmed = [&](const DepthStart& at, Depth& found) {
-      const bool is_so = confirm(pair, of_a, of_b, at, goal, plane_tests, found);
+      const bool is_so = steps < options_.step_budget && confirm(pair, of_a, of_b, at, goal, plane_tests, found);
       return steps += found.steps, is_so;
     };
     Depth found;
-    const bool fits = near_ && seed.level_a == place_.level_a && seed.level_b == place_.level_b && names_feature(pair.a, seed.a) &&
-                      names_feature(pair.b, seed.b);
+    const bool fits = near_ && seed.level_a == place_.level_a && seed.level_b == place_.level_b &&
+                      names_feature(pair.a, seed.a) && names_feature(pair.b, seed.b);
     if (fits) {
       const DepthStart same = start_at(pair, {seed.a, seed.b}, direction);
       if (same.count > 2 && stands_over(pair, same) && confirmed(same, found)) return found;
@@ -229,7 +235,7 @@ class Deepening {
     const Scene pair = scene(of_a.view, of_b.view, motion_, shift_, pose_error_);
     DepthGoal goal{target_.absolute, target_.relative, error, floor_};
     if (target_.is_threshold()) goal.deeper = target_.depth + law_two_, goal.shallower = target_.depth - law_two_;
-    const Depth found = find(pair, of_a, of_b, seed, direction, goal);
+    const Depth found = depth_of(pair, of_a, of_b, seed, direction, goal);
     end = found.end;
     if (found.lower > 0)
       lower = larger(lower, error > 0 ? (found.lower - error) - 2 * kU * (found.lower + error) : found.lower);
@@ -325,7 +331,7 @@ SignedAnswer signed_distance(const Model& a, const Model& b, const Pose& b_in_a,
   answer = apart(descend(a, b, b_in_a, seed, options, dilation.of_hulls(target, law_two)));
   if (!(answer.lower > 0)) {
     const bool touching = answer.verdict == Verdict::Touching;  // the distance bounds the depth then
-    PairSeed here = touching ? seed : PairSeed{};  // where bodies met, they need not be deepest
+    PairSeed here = touching ? seed : PairSeed{};               // where bodies met, they need not be deepest
     here.met = touching;
     if (deep.steps == 0 || (touching && !deep.narrow(-answer.upper))) deep.run(here, touching ? -answer.upper : 0);
     const bool overlapping = deep.proved() || answer.verdict == Verdict::Overlapping;

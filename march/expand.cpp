@@ -22,12 +22,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 template <class Real>
 struct Facet {
   V3<Real> normal;
-  Real height;  ///< of the plane above the origin
+  Real height;   ///< of the plane above the origin
   double above;  ///< proved: no point of M is higher; infinite until the support is found and is no way on
   std::array<std::uint8_t, 3> corner;
   std::array<std::uint16_t, 3> beside;  ///< the facet across the edge from each corner to the next
-  bool open;   ///< about to be replaced
-  bool known;  ///< of the start's polygon: mostly M's own
+  bool open;                            ///< about to be replaced
+  bool known;                           ///< of the start's polygon: mostly M's own
 };
 
 /// A cone of directions: the span of three corners of a cell of the octahedron, counter-clockwise from outside.
@@ -134,8 +134,8 @@ class Polytope {
            (resolution_ < scene_.point_error && begin(start, crowned, kRoom * resolution_));
   }
 
-  /// Whether the start is a facet of M that holds the point nearest to the origin, and a ring of points around it shows that. Where
-  /// the origin surely is below each facet of a closed surface, that winds around it.
+  /// Whether the start is a facet of M that holds the point nearest to the origin, and a ring of points around it shows that.
+  /// Where the origin surely is below each facet of a closed surface, that winds around it.
   bool confirm(const DepthStart& start) {
     clear();
     inside_ = {Real(0), Real(0), Real(0)};
@@ -144,7 +144,7 @@ class Polytope {
     Vec n;
     if (rim < 3 || !orient(start.direction, n)) return false;
     for (int i = 2; i < rim; ++i) {
-      if (!face(0, i - 1, i)) return false;
+      if (!outward(0, i - 1, i) || !face(0, i - 1, i)) return false;
     }
     push_ring(n, rim);
     if (!covers_rest(rim)) return false;
@@ -234,8 +234,7 @@ class Polytope {
     return corner(f, 0).a == kNone || corner(f, 1).a == kNone || corner(f, 2).a == kNone;
   }
   bool known(const Corner& c) const {
-    return std::any_of(corner_.begin(), corner_.begin() + corner_count_,
-                       [&](const Corner& k) { return same(k, c); });
+    return std::any_of(corner_.begin(), corner_.begin() + corner_count_, [&](const Corner& k) { return same(k, c); });
   }
 
   /// A proved lower bound of a height that this arithmetic computed.
@@ -336,16 +335,16 @@ class Polytope {
       push(glance(n * norm(side) + cross(side, n) * kFlare, corner_[std::size_t(i)]));
     }
   }
-  /// Whether the triangles that close the surface below a polygon and its ring are no nearer than the polygon, and go around the
-  /// origin as they should.
+  /// Whether the triangles that close the surface below a polygon and its ring are no nearer than the polygon, and go around
+  /// the origin as they should.
   bool covers_rest(int rim) const {
     const double least = rounded(facet_[nearest_facet()].height) + scene_.point_error;
     const auto covers = [&](int i, int j, int k) {
       const Corner &p = corner_[std::size_t(i)], &q = corner_[std::size_t(j)], &r = corner_[std::size_t(k)];
       if (same(p, q) || same(q, r) || same(r, p)) return true;
-      const V3<Real> area = cross(q.p - p.p, r.p - p.p);
+      const V3<Real> u = q.p - p.p, v = r.p - p.p, area = cross(u, v);
       const double low = smaller(rounded(dot(area, p.p)), smaller(rounded(dot(area, q.p)), rounded(dot(area, r.p))));
-      return low > larger(outward_error(), least * norm(rounded(area)));
+      return low > larger(outward_error(u, v), least * norm(rounded(area)));
     };
     for (int i = 0, last = rim - 1; i < rim; last = i++) {
       if (!covers((i + 1) % rim, i, rim + i) || !covers(rim + i, i, rim + last)) return false;
@@ -353,9 +352,11 @@ class Polytope {
     }
     return true;
   }
-  double outward_error() const { return kOutwardError * scene_.magnitude * scene_.magnitude * scene_.magnitude; }
-  /// Below a polygon at the top, along n, of M: a ring of points, one beyond each side, and one at the bottom. What proves a depth is
-  /// often no more. False if that folds.
+  double outward_error(const V3<Real>& u, const V3<Real>& v) const {
+    return kOutwardError * scene_.magnitude * std::sqrt(rounded(dot(u, u)) * rounded(dot(v, v)));
+  }
+  /// Below a polygon at the top, along n, of M: a ring of points, one beyond each side, and one at the bottom. What proves a
+  /// depth is often no more. False if that folds.
   bool crown(const Vec& n, int rim, double room) {
     push_ring(n, rim);
     if (!leave_plane(-n, room)) return false;
@@ -374,7 +375,8 @@ class Polytope {
     }
     const int tops = facet_count_;
     for (int i = 0, last = rim - 1; i < rim; last = i++) {
-      if (!facet((i + 1) % rim, i, rim + i) || !facet(rim + i, i, rim + last) || !facet(rim + i, rim + last, 2 * rim)) return false;
+      if (!facet((i + 1) % rim, i, rim + i) || !facet(rim + i, i, rim + last) || !facet(rim + i, rim + last, 2 * rim))
+        return false;
     }
     for (int k = 0; k < tops; ++k) facet_[std::size_t(k)].known = true;
     return link();
@@ -383,8 +385,8 @@ class Polytope {
   /// Whether the inside surely is behind a triangle.
   bool outward(int i, int j, int k) const {
     const V3<Real>& p = corner_[std::size_t(i)].p;
-    const V3<Real> area = cross(corner_[std::size_t(j)].p - p, corner_[std::size_t(k)].p - p);
-    return rounded(dot(area, p - inside_)) > outward_error();
+    const V3<Real> u = corner_[std::size_t(j)].p - p, v = corner_[std::size_t(k)].p - p;
+    return rounded(dot(cross(u, v), p - inside_)) > outward_error(u, v);
   }
   /// Whether the first three points are there and on no line.
   bool span_triangle(double room) const {
@@ -418,7 +420,9 @@ class Polytope {
   bool link() {
     std::array<std::uint16_t, 81> at;
     at.fill(kNobody);
-    const auto edge = [](const Facet<Real>& f, std::size_t from, std::size_t to) { return std::size_t(9 * f.corner[from] + f.corner[to]); };
+    const auto edge = [](const Facet<Real>& f, std::size_t from, std::size_t to) {
+      return std::size_t(9 * f.corner[from] + f.corner[to]);
+    };
     for (int k = 0; k < facet_count_; ++k) {
       for (const std::size_t e : {0, 1, 2}) {
         std::uint16_t& of = at[edge(facet_[std::size_t(k)], e, (e + 1) % 3)];
@@ -440,8 +444,8 @@ class Polytope {
     f.corner = {std::uint8_t(i), std::uint8_t(j), std::uint8_t(k)};
     return stand(f) && ++facet_count_ > 0;
   }
-  /// Gives a facet the best plane of two: across the triangle, or, where that is uncertain, from the origin to its longest edge.
-  /// False if neither has the inside below it.
+  /// Gives a facet the best plane of two: across the triangle, or, where that is uncertain, from the origin to its longest
+  /// edge. False if neither has the inside below it.
   bool stand(Facet<Real>& f) const {
     f.height = Real(-kInfinity), f.above = kInfinity;
     f.open = f.known = false;
@@ -557,7 +561,8 @@ class Polytope {
   /// any may go that has the inside below itself and that corner.
   bool widen(Hole& hole, std::uint16_t k) {
     const Facet<Real>& f = facet_[k];
-    if (!(dot(f.normal, inside_) + Real(2 * resolution_) < dot(f.normal, corner_[std::size_t(corner_count_ - 1)].p))) return false;
+    if (!(dot(f.normal, inside_) + Real(2 * resolution_) < dot(f.normal, corner_[std::size_t(corner_count_ - 1)].p)))
+      return false;
     return open(hole, k), true;
   }
   /// Tells the facets of a cone and those around it of each other. False where its border passes a corner twice.
@@ -591,7 +596,7 @@ class Polytope {
   std::array<Corner, kDepthPoints> corner_;
   std::array<Facet<Real>, kDepthFacets> facet_;
   int free_count_ = 0;
-  std::array<std::uint16_t, kDepthFacets> free_;              ///< places of facets that are gone
+  std::array<std::uint16_t, kDepthFacets> free_;        ///< places of facets that are gone
   std::array<std::uint16_t, kDepthPoints> starting_{};  ///< of the cone that was joined last, by a facet's first corner
 };
 

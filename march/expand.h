@@ -21,8 +21,8 @@ struct DepthGoal {
   std::uint32_t step_budget = ~0u;                              ///< supports
 };
 
-/// Where to begin: up to four vertex pairs, best those of a facet of the Minkowski difference, in order around it, and a direction,
-/// any length.
+/// Where to begin: up to four vertex pairs, best those of a facet of the Minkowski difference, in order around it, and a
+/// direction, any length.
 struct DepthStart {
   int count = 0;
   std::array<std::uint32_t, 4> a{}, b{};

@@ -431,7 +431,7 @@ TEST(Regress, TouchingCubesFoldedTheirPolytope) {
   const Body cube = body(shapes::cube());
   Pose pose;
   pose.rotation << -0x1p+0, 0x1.96608eee85bc1p-46, -0x1.0b5bec5f93cadp-48,  //
-      -0x1.96608eee85be1p-46, -0x1p+0, 0x1.f90be0b91664bp-46,              //
+      -0x1.96608eee85be1p-46, -0x1p+0, 0x1.f90be0b91664bp-46,               //
       -0x1.0b5bec5f9398bp-48, 0x1.f90be0b916665p-46, 0x1p+0;
   pose.translation = {0x1.7fffffffffffp+0, 0x1.0000000000034p+1, -0x1.000000000010ap-1};
   EXPECT_EQ(fault(cube, cube, pose, cold(cube, cube, pose)), "");
