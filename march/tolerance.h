@@ -155,7 +155,7 @@ inline constexpr double kRoom = 16;
 /// magnitude; rounded up. Relative to |u| |v| magnitude.
 inline constexpr double kOutwardError = 32 * kU;
 /// The ring of points around the top of a polytope is looked for along directions that lean out by so much. A tangent: half
-/// and twice of it confirm fewer depths.
+/// and twice of it cost more on the whole.
 inline constexpr double kFlare = 0.5;
 /// The local least of a depth is looked for from so many directions at most; along each B stands off by as much as it was deep;
 /// and a cold start looks along maps until a direction turns by less. Counts, heights, a cosine.
