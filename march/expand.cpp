@@ -172,13 +172,14 @@ class Polytope {
 
   /// Adds the support of the nearest facet until the goal is met and the plane is that of the nearest point: of several facets
   /// as near, points and plane are to be of one.
-  End grow() {
+  End grow(bool bounds_only = false) {
     for (;;) {
       std::size_t next = nearest_facet();
       lower_ = below(rounded(facet_[next].height));
       if (search_.passed(lower_)) return End::Enough;
       if (search_.hopeless(lower_)) return End::TooCoarse;
       if (search_.best.height < -scene_.law_two) return End::Apart;
+      if (search_.narrow(lower_) && bounds_only) return End::Enough;  // of a cone: the plane is one of any other
       if (search_.narrow(lower_)) next = nearest_point().facet;
       if (facet_[next].above < kInfinity) {
         if (!search_.suffices(facet_[next].above, lower_)) return End::Stuck;
@@ -611,7 +612,7 @@ bool ends_all(End end) { return end == End::TooCoarse || end == End::Apart || en
 /// Bounds the heights over a cone from below, by a polytope of its own or of each of its parts.
 template <class Real>
 End cover(Polytope<Real>& polytope, const Cone& cone, int depth, double& lower) {
-  End end = polytope.begin(cone) ? polytope.grow() : End::Stuck;
+  End end = polytope.begin(cone) ? polytope.grow(true) : End::Stuck;
   if (end == End::Full && depth < kDepthCells) {
     end = End::Enough;
     for (const Cone& quarter : quarters(cone)) {

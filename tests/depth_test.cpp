@@ -375,9 +375,9 @@ TEST(SignedWithin, DecidesOnBothSidesOfTheThreshold) {
 
 /// Thousands of planes about as near: more points than there is room for.
 TEST(SignedDistance, IsExactWhereManyFacetsAreAsDeep) {
-  const shapes::Pair pair = shapes::pair(shapes::Family::Fat, 400);
-  const Body a = body(pair.a), b = body(pair.b);
-  for (const double shift : {0., 1e-9, 1e-3}) {
+  for (const auto& [triangles, shift] : {std::pair(400, 0.), {400, 1e-9}, {400, 1e-3}, {2000, 0.}, {2000, 1e-2}}) {
+    const shapes::Pair pair = shapes::pair(shapes::Family::Fat, std::uint32_t(triangles));
+    const Body a = body(pair.a), b = body(pair.b);
     const Pose pose{bodies::rotation(.3, .2, .5, .1), {shift, 0, 0}};
     const SignedAnswer s = cold(a, b, pose);
     EXPECT_EQ(s.status, Status::Converged);
