@@ -171,7 +171,7 @@ class Polytope {
   }
 
   /// Adds the support of the nearest facet until the goal is met and the plane is that of the nearest point: of several facets
-  /// as near, points and plane are to be of one.
+  /// as near, points and plane are to be of one. With `bounds_only` it is any plane.
   End grow(bool bounds_only = false) {
     for (;;) {
       std::size_t next = nearest_facet();
@@ -179,7 +179,7 @@ class Polytope {
       if (search_.passed(lower_)) return End::Enough;
       if (search_.hopeless(lower_)) return End::TooCoarse;
       if (search_.best.height < -scene_.law_two) return End::Apart;
-      if (search_.narrow(lower_) && bounds_only) return End::Enough;  // of a cone: the plane is one of any other
+      if (search_.narrow(lower_) && bounds_only) return End::Enough;
       if (search_.narrow(lower_)) next = nearest_point().facet;
       if (facet_[next].above < kInfinity) {
         if (!search_.suffices(facet_[next].above, lower_)) return End::Stuck;
