@@ -105,6 +105,8 @@ struct Slope {
     return kDotError * (std::fabs(own.x) * m.x + std::fabs(own.y) * m.y + std::fabs(own.z) * m.z) +
            turn_error * (m.x + m.y + m.z);
   }
+  /// No less than any between points of a body.
+  double most_error(double extent) const { return (kDotError * max_abs(own) + turn_error) * (7 * extent); }
 };
 
 Slope slope_a(const Vec& n) { return {n, 0}; }
@@ -157,6 +159,7 @@ std::optional<Extreme> top(const ConvexView& view, const Slope& slope, std::uint
     plateau[count++] = w;
     return true;
   };
+  const double surely = -slope.most_error(view.extent);
   const auto ring = [&](std::uint32_t u, auto visit) {
     const Vertex& record = view.vertices[u];
     const Vec p = vec(record);
@@ -164,7 +167,7 @@ std::optional<Extreme> top(const ConvexView& view, const Slope& slope, std::uint
     for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
       const std::uint32_t w = view.head[h];
       const Vec e = vec(view.vertices[w]) - p;
-      visit(w, slope.along(e), slope.error(e));
+      if (const double rise = slope.along(e); rise >= surely) visit(w, rise, slope.error(e));
     }
   };
   for (bool rises = true, fits = true; rises;) {

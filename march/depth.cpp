@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "aim.h"
+#include "difference.h"
 #include "dilate.h"
 #include "expand.h"
 #include "progress.h"
 #include "ring.h"
 #include "seed.h"
+#include "walk.h"
 
 namespace swiftlet {
 namespace {
@@ -25,17 +28,22 @@ struct DepthTarget {
   bool is_threshold() const { return depth >= 0; }
 };
 
-/// The vertices of a feature that span it: one, two or three.
+/// The vertices of a feature in order, of a large face the first four.
 struct Span {
   int count = 0;
-  std::array<std::uint32_t, 3> vertex{};
+  std::array<std::uint32_t, 4> vertex{};
 };
 Span span_of(const ConvexView& view, Handle feature) {
   const std::uint32_t i = feature.index();
   if (feature.kind() == FeatureKind::Vertex) return {1, {i}};
   if (feature.kind() == FeatureKind::Edge) return {2, {origin(view, i), view.head[i]}};
-  const std::uint32_t h = view.face_first[i];
-  return {3, {origin(view, h), view.head[h], view.head[next_in_facet(view, h)]}};
+  Span span;
+  std::uint32_t h = view.face_first[i];
+  do {
+    span.vertex[std::size_t(span.count++)] = origin(view, h);
+    h = next_in_face(view, h);
+  } while (h != view.face_first[i] && span.count < 4);
+  return span;
 }
 
 /// From level pair to finer level pair until the target is met.
@@ -56,13 +64,18 @@ class Deepening {
         finest_a_(finest_allowed(a, options)),
         finest_b_(finest_allowed(b, options)) {}
 
-  void run(const PairSeed& seed) {
+  /// `floor`: at most 0, as DepthGoal's.
+  void run(const PairSeed& seed, double floor = 0) {
+    floor_ = floor;
+    lower = -kInfinity, upper = kInfinity;
     // No farther than their centres and radii allow: a pair that deviates by more than that allows cannot answer.
-    const double most = a_.radius() + stretch_ * b_.radius() - norm(line_.in_a);
+    double most = a_.radius() + stretch_ * b_.radius() - norm(line_.in_a);
     const bool exact = target_.absolute == 0 && target_.relative == 0 && !target_.is_threshold();
     place_ = exact ? Place{finest_a_, finest_b_, {}} : coarsest_place(a_, b_);
-    Vec direction =
-        (seed.normal[0] | seed.normal[1] | seed.normal[2]) != 0 && seed.met ? swiftlet::direction(seed) : line_.in_a;
+    near_ = seed.met && seed.level_a < a_.level_count() && seed.level_b < b_.level_count() &&
+            !turned_far(line_, seed, a_.level(seed.level_a), b_.level(seed.level_b));
+    const bool remembers = near_ && (seed.normal[0] | seed.normal[1] | seed.normal[2]) != 0;
+    Vec direction = remembers ? swiftlet::direction(seed) : lowest_seen(most);
     for (;;) {
       const double error = deviation();
       const bool last = place_.level_a == finest_a_ && place_.level_b == finest_b_;
@@ -84,6 +97,9 @@ class Deepening {
   }
   /// Overlapping for certain, and not to be taken for touching.
   bool proved() const { return lower > law_two_; }
+
+  /// With `floor`, where the depth has no other bound.
+  bool narrow(double floor) const { return upper - larger(lower, floor) <= larger(target_.absolute, law_two_); }
 
   void store(PairSeed& seed) const {
     remember(line_, normal, seed);
@@ -107,32 +123,120 @@ class Deepening {
     return upper - lower <= larger(larger(target_.absolute, target_.relative * lower), law_two_);
   }
 
-  DepthStart start(const Scene& pair, const PairSeed& seed, const Vec& direction) const {
+  /// The line of centres, or where maps show the difference of the bodies lower, across the thinner side of either's box;
+  /// `most` becomes its height, if that is less.
+  Vec lowest_seen(double& most) const {
+    const auto across = [](const Model& model) { return least_axis(vec(model.box_max()) - vec(model.box_min())); };
+    const ConvexView &view_a = a_.level(finest_a_).view, &view_b = b_.level(finest_b_).view;
+    Vec lowest = normalised(line_.in_a);
+    if (a_.map_level() == a_.level_count() || b_.map_level() == b_.level_count()) return lowest;
+    double least = kInfinity;
+    for (const Vec& axis : {lowest, across(a_), turn(motion_, across(b_))}) {
+      const Vec n = dot(axis, line_.in_a) < 0 ? -axis : axis, own = turn_back(motion_, -n);
+      const Vec p = vec(view_a.vertices[outlook(a_, finest_a_, n)]), q = vec(view_b.vertices[outlook(b_, finest_b_, own)]);
+      if (const double height = dot(n, p - apply(motion_, q)); height < least) least = height, lowest = n;
+    }
+    if (least > 0) most = smaller(most, least);
+    return lowest;
+  }
+
+  /// Pairs of the features' vertices, around what they span; and the direction between the features.
+  static DepthStart start_at(const Scene& pair, const MarchStart& features, const Vec& direction) {
     DepthStart s;
     s.direction = direction;
-    const bool fits = seed.level_a == place_.level_a && seed.level_b == place_.level_b && names_feature(pair.a, seed.a) &&
-                      names_feature(pair.b, seed.b);
-    if (!fits) return s;
-    const Span a = span_of(pair.a, seed.a);
-    Span b = span_of(pair.b, seed.b);
+    const Span a = span_of(pair.a, features.a);
+    Span b = span_of(pair.b, features.b);
     if (a.count * b.count > 4) b.count = 1;
     for (int i = 0; i < a.count; ++i) {
       for (int j = 0; j < b.count; ++j) {
         s.a[std::size_t(s.count)] = a.vertex[std::size_t(i)];
-        s.b[std::size_t(s.count++)] = b.vertex[std::size_t(j)];
+        s.b[std::size_t(s.count++)] = b.vertex[std::size_t(i % 2 ? b.count - 1 - j : j)];
       }
     }
     return s;
   }
 
+  /// Where the depth is locally least: B is moved along a direction until it is free, and whatever is nearest then names the
+  /// next direction. Proves nothing.
+  DepthStart local_least(const Scene& pair, const Level& of_a, const Level& of_b, MarchStart at, const Vec& direction) {
+    Vec n = normalised(direction);
+    const Resting body = body_a(pair);
+    const Moved other = body_b(pair);
+    const bool cold = at.a.kind() == FeatureKind::None, has_maps = of_a.map_side > 0 && of_b.map_side > 0;
+    if (cold)
+      at = {{FeatureKind::Vertex, outlook(a_, place_.level_a, n)},
+            {FeatureKind::Vertex, outlook(b_, place_.level_b, other.into(-n))}};
+    for (int round = 0; round < kSlides; ++round) {
+      const std::uint32_t va = ascend(pair.a, n, any_vertex(pair.a, at.a), plane_tests),
+                          vb = ascend(pair.b, other.into(-n), any_vertex(pair.b, at.b), plane_tests);
+      const double height = dot(n, body.point(va) - other.point(vb));
+      if (!(height > 0)) break;
+      Motion m = motion_;
+      m.t = m.t + n * (height * kSlideBy);
+      const Scene apart = scene(pair.a, pair.b, m, shift_, pose_error_);
+      if (cold && has_maps) {
+        const Sight sight = look(apart, of_a, of_b, n, [](const Sight&) { return Look::Near; });
+        at = {{FeatureKind::Vertex, sight.start_a}, {FeatureKind::Vertex, sight.start_b}};
+        const bool turns = dot(sight.normal, n) < kSlideTurn;
+        n = sight.normal;
+        if (turns) continue;
+      }
+      at = settled(apart, at, plane_tests);
+      const Walk w =
+          walk(apart, at.a, at.b, PlaneRule::MostViolated, options_.step_budget - std::min(steps, options_.step_budget));
+      steps += w.steps, plane_tests += w.plane_tests;
+      if (w.end != WalkEnd::Minimum) break;
+      at = {w.a, w.b};
+      const Vec next = normalised(w.witness.normal);
+      const DepthStart found = start_at(pair, at, next);
+      n = next;
+      if (found.count > 2 && stands_over(pair, found)) return found;
+    }
+    return start_at(pair, settled(pair, at, plane_tests), n);
+  }
+  /// Whether the point nearest to the origin lies within a polygon.
+  static bool stands_over(const Scene& pair, const DepthStart& s) {
+    std::array<Vec, 4> p;
+    for (std::size_t k = 0; int(k) < s.count; ++k) p[k] = body_a(pair).point(s.a[k]) - body_b(pair).point(s.b[k]);
+    int left = 0;
+    for (std::size_t k = 0, last = std::size_t(s.count - 1); int(k) < s.count; last = k++) {
+      left += dot(cross(p[k], p[last]), s.direction) > 0;
+    }
+    return left == 0 || left == s.count;
+  }
+
+  /// At the seed's features, at the local least from there, or wherever it is: ever dearer.
+  Depth depth_of(const Scene& pair, const Level& of_a, const Level& of_b, const PairSeed& seed, const Vec& direction,
+                 DepthGoal goal) {
+    const auto confirmed = [&](const DepthStart& at, Depth& found) {
+      const bool is_so = steps < options_.step_budget && confirm(pair, of_a, of_b, at, goal, plane_tests, found);
+      return steps += found.steps, is_so;
+    };
+    Depth found;
+    const bool fits = near_ && seed.level_a == place_.level_a && seed.level_b == place_.level_b &&
+                      names_feature(pair.a, seed.a) && names_feature(pair.b, seed.b);
+    if (fits) {
+      const DepthStart same = start_at(pair, {seed.a, seed.b}, direction);
+      if (same.count > 2 && stands_over(pair, same) && confirmed(same, found)) return found;
+    }
+    DepthStart least;  // of a coarse pair, bounds are wanted and no facet
+    least.direction = direction;
+    if (goal.error == 0) {
+      least = local_least(pair, of_a, of_b, fits ? MarchStart{seed.a, seed.b} : MarchStart{}, direction);
+      if (confirmed(least, found)) return found;
+    }
+    goal.step_budget = options_.step_budget - std::min(steps, options_.step_budget);
+    found = expand(pair, of_a, of_b, least, goal, plane_tests);
+    return steps += found.steps, found;
+  }
+
   void solve(const PairSeed& seed, const Vec& direction, double error) {
     const Level &of_a = a_.level(place_.level_a), &of_b = b_.level(place_.level_b);
     const Scene pair = scene(of_a.view, of_b.view, motion_, shift_, pose_error_);
-    DepthGoal goal{target_.absolute, target_.relative, error, kInfinity, -kInfinity, options_.step_budget - steps};
+    DepthGoal goal{target_.absolute, target_.relative, error, floor_};
     if (target_.is_threshold()) goal.deeper = target_.depth + law_two_, goal.shallower = target_.depth - law_two_;
-    const Depth found = expand(pair, of_a, of_b, start(pair, seed, direction), goal, plane_tests);
+    const Depth found = depth_of(pair, of_a, of_b, seed, direction, goal);
     end = found.end;
-    steps += found.steps;
     if (found.lower > 0)
       lower = larger(lower, error > 0 ? (found.lower - error) - 2 * kU * (found.lower + error) : found.lower);
     if (found.upper > upper + law_two_) return;
@@ -142,8 +246,8 @@ class Deepening {
     has_points = found.active.count > 0;
     if (!has_points) return;
     point_a = found.point_a, point_b = found.point_b;
-    feature_a = feature_of(of_a.view, found.active, found.active.a);
-    feature_b = feature_of(of_b.view, found.active, found.active.b);
+    feature_a = feature_at_a(pair, feature_of(of_a.view, found.active, found.active.a), point_a, plane_tests);
+    feature_b = feature_at_b(pair, feature_of(of_b.view, found.active, found.active.b), point_b, plane_tests);
   }
 
   const Model &a_, &b_;
@@ -154,6 +258,8 @@ class Deepening {
   const DepthTarget target_;
   const double law_two_;
   const int finest_a_, finest_b_;
+  double floor_ = 0;
+  bool near_ = false;  ///< to the seed's pose
   Place place_{};
 };
 
@@ -224,7 +330,10 @@ SignedAnswer signed_distance(const Model& a, const Model& b, const Pose& b_in_a,
   const Target target{options.absolute_error, options.relative_error, options.beyond, -kInfinity};
   answer = apart(descend(a, b, b_in_a, seed, options, dilation.of_hulls(target, law_two)));
   if (!(answer.lower > 0)) {
-    if (deep.steps == 0) deep.run(seed);
+    const bool touching = answer.verdict == Verdict::Touching;  // the distance bounds the depth then
+    PairSeed here = touching ? seed : PairSeed{};               // where bodies met, they need not be deepest
+    here.met = touching;
+    if (deep.steps == 0 || (touching && !deep.narrow(-answer.upper))) deep.run(here, touching ? -answer.upper : 0);
     const bool overlapping = deep.proved() || answer.verdict == Verdict::Overlapping;
     if (answer.status == Status::Converged) answer.status = deep.status();
     if (overlapping) answer.verdict = Verdict::Overlapping;

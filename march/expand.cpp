@@ -22,9 +22,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 template <class Real>
 struct Facet {
   V3<Real> normal;
-  Real height;  ///< of the plane above the origin
-  std::array<std::uint8_t, 3> corner;
+  Real height;   ///< of the plane above the origin
   double above;  ///< proved: no point of M is higher; infinite until the support is found and is no way on
+  std::array<std::uint8_t, 3> corner;
+  std::array<std::uint16_t, 3> beside;  ///< the facet across the edge from each corner to the next
+  bool open;                            ///< about to be replaced
+  bool known;                           ///< of the start's polygon: mostly M's own
 };
 
 /// A cone of directions: the span of three corners of a cell of the octahedron, counter-clockwise from outside.
@@ -103,7 +106,10 @@ struct Search {
   double allowed(double lower) const {
     return larger(larger(goal.absolute, goal.relative * (lower - goal.error)) - goal.error, scene.law_two);
   }
-  bool narrow(double lower) const { return best.height - lower <= allowed(lower); }
+  /// What is known where a polytope says so: one that does not hold the origin says nothing.
+  double known(double lower) const { return lower > 0 ? lower : goal.floor; }
+  bool suffices(double upper, double lower) const { return upper - known(lower) <= allowed(lower); }
+  bool narrow(double lower) const { return suffices(best.height, lower); }
   bool passed(double lower) const { return lower - goal.error > goal.deeper || best.height < goal.shallower; }
   /// Whether no bounds of this pair can, for its error.
   bool hopeless(double lower) const {
@@ -123,8 +129,32 @@ class Polytope {
 
   /// Four points of M, the start's first; if need be nearer to one plane than doubles could tell. False where M has no room for
   /// them: planes were found that say so.
-  bool begin(const DepthStart& start) {
-    return begin(start, kRoom * scene_.point_error) || (resolution_ < scene_.point_error && begin(start, kRoom * resolution_));
+  bool begin(const DepthStart& start, bool crowned) {
+    return begin(start, crowned, kRoom * scene_.point_error) ||
+           (resolution_ < scene_.point_error && begin(start, crowned, kRoom * resolution_));
+  }
+
+  /// Whether the start is a facet of M that holds the point nearest to the origin, and a ring of points around it shows that.
+  /// Where the origin surely is below each facet of a closed surface, that winds around it.
+  bool confirm(const DepthStart& start) {
+    clear();
+    inside_ = {Real(0), Real(0), Real(0)};
+    push_all(start);
+    const int rim = corner_count_;
+    Vec n;
+    if (rim < 3 || !orient(start.direction, n)) return false;
+    for (int i = 2; i < rim; ++i) {
+      if (!outward(0, i - 1, i) || !face(0, i - 1, i)) return false;
+    }
+    push_ring(n, rim);
+    if (!covers_rest(rim)) return false;
+    Facet<Real>& f = facet_[nearest_point().facet];
+    const double lower = below(rounded(facet_[nearest_facet()].height));
+    const Corner top = support(rounded(f.normal), corner_[0].a, corner_[0].b);
+    if ((sees(f, top) && !known(top)) || !(lower > 0) || !search_.suffices(last_.height, lower)) return false;
+    lower_ = lower;
+    search_.best = {last_.height, rounded(f.normal)};
+    return true;
   }
 
   /// M and three points far away that no direction of the cone sees above the origin: over the cone its heights are those of M,
@@ -141,29 +171,32 @@ class Polytope {
   }
 
   /// Adds the support of the nearest facet until the goal is met and the plane is that of the nearest point: of several facets
-  /// as near, points and plane are to be of one.
-  End grow() {
+  /// as near, points and plane are to be of one. With `bounds_only` it is any plane.
+  End grow(bool bounds_only = false) {
     for (;;) {
       std::size_t next = nearest_facet();
       lower_ = below(rounded(facet_[next].height));
       if (search_.passed(lower_)) return End::Enough;
       if (search_.hopeless(lower_)) return End::TooCoarse;
       if (search_.best.height < -scene_.law_two) return End::Apart;
+      if (search_.narrow(lower_) && bounds_only) return End::Enough;
       if (search_.narrow(lower_)) next = nearest_point().facet;
       if (facet_[next].above < kInfinity) {
-        if (facet_[next].above - lower_ > search_.allowed(lower_)) return End::Stuck;
+        if (!search_.suffices(facet_[next].above, lower_)) return End::Stuck;
         search_.best = {facet_[next].above, rounded(facet_[next].normal)};
         return End::Enough;
       }
       if (search_.steps >= search_.goal.step_budget) return End::Budget;
-      const Corner top = support(facet_[next]);
-      const bool will_do = !search_.exact && last_.height - lower_ <= search_.allowed(lower_);
+      if (corner_count_ == kDepthPoints) return End::Full;
+      const Corner ahead = facet_[next].known || search_.goal.error > 0 ? nearest_corner(facet_[next]) : look_out(facet_[next]);
+      if (leads_on(facet_[next], ahead) && add(ahead, next)) continue;
+      const Corner top = support(rounded(facet_[next].normal), ahead.a, ahead.b);
+      const bool will_do = !search_.exact && search_.suffices(last_.height, lower_);
       if (will_do || !sees(facet_[next], top) || known(top)) {
         facet_[next].above = last_.height;
         continue;
       }
-      if (corner_count_ == kDepthPoints || facet_count_ + 2 > kDepthFacets) return End::Full;
-      if (!add(top)) return End::Stuck;
+      if (!add(top, next)) return End::Stuck;
     }
   }
 
@@ -189,10 +222,11 @@ class Polytope {
   }
 
  private:
-  static constexpr int kDepthFacets = 2 * kDepthPoints;  // a sphere of n points has 2 n - 4
+  static constexpr int kDepthFacets = 4 * kDepthPoints;  // a sphere of n points has 2 n - 4: both what goes and what comes
+  static constexpr std::uint16_t kNobody = 0xffff;
 
   void clear() {
-    corner_count_ = facet_count_ = 0;
+    corner_count_ = facet_count_ = free_count_ = 0;
     lower_ = 0;
   }
   void push(const Corner& c) { corner_[std::size_t(corner_count_++)] = c; }
@@ -201,8 +235,7 @@ class Polytope {
     return corner(f, 0).a == kNone || corner(f, 1).a == kNone || corner(f, 2).a == kNone;
   }
   bool known(const Corner& c) const {
-    return std::any_of(corner_.begin(), corner_.begin() + corner_count_,
-                       [&](const Corner& k) { return k.a == c.a && k.b == c.b; });
+    return std::any_of(corner_.begin(), corner_.begin() + corner_count_, [&](const Corner& k) { return same(k, c); });
   }
 
   /// A proved lower bound of a height that this arithmetic computed.
@@ -231,15 +264,35 @@ class Polytope {
     if (last_.height < search_.best.height) search_.best = last_;
     return top;
   }
-  /// A vertex pair about as high, as maps know it.
-  Corner glance(const Vec& n) const {
+  /// A vertex pair about as high, as maps know it; without maps by a climb from another.
+  Corner glance(const Vec& n, const Corner& from) {
+    if (search_.level_a.map_side == 0 || search_.level_b.map_side == 0) return climb(n, from.a, from.b);
     return difference<Real>(scene_, look_up(search_.level_a, n).vertex,
                             look_up(search_.level_b, body_b(scene_).into(-n)).vertex);
   }
-  Corner support(const Facet<Real>& f) {
-    const Corner* near = &corner(f, 0);
-    for (const std::size_t k : {1, 2}) near = near->a == kNone ? &corner(f, k) : near;
-    return near->a == kNone ? support(rounded(f.normal), 0, 0) : support(rounded(f.normal), near->a, near->b);
+  /// A vertex pair about as high above a facet as there is one, which proves nothing.
+  Corner look_out(const Facet<Real>& f) {
+    const Corner near = nearest_corner(f);
+    return climb(rounded(f.normal), near.a, near.b);
+  }
+  /// One of a facet's that is no far point, or else any of M.
+  Corner nearest_corner(const Facet<Real>& f) const {
+    for (const std::size_t k : {0, 1, 2}) {
+      if (corner(f, k).a != kNone) return corner(f, k);
+    }
+    return corner_[0];
+  }
+  Corner climb(const Vec& n, std::uint32_t a, std::uint32_t b) {
+    ++search_.steps;
+    const Vec own = body_b(scene_).into(-n);
+    return difference<Real>(scene_, ascend(scene_.a, n, higher(search_.level_a, n, a), search_.plane_tests),
+                            ascend(scene_.b, own, higher(search_.level_b, own, b), search_.plane_tests));
+  }
+  /// Whether a corner is a way on, and no plane through it is wanted for its own sake.
+  bool leads_on(const Facet<Real>& f, const Corner& c) const {
+    const double height = rounded(dot(f.normal, c.p));
+    return sees(f, c) && !known(c) && height > larger(0, search_.goal.shallower) &&
+           (search_.exact || !search_.suffices(height, lower_));
   }
   static std::uint32_t higher(const Level& level, const Vec& own, std::uint32_t other) {
     if (level.map_side == 0) return other;
@@ -251,17 +304,90 @@ class Polytope {
     return unit(cross(corner_[std::size_t(j)].p - p, corner_[std::size_t(k)].p - p));
   }
   /// With each point farther than `room` off the others.
-  bool begin(const DepthStart& start, double room) {
+  bool begin(const DepthStart& start, bool crowned, double room) {
     clear();
     const Vec hint = normalised(dot(start.direction, start.direction) > 0 ? start.direction : Vec{1, 0, 0});
-    for (int k = 0; k < start.count; ++k) push(difference<Real>(scene_, start.a[std::size_t(k)], start.b[std::size_t(k)]));
-    const bool has_fourth = corner_count_ == 4;
-    const Corner fourth = has_fourth ? corner_[3] : Corner{};
+    push_all(start);
     if (!span_triangle(room) && !find_triangle(hint, room)) return false;
-    corner_count_ = 3;
-    const Vec n = rounded(across(0, 1, 2));
-    if (dot(n, n) == 0 || !leave_plane(dot(n, hint) > 0 ? -n : n, room) || !close()) return false;
-    return !has_fourth || !rises(fourth) || add(fourth);
+    const int rim = corner_count_;
+    Vec n;
+    if (!orient(hint, n)) return false;
+    if (crowned && crown(n, rim, room)) return true;
+    const bool has_fourth = rim == 4;
+    const Corner fourth = corner_[3];
+    corner_count_ = 3, facet_count_ = 0;
+    if (!leave_plane(-n, room) || !close()) return false;
+    const std::size_t below = has_fourth ? seeing(fourth) : kNobody;
+    return below == kNobody || add(fourth, below);
+  }
+  void push_all(const DepthStart& start) {
+    for (int k = 0; k < start.count; ++k) push(difference<Real>(scene_, start.a[std::size_t(k)], start.b[std::size_t(k)]));
+  }
+  /// Puts the corners in the order in which they go around a normal on the side of `hint`.
+  bool orient(const Vec& hint, Vec& n) {
+    n = rounded(across(0, 1, 2));
+    if (dot(n, hint) < 0) std::reverse(corner_.begin() + 1, corner_.begin() + corner_count_), n = -n;
+    return dot(n, n) > 0;
+  }
+  /// One beyond each side of the polygon.
+  void push_ring(const Vec& n, int rim) {
+    for (int i = 0; i < rim; ++i) {
+      const Vec side = rounded(corner_[std::size_t((i + 1) % rim)].p - corner_[std::size_t(i)].p);
+      push(glance(n * norm(side) + cross(side, n) * kFlare, corner_[std::size_t(i)]));
+    }
+  }
+  /// Whether the triangles that close the surface below a polygon and its ring are no nearer than the polygon, and go around
+  /// the origin as they should.
+  bool covers_rest(int rim) const {
+    const double least = rounded(facet_[nearest_facet()].height) + scene_.point_error;
+    const auto covers = [&](int i, int j, int k) {
+      const Corner &p = corner_[std::size_t(i)], &q = corner_[std::size_t(j)], &r = corner_[std::size_t(k)];
+      if (same(p, q) || same(q, r) || same(r, p)) return true;
+      const V3<Real> u = q.p - p.p, v = r.p - p.p, area = cross(u, v);
+      const double low = smaller(rounded(dot(area, p.p)), smaller(rounded(dot(area, q.p)), rounded(dot(area, r.p))));
+      return low > larger(outward_error(u, v), least * norm(rounded(area)));
+    };
+    for (int i = 0, last = rim - 1; i < rim; last = i++) {
+      if (!covers((i + 1) % rim, i, rim + i) || !covers(rim + i, i, rim + last)) return false;
+      if (i >= 2 && !covers(rim, rim + i, rim + last)) return false;
+    }
+    return true;
+  }
+  double outward_error(const V3<Real>& u, const V3<Real>& v) const {
+    return kOutwardError * scene_.magnitude * std::sqrt(rounded(dot(u, u)) * rounded(dot(v, v)));
+  }
+  /// Below a polygon at the top, along n, of M: a ring of points, one beyond each side, and one at the bottom. What proves a
+  /// depth is often no more. False if that folds.
+  bool crown(const Vec& n, int rim, double room) {
+    push_ring(n, rim);
+    if (!leave_plane(-n, room)) return false;
+    inside_ = (corner_[0].p + corner_[1].p + corner_[2].p + corner_[std::size_t(2 * rim)].p) * Real(0.25);
+    std::array<int, 9> at;
+    for (int i = 0; i <= 2 * rim; ++i) {
+      at[std::size_t(i)] = 0;
+      while (!same(corner_[std::size_t(at[std::size_t(i)])], corner_[std::size_t(i)])) ++at[std::size_t(i)];
+    }
+    const auto facet = [&](int i, int j, int k) {
+      i = at[std::size_t(i)], j = at[std::size_t(j)], k = at[std::size_t(k)];
+      return i == j || j == k || k == i || (outward(i, j, k) && face(i, j, k));
+    };
+    for (int i = 2; i < rim; ++i) {
+      if (!facet(0, i - 1, i)) return false;
+    }
+    const int tops = facet_count_;
+    for (int i = 0, last = rim - 1; i < rim; last = i++) {
+      if (!facet((i + 1) % rim, i, rim + i) || !facet(rim + i, i, rim + last) || !facet(rim + i, rim + last, 2 * rim))
+        return false;
+    }
+    for (int k = 0; k < tops; ++k) facet_[std::size_t(k)].known = true;
+    return link();
+  }
+  static bool same(const Corner& p, const Corner& q) { return p.a == q.a && p.b == q.b; }
+  /// Whether the inside surely is behind a triangle.
+  bool outward(int i, int j, int k) const {
+    const V3<Real>& p = corner_[std::size_t(i)].p;
+    const V3<Real> u = corner_[std::size_t(j)].p - p, v = corner_[std::size_t(k)].p - p;
+    return rounded(dot(cross(u, v), p - inside_)) > outward_error(u, v);
   }
   /// Whether the first three points are there and on no line.
   bool span_triangle(double room) const {
@@ -281,8 +407,7 @@ class Polytope {
     const auto leaves = [&](const Corner& top) {
       return std::fabs(rounded(dot(widened<Real>(direction), top.p - corner_[0].p))) > room && (push(top), true);
     };
-    const bool has_maps = search_.level_a.map_side > 0 && search_.level_b.map_side > 0;
-    return (has_maps && leaves(glance(direction))) || leaves(support(direction, corner_[0].a, corner_[0].b)) ||
+    return leaves(glance(direction, corner_[0])) || leaves(support(direction, corner_[0].a, corner_[0].b)) ||
            leaves(support(-direction, corner_[0].a, corner_[0].b));
   }
 
@@ -290,24 +415,50 @@ class Polytope {
   bool close() {
     inside_ = (corner_[0].p + corner_[1].p + corner_[2].p + corner_[3].p) * Real(0.25);
     if (dot(across(0, 1, 2), corner_[3].p - corner_[0].p) > Real(0)) std::swap(corner_[1], corner_[2]);
-    return face(0, 1, 2) && face(0, 2, 3) && face(0, 3, 1) && face(1, 3, 2);
+    return face(0, 1, 2) && face(0, 2, 3) && face(0, 3, 1) && face(1, 3, 2) && link();
+  }
+  /// Finds who is beside whom, of few corners. False where that is not one other facet for each edge.
+  bool link() {
+    std::array<std::uint16_t, 81> at;
+    at.fill(kNobody);
+    const auto edge = [](const Facet<Real>& f, std::size_t from, std::size_t to) {
+      return std::size_t(9 * f.corner[from] + f.corner[to]);
+    };
+    for (int k = 0; k < facet_count_; ++k) {
+      for (const std::size_t e : {0, 1, 2}) {
+        std::uint16_t& of = at[edge(facet_[std::size_t(k)], e, (e + 1) % 3)];
+        if (of != kNobody) return false;
+        of = std::uint16_t(k);
+      }
+    }
+    for (int k = 0; k < facet_count_; ++k) {
+      Facet<Real>& f = facet_[std::size_t(k)];
+      for (const std::size_t e : {0, 1, 2}) {
+        if ((f.beside[e] = at[edge(f, (e + 1) % 3, e)]) == kNobody) return false;
+      }
+    }
+    return true;
   }
 
-  /// A facet with the best plane of two: across the triangle, or, where that is uncertain, from the origin to its longest edge.
-  /// False if neither has the inside below it.
   bool face(int i, int j, int k) {
-    if (facet_count_ == kDepthFacets) return false;
-    Facet<Real> f{{}, Real(-kInfinity), {std::uint8_t(i), std::uint8_t(j), std::uint8_t(k)}, kInfinity};
-    if (!offer(f, across(i, j, k))) {
+    Facet<Real>& f = facet_[std::size_t(facet_count_)];
+    f.corner = {std::uint8_t(i), std::uint8_t(j), std::uint8_t(k)};
+    return stand(f) && ++facet_count_ > 0;
+  }
+  /// Gives a facet the best plane of two: across the triangle, or, where that is uncertain, from the origin to its longest
+  /// edge. False if neither has the inside below it.
+  bool stand(Facet<Real>& f) const {
+    f.height = Real(-kInfinity), f.above = kInfinity;
+    f.open = f.known = false;
+    const V3<Real>& p = corner(f, 0).p;
+    if (!offer(f, unit(cross(corner(f, 1).p - p, corner(f, 2).p - p)))) {
       const V3<Real> e[3] = {corner(f, 1).p - corner(f, 0).p, corner(f, 2).p - corner(f, 1).p, corner(f, 0).p - corner(f, 2).p};
       std::size_t longest = 0;
       for (const std::size_t m : {1, 2}) longest = dot(e[m], e[m]) > dot(e[longest], e[longest]) ? m : longest;
-      const V3<Real>&u = e[longest], &p = corner(f, longest).p;
-      offer(f, unit(p * dot(u, u) - u * dot(p, u)));
+      const V3<Real>&u = e[longest], &q = corner(f, longest).p;
+      offer(f, unit(q * dot(u, u) - u * dot(q, u)));
     }
-    if (!(f.height > Real(-kInfinity))) return false;
-    facet_[std::size_t(facet_count_++)] = f;
-    return true;
+    return f.height > Real(-kInfinity);
   }
   /// Takes unit n if it makes the plane higher and has the inside below; whether all corners lie on that plane, well within law
   /// 2's bound: then no other is wanted, for a plane that leans is no way on.
@@ -344,36 +495,94 @@ class Polytope {
   }
   Foot<Real> foot_of(const Facet<Real>& f) const { return foot(corner(f, 0).p, corner(f, 1).p, corner(f, 2).p); }
   bool sees(const Facet<Real>& f, const Corner& c) const { return dot(f.normal, c.p) > f.height + Real(resolution_); }
-  bool rises(const Corner& c) const {
-    return std::any_of(facet_.begin(), facet_.begin() + facet_count_, [&](const Facet<Real>& f) { return sees(f, c); });
+  std::size_t seeing(const Corner& c) const {
+    for (std::size_t k = 0; int(k) < facet_count_; ++k) {
+      if (sees(facet_[k], c)) return k;
+    }
+    return kNobody;
   }
 
-  /// Replaces the facets that see `top` above them by a cone to it. Their edges, each both ways, leave the border.
-  bool add(const Corner& top) {
-    std::array<std::array<std::uint8_t, 2>, kDepthFacets> border;
-    std::size_t border_count = 0;
-    const auto toggle = [&](std::uint8_t from, std::uint8_t to) {
-      for (std::size_t k = 0; k < border_count; ++k) {
-        if (border[k][0] == to && border[k][1] == from) return border[k] = border[--border_count], true;
-      }
-      if (border_count == border.size()) return false;
-      border[border_count++] = {from, to};
-      return true;
-    };
-    for (std::size_t k = 0; int(k) < facet_count_;) {
-      const Facet<Real> f = facet_[k];
-      if (!sees(f, top)) {
-        ++k;
-        continue;
-      }
-      facet_[k] = facet_[std::size_t(--facet_count_)];
-      for (std::size_t e = 0; e < 3; ++e) {
-        if (!toggle(f.corner[e], f.corner[(e + 1) % 3])) return false;
+  /// Facets about to go.
+  struct Hole {
+    int count = 0;
+    std::array<std::uint16_t, kDepthFacets> facet;
+  };
+  void open(Hole& hole, std::uint16_t k) {
+    facet_[k].open = true;
+    hole.facet[std::size_t(hole.count++)] = k;
+  }
+  /// Replaces facet `from` and those around it that see `top` above them by a cone to it. False, and as before, where the
+  /// cone would fold back for more than rounding.
+  bool add(const Corner& top, std::size_t from) {
+    Hole hole;
+    open(hole, std::uint16_t(from));
+    for (int i = 0; i < hole.count; ++i) {
+      for (const std::uint16_t g : facet_[hole.facet[std::size_t(i)]].beside) {
+        if (!facet_[g].open && sees(facet_[g], top)) open(hole, g);
       }
     }
     push(top);
-    for (std::size_t k = 0; k < border_count; ++k) {
-      if (!face(border[k][0], border[k][1], corner_count_ - 1)) return false;
+    int fresh = cone(hole);
+    while (fresh < 0 && widen(hole, std::uint16_t(-1 - fresh))) fresh = cone(hole);
+    if (fresh < 0 || !join(fresh)) {
+      --corner_count_;
+      for (int i = 0; i < hole.count; ++i) facet_[hole.facet[std::size_t(i)]].open = false;
+      return false;
+    }
+    facet_count_ += std::max(0, fresh - free_count_);
+    free_count_ = std::max(0, free_count_ - fresh);
+    for (int i = 0; i < hole.count; ++i) {
+      const std::uint16_t k = hole.facet[std::size_t(i)];
+      facet_[k].height = Real(kInfinity);
+      free_[std::size_t(free_count_++)] = k;
+    }
+    return true;
+  }
+  /// Where the next facet but k is put.
+  std::uint16_t room_for(int k) const {
+    return k < free_count_ ? free_[std::size_t(free_count_ - 1 - k)] : std::uint16_t(facet_count_ + k - free_count_);
+  }
+  /// Facets from the border of a hole to the last corner, and how many; -1 - k where that over the edge to facet k would fold.
+  int cone(const Hole& hole) {
+    int fresh = 0;
+    for (int i = 0; i < hole.count; ++i) {
+      const Facet<Real>& f = facet_[hole.facet[std::size_t(i)]];
+      for (std::size_t e = 0; e < 3; ++e) {
+        if (facet_[f.beside[e]].open) continue;
+        Facet<Real>& side = facet_[room_for(fresh)];
+        side.corner = {f.corner[e], f.corner[(e + 1) % 3], std::uint8_t(corner_count_ - 1)};
+        side.beside = {f.beside[e], kNobody, kNobody};
+        if (!stand(side)) return -1 - int(f.beside[e]);
+        ++fresh;
+      }
+    }
+    return fresh;
+  }
+  /// Takes out a facet over whose edge the cone would fold. Only rounding hid the new corner from it, or a fold of the surface:
+  /// any may go that has the inside below itself and that corner.
+  bool widen(Hole& hole, std::uint16_t k) {
+    const Facet<Real>& f = facet_[k];
+    if (!(dot(f.normal, inside_) + Real(2 * resolution_) < dot(f.normal, corner_[std::size_t(corner_count_ - 1)].p)))
+      return false;
+    return open(hole, k), true;
+  }
+  /// Tells the facets of a cone and those around it of each other. False where its border passes a corner twice.
+  bool join(int fresh) {
+    const auto top = std::uint8_t(corner_count_ - 1);
+    for (int k = 0; k < fresh; ++k) starting_[facet_[room_for(k)].corner[0]] = room_for(k);
+    for (int k = 0; k < fresh; ++k) {
+      Facet<Real>& f = facet_[room_for(k)];
+      f.beside[1] = starting_[f.corner[1]];
+      Facet<Real>& next = facet_[f.beside[1]];
+      if (next.corner[0] != f.corner[1] || next.corner[2] != top || next.beside[2] != kNobody) return false;
+      next.beside[2] = room_for(k);
+    }
+    for (int k = 0; k < fresh; ++k) {
+      const Facet<Real>& f = facet_[room_for(k)];
+      Facet<Real>& outer = facet_[f.beside[0]];
+      for (std::size_t e = 0; e < 3; ++e) {
+        if (outer.corner[e] == f.corner[1] && outer.corner[(e + 1) % 3] == f.corner[0]) outer.beside[e] = room_for(k);
+      }
     }
     return true;
   }
@@ -387,6 +596,9 @@ class Polytope {
   Plane last_;  ///< of the last support
   std::array<Corner, kDepthPoints> corner_;
   std::array<Facet<Real>, kDepthFacets> facet_;
+  int free_count_ = 0;
+  std::array<std::uint16_t, kDepthFacets> free_;        ///< places of facets that are gone
+  std::array<std::uint16_t, kDepthPoints> starting_{};  ///< of the cone that was joined last, by a facet's first corner
 };
 
 /// A cone in four.
@@ -400,7 +612,7 @@ bool ends_all(End end) { return end == End::TooCoarse || end == End::Apart || en
 /// Bounds the heights over a cone from below, by a polytope of its own or of each of its parts.
 template <class Real>
 End cover(Polytope<Real>& polytope, const Cone& cone, int depth, double& lower) {
-  End end = polytope.begin(cone) ? polytope.grow() : End::Stuck;
+  End end = polytope.begin(cone) ? polytope.grow(true) : End::Stuck;
   if (end == End::Full && depth < kDepthCells) {
     end = End::Enough;
     for (const Cone& quarter : quarters(cone)) {
@@ -437,7 +649,10 @@ Cone about(const Vec& n) {
 template <class Real>
 bool settle(Search& search, const DepthStart& start, Depth& depth) {
   Polytope<Real> polytope(search);
-  End end = polytope.begin(start) ? polytope.grow() : End::Stuck;
+  End end = End::Stuck;
+  for (const bool crowned : {true, false}) {
+    if (end == End::Stuck) end = polytope.begin(start, crowned) ? polytope.grow() : End::Stuck;
+  }
   double lower = polytope.lower();
   if (end == End::Full) {
     end = cover_all(polytope, lower);
@@ -445,7 +660,7 @@ bool settle(Search& search, const DepthStart& start, Depth& depth) {
   }
   depth.lower = larger(depth.lower, lower);
   const bool straight = polytope.witness(depth) || !search.exact;
-  const bool flat = search.best.height <= search.allowed(0);
+  const bool flat = search.narrow(0);
   if (end == End::Enough || (end == End::Stuck && flat)) depth.end = DepthEnd::Converged;
   if (end == End::Apart) depth.end = DepthEnd::Apart;
   if (end == End::Budget) depth.end = DepthEnd::Budget;
@@ -453,6 +668,20 @@ bool settle(Search& search, const DepthStart& start, Depth& depth) {
 }
 
 }  // namespace
+
+bool confirm(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
+             std::uint32_t& plane_tests, Depth& depth) {
+  Search search{scene, a, b, goal, plane_tests, true};
+  Polytope<double> polytope(search);
+  const bool confirmed = polytope.confirm(start) && polytope.witness(depth);
+  depth.steps = search.steps;
+  if (!confirmed) return false;
+  const bool enough = search.passed(polytope.lower()) || !search.hopeless(polytope.lower());
+  depth.end = enough ? DepthEnd::Converged : DepthEnd::NotConverged;
+  depth.lower = polytope.lower(), depth.upper = search.best.height;
+  depth.normal = search.best.normal;
+  return true;
+}
 
 Depth expand(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
              std::uint32_t& plane_tests) {

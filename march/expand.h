@@ -15,12 +15,14 @@ namespace swiftlet {
 struct DepthGoal {
   double absolute = 0, relative = 0;  ///< lengths, and of the lower bound; law 2's bound is always enough
   double error = 0;  ///< the exact hulls' depth is less by at most this: it counts as width, and takes away from `lower`
+  double floor = 0;  ///< at most 0: the depth is not less, or nobody cares; stands for a `lower` that is not above 0
   double deeper = std::numeric_limits<double>::infinity();      ///< enough when lower > this
   double shallower = -std::numeric_limits<double>::infinity();  ///< enough when upper < this
   std::uint32_t step_budget = ~0u;                              ///< supports
 };
 
-/// Where to begin: up to four vertex pairs, best those of a facet of the Minkowski difference, and a direction, any length.
+/// Where to begin: up to four vertex pairs, best those of a facet of the Minkowski difference, in order around it, and a
+/// direction, any length.
 struct DepthStart {
   int count = 0;
   std::array<std::uint32_t, 4> a{}, b{};
@@ -50,5 +52,10 @@ struct Depth {
 /// in each of two arithmetics.
 Depth expand(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
              std::uint32_t& plane_tests);
+
+/// The same for little, where the start is a facet that holds the nearest point, and a few points more show that it is: mostly.
+/// False, and nothing but `steps` filled, where not.
+bool confirm(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
+             std::uint32_t& plane_tests, Depth& depth);
 
 }  // namespace swiftlet

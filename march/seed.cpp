@@ -88,12 +88,15 @@ Place first_place(const Model& a, const Model& b, const Line& line, const PairSe
       const Level &level_a = a.level(seed.level_a), &level_b = b.level(seed.level_b);
       const bool has_choice = seed.level_a < coarsest.level_a || seed.level_b < coarsest.level_b || level_a.map_side > 0;
       if (options.start == StartPolicy::Paper || !has_choice) return place;
-      const double length2 = dot(line.in_a, line.in_a);
-      if (turned_far(line.in_a, length2, seed.line_in_a, level_a) || turned_far(line.in_b, length2, seed.line_in_b, level_b))
-        return coarsest;
+      if (turned_far(line, seed, level_a, level_b)) return coarsest;
       place.trial_steps = kTrialSteps;
       return place;
   }
+}
+
+bool turned_far(const Line& line, const PairSeed& seed, const Level& a, const Level& b) {
+  const double length2 = dot(line.in_a, line.in_a);
+  return turned_far(line.in_a, length2, seed.line_in_a, a) || turned_far(line.in_b, length2, seed.line_in_b, b);
 }
 
 void remember(const Line& line, const Vec& normal, PairSeed& seed) {
@@ -130,6 +133,14 @@ Handle parent(const Model& model, int level, Handle feature) {
 
 std::uint32_t about_farthest(const Model& model, const Vec& direction) {
   return descendant(model, model.map_level(), look_up(model.level(model.map_level()), direction).vertex);
+}
+
+std::uint32_t outlook(const Model& model, int level, const Vec& direction) {
+  int seen = std::max(level, model.map_level());
+  if (seen == model.level_count()) return 0;
+  std::uint32_t vertex = look_up(model.level(seen), direction).vertex;
+  for (; seen > level; --seen) vertex = model.level(seen).child_vertex[vertex];
+  return vertex;
 }
 
 std::uint32_t descendant(const Model& model, int level, std::uint32_t vertex) {

@@ -34,6 +34,10 @@ static inline Vec between_centres(const Model& a, const Model& b, const Motion& 
 }
 static inline Line line_of_centres(const Motion& b_in_a, const Vec& between) { return {between, -turn_back(b_in_a, between)}; }
 
+/// Whether the line of centres turned since the seed was left by so much that a walk from its features costs more than a cold
+/// start.
+bool turned_far(const Line& line, const PairSeed& seed, const Level& a, const Level& b);
+
 /// Where a query begins.
 Place first_place(const Model& a, const Model& b, const Line& line, const PairSeed& seed, const QueryOptions& options);
 
@@ -67,6 +71,9 @@ Handle parent(const Model& model, int level, Handle feature);
 
 /// A vertex of level 0 that is about the farthest in a direction. The model has support maps.
 std::uint32_t about_farthest(const Model& model, const Vec& direction);
+
+/// The same on any level; with no map that is any vertex.
+std::uint32_t outlook(const Model& model, int level, const Vec& direction);
 
 /// The vertex of level 0 that stands for one of `level`.
 std::uint32_t descendant(const Model& model, int level, std::uint32_t vertex);

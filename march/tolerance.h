@@ -158,6 +158,16 @@ inline constexpr int kContactPoints = 32;
 /// A tetrahedron is begun where each point lies so many point errors off the others: its centre, at a quarter of its height,
 /// then lies below each face by more than the two that a facet asks for. Dimensionless.
 inline constexpr double kRoom = 16;
+/// A triple product u x v . w of differences: kCrossError for u x v, 4 u for the rest, and w is no longer than twice the
+/// magnitude; rounded up. Relative to |u| |v| magnitude.
+inline constexpr double kOutwardError = 32 * kU;
+/// The ring of points around the top of a polytope is looked for along directions that lean out by so much. A tangent: half
+/// and twice of it cost more on the whole.
+inline constexpr double kFlare = 0.5;
+/// The local least of a depth is looked for from so many directions at most; along each B stands off by as much as it was deep;
+/// and a cold start looks along maps until a direction turns by less. Counts, heights, a cosine.
+inline constexpr int kSlides = 8;
+inline constexpr double kSlideBy = 2, kSlideTurn = 0.98;
 /// Points of the inner polytope: overlaps by a tenth of the bodies take 10 to 30. One that needs more is proved octant by
 /// octant, and these by quarters of theirs, so many times.
 inline constexpr int kDepthPoints = 128, kDepthCells = 6;

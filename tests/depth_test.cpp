@@ -375,9 +375,9 @@ TEST(SignedWithin, DecidesOnBothSidesOfTheThreshold) {
 
 /// Thousands of planes about as near: more points than there is room for.
 TEST(SignedDistance, IsExactWhereManyFacetsAreAsDeep) {
-  const shapes::Pair pair = shapes::pair(shapes::Family::Fat, 400);
-  const Body a = body(pair.a), b = body(pair.b);
-  for (const double shift : {0., 1e-9, 1e-3}) {
+  for (const auto& [triangles, shift] : {std::pair(400, 0.), {400, 1e-9}, {400, 1e-3}, {2000, 0.}, {2000, 1e-2}}) {
+    const shapes::Pair pair = shapes::pair(shapes::Family::Fat, std::uint32_t(triangles));
+    const Body a = body(pair.a), b = body(pair.b);
     const Pose pose{bodies::rotation(.3, .2, .5, .1), {shift, 0, 0}};
     const SignedAnswer s = cold(a, b, pose);
     EXPECT_EQ(s.status, Status::Converged);
@@ -393,6 +393,48 @@ TEST(SignedDistance, IsExactWhereManyFacetsAreAsDeep) {
   EXPECT_EQ(s.status, Status::Converged);
   EXPECT_NEAR(s.lower, -1.5, 1e-4);
   std::printf("%u steps\n", s.steps);
+}
+
+/// Corners that lie in a facet's plane but for rounding: seen by some facets around them and not by others.
+TEST(SignedDistance, ConvergesForTouchingCubesTiltedByRounding) {
+  const Body cube = body(shapes::cube());
+  const ConvexView& view = cube.model.level(0).view;
+  shapes::Random random(15);
+  const auto feature = [&] {
+    switch (random.bits() % 3) {
+      case 0: return Handle(FeatureKind::Vertex, std::uint32_t(random.bits() % view.vertices.size()));
+      case 1: return Handle(FeatureKind::Edge, std::uint32_t(random.bits() % view.head.size()));
+      default: return Handle(FeatureKind::Face, std::uint32_t(random.bits() % view.face_first.size()));
+    }
+  };
+  int overlapping = 0;
+  for (int i = 0; i < 800; ++i) {
+    const double size = std::pow(10, random.uniform(-16, -10));
+    Pose pose{shapes::rotation(random.on_sphere(), size), {0, 2, 0}};
+    for (const int axis : {0, 2}) pose.translation[axis] = (double(random.bits() % 7) - 3) / 2;
+    for (double& x : pose.translation) x += size * random.uniform(-1, 1);
+    PairSeed seed;
+    for (int round = 0; round < 3; ++round) {
+      const SignedAnswer s = signed_distance(cube.model, cube.model, pose, seed);
+      EXPECT_EQ(fault(cube, cube, pose, s), "") << i << " round " << round;
+      overlapping += s.verdict == Verdict::Overlapping;
+      seed = PairSeed{};
+      seed.a = feature(), seed.b = feature();
+      seed.met = random.bits() % 2;
+    }
+  }
+  EXPECT_GE(overlapping, 700);
+}
+
+/// A corner in the plane of two facets was seen by one of them alone, a sliver: the cone to it folded back over the other.
+TEST(Regress, TouchingCubesFoldedTheirPolytope) {
+  const Body cube = body(shapes::cube());
+  Pose pose;
+  pose.rotation << -0x1p+0, 0x1.96608eee85bc1p-46, -0x1.0b5bec5f93cadp-48,  //
+      -0x1.96608eee85be1p-46, -0x1p+0, 0x1.f90be0b91664bp-46,               //
+      -0x1.0b5bec5f9398bp-48, 0x1.f90be0b916665p-46, 0x1p+0;
+  pose.translation = {0x1.7fffffffffffp+0, 0x1.0000000000034p+1, -0x1.000000000010ap-1};
+  EXPECT_EQ(fault(cube, cube, pose, cold(cube, cube, pose)), "");
 }
 
 TEST(SignedDistance, OfBodiesWithoutThicknessIsNone) {

@@ -27,7 +27,7 @@ struct SignedAnswer {
   int level_a = 0, level_b = 0;              ///< the level pair they lie on
   Handle feature_a, feature_b;               ///< on those levels; of an overlap, a pair of the deepest
   OverlapProof proof;                        ///< Overlapping with `upper` = 0: vertices of level 0
-  std::uint32_t steps = 0, plane_tests = 0;  ///< work, a support of both bodies for one step
+  std::uint32_t steps = 0, plane_tests = 0;  ///< work: a support of both bodies or a change of feature is one step
 };
 
 /// The signed distance between `a` and `b`, where `b_in_a` maps B's frame into A's: exact by default, that is within law 2's
@@ -35,8 +35,9 @@ struct SignedAnswer {
 /// depth along it: 0 where both share a plane.
 /// Of bodies with radii it is the hulls' less both.
 /// Of the options, `trace` is not read; `beyond`, `start`, `refinement` and `plane_rule` matter only while the bodies are
-/// apart. Cost: apart that of `distance`; overlapping one climb for each point of a polytope, 5 to 30 where the overlap is
-/// shallow, all vertices of the Minkowski difference at worst, where many facets are about as deep. Nothing is allocated.
+/// apart. Cost: apart that of `distance`; overlapping that of a walk to the local least and of some ten points that confirm it
+/// where the overlap is shallow, a climb for each point of a polytope where it is deep, 5 to 30, all vertices of the Minkowski
+/// difference at worst, where many facets are about as deep. Nothing is allocated.
 /// Errors are statuses, and the interval is always true. Source: [van den Bergen 2001]; the proof is our own (march/README.md).
 SignedAnswer signed_distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed,
                              const QueryOptions& options = {});
