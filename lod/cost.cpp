@@ -21,8 +21,8 @@ std::size_t finest_mapped(const QueryCost& cost, std::span<const LevelSize> leve
   return k;
 }
 
-double looks(const QueryCost& cost, double error) {
-  return 1 + cost.looks_per_decade * std::max(0.0, std::log10(cost.first_error / error));
+double looks(const QueryCost& cost, double slack) {
+  return 1 + cost.looks_per_decade * std::max(0.0, std::log10(cost.first_slack / slack));
 }
 
 /// An exact distance on one level, from its map.
@@ -33,10 +33,11 @@ double refined(const QueryCost& cost, double ratio) { return cost.refine_per_edg
 }  // namespace
 
 double cold_instructions(const QueryCost& cost, std::span<const LevelSize> levels, double error) {
-  const std::size_t last = answering(levels, error), mapped = finest_mapped(cost, levels);
-  const double seen = walked(cost, levels[std::max(last, mapped)].vertices);
-  if (last >= mapped) return error > 0 ? std::min(seen, cost.legal_pose + cost.look * looks(cost, error)) : seen;
-  double sum = seen;
+  const std::size_t needed = answering(levels, error), mapped = finest_mapped(cost, levels);
+  if (needed >= mapped && error >= cost.least_seen)
+    return cost.legal_pose + cost.look * looks(cost, error - 2 * levels[needed].deviation);
+  const std::size_t last = std::min(needed, mapped > 0 ? mapped - 1 : 0);
+  double sum = walked(cost, levels[mapped].vertices);
   for (std::size_t k = mapped; k > last; --k)
     sum += refined(cost, levels[k - 1].vertices / levels[k].vertices) + (k < mapped ? cost.between : 0);
   return sum;

@@ -29,11 +29,13 @@ inline constexpr Asked kAsked[] = {{0, 0.4}, {0.001, 0.2}, {0.01, 0.2}, {0.1, 0.
 
 /// The constants. Instructions but where said.
 struct QueryCost {
-  double mapped_vertices = 4096;  ///< the finest level with a support map has at most so many: march's kMappedVertices
-  double legal_pose = 880;        ///< what any query takes before and after
-  double look = 460;              ///< one direction along the maps
-  double first_error = 0.2;       ///< where one look is enough; each tenth of it takes `looks_per_decade` more
-  double looks_per_decade = 4.5;
+  double mapped_vertices = 4096;   ///< the finest level with a support map has at most so many: march's kMappedVertices
+  double legal_pose = 880;         ///< what any query takes before and after
+  double look = 460;               ///< one direction along the maps
+  double first_slack = 0.2;        ///< of error that deviations leave, for which one look is enough;
+  double looks_per_decade = 3;     ///< each tenth of it takes so many more
+  double least_seen = 0.05;        ///< the least error that looks alone answer: a smaller one, though its level has a map, is
+                                   ///< walked for on the next finer level
   double walk = 4820;              ///< from a look to a proved exact distance on the same level, all told,
   double walk_per_edge = 17;       ///< and for each of the sqrt(V) edges around the body
   double refine_per_edge = 950;    ///< from a level to the next finer one, for each of the sqrt(V' / V) edges that one of its
