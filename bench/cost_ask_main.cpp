@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Asks every query of a written scene once, for callgrind: see cost.
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,7 @@
 
 int main(int argc, char** argv) {
   using namespace swiftlet;
-  if (argc != 3) return std::fputs("swiftlet_cost_ask PREFIX distance|intersects\n", stderr), 2;
+  if (argc != 3 && argc != 4) return std::fputs("swiftlet_cost_ask PREFIX distance|intersects|cold [ERROR]\n", stderr), 2;
   const std::string prefix = argv[1], question = argv[2];
   const Result<Model> a = load(prefix + "-a.swl"), b = load(prefix + "-b.swl");
   if (!a || !b) return std::fprintf(stderr, "%s\n", (a ? b : a).error().message.c_str()), 1;
@@ -19,11 +20,14 @@ int main(int argc, char** argv) {
   if (!file) return std::fprintf(stderr, "cannot read %s.poses\n", prefix.c_str()), 1;
   for (Pose p; std::fread(&p, sizeof p, 1, file) == 1;) poses.push_back(p);
   std::fclose(file);
+  QueryOptions options;
+  if (argc == 4) options.absolute_error = std::atof(argv[3]) * a.value().radius();
   PairSeed seed;
   double steps = 0, tests = 0;
   for (const Pose& pose : poses) {
-    const Answer answer =
-        question == "distance" ? distance(a.value(), b.value(), pose, seed) : intersects(a.value(), b.value(), pose, seed);
+    if (question == "cold") seed = {};
+    const Answer answer = question == "intersects" ? intersects(a.value(), b.value(), pose, seed)
+                                                   : distance(a.value(), b.value(), pose, seed, options);
     steps += answer.steps;
     tests += answer.plane_tests;
   }

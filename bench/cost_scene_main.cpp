@@ -5,20 +5,43 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include <swiftlet/model_file.h>
 
+#include "cost.h"
 #include "scenes.h"
+
+namespace {
+
+/// Instructions of a cold query for each error that scenes ask for.
+void print_expected(const swiftlet::Model& model) {
+  std::vector<swiftlet::lod::LevelSize> levels;
+  for (int i = 0; i < model.level_count(); ++i) {
+    const swiftlet::Level& level = model.level(i);
+    if (i >= model.finest_level()) levels.push_back({double(level.view.vertices.size()), level.deviation / model.radius()});
+  }
+  for (const auto& [error, weight] : swiftlet::lod::kAsked)
+    std::printf("expected %g %.0f %.0f\n", error, swiftlet::lod::cold_instructions({}, levels, error),
+                swiftlet::lod::prefix_bytes({}, levels, error) / 1024);
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace swiftlet;
   using namespace swiftlet::bench;
-  if (argc != 6 && argc != 7) {
-    return std::fputs("swiftlet_cost_scene CACHE fat|plate|long TRIANGLES STEP PREFIX [DEVIATION]; step 400: random\n", stderr),
+  if (argc < 6 || argc > 9) {
+    return std::fputs(
+               "swiftlet_cost_scene CACHE fat|plate|long TRIANGLES STEP PREFIX [DEVIATION [RATE [LEVELS]]]\n"
+               "step 400: random; 0 for the deviation or the rate: none. Prints what the model of lod/cost.h expects.\n",
+               stderr),
            2;
   }
   BuildOptions options;
-  if (argc == 7) options.detail.deviation = std::atof(argv[6]);
+  if (argc > 6) options.detail.deviation = std::atof(argv[6]);
+  if (argc > 7 && std::atof(argv[7]) > 0) options.rate = std::atof(argv[7]);
+  if (argc > 8) options.max_levels = std::atoi(argv[8]);
   const Shelf shelf(argv[1], options);
   const double step = std::atof(argv[4]);
   const auto triangles = std::uint32_t(std::atoi(argv[3]));
@@ -32,6 +55,7 @@ int main(int argc, char** argv) {
       if (const auto failed = save(scene.models[std::size_t(i)], prefix + (i == 0 ? "-a.swl" : "-b.swl")); !failed)
         return std::fprintf(stderr, "%s\n", failed.error().message.c_str()), 1;
     }
+    print_expected(scene.models[0]);
     std::FILE* file = std::fopen((prefix + ".poses").c_str(), "wb");
     if (!file) return std::fprintf(stderr, "cannot write %s.poses\n", prefix.c_str()), 1;
     for (const Query& q : scene.queries) std::fwrite(&q.b_in_a, sizeof(Pose), 1, file);

@@ -57,7 +57,7 @@ Shelf::Shelf(std::filesystem::path directory, BuildOptions options)
   shapes::Random random(1);
   for (Vec3& p : probe) p = random.on_sphere();
   key_ = text("%u %d %d %.17g %u %d %.17g %.17g %d %.17g %llx", kModelFileVersion, int(options_.method),
-              int(options_.enclosing), options_.rate, options_.cutoff, options_.max_levels, options_.max_deviation,
+              int(options_.enclosing), options_.rate.value_or(0), options_.cutoff, options_.max_levels, options_.max_deviation,
               options_.detail.deviation, int(options_.table.resolution), options_.table.radius_factor,
               static_cast<unsigned long long>(must(build(probe, options_)).model.hash()));
 }

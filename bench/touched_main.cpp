@@ -13,7 +13,30 @@
 
 namespace {
 volatile long begin_query, end_query;
+
+template <class T>
+void place(int level, const char* name, std::span<const T> array) {
+  const auto* const begin = reinterpret_cast<const char*>(array.data());
+  if (!array.empty())
+    std::printf("array %016lx %016lx %d %s\n", (unsigned long)(begin), (unsigned long)(begin + array.size_bytes()), level,
+                name);
 }
+
+/// Where the arrays of a model lie.
+void describe(const swiftlet::Model& model) {
+  for (int i = model.finest_level(); i < model.level_count(); ++i) {
+    const swiftlet::Level& level = model.level(i);
+    place(i, "vertices", level.view.vertices);
+    place(i, "planes", level.view.planes);
+    place(i, "half_edges", level.view.head.records());
+    place(i, "face_first", level.view.face_first);
+    place(i, "child_vertex", level.child_vertex);
+    place(i, "child_face", level.child_face);
+    place(i, "parent_face", level.parent_face);
+    place(i, "map", level.support_map);
+  }
+}
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace swiftlet;
@@ -28,6 +51,7 @@ int main(int argc, char** argv) {
     models.push_back(map(argv[i], needed).value());
     const std::span<const std::byte> bytes = models.back().bytes();
     const Level& finest = models.back().level(models.back().finest_level());
+    describe(models.back());
     std::printf("model %016lx %016lx %zu %zu\n", (unsigned long)(bytes.data()), (unsigned long)(bytes.data() + bytes.size()),
                 finest.prefix, finest.triangle_count);
   }

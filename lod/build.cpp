@@ -17,11 +17,11 @@ namespace {
 
 using namespace lod;
 
-constexpr double kHullDone = 0.15, kLevelsDone = 0.8;  ///< of the whole, for the progress callback
+constexpr double kHullDone = 0.15;  ///< of a build
 
 std::optional<Error> problem(const BuildOptions& options) {
   const auto bad = [](const char* message) { return Error{ErrorCode::BadValue, message}; };
-  if (!(options.rate > 0 && options.rate < 1)) return bad("rate must lie between 0 and 1, without either");
+  if (options.rate && !(*options.rate > 0 && *options.rate < 1)) return bad("rate must lie between 0 and 1, without either");
   if (options.max_levels < 1 || options.max_levels > 32) return bad("max_levels must be from 1 to 32");
   if (!(options.max_deviation >= 0) || !std::isfinite(options.max_deviation))
     return bad("max_deviation must be finite and not negative");
@@ -101,47 +101,49 @@ void describe(const Model& model, BuildReport& report) {
   report.faces_grouped = finest.view.planes.size();
 }
 
-Error cancelled() { return {ErrorCode::Cancelled, "the progress callback cancelled the build"}; }
-
-}  // namespace
-
-Result<Built> build(const Mesh& users, const BuildOptions& options) {
-  if (const auto error = problem(options)) return *error;
-  if (const auto error = problem(users)) return *error;
-  const auto keep_on = [&](double fraction, std::string_view stage) {
-    return !options.progress || options.progress(fraction, stage);
-  };
-  if (!keep_on(0, "hull")) return cancelled();
-
+Result<Built> build_watched(const Mesh& users, const BuildOptions& options, Watch& watch) {
+  watch.begin("hull", kHullDone, 3);
   const double scale = unit_scale(users.points);
   const Mesh mesh = scaled(users, scale);
   const Hull shape = hull(mesh.points);
+  watch.work();
   const Polytope body = solid(mesh.points, shape);
   BuildReport report;
   report.points_read = mesh.points.size(), report.triangles_read = mesh.triangles.size();
   report.duplicates_dropped = shape.duplicates, report.interior_dropped = shape.interior;
   report.hull_triangles = body.triangles.size();
-  Hierarchy levels{{}, "the body is not solid and has one level", false};
+  Hierarchy levels{{}, "the body is not solid and has one level"};
   if (shape.dimension == 3) {
     report.volume_ratio = volume_ratio(mesh, body);
+    watch.work();
     report.deepest_dent = deepest_dent(mesh, shape, body) / scale;
     if (options.require_convex && has_dents(mesh, body, report, scale))
       return Error{ErrorCode::NotConvex, "the mesh has dents, the deepest " + std::to_string(report.deepest_dent)};
     BuildOptions in_scale = options;
     in_scale.detail.deviation *= scale;
-    levels =
-        hierarchy(body, in_scale, [&](double done) { return keep_on(kHullDone + (kLevelsDone - kHullDone) * done, "levels"); });
+    levels = hierarchy(body, in_scale, watch);
   } else if (options.require_solid) {
     return Error{ErrorCode::NotSolid, "all points lie in one plane"};
   }
-  if (levels.cancelled || !keep_on(kLevelsDone, "bake")) return cancelled();
+  watch.begin("bake", 1, 1);
 
   report.end = levels.end;
   Result<Model> model = bake(finest_level(mesh, shape, body, scale), levels.levels, scale, options, report.end);
   if (!model) return model.error();
   describe(model.value(), report);
-  if (!keep_on(1, "done")) return cancelled();
+  watch.end();
   return Built{model.value().cut(options.detail), std::move(report)};
+}
+
+}  // namespace
+
+Result<Built> build(const Mesh& users, const BuildOptions& options) try {
+  if (const auto error = problem(options)) return *error;
+  if (const auto error = problem(users)) return *error;
+  Watch watch(options.progress);
+  return build_watched(users, options, watch);
+} catch (const Cancelled&) {
+  return Error{ErrorCode::Cancelled, "the progress callback cancelled the build"};
 }
 
 Result<Built> build(std::span<const Vec3> points, const BuildOptions& options) {

@@ -279,7 +279,10 @@ constexpr double kRelaxed = 0.999;    ///< of a move: short of the limit, edges 
 constexpr double kEarlyPart = 0.3;    ///< of a move in the first half of the sweeps, so that neighbours share the gain
 constexpr double kStillWhole = 0.95;  ///< of the triangles; fewer, and the balance has folded the surface
 constexpr int kRepeats = 3;
+constexpr double kMoveWork = 25;
 constexpr std::size_t kFewestRounds = 8;  ///< fewer change nothing: fine levels are not balanced
+
+int sweeps_over(std::size_t points) { return int(std::clamp<std::size_t>(20000 / points, 2, 20)); }
 
 /// The level balanced and scaled to hold the body, where that keeps its triangles and lessens its volume.
 std::optional<Polytope> balanced(Polytope level, const Climber& body, const Mat3& metric) {
@@ -326,35 +329,42 @@ Result<Polytope> scale_to_hold(Polytope level, const Climber& body, const Vec3& 
   return level;
 }
 
-Polytope relax(Polytope level, const Climber& body, const Vec3& centre) {
+Polytope relax(Polytope level, const Climber& body, const Vec3& centre, Watch& watch) {
   constexpr int kSweeps = 3;
   Mover mover(level, body);
   for (int sweep = 0; sweep < kSweeps; ++sweep)
     for (std::uint32_t v = 0; v < level.points.size(); ++v) {
       mover.look_around(v);
       level.points[v] += kRelaxed * mover.move_along(centre - level.points[v]);
+      watch.work(kMoveWork);
     }
   return level;
 }
 
-Polytope tighten(Polytope level, const Climber& body, const Mat3& metric) {
+Polytope tighten(Polytope level, const Climber& body, const Mat3& metric, Watch& watch) {
   for (int repeat = 0; repeat < kRepeats; ++repeat) {
     std::optional<Polytope> better = balanced(level, body, metric);
     if (!better) break;
     level = std::move(*better);
   }
-  const int sweeps = int(std::clamp<std::size_t>(20000 / level.points.size(), 2, 20));
+  const int sweeps = sweeps_over(level.points.size());
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     Mover mover(level, body);
     for (std::uint32_t v = 0; v < level.points.size(); ++v) {
       mover.look_around(v);
       level.points[v] += (2 * sweep < sweeps ? kEarlyPart : 1) * mover.least_volume_move();
+      watch.work(kMoveWork);
     }
     const Hull shape = hull(level.points);
     if (shape.dimension < 3) break;
     level = solid(level.points, shape);
   }
   return level;
+}
+
+double move_work(double triangles) {
+  const double points = triangles / 2 + 2;
+  return kMoveWork * points * sweeps_over(std::size_t(points));
 }
 
 }  // namespace swiftlet::lod

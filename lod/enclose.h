@@ -9,6 +9,7 @@
 #include <swiftlet/result.h>
 
 #include "polytope.h"
+#include "watch.h"
 
 namespace swiftlet::lod {
 
@@ -30,11 +31,14 @@ Result<Polytope> scale_to_hold(Polytope level, const Climber& body, const Vec3& 
 /// A level that holds the body, its vertices moved along their rays towards the centre as far as convexity and the body allow
 /// [sec. 4.4.2]. Keeps the triangles. The paper lists, per face, the removed vertices on its rays; a climb finds the one that
 /// binds without lists, and looks at all of level 0.
-Polytope relax(Polytope level, const Climber& body, const Vec3& centre);
+Polytope relax(Polytope level, const Climber& body, const Vec3& centre, Watch& watch);
 
 /// Ours: a level that deviates less and still holds the body. Vertices are balanced against the body until the highest stand
 /// alike, and then each in turn moves to where the volume is least while its faces clear the body. `metric` maps these
 /// coordinates to those in which deviations count.
-Polytope tighten(Polytope level, const Climber& body, const Mat3& metric);
+Polytope tighten(Polytope level, const Climber& body, const Mat3& metric, Watch& watch);
+
+/// What either tells the watch of a level of so many triangles, about microseconds.
+double move_work(double triangles);
 
 }  // namespace swiftlet::lod

@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "collapse.h"
+#include "cost.h"
 #include "deviation.h"
 #include "enclose.h"
 #include "hull.h"
@@ -19,6 +21,7 @@
 namespace swiftlet::lod {
 namespace {
 
+constexpr double kRate = 0.25;  ///< BuildOptions::rate where none is asked for
 constexpr double kWorthwhile =
     0.65;  ///< a level with more of the triangles of the one before is not worth its memory, unless asked for
 
@@ -47,50 +50,54 @@ class Whitening {
   Mat3 spread_ = Mat3::Identity();
 };
 
+constexpr double kPeelRounds = 6;  ///< the triangles of all levels over those of level 0
+constexpr const char* kMostLevels = "the greatest number of levels was reached";
+
 /// What a method makes next: a level, or the sentence why there is none.
 struct Step {
   std::optional<CoarseLevel> level;
   std::string end;
 };
 
-/// Garland & Heckbert levels [sec. 4.5]. Each simplifies the one before as it was before growing, so that growth never adds up.
+/// Makes Garland & Heckbert levels [sec. 4.5]. Each simplifies the one before as it was before growing, so that growth never
+/// adds up.
 class Collapser {
  public:
-  Collapser(const Polytope& level0, const BuildOptions& options)
+  Collapser(const Polytope& level0, const BuildOptions& options, Watch& watch)
       : options_(options),
+        watch_(watch),
         level0_(level0),
         plain_(level0),
         whitening_(level0),
         shape_(tight() ? whitening_.whitened(level0) : level0),
-        simple_(shape_),
         body_(shape_) {}
-
-  Step next() {
-    Simpler coarser = simpler(simple_);
-    if (!coarser.shape) return {{}, coarser.end};
-    simple_ = std::move(*coarser.shape);
-    return enclosed(simple_);
-  }
 
   /// A shape with fewer triangles, before it is grown, or the sentence why there is none.
   struct Simpler {
     std::optional<Polytope> shape;
     std::string end;
   };
-  /// `rate` times as many, no fewer than the cutoff.
+  /// How many the level after one of so many triangles is to have: `rate` times as many, no fewer than the cutoff. Where no
+  /// rate is asked for, levels too fine for a support map are as far apart as queries like them.
+  std::size_t target(std::size_t triangles) const {
+    const double vertices = double(triangles) / 2 + 2;
+    double next = options_.rate.value_or(kRate) * double(triangles);
+    if (!options_.rate && kRate * vertices > cost_.mapped_vertices) next = 2 * steps_to_map(cost_, vertices).front() - 4;
+    return std::max({std::size_t(next), std::size_t(options_.cutoff), std::size_t(4)});
+  }
+  bool worthwhile(std::size_t triangles, std::size_t before) const {
+    return double(triangles) <= most_of_one() * double(before);
+  }
   Simpler simpler(const Polytope& shape) const {
-    const std::size_t before = shape.triangles.size();
-    const std::size_t target =
-        std::max({std::size_t(options_.rate * double(before)), std::size_t(options_.cutoff), std::size_t(4)});
-    const double worthwhile = std::max(kWorthwhile, options_.rate);
-    if (double(target) > worthwhile * double(before)) return {{}, "the next level would have fewer triangles than the cutoff"};
-    Simpler coarser = simpler(shape, target);
-    if (coarser.shape && double(coarser.shape->triangles.size()) > (1 + worthwhile) / 2 * double(before))
+    const std::size_t before = shape.triangles.size(), after = target(before);
+    if (!worthwhile(after, before)) return {{}, "the next level would have fewer triangles than the cutoff"};
+    Simpler coarser = simpler(shape, after);
+    if (coarser.shape && double(coarser.shape->triangles.size()) > (1 + most_of_one()) / 2 * double(before))
       return {{}, "no more edges could be collapsed"};
     return coarser;
   }
   Simpler simpler(const Polytope& shape, std::size_t target) const {
-    const std::vector<Vec3> points = collapse(shape, target);
+    const std::vector<Vec3> points = collapse(shape, target, watch_);
     if (points.empty()) return {{}, "too thin for quadric errors"};
     const Hull coarse = hull(points);
     if (coarse.dimension < 3) return {{}, "the next level would be flat"};
@@ -105,9 +112,9 @@ class Collapser {
     for (Vec3& p : moved.points) p += drift;
     Result<Polytope> scaled = scale_to_hold(std::move(moved), body_, centre);
     if (!scaled) return {{}, scaled.error().message};
-    std::vector<Vec3> points = tight()
-                                   ? whitening_.restored(tighten(std::move(scaled).value(), body_, whitening_.spread()).points)
-                                   : scaled.value().points;
+    std::vector<Vec3> points =
+        tight() ? whitening_.restored(tighten(std::move(scaled).value(), body_, whitening_.spread(), watch_).points)
+                : scaled.value().points;
     Result<Proved> proved = prove(std::move(points), plain_, area_centroid(level0_));
     if (!proved) return {{}, proved.error().message};
     return {CoarseLevel{std::move(proved.value().level), {}, {}}, {}};
@@ -115,22 +122,24 @@ class Collapser {
 
  private:
   bool tight() const { return options_.enclosing == Enclosing::Tight; }
+  double most_of_one() const { return std::max(kWorthwhile, options_.rate.value_or(0)); }
 
   const BuildOptions& options_;
+  const QueryCost cost_;
+  Watch& watch_;
   const Polytope& level0_;
   Climber plain_;  ///< level 0
   Whitening whitening_;
-  Polytope shape_;   ///< level 0, whitened for Tight
-  Polytope simple_;  ///< the last level before it was grown
-  Climber body_;     ///< over shape_
+  Polytope shape_;  ///< level 0, whitened for Tight
+  Climber body_;    ///< over shape_
 };
 
 /// Dobkin & Kirkpatrick levels [sec. 4.4]: each keeps vertices of the one before, as it was grown: built on the
 /// exact hulls of level 0's vertices instead, plates deviate many times more.
 class Peeler {
  public:
-  Peeler(const Polytope& level0, const BuildOptions& options)
-      : options_(options), plain_(level0), centre_(area_centroid(level0)), last_(level0) {}
+  Peeler(const Polytope& level0, const BuildOptions& options, Watch& watch)
+      : options_(options), watch_(watch), plain_(level0), centre_(area_centroid(level0)), last_(level0) {}
 
   Step next() {
     const std::size_t fewest = std::max<std::size_t>(options_.cutoff, 4);
@@ -146,8 +155,8 @@ class Peeler {
     Result<Polytope> scaled = scale_to_hold(coarse, plain_, centre_);
     if (!scaled) return {{}, scaled.error().message};
     const bool tight = options_.enclosing == Enclosing::Tight;
-    const Polytope level = tight ? tighten(std::move(scaled).value(), plain_, Mat3::Identity())
-                                 : relax(std::move(scaled).value(), plain_, centre_);
+    const Polytope level = tight ? tighten(std::move(scaled).value(), plain_, Mat3::Identity(), watch_)
+                                 : relax(std::move(scaled).value(), plain_, centre_, watch_);
     Result<Proved> proved = prove(level.points, plain_, centre_);
     if (!proved) return {{}, proved.error().message};
     Step step{CoarseLevel{proved.value().level, {}, {}}, {}};
@@ -177,57 +186,61 @@ class Peeler {
   }
 
   const BuildOptions& options_;
+  Watch& watch_;
   Climber plain_;
   Vec3 centre_;
   Polytope last_;
 };
 
-template <class Stepper>
-Hierarchy stepped(Stepper&& method, const Polytope& level0, const BuildOptions& options,
-                  const std::function<bool(double)>& keep_on) {
+Hierarchy peeled(const Polytope& level0, const BuildOptions& options, Watch& watch) {
+  watch.begin("levels", kLevelsDone, kPeelRounds * move_work(double(level0.triangles.size())));
+  Peeler method(level0, options, watch);
   Hierarchy result;
-  std::size_t left = level0.triangles.size();
   while (int(result.levels.size()) + 1 < options.max_levels) {
-    if (!keep_on(1 - double(left) / double(level0.triangles.size()))) {
-      result.cancelled = true;
-      return result;
-    }
+    watch.work(0);
     Step step = method.next();
     result.end = step.end;
     if (!step.level) return result;
-    left = std::min(left, step.level->body.triangles.size());
     result.levels.push_back(std::move(*step.level));
   }
-  result.end = "the greatest number of levels was reached";
+  result.end = kMostLevels;
   return result;
 }
 
-/// Collapsed levels for a model that need be no finer than to deviate less than `options.detail` says. All are simplified,
-/// which is cheap, but only those from the coarsest up are made to hold level 0, which is dear, until one deviates less; in its
-/// stead one of as few triangles as will do.
-class AimedCollapse {
+/// Collapsed levels. All are simplified, finest first; then they are made to hold level 0, coarsest first, which is dearer: for
+/// a model that need be no finer than to deviate less than `options.detail` says, only until one does. Where a level is the
+/// first that is fine enough for an error that scenes ask for, one of as few triangles as will do takes its place.
+class Collapse {
  public:
-  AimedCollapse(const Polytope& level0, const BuildOptions& options, const std::function<bool(double)>& keep_on)
-      : options_(options),
-        keep_on_(keep_on),
-        collapser_(level0, options),
-        deviation_(level0),
-        allowed_(options.detail.deviation / kStated) {}
+  Collapse(const Polytope& level0, const BuildOptions& options, Watch& watch)
+      : options_(options), watch_(watch), collapser_(level0, options, watch), deviation_(level0) {
+    if (is_aimed()) {
+      wanted_ = {options.detail.deviation / kStated};
+    } else if (!options.rate) {
+      const Vec3 centre = area_centroid(level0);
+      for (const Vec3& p : level0.points) radius_ = std::max(radius_, (p - centre).norm());
+      for (const Asked& asked : kAsked)
+        if (asked.error > 0) wanted_.push_back(asked.error / 2 * radius_ / kStated);
+      std::sort(wanted_.begin(), wanted_.end(), std::greater<>());
+    }
+  }
 
   Hierarchy run() {
+    announce();
     simplify();
-    bool fine = false;
-    for (std::size_t k = simple_.size(); k-- > 0 && !fine && keep_on();) {
+    for (std::size_t k = simple_.size(); k-- > 0 && !(is_aimed() && wanted_.empty());) {
       Step step = collapser_.enclosed(simple_[k]);
       if (!step.level) {
         result_.end = step.end;
+        if (!is_aimed()) result_.levels.clear(), sizes_.clear();
         continue;
       }
-      const double deviation = deviation_(step.level->body.points);
-      fine = deviation < allowed_;
-      if (!fine || !push_leaner(simple_[k], deviation)) push(std::move(*step.level), deviation);
+      const double deviation = wanted_.empty() ? 0 : deviation_(step.level->body.points);
+      if (wanted_.empty() || deviation >= wanted_.front() || !push_leaner(simple_[k], deviation, k))
+        push(std::move(*step.level), deviation);
     }
-    if (!fine && int(result_.levels.size()) + 1 < options_.max_levels) push_leaner(collapser_.shape(), 0);
+    if (is_aimed() && !wanted_.empty() && int(result_.levels.size()) + 1 < options_.max_levels)
+      push_leaner(collapser_.shape(), 0, 0);
     std::reverse(result_.levels.begin(), result_.levels.end());
     return std::move(result_);
   }
@@ -237,60 +250,95 @@ class AimedCollapse {
   static constexpr double kAim = 0.95;     ///< of the deviation allowed; the estimate is a power law through two levels
   static constexpr int kTries = 3;
 
-  bool keep_on() {
-    result_.cancelled = !keep_on_(std::min(1.0, double(++stages_) / double(2 * options_.max_levels)));
-    return !result_.cancelled;
+  bool is_aimed() const { return options_.detail.deviation > 0; }
+
+  /// To the watch: the levels as they are likely to be.
+  void announce() {
+    double work = 0;
+    for (std::size_t n = collapser_.shape().triangles.size(), next; next = collapser_.target(n), collapser_.worthwhile(next, n);
+         n = next)
+      work += collapse_work(double(n), double(next)) + move_work(double(next));
+    watch_.begin("levels", kLevelsDone, std::max(work, 1.0));
   }
 
   void simplify() {
-    while (int(simple_.size()) + 1 < options_.max_levels && keep_on()) {
+    while (int(simple_.size()) + 1 < options_.max_levels) {
       Collapser::Simpler coarser = collapser_.simpler(simple_.empty() ? collapser_.shape() : simple_.back());
       result_.end = coarser.end;
       if (!coarser.shape) return;
       simple_.push_back(std::move(*coarser.shape));
     }
+    result_.end = kMostLevels;
   }
 
   void push(CoarseLevel level, double deviation) {
+    sizes_.push_back({double(level.body.points.size()), deviation});
     result_.levels.push_back(std::move(level));
-    last_deviation_ = deviation;
+    while (!wanted_.empty() && deviation < wanted_.front()) wanted_.erase(wanted_.begin());
   }
 
   /// Whether there is a level between the last one, which deviates too much, and `simple`, whose own deviates by `deviation`,
-  /// that deviates no more than allowed with fewer triangles than `simple`.
-  bool push_leaner(const Polytope& simple, double deviation) {
+  /// that deviates no more than wanted with fewer triangles than `simple`, and queries are none the worse for. `finer` shapes
+  /// are left.
+  bool push_leaner(const Polytope& simple, double deviation, std::size_t finer) {
     if (result_.levels.empty()) return false;
+    const double allowed = wanted_.front(), last_deviation = sizes_.back().deviation;
     const double most = double(simple.triangles.size()), fewest = double(result_.levels.back().body.triangles.size());
-    const double power = deviation > 0 ? std::log(last_deviation_ / deviation) / std::log(most / fewest) : 1;
-    double triangles = fewest * std::pow(last_deviation_ / (kAim * allowed_), 1 / power);
-    for (int k = 0; k < kTries && triangles < kWorthwhile * most && keep_on(); ++k) {
+    const double power = deviation > 0 ? std::log(last_deviation / deviation) / std::log(most / fewest) : 1;
+    double triangles = fewest * std::pow(last_deviation / (kAim * allowed), 1 / power);
+    for (int k = 0; k < kTries && triangles < kWorthwhile * most; ++k) {
+      if (!is_aimed() && !is_better({triangles / 2 + 2, allowed}, {most / 2 + 2, deviation}, finer)) break;
       const Collapser::Simpler shape = collapser_.simpler(simple, std::size_t(triangles));
       if (!shape.shape) break;
       Step step = collapser_.enclosed(*shape.shape);
-      const double found = step.level ? deviation_(step.level->body.points) : allowed_;
-      if (found < allowed_) return push(std::move(*step.level), found), true;
-      triangles *= std::pow(found / (kAim * allowed_), 1 / power);
+      const double found = step.level ? deviation_(step.level->body.points) : allowed;
+      if (found < allowed) {
+        drop_if_near(double(step.level->body.triangles.size()));
+        return push(std::move(*step.level), found), true;
+      }
+      triangles *= std::pow(found / (kAim * allowed), 1 / power);
     }
     return false;
   }
 
+  /// Drops the last level, unless the coarsest, where a finer one of so many triangles makes it not worthwhile.
+  void drop_if_near(double triangles) {
+    if (result_.levels.size() < 2 || double(result_.levels.back().body.triangles.size()) <= kWorthwhile * triangles) return;
+    result_.levels.pop_back();
+    sizes_.pop_back();
+  }
+
+  /// Whether queries are the better for `lean` in the stead of `plain`. Deviations of levels that are not yet made to hold
+  /// level 0 are taken to be as their vertices are fewer.
+  bool is_better(const LevelSize& lean, const LevelSize& plain, std::size_t finer) const {
+    const auto with = [&](const LevelSize& chosen) {
+      std::vector<LevelSize> levels{{double(collapser_.shape().points.size()), 0}};
+      for (std::size_t k = 0; k < finer; ++k) {
+        const auto vertices = double(simple_[k].points.size());
+        levels.push_back({vertices, plain.deviation * plain.vertices / vertices / radius_});
+      }
+      levels.push_back({chosen.vertices, chosen.deviation / radius_});
+      for (std::size_t k = sizes_.size(); k-- > 0;) levels.push_back({sizes_[k].vertices, sizes_[k].deviation / radius_});
+      return expected_cost({}, levels);
+    };
+    return with(lean) < with(plain);
+  }
+
   const BuildOptions& options_;
-  const std::function<bool(double)>& keep_on_;
+  Watch& watch_;
   Collapser collapser_;
   Deviation deviation_;
-  const double allowed_;
+  double radius_ = 0;
+  std::vector<double> wanted_;    ///< deviations no level is fine enough for yet, coarsest first
   std::vector<Polytope> simple_;  ///< finest first
   Hierarchy result_;              ///< coarsest first until the end
-  double last_deviation_ = 0;     ///< of the last level in it
-  int stages_ = 0;
+  std::vector<LevelSize> sizes_;  ///< of the levels in it
 };
 
 }  // namespace
 
-Hierarchy hierarchy(const Polytope& level0, const BuildOptions& options, const std::function<bool(double)>& keep_on) {
-  if (options.method == Method::Peel) return stepped(Peeler(level0, options), level0, options, keep_on);
-  if (options.detail.deviation > 0) return AimedCollapse(level0, options, keep_on).run();
-  return stepped(Collapser(level0, options), level0, options, keep_on);
+Hierarchy hierarchy(const Polytope& level0, const BuildOptions& options, Watch& watch) {
+  return options.method == Method::Peel ? peeled(level0, options, watch) : Collapse(level0, options, watch).run();
 }
 
 }  // namespace swiftlet::lod

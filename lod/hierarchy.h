@@ -3,13 +3,13 @@
 // The coarse levels of one solid, finest first, and why they end. Knows nothing of files or models.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include <swiftlet/build.h>
 
 #include "polytope.h"
+#include "watch.h"
 
 namespace swiftlet::lod {
 
@@ -23,11 +23,11 @@ struct CoarseLevel {
 struct Hierarchy {
   std::vector<CoarseLevel> levels;  ///< without level 0
   std::string end;                  ///< one sentence
-  bool cancelled = false;
 };
 
-/// Of `options.detail` the deviation is read. `keep_on` is asked before every level, with the part that is done, never less
-/// than before.
-Hierarchy hierarchy(const Polytope& level0, const BuildOptions& options, const std::function<bool(double)>& keep_on);
+inline constexpr double kLevelsDone = 0.8;  ///< of a build
+
+/// Of `options.detail` the deviation is read.
+Hierarchy hierarchy(const Polytope& level0, const BuildOptions& options, Watch& watch);
 
 }  // namespace swiftlet::lod

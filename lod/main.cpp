@@ -157,8 +157,8 @@ Action declare_build(CLI::App& word) {
   add_choice(word, "--method", methods, o.method, "collapse", "quadric error edge collapse, or peeling of independent sets");
   add_choice(word, "--enclosing", enclosings, o.enclosing, "tight",
              "how a level is made to hold level 0: vertex by vertex, or by scaling");
-  word.add_option("--rate", o.rate, "triangles of a level over those of the one before, between 0 and 1")
-      ->capture_default_str()
+  word.add_option("--rate", o.rate,
+                  "triangles of a level over those of the one before, between 0 and 1; none: as queries like it")
       ->check(number_in(std::nextafter(0.0, 1.0), std::nextafter(1.0, 0.0), "between 0 and 1"));
   word.add_option("--cutoff", o.cutoff, "no level has fewer triangles")->capture_default_str();
   word.add_option("--levels", o.max_levels, "at most so many, level 0 included, 1 to 32")

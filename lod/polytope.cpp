@@ -3,7 +3,10 @@
 // Measures of a closed triangle surface, its half-edges, and the climb to a support. Plain doubles; no truth rests on them.
 #include "polytope.h"
 
+#include <cube.h>
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace swiftlet::lod {
@@ -73,6 +76,8 @@ HalfEdges half_edges(const Polytope& body) {
 
 namespace {
 
+constexpr double kVerticesPerCell = 4;  ///< of a climber's cube: a step or two across
+
 /// Along Morton's space-filling curve.
 std::vector<std::uint32_t> along_curve(std::span<const Vec3> points) {
   Vec3 low = points.front(), high = low;
@@ -97,7 +102,12 @@ std::vector<std::uint32_t> along_curve(std::span<const Vec3> points) {
 }  // namespace
 
 // Every directed edge occurs once, so that the triangles' sides list each neighbour once.
-Climber::Climber(const Polytope& body) : body_(body), begin_(body.points.size() + 1), neighbour_(3 * body.triangles.size()) {
+Climber::Climber(const Polytope& body)
+    : body_(body),
+      begin_(body.points.size() + 1),
+      neighbour_(3 * body.triangles.size()),
+      side_(std::uint32_t(std::sqrt(double(body.points.size()) / kVerticesPerCell / 6)) + 1),
+      found_(lut::cube_cell_count(side_)) {
   for (const Triangle& triangle : body.triangles)
     for (std::uint32_t corner : triangle) ++begin_[corner + 1];
   for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
@@ -123,15 +133,19 @@ std::span<const std::uint32_t> Climber::neighbours(std::uint32_t vertex) const {
 
 std::uint32_t Climber::climb(const Vec3& direction, std::uint32_t start) const {
   std::uint32_t best = node_[start];
+  std::uint32_t& found = found_[lut::cube_cell(side_, direction.x(), direction.y(), direction.z())];
   double height = direction.dot(nodes_[best].point);
+  if (const double known = direction.dot(nodes_[found].point); known > height) height = known, best = found;
   while (true) {
     const std::uint32_t from = best;
     for (std::uint32_t k = nodes_[from].begin; k < nodes_[from + 1].begin; ++k) {
       const double to_height = direction.dot(nodes_[near_[k]].point);
       if (to_height > height) height = to_height, best = near_[k];
     }
-    if (best == from) return nodes_[best].vertex;
+    if (best == from) break;
   }
+  found = best;
+  return nodes_[best].vertex;
 }
 
 }  // namespace swiftlet::lod

@@ -46,8 +46,9 @@ HalfEdges half_edges(const Polytope& body);
 
 inline std::uint32_t origin(const Polytope& body, std::uint32_t h) { return body.triangles[h / 3][h % 3]; }
 
-/// Finds extreme vertices of one solid by walking uphill; cheap when the start is near. Keeps a reference to the body, and its
-/// points in an order of its own, in which neighbours in space are neighbours in memory.
+/// Finds extreme vertices of one solid by walking uphill; cheap when the start is near, or a direction was much like one
+/// before. Keeps a reference to the body, its points in an order of its own, in which neighbours in space are neighbours in
+/// memory, and what it found last about each direction: not for several threads at once.
 class Climber {
  public:
   explicit Climber(const Polytope& body);
@@ -65,6 +66,8 @@ class Climber {
   std::vector<std::uint32_t> begin_, neighbour_;  ///< per vertex
   std::vector<Node> nodes_;                       ///< along a curve, and one more where neighbours end
   std::vector<std::uint32_t> node_, near_;        ///< of each vertex; neighbours of the nodes
+  std::uint32_t side_;                            ///< of a cube of directions
+  mutable std::vector<std::uint32_t> found_;      ///< per cell of it, the node last found there; the first one where none was
 };
 
 }  // namespace swiftlet::lod

@@ -16,6 +16,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 namespace swiftlet::lod {
 namespace {
@@ -145,7 +146,7 @@ double rounding_of(std::span<const Vec3> points) {
 std::vector<std::vector<std::uint32_t>> triangles_on(const Mesh& mesh, const Hull& hull, const Polytope& body) {
   const Ids first = first_of_equals(mesh.points);
   std::vector<std::vector<std::uint32_t>> found(body.triangles.size());
-  PlaneFinder planes(body, rounding_of(mesh.points));
+  std::optional<PlaneFinder> planes;  // of a triangulated hull every triangle is found by its corners
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [i, j, k] = mesh.triangles[t];
     Triangle corners{first[i], first[j], first[k]};
@@ -159,8 +160,10 @@ std::vector<std::vector<std::uint32_t>> triangles_on(const Mesh& mesh, const Hul
     const auto at = std::lower_bound(body.triangles.begin(), body.triangles.end(), corners);
     if (all_extreme && at != body.triangles.end() && *at == corners) {
       found[at - body.triangles.begin()].push_back(t);
-    } else if (const std::uint32_t on = planes.find(mesh.points[i], mesh.points[j], mesh.points[k]); on < found.size()) {
-      found[on].push_back(t);
+    } else {
+      if (!planes) planes.emplace(body, rounding_of(mesh.points));
+      const std::uint32_t on = planes->find(mesh.points[i], mesh.points[j], mesh.points[k]);
+      if (on < found.size()) found[on].push_back(t);
     }
   }
   return found;
@@ -175,6 +178,8 @@ double volume_ratio(const Mesh& mesh, const Polytope& body) {
 }
 
 double deepest_dent(const Mesh& mesh, const Hull& hull, const Polytope& body) {
+  const Ids inner = inner_vertices(mesh, hull);
+  if (inner.empty()) return 0;
   Faces faces;
   for (const auto& [a, b, c] : body.triangles)
     faces.emplace_back(cgal(body.points[a]), cgal(body.points[b]), cgal(body.points[c]));
@@ -182,7 +187,7 @@ double deepest_dent(const Mesh& mesh, const Hull& hull, const Polytope& body) {
   const CoarseDepth bound(body);
 
   std::vector<std::pair<double, std::uint32_t>> at_most;
-  for (std::uint32_t v : inner_vertices(mesh, hull)) at_most.emplace_back(bound(mesh.points[v]), v);
+  for (std::uint32_t v : inner) at_most.emplace_back(bound(mesh.points[v]), v);
   std::sort(at_most.begin(), at_most.end(), std::greater<>());
   double deepest = 0;
   for (const auto& [depth, v] : at_most) {

@@ -187,9 +187,7 @@ std::vector<std::byte> level_bytes(const Draft& d) {
   std::vector<std::byte> bytes;
   append(bytes, d.surface.vertices);
   append(bytes, d.surface.planes);
-  append(bytes, d.surface.head);
-  append(bytes, d.surface.twin);
-  append(bytes, d.surface.face);
+  append(bytes, d.surface.half_edges);
   append(bytes, d.surface.face_first);
   append(bytes, d.child_vertex);
   append(bytes, d.child_face);
@@ -202,16 +200,16 @@ LevelHeader level_header(const Draft& d) {
   const ConvexView view = s.view();
   LevelHeader header{};
   header.vertex_count = std::uint32_t(s.vertices.size());
-  header.half_edge_count = std::uint32_t(s.head.size());
+  header.half_edge_count = std::uint32_t(s.half_edges.size());
   header.face_count = std::uint32_t(s.face_first.size());
   header.plane_count = std::uint32_t(s.planes.size());
   std::size_t borders = 0;
   double length = 0;
-  for (std::uint32_t h = 0; h < s.head.size(); ++h) {
+  for (std::uint32_t h = 0; h < s.half_edges.size(); ++h) {
     borders += !is_diagonal(view, h);
     length += norm(vec(view.vertices[view.head[h]]) - vec(view.vertices[origin(view, h)]));
   }
-  header.edge_length = s.head.empty() ? 0 : length / double(s.head.size());
+  header.edge_length = s.half_edges.empty() ? 0 : length / double(s.half_edges.size());
   header.edge_count = borders / 2;
   header.triangle_count = s.dimension >= 2 ? 2 * s.vertices.size() - 4 : 0;
   header.extent = s.extent;

@@ -21,7 +21,7 @@ struct FreeAligned {
 };
 
 static_assert(std::endian::native == std::endian::little, "the block is little-endian; a byte-swapping reader is not written");
-static_assert(sizeof(Vertex) == 32 && sizeof(FacePlane) == 32 && sizeof(Handle) == 4);
+static_assert(sizeof(Vertex) == 32 && sizeof(FacePlane) == 32 && sizeof(HalfEdge) == 12 && sizeof(Handle) == 4);
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 60;  // so that sums of offsets do not overflow
 
@@ -221,7 +221,7 @@ Level described(const BlockHeader& block, const LevelHeader& l) {
 std::string take_maps(std::span<const std::byte> block, const Headers& h, std::vector<Level>& levels) {
   if (std::string f = damage(block, header_bytes(h.levels.size()), h.block.maps, "the support maps"); !f.empty()) return f;
   Cursor cursor(part(block, h.block.maps));
-  for (std::size_t i = levels.size(); i-- > 0;) {
+  for (std::size_t i = 0; i < levels.size(); ++i) {
     levels[i].support_map = cursor.take<std::uint32_t>(lut::cube_cell_count(h.levels[i].map_side));
     for (const std::uint32_t entry : levels[i].support_map) {
       if (map_vertex(entry) >= h.levels[i].vertex_count)
@@ -240,9 +240,10 @@ std::string take_level(std::span<const std::byte> block, const Headers& h, std::
   Cursor cursor(part(block, l.section));
   level.view.vertices = cursor.take<Vertex>(l.vertex_count);
   level.view.planes = cursor.take<FacePlane>(l.plane_count);
-  level.view.head = cursor.take<std::uint32_t>(l.half_edge_count);
-  level.view.twin = cursor.take<std::uint32_t>(l.half_edge_count);
-  level.view.face = cursor.take<std::uint32_t>(l.half_edge_count);
+  const auto half_edges = cursor.take<HalfEdge>(l.half_edge_count);
+  level.view.head = half_edges;
+  level.view.twin = half_edges;
+  level.view.face = half_edges;
   level.view.face_first = cursor.take<std::uint32_t>(l.face_count);
   if (i != 0) level.child_vertex = cursor.take<std::uint32_t>(l.vertex_count);
   if (i != 0) level.child_face = cursor.take<Handle>(l.face_count);
@@ -350,7 +351,7 @@ BlockParts BlockReader::parts(const Model& model, int finest) {
   const Model::Body& body = *model.body_;
   const Headers& h = body.headers;
   const auto copy = [&](const Section& section, std::uint64_t bytes) {
-    const auto from = part(body.block.bytes, section).first(bytes);
+    const auto from = part(body.block.bytes, section).last(bytes);
     return std::vector<std::byte>(from.begin(), from.end());
   };
   BlockParts parts;
@@ -368,7 +369,7 @@ BlockParts BlockReader::parts(const Model& model, int finest) {
       map_cells += lut::cube_cell_count(l.map_side);
     }
   }
-  parts.maps = copy(h.block.maps, 4 * map_cells);  // coarsest first
+  parts.maps = copy(h.block.maps, 4 * map_cells);  // finest first
   parts.header.finest_level = std::uint32_t(finest);
   if (finest == 0) {
     parts.table = copy(h.block.table, h.block.table.bytes);

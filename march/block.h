@@ -8,9 +8,9 @@
 // table and source map are empty.
 //
 // Sections begin at multiples of 64 bytes. Little-endian, IEEE doubles. A level section holds, one after the other: Vertex[V],
-// FacePlane[P], then 32-bit words head[H] twin[H] face[H] face_first[F], child_vertex[V] child_face[F] (not on level 0),
-// parent_face[F] (not on the coarsest). The maps: 6 map_side^2 words per level, coarsest first. The source section: vertex[V]
-// face_begin[F + 1] face[...].
+// FacePlane[P], HalfEdge[H], then 32-bit words face_first[F], child_vertex[V] child_face[F] (not on level 0),
+// parent_face[F] (not on the coarsest). The maps: 6 map_side^2 words per level, finest first, so that the one that queries
+// begin with shares a page with the headers. The source section: vertex[V] face_begin[F + 1] face[...].
 #pragma once
 
 #include <cstddef>

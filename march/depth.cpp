@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "aim.h"
+#include "crossing.h"
 #include "difference.h"
 #include "dilate.h"
 #include "expand.h"
@@ -133,7 +134,7 @@ class Deepening {
     double least = kInfinity;
     for (const Vec& axis : {lowest, across(a_), turn(motion_, across(b_))}) {
       const Vec n = dot(axis, line_.in_a) < 0 ? -axis : axis, own = turn_back(motion_, -n);
-      const Vec p = vec(view_a.vertices[outlook(a_, finest_a_, n)]), q = vec(view_b.vertices[outlook(b_, finest_b_, own)]);
+      const Vec p = vec(view_a.vertices[about_farthest(a_, finest_a_, n)]), q = vec(view_b.vertices[about_farthest(b_, finest_b_, own)]);
       if (const double height = dot(n, p - apply(motion_, q)); height < least) least = height, lowest = n;
     }
     if (least > 0) most = smaller(most, least);
@@ -164,8 +165,8 @@ class Deepening {
     const Moved other = body_b(pair);
     const bool cold = at.a.kind() == FeatureKind::None, has_maps = of_a.map_side > 0 && of_b.map_side > 0;
     if (cold)
-      at = {{FeatureKind::Vertex, outlook(a_, place_.level_a, n)},
-            {FeatureKind::Vertex, outlook(b_, place_.level_b, other.into(-n))}};
+      at = {{FeatureKind::Vertex, about_farthest(a_, place_.level_a, n)},
+            {FeatureKind::Vertex, about_farthest(b_, place_.level_b, other.into(-n))}};
     for (int round = 0; round < kSlides; ++round) {
       const std::uint32_t va = ascend(pair.a, n, any_vertex(pair.a, at.a), plane_tests),
                           vb = ascend(pair.b, other.into(-n), any_vertex(pair.b, at.b), plane_tests);
@@ -175,7 +176,7 @@ class Deepening {
       m.t = m.t + n * (height * kSlideBy);
       const Scene apart = scene(pair.a, pair.b, m, shift_, pose_error_);
       if (cold && has_maps) {
-        const Sight sight = look(apart, of_a, of_b, n, [](const Sight&) { return Look::Near; });
+        const Sight sight = look(apart, of_a, of_b, glimpse(apart, of_a, of_b, n), [](const Sight&) { return Look::Near; });
         at = {{FeatureKind::Vertex, sight.start_a}, {FeatureKind::Vertex, sight.start_b}};
         const bool turns = dot(sight.normal, n) < kSlideTurn;
         n = sight.normal;
@@ -246,8 +247,11 @@ class Deepening {
     has_points = found.active.count > 0;
     if (!has_points) return;
     point_a = found.point_a, point_b = found.point_b;
-    feature_a = feature_at_a(pair, feature_of(of_a.view, found.active, found.active.a), point_a, plane_tests);
-    feature_b = feature_at_b(pair, feature_of(of_b.view, found.active, found.active.b), point_b, plane_tests);
+    feature_a = feature_of(of_a.view, found.active, found.active.a);
+    feature_b = feature_of(of_b.view, found.active, found.active.b);
+    if (error > 0 || target_.is_threshold()) return;
+    feature_a = feature_at_a(pair, feature_a, point_a, plane_tests);
+    feature_b = feature_at_b(pair, feature_b, point_b, plane_tests);
   }
 
   const Model &a_, &b_;

@@ -77,10 +77,13 @@ class Descent {
   /// Certified progress may have taken one more than the budget.
   std::uint32_t steps_left() const { return options_.step_budget - std::min(answer_.steps, options_.step_budget); }
   /// Where nothing is allowed, nothing is narrow: an exact answer is known by its verdict.
-  bool narrow(double lower, double width) const {
-    const double allowed = larger(target_.absolute, target_.relative * (lower - target_.zero)) - target_.rounding;
-    return allowed > 0 && width <= allowed;
+  double allowed(double lower) const {
+    return larger(target_.absolute, target_.relative * (lower - target_.zero)) - target_.rounding;
   }
+  bool narrow(double lower, double width) const { return allowed(lower) > 0 && width <= allowed(lower); }
+  /// How wide the bounds of a coarse pair may be that deviates by `error`, rounding set aside: to prove more of it, such as
+  /// that its levels overlap, takes vertices from all around both.
+  double width_left(double error) const { return error > 0 ? larger(0, allowed(answer_.lower) * (1 - 8 * kU) - error) : 0; }
   /// Thresholds are passed only by more than law 2's bound: nearer, what can be proved depends on the start.
   bool clears(double lower) const { return lower > target_.clear_above + law_two_; }
   bool answers(double lower, double upper) const {
@@ -178,11 +181,12 @@ class Descent {
     return true;
   }
 
-  /// Whether features of the exact hulls at which a walk got inside prove that these overlap.
+  /// Whether features at which a walk got inside prove that the levels overlap, with what the maps say is behind them.
   bool overlap(const Scene& pair, const Place& place) {
-    if (place.level_a != 0 || place.level_b != 0 || !pair_.may_look) return false;
+    if (!pair_.may_look) return false;
     const Vec n = across(pair, place.start);
-    const std::uint32_t behind_a = about_farthest(a_, -n), behind_b = about_farthest(b_, body_b(pair).into(n));
+    const std::uint32_t behind_a = about_farthest(a_, place.level_a, -n),
+                        behind_b = about_farthest(b_, place.level_b, body_b(pair).into(n));
     OverlapProof proof;
     if (!meet(pair, place.start, behind_a, behind_b, proof)) return false;
     take_overlap(pair, place, normalised(n), proof);
@@ -210,9 +214,13 @@ class Descent {
       answer_.plane_tests += walked.plane_tests;
       spent_ = walked.end == WalkEnd::Budget && answer_.steps >= options_.step_budget;
       const bool lost = walked.end == WalkEnd::Budget && !spent_;
-      if (walked.end == WalkEnd::Inside && overlap(pair, {place.level_a, place.level_b, {walked.a, walked.b}})) {
+      const bool wanted = last || may_answer(place, walked);
+      if (walked.end == WalkEnd::Inside && wanted && overlap(pair, {place.level_a, place.level_b, {walked.a, walked.b}})) {
         place.start = {walked.a, walked.b};
-        return record(place), true;
+        record(place);
+        if (last || answered()) return true;
+        place = refined(place);
+        continue;
       }
       if (lost || (may_give_up && walked.end == WalkEnd::Inside)) {
         record(place);
@@ -222,7 +230,7 @@ class Descent {
       }
       place.start = {walked.a, walked.b};
       if (place.level_a + 1 == a_.level_count() && place.level_b + 1 == b_.level_count()) coarsest_ = place.start;
-      if (last || spent_ || may_answer(place, walked)) bound(pair, place, walked);
+      if (wanted || spent_) bound(pair, place, walked);
       record(place);
       if (last || spent_ || answered()) return true;
       place = refined(place);
@@ -269,6 +277,7 @@ class Descent {
   /// Certifies a walk and carries the better bounds; the place's features become those it ended on.
   void bound(const Scene& pair, Place& place, const Walk& walked) {
     MarchRule rule;
+    rule.absolute = width_left(deviation(place.level_a, place.level_b));
     rule.beyond = target_.clear_above;
     rule.step_budget = walked.steps + steps_left();
     const MarchResult r = conclude(pair, walked, rule, target_.zero);

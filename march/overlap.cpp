@@ -14,8 +14,9 @@ namespace {
 /// A few vertices of one body in the common frame.
 struct Corners {
   int count = 0;
-  std::array<std::uint32_t, 4> vertex{};
-  std::array<Vec, 4> point{};
+  static constexpr int kMost = 8;  ///< of a face of more sides, some
+  std::array<std::uint32_t, kMost> vertex{};
+  std::array<Vec, kMost> point{};
   int highest(const Vec& n) const {
     int best = 0;
     for (int k = 1; k < count; ++k) best = dot(n, point[k]) > dot(n, point[best]) ? k : best;
@@ -34,9 +35,8 @@ Corners corners(const P& body, Handle feature, std::uint32_t behind) {
   add(any_vertex(body.view, feature));
   if (feature.kind() == FeatureKind::Edge) add(body.view.head[feature.index()]);
   if (feature.kind() == FeatureKind::Face) {
-    const std::uint32_t h = body.view.face_first[feature.index()];
-    add(body.view.head[h]);
-    add(body.view.head[next_in_facet(body.view, h)]);
+    std::uint32_t h = body.view.face_first[feature.index()];
+    for (; body.view.head[h] != c.vertex[1] && c.count < Corners::kMost; h = next_in_face(body.view, h)) add(body.view.head[h]);
   }
   return c;
 }

@@ -48,7 +48,7 @@ bool names_feature(const ConvexView& view, Handle h) {
 
 Handle table_start(const Model& model, const Vec3& direction) {
   if (model.finest_level() > 0 || (model.table().empty() && model.map_level() == model.level_count())) return {};
-  if (model.table().empty()) return {FeatureKind::Vertex, about_farthest(model, vec(direction))};
+  if (model.table().empty()) return {FeatureKind::Vertex, about_farthest(model, 0, vec(direction))};
   const std::uint32_t sample = lut::nearest(model.table_spec().resolution, {direction[0], direction[1], direction[2]});
   return {FeatureKind::Vertex, model.table()[sample]};
 }
@@ -131,20 +131,14 @@ Handle parent(const Model& model, int level, Handle feature) {
   return {FeatureKind::Vertex, from.parent_face[face]};
 }
 
-std::uint32_t about_farthest(const Model& model, const Vec& direction) {
-  return descendant(model, model.map_level(), look_up(model.level(model.map_level()), direction).vertex);
+std::uint32_t about_farthest(const Model& model, int level, const Vec& direction) {
+  const int mapped = std::max(level, model.map_level());
+  if (mapped == model.level_count()) return 0;
+  return descendant(model, mapped, look_up(model.level(mapped), direction).vertex, level);
 }
 
-std::uint32_t outlook(const Model& model, int level, const Vec& direction) {
-  int seen = std::max(level, model.map_level());
-  if (seen == model.level_count()) return 0;
-  std::uint32_t vertex = look_up(model.level(seen), direction).vertex;
-  for (; seen > level; --seen) vertex = model.level(seen).child_vertex[vertex];
-  return vertex;
-}
-
-std::uint32_t descendant(const Model& model, int level, std::uint32_t vertex) {
-  for (; level > 0; --level) vertex = model.level(level).child_vertex[vertex];
+std::uint32_t descendant(const Model& model, int level, std::uint32_t vertex, int finer) {
+  for (; level > finer; --level) vertex = model.level(level).child_vertex[vertex];
   return vertex;
 }
 

@@ -69,13 +69,10 @@ static inline Place coarsest_place(const Model& a, const Model& b) { return {a.l
 Handle child(const Model& model, int level, Handle feature);
 Handle parent(const Model& model, int level, Handle feature);
 
-/// A vertex of level 0 that is about the farthest in a direction. The model has support maps.
-std::uint32_t about_farthest(const Model& model, const Vec& direction);
+/// A vertex of `level` that is about the farthest in a direction; of a model without maps any.
+std::uint32_t about_farthest(const Model& model, int level, const Vec& direction);
 
-/// The same on any level; with no map that is any vertex.
-std::uint32_t outlook(const Model& model, int level, const Vec& direction);
-
-/// The vertex of level 0 that stands for one of `level`.
-std::uint32_t descendant(const Model& model, int level, std::uint32_t vertex);
+/// The vertex of level `finer` that stands for one of `level`.
+std::uint32_t descendant(const Model& model, int level, std::uint32_t vertex, int finer = 0);
 
 }  // namespace swiftlet

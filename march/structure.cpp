@@ -18,8 +18,8 @@ bool in_range(std::initializer_list<double> coordinates) {
                      [](double x) { return x == 0 || (std::fabs(x) >= kLeastCoordinate && std::fabs(x) <= kMostCoordinate); });
 }
 
-bool all_below(std::span<const std::uint32_t> values, std::size_t limit) {
-  return std::all_of(values.begin(), values.end(), [limit](std::uint32_t v) { return v < limit; });
+bool all_below(const auto& values, std::size_t limit) {
+  return std::ranges::all_of(values, [limit](std::uint32_t v) { return v < limit; });
 }
 
 }  // namespace

@@ -630,11 +630,9 @@ Surface link(const Input& in, const Facets& facets) {
   out.face_first.assign(sequence.size(), kNone);
   for (Index h = 0; h < order.size(); ++h) {
     const Side& side = sides[order[h]];
-    out.head.push_back(out.input_vertex[side.head]);
-    out.twin.push_back(half_edge[side.twin]);
-    out.face.push_back(number[group[side.facet]]);
+    out.half_edges.push_back({out.input_vertex[side.head], half_edge[side.twin], number[group[side.facet]]});
     const bool diagonal = group[side.facet] == group[sides[side.twin].facet];
-    if (Index& first = out.face_first[out.face.back()]; first == kNone && !diagonal) first = h;
+    if (Index& first = out.face_first[out.half_edges.back().face]; first == kNone && !diagonal) first = h;
   }
   std::vector<Loop> held(sequence.size());
   for (Index f = 0; f < facets.loops.size(); ++f) {
@@ -670,8 +668,7 @@ Result<Surface> without_faces(const Input& in) {
   }
   if (out.dimension == 1) {
     if (in.points[0] == in.points[1]) return bad_value("vertices 0 and 1 coincide");
-    out.head = out.twin = {1, 0};
-    out.face = {kNone, kNone};
+    out.half_edges = {{1, 1, kNone}, {0, 0, kNone}};
   }
   return out;
 }
@@ -713,9 +710,10 @@ ConvexView Surface::view() const {
   ConvexView v;
   v.vertices = vertices;
   v.planes = planes;
-  v.head = head;
-  v.twin = twin;
-  v.face = face;
+  const std::span<const HalfEdge> records = half_edges;
+  v.head = records;
+  v.twin = records;
+  v.face = records;
   v.face_first = face_first;
   v.extent = extent;
   return v;

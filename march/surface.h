@@ -14,7 +14,8 @@ namespace swiftlet {
 struct Surface {
   std::vector<Vertex> vertices;
   std::vector<FacePlane> planes;
-  std::vector<std::uint32_t> head, twin, face, face_first;
+  std::vector<HalfEdge> half_edges;
+  std::vector<std::uint32_t> face_first;
   std::vector<std::uint32_t> vertex_input;  ///< per vertex, the input's
   std::vector<std::uint32_t> input_vertex;  ///< per input vertex, ours; kNone where it is no vertex of the hull
   std::vector<std::uint32_t> input_face;    ///< per input face, the face that holds it

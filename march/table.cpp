@@ -86,8 +86,8 @@ void fill_maps(BlockParts& parts, const TableSpec& spec, std::span<const std::sp
     maps.push_back(support_map(levels[i], side, parts.level_headers[i].extent));
     parts.level_headers[i].map_side = side;
   }
-  for (std::size_t i = maps.size(); i-- > 0;) {
-    const auto bytes = std::as_bytes(std::span(maps[i]));
+  for (const std::vector<std::uint32_t>& map : maps) {
+    const auto bytes = std::as_bytes(std::span(map));
     parts.maps.insert(parts.maps.end(), bytes.begin(), bytes.end());
   }
 }

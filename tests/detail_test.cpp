@@ -112,7 +112,7 @@ TEST_F(DetailTest, ACutModelHoldsTheLevelsAskedFor) {
           continue;
         }
         EXPECT_TRUE(same(of_cut.view.vertices, whole.view.vertices));
-        EXPECT_TRUE(same(of_cut.view.head, whole.view.head));
+        EXPECT_TRUE(std::ranges::equal(of_cut.view.head, whole.view.head));
         EXPECT_TRUE(same(of_cut.child_vertex, whole.child_vertex));
         EXPECT_TRUE(same(of_cut.parent_face, whole.parent_face));
         EXPECT_TRUE(same(of_cut.support_map, whole.support_map));

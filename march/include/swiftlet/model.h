@@ -55,6 +55,46 @@ struct FacePlane {
   double thickness;  ///< the greatest distance, the caller's unit
 };
 
+/// What a half-edge leads to, side by side, as a walk reads it.
+struct HalfEdge {
+  std::uint32_t head;  ///< the vertex it ends at
+  std::uint32_t twin;  ///< the half-edge the other way
+  std::uint32_t face;  ///< on its left; kNone beside a segment
+};
+
+/// One member of all half-edges, indexed like an array. As long as the records live.
+template <std::uint32_t HalfEdge::*Member>
+class HalfEdgeColumn {
+ public:
+  /// In the order of their records.
+  class Iterator {
+   public:
+    using value_type = std::uint32_t;                                                  ///< what it points to
+    using difference_type = std::ptrdiff_t;                                            ///< of records
+    Iterator() = default;                                                              ///< nowhere
+    explicit Iterator(const HalfEdge* record) : record_(record) {}                     ///< of HalfEdgeColumn
+    std::uint32_t operator*() const { return record_->*Member; }                       ///< the member
+    Iterator& operator++() { return ++record_, *this; }                                ///< the next one
+    Iterator operator++(int) { return Iterator(record_++); }                           ///< likewise
+    bool operator==(const Iterator& other) const { return record_ == other.record_; }  ///< the same place
+
+   private:
+    const HalfEdge* record_ = nullptr;
+  };
+
+  HalfEdgeColumn() = default;                                                    ///< none
+  HalfEdgeColumn(std::span<const HalfEdge> records) : records_(records) {}       ///< of these
+  std::uint32_t operator[](std::size_t h) const { return records_[h].*Member; }  ///< h < size()
+  std::size_t size() const { return records_.size(); }                           ///< of half-edges
+  bool empty() const { return records_.empty(); }                                ///< as a point has them
+  std::span<const HalfEdge> records() const { return records_; }                 ///< with the other members
+  Iterator begin() const { return Iterator(records_.data()); }                   ///< the first
+  Iterator end() const { return Iterator(records_.data() + records_.size()); }   ///< past the last
+
+ private:
+  std::span<const HalfEdge> records_;
+};
+
 /// One convex polytope as the march sees it: non-owning, trivially copyable. Half-edges are sorted by origin.
 ///
 ///        head[h]           The left face of h is face[h], the right one face[twin[h]]. The half-edge after h around its
@@ -65,13 +105,15 @@ struct FacePlane {
 ///          \|/             A segment has half-edges without faces (kNone), a point has no half-edge.
 ///        origin
 struct ConvexView {
-  std::span<const Vertex> vertices;                 ///< at least one
-  std::span<const std::uint32_t> head, twin, face;  ///< one entry per half-edge
-  std::span<const std::uint32_t> face_first;        ///< per face, a half-edge of its loop
-  std::span<const FacePlane> planes;                ///< of faces [0, planes.size())
-  std::span<const std::uint8_t> tags;               ///< per face, the caller's; may be empty
-  double extent = 0;                                ///< largest absolute coordinate
-  Vec3 centre = Vec3::Zero();                       ///< any point of the body, where a cold start looks from
+  std::span<const Vertex> vertices;           ///< at least one
+  HalfEdgeColumn<&HalfEdge::head> head;       ///< one entry per half-edge
+  HalfEdgeColumn<&HalfEdge::twin> twin;       ///< likewise, of the same records
+  HalfEdgeColumn<&HalfEdge::face> face;       ///< likewise
+  std::span<const std::uint32_t> face_first;  ///< per face, a half-edge of its loop
+  std::span<const FacePlane> planes;          ///< of faces [0, planes.size())
+  std::span<const std::uint8_t> tags;         ///< per face, the caller's; may be empty
+  double extent = 0;                          ///< largest absolute coordinate
+  Vec3 centre = Vec3::Zero();                 ///< any point of the body, where a cold start looks from
 };
 
 /// How much of a model a scene needs. The coarsest level always comes along, finer ones as far as both members allow. Two

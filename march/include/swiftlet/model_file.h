@@ -15,7 +15,7 @@
 namespace swiftlet {
 
 /// The version written; files of another version are refused.
-inline constexpr std::uint32_t kModelFileVersion = 2;
+inline constexpr std::uint32_t kModelFileVersion = 3;
 
 /// Writes beside `path` and renames, so that a failure leaves the old file. Returns the bytes written.
 /// Errors: CannotWrite, with what the system says.
