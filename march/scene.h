@@ -55,14 +55,15 @@ struct PoseQuality {
 static inline PoseQuality pose_quality(const Motion& m) {
   const Vec &x = m.row_x, &y = m.row_y, &z = m.row_z;
   const auto entry = [&](double Vec::*i, double Vec::*j) { return x.*i * x.*j + y.*i * y.*j + z.*i * z.*j; };
-  const double worst = larger(larger(larger(std::fabs(entry(&Vec::x, &Vec::x) - 1), std::fabs(entry(&Vec::y, &Vec::y) - 1)),
-                                     larger(std::fabs(entry(&Vec::z, &Vec::z) - 1), std::fabs(entry(&Vec::x, &Vec::y)))),
-                              larger(std::fabs(entry(&Vec::x, &Vec::z)), std::fabs(entry(&Vec::y, &Vec::z))));
-  // Farther away exact signs and squares overflow, and a climb need not end. A NaN or infinity anywhere makes this one.
-  const double any = (x.x + x.y + x.z) + (y.x + y.y + y.z) + (z.x + z.y + z.z) + (m.t.x + m.t.y + m.t.z);
-  return {
-      worst <= kOrthonormality && max_abs(m.t) <= kMostCoordinate && std::fabs(any) < std::numeric_limits<double>::infinity(),
-      worst};
+  const double xx = std::fabs(entry(&Vec::x, &Vec::x) - 1), yy = std::fabs(entry(&Vec::y, &Vec::y) - 1),
+               zz = std::fabs(entry(&Vec::z, &Vec::z) - 1);
+  const double across = larger(larger(std::fabs(entry(&Vec::x, &Vec::y)), std::fabs(entry(&Vec::x, &Vec::z))),
+                               std::fabs(entry(&Vec::y, &Vec::z)));
+  // A NaN or infinity in a column is one in its square. Farther away exact signs and squares overflow, and a climb need not end.
+  const bool legal = xx <= kOrthonormality && yy <= kOrthonormality && zz <= kOrthonormality && across <= kOrthonormality &&
+                     std::fabs(m.t.x) <= kMostCoordinate && std::fabs(m.t.y) <= kMostCoordinate &&
+                     std::fabs(m.t.z) <= kMostCoordinate;
+  return {legal, larger(larger(xx, yy), larger(zz, across))};
 }
 
 /// At most law 2's bound of a pair: the width an exact answer keeps. `shift` is |t|.

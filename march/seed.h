@@ -48,6 +48,7 @@ static inline Vec direction(const PairSeed& seed) {
 }
 /// That direction while the line of centres has not turned by more than kSameLine, else 0.
 static inline Vec last_direction(const Vec& line, const PairSeed& seed) {
+  if ((seed.normal[0] | seed.normal[1] | seed.normal[2]) == 0) return {0, 0, 0};
   const Vec was{double(seed.line_in_a[0]), double(seed.line_in_a[1]), double(seed.line_in_a[2])};
   const double along = dot(line, was);
   const bool same = along > 0 && along * along > kSameLine * kSameLine * dot(line, line) * dot(was, was);
