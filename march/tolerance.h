@@ -138,7 +138,7 @@ inline constexpr double kSameLine = 0.99;
 /// their maps by as much.
 inline constexpr double kCloseRadii = 1.25;
 /// A cold start looks along maps until its supports lie this many edges of both bodies aside, or so many times.
-inline constexpr double kAimEdges = 2;
+inline constexpr double kAimEdges = 4;
 inline constexpr int kAimSteps = 12;
 /// What a map of side s leaves in doubt on average, times s^2 over the extent: 1.1 to 1.7 on ellipsoids. A pair of levels is
 /// looked at where this and its deviation, so many times, are within the tolerance.
