@@ -345,20 +345,19 @@ Handle feature_at(const Body& body, Handle known, const Vec& p, double bound, st
   double least = 2 * bound;
   std::uint32_t nearest = kNone;
   for (std::uint32_t facet = 0; facet < view.head.size(); ++facet) {
-    const Vec q = body.point(origin(view, facet)), e = body.point(view.head[facet]) - q,
-              n = cross(e, body.point(view.head[next_in_facet(view, facet)]) - q);
+    // Planes of slivers are uncertain, their sides are not.
+    const Vec q = body.point(origin(view, facet)), tip = body.point(view.head[facet]),
+              n = cross(tip - q, body.point(view.head[next_in_facet(view, facet)]) - q);
     const double height = std::fabs(dot(n, p - q)), length = norm(n);
     ++tests;
-    if (!(height <= least * length)) continue;
-    bool above = length > 0;
-    double off = kInfinity;
-    std::uint32_t h = facet;
-    do {
+    double off = off_segment(p, q, tip);
+    bool above = length > 0 && height <= least * length;
+    for (std::uint32_t h = facet; above;) {
       const Vec q0 = body.point(origin(view, h)), q1 = body.point(view.head[h]);
-      above = above && dot(cross(q1 - q0, p - q0), n) >= 0;
-      off = smaller(off, off_segment(p, q0, q1));
+      above = dot(cross(q1 - q0, p - q0), n) >= 0;
       h = next_in_facet(view, h);
-    } while (h != facet);
+      if (h == facet) break;
+    }
     if (above) off = smaller(off, height / length);
     if (off < least) least = off, nearest = facet;
   }

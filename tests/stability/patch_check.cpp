@@ -24,6 +24,12 @@ bool is_named(const ConvexView& view, Handle feature) {
   return false;
 }
 
+/// What the faces of a body are flat to by themselves, over its extent: 4 ulps of the coordinates' own precision.
+double own_flatness(const Subject& subject) {
+  const auto is_single = [](const Vec3& p) { return p.cast<float>().cast<double>() == p; };
+  return std::all_of(subject.points.begin(), subject.points.end(), is_single) ? 0x1p-21 : 0x1p-50;
+}
+
 /// Of one body: a point less its radius, what it is said to lie on, and where the body is.
 struct Claim {
   const Subject& subject;
@@ -38,7 +44,8 @@ struct Claim {
     const std::vector<Vec3> corners = on_face ? subject.points : vertices_of(view, feature);
     if (!oracle::holds(oracle::distance({&point, 1}, corners, pose), 0, bound))
       return on_face ? "is not in the body" : "is not on what it is named after";
-    const double height = oracle::height_over(view, pose, point), depth = options.flatness * view.extent + bound;
+    const double flatness = std::max(options.flatness, own_flatness(subject));
+    const double height = oracle::height_over(view, pose, point), depth = flatness * view.extent + bound;
     return height >= -depth ? "" : "is " + std::to_string(-height / depth) + " times the flatness below the surface";
   }
 };

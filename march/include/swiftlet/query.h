@@ -59,7 +59,7 @@ struct PairSeed {
                                                          ///< whether the features are worth a try
   std::array<std::int16_t, 3> normal{};                  ///< the answer's, in the same units: a verdict is tried along it first
   std::uint8_t level_a = 0, level_b = 0;                 ///< where `a` and `b` lie
-  bool met = false;                                      ///< the bodies overlapped at these features
+  std::uint8_t met = 0;                                  ///< not 0: the bodies overlapped at these features
 };
 static_assert(sizeof(PairSeed) <= 32);
 

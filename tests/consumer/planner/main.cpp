@@ -28,8 +28,8 @@ namespace ob = ompl::base;
 using Space = ob::RealVectorStateSpace;
 using Way = std::pair<Angles, Angles>;
 
-constexpr Precision kPrecisions[] = {{0, false}, {0.01, false}, {0.1, false}, {0.5, false},
-                                     {0, true},  {0.1, true},   {0.5, true}};
+constexpr Precision kPrecisions[] = {{0, false}, {0.01, false}, {0.1, false}, {1, false},
+                                     {0, true},  {0.1, true},   {1, true}};
 
 Angles angles_of(const ob::State* state) {
   const double* const values = state->as<Space::StateType>()->values;
@@ -146,7 +146,7 @@ int main() {
                 1e9 * run.seconds / double(run.cost.queries), 1e3 * run.seconds);
     right = right && otherwise == 0;
     right = right && (precision.tolerance < 0.1 || run.work() < 0.9 * exact.work());
-    right = right && (precision.tolerance < 0.5 || !precision.only_nearest || run.cost.refined > 0);
+    right = right && (precision.tolerance < 1 || precision.only_nearest || run.cost.refined > 0);
     right = right && (!precision.only_nearest || run.work() < 0.5 * exact.work());
   }
   return right ? 0 : 1;
