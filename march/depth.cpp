@@ -27,6 +27,7 @@ struct DepthTarget {
   double absolute = 0, relative = 0;
   double depth = -1;  ///< the threshold where it is not negative
   bool is_threshold() const { return depth >= 0; }
+  bool is_exact() const { return absolute == 0 && relative == 0 && !is_threshold(); }
 };
 
 /// The vertices of a feature in order, of a large face the first four.
@@ -71,8 +72,7 @@ class Deepening {
     lower = -kInfinity, upper = kInfinity;
     // No farther than their centres and radii allow: a pair that deviates by more than that allows cannot answer.
     double most = a_.radius() + stretch_ * b_.radius() - norm(line_.in_a);
-    const bool exact = target_.absolute == 0 && target_.relative == 0 && !target_.is_threshold();
-    place_ = exact ? Place{finest_a_, finest_b_, {}} : coarsest_place(a_, b_);
+    place_ = target_.is_exact() ? Place{finest_a_, finest_b_, {}} : coarsest_place(a_, b_);
     near_ = seed.met && seed.level_a < a_.level_count() && seed.level_b < b_.level_count() &&
             !turned_far(line_, seed, a_.level(seed.level_a), b_.level(seed.level_b));
     const bool remembers = near_ && (seed.normal[0] | seed.normal[1] | seed.normal[2]) != 0;
@@ -249,7 +249,7 @@ class Deepening {
     point_a = found.point_a, point_b = found.point_b;
     feature_a = feature_of(of_a.view, found.active, found.active.a);
     feature_b = feature_of(of_b.view, found.active, found.active.b);
-    if (error > 0 || target_.is_threshold()) return;
+    if (error > 0 || !target_.is_exact()) return;  // not on the surface
     feature_a = feature_at_a(pair, feature_a, point_a, plane_tests);
     feature_b = feature_at_b(pair, feature_b, point_b, plane_tests);
   }
