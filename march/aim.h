@@ -72,10 +72,10 @@ enum class Look {
 
 /// What maps say along one direction, of any length.
 struct Glimpse {
-  Vec normal{0, 0, 0};                            ///< the direction at length 1; 0 where it names none
-  std::uint32_t a = 0, b = 0;                     ///< supports along it and against it, as the maps know them
-  Vec point{0, 0, 0}, apart{0, 0, 0};             ///< A's, and from there to B's
-  double gap = 0, lower = 0;                      ///< as in Sight
+  Vec normal{0, 0, 0};                 ///< the direction at length 1; 0 where it names none
+  std::uint32_t a = 0, b = 0;          ///< supports along it and against it, as the maps know them
+  Vec point{0, 0, 0}, apart{0, 0, 0};  ///< A's, and from there to B's
+  double gap = 0, lower = 0;           ///< as in Sight
 };
 /// Looks up before the length is known: cells are where a direction of any length goes.
 static inline Glimpse glimpse(const Scene& scene, const Level& a, const Level& b, const Vec& direction) {

@@ -12,6 +12,7 @@
 #include "difference.h"
 #include "dilate.h"
 #include "expand.h"
+#include "model_pair.h"
 #include "progress.h"
 #include "ring.h"
 #include "seed.h"
@@ -53,25 +54,22 @@ class Deepening {
  public:
   Deepening(const Model& a, const Model& b, const Motion& m, double pose_error, const QueryOptions& options,
             const DepthTarget& target)
-      : a_(a),
+      : pair_(a, b, m, pose_error, options),
+        a_(a),
         b_(b),
-        motion_(m),
-        line_(line_of_centres(m, between_centres(a, b, m))),
-        pose_error_(pose_error),
-        stretch_(std::sqrt(1 + 3 * pose_error)),
-        shift_(norm(m.t)),
+        line_(line_of_centres(m, pair_.line)),
         options_(options),
         target_(target),
-        law_two_(law_two(a.level(0).view, b.level(0).view, shift_, pose_error)),
-        finest_a_(finest_allowed(a, options)),
-        finest_b_(finest_allowed(b, options)) {}
+        law_two_(pair_.law_two),
+        finest_a_(pair_.finest_a),
+        finest_b_(pair_.finest_b) {}
 
   /// `floor`: at most 0, as DepthGoal's.
   void run(const PairSeed& seed, double floor = 0) {
     floor_ = floor;
     lower = -kInfinity, upper = kInfinity;
     // No farther than their centres and radii allow: a pair that deviates by more than that allows cannot answer.
-    double most = a_.radius() + stretch_ * b_.radius() - norm(line_.in_a);
+    double most = a_.radius() + pair_.stretch * b_.radius() - norm(line_.in_a);
     place_ = target_.is_exact() ? Place{finest_a_, finest_b_, {}} : coarsest_place(a_, b_);
     near_ = seed.met && seed.level_a < a_.level_count() && seed.level_b < b_.level_count() &&
             !turned_far(line_, seed, a_.level(seed.level_a), b_.level(seed.level_b));
@@ -118,7 +116,7 @@ class Deepening {
   std::uint32_t steps = 0, plane_tests = 0;
 
  private:
-  double deviation() const { return a_.level(place_.level_a).deviation + stretch_ * b_.level(place_.level_b).deviation; }
+  double deviation() const { return pair_.deviation(place_.level_a, place_.level_b); }
   bool answered() const {
     if (target_.is_threshold()) return lower > target_.depth + law_two_ || upper < target_.depth - law_two_;
     return upper - lower <= larger(larger(target_.absolute, target_.relative * lower), law_two_);
@@ -132,10 +130,10 @@ class Deepening {
     Vec lowest = normalised(line_.in_a);
     if (a_.map_level() == a_.level_count() || b_.map_level() == b_.level_count()) return lowest;
     double least = kInfinity;
-    for (const Vec& axis : {lowest, across(a_), turn(motion_, across(b_))}) {
-      const Vec n = dot(axis, line_.in_a) < 0 ? -axis : axis, own = turn_back(motion_, -n);
+    for (const Vec& axis : {lowest, across(a_), turn(pair_.motion, across(b_))}) {
+      const Vec n = dot(axis, line_.in_a) < 0 ? -axis : axis, own = turn_back(pair_.motion, -n);
       const Vec p = vec(view_a.vertices[about_farthest(a_, finest_a_, n)]), q = vec(view_b.vertices[about_farthest(b_, finest_b_, own)]);
-      if (const double height = dot(n, p - apply(motion_, q)); height < least) least = height, lowest = n;
+      if (const double height = dot(n, p - apply(pair_.motion, q)); height < least) least = height, lowest = n;
     }
     if (least > 0) most = smaller(most, least);
     return lowest;
@@ -172,9 +170,9 @@ class Deepening {
                           vb = ascend(pair.b, other.into(-n), any_vertex(pair.b, at.b), plane_tests);
       const double height = dot(n, body.point(va) - other.point(vb));
       if (!(height > 0)) break;
-      Motion m = motion_;
+      Motion m = pair_.motion;
       m.t = m.t + n * (height * kSlideBy);
-      const Scene apart = scene(pair.a, pair.b, m, shift_, pose_error_);
+      const Scene apart = scene(pair.a, pair.b, m, pair_.shift, pair_.pose_error);
       if (cold && has_maps) {
         const Sight sight = look(apart, of_a, of_b, glimpse(apart, of_a, of_b, n), [](const Sight&) { return Look::Near; });
         at = {{FeatureKind::Vertex, sight.start_a}, {FeatureKind::Vertex, sight.start_b}};
@@ -233,7 +231,7 @@ class Deepening {
 
   void solve(const PairSeed& seed, const Vec& direction, double error) {
     const Level &of_a = a_.level(place_.level_a), &of_b = b_.level(place_.level_b);
-    const Scene pair = scene(of_a.view, of_b.view, motion_, shift_, pose_error_);
+    const Scene pair = pair_.scene_at(place_);
     DepthGoal goal{target_.absolute, target_.relative, error, floor_};
     if (target_.is_threshold()) goal.deeper = target_.depth + law_two_, goal.shallower = target_.depth - law_two_;
     const Depth found = depth_of(pair, of_a, of_b, seed, direction, goal);
@@ -254,10 +252,9 @@ class Deepening {
     feature_b = feature_at_b(pair, feature_b, point_b, plane_tests);
   }
 
+  const ModelPair pair_;
   const Model &a_, &b_;
-  const Motion& motion_;
   const Line line_;
-  const double pose_error_, stretch_, shift_;
   const QueryOptions& options_;
   const DepthTarget target_;
   const double law_two_;

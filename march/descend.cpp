@@ -10,8 +10,8 @@
 #include "certify.h"
 #include "conclude.h"
 #include "glance.h"
+#include "model_pair.h"
 #include "overlap.h"
-#include "pair.h"
 #include "progress.h"
 #include "seed.h"
 #include "walk.h"
@@ -21,7 +21,7 @@ namespace {
 
 class Descent {
  public:
-  Descent(const Pair& pair, const QueryOptions& options, const Target& target, const Glance& first, Answer& answer)
+  Descent(const ModelPair& pair, const QueryOptions& options, const Target& target, const Glance& first, Answer& answer)
       : pair_(pair),
         a_(pair.a),
         b_(pair.b),
@@ -381,7 +381,7 @@ class Descent {
     }
   }
 
-  const Pair& pair_;
+  const ModelPair& pair_;
   const Model& a_;
   const Model& b_;
   const Line line_;
@@ -409,7 +409,7 @@ Answer descend(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& see
     answer.status = Status::InvalidPose;
     return answer;
   }
-  const Pair pair(a, b, m, quality.error, options);
+  const ModelPair pair(a, b, m, quality.error, options);
   Glance first;
   const bool asks = target.is_threshold() && pair.may_look && !seed.met && !so_far && options.trace.empty();
   if (asks && glance(pair, target, seed, first, answer)) return answer;

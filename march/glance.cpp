@@ -4,7 +4,7 @@
 
 namespace swiftlet {
 
-bool glance(const Pair& pair, const Target& target, PairSeed& seed, Glance& first, Answer& answer) {
+bool glance(const ModelPair& pair, const Target& target, PairSeed& seed, Glance& first, Answer& answer) {
   const double close = kCloseRadii * (pair.a.radius() + pair.b.radius()) + target.clear_above;
   first.at = dot(pair.line, pair.line) <= close * close ? pair.finest_sight() : coarsest_place(pair.a, pair.b);
   const int level_a = first.at.level_a, level_b = first.at.level_b;

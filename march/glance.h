@@ -5,7 +5,7 @@
 
 #include "aim.h"
 #include "descend.h"
-#include "pair.h"
+#include "model_pair.h"
 
 namespace swiftlet {
 
@@ -17,6 +17,6 @@ struct Glance {
 
 /// Fills `answer` and returns true where the bodies are proved to be farther apart than `target` asks. A direction of the seed
 /// that the line of centres makes superfluous is forgotten.
-bool glance(const Pair& pair, const Target& target, PairSeed& seed, Glance& first, Answer& answer);
+bool glance(const ModelPair& pair, const Target& target, PairSeed& seed, Glance& first, Answer& answer);
 
 }  // namespace swiftlet

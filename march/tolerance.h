@@ -75,9 +75,10 @@ inline constexpr double kRiseError = 24 * kU;
 /// sqrt of a sum of three squares of rounded differences, relative.
 inline constexpr double kNormError = 5 * kU;
 
-/// What a support map says of a unit direction, over the extent: two heights of 3 products and 2 sums of terms of at most the
-/// extent when it was made, 24 u; a cell's border off by 4 u in each coordinate of the direction, times 2, 16 u; the direction
-/// turned into the body's frame, kTurnedError in each coordinate, times 2, 24 u; and two heights again. Rounded up.
+/// What a support map says of a direction, over the extent: two heights of 3 products and 2 sums of terms of at most the extent
+/// when it was made, 24 u; a cell's border off by 4 u in each coordinate of the direction, times 2, 16 u; the direction turned
+/// into the body's frame, kTurnedError in each coordinate, times 2, 24 u; two heights again, 24 u; the direction made unit after
+/// it was looked up, 2 u of 2 sqrt(3), 7 u, and an excess of at most 4 with it, 4 u of 4, 16 u. Rounded up.
 inline constexpr double kMapError = 128 * kU;
 
 /// Double-double arithmetic as progress.cpp uses it keeps at least 90 bits of the largest term, whatever cancels. Relative to

@@ -218,7 +218,7 @@ struct ModelOptions {
 /// says when that was not enough.
 class Model {
  public:
-  /// From one or several levels given finest first, without CGAL. Convexity and enclosure are decided exactly; the error names
+  /// From one or several levels given finest first, without the builder. Convexity and enclosure are decided exactly; the error names
   /// the reflex edge and its height. Cost: linear in the features, times the levels.
   static Result<Model> from_levels(std::span<const LevelArrays> levels, const ModelOptions& options = {});
   /// One level.

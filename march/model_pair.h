@@ -12,8 +12,8 @@
 
 namespace swiftlet {
 
-struct Pair {
-  Pair(const Model& of_a, const Model& of_b, const Motion& m, double error, const QueryOptions& options)
+struct ModelPair {
+  ModelPair(const Model& of_a, const Model& of_b, const Motion& m, double error, const QueryOptions& options)
       : a(of_a),
         b(of_b),
         motion(m),
