@@ -22,9 +22,9 @@ static inline CubeHit cube_hit(std::uint32_t side, double x, double y, double z)
   const double d[5] = {x, y, z, x, y}, ax = std::fabs(x), ay = std::fabs(y), az = std::fabs(z);
   const std::uint32_t axis = ax >= ay ? (ax >= az ? 0 : 2) : (ay >= az ? 1 : 2);
   const double major = std::fabs(d[axis]), half = 0.5 * side, scale = half / major, last = side - 0.5;
-  const auto index = [&](double along) {  // -1 rounded to a little less is still cell 0; NaN and 1 the last one
-    const double at = along * scale + half;
-    return std::uint32_t(at < last ? at : last);
+  const auto index = [&](double along) {  // 1 is in the last cell, as are infinities; beside a NaN any is in some
+    const double at = along * scale + half, least = at < last ? at : last;
+    return std::uint32_t(least > 0 ? least : 0);
   };
   return {((2 * axis + (d[axis] < 0)) * side + index(d[axis + 2])) * side + index(d[axis + 1]), major};
 }

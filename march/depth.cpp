@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "aim.h"
+#include "confirm.h"
 #include "crossing.h"
 #include "difference.h"
 #include "dilate.h"
@@ -132,7 +133,8 @@ class Deepening {
     double least = kInfinity;
     for (const Vec& axis : {lowest, across(a_), turn(pair_.motion, across(b_))}) {
       const Vec n = dot(axis, line_.in_a) < 0 ? -axis : axis, own = turn_back(pair_.motion, -n);
-      const Vec p = vec(view_a.vertices[about_farthest(a_, finest_a_, n)]), q = vec(view_b.vertices[about_farthest(b_, finest_b_, own)]);
+      const Vec p = vec(view_a.vertices[about_farthest(a_, finest_a_, n)]),
+                q = vec(view_b.vertices[about_farthest(b_, finest_b_, own)]);
       if (const double height = dot(n, p - apply(pair_.motion, q)); height < least) least = height, lowest = n;
     }
     if (least > 0) most = smaller(most, least);
@@ -145,7 +147,10 @@ class Deepening {
     s.direction = direction;
     const Span a = span_of(pair.a, features.a);
     Span b = span_of(pair.b, features.b);
-    if (a.count * b.count > 4) b.count = 1;
+    if (a.count * b.count <= 4)
+      s.feature_a = features.a, s.feature_b = features.b;
+    else
+      b.count = 1;
     for (int i = 0; i < a.count; ++i) {
       for (int j = 0; j < b.count; ++j) {
         s.a[std::size_t(s.count)] = a.vertex[std::size_t(i)];
@@ -215,8 +220,7 @@ class Deepening {
     const bool fits = near_ && seed.level_a == place_.level_a && seed.level_b == place_.level_b &&
                       names_feature(pair.a, seed.a) && names_feature(pair.b, seed.b);
     if (fits) {
-      const DepthStart same = start_at(pair, {seed.a, seed.b}, direction);
-      if (same.count > 2 && stands_over(pair, same) && confirmed(same, found)) return found;
+      if (confirmed(start_at(pair, {seed.a, seed.b}, direction), found)) return found;
     }
     DepthStart least;  // of a coarse pair, bounds are wanted and no facet
     least.direction = direction;
@@ -245,8 +249,11 @@ class Deepening {
     has_points = found.active.count > 0;
     if (!has_points) return;
     point_a = found.point_a, point_b = found.point_b;
-    feature_a = feature_of(of_a.view, found.active, found.active.a);
-    feature_b = feature_of(of_b.view, found.active, found.active.b);
+    feature_a = found.feature_a, feature_b = found.feature_b;
+    if (feature_a.kind() == FeatureKind::None) {
+      feature_a = feature_of(of_a.view, found.active, found.active.a);
+      feature_b = feature_of(of_b.view, found.active, found.active.b);
+    }
     if (error > 0 || !target_.is_exact()) return;  // not on the surface
     feature_a = feature_at_a(pair, feature_a, point_a, plane_tests);
     feature_b = feature_at_b(pair, feature_b, point_b, plane_tests);

@@ -103,19 +103,10 @@ struct Search {
   std::uint32_t steps = 0;
   Plane best{};
 
-  double allowed(double lower) const {
-    return larger(larger(goal.absolute, goal.relative * (lower - goal.error)) - goal.error, scene.law_two);
-  }
-  /// What is known where a polytope says so: one that does not hold the origin says nothing.
-  double known(double lower) const { return lower > 0 ? lower : goal.floor; }
-  bool suffices(double upper, double lower) const { return upper - known(lower) <= allowed(lower); }
+  bool suffices(double upper, double lower) const { return goal.suffices(upper, lower, scene.law_two); }
   bool narrow(double lower) const { return suffices(best.height, lower); }
-  bool passed(double lower) const { return lower - goal.error > goal.deeper || best.height < goal.shallower; }
-  /// Whether no bounds of this pair can, for its error.
-  bool hopeless(double lower) const {
-    return goal.error > 0 && larger(goal.absolute, goal.relative * (best.height - goal.error)) < goal.error &&
-           best.height - goal.error <= goal.deeper && lower >= goal.shallower;
-  }
+  bool passed(double lower) const { return goal.passed(best.height, lower); }
+  bool hopeless(double lower) const { return goal.hopeless(best.height, lower); }
 };
 
 /// A polytope inside the Minkowski difference M, and what it proves.
@@ -132,29 +123,6 @@ class Polytope {
   bool begin(const DepthStart& start, bool crowned) {
     return begin(start, crowned, kRoom * scene_.point_error) ||
            (resolution_ < scene_.point_error && begin(start, crowned, kRoom * resolution_));
-  }
-
-  /// Whether the start is a facet of M that holds the point nearest to the origin, and a ring of points around it shows that.
-  /// Where the origin surely is below each facet of a closed surface, that winds around it.
-  bool confirm(const DepthStart& start) {
-    clear();
-    inside_ = {Real(0), Real(0), Real(0)};
-    push_all(start);
-    const int rim = corner_count_;
-    Vec n;
-    if (rim < 3 || !orient(start.direction, n)) return false;
-    for (int i = 2; i < rim; ++i) {
-      if (!outward(0, i - 1, i) || !face(0, i - 1, i)) return false;
-    }
-    push_ring(n, rim);
-    if (!covers_rest(rim)) return false;
-    Facet<Real>& f = facet_[nearest_point().facet];
-    const double lower = below(rounded(facet_[nearest_facet()].height));
-    const Corner top = support(rounded(f.normal), corner_[0].a, corner_[0].b);
-    if ((sees(f, top) && !known(top)) || !(lower > 0) || !search_.suffices(last_.height, lower)) return false;
-    lower_ = lower;
-    search_.best = {last_.height, rounded(f.normal)};
-    return true;
   }
 
   /// M and three points far away that no direction of the cone sees above the origin: over the cone its heights are those of M,
@@ -335,23 +303,6 @@ class Polytope {
       const Vec side = rounded(corner_[std::size_t((i + 1) % rim)].p - corner_[std::size_t(i)].p);
       push(glance(n * norm(side) + cross(side, n) * kFlare, corner_[std::size_t(i)]));
     }
-  }
-  /// Whether the triangles that close the surface below a polygon and its ring are no nearer than the polygon, and go around
-  /// the origin as they should.
-  bool covers_rest(int rim) const {
-    const double least = rounded(facet_[nearest_facet()].height) + scene_.point_error;
-    const auto covers = [&](int i, int j, int k) {
-      const Corner &p = corner_[std::size_t(i)], &q = corner_[std::size_t(j)], &r = corner_[std::size_t(k)];
-      if (same(p, q) || same(q, r) || same(r, p)) return true;
-      const V3<Real> u = q.p - p.p, v = r.p - p.p, area = cross(u, v);
-      const double low = smaller(rounded(dot(area, p.p)), smaller(rounded(dot(area, q.p)), rounded(dot(area, r.p))));
-      return low > larger(outward_error(u, v), least * norm(rounded(area)));
-    };
-    for (int i = 0, last = rim - 1; i < rim; last = i++) {
-      if (!covers((i + 1) % rim, i, rim + i) || !covers(rim + i, i, rim + last)) return false;
-      if (i >= 2 && !covers(rim, rim + i, rim + last)) return false;
-    }
-    return true;
   }
   double outward_error(const V3<Real>& u, const V3<Real>& v) const {
     return kOutwardError * scene_.magnitude * std::sqrt(rounded(dot(u, u)) * rounded(dot(v, v)));
@@ -668,20 +619,6 @@ bool settle(Search& search, const DepthStart& start, Depth& depth) {
 }
 
 }  // namespace
-
-bool confirm(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
-             std::uint32_t& plane_tests, Depth& depth) {
-  Search search{scene, a, b, goal, plane_tests, true};
-  Polytope<double> polytope(search);
-  const bool confirmed = polytope.confirm(start) && polytope.witness(depth);
-  depth.steps = search.steps;
-  if (!confirmed) return false;
-  const bool enough = search.passed(polytope.lower()) || !search.hopeless(polytope.lower());
-  depth.end = enough ? DepthEnd::Converged : DepthEnd::NotConverged;
-  depth.lower = polytope.lower(), depth.upper = search.best.height;
-  depth.normal = search.best.normal;
-  return true;
-}
 
 Depth expand(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
              std::uint32_t& plane_tests) {

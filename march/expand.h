@@ -6,56 +6,14 @@
 
 #include <swiftlet/model.h>
 
-#include "certify.h"
+#include "depth_goal.h"
 #include "scene.h"
 
 namespace swiftlet {
-
-/// When bounds on the depth say enough.
-struct DepthGoal {
-  double absolute = 0, relative = 0;  ///< lengths, and of the lower bound; law 2's bound is always enough
-  double error = 0;  ///< the exact hulls' depth is less by at most this: it counts as width, and takes away from `lower`
-  double floor = 0;  ///< at most 0: the depth is not less, or nobody cares; stands for a `lower` that is not above 0
-  double deeper = std::numeric_limits<double>::infinity();      ///< enough when lower > this
-  double shallower = -std::numeric_limits<double>::infinity();  ///< enough when upper < this
-  std::uint32_t step_budget = ~0u;                              ///< supports
-};
-
-/// Where to begin: up to four vertex pairs, best those of a facet of the Minkowski difference, in order around it, and a
-/// direction, any length.
-struct DepthStart {
-  int count = 0;
-  std::array<std::uint32_t, 4> a{}, b{};
-  Vec direction{0, 0, 0};  ///< from A to B
-};
-
-enum class DepthEnd : std::uint8_t {
-  Converged,  ///< as narrow as the goal asks, or past one of its thresholds
-  Apart,      ///< a direction separates the bodies: upper < 0
-  Budget,
-  NotConverged,  ///< the bounds are true but wider than asked
-};
-
-/// The least of the heights h(n) of the Minkowski difference {p - q} over all unit n: the depth, or where the bodies are apart
-/// less than 0.
-struct Depth {
-  DepthEnd end = DepthEnd::NotConverged;
-  double lower = 0;                                        ///< proved where above 0
-  double upper = std::numeric_limits<double>::infinity();  ///< proved along `normal`
-  Vec normal{0, 0, 0};                                     ///< unit, from A to B: B moves along it by `upper` to be free
-  Vec point_a{0, 0, 0}, point_b{0, 0, 0};                  ///< deepest points: they differ by the depth times the normal
-  ActiveSet active;                                        ///< whose weights make the points
-  std::uint32_t steps = 0;                                 ///< supports found
-};
 
 /// Nothing is allocated. The levels are those of the scene's views. Law 7: at most 12 * 4^kDepthCells * kDepthPoints supports
 /// in each of two arithmetics.
 Depth expand(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
              std::uint32_t& plane_tests);
-
-/// The same for little, where the start is a facet that holds the nearest point, and a few points more show that it is: mostly.
-/// False, and nothing but `steps` filled, where not.
-bool confirm(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
-             std::uint32_t& plane_tests, Depth& depth);
 
 }  // namespace swiftlet

@@ -16,43 +16,122 @@
 namespace swiftlet {
 namespace {
 
+/// The convex loop around places, counter-clockwise; one that hardly stands out changes nothing.
+class Loop {
+ public:
+  Loop(const Spot* spots, double bound) : spots_(spots), bound_(bound) {}
+
+  int size() const { return size_; }
+  int operator[](int i) const { return corner_[std::size_t(i)]; }
+
+  /// A place that is a corner, or where it takes least from the area beside its nearest side: the corner after which it comes.
+  int before(int spot, bool& is_corner) const {
+    int found = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int side = 0; side < size_; ++side) {
+      if ((is_corner = corner_[std::size_t(side)] == spot)) return previous(side);
+      if (const double taken = std::fabs(area(side, spot)); taken < least) least = taken, found = side;
+    }
+    return found;
+  }
+
+  /// How far a place lies from the only corner, or the area that it adds to more of them; 0 where it hardly stands out.
+  double gain(int spot) const {
+    if (size_ == 1) {
+      const double length = from_corner(spot);
+      return length > bound_ ? length : 0;
+    }
+    double area = 0;
+    for (int side = 0; side < size_; ++side) area += beyond(side, spot);
+    return area;
+  }
+
+  /// The corners between the sides that see the place give way to it.
+  void add(int spot) {
+    if (size_ < 2) {
+      if (size_ == 0 || from_corner(spot) > bound_) corner_[std::size_t(size_++)] = spot;
+      return;
+    }
+    int first = 0;
+    while (first < size_ && !(beyond(first, spot) > 0 && beyond(previous(first), spot) == 0)) ++first;
+    if (first == size_) return;
+    int after = first;
+    while (after = next(after), after != first && beyond(after, spot) > 0) {
+    }
+    const std::array<int, kMostPatchPoints> whole = corner_;
+    int count = 0;
+    for (int i = after; i != first; i = next(i)) corner_[std::size_t(count++)] = whole[std::size_t(i)];
+    corner_[std::size_t(count++)] = whole[std::size_t(first)];
+    corner_[std::size_t(count++)] = spot;
+    size_ = count;
+  }
+
+ private:
+  int next(int i) const { return i + 1 == size_ ? 0 : i + 1; }
+  int previous(int i) const { return i == 0 ? size_ - 1 : i - 1; }
+  const Spot& at(int corner) const { return spots_[corner_[std::size_t(corner)]]; }
+
+  double from_corner(int spot) const {
+    const double dx = spots_[spot].x - at(0).x, dy = spots_[spot].y - at(0).y;
+    return std::sqrt(dx * dx + dy * dy);
+  }
+
+  /// Twice that between a side and a place, positive beyond it.
+  double area(int side, int spot) const {
+    const Spot &p = at(side), &q = at(next(side)), &c = spots_[spot];
+    return (c.x - p.x) * (q.y - p.y) - (c.y - p.y) * (q.x - p.x);
+  }
+  /// The same of a place that stands out, else 0.
+  double beyond(int side, int spot) const {
+    const Spot &p = at(side), &q = at(next(side));
+    const double dx = q.x - p.x, dy = q.y - p.y, size = area(side, spot);
+    return size > 0 && size * size > bound_ * bound_ * (dx * dx + dy * dy) ? size : 0;
+  }
+
+  const Spot* spots_;
+  double bound_;
+  int size_ = 0;
+  std::array<int, kMostPatchPoints> corner_;
+};
+
 /// The corners of a common area and the witness.
 class Candidates {
  public:
   Candidates(const Scene& scene, const Across& across, const Outline& a, const Outline& b, const Spot& witness, double bound)
       : bound_(bound) {
     count_ = overlay(scene, across, a, b, bound, std::span(all_).first<kMostSpots>());
-    if (count_ == 0 || witness.separation < least() - bound) all_[std::size_t(count_++)] = witness;
+    if (count_ == 0 || witness.separation < least() - bound / 2) all_[std::size_t(count_++)] = witness;
   }
 
-  /// Fills the patch's points: one of least separation, the one farthest from it, then whichever adds most to the area, those
-  /// of the patch before first; then each but the first is chosen again beside the others, until all stay.
+  /// Fills the patch's points: one of least separation, then whichever adds most to the area, those of the patch before first;
+  /// then each but the first gives way to one that adds distinctly more. What is chosen depends on nothing but the first and
+  /// which are there, and stays what it is when asked again: all that changes them lets their area grow.
   void choose(std::uint32_t most, double margin, const Patch& previous, Patch& patch) {
     drop_beyond(margin + bound_);
     if (count_ == 0 || most == 0) return;
     recognise(previous);
-    loop_[0] = deepest();
-    size_ = 1;
-    for (const Among those : {Among::Known, Among::All}) {
-      while (size_ < int(most) && grow(those)) {
+    first_ = deepest(previous);
+    chosen_[std::size_t(first_)] = true;
+    while (size_ < int(most) && grow(Among::Known)) {
+    }
+    for (int rest = kExchanges; rest > 0; --rest) {
+      while (size_ < int(most) && grow(Among::All)) {
       }
+      if (!exchange()) break;
     }
-    int stayed = size_ < count_ ? 0 : size_;
-    for (int i = 1, rest = kChoices * size_; stayed + 1 < size_ && rest > 0; --rest, i = i + 1 < size_ ? i + 1 : 1) {
-      stayed = stays(i) ? stayed + 1 : 0;
-    }
-    for (int i = 0; i < size_; ++i) {
-      const Spot& c = chosen(i);
-      patch.points[std::size_t(i)] = {eigen(c.point_a), eigen(c.point_b), c.separation, c.feature_a, c.feature_b};
-    }
-    patch.count = std::uint32_t(size_);
+    const Loop loop = around();
+    bool is_corner = false;
+    const int before = loop.before(first_, is_corner);
+    show(first_, patch);
+    for (int i = 1 + is_corner; i <= loop.size(); ++i) show(loop[(before + i) % loop.size()], patch);
   }
 
  private:
   enum class Among { Known, All };
+  static constexpr int kNobody = -1;
 
   const Spot& at(int i) const { return all_[std::size_t(i)]; }
-  const Spot& chosen(int i) const { return at(loop_[std::size_t(i)]); }
+  bool is_chosen(int i) const { return chosen_[std::size_t(i)]; }
 
   double least() const {
     double least = all_[0].separation;
@@ -68,82 +147,81 @@ class Candidates {
     count_ = kept;
   }
 
+  static bool is_same(const PatchPoint& p, const Spot& c) { return p.feature_a == c.feature_a && p.feature_b == c.feature_b; }
+
   void recognise(const Patch& previous) {
     for (int i = 0; i < count_; ++i) {
-      bool& known = known_[std::size_t(i)] = false;
-      for (std::uint32_t k = 0; k < std::min(previous.count, kMostPatchPoints); ++k) {
-        const PatchPoint& p = previous.points[k];
-        known = known || (p.feature_a == at(i).feature_a && p.feature_b == at(i).feature_b);
-      }
+      known_[std::size_t(i)] = chosen_[std::size_t(i)] = false;
+      for (std::uint32_t k = 0; k < std::min(previous.count, kMostPatchPoints); ++k)
+        known_[std::size_t(i)] = known_[std::size_t(i)] || is_same(previous.points[k], at(i));
     }
   }
 
-  int deepest() const {
-    const double enough = least() + bound_;
-    int found = -1;
+  /// The first of the patch before, else one of it, else any: with what the witness may be deeper still within the bound.
+  int deepest(const Patch& previous) const {
+    const double enough = least() + bound_ / 4;
+    int found = kNobody;
     for (int i = 0; i < count_; ++i) {
       if (at(i).separation > enough) continue;
-      if (found < 0 || (known_[std::size_t(i)] && !known_[std::size_t(found)])) found = i;
+      if (known_[std::size_t(i)] && is_same(previous.points[0], at(i))) return i;
+      if (found == kNobody || (known_[std::size_t(i)] && !known_[std::size_t(found)])) found = i;
     }
     return found;
   }
 
-  /// From one of the points chosen to the next.
-  struct Side {
-    double x, y, dx, dy, least2;  ///< the last: of an area that stands out, squared
-  };
-  Side side_at(int i) const {
-    const Spot &p = chosen(i), &q = chosen(i + 1 == size_ ? 0 : i + 1);
-    const double dx = q.x - p.x, dy = q.y - p.y;
-    return {p.x, p.y, dx, dy, bound_ * bound_ * (dx * dx + dy * dy)};
-  }
-
-  /// How far a candidate lies from the only point, or the area that it adds beyond a side of those chosen; 0 where it hardly
-  /// stands out. One of the patch before is worth more.
-  double worth(int candidate, const Side& side) const {
-    const Spot& c = at(candidate);
-    const double cx = c.x - side.x, cy = c.y - side.y, more = known_[std::size_t(candidate)] ? 1 + kKeptWorth : 1;
-    if (size_ == 1) {
-      const double length2 = cx * cx + cy * cy;
-      return length2 > bound_ * bound_ ? std::sqrt(length2) * more : 0;
+  /// Of all that are chosen, but for one.
+  Loop around(int without = kNobody) const {
+    Loop loop(all_.data(), bound_);
+    for (int i = 0; i < count_; ++i) {
+      if (is_chosen(i) && i != without) loop.add(i);
     }
-    const double area = cx * side.dy - cy * side.dx;
-    return area > 0 && area * area > side.least2 ? area * more : 0;
+    return loop;
   }
 
-  /// Of faces seen from the side, which are no convex loops, one chosen may lie beyond a side.
-  bool is_chosen(int i) const { return std::find(loop_.begin(), loop_.begin() + size_, i) != loop_.begin() + size_; }
+  /// The one that adds more than `least` and most to a loop.
+  int best(const Loop& loop, double least, Among those) const {
+    int found = kNobody;
+    for (int i = 0; i < count_; ++i) {
+      if (is_chosen(i) || (those == Among::Known && !known_[std::size_t(i)])) continue;
+      if (const double gain = loop.gain(i); gain > least) least = gain, found = i;
+    }
+    return found;
+  }
 
-  /// Adds a point to those chosen, which go around counter-clockwise; false where none adds anything.
   bool grow(Among those) {
-    int best = -1, best_side = 0;
-    double most = 0;
-    for (int side = 0; side < size_; ++side) {
-      const Side beyond = side_at(side);
-      for (int i = 0; i < count_; ++i) {
-        if (is_chosen(i) || (those == Among::Known && !known_[std::size_t(i)])) continue;
-        if (const double w = worth(i, beyond); w > most) most = w, best = i, best_side = side;
-      }
-    }
-    if (best < 0) return false;
-    std::copy_backward(loop_.begin() + best_side + 1, loop_.begin() + size_, loop_.begin() + size_ + 1);
-    loop_[std::size_t(best_side + 1)] = best;
+    const int found = best(around(), 0, those);
+    if (found == kNobody) return false;
+    chosen_[std::size_t(found)] = true;
     ++size_;
     return true;
   }
 
-  /// Chooses one again.
-  bool stays(int i) {
-    const int before = loop_[std::size_t(i)];
-    std::copy(loop_.begin() + i + 1, loop_.begin() + size_, loop_.begin() + i);
-    --size_;
-    return grow(Among::All) && loop_[std::size_t(i)] == before;
+  /// Leaves out one that adds nothing, or takes another for it; false where all stay.
+  bool exchange() {
+    for (int i = 0; i < count_; ++i) {
+      if (!is_chosen(i) || i == first_) continue;
+      const Loop others = around(i);
+      const double gain = others.gain(i);
+      const int found = best(others, (1 + kKeptWorth) * gain, Among::All);
+      if (found == kNobody && gain > 0) continue;
+      chosen_[std::size_t(i)] = false;
+      if (found == kNobody)
+        --size_;
+      else
+        chosen_[std::size_t(found)] = true;
+      return true;
+    }
+    return false;
+  }
+
+  void show(int i, Patch& patch) const {
+    const Spot& c = at(i);
+    patch.points[patch.count++] = {eigen(c.point_a), eigen(c.point_b), c.separation, c.feature_a, c.feature_b};
   }
 
   double bound_;
-  int count_ = 0, size_ = 0;
-  std::array<int, kMostPatchPoints> loop_;
-  std::array<bool, kMostSpots + 1> known_;  ///< of the patch before
+  int count_ = 0, size_ = 1, first_ = 0;
+  std::array<bool, kMostSpots + 1> known_, chosen_;  ///< of the patch before, of this one
   std::array<Spot, kMostSpots + 1> all_;
 };
 

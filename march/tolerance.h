@@ -114,11 +114,11 @@ inline constexpr double kDeviationPrecision = 1e-3;
 /// Faces turn as much towards a normal where the cosines differ by no more than this: an angle of 4 ulps of single precision,
 /// 2^-21, takes half its square from a cosine. Dimensionless.
 inline constexpr double kSameFacing = 0x1p-43;
-/// A point of the patch before counts for so much more area than another: enough that the corners of a regular polygon, of
-/// which any four opposite ones are as good, do not take turns. A fraction.
+/// A point of a patch gives way to one that adds so much more area: enough that the corners of a regular polygon, of which any
+/// four opposite ones are as good, do not take turns. A fraction.
 inline constexpr double kKeptWorth = 0.125;
-/// Times that each point of a patch is chosen again: two or three leave all as they are. A count.
-inline constexpr int kChoices = 8;
+/// Points of a patch that give way at most: two or three leave all as they are. A count.
+inline constexpr int kExchanges = 32;
 
 // ---- Bounds on work: counts ------------------------------------------------------------------------------------------------
 
@@ -165,6 +165,10 @@ inline constexpr double kOutwardError = 32 * kU;
 /// The ring of points around the top of a polytope is looked for along directions that lean out by so much. A tangent: half
 /// and twice of it cost more on the whole.
 inline constexpr double kFlare = 0.5;
+/// Beyond a side of a confirmed facet they lean by no more than so many times the angle under which the depth sees the nearest
+/// point beside that side: planes that lean by two of them are as near as the facet, and those to the point found lean by about
+/// half of what it was looked for along. Dimensionless.
+inline constexpr double kLean = 3;
 /// The local least of a depth is looked for from so many directions at most; along each B stands off by as much as it was deep;
 /// and a cold start looks along maps until a direction turns by less. Counts, heights, a cosine.
 inline constexpr int kSlides = 8;

@@ -177,7 +177,16 @@ TEST(Cube, MiddlesAreInTheirCellsAndNoDirectionIsInSomeCell) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_LT(cube_cell(side, 0, 0, 0), cube_cell_count(side));
     EXPECT_LT(cube_cell(side, nan, nan, nan), cube_cell_count(side));
-    for (const Direction& d : {Direction{kInfinity, 0, 0}, {1, 1, 1}, {-1, -1, -1}, {5e-324, 0, 0}, {nan, 1, 0}, {0, 1, nan}})
+    for (const Direction& d : {Direction{kInfinity, 0, 0},
+                               {1, 1, 1},
+                               {-1, -1, -1},
+                               {5e-324, 0, 0},
+                               {nan, 1, 0},
+                               {0, 1, nan},
+                               {-5, nan, 1},
+                               {nan, -5, 1},
+                               {1, -5, nan},
+                               {-kInfinity, 1, nan}})
       EXPECT_LT(cube_cell(side, d[0], d[1], d[2]), cube_cell_count(side));
   }
 }

@@ -124,29 +124,36 @@ double height_over(const ConvexView& body, const Pose& in_a, const Vec3& point) 
   return std::isinf(highest) ? 0 : highest;
 }
 
+namespace {
+
+/// The sides of a face, from tail to head.
+std::vector<std::array<Vec3, 2>> sides_of(const ConvexView& body, std::uint32_t face) {
+  std::vector<std::array<Vec3, 2>> result;
+  const auto point = [&](std::uint32_t v) { return Vec3(body.vertices[v].x, body.vertices[v].y, body.vertices[v].z); };
+  for (std::uint32_t h = 0; h < body.head.size(); ++h) {
+    if (body.face[h] == face && body.face[body.twin[h]] != face)
+      result.push_back({point(body.head[body.twin[h]]), point(body.head[h])});
+  }
+  return result;
+}
+
+}  // namespace
+
+Vec3 face_normal(const ConvexView& body, Handle face) {
+  const auto sides = sides_of(body, face.index());
+  Vec3 sum = Vec3::Zero();
+  for (const auto& [p, q] : sides) sum += (p - sides[0][0]).cross(q - sides[0][0]);
+  return sum.normalized();
+}
+
 std::vector<std::uint32_t> flat_faces(const ConvexView& body, Handle face, double flatness) {
-  const auto sides = [&](std::uint32_t f) {  // from tail to head
-    std::vector<std::array<Vec3, 2>> result;
-    const auto point = [&](std::uint32_t v) { return Vec3(body.vertices[v].x, body.vertices[v].y, body.vertices[v].z); };
-    for (std::uint32_t h = 0; h < body.head.size(); ++h) {
-      if (body.face[h] == f && body.face[body.twin[h]] != f)
-        result.push_back({point(body.head[body.twin[h]]), point(body.head[h])});
-    }
-    return result;
-  };
-  const auto normal = [&](std::uint32_t f) {
-    const auto all = sides(f);
-    Vec3 sum = Vec3::Zero();
-    for (const auto& [p, q] : all) sum += (p - all[0][0]).cross(q - all[0][0]);
-    return sum.normalized().eval();
-  };
-  const Vec3 n = normal(face.index()), p = sides(face.index())[0][0];
+  const Vec3 n = face_normal(body, face), p = sides_of(body, face.index())[0][0];
   std::vector<std::uint32_t> faces{face.index()};
   for (std::uint32_t other = 0; other < body.face_first.size(); ++other) {
-    const auto all = sides(other);
-    const bool flat =
-        std::all_of(all.begin(), all.end(), [&](const auto& side) { return n.dot(side[0] - p) >= -flatness * body.extent; });
-    if (other != face.index() && flat && n.dot(normal(other)) > 0) faces.push_back(other);
+    const auto sides = sides_of(body, other);
+    const bool flat = std::all_of(sides.begin(), sides.end(),
+                                  [&](const auto& side) { return n.dot(side[0] - p) >= -flatness * body.extent; });
+    if (other != face.index() && flat && n.dot(face_normal(body, {FeatureKind::Face, other})) > 0) faces.push_back(other);
   }
   return faces;
 }

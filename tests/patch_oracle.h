@@ -30,6 +30,9 @@ double area(const std::vector<Vec3>& points, const Vec3& n);
 /// deep under its surface. 0 of a body without facets. `in_a`: where the body is.
 double height_over(const ConvexView& body, const Pose& in_a, const Vec3& point);
 
+/// Of a face of the body, in its frame: unit, outwards; rounded.
+Vec3 face_normal(const ConvexView& body, Handle face);
+
 /// A face, and after it all others whose corners lie within `flatness` times the extent of its plane and on its side.
 std::vector<std::uint32_t> flat_faces(const ConvexView& body, Handle face, double flatness);
 

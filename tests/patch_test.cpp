@@ -836,6 +836,38 @@ TEST(Patch, KeepsThePointsOfTheFrameBefore) {
   EXPECT_GT(without, 20) << "the test is too easy";
 }
 
+/// Whatever the patch before was of, what is chosen after it is chosen again.
+TEST(Patch, KeepsWhatItChose) {
+  const Model prism_5 = bodies::model(prism(5, 1, 1)), cube = bodies::model(bodies::cube());
+  Random random(11);
+  int others = 0;
+  for (const Model* model : {&cube, &prism_5}) {
+    Patch before;
+    for (int i = 0; i < 20'000; ++i) {
+      const double tilt = std::pow(10, random.uniform(-16, -1));
+      const Mat3 rotation = shapes::rotation(Vec3::UnitX(), tilt * random.uniform(-1, 1)) *
+                            shapes::rotation(Vec3::UnitZ(), i % 2 ? tilt * random.uniform(-1, 1) : random.uniform(-1, 1));
+      const Pose pose = at(random.uniform(-1, 1), random.uniform(-1, 1), 2.2, rotation);
+      const Answer answer = nearest(*model, *model, pose);
+      PatchOptions options;
+      options.margin = 10;
+      options.most_points = 1 + std::uint32_t(random.bits() % kMostPatchPoints);
+      const Patch first = patch(*model, *model, pose, answer, options, before),
+                  again = patch(*model, *model, pose, answer, options, first),
+                  alone = patch(*model, *model, pose, answer, options);
+      ASSERT_EQ(first.count, again.count) << i;
+      for (std::uint32_t k = 0; k < first.count; ++k) {
+        ASSERT_EQ(first.points[k].feature_a, again.points[k].feature_a) << i;
+        ASSERT_EQ(first.points[k].feature_b, again.points[k].feature_b) << i;
+        ASSERT_EQ(first.points[k].point_a, again.points[k].point_a) << i;
+        others += k < alone.count && first.points[k].feature_a != alone.points[k].feature_a;
+      }
+      before = first;
+    }
+  }
+  EXPECT_GT(others, 1000) << "what was before changes nothing";
+}
+
 /// A cube that balances on an edge faces along the normal with two faces alike: the one of the frame before stays.
 TEST(Patch, KeepsTheFaceOfTheFrameBefore) {
   const Model cube = bodies::model(bodies::cube());

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "exact_check.h"
 #include "patch_oracle.h"
 
@@ -89,9 +91,9 @@ std::string Judge::area_of(const Patch& patch, const PatchOptions& options, doub
   Vec3 around = Vec3::Zero();
   for (std::uint32_t i = 0; i < patch.count; ++i) {
     const Vec3 p = points[i] - points[0], q = points[i + 1 == patch.count ? 0 : i + 1] - points[0];
-    around += Vec3(p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]);
+    around += p.cross(q);
   }
-  const double shown = oracle::area(points, patch.normal), blur = 16 * bound * (a_.extent + b_.extent);
+  const double shown = oracle::area(points, patch.normal), length = a_.extent + b_.extent, blur = 16 * bound * length;
   if (!(std::fabs(around.dot(patch.normal) / 2 - shown) <= blur)) return "the points are not in order around their area";
   if (!std::isinf(options.margin) || patch.face_a.kind() != FeatureKind::Face || patch.face_b.kind() != FeatureKind::Face)
     return "";
@@ -103,8 +105,14 @@ std::string Judge::area_of(const Patch& patch, const PatchOptions& options, doub
     return std::to_string(patch.count) + what + std::to_string(shown / common) + " of the area in common";
   };
   if (!(shown <= common + blur)) return text(" points span ");
+  // Faces that are one within the flatness are a line where they are seen narrower than that.
+  const auto thin = [&](const Subject& subject, const ConvexView& view, Handle face, const Mat3& rotation) {
+    const double across = (rotation * oracle::face_normal(view, face)).cross(patch.normal).norm();
+    return std::max(options.flatness, own_flatness(subject)) * view.extent * across * length;
+  };
+  const double narrow = thin(a_, a, patch.face_a, Mat3::Identity()) + thin(b_, b, patch.face_b, b_in_a_.rotation);
   const double share = kShares[std::min(options.most_points, kMostPatchPoints)];
-  return shown >= share * common - blur ? "" : text(" points keep but ");
+  return shown >= share * common - blur - narrow ? "" : text(" points keep but ");
 }
 
 }  // namespace swiftlet::stability
