@@ -118,7 +118,7 @@ class Crown {
 
 bool confirm(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
              std::uint32_t& plane_tests, Depth& depth) {
-  depth.steps = 0;
+  depth.steps = 0, depth.upper = kInfinity;
   if (start.count < 3) return false;
   Crown crown(scene, start);
   const Vec& n = crown.normal();
@@ -135,9 +135,10 @@ bool confirm(const Scene& scene, const Level& a, const Level& b, const DepthStar
                                 ascend(scene.b, own, from.b, plane_tests));
     return difference<double>(scene, look_up(a, direction).vertex, look_up(b, own).vertex);
   };
+  depth.upper = upper;
   if (!crown.closes(glance)) return false;
   depth.end = goal.passed(upper, lower) || !goal.hopeless(upper, lower) ? DepthEnd::Converged : DepthEnd::NotConverged;
-  depth.lower = lower, depth.upper = upper;
+  depth.lower = lower;
   depth.normal = n;
   if (depth.active.count == 3) depth.feature_a = start.feature_a, depth.feature_b = start.feature_b;
   return true;

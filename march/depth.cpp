@@ -166,8 +166,9 @@ class Deepening {
     Vec n = normalised(direction);
     const Resting body = body_a(pair);
     const Moved other = body_b(pair);
-    const bool cold = at.a.kind() == FeatureKind::None, has_maps = of_a.map_side > 0 && of_b.map_side > 0;
-    if (cold)
+    const bool has_maps = of_a.map_side > 0 && of_b.map_side > 0;
+    bool far = at.a.kind() == FeatureKind::None;
+    if (far)
       at = {{FeatureKind::Vertex, about_farthest(a_, place_.level_a, n)},
             {FeatureKind::Vertex, about_farthest(b_, place_.level_b, other.into(-n))}};
     for (int round = 0; round < kSlides; ++round) {
@@ -178,7 +179,7 @@ class Deepening {
       Motion m = pair_.motion;
       m.t = m.t + n * (height * kSlideBy);
       const Scene apart = scene(pair.a, pair.b, m, pair_.shift, pair_.pose_error);
-      if (cold && has_maps) {
+      if (far && has_maps) {
         const Sight sight = look(apart, of_a, of_b, glimpse(apart, of_a, of_b, n), [](const Sight&) { return Look::Near; });
         at = {{FeatureKind::Vertex, sight.start_a}, {FeatureKind::Vertex, sight.start_b}};
         const bool turns = dot(sight.normal, n) < kSlideTurn;
@@ -193,6 +194,7 @@ class Deepening {
       at = {w.a, w.b};
       const Vec next = normalised(w.witness.normal);
       const DepthStart found = start_at(pair, at, next);
+      far = dot(next, n) < kSlideTurn;
       n = next;
       if (found.count > 2 && stands_over(pair, found)) return found;
     }
@@ -216,20 +218,22 @@ class Deepening {
       const bool is_so = steps < options_.step_budget && confirm(pair, of_a, of_b, at, goal, plane_tests, found);
       return steps += found.steps, is_so;
     };
-    Depth found;
     const bool fits = near_ && seed.level_a == place_.level_a && seed.level_b == place_.level_b &&
                       names_feature(pair.a, seed.a) && names_feature(pair.b, seed.b);
+    const MarchStart features = fits ? MarchStart{seed.a, seed.b} : MarchStart{};
+    Depth found;
+    DepthStart at;
     if (fits) {
-      if (confirmed(start_at(pair, {seed.a, seed.b}, direction), found)) return found;
+      at = start_at(pair, features, direction);
+      if (confirmed(at, found)) return found;
     }
-    DepthStart least;  // of a coarse pair, bounds are wanted and no facet
-    least.direction = direction;
-    if (goal.error == 0) {
-      least = local_least(pair, of_a, of_b, fits ? MarchStart{seed.a, seed.b} : MarchStart{}, direction);
-      if (confirmed(least, found)) return found;
+    if (goal.error == 0 && !(found.upper < kInfinity)) {
+      at = local_least(pair, of_a, of_b, features, direction);
+      if (confirmed(at, found)) return found;
     }
+    if (goal.error > 0) at = {}, at.direction = direction;  // of a coarse pair bounds are wanted, and no facet
     goal.step_budget = options_.step_budget - std::min(steps, options_.step_budget);
-    found = expand(pair, of_a, of_b, least, goal, plane_tests);
+    found = expand(pair, of_a, of_b, at, goal, plane_tests);
     return steps += found.steps, found;
   }
 
