@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <random>
 #include <string>
@@ -24,6 +23,7 @@
 
 #include "answers.h"
 #include "bodies.h"
+#include "folder.h"
 
 namespace swiftlet {
 namespace {
@@ -32,27 +32,12 @@ using namespace bodies;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A directory of this test's own.
-class DetailTest : public testing::Test {
+class DetailTest : public FolderTest {
  protected:
-  DetailTest()
-      : folder_(std::filesystem::temp_directory_path() / ("swiftlet_detail_test_" + std::to_string(std::random_device{}()))) {
-    std::filesystem::create_directory(folder_);
-  }
-  ~DetailTest() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path path(const char* name) const { return folder_ / name; }
   std::filesystem::path saved(const Model& m, const char* name = "m.swl") const {
     must(save(m, path(name)));
     return path(name);
   }
-  std::filesystem::path write_file(const char* name, std::span<const std::byte> bytes) const {
-    std::ofstream(path(name), std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    return path(name);
-  }
-
- private:
-  std::filesystem::path folder_;
 };
 
 std::vector<Model> all_models() { return answers::models(SWIFTLET_TEST_DIR "/data/models"); }

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <random>
 #include <string>
@@ -17,32 +16,14 @@
 #include <swiftlet/query.h>
 
 #include "bodies.h"
+#include "folder.h"
 
 namespace swiftlet {
 namespace {
 
 using namespace bodies;
 
-/// A directory of this test's own.
-class ModelFile : public testing::Test {
- protected:
-  ModelFile()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("swiftlet_model_file_test_" + std::to_string(std::random_device{}()))) {
-    std::filesystem::create_directory(folder_);
-  }
-  ~ModelFile() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path path(const char* name) const { return folder_ / name; }
-  std::filesystem::path write_file(const char* name, std::span<const std::byte> bytes) const {
-    std::ofstream(path(name), std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    return path(name);
-  }
-
- private:
-  std::filesystem::path folder_;
-};
+using ModelFile = FolderTest;
 
 Model small() { return nested(2, {false, {lut::Resolution::Degrees22, 2}}); }
 
