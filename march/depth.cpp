@@ -132,7 +132,8 @@ class Deepening {
     double least = kInfinity;
     for (const Vec& axis : {lowest, across(a_), turn(pair_.motion, across(b_))}) {
       const Vec n = dot(axis, line_.in_a) < 0 ? -axis : axis, own = turn_back(pair_.motion, -n);
-      const Vec p = vec(view_a.vertices[about_farthest(a_, finest_a_, n)]), q = vec(view_b.vertices[about_farthest(b_, finest_b_, own)]);
+      const Vec p = vec(view_a.vertices[about_farthest(a_, finest_a_, n)]),
+                q = vec(view_b.vertices[about_farthest(b_, finest_b_, own)]);
       if (const double height = dot(n, p - apply(pair_.motion, q)); height < least) least = height, lowest = n;
     }
     if (least > 0) most = smaller(most, least);
@@ -174,7 +175,8 @@ class Deepening {
       m.t = m.t + n * (height * kSlideBy);
       const Scene apart = scene(pair.a, pair.b, m, pair_.shift, pair_.pose_error);
       if (cold && has_maps) {
-        const Sight sight = look(apart, of_a, of_b, glimpse(apart, of_a, of_b, n), [](const Sight&) { return Look::Near; });
+        const Sight sight =
+            look(apart, of_a, of_b, glimpse(apart, of_a, of_b, n), [](const Sight& s) { return s.gap > 0 && s.beside; });
         at = {{FeatureKind::Vertex, sight.start_a}, {FeatureKind::Vertex, sight.start_b}};
         const bool turns = dot(sight.normal, n) < kSlideTurn;
         n = sight.normal;

@@ -111,8 +111,8 @@ class Descent {
     }
   }
 
-  /// The coarsest pair with maps, none coarser than `most_a` and `most_b`, that is likely to answer bodies no farther apart than
-  /// `distance`, or the finest.
+  /// The coarsest pair with maps, none coarser than `most_a` and `most_b`, that is likely to answer bodies no farther apart
+  /// than `distance`, or the finest.
   Place sight_for(double distance, int most_a, int most_b) const {
     Place place = pair_.finest_sight();
     while (place.level_a < most_a || place.level_b < most_b) {
@@ -138,10 +138,11 @@ class Descent {
       const double error = deviation(place.level_a, place.level_b);
       const Glimpse seen = glanced && same_levels(place, first_.at) ? first_.seen : glimpse(pair, of_a, of_b, direction);
       const Sight sight = look(pair, of_a, of_b, seen, [&](const Sight& s) {
-        if (exact_) return Look::Near;
+        const auto is_near = [&] { return s.beside && (s.gap > 0 || hides_gap(place, s.gap, error)); };
+        if (exact_) return is_near();
         const double lower = larger(answer_.lower, s.lower), upper = smaller(answer_.upper, s.upper + error);
-        if (answers(lower, upper) || (!last && !narrow(upper, error))) return Look::Enough;
-        return narrow(lower, kDoubtShare * (s.gap - s.lower) + error) ? Look::On : Look::Near;
+        if (answers(lower, upper) || (!last && !narrow(upper, error))) return true;
+        return is_near() && !narrow(lower, kDoubtShare * (s.gap - s.lower) + error);
       });
       take(place, sight, pair);
       if (target_.is_threshold() && last && !answered() && sight.gap > target_.clear_above) climb(place, sight, pair);
@@ -152,6 +153,12 @@ class Descent {
       if (last) return place = refined(place), false;
       place = sight_for(answer_.upper, std::max(place.level_a - 1, least.level_a), std::max(place.level_b - 1, least.level_b));
     }
+  }
+
+  /// Whether the exact hulls may be apart where levels that deviate by `error` overlap by `-gap`, and a walk finds that out
+  /// sooner than looks.
+  bool hides_gap(const Place& place, double gap, double error) const {
+    return gap > -error && (exact_ ? !finest(place) : !narrow(0, kHiddenShare * error));
   }
 
   /// The same direction, by supports that a climb makes certain: maps are uncertain by some 1e-3 of a body.
