@@ -23,8 +23,8 @@ struct Sight {
   double lower = 0;            ///< proved along `normal`: less than the gap by what the maps are uncertain of; may be negative
   double upper = 0;            ///< the distance of the points
   Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};
-  bool beside = false;                     ///< `a` and `b` lie no more than a few edges aside: a walk is cheaper
-  std::uint32_t start_a = 0, start_b = 0;  ///< where a walk begins: the first supports apart and beside, else these
+  bool near = false;                       ///< `a` and `b` lie no more than a few edges aside of each other: a walk is cheaper
+  std::uint32_t start_a = 0, start_b = 0;  ///< where a walk begins: the first supports that were near, else these
   bool meets = false;  ///< the pair seems to overlap: the differences of `proof`'s vertices look to hold the origin
   OverlapProof proof{};
 };
@@ -80,9 +80,10 @@ static inline Glimpse glimpse(const Scene& scene, const Level& a, const Level& b
   return {n, top_a.vertex, top_b.vertex, q, p, dot(n, p), gap(scene, n, p, (top_a.excess + top_b.excess) * scale)};
 }
 
-/// Looks on from what was seen, until a sight is enough or nothing changes. Both levels have maps.
+/// Looks on from what was seen, until a sight is enough or nothing changes. Both levels have maps. Supports that overlap by
+/// less than `hidden` count as near too.
 template <class Enough>
-Sight look(const Scene& scene, const Level& a, const Level& b, Glimpse seen, Enough enough) {
+Sight look(const Scene& scene, const Level& a, const Level& b, double hidden, Glimpse seen, Enough enough) {
   const double few = kAimEdges * (a.edge_length + b.edge_length);
   Simplex simplex;
   Sight s;
@@ -96,9 +97,9 @@ Sight look(const Scene& scene, const Level& a, const Level& b, Glimpse seen, Eno
     const double upper = norm(p) * (1 + kNormError) + scene.point_error;
     if (upper < s.upper) s.upper = upper, s.point_a = q, s.point_b = q + p;
     const Vec aside = p - n * s.gap;
-    s.beside = dot(aside, aside) <= few * few;
+    s.near = s.gap > -hidden && dot(aside, aside) <= few * few;
     if (!was_near) s.start_a = s.a, s.start_b = s.b;
-    was_near = was_near || (s.gap > 0 && s.beside);
+    was_near = was_near || s.near;
     if (enough(s) || steps == kAimSteps || simplex.has(s.a, s.b)) return s;
     const Simplex::Nearest nearest = simplex.add({p, q, s.a, s.b});
     if (nearest.count == 4) {

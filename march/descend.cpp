@@ -136,13 +136,14 @@ class Descent {
       const Scene pair = scene_at(place);
       const Level &of_a = a_.level(place.level_a), &of_b = b_.level(place.level_b);
       const double error = deviation(place.level_a, place.level_b);
+      const double hidden = finest(place) ? 0 : error;  // by which levels may overlap and finer ones be apart
       const Glimpse seen = glanced && same_levels(place, first_.at) ? first_.seen : glimpse(pair, of_a, of_b, direction);
-      const Sight sight = look(pair, of_a, of_b, seen, [&](const Sight& s) {
-        const auto is_near = [&] { return s.beside && (s.gap > 0 || hides_gap(place, s.gap, error)); };
-        if (exact_) return is_near();
+      const Sight sight = look(pair, of_a, of_b, hidden, seen, [&](const Sight& s) {
+        if (exact_) return s.near;
         const double lower = larger(answer_.lower, s.lower), upper = smaller(answer_.upper, s.upper + error);
         if (answers(lower, upper) || (!last && !narrow(upper, error))) return true;
-        return is_near() && !narrow(lower, kDoubtShare * (s.gap - s.lower) + error);
+        const double doubt = s.gap > 0 ? kDoubtShare * (s.gap - s.lower) + error : kHiddenShare * error;
+        return s.near && !narrow(lower, doubt);
       });
       take(place, sight, pair);
       if (target_.is_threshold() && last && !answered() && sight.gap > target_.clear_above) climb(place, sight, pair);
@@ -153,12 +154,6 @@ class Descent {
       if (last) return place = refined(place), false;
       place = sight_for(answer_.upper, std::max(place.level_a - 1, least.level_a), std::max(place.level_b - 1, least.level_b));
     }
-  }
-
-  /// Whether the exact hulls may be apart where levels that deviate by `error` overlap by `-gap`, and a walk finds that out
-  /// sooner than looks.
-  bool hides_gap(const Place& place, double gap, double error) const {
-    return gap > -error && (exact_ ? !finest(place) : !narrow(0, kHiddenShare * error));
   }
 
   /// The same direction, by supports that a climb makes certain: maps are uncertain by some 1e-3 of a body.

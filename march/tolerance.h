@@ -146,8 +146,8 @@ inline constexpr int kAimSteps = 12;
 inline constexpr double kMapDoubt = 1.7, kSightShare = 4;
 /// Looks go on past that while what the maps leave in doubt times this is within the tolerance; beyond, they turn in circles.
 inline constexpr double kDoubtShare = 3;
-/// Levels that overlap by less than they deviate are walked on, unless this times the deviation is within the tolerance: where
-/// it is, looks have room enough to answer.
+/// Looks at levels that overlap by less than they deviate go on while the deviation times this is within the tolerance; beyond,
+/// a walk is cheaper. Measured: both take as long at 1.4 to 1.5.
 inline constexpr double kHiddenShare = 1.4;
 /// Vertices that doubles may find equally high before a certificate asks exact arithmetic which is the highest: two triangles
 /// and room for a flat spot.
