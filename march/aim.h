@@ -23,6 +23,7 @@ struct Sight {
   double lower = 0;            ///< proved along `normal`: less than the gap by what the maps are uncertain of; may be negative
   double upper = 0;            ///< the distance of the points
   Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};
+  bool near = false;                       ///< `a` and `b` lie no more than a few edges aside of each other: a walk is cheaper
   std::uint32_t start_a = 0, start_b = 0;  ///< where a walk begins: the first supports that were near, else these
   bool meets = false;  ///< the pair seems to overlap: the differences of `proof`'s vertices look to hold the origin
   OverlapProof proof{};
@@ -63,13 +64,6 @@ class Simplex {
   int count_ = 0;
 };
 
-/// What a caller makes of a sight.
-enum class Look {
-  Enough,
-  Near,  ///< on, until a walk is cheaper: the supports lie no more than a few edges aside of each other
-  On,    ///< on, until nothing changes
-};
-
 /// What maps say along one direction, of any length.
 struct Glimpse {
   Vec normal{0, 0, 0};                 ///< the direction at length 1; 0 where it names none
@@ -86,9 +80,10 @@ static inline Glimpse glimpse(const Scene& scene, const Level& a, const Level& b
   return {n, top_a.vertex, top_b.vertex, q, p, dot(n, p), gap(scene, n, p, (top_a.excess + top_b.excess) * scale)};
 }
 
-/// Looks on from what was seen, for as long as `judge` says of each sight. Both levels have maps.
-template <class Judge>
-Sight look(const Scene& scene, const Level& a, const Level& b, Glimpse seen, Judge judge) {
+/// Looks on from what was seen, until a sight is enough or nothing changes. Both levels have maps. Supports that overlap by
+/// less than `hidden` count as near too.
+template <class Enough>
+Sight look(const Scene& scene, const Level& a, const Level& b, double hidden, Glimpse seen, Enough enough) {
   const double few = kAimEdges * (a.edge_length + b.edge_length);
   Simplex simplex;
   Sight s;
@@ -102,11 +97,10 @@ Sight look(const Scene& scene, const Level& a, const Level& b, Glimpse seen, Jud
     const double upper = norm(p) * (1 + kNormError) + scene.point_error;
     if (upper < s.upper) s.upper = upper, s.point_a = q, s.point_b = q + p;
     const Vec aside = p - n * s.gap;
-    const bool near = s.gap > 0 && dot(aside, aside) <= few * few;
+    s.near = s.gap > -hidden && dot(aside, aside) <= few * few;
     if (!was_near) s.start_a = s.a, s.start_b = s.b;
-    was_near = was_near || near;
-    const Look verdict = judge(s);
-    if (verdict == Look::Enough || (verdict == Look::Near && near) || steps == kAimSteps || simplex.has(s.a, s.b)) return s;
+    was_near = was_near || s.near;
+    if (enough(s) || steps == kAimSteps || simplex.has(s.a, s.b)) return s;
     const Simplex::Nearest nearest = simplex.add({p, q, s.a, s.b});
     if (nearest.count == 4) {
       s.meets = true;

@@ -180,7 +180,7 @@ class Deepening {
       m.t = m.t + n * (height * kSlideBy);
       const Scene apart = scene(pair.a, pair.b, m, pair_.shift, pair_.pose_error);
       if (far && has_maps) {
-        const Sight sight = look(apart, of_a, of_b, glimpse(apart, of_a, of_b, n), [](const Sight&) { return Look::Near; });
+        const Sight sight = look(apart, of_a, of_b, 0, glimpse(apart, of_a, of_b, n), [](const Sight& s) { return s.near; });
         at = {{FeatureKind::Vertex, sight.start_a}, {FeatureKind::Vertex, sight.start_b}};
         const bool turns = dot(sight.normal, n) < kSlideTurn;
         n = sight.normal;

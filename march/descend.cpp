@@ -111,8 +111,8 @@ class Descent {
     }
   }
 
-  /// The coarsest pair with maps, none coarser than `most_a` and `most_b`, that is likely to answer bodies no farther apart than
-  /// `distance`, or the finest.
+  /// The coarsest pair with maps, none coarser than `most_a` and `most_b`, that is likely to answer bodies no farther apart
+  /// than `distance`, or the finest.
   Place sight_for(double distance, int most_a, int most_b) const {
     Place place = pair_.finest_sight();
     while (place.level_a < most_a || place.level_b < most_b) {
@@ -136,12 +136,14 @@ class Descent {
       const Scene pair = scene_at(place);
       const Level &of_a = a_.level(place.level_a), &of_b = b_.level(place.level_b);
       const double error = deviation(place.level_a, place.level_b);
+      const double hidden = finest(place) ? 0 : error;  // by which levels may overlap and finer ones be apart
       const Glimpse seen = glanced && same_levels(place, first_.at) ? first_.seen : glimpse(pair, of_a, of_b, direction);
-      const Sight sight = look(pair, of_a, of_b, seen, [&](const Sight& s) {
-        if (exact_) return Look::Near;
+      const Sight sight = look(pair, of_a, of_b, hidden, seen, [&](const Sight& s) {
+        if (exact_) return s.near;
         const double lower = larger(answer_.lower, s.lower), upper = smaller(answer_.upper, s.upper + error);
-        if (answers(lower, upper) || (!last && !narrow(upper, error))) return Look::Enough;
-        return narrow(lower, kDoubtShare * (s.gap - s.lower) + error) ? Look::On : Look::Near;
+        if (answers(lower, upper) || (!last && !narrow(upper, error))) return true;
+        const double doubt = s.gap > 0 ? kDoubtShare * (s.gap - s.lower) + error : kHiddenShare * error;
+        return s.near && !narrow(lower, doubt);
       });
       take(place, sight, pair);
       if (target_.is_threshold() && last && !answered() && sight.gap > target_.clear_above) climb(place, sight, pair);

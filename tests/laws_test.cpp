@@ -1020,6 +1020,35 @@ TEST_P(Law10, VerdictsAreCheaperThanDistances) {  // trap G15
   EXPECT_LT(2 * verdicts, distances);
 }
 
+/// Bodies that touch, or nearly: their maps are of levels that overlap where the exact hulls may be apart. Whole models, and
+/// cut ones that cannot answer exactly.
+TEST(Law10NearContact, FromNothingALooserToleranceNeverCostsMore) {
+  const shapes::Pair meshes = shapes::pair(shapes::Family::Fat, 20000);
+  const Model a = bodies::must(build(meshes.a)).model, b = bodies::must(build(meshes.b)).model;
+  ASSERT_GT(a.map_level(), 0);
+  const Detail mapped{1.01 * std::max(a.level(a.map_level()).deviation, b.level(b.map_level()).deviation)};
+  const std::pair<Model, Model> pairs[] = {{a, b}, {a.cut(mapped), b.cut(mapped)}};
+  ASSERT_EQ(pairs[1].first.finest_level(), a.map_level());
+  shapes::Random random(90);
+  int near = 0;
+  for (int i = 0; i < 600; ++i) {
+    const Pose pose{random.rotation(), 2 * random.on_sphere()};
+    for (const auto& [of_a, of_b] : pairs) {
+      std::uint32_t before = ~0u;
+      for (const double error : {0.0, 0.003, 0.01, 0.0125, 0.015, 0.03, 0.1}) {
+        QueryOptions options;
+        options.absolute_error = error;
+        PairSeed cold;
+        const Answer answer = distance(of_a, of_b, pose, cold, options);
+        ASSERT_LE(answer.steps + answer.plane_tests, before) << "pose " << i << ", error " << error;
+        before = answer.steps + answer.plane_tests;
+        near += answer.lower < 0.003;
+      }
+    }
+  }
+  EXPECT_GT(near, 600);
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, Law10, testing::ValuesIn(shapes::kFamilies),
                          [](const auto& shape) { return shapes::name(shape.param); });
 

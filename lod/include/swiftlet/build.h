@@ -42,7 +42,8 @@ enum class Enclosing : std::uint8_t {
 };
 
 /// Called with the fraction done in [0, 1], never decreasing, and what is being done; returning false cancels the build. Every
-/// 0.25 % or so of the levels; a hull and the last stage, at 1 000 000 triangles some seconds each, are not interrupted.
+/// 0.25 % or so of the levels. CGAL's hull cannot be interrupted; the last stage, Model::from_levels, is not: at 1 000 000
+/// triangles some seconds each.
 using Progress = std::function<bool(double fraction, std::string_view stage)>;
 
 /// What the hierarchy is like. Out of range: BadValue.
