@@ -136,9 +136,8 @@ class Descent {
       const Scene pair = scene_at(place);
       const Level &of_a = a_.level(place.level_a), &of_b = b_.level(place.level_b);
       const double error = deviation(place.level_a, place.level_b);
-      const double hidden = finest(place) ? 0 : error;  // by which levels may overlap and finer ones be apart
       const Glimpse seen = glanced && same_levels(place, first_.at) ? first_.seen : glimpse(pair, of_a, of_b, direction);
-      const Sight sight = look(pair, of_a, of_b, hidden, seen, [&](const Sight& s) {
+      const Sight sight = look(pair, of_a, of_b, error, seen, [&](const Sight& s) {
         if (exact_) return s.near;
         const double lower = larger(answer_.lower, s.lower), upper = smaller(answer_.upper, s.upper + error);
         if (answers(lower, upper) || (!last && !narrow(upper, error))) return true;
