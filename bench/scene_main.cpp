@@ -1,7 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // What precision costs: bytes, build time and query time of models that are no finer than asked, of single shapes and of a
-// scene of 1 000 robot links, which is also asked of other methods. Writes precision.csv and links.csv: README.md.
+// scene of 1 000 robot links, which is also asked of other methods; and what a large body's build takes. Writes precision.csv,
+// links.csv and scale.csv: README.md.
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -95,8 +101,7 @@ QueryOptions asked(double tolerance) {
   return options;
 }
 
-// ---- One shape beside another
-// ------------------------------------------------------------------------------------------------
+// ---- One shape beside another ---------------------------------------------------------------------------------------------
 
 std::vector<Pose> orbit_poses() {
   std::vector<Pose> poses;
@@ -130,8 +135,7 @@ void measure(const Shape& shape, double tolerance, std::ostream& csv) {
       << std::flush;
 }
 
-// ---- A scene of links
-// --------------------------------------------------------------------------------------------------------
+// ---- A scene of links -----------------------------------------------------------------------------------------------------
 
 /// So many instances on a grid, each turning about an axis of its own by 2 degrees a frame, and all pairs of neighbours.
 struct Crowd {
@@ -222,6 +226,52 @@ void measure_scene(const std::vector<Shape>& shapes, std::ostream& csv) {
   }
 }
 
+// ---- A large body ---------------------------------------------------------------------------------------------------------
+
+/// Builds it in a process of its own, so that only its memory is counted.
+void measure_build(const char* name, const BuildOptions& options, const std::filesystem::path& csv) {
+  constexpr std::uint32_t kTriangles = 1'000'000;
+  constexpr double kTolerance = 1e-2;
+  std::fflush(nullptr);
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("no process to build in");
+  if (child == 0) {
+    int code = 1;
+    try {
+      const Mesh mesh = shapes::ellipsoid(shapes::semi_axes(shapes::Family::Fat), kTriangles, 1);
+      std::optional<Model> built;
+      const double taken = seconds([&] { built = must(build(mesh, options)).model; });
+      const Model& model = *built;
+      int level = model.level_count() - 1;
+      while (level > model.finest_level() && model.level(level).deviation > kTolerance / 2 * model.radius()) --level;
+      rusage used{};
+      getrusage(RUSAGE_SELF, &used);
+      std::ofstream(csv, std::ios::app) << name << ',' << options.detail.deviation << ',' << kTriangles << ','
+                                        << model.level_count() << ',' << taken << ',' << double(used.ru_maxrss) / 1024 << ','
+                                        << model.bytes().size() << ',' << model.level(level).prefix << '\n';
+      code = 0;
+    } catch (const std::exception& failure) {
+      std::fprintf(stderr, "%s\n", failure.what());
+    }
+    _exit(code);
+  }
+  int status = 0;
+  if (waitpid(child, &status, 0) < 0 || status != 0) throw std::runtime_error(std::string("no model by ") + name);
+}
+
+void measure_scale(const std::filesystem::path& results) {
+  std::filesystem::create_directories(results);
+  const std::filesystem::path csv = results / "scale.csv";
+  std::ofstream(csv) << "method,deviation,triangles,levels,build_seconds,megabytes,bytes,prefix_for_one_percent\n";
+  BuildOptions options;
+  measure_build("collapse", options, csv);
+  options.detail.deviation = 5e-3;
+  measure_build("collapse", options, csv);
+  options.detail = {};
+  options.method = swiftlet::Method::Peel;
+  measure_build("peel", options, csv);
+}
+
 void run(const std::filesystem::path& results, const std::filesystem::path& cache) {
   std::filesystem::create_directories(results);
   std::vector<Shape> real = links(cache);
@@ -244,8 +294,10 @@ void run(const std::filesystem::path& results, const std::filesystem::path& cach
 }  // namespace swiftlet::bench
 
 int main(int argc, char** argv) try {
-  if (argc != 3) return std::fputs("swiftlet_scene RESULTS_DIRECTORY LINKS_DIRECTORY\n", stderr), 2;
-  swiftlet::bench::run(argv[1], argv[2]);
+  using namespace swiftlet::bench;
+  const bool scale = argc == 4 && std::string(argv[3]) == "scale";
+  if (argc != 3 && !scale) return std::fputs("swiftlet_scene RESULTS_DIRECTORY LINKS_DIRECTORY [scale]\n", stderr), 2;
+  scale ? measure_scale(argv[1]) : run(argv[1], argv[2]);
 } catch (const std::exception& failure) {
   return std::fprintf(stderr, "%s\n", failure.what()), 1;
 }
