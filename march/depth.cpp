@@ -82,12 +82,13 @@ class Deepening {
       const double allowed = larger(target_.absolute, target_.relative * smaller(upper, most));
       if (last || error <= allowed || target_.is_threshold()) {
         solve(seed, direction, error);
-        if (last || end != DepthEnd::NotConverged || answered()) break;
+        if (last || end == DepthEnd::Apart || end == DepthEnd::Budget || answered()) break;
         direction = normal;
       }
       place_ = {std::max(place_.level_a - 1, finest_a_), std::max(place_.level_b - 1, finest_b_), {}};
     }
-    if (end != DepthEnd::Apart && end != DepthEnd::Budget && answered()) end = DepthEnd::Converged;
+    if (end == DepthEnd::NotConverged && steps >= options_.step_budget) end = DepthEnd::Budget;
+    if (end == DepthEnd::NotConverged && answered()) end = DepthEnd::Converged;
   }
 
   Status status() const {
@@ -120,7 +121,7 @@ class Deepening {
   double deviation() const { return pair_.deviation(place_.level_a, place_.level_b); }
   bool answered() const {
     if (target_.is_threshold()) return lower > target_.depth + law_two_ || upper < target_.depth - law_two_;
-    return upper - lower <= larger(larger(target_.absolute, target_.relative * lower), law_two_);
+    return upper - larger(lower, floor_) <= larger(larger(target_.absolute, target_.relative * lower), law_two_);
   }
 
   /// The line of centres, or where maps show the difference of the bodies lower, across the thinner side of either's box;
@@ -247,7 +248,7 @@ class Deepening {
     if (found.lower > 0)
       lower = larger(lower, error > 0 ? (found.lower - error) - 2 * kU * (found.lower + error) : found.lower);
     if (found.upper > upper + law_two_) return;
-    upper = smaller(upper, found.upper);
+    upper = found.upper;
     normal = found.normal;
     level_a = place_.level_a, level_b = place_.level_b;
     has_points = found.active.count > 0;
@@ -311,6 +312,17 @@ void add_work(const Deepening& deep, SignedAnswer& s) {
   s.plane_tests += deep.plane_tests;
 }
 
+/// One interval of a distance that is not surely above 0 and of the depth.
+void join(const Deepening& deep, SignedAnswer& s, PairSeed& seed) {
+  const bool overlapping = deep.proved() || s.verdict == Verdict::Overlapping;
+  if (s.status == Status::Converged) s.status = deep.status();
+  if (overlapping) s.verdict = Verdict::Overlapping;
+  s.upper = smaller(overlapping ? smaller(s.upper, 0) : s.upper, -deep.lower);
+  if (s.upper < 0) s.proof = {};
+  take(deep, s);
+  if (overlapping) deep.store(seed);
+}
+
 /// What the depth alone says.
 SignedAnswer overlap_part(const Deepening& deep) {
   SignedAnswer s;
@@ -342,17 +354,12 @@ SignedAnswer signed_distance(const Model& a, const Model& b, const Pose& b_in_a,
   const Target target{options.absolute_error, options.relative_error, options.beyond, -kInfinity};
   answer = apart(descend(a, b, b_in_a, seed, options, dilation.of_hulls(target, law_two)));
   if (!(answer.lower > 0)) {
-    const bool touching = answer.verdict == Verdict::Touching;  // the distance bounds the depth then
-    PairSeed here = touching ? seed : PairSeed{};               // where bodies met, they need not be deepest
+    const bool touching = answer.verdict == Verdict::Touching;
+    PairSeed here = touching ? seed : PairSeed{};  // where bodies met, they need not be deepest
     here.met = touching;
-    if (deep.steps == 0 || (touching && !deep.narrow(-answer.upper))) deep.run(here, touching ? -answer.upper : 0);
-    const bool overlapping = deep.proved() || answer.verdict == Verdict::Overlapping;
-    if (answer.status == Status::Converged) answer.status = deep.status();
-    if (overlapping) answer.verdict = Verdict::Overlapping;
-    answer.upper = smaller(overlapping ? smaller(answer.upper, 0) : answer.upper, -deep.lower);
-    if (answer.upper < 0) answer.proof = {};
-    take(deep, answer);
-    if (overlapping) deep.store(seed);
+    const double floor = -answer.upper;  // the distance bounds the depth
+    if (deep.end != DepthEnd::Apart && (deep.steps == 0 || !deep.narrow(floor))) deep.run(here, floor);
+    if (deep.end != DepthEnd::Apart) join(deep, answer, seed);
   }
   add_work(deep, answer);
   dilation.dilate(answer, law_two);

@@ -173,8 +173,9 @@ class Polytope {
 
   /// The points that the nearest point is the difference of. Whether it lies along the plane's normal.
   bool witness(Depth& depth) const {
+    if (facet_count_ == 0) return false;
     const Nearest nearest = nearest_point();
-    if (facet_count_ == 0 || is_far(facet_[nearest.facet])) return false;
+    if (is_far(facet_[nearest.facet])) return false;
     depth.active.count = 0;
     depth.point_a = depth.point_b = {0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {

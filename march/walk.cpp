@@ -44,7 +44,10 @@ struct Rise {
   double highest = -kUnknown;  ///< what it rises, times the direction's length
   double length2 = 1;          ///< of the way there, squared
   bool falls() const { return highest > 0; }
-  double rate2() const { return falls() ? highest * highest / length2 : 0; }  ///< of the fall, squared
+  /// Of the fall, squared; less than any where there is none. Of slivers rounding leaves a length of 0 or less.
+  double rate2() const {
+    return falls() ? highest * highest / larger(std::numeric_limits<double>::denorm_min(), length2) : -1;
+  }
 };
 
 class Marcher {
