@@ -89,14 +89,16 @@ bool proves(const Scene& s, const OverlapProof& proof) {
 }
 
 /// The inner polytope of bodies that meet: differences of vertices, their hull taken by brute force over triples, which no
-/// degeneracy confuses. Finds out whether the origin is deeper inside than law 2's bound.
+/// degeneracy confuses. Finds out whether the origin is deeper inside than law 2's bound. Doubles do not know where the facets
+/// of a needle face.
+template <class Real>
 class Contact {
  public:
   Contact(const Scene& scene, std::uint32_t& plane_tests) : scene_(scene), tests_(plane_tests) {}
 
   void add(std::uint32_t a, std::uint32_t b) {
     if (count_ == kContactPoints || known(a, b)) return;
-    points_[count_++] = difference<double>(scene_, a, b);
+    points_[count_++] = difference<Real>(scene_, a, b);
   }
 
   /// `depth` becomes the radius of a ball about the origin inside a tetrahedron, or 0 where it took more points. Touching when
@@ -138,7 +140,7 @@ class Contact {
   Vec longest() const {
     Vec best{0, 0, 0};
     for (int k = 1; k < count_; ++k) {
-      const Vec d = points_[k].p - points_[0].p;
+      const Vec d = rounded(points_[k].p - points_[0].p);
       if (dot(d, d) > dot(best, best)) best = d;
     }
     return best;
@@ -181,12 +183,13 @@ class Contact {
     for (int i = 0; i < count_; ++i) {
       for (int j = i + 1; j < count_; ++j) {
         for (int k = j + 1; k < count_; ++k) {
-          const Vec n = normalised(cross(points_[j].p - points_[i].p, points_[k].p - points_[i].p));
+          const V3<Real>& p = points_[std::size_t(i)].p;
+          const Vec n = normalised(rounded(cross(points_[std::size_t(j)].p - p, points_[std::size_t(k)].p - p)));
           if (dot(n, n) == 0) continue;
-          const double offset = dot(n, points_[i].p);
+          const double offset = dot(n, rounded(p));
           bool above = false, below = false;
           for (int l = 0; l < count_; ++l) {
-            const double height = dot(n, points_[l].p) - offset;
+            const double height = dot(n, rounded(points_[std::size_t(l)].p)) - offset;
             above = above || height > scene_.point_error;
             below = below || height < -scene_.point_error;
           }
@@ -227,7 +230,7 @@ class Contact {
   const Scene& scene_;
   std::uint32_t& tests_;
   int count_ = 0;
-  std::array<Difference<double>, kContactPoints> points_{};
+  std::array<Difference<Real>, kContactPoints> points_{};
 };
 
 /// Which bounds a certificate gathers: the best of all iterates, or plane and points of the same one.
@@ -356,7 +359,7 @@ bool settle(const Scene& scene, const Goal& goal, Meeting& m, std::uint32_t& pla
   if (m.status == MarchStatus::Disjoint && !near_zero) return true;
   m.status = MarchStatus::NotConverged;
   if (!descent.met() && !near_zero) return false;
-  Contact contact(scene, plane_tests);
+  Contact<Real> contact(scene, plane_tests);
   for (int k = 0; k < descent.count(); ++k) contact.add(descent[k].a, descent[k].b);
   Vec normal = m.certificate.normal;
   const MarchStatus status = contact.decide(normal, m.proof, m.depth);
