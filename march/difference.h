@@ -10,13 +10,6 @@
 
 namespace swiftlet {
 
-static inline double rounded(double x) { return x; }
-static inline double rounded(const DoubleDouble& x) { return double(x); }
-template <class Real>
-static inline Vec rounded(const V3<Real>& v) {
-  return {rounded(v.x), rounded(v.y), rounded(v.z)};
-}
-
 /// The difference of a vertex pair: p = a - (R b + t).
 template <class Real>
 struct Difference {

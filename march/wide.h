@@ -12,6 +12,13 @@ template <class Real>
 static inline V3<Real> widened(const Vec& v) {
   return {Real(v.x), Real(v.y), Real(v.z)};
 }
+static inline double rounded(double x) { return x; }
+static inline double rounded(const DoubleDouble& x) { return double(x); }
+template <class Real>
+static inline Vec rounded(const V3<Real>& v) {
+  return {rounded(v.x), rounded(v.y), rounded(v.z)};
+}
+
 /// A point carried by the pose.
 template <class Real>
 static inline V3<Real> moved(const Motion& m, const Vec& p) {

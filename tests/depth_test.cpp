@@ -460,5 +460,75 @@ TEST(SignedDistance, OfBodiesWithoutThicknessIsNone) {
   expect(square, cube, at(0, 0, .25), -.75);
 }
 
+/// A length rounded to less than 0 made the rate of a fall negative, less than that of a body that has no way at all.
+TEST(Regress, SliversLedAWalkToAFaceThatIsNone) {
+  const Body sliver = body({{0x1.b1044a6e5ec28p-1, -0x1.ffee1d95d0cccp-33, -0x1.88bb92d68ceccp-30},
+                            {-0x1.918e263f21cc8p-1, 0x1.afbcc5b1ddcebp-30, -0x1.2fe917504d4bcp-31},
+                            {0x1.f25ccd5000df8p-2, 0x1.908b780e21839p-29, 0x1.ffa2fafcf5f4ep-35}}),
+             point = body({{0x1.a935cf044d884p-1, -0x1.2257253ab299fp-29, -0x1.456427399b7fap-28}});
+  Pose pose;
+  pose.rotation << -0x1.105ccffde83cep-1, -0x1.ab5abd6bec293p-1, -0x1.240cb83b152d6p-3,  //
+      0x1.6e96fd4f2998cp-3, 0x1.b860a8a51552p-5, -0x1.f6fa7390db2f8p-1,                  //
+      0x1.a7bfcbc0b6e2ap-1, -0x1.18a1ee38037bep-1, 0x1.eed631ea602cp-4;
+  pose.translation = {0x1.4b66df0d5eafdp-1, 0x1.d7a8114d53c8p-3, 0x1.b53baf0d71854p-3};
+  PairSeed seed;
+  EXPECT_EQ(fault(sliver, point, pose, signed_distance(sliver.model, point.model, pose, seed)), "");
+
+  shapes::Random random(5);
+  const Pose turn{shapes::rotation(Vec3(0.3, 0.2, 0.1).normalized(), 0.7), Vec3(0.1, 0.2, 0.3)};
+  const Body meshed = body(shapes::moved(shapes::meshed_cube(4), turn).points), cube = body(shapes::cube().points);
+  for (int i = 0; i < 300; ++i) {
+    const Pose somewhere{random.rotation(), random.in_ball() * 4};
+    seed = {};
+    EXPECT_EQ(fault(meshed, cube, somewhere, signed_distance(meshed.model, cube.model, somewhere, seed)), "") << i;
+  }
+}
+
+/// A segment across a body of a millionth of its length.
+TEST(Regress, DoublesSawNoFacetOfANeedlesDifferences) {
+  const Vec3 end{-0x1.3dc666fbddb4ep-2, 0x1.76f8120aa2b8fp-3, -0x1.62fb87835852dp-2};
+  Points small;
+  const double x = 0x1.ebe6f5e72aa4ap-21, y = 0x1.8df50d17a22c9p-20;
+  for (const double i : {-1.0, 1.0}) {
+    for (const double j : {-1.0, 1.0}) small.insert(small.end(), {{i * x, j * y, 0}, {i * y, 0, j * x}, {0, i * x, j * y}});
+  }
+  const Body segment = body({end, -end}), ball = body(small);
+  Pose pose;
+  pose.translation = {0x1.0e9ba6f19346ap-23, 0x1.5e253f95a7bb5p-20, 0x1.354c70fc0466fp-21};
+  PairSeed seed;
+  const Answer answer = distance(segment.model, ball.model, pose, seed);
+  EXPECT_EQ(answer.status, Status::Converged);
+  EXPECT_EQ(answer.verdict, Verdict::Touching);
+  seed = {};
+  EXPECT_EQ(fault(segment, ball, pose, signed_distance(segment.model, ball.model, pose, seed)), "");
+}
+
+/// What a tolerance leaves open between apart and overlapping is one interval, and no wider than that.
+TEST(SignedDistance, IsAsNarrowAsAskedAroundZero) {
+  const shapes::Pair meshes = shapes::pair(shapes::Family::Fat, 200);
+  const Body fat = body(meshes.a.points), other = body(meshes.b.points), cube = body(shapes::cube().points);
+  shapes::Random random(1);
+  int open = 0;
+  for (int i = 0; i < 600; ++i) {
+    const bool round = i % 2;
+    const Pose pose{random.rotation(), random.on_sphere() * random.uniform(1.8, round ? 2.6 : 3)};
+    const Body &a = round ? fat : cube, &b = round ? other : cube;
+    PairSeed cold;
+    const SignedAnswer exact = signed_distance(a.model, b.model, pose, cold);
+    for (const double error : {0.1, 0.3, 0.5, 1.0, 2.0, 5.0}) {
+      QueryOptions options;
+      options.absolute_error = error;
+      PairSeed seed;
+      const SignedAnswer s = signed_distance(a.model, b.model, pose, seed, options);
+      ASSERT_EQ(s.status, Status::Converged) << i << ' ' << error;
+      ASSERT_LE(s.upper - s.lower, error * (1 + 1e-12)) << i;
+      ASSERT_LE(s.lower, exact.upper) << i;
+      ASSERT_GE(s.upper, exact.lower) << i;
+      open += s.lower < 0 && s.upper > 0;
+    }
+  }
+  EXPECT_GT(open, 100);
+}
+
 }  // namespace
 }  // namespace swiftlet

@@ -718,6 +718,31 @@ void random_hulls(Examiner& examiner, std::uint64_t) {
   }
 }
 
+/// Turned cubes of many squares, whose triangles lie in one plane but for rounding, slivers among them; needles and plates to
+/// 1e-12.
+void slivers(Examiner& examiner, std::uint64_t) {
+  Random& random = examiner.random;
+  const auto body = [&] {
+    std::vector<Vec3> points;
+    if (random.bits() % 2) {
+      const Mesh turned = shapes::moved(shapes::meshed_cube(2 + below(random, 4)), {random.rotation(), random.in_ball()});
+      points = random.bits() % 4 == 0 ? shapes::float_rounded(turned).points : turned.points;
+    } else {
+      const Vec3 axes(1, random.bits() % 2 ? 1 : decades(random, 0, 12), decades(random, 0, 12));
+      for (const Vec3& p : ball_points(random, 3 + below(random, 8))) points.push_back(p.cwiseProduct(axes));
+    }
+    return quickly_built(points);
+  };
+  for (int i = 0; i < 3; ++i) {
+    const Subject a = body(), b = body();
+    PairSeed warm;
+    for (int k = 0; k < 6; ++k) {
+      Pair pair(examiner, a, b, {random.rotation(), random.in_ball() * 4});
+      examiner.hit(pair.ask(warm).verdict == Verdict::Disjoint);
+    }
+  }
+}
+
 constexpr Family kFamilies[] = {
     {"lattice of quarter turns", "G16 G18", "touching", 0.1, 0.3, 78, lattice_quarters},
     {"lattice of eighth turns", "G16 G18", "touching", 0.01, 0.3, 78, lattice_eighths},
@@ -741,6 +766,7 @@ constexpr Family kFamilies[] = {
     {"seeds", "", "warm is less work than cold", 0.2, 1, 40, seeds},
     {"stretched rotations", "", "disjoint", 0.2, 0.95, 40, stretched},
     {"random hulls", "", "disjoint", 0.3, 0.7, 40, random_hulls},
+    {"slivers", "", "disjoint", 0.4, 0.97, 40, slivers},
 };
 
 }  // namespace

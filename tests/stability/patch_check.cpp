@@ -26,10 +26,11 @@ bool is_named(const ConvexView& view, Handle feature) {
   return false;
 }
 
-/// What the faces of a body are flat to by themselves, over its extent: 4 ulps of the coordinates' own precision.
+/// What the faces of a body are flat to by themselves, over its extent: 4 ulps of the corners' own precision.
 double own_flatness(const Subject& subject) {
-  const auto is_single = [](const Vec3& p) { return p.cast<float>().cast<double>() == p; };
-  return std::all_of(subject.points.begin(), subject.points.end(), is_single) ? 0x1p-21 : 0x1p-50;
+  const auto is_single = [](const Vertex& v) { return float(v.x) == v.x && float(v.y) == v.y && float(v.z) == v.z; };
+  const std::span<const Vertex> corners = subject.model.level(0).view.vertices;
+  return std::all_of(corners.begin(), corners.end(), is_single) ? 0x1p-21 : 0x1p-50;
 }
 
 /// Of one body: a point less its radius, what it is said to lie on, and where the body is.
