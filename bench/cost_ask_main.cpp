@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
+#include <swiftlet/depth.h>
 #include <swiftlet/model_file.h>
 #include <swiftlet/query.h>
 
 int main(int argc, char** argv) {
   using namespace swiftlet;
-  if (argc != 3 && argc != 4) return std::fputs("swiftlet_cost_ask PREFIX distance|intersects|cold [ERROR]\n", stderr), 2;
+  if (argc != 3 && argc != 4)
+    return std::fputs("swiftlet_cost_ask PREFIX distance|intersects|cold|signed_distance [ERROR]\n", stderr), 2;
   const std::string prefix = argv[1], question = argv[2];
   const Result<Model> a = load(prefix + "-a.swl"), b = load(prefix + "-b.swl");
   if (!a || !b) return std::fprintf(stderr, "%s\n", (a ? b : a).error().message.c_str()), 1;
@@ -26,10 +28,12 @@ int main(int argc, char** argv) {
   double steps = 0, tests = 0;
   for (const Pose& pose : poses) {
     if (question == "cold") seed = {};
-    const Answer answer = question == "intersects" ? intersects(a.value(), b.value(), pose, seed)
-                                                   : distance(a.value(), b.value(), pose, seed, options);
-    steps += answer.steps;
-    tests += answer.plane_tests;
+    const auto count = [&](const auto& answer) { steps += answer.steps, tests += answer.plane_tests; };
+    if (question == "signed_distance")
+      count(signed_distance(a.value(), b.value(), pose, seed, options));
+    else
+      count(question == "intersects" ? intersects(a.value(), b.value(), pose, seed)
+                                     : distance(a.value(), b.value(), pose, seed, options));
   }
   const double n = double(poses.size());
   std::printf("queries %.0f steps %.2f tests %.1f\n", n, steps / n, tests / n);
