@@ -13,6 +13,9 @@
 //        r3
 #include "confirm.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "difference.h"
 #include "support_map.h"
 

@@ -4,6 +4,8 @@
 #include <swiftlet/patch.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <span>
 
 #include "crossing.h"
