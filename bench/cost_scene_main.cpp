@@ -34,9 +34,8 @@ int main(int argc, char** argv) {
   if (argc < 6 || argc > 9) {
     return std::fputs(
                "swiftlet_cost_scene CACHE fat|plate|long TRIANGLES STEP PREFIX [DEVIATION [RATE [LEVELS]]]\n"
-               "step 400: random; d and a step: overlapping by 0.01 of the shortest semi-axis; 0 for the deviation or the "
-               "rate:\n"
-               "none. Prints what the model of lod/cost.h expects.\n",
+               "step 400: random; d and a step: overlapping by 0.01 of the shortest semi-axis.\n"
+               "0 for the deviation or the rate: none. Prints what the model of lod/cost.h expects.\n",
                stderr),
            2;
   }

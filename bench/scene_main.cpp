@@ -228,10 +228,11 @@ void measure_scene(const std::vector<Shape>& shapes, std::ostream& csv) {
 
 // ---- A large body ---------------------------------------------------------------------------------------------------------
 
+constexpr double kScaleTolerance = 1e-2;  ///< of a pair's distance; the body's radius is 1
+
 /// Builds it in a process of its own, so that only its memory is counted.
 void measure_build(const char* name, const BuildOptions& options, const std::filesystem::path& csv) {
   constexpr std::uint32_t kTriangles = 1'000'000;
-  constexpr double kTolerance = 1e-2;
   std::fflush(nullptr);
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("no process to build in");
@@ -243,7 +244,7 @@ void measure_build(const char* name, const BuildOptions& options, const std::fil
       const double taken = seconds([&] { built = must(build(mesh, options)).model; });
       const Model& model = *built;
       int level = model.level_count() - 1;
-      while (level > model.finest_level() && model.level(level).deviation > kTolerance / 2 * model.radius()) --level;
+      while (level > model.finest_level() && model.level(level).deviation > kScaleTolerance / 2) --level;
       rusage used{};
       getrusage(RUSAGE_SELF, &used);
       std::ofstream(csv, std::ios::app) << name << ',' << options.detail.deviation << ',' << kTriangles << ','
@@ -265,7 +266,7 @@ void measure_scale(const std::filesystem::path& results) {
   std::ofstream(csv) << "method,deviation,triangles,levels,build_seconds,megabytes,bytes,prefix_for_one_percent\n";
   BuildOptions options;
   measure_build("collapse", options, csv);
-  options.detail.deviation = 5e-3;
+  options.detail.deviation = kScaleTolerance / 2;
   measure_build("collapse", options, csv);
   options.detail = {};
   options.method = swiftlet::Method::Peel;

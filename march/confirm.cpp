@@ -25,8 +25,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 using Corner = Difference<double>;
 
-bool same(const Corner& p, const Corner& q) { return p.a == q.a && p.b == q.b; }
-
 /// A polygon between points of M, counter-clockwise along its unit normal; below it a ring of more.
 class Crown {
  public:

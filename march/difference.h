@@ -22,6 +22,11 @@ static inline Difference<Real> difference(const Scene& s, std::uint32_t a, std::
   return {widened<Real>(vec(s.a.vertices[a])) - moved<Real>(s.b_in_a, vec(s.b.vertices[b])), a, b};
 }
 
+template <class Real>
+static inline bool same(const Difference<Real>& p, const Difference<Real>& q) {
+  return p.a == q.a && p.b == q.b;
+}
+
 /// Climbs the rings to a vertex that looks the highest along a direction of the body's own. Every vertex has one height,
 /// rounded: none comes twice.
 static inline std::uint32_t ascend(const ConvexView& view, const Vec& own, std::uint32_t v, std::uint32_t& plane_tests) {

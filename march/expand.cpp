@@ -334,7 +334,6 @@ class Polytope {
     for (int k = 0; k < tops; ++k) facet_[std::size_t(k)].known = true;
     return link();
   }
-  static bool same(const Corner& p, const Corner& q) { return p.a == q.a && p.b == q.b; }
   /// Whether the inside surely is behind a triangle.
   bool outward(int i, int j, int k) const {
     const V3<Real>& p = corner_[std::size_t(i)].p;

@@ -699,6 +699,19 @@ void stretched(Examiner& examiner, std::uint64_t) {
   }
 }
 
+/// Pairs of what `body` makes, so many poses each, the centres within a ball.
+template <class Make>
+void anywhere(Examiner& examiner, Make body, int poses, double radius) {
+  for (int i = 0; i < 3; ++i) {
+    const Subject a = body(), b = body();
+    PairSeed warm;
+    for (int k = 0; k < poses; ++k) {
+      Pair pair(examiner, a, b, {examiner.random.rotation(), examiner.random.in_ball() * radius});
+      examiner.hit(pair.ask(warm).verdict == Verdict::Disjoint);
+    }
+  }
+}
+
 /// Hulls of 4 to 40 points in a ball, some of float32 coordinates, anywhere from deep inside each other to apart.
 void random_hulls(Examiner& examiner, std::uint64_t) {
   Random& random = examiner.random;
@@ -708,14 +721,7 @@ void random_hulls(Examiner& examiner, std::uint64_t) {
       for (Vec3& p : points) p = p.cast<float>().cast<double>();
     return quickly_built(points);
   };
-  for (int i = 0; i < 3; ++i) {
-    const Subject a = hull(), b = hull();
-    PairSeed warm;
-    for (int k = 0; k < 8; ++k) {
-      Pair pair(examiner, a, b, {random.rotation(), random.in_ball() * 2});
-      examiner.hit(pair.ask(warm).verdict == Verdict::Disjoint);
-    }
-  }
+  anywhere(examiner, hull, 8, 2);
 }
 
 /// Turned cubes of many squares, whose triangles lie in one plane but for rounding, slivers among them; needles and plates to
@@ -733,14 +739,7 @@ void slivers(Examiner& examiner, std::uint64_t) {
     }
     return quickly_built(points);
   };
-  for (int i = 0; i < 3; ++i) {
-    const Subject a = body(), b = body();
-    PairSeed warm;
-    for (int k = 0; k < 6; ++k) {
-      Pair pair(examiner, a, b, {random.rotation(), random.in_ball() * 4});
-      examiner.hit(pair.ask(warm).verdict == Verdict::Disjoint);
-    }
-  }
+  anywhere(examiner, body, 6, 4);
 }
 
 constexpr Family kFamilies[] = {
