@@ -12,7 +12,7 @@
 #include "crossing.h"
 #include "difference.h"
 #include "dilate.h"
-#include "expand.h"
+#include "epa.h"
 #include "model_pair.h"
 #include "progress.h"
 #include "ring.h"
@@ -234,7 +234,7 @@ class Deepening {
     }
     if (goal.error > 0) at = {}, at.direction = direction;  // of a coarse pair bounds are wanted, and no facet
     goal.step_budget = options_.step_budget - std::min(steps, options_.step_budget);
-    found = expand(pair, of_a, of_b, at, goal, plane_tests);
+    found = epa(pair, of_a, of_b, at, goal, plane_tests);
     return steps += found.steps, found;
   }
 

@@ -111,6 +111,19 @@ double permanent(const Vec& u, const Vec& v, const Vec& w) {
 /// The sign of `value` if no error up to `bound` can change it, else 0.
 int certain_sign(double value, double bound) { return value > bound ? 1 : value < -bound ? -1 : 0; }
 
+/// b - a in two doubles per coordinate, exactly.
+V3<DoubleDouble> wide_difference(const double b[3], const double a[3]) {
+  return {two_sum(b[0], -a[0]), two_sum(b[1], -a[1]), two_sum(b[2], -a[2])};
+}
+
+/// The two largest parts of an expansion.
+template <int N>
+DoubleDouble leading(const Expansion<N>& e) {
+  DoubleDouble sum(0);
+  for (int i = e.count; i-- > 0 && i + 2 >= e.count;) sum = sum + DoubleDouble(e.part[i]);
+  return sum;
+}
+
 /// a - (R b + t), one coordinate.
 Expansion<8> offset(double a, const Vec& row, const double b[3], double t) {
   Expansion<8> e;
@@ -131,13 +144,29 @@ Expansion3<8> offset3(const double a[3], const double b[3], const Motion& m) {
 
 int orientation(const double a[3], const double b[3], const double c[3], const double d[3]) {
   const Vec u = subtract(b, a), v = subtract(c, a), w = subtract(d, a);
-  if (const int sign = certain_sign(dot(cross(u, v), w), kTripleProductError * permanent(u, v, w))) return sign;
+  const double magnitude = permanent(u, v, w);
+  if (const int sign = certain_sign(dot(cross(u, v), w), kTripleProductError * magnitude)) return sign;
+  const auto wide = dot(cross(wide_difference(b, a), wide_difference(c, a)), wide_difference(d, a));
+  if (const int sign = certain_sign(double(wide), kWideTripleProductError * magnitude)) return sign;
   return dot3(cross3(difference3(b, a), difference3(c, a)), difference3(d, a)).sign();
 }
 
 bool collinear(const double a[3], const double b[3], const double c[3]) {
   const auto n = cross3(difference3(b, a), difference3(c, a));
   return n[0].sign() == 0 && n[1].sign() == 0 && n[2].sign() == 0;
+}
+
+Plane plane(const Vec& a, const Vec& b, const Vec& c) {
+  const V3<DoubleDouble> u = wide_difference(&b.x, &a.x), v = wide_difference(&c.x, &a.x);
+  V3<DoubleDouble> n = cross(u, v);
+  const auto largest = [](const V3<DoubleDouble>& w) { return max_abs({w.x.high, w.y.high, w.z.high}); };
+  if (largest(n) < kLeastWideArea * largest(u) * largest(v)) {
+    const auto exact_n = cross3(difference3(&b.x, &a.x), difference3(&c.x, &a.x));
+    n = {leading(exact_n[0]), leading(exact_n[1]), leading(exact_n[2])};
+  }
+  const Unit unit = unit_of({n.x.high, n.y.high, n.z.high});
+  const V3<DoubleDouble> p{DoubleDouble(a.x), DoubleDouble(a.y), DoubleDouble(a.z)};
+  return {unit.n, double(dot(n, p)) * unit.scale};
 }
 
 int compare_along(const double n[3], const double w[3], const double v[3]) {

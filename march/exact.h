@@ -22,6 +22,13 @@ inline int orientation(const Vertex& a, const Vertex& b, const Vertex& c, const 
 /// Whether a, b, c lie on one line.
 bool collinear(const double a[3], const double b[3], const double c[3]);
 
+/// The plane through three points, seen counter-clockwise from where its normal points.
+struct Plane {
+  Vec normal;     ///< unit, right to 3 u however thin the triangle; 0 where the points lie on one line
+  double height;  ///< above the origin, right to kPlaneHeightError of itself and kPlaneHeightFloor of the largest coordinate
+};
+Plane plane(const Vec& a, const Vec& b, const Vec& c);
+
 /// The sign of n . (w - v).
 int compare_along(const double n[3], const double w[3], const double v[3]);
 

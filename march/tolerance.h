@@ -40,6 +40,15 @@ inline constexpr double kTurnedSupportError = 9 * kU;
 inline constexpr double kTurnedError = 4 * kU;
 /// Either in double-double arithmetic, whose sums and products keep at least 100 bits each.
 inline constexpr double kWideDotError = 0x1p-96;
+/// (b - a) x (c - a) . (d - a) in the same arithmetic, from exact differences: 2 products, 1 difference, 1 product, 2 sums, each
+/// right to 2^-100. Relative to the sum of the magnitudes of the terms.
+inline constexpr double kWideTripleProductError = 0x1p-96;
+/// (b - a) x (c - a) in the same arithmetic is right to 2^-99 of the product of the lengths. Where it is longer than this share
+/// of that product, it is right to 2^-58 of itself; else expansions tell. Dimensionless.
+inline constexpr double kLeastWideArea = 0x1p-40;
+/// The height of a plane over its exact normal's length: 5 u for the length, 2 for the product, rounded up; and what the normal
+/// leaves uncertain, 2^-57, where the height is small beside the points. Relative to the height, and to the largest coordinate.
+inline constexpr double kPlaneHeightError = 8 * kU, kPlaneHeightFloor = kU / 8;
 /// Three factors a - (R b + t) of 1 product and 4 sums each, then 2 products, 1 difference, 2 sums.
 inline constexpr double kOffsetTripleProductError = 26 * kU;
 
@@ -157,11 +166,11 @@ inline constexpr int kMostCorners = 64;
 /// Points of the inner polytope that tells touching from overlapping: 300 vertices slid into contact needed 20 to 32.
 inline constexpr int kContactPoints = 32;
 
-// ---- Depth (expand.cpp) -----------------------------------------------------------------------------------------------------
+// ---- Depth (epa.cpp, confirm.cpp) ---------------------------------------------------------------------------------------------
 
-/// A tetrahedron is begun where each point lies so many point errors off the others: its centre, at a quarter of its height,
-/// then lies below each face by more than the two that a facet asks for. Dimensionless.
-inline constexpr double kRoom = 16;
+/// A point of the Minkowski difference put on a grid of half an ulp of the magnitude's binade, 2 u of it: u in each coordinate,
+/// sqrt(3) for the vector. Relative to the magnitude.
+inline constexpr double kGridError = 2 * kU;
 /// A triple product u x v . w of differences: kCrossError for u x v, 4 u for the rest, and w is no longer than twice the
 /// magnitude; rounded up. Relative to |u| |v| magnitude.
 inline constexpr double kOutwardError = 32 * kU;
