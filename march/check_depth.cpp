@@ -122,7 +122,9 @@ struct Solid {
 class LeastHeight {
  public:
   LeastHeight(const Scene& scene, int exponent)
-      : a_(scene.a, kAtRest, exponent), b_(scene.b, scaled(scene.b_in_a, exponent), exponent) {}
+      : a_(scene.a, kAtRest, exponent),
+        b_(scene.b, scaled(scene.b_in_a, exponent), exponent),
+        tie_(kHeightError / 2 * std::ldexp(scene.magnitude, exponent)) {}
 
   /// Infinite where all differences lie on a line.
   DoubleDouble find() {
@@ -144,6 +146,9 @@ class LeastHeight {
   }
 
  private:
+  /// By more than rounding: of planes as near one will do.
+  bool is_lower(const DoubleDouble& height) const { return height + tie_ < least_; }
+
   void take(const Wide& n, const DoubleDouble& height) {
     const DoubleDouble square = dot(n, n);
     if (!(square.high > 0)) return;
@@ -161,17 +166,21 @@ class LeastHeight {
       if (!may_bound(side * rough_side(a_.rough_normal(e.beside[k]), f.along))) return;
       if (!may_bound(side * rough_side(b_.rough_normal(f.beside[k]), e.along))) return;
     }
-    for (const std::size_t k : {0, 1}) {
-      const int side = k == 0 ? 1 : -1;
-      if (!may_bound(side * side_in_a(e.beside[k], f)) || !may_bound(side * side_in_b(f.beside[k], e))) return;
-    }
     Wide n = cross(e.along.fine, f.along.fine);
     if (!(max_abs(rounded(n)) >= 4 * kCancelled)) {
       n = direction(exact::edge_normal(a_.at(e.tail), a_.at(e.head), b_.motion, b_.at(f.head), b_.at(f.tail))).fine;
     }
-    const DoubleDouble height = dot(n, a_.points[e.tail] - b_.points[f.tail]);
-    if (below) take(n, height);
-    if (above) take(n, -height);
+    const DoubleDouble square = dot(n, n);
+    if (!(square.high > 0)) return;
+    const DoubleDouble height = dot(n, a_.points[e.tail] - b_.points[f.tail]) / root(square);
+    below = below && is_lower(height), above = above && is_lower(-height);
+    if (!below && !above) return;
+    for (const std::size_t k : {0, 1}) {
+      const int side = k == 0 ? 1 : -1;
+      if (!may_bound(side * side_in_a(e.beside[k], f)) || !may_bound(side * side_in_b(f.beside[k], e))) return;
+    }
+    if (below) least_ = height;
+    if (above && is_lower(-height)) least_ = -height;
   }
 
   /// The sign of n . f for a facet of A, 0 without one.
@@ -192,6 +201,7 @@ class LeastHeight {
   }
 
   const Solid a_, b_;
+  const double tie_;
   DoubleDouble least_ = kInfinity;
 };
 

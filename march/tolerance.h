@@ -101,8 +101,9 @@ inline constexpr double kRoughSideError = 84 * kU;
 /// n . p of such a normal in doubles: 7 u of terms whose sum is at most 6 coordinates. Relative to the largest coordinate.
 inline constexpr double kRoughHeightError = 42 * kU;
 /// The height of a plane: its normal leans by at most sqrt(3) kNormalError, points are off by 2^-97 of the magnitude, and product,
-/// root and quotient by as much. Relative to the magnitude of coordinates and translation.
-inline constexpr double kHeightError = 0x1p-82;
+/// root and quotient by as much, 2^-82 in all; and of planes that differ by as much any is the least. Relative to the magnitude of
+/// coordinates and translation.
+inline constexpr double kHeightError = 0x1p-81;
 /// Bodies are checked at a scale where the magnitude of coordinates and translation is 2 to this; and of a rotation entries below
 /// the second count as 0, which moves points by less than 2^-247 of themselves. Coordinates are then multiples of 2^-138, entries
 /// of 2^-303, and the product of three of those and two of these of 2^-1020: no bit of a sign is lost.
