@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What checks are made of: supports and containment by brute force, in 106 bits, and failures in words.
+// What checks are made of: supports and containment by brute force, in 106 bits or exactly, and failures in words.
 #pragma once
 
 #include <cstdio>
 
 #include <swiftlet/check.h>
 
+#include "exact.h"
 #include "scene.h"
 #include "surface.h"
 #include "tolerance.h"
@@ -54,16 +55,45 @@ static inline double gap_along(const Body& a, const Body& b, const Motion& b_in_
   return double(least_b - most_a) / norm(n);
 }
 
-/// Whether a point lies in a body, up to `slack`: below every face's plane by then.
-static inline bool holds(const ConvexView& view, const Vec& p, double slack) {
+/// R (w - v) of two vertices.
+static inline Wide turned(const Motion& m, const Vertex& w, const Vertex& v) {
+  const Wide d = wide(vec(w)) - wide(vec(v));
+  return {dot(wide(m.row_x), d), dot(wide(m.row_y), d), dot(wide(m.row_z), d)};
+}
+
+/// R (b - a) x R (c - a), off by kNormalError of its largest coordinate. Of slivers the products cancel: exactly, then.
+static inline Wide facet_normal(const Motion& m, const Vertex& a, const Vertex& b, const Vertex& c) {
+  const Wide u = turned(m, b, a), v = turned(m, c, a), n = cross(u, v);
+  if (max_abs(rounded(n)) >= kCancelled * max_abs(rounded(u)) * max_abs(rounded(v))) return n;
+  return exact::turned_normal(m, &a.x, &b.x, &c.x);
+}
+
+/// Whether a moved body holds a point, up to `slack`: below every face's plane by then.
+static inline bool holds(const ConvexView& view, const Motion& m, const Vec& p, double slack) {
   if (view.face_first.empty() || view.vertices.size() < 4)
     return true;  // flat bodies: the distance to them is checked by lower
+  const double outward = dot(m.row_x, cross(m.row_y, m.row_z)) < 0 ? -1 : 1;  // a reflection turns normals inside
   bool inside = true;
   each_facet(view, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const Wide o = wide(vec(view.vertices[a])), n = cross(wide(vec(view.vertices[b])) - o, wide(vec(view.vertices[c])) - o);
-    inside = inside && double(dot(n, wide(p) - o)) <= slack * norm({double(n.x), double(n.y), double(n.z)});
+    const Wide n = facet_normal(m, view.vertices[a], view.vertices[b], view.vertices[c]);
+    const double height = outward * double(dot(n, wide(p) - wide(m, vec(view.vertices[a]))));
+    inside = inside && height <= slack * norm(rounded(n));
   });
   return inside;
+}
+
+/// Whether the proof names vertices of level 0 whose differences hold the origin.
+static inline Check check_proof(const ConvexView& a, const ConvexView& b, const Motion& b_in_a, const OverlapProof& proof) {
+  if (proof.count != 4) return failed("overlap without a proof on level 0");
+  std::array<std::array<double, 3>, 4> pa, pb;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (proof.vertex_a[k] >= a.vertices.size() || proof.vertex_b[k] >= b.vertices.size())
+      return failed("the proof names no vertex");
+    const Vertex &va = a.vertices[proof.vertex_a[k]], &vb = b.vertices[proof.vertex_b[k]];
+    pa[k] = {va.x, va.y, va.z};
+    pb[k] = {vb.x, vb.y, vb.z};
+  }
+  return exact::tetrahedron_holds_origin(pa, pb, b_in_a) ? kPassed : failed("the proof does not hold the origin");
 }
 
 }  // namespace swiftlet

@@ -4,7 +4,6 @@
 #include <swiftlet/check.h>
 
 #include "brute.h"
-#include "exact.h"
 #include "support_map.h"
 
 namespace swiftlet {
@@ -71,9 +70,8 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
     apart = norm(q - p) + level_a.deviation + level_b.deviation * (1 + 2 * quality.error);
     if (!hulls_overlap && !(apart <= answer.upper + radii + 2 * slack))
       return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart - radii);
-    const Motion back = motion(inverse(b_in_a));
-    if (!holds(level_a.view, p, slack)) return failed("point_a is not on level %d of A", answer.level_a);
-    if (!holds(level_b.view, apply(back, q), slack)) return failed("point_b is not on level %d of B", answer.level_b);
+    if (!holds(level_a.view, kAtRest, p, slack)) return failed("point_a is not on level %d of A", answer.level_a);
+    if (!holds(level_b.view, m, q, slack)) return failed("point_b is not on level %d of B", answer.level_b);
   }
   switch (answer.verdict) {
     case Verdict::Disjoint:
@@ -88,17 +86,8 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
           return failed("overlap of radii with points %.17g apart", apart);
         break;
       }
-      if (answer.level_a != 0 || answer.level_b != 0 || answer.proof.count != 4)
-        return failed("overlap without a proof on level 0");
-      std::array<std::array<double, 3>, 4> pa, pb;
-      for (std::size_t k = 0; k < 4; ++k) {
-        if (answer.proof.vertex_a[k] >= exact_a.vertices.size() || answer.proof.vertex_b[k] >= exact_b.vertices.size())
-          return failed("the proof names no vertex");
-        const Vertex &va = exact_a.vertices[answer.proof.vertex_a[k]], &vb = exact_b.vertices[answer.proof.vertex_b[k]];
-        pa[k] = {va.x, va.y, va.z};
-        pb[k] = {vb.x, vb.y, vb.z};
-      }
-      if (!exact::tetrahedron_holds_origin(pa, pb, m)) return failed("the proof does not hold the origin");
+      if (answer.level_a != 0 || answer.level_b != 0) return failed("overlap without a proof on level 0");
+      if (const Check proof = check_proof(exact_a, exact_b, m, answer.proof); !proof) return proof;
       break;
     }
     case Verdict::Undecided: break;

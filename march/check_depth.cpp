@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A depth by its definition: the least height of all planes that can bound the Minkowski difference. Nothing here expands.
+// A depth by its definition: the least height of all planes that can bound the Minkowski difference, each told by exact signs.
+// Nothing here expands.
 #include <swiftlet/check.h>
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "brute.h"
@@ -15,89 +17,192 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Vec narrowed(const Wide& v) { return {double(v.x), double(v.y), double(v.z)}; }
+/// v * 2^exponent.
+Wide scaled(const Wide& v, int exponent) {
+  const auto scale = [&](const DoubleDouble& x) {
+    return DoubleDouble(Pair{std::ldexp(x.high, exponent), std::ldexp(x.low, exponent)});
+  };
+  return {scale(v.x), scale(v.y), scale(v.z)};
+}
 
-/// An edge in the common frame, and from its tail the vertices across the two facets beside it.
-struct Rim {
-  Wide tail, along;
-  std::array<Wide, 2> beside;
-  std::array<Vec, 2> beside_rough;
-  Vec along_rough;
-  std::size_t sides = 0;
+/// A normal or the direction of an edge at the power of two where its largest coordinate is from 1 to 2; 0 stays.
+struct Direction {
+  Wide fine;
+  Vec rough;
+};
+Direction direction(const Wide& v) {
+  const double largest = max_abs(rounded(v));
+  const Wide fine = scaled(v, largest > 0 ? -std::ilogb(largest) : 0);
+  return {fine, rounded(fine)};
+}
+Direction operator-(const Direction& d) { return {-d.fine, -d.rough}; }
+
+/// The sign of n . d where rounding leaves no doubt, else 0.
+int rough_side(const Vec& n, const Direction& d) {
+  const double x = dot(n, d.rough);
+  return x > kRoughSideError ? 1 : x < -kRoughSideError ? -1 : 0;
+}
+int side(const Direction& n, const Direction& d) {
+  if (const int sign = rough_side(n.rough, d)) return sign;
+  const double x = double(dot(n.fine, d.fine));
+  return x > kSideError ? 1 : x < -kSideError ? -1 : 0;
+}
+
+/// The pose at a check's scale.
+Motion scaled(const Motion& m, int exponent) {
+  const auto entry = [](double x) { return std::fabs(x) < kLeastEntry ? 0 : x; };
+  const auto row = [&](const Vec& r) { return Vec{entry(r.x), entry(r.y), entry(r.z)}; };
+  return {row(m.row_x), row(m.row_y), row(m.row_z), rounded(scaled(wide(m.t), exponent))};
+}
+
+/// A body at a check's scale: its own vertices, and in the common frame all that planes are made of.
+struct Solid {
+  struct Facet {
+    std::array<std::uint32_t, 3> corner;
+    Direction normal;
+  };
+  struct Edge {
+    std::uint32_t tail, head;
+    std::array<std::uint32_t, 2> beside;  ///< facets to the left and right; kNone of a segment
+    Direction along;
+  };
+
+  Solid(const ConvexView& view, const Motion& m, int exponent) : motion(m) {
+    for (Vertex v : view.vertices) {
+      v.x = std::ldexp(v.x, exponent), v.y = std::ldexp(v.y, exponent), v.z = std::ldexp(v.z, exponent);
+      vertices.push_back(v);
+      points.push_back(wide(m, vec(v)));
+      rough_points.push_back(rounded(points.back()));
+      reach = larger(reach, max_abs(rough_points.back()));
+    }
+    std::vector<std::uint32_t> facet_of(view.head.size(), kNone);
+    for (std::uint32_t h = 0; h < view.head.size(); ++h) {
+      if (facet_of[h] != kNone || view.face[h] == kNone) continue;
+      const std::array<std::uint32_t, 3> corner{origin(view, h), view.head[h], view.head[next_in_facet(view, h)]};
+      for (std::uint32_t k = h; facet_of[k] == kNone; k = next_in_facet(view, k)) facet_of[k] = std::uint32_t(facets.size());
+      facets.push_back({corner, direction(facet_normal(m, vertices[corner[0]], vertices[corner[1]], vertices[corner[2]]))});
+    }
+    for (std::uint32_t h = 0; h < view.head.size(); ++h) {
+      if (view.twin[h] < h) continue;
+      const std::uint32_t tail = origin(view, h), head = view.head[h];
+      edges.push_back(
+          {tail, head, {facet_of[h], facet_of[view.twin[h]]}, direction(turned(m, vertices[head], vertices[tail]))});
+    }
+  }
+
+  Vec rough_normal(std::uint32_t facet) const { return facet == kNone ? Vec{0, 0, 0} : facets[facet].normal.rough; }
+  const double* at(std::uint32_t v) const { return &vertices[v].x; }
+
+  /// How far the body reaches along n.
+  DoubleDouble height(const Direction& n) const {
+    double most = -kInfinity;
+    for (const Vec& p : rough_points) most = larger(most, dot(n.rough, p));
+    DoubleDouble height = -kInfinity;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (dot(n.rough, rough_points[i]) < most - 2 * kRoughHeightError * reach) continue;
+      if (const DoubleDouble h = dot(n.fine, points[i]); h > height) height = h;
+    }
+    return height;
+  }
+
+  const Motion motion;
+  std::vector<Vertex> vertices;
+  std::vector<Wide> points;
+  std::vector<Vec> rough_points;
+  double reach = 0;  ///< the largest coordinate of a point
+  std::vector<Facet> facets;
+  std::vector<Edge> edges;
 };
 
-std::vector<Rim> rims(const ConvexView& view, const Motion& m) {
-  std::vector<Rim> all;
-  const auto point = [&](std::uint32_t v) { return wide(m, vec(view.vertices[v])); };
-  for (std::uint32_t h = 0; h < view.head.size(); ++h) {
-    if (view.twin[h] < h) continue;
-    Rim rim;
-    rim.tail = point(origin(view, h));
-    rim.along = point(view.head[h]) - rim.tail;
-    rim.along_rough = narrowed(rim.along);
-    for (const std::uint32_t side : {h, view.twin[h]}) {
-      if (view.face[side] == kNone) continue;
-      rim.beside[rim.sides] = point(view.head[next_in_facet(view, side)]) - rim.tail;
-      rim.beside_rough[rim.sides] = narrowed(rim.beside[rim.sides]);
-      ++rim.sides;
-    }
-    all.push_back(rim);
-  }
-  return all;
-}
-
-/// Whether the edge's body is nowhere higher along n than the edge, up to `error` for a vertex across: locally is enough.
-bool is_extreme(const Rim& rim, const Wide& n, int sign, double error) {
-  for (std::size_t k = 0; k < rim.sides; ++k) {
-    if (sign * double(dot(n, rim.beside[k])) > error) return false;
-  }
-  return true;
-}
-bool may_be_extreme(const Rim& rim, const Vec& n, int sign, double error) {
-  for (std::size_t k = 0; k < rim.sides; ++k) {
-    if (sign * dot(n, rim.beside_rough[k]) > error) return false;
-  }
-  return true;
-}
-
-/// The least height, or infinity where no plane can bound the difference.
+/// The least height of the Minkowski difference of A and B over the planes that can bound it, each parallel to a facet of A, to
+/// one of B, or to an edge of each. With e an edge of A and f one of B, N = e x f is normal to a facet of the difference, or to
+/// a plane that holds less of it, where no vertex across a facet beside e is above e along N and none beside f below f: of a
+/// convex body that shows all vertices. On the facet to the left of e, whose normal is n, N . (w - v) is -f . n up to a
+/// positive factor; on the right f . n; and on those beside f, e . n and -e . n.
 class LeastHeight {
  public:
-  explicit LeastHeight(const Scene& scene) : scene_(scene) {}
+  LeastHeight(const Scene& scene, int exponent)
+      : a_(scene.a, kAtRest, exponent),
+        b_(scene.b, scaled(scene.b_in_a, exponent), exponent),
+        tie_(kHeightError / 2 * std::ldexp(scene.magnitude, exponent)) {}
 
-  double find() {
-    faces(scene_.a, kAtRest);
-    faces(scene_.b, scene_.b_in_a);
-    const std::vector<Rim> of_a = rims(scene_.a, kAtRest), of_b = rims(scene_.b, scene_.b_in_a);
-    for (const Rim& a : of_a) {
-      for (const Rim& b : of_b) edges(a, b);
+  /// Infinite where all differences lie on a line.
+  DoubleDouble find() {
+    for (const Solid* body : {&a_, &b_}) {
+      for (const Solid::Facet& facet : body->facets) {
+        const Direction &n = facet.normal, opposite = -n;
+        take(n.fine, a_.height(n) + b_.height(opposite));
+        take(n.fine, a_.height(opposite) + b_.height(n));
+      }
+    }
+    for (const Solid::Edge& e : a_.edges) {
+      const Vec left = a_.rough_normal(e.beside[0]), right = a_.rough_normal(e.beside[1]);
+      for (const Solid::Edge& f : b_.edges) {
+        const double l = dot(left, f.along.rough), r = dot(right, f.along.rough);
+        if (smaller(l, r) <= kRoughSideError && larger(l, r) >= -kRoughSideError) take(e, f);
+      }
     }
     return least_;
   }
 
  private:
-  void faces(const ConvexView& view, const Motion& m) {
-    each_facet(view, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-      const Wide p = wide(m, vec(view.vertices[i]));
-      const Vec n = narrowed(cross(wide(m, vec(view.vertices[j])) - p, wide(m, vec(view.vertices[k])) - p));
-      if (norm(n) > 0) least_ = std::min(least_, -std::max(gap(n), gap(-n)));
-    });
-  }
-  double gap(const Vec& n) const { return gap_along(scene_.a.vertices, scene_.b.vertices, scene_.b_in_a, n); }
-  void edges(const Rim& a, const Rim& b) {
-    const Vec &u = a.along_rough, &v = b.along_rough, rough = cross(u, v);
-    const double doubt = kCrossError * std::sqrt(dot(u, u) * dot(v, v)), error = 2 * kSqrt3 * doubt * scene_.magnitude;
-    for (const int sign : {1, -1}) {
-      if (!may_be_extreme(a, rough, sign, error) || !may_be_extreme(b, rough, -sign, error)) continue;
-      const Wide n = cross(a.along, b.along);
-      const double length = norm(narrowed(n)), slack = kDoubleDoubleError * norm(u) * norm(v) * scene_.magnitude;
-      if (!(length > 0) || !is_extreme(a, n, sign, slack) || !is_extreme(b, n, -sign, slack)) continue;
-      least_ = std::min(least_, sign * double(dot(n, a.tail - b.tail)) / length);
-    }
+  /// By more than rounding: of planes as near one will do.
+  bool is_lower(const DoubleDouble& height) const { return height + tie_ < least_; }
+
+  void take(const Wide& n, const DoubleDouble& height) {
+    const DoubleDouble square = dot(n, n);
+    if (!(square.high > 0)) return;
+    if (const DoubleDouble h = height / root(square); h < least_) least_ = h;
   }
 
-  const Scene& scene_;
-  double least_ = kInfinity;
+  void take(const Solid::Edge& e, const Solid::Edge& f) {
+    bool below = true, above = true;  // the vertices beside, seen along N
+    const auto may_bound = [&](int sign) {
+      below = below && sign >= 0, above = above && sign <= 0;
+      return below || above;
+    };
+    for (const std::size_t k : {0, 1}) {  // most are no facet's, and doubles show it
+      const int side = k == 0 ? 1 : -1;
+      if (!may_bound(side * rough_side(a_.rough_normal(e.beside[k]), f.along))) return;
+      if (!may_bound(side * rough_side(b_.rough_normal(f.beside[k]), e.along))) return;
+    }
+    Wide n = cross(e.along.fine, f.along.fine);
+    if (!(max_abs(rounded(n)) >= 4 * kCancelled)) {
+      n = direction(exact::edge_normal(a_.at(e.tail), a_.at(e.head), b_.motion, b_.at(f.head), b_.at(f.tail))).fine;
+    }
+    const DoubleDouble square = dot(n, n);
+    if (!(square.high > 0)) return;
+    const DoubleDouble height = dot(n, a_.points[e.tail] - b_.points[f.tail]) / root(square);
+    below = below && is_lower(height), above = above && is_lower(-height);
+    if (!below && !above) return;
+    for (const std::size_t k : {0, 1}) {
+      const int side = k == 0 ? 1 : -1;
+      if (!may_bound(side * side_in_a(e.beside[k], f)) || !may_bound(side * side_in_b(f.beside[k], e))) return;
+    }
+    if (below) least_ = height;
+    if (above && is_lower(-height)) least_ = -height;
+  }
+
+  /// The sign of n . f for a facet of A, 0 without one.
+  int side_in_a(std::uint32_t facet, const Solid::Edge& f) const {
+    if (facet == kNone) return 0;
+    const auto& [corner, normal] = a_.facets[facet];
+    if (const int sign = side(normal, f.along)) return sign;
+    return exact::compare_turned_along_normal(a_.at(corner[0]), a_.at(corner[1]), a_.at(corner[2]), b_.motion, b_.at(f.head),
+                                              b_.at(f.tail));
+  }
+  /// The sign of n . e for a facet of B.
+  int side_in_b(std::uint32_t facet, const Solid::Edge& e) const {
+    if (facet == kNone) return 0;
+    const auto& [corner, normal] = b_.facets[facet];
+    if (const int sign = side(normal, e.along)) return sign;
+    return exact::compare_along_turned_normal(b_.motion, b_.at(corner[0]), b_.at(corner[1]), b_.at(corner[2]), a_.at(e.head),
+                                              a_.at(e.tail));
+  }
+
+  const Solid a_, b_;
+  const double tie_;
+  DoubleDouble least_ = kInfinity;
 };
 
 /// What the answer claims of a distance.
@@ -114,37 +219,80 @@ Answer distance_part(const SignedAnswer& s) {
   return d;
 }
 
+/// Of the exact hulls, which are no deeper than any levels around them, and shallower by no more than these deviate: at least
+/// how deep they overlap; negative where they are apart. Infinite where all their differences lie on a line.
+DoubleDouble least_depth(const Scene& scene, double deviation) {
+  const int exponent = scene.magnitude > 0 ? kCheckedExponent - std::ilogb(scene.magnitude) : 0;
+  const DoubleDouble least = LeastHeight(scene, exponent).find();
+  if (!(least.high < kInfinity)) return least;
+  return DoubleDouble(Pair{std::ldexp(least.high, -exponent), std::ldexp(least.low, -exponent)}) - deviation;
+}
+
 }  // namespace
 
-Check check(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnswer& answer) {
-  if (answer.status == Status::InvalidPose || answer.lower > 0) return check(a, b, b_in_a, distance_part(answer));
+Check check(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnswer& answer, double radius_a, double radius_b) {
   const Motion m = motion(b_in_a);
   const PoseQuality quality = pose_quality(m);
-  if (!quality.legal) return failed("the pose is not legal");
+  if (answer.status == Status::InvalidPose || !quality.legal)
+    return check(a, b, b_in_a, distance_part(answer), radius_a, radius_b);
   if (answer.level_a < a.finest_level() || answer.level_a >= a.level_count() || answer.level_b < b.finest_level() ||
       answer.level_b >= b.level_count()) {
     return failed("levels (%d, %d) are not there", answer.level_a, answer.level_b);
   }
-  if (!(answer.upper >= answer.lower)) return failed("[%.17g, %.17g] is no interval", answer.lower, answer.upper);
-  const Level &finest_a = a.level(a.finest_level()), &finest_b = b.level(b.finest_level());
+  if (!(answer.upper >= answer.lower && answer.upper > -kInfinity))
+    return failed("[%.17g, %.17g] is no interval", answer.lower, answer.upper);
+  const Level &finest_a = a.level(a.finest_level()), &finest_b = b.level(b.finest_level()), &level_a = a.level(answer.level_a),
+              &level_b = b.level(answer.level_b);
   const Scene whole = scene(finest_a.view, finest_b.view, m, quality.error);
+  const double stretch = std::sqrt(1 + 3 * quality.error), radii = radius_a + radius_b,
+               touching =
+                   law_two(a.level(0).view.extent + radius_a, b.level(0).view.extent + radius_b, norm(m.t), quality.error),
+               slack = larger(scene(level_a.view, level_b.view, m, quality.error).law_two, touching),
+               deviation = level_a.deviation + stretch * level_b.deviation, doubt = kHeightError * (whole.magnitude + radii);
+  const auto of_hulls = [&](double bound) { return DoubleDouble(bound) + radius_a + radius_b; };
+  const Vec n = vec(answer.normal);
   if (std::isfinite(answer.lower)) {
-    const double gap = gap_along(a, b, m, vec(answer.normal));
-    if (!(gap * (gap < 0 ? 1 - kNormError : 1 + kNormError) + kDoubleDoubleError * whole.magnitude >= answer.lower))
-      return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap);
+    if (!(std::fabs(double(dot(wide(n), wide(n)) - 1.0)) <= kUnitError)) return failed("the normal's length is %.17g", norm(n));
+    const double gap = gap_along(a, b, m, n), error = kNormError * std::fabs(gap) + doubt;
+    if (!(double(of_hulls(answer.lower) - gap) <= error))
+      return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap - radii);
+    if (std::isfinite(answer.upper) && !(double(of_hulls(answer.upper) - gap) >= -error))
+      return failed("upper is %.17g, but the gap along the normal is %.17g", answer.upper, gap - radii);
+    if (answer.upper - answer.lower <= touching) {
+      const Wide between = wide(vec(answer.point_b)) - wide(vec(answer.point_a));
+      const double along = std::clamp(double(dot(between, wide(n))), answer.lower, answer.upper);
+      const double aside = norm(rounded(between - wide(n) * DoubleDouble(along)));
+      if (!(aside <= slack + deviation)) return failed("the points are %.17g off the signed distance along the normal", aside);
+    }
   }
-  if (answer.upper >= 0) return check(a, b, b_in_a, distance_part(answer));
-  if (answer.verdict == Verdict::Disjoint) return failed("disjoint with an upper bound of %.17g", answer.upper);
-  const double depth = LeastHeight(whole).find() - finest_a.deviation - finest_b.deviation * std::sqrt(1 + 3 * quality.error);
-  if (!(depth < kInfinity)) return failed("upper is %.17g, but the bodies share a plane", answer.upper);
-  if (!(-answer.upper <= depth * (1 + kNormError) + kDoubleDoubleError * whole.magnitude))
-    return failed("upper is %.17g, but the depth is %.17g", answer.upper, depth);
-  const Level &level_a = a.level(answer.level_a), &level_b = b.level(answer.level_b);
-  const Scene pair = scene(level_a.view, level_b.view, m, quality.error);
-  const Vec p = vec(answer.point_a), q = vec(answer.point_b);
-  if (!holds(level_a.view, p, pair.law_two)) return failed("point_a is not in level %d of A", answer.level_a);
-  if (!holds(level_b.view, apply(motion(inverse(b_in_a)), q), pair.law_two))
-    return failed("point_b is not in level %d of B", answer.level_b);
+  if (answer.lower > 0) return check(a, b, b_in_a, distance_part(answer), radius_a, radius_b);
+  if (answer.verdict == Verdict::Disjoint) return failed("disjoint without a lower bound");
+
+  std::optional<DoubleDouble> found;
+  const auto depth = [&] {
+    if (!found) found = least_depth(whole, finest_a.deviation + stretch * finest_b.deviation);
+    return *found;
+  };
+  const bool proved = answer.proof.count > 0 && check_proof(a.level(0).view, b.level(0).view, m, answer.proof);
+  if (std::isfinite(answer.upper)) {
+    const Vec p = vec(answer.point_a) - n * radius_a, q = vec(answer.point_b) + n * radius_b;
+    if (!holds(level_a.view, kAtRest, p, slack)) return failed("point_a is not in level %d of A", answer.level_a);
+    if (!holds(level_b.view, m, q, slack)) return failed("point_b is not in level %d of B", answer.level_b);
+    if (const DoubleDouble upper = of_hulls(answer.upper); upper.high < 0) {
+      if (!(depth().high < kInfinity)) return failed("upper is %.17g, but the bodies share a plane", answer.upper);
+      if (!(double(-upper - depth()) <= doubt))
+        return failed("upper is %.17g, but the depth is %.17g", answer.upper, double(depth()) + radii);
+    } else if (const double apart = norm(q - p) + deviation; !proved && !(apart <= double(upper) + 2 * slack)) {
+      const bool overlap = depth().high > 0 && depth().high < kInfinity;
+      if (!overlap) return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart - radii);
+    }
+  }
+  if (answer.verdict == Verdict::Overlapping && !(answer.upper < 0) && !proved) return failed("overlap without a proof");
+  if (answer.verdict == Verdict::Touching) {
+    if (!(answer.upper <= touching)) return failed("touching with an upper bound of %.17g", answer.upper);
+    if (answer.lower < -touching && depth().high < kInfinity && !(double(depth() + radii) <= touching + doubt))
+      return failed("touching, but the depth is %.17g", double(depth()) + radii);
+  }
   return kPassed;
 }
 

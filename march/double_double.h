@@ -56,6 +56,11 @@ static inline DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& 
   const DoubleDouble r2 = r - b * DoubleDouble(q2);
   return DoubleDouble(quick_two_sum(q, q2)) + DoubleDouble(r2.high / b.high);
 }
+/// Of a number above 0: one step of Newton's on the root in doubles.
+static inline DoubleDouble root(const DoubleDouble& a) {
+  const DoubleDouble r = std::sqrt(a.high);
+  return r + (a - r * r) / (r + r);
+}
 static inline bool operator<(const DoubleDouble& a, const DoubleDouble& b) {
   return a.high < b.high || (a.high == b.high && a.low < b.low);
 }

@@ -140,6 +140,36 @@ Expansion3<8> offset3(const double a[3], const double b[3], const Motion& m) {
   return {offset(a[0], m.row_x, b, m.t.x), offset(a[1], m.row_y, b, m.t.y), offset(a[2], m.row_z, b, m.t.z)};
 }
 
+using Rows = std::array<Expansion3<1>, 3>;
+Rows rows(const Motion& m) {
+  const auto row = [](const Vec& r) { return Expansion3<1>{expansion(r.x), expansion(r.y), expansion(r.z)}; };
+  return {row(m.row_x), row(m.row_y), row(m.row_z)};
+}
+
+/// R (w - v).
+Expansion3<12> turned(const Motion& m, const double w[3], const double v[3]) {
+  const Expansion3<2> d = difference3(w, v);
+  const Rows r = rows(m);
+  return {dot3(r[0], d), dot3(r[1], d), dot3(r[2], d)};
+}
+
+/// R u x R v is the matrix of R's cofactors times u x v, whatever R is.
+Expansion3<384> turned_cross(const Motion& m, const double a[3], const double b[3], const double c[3]) {
+  const Expansion3<16> n = cross3(difference3(b, a), difference3(c, a));
+  const Rows r = rows(m);
+  return {dot3(cross3(r[1], r[2]), n), dot3(cross3(r[2], r[0]), n), dot3(cross3(r[0], r[1]), n)};
+}
+
+template <int N>
+Wide rounded(const Expansion3<N>& v) {
+  const auto sum = [](const Expansion<N>& e) {
+    DoubleDouble s;
+    for (int i = 0; i < e.count; ++i) s = s + e.part[i];
+    return s;
+  };
+  return {sum(v[0]), sum(v[1]), sum(v[2])};
+}
+
 }  // namespace
 
 int orientation(const double a[3], const double b[3], const double c[3], const double d[3]) {
@@ -202,6 +232,24 @@ int triple_product(const std::array<const double*, 3>& a, const std::array<const
   const double bound = kOffsetTripleProductError * permanent(size[0], size[1], size[2]);
   if (const int sign = certain_sign(dot(cross(p[0], p[1]), p[2]), bound)) return sign;
   return dot3(cross3(offset3(a[0], b[0], m), offset3(a[1], b[1], m)), offset3(a[2], b[2], m)).sign();
+}
+
+int compare_turned_along_normal(const double a[3], const double b[3], const double c[3], const Motion& m, const double w[3],
+                                const double v[3]) {
+  return dot3(cross3(difference3(b, a), difference3(c, a)), turned(m, w, v)).sign();
+}
+
+int compare_along_turned_normal(const Motion& m, const double a[3], const double b[3], const double c[3], const double w[3],
+                                const double v[3]) {
+  return dot3(turned_cross(m, a, b, c), difference3(w, v)).sign();
+}
+
+Wide turned_normal(const Motion& m, const double a[3], const double b[3], const double c[3]) {
+  return rounded(turned_cross(m, a, b, c));
+}
+
+Wide edge_normal(const double a[3], const double b[3], const Motion& m, const double w[3], const double v[3]) {
+  return rounded(cross3(difference3(b, a), turned(m, w, v)));
 }
 
 bool tetrahedron_holds_origin(const std::array<std::array<double, 3>, 4>& a, const std::array<std::array<double, 3>, 4>& b,

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-#include "vec.h"
+#include "wide.h"
 
 namespace swiftlet::exact {
 
@@ -41,6 +41,23 @@ int compare_along_turned(const double n[3], const Motion& motion, const double w
 /// The sign of the determinant of the three differences a[k] - (R b[k] + t): with b three points of a plane and a thrice the
 /// same point, on which side of the moved plane that is; with a, a, a' and b, b', b, on which side one line passes the other.
 int triple_product(const std::array<const double*, 3>& a, const std::array<const double*, 3>& b, const Motion& motion);
+
+// Of facets and edges of two bodies, as their cross products order vertices. Unfiltered: who asks has rounded normals at hand.
+// Exact while the product of three coordinates and two entries of the rotation has no bit below 2^-1074.
+
+/// The sign of (b - a) x (c - a) . R (w - v).
+int compare_turned_along_normal(const double a[3], const double b[3], const double c[3], const Motion& motion,
+                                const double w[3], const double v[3]);
+
+/// The sign of R (b - a) x R (c - a) . (w - v).
+int compare_along_turned_normal(const Motion& motion, const double a[3], const double b[3], const double c[3],
+                                const double w[3], const double v[3]);
+
+/// R (b - a) x R (c - a), each coordinate rounded from the exact one to 100 bits of itself.
+Wide turned_normal(const Motion& motion, const double a[3], const double b[3], const double c[3]);
+
+/// (b - a) x R (w - v), likewise.
+Wide edge_normal(const double a[3], const double b[3], const Motion& motion, const double w[3], const double v[3]);
 
 /// Whether the origin lies in the closed hull of the four points a[k] - (R b[k] + t), which must not be coplanar (false if so).
 bool tetrahedron_holds_origin(const std::array<std::array<double, 3>, 4>& a, const std::array<std::array<double, 3>, 4>& b,

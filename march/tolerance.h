@@ -94,6 +94,33 @@ inline constexpr double kMapError = 128 * kU;
 /// the magnitude of coordinates and translation.
 inline constexpr double kDoubleDoubleError = 0x1p-90;
 
+// ---- Checks (brute.h, check_depth.cpp): their own arithmetic, in 106 bits unless said otherwise ------------------------------
+
+/// Below so much of the largest coordinates of u and v the largest of u x v is taken exactly. Dimensionless.
+inline constexpr double kCancelled = 0x1p-10;
+/// A coordinate of u x v above: u = R d has 3 products and 2 sums of terms that |d| bounds, 6 * 2^-100 of u's largest coordinate,
+/// v as much, so that either product is off by 13 * 2^-100 and their difference by 28; over kCancelled. Relative to the
+/// normal's largest coordinate.
+inline constexpr double kNormalError = 0x1p-85;
+/// n . d of a normal and an edge, each scaled to a largest coordinate from 1 to 2: kNormalError of 2, times 2, thrice, and the
+/// rest is less. A sign above is sure.
+inline constexpr double kSideError = 0x1p-81;
+/// The same in doubles: 2 roundings of the factors, 1 product, 2 sums, rounded up to 7 u, of terms whose sum is at most 12.
+inline constexpr double kRoughSideError = 84 * kU;
+/// n . p of such a normal in doubles: 7 u of terms whose sum is at most 6 coordinates. Relative to the largest coordinate.
+inline constexpr double kRoughHeightError = 42 * kU;
+/// The height of a plane: its normal leans by at most sqrt(3) kNormalError, points are off by 2^-97 of the magnitude, and product,
+/// root and quotient by as much, 2^-82 in all; and of planes that differ by as much any is the least. Relative to the magnitude of
+/// coordinates and translation.
+inline constexpr double kHeightError = 0x1p-81;
+/// Bodies are checked at a scale where the magnitude of coordinates and translation is 2 to this; and of a rotation entries below
+/// the second count as 0, which moves points by less than 2^-247 of themselves. Coordinates are then multiples of 2^-138, entries
+/// of 2^-303, and the product of three of those and two of these of 2^-1020: no bit of a sign is lost.
+inline constexpr int kCheckedExponent = 300;
+inline constexpr double kLeastEntry = 0x1p-250;
+/// A unit normal's squared length: kNormError twice, once of the length found and once of the division. Dimensionless.
+inline constexpr double kUnitError = 12 * kU;
+
 // ---- Where surfaces cross (crossing.cpp): doubles guide, exact signs decide ------------------------------------------------
 
 /// A triple product u x v . w of points in the common frame, |w| at most twice the magnitude: each difference is off by two

@@ -1,0 +1,341 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The checker of signed distances, attacked both ways: answers made of the rational truth pass, and forged ones do not.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <swiftlet/build.h>
+#include <swiftlet/check.h>
+
+#include "oracle.h"
+#include "shapes.h"
+
+namespace swiftlet {
+namespace {
+
+using Points = std::vector<Vec3>;
+
+struct Body {
+  Points points;
+  Model model;
+};
+Body body(const Points& points) {
+  Result<Built> built = build(points, {});
+  if (!built) throw std::runtime_error(built.error().message);
+  return {points, built.value().model};
+}
+Body body(const Mesh& mesh) { return body(mesh.points); }
+Body box(double x, double y, double z) { return body(shapes::box({x, y, z})); }
+/// (cos k pi/2, sin k pi/2, +-1), as libm rounds them.
+Body square_prism() {
+  Points points;
+  for (int k = 0; k < 4; ++k) {
+    for (const double z : {-1.0, 1.0})
+      points.emplace_back(std::cos(k * std::acos(-1.0) / 2), std::sin(k * std::acos(-1.0) / 2), z);
+  }
+  return body(points);
+}
+
+struct Radii {
+  double a = 0, b = 0;
+};
+
+/// Law 2's bound.
+double bound_of(const Body& a, const Body& b, const Pose& pose, const Radii& radii = {}) {
+  const auto extent = [](const Body& x) {
+    double most = 0;
+    for (const Vec3& p : x.points) most = std::max(most, p.cwiseAbs().maxCoeff());
+    return most;
+  };
+  const double error = (pose.rotation.transpose() * pose.rotation - Mat3::Identity()).cwiseAbs().maxCoeff();
+  return (64 * 0x1p-53 + 2 * error) * (std::max(extent(a) + radii.a, extent(b) + radii.b) + pose.translation.norm());
+}
+
+/// A pair, what is true of it, and an exact answer made of that: the deepest points are where B touches A, moved free.
+struct Problem {
+  Problem(const Body& first, const Body& second, const Pose& b_in_a)
+      : a(first),
+        b(second),
+        pose(b_in_a),
+        bound(bound_of(a, b, pose)),
+        truth(oracle::signed_distance(a.points, {}, b.points, pose)) {
+    answer.status = Status::Converged;
+    answer.verdict = truth.sign > 0 ? Verdict::Disjoint : truth.sign < 0 ? Verdict::Overlapping : Verdict::Touching;
+    answer.normal = truth.normal.normalized();
+    answer.lower = oracle::gap(a.points, b.points, pose, answer.normal).lower;
+    answer.upper = truth.bounds.upper;
+    Pose free = pose;
+    if (truth.sign < 0) free.translation += answer.normal * (bound / 8 - truth.distance);
+    const oracle::Truth near = oracle::distance(a.points, b.points, free);
+    answer.point_a = near.witness_a;
+    answer.point_b = near.witness_b - (free.translation - pose.translation);
+  }
+
+  std::string refusal(const SignedAnswer& s) const { return check(a.model, b.model, pose, s).message; }
+
+  const Body &a, &b;
+  Pose pose;
+  double bound;
+  oracle::SignedTruth truth;
+  SignedAnswer answer;
+};
+
+/// Random hulls, boxes, slabs and prisms, overlapping.
+void for_each_overlap(int count, std::uint64_t seed, const std::function<void(const Problem&)>& visit) {
+  shapes::Random random(seed);
+  const std::vector<Body> solids{body(shapes::cube()),
+                                 box(2, 2, 0.2),
+                                 box(2, 0.2, 0.2),
+                                 square_prism(),
+                                 body(shapes::prism(5, 1, 2)),
+                                 body(shapes::prism(8, 1, 0.1)),
+                                 body(shapes::octahedron())};
+  for (int i = 0; i < count; ++i) {
+    Points p, q;
+    const int n = 4 + int(random.bits() % 12);
+    for (int k = 0; k < n; ++k) p.push_back(random.in_ball()), q.push_back(random.in_ball());
+    const Body first = body(p), second = body(q);
+    const Body &a = i % 3 == 0 ? first : solids[random.bits() % solids.size()],
+               &b = i % 3 == 2 ? solids[random.bits() % solids.size()] : second;
+    const Problem problem(a, b, {random.rotation(), random.in_ball() * 0.5});
+    if (problem.truth.sign < 0) visit(problem);
+  }
+}
+
+/// One of the 24 rotations of the lattice, shaken as a whole or entry by entry.
+Mat3 shaken_lattice(shapes::Random& random, double by) {
+  Mat3 r = Mat3::Zero();
+  const int first = int(random.bits() % 3), turn = 1 + int(random.bits() % 2);
+  for (int k = 0; k < 3; ++k) r(k, (first + k * turn) % 3) = random.bits() % 2 ? 1 : -1;
+  if (r.determinant() < 0) r.row(0) *= -1;
+  if (random.bits() % 2) return shapes::rotation(random.on_sphere(), by) * r;
+  for (int k = 0; k < 9; ++k) r(k / 3, k % 3) += by * random.uniform(-1, 1);
+  return r;
+}
+
+/// (Nearly) coinciding solids, all of whose edges are nearly parallel to one another.
+void for_each_coincidence(int count, std::uint64_t seed, const std::function<void(const Problem&)>& visit) {
+  shapes::Random random(seed);
+  const std::vector<Body> solids{body(shapes::cube()), box(2, 2, 0.2), box(2, 0.2, 0.2), square_prism(),
+                                 body(shapes::prism(6, 1, 2))};
+  for (int i = 0; i < count; ++i) {
+    const double by = std::ldexp(1.0, -30 - int(random.bits() % 23));
+    const Body &a = solids[random.bits() % solids.size()], &b = i % 4 == 0 ? solids[random.bits() % solids.size()] : a;
+    Pose pose{shaken_lattice(random, by), Vec3::Zero()};
+    if (random.bits() % 2) pose.translation = random.in_ball() * by;
+    visit(Problem(a, b, pose));
+  }
+}
+
+TEST(CheckOfDepth, AcceptsAPrismInItself) {
+  const Body prism = square_prism();
+  PairSeed seed;
+  const SignedAnswer s = signed_distance(prism.model, prism.model, {}, seed);
+  EXPECT_EQ(check(prism.model, prism.model, {}, s).message, "");
+  EXPECT_EQ(Problem(prism, prism, {}).refusal(Problem(prism, prism, {}).answer), "");
+}
+
+/// Opposite sides are parallel but for the last place, and what is left of their cross products was noise.
+TEST(CheckOfDepth, AcceptsPrismsTurnedAndMovedInThemselves) {
+  shapes::Random random(1);
+  const Body prism = square_prism();
+  int refused = 0;
+  const auto judge = [&](const Body& a, const Pose& pose) {
+    const Problem p(a, a, pose);
+    refused += p.refusal(p.answer) != "";
+  };
+  for (int i = 0; i < 100; ++i) {
+    const Mat3 turn = shapes::rotation({1, 0, 0}, random.uniform(0, 6));
+    judge(body(shapes::moved({prism.points, {}}, {turn, Vec3::Zero()})), {});
+    judge(prism, {shaken_lattice(random, 0), Vec3::Zero()});
+    judge(prism, {Mat3::Identity(), random.in_ball()});
+  }
+  EXPECT_EQ(refused, 0) << "of 300";
+}
+
+TEST(CheckOfDepth, AcceptsRandomOverlaps) {
+  int all = 0, refused = 0;
+  for_each_overlap(300, 2, [&](const Problem& p) { ++all, refused += p.refusal(p.answer) != ""; });
+  EXPECT_EQ(refused, 0) << "of " << all;
+  EXPECT_GE(all, 200);
+}
+
+TEST(CheckOfDepth, AcceptsShakenLattices) {
+  int refused = 0;
+  for_each_coincidence(400, 3, [&](const Problem& p) { refused += p.refusal(p.answer) != ""; });
+  EXPECT_EQ(refused, 0) << "of 400";
+}
+
+/// The least height itself: the last double that is true passes, and the next one does not.
+TEST(CheckOfDepth, KnowsTheDepthToTheLastPlace) {
+  int all = 0;
+  const auto judge = [&](const Problem& p) {
+    SignedAnswer s = p.answer;
+    ASSERT_EQ(p.refusal(s), "");
+    s.upper = std::nextafter(p.truth.bounds.lower, -1e9);
+    s.lower = std::min(s.lower, s.upper);
+    ASSERT_GT(oracle::compare(p.truth, s.upper), 0);
+    EXPECT_NE(p.refusal(s).find("but the depth is"), std::string::npos) << p.truth.distance;
+    ++all;
+  };
+  for_each_overlap(200, 4, judge);
+  for_each_coincidence(200, 5, judge);
+  EXPECT_GE(all, 330);
+}
+
+/// Every claim of an answer, false by 2 to 100 times law 2's bound.
+void expect_forgeries_refused(const Problem& p) {
+  ASSERT_EQ(p.refusal(p.answer), "");
+  const auto refused = [&](const char* what, double factor, auto change) {
+    SignedAnswer wrong = p.answer;
+    change(wrong);
+    EXPECT_NE(p.refusal(wrong), "") << what << " " << factor << " of " << p.truth.distance;
+  };
+  const Vec3 n = p.answer.normal, across = n.unitOrthogonal();
+  const double truth = p.truth.distance;
+  for (const double factor : {2.0, 3.0, 10.0, 100.0}) {
+    const double off = factor * p.bound;
+    refused("lower", factor, [&](SignedAnswer& s) { s.lower = truth + off, s.upper = std::max(s.upper, s.lower); });
+    refused("upper", factor, [&](SignedAnswer& s) { s.upper = truth - off, s.lower = std::min(s.lower, s.upper); });
+    refused("a long normal", factor, [&](SignedAnswer& s) { s.normal *= 1 + off; });
+    for (const Vec3& aside : {Vec3(across), Vec3(-across), Vec3(n.cross(across))}) {
+      refused("a leaning normal", factor, [&](SignedAnswer& s) {
+        for (double by = off; oracle::gap(p.a.points, p.b.points, p.pose, s.normal).upper > s.lower - off; by *= 2)
+          s.normal = (n + by * aside).normalized();
+      });
+      refused("point_a", factor, [&](SignedAnswer& s) { s.point_a += off * aside; });
+      refused("point_b", factor, [&](SignedAnswer& s) { s.point_b += off * aside; });
+    }
+    for (const double sign : {1.0, -1.0}) {
+      refused("point_a along the normal", factor, [&](SignedAnswer& s) { s.point_a += sign * off * n; });
+      refused("point_b along the normal", factor, [&](SignedAnswer& s) { s.point_b += sign * off * n; });
+      if (truth < 0) {
+        refused("both", factor, [&](SignedAnswer& s) { s.point_a += sign * off * n, s.point_b += sign * off * n; });
+      }
+    }
+  }
+  for (const Verdict verdict : {Verdict::Disjoint, Verdict::Touching, Verdict::Overlapping}) {
+    if (verdict == p.answer.verdict) continue;
+    refused("verdict", 0, [&](SignedAnswer& s) { s.verdict = verdict; });
+  }
+  if (truth < 0) {
+    refused("touching in the middle", 0, [&](SignedAnswer& s) {
+      s.verdict = Verdict::Touching, s.upper = 0;
+      s.point_a = s.point_b = (s.point_a + s.point_b) / 2;
+    });
+  }
+  refused("the other way", 0, [](SignedAnswer& s) { s.normal = -s.normal; });
+  refused("no normal", 0, [](SignedAnswer& s) { s.normal.setZero(); });
+  refused("no interval", 0, [](SignedAnswer& s) { std::swap(s.lower, s.upper), s.lower += 1; });
+  refused("no number", 0, [](SignedAnswer& s) { s.upper = std::nan(""); });
+  refused("no depth at all", 0, [](SignedAnswer& s) { s.lower = s.upper = -std::numeric_limits<double>::infinity(); });
+  refused("a level that is not there", 0, [](SignedAnswer& s) { s.level_a = 99; });
+}
+
+TEST(CheckOfDepth, RefusesForgeries) {
+  for_each_overlap(60, 6, expect_forgeries_refused);
+  for_each_coincidence(60, 7, expect_forgeries_refused);
+  shapes::Random random(8);
+  for (int i = 0; i < 20; ++i) {  // apart
+    Points p, q;
+    for (int k = 0; k < 8; ++k) p.push_back(random.in_ball()), q.push_back(random.in_ball());
+    const Body a = body(p), b = body(q);
+    expect_forgeries_refused(Problem(a, b, {random.rotation(), random.on_sphere() * 3}));
+  }
+}
+
+/// Opposite edges of a body that mirrors itself are parallel; turned by less than 106 bits see, they span slivers.
+TEST(CheckOfDepth, SeesAnglesBelowEveryRounding) {
+  shapes::Random random(9);
+  int refused = 0;
+  for (int i = 0; i < 120; ++i) {
+    Points points;
+    for (int k = 0; k < 4 + i % 4; ++k) points.push_back(random.in_ball()), points.push_back(-points.back());
+    const Body mirrored = body(points);
+    Pose pose;
+    const double by = std::pow(10.0, -(i % 6 == 0 ? random.uniform(40, 300) : random.uniform(18, 36)));
+    for (int k = 0; k < 9; ++k) pose.rotation(k / 3, k % 3) += by * random.uniform(-1, 1);
+    const Problem p(mirrored, mirrored, pose);
+    refused += p.refusal(p.answer) != "";
+  }
+  EXPECT_EQ(refused, 0) << "of 120";
+}
+
+TEST(CheckOfDepth, TakesOffRadii) {
+  int deep = 0, shallow = 0;
+  shapes::Random random(10);
+  const auto judge = [&](const Problem& p) {
+    const Radii radii{random.uniform(0, 0.5), random.uniform(0, 0.5)};
+    const double bound = bound_of(p.a, p.b, p.pose, radii), sum = radii.a + radii.b, ulp = 0x1p-50;
+    SignedAnswer s = p.answer;
+    s.lower -= sum + ulp, s.upper -= sum - ulp;
+    s.verdict = s.upper < 0 ? Verdict::Overlapping : Verdict::Disjoint;
+    s.point_a += radii.a * s.normal, s.point_b -= radii.b * s.normal;
+    const auto refusal = [&](const SignedAnswer& answer) {
+      return check(p.a.model, p.b.model, p.pose, answer, radii.a, radii.b).message;
+    };
+    ASSERT_EQ(refusal(s), "") << p.truth.distance << " " << sum;
+    ASSERT_NE(p.refusal(s), "");
+    for (const double factor : {2.0, 10.0, 100.0}) {
+      SignedAnswer high = s, low = s, off = s;
+      high.lower += factor * bound, high.upper = std::max(high.upper, high.lower);
+      low.upper -= factor * bound, low.lower = std::min(low.upper, low.lower);
+      off.point_b += factor * bound * s.normal.unitOrthogonal();
+      for (const SignedAnswer& wrong : {high, low, off}) EXPECT_NE(refusal(wrong), "") << factor << " " << p.truth.distance;
+    }
+    (p.truth.sign < 0 ? deep : shallow)++;
+  };
+  for_each_overlap(60, 11, judge);
+  for (int i = 0; i < 60; ++i) {
+    Points p, q;
+    for (int k = 0; k < 8; ++k) p.push_back(random.in_ball()), q.push_back(random.in_ball());
+    const Body a = body(p), b = body(q);
+    judge({a, b, {random.rotation(), random.on_sphere() * random.uniform(2, 2.5)}});
+  }
+  EXPECT_GE(std::min(deep, shallow), 30);
+}
+
+/// 2 s of one core for two bodies of 2 000 triangles, also where all edges of one are nearly parallel to many of the other.
+TEST(CheckOfDepth, TakesTwoSecondsForNineMillionEdgePairs) {
+  const auto seconds_of = [](const Body& a, const Body& b, const Pose& pose) {
+    SignedAnswer s;
+    s.status = Status::Budget;
+    s.verdict = Verdict::Overlapping;
+    s.upper = -1e-6;  // proved by the least height alone
+    const std::clock_t start = std::clock();
+    EXPECT_EQ(check(a.model, b.model, pose, s).message, "");
+    return double(std::clock() - start) / CLOCKS_PER_SEC;
+  };
+#if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG)
+  const double allowed = 60;
+#else
+  const double allowed = 2;
+#endif
+  const Pose tilted{shapes::rotation(Vec3(1, 2, 3).normalized(), 0x1p-48), {0, 0, 0}},
+      across{shapes::rotation({1, 0, 0}, std::acos(-1.0) / 2), {0, 0, 0}};
+  for (const shapes::Family family : shapes::kFamilies) {
+    const shapes::Pair pair = shapes::pair(family, 2000);
+    const Body a = body(pair.a), b = body(pair.b);
+    for (const Pose& pose : {Pose{}, Pose{shapes::rotation(Vec3(1, 2, 3).normalized(), 1), {0.01, 0.02, 0.01}}}) {
+      EXPECT_LT(seconds_of(a, b, pose), allowed) << shapes::name(family);
+      EXPECT_LT(seconds_of(a, a, pose), allowed) << shapes::name(family);
+    }
+    EXPECT_LT(seconds_of(a, a, tilted), allowed) << shapes::name(family);
+  }
+  const Body prism = body(shapes::prism(500, 1, 2));
+  for (const Pose& pose : {Pose{}, tilted, across}) EXPECT_LT(seconds_of(prism, prism, pose), allowed);
+}
+
+}  // namespace
+}  // namespace swiftlet
