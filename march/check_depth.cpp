@@ -117,7 +117,8 @@ Answer distance_part(const SignedAnswer& s) {
 }  // namespace
 
 Check check(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnswer& answer) {
-  if (answer.status == Status::InvalidPose || answer.lower > 0) return check(a, b, b_in_a, distance_part(answer));
+  if (answer.status == Status::InvalidPose || answer.status == Status::InvalidRadius || answer.lower > 0)
+    return check(a, b, b_in_a, distance_part(answer));
   const Motion m = motion(b_in_a);
   const PoseQuality quality = pose_quality(m);
   if (!quality.legal) return failed("the pose is not legal");
