@@ -4,6 +4,7 @@
 #include <swiftlet/check.h>
 
 #include "brute.h"
+#include "dilate.h"
 #include "support_map.h"
 
 namespace swiftlet {
@@ -38,6 +39,9 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
   if (answer.status == Status::InvalidPose) {
     return pose_quality(motion(b_in_a)).legal ? failed("the pose is legal") : kPassed;
   }
+  const bool radii_are_legal = is_radius(radius_a) && is_radius(radius_b);
+  if (answer.status == Status::InvalidRadius) return radii_are_legal ? failed("the radii are legal") : kPassed;
+  if (!radii_are_legal) return failed("the radii are not legal");
   const Motion m = motion(b_in_a);
   const PoseQuality quality = pose_quality(m);
   if (!quality.legal) return failed("the pose is not legal");

@@ -233,7 +233,7 @@ DoubleDouble least_depth(const Scene& scene, double deviation) {
 Check check(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnswer& answer, double radius_a, double radius_b) {
   const Motion m = motion(b_in_a);
   const PoseQuality quality = pose_quality(m);
-  if (answer.status == Status::InvalidPose || !quality.legal)
+  if (answer.status == Status::InvalidPose || answer.status == Status::InvalidRadius || !quality.legal)
     return check(a, b, b_in_a, distance_part(answer), radius_a, radius_b);
   if (answer.level_a < a.finest_level() || answer.level_a >= a.level_count() || answer.level_b < b.finest_level() ||
       answer.level_b >= b.level_count()) {

@@ -8,8 +8,11 @@
 //        /  /  \      through a facet that crosses it.
 //   A __/__/____\__
 //     \ \ x      y----v      Doubles find the two facets; exact signs say whether an edge of one pierces the other, and where
-//      \_\______/___/        they deny it the facets beside are asked, then all.
-//         \____/
+//      \_\______/___/        they deny it the facets beside are asked. Where doubles cannot tell, as of a body in one 1e16
+//         \____/             times larger, exact signs alone follow every edge that begins outside the other body.
+//
+// They walk: the facets of a convex surface seen from a point cut its directions into cells of a regular subdivision, over
+// whose sides no walk towards a direction comes round [Edelsbrunner 1990], so that it ends in the cell that holds it.
 #include "crossing.h"
 
 #include <array>
@@ -29,7 +32,8 @@ using Quad = std::array<std::uint32_t, 4>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-bool bounds_solid(const ConvexView& view) { return view.face_first.size() > 2; }
+/// Three edges or more meet in a vertex, of a flat polygon two.
+bool bounds_solid(const ConvexView& view) { return view.vertices[0].ring_count > 2; }
 
 /// The smallest feature that holds given vertices exactly: none where no facet does.
 Handle feature_holding(const ConvexView& view, const Quad& vertices) {
@@ -61,7 +65,8 @@ Handle feature_holding(const ConvexView& view, const Quad& vertices) {
 /// Facets are named by one of their half-edges, bodies by 0 and 1; points are in the common frame.
 class Search {
  public:
-  Search(const Scene& scene, std::uint32_t& tests) : scene_(scene), tests_(tests) {}
+  Search(const Scene& scene, std::uint32_t& tests)
+      : scene_(scene), tests_(tests), most_tests_(tests + scene.a.head.size() + scene.b.head.size()) {}
 
   Crossing run(const OverlapProof& proof) {
     const Vec x = common_point<DoubleDouble>(scene_, proof);
@@ -73,8 +78,7 @@ class Search {
       found = between_outsiders(inner_point(x));
       if (!found) found = around(proof.vertex_a, proof.vertex_b);
     }
-    if (!found) found = among_all();
-    return found ? *found : nested(x);
+    return found ? *found : exactly(x);
   }
 
  private:
@@ -156,6 +160,7 @@ class Search {
         const Vertex& ring_b = scene_.b.vertices[vb];
         for (std::uint32_t g = ring_a.ring_begin; g < ring_a.ring_begin + ring_a.ring_count; ++g) {
           for (std::uint32_t h = ring_b.ring_begin; h < ring_b.ring_begin + ring_b.ring_count; ++h) {
+            if (spent()) return std::nullopt;
             if (pierces(0, g, h)) return named(0, g, h);
             if (pierces(1, h, g)) return named(1, h, g);
           }
@@ -165,40 +170,158 @@ class Search {
     return std::nullopt;
   }
 
-  std::optional<Crossing> among_all() const {
-    for (const int k : {0, 1}) {
-      const ConvexView &own = view(k), &other = view(1 - k);
-      for (std::uint32_t facet = 0; facet < other.head.size(); ++facet) {
-        if (other.face[facet] == kNone || !is_first(other, facet)) continue;
-        const Vec q = point(1 - k, origin(other, facet)), u = point(1 - k, other.head[facet]) - q,
-                  v = point(1 - k, other.head[next_in_facet(other, facet)]) - q, n = cross(u, v);
-        const double doubt = kFacetSideError * scene_.point_error * scene_.magnitude * (norm(u) + norm(v));
-        for (std::uint32_t h = 0; h < own.head.size(); ++h) {
-          if (h > own.twin[h]) continue;
-          tests_ += 2;
-          const double at_tail = dot(n, point(k, origin(own, h)) - q), at_head = dot(n, point(k, own.head[h]) - q);
-          if (smaller(at_tail, at_head) > doubt || larger(at_tail, at_head) < -doubt) continue;
-          if (pierces(k, h, facet)) return named(k, h, facet);
-        }
+  // ---- Exactly, over a whole surface ----
+
+  /// A triangle of a facet's fan: the fan's first half-edge, from whose origin it spreads, and the triangle's side across from
+  /// there.
+  struct Cell {
+    std::uint32_t first, side;
+  };
+  Cell cell(int k, std::uint32_t facet) const { return {facet, next_in_facet(view(k), facet)}; }
+  std::uint32_t before_in_facet(int k, std::uint32_t h) const {
+    const ConvexView& own = view(k);
+    return own.twin[counter_clockwise(own.vertices[origin(own, h)], h)];
+  }
+
+  /// The signs of `side` are positive outside the facets of the other body where this is.
+  int sense(int k) const {
+    const Motion& m = scene_.b_in_a;
+    return k == 1 || dot(m.row_x, cross(m.row_y, m.row_z)) < 0 ? -1 : 1;
+  }
+  /// Whether a vertex of body k lies above (1), in (0) or below the plane of a facet of the other.
+  int height(int k, std::uint32_t v, std::uint32_t facet) const {
+    const ConvexView& other = view(1 - k);
+    const std::uint32_t q = origin(other, facet), r = other.head[facet], s = other.head[next_in_facet(other, facet)];
+    return sense(k) * side(k, {v, v, v}, {q, r, s});
+  }
+
+  /// Turns in a fan to the triangle that holds a direction; the side of the facet that it lies beyond, or kNone. `left` says on
+  /// which side of the plane through the apex and two corners it lies.
+  template <class Left>
+  std::uint32_t beyond(int k, Cell& at, Left left) const {
+    const ConvexView& own = view(k);
+    const std::uint32_t root = origin(own, at.first);
+    for (;;) {
+      const std::uint32_t tail = origin(own, at.side), head = own.head[at.side];
+      if (left(root, tail) < 0) {
+        if (tail == own.head[at.first]) return at.first;
+        at.side = before_in_facet(k, at.side);
+      } else if (left(head, root) < 0) {
+        const std::uint32_t next = next_in_facet(own, at.side);
+        if (own.head[next] == root) return next;
+        at.side = next;
+      } else {
+        return left(tail, head) < 0 ? at.side : kNone;
+      }
+    }
+  }
+
+  /// Where a vertex lies: outside a body (1), on its surface (0), or inside; and beyond or in which facet.
+  struct Place {
+    int side;
+    std::uint32_t facet;
+  };
+  /// Of a vertex of body k in the other, a solid. Seen from a vertex of that body the facets that do not hold it fill the body
+  /// with pyramids; one that does hold it is come to only by going outside.
+  Place locate(int k, std::uint32_t v) {
+    const ConvexView& other = view(1 - k);
+    const std::uint32_t apex = apex_[std::size_t(1 - k)], ring = other.vertices[apex].ring_begin;
+    Cell& last = cell_[std::size_t(1 - k)];
+    Cell at = last;
+    for (std::size_t steps = other.head.size(); steps > 0; --steps) {  // of a convex body none are left
+      const int above = height(k, v, at.first);
+      if (above > 0) return {1, at.first};
+      bool on_side = false;
+      const std::uint32_t edge = beyond(1 - k, at, [&](std::uint32_t p, std::uint32_t q) {
+        const int sign = sense(k) * side(k, {v, v, v}, {apex, p, q});
+        on_side = on_side || sign == 0;
+        return sign;
+      });
+      last = at;
+      if (edge != kNone) {
+        at = cell(1 - k, other.twin[edge]);
+        continue;
+      }
+      if (above == 0) return {0, at.first};
+      for (std::uint32_t h = ring; on_side && h < ring + other.vertices[apex].ring_count; ++h) {
+        if (height(k, v, h) == 0) return {0, h};
+      }
+      break;
+    }
+    return {-1, at.first};
+  }
+
+  /// The facet that an edge of body k goes into, from p outside the other body to q; kNone where it misses that. `from` is a
+  /// facet below p, and becomes the last.
+  std::uint32_t entered(int k, std::uint32_t p, std::uint32_t q, Cell& from) const {
+    const ConvexView& other = view(1 - k);
+    Cell at = from;
+    for (std::size_t steps = other.head.size(); steps > 0 && height(k, p, at.first) > 0; --steps) {
+      const std::uint32_t edge = beyond(1 - k, at, [&](std::uint32_t u, std::uint32_t w) {
+        return -sense(k) * side(k, {q, p, p}, {u, u, w});
+      });
+      from = at;
+      if (edge == kNone) return height(k, q, at.first) <= 0 ? at.first : kNone;
+      at = cell(1 - k, other.twin[edge]);
+    }
+    return kNone;
+  }
+
+  /// Where an edge of body k meets the other's surface; `inside` becomes false where a vertex of it is not inside.
+  std::optional<Crossing> along_edges(int k, bool& inside) {
+    const ConvexView &own = view(k), &other = view(1 - k);
+    inside = bounds_solid(other);
+    if (!inside) {
+      for (std::uint32_t h = 0; h < own.head.size() && !other.face_first.empty(); ++h) {
+        if (h < own.twin[h] && pierces(k, h, other.face_first[0])) return named(k, h, other.face_first[0]);
+      }
+      return std::nullopt;
+    }
+    for (std::uint32_t v = 0; v < own.vertices.size(); ++v) {
+      const Place place = locate(k, v);
+      if (place.side < 0) continue;
+      inside = false;
+      Cell below = cell(1 - k, place.facet);
+      const Vertex& ring = own.vertices[v];
+      for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
+        const bool on = place.side == 0 && pierces(k, h, place.facet);
+        const std::uint32_t facet = on ? place.facet : place.side > 0 ? entered(k, v, own.head[h], below) : kNone;
+        if (facet != kNone) return named(k, h, facet);
       }
     }
     return std::nullopt;
   }
-  static bool is_first(const ConvexView& view, std::uint32_t facet) {
-    for (std::uint32_t h = next_in_facet(view, facet); h != facet; h = next_in_facet(view, h)) {
-      if (h < facet) return false;
+
+  /// The same of both bodies, the smaller first; without any one body lies inside the other.
+  Crossing exactly(const Vec& x) {
+    for (const int k : {0, 1}) {
+      const ConvexView& own = view(k);
+      if (!bounds_solid(own)) continue;
+      std::uint32_t& apex = apex_[std::size_t(k)];  // in some vertex of a convex body no more than five edges meet
+      for (std::uint32_t v = 1; v < own.vertices.size(); ++v) {
+        if (own.vertices[v].ring_count < own.vertices[apex].ring_count) apex = v;
+      }
+      cell_[std::size_t(k)] = cell(k, own.twin[next_in_facet(own, own.vertices[apex].ring_begin)]);
     }
-    return true;
+    const int smaller_one = scene_.a.extent < scene_.b.extent ? 0 : 1;
+    for (const int k : {smaller_one, 1 - smaller_one}) {
+      bool inside = false;
+      if (const auto found = along_edges(k, inside)) return *found;
+      if (inside) return inner(k, x);
+    }
+    return inner(bounds_solid(scene_.a) ? 1 : 0, x);
   }
 
   // ---- In doubles ----
+
+  /// A guess is worth no more than one look at each feature.
+  bool spent() const { return tests_ > most_tests_; }
 
   /// Where the ray from a point inside leaves a body: after 1 / rate of its length; never, if the rate is not positive.
   struct Exit {
     std::uint32_t facet;
     double rate, error;
     bool ends_outside() const { return rate > 1 + error; }
-    bool ends_inside() const { return rate < 1 - error; }
   };
 
   /// Of any length; outward but where the pose reflects.
@@ -221,7 +344,7 @@ class Search {
   /// Facets seen from `p` are the vertices of the polar body, and the rate is linear over these: a climb ends at the greatest.
   Exit leave(int k, const Vec& p, const Vec& d) {
     Exit best = through(k, hint_[std::size_t(k)], p, d);
-    for (bool rises = true; rises;) {
+    for (bool rises = true; rises && !spent();) {
       rises = false;
       each_edge_of_facet(k, best.facet, [&](std::uint32_t h) {
         const Exit next = through(k, view(k).twin[h], p, d);
@@ -243,12 +366,12 @@ class Search {
     return x;
   }
 
-  /// A vertex of body k outside the other; kNone where all are inside, and `doubtful` where some are only perhaps.
-  std::uint32_t outsider(int k, const Vec& x, bool& doubtful) {
+  /// A vertex of body k outside the other; kNone where few looks show none.
+  std::uint32_t outsider(int k, const Vec& x) {
     const Vec apart = centre(k) - centre(1 - k);
     std::uint32_t v = origin(view(k), hint_[std::size_t(k)]);
     for (Vec n : {apart, Vec{1, 0, 0}, Vec{-1, 0, 0}, Vec{0, 1, 0}, Vec{0, -1, 0}, Vec{0, 0, 1}, Vec{0, 0, -1}}) {
-      for (int step = 0; step < kAimSteps; ++step) {  // rounding may turn in a circle
+      for (int step = 0; step < kAimSteps && !spent(); ++step) {  // rounding may turn in a circle
         const std::uint32_t farthest = extreme(k, rescaled(n), v);
         if (step > 0 && farthest == v) break;
         v = farthest;
@@ -257,11 +380,6 @@ class Search {
         const Vec facing = normal(1 - k, exit.facet);  // on from here, over the facet that the ray leaves through
         n = dot(facing, point(k, v) - x) < 0 ? -facing : facing;
       }
-    }
-    for (v = 0; v < view(k).vertices.size(); ++v) {
-      const Exit exit = towards(1 - k, x, point(k, v));
-      if (exit.ends_outside()) return v;
-      doubtful = doubtful || !exit.ends_inside();
     }
     return kNone;
   }
@@ -276,19 +394,14 @@ class Search {
   }
 
   std::optional<Crossing> between_outsiders(const Vec& x) {
-    bool doubtful = false;
-    const auto inside = [&](int k) -> std::optional<Crossing> {
-      if (doubtful) return std::nullopt;
-      return inner(k, x);
-    };
-    const std::uint32_t v = outsider(0, x, doubtful);
-    if (v == kNone) return inside(0);
+    const std::uint32_t v = outsider(0, x);
+    if (v == kNone) return std::nullopt;
     const Exit first = towards(1, x, point(0, v));
     std::uint32_t facet = first.facet, q = corner_outside(facet, x);
     Vec p = x + (point(0, v) - x) * (1 / first.rate);
     if (q == kNone) {
-      const std::uint32_t w = outsider(1, x, doubtful);
-      if (w == kNone) return inside(1);
+      const std::uint32_t w = outsider(1, x);
+      if (w == kNone) return std::nullopt;
       const Vec d = point(1, w) - x;
       for (Exit at = through(1, facet, x, d); q == kNone;) {
         Exit best = at;
@@ -297,7 +410,7 @@ class Search {
           const Exit next = through(1, scene_.b.twin[h], x, d);
           if (next.rate > best.rate) best = next, shared = scene_.b.head[h];
         });
-        if (shared == kNone) return std::nullopt;
+        if (shared == kNone || spent()) return std::nullopt;
         p = point(1, shared);  // inside A, as all corners so far
         at = best;
         q = corner_outside(at.facet, x);
@@ -319,16 +432,12 @@ class Search {
     const Handle any{FeatureKind::Vertex, 0};
     return k == 0 ? Crossing{any, {}, x} : Crossing{{}, any, x};
   }
-  /// Surfaces that share nothing: the body that is inside is the one with a vertex there.
-  Crossing nested(const Vec& x) {
-    if (!bounds_solid(scene_.a)) return inner(0, x);
-    if (!bounds_solid(scene_.b)) return inner(1, x);
-    return inner(towards(1, x, point(0, 0)).rate <= 1 ? 0 : 1, x);
-  }
-
   const Scene& scene_;
   std::uint32_t& tests_;
+  const std::size_t most_tests_;         ///< of guesses
   std::array<std::uint32_t, 2> hint_{};  ///< the facet last seen of each
+  std::array<std::uint32_t, 2> apex_{};  ///< where all of a body is seen from
+  std::array<Cell, 2> cell_{};           ///< the one last seen from there
 };
 
 /// The distance from p to the segment from q0 to q1.

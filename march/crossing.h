@@ -17,8 +17,11 @@ struct Crossing {
   Vec point;
 };
 
-/// `proof` proves that the bodies overlap. Cost: walks over facets, about as many as a cold march; where one body lies inside
-/// the other once over its vertices; where doubles cannot tell, over all edges and facets.
+/// `proof` proves that the bodies overlap. Cost: walks over facets, about as many as a cold march. Where one body lies inside
+/// the other one exact walk for each of its vertices; where doubles cannot tell, one for each edge that begins outside the
+/// other too. Each walk begins where the last one ended, mostly a facet or two away, so that the count is linear in the
+/// features: 1 to 5 tests for each, whatever the ratio of sizes. At worst, where each goes around the whole other body, it is
+/// the product of features, or what a hostile file costs: all known bounds below that take working memory [Chazelle 1992].
 Crossing crossing(const Scene& scene, const OverlapProof& proof, std::uint32_t& plane_tests);
 
 /// What holds a point of the common frame that lies on the surface but for law 2's bound: `known`, but where that is a vertex

@@ -276,9 +276,9 @@ class Deepening {
   Place place_{};
 };
 
-SignedAnswer invalid() {
+SignedAnswer invalid(Status status) {
   SignedAnswer s;
-  s.status = Status::InvalidPose;
+  s.status = status;
   return s;
 }
 
@@ -339,8 +339,9 @@ SignedAnswer overlap_part(const Deepening& deep) {
 SignedAnswer signed_distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options) {
   const Motion m = motion(b_in_a);
   const PoseQuality quality = pose_quality(m);
-  if (!quality.legal) return invalid();
+  if (!quality.legal) return invalid(Status::InvalidPose);
   const Dilation dilation(options);
+  if (!dilation.legal()) return invalid(Status::InvalidRadius);
   const double law_two = dilation.law_two(a, b, m);
   Deepening deep(a, b, m, quality.error, options, {options.absolute_error, options.relative_error});
   if (seed.met) deep.run(seed);
@@ -370,8 +371,9 @@ SignedWithin signed_within(const Model& a, const Model& b, const Pose& b_in_a, d
                            const QueryOptions& options) {
   const Motion m = motion(b_in_a);
   const PoseQuality quality = pose_quality(m);
-  if (!quality.legal) return {Decision::Undecided, invalid()};
+  if (!quality.legal) return {Decision::Undecided, invalid(Status::InvalidPose)};
   const Dilation dilation(options);
+  if (!dilation.legal()) return {Decision::Undecided, invalid(Status::InvalidRadius)};
   const double of_hulls = threshold + dilation.sum();
   SignedWithin result;
   if (of_hulls < 0) {

@@ -101,7 +101,7 @@ class Descent {
 
   /// What an answer that cannot be narrowed says of the exact hulls.
   MarchStatus met_before() const {
-    if (answer_.level_a != 0 || answer_.level_b != 0 || !(answer_.upper - answer_.lower <= law_two_ + target_.rounding))
+    if (answer_.level_a != 0 || answer_.level_b != 0 || !(answer_.upper - answer_.lower <= larger(law_two_, target_.exact)))
       return MarchStatus::NotConverged;
     switch (answer_.verdict) {
       case Verdict::Overlapping: return MarchStatus::Overlapping;

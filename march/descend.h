@@ -14,6 +14,7 @@ struct Target {
   double hit_below;     ///< answered when upper <= this
   double zero = 0;      ///< the hulls' distance that `relative` counts from, where the bodies touch
   double rounding = 0;  ///< by so much narrower than `absolute` and `relative` say
+  double exact = 0;     ///< an earlier answer is exact where it is this narrow, or within law 2's bound of the hulls
   bool is_threshold() const { return clear_above < std::numeric_limits<double>::infinity(); }
 };
 

@@ -93,9 +93,14 @@ Answer ask(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, c
            const Target& target, const Dilation& dilation, const Answer* so_far) {
   if (so_far && so_far->verdict == Verdict::Overlapping) return known(*so_far, Status::Converged);
   const double law_two = dilation.law_two(a, b, motion(b_in_a));
+  Target of_hulls = dilation.of_hulls(target, law_two);
   Answer hulls;
-  if (so_far) hulls = dilation.of_hulls(*so_far);
-  Answer answer = descend(a, b, b_in_a, seed, options, dilation.of_hulls(target, law_two), so_far ? &hulls : nullptr);
+  if (so_far) {
+    hulls = dilation.of_hulls(*so_far);
+    // Exact of the bodies is exact, whatever place the radii cost it.
+    if (so_far->upper - so_far->lower <= law_two) of_hulls.exact = hulls.upper - hulls.lower;
+  }
+  Answer answer = descend(a, b, b_in_a, seed, options, of_hulls, so_far ? &hulls : nullptr);
   if (so_far && answer.levels_visited == 0 && answer.status != Status::InvalidPose) return known(*so_far, answer.status);
   dilation.dilate(answer, law_two);
   const std::size_t recorded = std::min(options.trace.size(), std::size_t(answer.levels_visited));

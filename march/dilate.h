@@ -4,8 +4,6 @@
 // answer becomes theirs. The only place that knows radii, but for checks. Knows nothing of the way between.
 #pragma once
 
-#include <cassert>
-
 #include <swiftlet/depth.h>
 
 #include "descend.h"
@@ -13,11 +11,15 @@
 
 namespace swiftlet {
 
+static inline bool is_radius(double value) { return value >= 0 && value <= kMostCoordinate; }
+
 /// By the radii of some options. Without any, all that it makes of questions and answers is themselves.
 class Dilation {
  public:
-  explicit Dilation(const QueryOptions& options) : a_(radius(options.radius_a)), b_(radius(options.radius_b)) {}
+  explicit Dilation(const QueryOptions& options) : a_(options.radius_a), b_(options.radius_b) {}
 
+  /// Else nothing else is asked of it.
+  bool legal() const { return is_radius(a_) && is_radius(b_); }
   bool none() const { return a_ + b_ == 0; }
   double sum() const { return a_ + b_; }
   /// Of the bodies.
@@ -34,11 +36,6 @@ class Dilation {
 
  private:
   Dilation(double a, double b) : a_(a), b_(b) {}
-  /// What is no radius counts as 0 where asserts are off.
-  static double radius(double value) {
-    assert(value >= 0 && value <= kMostCoordinate);
-    return larger(0, value);
-  }
   /// bound - a - b, at most a place off, to the side that is named.
   double less(double bound, double side) const;
   double more(double bound, double side) const;
@@ -52,11 +49,16 @@ class Dilation {
 };
 
 /// Answers `target` of the hulls of `a` and `b` dilated by the options' radii: from the seed, or on from `so_far`.
-Answer ask(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options, const Target& target,
-           const Dilation& dilation, const Answer* so_far);
+Answer ask(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
+           const Target& target, const Dilation& dilation, const Answer* so_far);
 static inline Answer ask(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
                          const Target& target, const Answer* so_far = nullptr) {
   const Dilation dilation(options);
+  if (!dilation.legal()) {
+    Answer invalid;
+    invalid.status = Status::InvalidRadius;
+    return invalid;
+  }
   return dilation.none() ? descend(a, b, b_in_a, seed, options, target, so_far)
                          : ask(a, b, b_in_a, seed, options, target, dilation, so_far);
 }

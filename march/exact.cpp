@@ -7,6 +7,7 @@
 
 #include "double_double.h"
 #include "tolerance.h"
+#include "wide.h"
 
 namespace swiftlet::exact {
 namespace {
@@ -221,16 +222,27 @@ int compare_along_turned(const double n[3], const Motion& m, const double w[3], 
 }
 
 int triple_product(const std::array<const double*, 3>& a, const std::array<const double*, 3>& b, const Motion& m) {
-  std::array<Vec, 3> p;
-  std::array<Vec, 3> size;  // |a| + |R| |b| + |t|, which scales the rounding of p
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec va{a[k][0], a[k][1], a[k][2]}, vb{b[k][0], b[k][1], b[k][2]}, ab = absolute(vb);
-    p[k] = va - apply(m, vb);
-    size[k] =
-        absolute(va) + absolute(m.t) + Vec{dot(absolute(m.row_x), ab), dot(absolute(m.row_y), ab), dot(absolute(m.row_z), ab)};
-  }
-  const double bound = kOffsetTripleProductError * permanent(size[0], size[1], size[2]);
-  if (const int sign = certain_sign(dot(cross(p[0], p[1]), p[2]), bound)) return sign;
+  // With the first and last less the middle one, which leaves no more of a body than the difference of two of its vertices:
+  // of the facets of a body far away from the other such are all that doubles see.
+  const auto in_doubles = [](const double* p) { return Vec{p[0], p[1], p[2]}; };
+  const auto less_middle = [&](std::size_t k) { return subtract(a[k], a[1]) - turn(m, subtract(b[k], b[1])); };
+  const auto turned_size = [&](const Vec& v) {
+    const Vec size = absolute(v);
+    return Vec{dot(absolute(m.row_x), size), dot(absolute(m.row_y), size), dot(absolute(m.row_z), size)};
+  };
+  const auto size_less_middle = [&](std::size_t k) {
+    return absolute(subtract(a[k], a[1])) + turned_size(subtract(b[k], b[1]));
+  };
+  const Vec va = in_doubles(a[1]), vb = in_doubles(b[1]);
+  const double most = permanent(size_less_middle(0), absolute(va) + absolute(m.t) + turned_size(vb), size_less_middle(2));
+  const double value = dot(cross(less_middle(0), va - apply(m, vb)), less_middle(2));
+  if (const int sign = certain_sign(value, kOffsetTripleProductError * most)) return sign;
+  const auto wide_less_middle = [&](std::size_t k) {
+    const Wide d = wide(in_doubles(b[k])) - wide(vb);
+    return wide(in_doubles(a[k])) - wide(va) - Wide{dot(wide(m.row_x), d), dot(wide(m.row_y), d), dot(wide(m.row_z), d)};
+  };
+  const double wide_value = double(dot(cross(wide_less_middle(0), wide(va) - wide(m, vb)), wide_less_middle(2)));
+  if (const int sign = certain_sign(wide_value, kWideOffsetTripleProductError * most)) return sign;
   return dot3(cross3(offset3(a[0], b[0], m), offset3(a[1], b[1], m)), offset3(a[2], b[2], m)).sign();
 }
 

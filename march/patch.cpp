@@ -9,6 +9,7 @@
 #include <span>
 
 #include "crossing.h"
+#include "dilate.h"
 #include "outline.h"
 #include "overlay.h"
 #include "ring.h"
@@ -262,7 +263,8 @@ template <class AnyAnswer>
 Patch around(const Model& a, const Model& b, const Pose& b_in_a, const AnyAnswer& answer, const PatchOptions& options,
              const Patch& previous) {
   const Vec n = vec(answer.normal);
-  if (max_abs(n) == 0 || !exists(a, answer.level_a, answer.feature_a) || !exists(b, answer.level_b, answer.feature_b))
+  if (max_abs(n) == 0 || !exists(a, answer.level_a, answer.feature_a) || !exists(b, answer.level_b, answer.feature_b) ||
+      !is_radius(options.radius_a) || !is_radius(options.radius_b))
     return {};
   const Motion m = motion(b_in_a);
   const Scene hulls = scene(a.level(answer.level_a).view, b.level(answer.level_b).view, m, pose_quality(m).error);

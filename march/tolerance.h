@@ -51,6 +51,8 @@ inline constexpr double kLeastWideArea = 0x1p-40;
 inline constexpr double kPlaneHeightError = 8 * kU, kPlaneHeightFloor = kU / 8;
 /// Three factors a - (R b + t) of 1 product and 4 sums each, then 2 products, 1 difference, 2 sums.
 inline constexpr double kOffsetTripleProductError = 26 * kU;
+/// The same in double-double arithmetic: 26 operations that keep 100 bits each.
+inline constexpr double kWideOffsetTripleProductError = 0x1p-95;
 
 /// Coordinates are 0 or at least this, so that products of three of them keep their rounding errors inside the range of
 /// doubles. Length.
@@ -123,10 +125,6 @@ inline constexpr double kUnitError = 12 * kU;
 
 // ---- Where surfaces cross (crossing.cpp): doubles guide, exact signs decide ------------------------------------------------
 
-/// A triple product u x v . w of points in the common frame, |w| at most twice the magnitude: each difference is off by two
-/// point errors, 4 + 2, and kTripleProductError on six terms of at most |u||v||w|, 17 of the point error, which is at least 7 u
-/// of the magnitude. Relative to point error * magnitude * (|u| + |v|).
-inline constexpr double kFacetSideError = 32;
 /// Where a ray leaves a body, in point errors over the height of the facet above where it starts: ten of these, rounded up. A
 /// wrong guess costs a longer search, never a wrong answer.
 inline constexpr double kExitError = 16;

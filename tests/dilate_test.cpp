@@ -6,6 +6,7 @@
 #include <swiftlet/build.h>
 #include <swiftlet/check.h>
 #include <swiftlet/depth.h>
+#include <swiftlet/patch.h>
 #include <swiftlet/query.h>
 
 #include <algorithm>
@@ -414,18 +415,84 @@ TEST(Radii, OfAPairGoThroughABatch) {
   }
 }
 
-TEST(Radii, ThatAreNoneAreAsserted) {
+TEST(Radii, RefineIntervalsWiderThanLawTwo) {
+  int wide = 0;
+  for_each_case([&](const Case& c) {
+    const Answer exactly = exact(c);
+    const double bound = c.law_two();
+    if (exactly.lower <= 2 * bound) return;
+    for (const double times : {1.01, 1.5, 1.9, 2.5}) {
+      for (const double relative : {0.0, 1e-18, 1e-15}) {
+        Answer so_far = exactly;
+        const double more = 0.5 * (times * bound - (so_far.upper - so_far.lower));
+        so_far.lower -= more, so_far.upper += more;
+        QueryOptions options = c.options();
+        options.relative_error = relative;
+        PairSeed seed;
+        const Answer finer = refine(c.model_a(), c.model_b(), c.pose, so_far, seed, options);
+        expect_true(c, finer);
+        ASSERT_EQ(finer.status, Status::Converged);
+        ASSERT_LE(finer.upper - finer.lower, std::max(relative * finer.lower, bound)) << times << " times law 2, " << relative;
+        ++wide;
+      }
+    }
+  });
+  EXPECT_GE(wide, 2000);
+}
+
+TEST(Radii, ThatAreNoneAreAStatus) {
   const Model cube = bodies::model(bodies::cube());
-  for (const double radius : {-1.0, std::nan("")}) {
-    QueryOptions options;
-    options.radius_b = radius;
-    PairSeed seed, plain;
-    const Pose pose{Mat3::Identity(), {3, 0, 0}};
-    EXPECT_DEBUG_DEATH(distance(cube, cube, pose, seed, options), "value >= 0");
-#ifdef NDEBUG
-    EXPECT_TRUE(same_bits(distance(cube, cube, pose, seed = {}, options), distance(cube, cube, pose, plain)));
-#endif
+  const Pose pose{Mat3::Identity(), {3, 0, 0}};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  PairSeed none;
+  const Answer legal = distance(cube, cube, pose, none);
+  const auto expect_refused = [&](const auto& answer, double least) {
+    EXPECT_EQ(answer.status, Status::InvalidRadius);
+    EXPECT_EQ(answer.verdict, Verdict::Undecided);
+    EXPECT_EQ(answer.lower, least);
+    EXPECT_EQ(answer.upper, kInfinity);
+    EXPECT_EQ(answer.steps + answer.plane_tests, 0u);
+  };
+  for (const double radius : {-1.0, -1e-300, std::nan(""), kInfinity, -kInfinity, 1.0000001e45, 1e308}) {
+    for (const bool of_a : {false, true}) {
+      QueryOptions options;
+      (of_a ? options.radius_a : options.radius_b) = radius;
+      PairSeed seed;
+      expect_refused(distance(cube, cube, pose, seed, options), 0);
+      expect_refused(intersects(cube, cube, pose, seed, options), 0);
+      expect_refused(contact(cube, cube, pose, seed, options).answer, 0);
+      expect_refused(refine(cube, cube, pose, legal, seed, options), 0);
+      const Within near = within(cube, cube, pose, 5, seed, options);
+      expect_refused(near.answer, 0);
+      EXPECT_EQ(near.decision, Decision::Undecided);
+      expect_refused(signed_distance(cube, cube, pose, seed, options), -kInfinity);
+      for (const double threshold : {-1.0, 5.0}) {
+        const SignedWithin deep = signed_within(cube, cube, pose, threshold, seed, options);
+        expect_refused(deep.answer, -kInfinity);
+        EXPECT_EQ(deep.decision, Decision::Undecided);
+      }
+      const PairQuery pair{&cube, &cube, pose, nullptr, &options};
+      Answer answer;
+      distance({&pair, 1}, {&answer, 1});
+      expect_refused(answer, 0);
+      intersects({&pair, 1}, {&answer, 1});
+      expect_refused(answer, 0);
+      PatchOptions patches;
+      patches.margin = 2;
+      EXPECT_EQ(patch(cube, cube, pose, legal, patches).count, 4u);
+      (of_a ? patches.radius_a : patches.radius_b) = radius;
+      EXPECT_EQ(patch(cube, cube, pose, legal, patches).count, 0u);
+      EXPECT_TRUE(check(cube, cube, pose, answer, options.radius_a, options.radius_b));
+      EXPECT_FALSE(check(cube, cube, pose, answer));
+      EXPECT_FALSE(check(cube, cube, pose, legal, options.radius_a, options.radius_b));
+    }
   }
+  QueryOptions large;
+  large.radius_a = large.radius_b = 1e45;
+  PairSeed seed;
+  const Answer met = distance(cube, cube, pose, seed, large);
+  EXPECT_EQ(met.status, Status::Converged);
+  EXPECT_EQ(met.verdict, Verdict::Overlapping);
 }
 
 TEST(Radii, ChecksFailOnWrongClaims) {

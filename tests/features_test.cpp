@@ -288,6 +288,57 @@ TEST(Features, OfManyFacetsOverlapToo) {
   EXPECT_GE(count.overlapping, 150);
 }
 
+TEST(Features, OfABodyInOneThatIsAnyTimesLarger) {
+  // From a ratio of 1e16 on doubles of the common frame do not tell the smaller body's vertices apart.
+  const bodies::Body large = bodies::body_of(shapes::random_polytope(20, 3));
+  const Model inner = model(bodies::body_of(shapes::random_polytope(12, 4)));
+  const ConvexView& b = inner.level(0).view;
+  shapes::Random random(48);
+  Count count;
+  for (int decade = 0; decade <= 30; ++decade) {
+    const double ratio = std::pow(10, decade);
+    const Model outer = model(bodies::moved(large, ratio * Mat3::Identity()));
+    const ConvexView& a = outer.level(0).view;
+    for (int k = 0; k < 8; ++k) {
+      const Vec3 of_a(a.vertices[0].x, a.vertices[0].y, a.vertices[0].z), near = random.in_ball();
+      const Vec3 at[] = {0.1 * near, ratio * 0.5 * near, 0.9 * of_a + near, 0.2 * of_a};
+      const Pose pose{random.rotation(), at[k % 4]};
+      expect_features(a, b, pose, count);
+      expect_features(b, a, inverse(pose), count);
+      if (testing::Test::HasFailure()) FAIL() << decade << ' ' << k;
+    }
+  }
+  EXPECT_GE(count.nested, 200);
+}
+
+TEST(Features, OfABodyInOneThatIsAnyTimesLargerCostWorkLinearInThem) {
+  const std::size_t n = 1000;
+  const auto size = [](const ConvexView& v) { return v.vertices.size() + v.head.size() + v.face_first.size(); };
+  std::uint64_t most = 0;
+  for (const Mesh& shape : {shapes::ellipsoid({1, 1, 1}, n, 1), shapes::ellipsoid({1, 1, 0.02}, n, 2),
+                            shapes::ellipsoid({2, 0.02, 0.02}, n, 3), shapes::prism(n / 2, 1, 1)}) {
+    const bodies::Body body = bodies::body_of(shape);
+    const Model inner = model(bodies::moved(body, 0.01 * Mat3::Identity()), {true, {}});
+    const ConvexView& b = inner.level(0).view;
+    shapes::Random random(49);
+    int nested = 0;
+    for (int decade = 0; decade <= 30; ++decade) {
+      const Model outer = model(bodies::moved(body, std::pow(10, decade) * Mat3::Identity()), {true, {}});
+      const ConvexView& a = outer.level(0).view;
+      for (int k = 0; k < 6; ++k) {
+        const Pose pose{random.rotation(), (k < 3 ? 1e-3 : 0.3 * std::pow(10, decade)) * random.in_ball()};
+        for (const MarchResult& r : {march(a, b, pose), march(b, a, inverse(pose))}) {
+          ASSERT_LE(r.plane_tests, 8 * (size(a) + size(b))) << decade << ' ' << k;
+          most = std::max<std::uint64_t>(most, 100 * r.plane_tests / (size(a) + size(b)));
+          nested += r.status == MarchStatus::Overlapping && (r.a == Handle{} || r.b == Handle{});
+        }
+      }
+    }
+    EXPECT_GE(nested, 100);
+  }
+  std::printf("at most %.2f plane tests per feature\n", double(most) / 100);
+}
+
 TEST(Features, HoldAVertexInsideAFlatFace) {
   // The corner of a walking face that its loop does not pass: an ulp below, or above, its plane.
   bodies::Body box{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}, {}, {}};

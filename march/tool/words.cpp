@@ -31,9 +31,10 @@ const char* name(Status status) {
     case Status::Budget: return "Budget";
     case Status::LevelLimit: return "LevelLimit";
     case Status::NotConverged: return "NotConverged";
-    case Status::InvalidPose: break;
+    case Status::InvalidPose: return "InvalidPose";
+    case Status::InvalidRadius: break;
   }
-  return "InvalidPose";
+  return "InvalidRadius";
 }
 
 const char* name(Verdict verdict) {

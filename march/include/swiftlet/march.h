@@ -78,7 +78,9 @@ struct MarchResult {
 /// Marches from `start` to the nearest features of `a` and `b`. Allocates nothing.
 /// Law 7: at most 2 * (12 |A| |B| + 1) steps, where |X| counts vertices, half-edges and faces: a state that shortens the
 /// distance never returns, twelve in a row that do not end the walk, and within rounding of a threshold a cold walk follows.
-/// The most ever seen is |A| + |B|; on 2 000 triangles about 50.
+/// The most ever seen is |A| + |B|; on 2 000 triangles about 50. Plane tests beside these: where the bodies overlap, to find
+/// features that share a point, about as many as a cold march takes; where one lies inside the other, however much larger that
+/// is, 1 to 5 for each feature of both: 1 000 vertices in 1 000 take 0.4 ms, 6 ms where doubles cannot tell them apart.
 MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, const MarchStart& start = {},
                   const MarchRule& rule = {});
 

@@ -41,11 +41,13 @@ struct Patch {
 struct PatchOptions {
   double margin = 0;              ///< points farther apart than this, and than law 2's bound more, are left out
   std::uint32_t most_points = 4;  ///< 1 to kMostPatchPoints
-  double radius_a = 0;            ///< that of A which the answer was asked with: so far the points lie outside of A's hull
+  double radius_a = 0;            ///< that of A which the answer was asked with: so far the points lie outside of A's hull. No
+                                  ///< points of radii that a query refuses as InvalidRadius
   double radius_b = 0;            ///< likewise, of B
   /// Faces that lie within so much of a body's contact face are one face with it, which makes one square of the two triangles
-  /// of a rounded one; seen narrower than this, from the side, they may be a line. Over the body's extent; by default 4 ulps of single precision, from which such squares come. The faces
-  /// of a model are flat to 4 ulps of its input's precision by themselves: less has no effect on them.
+  /// of a rounded one; seen narrower than this, from the side, they may be a line. Over the body's extent; by default 4 ulps of
+  /// single precision, from which such squares come. The faces of a model are flat to 4 ulps of its input's precision by
+  /// themselves: less has no effect on them.
   double flatness = 0x1p-21;
 };
 

@@ -23,6 +23,7 @@ enum class Status : std::uint8_t {
                  ///< is true, and as narrow as the levels that the answer names allow
   NotConverged,  ///< the interval is true but wider than asked. No valid model and pose is known that answers so
   InvalidPose,   ///< not finite, translated beyond 1e45, or not orthonormal to 1e-6: the interval is [0, inf]
+  InvalidRadius,  ///< a radius that is no number from 0 to 1e45: likewise
 };
 
 /// What is proved of the two bodies as closed sets.
@@ -73,8 +74,8 @@ struct LevelRecord {
 /// What the bodies are, when a query may stop, and how it goes there. Lengths are in the bodies' unit.
 struct QueryOptions {
   /// A body is all that lies within its radius of its hull: a margin, a sphere around a point, a capsule around a segment. 0 to
-  /// 1e45, asserted; else 0. Whatever is asked and answered is of these bodies; law 2's size counts the radii, and each bound
-  /// may be off by its last place more.
+  /// 1e45, or the status is InvalidRadius. Whatever is asked and answered is of these bodies; law 2's size counts the radii,
+  /// and each bound may be off by its last place more.
   double radius_a = 0;
   double radius_b = 0;        ///< likewise, of B
   double absolute_error = 0;  ///< stop when upper - lower <= max(absolute_error, relative_error * lower)
