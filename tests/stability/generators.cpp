@@ -588,14 +588,14 @@ Subject cut(const Subject& subject, Random& random) {
 }
 
 /// Real links, or what a few of their points span, deep inside themselves and each other: at random, or moving on by small
-/// steps with the seed of the step before. 338 batches are every two of 13, whole and cut. Whole ones are compared; few are
-/// judged, at some seconds each.
+/// steps with the seed of the step before. 676 batches are every two of 13, each as often with itself as with another, whole
+/// and cut. Whole ones are compared; few are judged, at some seconds each.
 void deep_overlaps(Examiner& examiner, std::uint64_t index) {
   constexpr int kPoses = 32, kJudgeWholes = 4096;
   Random& random = examiner.random;
   const auto& all = links();
-  const Subject &first = all[index / 2 % all.size()], &second = all[index / 2 / all.size() % all.size()];
-  const bool whole = index % 2, coherent = random.bits() % 2;
+  const bool whole = index % 2, alone = index / 2 % 2, coherent = random.bits() % 2;
+  const Subject &first = all[index / 4 % all.size()], &second = alone ? first : all[index / 4 / all.size() % all.size()];
   const Subject a = whole ? first : cut(first, random), b = whole ? second : cut(second, random);
   const auto centre = [](const Subject& subject) {
     Vec3 sum = Vec3::Zero();
