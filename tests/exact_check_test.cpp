@@ -3,6 +3,7 @@
 // The judge of the generators can fail: true answers pass, and each of their fields, changed by as little as makes it false, is
 // flagged.
 #include <swiftlet/build.h>
+#include <swiftlet/depth.h>
 #include <swiftlet/query.h>
 
 #include <cmath>
@@ -145,6 +146,36 @@ TEST(Judge, FlagsFalseProofsOfOverlap) {
   flagged("one vertex twice", [](Answer& x) {
     x.proof.vertex_a[1] = x.proof.vertex_a[0];
     x.proof.vertex_b[1] = x.proof.vertex_b[0];
+  });
+}
+
+TEST(Judge, FlagsEveryFieldOfADepth) {
+  const Scene s;
+  PairSeed seed;
+  const SignedAnswer answer = signed_distance(s.a.model, s.b.model, s.inside, seed);
+  ASSERT_EQ(answer.verdict, Verdict::Overlapping);
+  const double bound = Judge(s.a, s.b, s.inside).law_two();
+  EXPECT_EQ(Judge(s.a, s.b, s.inside).exact(answer), "");
+  const auto flagged = [&](const char* what, const std::function<void(SignedAnswer&)>& change) {
+    SignedAnswer changed = answer;
+    change(changed);
+    EXPECT_NE(Judge(s.a, s.b, s.inside).exact(changed), "") << what;
+  };
+  flagged("not converged", [](SignedAnswer& x) { x.status = Status::NotConverged; });
+  flagged("ended by its budget", [](SignedAnswer& x) { x.status = Status::Budget; });
+  flagged("undecided", [](SignedAnswer& x) { x.verdict = Verdict::Undecided; });
+  flagged("disjoint", [](SignedAnswer& x) { x.verdict = Verdict::Disjoint; });
+  flagged("touching", [](SignedAnswer& x) { x.verdict = Verdict::Touching; });
+  flagged("wide", [&](SignedAnswer& x) { x.upper = x.lower + 1.01 * bound; });
+  flagged("shallower than along the normal", [&](SignedAnswer& x) { x.lower += bound, x.upper += bound; });
+  flagged("deeper than the truth", [&](SignedAnswer& x) { x.lower -= bound, x.upper -= bound; });
+  flagged("not a number", [](SignedAnswer& x) { x.lower = std::nan(""); });
+  flagged("flipped normal", [](SignedAnswer& x) { x.normal = -x.normal; });
+  flagged("longer normal", [](SignedAnswer& x) { x.normal *= 1 + 0x1p-49; });
+  flagged("point of A off along the normal", [&](SignedAnswer& x) { x.point_a += 3 * bound * x.normal; });
+  flagged("both points aside", [](SignedAnswer& x) {
+    const Vec3 aside = x.normal.unitOrthogonal() * 3;
+    x.point_a += aside, x.point_b += aside;
   });
 }
 

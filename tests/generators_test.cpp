@@ -36,7 +36,7 @@ TEST_P(Generators, FindNothingWrongAndHitWhatTheyAreMadeFor) {
   const Family& f = GetParam();
   Tally seen;
   for (int i = 0; i < f.batches; ++i) {
-    const Examiner batch = run_batch(f, kSeed, std::uint64_t(i));
+    const Examiner batch = run_batch(f, kSeed, std::uint64_t(i), f.judge_every);
     seen += batch.tally;
     for (const Case& failure : batch.failures) ADD_FAILURE() << failure.name << ": " << failure.symptom;
   }
@@ -97,8 +97,8 @@ TEST(Found, PairsThatFailedOnceFailNoMore) {
 
 TEST(Generators, AreReproducible) {
   for (const Family& f : families()) {
-    const std::uint64_t once = run_batch(f, kSeed, 1).tally.hash;
-    EXPECT_EQ(once, run_batch(f, kSeed, 1).tally.hash) << f.name;
+    const std::uint64_t once = run_batch(f, kSeed, 1, f.judge_every).tally.hash;
+    EXPECT_EQ(once, run_batch(f, kSeed, 1, f.judge_every).tally.hash) << f.name;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <CGAL/Gmpq.h>
@@ -30,24 +31,29 @@ Exact cross(const Exact& p, const Exact& q) {
 }
 Rational dot(const Exact& p, const Exact& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
 
-/// One body in A's frame, rounded and exact, and the edges of its hull.
+/// One body in A's frame, rounded and exact, and the edges of its hull. Differences of rounded points are as precise as the
+/// body is small, however far it is.
 struct Moved {
-  std::vector<Vec3> points;
-  std::vector<Exact> exact_points;
+  std::vector<Vec3> points;         ///< rotated only
+  Vec3 shift;                       ///< what is still to be added
+  std::vector<Exact> exact_points;  ///< where they are
   struct Edge {
     std::uint32_t from, to;
-    std::array<std::uint32_t, 2> beside{kNone, kNone};  ///< a vertex of the facet to each side
+    Vec3 along;                  ///< from the one to the other, rotated
+    std::array<Vec3, 2> beside;  ///< to a vertex of the facet to each side; 0 without one
   };
   std::vector<Edge> edges;
   std::vector<std::array<Edge, 2>> faces;  ///< two edges of each
-  double extent = 0;
+  double extent = 0;                       ///< of `points`
 };
 Moved moved(const Subject& subject, const Pose& pose) {
   Moved m;
+  m.shift = pose.translation;
   const ConvexView& view = subject.model.level(0).view;
-  for (const Vertex& v : view.vertices) {
-    const Vec3 p(v.x, v.y, v.z);
-    m.points.push_back(pose.rotation * p + pose.translation);
+  const auto stored = [&](std::uint32_t v) { return Vec3(view.vertices[v].x, view.vertices[v].y, view.vertices[v].z); };
+  for (std::uint32_t v = 0; v < view.vertices.size(); ++v) {
+    const Vec3 p = stored(v);
+    m.points.push_back(pose.rotation * p);
     m.exact_points.push_back(moved(pose, p, true));
     m.extent = std::max(m.extent, m.points.back().lpNorm<Eigen::Infinity>());
   }
@@ -58,9 +64,16 @@ Moved moved(const Subject& subject, const Pose& pose) {
     const std::uint32_t next = h + 1 < ring.ring_begin + ring.ring_count ? h + 1 : ring.ring_begin,
                         last = h > ring.ring_begin ? h - 1 : ring.ring_begin + ring.ring_count - 1;
     const bool has_facets = view.face[h] != kNone;
-    if (h < view.twin[h])
-      m.edges.push_back({from, view.head[h], {has_facets ? view.head[next] : kNone, has_facets ? view.head[last] : kNone}});
-    if (has_facets) m.faces.push_back({{{from, view.head[h]}, {from, view.head[next]}}});
+    const auto to = [&](std::uint32_t v) { return Vec3(pose.rotation * (stored(v) - stored(from))); };
+    const auto edge = [&](std::uint32_t half_edge) {
+      const std::uint32_t v = view.head[half_edge];
+      return Moved::Edge{from, v, to(v), {Vec3::Zero(), Vec3::Zero()}};
+    };
+    if (h < view.twin[h]) {
+      m.edges.push_back(edge(h));
+      if (has_facets) m.edges.back().beside = {to(view.head[next]), to(view.head[last])};
+    }
+    if (has_facets) m.faces.push_back({edge(h), edge(next)});
   }
   return m;
 }
@@ -85,14 +98,13 @@ class Difference {
 
  private:
   std::optional<Vec3> try_plane(const Moved& x, const Moved::Edge& e, const Moved& y, const Moved::Edge& f) {
-    const Vec3 u = x.points[e.to] - x.points[e.from], v = y.points[f.to] - y.points[f.from], n = u.cross(v);
-    const double size = a_.extent + b_.extent,
-                 doubt = 0x1p-44 * size * (u.norm() + size * 0x1p-50) * (v.norm() + size * 0x1p-50);
+    const Vec3 n = e.along.cross(f.along);
+    const double doubt = 0x1p-44 * e.along.norm() * f.along.norm();  // of n, and of a height along it per length
     // Either may be: no farther than the depth, along n and against it.
-    const double enough = depth_ * n.norm() + doubt;
-    if (n.norm() * size > 4 * doubt) found_ = true;
-    const bool below = !rises(x, e, n, doubt) && !rises(y, f, -n, doubt) && !reaches(n, enough);
-    const bool above = !rises(x, e, -n, doubt) && !rises(y, f, n, doubt) && !reaches(-n, enough);
+    const double enough = depth_ * n.norm() + doubt * (a_.extent + b_.extent + b_.shift.norm());
+    if (n.norm() > 4 * doubt) found_ = true;
+    const bool below = !rises(e, n, doubt) && !rises(f, -n, doubt) && !reaches(n, enough);
+    const bool above = !rises(e, -n, doubt) && !rises(f, n, doubt) && !reaches(-n, enough);
     if (!below && !above) return std::nullopt;
     const Exact normal =
         cross(minus(x.exact_points[e.to], x.exact_points[e.from]), minus(y.exact_points[f.to], y.exact_points[f.from]));
@@ -106,23 +118,37 @@ class Difference {
   }
 
   /// Whether a vertex beside the edge surely is above it: it then spans no facet with this normal.
-  static bool rises(const Moved& body, const Moved::Edge& e, const Vec3& n, double doubt) {
-    return std::any_of(e.beside.begin(), e.beside.end(),
-                       [&](std::uint32_t v) { return v != kNone && n.dot(body.points[v] - body.points[e.from]) > doubt; });
+  static bool rises(const Moved::Edge& e, const Vec3& n, double doubt) {
+    return std::any_of(e.beside.begin(), e.beside.end(), [&](const Vec3& d) { return n.dot(d) > doubt * d.norm(); });
   }
   /// Whether some difference surely is as far along n.
   bool reaches(const Vec3& n, double enough) const {
-    double most = n.dot(a_.points[0]), least = n.dot(b_.points[0]);
+    double most = n.dot(a_.points[0]), least = n.dot(b_.points[0]);  // A is not shifted
     for (const Vec3& p : a_.points) most = std::max(most, n.dot(p));
     for (const Vec3& p : b_.points) least = std::min(least, n.dot(p));
-    return most - least > enough;
+    return most - least - n.dot(b_.shift) > enough;
   }
+  /// Decided exactly, but for vertices that are surely below others, and planes that surely are higher: nearly parallel edges
+  /// have a normal that their difference in doubles does not know.
   bool is_lower(const Exact& n, const Rational& square) const {
-    Rational most = dot(n, a_.exact_points[0]), least = dot(n, b_.exact_points[0]);
-    for (const Exact& p : a_.exact_points) most = std::max(most, dot(n, p));
-    for (const Exact& p : b_.exact_points) least = std::min(least, dot(n, p));
-    const Rational height = most - least;
+    const Vec3 rounded(CGAL::to_double(n[0]), CGAL::to_double(n[1]), CGAL::to_double(n[2]));
+    const double doubt = 0x1p-44 * rounded.norm();
+    if (reaches(rounded, depth_ * rounded.norm() + doubt * (a_.extent + b_.extent + b_.shift.norm()))) return false;
+    const Rational height = farthest(a_, n, rounded, doubt) + farthest(b_, minus({0, 0, 0}, n), -rounded, doubt);
     return height < 0 || height * height < exact_depth_ * exact_depth_ * square;
+  }
+  /// The greatest height of a body's vertices along n, among those that may have it.
+  static Rational farthest(const Moved& body, const Exact& n, const Vec3& rounded, double doubt) {
+    double enough = -std::numeric_limits<double>::infinity();
+    for (const Vec3& p : body.points) enough = std::max(enough, rounded.dot(p));
+    enough -= 2 * doubt * body.extent;
+    std::optional<Rational> most;
+    for (std::size_t i = 0; i < body.points.size(); ++i) {
+      if (rounded.dot(body.points[i]) < enough) continue;
+      const Rational height = dot(n, body.exact_points[i]);
+      if (!most || height > *most) most = height;
+    }
+    return *most;
   }
 
   const Moved &a_, &b_;

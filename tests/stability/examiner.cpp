@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <limits>
 
 namespace swiftlet::stability {
@@ -13,6 +14,8 @@ namespace {
 
 constexpr std::uint64_t kSolveEvery = 24, kColdEvery = 8, kPatchEvery = 32;
 constexpr std::size_t kMostFailures = 8;
+/// Of one march, a hundred times what any takes in Release: sanitizers are slow.
+constexpr double kMostSeconds = 2;
 
 template <class T>
 void mix(std::uint64_t& hash, const T& value) {
@@ -21,6 +24,18 @@ void mix(std::uint64_t& hash, const T& value) {
   std::memcpy(&bits, &value, sizeof value);
   hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
   hash ^= hash >> 29;
+}
+
+template <class AnyAnswer>
+bool lie_within(const AnyAnswer& one, const AnyAnswer& other, double bound) {
+  return std::fabs(one.lower - other.lower) <= bound && std::fabs(one.upper - other.upper) <= bound;
+}
+/// Both intervals, where they should agree.
+template <class AnyAnswer>
+std::string against(const AnyAnswer& one, const AnyAnswer& other) {
+  char text[160];
+  std::snprintf(text, sizeof text, ": [%a, %a] and [%a, %a]", other.lower, other.upper, one.lower, one.upper);
+  return text;
 }
 
 std::string hex(const PairSeed& seed) {
@@ -43,6 +58,32 @@ SignedAnswer signed_answer(const Answer& answer) {
   return s;
 }
 
+/// What is wrong with the outcome of a query for an exact answer, before anything is recomputed.
+template <class AnyAnswer>
+std::string unsettled(const AnyAnswer& answer, double width) {
+  if (answer.status != Status::Converged) return "the status is " + std::to_string(int(answer.status));
+  if (answer.verdict == Verdict::Undecided) return "no verdict";
+  return answer.upper - answer.lower <= width
+             ? ""
+             : "wider than law 2 allows, by the factor " + std::to_string((answer.upper - answer.lower) / width);
+}
+
+/// The gap of the bodies along a unit vector, in doubles.
+double rounded_gap(const Subject& a, const Subject& b, const Pose& b_in_a, const Vec3& n) {
+  const Vec3 n_b = b_in_a.rotation.transpose() * n;
+  double most = -std::numeric_limits<double>::infinity(), least = -most;
+  for (const Vec3& p : a.points) most = std::max(most, n.dot(p));
+  for (const Vec3& p : b.points) least = std::min(least, n_b.dot(p));
+  return n.dot(b_in_a.translation) + least - most;
+}
+
+/// Of this thread, so that others on the machine do not count.
+double cpu_seconds() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
 bool same_points(const Patch& one, const Patch& other) {
   const auto kept = [&](const PatchPoint& p) {
     return std::any_of(other.points.begin(), other.points.begin() + other.count, [&](const PatchPoint& q) {
@@ -55,7 +96,8 @@ bool same_points(const Patch& one, const Patch& other) {
 }  // namespace
 
 Tally& Tally::operator+=(const Tally& other) {
-  pairs += other.pairs, answers += other.answers, solved += other.solved, trials += other.trials, hits += other.hits;
+  pairs += other.pairs, judged += other.judged, answers += other.answers, solved += other.solved, trials += other.trials,
+      hits += other.hits;
   for (std::size_t v = 0; v < verdicts.size(); ++v) verdicts[v] += other.verdicts[v];
   failed += other.failed;
   steps = std::max(steps, other.steps);
@@ -68,13 +110,23 @@ Tally& Tally::operator+=(const Tally& other) {
 }
 
 Pair::Pair(Examiner& examiner, const Subject& a, const Subject& b, const Pose& b_in_a)
-    : examiner_(examiner), a_(a), b_(b), b_in_a_(b_in_a), judge_(a, b, b_in_a) {
-  if (examiner_.tally.pairs++ % kSolveEvery == 0) judge_.truth();
+    : examiner_(examiner),
+      a_(a),
+      b_(b),
+      b_in_a_(b_in_a),
+      judge_(a, b, b_in_a),
+      is_judged_(examiner.tally.pairs++ % examiner.judge_every_ == 0) {
+  if (is_judged_ && (examiner.tally.pairs - 1) / examiner.judge_every_ % kSolveEvery == 0) judge_.truth();
 }
 
-Pair::~Pair() { examiner_.tally.solved += judge_.has_truth(); }
+Pair::~Pair() { examiner_.tally.judged += is_judged_, examiner_.tally.solved += judge_.has_truth(); }
 
 Answer Pair::ask(PairSeed& seed) {
+  const std::uint64_t choice = examiner_.random.bits();  // whichever way: the next pair does not depend on it
+  return is_judged_ ? examine(seed, choice) : compare(seed, choice);
+}
+
+Answer Pair::examine(PairSeed& seed, std::uint64_t choice) {
   const PairSeed start = seed;
   const Answer answer = exact(seed);
   PairSeed used = start;
@@ -86,7 +138,7 @@ Answer Pair::ask(PairSeed& seed) {
   const double bound = law_two(), d = answer.lower;
   const double thresholds[] = {
       0, answer.lower, answer.upper, d + bound / 8, d + 2 * bound, d / 2, 2 * d, d + 1e3 * bound, std::max(0.0, d - 2 * bound)};
-  const double threshold = thresholds[examiner_.random.bits() % std::size(thresholds)];
+  const double threshold = thresholds[choice / 2 % std::size(thresholds)];
   used = start;
   const Within within = swiftlet::within(a_.model, b_.model, b_in_a_, threshold, used);
   count(within.answer);
@@ -95,21 +147,63 @@ Answer Pair::ask(PairSeed& seed) {
   used = start;
   const SignedAnswer deep = exact_depth(used);
   require(deep.verdict == answer.verdict, "the signed distance differs in its verdict");
-  if (examiner_.tally.pairs % kColdEvery == 0) {
-    PairSeed cold;
-    used = {};
-    agree(deep, exact_depth(used), "a cold start");
+  if (examiner_.tally.pairs / examiner_.judge_every_ % kColdEvery == 0) {
+    PairSeed cold, cold_depth;
+    agree(deep, exact_depth(cold_depth), "a cold start");
     agree(answer, exact(cold), "a cold start");
   }
+  if (choice % 2) seed = used;
   return answer;
+}
+
+Answer Pair::compare(PairSeed& seed, std::uint64_t choice) {
+  is_judged_ = false;
+  PairSeed used = seed, cold;
+  const PairSeed start = seed;
+  const Answer answer = distance(a_.model, b_.model, b_in_a_, seed);
+  const SignedAnswer deep = signed_distance(a_.model, b_.model, b_in_a_, used);
+  count(answer), count(deep);
+  const double bound = law_two();
+  judged(unsettled(answer, bound), "distance", start);
+  judged(unsettled(deep, deep.verdict == Verdict::Touching ? 2 * bound : bound), "signed distance", start);
+  require(std::fabs(deep.lower - rounded_gap(a_, b_, b_in_a_, deep.normal)) <= 2 * bound, "the signed distance is not the gap");
+  require(deep.verdict == answer.verdict, "the signed distance differs in its verdict");
+  PairSeed again = used;
+  agree(deep, signed_distance(a_.model, b_.model, b_in_a_, again), "where it ended");
+  const SignedAnswer swapped = signed_distance(b_.model, a_.model, inverse(b_in_a_), cold);
+  judged(unsettled(swapped, 2 * bound), "signed distance, swapped,", {});  // its pose is rounded
+  if (!lie_within(deep, swapped, 2 * bound))
+    require(false, "another signed distance with the bodies swapped" + against(deep, swapped));
+  if (choice % 2) seed = used;
+  return answer;
+}
+
+void Pair::march() {
+  const double before = cpu_seconds();
+  const MarchResult found = swiftlet::march(a_.model.level(0).view, b_.model.level(0).view, b_in_a_);
+  require(cpu_seconds() - before < kMostSeconds, "a march takes seconds");
+  Answer answer;
+  switch (found.status) {
+    case MarchStatus::Disjoint: answer.verdict = Verdict::Disjoint; break;
+    case MarchStatus::Touching: answer.verdict = Verdict::Touching; break;
+    case MarchStatus::Overlapping: answer.verdict = Verdict::Overlapping; break;
+    default: return require(false, "a march ends with the status " + std::to_string(int(found.status)));
+  }
+  answer.status = Status::Converged;
+  answer.lower = found.lower, answer.upper = found.upper, answer.normal = found.normal;
+  answer.point_a = found.point_a, answer.point_b = found.point_b;
+  answer.feature_a = found.a, answer.feature_b = found.b, answer.proof = found.proof;
+  answer.steps = found.steps, answer.plane_tests = found.plane_tests;
+  count(answer);
+  if (is_judged_) judged(judge_.verdict(answer), "march", {});
 }
 
 Answer Pair::exact(PairSeed& seed, const QueryOptions& options) {
   const PairSeed start = seed;
   const Answer answer = distance(a_.model, b_.model, b_in_a_, seed, options);
   count(answer);
-  judged(judge_.exact(answer), "distance", start);
-  if (answer.verdict != Verdict::Overlapping) patches(answer);
+  judged(is_judged_ ? judge_.exact(answer) : unsettled(answer, law_two()), "distance", start);
+  if (is_judged_ && answer.verdict != Verdict::Overlapping) patches(answer);
   examiner_.tally.widest = std::max(examiner_.tally.widest, (answer.upper - answer.lower) / judge_.law_two());
   return answer;
 }
@@ -127,6 +221,8 @@ SignedAnswer Pair::exact_depth(PairSeed& seed) {
   const SignedAnswer answer = signed_distance(a_.model, b_.model, b_in_a_, seed);
   count(answer);
   judged(judge_.exact(answer), "signed distance", start);
+  const double width = (answer.verdict == Verdict::Touching ? 2 : 1) * law_two();
+  examiner_.tally.widest = std::max(examiner_.tally.widest, (answer.upper - answer.lower) / width);
   PairSeed again = seed;
   agree(answer, signed_distance(a_.model, b_.model, b_in_a_, again), "where it ended");
   patches(answer);
@@ -154,16 +250,13 @@ void Pair::patches(const AnyAnswer& answer) {
 }
 
 void Pair::agree(const SignedAnswer& one, const SignedAnswer& other, const char* what) {
-  require(one.verdict == other.verdict && std::fabs(one.lower - other.lower) <= law_two() &&
-              std::fabs(one.upper - other.upper) <= law_two(),
-          std::string("another signed distance from ") + what);
+  if (one.verdict == other.verdict && lie_within(one, other, law_two())) return;
+  require(false, std::string("another signed distance from ") + what + against(one, other));
 }
 
 void Pair::agree(const Answer& one, const Answer& other, const char* what) {
-  const double bound = law_two();
-  require(one.verdict == other.verdict && std::fabs(one.lower - other.lower) <= bound &&
-              std::fabs(one.upper - other.upper) <= bound,
-          std::string("another answer from ") + what);
+  if (one.verdict == other.verdict && lie_within(one, other, law_two())) return;
+  require(false, std::string("another answer from ") + what + against(one, other));
 }
 
 void Pair::require(bool holds, const std::string& what) {

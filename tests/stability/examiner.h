@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Asks a generated pair everything, has every answer judged, and counts. Knows queries and the judge; not how pairs are made.
+// Asks a generated pair everything, has every answer judged, or some of them and the others held against each other, and
+// counts. Knows queries and the judge; not how pairs are made.
 #pragma once
 
 #include <array>
@@ -21,7 +22,8 @@ namespace swiftlet::stability {
 /// What was seen of a family.
 struct Tally {
   std::uint64_t pairs = 0;                  ///< bodies and pose, however often asked
-  std::uint64_t answers = 0;                ///< each judged
+  std::uint64_t judged = 0;                 ///< of these, those whose answers were judged
+  std::uint64_t answers = 0;                ///< of all queries
   std::uint64_t solved = 0;                 ///< pairs whose distance was also found exactly
   std::uint64_t trials = 0, hits = 0;       ///< of what the family is made for
   std::array<std::uint64_t, 4> verdicts{};  ///< of answers, by Verdict
@@ -30,7 +32,7 @@ struct Tally {
   std::uint64_t depths = 0;                 ///< of answers, those of an overlap with its depth
   std::uint32_t supports = 0;               ///< most steps of one of these
   std::uint64_t patches = 0;                ///< judged
-  double widest = 0;                        ///< exact interval, in units of law 2's bound
+  double widest = 0;                        ///< exact interval, in units of law 2's bound, of a touching depth twice that
   std::uint64_t hash = 0;                   ///< of all bits of all answers, in order
 
   double hit_rate() const { return trials ? double(hits) / double(trials) : 0; }
@@ -40,9 +42,9 @@ struct Tally {
 /// What one batch of a family sees and finds wrong.
 class Examiner {
  public:
-  /// `label` names the batch in the cases of failures. The same seed gives the same batch.
-  Examiner(std::string family, std::string label, std::uint64_t seed)
-      : random(seed), patch_options_(~seed), family_(std::move(family)), label_(std::move(label)) {}
+  /// `label` names the batch in the cases of failures. The same seed gives the same batch. `judge_every`: Pair::ask.
+  Examiner(std::string family, std::string label, std::uint64_t seed, std::uint64_t judge_every = 1)
+      : random(seed), patch_options_(~seed), judge_every_(judge_every), family_(std::move(family)), label_(std::move(label)) {}
 
   void hit(bool is_hit) { ++tally.trials, tally.hits += is_hit; }
 
@@ -54,10 +56,11 @@ class Examiner {
   friend class Pair;
   shapes::Random patch_options_;  ///< apart, so that the pairs do not depend on it
   Patch patch_;                   ///< the latest, of whatever pair
+  std::uint64_t judge_every_;
   std::string family_, label_;
 };
 
-/// One generated pair under examination. Every answer is judged; every 24th pair is solved exactly before it is asked.
+/// One generated pair under examination. Of those that are judged every 24th is solved exactly before it is asked.
 class Pair {
  public:
   /// The subjects outlive it.
@@ -66,13 +69,20 @@ class Pair {
   Pair(const Pair&) = delete;
   Pair& operator=(const Pair&) = delete;
 
-  /// The distance from `seed`, which moves on; then `intersects`, `within` at a threshold near the truth, and the signed
-  /// distance, which must agree, from copies of it. Every eighth time the distance from a cold start as well, which must agree.
+  /// The distance from `seed`; then `intersects`, `within` at a threshold near the truth, and the signed distance, which must
+  /// agree, from copies of it. `seed` moves on to what the distance or the signed distance left, either as often. Every eighth
+  /// time both from a cold start as well, which must agree. Pairs that the examiner does not judge: `compare`.
   Answer ask(PairSeed& seed);
   Answer ask() {
     PairSeed cold;
     return ask(cold);
   }
+  /// Without exact arithmetic, at some microseconds: the distance and the signed distance converge within law 2, the latter to
+  /// what is the gap along its normal, and agree, also from where they ended and with the bodies swapped. `seed` moves on as in
+  /// `ask`. What else is asked of this pair is not judged either.
+  Answer compare(PairSeed& seed) { return compare(seed, examiner_.random.bits()); }
+  /// The atomic kernel on level 0, from its own start: judged, and done within seconds.
+  void march();
   /// The exact distance alone. `options` change the way, not what is asked.
   Answer exact(PairSeed& seed, const QueryOptions& options = {});
   /// The distance to whatever precision, budget or level.
@@ -94,6 +104,8 @@ class Pair {
   double law_two() const { return judge_.law_two(); }
 
  private:
+  Answer examine(PairSeed& seed, std::uint64_t choice);
+  Answer compare(PairSeed& seed, std::uint64_t choice);
   void count(const Answer& answer);
   void count(const SignedAnswer& answer);
   void count(const Patch& patch);
@@ -103,6 +115,7 @@ class Pair {
   const Subject &a_, &b_;
   Pose b_in_a_;
   Judge judge_;
+  bool is_judged_;  ///< all its answers
   bool has_failed_ = false;
 };
 

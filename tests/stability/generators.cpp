@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <deque>
+#include <filesystem>
 #include <string>
 
 #include "bodies.h"
@@ -97,28 +98,53 @@ Pose slid(const Subject& a, const Subject& b, const Mat3& rotation, const Vec3& 
 // ---- Lattices ---------------------------------------------------------------------------------------------------------------
 
 /// Two makes of the same cube: its faces as quads, and as triangles.
-const Subject& lattice_cube(std::uint64_t make) {
-  static const Subject quads = of_faces(bodies::cube()), triangles = of_faces(bodies::triangulated(bodies::cube()));
-  return make % 2 ? triangles : quads;
+const std::deque<Subject>& lattice_cubes() {
+  static const std::deque<Subject> cubes{of_faces(bodies::cube()), of_faces(bodies::triangulated(bodies::cube()))};
+  return cubes;
+}
+/// These, boxes down to a slab, the other small solids, and prisms of 3 to 12 sides.
+const std::deque<Subject>& lattice_solids() {
+  static const std::deque<Subject> solids = [] {
+    std::deque<Subject> all = lattice_cubes();
+    for (const Vec3& half : {Vec3(1, 1, 0.1), Vec3(1, 0.5, 0.25), Vec3(1, 1, 0x1p-7)})
+      all.push_back(of_faces(bodies::box(half.x(), half.y(), half.z())));
+    for (const bodies::Body& body : {bodies::tetrahedron(), bodies::octahedron()}) all.push_back(of_faces(body));
+    for (std::uint32_t sides = 3; sides <= 12; ++sides) all.push_back(quickly_built(shapes::prism(sides, 1, 0.5).points));
+    return all;
+  }();
+  return solids;
+}
+const Subject& some(const std::deque<Subject>& subjects, Random& random) {
+  return subjects[below(random, std::uint32_t(subjects.size()))];
+}
+/// Half the sides of the box around a body turned, that is centred.
+Vec3 half_box(const Subject& subject, const Mat3& turn = Mat3::Identity()) {
+  Vec3 most = Vec3::Zero();
+  for (const Vec3& p : subject.points) most = most.cwiseMax((turn * p).cwiseAbs());
+  return most;
 }
 
 constexpr int kReach = 6, kSide = 2 * kReach + 1, kTurns = 6;
 
-/// A slice of the lattice: one turn, one x, all y and z in halves from -3 to 3, B shaken by what `shake` makes of the pose.
-/// 78 slices are all 13 182 poses; each takes two of the makes of the cube.
+/// A slice of the lattice: one turn, one x, all y and z, in quarters of where the boxes around two of the bodies meet, to one
+/// and a half times that: of cubes in halves from -3 to 3. B is shaken by what `shake` makes of the pose. 78 slices are all 13
+/// 182 poses.
 template <class Shake>
-void lattice(Examiner& examiner, std::uint64_t index, const std::array<Mat3, kTurns>& turns, Shake shake) {
+void lattice(Examiner& examiner, std::uint64_t index, const std::deque<Subject>& bodies, const std::array<Mat3, kTurns>& turns,
+             Shake shake) {
   const Mat3& turn = turns[index % kTurns];
   const double x = double(index / kTurns % kSide) - kReach;
-  const Subject &a = lattice_cube(examiner.random.bits()), &b = lattice_cube(examiner.random.bits());
+  const Subject& a = some(bodies, examiner.random);
+  const Subject& b = examiner.random.bits() % 4 ? a : some(bodies, examiner.random);
+  const Vec3 cell = (half_box(a) + half_box(b, turn)) / 4;
   PairSeed warm;
   for (int y = -kReach; y <= kReach; ++y) {
     for (int z = -kReach; z <= kReach; ++z) {
-      Pose pose{turn, Vec3(x, y, z) / 2};
+      Pose pose{turn, Vec3(x, y, z).cwiseProduct(cell)};
       shake(pose);
       Pair pair(examiner, a, b, pose);
       PairSeed any = some_seed(a, b, examiner.random);
-      const Answer answer = pair.ask(examiner.random.bits() % 2 ? warm : any);
+      const Answer answer = pair.ask(examiner.random.bits() % 4 ? warm : any);
       examiner.hit(answer.verdict == Verdict::Touching);
     }
   }
@@ -138,16 +164,40 @@ const std::array<Mat3, kTurns>& eighth_turns() {
 }
 
 void lattice_quarters(Examiner& examiner, std::uint64_t index) {
-  lattice(examiner, index, quarter_turns(), [](Pose&) {});
+  lattice(examiner, index, lattice_cubes(), quarter_turns(), [](Pose&) {});
 }
 void lattice_eighths(Examiner& examiner, std::uint64_t index) {
-  lattice(examiner, index, eighth_turns(), [](Pose&) {});
+  lattice(examiner, index, lattice_cubes(), eighth_turns(), [](Pose&) {});
 }
+/// 2^-uniform(from, to).
+double halvings(Random& random, double from, double to) { return std::exp2(-random.uniform(from, to)); }
+
+/// The rotation as it is, turned a little as a whole, or, as often as both, some of its entries changed one by one.
+Mat3 shaken(const Mat3& rotation, Random& random) {
+  Mat3 result = rotation;
+  switch (below(random, 4)) {
+    case 0: break;
+    case 1: result = rotation * shapes::rotation(random.on_sphere(), halvings(random, 13, 53)); break;
+    default: {
+      const double size = halvings(random, 30, 52);
+      for (double& x : result.reshaped())
+        if (random.bits() % 2) x += size * random.uniform(-1, 1);
+    }
+  }
+  return result;
+}
+/// Rotation and translation each by a size of its own or not at all; of half the poses the centres are equal, or nearly, so
+/// that seeds come to them from bodies apart.
 void lattice_shaken(Examiner& examiner, std::uint64_t index) {
-  lattice(examiner, index, quarter_turns(), [&](Pose& pose) {
-    const double size = decades(examiner.random, 4, 16);
-    for (double& x : pose.translation) x += size * examiner.random.uniform(-1, 1);
-    pose.rotation = pose.rotation * shapes::rotation(examiner.random.on_sphere(), size);
+  Random& random = examiner.random;
+  lattice(examiner, index, lattice_solids(), quarter_turns(), [&](Pose& pose) {
+    pose.rotation = shaken(pose.rotation, random);
+    switch (below(random, 4)) {
+      case 0: break;
+      case 1: pose.translation += decades(random, 4, 16) * random.in_ball(); break;
+      case 2: pose.translation.setZero(); break;
+      default: pose.translation = halvings(random, 30, 60) * random.on_sphere();
+    }
   });
 }
 
@@ -206,7 +256,7 @@ struct MirtichPath {
 /// [Mirtich 1997]: nearly parallel cubes, bisected to neighbouring doubles of the parameter between which the nearest features
 /// change (trap G18).
 void degeneracy_search(Examiner& examiner, std::uint64_t) {
-  const Subject& cube = lattice_cube(0);
+  const Subject& cube = lattice_cubes().front();
   for (int trial = 0; trial < 100; ++trial) {
     const MirtichPath path(examiner.random);
     PairSeed low_seed, high_seed;
@@ -463,28 +513,107 @@ void kissing(Examiner& examiner, std::uint64_t) {
   }
 }
 
-/// A body in another, in its own copy, and in copies of itself that are turned, moved or grown by next to nothing (trap G16).
-void nested(Examiner& examiner, std::uint64_t) {
+/// A body in its own copy, in copies of itself that are turned, moved or grown by next to nothing, and in one that is larger by
+/// a power of ten, 1 to 1e30 by the batch (trap G16). The unit goes as far as coordinates may; seeds go from pose to pose.
+void nested(Examiner& examiner, std::uint64_t index) {
   Random& random = examiner.random;
   QueryOptions options;
   options.start = StartPolicy::Finest;
-  const std::vector<Vec3> points = random.bits() % 2 ? shapes::cube().points : ball_points(random, 8 + below(random, 16));
-  const Subject body = quickly_built(points),
-                grown = quickly_built(mapped(points, (1 + sign(random) * decades(random, 1, 16)) * Mat3::Identity())),
-                small = quickly_built(mapped(points, decades(random, 1, 6) * random.rotation()));
-  for (int i = 0; i < 12; ++i) {
+  constexpr int kDecades = 31;
+  const int decade = int(index % kDecades);
+  const double ratio = std::pow(10, -decade), unit = random.bits() % 2 ? 1 : decades(random, -44, 44 - decade);
+  const std::vector<Vec3> points = [&] {
+    switch (below(random, 4)) {
+      case 0: return ball_points(random, 8 + below(random, 16));
+      case 1: return shapes::ellipsoid({1, 1, 1}, 100 + 2 * below(random, 250), random.bits()).points;
+      default: return some(lattice_solids(), random).points;
+    }
+  }();
+  const auto sized = [&](double size, const Mat3& turn) { return quickly_built(mapped(points, unit * size * turn)); };
+  const Subject body = sized(1, Mat3::Identity()), grown = sized(1 + sign(random) * decades(random, 1, 16), Mat3::Identity()),
+                small = sized(ratio, random.bits() % 2 ? Mat3(Mat3::Identity()) : random.rotation());
+  PairSeed warm;
+  for (int i = 0; i < 32; ++i) {
     const Subject &a = i % 4 == 3 ? small : body, &b = i % 4 == 1 ? grown : i % 4 == 2 ? small : body;
     Pose pose;
-    if (random.bits() % 2)
-      pose.rotation = i < 6 ? cube_turn(random) : shapes::rotation(random.on_sphere(), decades(random, 2, 17));
-    if (random.bits() % 2) pose.translation = random.on_sphere() * decades(random, 2, 320);
+    switch (below(random, 4)) {
+      case 0: break;
+      case 1: pose.rotation = cube_turn(random); break;
+      default: pose.rotation = shaken(cube_turn(random), random);
+    }
+    if (random.bits() % 2) pose.translation = random.on_sphere() * unit * decades(random, 2, 320);
     Pair pair(examiner, a, b, pose);
-    const Answer answer = pair.ask();
+    const Answer answer = random.bits() % 2 ? pair.ask(warm) : pair.ask();
+    pair.march();
     for (int k = 0; k < 3; ++k) {
       PairSeed seed = some_seed(a, b, random);
       pair.agree(answer, pair.exact(seed, options), "another start");
     }
     examiner.hit(answer.verdict == Verdict::Overlapping);
+  }
+}
+
+/// The hulls of what models/fetch brings; where it has not run, generated ones in their place.
+const std::deque<Subject>& links() {
+  static const std::deque<Subject> subjects = [] {
+    std::deque<Subject> all;
+    const auto add = [&](const Mesh& mesh) {
+      const Model model = quickly_built(mesh.points).model;
+      all.push_back(make_subject(bodies::points_of(model.level(0).view), model));
+    };
+    std::vector<std::filesystem::path> meshes;
+    if (std::filesystem::is_directory(SWIFTLET_MESHES))
+      for (const auto& entry : std::filesystem::directory_iterator(SWIFTLET_MESHES)) meshes.push_back(entry.path());
+    std::sort(meshes.begin(), meshes.end());
+    for (const auto& path : meshes) add(bodies::must(read_mesh(path)));
+    if (!meshes.empty()) return all;
+    for (const std::uint32_t sides : {3u, 5u, 12u, 100u}) add(shapes::prism(sides, 0.4, 1));
+    for (const shapes::Family family : shapes::kFamilies) add(shapes::ellipsoid(shapes::semi_axes(family), 1000, 7));
+    return all;
+  }();
+  return subjects;
+}
+/// The hull of 6 to 40 of a body's vertices, in clusters of neighbours.
+Subject cut(const Subject& subject, Random& random) {
+  const ConvexView& view = subject.model.level(0).view;
+  const auto count = std::uint32_t(view.vertices.size());
+  std::vector<Vec3> points;
+  std::uint32_t at = below(random, count);
+  for (std::uint32_t left = 6 + below(random, 35); left > 0; --left) {
+    const Vertex& v = view.vertices[at];
+    points.emplace_back(v.x, v.y, v.z);
+    at = random.bits() % 2 && v.ring_count > 0 ? view.head[v.ring_begin + below(random, v.ring_count)] : below(random, count);
+  }
+  return quickly_built(points);
+}
+
+/// Real links, or what a few of their points span, deep inside themselves and each other: at random, or moving on by small
+/// steps with the seed of the step before. 676 batches are every two of 13, each as often with itself as with another, whole
+/// and cut. Whole ones are compared; few are judged, at some seconds each.
+void deep_overlaps(Examiner& examiner, std::uint64_t index) {
+  constexpr int kPoses = 32, kJudgeWholes = 4096;
+  Random& random = examiner.random;
+  const auto& all = links();
+  const bool whole = index % 2, alone = index / 2 % 2, coherent = random.bits() % 2;
+  const Subject &first = all[index / 4 % all.size()], &second = alone ? first : all[index / 4 / all.size() % all.size()];
+  const Subject a = whole ? first : cut(first, random), b = whole ? second : cut(second, random);
+  const auto centre = [](const Subject& subject) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& p : subject.points) sum += p;
+    return Vec3(sum / double(subject.points.size()));
+  };
+  const Vec3 centre_a = centre(a), centre_b = centre(b), axis = random.on_sphere(), drift = random.on_sphere();
+  const double step = decades(random, 0.5, 5),
+               reach = std::min(half_box(a).norm(), half_box(b).norm()) * decades(random, 0.3, 4);
+  Mat3 turn = random.rotation();
+  Vec3 aside = reach * random.in_ball();
+  PairSeed warm;
+  for (int k = 0; k < kPoses; ++k) {
+    turn = coherent ? shapes::rotation(axis, step) * turn : random.rotation();
+    aside = coherent ? Vec3(aside + step * reach * drift) : Vec3(reach * random.in_ball());
+    Pair pair(examiner, a, b, {turn, centre_a - turn * centre_b + aside});
+    const bool compares = whole && random.bits() % kJudgeWholes > 0;
+    examiner.hit((compares ? pair.compare(warm) : pair.ask(warm)).verdict == Verdict::Overlapping);
   }
 }
 
@@ -745,7 +874,7 @@ void slivers(Examiner& examiner, std::uint64_t) {
 constexpr Family kFamilies[] = {
     {"lattice of quarter turns", "G16 G18", "touching", 0.1, 0.3, 78, lattice_quarters},
     {"lattice of eighth turns", "G16 G18", "touching", 0.01, 0.3, 78, lattice_eighths},
-    {"shaken lattice", "G18", "touching", 0.001, 0.2, 78, lattice_shaken},
+    {"shaken lattice", "G18", "touching", 0.001, 0.2, 624, lattice_shaken, 32},
     {"every start", "G16 G18", "not disjoint", 0.3, 0.9, 48, every_start},
     {"degeneracy search", "G18", "a change of features between neighbouring doubles", 0.5, 1, 32, degeneracy_search},
     {"near parallel", "G18", "the parallel faces decide", 0.2, 0.9, 40, near_parallel},
@@ -757,7 +886,8 @@ constexpr Family kFamilies[] = {
     {"powers of two", "G25", "scaled and disjoint", 0.3, 1, 40, powers_of_two},
     {"sweeps", "", "meets", 0.7, 1, 40, sweeps},
     {"kissing", "", "touching", 0.3, 1, 40, kissing},
-    {"nested and coincident", "G16", "overlapping", 0.9, 1, 40, nested},
+    {"nested and coincident", "G16", "overlapping", 0.9, 1, 40, nested, 4},
+    {"deep overlaps", "", "overlapping", 0.7, 1, 40, deep_overlaps},
     {"extra points", "", "all extra points dropped", 0.8, 1, 40, extra_points},
     {"same truth", "", "disjoint", 0.2, 0.9, 40, same_truth},
     {"flat bodies", "", "touching", 0.05, 0.6, 40, flat},
@@ -772,7 +902,7 @@ constexpr Family kFamilies[] = {
 
 std::span<const Family> families() { return kFamilies; }
 
-Examiner run_batch(const Family& family, std::uint64_t seed, std::uint64_t index) {
+Examiner run_batch(const Family& family, std::uint64_t seed, std::uint64_t index, std::uint64_t judge_every) {
   std::string label = family.name;
   std::uint64_t state = seed;
   for (char& c : label) {
@@ -780,7 +910,7 @@ Examiner run_batch(const Family& family, std::uint64_t seed, std::uint64_t index
     if (c == ' ') c = '_';
   }
   Examiner examiner(family.name, label + "-" + std::to_string(seed) + "-" + std::to_string(index),
-                    Random(state).bits() + Random(index).bits());
+                    Random(state).bits() + Random(index).bits(), judge_every);
   family.batch(examiner, index);
   return examiner;
 }

@@ -1,13 +1,23 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the generators on every core for so many minutes, tells what they saw, and stores the pairs that failed.
+// Runs the generators on every core for so many minutes, tells what they saw, stores the pairs that failed, and names the batch
+// that crashed.
+#include <pthread.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <deque>
 #include <filesystem>
+#include <functional>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -28,12 +38,54 @@ struct Options {
   std::string family;  ///< only this one
   std::uint64_t first_batch = 0;
   std::uint64_t most_batches = ~std::uint64_t{0};
+  std::uint64_t judge_every = 1;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   std::filesystem::path found = "tests/data/found";
 };
 
 /// A walk without end is a failure too: a batch may take this long after time is up.
 constexpr auto kGrace = std::chrono::minutes(2);
+
+/// How to run this thread's batch again, for where it crashes.
+thread_local char running_batch[256];
+
+/// Names the batch of the thread that crashed, with nothing but what a signal handler may call; then the default action.
+void on_crash(int signal) {
+  constexpr char kCrashed[] = "FAILED a batch crashes; again: ";
+  const bool written = write(STDOUT_FILENO, kCrashed, sizeof kCrashed - 1) > 0 &&
+                       write(STDOUT_FILENO, running_batch, strlen(running_batch)) > 0 && write(STDOUT_FILENO, "\n", 1) > 0;
+  static_cast<void>(written);
+  raise(signal);  // after the handler: SA_RESETHAND
+}
+void name_crashes() {
+  struct sigaction action = {};
+  action.sa_handler = on_crash;
+  action.sa_flags = SA_RESETHAND;
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(signal, &action, nullptr);
+}
+
+/// A thread whose stack ends before memory that nothing may touch: a query that reads beyond its storage, which is on the
+/// stack, crashes there instead of finding the stack of another thread.
+class Thread {
+ public:
+  explicit Thread(std::function<void()> work) : work_(std::move(work)) {
+    void* const memory = mmap(nullptr, kStack + kGuard, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    pthread_attr_t attributes;
+    const auto run = [](void* self) -> void* { return static_cast<Thread*>(self)->work_(), nullptr; };
+    if (memory == MAP_FAILED || mprotect(memory, kStack, PROT_READ | PROT_WRITE) != 0 || pthread_attr_init(&attributes) != 0 ||
+        pthread_attr_setstack(&attributes, memory, kStack) != 0 || pthread_create(&thread_, &attributes, run, this) != 0)
+      throw std::runtime_error("no thread");
+  }
+  Thread(const Thread&) = delete;
+  Thread& operator=(const Thread&) = delete;
+  void join() { pthread_join(thread_, nullptr); }
+
+ private:
+  /// As much as a main thread has; and farther than an index of 16 bits reaches in an array of records of 256 bytes.
+  static constexpr std::size_t kStack = std::size_t{8} << 20, kGuard = std::size_t{16} << 20;
+  std::function<void()> work_;
+  pthread_t thread_;
+};
 
 class Soak {
  public:
@@ -50,7 +102,7 @@ class Soak {
       return 2;
     }
     const auto end = begin_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(60 * options_.minutes));
-    std::vector<std::thread> threads;
+    std::deque<Thread> threads;
     for (unsigned t = 0; t < options_.threads; ++t) threads.emplace_back([this, t, end] { work(t, end); });
     for (auto next = begin_ + std::chrono::seconds(10); working_ > 0;
          std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
@@ -59,7 +111,7 @@ class Soak {
       progress();
       if (Clock::now() > end + kGrace) stuck();
     }
-    for (std::thread& thread : threads) thread.join();
+    for (Thread& thread : threads) thread.join();
     return report();
   }
 
@@ -74,7 +126,8 @@ class Soak {
         const std::lock_guard lock(mutex_);
         running_[thread] = std::int64_t(job);
       }
-      const Examiner seen = run_batch(*chosen_[family], options_.seed, options_.first_batch + batch);
+      std::snprintf(running_batch, sizeof running_batch, "%s", rerun(*chosen_[family], options_.first_batch + batch).c_str());
+      const Examiner seen = run_batch(*chosen_[family], options_.seed, options_.first_batch + batch, options_.judge_every);
       const std::lock_guard lock(mutex_);
       running_[thread] = -1;
       tallies_[family] += seen.tally;
@@ -85,7 +138,7 @@ class Soak {
 
   std::string rerun(const Family& family, std::uint64_t batch) const {
     return "./run soak 0 --seed " + std::to_string(options_.seed) + " --family '" + family.name + "' --batch " +
-           std::to_string(batch);
+           std::to_string(batch) + (options_.judge_every > 1 ? " --judge-every " + std::to_string(options_.judge_every) : "");
   }
 
   void store(const Case& c, const Family& family, std::uint64_t batch) {
@@ -107,8 +160,9 @@ class Soak {
   void progress() {
     const std::lock_guard lock(mutex_);
     const Tally sum = total();
-    std::printf("%5.0f s: %llu pairs, %llu answers, %llu solved exactly, %llu failed; %.0f pairs a minute\n", seconds(),
-                count(sum.pairs), count(sum.answers), count(sum.solved), count(sum.failed), 60 * double(sum.pairs) / seconds());
+    std::printf("%5.0f s: %llu pairs, %llu judged, %llu answers, %llu solved exactly, %llu failed; %.0f pairs a minute\n",
+                seconds(), count(sum.pairs), count(sum.judged), count(sum.answers), count(sum.solved), count(sum.failed),
+                60 * double(sum.pairs) / seconds());
     std::fflush(stdout);
   }
 
@@ -124,8 +178,8 @@ class Soak {
   }
 
   int report() const {
-    std::printf("\n%-26s %9s %9s %8s %8s %7s  %8s %8s %8s %6s %7s %7s\n", "family", "pairs", "answers", "patches", "solved",
-                "hits", "disjoint", "touching", "overlap", "steps", "widest", "failed");
+    std::printf("\n%-26s %9s %9s %9s %8s %8s %7s  %8s %8s %8s %6s %7s %7s\n", "family", "pairs", "judged", "answers", "patches",
+                "solved", "hits", "disjoint", "touching", "overlap", "steps", "widest", "failed");
     bool missed = false;
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
       const Family& family = *chosen_[i];
@@ -147,8 +201,8 @@ class Soak {
   }
 
   static void row(const char* name, const Tally& t) {
-    std::printf("%-26s %9llu %9llu %8llu %8llu %6.1f%%  %8llu %8llu %8llu %6u %7.3f %7llu\n", name, count(t.pairs),
-                count(t.answers), count(t.patches), count(t.solved), 100 * t.hit_rate(), count(t.verdicts[1]),
+    std::printf("%-26s %9llu %9llu %9llu %8llu %8llu %6.1f%%  %8llu %8llu %8llu %6u %7.3f %7llu\n", name, count(t.pairs),
+                count(t.judged), count(t.answers), count(t.patches), count(t.solved), 100 * t.hit_rate(), count(t.verdicts[1]),
                 count(t.verdicts[2]), count(t.verdicts[3]), t.steps, t.widest, count(t.failed));
   }
   static unsigned long long count(std::uint64_t n) { return n; }
@@ -180,6 +234,9 @@ int main(int argc, char** argv) {
   CLI::Option* const one = app.add_option("--batch", batch, "one batch only, as a failure names it");
   app.add_option("--threads", options.threads, "all cores by default")->capture_default_str();
   app.add_option("--found", options.found, "where failing pairs are stored")->capture_default_str();
+  app.add_option("--judge-every", options.judge_every, "judge one pair in so many; the others' answers are compared")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   if (one->count() > 0) {
     options.minutes = 0;
@@ -189,5 +246,6 @@ int main(int argc, char** argv) {
     std::fputs("minutes must be above 0\n", stderr);
     return 2;
   }
+  name_crashes();
   return Soak(options).run();
 }
