@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Expansions of fixed capacity: the sum of `count` doubles, none overlapping another, least first. Everything is on the stack.
+// Expansions: a number as the sum of few doubles, none overlapping another, least first. Everything is on the stack.
 #include "exact.h"
 
 #include <cmath>
@@ -12,92 +12,94 @@
 namespace swiftlet::exact {
 namespace {
 
-template <int N>
-struct Expansion {
-  int count = 0;
-  double part[N];
+/// Every bit of a double's range, 2 098 of them, fits in kParts doubles: compressed, each but the last has 52 below it.
+class Expansion {
+ public:
+  Expansion() = default;
+  explicit Expansion(double value) { *this += value; }
 
-  void push(double value) {
-    if (value != 0) part[count++] = value;
+  int sign() const { return count_ == 0 ? 0 : part_[count_ - 1] > 0 ? 1 : -1; }
+  /// The sum to 100 bits.
+  DoubleDouble rounded() const {
+    DoubleDouble sum(0);
+    for (int i = count_; i-- > 0;) sum = sum + DoubleDouble(part_[i]);
+    return sum;
   }
-  int sign() const { return count == 0 ? 0 : part[count - 1] > 0 ? 1 : -1; }
+
+  /// [Shewchuk 1997, Grow-Expansion] with zeros eliminated.
+  Expansion& operator+=(double b) {
+    if (count_ == kParts) compress();
+    double carry = b;
+    int kept = 0;
+    for (int i = 0; i < count_; ++i) {
+      const Pair s = two_sum(carry, part_[i]);
+      if (s.low != 0) part_[kept++] = s.low;
+      carry = s.high;
+    }
+    if (carry != 0) part_[kept++] = carry;
+    count_ = kept;
+    return *this;
+  }
+  Expansion& operator+=(Pair b) { return *this += b.low, *this += b.high; }
+  /// Adds a * b, or subtracts it.
+  void add_product(const Expansion& a, const Expansion& b, int sign = 1) {
+    for (int i = 0; i < a.count_; ++i) {
+      for (int j = 0; j < b.count_; ++j) *this += two_product(sign * a.part_[i], b.part_[j]);
+    }
+    compress();
+  }
+
+ private:
+  static constexpr int kParts = 48;
+
+  /// [Shewchuk 1997, Compress].
+  void compress() {
+    if (count_ < 2) return;
+    int bottom = count_ - 1;
+    double carry = part_[bottom];
+    for (int i = bottom; i-- > 0;) {
+      const Pair s = quick_two_sum(carry, part_[i]);
+      carry = s.high;
+      if (s.low != 0) part_[bottom--] = s.high, carry = s.low;
+    }
+    part_[bottom] = carry;
+    int kept = 0;
+    for (int i = bottom + 1; i < count_; ++i) {
+      const Pair s = quick_two_sum(part_[i], carry);
+      if (s.low != 0) part_[kept++] = s.low;
+      carry = s.high;
+    }
+    part_[kept++] = carry;
+    count_ = kept;
+  }
+
+  int count_ = 0;
+  double part_[kParts];
 };
 
-/// e + b. [Shewchuk, Grow-Expansion] with zeros eliminated.
-template <int N>
-void grow(Expansion<N>& e, double b) {
-  double carry = b;
-  int kept = 0;
-  for (int i = 0; i < e.count; ++i) {
-    const Pair s = two_sum(carry, e.part[i]);
-    if (s.low != 0) e.part[kept++] = s.low;
-    carry = s.high;
-  }
-  if (carry != 0) e.part[kept++] = carry;
-  e.count = kept;
+Expansion difference(double a, double b) {
+  Expansion e;
+  return e += two_sum(a, -b);
 }
 
-template <int N, int M>
-Expansion<N + M> operator+(const Expansion<N>& a, const Expansion<M>& b) {
-  Expansion<N + M> sum;
-  sum.count = a.count;
-  for (int i = 0; i < a.count; ++i) sum.part[i] = a.part[i];
-  for (int i = 0; i < b.count; ++i) grow(sum, b.part[i]);
-  return sum;
-}
+using Expansion3 = std::array<Expansion, 3>;
 
-template <int N>
-Expansion<N> operator-(Expansion<N> a) {
-  for (int i = 0; i < a.count; ++i) a.part[i] = -a.part[i];
-  return a;
-}
-
-template <int N, int M>
-Expansion<N + M> operator-(const Expansion<N>& a, const Expansion<M>& b) {
-  return a + -b;
-}
-
-template <int N, int M>
-Expansion<2 * N * M> operator*(const Expansion<N>& a, const Expansion<M>& b) {
-  Expansion<2 * N * M> product;
-  for (int i = 0; i < a.count; ++i) {
-    for (int j = 0; j < b.count; ++j) {
-      const Pair p = two_product(a.part[i], b.part[j]);
-      grow(product, p.low);
-      grow(product, p.high);
-    }
-  }
-  return product;
-}
-
-Expansion<1> expansion(double value) {
-  Expansion<1> e;
-  e.push(value);
-  return e;
-}
-Expansion<2> difference(double a, double b) {
-  const Pair s = two_sum(a, -b);
-  Expansion<2> e;
-  e.push(s.low);
-  e.push(s.high);
-  return e;
-}
-
-template <int N>
-using Expansion3 = std::array<Expansion<N>, 3>;
-
-Expansion3<2> difference3(const double a[3], const double b[3]) {
+Expansion3 exactly(const Vec& v) { return {Expansion(v.x), Expansion(v.y), Expansion(v.z)}; }
+Expansion3 difference3(const double a[3], const double b[3]) {
   return {difference(a[0], b[0]), difference(a[1], b[1]), difference(a[2], b[2])};
 }
-
-template <int N, int M>
-auto dot3(const Expansion3<N>& a, const Expansion3<M>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+Expansion dot3(const Expansion3& a, const Expansion3& b) {
+  Expansion sum;
+  for (std::size_t k = 0; k < 3; ++k) sum.add_product(a[k], b[k]);
+  return sum;
 }
-
-template <int N, int M>
-auto cross3(const Expansion3<N>& a, const Expansion3<M>& b) {
-  return Expansion3<4 * N * M>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+Expansion3 cross3(const Expansion3& a, const Expansion3& b) {
+  Expansion3 product;
+  for (std::size_t k = 0; k < 3; ++k) {
+    product[k].add_product(a[(k + 1) % 3], b[(k + 2) % 3]);
+    product[k].add_product(a[(k + 2) % 3], b[(k + 1) % 3], -1);
+  }
+  return product;
 }
 
 Vec subtract(const double a[3], const double b[3]) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -109,67 +111,56 @@ double permanent(const Vec& u, const Vec& v, const Vec& w) {
   return (a.y * b.z + a.z * b.y) * c.x + (a.z * b.x + a.x * b.z) * c.y + (a.x * b.y + a.y * b.x) * c.z;
 }
 
-/// The sign of `value` if no error up to `bound` can change it, else 0.
-int certain_sign(double value, double bound) { return value > bound ? 1 : value < -bound ? -1 : 0; }
+/// The sign of `value` if no error up to `bound` can change it, else 0; nor what products lose below the range of doubles.
+int certain_sign(double value, double bound) {
+  bound += kUnderflow;
+  return value > bound ? 1 : value < -bound ? -1 : 0;
+}
 
 /// b - a in two doubles per coordinate, exactly.
 V3<DoubleDouble> wide_difference(const double b[3], const double a[3]) {
   return {two_sum(b[0], -a[0]), two_sum(b[1], -a[1]), two_sum(b[2], -a[2])};
 }
 
-/// The two largest parts of an expansion.
-template <int N>
-DoubleDouble leading(const Expansion<N>& e) {
-  DoubleDouble sum(0);
-  for (int i = e.count; i-- > 0 && i + 2 >= e.count;) sum = sum + DoubleDouble(e.part[i]);
-  return sum;
+/// a - (R b + t), times 2^exponent.
+Expansion3 offset3(const double a[3], const double b[3], const Motion& m, int exponent) {
+  const auto scaled = [exponent](double x) { return std::ldexp(x, exponent); };
+  const auto coordinate = [&](double from, const Vec& row, double t) {
+    Expansion e(scaled(from));
+    e += -scaled(t);
+    for (const auto& [r, x] : {Pair{row.x, b[0]}, Pair{row.y, b[1]}, Pair{row.z, b[2]}}) e += two_product(-r, scaled(x));
+    return e;
+  };
+  return {coordinate(a[0], m.row_x, m.t.x), coordinate(a[1], m.row_y, m.t.y), coordinate(a[2], m.row_z, m.t.z)};
 }
 
-/// a - (R b + t), one coordinate.
-Expansion<8> offset(double a, const Vec& row, const double b[3], double t) {
-  Expansion<8> e;
-  grow(e, a);
-  grow(e, -t);
-  for (const auto& [r, x] : {Pair{row.x, b[0]}, Pair{row.y, b[1]}, Pair{row.z, b[2]}}) {
-    const Pair p = two_product(-r, x);
-    grow(e, p.low);
-    grow(e, p.high);
+/// The sign of the determinant of three of them. At a scale where products of three stay far from the ends of the range,
+/// however small the translation is beside the bodies.
+int offset_determinant_sign(const std::array<const double*, 3>& a, const std::array<const double*, 3>& b, const Motion& m) {
+  double largest = max_abs(m.t);
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (int axis : {0, 1, 2}) largest = larger(largest, larger(std::fabs(a[k][axis]), std::fabs(b[k][axis])));
   }
-  return e;
-}
-Expansion3<8> offset3(const double a[3], const double b[3], const Motion& m) {
-  return {offset(a[0], m.row_x, b, m.t.x), offset(a[1], m.row_y, b, m.t.y), offset(a[2], m.row_z, b, m.t.z)};
-}
-
-using Rows = std::array<Expansion3<1>, 3>;
-Rows rows(const Motion& m) {
-  const auto row = [](const Vec& r) { return Expansion3<1>{expansion(r.x), expansion(r.y), expansion(r.z)}; };
-  return {row(m.row_x), row(m.row_y), row(m.row_z)};
+  if (largest == 0) return 0;
+  const int exponent = kProductExponent - std::ilogb(largest);
+  return dot3(cross3(offset3(a[0], b[0], m, exponent), offset3(a[1], b[1], m, exponent)), offset3(a[2], b[2], m, exponent))
+      .sign();
 }
 
 /// R (w - v).
-Expansion3<12> turned(const Motion& m, const double w[3], const double v[3]) {
-  const Expansion3<2> d = difference3(w, v);
-  const Rows r = rows(m);
-  return {dot3(r[0], d), dot3(r[1], d), dot3(r[2], d)};
+Expansion3 turned(const Motion& m, const double w[3], const double v[3]) {
+  const Expansion3 d = difference3(w, v);
+  return {dot3(exactly(m.row_x), d), dot3(exactly(m.row_y), d), dot3(exactly(m.row_z), d)};
 }
 
 /// R u x R v is the matrix of R's cofactors times u x v, whatever R is.
-Expansion3<384> turned_cross(const Motion& m, const double a[3], const double b[3], const double c[3]) {
-  const Expansion3<16> n = cross3(difference3(b, a), difference3(c, a));
-  const Rows r = rows(m);
-  return {dot3(cross3(r[1], r[2]), n), dot3(cross3(r[2], r[0]), n), dot3(cross3(r[0], r[1]), n)};
+Expansion3 turned_cross(const Motion& m, const double a[3], const double b[3], const double c[3]) {
+  const Expansion3 n = cross3(difference3(b, a), difference3(c, a));
+  const auto coordinate = [&](const Vec& row, const Vec& other) { return dot3(cross3(exactly(row), exactly(other)), n); };
+  return {coordinate(m.row_y, m.row_z), coordinate(m.row_z, m.row_x), coordinate(m.row_x, m.row_y)};
 }
 
-template <int N>
-Wide rounded(const Expansion3<N>& v) {
-  const auto sum = [](const Expansion<N>& e) {
-    DoubleDouble s;
-    for (int i = 0; i < e.count; ++i) s = s + e.part[i];
-    return s;
-  };
-  return {sum(v[0]), sum(v[1]), sum(v[2])};
-}
+Wide rounded(const Expansion3& v) { return {v[0].rounded(), v[1].rounded(), v[2].rounded()}; }
 
 }  // namespace
 
@@ -192,8 +183,7 @@ Plane plane(const Vec& a, const Vec& b, const Vec& c) {
   V3<DoubleDouble> n = cross(u, v);
   const auto largest = [](const V3<DoubleDouble>& w) { return max_abs({w.x.high, w.y.high, w.z.high}); };
   if (largest(n) < kLeastWideArea * largest(u) * largest(v)) {
-    const auto exact_n = cross3(difference3(&b.x, &a.x), difference3(&c.x, &a.x));
-    n = {leading(exact_n[0]), leading(exact_n[1]), leading(exact_n[2])};
+    n = rounded(cross3(difference3(&b.x, &a.x), difference3(&c.x, &a.x)));
   }
   const Unit unit = unit_of({n.x.high, n.y.high, n.z.high});
   const V3<DoubleDouble> p{DoubleDouble(a.x), DoubleDouble(a.y), DoubleDouble(a.z)};
@@ -203,7 +193,7 @@ Plane plane(const Vec& a, const Vec& b, const Vec& c) {
 int compare_along(const double n[3], const double w[3], const double v[3]) {
   const Vec direction{n[0], n[1], n[2]}, e = subtract(w, v);
   if (const int sign = certain_sign(dot(direction, e), kDotError * dot(absolute(direction), absolute(e)))) return sign;
-  return dot3(Expansion3<1>{expansion(n[0]), expansion(n[1]), expansion(n[2])}, difference3(w, v)).sign();
+  return dot3(exactly(direction), difference3(w, v)).sign();
 }
 
 int compare_along_normal(const double a[3], const double b[3], const double c[3], const double w[3], const double v[3]) {
@@ -216,9 +206,7 @@ int compare_along_turned(const double n[3], const Motion& m, const double w[3], 
   const Vec direction{n[0], n[1], n[2]}, e = subtract(w, v), a = absolute(e), b = absolute(direction);
   const double magnitude = b.x * dot(absolute(m.row_x), a) + b.y * dot(absolute(m.row_y), a) + b.z * dot(absolute(m.row_z), a);
   if (const int sign = certain_sign(dot(direction, turn(m, e)), kTurnedDotError * magnitude)) return sign;
-  const Expansion3<2> d = difference3(w, v);
-  const auto row = [&](const Vec& r) { return dot3(Expansion3<1>{expansion(r.x), expansion(r.y), expansion(r.z)}, d); };
-  return (expansion(n[0]) * row(m.row_x) + expansion(n[1]) * row(m.row_y) + expansion(n[2]) * row(m.row_z)).sign();
+  return dot3(exactly(direction), turned(m, w, v)).sign();
 }
 
 int triple_product(const std::array<const double*, 3>& a, const std::array<const double*, 3>& b, const Motion& m) {
@@ -243,7 +231,7 @@ int triple_product(const std::array<const double*, 3>& a, const std::array<const
   };
   const double wide_value = double(dot(cross(wide_less_middle(0), wide(va) - wide(m, vb)), wide_less_middle(2)));
   if (const int sign = certain_sign(wide_value, kWideOffsetTripleProductError * most)) return sign;
-  return dot3(cross3(offset3(a[0], b[0], m), offset3(a[1], b[1], m)), offset3(a[2], b[2], m)).sign();
+  return offset_determinant_sign(a, b, m);
 }
 
 int compare_turned_along_normal(const double a[3], const double b[3], const double c[3], const Motion& m, const double w[3],
@@ -284,14 +272,10 @@ bool tetrahedron_holds_origin(const std::array<std::array<double, 3>, 4>& a, con
     certain = certain && sign[k] != 0;
   }
   if (!certain) {
-    std::array<Expansion3<8>, 4> e;
-    for (int k = 0; k < 4; ++k) {
-      e[k] = offset3(a[k].data(), b[k].data(), m);
-    }
     bool flat = true;
     for (int k = 0; k < 4; ++k) {
       const auto [i, j, l] = kFace[k];
-      sign[k] = dot3(cross3(e[i], e[j]), e[l]).sign();
+      sign[k] = offset_determinant_sign({a[i].data(), a[j].data(), a[l].data()}, {b[i].data(), b[j].data(), b[l].data()}, m);
       flat = flat && sign[k] == 0;
     }
     if (flat) return false;  // coplanar with the origin, or all four on planes through it

@@ -68,6 +68,13 @@ inline constexpr double kLeastWidth = 0x1p-450;
 /// The largest coordinate of a vector that is still normalised: below, its inverse may overflow. Products of two lengths.
 inline constexpr double kLeastDirection = 0x1p-1000;
 
+/// A product below 2^-1022 is off by 2^-1075; in a sum of few, times one factor more of at most 2 kMostCoordinate, by less than
+/// this. Far below all that bodies of kLeastExtent make: their products are of 2^-448. Length cubed.
+inline constexpr double kUnderflow = 0x1p-900;
+/// Exact determinants of differences are taken where the largest coordinate has this exponent: its cube stays below 2^1000, and of
+/// bodies and translations 2^-950 of it no bit is lost. An exponent of 2.
+inline constexpr int kProductExponent = 330;
+
 // ---- Rounding of a certificate in doubles (certify.cpp): lengths -----------------------------------------------------------
 
 /// R b + t: a coordinate of R b is 3 products and 2 sums of terms that |b| bounds, 4 u |b| each with the last sum, sqrt(3) for

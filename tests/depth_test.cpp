@@ -388,7 +388,9 @@ TEST(SignedDistance, IsExactWhereManyFacetsAreAsDeep) {
     EXPECT_EQ(check(a.model, b.model, pose, s).message, "");
     EXPECT_LE(s.upper - s.lower, bound_of(a, b, pose));
     EXPECT_LE((s.point_b - s.point_a - s.normal * s.lower).norm(), 2 * bound_of(a, b, pose));
-    if (triangles > 400) EXPECT_GT(s.steps, std::uint32_t(kDepthPoints));
+    if (triangles > 400) {
+      EXPECT_GT(s.steps, std::uint32_t(kDepthPoints));
+    }
     std::printf("%u steps\n", s.steps);
   }
   // A prism of many sides about its own axis: all of them tie.
