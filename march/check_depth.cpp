@@ -258,7 +258,7 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnsw
       return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap - radii);
     if (std::isfinite(answer.upper) && !(double(of_hulls(answer.upper) - gap) >= -error))
       return failed("upper is %.17g, but the gap along the normal is %.17g", answer.upper, gap - radii);
-    if (answer.upper - answer.lower <= touching) {
+    if (answer.upper - answer.lower <= touching && answer.verdict != Verdict::Undecided) {
       const Wide between = wide(vec(answer.point_b)) - wide(vec(answer.point_a));
       const double along = std::clamp(double(dot(between, wide(n))), answer.lower, answer.upper);
       const double aside = norm(rounded(between - wide(n) * DoubleDouble(along)));
@@ -283,8 +283,13 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnsw
       if (!(double(-upper - depth()) <= doubt))
         return failed("upper is %.17g, but the depth is %.17g", answer.upper, double(depth()) + radii);
     } else if (const double apart = norm(q - p) + deviation; !proved && !(apart <= double(upper) + 2 * slack)) {
-      const bool overlap = depth().high > 0 && depth().high < kInfinity;
-      if (!overlap) return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart - radii);
+      // A wide interval around 0 may come with the points of an overlap; any two others prove it as well.
+      const MarchResult near = march(finest_a.view, finest_b.view, b_in_a, {});
+      const Vec near_a = vec(near.point_a), near_b = vec(near.point_b);
+      const bool is_near =
+          holds(finest_a.view, kAtRest, near_a, slack) && holds(finest_b.view, m, near_b, slack) &&
+          norm(near_b - near_a) + finest_a.deviation + stretch * finest_b.deviation <= double(upper) + 2 * slack;
+      if (!is_near) return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart - radii);
     }
   }
   if (answer.verdict == Verdict::Overlapping && !(answer.upper < 0) && !proved) return failed("overlap without a proof");

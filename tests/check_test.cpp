@@ -306,6 +306,26 @@ TEST(CheckOfDepth, TakesOffRadii) {
   EXPECT_GE(std::min(deep, shallow), 30);
 }
 
+/// Their points may be those of an overlap, which prove no upper bound above 0.
+TEST(CheckOfDepth, AcceptsWideIntervalsAroundZero) {
+  const shapes::Pair pair = shapes::pair(shapes::Family::Fat, 200);
+  const Body a = body(pair.a), b = body(pair.b), cube = body(shapes::cube());
+  shapes::Random random(12);
+  QueryOptions options;
+  options.absolute_error = 1;
+  int open = 0, refused = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Body &first = i % 2 ? a : cube, &second = i % 2 ? b : cube;
+    const Pose pose{random.rotation(), random.on_sphere() * random.uniform(1.7, 2.6)};
+    PairSeed seed;
+    const SignedAnswer s = signed_distance(first.model, second.model, pose, seed, options);
+    if (!(s.lower < 0 && s.upper > 0)) continue;
+    ++open, refused += check(first.model, second.model, pose, s).message != "";
+  }
+  EXPECT_EQ(refused, 0) << "of " << open;
+  EXPECT_GE(open, 50);
+}
+
 /// 2 s of one core for two bodies of 2 000 triangles, also where all edges of one are nearly parallel to many of the other.
 TEST(CheckOfDepth, TakesTwoSecondsForNineMillionEdgePairs) {
   const auto seconds_of = [](const Body& a, const Body& b, const Pose& pose) {

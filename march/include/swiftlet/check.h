@@ -26,11 +26,11 @@ struct Check {
 /// the answer was asked with.
 Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer, double radius_a = 0, double radius_b = 0);
 
-/// Recomputes what `answer` claims in the same way. Of an overlap: `lower` by the gap along `normal`, `upper` by the least height
-/// of all planes that can bound the Minkowski difference, parallel to a face of A, to one of B, or to an edge of each whose
-/// neighbours are below, by exact signs; a touching pair's depth likewise; that each point lies in its body; and of an interval
-/// no wider than law 2 allows, that the points differ by the signed distance along the normal within that. No true answer is
-/// refused. Cost: the product of the edges, 0.2 s for two bodies of 2 000 triangles. Radii as above.
+/// Recomputes what `answer` claims in the same way. Of an overlap: `lower` by the gap along `normal`, `upper` by the least
+/// height of all planes that can bound the Minkowski difference, parallel to a face of A, to one of B, or to an edge of each
+/// whose neighbours are below, by exact signs; a touching pair's depth likewise; that each point lies in its body; and of a
+/// verdict with an interval no wider than law 2 allows, that the points differ by the signed distance along the normal within
+/// that. Cost: the product of the edges, 0.2 s for two bodies of 2 000 triangles. Radii as above.
 Check check(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnswer& answer, double radius_a = 0,
             double radius_b = 0);
 
