@@ -20,6 +20,7 @@
 #include "vclip.h"
 
 namespace swiftlet::bench {
+using namespace yardstick;
 namespace {
 
 /// Mean states per query of V-Clip 1.0 on other orbits of the same definition, 2 000 triangles, a body against itself.

@@ -17,6 +17,7 @@
 #include "scenes.h"
 
 namespace swiftlet::bench {
+using namespace yardstick;
 namespace {
 
 constexpr int kRounds = 9, kMovesPerRound = 20;

@@ -30,7 +30,7 @@ void print_expected(const swiftlet::Model& model) {
 
 int main(int argc, char** argv) {
   using namespace swiftlet;
-  using namespace swiftlet::bench;
+  using namespace swiftlet::yardstick;
   if (argc < 6 || argc > 9) {
     return std::fputs(
                "swiftlet_cost_scene CACHE fat|plate|long TRIANGLES STEP PREFIX [DEVIATION [RATE [LEVELS]]]\n"

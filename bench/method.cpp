@@ -11,16 +11,11 @@
 #include <swiftlet/query.h>
 
 #include "hull.h"
-#if __has_include("vclip.h")
-#include "vclip.h"
-#define SWIFTLET_BENCH_VCLIP
-#endif
-#if __has_include("plain.h")
 #include "plain.h"
-#define SWIFTLET_BENCH_PLAIN
-#endif
+#include "vclip.h"
 
 namespace swiftlet::bench {
+using namespace yardstick;
 namespace {
 
 // ---- swiftlet
@@ -127,7 +122,6 @@ void add_swiftlet(Methods& methods) {
 // ---- The baseline
 // --------------------------------------------------------------------------------------------------------------
 
-#ifdef SWIFTLET_BENCH_VCLIP
 class VclipSession final : public SessionOf<VclipSession> {
  public:
   VclipSession(std::span<const Body> bodies, std::span<const BodyPair> pairs) : index_(pairs.begin(), pairs.end()) {
@@ -165,12 +159,10 @@ class VclipMethod final : public Method {
     return std::make_unique<VclipSession>(bodies, pairs);
   }
 };
-#endif
 
 // ---- Our walk alone
 // ------------------------------------------------------------------------------------------------------------
 
-#ifdef SWIFTLET_BENCH_PLAIN
 class PlainSession final : public SessionOf<PlainSession> {
  public:
   PlainSession(PlaneRule rule, bool table, std::span<const Body> bodies, std::span<const BodyPair> pairs) : rule_(rule) {
@@ -225,7 +217,6 @@ class PlainMethod final : public Method {
   PlaneRule rule_;
   bool table_;
 };
-#endif
 
 }  // namespace
 
@@ -233,24 +224,18 @@ std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, 
   return std::make_unique<SwiftletMethod>(std::move(name), std::move(settings), options);
 }
 
-#ifdef SWIFTLET_BENCH_PLAIN
 std::unique_ptr<Method> plain_method(std::string name, std::string settings, PlaneRule rule, bool table) {
   return std::make_unique<PlainMethod>(std::move(name), std::move(settings), rule, table);
 }
-#endif
 
 Methods all_methods() {
   Methods methods;
   add_swiftlet(methods);
-#ifdef SWIFTLET_BENCH_VCLIP
   methods.push_back(std::make_unique<VclipMethod>());
-#endif
-#ifdef SWIFTLET_BENCH_PLAIN
   methods.push_back(
       plain_method("plain", "our walk on level 0, last features; no hierarchy, table or certificate", PlaneRule::MostViolated));
   methods.push_back(plain_method("plain table", "the same from the paper's table of 5.625 degrees at every query",
                                  PlaneRule::MostViolated, true));
-#endif
 #ifdef SWIFTLET_PEER_FCL
   add_fcl(methods);
 #endif

@@ -16,6 +16,8 @@
 #include <swiftlet/pose.h>
 #include <swiftlet/query.h>
 
+#include "pairs.h"
+
 namespace swiftlet::bench {
 
 /// What one query answered.
@@ -27,22 +29,9 @@ struct Outcome {
                 plane_tests = 0;  ///< iterations and support calls where a method has no features; 0 where it hides both
 };
 
-/// One body as every method gets it: the same vertices and faces for all.
-struct Body {
-  const Model* model = nullptr;  ///< with its hierarchy and table; outlives the session
-  ConvexView view;               ///< its level 0
-  double build_seconds = 0;      ///< what the builder took from hull to model, as the scene measured it
-};
-
-/// Two bodies that are asked about: indices into the scene's bodies.
-struct BodyPair {
-  std::uint32_t a = 0, b = 0;
-};
-
-struct Query {
-  std::uint32_t pair = 0;  ///< index into the pairs of the session
-  Pose b_in_a;
-};
+using yardstick::Body;
+using yardstick::BodyPair;
+using yardstick::Query;
 
 /// What a session's bodies cost before the first query. Its states per pair are not counted.
 struct Preparation {

@@ -4,8 +4,6 @@
 # A peer that is absent is named here and in the results.
 find_package(PkgConfig QUIET)
 
-include(${PROJECT_SOURCE_DIR}/tests/helpers.cmake)  # the baselines
-
 add_library(swiftlet_methods STATIC method.cpp patches.cpp verdict.cpp)
 target_compile_options(swiftlet_methods PRIVATE -ffp-contract=off -Wall -Wextra -Wshadow)
 target_include_directories(swiftlet_methods PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
@@ -24,6 +22,7 @@ function(swiftlet_peer name)
     target_compile_features(swiftlet_peer_${name} PRIVATE cxx_std_20)
     target_compile_options(swiftlet_peer_${name} PRIVATE -Wall -Wextra -Wshadow)
     target_compile_definitions(swiftlet_peer_${name} PRIVATE SWIFTLET_PEER_VERSION="${peer_${name}_VERSION}")
+    target_include_directories(swiftlet_peer_${name} PRIVATE ${PROJECT_SOURCE_DIR}/yardstick)
     target_link_libraries(swiftlet_peer_${name} PRIVATE swiftlet::march PkgConfig::peer_${name})
     target_compile_definitions(swiftlet_methods PRIVATE SWIFTLET_PEER_${macro})
     target_link_libraries(swiftlet_methods PRIVATE swiftlet_peer_${name})
@@ -53,6 +52,7 @@ if(peer_fcl_FOUND AND SWIFTLET_HAS_MARCH_NATIVE AND CMAKE_SYSTEM_NAME STREQUAL "
   foreach(headers march lut)  # not linked: it calls nothing of ours
     target_include_directories(swiftlet_fcl_native PRIVATE $<TARGET_PROPERTY:swiftlet::${headers},INTERFACE_INCLUDE_DIRECTORIES>)
   endforeach()
+  target_include_directories(swiftlet_fcl_native PRIVATE ${PROJECT_SOURCE_DIR}/yardstick)
   target_link_libraries(swiftlet_fcl_native PRIVATE PkgConfig::peer_fcl Eigen3::Eigen)
   file(CONFIGURE OUTPUT fcl_native.map @ONLY CONTENT
     "{ global: extern \"C++\" { \"swiftlet::bench::add_fcl_native*\"; swiftlet::bench::add_fcl_native*; }; local: *; };\n")

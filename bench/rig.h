@@ -14,6 +14,7 @@
 #include "verdict.h"
 
 namespace swiftlet::bench {
+using namespace yardstick;
 
 enum class Question : std::uint8_t { Distance, Intersects, Depth, Patch };
 const char* name(Question question);

@@ -23,6 +23,7 @@
 #include "scenes.h"
 
 namespace swiftlet::bench {
+using namespace yardstick;
 namespace {
 
 constexpr std::array kTolerances{0., 1e-3, 3e-3, 1e-2, 3e-2, 1e-1};  ///< of a pair's distance, over the radius; 0: exact

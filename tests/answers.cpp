@@ -8,9 +8,15 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <istream>
+#include <map>
+#include <ostream>
+#include <sstream>
+#include <string_view>
 
 #include <swiftlet/model_file.h>
 
+#include "answer_fields.h"
 #include "bodies.h"
 
 namespace swiftlet::answers {
@@ -55,198 +61,335 @@ PairSeed Poses::seed() {
   return seed;
 }
 
-void append(const Answer& answer, std::vector<std::uint64_t>& fields) {
-  const auto number = [&fields](double x) { fields.push_back(std::bit_cast<std::uint64_t>(x)); };
-  const auto handle = [&fields](Handle h) { fields.push_back(std::uint64_t(h.kind()) << 32 | h.index()); };
-  fields.push_back(std::uint64_t(answer.status) << 32 | std::uint64_t(answer.verdict));
-  number(answer.lower), number(answer.upper);
-  for (const Vec3& v : {answer.normal, answer.point_a, answer.point_b}) number(v.x()), number(v.y()), number(v.z());
-  fields.push_back(std::uint64_t(answer.level_a) << 32 | std::uint64_t(answer.level_b));
-  handle(answer.feature_a), handle(answer.feature_b);
-  fields.push_back(answer.proof.count);
-  for (std::size_t k = 0; k < answer.proof.count; ++k)
-    fields.push_back(std::uint64_t{answer.proof.vertex_a[k]} << 32 | answer.proof.vertex_b[k]);
-  fields.push_back(std::uint64_t{answer.steps} << 32 | answer.plane_tests);
-  fields.push_back(std::uint64_t(answer.levels_visited));
+// ---- Answers as bits -------------------------------------------------------------------------------------------------------
+
+namespace {
+
+struct Words {
+  std::vector<std::uint64_t>& words;
+  void number(const char*, double x) { words.push_back(std::bit_cast<std::uint64_t>(x)); }
+  void numbers(const char* name, const Vec3& v) { number(name, v.x()), number(name, v.y()), number(name, v.z()); }
+  void handle(const char*, Handle h) { words.push_back(std::uint64_t(h.kind()) << 32 | h.index()); }
+  void count(const char*, std::uint32_t n) { words.push_back(n); }
+  void pair(const char*, auto high, const char*, auto low) { words.push_back(std::uint64_t(high) << 32 | std::uint64_t(low)); }
+  void element(const char* = nullptr, std::uint32_t = 0) {}
+};
+
+void add_fields(const auto& answer, Fingerprint& print) {
+  std::vector<std::uint64_t> words;
+  visit(answer, Words{words});
+  for (const std::uint64_t word : words) print.add(word);
+  ++print.answers;
 }
+
+}  // namespace
+
+void append(const Answer& answer, std::vector<std::uint64_t>& words) { visit(answer, Words{words}); }
 
 void Fingerprint::add(std::uint64_t word) {
   hash = (hash ^ word) * 0x100000001b3u;
   hash ^= hash >> 32;
 }
+void Fingerprint::add(const Answer& answer) { add_fields(answer, *this); }
+void Fingerprint::add(const SignedAnswer& answer) { add_fields(answer, *this); }
+void Fingerprint::add(const Patch& patch) { add_fields(patch, *this); }
 
-void Fingerprint::add(const Answer& answer) {
-  std::vector<std::uint64_t> fields;
-  append(answer, fields);
-  for (const std::uint64_t field : fields) add(field);
-  ++answers;
-}
+// ---- Answers as text -------------------------------------------------------------------------------------------------------
 
 namespace {
 
-/// Words of one answer.
-struct Fields {
-  Fingerprint& print;
-  void number(double x) { print.add(std::bit_cast<std::uint64_t>(x)); }
-  void numbers(const Vec3& v) { number(v.x()), number(v.y()), number(v.z()); }
-  void handle(Handle h) { print.add(std::uint64_t(h.kind()) << 32 | h.index()); }
-  void pair(std::uint64_t high, std::uint64_t low) { print.add(high << 32 | low); }
+std::string text(const char* format, auto... values) {
+  std::array<char, 160> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), format, values...);
+  return buffer.data();
+}
+std::string text(double x) { return text("%a", x); }
+std::string text(int n) { return text("%d", n); }
+std::string text(std::uint32_t n) { return text("%u", n); }
+std::string text(Handle h) {
+  constexpr const char* kKinds[] = {"none", "vertex", "edge", "face"};
+  return text("%s:%u", kKinds[std::size_t(h.kind())], h.index());
+}
+const char* text(Status status) {
+  switch (status) {
+    case Status::Converged: return "converged";
+    case Status::Beyond: return "beyond";
+    case Status::Budget: return "budget";
+    case Status::LevelLimit: return "level_limit";
+    case Status::NotConverged: return "not_converged";
+    case Status::InvalidPose: return "invalid_pose";
+  }
+  return "";
+}
+const char* text(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Undecided: return "undecided";
+    case Verdict::Disjoint: return "disjoint";
+    case Verdict::Touching: return "touching";
+    case Verdict::Overlapping: return "overlapping";
+  }
+  return "";
+}
+
+struct Texts {
+  std::vector<std::pair<std::string, std::string>>& fields;
+  std::string prefix{};
+  void add(const char* name, std::string value) { fields.emplace_back(prefix + name, std::move(value)); }
+  void number(const char* name, double x) { add(name, text(x)); }
+  void numbers(const char* name, const Vec3& v) { add(name, text("%a,%a,%a", v.x(), v.y(), v.z())); }
+  void handle(const char* name, Handle h) { add(name, text(h)); }
+  void count(const char* name, std::uint32_t n) { add(name, text(n)); }
+  void pair(const char* first, auto x, const char* second, auto y) { add(first, text(x)), add(second, text(y)); }
+  void element(const char* array, std::uint32_t i) { prefix = text("%s%u.", array, i); }
+  void element() { prefix.clear(); }
 };
 
 }  // namespace
 
-void Fingerprint::add(const SignedAnswer& s) {
-  Fields fields{*this};
-  fields.pair(std::uint64_t(s.status), std::uint64_t(s.verdict));
-  fields.number(s.lower), fields.number(s.upper);
-  for (const Vec3& v : {s.normal, s.point_a, s.point_b}) fields.numbers(v);
-  fields.pair(std::uint64_t(s.level_a), std::uint64_t(s.level_b));
-  fields.handle(s.feature_a), fields.handle(s.feature_b);
-  add(s.proof.count);
-  for (std::size_t k = 0; k < s.proof.count; ++k) fields.pair(s.proof.vertex_a[k], s.proof.vertex_b[k]);
-  fields.pair(s.steps, s.plane_tests);
-  ++answers;
-}
-
-void Fingerprint::add(const Patch& patch) {
-  Fields fields{*this};
-  fields.numbers(patch.normal);
-  fields.handle(patch.face_a), fields.handle(patch.face_b);
-  add(patch.count);
-  for (std::uint32_t i = 0; i < patch.count; ++i) {
-    const PatchPoint& p = patch.points[i];
-    fields.numbers(p.point_a), fields.numbers(p.point_b), fields.number(p.separation);
-    fields.handle(p.feature_a), fields.handle(p.feature_b);
-  }
-  ++answers;
-}
+// ---- Questions -------------------------------------------------------------------------------------------------------------
 
 namespace {
 
-constexpr StartPolicy kPolicies[] = {StartPolicy::Automatic, StartPolicy::Paper, StartPolicy::Finest, StartPolicy::Coarsest,
-                                     StartPolicy::Table};
-constexpr Refinement kRefinements[] = {Refinement::Single, Refinement::SingleSingle, Refinement::DoubleDouble};
-constexpr PlaneRule kRules[] = {PlaneRule::MostViolated, PlaneRule::FirstViolated};
-
-struct Chain {
-  QueryOptions options;
-  PairSeed seed;
+/// What was asked: the query and how, the models by their numbers, the number of the pose.
+struct Asked {
+  std::string_view query, how;
+  std::size_t a, b;
+  int round;
+  std::string name() const {
+    return text("%.*s/%zu-%zu/%d", int(query.size()), query.data(), a, b, round) + "/" + std::string(how);
+  }
 };
 
-void ask_pair(const Model& a, const Model& b, Poses& poses, int rounds, Fingerprint& print) {
-  std::vector<Chain> chains;
-  for (const StartPolicy start : kPolicies) {
-    for (const Refinement refinement : kRefinements) {
-      for (const PlaneRule rule : kRules) {
+/// Calls ask(a, b, its numbers and round, next pose) for so many poses of each pair.
+template <class Ask>
+void each_pose(const std::vector<Model>& models, int rounds, Poses& poses, Ask ask) {
+  for (std::size_t a = 0; a < models.size(); ++a) {
+    for (std::size_t b = 0; b < models.size(); ++b) {
+      for (int i = 0; i < rounds; ++i) ask(models[a], models[b], Asked{{}, {}, a, b, i}, poses.next());
+    }
+  }
+}
+
+/// Options that keep a seed of their own from pose to pose.
+struct Chain {
+  std::string how;
+  QueryOptions options;
+  PairSeed seed{};
+};
+
+std::vector<Chain> chains() {
+  using enum StartPolicy;
+  using enum Refinement;
+  using enum PlaneRule;
+  std::vector<Chain> all;
+  for (const auto& [start, start_name] :
+       {std::pair{Automatic, "automatic"}, {Paper, "paper"}, {Finest, "finest"}, {Coarsest, "coarsest"}, {Table, "table"}}) {
+    for (const auto& [refinement, refinement_name] :
+         {std::pair{Single, "single"}, {SingleSingle, "single_single"}, {DoubleDouble, "double_double"}}) {
+      for (const auto& [rule, rule_name] : {std::pair{MostViolated, "most"}, {FirstViolated, "first"}}) {
         QueryOptions options;
         options.start = start;
         options.refinement = refinement;
         options.plane_rule = rule;
-        chains.push_back({options, {}});
+        all.push_back({text("%s.%s.%s", start_name, refinement_name, rule_name), options});
       }
     }
   }
-  Chain loose, tested, near, met;
-  loose.options.relative_error = 0.01;
-  for (int i = 0; i < rounds; ++i) {
-    const Pose pose = poses.next();
-    for (Chain& chain : chains) print.add(distance(a, b, pose, chain.seed, chain.options));
-    PairSeed cold, random = poses.seed();
-    print.add(distance(a, b, pose, cold));
-    print.add(distance(a, b, pose, random));
-    print.add(distance(b, a, inverse(pose), cold = {}));
-    print.add(distance(a, b, pose, loose.seed, loose.options));
-    print.add(intersects(a, b, pose, tested.seed));
-    print.add(within(a, b, pose, 0.5, near.seed).answer);
-    print.add(contact(a, b, pose, met.seed).answer);
-    QueryOptions limited;
-    limited.step_budget = std::uint32_t(i % 7);
-    limited.finest_level = i % 2;
-    print.add(distance(a, b, pose, cold = {}, limited));
-  }
+  return all;
 }
 
-}  // namespace
-
-Fingerprint fingerprint(const std::vector<Model>& models, int rounds) {
-  Fingerprint print;
-  for (const Model& model : models) {
-    print.add(model.hash());
-    print.add(model.with_table({lut::Resolution::Degrees5, 1.5}).hash());
-  }
+/// Calls take(asked, answer) for each answer; so do those below.
+template <class Take>
+void each_answer(const std::vector<Model>& models, int rounds, Take take) {
   Poses poses(1);
-  for (const Model& a : models)
-    for (const Model& b : models) ask_pair(a, b, poses, rounds, print);
-  return print;
+  std::vector<Chain> policies;
+  QueryOptions loosely, limited;
+  loosely.relative_error = 0.01;
+  PairSeed loose, tested, near, met;
+  each_pose(models, rounds, poses, [&](const Model& a, const Model& b, Asked asked, const Pose& pose) {
+    if (asked.round == 0) policies = chains(), loose = tested = near = met = {};
+    const auto took = [&](const char* query, std::string_view how, const Answer& answer) {
+      asked.query = query, asked.how = how;
+      take(asked, answer);
+    };
+    for (Chain& c : policies) took("distance", c.how, distance(a, b, pose, c.seed, c.options));
+    PairSeed cold, random = poses.seed();
+    took("distance", "cold", distance(a, b, pose, cold));
+    took("distance", "random", distance(a, b, pose, random));
+    took("distance", "swapped", distance(b, a, inverse(pose), cold = {}));
+    took("distance", "loose", distance(a, b, pose, loose, loosely));
+    took("intersects", "warm", intersects(a, b, pose, tested));
+    took("within", "warm", within(a, b, pose, 0.5, near).answer);
+    took("contact", "warm", contact(a, b, pose, met).answer);
+    limited.step_budget = std::uint32_t(asked.round % 7);
+    limited.finest_level = asked.round % 2;
+    took("distance", "limited", distance(a, b, pose, cold = {}, limited));
+  });
 }
 
-namespace {
-
-/// Calls ask(a, b, pose) for so many poses of each pair.
-template <class Ask>
-void each(const std::vector<Model>& models, int rounds, Poses& poses, Ask ask) {
-  for (const Model& a : models) {
-    for (const Model& b : models) {
-      for (int i = 0; i < rounds; ++i) ask(a, b, poses.next(), i);
-    }
-  }
-}
-
-}  // namespace
-
-Fingerprint signed_fingerprint(const std::vector<Model>& models, int rounds) {
-  Fingerprint print;
+template <class Take>
+void each_signed_answer(const std::vector<Model>& models, int rounds, Take take) {
   Poses poses(2);
   PairSeed warm, met;
   QueryOptions loose, limited;
   loose.relative_error = 0.01;
-  each(models, rounds, poses, [&](const Model& a, const Model& b, Pose pose, int i) {
-    if (i % 4) pose.translation *= 0.25;  // mostly inside one another
+  each_pose(models, rounds, poses, [&](const Model& a, const Model& b, Asked asked, Pose pose) {
+    const auto took = [&](const char* query, const char* how, const SignedAnswer& answer) {
+      asked.query = query, asked.how = how;
+      take(asked, answer);
+    };
+    if (asked.round % 4) pose.translation *= 0.25;  // mostly inside one another
     PairSeed cold, random = poses.seed();
-    print.add(signed_distance(a, b, pose, warm));
-    print.add(signed_distance(a, b, pose, cold));
-    print.add(signed_distance(a, b, pose, random));
-    print.add(signed_distance(b, a, inverse(pose), cold = {}));
-    print.add(signed_distance(a, b, pose, cold = {}, loose));
-    limited.step_budget = std::uint32_t(i % 7);
-    limited.finest_level = i % 2;
-    print.add(signed_distance(a, b, pose, cold = {}, limited));
-    print.add(signed_within(a, b, pose, -0.25, met).answer);
+    took("signed_distance", "warm", signed_distance(a, b, pose, warm));
+    took("signed_distance", "cold", signed_distance(a, b, pose, cold));
+    took("signed_distance", "random", signed_distance(a, b, pose, random));
+    took("signed_distance", "swapped", signed_distance(b, a, inverse(pose), cold = {}));
+    took("signed_distance", "loose", signed_distance(a, b, pose, cold = {}, loose));
+    limited.step_budget = std::uint32_t(asked.round % 7);
+    limited.finest_level = asked.round % 2;
+    took("signed_distance", "limited", signed_distance(a, b, pose, cold = {}, limited));
+    took("signed_within", "warm", signed_within(a, b, pose, -0.25, met).answer);
   });
-  return print;
 }
 
-Fingerprint patch_fingerprint(const std::vector<Model>& models, int rounds) {
-  Fingerprint print;
+template <class Take>
+void each_patch(const std::vector<Model>& models, int rounds, Take take) {
   Poses poses(3);
   PairSeed seed, near;
   Patch before;
-  each(models, rounds, poses, [&](const Model& a, const Model& b, const Pose& pose, int i) {
+  each_pose(models, rounds, poses, [&](const Model& a, const Model& b, Asked asked, const Pose& pose) {
+    const auto took = [&](const char* how, const Patch& patch) {
+      asked.query = "patch", asked.how = how;
+      take(asked, patch);
+    };
     PatchOptions options;
-    options.margin = i % 3 ? 4 : 0;
+    options.margin = asked.round % 3 ? 4 : 0;
     options.most_points = 1 + std::uint32_t(poses.bits() % kMostPatchPoints);
-    if (i % 4 == 0) options.flatness = 0;
-    if (i % 5 == 0) options.radius_a = 0.25, options.radius_b = 0.125;
+    if (asked.round % 4 == 0) options.flatness = 0;
+    if (asked.round % 5 == 0) options.radius_a = 0.25, options.radius_b = 0.125;
     QueryOptions query;
     query.radius_a = options.radius_a, query.radius_b = options.radius_b;
     const SignedAnswer deep = signed_distance(a, b, pose, seed, query);
-    print.add(patch(a, b, pose, deep, options));
-    print.add(before = patch(a, b, pose, deep, options, before));
-    print.add(patch(a, b, pose, contact(a, b, pose, near, query).answer, options));
+    took("alone", patch(a, b, pose, deep, options));
+    took("after", before = patch(a, b, pose, deep, options, before));
+    took("contact", patch(a, b, pose, contact(a, b, pose, near, query).answer, options));
   });
+}
+
+/// Calls collect(name, each) for each kind of answer, which passes every answer of the kind to what it is called with.
+template <class Collect>
+void each_kind(const std::vector<Model>& models, int rounds, Collect collect) {
+  collect("answers", [&](auto take) { each_answer(models, rounds, take); });
+  collect("signed", [&](auto take) { each_signed_answer(models, rounds, take); });
+  collect("patches", [&](auto take) { each_patch(models, rounds, take); });
+}
+
+/// Empty, but for the first kind: what models are made at run time.
+Fingerprint first_print(const std::vector<Model>& models, std::string_view kind) {
+  Fingerprint print;
+  if (kind != "answers") return print;
+  for (const Model& model : models) {
+    print.add(model.hash());
+    print.add(model.with_table({lut::Resolution::Degrees5, 1.5}).hash());
+  }
   return print;
 }
 
+}  // namespace
+
 std::vector<Print> prints(const std::vector<Model>& models, int rounds) {
-  return {{"answers", fingerprint(models, rounds)},
-          {"signed", signed_fingerprint(models, rounds)},
-          {"patches", patch_fingerprint(models, rounds)}};
+  std::vector<Print> all;
+  each_kind(models, rounds, [&](const char* kind, auto each) {
+    all.push_back({kind, first_print(models, kind)});
+    each([&](const Asked&, const auto& answer) { all.back().print.add(answer); });
+  });
+  return all;
 }
 
 std::string text(const Print& print) {
   char line[80];
   std::snprintf(line, sizeof line, "%016" PRIx64 " %" PRIu64 " %s", print.print.hash, print.print.answers, print.name);
   return line;
+}
+
+// ---- Records ---------------------------------------------------------------------------------------------------------------
+
+namespace {
+
+/// Of one kind of answers: prime to the numbers of ways in which a pose is asked, so that each way is in the sample.
+constexpr std::uint64_t kSampled[] = {13, 5, 5};
+
+std::string hex(std::uint64_t hash) { return text("%016" PRIx64, hash); }
+
+}  // namespace
+
+std::vector<Record> records(const std::vector<Model>& models, int rounds) {
+  std::vector<Record> heads, sample;
+  each_kind(models, rounds, [&](const char* kind, auto each) {
+    const std::uint64_t every = kSampled[heads.size() / 2];
+    Fingerprint all = first_print(models, kind);
+    std::map<std::string, Fingerprint> by_field;
+    each([&](const Asked& asked, const auto& answer) {
+      Record record{asked.name(), {}};
+      visit(answer, Texts{record.fields});
+      for (const auto& [name, value] : record.fields) {
+        Fingerprint& print = by_field[name];
+        print.add(all.answers);
+        for (const char c : value) print.add(std::uint8_t(c));
+      }
+      if (all.answers % every == 0) sample.push_back(std::move(record));
+      all.add(answer);
+    });
+    heads.push_back({text("all/%s", kind), {{"hash", hex(all.hash)}, {"count", std::to_string(all.answers)}}});
+    heads.push_back({text("fields/%s", kind), {}});
+    for (const auto& [name, print] : by_field) heads.back().fields.emplace_back(name, hex(print.hash));
+  });
+  heads.insert(heads.end(), sample.begin(), sample.end());
+  return heads;
+}
+
+void write(const std::vector<Record>& records, std::ostream& out) {
+  for (const Record& record : records) {
+    out << record.name;
+    for (const auto& [name, value] : record.fields) out << ' ' << name << '=' << value;
+    out << '\n';
+  }
+}
+
+std::vector<Record> read(std::istream& in) {
+  std::vector<Record> records;
+  for (std::string line, word; std::getline(in, line);) {
+    std::istringstream words(line);
+    Record record;
+    words >> record.name;
+    while (words >> word) {
+      const std::size_t at = word.find('=');
+      record.fields.emplace_back(word.substr(0, at), at == word.npos ? "" : word.substr(at + 1));
+    }
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+Changes compare(const std::vector<Record>& recorded, const std::vector<Record>& today) {
+  std::map<std::string, std::map<std::string, std::string>> is;  // by record and field
+  for (const Record& record : today) is[record.name] = {record.fields.begin(), record.fields.end()};
+  Changes changes;
+  for (const Record& record : recorded) {
+    std::map<std::string, std::string>& left = is[record.name];
+    for (const auto& [name, value] : record.fields) {
+      const auto now = left.extract(name);
+      if (!now)
+        ++changes.gone[name];
+      else if (now.mapped() != value && (record.name.starts_with("all/") || record.name.starts_with("fields/")))
+        changes.hashes.push_back(record.name + " " + name);
+      else if (now.mapped() != value)
+        changes.values.push_back(record.name + " " + name + "=" + now.mapped() + ", recorded " + value);
+    }
+  }
+  for (const auto& [record, left] : is)
+    for (const auto& [name, value] : left) ++changes.added[name];
+  return changes;
 }
 
 }  // namespace swiftlet::answers

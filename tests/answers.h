@@ -1,12 +1,16 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Many questions on stored models, the same on every machine and compiler, and answers as bits. Needs the runtime only.
+// Many questions on stored models, the same on every machine and compiler, and answers as bits and as text. Needs the runtime
+// only.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
+#include <map>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <swiftlet/depth.h>
@@ -35,7 +39,7 @@ class Poses {
 };
 
 /// Every field of an answer, bit for bit, steps included.
-void append(const Answer& answer, std::vector<std::uint64_t>& fields);
+void append(const Answer& answer, std::vector<std::uint64_t>& words);
 
 struct Fingerprint {
   std::uint64_t hash = 0xcbf29ce484222325u, answers = 0;
@@ -52,19 +56,38 @@ struct Print {
 };
 std::string text(const Print& print);
 
-/// All there is, one after the other: distances first.
+/// All there is, one after the other: "answers" of all policies, refinements and plane rules, warm over `rounds` poses per pair
+/// of models, cold, from random seeds, of all queries, tolerances and budgets, tables and models made at run time; "signed"
+/// distances warm, cold, from random seeds, swapped, loose, limited and against thresholds, of overlaps for the most part;
+/// "patches" of both kinds of exact answers, with and without a margin, radii and flatness, few points and many, after one
+/// another and alone.
 std::vector<Print> prints(const std::vector<Model>& models, int rounds);
 
-/// All policies, refinements and plane rules, warm over `rounds` poses per pair of models, cold, from random seeds; all
-/// queries, tolerances and budgets; tables and models made at run time.
-Fingerprint fingerprint(const std::vector<Model>& models, int rounds);
+// ---- Records ---------------------------------------------------------------------------------------------------------------
 
-/// Signed distances warm, cold, from random seeds, swapped, loose, limited and against thresholds, of overlaps for the most
-/// part.
-Fingerprint signed_fingerprint(const std::vector<Model>& models, int rounds);
+/// Fields by name, as text: doubles in hexadecimal, the same text only for the same bits.
+struct Record {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> fields;
+};
 
-/// Patches of both kinds of exact answers: with and without a margin, radii and flatness, few points and many, after one
-/// another and alone.
-Fingerprint patch_fingerprint(const std::vector<Model>& models, int rounds);
+/// Poses per pair of the models that are recorded.
+inline constexpr int kRecordedRounds = 10;
+
+/// For each of `prints` its hash, a hash of each field over all its answers, and a sample of about one answer in ten as it is.
+/// Names say the query, its place among the models, the number of its pose, and how it was asked.
+std::vector<Record> records(const std::vector<Model>& models, int rounds);
+
+void write(const std::vector<Record>& records, std::ostream& out);
+std::vector<Record> read(std::istream& in);
+
+/// What changed, for people; empty if nothing did.
+struct Changes {
+  std::vector<std::string> hashes;         ///< of all answers that changed, and of which of their fields
+  std::vector<std::string> values;         ///< that changed in the sample
+  std::map<std::string, int> gone, added;  ///< fields that one of them lacks, and in how many records
+  bool empty() const { return hashes.empty() && values.empty() && gone.empty() && added.empty(); }
+};
+Changes compare(const std::vector<Record>& recorded, const std::vector<Record>& today);
 
 }  // namespace swiftlet::answers

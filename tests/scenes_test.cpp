@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The benchmark's scenes are what they claim: near enough, varied enough, at the distance they name. Knows bench/scenes.h.
+// The benchmark's scenes are what they claim: near enough, varied enough, at the distance they name. Knows scenes.h.
 #include "scenes.h"
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 namespace swiftlet {
 namespace {
 
-using namespace bench;
+using namespace yardstick;
 
 const Shelf& shelf() {
   static const Shelf shelf(std::filesystem::temp_directory_path() / "swiftlet-scenes-test");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The baseline deserves its name: V-Clip answers as the oracle does while bodies are disjoint, and takes the published number
-// of states on the orbit. Knows bench/vclip.h; nothing of march but the views.
+// of states on the orbit. Knows vclip.h; nothing of march but the views.
 #include "vclip.h"
 
 #include <algorithm>
@@ -18,10 +18,10 @@
 namespace swiftlet {
 namespace {
 
-using bench::VclipBody;
-using bench::VclipEnd;
-using bench::VclipResult;
-using bench::VclipSeed;
+using yardstick::VclipBody;
+using yardstick::VclipEnd;
+using yardstick::VclipResult;
+using yardstick::VclipSeed;
 
 struct Shape {
   Mesh mesh;
@@ -41,7 +41,7 @@ void expect_agreement(const std::string& name, const Shape& a, const Shape& b, i
     ASSERT_LT(overlapping, 20 * count + 100) << name << " overlaps too often";
     const Pose pose{random.rotation(), random.on_sphere() * random.uniform(0.1, 1.3) * reach};
     const oracle::Truth truth = oracle::distance(a.mesh.points, b.mesh.points, pose);
-    const VclipResult r = bench::vclip(a.body, b.body, pose, seed);
+    const VclipResult r = yardstick::vclip(a.body, b.body, pose, seed);
     ASSERT_NE(r.end, VclipEnd::Capped) << name << " pose " << disjoint + overlapping;
     ASSERT_EQ(r.penetrating(), truth.overlapping)
         << name << " pose " << disjoint + overlapping << " distance " << truth.distance;
@@ -77,7 +77,8 @@ TEST_P(VclipFamily, TakesThePublishedNumberOfStates) {
     for (std::uint64_t orbit = 0; orbit < 20; ++orbit) {
       const shapes::Orbit motion(100 + orbit, 2, speeds[k]);
       VclipSeed seed;
-      for (std::uint64_t i = 1; i <= 500; ++i) states += bench::vclip(shape.body, shape.body, motion.pose(i), seed).steps + 1;
+      for (std::uint64_t i = 1; i <= 500; ++i)
+        states += yardstick::vclip(shape.body, shape.body, motion.pose(i), seed).steps + 1;
     }
     const double expected = published[std::size_t(GetParam())][k];
     EXPECT_NEAR(double(states) / 1e4, expected, 0.1 * expected) << speeds[k] << " degrees";
@@ -104,9 +105,9 @@ TEST(Vclip, SurvivesSeedsThatNameNothing) {
   apart.translation = {5, 0.25, 0.5};
   for (const FeatureKind kind : {FeatureKind::None, FeatureKind::Vertex, FeatureKind::Edge, FeatureKind::Face}) {
     VclipSeed seed{{kind, 1000}, {kind, 3}};
-    EXPECT_DOUBLE_EQ(bench::vclip(cube.body, cube.body, apart, seed).distance, 3);
+    EXPECT_DOUBLE_EQ(yardstick::vclip(cube.body, cube.body, apart, seed).distance, 3);
     VclipSeed faces{{kind, 0}, {kind, 0}};
-    EXPECT_DOUBLE_EQ(bench::vclip(cube.body, cube.body, apart, faces).distance, 3);
+    EXPECT_DOUBLE_EQ(yardstick::vclip(cube.body, cube.body, apart, faces).distance, 3);
   }
 }
 

@@ -1,19 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Knows march's private walk, and nothing else of it.
 #include "plain.h"
 
-#include "scene.h"
+#include "geometry.h"
 #include "walk.h"
 
-namespace swiftlet::bench {
+namespace swiftlet::yardstick {
 
 PlainResult plain(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, PlainSeed& seed, PlaneRule rule) {
   const Motion m = motion(b_in_a);
-  const swiftlet::Scene pair = scene(a, b, m, 0);
   const Handle first{FeatureKind::Vertex, 0};
-  const Walk walked = walk(pair, seed.a == Handle{} ? first : seed.a, seed.b == Handle{} ? first : seed.b, rule, ~0u);
-  const bool inside = walked.end == WalkEnd::Inside, stalled = walked.end == WalkEnd::Stalled || walked.end == WalkEnd::Budget;
+  const Walk walked = walk(pair_of(a, b, m, 0), seed.a == Handle{} ? first : seed.a, seed.b == Handle{} ? first : seed.b, rule);
+  const bool inside = walked.end == WalkEnd::Inside, stalled = walked.end == WalkEnd::Stalled;
   const auto start = [&](Handle h) { return h.kind() == FeatureKind::Face && inside ? first : h; };
   seed = {start(walked.a), start(walked.b)};
   return {inside ? 0 : walked.distance, inside, stalled, walked.steps, walked.plane_tests};
@@ -28,4 +26,4 @@ PlainSeed table_start(const Model& a, const Model& b, const Pose& b_in_a) {
   return {look_up(a, line), look_up(b, back)};
 }
 
-}  // namespace swiftlet::bench
+}  // namespace swiftlet::yardstick

@@ -17,7 +17,7 @@
 #include <swiftlet/model_file.h>
 #include <swiftlet/query.h>
 
-namespace swiftlet::bench {
+namespace swiftlet::yardstick {
 namespace {
 
 constexpr std::uint64_t kFirstOrbit = 100;
@@ -302,4 +302,4 @@ double overlapping_share(const Scene& scene) {
   return double(overlapping) / double(scene.queries.size());
 }
 
-}  // namespace swiftlet::bench
+}  // namespace swiftlet::yardstick

@@ -11,21 +11,9 @@
 #include <swiftlet/build.h>
 #include <swiftlet/pose.h>
 
+#include "random.h"
+
 namespace swiftlet::shapes {
-
-/// splitmix64. Points and rotations use its bits, sums, products and square roots only: the same on every machine.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t bits();
-  double uniform(double low = 0, double high = 1);
-  Vec3 in_ball();    ///< uniform in the unit ball
-  Vec3 on_sphere();  ///< a unit Gaussian triple normalised, that is uniform on the unit sphere
-  Mat3 rotation();   ///< uniform, each entry rounded
-
- private:
-  std::uint64_t state_;
-};
 
 /// The convex hull of the points, triangulated. At least four points, not all in one plane.
 Mesh hull(std::span<const Vec3> points);
@@ -61,7 +49,7 @@ Mesh polygon(std::uint32_t sides);                               ///< flat, two-
 Mesh segment(double length);                                     ///< two points on x, no triangles
 Mesh point();                                                    ///< the origin
 
-/// The rotation about a unit axis by an angle in radians.
+/// The rotation about a unit axis by an angle in radians. Uses libm, whose last bit differs between machines.
 Mat3 rotation(const Vec3& axis, double angle);
 /// The mesh with every point mapped and rounded to double. No longer exactly convex, flat or regular.
 Mesh moved(const Mesh& mesh, const Pose& pose);

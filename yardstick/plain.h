@@ -9,7 +9,7 @@
 #include <swiftlet/model.h>
 #include <swiftlet/pose.h>
 
-namespace swiftlet::bench {
+namespace swiftlet::yardstick {
 
 /// Default: cold, the first vertex of each.
 struct PlainSeed {
@@ -29,4 +29,4 @@ PlainResult plain(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, 
 /// The paper's start: the vertices that the models' tables name for the line of centres [Ehmann & Lin 2000, sec. 4.6].
 PlainSeed table_start(const Model& a, const Model& b, const Pose& b_in_a);
 
-}  // namespace swiftlet::bench
+}  // namespace swiftlet::yardstick

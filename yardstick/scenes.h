@@ -13,10 +13,10 @@
 #include <swiftlet/build.h>
 #include <swiftlet/model.h>
 
-#include "method.h"
+#include "pairs.h"
 #include "shapes.h"
 
-namespace swiftlet::bench {
+namespace swiftlet::yardstick {
 
 /// A value: bodies, pairs of them, and poses in the order in which they are asked. A method keeps one warm start per pair;
 /// where one orbit ends and the next begins, the pose jumps and the warm start stays.
@@ -107,4 +107,4 @@ struct Coverage {
 Coverage coverage(const Scene& scene);
 double overlapping_share(const Scene& scene);  ///< of the queries; costs a query each
 
-}  // namespace swiftlet::bench
+}  // namespace swiftlet::yardstick

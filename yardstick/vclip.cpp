@@ -26,10 +26,9 @@
 #include <emmintrin.h>
 #endif
 
-#include "ring.h"
-#include "vec.h"
+#include "geometry.h"
 
-namespace swiftlet::bench {
+namespace swiftlet::yardstick {
 namespace {
 
 Vec normal(const VclipPlane& p) { return {p.x, p.y, p.z}; }
@@ -617,4 +616,4 @@ VclipResult vclip(const VclipBody& body_a, const VclipBody& body_b, const Pose& 
   return result;
 }
 
-}  // namespace swiftlet::bench
+}  // namespace swiftlet::yardstick

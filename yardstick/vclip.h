@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The baseline: V-Clip written from the paper [Mirtich 1997, MERL TR-97-05]. Knows ConvexView and Pose; shares no algorithm
+// V-Clip written from the paper [Mirtich 1997, MERL TR-97-05]. Knows ConvexView and Pose; shares no algorithm
 // with march, proves nothing, and says so when it gives up. Where it differs from the paper: vclip.cpp.
 #pragma once
 
@@ -11,7 +11,7 @@
 #include <swiftlet/model.h>
 #include <swiftlet/pose.h>
 
-namespace swiftlet::bench {
+namespace swiftlet::yardstick {
 
 /// n . p - offset, positive beyond the plane; n is a unit vector.
 struct alignas(32) VclipPlane {
@@ -78,4 +78,4 @@ struct VclipResult {
 /// Allocates nothing. A seed that names no feature counts as cold.
 VclipResult vclip(const VclipBody& a, const VclipBody& b, const Pose& b_in_a, VclipSeed& seed);
 
-}  // namespace swiftlet::bench
+}  // namespace swiftlet::yardstick
