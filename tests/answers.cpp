@@ -172,7 +172,7 @@ Fingerprint fingerprint(const std::vector<Model>& models, int rounds) {
   Fingerprint print;
   for (const Model& model : models) {
     print.add(model.hash());
-    print.add(model.with_table({lut::Resolution::Degrees5, 1.5}).hash());
+    print.add(model.with_table({lut::Resolution::Degrees5, 1.5}).value().hash());
   }
   Poses poses(1);
   for (const Model& a : models)
