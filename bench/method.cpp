@@ -169,7 +169,7 @@ class PlainSession final : public SessionOf<PlainSession> {
     // A level of the model as it is: nothing to prepare but the table.
     for (const Body& body : bodies) preparation_.heap_bytes += body.model->level(0).bytes;
     for (const Body& body : bodies) {
-      if (table) tabled_.push_back(body.model->with_table({lut::Resolution::Degrees5, 2, 0}));
+      if (table) tabled_.push_back(body.model->with_table({lut::Resolution::Degrees5, 2, 0}).value());
     }
     for (const BodyPair& p : pairs) pairs_.push_back({p, bodies[p.a].view, bodies[p.b].view, {}});
   }

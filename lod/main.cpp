@@ -24,11 +24,6 @@
 namespace swiftlet::tool {
 namespace {
 
-Error in_file(const std::string& path, Error error) {
-  if (!error.message.starts_with(path)) error.message = path + ": " + error.message;
-  return error;
-}
-
 Result<Built> build_file(const std::string& path, const BuildOptions& options) {
   const Result<Mesh> mesh = read_mesh(path);
   if (!mesh) return in_file(path, mesh.error());
@@ -105,11 +100,7 @@ nlohmann::ordered_json report_json(const Request& request, const Built& built) {
 }
 
 Result<Output> build_word(const Request& request) {
-  std::error_code none;
-  if (std::filesystem::equivalent(request.in, request.out, none)) {
-    return Error{ErrorCode::CannotWrite, request.out + ": is the mesh itself"};
-  }
-  if (const auto may = may_write(request.out); !may) return may.error();
+  if (const auto may = may_write(request.out, request.in); !may) return may.error();
   BuildOptions options = request.options;
   const auto built = [&]() -> Result<Built> {
     const ProgressBar bar(!request.quiet);

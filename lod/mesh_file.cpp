@@ -54,25 +54,57 @@ std::string numbered(const char* what, std::uint64_t index, std::uint64_t count)
 
 // ---- Text -------------------------------------------------------------------------------------------------------------------
 
-/// Words of a text and the line each stands on. `comment` begins what is no word, up to the end of its line.
+bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+
+/// Text without the mark of UTF-8.
+std::string_view text_of(std::string_view bytes) {
+  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+  if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) throw Damage{"line 1: is UTF-16, expected UTF-8"};
+  return bytes;
+}
+
+/// Words of a text and the line each stands on; lines end in LF, CR LF or CR. `comment` begins what is no word, up to the end
+/// of its line; a line goes on after an `escape` at its end.
 class Words {
  public:
-  explicit Words(std::string_view text, char comment = '\0', std::size_t first_line = 1)
-      : rest_(text), comment_(comment), line_(first_line) {}
+  explicit Words(std::string_view text, char comment = '\0', std::size_t first_line = 1, char escape = '\0')
+      : rest_(text), comment_(comment), escape_(escape), line_(first_line) {}
 
-  bool at_end() { return skip_blanks(), rest_.empty(); }
+  /// Goes to the next line that holds a word, or stays on the one that is begun.
+  void begin_line() { skip_blanks(true); }
+  bool at_end() { return begin_line(), rest_.empty(); }
   /// Empty at the end of the text.
   std::string_view next() {
-    skip_blanks();
-    return take(std::size_t(std::find_if(rest_.begin(), rest_.end(), is_space) - rest_.begin()));
+    skip_blanks(true);
+    return word();
   }
-  void skip_line() { take(std::min(rest_.find('\n'), rest_.size())); }
+  /// Empty at the end of the line.
+  std::string_view next_on_line() {
+    skip_blanks(false);
+    return rest_.empty() || is_line_end(rest_.front()) ? std::string_view() : word();
+  }
+  void skip_line() { take(std::size_t(std::find_if(rest_.begin(), rest_.end(), is_line_end) - rest_.begin())); }
+  /// Passes over what is left on the line: so many numbers at most, since what else stands there may belong to a point.
+  void skip_numbers(int most) {
+    for (std::string_view word = next_on_line(); !word.empty(); word = next_on_line()) {
+      parse<double>(word, word, "a number");
+      if (most-- == 0) fail("more numbers than belong on the line, from " + shown(word) + " on");
+    }
+  }
+  void expect_end(const char* last) {
+    if (!at_end()) fail(std::string("more after the last ") + last + ": " + shown(next()));
+  }
 
   [[noreturn]] void fail(const std::string& what) const { throw Damage{"line " + std::to_string(line_) + ": " + what}; }
 
   template <class Number>
   Number number(const std::string& what) {
     const std::string_view word = next();
+    return parse<Number>(word, word, what);
+  }
+  template <class Number>
+  Number number_on_line(const std::string& what) {
+    const std::string_view word = next_on_line();
     return parse<Number>(word, word, what);
   }
   /// Of a part of a word.
@@ -82,12 +114,16 @@ class Words {
     Number value{};
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (!digits.empty() && error == std::errc() && end == digits.data() + digits.size()) return value;
-    if (word.empty()) fail("expected " + what + ", and the file ends");
+    if (word.empty()) fail("expected " + what + ", and the " + (rest_.empty() ? "file ends" : "line ends"));
     if (error == std::errc::result_out_of_range) fail(shown(word) + " is beyond the range of numbers");
     fail("expected " + what + ", not " + shown(word));
   }
   Vec3 point(const std::string& what) {
     const double x = number<double>(what), y = number<double>(what), z = number<double>(what);
+    return {x, y, z};
+  }
+  Vec3 point_on_line(const std::string& what) {
+    const double x = number_on_line<double>(what), y = number_on_line<double>(what), z = number_on_line<double>(what);
     return {x, y, z};
   }
 
@@ -97,16 +133,39 @@ class Words {
     rest_.remove_prefix(part.size());
     return part;
   }
-  void skip_blanks() {
-    for (; !rest_.empty(); rest_.remove_prefix(1)) {
-      if (rest_.front() == comment_ && comment_ != '\0') skip_line();
-      if (rest_.empty() || !is_space(rest_.front())) return;
-      line_ += rest_.front() == '\n';
+  /// Whether the line goes on after this place.
+  bool escaped(std::size_t at) const {
+    return escape_ != '\0' && rest_[at] == escape_ && at + 1 < rest_.size() && is_line_end(rest_[at + 1]);
+  }
+  std::string_view word() {
+    std::size_t length = 0;
+    while (length < rest_.size() && !is_space(rest_[length]) && !escaped(length)) ++length;
+    return take(length);
+  }
+  void pass_line_end() {
+    take(rest_.starts_with("\r\n") ? 2 : 1);
+    ++line_;
+  }
+  void skip_blanks(bool past_lines) {
+    while (!rest_.empty()) {
+      if (rest_.front() == comment_ && comment_ != '\0') {
+        skip_line();
+      } else if (escaped(0)) {
+        take(1);
+        pass_line_end();
+      } else if (is_line_end(rest_.front())) {
+        if (!past_lines) return;
+        pass_line_end();
+      } else if (is_space(rest_.front())) {
+        take(1);
+      } else {
+        return;
+      }
     }
   }
 
   std::string_view rest_;
-  char comment_;
+  char comment_, escape_;
   std::size_t line_;
 };
 
@@ -129,8 +188,8 @@ std::vector<std::uint64_t> polygon(Words& words, std::uint64_t f, std::uint64_t 
 
 /// "TRI" or "POLY", the counts of vertices and faces, three coordinates per vertex, and per face its vertices, in POLY after
 /// their number. White space is free.
-Soup read_swift(std::string_view text) {
-  Words words(text);
+Soup read_swift(std::string_view bytes) {
+  Words words(text_of(bytes));
   const std::string_view magic = words.next();
   if (magic != "TRI" && magic != "POLY") words.fail("expected TRI or POLY");
   Soup soup;
@@ -140,12 +199,16 @@ Soup read_swift(std::string_view text) {
     soup.points.push_back(words.point("three coordinates of " + numbered("vertex ", v, vertex_count)));
   for (std::uint64_t f = 0; f < face_count; ++f)
     soup.polygons.push_back(polygon(words, f, face_count, vertex_count, magic == "POLY"));
+  words.expect_end("face");
   return soup;
 }
 
-/// As read_swift, but what follows on a line (normals, colours) is skipped.
-Soup read_off(std::string_view text) {
-  Words words(text, '#');
+constexpr int kOffColumns = 9;  // a normal, a colour, a place in a texture
+constexpr int kObjColumns = 4;  // a weight, a colour
+
+/// As read_swift, but every vertex has a line of its own; there, and behind a face, more numbers (normals, colours) may follow.
+Soup read_off(std::string_view bytes) {
+  Words words(text_of(bytes), '#');
   std::string_view magic = words.next();
   const std::string_view found = magic;
   for (const char* prefix : {"ST", "C", "N"})  // what the skipped rest of a vertex's line holds
@@ -154,15 +217,17 @@ Soup read_off(std::string_view text) {
   Soup soup;
   const auto vertex_count = words.number<std::uint64_t>("the count of vertices, in text"),
              face_count = words.number<std::uint64_t>("the count of faces");
-  words.skip_line();
+  words.skip_numbers(1);
   for (std::uint64_t v = 0; v < vertex_count; ++v) {
-    soup.points.push_back(words.point("three coordinates of " + numbered("vertex ", v, vertex_count)));
-    words.skip_line();
+    words.begin_line();
+    soup.points.push_back(words.point_on_line("three coordinates of " + numbered("vertex ", v, vertex_count)));
+    words.skip_numbers(kOffColumns);
   }
   for (std::uint64_t f = 0; f < face_count; ++f) {
     soup.polygons.push_back(polygon(words, f, face_count, vertex_count, true));
-    words.skip_line();
+    words.skip_numbers(kOffColumns);
   }
+  words.expect_end("face");
   return soup;
 }
 
@@ -175,29 +240,34 @@ std::uint64_t obj_corner(const Words& words, std::string_view word, std::size_t 
   return std::uint64_t(index > 0 ? index - 1 : index + count);
 }
 
-/// Vertices and faces; all else in the file is not for us. A line goes on where it ends in a backslash.
-Soup read_obj(std::string_view text) {
+/// The words of OBJ that tell of no vertex or face.
+bool is_other_obj_word(std::string_view word) {
+  constexpr const char* kOthers[] = {"vt",       "vn",         "vp",        "p",      "l",      "g",     "o",    "s",
+                                     "mg",       "usemtl",     "mtllib",    "usemap", "maplib", "bevel", "lod",  "c_interp",
+                                     "d_interp", "shadow_obj", "trace_obj", "cstype", "deg",    "bmat",  "step", "curv",
+                                     "curv2",    "surf",       "parm",      "trim",   "hole",   "scrv",  "sp",   "end",
+                                     "con",      "ctech",      "stech",     "call",   "csh"};
+  return std::any_of(std::begin(kOthers), std::end(kOthers), [word](const char* other) { return word == other; });
+}
+
+/// Vertices and faces. A line goes on where it ends in a backslash.
+Soup read_obj(std::string_view bytes) {
+  Words words(text_of(bytes), '#', 1, '\\');
   Soup soup;
-  std::size_t number = 1;
-  const auto next_line = [&] {
-    const std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(line.size() + 1, text.size()));
-    ++number;
-    return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
-  };
-  while (!text.empty()) {
-    const std::size_t first_line = number;
-    std::string line(next_line());
-    while (line.ends_with('\\') && !text.empty()) {
-      line.back() = ' ';
-      line += next_line();
-    }
-    Words words(line, '#', first_line);
+  while (!words.at_end()) {
     const std::string_view keyword = words.next();
-    if (keyword == "v") soup.points.push_back(words.point("three coordinates"));
-    if (keyword == "f") {
+    if (keyword == "v") {
+      soup.points.push_back(words.point_on_line("three coordinates"));
+      words.skip_numbers(kObjColumns);
+    } else if (keyword == "f") {
       soup.polygons.emplace_back();
-      while (!words.at_end()) soup.polygons.back().push_back(obj_corner(words, words.next(), soup.points.size()));
+      for (std::string_view word = words.next_on_line(); !word.empty(); word = words.next_on_line())
+        soup.polygons.back().push_back(obj_corner(words, word, soup.points.size()));
+    } else if (is_other_obj_word(keyword)) {
+      while (!words.next_on_line().empty()) {
+      }
+    } else {
+      words.fail("OBJ has no word " + shown(keyword));
     }
   }
   return soup;
@@ -219,6 +289,7 @@ class Numbers {
     return std::bit_cast<Number>(bytes);
   }
   void skip(std::size_t count) { rest_.remove_prefix(std::min(count, rest_.size())); }
+  std::string_view rest() const { return rest_; }
 
  private:
   std::string_view rest_;
@@ -250,6 +321,9 @@ Soup read_binary_stl(std::string_view bytes) {
   const auto count = numbers.next<std::uint32_t>();
   if ((bytes.size() - kStlHeader - 4) / kStlFacet < count)
     throw Damage{"ends early: " + std::to_string(bytes.size()) + " bytes for " + std::to_string(count) + " facets"};
+  if (bytes.size() != kStlHeader + 4 + kStlFacet * std::uint64_t{count})
+    throw Damage{"goes on after its last facet: " + std::to_string(bytes.size()) + " bytes for " + std::to_string(count) +
+                 " facets"};
   Soup soup;
   Welder welder(soup.points);
   for (std::uint32_t f = 0; f < count; ++f) {
@@ -300,7 +374,9 @@ Soup read_stl(std::string_view bytes) {
   std::uint32_t count = 0;
   if (bytes.size() >= kStlHeader + 4) std::memcpy(&count, bytes.data() + kStlHeader, sizeof count);
   const bool fits = bytes.size() == kStlHeader + 4 + kStlFacet * std::uint64_t{count};  // binary headers may say "solid" too
-  return !fits && lower(Words(bytes).next()) == "solid" ? read_text_stl(bytes) : read_binary_stl(bytes);
+  if (fits) return read_binary_stl(bytes);
+  const std::string_view text = text_of(bytes);
+  return lower(Words(text).next()) == "solid" ? read_text_stl(text) : read_binary_stl(bytes);
 }
 
 // ---- PLY --------------------------------------------------------------------------------------------------------------------
@@ -331,17 +407,23 @@ struct PlyHeader {
   std::size_t size = 0, lines = 0;
 };
 
+/// Lines end as the first one does: of those that end in CR, LF may be the first byte of the body.
 PlyHeader read_ply_header(std::string_view bytes) {
   PlyHeader header;
   const auto fail = [&header](const std::string& what) { throw Damage{"line " + std::to_string(header.lines) + ": " + what}; };
+  const std::string_view first = bytes.substr(std::min(bytes.find_first_of("\r\n"), bytes.size()));
+  const std::string_view line_end = first.starts_with("\r\n") ? "\r\n" : first.starts_with('\r') ? "\r" : "\n";
+  constexpr const char* kKeywords[] = {"ply", "format", "comment", "obj_info", "element", "property", "end_header", ""};
   for (std::string_view keyword; keyword != "end_header";) {
     ++header.lines;
-    const std::string_view line = bytes.substr(header.size, bytes.find('\n', header.size) - header.size);
+    const std::string_view line = bytes.substr(header.size, bytes.find(line_end, header.size) - header.size);
     if (header.size + line.size() >= bytes.size()) fail("the header has no end");
-    header.size += line.size() + 1;
+    header.size += line.size() + line_end.size();
     Words words(line);
     keyword = words.next();
     if (header.lines == 1 && keyword != "ply") fail("expected ply");
+    if (std::find(std::begin(kKeywords), std::end(kKeywords), keyword) == std::end(kKeywords))
+      fail("unknown keyword " + shown(keyword));
     if (keyword == "format") header.format = words.next();
     if (keyword == "element") {
       const std::string name(words.next());
@@ -380,7 +462,7 @@ class PlyBody {
       throw Damage{"unknown format " + shown(header.format)};
   }
   double next(PlyType type) {
-    if (text_) return words_.number<double>("a number");
+    if (text_) return words_.number_on_line<double>("a number");
     switch (type) {
       case PlyType::Int8: return numbers_.next<std::int8_t>();
       case PlyType::UInt8: return numbers_.next<std::uint8_t>();
@@ -392,6 +474,22 @@ class PlyBody {
       case PlyType::Double: break;
     }
     return numbers_.next<double>();
+  }
+  /// In text an element has a line of its own, which holds its properties and no more.
+  void begin_element() {
+    if (text_) words_.begin_line();
+  }
+  void end_element(const std::string& what) {
+    if (!text_) return;
+    if (const std::string_view more = words_.next_on_line(); !more.empty())
+      words_.fail(what + " has more than its properties: " + shown(more));
+  }
+  /// A line end may follow.
+  void expect_end() {
+    if (text_) return words_.expect_end("element");
+    const std::string_view rest = numbers_.rest();
+    if (!std::all_of(rest.begin(), rest.end(), is_space))
+      throw Damage{"goes on after its last element, with " + std::to_string(rest.size()) + " bytes"};
   }
   /// A size or an index.
   std::uint64_t count(PlyType type, const std::string& what) {
@@ -408,22 +506,39 @@ class PlyBody {
   Numbers numbers_;
 };
 
-Soup read_ply(std::string_view bytes) {
+/// Which coordinate a property is: 0, 1, 2, or 3 for none.
+int coordinate_of(const PlyProperty& property) {
+  const bool named = !property.size_type && property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z';
+  return named ? property.name[0] - 'x' : 3;
+}
+
+void expect_coordinates(const PlyElement& element) {
+  std::array<int, 4> found{};
+  for (const PlyProperty& property : element.properties) ++found[std::size_t(coordinate_of(property))];
+  for (const char name : {'x', 'y', 'z'}) {
+    if (const int count = found[std::size_t(name - 'x')]; count != 1)
+      throw Damage{std::string("its vertices have ") + (count == 0 ? "no" : "more than one") + " property " + name};
+  }
+}
+
+Soup read_ply(std::string_view file) {
+  const std::string_view bytes = text_of(file);
   const PlyHeader header = read_ply_header(bytes);
   PlyBody body(bytes.substr(header.size), header);
   Soup soup;
   for (const PlyElement& element : header.elements) {
     if (element.properties.empty()) continue;  // takes no room
     const bool vertices = element.name == "vertex", faces = element.name == "face";
+    if (vertices) expect_coordinates(element);
     const std::string what = element.name + " ";
     for (std::uint64_t i = 0; i < element.count; ++i) {
       Vec3 point = Vec3::Zero();
       std::vector<std::uint64_t> polygon;
+      body.begin_element();
       for (const PlyProperty& property : element.properties) {
         if (!property.size_type) {
           const double value = body.next(property.type);
-          if (property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z')
-            point[property.name[0] - 'x'] = value;
+          if (const int k = coordinate_of(property); k < 3) point[k] = value;
           continue;
         }
         const bool corners = faces && (property.name == "vertex_indices" || property.name == "vertex_index");
@@ -436,10 +551,12 @@ Soup read_ply(std::string_view bytes) {
             body.next(property.type);
         }
       }
+      body.end_element(numbered(what.c_str(), i, element.count));
       if (vertices) soup.points.push_back(point);
       if (faces) soup.polygons.push_back(std::move(polygon));
     }
   }
+  body.expect_end();
   return soup;
 }
 
@@ -458,6 +575,7 @@ Reader reader_of(const std::string& extension) {
 Result<Mesh> checked(Soup soup) {
   Mesh mesh{std::move(soup.points), {}};
   if (mesh.points.empty()) return Error{ErrorCode::Empty, "has no points"};
+  if (mesh.points.size() > std::uint32_t(-1)) return Error{ErrorCode::TooLarge, "has more points than 32 bits number"};
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
     if (!mesh.points[v].allFinite()) return Error{ErrorCode::BadValue, "vertex " + std::to_string(v) + " is not finite"};
   for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
@@ -488,21 +606,28 @@ Result<Mesh> lod::mesh_of_bytes(std::string_view bytes, const std::string& exten
 Result<Mesh> read_mesh(const std::filesystem::path& path) try {
   const auto named = [&path](Error error) {
     error.message = path.string() + ": " + error.message;
+    error.file = path.string();
     return error;
   };
   const std::string extension = lower(path.extension().string());
   std::string bytes;
   if (reader_of(extension)) {
-    std::error_code ignored;
+    std::error_code failure;  // a fifo waits to be opened, a device need not end
+    const std::filesystem::file_status status = std::filesystem::status(path, failure);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+      return named({ErrorCode::CannotRead, "is no regular file"});
     std::ifstream file(path, std::ios::binary);
-    if (!file || std::filesystem::is_directory(path, ignored)) return named({ErrorCode::CannotRead, "cannot be opened"});
-    bytes.assign(std::istreambuf_iterator<char>(file), {});
+    const std::uintmax_t size = std::filesystem::file_size(path, failure);
+    if (!file || failure) return named({ErrorCode::CannotRead, "cannot be opened"});
+    if (size > bytes.max_size()) throw std::bad_alloc();
+    bytes.resize(std::size_t(size));
+    if (!file.read(bytes.data(), std::streamsize(size))) return named({ErrorCode::CannotRead, "cannot be read to its end"});
   }
   Result<Mesh> mesh = lod::mesh_of_bytes(bytes, extension);
   if (!mesh) return named(mesh.error());
   return mesh;
 } catch (const std::bad_alloc&) {
-  return Error{ErrorCode::TooLarge, path.string() + ": is too large for this machine's memory"};
+  return Error{ErrorCode::TooLarge, path.string() + ": is too large for this machine's memory", path.string()};
 }
 
 }  // namespace swiftlet

@@ -3,7 +3,6 @@
 // Surfaces, finest first, to a Model: enclosure proved, deviations measured, links and tables filled [Ehmann & Lin 2000,
 // sec. 4.3].
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <string>
 
@@ -299,12 +298,7 @@ Result<Model> Model::from_levels(std::span<const LevelArrays> levels, const Mode
   if (levels.empty()) return Error{ErrorCode::Empty, "no levels"};
   if (levels.size() > kMaxLevels)
     return Error{ErrorCode::TooLarge, std::to_string(levels.size()) + " levels, at most " + std::to_string(kMaxLevels)};
-  if (options.table.resolution != lut::Resolution::None &&
-      !(options.table.radius_factor >= 1 && options.table.radius_factor <= 1e6)) {
-    return Error{ErrorCode::BadValue, "the table's radius factor is not between 1 and 1e6"};
-  }
-  if (options.table.map_side > kMaxMapSide || !(options.table.map_side == 0 || std::has_single_bit(options.table.map_side)))
-    return Error{ErrorCode::BadValue, "the support map's side is neither 0 nor a power of two up to 64"};
+  if (std::string fault = spec_fault(options.table); !fault.empty()) return Error{ErrorCode::BadValue, std::move(fault)};
   std::vector<Draft> drafts;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const std::string name = levels.size() == 1 ? "" : "level " + std::to_string(i) + ": ";

@@ -323,6 +323,14 @@ void join(const Deepening& deep, SignedAnswer& s, PairSeed& seed) {
   if (overlapping) deep.store(seed);
 }
 
+/// A distance whose bound was 0, of bodies that a plane of the depth turned out to separate.
+void part(const Deepening& deep, SignedAnswer& s) {
+  s.verdict = Verdict::Disjoint;
+  s.lower = -deep.upper;
+  s.upper = larger(s.upper, s.lower);
+  s.normal = eigen(deep.normal);
+}
+
 /// What the depth alone says.
 SignedAnswer overlap_part(const Deepening& deep) {
   SignedAnswer s;
@@ -360,7 +368,10 @@ SignedAnswer signed_distance(const Model& a, const Model& b, const Pose& b_in_a,
     here.met = touching;
     const double floor = -answer.upper;  // the distance bounds the depth
     if (deep.end != DepthEnd::Apart && (deep.steps == 0 || !deep.narrow(floor))) deep.run(here, floor);
-    if (deep.end != DepthEnd::Apart) join(deep, answer, seed);
+    if (deep.end == DepthEnd::Apart)
+      part(deep, answer);
+    else
+      join(deep, answer, seed);
   }
   add_work(deep, answer);
   dilation.dilate(answer, law_two);

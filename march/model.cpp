@@ -62,7 +62,8 @@ TableSpec Model::table_spec() const {
 }
 std::span<const std::uint32_t> Model::table() const { return body_->table; }
 
-Model Model::with_table(const TableSpec& spec) const {
+Result<Model> Model::with_table(const TableSpec& spec) const {
+  if (std::string fault = spec_fault(spec); !fault.empty()) return Error{ErrorCode::BadValue, std::move(fault)};
   BlockParts parts = BlockReader::parts(*this, finest_level_);
   for (LevelHeader& level : parts.level_headers) level.map_side = 0;
   parts.maps.clear();
@@ -70,7 +71,7 @@ Model Model::with_table(const TableSpec& spec) const {
   std::vector<std::span<const Vertex>> vertices;
   for (const Level& level : body_->levels) vertices.push_back(level.view.vertices);
   fill_maps(parts, spec, vertices);
-  return std::move(BlockReader::read(compose(parts))).value();
+  return BlockReader::read(compose(parts));
 }
 
 Model Model::cut(const Detail& detail) const {

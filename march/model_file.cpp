@@ -19,6 +19,7 @@ namespace {
 
 Error named(const std::filesystem::path& path, Error error) {
   error.message = path.string() + ": " + error.message;
+  error.file = path.string();
   return error;
 }
 
@@ -31,7 +32,7 @@ struct File {
 Result<File> open(const std::filesystem::path& path) {
   std::error_code failure;
   const std::uint64_t bytes = std::filesystem::file_size(path, failure);
-  if (failure) return Error{ErrorCode::CannotRead, path.string() + ": " + failure.message()};
+  if (failure) return named(path, {ErrorCode::CannotRead, failure.message()});
   std::ifstream file(path, std::ios::binary);
   std::array<std::byte, kMostHeaderBytes> start;
   file.read(reinterpret_cast<char*>(start.data()), start.size());
@@ -51,16 +52,14 @@ Result<Model> read(const std::filesystem::path& path, const Headers& headers, in
   AlignedBytes block(headers.prefix(finest));
   std::ifstream file(path, std::ios::binary);
   file.read(reinterpret_cast<char*>(block.data()), std::streamsize(block.view().size()));
-  if (!file) return Error{ErrorCode::CannotRead, path.string() + ": ends early"};
+  if (!file) return named(path, {ErrorCode::CannotRead, "ends early"});
   Result<Model> model = kept(std::move(block), finest);
   if (!model) return named(path, model.error());
   return model;
 }
 
 Result<Block> mapped(const std::filesystem::path& path) {
-  const auto refused = [&path] {
-    return Error{ErrorCode::CannotRead, path.string() + ": " + std::generic_category().message(errno)};
-  };
+  const auto refused = [&path] { return named(path, {ErrorCode::CannotRead, std::generic_category().message(errno)}); };
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return refused();
   struct stat about {};
@@ -86,7 +85,7 @@ Result<std::size_t> save(const Model& model, const std::filesystem::path& path) 
   part += ".part";
   std::error_code failure;
   if (std::filesystem::exists(path, failure) && !std::filesystem::is_regular_file(path, failure)) {
-    return Error{ErrorCode::CannotWrite, path.string() + ": exists and is no file"};
+    return named(path, {ErrorCode::CannotWrite, "exists and is no file"});
   }
   {
     std::ofstream file(part, std::ios::binary | std::ios::trunc);
@@ -94,14 +93,14 @@ Result<std::size_t> save(const Model& model, const std::filesystem::path& path) 
     file.close();
     if (!file) {
       std::filesystem::remove(part, failure);
-      return Error{ErrorCode::CannotWrite, path.string() + ": cannot write " + std::to_string(bytes.size()) + " bytes"};
+      return named(path, {ErrorCode::CannotWrite, "cannot write " + std::to_string(bytes.size()) + " bytes"});
     }
   }
   std::filesystem::rename(part, path, failure);
   if (failure) {
     const std::string why = failure.message();
     std::filesystem::remove(part, failure);
-    return Error{ErrorCode::CannotWrite, path.string() + ": " + why};
+    return named(path, {ErrorCode::CannotWrite, why});
   }
   return bytes.size();
 }
@@ -111,7 +110,7 @@ Result<Model> load(const std::filesystem::path& path, const Detail& detail) {
   if (!file) return file.error();
   const Headers& headers = file.value().headers;
   if (const std::string f = length_fault(headers, file.value().bytes); !f.empty())
-    return Error{ErrorCode::BadFormat, path.string() + ": " + f};
+    return named(path, {ErrorCode::BadFormat, f});
   return read(path, headers, headers.finest(detail));
 }
 
@@ -132,7 +131,7 @@ Result<Model> map(const std::filesystem::path& path, const Detail& detail) {
   const Result<Headers> headers = BlockReader::read_headers(bytes);
   if (!headers) return named(path, headers.error());
   if (const std::string f = length_fault(headers.value(), bytes.size()); !f.empty())
-    return Error{ErrorCode::BadFormat, path.string() + ": " + f};
+    return named(path, {ErrorCode::BadFormat, f});
   Result<Model> model = BlockReader::read(std::move(block).value(), headers.value().finest(detail));
   if (!model) return named(path, model.error());
   return model;
@@ -144,11 +143,11 @@ Result<Salvaged> salvage(const std::filesystem::path& path) {
   const Headers& headers = file.value().headers;
   const std::uint64_t bytes = file.value().bytes;
   const std::string cut = length_fault(headers, bytes);
-  if (bytes > headers.block.total_bytes) return Error{ErrorCode::BadFormat, path.string() + ": " + cut};
+  if (bytes > headers.block.total_bytes) return named(path, {ErrorCode::BadFormat, cut});
   const int finest = headers.finest({0, bytes});
   if (headers.prefix(finest) > bytes) {
-    return Error{ErrorCode::BadFormat,
-                 path.string() + ": " + cut + ", and its coarsest level needs " + std::to_string(headers.prefix(finest))};
+    return named(path,
+                 {ErrorCode::BadFormat, cut + ", and its coarsest level needs " + std::to_string(headers.prefix(finest))});
   }
   Result<Model> model = read(path, headers, finest);
   if (!model) return model.error();

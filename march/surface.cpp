@@ -9,6 +9,7 @@
 #include <numeric>
 #include <string>
 
+#include "block.h"
 #include "exact.h"
 #include "tolerance.h"
 #include "vec.h"
@@ -35,6 +36,9 @@ double extent_of(std::span<const Vec3> points) {
   return extent;
 }
 
+/// A body of V vertices has at most 6 V - 12 half-edges, which a Handle must name.
+constexpr std::size_t kMostVertices = kMaxIndex / 6;
+
 /// The input faces as loops of input vertices.
 struct Input {
   std::span<const Vec3> points;
@@ -48,7 +52,10 @@ struct Input {
 Result<Input> read_input(const LevelArrays& level) {
   Input in{level.vertices, {}};
   if (in.points.empty()) return Error{ErrorCode::Empty, "no vertices"};
-  if (in.points.size() > kNone >> 4) return Error{ErrorCode::TooLarge, std::to_string(in.points.size()) + " vertices"};
+  if (in.points.size() > kMostVertices || level.face_vertices.size() > kMaxIndex) {
+    return Error{ErrorCode::TooLarge, std::to_string(in.points.size()) + " vertices and " +
+                                          std::to_string(level.face_vertices.size()) + " corners of faces"};
+  }
   for (std::size_t i = 0; i < in.points.size(); ++i) {
     for (const double x : {in.points[i][0], in.points[i][1], in.points[i][2]}) {
       const bool in_range = x == 0 || (std::fabs(x) >= kLeastCoordinate && std::fabs(x) <= kMostCoordinate);
@@ -326,19 +333,26 @@ class Mesh {
                       text(height) + " above face " + std::to_string(a.input));
   }
 
+  /// The point with coordinates that exact signs take.
+  static Vec admissible(const Vec& p) {
+    const auto flushed = [](double x) { return std::fabs(x) < kLeastCoordinate ? 0 : x; };
+    return {flushed(p.x), flushed(p.y), flushed(p.z)};
+  }
+
   /// Edges that are nowhere reflex bound a convex body unless the surface winds about it twice or folds. With a point below
-  /// every face, a ray from it that meets the surface once rules both out [Mehlhorn et al. 1999, sec. 4]. Small or flat bodies:
-  /// every vertex against every face.
+  /// every face, a ray from it that meets the surface once rules both out [Mehlhorn et al. 1999, sec. 4]. Where rounding hides
+  /// such a point or ray, in small or thin bodies: every vertex against every face.
   Result<bool> globally_convex() const {
     Vec middle{0, 0, 0};
     for (Index v = 0; v < in_.points.size(); ++v) middle = middle + in_.point(v) * (1.0 / double(in_.points.size()));
+    middle = admissible(middle);
     const double* o = &middle.x;
     bool inside = true;
     for (const Triangle& t : triangles_)
       inside = inside && exact::orientation(in_.at(t.v[0]), in_.at(t.v[1]), in_.at(t.v[2]), o) < 0;
     if (!inside) return every_vertex_below();
     for (const Triangle& target : triangles_) {
-      const Vec c = (in_.point(target.v[0]) + in_.point(target.v[1]) + in_.point(target.v[2])) * (1.0 / 3);
+      const Vec c = admissible((in_.point(target.v[0]) + in_.point(target.v[1]) + in_.point(target.v[2])) * (1.0 / 3));
       const int hits = ray_hits(o, &c.x);
       if (hits == 1) return true;
       if (hits > 1) return not_convex("the surface winds about itself " + std::to_string(hits) + " times");
@@ -360,15 +374,39 @@ class Mesh {
     }
     return hits;
   }
+  /// No vertex above a face, two in one place, or all in one plane: this alone proves a convex body. Each face then lies in a
+  /// facet of the hull, and beside its neighbours, so that the surface winds about the hull d times. Each corner of the hull is
+  /// one vertex, so that there is no second component, and around it the surface winds d times as well. A solid has at least
+  /// four such branch points of order d, but where a sphere covers a sphere d times the orders less one sum up to 2 d - 2
+  /// [Riemann-Hurwitz]: d is 1.
   Result<bool> every_vertex_below() const {
+    if (auto apart = no_two_coincide(); !apart) return apart;
+    const Triangle& base = triangles_.front();
+    const auto off_plane = [&](Index v) { return in_.orientation(base.v[0], base.v[1], base.v[2], v) != 0; };
+    Index v = 0;
+    while (v < in_.points.size() && !off_plane(v)) ++v;
+    if (v == in_.points.size()) {
+      return Error{ErrorCode::NotSolid,
+                   "all vertices lie in one plane: a flat body is one polygon given twice, counter-clockwise from either side"};
+    }
     for (const Triangle& t : triangles_) {
-      for (Index v = 0; v < in_.points.size(); ++v) {
+      for (v = 0; v < in_.points.size(); ++v) {
         if (in_.orientation(t.v[0], t.v[1], t.v[2], v) > 0) {
           return not_convex("vertex " + std::to_string(v) + " is above face " + std::to_string(t.input));
         }
       }
     }
     return true;
+  }
+  Result<bool> no_two_coincide() const {
+    std::vector<Index> order(in_.points.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto place = [&](Index v) { return std::tuple(in_.at(v)[0], in_.at(v)[1], in_.at(v)[2], v); };
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) { return place(a) < place(b); });
+    const auto twin =
+        std::adjacent_find(order.begin(), order.end(), [&](Index a, Index b) { return in_.points[a] == in_.points[b]; });
+    if (twin == order.end()) return true;
+    return not_convex("vertices " + std::to_string(twin[0]) + " and " + std::to_string(twin[1]) + " coincide");
   }
 
   const Input& in_;

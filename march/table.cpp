@@ -3,12 +3,21 @@
 #include "table.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "support_map.h"
 #include "vec.h"
 
 namespace swiftlet {
+
+std::string spec_fault(const TableSpec& spec) {
+  if (spec.resolution > lut::Resolution::Degrees5) return "the table has none of the resolutions that there are";
+  if (!(spec.radius_factor >= 1 && spec.radius_factor <= 1e6)) return "the table's radius factor is not between 1 and 1e6";
+  if (spec.map_side > kMaxMapSide || !(spec.map_side == 0 || std::has_single_bit(spec.map_side)))
+    return "the support map's side is neither 0 nor a power of two up to 64";
+  return {};
+}
 
 void fill_table(BlockParts& parts, const TableSpec& spec, std::span<const Vertex> vertices) {
   const lut::Resolution resolution = vertices.empty() ? lut::Resolution::None : spec.resolution;  // it names level 0's

@@ -4,12 +4,16 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include <swiftlet/model.h>
 
 #include "block.h"
 
 namespace swiftlet {
+
+/// What is wrong with a table and maps as somebody asks for them; empty: nothing.
+std::string spec_fault(const TableSpec& spec);
 
 /// The vertex nearest to each sample point, radius_factor bounding radii from the centre [Ehmann & Lin 2000, sec. 4.6], by
 /// brute force; ties go to the lowest index. Cost: samples x vertices. Sets header.resolution, header.radius_factor and

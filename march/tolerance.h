@@ -3,11 +3,18 @@
 // Every epsilon of the runtime: its unit, what it scales with, and why it is that large. u is half an ulp of 1.
 #pragma once
 
+#include <cfloat>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 namespace swiftlet {
+
+// FLT_EVAL_METHOD: 2 and what is above 64 are wider than double, -1 is anything; 16 to 64 are narrower, or double itself.
+static_assert(
+    FLT_EVAL_METHOD >= 0 && FLT_EVAL_METHOD != 2 && FLT_EVAL_METHOD <= 64,
+    "this target evaluates doubles in a wider format, and no error bound of swiftlet holds there: compile for x86 with "
+    "-msse2 -mfpmath=sse");
 
 inline constexpr double kU = 0x1p-53;
 inline constexpr double kSqrt3 = 1.7320508075688774;  ///< above the root

@@ -290,7 +290,7 @@ Fingerprint first_print(const std::vector<Model>& models, std::string_view kind)
   if (kind != "answers") return print;
   for (const Model& model : models) {
     print.add(model.hash());
-    print.add(model.with_table({lut::Resolution::Degrees5, 1.5}).hash());
+    print.add(model.with_table({lut::Resolution::Degrees5, 1.5}).value().hash());
   }
   return print;
 }

@@ -103,7 +103,7 @@ TEST_F(DetailTest, ACutModelHoldsTheLevelsAskedFor) {
         EXPECT_TRUE(same(of_cut.support_map, whole.support_map));
       }
       EXPECT_EQ(cut.cut({}).hash(), cut.hash());
-      EXPECT_EQ(cut.with_table(m.table_spec()).finest_level(), k);
+      EXPECT_EQ(cut.with_table(m.table_spec()).value().finest_level(), k);
       EXPECT_FALSE(verify(cut)) << "nothing proves that the others enclose level 0";
     }
   }
@@ -303,7 +303,7 @@ TEST_F(DetailTest, PagesOfFinerLevelsAreNeverRead) {
       const Model cut = cut_at(m, k);
       EXPECT_EQ(print_of(opened, opened), print_of(cut, cut));
       EXPECT_EQ(opened.cut({}).hash(), cut.hash());
-      EXPECT_EQ(opened.with_table(m.table_spec()).hash(), cut.with_table(m.table_spec()).hash());
+      EXPECT_EQ(opened.with_table(m.table_spec()).value().hash(), cut.with_table(m.table_spec()).value().hash());
     }
   }
   EXPECT_GE(guarded, 20u);

@@ -508,7 +508,7 @@ TEST(Law3, TableStartsFromAnyDirection) {  // trap G21
   options.start = StartPolicy::Table;
   for (const lut::Resolution resolution :
        {lut::Resolution::None, lut::Resolution::Degrees22, lut::Resolution::Degrees11, lut::Resolution::Degrees5}) {
-    const Model a = centred.with_table({resolution, 2}), b = aside.with_table({resolution, 2});
+    const Model a = centred.with_table({resolution, 2}).value(), b = aside.with_table({resolution, 2}).value();
     const auto agree = [&](const Pose& pose) {
       PairSeed seed, plain;
       const Answer by_table = distance(a, b, pose, seed, options), cold = distance(a, b, pose, plain);

@@ -252,7 +252,7 @@ TEST(March, TablesStartWhereTheBodiesFaceEachOther) {
   ASSERT_EQ(table_start(none, {1, 0, 0}), Handle{});
   const ConvexView& v = none.level(0).view;
   for (const TableSpec& spec : {TableSpec{}, TableSpec{lut::Resolution::Degrees5, 2, 0}}) {
-    const Model m = none.with_table(spec);
+    const Model m = none.with_table(spec).value();
     std::uint64_t looked_up = 0, climbed = 0;
     for (int i = 0; i < 200; ++i) {
       const Pose pose{random.rotation(), random.on_sphere() * random.uniform(2, 6)};
@@ -270,7 +270,7 @@ TEST(March, TablesStartWhereTheBodiesFaceEachOther) {
     EXPECT_LT(looked_up, climbed / 2);
   }
   for (const Vec3& odd : {Vec3(0, 0, 0), Vec3(std::nan(""), 1, 0), Vec3(kInfinity, 0, 0)})
-    ASSERT_LT(table_start(none.with_table({}), odd).index(), v.vertices.size());
+    ASSERT_LT(table_start(none.with_table({}).value(), odd).index(), v.vertices.size());
 }
 
 // ---- Stop rules

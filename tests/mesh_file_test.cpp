@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // read_mesh on every format it knows, and on files cut short or otherwise damaged.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <swiftlet/build.h>
 
@@ -115,7 +118,19 @@ TEST(MeshFile, MissingFileIsNamed) {
 TEST(MeshFile, DirectoryIsNoFile) {
   const auto path = std::filesystem::temp_directory_path() / "swiftlet_directory.off";
   std::filesystem::create_directory(path);
-  expect_error(read_mesh(path), ErrorCode::CannotRead, "cannot be opened");
+  expect_error(read_mesh(path), ErrorCode::CannotRead, "is no regular file");
+  std::filesystem::remove(path);
+}
+
+TEST(MeshFile, DevicesAndPipesAreNoFiles) {  // the one has no end, the other none yet
+  const auto path = std::filesystem::temp_directory_path() / "swiftlet_endless.obj";
+  std::filesystem::remove(path);
+  std::filesystem::create_symlink("/dev/zero", path);
+  expect_error(read_mesh(path), ErrorCode::CannotRead, "is no regular file");
+  EXPECT_EQ(read_mesh(path).error().file, path.string());
+  std::filesystem::remove(path);
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  expect_error(read_mesh(path), ErrorCode::CannotRead, "is no regular file");
   std::filesystem::remove(path);
 }
 
@@ -157,8 +172,10 @@ TEST(MeshFile, CountsAreNotBelievedBeforeTheFileHoldsThem) {  // each took all m
   expect_error(read("c.off", "OFF\n99999999999 1 0\n0 0 0\n"), ErrorCode::BadFormat, "vertex 1 of 99999999999");
   expect_error(read("c.poly", "POLY 1 1  0 0 0  99999999999 0 0"), ErrorCode::BadFormat, "the file ends");
   const std::string binary = "ply\nformat binary_little_endian 1.0\n";
-  expect_error(read("c.ply", binary + "element vertex 99999999999\nproperty float x\nend_header\n1234"), ErrorCode::BadFormat,
-               "ends early");
+  expect_error(
+      read("c.ply",
+           binary + "element vertex 99999999999\nproperty float x\nproperty float y\nproperty float z\nend_header\n1234"),
+      ErrorCode::BadFormat, "ends early");
   expect_error(read("c.ply", binary + "element face 1\nproperty list uint int vertex_index\nend_header\n\xff\xff\xff\xff"),
                ErrorCode::BadFormat, "ends early");
   expect_error(read("c.ply", binary + "element vertex 99999999999\nend_header\n"), ErrorCode::Empty, "no points");
@@ -217,6 +234,139 @@ TEST(MeshFile, PlyInAllThreeFormatsAgrees) {
                "line 3: a property of no");
   expect_error(read("u.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n"), ErrorCode::BadFormat,
                "unknown type \"real\"");
+}
+
+/// Every text format.
+const std::pair<const char*, std::string> kTexts[] = {{"t.off", kOff}, {"t.obj", kObj}, {"t.ply", kPly},
+                                                      {"t.stl", kStl}, {"t.tri", kTri}, {"t.poly", kPoly}};
+
+/// The lines of a text with ends of so many kinds, in turn.
+std::string with_ends(const std::string& text, const std::vector<std::string>& ends) {
+  std::string result;
+  std::size_t line = 0;
+  for (const char c : text) {
+    if (c == '\n')
+      result += ends[line++ % ends.size()];
+    else
+      result += c;
+  }
+  return result;
+}
+
+TEST(MeshFile, LinesEndInAnyWay) {
+  for (const auto& [name, text] : kTexts) {
+    SCOPED_TRACE(name);
+    expect_tetrahedron(read(name, with_ends(text, {"\r"})));
+    expect_tetrahedron(read(name, with_ends(text, {"\r\n"})));
+    expect_tetrahedron(read(name, with_ends(text, {"\n\n", "\n"})));
+    if (std::string(name) == "t.ply") continue;  // its header's lines end as the first one does
+    expect_tetrahedron(read(name, with_ends(text, {"\n", "\r", "\r\n"})));
+    expect_tetrahedron(read(name, with_ends(text, {"\r", "\r", "\n"})));
+  }
+  expect_error(read("t.ply", with_ends(kPly, {"\n", "\r"})), ErrorCode::BadFormat, "line");
+  expect_error(read("l.obj", "v 0 0 0\rv 1 0 0\r\nv 0 x 0\n"), ErrorCode::BadFormat, "line 3");
+  expect_error(read("l.tri", "TRI\r2 0\r0 0 0\r\n0 x 0\n"), ErrorCode::BadFormat, "line 4");
+}
+
+TEST(MeshFile, CommentsEndWhereTheirLineDoes) {
+  expect_tetrahedron(read("c.obj", "# c:\\\r" + with_ends(kObj, {" # c:\\\r"})));
+  expect_tetrahedron(read("c.off", with_ends(kOff, {" # c\r"})));
+  expect_tetrahedron(read("c.ply", std::string(kPly).replace(4, 0, "comment end_header\nobj_info c\n")));
+}
+
+TEST(MeshFile, MarksOfUnicodeLoseNothing) {
+  for (const auto& [name, text] : kTexts) {
+    SCOPED_TRACE(name);
+    expect_tetrahedron(read(name, "\xef\xbb\xbf" + text));
+    for (const bool big : {false, true}) {
+      std::string wide;
+      for (const char c : text) wide += big ? std::string{'\0', c} : std::string{c, '\0'};
+      EXPECT_FALSE(read(name, wide));
+      expect_error(read(name, (big ? "\xfe\xff" : "\xff\xfe") + wide), ErrorCode::BadFormat, "UTF-16");
+    }
+  }
+  expect_error(read("twice.obj", kObj + "\xef\xbb\xbf" + kObj), ErrorCode::BadFormat, "line 9");
+}
+
+TEST(MeshFile, MissingColumnsAreAnError) {
+  expect_error(read("m.obj", "v 0 0 0\nv 1 0\nv 0 1 0\n"), ErrorCode::BadFormat,
+               "line 2: expected three coordinates, and the line ends");
+  expect_error(read("m.off", "OFF\n3 0 0\n0 0 0\n1 0\n0 1 0\n"), ErrorCode::BadFormat,
+               "line 4: expected three coordinates of vertex 1 of 3, and the line ends");
+  expect_error(read("m.tri", "TRI 2 0  0 0 0  1 0"), ErrorCode::BadFormat, "three coordinates of vertex 1 of 2");
+  expect_error(read("m.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0\nvertex 1 0 0\nvertex 0 1 0\n"),
+               ErrorCode::BadFormat, "line 5");
+  expect_error(read("m.ply", std::string(kPly).replace(kPly.find("1 0 0"), 5, "1 0")), ErrorCode::BadFormat,
+               "line 11: expected a number, and the line ends");
+  for (const std::string axis : {"x", "y", "z"}) {
+    const std::string line = "property double " + axis + "\n";
+    for (const std::string& other :
+         {std::string(), std::string("property double w\n"), "property list uchar double " + axis + "\n"})
+      expect_error(read("m.ply", std::string(kPly).replace(kPly.find(line), line.size(), other)), ErrorCode::BadFormat,
+                   "no property " + axis);
+    expect_error(read("m.ply", std::string(kPly).replace(kPly.find(line), 0, line)), ErrorCode::BadFormat,
+                 "more than one property " + axis);
+  }
+}
+
+TEST(MeshFile, MoreColumnsAreNoPoints) {
+  expect_tetrahedron(
+      read("c.obj", "v 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0 1 0 0 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3"));
+  expect_error(read("c.obj", "v 0 0 0 v 1 0 0\n"), ErrorCode::BadFormat, "line 1: expected a number, not \"v\"");
+  expect_error(read("c.obj", "v 0 0 0  1 0 0  0 1 0\n"), ErrorCode::BadFormat, "line 1: more numbers");
+  expect_error(read("c.off", "OFF\n1 0 0\n0 0 0 red\n"), ErrorCode::BadFormat, "line 3: expected a number, not \"red\"");
+  expect_error(read("c.off", "OFF\n1 0 0 0 0 0\n"), ErrorCode::BadFormat, "line 2: more numbers");
+  expect_error(read("c.ply", std::string(kPly).replace(kPly.find("1 0 0"), 5, "1 0 0 7")), ErrorCode::BadFormat,
+               "line 11: vertex 1 of 4 has more than its properties");
+}
+
+TEST(MeshFile, UnknownWordsAreAnError) {  // a point may hide behind them
+  expect_error(read("u.obj", "v 0 0 0\nV 1 0 0\n"), ErrorCode::BadFormat, "line 2: OBJ has no word \"V\"");
+  expect_error(read("u.ply", std::string(kPly).replace(kPly.find("property double z"), 8, "propertx")), ErrorCode::BadFormat,
+               "line 6: unknown keyword");
+  expect_tetrahedron(
+      read("u.obj", "mtllib a b\no t\ng t \\\nu\nusemtl red\ns off\nvn 0 0 1\nvt 0 0\n" + kObj + "l 1 2\np 1\n"));
+}
+
+TEST(MeshFile, NothingFollowsTheLastElement) {
+  for (const auto& [name, text] : kTexts) {
+    SCOPED_TRACE(name);
+    expect_tetrahedron(read(name, text + " \n\r\n"));
+    if (std::string(name) != "t.obj") expect_error(read(name, text + "1 2 3\n"), ErrorCode::BadFormat, "line");
+  }
+  expect_error(read("g.tri", "TRI 1 0  0 0 0  1 0 0"), ErrorCode::BadFormat, "more after the last face");
+  expect_error(read("g.stl", binary_stl() + "1"), ErrorCode::BadFormat, "goes on after its last facet");
+  std::string fewer = binary_stl();
+  fewer[80] = 3;  // of four facets
+  expect_error(read("g.stl", fewer), ErrorCode::BadFormat, "goes on after its last facet");
+}
+
+TEST(MeshFile, BinaryPlyIsReadToItsLastByte) {
+  for (const bool big : {false, true}) {
+    for (const std::string end : {"\n", "\r\n", "\r"}) {
+      std::string head = std::string("ply\nformat binary_") + (big ? "big" : "little") +
+                         "_endian 1.0\nelement vertex 2\nproperty short x\nproperty float y\nproperty double z\nend_header\n";
+      std::string bytes = with_ends(head, {end});
+      const auto put = [&](auto value) {
+        std::string part(reinterpret_cast<const char*>(&value), sizeof value);
+        bytes += big ? std::string(part.rbegin(), part.rend()) : part;
+      };
+      put(std::int16_t(big ? 0x0a0d : 0x0d0a)), put(2.f), put(3.), put(std::int16_t(-4)), put(5.f), put(6.);  // begins with LF
+      const Result<Mesh> mesh = read("b.ply", bytes);
+      ASSERT_TRUE(mesh) << mesh.error().message;
+      EXPECT_EQ(mesh.value().points[0], Vec3(big ? 0x0a0d : 0x0d0a, 2, 3));
+      EXPECT_EQ(mesh.value().points[1], Vec3(-4, 5, 6));
+      EXPECT_TRUE(read("b.ply", "\xef\xbb\xbf" + bytes));
+      EXPECT_TRUE(read("b.ply", bytes + "\n"));
+      expect_error(read("b.ply", bytes + "more"), ErrorCode::BadFormat, "goes on after its last element");
+      expect_error(read("b.ply", bytes.substr(0, bytes.size() - 1)), ErrorCode::BadFormat, "ends early");
+    }
+  }
+}
+
+TEST(MeshFile, EmptyFilesAreAnError) {
+  for (const char* name : {"e.off", "e.obj", "e.ply", "e.stl", "e.tri", "e.poly"})
+    for (const char* bytes : {"", "\n", "\r", "\xef\xbb\xbf"}) EXPECT_FALSE(read(name, bytes)) << name;
 }
 
 TEST(MeshFile, BinaryStlCutShortIsAnError) {

@@ -391,6 +391,41 @@ TEST(Model, DegenerateFacesAreRefused) {
   refusal(flat, ErrorCode::NotConvex);
 }
 
+TEST(Model, ASolidHasVolume) {
+  // Four points of a square as a tetrahedron: closed, nowhere reflex, no vertex above a face, and every facet in one plane.
+  Body flat{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {}, {}};
+  flat.add({0, 2, 1}), flat.add({0, 1, 3}), flat.add({1, 2, 3}), flat.add({0, 3, 2});
+  expect_says(refusal(flat, ErrorCode::NotSolid), "all vertices lie in one plane");
+  for (Vec3& p : flat.points) p = rotation(1, 2, 3, 4) * (p + Vec3(0.1, 0.2, 0.3));  // rounded, it has a volume or a dent
+  const Result<Model> rounded = Model::from_level(flat.level());
+  EXPECT_TRUE(!rounded || verify(rounded.value()));
+  // The sides of a pentagon, each cut otherwise.
+  Body sheets{{{0, 0, 1}, {4, 0, 1}, {5, 3, 1}, {2, 6, 1}, {-1, 3, 1}}, {}, {}};
+  sheets.add({0, 1, 2}), sheets.add({0, 2, 3}), sheets.add({0, 3, 4});
+  sheets.add({1, 0, 4}), sheets.add({1, 4, 3}), sheets.add({1, 3, 2});
+  expect_says(refusal(sheets, ErrorCode::NotSolid), "all vertices lie in one plane");
+  sheets.points[2].z() = std::nextafter(1.0, 2);  // the least volume there is
+  const Result<Model> least = Model::from_level(sheets.level());
+  EXPECT_TRUE(!least || verify(least.value()));
+}
+
+TEST(Model, ASurfaceWoundTwiceIsRefusedWhereRoundingHidesItsMiddle) {
+  // Twice around a flat bipyramid's square, half an ulp high: no double lies inside, and no vertex above a face.
+  for (const int turns : {1, 2}) {
+    Body b{{{1, 1, 0x1p-60}, {1, 1, -0x1p-60}}, {}, {}};
+    for (int i = 0; i < 4 * turns; ++i)
+      b.points.emplace_back(i % 4 == 0 ? 2 : i % 4 == 2 ? 0 : 1, i % 4 == 1 ? 2 : i % 4 == 3 ? 0 : 1, 0);
+    const std::uint32_t n = 4 * std::uint32_t(turns);
+    for (std::uint32_t i = 0; i < n; ++i) b.add({2 + i, 2 + (i + 1) % n, 0}), b.add({2 + (i + 1) % n, 2 + i, 1});
+    if (turns == 1)
+      EXPECT_TRUE(verify(model(b)));
+    else
+      refusal(b, ErrorCode::NotConvex);
+    for (Vec3& p : b.points) p.z() = p.z() * 0x1p-12 + (p.z() == 0 ? 0 : 0x1p-130);
+    if (turns == 2) refusal(b, ErrorCode::NotConvex);
+  }
+}
+
 TEST(Model, UnreferencedVerticesAreNamed) {
   Body b = cube();
   b.points.emplace_back(0, 0, 0);
@@ -641,8 +676,8 @@ TEST(Model, TableHoldsTheNearestVertexPerSample) {
         EXPECT_NEAR((at(m.level(0).view, m.table()[i]) - sample).norm(), nearest, 1e-13 * factor);
       }
       // The same levels with another table are the model built with it, bit for bit.
-      EXPECT_EQ(model(b).with_table({r, factor}).hash(), m.hash());
-      EXPECT_EQ(bytes_of(model(b).with_table({r, factor})), bytes_of(m));
+      EXPECT_EQ(model(b).with_table({r, factor}).value().hash(), m.hash());
+      EXPECT_EQ(bytes_of(model(b).with_table({r, factor}).value()), bytes_of(m));
     }
   }
   for (const double factor : {0.99, -1.0, 1e7, kInfinity, std::nan("")}) {
@@ -701,6 +736,20 @@ TEST(Model, VerifyFindsAMapThatPromisesTooMuch) {
   const Check outcome = verify(must(BlockReader::read(std::move(copy))));
   EXPECT_FALSE(outcome);
   EXPECT_NE(outcome.message.find("cell 777"), std::string::npos) << outcome.message;
+}
+
+TEST(Model, ATableOutOfItsRangesIsRefused) {
+  const Model m = nested();
+  for (const TableSpec& spec : {TableSpec{lut::Resolution::None, 2, 3}, TableSpec{lut::Resolution::None, 2, 128},
+                                TableSpec{lut::Resolution::Degrees22, 0.5}, TableSpec{lut::Resolution::None, std::nan("")},
+                                TableSpec{lut::Resolution::Degrees22, 1e7}, TableSpec{lut::Resolution(4), 2}}) {
+    ModelOptions options;
+    options.table = spec;
+    const Result<Model> given = m.with_table(spec), made = Model::from_level(cube().level(), options);
+    ASSERT_TRUE(!given && !made);
+    EXPECT_EQ(given.error().code, ErrorCode::BadValue);
+    EXPECT_EQ(given.error().message, made.error().message);
+  }
 }
 
 TEST(Model, MapsNeedAPowerOfTwo) {
@@ -803,6 +852,16 @@ TEST(Verify, FindsWhatTheHashesCannot) {
       write(block, vertex_at(block, 1, v), std::nextafter(1.0, 0) * read<double>(block, vertex_at(block, 1, v)));
   });
   expect_says(verify(shrunk).message, "level 1 does not enclose");
+
+  const Model flat = tampered(m, [&](Bytes& block) {  // a level without volume: it killed the verifier
+    for (std::size_t v = 0; v < 6; ++v) write(block, vertex_at(block, 0, v) + 16, 0.0);
+  });
+  EXPECT_FALSE(verify(flat));
+  const Body pyramid{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}}, {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}, {3, 3, 3, 3}};
+  const Model sheet = tampered(model(pyramid), [&](Bytes& block) {
+    for (std::size_t v = 0; v < 4; ++v) write(block, vertex_at(block, 0, v) + 16, 0.0);
+  });
+  expect_says(verify(sheet).message, "all vertices lie in one plane");
 
   const Model boast = tampered(m, [&](Bytes& block) {
     auto header = read<LevelHeader>(block, level_header_at(2));

@@ -5,10 +5,13 @@
 #include <swiftlet/batch.h>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <random>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -152,7 +155,7 @@ TEST_F(Threads, ModelsAreCopiedAndDroppedWhileOthersAsk) {
       const Motion own{&a, &b, motions()[m].poses};
       PairSeed seed;
       for (std::size_t i = 0; i < own.poses.size(); ++i) different += ask(own, i, seed) != expected[m][i];
-      different += a.with_table({lut::Resolution::None, 1}).table().size() != 0;
+      different += a.with_table({lut::Resolution::None, 1}).value().table().size() != 0;
     }
   });
   EXPECT_EQ(different, 0);
@@ -184,6 +187,63 @@ TEST_F(Threads, BatchesAnswerAsOneAfterTheOther) {
     }
   }
   distance({}, {}, {}, on_threads(4));
+}
+
+TEST_F(Threads, WithoutAnExecutorABatchRunsOnItsCaller) {
+  const Pose apart{Mat3::Identity(), Vec3(9, 0, 0)};
+  const std::vector<PairQuery> pairs(100, {&models()[0], &models()[1], apart});
+  std::vector<Answer> answers(pairs.size()), verdicts(pairs.size());
+  distance(pairs, answers, {}, Executor{});
+  intersects(pairs, verdicts, {}, nullptr);
+  PairSeed cold;
+  EXPECT_EQ(answers[99].lower, distance(models()[0], models()[1], apart, cold).lower);
+  EXPECT_EQ(verdicts[99].verdict, Verdict::Disjoint);
+}
+
+TEST(Executor, RunsEveryTaskOnceOnAnyNumberOfThreads) {
+  for (const unsigned count : {0u, 1u, 2u, 7u, ~0u}) {
+    const Executor executor = on_threads(count);
+    for (const std::size_t tasks : {0, 1, 5, 1000}) {
+      std::vector<std::atomic<int>> times(tasks);
+      executor(tasks, [&](std::size_t task) { ++times[task]; });
+      for (const auto& t : times) EXPECT_EQ(t, 1);
+    }
+  }
+}
+
+TEST(Executor, ThrowsATasksExceptionOnTheCallerAfterTheBatchHasStopped) {
+  for (const unsigned count : {1u, 2u, 8u}) {
+    const Executor executor = on_threads(count);
+    for (int round = 0; round < 20; ++round) {
+      std::atomic<int> running{0}, ended{0};
+      const auto task = [&](std::size_t i) {
+        ++running;
+        if (i % 50 == 49) --running, throw std::runtime_error("task");
+        std::this_thread::yield();
+        ++ended, --running;
+      };
+      EXPECT_THROW(executor(100000, task), std::runtime_error);
+      EXPECT_EQ(running, 0) << "a task outlived its batch";
+      EXPECT_LT(ended, 50000) << "tasks went on after one had failed";
+      std::atomic<int> after{0};
+      executor(10, [&](std::size_t) { ++after; });
+      EXPECT_EQ(after, 10) << "the executor is of no more use";
+    }
+  }
+}
+
+TEST(Executor, DoesWithTheThreadsThatTheSystemGives) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer needs all the addresses that this test takes away";
+#endif
+  const auto few_threads = [] {
+    const rlimit limit{std::size_t{256} << 20, std::size_t{256} << 20};  // stacks of 8 MB
+    setrlimit(RLIMIT_AS, &limit);
+    std::atomic<int> done{0};
+    on_threads(200)(1000, [&](std::size_t) { ++done; });
+    std::_Exit(done == 1000 ? 0 : 1);
+  };
+  EXPECT_EXIT(few_threads(), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

@@ -392,6 +392,72 @@ TEST_F(Tool, KeepsTheOldFileWhenItFails) {
   EXPECT_EQ(names(), before_);
 }
 
+TEST_F(Tool, RefusesToWriteOntoItsInput) {
+  std::filesystem::create_hard_link(folder_ / "a.swl", folder_ / "hard.swl");
+  std::filesystem::create_symlink("a.swl", folder_ / "soft.swl");
+  std::filesystem::create_directory_symlink(".", folder_ / "here");
+  std::filesystem::create_symlink("a.swl", folder_ / "b.off");
+  before_ = names();
+  const std::string old = content(folder_ / "a.swl");
+  const auto refuses_onto = [&](const std::string& word, const std::string& in, const std::string& out) {
+    refuses(word + " " + in + " -o " + out, out + ": is the input itself", 1);
+    EXPECT_EQ(content(folder_ / "a.swl"), old);
+  };
+  for (const char* word : {"cut", "draw", "export --level 0"}) {
+    for (const char* out : {"a.swl", "./a.swl", "hard.swl", "soft.swl", "here/a.swl"}) {
+      refuses_onto(word, "a.swl", out);
+      refuses_onto(word, "soft.swl", out);
+    }
+  }
+  write(folder_ / "damaged.swl", "nothing of the kind");
+  before_ = names();
+  refuses_onto("cut", "damaged.swl", "damaged.swl");  // before it is opened
+  if (!kBuilds) return;
+  refuses_onto("build", "cube.off", "here/cube.off");
+  refuses_onto("draw", "cube.off", "./cube.off");
+}
+
+TEST_F(Tool, ErrorsAreJsonWhereJsonIsAsked) {
+  write(folder_ / "damaged.swl", content(folder_ / "a.swl").substr(0, 500));
+  write(folder_ / "bent.off", "OFF\n1 0 0\n0 0\n");
+  before_ = names();
+  const auto fails = [&](const std::string& arguments, int code, const std::string& kind, const json& file) {
+    const Ran plain = run(arguments), ran = run(arguments + " --json");
+    EXPECT_EQ(plain.code, code) << arguments;
+    EXPECT_EQ(ran.code, code) << arguments;
+    EXPECT_EQ(ran.err, "") << arguments;
+    const json parsed = json::parse(ran.out, nullptr, false);
+    ASSERT_TRUE(parsed.is_object() && parsed.size() == 1 && parsed["error"].size() == 3) << arguments << ran.out;
+    EXPECT_EQ(parsed["error"]["code"], kind) << arguments;
+    EXPECT_EQ(parsed["error"]["file"], file) << arguments;
+    EXPECT_EQ(plain.err, "swiftlet: " + parsed["error"]["message"].get<std::string>() + "\n") << arguments;
+    EXPECT_EQ(names(), before_) << arguments;
+  };
+  fails("fly", 2, "BadValue", nullptr);
+  for (const char* word :
+       {"info", "verify", "distance --pose 1,2,3 a.swl", "cut -o b.swl", "draw -o b.svg", "export --level 0 -o b.off"}) {
+    const std::string begin = word;
+    fails(begin, 2, "BadValue", nullptr);
+    fails(begin + " nowhere.swl --fly", 2, "BadValue", nullptr);
+    fails(begin + " nowhere.swl", 1, "CannotRead", "nowhere.swl");
+    fails(begin + " damaged.swl", 1, "BadFormat", "damaged.swl");
+    if (kBuilds && !begin.starts_with("cut")) fails(begin + " bent.off", 1, "BadFormat", "bent.off");
+    if (begin.find("-o") != std::string::npos)
+      fails(begin.substr(0, begin.find("-o")) + "a.swl -o nowhere/b", 1, "CannotWrite", "nowhere/b");
+  }
+  fails("distance a.swl a.swl --pose 1,2", 2, "BadValue", nullptr);
+  fails("distance a.swl a.swl --pose 1,2,3 --max-error -1", 2, "BadValue", nullptr);
+  fails("export a.swl --level 7 -o b.off", 2, "BadValue", nullptr);
+  if (!kBuilds) {
+    fails("build cube.off -o b.swl", 2, "BadValue", nullptr);
+    return fails("info cube.off", 1, "BadFormat", "cube.off");
+  }
+  fails("build -o b.swl bent.off", 1, "BadFormat", "bent.off");
+  fails("build -o b.swl bent.off --map x", 2, "BadValue", nullptr);
+  fails("build -o b.swl cube.off --map 3", 1, "BadValue", "cube.off");
+  fails("build -o b.swl nowhere.off", 1, "CannotRead", "nowhere.off");
+}
+
 TEST_F(Tool, WithoutTheBuilderAMeshIsAClearError) {
   if (kBuilds) GTEST_SKIP() << "this tool has the builder";
   refuses("build cube.off -o c.swl", "without the builder");

@@ -29,9 +29,18 @@ std::string numbers(const Vec3& v) { return number(v.x()) + " " + number(v.y()) 
 
 std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
 
-Result<bool> may_write(const std::filesystem::path& path) {
+Error in_file(const std::string& path, Error error) {
+  if (!error.message.starts_with(path)) error.message = path + ": " + error.message;
+  error.file = path;
+  return error;
+}
+
+Result<bool> may_write(const std::filesystem::path& path, const std::filesystem::path& input) {
   std::error_code ignored;
-  const auto refused = [&](const char* why) { return Error{ErrorCode::CannotWrite, path.string() + ": " + why}; };
+  const auto refused = [&](const char* why) {
+    return in_file(path.string(), {ErrorCode::CannotWrite, why});
+  };
+  if (std::filesystem::equivalent(path, input, ignored)) return refused("is the input itself");
   if (std::filesystem::is_directory(path, ignored)) return refused("is a folder");
   // A link too: the rename would replace it, /dev/stdout for one.
   const std::filesystem::file_type kind = std::filesystem::symlink_status(path, ignored).type();
@@ -55,7 +64,7 @@ Result<std::size_t> write_file(const std::filesystem::path& path, const std::str
   if (file && !failure) return text.size();
   const std::string why = file ? failure.message() : "cannot write " + std::to_string(text.size()) + " bytes";
   std::filesystem::remove(part, failure);
-  return Error{ErrorCode::CannotWrite, path.string() + ": " + why};
+  return in_file(path.string(), {ErrorCode::CannotWrite, why});
 }
 
 }  // namespace swiftlet::tool

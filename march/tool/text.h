@@ -27,8 +27,11 @@ std::string numbers(const Vec3& v);
 /// The file's name without folders and extension.
 std::string stem(const std::string& path);
 
-/// Whether a file could be written there, as far as can be told before.
-Result<bool> may_write(const std::filesystem::path& path);
+/// An error as one of this file.
+Error in_file(const std::string& path, Error error);
+
+/// Whether a file could be written there, as far as can be told before, and is none of `input`, by whatever name.
+Result<bool> may_write(const std::filesystem::path& path, const std::filesystem::path& input = {});
 /// Writes beside `path` and renames, so that a failure leaves the old file. Returns the bytes written.
 Result<std::size_t> write_file(const std::filesystem::path& path, const std::string& text);
 

@@ -4,11 +4,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <swiftlet/model_file.h>
@@ -23,8 +25,8 @@ constexpr const char* kBodyHelp = "a .swl model, or a mesh where the tool has th
 
 Result<Body> open(const std::string& path, const ModelOfMesh& model_of_mesh) {
   if (std::filesystem::path(path).extension() != ".swl" && !model_of_mesh)
-    return Error{ErrorCode::BadFormat,
-                 path + ": is no .swl model, and this tool was made without the builder that reads meshes"};
+    return in_file(path,
+                   {ErrorCode::BadFormat, "is no .swl model, and this tool was made without the builder that reads meshes"});
   Result<Model> model =
       std::filesystem::path(path).extension() == ".swl" ? load(std::filesystem::path(path)) : model_of_mesh(path);
   if (!model) return model.error();
@@ -43,6 +45,20 @@ Action on_body(CLI::App& word, const ModelOfMesh& model_of_mesh, Do act) {
   };
 }
 
+/// The same that writes a file: act(body, path).
+template <class Do>
+Action on_body_to_file(CLI::App& word, const ModelOfMesh& model_of_mesh, const char* help, Do act) {
+  const auto in = std::make_shared<std::string>(), out = std::make_shared<std::string>();
+  word.add_option("X", *in, kBodyHelp)->required();
+  word.add_option("-o,--output", *out, help)->required();
+  return [in, out, model_of_mesh, act]() -> Result<Output> {
+    if (const auto may = may_write(*out, *in); !may) return may.error();
+    const Result<Body> body = open(*in, model_of_mesh);
+    if (!body) return body.error();
+    return act(body.value(), *out);
+  };
+}
+
 Action declare_info(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   return on_body(word, model_of_mesh, [](const Body& body) -> Result<Output> { return info(body); });
 }
@@ -50,26 +66,21 @@ Action declare_info(CLI::App& word, const ModelOfMesh& model_of_mesh) {
 Action declare_verify(CLI::App& word, const ModelOfMesh& model_of_mesh) { return on_body(word, model_of_mesh, verify); }
 
 Action declare_export(CLI::App& word, const ModelOfMesh& model_of_mesh) {
-  struct Options {
-    int level = 0;
-    std::string out;
-  };
-  const auto options = std::make_shared<Options>();
-  word.add_option("--level", options->level, "0 is the exact hull, larger is coarser")->required();
-  word.add_option("-o,--output", options->out, "the OFF file to write; its doubles read back bit for bit")->required();
-  return on_body(word, model_of_mesh, [options](const Body& body) {
+  const auto level = std::make_shared<int>(0);
+  word.add_option("--level", *level, "0 is the exact hull, larger is coarser")->required();
+  const auto write = [level](const Body& body, const std::string& out) {
     const int finest = body.model.finest_level(), coarsest = body.model.level_count() - 1;
-    if (options->level < finest || options->level > coarsest)
-      throw CLI::ValidationError("--level", body.path + format(": there is no level %d, the finest is %d, the coarsest %d",
-                                                               options->level, finest, coarsest));
-    return export_level(body, options->level, options->out);
-  });
+    if (*level < finest || *level > coarsest)
+      throw CLI::ValidationError(
+          "--level", body.path + format(": there is no level %d, the finest is %d, the coarsest %d", *level, finest, coarsest));
+    return export_level(body, *level, out);
+  };
+  return on_body_to_file(word, model_of_mesh, "the OFF file to write; its doubles read back bit for bit", write);
 }
 
 Action declare_draw(CLI::App& word, const ModelOfMesh& model_of_mesh) {
-  const auto out = std::make_shared<std::string>();
-  word.add_option("-o,--output", *out, "the SVG file to write")->required();
-  return on_body(word, model_of_mesh, [out](const Body& body) { return draw_levels(body, *out); });
+  return on_body_to_file(word, model_of_mesh, "the SVG file to write",
+                         [](const Body& body, const std::string& out) { return draw_levels(body, out); });
 }
 
 Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
@@ -144,19 +155,27 @@ std::vector<Word> all_words(const ModelOfMesh& model_of_mesh, std::span<const Wo
   return words;
 }
 
-/// One line on stderr, whatever the message holds.
-int fail(std::string message, int code) {
-  while (!message.empty() && message.back() == '\n') message.pop_back();
-  for (char& c : message)
-    if (c == '\n' || c == '\r') c = ' ';
-  std::fprintf(stderr, "swiftlet: %s\n", message.c_str());
-  return code;
-}
+/// Tells why there is no output, in one line on stderr or as JSON on stdout, whatever the message holds.
+class Failure {
+ public:
+  Failure(int argc, char** argv)
+      : as_json_(std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; })) {}
+  int operator()(Error error, int code) const {
+    while (!error.message.empty() && error.message.back() == '\n') error.message.pop_back();
+    for (char& c : error.message)
+      if (c == '\n' || c == '\r') c = ' ';
+    if (as_json_ && write(error_json(error))) return code;
+    std::fprintf(stderr, "swiftlet: %s\n", error.message.c_str());
+    return code;
+  }
+  /// Whether all of it went to standard output.
+  static bool write(const std::string& text) {
+    return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  }
 
-int print(const std::string& text) {
-  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-  return written ? 0 : fail("cannot write to standard output", 1);
-}
+ private:
+  bool as_json_;
+};
 
 std::string names(const std::vector<Word>& words) {
   std::string all;
@@ -176,9 +195,10 @@ std::string word_fault(int argc, char** argv, const std::vector<Word>& words, bo
   return "there is no word \"" + first + "\"; there are " + names(words);
 }
 
-int run(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const Word> more_words) {
+int run(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const Word> more_words, const Failure& fail) {
   const std::vector<Word> words = all_words(model_of_mesh, more_words);
-  if (const std::string fault = word_fault(argc, argv, words, bool(model_of_mesh)); !fault.empty()) return fail(fault, 2);
+  if (const std::string fault = word_fault(argc, argv, words, bool(model_of_mesh)); !fault.empty())
+    return fail({ErrorCode::BadValue, fault}, 2);
 
   CLI::App app("Convex bodies at several levels of detail: how near are they, as precisely as asked?", "swiftlet");
   app.set_version_flag("--version", "swiftlet " SWIFTLET_VERSION);
@@ -194,12 +214,13 @@ int run(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const
   try {
     app.parse(argc, argv);
     const Result<Output> output = chosen();
-    if (!output) return fail(output.error().message, 1);
-    return print(as_json ? output.value().json : output.value().text);
+    if (!output) return fail(output.error(), 1);
+    if (Failure::write(as_json ? output.value().json : output.value().text)) return 0;
+    return fail({ErrorCode::CannotWrite, "cannot write to standard output"}, 1);
   } catch (const CLI::Success& help_or_version) {
     return app.exit(help_or_version);
   } catch (const CLI::ParseError& fault) {
-    return fail(fault.what(), 2);
+    return fail({ErrorCode::BadValue, fault.what()}, 2);
   }
 }
 
@@ -221,12 +242,15 @@ void add_detail(CLI::App& word, Detail& detail) {
   word.add_option("--bytes", detail.bytes, "keep no level that these first bytes of the whole model do not hold");
 }
 
-int run_tool(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const Word> more_words) try {
-  return run(argc, argv, model_of_mesh, more_words);
-} catch (const std::bad_alloc&) {
-  return fail("out of memory", 1);
-} catch (const std::exception& exception) {
-  return fail(exception.what(), 1);
+int run_tool(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const Word> more_words) {
+  const Failure fail(argc, argv);
+  try {
+    return run(argc, argv, model_of_mesh, more_words, fail);
+  } catch (const std::bad_alloc&) {
+    return fail({ErrorCode::TooLarge, "out of memory"}, 1);
+  } catch (const std::exception& exception) {
+    return fail({ErrorCode::BadValue, exception.what()}, 1);
+  }
 }
 
 }  // namespace swiftlet::tool

@@ -40,8 +40,8 @@ CLI::Validator number_in(double least, double most, const std::string& said);
 void add_detail(CLI::App& word, Detail& detail);
 
 /// Does what the command line says and returns the exit code: 0, 1 where a word failed, 2 where the command line is wrong, an
-/// option out of its range included. Then
-/// stderr holds one line, "swiftlet: ...", and stdout nothing.
+/// option out of its range included. Then stderr holds one line, "swiftlet: ...", and stdout nothing; with --json stdout holds
+/// `error_json`, and stderr nothing.
 int run_tool(int argc, char** argv, const ModelOfMesh& model_of_mesh = {}, std::span<const Word> more_words = {});
 
 }  // namespace swiftlet::tool

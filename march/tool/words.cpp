@@ -214,7 +214,29 @@ std::string joined(const std::vector<std::uint32_t>& ids) {
   return text;
 }
 
+const char* name(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::CannotRead: return "CannotRead";
+    case ErrorCode::CannotWrite: return "CannotWrite";
+    case ErrorCode::BadFormat: return "BadFormat";
+    case ErrorCode::BadVersion: return "BadVersion";
+    case ErrorCode::BadValue: return "BadValue";
+    case ErrorCode::Empty: return "Empty";
+    case ErrorCode::NotConvex: return "NotConvex";
+    case ErrorCode::NotSolid: return "NotSolid";
+    case ErrorCode::NotEnclosing: return "NotEnclosing";
+    case ErrorCode::TooLarge: return "TooLarge";
+    case ErrorCode::Cancelled: break;
+  }
+  return "Cancelled";
+}
+
 }  // namespace
+
+std::string error_json(const Error& error) {
+  const Json file = error.file.empty() ? Json() : Json(error.file);
+  return dump({{"error", {{"code", name(error.code)}, {"message", error.message}, {"file", file}}}});
+}
 
 Json levels_json(const Model& model) {
   Json levels = Json::array();
@@ -311,7 +333,7 @@ Output info(const Body& body) {
 
 Result<Output> verify(const Body& body) {
   const Check outcome = swiftlet::verify(body.model);
-  if (!outcome) return Error{ErrorCode::BadValue, body.path + ": " + outcome.message};
+  if (!outcome) return in_file(body.path, {ErrorCode::BadValue, outcome.message});
   const int levels = body.model.level_count();
   return Output{body.path + ": verified: " + counted(levels) + " convex, enclosing level 0, within the stated deviation\n",
                 dump({{"path", body.path}, {"verified", true}, {"levels", levels}})};
@@ -371,6 +393,7 @@ Result<Output> export_level(const Body& body, int level, const std::filesystem::
 }
 
 Result<Output> cut(const std::string& path, const std::string& to, const Detail& detail, bool salvaging) {
+  if (const auto may = may_write(to, path); !may) return may.error();
   std::string note;
   Result<Model> model = [&]() -> Result<Model> {
     if (!salvaging) return load(std::filesystem::path(path), detail);
@@ -380,7 +403,6 @@ Result<Output> cut(const std::string& path, const std::string& to, const Detail&
     return left.value().model.cut(detail);
   }();
   if (!model) return model.error();
-  if (const auto may = may_write(to); !may) return may.error();
   const Result<std::size_t> bytes = save(model.value(), to);
   if (!bytes) return bytes.error();
   const int finest = model.value().finest_level(), coarsest = model.value().level_count() - 1;

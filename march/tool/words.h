@@ -18,6 +18,9 @@ struct Output {
   std::string text, json;
 };
 
+/// {"error": {"code", "message", "file"}}: ErrorCode's name, one sentence, and a path or null.
+std::string error_json(const Error& error);
+
 /// A model and where it came from.
 struct Body {
   std::string path;

@@ -26,7 +26,10 @@ struct Mesh {
 };
 
 /// Reads OBJ, OFF, STL (ascii or binary), PLY, and SWIFT's TRI and POLY, by file extension. A point cloud is legal.
-/// Errors: no points, a non-finite point (named), anything the format's reader refuses (with the line where it is known).
+/// Text is UTF-8, with or without its mark, and its lines end in LF, CR LF or CR. Nothing is passed over that may hold a point:
+/// a missing column, a word that OBJ or PLY does not have, and what follows the last element are errors.
+/// Errors: no points, a non-finite point (named), no regular file, anything the format's reader refuses (with the line where it
+/// is known).
 Result<Mesh> read_mesh(const std::filesystem::path& path);
 
 /// How a coarse level is made from the one below.

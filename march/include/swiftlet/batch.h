@@ -21,20 +21,23 @@ struct PairQuery {
   const QueryOptions* options = nullptr;  ///< the pair's own, its radii for one; its trace is not used; null: the batch's
 };
 
-/// Calls task(0) to task(count - 1), each once, in any order, on any threads, and returns when all are done.
+/// Calls task(0) to task(count - 1), each once, in any order, on any threads, and returns when all are done. Empty: they run on
+/// the calling thread, one after the other.
 using Executor = std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)>;
 
 /// Runs on the calling thread and `count` - 1 more, which wait for batches as long as the executor or a copy of it lives: keep
-/// it. Batches that share one take turns. Worth it from some 100 microseconds of work on.
+/// it. 0 is 1, more than 1 024 are 1 024, and fewer start where the system has no more. Batches that share one take turns; a
+/// task must not use the executor that runs it. An exception that leaves a task is thrown again on the calling thread, after
+/// the tasks that had begun have ended; the rest is not begun. Worth it from some 100 microseconds of work on.
 Executor on_threads(unsigned count);
 
 /// `distance` for each of `pairs`, into the answer of the same index. `answers` has room for all. The trace of `options` is not
 /// used. Cost: that of the queries; a task of the executor is 32 of them.
 void distance(std::span<const PairQuery> pairs, std::span<Answer> answers, const QueryOptions& options = {},
-              const Executor& executor = on_threads(1));
+              const Executor& executor = {});
 
 /// Likewise `intersects`.
 void intersects(std::span<const PairQuery> pairs, std::span<Answer> answers, const QueryOptions& options = {},
-                const Executor& executor = on_threads(1));
+                const Executor& executor = {});
 
 }  // namespace swiftlet

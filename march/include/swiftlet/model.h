@@ -178,8 +178,8 @@ struct SourceMap {
   std::span<const std::uint32_t> face;        ///< the user's triangles, none or several per face
 };
 
-/// One level as plain arrays. Faces are counter-clockwise seen from outside. A two-sided polygon is two opposite faces, a
-/// segment two vertices without faces, a point one vertex.
+/// One level as plain arrays. Faces are counter-clockwise seen from outside. Those of a solid are not all in one plane,
+/// exactly. A two-sided polygon is two opposite faces, a segment two vertices without faces, a point one vertex.
 struct LevelArrays {
   std::span<const Vec3> vertices;                ///< 0 or 1e-70 to 1e45 in magnitude, the caller's unit
   std::span<const std::uint32_t> face_vertices;  ///< the faces' loops one after the other
@@ -218,8 +218,8 @@ struct ModelOptions {
 /// says when that was not enough.
 class Model {
  public:
-  /// From one or several levels given finest first, without the builder. Convexity and enclosure are decided exactly; the error names
-  /// the reflex edge and its height. Cost: linear in the features, times the levels.
+  /// From one or several levels given finest first, without the builder. Convexity and enclosure are decided exactly; the error
+  /// names the reflex edge and its height. Cost: linear in the features, times the levels.
   static Result<Model> from_levels(std::span<const LevelArrays> levels, const ModelOptions& options = {});
   /// One level.
   static Result<Model> from_level(const LevelArrays& level, const ModelOptions& options = {});
@@ -252,9 +252,10 @@ class Model {
   /// A vertex of the finest level that no other exceeds in `direction` (body frame, any length). Exact; a climb from a look-up.
   std::uint32_t support(const Vec3& direction) const;
 
-  TableSpec table_spec() const;                   ///< of the table that follows
-  std::span<const std::uint32_t> table() const;   ///< a vertex of level 0 per sample of lut.h, empty without one
-  Model with_table(const TableSpec& spec) const;  ///< the levels present, with other maps, and with level 0 another table
+  TableSpec table_spec() const;                  ///< of the table that follows
+  std::span<const std::uint32_t> table() const;  ///< a vertex of level 0 per sample of lut.h, empty without one
+  /// The levels present, with other maps, and with level 0 another table. Error: BadValue where `spec` is out of its ranges.
+  Result<Model> with_table(const TableSpec& spec) const;
 
   std::span<const std::byte> bytes() const;  ///< the block: what model_file.h writes; of a mapped model the whole file
   std::uint64_t hash() const;                ///< of the block, which it reads to the end; equal hash, equal model

@@ -29,6 +29,7 @@ enum class ErrorCode {
 struct Error {
   ErrorCode code;       ///< for the program
   std::string message;  ///< for people: one sentence; names the file, line, vertex or edge
+  std::string file{};   ///< the file at fault, as its path was given; empty: none is
 };
 
 /// A value or an Error. Reading the one that is not there is misuse and asserts.
