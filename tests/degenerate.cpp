@@ -498,7 +498,9 @@ Outcome judge(const Case& given, bool with_depth) {
   const Result<Model> made = Model::from_levels(levels, given.options);
   if (!made) {
     const std::string& refusal = made.error().message;
-    return {false, refusal, refusal.empty() || given.convex ? "refused: " + refusal : ""};
+    const bool senseless =
+        refusal.empty() || refusal.find(" is -") != refusal.npos || refusal.find("nan above") != refusal.npos;
+    return {false, refusal, senseless || given.convex ? "refused: " + refusal : ""};
   }
   const Model& model = made.value();
   Outcome outcome{true, {}, {}};
