@@ -325,12 +325,17 @@ class Mesh {
     return false;
   }
 
+  /// The height is told where 106 bits know it.
   Error reflex(Index t, int i) const {
     const Triangle& a = triangles_[t];
-    const Vec n = cross(in_.point(a.v[1]) - in_.point(a.v[0]), in_.point(a.v[2]) - in_.point(a.v[0]));
-    const double height = dot(n, in_.point(opposite(t, i)) - in_.point(a.v[0])) / norm(n);
-    return not_convex("reflex " + edge_text(a.v[i], a.v[next(i)]) + ": vertex " + std::to_string(opposite(t, i)) + " is " +
-                      text(height) + " above face " + std::to_string(a.input));
+    const Index v = opposite(t, i);
+    const auto from_first = [&](Index w) {
+      return widened<DoubleDouble>(in_.point(w)) - widened<DoubleDouble>(in_.point(a.v[0]));
+    };
+    const V3<DoubleDouble> n = cross(from_first(a.v[1]), from_first(a.v[2]));
+    const double height = double(dot(n, from_first(v))) / norm(rounded(n));
+    return not_convex("reflex " + edge_text(a.v[i], a.v[next(i)]) + ": vertex " + std::to_string(v) + " is " +
+                      (height > 0 ? text(height) + " " : "") + "above face " + std::to_string(a.input));
   }
 
   /// The point with coordinates that exact signs take.

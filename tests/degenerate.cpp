@@ -424,7 +424,10 @@ Case make(std::uint64_t number) {
     bool ignored;
     given.levels.push_back(random.once_in(4) ? any_arrays(random, ignored) : around(random, given.levels.back()));
     if (given.levels.back().body.points.empty()) place(random, given.levels.back(), 2, 0);
-    if (random.once_in(4)) damage(random, given.levels.back());
+    if (random.once_in(4)) {
+      damage(random, given.levels.back());
+      given.moderate = false;
+    }
     given.convex = false;
   }
   if (random.once_in(4)) {
@@ -490,20 +493,24 @@ std::string fault_of_forgery(const Model& model, const Model& other) {
 }  // namespace
 
 Outcome judge(const Case& given, bool with_depth) {
-  static const Model cube = bodies::model(bodies::cube()),
-                     flat = bodies::model(bodies::two_sided({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
   std::vector<LevelArrays> levels;
   for (const Arrays& arrays : given.levels) levels.push_back(arrays.level());
   const Result<Model> made = Model::from_levels(levels, given.options);
   if (!made) {
     const std::string& refusal = made.error().message;
-    return {false, refusal, refusal.empty() || given.convex ? "refused: " + refusal : ""};
+    const bool senseless =
+        refusal.empty() || refusal.find(" is -") != refusal.npos || refusal.find("nan above") != refusal.npos;
+    return {false, refusal, senseless || given.convex ? "refused: " + refusal : ""};
   }
   const Model& model = made.value();
   Outcome outcome{true, {}, {}};
   const Arrays& exact = given.levels[0];
   if (const Check verified = verify(model); !verified) outcome.fault = "verify: " + verified.message;
   if (outcome.fault.empty() && !exact.lattice.empty() && !given.options.repair) outcome.fault = fault_of_lattice(exact, model);
+  const double size = std::ldexp(1.0, model.extent() > 0 ? std::ilogb(model.extent()) : 0);
+  const ModelOptions plain{.repair = false, .table = {lut::Resolution::None, 2, 1}};
+  const Model cube = bodies::model(bodies::box(size, size, size), plain),
+              flat = bodies::model(bodies::two_sided({{0, 0, 0}, {size, 0, 0}, {0, size, 0}}), plain);
   for (const Model* other : {&model, &cube, &flat})
     if (outcome.fault.empty()) outcome.fault = ask(model, *other, given.moderate, with_depth);
   if (outcome.fault.empty() && model.dimension() >= 2) outcome.fault = fault_of_forgery(model, cube);
