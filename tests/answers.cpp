@@ -183,10 +183,11 @@ std::vector<Chain> chains() {
   using enum PlaneRule;
   std::vector<Chain> all;
   for (const auto& [start, start_name] :
-       {std::pair{Automatic, "automatic"}, {Paper, "paper"}, {Finest, "finest"}, {Coarsest, "coarsest"}, {Table, "table"}}) {
+       {std::pair{Automatic, "automatic"}, std::pair{Paper, "paper"}, std::pair{Finest, "finest"},
+        std::pair{Coarsest, "coarsest"}, std::pair{Table, "table"}}) {
     for (const auto& [refinement, refinement_name] :
-         {std::pair{Single, "single"}, {SingleSingle, "single_single"}, {DoubleDouble, "double_double"}}) {
-      for (const auto& [rule, rule_name] : {std::pair{MostViolated, "most"}, {FirstViolated, "first"}}) {
+         {std::pair{Single, "single"}, std::pair{SingleSingle, "single_single"}, std::pair{DoubleDouble, "double_double"}}) {
+      for (const auto& [rule, rule_name] : {std::pair{MostViolated, "most"}, std::pair{FirstViolated, "first"}}) {
         QueryOptions options;
         options.start = start;
         options.refinement = refinement;
