@@ -197,7 +197,7 @@ class Descent {
     met_ = MarchStatus::Overlapping;
     answer_.lower = 0;
     answer_.upper = std::numeric_limits<double>::infinity();
-    const Vec common = common_point<double>(pair, proof);
+    const Vec common = surely_common_point(pair, proof);
     carry(place, {0, 0, normal, common, common, proof}, pair.law_two);
   }
 
@@ -281,7 +281,9 @@ class Descent {
     rule.absolute = width_left(deviation(place.level_a, place.level_b));
     rule.beyond = target_.clear_above;
     rule.step_budget = walked.steps + steps_left();
-    const MarchResult r = conclude(pair, walked, rule, target_.zero);
+    MarchResult r = conclude(pair, walked, rule, target_.zero);
+    if (r.status == MarchStatus::Overlapping && !(2 * norm(vec(r.point_b) - vec(r.point_a)) <= pair.law_two))
+      r.point_a = r.point_b = eigen(surely_common_point(pair, r.proof));
     answer_.steps += r.steps - walked.steps;
     answer_.plane_tests += r.plane_tests - walked.plane_tests;
     met_ = r.status;

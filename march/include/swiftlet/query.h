@@ -97,9 +97,9 @@ struct Answer {
   double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved bounds on the distance of the bodies
   Vec3 normal = Vec3::Zero();  ///< unit, from A to B; `lower` is proved by the gap in this direction; 0 if none is known
   /// Nearest points of the levels below, each moved by its body's radius along the normal. Where only the radii overlap each is
-  /// inside the other body, and they are deepest if the answer is a contact's. Where the hulls do, they are points of A's hull
-  /// and of B's where the search ended, mostly one and the same, and the normal is the last direction looked along: neither is
-  /// a place or a way to separate.
+  /// inside the other body, and they are deepest if the answer is a contact's. Where the hulls do, each lies in both, within
+  /// law 2's bound, wherever the search ended, or is NaN where not even 106 bits tell a common point; and the normal is the
+  /// last direction looked along: neither is a place or a way to separate.
   Vec3 point_a = Vec3::Zero();
   Vec3 point_b = Vec3::Zero();               ///< likewise, of B
   int level_a = 0, level_b = 0;              ///< the level pair they lie on: the one that answered
