@@ -1055,6 +1055,32 @@ TEST_P(Law10, VerdictsAreCheaperThanDistances) {  // trap G15
 
 /// Bodies that touch, or nearly: their maps are of levels that overlap where the exact hulls may be apart. Whole models, and
 /// cut ones that cannot answer exactly.
+TEST(Law10, ALooserToleranceNeverCostsMoreHoweverLoose) {
+  std::deque<Subject> subjects;
+  for (const Mesh& mesh :
+       {shapes::ellipsoid({1, 1, 1}, 500, 1), shapes::ellipsoid({1, 1, 0.1}, 400, 2), shapes::ellipsoid({1, 0.1, 0.1}, 400, 3),
+        shapes::cube(), shapes::octahedron(), shapes::random_polytope(100, 2), shapes::prism(20, 1, 1), shapes::meshed_cube(6)})
+    subjects.push_back(subject(mesh));
+  shapes::Random random(1);
+  for (int i = 0; i < 40000; ++i) {
+    const Model &a = subjects[random.bits() % subjects.size()].model, &b = subjects[random.bits() % subjects.size()].model;
+    const auto anywhere = [&] { return Pose{random.rotation(), random.uniform(0.3, 4) * random.on_sphere()}; };
+    Pose pose = anywhere();
+    PairSeed seed;
+    if (i % 3 == 1) distance(a, b, anywhere(), seed);
+    if (i % 3 == 2) distance(a, b, pose, seed), pose.translation += 0.1 * random.on_sphere();
+    std::uint32_t before = ~0u;
+    for (const double relative : {0.0, 1e-3, 1e-2, 0.1, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 4.0, 10.0, 100.0}) {
+      QueryOptions options;
+      options.relative_error = relative;
+      PairSeed start = seed;
+      const Answer answer = distance(a, b, pose, start, options);
+      ASSERT_LE(answer.steps + answer.plane_tests, before) << i << ", to " << relative;
+      before = answer.steps + answer.plane_tests;
+    }
+  }
+}
+
 TEST(Law10NearContact, FromNothingALooserToleranceNeverCostsMore) {
   const shapes::Pair meshes = shapes::pair(shapes::Family::Fat, 20000);
   const Model a = bodies::must(build(meshes.a)).model, b = bodies::must(build(meshes.b)).model;
