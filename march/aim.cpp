@@ -39,7 +39,8 @@ Simplex::Nearest Simplex::on_tetrahedron() const {
   const Vec& apex = corner_[3].p;
   for (const auto& [i, j, opposite] : {std::array{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}) {
     const Vec n = cross(corner_[i].p - apex, corner_[j].p - apex);
-    if (dot(n, corner_[opposite].p - apex) * dot(n, apex) < 0) continue;  // the origin is on the inner side
+    const double height = dot(n, corner_[opposite].p - apex), from_origin = dot(n, apex);
+    if (height < 0 ? from_origin > 0 : height > 0 && from_origin < 0) continue;  // the origin is on the inner side
     const Nearest face = on_triangle(i, j, 3);
     if (const double d2 = dot(face.point, face.point); d2 < least2) least2 = d2, best = face;
   }

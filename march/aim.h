@@ -21,7 +21,9 @@ struct Sight {
   std::uint32_t a = 0, b = 0;  ///< supports along `normal` and against it, as the maps know them
   double gap = 0;              ///< of these vertices along `normal`
   double lower = 0;            ///< proved along `normal`: less than the gap by what the maps are uncertain of; may be negative
-  double upper = 0;            ///< the distance of the points
+  double most_lower = -std::numeric_limits<double>::infinity();  ///< of all steps so far: more steps never prove less
+  Vec lower_along{0, 0, 0};                                      ///< what that is proved along
+  double upper = 0;                                              ///< the distance of the points
   Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};
   bool near = false;                       ///< `a` and `b` lie no more than a few edges aside of each other: a walk is cheaper
   std::uint32_t start_a = 0, start_b = 0;  ///< where a walk begins: the first supports that were near, else these
@@ -94,6 +96,7 @@ Sight look(const Scene& scene, const Level& a, const Level& b, double hidden, Gl
     s.a = seen.a, s.b = seen.b;
     s.gap = seen.gap, s.lower = seen.lower;
     s.normal = n;
+    if (s.lower > s.most_lower) s.most_lower = s.lower, s.lower_along = n;
     const double upper = norm(p) * (1 + kNormError) + scene.point_error;
     if (upper < s.upper) s.upper = upper, s.point_a = q, s.point_b = q + p;
     const Vec aside = p - n * s.gap;

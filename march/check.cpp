@@ -65,7 +65,7 @@ Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& an
       return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap - radii);
     }
   }
-  if (std::isfinite(answer.upper)) {
+  if (std::isfinite(answer.upper) && !(hulls_overlap && answer.point_a.hasNaN() && answer.point_b.hasNaN())) {
     const Level &level_a = a.level(answer.level_a), &level_b = b.level(answer.level_b);
     const Scene pair = scene(level_a.view, level_b.view, m, quality.error);
     const Vec n = hulls_overlap ? Vec{0, 0, 0} : vec(answer.normal);

@@ -69,7 +69,7 @@ class Search {
       : scene_(scene), tests_(tests), most_tests_(tests + scene.a.head.size() + scene.b.head.size()) {}
 
   Crossing run(const OverlapProof& proof) {
-    const Vec x = common_point<DoubleDouble>(scene_, proof);
+    const Vec x = common_point<DoubleDouble>(scene_, proof).point;
     const Handle a = feature_holding(scene_.a, proof.vertex_a), b = feature_holding(scene_.b, proof.vertex_b);
     if (a != Handle{} && b != Handle{}) return {a, b, x};
     std::optional<Crossing> found;

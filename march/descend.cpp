@@ -111,9 +111,9 @@ class Descent {
     }
   }
 
-  /// The coarsest pair with maps, none coarser than `most_a` and `most_b`, that is likely to answer bodies no farther apart
-  /// than `distance`, or the finest.
-  Place sight_for(double distance, int most_a, int most_b) const {
+  /// The coarsest pair with maps that is likely to answer bodies no farther apart than `distance`, or the finest.
+  Place sight_for(double distance) const {
+    const int most_a = a_.level_count() - 1, most_b = b_.level_count() - 1;
     Place place = pair_.finest_sight();
     while (place.level_a < most_a || place.level_b < most_b) {
       const Place coarser{std::min(place.level_a + 1, most_a), std::min(place.level_b + 1, most_b), {}};
@@ -123,14 +123,14 @@ class Descent {
     return place;
   }
 
-  /// Looks along support maps, where a glance did or on the coarsest pair that might answer, then on finer ones. Whether that
-  /// answers; else `place` becomes where to walk from. Each pair is looked at afresh, from the same direction: a looser
-  /// tolerance only stops earlier.
+  /// Looks along support maps, where a glance did or on the coarsest pair that might answer, then on each finer one.
+  /// Whether that answers; else `place` becomes where to walk from. Each pair is looked at afresh, from the same direction, and
+  /// none is passed over: a looser tolerance sees all that a tighter one does, or stops earlier.
   bool aim(Place& place, const Vec& likely) {
     const bool glanced = max_abs(first_.seen.normal) > 0;
     const Vec direction = glanced ? first_.seen.normal : max_abs(likely) > 0 ? likely : line_.in_a;
     const Place least = pair_.finest_sight();
-    place = glanced ? first_.at : exact_ ? least : sight_for(norm(line_.in_a), a_.level_count() - 1, b_.level_count() - 1);
+    place = glanced ? first_.at : exact_ ? least : sight_for(norm(line_.in_a));
     for (;;) {
       const bool last = same_levels(place, least);
       const Scene pair = scene_at(place);
@@ -139,7 +139,7 @@ class Descent {
       const Glimpse seen = glanced && same_levels(place, first_.at) ? first_.seen : glimpse(pair, of_a, of_b, direction);
       const Sight sight = look(pair, of_a, of_b, error, seen, [&](const Sight& s) {
         if (exact_) return s.near;
-        const double lower = larger(answer_.lower, s.lower), upper = smaller(answer_.upper, s.upper + error);
+        const double lower = larger(answer_.lower, s.most_lower), upper = smaller(answer_.upper, s.upper + error);
         if (answers(lower, upper) || (!last && !narrow(upper, error))) return true;
         const double doubt = s.gap > 0 ? kDoubtShare * (s.gap - s.lower) + error : kHiddenShare * error;
         return s.near && !narrow(lower, doubt);
@@ -151,7 +151,7 @@ class Descent {
       if (finest(place)) return false;  // a walk on the same pair follows
       record(place);
       if (last) return place = refined(place), false;
-      place = sight_for(answer_.upper, std::max(place.level_a - 1, least.level_a), std::max(place.level_b - 1, least.level_b));
+      place = {std::max(place.level_a - 1, least.level_a), std::max(place.level_b - 1, least.level_b), {}};
     }
   }
 
@@ -164,7 +164,7 @@ class Descent {
   }
   void take(Place& place, const Sight& s, const Scene& pair) {
     place.start = {{FeatureKind::Vertex, s.a}, {FeatureKind::Vertex, s.b}};
-    carry(place, {std::max(0.0, s.lower), s.upper, s.normal, s.point_a, s.point_b}, pair.law_two);
+    carry(place, {std::max(0.0, s.most_lower), s.upper, s.lower_along, s.point_a, s.point_b}, pair.law_two);
   }
 
   /// Whether the vertices that seem to meet prove that the exact hulls do: their descendants on level 0.
@@ -197,7 +197,7 @@ class Descent {
     met_ = MarchStatus::Overlapping;
     answer_.lower = 0;
     answer_.upper = std::numeric_limits<double>::infinity();
-    const Vec common = common_point<double>(pair, proof);
+    const Vec common = surely_common_point(pair, proof);
     carry(place, {0, 0, normal, common, common, proof}, pair.law_two);
   }
 
@@ -281,7 +281,9 @@ class Descent {
     rule.absolute = width_left(deviation(place.level_a, place.level_b));
     rule.beyond = target_.clear_above;
     rule.step_budget = walked.steps + steps_left();
-    const MarchResult r = conclude(pair, walked, rule, target_.zero);
+    MarchResult r = conclude(pair, walked, rule, target_.zero);
+    if (r.status == MarchStatus::Overlapping && !(2 * norm(vec(r.point_b) - vec(r.point_a)) <= pair.law_two))
+      r.point_a = r.point_b = eigen(surely_common_point(pair, r.proof));
     answer_.steps += r.steps - walked.steps;
     answer_.plane_tests += r.plane_tests - walked.plane_tests;
     met_ = r.status;

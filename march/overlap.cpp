@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "overlap.h"
 
+#include <limits>
+
 #include "aim.h"
 #include "difference.h"
 #include "progress.h"
@@ -50,21 +52,30 @@ Vec across(const Scene& scene, const MarchStart& met) {
 }
 
 template <class Real>
-Vec common_point(const Scene& scene, const OverlapProof& proof) {
+Common common_point(const Scene& scene, const OverlapProof& proof) {
   std::array<V3<Real>, 4> a, p;
   for (std::size_t k = 0; k < 4; ++k) {
     a[k] = widened<Real>(vec(scene.a.vertices[proof.vertex_a[k]]));
     p[k] = difference<Real>(scene, proof.vertex_a[k], proof.vertex_b[k]).p;
   }
-  const std::array<Real, 4> w{dot(cross(p[1], p[3]), p[2]), dot(cross(p[0], p[2]), p[3]), dot(cross(p[0], p[3]), p[1]),
-                              dot(cross(p[0], p[1]), p[2])};
+  std::array<Real, 4> w{dot(cross(p[1], p[3]), p[2]), dot(cross(p[0], p[2]), p[3]), dot(cross(p[0], p[3]), p[1]),
+                        dot(cross(p[0], p[1]), p[2])};
+  const Real zero(0), all = w[0] + w[1] + w[2] + w[3];
+  for (Real& weight : w) weight = weight / all > zero ? weight : zero;  // exact ones have one sign
   const Real sum = w[0] + w[1] + w[2] + w[3];
-  V3<Real> x{Real(0), Real(0), Real(0)};
-  for (std::size_t k = 0; k < 4; ++k) x = x + a[k] * (w[k] / sum);
-  return {double(x.x), double(x.y), double(x.z)};
+  V3<Real> x{zero, zero, zero}, apart = x;
+  for (std::size_t k = 0; k < 4; ++k) x = x + a[k] * (w[k] / sum), apart = apart + p[k] * (w[k] / sum);
+  return {rounded(x), norm(rounded(apart))};
 }
-template Vec common_point<double>(const Scene&, const OverlapProof&);
-template Vec common_point<DoubleDouble>(const Scene&, const OverlapProof&);
+template Common common_point<DoubleDouble>(const Scene&, const OverlapProof&);
+
+Vec surely_common_point(const Scene& scene, const OverlapProof& proof) {
+  if (const Common in_doubles = common_point<double>(scene, proof); 2 * in_doubles.off <= scene.law_two)
+    return in_doubles.point;
+  if (const Common wide = common_point<DoubleDouble>(scene, proof); 2 * wide.off <= scene.law_two) return wide.point;
+  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  return {kNowhere, kNowhere, kNowhere};
+}
 
 bool meet(const Scene& scene, const MarchStart& met, std::uint32_t behind_a, std::uint32_t behind_b, OverlapProof& proof) {
   const Corners a = corners(body_a(scene), met.a, behind_a), b = corners(body_b(scene), met.b, behind_b);

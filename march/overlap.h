@@ -17,9 +17,15 @@ Vec across(const Scene& scene, const MarchStart& met);
 /// `behind_a` and `behind_b` are vertices far to the other side. Cost: a few iterations on at most four vertices of each body.
 bool meet(const Scene& scene, const MarchStart& met, std::uint32_t behind_a, std::uint32_t behind_b, OverlapProof& proof);
 
-/// The point that a proof shows to be common: of A, as the combination of A's vertices whose differences make the origin. In
-/// doubles where the origin is well inside, else in DoubleDouble.
+/// The point that a proof shows to be common: of A, as the combination of A's vertices whose differences make the origin.
+struct Common {
+  Vec point;
+  double off;  ///< from the same combination of B's vertices
+};
 template <class Real>
-Vec common_point(const Scene& scene, const OverlapProof& proof);
+Common common_point(const Scene& scene, const OverlapProof& proof);
+
+/// Within law 2's bound of both bodies: in doubles where these tell, else in 106 bits; NaN where not even they do.
+Vec surely_common_point(const Scene& scene, const OverlapProof& proof);
 
 }  // namespace swiftlet

@@ -59,32 +59,46 @@ static inline Vec least_axis(const Vec& v) {
 
 /// Numbers only: a NaN may go unseen.
 static inline double max_abs(const Vec& a) { return larger(larger(std::fabs(a.x), std::fabs(a.y)), std::fabs(a.z)); }
-/// To kNormError; where squares underflow never less than the length.
-static inline double norm(const Vec& a) {
-  const double square = dot(a, a);
-  if (!(square < kLeastSquare)) return std::sqrt(square);
-  const double scale = max_abs(a);
-  if (scale == 0) return 0;
-  const Vec w{a.x / scale, a.y / scale, a.z / scale};
-  return scale * std::sqrt(dot(w, w)) * (1 + kNormError) + std::numeric_limits<double>::denorm_min();
+
+/// Whether a sum of squares has lost nothing to underflow, and is finite.
+static inline bool has_range(double square) {
+  return square >= kLeastSquare && square < std::numeric_limits<double>::infinity();
+}
+/// Times 2^exponent.
+static inline Vec scaled(const Vec& v, int exponent) {
+  return {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
 }
 
-/// A vector at length 1, and what it was multiplied by; 0 and 0 where it names no direction. Short ones are scaled by their
-/// largest coordinate: squares of 1e-200 are 0.
+// Vectors whose squares leave the range of doubles are scaled by a power of two, so that lengths and directions are those of
+// all their multiples by such, bit for bit.
+
+/// To kNormError; of a subnormal length never less than it.
+static inline double norm(const Vec& a) {
+  if (const double square = dot(a, a); has_range(square)) return std::sqrt(square);
+  const double largest = max_abs(a);
+  if (!(largest > 0 && std::isfinite(largest))) return largest;
+  const int exponent = std::ilogb(largest);
+  const Vec w = scaled(a, -exponent);
+  const double length = std::ldexp(std::sqrt(dot(w, w)), exponent);
+  return length < std::numeric_limits<double>::min() ? length + std::numeric_limits<double>::denorm_min() : length;
+}
+
+/// A vector at length 1, and what it was multiplied by; 0 and 0 where it names no direction.
 struct Unit {
   Vec n;
   double scale;
 };
 static inline Unit unit_of(const Vec& v) {
-  if (const double square = dot(v, v); square >= kLeastSquare && square < std::numeric_limits<double>::infinity()) {
+  if (const double square = dot(v, v); has_range(square)) {
     const double scale = 1 / std::sqrt(square);
     return {v * scale, scale};
   }
   const double largest = max_abs(v);
-  if (!(largest > kLeastDirection)) return {{0, 0, 0}, 0};
-  const Vec w = v * (1 / largest);
-  const double scale = 1 / norm(w);
-  return {w * scale, scale * (1 / largest)};
+  if (!(largest > kLeastDirection && std::isfinite(largest))) return {{0, 0, 0}, 0};
+  const int exponent = std::ilogb(largest);
+  const Vec w = scaled(v, -exponent);
+  const double scale = 1 / std::sqrt(dot(w, w));
+  return {w * scale, std::ldexp(scale, -exponent)};
 }
 static inline Vec normalised(const Vec& v) { return unit_of(v).n; }
 
@@ -93,8 +107,7 @@ static inline Vec normalised(const Vec& v) { return unit_of(v).n; }
 static inline Vec rescaled(const Vec& v) {
   const double largest = max_abs(v);
   if (!(largest > 0) || !std::isfinite(dot(v, {0, 0, 0}))) return {0, 0, 0};
-  const int exponent = 400 - std::ilogb(largest);
-  return {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
+  return scaled(v, 400 - std::ilogb(largest));
 }
 
 static inline Vec vec(const Vertex& v) { return {v.x, v.y, v.z}; }

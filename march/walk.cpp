@@ -46,7 +46,7 @@ struct Rise {
   bool falls() const { return highest > 0; }
   /// Of the fall, squared; less than any where there is none. Of slivers rounding leaves a length of 0 or less.
   double rate2() const {
-    return falls() ? highest * highest / larger(std::numeric_limits<double>::denorm_min(), length2) : -1;
+    return falls() ? highest / larger(std::numeric_limits<double>::denorm_min(), length2) * highest : -1;
   }
 };
 
@@ -96,7 +96,7 @@ class Marcher {
     const Prism prism(b, f);
     const Vec p = b.local(a.point(va));
     if (const std::uint32_t side = leave(prism, p); side != kNone) return {vertex(va), edge(side), kUnknown};
-    const double height = prism.height(p), distance2 = height * height / dot(prism.normal(), prism.normal());
+    const double height = prism.height(p), distance2 = height / dot(prism.normal(), prism.normal()) * height;
     if (!(height > 0)) return inside(vertex(va), face(f), distance2);
     const Vec towards = b.turned(-prism.normal());
     const Rise down = ring(a, va, a.into(towards));
@@ -200,7 +200,7 @@ class Marcher {
     double farthest2 = 0;
     walk_.plane_tests += prism.each_side(p, {0, 0, 0}, [&](std::uint32_t side, const Vec& u, double beyond, double) {
       if (!(beyond > 0) || (first_only_ && out != kNone)) return;
-      const double violation2 = beyond * beyond / dot(u, u);
+      const double violation2 = beyond / dot(u, u) * beyond;  // eighth powers of small bodies underflow
       if (violation2 > farthest2) out = side, farthest2 = violation2;
     });
     return out;

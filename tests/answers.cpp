@@ -118,6 +118,7 @@ const char* text(Status status) {
     case Status::LevelLimit: return "level_limit";
     case Status::NotConverged: return "not_converged";
     case Status::InvalidPose: return "invalid_pose";
+    case Status::InvalidRadius: return "invalid_radius";
   }
   return "";
 }

@@ -368,6 +368,39 @@ TEST(Law2, ExactIntervalsAreNarrowAndWitnessesLieOnBothBodies) {
   });
 }
 
+TEST(Law2, PointsOfAnOverlapLieInBothBodies) {
+  // In doubles the point that four vertex pairs share lies off a small body by much of its size.
+  std::deque<Subject> large, small;
+  for (const Mesh& mesh : {shapes::cube(), shapes::octahedron(), shapes::random_polytope(30, 2)}) {
+    large.push_back(subject(mesh));
+    small.push_back(subject(shapes::moved(mesh, {1e-4 * Mat3::Identity(), {0, 0, 0}})));
+  }
+  shapes::Random random(12);
+  int overlapping = 0;
+  for (int i = 0; i < 800; ++i) {
+    const Subject &a = large[random.bits() % large.size()], &b = small[random.bits() % small.size()];
+    Pose pose{i % 3 ? random.rotation() : Mat3(Mat3::Identity()), 3 * random.on_sphere()};
+    PairSeed seed;
+    const Answer apart = distance(a.model, b.model, pose, seed);
+    pose.translation -= apart.point_b - apart.point_a + std::pow(10, -double(4 + i % 10)) * apart.normal;
+    const double bound = bodies::law_two(a.model.level(0).view, b.model.level(0).view, pose);
+    seed = {};
+    for (const Answer& answer : {within(a.model, b.model, pose, 0, seed).answer, contact(a.model, b.model, pose, seed).answer,
+                                 intersects(a.model, b.model, pose, seed)}) {
+      if (answer.verdict != Verdict::Overlapping) continue;
+      ++overlapping;
+      std::vector<Vec3> points{answer.point_a};
+      if (answer.point_b != answer.point_a) points.push_back(answer.point_b);
+      for (const Vec3& p : points) {
+        ASSERT_FALSE(p.hasNaN()) << "not wrong, but never seen: look";
+        ASSERT_TRUE(oracle::holds(oracle::distance({&p, 1}, a.mesh.points, {}), 0, bound)) << i;
+        ASSERT_TRUE(oracle::holds(oracle::distance({&p, 1}, b.mesh.points, pose), 0, bound)) << i;
+      }
+    }
+  }
+  EXPECT_GE(overlapping, 1000);
+}
+
 TEST(Law2, SlightlyStretchedRotationsKeepTheirOwnBound) {
   shapes::Random random(2);
   for (const double off : {1e-15, 1e-12, 1e-9, 4e-7}) {
@@ -1022,6 +1055,32 @@ TEST_P(Law10, VerdictsAreCheaperThanDistances) {  // trap G15
 
 /// Bodies that touch, or nearly: their maps are of levels that overlap where the exact hulls may be apart. Whole models, and
 /// cut ones that cannot answer exactly.
+TEST(Law10, ALooserToleranceNeverCostsMoreHoweverLoose) {
+  std::deque<Subject> subjects;
+  for (const Mesh& mesh :
+       {shapes::ellipsoid({1, 1, 1}, 500, 1), shapes::ellipsoid({1, 1, 0.1}, 400, 2), shapes::ellipsoid({1, 0.1, 0.1}, 400, 3),
+        shapes::cube(), shapes::octahedron(), shapes::random_polytope(100, 2), shapes::prism(20, 1, 1), shapes::meshed_cube(6)})
+    subjects.push_back(subject(mesh));
+  shapes::Random random(1);
+  for (int i = 0; i < 40000; ++i) {
+    const Model &a = subjects[random.bits() % subjects.size()].model, &b = subjects[random.bits() % subjects.size()].model;
+    const auto anywhere = [&] { return Pose{random.rotation(), random.uniform(0.3, 4) * random.on_sphere()}; };
+    Pose pose = anywhere();
+    PairSeed seed;
+    if (i % 3 == 1) distance(a, b, anywhere(), seed);
+    if (i % 3 == 2) distance(a, b, pose, seed), pose.translation += 0.1 * random.on_sphere();
+    std::uint32_t before = ~0u;
+    for (const double relative : {0.0, 1e-3, 1e-2, 0.1, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 4.0, 10.0, 100.0}) {
+      QueryOptions options;
+      options.relative_error = relative;
+      PairSeed start = seed;
+      const Answer answer = distance(a, b, pose, start, options);
+      ASSERT_LE(answer.steps + answer.plane_tests, before) << i << ", to " << relative;
+      before = answer.steps + answer.plane_tests;
+    }
+  }
+}
+
 TEST(Law10NearContact, FromNothingALooserToleranceNeverCostsMore) {
   const shapes::Pair meshes = shapes::pair(shapes::Family::Fat, 20000);
   const Model a = bodies::must(build(meshes.a)).model, b = bodies::must(build(meshes.b)).model;

@@ -4,6 +4,8 @@
 #include "generators.h"
 
 #include <swiftlet/build.h>
+#include <swiftlet/depth.h>
+#include <swiftlet/patch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -428,26 +430,70 @@ void far_offsets(Examiner& examiner, std::uint64_t) {
   }
 }
 
-/// Bodies and translation times 2^k: the same answer in every bit, times 2^k (trap G25).
+/// Whether `large` is `answer` times s in every bit.
+template <class AnyAnswer>
+bool is_scaled(const AnyAnswer& answer, const AnyAnswer& large, double s) {
+  return large.status == answer.status && large.verdict == answer.verdict && large.lower == s * answer.lower &&
+         large.upper == s * answer.upper && large.normal == answer.normal && large.point_a == s * answer.point_a &&
+         large.point_b == s * answer.point_b && large.feature_a == answer.feature_a && large.feature_b == answer.feature_b &&
+         large.steps == answer.steps && large.plane_tests == answer.plane_tests;
+}
+bool is_scaled(const MarchResult& r, const MarchResult& large, double s) {
+  return large.status == r.status && large.lower == s * r.lower && large.upper == s * r.upper && large.normal == r.normal &&
+         large.point_a == s * r.point_a && large.point_b == s * r.point_b && large.a == r.a && large.b == r.b &&
+         large.steps == r.steps && large.plane_tests == r.plane_tests;
+}
+bool is_scaled(const Patch& patch, const Patch& large, double s) {
+  bool same = large.count == patch.count;
+  for (std::uint32_t i = 0; same && i < patch.count; ++i) {
+    const PatchPoint &p = patch.points[i], &q = large.points[i];
+    same = q.point_a == s * p.point_a && q.point_b == s * p.point_b && q.separation == s * p.separation;
+  }
+  return same;
+}
+
+/// Bodies and translation times 2^k: the same answer of every query in every bit, times 2^k (trap G25).
 void powers_of_two(Examiner& examiner, std::uint64_t) {
   Random& random = examiner.random;
   const std::vector<Vec3> points_a = ball_points(random, 4 + below(random, 20)),
                           points_b = random.bits() % 2 ? shapes::cube().points : ball_points(random, 4 + below(random, 20));
   const Subject a = quickly_built(points_a), b = quickly_built(points_b);
   for (int i = 0; i < 3; ++i) {
-    const int k = int(below(random, 121)) - 60;
+    const int k = int(below(random, 281)) - 140;
     const double s = std::ldexp(1, k);
     const Subject scaled_a = quickly_built(mapped(points_a, s * Mat3::Identity())),
                   scaled_b = quickly_built(mapped(points_b, s * Mat3::Identity()));
     for (int n = 0; n < 6; ++n) {
-      const Pose pose{random.bits() % 2 ? random.rotation() : cube_turn(random), random.on_sphere() * random.uniform(0, 4)};
+      const Pose pose{random.bits() % 2 ? random.rotation() : cube_turn(random), random.on_sphere() * random.uniform(0, 4)},
+          scaled_pose{pose.rotation, s * pose.translation};
       const PairSeed seed = some_seed(a, b, random);
       PairSeed one = seed, other = seed;
-      Answer plain = Pair(examiner, a, b, pose).exact(one);
-      Pair pair(examiner, scaled_a, scaled_b, {pose.rotation, s * pose.translation});
+      const Answer plain = Pair(examiner, a, b, pose).exact(one);
+      Pair pair(examiner, scaled_a, scaled_b, scaled_pose);
       const Answer scaled = pair.exact(other);
-      plain.lower *= s, plain.upper *= s, plain.point_a *= s, plain.point_b *= s;
-      pair.require(same_bits(plain, scaled), "not the answer of the pair that is 2^" + std::to_string(-k) + " times as large");
+      const auto require = [&](bool same, const std::string& what) {
+        pair.require(same, what + " is not that of the pair 2^" + std::to_string(-k) + " times as large");
+      };
+      require(is_scaled(plain, scaled, s), "distance");
+      require(
+          is_scaled(intersects(a.model, b.model, pose, one), intersects(scaled_a.model, scaled_b.model, scaled_pose, other), s),
+          "verdict");
+      const double threshold = random.uniform(0, 2), margin = random.uniform(0, 0.2);
+      const Within near = within(a.model, b.model, pose, threshold, one),
+                   scaled_near = within(scaled_a.model, scaled_b.model, scaled_pose, s * threshold, other);
+      require(near.decision == scaled_near.decision && is_scaled(near.answer, scaled_near.answer, s), "decision");
+      one = other = seed;
+      const SignedAnswer depth = signed_distance(a.model, b.model, pose, one),
+                         scaled_depth = signed_distance(scaled_a.model, scaled_b.model, scaled_pose, other);
+      require(is_scaled(depth, scaled_depth, s), "signed distance");
+      PatchOptions options, scaled_options;
+      options.margin = margin, scaled_options.margin = s * margin;
+      require(is_scaled(patch(a.model, b.model, pose, depth, options),
+                        patch(scaled_a.model, scaled_b.model, scaled_pose, scaled_depth, scaled_options), s),
+              "patch");
+      require(is_scaled(march(a.model.level(0).view, b.model.level(0).view, pose),
+                        march(scaled_a.model.level(0).view, scaled_b.model.level(0).view, scaled_pose), s),
+              "march");
       examiner.hit(k != 0 && scaled.verdict == Verdict::Disjoint);
     }
   }

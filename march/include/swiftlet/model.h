@@ -181,7 +181,8 @@ struct SourceMap {
 /// One level as plain arrays. Faces are counter-clockwise seen from outside. Those of a solid are not all in one plane,
 /// exactly. A two-sided polygon is two opposite faces, a segment two vertices without faces, a point one vertex.
 struct LevelArrays {
-  std::span<const Vec3> vertices;                ///< 0 or 1e-70 to 1e45 in magnitude, the caller's unit
+  /// Coordinates 0 or 1e-70 to 1e45 in magnitude, the largest of all 0 or at least 1e-45; the caller's unit.
+  std::span<const Vec3> vertices;
   std::span<const std::uint32_t> face_vertices;  ///< the faces' loops one after the other
   std::span<const std::uint32_t> face_sizes;     ///< vertices per face; empty: all are triangles
 
