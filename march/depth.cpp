@@ -109,6 +109,8 @@ class Deepening {
     seed.met = true;
   }
 
+  const ModelPair& pair() const { return pair_; }
+
   DepthEnd end = DepthEnd::NotConverged;
   double lower = -kInfinity, upper = kInfinity;  ///< of the depth of the exact hulls
   Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};
@@ -331,6 +333,16 @@ void part(const Deepening& deep, SignedAnswer& s) {
   s.normal = eigen(deep.normal);
 }
 
+/// Bounds of a touching pair that law 2 allows one by one and not together: 106 bits narrow that of the distance.
+void sharpen(const ModelPair& pair, SignedAnswer& s) {
+  const Place place{s.level_a, s.level_b, {s.feature_a, s.feature_b}};
+  const Scene scene = pair.scene_at(place);
+  const MarchStart from = settled(scene, place.start, s.plane_tests);
+  Certificate c = certify(scene, from.a, from.b, witness(scene, from.a, from.b), s.plane_tests);
+  sharpen(scene, c, s.plane_tests);
+  s.upper = larger(s.lower, smaller(s.upper, c.upper + pair.deviation(s.level_a, s.level_b)));
+}
+
 /// What the depth alone says.
 SignedAnswer overlap_part(const Deepening& deep) {
   SignedAnswer s;
@@ -372,6 +384,10 @@ SignedAnswer signed_distance(const Model& a, const Model& b, const Pose& b_in_a,
       part(deep, answer);
     else
       join(deep, answer, seed);
+    if (touching && answer.status == Status::NotConverged) {
+      sharpen(deep.pair(), answer);
+      if (answer.upper - answer.lower <= deep.pair().law_two) answer.status = Status::Converged;
+    }
   }
   add_work(deep, answer);
   dilation.dilate(answer, law_two);

@@ -105,7 +105,8 @@ class Polytope {
     }
     rim_ = count;
     Vec n = exact::plane(found[0].p, found[1].p, found[2].p).normal;
-    if (dot(n, hint) < 0) std::reverse(found.begin() + 1, found.begin() + count), n = -n;
+    const double turn = dot(n, hint) < 0 ? -1 : 1;  // in which sense the polygon goes around a normal on the hint's side
+    n = n * turn;
     Corner apex;
     if (!leave_plane(-n, {found[0], found[1], found[2]}, apex)) return false;
     close({found[0], found[1], found[2], apex});
@@ -113,7 +114,7 @@ class Polytope {
     for (int i = 0; i < rim_; ++i) {
       const Corner &from = found[std::size_t(i)], &to = found[std::size_t((i + 1) % rim_)];
       const Vec side = to.p - from.p;
-      include(glance(n * norm(side) + cross(side, n) * kFlare, from));
+      include(glance(n * norm(side) + cross(side, n) * (turn * kFlare), from));
     }
     return true;
   }
@@ -293,12 +294,13 @@ class Polytope {
     apex = glance(direction, of[0]);
     return leaves(apex) || first_of({direction}, of[0], apex, leaves);
   }
-  /// The first support along one of these directions, or against it, that serves.
+  /// The first support along one of these directions, or against it, that serves. Exactly: where none does M is flat, and its
+  /// height is all that is known of it.
   template <class Serves>
   bool first_of(std::initializer_list<Vec> directions, const Corner& from, Corner& found, Serves serves) {
     for (const Vec& n : directions) {
       for (const Vec& side : {n, -n}) {
-        if (found = support(side, from.a, from.b); serves(found)) return true;
+        if (found = support_exactly(side, from.a, from.b); serves(found)) return true;
       }
     }
     return false;

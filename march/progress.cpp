@@ -402,6 +402,14 @@ bool straighten(const Scene& scene, Certificate& c, std::uint32_t& plane_tests) 
   return true;
 }
 
+void sharpen(const Scene& scene, Certificate& c, std::uint32_t& plane_tests) {
+  const Goal as_far_as_it_goes{0, 0, std::numeric_limits<double>::infinity()};
+  Meeting m;
+  m.certificate = c;
+  Descent<DoubleDouble>(scene, as_far_as_it_goes, plane_tests).run(m);
+  c = m.certificate;
+}
+
 Handle feature_of(const ConvexView& view, const ActiveSet& active, const std::array<std::uint32_t, 4>& vertices) {
   std::array<std::uint32_t, 4> distinct{};
   int count = 0, heaviest = 0;

@@ -450,7 +450,7 @@ std::string fault_of_lattice(const Arrays& arrays, const Model& model) {
 }
 
 /// Queries about two bodies, each answer checked.
-std::string ask(const Model& a, const Model& b, bool converges, bool with_depth) {
+std::string ask(const Model& a, const Model& b, bool converges) {
   const double size = a.extent() + b.extent();
   const Pose poses[] = {
       {}, {Mat3::Identity(), Vec3(size, 0, 0)}, {bodies::rotation(1, 2, 3, 4), Vec3(size, size / 3, 2 * size)}};
@@ -459,8 +459,7 @@ std::string ask(const Model& a, const Model& b, bool converges, bool with_depth)
     const Answer answer = distance(a, b, pose, seed);
     if (const Check checked = check(a, b, pose, answer); !checked) return "distance: " + checked.message;
     if (converges && answer.status != Status::Converged) return "a distance did not converge";
-    if (converges && with_depth && signed_distance(a, b, pose, seed).status != Status::Converged)
-      return "a signed distance did not converge";
+    if (converges && signed_distance(a, b, pose, seed).status != Status::Converged) return "a signed distance did not converge";
   }
   return {};
 }
@@ -492,7 +491,7 @@ std::string fault_of_forgery(const Model& model, const Model& other) {
 
 }  // namespace
 
-Outcome judge(const Case& given, bool with_depth) {
+Outcome judge(const Case& given) {
   std::vector<LevelArrays> levels;
   for (const Arrays& arrays : given.levels) levels.push_back(arrays.level());
   const Result<Model> made = Model::from_levels(levels, given.options);
@@ -512,7 +511,7 @@ Outcome judge(const Case& given, bool with_depth) {
   const Model cube = bodies::model(bodies::box(size, size, size), plain),
               flat = bodies::model(bodies::two_sided({{0, 0, 0}, {size, 0, 0}, {0, size, 0}}), plain);
   for (const Model* other : {&model, &cube, &flat})
-    if (outcome.fault.empty()) outcome.fault = ask(model, *other, given.moderate, with_depth);
+    if (outcome.fault.empty()) outcome.fault = ask(model, *other, given.moderate);
   if (outcome.fault.empty() && model.dimension() >= 2) outcome.fault = fault_of_forgery(model, cube);
   return outcome;
 }

@@ -43,8 +43,8 @@ struct Outcome {
   std::string fault;    ///< what is wrong with the outcome; empty: nothing
 };
 
-/// Builds the model; verifies it, loads it again and with forged vertices, and asks for distances to other bodies and itself;
-/// `with_depth`: for signed ones too.
-Outcome judge(const Case& given, bool with_depth);
+/// Builds the model; verifies it, loads it again and with forged vertices, and asks for distances and signed ones to other bodies
+/// and itself.
+Outcome judge(const Case& given);
 
 }  // namespace swiftlet::degenerate

@@ -28,12 +28,11 @@ int main(int argc, char** argv) {
   using namespace swiftlet::degenerate;
   const std::uint64_t count = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 0,
                       first = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 0;
-  const bool with_depth = argc > 3 && std::string(argv[3]) == "--depth";
-  if (count == 0) return std::fputs("usage: swiftlet_degenerate COUNT [FIRST [--depth]]\n", stderr), 2;
+  if (count == 0) return std::fputs("usage: swiftlet_degenerate COUNT [FIRST]\n", stderr), 2;
   std::uint64_t accepted = 0, failed = 0;
   std::map<std::string, std::uint64_t> refusals;
   for (std::uint64_t number = first; number < first + count; ++number) {
-    const Outcome outcome = judge(make(number), with_depth);
+    const Outcome outcome = judge(make(number));
     accepted += outcome.accepted;
     if (!outcome.accepted) ++refusals[kind_of(outcome.refusal)];
     if (outcome.fault.empty()) continue;

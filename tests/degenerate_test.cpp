@@ -11,7 +11,7 @@ namespace {
 TEST(Degenerate, ArraysAreABodyOrRefusedWithASentence) {
   int accepted = 0, refused = 0;
   for (std::uint64_t number = 0; number < 3000; ++number) {
-    const Outcome outcome = judge(make(number), false);
+    const Outcome outcome = judge(make(number));
     EXPECT_EQ(outcome.fault, "") << "case " << number;
     (outcome.accepted ? accepted : refused) += 1;
   }
