@@ -294,13 +294,18 @@ class Polytope {
     apex = glance(direction, of[0]);
     return leaves(apex) || first_of({direction}, of[0], apex, leaves);
   }
-  /// The first support along one of these directions, or against it, that serves. Exactly: where none does M is flat, and its
-  /// height is all that is known of it.
+  /// The first support along one of these directions, or against it, that serves. Where none does M is flat, and its exact
+  /// heights are all that is known of it.
   template <class Serves>
   bool first_of(std::initializer_list<Vec> directions, const Corner& from, Corner& found, Serves serves) {
     for (const Vec& n : directions) {
       for (const Vec& side : {n, -n}) {
-        if (found = support_exactly(side, from.a, from.b); serves(found)) return true;
+        if (found = support(side, from.a, from.b); serves(found)) return true;
+      }
+    }
+    for (const Vec& n : directions) {
+      for (const Vec& side : {n, -n}) {
+        if (found = support_exactly(side, found.a, found.b); serves(found)) return true;
       }
     }
     return false;
