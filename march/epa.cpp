@@ -136,11 +136,12 @@ class Polytope {
   }
 
   /// Adds the support of the lowest facet until the goal is met and the plane is that of the nearest point: of several facets
-  /// as low, points and plane are to be of one. With `bounds_only` it is any plane.
-  End grow(bool bounds_only = false) {
+  /// as low, points and plane are to be of one. With `bounds_only` it is any plane. `lowest`: no lower bound above it counts,
+  /// for it is one over more directions than these.
+  End grow(bool bounds_only = false, double lowest = kInfinity) {
     for (;;) {
       int next = hull_.lowest();
-      lower_ = below(hull_.facet(next).height);
+      lower_ = smaller(lowest, below(hull_.facet(next).height));
       if (goal_.passed(best_.height, lower_)) return End::Enough;
       if (goal_.hopeless(best_.height, lower_)) return End::TooCoarse;
       if (best_.height < -scene_.law_two) return End::Apart;
@@ -419,7 +420,7 @@ Depth epa(const Scene& scene, const Level& a, const Level& b, const DepthStart& 
     end = cover_all(polytope, depth.lower);
     depth.lower = larger(0, depth.lower);
     has_facets = polytope.begin(about(polytope.best().normal));
-    if (has_facets) polytope.grow();  // its facet again, for the points
+    if (has_facets) polytope.grow(false, depth.lower);  // its facet again, for the points
   }
   if (has_facets) polytope.witness(depth);
   if (end == End::Enough || (end == End::Flat && polytope.narrow(0))) depth.end = DepthEnd::Converged;
