@@ -36,7 +36,7 @@ class Load {
         const std::size_t pair = i % scene_.pairs.size(), orbit = i / scene_.pairs.size();
         const Query& q = scene_.queries[(orbit * moves_.size() + move) * scene_.pairs.size() + pair];
         moves_[move].push_back(
-            {&scene_.models[scene_.pairs[q.pair].a], &scene_.models[scene_.pairs[q.pair].b], q.b_in_a, &seeds_[i]});
+            {scene_.models[scene_.pairs[q.pair].a], scene_.models[scene_.pairs[q.pair].b], q.b_in_a, &seeds_[i]});
       }
     }
   }
@@ -81,7 +81,7 @@ Timed timed(Work work) {
 
 Timed in_threads(Load& load, const Executor& threads) {
   return timed(
-      [&] { return load.run(0, load.pairs(), [&](auto pairs, auto answers) { distance(pairs, answers, {}, threads); }); });
+      [&] { return load.run(0, load.pairs(), [&](auto pairs, auto answers) { distance(pairs, answers, {}, {threads}); }); });
 }
 
 /// Each process says when it is ready, waits for all, and sends its hash.
@@ -94,7 +94,7 @@ Timed in_processes(Load& load, unsigned count) {
     if (write(ready[1], &byte, 1) != 1 || read(go[0], &byte, 1) != 1) _exit(1);
     const std::uint64_t hash = load.run(load.pairs() * k / count, load.pairs() * (k + 1) / count, [](auto pairs, auto answers) {
       for (std::size_t i = 0; i < pairs.size(); ++i)
-        answers[i] = distance(*pairs[i].a, *pairs[i].b, pairs[i].b_in_a, *pairs[i].seed);
+        answers[i] = distance(pairs[i].a, pairs[i].b, pairs[i].b_in_a, *pairs[i].seed);
     });
     _exit(write(done[1], &hash, sizeof hash) == sizeof hash ? 0 : 1);
   }

@@ -63,7 +63,9 @@ struct Graph {
   std::vector<Node> nodes;
   std::vector<std::uint32_t> ring;
 
-  explicit Graph(const ConvexView& view) : ring(view.head.begin(), view.head.end()) {
+  explicit Graph(const ConvexView& view) {
+    ring.reserve(view.half_edges.size());
+    for (const HalfEdge& h : view.half_edges) ring.push_back(h.head);
     nodes.reserve(view.vertices.size());
     for (const Vertex& v : view.vertices) nodes.push_back({v.x, v.y, v.z, v.ring_begin, v.ring_begin + v.ring_count});
   }

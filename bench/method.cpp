@@ -18,39 +18,38 @@ namespace swiftlet::bench {
 using namespace yardstick;
 namespace {
 
-// ---- swiftlet
-// ------------------------------------------------------------------------------------------------------------------
+// ---- swiftlet --------------------------------------------------------------------------------------------------------------
 
 /// The middle of the proved interval: off by at most half of what was asked for.
 Outcome outcome_of(const Answer& answer) {
   Outcome o{.steps = answer.steps, .plane_tests = answer.plane_tests};
   o.overlapping = answer.verdict == Verdict::Overlapping;
   o.failed = answer.status != Status::Converged;
-  if (!o.overlapping && !o.failed) o.distance = (answer.lower + answer.upper) / 2;
+  if (!o.overlapping && !o.failed) o.distance = answer.value();
   return o;
 }
 
 class SwiftletSession final : public SessionOf<SwiftletSession> {
  public:
-  SwiftletSession(const QueryOptions& options, std::span<const Body> bodies, std::span<const BodyPair> pairs)
+  SwiftletSession(const Options& options, std::span<const SceneBody> bodies, std::span<const BodyPair> pairs)
       : options_(options) {
-    for (const Body& body : bodies) {
+    for (const SceneBody& body : bodies) {
       preparation_.seconds += body.build_seconds;
       preparation_.heap_bytes += body.model->bytes().size();
     }
-    for (const BodyPair& p : pairs) pairs_.push_back({bodies[p.a].model, bodies[p.b].model, {}});
+    for (const BodyPair& p : pairs) pairs_.push_back({*bodies[p.a].model, *bodies[p.b].model, {}});
   }
   Outcome distance(std::uint32_t pair, const Pose& b_in_a) override {
     State& s = pairs_[pair];
-    return outcome_of(swiftlet::distance(*s.a, *s.b, b_in_a, s.seed, options_));
+    return outcome_of(swiftlet::distance(s.a, s.b, b_in_a, s.seed, options_));
   }
   Outcome intersects(std::uint32_t pair, const Pose& b_in_a) override {
     State& s = pairs_[pair];
-    return outcome_of(swiftlet::intersects(*s.a, *s.b, b_in_a, s.seed, options_));
+    return outcome_of(swiftlet::intersects(s.a, s.b, b_in_a, s.seed, {options_.budget, options_.tuning}));
   }
   Outcome depth(std::uint32_t pair, const Pose& b_in_a) override {
     State& s = pairs_[pair];
-    const SignedAnswer a = swiftlet::signed_distance(*s.a, *s.b, b_in_a, s.seed, options_);
+    const Answer a = swiftlet::signed_distance(s.a, s.b, b_in_a, s.seed, options_);
     return {.distance = std::fabs(a.lower),
             .overlapping = a.upper <= 0,
             .failed = a.status != Status::Converged,
@@ -59,10 +58,10 @@ class SwiftletSession final : public SessionOf<SwiftletSession> {
   }
   Outcome approximate(std::uint32_t pair, const Pose& b_in_a, double absolute, double relative) override {
     State& s = pairs_[pair];
-    QueryOptions options = options_;
-    options.absolute_error = absolute;
-    options.relative_error = relative;
-    return outcome_of(swiftlet::distance(*s.a, *s.b, b_in_a, s.seed, options));
+    Options options = options_;
+    options.absolute = absolute;
+    options.relative = relative;
+    return outcome_of(swiftlet::distance(s.a, s.b, b_in_a, s.seed, options));
   }
   void forget() override {
     for (State& s : pairs_) s.seed = {};
@@ -70,16 +69,16 @@ class SwiftletSession final : public SessionOf<SwiftletSession> {
 
  private:
   struct State {
-    const Model *a, *b;
+    Body a, b;
     PairSeed seed;
   };
-  QueryOptions options_;
+  Options options_;
   std::vector<State> pairs_;
 };
 
 class SwiftletMethod final : public Method {
  public:
-  SwiftletMethod(std::string name, std::string settings, const QueryOptions& options)
+  SwiftletMethod(std::string name, std::string settings, const Options& options)
       : name_(std::move(name)), settings_(std::move(settings)), options_(options) {}
   std::string name() const override { return name_; }
   std::string settings() const override { return settings_; }
@@ -91,43 +90,37 @@ class SwiftletMethod final : public Method {
             .certified = true,
             .stated_error = 1e-12};  // law 2: 64 eps size, with size up to a hundred radii
   }
-  std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
+  std::unique_ptr<Session> open(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) const override {
     return std::make_unique<SwiftletSession>(options_, bodies, pairs);
   }
 
  private:
   std::string name_, settings_;
-  QueryOptions options_;
+  Options options_;
 };
 
 void add_swiftlet(Methods& methods) {
-  const auto add = [&](const char* name, const char* settings, const auto& change) {
-    QueryOptions options;
-    change(options);
-    methods.push_back(std::make_unique<SwiftletMethod>(name, settings, options));
+  const auto add = [&](const char* name, const char* settings, const Tuning& tuning) {
+    methods.push_back(std::make_unique<SwiftletMethod>(name, settings, Options{.tuning = tuning}));
   };
-  add("swiftlet", "as shipped: automatic start, both bodies one level at a time, most violated plane", [](QueryOptions&) {});
-  add("swiftlet table", "starts on level 0 from the tables, no hierarchy, no seed",
-      [](QueryOptions& o) { o.start = StartPolicy::Table; });
-  add("swiftlet finest", "starts on level 0 from the last features, no hierarchy",
-      [](QueryOptions& o) { o.start = StartPolicy::Finest; });
-  add("swiftlet coarsest", "starts on the coarsest pair, always", [](QueryOptions& o) { o.start = StartPolicy::Coarsest; });
-  add("swiftlet paper", "start level by the paper's rule [sec. 5.2]", [](QueryOptions& o) { o.start = StartPolicy::Paper; });
-  add("swiftlet first", "first violated plane [sec. 5.1]", [](QueryOptions& o) { o.plane_rule = PlaneRule::FirstViolated; });
-  add("swiftlet single", "one level of one body at a time", [](QueryOptions& o) { o.refinement = Refinement::Single; });
-  add("swiftlet double", "two levels of both bodies at a time",
-      [](QueryOptions& o) { o.refinement = Refinement::DoubleDouble; });
+  add("swiftlet", "as shipped: automatic start, both bodies one level at a time, most violated plane", {});
+  add("swiftlet table", "starts on level 0 from the tables, no hierarchy, no seed", {.start = StartPolicy::Table});
+  add("swiftlet finest", "starts on level 0 from the last features, no hierarchy", {.start = StartPolicy::Finest});
+  add("swiftlet coarsest", "starts on the coarsest pair, always", {.start = StartPolicy::Coarsest});
+  add("swiftlet paper", "start level by the paper's rule [sec. 5.2]", {.start = StartPolicy::Paper});
+  add("swiftlet first", "first violated plane [sec. 5.1]", {.plane_rule = PlaneRule::FirstViolated});
+  add("swiftlet single", "one level of one body at a time", {.refinement = Refinement::Single});
+  add("swiftlet double", "two levels of both bodies at a time", {.refinement = Refinement::DoubleDouble});
 }
 
-// ---- The baseline
-// --------------------------------------------------------------------------------------------------------------
+// ---- The baseline ----------------------------------------------------------------------------------------------------------
 
 class VclipSession final : public SessionOf<VclipSession> {
  public:
-  VclipSession(std::span<const Body> bodies, std::span<const BodyPair> pairs) : index_(pairs.begin(), pairs.end()) {
+  VclipSession(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) : index_(pairs.begin(), pairs.end()) {
     preparation_ = measured([&] {
       bodies_.reserve(bodies.size());
-      for (const Body& body : bodies) bodies_.emplace_back(body.view);
+      for (const SceneBody& body : bodies) bodies_.emplace_back(body.view);
     });
     seeds_.resize(pairs.size());
   }
@@ -155,20 +148,19 @@ class VclipMethod final : public Method {
   std::string name() const override { return "vclip"; }
   std::string settings() const override { return "V-Clip from the paper, last features cached"; }
   Capabilities capabilities() const override { return {.distance = true, .intersects = true, .stated_error = 1e-12}; }
-  std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
+  std::unique_ptr<Session> open(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) const override {
     return std::make_unique<VclipSession>(bodies, pairs);
   }
 };
 
-// ---- Our walk alone
-// ------------------------------------------------------------------------------------------------------------
+// ---- Our walk alone --------------------------------------------------------------------------------------------------------
 
 class PlainSession final : public SessionOf<PlainSession> {
  public:
-  PlainSession(PlaneRule rule, bool table, std::span<const Body> bodies, std::span<const BodyPair> pairs) : rule_(rule) {
+  PlainSession(PlaneRule rule, bool table, std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) : rule_(rule) {
     // A level of the model as it is: nothing to prepare but the table.
-    for (const Body& body : bodies) preparation_.heap_bytes += body.model->level(0).bytes;
-    for (const Body& body : bodies) {
+    for (const SceneBody& body : bodies) preparation_.heap_bytes += body.model->level(0).bytes;
+    for (const SceneBody& body : bodies) {
       if (table) tabled_.push_back(body.model->with_table({lut::Resolution::Degrees5, 2, 0}).value());
     }
     for (const BodyPair& p : pairs) pairs_.push_back({p, bodies[p.a].view, bodies[p.b].view, {}});
@@ -208,7 +200,7 @@ class PlainMethod final : public Method {
   Capabilities capabilities() const override {
     return {.distance = true, .intersects = true, .stated_error = 1e-12, .wrong_share = 0.05};  // ends inside, or stalls
   }
-  std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
+  std::unique_ptr<Session> open(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) const override {
     return std::make_unique<PlainSession>(rule_, table_, bodies, pairs);
   }
 
@@ -220,7 +212,7 @@ class PlainMethod final : public Method {
 
 }  // namespace
 
-std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, const QueryOptions& options) {
+std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, const Options& options) {
   return std::make_unique<SwiftletMethod>(std::move(name), std::move(settings), options);
 }
 

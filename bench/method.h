@@ -29,9 +29,9 @@ struct Outcome {
                 plane_tests = 0;  ///< iterations and support calls where a method has no features; 0 where it hides both
 };
 
-using yardstick::Body;
 using yardstick::BodyPair;
 using yardstick::Query;
+using yardstick::SceneBody;
 
 /// What a session's bodies cost before the first query. Its states per pair are not counted.
 struct Preparation {
@@ -112,7 +112,7 @@ class Method {
   virtual std::string settings() const = 0;  ///< one line: version, precision, tolerance, what is cached
   virtual Capabilities capabilities() const = 0;
   /// The bodies' models outlive the session. Solids only.
-  virtual std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const = 0;
+  virtual std::unique_ptr<Session> open(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) const = 0;
 };
 
 using Methods = std::vector<std::unique_ptr<Method>>;
@@ -122,7 +122,7 @@ Methods all_methods();
 /// The baselines and the peers, each as its users run it where a timed row leaves something out: for verdicts, not for clocks.
 Methods judged_methods();
 /// Ours with other options. The models that a session is opened with decide levels and table.
-std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, const QueryOptions& options);
+std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, const Options& options);
 /// Our walk alone, by another rule than `plain` in all_methods.
 std::unique_ptr<Method> plain_method(std::string name, std::string settings, PlaneRule rule, bool table = false);
 /// The peers that the build did not find.

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "patch_cell.h"
+#include "manifold_cell.h"
 #include "rig.h"
 
 namespace swiftlet::bench {
@@ -25,7 +25,7 @@ namespace {
 using shapes::Family;
 using shapes::kFamilies;
 
-struct Options {
+struct Arguments {
   enum class Size { Quick, Full, All } size = Size::Full;
   std::filesystem::path cache = "build/bench-cache", meshes = "models/cache", results = "bench/results";
   std::set<std::string> only;  ///< groups; empty: all
@@ -76,7 +76,7 @@ class WrongMethod final : public Method {
   std::string name() const override { return "test double"; }
   std::string settings() const override { return "swiftlet's distance plus 1e-6; never an intersection"; }
   Capabilities capabilities() const override { return {.distance = true, .intersects = true, .stated_error = 1e-12}; }
-  std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
+  std::unique_ptr<Session> open(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) const override {
     return std::make_unique<WrongSession>(swiftlet_method("right", "", {})->open(bodies, pairs));
   }
 };
@@ -84,14 +84,11 @@ class WrongMethod final : public Method {
 /// All methods by name, those of the figures among them.
 class Field {
  public:
-  explicit Field(const Options& options) : everyone_(all_methods()) {
-    if (options.wrong) everyone_.push_back(std::make_unique<WrongMethod>());
+  explicit Field(const Arguments& arguments) : everyone_(all_methods()) {
+    if (arguments.wrong) everyone_.push_back(std::make_unique<WrongMethod>());
     const auto figure = [&](const char* name, StartPolicy start, Refinement refinement, PlaneRule rule = {}) {
-      QueryOptions query;
-      query.start = start;
-      query.refinement = refinement;
-      query.plane_rule = rule;
-      figures_.push_back(swiftlet_method(name, "of the paper's figures", query));
+      const Tuning tuning{.start = start, .refinement = refinement, .plane_rule = rule};
+      figures_.push_back(swiftlet_method(name, "of the paper's figures", {.tuning = tuning}));
     };
     figure("finest first", StartPolicy::Finest, Refinement::SingleSingle, PlaneRule::FirstViolated);
     for (const auto& [start, policy] : kStarts) {
@@ -134,7 +131,7 @@ enum class Variants { All, Main };
 std::vector<Entrant> everyone(const Field& field, const Asked& asked, Question question, bool peers,
                               Variants variants = Variants::All) {
   std::uint32_t largest = 0;
-  for (const Body& body : asked.bodies) {
+  for (const SceneBody& body : asked.bodies) {
     largest = std::max(largest, std::uint32_t(body.model->level(0).triangle_count));
   }
   std::vector<Entrant> result;
@@ -153,7 +150,9 @@ std::vector<Entrant> everyone(const Field& field, const Asked& asked, Question q
 
 class Results {
  public:
-  explicit Results(const Options& options) : directory_(options.results) { std::filesystem::create_directories(directory_); }
+  explicit Results(const Arguments& arguments) : directory_(arguments.results) {
+    std::filesystem::create_directories(directory_);
+  }
 
   void add(const std::string& group, const std::string& shape, double step, std::uint32_t triangles, std::vector<Row> rows) {
     for (Row& row : rows) {
@@ -194,14 +193,14 @@ class Results {
 struct Variant {
   std::string name;
   std::vector<Model> models;
-  std::vector<Body> bodies;
+  std::vector<SceneBody> bodies;
 };
 
-Variant variant(const Options& options, const std::string& name, Family family, std::uint32_t triangles,
+Variant variant(const Arguments& arguments, const std::string& name, Family family, std::uint32_t triangles,
                 const std::function<void(BuildOptions&)>& change) {
   BuildOptions build;
   change(build);
-  const Shelf shelf(options.cache, build);
+  const Shelf shelf(arguments.cache, build);
   Variant result{name, {}, {}};
   for (const std::uint64_t body : {1, 2}) {
     Shelf::Entry entry = shelf.ellipsoid(family, triangles, body);
@@ -225,9 +224,9 @@ struct PaperModels {
   Variant nothing;
 };
 
-PaperModels paper_models(const Options& options, Family family) {
+PaperModels paper_models(const Arguments& arguments, Family family) {
   const auto make = [&](const std::string& name, const auto& change) {
-    return variant(options, name, family, kPaperTriangles, change);
+    return variant(arguments, name, family, kPaperTriangles, change);
   };
   const auto brief = [](double x) {
     char buffer[32];
@@ -260,16 +259,16 @@ PaperModels paper_models(const Options& options, Family family) {
 // ---- The cells -------------------------------------------------------------------------------------------------------------
 
 /// Everything that is asked of one pair on one motion at the paper's size.
-void paper_cells(const Options& options, const Field& field, const PaperModels& models, const Asked& asked,
+void paper_cells(const Arguments& arguments, const Field& field, const PaperModels& models, const Asked& asked,
                  const std::string& shape, double step, Results& results) {
   const auto run = [&](const char* group, Question question, const std::vector<Entrant>& entrants) {
-    results.add(group, shape, step, kPaperTriangles, measure(asked, question, entrants, options.rounds()));
+    results.add(group, shape, step, kPaperTriangles, measure(asked, question, entrants, arguments.rounds()));
   };
   const auto entrant = [&](const std::string& series, const std::string& method, const Variant& v) -> Entrant {
     return {series, &field.named(method), v.bodies};
   };
   const Entrant shipped{"swiftlet", &field.named("swiftlet"), asked.bodies}, clip{"vclip", &field.named("vclip"), asked.bodies};
-  if (options.wants("fig5")) {
+  if (arguments.wants("fig5")) {
     run("fig5", Question::Distance,
         {clip,
          {"walk alone most violated", &field.named("plain"), asked.bodies},
@@ -277,13 +276,13 @@ void paper_cells(const Options& options, const Field& field, const PaperModels& 
          entrant("certified most violated", "swiftlet finest", models.nothing),
          entrant("certified first violated", "finest first", models.nothing)});
   }
-  if (options.wants("fig6")) {
+  if (arguments.wants("fig6")) {
     std::vector<Entrant> entrants;
     for (const Variant& v : models.tables) entrants.push_back(entrant(v.name, "swiftlet table", v));
     run("fig6", Question::Distance, entrants);
   }
   const auto hierarchy = [&](const char* group, Question question, const std::deque<Variant>& variants, bool every_refinement) {
-    if (!options.wants(group)) return;
+    if (!arguments.wants(group)) return;
     std::vector<Entrant> entrants;
     for (const Variant& v : variants) {
       for (const auto& start : Field::kStarts) {
@@ -306,7 +305,7 @@ void paper_cells(const Options& options, const Field& field, const PaperModels& 
 
 /// Figures 11 and 12: of each kind the series with the least geometric mean over the motions, as measured above, once more
 /// beside each other.
-void overall_cells(const Options& options, const Field& field, const PaperModels& models, const std::deque<Asked>& motions,
+void overall_cells(const Arguments& arguments, const Field& field, const PaperModels& models, const std::deque<Asked>& motions,
                    const std::vector<double>& steps, const std::string& shape, Results& results) {
   const auto best = [&](const std::string& group, const std::string& start) -> std::string {
     std::map<std::string, double> logs;
@@ -329,10 +328,10 @@ void overall_cells(const Options& options, const Field& field, const PaperModels
   };
   for (const bool exact : {false, true}) {
     const char* group = exact ? "fig12" : "fig11";
-    if (!options.wants(group)) continue;
+    if (!arguments.wants(group)) continue;
     const Question question = exact ? Question::Distance : Question::Intersects;
     for (std::size_t i = 0; i < motions.size(); ++i) {
-      if (!options.figures_at(steps[i])) continue;
+      if (!arguments.figures_at(steps[i])) continue;
       std::vector<Entrant> entrants;
       const auto add = [&](const std::string& label, const std::string& series) {
         if (auto e = series.empty() ? std::nullopt : entrant_of(label, series)) entrants.push_back(std::move(*e));
@@ -343,7 +342,7 @@ void overall_cells(const Options& options, const Field& field, const PaperModels
       entrants.push_back({"nothing", &field.named("swiftlet finest"), models.nothing.bodies});
       entrants.push_back({"vclip", &field.named("vclip"), motions[i].bodies});
       entrants.push_back({"swiftlet", &field.named("swiftlet"), motions[i].bodies});
-      results.add(group, shape, steps[i], kPaperTriangles, measure(motions[i], question, entrants, options.rounds()));
+      results.add(group, shape, steps[i], kPaperTriangles, measure(motions[i], question, entrants, arguments.rounds()));
     }
   }
 }
@@ -356,59 +355,59 @@ void add_approximate(std::vector<Entrant>& entrants, const Field& field, const A
 }
 
 /// Everyone on the orbit, in random poses, and the paper's figures.
-void orbits(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
-  if (!options.wants_any("orbit", "fig5", "fig6", "fig7", "fig8", "fig9", "fig10", "fig11", "fig12")) return;
-  const bool figures = options.wants_any("fig5", "fig6", "fig7", "fig8", "fig9", "fig10", "fig11", "fig12");
+void orbits(const Arguments& arguments, const Field& field, const Shelf& shelf, Results& results) {
+  if (!arguments.wants_any("orbit", "fig5", "fig6", "fig7", "fig8", "fig9", "fig10", "fig11", "fig12")) return;
+  const bool figures = arguments.wants_any("fig5", "fig6", "fig7", "fig8", "fig9", "fig10", "fig11", "fig12");
   for (const Family family : kFamilies) {
     const std::string shape = shapes::name(family);
-    const PaperModels models = figures ? paper_models(options, family) : PaperModels{};
+    const PaperModels models = figures ? paper_models(arguments, family) : PaperModels{};
     std::deque<Scene> scenes;
     std::deque<Asked> motions;
-    std::vector<double> steps = options.steps();
-    for (const double step : steps) scenes.push_back(orbit(shelf, family, kPaperTriangles, 2, step, options.extent()));
-    scenes.push_back(random_poses(shelf, family, kPaperTriangles, options.extent()));
+    std::vector<double> steps = arguments.steps();
+    for (const double step : steps) scenes.push_back(orbit(shelf, family, kPaperTriangles, 2, step, arguments.extent()));
+    scenes.push_back(random_poses(shelf, family, kPaperTriangles, arguments.extent()));
     steps.push_back(kRandomStep);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       const Asked& asked = motions.emplace_back(scenes[i]);
       const double step = steps[i];
       for (const Question question : {Question::Distance, Question::Intersects}) {
-        if (!options.wants("orbit")) continue;
-        std::vector<Entrant> entrants = everyone(field, asked, question, options.peers_at(step));
+        if (!arguments.wants("orbit")) continue;
+        std::vector<Entrant> entrants = everyone(field, asked, question, arguments.peers_at(step));
         if (question == Question::Distance) add_approximate(entrants, field, asked);
-        results.add("orbit", shape, step, kPaperTriangles, measure(asked, question, entrants, options.rounds()));
+        results.add("orbit", shape, step, kPaperTriangles, measure(asked, question, entrants, arguments.rounds()));
       }
-      if (figures && options.figures_at(step)) paper_cells(options, field, models, asked, shape, step, results);
+      if (figures && arguments.figures_at(step)) paper_cells(arguments, field, models, asked, shape, step, results);
     }
-    if (figures) overall_cells(options, field, models, motions, steps, shape, results);
+    if (figures) overall_cells(arguments, field, models, motions, steps, shape, results);
   }
 }
 
 /// The paper's wider orbit.
-void wide_orbits(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
-  if (!options.wants("wide")) return;
+void wide_orbits(const Arguments& arguments, const Field& field, const Shelf& shelf, Results& results) {
+  if (!arguments.wants("wide")) return;
   for (const Family family : kFamilies) {
-    for (const double step : options.all() ? options.steps() : std::vector<double>{10.4}) {
-      const Scene scene = orbit(shelf, family, kPaperTriangles, 3, step, options.extent());
+    for (const double step : arguments.all() ? arguments.steps() : std::vector<double>{10.4}) {
+      const Scene scene = orbit(shelf, family, kPaperTriangles, 3, step, arguments.extent());
       const Asked asked(scene);
       for (const Question question : {Question::Distance, Question::Intersects}) {
         results.add(
             "wide", shapes::name(family), step, kPaperTriangles,
-            measure(asked, question, everyone(field, asked, question, options.all(), Variants::Main), options.rounds()));
+            measure(asked, question, everyone(field, asked, question, arguments.all(), Variants::Main), arguments.rounds()));
       }
     }
   }
 }
 
 /// Error against time: what a query costs that may be off, and where the peers stand.
-void errors(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
-  if (!options.wants("error")) return;
+void errors(const Arguments& arguments, const Field& field, const Shelf& shelf, Results& results) {
+  if (!arguments.wants("error")) return;
   constexpr double kAllowed[] = {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5, 1e-6, 1e-9};
   constexpr double kPeersAllowed[] = {1e-1, 1e-3, 1e-6};
   for (const Family family : kFamilies) {
     for (const bool random : {false, true}) {
-      if (random && !options.all()) continue;
-      const Scene scene = random ? random_poses(shelf, family, kPaperTriangles, options.extent())
-                                 : orbit(shelf, family, kPaperTriangles, 2, 10.4, options.extent());
+      if (random && !arguments.all()) continue;
+      const Scene scene = random ? random_poses(shelf, family, kPaperTriangles, arguments.extent())
+                                 : orbit(shelf, family, kPaperTriangles, 2, 10.4, arguments.extent());
       const Asked asked(scene);
       std::vector<Entrant> entrants = everyone(field, asked, Question::Distance, true);
       std::erase_if(entrants,
@@ -429,28 +428,28 @@ void errors(const Options& options, const Field& field, const Shelf& shelf, Resu
         can.certified ? sweep(kAllowed) : sweep(kPeersAllowed);
       }
       results.add("error", shapes::name(family), random ? kRandomStep : 10.4, kPaperTriangles,
-                  measure(asked, Question::Distance, entrants, options.rounds()));
+                  measure(asked, Question::Distance, entrants, arguments.rounds()));
     }
   }
 }
 
 /// Cost against size.
-void sizes(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
-  if (!options.wants("triangles")) return;
-  const std::uint32_t usual = options.quick() ? 2'000 : options.all() ? 200'000 : 20'000;
-  const std::uint32_t most = options.largest > 0 ? options.largest : usual;
+void sizes(const Arguments& arguments, const Field& field, const Shelf& shelf, Results& results) {
+  if (!arguments.wants("triangles")) return;
+  const std::uint32_t usual = arguments.quick() ? 2'000 : arguments.all() ? 200'000 : 20'000;
+  const std::uint32_t most = arguments.largest > 0 ? arguments.largest : usual;
   for (const Family family : kFamilies) {
     for (const std::uint32_t triangles : kTriangles) {
       if (triangles > most) continue;
       for (const double step : {1.04, 10.4, kRandomStep}) {
-        if (step == 1.04 && !options.all()) continue;
-        const Scene scene = step == kRandomStep ? random_poses(shelf, family, triangles, options.extent())
-                                                : orbit(shelf, family, triangles, 2, step, options.extent());
+        if (step == 1.04 && !arguments.all()) continue;
+        const Scene scene = step == kRandomStep ? random_poses(shelf, family, triangles, arguments.extent())
+                                                : orbit(shelf, family, triangles, 2, step, arguments.extent());
         const Asked asked(scene);
         for (const Question question : {Question::Distance, Question::Intersects}) {
           results.add(
               "triangles", shapes::name(family), step, triangles,
-              measure(asked, question, everyone(field, asked, question, options.all(), Variants::Main), options.rounds()));
+              measure(asked, question, everyone(field, asked, question, arguments.all(), Variants::Main), arguments.rounds()));
         }
       }
     }
@@ -458,40 +457,40 @@ void sizes(const Options& options, const Field& field, const Shelf& shelf, Resul
 }
 
 /// Poses and pairs other than the paper's.
-void others_at(double step, const Options& options, const Field& field, const Shelf& shelf, Results& results) {
+void others_at(double step, const Arguments& arguments, const Field& field, const Shelf& shelf, Results& results) {
   const auto run = [&](const Scene& scene, const std::string& shape, bool peers) {
     const Asked asked(scene);
     const std::uint32_t triangles = std::uint32_t(scene.models.front().level(0).triangle_count);
     for (const Question question : {Question::Distance, Question::Intersects}) {
       results.add("scenes", shape, step, triangles,
-                  measure(asked, question, everyone(field, asked, question, peers, Variants::Main), options.rounds()));
+                  measure(asked, question, everyone(field, asked, question, peers, Variants::Main), arguments.rounds()));
     }
   };
-  const Extent extent = options.extent();
+  const Extent extent = arguments.extent();
   for (const Family family : kFamilies) {
-    const bool peers = options.all() || family == Family::Fat;
+    const bool peers = arguments.all() || family == Family::Fat;
     run(mixed(shelf, family, kPaperTriangles, step, extent), "mixed", peers);
-    if (options.quick()) break;
+    if (arguments.quick()) break;
     run(at_distance(shelf, family, kPaperTriangles, kClose, step, extent), "close", peers);
     run(at_distance(shelf, family, kPaperTriangles, kSliding, step, extent), "sliding", peers);
     run(shallow(shelf, family, kPaperTriangles, step, 1e-3, extent), "shallow", peers);
   }
-  if (options.quick()) return;
-  run(ten_to_one(shelf, kPaperTriangles, step, extent), "10:1", options.all());
-  run(plate_and_long(shelf, kPaperTriangles, step, extent), "plate and long", options.all());
-  run(crowd(shelf, kPaperTriangles, step, options.all() ? 200 : 100), "crowd", true);
-  const auto links = robot_links(options.meshes);
+  if (arguments.quick()) return;
+  run(ten_to_one(shelf, kPaperTriangles, step, extent), "10:1", arguments.all());
+  run(plate_and_long(shelf, kPaperTriangles, step, extent), "plate and long", arguments.all());
+  run(crowd(shelf, kPaperTriangles, step, arguments.all() ? 200 : 100), "crowd", true);
+  const auto links = robot_links(arguments.meshes);
   if (links.empty()) std::puts("\nno robot links: models/fetch brings them");
-  for (std::size_t i = 0; i + 1 < links.size(); i += options.all() ? 1 : 2) {
-    run(link_pair(shelf, links[i], links[i + 1], step, extent), "links", options.all());
+  for (std::size_t i = 0; i + 1 < links.size(); i += arguments.all() ? 1 : 2) {
+    run(link_pair(shelf, links[i], links[i + 1], step, extent), "links", arguments.all());
   }
-  if (!links.empty()) run(link_and_fat(shelf, links.front(), kPaperTriangles, step, extent), "link and fat", options.all());
+  if (!links.empty()) run(link_and_fat(shelf, links.front(), kPaperTriangles, step, extent), "link and fat", arguments.all());
 }
 
-void others(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
-  if (!options.wants("scenes")) return;
-  for (const double step : options.all() ? std::vector{1.04, 10.4, 45.4} : std::vector{10.4}) {
-    others_at(step, options, field, shelf, results);
+void others(const Arguments& arguments, const Field& field, const Shelf& shelf, Results& results) {
+  if (!arguments.wants("scenes")) return;
+  for (const double step : arguments.all() ? std::vector{1.04, 10.4, 45.4} : std::vector{10.4}) {
+    others_at(step, arguments, field, shelf, results);
   }
 }
 
@@ -543,36 +542,36 @@ class Goals {
 
 /// The flat cost curve: ours beside the classics alone, at three sizes and five motions.
 /// How deep, shallow and deep, beside all who answer that; 45.4 degrees are as good as cold.
-void depths(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
-  if (!options.only.contains("depth")) return;  // minutes, for ODE and Bullet
+void depths(const Arguments& arguments, const Field& field, const Shelf& shelf, Results& results) {
+  if (!arguments.only.contains("depth")) return;  // minutes, for ODE and Bullet
   const Methods judged = judged_methods();
   for (const Family family : kFamilies) {
     for (const double depth : {0.01, 0.3}) {
       for (const double step : {0.1, 1.04, 10.4, 45.4}) {
         const Scene scene =
-            shallow(shelf, family, kPaperTriangles, step, depth * shapes::semi_axes(family).minCoeff(), options.extent());
+            shallow(shelf, family, kPaperTriangles, step, depth * shapes::semi_axes(family).minCoeff(), arguments.extent());
         const Asked asked(scene, Question::Depth);
         std::vector<Entrant> list{{"swiftlet", &field.named("swiftlet"), asked.bodies}};
         for (const auto& m : judged) {
           if (m->capabilities().depth) list.push_back({m->name(), m.get(), asked.bodies});
         }
         results.add("depth", depth < 0.1 ? "shallow" : "deep", step, kPaperTriangles,
-                    measure(asked, Question::Depth, list, options.rounds()));
+                    measure(asked, Question::Depth, list, arguments.rounds()));
       }
     }
   }
 }
 
 /// Contact points, where boxes, prisms and ellipsoids lie on each other.
-void patches(const Options& options, const Shelf& shelf, Results& results) {
-  if (!options.only.contains("patch")) return;
-  for (const PatchCell& cell : patch_cells(shelf, options.quick() ? 1'000 : 4'000)) {
-    results.add("patch", cell.name, 0.1, std::uint32_t(cell.a.level(0).triangle_count), measure(cell, options.rounds()));
+void manifolds(const Arguments& arguments, const Shelf& shelf, Results& results) {
+  if (!arguments.only.contains("manifold")) return;
+  for (const ManifoldCell& cell : manifold_cells(shelf, arguments.quick() ? 1'000 : 4'000)) {
+    results.add("manifold", cell.name, 0.1, std::uint32_t(cell.a.level(0).triangle_count), measure(cell, arguments.rounds()));
   }
 }
 
-void goals(const Options& options, const Field& field, const Shelf& shelf, Results& results) {
-  if (!options.wants("goals")) return;
+void goals(const Arguments& arguments, const Field& field, const Shelf& shelf, Results& results) {
+  if (!arguments.wants("goals")) return;
   constexpr double kSteps[] = {0, 1.04, 10.4, 45.4, kRandomStep};
   struct Size {
     std::uint32_t triangles;
@@ -591,17 +590,17 @@ void goals(const Options& options, const Field& field, const Shelf& shelf, Resul
     return list;
   };
   Goals table;
-  const std::uint32_t most = options.largest > 0 ? options.largest : options.quick() ? 2'000 : 20'000;
+  const std::uint32_t most = arguments.largest > 0 ? arguments.largest : arguments.quick() ? 2'000 : 20'000;
   for (const Size& size : kSizes) {
     if (size.triangles > most) continue;
     for (const Family family : kFamilies) {
       for (std::size_t i = 0; i < std::size(kSteps); ++i) {
         const bool random = kSteps[i] == kRandomStep;
-        const Scene scene = random ? random_poses(shelf, family, size.triangles, options.extent())
-                                   : orbit(shelf, family, size.triangles, 2, kSteps[i], options.extent());
+        const Scene scene = random ? random_poses(shelf, family, size.triangles, arguments.extent())
+                                   : orbit(shelf, family, size.triangles, 2, kSteps[i], arguments.extent());
         const Asked asked(scene);
         const auto cell = [&](Question question, std::vector<Entrant> list) {
-          std::vector<Row> rows = measure(asked, question, list, options.rounds());
+          std::vector<Row> rows = measure(asked, question, list, arguments.rounds());
           results.add("goals", shapes::name(family), kSteps[i], size.triangles, rows);
           return rows;
         };
@@ -616,18 +615,18 @@ void goals(const Options& options, const Field& field, const Shelf& shelf, Resul
     }
   }
   for (const Family family : kFamilies) {
-    const Scene scene = mixed(shelf, family, kPaperTriangles, 10.4, options.extent());
+    const Scene scene = mixed(shelf, family, kPaperTriangles, 10.4, arguments.extent());
     const Asked asked(scene);
-    const auto distances = measure(asked, Question::Distance, entrants(asked, false), options.rounds());
+    const auto distances = measure(asked, Question::Distance, entrants(asked, false), arguments.rounds());
     const std::vector<Entrant> own{{"swiftlet", &field.named("swiftlet"), asked.bodies}};
-    const auto verdicts = measure(asked, Question::Intersects, own, options.rounds());
+    const auto verdicts = measure(asked, Question::Intersects, own, arguments.rounds());
     results.add("goals", "mixed", 10.4, kPaperTriangles, distances);
     results.add("goals", "mixed", 10.4, kPaperTriangles, verdicts);
     table.cell(std::string("hits ") + shapes::name(family), distances, verdicts, 0.5, 0.2);
   }
   const Scene scene = crowd(shelf, kPaperTriangles, 10.4, 100);
   const Asked asked(scene);
-  const auto distances = measure(asked, Question::Distance, entrants(asked, false), options.rounds());
+  const auto distances = measure(asked, Question::Distance, entrants(asked, false), arguments.rounds());
   results.add("goals", "crowd", 10.4, kPaperTriangles, distances);
   table.cell("crowd", distances, {}, 0.4, 0);
   table.print();
@@ -637,7 +636,8 @@ void usage(std::FILE* out) {
   std::fputs(
       "swiftlet_bench [--quick | --all] [--only GROUP]... [--largest TRIANGLES] [--wrong] [--cache DIR] [--meshes DIR]\n"
       "               [--results DIR]\n"
-      "groups: goals depth patch orbit wide error triangles scenes fig5 fig6 fig7 fig8 fig9 fig10 fig11 fig12 (these two need 6 to "
+      "groups: goals depth manifold orbit wide error triangles scenes fig5 fig6 fig7 fig8 fig9 fig10 fig11 fig12 (these two "
+      "need 6 to "
       "10 "
       "beside "
       "them)\n"
@@ -647,50 +647,50 @@ void usage(std::FILE* out) {
       out);
 }
 
-std::optional<Options> parse(int argc, char** argv) {
-  Options options;
+std::optional<Arguments> parse(int argc, char** argv) {
+  Arguments arguments;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     const auto next = [&]() -> std::string { return i + 1 < argc ? argv[++i] : ""; };
     if (word == "--quick") {
-      options.size = Options::Size::Quick;
+      arguments.size = Arguments::Size::Quick;
     } else if (word == "--all") {
-      options.size = Options::Size::All;
+      arguments.size = Arguments::Size::All;
     } else if (word == "--only") {
-      options.only.insert(next());
+      arguments.only.insert(next());
     } else if (word == "--wrong") {
-      options.wrong = true;
+      arguments.wrong = true;
     } else if (word == "--largest") {
-      options.largest = std::uint32_t(std::max(0, std::atoi(next().c_str())));
+      arguments.largest = std::uint32_t(std::max(0, std::atoi(next().c_str())));
     } else if (word == "--cache") {
-      options.cache = next();
+      arguments.cache = next();
     } else if (word == "--meshes") {
-      options.meshes = next();
+      arguments.meshes = next();
     } else if (word == "--results") {
-      options.results = next();
+      arguments.results = next();
     } else {
       return std::nullopt;
     }
   }
-  return options;
+  return arguments;
 }
 
-int run(const Options& options) {
-  const Field field(options);
+int run(const Arguments& arguments) {
+  const Field field(arguments);
   for (const auto& m : field.everyone()) std::printf("%-20s %s\n", m->name().c_str(), m->settings().c_str());
   for (const std::string& peer : absent_peers()) std::printf("%-20s absent\n", peer.c_str());
-  if (options.quick()) std::puts("quick: 1000 queries a round, too few to compare closely");
-  const Shelf shelf(options.cache);
-  Results results(options);
-  orbits(options, field, shelf, results);
-  wide_orbits(options, field, shelf, results);
-  errors(options, field, shelf, results);
-  sizes(options, field, shelf, results);
-  others(options, field, shelf, results);
-  goals(options, field, shelf, results);
-  depths(options, field, shelf, results);
-  patches(options, shelf, results);
-  std::printf("\n%zu rows flagged as wrong; results in %s\n", results.flagged(), options.results.c_str());
+  if (arguments.quick()) std::puts("quick: 1000 queries a round, too few to compare closely");
+  const Shelf shelf(arguments.cache);
+  Results results(arguments);
+  orbits(arguments, field, shelf, results);
+  wide_orbits(arguments, field, shelf, results);
+  errors(arguments, field, shelf, results);
+  sizes(arguments, field, shelf, results);
+  others(arguments, field, shelf, results);
+  goals(arguments, field, shelf, results);
+  depths(arguments, field, shelf, results);
+  manifolds(arguments, shelf, results);
+  std::printf("\n%zu rows flagged as wrong; results in %s\n", results.flagged(), arguments.results.c_str());
   return 0;
 }
 
@@ -700,6 +700,6 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   using namespace swiftlet::bench;
   if (argc == 2 && std::strcmp(argv[1], "--help") == 0) return usage(stdout), 0;
-  const std::optional<Options> options = parse(argc, argv);
-  return options ? run(*options) : (usage(stderr), 2);
+  const std::optional<Arguments> arguments = parse(argc, argv);
+  return arguments ? run(*arguments) : (usage(stderr), 2);
 }

@@ -33,8 +33,8 @@
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 #include "hull.h"
+#include "manifolds.h"
 #include "method.h"
-#include "patches.h"
 
 namespace swiftlet::bench {
 namespace {
@@ -89,13 +89,12 @@ class ClimbShape final : public btConvexInternalShape {
   mutable Climber climber_;
 };
 
-// ---- What the two kinds of shape give to a pair
-// --------------------------------------------------------------------------------
+// ---- What the two kinds of shape give to a pair ----------------------------------------------------------------------------
 
 struct Hulls {
   std::vector<std::unique_ptr<btConvexHullShape>> all;
-  void prepare(std::span<const Body> bodies) {
-    for (const Body& body : bodies) all.push_back(shape_of(body.view));
+  void prepare(std::span<const SceneBody> bodies) {
+    for (const SceneBody& body : bodies) all.push_back(shape_of(body.view));
   }
   btConvexShape* share(std::uint32_t body) { return all[body].get(); }
   void forget() {}
@@ -104,9 +103,9 @@ struct Hulls {
 struct Climbs {
   std::vector<Graph> graphs;
   std::vector<std::unique_ptr<ClimbShape>> all;
-  void prepare(std::span<const Body> bodies) {
+  void prepare(std::span<const SceneBody> bodies) {
     graphs.reserve(bodies.size());
-    for (const Body& body : bodies) graphs.emplace_back(body.view);
+    for (const SceneBody& body : bodies) graphs.emplace_back(body.view);
   }
   btConvexShape* share(std::uint32_t body) {  // one per pair and side, for its last vertex
     all.push_back(std::make_unique<ClimbShape>(graphs[body]));
@@ -117,15 +116,14 @@ struct Climbs {
   }
 };
 
-// ---- btGjkPairDetector
-// ---------------------------------------------------------------------------------------------------------
+// ---- btGjkPairDetector -----------------------------------------------------------------------------------------------------
 
 enum class Depth { None, Epa };
 
 template <class Shapes, Depth kDepth = Depth::None>
 class DetectorSession final : public SessionOf<DetectorSession<Shapes, kDepth>> {
  public:
-  DetectorSession(std::span<const Body> bodies, std::span<const BodyPair> pairs) {
+  DetectorSession(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) {
     this->preparation_ = measured([&] { shapes_.prepare(bodies); });
     for (const BodyPair& p : pairs) pairs_.push_back(std::make_unique<State>(shapes_.share(p.a), shapes_.share(p.b)));
   }
@@ -167,12 +165,11 @@ class DetectorSession final : public SessionOf<DetectorSession<Shapes, kDepth>> 
   std::vector<std::unique_ptr<State>> pairs_;
 };
 
-// ---- btGjkEpaSolver2
-// -----------------------------------------------------------------------------------------------------------
+// ---- btGjkEpaSolver2 -------------------------------------------------------------------------------------------------------
 
 class GuessSession final : public SessionOf<GuessSession> {
  public:
-  GuessSession(std::span<const Body> bodies, std::span<const BodyPair> pairs) {
+  GuessSession(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) {
     preparation_ = measured([&] { shapes_.prepare(bodies); });
     for (const BodyPair& p : pairs) pairs_.push_back({shapes_.share(p.a), shapes_.share(p.b), kCold});
   }
@@ -207,16 +204,16 @@ class GuessSession final : public SessionOf<GuessSession> {
 // ---- btConvexConvexAlgorithm ------------------------------------------------------------------------------------------------
 
 /// A world's pair: its algorithm, and the manifold of up to four points that it keeps.
-class ManifoldPatches final : public PatchSession {
+class BulletManifolds final : public ManifoldSession {
  public:
-  ManifoldPatches(const Body& a, const Body& b, bool polyhedral, bool cold)
+  BulletManifolds(const SceneBody& a, const SceneBody& b, bool polyhedral, bool cold)
       : cold_(cold), shape_a_(shape_of(a.view)), shape_b_(shape_of(b.view)) {
     if (polyhedral) shape_a_->initializePolyhedralFeatures(), shape_b_->initializePolyhedralFeatures();
     object_a_.setCollisionShape(shape_a_.get()), object_b_.setCollisionShape(shape_b_.get());
     object_a_.setWorldTransform(btTransform::getIdentity());
     renew();
   }
-  ~ManifoldPatches() override { release(); }
+  ~BulletManifolds() override { release(); }
   void ask(std::span<const Pose> poses, std::span<Contacts> contacts) override {
     for (std::size_t i = 0; i < poses.size(); ++i) {
       if (cold_) release(), renew();
@@ -271,7 +268,7 @@ class BulletMethod final : public Method {
   Capabilities capabilities() const override {
     return {.distance = true, .intersects = true, .depth = depth_, .stated_error = kStatedError, .wrong_share = wrong_share_};
   }
-  std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
+  std::unique_ptr<Session> open(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) const override {
     return std::make_unique<SessionType>(bodies, pairs);
   }
 
@@ -288,12 +285,12 @@ void add_bullet_epa(Methods& methods) {
       "bullet epa", "btGjkPairDetector on btConvexHullShape with btGjkEpaPenetrationDepthSolver", 0, true));
 }
 
-void add_bullet_patches(PatchMethods& methods) {
+void add_bullet_manifolds(ManifoldMethods& methods) {
   for (const bool polyhedral : {true, false}) {
     methods.push_back({polyhedral ? "bullet polyhedral" : "bullet manifold",
                        std::string(kBuild) + "btConvexConvexAlgorithm and its manifold" + (polyhedral ? ", clipped faces" : ""),
-                       true, [polyhedral](const Body& a, const Body& b, bool cold) {
-                         return std::make_unique<ManifoldPatches>(a, b, polyhedral, cold);
+                       true, [polyhedral](const SceneBody& a, const SceneBody& b, bool cold) {
+                         return std::make_unique<BulletManifolds>(a, b, polyhedral, cold);
                        }});
   }
 }

@@ -64,11 +64,11 @@ using Deepen = int (*)(const void*, const void*, const ccd_t*, ccd_real_t* depth
 
 class CcdSession final : public SessionOf<CcdSession> {
  public:
-  CcdSession(Decide decide, Deepen deepen, std::span<const Body> bodies, std::span<const BodyPair> pairs)
+  CcdSession(Decide decide, Deepen deepen, std::span<const SceneBody> bodies, std::span<const BodyPair> pairs)
       : decide_(decide), deepen_(deepen) {
     preparation_ = measured([&] {
       graphs_.reserve(bodies.size());
-      for (const Body& body : bodies) graphs_.emplace_back(body.view);
+      for (const SceneBody& body : bodies) graphs_.emplace_back(body.view);
     });
     for (const BodyPair& p : pairs) {
       pairs_.push_back(
@@ -120,7 +120,7 @@ class CcdMethod final : public Method {
   std::string name() const override { return name_; }
   std::string settings() const override { return settings_; }
   Capabilities capabilities() const override { return {.intersects = true, .depth = true}; }
-  std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
+  std::unique_ptr<Session> open(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) const override {
     return std::make_unique<CcdSession>(decide_, deepen_, bodies, pairs);
   }
 

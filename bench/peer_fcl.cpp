@@ -84,19 +84,18 @@ fcl::Transform3d transform_of(const Pose& pose) {
 /// The bodies as FCL's shapes.
 struct Shapes {
   std::vector<std::unique_ptr<Convex>> all;
-  Preparation prepare(std::span<const Body> bodies) {
+  Preparation prepare(std::span<const SceneBody> bodies) {
     return measured([&] {
-      for (const Body& body : bodies) all.push_back(convex_of(body.view));
+      for (const SceneBody& body : bodies) all.push_back(convex_of(body.view));
     });
   }
 };
 
-// ---- FCL's own GJK
-// -------------------------------------------------------------------------------------------------------------
+// ---- FCL's own GJK ---------------------------------------------------------------------------------------------------------
 
 class IndepSession final : public SessionOf<IndepSession> {
  public:
-  IndepSession(std::span<const Body> bodies, std::span<const BodyPair> pairs) {
+  IndepSession(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) {
     preparation_ = shapes_.prepare(bodies);
     for (const BodyPair& p : pairs) pairs_.push_back({shapes_.all[p.a].get(), shapes_.all[p.b].get(), kCold});
     solver_.epa_tolerance = kIndepTolerance;
@@ -150,12 +149,11 @@ class IndepSession final : public SessionOf<IndepSession> {
   fcl::detail::GJKSolver_indep<double> solver_;  // of depths only
 };
 
-// ---- GJK on libccd, as FCL calls it
-// --------------------------------------------------------------------------------------------
+// ---- GJK on libccd, as FCL calls it ----------------------------------------------------------------------------------------
 
 class LibccdSession final : public SessionOf<LibccdSession> {
  public:
-  LibccdSession(std::span<const Body> bodies, std::span<const BodyPair> pairs) : pairs_(pairs.begin(), pairs.end()) {
+  LibccdSession(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) : pairs_(pairs.begin(), pairs.end()) {
     preparation_ = shapes_.prepare(bodies);
     solver_.max_distance_iterations = kMaxIterations;
     solver_.max_collision_iterations = kMaxIterations;
@@ -197,15 +195,14 @@ class LibccdSession final : public SessionOf<LibccdSession> {
   fcl::detail::GJKSolver_libccd<double> solver_;
 };
 
-// ---- The same with the caller's support
-// ----------------------------------------------------------------------------------------
+// ---- The same with the caller's support ------------------------------------------------------------------------------------
 
 class ClimbSession final : public SessionOf<ClimbSession> {
  public:
-  ClimbSession(std::span<const Body> bodies, std::span<const BodyPair> pairs) {
+  ClimbSession(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) {
     preparation_ = measured([&] {
       graphs_.reserve(bodies.size());
-      for (const Body& body : bodies) graphs_.emplace_back(body.view);
+      for (const SceneBody& body : bodies) graphs_.emplace_back(body.view);
     });
     for (const BodyPair& p : pairs) pairs_.emplace_back(graphs_[p.a], graphs_[p.b]);
     CCD_INIT(&ccd_);
@@ -290,7 +287,7 @@ class FclMethod final : public Method {
   std::string name() const override { return name_; }
   std::string settings() const override { return settings_; }
   Capabilities capabilities() const override { return capabilities_; }
-  std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
+  std::unique_ptr<Session> open(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) const override {
     return std::make_unique<SessionType>(bodies, pairs);
   }
 

@@ -14,8 +14,8 @@
 #include <ode/ode.h>
 
 #include "hull.h"
+#include "manifolds.h"
 #include "method.h"
-#include "patches.h"
 
 namespace swiftlet::bench {
 namespace {
@@ -68,11 +68,11 @@ int collide(dGeomID a, dGeomID b, const Pose& b_in_a, int most, dContactGeom* co
 
 class OdeSession final : public SessionOf<OdeSession> {
  public:
-  OdeSession(std::span<const Body> bodies, std::span<const BodyPair> pairs) {
+  OdeSession(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) {
     start();
     preparation_ = measured([&] {
       arrays_.reserve(bodies.size());
-      for (const Body& body : bodies) arrays_.emplace_back(body.view);
+      for (const SceneBody& body : bodies) arrays_.emplace_back(body.view);
       for (const BodyPair& p : pairs) pairs_.push_back({arrays_[p.a].geom(), arrays_[p.b].geom()});
     });
   }
@@ -114,19 +114,19 @@ class OdeMethod final : public Method {
     return "ODE " SWIFTLET_PEER_VERSION ", double, dCollide on convex geoms, no cache; depth the deepest of its contacts";
   }
   Capabilities capabilities() const override { return {.intersects = true, .depth = true, .max_triangles = 20'000}; }
-  std::unique_ptr<Session> open(std::span<const Body> bodies, std::span<const BodyPair> pairs) const override {
+  std::unique_ptr<Session> open(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs) const override {
     return std::make_unique<OdeSession>(bodies, pairs);
   }
 };
 
 /// The first contacts that fit; a normal points into A, a place lies halfway between the surfaces.
-class OdePatches final : public PatchSession {
+class OdeManifolds final : public ManifoldSession {
  public:
-  OdePatches(const Body& a, const Body& b) : arrays_a_(a.view), arrays_b_(b.view) {
+  OdeManifolds(const SceneBody& a, const SceneBody& b) : arrays_a_(a.view), arrays_b_(b.view) {
     start();
     a_ = arrays_a_.geom(), b_ = arrays_b_.geom();
   }
-  ~OdePatches() override { dGeomDestroy(a_), dGeomDestroy(b_); }
+  ~OdeManifolds() override { dGeomDestroy(a_), dGeomDestroy(b_); }
   void ask(std::span<const Pose> poses, std::span<Contacts> contacts) override {
     std::array<dContactGeom, Contacts::kMost> found;
     for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -147,9 +147,9 @@ class OdePatches final : public PatchSession {
 
 }  // namespace
 
-void add_ode_patches(PatchMethods& methods) {
+void add_ode_manifolds(ManifoldMethods& methods) {
   methods.push_back({"ode", "dCollide on convex geoms, at most eight contacts", false,
-                     [](const Body& a, const Body& b, bool) { return std::make_unique<OdePatches>(a, b); }});
+                     [](const SceneBody& a, const SceneBody& b, bool) { return std::make_unique<OdeManifolds>(a, b); }});
 }
 
 void add_ode(Methods& methods) { methods.push_back(std::make_unique<OdeMethod>()); }

@@ -182,7 +182,7 @@ const char* name(Question question) {
     case Question::Distance: return "distance";
     case Question::Intersects: return "intersects";
     case Question::Depth: return "depth";
-    case Question::Patch: return "patch";
+    case Question::Manifold: return "manifold";
   }
   return "";
 }

@@ -16,16 +16,16 @@
 namespace swiftlet::bench {
 using namespace yardstick;
 
-enum class Question : std::uint8_t { Distance, Intersects, Depth, Patch };
+enum class Question : std::uint8_t { Distance, Intersects, Depth, Manifold };
 const char* name(Question question);
 
 /// Who is asked in a cell, with what, and how precisely.
 struct Entrant {
   std::string series;  ///< as in the results and the legends, without commas; unique in the cell
   const Method* method = nullptr;
-  std::vector<Body> bodies;  ///< as many as the scene's, of the same hulls
-  double allowed = 0;        ///< in radii; 0: exact
-  std::string choice = {};   ///< what stands behind a series that is the best of several
+  std::vector<SceneBody> bodies;  ///< as many as the scene's, of the same hulls
+  double allowed = 0;             ///< in radii; 0: exact
+  std::string choice = {};        ///< what stands behind a series that is the best of several
 };
 
 /// A scene with what is proved of it. The scene outlives it.
@@ -33,7 +33,7 @@ struct Asked {
   /// The truth of distances and verdicts, or of depths: then all of the scene's bodies overlap.
   explicit Asked(const Scene& scene, Question question = Question::Distance);
   const Scene* scene;
-  std::vector<Body> bodies;
+  std::vector<SceneBody> bodies;
   Truth truth;
   double radius = 0;         ///< the largest bounding radius
   double triangles = 0;      ///< of all bodies on level 0

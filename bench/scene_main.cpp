@@ -96,12 +96,6 @@ Model built(const Mesh& mesh, double tolerance) {
   return must(build(mesh, options)).model;
 }
 
-QueryOptions asked(double tolerance) {
-  QueryOptions options;
-  options.absolute_error = tolerance;
-  return options;
-}
-
 // ---- One shape beside another ---------------------------------------------------------------------------------------------
 
 std::vector<Pose> orbit_poses() {
@@ -117,14 +111,13 @@ void measure(const Shape& shape, double tolerance, std::ostream& csv) {
   std::vector<Model> models;
   const double build_seconds = seconds([&] { models = {built(shape.a, tolerance), built(shape.b, tolerance)}; }) / 2;
   const std::vector<Pose> poses = orbit_poses();
-  const QueryOptions options = asked(tolerance);
   double widest = 0;
   std::size_t short_of = 0;
   const double all = least_seconds([&] {
     PairSeed seed;
     short_of = 0;
     for (const Pose& pose : poses) {
-      const Answer answer = distance(models[0], models[1], pose, seed, options);
+      const Answer answer = distance(models[0], models[1], pose, seed, {.absolute = tolerance});
       widest = std::max(widest, answer.upper - answer.lower);
       short_of += answer.status != Status::Converged;
     }
@@ -209,13 +202,13 @@ void measure_scene(const std::vector<Shape>& shapes, std::ostream& csv) {
     row.preparing = seconds([&] {
       for (const Shape& shape : shapes) models.push_back(built(shape.a, tolerance));
     });
-    std::vector<Body> bodies;
+    std::vector<SceneBody> bodies;
     for (const Model& model : models) bodies.push_back({&model, {}, 0}), row.bytes += model.bytes().size();
-    const auto session = swiftlet_method("swiftlet", "", asked(tolerance))->open(bodies, crowd.pairs);
+    const auto session = swiftlet_method("swiftlet", "", {.absolute = tolerance})->open(bodies, crowd.pairs);
     std::vector<Outcome> found = measure(row, *session, crowd, kinds, truth, csv);
     if (tolerance == 0) whole = std::move(models), truth = std::move(found);
   }
-  std::vector<Body> bodies;
+  std::vector<SceneBody> bodies;
   for (const Model& model : whole) bodies.push_back({&model, model.level(0).view, 0});
   for (const auto& method : all_methods()) {
     const std::string name = method->name();

@@ -28,7 +28,7 @@ void describe(const swiftlet::Model& model) {
     const swiftlet::Level& level = model.level(i);
     place(i, "vertices", level.view.vertices);
     place(i, "planes", level.view.planes);
-    place(i, "half_edges", level.view.head.records());
+    place(i, "half_edges", level.view.half_edges);
     place(i, "face_first", level.view.face_first);
     place(i, "child_vertex", level.child_vertex);
     place(i, "child_face", level.child_face);
@@ -57,8 +57,7 @@ int main(int argc, char** argv) {
   }
   std::printf("marks %016lx %016lx\n", (unsigned long)(&begin_query), (unsigned long)(&end_query));
   std::fflush(stdout);
-  QueryOptions options;
-  options.absolute_error = error * models[0].radius();
+  const Options options{.absolute = error * models[0].radius()};
   std::FILE* file = std::fopen(argv[3], "rb");
   if (!file) return std::fprintf(stderr, "cannot read %s\n", argv[3]), 1;
   int unfinished = 0;

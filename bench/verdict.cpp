@@ -69,14 +69,14 @@ bool count_verdict(Kind kind, double distance, const Certified& truth, Compariso
 
 }  // namespace
 
-Truth certify(std::span<const Body> bodies, std::span<const BodyPair> pairs, std::span<const Query> queries) {
+Truth certify(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs, std::span<const Query> queries) {
   Truth truth;
   std::size_t overlapping = 0;
   for (const Query& query : queries) {
     const Model &a = *bodies[pairs[query.pair].a].model, &b = *bodies[pairs[query.pair].b].model;
-    PairSeed cold;
-    const Answer answer = distance(a, b, query.b_in_a, cold);
-    const Check checked = check(a, b, query.b_in_a, answer);
+    OverlapProof proof;
+    const Answer answer = distance(a, b, query.b_in_a, {.tuning = {.proof = &proof}});
+    const Check checked = check(a, b, query.b_in_a, answer, &proof);
     Certified certified;
     if (checked && answer.status == Status::Converged) {
       certified = {answer.lower, answer.upper, answer.verdict == Verdict::Disjoint, answer.verdict == Verdict::Overlapping};
@@ -92,14 +92,13 @@ Truth certify(std::span<const Body> bodies, std::span<const BodyPair> pairs, std
   return truth;
 }
 
-Truth certify_depths(std::span<const Body> bodies, std::span<const BodyPair> pairs, std::span<const Query> queries) {
+Truth certify_depths(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs, std::span<const Query> queries) {
   constexpr std::size_t kCheckEvery = 100;
   Truth truth;
   truth.overlapping_share = 1;
   for (const Query& query : queries) {
     const Model &a = *bodies[pairs[query.pair].a].model, &b = *bodies[pairs[query.pair].b].model;
-    PairSeed cold;
-    const SignedAnswer answer = signed_distance(a, b, query.b_in_a, cold);
+    const Answer answer = signed_distance(a, b, query.b_in_a);
     Certified certified;
     const bool checked = truth.queries.size() % kCheckEvery != 0 || check(a, b, query.b_in_a, answer);
     if (checked && answer.status == Status::Converged && answer.upper < 0) {

@@ -31,10 +31,10 @@ struct Truth {
   double widest = 0;  ///< the largest upper - lower
   double overlapping_share = 0;
 };
-Truth certify(std::span<const Body> bodies, std::span<const BodyPair> pairs, std::span<const Query> queries);
+Truth certify(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs, std::span<const Query> queries);
 
 /// The same of depths, as distances of bodies that are apart. Checking takes half a second: every hundredth answer is.
-Truth certify_depths(std::span<const Body> bodies, std::span<const BodyPair> pairs, std::span<const Query> queries);
+Truth certify_depths(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs, std::span<const Query> queries);
 
 /// A method against the truth. A query is counted once: failed, or of the wrong verdict, or in the errors.
 struct Comparison {

@@ -23,7 +23,7 @@ namespace {
 struct Draft {
   Surface surface;
   std::vector<std::uint32_t> child_vertex, parent_face;
-  std::vector<Handle> child_face;
+  std::vector<FeatureId> child_face;
   double deviation = 0;
 };
 
@@ -71,14 +71,14 @@ std::uint32_t nearest_of_rings(const ConvexView& view, const Vec& p, std::uint32
   for (std::uint32_t best = start;; start = best) {
     const Vertex& ring = view.vertices[start];
     for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
-      if (squared_distance(view, view.head[h], p) < squared_distance(view, best, p)) best = view.head[h];
+      if (squared_distance(view, view.half_edges[h].head, p) < squared_distance(view, best, p)) best = view.half_edges[h].head;
     }
     if (best == start) return best;
   }
 }
 
 /// The feature of `body` nearest to `point`, or none where a walk finds the point inside.
-Handle nearest_feature(const ConvexView& point, const ConvexView& body, const MarchStart& start) {
+FeatureId nearest_feature(const ConvexView& point, const ConvexView& body, const MarchStart& start) {
   const Scene pair = scene(point, body, kAtRest, 0);
   std::uint32_t climbs = 0;
   const MarchStart from = settled(pair, start, climbs);
@@ -101,12 +101,12 @@ std::vector<std::uint32_t> nearest_vertices(const ConvexView& level, const Conve
     const auto offer = [&](std::uint32_t w) {
       if (squared_distance(finer, w, vec(v)) < squared_distance(finer, best, vec(v))) best = w;
     };
-    if (start.b.kind() == FeatureKind::Edge) offer(finer.head[start.b.index()]);
+    if (start.b.kind() == FeatureKind::Edge) offer(finer.half_edges[start.b.index()].head);
     if (start.b.kind() == FeatureKind::Face) {
       const std::uint32_t first = finer.face_first[start.b.index()];
       std::uint32_t h = first;
       do {
-        offer(finer.head[h]);
+        offer(finer.half_edges[h].head);
         h = next_in_face(finer, h);
       } while (h != first);
     }
@@ -119,17 +119,17 @@ std::vector<std::uint32_t> nearest_vertices(const ConvexView& level, const Conve
 std::uint32_t kept_face(const ConvexView& level, std::uint32_t face, const std::vector<std::uint32_t>& child,
                         const ConvexView& finer) {
   const std::uint32_t h = level.face_first[face];
-  const std::uint32_t c0 = child[origin(level, h)], c1 = child[level.head[h]];
+  const std::uint32_t c0 = child[origin(level, h)], c1 = child[level.half_edges[h].head];
   const Vertex& ring = finer.vertices[c0];
   for (std::uint32_t k = ring.ring_begin; k < ring.ring_begin + ring.ring_count; ++k) {
-    if (finer.head[k] != c1 || is_diagonal(finer, k)) continue;
+    if (finer.half_edges[k].head != c1 || is_diagonal(finer, k)) continue;
     std::uint32_t coarse = h, fine = k;
     do {
-      if (child[level.head[coarse]] != finer.head[fine]) return kNone;
+      if (child[level.half_edges[coarse].head] != finer.half_edges[fine].head) return kNone;
       coarse = next_in_face(level, coarse);
       fine = next_in_face(finer, fine);
     } while (coarse != h && fine != k);
-    return coarse == h && fine == k ? finer.face[k] : kNone;
+    return coarse == h && fine == k ? finer.half_edges[k].face : kNone;
   }
   return kNone;
 }
@@ -206,7 +206,7 @@ LevelHeader level_header(const Draft& d) {
   double length = 0;
   for (std::uint32_t h = 0; h < s.half_edges.size(); ++h) {
     borders += !is_diagonal(view, h);
-    length += norm(vec(view.vertices[view.head[h]]) - vec(view.vertices[origin(view, h)]));
+    length += norm(vec(view.vertices[view.half_edges[h].head]) - vec(view.vertices[origin(view, h)]));
   }
   header.edge_length = s.half_edges.empty() ? 0 : length / double(s.half_edges.size());
   header.edge_count = borders / 2;
@@ -225,8 +225,9 @@ Vec centroid(const ConvexView& view) {
   for (std::uint32_t f = 0; f < view.face_first.size(); ++f) {
     const std::uint32_t first = view.face_first[f];
     const Vec p = vec(view.vertices[origin(view, first)]) - o;
-    for (std::uint32_t h = next_in_face(view, first); view.head[h] != origin(view, first); h = next_in_face(view, h)) {
-      const Vec q = vec(view.vertices[origin(view, h)]) - o, r = vec(view.vertices[view.head[h]]) - o;
+    for (std::uint32_t h = next_in_face(view, first); view.half_edges[h].head != origin(view, first);
+         h = next_in_face(view, h)) {
+      const Vec q = vec(view.vertices[origin(view, h)]) - o, r = vec(view.vertices[view.half_edges[h].head]) - o;
       const double twice = norm(cross(q - p, r - p));
       sum = sum + (p + q + r) * (twice / 3);
       area += twice;

@@ -19,23 +19,47 @@ namespace {
 constexpr unsigned kMostThreads = 1024;
 constexpr std::size_t kPairsPerTask = 32;  // so few that threads end together, so many that taking one costs nothing
 
-template <class Ask>
-void each(std::span<const PairQuery> pairs, std::span<Answer> answers, const QueryOptions& options, const Executor& executor,
-          Ask ask) {
+/// Runs task(0) to task(count - 1) until a stop is requested.
+template <class Task>
+void run_all(std::size_t count, const Run& run, const Task& task) {
+  const auto unless_stopped = [&](std::size_t i) {
+    if (!run.stop.stop_requested()) task(i);
+  };
+  if (run.executor) return run.executor(count, unless_stopped);
+  for (std::size_t i = 0; i < count; ++i) unless_stopped(i);
+}
+
+/// Trace and proof would be shared by all.
+template <class AnyOptions>
+AnyOptions alone(AnyOptions options) {
+  options.tuning.trace = {};
+  options.tuning.proof = nullptr;
+  return options;
+}
+
+template <class AnyAnswer, class Ask>
+void over_pairs(std::span<const PairQuery> pairs, std::span<AnyAnswer> answers, const Run& run, Ask ask) {
   assert(answers.size() >= pairs.size());
-  const std::size_t tasks = (pairs.size() + kPairsPerTask - 1) / kPairsPerTask;
-  const auto work = [&](std::size_t task) {
+  const auto ask_some = [&](std::size_t task) {
     const std::size_t first = task * kPairsPerTask, end = std::min(first + kPairsPerTask, pairs.size());
     for (std::size_t i = first; i < end; ++i) {
       PairSeed cold;
       const PairQuery& q = pairs[i];
-      QueryOptions own = q.options ? *q.options : options;
-      own.trace = {};
-      answers[i] = ask(*q.a, *q.b, q.b_in_a, q.seed ? *q.seed : cold, own);
+      answers[i] = ask(q.a, q.b, q.b_in_a, q.seed ? *q.seed : cold);
     }
   };
-  if (executor) return executor(tasks, work);
-  for (std::size_t task = 0; task < tasks; ++task) work(task);
+  run_all((pairs.size() + kPairsPerTask - 1) / kPairsPerTask, run, ask_some);
+}
+
+template <class AnyAnswer, class Ask>
+void over_poses(std::span<const Pose> poses, std::span<AnyAnswer> answers, const Run& run, Ask ask) {
+  assert(answers.size() >= poses.size());
+  const auto ask_chunk = [&](std::size_t chunk) {
+    const std::size_t first = chunk * kPosesPerChunk, end = std::min(first + kPosesPerChunk, poses.size());
+    PairSeed seed;
+    for (std::size_t i = first; i < end; ++i) answers[i] = ask(poses[i], seed);
+  };
+  run_all((poses.size() + kPosesPerChunk - 1) / kPosesPerChunk, run, ask_chunk);
 }
 
 /// Threads that wait for tasks: one that starts with each batch may get a core milliseconds late. Each has a range of tasks of
@@ -106,14 +130,78 @@ Executor on_threads(unsigned count) {
              std::size_t tasks, const std::function<void(std::size_t)>& task) { workers->run(tasks, task); };
 }
 
-void distance(std::span<const PairQuery> pairs, std::span<Answer> answers, const QueryOptions& options,
-              const Executor& executor) {
-  each(pairs, answers, options, executor, [](auto&&... q) { return distance(q...); });
+void distance(std::span<const PairQuery> pairs, std::span<Answer> answers, const Options& options, const Run& run) {
+  over_pairs(pairs, answers, run,
+             [&, options = alone(options)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
+               return distance(a, b, b_in_a, seed, options);
+             });
 }
-
-void intersects(std::span<const PairQuery> pairs, std::span<Answer> answers, const QueryOptions& options,
-                const Executor& executor) {
-  each(pairs, answers, options, executor, [](auto&&... q) { return intersects(q...); });
+void signed_distance(std::span<const PairQuery> pairs, std::span<Answer> answers, const Options& options, const Run& run) {
+  over_pairs(pairs, answers, run,
+             [&, options = alone(options)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
+               return signed_distance(a, b, b_in_a, seed, options);
+             });
+}
+void intersects(std::span<const PairQuery> pairs, std::span<Answer> answers, const Effort& effort, const Run& run) {
+  over_pairs(pairs, answers, run,
+             [&, effort = alone(effort)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
+               return intersects(a, b, b_in_a, seed, effort);
+             });
+}
+void within(std::span<const PairQuery> pairs, double threshold, std::span<Within> answers, const Effort& effort,
+            const Run& run) {
+  over_pairs(pairs, answers, run,
+             [&, effort = alone(effort)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
+               return within(a, b, b_in_a, threshold, seed, effort);
+             });
+}
+void signed_within(std::span<const PairQuery> pairs, double threshold, std::span<Within> answers, const Effort& effort,
+                   const Run& run) {
+  over_pairs(pairs, answers, run,
+             [&, effort = alone(effort)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
+               return signed_within(a, b, b_in_a, threshold, seed, effort);
+             });
+}
+void closest_features(std::span<const PairQuery> pairs, std::span<ClosestFeatures> answers, const ClosestOptions& options,
+                      const Run& run) {
+  over_pairs(pairs, answers, run,
+             [&, options = alone(options)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
+               return closest_features(a, b, b_in_a, seed, options);
+             });
+}
+void distance(const Body& a, const Body& b, std::span<const Pose> b_in_a, std::span<Answer> answers, const Options& options,
+              const Run& run) {
+  over_poses(b_in_a, answers, run,
+             [&, options = alone(options)](const Pose& pose, PairSeed& seed) { return distance(a, b, pose, seed, options); });
+}
+void signed_distance(const Body& a, const Body& b, std::span<const Pose> b_in_a, std::span<Answer> answers,
+                     const Options& options, const Run& run) {
+  over_poses(b_in_a, answers, run, [&, options = alone(options)](const Pose& pose, PairSeed& seed) {
+    return signed_distance(a, b, pose, seed, options);
+  });
+}
+void intersects(const Body& a, const Body& b, std::span<const Pose> b_in_a, std::span<Answer> answers, const Effort& effort,
+                const Run& run) {
+  over_poses(b_in_a, answers, run,
+             [&, effort = alone(effort)](const Pose& pose, PairSeed& seed) { return intersects(a, b, pose, seed, effort); });
+}
+void within(const Body& a, const Body& b, std::span<const Pose> b_in_a, double threshold, std::span<Within> answers,
+            const Effort& effort, const Run& run) {
+  over_poses(b_in_a, answers, run, [&, effort = alone(effort)](const Pose& pose, PairSeed& seed) {
+    return within(a, b, pose, threshold, seed, effort);
+  });
+}
+void signed_within(const Body& a, const Body& b, std::span<const Pose> b_in_a, double threshold, std::span<Within> answers,
+                   const Effort& effort, const Run& run) {
+  over_poses(b_in_a, answers, run, [&, effort = alone(effort)](const Pose& pose, PairSeed& seed) {
+    return signed_within(a, b, pose, threshold, seed, effort);
+  });
+}
+void closest_features(const Body& a, const Body& b, std::span<const Pose> b_in_a, std::span<ClosestFeatures> answers,
+                      const ClosestOptions& options, const Run& run) {
+  over_poses(b_in_a, answers, run, [&, options = alone(options)](const Pose& pose, PairSeed& seed) {
+    return closest_features(a, b, pose, seed, options);
+  });
 }
 
 }  // namespace swiftlet

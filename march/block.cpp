@@ -21,7 +21,7 @@ struct FreeAligned {
 };
 
 static_assert(std::endian::native == std::endian::little, "the block is little-endian; a byte-swapping reader is not written");
-static_assert(sizeof(Vertex) == 32 && sizeof(FacePlane) == 32 && sizeof(HalfEdge) == 12 && sizeof(Handle) == 4);
+static_assert(sizeof(Vertex) == 32 && sizeof(FacePlane) == 32 && sizeof(HalfEdge) == 12 && sizeof(FeatureId) == 4);
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 60;  // so that sums of offsets do not overflow
 
@@ -241,12 +241,10 @@ std::string take_level(std::span<const std::byte> block, const Headers& h, std::
   level.view.vertices = cursor.take<Vertex>(l.vertex_count);
   level.view.planes = cursor.take<FacePlane>(l.plane_count);
   const auto half_edges = cursor.take<HalfEdge>(l.half_edge_count);
-  level.view.head = half_edges;
-  level.view.twin = half_edges;
-  level.view.face = half_edges;
+  level.view.half_edges = half_edges;
   level.view.face_first = cursor.take<std::uint32_t>(l.face_count);
   if (i != 0) level.child_vertex = cursor.take<std::uint32_t>(l.vertex_count);
-  if (i != 0) level.child_face = cursor.take<Handle>(l.face_count);
+  if (i != 0) level.child_face = cursor.take<FeatureId>(l.face_count);
   if (!coarsest) level.parent_face = cursor.take<std::uint32_t>(l.face_count);
   std::string fault = topology_fault(level.view);
   if (fault.empty()) fault = plane_fault(level.view);
@@ -320,17 +318,17 @@ Result<Model> BlockReader::read(Block block, int finest) {
   if (!headers) return headers.error();
   if (headers.value().prefix(finest) > block.bytes.size()) return bad("ends before level " + std::to_string(finest) + " does");
   const int count = int(headers.value().levels.size());
-  auto body = std::make_shared<Model::Body>(Model::Body{std::move(block), std::move(headers).value(), count, {}, {}, {}});
+  auto body = std::make_shared<Model::Content>(Model::Content{std::move(block), std::move(headers).value(), count, {}, {}, {}});
   for (const LevelHeader& l : body->headers.levels) body->levels.push_back(described(body->headers.block, l));
   if (const std::string f = take_maps(body->block.bytes, body->headers, body->levels); !f.empty()) return bad(f);
   return with_levels(std::move(body), finest);
 }
 
 Result<Model> BlockReader::refined(const Model& model, int finest) {
-  return with_levels(std::make_shared<Model::Body>(*model.body_), finest);
+  return with_levels(std::make_shared<Model::Content>(*model.content_), finest);
 }
 
-Result<Model> BlockReader::with_levels(std::shared_ptr<Model::Body> body, int finest) {
+Result<Model> BlockReader::with_levels(std::shared_ptr<Model::Content> body, int finest) {
   const auto bytes = body->block.bytes;
   const Headers& h = body->headers;
   while (body->finest > finest) {
@@ -348,7 +346,7 @@ Result<Model> BlockReader::with_levels(std::shared_ptr<Model::Body> body, int fi
 }
 
 BlockParts BlockReader::parts(const Model& model, int finest) {
-  const Model::Body& body = *model.body_;
+  const Model::Content& body = *model.content_;
   const Headers& h = body.headers;
   const auto copy = [&](const Section& section, std::uint64_t bytes) {
     const auto from = part(body.block.bytes, section).last(bytes);

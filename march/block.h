@@ -27,7 +27,7 @@ namespace swiftlet {
 
 inline constexpr int kMaxLevels = 32;
 inline constexpr std::uint32_t kMaxMapSide = 64;
-inline constexpr std::uint32_t kMaxIndex = (1u << 30) - 1;  ///< what a Handle names
+inline constexpr std::uint32_t kMaxIndex = (1u << 30) - 1;  ///< what a FeatureId names
 
 struct Section {
   std::uint64_t offset, bytes, hash;
@@ -91,7 +91,7 @@ class AlignedBytes {
   std::shared_ptr<std::byte[]> data_;
 };
 
-struct Model::Body {
+struct Model::Content {
   Block block;
   Headers headers;
   int finest;                 ///< of the levels whose views are ready
@@ -129,7 +129,7 @@ class BlockReader {
   static BlockParts parts(const Model& model, int finest);
 
  private:
-  static Result<Model> with_levels(std::shared_ptr<Model::Body> body, int finest);
+  static Result<Model> with_levels(std::shared_ptr<Model::Content> body, int finest);
 };
 
 }  // namespace swiftlet

@@ -8,7 +8,9 @@
 #include <swiftlet/check.h>
 
 #include "exact.h"
+#include "radii.h"
 #include "scene.h"
+#include "shape.h"
 #include "surface.h"
 #include "tolerance.h"
 #include "wide.h"
@@ -38,17 +40,17 @@ static inline DoubleDouble reach(std::span<const Vertex> vertices, const Wide& d
 }
 /// Of the exact hull: as far as itself; without it, no farther than any level that encloses it.
 template <class Placing>
-static inline DoubleDouble reach(const Model& model, const Wide& direction, Placing place) {
-  DoubleDouble least = reach(model.level(model.finest_level()).view.vertices, direction, place);
-  for (int i = model.finest_level() + 1; model.finest_level() > 0 && i < model.level_count(); ++i) {
-    if (const DoubleDouble h = reach(model.level(i).view.vertices, direction, place); least > h) least = h;
+static inline DoubleDouble reach(const Shape& body, const Wide& direction, Placing place) {
+  DoubleDouble least = reach(body.level(body.finest_level()).view.vertices, direction, place);
+  for (int i = body.finest_level() + 1; body.finest_level() > 0 && i < body.level_count(); ++i) {
+    if (const DoubleDouble h = reach(body.level(i).view.vertices, direction, place); least > h) least = h;
   }
   return least;
 }
 
-/// How far B, models or spans of vertices, stands from A along `n`, of any length.
-template <class Body>
-static inline double gap_along(const Body& a, const Body& b, const Motion& b_in_a, const Vec& n) {
+/// How far B, shapes or spans of vertices, stands from A along `n`, of any length.
+template <class Vertices>
+static inline double gap_along(const Vertices& a, const Vertices& b, const Motion& b_in_a, const Vec& n) {
   const Wide direction = wide(n);
   const DoubleDouble most_a = reach(a, direction, [](const Vec&p) { return wide(p); }),
                      least_b = -reach(b, -direction, [&](const Vec&p) { return wide(b_in_a, p); });
@@ -95,5 +97,39 @@ static inline Check check_proof(const ConvexView& a, const ConvexView& b, const 
   }
   return exact::tetrahedron_holds_origin(pa, pb, b_in_a) ? kPassed : failed("the proof does not hold the origin");
 }
+
+/// What every check of an answer knows.
+struct Checked {
+  Checked(const Body& of_a, const Body& of_b, const Pose& b_in_a, const Answer& of);
+
+  /// Whether what an answer refuses is illegal, and else radii, levels, the interval and its lower bound are right.
+  Check interval_holds() const;
+  DoubleDouble of_hulls(double bound) const { return DoubleDouble(bound) + at.radii.a() + at.radii.b(); }
+  /// The points, on the hulls of their levels.
+  bool knows_points() const { return !answer.point_a.hasNaN() && !answer.point_b.hasNaN(); }
+  Check points_lie_in_their_levels() const;
+  /// Whether the hulls are proved to overlap: by the proof's vertices, or since no plane separates them.
+  Check hulls_overlap(const OverlapProof* proof) const;
+  /// Of the exact hulls, which are no deeper than any levels around them, and shallower by no more than these deviate: at least
+  /// how deep they overlap; negative where they are apart. Infinite where all their differences lie on a line.
+  DoubleDouble least_depth() const;
+  /// Of the finest levels, whether the kernel's own points prove `upper`; for what has no depth.
+  bool is_near(double upper) const;
+
+  const Setting at;
+  const Shape &a, &b;
+  const Answer& answer;
+  double stretch = 1, radii = 0;
+  Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};  ///< 0 where unknown; of the hulls
+  double touching = 0;                                      ///< law 2's bound of the bodies
+  double slack = 0;                                         ///< likewise, and of the answer's levels
+  double magnitude = 0;                                     ///< of the finest levels
+  double deviation = 0;                                     ///< of the answer's levels
+};
+
+/// Of an answer as a distance.
+Check check_distance(const Checked& of, const OverlapProof* proof);
+/// Of a signed answer.
+Check check_signed(const Checked& of, const OverlapProof* proof);
 
 }  // namespace swiftlet

@@ -86,7 +86,7 @@ std::uint32_t climb(const ConvexView& view, std::uint32_t v, Ordering order, int
     const Vertex& record = view.vertices[v];
     std::uint32_t best = v;
     for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
-      const std::uint32_t w = view.head[h];
+      const std::uint32_t w = view.half_edges[h].head;
       if (sign * order.compare(view.vertices[w], view.vertices[best]) > 0) best = w;
     }
     plane_tests += record.ring_count;
@@ -124,11 +124,11 @@ struct Extreme {
 double reach(const ConvexView& view) { return 2 * kSqrt3 * view.extent; }
 
 /// By how much the direction leans along a feature, a unit length of it.
-double lean(const ConvexView& view, Handle feature, const Slope& slope) {
+double lean(const ConvexView& view, FeatureId feature, const Slope& slope) {
   const std::uint32_t h = feature.kind() == FeatureKind::Edge ? feature.index() : view.face_first[feature.index()];
-  const Vec p = vec(view.vertices[origin(view, h)]), e = vec(view.vertices[view.head[h]]) - p;
+  const Vec p = vec(view.vertices[origin(view, h)]), e = vec(view.vertices[view.half_edges[h].head]) - p;
   if (feature.kind() == FeatureKind::Edge) return std::fabs(slope.along(e)) / norm(e);
-  const Vec f = vec(view.vertices[view.head[next_in_facet(view, h)]]) - p, n = cross(e, f);
+  const Vec f = vec(view.vertices[view.half_edges[next_in_facet(view, h)].head]) - p, n = cross(e, f);
   const double area = norm(n);
   return norm(slope.own - n * (1 / area)) + kCrossError * std::sqrt(dot(e, e) * dot(f, f)) / area;
 }
@@ -137,7 +137,7 @@ double lean(const ConvexView& view, Handle feature, const Slope& slope) {
 /// these rise by at most `rise`, but for `rise_error` of the body's reach. They must be below for certain; what is level with
 /// the feature only up to rounding, itself, leaves a tilt. Infinite where doubles do not tell, or a face has more than three
 /// vertices.
-double overhang(const ConvexView& view, Handle feature, const Slope& slope, double rise, double rise_error) {
+double overhang(const ConvexView& view, FeatureId feature, const Slope& slope, double rise, double rise_error) {
   const double far = reach(view);
   if (feature.kind() == FeatureKind::Vertex) return rise < -rise_error * far ? 0.0 : kInfinity;
   const bool is_edge = feature.kind() == FeatureKind::Edge;
@@ -165,7 +165,7 @@ std::optional<Extreme> top(const ConvexView& view, const Slope& slope, std::uint
     const Vec p = vec(record);
     plane_tests += record.ring_count;
     for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
-      const std::uint32_t w = view.head[h];
+      const std::uint32_t w = view.half_edges[h].head;
       const Vec e = vec(view.vertices[w]) - p;
       if (const double rise = slope.along(e); rise >= surely) visit(w, rise, slope.error(e));
     }
@@ -228,7 +228,7 @@ Supports supports(const Scene& scene, const Vec& n, std::uint32_t start_a, std::
   return {va, vb, gap(scene, n, va, vb, (a_top ? a_top->slack : 0) + (b_top ? b_top->slack : 0))};
 }
 
-Certificate certify(const Scene& scene, Handle a, Handle b, const Witness& seen, std::uint32_t& plane_tests) {
+Certificate certify(const Scene& scene, FeatureId a, FeatureId b, const Witness& seen, std::uint32_t& plane_tests) {
   Certificate c;
   c.point_a = point(body_a(scene), seen.first);
   c.point_b = point(body_b(scene), seen.second);

@@ -30,7 +30,7 @@ struct Certificate {
 
 /// Bounds from what features of `a` and `b`, any kinds but two faces, say of each other. Nothing more is read than the features
 /// where what stands beside them is known to be below, else a climb.
-Certificate certify(const Scene& scene, Handle a, Handle b, const Witness& seen, std::uint32_t& plane_tests);
+Certificate certify(const Scene& scene, FeatureId a, FeatureId b, const Witness& seen, std::uint32_t& plane_tests);
 
 /// Bounds within law 2's of each other leave a plane room to lean by the root of that: nearly parallel faces 1e-8, say. Whether
 /// the points of a certificate do not differ by their distance times the normal within law 2's bound.

@@ -4,7 +4,7 @@
 #include <swiftlet/check.h>
 
 #include "brute.h"
-#include "dilate.h"
+#include "radii.h"
 #include "support_map.h"
 
 namespace swiftlet {
@@ -35,68 +35,109 @@ std::uint32_t map_fault(const Level& level) {
 
 }  // namespace
 
-Check check(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer, double radius_a, double radius_b) {
-  if (answer.status == Status::InvalidPose) {
-    return pose_quality(motion(b_in_a)).legal ? failed("the pose is legal") : kPassed;
-  }
-  const bool radii_are_legal = is_radius(radius_a) && is_radius(radius_b);
-  if (answer.status == Status::InvalidRadius) return radii_are_legal ? failed("the radii are legal") : kPassed;
-  if (!radii_are_legal) return failed("the radii are not legal");
-  const Motion m = motion(b_in_a);
-  const PoseQuality quality = pose_quality(m);
-  if (!quality.legal) return failed("the pose is not legal");
-  if (answer.level_a < a.finest_level() || answer.level_a >= a.level_count() || answer.level_b < b.finest_level() ||
-      answer.level_b >= b.level_count()) {
-    return failed("levels (%d, %d) are not there", answer.level_a, answer.level_b);
-  }
-  if (!(answer.lower >= 0 && answer.upper >= answer.lower))
-    return failed("[%.17g, %.17g] is no interval", answer.lower, answer.upper);
-  const ConvexView &exact_a = a.level(0).view, &exact_b = b.level(0).view;
-  const Scene whole = scene(exact_a, exact_b, m, quality.error);
-  const double radii = radius_a + radius_b,
-               touching = law_two(exact_a.extent + radius_a, exact_b.extent + radius_b, norm(m.t), quality.error);
-  const bool hulls_overlap = answer.proof.count != 0;
-  double apart = std::numeric_limits<double>::infinity();  // the hulls, as the points prove it
+Checked::Checked(const Body& of_a, const Body& of_b, const Pose& b_in_a, const Answer& of)
+    : at(of_a, of_b, b_in_a), a(at.a), b(at.b), answer(of) {
+  const auto has = [](const Shape& body, int level) { return level >= body.finest_level() && level < body.level_count(); };
+  if (at.fault() != Status::Converged || !has(a, of.level_a) || !has(b, of.level_b)) return;
+  const double error = at.quality.error;
+  const Level &level_a = a.level(of.level_a), &level_b = b.level(of.level_b);
+  stretch = std::sqrt(1 + 3 * error);
+  radii = at.radii.sum();
+  if (!of.normal.hasNaN()) normal = vec(of.normal);
+  point_a = vec(of.point_a) - normal * at.radii.a(), point_b = vec(of.point_b) + normal * at.radii.b();
+  touching = at.law_two();
+  slack = larger(scene(level_a.view, level_b.view, at.motion, error).law_two, touching);
+  magnitude = scene(a.level(a.finest_level()).view, b.level(b.finest_level()).view, at.motion, error).magnitude;
+  deviation = level_a.deviation + stretch * level_b.deviation;
+}
 
+Check Checked::interval_holds() const {
+  const Status fault = at.fault();
+  const auto is_refusal = [](Status s) {
+    return s == Status::InvalidPose || s == Status::InvalidRadius || s == Status::InvalidBody;
+  };
+  if (fault != Status::Converged || is_refusal(answer.status)) {
+    return fault == answer.status       ? kPassed
+           : fault == Status::Converged ? failed("pose, radii and bodies are legal")
+                                        : failed("the pose, a radius or a body is not legal");
+  }
+  if (Radii(answer) != at.radii) return failed("the answer is of other radii");
+  const auto has = [](const Shape& body, int level) { return level >= body.finest_level() && level < body.level_count(); };
+  if (!has(a, answer.level_a) || !has(b, answer.level_b))
+    return failed("levels (%d, %d) are not there", int(answer.level_a), int(answer.level_b));
+  if (!(answer.upper >= answer.lower && answer.upper > -std::numeric_limits<double>::infinity()))
+    return failed("[%.17g, %.17g] is no interval", answer.lower, answer.upper);
   if (answer.lower > 0) {
-    const double gap = gap_along(a, b, m, vec(answer.normal));
-    const DoubleDouble claimed = DoubleDouble(answer.lower) + radius_a + radius_b;
-    if (!(double(claimed - gap * (1 + kNormError)) <= kDoubleDoubleError * (whole.magnitude + radii))) {
+    const double gap = gap_along(a, b, at.motion, normal);
+    if (!(double(of_hulls(answer.lower) - gap * (1 + kNormError)) <= kDoubleDoubleError * (magnitude + radii)))
       return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap - radii);
-    }
   }
-  if (std::isfinite(answer.upper) && !(hulls_overlap && answer.point_a.hasNaN() && answer.point_b.hasNaN())) {
-    const Level &level_a = a.level(answer.level_a), &level_b = b.level(answer.level_b);
-    const Scene pair = scene(level_a.view, level_b.view, m, quality.error);
-    const Vec n = hulls_overlap ? Vec{0, 0, 0} : vec(answer.normal);
-    const Vec p = vec(answer.point_a) - n * radius_a, q = vec(answer.point_b) + n * radius_b;
-    const double slack = larger(pair.law_two, touching);
-    apart = norm(q - p) + level_a.deviation + level_b.deviation * (1 + 2 * quality.error);
-    if (!hulls_overlap && !(apart <= answer.upper + radii + 2 * slack))
-      return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart - radii);
-    if (!holds(level_a.view, kAtRest, p, slack)) return failed("point_a is not on level %d of A", answer.level_a);
-    if (!holds(level_b.view, m, q, slack)) return failed("point_b is not on level %d of B", answer.level_b);
+  return kPassed;
+}
+
+Check Checked::points_lie_in_their_levels() const {
+  if (!holds(a.level(answer.level_a).view, kAtRest, point_a, slack))
+    return failed("point_a is not in level %d of A", int(answer.level_a));
+  if (!holds(b.level(answer.level_b).view, at.motion, point_b, slack))
+    return failed("point_b is not in level %d of B", int(answer.level_b));
+  return kPassed;
+}
+
+Check Checked::hulls_overlap(const OverlapProof* proof) const {
+  if (proof && proof->count > 0) {
+    if (answer.level_a != 0 || answer.level_b != 0) return failed("overlap without a proof on level 0");
+    return check_proof(a.level(0).view, b.level(0).view, at.motion, *proof);
   }
+  const DoubleDouble depth = least_depth();
+  const double doubt = kHeightError * magnitude;
+  if (double(depth) < -doubt) return failed("overlap of hulls that a plane separates by %.17g", -double(depth));
+  const bool is_deep = depth.high < std::numeric_limits<double>::infinity() && double(depth) > doubt;
+  return is_deep || is_near(touching) ? kPassed : failed("overlap that nothing proves");
+}
+
+bool Checked::is_near(double upper) const {
+  const Level &finest_a = a.level(a.finest_level()), &finest_b = b.level(b.finest_level());
+  Pose pose;
+  const Motion& m = at.motion;
+  pose.rotation << m.row_x.x, m.row_x.y, m.row_x.z, m.row_y.x, m.row_y.y, m.row_y.z, m.row_z.x, m.row_z.y, m.row_z.z;
+  pose.translation = eigen(m.t);
+  const MarchResult near = march(finest_a.view, finest_b.view, pose, {});
+  const Vec near_a = vec(near.point_a), near_b = vec(near.point_b);
+  return holds(finest_a.view, kAtRest, near_a, slack) && holds(finest_b.view, at.motion, near_b, slack) &&
+         norm(near_b - near_a) + finest_a.deviation + stretch * finest_b.deviation <= upper + radii + 2 * slack;
+}
+
+Check check_distance(const Checked& of, const OverlapProof* proof) {
+  const Answer& answer = of.answer;
+  if (!(answer.lower >= 0)) return failed("lower is %.17g of a distance", answer.lower);
+  const bool between = max_abs(of.normal) > 0;  // else the points are common ones of the hulls
+  const double apart = norm(of.point_b - of.point_a) + of.deviation;
+  if (std::isfinite(answer.upper) && of.knows_points()) {
+    if (between && !(apart <= answer.upper + of.radii + 2 * of.slack))
+      return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart - of.radii);
+    if (const Check in = of.points_lie_in_their_levels(); !in) return in;
+  }
+  if (std::isfinite(answer.upper) && !(between && of.knows_points()) && answer.verdict != Verdict::Overlapping &&
+      !of.is_near(answer.upper))
+    return failed("upper is %.17g, and nothing proves it", answer.upper);
   switch (answer.verdict) {
-    case Verdict::Disjoint:
-      if (!(answer.lower > 0)) return failed("disjoint without a lower bound");
-      break;
+    case Verdict::Disjoint: return answer.lower > 0 ? kPassed : failed("disjoint without a lower bound");
     case Verdict::Touching:
-      if (!(answer.upper <= touching)) return failed("touching with an upper bound of %.17g", answer.upper);
-      break;
-    case Verdict::Overlapping: {
-      if (!hulls_overlap && radii > 0) {
-        if (!(answer.upper == 0 && apart <= radii + 2 * touching))
-          return failed("overlap of radii with points %.17g apart", apart);
-        break;
-      }
-      if (answer.level_a != 0 || answer.level_b != 0) return failed("overlap without a proof on level 0");
-      if (const Check proof = check_proof(exact_a, exact_b, m, answer.proof); !proof) return proof;
-      break;
-    }
+      return answer.upper <= of.touching ? kPassed : failed("touching with an upper bound of %.17g", answer.upper);
+    case Verdict::Overlapping:
+      if (answer.upper != 0) return failed("overlapping with an upper bound of %.17g", answer.upper);
+      if (of.radii > 0 && apart <= of.radii + 2 * of.touching && (between || of.radii > 2 * of.slack)) return kPassed;
+      return between ? failed("overlap of radii with points %.17g apart", apart) : of.hulls_overlap(proof);
     case Verdict::Undecided: break;
   }
   return kPassed;
+}
+
+Check check(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const OverlapProof* proof) {
+  const Checked of(a, b, b_in_a, answer);
+  if (Check interval = of.interval_holds(); !interval || of.at.fault() != Status::Converged)
+    return interval;
+  return answer.is_signed ? check_signed(of, proof) : check_distance(of, proof);
 }
 
 Check verify(const Model& model) {
@@ -109,9 +150,9 @@ Check verify(const Model& model) {
     std::vector<Vec3> points;
     for (const Vertex& v : view.vertices) points.emplace_back(v.x, v.y, v.z);
     std::vector<std::uint32_t> corners, sizes;
-    std::vector<bool> seen(view.head.size(), false);
-    for (std::uint32_t first = 0; first < view.head.size(); ++first) {
-      if (seen[first] || view.face[first] == kNone) continue;
+    std::vector<bool> seen(view.half_edges.size(), false);
+    for (std::uint32_t first = 0; first < view.half_edges.size(); ++first) {
+      if (seen[first] || view.half_edges[first].face == kNone) continue;
       std::uint32_t size = 0, h = first;
       for (; !seen[h]; h = next_in_facet(view, h), ++size) {
         seen[h] = true;

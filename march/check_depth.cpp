@@ -75,18 +75,19 @@ struct Solid {
       rough_points.push_back(rounded(points.back()));
       reach = larger(reach, max_abs(rough_points.back()));
     }
-    std::vector<std::uint32_t> facet_of(view.head.size(), kNone);
-    for (std::uint32_t h = 0; h < view.head.size(); ++h) {
-      if (facet_of[h] != kNone || view.face[h] == kNone) continue;
-      const std::array<std::uint32_t, 3> corner{origin(view, h), view.head[h], view.head[next_in_facet(view, h)]};
+    std::vector<std::uint32_t> facet_of(view.half_edges.size(), kNone);
+    for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
+      if (facet_of[h] != kNone || view.half_edges[h].face == kNone) continue;
+      const std::array<std::uint32_t, 3> corner{origin(view, h), view.half_edges[h].head,
+                                                view.half_edges[next_in_facet(view, h)].head};
       for (std::uint32_t k = h; facet_of[k] == kNone; k = next_in_facet(view, k)) facet_of[k] = std::uint32_t(facets.size());
       facets.push_back({corner, direction(facet_normal(m, vertices[corner[0]], vertices[corner[1]], vertices[corner[2]]))});
     }
-    for (std::uint32_t h = 0; h < view.head.size(); ++h) {
-      if (view.twin[h] < h) continue;
-      const std::uint32_t tail = origin(view, h), head = view.head[h];
+    for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
+      if (view.half_edges[h].twin < h) continue;
+      const std::uint32_t tail = origin(view, h), head = view.half_edges[h].head;
       edges.push_back(
-          {tail, head, {facet_of[h], facet_of[view.twin[h]]}, direction(turned(m, vertices[head], vertices[tail]))});
+          {tail, head, {facet_of[h], facet_of[view.half_edges[h].twin]}, direction(turned(m, vertices[head], vertices[tail]))});
     }
   }
 
@@ -205,98 +206,67 @@ class LeastHeight {
   DoubleDouble least_ = kInfinity;
 };
 
-/// What the answer claims of a distance.
-Answer distance_part(const SignedAnswer& s) {
-  Answer d;
-  d.status = s.status;
-  d.verdict = s.verdict;
-  d.lower = std::max(s.lower, 0.0), d.upper = std::max(s.upper, 0.0);
-  d.normal = s.normal;
-  d.point_a = s.point_a, d.point_b = s.point_b;
-  d.level_a = s.level_a, d.level_b = s.level_b;
-  d.feature_a = s.feature_a, d.feature_b = s.feature_b;
-  d.proof = s.proof;
-  return d;
-}
-
-/// Of the exact hulls, which are no deeper than any levels around them, and shallower by no more than these deviate: at least
-/// how deep they overlap; negative where they are apart. Infinite where all their differences lie on a line.
-DoubleDouble least_depth(const Scene& scene, double deviation) {
-  const int exponent = scene.magnitude > 0 ? kCheckedExponent - std::ilogb(scene.magnitude) : 0;
-  const DoubleDouble least = LeastHeight(scene, exponent).find();
-  if (!(least.high < kInfinity)) return least;
-  return DoubleDouble(Pair{std::ldexp(least.high, -exponent), std::ldexp(least.low, -exponent)}) - deviation;
-}
-
 }  // namespace
 
-Check check(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnswer& answer, double radius_a, double radius_b) {
-  const Motion m = motion(b_in_a);
-  const PoseQuality quality = pose_quality(m);
-  if (answer.status == Status::InvalidPose || answer.status == Status::InvalidRadius || !quality.legal)
-    return check(a, b, b_in_a, distance_part(answer), radius_a, radius_b);
-  if (answer.level_a < a.finest_level() || answer.level_a >= a.level_count() || answer.level_b < b.finest_level() ||
-      answer.level_b >= b.level_count()) {
-    return failed("levels (%d, %d) are not there", answer.level_a, answer.level_b);
-  }
-  if (!(answer.upper >= answer.lower && answer.upper > -kInfinity))
-    return failed("[%.17g, %.17g] is no interval", answer.lower, answer.upper);
-  const Level &finest_a = a.level(a.finest_level()), &finest_b = b.level(b.finest_level()), &level_a = a.level(answer.level_a),
-              &level_b = b.level(answer.level_b);
-  const Scene whole = scene(finest_a.view, finest_b.view, m, quality.error);
-  const double stretch = std::sqrt(1 + 3 * quality.error), radii = radius_a + radius_b,
-               touching =
-                   law_two(a.level(0).view.extent + radius_a, b.level(0).view.extent + radius_b, norm(m.t), quality.error),
-               slack = larger(scene(level_a.view, level_b.view, m, quality.error).law_two, touching),
-               deviation = level_a.deviation + stretch * level_b.deviation, doubt = kHeightError * (whole.magnitude + radii);
-  const auto of_hulls = [&](double bound) { return DoubleDouble(bound) + radius_a + radius_b; };
-  const Vec n = vec(answer.normal);
+DoubleDouble Checked::least_depth() const {
+  const Level &finest_a = a.level(a.finest_level()), &finest_b = b.level(b.finest_level());
+  const Scene finest = scene(finest_a.view, finest_b.view, at.motion, at.quality.error);
+  const int exponent = finest.magnitude > 0 ? kCheckedExponent - std::ilogb(finest.magnitude) : 0;
+  const DoubleDouble least = LeastHeight(finest, exponent).find();
+  if (!(least.high < kInfinity)) return least;
+  return DoubleDouble(Pair{std::ldexp(least.high, -exponent), std::ldexp(least.low, -exponent)}) -
+         (finest_a.deviation + stretch * finest_b.deviation);
+}
+
+Check check_signed(const Checked& of, const OverlapProof* proof) {
+  const Answer& answer = of.answer;
+  const Vec& n = of.normal;
+  const double doubt = kHeightError * (of.magnitude + of.radii);
   if (std::isfinite(answer.lower)) {
     if (!(std::fabs(double(dot(wide(n), wide(n)) - 1.0)) <= kUnitError)) return failed("the normal's length is %.17g", norm(n));
-    const double gap = gap_along(a, b, m, n), error = kNormError * std::fabs(gap) + doubt;
-    if (!(double(of_hulls(answer.lower) - gap) <= error))
-      return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap - radii);
-    if (std::isfinite(answer.upper) && !(double(of_hulls(answer.upper) - gap) >= -error))
-      return failed("upper is %.17g, but the gap along the normal is %.17g", answer.upper, gap - radii);
-    if (answer.upper - answer.lower <= touching && answer.verdict != Verdict::Undecided) {
+    const double gap = gap_along(of.a, of.b, of.at.motion, n), error = kNormError * std::fabs(gap) + doubt;
+    if (!(double(of.of_hulls(answer.lower) - gap) <= error))
+      return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap - of.radii);
+    if (std::isfinite(answer.upper) && !(double(of.of_hulls(answer.upper) - gap) >= -error))
+      return failed("upper is %.17g, but the gap along the normal is %.17g", answer.upper, gap - of.radii);
+    if (answer.upper - answer.lower <= of.touching && answer.verdict != Verdict::Undecided) {
       const Wide between = wide(vec(answer.point_b)) - wide(vec(answer.point_a));
       const double along = std::clamp(double(dot(between, wide(n))), answer.lower, answer.upper);
       const double aside = norm(rounded(between - wide(n) * DoubleDouble(along)));
-      if (!(aside <= slack + deviation)) return failed("the points are %.17g off the signed distance along the normal", aside);
+      if (!(aside <= of.slack + of.deviation))
+        return failed("the points are %.17g off the signed distance along the normal", aside);
     }
   }
-  if (answer.lower > 0) return check(a, b, b_in_a, distance_part(answer), radius_a, radius_b);
+  if (answer.lower > 0) return check_distance(of, proof);
   if (answer.verdict == Verdict::Disjoint) return failed("disjoint without a lower bound");
 
   std::optional<DoubleDouble> found;
   const auto depth = [&] {
-    if (!found) found = least_depth(whole, finest_a.deviation + stretch * finest_b.deviation);
+    if (!found) found = of.least_depth();
     return *found;
   };
-  const bool proved = answer.proof.count > 0 && check_proof(a.level(0).view, b.level(0).view, m, answer.proof);
+  const bool proved = proof && proof->count > 0 && check_proof(of.a.level(0).view, of.b.level(0).view, of.at.motion, *proof);
   if (std::isfinite(answer.upper)) {
-    const Vec p = vec(answer.point_a) - n * radius_a, q = vec(answer.point_b) + n * radius_b;
-    if (!holds(level_a.view, kAtRest, p, slack)) return failed("point_a is not in level %d of A", answer.level_a);
-    if (!holds(level_b.view, m, q, slack)) return failed("point_b is not in level %d of B", answer.level_b);
-    if (const DoubleDouble upper = of_hulls(answer.upper); upper.high < 0) {
+    if (of.knows_points()) {
+      if (const Check in = of.points_lie_in_their_levels(); !in) return in;
+    }
+    const double apart = of.knows_points() ? norm(of.point_b - of.point_a) + of.deviation : kInfinity;
+    if (const DoubleDouble upper = of.of_hulls(answer.upper); upper.high < 0) {
       if (!(depth().high < kInfinity)) return failed("upper is %.17g, but the bodies share a plane", answer.upper);
       if (!(double(-upper - depth()) <= doubt))
-        return failed("upper is %.17g, but the depth is %.17g", answer.upper, double(depth()) + radii);
-    } else if (const double apart = norm(q - p) + deviation; !proved && !(apart <= double(upper) + 2 * slack)) {
+        return failed("upper is %.17g, but the depth is %.17g", answer.upper, double(depth()) + of.radii);
+    } else if (!proved && !(apart <= double(upper) + 2 * of.slack) && !of.is_near(answer.upper)) {
       // A wide interval around 0 may come with the points of an overlap; any two others prove it as well.
-      const MarchResult near = march(finest_a.view, finest_b.view, b_in_a, {});
-      const Vec near_a = vec(near.point_a), near_b = vec(near.point_b);
-      const bool is_near =
-          holds(finest_a.view, kAtRest, near_a, slack) && holds(finest_b.view, m, near_b, slack) &&
-          norm(near_b - near_a) + finest_a.deviation + stretch * finest_b.deviation <= double(upper) + 2 * slack;
-      if (!is_near) return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart - radii);
+      return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart - of.radii);
     }
   }
-  if (answer.verdict == Verdict::Overlapping && !(answer.upper < 0) && !proved) return failed("overlap without a proof");
+  if (answer.verdict == Verdict::Overlapping && !(answer.upper < 0) && !proved) {
+    if (const Check overlap = of.hulls_overlap(nullptr); !overlap) return overlap;
+  }
   if (answer.verdict == Verdict::Touching) {
-    if (!(answer.upper <= touching)) return failed("touching with an upper bound of %.17g", answer.upper);
-    if (answer.lower < -touching && depth().high < kInfinity && !(double(depth() + radii) <= touching + doubt))
-      return failed("touching, but the depth is %.17g", double(depth()) + radii);
+    if (!(answer.upper <= of.touching)) return failed("touching with an upper bound of %.17g", answer.upper);
+    if (answer.lower < -of.touching && depth().high < kInfinity && !(double(depth() + of.radii) <= of.touching + doubt))
+      return failed("touching, but the depth is %.17g", double(depth()) + of.radii);
   }
   return kPassed;
 }

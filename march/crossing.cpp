@@ -36,7 +36,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 bool bounds_solid(const ConvexView& view) { return view.vertices[0].ring_count > 2; }
 
 /// The smallest feature that holds given vertices exactly: none where no facet does.
-Handle feature_holding(const ConvexView& view, const Quad& vertices) {
+FeatureId feature_holding(const ConvexView& view, const Quad& vertices) {
   Quad distinct{};
   int count = 0;
   for (const std::uint32_t v : vertices) {
@@ -47,17 +47,17 @@ Handle feature_holding(const ConvexView& view, const Quad& vertices) {
   if (count == 1) return {FeatureKind::Vertex, distinct[0]};
   const Vertex& ring = view.vertices[distinct[0]];
   for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
-    if (count == 2 && view.head[h] == distinct[1] && !is_diagonal(view, h)) return {FeatureKind::Edge, h};
+    if (count == 2 && view.half_edges[h].head == distinct[1] && !is_diagonal(view, h)) return {FeatureKind::Edge, h};
   }
   for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
-    if (view.face[h] == kNone) continue;
+    if (view.half_edges[h].face == kNone) continue;
     int held = 0;
     std::uint32_t side = h;
     do {
-      for (int i = 0; i < count; ++i) held += view.head[side] == distinct[std::size_t(i)];
+      for (int i = 0; i < count; ++i) held += view.half_edges[side].head == distinct[std::size_t(i)];
       side = next_in_facet(view, side);
     } while (side != h);
-    if (held == count) return {FeatureKind::Face, view.face[h]};
+    if (held == count) return {FeatureKind::Face, view.half_edges[h].face};
   }
   return {};
 }
@@ -66,12 +66,12 @@ Handle feature_holding(const ConvexView& view, const Quad& vertices) {
 class Search {
  public:
   Search(const Scene& scene, std::uint32_t& tests)
-      : scene_(scene), tests_(tests), most_tests_(tests + scene.a.head.size() + scene.b.head.size()) {}
+      : scene_(scene), tests_(tests), most_tests_(tests + scene.a.half_edges.size() + scene.b.half_edges.size()) {}
 
   Crossing run(const OverlapProof& proof) {
     const Vec x = common_point<DoubleDouble>(scene_, proof).point;
-    const Handle a = feature_holding(scene_.a, proof.vertex_a), b = feature_holding(scene_.b, proof.vertex_b);
-    if (a != Handle{} && b != Handle{}) return {a, b, x};
+    const FeatureId a = feature_holding(scene_.a, proof.vertex_a), b = feature_holding(scene_.b, proof.vertex_b);
+    if (a != FeatureId{} && b != FeatureId{}) return {a, b, x};
     std::optional<Crossing> found;
     if (bounds_solid(scene_.a) && bounds_solid(scene_.b)) {
       hint_ = {scene_.a.vertices[proof.vertex_a[0]].ring_begin, scene_.b.vertices[proof.vertex_b[0]].ring_begin};
@@ -111,15 +111,15 @@ class Search {
   /// where one that lies in the plane ends or leaves the facet, another edge or facet begins.
   bool pierces(int k, std::uint32_t edge, std::uint32_t facet) const {
     const ConvexView &own = view(k), &other = view(1 - k);
-    const std::uint32_t tail = origin(own, edge), head = own.head[edge], q = origin(other, facet), r = other.head[facet],
-                        s = other.head[next_in_facet(other, facet)];
+    const std::uint32_t tail = origin(own, edge), head = own.half_edges[edge].head, q = origin(other, facet),
+                        r = other.half_edges[facet].head, s = other.half_edges[next_in_facet(other, facet)].head;
     const int at_tail = side(k, {tail, tail, tail}, {q, r, s});
     const int at_head = side(k, {head, head, head}, {q, r, s});
     if (at_tail == at_head) return false;
     int turn = 0;
     std::uint32_t h = facet;
     do {
-      const std::uint32_t q0 = origin(other, h), q1 = other.head[h];
+      const std::uint32_t q0 = origin(other, h), q1 = other.half_edges[h].head;
       const int sign = side(k, {head, tail, tail}, {q0, q0, q1});
       if (sign * turn < 0) return false;
       turn = sign != 0 ? sign : turn;
@@ -130,10 +130,10 @@ class Search {
 
   Crossing named(int k, std::uint32_t edge, std::uint32_t facet) const {
     const ConvexView &own = view(k), &other = view(1 - k);
-    const Handle pierced{FeatureKind::Face, other.face[facet]};
-    const Handle piercing =
-        is_diagonal(own, edge) ? Handle{FeatureKind::Face, own.face[edge]} : Handle{FeatureKind::Edge, edge};
-    const Vec p = point(k, origin(own, edge)), e = point(k, own.head[edge]) - p, n = normal(1 - k, facet),
+    const FeatureId pierced{FeatureKind::Face, other.half_edges[facet].face};
+    const FeatureId piercing =
+        is_diagonal(own, edge) ? FeatureId{FeatureKind::Face, own.half_edges[edge].face} : FeatureId{FeatureKind::Edge, edge};
+    const Vec p = point(k, origin(own, edge)), e = point(k, own.half_edges[edge].head) - p, n = normal(1 - k, facet),
               q = point(1 - k, origin(other, facet));
     const double at_tail = dot(n, p - q), at_head = at_tail + dot(n, e), t = at_tail / (at_tail - at_head);
     const Vec at = p + e * (t > 0 ? smaller(t, 1) : 0.0);
@@ -180,7 +180,7 @@ class Search {
   Cell cell(int k, std::uint32_t facet) const { return {facet, next_in_facet(view(k), facet)}; }
   std::uint32_t before_in_facet(int k, std::uint32_t h) const {
     const ConvexView& own = view(k);
-    return own.twin[counter_clockwise(own.vertices[origin(own, h)], h)];
+    return own.half_edges[counter_clockwise(own.vertices[origin(own, h)], h)].twin;
   }
 
   /// The signs of `side` are positive outside the facets of the other body where this is.
@@ -191,7 +191,8 @@ class Search {
   /// Whether a vertex of body k lies above (1), in (0) or below the plane of a facet of the other.
   int height(int k, std::uint32_t v, std::uint32_t facet) const {
     const ConvexView& other = view(1 - k);
-    const std::uint32_t q = origin(other, facet), r = other.head[facet], s = other.head[next_in_facet(other, facet)];
+    const std::uint32_t q = origin(other, facet), r = other.half_edges[facet].head,
+                        s = other.half_edges[next_in_facet(other, facet)].head;
     return sense(k) * side(k, {v, v, v}, {q, r, s});
   }
 
@@ -202,13 +203,13 @@ class Search {
     const ConvexView& own = view(k);
     const std::uint32_t root = origin(own, at.first);
     for (;;) {
-      const std::uint32_t tail = origin(own, at.side), head = own.head[at.side];
+      const std::uint32_t tail = origin(own, at.side), head = own.half_edges[at.side].head;
       if (left(root, tail) < 0) {
-        if (tail == own.head[at.first]) return at.first;
+        if (tail == own.half_edges[at.first].head) return at.first;
         at.side = before_in_facet(k, at.side);
       } else if (left(head, root) < 0) {
         const std::uint32_t next = next_in_facet(own, at.side);
-        if (own.head[next] == root) return next;
+        if (own.half_edges[next].head == root) return next;
         at.side = next;
       } else {
         return left(tail, head) < 0 ? at.side : kNone;
@@ -228,7 +229,7 @@ class Search {
     const std::uint32_t apex = apex_[std::size_t(1 - k)], ring = other.vertices[apex].ring_begin;
     Cell& last = cell_[std::size_t(1 - k)];
     Cell at = last;
-    for (std::size_t steps = other.head.size(); steps > 0; --steps) {  // of a convex body none are left
+    for (std::size_t steps = other.half_edges.size(); steps > 0; --steps) {  // of a convex body none are left
       const int above = height(k, v, at.first);
       if (above > 0) return {1, at.first};
       bool on_side = false;
@@ -239,7 +240,7 @@ class Search {
       });
       last = at;
       if (edge != kNone) {
-        at = cell(1 - k, other.twin[edge]);
+        at = cell(1 - k, other.half_edges[edge].twin);
         continue;
       }
       if (above == 0) return {0, at.first};
@@ -256,13 +257,13 @@ class Search {
   std::uint32_t entered(int k, std::uint32_t p, std::uint32_t q, Cell& from) const {
     const ConvexView& other = view(1 - k);
     Cell at = from;
-    for (std::size_t steps = other.head.size(); steps > 0 && height(k, p, at.first) > 0; --steps) {
+    for (std::size_t steps = other.half_edges.size(); steps > 0 && height(k, p, at.first) > 0; --steps) {
       const std::uint32_t edge = beyond(1 - k, at, [&](std::uint32_t u, std::uint32_t w) {
         return -sense(k) * side(k, {q, p, p}, {u, u, w});
       });
       from = at;
       if (edge == kNone) return height(k, q, at.first) <= 0 ? at.first : kNone;
-      at = cell(1 - k, other.twin[edge]);
+      at = cell(1 - k, other.half_edges[edge].twin);
     }
     return kNone;
   }
@@ -272,8 +273,8 @@ class Search {
     const ConvexView &own = view(k), &other = view(1 - k);
     inside = bounds_solid(other);
     if (!inside) {
-      for (std::uint32_t h = 0; h < own.head.size() && !other.face_first.empty(); ++h) {
-        if (h < own.twin[h] && pierces(k, h, other.face_first[0])) return named(k, h, other.face_first[0]);
+      for (std::uint32_t h = 0; h < own.half_edges.size() && !other.face_first.empty(); ++h) {
+        if (h < own.half_edges[h].twin && pierces(k, h, other.face_first[0])) return named(k, h, other.face_first[0]);
       }
       return std::nullopt;
     }
@@ -285,7 +286,7 @@ class Search {
       const Vertex& ring = own.vertices[v];
       for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
         const bool on = place.side == 0 && pierces(k, h, place.facet);
-        const std::uint32_t facet = on ? place.facet : place.side > 0 ? entered(k, v, own.head[h], below) : kNone;
+        const std::uint32_t facet = on ? place.facet : place.side > 0 ? entered(k, v, own.half_edges[h].head, below) : kNone;
         if (facet != kNone) return named(k, h, facet);
       }
     }
@@ -301,7 +302,7 @@ class Search {
       for (std::uint32_t v = 1; v < own.vertices.size(); ++v) {
         if (own.vertices[v].ring_count < own.vertices[apex].ring_count) apex = v;
       }
-      cell_[std::size_t(k)] = cell(k, own.twin[next_in_facet(own, own.vertices[apex].ring_begin)]);
+      cell_[std::size_t(k)] = cell(k, own.half_edges[next_in_facet(own, own.vertices[apex].ring_begin)].twin);
     }
     const int smaller_one = scene_.a.extent < scene_.b.extent ? 0 : 1;
     for (const int k : {smaller_one, 1 - smaller_one}) {
@@ -328,7 +329,7 @@ class Search {
   Vec normal(int k, std::uint32_t facet) const {
     const ConvexView& own = view(k);
     const Vec q = point(k, origin(own, facet));
-    return cross(point(k, own.head[facet]) - q, point(k, own.head[next_in_facet(own, facet)]) - q);
+    return cross(point(k, own.half_edges[facet].head) - q, point(k, own.half_edges[next_in_facet(own, facet)].head) - q);
   }
 
   Exit through(int k, std::uint32_t facet, const Vec& p, const Vec& d) const {
@@ -347,7 +348,7 @@ class Search {
     for (bool rises = true; rises && !spent();) {
       rises = false;
       each_edge_of_facet(k, best.facet, [&](std::uint32_t h) {
-        const Exit next = through(k, view(k).twin[h], p, d);
+        const Exit next = through(k, view(k).half_edges[h].twin, p, d);
         if (next.rate > best.rate) best = next, rises = true;
       });
     }
@@ -388,7 +389,8 @@ class Search {
   std::uint32_t corner_outside(std::uint32_t facet, const Vec& x) {
     std::uint32_t found = kNone;
     each_edge_of_facet(1, facet, [&](std::uint32_t h) {
-      if (found == kNone && towards(0, x, point(1, scene_.b.head[h])).ends_outside()) found = scene_.b.head[h];
+      if (found == kNone && towards(0, x, point(1, scene_.b.half_edges[h].head)).ends_outside())
+        found = scene_.b.half_edges[h].head;
     });
     return found;
   }
@@ -407,8 +409,8 @@ class Search {
         Exit best = at;
         std::uint32_t shared = kNone;
         each_edge_of_facet(1, at.facet, [&](std::uint32_t h) {
-          const Exit next = through(1, scene_.b.twin[h], x, d);
-          if (next.rate > best.rate) best = next, shared = scene_.b.head[h];
+          const Exit next = through(1, scene_.b.half_edges[h].twin, x, d);
+          if (next.rate > best.rate) best = next, shared = scene_.b.half_edges[h].head;
         });
         if (shared == kNone || spent()) return std::nullopt;
         p = point(1, shared);  // inside A, as all corners so far
@@ -424,12 +426,12 @@ class Search {
 
   std::array<std::uint32_t, 3> corners(int k, std::uint32_t facet) const {
     const ConvexView& own = view(k);
-    return {origin(own, facet), own.head[facet], own.head[next_in_facet(own, facet)]};
+    return {origin(own, facet), own.half_edges[facet].head, own.half_edges[next_in_facet(own, facet)].head};
   }
 
   /// Body k lies inside the other.
   Crossing inner(int k, const Vec& x) const {
-    const Handle any{FeatureKind::Vertex, 0};
+    const FeatureId any{FeatureKind::Vertex, 0};
     return k == 0 ? Crossing{any, {}, x} : Crossing{{}, any, x};
   }
   const Scene& scene_;
@@ -448,21 +450,21 @@ double off_segment(const Vec& p, const Vec& q0, const Vec& q1) {
 }
 
 template <class Body>
-Handle feature_at(const Body& body, Handle known, const Vec& p, double bound, std::uint32_t& tests) {
+FeatureId feature_at(const Body& body, FeatureId known, const Vec& p, double bound, std::uint32_t& tests) {
   const ConvexView& view = body.view;
   if (known.kind() != FeatureKind::Vertex || norm(p - body.point(known.index())) <= bound) return known;
   double least = 2 * bound;
   std::uint32_t nearest = kNone;
-  for (std::uint32_t facet = 0; facet < view.head.size(); ++facet) {
+  for (std::uint32_t facet = 0; facet < view.half_edges.size(); ++facet) {
     // Planes of slivers are uncertain, their sides are not.
-    const Vec q = body.point(origin(view, facet)), tip = body.point(view.head[facet]),
-              n = cross(tip - q, body.point(view.head[next_in_facet(view, facet)]) - q);
+    const Vec q = body.point(origin(view, facet)), tip = body.point(view.half_edges[facet].head),
+              n = cross(tip - q, body.point(view.half_edges[next_in_facet(view, facet)].head) - q);
     const double height = std::fabs(dot(n, p - q)), length = norm(n);
     ++tests;
     double off = off_segment(p, q, tip);
     bool above = length > 0 && height <= least * length;
     for (std::uint32_t h = facet; above;) {
-      const Vec q0 = body.point(origin(view, h)), q1 = body.point(view.head[h]);
+      const Vec q0 = body.point(origin(view, h)), q1 = body.point(view.half_edges[h].head);
       above = dot(cross(q1 - q0, p - q0), n) >= 0;
       h = next_in_facet(view, h);
       if (h == facet) break;
@@ -471,11 +473,11 @@ Handle feature_at(const Body& body, Handle known, const Vec& p, double bound, st
     if (off < least) least = off, nearest = facet;
   }
   if (nearest == kNone) return known;
-  Handle smallest{view.face[nearest] == kNone ? FeatureKind::Edge : FeatureKind::Face,
-                  view.face[nearest] == kNone ? nearest : view.face[nearest]};
+  FeatureId smallest{view.half_edges[nearest].face == kNone ? FeatureKind::Edge : FeatureKind::Face,
+                     view.half_edges[nearest].face == kNone ? nearest : view.half_edges[nearest].face};
   std::uint32_t h = nearest;
   do {
-    const std::uint32_t v0 = origin(view, h), v1 = view.head[h];
+    const std::uint32_t v0 = origin(view, h), v1 = view.half_edges[h].head;
     if (norm(p - body.point(v0)) <= bound) return {FeatureKind::Vertex, v0};
     if (!is_diagonal(view, h) && off_segment(p, body.point(v0), body.point(v1)) <= bound) smallest = {FeatureKind::Edge, h};
     h = next_in_facet(view, h);
@@ -485,10 +487,10 @@ Handle feature_at(const Body& body, Handle known, const Vec& p, double bound, st
 
 }  // namespace
 
-Handle feature_at_a(const Scene& scene, Handle known, const Vec& p, std::uint32_t& plane_tests) {
+FeatureId feature_at_a(const Scene& scene, FeatureId known, const Vec& p, std::uint32_t& plane_tests) {
   return feature_at(body_a(scene), known, p, scene.law_two, plane_tests);
 }
-Handle feature_at_b(const Scene& scene, Handle known, const Vec& p, std::uint32_t& plane_tests) {
+FeatureId feature_at_b(const Scene& scene, FeatureId known, const Vec& p, std::uint32_t& plane_tests) {
   return feature_at(body_b(scene), known, p, scene.law_two, plane_tests);
 }
 

@@ -13,7 +13,7 @@ namespace swiftlet {
 /// Features of both bodies and a point that they share, rounded. Where one body lies inside the other and the surfaces share
 /// nothing: a vertex of the inner one, no feature of the outer, and a point of both bodies.
 struct Crossing {
-  Handle a, b;
+  FeatureId a, b;
   Vec point;
 };
 
@@ -28,7 +28,7 @@ Crossing crossing(const Scene& scene, const OverlapProof& proof, std::uint32_t& 
 /// and the point is elsewhere, the smallest feature within the bound; `known` again where no facet comes near. Certified
 /// progress and the depth may end on vertices that no feature holds, near 0 or near the surface, and name one of them. Cost: of
 /// the search all facets.
-Handle feature_at_a(const Scene& scene, Handle known, const Vec& p, std::uint32_t& plane_tests);
-Handle feature_at_b(const Scene& scene, Handle known, const Vec& p, std::uint32_t& plane_tests);
+FeatureId feature_at_a(const Scene& scene, FeatureId known, const Vec& p, std::uint32_t& plane_tests);
+FeatureId feature_at_b(const Scene& scene, FeatureId known, const Vec& p, std::uint32_t& plane_tests);
 
 }  // namespace swiftlet

@@ -11,10 +11,10 @@
 #include "confirm.h"
 #include "crossing.h"
 #include "difference.h"
-#include "dilate.h"
 #include "epa.h"
 #include "model_pair.h"
 #include "progress.h"
+#include "radii.h"
 #include "ring.h"
 #include "seed.h"
 #include "walk.h"
@@ -37,10 +37,10 @@ struct Span {
   int count = 0;
   std::array<std::uint32_t, 4> vertex{};
 };
-Span span_of(const ConvexView& view, Handle feature) {
+Span span_of(const ConvexView& view, FeatureId feature) {
   const std::uint32_t i = feature.index();
   if (feature.kind() == FeatureKind::Vertex) return {1, {i}};
-  if (feature.kind() == FeatureKind::Edge) return {2, {origin(view, i), view.head[i]}};
+  if (feature.kind() == FeatureKind::Edge) return {2, {origin(view, i), view.half_edges[i].head}};
   Span span;
   std::uint32_t h = view.face_first[i];
   do {
@@ -53,21 +53,22 @@ Span span_of(const ConvexView& view, Handle feature) {
 /// From level pair to finer level pair until the target is met.
 class Deepening {
  public:
-  Deepening(const Model& a, const Model& b, const Motion& m, double pose_error, const QueryOptions& options,
-            const DepthTarget& target)
-      : pair_(a, b, m, pose_error, options),
-        a_(a),
-        b_(b),
-        line_(line_of_centres(m, pair_.line)),
-        options_(options),
+  Deepening(const Setting& at, const Limits& limits, const DepthTarget& target)
+      : pair_(*at.a, *at.b, at.motion, at.quality.error, limits),
+        a_(*at.a),
+        b_(*at.b),
+        line_(line_of_centres(at.motion, pair_.line)),
+        budget_(limits.budget),
+        trace_(limits.trace),
         target_(target),
         law_two_(pair_.law_two),
         finest_a_(pair_.finest_a),
         finest_b_(pair_.finest_b) {}
 
-  /// `floor`: at most 0, as DepthGoal's.
-  void run(const PairSeed& seed, double floor = 0) {
+  /// `floor`: at most 0, as DepthGoal's. `visited`: level pairs that are in the trace already.
+  void run(const PairSeed& seed, double floor = 0, int visited = 0) {
     floor_ = floor;
+    levels_visited = visited;
     lower = -kInfinity, upper = kInfinity;
     // No farther than their centres and radii allow: a pair that deviates by more than that allows cannot answer.
     double most = a_.radius() + pair_.stretch * b_.radius() - norm(line_.in_a);
@@ -81,13 +82,16 @@ class Deepening {
       const bool last = place_.level_a == finest_a_ && place_.level_b == finest_b_;
       const double allowed = larger(target_.absolute, target_.relative * smaller(upper, most));
       if (last || error <= allowed || target_.is_threshold()) {
+        const std::uint32_t steps_before = steps, tests_before = plane_tests;
         solve(seed, direction, error);
+        note(trace_, std::size_t(levels_visited++),
+             {place_.level_a, place_.level_b, -upper, -lower, steps - steps_before, plane_tests - tests_before});
         if (last || end == DepthEnd::Apart || end == DepthEnd::Budget || answered()) break;
         direction = normal;
       }
       place_ = {std::max(place_.level_a - 1, finest_a_), std::max(place_.level_b - 1, finest_b_), {}};
     }
-    if (end == DepthEnd::NotConverged && steps >= options_.step_budget) end = DepthEnd::Budget;
+    if (end == DepthEnd::NotConverged && steps >= budget_.steps) end = DepthEnd::Budget;
     if (end == DepthEnd::NotConverged && answered()) end = DepthEnd::Converged;
   }
 
@@ -115,9 +119,10 @@ class Deepening {
   double lower = -kInfinity, upper = kInfinity;  ///< of the depth of the exact hulls
   Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};
   bool has_points = false;
-  Handle feature_a, feature_b;
+  FeatureId feature_a, feature_b;
   int level_a = 0, level_b = 0;
   std::uint32_t steps = 0, plane_tests = 0;
+  int levels_visited = 0;
 
  private:
   double deviation() const { return pair_.deviation(place_.level_a, place_.level_b); }
@@ -129,7 +134,7 @@ class Deepening {
   /// The line of centres, or where maps show the difference of the bodies lower, across the thinner side of either's box;
   /// `most` becomes its height, if that is less.
   Vec lowest_seen(double& most) const {
-    const auto across = [](const Model& model) { return least_axis(vec(model.box_max()) - vec(model.box_min())); };
+    const auto across = [](const Shape& body) { return least_axis(body.size()); };
     const ConvexView &view_a = a_.level(finest_a_).view, &view_b = b_.level(finest_b_).view;
     Vec lowest = normalised(line_.in_a);
     if (a_.map_level() == a_.level_count() || b_.map_level() == b_.level_count()) return lowest;
@@ -190,8 +195,7 @@ class Deepening {
         if (turns) continue;
       }
       at = settled(apart, at, plane_tests);
-      const Walk w =
-          walk(apart, at.a, at.b, PlaneRule::MostViolated, options_.step_budget - std::min(steps, options_.step_budget));
+      const Walk w = walk(apart, at.a, at.b, PlaneRule::MostViolated, budget_.steps - std::min(steps, budget_.steps));
       steps += w.steps, plane_tests += w.plane_tests;
       if (w.end != WalkEnd::Minimum) break;
       at = {w.a, w.b};
@@ -218,7 +222,7 @@ class Deepening {
   Depth depth_of(const Scene& pair, const Level& of_a, const Level& of_b, const PairSeed& seed, const Vec& direction,
                  DepthGoal goal) {
     const auto confirmed = [&](const DepthStart& at, Depth& found) {
-      const bool is_so = steps < options_.step_budget && confirm(pair, of_a, of_b, at, goal, plane_tests, found);
+      const bool is_so = steps < budget_.steps && confirm(pair, of_a, of_b, at, goal, plane_tests, found);
       return steps += found.steps, is_so;
     };
     const bool fits = near_ && seed.level_a == place_.level_a && seed.level_b == place_.level_b &&
@@ -235,7 +239,7 @@ class Deepening {
       if (confirmed(at, found)) return found;
     }
     if (goal.error > 0) at = {}, at.direction = direction;  // of a coarse pair bounds are wanted, and no facet
-    goal.step_budget = options_.step_budget - std::min(steps, options_.step_budget);
+    goal.step_budget = budget_.steps - std::min(steps, budget_.steps);
     found = epa(pair, of_a, of_b, at, goal, plane_tests);
     return steps += found.steps, found;
   }
@@ -267,9 +271,10 @@ class Deepening {
   }
 
   const ModelPair pair_;
-  const Model &a_, &b_;
+  const Shape &a_, &b_;
   const Line line_;
-  const QueryOptions& options_;
+  const Budget& budget_;
+  const std::span<LevelRecord> trace_;
   const DepthTarget target_;
   const double law_two_;
   const int finest_a_, finest_b_;
@@ -278,55 +283,36 @@ class Deepening {
   Place place_{};
 };
 
-SignedAnswer invalid(Status status) {
-  SignedAnswer s;
-  s.status = status;
-  return s;
-}
-
-SignedAnswer apart(const Answer& near) {
-  SignedAnswer s;
-  s.status = near.status;
-  s.verdict = near.verdict;
-  s.lower = near.lower, s.upper = near.upper;
-  s.normal = near.normal;
-  s.point_a = near.point_a, s.point_b = near.point_b;
-  s.level_a = near.level_a, s.level_b = near.level_b;
-  s.feature_a = near.feature_a, s.feature_b = near.feature_b;
-  s.proof = near.proof;
-  s.steps = near.steps, s.plane_tests = near.plane_tests;
-  return s;
-}
-
 /// The depth found, as a signed distance of at most `upper`; what it lacks stays.
-void take(const Deepening& deep, SignedAnswer& s) {
+void take(const Deepening& deep, Answer& s) {
   s.lower = -deep.upper;
   s.normal = eigen(deep.normal);
-  s.level_a = deep.level_a, s.level_b = deep.level_b;
+  s.level_a = std::int16_t(deep.level_a), s.level_b = std::int16_t(deep.level_b);
   if (deep.has_points && s.verdict != Verdict::Touching) {  // those of a distance of 0 are as near, on any shape
     s.point_a = eigen(deep.point_a), s.point_b = eigen(deep.point_b);
     s.feature_a = deep.feature_a, s.feature_b = deep.feature_b;
   }
 }
 
-void add_work(const Deepening& deep, SignedAnswer& s) {
+void add_work(const Deepening& deep, Answer& s) {
   s.steps += deep.steps;
   s.plane_tests += deep.plane_tests;
+  s.levels_visited = std::uint8_t(std::max(int(s.levels_visited), deep.levels_visited));
 }
 
 /// One interval of a distance that is not surely above 0 and of the depth.
-void join(const Deepening& deep, SignedAnswer& s, PairSeed& seed) {
+void join(const Deepening& deep, Answer& s, OverlapProof& proof, PairSeed& seed) {
   const bool overlapping = deep.proved() || s.verdict == Verdict::Overlapping;
   if (s.status == Status::Converged) s.status = deep.status();
   if (overlapping) s.verdict = Verdict::Overlapping;
   s.upper = smaller(overlapping ? smaller(s.upper, 0) : s.upper, -deep.lower);
-  if (s.upper < 0) s.proof = {};
+  if (s.upper < 0) proof = {};
   take(deep, s);
   if (overlapping) deep.store(seed);
 }
 
 /// A distance whose bound was 0, of bodies that a plane of the depth turned out to separate.
-void part(const Deepening& deep, SignedAnswer& s) {
+void part(const Deepening& deep, Answer& s) {
   s.verdict = Verdict::Disjoint;
   s.lower = -deep.upper;
   s.upper = larger(s.upper, s.lower);
@@ -334,7 +320,7 @@ void part(const Deepening& deep, SignedAnswer& s) {
 }
 
 /// Bounds of a touching pair that law 2 allows one by one and not together: 106 bits narrow that of the distance.
-void sharpen(const ModelPair& pair, SignedAnswer& s) {
+void sharpen(const ModelPair& pair, Answer& s) {
   const Place place{s.level_a, s.level_b, {s.feature_a, s.feature_b}};
   const Scene scene = pair.scene_at(place);
   const MarchStart from = settled(scene, place.start, s.plane_tests);
@@ -344,8 +330,9 @@ void sharpen(const ModelPair& pair, SignedAnswer& s) {
 }
 
 /// What the depth alone says.
-SignedAnswer overlap_part(const Deepening& deep) {
-  SignedAnswer s;
+Answer overlap_part(const Deepening& deep) {
+  Answer s;
+  s.normal.setZero();
   s.status = deep.status();
   s.upper = -deep.lower;
   take(deep, s);
@@ -354,70 +341,100 @@ SignedAnswer overlap_part(const Deepening& deep) {
   return add_work(deep, s), s;
 }
 
+/// An answer of the hulls as one of the bodies.
+void finish(const Setting& at, const Limits& limits, OverlapProof& proof, Answer& s) {
+  s.is_signed = true;
+  if (!(s.lower > -kInfinity)) s.normal.setZero();
+  const std::size_t recorded = std::min(limits.trace.size(), std::size_t(s.levels_visited));
+  for (LevelRecord& record : limits.trace.first(recorded)) at.radii.round_signed(record);
+  at.radii.round_signed(s, proof, at.law_two());
+  seal(at.radii, proof, limits.tuning, s);
+}
+
+/// Bounds of a distance say nothing of a depth.
+void make_signed(std::span<LevelRecord> trace, int visited) {
+  for (LevelRecord& record : trace.first(std::min(trace.size(), std::size_t(visited)))) {
+    if (!(record.lower > 0)) record.lower = -kInfinity;
+  }
+}
+
 }  // namespace
 
-SignedAnswer signed_distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options) {
-  const Motion m = motion(b_in_a);
-  const PoseQuality quality = pose_quality(m);
-  if (!quality.legal) return invalid(Status::InvalidPose);
-  const Dilation dilation(options);
-  if (!dilation.legal()) return invalid(Status::InvalidRadius);
-  const double law_two = dilation.law_two(a, b, m);
-  Deepening deep(a, b, m, quality.error, options, {options.absolute_error, options.relative_error});
+Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options) {
+  if (options.tuning.proof) *options.tuning.proof = {};
+  const Setting at(a, b, b_in_a);
+  if (const Status fault = at.fault(); fault != Status::Converged) return refused(a, b, fault, true);
+  Limits limits(options.budget, options.tuning);
+  Deepening deep(at, limits, {options.absolute, options.relative});
+  OverlapProof proof;
   if (seed.met) deep.run(seed);
-  SignedAnswer answer;
   if (deep.proved()) {
     deep.store(seed);
-    answer = overlap_part(deep);
-    dilation.dilate(answer, law_two);
+    Answer answer = overlap_part(deep);
+    finish(at, limits, proof, answer);
     return answer;
   }
-  const Target target{options.absolute_error, options.relative_error, options.beyond, -kInfinity};
-  answer = apart(descend(a, b, b_in_a, seed, options, dilation.of_hulls(target, law_two)));
+  Answer answer;
+  const Target target{options.absolute, options.relative, options.beyond, -kInfinity};
+  const int visited = deep.levels_visited;
+  if (!limits.trace.empty()) limits.trace = limits.trace.last(std::max(1, int(limits.trace.size()) - visited));
+  descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, at.radii.of_hulls(target, at.law_two()), answer, proof);
+  make_signed(limits.trace, answer.levels_visited);
+  limits.trace = options.tuning.trace;
+  answer.levels_visited = std::uint8_t(answer.levels_visited + visited);
   if (!(answer.lower > 0)) {
     const bool touching = answer.verdict == Verdict::Touching;
     PairSeed here = touching ? seed : PairSeed{};  // where bodies met, they need not be deepest
     here.met = touching;
     const double floor = -answer.upper;  // the distance bounds the depth
-    if (deep.end != DepthEnd::Apart && (deep.steps == 0 || !deep.narrow(floor))) deep.run(here, floor);
+    if (deep.end != DepthEnd::Apart && (deep.steps == 0 || !deep.narrow(floor))) deep.run(here, floor, answer.levels_visited);
     if (deep.end == DepthEnd::Apart)
       part(deep, answer);
     else
-      join(deep, answer, seed);
+      join(deep, answer, proof, seed);
     if (touching && answer.status == Status::NotConverged) {
       sharpen(deep.pair(), answer);
       if (answer.upper - answer.lower <= deep.pair().law_two) answer.status = Status::Converged;
     }
   }
   add_work(deep, answer);
-  dilation.dilate(answer, law_two);
+  finish(at, limits, proof, answer);
   return answer;
 }
 
-SignedWithin signed_within(const Model& a, const Model& b, const Pose& b_in_a, double threshold, PairSeed& seed,
-                           const QueryOptions& options) {
-  const Motion m = motion(b_in_a);
-  const PoseQuality quality = pose_quality(m);
-  if (!quality.legal) return {Decision::Undecided, invalid(Status::InvalidPose)};
-  const Dilation dilation(options);
-  if (!dilation.legal()) return {Decision::Undecided, invalid(Status::InvalidRadius)};
-  const double of_hulls = threshold + dilation.sum();
-  SignedWithin result;
+Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, const Options& options) {
+  PairSeed cold;
+  return signed_distance(a, b, b_in_a, cold, options);
+}
+
+Within signed_within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, PairSeed& seed, const Effort& effort) {
+  if (effort.tuning.proof) *effort.tuning.proof = {};
+  const Setting at(a, b, b_in_a);
+  if (const Status fault = at.fault(); fault != Status::Converged) return {Decision::Undecided, refused(a, b, fault, true)};
+  const Limits limits(effort.budget, effort.tuning);
+  const double of_hulls = threshold + at.radii.sum();
+  Within result;
+  OverlapProof proof;
   if (of_hulls < 0) {
-    Deepening deep(a, b, m, quality.error, options, {0, 0, -of_hulls});
+    Deepening deep(at, limits, {0, 0, -of_hulls});
     deep.run(seed);
     if (deep.proved()) deep.store(seed);
     result.answer = overlap_part(deep);
   } else {
-    const Answer near = descend(a, b, b_in_a, seed, options, {0, 0, of_hulls, of_hulls});
-    result.answer = apart(near);
+    descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, {0, 0, of_hulls, of_hulls}, result.answer, proof);
+    make_signed(limits.trace, result.answer.levels_visited);
     if (result.answer.status == Status::Beyond) result.answer.status = Status::Converged;
-    if (!(near.lower > 0)) result.answer.lower = -kInfinity;
+    if (!(result.answer.lower > 0)) result.answer.lower = -kInfinity;
   }
-  dilation.dilate(result.answer, dilation.law_two(a, b, m));
+  finish(at, limits, proof, result.answer);
   if (result.answer.lower > threshold) result.decision = Decision::No;
   if (result.answer.upper <= threshold) result.decision = Decision::Yes;
   return result;
+}
+
+Within signed_within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, const Effort& effort) {
+  PairSeed cold;
+  return signed_within(a, b, b_in_a, threshold, cold, effort);
 }
 
 }  // namespace swiftlet

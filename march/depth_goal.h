@@ -36,8 +36,8 @@ struct DepthGoal {
 struct DepthStart {
   int count = 0;
   std::array<std::uint32_t, 4> a{}, b{};
-  Vec direction{0, 0, 0};       ///< from A to B
-  Handle feature_a, feature_b;  ///< what the pairs are of; none where they are of no facet
+  Vec direction{0, 0, 0};          ///< from A to B
+  FeatureId feature_a, feature_b;  ///< what the pairs are of; none where they are of no facet
 };
 
 enum class DepthEnd : std::uint8_t {
@@ -56,7 +56,7 @@ struct Depth {
   Vec normal{0, 0, 0};                                     ///< unit, from A to B: B moves along it by `upper` to be free
   Vec point_a{0, 0, 0}, point_b{0, 0, 0};                  ///< deepest points: they differ by the depth times the normal
   ActiveSet active;                                        ///< whose weights make the points
-  Handle feature_a, feature_b;                             ///< that hold them, where the start named them
+  FeatureId feature_a, feature_b;                          ///< that hold them, where the start named them
   std::uint32_t steps = 0;                                 ///< supports found
 };
 

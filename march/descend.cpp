@@ -21,22 +21,27 @@ namespace {
 
 class Descent {
  public:
-  Descent(const ModelPair& pair, const QueryOptions& options, const Target& target, const Glance& first, Answer& answer)
+  Descent(const ModelPair& pair, const Limits& limits, const Target& target, const Glance& first, Answer& answer,
+          OverlapProof& proof)
       : pair_(pair),
         a_(pair.a),
         b_(pair.b),
         line_(line_of_centres(pair.motion, pair.line)),
-        options_(options),
+        budget_(limits.budget),
+        tuning_(limits.tuning),
+        trace_(limits.trace),
         target_(target),
         law_two_(pair.law_two),
         finest_a_(pair.finest_a),
         finest_b_(pair.finest_b),
-        exact_(target.absolute == 0 && target.relative == 0 && options.start != StartPolicy::Paper && !target.is_threshold()),
+        exact_(target.absolute == 0 && target.relative == 0 && limits.tuning.start != StartPolicy::Paper &&
+               !target.is_threshold()),
         first_(first),
-        answer_(answer) {}
+        answer_(answer),
+        proof_(proof) {}
 
   void start(PairSeed& seed) {
-    Place place = first_place(a_, b_, line_, seed, options_);
+    Place place = first_place(a_, b_, line_, seed, finest_a_, finest_b_, tuning_.start);
     const bool warm = is_warm(place.start);
     const bool walked = warm && march(place, pair_.may_look);
     const bool seen = !walked && pair_.may_look && aim(place, last_direction(line_.in_a, seed));
@@ -54,8 +59,8 @@ class Descent {
 
   /// From where another descent ended.
   void go_on(const Answer& so_far, PairSeed& seed) {
-    Place place{std::clamp(so_far.level_a, a_.finest_level(), a_.level_count() - 1),
-                std::clamp(so_far.level_b, b_.finest_level(), b_.level_count() - 1),
+    Place place{std::clamp(int(so_far.level_a), a_.finest_level(), a_.level_count() - 1),
+                std::clamp(int(so_far.level_b), b_.finest_level(), b_.level_count() - 1),
                 {so_far.feature_a, so_far.feature_b}};
     if (!is_warm(place.start)) return start(seed);
     answer_ = so_far;
@@ -64,7 +69,7 @@ class Descent {
     place.start = settled(scene_at(place), place.start, answer_.plane_tests);
     met_ = met_before();
     if (!answered() && met_ == MarchStatus::NotConverged) narrow_down(place);
-    if (options_.start != StartPolicy::Coarsest) store(place, seed);  // whose seed is the first descent's
+    if (tuning_.start != StartPolicy::Coarsest) store(place, seed);  // whose seed is the first descent's
     finish(place);
   }
 
@@ -75,7 +80,7 @@ class Descent {
   Scene scene_at(const Place& place) const { return pair_.scene_at(place); }
   double deviation(int level_a, int level_b) const { return pair_.deviation(level_a, level_b); }
   /// Certified progress may have taken one more than the budget.
-  std::uint32_t steps_left() const { return options_.step_budget - std::min(answer_.steps, options_.step_budget); }
+  std::uint32_t steps_left() const { return budget_.steps - std::min(answer_.steps, budget_.steps); }
   /// Where nothing is allowed, nothing is narrow: an exact answer is known by its verdict.
   double allowed(double lower) const {
     return larger(target_.absolute, target_.relative * (lower - target_.zero)) - target_.rounding;
@@ -210,10 +215,10 @@ class Descent {
       met_ = MarchStatus::NotConverged;
       place.start = settled(pair, place.start, answer_.plane_tests);
       const Walk walked =
-          walk(pair, place.start.a, place.start.b, options_.plane_rule, std::min(steps_left(), place.trial_steps));
+          walk(pair, place.start.a, place.start.b, tuning_.plane_rule, std::min(steps_left(), place.trial_steps));
       answer_.steps += walked.steps;
       answer_.plane_tests += walked.plane_tests;
-      spent_ = walked.end == WalkEnd::Budget && answer_.steps >= options_.step_budget;
+      spent_ = walked.end == WalkEnd::Budget && answer_.steps >= budget_.steps;
       const bool lost = walked.end == WalkEnd::Budget && !spent_;
       const bool wanted = last || may_answer(place, walked);
       if (walked.end == WalkEnd::Inside && wanted && overlap(pair, {place.level_a, place.level_b, {walked.a, walked.b}})) {
@@ -242,8 +247,7 @@ class Descent {
   /// stops earlier on the same way; where levels overlap, only if their deviations are an answer.
   bool may_answer(const Place& place, const Walk& walked) const {
     const double error = deviation(place.level_a, place.level_b);
-    return walked.end == WalkEnd::Minimum || !options_.trace.empty() || narrow(0, error) ||
-           error < target_.hit_below - law_two_;
+    return walked.end == WalkEnd::Minimum || !trace_.empty() || narrow(0, error) || error < target_.hit_below - law_two_;
   }
 
   /// What a level pair says of its own distance, between the features of its place.
@@ -266,11 +270,11 @@ class Descent {
       answer_.upper = upper;
       answer_.point_a = eigen(of.point_a);
       answer_.point_b = eigen(of.point_b);
-      answer_.level_a = place.level_a;
-      answer_.level_b = place.level_b;
+      answer_.level_a = std::int16_t(place.level_a);
+      answer_.level_b = std::int16_t(place.level_b);
       answer_.feature_a = place.start.a;
       answer_.feature_b = place.start.b;
-      answer_.proof = of.proof;
+      proof_ = of.proof;
     }
     answer_.upper = std::max(answer_.upper, answer_.lower);
   }
@@ -292,15 +296,9 @@ class Descent {
   }
 
   void record(const Place& place) {
-    if (!options_.trace.empty()) {
-      const auto slot = std::min<std::size_t>(answer_.levels_visited, options_.trace.size() - 1);
-      options_.trace[slot] = {place.level_a,
-                              place.level_b,
-                              answer_.lower,
-                              answer_.upper,
-                              answer_.steps - recorded_steps_,
-                              answer_.plane_tests - recorded_tests_};
-    }
+    note(trace_, answer_.levels_visited,
+         {place.level_a, place.level_b, answer_.lower, answer_.upper, answer_.steps - recorded_steps_,
+          answer_.plane_tests - recorded_tests_});
     recorded_steps_ = answer_.steps;
     recorded_tests_ = answer_.plane_tests;
     ++answer_.levels_visited;
@@ -311,7 +309,7 @@ class Descent {
     Place next{place.level_a, place.level_b, {}};
     const auto refine_a = [&] { next.level_a = std::max(next.level_a - 1, finest_a_); };
     const auto refine_b = [&] { next.level_b = std::max(next.level_b - 1, finest_b_); };
-    if (options_.refinement == Refinement::Single) {
+    if (tuning_.refinement == Refinement::Single) {
       const bool a_is_coarser = a_.level(next.level_a).deviation >= b_.level(next.level_b).deviation;
       if (next.level_b == finest_b_ || (a_is_coarser && next.level_a > finest_a_))
         refine_a();
@@ -319,7 +317,7 @@ class Descent {
         refine_b();
       return next;
     }
-    if (options_.refinement == Refinement::DoubleDouble) refine_a(), refine_b();
+    if (tuning_.refinement == Refinement::DoubleDouble) refine_a(), refine_b();
     refine_a(), refine_b();  // whatever the value: a descent ends
     return next;
   }
@@ -358,10 +356,10 @@ class Descent {
   /// The features found, or their parents as long as the coarser pair would have answered as well.
   void store(const Place& place, PairSeed& seed) const {
     Place kept{place.level_a, place.level_b, place.start};
-    if (options_.start == StartPolicy::Coarsest) {
+    if (tuning_.start == StartPolicy::Coarsest) {
       kept = coarsest_place(a_, b_);
       kept.start = coarsest_;
-    } else if (options_.start != StartPolicy::Finest && !exact_) {
+    } else if (tuning_.start != StartPolicy::Finest && !exact_) {
       coarsen(kept);
     }
     remember(line_, vec(answer_.normal), seed);
@@ -377,7 +375,7 @@ class Descent {
     while (kept.level_a + 1 < a_.level_count() && kept.level_b + 1 < b_.level_count()) {
       const double error = deviation(kept.level_a + 1, kept.level_b + 1);
       const double grown = error - deviation(kept.level_a, kept.level_b), lower = answer_.lower - (error - found);
-      const bool absorbs = options_.start == StartPolicy::Paper && (slack -= std::max(0.0, grown)) >= 0 && answer_.lower > 0;
+      const bool absorbs = tuning_.start == StartPolicy::Paper && (slack -= std::max(0.0, grown)) >= 0 && answer_.lower > 0;
       const bool suffices = lower > target_.clear_above || (lower > 0 && narrow(lower, error));
       if (!absorbs && !suffices) break;
       kept.start = {parent(a_, kept.level_a++, kept.start.a), parent(b_, kept.level_b++, kept.start.b)};
@@ -385,16 +383,19 @@ class Descent {
   }
 
   const ModelPair& pair_;
-  const Model& a_;
-  const Model& b_;
+  const Shape& a_;
+  const Shape& b_;
   const Line line_;
-  const QueryOptions& options_;
+  const Budget& budget_;
+  const Tuning& tuning_;
+  const std::span<LevelRecord> trace_;
   const Target& target_;
   const double law_two_;
   const int finest_a_, finest_b_;
   const bool exact_;  ///< no coarser pair will do
   const Glance& first_;
   Answer& answer_;
+  OverlapProof& proof_;
   MarchStatus met_ = MarchStatus::NotConverged;
   MarchStart coarsest_;  ///< features on the coarsest pair, for StartPolicy::Coarsest
   bool spent_ = false;   ///< the caller's step budget
@@ -403,22 +404,15 @@ class Descent {
 
 }  // namespace
 
-Answer descend(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
-               const Target& target, const Answer* so_far) {
-  Answer answer;
-  const Motion m = motion(b_in_a);
-  const PoseQuality quality = pose_quality(m);
-  if (!quality.legal) {
-    answer.status = Status::InvalidPose;
-    return answer;
-  }
-  const ModelPair pair(a, b, m, quality.error, options);
+void descend(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_error, PairSeed& seed, const Limits& limits,
+             const Target& target, Answer& answer, OverlapProof& proof, const Answer* so_far) {
+  answer.normal.setZero();
+  const ModelPair pair(a, b, b_in_a, pose_error, limits);
   Glance first;
-  const bool asks = target.is_threshold() && pair.may_look && !seed.met && !so_far && options.trace.empty();
-  if (asks && glance(pair, target, seed, first, answer)) return answer;
-  Descent descent(pair, options, target, first, answer);
+  const bool asks = target.is_threshold() && pair.may_look && !seed.met && !so_far && limits.trace.empty();
+  if (asks && glance(pair, target, seed, first, answer)) return;
+  Descent descent(pair, limits, target, first, answer, proof);
   so_far ? descent.go_on(*so_far, seed) : descent.start(seed);
-  return answer;
 }
 
 }  // namespace swiftlet

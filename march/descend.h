@@ -5,6 +5,9 @@
 
 #include <swiftlet/query.h>
 
+#include "shape.h"
+#include "vec.h"
+
 namespace swiftlet {
 
 /// The question: an interval narrow enough, or a threshold passed.
@@ -18,8 +21,22 @@ struct Target {
   bool is_threshold() const { return clear_above < std::numeric_limits<double>::infinity(); }
 };
 
-/// From the seed, or on from `so_far`, an answer about the hulls of these models in this pose.
-Answer descend(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options,
-               const Target& target, const Answer* so_far = nullptr);
+/// How far and how a query goes.
+struct Limits {
+  Limits(const Budget& of_budget, const Tuning& of_tuning) : budget(of_budget), tuning(of_tuning), trace(of_tuning.trace) {}
+  const Budget& budget;
+  const Tuning& tuning;
+  std::span<LevelRecord> trace;  ///< the rest of the tuning's
+};
+
+/// Notes a level pair in a trace that may be too short.
+static inline void note(std::span<LevelRecord> trace, std::size_t index, const LevelRecord& record) {
+  if (!trace.empty()) trace[index < trace.size() ? index : trace.size() - 1] = record;
+}
+
+/// From the seed, or on from `so_far`, an answer about the hulls of two bodies in a legal pose; its normal is 0 where none is
+/// known. `answer` is as a cold one before, and `proof` empty. It is filled where levels of the answer overlap.
+void descend(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_error, PairSeed& seed, const Limits& limits,
+             const Target& target, Answer& answer, OverlapProof& proof, const Answer* so_far = nullptr);
 
 }  // namespace swiftlet

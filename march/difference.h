@@ -34,8 +34,8 @@ static inline std::uint32_t ascend(const ConvexView& view, const Vec& own, std::
     const Vertex& ring = view.vertices[v];
     const std::uint32_t from = v;
     for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
-      const double height = dot(own, vec(view.vertices[view.head[h]]));
-      if (height > most) most = height, v = view.head[h];
+      const double height = dot(own, vec(view.vertices[view.half_edges[h].head]));
+      if (height > most) most = height, v = view.half_edges[h].head;
     }
     plane_tests += ring.ring_count;
     if (v == from) return v;

@@ -174,6 +174,13 @@ int orientation(const double a[3], const double b[3], const double c[3], const d
 }
 
 bool collinear(const double a[3], const double b[3], const double c[3]) {
+  const Vec u = subtract(b, a), v = subtract(c, a), rough = cross(u, v);
+  const auto certain = [](double coordinate, double p, double q) {
+    return certain_sign(coordinate, kCrossProductError * (std::fabs(p) + std::fabs(q))) != 0;
+  };
+  if (certain(rough.x, u.y * v.z, u.z * v.y) || certain(rough.y, u.z * v.x, u.x * v.z) ||
+      certain(rough.z, u.x * v.y, u.y * v.x))
+    return false;
   const auto n = cross3(difference3(b, a), difference3(c, a));
   return n[0].sign() == 0 && n[1].sign() == 0 && n[2].sign() == 0;
 }

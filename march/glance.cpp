@@ -12,7 +12,7 @@ bool glance(const ModelPair& pair, const Target& target, PairSeed& seed, Glance&
   const Scene scene = pair.scene_at(first.at);
   const auto clears = [&](const Vec& direction) {
     first.seen = glimpse(scene, of_a, of_b, direction);
-    return first.seen.lower > target.clear_above + pair.law_two;
+    return first.seen.lower > larger(target.clear_above, 0) + pair.law_two;
   };
   const Vec last = last_direction(pair.line, seed);
   if (!(max_abs(last) > 0 && clears(last))) {
@@ -28,7 +28,7 @@ bool glance(const ModelPair& pair, const Target& target, PairSeed& seed, Glance&
   answer.normal = eigen(first.seen.normal);
   answer.point_a = eigen(first.seen.point);
   answer.point_b = eigen(first.seen.point + first.seen.apart);
-  answer.level_a = level_a, answer.level_b = level_b;
+  answer.level_a = std::int16_t(level_a), answer.level_b = std::int16_t(level_b);
   answer.feature_a = {FeatureKind::Vertex, first.seen.a}, answer.feature_b = {FeatureKind::Vertex, first.seen.b};
   answer.levels_visited = 1;
   return true;

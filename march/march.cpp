@@ -54,12 +54,14 @@ MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, 
   return result;
 }
 
-std::uint8_t tag(const ConvexView& view, Handle feature) {
+std::uint8_t tag(const ConvexView& view, FeatureId feature) {
   if (view.tags.empty()) return 0;
-  const auto of_half_edge = [&](std::uint32_t h) { return view.face[h] == kNone ? std::uint8_t{0} : view.tags[view.face[h]]; };
+  const auto of_half_edge = [&](std::uint32_t h) {
+    return view.half_edges[h].face == kNone ? std::uint8_t{0} : view.tags[view.half_edges[h].face];
+  };
   switch (feature.kind()) {
     case FeatureKind::Face: return view.tags[feature.index()];
-    case FeatureKind::Edge: return std::max(of_half_edge(feature.index()), of_half_edge(view.twin[feature.index()]));
+    case FeatureKind::Edge: return std::max(of_half_edge(feature.index()), of_half_edge(view.half_edges[feature.index()].twin));
     case FeatureKind::Vertex: {
       const Vertex& ring = view.vertices[feature.index()];
       std::uint8_t largest = 0;

@@ -17,22 +17,22 @@ Result<Model> Model::from_level(const LevelArrays& level, const ModelOptions& op
   return from_levels({&level, 1}, options);
 }
 
-SourceMap Model::source() const { return body_->source; }
+SourceMap Model::source() const { return content_->source; }
 
-Vec3 Model::centre() const { return body_->levels[0].view.centre; }
-double Model::radius() const { return body_->headers.block.radius; }
+Vec3 Model::centre() const { return content_->levels[0].view.centre; }
+double Model::radius() const { return content_->headers.block.radius; }
 Vec3 Model::box_min() const {
-  return Vec3(body_->headers.block.box_min[0], body_->headers.block.box_min[1], body_->headers.block.box_min[2]);
+  return Vec3(content_->headers.block.box_min[0], content_->headers.block.box_min[1], content_->headers.block.box_min[2]);
 }
 Vec3 Model::box_max() const {
-  return Vec3(body_->headers.block.box_max[0], body_->headers.block.box_max[1], body_->headers.block.box_max[2]);
+  return Vec3(content_->headers.block.box_max[0], content_->headers.block.box_max[1], content_->headers.block.box_max[2]);
 }
-double Model::volume() const { return body_->levels[0].volume; }
-int Model::dimension() const { return int(body_->headers.block.dimension); }
+double Model::volume() const { return content_->levels[0].volume; }
+int Model::dimension() const { return int(content_->headers.block.dimension); }
 
 double Model::extent() const {
   double extent = 0;
-  for (const Level& level : body_->levels) extent = std::max(extent, level.view.extent);
+  for (const Level& level : content_->levels) extent = std::max(extent, level.view.extent);
   return extent;
 }
 
@@ -43,10 +43,9 @@ std::uint32_t Model::support(const Vec3& direction) const {
   std::uint32_t start = 0, comparisons = 0;
   if (finest.map_side > 0) {
     start = look_up(finest, rescaled(vec(direction))).vertex;
-  } else if (!body_->table.empty()) {
-    start =
-        body_
-            ->table[lut::nearest(lut::Resolution(body_->headers.block.resolution), {direction[0], direction[1], direction[2]})];
+  } else if (!content_->table.empty()) {
+    start = content_->table[lut::nearest(lut::Resolution(content_->headers.block.resolution),
+                                         {direction[0], direction[1], direction[2]})];
   }
   return support_a(alone, rescaled(vec(direction)), start, comparisons);
 }
@@ -58,31 +57,32 @@ FaceLoop::Iterator& FaceLoop::Iterator::operator++() {
 }
 
 TableSpec Model::table_spec() const {
-  return {lut::Resolution(body_->headers.block.resolution), body_->headers.block.radius_factor, body_->headers.block.map_side};
+  return {lut::Resolution(content_->headers.block.resolution), content_->headers.block.radius_factor,
+          content_->headers.block.map_side};
 }
-std::span<const std::uint32_t> Model::table() const { return body_->table; }
+std::span<const std::uint32_t> Model::table() const { return content_->table; }
 
 Result<Model> Model::with_table(const TableSpec& spec) const {
   if (std::string fault = spec_fault(spec); !fault.empty()) return Error{ErrorCode::BadValue, std::move(fault)};
   BlockParts parts = BlockReader::parts(*this, finest_level_);
   for (LevelHeader& level : parts.level_headers) level.map_side = 0;
   parts.maps.clear();
-  fill_table(parts, spec, body_->levels[0].view.vertices);
+  fill_table(parts, spec, content_->levels[0].view.vertices);
   std::vector<std::span<const Vertex>> vertices;
-  for (const Level& level : body_->levels) vertices.push_back(level.view.vertices);
+  for (const Level& level : content_->levels) vertices.push_back(level.view.vertices);
   fill_maps(parts, spec, vertices);
   return BlockReader::read(compose(parts));
 }
 
 Model Model::cut(const Detail& detail) const {
-  const int finest = std::max(body_->headers.finest(detail), finest_level_);
-  if (finest == int(body_->headers.block.finest_level)) return *this;
+  const int finest = std::max(content_->headers.finest(detail), finest_level_);
+  if (finest == int(content_->headers.block.finest_level)) return *this;
   return std::move(BlockReader::read(compose(BlockReader::parts(*this, finest)))).value();
 }
 
 Result<int> Model::ensure(int level) {
   if (level < finest_level_) {
-    const auto present = int(body_->headers.block.finest_level);
+    const auto present = int(content_->headers.block.finest_level);
     if (level < present) {
       return Error{ErrorCode::BadValue, "level " + std::to_string(level) + " is not in this model, whose finest is level " +
                                             std::to_string(present)};
@@ -94,7 +94,7 @@ Result<int> Model::ensure(int level) {
   return finest_level_;
 }
 
-std::span<const std::byte> Model::bytes() const { return body_->block.bytes; }
+std::span<const std::byte> Model::bytes() const { return content_->block.bytes; }
 std::uint64_t Model::hash() const { return hash_of(bytes()); }
 
 }  // namespace swiftlet

@@ -16,21 +16,21 @@ Vec area_of(const Body& body, std::uint32_t face) {
   const std::uint32_t first = view.face_first[face];
   const Vec p = body.own(origin(view, first));
   Vec sum{0, 0, 0};
-  for (std::uint32_t h = next_in_face(view, first); view.head[h] != origin(view, first); h = next_in_face(view, h)) {
-    sum = sum + cross(body.own(origin(view, h)) - p, body.own(view.head[h]) - p);
+  for (std::uint32_t h = next_in_face(view, first); view.half_edges[h].head != origin(view, first); h = next_in_face(view, h)) {
+    sum = sum + cross(body.own(origin(view, h)) - p, body.own(view.half_edges[h].head) - p);
   }
   return sum;
 }
 
 template <class Visit>
-void each_face_at(const ConvexView& view, Handle feature, Visit visit) {
+void each_face_at(const ConvexView& view, FeatureId feature, Visit visit) {
   switch (feature.kind()) {
     case FeatureKind::None: break;
     case FeatureKind::Face: visit(feature.index()); break;
-    case FeatureKind::Edge: visit(view.face[feature.index()]), visit(right_face(view, feature.index())); break;
+    case FeatureKind::Edge: visit(view.half_edges[feature.index()].face), visit(right_face(view, feature.index())); break;
     case FeatureKind::Vertex: {
       const Vertex& ring = view.vertices[feature.index()];
-      for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) visit(view.face[h]);
+      for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) visit(view.half_edges[h].face);
     }
   }
 }
@@ -44,14 +44,14 @@ struct Facing {
 
 /// Of faces that face along n equally well the one there was before, else the largest: it has the truest plane.
 template <class Body>
-Facing contact_face(const Body& body, const Vec& n, Handle feature, Handle before) {
+Facing contact_face(const Body& body, const Vec& n, FeatureId feature, FeatureId before) {
   Facing chosen;
   double most = 0;
   each_face_at(body.view, feature, [&](std::uint32_t face) {
     if (face == kNone || face == chosen.face) return;
     const Vec area = area_of(body, face);
     const double length = norm(area), cosine = length > 0 ? dot(area, n) / length : -1,
-                 size = Handle(FeatureKind::Face, face) == before ? std::numeric_limits<double>::infinity() : length;
+                 size = FeatureId(FeatureKind::Face, face) == before ? std::numeric_limits<double>::infinity() : length;
     if (cosine < chosen.cosine - kSameFacing || (cosine <= chosen.cosine + kSameFacing && size <= most)) return;
     chosen = {face, area, cosine};
     most = size;
@@ -91,7 +91,7 @@ class Plateau {
     const std::uint32_t first = view.face_first[face];
     std::uint32_t h = first;
     do {
-      if (!(dot(normal_, body_.own(view.head[h])) >= level_)) return false;
+      if (!(dot(normal_, body_.own(view.half_edges[h].head)) >= level_)) return false;
       h = next_in_face(view, h);
     } while (h != first);
     const Vec area = area_of(body_, face);
@@ -103,20 +103,20 @@ class Plateau {
     const ConvexView& view = body_.view;
     const std::uint32_t first = view.face_first[top_];
     if (!holds(right_face(view, first))) return first;
-    const Vec out = body_.own(view.head[first]) - body_.own(origin(view, first));
+    const Vec out = body_.own(view.half_edges[first].head) - body_.own(origin(view, first));
     const auto height = [&](std::uint32_t v) { return dot(out, body_.own(v)); };
-    const auto flat = [&](std::uint32_t h) { return holds(view.face[h]) || holds(right_face(view, h)); };
-    std::uint32_t corner = kNone, next = view.head[first];
+    const auto flat = [&](std::uint32_t h) { return holds(view.half_edges[h].face) || holds(right_face(view, h)); };
+    std::uint32_t corner = kNone, next = view.half_edges[first].head;
     while (next != corner) {
       corner = next;
       const Vertex& ring = view.vertices[corner];
       for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
-        if (height(view.head[h]) > height(next) && flat(h)) next = view.head[h];
+        if (height(view.half_edges[h].head) > height(next) && flat(h)) next = view.half_edges[h].head;
       }
     }
     const Vertex& ring = view.vertices[corner];
     for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
-      if (holds(view.face[h]) && !holds(right_face(view, h))) return h;
+      if (holds(view.half_edges[h].face) && !holds(right_face(view, h))) return h;
     }
     return kNone;
   }
@@ -144,7 +144,7 @@ void thin(Outline& outline) {
 }
 
 template <class Body>
-void outline_of(const Body& body, const Across& across, const Vec& n, Handle feature, Handle before, double flatness,
+void outline_of(const Body& body, const Across& across, const Vec& n, FeatureId feature, FeatureId before, double flatness,
                 Outline& outline) {
   const ConvexView& view = body.view;
   const auto add = [&](std::uint32_t vertex, std::uint32_t half_edge) {
@@ -174,10 +174,12 @@ Across::Across(const Vec& normal, const Vec& about) : n(normal), middle(about) {
   v = {b, sign + n.y * n.y * a, -n.y};
 }
 
-void outline_a(const Scene& scene, const Across& across, Handle feature, Handle before, double flatness, Outline& outline) {
+void outline_a(const Scene& scene, const Across& across, FeatureId feature, FeatureId before, double flatness,
+               Outline& outline) {
   outline_of(body_a(scene), across, across.n, feature, before, flatness, outline);
 }
-void outline_b(const Scene& scene, const Across& across, Handle feature, Handle before, double flatness, Outline& outline) {
+void outline_b(const Scene& scene, const Across& across, FeatureId feature, FeatureId before, double flatness,
+               Outline& outline) {
   const Moved body = body_b(scene);
   outline_of(body, across, body.into(-across.n), feature, before, flatness, outline);
 }

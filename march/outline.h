@@ -39,7 +39,9 @@ struct Outline {
 
 /// The outline of the faces within `flatness` times the extent of that face at `feature` which faces along n (A) or against it
 /// (B); `before`, a face of the body, is preferred as long as none faces better. A body without faces is its own outline.
-void outline_a(const Scene& scene, const Across& across, Handle feature, Handle before, double flatness, Outline& outline);
-void outline_b(const Scene& scene, const Across& across, Handle feature, Handle before, double flatness, Outline& outline);
+void outline_a(const Scene& scene, const Across& across, FeatureId feature, FeatureId before, double flatness,
+               Outline& outline);
+void outline_b(const Scene& scene, const Across& across, FeatureId feature, FeatureId before, double flatness,
+               Outline& outline);
 
 }  // namespace swiftlet

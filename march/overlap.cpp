@@ -27,7 +27,7 @@ struct Corners {
 };
 
 template <class P>
-Corners corners(const P& body, Handle feature, std::uint32_t behind) {
+Corners corners(const P& body, FeatureId feature, std::uint32_t behind) {
   Corners c;
   const auto add = [&](std::uint32_t v) {
     c.vertex[c.count] = v;
@@ -35,10 +35,11 @@ Corners corners(const P& body, Handle feature, std::uint32_t behind) {
   };
   add(behind);
   add(any_vertex(body.view, feature));
-  if (feature.kind() == FeatureKind::Edge) add(body.view.head[feature.index()]);
+  if (feature.kind() == FeatureKind::Edge) add(body.view.half_edges[feature.index()].head);
   if (feature.kind() == FeatureKind::Face) {
     std::uint32_t h = body.view.face_first[feature.index()];
-    for (; body.view.head[h] != c.vertex[1] && c.count < Corners::kMost; h = next_in_face(body.view, h)) add(body.view.head[h]);
+    for (; body.view.half_edges[h].head != c.vertex[1] && c.count < Corners::kMost; h = next_in_face(body.view, h))
+      add(body.view.half_edges[h].head);
   }
   return c;
 }

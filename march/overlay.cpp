@@ -209,14 +209,14 @@ Pair crossing(const Corner& i0, const Corner& i1, const Corner& r0, const Corner
   return {between(i0.p, i1.p, along(i0, i1, r0.x + s * rx, r0.y + s * ry)), between(r0.p, r1.p, s)};
 }
 
-Handle side_handle(const ConvexView& view, const Corner& corner) {
+FeatureId side_id(const ConvexView& view, const Corner& corner) {
   if (corner.half_edge == kNone) return {FeatureKind::Vertex, corner.vertex};
   return named(view, {FeatureKind::Edge, corner.half_edge});
 }
-Handle corner_handle(const Corner& corner) { return {FeatureKind::Vertex, corner.vertex}; }
-Handle face_handle(const ConvexView& view, const Outline& outline) {
+FeatureId corner_id(const Corner& corner) { return {FeatureKind::Vertex, corner.vertex}; }
+FeatureId face_id(const ConvexView& view, const Outline& outline) {
   if (outline.face != kNone) return {FeatureKind::Face, outline.face};
-  return side_handle(view, outline[0]);  // the whole body
+  return side_id(view, outline[0]);  // the whole body
 }
 
 /// Both outlines, and which of them is clipped.
@@ -255,20 +255,20 @@ class Faces {
   Spot placed(const Mark& mark, double x, double y) const {
     const ConvexView &view_i = a_is_reference_ ? scene_.b : scene_.a, &view_r = a_is_reference_ ? scene_.a : scene_.b;
     Pair p;
-    Handle feature_i, feature_r;
+    FeatureId feature_i, feature_r;
     if (mark.reference == Mark::kNo) {
       const Corner& c = incident()[mark.incident];
       p = {c.p, over(reference(), c.x, c.y)};
-      feature_i = corner_handle(c), feature_r = face_handle(view_r, reference());
+      feature_i = corner_id(c), feature_r = face_id(view_r, reference());
     } else if (mark.incident == Mark::kNo) {
       const Corner& c = reference_.corner(mark.reference);
       p = {over(incident(), c.x, c.y), c.p};
-      feature_i = face_handle(view_i, incident()), feature_r = corner_handle(c);
+      feature_i = face_id(view_i, incident()), feature_r = corner_id(c);
     } else {
       const int side = reference_.part(mark.reference, x, y);
       const Corner &i = incident()[mark.incident], &r = reference()[side];
       p = crossing(i, incident()[incident().after(mark.incident)], r, reference()[reference().after(side)]);
-      feature_i = side_handle(view_i, i), feature_r = side_handle(view_r, r);
+      feature_i = side_id(view_i, i), feature_r = side_id(view_r, r);
     }
     return a_is_reference_ ? spot(across_, p.reference, p.incident, feature_r, feature_i)
                            : spot(across_, p.incident, p.reference, feature_i, feature_r);
@@ -284,7 +284,7 @@ class Faces {
 
 }  // namespace
 
-Spot spot(const Across& across, const Vec& point_a, const Vec& point_b, Handle feature_a, Handle feature_b) {
+Spot spot(const Across& across, const Vec& point_a, const Vec& point_b, FeatureId feature_a, FeatureId feature_b) {
   const Vec seen = point_a - across.middle;
   return {dot(across.u, seen), dot(across.v, seen), dot(across.n, point_b - point_a), point_a, point_b, feature_a, feature_b};
 }

@@ -23,8 +23,8 @@ class Prism {
       return;
     }
     second_ = next_in_facet(body.view, first_);
-    u_ = body.own(body.view.head[first_]) - corner_;
-    v_ = body.own(body.view.head[second_]) - corner_;
+    u_ = body.own(body.view.half_edges[first_].head) - corner_;
+    v_ = body.own(body.view.half_edges[second_].head) - corner_;
     normal_ = cross(u_, v_);
   }
 
@@ -46,7 +46,7 @@ class Prism {
     std::uint32_t h = first_, count = 0;
     Vec tail = corner_;
     do {
-      const Vec head = body_.own(body_.view.head[h]), u = head - tail, out = cross(u, normal_);
+      const Vec head = body_.own(body_.view.half_edges[h].head), u = head - tail, out = cross(u, normal_);
       visit(h, u, dot(p - tail, out), dot(e, out));
       tail = head;
       h = next_in_face(body_.view, h);

@@ -410,7 +410,7 @@ void sharpen(const Scene& scene, Certificate& c, std::uint32_t& plane_tests) {
   c = m.certificate;
 }
 
-Handle feature_of(const ConvexView& view, const ActiveSet& active, const std::array<std::uint32_t, 4>& vertices) {
+FeatureId feature_of(const ConvexView& view, const ActiveSet& active, const std::array<std::uint32_t, 4>& vertices) {
   std::array<std::uint32_t, 4> distinct{};
   int count = 0, heaviest = 0;
   for (int k = 0; k < active.count; ++k) {
@@ -422,21 +422,21 @@ Handle feature_of(const ConvexView& view, const ActiveSet& active, const std::ar
   const Vertex& first = view.vertices[distinct[0]];
   if (count == 1) return {FeatureKind::Vertex, distinct[0]};
   for (std::uint32_t h = first.ring_begin; count == 2 && h < first.ring_begin + first.ring_count; ++h) {
-    if (view.head[h] == distinct[1] && !is_diagonal(view, h)) return {FeatureKind::Edge, h};
+    if (view.half_edges[h].head == distinct[1] && !is_diagonal(view, h)) return {FeatureKind::Edge, h};
   }
   // A vertex may lie inside a face, where its loop does not come by.
   const auto holds = [&](std::uint32_t face, std::uint32_t v) {
     const Vertex& ring = view.vertices[v];
     for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
-      if (view.face[h] == face) return true;
+      if (view.half_edges[h].face == face) return true;
     }
     return false;
   };
   for (std::uint32_t h = first.ring_begin; h < first.ring_begin + first.ring_count; ++h) {
-    if (view.face[h] == kNone) continue;
+    if (view.half_edges[h].face == kNone) continue;
     int held = 1;
-    while (held < count && holds(view.face[h], distinct[std::size_t(held)])) ++held;
-    if (held == count) return {FeatureKind::Face, view.face[h]};
+    while (held < count && holds(view.half_edges[h].face, distinct[std::size_t(held)])) ++held;
+    if (held == count) return {FeatureKind::Face, view.half_edges[h].face};
   }
   return {FeatureKind::Vertex, vertices[heaviest]};
 }

@@ -40,6 +40,6 @@ bool straighten(const Scene& scene, Certificate& certificate, std::uint32_t& pla
 void sharpen(const Scene& scene, Certificate& certificate, std::uint32_t& plane_tests);
 
 /// The smallest feature that holds the active vertices of one body.
-Handle feature_of(const ConvexView& view, const ActiveSet& active, const std::array<std::uint32_t, 4>& vertices);
+FeatureId feature_of(const ConvexView& view, const ActiveSet& active, const std::array<std::uint32_t, 4>& vertices);
 
 }  // namespace swiftlet

@@ -1,64 +1,92 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Each query is one target.
 #include <swiftlet/query.h>
 
-#include "dilate.h"
+#include "radii.h"
 #include "ring.h"
+#include "shape.h"
 
 namespace swiftlet {
 namespace {
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();  // no upper bound is this low
 
-SourceFeature source_feature(const Model& model, Handle feature) {
-  const SourceMap source = model.source();
-  const ConvexView& view = model.level(0).view;
+SourceFeature source_feature(const Body& body, FeatureId feature) {
   SourceFeature result{feature.kind(), {kNone, kNone}, {}};
+  const ShapeOf shape(body);
+  const ConvexView& view = (*shape).level(0).view;
+  const SourceMap source = (*shape).source();
   const std::uint32_t i = feature.index();
   if (feature.kind() == FeatureKind::Vertex) result.vertices[0] = source.vertex[i];
-  if (feature.kind() == FeatureKind::Edge) result.vertices = {source.vertex[origin(view, i)], source.vertex[view.head[i]]};
-  if (feature.kind() == FeatureKind::Face) {
+  if (feature.kind() == FeatureKind::Edge)
+    result.vertices = {source.vertex[origin(view, i)], source.vertex[view.half_edges[i].head]};
+  if (feature.kind() == FeatureKind::Face && !source.face_begin.empty())
     result.triangles = source.face.subspan(source.face_begin[i], source.face_begin[i + 1] - source.face_begin[i]);
-  }
   return result;
+}
+
+/// A question of yes or no that passed its threshold has its answer.
+void decide(Answer& answer) {
+  if (answer.status == Status::Beyond) answer.status = Status::Converged;
 }
 
 }  // namespace
 
-Answer distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options) {
-  return ask(a, b, b_in_a, seed, options, {options.absolute_error, options.relative_error, options.beyond, 0});
+double Answer::value() const {
+  return std::isfinite(lower) && std::isfinite(upper) ? lower + (upper - lower) / 2 : std::numeric_limits<double>::quiet_NaN();
 }
 
-Answer refine(const Model& a, const Model& b, const Pose& b_in_a, const Answer& so_far, PairSeed& seed,
-              const QueryOptions& options) {
-  const Target target{options.absolute_error, options.relative_error, options.beyond, 0};
-  return ask(a, b, b_in_a, seed, options, target, &so_far);
+Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options) {
+  return ask(a, b, b_in_a, seed, {options.budget, options.tuning}, {options.absolute, options.relative, options.beyond, 0});
+}
+Answer distance(const Body& a, const Body& b, const Pose& b_in_a, const Options& options) {
+  PairSeed cold;
+  return distance(a, b, b_in_a, cold, options);
 }
 
-Answer intersects(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options) {
-  Answer answer = ask(a, b, b_in_a, seed, options, {0, 0, 0, 0});
-  if (answer.status == Status::Beyond) answer.status = Status::Converged;
+Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so_far, PairSeed& seed, const Options& options) {
+  const Target target{options.absolute, options.relative, options.beyond, 0};
+  return ask(a, b, b_in_a, seed, {options.budget, options.tuning}, target, &so_far);
+}
+Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so_far, const Options& options) {
+  PairSeed cold;
+  return refine(a, b, b_in_a, so_far, cold, options);
+}
+
+Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Effort& effort) {
+  Answer answer = ask(a, b, b_in_a, seed, {effort.budget, effort.tuning}, {0, 0, 0, 0});
+  decide(answer);
   return answer;
 }
+Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, const Effort& effort) {
+  PairSeed cold;
+  return intersects(a, b, b_in_a, cold, effort);
+}
 
-Within within(const Model& a, const Model& b, const Pose& b_in_a, double threshold, PairSeed& seed,
-              const QueryOptions& options) {
-  Within result{Decision::Undecided, ask(a, b, b_in_a, seed, options, {0, 0, threshold, threshold})};
-  if (result.answer.status == Status::Beyond) result.answer.status = Status::Converged;
+Within within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, PairSeed& seed, const Effort& effort) {
+  const Target target{0, 0, threshold, threshold};
+  Within result{Decision::Undecided, ask(a, b, b_in_a, seed, {effort.budget, effort.tuning}, target)};
+  decide(result.answer);
   if (result.answer.lower > threshold) result.decision = Decision::No;
   if (result.answer.upper <= threshold) result.decision = Decision::Yes;
   return result;
 }
+Within within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, const Effort& effort) {
+  PairSeed cold;
+  return within(a, b, b_in_a, threshold, cold, effort);
+}
 
-Contact contact(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const QueryOptions& options) {
-  QueryOptions exact = options;
-  exact.absolute_error = exact.relative_error = 0;
-  exact.finest_level = 0;
-  Contact result{ask(a, b, b_in_a, seed, exact, {0, 0, options.beyond, kNever}), {}, {}};
+ClosestFeatures closest_features(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed,
+                                 const ClosestOptions& options) {
+  const Budget budget{options.steps, 0};
+  ClosestFeatures result{ask(a, b, b_in_a, seed, {budget, options.tuning}, {0, 0, options.beyond, kNever}), {}, {}};
   if (result.answer.level_a == 0) result.source_a = source_feature(a, result.answer.feature_a);
   if (result.answer.level_b == 0) result.source_b = source_feature(b, result.answer.feature_b);
   return result;
+}
+ClosestFeatures closest_features(const Body& a, const Body& b, const Pose& b_in_a, const ClosestOptions& options) {
+  PairSeed cold;
+  return closest_features(a, b, b_in_a, cold, options);
 }
 
 }  // namespace swiftlet

@@ -9,16 +9,20 @@
 
 namespace swiftlet {
 
-static inline std::uint32_t origin(const ConvexView& v, std::uint32_t half_edge) { return v.head[v.twin[half_edge]]; }
-static inline std::uint32_t right_face(const ConvexView& v, std::uint32_t half_edge) { return v.face[v.twin[half_edge]]; }
+static inline std::uint32_t origin(const ConvexView& v, std::uint32_t half_edge) {
+  return v.half_edges[v.half_edges[half_edge].twin].head;
+}
+static inline std::uint32_t right_face(const ConvexView& v, std::uint32_t half_edge) {
+  return v.half_edges[v.half_edges[half_edge].twin].face;
+}
 static inline bool is_diagonal(const ConvexView& v, std::uint32_t half_edge) {
-  return v.face[half_edge] == right_face(v, half_edge) && v.face[half_edge] != kNone;
+  return v.half_edges[half_edge].face == right_face(v, half_edge) && v.half_edges[half_edge].face != kNone;
 }
 
 /// One name for an edge's two half-edges: the lesser.
-static inline Handle named(const ConvexView& v, Handle feature) {
-  if (feature.kind() != FeatureKind::Edge || feature.index() < v.twin[feature.index()]) return feature;
-  return {FeatureKind::Edge, v.twin[feature.index()]};
+static inline FeatureId named(const ConvexView& v, FeatureId feature) {
+  if (feature.kind() != FeatureKind::Edge || feature.index() < v.half_edges[feature.index()].twin) return feature;
+  return {FeatureKind::Edge, v.half_edges[feature.index()].twin};
 }
 
 // Around a ring by arithmetic: of branches some would be guessed wrong in every ring.
@@ -35,7 +39,7 @@ static inline std::uint32_t counter_clockwise(const Vertex& vertex, std::uint32_
 
 /// The half-edge after `half_edge` around the exact facet on its left.
 static inline std::uint32_t next_in_facet(const ConvexView& v, std::uint32_t half_edge) {
-  return clockwise(v.vertices[v.head[half_edge]], v.twin[half_edge]);
+  return clockwise(v.vertices[v.half_edges[half_edge].head], v.half_edges[half_edge].twin);
 }
 
 /// The half-edge after `half_edge` around the face on its left: as in the facet, past diagonals.

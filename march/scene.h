@@ -59,7 +59,8 @@ static inline PoseQuality pose_quality(const Motion& m) {
                zz = std::fabs(entry(&Vec::z, &Vec::z) - 1);
   const double across = larger(larger(std::fabs(entry(&Vec::x, &Vec::y)), std::fabs(entry(&Vec::x, &Vec::z))),
                                std::fabs(entry(&Vec::y, &Vec::z)));
-  // A NaN or infinity in a column is one in its square. Farther away exact signs and squares overflow, and a climb need not end.
+  // A NaN or infinity in a column is one in its square. Farther away exact signs and squares overflow, and a climb need not
+  // end.
   const bool legal = xx <= kOrthonormality && yy <= kOrthonormality && zz <= kOrthonormality && across <= kOrthonormality &&
                      std::fabs(m.t.x) <= kMostCoordinate && std::fabs(m.t.y) <= kMostCoordinate &&
                      std::fabs(m.t.z) <= kMostCoordinate;

@@ -13,7 +13,7 @@
 namespace swiftlet {
 namespace {
 
-bool legal_level(const Model& model, int level, int finest) { return level >= finest && level < model.level_count(); }
+bool legal_level(const Shape& body, int level, int finest) { return level >= finest && level < body.level_count(); }
 
 constexpr double kLineUnit = 32767;
 std::array<std::int16_t, 3> packed(const Vec& unit) {
@@ -31,24 +31,27 @@ bool turned_far(const Vec& line, double length2, const std::array<std::int16_t, 
   return least > 0 && !(along > 0 && along * along * (whole * whole) >= least * least * length2 * (kLineUnit * kLineUnit));
 }
 
-MarchStart from_tables(const Model& a, const Model& b, const Line& line) {
-  return {table_start(a, eigen(line.in_a)), table_start(b, eigen(line.in_b))};
+FeatureId table_start(const Shape& body, const Vec& direction) {
+  return body.model() ? swiftlet::table_start(*body.model(), eigen(direction)) : FeatureId{};
+}
+MarchStart from_tables(const Shape& a, const Shape& b, const Line& line) {
+  return {table_start(a, line.in_a), table_start(b, line.in_b)};
 }
 
 }  // namespace
 
-bool names_feature(const ConvexView& view, Handle h) {
+bool names_feature(const ConvexView& view, FeatureId h) {
   switch (h.kind()) {
     case FeatureKind::Vertex: return h.index() < view.vertices.size();
-    case FeatureKind::Edge: return h.index() < view.head.size();
+    case FeatureKind::Edge: return h.index() < view.half_edges.size();
     case FeatureKind::Face: return h.index() < view.face_first.size();
     default: return false;
   }
 }
 
-Handle table_start(const Model& model, const Vec3& direction) {
+FeatureId table_start(const Model& model, const Vec3& direction) {
   if (model.finest_level() > 0 || (model.table().empty() && model.map_level() == model.level_count())) return {};
-  if (model.table().empty()) return {FeatureKind::Vertex, about_farthest(model, 0, vec(direction))};
+  if (model.table().empty()) return {FeatureKind::Vertex, about_farthest(Shape(model), 0, vec(direction))};
   const std::uint32_t sample = lut::nearest(model.table_spec().resolution, {direction[0], direction[1], direction[2]});
   return {FeatureKind::Vertex, model.table()[sample]};
 }
@@ -65,12 +68,12 @@ MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& p
   return s;
 }
 
-Place first_place(const Model& a, const Model& b, const Line& line, const PairSeed& seed, const QueryOptions& options) {
-  const int finest_a = finest_allowed(a, options), finest_b = finest_allowed(b, options);
+Place first_place(const Shape& a, const Shape& b, const Line& line, const PairSeed& seed, int finest_a, int finest_b,
+                  StartPolicy policy) {
   const bool seed_fits = seed.a.kind() != FeatureKind::None && seed.b.kind() != FeatureKind::None &&
                          legal_level(a, seed.level_a, finest_a) && legal_level(b, seed.level_b, finest_b);
   Place coarsest = coarsest_place(a, b);
-  switch (options.start) {
+  switch (policy) {
     case StartPolicy::Table:
       if (finest_a == 0 && finest_b == 0) return {0, 0, from_tables(a, b, line)};
       return {finest_a, finest_b, {}};
@@ -87,7 +90,7 @@ Place first_place(const Model& a, const Model& b, const Line& line, const PairSe
       Place place{seed.level_a, seed.level_b, {seed.a, seed.b}};
       const Level &level_a = a.level(seed.level_a), &level_b = b.level(seed.level_b);
       const bool has_choice = seed.level_a < coarsest.level_a || seed.level_b < coarsest.level_b || level_a.map_side > 0;
-      if (options.start == StartPolicy::Paper || !has_choice) return place;
+      if (policy == StartPolicy::Paper || !has_choice) return place;
       if (turned_far(line, seed, level_a, level_b)) return coarsest;
       place.trial_steps = kTrialSteps;
       return place;
@@ -101,44 +104,45 @@ bool turned_far(const Line& line, const PairSeed& seed, const Level& a, const Le
 
 void remember(const Line& line, const Vec& normal, PairSeed& seed) {
   seed.normal = packed(normal * (1 - 4 * kU));
-  const double length = norm(line.in_a), scale = length > 0 ? (1 - 4 * kU) / length : 0;  // no coordinate above 1
+  const double length = norm(line.in_a), inverse = length > 0 ? (1 - 4 * kU) / length : 0;  // no coordinate above 1
+  const double scale = std::isfinite(inverse) ? inverse : 0;  // centres nearer than 1e-308 are one
   seed.line_in_a = packed(line.in_a * scale);
   seed.line_in_b = packed(line.in_b * scale);
 }
 
-Handle child(const Model& model, int level, Handle feature) {
-  const Level& from = model.level(level);
-  const ConvexView& fine = model.level(level - 1).view;
+FeatureId child(const Shape& body, int level, FeatureId feature) {
+  const Level& from = body.level(level);
+  const ConvexView& fine = body.level(level - 1).view;
   const auto vertex_child = [&](std::uint32_t v) { return from.child_vertex[v]; };
   if (feature.kind() == FeatureKind::Vertex) return {FeatureKind::Vertex, vertex_child(feature.index())};
   if (feature.kind() == FeatureKind::Face) return from.child_face[feature.index()];
   // An edge that the finer level still has is its own child; else whatever stands for a face beside it.
   const std::uint32_t tail = vertex_child(origin(from.view, feature.index())),
-                      head = vertex_child(from.view.head[feature.index()]);
+                      head = vertex_child(from.view.half_edges[feature.index()].head);
   const Vertex& ring = fine.vertices[tail];
   for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
-    if (fine.head[h] == head) return {FeatureKind::Edge, h};
+    if (fine.half_edges[h].head == head) return {FeatureKind::Edge, h};
   }
-  const Handle beside = from.child_face[from.view.face[feature.index()]];
-  return beside.kind() == FeatureKind::Vertex ? beside : Handle{FeatureKind::Vertex, tail};
+  const FeatureId beside = from.child_face[from.view.half_edges[feature.index()].face];
+  return beside.kind() == FeatureKind::Vertex ? beside : FeatureId{FeatureKind::Vertex, tail};
 }
 
-Handle parent(const Model& model, int level, Handle feature) {
-  const Level& from = model.level(level);
+FeatureId parent(const Shape& body, int level, FeatureId feature) {
+  const Level& from = body.level(level);
   std::uint32_t face = feature.index();
-  if (feature.kind() == FeatureKind::Vertex) face = from.view.face[from.view.vertices[feature.index()].ring_begin];
-  if (feature.kind() == FeatureKind::Edge) face = from.view.face[feature.index()];
+  if (feature.kind() == FeatureKind::Vertex) face = from.view.half_edges[from.view.vertices[feature.index()].ring_begin].face;
+  if (feature.kind() == FeatureKind::Edge) face = from.view.half_edges[feature.index()].face;
   return {FeatureKind::Vertex, from.parent_face[face]};
 }
 
-std::uint32_t about_farthest(const Model& model, int level, const Vec& direction) {
-  const int mapped = std::max(level, model.map_level());
-  if (mapped == model.level_count()) return 0;
-  return descendant(model, mapped, look_up(model.level(mapped), direction).vertex, level);
+std::uint32_t about_farthest(const Shape& body, int level, const Vec& direction) {
+  const int mapped = std::max(level, body.map_level());
+  if (mapped == body.level_count()) return 0;
+  return descendant(body, mapped, look_up(body.level(mapped), direction).vertex, level);
 }
 
-std::uint32_t descendant(const Model& model, int level, std::uint32_t vertex, int finer) {
-  for (; level > finer; --level) vertex = model.level(level).child_vertex[vertex];
+std::uint32_t descendant(const Shape& body, int level, std::uint32_t vertex, int finer) {
+  for (; level > finer; --level) vertex = body.level(level).child_vertex[vertex];
   return vertex;
 }
 

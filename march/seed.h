@@ -11,6 +11,7 @@
 #include <swiftlet/query.h>
 
 #include "scene.h"
+#include "shape.h"
 
 namespace swiftlet {
 
@@ -29,7 +30,7 @@ MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& p
 struct Line {
   Vec in_a, in_b;
 };
-static inline Vec between_centres(const Model& a, const Model& b, const Motion& b_in_a) {
+static inline Vec between_centres(const Shape& a, const Shape& b, const Motion& b_in_a) {
   return apply(b_in_a, vec(b.level(0).view.centre)) - vec(a.level(0).view.centre);
 }
 static inline Line line_of_centres(const Motion& b_in_a, const Vec& between) { return {between, -turn_back(b_in_a, between)}; }
@@ -39,7 +40,8 @@ static inline Line line_of_centres(const Motion& b_in_a, const Vec& between) { r
 bool turned_far(const Line& line, const PairSeed& seed, const Level& a, const Level& b);
 
 /// Where a query begins.
-Place first_place(const Model& a, const Model& b, const Line& line, const PairSeed& seed, const QueryOptions& options);
+Place first_place(const Shape& a, const Shape& b, const Line& line, const PairSeed& seed, int finest_a, int finest_b,
+                  StartPolicy policy);
 
 /// Notes the line of centres and the direction of an answer in the seed.
 void remember(const Line& line, const Vec& normal, PairSeed& seed);
@@ -55,25 +57,25 @@ static inline Vec last_direction(const Vec& line, const PairSeed& seed) {
   return same ? direction(seed) : Vec{0, 0, 0};
 }
 
-/// Whether a handle, of any bits, is a feature of the view.
-bool names_feature(const ConvexView& view, Handle feature);
+/// Whether a feature id, of any bits, is a feature of the view.
+bool names_feature(const ConvexView& view, FeatureId feature);
 
-/// The finest level of a model that a query may read.
-static inline int finest_allowed(const Model& model, const QueryOptions& options) {
-  return std::clamp(options.finest_level, model.finest_level(), model.level_count() - 1);
+/// The finest level of a body that a query may read.
+static inline int finest_allowed(const Shape& body, const Budget& budget) {
+  return std::clamp(budget.finest_level, body.finest_level(), body.level_count() - 1);
 }
 
 /// The coarsest pair, from nothing.
-static inline Place coarsest_place(const Model& a, const Model& b) { return {a.level_count() - 1, b.level_count() - 1, {}}; }
+static inline Place coarsest_place(const Shape& a, const Shape& b) { return {a.level_count() - 1, b.level_count() - 1, {}}; }
 
 /// The feature one level finer, or coarser.
-Handle child(const Model& model, int level, Handle feature);
-Handle parent(const Model& model, int level, Handle feature);
+FeatureId child(const Shape& body, int level, FeatureId feature);
+FeatureId parent(const Shape& body, int level, FeatureId feature);
 
-/// A vertex of `level` that is about the farthest in a direction; of a model without maps any.
-std::uint32_t about_farthest(const Model& model, int level, const Vec& direction);
+/// A vertex of `level` that is about the farthest in a direction; of a body without maps any.
+std::uint32_t about_farthest(const Shape& body, int level, const Vec& direction);
 
 /// The vertex of level `finer` that stands for one of `level`.
-std::uint32_t descendant(const Model& model, int level, std::uint32_t vertex, int finer = 0);
+std::uint32_t descendant(const Shape& body, int level, std::uint32_t vertex, int finer = 0);
 
 }  // namespace swiftlet

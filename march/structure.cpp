@@ -25,7 +25,7 @@ bool all_below(const auto& values, std::size_t limit) {
 }  // namespace
 
 std::string topology_fault(const ConvexView& v) {
-  const std::size_t half_edges = v.head.size(), faces = v.face_first.size();
+  const std::size_t half_edges = v.half_edges.size(), faces = v.face_first.size();
   std::uint64_t next_ring = 0;
   for (std::size_t i = 0; i < v.vertices.size(); ++i) {
     const Vertex& r = v.vertices[i];
@@ -35,14 +35,16 @@ std::string topology_fault(const ConvexView& v) {
     next_ring += r.ring_count;
   }
   if (next_ring != half_edges) return "rings do not cover the half-edges";
-  if (!all_below(v.head, v.vertices.size()) || !all_below(v.twin, half_edges) || !all_below(v.face_first, half_edges))
-    return "index out of range";
+  if (!all_below(v.face_first, half_edges)) return "index out of range";
+  for (const HalfEdge& h : v.half_edges) {
+    if (h.head >= v.vertices.size() || h.twin >= half_edges) return "index out of range";
+  }
   for (std::size_t i = 0; i < v.vertices.size(); ++i) {
     const Vertex& r = v.vertices[i];
-    for (std::uint32_t h = r.ring_begin; h < r.ring_begin + r.ring_count; ++h) {
-      if (v.twin[h] == h || v.twin[v.twin[h]] != h || v.head[v.twin[h]] != i || v.head[h] == i)
-        return "twin of half-edge " + std::to_string(h);
-      if (v.face[h] >= faces && !(v.face[h] == kNone && faces == 0)) return "face of half-edge " + std::to_string(h);
+    for (std::uint32_t k = r.ring_begin; k < r.ring_begin + r.ring_count; ++k) {
+      const HalfEdge &h = v.half_edges[k], &twin = v.half_edges[h.twin];
+      if (h.twin == k || twin.twin != k || twin.head != i || h.head == i) return "twin of half-edge " + std::to_string(k);
+      if (h.face >= faces && !(h.face == kNone && faces == 0)) return "face of half-edge " + std::to_string(k);
     }
   }
   std::size_t sides = 0;
@@ -50,7 +52,7 @@ std::string topology_fault(const ConvexView& v) {
     std::size_t length = 0;
     std::uint32_t h = v.face_first[f];
     do {
-      if (v.face[h] != f || is_diagonal(v, h) || ++length > half_edges) return "loop of face " + std::to_string(f);
+      if (v.half_edges[h].face != f || is_diagonal(v, h) || ++length > half_edges) return "loop of face " + std::to_string(f);
       // As next_in_face, but a ring of nothing but diagonals ends the hunt.
       const std::uint32_t first = next_in_facet(v, h);
       const Vertex& ring = v.vertices[origin(v, first)];
@@ -77,7 +79,7 @@ std::string plane_fault(const ConvexView& v) {
 
 std::string link_fault(const Level& level, std::size_t finer_vertices, std::size_t finer_faces, std::size_t coarser_vertices) {
   if (!all_below(level.child_vertex, finer_vertices)) return "child of a vertex";
-  for (const Handle h : level.child_face) {
+  for (const FeatureId h : level.child_face) {
     const bool vertex = h.kind() == FeatureKind::Vertex && h.index() < finer_vertices;
     const bool face = h.kind() == FeatureKind::Face && h.index() < finer_faces;
     if (!vertex && !face) return "child of a face";

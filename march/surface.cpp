@@ -36,7 +36,7 @@ double extent_of(std::span<const Vec3> points) {
   return extent;
 }
 
-/// A body of V vertices has at most 6 V - 12 half-edges, which a Handle must name.
+/// A body of V vertices has at most 6 V - 12 half-edges, which a FeatureId must name.
 constexpr std::size_t kMostVertices = kMaxIndex / 6;
 
 /// The input faces as loops of input vertices.
@@ -91,8 +91,7 @@ struct Facets {
   std::vector<Index> input_facet;  ///< per input face
 };
 
-// ---- Solids: a mesh of triangles
-// ---------------------------------------------------------------------------------------------
+// ---- Solids: a mesh of triangles -------------------------------------------------------------------------------------------
 
 struct Triangle {
   Index v[3];
@@ -429,8 +428,7 @@ Result<Facets> solid(const Input& in, bool repair) {
   return mesh.facets();
 }
 
-// ---- Flat bodies
-// ---------------------------------------------------------------------------------------------------------------
+// ---- Flat bodies -----------------------------------------------------------------------------------------------------------
 
 bool is_two_sided(const Input& in) {
   if (in.faces.size() != 2 || in.faces[0].size() != in.points.size() || in.faces[1].size() != in.points.size()) return false;
@@ -477,8 +475,7 @@ Result<Facets> two_sided(const Input& in) {
   return Facets{in.faces, {0, 1}};
 }
 
-// ---- Half-edges
-// ------------------------------------------------------------------------------------------------------------------
+// ---- Half-edges ------------------------------------------------------------------------------------------------------------
 
 /// One facet's side.
 struct Side {
@@ -744,7 +741,7 @@ std::uint32_t vertex_outside(const ConvexView& exact_hull, const ConvexView& lev
       climbing = false;
       const Vertex ring = exact_hull.vertices[highest];
       for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
-        if (above(exact_hull.head[h])) highest = exact_hull.head[h], climbing = true;
+        if (above(exact_hull.half_edges[h].head)) highest = exact_hull.half_edges[h].head, climbing = true;
       }
     }
     if (exact::orientation(p, q, r, exact_hull.vertices[highest]) > 0) outside = highest;
@@ -756,10 +753,7 @@ ConvexView Surface::view() const {
   ConvexView v;
   v.vertices = vertices;
   v.planes = planes;
-  const std::span<const HalfEdge> records = half_edges;
-  v.head = records;
-  v.twin = records;
-  v.face = records;
+  v.half_edges = half_edges;
   v.face_first = face_first;
   v.extent = extent;
   return v;

@@ -45,15 +45,15 @@ namespace swiftlet {
 
 template <class Visit>
 void each_facet(const ConvexView& view, Visit visit) {
-  std::vector<bool> seen(view.head.size(), false);
-  for (std::uint32_t first = 0; first < view.head.size(); ++first) {
-    if (seen[first] || view.face[first] == kNone) continue;
+  std::vector<bool> seen(view.half_edges.size(), false);
+  for (std::uint32_t first = 0; first < view.half_edges.size(); ++first) {
+    if (seen[first] || view.half_edges[first].face == kNone) continue;
     std::uint32_t h = first;
     do {
       seen[h] = true;
       h = next_in_facet(view, h);
     } while (h != first && !seen[h]);
-    visit(origin(view, first), view.head[first], view.head[next_in_facet(view, first)]);
+    visit(origin(view, first), view.half_edges[first].head, view.half_edges[next_in_facet(view, first)].head);
   }
 }
 

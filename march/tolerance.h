@@ -38,6 +38,8 @@ inline constexpr double kOrthonormalityError = 4 * kU;
 inline constexpr double kDotError = 5 * kU;
 /// (b - a) x (c - a) . (w - v): 3 differences, 2 products, 1 difference, 2 sums = 8; [Shewchuk 1997] proves 7.
 inline constexpr double kTripleProductError = 10 * kU;
+/// A coordinate of (b - a) x (c - a): 1 difference, 1 product, 1 difference, and the differences of the other factor.
+inline constexpr double kCrossProductError = 5 * kU;
 /// n . R (w - v): 1 difference, 2 products, 2 + 2 sums.
 inline constexpr double kTurnedDotError = 9 * kU;
 /// The same with n rotated first, relative to |n|_1 |w - v|_1, which bounds every product of a rotation's rows (|R_ij| <= 1 +
@@ -47,8 +49,8 @@ inline constexpr double kTurnedSupportError = 9 * kU;
 inline constexpr double kTurnedError = 4 * kU;
 /// Either in double-double arithmetic, whose sums and products keep at least 100 bits each.
 inline constexpr double kWideDotError = 0x1p-96;
-/// (b - a) x (c - a) . (d - a) in the same arithmetic, from exact differences: 2 products, 1 difference, 1 product, 2 sums, each
-/// right to 2^-100. Relative to the sum of the magnitudes of the terms.
+/// (b - a) x (c - a) . (d - a) in the same arithmetic, from exact differences: 2 products, 1 difference, 1 product, 2 sums,
+/// each right to 2^-100. Relative to the sum of the magnitudes of the terms.
 inline constexpr double kWideTripleProductError = 0x1p-96;
 /// (b - a) x (c - a) in the same arithmetic is right to 2^-99 of the product of the lengths. Where it is longer than this share
 /// of that product, it is right to 2^-58 of itself; else expansions tell. Dimensionless.
@@ -78,8 +80,8 @@ inline constexpr double kLeastDirection = 0x1p-1000;
 /// A product below 2^-1022 is off by 2^-1075; in a sum of few, times one factor more of at most 2 kMostCoordinate, by less than
 /// this. Far below all that bodies of kLeastExtent make: their products are of 2^-448. Length cubed.
 inline constexpr double kUnderflow = 0x1p-900;
-/// Exact determinants of differences are taken where the largest coordinate has this exponent: its cube stays below 2^1000, and of
-/// bodies and translations 2^-950 of it no bit is lost. An exponent of 2.
+/// Exact determinants of differences are taken where the largest coordinate has this exponent: its cube stays below 2^1000, and
+/// of bodies and translations 2^-950 of it no bit is lost. An exponent of 2.
 inline constexpr int kProductExponent = 330;
 
 // ---- Rounding of a certificate in doubles (certify.cpp): lengths -----------------------------------------------------------
@@ -110,13 +112,13 @@ inline constexpr double kMapError = 128 * kU;
 /// the magnitude of coordinates and translation.
 inline constexpr double kDoubleDoubleError = 0x1p-90;
 
-// ---- Checks (brute.h, check_depth.cpp): their own arithmetic, in 106 bits unless said otherwise ------------------------------
+// ---- Checks (brute.h, check_depth.cpp): their own arithmetic, in 106 bits unless said otherwise ----------------------------
 
 /// Below so much of the largest coordinates of u and v the largest of u x v is taken exactly. Dimensionless.
 inline constexpr double kCancelled = 0x1p-10;
-/// A coordinate of u x v above: u = R d has 3 products and 2 sums of terms that |d| bounds, 6 * 2^-100 of u's largest coordinate,
-/// v as much, so that either product is off by 13 * 2^-100 and their difference by 28; over kCancelled. Relative to the
-/// normal's largest coordinate.
+/// A coordinate of u x v above: u = R d has 3 products and 2 sums of terms that |d| bounds, 6 * 2^-100 of u's largest
+/// coordinate, v as much, so that either product is off by 13 * 2^-100 and their difference by 28; over kCancelled. Relative to
+/// the normal's largest coordinate.
 inline constexpr double kNormalError = 0x1p-85;
 /// n . d of a normal and an edge, each scaled to a largest coordinate from 1 to 2: kNormalError of 2, times 2, thrice, and the
 /// rest is less. A sign above is sure.
@@ -125,13 +127,13 @@ inline constexpr double kSideError = 0x1p-81;
 inline constexpr double kRoughSideError = 84 * kU;
 /// n . p of such a normal in doubles: 7 u of terms whose sum is at most 6 coordinates. Relative to the largest coordinate.
 inline constexpr double kRoughHeightError = 42 * kU;
-/// The height of a plane: its normal leans by at most sqrt(3) kNormalError, points are off by 2^-97 of the magnitude, and product,
-/// root and quotient by as much, 2^-82 in all; and of planes that differ by as much any is the least. Relative to the magnitude of
-/// coordinates and translation.
+/// The height of a plane: its normal leans by at most sqrt(3) kNormalError, points are off by 2^-97 of the magnitude, and
+/// product, root and quotient by as much, 2^-82 in all; and of planes that differ by as much any is the least. Relative to the
+/// magnitude of coordinates and translation.
 inline constexpr double kHeightError = 0x1p-81;
-/// Bodies are checked at a scale where the magnitude of coordinates and translation is 2 to this; and of a rotation entries below
-/// the second count as 0, which moves points by less than 2^-247 of themselves. Coordinates are then multiples of 2^-138, entries
-/// of 2^-303, and the product of three of those and two of these of 2^-1020: no bit of a sign is lost.
+/// Bodies are checked at a scale where the magnitude of coordinates and translation is 2 to this; and of a rotation entries
+/// below the second count as 0, which moves points by less than 2^-247 of themselves. Coordinates are then multiples of 2^-138,
+/// entries of 2^-303, and the product of three of those and two of these of 2^-1020: no bit of a sign is lost.
 inline constexpr int kCheckedExponent = 300;
 inline constexpr double kLeastEntry = 0x1p-250;
 /// A unit normal's squared length: kNormError twice, once of the length found and once of the division. Dimensionless.
@@ -157,15 +159,15 @@ inline constexpr double kUnitNormalError = 1e-9;
 /// A level's deviation is measured to this part of itself: a tenth of the 1 % that the design allows above the truth.
 inline constexpr double kDeviationPrecision = 1e-3;
 
-// ---- Patches ---------------------------------------------------------------------------------------------------------------
+// ---- Manifolds -------------------------------------------------------------------------------------------------------------
 
 /// Faces turn as much towards a normal where the cosines differ by no more than this: an angle of 4 ulps of single precision,
 /// 2^-21, takes half its square from a cosine. Dimensionless.
 inline constexpr double kSameFacing = 0x1p-43;
-/// A point of a patch gives way to one that adds so much more area: enough that the corners of a regular polygon, of which any
-/// four opposite ones are as good, do not take turns. A fraction.
+/// A point of a manifold gives way to one that adds so much more area: enough that the corners of a regular polygon, of which
+/// any four opposite ones are as good, do not take turns. A fraction.
 inline constexpr double kKeptWorth = 0.125;
-/// Points of a patch that give way at most: two or three leave all as they are. A count.
+/// Points of a manifold that give way at most: two or three leave all as they are. A count.
 inline constexpr int kExchanges = 32;
 
 // ---- Bounds on work: counts ------------------------------------------------------------------------------------------------
@@ -205,7 +207,7 @@ inline constexpr int kMostCorners = 64;
 /// Points of the inner polytope that tells touching from overlapping: 300 vertices slid into contact needed 20 to 32.
 inline constexpr int kContactPoints = 32;
 
-// ---- Depth (epa.cpp, confirm.cpp) ---------------------------------------------------------------------------------------------
+// ---- Depth (epa.cpp, confirm.cpp) ------------------------------------------------------------------------------------------
 
 /// A point of the Minkowski difference put on a grid of half an ulp of the magnitude's binade, 2 u of it: u in each coordinate,
 /// sqrt(3) for the vector. Relative to the magnitude.

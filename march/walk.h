@@ -22,13 +22,13 @@ enum class WalkEnd : std::uint8_t {
 
 struct Walk {
   WalkEnd end = WalkEnd::Budget;
-  Handle a, b;          ///< kinds VV, VE, EV, EE, VF, FV; with Inside also EF and FE
+  FeatureId a, b;       ///< kinds VV, VE, EV, EE, VF, FV; with Inside also EF and FE
   double distance = 0;  ///< between the features, rounded; what Minimum found, elsewhere the least seen
   std::uint32_t steps = 0, plane_tests = 0;
   Witness witness;  ///< with Minimum: what the last state saw
 };
 
 /// `a` and `b` name features of the scene's views, not both faces.
-Walk walk(const Scene& scene, Handle a, Handle b, PlaneRule rule, std::uint32_t step_budget);
+Walk walk(const Scene& scene, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget);
 
 }  // namespace swiftlet

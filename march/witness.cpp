@@ -18,7 +18,7 @@ Witness vertex_vertex(const P& a, std::uint32_t va, const Q& b, std::uint32_t vb
 
 template <class P, class Q>
 Witness vertex_edge(const P& a, std::uint32_t va, const Q& b, std::uint32_t h) {
-  const std::uint32_t tail = origin(b.view, h), head = b.view.head[h];
+  const std::uint32_t tail = origin(b.view, h), head = b.view.half_edges[h].head;
   const Vec q = b.own(tail), u = b.own(head) - q, r = b.local(a.point(va)) - q;
   const double uu = dot(u, u), along = dot(r, u) / uu, t = along > 0 ? smaller(along, 1) : 0;
   const Vec up = r - u * t;
@@ -32,7 +32,8 @@ Witness vertex_face(const P& a, std::uint32_t va, const Q& b, std::uint32_t f) {
 
 template <class P, class Q>
 Witness edge_edge(const P& a, std::uint32_t ha, const Q& b, std::uint32_t hb) {
-  const std::uint32_t a0 = origin(a.view, ha), a1 = a.view.head[ha], b0 = origin(b.view, hb), b1 = b.view.head[hb];
+  const std::uint32_t a0 = origin(a.view, ha), a1 = a.view.half_edges[ha].head, b0 = origin(b.view, hb),
+                      b1 = b.view.half_edges[hb].head;
   const Vec p0 = b.local(a.point(a0)), u = b.into(a.turned(a.own(a1) - a.own(a0))), q0 = b.own(b0), v = b.own(b1) - q0;
   const double uu = dot(u, u), vv = dot(v, v);
   const Parameters at = nearest_on_segments(p0, u, uu, q0, v, vv);
@@ -41,7 +42,7 @@ Witness edge_edge(const P& a, std::uint32_t ha, const Q& b, std::uint32_t hb) {
 }
 
 template <class A, class B>
-Witness witness(const A& a, Handle fa, const B& b, Handle fb) {
+Witness witness(const A& a, FeatureId fa, const B& b, FeatureId fb) {
   using enum FeatureKind;
   const std::uint32_t i = fa.index(), j = fb.index();
   if (fa.kind() == Face) return swapped(vertex_face(b, any_vertex(b.view, fb), a, i));
@@ -54,9 +55,9 @@ Witness witness(const A& a, Handle fa, const B& b, Handle fb) {
 
 }  // namespace
 
-Witness witness(const Scene& scene, Handle a, Handle b) { return witness(body_a(scene), a, body_b(scene), b); }
+Witness witness(const Scene& scene, FeatureId a, FeatureId b) { return witness(body_a(scene), a, body_b(scene), b); }
 
-std::uint32_t any_vertex(const ConvexView& view, Handle feature) {
+std::uint32_t any_vertex(const ConvexView& view, FeatureId feature) {
   if (feature.kind() == FeatureKind::Vertex) return feature.index();
   return origin(view, feature.kind() == FeatureKind::Edge ? feature.index() : view.face_first[feature.index()]);
 }

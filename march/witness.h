@@ -64,12 +64,13 @@ Combination below(const Q& body, std::uint32_t f, const Vec& p) {
   const ConvexView& view = body.view;
   const std::uint32_t first = view.face_first[f], root = origin(view, first);
   const Vec q0 = body.own(root), r = p - q0;
-  for (std::uint32_t v1 = view.head[first], h = next_in_face(view, first);; v1 = view.head[h], h = next_in_face(view, h)) {
-    const std::uint32_t v2 = view.head[h];
+  for (std::uint32_t v1 = view.half_edges[first].head, h = next_in_face(view, first);;
+       v1 = view.half_edges[h].head, h = next_in_face(view, h)) {
+    const std::uint32_t v2 = view.half_edges[h].head;
     const Vec u = body.own(v1) - q0, v = body.own(v2) - q0, area = cross(u, v);
     const Vec n = f < view.planes.size() ? Vec{view.planes[f].x, view.planes[f].y, view.planes[f].z} : area;
     const double w1 = dot(n, cross(r, v)), w2 = dot(n, cross(u, r)), w0 = dot(n, area) - w1 - w2;
-    if ((w2 >= 0 && w1 >= 0) || view.head[next_in_face(view, h)] == root) {
+    if ((w2 >= 0 && w1 >= 0) || view.half_edges[next_in_face(view, h)].head == root) {
       const double c0 = larger(w0, 0), c1 = larger(w1, 0), c2 = larger(w2, 0), sum = c0 + c1 + c2;
       if (!(sum > 0)) return only(root);
       return {{root, v1, v2}, {c0 / sum, c1 / sum, c2 / sum}};
@@ -82,14 +83,14 @@ template <class Q>
 Vec face_normal(const Q& body, std::uint32_t f) {
   if (f < body.view.planes.size()) return {body.view.planes[f].x, body.view.planes[f].y, body.view.planes[f].z};
   const std::uint32_t h = body.view.face_first[f];
-  const Vec q0 = body.own(origin(body.view, h)), q1 = body.own(body.view.head[h]);
-  return cross(q1 - q0, body.own(body.view.head[next_in_facet(body.view, h)]) - q0);
+  const Vec q0 = body.own(origin(body.view, h)), q1 = body.own(body.view.half_edges[h].head);
+  return cross(q1 - q0, body.own(body.view.half_edges[next_in_facet(body.view, h)].head) - q0);
 }
 
 /// Of features of any kinds but two faces; of a feature beside a face, one of its vertices.
-Witness witness(const Scene& scene, Handle a, Handle b);
+Witness witness(const Scene& scene, FeatureId a, FeatureId b);
 
 /// A vertex of a feature.
-std::uint32_t any_vertex(const ConvexView& view, Handle feature);
+std::uint32_t any_vertex(const ConvexView& view, FeatureId feature);
 
 }  // namespace swiftlet

@@ -67,9 +67,9 @@ namespace {
 
 struct Words {
   std::vector<std::uint64_t>& words;
-  void number(const char*, double x) { words.push_back(std::bit_cast<std::uint64_t>(x)); }
+  void number(const char*, double x) { words.push_back(std::isnan(x) ? ~std::uint64_t{0} : std::bit_cast<std::uint64_t>(x)); }
   void numbers(const char* name, const Vec3& v) { number(name, v.x()), number(name, v.y()), number(name, v.z()); }
-  void handle(const char*, Handle h) { words.push_back(std::uint64_t(h.kind()) << 32 | h.index()); }
+  void feature(const char*, FeatureId h) { words.push_back(std::uint64_t(h.kind()) << 32 | h.index()); }
   void count(const char*, std::uint32_t n) { words.push_back(n); }
   void pair(const char*, auto high, const char*, auto low) { words.push_back(std::uint64_t(high) << 32 | std::uint64_t(low)); }
   void element(const char* = nullptr, std::uint32_t = 0) {}
@@ -91,8 +91,7 @@ void Fingerprint::add(std::uint64_t word) {
   hash ^= hash >> 32;
 }
 void Fingerprint::add(const Answer& answer) { add_fields(answer, *this); }
-void Fingerprint::add(const SignedAnswer& answer) { add_fields(answer, *this); }
-void Fingerprint::add(const Patch& patch) { add_fields(patch, *this); }
+void Fingerprint::add(const Manifold& manifold) { add_fields(manifold, *this); }
 
 // ---- Answers as text -------------------------------------------------------------------------------------------------------
 
@@ -103,15 +102,17 @@ std::string text(const char* format, auto... values) {
   std::snprintf(buffer.data(), buffer.size(), format, values...);
   return buffer.data();
 }
-std::string text(double x) { return text("%a", x); }
+std::string text(double x) { return std::isnan(x) ? "nan" : text("%a", x); }  // of which NaN has a sign, nobody says
 std::string text(int n) { return text("%d", n); }
 std::string text(std::uint32_t n) { return text("%u", n); }
-std::string text(Handle h) {
+const char* text(bool is) { return is ? "yes" : "no"; }
+std::string text(FeatureId h) {
   constexpr const char* kKinds[] = {"none", "vertex", "edge", "face"};
   return text("%s:%u", kKinds[std::size_t(h.kind())], h.index());
 }
 const char* text(Status status) {
   switch (status) {
+    case Status::NotAsked: return "not_asked";
     case Status::Converged: return "converged";
     case Status::Beyond: return "beyond";
     case Status::Budget: return "budget";
@@ -119,6 +120,7 @@ const char* text(Status status) {
     case Status::NotConverged: return "not_converged";
     case Status::InvalidPose: return "invalid_pose";
     case Status::InvalidRadius: return "invalid_radius";
+    case Status::InvalidBody: return "invalid_body";
   }
   return "";
 }
@@ -137,8 +139,8 @@ struct Texts {
   std::string prefix{};
   void add(const char* name, std::string value) { fields.emplace_back(prefix + name, std::move(value)); }
   void number(const char* name, double x) { add(name, text(x)); }
-  void numbers(const char* name, const Vec3& v) { add(name, text("%a,%a,%a", v.x(), v.y(), v.z())); }
-  void handle(const char* name, Handle h) { add(name, text(h)); }
+  void numbers(const char* name, const Vec3& v) { add(name, text(v.x()) + "," + text(v.y()) + "," + text(v.z())); }
+  void feature(const char* name, FeatureId h) { add(name, text(h)); }
   void count(const char* name, std::uint32_t n) { add(name, text(n)); }
   void pair(const char* first, auto x, const char* second, auto y) { add(first, text(x)), add(second, text(y)); }
   void element(const char* array, std::uint32_t i) { prefix = text("%s%u.", array, i); }
@@ -174,7 +176,7 @@ void each_pose(const std::vector<Model>& models, int rounds, Poses& poses, Ask a
 /// Options that keep a seed of their own from pose to pose.
 struct Chain {
   std::string how;
-  QueryOptions options;
+  Options options;
   PairSeed seed{};
 };
 
@@ -189,10 +191,10 @@ std::vector<Chain> chains() {
     for (const auto& [refinement, refinement_name] :
          {std::pair{Single, "single"}, std::pair{SingleSingle, "single_single"}, std::pair{DoubleDouble, "double_double"}}) {
       for (const auto& [rule, rule_name] : {std::pair{MostViolated, "most"}, std::pair{FirstViolated, "first"}}) {
-        QueryOptions options;
-        options.start = start;
-        options.refinement = refinement;
-        options.plane_rule = rule;
+        Options options;
+        options.tuning.start = start;
+        options.tuning.refinement = refinement;
+        options.tuning.plane_rule = rule;
         all.push_back({text("%s.%s.%s", start_name, refinement_name, rule_name), options});
       }
     }
@@ -205,8 +207,8 @@ template <class Take>
 void each_answer(const std::vector<Model>& models, int rounds, Take take) {
   Poses poses(1);
   std::vector<Chain> policies;
-  QueryOptions loosely, limited;
-  loosely.relative_error = 0.01;
+  Options loosely, limited;
+  loosely.relative = 0.01;
   PairSeed loose, tested, near, met;
   each_pose(models, rounds, poses, [&](const Model& a, const Model& b, Asked asked, const Pose& pose) {
     if (asked.round == 0) policies = chains(), loose = tested = near = met = {};
@@ -215,17 +217,17 @@ void each_answer(const std::vector<Model>& models, int rounds, Take take) {
       take(asked, answer);
     };
     for (Chain& c : policies) took("distance", c.how, distance(a, b, pose, c.seed, c.options));
-    PairSeed cold, random = poses.seed();
-    took("distance", "cold", distance(a, b, pose, cold));
+    PairSeed random = poses.seed();
+    took("distance", "cold", distance(a, b, pose));
     took("distance", "random", distance(a, b, pose, random));
-    took("distance", "swapped", distance(b, a, inverse(pose), cold = {}));
+    took("distance", "swapped", distance(b, a, inverse(pose)));
     took("distance", "loose", distance(a, b, pose, loose, loosely));
     took("intersects", "warm", intersects(a, b, pose, tested));
     took("within", "warm", within(a, b, pose, 0.5, near).answer);
-    took("contact", "warm", contact(a, b, pose, met).answer);
-    limited.step_budget = std::uint32_t(asked.round % 7);
-    limited.finest_level = asked.round % 2;
-    took("distance", "limited", distance(a, b, pose, cold = {}, limited));
+    took("closest_features", "warm", closest_features(a, b, pose, met).answer);
+    limited.budget.steps = std::uint32_t(asked.round % 7);
+    limited.budget.finest_level = asked.round % 2;
+    took("distance", "limited", distance(a, b, pose, limited));
   });
 }
 
@@ -233,48 +235,47 @@ template <class Take>
 void each_signed_answer(const std::vector<Model>& models, int rounds, Take take) {
   Poses poses(2);
   PairSeed warm, met;
-  QueryOptions loose, limited;
-  loose.relative_error = 0.01;
+  Options loose, limited;
+  loose.relative = 0.01;
   each_pose(models, rounds, poses, [&](const Model& a, const Model& b, Asked asked, Pose pose) {
-    const auto took = [&](const char* query, const char* how, const SignedAnswer& answer) {
+    const auto took = [&](const char* query, const char* how, const Answer& answer) {
       asked.query = query, asked.how = how;
       take(asked, answer);
     };
     if (asked.round % 4) pose.translation *= 0.25;  // mostly inside one another
-    PairSeed cold, random = poses.seed();
+    PairSeed random = poses.seed();
     took("signed_distance", "warm", signed_distance(a, b, pose, warm));
-    took("signed_distance", "cold", signed_distance(a, b, pose, cold));
+    took("signed_distance", "cold", signed_distance(a, b, pose));
     took("signed_distance", "random", signed_distance(a, b, pose, random));
-    took("signed_distance", "swapped", signed_distance(b, a, inverse(pose), cold = {}));
-    took("signed_distance", "loose", signed_distance(a, b, pose, cold = {}, loose));
-    limited.step_budget = std::uint32_t(asked.round % 7);
-    limited.finest_level = asked.round % 2;
-    took("signed_distance", "limited", signed_distance(a, b, pose, cold = {}, limited));
+    took("signed_distance", "swapped", signed_distance(b, a, inverse(pose)));
+    took("signed_distance", "loose", signed_distance(a, b, pose, loose));
+    limited.budget.steps = std::uint32_t(asked.round % 7);
+    limited.budget.finest_level = asked.round % 2;
+    took("signed_distance", "limited", signed_distance(a, b, pose, limited));
     took("signed_within", "warm", signed_within(a, b, pose, -0.25, met).answer);
   });
 }
 
 template <class Take>
-void each_patch(const std::vector<Model>& models, int rounds, Take take) {
+void each_manifold(const std::vector<Model>& models, int rounds, Take take) {
   Poses poses(3);
   PairSeed seed, near;
-  Patch before;
+  Manifold before;
   each_pose(models, rounds, poses, [&](const Model& a, const Model& b, Asked asked, const Pose& pose) {
-    const auto took = [&](const char* how, const Patch& patch) {
-      asked.query = "patch", asked.how = how;
-      take(asked, patch);
+    const auto took = [&](const char* how, const Manifold& manifold) {
+      asked.query = "manifold", asked.how = how;
+      take(asked, manifold);
     };
-    PatchOptions options;
+    ManifoldOptions options;
     options.margin = asked.round % 3 ? 4 : 0;
-    options.most_points = 1 + std::uint32_t(poses.bits() % kMostPatchPoints);
+    options.most_points = 1 + std::uint32_t(poses.bits() % kMostManifoldPoints);
     if (asked.round % 4 == 0) options.flatness = 0;
-    if (asked.round % 5 == 0) options.radius_a = 0.25, options.radius_b = 0.125;
-    QueryOptions query;
-    query.radius_a = options.radius_a, query.radius_b = options.radius_b;
-    const SignedAnswer deep = signed_distance(a, b, pose, seed, query);
-    took("alone", patch(a, b, pose, deep, options));
-    took("after", before = patch(a, b, pose, deep, options, before));
-    took("contact", patch(a, b, pose, contact(a, b, pose, near, query).answer, options));
+    const bool rounded = asked.round % 5 == 0;
+    const Body of_a(a, rounded ? 0.25 : 0), of_b(b, rounded ? 0.125 : 0);
+    const Answer deep = signed_distance(of_a, of_b, pose, seed);
+    took("alone", manifold(of_a, of_b, pose, deep, options));
+    took("after", before = manifold(of_a, of_b, pose, deep, options, before));
+    took("closest_features", manifold(of_a, of_b, pose, closest_features(of_a, of_b, pose, near).answer, options));
   });
 }
 
@@ -283,7 +284,7 @@ template <class Collect>
 void each_kind(const std::vector<Model>& models, int rounds, Collect collect) {
   collect("answers", [&](auto take) { each_answer(models, rounds, take); });
   collect("signed", [&](auto take) { each_signed_answer(models, rounds, take); });
-  collect("patches", [&](auto take) { each_patch(models, rounds, take); });
+  collect("manifolds", [&](auto take) { each_manifold(models, rounds, take); });
 }
 
 /// Empty, but for the first kind: what models are made at run time.

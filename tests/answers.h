@@ -14,7 +14,7 @@
 #include <vector>
 
 #include <swiftlet/depth.h>
-#include <swiftlet/patch.h>
+#include <swiftlet/manifold.h>
 #include <swiftlet/query.h>
 
 namespace swiftlet::answers {
@@ -44,8 +44,7 @@ void append(const Answer& answer, std::vector<std::uint64_t>& words);
 struct Fingerprint {
   std::uint64_t hash = 0xcbf29ce484222325u, answers = 0;
   void add(const Answer& answer);
-  void add(const SignedAnswer& answer);
-  void add(const Patch& patch);
+  void add(const Manifold& manifold);
   void add(std::uint64_t word);
 };
 
@@ -59,7 +58,7 @@ std::string text(const Print& print);
 /// All there is, one after the other: "answers" of all policies, refinements and plane rules, warm over `rounds` poses per pair
 /// of models, cold, from random seeds, of all queries, tolerances and budgets, tables and models made at run time; "signed"
 /// distances warm, cold, from random seeds, swapped, loose, limited and against thresholds, of overlaps for the most part;
-/// "patches" of both kinds of exact answers, with and without a margin, radii and flatness, few points and many, after one
+/// "manifolds" of both kinds of exact answers, with and without a margin, radii and flatness, few points and many, after one
 /// another and alone.
 std::vector<Print> prints(const std::vector<Model>& models, int rounds);
 

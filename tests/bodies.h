@@ -14,13 +14,14 @@
 #include <vector>
 
 #include <swiftlet/model.h>
+#include <swiftlet/query.h>
 
 #include "block.h"
 
 namespace swiftlet::bodies {
 
 /// One level's arrays, owned.
-struct Body {
+struct Polyhedron {
   std::vector<Vec3> points;
   std::vector<std::uint32_t> corners, sizes;
 
@@ -43,28 +44,28 @@ struct Body {
 ///   | 3--|-2      z up, x to the right.
 ///   |/   |/
 ///   0----1
-inline Body box(double x, double y, double z) {
-  Body b{{{-x, -y, -z}, {x, -y, -z}, {x, y, -z}, {-x, y, -z}, {-x, -y, z}, {x, -y, z}, {x, y, z}, {-x, y, z}}, {}, {}};
+inline Polyhedron box(double x, double y, double z) {
+  Polyhedron b{{{-x, -y, -z}, {x, -y, -z}, {x, y, -z}, {-x, y, -z}, {-x, -y, z}, {x, -y, z}, {x, y, z}, {-x, y, z}}, {}, {}};
   b.add({0, 3, 2, 1}), b.add({4, 5, 6, 7}), b.add({0, 1, 5, 4}), b.add({1, 2, 6, 5}), b.add({2, 3, 7, 6}), b.add({3, 0, 4, 7});
   return b;
 }
-inline Body cube() { return box(1, 1, 1); }
+inline Polyhedron cube() { return box(1, 1, 1); }
 
-inline Body octahedron() {
-  Body b{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}, {}, {}};
+inline Polyhedron octahedron() {
+  Polyhedron b{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}, {}, {}};
   b.add({0, 2, 4}), b.add({2, 1, 4}), b.add({1, 3, 4}), b.add({3, 0, 4}), b.add({2, 0, 5}), b.add({1, 2, 5}), b.add({3, 1, 5}),
       b.add({0, 3, 5});
   return b;
 }
 /// Four corners of a cube of side 2 s.
-inline Body tetrahedron(double s = 1) {
-  Body b{{{s, s, s}, {s, -s, -s}, {-s, s, -s}, {-s, -s, s}}, {}, {}};
+inline Polyhedron tetrahedron(double s = 1) {
+  Polyhedron b{{{s, s, s}, {s, -s, -s}, {-s, s, -s}, {-s, -s, s}}, {}, {}};
   b.add({0, 1, 2}), b.add({0, 2, 3}), b.add({0, 3, 1}), b.add({1, 3, 2});
   return b;
 }
 /// A flat polygon with its two sides.
-inline Body two_sided(std::vector<Vec3> loop) {
-  Body b{std::move(loop), {}, {}};
+inline Polyhedron two_sided(std::vector<Vec3> loop) {
+  Polyhedron b{std::move(loop), {}, {}};
   const auto n = std::uint32_t(b.points.size());
   b.corners.resize(2 * n);
   std::iota(b.corners.begin(), b.corners.begin() + n, 0u);
@@ -72,12 +73,12 @@ inline Body two_sided(std::vector<Vec3> loop) {
   b.sizes = {n, n};
   return b;
 }
-inline Body segment(const Vec3& p, const Vec3& q) { return {{p, q}, {}, {}}; }
-inline Body point(const Vec3& p) { return {{p}, {}, {}}; }
+inline Polyhedron segment(const Vec3& p, const Vec3& q) { return {{p, q}, {}, {}}; }
+inline Polyhedron point(const Vec3& p) { return {{p}, {}, {}}; }
 
 /// Every face as a fan from its first vertex.
-inline Body triangulated(const Body& body) {
-  Body result{body.points, {}, {}};
+inline Polyhedron triangulated(const Polyhedron& body) {
+  Polyhedron result{body.points, {}, {}};
   std::size_t at = 0;
   for (const std::uint32_t size : body.sizes) {
     for (std::size_t i = 1; i + 1 < size; ++i) result.add({body.corners[at], body.corners[at + i], body.corners[at + i + 1]});
@@ -86,14 +87,14 @@ inline Body triangulated(const Body& body) {
   return result;
 }
 /// Every coordinate mapped and rounded.
-inline Body moved(const Body& body, const Mat3& rotation, const Vec3& shift = Vec3::Zero()) {
-  Body result = body;
+inline Polyhedron moved(const Polyhedron& body, const Mat3& rotation, const Vec3& shift = Vec3::Zero()) {
+  Polyhedron result = body;
   for (Vec3& p : result.points) p = rotation * p + shift;
   return result;
 }
 /// As a file of 32-bit floats would have it. Through memory: GCC 12 folds vectorised casts there and back into nothing.
-inline Body float_rounded(const Body& body) {
-  Body result = body;
+inline Polyhedron float_rounded(const Polyhedron& body) {
+  Polyhedron result = body;
   for (Vec3& p : result.points) {
     for (double& x : p) {
       const volatile float rounded = float(x);
@@ -118,14 +119,14 @@ T must(Result<T> result) {
   if (!result) throw std::runtime_error(result.error().message);
   return std::move(result).value();
 }
-inline Model model(const Body& body, const ModelOptions& options = {}) {
+inline Model model(const Polyhedron& body, const ModelOptions& options = {}) {
   return must(Model::from_level(body.level(), options));
 }
 
 /// A triangle mesh (anything with points and triangles) as it is.
 template <class Mesh>
-Body body_of(const Mesh& mesh) {
-  Body b{mesh.points, {}, {}};
+Polyhedron body_of(const Mesh& mesh) {
+  Polyhedron b{mesh.points, {}, {}};
   for (const auto& t : mesh.triangles) b.add({t[0], t[1], t[2]});
   return b;
 }
@@ -135,6 +136,10 @@ inline std::vector<Vec3> points_of(const ConvexView& view) {
   for (const Vertex& v : view.vertices) points.emplace_back(v.x, v.y, v.z);
   return points;
 }
+/// What a question of yes or no, or one for the nearest features, reads of the options of a distance.
+inline Effort effort(const Options& options) { return {options.budget, options.tuning}; }
+inline ClosestOptions closest(const Options& options) { return {options.beyond, options.budget.steps, options.tuning}; }
+
 /// How narrow law 2 wants an exact answer.
 inline double law_two(const ConvexView& a, const ConvexView& b, const Pose& pose) {
   const double orthonormality = (pose.rotation.transpose() * pose.rotation - Mat3::Identity()).cwiseAbs().maxCoeff();
@@ -143,14 +148,13 @@ inline double law_two(const ConvexView& a, const ConvexView& b, const Pose& pose
 
 /// Octahedron in cube in tetrahedron: level 1 deviates by 2 / sqrt(3), level 2 by 8 / sqrt(3).
 inline Model nested(int levels = 3, const ModelOptions& options = {}) {
-  const Body all[] = {octahedron(), cube(), tetrahedron(3)};
+  const Polyhedron all[] = {octahedron(), cube(), tetrahedron(3)};
   std::vector<LevelArrays> arrays;
   for (int i = 0; i < levels; ++i) arrays.push_back(all[i].level());
   return must(Model::from_levels(arrays, options));
 }
 
-// ---- Blocks
-// ------------------------------------------------------------------------------------------------------------------
+// ---- Blocks ----------------------------------------------------------------------------------------------------------------
 
 using Bytes = std::vector<std::byte>;
 

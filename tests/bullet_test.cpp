@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -107,6 +108,15 @@ TEST(HullShape, IsABtConvexHullShapeOfTheModelsVertices) {
   EXPECT_EQ(high, bullets_high);
 }
 
+/// It would hand Bullet a larger hull.
+TEST(HullShape, RefusesAModelWithoutItsLevelZero) {
+  const Model nested = bodies::nested();
+  EXPECT_EQ(HullShape(nested).getNumPoints(), 6);
+  const Model cut = nested.cut({.deviation = 2});
+  ASSERT_GT(cut.finest_level(), 0);
+  EXPECT_THROW(HullShape{cut}, std::invalid_argument);
+}
+
 TEST(ClosestPoints, LieOnTheMarginsAndTheNormalPointsFromBToA) {
   World w;
   HullShape a(bodies::model(bodies::box(1, 1, 1))), b(bodies::model(bodies::box(2, 2, 2)));
@@ -175,8 +185,7 @@ TEST(ClosestPoints, AgreeWithTheExactDistanceLessBothMargins) {
     const Model &model_a = models[random() % 4], &model_b = models[random() % 4];
     HullShape a(model_a), b(model_b);
     const btTransform a_in_world = transform(), b_in_world = transform();
-    PairSeed seed;
-    const Answer truth = distance(model_a, model_b, relative(pose_of(a_in_world), pose_of(b_in_world)), seed);
+    const Answer truth = distance(model_a, model_b, relative(pose_of(a_in_world), pose_of(b_in_world)));
     ASSERT_NE(truth.status, Status::InvalidPose);
     if (truth.verdict != Verdict::Disjoint) continue;
     ++apart;
@@ -252,8 +261,7 @@ TEST(HullPairs, FollowAMovingPair) {
     object_b.setWorldTransform(btTransform(btQuaternion(btVector3(1, 1, 0).normalized(), btScalar(angle)),
                                            btVector3(btScalar(2.05 + 0.15 * std::sin(angle)), 0, 0)));
     w.world.performDiscreteCollisionDetection();
-    PairSeed cold;
-    const Answer truth = distance(a.model(), b.model(), pose_of(object_b.getWorldTransform()), cold);
+    const Answer truth = distance(a.model(), b.model(), pose_of(object_b.getWorldTransform()));
     const btPersistentManifold* const manifold =
         w.dispatcher.getNumManifolds() ? w.dispatcher.getManifoldByIndexInternal(0) : nullptr;
     btScalar least = 1;
@@ -325,7 +333,7 @@ TEST(HullPairs, AnswerOverlappingHullsThemselves) {
   w.world.removeCollisionObject(&object_a), w.world.removeCollisionObject(&object_b);
 }
 
-/// A point keeps the impulse that the solver left with it; what the patch no longer holds goes at once.
+/// A point keeps the impulse that the solver left with it; what the manifold no longer holds goes at once.
 TEST(HullPairs, KeepThePointsOfTheStepBefore) {
   World w;
   HullShape a(bodies::model(bodies::cube())), b(bodies::model(bodies::cube()));

@@ -37,11 +37,11 @@ std::vector<Vec3> points(const ConvexView& view) {
   return result;
 }
 
-Handle any_feature(Random& random, const ConvexView& view) {
+FeatureId any_feature(Random& random, const ConvexView& view) {
   const auto below = [&](std::size_t n) { return std::uint32_t(random.bits() % n); };
   switch (random.bits() % 3) {
     case 0: return {FeatureKind::Vertex, below(view.vertices.size())};
-    case 1: return {FeatureKind::Edge, below(view.head.size())};
+    case 1: return {FeatureKind::Edge, below(view.half_edges.size())};
     default: return {FeatureKind::Face, below(view.face_first.size())};
   }
 }
@@ -76,7 +76,7 @@ TEST(Certify, FromAnyFeaturesTheIntervalHoldsTheDistance) {
   each_trial(6, [&](const Trial& t, Random& random) {
     const oracle::Truth truth = oracle::distance(t.points_a, t.points_b, t.pose);
     for (int k = 0; k < 6; ++k) {
-      Handle fa = any_feature(random, t.a), fb = any_feature(random, t.b);
+      FeatureId fa = any_feature(random, t.a), fb = any_feature(random, t.b);
       if (fa.kind() == FeatureKind::Face && fb.kind() == FeatureKind::Face) fb = {FeatureKind::Vertex, any_vertex(t.b, fb)};
       Witness seen = witness(t.scene(), fa, fb);
       if (k >= 3) {
@@ -103,7 +103,7 @@ TEST(Certify, SupportsProveTheGapAlongAnyDirection) {
       if (k % 2 == 1) {  // level with a whole face, up to rounding
         const std::uint32_t h = t.a.face_first[f], v = origin(t.a, h);
         const Vec p = vec(t.a.vertices[v]);
-        n = normalised(cross(vec(t.a.vertices[t.a.head[h]]) - p, vec(t.a.vertices[t.a.head[next_in_facet(t.a, h)]]) - p));
+        n = normalised(cross(vec(t.a.vertices[t.a.half_edges[h].head]) - p, vec(t.a.vertices[t.a.half_edges[next_in_facet(t.a, h)].head]) - p));
         ++along_faces;
       }
       std::uint32_t tests = 0;

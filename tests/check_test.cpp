@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The checker of signed distances, attacked both ways: answers made of the rational truth pass, and forged ones do not.
+// The checker, attacked both ways: answers made of the rational truth pass, and forged ones do not.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 
 #include <swiftlet/build.h>
 #include <swiftlet/check.h>
+#include <swiftlet/depth.h>
 
 #include "oracle.h"
 #include "shapes.h"
@@ -24,21 +25,24 @@
 namespace swiftlet {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity(), kNaN = std::numeric_limits<double>::quiet_NaN();
+
 using Points = std::vector<Vec3>;
 
-struct Body {
+struct Polyhedron {
   Points points;
   Model model;
+  operator Body() const { return model; }
 };
-Body body(const Points& points) {
+Polyhedron body(const Points& points) {
   Result<Built> built = build(points, {});
   if (!built) throw std::runtime_error(built.error().message);
   return {points, built.value().model};
 }
-Body body(const Mesh& mesh) { return body(mesh.points); }
-Body box(double x, double y, double z) { return body(shapes::box({x, y, z})); }
+Polyhedron body(const Mesh& mesh) { return body(mesh.points); }
+Polyhedron box(double x, double y, double z) { return body(shapes::box({x, y, z})); }
 /// (cos k pi/2, sin k pi/2, +-1), as libm rounds them.
-Body square_prism() {
+Polyhedron square_prism() {
   Points points;
   for (int k = 0; k < 4; ++k) {
     for (const double z : {-1.0, 1.0})
@@ -47,30 +51,16 @@ Body square_prism() {
   return body(points);
 }
 
-struct Radii {
-  double a = 0, b = 0;
-};
-
-/// Law 2's bound.
-double bound_of(const Body& a, const Body& b, const Pose& pose, const Radii& radii = {}) {
-  const auto extent = [](const Body& x) {
-    double most = 0;
-    for (const Vec3& p : x.points) most = std::max(most, p.cwiseAbs().maxCoeff());
-    return most;
-  };
-  const double error = (pose.rotation.transpose() * pose.rotation - Mat3::Identity()).cwiseAbs().maxCoeff();
-  return (64 * 0x1p-53 + 2 * error) * (std::max(extent(a) + radii.a, extent(b) + radii.b) + pose.translation.norm());
-}
-
 /// A pair, what is true of it, and an exact answer made of that: the deepest points are where B touches A, moved free.
 struct Problem {
-  Problem(const Body& first, const Body& second, const Pose& b_in_a)
+  Problem(const Polyhedron& first, const Polyhedron& second, const Pose& b_in_a)
       : a(first),
         b(second),
         pose(b_in_a),
-        bound(bound_of(a, b, pose)),
+        bound(tolerance(a, b, pose)),
         truth(oracle::signed_distance(a.points, {}, b.points, pose)) {
     answer.status = Status::Converged;
+    answer.is_signed = true;
     answer.verdict = truth.sign > 0 ? Verdict::Disjoint : truth.sign < 0 ? Verdict::Overlapping : Verdict::Touching;
     answer.normal = truth.normal.normalized();
     answer.lower = oracle::gap(a.points, b.points, pose, answer.normal).lower;
@@ -82,32 +72,32 @@ struct Problem {
     answer.point_b = near.witness_b - (free.translation - pose.translation);
   }
 
-  std::string refusal(const SignedAnswer& s) const { return check(a.model, b.model, pose, s).message; }
+  std::string refusal(const Answer& s) const { return check(a, b, pose, s).message; }
 
-  const Body &a, &b;
+  const Polyhedron &a, &b;
   Pose pose;
   double bound;
   oracle::SignedTruth truth;
-  SignedAnswer answer;
+  Answer answer;
 };
 
 /// Random hulls, boxes, slabs and prisms, overlapping.
 void for_each_overlap(int count, std::uint64_t seed, const std::function<void(const Problem&)>& visit) {
   shapes::Random random(seed);
-  const std::vector<Body> solids{body(shapes::cube()),
-                                 box(2, 2, 0.2),
-                                 box(2, 0.2, 0.2),
-                                 square_prism(),
-                                 body(shapes::prism(5, 1, 2)),
-                                 body(shapes::prism(8, 1, 0.1)),
-                                 body(shapes::octahedron())};
+  const std::vector<Polyhedron> solids{body(shapes::cube()),
+                                       box(2, 2, 0.2),
+                                       box(2, 0.2, 0.2),
+                                       square_prism(),
+                                       body(shapes::prism(5, 1, 2)),
+                                       body(shapes::prism(8, 1, 0.1)),
+                                       body(shapes::octahedron())};
   for (int i = 0; i < count; ++i) {
     Points p, q;
     const int n = 4 + int(random.bits() % 12);
     for (int k = 0; k < n; ++k) p.push_back(random.in_ball()), q.push_back(random.in_ball());
-    const Body first = body(p), second = body(q);
-    const Body &a = i % 3 == 0 ? first : solids[random.bits() % solids.size()],
-               &b = i % 3 == 2 ? solids[random.bits() % solids.size()] : second;
+    const Polyhedron first = body(p), second = body(q);
+    const Polyhedron &a = i % 3 == 0 ? first : solids[random.bits() % solids.size()],
+                     &b = i % 3 == 2 ? solids[random.bits() % solids.size()] : second;
     const Problem problem(a, b, {random.rotation(), random.in_ball() * 0.5});
     if (problem.truth.sign < 0) visit(problem);
   }
@@ -127,11 +117,11 @@ Mat3 shaken_lattice(shapes::Random& random, double by) {
 /// (Nearly) coinciding solids, all of whose edges are nearly parallel to one another.
 void for_each_coincidence(int count, std::uint64_t seed, const std::function<void(const Problem&)>& visit) {
   shapes::Random random(seed);
-  const std::vector<Body> solids{body(shapes::cube()), box(2, 2, 0.2), box(2, 0.2, 0.2), square_prism(),
-                                 body(shapes::prism(6, 1, 2))};
+  const std::vector<Polyhedron> solids{body(shapes::cube()), box(2, 2, 0.2), box(2, 0.2, 0.2), square_prism(),
+                                       body(shapes::prism(6, 1, 2))};
   for (int i = 0; i < count; ++i) {
     const double by = std::ldexp(1.0, -30 - int(random.bits() % 23));
-    const Body &a = solids[random.bits() % solids.size()], &b = i % 4 == 0 ? solids[random.bits() % solids.size()] : a;
+    const Polyhedron &a = solids[random.bits() % solids.size()], &b = i % 4 == 0 ? solids[random.bits() % solids.size()] : a;
     Pose pose{shaken_lattice(random, by), Vec3::Zero()};
     if (random.bits() % 2) pose.translation = random.in_ball() * by;
     visit(Problem(a, b, pose));
@@ -139,19 +129,17 @@ void for_each_coincidence(int count, std::uint64_t seed, const std::function<voi
 }
 
 TEST(CheckOfDepth, AcceptsAPrismInItself) {
-  const Body prism = square_prism();
-  PairSeed seed;
-  const SignedAnswer s = signed_distance(prism.model, prism.model, {}, seed);
-  EXPECT_EQ(check(prism.model, prism.model, {}, s).message, "");
+  const Polyhedron prism = square_prism();
+  EXPECT_EQ(check(prism, prism, {}, signed_distance(prism, prism, {})).message, "");
   EXPECT_EQ(Problem(prism, prism, {}).refusal(Problem(prism, prism, {}).answer), "");
 }
 
 /// Opposite sides are parallel but for the last place, and what is left of their cross products was noise.
 TEST(CheckOfDepth, AcceptsPrismsTurnedAndMovedInThemselves) {
   shapes::Random random(1);
-  const Body prism = square_prism();
+  const Polyhedron prism = square_prism();
   int refused = 0;
-  const auto judge = [&](const Body& a, const Pose& pose) {
+  const auto judge = [&](const Polyhedron& a, const Pose& pose) {
     const Problem p(a, a, pose);
     refused += p.refusal(p.answer) != "";
   };
@@ -181,7 +169,7 @@ TEST(CheckOfDepth, AcceptsShakenLattices) {
 TEST(CheckOfDepth, KnowsTheDepthToTheLastPlace) {
   int all = 0;
   const auto judge = [&](const Problem& p) {
-    SignedAnswer s = p.answer;
+    Answer s = p.answer;
     ASSERT_EQ(p.refusal(s), "");
     s.upper = std::nextafter(p.truth.bounds.lower, -1e9);
     s.lower = std::min(s.lower, s.upper);
@@ -198,7 +186,7 @@ TEST(CheckOfDepth, KnowsTheDepthToTheLastPlace) {
 void expect_forgeries_refused(const Problem& p) {
   ASSERT_EQ(p.refusal(p.answer), "");
   const auto refused = [&](const char* what, double factor, auto change) {
-    SignedAnswer wrong = p.answer;
+    Answer wrong = p.answer;
     change(wrong);
     EXPECT_NE(p.refusal(wrong), "") << what << " " << factor << " of " << p.truth.distance;
   };
@@ -206,41 +194,42 @@ void expect_forgeries_refused(const Problem& p) {
   const double truth = p.truth.distance;
   for (const double factor : {2.0, 3.0, 10.0, 100.0}) {
     const double off = factor * p.bound;
-    refused("lower", factor, [&](SignedAnswer& s) { s.lower = truth + off, s.upper = std::max(s.upper, s.lower); });
-    refused("upper", factor, [&](SignedAnswer& s) { s.upper = truth - off, s.lower = std::min(s.lower, s.upper); });
-    refused("a long normal", factor, [&](SignedAnswer& s) { s.normal *= 1 + off; });
+    refused("lower", factor, [&](Answer& s) { s.lower = truth + off, s.upper = std::max(s.upper, s.lower); });
+    refused("upper", factor, [&](Answer& s) { s.upper = truth - off, s.lower = std::min(s.lower, s.upper); });
+    refused("a long normal", factor, [&](Answer& s) { s.normal *= 1 + off; });
     for (const Vec3& aside : {Vec3(across), Vec3(-across), Vec3(n.cross(across))}) {
-      refused("a leaning normal", factor, [&](SignedAnswer& s) {
+      refused("a leaning normal", factor, [&](Answer& s) {
         for (double by = off; oracle::gap(p.a.points, p.b.points, p.pose, s.normal).upper > s.lower - off; by *= 2)
           s.normal = (n + by * aside).normalized();
       });
-      refused("point_a", factor, [&](SignedAnswer& s) { s.point_a += off * aside; });
-      refused("point_b", factor, [&](SignedAnswer& s) { s.point_b += off * aside; });
+      refused("point_a", factor, [&](Answer& s) { s.point_a += off * aside; });
+      refused("point_b", factor, [&](Answer& s) { s.point_b += off * aside; });
     }
     for (const double sign : {1.0, -1.0}) {
-      refused("point_a along the normal", factor, [&](SignedAnswer& s) { s.point_a += sign * off * n; });
-      refused("point_b along the normal", factor, [&](SignedAnswer& s) { s.point_b += sign * off * n; });
+      refused("point_a along the normal", factor, [&](Answer& s) { s.point_a += sign * off * n; });
+      refused("point_b along the normal", factor, [&](Answer& s) { s.point_b += sign * off * n; });
       if (truth < 0) {
-        refused("both", factor, [&](SignedAnswer& s) { s.point_a += sign * off * n, s.point_b += sign * off * n; });
+        refused("both", factor, [&](Answer& s) { s.point_a += sign * off * n, s.point_b += sign * off * n; });
       }
     }
   }
   for (const Verdict verdict : {Verdict::Disjoint, Verdict::Touching, Verdict::Overlapping}) {
     if (verdict == p.answer.verdict) continue;
-    refused("verdict", 0, [&](SignedAnswer& s) { s.verdict = verdict; });
+    refused("verdict", 0, [&](Answer& s) { s.verdict = verdict; });
   }
   if (truth < 0) {
-    refused("touching in the middle", 0, [&](SignedAnswer& s) {
+    refused("touching in the middle", 0, [&](Answer& s) {
       s.verdict = Verdict::Touching, s.upper = 0;
       s.point_a = s.point_b = (s.point_a + s.point_b) / 2;
     });
   }
-  refused("the other way", 0, [](SignedAnswer& s) { s.normal = -s.normal; });
-  refused("no normal", 0, [](SignedAnswer& s) { s.normal.setZero(); });
-  refused("no interval", 0, [](SignedAnswer& s) { std::swap(s.lower, s.upper), s.lower += 1; });
-  refused("no number", 0, [](SignedAnswer& s) { s.upper = std::nan(""); });
-  refused("no depth at all", 0, [](SignedAnswer& s) { s.lower = s.upper = -std::numeric_limits<double>::infinity(); });
-  refused("a level that is not there", 0, [](SignedAnswer& s) { s.level_a = 99; });
+  refused("the other way", 0, [](Answer& s) { s.normal = -s.normal; });
+  refused("no normal", 0, [](Answer& s) { s.normal.setZero(); });
+  refused("an unknown normal", 0, [](Answer& s) { s.normal.setConstant(kNaN); });
+  refused("no interval", 0, [](Answer& s) { std::swap(s.lower, s.upper), s.lower += 1; });
+  refused("no number", 0, [](Answer& s) { s.upper = kNaN; });
+  refused("no depth at all", 0, [](Answer& s) { s.lower = s.upper = -kInfinity; });
+  refused("a level that is not there", 0, [](Answer& s) { s.level_a = 99; });
 }
 
 TEST(CheckOfDepth, RefusesForgeries) {
@@ -250,7 +239,7 @@ TEST(CheckOfDepth, RefusesForgeries) {
   for (int i = 0; i < 20; ++i) {  // apart
     Points p, q;
     for (int k = 0; k < 8; ++k) p.push_back(random.in_ball()), q.push_back(random.in_ball());
-    const Body a = body(p), b = body(q);
+    const Polyhedron a = body(p), b = body(q);
     expect_forgeries_refused(Problem(a, b, {random.rotation(), random.on_sphere() * 3}));
   }
 }
@@ -262,7 +251,7 @@ TEST(CheckOfDepth, SeesAnglesBelowEveryRounding) {
   for (int i = 0; i < 120; ++i) {
     Points points;
     for (int k = 0; k < 4 + i % 4; ++k) points.push_back(random.in_ball()), points.push_back(-points.back());
-    const Body mirrored = body(points);
+    const Polyhedron mirrored = body(points);
     Pose pose;
     const double by = std::pow(10.0, -(i % 6 == 0 ? random.uniform(40, 300) : random.uniform(18, 36)));
     for (int k = 0; k < 9; ++k) pose.rotation(k / 3, k % 3) += by * random.uniform(-1, 1);
@@ -276,23 +265,22 @@ TEST(CheckOfDepth, TakesOffRadii) {
   int deep = 0, shallow = 0;
   shapes::Random random(10);
   const auto judge = [&](const Problem& p) {
-    const Radii radii{random.uniform(0, 0.5), random.uniform(0, 0.5)};
-    const double bound = bound_of(p.a, p.b, p.pose, radii), sum = radii.a + radii.b, ulp = 0x1p-50;
-    SignedAnswer s = p.answer;
+    const Body a(p.a.model, random.uniform(0, 0.5)), b(p.b.model, random.uniform(0, 0.5));
+    const double bound = tolerance(a, b, p.pose), sum = a.radius() + b.radius(), ulp = 0x1p-50;
+    Answer s = p.answer;
+    s.radius_a = a.radius(), s.radius_b = b.radius();
     s.lower -= sum + ulp, s.upper -= sum - ulp;
     s.verdict = s.upper < 0 ? Verdict::Overlapping : Verdict::Disjoint;
-    s.point_a += radii.a * s.normal, s.point_b -= radii.b * s.normal;
-    const auto refusal = [&](const SignedAnswer& answer) {
-      return check(p.a.model, p.b.model, p.pose, answer, radii.a, radii.b).message;
-    };
+    s.point_a += a.radius() * s.normal, s.point_b -= b.radius() * s.normal;
+    const auto refusal = [&](const Answer& answer) { return check(a, b, p.pose, answer).message; };
     ASSERT_EQ(refusal(s), "") << p.truth.distance << " " << sum;
     ASSERT_NE(p.refusal(s), "");
     for (const double factor : {2.0, 10.0, 100.0}) {
-      SignedAnswer high = s, low = s, off = s;
+      Answer high = s, low = s, off = s;
       high.lower += factor * bound, high.upper = std::max(high.upper, high.lower);
       low.upper -= factor * bound, low.lower = std::min(low.upper, low.lower);
       off.point_b += factor * bound * s.normal.unitOrthogonal();
-      for (const SignedAnswer& wrong : {high, low, off}) EXPECT_NE(refusal(wrong), "") << factor << " " << p.truth.distance;
+      for (const Answer& wrong : {high, low, off}) EXPECT_NE(refusal(wrong), "") << factor << " " << p.truth.distance;
     }
     (p.truth.sign < 0 ? deep : shallow)++;
   };
@@ -300,7 +288,7 @@ TEST(CheckOfDepth, TakesOffRadii) {
   for (int i = 0; i < 60; ++i) {
     Points p, q;
     for (int k = 0; k < 8; ++k) p.push_back(random.in_ball()), q.push_back(random.in_ball());
-    const Body a = body(p), b = body(q);
+    const Polyhedron a = body(p), b = body(q);
     judge({a, b, {random.rotation(), random.on_sphere() * random.uniform(2, 2.5)}});
   }
   EXPECT_GE(std::min(deep, shallow), 30);
@@ -309,18 +297,15 @@ TEST(CheckOfDepth, TakesOffRadii) {
 /// Their points may be those of an overlap, which prove no upper bound above 0.
 TEST(CheckOfDepth, AcceptsWideIntervalsAroundZero) {
   const shapes::Pair pair = shapes::pair(shapes::Family::Fat, 200);
-  const Body a = body(pair.a), b = body(pair.b), cube = body(shapes::cube());
+  const Polyhedron a = body(pair.a), b = body(pair.b), cube = body(shapes::cube());
   shapes::Random random(12);
-  QueryOptions options;
-  options.absolute_error = 1;
   int open = 0, refused = 0;
   for (int i = 0; i < 1000; ++i) {
-    const Body &first = i % 2 ? a : cube, &second = i % 2 ? b : cube;
+    const Polyhedron &first = i % 2 ? a : cube, &second = i % 2 ? b : cube;
     const Pose pose{random.rotation(), random.on_sphere() * random.uniform(1.7, 2.6)};
-    PairSeed seed;
-    const SignedAnswer s = signed_distance(first.model, second.model, pose, seed, options);
+    const Answer s = signed_distance(first, second, pose, {.absolute = 1});
     if (!(s.lower < 0 && s.upper > 0)) continue;
-    ++open, refused += check(first.model, second.model, pose, s).message != "";
+    ++open, refused += check(first, second, pose, s).message != "";
   }
   EXPECT_EQ(refused, 0) << "of " << open;
   EXPECT_GE(open, 50);
@@ -328,13 +313,15 @@ TEST(CheckOfDepth, AcceptsWideIntervalsAroundZero) {
 
 /// 2 s of one core for two bodies of 2 000 triangles, also where all edges of one are nearly parallel to many of the other.
 TEST(CheckOfDepth, TakesTwoSecondsForNineMillionEdgePairs) {
-  const auto seconds_of = [](const Body& a, const Body& b, const Pose& pose) {
-    SignedAnswer s;
+  const auto seconds_of = [](const Polyhedron& a, const Polyhedron& b, const Pose& pose) {
+    Answer s;
     s.status = Status::Budget;
     s.verdict = Verdict::Overlapping;
+    s.is_signed = true;
+    s.lower = -kInfinity;
     s.upper = -1e-6;  // proved by the least height alone
     const std::clock_t start = std::clock();
-    EXPECT_EQ(check(a.model, b.model, pose, s).message, "");
+    EXPECT_EQ(check(a, b, pose, s).message, "");
     return double(std::clock() - start) / CLOCKS_PER_SEC;
   };
 #if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG)
@@ -346,15 +333,141 @@ TEST(CheckOfDepth, TakesTwoSecondsForNineMillionEdgePairs) {
       across{shapes::rotation({1, 0, 0}, std::acos(-1.0) / 2), {0, 0, 0}};
   for (const shapes::Family family : shapes::kFamilies) {
     const shapes::Pair pair = shapes::pair(family, 2000);
-    const Body a = body(pair.a), b = body(pair.b);
+    const Polyhedron a = body(pair.a), b = body(pair.b);
     for (const Pose& pose : {Pose{}, Pose{shapes::rotation(Vec3(1, 2, 3).normalized(), 1), {0.01, 0.02, 0.01}}}) {
       EXPECT_LT(seconds_of(a, b, pose), allowed) << shapes::name(family);
       EXPECT_LT(seconds_of(a, a, pose), allowed) << shapes::name(family);
     }
     EXPECT_LT(seconds_of(a, a, tilted), allowed) << shapes::name(family);
   }
-  const Body prism = body(shapes::prism(500, 1, 2));
+  const Polyhedron prism = body(shapes::prism(500, 1, 2));
   for (const Pose& pose : {Pose{}, tilted, across}) EXPECT_LT(seconds_of(prism, prism, pose), allowed);
+}
+
+// ---- Overlaps whose depth nobody asked for ---------------------------------------------------------------------------------
+
+/// B moved along the normal of the signed distance until that is `distance`.
+Pose at_distance(const Polyhedron& a, const Polyhedron& b, Pose pose, double distance) {
+  const Answer s = signed_distance(a, b, pose);
+  pose.translation += (distance - s.value()) * s.normal;
+  return pose;
+}
+
+/// Boxes, slabs and hulls of few and of hundreds of points.
+void for_each_pair(const std::function<void(const Polyhedron& a, const Polyhedron& b, const Pose& pose)>& visit) {
+  shapes::Random random(13);
+  const shapes::Pair fat = shapes::pair(shapes::Family::Fat, 300), plate = shapes::pair(shapes::Family::Plate, 300);
+  const std::vector<Polyhedron> solids{body(shapes::cube()), box(2, 2, 0.2), body(fat.a), body(plate.a),
+                                       body(shapes::random_polytope(20, 1))};
+  for (const Polyhedron& a : solids)
+    for (const Polyhedron& b : solids) visit(a, b, {random.rotation(), 0.3 * random.in_ball()});
+}
+
+TEST(CheckOfOverlap, NeedsNoProof) {
+  int shallow = 0;
+  for_each_pair([&](const Polyhedron& a, const Polyhedron& b, const Pose& anyhow) {
+    for (const double depth : {kInfinity, 0.1, 1e-3, 1e-6, 1e-9, 1e-13}) {
+      const Pose pose = depth < kInfinity ? at_distance(a, b, anyhow, -depth) : anyhow;
+      for (const bool exact : {false, true}) {
+        OverlapProof proof;
+        const Tuning tuning{.proof = &proof};
+        const Answer s = exact ? distance(a, b, pose, {.tuning = tuning}) : intersects(a, b, pose, {.tuning = tuning});
+        if (depth < 1e-12 && s.verdict != Verdict::Overlapping) continue;
+        ASSERT_EQ(s.verdict, Verdict::Overlapping) << depth;
+        EXPECT_EQ(check(a, b, pose, s).message, "") << depth;
+        EXPECT_EQ(check(a, b, pose, s, &proof).message, "") << depth;
+        shallow += depth < 1e-12;
+        OverlapProof other = proof;
+        other.vertex_a.fill(proof.vertex_a[0]), other.vertex_b.fill(proof.vertex_b[0]);
+        EXPECT_NE(check(a, b, pose, s, &other).message, "");
+        other = proof;
+        other.vertex_b[3] = std::uint32_t(b.points.size());
+        EXPECT_NE(check(a, b, pose, s, &other).message, "");
+        other = proof;
+        other.count = 3;
+        EXPECT_NE(check(a, b, pose, s, &other).message, "");
+      }
+    }
+  });
+  EXPECT_GE(shallow, 10);
+}
+
+TEST(CheckOfOverlap, RefusesOneOfHullsThatAreApart) {
+  const auto expect_refused = [](const Polyhedron& a, const Polyhedron& b, const Pose& apart, const Answer& claim,
+                                 const OverlapProof& proof) {
+    ASSERT_EQ(oracle::distance(a.points, b.points, apart).overlapping, false);
+    EXPECT_NE(check(a, b, apart, claim).message, "") << apart.translation;
+    EXPECT_NE(check(a, b, apart, claim, &proof).message, "") << apart.translation;
+  };
+  for_each_pair([&](const Polyhedron& a, const Polyhedron& b, const Pose& pose) {
+    OverlapProof proof;
+    Answer claim = distance(a, b, pose, {.tuning = {.proof = &proof}});
+    ASSERT_EQ(claim.verdict, Verdict::Overlapping);
+    for (const double gap : {1., 1e-3, 1e-6, 1e-9, 1e-13}) {
+      expect_refused(a, b, at_distance(a, b, pose, gap), claim, proof);
+      Answer without_points = claim;
+      without_points.point_a.setConstant(kNaN), without_points.point_b.setConstant(kNaN);
+      expect_refused(a, b, at_distance(a, b, pose, gap), without_points, proof);
+    }
+  });
+  const Polyhedron cube = body(shapes::cube());
+  OverlapProof proof;
+  const Pose touching{Mat3::Identity(), {2, 0, 0}}, next_to_it{Mat3::Identity(), {2 + 0x1p-51, 0, 0}};
+  const Answer claim = intersects(cube, cube, {Mat3::Identity(), {2 - 0x1p-40, 0, 0}}, {.tuning = {.proof = &proof}});
+  EXPECT_EQ(check(cube, cube, touching, claim).message, "") << "closed sets share what they touch in";
+  expect_refused(cube, cube, next_to_it, claim, proof);
+}
+
+// ---- Bodies ----------------------------------------------------------------------------------------------------------------
+
+TEST(Check, RefusesAnAnswerOfOtherRadii) {
+  const Polyhedron cube = body(shapes::cube());
+  const Body thin(cube.model, 0.125), thick(cube.model, 0.25);
+  for (const double x : {1.5, 2.25, 4.}) {
+    const Pose pose{Mat3::Identity(), {x, 0.25, 0}};
+    for (const Answer& s : {distance(thin, thick, pose), signed_distance(thin, thick, pose), intersects(thin, thick, pose)}) {
+      EXPECT_EQ(check(thin, thick, pose, s).message, "") << x;
+      for (const auto& [a, b] : {std::pair{thick, thin}, std::pair{thin, thin}, std::pair{Body(cube.model), thick}})
+        EXPECT_EQ(check(a, b, pose, s).message, "the answer is of other radii") << x;
+    }
+  }
+}
+
+/// Spheres, capsules, triangles, boxes and flat ones, sharp and rounded, with each other and with a hull.
+TEST(Check, KnowsPrimitives) {
+  shapes::Random random(14);
+  const Polyhedron hull = body(shapes::random_polytope(30, 2));
+  const auto p = [&] { return random.in_ball(); };
+  int overlapping = 0, apart = 0;
+  for (int i = 0; i < 60; ++i) {
+    const double radius = i % 2 ? random.uniform(0, 0.3) : 0;
+    const Vec3 corner = p();
+    const std::vector<Body> bodies{Body::point(p(), radius),
+                                   Body::segment(p(), p(), radius),
+                                   Body::triangle(p(), p(), p(), radius),
+                                   Body::box(corner, corner + p().cwiseAbs(), radius),
+                                   Body::box(corner, corner + Vec3(1, 0, 1), radius),
+                                   {hull.model, radius}};
+    for (const Body& a : bodies) {
+      for (const Body& b : bodies) {
+        const Pose pose{random.rotation(), random.in_ball() * 1.5};
+        OverlapProof proof;
+        const Answer near = distance(a, b, pose, {.tuning = {.proof = &proof}}), deep = signed_distance(a, b, pose);
+        for (const Answer& s : {near, deep, intersects(a, b, pose)}) EXPECT_EQ(check(a, b, pose, s).message, "");
+        EXPECT_EQ(check(a, b, pose, near, &proof).message, "");
+        (near.verdict == Verdict::Overlapping ? overlapping : apart) += 1;
+        const double off = 4 * tolerance(a, b, pose);
+        for (Answer wrong : {near, deep}) {
+          wrong.lower += off, wrong.upper += off;
+          EXPECT_NE(check(a, b, pose, wrong).message, "") << near.lower << ' ' << deep.lower;
+        }
+        Answer wrong = deep;
+        wrong.lower -= off, wrong.upper -= off;
+        EXPECT_NE(check(a, b, pose, wrong).message, "") << deep.lower;
+      }
+    }
+  }
+  EXPECT_GE(std::min(overlapping, apart), 300);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@
 namespace swiftlet::degenerate {
 namespace {
 
-using bodies::Body;
+using bodies::Polyhedron;
 using Index = std::uint32_t;
 using Point = std::array<int, 3>;
 using Wide = std::array<long long, 3>;
@@ -102,7 +102,7 @@ long long volume_of(const std::vector<Point>& points, const std::vector<std::vec
   return six;
 }
 
-std::vector<std::vector<Index>> loops_of(const Body& body) {
+std::vector<std::vector<Index>> loops_of(const Polyhedron& body) {
   std::vector<std::vector<Index>> loops;
   std::size_t at = 0;
   for (const Index size : body.sizes) {
@@ -196,7 +196,7 @@ Triangles torus() {
   return triangles;
 }
 
-void put(const Triangles& triangles, Body& body) {
+void put(const Triangles& triangles, Polyhedron& body) {
   for (const auto& [a, b, c] : triangles) body.add({a, b, c});
 }
 
@@ -235,8 +235,8 @@ std::vector<Point> wound(Random& random) {
 }
 
 /// The corners of a hull, its facets whole or cut into triangles; nothing where the points have no volume.
-Body hull(Random& random, std::vector<Point>& lattice) {
-  Body body;
+Polyhedron hull(Random& random, std::vector<Point>& lattice) {
+  Polyhedron body;
   const auto facets = hull_of(lattice);
   std::vector<Index> number(lattice.size(), kNone);
   std::vector<Point> corners;
@@ -275,7 +275,7 @@ void place(Random& random, Arrays& arrays, int scale, int spread) {
 
 /// One thing wrong, or nothing that matters.
 void damage(Random& random, Arrays& arrays) {
-  Body& body = arrays.body;
+  Polyhedron& body = arrays.body;
   constexpr double kOdd[] = {0.0,
                              -0.0,
                              1e-300,

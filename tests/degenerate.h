@@ -18,7 +18,7 @@ namespace swiftlet::degenerate {
 
 /// One level's arrays, and what is known of them.
 struct Arrays {
-  bodies::Body body;
+  bodies::Polyhedron body;
   std::vector<std::uint32_t> child_vertex, child_of_face, vertex_source, face_source_begin, face_source;
   std::vector<std::array<int, 3>> lattice;  ///< integers that an affine map took to the body's points; empty: not known
 
@@ -43,8 +43,8 @@ struct Outcome {
   std::string fault;    ///< what is wrong with the outcome; empty: nothing
 };
 
-/// Builds the model; verifies it, loads it again and with forged vertices, and asks for distances and signed ones to other bodies
-/// and itself.
+/// Builds the model; verifies it, loads it again and with forged vertices, and asks for distances and signed ones to other
+/// bodies and itself.
 Outcome judge(const Case& given);
 
 }  // namespace swiftlet::degenerate

@@ -56,16 +56,17 @@ bool same(std::span<const T> a, std::span<const T> b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
-std::uint64_t print_of(const Model& a, const Model& b, const QueryOptions& options = {}, int rounds = 40) {
+std::uint64_t print_of(const Model& a, const Model& b, const Options& options = {}, int rounds = 40) {
   answers::Fingerprint print;
+  const Effort effort{options.budget, options.tuning};
   answers::Poses poses(7);
   PairSeed warm, tested, near;
   for (int i = 0; i < rounds; ++i) {
     const Pose pose = poses.next();
     PairSeed cold, garbage = poses.seed();
     for (PairSeed* seed : {&warm, &cold, &garbage}) print.add(distance(a, b, pose, *seed, options));
-    print.add(intersects(a, b, pose, tested, options));
-    print.add(within(a, b, pose, 0.5, near, options).answer);
+    print.add(intersects(a, b, pose, tested, effort));
+    print.add(within(a, b, pose, 0.5, near, effort).answer);
   }
   return print.hash;
 }
@@ -97,7 +98,7 @@ TEST_F(DetailTest, ACutModelHoldsTheLevelsAskedFor) {
           continue;
         }
         EXPECT_TRUE(same(of_cut.view.vertices, whole.view.vertices));
-        EXPECT_TRUE(std::ranges::equal(of_cut.view.head, whole.view.head));
+        EXPECT_TRUE(std::ranges::equal(of_cut.view.half_edges, whole.view.half_edges));
         EXPECT_TRUE(same(of_cut.child_vertex, whole.child_vertex));
         EXPECT_TRUE(same(of_cut.parent_face, whole.parent_face));
         EXPECT_TRUE(same(of_cut.support_map, whole.support_map));
@@ -146,11 +147,9 @@ TEST_F(DetailTest, AnAbsentLevelIsAsOneForbidden) {
         for (const StartPolicy start :
              {StartPolicy::Automatic, StartPolicy::Paper, StartPolicy::Finest, StartPolicy::Coarsest, StartPolicy::Table}) {
           for (const Refinement refinement : {Refinement::Single, Refinement::SingleSingle, Refinement::DoubleDouble}) {
-            QueryOptions options;
-            options.start = start;
-            options.refinement = refinement;
+            Options options{.tuning = {.start = start, .refinement = refinement}};
             const std::uint64_t found = print_of(cut_a, cut_b, options, 10);
-            options.finest_level = k;
+            options.budget.finest_level = k;
             ASSERT_EQ(found, print_of(a, b, options, 10)) << k << ' ' << int(start) << ' ' << int(refinement);
             ++compared;
           }
@@ -170,10 +169,9 @@ TEST_F(DetailTest, WhateverIsAbsentTheIntervalIsTrueAndTheStatusSaysWhatLacked) 
       for (int i = 0; i < 60; ++i) {
         const Pose pose = poses.next();
         const Model cut_a = cut_at(a, i % a.level_count()), cut_b = cut_at(b, i / 3 % b.level_count());
-        PairSeed exact, cold, tested;
+        PairSeed exact, cold;
         const Answer truth = distance(a, b, pose, exact);
-        QueryOptions options;
-        options.relative_error = i % 4 == 0 ? 0 : std::pow(10, -(i % 4));
+        const Options options{.relative = i % 4 == 0 ? 0 : std::pow(10, -(i % 4))};
         const Answer answer = distance(cut_a, cut_b, pose, i % 2 == 0 ? cold : exact, options);
         ASSERT_LE(answer.lower, truth.upper);
         ASSERT_GE(answer.upper, truth.lower);
@@ -183,7 +181,7 @@ TEST_F(DetailTest, WhateverIsAbsentTheIntervalIsTrueAndTheStatusSaysWhatLacked) 
         ASSERT_TRUE(whole) << whole.message;
         ASSERT_TRUE(itself) << itself.message;
         const bool levels = cut_a.finest_level() > 0 || cut_b.finest_level() > 0;
-        const bool narrow = answer.upper - answer.lower <= options.relative_error * answer.lower;
+        const bool narrow = answer.upper - answer.lower <= options.relative * answer.lower;
         if (answer.status == Status::LevelLimit) {
           ASSERT_TRUE(levels && !narrow);
         }
@@ -191,7 +189,7 @@ TEST_F(DetailTest, WhateverIsAbsentTheIntervalIsTrueAndTheStatusSaysWhatLacked) 
           ASSERT_TRUE(narrow);
         }
         (answer.status == Status::LevelLimit ? limited : converged) += 1;
-        const Answer meeting = intersects(cut_a, cut_b, pose, tested);
+        const Answer meeting = intersects(cut_a, cut_b, pose);
         if (levels) {
           ASSERT_NE(meeting.verdict, Verdict::Overlapping) << "enclosing levels prove no overlap";
         }
@@ -224,8 +222,7 @@ TEST_F(DetailTest, LevelsAddedLaterAnswerAsIfTheyHadBeenThereAndSeedsFit) {
     for (int k = coarsest; k >= 0; --k) {
       ASSERT_EQ(must(grown.ensure(k)), k);
       ASSERT_EQ(must(grown.ensure(coarsest)), k) << "levels stay";
-      QueryOptions options;
-      options.finest_level = k;
+      const Options options{.budget = {.finest_level = k}};
       for (int i = 0; i < 30; ++i) {
         const Pose pose = poses.next();
         answers::Fingerprint ours, whole;

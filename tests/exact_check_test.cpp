@@ -28,20 +28,29 @@ Subject hull(std::uint32_t points, std::uint64_t seed) {
 }
 Subject cube() { return make_subject(bodies::cube().points, bodies::model(bodies::cube())); }
 
-Answer exact(const Subject& a, const Subject& b, const Pose& pose) {
-  PairSeed seed;
-  return distance(a.model, b.model, pose, seed);
+/// An answer and the proof that it rests on.
+struct Proved {
+  Answer answer;
+  OverlapProof proof;
+};
+Proved exact(const Subject& a, const Subject& b, const Pose& pose) {
+  OverlapProof proof;
+  const Answer answer = distance(a.model, b.model, pose, {.tuning = {.proof = &proof}});
+  return {answer, proof};
 }
 
 /// What the judge, fresh, and then one that knows the truth, say of a changed answer.
-void expect_flagged(const Subject& a, const Subject& b, const Pose& pose, const char* what,
-                    const std::function<void(Answer&)>& change) {
-  Answer answer = exact(a, b, pose);
-  change(answer);
+void expect_flagged(const Subject& a, const Subject& b, const Pose& pose, const char* what, const Proved& changed) {
   Judge fresh(a, b, pose), knowing(a, b, pose);
   knowing.truth();
-  EXPECT_NE(fresh.exact(answer), "") << what;
-  EXPECT_NE(knowing.exact(answer), "") << what << ", with the truth known";
+  EXPECT_NE(fresh.exact(changed.answer, changed.proof), "") << what;
+  EXPECT_NE(knowing.exact(changed.answer, changed.proof), "") << what << ", with the truth known";
+}
+void expect_flagged(const Subject& a, const Subject& b, const Pose& pose, const char* what,
+                    const std::function<void(Answer&)>& change) {
+  Proved changed = exact(a, b, pose);
+  change(changed.answer);
+  expect_flagged(a, b, pose, what, changed);
 }
 
 struct Scene {
@@ -55,13 +64,13 @@ TEST(Judge, PassesTrueAnswers) {
   int verdicts[4] = {0, 0, 0, 0};
   for (int i = 0; i < 300; ++i) {
     const Pose pose{random.rotation(), random.in_ball() * 2};
-    const Answer answer = exact(s.a, s.b, pose);
+    const auto [answer, proof] = exact(s.a, s.b, pose);
     ++verdicts[int(answer.verdict)];
     Judge judge(s.a, s.b, pose);
-    EXPECT_EQ(judge.exact(answer), "");
+    EXPECT_EQ(judge.exact(answer, proof), "");
     EXPECT_FALSE(judge.has_truth()) << "the features show the upper bound";
     judge.truth();
-    EXPECT_EQ(judge.exact(answer), "");
+    EXPECT_EQ(judge.exact(answer, proof), "");
   }
   EXPECT_GE(verdicts[int(Verdict::Disjoint)], 50);
   EXPECT_GE(verdicts[int(Verdict::Overlapping)], 50);
@@ -69,7 +78,7 @@ TEST(Judge, PassesTrueAnswers) {
 
 TEST(Judge, FlagsALowerBoundOneUlpAboveTheGap) {
   const Scene s;
-  const Answer answer = exact(s.a, s.b, s.apart);
+  const Answer answer = exact(s.a, s.b, s.apart).answer;
   const double gap = oracle::gap(s.a.points, s.b.points, s.apart, answer.normal).lower;
   ASSERT_GE(gap, answer.lower);
   ASSERT_LE(gap, answer.upper);
@@ -82,7 +91,7 @@ TEST(Judge, FlagsALowerBoundOneUlpAboveTheGap) {
 
 TEST(Judge, FlagsAnUpperBoundOneUlpBelowTheDistance) {
   const Scene s;
-  const Answer answer = exact(s.a, s.b, s.apart);
+  const Answer answer = exact(s.a, s.b, s.apart).answer;
   const oracle::Interval truth = oracle::distance(s.a.points, s.b.points, s.apart).bounds;
   Answer changed = answer;
   changed.lower = std::nextafter(answer.lower, 0);
@@ -126,9 +135,14 @@ TEST(Judge, FlagsEveryFieldOfADisjointAnswer) {
 
 TEST(Judge, FlagsFalseProofsOfOverlap) {
   const Scene s;
-  const Answer there = exact(s.a, s.b, s.inside);
-  ASSERT_EQ(there.verdict, Verdict::Overlapping);
-  expect_flagged(s.a, s.b, s.apart, "the proof of another pose", [&](Answer& x) { x = there; });
+  const Proved there = exact(s.a, s.b, s.inside);
+  ASSERT_EQ(there.answer.verdict, Verdict::Overlapping);
+  expect_flagged(s.a, s.b, s.apart, "the proof of another pose", there);
+  const auto flagged_proof = [&](const char* what, const std::function<void(OverlapProof&)>& change) {
+    Proved changed = there;
+    change(changed.proof);
+    expect_flagged(s.a, s.b, s.inside, what, changed);
+  };
   const auto flagged = [&](const char* what, const auto& change) { expect_flagged(s.a, s.b, s.inside, what, change); };
   flagged("disjoint", [](Answer& x) { x.verdict = Verdict::Disjoint; });
   flagged("disjoint with a lower bound", [](Answer& x) {
@@ -141,39 +155,35 @@ TEST(Judge, FlagsFalseProofsOfOverlap) {
     x.normal = Vec3::UnitX();
   });
   flagged("apart", [](Answer& x) { x.upper = 1e-300; });
-  flagged("three vertices", [](Answer& x) { x.proof.count = 3; });
-  flagged("no vertex", [](Answer& x) { x.proof.vertex_b[2] = 1000; });
-  flagged("one vertex twice", [](Answer& x) {
-    x.proof.vertex_a[1] = x.proof.vertex_a[0];
-    x.proof.vertex_b[1] = x.proof.vertex_b[0];
-  });
+  flagged_proof("three vertices", [](OverlapProof& x) { x.count = 3; });
+  flagged_proof("no vertex", [](OverlapProof& x) { x.vertex_b[2] = 1000; });
+  flagged_proof("one vertex twice", [](OverlapProof& x) { x.vertex_a[1] = x.vertex_a[0], x.vertex_b[1] = x.vertex_b[0]; });
 }
 
 TEST(Judge, FlagsEveryFieldOfADepth) {
   const Scene s;
-  PairSeed seed;
-  const SignedAnswer answer = signed_distance(s.a.model, s.b.model, s.inside, seed);
+  const Answer answer = signed_distance(s.a.model, s.b.model, s.inside);
   ASSERT_EQ(answer.verdict, Verdict::Overlapping);
   const double bound = Judge(s.a, s.b, s.inside).law_two();
   EXPECT_EQ(Judge(s.a, s.b, s.inside).exact(answer), "");
-  const auto flagged = [&](const char* what, const std::function<void(SignedAnswer&)>& change) {
-    SignedAnswer changed = answer;
+  const auto flagged = [&](const char* what, const std::function<void(Answer&)>& change) {
+    Answer changed = answer;
     change(changed);
     EXPECT_NE(Judge(s.a, s.b, s.inside).exact(changed), "") << what;
   };
-  flagged("not converged", [](SignedAnswer& x) { x.status = Status::NotConverged; });
-  flagged("ended by its budget", [](SignedAnswer& x) { x.status = Status::Budget; });
-  flagged("undecided", [](SignedAnswer& x) { x.verdict = Verdict::Undecided; });
-  flagged("disjoint", [](SignedAnswer& x) { x.verdict = Verdict::Disjoint; });
-  flagged("touching", [](SignedAnswer& x) { x.verdict = Verdict::Touching; });
-  flagged("wide", [&](SignedAnswer& x) { x.upper = x.lower + 1.01 * bound; });
-  flagged("shallower than along the normal", [&](SignedAnswer& x) { x.lower += bound, x.upper += bound; });
-  flagged("deeper than the truth", [&](SignedAnswer& x) { x.lower -= bound, x.upper -= bound; });
-  flagged("not a number", [](SignedAnswer& x) { x.lower = std::nan(""); });
-  flagged("flipped normal", [](SignedAnswer& x) { x.normal = -x.normal; });
-  flagged("longer normal", [](SignedAnswer& x) { x.normal *= 1 + 0x1p-49; });
-  flagged("point of A off along the normal", [&](SignedAnswer& x) { x.point_a += 3 * bound * x.normal; });
-  flagged("both points aside", [](SignedAnswer& x) {
+  flagged("not converged", [](Answer& x) { x.status = Status::NotConverged; });
+  flagged("ended by its budget", [](Answer& x) { x.status = Status::Budget; });
+  flagged("undecided", [](Answer& x) { x.verdict = Verdict::Undecided; });
+  flagged("disjoint", [](Answer& x) { x.verdict = Verdict::Disjoint; });
+  flagged("touching", [](Answer& x) { x.verdict = Verdict::Touching; });
+  flagged("wide", [&](Answer& x) { x.upper = x.lower + 1.01 * bound; });
+  flagged("shallower than along the normal", [&](Answer& x) { x.lower += bound, x.upper += bound; });
+  flagged("deeper than the truth", [&](Answer& x) { x.lower -= bound, x.upper -= bound; });
+  flagged("not a number", [](Answer& x) { x.lower = std::nan(""); });
+  flagged("flipped normal", [](Answer& x) { x.normal = -x.normal; });
+  flagged("longer normal", [](Answer& x) { x.normal *= 1 + 0x1p-49; });
+  flagged("point of A off along the normal", [&](Answer& x) { x.point_a += 3 * bound * x.normal; });
+  flagged("both points aside", [](Answer& x) {
     const Vec3 aside = x.normal.unitOrthogonal() * 3;
     x.point_a += aside, x.point_b += aside;
   });
@@ -182,7 +192,7 @@ TEST(Judge, FlagsEveryFieldOfADepth) {
 TEST(Judge, TellsTouchingFromOverlapByLawTwo) {
   const Subject a = cube(), b = cube();
   const auto pose = [](double x) { return Pose{Mat3::Identity(), {x, 0.25, 0}}; };
-  const Answer touching = exact(a, b, pose(2));
+  const Answer touching = exact(a, b, pose(2)).answer;
   ASSERT_EQ(touching.verdict, Verdict::Touching);
   EXPECT_EQ(Judge(a, b, pose(2)).exact(touching), "");
   const double bound = Judge(a, b, pose(2)).law_two();
@@ -213,10 +223,7 @@ TEST(Judge, FlagsCoarseAnswersThatAreNotTrue) {
   const Subject a = make_subject(mesh.points, bodies::must(build(mesh)).model);
   ASSERT_GE(a.model.level_count(), 2);
   const Pose pose{Mat3::Identity(), {1.5, 1.5, 0.5}};
-  QueryOptions options;
-  options.finest_level = 1;
-  PairSeed seed;
-  Answer answer = distance(a.model, a.model, pose, seed, options);
+  Answer answer = distance(a.model, a.model, pose, {.budget = {.finest_level = 1}});
   ASSERT_EQ(answer.level_a, 1);
   EXPECT_EQ(Judge(a, a, pose).interval(answer), "");
   answer.upper = answer.lower;

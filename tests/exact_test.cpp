@@ -172,8 +172,7 @@ TEST(Exact, CompareAlongTurnedIsTheDotsSign) {
   }
 }
 
-// ---- The origin in a tetrahedron
-// ---------------------------------------------------------------------------------------------
+// ---- The origin in a tetrahedron -------------------------------------------------------------------------------------------
 
 using Four = std::array<Integers, 4>;
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -38,6 +39,11 @@ Transform at(double x, double y, double z) {
   Transform t = Transform::Identity();
   t.translation() = Vec3(x, y, z);
   return t;
+}
+
+template <class S>
+Pose pose_of(const ::fcl::Transform3<S>& t) {
+  return {t.linear().template cast<double>(), t.translation().template cast<double>()};
 }
 
 Model stored(const char* name) { return load(std::string(SWIFTLET_TEST_DIR) + "/data/models/" + name + ".swl").value(); }
@@ -98,6 +104,15 @@ TEST(Convex, IsWhatFclMakesOfTheSameFaces) {
   EXPECT_NEAR(Convex(model).computeVolume(), model.volume(), 1e-12);
 }
 
+/// It would hand FCL a larger hull.
+TEST(Convex, RefusesAModelWithoutItsLevelZero) {
+  const Model nested = bodies::nested();
+  EXPECT_EQ(Convex(nested).getVertices().size(), 6u);
+  const Model cut = nested.cut({.deviation = 2});
+  ASSERT_GT(cut.finest_level(), 0);
+  EXPECT_THROW(Convex{cut}, std::invalid_argument);
+}
+
 TEST(Distance, OfBoxesIsExact) {
   const Convex a(bodies::model(bodies::box(1, 2, 3))), b(bodies::model(bodies::cube()));
   const Solver solver;
@@ -121,10 +136,7 @@ TEST(Distance, AndPointsHoldForAnyPose) {
   for (int i = 0; i < 4000; ++i) {
     const std::size_t a = i % 4, b = i / 4 % 4;
     const Transform a_in_world = poses.next(2), b_in_world = poses.next(2);
-    PairSeed cold;
-    const Answer truth = distance(
-        models[a], models[b],
-        relative({a_in_world.linear(), a_in_world.translation()}, {b_in_world.linear(), b_in_world.translation()}), cold);
+    const Answer truth = distance(models[a], models[b], relative(pose_of(a_in_world), pose_of(b_in_world)));
     const Measured ours = measure(shapes[a], a_in_world, shapes[b], b_in_world, solver);
     if (truth.verdict != Verdict::Disjoint) {
       EXPECT_EQ(ours.distance, -1);
@@ -204,6 +216,34 @@ TEST(Collision, OfOverlappingBodiesHasTheirDepth) {
   EXPECT_EQ(collide(a, at(0, 0, 0), a, at(0, 0, 0), Solver()).numContacts(), 4u);  // two in one place
 }
 
+TEST(Touches, AreNoneOfBodiesThatAreApart) {
+  const Model a = bodies::model(bodies::cube()), b = bodies::model(bodies::octahedron());
+  PairSeed seed;
+  for (const double gap : {1.0, 1e-12}) {
+    EXPECT_TRUE(fcl::touches({a, {}}, {b, {Mat3::Identity(), Vec3(0, 0, 2 + gap)}}, seed).empty()) << gap;
+  }
+  EXPECT_EQ(fcl::touches({a, {}}, {b, {Mat3::Identity(), Vec3(0, 0, 2)}}, seed).size(), 1u);
+}
+
+/// It grows with coordinates far from a frame's origin, and with what a rotation lacks of being one.
+TEST(Touches, AreAsDeepAsTheTolerance) {
+  const double far = 1024, wrong = 1e-4;
+  const Model left = bodies::model(bodies::moved(bodies::cube(), Mat3::Identity(), Vec3(-far, 0, 0)));
+  const Model right = bodies::model(bodies::moved(bodies::cube(), Mat3::Identity(), Vec3(far, 0, 0)));
+  const Pose between{Mat3::Identity(), Vec3(2 - 2 * far, 0, 0)};
+  PairSeed seed;
+  const auto face_on_face = fcl::touches({left, {}}, {right, between}, seed);
+  EXPECT_EQ(face_on_face.size(), 4u);
+  for (const fcl::Touch& touch : face_on_face) {
+    EXPECT_EQ(touch.depth, tolerance(left, right, between));
+    EXPECT_NEAR(touch.point.x(), 1 - far, 1e-9);
+  }
+  const Placed stretched{right, {Vec3(1, 1 + wrong, 1 - wrong).asDiagonal(), between.translation}};
+  const auto on_stretched = fcl::touches({left, {}}, stretched, seed);
+  EXPECT_EQ(on_stretched.size(), 4u);
+  for (const fcl::Touch& touch : on_stretched) EXPECT_GT(touch.depth, tolerance(left, right, between) + wrong * wrong * far);
+}
+
 /// Also where the other solver sees no overlap, so that the proof has no contact to go with it. Asked as FCL's tables ask.
 template <class Others>
 int overlooked_by_others() {
@@ -274,9 +314,7 @@ TEST(Solver, TakesSinglePrecision) {
     b_in_world.translation().x() += 4;
     float distance_found = 0;
     solver.shapeDistance(plain, ::fcl::Transform3f::Identity(), plain, b_in_world, &distance_found);
-    PairSeed cold;
-    const Answer truth =
-        distance(model, model, {b_in_world.linear().cast<double>(), b_in_world.translation().cast<double>()}, cold);
+    const Answer truth = distance(model, model, pose_of(b_in_world));
     ASSERT_NE(truth.status, Status::InvalidPose);
     EXPECT_NEAR(distance_found, truth.verdict == Verdict::Disjoint ? truth.lower : -1, 3e-6);
   }

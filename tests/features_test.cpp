@@ -32,19 +32,20 @@ using Point = Kernel::Point_3;
 using Cell = std::vector<std::uint32_t>;
 
 /// What a feature is made of: a face of its exact facets, each as a fan.
-std::vector<Cell> cells(const ConvexView& view, Handle feature) {
+std::vector<Cell> cells(const ConvexView& view, FeatureId feature) {
   const std::uint32_t i = feature.index();
   if (feature.kind() == FeatureKind::Vertex) return {{i}};
-  if (feature.kind() == FeatureKind::Edge) return {{origin(view, i), view.head[i]}};
+  if (feature.kind() == FeatureKind::Edge) return {{origin(view, i), view.half_edges[i].head}};
   if (feature.kind() == FeatureKind::None) return {};
   std::vector<Cell> fans;
-  std::vector<bool> seen(view.head.size());
-  for (std::uint32_t first = 0; first < view.head.size(); ++first) {
-    if (view.face[first] != i || seen[first]) continue;
+  std::vector<bool> seen(view.half_edges.size());
+  for (std::uint32_t first = 0; first < view.half_edges.size(); ++first) {
+    if (view.half_edges[first].face != i || seen[first]) continue;
     seen[first] = true;
     for (std::uint32_t h = next_in_facet(view, first); h != first; h = next_in_facet(view, h)) {
       seen[h] = true;
-      if (view.head[h] != origin(view, first)) fans.push_back({origin(view, first), origin(view, h), view.head[h]});
+      if (view.half_edges[h].head != origin(view, first))
+        fans.push_back({origin(view, first), origin(view, h), view.half_edges[h].head});
     }
   }
   return fans;
@@ -76,7 +77,7 @@ bool share_point(const std::vector<Point>& p, const std::vector<Point>& q) {
   return CGAL::do_intersect(Triangle(p[0], p[1], p[2]), Triangle(q[0], q[1], q[2]));
 }
 
-bool share_point(const ConvexView& a, Handle of_a, const ConvexView& b, Handle of_b, const Pose& b_in_a) {
+bool share_point(const ConvexView& a, FeatureId of_a, const ConvexView& b, FeatureId of_b, const Pose& b_in_a) {
   for (const Cell& i : cells(a, of_a)) {
     for (const Cell& j : cells(b, of_b)) {
       if (share_point(exactly(a, i, {}), exactly(b, j, b_in_a))) return true;
@@ -87,14 +88,14 @@ bool share_point(const ConvexView& a, Handle of_a, const ConvexView& b, Handle o
 
 bool surfaces_share_point(const ConvexView& a, const ConvexView& b, const Pose& b_in_a) {
   const auto surface = [](const ConvexView& view) {
-    std::vector<Handle> parts;
+    std::vector<FeatureId> parts;
     for (std::uint32_t f = 0; f < view.face_first.size(); ++f) parts.emplace_back(FeatureKind::Face, f);
-    for (std::uint32_t h = 0; parts.empty() && h < view.head.size(); ++h) parts.emplace_back(FeatureKind::Edge, h);
+    for (std::uint32_t h = 0; parts.empty() && h < view.half_edges.size(); ++h) parts.emplace_back(FeatureKind::Edge, h);
     if (parts.empty()) parts.emplace_back(FeatureKind::Vertex, 0);
     return parts;
   };
-  for (const Handle i : surface(a)) {
-    for (const Handle j : surface(b)) {
+  for (const FeatureId i : surface(a)) {
+    for (const FeatureId j : surface(b)) {
       if (share_point(a, i, b, j, b_in_a)) return true;
     }
   }
@@ -103,7 +104,7 @@ bool surfaces_share_point(const ConvexView& a, const ConvexView& b, const Pose& 
 
 /// Whether a point of the common frame lies on a feature but for law 2's bound. A face flat only up to rounding is as thick as
 /// its vertices make it.
-bool holds(const ConvexView& view, Handle feature, const Pose& in_a, const Vec3& p_a, double bound) {
+bool holds(const ConvexView& view, FeatureId feature, const Pose& in_a, const Vec3& p_a, double bound) {
   const Vec3 p[] = {p_a};
   std::vector<Vec3> corners;
   for (const Cell& cell : cells(view, feature)) {
@@ -129,7 +130,7 @@ void expect_features(const ConvexView& a, const ConvexView& b, const Pose& pose,
     EXPECT_TRUE(holds(b, r.b, pose, r.point_b, bound)) << "B's point is not on its feature, " << int(r.status);
     return;
   }
-  if (r.a != Handle{} && r.b != Handle{}) {
+  if (r.a != FeatureId{} && r.b != FeatureId{}) {
     ++count.overlapping;
     EXPECT_TRUE(share_point(a, r.a, b, r.b, pose)) << "kinds " << int(r.a.kind()) << ' ' << int(r.b.kind());
     EXPECT_TRUE(holds(a, r.a, {}, r.point_a, bound)) << "A's point is not on its feature " << int(r.a.kind());
@@ -207,7 +208,7 @@ TEST(Features, OfNestedBodiesAreAVertexAndNone) {
     expect_features(b, a, {Mat3::Identity(), -at}, count);
     const MarchResult r = march(a, b, {Mat3::Identity(), 0.3 * at});
     ASSERT_EQ(r.b.kind(), FeatureKind::Vertex);
-    ASSERT_EQ(r.a, Handle{});
+    ASSERT_EQ(r.a, FeatureId{});
   }
   EXPECT_GE(count.nested, 20);
   EXPECT_GE(count.overlapping, 20);
@@ -279,7 +280,7 @@ TEST(Features, OfManyFacetsOverlapToo) {
         const Pose pose{random.rotation(), random.uniform(0, 1) * random.on_sphere()};
         const ConvexView &va = a->level(0).view, &vb = b->level(0).view;
         const MarchResult r = march(va, vb, pose);
-        if (r.a == Handle{} || r.b == Handle{}) continue;  // small inside large: dear to refute
+        if (r.a == FeatureId{} || r.b == FeatureId{}) continue;  // small inside large: dear to refute
         expect_features(va, vb, pose, count);
         if (testing::Test::HasFailure()) FAIL() << k;
       }
@@ -290,7 +291,7 @@ TEST(Features, OfManyFacetsOverlapToo) {
 
 TEST(Features, OfABodyInOneThatIsAnyTimesLarger) {
   // From a ratio of 1e16 on doubles of the common frame do not tell the smaller body's vertices apart.
-  const bodies::Body large = bodies::body_of(shapes::random_polytope(20, 3));
+  const bodies::Polyhedron large = bodies::body_of(shapes::random_polytope(20, 3));
   const Model inner = model(bodies::body_of(shapes::random_polytope(12, 4)));
   const ConvexView& b = inner.level(0).view;
   shapes::Random random(48);
@@ -313,11 +314,11 @@ TEST(Features, OfABodyInOneThatIsAnyTimesLarger) {
 
 TEST(Features, OfABodyInOneThatIsAnyTimesLargerCostWorkLinearInThem) {
   const std::size_t n = 1000;
-  const auto size = [](const ConvexView& v) { return v.vertices.size() + v.head.size() + v.face_first.size(); };
+  const auto size = [](const ConvexView& v) { return v.vertices.size() + v.half_edges.size() + v.face_first.size(); };
   std::uint64_t most = 0;
   for (const Mesh& shape : {shapes::ellipsoid({1, 1, 1}, n, 1), shapes::ellipsoid({1, 1, 0.02}, n, 2),
                             shapes::ellipsoid({2, 0.02, 0.02}, n, 3), shapes::prism(n / 2, 1, 1)}) {
-    const bodies::Body body = bodies::body_of(shape);
+    const bodies::Polyhedron body = bodies::body_of(shape);
     const Model inner = model(bodies::moved(body, 0.01 * Mat3::Identity()), {true, {}});
     const ConvexView& b = inner.level(0).view;
     shapes::Random random(49);
@@ -330,7 +331,7 @@ TEST(Features, OfABodyInOneThatIsAnyTimesLargerCostWorkLinearInThem) {
         for (const MarchResult& r : {march(a, b, pose), march(b, a, inverse(pose))}) {
           ASSERT_LE(r.plane_tests, 8 * (size(a) + size(b))) << decade << ' ' << k;
           most = std::max<std::uint64_t>(most, 100 * r.plane_tests / (size(a) + size(b)));
-          nested += r.status == MarchStatus::Overlapping && (r.a == Handle{} || r.b == Handle{});
+          nested += r.status == MarchStatus::Overlapping && (r.a == FeatureId{} || r.b == FeatureId{});
         }
       }
     }
@@ -341,13 +342,14 @@ TEST(Features, OfABodyInOneThatIsAnyTimesLargerCostWorkLinearInThem) {
 
 TEST(Features, HoldAVertexInsideAFlatFace) {
   // The corner of a walking face that its loop does not pass: an ulp below, or above, its plane.
-  bodies::Body box{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}, {}, {}};
+  bodies::Polyhedron box{
+      {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}, {}, {}};
   box.add({0, 3, 2, 1}), box.add({4, 5, 6, 7}), box.add({0, 1, 5, 4}), box.add({1, 2, 6, 5}), box.add({2, 3, 7, 6}),
       box.add({3, 0, 4, 7});
-  bodies::Body a = bodies::triangulated(box), b = a;
+  bodies::Polyhedron a = bodies::triangulated(box), b = a;
   a.points.push_back({0.5, 0.25, 1 + 0x1p-52});
   b.points.push_back({-0.25, 0.5, -0x1p-53});
-  const auto raise = [](bodies::Body& body, double z) {  // the two triangles of a quad become four around the ninth point
+  const auto raise = [](bodies::Polyhedron& body, double z) {  // the two triangles of a quad become four around the ninth point
     std::vector<std::uint32_t> kept;
     for (std::size_t t = 0; t < body.corners.size(); t += 3) {
       bool in_face = true;

@@ -24,6 +24,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "answers.h"
 #include "bodies.h"
 #include "oracle.h"
 #include "shapes.h"
@@ -49,8 +50,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// ---- The cases
-// -------------------------------------------------------------------------------------------------------------------
+// ---- The cases -------------------------------------------------------------------------------------------------------------
 
 struct Subject {
   Mesh mesh;
@@ -202,7 +202,7 @@ void for_each_case(const std::function<void(const Case&)>& test) {
   }
 }
 
-Answer exact(const Case& c, const QueryOptions& options = {}) {
+Answer exact(const Case& c, const Options& options = {}) {
   PairSeed seed;
   return distance(c.model_a(), c.model_b(), c.pose, seed, options);
 }
@@ -215,11 +215,11 @@ PairSeed garbage_seed(shapes::Random& random) {
   fill(seed.a), fill(seed.b), fill(seed.line_in_a), fill(seed.line_in_b), fill(seed.level_a), fill(seed.level_b);
   return seed;
 }
-Handle some_feature(const ConvexView& v, shapes::Random& random) {
+FeatureId some_feature(const ConvexView& v, shapes::Random& random) {
   switch (random.bits() % 3) {
     case 0: return {FeatureKind::Vertex, std::uint32_t(random.bits() % v.vertices.size())};
     case 1:
-      if (!v.head.empty()) return {FeatureKind::Edge, std::uint32_t(random.bits() % v.head.size())};
+      if (!v.half_edges.empty()) return {FeatureKind::Edge, std::uint32_t(random.bits() % v.half_edges.size())};
       [[fallthrough]];
     default:
       if (!v.face_first.empty()) return {FeatureKind::Face, std::uint32_t(random.bits() % v.face_first.size())};
@@ -236,10 +236,9 @@ PairSeed random_seed(const Model& a, const Model& b, shapes::Random& random) {
   return seed;
 }
 bool same_bits(const Answer& a, const Answer& b) {
-  return a.status == b.status && a.verdict == b.verdict && a.lower == b.lower && a.upper == b.upper && a.normal == b.normal &&
-         a.point_a == b.point_a && a.point_b == b.point_b && a.level_a == b.level_a && a.level_b == b.level_b &&
-         a.feature_a == b.feature_a && a.feature_b == b.feature_b && a.proof.count == b.proof.count && a.steps == b.steps &&
-         a.plane_tests == b.plane_tests && a.levels_visited == b.levels_visited;
+  std::vector<std::uint64_t> words_a, words_b;
+  answers::append(a, words_a), answers::append(b, words_b);
+  return words_a == words_b;
 }
 constexpr StartPolicy kPolicies[] = {StartPolicy::Automatic, StartPolicy::Paper, StartPolicy::Finest, StartPolicy::Coarsest,
                                      StartPolicy::Table};
@@ -262,8 +261,7 @@ TEST(Cases, AreOfEveryKindAndVerdict) {
   EXPECT_GE(barely, 2);
 }
 
-// ---- Law 1: lower <= true distance <= upper, always
-// -----------------------------------------------------------------------------
+// ---- Law 1: lower <= true distance <= upper, always ------------------------------------------------------------------------
 
 TEST(Law1, IntervalsHoldTheTruthWhenTheQueryConverges) {
   for_each_case([](const Case& c) { expect_true(c, exact(c)); });
@@ -273,8 +271,8 @@ TEST(Law1, IntervalsHoldTheTruthWhenAStepBudgetEndedTheMarch) {
   int ended = 0;
   for_each_case([&](const Case& c) {
     for (const std::uint32_t budget : {0u, 1u, 2u, 3u, 5u, 8u}) {
-      QueryOptions options;
-      options.step_budget = budget;
+      Options options;
+      options.budget.steps = budget;
       const Answer answer = exact(c, options);
       expect_true(c, answer);
       ended += answer.status == Status::Budget;
@@ -288,8 +286,8 @@ TEST(Law1, IntervalsHoldTheTruthAtCoarseLevels) {
   int limited = 0;
   for_each_case([&](const Case& c) {
     for (int finest = 1; finest < 4; ++finest) {
-      QueryOptions options;
-      options.finest_level = finest;
+      Options options;
+      options.budget.finest_level = finest;
       const Answer answer = exact(c, options);
       expect_true(c, answer);
       limited += answer.status == Status::LevelLimit;
@@ -298,9 +296,9 @@ TEST(Law1, IntervalsHoldTheTruthAtCoarseLevels) {
     // And on the way down: every record of the trace (trap G6).
     for (const Refinement refinement : kRefinements) {
       LevelRecord records[64];
-      QueryOptions options;
-      options.refinement = refinement;
-      options.trace = records;
+      Options options;
+      options.tuning.refinement = refinement;
+      options.tuning.trace = records;
       const Answer answer = exact(c, options);
       ASSERT_LE(answer.levels_visited, 64);
       for (int i = 0; i < answer.levels_visited; ++i) {
@@ -319,9 +317,9 @@ TEST(Law1, IntervalsHoldTheTruthUnderEveryTolerance) {
   for_each_case([](const Case& c) {
     for (const auto& [absolute, relative] :
          {std::pair{0.3, 0.0}, {1e-3, 0.0}, {0.0, 0.5}, {0.0, 1e-2}, {0.0, 1e-6}, {0.1, 0.1}}) {
-      QueryOptions options;
-      options.absolute_error = absolute;
-      options.relative_error = relative;
+      Options options;
+      options.absolute = absolute;
+      options.relative = relative;
       const Answer answer = exact(c, options);
       expect_true(c, answer);
       ASSERT_EQ(answer.status, Status::Converged);
@@ -334,7 +332,7 @@ TEST(Law1, IntervalsHoldTheTruthWhenCutOff) {
   int cut = 0;
   for_each_case([&](const Case& c) {
     for (const double beyond : {0.0, c.truth.distance * 0.5, c.truth.distance, 1.0}) {
-      QueryOptions options;
+      Options options;
       options.beyond = beyond;
       const Answer answer = exact(c, options);
       expect_true(c, answer);
@@ -350,8 +348,7 @@ TEST(Law1, IntervalsHoldTheTruthWhenCutOff) {
   EXPECT_GE(cut, 300);
 }
 
-// ---- Law 2: every query converges; exact ones to 64 eps size
-// ---------------------------------------------------------------------
+// ---- Law 2: every query converges; exact ones to 64 eps size ---------------------------------------------------------------
 
 TEST(Law2, ExactIntervalsAreNarrowAndWitnessesLieOnBothBodies) {
   for_each_case([](const Case& c) {
@@ -385,8 +382,9 @@ TEST(Law2, PointsOfAnOverlapLieInBothBodies) {
     pose.translation -= apart.point_b - apart.point_a + std::pow(10, -double(4 + i % 10)) * apart.normal;
     const double bound = bodies::law_two(a.model.level(0).view, b.model.level(0).view, pose);
     seed = {};
-    for (const Answer& answer : {within(a.model, b.model, pose, 0, seed).answer, contact(a.model, b.model, pose, seed).answer,
-                                 intersects(a.model, b.model, pose, seed)}) {
+    for (const Answer& answer :
+         {within(a.model, b.model, pose, 0, seed).answer, closest_features(a.model, b.model, pose, seed).answer,
+          intersects(a.model, b.model, pose, seed)}) {
       if (answer.verdict != Verdict::Overlapping) continue;
       ++overlapping;
       std::vector<Vec3> points{answer.point_a};
@@ -413,8 +411,8 @@ TEST(Law2, SlightlyStretchedRotationsKeepTheirOwnBound) {
       const Case c{"stretched", &a, &b, pose, oracle::distance(a.mesh.points, b.mesh.points, pose)};
       expect_law_two(c, exact(c));
       for (int finest : {1, 2}) {
-        QueryOptions options;
-        options.finest_level = finest;
+        Options options;
+        options.budget.finest_level = finest;
         expect_true(c, exact(c, options));
       }
       if (HasFatalFailure()) FAIL() << off << ' ' << i;
@@ -443,30 +441,25 @@ TEST(Law2, EveryKindOfFeaturePairHasItsNormal) {  // trap G13
     EXPECT_GE(seen[kinds], 20);
 }
 
-TEST(Law2, ContactsLieOnTheExactHulls) {  // trap G12
+TEST(Law2, ClosestFeaturesLieOnTheExactHulls) {  // trap G12
   int coarse_start = 0;
   for_each_case([&](const Case& c) {
-    QueryOptions loose;  // what the caller asks of precision does not make a contact coarse
-    loose.relative_error = 0.5;
-    loose.finest_level = 5;
-    loose.start = StartPolicy::Coarsest;
-    PairSeed seed;
-    const Contact contact_ = contact(c.model_a(), c.model_b(), c.pose, seed, loose);
-    expect_law_two(c, contact_.answer);
-    coarse_start += contact_.answer.levels_visited > 1;
-    if (contact_.answer.verdict == Verdict::Overlapping) return;
+    const ClosestOptions options{.tuning = {.start = StartPolicy::Coarsest}};
+    const ClosestFeatures nearest = closest_features(c.model_a(), c.model_b(), c.pose, options);
+    expect_law_two(c, nearest.answer);
+    coarse_start += nearest.answer.levels_visited > 1;
+    if (nearest.answer.verdict == Verdict::Overlapping) return;
     const double radius = c.model_a().radius() + c.model_b().radius();
-    const Vec3 p = contact_.answer.point_a, q = contact_.answer.point_b;
+    const Vec3 p = nearest.answer.point_a, q = nearest.answer.point_b;
     ASSERT_LE(oracle::distance({&p, 1}, c.a->mesh.points, {}).distance, 1e-12 * radius);
     ASSERT_LE(oracle::distance({&q, 1}, c.b->mesh.points, c.pose).distance, 1e-12 * radius);
     ASSERT_NEAR((p - q).norm(), c.truth.distance, c.law_two());
-    ASSERT_EQ(contact_.source_a.kind, contact_.answer.feature_a.kind());
+    ASSERT_EQ(nearest.source_a.kind, nearest.answer.feature_a.kind());
   });
   EXPECT_GE(coarse_start, 100);
 }
 
-// ---- Law 3: a seed changes the work, never the truth
-// -------------------------------------------------------------------------------
+// ---- Law 3: a seed changes the work, never the truth -----------------------------------------------------------------------
 
 void expect_agreement(const Case& c, const Answer& one, const Answer& other) {
   expect_law_two(c, other);
@@ -495,17 +488,17 @@ TEST(Law3, ColdWarmStaleAndGarbageSeedsGiveTheSameAnswer) {
 TEST(Law3, EveryPolicyOrderAndRuleGivesTheSameAnswer) {
   shapes::Random random(5);
   for_each_case([&](const Case& c) {
-    QueryOptions plain;
-    plain.start = StartPolicy::Finest;
+    Options plain;
+    plain.tuning.start = StartPolicy::Finest;
     const Answer cold = exact(c, plain);
     expect_law_two(c, cold);
     for (const StartPolicy policy : kPolicies) {
       for (const Refinement refinement : kRefinements) {
         for (const PlaneRule rule : kRules) {
-          QueryOptions options;
-          options.start = policy;
-          options.refinement = refinement;
-          options.plane_rule = rule;
+          Options options;
+          options.tuning.start = policy;
+          options.tuning.refinement = refinement;
+          options.tuning.plane_rule = rule;
           PairSeed seed = random_seed(c.model_a(), c.model_b(), random);
           expect_agreement(c, cold, distance(c.model_a(), c.model_b(), c.pose, seed, options));
           expect_agreement(c, cold, distance(c.model_a(), c.model_b(), c.pose, seed, options));  // with what it left
@@ -520,8 +513,8 @@ TEST(Law3, SameSeedSameBits) {
   for_each_case([&](const Case& c) {
     const PairSeed seed = random_seed(c.model_a(), c.model_b(), random);
     for (const StartPolicy policy : kPolicies) {
-      QueryOptions options;
-      options.start = policy;
+      Options options;
+      options.tuning.start = policy;
       PairSeed one = seed, two = seed;
       const Answer first = distance(c.model_a(), c.model_b(), c.pose, one, options),
                    second = distance(c.model_a(), c.model_b(), c.pose, two, options);
@@ -537,8 +530,8 @@ TEST(Law3, TableStartsFromAnyDirection) {  // trap G21
   const Model centred = bodies::must(build(shapes::ellipsoid({1, 1, 1}, 400, 9))).model;
   const Model aside =
       bodies::must(build(shapes::moved(shapes::ellipsoid({1, .5, .2}, 400, 10), {Mat3::Identity(), {50, -7, 3}}))).model;
-  QueryOptions options;
-  options.start = StartPolicy::Table;
+  Options options;
+  options.tuning.start = StartPolicy::Table;
   for (const lut::Resolution resolution :
        {lut::Resolution::None, lut::Resolution::Degrees22, lut::Resolution::Degrees11, lut::Resolution::Degrees5}) {
     const Model a = centred.with_table({resolution, 2}).value(), b = aside.with_table({resolution, 2}).value();
@@ -561,8 +554,7 @@ TEST(Law3, TableStartsFromAnyDirection) {  // trap G21
   }
 }
 
-// ---- Law 4: swapping negates the normal and swaps the points
-// -------------------------------------------------------------------------
+// ---- Law 4: swapping negates the normal and swaps the points ---------------------------------------------------------------
 
 TEST(Law4, SwappingTheBodiesSwapsTheAnswer) {
   for_each_case([](const Case& c) {
@@ -588,8 +580,7 @@ TEST(Law4, SwappingTheBodiesSwapsTheAnswer) {
   });
 }
 
-// ---- Law 5: only the relative pose enters
-// ----------------------------------------------------------------------------------------------
+// ---- Law 5: only the relative pose enters ----------------------------------------------------------------------------------
 
 TEST(Law5, ExactCommonTranslationsChangeNoBit) {
   shapes::Random random(7);
@@ -657,8 +648,7 @@ TEST(Law5, ScalingByAPowerOfTwoScalesTheAnswerBitForBit) {
   }
 }
 
-// ---- Law 6: every level encloses P0
-// ------------------------------------------------------------------------------------------------------
+// ---- Law 6: every level encloses P0 ----------------------------------------------------------------------------------------
 
 void expect_enclosing(const Model& model, std::span<const Vec3> points) {
   for (int i = 0; i < model.level_count(); ++i) {
@@ -694,8 +684,7 @@ TEST(Law6, EveryLevelEnclosesTheInputAfterBuildAndAfterLoad) {
   EXPECT_GE(levels, 14 * 2);
 }
 
-// ---- Law 7: every query ends within a documented function of the feature counts
-// -----------------------------------------------------------
+// ---- Law 7: every query ends within a documented function of the feature counts --------------------------------------------
 
 /// Trap G18: all translations by halves, with all rotations by right angles about the axes. The truth has a closed form.
 TEST(Law7, TheCubeLatticeEnds) {
@@ -793,8 +782,7 @@ TEST(Law7, EveryFiniteTranslationEnds) {
   EXPECT_GE(coincident, 1500);
 }
 
-// ---- Law 8: queries allocate nothing and may run concurrently
-// -------------------------------------------------------------------------------
+// ---- Law 8: queries allocate nothing and may run concurrently --------------------------------------------------------------
 
 TEST(Law8, QueriesAllocateNothing) {
   LevelRecord records[8];
@@ -803,13 +791,13 @@ TEST(Law8, QueriesAllocateNothing) {
   EXPECT_EQ(allocations - before, 1) << "allocations are not counted";
   for (const Case& c : cases()) {
     PairSeed seed;
-    QueryOptions options;
-    options.trace = records;
+    Options options;
+    options.tuning.trace = records;
     before = allocations;
     distance(c.model_a(), c.model_b(), c.pose, seed, options);
     intersects(c.model_a(), c.model_b(), c.pose, seed);
     within(c.model_a(), c.model_b(), c.pose, 0.1, seed);
-    contact(c.model_a(), c.model_b(), c.pose, seed);
+    closest_features(c.model_a(), c.model_b(), c.pose, seed);
     march(c.model_a().level(0).view, c.model_b().level(0).view, c.pose);
     const long after = allocations;
     ASSERT_EQ(after, before);
@@ -836,8 +824,7 @@ TEST(Law8, SharedModelsAnswerAllThreadsAlike) {  // trap G23
   for (std::size_t i = 0; i < hashes.size(); ++i) EXPECT_EQ(cases().subjects()[i].model.hash(), hashes[i]);
 }
 
-// ---- Law 9: misses are visible
-// ---------------------------------------------------------------------------------------------------------------
+// ---- Law 9: misses are visible ---------------------------------------------------------------------------------------------
 
 TEST(Law9, TouchingIsAnsweredOnlyWithinLawTwoOfContact) {  // trap G17
   int touching = 0, near_contact = 0;
@@ -916,15 +903,14 @@ TEST(Law9, ImpossibleDemandsAreSaidSo) {
   EXPECT_EQ(invalid.lower, 0);
   EXPECT_EQ(invalid.upper, kInfinity);
   EXPECT_EQ(within(c.model_a(), c.model_b(), pose, 1, seed).decision, Decision::Undecided);
-  QueryOptions coarse;
-  coarse.finest_level = c.model_a().level_count() - 1;
+  Options coarse;
+  coarse.budget.finest_level = c.model_a().level_count() - 1;
   const Answer limited = exact(c, coarse);
   EXPECT_EQ(limited.status, Status::LevelLimit);
   EXPECT_GT(limited.upper - limited.lower, c.law_two());
 }
 
-// ---- Law 10: a looser tolerance never costs more
-// --------------------------------------------------------------------------------------------
+// ---- Law 10: a looser tolerance never costs more ---------------------------------------------------------------------------
 
 struct Cost {
   std::uint32_t work;
@@ -932,8 +918,8 @@ struct Cost {
 };
 /// The work from a copy of `seed`, and the levels that answered.
 Cost cost(const Model& a, const Model& b, const Pose& pose, PairSeed seed, double relative) {
-  QueryOptions options;
-  options.relative_error = relative;
+  Options options;
+  options.relative = relative;
   const Answer answer = distance(a, b, pose, seed, options);
   return {answer.steps + answer.plane_tests, answer.level_a, answer.level_b};
 }
@@ -990,8 +976,8 @@ TEST_P(Law10, FromTheSameSeedALooserToleranceNeverCostsMore) {
                                            << kept;
           before = now;
         }
-        QueryOptions options;
-        options.relative_error = kept;
+        Options options;
+        options.relative = kept;
         distance(a_, b_, orbit.pose(i), seed, options);
       }
     }
@@ -1010,18 +996,18 @@ TEST_P(Law10, NoQueryReadsALevelFinerThanItsToleranceNeeds) {
     for (const double tolerance : kTolerances) {
       for (const auto& [start, refinement] : kDescents) {
         LevelRecord records[64];
-        QueryOptions options;
-        options.relative_error = tolerance;
-        options.start = start;
-        options.refinement = refinement;
-        options.trace = records;
+        Options options;
+        options.relative = tolerance;
+        options.tuning.start = start;
+        options.tuning.refinement = refinement;
+        options.tuning.trace = records;
         PairSeed seed;
         const Answer answer = distance(a_, b_, orbit.pose(i), seed, options);
         std::uint32_t steps = 0, plane_tests = 0;
         for (int k = 0; k < answer.levels_visited; ++k) {  // trap G14: the work is where the trace says
           steps += records[k].steps;
           plane_tests += records[k].plane_tests;
-          const double allowed = std::max(options.absolute_error, tolerance * records[k].lower);
+          const double allowed = std::max(options.absolute, tolerance * records[k].lower);
           const bool enough = records[k].upper - records[k].lower <= allowed;
           ASSERT_EQ(enough && k + 1 < answer.levels_visited, false) << "pose " << i << " went on from record " << k;
         }
@@ -1071,8 +1057,8 @@ TEST(Law10, ALooserToleranceNeverCostsMoreHoweverLoose) {
     if (i % 3 == 2) distance(a, b, pose, seed), pose.translation += 0.1 * random.on_sphere();
     std::uint32_t before = ~0u;
     for (const double relative : {0.0, 1e-3, 1e-2, 0.1, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 4.0, 10.0, 100.0}) {
-      QueryOptions options;
-      options.relative_error = relative;
+      Options options;
+      options.relative = relative;
       PairSeed start = seed;
       const Answer answer = distance(a, b, pose, start, options);
       ASSERT_LE(answer.steps + answer.plane_tests, before) << i << ", to " << relative;
@@ -1095,8 +1081,8 @@ TEST(Law10NearContact, FromNothingALooserToleranceNeverCostsMore) {
     for (const auto& [of_a, of_b] : pairs) {
       std::uint32_t before = ~0u;
       for (const double error : {0.0, 0.003, 0.01, 0.0125, 0.015, 0.03, 0.1}) {
-        QueryOptions options;
-        options.absolute_error = error;
+        Options options;
+        options.absolute = error;
         PairSeed cold;
         const Answer answer = distance(of_a, of_b, pose, cold, options);
         ASSERT_LE(answer.steps + answer.plane_tests, before) << "pose " << i << ", error " << error;

@@ -48,10 +48,10 @@ std::vector<Named> small_solids() {
           {"prism", model(bodies::body_of(shapes::prism(5, 1, 0.6)), {true, {}})}};
 }
 
-std::vector<Handle> features(const ConvexView& v) {
-  std::vector<Handle> all;
+std::vector<FeatureId> features(const ConvexView& v) {
+  std::vector<FeatureId> all;
   for (std::uint32_t i = 0; i < v.vertices.size(); ++i) all.emplace_back(FeatureKind::Vertex, i);
-  for (std::uint32_t i = 0; i < v.head.size(); ++i) all.emplace_back(FeatureKind::Edge, i);
+  for (std::uint32_t i = 0; i < v.half_edges.size(); ++i) all.emplace_back(FeatureKind::Edge, i);
   for (std::uint32_t i = 0; i < v.face_first.size(); ++i) all.emplace_back(FeatureKind::Face, i);
   return all;
 }
@@ -176,7 +176,7 @@ TEST(March, EveryStartGivesTheSameVerdictAndDistance) {
     for (const Named& b : solids) {
       SCOPED_TRACE(std::string(a.name) + " and " + b.name);
       const std::vector<Vec3> points_a = a.points(), points_b = b.points();
-      const std::vector<Handle> starts_a = features(a.view()), starts_b = features(b.view());
+      const std::vector<FeatureId> starts_a = features(a.view()), starts_b = features(b.view());
       for (const Pose& pose : poses) {
         const oracle::Truth truth = oracle::distance(points_a, points_b, pose);
         const MarchResult cold = march(a.view(), b.view(), pose);
@@ -184,8 +184,8 @@ TEST(March, EveryStartGivesTheSameVerdictAndDistance) {
         for (const PlaneRule rule : {PlaneRule::MostViolated, PlaneRule::FirstViolated}) {
           MarchRule stop;
           stop.plane_rule = rule;
-          for (const Handle from_a : starts_a) {
-            for (const Handle from_b : starts_b) {
+          for (const FeatureId from_a : starts_a) {
+            for (const FeatureId from_b : starts_b) {
               const MarchResult r = march(a.view(), b.view(), pose, {from_a, from_b}, stop);
               expect_exact(a.view(), b.view(), pose, truth, r);
               EXPECT_EQ(r.status, cold.status);
@@ -207,8 +207,8 @@ TEST(March, SmallBodiesInLargeOnesOverlapFromEveryStart) {
   const Model inner = model(bodies::moved(bodies::tetrahedron(), 0.05 * Mat3::Identity()));
   const ConvexView &a = outer.level(0).view, &b = inner.level(0).view;
   for (const Vec3& at : {Vec3(0, 0, 0), Vec3(0.1, 0.3, -0.2), Vec3(0.6, 0, 0)}) {
-    for (const Handle from_a : features(a)) {
-      for (const Handle from_b : features(b)) {
+    for (const FeatureId from_a : features(a)) {
+      for (const FeatureId from_b : features(b)) {
         ASSERT_EQ(march(a, b, {Mat3::Identity(), at}, {from_a, from_b}).status, MarchStatus::Overlapping);
         ASSERT_EQ(march(b, a, {Mat3::Identity(), -at}, {from_b, from_a}).status, MarchStatus::Overlapping);
       }
@@ -249,7 +249,7 @@ TEST(March, StoredHandlesStartTheNextMarchAtItsEnd) {
 TEST(March, TablesStartWhereTheBodiesFaceEachOther) {
   shapes::Random random(36);
   const Model none = model(bodies::body_of(shapes::ellipsoid({1, 0.8, 0.6}, 2000, 1)), {false, {lut::Resolution::None, 2, 0}});
-  ASSERT_EQ(table_start(none, {1, 0, 0}), Handle{});
+  ASSERT_EQ(table_start(none, {1, 0, 0}), FeatureId{});
   const ConvexView& v = none.level(0).view;
   for (const TableSpec& spec : {TableSpec{}, TableSpec{lut::Resolution::Degrees5, 2, 0}}) {
     const Model m = none.with_table(spec).value();
@@ -273,8 +273,7 @@ TEST(March, TablesStartWhereTheBodiesFaceEachOther) {
     ASSERT_LT(table_start(none.with_table({}).value(), odd).index(), v.vertices.size());
 }
 
-// ---- Stop rules
-// --------------------------------------------------------------------------------------------------------------------
+// ---- Stop rules ------------------------------------------------------------------------------------------------------------
 
 struct Rules : testing::Test {
   Model m = model(bodies::body_of(shapes::ellipsoid({1, 0.5, 0.3}, 200, 2)));
@@ -395,8 +394,7 @@ TEST_F(MarchRules, BudgetsResumedFromTheirHandlesEnd) {
   std::printf("at most %u marches\n", most);
 }
 
-// ---- Status, poses, tags
-// --------------------------------------------------------------------------------------------------------
+// ---- Status, poses, tags ---------------------------------------------------------------------------------------------------
 
 TEST(March, IllegalPosesAreSaidSo) {
   const Model cube = model(bodies::cube());
@@ -443,13 +441,14 @@ TEST(March, TagsOfEdgesAndVerticesAreTheLargestBeside) {
   const std::uint8_t tags[] = {5, 0, 9, 2, 7, 3};
   v.tags = tags;
   for (std::uint32_t f = 0; f < 6; ++f) EXPECT_EQ(tag(v, {FeatureKind::Face, f}), tags[f]);
-  for (std::uint32_t h = 0; h < v.head.size(); ++h) {
-    EXPECT_EQ(tag(v, {FeatureKind::Edge, h}), std::max(tags[v.face[h]], tags[v.face[v.twin[h]]]));
+  for (std::uint32_t h = 0; h < v.half_edges.size(); ++h) {
+    EXPECT_EQ(tag(v, {FeatureKind::Edge, h}),
+              std::max(tags[v.half_edges[h].face], tags[v.half_edges[v.half_edges[h].twin].face]));
   }
   for (std::uint32_t i = 0; i < v.vertices.size(); ++i) {
     std::uint8_t largest = 0;
-    for (std::uint32_t h = 0; h < v.head.size(); ++h) {
-      if (v.head[h] == i) largest = std::max(largest, tags[v.face[h]]);
+    for (std::uint32_t h = 0; h < v.half_edges.size(); ++h) {
+      if (v.half_edges[h].head == i) largest = std::max(largest, tags[v.half_edges[h].face]);
     }
     EXPECT_EQ(tag(v, {FeatureKind::Vertex, i}), largest);
   }

@@ -121,8 +121,7 @@ TEST_F(ModelFile, ForeignFilesAreNamedSo) {
   EXPECT_EQ(code_of(load(as_text)), ErrorCode::BadFormat);
 }
 
-// ---- Hostile
-// ---------------------------------------------------------------------------------------------------------------------
+// ---- Hostile ---------------------------------------------------------------------------------------------------------------
 
 TEST_F(ModelFile, HugeCountsAreRefused) {
   const Bytes whole = bytes_of(small());
@@ -172,29 +171,25 @@ void exercise(const Model& hostile, const Model& honest, Work& most) {
     ASSERT_GE(answer.lower, 0);
   };
   std::uint32_t garbage = 12345;
-  const auto handle = [&garbage] {
+  const auto feature = [&garbage] {
     garbage = garbage * 1664525 + 1013904223;
-    return Handle(FeatureKind(garbage >> 30), (garbage >> 8) % 29);
+    return FeatureId(FeatureKind(garbage >> 30), (garbage >> 8) % 29);
   };
   for (const Pose& pose : poses) {
     PairSeed seed;
     expect_harmless(distance(hostile, honest, pose, seed));
     expect_harmless(distance(honest, hostile, pose, seed));
-    seed.a = handle(), seed.b = handle();
+    seed.a = feature(), seed.b = feature();
     seed.level_a = std::uint8_t(garbage % 3);
     seed.level_b = std::uint8_t(garbage % 5);
     expect_harmless(intersects(hostile, hostile, pose, seed));
-    QueryOptions options;
-    options.start = StartPolicy::Table;
-    expect_harmless(within(hostile, honest, pose, 0.5, seed, options).answer);
-    options.start = StartPolicy::Paper;
-    expect_harmless(contact(hostile, hostile, pose, seed, options).answer);
+    expect_harmless(within(hostile, honest, pose, 0.5, seed, {.tuning = {.start = StartPolicy::Table}}).answer);
+    expect_harmless(closest_features(hostile, hostile, pose, seed, {.tuning = {.start = StartPolicy::Paper}}).answer);
   }
   hostile.support(Vec3(1, 2, 3));
   verify(hostile);
   const Model cut = hostile.cut({std::numeric_limits<double>::infinity()});
-  PairSeed seed;
-  expect_harmless(distance(cut, honest, poses[1], seed));
+  expect_harmless(distance(cut, honest, poses[1]));
 }
 
 /// The work that a small honest pair can cost at all, certified progress through both arithmetics at every level included.

@@ -42,9 +42,9 @@ class Turns {
   std::normal_distribution<double> normal_;
 };
 
-Body meshed_cube(std::uint32_t cells) {
+Polyhedron meshed_cube(std::uint32_t cells) {
   // Grid points of the surface by their coordinates' number, quads as two triangles each.
-  Body b;
+  Polyhedron b;
   const std::uint32_t n = cells + 1;
   std::vector<std::uint32_t> id(n * n * n, kNone);
   const auto point = [&](std::array<std::uint32_t, 3> c) {
@@ -77,8 +77,9 @@ Body meshed_cube(std::uint32_t cells) {
 
 /// Whether an edge of the body from `tail` to `head` has a face on its left.
 bool is_side(const ConvexView& v, std::uint32_t face, std::uint32_t tail, std::uint32_t head) {
-  for (std::uint32_t h = 0; h < v.head.size(); ++h) {
-    if (v.face[h] == face && v.head[h] == head && v.head[v.twin[h]] == tail) return v.face[v.twin[h]] != face;
+  for (const HalfEdge& h : v.half_edges) {
+    const HalfEdge& back = v.half_edges[h.twin];
+    if (h.face == face && h.head == head && back.head == tail) return back.face != face;
   }
   return false;
 }
@@ -93,24 +94,25 @@ void expect_sound(const Model& model) {
     if (model.dimension() < 2) continue;
     // Euler, with and without diagonals.
     std::size_t diagonals = 0;
-    for (std::uint32_t h = 0; h < v.head.size(); ++h) diagonals += is_diagonal(v, h);
-    EXPECT_EQ(v.vertices.size() + v.face_first.size(), (v.head.size() - diagonals) / 2 + 2);
-    EXPECT_EQ(model.level(i).edge_count, (v.head.size() - diagonals) / 2);
+    for (std::uint32_t h = 0; h < v.half_edges.size(); ++h) diagonals += is_diagonal(v, h);
+    EXPECT_EQ(v.vertices.size() + v.face_first.size(), (v.half_edges.size() - diagonals) / 2 + 2);
+    EXPECT_EQ(model.level(i).edge_count, (v.half_edges.size() - diagonals) / 2);
     EXPECT_EQ(model.level(i).triangle_count, 2 * v.vertices.size() - 4);
     std::vector<std::size_t> sides(v.face_first.size(), 0);
-    for (std::uint32_t h = 0; h < v.head.size(); ++h) {
-      EXPECT_EQ(v.twin[v.twin[h]], h);
+    for (std::uint32_t h = 0; h < v.half_edges.size(); ++h) {
+      const auto& [head, twin, face] = v.half_edges[h];
+      EXPECT_EQ(v.half_edges[twin].twin, h);
       if (is_diagonal(v, h)) continue;
-      ++sides[v.face[h]];
-      EXPECT_EQ(v.face[next_in_face(v, h)], v.face[h]);
-      EXPECT_EQ(origin(v, next_in_face(v, h)), v.head[h]);
+      ++sides[face];
+      EXPECT_EQ(v.half_edges[next_in_face(v, h)].face, face);
+      EXPECT_EQ(origin(v, next_in_face(v, h)), head);
     }
     for (std::uint32_t f = 0; f < sides.size(); ++f) {
       std::vector<std::uint32_t> loop;
       for (const std::uint32_t vertex : FaceLoop(v, f)) loop.push_back(vertex);
       EXPECT_EQ(loop.size(), sides[f]);
       for (std::size_t k = 0; k < loop.size(); ++k) EXPECT_TRUE(is_side(v, f, loop[k], loop[(k + 1) % loop.size()])) << f;
-      EXPECT_EQ(v.face[v.face_first[f]], f);
+      EXPECT_EQ(v.half_edges[v.face_first[f]].face, f);
       EXPECT_GE(sides[f], 3u);
       EXPECT_TRUE(sides[f] == 3 || f < v.planes.size());
     }
@@ -120,11 +122,10 @@ void expect_sound(const Model& model) {
       for (std::uint32_t k = 0; k < ring.ring_count; ++k) {
         const std::uint32_t h = ring.ring_begin + k, next = ring.ring_begin + (k + 1) % ring.ring_count;
         EXPECT_EQ(origin(v, h), p);
-        EXPECT_EQ(v.face[h], right_face(v, next));
+        EXPECT_EQ(v.half_edges[h].face, right_face(v, next));
         if (model.dimension() != 3) continue;
-        for (std::uint32_t other = 0; other < v.vertices.size(); ++other) {
-          EXPECT_LE(exact::orientation(ring, v.vertices[v.head[h]], v.vertices[v.head[next]], v.vertices[other]), 0);
-        }
+        const Vertex &here = v.vertices[v.half_edges[h].head], &there = v.vertices[v.half_edges[next].head];
+        for (const Vertex& other : v.vertices) EXPECT_LE(exact::orientation(ring, here, there, other), 0);
       }
     }
     for (std::size_t f = 0; f < v.planes.size(); ++f) {
@@ -143,7 +144,7 @@ void expect_counts(const Model& m, std::size_t vertices, std::size_t edges, std:
   EXPECT_EQ(m.level(0).view.face_first.size(), faces);
 }
 
-std::string refusal(const Body& body, ErrorCode code, bool repair = false) {
+std::string refusal(const Polyhedron& body, ErrorCode code, bool repair = false) {
   const Result<Model> m = Model::from_level(body.level(), {repair, {}});
   if (m) {
     ADD_FAILURE() << "accepted";
@@ -156,14 +157,13 @@ void expect_says(const std::string& message, const std::string& words) {
   EXPECT_NE(message.find(words), std::string::npos) << message;
 }
 
-// ---- Solids
-// --------------------------------------------------------------------------------------------------------------------
+// ---- Solids ----------------------------------------------------------------------------------------------------------------
 
 TEST(Model, CubeOfQuadsHasItsSixFaces) {
   const Model m = model(cube());
   expect_sound(m);
   expect_counts(m, 8, 12, 6);
-  EXPECT_EQ(m.level(0).view.head.size(), 24u);
+  EXPECT_EQ(m.level(0).view.half_edges.size(), 24u);
   EXPECT_EQ(m.level(0).view.planes.size(), 6u);
   EXPECT_EQ(m.dimension(), 3);
   EXPECT_EQ(m.volume(), 8);
@@ -178,14 +178,13 @@ TEST(Model, CoplanarTrianglesAreOneFaceWithoutDiagonals) {
   const Model quads = model(cube()), triangles = model(triangulated(cube()));
   expect_sound(triangles);
   expect_counts(triangles, 8, 12, 6);
-  EXPECT_EQ(triangles.level(0).view.head.size(), 24u);
-  EXPECT_TRUE(std::ranges::equal(quads.level(0).view.head, triangles.level(0).view.head));
-  EXPECT_TRUE(std::ranges::equal(quads.level(0).view.face, triangles.level(0).view.face));
+  EXPECT_EQ(triangles.level(0).view.half_edges.size(), 24u);
+  EXPECT_TRUE(std::ranges::equal(quads.level(0).view.half_edges, triangles.level(0).view.half_edges));
 }
 
 TEST(Model, MeshedCubeIsTheCube) {
   for (const std::uint32_t cells : {1u, 2u, 3u, 7u}) {
-    const Body mesh = meshed_cube(cells);
+    const Polyhedron mesh = meshed_cube(cells);
     const Model m = model(mesh);
     expect_sound(m);
     expect_counts(m, 8, 12, 6);
@@ -225,7 +224,7 @@ TEST(Model, RotatedCubesOfQuadsNeedNoRepair) {
     if (i < 30) expect_sound(m);
     expect_counts(m, 8, 12, 6);
     EXPECT_NEAR(m.volume(), 8, 1e-14);
-    bent += m.level(0).view.head.size() > 24;  // a diagonal stays where the rounded quad folds
+    bent += m.level(0).view.half_edges.size() > 24;  // a diagonal stays where the rounded quad folds
   }
   EXPECT_GE(bent, 200);
 }
@@ -234,7 +233,7 @@ TEST(Model, RotatedCubesOfTrianglesAreRepaired) {
   Turns turn(2);
   int refused = 0;
   for (int i = 0; i < 300; ++i) {
-    const Body b = moved(triangulated(cube()), turn());
+    const Polyhedron b = moved(triangulated(cube()), turn());
     const Result<Model> strict = Model::from_level(b.level());
     refused += !strict;
     if (!strict) {
@@ -255,7 +254,7 @@ TEST(Model, FloatRoundedCubesWalkOnSixFaces) {
     const Model m = model(float_rounded(moved(cube(), turn(), Vec3(0.3, 0, 0))));
     if (i < 30) expect_sound(m);
     expect_counts(m, 8, 12, 6);
-    with_diagonals += m.level(0).view.head.size() == 36;
+    with_diagonals += m.level(0).view.half_edges.size() == 36;
     for (const FacePlane& p : m.level(0).view.planes) EXPECT_LE(p.thickness, 4 * 0x1p-23 * m.extent() + 1e-14);
   }
   EXPECT_GE(with_diagonals, 200);
@@ -265,18 +264,17 @@ TEST(Model, CentroidIsOfTheSurfaceNotOfTheVertices) {
   const Model m = model(moved(meshed_cube(3), Mat3::Identity(), Vec3(4, 5, 6)));
   EXPECT_TRUE(m.centre().isApprox(Vec3(4, 5, 6), 1e-15));
   // A square pyramid: base 4, sides 4 sqrt(5)/2 ... of height 2: the sides' centroid is a third up.
-  Body pyramid{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 2}}, {}, {}};
+  Polyhedron pyramid{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 2}}, {}, {}};
   pyramid.add({0, 3, 2, 1}), pyramid.add({0, 1, 4}), pyramid.add({1, 2, 4}), pyramid.add({2, 3, 4}), pyramid.add({3, 0, 4});
   const double sides = 4 * std::sqrt(5.0);
   EXPECT_NEAR(model(pyramid).centre().z(), sides * (2.0 / 3) / (sides + 4), 1e-15);
 }
 
-// ---- Convexity
-// -----------------------------------------------------------------------------------------------------------------
+// ---- Convexity -------------------------------------------------------------------------------------------------------------
 
 /// The cube with vertex 6 lowered by `drop`: the top folds along 5-7.
-Body dented(double drop) {
-  Body b = cube();
+Polyhedron dented(double drop) {
+  Polyhedron b = cube();
   b.points[6].z() -= drop;
   return b;
 }
@@ -315,7 +313,7 @@ TEST(Model, FoldsBeyondRoundingAreTwoFaces) {
 
 TEST(Model, RepairDoesNotMakeDentsConvex) {
   // A pyramid into the top face: no flip helps.
-  Body b = cube();
+  Polyhedron b = cube();
   b.points.emplace_back(0, 0, 0.5);
   b.corners.erase(b.corners.begin() + 4, b.corners.begin() + 8);
   b.sizes.pop_back();
@@ -326,35 +324,35 @@ TEST(Model, RepairDoesNotMakeDentsConvex) {
 }
 
 TEST(Model, SurfaceMustCloseOnce) {
-  Body open = cube();
+  Polyhedron open = cube();
   open.sizes.pop_back();
   open.corners.resize(20);
   expect_says(refusal(open, ErrorCode::NotConvex), "belongs to 1 faces, not 2");
 
-  Body twice = octahedron();
+  Polyhedron twice = octahedron();
   twice.add({0, 2, 4});
   expect_says(refusal(twice, ErrorCode::NotConvex), "faces, not 2");
 
-  Body apart = cube();
-  const Body other = moved(cube(), Mat3::Identity(), Vec3(5, 0, 0));
+  Polyhedron apart = cube();
+  const Polyhedron other = moved(cube(), Mat3::Identity(), Vec3(5, 0, 0));
   apart.points.insert(apart.points.end(), other.points.begin(), other.points.end());
   for (const std::uint32_t v : other.corners) apart.corners.push_back(v + 8);
   apart.sizes.insert(apart.sizes.end(), other.sizes.begin(), other.sizes.end());
   expect_says(refusal(apart, ErrorCode::NotConvex), "do not close to one sphere");
 
   // Two tetrahedra that share a vertex.
-  Body pinched = tetrahedron();
+  Polyhedron pinched = tetrahedron();
   for (const Vec3& p : {Vec3(5, 1, 1), Vec3(5, 3, 1), Vec3(5, 1, 3)}) pinched.points.push_back(p);
   pinched.add({0, 4, 5}), pinched.add({0, 5, 6}), pinched.add({0, 6, 4}), pinched.add({4, 6, 5});
   expect_says(refusal(pinched, ErrorCode::NotConvex), "form 2 fans");
 }
 
 TEST(Model, WindingIsCounterClockwiseFromOutside) {
-  Body inside_out = cube();
+  Polyhedron inside_out = cube();
   std::reverse(inside_out.corners.begin(), inside_out.corners.end());
   refusal(inside_out, ErrorCode::NotConvex);
   refusal(inside_out, ErrorCode::NotConvex, true);
-  Body one = cube();
+  Polyhedron one = cube();
   std::reverse(one.corners.begin(), one.corners.begin() + 4);
   expect_says(refusal(one, ErrorCode::NotConvex), "wound against each other");
 }
@@ -362,7 +360,7 @@ TEST(Model, WindingIsCounterClockwiseFromOutside) {
 TEST(Model, SurfaceWoundTwiceIsRefused) {
   // A bipyramid over the pentagram: nowhere reflex, Euler holds, and yet twice around.
   for (const int step : {1, 2}) {
-    Body b{{{0, 0, 1}, {0, 0, -1}}, {}, {}};
+    Polyhedron b{{{0, 0, 1}, {0, 0, -1}}, {}, {}};
     for (int i = 0; i < 5; ++i) {
       const double angle = 2 * std::numbers::pi * step * i / 5;
       b.points.emplace_back(std::cos(angle), std::sin(angle), 0);
@@ -379,28 +377,28 @@ TEST(Model, SurfaceWoundTwiceIsRefused) {
 }
 
 TEST(Model, DegenerateFacesAreRefused) {
-  Body repeated = cube();
+  Polyhedron repeated = cube();
   repeated.add({0, 0, 1});
   expect_says(refusal(repeated, ErrorCode::NotConvex), "face 6 is degenerate");
-  Body collinear = octahedron();
+  Polyhedron collinear = octahedron();
   collinear.points.emplace_back(0.5, 0.5, 0);
   collinear.add({0, 6, 2});
   expect_says(refusal(collinear, ErrorCode::NotConvex), "face 8 is degenerate");
-  Body flat = triangulated(cube());  // a box without height
+  Polyhedron flat = triangulated(cube());  // a box without height
   for (Vec3& p : flat.points) p.z() = 0;
   refusal(flat, ErrorCode::NotConvex);
 }
 
 TEST(Model, ASolidHasVolume) {
   // Four points of a square as a tetrahedron: closed, nowhere reflex, no vertex above a face, and every facet in one plane.
-  Body flat{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {}, {}};
+  Polyhedron flat{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {}, {}};
   flat.add({0, 2, 1}), flat.add({0, 1, 3}), flat.add({1, 2, 3}), flat.add({0, 3, 2});
   expect_says(refusal(flat, ErrorCode::NotSolid), "all vertices lie in one plane");
   for (Vec3& p : flat.points) p = rotation(1, 2, 3, 4) * (p + Vec3(0.1, 0.2, 0.3));  // rounded, it has a volume or a dent
   const Result<Model> rounded = Model::from_level(flat.level());
   EXPECT_TRUE(!rounded || verify(rounded.value()));
   // The sides of a pentagon, each cut otherwise.
-  Body sheets{{{0, 0, 1}, {4, 0, 1}, {5, 3, 1}, {2, 6, 1}, {-1, 3, 1}}, {}, {}};
+  Polyhedron sheets{{{0, 0, 1}, {4, 0, 1}, {5, 3, 1}, {2, 6, 1}, {-1, 3, 1}}, {}, {}};
   sheets.add({0, 1, 2}), sheets.add({0, 2, 3}), sheets.add({0, 3, 4});
   sheets.add({1, 0, 4}), sheets.add({1, 4, 3}), sheets.add({1, 3, 2});
   expect_says(refusal(sheets, ErrorCode::NotSolid), "all vertices lie in one plane");
@@ -413,7 +411,7 @@ TEST(Model, ASurfaceWoundTwiceIsRefusedWhereRoundingHidesItsMiddle) {
   // Twice around a pyramid an ulp high: no double lies inside, and no vertex above a face.
   constexpr double kCorners[4][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
   for (const std::uint32_t turns : {1u, 2u}) {
-    Body b{{{1, 1, std::nextafter(1.0, 2)}, {1, 1, 1}}, {}, {}};
+    Polyhedron b{{{1, 1, std::nextafter(1.0, 2)}, {1, 1, 1}}, {}, {}};
     const std::uint32_t n = 4 * turns;
     for (std::uint32_t i = 0; i < n; ++i) {
       const std::uint32_t p = 2 + i, q = 2 + (i + 1) % n;
@@ -428,29 +426,29 @@ TEST(Model, ASurfaceWoundTwiceIsRefusedWhereRoundingHidesItsMiddle) {
 }
 
 TEST(Model, UnreferencedVerticesAreNamed) {
-  Body b = cube();
+  Polyhedron b = cube();
   b.points.emplace_back(0, 0, 0);
   expect_says(refusal(b, ErrorCode::BadValue), "vertex 8 belongs to no face");
 }
 
 TEST(Model, ArraysMustFit) {
   EXPECT_EQ(refusal({}, ErrorCode::Empty), "no vertices");
-  Body out_of_range = octahedron();
+  Polyhedron out_of_range = octahedron();
   out_of_range.corners[4] = 6;
   expect_says(refusal(out_of_range, ErrorCode::BadValue), "face 1 names vertex 6 of 6");
-  Body two_corners = octahedron();
+  Polyhedron two_corners = octahedron();
   two_corners.sizes[2] = 2;
   expect_says(refusal(two_corners, ErrorCode::BadValue), "face 2 has 2 vertices");
-  Body long_list = octahedron();
+  Polyhedron long_list = octahedron();
   long_list.corners.push_back(0);
   refusal(long_list, ErrorCode::BadValue);
-  Body short_list = octahedron();
+  Polyhedron short_list = octahedron();
   short_list.corners.pop_back();
   refusal(short_list, ErrorCode::BadValue);
-  Body huge = octahedron();
+  Polyhedron huge = octahedron();
   huge.sizes[7] = 0xffffffff;
   refusal(huge, ErrorCode::BadValue);
-  const Body o = octahedron();
+  const Polyhedron o = octahedron();
   LevelArrays ragged = o.level();
   ragged.face_sizes = {};
   EXPECT_TRUE(Model::from_level(ragged));
@@ -460,22 +458,21 @@ TEST(Model, ArraysMustFit) {
 
 TEST(Model, CoordinatesOutOfRangeAreNamed) {
   for (const double x : {std::nan(""), kInfinity, -kInfinity, 1e46, -1e300, 1e-71, 5e-324}) {
-    Body b = cube();
+    Polyhedron b = cube();
     b.points[5].y() = x;
     expect_says(refusal(b, ErrorCode::BadValue), "vertex 5");
   }
   for (const double scale : {1e-18, 1e18, 0x1p-140, 0x1p140}) {
-    Body b = octahedron();
+    Polyhedron b = octahedron();
     for (Vec3& p : b.points) p *= scale;
     expect_sound(model(b));
   }
-  Body tiny = octahedron();
+  Polyhedron tiny = octahedron();
   for (Vec3& p : tiny.points) p *= 1e-50;
   expect_says(refusal(tiny, ErrorCode::BadValue), "extent");
 }
 
-// ---- Flatter bodies
-// --------------------------------------------------------------------------------------------------------------
+// ---- Flatter bodies --------------------------------------------------------------------------------------------------------
 
 TEST(Model, FlatPolygonsHaveTwoSides) {
   const Model square = model(two_sided({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}})),
@@ -507,18 +504,17 @@ TEST(Model, SegmentsAndPointsHaveNoFaces) {
   EXPECT_EQ(s.centre(), Vec3(1.5, 2, 0));
   EXPECT_NEAR(s.radius(), 2.5, 1e-14);
   EXPECT_EQ(p.radius(), 0);
-  EXPECT_EQ(s.level(0).view.face[0], kNone);
+  EXPECT_EQ(s.level(0).view.half_edges[0].face, kNone);
   refusal(segment({1, 1, 1}, {1, 1, 1}), ErrorCode::BadValue);
   refusal({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {}, {}}, ErrorCode::BadValue);
 }
 
-// ---- Levels
-// ------------------------------------------------------------------------------------------------------------------------
+// ---- Levels ----------------------------------------------------------------------------------------------------------------
 
-Result<Model> levels(std::initializer_list<Body> bodies) {
-  std::vector<Body> owned(bodies);
+Result<Model> levels(std::initializer_list<Polyhedron> bodies) {
+  std::vector<Polyhedron> owned(bodies);
   std::vector<LevelArrays> arrays;
-  for (const Body& b : owned) arrays.push_back(b.level());
+  for (const Polyhedron& b : owned) arrays.push_back(b.level());
   return Model::from_levels(arrays);
 }
 
@@ -552,7 +548,7 @@ TEST(Model, LinksNameFeaturesOfTheNeighbourLevel) {
         ASSERT_LT(level.child_vertex[v], finer.vertices.size());
         EXPECT_EQ((at(finer, level.child_vertex[v]) - at(level.view, v)).norm(), nearest);
       }
-      for (const Handle h : level.child_face) {
+      for (const FeatureId h : level.child_face) {
         const bool face = h.kind() == FeatureKind::Face;
         EXPECT_TRUE(face || h.kind() == FeatureKind::Vertex);
         EXPECT_LT(h.index(), face ? finer.face_first.size() : finer.vertices.size());
@@ -562,8 +558,9 @@ TEST(Model, LinksNameFeaturesOfTheNeighbourLevel) {
       const ConvexView& coarser = m.level(i + 1).view;
       for (std::uint32_t f = 0; f < faces; ++f) {
         const std::uint32_t h = level.view.face_first[f];
-        const Vec3 p = at(level.view, origin(level.view, h)), q = at(level.view, level.view.head[h]);
-        const Vec3 n = (q - p).cross(at(level.view, level.view.head[next_in_face(level.view, h)]) - q);
+        const auto head = [&](std::uint32_t of) { return at(level.view, level.view.half_edges[of].head); };
+        const Vec3 p = at(level.view, origin(level.view, h)), q = head(h);
+        const Vec3 n = (q - p).cross(head(next_in_face(level.view, h)) - q);
         ASSERT_LT(level.parent_face[f], coarser.vertices.size());
         for (const Vertex& w : coarser.vertices) EXPECT_LE(n.dot(at(w)), n.dot(at(coarser, level.parent_face[f])));
       }
@@ -590,11 +587,11 @@ TEST(Model, ALevelGivenTwiceIsItsOwnChild) {
   expect_sound(m);
   EXPECT_LE(m.level(1).deviation, 1e-14);
   for (std::uint32_t v = 0; v < 8; ++v) EXPECT_EQ(m.level(1).child_vertex[v], v);
-  for (std::uint32_t f = 0; f < 6; ++f) EXPECT_EQ(m.level(1).child_face[f], Handle(FeatureKind::Face, f));
+  for (std::uint32_t f = 0; f < 6; ++f) EXPECT_EQ(m.level(1).child_face[f], FeatureId(FeatureKind::Face, f));
 }
 
 TEST(Model, ChildrenCanBeGiven) {
-  const Body fine = octahedron(), coarse = cube();
+  const Polyhedron fine = octahedron(), coarse = cube();
   std::vector<std::uint32_t> child(8, 4), child_of_face(6, 5);
   LevelArrays arrays[] = {fine.level(), coarse.level()};
   arrays[1].child_vertex = child;
@@ -602,7 +599,7 @@ TEST(Model, ChildrenCanBeGiven) {
   const Model m = must(Model::from_levels(arrays));
   const auto source = [&](std::uint32_t v) { return m.source().vertex[v]; };
   for (const std::uint32_t c : m.level(1).child_vertex) EXPECT_EQ(source(c), 4u);
-  for (const Handle c : m.level(1).child_face) EXPECT_EQ(source(c.index()), 5u);
+  for (const FeatureId c : m.level(1).child_face) EXPECT_EQ(source(c.index()), 5u);
   child[3] = 6;
   const Result<Model> bad = Model::from_levels(arrays);
   ASSERT_FALSE(bad);
@@ -613,20 +610,19 @@ TEST(Model, ChildrenCanBeGiven) {
 }
 
 TEST(Model, OnlySolidsHaveCoarserLevels) {
-  const Body square = two_sided({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  const Polyhedron square = two_sided({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
   EXPECT_EQ(levels({square, box(2, 2, 2)}).error().code, ErrorCode::NotSolid);
   EXPECT_EQ(levels({octahedron(), square}).error().code, ErrorCode::NotSolid);
   EXPECT_EQ(Model::from_levels({}).error().code, ErrorCode::Empty);
-  const Body b = cube();
+  const Polyhedron b = cube();
   EXPECT_EQ(Model::from_levels(std::vector<LevelArrays>(33, b.level())).error().code, ErrorCode::TooLarge);
   EXPECT_EQ(must(Model::from_levels(std::vector<LevelArrays>(32, b.level()))).level_count(), 32);
 }
 
-// ---- Sources, tables, supports, scale
-// ------------------------------------------------------------------------------------------
+// ---- Sources, tables, supports, scale --------------------------------------------------------------------------------------
 
 TEST(Model, SourceIdsAreTheUsers) {
-  const Body b = triangulated(cube());
+  const Polyhedron b = triangulated(cube());
   std::vector<std::uint32_t> vertex(8), begin{0}, faces;
   for (std::uint32_t v = 0; v < 8; ++v) vertex[v] = 100 + v;
   for (std::uint32_t f = 0; f < 12; ++f) {  // triangle f stands for f % 3 of the user's
@@ -661,7 +657,7 @@ TEST(Model, SourceIdsAreTheUsers) {
 }
 
 TEST(Model, TableHoldsTheNearestVertexPerSample) {
-  const Body b = moved(octahedron(), rotation(1, 2, 3, 4), Vec3(7, 8, 9));
+  const Polyhedron b = moved(octahedron(), rotation(1, 2, 3, 4), Vec3(7, 8, 9));
   for (const lut::Resolution r :
        {lut::Resolution::None, lut::Resolution::Degrees22, lut::Resolution::Degrees11, lut::Resolution::Degrees5}) {
     for (const double factor : {1.0, 2.0, 50.0}) {
@@ -716,7 +712,7 @@ TEST(Model, SupportMapsBoundEveryDirection) {
 }
 
 TEST(Model, AVertexInsideTheFinerLevelHasTheNearestAsItsChild) {
-  const Body all[] = {moved(octahedron(), 0.1 * Mat3::Identity()), cube(), box(0.5, 0.25, 0.75)};
+  const Polyhedron all[] = {moved(octahedron(), 0.1 * Mat3::Identity()), cube(), box(0.5, 0.25, 0.75)};
   const LevelArrays levels[] = {all[0].level(), all[1].level(), all[2].level()};
   const Model m = must(Model::from_levels(levels));
   for (std::size_t v = 0; v < 8; ++v) {
@@ -754,7 +750,7 @@ TEST(Model, ATableOutOfItsRangesIsRefused) {
 }
 
 TEST(Model, MapsNeedAPowerOfTwo) {
-  const Body b = cube();
+  const Polyhedron b = cube();
   for (const std::uint32_t side : {3u, 128u, ~0u}) {
     EXPECT_EQ(Model::from_level(b.level(), {false, {lut::Resolution::None, 2, side}}).error().code, ErrorCode::BadValue);
   }
@@ -765,7 +761,7 @@ TEST(Model, MapsNeedAPowerOfTwo) {
 TEST(Model, SupportIsExtreme) {
   std::mt19937_64 engine(5);
   std::uniform_int_distribution<int> draw(-2, 2);
-  for (const Body& b : {cube(), octahedron(), tetrahedron(), segment({0, 0, 0}, {1, 0, 0}), point({1, 1, 1})}) {
+  for (const Polyhedron& b : {cube(), octahedron(), tetrahedron(), segment({0, 0, 0}, {1, 0, 0}), point({1, 1, 1})}) {
     for (const lut::Resolution r : {lut::Resolution::None, lut::Resolution::Degrees5}) {
       const Model m = model(b, {false, {r, 2}});
       for (int i = 0; i < 200; ++i) {
@@ -793,13 +789,13 @@ TEST(Model, SupportTakesAnyDirection) {
 }
 
 TEST(Model, ScalingByAPowerOfTwoScalesBitForBit) {
-  const Body o = octahedron(), c = cube();
+  const Polyhedron o = octahedron(), c = cube();
   for (const int k : {-120, -7, 1, 100}) {
     const double s = std::ldexp(1, k);
-    Body fine = moved(o, rotation(1, 2, 3, 4)), coarse = moved(c, 1.001 * rotation(1, 2, 3, 4));
+    Polyhedron fine = moved(o, rotation(1, 2, 3, 4)), coarse = moved(c, 1.001 * rotation(1, 2, 3, 4));
     const LevelArrays plain[] = {fine.level(), coarse.level()};
     const Model m = must(Model::from_levels(plain));
-    for (Body* b : {&fine, &coarse})
+    for (Polyhedron* b : {&fine, &coarse})
       for (Vec3& p : b->points) p *= s;
     const LevelArrays scaled[] = {fine.level(), coarse.level()};
     const Model n = must(Model::from_levels(scaled));
@@ -810,8 +806,7 @@ TEST(Model, ScalingByAPowerOfTwoScalesBitForBit) {
     EXPECT_TRUE(std::ranges::equal(m.table(), n.table()));
     for (int i = 0; i < 2; ++i) {
       const Level &a = m.level(i), &b = n.level(i);
-      EXPECT_TRUE(std::ranges::equal(a.view.head, b.view.head));
-      EXPECT_TRUE(std::ranges::equal(a.view.face, b.view.face));
+      EXPECT_TRUE(std::ranges::equal(a.view.half_edges, b.view.half_edges));
       EXPECT_TRUE(std::ranges::equal(a.child_vertex, b.child_vertex));
       EXPECT_TRUE(std::ranges::equal(a.child_face, b.child_face));
       EXPECT_TRUE(std::ranges::equal(a.parent_face, b.parent_face));
@@ -824,8 +819,7 @@ TEST(Model, ScalingByAPowerOfTwoScalesBitForBit) {
 
 TEST(Model, SameInputSameBytes) { EXPECT_EQ(bytes_of(nested()), bytes_of(nested())); }
 
-// ---- verify
-// ------------------------------------------------------------------------------------------------------------------------
+// ---- verify ----------------------------------------------------------------------------------------------------------------
 
 /// A block changed by hand, its hashes made right.
 Model tampered(const Model& m, const std::function<void(Bytes&)>& change) {
@@ -858,7 +852,7 @@ TEST(Verify, FindsWhatTheHashesCannot) {
     for (std::size_t v = 0; v < 6; ++v) write(block, vertex_at(block, 0, v) + 16, 0.0);
   });
   EXPECT_FALSE(verify(flat));
-  const Body pyramid{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}}, {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}, {3, 3, 3, 3}};
+  const Polyhedron pyramid{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}}, {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}, {3, 3, 3, 3}};
   const Model sheet = tampered(model(pyramid), [&](Bytes& block) {
     for (std::size_t v = 0; v < 4; ++v) write(block, vertex_at(block, 0, v) + 16, 0.0);
   });

@@ -27,7 +27,7 @@ struct Scene {
   std::string name;
   std::deque<Model> models;
   std::deque<Mesh> meshes;
-  std::vector<Body> bodies;
+  std::vector<Polyhedron> bodies;
   std::vector<BodyPair> pairs;
   std::vector<Query> queries;
   std::vector<Certified> truth;
@@ -233,8 +233,7 @@ TEST(Methods, AnswerTheSameAfterForgetting) {
   }
 }
 
-// ---- The comparison itself
-// -----------------------------------------------------------------------------------------------------
+// ---- The comparison itself -------------------------------------------------------------------------------------------------
 
 /// swiftlet's answers, each bent by a function of the query's number.
 std::vector<Outcome> bent(const Scene& scene, const std::function<void(std::size_t, Outcome&)>& bend) {

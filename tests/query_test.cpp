@@ -34,12 +34,6 @@ const Bodies& bodies(shapes::Family family) {
   return all[std::size_t(family)];
 }
 
-double law_two(const Bodies& pair, const Pose& pose) {
-  const double size = std::max(pair.a.level(0).view.extent, pair.b.level(0).view.extent) + pose.translation.norm();
-  const double orthonormality = (pose.rotation.transpose() * pose.rotation - Mat3::Identity()).cwiseAbs().maxCoeff();
-  return (64 * 0x1p-53 + 2 * orthonormality) * size;
-}
-
 class RandomPairs : public testing::TestWithParam<shapes::Family> {};
 
 /// A third of 10^5 pairs per family; the answer of each is recomputed, that of every tenth compared with the oracle.
@@ -52,13 +46,12 @@ TEST_P(RandomPairs, AgreeWithinLawTwo) {
   for (int i = 0; disjoint < kPairs; ++i) {
     ASSERT_LT(i, 3 * kPairs) << "the poses overlap too often";
     Pose pose{random.rotation(), random.on_sphere() * random.uniform(0.2, 3)};
-    PairSeed seed;
-    const Answer answer = distance(pair.a, pair.b, pose, seed);
+    const Answer answer = distance(pair.a, pair.b, pose);
     ASSERT_EQ(answer.status, Status::Converged) << "pair " << i;
     if (answer.verdict == Verdict::Overlapping) continue;
     ++disjoint;
-    ASSERT_LE(answer.upper - answer.lower, law_two(pair, pose)) << "pair " << i;
-    widest = std::max(widest, (answer.upper - answer.lower) / law_two(pair, pose));
+    ASSERT_LE(answer.upper - answer.lower, tolerance(pair.a, pair.b, pose)) << "pair " << i;
+    widest = std::max(widest, (answer.upper - answer.lower) / tolerance(pair.a, pair.b, pose));
     if (i % 10 == 0) {
       const oracle::Truth truth = oracle::distance(pair.meshes.a.points, pair.meshes.b.points, pose);
       ASSERT_TRUE(oracle::holds(truth, answer.lower, answer.upper)) << "pair " << i << ": " << truth.distance;
@@ -71,8 +64,8 @@ TEST_P(RandomPairs, AgreeWithinLawTwo) {
 
 /// Mean steps per query over 20 orbits.
 double mean_steps(const Bodies& pair, StartPolicy start, double degrees) {
-  QueryOptions options;
-  options.start = start;
+  Options options;
+  options.tuning.start = start;
   std::uint64_t steps = 0, queries = 0;
   for (std::uint64_t orbit = 0; orbit < 20; ++orbit) {
     const shapes::Orbit motion(100 + orbit, 2 * pair.a.radius(), degrees);
@@ -115,9 +108,9 @@ TEST_P(RandomPairs, SpendFarStepsOnCoarseLevels) {
   std::uint64_t coarse = 0, fine = 0;
   for (std::uint64_t i = 1; i <= 200; ++i) {
     std::array<LevelRecord, 8> trace;
-    QueryOptions options;
-    options.start = StartPolicy::Paper;
-    options.trace = trace;
+    Options options;
+    options.tuning.start = StartPolicy::Paper;
+    options.tuning.trace = trace;
     const Answer answer = distance(pair.a, pair.b, motion.pose(i), seed, options);
     ASSERT_LE(std::size_t(answer.levels_visited), trace.size());
     for (int k = 0; k < answer.levels_visited; ++k)
@@ -136,14 +129,14 @@ Model cube() {
   return std::move(build(corners)).value().model;
 }
 
-TEST(Contact, NamesTheUsersFeatures) {
+TEST(ClosestFeatures, NamesTheUsersFeatures) {
   const Mesh mesh = shapes::cube();
   const Model body = std::move(build(mesh)).value().model;
   Pose above;
   above.translation = {0.25, 0.125, 2.5};
   above.rotation = shapes::rotation(Vec3(1, 2, 0).normalized(), 0.4);
   PairSeed seed;
-  const Contact met = contact(body, body, above, seed);
+  const ClosestFeatures met = closest_features(body, body, above, seed);
   ASSERT_EQ(met.answer.verdict, Verdict::Disjoint);
   ASSERT_EQ(met.source_a.kind, FeatureKind::Face);
   ASSERT_EQ(met.source_a.triangles.size(), 2u) << "a square of two triangles";
@@ -156,13 +149,13 @@ TEST(Contact, NamesTheUsersFeatures) {
   EXPECT_LT((met.answer.normal - Vec3(0, 0, 1)).norm(), 1e-15);
 }
 
-TEST(Contact, NamesBothEndsOfAnEdge) {
+TEST(ClosestFeatures, NamesBothEndsOfAnEdge) {
   const Model body = cube();
   Pose beside;
   beside.translation = {4, 4, 0};
   beside.rotation = shapes::rotation(Vec3(1, -1, 0).normalized(), 1);
   PairSeed seed;
-  const Contact met = contact(body, body, beside, seed);
+  const ClosestFeatures met = closest_features(body, body, beside, seed);
   ASSERT_EQ(met.source_a.kind, FeatureKind::Edge);
   // The builder got bare points: vertex i of the user has the signs of i's bits.
   EXPECT_EQ(met.source_a.vertices[0] & met.source_a.vertices[1], 3u) << "x = y = 1";
@@ -186,7 +179,7 @@ TEST(Distance, StopsBeyondTheCutOff) {
   Pose far;
   far.translation = {9, 0, 0};
   PairSeed seed, seed_exact;
-  QueryOptions options;
+  Options options;
   options.beyond = 2;
   const Answer cut = distance(pair.a, pair.b, far, seed, options), exact = distance(pair.a, pair.b, far, seed_exact);
   EXPECT_EQ(cut.status, Status::Beyond);
@@ -200,8 +193,8 @@ TEST(Distance, SaysWhichPrecisionWasOutOfReach) {
   Pose far;
   far.translation = {2.5, 0, 0};
   PairSeed seed, seed_exact;
-  QueryOptions options;
-  options.finest_level = 1;
+  Options options;
+  options.budget.finest_level = 1;
   const Answer coarse = distance(pair.a, pair.b, far, seed, options), exact = distance(pair.a, pair.b, far, seed_exact);
   EXPECT_EQ(coarse.status, Status::LevelLimit);
   EXPECT_EQ(coarse.level_a, 1);
@@ -216,10 +209,10 @@ TEST(Distance, EndsWhateverTheOptionsBitsAre) {  // an order of refinement that 
   const Answer expected = distance(pair.a, pair.b, apart, cold);
   for (const int value : {3, 4, 100, 255}) {
     for (int field = 0; field < 3; ++field) {
-      QueryOptions options;
-      if (field == 0) options.refinement = Refinement(value);
-      if (field == 1) options.start = StartPolicy(value);
-      if (field == 2) options.plane_rule = PlaneRule(value);
+      Options options;
+      if (field == 0) options.tuning.refinement = Refinement(value);
+      if (field == 1) options.tuning.start = StartPolicy(value);
+      if (field == 2) options.tuning.plane_rule = PlaneRule(value);
       PairSeed seed;
       const Answer answer = distance(pair.a, pair.b, apart, seed, options);
       EXPECT_EQ(answer.status, Status::Converged);

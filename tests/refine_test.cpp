@@ -4,6 +4,7 @@
 // way, whichever query began.
 #include <swiftlet/build.h>
 #include <swiftlet/check.h>
+#include <swiftlet/depth.h>
 #include <swiftlet/query.h>
 
 #include <array>
@@ -28,26 +29,20 @@ class Refine : public testing::TestWithParam<shapes::Family> {
         a_(bodies::must(build(meshes_.a)).model),
         b_(bodies::must(build(meshes_.b)).model) {}
 
-  double law_two(const Pose& pose, const QueryOptions& options = {}) const {
-    return bodies::law_two(a_.level(0).view, b_.level(0).view, pose) +
-           64 * 0x1p-53 * std::max(options.radius_a, options.radius_b) + 16 * 0x1p-53 * pose.translation.norm();
-  }
-  Answer straight(const Pose& pose, const QueryOptions& options = {}) const {
-    PairSeed cold;
-    return distance(a_, b_, pose, cold, options);
-  }
   /// That `finer` says no less than `so_far`, and what is true of an exact answer.
-  void expect_finer(const Pose& pose, const Answer& so_far, const Answer& finer, const QueryOptions& options) const {
-    ASSERT_GE(finer.lower, so_far.lower - law_two(pose, options));
-    ASSERT_LE(finer.upper, so_far.upper + law_two(pose, options));
-    const Check checked = check(a_, b_, pose, finer, options.radius_a, options.radius_b);
+  static void expect_finer(const Body& a, const Body& b, const Pose& pose, const Answer& so_far, const Answer& finer,
+                           const OverlapProof& proof, double relative = 0) {
+    const double law_two = tolerance(a, b, pose);
+    ASSERT_GE(finer.lower, so_far.lower - law_two);
+    ASSERT_LE(finer.upper, so_far.upper + law_two);
+    const Check checked = check(a, b, pose, finer, &proof);
     ASSERT_TRUE(checked) << checked.message;
-    const Answer exact = straight(pose, options);
+    const Answer exact = distance(a, b, pose, {.relative = relative});
     ASSERT_LE(finer.lower, exact.upper);
     ASSERT_GE(finer.upper, exact.lower);
     ASSERT_EQ(finer.status, Status::Converged);
-    ASSERT_LE(finer.upper - finer.lower, std::max(options.relative_error * finer.lower, law_two(pose, options)));
-    ASSERT_TRUE(finer.verdict == exact.verdict || options.relative_error > 0);
+    ASSERT_LE(finer.upper - finer.lower, std::max(relative * finer.lower, law_two));
+    ASSERT_TRUE(finer.verdict == exact.verdict || relative > 0);
   }
 
   shapes::Pair meshes_;
@@ -70,8 +65,8 @@ TEST_P(Refine, InTurnCostsAtMostAFifthMoreThanGoingStraight) {
         at_once += work(distance(a_, b_, pose, one));
         Answer so_far;
         for (std::size_t k = 0; k < 3; ++k) {
-          QueryOptions options;
-          options.relative_error = kTolerances[k];
+          Options options;
+          options.relative = kTolerances[k];
           so_far = refine(a_, b_, pose, so_far, other, options);
           in_turn[k] += work(so_far);
         }
@@ -91,28 +86,29 @@ TEST_P(Refine, NarrowsTheIntervalWhicheverQueryBegan) {
   for (int i = 0; i < 200; ++i) {
     const Pose pose{random.rotation(), random.on_sphere() * random.uniform(0.2, 4)};
     for (const double radius : {0.0, 0.05, 0.7}) {
-      QueryOptions options;
-      options.radius_a = radius, options.radius_b = radius / 2;
-      QueryOptions budget = options, limited = options;
-      budget.step_budget = 2, limited.finest_level = 2;
-      PairSeed seeds[6];
-      const std::array<Answer, 6> begun{Answer{},
-                                        distance(a_, b_, pose, seeds[1], budget),
-                                        distance(a_, b_, pose, seeds[2], limited),
-                                        intersects(a_, b_, pose, seeds[3], options),
-                                        within(a_, b_, pose, 0.5, seeds[4], options).answer,
-                                        contact(a_, b_, pose, seeds[5], options).answer};
+      const Body a(a_, radius), b(b_, radius / 2);
+      PairSeed seeds[7];
+      OverlapProof proofs[7];
+      const std::array<Answer, 7> begun{
+          Answer{},
+          distance(a, b, pose, seeds[1], {.budget = {.steps = 2}, .tuning = {.proof = &proofs[1]}}),
+          distance(a, b, pose, seeds[2], {.budget = {.finest_level = 2}, .tuning = {.proof = &proofs[2]}}),
+          intersects(a, b, pose, seeds[3], {.tuning = {.proof = &proofs[3]}}),
+          within(a, b, pose, 0.5, seeds[4], {.tuning = {.proof = &proofs[4]}}).answer,
+          closest_features(a, b, pose, seeds[5], {.tuning = {.proof = &proofs[5]}}).answer,
+          signed_distance(a, b, pose, seeds[6])};
       for (std::size_t k = 0; k < begun.size(); ++k) {
         Answer so_far = begun[k];
-        for (const double tolerance : kTolerances) {
-          options.relative_error = tolerance;
-          const Answer finer = refine(a_, b_, pose, so_far, seeds[k], options);
-          expect_finer(pose, so_far, finer, options);
-          if (HasFatalFailure()) FAIL() << "pose " << i << ", radius " << radius << ", begun as " << k << ", to " << tolerance;
+        for (const double relative : kTolerances) {
+          OverlapProof proof;
+          const Answer finer = refine(a, b, pose, so_far, seeds[k], {.relative = relative, .tuning = {.proof = &proof}});
+          if (proof.count > 0) proofs[k] = proof;  // what is known is not proved again
+          expect_finer(a, b, pose, so_far.is_signed && so_far.lower < 0 ? Answer{} : so_far, finer, proofs[k], relative);
+          if (HasFatalFailure()) FAIL() << "pose " << i << ", radius " << radius << ", begun as " << k << ", to " << relative;
           coarse += finer.level_a > 0;
           so_far = finer;
         }
-        const Answer again = refine(a_, b_, pose, so_far, seeds[k], options);
+        const Answer again = refine(a, b, pose, so_far, seeds[k]);
         ASSERT_EQ(work(again), 0u) << "exact is exact";
         ASSERT_EQ(again.lower, so_far.lower);
         ASSERT_EQ(again.upper, so_far.upper);
@@ -132,21 +128,20 @@ TEST_P(Refine, EndsFromAnyFeatures) {
   for (int i = 0; i < 500; ++i) {
     const Pose pose{random.rotation(), random.on_sphere() * random.uniform(0.5, 4)};
     Answer so_far;
-    so_far.level_a = int(random.bits() % 9) - 2, so_far.level_b = int(random.bits() % 9) - 2;
+    so_far.level_a = std::int16_t(random.bits() % 9) - 2, so_far.level_b = std::int16_t(random.bits() % 9) - 2;
     so_far.feature_a = {FeatureKind(random.bits() % 4), std::uint32_t(random.bits() % 4000)};
     so_far.feature_b = {FeatureKind(random.bits() % 4), std::uint32_t(random.bits() % 4000)};
     so_far.normal = random.on_sphere();
-    PairSeed seed;
-    expect_finer(pose, so_far, refine(a_, b_, pose, so_far, seed), {});
+    OverlapProof proof;
+    const Answer finer = refine(a_, b_, pose, so_far, {.tuning = {.proof = &proof}});
+    expect_finer(a_, b_, pose, so_far, finer, proof);
     if (HasFatalFailure()) FAIL() << i;
   }
   Pose invalid;
   invalid.rotation *= 2;
   for (const double radius : {0.0, 0.1}) {
-    QueryOptions options;
-    options.radius_b = radius;
-    PairSeed seed;
-    const Answer refused = refine(a_, b_, invalid, straight({Mat3::Identity(), {3, 0, 0}}, options), seed, options);
+    const Body b(b_, radius);
+    const Answer refused = refine(a_, b, invalid, distance(a_, b, {Mat3::Identity(), {3, 0, 0}}));
     EXPECT_EQ(refused.status, Status::InvalidPose);
     EXPECT_EQ(refused.lower, 0);
   }

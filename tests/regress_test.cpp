@@ -17,8 +17,8 @@ namespace {
 
 using namespace bodies;
 
-Body prism(std::vector<Vec3> corners) {  // the lower loop, then the upper one, counter-clockwise from above
-  Body b{std::move(corners), {}, {}};
+Polyhedron prism(std::vector<Vec3> corners) {  // the lower loop, then the upper one, counter-clockwise from above
+  Polyhedron b{std::move(corners), {}, {}};
   const auto n = std::uint32_t(b.points.size() / 2);
   for (std::uint32_t i = n; i-- > 0;) b.corners.push_back(i);
   for (std::uint32_t i = 0; i < n; ++i) b.corners.push_back(n + i);
@@ -26,7 +26,7 @@ Body prism(std::vector<Vec3> corners) {  // the lower loop, then the upper one, 
   for (std::uint32_t i = 0; i < n; ++i) b.add({i, (i + 1) % n, n + (i + 1) % n, n + i});
   return b;
 }
-Body prism3() {
+Polyhedron prism3() {
   return prism({{0x1p+0, 0x0p+0, -0x1.3333333333333p-3},
                 {-0x1.ffffffffffffcp-2, 0x1.bb67ae8584cabp-1, -0x1.3333333333333p-3},
                 {-0x1.0000000000004p-1, -0x1.bb67ae8584ca8p-1, -0x1.3333333333333p-3},
@@ -34,7 +34,7 @@ Body prism3() {
                 {-0x1.ffffffffffffcp-2, 0x1.bb67ae8584cabp-1, 0x1.3333333333333p-3},
                 {-0x1.0000000000004p-1, -0x1.bb67ae8584ca8p-1, 0x1.3333333333333p-3}});
 }
-Body prism4() {
+Polyhedron prism4() {
   return prism({{0x1p+0, 0x0p+0, -0x1.3333333333333p-3},
                 {0x1.1a62633145c07p-54, 0x1p+0, -0x1.3333333333333p-3},
                 {-0x1p+0, 0x1.1a62633145c07p-53, -0x1.3333333333333p-3},
@@ -64,8 +64,8 @@ TEST(Regress, ActiveSetWasChosenByAFlatNorm) {
     Pose pose{Mat3::Identity(), {2.5, -2.5, 0.5}};
     pose.rotation(0, 2) = tilt;
     pose.rotation(2, 0) = -tilt;
-    for (const Body& a : {prism3(), prism4()}) {
-      for (const Body& b : {prism3(), prism4()}) {
+    for (const Polyhedron& a : {prism3(), prism4()}) {
+      for (const Polyhedron& b : {prism3(), prism4()}) {
         expect_sound(model(a), model(b), pose);
         expect_sound(model(a), model(b), inverse(pose));
       }
@@ -103,19 +103,19 @@ TEST(Regress, TinyAndHugeTranslationsLooped) {
 
 /// Tetrahedra 3.2e-16 apart: some starts proved the gap and answered Disjoint, others answered Touching, which law 3 forbids.
 TEST(Regress, VerdictNearContactDependedOnTheStart) {
-  Body a{{{0x1.7f7559069a93p-4, -0x1.549bc0acc0b68p-3, -0x1.75625412040ap-3},
-          {0x1.5f8048252321p-2, -0x1.73ca7aa11d3aap-1, 0x1.45566e494c588p-3},
-          {0x1.6154cb0d2797p-3, 0x1.5dd22471b432ap-1, 0x1.85ca28a14ca7cp-2},
-          {-0x1.5a0de9ffbcb02p-1, -0x1.6ea9b760568bp-2, 0x1.41594e05fb8ep-5}},
-         {},
-         {}};
-  Body b{{{0x1.8f50f91c297bp-2, -0x1.2649ea26a8104p-2, -0x1.684877b13bd6ep-1},
-          {-0x1.da04a139fb2bp-3, 0x1.64202a21cc0bp-2, 0x1.6585e48c70e6ep-1},
-          {-0x1.75e552a7fbedp-2, 0x1.6e22b56b58fe8p-3, 0x1.c8ef212892dep-2},
-          {0x1.370441f033a88p-3, 0x1.b74ac2bfb33e8p-3, 0x1.6d71fb2f99daep-1}},
-         {},
-         {}};
-  for (Body* body : {&a, &b}) body->add({2, 1, 0}), body->add({0, 3, 2}), body->add({2, 3, 1}), body->add({1, 3, 0});
+  Polyhedron a{{{0x1.7f7559069a93p-4, -0x1.549bc0acc0b68p-3, -0x1.75625412040ap-3},
+                {0x1.5f8048252321p-2, -0x1.73ca7aa11d3aap-1, 0x1.45566e494c588p-3},
+                {0x1.6154cb0d2797p-3, 0x1.5dd22471b432ap-1, 0x1.85ca28a14ca7cp-2},
+                {-0x1.5a0de9ffbcb02p-1, -0x1.6ea9b760568bp-2, 0x1.41594e05fb8ep-5}},
+               {},
+               {}};
+  Polyhedron b{{{0x1.8f50f91c297bp-2, -0x1.2649ea26a8104p-2, -0x1.684877b13bd6ep-1},
+                {-0x1.da04a139fb2bp-3, 0x1.64202a21cc0bp-2, 0x1.6585e48c70e6ep-1},
+                {-0x1.75e552a7fbedp-2, 0x1.6e22b56b58fe8p-3, 0x1.c8ef212892dep-2},
+                {0x1.370441f033a88p-3, 0x1.b74ac2bfb33e8p-3, 0x1.6d71fb2f99daep-1}},
+               {},
+               {}};
+  for (Polyhedron* body : {&a, &b}) body->add({2, 1, 0}), body->add({0, 3, 2}), body->add({2, 3, 1}), body->add({1, 3, 0});
   const Model model_a = model(a), model_b = model(b);
   const Pose pose{Mat3::Identity(), {-0x1.d7a59fb700848p-4, -0x1.a8ed805adf87cp-1, -0x1.2e88b9ba946a2p-1}};
   expect_sound(model_a, model_b, pose);
@@ -152,8 +152,8 @@ TEST(Regress, TwoPointsWereWiderThanLawTwo) {
 /// A level below 0 was read: out of bounds.
 TEST(Regress, NegativeFinestLevelCrashed) {
   const Model cube = model(bodies::cube());
-  QueryOptions options;
-  options.finest_level = -1;
+  Options options;
+  options.budget.finest_level = -1;
   PairSeed seed;
   EXPECT_EQ(distance(cube, cube, {Mat3::Identity(), {5, 0, 0}}, seed, options).status, Status::Converged);
 }
@@ -161,7 +161,7 @@ TEST(Regress, NegativeFinestLevelCrashed) {
 /// Faces tilted by 2^-32 stall the walk on a pair of edges, whose plane bounds the distance to the last bit, but lies 1e-10 of
 /// an angle beside the line between the points: the normal was not theirs.
 TEST(Regress, NearlyParallelFacesLeftTheNormalBesideThePoints) {
-  Body tilted = cube();
+  Polyhedron tilted = cube();
   for (Vec3& p : tilted.points) p.z() += 0x1p-32 * p.x();
   const Model a = model(tilted), b = model(cube());
   const ConvexView &view_a = a.level(0).view, &view_b = b.level(0).view;

@@ -59,14 +59,14 @@ class CaseJudge : public testing::Test {
     PairSeed seed;
     Answer answer = distance(model_, model_, p.b_in_a, seed);
     bend(answer);
-    return judge_exact(p, model_, model_, answer).fault;
+    return judge_exact(p, model_, model_, answer, {}).fault;
   }
   Fault of_within(double gap, double threshold, Decision decision) const {
     const Problem p = problem_of(cubes(gap));
     PairSeed seed;
     Within answer = within(model_, model_, p.b_in_a, threshold, seed);
     answer.decision = decision;
-    return judge_within(p, model_, model_, threshold, answer).fault;
+    return judge_within(p, model_, model_, threshold, answer, {}).fault;
   }
 
   Model model_ = build(shapes::cube()).value().model;

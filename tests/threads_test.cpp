@@ -10,8 +10,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <functional>
 #include <random>
+#include <span>
 #include <stdexcept>
+#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -56,15 +59,12 @@ const std::vector<Motion>& motions() {
 /// The i-th question of a motion.
 Fields ask(const Motion& motion, std::size_t i, PairSeed& seed) {
   Fields fields;
-  QueryOptions options;
-  options.start = StartPolicy(i % 5);
-  options.refinement = Refinement(i % 3);
-  options.plane_rule = PlaneRule(i / 5 % 2);
+  const Tuning tuning{.start = StartPolicy(i % 5), .refinement = Refinement(i % 3), .plane_rule = PlaneRule(i / 5 % 2)};
   const Pose& pose = motion.poses[i];
-  answers::append(distance(*motion.a, *motion.b, pose, seed, options), fields);
-  if (i % 4 == 0) answers::append(intersects(*motion.a, *motion.b, pose, seed, options), fields);
-  if (i % 4 == 1) answers::append(within(*motion.a, *motion.b, pose, 0.25, seed, options).answer, fields);
-  if (i % 4 == 2) answers::append(contact(*motion.a, *motion.b, pose, seed, options).answer, fields);
+  answers::append(distance(*motion.a, *motion.b, pose, seed, {.tuning = tuning}), fields);
+  if (i % 4 == 0) answers::append(intersects(*motion.a, *motion.b, pose, seed, {.tuning = tuning}), fields);
+  if (i % 4 == 1) answers::append(within(*motion.a, *motion.b, pose, 0.25, seed, {.tuning = tuning}).answer, fields);
+  if (i % 4 == 2) answers::append(closest_features(*motion.a, *motion.b, pose, seed, {.tuning = tuning}).answer, fields);
   if (i % 4 == 3) fields.push_back(motion.a->support(pose.translation));
   return fields;
 }
@@ -161,44 +161,202 @@ TEST_F(Threads, ModelsAreCopiedAndDroppedWhileOthersAsk) {
   EXPECT_EQ(different, 0);
 }
 
-TEST_F(Threads, BatchesAnswerAsOneAfterTheOther) {
-  const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) {
-    while (count > 0) task(--count);
-  };
-  for (const auto& executor : {on_threads(1), on_threads(unsigned(kThreads)), backwards}) {
-    std::vector<PairSeed> seeds(motions().size()), own(motions().size());
-    for (std::size_t i = 0; i < std::size_t(kPoses); ++i) {  // seeds carry from batch to batch
-      std::vector<PairQuery> pairs;
-      for (std::size_t m = 0; m < motions().size(); ++m) {
-        pairs.push_back({motions()[m].a, motions()[m].b, motions()[m].poses[i], &seeds[m]});
-        pairs.push_back({motions()[m].a, motions()[m].b, motions()[m].poses[i], nullptr});
-      }
-      std::vector<Answer> answers(pairs.size());
-      i % 2 == 0 ? distance(pairs, answers, {}, executor) : intersects(pairs, answers, {}, executor);
-      for (std::size_t k = 0; k < pairs.size(); ++k) {
-        PairSeed cold;
-        const PairQuery& q = pairs[k];
-        PairSeed& seed = q.seed ? own[k / 2] : cold;
-        Fields expected, got;
-        answers::append(i % 2 == 0 ? distance(*q.a, *q.b, q.b_in_a, seed) : intersects(*q.a, *q.b, q.b_in_a, seed), expected);
-        answers::append(answers[k], got);
-        ASSERT_EQ(expected, got) << "pose " << i << ", pair " << k;
-      }
-    }
+// ---- Batches ---------------------------------------------------------------------------------------------------------------
+
+Fields fields_of(const Answer& answer) {
+  Fields fields;
+  answers::append(answer, fields);
+  return fields;
+}
+Fields fields_of(const Within& within) {
+  Fields fields = fields_of(within.answer);
+  fields.push_back(std::uint64_t(within.decision));
+  return fields;
+}
+Fields fields_of(const ClosestFeatures& closest) {
+  Fields fields = fields_of(closest.answer);
+  for (const SourceFeature& source : {closest.source_a, closest.source_b}) {
+    fields.insert(fields.end(), {std::uint64_t(source.kind), source.vertices[0], source.vertices[1]});
+    fields.insert(fields.end(), source.triangles.begin(), source.triangles.end());
   }
-  distance({}, {}, {}, on_threads(4));
+  return fields;
 }
 
-TEST_F(Threads, WithoutAnExecutorABatchRunsOnItsCaller) {
-  const Pose apart{Mat3::Identity(), Vec3(9, 0, 0)};
-  const std::vector<PairQuery> pairs(100, {&models()[0], &models()[1], apart});
-  std::vector<Answer> answers(pairs.size()), verdicts(pairs.size());
-  distance(pairs, answers, {}, Executor{});
-  intersects(pairs, verdicts, {}, nullptr);
-  PairSeed cold;
-  EXPECT_EQ(answers[99].lower, distance(models()[0], models()[1], apart, cold).lower);
-  EXPECT_EQ(verdicts[99].verdict, Verdict::Disjoint);
+/// A query in its three forms.
+struct Query {
+  const char* name;
+  std::function<Fields(const Body&, const Body&, const Pose&, PairSeed&)> one;
+  std::function<std::vector<Fields>(std::span<const PairQuery>, const Run&)> over_pairs;
+  std::function<std::vector<Fields>(const Body&, const Body&, std::span<const Pose>, const Run&)> over_poses;
+  Fields untouched;  ///< an answer that was not asked for
+};
+
+template <class AnyAnswer, class AnyOptions, class Ask, class... Threshold>
+Query query(const char* name, const AnyOptions& options, Ask ask, Threshold... threshold) {
+  const auto fields_of_all = [](const std::vector<AnyAnswer>& answers) {
+    std::vector<Fields> all;
+    for (const AnyAnswer& answer : answers) all.push_back(fields_of(answer));
+    return all;
+  };
+  return {name,
+          [=](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
+            return fields_of(ask(a, b, b_in_a, threshold..., seed, options));
+          },
+          [=](std::span<const PairQuery> pairs, const Run& run) {
+            std::vector<AnyAnswer> answers(pairs.size());
+            ask(pairs, threshold..., std::span(answers), options, run);
+            return fields_of_all(answers);
+          },
+          [=](const Body& a, const Body& b, std::span<const Pose> poses, const Run& run) {
+            std::vector<AnyAnswer> answers(poses.size());
+            ask(a, b, poses, threshold..., std::span(answers), options, run);
+            return fields_of_all(answers);
+          },
+          fields_of(AnyAnswer{})};
 }
+
+std::vector<Query> queries() {
+  return {query<Answer>("distance", Options{.relative = 0.01}, [](auto&&... x) { return distance(x...); }),
+          query<Answer>("signed_distance", Options{}, [](auto&&... x) { return signed_distance(x...); }),
+          query<Answer>("intersects", Effort{}, [](auto&&... x) { return intersects(x...); }),
+          query<Within>(
+              "within", Effort{}, [](auto&&... x) { return within(x...); }, 0.25),
+          query<Within>(
+              "signed_within", Effort{}, [](auto&&... x) { return signed_within(x...); }, -0.125),
+          query<ClosestFeatures>("closest_features", ClosestOptions{}, [](auto&&... x) { return closest_features(x...); })};
+}
+
+void backwards(std::size_t count, const std::function<void(std::size_t)>& task) {
+  while (count > 0) task(--count);
+}
+std::vector<Executor> executors() {
+  return {Executor{}, on_threads(1), on_threads(3), on_threads(unsigned(kThreads)), backwards};
+}
+
+/// Pairs of all motions at their i-th pose: warm ones, and cold ones of rounded bodies and of a primitive.
+std::vector<PairQuery> pairs_at(std::size_t i, std::vector<PairSeed>& seeds) {
+  std::vector<PairQuery> pairs;
+  for (std::size_t m = 0; m < motions().size(); ++m) {
+    const auto& [a, b, poses] = motions()[m];
+    pairs.push_back({*a, *b, poses[i], &seeds[m]});
+    pairs.push_back({{*a, 0.125}, {*b, 0.0625}, poses[i], nullptr});
+    pairs.push_back({*a, Body::triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), poses[i], nullptr});
+  }
+  return pairs;
+}
+
+TEST_F(Threads, BatchesOverPairsAnswerAsOneAfterTheOther) {
+  constexpr std::size_t kFrames = 30;
+  for (const Query& query : queries()) {
+    SCOPED_TRACE(query.name);
+    std::vector<std::vector<Fields>> expected;
+    std::vector<PairSeed> own(motions().size());
+    for (std::size_t i = 0; i < kFrames; ++i) {
+      expected.emplace_back();
+      for (const PairQuery& q : pairs_at(i, own)) {
+        PairSeed cold;
+        expected.back().push_back(query.one(q.a, q.b, q.b_in_a, q.seed ? *q.seed : cold));
+      }
+    }
+    for (const Executor& executor : executors()) {
+      std::vector<PairSeed> seeds(motions().size());  // they carry from batch to batch
+      for (std::size_t i = 0; i < kFrames; ++i)
+        ASSERT_EQ(query.over_pairs(pairs_at(i, seeds), {executor}), expected[i]) << "pose " << i;
+    }
+    EXPECT_TRUE(query.over_pairs({}, {on_threads(4)}).empty());
+  }
+}
+
+/// Poses that follow one another, some of them in the next chunk and some in the one after that.
+std::vector<Pose> many_poses() {
+  answers::Poses poses(6);
+  std::vector<Pose> made(2 * kPosesPerChunk + 100);
+  for (Pose& pose : made) pose = poses.next();
+  return made;
+}
+
+TEST_F(Threads, BatchesOverPosesShareASeedWithinAChunk) {
+  const std::vector<Pose> poses = many_poses();
+  const Body a = models()[0], b{models()[1], 0.125};
+  for (const Query& query : queries()) {
+    SCOPED_TRACE(query.name);
+    std::vector<Fields> expected;
+    PairSeed seed;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      if (i % kPosesPerChunk == 0) seed = PairSeed{};
+      expected.push_back(query.one(a, b, poses[i], seed));
+    }
+    for (const Executor& executor : executors()) EXPECT_TRUE(query.over_poses(a, b, poses, {executor}) == expected);
+    const std::span<const Pose> from_a_border = std::span(poses).subspan(kPosesPerChunk, 50);
+    const auto there = expected.begin() + std::ptrdiff_t(kPosesPerChunk);
+    EXPECT_EQ(query.over_poses(a, b, from_a_border, {}), std::vector<Fields>(there, there + 50));
+    EXPECT_TRUE(query.over_poses(a, b, {}, {on_threads(4)}).empty());
+  }
+}
+
+/// The tasks that were done, of `size` answers each: these are right, and the others as they were before.
+std::size_t tasks_done(const std::vector<Fields>& answers, const std::vector<Fields>& expected, const Fields& untouched,
+                       std::size_t size) {
+  std::size_t done = 0;
+  for (std::size_t first = 0; first < answers.size(); first += size) {
+    const std::size_t end = std::min(first + size, answers.size());
+    const bool is_done = answers[first] != untouched;
+    for (std::size_t i = first; i < end; ++i) EXPECT_EQ(answers[i], is_done ? expected[i] : untouched) << i;
+    done += is_done;
+  }
+  return done;
+}
+
+TEST_F(Threads, AStoppedBatchKeepsWhatIsDoneAndLeavesTheRest) {
+  constexpr std::size_t kPairsPerTask = 32;
+  const std::vector<Pose> poses = many_poses();
+  const Body a = models()[0], b = models()[1];
+  std::vector<PairQuery> pairs;
+  for (const Pose& pose : poses) pairs.push_back({a, b, pose, nullptr});
+  for (const Query& query : queries()) {
+    SCOPED_TRACE(query.name);
+    const std::vector<Fields> of_pairs = query.over_pairs(pairs, {}), of_poses = query.over_poses(a, b, poses, {});
+    for (const unsigned threads : {1u, unsigned(kThreads)}) {
+      const auto stopped = [&](bool at_once, const auto& ask) {
+        std::stop_source source;
+        if (at_once) source.request_stop();
+        const Executor stops_after_a_task = [&](std::size_t count, const std::function<void(std::size_t)>& task) {
+          on_threads(threads)(count, [&](std::size_t i) { task(i), source.request_stop(); });
+        };
+        return ask(swiftlet::Run{stops_after_a_task, source.get_token()});
+      };
+      const auto ask_pairs = [&](const auto& run) {
+        return tasks_done(query.over_pairs(pairs, run), of_pairs, query.untouched, kPairsPerTask);
+      };
+      const auto ask_poses = [&](const auto& run) {
+        return tasks_done(query.over_poses(a, b, poses, run), of_poses, query.untouched, kPosesPerChunk);
+      };
+      for (const std::size_t done : {stopped(false, ask_pairs), stopped(false, ask_poses)}) {
+        EXPECT_GE(done, 1u);
+        EXPECT_LE(done, threads) << "a task began after the stop";
+      }
+      EXPECT_EQ(stopped(true, ask_pairs), 0u);
+      EXPECT_EQ(stopped(true, ask_poses), 0u);
+    }
+  }
+}
+
+TEST_F(Threads, BatchesShareNeitherATraceNorAProof) {
+  LevelRecord record{.steps = 77};
+  OverlapProof proof{.count = 77};
+  const Tuning tuning{.trace = {&record, 1}, .proof = &proof};
+  const Body cube = Body::box({-1, -1, -1}, {1, 1, 1});
+  const std::vector<Pose> poses(3);
+  const std::vector<PairQuery> pairs(3, {cube, cube, Pose{}});
+  std::vector<Answer> answers(3);
+  distance(pairs, answers, {.tuning = tuning});
+  intersects(cube, cube, poses, answers, {.tuning = tuning});
+  EXPECT_EQ(record.steps, 77u);
+  EXPECT_EQ(proof.count, 77u);
+  EXPECT_EQ(answers[2].verdict, Verdict::Overlapping);
+}
+
+// ---- Executors -------------------------------------------------------------------------------------------------------------
 
 TEST(Executor, RunsEveryTaskOnceOnAnyNumberOfThreads) {
   for (const unsigned count : {0u, 1u, 2u, 7u, ~0u}) {

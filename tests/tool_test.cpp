@@ -277,7 +277,17 @@ TEST_F(Tool, DistanceAnswersInTheFrameOfA) {
   EXPECT_EQ(answer["feature_a"]["vertices"], json::array({0}));
   EXPECT_EQ(answer["feature_b"]["vertices"], json::array({1}));
   EXPECT_NE(says("distance a.swl a.swl --pose 2,0,0").find("normal"), std::string::npos);
-  EXPECT_EQ(says_json("distance a.swl a.swl --pose 0.1,0,0")["verdict"], "Overlapping");
+}
+
+TEST_F(Tool, DistanceProvesAnOverlapByVertices) {
+  const json answer = says_json("distance a.swl a.swl --pose 0.1,0,0");
+  EXPECT_EQ(answer["verdict"], "Overlapping");
+  EXPECT_TRUE(answer["normal"].is_null());
+  EXPECT_GT(answer["proof"]["vertices_a"].size(), 0u);
+  EXPECT_EQ(answer["proof"]["vertices_a"].size(), answer["proof"]["vertices_b"].size());
+  const std::string text = says("distance a.swl a.swl --pose 0.1,0,0");
+  EXPECT_NE(text.find("normal     none"), std::string::npos);
+  EXPECT_NE(text.find("hold the origin"), std::string::npos);
 }
 
 TEST_F(Tool, LevelsRefineFromTheCoarsestToTheAnswer) {

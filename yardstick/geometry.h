@@ -48,10 +48,14 @@ static inline Vec turn_back(const Motion& m, const Vec& n) { return m.row_x * n.
 
 // ---- Ways around a view ----------------------------------------------------------------------------------------------------
 
-static inline std::uint32_t origin(const ConvexView& v, std::uint32_t half_edge) { return v.head[v.twin[half_edge]]; }
-static inline std::uint32_t right_face(const ConvexView& v, std::uint32_t half_edge) { return v.face[v.twin[half_edge]]; }
+static inline std::uint32_t origin(const ConvexView& v, std::uint32_t half_edge) {
+  return v.half_edges[v.half_edges[half_edge].twin].head;
+}
+static inline std::uint32_t right_face(const ConvexView& v, std::uint32_t half_edge) {
+  return v.half_edges[v.half_edges[half_edge].twin].face;
+}
 static inline bool is_diagonal(const ConvexView& v, std::uint32_t half_edge) {
-  return v.face[half_edge] == right_face(v, half_edge) && v.face[half_edge] != kNone;
+  return v.half_edges[half_edge].face == right_face(v, half_edge) && v.half_edges[half_edge].face != kNone;
 }
 
 // Around a ring by arithmetic: of branches some would be guessed wrong in every ring.
@@ -66,7 +70,7 @@ static inline std::uint32_t counter_clockwise(const Vertex& vertex, std::uint32_
 }
 /// The half-edge after `half_edge` around the exact facet on its left.
 static inline std::uint32_t next_in_facet(const ConvexView& v, std::uint32_t half_edge) {
-  return clockwise(v.vertices[v.head[half_edge]], v.twin[half_edge]);
+  return clockwise(v.vertices[v.half_edges[half_edge].head], v.half_edges[half_edge].twin);
 }
 /// The half-edge after `half_edge` around the face on its left: as in the facet, past diagonals.
 static inline std::uint32_t next_in_face(const ConvexView& v, std::uint32_t half_edge) {

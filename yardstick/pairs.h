@@ -11,7 +11,7 @@
 namespace swiftlet::yardstick {
 
 /// One body as every method gets it: the same vertices and faces for all.
-struct Body {
+struct SceneBody {
   const Model* model = nullptr;  ///< with its hierarchy and table; outlives the session
   ConvexView view;               ///< its level 0
   double build_seconds = 0;      ///< what the builder took from hull to model, as the scene measured it

@@ -13,7 +13,7 @@ namespace swiftlet::yardstick {
 
 /// Default: cold, the first vertex of each.
 struct PlainSeed {
-  Handle a, b;
+  FeatureId a, b;
 };
 
 struct PlainResult {

@@ -95,8 +95,8 @@ Shelf::Entry Shelf::file(const std::filesystem::path& path) const {
   return entry(path.stem().string(), [&] { return must(read_mesh(path)); });
 }
 
-std::vector<Body> bodies(const Scene& scene) {
-  std::vector<Body> result;
+std::vector<SceneBody> bodies(const Scene& scene) {
+  std::vector<SceneBody> result;
   for (std::size_t i = 0; i < scene.models.size(); ++i) {
     result.push_back({&scene.models[i], scene.models[i].level(0).view, scene.build_seconds[i]});
   }

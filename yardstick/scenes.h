@@ -29,7 +29,7 @@ struct Scene {
 };
 
 /// The bodies of a scene, which must outlive them.
-std::vector<Body> bodies(const Scene& scene);
+std::vector<SceneBody> bodies(const Scene& scene);
 
 /// Degrees per query, close to the paper's 0.5 to 180. None divides 360: a pose that comes back trains branch predictors and
 /// caches, and flatters marchers up to twofold.

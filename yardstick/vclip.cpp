@@ -33,15 +33,15 @@ namespace {
 
 Vec normal(const VclipPlane& p) { return {p.x, p.y, p.z}; }
 Vec axis(const VclipEdge& e) { return {e.axis_x, e.axis_y, e.axis_z}; }
-Vec point(const VclipBody& body, Handle v) {
+Vec point(const VclipBody& body, FeatureId v) {
   const VclipVertex& record = body.vertices[v.index()];
   return {record.x, record.y, record.z};
 }
 double beyond(const VclipPlane& plane, const Vec& p) { return dot(normal(plane), p) - plane.offset; }
 
-Handle vertex(std::uint32_t index) { return {FeatureKind::Vertex, index}; }
-Handle edge(std::uint32_t index) { return {FeatureKind::Edge, index}; }
-Handle face(std::uint32_t index) { return {FeatureKind::Face, index}; }
+FeatureId vertex(std::uint32_t index) { return {FeatureKind::Vertex, index}; }
+FeatureId edge(std::uint32_t index) { return {FeatureKind::Edge, index}; }
+FeatureId face(std::uint32_t index) { return {FeatureKind::Face, index}; }
 
 // ---- A body ----------------------------------------------------------------------------------------------------------------
 
@@ -51,7 +51,8 @@ VclipPlane face_plane(const ConvexView& view, std::uint32_t f) {
   const std::uint32_t h = view.face_first[f];
   const Vec p = vec(view.vertices[origin(view, h)]);
   if (f < view.planes.size()) return plane_through({view.planes[f].x, view.planes[f].y, view.planes[f].z}, p);
-  const Vec q = vec(view.vertices[view.head[h]]), r = vec(view.vertices[view.head[next_in_facet(view, h)]]);
+  const Vec q = vec(view.vertices[view.half_edges[h].head]),
+            r = vec(view.vertices[view.half_edges[next_in_facet(view, h)].head]);
   const Vec n = cross(q - p, r - p);
   return plane_through(n * (1 / norm(n)), p);
 }
@@ -65,11 +66,12 @@ VclipPlane side_plane(const Vec& along, const VclipPlane& face, const Vec& p) {
 }
 
 VclipEdge make_edge(const ConvexView& view, std::uint32_t h, const std::vector<VclipPlane>& faces) {
-  const std::uint32_t tail = origin(view, h), head = view.head[h], left = view.face[h], right = right_face(view, h);
+  const std::uint32_t tail = origin(view, h), head = view.half_edges[h].head, left = view.half_edges[h].face,
+                      right = right_face(view, h);
   const Vec p = vec(view.vertices[tail]), q = vec(view.vertices[head]), d = q - p;
   const double length = norm(d);
   const Vec u = d * (1 / length);
-  const auto neighbour = [](std::uint32_t f) { return f == kNone ? Handle{} : face(f); };
+  const auto neighbour = [](std::uint32_t f) { return f == kNone ? FeatureId{} : face(f); };
   const auto side = [&](std::uint32_t f, const Vec& along) { return f == kNone ? kOpen : side_plane(along, faces[f], p); };
   return {u.x,
           u.y,
@@ -115,11 +117,11 @@ VclipBody::VclipBody(const ConvexView& view) {
   assert(view.vertices.size() > 1);
   for (std::uint32_t f = 0; f < view.face_first.size(); ++f) faces.push_back(face_plane(view, f));
 
-  std::vector<std::uint32_t> half_edge(view.head.size(), kNone);  // ours for the view's
-  for (std::uint32_t h = 0; h < view.head.size(); ++h) {
-    if (view.twin[h] < h || is_diagonal(view, h)) continue;
+  std::vector<std::uint32_t> half_edge(view.half_edges.size(), kNone);  // ours for the view's
+  for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
+    if (view.half_edges[h].twin < h || is_diagonal(view, h)) continue;
     half_edge[h] = std::uint32_t(2 * edges.size());
-    half_edge[view.twin[h]] = half_edge[h] + 1;
+    half_edge[view.half_edges[h].twin] = half_edge[h] + 1;
     edges.push_back(make_edge(view, h, faces));
   }
   vertex_count = view.vertices.size();
@@ -180,8 +182,8 @@ template <class IntoOther>
 struct Side {
   const VclipBody& body;
   IntoOther out;
-  Handle feature;
-  Handle carried{};
+  FeatureId feature;
+  FeatureId carried{};
   Vec carried_at{0, 0, 0};
 
   Vec carry() {
@@ -350,11 +352,11 @@ class Clip {
              unsigned(beyond(e.side[1], p) < 0) << 3;
     }
     bool single() const { return std::has_single_bit(bits); }
-    Handle first(const VclipEdge& e) const { return (&e.tail)[std::countr_zero(bits)]; }
+    FeatureId first(const VclipEdge& e) const { return (&e.tail)[std::countr_zero(bits)]; }
   };
 
   template <class A>
-  static Found move(A& side, Handle to) {
+  static Found move(A& side, FeatureId to) {
     side.feature = to;
     return Found::Moved;
   }
@@ -410,14 +412,14 @@ class Clip {
   template <class A, class B>
   bool clip_to_vertex(A& a, const B& b, const VclipEdge& e, const Vec& foot, double at) {
     const Vec q = b.out.apply(foot);
-    Handle low_edge, high_edge;
+    FeatureId low_edge, high_edge;
     double low = 0, high = 0;
     for (std::uint32_t record = a.feature.index(); record != kNone;) {
       const VclipVertex& v = a.body.vertices[record];
       plane_tests += 8;
       unsigned bits = violated(v, q);
       record = v.next;
-      if (record == kNone && low_edge == Handle{} && high_edge == Handle{} && std::has_single_bit(bits)) {
+      if (record == kNone && low_edge == FeatureId{} && high_edge == FeatureId{} && std::has_single_bit(bits)) {
         a.feature = v.edge[std::countr_zero(bits)];  // whatever its clip
         return true;
       }
@@ -439,8 +441,8 @@ class Clip {
         }
       }
     }
-    const Handle out = low_edge != Handle{} ? low_edge : high_edge;
-    if (out == Handle{}) return false;
+    const FeatureId out = low_edge != FeatureId{} ? low_edge : high_edge;
+    if (out == FeatureId{}) return false;
     a.feature = out;
     return true;
   }
@@ -479,20 +481,20 @@ class Clip {
   }
 
   /// Where to go from `e` when the point `p` of the other edge `s` nearest to it is outside of its region.
-  Handle leave_edge(const VclipEdge& e, const Vec& p, const Segment& s) {
+  FeatureId leave_edge(const VclipEdge& e, const Vec& p, const Segment& s) {
     const double at = dot(axis(e), p), along = dot(axis(e), s.along);
     const double inside[4] = {at - e.tail_at, e.head_at - at, beyond(e.side[0], p), beyond(e.side[1], p)};
     const double slopes[4] = {along, -along, dot(normal(e.side[0]), s.along), dot(normal(e.side[1]), s.along)};
     plane_tests += 3;
     double low = 0, high = 0;  // from s.at
-    Handle low_to, high_to, end, excluding;
+    FeatureId low_to, high_to, end, excluding;
     for (int k = 0; k < 4; ++k) {
       if (!(inside[k] < 0)) continue;
-      const Handle to = (&e.tail)[k];
+      const FeatureId to = (&e.tail)[k];
       const double at_tail = inside[k] - slopes[k] * s.at, at_head = inside[k] + slopes[k] * (s.length - s.at);
       if (at_tail < 0 && at_head < 0) {  // all of s
         if (k < 2) return to;
-        if (excluding == Handle{}) excluding = to;
+        if (excluding == FeatureId{}) excluding = to;
         continue;
       }
       if (k < 2) end = to;
@@ -503,14 +505,14 @@ class Clip {
         high = crossing, high_to = to;
       }
     }
-    const bool nothing_left = low_to != Handle{} && high_to != Handle{};
-    if (end != Handle{} && (excluding != Handle{} || nothing_left)) return end;
-    if (excluding != Handle{}) return excluding;
-    return low_to != Handle{} ? low_to : high_to;
+    const bool nothing_left = low_to != FeatureId{} && high_to != FeatureId{};
+    if (end != FeatureId{} && (excluding != FeatureId{} || nothing_left)) return end;
+    if (excluding != FeatureId{}) return excluding;
+    return low_to != FeatureId{} ? low_to : high_to;
   }
 
   /// The side or corner of a face nearest to an edge that misses its prism: from side `k` of its loop along the rim.
-  Handle nearest_on_rim(const VclipBody& body, std::uint32_t f, std::uint32_t k, Segment s) {
+  FeatureId nearest_on_rim(const VclipBody& body, std::uint32_t f, std::uint32_t k, Segment s) {
     const std::uint32_t begin = body.loop_begin[f], end = body.loop_begin[f + 1];
     int heading = 0;
     for (std::uint32_t visited = 0; visited <= end - begin; ++visited) {
@@ -534,9 +536,9 @@ class Clip {
   }
 
   /// The same by measuring every side.
-  Handle nearest_of_all(const VclipBody& body, std::uint32_t f, Segment s) {
+  FeatureId nearest_of_all(const VclipBody& body, std::uint32_t f, Segment s) {
     double least2 = std::numeric_limits<double>::infinity();
-    Handle best;
+    FeatureId best;
     for (std::uint32_t k = body.loop_begin[f]; k < body.loop_begin[f + 1]; ++k) {
       const std::uint32_t at = body.loop[k] / 2;
       const VclipEdge& e = body.edges[at];
@@ -575,7 +577,7 @@ Found visit(Clip& clip, Side<IntoB>& a, Side<IntoA>& b) {
   }
 }
 
-Handle valid(const VclipBody& body, Handle h) {
+FeatureId valid(const VclipBody& body, FeatureId h) {
   const bool names = h.kind() == FeatureKind::Vertex ? h.index() < body.vertex_count
                      : h.kind() == FeatureKind::Edge ? h.index() < body.edges.size()
                                                      : h.kind() == FeatureKind::Face && h.index() < body.faces.size();

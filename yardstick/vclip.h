@@ -22,8 +22,8 @@ struct alignas(32) VclipPlane {
 /// Places without an edge hold a plane that nothing is beyond. More than eight edges continue in another record.
 struct alignas(64) VclipVertex {
   double x, y, z;
-  std::uint32_t next, unused;    ///< record; kNone
-  Handle edge[8], neighbour[8];  ///< the edge and its other end
+  std::uint32_t next, unused;       ///< record; kNone
+  FeatureId edge[8], neighbour[8];  ///< the edge and its other end
   double plane_x[8], plane_y[8], plane_z[8];
   double offset[8], far_offset[8];  ///< of the planes through the vertex, and through the other ends
 };
@@ -31,10 +31,10 @@ static_assert(sizeof(VclipVertex) == 448);
 
 /// An edge with the four planes of its Voronoi region; the two along the axis differ in their offset only.
 struct alignas(64) VclipEdge {
-  double axis_x, axis_y, axis_z;    ///< unit, from tail to head
-  double tail_at, head_at, length;  ///< axis . tail, axis . head
-  Handle tail, head, left, right;   ///< the neighbours in the order of the tests, seen from outside; None beside a segment
-  VclipPlane side[2];               ///< through the edge and the normal of the left, right face, pointing away from that face
+  double axis_x, axis_y, axis_z;      ///< unit, from tail to head
+  double tail_at, head_at, length;    ///< axis . tail, axis . head
+  FeatureId tail, head, left, right;  ///< the neighbours in the order of the tests, seen from outside; None beside a segment
+  VclipPlane side[2];                 ///< through the edge and the normal of the left, right face, pointing away from that face
 };
 static_assert(sizeof(VclipEdge) == 128);
 
@@ -54,10 +54,10 @@ class VclipBody {
       loop;  ///< per face its edges (index >> 1), left of which it lies, or right (index & 1)
 };
 
-/// The features where the last query of the pair ended. Default: cold, the first vertex of each. Handles number the edges of
+/// The features where the last query of the pair ended. Default: cold, the first vertex of each. Ids number the edges of
 /// VclipBody.
 struct VclipSeed {
-  Handle a, b;
+  FeatureId a, b;
 };
 
 enum class VclipEnd : std::uint8_t {

@@ -67,8 +67,8 @@ class Prism {
       return;
     }
     second_ = next_in_facet(body.view, first_);
-    u_ = body.own(body.view.head[first_]) - corner_;
-    v_ = body.own(body.view.head[second_]) - corner_;
+    u_ = body.own(body.view.half_edges[first_].head) - corner_;
+    v_ = body.own(body.view.half_edges[second_].head) - corner_;
     normal_ = cross(u_, v_);
   }
 
@@ -90,7 +90,7 @@ class Prism {
     std::uint32_t h = first_, count = 0;
     Vec tail = corner_;
     do {
-      const Vec head = body_.own(body_.view.head[h]), u = head - tail, out = cross(u, normal_);
+      const Vec head = body_.own(body_.view.half_edges[h].head), u = head - tail, out = cross(u, normal_);
       visit(h, u, dot(p - tail, out), dot(e, out));
       tail = head;
       h = next_in_face(body_.view, h);
@@ -160,12 +160,13 @@ Combination below(const Q& body, std::uint32_t f, const Vec& p) {
   const ConvexView& view = body.view;
   const std::uint32_t first = view.face_first[f], root = origin(view, first);
   const Vec q0 = body.own(root), r = p - q0;
-  for (std::uint32_t v1 = view.head[first], h = next_in_face(view, first);; v1 = view.head[h], h = next_in_face(view, h)) {
-    const std::uint32_t v2 = view.head[h];
+  for (std::uint32_t v1 = view.half_edges[first].head, h = next_in_face(view, first);;
+       v1 = view.half_edges[h].head, h = next_in_face(view, h)) {
+    const std::uint32_t v2 = view.half_edges[h].head;
     const Vec u = body.own(v1) - q0, v = body.own(v2) - q0, area = cross(u, v);
     const Vec n = f < view.planes.size() ? Vec{view.planes[f].x, view.planes[f].y, view.planes[f].z} : area;
     const double w1 = dot(n, cross(r, v)), w2 = dot(n, cross(u, r)), w0 = dot(n, area) - w1 - w2;
-    if ((w2 >= 0 && w1 >= 0) || view.head[next_in_face(view, h)] == root) {
+    if ((w2 >= 0 && w1 >= 0) || view.half_edges[next_in_face(view, h)].head == root) {
       const double c0 = larger(w0, 0), c1 = larger(w1, 0), c2 = larger(w2, 0), sum = c0 + c1 + c2;
       if (!(sum > 0)) return only(root);
       return {{root, v1, v2}, {c0 / sum, c1 / sum, c2 / sum}};
@@ -175,13 +176,13 @@ Combination below(const Q& body, std::uint32_t f, const Vec& p) {
 
 // ---- States ----------------------------------------------------------------------------------------------------------------
 
-constexpr Handle vertex(std::uint32_t index) { return {FeatureKind::Vertex, index}; }
-constexpr Handle edge(std::uint32_t half_edge) { return {FeatureKind::Edge, half_edge}; }
-constexpr Handle face(std::uint32_t index) { return {FeatureKind::Face, index}; }
+constexpr FeatureId vertex(std::uint32_t index) { return {FeatureKind::Vertex, index}; }
+constexpr FeatureId edge(std::uint32_t half_edge) { return {FeatureKind::Edge, half_edge}; }
+constexpr FeatureId face(std::uint32_t index) { return {FeatureKind::Face, index}; }
 
 /// Where a state leads: the next features, in the order of its arguments. A minimum leads to itself.
 struct Move {
-  Handle first, second;
+  FeatureId first, second;
   double distance2;  ///< between the features left, for the stall guard
 };
 
@@ -220,7 +221,7 @@ class Marcher {
 
   template <class P, class Q>
   Move vertex_edge(P a, std::uint32_t va, Q b, std::uint32_t h) {
-    const std::uint32_t v0 = origin(b.view, h), v1 = b.view.head[h];
+    const std::uint32_t v0 = origin(b.view, h), v1 = b.view.half_edges[h].head;
     const Vec q0 = b.own(v0), u = b.own(v1) - q0, r = b.local(a.point(va)) - q0;
     const double length2 = dot(u, u), s = dot(r, u) / length2;
     walk_.plane_tests += 2;
@@ -252,13 +253,14 @@ class Marcher {
       end(a, {towards, only(va), below(b, f, p), down.highest, kUnknown});
       return {vertex(va), face(f), distance2};
     }
-    const std::uint32_t to = a.view.head[down.to];
+    const std::uint32_t to = a.view.half_edges[down.to].head;
     return over_face(down.to, to, p, b.local(a.point(to)) - p, prism, f, distance2);
   }
 
   template <class P, class Q>
   Move edge_edge(P a, std::uint32_t ha, Q b, std::uint32_t hb) {
-    const std::uint32_t a0 = origin(a.view, ha), a1 = a.view.head[ha], b0 = origin(b.view, hb), b1 = b.view.head[hb];
+    const std::uint32_t a0 = origin(a.view, ha), a1 = a.view.half_edges[ha].head, b0 = origin(b.view, hb),
+                        b1 = b.view.half_edges[hb].head;
     const Vec own_a = a.own(a0), along_a = a.own(a1) - own_a;
     const Vec p0 = b.local(a.point(a0)), u = b.into(a.turned(along_a)), q0 = b.own(b0), v = b.own(b1) - q0;
     const double uu = dot(u, u), vv = dot(v, v);
@@ -288,7 +290,7 @@ class Marcher {
   /// `seen` in the order of the state's arguments, of which `a` is the first.
   void end(Resting, const Witness& seen) { walk_.end = WalkEnd::Minimum, walk_.witness = seen; }
   void end(Moved, const Witness& seen) { walk_.end = WalkEnd::Minimum, walk_.witness = yardstick::swapped(seen); }
-  Move inside(Handle first, Handle second, double distance2) {
+  Move inside(FeatureId first, FeatureId second, double distance2) {
     walk_.end = WalkEnd::Inside;
     return {first, second, distance2};
   }
@@ -304,21 +306,21 @@ class Marcher {
     Rise rise;
     std::uint32_t h = begin;
     for (; h < end && !(first_only_ && rise.falls()); ++h) {
-      const double along_d = dot(d, body.own(body.view.head[h]) - p);
+      const double along_d = dot(d, body.own(body.view.half_edges[h].head) - p);
       rise.to = along_d > rise.highest ? h : rise.to;
       rise.highest = larger(along_d, rise.highest);
     }
     walk_.plane_tests += h - begin;
     if (!rise.falls()) return rise;
-    const Vec e = body.own(body.view.head[rise.to]) - p;
+    const Vec e = body.own(body.view.half_edges[rise.to].head) - p;
     rise.length2 = dot(e, e);
     return rise;
   }
 
   /// To where the fall along an edge ends: on it, or at its head.
   template <class P>
-  static Handle along(P body, const Rise& ring) {
-    return ring.highest >= ring.length2 ? vertex(body.view.head[ring.to]) : edge(ring.to);
+  static FeatureId along(P body, const Rise& ring) {
+    return ring.highest >= ring.length2 ? vertex(body.view.half_edges[ring.to].head) : edge(ring.to);
   }
 
   /// Of the two faces beside an edge q0 + s u from vertex `v0`, the one whose other edge there rises higher along `d`, which is
@@ -328,7 +330,8 @@ class Marcher {
     const Vertex& record = body.view.vertices[v0];
     const std::uint32_t left = counter_clockwise(record, h), right = clockwise(record, h);
     if (left == h) return {};  // a segment
-    const Vec to_left = body.own(body.view.head[left]) - q0, to_right = body.own(body.view.head[right]) - q0;
+    const Vec to_left = body.own(body.view.half_edges[left].head) - q0,
+              to_right = body.own(body.view.half_edges[right].head) - q0;
     const double left_rise = dot(d, to_left), right_rise = dot(d, to_right);
     walk_.plane_tests += 2;
     Rise rise;
@@ -336,7 +339,7 @@ class Marcher {
     if (!rise.falls()) return rise;
     const bool is_left = first_only_ ? left_rise > 0 : left_rise > right_rise;
     const Vec r = is_left ? to_left : to_right;
-    rise.to = body.view.face[is_left ? h : right];
+    rise.to = body.view.half_edges[is_left ? h : right].face;
     rise.length2 = dot(r, r) - dot(r, u) * dot(r, u) / dot(u, u);
     return rise;
   }
@@ -387,7 +390,7 @@ class Marcher {
 
 /// The state of a feature pair. A face and an edge or face is none: a vertex or an edge of one is as near.
 template <class A, class B>
-Move state(Marcher& march, A a, Handle fa, B b, Handle fb) {
+Move state(Marcher& march, A a, FeatureId fa, B b, FeatureId fb) {
   using enum FeatureKind;
   const std::uint32_t i = fa.index(), j = fb.index();
   switch (fa.kind()) {
@@ -404,7 +407,7 @@ Move state(Marcher& march, A a, Handle fa, B b, Handle fb) {
 
 }  // namespace
 
-Walk walk(const Pair& pair, Handle a, Handle b, PlaneRule rule) {
+Walk walk(const Pair& pair, FeatureId a, FeatureId b, PlaneRule rule) {
   Walk result;
   result.a = a;
   result.b = b;

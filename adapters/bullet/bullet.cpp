@@ -30,44 +30,45 @@ const HullShape& hull_of(const btCollisionObjectWrapper& body) {
 
 Placed placed(const btCollisionObjectWrapper& body) {
   const HullShape& hull = hull_of(body);
-  return {&hull.model(), pose_of(body.getWorldTransform()), hull.getMargin()};
+  return {Body(hull.model(), hull.getMargin()), pose_of(body.getWorldTransform())};
 }
 
-/// Lives as long as Bullet knows the pair, and with it the pair's seed.
+/// Lives as long as Bullet knows the pair, and with it the pair's seed. Bullet's manifold collects points over steps, ours
+/// holds those of one step.
 class HullAlgorithm final : public btActivatingCollisionAlgorithm {
  public:
   HullAlgorithm(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper& a,
-                const btCollisionObjectWrapper& b, btConvexPenetrationDepthSolver& depth_solver, bool patches)
-      : btActivatingCollisionAlgorithm(info), depth_solver_(&depth_solver), manifold_(info.m_manifold) {
-    if (patches) patch_ = std::make_unique<Patch>();
-    if (manifold_) return;
-    manifold_ = m_dispatcher->getNewManifold(a.getCollisionObject(), b.getCollisionObject());
-    owns_manifold_ = true;
+                const btCollisionObjectWrapper& b, btConvexPenetrationDepthSolver& depth_solver, bool all_points)
+      : btActivatingCollisionAlgorithm(info), depth_solver_(&depth_solver), persistent_(info.m_manifold) {
+    if (all_points) manifold_ = std::make_unique<Manifold>();
+    if (persistent_) return;
+    persistent_ = m_dispatcher->getNewManifold(a.getCollisionObject(), b.getCollisionObject());
+    owns_persistent_ = true;
   }
   ~HullAlgorithm() override {
-    if (owns_manifold_) m_dispatcher->releaseManifold(manifold_);
+    if (owns_persistent_) m_dispatcher->releaseManifold(persistent_);
   }
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo& info,
                         btManifoldResult* result) override {
-    result->setPersistentManifold(manifold_);
+    result->setPersistentManifold(persistent_);
     if (!answer(*a, *b, *result)) bullets().processCollision(a, b, info, result);
-    if (owns_manifold_) result->refreshContactPoints();
+    if (owns_persistent_) result->refreshContactPoints();
   }
   btScalar calculateTimeOfImpact(btCollisionObject* a, btCollisionObject* b, const btDispatcherInfo& info,
                                  btManifoldResult* result) override {
     return bullets().calculateTimeOfImpact(a, b, info, result);
   }
   void getAllContactManifolds(btManifoldArray& manifolds) override {
-    if (owns_manifold_) manifolds.push_back(manifold_);
+    if (owns_persistent_) manifolds.push_back(persistent_);
   }
 
  private:
   /// False where it has nothing to say, and Bullet's algorithm shall.
   bool answer(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btManifoldResult& result) {
     if (hull_of(a).is_scaled() || hull_of(b).is_scaled()) return false;
-    const btScalar touching = manifold_->getContactBreakingThreshold() + result.m_closestPointDistanceThreshold;
-    return patch_ ? fill(a, b, touching, result) : add_nearest(a, b, touching, result);
+    const btScalar touching = persistent_->getContactBreakingThreshold() + result.m_closestPointDistanceThreshold;
+    return manifold_ ? add_all(a, b, touching, result) : add_nearest(a, b, touching, result);
   }
 
   /// Bullet's normal is on B and points to A.
@@ -81,44 +82,46 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
     return true;
   }
 
-  /// All points of this step. A manifold that is shared keeps those of others.
-  bool fill(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btScalar touching, btManifoldResult& result) {
-    if (contacts(placed(a), placed(b), touching, MANIFOLD_CACHE_SIZE, seed_, *patch_) == Found::Nothing) return false;
-    if (owns_manifold_) forget_others(a);
-    for (std::uint32_t i = patch_->count; i-- > 0;) {  // the deepest is the first and comes last: it takes the place of others
-      const PatchPoint& p = patch_->points[i];
-      result.addContactPoint(vector_of(-patch_->normal), vector_of(p.point_b), btScalar(p.separation));
+  /// All points of this step. A manifold of Bullet's that is shared keeps those of others.
+  bool add_all(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btScalar touching,
+               btManifoldResult& result) {
+    if (contacts(placed(a), placed(b), touching, MANIFOLD_CACHE_SIZE, seed_, *manifold_) == Found::Nothing) return false;
+    if (owns_persistent_) forget_others(a);
+    for (std::uint32_t i = manifold_->count;
+         i-- > 0;) {  // the deepest is the first and comes last: it takes the place of others
+      const ManifoldPoint& p = manifold_->points[i];
+      result.addContactPoint(vector_of(-manifold_->normal), vector_of(p.point_b), btScalar(p.separation));
     }
     return true;
   }
 
   /// Bullet adds a point to those of the steps before, or carries the impulse of the one nearby over to it. Those that are near
-  /// none of the patch's go.
+  /// none of this step's go.
   void forget_others(const btCollisionObjectWrapper& a) {
-    const bool swapped = manifold_->getBody0() != a.getCollisionObject();
-    const btTransform& in_world = manifold_->getBody0()->getWorldTransform();
-    for (int i = manifold_->getNumContacts(); i-- > 0;) {
-      const btVector3 old = in_world(manifold_->getContactPoint(i).m_localPointA);
+    const bool swapped = persistent_->getBody0() != a.getCollisionObject();
+    const btTransform& in_world = persistent_->getBody0()->getWorldTransform();
+    for (int i = persistent_->getNumContacts(); i-- > 0;) {
+      const btVector3 old = in_world(persistent_->getContactPoint(i).m_localPointA);
       bool stays = false;
-      for (std::uint32_t k = 0; k < patch_->count; ++k) {
-        const btVector3 p = vector_of(swapped ? patch_->points[k].point_b : patch_->points[k].point_a);
-        stays = stays || (p - old).length() < manifold_->getContactBreakingThreshold();
+      for (std::uint32_t k = 0; k < manifold_->count; ++k) {
+        const btVector3 p = vector_of(swapped ? manifold_->points[k].point_b : manifold_->points[k].point_a);
+        stays = stays || (p - old).length() < persistent_->getContactBreakingThreshold();
       }
-      if (!stays) manifold_->removeContactPoint(i);
+      if (!stays) persistent_->removeContactPoint(i);
     }
   }
 
   /// Bullet's algorithm on this pair's manifold. It keeps nothing from step to step.
   btConvexConvexAlgorithm bullets() const {
     btCollisionAlgorithmConstructionInfo info(m_dispatcher, 0);
-    return {manifold_, info, nullptr, nullptr, depth_solver_, 0, 0};
+    return {persistent_, info, nullptr, nullptr, depth_solver_, 0, 0};
   }
 
   btConvexPenetrationDepthSolver* depth_solver_;
-  btPersistentManifold* manifold_;
+  btPersistentManifold* persistent_;
   PairSeed seed_;
-  std::unique_ptr<Patch> patch_;  ///< of the step before; none where closest points are asked for
-  bool owns_manifold_ = false;
+  std::unique_ptr<Manifold> manifold_;  ///< of the step before; none where closest points are asked for
+  bool owns_persistent_ = false;
 };
 
 // Bullet's pool hands out blocks of at least this size, whatever size is asked for.
@@ -130,8 +133,8 @@ bool holds_model(const btCollisionObjectWrapper& body) {
 
 }  // namespace
 
-HullShape::HullShape(const Model& model) : model_(model) {
-  for (const Vertex& v : model.level(model.finest_level()).view.vertices) addPoint(vector_of({v.x, v.y, v.z}), false);
+HullShape::HullShape(const Model& model) : model_(whole(model)) {
+  for (const Vertex& v : model.level(0).view.vertices) addPoint(vector_of({v.x, v.y, v.z}), false);
   recalcLocalAabb();
 }
 
@@ -142,7 +145,7 @@ btCollisionAlgorithm* HullPairs::Create::CreateCollisionAlgorithm(btCollisionAlg
                                                                   const btCollisionObjectWrapper* b) {
   if (!holds_model(*a) || !holds_model(*b)) return others->CreateCollisionAlgorithm(info, a, b);
   void* const place = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(HullAlgorithm));
-  return new (place) HullAlgorithm(info, *a, *b, *depth_solver, patches);
+  return new (place) HullAlgorithm(info, *a, *b, *depth_solver, all_points);
 }
 
 HullPairs::HullPairs(btCollisionDispatcher& dispatcher) {
@@ -150,7 +153,7 @@ HullPairs::HullPairs(btCollisionDispatcher& dispatcher) {
   btCollisionConfiguration& configuration = *dispatcher.getCollisionConfiguration();
   contact_points_.others = configuration.getCollisionAlgorithmCreateFunc(kHull, kHull);
   closest_points_.others = configuration.getClosestPointsAlgorithmCreateFunc(kHull, kHull);
-  contact_points_.patches = true;
+  contact_points_.all_points = true;
   contact_points_.depth_solver = closest_points_.depth_solver = &depth_solver_;
   dispatcher.registerCollisionCreateFunc(kHull, kHull, &contact_points_);
   dispatcher.registerClosestPointsCreateFunc(kHull, kHull, &closest_points_);

@@ -219,9 +219,8 @@ class World {
       const auto& b = *static_cast<const btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject);
       const auto& hull_a = *static_cast<const HullShape*>(a.getCollisionShape());
       const auto& hull_b = *static_cast<const HullShape*>(b.getCollisionShape());
-      PairSeed cold;
-      const Answer hulls = distance(hull_a.model(), hull_b.model(),
-                                    relative(pose_of(a.getWorldTransform()), pose_of(b.getWorldTransform())), cold);
+      const Answer hulls =
+          distance(hull_a.model(), hull_b.model(), relative(pose_of(a.getWorldTransform()), pose_of(b.getWorldTransform())));
       double gap = hulls.lower;
       if (hulls.verdict == Verdict::Overlapping) {
         ++sums_.overlaps;

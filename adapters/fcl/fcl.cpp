@@ -5,14 +5,9 @@
 #include <algorithm>
 
 namespace swiftlet::fcl {
-namespace {
-
-Vec3 centre_in_world(const Placed& body) { return body.in_world.rotation * body.model->centre() + body.in_world.translation; }
-
-}  // namespace
 
 std::vector<int> face_loops(const Model& model) {
-  const ConvexView& view = model.level(model.finest_level()).view;
+  const ConvexView& view = model.level(0).view;
   std::vector<int> loops;
   for (std::uint32_t face = 0; face < view.face_first.size(); ++face) {
     const std::size_t size_at = loops.size();
@@ -24,16 +19,14 @@ std::vector<int> face_loops(const Model& model) {
 }
 
 std::vector<Touch> touches(const Placed& a, const Placed& b, PairSeed& seed) {
-  const Vec3 line = centre_in_world(b) - centre_in_world(a);
-  const double touching = 64 * 0x1p-53 * (a.model->extent() + b.model->extent() + line.norm());  // law 2's bound, at least
-  Patch patch;
-  contacts(a, b, touching, 4, seed, patch);
+  const double touching = tolerance(a, b);
+  Manifold manifold;
+  contacts(a, b, touching, 4, seed, manifold);
   std::vector<Touch> result;
-  for (std::uint32_t i = 0; i < patch.count; ++i) {
-    const PatchPoint& p = patch.points[i];
-    result.push_back({patch.normal, (p.point_a + p.point_b) / 2, std::max(-p.separation, touching)});
+  for (std::uint32_t i = 0; i < manifold.count; ++i) {
+    const ManifoldPoint& p = manifold.points[i];
+    result.push_back({manifold.normal, (p.point_a + p.point_b) / 2, std::max(-p.separation, touching)});
   }
-  if (result.empty()) result.push_back({line.isZero() ? Vec3::UnitX() : line.normalized(), centre_in_world(a), touching});
   return result;
 }
 

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <swiftlet/world.h>
 
+#include <stdexcept>
+
+#include <swiftlet/depth.h>
+
 namespace swiftlet {
 namespace {
 
@@ -14,36 +18,33 @@ Pose orthonormal(const Pose& pose) {
 
 Vec3 transform(const Pose& pose, const Vec3& p) { return pose.rotation * p + pose.translation; }
 
-QueryOptions with_radii(const Placed& a, const Placed& b) {
-  QueryOptions options;
-  options.radius_a = a.radius;
-  options.radius_b = b.radius;
-  return options;
-}
+Pose b_in_a(const Placed& a, const Placed& b) { return relative(orthonormal(a.in_world), orthonormal(b.in_world)); }
 
 /// Both bodies in A's frame, how far apart or how deep.
 struct Pair {
   Pose a_in_world, b_in_a;
-  SignedAnswer answer;
-  Found found = Found::Nothing;
+  Answer answer{};
+  Found found = Found::Nearest;
 };
 
 Pair pair_of(const Placed& a, const Placed& b, double beyond, PairSeed& seed) {
-  Pair pair;
-  pair.a_in_world = orthonormal(a.in_world);
-  pair.b_in_a = relative(pair.a_in_world, orthonormal(b.in_world));
-  QueryOptions options = with_radii(a, b);
-  options.beyond = beyond;
-  pair.answer = signed_distance(*a.model, *b.model, pair.b_in_a, seed, options);
-  if (pair.answer.status == Status::InvalidPose) return pair;
+  Pair pair{orthonormal(a.in_world), b_in_a(a, b)};
+  pair.answer = signed_distance(a.body, b.body, pair.b_in_a, seed, {.beyond = beyond});
   if (pair.answer.status == Status::Beyond)
     pair.found = Found::Beyond;
-  else if (!pair.answer.normal.isZero())
-    pair.found = Found::Nearest;
+  else if (pair.answer.normal.hasNaN())
+    pair.found = Found::Nothing;
   return pair;
 }
 
 }  // namespace
+
+const Model& whole(const Model& model) {
+  if (model.finest_level() > 0) throw std::invalid_argument("the model lacks its level 0: Model::ensure(0) adds it");
+  return model;
+}
+
+double tolerance(const Placed& a, const Placed& b) { return tolerance(a.body, b.body, b_in_a(a, b)); }
 
 Nearest nearest(const Placed& a, const Placed& b, double beyond, PairSeed& seed) {
   const Pair pair = pair_of(a, b, beyond, seed);
@@ -55,18 +56,14 @@ Nearest nearest(const Placed& a, const Placed& b, double beyond, PairSeed& seed)
           transform(pair.a_in_world, pair.answer.point_b)};
 }
 
-Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t most_points, PairSeed& seed, Patch& patch) {
+Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t most_points, PairSeed& seed, Manifold& manifold) {
   const Pair pair = pair_of(a, b, beyond, seed);
-  PatchOptions options;
-  options.margin = beyond;
-  options.most_points = most_points;
-  options.radius_a = a.radius;
-  options.radius_b = b.radius;
-  patch =
-      pair.found == Found::Nearest ? swiftlet::patch(*a.model, *b.model, pair.b_in_a, pair.answer, options, patch) : Patch{};
-  patch.normal = pair.a_in_world.rotation * patch.normal;
-  for (std::uint32_t i = 0; i < patch.count; ++i) {
-    PatchPoint& p = patch.points[i];
+  const ManifoldOptions options{.margin = beyond, .most_points = most_points};
+  manifold = pair.found == Found::Nearest ? swiftlet::manifold(a.body, b.body, pair.b_in_a, pair.answer, options, manifold)
+                                          : Manifold{};
+  manifold.normal = pair.a_in_world.rotation * manifold.normal;
+  for (std::uint32_t i = 0; i < manifold.count; ++i) {
+    ManifoldPoint& p = manifold.points[i];
     p.point_a = transform(pair.a_in_world, p.point_a);
     p.point_b = transform(pair.a_in_world, p.point_b);
   }
@@ -74,8 +71,7 @@ Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t mo
 }
 
 Verdict meeting(const Placed& a, const Placed& b, PairSeed& seed) {
-  const Pose b_in_a = relative(orthonormal(a.in_world), orthonormal(b.in_world));
-  return intersects(*a.model, *b.model, b_in_a, seed, with_radii(a, b)).verdict;
+  return intersects(a.body, b.body, b_in_a(a, b), seed).verdict;
 }
 
 }  // namespace swiftlet

@@ -112,7 +112,7 @@ std::string colour(int shade) {
 std::string draw_faces(const ConvexView& view, const Eye& eye, const Placement& place) {
   const auto loops = facets(view);
   std::map<int, std::string> paths;
-  std::vector<bool> front(view.head.size(), false);
+  std::vector<bool> front(view.half_edges.size(), false);
   for (const auto& loop : loops) {
     const Vec3 normal = facet_normal(view, loop);
     if (!(normal.dot(eye.towards) > 0)) continue;
@@ -125,12 +125,12 @@ std::string draw_faces(const ConvexView& view, const Eye& eye, const Placement& 
     path += "Z";
   }
   std::string edges;
-  for (std::uint32_t h = 0; h < view.head.size(); ++h) {
-    const std::uint32_t twin = view.twin[h];
-    const bool visible = view.face[h] == kNone || front[h] || front[twin];
+  for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
+    const std::uint32_t twin = view.half_edges[h].twin;
+    const bool visible = view.half_edges[h].face == kNone || front[h] || front[twin];
     if (h > twin || !visible || is_diagonal(view, h)) continue;
     edges.append("M").append(at(place(eye.project(view.vertices[origin(view, h)]))));
-    edges.append("L").append(at(place(eye.project(view.vertices[view.head[h]]))));
+    edges.append("L").append(at(place(eye.project(view.vertices[view.half_edges[h].head]))));
   }
   std::string svg;
   for (const auto& [shade, path] : paths) {

@@ -9,9 +9,9 @@ namespace swiftlet::tool {
 
 std::vector<std::vector<std::uint32_t>> facets(const ConvexView& view) {
   std::vector<std::vector<std::uint32_t>> loops;
-  std::vector<bool> seen(view.head.size(), false);
-  for (std::uint32_t first = 0; first < view.head.size(); ++first) {
-    if (seen[first] || view.face[first] == kNone) continue;
+  std::vector<bool> seen(view.half_edges.size(), false);
+  for (std::uint32_t first = 0; first < view.half_edges.size(); ++first) {
+    if (seen[first] || view.half_edges[first].face == kNone) continue;
     loops.emplace_back();
     for (std::uint32_t h = first; !seen[h]; h = next_in_facet(view, h)) {
       seen[h] = true;

@@ -25,7 +25,7 @@ std::string number(double value) {
   return {text, end};
 }
 
-std::string numbers(const Vec3& v) { return number(v.x()) + " " + number(v.y()) + " " + number(v.z()); }
+std::string numbers(const Vec3& v) { return v.hasNaN() ? "none" : number(v.x()) + " " + number(v.y()) + " " + number(v.z()); }
 
 std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
 

@@ -21,7 +21,7 @@ format(const char* pattern, ...);
 
 /// The shortest decimal that reads back as the same double.
 std::string number(double value);
-/// Three numbers, one blank between.
+/// Three numbers, one blank between; "none" where the answer knows none.
 std::string numbers(const Vec3& v);
 
 /// The file's name without folders and extension.

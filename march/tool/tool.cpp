@@ -23,14 +23,14 @@ namespace {
 
 constexpr const char* kBodyHelp = "a .swl model, or a mesh where the tool has the builder";
 
-Result<Body> open(const std::string& path, const ModelOfMesh& model_of_mesh) {
+Result<LoadedModel> open(const std::string& path, const ModelOfMesh& model_of_mesh) {
   if (std::filesystem::path(path).extension() != ".swl" && !model_of_mesh)
     return in_file(path,
                    {ErrorCode::BadFormat, "is no .swl model, and this tool was made without the builder that reads meshes"});
   Result<Model> model =
       std::filesystem::path(path).extension() == ".swl" ? load(std::filesystem::path(path)) : model_of_mesh(path);
   if (!model) return model.error();
-  return Body{path, std::move(model).value()};
+  return LoadedModel{path, std::move(model).value()};
 }
 
 /// A word whose one input is a body.
@@ -39,7 +39,7 @@ Action on_body(CLI::App& word, const ModelOfMesh& model_of_mesh, Do act) {
   const auto path = std::make_shared<std::string>();
   word.add_option("X", *path, kBodyHelp)->required();
   return [path, model_of_mesh, act]() -> Result<Output> {
-    const Result<Body> body = open(*path, model_of_mesh);
+    const Result<LoadedModel> body = open(*path, model_of_mesh);
     if (!body) return body.error();
     return act(body.value());
   };
@@ -53,14 +53,14 @@ Action on_body_to_file(CLI::App& word, const ModelOfMesh& model_of_mesh, const c
   word.add_option("-o,--output", *out, help)->required();
   return [in, out, model_of_mesh, act]() -> Result<Output> {
     if (const auto may = may_write(*out, *in); !may) return may.error();
-    const Result<Body> body = open(*in, model_of_mesh);
+    const Result<LoadedModel> body = open(*in, model_of_mesh);
     if (!body) return body.error();
     return act(body.value(), *out);
   };
 }
 
 Action declare_info(CLI::App& word, const ModelOfMesh& model_of_mesh) {
-  return on_body(word, model_of_mesh, [](const Body& body) -> Result<Output> { return info(body); });
+  return on_body(word, model_of_mesh, [](const LoadedModel& body) -> Result<Output> { return info(body); });
 }
 
 Action declare_verify(CLI::App& word, const ModelOfMesh& model_of_mesh) { return on_body(word, model_of_mesh, verify); }
@@ -68,7 +68,7 @@ Action declare_verify(CLI::App& word, const ModelOfMesh& model_of_mesh) { return
 Action declare_export(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   const auto level = std::make_shared<int>(0);
   word.add_option("--level", *level, "0 is the exact hull, larger is coarser")->required();
-  const auto write = [level](const Body& body, const std::string& out) {
+  const auto write = [level](const LoadedModel& body, const std::string& out) {
     const int finest = body.model.finest_level(), coarsest = body.model.level_count() - 1;
     if (*level < finest || *level > coarsest)
       throw CLI::ValidationError(
@@ -80,17 +80,17 @@ Action declare_export(CLI::App& word, const ModelOfMesh& model_of_mesh) {
 
 Action declare_draw(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   return on_body_to_file(word, model_of_mesh, "the SVG file to write",
-                         [](const Body& body, const std::string& out) { return draw_levels(body, out); });
+                         [](const LoadedModel& body, const std::string& out) { return draw_levels(body, out); });
 }
 
 Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
-  struct Options {
+  struct Request {
     std::string a, b;
     Pose b_in_a;
-    QueryOptions query;
+    Options query;
     bool levels = false;
   };
-  const auto options = std::make_shared<Options>();
+  const auto request = std::make_shared<Request>();
   word.footer(
       "The pose is that of B in A's frame: it maps B's frame into A's, so that a point p of B lies at R p + t. POSE is t "
       "alone\n"
@@ -99,45 +99,44 @@ Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
       "frame;\n"
       "the normal points from A to B. Ids of vertices and triangles are the mesh file's, counted from 0, and are given with\n"
       "exact answers, which are those without --max-error, --relative-error and --beyond.");
-  word.add_option("A", options->a, kBodyHelp)->required();
-  word.add_option("B", options->b, kBodyHelp)->required();
-  const auto take_pose = [options](const std::string& text) {
+  word.add_option("A", request->a, kBodyHelp)->required();
+  word.add_option("B", request->b, kBodyHelp)->required();
+  const auto take_pose = [request](const std::string& text) {
     const Result<Pose> pose = read_pose(text);
     if (!pose) throw CLI::ValidationError("--pose", pose.error().message);
-    options->b_in_a = pose.value();
+    request->b_in_a = pose.value();
   };
   word.add_option_function<std::string>("--pose", take_pose, "of B in A's frame, see below")->required();
-  const auto absolute =
-      word.add_option("--max-error", options->query.absolute_error, "stop when upper - lower is at most this");
+  const auto absolute = word.add_option("--max-error", request->query.absolute, "stop when upper - lower is at most this");
   const auto relative =
-      word.add_option("--relative-error", options->query.relative_error, "stop when upper - lower is at most this times lower");
+      word.add_option("--relative-error", request->query.relative, "stop when upper - lower is at most this times lower");
   const CLI::Validator not_negative = number_in(0, std::numeric_limits<double>::infinity(), "from 0 up");
   absolute->check(not_negative)->excludes(relative);
   relative->check(not_negative);
-  word.add_option("--beyond", options->query.beyond, "stop when the distance is proved greater than this")->check(not_negative);
-  word.add_flag("--levels", options->levels,
+  word.add_option("--beyond", request->query.beyond, "stop when the distance is proved greater than this")->check(not_negative);
+  word.add_flag("--levels", request->levels,
                 "show what each level pair proved, coarsest first, and how long a query takes that stops there");
-  return [options, model_of_mesh]() -> Result<Output> {
-    const Result<Body> a = open(options->a, model_of_mesh);
+  return [request, model_of_mesh]() -> Result<Output> {
+    const Result<LoadedModel> a = open(request->a, model_of_mesh);
     if (!a) return a.error();
-    const Result<Body> b = open(options->b, model_of_mesh);
+    const Result<LoadedModel> b = open(request->b, model_of_mesh);
     if (!b) return b.error();
-    return distance(a.value(), b.value(), options->b_in_a, options->query, options->levels);
+    return distance(a.value(), b.value(), request->b_in_a, request->query, request->levels);
   };
 }
 
 Action declare_cut(CLI::App& word, const ModelOfMesh&) {
-  struct Options {
+  struct Request {
     std::string in, out;
     Detail detail;
     bool salvage = false;
   };
-  const auto options = std::make_shared<Options>();
-  word.add_option("X", options->in, "a .swl model")->required();
-  word.add_option("-o,--output", options->out, "the .swl model to write")->required();
-  add_detail(word, options->detail);
-  word.add_flag("--salvage", options->salvage, "take what is complete of a file that ends early");
-  return [options]() -> Result<Output> { return cut(options->in, options->out, options->detail, options->salvage); };
+  const auto request = std::make_shared<Request>();
+  word.add_option("X", request->in, "a .swl model")->required();
+  word.add_option("-o,--output", request->out, "the .swl model to write")->required();
+  add_detail(word, request->detail);
+  word.add_flag("--salvage", request->salvage, "take what is complete of a file that ends early");
+  return [request]() -> Result<Output> { return cut(request->in, request->out, request->detail, request->salvage); };
 }
 
 std::vector<Word> all_words(const ModelOfMesh& model_of_mesh, std::span<const Word> more) {

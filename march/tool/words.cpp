@@ -22,19 +22,21 @@ using Json = nlohmann::ordered_json;
 
 std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
-Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+Json json_of(const Vec3& v) { return v.hasNaN() ? Json() : Json{v.x(), v.y(), v.z()}; }
 
 const char* name(Status status) {
   switch (status) {
+    case Status::NotAsked: return "NotAsked";
     case Status::Converged: return "Converged";
     case Status::Beyond: return "Beyond";
     case Status::Budget: return "Budget";
     case Status::LevelLimit: return "LevelLimit";
     case Status::NotConverged: return "NotConverged";
     case Status::InvalidPose: return "InvalidPose";
-    case Status::InvalidRadius: break;
+    case Status::InvalidRadius: return "InvalidRadius";
+    case Status::InvalidBody: break;
   }
-  return "InvalidRadius";
+  return "InvalidBody";
 }
 
 const char* name(Verdict verdict) {
@@ -77,7 +79,7 @@ double per_triangle(std::size_t bytes, const Model& model) {
 
 /// A pair of features and what the user calls them, which is known of an exact answer.
 struct Witness {
-  Handle feature;
+  FeatureId feature;
   int level = 0;
   SourceFeature source;
 };
@@ -115,11 +117,11 @@ struct Visit {
 /// A cold query, limited to the precision that one level pair gave.
 class LimitedQuery {
  public:
-  LimitedQuery(const Model& a, const Model& b, const Pose& b_in_a, const QueryOptions& asked, const LevelRecord& record)
+  LimitedQuery(const Model& a, const Model& b, const Pose& b_in_a, const Options& asked, const LevelRecord& record)
       : a_(a), b_(b), b_in_a_(b_in_a), options_(asked) {
-    options_.trace = {};
-    options_.finest_level = std::min(record.level_a, record.level_b);
-    options_.absolute_error = std::max(asked.absolute_error, record.upper - record.lower);
+    options_.tuning = {.start = asked.tuning.start};
+    options_.budget.finest_level = std::min(record.level_a, record.level_b);
+    options_.absolute = std::max(asked.absolute, record.upper - record.lower);
     constexpr double kLongEnough = 20'000;  // for the clock, in nanoseconds
     constexpr int kMostRepeats = 1 << 20;
     while (repeats_ * nanoseconds() < kLongEnough && repeats_ < kMostRepeats) repeats_ *= 2;
@@ -130,10 +132,7 @@ class LimitedQuery {
     using Clock = std::chrono::steady_clock;
     [[maybe_unused]] volatile double kept = 0;  // lest the query be left out
     const auto begin = Clock::now();
-    for (int k = 0; k < repeats_; ++k) {
-      PairSeed cold;
-      kept = distance(a_, b_, b_in_a_, cold, options_).lower;
-    }
+    for (int k = 0; k < repeats_; ++k) kept = distance(a_, b_, b_in_a_, options_).lower;
     return std::chrono::duration<double, std::nano>(Clock::now() - begin).count() / repeats_;
   }
 
@@ -141,12 +140,12 @@ class LimitedQuery {
   const Model& a_;
   const Model& b_;
   const Pose& b_in_a_;
-  QueryOptions options_;
+  Options options_;
   int repeats_ = 1;
 };
 
 /// The median of many batches; the lines take turns, so that a machine that slows down slows all of them.
-std::vector<Visit> timed(const Model& a, const Model& b, const Pose& b_in_a, const QueryOptions& asked,
+std::vector<Visit> timed(const Model& a, const Model& b, const Pose& b_in_a, const Options& asked,
                          const std::vector<LevelRecord>& trace) {
   constexpr std::size_t kBatches = 61;
   std::vector<LimitedQuery> queries;
@@ -185,12 +184,11 @@ Json json_of(const std::vector<Visit>& visits) {
   return rows;
 }
 
-/// User ids are known of exact answers only: contact() gives them, and the same answer.
-Contact ask(const Body& a, const Body& b, const Pose& b_in_a, const QueryOptions& options) {
-  PairSeed cold;
-  const bool exact = options.absolute_error == 0 && options.relative_error == 0 && std::isinf(options.beyond);
-  if (exact) return contact(a.model, b.model, b_in_a, cold, options);
-  return {distance(a.model, b.model, b_in_a, cold, options), {}, {}};
+/// User ids are known of exact answers only: closest_features() gives them, and the same answer.
+ClosestFeatures ask(const LoadedModel& a, const LoadedModel& b, const Pose& b_in_a, const Options& options) {
+  const bool exact = options.absolute == 0 && options.relative == 0 && std::isinf(options.beyond);
+  if (exact) return closest_features(a.model, b.model, b_in_a, {.tuning = options.tuning});
+  return {distance(a.model, b.model, b_in_a, options), {}, {}};
 }
 
 Json json_of(const Pose& pose) {
@@ -283,7 +281,7 @@ struct Account {
   std::size_t headers, maps, table, ids;
 };
 
-Output info(const Body& body) {
+Output info(const LoadedModel& body) {
   const Model& model = body.model;
   const std::size_t bytes = model.bytes().size();
   const Account account(model);
@@ -331,7 +329,7 @@ Output info(const Body& body) {
   return {text + levels_text(model), dump(json)};
 }
 
-Result<Output> verify(const Body& body) {
+Result<Output> verify(const LoadedModel& body) {
   const Check outcome = swiftlet::verify(body.model);
   if (!outcome) return in_file(body.path, {ErrorCode::BadValue, outcome.message});
   const int levels = body.model.level_count();
@@ -339,11 +337,13 @@ Result<Output> verify(const Body& body) {
                 dump({{"path", body.path}, {"verified", true}, {"levels", levels}})};
 }
 
-Output distance(const Body& a, const Body& b, const Pose& b_in_a, const QueryOptions& asked, bool show_levels) {
+Output distance(const LoadedModel& a, const LoadedModel& b, const Pose& b_in_a, const Options& asked, bool show_levels) {
   std::vector<LevelRecord> trace(std::size_t(a.model.level_count() + b.model.level_count()));
-  QueryOptions options = asked;
-  if (show_levels) options.trace = trace, options.start = StartPolicy::Coarsest;
-  const Contact found = ask(a, b, b_in_a, options);
+  OverlapProof proof;
+  Options options = asked;
+  options.tuning.proof = &proof;
+  if (show_levels) options.tuning.trace = trace, options.tuning.start = StartPolicy::Coarsest;
+  const ClosestFeatures found = ask(a, b, b_in_a, options);
   const Answer& answer = found.answer;
   std::vector<Visit> visits;
   if (show_levels) {
@@ -375,8 +375,7 @@ Output distance(const Body& a, const Body& b, const Pose& b_in_a, const QueryOpt
   text += "normal     " + numbers(answer.normal) + "   from A to B\n";
   text += "feature_a  " + text_of(on_a) + "\nfeature_b  " + text_of(on_b) + "\n";
   if (answer.verdict == Verdict::Overlapping) {
-    const auto proof_a = proof_of(a.model, answer.proof, answer.proof.vertex_a),
-               proof_b = proof_of(b.model, answer.proof, answer.proof.vertex_b);
+    const auto proof_a = proof_of(a.model, proof, proof.vertex_a), proof_b = proof_of(b.model, proof, proof.vertex_b);
     json["proof"] = {{"vertices_a", proof_a}, {"vertices_b", proof_b}};
     text += "proof      vertices" + joined(proof_a) + " of A minus" + joined(proof_b) + " of B hold the origin\n";
   }
@@ -385,7 +384,7 @@ Output distance(const Body& a, const Body& b, const Pose& b_in_a, const QueryOpt
   return {text, dump(json)};
 }
 
-Result<Output> export_level(const Body& body, int level, const std::filesystem::path& path) {
+Result<Output> export_level(const LoadedModel& body, int level, const std::filesystem::path& path) {
   const Result<std::size_t> bytes = write_file(path, off_text(body.model.level(level).view));
   if (!bytes) return bytes.error();
   return Output{path.string() + format(": level %d, %zu bytes\n", level, bytes.value()),
@@ -411,7 +410,7 @@ Result<Output> cut(const std::string& path, const std::string& to, const Detail&
       dump({{"path", to}, {"finest_level", finest}, {"levels", coarsest + 1}, {"bytes", bytes.value()}, {"note", note}})};
 }
 
-Result<Output> draw_levels(const Body& body, const std::filesystem::path& path) {
+Result<Output> draw_levels(const LoadedModel& body, const std::filesystem::path& path) {
   const Result<std::size_t> bytes = write_file(path, draw(body.model, stem(body.path)));
   if (!bytes) return bytes.error();
   return Output{path.string() + ": " + counted(body.model.level_count()) + format(", %zu bytes\n", bytes.value()),

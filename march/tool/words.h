@@ -22,7 +22,7 @@ struct Output {
 std::string error_json(const Error& error);
 
 /// A model and where it came from.
-struct Body {
+struct LoadedModel {
   std::string path;
   Model model;
 };
@@ -32,19 +32,19 @@ struct Body {
 nlohmann::ordered_json levels_json(const Model& model);
 std::string levels_text(const Model& model);
 
-Output info(const Body& body);
-Result<Output> verify(const Body& body);
+Output info(const LoadedModel& body);
+Result<Output> verify(const LoadedModel& body);
 
 /// The distance, and with `show_levels` one line per level pair on the way. Its nanoseconds are those of a cold query that asks
 /// for no narrower an interval than that pair gave: the median of many repeats, from a warm cache.
-Output distance(const Body& a, const Body& b, const Pose& b_in_a, const QueryOptions& options, bool show_levels);
+Output distance(const LoadedModel& a, const LoadedModel& b, const Pose& b_in_a, const Options& options, bool show_levels);
 
 /// Writes one level, which exists, as OFF.
-Result<Output> export_level(const Body& body, int level, const std::filesystem::path& path);
+Result<Output> export_level(const LoadedModel& body, int level, const std::filesystem::path& path);
 /// Writes the levels of a file that `detail` asks for; what is left of it where it ends early, if `salvaging`.
 Result<Output> cut(const std::string& path, const std::string& to, const Detail& detail, bool salvaging);
 
 /// Writes all levels as SVG.
-Result<Output> draw_levels(const Body& body, const std::filesystem::path& path);
+Result<Output> draw_levels(const LoadedModel& body, const std::filesystem::path& path);
 
 }  // namespace swiftlet::tool

@@ -41,18 +41,21 @@ std::string hulls(Input input) {
   const Model &a = built_a.value().model, &b = built_b.value().model;
   for (const Model* model : {&a, &b})
     if (const Check checked = verify(*model); !checked) return "verify: " + checked.message;
-  const Judge judge(a, b, pose);
+  OverlapProof proof;
+  const Tuning tuning{.proof = &proof};
+  const Judge judge(a, b, pose, proof);
   const auto input_truth = oracle::distance(points_a, points_b, pose);
   if (!oracle::holds(input_truth, judge.truth().bounds.lower, judge.truth().bounds.upper)) return "the hull lost a point";
   for (const PairSeed& start : {PairSeed{}, seed_bytes}) {
     PairSeed seed = start;
     for (int i = 0; i < 2; ++i)  // cold or garbage, then warm
-      if (const auto fault = judge.fault(distance(a, b, pose, seed), true); !fault.empty()) return fault;
-    const Answer verdict = intersects(a, b, pose, seed);
+      if (const auto fault = judge.fault(distance(a, b, pose, seed, {.tuning = tuning}), true); !fault.empty()) return fault;
+    const Answer verdict = intersects(a, b, pose, seed, {.tuning = tuning});
     if (const auto fault = judge.fault(verdict, false); !fault.empty()) return "intersects: " + fault;
     if (verdict.verdict == Verdict::Undecided) return "intersects: undecided";
     for (const double threshold : {judge.truth().distance, judge.truth().distance * 0.5, judge.truth().distance * 2})
-      if (const auto fault = judge.fault(within(a, b, pose, threshold, seed), threshold); !fault.empty()) return fault;
+      if (const auto fault = judge.fault(within(a, b, pose, threshold, seed, {.tuning = tuning}), threshold); !fault.empty())
+        return fault;
   }
   return {};
 }

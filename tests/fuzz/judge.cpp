@@ -7,11 +7,11 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <type_traits>
 
 #include <swiftlet/check.h>
 
 #include "bodies.h"
-#include "scene.h"
 
 namespace swiftlet::fuzz {
 namespace {
@@ -44,38 +44,49 @@ Pose take_pose(Bytes& bytes) {
   return pose;
 }
 
-PairSeed take_seed(Bytes& bytes) { return bytes.take<PairSeed>(); }
+PairSeed take_seed(Bytes& bytes) {
+  PairSeed seed;
+  const auto take = [&](auto&... fields) { ((fields = bytes.take<std::remove_reference_t<decltype(fields)>>()), ...); };
+  take(seed.a, seed.b, seed.line_in_a, seed.line_in_b, seed.normal, seed.level_a, seed.level_b, seed.met);
+  return seed;
+}
 
-PatchOptions take_patch_options(Bytes& bytes) {
-  PatchOptions options;
+ManifoldOptions take_manifold_options(Bytes& bytes) {
+  ManifoldOptions options;
   options.margin = bytes.take<double>();
   options.flatness = bytes.take<double>();
   options.most_points = bytes.take<std::uint32_t>();
   return options;
 }
 
-Patch take_patch(Bytes& bytes) {
-  const auto handle = [&] { return Handle(FeatureKind(bytes.take<std::uint8_t>() % 4), bytes.take<std::uint8_t>()); };
-  Patch patch;
-  patch.count = bytes.take<std::uint32_t>();
-  patch.face_a = handle(), patch.face_b = handle();
-  for (PatchPoint& p : patch.points) p.feature_a = handle(), p.feature_b = handle();
-  return patch;
+Manifold take_manifold(Bytes& bytes) {
+  const auto feature = [&] { return FeatureId(FeatureKind(bytes.take<std::uint8_t>() % 4), bytes.take<std::uint8_t>()); };
+  Manifold manifold;
+  manifold.count = bytes.take<std::uint32_t>();
+  manifold.face_a = feature(), manifold.face_b = feature();
+  for (ManifoldPoint& p : manifold.points) p.feature_a = feature(), p.feature_b = feature();
+  return manifold;
 }
 
-bool is_legal(const Pose& pose) { return pose_quality(motion(pose)).legal; }
+bool is_legal(const Pose& pose) {
+  const Body point = Body::point(Vec3::Zero());
+  return !std::isnan(tolerance(point, point, pose));
+}
 
-Judge::Judge(const Model& a, const Model& b, const Pose& b_in_a)
+Judge::Judge(const Model& a, const Model& b, const Pose& b_in_a, const OverlapProof& proof)
     : a_(a),
       b_(b),
       b_in_a_(b_in_a),
+      proof_(proof),
       truth_(oracle::distance(bodies::points_of(a.level(0).view), bodies::points_of(b.level(0).view), b_in_a)),
-      law_two_(scene(a.level(0).view, b.level(0).view, motion(b_in_a), pose_quality(motion(b_in_a)).error).law_two) {}
+      law_two_(tolerance(a, b, b_in_a)) {}
 
 std::string Judge::fault(const Answer& answer, bool exact) const {
   const auto wrong = [&](const char* what) { return described(what, answer, truth_.distance); };
-  if (!oracle::holds(truth_, answer.lower, answer.upper)) return wrong("the interval does not hold the truth");
-  if (const Check checked = check(a_, b_, b_in_a_, answer); !checked) return wrong(checked.message.c_str());
+  const bool holds =
+      answer.is_signed && truth_.overlapping ? answer.lower <= 0 : oracle::holds(truth_, answer.lower, answer.upper);
+  if (!holds) return wrong("the interval does not hold the truth");
+  if (const Check checked = check(a_, b_, b_in_a_, answer, &proof_); !checked) return wrong(checked.message.c_str());
   if (answer.status == Status::NotConverged || answer.status == Status::InvalidPose) return wrong("not converged");
   if (answer.verdict == Verdict::Overlapping && !truth_.overlapping) return wrong("no overlap");
   if (answer.verdict == Verdict::Disjoint && truth_.overlapping) return wrong("not disjoint");
@@ -96,33 +107,21 @@ std::string Judge::fault(const Within& within, double threshold) const {
   return fault(within.answer, false);
 }
 
-std::string Judge::fault(const SignedAnswer& answer) const {
-  Answer interval;  // to print
-  interval.lower = answer.lower, interval.upper = answer.upper, interval.verdict = answer.verdict,
-  interval.status = answer.status;
-  const auto wrong = [&](const char* what) { return described(what, interval, truth_.distance); };
-  if (const Check checked = check(a_, b_, b_in_a_, answer); !checked) return wrong(checked.message.c_str());
-  if (answer.status != Status::Converged || answer.verdict == Verdict::Undecided) return wrong("undecided");
-  if (answer.upper - answer.lower > 2 * law_two_) return wrong("wider than law 2 allows");
-  if (truth_.overlapping ? answer.lower > 0 : !oracle::holds(truth_, answer.lower, answer.upper)) return wrong("signed");
-  return {};
-}
-
-std::string Judge::fault(const Patch& patch, const SignedAnswer& answer, const PatchOptions& options) const {
-  if (patch.count > std::min(options.most_points, kMostPatchPoints)) return "too many points";
+std::string Judge::fault(const Manifold& manifold, const Answer& answer, const ManifoldOptions& options) const {
+  if (manifold.count > std::min(options.most_points, kMostManifoldPoints)) return "too many points";
   double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t i = 0; i < patch.count; ++i) {
-    const PatchPoint& p = patch.points[i];
-    if (!(p.point_a + p.point_b).allFinite() || !(p.separation <= options.margin + law_two_)) return "no point of a patch";
-    if (!((p.point_b - p.point_a - p.separation * patch.normal).norm() <= 2 * law_two_)) return "not one above the other";
+  for (std::uint32_t i = 0; i < manifold.count; ++i) {
+    const ManifoldPoint& p = manifold.points[i];
+    if (!(p.point_a + p.point_b).allFinite() || !(p.separation <= options.margin + law_two_)) return "no point of a manifold";
+    if (!((p.point_b - p.point_a - p.separation * manifold.normal).norm() <= 2 * law_two_)) return "not one above the other";
     const auto off = [&](const Vec3& point, const Model& body, const Pose& pose) {
       return !oracle::holds(oracle::distance({&point, 1}, bodies::points_of(body.level(0).view), pose), 0, law_two_);
     };
     if (off(p.point_a, a_, Pose{}) || off(p.point_b, b_, b_in_a_)) return "a point outside its body";
     least = std::min(least, p.separation);
   }
-  if (patch.count == 0 && options.most_points > 0 && answer.upper <= options.margin) return "no patch";
-  if (patch.count > 0 && !(least >= answer.lower - law_two_ && least <= answer.upper + law_two_)) return "not the deepest";
+  if (manifold.count == 0 && options.most_points > 0 && answer.upper <= options.margin) return "no manifold";
+  if (manifold.count > 0 && !(least >= answer.lower - law_two_ && least <= answer.upper + law_two_)) return "not the deepest";
   return {};
 }
 

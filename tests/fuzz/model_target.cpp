@@ -20,7 +20,7 @@ std::uint64_t features(const Model& model) {
   std::uint64_t count = 0;
   for (int i = 0; i < model.level_count(); ++i) {
     const ConvexView& view = model.level(i).view;
-    count += view.vertices.size() + view.head.size() + view.face_first.size();
+    count += view.vertices.size() + view.half_edges.size() + view.face_first.size();
   }
   return count;
 }
@@ -43,12 +43,10 @@ std::string exercise(const Model& a, const Model& b) {
     PairSeed seed;
     note(distance(a, b, pose, seed));
     for (const auto start : {StartPolicy::Paper, StartPolicy::Finest, StartPolicy::Coarsest, StartPolicy::Table}) {
-      QueryOptions options;
-      options.start = start;
-      options.refinement = Refinement(int(start) % 3);
-      note(intersects(a, b, pose, seed, options));
-      note(within(a, b, pose, 0.5, seed, options).answer);
-      const Contact found = contact(a, b, pose, seed, options);
+      const Tuning tuning{.start = start, .refinement = Refinement(int(start) % 3)};
+      note(intersects(a, b, pose, seed, {.tuning = tuning}));
+      note(within(a, b, pose, 0.5, seed, {.tuning = tuning}).answer);
+      const ClosestFeatures found = closest_features(a, b, pose, seed, {.tuning = tuning});
       note(found.answer);
       for (const std::span<const std::uint32_t> ids : {found.source_a.triangles, found.source_b.triangles})
         if (std::find(ids.begin(), ids.end(), kNone) != ids.end()) break;  // read every one

@@ -29,32 +29,33 @@ const std::vector<Model>& models() {
 
 /// What is asked besides poses. A bit of `which` per part that is not the default.
 struct Question {
-  QueryOptions options;
-  PatchOptions patch_options;
-  Patch before;
+  Options options;
+  ManifoldOptions manifold_options;
+  Manifold before;
   double threshold = 0;
   PairSeed seed;
 };
 Question take_question(Bytes& bytes) {
   Question q;
-  q.options.start = StartPolicy(bytes.take<std::uint8_t>());
-  q.options.refinement = Refinement(bytes.take<std::uint8_t>());
-  q.options.plane_rule = PlaneRule(bytes.take<std::uint8_t>());
+  q.options.tuning.start = StartPolicy(bytes.take<std::uint8_t>());
+  q.options.tuning.refinement = Refinement(bytes.take<std::uint8_t>());
+  q.options.tuning.plane_rule = PlaneRule(bytes.take<std::uint8_t>());
   const auto which = bytes.take<std::uint8_t>();
-  if (which & 1) q.options.absolute_error = bytes.take<double>();
-  if (which & 2) q.options.relative_error = bytes.take<double>();
+  if (which & 1) q.options.absolute = bytes.take<double>();
+  if (which & 2) q.options.relative = bytes.take<double>();
   if (which & 4) q.options.beyond = bytes.take<double>();
-  if (which & 8) q.options.finest_level = bytes.take<std::int32_t>();
-  if (which & 16) q.options.step_budget = bytes.take<std::uint16_t>();
+  if (which & 8) q.options.budget.finest_level = bytes.take<std::int32_t>();
+  if (which & 16) q.options.budget.steps = bytes.take<std::uint16_t>();
   q.threshold = std::fabs(bytes.take<float>());
   q.seed = take_seed(bytes);
-  if (which & 32) q.patch_options = take_patch_options(bytes), q.before = take_patch(bytes);
+  if (which & 32) q.manifold_options = take_manifold_options(bytes), q.before = take_manifold(bytes);
   return q;
 }
 
-bool is_exact(const QueryOptions& o) {
-  const bool whole = o.finest_level <= 0 && o.step_budget == ~0u, open = !(o.beyond < std::numeric_limits<double>::infinity());
-  return whole && open && !(o.absolute_error > 0) && !(o.relative_error > 0);
+bool is_exact(const Options& o) {
+  const bool whole = o.budget.finest_level <= 0 && o.budget.steps == ~0u,
+             open = !(o.beyond < std::numeric_limits<double>::infinity());
+  return whole && open && !(o.absolute > 0) && !(o.relative > 0);
 }
 
 }  // namespace
@@ -63,7 +64,9 @@ std::string query(Input input) {
   Bytes bytes(input);
   const Model &a = models()[bytes.take<std::uint8_t>() % models().size()],
               &b = models()[bytes.take<std::uint8_t>() % models().size()];
-  auto [options, patch_options, before, threshold, seed] = take_question(bytes);
+  auto [options, manifold_options, before, threshold, seed] = take_question(bytes);
+  OverlapProof proof;
+  options.tuning.proof = &proof;
   for (int i = 0; i < 4 && !(i > 0 && bytes.empty()); ++i) {
     const Pose pose = take_pose(bytes);
     if (!is_legal(pose)) {
@@ -72,26 +75,27 @@ std::string query(Input input) {
         return "an invalid pose is answered";
       continue;
     }
-    const Judge judge(a, b, pose);
+    const Judge judge(a, b, pose, proof);
     const bool exact = is_exact(options);
+    const Effort effort{options.budget, options.tuning};
     LevelRecord records[16];
-    QueryOptions traced = options;
-    traced.trace = records;
-    PairSeed cold, other = seed;
+    Options traced = options;
+    traced.tuning.trace = records;
+    PairSeed other = seed;
     if (const auto fault = judge.fault(distance(a, b, pose, other, traced), exact); !fault.empty()) return "traced: " + fault;
-    if (const auto fault = judge.fault(distance(a, b, pose, cold, options), exact); !fault.empty()) return "cold: " + fault;
-    if (const auto fault = judge.fault(intersects(a, b, pose, other, options), false); !fault.empty())
+    if (const auto fault = judge.fault(distance(a, b, pose, options), exact); !fault.empty()) return "cold: " + fault;
+    if (const auto fault = judge.fault(intersects(a, b, pose, other, effort), false); !fault.empty())
       return "intersects: " + fault;
     if (!std::isnan(threshold))
-      if (const auto fault = judge.fault(within(a, b, pose, threshold, other, options), threshold); !fault.empty())
-        return fault;
-    if (const auto fault = judge.fault(contact(a, b, pose, other, options).answer, false); !fault.empty())
-      return "contact: " + fault;
+      if (const auto fault = judge.fault(within(a, b, pose, threshold, other, effort), threshold); !fault.empty()) return fault;
+    const ClosestOptions closest{options.beyond, options.budget.steps, options.tuning};
+    if (const auto fault = judge.fault(closest_features(a, b, pose, other, closest).answer, false); !fault.empty())
+      return "closest features: " + fault;
     if (const auto fault = judge.fault(distance(a, b, pose, seed, options), exact); !fault.empty()) return "distance: " + fault;
-    const SignedAnswer deep = signed_distance(a, b, pose, other);
-    if (const auto fault = judge.fault(deep); !fault.empty()) return "signed distance: " + fault;
-    before = patch(a, b, pose, deep, patch_options, before);
-    if (const auto fault = judge.fault(before, deep, patch_options); !fault.empty()) return "patch: " + fault;
+    const Answer deep = signed_distance(a, b, pose, other, {.tuning = {.proof = &proof}});
+    if (const auto fault = judge.fault(deep, true); !fault.empty()) return "signed distance: " + fault;
+    before = manifold(a, b, pose, deep, manifold_options, before);
+    if (const auto fault = judge.fault(before, deep, manifold_options); !fault.empty()) return "manifold: " + fault;
   }
   return {};
 }

@@ -57,21 +57,21 @@ Moved moved(const Subject& subject, const Pose& pose) {
     m.exact_points.push_back(moved(pose, p, true));
     m.extent = std::max(m.extent, m.points.back().lpNorm<Eigen::Infinity>());
   }
-  for (std::uint32_t h = 0; h < view.head.size(); ++h) {
+  for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
     // The ring is sorted: the half-edges before and after span a facet with this one.
-    const std::uint32_t from = view.head[view.twin[h]];
+    const std::uint32_t from = view.half_edges[view.half_edges[h].twin].head;
     const Vertex& ring = view.vertices[from];
     const std::uint32_t next = h + 1 < ring.ring_begin + ring.ring_count ? h + 1 : ring.ring_begin,
                         last = h > ring.ring_begin ? h - 1 : ring.ring_begin + ring.ring_count - 1;
-    const bool has_facets = view.face[h] != kNone;
+    const bool has_facets = view.half_edges[h].face != kNone;
     const auto to = [&](std::uint32_t v) { return Vec3(pose.rotation * (stored(v) - stored(from))); };
     const auto edge = [&](std::uint32_t half_edge) {
-      const std::uint32_t v = view.head[half_edge];
+      const std::uint32_t v = view.half_edges[half_edge].head;
       return Moved::Edge{from, v, to(v), {Vec3::Zero(), Vec3::Zero()}};
     };
-    if (h < view.twin[h]) {
+    if (h < view.half_edges[h].twin) {
       m.edges.push_back(edge(h));
-      if (has_facets) m.edges.back().beside = {to(view.head[next]), to(view.head[last])};
+      if (has_facets) m.edges.back().beside = {to(view.half_edges[next].head), to(view.half_edges[last].head)};
     }
     if (has_facets) m.faces.push_back({edge(h), edge(next)});
   }

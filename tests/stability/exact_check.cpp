@@ -73,14 +73,13 @@ bool holds_origin(const std::array<Point, 4>& p) {
 /// Steps that law 7 allows a march: 2 * (12 |A| |B| + 1).
 double step_limit(const Level& a, const Level& b) {
   const auto features = [](const Level& level) {
-    return double(level.view.vertices.size() + level.view.head.size() + level.view.face_first.size());
+    return double(level.view.vertices.size() + level.view.half_edges.size() + level.view.face_first.size());
   };
   return 2 * (12 * features(a) * features(b) + 1);
 }
 
 /// What an exact answer, signed or not, must not be.
-template <class AnyAnswer>
-std::string unsettled(const AnyAnswer& answer) {
+std::string unsettled(const Answer& answer) {
   if (answer.status != Status::Converged) return text("the status is %d", int(answer.status));
   if (answer.verdict == Verdict::Undecided) return "exact without a verdict";
   if (answer.level_a != 0 || answer.level_b != 0) return text("exact on levels (%d, %d)", answer.level_a, answer.level_b);
@@ -104,17 +103,17 @@ Subject make_subject(std::vector<Vec3> points, Model model) {
   return {std::move(points), std::move(model), extent};
 }
 
-std::vector<Vec3> vertices_of(const ConvexView& view, Handle feature) {
+std::vector<Vec3> vertices_of(const ConvexView& view, FeatureId feature) {
   std::vector<Vec3> points;
   const auto add = [&](std::uint32_t v) { points.emplace_back(view.vertices[v].x, view.vertices[v].y, view.vertices[v].z); };
   const std::uint32_t i = feature.index();
   if (feature.kind() == FeatureKind::Vertex && i < view.vertices.size()) {
     add(i);
-  } else if (feature.kind() == FeatureKind::Edge && i < view.head.size()) {
-    add(view.head[i]), add(view.head[view.twin[i]]);
+  } else if (feature.kind() == FeatureKind::Edge && i < view.half_edges.size()) {
+    add(view.half_edges[i].head), add(view.half_edges[view.half_edges[i].twin].head);
   } else if (feature.kind() == FeatureKind::Face && i < view.face_first.size()) {
-    for (std::size_t h = 0; h < view.head.size(); ++h)
-      if (view.face[h] == i) add(view.head[h]);
+    for (std::size_t h = 0; h < view.half_edges.size(); ++h)
+      if (view.half_edges[h].face == i) add(view.half_edges[h].head);
   }
   return points;
 }
@@ -131,9 +130,10 @@ const oracle::Truth& Judge::truth() {
   return truth_;
 }
 
-std::string Judge::interval(const Answer& answer) {
+std::string Judge::interval(const Answer& answer, const OverlapProof& proof) {
   if (answer.status == Status::InvalidPose || answer.status == Status::NotConverged)
     return text("the status is %d", int(answer.status));
+  if (answer.is_signed) return signed_interval(answer, proof);
   if (!(answer.lower >= 0 && answer.upper >= answer.lower && std::isfinite(answer.lower)))
     return text("[%a, %a] is no interval", answer.lower, answer.upper);
   if (answer.level_a < 0 || answer.level_a >= a_.model.level_count() || answer.level_b < 0 ||
@@ -148,7 +148,7 @@ std::string Judge::interval(const Answer& answer) {
   if (a_.model.level_count() == 1 && b_.model.level_count() == 1 &&
       answer.steps > step_limit(a_.model.level(0), b_.model.level(0)))
     return text("%u steps", answer.steps);
-  std::string wrong = proved_verdict(answer);
+  std::string wrong = proved_verdict(answer, proof);
   return wrong.empty() ? upper_bound(answer) : wrong;
 }
 
@@ -165,7 +165,19 @@ std::string Judge::upper_bound(const Answer& answer) {
   return text("[%a, %a] does not hold the distance %a", answer.lower, answer.upper, truth().distance);
 }
 
-std::string Judge::proved_verdict(const Answer& answer) {
+std::string Judge::proved_overlap(const Answer& answer, const OverlapProof& proof) const {
+  const auto &a = a_.model.level(0).view.vertices, &b = b_.model.level(0).view.vertices;
+  if (answer.level_a != 0 || answer.level_b != 0 || proof.count != 4) return "overlap without a proof on level 0";
+  std::array<Point, 4> differences;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::uint32_t i = proof.vertex_a[k], j = proof.vertex_b[k];
+    if (i >= a.size() || j >= b.size()) return "the proof of overlap names no vertex";
+    differences[k] = difference({a[i].x, a[i].y, a[i].z}, {b[j].x, b[j].y, b[j].z}, b_in_a_);
+  }
+  return holds_origin(differences) ? "" : "the proof of overlap does not hold the origin";
+}
+
+std::string Judge::proved_verdict(const Answer& answer, const OverlapProof& proof) {
   switch (answer.verdict) {
     case Verdict::Undecided: break;
     case Verdict::Disjoint:
@@ -180,26 +192,17 @@ std::string Judge::proved_verdict(const Answer& answer) {
         return text("touching, but %g deep along the normal, law 2's bound is %g", -gap.upper, law_two_);
       break;
     }
-    case Verdict::Overlapping: {
-      const auto &a = a_.model.level(0).view.vertices, &b = b_.model.level(0).view.vertices;
-      if (answer.level_a != 0 || answer.level_b != 0 || answer.proof.count != 4) return "overlap without a proof on level 0";
-      std::array<Point, 4> differences;
-      for (std::size_t k = 0; k < 4; ++k) {
-        const std::uint32_t i = answer.proof.vertex_a[k], j = answer.proof.vertex_b[k];
-        if (i >= a.size() || j >= b.size()) return "the proof of overlap names no vertex";
-        differences[k] = difference({a[i].x, a[i].y, a[i].z}, {b[j].x, b[j].y, b[j].z}, b_in_a_);
-      }
-      if (!holds_origin(differences)) return "the proof of overlap does not hold the origin";
+    case Verdict::Overlapping:
       if (answer.lower != 0 || answer.upper != 0) return text("overlapping, but [%g, %g]", answer.lower, answer.upper);
-      break;
-    }
+      return proved_overlap(answer, proof);
   }
   return "";
 }
 
-std::string Judge::exact(const Answer& answer) {
-  if (std::string wrong = interval(answer); !wrong.empty()) return wrong;
+std::string Judge::exact(const Answer& answer, const OverlapProof& proof) {
+  if (std::string wrong = interval(answer, proof); !wrong.empty()) return wrong;
   if (std::string wrong = unsettled(answer); !wrong.empty()) return wrong;
+  if (answer.is_signed) return signed_exact(answer);
   if (!(answer.upper - answer.lower <= law_two_))
     return text("%g wide, law 2 allows %g", answer.upper - answer.lower, law_two_);
   return answer.verdict == Verdict::Overlapping ? "" : witnesses(answer);
@@ -225,15 +228,13 @@ bool Judge::within_law_two(const Vec3& p_a, std::span<const Vec3> points, const 
   return !points.empty() && oracle::holds(oracle::distance({&p_a, 1}, points, pose), 0, law_two_);
 }
 
-std::string Judge::verdict(const Answer& answer) {
-  if (std::string wrong = interval(answer); !wrong.empty()) return wrong;
+std::string Judge::verdict(const Answer& answer, const OverlapProof& proof) {
+  if (std::string wrong = interval(answer, proof); !wrong.empty()) return wrong;
   if (answer.status != Status::Converged) return text("the status is %d", int(answer.status));
   return answer.verdict == Verdict::Undecided ? "no verdict" : "";
 }
 
-std::string Judge::interval(const SignedAnswer& answer) {
-  if (answer.status == Status::InvalidPose || answer.status == Status::NotConverged)
-    return text("the status is %d", int(answer.status));
+std::string Judge::signed_interval(const Answer& answer, const OverlapProof& proof) {
   if (!(answer.upper >= answer.lower)) return text("[%a, %a] is no interval", answer.lower, answer.upper);
   if (std::isfinite(answer.lower)) {
     const double square = answer.normal.squaredNorm();
@@ -241,18 +242,14 @@ std::string Judge::interval(const SignedAnswer& answer) {
     const oracle::Interval gap = oracle::gap(a_.points, b_.points, b_in_a_, answer.normal);
     if (!(answer.lower <= gap.lower)) return text("lower is %a, the gap along the normal %a", answer.lower, gap.lower);
   }
-  return signed_upper_bound(answer);
+  return signed_upper_bound(answer, proof);
 }
 
-std::string Judge::signed_upper_bound(const SignedAnswer& answer) {
+std::string Judge::signed_upper_bound(const Answer& answer, const OverlapProof& proof) {
   if (answer.verdict == Verdict::Touching && !(answer.lower <= law_two_ && answer.upper >= -law_two_))
     return text("touching with [%g, %g], law 2's bound is %g", answer.lower, answer.upper, law_two_);
   if (answer.upper >= 0) {
-    if (answer.verdict == Verdict::Overlapping && answer.proof.count == 4) {
-      Answer met;
-      met.verdict = answer.verdict, met.lower = met.upper = 0, met.proof = answer.proof;
-      return proved_verdict(met);
-    }
+    if (answer.verdict == Verdict::Overlapping && proof.count == 4) return proved_overlap(answer, proof);
     if (answer.verdict == Verdict::Disjoint && !(answer.lower > 0)) return "disjoint without a lower bound";
     if (!has_truth_ && answer.level_a == 0 && answer.level_b == 0) {
       const std::vector<Vec3> feature_a = vertices_of(a_.model.level(0).view, answer.feature_a);
@@ -272,9 +269,7 @@ std::string Judge::signed_upper_bound(const SignedAnswer& answer) {
   return "";
 }
 
-std::string Judge::exact(const SignedAnswer& answer) {
-  if (std::string wrong = interval(answer); !wrong.empty()) return wrong;
-  if (std::string wrong = unsettled(answer); !wrong.empty()) return wrong;
+std::string Judge::signed_exact(const Answer& answer) {
   const double width = answer.verdict == Verdict::Touching ? 2 * law_two_ : law_two_;  // a depth and a distance
   if (!(answer.upper - answer.lower <= width)) return text("%g wide, law 2 allows %g", answer.upper - answer.lower, width);
   const Vec3 &p = answer.point_a, &q = answer.point_b;
@@ -292,9 +287,9 @@ std::string Judge::exact(const SignedAnswer& answer) {
   return "";
 }
 
-std::string Judge::decision(const Within& within, double threshold) {
+std::string Judge::decision(const Within& within, double threshold, const OverlapProof& proof) {
   const Answer& answer = within.answer;
-  if (std::string wrong = interval(answer); !wrong.empty()) return wrong;
+  if (std::string wrong = interval(answer, proof); !wrong.empty()) return wrong;
   if (answer.status != Status::Converged) return text("the status is %d", int(answer.status));
   switch (within.decision) {
     case Decision::Yes:

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <swiftlet/depth.h>
+#include <swiftlet/manifold.h>
 #include <swiftlet/model.h>
-#include <swiftlet/patch.h>
 #include <swiftlet/query.h>
 
 #include "oracle.h"
@@ -38,35 +38,30 @@ class Judge {
 
   /// Any answer to a legal pose. Law 1: `lower` <= the gap along `normal`, and `normal` a unit vector; `upper` >= the distance
   /// between the features named, or, where these do not show it or are coarse, >= the truth. The verdict: Disjoint has lower >
-  /// 0; Overlapping four vertex pairs of level 0 whose differences hold the origin; Touching an upper bound within law 2's, and
-  /// a normal along which the bodies overlap by no more than that. The steps stay below law 7's bound.
-  std::string interval(const Answer& answer);
+  /// 0; Overlapping four vertex pairs of level 0 whose differences hold the origin, those of `proof`; Touching an upper bound
+  /// within law 2's, and a normal along which the bodies overlap by no more than that. The steps stay below law 7's bound. A
+  /// signed answer: lower <= truth <= upper.
+  std::string interval(const Answer& answer, const OverlapProof& proof = {});
 
   /// The answer to a query for the exact distance: `interval`, and it converged on level 0 with a verdict and is no wider than
   /// law 2 allows. Unless overlapping, its points lie within law 2's bound of the features named, are as far apart as the
-  /// interval says, and differ by their distance times the normal as nearly as the interval implies.
-  std::string exact(const Answer& answer);
+  /// interval says, and differ by their distance times the normal as nearly as the interval implies. A signed one: `lower` at
+  /// most the gap along the normal, `upper` at least the truth: of bodies apart as in `interval`, of an overlap by every plane
+  /// that bounds the Minkowski difference. The points lie within law 2's bound of the features named, of an overlap at least of
+  /// both bodies, and differ by the signed distance times the normal.
+  std::string exact(const Answer& answer, const OverlapProof& proof = {});
 
   /// The answer to `intersects`: `interval`, and it converged with a verdict.
-  std::string verdict(const Answer& answer);
+  std::string verdict(const Answer& answer, const OverlapProof& proof = {});
 
   /// The answer to `within`: `interval`; Yes and No are shown by the bounds; Undecided only within law 2 of the threshold.
-  std::string decision(const Within& within, double threshold);
+  std::string decision(const Within& within, double threshold, const OverlapProof& proof = {});
 
-  /// The answer to a query for the exact signed distance: converged with a verdict, no wider than law 2 allows, `lower` at most
-  /// the gap along the normal, `upper` at least the truth: of bodies apart as in `interval`, of an overlap by every plane that
-  /// bounds the Minkowski difference. The points lie within law 2's bound of the features named, of an overlap at least of both
-  /// bodies, and differ by the signed distance times the normal.
-  std::string exact(const SignedAnswer& answer);
-
-  /// The patch of an exact answer of these bodies: its normal; as many points as fit and are asked for, none farther apart than
-  /// the margin and law 2's bound; each pair named, no two alike, one above the other, on the vertices and edges that it names,
-  /// within law 2's bound in both bodies and below their surfaces by no more than the flatness; the first as deep as the answer
-  /// says; in order around an area which is most of what both contact faces have in common, by exact clipping.
-  std::string patch(const Patch& patch, const SignedAnswer& answer, const PatchOptions& options) const;
-
-  /// Any answer to a query for the signed distance: lower <= truth <= upper.
-  std::string interval(const SignedAnswer& answer);
+  /// The manifold of an exact answer of these bodies: its normal; as many points as fit and are asked for, none farther apart
+  /// than the margin and law 2's bound; each pair named, no two alike, one above the other, on the vertices and edges that it
+  /// names, within law 2's bound in both bodies and below their surfaces by no more than the flatness; the first as deep as the
+  /// answer says; in order around an area which is most of what both contact faces have in common, by exact clipping.
+  std::string manifold(const Manifold& manifold, const Answer& answer, const ManifoldOptions& options) const;
 
   /// The distance by exact minimum norm, found at the first call; from then on every interval and verdict is held against it.
   const oracle::Truth& truth();
@@ -74,10 +69,13 @@ class Judge {
 
  private:
   std::string upper_bound(const Answer& answer);
-  std::string proved_verdict(const Answer& answer);
+  std::string proved_verdict(const Answer& answer, const OverlapProof& proof);
+  std::string proved_overlap(const Answer& answer, const OverlapProof& proof) const;
   std::string witnesses(const Answer& answer);
-  std::string signed_upper_bound(const SignedAnswer& answer);
-  std::string area_of(const Patch& patch, const PatchOptions& options, double bound) const;
+  std::string signed_interval(const Answer& answer, const OverlapProof& proof);
+  std::string signed_upper_bound(const Answer& answer, const OverlapProof& proof);
+  std::string signed_exact(const Answer& answer);
+  std::string area_of(const Manifold& manifold, const ManifoldOptions& options, double bound) const;
   bool within_law_two(const Vec3& p_a, std::span<const Vec3> points, const Pose& pose) const;
 
   const Subject &a_, &b_;
@@ -88,6 +86,6 @@ class Judge {
 };
 
 /// The vertices of a feature of a level.
-std::vector<Vec3> vertices_of(const ConvexView& view, Handle feature);
+std::vector<Vec3> vertices_of(const ConvexView& view, FeatureId feature);
 
 }  // namespace swiftlet::stability

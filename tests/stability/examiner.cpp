@@ -12,7 +12,7 @@
 namespace swiftlet::stability {
 namespace {
 
-constexpr std::uint64_t kSolveEvery = 24, kColdEvery = 8, kPatchEvery = 32;
+constexpr std::uint64_t kSolveEvery = 24, kColdEvery = 8, kManifoldEvery = 32;
 constexpr std::size_t kMostFailures = 8;
 /// Of one march, a hundred times what any takes in Release: sanitizers are slow.
 constexpr double kMostSeconds = 2;
@@ -26,13 +26,11 @@ void mix(std::uint64_t& hash, const T& value) {
   hash ^= hash >> 29;
 }
 
-template <class AnyAnswer>
-bool lie_within(const AnyAnswer& one, const AnyAnswer& other, double bound) {
+bool lie_within(const Answer& one, const Answer& other, double bound) {
   return std::fabs(one.lower - other.lower) <= bound && std::fabs(one.upper - other.upper) <= bound;
 }
 /// Both intervals, where they should agree.
-template <class AnyAnswer>
-std::string against(const AnyAnswer& one, const AnyAnswer& other) {
+std::string against(const Answer& one, const Answer& other) {
   char text[160];
   std::snprintf(text, sizeof text, ": [%a, %a] and [%a, %a]", other.lower, other.upper, one.lower, one.upper);
   return text;
@@ -50,17 +48,14 @@ std::string hex(const PairSeed& seed) {
   return result;
 }
 
-const SignedAnswer& signed_answer(const SignedAnswer& answer) { return answer; }
-/// What a patch of hulls that are apart is held against.
-SignedAnswer signed_answer(const Answer& answer) {
-  SignedAnswer s;
-  s.lower = answer.lower, s.upper = answer.upper, s.normal = answer.normal;
-  return s;
+/// The same options, and where the proof of an overlap goes.
+Options proving(Options options, OverlapProof& proof) {
+  options.tuning.proof = &proof;
+  return options;
 }
 
 /// What is wrong with the outcome of a query for an exact answer, before anything is recomputed.
-template <class AnyAnswer>
-std::string unsettled(const AnyAnswer& answer, double width) {
+std::string unsettled(const Answer& answer, double width) {
   if (answer.status != Status::Converged) return "the status is " + std::to_string(int(answer.status));
   if (answer.verdict == Verdict::Undecided) return "no verdict";
   return answer.upper - answer.lower <= width
@@ -84,9 +79,9 @@ double cpu_seconds() {
   return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
-bool same_points(const Patch& one, const Patch& other) {
-  const auto kept = [&](const PatchPoint& p) {
-    return std::any_of(other.points.begin(), other.points.begin() + other.count, [&](const PatchPoint& q) {
+bool same_points(const Manifold& one, const Manifold& other) {
+  const auto kept = [&](const ManifoldPoint& p) {
+    return std::any_of(other.points.begin(), other.points.begin() + other.count, [&](const ManifoldPoint& q) {
       return p.feature_a == q.feature_a && p.feature_b == q.feature_b && p.point_a == q.point_a && p.point_b == q.point_b;
     });
   };
@@ -102,7 +97,7 @@ Tally& Tally::operator+=(const Tally& other) {
   failed += other.failed;
   steps = std::max(steps, other.steps);
   depths += other.depths;
-  patches += other.patches;
+  manifolds += other.manifolds;
   supports = std::max(supports, other.supports);
   widest = std::max(widest, other.widest);
   hash += other.hash;
@@ -130,9 +125,11 @@ Answer Pair::examine(PairSeed& seed, std::uint64_t choice) {
   const PairSeed start = seed;
   const Answer answer = exact(seed);
   PairSeed used = start;
-  const Answer met = swiftlet::intersects(a_.model, b_.model, b_in_a_, used);
+  OverlapProof proof;
+  const Effort effort{.tuning = {.proof = &proof}};
+  const Answer met = swiftlet::intersects(a_.model, b_.model, b_in_a_, used, effort);
   count(met);
-  judged(judge_.verdict(met), "intersects", start);
+  judged(judge_.verdict(met, proof), "intersects", start);
   require(met.verdict == answer.verdict, "intersects and distance differ in their verdict");
 
   const double bound = law_two(), d = answer.lower;
@@ -140,12 +137,12 @@ Answer Pair::examine(PairSeed& seed, std::uint64_t choice) {
       0, answer.lower, answer.upper, d + bound / 8, d + 2 * bound, d / 2, 2 * d, d + 1e3 * bound, std::max(0.0, d - 2 * bound)};
   const double threshold = thresholds[choice / 2 % std::size(thresholds)];
   used = start;
-  const Within within = swiftlet::within(a_.model, b_.model, b_in_a_, threshold, used);
+  const Within within = swiftlet::within(a_.model, b_.model, b_in_a_, threshold, used, effort);
   count(within.answer);
-  judged(judge_.decision(within, threshold), "within", start);
+  judged(judge_.decision(within, threshold, proof), "within", start);
 
   used = start;
-  const SignedAnswer deep = exact_depth(used);
+  const Answer deep = exact_depth(used);
   require(deep.verdict == answer.verdict, "the signed distance differs in its verdict");
   if (examiner_.tally.pairs / examiner_.judge_every_ % kColdEvery == 0) {
     PairSeed cold, cold_depth;
@@ -158,10 +155,10 @@ Answer Pair::examine(PairSeed& seed, std::uint64_t choice) {
 
 Answer Pair::compare(PairSeed& seed, std::uint64_t choice) {
   is_judged_ = false;
-  PairSeed used = seed, cold;
+  PairSeed used = seed;
   const PairSeed start = seed;
   const Answer answer = distance(a_.model, b_.model, b_in_a_, seed);
-  const SignedAnswer deep = signed_distance(a_.model, b_.model, b_in_a_, used);
+  const Answer deep = signed_distance(a_.model, b_.model, b_in_a_, used);
   count(answer), count(deep);
   const double bound = law_two();
   judged(unsettled(answer, bound), "distance", start);
@@ -170,7 +167,7 @@ Answer Pair::compare(PairSeed& seed, std::uint64_t choice) {
   require(deep.verdict == answer.verdict, "the signed distance differs in its verdict");
   PairSeed again = used;
   agree(deep, signed_distance(a_.model, b_.model, b_in_a_, again), "where it ended");
-  const SignedAnswer swapped = signed_distance(b_.model, a_.model, inverse(b_in_a_), cold);
+  const Answer swapped = signed_distance(b_.model, a_.model, inverse(b_in_a_));
   judged(unsettled(swapped, 2 * bound), "signed distance, swapped,", {});  // its pose is rounded
   if (!lie_within(deep, swapped, 2 * bound))
     require(false, "another signed distance with the bodies swapped" + against(deep, swapped));
@@ -192,71 +189,69 @@ void Pair::march() {
   answer.status = Status::Converged;
   answer.lower = found.lower, answer.upper = found.upper, answer.normal = found.normal;
   answer.point_a = found.point_a, answer.point_b = found.point_b;
-  answer.feature_a = found.a, answer.feature_b = found.b, answer.proof = found.proof;
+  answer.feature_a = found.a, answer.feature_b = found.b;
   answer.steps = found.steps, answer.plane_tests = found.plane_tests;
   count(answer);
-  if (is_judged_) judged(judge_.verdict(answer), "march", {});
+  if (is_judged_) judged(judge_.verdict(answer, found.proof), "march", {});
 }
 
-Answer Pair::exact(PairSeed& seed, const QueryOptions& options) {
+Answer Pair::exact(PairSeed& seed, const Options& options) {
   const PairSeed start = seed;
-  const Answer answer = distance(a_.model, b_.model, b_in_a_, seed, options);
+  OverlapProof proof;
+  const Answer answer = distance(a_.model, b_.model, b_in_a_, seed, proving(options, proof));
   count(answer);
-  judged(is_judged_ ? judge_.exact(answer) : unsettled(answer, law_two()), "distance", start);
-  if (is_judged_ && answer.verdict != Verdict::Overlapping) patches(answer);
+  judged(is_judged_ ? judge_.exact(answer, proof) : unsettled(answer, law_two()), "distance", start);
+  if (is_judged_ && answer.verdict != Verdict::Overlapping) manifolds(answer);
   examiner_.tally.widest = std::max(examiner_.tally.widest, (answer.upper - answer.lower) / judge_.law_two());
   return answer;
 }
 
-Answer Pair::loose(PairSeed& seed, const QueryOptions& options) {
+Answer Pair::loose(PairSeed& seed, const Options& options) {
   const PairSeed start = seed;
-  const Answer answer = distance(a_.model, b_.model, b_in_a_, seed, options);
+  OverlapProof proof;
+  const Answer answer = distance(a_.model, b_.model, b_in_a_, seed, proving(options, proof));
   count(answer);
-  judged(judge_.interval(answer), "distance, not exact,", start);
+  judged(judge_.interval(answer, proof), "distance, not exact,", start);
   return answer;
 }
 
-SignedAnswer Pair::exact_depth(PairSeed& seed) {
+Answer Pair::exact_depth(PairSeed& seed) {
   const PairSeed start = seed;
-  const SignedAnswer answer = signed_distance(a_.model, b_.model, b_in_a_, seed);
+  OverlapProof proof;
+  const Answer answer = signed_distance(a_.model, b_.model, b_in_a_, seed, proving({}, proof));
   count(answer);
-  judged(judge_.exact(answer), "signed distance", start);
+  judged(judge_.exact(answer, proof), "signed distance", start);
   const double width = (answer.verdict == Verdict::Touching ? 2 : 1) * law_two();
   examiner_.tally.widest = std::max(examiner_.tally.widest, (answer.upper - answer.lower) / width);
   PairSeed again = seed;
   agree(answer, signed_distance(a_.model, b_.model, b_in_a_, again), "where it ended");
-  patches(answer);
+  manifolds(answer);
   return answer;
 }
 
-template <class AnyAnswer>
-void Pair::patches(const AnyAnswer& answer) {
-  shapes::Random& random = examiner_.patch_options_;
-  if (random.bits() % kPatchEvery > 0 || answer.status != Status::Converged) return;
+void Pair::manifolds(const Answer& answer) {
+  shapes::Random& random = examiner_.manifold_options_;
+  if (random.bits() % kManifoldEvery > 0 || answer.status != Status::Converged) return;
   const double infinity = std::numeric_limits<double>::infinity(), size = a_.extent + b_.extent;
   const double margins[] = {0, infinity, infinity, law_two(), 1e-3 * size, size};
-  PatchOptions options;
+  ManifoldOptions options;
   options.margin = margins[random.bits() % std::size(margins)];
-  if (random.bits() % 2) options.most_points = 1 + std::uint32_t(random.bits() % kMostPatchPoints);
+  if (random.bits() % 2) options.most_points = 1 + std::uint32_t(random.bits() % kMostManifoldPoints);
   if (random.bits() % 4 == 0) options.flatness = 0;
-  const Patch first = patch(a_.model, b_.model, b_in_a_, answer, options, examiner_.patch_),
-              again = patch(a_.model, b_.model, b_in_a_, answer, options, first);
-  examiner_.patch_ = first;
-  for (const Patch* p : {&first, &again}) {
+  const Manifold first = manifold(a_.model, b_.model, b_in_a_, answer, options, examiner_.manifold_),
+                 again = manifold(a_.model, b_.model, b_in_a_, answer, options, first);
+  examiner_.manifold_ = first;
+  for (const Manifold* p : {&first, &again}) {
     count(*p);
-    judged(judge_.patch(*p, signed_answer(answer), options), p == &first ? "patch" : "patch, again,", {});
+    judged(judge_.manifold(*p, answer, options), p == &first ? "manifold" : "manifold, again,", {});
   }
-  require(same_points(first, again), "a patch does not keep its points");
-}
-
-void Pair::agree(const SignedAnswer& one, const SignedAnswer& other, const char* what) {
-  if (one.verdict == other.verdict && lie_within(one, other, law_two())) return;
-  require(false, std::string("another signed distance from ") + what + against(one, other));
+  require(same_points(first, again), "a manifold does not keep its points");
 }
 
 void Pair::agree(const Answer& one, const Answer& other, const char* what) {
   if (one.verdict == other.verdict && lie_within(one, other, law_two())) return;
-  require(false, std::string("another answer from ") + what + against(one, other));
+  require(false,
+          std::string(one.is_signed ? "another signed distance from " : "another answer from ") + what + against(one, other));
 }
 
 void Pair::require(bool holds, const std::string& what) {
@@ -286,43 +281,35 @@ void Pair::judged(const std::string& wrong, const char* query, const PairSeed& s
 void Pair::count(const Answer& answer) {
   Tally& tally = examiner_.tally;
   ++tally.answers;
-  ++tally.verdicts[std::size_t(answer.verdict)];
-  tally.steps = std::max(tally.steps, answer.steps);
+  if (answer.is_signed && answer.verdict == Verdict::Overlapping) {
+    ++tally.depths;
+    tally.supports = std::max(tally.supports, answer.steps);
+  } else if (!answer.is_signed) {
+    ++tally.verdicts[std::size_t(answer.verdict)];
+    tally.steps = std::max(tally.steps, answer.steps);
+  }
   mix(tally.hash, answer.status), mix(tally.hash, answer.verdict), mix(tally.hash, answer.lower), mix(tally.hash, answer.upper);
   for (const Vec3& v : {answer.normal, answer.point_a, answer.point_b})
-    for (const double x : v) mix(tally.hash, x);
+    for (const double x : v) mix(tally.hash, std::isnan(x) ? 0 : x);
   mix(tally.hash, answer.feature_a), mix(tally.hash, answer.feature_b), mix(tally.hash, answer.steps);
 }
 
-void Pair::count(const Patch& patch) {
-  ++examiner_.tally.patches;
+void Pair::count(const Manifold& manifold) {
+  ++examiner_.tally.manifolds;
   std::uint64_t& hash = examiner_.tally.hash;
-  mix(hash, patch.count), mix(hash, patch.face_a), mix(hash, patch.face_b);
-  for (std::uint32_t i = 0; i < patch.count; ++i) {
-    const PatchPoint& p = patch.points[i];
+  mix(hash, manifold.count), mix(hash, manifold.face_a), mix(hash, manifold.face_b);
+  for (std::uint32_t i = 0; i < manifold.count; ++i) {
+    const ManifoldPoint& p = manifold.points[i];
     for (const Vec3& v : {p.point_a, p.point_b})
       for (const double x : v) mix(hash, x);
     mix(hash, p.separation), mix(hash, p.feature_a), mix(hash, p.feature_b);
   }
 }
 
-void Pair::count(const SignedAnswer& answer) {
-  Tally& tally = examiner_.tally;
-  ++tally.answers;
-  ++tally.verdicts[std::size_t(answer.verdict)];
-  if (answer.verdict == Verdict::Overlapping) {
-    ++tally.depths;
-    tally.supports = std::max(tally.supports, answer.steps);
-  }
-  mix(tally.hash, answer.status), mix(tally.hash, answer.verdict), mix(tally.hash, answer.lower), mix(tally.hash, answer.upper);
-  for (const Vec3& v : {answer.normal, answer.point_a, answer.point_b})
-    for (const double x : v) mix(tally.hash, x);
-  mix(tally.hash, answer.feature_a), mix(tally.hash, answer.feature_b), mix(tally.hash, answer.steps);
-}
-
 bool same_bits(const Answer& one, const Answer& other) {
+  const auto same = [](const Vec3& v, const Vec3& w) { return v == w || (v.hasNaN() && w.hasNaN()); };
   return one.status == other.status && one.verdict == other.verdict && one.lower == other.lower && one.upper == other.upper &&
-         one.normal == other.normal && one.point_a == other.point_a && one.point_b == other.point_b &&
+         same(one.normal, other.normal) && same(one.point_a, other.point_a) && same(one.point_b, other.point_b) &&
          one.level_a == other.level_a && one.level_b == other.level_b && one.feature_a == other.feature_a &&
          one.feature_b == other.feature_b && one.steps == other.steps && one.plane_tests == other.plane_tests;
 }

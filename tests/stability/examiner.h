@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <swiftlet/depth.h>
-#include <swiftlet/patch.h>
+#include <swiftlet/manifold.h>
 #include <swiftlet/query.h>
 
 #include "case.h"
@@ -31,7 +31,7 @@ struct Tally {
   std::uint32_t steps = 0;                  ///< most of one answer
   std::uint64_t depths = 0;                 ///< of answers, those of an overlap with its depth
   std::uint32_t supports = 0;               ///< most steps of one of these
-  std::uint64_t patches = 0;                ///< judged
+  std::uint64_t manifolds = 0;              ///< judged
   double widest = 0;                        ///< exact interval, in units of law 2's bound, of a touching depth twice that
   std::uint64_t hash = 0;                   ///< of all bits of all answers, in order
 
@@ -44,7 +44,11 @@ class Examiner {
  public:
   /// `label` names the batch in the cases of failures. The same seed gives the same batch. `judge_every`: Pair::ask.
   Examiner(std::string family, std::string label, std::uint64_t seed, std::uint64_t judge_every = 1)
-      : random(seed), patch_options_(~seed), judge_every_(judge_every), family_(std::move(family)), label_(std::move(label)) {}
+      : random(seed),
+        manifold_options_(~seed),
+        judge_every_(judge_every),
+        family_(std::move(family)),
+        label_(std::move(label)) {}
 
   void hit(bool is_hit) { ++tally.trials, tally.hits += is_hit; }
 
@@ -54,8 +58,8 @@ class Examiner {
 
  private:
   friend class Pair;
-  shapes::Random patch_options_;  ///< apart, so that the pairs do not depend on it
-  Patch patch_;                   ///< the latest, of whatever pair
+  shapes::Random manifold_options_;  ///< apart, so that the pairs do not depend on it
+  Manifold manifold_;                ///< the latest, of whatever pair
   std::uint64_t judge_every_;
   std::string family_, label_;
 };
@@ -84,21 +88,19 @@ class Pair {
   /// The atomic kernel on level 0, from its own start: judged, and done within seconds.
   void march();
   /// The exact distance alone. `options` change the way, not what is asked.
-  Answer exact(PairSeed& seed, const QueryOptions& options = {});
+  Answer exact(PairSeed& seed, const Options& options = {});
   /// The distance to whatever precision, budget or level.
-  Answer loose(PairSeed& seed, const QueryOptions& options);
+  Answer loose(PairSeed& seed, const Options& options);
 
   /// The exact signed distance, and again from where that ended.
-  SignedAnswer exact_depth(PairSeed& seed);
+  Answer exact_depth(PairSeed& seed);
 
-  /// Of one in 32 exact answers, but of overlaps without depth, the patch, as options of all kinds ask for it; from that of
+  /// Of one in 32 exact answers, but of overlaps without depth, the manifold, as options of all kinds ask for it; from that of
   /// another pair, and again from itself, which must keep its points.
-  template <class AnyAnswer>
-  void patches(const AnyAnswer& answer);
+  void manifolds(const Answer& answer);
 
   /// Both are exact answers of this pair or of one with the same truth: the same verdict, intervals within law 2's bound.
   void agree(const Answer& one, const Answer& other, const char* what);
-  void agree(const SignedAnswer& one, const SignedAnswer& other, const char* what);
   void require(bool holds, const std::string& what);
   void solve() { judge_.truth(); }
   double law_two() const { return judge_.law_two(); }
@@ -107,8 +109,7 @@ class Pair {
   Answer examine(PairSeed& seed, std::uint64_t choice);
   Answer compare(PairSeed& seed, std::uint64_t choice);
   void count(const Answer& answer);
-  void count(const SignedAnswer& answer);
-  void count(const Patch& patch);
+  void count(const Manifold& manifold);
   void judged(const std::string& wrong, const char* query, const PairSeed& seed);
 
   Examiner& examiner_;

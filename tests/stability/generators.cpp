@@ -5,7 +5,7 @@
 
 #include <swiftlet/build.h>
 #include <swiftlet/depth.h>
-#include <swiftlet/patch.h>
+#include <swiftlet/manifold.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ Subject quickly_built(const std::vector<Vec3>& points) {
   options.table.resolution = lut::Resolution::None;
   return built(points, options);
 }
-Subject of_faces(const bodies::Body& body) { return make_subject(body.points, bodies::model(body)); }
+Subject of_faces(const bodies::Polyhedron& body) { return make_subject(body.points, bodies::model(body)); }
 
 std::vector<Vec3> ball_points(Random& random, std::uint32_t count) {
   std::vector<Vec3> points(count);
@@ -62,12 +62,12 @@ Mat3 cube_turn(Random& random) {
   return m;
 }
 
-Handle some_feature(const ConvexView& view, Random& random) {
-  const auto vertices = std::uint32_t(view.vertices.size()), edges = std::uint32_t(view.head.size()),
+FeatureId some_feature(const ConvexView& view, Random& random) {
+  const auto vertices = std::uint32_t(view.vertices.size()), edges = std::uint32_t(view.half_edges.size()),
              faces = std::uint32_t(view.face_first.size());
   const std::uint32_t i = below(random, vertices + edges + faces);
   if (i < vertices) return {FeatureKind::Vertex, i};
-  return i < vertices + edges ? Handle{FeatureKind::Edge, i - vertices} : Handle{FeatureKind::Face, i - vertices - edges};
+  return i < vertices + edges ? FeatureId{FeatureKind::Edge, i - vertices} : FeatureId{FeatureKind::Face, i - vertices - edges};
 }
 /// Features that exist, on levels that exist.
 PairSeed some_seed(const Subject& a, const Subject& b, Random& random) {
@@ -91,7 +91,7 @@ Pose slid(const Subject& a, const Subject& b, const Mat3& rotation, const Vec3& 
   Pose pose{rotation, direction * (4 * (a.extent + b.extent))};
   PairSeed seed;
   for (int i = 0; i < 2; ++i) {  // the second time from near, where rounding is that of the bodies
-    const Answer answer = distance(a.model, b.model, pose, seed);
+    const Answer answer = signed_distance(a.model, b.model, pose, seed);
     pose.translation -= (answer.lower - gap) * answer.normal;
   }
   return pose;
@@ -110,7 +110,7 @@ const std::deque<Subject>& lattice_solids() {
     std::deque<Subject> all = lattice_cubes();
     for (const Vec3& half : {Vec3(1, 1, 0.1), Vec3(1, 0.5, 0.25), Vec3(1, 1, 0x1p-7)})
       all.push_back(of_faces(bodies::box(half.x(), half.y(), half.z())));
-    for (const bodies::Body& body : {bodies::tetrahedron(), bodies::octahedron()}) all.push_back(of_faces(body));
+    for (const bodies::Polyhedron& body : {bodies::tetrahedron(), bodies::octahedron()}) all.push_back(of_faces(body));
     for (std::uint32_t sides = 3; sides <= 12; ++sides) all.push_back(quickly_built(shapes::prism(sides, 1, 0.5).points));
     return all;
   }();
@@ -216,18 +216,18 @@ void every_start(Examiner& examiner, std::uint64_t index) {
   pair.solve();
   const ConvexView &view_a = a.model.level(0).view, &view_b = b.model.level(0).view;
   const auto features = [](const ConvexView& view) {
-    std::vector<Handle> all;
+    std::vector<FeatureId> all;
     for (std::uint32_t i = 0; i < view.vertices.size(); ++i) all.emplace_back(FeatureKind::Vertex, i);
-    for (std::uint32_t i = 0; i < view.head.size(); ++i)
-      if (i < view.twin[i]) all.emplace_back(FeatureKind::Edge, i);
+    for (std::uint32_t i = 0; i < view.half_edges.size(); ++i)
+      if (i < view.half_edges[i].twin) all.emplace_back(FeatureKind::Edge, i);
     for (std::uint32_t i = 0; i < view.face_first.size(); ++i) all.emplace_back(FeatureKind::Face, i);
     return all;
   };
-  QueryOptions options;
-  options.start = StartPolicy::Finest;
+  Options options;
+  options.tuning.start = StartPolicy::Finest;
   const Answer cold = pair.ask();
-  for (const Handle feature_a : features(view_a)) {
-    for (const Handle feature_b : features(view_b)) {
+  for (const FeatureId feature_a : features(view_a)) {
+    for (const FeatureId feature_b : features(view_b)) {
       PairSeed seed;
       seed.a = feature_a;
       seed.b = feature_b;
@@ -431,22 +431,19 @@ void far_offsets(Examiner& examiner, std::uint64_t) {
 }
 
 /// Whether `large` is `answer` times s in every bit.
-template <class AnyAnswer>
-bool is_scaled(const AnyAnswer& answer, const AnyAnswer& large, double s) {
-  return large.status == answer.status && large.verdict == answer.verdict && large.lower == s * answer.lower &&
-         large.upper == s * answer.upper && large.normal == answer.normal && large.point_a == s * answer.point_a &&
-         large.point_b == s * answer.point_b && large.feature_a == answer.feature_a && large.feature_b == answer.feature_b &&
-         large.steps == answer.steps && large.plane_tests == answer.plane_tests;
+bool is_scaled(Answer answer, const Answer& large, double s) {
+  answer.lower *= s, answer.upper *= s, answer.point_a *= s, answer.point_b *= s;
+  return same_bits(answer, large);
 }
 bool is_scaled(const MarchResult& r, const MarchResult& large, double s) {
   return large.status == r.status && large.lower == s * r.lower && large.upper == s * r.upper && large.normal == r.normal &&
          large.point_a == s * r.point_a && large.point_b == s * r.point_b && large.a == r.a && large.b == r.b &&
          large.steps == r.steps && large.plane_tests == r.plane_tests;
 }
-bool is_scaled(const Patch& patch, const Patch& large, double s) {
-  bool same = large.count == patch.count;
-  for (std::uint32_t i = 0; same && i < patch.count; ++i) {
-    const PatchPoint &p = patch.points[i], &q = large.points[i];
+bool is_scaled(const Manifold& manifold, const Manifold& large, double s) {
+  bool same = large.count == manifold.count;
+  for (std::uint32_t i = 0; same && i < manifold.count; ++i) {
+    const ManifoldPoint &p = manifold.points[i], &q = large.points[i];
     same = q.point_a == s * p.point_a && q.point_b == s * p.point_b && q.separation == s * p.separation;
   }
   return same;
@@ -483,14 +480,14 @@ void powers_of_two(Examiner& examiner, std::uint64_t) {
                    scaled_near = within(scaled_a.model, scaled_b.model, scaled_pose, s * threshold, other);
       require(near.decision == scaled_near.decision && is_scaled(near.answer, scaled_near.answer, s), "decision");
       one = other = seed;
-      const SignedAnswer depth = signed_distance(a.model, b.model, pose, one),
-                         scaled_depth = signed_distance(scaled_a.model, scaled_b.model, scaled_pose, other);
+      const Answer depth = signed_distance(a.model, b.model, pose, one),
+                   scaled_depth = signed_distance(scaled_a.model, scaled_b.model, scaled_pose, other);
       require(is_scaled(depth, scaled_depth, s), "signed distance");
-      PatchOptions options, scaled_options;
+      ManifoldOptions options, scaled_options;
       options.margin = margin, scaled_options.margin = s * margin;
-      require(is_scaled(patch(a.model, b.model, pose, depth, options),
-                        patch(scaled_a.model, scaled_b.model, scaled_pose, scaled_depth, scaled_options), s),
-              "patch");
+      require(is_scaled(manifold(a.model, b.model, pose, depth, options),
+                        manifold(scaled_a.model, scaled_b.model, scaled_pose, scaled_depth, scaled_options), s),
+              "manifold");
       require(is_scaled(march(a.model.level(0).view, b.model.level(0).view, pose),
                         march(scaled_a.model.level(0).view, scaled_b.model.level(0).view, scaled_pose), s),
               "march");
@@ -563,8 +560,8 @@ void kissing(Examiner& examiner, std::uint64_t) {
 /// a power of ten, 1 to 1e30 by the batch (trap G16). The unit goes as far as coordinates may; seeds go from pose to pose.
 void nested(Examiner& examiner, std::uint64_t index) {
   Random& random = examiner.random;
-  QueryOptions options;
-  options.start = StartPolicy::Finest;
+  Options options;
+  options.tuning.start = StartPolicy::Finest;
   constexpr int kDecades = 31;
   const int decade = int(index % kDecades);
   const double ratio = std::pow(10, -decade), unit = random.bits() % 2 ? 1 : decades(random, -44, 44 - decade);
@@ -628,7 +625,8 @@ Subject cut(const Subject& subject, Random& random) {
   for (std::uint32_t left = 6 + below(random, 35); left > 0; --left) {
     const Vertex& v = view.vertices[at];
     points.emplace_back(v.x, v.y, v.z);
-    at = random.bits() % 2 && v.ring_count > 0 ? view.head[v.ring_begin + below(random, v.ring_count)] : below(random, count);
+    at = random.bits() % 2 && v.ring_count > 0 ? view.half_edges[v.ring_begin + below(random, v.ring_count)].head
+                                               : below(random, count);
   }
   return quickly_built(points);
 }
@@ -685,7 +683,7 @@ void extra_points(Examiner& examiner, std::uint64_t) {
       const std::vector<Vec3> loop = vertices_of(view, {FeatureKind::Face, f});
       more.push_back(mean(loop[0], loop[1], loop[2]));
     }
-    for (std::uint32_t h = 0; h < view.head.size(); ++h) {
+    for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
       const std::vector<Vec3> ends = vertices_of(view, {FeatureKind::Edge, h});
       if (random.bits() % 2) more.push_back((ends[0] + ends[1]) / 2);
     }
@@ -717,7 +715,7 @@ void same_truth(Examiner& examiner, std::uint64_t) {
   // Two makes of one prism or of one cloud.
   const Subject one = quickly_built(prism ? corners : points), other = [&] {
     if (!prism) return quickly_built(shuffled);
-    bodies::Body body = bodies::body_of(shapes::prism(6, 1, 1));
+    bodies::Polyhedron body = bodies::body_of(shapes::prism(6, 1, 1));
     std::rotate(body.corners.begin(), body.corners.begin() + 12, body.corners.end());
     return of_faces(body);
   }();
@@ -795,14 +793,14 @@ void coarse_levels(Examiner& examiner, std::uint64_t) {
     Pair pair(examiner, a, b, pose);
     pair.solve();
     const Answer cold = pair.ask();
-    QueryOptions options;
+    Options options;
     for (const StartPolicy start :
          {StartPolicy::Automatic, StartPolicy::Paper, StartPolicy::Finest, StartPolicy::Coarsest, StartPolicy::Table}) {
       for (const Refinement refinement : {Refinement::Single, Refinement::SingleSingle, Refinement::DoubleDouble}) {
         for (const PlaneRule rule : {PlaneRule::MostViolated, PlaneRule::FirstViolated}) {
-          options.start = start;
-          options.refinement = refinement;
-          options.plane_rule = rule;
+          options.tuning.start = start;
+          options.tuning.refinement = refinement;
+          options.tuning.plane_rule = rule;
           PairSeed seed = some_seed(a, b, random);
           const Answer answer = pair.exact(seed, options);
           pair.agree(cold, answer, "another order of refinement");
@@ -811,20 +809,20 @@ void coarse_levels(Examiner& examiner, std::uint64_t) {
       }
     }
     options = {};
-    options.start = StartPolicy::Coarsest;
+    options.tuning.start = StartPolicy::Coarsest;
     PairSeed warm;
     for (const double relative : {0.5, 0.1, 1e-2, 1e-4}) {
-      options.relative_error = relative;
+      options.relative = relative;
       const Answer answer = pair.loose(warm, options);
       pair.require(answer.upper - answer.lower <= std::max(relative * answer.lower, pair.law_two()), "wider than asked");
     }
-    options.relative_error = 0;
+    options.relative = 0;
     for (const int finest : {1, 2, 3}) {
-      options.finest_level = finest;
+      options.budget.finest_level = finest;
       pair.loose(warm, options);
     }
-    options.finest_level = 0;
-    options.step_budget = below(random, 6);
+    options.budget.finest_level = 0;
+    options.budget.steps = below(random, 6);
     pair.loose(warm, options);
   }
 }

@@ -65,9 +65,11 @@ Judgement judge_verdict(const Problem& p, Verdict verdict) {
 }
 
 /// What holds of an answer to any question.
-Judgement judge_claims(const Problem& p, const Model& a, const Model& b, const Answer& answer) {
+Judgement judge_claims(const Problem& p, const Model& a, const Model& b, const Answer& answer, const OverlapProof& proof) {
   if (answer.status != Status::Converged) return fault(Fault::NotConverged, "status %d", int(answer.status));
-  const bool finite = answer.normal.allFinite() && answer.point_a.allFinite() && answer.point_b.allFinite();
+  const bool is_apart = answer.verdict == Verdict::Disjoint || answer.verdict == Verdict::Touching,
+             has_normal = !is_apart || answer.normal.allFinite(),
+             finite = has_normal && answer.point_a.allFinite() && answer.point_b.allFinite();
   if (!(answer.lower >= 0 && answer.upper >= answer.lower && finite))
     return fault(Fault::NoNumber, "[%.17g, %.17g]", answer.lower, answer.upper);
   if (!in_interval(p.asked, answer.lower, answer.upper, 0))
@@ -75,7 +77,7 @@ Judgement judge_claims(const Problem& p, const Model& a, const Model& b, const A
   if (!in_interval(p.in_world, answer.lower, answer.upper, p.world_bound))
     return fault(Fault::WrongDistance, "[%.17g, %.17g] is farther than %.3g from %.17g in the world", answer.lower,
                  answer.upper, p.world_bound, p.in_world.distance);
-  if (const Check c = check(a, b, p.b_in_a, answer); !c) return {Fault::WrongDistance, c.message};
+  if (const Check c = check(a, b, p.b_in_a, answer, &proof); !c) return {Fault::WrongDistance, c.message};
   return {};
 }
 
@@ -100,8 +102,8 @@ Case swapped(const Case& c) {
   return result;
 }
 
-Judgement judge_exact(const Problem& p, const Model& a, const Model& b, const Answer& answer) {
-  if (Judgement j = judge_intersects(p, a, b, answer); j.fault != Fault::None) return j;
+Judgement judge_exact(const Problem& p, const Model& a, const Model& b, const Answer& answer, const OverlapProof& proof) {
+  if (Judgement j = judge_intersects(p, a, b, answer, proof); j.fault != Fault::None) return j;
   if (!(answer.upper - answer.lower <= p.bound))
     return fault(Fault::WrongDistance, "[%.17g, %.17g] is wider than law 2's %.3g", answer.lower, answer.upper, p.bound);
   const Vec3 apart = answer.point_b - answer.point_a;
@@ -110,13 +112,14 @@ Judgement judge_exact(const Problem& p, const Model& a, const Model& b, const An
   return {};
 }
 
-Judgement judge_intersects(const Problem& p, const Model& a, const Model& b, const Answer& answer) {
-  if (Judgement j = judge_claims(p, a, b, answer); j.fault != Fault::None) return j;
+Judgement judge_intersects(const Problem& p, const Model& a, const Model& b, const Answer& answer, const OverlapProof& proof) {
+  if (Judgement j = judge_claims(p, a, b, answer, proof); j.fault != Fault::None) return j;
   return judge_verdict(p, answer.verdict);
 }
 
-Judgement judge_within(const Problem& p, const Model& a, const Model& b, double threshold, const Within& within) {
-  if (Judgement j = judge_claims(p, a, b, within.answer); j.fault != Fault::None) return j;
+Judgement judge_within(const Problem& p, const Model& a, const Model& b, double threshold, const Within& within,
+                       const OverlapProof& proof) {
+  if (Judgement j = judge_claims(p, a, b, within.answer, proof); j.fault != Fault::None) return j;
   const int truth = oracle::compare(p.asked, threshold);
   const bool right = within.decision == Decision::Yes  ? truth <= 0
                      : within.decision == Decision::No ? truth > 0
@@ -128,7 +131,7 @@ Judgement judge_within(const Problem& p, const Model& a, const Model& b, double 
   return within.answer.verdict == Verdict::Undecided ? Judgement{} : judge_verdict(p, within.answer.verdict);
 }
 
-Judgement judge_signed(const Problem& p, const Model& a, const Model& b, const SignedAnswer& answer) {
+Judgement judge_signed(const Problem& p, const Model& a, const Model& b, const Answer& answer, const OverlapProof& proof) {
   const Fault wrong = answer.lower < 0 ? Fault::WrongDepth : Fault::WrongDistance;
   if (answer.status != Status::Converged) return fault(Fault::NotConverged, "status %d", int(answer.status));
   const bool finite = answer.normal.allFinite() && answer.point_a.allFinite() && answer.point_b.allFinite();
@@ -148,17 +151,13 @@ Judgement judge_signed(const Problem& p, const Model& a, const Model& b, const S
   const Vec3 aside = answer.point_b - answer.point_a - (answer.lower + answer.upper) / 2 * answer.normal;
   if (!(aside.norm() <= 2 * p.bound))
     return fault(wrong, "the points are %.17g off the signed distance along the normal", aside.norm());
-  if (const Check c = check(a, b, p.b_in_a, answer); !c) return {wrong, c.message};
+  if (const Check c = check(a, b, p.b_in_a, answer, &proof); !c) return {wrong, c.message};
   return judge_verdict(p, answer.verdict);
 }
 
-double error_of(const Problem& p, const SignedAnswer& answer) {
-  return std::max(std::abs(answer.lower - p.in_world.distance), std::abs(answer.upper - p.in_world.distance));
-}
-
 double error_of(const Problem& p, const Answer& answer) {
-  const double distance = std::max(p.in_world.distance, 0.);
-  return std::max(std::abs(answer.lower - distance), std::abs(answer.upper - distance));
+  const double truth = answer.is_signed ? p.in_world.distance : std::max(p.in_world.distance, 0.);
+  return std::max(std::abs(answer.lower - truth), std::abs(answer.upper - truth));
 }
 
 }  // namespace swiftlet::stability

@@ -43,16 +43,17 @@ struct Judgement {
   std::string message;  ///< empty without a fault
 };
 
-/// An answer of `distance` or `contact` without tolerance.
-Judgement judge_exact(const Problem& problem, const Model& a, const Model& b, const Answer& answer);
+/// An answer, and the proof that an overlap rests on, of `distance` or `closest_features` without tolerance.
+Judgement judge_exact(const Problem& problem, const Model& a, const Model& b, const Answer& answer, const OverlapProof& proof);
 /// Of `signed_distance` without tolerance.
-Judgement judge_signed(const Problem& problem, const Model& a, const Model& b, const SignedAnswer& answer);
+Judgement judge_signed(const Problem& problem, const Model& a, const Model& b, const Answer& answer, const OverlapProof& proof);
 /// Of `intersects`: the interval may be wide.
-Judgement judge_intersects(const Problem& problem, const Model& a, const Model& b, const Answer& answer);
-Judgement judge_within(const Problem& problem, const Model& a, const Model& b, double threshold, const Within& within);
+Judgement judge_intersects(const Problem& problem, const Model& a, const Model& b, const Answer& answer,
+                           const OverlapProof& proof);
+Judgement judge_within(const Problem& problem, const Model& a, const Model& b, double threshold, const Within& within,
+                       const OverlapProof& proof);
 
 /// The interval's farther end from the distance in the world. Length.
 double error_of(const Problem& problem, const Answer& answer);
-double error_of(const Problem& problem, const SignedAnswer& answer);
 
 }  // namespace swiftlet::stability

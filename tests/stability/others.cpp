@@ -75,8 +75,8 @@ class Others {
 /// Whether every vertex has an edge between two faces: peers get faces without their diagonals, and would lack the others.
 bool survives_without_diagonals(const ConvexView& view) {
   std::vector<bool> kept(view.vertices.size(), false);
-  for (std::size_t h = 0; h < view.head.size(); ++h) {
-    if (view.face[h] != view.face[view.twin[h]]) kept[view.head[h]] = true;
+  for (std::size_t h = 0; h < view.half_edges.size(); ++h) {
+    if (view.half_edges[h].face != view.half_edges[view.half_edges[h].twin].face) kept[view.half_edges[h].head] = true;
   }
   return std::find(kept.begin(), kept.end(), false) == kept.end();
 }
@@ -94,7 +94,7 @@ Findings ask_other(const bench::Method& method, double tolerance, const Case& c,
   const std::array models{&a.value().model, &b.value().model};
   findings.applicable = is_taken(*models[0]) && is_taken(*models[1]);
   if (!findings.applicable) return findings;
-  std::array<bench::Body, 2> bodies;
+  std::array<bench::Polyhedron, 2> bodies;
   for (std::size_t i = 0; i < 2; ++i) bodies[i] = {models[i], models[i]->level(0).view, 0};
   const std::array<bench::BodyPair, 2> pairs{{{0, 1}, {1, 0}}};
   const auto session = method.open(bodies, pairs);

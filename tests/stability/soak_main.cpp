@@ -178,8 +178,8 @@ class Soak {
   }
 
   int report() const {
-    std::printf("\n%-26s %9s %9s %9s %8s %8s %7s  %8s %8s %8s %6s %7s %7s\n", "family", "pairs", "judged", "answers", "patches",
-                "solved", "hits", "disjoint", "touching", "overlap", "steps", "widest", "failed");
+    std::printf("\n%-26s %9s %9s %9s %8s %8s %7s  %8s %8s %8s %6s %7s %7s\n", "family", "pairs", "judged", "answers",
+                "manifolds", "solved", "hits", "disjoint", "touching", "overlap", "steps", "widest", "failed");
     bool missed = false;
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
       const Family& family = *chosen_[i];
@@ -202,8 +202,8 @@ class Soak {
 
   static void row(const char* name, const Tally& t) {
     std::printf("%-26s %9llu %9llu %9llu %8llu %8llu %6.1f%%  %8llu %8llu %8llu %6u %7.3f %7llu\n", name, count(t.pairs),
-                count(t.judged), count(t.answers), count(t.patches), count(t.solved), 100 * t.hit_rate(), count(t.verdicts[1]),
-                count(t.verdicts[2]), count(t.verdicts[3]), t.steps, t.widest, count(t.failed));
+                count(t.judged), count(t.answers), count(t.manifolds), count(t.solved), 100 * t.hit_rate(),
+                count(t.verdicts[1]), count(t.verdicts[2]), count(t.verdicts[3]), t.steps, t.widest, count(t.failed));
   }
   static unsigned long long count(std::uint64_t n) { return n; }
 

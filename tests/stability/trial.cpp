@@ -17,26 +17,27 @@ namespace {
 struct Way {
   const char* models;
   bool swapped, warm;
-  QueryOptions options;
+  Options options;
 };
 
 std::string text(const Way& w) {
   char line[80];
   std::snprintf(line, sizeof line, "%s%s%s, start %d, refinement %d, rule %d", w.models, w.swapped ? ", swapped" : "",
-                w.warm ? ", warm" : ", cold", int(w.options.start), int(w.options.refinement), int(w.options.plane_rule));
+                w.warm ? ", warm" : ", cold", int(w.options.tuning.start), int(w.options.tuning.refinement),
+                int(w.options.tuning.plane_rule));
   return line;
 }
 
-std::vector<QueryOptions> all_options() {
-  std::vector<QueryOptions> all;
+std::vector<Options> all_options() {
+  std::vector<Options> all;
   for (const auto start :
        {StartPolicy::Automatic, StartPolicy::Paper, StartPolicy::Finest, StartPolicy::Coarsest, StartPolicy::Table}) {
     for (const auto refinement : {Refinement::Single, Refinement::SingleSingle, Refinement::DoubleDouble}) {
       for (const auto rule : {PlaneRule::MostViolated, PlaneRule::FirstViolated}) {
-        QueryOptions options;
-        options.start = start;
-        options.refinement = refinement;
-        options.plane_rule = rule;
+        Options options;
+        options.tuning.start = start;
+        options.tuning.refinement = refinement;
+        options.tuning.plane_rule = rule;
         all.push_back(options);
       }
     }
@@ -57,31 +58,33 @@ class Trial {
   Trial(const Problem& problem, const Model& a, const Model& b, Findings& findings)
       : problem_(problem), a_(a), b_(b), findings_(findings), thresholds_(thresholds_around(problem)) {}
 
-  void ask(const Way& way) {
+  void ask(Way way) {
     PairSeed seed;
+    OverlapProof proof;
+    way.options.tuning.proof = &proof;
     const auto next = [&]() -> PairSeed& { return way.warm ? warm_ : (seed = {}); };
     const Pose& pose = problem_.b_in_a;
     {
       const Answer answer = distance(a_, b_, pose, next(), way.options);
-      add(way, "distance", judge_exact(problem_, a_, b_, answer), answer);
+      add(way, "distance", judge_exact(problem_, a_, b_, answer, proof), answer);
       findings_.worst_error = std::max(findings_.worst_error, error_of(problem_, answer) / problem_.size);
       add_verdict(way, answer.verdict);
     }
     {
-      const Answer answer = contact(a_, b_, pose, next(), way.options).answer;
-      add(way, "contact", judge_exact(problem_, a_, b_, answer), answer);
+      const Answer answer = closest_features(a_, b_, pose, next(), {.tuning = way.options.tuning}).answer;
+      add(way, "closest_features", judge_exact(problem_, a_, b_, answer, proof), answer);
       add_verdict(way, answer.verdict);
     }
     {
-      const Answer answer = intersects(a_, b_, pose, next(), way.options);
-      add(way, "intersects", judge_intersects(problem_, a_, b_, answer), answer);
+      const Answer answer = intersects(a_, b_, pose, next(), {.tuning = way.options.tuning});
+      add(way, "intersects", judge_intersects(problem_, a_, b_, answer, proof), answer);
       add_verdict(way, answer.verdict);
     }
     // Overlapping it goes by no option; apart as the distance does.
-    if (way.options.start == StartPolicy::Automatic && way.options.refinement == Refinement::SingleSingle) {
-      const SignedAnswer answer = signed_distance(a_, b_, pose, next(), way.options);
+    if (way.options.tuning.start == StartPolicy::Automatic && way.options.tuning.refinement == Refinement::SingleSingle) {
+      const Answer answer = signed_distance(a_, b_, pose, next(), way.options);
       ++findings_.answers;
-      if (const Judgement j = judge_signed(problem_, a_, b_, answer); j.fault != Fault::None)
+      if (const Judgement j = judge_signed(problem_, a_, b_, answer, proof); j.fault != Fault::None)
         findings_.add(j.fault, "signed_distance (" + text(way) + "): " + j.message);
       double& worst = answer.lower < 0 ? findings_.worst_depth_error : findings_.worst_error;
       worst = std::max(worst, error_of(problem_, answer) / problem_.size);
@@ -89,8 +92,8 @@ class Trial {
       add_verdict(way, answer.verdict);
     }
     for (const double threshold : thresholds_) {
-      const Within answer = within(a_, b_, pose, threshold, next(), way.options);
-      add(way, "within", judge_within(problem_, a_, b_, threshold, answer), answer.answer);
+      const Within answer = within(a_, b_, pose, threshold, next(), {.tuning = way.options.tuning});
+      add(way, "within", judge_within(problem_, a_, b_, threshold, answer, proof), answer.answer);
     }
   }
 
@@ -119,10 +122,10 @@ class Trial {
 };
 
 void ask_of_models(const char* models, const Model& a, const Model& b, const Problems& problems, Findings& findings) {
-  static const std::vector<QueryOptions> options = all_options();
+  static const std::vector<Options> options = all_options();
   for (const bool swap : {false, true}) {
     Trial trial(problems[swap], swap ? b : a, swap ? a : b, findings);
-    for (const QueryOptions& o : options) {
+    for (const Options& o : options) {
       for (const bool warm : {false, true}) trial.ask({models, swap, warm, o});
     }
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The atomic kernel: one level pair, one march. What the queries are made of, and what a bounding volume hierarchy of convex
-// pieces calls at each node pair. Knows nothing of levels.
+// pieces calls at each node pair. Knows nothing of levels. Laws by number: LAWS.md.
 #pragma once
 
 #include <array>
@@ -27,8 +27,9 @@ enum class MarchStatus : std::uint8_t {
   Near,          ///< the interval is as narrow as asked and begins at 0: the sign was not asked for
   Beyond,        ///< stopped because lower > rule.beyond
   Budget,        ///< rule.step_budget ended the march nearer than it began; the bounds hold. Marches that go on from the
-                 ///< handles of one another come to an end, whatever the budget
-  NotConverged,  ///< neither of the above could be proved; the bounds hold. No valid body is known that answers so
+                 ///< feature ids of one another come to an end, whatever the budget
+  NotConverged,  ///< neither of the above could be proved; the bounds hold. Known only of needles and plates whose
+                 ///< thickness is what law 2 rounds away (README.md, Limits)
   InvalidPose,   ///< not finite, translated beyond 1e45, or not orthonormal to 1e-6: bounds are [0, inf]
 };
 
@@ -39,10 +40,10 @@ struct OverlapProof {
 };
 
 /// Where to begin: from what another march ended on, from `table_start`, from features of a parent's. Default: where the bodies
-/// face each other along the line of their centres. Anything is legal: a handle that names no feature of its view counts as the
+/// face each other along the line of their centres. Anything is legal: a feature id that names no feature of its view counts as the
 /// default.
 struct MarchStart {
-  Handle a, b;  ///< features of A's view and of B's
+  FeatureId a, b;  ///< features of A's view and of B's
 };
 
 /// When to stop: as soon as upper - lower <= max(absolute, relative * lower), or lower > beyond.
@@ -60,10 +61,10 @@ struct MarchResult {
   MarchStatus status = MarchStatus::NotConverged;  ///< why it ended
   /// Features, storable, start of the next march. Disjoint, Touching or Near: `point_a` and `point_b` lie on them, within law
   /// 2's bound and, of a face flat only up to rounding, its thickness. Overlapping: they share a point, exactly, mostly an edge
-  /// of one and a face of the other; where one body lies inside the other and their surfaces share none, `Handle{}` for the
+  /// of one and a face of the other; where one body lies inside the other and their surfaces share none, `FeatureId{}` for the
   /// outer body and any vertex of the inner one. Elsewhere where the march stopped.
-  Handle a;
-  Handle b;                                                ///< likewise, of B
+  FeatureId a;
+  FeatureId b;                                             ///< likewise, of B
   double lower = 0;                                        ///< proved bounds on the distance between the two polytopes
   double upper = std::numeric_limits<double>::infinity();  ///< the other bound
   Vec3 normal = Vec3::Zero();  ///< unit, A's frame, from A to B: the direction `lower` is proved in; 0 without one
@@ -85,12 +86,12 @@ MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, 
                   const MarchRule& rule = {});
 
 /// A vertex of level 0 that faces a direction (body frame, any length), by one look-up: in the start table, or else in the
-/// support maps. `Handle{}` where a model has neither, or no level 0. For a march of two level 0 from tables the line of
+/// support maps. `FeatureId{}` where a model has neither, or no level 0. For a march of two level 0 from tables the line of
 /// centres is the direction, to B in A's frame and to A in B's; it saves the climbs of the default.
-Handle table_start(const Model& model, const Vec3& direction);
+FeatureId table_start(const Model& model, const Vec3& direction);
 
 /// The caller's tag of a feature: a face's own, of an edge or vertex the largest among its faces; 0 without tags, and of
-/// `Handle{}`.
-std::uint8_t tag(const ConvexView& view, Handle feature);
+/// `FeatureId{}`.
+std::uint8_t tag(const ConvexView& view, FeatureId feature);
 
 }  // namespace swiftlet

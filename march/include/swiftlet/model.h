@@ -15,25 +15,25 @@
 
 namespace swiftlet {
 
-/// What a Handle names.
+/// What a FeatureId names.
 enum class FeatureKind : std::uint8_t {
   None,    ///< nothing; the index means nothing
   Vertex,  ///< indexes ConvexView::vertices
-  Edge,    ///< indexes the half-edges: ConvexView::head
+  Edge,    ///< indexes ConvexView::half_edges
   Face,    ///< indexes ConvexView::face_first
 };
 
 /// A feature of one level in 32 bits: two for the kind, thirty for the index. An edge is named by either of its half-edges.
 /// The default is no feature.
-class Handle {
+class FeatureId {
  public:
-  constexpr Handle() = default;
+  constexpr FeatureId() = default;
   /// `index` < 2^30.
-  constexpr Handle(FeatureKind kind, std::uint32_t index) : bits_(std::uint32_t(kind) << 30 | index) {}
-  constexpr FeatureKind kind() const { return FeatureKind(bits_ >> 30); }  ///< None for Handle{}
+  constexpr FeatureId(FeatureKind kind, std::uint32_t index) : bits_(std::uint32_t(kind) << 30 | index) {}
+  constexpr FeatureKind kind() const { return FeatureKind(bits_ >> 30); }  ///< None for FeatureId{}
   constexpr std::uint32_t index() const { return bits_ & 0x3fffffffu; }    ///< within its kind, on its level
   /// Same bits: an edge's two half-edges differ.
-  constexpr bool operator==(const Handle&) const = default;
+  constexpr bool operator==(const FeatureId&) const = default;
 
  private:
   std::uint32_t bits_ = 0;
@@ -60,45 +60,14 @@ struct HalfEdge {
   std::uint32_t head;  ///< the vertex it ends at
   std::uint32_t twin;  ///< the half-edge the other way
   std::uint32_t face;  ///< on its left; kNone beside a segment
-};
 
-/// One member of all half-edges, indexed like an array. As long as the records live.
-template <std::uint32_t HalfEdge::*Member>
-class HalfEdgeColumn {
- public:
-  /// In the order of their records.
-  class Iterator {
-   public:
-    using value_type = std::uint32_t;                                                  ///< what it points to
-    using difference_type = std::ptrdiff_t;                                            ///< of records
-    Iterator() = default;                                                              ///< nowhere
-    explicit Iterator(const HalfEdge* record) : record_(record) {}                     ///< of HalfEdgeColumn
-    std::uint32_t operator*() const { return record_->*Member; }                       ///< the member
-    Iterator& operator++() { return ++record_, *this; }                                ///< the next one
-    Iterator operator++(int) { return Iterator(record_++); }                           ///< likewise
-    bool operator==(const Iterator& other) const { return record_ == other.record_; }  ///< the same place
-
-   private:
-    const HalfEdge* record_ = nullptr;
-  };
-
-  HalfEdgeColumn() = default;                                                    ///< none
-  HalfEdgeColumn(std::span<const HalfEdge> records) : records_(records) {}       ///< of these
-  std::uint32_t operator[](std::size_t h) const { return records_[h].*Member; }  ///< h < size()
-  std::size_t size() const { return records_.size(); }                           ///< of half-edges
-  bool empty() const { return records_.empty(); }                                ///< as a point has them
-  std::span<const HalfEdge> records() const { return records_; }                 ///< with the other members
-  Iterator begin() const { return Iterator(records_.data()); }                   ///< the first
-  Iterator end() const { return Iterator(records_.data() + records_.size()); }   ///< past the last
-
- private:
-  std::span<const HalfEdge> records_;
+  bool operator==(const HalfEdge&) const = default;  ///< all three
 };
 
 /// One convex polytope as the march sees it: non-owning, trivially copyable. Half-edges are sorted by origin.
 ///
-///        head[h]           The left face of h is face[h], the right one face[twin[h]]. The half-edge after h around its
-///          /|\             left face is the one before twin[h] in the ring of head[h].
+///       h.head             A half-edge h leads from its origin to h.head and has h.face on its left; the one on its right
+///          /|\             is its twin's. The half-edge after h around h.face comes before h.twin in the ring of h.head.
 ///         / | \            A half-edge with the same face on both sides is a *diagonal*: a true edge of the exact hull
 ///        / h|  \           inside a face that is flat only up to rounding. Support climbs use it, face loops skip it.
 ///   right \ | / left       Faces with more than three vertices come first and have a FacePlane.
@@ -106,9 +75,7 @@ class HalfEdgeColumn {
 ///        origin
 struct ConvexView {
   std::span<const Vertex> vertices;           ///< at least one
-  HalfEdgeColumn<&HalfEdge::head> head;       ///< one entry per half-edge
-  HalfEdgeColumn<&HalfEdge::twin> twin;       ///< likewise, of the same records
-  HalfEdgeColumn<&HalfEdge::face> face;       ///< likewise
+  std::span<const HalfEdge> half_edges;       ///< sorted by origin
   std::span<const std::uint32_t> face_first;  ///< per face, a half-edge of its loop
   std::span<const FacePlane> planes;          ///< of faces [0, planes.size())
   std::span<const std::uint8_t> tags;         ///< per face, the caller's; may be empty
@@ -131,9 +98,9 @@ class FaceLoop {
   class Iterator {
    public:
     Iterator(const ConvexView& view, std::uint32_t half_edge, bool started)
-        : view_(&view), half_edge_(half_edge), started_(started) {}      ///< of FaceLoop
-    std::uint32_t operator*() const { return view_->head[half_edge_]; }  ///< the vertex
-    Iterator& operator++();                                              ///< the next one
+        : view_(&view), half_edge_(half_edge), started_(started) {}                 ///< of FaceLoop
+    std::uint32_t operator*() const { return view_->half_edges[half_edge_].head; }  ///< the vertex
+    Iterator& operator++();                                                         ///< the next one
     bool operator==(const Iterator& other) const {
       return half_edge_ == other.half_edge_ && started_ == other.started_;
     }  ///< of one loop
@@ -158,7 +125,7 @@ class FaceLoop {
 struct Level {
   ConvexView view;                              ///< its features, as long as the model lives; none finer than finest_level()
   std::span<const std::uint32_t> child_vertex;  ///< per vertex, the vertex one level finer (empty on level 0)
-  std::span<const Handle> child_face;           ///< per face, the face or vertex one level finer (empty on level 0)
+  std::span<const FeatureId> child_face;        ///< per face, the face or vertex one level finer (empty on level 0)
   std::span<const std::uint32_t> parent_face;   ///< per face, the vertex one level coarser (empty on the coarsest)
   std::span<const std::uint32_t> support_map;   ///< per cell of a cube around the body, which vertex is extreme there and by
                                                 ///< how much it may not be; a query's cold start. Empty: none at this level
@@ -263,14 +230,14 @@ class Model {
 
  private:
   friend class BlockReader;
-  struct Body;
-  Model(std::shared_ptr<const Body> body, std::span<const Level> levels, int map_level, int finest_level)
-      : body_(std::move(body)),
+  struct Content;
+  Model(std::shared_ptr<const Content> body, std::span<const Level> levels, int map_level, int finest_level)
+      : content_(std::move(body)),
         levels_(levels.data()),
         level_count_(int(levels.size())),
         map_level_(map_level),
         finest_level_(finest_level) {}
-  std::shared_ptr<const Body> body_;
+  std::shared_ptr<const Content> content_;
   const Level* levels_;  ///< the body's
   int level_count_, map_level_, finest_level_;
 };

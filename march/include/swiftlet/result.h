@@ -21,7 +21,7 @@ enum class ErrorCode {
   NotConvex,     ///< a reflex edge, or faces that do not close to one convex surface
   NotSolid,      ///< flat, collinear or a single point where a solid was required
   NotEnclosing,  ///< a coarser level that does not hold level 0
-  TooLarge,      ///< more features than 30-bit handles name
+  TooLarge,      ///< more features than 30-bit feature ids name
   Cancelled,     ///< the progress callback asked to stop
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The Bullet program of adapters/README.md; consumer/run compares both, and what it prints.
+// The Bullet program of adapters/README.md.
 #include <btBulletDynamicsCommon.h>
 #include <swiftlet/bullet.h>
 #include <cstdio>
@@ -11,7 +11,7 @@ int main() {
   swiftlet::LevelArrays arrays;
   arrays.vertices = corners;
   arrays.face_vertices = faces;
-  const auto model = swiftlet::Model::from_level(arrays);  // or build(points), or load("link.swl"), which have coarse levels
+  const auto model = swiftlet::Model::from_level(arrays);
   if (!model) return std::puts(model.error().message.c_str()), 1;
 
   btDefaultCollisionConfiguration configuration;

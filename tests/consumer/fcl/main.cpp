@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The FCL program of adapters/README.md; consumer/run compares both, and what it prints.
+// The FCL program of adapters/README.md.
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 #include <swiftlet/fcl.h>
@@ -12,7 +12,7 @@ int main() {
   swiftlet::LevelArrays arrays;
   arrays.vertices = corners;
   arrays.face_vertices = faces;
-  const auto model = swiftlet::Model::from_level(arrays);  // or build(points), or load("link.swl"), which have coarse levels
+  const auto model = swiftlet::Model::from_level(arrays);
   if (!model) return std::puts(model.error().message.c_str()), 1;
 
   const auto shape = std::make_shared<swiftlet::fcl::Convex<double>>(model.value());  // an fcl::Convex

@@ -48,7 +48,7 @@ void expect(bool holds, const char* claim, const std::string& where, double have
 }
 
 /// The distance of a point on a feature from the surface: from the mesh's own point, or from its triangles in the node.
-double off_surface(const Body& b, const Node& node, swiftlet::Handle feature, const Pose& in_a, const Vec3& p_a) {
+double off_surface(const Body& b, const Node& node, swiftlet::FeatureId feature, const Pose& in_a, const Vec3& p_a) {
   const auto point = [&](std::uint32_t p) { return Vec3(in_a.rotation * b.mesh.points[p] + in_a.translation); };
   if (feature.kind() == swiftlet::FeatureKind::Vertex) return (p_a - point(node.point[feature.index()])).norm();
   double least = kInfinity;
@@ -66,7 +66,7 @@ void expect_witness(const Body& a, const Body& b, const Pose& pose, const Witnes
   expect(apart >= w.lower - slack && apart <= w.upper + slack, "the points are as far apart as the bounds", where, apart,
          w.upper);
   const Node &node_a = a.tree.nodes[w.node_a], &node_b = b.tree.nodes[w.node_b];
-  if (w.a == swiftlet::Handle{} || w.b == swiftlet::Handle{})  // a leaf inside another: no feature
+  if (w.a == swiftlet::FeatureId{} || w.b == swiftlet::FeatureId{})  // a leaf inside another: no feature
     return expect(w.overlapping, "only nodes that overlap lack a feature", where, w.upper, 0);
   const double off_a = off_feature(node_a, w.a, {}, w.point_a), off_b = off_feature(node_b, w.b, pose, w.point_b);
   expect(off_a <= slack, "A's point is on its feature", where, off_a, 0);
@@ -138,7 +138,7 @@ class Trial {
 
   void judge(const Pose& pose) {
     const double size = std::max(a_.tree.size, b_.tree.size) + pose.translation.norm();
-    const double slack = 64 * 0x1p-53 * size;  // law 2's bound, more than the rounding of a brute-force distance
+    const double slack = tolerance(a_.tree, b_.tree, pose);  // more than the rounding of a brute-force distance
     const double begin = now();
     const Soup soup_b = soup(b_.mesh, pose);
     const double d = distance(soup_a_, soup_b);

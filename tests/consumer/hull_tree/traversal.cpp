@@ -8,8 +8,8 @@
 namespace hull_tree {
 namespace {
 
+using swiftlet::FeatureId;
 using swiftlet::FeatureKind;
-using swiftlet::Handle;
 using swiftlet::kNone;
 using swiftlet::MarchResult;
 using swiftlet::MarchRule;
@@ -17,7 +17,7 @@ using swiftlet::MarchStart;
 using swiftlet::MarchStatus;
 
 /// A corner of the parent's feature that the child has; no feature where it has none.
-Handle from_parent(const Node& parent, Handle feature, std::size_t side) {
+FeatureId from_parent(const Node& parent, FeatureId feature, std::size_t side) {
   for (const std::uint32_t v : corners(parent.view, feature)) {
     if (const std::uint32_t there = parent.vertex_in_child[side][v]; there != kNone) return {FeatureKind::Vertex, there};
   }
@@ -30,8 +30,7 @@ Witness witness(std::uint32_t a, std::uint32_t b, const MarchResult& r) {
 
 }  // namespace
 
-/// Law 2's width for two whole bodies.
-double Pair::rounding() const { return 64 * 0x1p-53 * (std::max(a_.size, b_.size) + pose_.translation.norm()); }
+double Pair::rounding() const { return tolerance(a_, b_, pose_); }
 
 bool Pair::within(const Pose& b_in_a, double tolerance) {
   MarchRule rule;
@@ -177,7 +176,7 @@ std::uint32_t Pair::split(std::uint32_t item, bool split_a) {
     below.child = kNone;
     (split_a ? below.a : below.b) = opened.child[side];
     if (settings_.start == Start::Parent) {
-      Handle& feature = split_a ? below.start.a : below.start.b;
+      FeatureId& feature = split_a ? below.start.a : below.start.b;
       feature = from_parent(opened, feature, side);
     } else {
       below.start = fresh_start(below.a, below.b);

@@ -32,7 +32,7 @@ struct Work {
 /// The nearest features of two nodes, all in the mesh: neither tag is Free.
 struct Witness {
   std::uint32_t node_a = 0, node_b = 0;
-  swiftlet::Handle a, b;
+  swiftlet::FeatureId a, b;
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< A's frame
   double lower = 0, upper = std::numeric_limits<double>::infinity();
   bool overlapping = false;

@@ -122,17 +122,17 @@ class Construction {
 
 Tree hull_tree_of(const Mesh& mesh, const std::vector<Ids>& patches) { return Construction(mesh, patches).finished(); }
 
-Ids corners(const swiftlet::ConvexView& view, swiftlet::Handle feature) {
+Ids corners(const swiftlet::ConvexView& view, swiftlet::FeatureId feature) {
   const std::uint32_t i = feature.index();
   switch (feature.kind()) {
     case FeatureKind::Vertex: return {i};
-    case FeatureKind::Edge: return {view.head[view.twin[i]], view.head[i]};
+    case FeatureKind::Edge: return {view.half_edges[view.half_edges[i].twin].head, view.half_edges[i].head};
     case FeatureKind::Face: return corners(view, i);
     default: return {};
   }
 }
 
-double off_feature(const Node& node, swiftlet::Handle feature, const Pose& node_in_a, const Vec3& p_a) {
+double off_feature(const Node& node, swiftlet::FeatureId feature, const Pose& node_in_a, const Vec3& p_a) {
   std::vector<Vec3> loop;
   for (const std::uint32_t v : corners(node.view, feature)) {
     const swiftlet::Vertex& at = node.view.vertices[v];

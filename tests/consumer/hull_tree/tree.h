@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <swiftlet/body.h>
 #include <swiftlet/march.h>
 #include <swiftlet/model.h>
 
@@ -40,16 +41,21 @@ struct Tree {
   double size = 0;  ///< largest absolute coordinate
   std::uint32_t root() const { return std::uint32_t(nodes.size()) - 1; }
 };
+/// Law 2's bound for two whole bodies.
+inline double tolerance(const Tree& a, const Tree& b, const Pose& b_in_a) {
+  return swiftlet::tolerance(a.nodes[a.root()].model, b.nodes[b.root()].model, b_in_a);
+}
+
 Tree hull_tree_of(const Mesh& mesh, const std::vector<std::vector<std::uint32_t>>& patches);
 
 /// The tag of a witness feature. Every vertex of every node is one of the mesh's.
-inline std::uint8_t tag_of(const Node& node, swiftlet::Handle feature) {
+inline std::uint8_t tag_of(const Node& node, swiftlet::FeatureId feature) {
   return feature.kind() == swiftlet::FeatureKind::Vertex ? std::uint8_t(Original) : tag(node.view, feature);
 }
 
 /// The vertices of a feature.
-std::vector<std::uint32_t> corners(const swiftlet::ConvexView& view, swiftlet::Handle feature);
+std::vector<std::uint32_t> corners(const swiftlet::ConvexView& view, swiftlet::FeatureId feature);
 /// The distance of a point of A's frame from a feature of a node that stands there.
-double off_feature(const Node& node, swiftlet::Handle feature, const Pose& node_in_a, const Vec3& p_a);
+double off_feature(const Node& node, swiftlet::FeatureId feature, const Pose& node_in_a, const Vec3& p_a);
 
 }  // namespace hull_tree

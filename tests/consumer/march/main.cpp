@@ -18,15 +18,14 @@ int main() {
   arrays.face_vertices = quads;
   arrays.face_sizes = sizes;
   const auto cube = swiftlet::Model::from_level(arrays);
-  if (!cube) {
-    std::printf("%s\n", cube.error().message.c_str());
-    return 1;
-  }
+  if (!cube) return std::puts(cube.error().message.c_str()), 1;
 
   swiftlet::Pose b_in_a;
   b_in_a.translation = {5, 6, 0};  // edges face each other, 3 and 4 apart
-  swiftlet::PairSeed seed;
-  const auto answer = swiftlet::distance(cube.value(), cube.value(), b_in_a, seed);
+  const auto answer = swiftlet::distance(cube.value(), cube.value(), b_in_a);
   std::printf("distance in [%.17g, %.17g]\n", answer.lower, answer.upper);
-  return answer.lower <= 5 && 5 <= answer.upper && answer.upper - answer.lower < 1e-12 ? 0 : 1;
+  return answer.lower <= 5 && 5 <= answer.upper &&
+                 answer.upper - answer.lower <= swiftlet::tolerance(cube.value(), cube.value(), b_in_a)
+             ? 0
+             : 1;
 }

@@ -7,24 +7,24 @@
 namespace planner {
 
 using swiftlet::Answer;
+using swiftlet::Body;
 using swiftlet::Model;
+using swiftlet::Options;
 using swiftlet::PairSeed;
 using swiftlet::Pose;
-using swiftlet::QueryOptions;
 
 /// A lower bound on how far the link is from the obstacle's margin, any that is above `enough`; 0 where that is at most
 /// `kLeastRoom`.
 double Motions::room(const Model& link, const Obstacle& obstacle, const Pose& link_in_world, double enough, PairSeed& seed) {
+  const Body padded(obstacle.model, kMargin);
   const Pose obstacle_in_link = swiftlet::relative(link_in_world, obstacle.in_world);
-  QueryOptions options;
-  options.radius_b = kMargin;
-  options.relative_error = precision_.tolerance;
+  Options options{.relative = precision_.tolerance};
   if (precision_.only_nearest) options.beyond = std::max(enough, kLeastRoom);
-  Answer answer = swiftlet::distance(link, obstacle.model, obstacle_in_link, seed, options);
+  Answer answer = swiftlet::distance(link, padded, obstacle_in_link, seed, options);
   count(answer);
   if (answer.lower <= kLeastRoom && answer.upper > kLeastRoom) {
-    options.relative_error = 0;
-    answer = swiftlet::refine(link, obstacle.model, obstacle_in_link, answer, seed, options);
+    options.relative = 0;
+    answer = swiftlet::refine(link, padded, obstacle_in_link, answer, seed, options);
     ++cost_.refined;
     count(answer);
   }

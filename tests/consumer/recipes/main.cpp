@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The program of RECIPES.md: a function per recipe. The page shows what stands between `recipe` and `end`; consumer/run
-// compares both. Ends with 1 where a recipe does not do what the page says of it.
+// The program of RECIPES.md, and of what README.md asks: a function per block. Ends with 1 where a block does not do what the
+// page says of it.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <future>
-#include <string>
+#include <stop_token>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -16,12 +16,13 @@
 #include <swiftlet/batch.h>
 #include <swiftlet/build.h>
 #include <swiftlet/check.h>
+#include <swiftlet/manifold.h>
 #include <swiftlet/model_file.h>
-#include <swiftlet/patch.h>
 #include <swiftlet/query.h>
 
 namespace {
 
+using swiftlet::Body;
 using swiftlet::Model;
 using swiftlet::Pose;
 using swiftlet::Result;
@@ -38,7 +39,6 @@ bool same(const swiftlet::Answer& left, const swiftlet::Answer& right) {
 }
 
 Result<Model> raw_arrays() {
-  // recipe
   const Vec3 corners[] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 2}};  // a pyramid
   const std::uint32_t loops[] = {3, 2, 1, 0, 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};      // counter-clockwise seen from outside
   const std::uint32_t sizes[] = {4, 3, 3, 3, 3};                                       // left out where all are triangles
@@ -47,11 +47,9 @@ Result<Model> raw_arrays() {
   arrays.face_vertices = loops;
   arrays.face_sizes = sizes;
   return Model::from_level(arrays);  // copies; a dent is an error that names the edge
-  // end
 }
 
 Result<Model> mesh(const std::filesystem::path& input, const std::filesystem::path& output) {
-  // recipe
   const auto mesh = swiftlet::read_mesh(input);  // OBJ, OFF, STL, PLY, TRI, POLY
   if (!mesh) return mesh.error();
   swiftlet::BuildOptions options;
@@ -63,13 +61,10 @@ Result<Model> mesh(const std::filesystem::path& input, const std::filesystem::pa
   const auto bytes = swiftlet::save(built.value().model, output);
   if (!bytes) return bytes.error();
   return swiftlet::load(output);
-  // end
 }
 
 void one_pair(const Model& a, const Model& b, const Pose& a_in_world, const Pose& b_in_world) {
-  // recipe
-  swiftlet::PairSeed seed;
-  const swiftlet::Answer answer = swiftlet::distance(a, b, swiftlet::relative(a_in_world, b_in_world), seed);
+  const swiftlet::Answer answer = swiftlet::distance(a, b, swiftlet::relative(a_in_world, b_in_world));
   if (answer.verdict == swiftlet::Verdict::Disjoint) {
     const Vec3 normal = a_in_world.rotation * answer.normal;  // from A to B, in the world
     const Vec3 point_a = a_in_world.rotation * answer.point_a + a_in_world.translation;
@@ -77,23 +72,19 @@ void one_pair(const Model& a, const Model& b, const Pose& a_in_world, const Pose
     std::printf("%.6f apart, (%.3f, %.3f, %.3f) to (%.3f, %.3f, %.3f), normal (%.3f, %.3f, %.3f)\n", answer.lower, point_a[0],
                 point_a[1], point_a[2], point_b[0], point_b[1], point_b[2], normal[0], normal[1], normal[2]);
   }
-  // end
   expect(answer.verdict == swiftlet::Verdict::Disjoint, "the pair is apart");
   expect(bool(swiftlet::check(a, b, swiftlet::relative(a_in_world, b_in_world), answer)), "the answer's certificate holds");
 }
 
 Result<Model> no_more_than_needed(const std::filesystem::path& file, const Pose& b_in_a) {
-  // recipe
   Result<Model> model = swiftlet::map(file, {.deviation = 0.05});  // finer levels are neither read nor checked
   if (!model) return model.error();
-  swiftlet::QueryOptions rough;
-  rough.absolute_error = 0.1;  // of two such bodies
+  const Model& part = model.value();
   swiftlet::PairSeed seed;
-  const auto coarse = swiftlet::distance(model.value(), model.value(), b_in_a, seed, rough);  // Converged
-  const auto limited = swiftlet::distance(model.value(), model.value(), b_in_a, seed);        // LevelLimit, the interval true
-  if (const auto finer = model.value().ensure(0); !finer) return finer.error();               // where the scene needs more
-  const auto exact = swiftlet::distance(model.value(), model.value(), b_in_a, seed);          // the seed still fits
-  // end
+  const auto coarse = swiftlet::distance(part, part, b_in_a, seed, {.absolute = 0.1});  // Converged
+  const auto limited = swiftlet::distance(part, part, b_in_a, seed);                    // LevelLimit, the interval true
+  if (const auto finer = model.value().ensure(0); !finer) return finer.error();         // where the scene needs more
+  const auto exact = swiftlet::distance(part, part, b_in_a, seed);                      // the seed still fits
   expect(coarse.status == swiftlet::Status::Converged, "a coarse model answers what it was loaded for");
   expect(limited.status == swiftlet::Status::LevelLimit && exact.status == swiftlet::Status::Converged, "levels are added");
   expect(limited.lower <= exact.upper && exact.lower <= limited.upper, "the coarse interval is true");
@@ -102,20 +93,24 @@ Result<Model> no_more_than_needed(const std::filesystem::path& file, const Pose&
 
 std::vector<swiftlet::Answer> many_pairs(const Model& a, const Model& b, const std::vector<Pose>& poses,
                                          std::vector<swiftlet::PairSeed>& seeds) {
-  // recipe
   std::vector<swiftlet::PairQuery> pairs;
-  for (std::size_t i = 0; i < poses.size(); ++i) pairs.push_back({&a, &b, poses[i], &seeds[i]});
+  for (std::size_t i = 0; i < poses.size(); ++i) pairs.push_back({a, b, poses[i], &seeds[i]});
   std::vector<swiftlet::Answer> answers(pairs.size());
   swiftlet::distance(pairs, answers);
-  // end
+  return answers;
+}
+
+std::vector<swiftlet::Answer> many_poses(const Model& a, const Model& b, const std::vector<Pose>& poses) {
+  std::vector<swiftlet::Answer> answers(poses.size());
+  swiftlet::distance(a, b, poses, answers, {.relative = 0.01});
   return answers;
 }
 
 void threads(const std::vector<swiftlet::PairQuery>& pairs, const std::vector<swiftlet::Answer>& alone) {
-  // recipe
   std::vector<swiftlet::Answer> answers(pairs.size());
   const swiftlet::Executor threads = swiftlet::on_threads(4);  // kept: they wait for the next batch
-  swiftlet::distance(pairs, answers, {}, threads);
+  std::stop_source stop;  // request_stop(), from any thread, ends a long batch: what is done is done
+  swiftlet::distance(pairs, answers, {}, {.executor = threads, .stop = stop.get_token()});
 
   const swiftlet::Executor ours = [](std::size_t count, const std::function<void(std::size_t)>& task) {
     std::vector<std::future<void>> running;  // here your own job system
@@ -123,32 +118,30 @@ void threads(const std::vector<swiftlet::PairQuery>& pairs, const std::vector<sw
     for (std::future<void>& one : running) one.wait();
   };
   std::vector<swiftlet::Answer> again(pairs.size());
-  swiftlet::distance(pairs, again, {}, ours);
-  // end
+  swiftlet::distance(pairs, again, {}, {.executor = ours});
   for (std::size_t i = 0; i < pairs.size(); ++i)
     expect(same(answers[i], alone[i]) && same(again[i], alone[i]),
            "on threads the answers are those of one query after the other");
+  stop.request_stop();
+  again.assign(pairs.size(), {});
+  swiftlet::distance(pairs, again, {}, {.executor = threads, .stop = stop.get_token()});
+  expect(again.front().steps == 0 && again.front().lower == 0, "a batch that is stopped leaves answers as they were");
 }
 
-swiftlet::Patch contacts(const Model& a, const Model& b, const Pose& a_in_world, const Pose& b_in_world,
-                         swiftlet::PairSeed& seed, const swiftlet::Patch& before) {
-  // recipe
+swiftlet::Manifold contacts(const Model& a, const Model& b, const Pose& a_in_world, const Pose& b_in_world,
+                            swiftlet::PairSeed& seed, const swiftlet::Manifold& before) {
+  const double margin = 0.02;  // points farther apart are none
   const Pose b_in_a = swiftlet::relative(a_in_world, b_in_world);
-  swiftlet::PatchOptions options;
-  options.margin = 0.02;  // of each pair of points; most_points is 4
-  swiftlet::QueryOptions near;
-  near.beyond = options.margin;
-  const swiftlet::SignedAnswer answer = swiftlet::signed_distance(a, b, b_in_a, seed, near);  // below 0: so deep
-  const swiftlet::Patch patch = swiftlet::patch(a, b, b_in_a, answer, options, before);
-  const Vec3 normal = a_in_world.rotation * patch.normal;  // from A to B, one for all points
-  for (std::uint32_t i = 0; i < patch.count; ++i) {
-    const swiftlet::PatchPoint& p = patch.points[i];
+  const swiftlet::Answer answer = swiftlet::signed_distance(a, b, b_in_a, seed, {.beyond = margin});  // below 0: so deep
+  const swiftlet::Manifold manifold = swiftlet::manifold(a, b, b_in_a, answer, {.margin = margin}, before);
+  const Vec3 normal = a_in_world.rotation * manifold.normal;  // from A to B, one for all points
+  for (std::uint32_t i = 0; i < manifold.count; ++i) {
+    const swiftlet::ManifoldPoint& p = manifold.points[i];
     const Vec3 middle = a_in_world.rotation * (p.point_a + p.point_b) / 2 + a_in_world.translation;
     std::printf("(%.3f, %.3f, %.3f), %.3f apart along (%.0f, %.0f, %.0f)\n", middle[0], middle[1], middle[2], p.separation,
                 normal[0], normal[1], normal[2]);
   }
-  return patch;
-  // end
+  return manifold;
 }
 
 void two_steps_of_contact(const Model& pyramid) {
@@ -156,9 +149,9 @@ void two_steps_of_contact(const Model& pyramid) {
   below.rotation = Vec3(1, -1, -1).asDiagonal();
   below.translation = {0.5, 0, -0.01};
   swiftlet::PairSeed seed;
-  const swiftlet::Patch first = contacts(pyramid, pyramid, Pose{}, below, seed, {});
+  const swiftlet::Manifold first = contacts(pyramid, pyramid, Pose{}, below, seed, {});
   below.translation[2] = 0.01;
-  const swiftlet::Patch second = contacts(pyramid, pyramid, Pose{}, below, seed, first);
+  const swiftlet::Manifold second = contacts(pyramid, pyramid, Pose{}, below, seed, first);
   expect(first.count == 4 && second.count == 4, "two bases have four corners in common");
   for (std::uint32_t i = 0; i < 4; ++i) {
     expect(std::abs(first.points[i].separation - 0.01) < 1e-12, "the pyramids are 0.01 apart");
@@ -168,7 +161,6 @@ void two_steps_of_contact(const Model& pyramid) {
 }
 
 void seeds(const Model& a, const Model& b) {
-  // recipe
   swiftlet::PairSeed seed;  // cold; lives as long as the pair
   std::uint32_t warm = 0, cold = 0;
   for (int degree = 0; degree < 90; ++degree) {
@@ -176,59 +168,62 @@ void seeds(const Model& a, const Model& b) {
     b_in_a.rotation = Eigen::AngleAxisd(degree * EIGEN_PI / 180, Vec3(0.6, 0, 0.8)).toRotationMatrix();
     b_in_a.translation = {3, 0, 0};
     warm += swiftlet::distance(a, b, b_in_a, seed).steps;
-    swiftlet::PairSeed none;
-    cold += swiftlet::distance(a, b, b_in_a, none).steps;
+    cold += swiftlet::distance(a, b, b_in_a).steps;
   }
   std::printf("90 queries: %u steps with one seed, %u without\n", warm, cold);
-  // end
   expect(warm < cold, "a seed saves steps");
 }
 
-void tolerance(const Model& a, const Model& b, const Pose& b_in_a, swiftlet::PairSeed& seed) {
-  // recipe
-  swiftlet::QueryOptions rough;
-  rough.relative_error = 0.01;  // done when upper - lower <= 1 % of lower
-  const swiftlet::Answer percent = swiftlet::distance(a, b, b_in_a, seed, rough);
+void asked_of_one_pair(const Model& a, const Model& b, const Pose& b_in_a) {
+  swiftlet::PairSeed seed;
+  const auto rough = swiftlet::distance(a, b, b_in_a, seed, {.relative = 0.01});  // until upper - lower <= 1 % of lower
+  const auto exact = swiftlet::refine(a, b, b_in_a, rough, seed);                 // on from there, for the difference
+  const auto near = swiftlet::within(a, b, b_in_a, 0.05, seed).decision;          // Yes, No, Undecided within rounding
+  const auto verdict = swiftlet::intersects(a, b, b_in_a, seed).verdict;          // Disjoint, Touching, Overlapping: proved
+  const auto ids = swiftlet::closest_features(a, b, b_in_a, seed).source_a;       // the user's own vertices and triangles
+  const auto depth = swiftlet::signed_distance(a, b, b_in_a, seed);               // below 0: so deep, along its normal
+  const auto deep = swiftlet::signed_within(a, b, b_in_a, -0.01, seed).decision;  // deeper than that?
+  const auto contact = swiftlet::manifold(a, b, b_in_a, depth);                   // of bodies that touch: where, by four points
+  const auto holds = swiftlet::check(a, b, b_in_a, exact);                        // recomputes all that an answer claims
+  expect(rough.upper - rough.lower <= 0.01 * rough.lower, "rough is within 1 %");
+  expect(exact.upper - exact.lower <= swiftlet::tolerance(a, b, b_in_a) && bool(holds), "exact is exact, and holds");
+  expect(near == swiftlet::Decision::No && deep == near && verdict == swiftlet::Verdict::Disjoint, "they are apart");
+  expect(ids.kind != swiftlet::FeatureKind::None, "the nearest feature has the user's ids");
+  expect(std::fabs(depth.value() - exact.value()) <= swiftlet::tolerance(a, b, b_in_a), "apart both distances are one");
+  expect(contact.count == 0, "bodies that are apart have no contact");
+}
 
-  swiftlet::QueryOptions near;
-  near.beyond = 0.5;  // exact up to here; status Beyond as soon as lower > 0.5 is proved
-  const swiftlet::Answer far = swiftlet::distance(a, b, b_in_a, seed, near);
+void tolerance(const Model& a, const Model& b, const Pose& b_in_a, swiftlet::PairSeed& seed) {
+  // done when upper - lower <= 1 % of lower
+  const swiftlet::Answer percent = swiftlet::distance(a, b, b_in_a, seed, {.relative = 0.01});
+  // exact up to here; status Beyond as soon as lower > 0.5 is proved
+  const swiftlet::Answer far = swiftlet::distance(a, b, b_in_a, seed, {.beyond = 0.5});
 
   const swiftlet::Decision close = swiftlet::within(a, b, b_in_a, 0.5, seed).decision;  // Yes, No, Undecided
   const swiftlet::Verdict verdict = swiftlet::intersects(a, b, b_in_a, seed).verdict;   // Disjoint, Touching, Overlapping
-  // end
   expect(percent.upper - percent.lower <= 0.01 * percent.lower, "the interval is as narrow as asked");
   expect(far.status == swiftlet::Status::Beyond && far.lower > 0.5, "farther than 0.5 is Beyond");
   expect(close == swiftlet::Decision::No, "farther than 0.5 is not within");
   expect(verdict == swiftlet::Verdict::Disjoint, "apart is disjoint");
 }
 
-void radii(const Model& a, const Model& b, const Pose& b_in_a, swiftlet::PairSeed& seed) {
-  // recipe
-  swiftlet::QueryOptions padded;
-  padded.radius_a = 0.9;  // all that lies within 0.9 of A's hull; a sphere is a point with a radius, a capsule a segment
-  padded.radius_b = 0.2;
-  const swiftlet::Verdict verdict = swiftlet::intersects(a, b, b_in_a, seed, padded).verdict;
-  const swiftlet::Answer deepest = swiftlet::contact(a, b, b_in_a, seed, padded).answer;
-  const double depth = deepest.normal.dot(deepest.point_a - deepest.point_b);  // where the hulls are apart, the radii's
+void radii(const Model& a, const Model& b, const Pose& b_in_a) {
+  const Body padded(a, 0.9), capsule = Body::segment({-1, 0, 0}, {-1, 0, 2}, 0.2);  // a model's margin, a segment's radius
+  const swiftlet::Verdict verdict = swiftlet::intersects(padded, capsule, b_in_a).verdict;
+  const double depth = -swiftlet::signed_distance(padded, Body(b, 0.2), b_in_a).value();
   std::printf("the margins overlap by %.6f\n", depth);
-  // end
-  swiftlet::PairSeed none;
-  expect(verdict == swiftlet::Verdict::Overlapping && deepest.verdict == verdict, "the margins overlap");
-  expect(std::fabs(depth + swiftlet::distance(a, b, b_in_a, none).lower - 1.1) < 1e-12, "by what the hulls lack of the radii");
+  const double apart = swiftlet::distance(a, b, b_in_a).lower;
+  expect(verdict == swiftlet::Verdict::Overlapping, "the capsule is in the margin");
+  expect(std::fabs(depth + apart - 1.1) < 1e-12, "by what the hulls lack of the radii");
 }
 
 void refinement(const Model& a, const Model& b, const Pose& b_in_a, double needed) {
-  // recipe
   swiftlet::PairSeed seed;
   swiftlet::Answer answer;  // nothing is known yet
-  for (const double error : {0.1, 0.01, 0.0}) {
-    swiftlet::QueryOptions options;
-    options.relative_error = error;
-    answer = swiftlet::refine(a, b, b_in_a, answer, seed, options);
+  for (const double relative : {0.1, 0.01, 0.0}) {
+    answer = swiftlet::refine(a, b, b_in_a, answer, seed, {.relative = relative});
     if (answer.lower > needed || answer.upper <= needed) break;  // the next precision is not needed
   }
-  // end
   expect(answer.lower > needed || answer.upper <= needed, "exact decides");
 }
 
@@ -268,16 +263,19 @@ int main(int, char** arguments) {
   std::vector<swiftlet::PairQuery> pairs;
   std::vector<swiftlet::Answer> cold;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    swiftlet::PairSeed none;
-    pairs.push_back({&a, &b, poses[i], nullptr});
-    cold.push_back(swiftlet::distance(a, b, poses[i], none));
+    pairs.push_back({a, b, poses[i]});
+    cold.push_back(swiftlet::distance(a, b, poses[i]));
     expect(same(alone[i], cold[i]), "a batch answers as one query after the other");
   }
   threads(pairs, cold);
+  const auto rough = many_poses(a, b, poses);
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    expect(rough[i].lower <= cold[i].upper && cold[i].lower <= rough[i].upper, "at every pose the interval is true");
   seeds(a, a);
+  asked_of_one_pair(a, b, poses[0]);
   swiftlet::PairSeed seed;
   tolerance(a, b, poses[0], seed);
-  radii(a, b, poses[0], seed);
+  radii(a, b, poses[0]);
   refinement(a, b, poses[0], 0.99);
   expect(bool(no_more_than_needed(here / "link.swl", poses[0])), "a part of a file is a model");
   return failed ? 1 : 0;

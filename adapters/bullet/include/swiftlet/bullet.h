@@ -17,7 +17,8 @@ namespace swiftlet::bullet {
 /// that. Its margin lies outside the hull, as that of every btConvexHullShape. Points that are added later are not the model's.
 class HullShape : public btConvexHullShape {
  public:
-  explicit HullShape(const Model& model);        ///< shares the model's block
+  /// Shares the model's block. Throws std::invalid_argument where the model lacks level 0 (Detail).
+  explicit HullShape(const Model& model);
   const Model& model() const { return model_; }  ///< in double precision, as given
   /// A model is rigid: a shape with a local scaling is answered by Bullet. Scale the points before the model is built.
   bool is_scaled() const;
@@ -39,7 +40,7 @@ class HullPairs {
   struct Create : btCollisionAlgorithmCreateFunc {
     btCollisionAlgorithmCreateFunc* others = nullptr;
     btConvexPenetrationDepthSolver* depth_solver = nullptr;
-    bool patches = false;  ///< all points of contact, not the nearest one alone
+    bool all_points = false;  ///< of contact, not the nearest one alone
     btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                                    const btCollisionObjectWrapper* a,
                                                    const btCollisionObjectWrapper* b) override;

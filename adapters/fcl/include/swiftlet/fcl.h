@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,17 +22,16 @@
 
 namespace swiftlet::fcl {
 
-/// Per face of the finest level present its number of vertices and then these, counter-clockwise seen from outside:
-/// fcl::Convex's layout.
+/// Per face of level 0 its number of vertices and then these, counter-clockwise seen from outside: fcl::Convex's layout.
 std::vector<int> face_loops(const Model& model);
 
-/// An fcl::Convex of a model's finest level; to every other solver it is just that. The model must be a solid.
+/// An fcl::Convex of a model's level 0; to every other solver it is just that. The model must be a solid.
 template <class S>
 class Convex final : public ::fcl::Convex<S> {
  public:
-  /// Shares the model's block.
+  /// Shares the model's block. Throws std::invalid_argument where the model lacks level 0 (Detail).
   explicit Convex(const Model& model)
-      : ::fcl::Convex<S>(points(model), int(model.level(model.finest_level()).view.face_first.size()),
+      : ::fcl::Convex<S>(points(whole(model)), int(model.level(0).view.face_first.size()),
                          std::make_shared<const std::vector<int>>(face_loops(model))),
         model_(model) {}
   const Model& model() const { return model_; }  ///< in double precision, as given
@@ -39,7 +39,7 @@ class Convex final : public ::fcl::Convex<S> {
  private:
   static std::shared_ptr<const std::vector<::fcl::Vector3<S>>> points(const Model& model) {
     auto result = std::make_shared<std::vector<::fcl::Vector3<S>>>();
-    for (const Vertex& v : model.level(model.finest_level()).view.vertices) result->emplace_back(S(v.x), S(v.y), S(v.z));
+    for (const Vertex& v : model.level(0).view.vertices) result->emplace_back(S(v.x), S(v.y), S(v.z));
     return result;
   }
   Model model_;
@@ -48,9 +48,9 @@ class Convex final : public ::fcl::Convex<S> {
 /// A contact in the world's frame.
 struct Touch {
   Vec3 normal, point;  ///< from 1 to 2; between the bodies
-  double depth = 0;    ///< above 0, as FCL wants it: law 2's bound where they only touch
+  double depth = 0;    ///< above 0, as FCL wants it: `tolerance` where they only touch
 };
-/// Of two bodies that touch or overlap: one to four.
+/// One to four of two solids that touch or overlap; none of bodies that are apart, or that no direction leads out of.
 std::vector<Touch> touches(const Placed& a, const Placed& b, PairSeed& seed);
 
 /// A NarrowPhaseSolver. Pairs of two swiftlet::fcl::Convex are swiftlet's: distances, signed ones too, nearest points,
@@ -76,12 +76,12 @@ struct Solver {
   }
   bool shapeIntersect(const ::fcl::Convex<S>& s1, const Transform& tf1, const ::fcl::Convex<S>& s2, const Transform& tf2,
                       Contacts* contacts = nullptr) const {
-    const Placed a = placed(s1, tf1), b = placed(s2, tf2);
-    const Verdict verdict = a.model && b.model ? meeting(a, b, seed) : Verdict::Undecided;
+    const auto a = placed(s1, tf1), b = placed(s2, tf2);
+    const Verdict verdict = a && b ? meeting(*a, *b, seed) : Verdict::Undecided;
     if (verdict == Verdict::Undecided) return others.shapeIntersect(s1, tf1, s2, tf2, contacts);
     if (verdict == Verdict::Disjoint) return false;
     if (!contacts) return true;
-    for (const Touch& t : touches(a, b, seed)) {
+    for (const Touch& t : touches(*a, *b, seed)) {
       contacts->emplace_back(t.normal.template cast<S>(), t.point.template cast<S>(), S(t.depth));
     }
     return true;
@@ -129,17 +129,15 @@ struct Solver {
   /// @endcond
 
  private:
-  static Placed placed(const ::fcl::Convex<S>& shape, const Transform& tf) {
+  /// Nothing where the shape holds no model.
+  static std::optional<Placed> placed(const ::fcl::Convex<S>& shape, const Transform& tf) {
     const auto* const with_model = dynamic_cast<const Convex<S>*>(&shape);
-    Placed result;
-    result.model = with_model ? &with_model->model() : nullptr;
-    result.in_world = {tf.linear().template cast<double>(), tf.translation().template cast<double>()};
-    return result;
+    if (!with_model) return {};
+    return Placed{with_model->model(), {tf.linear().template cast<double>(), tf.translation().template cast<double>()}};
   }
   Nearest between(const ::fcl::Convex<S>& s1, const Transform& tf1, const ::fcl::Convex<S>& s2, const Transform& tf2) const {
-    const Placed a = placed(s1, tf1), b = placed(s2, tf2);
-    if (!a.model || !b.model) return {};
-    return nearest(a, b, std::numeric_limits<double>::infinity(), seed);
+    const auto a = placed(s1, tf1), b = placed(s2, tf2);
+    return a && b ? nearest(*a, *b, std::numeric_limits<double>::infinity(), seed) : Nearest{};
   }
   static void hand_out(const Nearest& near, S* distance, Point* p1, Point* p2) {
     if (distance) *distance = S(near.distance);

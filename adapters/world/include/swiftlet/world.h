@@ -6,19 +6,24 @@
 
 #include <cstdint>
 
-#include <swiftlet/model.h>
-#include <swiftlet/patch.h>
+#include <swiftlet/body.h>
+#include <swiftlet/manifold.h>
 #include <swiftlet/pose.h>
 #include <swiftlet/query.h>
 
 namespace swiftlet {
 
+/// The model itself. Throws std::invalid_argument where it lacks level 0 (Detail): an engine would be handed a larger hull.
+const Model& whole(const Model& model);
+
 /// A body where an engine holds it.
 struct Placed {
-  const Model* model = nullptr;  ///< not owned
-  Pose in_world;      ///< its rotation orthonormal to 5e-4; what single precision took from it is given back before the query
-  double radius = 0;  ///< the body is all that lies within so much of the hull
+  Body body;      ///< what it is, with its radius
+  Pose in_world;  ///< its rotation orthonormal to 5e-4; what single precision took from it is given back before the query
 };
+
+/// `tolerance` of the pair as the queries below see it.
+double tolerance(const Placed& a, const Placed& b);
 
 /// What a pair of bodies is found to be.
 enum class Found : std::uint8_t {
@@ -39,9 +44,9 @@ struct Nearest {
 /// `beyond`: a distance of the bodies; those farther apart answer Beyond, early.
 Nearest nearest(const Placed& a, const Placed& b, double beyond, PairSeed& seed);
 
-/// Fills `patch` with at most `most_points` points of contact in the world's frame, none farther apart than `beyond`. It brings
-/// the pair's patch of the step before, or none.
-Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t most_points, PairSeed& seed, Patch& patch);
+/// Fills `manifold` with at most `most_points` points of contact in the world's frame, none farther apart than `beyond`: of
+/// Nearest at least one, else none. It brings the pair's manifold of the step before, or none.
+Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t most_points, PairSeed& seed, Manifold& manifold);
 
 /// Of the bodies, exactly; Undecided: a pose is no rigid motion.
 Verdict meeting(const Placed& a, const Placed& b, PairSeed& seed);

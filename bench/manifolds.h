@@ -29,26 +29,26 @@ struct Contacts {
 };
 
 /// A method with one pair of bodies.
-class PatchSession {
+class ManifoldSession {
  public:
-  virtual ~PatchSession() = default;
+  virtual ~ManifoldSession() = default;
   /// One after the other. The outputs are as long as the poses.
   virtual void ask(std::span<const Pose> poses, std::span<Contacts> contacts) = 0;
 };
 
-struct PatchMethod {
+struct ManifoldMethod {
   std::string name, settings;
   bool keeps_state = false;  ///< from query to query: else coherent and cold are one
   /// The bodies outlive the session. Cold: nothing is kept from query to query.
-  std::function<std::unique_ptr<PatchSession>(const Body& a, const Body& b, bool cold)> open;
+  std::function<std::unique_ptr<ManifoldSession>(const SceneBody& a, const SceneBody& b, bool cold)> open;
 };
-using PatchMethods = std::vector<PatchMethod>;
+using ManifoldMethods = std::vector<ManifoldMethod>;
 
 /// Ours first, then the peers that the build found and that give more than one point of two hulls.
-PatchMethods patch_methods();
+ManifoldMethods manifold_methods();
 
 // Each in its own source.
-void add_bullet_patches(PatchMethods& methods);
-void add_ode_patches(PatchMethods& methods);
+void add_bullet_manifolds(ManifoldMethods& methods);
+void add_ode_manifolds(ManifoldMethods& methods);
 
 }  // namespace swiftlet::bench

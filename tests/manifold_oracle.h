@@ -31,9 +31,9 @@ double area(const std::vector<Vec3>& points, const Vec3& n);
 double height_over(const ConvexView& body, const Pose& in_a, const Vec3& point);
 
 /// Of a face of the body, in its frame: unit, outwards; rounded.
-Vec3 face_normal(const ConvexView& body, Handle face);
+Vec3 face_normal(const ConvexView& body, FeatureId face);
 
 /// A face, and after it all others whose corners lie within `flatness` times the extent of its plane and on its side.
-std::vector<std::uint32_t> flat_faces(const ConvexView& body, Handle face, double flatness);
+std::vector<std::uint32_t> flat_faces(const ConvexView& body, FeatureId face, double flatness);
 
 }  // namespace swiftlet::oracle

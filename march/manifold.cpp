@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Few of the corners that two contact faces have in common: the deepest, and those that keep most of the area.
-#include <swiftlet/patch.h>
+#include <swiftlet/manifold.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include <span>
 
 #include "crossing.h"
-#include "dilate.h"
 #include "outline.h"
 #include "overlay.h"
+#include "radii.h"
 #include "ring.h"
 #include "scene.h"
 #include "seed.h"
@@ -61,7 +61,7 @@ class Loop {
     int after = first;
     while (after = next(after), after != first && beyond(after, spot) > 0) {
     }
-    const std::array<int, kMostPatchPoints> whole = corner_;
+    const std::array<int, kMostManifoldPoints> whole = corner_;
     int count = 0;
     for (int i = after; i != first; i = next(i)) corner_[std::size_t(count++)] = whole[std::size_t(i)];
     corner_[std::size_t(count++)] = whole[std::size_t(first)];
@@ -94,7 +94,7 @@ class Loop {
   const Spot* spots_;
   double bound_;
   int size_ = 0;
-  std::array<int, kMostPatchPoints> corner_;
+  std::array<int, kMostManifoldPoints> corner_;
 };
 
 /// The corners of a common area and the witness.
@@ -106,10 +106,10 @@ class Candidates {
     if (count_ == 0 || witness.separation < least() - bound / 2) all_[std::size_t(count_++)] = witness;
   }
 
-  /// Fills the patch's points: one of least separation, then whichever adds most to the area, those of the patch before first;
-  /// then each but the first gives way to one that adds distinctly more. What is chosen depends on nothing but the first and
-  /// which are there, and stays what it is when asked again: all that changes them lets their area grow.
-  void choose(std::uint32_t most, double margin, const Patch& previous, Patch& patch) {
+  /// Fills the manifold's points: one of least separation, then whichever adds most to the area, those of the manifold before
+  /// first; then each but the first gives way to one that adds distinctly more. What is chosen depends on nothing but the first
+  /// and which are there, and stays what it is when asked again: all that changes them lets their area grow.
+  void choose(std::uint32_t most, double margin, const Manifold& previous, Manifold& manifold) {
     drop_beyond(margin + bound_);
     if (count_ == 0 || most == 0) return;
     recognise(previous);
@@ -125,8 +125,8 @@ class Candidates {
     const Loop loop = around();
     bool is_corner = false;
     const int before = loop.before(first_, is_corner);
-    show(first_, patch);
-    for (int i = 1 + is_corner; i <= loop.size(); ++i) show(loop[(before + i) % loop.size()], patch);
+    show(first_, manifold);
+    for (int i = 1 + is_corner; i <= loop.size(); ++i) show(loop[(before + i) % loop.size()], manifold);
   }
 
  private:
@@ -150,18 +150,20 @@ class Candidates {
     count_ = kept;
   }
 
-  static bool is_same(const PatchPoint& p, const Spot& c) { return p.feature_a == c.feature_a && p.feature_b == c.feature_b; }
+  static bool is_same(const ManifoldPoint& p, const Spot& c) {
+    return p.feature_a == c.feature_a && p.feature_b == c.feature_b;
+  }
 
-  void recognise(const Patch& previous) {
+  void recognise(const Manifold& previous) {
     for (int i = 0; i < count_; ++i) {
       known_[std::size_t(i)] = chosen_[std::size_t(i)] = false;
-      for (std::uint32_t k = 0; k < std::min(previous.count, kMostPatchPoints); ++k)
+      for (std::uint32_t k = 0; k < std::min(previous.count, kMostManifoldPoints); ++k)
         known_[std::size_t(i)] = known_[std::size_t(i)] || is_same(previous.points[k], at(i));
     }
   }
 
-  /// The first of the patch before, else one of it, else any: with what the witness may be deeper still within the bound.
-  int deepest(const Patch& previous) const {
+  /// The first of the manifold before, else one of it, else any: with what the witness may be deeper still within the bound.
+  int deepest(const Manifold& previous) const {
     const double enough = least() + bound_ / 4;
     int found = kNobody;
     for (int i = 0; i < count_; ++i) {
@@ -217,81 +219,71 @@ class Candidates {
     return false;
   }
 
-  void show(int i, Patch& patch) const {
+  void show(int i, Manifold& manifold) const {
     const Spot& c = at(i);
-    patch.points[patch.count++] = {eigen(c.point_a), eigen(c.point_b), c.separation, c.feature_a, c.feature_b};
+    manifold.points[manifold.count++] = {eigen(c.point_a), eigen(c.point_b), c.separation, c.feature_a, c.feature_b};
   }
 
   double bound_;
   int count_ = 0, size_ = 1, first_ = 0;
-  std::array<bool, kMostSpots + 1> known_, chosen_;  ///< of the patch before, of this one
+  std::array<bool, kMostSpots + 1> known_, chosen_;  ///< of the manifold before, of this one
   std::array<Spot, kMostSpots + 1> all_;
 };
 
-/// What a patch grows from, in A's frame; the points are on the hulls.
+/// What a manifold grows from, in A's frame; the points are on the hulls.
 struct Witness {
   Vec normal, point_a, point_b;
-  Handle feature_a, feature_b;
+  FeatureId feature_a, feature_b;
 };
 
-/// The patch of two hulls, within a margin of theirs.
-Patch grown(const Scene& scene, const Witness& w, double margin, double bound, const PatchOptions& options,
-            const Patch& previous) {
-  Patch patch;
+/// The manifold of two hulls, within a margin of theirs.
+Manifold grown(const Scene& scene, const Witness& w, double margin, double bound, const ManifoldOptions& options,
+               const Manifold& previous) {
+  Manifold manifold;
   const Across across(w.normal, w.point_a);
   std::uint32_t tests = 0;
-  const Handle at_a = feature_at_a(scene, w.feature_a, w.point_a, tests),
-               at_b = feature_at_b(scene, w.feature_b, w.point_b, tests);
+  const FeatureId at_a = feature_at_a(scene, w.feature_a, w.point_a, tests),
+                  at_b = feature_at_b(scene, w.feature_b, w.point_b, tests);
   Outline a, b;
   outline_a(scene, across, at_a, previous.face_a, options.flatness, a);
   outline_b(scene, across, at_b, previous.face_b, options.flatness, b);
-  patch.normal = eigen(w.normal);
-  if (a.face != kNone) patch.face_a = {FeatureKind::Face, a.face};
-  if (b.face != kNone) patch.face_b = {FeatureKind::Face, b.face};
+  manifold.normal = eigen(w.normal);
+  if (a.face != kNone) manifold.face_a = {FeatureKind::Face, a.face};
+  if (b.face != kNone) manifold.face_b = {FeatureKind::Face, b.face};
 
   const Spot witness = spot(across, w.point_a, w.point_b, named(scene.a, at_a), named(scene.b, at_b));
   Candidates candidates(scene, across, a, b, witness, bound);
-  candidates.choose(std::min(options.most_points, kMostPatchPoints), margin, previous, patch);
-  return patch;
+  candidates.choose(std::min(options.most_points, kMostManifoldPoints), margin, previous, manifold);
+  return manifold;
 }
 
-bool exists(const Model& model, int level, Handle feature) {
-  return level >= 0 && level < model.level_count() && names_feature(model.level(level).view, feature);
-}
-
-template <class AnyAnswer>
-Patch around(const Model& a, const Model& b, const Pose& b_in_a, const AnyAnswer& answer, const PatchOptions& options,
-             const Patch& previous) {
-  const Vec n = vec(answer.normal);
-  if (max_abs(n) == 0 || !exists(a, answer.level_a, answer.feature_a) || !exists(b, answer.level_b, answer.feature_b) ||
-      !is_radius(options.radius_a) || !is_radius(options.radius_b))
-    return {};
-  const Motion m = motion(b_in_a);
-  const Scene hulls = scene(a.level(answer.level_a).view, b.level(answer.level_b).view, m, pose_quality(m).error);
-  const double radii = options.radius_a + options.radius_b;
-  Patch patch = grown(hulls,
-                      {n, vec(answer.point_a) - n * options.radius_a, vec(answer.point_b) + n * options.radius_b,
-                       answer.feature_a, answer.feature_b},
-                      options.margin + radii, hulls.law_two + kLawTwo * radii, options, previous);
-  for (std::uint32_t i = 0; i < patch.count; ++i) {
-    PatchPoint& p = patch.points[i];
-    p.point_a = eigen(vec(p.point_a) + n * options.radius_a);
-    p.point_b = eigen(vec(p.point_b) - n * options.radius_b);
-    p.separation -= radii;
-  }
-  return patch;
+bool exists(const Shape& body, int level, FeatureId feature) {
+  return level >= body.finest_level() && level < body.level_count() && names_feature(body.level(level).view, feature);
 }
 
 }  // namespace
 
-Patch patch(const Model& a, const Model& b, const Pose& b_in_a, const SignedAnswer& answer, const PatchOptions& options,
-            const Patch& previous) {
-  return around(a, b, b_in_a, answer, options, previous);
-}
-
-Patch patch(const Model& a, const Model& b, const Pose& b_in_a, const Answer& answer, const PatchOptions& options,
-            const Patch& previous) {
-  return answer.proof.count ? Patch{} : around(a, b, b_in_a, answer, options, previous);
+Manifold manifold(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const ManifoldOptions& options,
+                  const Manifold& previous) {
+  const Setting at(a, b, b_in_a);
+  const Shape &body_a = at.a, &body_b = at.b;
+  if (at.fault() != Status::Converged || Radii(answer) != at.radii || answer.normal.hasNaN() || answer.point_a.hasNaN() ||
+      !exists(body_a, answer.level_a, answer.feature_a) || !exists(body_b, answer.level_b, answer.feature_b))
+    return {};
+  const Vec n = vec(answer.normal);
+  const Scene hulls = scene(body_a.level(answer.level_a).view, body_b.level(answer.level_b).view, at.motion, at.quality.error);
+  const double radii = at.radii.sum();
+  Manifold manifold = grown(
+      hulls,
+      {n, vec(answer.point_a) - n * at.radii.a(), vec(answer.point_b) + n * at.radii.b(), answer.feature_a, answer.feature_b},
+      options.margin + radii, hulls.law_two + kLawTwo * radii, options, previous);
+  for (std::uint32_t i = 0; i < manifold.count; ++i) {
+    ManifoldPoint& p = manifold.points[i];
+    p.point_a = eigen(vec(p.point_a) + n * at.radii.a());
+    p.point_b = eigen(vec(p.point_b) - n * at.radii.b());
+    p.separation -= radii;
+  }
+  return manifold;
 }
 
 }  // namespace swiftlet

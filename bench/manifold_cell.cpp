@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "patch_cell.h"
+#include "manifold_cell.h"
 
 #include <algorithm>
 #include <chrono>
@@ -23,10 +23,10 @@ class Planes {
  public:
   explicit Planes(const ConvexView& view) {
     const auto point = [&](std::uint32_t v) { return Vec3(view.vertices[v].x, view.vertices[v].y, view.vertices[v].z); };
-    for (std::uint32_t h = 0; h < view.head.size(); ++h) {
-      const Vertex& ring = view.vertices[view.head[h]];  // the facet's next half-edge follows the twin, clockwise
-      const std::uint32_t back = view.twin[h], next = back == ring.ring_begin ? back + ring.ring_count - 1 : back - 1;
-      const Vec3 p = point(view.head[back]), u = point(view.head[h]) - p, v = point(view.head[next]) - p;
+    for (const HalfEdge& h : view.half_edges) {
+      const Vertex& ring = view.vertices[h.head];  // the facet's next half-edge follows the twin, clockwise
+      const std::uint32_t next = h.twin == ring.ring_begin ? h.twin + ring.ring_count - 1 : h.twin - 1;
+      const Vec3 p = point(view.half_edges[h.twin].head), u = point(h.head) - p, v = point(view.half_edges[next].head) - p;
       const Vec3 n(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
       if (n.norm() > 0) planes_.push_back({n / n.norm(), n.dot(p) / n.norm()});
     }
@@ -43,7 +43,7 @@ class Planes {
 };
 
 /// What a pass of answers is worth.
-void judge(const PatchCell& cell, std::span<const Contacts> all, Row& row) {
+void judge(const ManifoldCell& cell, std::span<const Contacts> all, Row& row) {
   const Planes a(cell.a.level(0).view), b(cell.b.level(0).view);
   const double radius = std::max(cell.a.radius(), cell.b.radius());
   double sum = 0, points = 0;
@@ -69,9 +69,9 @@ void judge(const PatchCell& cell, std::span<const Contacts> all, Row& row) {
 }
 
 /// B on A's top, turning and sliding about.
-PatchCell stacked(std::string name, const Mesh& mesh, double height, double depth, std::uint32_t poses) {
+ManifoldCell stacked(std::string name, const Mesh& mesh, double height, double depth, std::uint32_t poses) {
   const Model model = std::move(build(mesh.points)).value().model;
-  PatchCell cell{std::move(name), model, model, {}};
+  ManifoldCell cell{std::move(name), model, model, {}};
   for (std::uint32_t i = 0; i < poses; ++i) {
     Pose pose;
     pose.rotation = shapes::rotation(Vec3::UnitZ(), i * kStep);
@@ -83,32 +83,32 @@ PatchCell stacked(std::string name, const Mesh& mesh, double height, double dept
 
 }  // namespace
 
-std::vector<PatchCell> patch_cells(const Shelf& shelf, std::uint32_t poses) {
-  std::vector<PatchCell> cells;
+std::vector<ManifoldCell> manifold_cells(const Shelf& shelf, std::uint32_t poses) {
+  std::vector<ManifoldCell> cells;
   for (const double depth : kShallow) {
     const std::string end = depth < 1e-3 ? "/touching" : "/shallow";
     cells.push_back(stacked("box" + end, shapes::cube(), 2, depth, poses));
     for (const std::uint32_t sides : {12u, 60u})
       cells.push_back(stacked("prism" + std::to_string(sides) + end, shapes::prism(sides, 1, 1), 1, depth, poses));
     const Scene scene = shallow(shelf, shapes::Family::Fat, 2'000, 0.1, depth, {1, poses});
-    PatchCell fat{"fat2000" + end, scene.models[0], scene.models[1], {}};
+    ManifoldCell fat{"fat2000" + end, scene.models[0], scene.models[1], {}};
     for (const Query& query : scene.queries) fat.poses.push_back(query.b_in_a);
     cells.push_back(std::move(fat));
   }
   return cells;
 }
 
-std::vector<Row> measure(const PatchCell& cell, int rounds) {
-  const Body a{&cell.a, cell.a.level(0).view, 0}, b{&cell.b, cell.b.level(0).view, 0};
+std::vector<Row> measure(const ManifoldCell& cell, int rounds) {
+  const SceneBody a{&cell.a, cell.a.level(0).view, 0}, b{&cell.b, cell.b.level(0).view, 0};
   const double to_ns = 1e9 / double(cell.poses.size());
   std::vector<Row> rows;
-  std::vector<std::unique_ptr<PatchSession>> sessions;
-  for (const PatchMethod& method : patch_methods()) {
+  std::vector<std::unique_ptr<ManifoldSession>> sessions;
+  for (const ManifoldMethod& method : manifold_methods()) {
     for (const bool cold : {false, true}) {
       if (cold && !method.keeps_state) continue;
       sessions.push_back(method.open(a, b, cold));
       Row row;
-      row.scene = cell.name, row.question = Question::Patch, row.series = method.name + (cold ? " cold" : "");
+      row.scene = cell.name, row.question = Question::Manifold, row.series = method.name + (cold ? " cold" : "");
       row.queries = cell.poses.size(), row.rounds = std::size_t(rounds), row.floor_ns = 1;
       rows.push_back(row);
     }

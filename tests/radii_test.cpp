@@ -6,7 +6,7 @@
 #include <swiftlet/build.h>
 #include <swiftlet/check.h>
 #include <swiftlet/depth.h>
-#include <swiftlet/patch.h>
+#include <swiftlet/manifold.h>
 #include <swiftlet/query.h>
 
 #include <algorithm>
@@ -21,6 +21,7 @@
 #include <CGAL/Exact_rational.h>
 #include <gtest/gtest.h>
 
+#include "answers.h"
 #include "bodies.h"
 #include "oracle.h"
 #include "shapes.h"
@@ -43,28 +44,15 @@ struct Case {
   oracle::Truth hulls;
   Rational distance2;  ///< of the hulls; 0 where they overlap
 
-  const Model& model_a() const { return a->model; }
-  const Model& model_b() const { return b->model; }
+  Body body_a() const { return {a->model, radius_a}; }
+  Body body_b() const { return {b->model, radius_b}; }
   /// The sign of the bodies' signed distance less `x`, where the hulls are apart.
   int compare(double x) const {
     const Rational claim = Rational(x) + Rational(radius_a) + Rational(radius_b);
     return claim < 0 || claim * claim < distance2 ? 1 : claim * claim == distance2 ? 0 : -1;
   }
   bool overlapping() const { return hulls.overlapping || compare(0) < 0; }
-  double size() const {
-    return std::max(model_a().level(0).view.extent + radius_a, model_b().level(0).view.extent + radius_b) +
-           pose.translation.norm();
-  }
-  double law_two() const {
-    const double off = (pose.rotation.transpose() * pose.rotation - Mat3::Identity()).cwiseAbs().maxCoeff();
-    const double last_places = 4 * 0x1p-53 * hulls.distance;
-    return (64 * 0x1p-53 + 2 * off) * size() + last_places;
-  }
-  QueryOptions options() const {
-    QueryOptions result;
-    result.radius_a = radius_a, result.radius_b = radius_b;
-    return result;
-  }
+  double law_two() const { return tolerance(body_a(), body_b(), pose); }
 };
 
 Rational squared_distance(const Subject& a, const Subject& b, const Pose& pose) {
@@ -137,7 +125,8 @@ void for_each_case(const std::function<void(const Case&)>& test) {
   }
 }
 
-void expect_true(const Case& c, const Answer& answer) {
+/// `proof`: what an overlap of the hulls rests on; without one all planes are tried.
+void expect_true(const Case& c, const Answer& answer, const OverlapProof& proof) {
   ASSERT_NE(answer.status, Status::NotConverged);
   ASSERT_GE(answer.lower, 0);
   ASSERT_GE(answer.upper, answer.lower);
@@ -152,19 +141,15 @@ void expect_true(const Case& c, const Answer& answer) {
   if (answer.verdict == Verdict::Touching && !c.hulls.overlapping) {
     ASSERT_LE(std::fabs(c.hulls.distance - c.radius_a - c.radius_b), c.law_two());
   }
-  const Check checked = check(c.model_a(), c.model_b(), c.pose, answer, c.radius_a, c.radius_b);
+  const Check checked = check(c.body_a(), c.body_b(), c.pose, answer, &proof);
   ASSERT_TRUE(checked) << checked.message;
 }
-Answer exact(const Case& c, const QueryOptions& options) {
-  PairSeed seed;
-  return distance(c.model_a(), c.model_b(), c.pose, seed, options);
-}
-Answer exact(const Case& c) { return exact(c, c.options()); }
+Answer exact(const Case& c, const Options& options = {}) { return distance(c.body_a(), c.body_b(), c.pose, options); }
 
 bool same_bits(const Answer& a, const Answer& b) {
-  return a.status == b.status && a.verdict == b.verdict && a.lower == b.lower && a.upper == b.upper && a.normal == b.normal &&
-         a.point_a == b.point_a && a.point_b == b.point_b && a.feature_a == b.feature_a && a.feature_b == b.feature_b &&
-         a.steps == b.steps && a.plane_tests == b.plane_tests;
+  std::vector<std::uint64_t> words_a, words_b;
+  answers::append(a, words_a), answers::append(b, words_b);
+  return words_a == words_b;
 }
 
 TEST(Radii, CasesAreOfEveryVerdict) {
@@ -184,17 +169,18 @@ TEST(Radii, IntervalsHoldTheTruthWhateverEndedTheQuery) {  // law 1
     for (const std::uint32_t budget : {0u, 1u, 3u, ~0u}) {
       for (const int finest : {0, 1, 3}) {
         for (const auto& [absolute, relative] : {std::pair{0.0, 0.0}, {0.1, 0.0}, {1e-6, 0.0}, {0.0, 0.5}, {0.0, 1e-2}}) {
-          QueryOptions options = c.options();
-          options.step_budget = budget, options.finest_level = finest;
-          options.absolute_error = absolute, options.relative_error = relative;
+          Options options;
+          options.budget.steps = budget, options.budget.finest_level = finest;
+          options.absolute = absolute, options.relative = relative;
           LevelRecord records[16];
-          options.trace = records;
+          OverlapProof proof;
+          options.tuning.trace = records, options.tuning.proof = &proof;
           const Answer answer = exact(c, options);
-          expect_true(c, answer);
+          expect_true(c, answer, proof);
           ASSERT_TRUE(budget != ~0u || finest != 0 || answer.status == Status::Converged);
           ASSERT_TRUE(answer.status != Status::Converged ||
                       answer.upper - answer.lower <= std::max({absolute, relative * answer.lower, c.law_two()}));
-          for (int i = 0; i < std::min(answer.levels_visited, 16) && !c.overlapping(); ++i) {
+          for (int i = 0; i < std::min<int>(answer.levels_visited, 16) && !c.overlapping(); ++i) {
             ASSERT_GE(c.compare(records[i].lower), 0);
             ASSERT_TRUE(std::isinf(records[i].upper) || c.compare(records[i].upper) <= 0);
           }
@@ -202,10 +188,9 @@ TEST(Radii, IntervalsHoldTheTruthWhateverEndedTheQuery) {  // law 1
       }
     }
     for (const double beyond : {0.0, 0.5 * c.hulls.distance, 1.0}) {
-      QueryOptions options = c.options();
-      options.beyond = beyond;
-      const Answer answer = exact(c, options);
-      expect_true(c, answer);
+      OverlapProof proof;
+      const Answer answer = exact(c, {.beyond = beyond, .tuning = {.proof = &proof}});
+      expect_true(c, answer, proof);
       ASSERT_TRUE(answer.status != Status::Beyond || answer.lower > beyond);
       ASSERT_TRUE(answer.status == Status::Beyond || answer.lower <= beyond + 2 * c.law_two());
     }
@@ -215,8 +200,9 @@ TEST(Radii, IntervalsHoldTheTruthWhateverEndedTheQuery) {  // law 1
 TEST(Radii, ExactAnswersAreNarrowAndTheirPointsLieOnTheRoundings) {  // law 2
   int apart = 0;
   for_each_case([&](const Case& c) {
-    const Answer answer = exact(c);
-    expect_true(c, answer);
+    OverlapProof proof;
+    const Answer answer = exact(c, {.tuning = {.proof = &proof}});
+    expect_true(c, answer, proof);
     ASSERT_EQ(answer.status, Status::Converged);
     ASSERT_NE(answer.verdict, Verdict::Undecided);
     ASSERT_LE(answer.upper - answer.lower, c.law_two());
@@ -233,9 +219,9 @@ TEST(Radii, ExactAnswersAreNarrowAndTheirPointsLieOnTheRoundings) {  // law 2
 TEST(Radii, ContactsOfRoundingsThatOverlapAreAsDeepAsTheyOverlap) {
   int shallow = 0;
   for_each_case([&](const Case& c) {
-    PairSeed seed;
-    const Answer answer = contact(c.model_a(), c.model_b(), c.pose, seed, c.options()).answer;
-    expect_true(c, answer);
+    OverlapProof proof;
+    const Answer answer = closest_features(c.body_a(), c.body_b(), c.pose, {.tuning = {.proof = &proof}}).answer;
+    expect_true(c, answer, proof);
     ASSERT_EQ(answer.verdict == Verdict::Overlapping, exact(c).verdict == Verdict::Overlapping);
     if (c.hulls.overlapping || c.hulls.distance < 1e3 * c.law_two()) return;
     shallow += answer.verdict == Verdict::Overlapping;
@@ -253,18 +239,18 @@ TEST(Radii, SeedsChangeTheWorkNeverTheTruth) {  // law 3
   for_each_case([&](const Case& c) {
     const Answer cold = exact(c);
     PairSeed warm, garbage;
-    distance(c.model_a(), c.model_b(), c.pose, warm, c.options());
+    distance(c.body_a(), c.body_b(), c.pose, warm);
     for (std::size_t i = 0; i + 8 <= sizeof garbage; i += 8) {
       const std::uint64_t bits = random.bits();
       std::memcpy(reinterpret_cast<char*>(&garbage) + i, &bits, 8);
     }
     garbage.met = false;
     for (const StartPolicy policy : {StartPolicy::Automatic, StartPolicy::Paper, StartPolicy::Finest, StartPolicy::Coarsest}) {
-      QueryOptions options = c.options();
-      options.start = policy;
+      OverlapProof proof;
+      const Options options{.tuning = {.start = policy, .proof = &proof}};
       for (PairSeed* seed : {&warm, &stale, &garbage}) {
-        const Answer answer = distance(c.model_a(), c.model_b(), c.pose, *seed, options);
-        expect_true(c, answer);
+        const Answer answer = distance(c.body_a(), c.body_b(), c.pose, *seed, options);
+        expect_true(c, answer, proof);
         ASSERT_EQ(answer.verdict, cold.verdict);
         ASSERT_NEAR(answer.lower, cold.lower, c.law_two());
         ASSERT_NEAR(answer.upper, cold.upper, c.law_two());
@@ -276,10 +262,7 @@ TEST(Radii, SeedsChangeTheWorkNeverTheTruth) {  // law 3
 TEST(Radii, SwappingTheBodiesSwapsTheAnswer) {  // law 4
   for_each_case([](const Case& c) {
     const Answer there = exact(c);
-    QueryOptions swapped;
-    swapped.radius_a = c.radius_b, swapped.radius_b = c.radius_a;
-    PairSeed seed;
-    const Answer back = distance(c.model_b(), c.model_a(), inverse(c.pose), seed, swapped);
+    const Answer back = distance(c.body_b(), c.body_a(), inverse(c.pose));
     ASSERT_NEAR(there.lower, back.lower, c.law_two());
     ASSERT_NEAR(there.upper, back.upper, c.law_two());
     const double zero = c.hulls.distance - c.radius_a - c.radius_b;
@@ -304,11 +287,10 @@ TEST(Radii, ScalingByAPowerOfTwoScalesTheAnswerBitForBit) {  // law 5
     };
     for_each_case([&](const Case& c) {
       Answer plain = exact(c);
-      QueryOptions options;
-      options.radius_a = c.radius_a * s, options.radius_b = c.radius_b * s;
-      PairSeed seed;
-      const Answer answer = distance(model(c.a), model(c.b), {c.pose.rotation, s * c.pose.translation}, seed, options);
+      const Answer answer =
+          distance({model(c.a), c.radius_a * s}, {model(c.b), c.radius_b * s}, {c.pose.rotation, s * c.pose.translation});
       plain.lower *= s, plain.upper *= s, plain.point_a *= s, plain.point_b *= s;
+      plain.radius_a *= s, plain.radius_b *= s;
       ASSERT_TRUE(same_bits(plain, answer)) << k;
     });
   }
@@ -320,9 +302,9 @@ TEST(Radii, ThresholdsAndVerdictsAreUndecidedOnlyWithinLawTwo) {  // law 9
     const double d = c.hulls.distance - c.radius_a - c.radius_b, bound = c.law_two();
     for (const double threshold : {0.0, 0.5 * d, d - 2 * bound, d, d + 2 * bound, 2 * d, 1.0}) {
       if (threshold < 0) continue;
-      PairSeed seed;
-      const Within result = within(c.model_a(), c.model_b(), c.pose, threshold, seed, c.options());
-      expect_true(c, result.answer);
+      OverlapProof proof;
+      const Within result = within(c.body_a(), c.body_b(), c.pose, threshold, {.tuning = {.proof = &proof}});
+      expect_true(c, result.answer, proof);
       ASSERT_EQ(result.answer.status, Status::Converged);
       const bool truth = c.hulls.overlapping || c.compare(threshold) <= 0;
       if (result.decision == Decision::Undecided) {
@@ -332,9 +314,9 @@ TEST(Radii, ThresholdsAndVerdictsAreUndecidedOnlyWithinLawTwo) {  // law 9
         ++(truth ? yes : no);
       }
     }
-    PairSeed seed;
-    const Answer answer = intersects(c.model_a(), c.model_b(), c.pose, seed, c.options());
-    expect_true(c, answer);
+    OverlapProof proof;
+    const Answer answer = intersects(c.body_a(), c.body_b(), c.pose, {.tuning = {.proof = &proof}});
+    expect_true(c, answer, proof);
     ASSERT_EQ(answer.status, Status::Converged);
     ASSERT_NE(answer.verdict, Verdict::Undecided);
     if (std::fabs(d) > bound && !c.hulls.overlapping) {
@@ -350,8 +332,8 @@ TEST(Radii, ALooserToleranceNeverCostsMore) {  // law 10
   for_each_case([](const Case& c) {
     std::uint32_t before = ~0u;
     for (const double relative : {0.0, 1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
-      QueryOptions options = c.options();
-      options.relative_error = relative;
+      Options options;
+      options.relative = relative;
       const Answer answer = exact(c, options);
       ASSERT_LE(answer.steps + answer.plane_tests, before) << relative;
       before = answer.steps + answer.plane_tests;
@@ -363,18 +345,19 @@ TEST(Radii, ComeOffTheSignedDistance) {
   int deep = 0, shallow = 0;
   for_each_case([&](const Case& c) {
     const double radii = c.radius_a + c.radius_b, d = c.hulls.distance - radii;
-    PairSeed seed, of_hulls;
-    const SignedAnswer answer = signed_distance(c.model_a(), c.model_b(), c.pose, seed, c.options());
-    const SignedAnswer hulls = signed_distance(c.model_a(), c.model_b(), c.pose, of_hulls);
+    PairSeed seed;
+    OverlapProof proof;
+    const Answer answer = signed_distance(c.body_a(), c.body_b(), c.pose, seed, {.tuning = {.proof = &proof}});
+    const Answer hulls = signed_distance(c.a->model, c.b->model, c.pose);
     ASSERT_EQ(answer.status, Status::Converged);
     ASSERT_NE(answer.verdict, Verdict::Undecided);
     ASSERT_LE(answer.upper - answer.lower, c.law_two());
     ASSERT_TRUE(answer.lower <= hulls.upper - radii + c.law_two() && answer.upper >= hulls.lower - radii - c.law_two());
     ASSERT_TRUE(c.hulls.overlapping || (c.compare(answer.lower) >= 0 && c.compare(answer.upper) <= 0));
-    ASSERT_TRUE(answer.verdict != Verdict::Overlapping || answer.upper < 0 || answer.proof.count == 4);
+    ASSERT_TRUE(answer.verdict != Verdict::Overlapping || answer.upper < 0 || proof.count == 4);
     ASSERT_NEAR(answer.normal.dot(answer.point_b - answer.point_a), answer.upper, 2 * c.law_two());
     for (const double threshold : {answer.lower - 1e-3, answer.upper + 1e-3, 2 * d, -1.0}) {
-      const SignedWithin within = signed_within(c.model_a(), c.model_b(), c.pose, threshold, seed, c.options());
+      const Within within = signed_within(c.body_a(), c.body_b(), c.pose, threshold, seed);
       const bool near = std::fabs(threshold - answer.lower) <= 2 * c.law_two();
       ASSERT_TRUE(near || within.decision == (answer.upper <= threshold ? Decision::Yes : Decision::No)) << threshold;
     }
@@ -385,32 +368,27 @@ TEST(Radii, ComeOffTheSignedDistance) {
 }
 
 TEST(Radii, MakeSpheresAndCapsules) {
-  const Model centre = bodies::model(bodies::point({0, 0, 0})), axis = bodies::model(bodies::segment({-1, 0, 0}, {1, 0, 0}));
-  QueryOptions options;
-  options.radius_a = 0.5, options.radius_b = 0.25;
-  PairSeed seed;
-  const Answer apart = distance(axis, centre, {Mat3::Identity(), {0.5, 2, 0}}, seed, options);
+  const Body sphere = Body::point({0, 0, 0}, 0.25), capsule = Body::segment({-1, 0, 0}, {1, 0, 0}, 0.5);
+  const Answer apart = distance(capsule, sphere, {Mat3::Identity(), {0.5, 2, 0}});
   EXPECT_EQ(apart.verdict, Verdict::Disjoint);
   EXPECT_NEAR(apart.lower, 1.25, 1e-14);
   EXPECT_LE((apart.point_a - Vec3(0.5, 0.5, 0)).norm(), 1e-14);
   EXPECT_LE((apart.point_b - Vec3(0.5, 1.75, 0)).norm(), 1e-14);
-  EXPECT_EQ(intersects(axis, centre, {Mat3::Identity(), {1.5, 0.5, 0}}, seed, options).verdict, Verdict::Overlapping);
-  EXPECT_EQ(intersects(axis, centre, {Mat3::Identity(), {0, 0.75, 0}}, seed, options).verdict, Verdict::Touching);
-  EXPECT_EQ(intersects(axis, centre, {Mat3::Identity(), {0, 0, 0}}, seed, options).verdict, Verdict::Overlapping);
+  EXPECT_EQ(intersects(capsule, sphere, {Mat3::Identity(), {1.5, 0.5, 0}}).verdict, Verdict::Overlapping);
+  EXPECT_EQ(intersects(capsule, sphere, {Mat3::Identity(), {0, 0.75, 0}}).verdict, Verdict::Touching);
+  EXPECT_EQ(intersects(capsule, sphere, {Mat3::Identity(), {0, 0, 0}}).verdict, Verdict::Overlapping);
 }
 
 TEST(Radii, OfAPairGoThroughABatch) {
   std::vector<PairQuery> pairs;
-  std::deque<QueryOptions> own;
-  for (const Case& c : cases()) pairs.push_back({&c.model_a(), &c.model_b(), c.pose, nullptr, &own.emplace_back(c.options())});
+  for (const Case& c : cases()) pairs.push_back({c.body_a(), c.body_b(), c.pose});
   std::vector<Answer> distances(pairs.size()), verdicts(pairs.size());
-  distance(pairs, distances, {}, on_threads(2));
+  distance(pairs, distances, {}, {.executor = on_threads(2)});
   intersects(pairs, verdicts);
   std::size_t i = 0;
   for (const Case& c : cases()) {
-    PairSeed seed;
     EXPECT_TRUE(same_bits(distances[i], exact(c)));
-    EXPECT_TRUE(same_bits(verdicts[i], intersects(c.model_a(), c.model_b(), c.pose, seed, c.options())));
+    EXPECT_TRUE(same_bits(verdicts[i], intersects(c.body_a(), c.body_b(), c.pose)));
     ++i;
   }
 }
@@ -426,11 +404,10 @@ TEST(Radii, RefineIntervalsWiderThanLawTwo) {
         Answer so_far = exactly;
         const double more = 0.5 * (times * bound - (so_far.upper - so_far.lower));
         so_far.lower -= more, so_far.upper += more;
-        QueryOptions options = c.options();
-        options.relative_error = relative;
-        PairSeed seed;
-        const Answer finer = refine(c.model_a(), c.model_b(), c.pose, so_far, seed, options);
-        expect_true(c, finer);
+        Options options;
+        options.relative = relative;
+        const Answer finer = refine(c.body_a(), c.body_b(), c.pose, so_far, options);
+        expect_true(c, finer, {});
         ASSERT_EQ(finer.status, Status::Converged);
         ASSERT_LE(finer.upper - finer.lower, std::max(relative * finer.lower, bound)) << times << " times law 2, " << relative;
         ++wide;
@@ -444,70 +421,76 @@ TEST(Radii, ThatAreNoneAreAStatus) {
   const Model cube = bodies::model(bodies::cube());
   const Pose pose{Mat3::Identity(), {3, 0, 0}};
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  PairSeed none;
-  const Answer legal = distance(cube, cube, pose, none);
-  const auto expect_refused = [&](const auto& answer, double least) {
+  const Answer legal = distance(cube, cube, pose);
+  const auto expect_refused = [&](const Answer& answer, double least) {
     EXPECT_EQ(answer.status, Status::InvalidRadius);
     EXPECT_EQ(answer.verdict, Verdict::Undecided);
     EXPECT_EQ(answer.lower, least);
     EXPECT_EQ(answer.upper, kInfinity);
     EXPECT_EQ(answer.steps + answer.plane_tests, 0u);
+    EXPECT_TRUE(answer.normal.array().isNaN().all() && answer.point_a.array().isNaN().all() &&
+                answer.point_b.array().isNaN().all());
   };
   for (const double radius : {-1.0, -1e-300, std::nan(""), kInfinity, -kInfinity, 1.0000001e45, 1e308}) {
     for (const bool of_a : {false, true}) {
-      QueryOptions options;
-      (of_a ? options.radius_a : options.radius_b) = radius;
-      PairSeed seed;
-      expect_refused(distance(cube, cube, pose, seed, options), 0);
-      expect_refused(intersects(cube, cube, pose, seed, options), 0);
-      expect_refused(contact(cube, cube, pose, seed, options).answer, 0);
-      expect_refused(refine(cube, cube, pose, legal, seed, options), 0);
-      const Within near = within(cube, cube, pose, 5, seed, options);
+      const Body a(cube, of_a ? radius : 0), b(cube, of_a ? 0 : radius);
+      expect_refused(distance(a, b, pose), 0);
+      expect_refused(intersects(a, b, pose), 0);
+      expect_refused(closest_features(a, b, pose).answer, 0);
+      expect_refused(refine(a, b, pose, legal), 0);
+      const Within near = within(a, b, pose, 5);
       expect_refused(near.answer, 0);
       EXPECT_EQ(near.decision, Decision::Undecided);
-      expect_refused(signed_distance(cube, cube, pose, seed, options), -kInfinity);
+      expect_refused(signed_distance(a, b, pose), -kInfinity);
       for (const double threshold : {-1.0, 5.0}) {
-        const SignedWithin deep = signed_within(cube, cube, pose, threshold, seed, options);
+        const Within deep = signed_within(a, b, pose, threshold);
         expect_refused(deep.answer, -kInfinity);
         EXPECT_EQ(deep.decision, Decision::Undecided);
       }
-      const PairQuery pair{&cube, &cube, pose, nullptr, &options};
+      const PairQuery pair{a, b, pose};
       Answer answer;
       distance({&pair, 1}, {&answer, 1});
       expect_refused(answer, 0);
       intersects({&pair, 1}, {&answer, 1});
       expect_refused(answer, 0);
-      PatchOptions patches;
-      patches.margin = 2;
-      EXPECT_EQ(patch(cube, cube, pose, legal, patches).count, 4u);
-      (of_a ? patches.radius_a : patches.radius_b) = radius;
-      EXPECT_EQ(patch(cube, cube, pose, legal, patches).count, 0u);
-      EXPECT_TRUE(check(cube, cube, pose, answer, options.radius_a, options.radius_b));
+      EXPECT_TRUE(std::isnan(tolerance(a, b, pose)));
+      EXPECT_EQ(manifold(a, b, pose, legal, {.margin = 2}).count, 0u);
+      EXPECT_TRUE(check(a, b, pose, answer));
       EXPECT_FALSE(check(cube, cube, pose, answer));
-      EXPECT_FALSE(check(cube, cube, pose, legal, options.radius_a, options.radius_b));
+      EXPECT_FALSE(check(a, b, pose, legal));
     }
   }
-  QueryOptions large;
-  large.radius_a = large.radius_b = 1e45;
-  PairSeed seed;
-  const Answer met = distance(cube, cube, pose, seed, large);
+  EXPECT_EQ(manifold(cube, cube, pose, legal, {.margin = 2}).count, 4u);
+  const Answer met = distance({cube, 1e45}, {cube, 1e45}, pose);
   EXPECT_EQ(met.status, Status::Converged);
   EXPECT_EQ(met.verdict, Verdict::Overlapping);
 }
 
+TEST(Radii, OfAnAnswerAreThoseOfTheBodies) {
+  const Model cube = bodies::model(bodies::cube());
+  const Pose pose{Mat3::Identity(), {3, 0, 0}};
+  const Body a(cube, 0.25), b(cube, 0.5);
+  const Answer answer = distance(a, b, pose);
+  EXPECT_EQ(answer.radius_a, 0.25);
+  EXPECT_EQ(answer.radius_b, 0.5);
+  EXPECT_TRUE(check(a, b, pose, answer));
+  EXPECT_EQ(manifold(a, b, pose, answer, {.margin = 1}).count, 4u);
+  for (const auto& [p, q] : {std::pair<Body, Body>{cube, cube}, {a, cube}, {b, a}}) {
+    EXPECT_FALSE(check(p, q, pose, answer));
+    EXPECT_EQ(manifold(p, q, pose, answer, {.margin = 1}).count, 0u);
+    EXPECT_EQ(refine(p, q, pose, answer).status, Status::InvalidRadius);
+  }
+}
+
 TEST(Radii, ChecksFailOnWrongClaims) {
   const Case& c = *std::find_if(cases().begin(), cases().end(), [](const Case& any) { return exact(any).lower > 0.1; });
-  const auto holds = [&](const Answer& answer) {
-    return bool(check(c.model_a(), c.model_b(), c.pose, answer, c.radius_a, c.radius_b));
-  };
+  const auto holds = [&](const Answer& answer) { return bool(check(c.body_a(), c.body_b(), c.pose, answer)); };
   Answer high = exact(c), low = high, inside = high, overlap = high;
   high.lower = high.upper = high.upper * (1 + 1e-12);
   low.upper = low.lower = low.lower * (1 - 1e-12);
   inside.point_a += 1e-9 * inside.normal;
   overlap.verdict = Verdict::Overlapping;
   for (const Answer& wrong : {high, low, inside, overlap}) EXPECT_FALSE(holds(wrong));
-  EXPECT_FALSE(check(c.model_a(), c.model_b(), c.pose, exact(c), c.radius_a + 0.01, c.radius_b));
-  EXPECT_FALSE(check(c.model_a(), c.model_b(), c.pose, exact(c)));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The judge of contact patches, in rational arithmetic.
+// The judge of contact manifolds, in rational arithmetic.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "exact_check.h"
-#include "patch_oracle.h"
+#include "manifold_oracle.h"
 
 namespace swiftlet::stability {
 namespace {
@@ -16,11 +16,12 @@ namespace {
 /// Of a round face four corners keep 2 / pi at most, eight 0.901; of one with more than 64 sides a hundredth is lost before.
 constexpr double kShares[] = {0, 0, 0, 0.3, 0.58, 0.6, 0.6, 0.6, 0.85};
 
-bool is_named(const ConvexView& view, Handle feature) {
+bool is_named(const ConvexView& view, FeatureId feature) {
   switch (feature.kind()) {
     case FeatureKind::None: return false;
     case FeatureKind::Vertex: return feature.index() < view.vertices.size();
-    case FeatureKind::Edge: return feature.index() < view.head.size() && feature.index() < view.twin[feature.index()];
+    case FeatureKind::Edge:
+      return feature.index() < view.half_edges.size() && feature.index() < view.half_edges[feature.index()].twin;
     case FeatureKind::Face: return feature.index() < view.face_first.size();
   }
   return false;
@@ -38,9 +39,9 @@ struct Claim {
   const Subject& subject;
   const Pose& pose;
   Vec3 point;
-  Handle feature;
+  FeatureId feature;
 
-  std::string fault(const PatchOptions& options, double bound) const {
+  std::string fault(const ManifoldOptions& options, double bound) const {
     const ConvexView& view = subject.model.level(0).view;
     if (!is_named(view, feature)) return "no feature is named";
     const bool on_face = feature.kind() == FeatureKind::Face;
@@ -55,26 +56,26 @@ struct Claim {
 
 }  // namespace
 
-std::string Judge::patch(const Patch& patch, const SignedAnswer& answer, const PatchOptions& options) const {
-  const double bound = law_two_ + 0x1p-47 * (options.radius_a + options.radius_b);
-  const Vec3& n = patch.normal;
-  if (patch.count > std::min(options.most_points, kMostPatchPoints)) return "more points than asked for";
-  if (patch.count == 0)
+std::string Judge::manifold(const Manifold& manifold, const Answer& answer, const ManifoldOptions& options) const {
+  const double bound = law_two_ + 0x1p-47 * (answer.radius_a + answer.radius_b);
+  const Vec3& n = manifold.normal;
+  if (manifold.count > std::min(options.most_points, kMostManifoldPoints)) return "more points than asked for";
+  if (manifold.count == 0)
     return answer.upper > options.margin || options.most_points == 0 ? "" : "no point, but the bodies are near enough";
   if (n != answer.normal) return "another normal than the answer's";
-  double least = patch.points[0].separation;
-  for (std::uint32_t i = 0; i < patch.count; ++i) {
-    const PatchPoint& p = patch.points[i];
+  double least = manifold.points[0].separation;
+  for (std::uint32_t i = 0; i < manifold.count; ++i) {
+    const ManifoldPoint& p = manifold.points[i];
     const std::string name = "point " + std::to_string(i);
     if (!(p.point_a + p.point_b).allFinite()) return name + " is not finite";
     if (!(p.separation <= options.margin + bound)) return name + " is farther apart than the margin";
     if (!((p.point_b - p.point_a - p.separation * n).norm() <= 2 * bound)) return name + ": not one above the other";
     for (std::uint32_t k = 0; k < i; ++k) {
-      const PatchPoint& q = patch.points[k];
+      const ManifoldPoint& q = manifold.points[k];
       if (p.feature_a == q.feature_a && p.feature_b == q.feature_b) return name + " has the name of another";
     }
-    const Claim of_a{a_, Pose{}, p.point_a - options.radius_a * n, p.feature_a},
-        of_b{b_, b_in_a_, p.point_b + options.radius_b * n, p.feature_b};
+    const Claim of_a{a_, Pose{}, p.point_a - answer.radius_a * n, p.feature_a},
+        of_b{b_, b_in_a_, p.point_b + answer.radius_b * n, p.feature_b};
     if (const std::string wrong = of_a.fault(options, bound); !wrong.empty()) return name + " of A " + wrong;
     if (const std::string wrong = of_b.fault(options, bound); !wrong.empty()) return name + " of B " + wrong;
     least = std::min(least, p.separation);
@@ -82,37 +83,37 @@ std::string Judge::patch(const Patch& patch, const SignedAnswer& answer, const P
   if (!(least >= answer.lower - bound && least <= answer.upper + bound))
     return "the least separation is off the answer's by " +
            std::to_string(std::max(answer.lower - least, least - answer.upper) / bound) + " of law 2's bound";
-  if (!(patch.points[0].separation <= least + bound)) return "the first point is not the deepest";
-  return area_of(patch, options, bound);
+  if (!(manifold.points[0].separation <= least + bound)) return "the first point is not the deepest";
+  return area_of(manifold, options, bound);
 }
 
-std::string Judge::area_of(const Patch& patch, const PatchOptions& options, double bound) const {
+std::string Judge::area_of(const Manifold& manifold, const ManifoldOptions& options, double bound) const {
   std::vector<Vec3> points;
-  for (std::uint32_t i = 0; i < patch.count; ++i) points.push_back(patch.points[i].point_a);
+  for (std::uint32_t i = 0; i < manifold.count; ++i) points.push_back(manifold.points[i].point_a);
   Vec3 around = Vec3::Zero();
-  for (std::uint32_t i = 0; i < patch.count; ++i) {
-    const Vec3 p = points[i] - points[0], q = points[i + 1 == patch.count ? 0 : i + 1] - points[0];
+  for (std::uint32_t i = 0; i < manifold.count; ++i) {
+    const Vec3 p = points[i] - points[0], q = points[i + 1 == manifold.count ? 0 : i + 1] - points[0];
     around += p.cross(q);
   }
-  const double shown = oracle::area(points, patch.normal), length = a_.extent + b_.extent, blur = 16 * bound * length;
-  if (!(std::fabs(around.dot(patch.normal) / 2 - shown) <= blur)) return "the points are not in order around their area";
-  if (!std::isinf(options.margin) || patch.face_a.kind() != FeatureKind::Face || patch.face_b.kind() != FeatureKind::Face)
+  const double shown = oracle::area(points, manifold.normal), length = a_.extent + b_.extent, blur = 16 * bound * length;
+  if (!(std::fabs(around.dot(manifold.normal) / 2 - shown) <= blur)) return "the points are not in order around their area";
+  if (!std::isinf(options.margin) || manifold.face_a.kind() != FeatureKind::Face || manifold.face_b.kind() != FeatureKind::Face)
     return "";
   const ConvexView &a = a_.model.level(0).view, &b = b_.model.level(0).view;
-  const double common = oracle::overlay(a, oracle::flat_faces(a, patch.face_a, options.flatness), b,
-                                        oracle::flat_faces(b, patch.face_b, options.flatness), b_in_a_, patch.normal)
+  const double common = oracle::overlay(a, oracle::flat_faces(a, manifold.face_a, options.flatness), b,
+                                        oracle::flat_faces(b, manifold.face_b, options.flatness), b_in_a_, manifold.normal)
                             .area;
   const auto text = [&](const char* what) {
-    return std::to_string(patch.count) + what + std::to_string(shown / common) + " of the area in common";
+    return std::to_string(manifold.count) + what + std::to_string(shown / common) + " of the area in common";
   };
   if (!(shown <= common + blur)) return text(" points span ");
   // Faces that are one within the flatness are a line where they are seen narrower than that.
-  const auto thin = [&](const Subject& subject, const ConvexView& view, Handle face, const Mat3& rotation) {
-    const double across = (rotation * oracle::face_normal(view, face)).cross(patch.normal).norm();
+  const auto thin = [&](const Subject& subject, const ConvexView& view, FeatureId face, const Mat3& rotation) {
+    const double across = (rotation * oracle::face_normal(view, face)).cross(manifold.normal).norm();
     return std::max(options.flatness, own_flatness(subject)) * view.extent * across * length;
   };
-  const double narrow = thin(a_, a, patch.face_a, Mat3::Identity()) + thin(b_, b, patch.face_b, b_in_a_.rotation);
-  const double share = kShares[std::min(options.most_points, kMostPatchPoints)];
+  const double narrow = thin(a_, a, manifold.face_a, Mat3::Identity()) + thin(b_, b, manifold.face_b, b_in_a_.rotation);
+  const double share = kShares[std::min(options.most_points, kMostManifoldPoints)];
   return shown >= share * common - blur - narrow ? "" : text(" points keep but ");
 }
 

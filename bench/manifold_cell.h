@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact patches beside each other: two bodies, poses of one on the other, who is asked, and how true the points are.
+// Contact manifolds beside each other: two bodies, poses of one on the other, who is asked, and how true the points are.
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
-#include "patches.h"
+#include "manifolds.h"
 #include "rig.h"
 
 namespace swiftlet::bench {
 
-struct PatchCell {
+struct ManifoldCell {
   std::string name;
   Model a, b;
   std::vector<Pose> poses;
@@ -20,11 +20,11 @@ struct PatchCell {
 
 /// Cells of so many poses, that follow one another by 0.1 degrees: boxes, prisms of 12 and of 60 sides upright on one another,
 /// and ellipsoids of 2 000 triangles, a millionth of a unit and a hundredth deep.
-std::vector<PatchCell> patch_cells(const Shelf& shelf, std::uint32_t poses);
+std::vector<ManifoldCell> manifold_cells(const Shelf& shelf, std::uint32_t poses);
 
 /// Every method coherent and cold, in rounds that alternate; times are medians. Of a row `error` is the farthest that a point
 /// lies off the surface that it is said to lie on, over the radius, `wrong` counts points that are outside their body by more
 /// than a millionth of that, `failed` queries without a point, and `steps` is the number of points per query.
-std::vector<Row> measure(const PatchCell& cell, int rounds);
+std::vector<Row> measure(const ManifoldCell& cell, int rounds);
 
 }  // namespace swiftlet::bench

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Patches of generated contacts beside the exact intersection of their faces, and what they keep while bodies move.
+// Manifolds of generated contacts beside the exact intersection of their faces, and what they keep while bodies move.
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
@@ -11,10 +11,11 @@
 #include <vector>
 
 #include <swiftlet/build.h>
-#include <swiftlet/patch.h>
+#include <swiftlet/depth.h>
+#include <swiftlet/manifold.h>
 
 #include "bodies.h"
-#include "patch_oracle.h"
+#include "manifold_oracle.h"
 #include "shapes.h"
 
 namespace swiftlet {
@@ -30,19 +31,17 @@ struct Contacting {
   Pose b_in_a;
   Answer answer;
 
-  double bound() const { return bodies::law_two(a.level(0).view, b.level(0).view, b_in_a); }
+  double bound() const { return tolerance(a, b, b_in_a); }
 };
 
-Answer nearest(const Model& a, const Model& b, const Pose& b_in_a) {
-  PairSeed cold;
-  return contact(a, b, b_in_a, cold).answer;
-}
+Answer nearest(const Body& a, const Body& b, const Pose& b_in_a) { return closest_features(a, b, b_in_a).answer; }
 
 Model hull_of(const Mesh& mesh) { return std::move(build(mesh.points)).value().model; }
 
 /// B over A, whose top is at height `top`: turned about z, tilted, at x and y, its lowest point so far above the top; then
 /// everything turned, so that no face is flat but up to rounding.
-Contacting stacked(const bodies::Body& a, double top, const bodies::Body& b, const Pose& on_top, double gap, const Mat3& turn) {
+Contacting stacked(const bodies::Polyhedron& a, double top, const bodies::Polyhedron& b, const Pose& on_top, double gap,
+                   const Mat3& turn) {
   double lowest = kInfinity;
   for (const Vec3& p : b.points) lowest = std::min(lowest, (on_top.rotation * p)[2]);
   Contacting c{bodies::model(bodies::moved(a, turn)), bodies::model(b), {}, {}};
@@ -80,8 +79,8 @@ Contacting stacked_boxes(Random& random) {
                  any(kGaps, random), turn);
 }
 
-bodies::Body prism(std::uint32_t sides, double radius, double height) {
-  bodies::Body b;
+bodies::Polyhedron prism(std::uint32_t sides, double radius, double height) {
+  bodies::Polyhedron b;
   for (const double z : {-height / 2, height / 2}) {
     for (std::uint32_t i = 0; i < sides; ++i) {
       const double angle = 2 * std::numbers::pi * i / sides;
@@ -115,33 +114,33 @@ Contacting random_hulls(Random& random) {
 }
 
 bool is_apart(const Contacting& c) {
-  return (c.answer.verdict == Verdict::Disjoint || c.answer.verdict == Verdict::Touching) && !c.answer.normal.isZero();
+  return (c.answer.verdict == Verdict::Disjoint || c.answer.verdict == Verdict::Touching) && !c.answer.normal.hasNaN();
 }
 
-double least(const Patch& p) {
+double least(const Manifold& p) {
   double least = kInfinity;
   for (std::uint32_t i = 0; i < p.count; ++i) least = std::min(least, p.points[i].separation);
   return least;
 }
 
-double shown_area(const Patch& p) {
+double shown_area(const Manifold& p) {
   std::vector<Vec3> points;
   for (std::uint32_t i = 0; i < p.count; ++i) points.push_back(p.points[i].point_a);
   return oracle::area(points, p.normal);
 }
 
-/// What holds of every patch.
-void expect_sound(const Contacting& c, const Patch& p, double separation, double margin) {
+/// What holds of every manifold.
+void expect_sound(const Contacting& c, const Manifold& p, double separation, double margin) {
   const double bound = c.bound();
   EXPECT_EQ(p.normal, c.answer.normal);
   for (std::uint32_t i = 0; i < p.count; ++i) {
-    const PatchPoint& q = p.points[i];
+    const ManifoldPoint& q = p.points[i];
     EXPECT_LE(oracle::height_over(c.a.level(0).view, Pose{}, q.point_a), bound) << i;
     EXPECT_LE(oracle::height_over(c.b.level(0).view, c.b_in_a, q.point_b), bound) << i;
     EXPECT_LE((q.point_b - q.point_a - q.separation * p.normal).norm(), 2 * bound) << i;
     EXPECT_LE(q.separation, margin + bound);
-    const auto well_named = [](const ConvexView& view, Handle feature) {
-      return feature.kind() != FeatureKind::Edge || feature.index() < view.twin[feature.index()];
+    const auto well_named = [](const ConvexView& view, FeatureId feature) {
+      return feature.kind() != FeatureKind::Edge || feature.index() < view.half_edges[feature.index()].twin;
     };
     EXPECT_TRUE(well_named(c.a.level(0).view, q.feature_a) && well_named(c.b.level(0).view, q.feature_b)) << i;
     for (std::uint32_t j = 0; j < i; ++j) {
@@ -155,9 +154,9 @@ void expect_sound(const Contacting& c, const Patch& p, double separation, double
   }
 }
 
-Patch touching(const Model& a, const Model& b, const Pose& b_in_a) {
+Manifold touching(const Model& a, const Model& b, const Pose& b_in_a) {
   const Contacting c{a, b, b_in_a, nearest(a, b, b_in_a)};
-  const Patch p = patch(a, b, b_in_a, c.answer);
+  const Manifold p = manifold(a, b, b_in_a, c.answer);
   expect_sound(c, p, 0, 0);
   return p;
 }
@@ -169,19 +168,18 @@ Pose at(double x, double y, double z, const Mat3& rotation = Mat3::Identity()) {
   return pose;
 }
 
-/// What a patch is beside the truth. `shares` gathers how much of the area four and eight points keep.
+/// What a manifold is beside the truth. `shares` gathers how much of the area four and eight points keep.
 struct Shares {
   double four = 1, eight = 1;
   int counted = 0;
 };
 void expect_true(const Contacting& c, Shares& shares) {
-  PatchOptions options;
-  options.margin = kInfinity, options.most_points = kMostPatchPoints;
-  const Patch eight = patch(c.a, c.b, c.b_in_a, c.answer, options);
+  ManifoldOptions options{.margin = kInfinity, .most_points = kMostManifoldPoints};
+  const Manifold eight = manifold(c.a, c.b, c.b_in_a, c.answer, options);
   options.most_points = 4;
-  const Patch four = patch(c.a, c.b, c.b_in_a, c.answer, options);
+  const Manifold four = manifold(c.a, c.b, c.b_in_a, c.answer, options);
   const double separation = (c.answer.point_b - c.answer.point_a).dot(c.answer.normal);
-  for (const Patch* p : {&eight, &four}) expect_sound(c, *p, separation, kInfinity);
+  for (const Manifold* p : {&eight, &four}) expect_sound(c, *p, separation, kInfinity);
   ASSERT_EQ(eight.face_a, four.face_a);
 
   const ConvexView &a = c.a.level(0).view, &b = c.b.level(0).view;
@@ -207,11 +205,11 @@ void expect_much_kept(const Shares& shares) {
   std::printf("%d areas: four points keep at least %.3f, eight %.3f\n", shares.counted, shares.four, shares.eight);
 }
 
-TEST(Patch, OfTwoCubesIsTheirCommonSquare) {
+TEST(Manifold, OfTwoCubesIsTheirCommonSquare) {
   const Model cube = bodies::model(bodies::cube());
   Pose b_in_a;
   b_in_a.translation = {0.5, 0.25, 2};
-  const Patch p = patch(cube, cube, b_in_a, nearest(cube, cube, b_in_a));
+  const Manifold p = manifold(cube, cube, b_in_a, nearest(cube, cube, b_in_a));
   ASSERT_EQ(p.count, 4u);
   EXPECT_EQ(p.normal, Vec3(0, 0, 1));
   EXPECT_DOUBLE_EQ(shown_area(p), 1.5 * 1.75);
@@ -227,12 +225,12 @@ TEST(Patch, OfTwoCubesIsTheirCommonSquare) {
   EXPECT_EQ(crossings, 2);
 }
 
-TEST(Patch, OfEqualFlushCubesIsTheirFace) {
+TEST(Manifold, OfEqualFlushCubesIsTheirFace) {
   const Model cube = bodies::model(bodies::cube());
   for (const double shift : {0., 1e-17, 1e-15, 1e-12, 1e-9}) {
     Pose b_in_a;
     b_in_a.translation = {shift, -shift, 2};
-    const Patch p = patch(cube, cube, b_in_a, nearest(cube, cube, b_in_a));
+    const Manifold p = manifold(cube, cube, b_in_a, nearest(cube, cube, b_in_a));
     ASSERT_EQ(p.count, 4u) << shift;
     EXPECT_NEAR(shown_area(p), 4, 4 * shift + 1e-14);
     for (std::uint32_t i = 0; i < 4 && shift < 1e-14; ++i) {  // no crossings of sides that lie on one another
@@ -241,7 +239,7 @@ TEST(Patch, OfEqualFlushCubesIsTheirFace) {
   }
 }
 
-TEST(Patch, OfStackedBoxesIsTheIntersectionOfTheirFaces) {
+TEST(Manifold, OfStackedBoxesIsTheIntersectionOfTheirFaces) {
   Random random(1);
   Shares shares;
   int overlapping = 0;
@@ -259,7 +257,7 @@ TEST(Patch, OfStackedBoxesIsTheIntersectionOfTheirFaces) {
   expect_much_kept(shares);
 }
 
-TEST(Patch, OfPrismsIsTheIntersectionOfTheirFaces) {
+TEST(Manifold, OfPrismsIsTheIntersectionOfTheirFaces) {
   Random random(2);
   Shares shares;
   for (int i = 0; i < 60; ++i) {
@@ -273,7 +271,7 @@ TEST(Patch, OfPrismsIsTheIntersectionOfTheirFaces) {
   expect_much_kept(shares);
 }
 
-TEST(Patch, OfRandomHullsIsTheIntersectionOfTheirFaces) {
+TEST(Manifold, OfRandomHullsIsTheIntersectionOfTheirFaces) {
   Random random(3);
   Shares shares;
   for (int i = 0; i < 300; ++i) {
@@ -288,14 +286,14 @@ TEST(Patch, OfRandomHullsIsTheIntersectionOfTheirFaces) {
 
 // ---- Faces that are hard ----------------------------------------------------------------------------------------------------
 
-/// A square's two triangles make an angle; the patch is still the square.
-TEST(Patch, OfNearlyCoplanarFacetsIsOneFace) {
+/// A square's two triangles make an angle; the manifold is still the square.
+TEST(Manifold, OfNearlyCoplanarFacetsIsOneFace) {
   for (const auto& [height, thickness] : {std::pair{1e-15, 2.}, std::pair{1e-14, 2.}, std::pair{1e-12, 2.},
                                           std::pair{1e-10, 2.}, std::pair{1e-8, 2.}, std::pair{1e-10, 1e-7}}) {
-    bodies::Body bent = bodies::triangulated(bodies::cube());
+    bodies::Polyhedron bent = bodies::triangulated(bodies::cube());
     for (int i = 0; i < 4; ++i) bent.points[i][2] = 1 - thickness;
     bent.points[4][2] -= height, bent.points[6][2] -= height;  // the ends of the diagonal that the top does not have
-    bodies::Body roof{bent.points, {}, {}};
+    bodies::Polyhedron roof{bent.points, {}, {}};
     for (std::size_t i = 0; i < bent.corners.size(); i += 3) {
       if (i == 6 || i == 9) continue;
       roof.add({bent.corners[i], bent.corners[i + 1], bent.corners[i + 2]});
@@ -305,57 +303,52 @@ TEST(Patch, OfNearlyCoplanarFacetsIsOneFace) {
     Pose b_in_a;
     b_in_a.translation = {0, 0, 2 + 1e-9};
     const Contacting c{a, b, b_in_a, nearest(a, b, b_in_a)};
-    PatchOptions options;
-    options.margin = 1e-6;
-    const Patch p = patch(a, b, b_in_a, c.answer, options);
+    ManifoldOptions options{.margin = 1e-6};
+    const Manifold p = manifold(a, b, b_in_a, c.answer, options);
     EXPECT_EQ(p.count, 4u) << height;
     EXPECT_NEAR(shown_area(p), 4, 1e-6) << height;
     expect_sound(c, p, 1e-9, 1e-6);
     options.flatness = 0;
     if (height > 1e-13) {
-      EXPECT_NEAR(shown_area(patch(a, b, b_in_a, c.answer, options)), 2, 1e-6) << height;
+      EXPECT_NEAR(shown_area(manifold(a, b, b_in_a, c.answer, options)), 2, 1e-6) << height;
     }
   }
 }
 
 /// Faces of single precision are planes with a thickness; no point leaves its body for that.
-TEST(Patch, OfRoundedFacesLiesInBothBodies) {
+TEST(Manifold, OfRoundedFacesLiesInBothBodies) {
   Random random(4);
   for (int i = 0; i < 200; ++i) {
     const Mat3 turn = random.rotation();
-    const bodies::Body a = bodies::float_rounded(bodies::moved(prism(5 + i % 8, 1, 1), turn)),
-                       b = bodies::float_rounded(bodies::moved(prism(3 + i % 5, 1, 1), turn));
+    const bodies::Polyhedron a = bodies::float_rounded(bodies::moved(prism(5 + i % 8, 1, 1), turn)),
+                             b = bodies::float_rounded(bodies::moved(prism(3 + i % 5, 1, 1), turn));
     Contacting c{hull_of({a.points, {}}), hull_of({b.points, {}}), {}, {}};
     c.b_in_a.translation = turn * Vec3(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), 1 + 1e-6);
     c.answer = nearest(c.a, c.b, c.b_in_a);
     ASSERT_TRUE(is_apart(c)) << i;
-    PatchOptions options;
-    options.margin = 1e-5;
-    const Patch p = patch(c.a, c.b, c.b_in_a, c.answer, options);
+    const Manifold p = manifold(c.a, c.b, c.b_in_a, c.answer, {.margin = 1e-5});
     expect_sound(c, p, (c.answer.point_b - c.answer.point_a).dot(c.answer.normal), 1e-5);
     EXPECT_GE(p.count, 3u) << i;
   }
 }
 
 /// Corners that are two by rounding have sides without a direction; a cut along one of these would take half the face.
-TEST(Patch, OfFacesWithTinySidesIsAsWithout) {
+TEST(Manifold, OfFacesWithTinySidesIsAsWithout) {
   Random random(12);
   for (int i = 0; i < 100; ++i) {
-    bodies::Body a = prism(4, 1, 1);
+    bodies::Polyhedron a = prism(4, 1, 1);
     for (int k = 0; k < 8; ++k) a.points.push_back(a.points[k] + 1e-15 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 0));
     const Mat3 turn = random.rotation();
     Contacting c{hull_of({bodies::moved(a, turn).points, {}}), bodies::model(bodies::moved(prism(5, 3, 1), turn)), {}, {}};
     c.b_in_a.translation = turn * Vec3(0, 0, 1 + 1e-9);
     c.answer = nearest(c.a, c.b, c.b_in_a);
-    PatchOptions options;
-    options.margin = 1e-8;
-    EXPECT_NEAR(shown_area(patch(c.a, c.b, c.b_in_a, c.answer, options)), 2, 1e-8) << i;
+    EXPECT_NEAR(shown_area(manifold(c.a, c.b, c.b_in_a, c.answer, {.margin = 1e-8})), 2, 1e-8) << i;
   }
 }
 
 /// Tips that are farthest apart are not the corners to keep.
-TEST(Patch, OfALongFaceKeepsItsShoulders) {
-  bodies::Body hexagon;
+TEST(Manifold, OfALongFaceKeepsItsShoulders) {
+  bodies::Polyhedron hexagon;
   for (const double z : {-1., 1.}) {
     for (const auto& [x, y] : {std::pair{11., 0.}, std::pair{10., 0.5}, std::pair{-10., 0.5}, std::pair{-11., 0.},
                                std::pair{-10., -0.5}, std::pair{10., -0.5}})
@@ -365,31 +358,30 @@ TEST(Patch, OfALongFaceKeepsItsShoulders) {
   EXPECT_GE(shown_area(touching(a, b, at(0, 0, 2))), 0.7 * 21);
 }
 
-TEST(Patch, OfFacesOfAThousandSidesKeepsTheirArea) {
+TEST(Manifold, OfFacesOfAThousandSidesKeepsTheirArea) {
   const Model round = bodies::model(prism(1000, 1, 1));
   Pose b_in_a;
   b_in_a.translation = {0.1, 0.2, 1};
-  PatchOptions options;
+  ManifoldOptions options{.most_points = 8};
   const Contacting c{round, round, b_in_a, nearest(round, round, b_in_a)};
-  options.most_points = 8;
-  const Patch p = patch(round, round, b_in_a, c.answer, options);
+  const Manifold p = manifold(round, round, b_in_a, c.answer, options);
   expect_sound(c, p, 0, 0);
   EXPECT_EQ(p.count, 8u);
   const Contacting tilted = stacked(prism(1000, 1, 1), 0.5, prism(1000, 1, 1),
                                     at(0.1, 0.2, 0, shapes::rotation({0.6, 0.8, 0}, 1e-4)), 1e-3, Mat3::Identity());
   options.margin = kInfinity;
-  expect_sound(tilted, patch(tilted.a, tilted.b, tilted.b_in_a, tilted.answer, options), tilted.answer.lower, kInfinity);
+  expect_sound(tilted, manifold(tilted.a, tilted.b, tilted.b_in_a, tilted.answer, options), tilted.answer.lower, kInfinity);
   // Two circles of radius 1 whose centres are sqrt(0.05) apart.
   const double d = std::sqrt(0.05), lens = 2 * std::acos(d / 2) - d / 2 * std::sqrt(4 - d * d);
   EXPECT_GE(shown_area(p), 0.88 * lens);
 }
 
-TEST(Patch, OfSliversIsTheIntersectionOfTheirFaces) {
+TEST(Manifold, OfSliversIsTheIntersectionOfTheirFaces) {
   Random random(5);
   Shares shares;
   for (int i = 0; i < 300; ++i) {
     const double thin = any(std::array{1e-3, 1e-5, 1e-7}, random);
-    const bodies::Body sliver{{{0, 0, 0}, {1, 0, 0}, {random.uniform(), thin, 0}, {0.5, thin / 3, 1}}, {}, {}};
+    const bodies::Polyhedron sliver{{{0, 0, 0}, {1, 0, 0}, {random.uniform(), thin, 0}, {0.5, thin / 3, 1}}, {}, {}};
     const Model b = hull_of({sliver.points, {}});
     Contacting c{bodies::model(bodies::box(1, random.uniform() * thin, 1)), b, {}, {}};
     c.b_in_a.rotation = shapes::rotation(Vec3::UnitZ(), any(kAngles, random));
@@ -408,33 +400,33 @@ TEST(Patch, OfSliversIsTheIntersectionOfTheirFaces) {
 const Mat3 kEighthAboutX = shapes::rotation(Vec3::UnitX(), std::numbers::pi / 4),
            kQuarterAboutZ = shapes::rotation(Vec3::UnitZ(), std::numbers::pi / 2);
 
-TEST(Patch, OfAnEdgeOnAFaceIsItsTwoEnds) {
+TEST(Manifold, OfAnEdgeOnAFaceIsItsTwoEnds) {
   const Model cube = bodies::model(bodies::cube());
-  const Patch p = touching(cube, cube, at(0.5, 0, 1 + std::sqrt(2), kEighthAboutX));
+  const Manifold p = touching(cube, cube, at(0.5, 0, 1 + std::sqrt(2), kEighthAboutX));
   ASSERT_EQ(p.count, 2u);
   EXPECT_NEAR((p.points[1].point_a - p.points[0].point_a).norm(), 1.5, 1e-14);
 }
 
-TEST(Patch, OfCrossingEdgesIsTheirCrossing) {
-  const bodies::Body ridge = bodies::moved(bodies::cube(), kEighthAboutX);
+TEST(Manifold, OfCrossingEdgesIsTheirCrossing) {
+  const bodies::Polyhedron ridge = bodies::moved(bodies::cube(), kEighthAboutX);
   const Model a = bodies::model(ridge), b = bodies::model(bodies::moved(ridge, kQuarterAboutZ));
-  const Patch p = touching(a, b, at(0.25, 0.5, 2 * std::sqrt(2)));
+  const Manifold p = touching(a, b, at(0.25, 0.5, 2 * std::sqrt(2)));
   ASSERT_EQ(p.count, 1u);
   EXPECT_EQ(p.points[0].feature_a.kind(), FeatureKind::Edge);
   EXPECT_EQ(p.points[0].feature_b.kind(), FeatureKind::Edge);
   EXPECT_LE((p.points[0].point_a - Vec3(0.25, 0, std::sqrt(2))).norm(), 1e-14);
 }
 
-TEST(Patch, OfEdgesAlongOneAnotherIsTwoPoints) {
+TEST(Manifold, OfEdgesAlongOneAnotherIsTwoPoints) {
   const Model a = bodies::model(bodies::moved(bodies::cube(), kEighthAboutX));
-  const Patch p = touching(a, a, at(0.5, 0, 2 * std::sqrt(2)));
+  const Manifold p = touching(a, a, at(0.5, 0, 2 * std::sqrt(2)));
   ASSERT_EQ(p.count, 2u);
   EXPECT_NEAR((p.points[1].point_a - p.points[0].point_a).norm(), 1.5, 1e-13);
 }
 
-TEST(Patch, OfACornerIsTheCorner) {
+TEST(Manifold, OfACornerIsTheCorner) {
   const Model cube = bodies::model(bodies::cube()), octahedron = bodies::model(bodies::octahedron());
-  const Patch on_face = touching(cube, octahedron, at(0.5, 0, 2));
+  const Manifold on_face = touching(cube, octahedron, at(0.5, 0, 2));
   ASSERT_EQ(on_face.count, 1u);
   EXPECT_EQ(on_face.points[0].feature_b.kind(), FeatureKind::Vertex);
   EXPECT_EQ(on_face.points[0].feature_a, on_face.face_a);
@@ -443,7 +435,7 @@ TEST(Patch, OfACornerIsTheCorner) {
 }
 
 /// Bodies of one dimension less than solids, seen flat and from the side.
-TEST(Patch, OfFlatBodiesIsTheirPartOfTheFace) {
+TEST(Manifold, OfFlatBodiesIsTheirPartOfTheFace) {
   const Model cube = bodies::model(bodies::cube()),
               square = bodies::model(bodies::two_sided({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}})),
               segment = bodies::model(bodies::segment({-3, 0, 0}, {3, 0, 0})), point = bodies::model(bodies::point({0, 0, 0}));
@@ -465,15 +457,14 @@ TEST(Patch, OfFlatBodiesIsTheirPartOfTheFace) {
         bodies::moved({{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {0, 1, 2, 3, 3, 2, 1, 0}, {4, 4}}, upright));
     c.b_in_a.rotation = across;
     c.answer = nearest(c.a, c.b, c.b_in_a);
-    PatchOptions options;
-    options.margin = 1e-9;
-    const Patch p = patch(c.a, c.b, c.b_in_a, c.answer, options);
+    const ManifoldOptions options{.margin = 1e-9};
+    const Manifold p = manifold(c.a, c.b, c.b_in_a, c.answer, options);
     expect_sound(c, p, 1e-12, 1e-9);
     EXPECT_EQ(p.count, 1u);
     c.b_in_a.rotation = upright;
     c.b_in_a.translation = {x, 0, 2 + 1e-12};
     c.answer = nearest(c.a, c.b, c.b_in_a);
-    const Patch along = patch(c.a, c.b, c.b_in_a, c.answer, options);
+    const Manifold along = manifold(c.a, c.b, c.b_in_a, c.answer, options);
     expect_sound(c, along, 1e-12, 1e-9);
     EXPECT_EQ(along.count, 2u);
   }
@@ -483,16 +474,12 @@ TEST(Patch, OfFlatBodiesIsTheirPartOfTheFace) {
 
 // ---- What is asked for ------------------------------------------------------------------------------------------------------
 
-TEST(Patch, HoldsWhatIsNearEnough) {
+TEST(Manifold, HoldsWhatIsNearEnough) {
   const Model cube = bodies::model(bodies::cube());
   const double tilt = 1e-3;  // of 2: the far side is 2e-3 higher
   const Mat3 rotation = shapes::rotation(Vec3::UnitY(), tilt);
   const Contacting c{cube, cube, at(0, 0, 2.01, rotation), nearest(cube, cube, at(0, 0, 2.01, rotation))};
-  PatchOptions options;
-  const auto count = [&](double margin) {
-    options.margin = margin;
-    return patch(c.a, c.b, c.b_in_a, c.answer, options).count;
-  };
+  const auto count = [&](double margin) { return manifold(c.a, c.b, c.b_in_a, c.answer, {.margin = margin}).count; };
   EXPECT_EQ(count(0), 0u);
   EXPECT_EQ(count(c.answer.lower - 1e-12), 0u);
   EXPECT_EQ(count(c.answer.upper), 2u);
@@ -500,15 +487,13 @@ TEST(Patch, HoldsWhatIsNearEnough) {
   EXPECT_EQ(count(c.answer.upper + 2.1e-3), 4u);
 }
 
-TEST(Patch, HoldsAsManyPointsAsAskedFor) {
+TEST(Manifold, HoldsAsManyPointsAsAskedFor) {
   const Model cube = bodies::model(bodies::cube());
   const Pose b_in_a = at(0, 0, 2, shapes::rotation(Vec3::UnitZ(), std::numbers::pi / 4));
   const Answer answer = nearest(cube, cube, b_in_a);
-  PatchOptions options;
   double before = -1;
   for (const std::uint32_t most : {0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 100u}) {
-    options.most_points = most;
-    const Patch p = patch(cube, cube, b_in_a, answer, options);
+    const Manifold p = manifold(cube, cube, b_in_a, answer, {.most_points = most});
     EXPECT_EQ(p.count, std::min(most, 8u));
     EXPECT_GE(shown_area(p), before);
     before = shown_area(p);
@@ -516,20 +501,20 @@ TEST(Patch, HoldsAsManyPointsAsAskedFor) {
   EXPECT_NEAR(before, 8 * (std::sqrt(2) - 1), 1e-14);  // a regular octagon of inradius 1
 }
 
-TEST(Patch, OfOverlappingBodiesNeedsADirection) {
+TEST(Manifold, OfOverlappingBodiesNeedsADirection) {
   const Model cube = bodies::model(bodies::cube());
-  EXPECT_EQ(patch(cube, cube, at(0, 0, 1), nearest(cube, cube, at(0, 0, 1))).count, 0u);
+  EXPECT_EQ(manifold(cube, cube, at(0, 0, 1), nearest(cube, cube, at(0, 0, 1))).count, 0u);
 }
 
 // ---- What nobody should ask -------------------------------------------------------------------------------------------------
 
-/// Counts, names and numbers that no patch has.
-Patch absurd(Random& random) {
-  Patch p;
+/// Counts, names and numbers that no manifold has.
+Manifold absurd(Random& random) {
+  Manifold p;
   p.count = std::uint32_t(random.bits());
   p.face_a = {FeatureKind::Face, 1u << 29}, p.face_b = {FeatureKind::Edge, 3};
   p.normal.setConstant(std::numeric_limits<double>::quiet_NaN());
-  for (PatchPoint& q : p.points) {
+  for (ManifoldPoint& q : p.points) {
     q.feature_a = {FeatureKind(random.bits() % 4), std::uint32_t(random.bits() % 9)};
     q.feature_b = {FeatureKind(random.bits() % 4), std::uint32_t(random.bits() % 9)};
     q.point_a = q.point_b = p.normal;
@@ -538,7 +523,7 @@ Patch absurd(Random& random) {
 }
 
 /// Needles, slivers, flat bodies and round ones in themselves and in each other, from the least sizes to the largest.
-TEST(Patch, IsSoundOfAnyBodiesAndAnyPatchBefore) {
+TEST(Manifold, IsSoundOfAnyBodiesAndAnyManifoldBefore) {
   Random random(13);
   for (const double scale : {1., 1e-40, 1e40}) {
     std::vector<Model> models;
@@ -553,64 +538,60 @@ TEST(Patch, IsSoundOfAnyBodiesAndAnyPatchBefore) {
       for (const Model& b : models) {
         Pose pose;
         if (random.bits() % 2) pose.rotation = random.rotation(), pose.translation = scale * random.in_ball();
-        PairSeed cold;
-        const SignedAnswer deep = signed_distance(a, b, pose, cold);
+        const Answer deep = signed_distance(a, b, pose);
         ASSERT_EQ(deep.status, Status::Converged);
         Contacting c{a, b, pose, {}};
         c.answer.normal = deep.normal;
-        PatchOptions options;
-        options.margin = kInfinity, options.most_points = 1 + std::uint32_t(random.bits() % 12);
-        expect_sound(c, patch(a, b, pose, deep, options, absurd(random)), deep.lower, kInfinity);
+        ManifoldOptions options{.margin = kInfinity, .most_points = 1 + std::uint32_t(random.bits() % 12)};
+        expect_sound(c, manifold(a, b, pose, deep, options, absurd(random)), deep.lower, kInfinity);
         options.flatness = any(std::array{0., 1e-3, kInfinity, -1., std::numeric_limits<double>::quiet_NaN()}, random);
-        expect_sound(c, patch(a, b, pose, deep, options, absurd(random)), deep.lower, kInfinity);
+        expect_sound(c, manifold(a, b, pose, deep, options, absurd(random)), deep.lower, kInfinity);
         if (testing::Test::HasFailure()) return;
       }
     }
   }
 }
 
-TEST(Patch, OfAnAnswerOfOtherModelsIsNone) {
+TEST(Manifold, OfAnAnswerOfOtherModelsIsNone) {
   const Model whole = hull_of(shapes::ellipsoid({1, 1, 0.5}, 2000, 3)), cut = whole.cut({0.1}),
               cube = bodies::model(bodies::cube());
   ASSERT_GT(cut.finest_level(), 0);
   const Pose pose = at(0.3, 0.2, 0.7);
-  PairSeed cold;
-  const SignedAnswer exact = signed_distance(whole, whole, pose, cold);
-  PatchOptions options;
-  options.margin = kInfinity;
-  EXPECT_GT(patch(whole, whole, pose, exact, options).count, 0u);
-  EXPECT_EQ(patch(cut, whole, pose, exact, options).count, 0u);
-  EXPECT_EQ(patch(whole, cut, pose, exact, options).count, 0u);
-  cold = {};
-  EXPECT_GT(patch(cut, cut, pose, signed_distance(cut, cut, pose, cold), options).count, 0u);
-  SignedAnswer wrong = exact;
+  const Answer exact = signed_distance(whole, whole, pose);
+  ManifoldOptions options{.margin = kInfinity};
+  EXPECT_GT(manifold(whole, whole, pose, exact, options).count, 0u);
+  EXPECT_EQ(manifold(cut, whole, pose, exact, options).count, 0u);
+  EXPECT_EQ(manifold(whole, cut, pose, exact, options).count, 0u);
+  EXPECT_GT(manifold(cut, cut, pose, signed_distance(cut, cut, pose), options).count, 0u);
+  EXPECT_EQ(manifold({whole, 0.1}, whole, pose, exact, options).count, 0u);
+  EXPECT_EQ(manifold(whole, whole, pose, signed_distance({whole, 0.1}, whole, pose), options).count, 0u);
+  Answer wrong = exact;
   wrong.level_a = -1;
-  EXPECT_EQ(patch(whole, whole, pose, wrong, options).count, 0u);
+  EXPECT_EQ(manifold(whole, whole, pose, wrong, options).count, 0u);
   wrong = exact;
   wrong.feature_b = {FeatureKind::Face, 1u << 29};
-  EXPECT_EQ(patch(cube, cube, pose, wrong, options).count, 0u);
+  EXPECT_EQ(manifold(cube, cube, pose, wrong, options).count, 0u);
   wrong = exact;
   wrong.normal.setConstant(std::numeric_limits<double>::quiet_NaN());
-  EXPECT_EQ(patch(whole, whole, pose, wrong, options).count, 0u);
+  EXPECT_EQ(manifold(whole, whole, pose, wrong, options).count, 0u);
   for (const double absurd : {std::numeric_limits<double>::quiet_NaN(), -kInfinity}) {
     options.margin = absurd;
-    EXPECT_EQ(patch(whole, whole, pose, exact, options).count, 0u);
+    EXPECT_EQ(manifold(whole, whole, pose, exact, options).count, 0u);
   }
 }
 
-/// Points chosen anew beside those of the patch before move no more.
-TEST(Patch, OfTheSamePoseStays) {
+/// Points chosen anew beside those of the manifold before move no more.
+TEST(Manifold, OfTheSamePoseStays) {
   Random random(14);
   for (int i = 0; i < 100; ++i) {
     const Contacting c = i % 2 ? stacked_prisms(random, 12, 7) : stacked_boxes(random);
     if (!is_apart(c)) continue;
-    PatchOptions options;
-    options.margin = kInfinity, options.most_points = 3 + std::uint32_t(i % 6);
-    const Patch first = patch(c.a, c.b, c.b_in_a, c.answer, options),
-                again = patch(c.a, c.b, c.b_in_a, c.answer, options, first);
+    const ManifoldOptions options{.margin = kInfinity, .most_points = 3 + std::uint32_t(i % 6)};
+    const Manifold first = manifold(c.a, c.b, c.b_in_a, c.answer, options),
+                   again = manifold(c.a, c.b, c.b_in_a, c.answer, options, first);
     ASSERT_EQ(first.count, again.count);
     for (std::uint32_t k = 0; k < first.count; ++k) {
-      const bool kept = std::any_of(again.points.begin(), again.points.begin() + again.count, [&](const PatchPoint& p) {
+      const bool kept = std::any_of(again.points.begin(), again.points.begin() + again.count, [&](const ManifoldPoint& p) {
         return p.feature_a == first.points[k].feature_a && p.feature_b == first.points[k].feature_b;
       });
       EXPECT_TRUE(kept) << i;
@@ -620,20 +601,19 @@ TEST(Patch, OfTheSamePoseStays) {
 
 // ---- Laws -------------------------------------------------------------------------------------------------------------------
 
-/// B moved along the normal changes the separations by that and nothing else: bodies that overlap have the same patch.
-TEST(Patch, IsTheSameAtAnyDepth) {
+/// B moved along the normal changes the separations by that and nothing else: bodies that overlap have the same manifold.
+TEST(Manifold, IsTheSameAtAnyDepth) {
   Random random(6);
   for (int i = 0; i < 300; ++i) {
     const Contacting c = i % 2 ? stacked_boxes(random) : random_hulls(random);
     if (!is_apart(c)) continue;
-    PatchOptions options;
-    options.margin = kInfinity;
-    const Patch near = patch(c.a, c.b, c.b_in_a, c.answer, options);
+    const ManifoldOptions options{.margin = kInfinity};
+    const Manifold near = manifold(c.a, c.b, c.b_in_a, c.answer, options);
     const double depth = random.uniform(0, 0.1);
     Contacting overlapping = c;
     overlapping.b_in_a.translation -= depth * c.answer.normal;
     overlapping.answer.point_b -= depth * c.answer.normal;
-    const Patch deep = patch(c.a, c.b, overlapping.b_in_a, overlapping.answer, options);
+    const Manifold deep = manifold(c.a, c.b, overlapping.b_in_a, overlapping.answer, options);
     expect_sound(overlapping, deep, (c.answer.point_b - c.answer.point_a).dot(c.answer.normal) - depth, kInfinity);
     if (shown_area(near) > 1e-6) {
       EXPECT_NEAR(shown_area(deep), shown_area(near), 1e-9 + 0.4 * shown_area(near)) << i;
@@ -642,51 +622,38 @@ TEST(Patch, IsTheSameAtAnyDepth) {
 }
 
 /// Depth's own answers: deep in one another, the deepest point is the depth.
-TEST(Patch, HoldsTheDepthOfOverlappingBodies) {
+TEST(Manifold, HoldsTheDepthOfOverlappingBodies) {
   Random random(11);
   for (int i = 0; i < 200; ++i) {
     Contacting c = i % 2 ? stacked_boxes(random) : random_hulls(random);
     if (!is_apart(c)) continue;
     c.b_in_a.translation -= random.uniform(0, 0.2) * c.answer.normal + 0.05 * random.in_ball();
-    PairSeed cold;
-    const SignedAnswer deep = signed_distance(c.a, c.b, c.b_in_a, cold);
-    if (deep.normal.isZero()) continue;
+    const Answer deep = signed_distance(c.a, c.b, c.b_in_a);
+    if (deep.normal.hasNaN()) continue;
     c.answer.normal = deep.normal;
-    PatchOptions options;
-    options.margin = kInfinity;
-    expect_sound(c, patch(c.a, c.b, c.b_in_a, deep, options), deep.lower, kInfinity);
+    expect_sound(c, manifold(c.a, c.b, c.b_in_a, deep, {.margin = kInfinity}), deep.lower, kInfinity);
   }
 }
 
-/// A loose answer is on a coarser level, and so is its patch: cubes around octahedra.
-TEST(Patch, OfALooseAnswerIsThatOfItsLevels) {
+/// A loose answer is on a coarser level, and so is its manifold: cubes around octahedra.
+TEST(Manifold, OfALooseAnswerIsThatOfItsLevels) {
   const Model a = bodies::nested(2);
-  PairSeed cold;
-  QueryOptions loose;
-  loose.finest_level = 1;
   const Pose b_in_a = at(0, 0.5, 2.5);
-  const Answer answer = distance(a, a, b_in_a, cold, loose);
+  const Answer answer = distance(a, a, b_in_a, {.budget = {.finest_level = 1}});
   ASSERT_EQ(answer.level_a, 1);
-  PatchOptions options;
-  options.margin = 0.6;
-  const Patch p = patch(a, a, b_in_a, answer, options);
+  const Manifold p = manifold(a, a, b_in_a, answer, {.margin = 0.6});
   EXPECT_EQ(p.count, 4u);
   EXPECT_NEAR(shown_area(p), 3, 1e-14);
   EXPECT_NEAR(least(p), 0.5, 1e-14);
 }
 
 /// A margin around the hulls moves the points outwards, by that and nothing else.
-TEST(Patch, OfBodiesWithARadiusLiesOnIt) {
+TEST(Manifold, OfBodiesWithARadiusLiesOnIt) {
   const Model cube = bodies::model(bodies::cube());
   const Pose b_in_a = at(0.5, 0.25, 2.05);
-  Answer answer = nearest(cube, cube, b_in_a);
-  PatchOptions options;
-  options.margin = 0.05;
-  const Patch hulls = patch(cube, cube, b_in_a, answer, options);
-  options.radius_a = 0.03, options.radius_b = 0.04, options.margin = 0;
-  answer.point_a += options.radius_a * answer.normal;
-  answer.point_b -= options.radius_b * answer.normal;
-  const Patch bodies = patch(cube, cube, b_in_a, answer, options);
+  const Body a(cube, 0.03), b(cube, 0.04);
+  const Manifold hulls = manifold(cube, cube, b_in_a, nearest(cube, cube, b_in_a), {.margin = 0.05}),
+                 bodies = manifold(a, b, b_in_a, nearest(a, b, b_in_a));
   ASSERT_EQ(hulls.count, 4u);
   ASSERT_EQ(bodies.count, 4u);
   for (std::uint32_t i = 0; i < 4; ++i) {
@@ -697,42 +664,58 @@ TEST(Patch, OfBodiesWithARadiusLiesOnIt) {
   }
 }
 
-TEST(Patch, IsMirroredUnderSwap) {
+/// A box is the same whatever it is made of; its corners have other names.
+TEST(Manifold, OfPrimitivesIsThatOfTheirModels) {
+  const Model cube = bodies::model(bodies::cube()), segment = bodies::model(bodies::segment({-3, 0, 0}, {3, 0, 0})),
+              triangle = bodies::model(bodies::two_sided({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  const Pose pose = at(0.5, 0.25, 2.1, shapes::rotation({0, 0, 1}, 0.3));
+  for (const auto& [primitive, model] : {std::pair{Body::box({-1, -1, -1}, {1, 1, 1}, 0.1), &cube},
+                                         std::pair{Body::segment({-3, 0, 0}, {3, 0, 0}, 0.1), &segment},
+                                         std::pair{Body::triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.1), &triangle}}) {
+    const Body same(*model, 0.1), other(cube, 0.02);
+    const ManifoldOptions options{.margin = kInfinity, .most_points = 8};
+    const Manifold p = manifold(other, primitive, pose, nearest(other, primitive, pose), options),
+                   q = manifold(other, same, pose, nearest(other, same, pose), options);
+    EXPECT_GE(p.count, 2u);
+    EXPECT_EQ(p.count, q.count);
+    EXPECT_NEAR(shown_area(p), shown_area(q), 1e-14);
+    EXPECT_NEAR(least(p), least(q), tolerance(other, same, pose));
+  }
+}
+
+TEST(Manifold, IsMirroredUnderSwap) {
   Random random(7);
   for (int i = 0; i < 300; ++i) {
     const Contacting c = i % 2 ? stacked_boxes(random) : random_hulls(random);
     if (!is_apart(c)) continue;
-    PatchOptions options;
-    options.margin = kInfinity, options.most_points = 8;
-    const Patch forth = patch(c.a, c.b, c.b_in_a, c.answer, options);
+    const ManifoldOptions options{.margin = kInfinity, .most_points = 8};
+    const Manifold forth = manifold(c.a, c.b, c.b_in_a, c.answer, options);
     Contacting s{c.b, c.a, inverse(c.b_in_a), c.answer};
     const auto into_b = [&](const Vec3& p) { return Vec3(s.b_in_a.rotation * p + s.b_in_a.translation); };
     s.answer.normal = -(s.b_in_a.rotation * c.answer.normal).normalized();
     s.answer.point_a = into_b(c.answer.point_b), s.answer.point_b = into_b(c.answer.point_a);
     std::swap(s.answer.feature_a, s.answer.feature_b);
-    const Patch back = patch(s.a, s.b, s.b_in_a, s.answer, options);
+    const Manifold back = manifold(s.a, s.b, s.b_in_a, s.answer, options);
     expect_sound(s, back, (c.answer.point_b - c.answer.point_a).dot(c.answer.normal), kInfinity);
     EXPECT_NEAR(shown_area(forth), shown_area(back), 16 * c.bound() * (c.a.extent() + c.b.extent())) << i;
   }
 }
 
-TEST(Patch, ScalesBitForBit) {
+TEST(Manifold, ScalesBitForBit) {
   Random random(8);
   for (int i = 0; i < 100; ++i) {
-    const bodies::Body a = bodies::moved(bodies::box(1, random.uniform(), 1), random.rotation());
+    const bodies::Polyhedron a = bodies::moved(bodies::box(1, random.uniform(), 1), random.rotation());
     const Mat3 rotation = random.rotation();
     const Vec3 translation = 3 * random.on_sphere();
     const auto at_scale = [&](double scale) {
-      const bodies::Body scaled = bodies::moved(a, scale * Mat3::Identity());
+      const bodies::Polyhedron scaled = bodies::moved(a, scale * Mat3::Identity());
       const Model model = bodies::model(scaled);
       Pose pose;
       pose.rotation = rotation, pose.translation = scale * translation;
       const Answer answer = nearest(model, model, pose);
-      PatchOptions options;
-      options.margin = kInfinity;
-      return answer.normal.isZero() ? Patch{} : patch(model, model, pose, answer, options);
+      return answer.normal.hasNaN() ? Manifold{} : manifold(model, model, pose, answer, {.margin = kInfinity});
     };
-    const Patch one = at_scale(1), large = at_scale(0x1p40);
+    const Manifold one = at_scale(1), large = at_scale(0x1p40);
     ASSERT_EQ(one.count, large.count);
     for (std::uint32_t k = 0; k < one.count; ++k) {
       EXPECT_EQ(one.points[k].point_a * 0x1p40, large.points[k].point_a);
@@ -744,20 +727,21 @@ TEST(Patch, ScalesBitForBit) {
 
 // ---- Motion -----------------------------------------------------------------------------------------------------------------
 
-Vec3 direction(const ConvexView& view, Handle edge, const Mat3& rotation) {
-  const Vertex &p = view.vertices[view.head[view.twin[edge.index()]]], &q = view.vertices[view.head[edge.index()]];
+Vec3 direction(const ConvexView& view, FeatureId edge, const Mat3& rotation) {
+  const HalfEdge& along = view.half_edges[edge.index()];
+  const Vertex &p = view.vertices[view.half_edges[along.twin].head], &q = view.vertices[along.head];
   return (rotation * Vec3(q.x - p.x, q.y - p.y, q.z - p.z)).normalized();
 }
 
 /// B slides, turns and tilts by 1e-6 a frame. A point that keeps its name moves by no more than the bodies do there, where
 /// edges cross divided by the sine of their angle, with room for a factor of 4.
-TEST(Patch, MovesNoPointFartherThanTheBodies) {
+TEST(Manifold, MovesNoPointFartherThanTheBodies) {
   Random random(9);
   int frames = 0, changes = 0, followed = 0;
   double worst = 0;
   for (int scene = 0; scene < 60; ++scene) {
-    const bodies::Body a = scene % 3 ? bodies::box(1, 0.7, 0.5) : prism(60, 1, 1),
-                       b = scene % 2 ? bodies::box(0.8, 1.1, 0.4) : prism(5, 0.9, 1);
+    const bodies::Polyhedron a = scene % 3 ? bodies::box(1, 0.7, 0.5) : prism(60, 1, 1),
+                             b = scene % 2 ? bodies::box(0.8, 1.1, 0.4) : prism(5, 0.9, 1);
     const Model model_a = bodies::model(a), model_b = bodies::model(b);
     Pose pose =
         stacked(a, 0.5, b, random_top(random, random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)), 1e-2, Mat3::Identity())
@@ -765,19 +749,17 @@ TEST(Patch, MovesNoPointFartherThanTheBodies) {
     constexpr double kStep = 1e-6;
     const Vec3 slide = kStep * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 0);
     const Mat3 turn = shapes::rotation(random.on_sphere(), kStep);
-    Patch before;
+    Manifold before;
     for (int frame = 0; frame < 200; ++frame, ++frames) {
       const Contacting c{model_a, model_b, pose, nearest(model_a, model_b, pose)};
-      PatchOptions options;
-      options.margin = 0.02;
-      const Patch now = patch(c.a, c.b, pose, c.answer, options, before);
+      const Manifold now = manifold(c.a, c.b, pose, c.answer, {.margin = 0.02}, before);
       const double motion = 2 * kStep + 2 * kStep * 0.02 / std::max(1e-9, c.answer.lower);
       bool same = now.count == before.count;
       for (std::uint32_t i = 0; i < now.count; ++i) {
-        const PatchPoint& p = now.points[i];
-        const PatchPoint* old = nullptr;
+        const ManifoldPoint& p = now.points[i];
+        const ManifoldPoint* old = nullptr;
         for (std::uint32_t k = 0; k < before.count; ++k) {
-          const PatchPoint& q = before.points[k];
+          const ManifoldPoint& q = before.points[k];
           if (q.feature_a == p.feature_a && q.feature_b == p.feature_b) old = &q;
         }
         same = same && old;
@@ -806,18 +788,17 @@ TEST(Patch, MovesNoPointFartherThanTheBodies) {
 
 /// Two triangles turned against one another have a hexagon in common, of which four corners are as good as other four: those of
 /// the frame before stay, whatever a body at rest trembles.
-TEST(Patch, KeepsThePointsOfTheFrameBefore) {
+TEST(Manifold, KeepsThePointsOfTheFrameBefore) {
   const Model prism_3 = bodies::model(prism(3, 1, 1));
   Random random(10);
   int with = 0, without = 0;
-  Patch before, alone;
+  Manifold before, alone;
   for (int frame = 0; frame < 200; ++frame) {
     const Pose pose = at(random.uniform(-1e-3, 1e-3), random.uniform(-1e-3, 1e-3), 1.001,
                          shapes::rotation(Vec3::UnitZ(), std::numbers::pi + random.uniform(-1e-3, 1e-3)));
     const Answer answer = nearest(prism_3, prism_3, pose);
-    PatchOptions options;
-    options.margin = 0.01;
-    const auto differ = [](const Patch& p, const Patch& q) {
+    const ManifoldOptions options{.margin = 0.01};
+    const auto differ = [](const Manifold& p, const Manifold& q) {
       int known = 0;
       for (std::uint32_t i = 0; i < p.count; ++i) {
         for (std::uint32_t k = 0; k < q.count; ++k) {
@@ -826,8 +807,8 @@ TEST(Patch, KeepsThePointsOfTheFrameBefore) {
       }
       return known < 4;
     };
-    const Patch now = patch(prism_3, prism_3, pose, answer, options, before),
-                now_alone = patch(prism_3, prism_3, pose, answer, options);
+    const Manifold now = manifold(prism_3, prism_3, pose, answer, options, before),
+                   now_alone = manifold(prism_3, prism_3, pose, answer, options);
     with += frame > 0 && differ(now, before);
     without += frame > 0 && differ(now_alone, alone);
     before = now, alone = now_alone;
@@ -836,25 +817,23 @@ TEST(Patch, KeepsThePointsOfTheFrameBefore) {
   EXPECT_GT(without, 20) << "the test is too easy";
 }
 
-/// Whatever the patch before was of, what is chosen after it is chosen again.
-TEST(Patch, KeepsWhatItChose) {
+/// Whatever the manifold before was of, what is chosen after it is chosen again.
+TEST(Manifold, KeepsWhatItChose) {
   const Model prism_5 = bodies::model(prism(5, 1, 1)), cube = bodies::model(bodies::cube());
   Random random(11);
   int others = 0;
   for (const Model* model : {&cube, &prism_5}) {
-    Patch before;
+    Manifold before;
     for (int i = 0; i < 20'000; ++i) {
       const double tilt = std::pow(10, random.uniform(-16, -1));
       const Mat3 rotation = shapes::rotation(Vec3::UnitX(), tilt * random.uniform(-1, 1)) *
                             shapes::rotation(Vec3::UnitZ(), i % 2 ? tilt * random.uniform(-1, 1) : random.uniform(-1, 1));
       const Pose pose = at(random.uniform(-1, 1), random.uniform(-1, 1), 2.2, rotation);
       const Answer answer = nearest(*model, *model, pose);
-      PatchOptions options;
-      options.margin = 10;
-      options.most_points = 1 + std::uint32_t(random.bits() % kMostPatchPoints);
-      const Patch first = patch(*model, *model, pose, answer, options, before),
-                  again = patch(*model, *model, pose, answer, options, first),
-                  alone = patch(*model, *model, pose, answer, options);
+      const ManifoldOptions options{.margin = 10, .most_points = 1 + std::uint32_t(random.bits() % kMostManifoldPoints)};
+      const Manifold first = manifold(*model, *model, pose, answer, options, before),
+                     again = manifold(*model, *model, pose, answer, options, first),
+                     alone = manifold(*model, *model, pose, answer, options);
       ASSERT_EQ(first.count, again.count) << i;
       for (std::uint32_t k = 0; k < first.count; ++k) {
         ASSERT_EQ(first.points[k].feature_a, again.points[k].feature_a) << i;
@@ -869,15 +848,15 @@ TEST(Patch, KeepsWhatItChose) {
 }
 
 /// A cube that balances on an edge faces along the normal with two faces alike: the one of the frame before stays.
-TEST(Patch, KeepsTheFaceOfTheFrameBefore) {
+TEST(Manifold, KeepsTheFaceOfTheFrameBefore) {
   const Model cube = bodies::model(bodies::cube());
   const Pose pose = at(0, 0, 1.1 + std::sqrt(2), kEighthAboutX);
   const Answer answer = nearest(cube, cube, pose);
   int kept = 0;
   for (std::uint32_t face = 0; face < 6; ++face) {
-    Patch before;
+    Manifold before;
     before.face_b = {FeatureKind::Face, face};
-    kept += patch(cube, cube, pose, answer, {}, before).face_b == before.face_b;
+    kept += manifold(cube, cube, pose, answer, {}, before).face_b == before.face_b;
   }
   EXPECT_EQ(kept, 2);
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "patch_oracle.h"
+#include "manifold_oracle.h"
 
 #include <algorithm>
 #include <array>
@@ -49,9 +49,9 @@ using Loop = std::vector<Point2>;  // counter-clockwise
 Loop seen_hull(const ConvexView& view, const std::vector<std::uint32_t>& faces, const Pose& pose, const Frame& frame) {
   const std::set<std::uint32_t> wanted(faces.begin(), faces.end());
   Loop seen, hull;
-  for (std::uint32_t h = 0; h < view.head.size(); ++h) {
-    const Vertex& p = view.vertices[view.head[h]];
-    if (wanted.count(view.face[h])) seen.push_back(frame.seen(moved(pose, Vec3(p.x, p.y, p.z))));
+  for (const HalfEdge& h : view.half_edges) {
+    const Vertex& p = view.vertices[h.head];
+    if (wanted.count(h.face)) seen.push_back(frame.seen(moved(pose, Vec3(p.x, p.y, p.z))));
   }
   CGAL::convex_hull_2(seen.begin(), seen.end(), std::back_inserter(hull));
   return hull;
@@ -109,12 +109,12 @@ double height_over(const ConvexView& body, const Pose& in_a, const Vec3& point) 
   for (const Vertex& v : body.vertices) vertices.push_back(moved(in_a, Vec3(v.x, v.y, v.z)));
   const Vector3 p = exact(point);
   double highest = -std::numeric_limits<double>::infinity();
-  for (std::uint32_t h = 0; h < body.head.size(); ++h) {
-    if (body.face[h] == kNone) continue;
-    // The facet on the left of h: its corner after the head follows the twin, clockwise, in the head's ring.
-    const Vertex& ring = body.vertices[body.head[h]];
-    const std::uint32_t back = body.twin[h], next = back == ring.ring_begin ? back + ring.ring_count - 1 : back - 1;
-    const Vector3 &q = vertices[body.head[back]], &r = vertices[body.head[h]], &s = vertices[body.head[next]];
+  for (const auto& [head, twin, face] : body.half_edges) {
+    if (face == kNone) continue;
+    // The facet on the left: its corner after the head follows the twin, clockwise, in the head's ring.
+    const Vertex& ring = body.vertices[head];
+    const std::uint32_t next = twin == ring.ring_begin ? twin + ring.ring_count - 1 : twin - 1;
+    const Vector3 &q = vertices[body.half_edges[twin].head], &r = vertices[head], &s = vertices[body.half_edges[next].head];
     const Vector3 normal = CGAL::cross_product(r - q, s - q);
     const Real height = dot(normal, p - q), square = dot(normal, normal);
     if (square == 0) continue;
@@ -130,23 +130,23 @@ namespace {
 std::vector<std::array<Vec3, 2>> sides_of(const ConvexView& body, std::uint32_t face) {
   std::vector<std::array<Vec3, 2>> result;
   const auto point = [&](std::uint32_t v) { return Vec3(body.vertices[v].x, body.vertices[v].y, body.vertices[v].z); };
-  for (std::uint32_t h = 0; h < body.head.size(); ++h) {
-    if (body.face[h] == face && body.face[body.twin[h]] != face)
-      result.push_back({point(body.head[body.twin[h]]), point(body.head[h])});
+  for (const HalfEdge& h : body.half_edges) {
+    const HalfEdge& back = body.half_edges[h.twin];
+    if (h.face == face && back.face != face) result.push_back({point(back.head), point(h.head)});
   }
   return result;
 }
 
 }  // namespace
 
-Vec3 face_normal(const ConvexView& body, Handle face) {
+Vec3 face_normal(const ConvexView& body, FeatureId face) {
   const auto sides = sides_of(body, face.index());
   Vec3 sum = Vec3::Zero();
   for (const auto& [p, q] : sides) sum += (p - sides[0][0]).cross(q - sides[0][0]);
   return sum.normalized();
 }
 
-std::vector<std::uint32_t> flat_faces(const ConvexView& body, Handle face, double flatness) {
+std::vector<std::uint32_t> flat_faces(const ConvexView& body, FeatureId face, double flatness) {
   const Vec3 n = face_normal(body, face), p = sides_of(body, face.index())[0][0];
   std::vector<std::uint32_t> faces{face.index()};
   for (std::uint32_t other = 0; other < body.face_first.size(); ++other) {

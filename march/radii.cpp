@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radii.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "double_double.h"
+#include "scene.h"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+Verdict verdict(double lower, double upper, double law_two) {
+  if (upper < 0) return Verdict::Overlapping;
+  if (lower > 0) return Verdict::Disjoint;
+  return lower >= -law_two && upper <= law_two ? Verdict::Touching : Verdict::Undecided;
+}
+
+/// The same answer, for no work.
+Answer known(Answer answer, Status status) {
+  answer.status = status;
+  answer.steps = answer.plane_tests = 0;
+  answer.levels_visited = 0;
+  answer.is_signed = false;
+  return answer;
+}
+
+/// Whether a distance can go on from there.
+bool tells_distance(const Answer& answer) {
+  return answer.feature_a.kind() != FeatureKind::None && (answer.lower > 0 || !answer.is_signed);
+}
+
+}  // namespace
+
+double Radii::law_two(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_error) const {
+  return swiftlet::law_two(a.level(0).view.extent + a_, b.level(0).view.extent + b_, norm(b_in_a.t), pose_error);
+}
+
+Target Radii::of_hulls(const Target& of, double law_two) const {
+  if (none()) return of;
+  return {of.absolute, of.relative, of.clear_above + sum(), of.hit_below + sum(), sum(), (1 + of.relative) * law_two};
+}
+
+Answer Radii::of_hulls(Answer of) const {
+  of.is_signed = false;
+  if (of.normal.hasNaN()) of.normal.setZero();
+  if (none()) return of;
+  of.verdict = of.verdict == Verdict::Disjoint ? Verdict::Disjoint : Verdict::Undecided;
+  Radii(-a_, -b_).move_points(of);
+  of.lower = of.lower > 0 ? more(of.lower, -kInfinity) : 0;
+  of.upper = more(of.upper, kInfinity);
+  return of;
+}
+
+void Radii::round(Answer& answer, OverlapProof& proof, double law_two) const {
+  const double low = lower(answer.lower), high = upper(answer.upper);
+  if (answer.verdict != Verdict::Overlapping) {
+    answer.verdict = verdict(low, high, law_two);
+    if (proof.count > 0) answer.normal.setZero();  // coarse levels overlap
+    proof = {};
+    move_points(answer);
+  }
+  answer.lower = larger(0, low);
+  answer.upper = larger(answer.lower, high);
+}
+
+void Radii::round_signed(Answer& answer, OverlapProof& proof, double law_two) const {
+  if (none()) return;
+  answer.lower = lower(answer.lower);
+  answer.upper = upper(answer.upper);
+  answer.verdict = verdict(answer.lower, answer.upper, law_two);
+  if (answer.upper < 0) proof = {};
+  move_points(answer);
+}
+
+void Radii::round(LevelRecord& record) const {
+  record.lower = larger(0, lower(record.lower));
+  record.upper = larger(record.lower, upper(record.upper));
+}
+void Radii::round_signed(LevelRecord& record) const {
+  record.lower = lower(record.lower);
+  record.upper = upper(record.upper);
+}
+
+double Radii::less(double bound, double side) const {
+  if (!std::isfinite(bound)) return bound;
+  const Pair sum = two_sum(a_, b_), rest = two_sum(bound, -sum.high);
+  const double lost = rest.low - sum.low;
+  return lost == 0 ? rest.high : std::nextafter(rest.high + lost, side);
+}
+double Radii::more(double bound, double side) const { return Radii(-a_, -b_).less(bound, side); }
+double Radii::lower(double of_hulls) const { return less(of_hulls, -kInfinity); }
+double Radii::upper(double of_hulls) const { return less(of_hulls, kInfinity); }
+
+void Radii::move_points(Answer& answer) const {
+  answer.point_a = eigen(vec(answer.point_a) + vec(answer.normal) * a_);
+  answer.point_b = eigen(vec(answer.point_b) - vec(answer.normal) * b_);
+}
+
+Answer refused(const Body& a, const Body& b, Status why, bool is_signed) {
+  Answer answer;
+  answer.status = why;
+  answer.is_signed = is_signed;
+  if (is_signed) answer.lower = -kInfinity;
+  answer.radius_a = a.radius(), answer.radius_b = b.radius();
+  return answer;
+}
+
+void seal(const Radii& radii, const OverlapProof& proof, const Tuning& tuning, Answer& answer) {
+  answer.radius_a = radii.a(), answer.radius_b = radii.b();
+  if (tuning.proof) *tuning.proof = proof;
+  const bool separates = answer.is_signed ? answer.lower > -kInfinity : proof.count == 0;
+  if (!separates || max_abs(vec(answer.normal)) == 0) answer.normal.setConstant(kUnknown);
+  if (!(answer.upper < kInfinity)) answer.point_a.setConstant(kUnknown), answer.point_b.setConstant(kUnknown);
+}
+
+Answer ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const Target& target,
+           const Answer* so_far) {
+  if (limits.tuning.proof) *limits.tuning.proof = {};
+  const Setting at(a, b, b_in_a);
+  if (const Status fault = at.fault(); fault != Status::Converged) return refused(a, b, fault, false);
+  if (so_far && !tells_distance(*so_far)) so_far = nullptr;
+  if (so_far && Radii(*so_far) != at.radii) return refused(a, b, Status::InvalidRadius, false);
+  Answer answer;
+  OverlapProof proof;
+  if (at.radii.none()) {
+    Answer hulls;
+    if (so_far) hulls = at.radii.of_hulls(*so_far);
+    descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, target, answer, proof, so_far ? &hulls : nullptr);
+  } else {
+    if (so_far && so_far->verdict == Verdict::Overlapping) return known(*so_far, Status::Converged);
+    const double law_two = at.law_two();
+    Target of_hulls = at.radii.of_hulls(target, law_two);
+    Answer hulls;
+    if (so_far) {
+      hulls = at.radii.of_hulls(*so_far);
+      // Exact of the bodies is exact, whatever place the radii cost it.
+      if (so_far->upper - so_far->lower <= law_two) of_hulls.exact = hulls.upper - hulls.lower;
+    }
+    descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, of_hulls, answer, proof, so_far ? &hulls : nullptr);
+    if (so_far && answer.levels_visited == 0) return known(*so_far, answer.status);
+    at.radii.round(answer, proof, law_two);
+    const std::size_t recorded = std::min(limits.trace.size(), std::size_t(answer.levels_visited));
+    for (LevelRecord& record : limits.trace.first(recorded)) at.radii.round(record);
+  }
+  seal(at.radii, proof, limits.tuning, answer);
+  return answer;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// How much stack queries take: each runs on a painted stack of its own, and the paint that is left tells. Figures are of
+// optimised code.
+#include <swiftlet/build.h>
+#include <swiftlet/depth.h>
+#include <swiftlet/manifold.h>
+#include <swiftlet/query.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <ucontext.h>
+#include <Eigen/Geometry>
+
+#include "bodies.h"
+#include "shapes.h"
+
+namespace swiftlet {
+namespace {
+
+#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+constexpr bool kIsMeasured = true;
+#else
+constexpr bool kIsMeasured = false;
+#endif
+
+/// A stack that knows how far it was used.
+class PaintedStack {
+ public:
+  /// The bytes that `work` needed, with less than 256 of its call.
+  std::size_t use(const std::function<void()>& work) {
+    std::fill(stack_.begin(), stack_.end(), kPaint);
+    ucontext_t here, there;
+    getcontext(&there);
+    there.uc_stack.ss_sp = stack_.data();
+    there.uc_stack.ss_size = stack_.size();
+    there.uc_link = &here;
+    work_ = &work;
+    makecontext(&there, &PaintedStack::run, 0);
+    swapcontext(&here, &there);
+    return std::size_t(stack_.end() - std::find_if(stack_.begin(), stack_.end(), [](unsigned char c) { return c != kPaint; }));
+  }
+
+ private:
+  static void run() { (*work_)(); }
+  static constexpr unsigned char kPaint = 0xa5;
+  static inline const std::function<void()>* work_ = nullptr;
+  std::vector<unsigned char> stack_ = std::vector<unsigned char>(256 << 10);
+};
+
+/// The most that a kind of query took.
+struct Most {
+  std::size_t verdicts = 0, distances = 0, depths = 0, manifolds = 0;
+};
+
+Most measured(const Body& a, const Body& b, int poses) {
+  PaintedStack stack;
+  Most most;
+  const auto keep = [&](std::size_t& kind, const std::function<void()>& work) { kind = std::max(kind, stack.use(work)); };
+  shapes::Random random(1);
+  for (int i = 0; i < poses; ++i) {
+    const Pose pose{random.rotation(), random.in_ball() * (i % 2 ? 0.3 : 2.5)};
+    keep(most.verdicts, [&] { intersects(a, b, pose); });
+    keep(most.verdicts, [&] { within(a, b, pose, 0.5); });
+    keep(most.distances, [&] { distance(a, b, pose); });
+    keep(most.distances, [&] { distance(a, b, pose, {.relative = 0.01}); });
+    keep(most.distances, [&] { closest_features(a, b, pose); });
+    keep(most.distances, [&] { refine(a, b, pose, distance(a, b, pose, {.relative = 0.1})); });
+    Answer deep;
+    keep(most.depths, [&] { deep = signed_distance(a, b, pose); });
+    keep(most.depths, [&] { signed_within(a, b, pose, -0.1); });
+    keep(most.manifolds, [&] { manifold(a, b, pose, deep, {.margin = 1}); });
+  }
+  return most;
+}
+
+TEST(Stack, OfAQueryIsWhatItsCostLineSays) {
+  const Model fat = bodies::must(build(shapes::ellipsoid({1, 1, 1}, 500, 1))).model,
+              plate = bodies::must(build(shapes::ellipsoid({1, 1, 0.1}, 400, 2))).model,
+              prism = bodies::must(build(shapes::box({0.5, 0.5, 1}))).model;
+  const Body triangle = Body::triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), box = Body::box({-1, -1, -1}, {1, 1, 1});
+  Most most;
+  for (const auto& [a, b] : {std::pair<Body, Body>{fat, fat},
+                             {fat, plate},
+                             {plate, prism},
+                             {prism, prism},
+                             {fat, triangle},
+                             {triangle, triangle},
+                             {box, prism}}) {
+    const Most m = measured(a, b, 100);
+    most = {std::max(most.verdicts, m.verdicts), std::max(most.distances, m.distances), std::max(most.depths, m.depths),
+            std::max(most.manifolds, m.manifolds)};
+  }
+  std::size_t resting = 0;  // a depth whose facet the seed knows: no polytope grows
+  PaintedStack stack;
+  PairSeed seed;
+  for (int i = 0; i < 50; ++i) {
+    const Pose pose{Eigen::AngleAxisd(1e-4 * i, Vec3::UnitZ()).toRotationMatrix(), {0.1, 0.2, 1.9 - 1e-3 * i}};
+    const std::size_t used = stack.use([&] { signed_distance(prism, box, pose, seed); });
+    if (i > 0) resting = std::max(resting, used);
+  }
+  std::printf("bytes of stack: verdicts %zu, distances %zu, depths at rest %zu, depths %zu, manifolds %zu\n", most.verdicts,
+              most.distances, resting, most.depths, most.manifolds);
+  EXPECT_GE(std::min(resting, most.verdicts), 1000u) << "nothing was measured";
+  if (!kIsMeasured) GTEST_SKIP() << "not optimised, or with a sanitizer's own variables";
+  EXPECT_LE(most.verdicts, 12u << 10);
+  EXPECT_LE(most.distances, 12u << 10);
+  EXPECT_LE(resting, 16u << 10);
+  EXPECT_LE(most.depths, 32u << 10);
+  EXPECT_LE(most.manifolds, 32u << 10);
+}
+
+}  // namespace
+}  // namespace swiftlet
