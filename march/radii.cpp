@@ -28,6 +28,13 @@ Answer known(Answer answer, Status status) {
   return answer;
 }
 
+/// Whether the normal proves the lower bound. One pair of levels may overlap where a coarser one, which the bound is from, is
+/// disjoint: levels enclose the body, not each other.
+bool separates(const Answer& answer, const OverlapProof& proof) {
+  if (answer.is_signed) return answer.lower > -kInfinity;
+  return answer.lower > 0 || proof.count == 0;
+}
+
 /// Whether a distance can go on from there.
 bool tells_distance(const Answer& answer) {
   return answer.feature_a.kind() != FeatureKind::None && (answer.lower > 0 || !answer.is_signed);
@@ -59,7 +66,7 @@ void Radii::round(Answer& answer, OverlapProof& proof, double law_two) const {
   const double low = lower(answer.lower), high = upper(answer.upper);
   if (answer.verdict != Verdict::Overlapping) {
     answer.verdict = verdict(low, high, law_two);
-    if (proof.count > 0) answer.normal.setZero();  // coarse levels overlap
+    if (!separates(answer, proof)) answer.normal.setZero();
     proof = {};
     move_points(answer);
   }
@@ -112,8 +119,7 @@ Answer refused(const Body& a, const Body& b, Status why, bool is_signed) {
 void seal(const Radii& radii, const OverlapProof& proof, const Tuning& tuning, Answer& answer) {
   answer.radius_a = radii.a(), answer.radius_b = radii.b();
   if (tuning.proof) *tuning.proof = proof;
-  const bool separates = answer.is_signed ? answer.lower > -kInfinity : proof.count == 0;
-  if (!separates || max_abs(vec(answer.normal)) == 0) answer.normal.setConstant(kUnknown);
+  if (!separates(answer, proof) || max_abs(vec(answer.normal)) == 0) answer.normal.setConstant(kUnknown);
   if (!(answer.upper < kInfinity)) answer.point_a.setConstant(kUnknown), answer.point_b.setConstant(kUnknown);
 }
 

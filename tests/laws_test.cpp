@@ -313,6 +313,38 @@ TEST(Law1, IntervalsHoldTheTruthAtCoarseLevels) {
   EXPECT_GE(limited, 100);
 }
 
+TEST(Law1, ABoundKeepsItsPlaneWhereAFinerPairOfLevelsOverlaps) {
+  // Levels enclose the body, not each other: where a pair is hardly apart, a finer one may overlap.
+  BuildOptions options;
+  options.cutoff = 60;
+  options.method = Method::Collapse;
+  const Model a = bodies::must(build(shapes::ellipsoid({1, 1, 1}, 800, 1), options)).model,
+              b = bodies::must(build(shapes::ellipsoid({1, 0.1, 0.1}, 800, 2), options)).model;
+  shapes::Random random(5);
+  int met = 0;
+  for (int i = 0; i < 3000; ++i) {
+    Options question;
+    question.budget.finest_level = 1 + i % 3;
+    Pose pose{random.rotation(), 4 * random.on_sphere()};
+    for (int k = 0; k < 2; ++k) {
+      const Answer apart = distance(a, b, pose, question);
+      pose.translation -= (apart.lower - 1e-5) * apart.normal;
+    }
+    OverlapProof proof;
+    question.budget.finest_level = 1;
+    question.tuning.start = StartPolicy::Coarsest;
+    question.tuning.proof = &proof;
+    for (const double radius : {0.0, 1e-7}) {
+      const Answer answer = distance({a, radius}, {b, radius}, pose, question);
+      const Check checked = check({a, radius}, {b, radius}, pose, answer, &proof);
+      ASSERT_TRUE(checked) << checked.message;
+      ASSERT_EQ(answer.lower > 0, !answer.normal.hasNaN()) << i;
+      met += answer.lower > 0 && proof.count > 0;
+    }
+  }
+  EXPECT_GE(met, 8);
+}
+
 TEST(Law1, IntervalsHoldTheTruthUnderEveryTolerance) {
   for_each_case([](const Case& c) {
     for (const auto& [absolute, relative] :
