@@ -330,23 +330,21 @@ void sharpen(const ModelPair& pair, Answer& s) {
 }
 
 /// What the depth alone says.
-Answer overlap_part(const Deepening& deep) {
-  Answer s;
+void overlap_part(const Deepening& deep, Answer& s) {
   s.normal.setZero();
   s.status = deep.status();
   s.upper = -deep.lower;
   take(deep, s);
   if (deep.proved()) s.verdict = Verdict::Overlapping;
   if (deep.upper < 0) s.verdict = Verdict::Disjoint;
-  return add_work(deep, s), s;
+  add_work(deep, s);
 }
 
 /// An answer of the hulls as one of the bodies.
 void finish(const Setting& at, const Limits& limits, OverlapProof& proof, Answer& s) {
   s.is_signed = true;
   if (!(s.lower > -kInfinity)) s.normal.setZero();
-  const std::size_t recorded = std::min(limits.trace.size(), std::size_t(s.levels_visited));
-  for (LevelRecord& record : limits.trace.first(recorded)) at.radii.round_signed(record);
+  at.radii.round_signed(limits.trace, s.levels_visited);
   at.radii.round_signed(s, proof, at.law_two());
   seal(at.radii, proof, limits.tuning, s);
 }
@@ -361,24 +359,24 @@ void make_signed(std::span<LevelRecord> trace, int visited) {
 }  // namespace
 
 Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options) {
+  Answer answer;
   if (options.tuning.proof) *options.tuning.proof = {};
   const Setting at(a, b, b_in_a);
-  if (const Status fault = at.fault(); fault != Status::Converged) return refused(a, b, fault, true);
+  if (const Status fault = at.fault(); fault != Status::Converged) return refuse(a, b, fault, true, answer), answer;
   Limits limits(options.budget, options.tuning);
   Deepening deep(at, limits, {options.absolute, options.relative});
   OverlapProof proof;
   if (seed.met) deep.run(seed);
   if (deep.proved()) {
     deep.store(seed);
-    Answer answer = overlap_part(deep);
-    finish(at, limits, proof, answer);
-    return answer;
+    overlap_part(deep, answer);
+    return finish(at, limits, proof, answer), answer;
   }
-  Answer answer;
   const Target target{options.absolute, options.relative, options.beyond, -kInfinity};
   const int visited = deep.levels_visited;
   if (!limits.trace.empty()) limits.trace = limits.trace.last(std::max(1, int(limits.trace.size()) - visited));
-  descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, at.radii.of_hulls(target, at.law_two()), answer, proof);
+  const Target of_hulls = at.radii.of_hulls(target, at.law_two());
+  descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, of_hulls, false, answer, proof);
   make_signed(limits.trace, answer.levels_visited);
   limits.trace = options.tuning.trace;
   answer.levels_visited = std::uint8_t(answer.levels_visited + visited);
@@ -408,20 +406,21 @@ Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, const O
 }
 
 Within signed_within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, PairSeed& seed, const Effort& effort) {
+  Within result;
   if (effort.tuning.proof) *effort.tuning.proof = {};
   const Setting at(a, b, b_in_a);
-  if (const Status fault = at.fault(); fault != Status::Converged) return {Decision::Undecided, refused(a, b, fault, true)};
+  if (const Status fault = at.fault(); fault != Status::Converged) return refuse(a, b, fault, true, result.answer), result;
   const Limits limits(effort.budget, effort.tuning);
   const double of_hulls = threshold + at.radii.sum();
-  Within result;
   OverlapProof proof;
   if (of_hulls < 0) {
     Deepening deep(at, limits, {0, 0, -of_hulls});
     deep.run(seed);
     if (deep.proved()) deep.store(seed);
-    result.answer = overlap_part(deep);
+    overlap_part(deep, result.answer);
   } else {
-    descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, {0, 0, of_hulls, of_hulls}, result.answer, proof);
+    const Target target{0, 0, of_hulls, of_hulls};
+    descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, target, false, result.answer, proof);
     make_signed(limits.trace, result.answer.levels_visited);
     if (result.answer.status == Status::Beyond) result.answer.status = Status::Converged;
     if (!(result.answer.lower > 0)) result.answer.lower = -kInfinity;

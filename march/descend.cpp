@@ -58,12 +58,10 @@ class Descent {
   }
 
   /// From where another descent ended.
-  void go_on(const Answer& so_far, PairSeed& seed) {
-    Place place{std::clamp(int(so_far.level_a), a_.finest_level(), a_.level_count() - 1),
-                std::clamp(int(so_far.level_b), b_.finest_level(), b_.level_count() - 1),
-                {so_far.feature_a, so_far.feature_b}};
-    if (!is_warm(place.start)) return start(seed);
-    answer_ = so_far;
+  void go_on(PairSeed& seed) {
+    Place place{std::clamp(int(answer_.level_a), a_.finest_level(), a_.level_count() - 1),
+                std::clamp(int(answer_.level_b), b_.finest_level(), b_.level_count() - 1),
+                {answer_.feature_a, answer_.feature_b}};
     answer_.steps = answer_.plane_tests = 0;
     answer_.levels_visited = 0;
     place.start = settled(scene_at(place), place.start, answer_.plane_tests);
@@ -405,14 +403,16 @@ class Descent {
 }  // namespace
 
 void descend(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_error, PairSeed& seed, const Limits& limits,
-             const Target& target, Answer& answer, OverlapProof& proof, const Answer* so_far) {
-  answer.normal.setZero();
+             const Target& target, bool goes_on, Answer& answer, OverlapProof& proof) {
   const ModelPair pair(a, b, b_in_a, pose_error, limits);
   Glance first;
-  const bool asks = target.is_threshold() && pair.may_look && !seed.met && !so_far && limits.trace.empty();
-  if (asks && glance(pair, target, seed, first, answer)) return;
+  if (!goes_on) {
+    answer.normal.setZero();
+    const bool asks = target.is_threshold() && pair.may_look && !seed.met && limits.trace.empty();
+    if (asks && glance(pair, target, seed, first, answer)) return;
+  }
   Descent descent(pair, limits, target, first, answer, proof);
-  so_far ? descent.go_on(*so_far, seed) : descent.start(seed);
+  goes_on ? descent.go_on(seed) : descent.start(seed);
 }
 
 }  // namespace swiftlet

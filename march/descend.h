@@ -34,9 +34,9 @@ static inline void note(std::span<LevelRecord> trace, std::size_t index, const L
   if (!trace.empty()) trace[index < trace.size() ? index : trace.size() - 1] = record;
 }
 
-/// From the seed, or on from `so_far`, an answer about the hulls of two bodies in a legal pose; its normal is 0 where none is
-/// known. `answer` is as a cold one before, and `proof` empty. It is filled where levels of the answer overlap.
+/// An answer about the hulls of two bodies in a legal pose, from the seed, or on from what `answer` holds; else it is a new
+/// one. Its normal is 0 where none is known. `proof` is empty before, and filled where levels of the answer overlap.
 void descend(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_error, PairSeed& seed, const Limits& limits,
-             const Target& target, Answer& answer, OverlapProof& proof, const Answer* so_far = nullptr);
+             const Target& target, bool goes_on, Answer& answer, OverlapProof& proof);
 
 }  // namespace swiftlet

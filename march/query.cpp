@@ -37,7 +37,9 @@ double Answer::value() const {
 }
 
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options) {
-  return ask(a, b, b_in_a, seed, {options.budget, options.tuning}, {options.absolute, options.relative, options.beyond, 0});
+  Answer answer;
+  ask(a, b, b_in_a, seed, {options.budget, options.tuning}, {options.absolute, options.relative, options.beyond, 0}, answer);
+  return answer;
 }
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, const Options& options) {
   PairSeed cold;
@@ -45,8 +47,10 @@ Answer distance(const Body& a, const Body& b, const Pose& b_in_a, const Options&
 }
 
 Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so_far, PairSeed& seed, const Options& options) {
+  Answer answer;
   const Target target{options.absolute, options.relative, options.beyond, 0};
-  return ask(a, b, b_in_a, seed, {options.budget, options.tuning}, target, &so_far);
+  ask(a, b, b_in_a, seed, {options.budget, options.tuning}, target, answer, &so_far);
+  return answer;
 }
 Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so_far, const Options& options) {
   PairSeed cold;
@@ -54,7 +58,8 @@ Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so
 }
 
 Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Effort& effort) {
-  Answer answer = ask(a, b, b_in_a, seed, {effort.budget, effort.tuning}, {0, 0, 0, 0});
+  Answer answer;
+  ask(a, b, b_in_a, seed, {effort.budget, effort.tuning}, {0, 0, 0, 0}, answer);
   decide(answer);
   return answer;
 }
@@ -64,8 +69,8 @@ Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, const Effort
 }
 
 Within within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, PairSeed& seed, const Effort& effort) {
-  const Target target{0, 0, threshold, threshold};
-  Within result{Decision::Undecided, ask(a, b, b_in_a, seed, {effort.budget, effort.tuning}, target)};
+  Within result;
+  ask(a, b, b_in_a, seed, {effort.budget, effort.tuning}, {0, 0, threshold, threshold}, result.answer);
   decide(result.answer);
   if (result.answer.lower > threshold) result.decision = Decision::No;
   if (result.answer.upper <= threshold) result.decision = Decision::Yes;
@@ -79,7 +84,8 @@ Within within(const Body& a, const Body& b, const Pose& b_in_a, double threshold
 ClosestFeatures closest_features(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed,
                                  const ClosestOptions& options) {
   const Budget budget{options.steps, 0};
-  ClosestFeatures result{ask(a, b, b_in_a, seed, {budget, options.tuning}, {0, 0, options.beyond, kNever}), {}, {}};
+  ClosestFeatures result;
+  ask(a, b, b_in_a, seed, {budget, options.tuning}, {0, 0, options.beyond, kNever}, result.answer);
   if (result.answer.level_a == 0) result.source_a = source_feature(a, result.answer.feature_a);
   if (result.answer.level_b == 0) result.source_b = source_feature(b, result.answer.feature_b);
   return result;

@@ -19,13 +19,13 @@ Verdict verdict(double lower, double upper, double law_two) {
   return lower >= -law_two && upper <= law_two ? Verdict::Touching : Verdict::Undecided;
 }
 
-/// The same answer, for no work.
-Answer known(Answer answer, Status status) {
+/// The answer so far, for no work.
+void restate(const Answer& so_far, Status status, Answer& answer) {
+  answer = so_far;
   answer.status = status;
   answer.steps = answer.plane_tests = 0;
   answer.levels_visited = 0;
   answer.is_signed = false;
-  return answer;
 }
 
 /// Whether the normal proves the lower bound. One pair of levels may overlap where a coarser one, which the bound is from, is
@@ -83,13 +83,17 @@ void Radii::round_signed(Answer& answer, OverlapProof& proof, double law_two) co
   move_points(answer);
 }
 
-void Radii::round(LevelRecord& record) const {
-  record.lower = larger(0, lower(record.lower));
-  record.upper = larger(record.lower, upper(record.upper));
+void Radii::round(std::span<LevelRecord> trace, int visited) const {
+  for (LevelRecord& record : trace.first(std::min(trace.size(), std::size_t(visited)))) {
+    record.lower = larger(0, lower(record.lower));
+    record.upper = larger(record.lower, upper(record.upper));
+  }
 }
-void Radii::round_signed(LevelRecord& record) const {
-  record.lower = lower(record.lower);
-  record.upper = upper(record.upper);
+void Radii::round_signed(std::span<LevelRecord> trace, int visited) const {
+  for (LevelRecord& record : trace.first(std::min(trace.size(), std::size_t(visited)))) {
+    record.lower = lower(record.lower);
+    record.upper = upper(record.upper);
+  }
 }
 
 double Radii::less(double bound, double side) const {
@@ -107,13 +111,11 @@ void Radii::move_points(Answer& answer) const {
   answer.point_b = eigen(vec(answer.point_b) - vec(answer.normal) * b_);
 }
 
-Answer refused(const Body& a, const Body& b, Status why, bool is_signed) {
-  Answer answer;
+void refuse(const Body& a, const Body& b, Status why, bool is_signed, Answer& answer) {
   answer.status = why;
   answer.is_signed = is_signed;
   if (is_signed) answer.lower = -kInfinity;
   answer.radius_a = a.radius(), answer.radius_b = b.radius();
-  return answer;
 }
 
 void seal(const Radii& radii, const OverlapProof& proof, const Tuning& tuning, Answer& answer) {
@@ -123,37 +125,30 @@ void seal(const Radii& radii, const OverlapProof& proof, const Tuning& tuning, A
   if (!(answer.upper < kInfinity)) answer.point_a.setConstant(kUnknown), answer.point_b.setConstant(kUnknown);
 }
 
-Answer ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const Target& target,
-           const Answer* so_far) {
+void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const Target& target,
+         Answer& answer, const Answer* so_far) {
   if (limits.tuning.proof) *limits.tuning.proof = {};
   const Setting at(a, b, b_in_a);
-  if (const Status fault = at.fault(); fault != Status::Converged) return refused(a, b, fault, false);
+  const Radii& radii = at.radii;
+  if (const Status fault = at.fault(); fault != Status::Converged) return refuse(a, b, fault, false, answer);
   if (so_far && !tells_distance(*so_far)) so_far = nullptr;
-  if (so_far && Radii(*so_far) != at.radii) return refused(a, b, Status::InvalidRadius, false);
-  Answer answer;
-  OverlapProof proof;
-  if (at.radii.none()) {
-    Answer hulls;
-    if (so_far) hulls = at.radii.of_hulls(*so_far);
-    descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, target, answer, proof, so_far ? &hulls : nullptr);
-  } else {
-    if (so_far && so_far->verdict == Verdict::Overlapping) return known(*so_far, Status::Converged);
-    const double law_two = at.law_two();
-    Target of_hulls = at.radii.of_hulls(target, law_two);
-    Answer hulls;
-    if (so_far) {
-      hulls = at.radii.of_hulls(*so_far);
-      // Exact of the bodies is exact, whatever place the radii cost it.
-      if (so_far->upper - so_far->lower <= law_two) of_hulls.exact = hulls.upper - hulls.lower;
-    }
-    descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, of_hulls, answer, proof, so_far ? &hulls : nullptr);
-    if (so_far && answer.levels_visited == 0) return known(*so_far, answer.status);
-    at.radii.round(answer, proof, law_two);
-    const std::size_t recorded = std::min(limits.trace.size(), std::size_t(answer.levels_visited));
-    for (LevelRecord& record : limits.trace.first(recorded)) at.radii.round(record);
+  Target of_hulls = target;
+  if (!radii.none()) of_hulls = radii.of_hulls(target, at.law_two());
+  if (so_far) {
+    if (Radii(*so_far) != radii) return refuse(a, b, Status::InvalidRadius, false, answer);
+    if (!radii.none() && so_far->verdict == Verdict::Overlapping) return restate(*so_far, Status::Converged, answer);
+    answer = radii.of_hulls(*so_far);
+    // Exact of the bodies is exact, whatever place the radii cost it.
+    if (so_far->upper - so_far->lower <= at.law_two()) of_hulls.exact = answer.upper - answer.lower;
   }
-  seal(at.radii, proof, limits.tuning, answer);
-  return answer;
+  OverlapProof proof;
+  descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, of_hulls, so_far != nullptr, answer, proof);
+  if (!radii.none()) {
+    if (so_far && answer.levels_visited == 0) return restate(*so_far, answer.status, answer);
+    radii.round(answer, proof, at.law_two());
+    radii.round(limits.trace, answer.levels_visited);
+  }
+  seal(radii, proof, limits.tuning, answer);
 }
 
 }  // namespace swiftlet

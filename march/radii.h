@@ -40,8 +40,9 @@ class Radii {
   void round(Answer& answer, OverlapProof& proof, double law_two) const;
   /// The hulls' signed distance as the bodies'.
   void round_signed(Answer& answer, OverlapProof& proof, double law_two) const;
-  void round(LevelRecord& record) const;
-  void round_signed(LevelRecord& record) const;
+  /// The same of a trace's first `visited` records, as far as there was room for them.
+  void round(std::span<LevelRecord> trace, int visited) const;
+  void round_signed(std::span<LevelRecord> trace, int visited) const;
 
  private:
   Radii(double a, double b) : a_(a), b_(b) {}
@@ -76,13 +77,13 @@ class Setting {
 };
 
 /// An answer that tells nothing but why.
-Answer refused(const Body& a, const Body& b, Status why, bool is_signed);
+void refuse(const Body& a, const Body& b, Status why, bool is_signed, Answer& answer);
 
 /// What is not known becomes NaN, and the answer carries the radii.
 void seal(const Radii& radii, const OverlapProof& proof, const Tuning& tuning, Answer& answer);
 
-/// Answers `target` of two bodies: from the seed, or on from `so_far`.
-Answer ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const Target& target,
-           const Answer* so_far = nullptr);
+/// Answers `target` of two bodies: from the seed, or on from `so_far`. `answer` is a new one before.
+void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const Target& target,
+         Answer& answer, const Answer* so_far = nullptr);
 
 }  // namespace swiftlet

@@ -60,17 +60,14 @@ class Shape {
 /// The shape of a body, and what it lies in while a query runs.
 class ShapeOf {
  public:
-  explicit ShapeOf(const Body& body) {
-    if (!body.model()) primitive_.emplace(body);
-    shape_.emplace(body.model() ? Shape(*body.model()) : Shape(*primitive_));
-  }
+  explicit ShapeOf(const Body& body) : shape_(body.model() ? Shape(*body.model()) : Shape(primitive_.emplace(body))) {}
   bool is_legal() const { return !primitive_ || primitive_->is_legal; }
-  operator const Shape&() const { return *shape_; }
-  const Shape& operator*() const { return *shape_; }
+  operator const Shape&() const { return shape_; }
+  const Shape& operator*() const { return shape_; }
 
  private:
   std::optional<Primitive> primitive_;
-  std::optional<Shape> shape_;
+  const Shape shape_;
 };
 
 }  // namespace swiftlet
