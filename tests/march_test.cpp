@@ -216,7 +216,7 @@ TEST(March, SmallBodiesInLargeOnesOverlapFromEveryStart) {
   }
 }
 
-TEST(March, GarbageHandlesCountAsCold) {
+TEST(March, GarbageFeaturesCountAsCold) {
   const Model cube = model(bodies::cube());
   const ConvexView& v = cube.level(0).view;
   const Pose pose{bodies::rotation(1, 2, 3, 4), {3, 1, 0.5}};
@@ -232,7 +232,7 @@ TEST(March, GarbageHandlesCountAsCold) {
   }
 }
 
-TEST(March, StoredHandlesStartTheNextMarchAtItsEnd) {
+TEST(March, StoredFeaturesStartTheNextMarchAtItsEnd) {
   shapes::Random random(33);
   const Model m = model(bodies::body_of(shapes::ellipsoid({1, 1, 1}, 500, 1)));
   const ConvexView& v = m.level(0).view;
@@ -364,7 +364,7 @@ TEST_F(MarchRules, BudgetEndsWithTrueBounds) {
   EXPECT_GE(ended, 300);
 }
 
-TEST_F(MarchRules, BudgetsResumedFromTheirHandlesEnd) {
+TEST_F(MarchRules, BudgetsResumedFromTheirFeaturesEnd) {
   // Boxes in a grid of poses came round for ever: a face, an edge, the face again.
   const Model one = model(bodies::box(1, 2, 0.5)), other = model(bodies::triangulated(bodies::cube()));
   std::uint32_t most = 0;
