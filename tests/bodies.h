@@ -16,7 +16,7 @@
 #include <swiftlet/model.h>
 #include <swiftlet/query.h>
 
-#include "block.h"
+#include "body/block.h"
 
 namespace swiftlet::bodies {
 

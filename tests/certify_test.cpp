@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Certificates and supports against exact arithmetic, from features that are nearest and from any others. Knows certify.h.
-#include "certify.h"
+#include "pair/certify.h"
 
 #include <cmath>
 #include <vector>
@@ -12,9 +12,9 @@
 
 #include "bodies.h"
 #include "oracle.h"
-#include "ring.h"
+#include "body/half_edge.h"
 #include "shapes.h"
-#include "walk.h"
+#include "pair/walk.h"
 
 namespace swiftlet {
 namespace {

@@ -21,7 +21,7 @@
 #include "oracle.h"
 #include "shapes.h"
 #include "suite.h"
-#include "tolerance.h"
+#include "numeric/tolerance.h"
 
 namespace swiftlet {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The exact predicates against CGAL's on doubles that nearly degenerate. Knows exact.h and CGAL's rationals.
-#include "exact.h"
+#include "numeric/exact.h"
 
 #include <cmath>
 #include <limits>

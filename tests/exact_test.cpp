@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The exact predicates against 128-bit integers, at every scale that doubles name exactly. Knows exact.h.
-#include "exact.h"
+#include "numeric/exact.h"
 
 #include <array>
 #include <cmath>

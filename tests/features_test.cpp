@@ -17,7 +17,7 @@
 
 #include "bodies.h"
 #include "oracle.h"
-#include "ring.h"
+#include "body/half_edge.h"
 #include "shapes.h"
 
 namespace swiftlet {

@@ -28,7 +28,7 @@
 #include "bodies.h"
 #include "oracle.h"
 #include "shapes.h"
-#include "surface.h"
+#include "make/surface.h"
 
 namespace {
 std::atomic<long> allocations{0};

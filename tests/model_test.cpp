@@ -17,9 +17,9 @@
 #include <Eigen/Geometry>
 
 #include "bodies.h"
-#include "exact.h"
-#include "ring.h"
-#include "support_map.h"
+#include "numeric/exact.h"
+#include "body/half_edge.h"
+#include "body/support_map.h"
 
 namespace swiftlet {
 namespace {

@@ -40,8 +40,8 @@ struct OverlapProof {
 };
 
 /// Where to begin: from what another march ended on, from `table_start`, from features of a parent's. Default: where the bodies
-/// face each other along the line of their centres. Anything is legal: a feature id that names no feature of its view counts as the
-/// default.
+/// face each other along the line of their centres. Anything is legal: a feature id that names no feature of its view counts as
+/// the default.
 struct MarchStart {
   FeatureId a, b;  ///< features of A's view and of B's
 };

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <swiftlet/model_file.h>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include "body/block.h"
+
+namespace swiftlet {
+namespace {
+
+Error named(const std::filesystem::path& path, Error error) {
+  error.message = path.string() + ": " + error.message;
+  error.file = path.string();
+  return error;
+}
+
+/// A file whose headers are in order.
+struct File {
+  Headers headers;
+  std::uint64_t bytes;
+};
+
+Result<File> open(const std::filesystem::path& path) {
+  std::error_code failure;
+  const std::uint64_t bytes = std::filesystem::file_size(path, failure);
+  if (failure) return named(path, {ErrorCode::CannotRead, failure.message()});
+  std::ifstream file(path, std::ios::binary);
+  std::array<std::byte, kMostHeaderBytes> start;
+  file.read(reinterpret_cast<char*>(start.data()), start.size());
+  Result<Headers> headers = BlockReader::read_headers(std::span(start).first(std::size_t(file.gcount())));
+  if (!headers) return named(path, headers.error());
+  return File{std::move(headers).value(), bytes};
+}
+
+/// A block's levels from `finest` on, in a block of their own where finer ones are left out.
+Result<Model> kept(AlignedBytes block, int finest) {
+  const Result<Model> model = BlockReader::read(std::move(block), finest);
+  if (!model) return model.error();
+  return model.value().cut({});
+}
+
+Result<Model> read(const std::filesystem::path& path, const Headers& headers, int finest) {
+  AlignedBytes block(headers.prefix(finest));
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(block.data()), std::streamsize(block.view().size()));
+  if (!file) return named(path, {ErrorCode::CannotRead, "ends early"});
+  Result<Model> model = kept(std::move(block), finest);
+  if (!model) return named(path, model.error());
+  return model;
+}
+
+Result<Block> mapped(const std::filesystem::path& path) {
+  const auto refused = [&path] { return named(path, {ErrorCode::CannotRead, std::generic_category().message(errno)}); };
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return refused();
+  struct stat about {};
+  const bool known = fstat(file, &about) == 0;
+  const auto size = std::size_t(about.st_size);
+  void* const pages = known && size > 0 ? mmap(nullptr, size, PROT_READ, MAP_SHARED, file, 0) : MAP_FAILED;
+  if (known && size == 0) errno = EINVAL;
+  if (pages == MAP_FAILED) {
+    const Error error = refused();
+    close(file);
+    return error;
+  }
+  close(file);
+  const auto* const bytes = static_cast<const std::byte*>(pages);
+  return Block{{bytes, [pages, size](const std::byte*) { munmap(pages, size); }}, {bytes, size}};
+}
+
+}  // namespace
+
+Result<std::size_t> save(const Model& model, const std::filesystem::path& path) {
+  const std::span<const std::byte> bytes = model.bytes();
+  std::filesystem::path part = path;
+  part += ".part";
+  std::error_code failure;
+  if (std::filesystem::exists(path, failure) && !std::filesystem::is_regular_file(path, failure)) {
+    return named(path, {ErrorCode::CannotWrite, "exists and is no file"});
+  }
+  {
+    std::ofstream file(part, std::ios::binary | std::ios::trunc);
+    file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    file.close();
+    if (!file) {
+      std::filesystem::remove(part, failure);
+      return named(path, {ErrorCode::CannotWrite, "cannot write " + std::to_string(bytes.size()) + " bytes"});
+    }
+  }
+  std::filesystem::rename(part, path, failure);
+  if (failure) {
+    const std::string why = failure.message();
+    std::filesystem::remove(part, failure);
+    return named(path, {ErrorCode::CannotWrite, why});
+  }
+  return bytes.size();
+}
+
+Result<Model> load(const std::filesystem::path& path, const Detail& detail) {
+  const Result<File> file = open(path);
+  if (!file) return file.error();
+  const Headers& headers = file.value().headers;
+  if (const std::string f = length_fault(headers, file.value().bytes); !f.empty())
+    return named(path, {ErrorCode::BadFormat, f});
+  return read(path, headers, headers.finest(detail));
+}
+
+Result<Model> load(std::span<const std::byte> bytes, const Detail& detail) {
+  const Result<Headers> headers = BlockReader::read_headers(bytes);
+  if (!headers) return headers.error();
+  if (const std::string f = length_fault(headers.value(), bytes.size()); !f.empty()) return Error{ErrorCode::BadFormat, f};
+  const int finest = headers.value().finest(detail);
+  AlignedBytes block(headers.value().prefix(finest));
+  std::memcpy(block.data(), bytes.data(), block.view().size());
+  return kept(std::move(block), finest);
+}
+
+Result<Model> map(const std::filesystem::path& path, const Detail& detail) {
+  Result<Block> block = mapped(path);
+  if (!block) return block.error();
+  const auto bytes = block.value().bytes;
+  const Result<Headers> headers = BlockReader::read_headers(bytes);
+  if (!headers) return named(path, headers.error());
+  if (const std::string f = length_fault(headers.value(), bytes.size()); !f.empty())
+    return named(path, {ErrorCode::BadFormat, f});
+  Result<Model> model = BlockReader::read(std::move(block).value(), headers.value().finest(detail));
+  if (!model) return named(path, model.error());
+  return model;
+}
+
+Result<Salvaged> salvage(const std::filesystem::path& path) {
+  const Result<File> file = open(path);
+  if (!file) return file.error();
+  const Headers& headers = file.value().headers;
+  const std::uint64_t bytes = file.value().bytes;
+  const std::string cut = length_fault(headers, bytes);
+  if (bytes > headers.block.total_bytes) return named(path, {ErrorCode::BadFormat, cut});
+  const int finest = headers.finest({0, bytes});
+  if (headers.prefix(finest) > bytes) {
+    return named(path,
+                 {ErrorCode::BadFormat, cut + ", and its coarsest level needs " + std::to_string(headers.prefix(finest))});
+  }
+  Result<Model> model = read(path, headers, finest);
+  if (!model) return model.error();
+  const std::string note = path.string() + ": " + cut + ": levels finer than " + std::to_string(finest) + " are missing";
+  return Salvaged{std::move(model).value(), cut.empty() ? "" : note};
+}
+
+}  // namespace swiftlet

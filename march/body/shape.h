@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A body as queries read it: its levels, whoever keeps them. A primitive is one level that lies on the stack. Knows no radius.
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <optional>
+
+#include <swiftlet/body.h>
+
+#include "numeric/vec.h"
+
+namespace swiftlet {
+
+/// The one level of a primitive: a point, a segment, a polygon of two sides, or a box.
+struct Primitive {
+  explicit Primitive(const Body& body);
+  Primitive(const Primitive&) = delete;  ///< the level points into it
+  Primitive& operator=(const Primitive&) = delete;
+
+  bool is_legal;
+  std::array<Vertex, 8> vertices;
+  std::array<FacePlane, 6> planes;
+  Level level;
+  double radius;                        ///< as Model::radius
+  Vec size;                             ///< of its bounding box
+  std::array<std::uint32_t, 8> source;  ///< per vertex, which of the body's points or of the box's corners it is
+};
+
+class Shape {
+ public:
+  explicit Shape(const Model& model)
+      : levels_(&model.level(0)),
+        model_(&model),
+        level_count_(model.level_count()),
+        finest_level_(model.finest_level()),
+        map_level_(model.map_level()) {}
+  explicit Shape(const Primitive& primitive) : levels_(&primitive.level), primitive_(&primitive) {}
+
+  int level_count() const { return level_count_; }
+  int finest_level() const { return finest_level_; }
+  int map_level() const { return map_level_; }
+  const Level& level(int index) const {
+    assert(index >= 0 && index < level_count_);
+    return levels_[index];
+  }
+  double radius() const { return model_ ? model_->radius() : primitive_->radius; }
+  Vec size() const { return model_ ? vec(model_->box_max()) - vec(model_->box_min()) : primitive_->size; }
+  SourceMap source() const { return model_ ? model_->source() : SourceMap{std::span(primitive_->source), {}, {}}; }
+  const Model* model() const { return model_; }  ///< null: a primitive
+
+ private:
+  const Level* levels_;
+  const Model* model_ = nullptr;
+  const Primitive* primitive_ = nullptr;
+  int level_count_ = 1, finest_level_ = 0, map_level_ = 1;
+};
+
+/// The shape of a body, and what it lies in while a query runs.
+class ShapeOf {
+ public:
+  explicit ShapeOf(const Body& body) : shape_(body.model() ? Shape(*body.model()) : Shape(primitive_.emplace(body))) {}
+  bool is_legal() const { return !primitive_ || primitive_->is_legal; }
+  operator const Shape&() const { return shape_; }
+  const Shape& operator*() const { return shape_; }
+
+ private:
+  std::optional<Primitive> primitive_;
+  const Shape shape_;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "body/structure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "body/half_edge.h"
+#include "numeric/tolerance.h"
+
+namespace swiftlet {
+namespace {
+
+/// Whether exact signs of products of these are exact: beyond, a climb need not end.
+bool in_range(std::initializer_list<double> coordinates) {
+  return std::all_of(coordinates.begin(), coordinates.end(),
+                     [](double x) { return x == 0 || (std::fabs(x) >= kLeastCoordinate && std::fabs(x) <= kMostCoordinate); });
+}
+
+bool all_below(const auto& values, std::size_t limit) {
+  return std::ranges::all_of(values, [limit](std::uint32_t v) { return v < limit; });
+}
+
+}  // namespace
+
+std::string topology_fault(const ConvexView& v) {
+  const std::size_t half_edges = v.half_edges.size(), faces = v.face_first.size();
+  std::uint64_t next_ring = 0;
+  for (std::size_t i = 0; i < v.vertices.size(); ++i) {
+    const Vertex& r = v.vertices[i];
+    if (!in_range({r.x, r.y, r.z})) return "vertex " + std::to_string(i) + " is out of range";
+    if (std::fmax(std::fmax(std::fabs(r.x), std::fabs(r.y)), std::fabs(r.z)) > v.extent) return "the extent is too small";
+    if (r.ring_begin != next_ring || (r.ring_count == 0 && half_edges != 0)) return "ring of vertex " + std::to_string(i);
+    next_ring += r.ring_count;
+  }
+  if (next_ring != half_edges) return "rings do not cover the half-edges";
+  if (!all_below(v.face_first, half_edges)) return "index out of range";
+  for (const HalfEdge& h : v.half_edges) {
+    if (h.head >= v.vertices.size() || h.twin >= half_edges) return "index out of range";
+  }
+  for (std::size_t i = 0; i < v.vertices.size(); ++i) {
+    const Vertex& r = v.vertices[i];
+    for (std::uint32_t k = r.ring_begin; k < r.ring_begin + r.ring_count; ++k) {
+      const HalfEdge &h = v.half_edges[k], &twin = v.half_edges[h.twin];
+      if (h.twin == k || twin.twin != k || twin.head != i || h.head == i) return "twin of half-edge " + std::to_string(k);
+      if (h.face >= faces && !(h.face == kNone && faces == 0)) return "face of half-edge " + std::to_string(k);
+    }
+  }
+  std::size_t sides = 0;
+  for (std::uint32_t f = 0; f < faces; ++f) {
+    std::size_t length = 0;
+    std::uint32_t h = v.face_first[f];
+    do {
+      if (v.half_edges[h].face != f || is_diagonal(v, h) || ++length > half_edges) return "loop of face " + std::to_string(f);
+      // As next_in_face, but a ring of nothing but diagonals ends the hunt.
+      const std::uint32_t first = next_in_facet(v, h);
+      const Vertex& ring = v.vertices[origin(v, first)];
+      std::uint32_t tries = 0;
+      for (h = first; is_diagonal(v, h) && tries < ring.ring_count; ++tries) h = clockwise(ring, h);
+    } while (h != v.face_first[f]);
+    if (length < 3 || (length > 3 && f >= v.planes.size())) return "size of face " + std::to_string(f);
+    sides += length;
+  }
+  std::size_t borders = 0;
+  for (std::uint32_t h = 0; h < half_edges; ++h) borders += faces != 0 && !is_diagonal(v, h);
+  return sides == borders ? "" : "half-edges outside every loop";
+}
+
+std::string plane_fault(const ConvexView& v) {
+  for (std::size_t i = 0; i < v.planes.size(); ++i) {
+    const FacePlane& p = v.planes[i];
+    const double length2 = p.x * p.x + p.y * p.y + p.z * p.z;
+    if (!(std::fabs(length2 - 1) < kUnitNormalError) || !(p.thickness >= 0) || !std::isfinite(p.thickness))
+      return "plane " + std::to_string(i);
+  }
+  return "";
+}
+
+std::string link_fault(const Level& level, std::size_t finer_vertices, std::size_t finer_faces, std::size_t coarser_vertices) {
+  if (!all_below(level.child_vertex, finer_vertices)) return "child of a vertex";
+  for (const FeatureId h : level.child_face) {
+    const bool vertex = h.kind() == FeatureKind::Vertex && h.index() < finer_vertices;
+    const bool face = h.kind() == FeatureKind::Face && h.index() < finer_faces;
+    if (!vertex && !face) return "child of a face";
+  }
+  return all_below(level.parent_face, coarser_vertices) ? "" : "parent of a face";
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "body/support.h"
+
+#include "body/half_edge.h"
+#include "numeric/exact.h"
+#include "numeric/wide.h"
+
+namespace swiftlet {
+namespace {
+
+double sum_abs(const Vec& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
+
+/// Orders the vertices of one body along a direction of the common frame, exactly: in doubles, in 106 bits where these tie (the
+/// corners of the very face that the direction is normal to), by expansions where those do.
+class Ordering {
+ public:
+  explicit Ordering(const Vec& n) : n_(n), own_(n), error_(kDotError * sum_abs(n)) {}
+  Ordering(const Vec& n, const Motion& motion)
+      : n_(n), motion_(&motion), own_(turn_back(motion, n)), error_(kTurnedSupportError * sum_abs(n)) {}
+
+  /// The sign of n . (w - v), w and v carried into the common frame.
+  int compare(const Vertex& w, const Vertex& v) {
+    const Vec e = vec(w) - vec(v);
+    const double value = dot(own_, e), bound = error_ * sum_abs(e);
+    if (value > bound) return 1;
+    if (value < -bound) return -1;
+    return compare_ties(w, v, kWideDotError * sum_abs(n_) * sum_abs(e));
+  }
+
+ private:
+  int compare_ties(const Vertex& w, const Vertex& v, double bound) {
+    if (!has_wide_) {
+      has_wide_ = true;
+      wide_own_ = wide(n_);
+      if (motion_)
+        wide_own_ =
+            wide(motion_->row_x) * wide_own_.x + wide(motion_->row_y) * wide_own_.y + wide(motion_->row_z) * wide_own_.z;
+    }
+    const Wide e{two_sum(w.x, -v.x), two_sum(w.y, -v.y), two_sum(w.z, -v.z)};
+    const double value = double(dot(wide_own_, e));
+    if (value > bound) return 1;
+    if (value < -bound) return -1;
+    return motion_ ? exact::compare_along_turned(&n_.x, *motion_, &w.x, &v.x) : exact::compare_along(&n_.x, &w.x, &v.x);
+  }
+
+  const Vec n_;
+  const Motion* const motion_ = nullptr;
+  const Vec own_;  ///< n in the body's own frame, rounded
+  const double error_;
+  bool has_wide_ = false;
+  Wide wide_own_;
+};
+
+/// Climbs the rings to the vertex that is last in the order. On an exactly convex body the end is extreme.
+std::uint32_t climb(const ConvexView& view, std::uint32_t v, Ordering order, std::uint32_t& plane_tests) {
+  for (;;) {
+    const Vertex& record = view.vertices[v];
+    std::uint32_t best = v;
+    for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
+      const std::uint32_t w = view.half_edges[h].head;
+      if (order.compare(view.vertices[w], view.vertices[best]) > 0) best = w;
+    }
+    plane_tests += record.ring_count;
+    if (best == v) return v;
+    v = best;
+  }
+}
+
+}  // namespace
+
+std::uint32_t support(const ConvexView& view, const Vec& n, std::uint32_t start, std::uint32_t& plane_tests) {
+  return climb(view, start, Ordering(n), plane_tests);
+}
+std::uint32_t support(const ConvexView& view, const Motion& in_common, const Vec& n, std::uint32_t start,
+                      std::uint32_t& plane_tests) {
+  return climb(view, start, Ordering(n, in_common), plane_tests);
+}
+
+}  // namespace swiftlet

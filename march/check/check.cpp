@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Nothing here climbs or marches but `verify`'s deviations: supports are maxima over all vertices.
+#include <swiftlet/check.h>
+
+#include "body/support_map.h"
+#include "check/brute.h"
+#include "query/radii.h"
+
+namespace swiftlet {
+namespace {
+
+/// The cell of a level's support map that promises too much, or kNone: over a cell the heights above its vertex are highest at
+/// a corner.
+std::uint32_t map_fault(const Level& level) {
+  const std::uint32_t side = level.map_side;
+  std::vector<double> heights((side + 1) * (side + 1));  // of the body, at the corners of one face's cells
+  for (std::uint32_t cell = 0; cell < lut::cube_cell_count(side); ++cell) {
+    const std::uint32_t face = cell / (side * side), row = cell / side % side, column = cell % side;
+    for (const std::uint32_t corner : {0, 1, 2, 3}) {
+      const std::array<double, 3> d = lut::cube_point(side, face, 2 * (column + corner % 2), 2 * (row + corner / 2));
+      const Vec n{d[0], d[1], d[2]};
+      double& most = heights[(row + corner / 2) * (side + 1) + column + corner % 2];
+      if (corner == 3 || row == 0 || column == 0) {
+        most = dot(n, vec(level.view.vertices[0]));
+        for (const Vertex& v : level.view.vertices) most = larger(most, dot(n, vec(v)));
+      }
+      const std::uint32_t entry = level.support_map[cell];
+      const double excess = most - dot(n, vec(level.view.vertices[map_vertex(entry)]));
+      if (!(excess <= (map_excess(entry) + kMapError) * level.view.extent)) return cell;
+    }
+  }
+  return kNone;
+}
+
+}  // namespace
+
+Checked::Checked(const Body& of_a, const Body& of_b, const Pose& b_in_a, const Answer& of)
+    : at(of_a, of_b, b_in_a), a(at.a), b(at.b), answer(of) {
+  const auto has = [](const Shape& body, int level) { return level >= body.finest_level() && level < body.level_count(); };
+  if (at.fault() != Status::Converged || !has(a, of.level_a) || !has(b, of.level_b)) return;
+  const double error = at.quality.error;
+  const Level &level_a = a.level(of.level_a), &level_b = b.level(of.level_b);
+  stretch = std::sqrt(1 + 3 * error);
+  radii = at.radii.sum();
+  if (!of.normal.hasNaN()) normal = vec(of.normal);
+  point_a = vec(of.point_a) - normal * at.radii.a(), point_b = vec(of.point_b) + normal * at.radii.b();
+  touching = at.law_two();
+  slack = larger(scene(level_a.view, level_b.view, at.motion, error).law_two, touching);
+  magnitude = scene(a.level(a.finest_level()).view, b.level(b.finest_level()).view, at.motion, error).magnitude;
+  deviation = level_a.deviation + stretch * level_b.deviation;
+}
+
+Check Checked::interval_holds() const {
+  const Status fault = at.fault();
+  const auto is_refusal = [](Status s) {
+    return s == Status::InvalidPose || s == Status::InvalidRadius || s == Status::InvalidBody;
+  };
+  if (fault != Status::Converged || is_refusal(answer.status)) {
+    return fault == answer.status       ? kPassed
+           : fault == Status::Converged ? failed("pose, radii and bodies are legal")
+                                        : failed("the pose, a radius or a body is not legal");
+  }
+  if (Radii(answer) != at.radii) return failed("the answer is of other radii");
+  const auto has = [](const Shape& body, int level) { return level >= body.finest_level() && level < body.level_count(); };
+  if (!has(a, answer.level_a) || !has(b, answer.level_b))
+    return failed("levels (%d, %d) are not there", int(answer.level_a), int(answer.level_b));
+  if (!(answer.upper >= answer.lower && answer.upper > -std::numeric_limits<double>::infinity()))
+    return failed("[%.17g, %.17g] is no interval", answer.lower, answer.upper);
+  if (answer.lower > 0) {
+    const double gap = gap_along(a, b, at.motion, normal);
+    if (!(double(of_hulls(answer.lower) - gap * (1 + kNormError)) <= kDoubleDoubleError * (magnitude + radii)))
+      return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap - radii);
+  }
+  return kPassed;
+}
+
+Check Checked::points_lie_in_their_levels() const {
+  if (!holds(a.level(answer.level_a).view, kAtRest, point_a, slack))
+    return failed("point_a is not in level %d of A", int(answer.level_a));
+  if (!holds(b.level(answer.level_b).view, at.motion, point_b, slack))
+    return failed("point_b is not in level %d of B", int(answer.level_b));
+  return kPassed;
+}
+
+Check Checked::hulls_overlap(const OverlapProof* proof) const {
+  if (proof && proof->count > 0) {
+    if (answer.level_a != 0 || answer.level_b != 0) return failed("overlap without a proof on level 0");
+    return check_proof(a.level(0).view, b.level(0).view, at.motion, *proof);
+  }
+  const DoubleDouble depth = least_depth();
+  const double doubt = kHeightError * magnitude;
+  if (double(depth) < -doubt) return failed("overlap of hulls that a plane separates by %.17g", -double(depth));
+  const bool is_deep = depth.high < std::numeric_limits<double>::infinity() && double(depth) > doubt;
+  return is_deep || is_near(touching) ? kPassed : failed("overlap that nothing proves");
+}
+
+bool Checked::is_near(double upper) const {
+  const Level &finest_a = a.level(a.finest_level()), &finest_b = b.level(b.finest_level());
+  Pose pose;
+  const Motion& m = at.motion;
+  pose.rotation << m.row_x.x, m.row_x.y, m.row_x.z, m.row_y.x, m.row_y.y, m.row_y.z, m.row_z.x, m.row_z.y, m.row_z.z;
+  pose.translation = eigen(m.t);
+  const MarchResult near = march(finest_a.view, finest_b.view, pose, {});
+  const Vec near_a = vec(near.point_a), near_b = vec(near.point_b);
+  return holds(finest_a.view, kAtRest, near_a, slack) && holds(finest_b.view, at.motion, near_b, slack) &&
+         norm(near_b - near_a) + finest_a.deviation + stretch * finest_b.deviation <= upper + radii + 2 * slack;
+}
+
+Check check_distance(const Checked& of, const OverlapProof* proof) {
+  const Answer& answer = of.answer;
+  if (!(answer.lower >= 0)) return failed("lower is %.17g of a distance", answer.lower);
+  const bool between = max_abs(of.normal) > 0;  // else the points are common ones of the hulls
+  const double apart = norm(of.point_b - of.point_a) + of.deviation;
+  if (std::isfinite(answer.upper) && of.knows_points()) {
+    if (between && !(apart <= answer.upper + of.radii + 2 * of.slack))
+      return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart - of.radii);
+    if (const Check in = of.points_lie_in_their_levels(); !in) return in;
+  }
+  if (std::isfinite(answer.upper) && !(between && of.knows_points()) && answer.verdict != Verdict::Overlapping &&
+      !of.is_near(answer.upper))
+    return failed("upper is %.17g, and nothing proves it", answer.upper);
+  switch (answer.verdict) {
+    case Verdict::Disjoint: return answer.lower > 0 ? kPassed : failed("disjoint without a lower bound");
+    case Verdict::Touching:
+      return answer.upper <= of.touching ? kPassed : failed("touching with an upper bound of %.17g", answer.upper);
+    case Verdict::Overlapping:
+      if (answer.upper != 0) return failed("overlapping with an upper bound of %.17g", answer.upper);
+      if (of.radii > 0 && apart <= of.radii + 2 * of.touching && (between || of.radii > 2 * of.slack)) return kPassed;
+      return between ? failed("overlap of radii with points %.17g apart", apart) : of.hulls_overlap(proof);
+    case Verdict::Undecided: break;
+  }
+  return kPassed;
+}
+
+Check check(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const OverlapProof* proof) {
+  const Checked of(a, b, b_in_a, answer);
+  if (Check interval = of.interval_holds(); !interval || of.at.fault() != Status::Converged) return interval;
+  return answer.is_signed ? check_signed(of, proof) : check_distance(of, proof);
+}
+
+Check verify(const Model& model) {
+  if (model.finest_level() > 0) return failed("level 0 is not there: nothing tells whether the others enclose it");
+  const ConvexView& exact_hull = model.level(0).view;
+  for (int i = 0; i < model.level_count(); ++i) {
+    const Level& level = model.level(i);
+    const ConvexView& view = level.view;
+    // The arrays of this level, proved convex again from nothing.
+    std::vector<Vec3> points;
+    for (const Vertex& v : view.vertices) points.emplace_back(v.x, v.y, v.z);
+    std::vector<std::uint32_t> corners, sizes;
+    std::vector<bool> seen(view.half_edges.size(), false);
+    for (std::uint32_t first = 0; first < view.half_edges.size(); ++first) {
+      if (seen[first] || view.half_edges[first].face == kNone) continue;
+      std::uint32_t size = 0, h = first;
+      for (; !seen[h]; h = next_in_facet(view, h), ++size) {
+        seen[h] = true;
+        corners.push_back(origin(view, h));
+      }
+      sizes.push_back(size);
+    }
+    LevelArrays arrays;
+    arrays.vertices = points;
+    arrays.face_vertices = corners;
+    arrays.face_sizes = sizes;
+    const Result<Surface> surface = make_surface(arrays, false);
+    if (!surface) return {false, "level " + std::to_string(i) + ": " + surface.error().message};
+    if (surface.value().vertices.size() != view.vertices.size())
+      return failed("level %d: a vertex is no corner of the hull", i);
+    if (const std::uint32_t cell = map_fault(level); cell != kNone)
+      return failed("level %d: its support map is wrong in cell %u", i, unsigned(cell));
+    if (i == 0) continue;
+    if (vertex_outside(exact_hull, view) != kNone) return failed("level %d does not enclose level 0", i);
+    MarchStart start;
+    for (const Vertex& v : view.vertices) {
+      const Vertex record{v.x, v.y, v.z, 0, 0};
+      ConvexView point;
+      point.vertices = {&record, 1};
+      point.extent = max_abs(vec(v));
+      const MarchResult r = march(point, exact_hull, Pose{}, start);
+      start.b = r.b;
+      if (r.lower > level.deviation)
+        return failed("level %d: a vertex is %.17g from level 0, the deviation is %.17g", i, r.lower, level.deviation);
+    }
+  }
+  return kPassed;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,274 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A depth by its definition: the least height of all planes that can bound the Minkowski difference, each told by exact signs.
+// Nothing here expands.
+#include <swiftlet/check.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "body/half_edge.h"
+#include "check/brute.h"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// v * 2^exponent.
+Wide scaled(const Wide& v, int exponent) {
+  const auto scale = [&](const DoubleDouble& x) {
+    return DoubleDouble(Pair{std::ldexp(x.high, exponent), std::ldexp(x.low, exponent)});
+  };
+  return {scale(v.x), scale(v.y), scale(v.z)};
+}
+
+/// A normal or the direction of an edge at the power of two where its largest coordinate is from 1 to 2; 0 stays.
+struct Direction {
+  Wide fine;
+  Vec rough;
+};
+Direction direction(const Wide& v) {
+  const double largest = max_abs(rounded(v));
+  const Wide fine = scaled(v, largest > 0 ? -std::ilogb(largest) : 0);
+  return {fine, rounded(fine)};
+}
+Direction operator-(const Direction& d) { return {-d.fine, -d.rough}; }
+
+/// The sign of n . d where rounding leaves no doubt, else 0.
+int rough_side(const Vec& n, const Direction& d) {
+  const double x = dot(n, d.rough);
+  return x > kRoughSideError ? 1 : x < -kRoughSideError ? -1 : 0;
+}
+int side(const Direction& n, const Direction& d) {
+  if (const int sign = rough_side(n.rough, d)) return sign;
+  const double x = double(dot(n.fine, d.fine));
+  return x > kSideError ? 1 : x < -kSideError ? -1 : 0;
+}
+
+/// The pose at a check's scale.
+Motion scaled(const Motion& m, int exponent) {
+  const auto entry = [](double x) { return std::fabs(x) < kLeastEntry ? 0 : x; };
+  const auto row = [&](const Vec& r) { return Vec{entry(r.x), entry(r.y), entry(r.z)}; };
+  return {row(m.row_x), row(m.row_y), row(m.row_z), rounded(scaled(wide(m.t), exponent))};
+}
+
+/// A body at a check's scale: its own vertices, and in the common frame all that planes are made of.
+struct Solid {
+  struct Facet {
+    std::array<std::uint32_t, 3> corner;
+    Direction normal;
+  };
+  struct Edge {
+    std::uint32_t tail, head;
+    std::array<std::uint32_t, 2> beside;  ///< facets to the left and right; kNone of a segment
+    Direction along;
+  };
+
+  Solid(const ConvexView& view, const Motion& m, int exponent) : motion(m) {
+    for (Vertex v : view.vertices) {
+      v.x = std::ldexp(v.x, exponent), v.y = std::ldexp(v.y, exponent), v.z = std::ldexp(v.z, exponent);
+      vertices.push_back(v);
+      points.push_back(wide(m, vec(v)));
+      rough_points.push_back(rounded(points.back()));
+      reach = larger(reach, max_abs(rough_points.back()));
+    }
+    std::vector<std::uint32_t> facet_of(view.half_edges.size(), kNone);
+    for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
+      if (facet_of[h] != kNone || view.half_edges[h].face == kNone) continue;
+      const std::array<std::uint32_t, 3> corner{origin(view, h), view.half_edges[h].head,
+                                                view.half_edges[next_in_facet(view, h)].head};
+      for (std::uint32_t k = h; facet_of[k] == kNone; k = next_in_facet(view, k)) facet_of[k] = std::uint32_t(facets.size());
+      facets.push_back({corner, direction(facet_normal(m, vertices[corner[0]], vertices[corner[1]], vertices[corner[2]]))});
+    }
+    for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
+      if (view.half_edges[h].twin < h) continue;
+      const std::uint32_t tail = origin(view, h), head = view.half_edges[h].head;
+      edges.push_back(
+          {tail, head, {facet_of[h], facet_of[view.half_edges[h].twin]}, direction(turned(m, vertices[head], vertices[tail]))});
+    }
+  }
+
+  Vec rough_normal(std::uint32_t facet) const { return facet == kNone ? Vec{0, 0, 0} : facets[facet].normal.rough; }
+  const double* at(std::uint32_t v) const { return &vertices[v].x; }
+
+  /// How far the body reaches along n.
+  DoubleDouble height(const Direction& n) const {
+    double most = -kInfinity;
+    for (const Vec& p : rough_points) most = larger(most, dot(n.rough, p));
+    DoubleDouble height = -kInfinity;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (dot(n.rough, rough_points[i]) < most - 2 * kRoughHeightError * reach) continue;
+      if (const DoubleDouble h = dot(n.fine, points[i]); h > height) height = h;
+    }
+    return height;
+  }
+
+  const Motion motion;
+  std::vector<Vertex> vertices;
+  std::vector<Wide> points;
+  std::vector<Vec> rough_points;
+  double reach = 0;  ///< the largest coordinate of a point
+  std::vector<Facet> facets;
+  std::vector<Edge> edges;
+};
+
+/// The least height of the Minkowski difference of A and B over the planes that can bound it, each parallel to a facet of A, to
+/// one of B, or to an edge of each. With e an edge of A and f one of B, N = e x f is normal to a facet of the difference, or to
+/// a plane that holds less of it, where no vertex across a facet beside e is above e along N and none beside f below f: of a
+/// convex body that shows all vertices. On the facet to the left of e, whose normal is n, N . (w - v) is -f . n up to a
+/// positive factor; on the right f . n; and on those beside f, e . n and -e . n.
+class LeastHeight {
+ public:
+  LeastHeight(const Scene& scene, int exponent)
+      : a_(scene.a, kAtRest, exponent),
+        b_(scene.b, scaled(scene.b_in_a, exponent), exponent),
+        tie_(kHeightError / 2 * std::ldexp(scene.magnitude, exponent)) {}
+
+  /// Infinite where all differences lie on a line.
+  DoubleDouble find() {
+    for (const Solid* body : {&a_, &b_}) {
+      for (const Solid::Facet& facet : body->facets) {
+        const Direction &n = facet.normal, opposite = -n;
+        take(n.fine, a_.height(n) + b_.height(opposite));
+        take(n.fine, a_.height(opposite) + b_.height(n));
+      }
+    }
+    for (const Solid::Edge& e : a_.edges) {
+      const Vec left = a_.rough_normal(e.beside[0]), right = a_.rough_normal(e.beside[1]);
+      for (const Solid::Edge& f : b_.edges) {
+        const double l = dot(left, f.along.rough), r = dot(right, f.along.rough);
+        if (smaller(l, r) <= kRoughSideError && larger(l, r) >= -kRoughSideError) take(e, f);
+      }
+    }
+    return least_;
+  }
+
+ private:
+  /// By more than rounding: of planes as near one will do.
+  bool is_lower(const DoubleDouble& height) const { return height + tie_ < least_; }
+
+  void take(const Wide& n, const DoubleDouble& height) {
+    const DoubleDouble square = dot(n, n);
+    if (!(square.high > 0)) return;
+    if (const DoubleDouble h = height / root(square); h < least_) least_ = h;
+  }
+
+  void take(const Solid::Edge& e, const Solid::Edge& f) {
+    bool below = true, above = true;  // the vertices beside, seen along N
+    const auto may_bound = [&](int sign) {
+      below = below && sign >= 0, above = above && sign <= 0;
+      return below || above;
+    };
+    for (const std::size_t k : {0, 1}) {  // most are no facet's, and doubles show it
+      const int side = k == 0 ? 1 : -1;
+      if (!may_bound(side * rough_side(a_.rough_normal(e.beside[k]), f.along))) return;
+      if (!may_bound(side * rough_side(b_.rough_normal(f.beside[k]), e.along))) return;
+    }
+    Wide n = cross(e.along.fine, f.along.fine);
+    if (!(max_abs(rounded(n)) >= 4 * kCancelled)) {
+      n = direction(exact::edge_normal(a_.at(e.tail), a_.at(e.head), b_.motion, b_.at(f.head), b_.at(f.tail))).fine;
+    }
+    const DoubleDouble square = dot(n, n);
+    if (!(square.high > 0)) return;
+    const DoubleDouble height = dot(n, a_.points[e.tail] - b_.points[f.tail]) / root(square);
+    below = below && is_lower(height), above = above && is_lower(-height);
+    if (!below && !above) return;
+    for (const std::size_t k : {0, 1}) {
+      const int side = k == 0 ? 1 : -1;
+      if (!may_bound(side * side_in_a(e.beside[k], f)) || !may_bound(side * side_in_b(f.beside[k], e))) return;
+    }
+    if (below) least_ = height;
+    if (above && is_lower(-height)) least_ = -height;
+  }
+
+  /// The sign of n . f for a facet of A, 0 without one.
+  int side_in_a(std::uint32_t facet, const Solid::Edge& f) const {
+    if (facet == kNone) return 0;
+    const auto& [corner, normal] = a_.facets[facet];
+    if (const int sign = side(normal, f.along)) return sign;
+    return exact::compare_turned_along_normal(a_.at(corner[0]), a_.at(corner[1]), a_.at(corner[2]), b_.motion, b_.at(f.head),
+                                              b_.at(f.tail));
+  }
+  /// The sign of n . e for a facet of B.
+  int side_in_b(std::uint32_t facet, const Solid::Edge& e) const {
+    if (facet == kNone) return 0;
+    const auto& [corner, normal] = b_.facets[facet];
+    if (const int sign = side(normal, e.along)) return sign;
+    return exact::compare_along_turned_normal(b_.motion, b_.at(corner[0]), b_.at(corner[1]), b_.at(corner[2]), a_.at(e.head),
+                                              a_.at(e.tail));
+  }
+
+  const Solid a_, b_;
+  const double tie_;
+  DoubleDouble least_ = kInfinity;
+};
+
+}  // namespace
+
+DoubleDouble Checked::least_depth() const {
+  const Level &finest_a = a.level(a.finest_level()), &finest_b = b.level(b.finest_level());
+  const Scene finest = scene(finest_a.view, finest_b.view, at.motion, at.quality.error);
+  const int exponent = finest.magnitude > 0 ? kCheckedExponent - std::ilogb(finest.magnitude) : 0;
+  const DoubleDouble least = LeastHeight(finest, exponent).find();
+  if (!(least.high < kInfinity)) return least;
+  return DoubleDouble(Pair{std::ldexp(least.high, -exponent), std::ldexp(least.low, -exponent)}) -
+         (finest_a.deviation + stretch * finest_b.deviation);
+}
+
+Check check_signed(const Checked& of, const OverlapProof* proof) {
+  const Answer& answer = of.answer;
+  const Vec& n = of.normal;
+  const double doubt = kHeightError * (of.magnitude + of.radii);
+  if (std::isfinite(answer.lower)) {
+    if (!(std::fabs(double(dot(wide(n), wide(n)) - 1.0)) <= kUnitError)) return failed("the normal's length is %.17g", norm(n));
+    const double gap = gap_along(of.a, of.b, of.at.motion, n), error = kNormError * std::fabs(gap) + doubt;
+    if (!(double(of.of_hulls(answer.lower) - gap) <= error))
+      return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap - of.radii);
+    if (std::isfinite(answer.upper) && !(double(of.of_hulls(answer.upper) - gap) >= -error))
+      return failed("upper is %.17g, but the gap along the normal is %.17g", answer.upper, gap - of.radii);
+    if (answer.upper - answer.lower <= of.touching && answer.verdict != Verdict::Undecided) {
+      const Wide between = wide(vec(answer.point_b)) - wide(vec(answer.point_a));
+      const double along = std::clamp(double(dot(between, wide(n))), answer.lower, answer.upper);
+      const double aside = norm(rounded(between - wide(n) * DoubleDouble(along)));
+      if (!(aside <= of.slack + of.deviation))
+        return failed("the points are %.17g off the signed distance along the normal", aside);
+    }
+  }
+  if (answer.lower > 0) return check_distance(of, proof);
+  if (answer.verdict == Verdict::Disjoint) return failed("disjoint without a lower bound");
+
+  std::optional<DoubleDouble> found;
+  const auto depth = [&] {
+    if (!found) found = of.least_depth();
+    return *found;
+  };
+  const bool proved = proof && proof->count > 0 && check_proof(of.a.level(0).view, of.b.level(0).view, of.at.motion, *proof);
+  if (std::isfinite(answer.upper)) {
+    if (of.knows_points()) {
+      if (const Check in = of.points_lie_in_their_levels(); !in) return in;
+    }
+    const double apart = of.knows_points() ? norm(of.point_b - of.point_a) + of.deviation : kInfinity;
+    if (const DoubleDouble upper = of.of_hulls(answer.upper); upper.high < 0) {
+      if (!(depth().high < kInfinity)) return failed("upper is %.17g, but the bodies share a plane", answer.upper);
+      if (!(double(-upper - depth()) <= doubt))
+        return failed("upper is %.17g, but the depth is %.17g", answer.upper, double(depth()) + of.radii);
+    } else if (!proved && !(apart <= double(upper) + 2 * of.slack) && !of.is_near(answer.upper)) {
+      // A wide interval around 0 may come with the points of an overlap; any two others prove it as well.
+      return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart - of.radii);
+    }
+  }
+  if (answer.verdict == Verdict::Overlapping && !(answer.upper < 0) && !proved) {
+    if (const Check overlap = of.hulls_overlap(nullptr); !overlap) return overlap;
+  }
+  if (answer.verdict == Verdict::Touching) {
+    if (!(answer.upper <= of.touching)) return failed("touching with an upper bound of %.17g", answer.upper);
+    if (answer.lower < -of.touching && depth().high < kInfinity && !(double(depth() + of.radii) <= of.touching + doubt))
+      return failed("touching, but the depth is %.17g", double(depth()) + of.radii);
+  }
+  return kPassed;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,440 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Which body is deep in which is asked of polytopes, from level pair to finer level pair: a coarse one is around the exact one,
+// so that its heights are no less, and more by no more than its deviation. Signs near 0 are those of `distance`.
+#include <swiftlet/depth.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "body/half_edge.h"
+#include "depth/epa.h"
+#include "depth/facet_proof.h"
+#include "pair/difference.h"
+#include "pair/gjk.h"
+#include "pair/intersection.h"
+#include "pair/start.h"
+#include "pair/support_gjk.h"
+#include "pair/walk.h"
+#include "query/model_pair.h"
+#include "query/radii.h"
+#include "query/seed.h"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What is asked: an interval narrow enough, or on which side of a threshold.
+struct DepthTarget {
+  double absolute = 0, relative = 0;
+  double depth = -1;  ///< the threshold where it is not negative
+  bool is_threshold() const { return depth >= 0; }
+  bool is_exact() const { return absolute == 0 && relative == 0 && !is_threshold(); }
+};
+
+/// The vertices of a feature in order, of a large face the first four.
+struct Span {
+  int count = 0;
+  std::array<std::uint32_t, 4> vertex{};
+};
+Span span_of(const ConvexView& view, FeatureId feature) {
+  const std::uint32_t i = feature.index();
+  if (feature.kind() == FeatureKind::Vertex) return {1, {i}};
+  if (feature.kind() == FeatureKind::Edge) return {2, {origin(view, i), view.half_edges[i].head}};
+  Span span;
+  std::uint32_t h = view.face_first[i];
+  do {
+    span.vertex[std::size_t(span.count++)] = origin(view, h);
+    h = next_in_face(view, h);
+  } while (h != view.face_first[i] && span.count < 4);
+  return span;
+}
+
+/// From level pair to finer level pair until the target is met.
+class Deepening {
+ public:
+  Deepening(const Setting& at, const Limits& limits, const DepthTarget& target)
+      : pair_(*at.a, *at.b, at.motion, at.quality.error, limits),
+        a_(*at.a),
+        b_(*at.b),
+        line_(line_of_centres(at.motion, pair_.line)),
+        budget_(limits.budget),
+        trace_(limits.trace),
+        target_(target),
+        law_two_(pair_.law_two),
+        finest_a_(pair_.finest_a),
+        finest_b_(pair_.finest_b) {}
+
+  /// `floor`: at most 0, as DepthGoal's. `visited`: level pairs that are in the trace already.
+  void run(const PairSeed& seed, double floor = 0, int visited = 0) {
+    floor_ = floor;
+    levels_visited = visited;
+    lower = -kInfinity, upper = kInfinity;
+    // No farther than their centres and radii allow: a pair that deviates by more than that allows cannot answer.
+    double most = a_.radius() + pair_.stretch * b_.radius() - norm(line_.in_a);
+    place_ = target_.is_exact() ? Place{finest_a_, finest_b_, {}} : coarsest_place(a_, b_);
+    near_ = seed.met && seed.level_a < a_.level_count() && seed.level_b < b_.level_count() &&
+            !turned_far(line_, seed, a_.level(seed.level_a), b_.level(seed.level_b));
+    const bool remembers = near_ && (seed.normal[0] | seed.normal[1] | seed.normal[2]) != 0;
+    Vec direction = remembers ? swiftlet::direction(seed) : lowest_seen(most);
+    for (;;) {
+      const double error = deviation();
+      const bool last = place_.level_a == finest_a_ && place_.level_b == finest_b_;
+      const double allowed = larger(target_.absolute, target_.relative * smaller(upper, most));
+      if (last || error <= allowed || target_.is_threshold()) {
+        const std::uint32_t steps_before = steps, tests_before = plane_tests;
+        solve(seed, direction, error);
+        note(trace_, std::size_t(levels_visited++),
+             {place_.level_a, place_.level_b, -upper, -lower, steps - steps_before, plane_tests - tests_before});
+        if (last || end == DepthEnd::Apart || end == DepthEnd::Budget || answered()) break;
+        direction = normal;
+      }
+      place_ = {std::max(place_.level_a - 1, finest_a_), std::max(place_.level_b - 1, finest_b_), {}};
+    }
+    if (end == DepthEnd::NotConverged && steps >= budget_.steps) end = DepthEnd::Budget;
+    if (end == DepthEnd::NotConverged && answered()) end = DepthEnd::Converged;
+  }
+
+  Status status() const {
+    if (end == DepthEnd::Converged || (target_.is_threshold() && end == DepthEnd::Apart)) return Status::Converged;
+    if (end == DepthEnd::Budget) return Status::Budget;
+    return place_.level_a == 0 && place_.level_b == 0 ? Status::NotConverged : Status::LevelLimit;
+  }
+  /// Overlapping for certain, and not to be taken for touching.
+  bool proved() const { return lower > law_two_; }
+
+  /// With `floor`, where the depth has no other bound.
+  bool narrow(double floor) const { return upper - larger(lower, floor) <= larger(target_.absolute, law_two_); }
+
+  void store(PairSeed& seed) const {
+    remember(line_, normal, seed);
+    seed.a = feature_a, seed.b = feature_b;
+    seed.level_a = std::uint8_t(place_.level_a), seed.level_b = std::uint8_t(place_.level_b);
+    seed.met = true;
+  }
+
+  const ModelPair& pair() const { return pair_; }
+
+  DepthEnd end = DepthEnd::NotConverged;
+  double lower = -kInfinity, upper = kInfinity;  ///< of the depth of the exact hulls
+  Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};
+  bool has_points = false;
+  FeatureId feature_a, feature_b;
+  int level_a = 0, level_b = 0;
+  std::uint32_t steps = 0, plane_tests = 0;
+  int levels_visited = 0;
+
+ private:
+  double deviation() const { return pair_.deviation(place_.level_a, place_.level_b); }
+  bool answered() const {
+    if (target_.is_threshold()) return lower > target_.depth + law_two_ || upper < target_.depth - law_two_;
+    return upper - larger(lower, floor_) <= larger(larger(target_.absolute, target_.relative * lower), law_two_);
+  }
+
+  /// The line of centres, or where maps show the difference of the bodies lower, across the thinner side of either's box;
+  /// `most` becomes its height, if that is less.
+  Vec lowest_seen(double& most) const {
+    const auto across = [](const Shape& body) { return least_axis(body.size()); };
+    const ConvexView &view_a = a_.level(finest_a_).view, &view_b = b_.level(finest_b_).view;
+    Vec lowest = normalised(line_.in_a);
+    if (a_.map_level() == a_.level_count() || b_.map_level() == b_.level_count()) return lowest;
+    double least = kInfinity;
+    for (const Vec& axis : {lowest, across(a_), turn(pair_.motion, across(b_))}) {
+      const Vec n = dot(axis, line_.in_a) < 0 ? -axis : axis, own = turn_back(pair_.motion, -n);
+      const Vec p = vec(view_a.vertices[about_farthest(a_, finest_a_, n)]),
+                q = vec(view_b.vertices[about_farthest(b_, finest_b_, own)]);
+      if (const double height = dot(n, p - apply(pair_.motion, q)); height < least) least = height, lowest = n;
+    }
+    if (least > 0) most = smaller(most, least);
+    return lowest;
+  }
+
+  /// Pairs of the features' vertices, around what they span; and the direction between the features.
+  static DepthStart start_at(const Scene& pair, const MarchStart& features, const Vec& direction) {
+    DepthStart s;
+    s.direction = direction;
+    const Span a = span_of(pair.a, features.a);
+    Span b = span_of(pair.b, features.b);
+    if (a.count * b.count <= 4)
+      s.feature_a = features.a, s.feature_b = features.b;
+    else
+      b.count = 1;
+    for (int i = 0; i < a.count; ++i) {
+      for (int j = 0; j < b.count; ++j) {
+        s.a[std::size_t(s.count)] = a.vertex[std::size_t(i)];
+        s.b[std::size_t(s.count++)] = b.vertex[std::size_t(i % 2 ? b.count - 1 - j : j)];
+      }
+    }
+    return s;
+  }
+
+  /// Where the depth is locally least: B is moved along a direction until it is free, and whatever is nearest then names the
+  /// next direction. Proves nothing.
+  DepthStart local_least(const Scene& pair, const Level& of_a, const Level& of_b, MarchStart at, const Vec& direction) {
+    Vec n = normalised(direction);
+    const Resting body = body_a(pair);
+    const Moved other = body_b(pair);
+    const bool has_maps = of_a.map_side > 0 && of_b.map_side > 0;
+    bool far = at.a.kind() == FeatureKind::None;
+    if (far)
+      at = {{FeatureKind::Vertex, about_farthest(a_, place_.level_a, n)},
+            {FeatureKind::Vertex, about_farthest(b_, place_.level_b, other.into(-n))}};
+    for (int round = 0; round < kSlides; ++round) {
+      const std::uint32_t va = ascend(pair.a, n, any_vertex(pair.a, at.a), plane_tests),
+                          vb = ascend(pair.b, other.into(-n), any_vertex(pair.b, at.b), plane_tests);
+      const double height = dot(n, body.point(va) - other.point(vb));
+      if (!(height > 0)) break;
+      Motion m = pair_.motion;
+      m.t = m.t + n * (height * kSlideBy);
+      const Scene apart = scene(pair.a, pair.b, m, pair_.shift, pair_.pose_error);
+      if (far && has_maps) {
+        const Sight sight = look(apart, of_a, of_b, 0, glimpse(apart, of_a, of_b, n), [](const Sight& s) { return s.near; });
+        at = {{FeatureKind::Vertex, sight.start_a}, {FeatureKind::Vertex, sight.start_b}};
+        const bool turns = dot(sight.normal, n) < kSlideTurn;
+        n = sight.normal;
+        if (turns) continue;
+      }
+      at = settled(apart, at, plane_tests);
+      const Walk w = walk(apart, at.a, at.b, PlaneRule::MostViolated, budget_.steps - std::min(steps, budget_.steps));
+      steps += w.steps, plane_tests += w.plane_tests;
+      if (w.end != WalkEnd::Minimum) break;
+      at = {w.a, w.b};
+      const Vec next = normalised(w.witness.normal);
+      const DepthStart found = start_at(pair, at, next);
+      far = dot(next, n) < kSlideTurn;
+      n = next;
+      if (found.count > 2 && stands_over(pair, found)) return found;
+    }
+    return start_at(pair, settled(pair, at, plane_tests), n);
+  }
+  /// Whether the point nearest to the origin lies within a polygon.
+  static bool stands_over(const Scene& pair, const DepthStart& s) {
+    std::array<Vec, 4> p;
+    for (std::size_t k = 0; int(k) < s.count; ++k) p[k] = body_a(pair).point(s.a[k]) - body_b(pair).point(s.b[k]);
+    int left = 0;
+    for (std::size_t k = 0, last = std::size_t(s.count - 1); int(k) < s.count; last = k++) {
+      left += dot(cross(p[k], p[last]), s.direction) > 0;
+    }
+    return left == 0 || left == s.count;
+  }
+
+  /// At the seed's features, at the local least from there, or wherever it is: ever dearer.
+  Depth depth_of(const Scene& pair, const Level& of_a, const Level& of_b, const PairSeed& seed, const Vec& direction,
+                 DepthGoal goal) {
+    const auto confirmed = [&](const DepthStart& at, Depth& found) {
+      const bool is_so = steps < budget_.steps && confirm(pair, of_a, of_b, at, goal, plane_tests, found);
+      return steps += found.steps, is_so;
+    };
+    const bool fits = near_ && seed.level_a == place_.level_a && seed.level_b == place_.level_b &&
+                      names_feature(pair.a, seed.a) && names_feature(pair.b, seed.b);
+    const MarchStart features = fits ? MarchStart{seed.a, seed.b} : MarchStart{};
+    Depth found;
+    DepthStart at;
+    if (fits) {
+      at = start_at(pair, features, direction);
+      if (confirmed(at, found)) return found;
+    }
+    if (goal.error == 0 && !(found.upper < kInfinity)) {
+      at = local_least(pair, of_a, of_b, features, direction);
+      if (confirmed(at, found)) return found;
+    }
+    if (goal.error > 0) at = {}, at.direction = direction;  // of a coarse pair bounds are wanted, and no facet
+    goal.step_budget = budget_.steps - std::min(steps, budget_.steps);
+    found = epa(pair, of_a, of_b, at, goal, plane_tests);
+    return steps += found.steps, found;
+  }
+
+  void solve(const PairSeed& seed, const Vec& direction, double error) {
+    const Level &of_a = a_.level(place_.level_a), &of_b = b_.level(place_.level_b);
+    const Scene pair = pair_.scene_at(place_);
+    DepthGoal goal{target_.absolute, target_.relative, error, floor_};
+    if (target_.is_threshold()) goal.deeper = target_.depth + law_two_, goal.shallower = target_.depth - law_two_;
+    const Depth found = depth_of(pair, of_a, of_b, seed, direction, goal);
+    end = found.end;
+    if (found.lower > 0)
+      lower = larger(lower, error > 0 ? (found.lower - error) - 2 * kU * (found.lower + error) : found.lower);
+    if (found.upper > upper + law_two_) return;
+    upper = found.upper;
+    normal = found.normal;
+    level_a = place_.level_a, level_b = place_.level_b;
+    has_points = found.active.count > 0;
+    if (!has_points) return;
+    point_a = found.point_a, point_b = found.point_b;
+    feature_a = found.feature_a, feature_b = found.feature_b;
+    if (feature_a.kind() == FeatureKind::None) {
+      feature_a = feature_of(of_a.view, found.active, found.active.a);
+      feature_b = feature_of(of_b.view, found.active, found.active.b);
+    }
+    if (error > 0 || !target_.is_exact()) return;  // not on the surface
+    feature_a = feature_at_a(pair, feature_a, point_a, plane_tests);
+    feature_b = feature_at_b(pair, feature_b, point_b, plane_tests);
+  }
+
+  const ModelPair pair_;
+  const Shape &a_, &b_;
+  const Line line_;
+  const Budget& budget_;
+  const std::span<LevelRecord> trace_;
+  const DepthTarget target_;
+  const double law_two_;
+  const int finest_a_, finest_b_;
+  double floor_ = 0;
+  bool near_ = false;  ///< to the seed's pose
+  Place place_{};
+};
+
+/// The depth found, as a signed distance of at most `upper`; what it lacks stays.
+void take(const Deepening& deep, Answer& s) {
+  s.lower = -deep.upper;
+  s.normal = eigen(deep.normal);
+  s.level_a = std::int16_t(deep.level_a), s.level_b = std::int16_t(deep.level_b);
+  if (deep.has_points && s.verdict != Verdict::Touching) {  // those of a distance of 0 are as near, on any shape
+    s.point_a = eigen(deep.point_a), s.point_b = eigen(deep.point_b);
+    s.feature_a = deep.feature_a, s.feature_b = deep.feature_b;
+  }
+}
+
+void add_work(const Deepening& deep, Answer& s) {
+  s.steps += deep.steps;
+  s.plane_tests += deep.plane_tests;
+  s.levels_visited = std::uint8_t(std::max(int(s.levels_visited), deep.levels_visited));
+}
+
+/// One interval of a distance that is not surely above 0 and of the depth.
+void join(const Deepening& deep, Answer& s, OverlapProof& proof, PairSeed& seed) {
+  const bool overlapping = deep.proved() || s.verdict == Verdict::Overlapping;
+  if (s.status == Status::Converged) s.status = deep.status();
+  if (overlapping) s.verdict = Verdict::Overlapping;
+  s.upper = smaller(overlapping ? smaller(s.upper, 0) : s.upper, -deep.lower);
+  if (s.upper < 0) proof = {};
+  take(deep, s);
+  if (overlapping) deep.store(seed);
+}
+
+/// A distance whose bound was 0, of bodies that a plane of the depth turned out to separate.
+void part(const Deepening& deep, Answer& s) {
+  s.verdict = Verdict::Disjoint;
+  s.lower = -deep.upper;
+  s.upper = larger(s.upper, s.lower);
+  s.normal = eigen(deep.normal);
+}
+
+/// Bounds of a touching pair that law 2 allows one by one and not together: 106 bits narrow that of the distance.
+void sharpen(const ModelPair& pair, Answer& s) {
+  const Place place{s.level_a, s.level_b, {s.feature_a, s.feature_b}};
+  const Scene scene = pair.scene_at(place);
+  const MarchStart from = settled(scene, place.start, s.plane_tests);
+  Certificate c = certify(scene, from.a, from.b, witness(scene, from.a, from.b), s.plane_tests);
+  sharpen(scene, c, s.plane_tests);
+  s.upper = larger(s.lower, smaller(s.upper, c.upper + pair.deviation(s.level_a, s.level_b)));
+}
+
+/// What the depth alone says.
+void overlap_part(const Deepening& deep, Answer& s) {
+  s.normal.setZero();
+  s.status = deep.status();
+  s.upper = -deep.lower;
+  take(deep, s);
+  if (deep.proved()) s.verdict = Verdict::Overlapping;
+  if (deep.upper < 0) s.verdict = Verdict::Disjoint;
+  add_work(deep, s);
+}
+
+/// An answer of the hulls as one of the bodies.
+void finish(const Setting& at, const Limits& limits, OverlapProof& proof, Answer& s) {
+  s.is_signed = true;
+  if (!(s.lower > -kInfinity)) s.normal.setZero();
+  at.radii.round_signed(limits.trace, s.levels_visited);
+  at.radii.round_signed(s, proof, at.law_two());
+  seal(at.radii, proof, limits.tuning, s);
+}
+
+/// Bounds of a distance say nothing of a depth.
+void make_signed(std::span<LevelRecord> trace, int visited) {
+  for (LevelRecord& record : trace.first(std::min(trace.size(), std::size_t(visited)))) {
+    if (!(record.lower > 0)) record.lower = -kInfinity;
+  }
+}
+
+}  // namespace
+
+Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options) {
+  Answer answer;
+  if (options.tuning.proof) *options.tuning.proof = {};
+  const Setting at(a, b, b_in_a);
+  if (const Status fault = at.fault(); fault != Status::Converged) return refuse(a, b, fault, true, answer), answer;
+  Limits limits(options.budget, options.tuning);
+  Deepening deep(at, limits, {options.absolute, options.relative});
+  OverlapProof proof;
+  if (seed.met) deep.run(seed);
+  if (deep.proved()) {
+    deep.store(seed);
+    overlap_part(deep, answer);
+    return finish(at, limits, proof, answer), answer;
+  }
+  const Target target{options.absolute, options.relative, options.beyond, -kInfinity};
+  const int visited = deep.levels_visited;
+  if (!limits.trace.empty()) limits.trace = limits.trace.last(std::max(1, int(limits.trace.size()) - visited));
+  const Target of_hulls = at.radii.of_hulls(target, at.law_two());
+  descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, of_hulls, false, answer, proof);
+  make_signed(limits.trace, answer.levels_visited);
+  limits.trace = options.tuning.trace;
+  answer.levels_visited = std::uint8_t(answer.levels_visited + visited);
+  if (!(answer.lower > 0)) {
+    const bool touching = answer.verdict == Verdict::Touching;
+    PairSeed here = touching ? seed : PairSeed{};  // where bodies met, they need not be deepest
+    here.met = touching;
+    const double floor = -answer.upper;  // the distance bounds the depth
+    if (deep.end != DepthEnd::Apart && (deep.steps == 0 || !deep.narrow(floor))) deep.run(here, floor, answer.levels_visited);
+    if (deep.end == DepthEnd::Apart)
+      part(deep, answer);
+    else
+      join(deep, answer, proof, seed);
+    if (touching && answer.status == Status::NotConverged) {
+      sharpen(deep.pair(), answer);
+      if (answer.upper - answer.lower <= deep.pair().law_two) answer.status = Status::Converged;
+    }
+  }
+  add_work(deep, answer);
+  finish(at, limits, proof, answer);
+  return answer;
+}
+
+Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, const Options& options) {
+  PairSeed cold;
+  return signed_distance(a, b, b_in_a, cold, options);
+}
+
+Within signed_within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, PairSeed& seed, const Effort& effort) {
+  Within result;
+  if (effort.tuning.proof) *effort.tuning.proof = {};
+  const Setting at(a, b, b_in_a);
+  if (const Status fault = at.fault(); fault != Status::Converged) return refuse(a, b, fault, true, result.answer), result;
+  const Limits limits(effort.budget, effort.tuning);
+  const double of_hulls = threshold + at.radii.sum();
+  OverlapProof proof;
+  if (of_hulls < 0) {
+    Deepening deep(at, limits, {0, 0, -of_hulls});
+    deep.run(seed);
+    if (deep.proved()) deep.store(seed);
+    overlap_part(deep, result.answer);
+  } else {
+    const Target target{0, 0, of_hulls, of_hulls};
+    descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, target, false, result.answer, proof);
+    make_signed(limits.trace, result.answer.levels_visited);
+    if (result.answer.status == Status::Beyond) result.answer.status = Status::Converged;
+    if (!(result.answer.lower > 0)) result.answer.lower = -kInfinity;
+  }
+  finish(at, limits, proof, result.answer);
+  if (result.answer.lower > threshold) result.decision = Decision::No;
+  if (result.answer.upper <= threshold) result.decision = Decision::Yes;
+  return result;
+}
+
+Within signed_within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, const Effort& effort) {
+  PairSeed cold;
+  return signed_within(a, b, b_in_a, threshold, cold, effort);
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,435 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The expanding polytope algorithm [van den Bergen 2001]. The polytope is the exact convex hull of points of the Minkowski
+// difference M, put on a grid: it is convex and closed whatever the points, so its lowest facet proves a lower bound, less what
+// the grid moved. The support of M along that facet's normal proves an upper bound, and is the next point where it is above the
+// facet. Where it is not, both bounds agree up to rounding: no arrangement of facets, however nearly coplanar, ends otherwise.
+#include "depth/epa.h"
+
+#include <algorithm>
+
+#include "body/support_map.h"
+#include "depth/exact_hull.h"
+#include "pair/difference.h"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A cone of directions: the span of three corners of a cell of the octahedron, counter-clockwise from outside.
+struct Cone {
+  Vec x, y, z;
+};
+
+/// A supporting plane of M.
+struct Plane {
+  double height = kInfinity;  ///< proved: no point of M is higher
+  Vec normal{0, 0, 0};
+};
+
+/// A point of M on the grid, and the vertex pair that it is the difference of; of a point far off M none.
+struct Corner {
+  Vec p;
+  std::uint32_t a, b;
+};
+
+/// The point of a triangle nearest to the origin.
+struct Foot {
+  std::array<DoubleDouble, 3> weight;
+  Wide point;
+};
+
+/// Of a triangle whose plane is `height` above the origin: inside it, or on an edge, whichever is nearer: of slivers the
+/// weights inside may be noise.
+Foot foot_on(const Wide& a, const Wide& b, const Wide& c, double height) {
+  const DoubleDouble zero(0), one(1);
+  const Wide n = cross(b - a, c - a);
+  const DoubleDouble u = dot(n, cross(b, c)), v = dot(n, cross(c, a)), w = dot(n, cross(a, b));
+  Foot best{{one, zero, zero}, a};
+  if (u > zero && v > zero && w > zero) {
+    const DoubleDouble sum = u + v + w, share_v = v / sum, share_w = w / sum;
+    best = {{one - share_v - share_w, share_v, share_w}, a + (b - a) * share_v + (c - a) * share_w};
+    if (norm(rounded(best.point)) <= std::fabs(height) * (1 + kPlaneHeightError)) return best;
+  }
+  const auto along = [&](std::size_t from, std::size_t to, const Wide& p, const Wide& q) {
+    const Wide e = q - p;
+    const DoubleDouble length2 = dot(e, e), rise = -dot(p, e);
+    const DoubleDouble t = !(rise > zero) ? zero : !(rise < length2) ? one : rise / length2;
+    const Wide point = t < one ? p + e * t : q;
+    if (!(dot(point, point) < dot(best.point, best.point))) return;
+    best = {{zero, zero, zero}, point};
+    best.weight[from] = one - t, best.weight[to] = t;
+  };
+  along(0, 1, a, b), along(1, 2, b, c), along(2, 0, c, a);
+  return best;
+}
+
+/// How an expansion ended.
+enum class End : std::uint8_t {
+  Enough,     ///< the goal is met
+  TooCoarse,  ///< it cannot be, on these levels
+  Apart,
+  Budget,
+  Full,   ///< no room for another point
+  Stuck,  ///< rounding took more than its bound: never seen
+  Flat,   ///< M has no volume that the grid shows
+};
+
+class Polytope {
+ public:
+  Polytope(const Scene& scene, const Level& a, const Level& b, const DepthGoal& goal, std::uint32_t& plane_tests)
+      : scene_(scene),
+        level_a_(a),
+        level_b_(b),
+        goal_(goal),
+        plane_tests_(plane_tests),
+        exact_(goal.absolute == 0 && goal.relative == 0 && goal.deeper == kInfinity),
+        binade_(std::ldexp(1, std::ilogb(larger(scene.magnitude, kLeastWidth)))),
+        moved_((kGridError + kPlaneHeightFloor) * scene.magnitude) {}
+
+  /// From the start's polygon, a point beyond each of its sides and one below: what proves a depth is often no more. False
+  /// where M is flat on the grid: planes were found that say so.
+  bool begin(const DepthStart& start) {
+    lower_ = 0;
+    std::array<Corner, 9> found;
+    int count = 0;
+    for (; count < start.count; ++count) {
+      const auto k = std::size_t(count);
+      found[k] = corner_of(start.a[k], start.b[k]);
+    }
+    const Vec hint = normalised(dot(start.direction, start.direction) > 0 ? start.direction : Vec{1, 0, 0});
+    if (count < 3 || on_line(found)) {
+      if (!find_triangle(hint, found)) return false;
+      count = 3;
+    }
+    rim_ = count;
+    Vec n = exact::plane(found[0].p, found[1].p, found[2].p).normal;
+    const double turn = dot(n, hint) < 0 ? -1 : 1;  // in which sense the polygon goes around a normal on the hint's side
+    n = n * turn;
+    Corner apex;
+    if (!leave_plane(-n, {found[0], found[1], found[2]}, apex)) return false;
+    close({found[0], found[1], found[2], apex});
+    if (count == 4) include(found[3]);
+    for (int i = 0; i < rim_; ++i) {
+      const Corner &from = found[std::size_t(i)], &to = found[std::size_t((i + 1) % rim_)];
+      const Vec side = to.p - from.p;
+      include(glance(n * norm(side) + cross(side, n) * (turn * kFlare), from));
+    }
+    return true;
+  }
+
+  /// From M and three points far away that no direction of the cone sees above the origin: over the cone the hull's heights are
+  /// those of M, elsewhere no less.
+  bool begin(const Cone& cone) {
+    lower_ = 0, rim_ = 0;
+    std::array<Corner, 4> corners{support(normalised(cone.x + cone.y + cone.z), 0, 0)};
+    std::size_t count = 1;
+    for (const Vec& edge : {cross(cone.x, cone.y), cross(cone.y, cone.z), cross(cone.z, cone.x)}) {
+      const int exponent = std::ilogb(binade_) - std::ilogb(max_abs(edge)) + 1;
+      const Vec far{std::ldexp(edge.x, exponent), std::ldexp(edge.y, exponent), std::ldexp(edge.z, exponent)};
+      corners[count++] = {on_grid(-far), kNone, kNone};
+    }
+    if (exact::orientation(corners[0].p, corners[1].p, corners[2].p, corners[3].p) == 0) return false;
+    close(corners);
+    return true;
+  }
+
+  /// Adds the support of the lowest facet until the goal is met and the plane is that of the nearest point: of several facets
+  /// as low, points and plane are to be of one. With `bounds_only` it is any plane. `lowest`: no lower bound above it counts,
+  /// for it is one over more directions than these.
+  End grow(bool bounds_only = false, double lowest = kInfinity) {
+    for (;;) {
+      int next = hull_.lowest();
+      lower_ = smaller(lowest, below(hull_.facet(next).height));
+      if (goal_.passed(best_.height, lower_)) return End::Enough;
+      if (goal_.hopeless(best_.height, lower_)) return End::TooCoarse;
+      if (best_.height < -scene_.law_two) return End::Apart;
+      if (narrow(lower_) && bounds_only) return End::Enough;
+      if (narrow(lower_)) next = nearest_point().facet;
+      const HullFacet& facet = hull_.sharpened(next);
+      if (facet.above < kInfinity) {
+        if (!suffices(facet.above, lower_)) return End::Stuck;
+        best_ = {facet.above, facet.normal};
+        return End::Enough;
+      }
+      if (steps_ >= goal_.step_budget) return End::Budget;
+      if (hull_.corner_count() == ExactHull::kMostPoints) return End::Full;
+      const Corner from = nearest_corner(facet),
+                   ahead = is_starts(facet) || goal_.error > 0 ? from : climb(facet.normal, from.a, from.b);
+      if (leads_on(next, ahead)) {
+        add(ahead, next);
+        continue;
+      }
+      Corner top = support(facet.normal, ahead.a, ahead.b);
+      bool sees = hull_.sees(next, top.p);
+      const bool will_do = !exact_ && suffices(last_.height, lower_);
+      if (!will_do && !sees && !suffices(last_.height, lower_)) {
+        top = support_exactly(facet.normal, top.a, top.b);
+        sees = hull_.sees(next, top.p);
+      }
+      if (sees && !will_do)
+        add(top, next);
+      else
+        hull_.set_above(next, last_.height);
+    }
+  }
+
+  /// Proved of the heights of M, over all directions or the cone; 0 before anything is.
+  double lower() const { return lower_; }
+  const Plane& best() const { return best_; }
+  bool exact() const { return exact_; }
+  std::uint32_t steps() const { return steps_; }
+  bool narrow(double lower) const { return suffices(best_.height, lower); }
+
+  /// The points that the nearest point is the difference of.
+  void witness(Depth& depth) {
+    const Nearest nearest = nearest_point();
+    const HullFacet& facet = hull_.facet(nearest.facet);
+    if (is_far(facet)) return;
+    depth.active.count = 0;
+    depth.point_a = depth.point_b = {0, 0, 0};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double weight = rounded(nearest.foot.weight[k]);
+      if (weight == 0) continue;
+      const Pair of = pair_[facet.corner[k]];
+      const auto slot = std::size_t(depth.active.count++);
+      depth.active.a[slot] = of.a, depth.active.b[slot] = of.b, depth.active.weight[slot] = weight;
+      depth.point_a = depth.point_a + body_a(scene_).point(of.a) * weight;
+      depth.point_b = depth.point_b + body_b(scene_).point(of.b) * weight;
+    }
+  }
+
+ private:
+  struct Pair {
+    std::uint32_t a, b;
+  };
+  struct Nearest {
+    int facet;
+    Foot foot;
+  };
+
+  bool suffices(double upper, double lower) const { return goal_.suffices(upper, lower, scene_.law_two); }
+  /// A proved lower bound of M's height where the hull's is `height`.
+  double below(double height) const { return height - (kPlaneHeightError * std::fabs(height) + moved_); }
+
+  // ---- Points of M ----
+
+  /// The nearest point whose coordinates are multiples of 2 u of the binade.
+  Vec on_grid(const Vec& p) const {
+    const auto snapped = [this](double x) {
+      const double anchor = std::copysign(binade_, x);
+      return std::fabs(x) < binade_ ? (x + anchor) - anchor : x;
+    };
+    return {snapped(p.x), snapped(p.y), snapped(p.z)};
+  }
+  Corner corner_of(std::uint32_t a, std::uint32_t b) const {
+    return {on_grid(rounded(difference<DoubleDouble>(scene_, a, b).p)), a, b};
+  }
+  Corner corner(std::uint8_t k) const { return {hull_.corner(k), pair_[k].a, pair_[k].b}; }
+  bool is_far(const HullFacet& f) const {
+    return pair_[f.corner[0]].a == kNone || pair_[f.corner[1]].a == kNone || pair_[f.corner[2]].a == kNone;
+  }
+  /// Whether a facet is of the start's polygon: mostly M's own.
+  bool is_starts(const HullFacet& f) const {
+    return std::all_of(f.corner.begin(), f.corner.end(), [&](std::uint8_t k) { return of_start(k); });
+  }
+  bool of_start(std::uint8_t k) const { return k < 3 ? rim_ > 0 : k == 4 && rim_ == 4; }
+
+  void take(const Plane& plane) {
+    last_ = plane;
+    if (last_.height < best_.height) best_ = last_;
+  }
+  /// A vertex pair highest along unit n, climbed to from what a map says or the vertices given; the plane there is kept if it
+  /// is the best.
+  Corner support(const Vec& n, std::uint32_t a, std::uint32_t b) {
+    ++steps_;
+    const Supports s = supports(scene_, n, higher(level_a_, n, a), higher(level_b_, body_b(scene_).into(-n), b), plane_tests_);
+    take({-s.lower, n});
+    return corner_of(s.a, s.b);
+  }
+  /// The same by exact comparisons, its height in 106 bits.
+  Corner support_exactly(const Vec& n, std::uint32_t a, std::uint32_t b) {
+    ++steps_;
+    a = support_a(scene_, n, a, plane_tests_), b = support_b(scene_, n, b, plane_tests_);
+    const double height = rounded(dot(wide(n), difference<DoubleDouble>(scene_, a, b).p));
+    take({height + (kGapError * std::fabs(height) + kDoubleDoubleError * scene_.magnitude), n});
+    return corner_of(a, b);
+  }
+  /// A vertex pair about as high, as maps know it; without maps by a climb from another.
+  Corner glance(const Vec& n, const Corner& from) {
+    if (level_a_.map_side == 0 || level_b_.map_side == 0) return climb(n, from.a, from.b);
+    return corner_of(look_up(level_a_, n).vertex, look_up(level_b_, body_b(scene_).into(-n)).vertex);
+  }
+  /// A vertex pair about as high along n as there is one, which proves nothing.
+  Corner climb(const Vec& n, std::uint32_t a, std::uint32_t b) {
+    ++steps_;
+    const Vec own = body_b(scene_).into(-n);
+    return corner_of(ascend(scene_.a, n, higher(level_a_, n, a), plane_tests_),
+                     ascend(scene_.b, own, higher(level_b_, own, b), plane_tests_));
+  }
+  static std::uint32_t higher(const Level& level, const Vec& own, std::uint32_t other) {
+    if (level.map_side == 0) return other;
+    const std::uint32_t seen = look_up(level, own).vertex;
+    return dot(own, vec(level.view.vertices[seen]) - vec(level.view.vertices[other])) > 0 ? seen : other;
+  }
+
+  // ---- Where to begin ----
+
+  static bool on_line(const std::array<Corner, 9>& of) {
+    const Vec n = exact::plane(of[0].p, of[1].p, of[2].p).normal;
+    return dot(n, n) == 0;
+  }
+  bool find_triangle(const Vec& hint, std::array<Corner, 9>& found) {
+    found[0] = support(hint, 0, 0);
+    const Vec least = least_axis(hint), across = cross(hint, least);
+    const auto is_other = [&](const Corner& c) { return max_abs(c.p - found[0].p) > 0; };
+    const auto leaves_line = [&](const Corner& c) { return found[2] = c, !on_line(found); };
+    if (!first_of({-hint, least, across}, found[0], found[1], is_other)) return false;
+    const Vec u = normalised(found[1].p - found[0].p), v = normalised(cross(u, least_axis(u)));
+    return first_of({v, cross(u, v)}, found[0], found[2], leaves_line);
+  }
+  /// A point of M off the plane of three corners; where there is one below it along `direction`, that.
+  bool leave_plane(const Vec& direction, const std::array<Corner, 3>& of, Corner& apex) {
+    const auto leaves = [&](const Corner& c) { return exact::orientation(of[0].p, of[1].p, of[2].p, c.p) != 0; };
+    apex = glance(direction, of[0]);
+    return leaves(apex) || first_of({direction}, of[0], apex, leaves);
+  }
+  /// The first support along one of these directions, or against it, that serves. Where none does M is flat, and its exact
+  /// heights are all that is known of it.
+  template <class Serves>
+  bool first_of(std::initializer_list<Vec> directions, const Corner& from, Corner& found, Serves serves) {
+    for (const Vec& n : directions) {
+      for (const Vec& side : {n, -n}) {
+        if (found = support(side, from.a, from.b); serves(found)) return true;
+      }
+    }
+    for (const Vec& n : directions) {
+      for (const Vec& side : {n, -n}) {
+        if (found = support_exactly(side, found.a, found.b); serves(found)) return true;
+      }
+    }
+    return false;
+  }
+  void close(const std::array<Corner, 4>& corners) {
+    hull_.begin({corners[0].p, corners[1].p, corners[2].p, corners[3].p});
+    for (std::size_t k = 0; k < 4; ++k) pair_[k] = {corners[k].a, corners[k].b};
+  }
+  void include(const Corner& c) {
+    if (const int facet = hull_.seen_from(c.p); facet >= 0) add(c, facet);
+  }
+  void add(const Corner& c, int facet) { pair_[std::size_t(hull_.add(c.p, facet))] = {c.a, c.b}; }
+
+  // ---- The facets ----
+
+  /// The point of the surface nearest to the origin: none of a facet higher than the best plane is.
+  Nearest nearest_point() {
+    const int lowest = hull_.lowest();
+    Nearest best{lowest, foot_of(hull_.facet(lowest))};
+    for (int k = 0; k < hull_.facet_count(); ++k) {
+      const HullFacet& facet = hull_.facet(k);
+      if (k == lowest || facet.height > best_.height + scene_.law_two) continue;
+      const Foot at = foot_of(facet);
+      if (dot(at.point, at.point) < dot(best.foot.point, best.foot.point)) best = {k, at};
+    }
+    return best;
+  }
+  Foot foot_of(const HullFacet& f) const {
+    return foot_on(wide(hull_.corner(f.corner[0])), wide(hull_.corner(f.corner[1])), wide(hull_.corner(f.corner[2])), f.height);
+  }
+  /// One of a facet's that is no far point, or else any of M.
+  Corner nearest_corner(const HullFacet& f) const {
+    for (const std::uint8_t k : f.corner) {
+      if (pair_[k].a != kNone) return corner(k);
+    }
+    return corner(0);
+  }
+  /// Whether a corner is a way on, and no plane through it is wanted for its own sake.
+  bool leads_on(int facet, const Corner& c) const {
+    const double height = dot(hull_.facet(facet).normal, c.p);
+    return height > larger(0, goal_.shallower) && (exact_ || !suffices(height, lower_)) && hull_.sees(facet, c.p);
+  }
+
+  const Scene& scene_;
+  const Level &level_a_, &level_b_;
+  const DepthGoal& goal_;
+  std::uint32_t& plane_tests_;
+  const bool exact_;     ///< the facet itself is wanted: bounds that are narrow leave its plane room to lean
+  const double binade_;  ///< the power of two below the magnitude
+  const double moved_;   ///< by so much more the hull may be higher than M
+  double lower_ = 0;
+  int rim_ = 0;  ///< corners of the start's polygon
+  std::uint32_t steps_ = 0;
+  Plane best_, last_;  ///< of all supports, and of the last
+  ExactHull hull_;
+  std::array<Pair, ExactHull::kMostPoints> pair_;
+};
+
+/// A cone in four.
+std::array<Cone, 4> quarters(const Cone& c) {
+  const Vec xy = (c.x + c.y) * 0.5, yz = (c.y + c.z) * 0.5, zx = (c.z + c.x) * 0.5;
+  return {{{c.x, xy, zx}, {xy, c.y, yz}, {zx, yz, c.z}, {xy, yz, zx}}};
+}
+
+bool ends_all(End end) { return end == End::TooCoarse || end == End::Apart || end == End::Budget; }
+
+/// Bounds the heights over a cone from below, by a polytope of its own or of each of its parts.
+End cover(Polytope& polytope, const Cone& cone, int depth, double& lower) {
+  End end = polytope.begin(cone) ? polytope.grow(true) : End::Flat;
+  if (end == End::Full && depth < kDepthCells) {
+    end = End::Enough;
+    for (const Cone& quarter : quarters(cone)) {
+      if (const End of = cover(polytope, quarter, depth + 1, lower); of != End::Enough) end = of;
+      if (ends_all(end)) return end;
+    }
+    return end;
+  }
+  lower = smaller(lower, polytope.lower());
+  return end;
+}
+
+/// All directions, one octant after the other.
+End cover_all(Polytope& polytope, double& lower) {
+  End end = End::Enough;
+  lower = kInfinity;
+  for (int octant = 0; octant < 8; ++octant) {
+    const Vec x{octant & 1 ? -1.0 : 1.0, 0, 0}, y{0, octant & 2 ? -1.0 : 1.0, 0}, z{0, 0, octant & 4 ? -1.0 : 1.0};
+    const bool odd = x.x * y.y * z.z < 0;
+    if (const End of = cover(polytope, odd ? Cone{x, z, y} : Cone{x, y, z}, 0, lower); of != End::Enough) end = of;
+    if (ends_all(end)) return lower = 0, end;
+  }
+  return end;
+}
+
+/// A narrow cone about a direction.
+Cone about(const Vec& n) {
+  const Vec u = normalised(cross(n, least_axis(n))), v = cross(n, u);
+  return {n + u * kNarrowCone, n + (v * kSqrt3 - u) * (kNarrowCone / 2), n - (v * kSqrt3 + u) * (kNarrowCone / 2)};
+}
+
+}  // namespace
+
+Depth epa(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
+          std::uint32_t& plane_tests) {
+  Polytope polytope(scene, a, b, goal, plane_tests);
+  Depth depth;
+  bool has_facets = polytope.begin(start);
+  End end = has_facets ? polytope.grow() : End::Flat;
+  depth.lower = larger(0, polytope.lower());
+  if (end == End::Full) {
+    end = cover_all(polytope, depth.lower);
+    depth.lower = larger(0, depth.lower);
+    has_facets = polytope.begin(about(polytope.best().normal));
+    if (has_facets) polytope.grow(false, depth.lower);  // its facet again, for the points
+  }
+  if (has_facets) polytope.witness(depth);
+  if (end == End::Enough || (end == End::Flat && polytope.narrow(0))) depth.end = DepthEnd::Converged;
+  if (end == End::Apart) depth.end = DepthEnd::Apart;
+  if (end == End::Budget) depth.end = DepthEnd::Budget;
+  depth.upper = larger(polytope.best().height, depth.lower);
+  depth.normal = polytope.best().normal;
+  depth.steps = polytope.steps();
+  return depth;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth/exact_hull.h"
+
+#include <bitset>
+#include <utility>
+
+namespace swiftlet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+static_assert(ExactHull::kMostFacets <= 256, "a facet's index is a byte");
+
+constexpr std::size_t after(std::size_t e) { return e == 2 ? 0 : e + 1; }
+
+}  // namespace
+
+/// By doubles, the height less all that they may be off by; slivers at once sharp.
+void ExactHull::stand(HullFacet& f) const {
+  const Vec &p = corner_[f.corner[2]], u = corner_[f.corner[0]] - p, v = corner_[f.corner[1]] - p, n = cross(u, v);
+  const double area = norm(n), error = kCrossError * std::sqrt(dot(u, u) * dot(v, v));
+  f.above = kInfinity;
+  f.is_sharp = !(4 * error < area);
+  if (f.is_sharp) return sharpen(f);
+  f.normal = n * (1 / area);
+  f.height = dot(f.normal, p) - (3 * error / area + kGapError) * norm(p);
+}
+
+void ExactHull::sharpen(HullFacet& f) const {
+  const exact::Plane plane = exact::plane(corner_[f.corner[2]], corner_[f.corner[0]], corner_[f.corner[1]]);
+  f.normal = plane.normal, f.height = plane.height, f.is_sharp = true;
+}
+
+const HullFacet& ExactHull::sharpened(int facet) {
+  HullFacet& f = facet_[std::size_t(facet)];
+  if (!f.is_sharp) sharpen(f);
+  return f;
+}
+
+int ExactHull::lowest() {
+  for (;;) {
+    int lowest = 0;
+    for (int k = 1; k < facet_count_; ++k) {
+      if (facet_[std::size_t(k)].height < facet_[std::size_t(lowest)].height) lowest = k;
+    }
+    if (facet_[std::size_t(lowest)].is_sharp) return lowest;
+    sharpened(lowest);
+  }
+}
+
+void ExactHull::begin(const std::array<Vec, 4>& points) {
+  for (std::size_t k = 0; k < 4; ++k) corner_[k] = points[k];
+  corner_count_ = 4, facet_count_ = 4, free_count_ = 0;
+  const bool turned = exact::orientation(points[0], points[1], points[2], points[3]) > 0;
+  // Facet k lies opposite corner k; across its edges lie the facets opposite the corners that these lack.
+  static constexpr Index kCorner[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    HullFacet& f = facet_[k];
+    f.corner = {kCorner[k][0], kCorner[k][1], kCorner[k][2]};
+    if (turned) std::swap(f.corner[1], f.corner[2]);
+    for (std::size_t e = 0; e < 3; ++e) f.beside[e] = f.corner[after(after(e))];
+    stand(f);
+  }
+}
+
+bool ExactHull::sees(int facet, const Vec& p) const {
+  const HullFacet& f = facet_[std::size_t(facet)];
+  return exact::orientation(corner_[f.corner[0]], corner_[f.corner[1]], corner_[f.corner[2]], p) > 0;
+}
+
+int ExactHull::seen_from(const Vec& p) const {
+  for (int k = 0; k < facet_count_; ++k) {
+    if (!is_gone(k) && sees(k, p)) return k;
+  }
+  return -1;
+}
+
+int ExactHull::add(const Vec& p, int facet) {
+  const auto top = Index(corner_count_);
+  corner_[std::size_t(corner_count_++)] = p;
+  std::array<Index, kMostFacets> seen;
+  std::bitset<kMostFacets> is_seen, is_known;
+  std::size_t seen_count = 0;
+  const auto visit = [&](Index k) {
+    if (is_known[k]) return;
+    is_known[k] = true;
+    if (sees(k, p)) is_seen[k] = true, seen[seen_count++] = k;
+  };
+  visit(Index(facet));
+  for (std::size_t i = 0; i < seen_count; ++i) {
+    for (const Index beside : facet_[seen[i]].beside) visit(beside);
+  }
+
+  // The border of what is seen, an edge from each of its corners.
+  struct Edge {
+    Index to, outer;
+  };
+  std::array<Edge, kMostPoints> border;
+  Index first = 0;
+  for (std::size_t i = 0; i < seen_count; ++i) {
+    const HullFacet& f = facet_[seen[i]];
+    for (std::size_t e = 0; e < 3; ++e) {
+      if (!is_seen[f.beside[e]]) border[f.corner[e]] = {f.corner[after(e)], f.beside[e]}, first = f.corner[e];
+    }
+  }
+  for (std::size_t i = 0; i < seen_count; ++i) {
+    facet_[seen[i]].height = kInfinity;
+    free_[std::size_t(free_count_++)] = seen[i];
+  }
+
+  // A cone over it, facet after facet; the last is beside the first.
+  const auto place = [&] { return Index(free_count_ > 0 ? free_[std::size_t(--free_count_)] : facet_count_++); };
+  const Index begin = place();
+  Index current = begin, from = first;
+  do {
+    const Edge edge = border[from];
+    HullFacet& f = facet_[current];
+    const Index next = edge.to == first ? begin : place();
+    f.corner = {from, edge.to, top};
+    f.beside[0] = edge.outer, f.beside[1] = next;
+    facet_[next].beside[2] = current;
+    HullFacet& outer = facet_[edge.outer];
+    for (std::size_t e = 0; e < 3; ++e) {
+      if (outer.corner[e] == edge.to && outer.corner[after(e)] == from) outer.beside[e] = current;
+    }
+    stand(f);
+    current = next, from = edge.to;
+  } while (from != first);
+  return int(top);
+}
+
+}  // namespace swiftlet

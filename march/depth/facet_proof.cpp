@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A closed surface of triangles between points of the Minkowski difference M that all have the origin surely below them winds
+// around it: every ray from there leaves through a triangle, no nearer than the nearest plane that has the triangle above it,
+// and M is convex. The surface is the facet asked about, a point beyond each of its sides, and what closes it below:
+//
+//        r1                r: the ring, far below the facet p where the overlap is shallow. Its triangles may be
+//       / : \              degenerate where two of it are one point.
+//     p1-----p2
+//    / | p   | \           .
+//   r0-p0---p3-r2
+//       \ : /
+//        r3
+#include "depth/facet_proof.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "body/support_map.h"
+#include "pair/difference.h"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using Corner = Difference<double>;
+
+/// A polygon between points of M, counter-clockwise along its unit normal; below it a ring of more.
+class Crown {
+ public:
+  Crown(const Scene& scene, const DepthStart& start) : scene_(scene), rim_(start.count) {
+    for (std::size_t k = 0; k < rim(); ++k) p_[k] = difference<double>(scene, start.a[k], start.b[k]);
+    normal_ = normalised(cross(p_[1].p - p_[0].p, p_[rim() - 1].p - p_[0].p));
+    if (dot(normal_, start.direction) < 0) std::reverse(p_.begin() + 1, p_.begin() + rim_), normal_ = -normal_;
+    double high = 0;
+    for (std::size_t k = 0; k < rim(); ++k) {
+      const double h = dot(normal_, p_[k].p);
+      height_ = k == 0 ? h : smaller(height_, h), high = k == 0 ? h : larger(high, h);
+    }
+    flat_ = high - height_ <= scene.law_two / 8;
+  }
+
+  const Vec& normal() const { return normal_; }
+  double height() const { return height_; }
+  double lower() const { return height_ - scene_.point_error; }  ///< proved
+  const Corner& operator[](std::size_t k) const { return p_[k]; }
+
+  /// Finds the point that the origin is under, as the vertex pairs it is of, and returns how far it is from where the normal
+  /// leads; infinite where there is none.
+  double stand(Depth& depth) const {
+    if (!flat_) return kInfinity;
+    std::array<std::size_t, 3> of{0, 1, 2};
+    if (rim_ == 4 && dot(normal_, cross(p_[0].p, p_[2].p)) > 0) of = {0, 2, 3};
+    const Vec &p = p_[of[0]].p, &q = p_[of[1]].p, &r = p_[of[2]].p;
+    std::array<double, 3> weight{larger(dot(normal_, cross(q, r)), 0), larger(dot(normal_, cross(r, p)), 0),
+                                 larger(dot(normal_, cross(p, q)), 0)};
+    const double sum = weight[0] + weight[1] + weight[2];
+    if (!(sum > 0)) return kInfinity;
+    weight[1] /= sum, weight[2] /= sum, weight[0] = larger(1 - weight[1] - weight[2], 0);
+    const double off = norm(p * weight[0] + q * weight[1] + r * weight[2] - normal_ * height_);
+    if (off > scene_.law_two) return off;
+    depth.active.count = 0;
+    depth.point_a = depth.point_b = {0, 0, 0};
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (weight[k] == 0) continue;
+      const Corner& c = p_[of[k]];
+      const auto slot = std::size_t(depth.active.count++);
+      depth.active.a[slot] = c.a, depth.active.b[slot] = c.b, depth.active.weight[slot] = weight[k];
+      depth.point_a = depth.point_a + body_a(scene_).point(c.a) * weight[k];
+      depth.point_b = depth.point_b + body_b(scene_).point(c.b) * weight[k];
+    }
+    return off;
+  }
+
+  /// Puts a point beyond each side, less far the nearer that is to the nearest point; whether what closes the surface below the
+  /// polygon is no nearer than it, and goes around the origin as it should.
+  template <class Glance>
+  bool closes(Glance glance) {
+    for (std::size_t k = 0; k < rim(); ++k) {
+      const Vec &p = p_[k].p, &q = p_[after(k)].p, side = q - p;
+      const double length = norm(side), beside = kLean * dot(normal_, cross(p, q)) / (length * height_);
+      p_[rim() + k] = glance(normal_ * length + cross(side, normal_) * smaller(larger(0, beside), kFlare), p_[k]);
+    }
+    for (std::size_t k = 2; k < rim(); ++k) {
+      if (!covers(0, k - 1, k, 0)) return false;
+    }
+    const double least = height_ + scene_.point_error;
+    for (std::size_t k = 0, last = rim() - 1; k < rim(); last = k++) {
+      if (!covers(after(k), k, rim() + k, least) || !covers(rim() + k, k, rim() + last, least)) return false;
+      if (k >= 2 && !covers(rim(), rim() + k, rim() + last, least)) return false;
+    }
+    return true;
+  }
+
+ private:
+  std::size_t rim() const { return std::size_t(rim_); }
+  std::size_t after(std::size_t k) const { return k + 1 == rim() ? 0 : k + 1; }
+
+  /// Whether the origin surely is below a triangle, by `least` and more. Squares: a product that overflows or vanishes covers
+  /// nothing.
+  bool covers(std::size_t i, std::size_t j, std::size_t k, double least) const {
+    const Corner &p = p_[i], &q = p_[j], &r = p_[k];
+    if (same(p, q) || same(q, r) || same(r, p)) return true;
+    const Vec u = q.p - p.p, v = r.p - p.p, area = cross(u, v);
+    const double low = smaller(dot(area, p.p), smaller(dot(area, q.p), dot(area, r.p)));
+    const double error = kOutwardError * scene_.magnitude;
+    return low > 0 && low * low > larger(error * error * (dot(u, u) * dot(v, v)), least * least * dot(area, area));
+  }
+
+  const Scene& scene_;
+  int rim_;
+  bool flat_ = false;
+  double height_ = 0;  ///< of the lowest corner along the normal
+  Vec normal_{0, 0, 0};
+  std::array<Corner, 8> p_;  ///< the polygon, then the ring
+};
+
+}  // namespace
+
+bool confirm(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
+             std::uint32_t& plane_tests, Depth& depth) {
+  depth.steps = 0, depth.upper = kInfinity;
+  if (start.count < 3) return false;
+  Crown crown(scene, start);
+  const Vec& n = crown.normal();
+  const double lower = crown.lower(), off = lower > 0 ? crown.stand(depth) : kInfinity;
+  if (!(off <= scene.law_two)) return false;
+  ++depth.steps;
+  const Supports top = supports(scene, n, crown[0].a, crown[0].b, plane_tests);
+  const double upper = -top.lower;
+  if (!goal.suffices(upper, lower, scene.law_two) || off + (upper - crown.height()) > scene.law_two) return false;
+  const auto glance = [&](const Vec& direction, const Corner& from) {
+    const Vec own = body_b(scene).into(-direction);
+    if (a.map_side == 0 || b.map_side == 0)
+      return difference<double>(scene, ascend(scene.a, direction, from.a, plane_tests),
+                                ascend(scene.b, own, from.b, plane_tests));
+    return difference<double>(scene, look_up(a, direction).vertex, look_up(b, own).vertex);
+  };
+  depth.upper = upper;
+  if (!crown.closes(glance)) return false;
+  depth.end = goal.passed(upper, lower) || !goal.hopeless(upper, lower) ? DepthEnd::Converged : DepthEnd::NotConverged;
+  depth.lower = lower;
+  depth.normal = n;
+  if (depth.active.count == 3) depth.feature_a = start.feature_a, depth.feature_b = start.feature_b;
+  return true;
+}
+
+}  // namespace swiftlet

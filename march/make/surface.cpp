@@ -1,0 +1,780 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Triangles -> closed -> convex (exact signs) -> exactly coplanar ones merged to facets -> vertices on no corner dropped ->
+// nearly coplanar facets grouped to walking faces -> half-edges in surface order.
+#include "make/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "body/block.h"
+#include "numeric/exact.h"
+#include "numeric/tolerance.h"
+#include "numeric/vec.h"
+#include "numeric/wide.h"
+
+namespace swiftlet {
+namespace {
+
+using Index = std::uint32_t;
+using Loop = std::vector<Index>;
+
+Error bad_value(std::string message) { return {ErrorCode::BadValue, std::move(message)}; }
+Error not_convex(std::string message) { return {ErrorCode::NotConvex, std::move(message)}; }
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.3g", value);
+  return buffer;
+}
+std::string edge_text(Index u, Index v) { return "edge (" + std::to_string(u) + ", " + std::to_string(v) + ")"; }
+
+double extent_of(std::span<const Vec3> points) {
+  double extent = 0;
+  for (const Vec3& p : points) extent = std::max(extent, max_abs(vec(p)));
+  return extent;
+}
+
+/// A body of V vertices has at most 6 V - 12 half-edges, which a FeatureId must name.
+constexpr std::size_t kMostVertices = kMaxIndex / 6;
+
+/// The input faces as loops of input vertices.
+struct Input {
+  std::span<const Vec3> points;
+  std::vector<Loop> faces;
+
+  const double* at(Index v) const { return points[v].data(); }
+  Vec point(Index v) const { return vec(points[v]); }
+  int orientation(Index a, Index b, Index c, Index d) const { return exact::orientation(at(a), at(b), at(c), at(d)); }
+};
+
+Result<Input> read_input(const LevelArrays& level) {
+  Input in{level.vertices, {}};
+  if (in.points.empty()) return Error{ErrorCode::Empty, "no vertices"};
+  if (in.points.size() > kMostVertices || level.face_vertices.size() > kMaxIndex) {
+    return Error{ErrorCode::TooLarge, std::to_string(in.points.size()) + " vertices and " +
+                                          std::to_string(level.face_vertices.size()) + " corners of faces"};
+  }
+  for (std::size_t i = 0; i < in.points.size(); ++i) {
+    for (const double x : {in.points[i][0], in.points[i][1], in.points[i][2]}) {
+      const bool in_range = x == 0 || (std::fabs(x) >= kLeastCoordinate && std::fabs(x) <= kMostCoordinate);
+      if (!in_range) return bad_value("vertex " + std::to_string(i) + " has the coordinate " + text(x));
+    }
+  }
+  if (const double extent = extent_of(in.points); extent > 0 && extent < kLeastExtent)
+    return bad_value("the body's extent is " + text(extent));
+  std::size_t at = 0;
+  const bool triangles = level.face_sizes.empty();
+  if (triangles && level.face_vertices.size() % 3 != 0) return bad_value("face_vertices is no list of triangles");
+  const std::size_t count = triangles ? level.face_vertices.size() / 3 : level.face_sizes.size();
+  for (std::size_t f = 0; f < count; ++f) {
+    const std::size_t size = triangles ? 3 : level.face_sizes[f];
+    if (size < 3 || size > level.face_vertices.size() - at)
+      return bad_value("face " + std::to_string(f) + " has " + std::to_string(size) + " vertices");
+    const auto loop = level.face_vertices.subspan(at, size);
+    for (const Index v : loop) {
+      if (v >= in.points.size())
+        return bad_value("face " + std::to_string(f) + " names vertex " + std::to_string(v) + " of " +
+                         std::to_string(in.points.size()));
+    }
+    in.faces.emplace_back(loop.begin(), loop.end());
+    at += size;
+  }
+  if (at != level.face_vertices.size()) return bad_value("face_sizes and face_vertices disagree");
+  return in;
+}
+
+/// What the half-edges are built from: facets as loops of corners, and what stands in which.
+struct Facets {
+  std::vector<Loop> loops;         ///< input vertices, every one a corner of the body
+  std::vector<Index> input_facet;  ///< per input face
+};
+
+// ---- Solids: a mesh of triangles -------------------------------------------------------------------------------------------
+
+struct Triangle {
+  Index v[3];
+  Index beside[3];  ///< the triangle across the edge v[i], v[i + 1]
+  Index input;
+};
+
+constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
+
+/// A polygon as triangles: a fan, from the first corner that makes none of them degenerate.
+bool fan(const Input& in, Index f, std::vector<Triangle>& out) {
+  const Loop& loop = in.faces[f];
+  const std::size_t n = loop.size();
+  for (std::size_t apex = 0; apex < n; ++apex) {
+    const std::size_t before = out.size();
+    bool flat = false;
+    for (std::size_t i = 1; i + 1 < n && !flat; ++i) {
+      const Index a = loop[apex], b = loop[(apex + i) % n], c = loop[(apex + i + 1) % n];
+      flat = exact::collinear(in.at(a), in.at(b), in.at(c));
+      out.push_back({{a, b, c}, {kNone, kNone, kNone}, f});
+    }
+    if (!flat) return true;
+    out.resize(before);
+  }
+  return false;
+}
+
+class Mesh {
+ public:
+  Mesh(const Input& in, std::vector<Triangle> triangles) : in_(in), triangles_(std::move(triangles)) {}
+
+  /// Pairs the edges; the surface must be one closed sphere.
+  Result<bool> close() {
+    struct Edge {
+      Index low, high, triangle;
+      int side;
+      bool forward;
+    };
+    std::vector<Edge> edges;
+    for (Index t = 0; t < triangles_.size(); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        const Index u = triangles_[t].v[i], w = triangles_[t].v[next(i)];
+        edges.push_back({std::min(u, w), std::max(u, w), t, i, u < w});
+      }
+    }
+    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+      return std::tie(a.low, a.high, a.triangle, a.side) < std::tie(b.low, b.high, b.triangle, b.side);
+    });
+    for (std::size_t i = 0; i < edges.size();) {
+      std::size_t end = i;
+      while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
+      if (end - i != 2)
+        return not_convex(edge_text(edges[i].low, edges[i].high) + " belongs to " + std::to_string(end - i) + " faces, not 2");
+      if (edges[i].forward == edges[i + 1].forward)
+        return not_convex("the faces at " + edge_text(edges[i].low, edges[i].high) + " are wound against each other");
+      triangles_[edges[i].triangle].beside[edges[i].side] = edges[i + 1].triangle;
+      triangles_[edges[i + 1].triangle].beside[edges[i + 1].side] = edges[i].triangle;
+      i = end;
+    }
+    return one_sphere();
+  }
+
+  /// Exact convexity; flips what may be flipped.
+  Result<bool> make_convex(bool repair) {
+    std::vector<std::pair<Index, int>> doubtful;
+    for (Index t = 0; t < triangles_.size(); ++t) {
+      for (int i = 0; i < 3; ++i) doubtful.push_back({t, i});
+    }
+    std::size_t flips = 0;
+    while (!doubtful.empty()) {
+      const auto [t, i] = doubtful.back();
+      doubtful.pop_back();
+      if (height_sign(t, i) <= 0) continue;
+      const Index s = triangles_[t].beside[i];
+      const bool own_diagonal = triangles_[t].input == triangles_[s].input;
+      if ((!own_diagonal && !repair) || flips++ > 32 * triangles_.size() || !flip(t, i)) return reflex(t, i);
+      for (const Index changed : {t, s}) {
+        for (int k = 0; k < 3; ++k) doubtful.push_back({changed, k});
+      }
+    }
+    return globally_convex();
+  }
+
+  /// Merges coplanar triangles and drops what is no corner.
+  Facets facets() const {
+    std::vector<Index> group(triangles_.size());
+    std::iota(group.begin(), group.end(), 0u);
+    const auto root = [&group](Index t) {
+      while (group[t] != t) t = group[t] = group[group[t]];
+      return t;
+    };
+    for (Index t = 0; t < triangles_.size(); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        if (height_sign(t, i) == 0) {
+          const Index a = root(t), b = root(triangles_[t].beside[i]);
+          group[std::max(a, b)] = std::min(a, b);
+        }
+      }
+    }
+    Facets result;
+    std::vector<Index> number(triangles_.size(), kNone);
+    for (Index t = 0; t < triangles_.size(); ++t) group[t] = root(t);
+    for (Index t = 0; t < triangles_.size(); ++t) {
+      if (group[t] == t) number[t] = Index(result.loops.size()), result.loops.emplace_back();
+    }
+    // A corner has at least three facets; two mean the inside of an edge, one the inside of a facet.
+    std::vector<std::array<Index, 3>> around(in_.points.size(), {kNone, kNone, kNone});
+    for (Index t = 0; t < triangles_.size(); ++t) {
+      for (const Index v : triangles_[t].v) {
+        for (Index& slot : around[v]) {
+          if (slot == group[t]) break;
+          if (slot == kNone) {
+            slot = group[t];
+            break;
+          }
+        }
+      }
+    }
+    std::vector<bool> walked(triangles_.size() * 3, false);
+    for (Index t = 0; t < triangles_.size(); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        if (walked[3 * t + i] || group[triangles_[t].beside[i]] == group[t]) continue;
+        Loop& loop = result.loops[number[group[t]]];
+        Index s = t;
+        int k = i;
+        while (!walked[3 * s + k]) {
+          walked[3 * s + k] = true;
+          const Index tail = triangles_[s].v[k];
+          if (around[tail][2] != kNone) loop.push_back(tail);
+          k = next(k);
+          while (group[triangles_[s].beside[k]] == group[s]) {
+            const Index across = triangles_[s].beside[k];
+            k = next(side_towards(across, s, triangles_[s].v[k]));
+            s = across;
+          }
+        }
+      }
+    }
+    result.input_facet.assign(in_.faces.size(), kNone);
+    for (const Triangle& t : triangles_) {
+      const Index facet = number[group[Index(&t - triangles_.data())]];
+      if (result.input_facet[t.input] == kNone) result.input_facet[t.input] = facet;
+    }
+    return result;
+  }
+
+ private:
+  /// The side of `t` that borders `s` and ends in `head`.
+  int side_towards(Index t, Index s, Index head) const {
+    for (int i = 0; i < 3; ++i) {
+      if (triangles_[t].beside[i] == s && triangles_[t].v[next(i)] == head) return i;
+    }
+    return 0;
+  }
+  int side_towards(Index t, Index s) const {
+    for (int i = 0; i < 3; ++i) {
+      if (triangles_[t].beside[i] == s) return i;
+    }
+    return 0;
+  }
+  /// The vertex of the neighbour across side i that t lacks.
+  Index opposite(Index t, int i) const {
+    const Triangle& s = triangles_[triangles_[t].beside[i]];
+    for (const Index v : s.v) {
+      if (v != triangles_[t].v[i] && v != triangles_[t].v[next(i)]) return v;
+    }
+    return triangles_[t].v[next(next(i))];  // both sides of one triangle: flat, caught by the global proof
+  }
+  /// Positive: the neighbour across side i rises above t's plane, a reflex edge.
+  int height_sign(Index t, int i) const {
+    const Triangle& a = triangles_[t];
+    return in_.orientation(a.v[0], a.v[1], a.v[2], opposite(t, i));
+  }
+
+  Result<bool> one_sphere() const {
+    std::vector<Index> fans(in_.points.size(), 0), corners(in_.points.size(), 0);
+    std::vector<bool> seen(triangles_.size() * 3, false);
+    for (Index t = 0; t < triangles_.size(); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        ++corners[triangles_[t].v[i]];
+        if (seen[3 * t + i]) continue;
+        ++fans[triangles_[t].v[i]];
+        Index s = t;
+        int k = i;
+        while (!seen[3 * s + k]) {  // around the vertex, clockwise
+          seen[3 * s + k] = true;
+          const Index across = triangles_[s].beside[k];
+          k = next(side_towards(across, s, triangles_[s].v[k]));
+          s = across;
+        }
+      }
+    }
+    for (Index v = 0; v < fans.size(); ++v) {
+      if (fans[v] == 0) return bad_value("vertex " + std::to_string(v) + " belongs to no face");
+      if (fans[v] > 1)
+        return not_convex("the faces at vertex " + std::to_string(v) + " form " + std::to_string(fans[v]) + " fans, not 1");
+    }
+    if (2 * in_.points.size() != triangles_.size() + 4) {
+      return not_convex("the faces do not close to one sphere: " + std::to_string(in_.points.size()) + " vertices and " +
+                        std::to_string(triangles_.size()) + " triangles");
+    }
+    return true;
+  }
+
+  /// Replaces the edge of side i by the other diagonal, unless that edge exists already.
+  bool flip(Index t, int i) {
+    const Index s = triangles_[t].beside[i];
+    const int j = side_towards(s, t);
+    const Index u = triangles_[t].v[i], w = triangles_[t].v[next(i)], x = triangles_[t].v[next(next(i))],
+                y = triangles_[s].v[next(next(j))];
+    if (x == y || neighbours(x, t, y)) return false;
+    const Index a = triangles_[t].beside[next(i)], b = triangles_[t].beside[next(next(i))];
+    const Index c = triangles_[s].beside[next(j)], d = triangles_[s].beside[next(next(j))];
+    const Index input_t = triangles_[t].input, input_s = triangles_[s].input;
+    triangles_[a].beside[side_towards(a, t)] = s;
+    triangles_[c].beside[side_towards(c, s)] = t;
+    triangles_[t] = {{x, u, y}, {b, c, s}, input_t};
+    triangles_[s] = {{y, w, x}, {d, a, t}, input_s};
+    return true;
+  }
+  /// Whether x, a vertex of t, has an edge to y.
+  bool neighbours(Index x, Index t, Index y) const {
+    Index s = t;
+    do {
+      int k = 0;
+      while (triangles_[s].v[k] != x) ++k;
+      if (triangles_[s].v[next(k)] == y) return true;
+      s = triangles_[s].beside[k];
+    } while (s != t);
+    return false;
+  }
+
+  /// The height is told where 106 bits know it.
+  Error reflex(Index t, int i) const {
+    const Triangle& a = triangles_[t];
+    const Index v = opposite(t, i);
+    const auto from_first = [&](Index w) {
+      return widened<DoubleDouble>(in_.point(w)) - widened<DoubleDouble>(in_.point(a.v[0]));
+    };
+    const V3<DoubleDouble> n = cross(from_first(a.v[1]), from_first(a.v[2]));
+    const double height = double(dot(n, from_first(v))) / norm(rounded(n));
+    return not_convex("reflex " + edge_text(a.v[i], a.v[next(i)]) + ": vertex " + std::to_string(v) + " is " +
+                      (height > 0 ? text(height) + " " : "") + "above face " + std::to_string(a.input));
+  }
+
+  /// The point with coordinates that exact signs take.
+  static Vec admissible(const Vec& p) {
+    const auto flushed = [](double x) { return std::fabs(x) < kLeastCoordinate ? 0 : x; };
+    return {flushed(p.x), flushed(p.y), flushed(p.z)};
+  }
+
+  /// Edges that are nowhere reflex bound a convex body unless the surface winds about it twice or folds. With a point below
+  /// every face, a ray from it that meets the surface once rules both out [Mehlhorn et al. 1999, sec. 4]. Where rounding hides
+  /// such a point or ray, in small or thin bodies: every vertex against every face.
+  Result<bool> globally_convex() const {
+    Vec middle{0, 0, 0};
+    for (Index v = 0; v < in_.points.size(); ++v) middle = middle + in_.point(v) * (1.0 / double(in_.points.size()));
+    middle = admissible(middle);
+    const double* o = &middle.x;
+    bool inside = true;
+    for (const Triangle& t : triangles_)
+      inside = inside && exact::orientation(in_.at(t.v[0]), in_.at(t.v[1]), in_.at(t.v[2]), o) < 0;
+    if (!inside) return every_vertex_below();
+    for (const Triangle& target : triangles_) {
+      const Vec c = admissible((in_.point(target.v[0]) + in_.point(target.v[1]) + in_.point(target.v[2])) * (1.0 / 3));
+      const int hits = ray_hits(o, &c.x);
+      if (hits == 1) return true;
+      if (hits > 1) return not_convex("the surface winds about itself " + std::to_string(hits) + " times");
+    }
+    return every_vertex_below();
+  }
+  /// How many triangles the ray from o through c crosses; 0 when it meets an edge.
+  int ray_hits(const double* o, const double* c) const {
+    int hits = 0;
+    for (const Triangle& t : triangles_) {
+      int positive = 0, zero = 0;
+      for (int i = 0; i < 3; ++i) {
+        const int sign = exact::orientation(o, in_.at(t.v[i]), in_.at(t.v[next(i)]), c);
+        positive += sign > 0;
+        zero += sign == 0;
+      }
+      if (positive + zero == 3 && zero > 0) return 0;
+      hits += positive == 3;
+    }
+    return hits;
+  }
+  /// No vertex above a face, two in one place, or all in one plane: this alone proves a convex body. Each face then lies in a
+  /// facet of the hull, and beside its neighbours, so that the surface winds about the hull d times. Each corner of the hull is
+  /// one vertex, so that there is no second component, and around it the surface winds d times as well. A solid has at least
+  /// four such branch points of order d, but where a sphere covers a sphere d times the orders less one sum up to 2 d - 2
+  /// [Riemann-Hurwitz]: d is 1.
+  Result<bool> every_vertex_below() const {
+    if (auto apart = no_two_coincide(); !apart) return apart;
+    const Triangle& base = triangles_.front();
+    const auto off_plane = [&](Index v) { return in_.orientation(base.v[0], base.v[1], base.v[2], v) != 0; };
+    Index v = 0;
+    while (v < in_.points.size() && !off_plane(v)) ++v;
+    if (v == in_.points.size()) {
+      return Error{ErrorCode::NotSolid,
+                   "all vertices lie in one plane: a flat body is one polygon given twice, counter-clockwise from either side"};
+    }
+    for (const Triangle& t : triangles_) {
+      for (v = 0; v < in_.points.size(); ++v) {
+        if (in_.orientation(t.v[0], t.v[1], t.v[2], v) > 0) {
+          return not_convex("vertex " + std::to_string(v) + " is above face " + std::to_string(t.input));
+        }
+      }
+    }
+    return true;
+  }
+  Result<bool> no_two_coincide() const {
+    std::vector<Index> order(in_.points.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto place = [&](Index v) { return std::tuple(in_.at(v)[0], in_.at(v)[1], in_.at(v)[2], v); };
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) { return place(a) < place(b); });
+    const auto twin =
+        std::adjacent_find(order.begin(), order.end(), [&](Index a, Index b) { return in_.points[a] == in_.points[b]; });
+    if (twin == order.end()) return true;
+    return not_convex("vertices " + std::to_string(twin[0]) + " and " + std::to_string(twin[1]) + " coincide");
+  }
+
+  const Input& in_;
+  std::vector<Triangle> triangles_;
+};
+
+Result<Facets> solid(const Input& in, bool repair) {
+  std::vector<Triangle> triangles;
+  for (Index f = 0; f < in.faces.size(); ++f) {
+    if (!fan(in, f, triangles)) return not_convex("face " + std::to_string(f) + " is degenerate: its vertices are collinear");
+  }
+  Mesh mesh(in, std::move(triangles));
+  if (auto closed = mesh.close(); !closed) return closed.error();
+  if (auto convex = mesh.make_convex(repair); !convex) return convex.error();
+  return mesh.facets();
+}
+
+// ---- Flat bodies -----------------------------------------------------------------------------------------------------------
+
+bool is_two_sided(const Input& in) {
+  if (in.faces.size() != 2 || in.faces[0].size() != in.points.size() || in.faces[1].size() != in.points.size()) return false;
+  const Loop& front = in.faces[0];
+  const auto at = std::find(in.faces[1].begin(), in.faces[1].end(), front[0]);
+  if (at == in.faces[1].end()) return false;
+  const std::size_t n = front.size(), offset = std::size_t(at - in.faces[1].begin());
+  for (std::size_t i = 0; i < n; ++i) {
+    if (in.faces[1][(offset + n - i) % n] != front[i]) return false;
+  }
+  return true;
+}
+
+/// The turn at b in the plane of two coordinates.
+int turn_sign(const Input& in, Index a, Index b, Index c, int x, int y) {
+  const double p[4][3] = {{in.at(a)[x], in.at(a)[y], 0},
+                          {in.at(b)[x], in.at(b)[y], 0},
+                          {in.at(c)[x], in.at(c)[y], 0},
+                          {in.at(a)[x], in.at(a)[y], 1}};
+  return exact::orientation(p[0], p[1], p[2], p[3]);
+}
+
+Result<Facets> two_sided(const Input& in) {
+  const Loop& loop = in.faces[0];
+  const std::size_t n = loop.size();
+  for (std::size_t i = 3; i < n; ++i) {
+    if (in.orientation(loop[0], loop[1], loop[2], loop[i]) != 0)
+      return not_convex("the polygon is not flat: vertex " + std::to_string(loop[i]) + " is off the plane of the first three");
+  }
+  // A projection along an axis that the plane does not hold keeps every turn; exact signs find one, where the rounded normal of
+  // a thin polygon would not.
+  int drop = 0;
+  while (drop < 2 && turn_sign(in, loop[0], loop[1], loop[2], (drop + 1) % 3, (drop + 2) % 3) == 0) ++drop;
+  const int x = (drop + 1) % 3, y = (drop + 2) % 3;
+  int winding = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Index a = loop[i], b = loop[(i + 1) % n];
+    for (std::size_t k = 2; k < n; ++k) {
+      const int sign = turn_sign(in, a, b, loop[(i + k) % n], x, y);
+      if (winding == 0) winding = sign;
+      if (sign == 0 || sign != winding) return not_convex("the polygon is not strictly convex at vertex " + std::to_string(b));
+    }
+  }
+  return Facets{in.faces, {0, 1}};
+}
+
+// ---- Half-edges ------------------------------------------------------------------------------------------------------------
+
+/// One facet's side.
+struct Side {
+  Index tail, head, facet;
+  Index before;  ///< the side before it around the facet
+  Index twin = kNone;
+};
+
+std::vector<Side> sides_of(const Facets& facets) {
+  std::vector<Side> sides;
+  for (Index f = 0; f < facets.loops.size(); ++f) {
+    const Loop& loop = facets.loops[f];
+    const Index begin = Index(sides.size()), n = Index(loop.size());
+    for (Index i = 0; i < n; ++i) sides.push_back({loop[i], loop[(i + 1) % n], f, begin + (i + n - 1) % n});
+  }
+  std::vector<Index> order(sides.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&](Index s) {
+    return std::tuple(std::min(sides[s].tail, sides[s].head), std::max(sides[s].tail, sides[s].head), s);
+  };
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b); });
+  for (std::size_t i = 0; i + 1 < order.size(); i += 2) {
+    sides[order[i]].twin = order[i + 1];
+    sides[order[i + 1]].twin = order[i];
+  }
+  return sides;
+}
+
+/// Twice the vector area of a loop.
+template <class Real>
+V3<Real> area_vector(const Input& in, const Loop& loop) {
+  const auto from_first = [&](std::size_t i) { return widened<Real>(in.point(loop[i])) - widened<Real>(in.point(loop[0])); };
+  V3<Real> sum{Real(0), Real(0), Real(0)};
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i) sum = sum + cross(from_first(i), from_first(i + 1));
+  return sum;
+}
+
+bool all_float(const Input& in) {
+  return std::all_of(in.points.begin(), in.points.end(), [](const Vec3& p) {
+    return double(float(p[0])) == p[0] && double(float(p[1])) == p[1] && double(float(p[2])) == p[2];
+  });
+}
+
+/// Which facets walk as one face: per facet, its group. A group is flat to kWalkingFaceUlps, faces one way, and is a disc.
+class Grouping {
+ public:
+  Grouping(const Input& in, const Facets& facets, const std::vector<Side>& sides) : in_(in), facets_(facets), sides_(sides) {
+    const std::size_t count = facets.loops.size();
+    first_side_.resize(count);
+    for (Index s = Index(sides.size()); s-- > 0;) first_side_[sides[s].facet] = s;
+    for (const Loop& loop : facets.loops) area_.push_back(area_vector<double>(in, loop));
+    std::vector<Index> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Index a, Index b) { return dot(area_[a], area_[a]) > dot(area_[b], area_[b]); });
+    group_.assign(count, kNone);
+    tolerance_ = kWalkingFaceUlps * (all_float(in) ? kFloatUlp : kDoubleUlp) * extent_of(in.points);
+    for (const Index seed : order) {
+      if (group_[seed] == kNone) grow(seed);
+    }
+  }
+  const std::vector<Index>& groups() const { return group_; }
+
+ private:
+  template <class Visit>
+  void each_side(Index facet, Visit visit) const {
+    for (Index s = first_side_[facet]; s < sides_.size() && sides_[s].facet == facet; ++s) visit(sides_[s]);
+  }
+
+  bool joins(Index facet, const Vec& n, const Vec& p) const {
+    if (group_[facet] != kNone || !(dot(normalised(area_[facet]), n) > 0.5)) return false;
+    return std::all_of(facets_.loops[facet].begin(), facets_.loops[facet].end(),
+                       [&](Index v) { return std::fabs(dot(n, in_.point(v) - p)) <= tolerance_; });
+  }
+
+  void grow(Index seed) {
+    const Vec n = normalised(area_[seed]), p = in_.point(facets_.loops[seed][0]);
+    std::vector<Index> members{seed};
+    group_[seed] = seed;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      each_side(members[i], [&](const Side& side) {
+        const Index other = sides_[side.twin].facet;
+        if (joins(other, n, p)) group_[other] = seed, members.push_back(other);
+      });
+    }
+    if (members.size() > 1 && !is_disc(seed, members)) {
+      for (const Index m : members) group_[m] = m;
+    }
+  }
+
+  /// One border, which passes no vertex twice.
+  bool is_disc(Index seed, const std::vector<Index>& members) const {
+    std::size_t borders = 0;
+    const Side* start = nullptr;
+    for (const Index m : members) {
+      each_side(m, [&](const Side& side) {
+        if (group_[sides_[side.twin].facet] != seed) ++borders, start = &side;
+      });
+    }
+    if (borders < 3) return false;
+    std::vector<Index> passed;
+    const Side* side = start;
+    do {
+      passed.push_back(side->tail);
+      side = following(side);
+      while (group_[sides_[side->twin].facet] == seed) side = following(&sides_[side->twin]);
+    } while (side != start && passed.size() <= borders);
+    std::sort(passed.begin(), passed.end());
+    return passed.size() == borders && std::adjacent_find(passed.begin(), passed.end()) == passed.end();
+  }
+  const Side* following(const Side* side) const {
+    const Index index = Index(side - sides_.data());
+    const Index last = first_side_[side->facet] + Index(facets_.loops[side->facet].size()) - 1;
+    return &sides_[index == last ? first_side_[side->facet] : index + 1];
+  }
+
+  const Input& in_;
+  const Facets& facets_;
+  const std::vector<Side>& sides_;
+  std::vector<Index> first_side_, group_;
+  std::vector<Vec> area_;
+  double tolerance_;
+};
+
+/// Input vertices in the order of a space-filling curve, so that neighbours share cache lines.
+std::vector<Index> along_curve(const Input& in, std::vector<Index> corners) {
+  const double extent = extent_of(in.points);
+  const auto spread = [](std::uint64_t x) {  // two zero bits before each of 21
+    x = (x | x << 32) & 0x1f00000000ffff;
+    x = (x | x << 16) & 0x1f0000ff0000ff;
+    x = (x | x << 8) & 0x100f00f00f00f00f;
+    x = (x | x << 4) & 0x10c30c30c30c30c3;
+    return (x | x << 2) & 0x1249249249249249;
+  };
+  const auto code = [&](Index v) {
+    const Vec p = extent > 0 ? in.point(v) * (1 / extent) : Vec{0, 0, 0};
+    const auto cell = [](double x) { return std::uint64_t((x * 0.5 + 0.5) * 2097151.0); };
+    return spread(cell(p.x)) | spread(cell(p.y)) << 1 | spread(cell(p.z)) << 2;
+  };
+  std::vector<std::pair<std::uint64_t, Index>> keyed;
+  for (const Index v : corners) keyed.emplace_back(code(v), v);
+  std::sort(keyed.begin(), keyed.end());
+  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = keyed[i].second;
+  return corners;
+}
+
+/// In 106 bits: of slivers along an edge doubles see no area.
+FacePlane plane_of(const Input& in, const Loop& border, const Loop& members) {
+  const Vec n = normalised(rounded(area_vector<DoubleDouble>(in, border))), p = in.point(border[0]);
+  double thickness = 0;
+  for (const Index v : members) thickness = std::max(thickness, std::fabs(dot(n, in.point(v) - p)));
+  return {n.x, n.y, n.z, thickness + 8 * kU * extent_of(in.points)};
+}
+
+Surface link(const Input& in, const Facets& facets) {
+  Surface out;
+  const std::vector<Side> sides = sides_of(facets);
+  const std::vector<Index> group = Grouping(in, facets, sides).groups();
+
+  std::vector<Index> corners;
+  for (const Side& side : sides) corners.push_back(side.tail);
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  out.vertex_input = along_curve(in, corners);
+  out.input_vertex.assign(in.points.size(), kNone);
+  for (Index i = 0; i < out.vertex_input.size(); ++i) out.input_vertex[out.vertex_input[i]] = i;
+
+  // Half-edges ring by ring: counter-clockwise around a tail, the next side is the twin of the one before.
+  std::vector<Index> any_side(in.points.size(), kNone), half_edge(sides.size(), kNone);
+  for (Index s = Index(sides.size()); s-- > 0;) any_side[sides[s].tail] = s;
+  std::vector<Index> order;
+  for (const Index v : out.vertex_input) {
+    const Vec p = in.point(v);
+    const Index begin = Index(order.size());
+    Index s = any_side[v];
+    do {
+      half_edge[s] = Index(order.size());
+      order.push_back(s);
+      s = sides[sides[s].before].twin;
+    } while (s != any_side[v]);
+    out.vertices.push_back({p.x, p.y, p.z, begin, Index(order.size()) - begin});
+  }
+
+  // Faces with a plane first, then triangles, each in the order of their vertices.
+  std::vector<Index> members(facets.loops.size(), 0), number(facets.loops.size(), kNone), sequence;
+  for (const Index g : group) ++members[g];
+  for (const Index s : order) {
+    const Index g = group[sides[s].facet];
+    if (number[g] == kNone) number[g] = 0, sequence.push_back(g);
+  }
+  const auto has_plane = [&](Index g) { return members[g] > 1 || facets.loops[g].size() > 3; };
+  std::stable_partition(sequence.begin(), sequence.end(), has_plane);
+  for (Index i = 0; i < sequence.size(); ++i) number[sequence[i]] = i;
+
+  out.face_first.assign(sequence.size(), kNone);
+  for (Index h = 0; h < order.size(); ++h) {
+    const Side& side = sides[order[h]];
+    out.half_edges.push_back({out.input_vertex[side.head], half_edge[side.twin], number[group[side.facet]]});
+    const bool diagonal = group[side.facet] == group[sides[side.twin].facet];
+    if (Index& first = out.face_first[out.half_edges.back().face]; first == kNone && !diagonal) first = h;
+  }
+  std::vector<Loop> held(sequence.size());
+  for (Index f = 0; f < facets.loops.size(); ++f) {
+    if (has_plane(group[f]))
+      held[number[group[f]]].insert(held[number[group[f]]].end(), facets.loops[f].begin(), facets.loops[f].end());
+  }
+  const ConvexView view = out.view();
+  for (Index f = 0; f < sequence.size() && has_plane(sequence[f]); ++f) {
+    Loop border;
+    Index h = out.face_first[f];
+    do {
+      border.push_back(out.vertex_input[origin(view, h)]);
+      h = next_in_face(view, h);
+    } while (h != out.face_first[f]);
+    out.planes.push_back(plane_of(in, border, held[f]));
+  }
+  out.input_face.resize(facets.input_facet.size());
+  for (std::size_t f = 0; f < out.input_face.size(); ++f) out.input_face[f] = number[group[facets.input_facet[f]]];
+  return out;
+}
+
+/// A segment or a point.
+Result<Surface> without_faces(const Input& in) {
+  if (in.points.size() > 2)
+    return bad_value(std::to_string(in.points.size()) + " vertices without faces: a point has one, a segment two");
+  Surface out;
+  out.dimension = int(in.points.size()) - 1;
+  for (Index v = 0; v < in.points.size(); ++v) {
+    const Vec p = in.point(v);
+    out.vertices.push_back({p.x, p.y, p.z, v, Index(out.dimension)});
+    out.vertex_input.push_back(v);
+    out.input_vertex.push_back(v);
+  }
+  if (out.dimension == 1) {
+    if (in.points[0] == in.points[1]) return bad_value("vertices 0 and 1 coincide");
+    out.half_edges = {{1, 1, kNone}, {0, 0, kNone}};
+  }
+  return out;
+}
+
+/// Of the facets, not of the faces given: flips move volume.
+double volume_of(const Input& in, const Facets& facets) {
+  double six = 0;
+  const Vec o = in.point(0);
+  for (const Loop& loop : facets.loops) {
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+      six += dot(cross(in.point(loop[0]) - o, in.point(loop[i]) - o), in.point(loop[i + 1]) - o);
+    }
+  }
+  return std::fabs(six) / 6;
+}
+
+}  // namespace
+
+std::uint32_t vertex_outside(const ConvexView& exact_hull, const ConvexView& level) {
+  std::uint32_t outside = kNone, highest = 0;
+  each_facet(level, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const Vertex &p = level.vertices[a], &q = level.vertices[b], &r = level.vertices[c];
+    const auto above = [&](std::uint32_t w) {
+      return exact::compare_along_normal(&p.x, &q.x, &r.x, &exact_hull.vertices[w].x, &exact_hull.vertices[highest].x) > 0;
+    };
+    for (bool climbing = true; climbing;) {
+      climbing = false;
+      const Vertex ring = exact_hull.vertices[highest];
+      for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
+        if (above(exact_hull.half_edges[h].head)) highest = exact_hull.half_edges[h].head, climbing = true;
+      }
+    }
+    if (exact::orientation(p, q, r, exact_hull.vertices[highest]) > 0) outside = highest;
+  });
+  return outside;
+}
+
+ConvexView Surface::view() const {
+  ConvexView v;
+  v.vertices = vertices;
+  v.planes = planes;
+  v.half_edges = half_edges;
+  v.face_first = face_first;
+  v.extent = extent;
+  return v;
+}
+
+Result<Surface> make_surface(const LevelArrays& level, bool repair) {
+  const Result<Input> read = read_input(level);
+  if (!read) return read.error();
+  const Input& in = read.value();
+  Result<Surface> surface = [&]() -> Result<Surface> {
+    if (in.faces.empty()) return without_faces(in);
+    const bool flat = is_two_sided(in);
+    const Result<Facets> facets = flat ? two_sided(in) : solid(in, repair);
+    if (!facets) return facets.error();
+    Surface linked = link(in, facets.value());
+    linked.dimension = flat ? 2 : 3;
+    linked.volume = flat ? 0 : volume_of(in, facets.value());
+    return linked;
+  }();
+  if (surface) surface.value().extent = extent_of(in.points);
+  return surface;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Expansions: a number as the sum of few doubles, none overlapping another, least first. Everything is on the stack.
+#include "numeric/exact.h"
+
+#include <cmath>
+
+#include "numeric/double_double.h"
+#include "numeric/tolerance.h"
+#include "numeric/wide.h"
+
+namespace swiftlet::exact {
+namespace {
+
+/// Every bit of a double's range, 2 098 of them, fits in kParts doubles: compressed, each but the last has 52 below it.
+class Expansion {
+ public:
+  Expansion() = default;
+  explicit Expansion(double value) { *this += value; }
+
+  int sign() const { return count_ == 0 ? 0 : part_[count_ - 1] > 0 ? 1 : -1; }
+  /// The sum to 100 bits.
+  DoubleDouble rounded() const {
+    DoubleDouble sum(0);
+    for (int i = count_; i-- > 0;) sum = sum + DoubleDouble(part_[i]);
+    return sum;
+  }
+
+  /// [Shewchuk 1997, Grow-Expansion] with zeros eliminated.
+  Expansion& operator+=(double b) {
+    if (count_ == kParts) compress();
+    double carry = b;
+    int kept = 0;
+    for (int i = 0; i < count_; ++i) {
+      const Pair s = two_sum(carry, part_[i]);
+      if (s.low != 0) part_[kept++] = s.low;
+      carry = s.high;
+    }
+    if (carry != 0) part_[kept++] = carry;
+    count_ = kept;
+    return *this;
+  }
+  Expansion& operator+=(Pair b) { return *this += b.low, *this += b.high; }
+  /// Adds a * b, or subtracts it.
+  void add_product(const Expansion& a, const Expansion& b, int sign = 1) {
+    for (int i = 0; i < a.count_; ++i) {
+      for (int j = 0; j < b.count_; ++j) *this += two_product(sign * a.part_[i], b.part_[j]);
+    }
+    compress();
+  }
+
+ private:
+  static constexpr int kParts = 48;
+
+  /// [Shewchuk 1997, Compress].
+  void compress() {
+    if (count_ < 2) return;
+    int bottom = count_ - 1;
+    double carry = part_[bottom];
+    for (int i = bottom; i-- > 0;) {
+      const Pair s = quick_two_sum(carry, part_[i]);
+      carry = s.high;
+      if (s.low != 0) part_[bottom--] = s.high, carry = s.low;
+    }
+    part_[bottom] = carry;
+    int kept = 0;
+    for (int i = bottom + 1; i < count_; ++i) {
+      const Pair s = quick_two_sum(part_[i], carry);
+      if (s.low != 0) part_[kept++] = s.low;
+      carry = s.high;
+    }
+    part_[kept++] = carry;
+    count_ = kept;
+  }
+
+  int count_ = 0;
+  double part_[kParts];
+};
+
+Expansion difference(double a, double b) {
+  Expansion e;
+  return e += two_sum(a, -b);
+}
+
+using Expansion3 = std::array<Expansion, 3>;
+
+Expansion3 exactly(const Vec& v) { return {Expansion(v.x), Expansion(v.y), Expansion(v.z)}; }
+Expansion3 difference3(const double a[3], const double b[3]) {
+  return {difference(a[0], b[0]), difference(a[1], b[1]), difference(a[2], b[2])};
+}
+Expansion dot3(const Expansion3& a, const Expansion3& b) {
+  Expansion sum;
+  for (std::size_t k = 0; k < 3; ++k) sum.add_product(a[k], b[k]);
+  return sum;
+}
+Expansion3 cross3(const Expansion3& a, const Expansion3& b) {
+  Expansion3 product;
+  for (std::size_t k = 0; k < 3; ++k) {
+    product[k].add_product(a[(k + 1) % 3], b[(k + 2) % 3]);
+    product[k].add_product(a[(k + 2) % 3], b[(k + 1) % 3], -1);
+  }
+  return product;
+}
+
+Vec subtract(const double a[3], const double b[3]) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vec absolute(const Vec& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
+
+/// The magnitude that bounds the rounding of a triple product of rounded differences.
+double permanent(const Vec& u, const Vec& v, const Vec& w) {
+  const Vec a = absolute(u), b = absolute(v), c = absolute(w);
+  return (a.y * b.z + a.z * b.y) * c.x + (a.z * b.x + a.x * b.z) * c.y + (a.x * b.y + a.y * b.x) * c.z;
+}
+
+/// The sign of `value` if no error up to `bound` can change it, else 0; nor what products lose below the range of doubles.
+int certain_sign(double value, double bound) {
+  bound += kUnderflow;
+  return value > bound ? 1 : value < -bound ? -1 : 0;
+}
+
+/// b - a in two doubles per coordinate, exactly.
+V3<DoubleDouble> wide_difference(const double b[3], const double a[3]) {
+  return {two_sum(b[0], -a[0]), two_sum(b[1], -a[1]), two_sum(b[2], -a[2])};
+}
+
+/// a - (R b + t), times 2^exponent.
+Expansion3 offset3(const double a[3], const double b[3], const Motion& m, int exponent) {
+  const auto scaled = [exponent](double x) { return std::ldexp(x, exponent); };
+  const auto coordinate = [&](double from, const Vec& row, double t) {
+    Expansion e(scaled(from));
+    e += -scaled(t);
+    for (const auto& [r, x] : {Pair{row.x, b[0]}, Pair{row.y, b[1]}, Pair{row.z, b[2]}}) e += two_product(-r, scaled(x));
+    return e;
+  };
+  return {coordinate(a[0], m.row_x, m.t.x), coordinate(a[1], m.row_y, m.t.y), coordinate(a[2], m.row_z, m.t.z)};
+}
+
+/// The sign of the determinant of three of them. At a scale where products of three stay far from the ends of the range,
+/// however small the translation is beside the bodies.
+int offset_determinant_sign(const std::array<const double*, 3>& a, const std::array<const double*, 3>& b, const Motion& m) {
+  double largest = max_abs(m.t);
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (int axis : {0, 1, 2}) largest = larger(largest, larger(std::fabs(a[k][axis]), std::fabs(b[k][axis])));
+  }
+  if (largest == 0) return 0;
+  const int exponent = kProductExponent - std::ilogb(largest);
+  return dot3(cross3(offset3(a[0], b[0], m, exponent), offset3(a[1], b[1], m, exponent)), offset3(a[2], b[2], m, exponent))
+      .sign();
+}
+
+/// R (w - v).
+Expansion3 turned(const Motion& m, const double w[3], const double v[3]) {
+  const Expansion3 d = difference3(w, v);
+  return {dot3(exactly(m.row_x), d), dot3(exactly(m.row_y), d), dot3(exactly(m.row_z), d)};
+}
+
+/// R u x R v is the matrix of R's cofactors times u x v, whatever R is.
+Expansion3 turned_cross(const Motion& m, const double a[3], const double b[3], const double c[3]) {
+  const Expansion3 n = cross3(difference3(b, a), difference3(c, a));
+  const auto coordinate = [&](const Vec& row, const Vec& other) { return dot3(cross3(exactly(row), exactly(other)), n); };
+  return {coordinate(m.row_y, m.row_z), coordinate(m.row_z, m.row_x), coordinate(m.row_x, m.row_y)};
+}
+
+Wide rounded(const Expansion3& v) { return {v[0].rounded(), v[1].rounded(), v[2].rounded()}; }
+
+}  // namespace
+
+int orientation(const double a[3], const double b[3], const double c[3], const double d[3]) {
+  const Vec u = subtract(b, a), v = subtract(c, a), w = subtract(d, a);
+  const double magnitude = permanent(u, v, w);
+  if (const int sign = certain_sign(dot(cross(u, v), w), kTripleProductError * magnitude)) return sign;
+  const auto wide = dot(cross(wide_difference(b, a), wide_difference(c, a)), wide_difference(d, a));
+  if (const int sign = certain_sign(double(wide), kWideTripleProductError * magnitude)) return sign;
+  return dot3(cross3(difference3(b, a), difference3(c, a)), difference3(d, a)).sign();
+}
+
+bool collinear(const double a[3], const double b[3], const double c[3]) {
+  const Vec u = subtract(b, a), v = subtract(c, a), rough = cross(u, v);
+  const auto certain = [](double coordinate, double p, double q) {
+    return certain_sign(coordinate, kCrossProductError * (std::fabs(p) + std::fabs(q))) != 0;
+  };
+  if (certain(rough.x, u.y * v.z, u.z * v.y) || certain(rough.y, u.z * v.x, u.x * v.z) ||
+      certain(rough.z, u.x * v.y, u.y * v.x))
+    return false;
+  const auto n = cross3(difference3(b, a), difference3(c, a));
+  return n[0].sign() == 0 && n[1].sign() == 0 && n[2].sign() == 0;
+}
+
+Plane plane(const Vec& a, const Vec& b, const Vec& c) {
+  const V3<DoubleDouble> u = wide_difference(&b.x, &a.x), v = wide_difference(&c.x, &a.x);
+  V3<DoubleDouble> n = cross(u, v);
+  const auto largest = [](const V3<DoubleDouble>& w) { return max_abs({w.x.high, w.y.high, w.z.high}); };
+  if (largest(n) < kLeastWideArea * largest(u) * largest(v)) {
+    n = rounded(cross3(difference3(&b.x, &a.x), difference3(&c.x, &a.x)));
+  }
+  const Unit unit = unit_of({n.x.high, n.y.high, n.z.high});
+  const V3<DoubleDouble> p{DoubleDouble(a.x), DoubleDouble(a.y), DoubleDouble(a.z)};
+  return {unit.n, double(dot(n, p)) * unit.scale};
+}
+
+int compare_along(const double n[3], const double w[3], const double v[3]) {
+  const Vec direction{n[0], n[1], n[2]}, e = subtract(w, v);
+  if (const int sign = certain_sign(dot(direction, e), kDotError * dot(absolute(direction), absolute(e)))) return sign;
+  return dot3(exactly(direction), difference3(w, v)).sign();
+}
+
+int compare_along_normal(const double a[3], const double b[3], const double c[3], const double w[3], const double v[3]) {
+  const Vec p = subtract(b, a), q = subtract(c, a), e = subtract(w, v);
+  if (const int sign = certain_sign(dot(cross(p, q), e), kTripleProductError * permanent(p, q, e))) return sign;
+  return dot3(cross3(difference3(b, a), difference3(c, a)), difference3(w, v)).sign();
+}
+
+int compare_along_turned(const double n[3], const Motion& m, const double w[3], const double v[3]) {
+  const Vec direction{n[0], n[1], n[2]}, e = subtract(w, v), a = absolute(e), b = absolute(direction);
+  const double magnitude = b.x * dot(absolute(m.row_x), a) + b.y * dot(absolute(m.row_y), a) + b.z * dot(absolute(m.row_z), a);
+  if (const int sign = certain_sign(dot(direction, turn(m, e)), kTurnedDotError * magnitude)) return sign;
+  return dot3(exactly(direction), turned(m, w, v)).sign();
+}
+
+int triple_product(const std::array<const double*, 3>& a, const std::array<const double*, 3>& b, const Motion& m) {
+  // With the first and last less the middle one, which leaves no more of a body than the difference of two of its vertices:
+  // of the facets of a body far away from the other such are all that doubles see.
+  const auto in_doubles = [](const double* p) { return Vec{p[0], p[1], p[2]}; };
+  const auto less_middle = [&](std::size_t k) { return subtract(a[k], a[1]) - turn(m, subtract(b[k], b[1])); };
+  const auto turned_size = [&](const Vec& v) {
+    const Vec size = absolute(v);
+    return Vec{dot(absolute(m.row_x), size), dot(absolute(m.row_y), size), dot(absolute(m.row_z), size)};
+  };
+  const auto size_less_middle = [&](std::size_t k) {
+    return absolute(subtract(a[k], a[1])) + turned_size(subtract(b[k], b[1]));
+  };
+  const Vec va = in_doubles(a[1]), vb = in_doubles(b[1]);
+  const double most = permanent(size_less_middle(0), absolute(va) + absolute(m.t) + turned_size(vb), size_less_middle(2));
+  const double value = dot(cross(less_middle(0), va - apply(m, vb)), less_middle(2));
+  if (const int sign = certain_sign(value, kOffsetTripleProductError * most)) return sign;
+  const auto wide_less_middle = [&](std::size_t k) {
+    const Wide d = wide(in_doubles(b[k])) - wide(vb);
+    return wide(in_doubles(a[k])) - wide(va) - Wide{dot(wide(m.row_x), d), dot(wide(m.row_y), d), dot(wide(m.row_z), d)};
+  };
+  const double wide_value = double(dot(cross(wide_less_middle(0), wide(va) - wide(m, vb)), wide_less_middle(2)));
+  if (const int sign = certain_sign(wide_value, kWideOffsetTripleProductError * most)) return sign;
+  return offset_determinant_sign(a, b, m);
+}
+
+int compare_turned_along_normal(const double a[3], const double b[3], const double c[3], const Motion& m, const double w[3],
+                                const double v[3]) {
+  return dot3(cross3(difference3(b, a), difference3(c, a)), turned(m, w, v)).sign();
+}
+
+int compare_along_turned_normal(const Motion& m, const double a[3], const double b[3], const double c[3], const double w[3],
+                                const double v[3]) {
+  return dot3(turned_cross(m, a, b, c), difference3(w, v)).sign();
+}
+
+Wide turned_normal(const Motion& m, const double a[3], const double b[3], const double c[3]) {
+  return rounded(turned_cross(m, a, b, c));
+}
+
+Wide edge_normal(const double a[3], const double b[3], const Motion& m, const double w[3], const double v[3]) {
+  return rounded(cross3(difference3(b, a), turned(m, w, v)));
+}
+
+bool tetrahedron_holds_origin(const std::array<std::array<double, 3>, 4>& a, const std::array<std::array<double, 3>, 4>& b,
+                              const Motion& m) {
+  // With p_k = a_k - (R b_k + t), the origin's barycentric coordinates are triple products of the p's over their sum.
+  std::array<Vec, 4> p;
+  std::array<Vec, 4> size;  // |a| + |R| |b| + |t|, which scales the rounding of p
+  for (int k = 0; k < 4; ++k) {
+    const Vec va{a[k][0], a[k][1], a[k][2]}, vb{b[k][0], b[k][1], b[k][2]}, ab = absolute(vb);
+    p[k] = va - apply(m, vb);
+    size[k] =
+        absolute(va) + absolute(m.t) + Vec{dot(absolute(m.row_x), ab), dot(absolute(m.row_y), ab), dot(absolute(m.row_z), ab)};
+  }
+  constexpr int kFace[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};  // opposite point k, counter-clockwise from outside
+  std::array<int, 4> sign;
+  bool certain = true;
+  for (int k = 0; k < 4; ++k) {
+    const auto [i, j, l] = kFace[k];
+    sign[k] = certain_sign(dot(cross(p[i], p[j]), p[l]), kOffsetTripleProductError * permanent(size[i], size[j], size[l]));
+    certain = certain && sign[k] != 0;
+  }
+  if (!certain) {
+    bool flat = true;
+    for (int k = 0; k < 4; ++k) {
+      const auto [i, j, l] = kFace[k];
+      sign[k] = offset_determinant_sign({a[i].data(), a[j].data(), a[l].data()}, {b[i].data(), b[j].data(), b[l].data()}, m);
+      flat = flat && sign[k] == 0;
+    }
+    if (flat) return false;  // coplanar with the origin, or all four on planes through it
+  }
+  // The four products sum to six times the volume: with none of the opposite sign, the origin is inside or on the boundary.
+  const bool any_positive = sign[0] > 0 || sign[1] > 0 || sign[2] > 0 || sign[3] > 0;
+  const bool any_negative = sign[0] < 0 || sign[1] < 0 || sign[2] < 0 || sign[3] < 0;
+  return any_positive != any_negative;
+}
+
+}  // namespace swiftlet::exact

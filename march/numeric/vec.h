@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The runtime's arithmetic on three numbers. Functions are static on purpose: every unit compiles its own copy under its own
+// floating-point flags, and none can be replaced at link time by a consumer's.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <swiftlet/pose.h>
+
+#include "numeric/tolerance.h"
+
+namespace swiftlet {
+
+/// Three numbers; Real is double, or DoubleDouble where doubles cannot tell.
+template <class Real>
+struct V3 {
+  Real x, y, z;
+};
+using Vec = V3<double>;
+
+template <class R>
+static inline V3<R> operator+(const V3<R>& a, const V3<R>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class R>
+static inline V3<R> operator-(const V3<R>& a, const V3<R>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class R>
+static inline V3<R> operator-(const V3<R>& a) {
+  return {-a.x, -a.y, -a.z};
+}
+template <class R>
+static inline V3<R> operator*(const V3<R>& a, const R& s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+template <class R>
+static inline R dot(const V3<R>& a, const V3<R>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class R>
+static inline V3<R> cross(const V3<R>& a, const V3<R>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Of two numbers that are no NaN. std::fmax is a call.
+static inline double larger(double x, double y) { return x < y ? y : x; }
+static inline double smaller(double x, double y) { return y < x ? y : x; }
+
+/// The axis that `v` goes least along: one across it is far from it.
+static inline Vec least_axis(const Vec& v) {
+  const double x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z);
+  return x <= y && x <= z ? Vec{1, 0, 0} : y <= z ? Vec{0, 1, 0} : Vec{0, 0, 1};
+}
+
+/// Numbers only: a NaN may go unseen.
+static inline double max_abs(const Vec& a) { return larger(larger(std::fabs(a.x), std::fabs(a.y)), std::fabs(a.z)); }
+
+/// Whether a sum of squares has lost nothing to underflow, and is finite.
+static inline bool has_range(double square) {
+  return square >= kLeastSquare && square < std::numeric_limits<double>::infinity();
+}
+/// Times 2^exponent.
+static inline Vec scaled(const Vec& v, int exponent) {
+  return {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
+}
+
+// Vectors whose squares leave the range of doubles are scaled by a power of two, so that lengths and directions are those of
+// all their multiples by such, bit for bit.
+
+/// To kNormError; of a subnormal length never less than it.
+static inline double norm(const Vec& a) {
+  if (const double square = dot(a, a); has_range(square)) return std::sqrt(square);
+  const double largest = max_abs(a);
+  if (!(largest > 0 && std::isfinite(largest))) return largest;
+  const int exponent = std::ilogb(largest);
+  const Vec w = scaled(a, -exponent);
+  const double length = std::ldexp(std::sqrt(dot(w, w)), exponent);
+  return length < std::numeric_limits<double>::min() ? length + std::numeric_limits<double>::denorm_min() : length;
+}
+
+/// A vector at length 1, and what it was multiplied by; 0 and 0 where it names no direction.
+struct Unit {
+  Vec n;
+  double scale;
+};
+static inline Unit unit_of(const Vec& v) {
+  if (const double square = dot(v, v); has_range(square)) {
+    const double scale = 1 / std::sqrt(square);
+    return {v * scale, scale};
+  }
+  const double largest = max_abs(v);
+  if (!(largest > kLeastDirection && std::isfinite(largest))) return {{0, 0, 0}, 0};
+  const int exponent = std::ilogb(largest);
+  const Vec w = scaled(v, -exponent);
+  const double scale = 1 / std::sqrt(dot(w, w));
+  return {w * scale, std::ldexp(scale, -exponent)};
+}
+static inline Vec normalised(const Vec& v) { return unit_of(v).n; }
+
+/// The same direction, at a length where no product of its coordinates with a body's over- or underflows; 0 where it names
+/// none.
+static inline Vec rescaled(const Vec& v) {
+  const double largest = max_abs(v);
+  if (!(largest > 0) || !std::isfinite(dot(v, {0, 0, 0}))) return {0, 0, 0};
+  return scaled(v, 400 - std::ilogb(largest));
+}
+
+/// Of a record that has them by name, as a body's vertices do.
+template <class Point>
+requires requires(const Point& p) { p.x; }
+static inline Vec vec(const Point& p) { return {p.x, p.y, p.z}; }
+static inline Vec vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
+static inline Vec3 eigen(const Vec& v) { return Vec3(v.x, v.y, v.z); }
+
+/// A pose unpacked: rows of the rotation, translation.
+struct Motion {
+  Vec row_x, row_y, row_z, t;
+};
+static constexpr Motion kAtRest{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
+static inline Motion motion(const Pose& pose) {
+  const Mat3& r = pose.rotation;
+  return {{r(0, 0), r(0, 1), r(0, 2)}, {r(1, 0), r(1, 1), r(1, 2)}, {r(2, 0), r(2, 1), r(2, 2)}, vec(pose.translation)};
+}
+static inline Vec turn(const Motion& m, const Vec& p) { return {dot(m.row_x, p), dot(m.row_y, p), dot(m.row_z, p)}; }
+static inline Vec apply(const Motion& m, const Vec& p) { return turn(m, p) + m.t; }
+/// The transposed rotation: carries a direction n of the common frame to where n . (R p) = result . p.
+static inline Vec turn_back(const Motion& m, const Vec& n) { return m.row_x * n.x + m.row_y * n.y + m.row_z * n.z; }
+
+}  // namespace swiftlet

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pair/certify.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "body/half_edge.h"
+
+namespace swiftlet {
+namespace {
+
+template <class P>
+Vec point(const P& body, const Combination& c) {
+  Vec p = body.own(c.vertex[0]) * c.weight[0];
+  if (c.weight[1] != 0) p = p + body.own(c.vertex[1]) * c.weight[1];
+  if (c.weight[2] != 0) p = p + body.own(c.vertex[2]) * c.weight[2];
+  return body.common(p);
+}
+
+/// Vertex pairs that have both combinations as their own: the transport that fills one from the other in order. At most
+/// four, for one of them has at most two vertices.
+ActiveSet pairs(const Combination& a, const Combination& b) {
+  ActiveSet set;
+  std::size_t i = 0, j = 0;
+  double rest_a = a.weight[0], rest_b = b.weight[0];
+  while (i < 3 && j < 3) {
+    const double weight = smaller(rest_a, rest_b);
+    if (weight > 0) set.a[set.count] = a.vertex[i], set.b[set.count] = b.vertex[j], set.weight[set.count++] = weight;
+    rest_a -= weight, rest_b -= weight;
+    if (rest_a <= 0 && ++i < 3) rest_a = a.weight[i];
+    if (rest_b <= 0 && ++j < 3) rest_b = b.weight[j];
+  }
+  return set;
+}
+
+/// A direction of the common frame as one body's vertices see it, for comparisons in doubles that know their error.
+struct Slope {
+  Vec own;            ///< in the body's frame
+  double turn_error;  ///< of own . e, relative to |e|_1
+  double along(const Vec& e) const { return dot(own, e); }
+  double error(const Vec& e) const {
+    const Vec m{std::fabs(e.x), std::fabs(e.y), std::fabs(e.z)};
+    return kDotError * (std::fabs(own.x) * m.x + std::fabs(own.y) * m.y + std::fabs(own.z) * m.z) +
+           turn_error * (m.x + m.y + m.z);
+  }
+  /// No less than any between points of a body.
+  double most_error(double extent) const { return (kDotError * max_abs(own) + turn_error) * (7 * extent); }
+};
+
+Slope slope_a(const Vec& n) { return {n, 0}; }
+Slope slope_b(const Scene& scene, const Vec& n) { return {-body_b(scene).into(n), kTurnedError}; }
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A vertex that no other of its body exceeds by more than `slack`.
+struct Extreme {
+  std::uint32_t vertex = 0;
+  double slack = 0;
+};
+
+/// The farthest that two points of a body can be apart.
+double reach(const ConvexView& view) { return 2 * kSqrt3 * view.extent; }
+
+/// By how much the direction leans along a feature, a unit length of it.
+double lean(const ConvexView& view, FeatureId feature, const Slope& slope) {
+  const std::uint32_t h = feature.kind() == FeatureKind::Edge ? feature.index() : view.face_first[feature.index()];
+  const Vec p = vec(view.vertices[origin(view, h)]), e = vec(view.vertices[view.half_edges[h].head]) - p;
+  if (feature.kind() == FeatureKind::Edge) return std::fabs(slope.along(e)) / norm(e);
+  const Vec f = vec(view.vertices[view.half_edges[next_in_facet(view, h)].head]) - p, n = cross(e, f);
+  const double area = norm(n);
+  return norm(slope.own - n * (1 / area)) + kCrossError * std::sqrt(dot(e, e) * dot(f, f)) / area;
+}
+
+/// How far the body may stand above a feature along a slope, where the features beside it tell: the body is exactly convex, and
+/// these rise by at most `rise`, but for `rise_error` of the body's reach. They must be below for certain; what is level with
+/// the feature only up to rounding, itself, leaves a tilt. Infinite where doubles do not tell, or a face has more than three
+/// vertices.
+double overhang(const ConvexView& view, FeatureId feature, const Slope& slope, double rise, double rise_error) {
+  const double far = reach(view);
+  if (feature.kind() == FeatureKind::Vertex) return rise < -rise_error * far ? 0.0 : kInfinity;
+  const bool is_edge = feature.kind() == FeatureKind::Edge;
+  if (is_edge ? view.vertices[origin(view, feature.index())].ring_count < 2 : feature.index() < view.planes.size())
+    return kInfinity;  // a segment; a walking face
+  const double tilt = (lean(view, feature, slope) + kDotError + kSqrt3 * slope.turn_error) * far;
+  return !is_edge || rise < -(tilt + rise_error * far) ? tilt : kInfinity;
+}
+
+/// Climbs in doubles and decides no tie: whatever may be as high as the top is visited too, until every neighbour of every one
+/// visited is itself visited or certainly below. On an exactly convex body the highest vertex is then among them. Nothing when
+/// more than `kPlateau` are as high.
+std::optional<Extreme> top(const ConvexView& view, const Slope& slope, std::uint32_t v, std::uint32_t& plane_tests) {
+  std::array<std::uint32_t, kPlateau> plateau;
+  std::size_t count = 0;
+  const auto add = [&](std::uint32_t w) {
+    if (std::find(plateau.begin(), plateau.begin() + count, w) != plateau.begin() + count) return true;
+    if (count == kPlateau) return false;
+    plateau[count++] = w;
+    return true;
+  };
+  const double surely = -slope.most_error(view.extent);
+  const auto ring = [&](std::uint32_t u, auto visit) {
+    const Vertex& record = view.vertices[u];
+    const Vec p = vec(record);
+    plane_tests += record.ring_count;
+    for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
+      const std::uint32_t w = view.half_edges[h].head;
+      const Vec e = vec(view.vertices[w]) - p;
+      if (const double rise = slope.along(e); rise >= surely) visit(w, rise, slope.error(e));
+    }
+  };
+  for (bool rises = true, fits = true; rises;) {
+    rises = false, fits = true, count = 0;
+    add(v);
+    double most = 0;
+    const std::uint32_t from = v;
+    ring(from, [&](std::uint32_t w, double rise, double error) {
+      if (rise > error && rise > most) most = rise, v = w, rises = true;
+      if (rise >= -error) fits = add(w) && fits;
+    });
+    if (!rises && !fits) return std::nullopt;
+  }
+  bool fits = true;
+  for (std::size_t i = 1; i < count && fits; ++i) {
+    ring(plateau[i], [&](std::uint32_t w, double rise, double error) {
+      if (rise >= -error) fits = add(w) && fits;
+    });
+  }
+  if (!fits) return std::nullopt;
+  // Heights over the first; the top may be lower than any other by what both are uncertain.
+  const Vec p = vec(view.vertices[v]);
+  Extreme result{v, 0};
+  double height = 0, highest = 0, uncertain = 0;
+  for (std::size_t i = 1; i < count; ++i) {
+    const Vec e = vec(view.vertices[plateau[i]]) - p;
+    const double rise = slope.along(e), error = slope.error(e);
+    if (rise > height) result.vertex = plateau[i], height = rise, uncertain = error;
+    highest = larger(highest, rise + error);
+  }
+  result.slack = larger(0, highest - height + uncertain);
+  return result;
+}
+
+}  // namespace
+
+double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack) {
+  return gap(scene, n, body_b(scene).point(vb) - body_a(scene).point(va), slack);
+}
+
+double apart(const Scene& scene, std::uint32_t va, std::uint32_t vb) {
+  return norm(body_b(scene).point(vb) - body_a(scene).point(va)) * (1 + kNormError) + scene.point_error;
+}
+
+Supports supports(const Scene& scene, const Vec& n, std::uint32_t start_a, std::uint32_t start_b, std::uint32_t& plane_tests) {
+  const auto a_top = top(scene.a, slope_a(n), start_a, plane_tests);
+  const auto b_top = top(scene.b, slope_b(scene, n), start_b, plane_tests);
+  const std::uint32_t va = a_top ? a_top->vertex : support_a(scene, n, start_a, plane_tests);
+  const std::uint32_t vb = b_top ? b_top->vertex : support_b(scene, n, start_b, plane_tests);
+  return {va, vb, gap(scene, n, va, vb, (a_top ? a_top->slack : 0) + (b_top ? b_top->slack : 0))};
+}
+
+Certificate certify(const Scene& scene, FeatureId a, FeatureId b, const Witness& seen, std::uint32_t& plane_tests) {
+  Certificate c;
+  c.point_a = point(body_a(scene), seen.first);
+  c.point_b = point(body_b(scene), seen.second);
+  c.upper = norm(c.point_b - c.point_a) * (1 + kNormError) + scene.point_error;
+  const double length = norm(seen.normal);
+  c.normal = normalised(seen.normal);
+  const auto proved = [&](std::uint32_t va, std::uint32_t vb, double lower) {
+    c.support_a = va;
+    c.support_b = vb;
+    c.lower = larger(0, lower);
+    return c.upper - c.lower <= scene.law_two;
+  };
+  // Ever dearer: what stands beside the features, what is as high as doubles can tell, exact order.
+  const std::uint32_t any_a = seen.first.vertex[0], any_b = seen.second.vertex[0];
+  const double rise_error = kRiseError + 3 * (scene.pose_error + kOrthonormalityError);
+  const double over_a = overhang(scene.a, a, slope_a(c.normal), seen.rise_first / length, rise_error);
+  if (over_a < kInfinity) {
+    const double over_b = overhang(scene.b, b, slope_b(scene, c.normal), seen.rise_second / length, rise_error);
+    if (over_b < kInfinity && proved(any_a, any_b, gap(scene, c.normal, any_a, any_b, over_a + over_b))) {
+      if (leans(scene, c)) c.active = pairs(seen.first, seen.second);
+      return c;
+    }
+  }
+  c.active = pairs(seen.first, seen.second);
+  const Supports near = supports(scene, c.normal, any_a, any_b, plane_tests);
+  if (proved(near.a, near.b, near.lower)) return c;
+  const std::uint32_t va = support_a(scene, c.normal, near.a, plane_tests);
+  const std::uint32_t vb = support_b(scene, c.normal, near.b, plane_tests);
+  proved(va, vb, gap(scene, c.normal, va, vb, 0));
+  return c;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,444 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The distance is the least norm over the Minkowski difference {p - q}, whose vertices are differences of vertices. The active
+// set method of [Gilbert, Johnson & Keerthi 1988] is used for its certificate: every step ends in a supporting plane.
+#include "pair/gjk.h"
+
+#include <limits>
+
+#include "body/half_edge.h"
+#include "numeric/exact.h"
+#include "pair/difference.h"
+
+namespace swiftlet {
+namespace {
+
+/// The point of a simplex nearest to the origin, as a convex combination.
+template <class Real>
+struct Nearest {
+  int count = 0;
+  std::array<int, 4> index{};
+  std::array<Real, 4> weight{};
+  V3<Real> point{Real(0), Real(0), Real(0)};
+  double norm2 = std::numeric_limits<double>::infinity();
+  bool holds_origin = false;  ///< four points around it
+};
+
+/// By every subset: a candidate with weights >= 0 is a point of the simplex. The nearest is the one whose plane cuts off the
+/// least of the simplex: its norm alone is flat about the optimum, and would hide a step of 1e-9 under a rounding of 1e-17.
+template <class Real>
+Nearest<Real> nearest_to_origin(const std::array<Difference<Real>, 4>& set, int count) {
+  Nearest<Real> best;
+  const Real zero(0);
+  double least_cut = std::numeric_limits<double>::infinity();
+  const auto offer = [&](int n, std::array<int, 4> index, std::array<Real, 4> weight, const V3<Real>& point) {
+    const Real norm2 = dot(point, point);
+    Real cut = zero;
+    for (int i = 0; i < count; ++i) {
+      if (const Real beyond = norm2 - dot(set[i].p, point); beyond > cut) cut = beyond;
+    }
+    const double length = std::sqrt(rounded(norm2));
+    const double relative = length > 0 ? std::fmin(rounded(cut) / length, length) : 0;  // no plane proves less than 0
+    if (relative < least_cut) least_cut = relative, best = {n, index, weight, point, rounded(norm2), false};
+  };
+  for (int i = 0; i < count; ++i) offer(1, {i}, {Real(1)}, set[i].p);
+  for (int i = 0; i < count; ++i) {
+    for (int j = i + 1; j < count; ++j) {
+      const V3<Real>&p = set[i].p, u = set[j].p - p;
+      const Real length2 = dot(u, u), along = -dot(p, u);
+      if (!(along > zero && along < length2)) continue;
+      const Real t = along / length2;
+      offer(2, {i, j}, {Real(1) - t, t}, p + u * t);
+    }
+  }
+  for (int i = 0; i < count; ++i) {
+    for (int j = i + 1; j < count; ++j) {
+      for (int k = j + 1; k < count; ++k) {
+        const V3<Real>&p = set[i].p, &q = set[j].p, &r = set[k].p;
+        const V3<Real> n = cross(q - p, r - p);
+        const Real n2 = dot(n, n), wp = dot(n, cross(q, r)), wq = dot(n, cross(r, p)), wr = dot(n, cross(p, q));
+        if (!(n2 > zero && wp > zero && wq > zero && wr > zero)) continue;
+        const Real sum = wp + wq + wr;  // n2, but for rounding
+        offer(3, {i, j, k}, {wp / sum, wq / sum, wr / sum}, n * (dot(n, p) / n2));
+      }
+    }
+  }
+  if (count == 4) {
+    const V3<Real>&p = set[0].p, &q = set[1].p, &r = set[2].p, &s = set[3].p;
+    const std::array<Real, 4> w{dot(cross(q, s), r), dot(cross(p, r), s), dot(cross(p, s), q), dot(cross(p, q), r)};
+    const bool positive = w[0] > zero && w[1] > zero && w[2] > zero && w[3] > zero;
+    const bool negative = w[0] < zero && w[1] < zero && w[2] < zero && w[3] < zero;
+    if (positive || negative) {
+      const Real sum = w[0] + w[1] + w[2] + w[3];
+      best = {4, {0, 1, 2, 3}, {w[0] / sum, w[1] / sum, w[2] / sum, w[3] / sum}, {zero, zero, zero}, 0, true};
+    }
+  }
+  return best;
+}
+
+std::array<double, 3> coordinates(const Vertex& v) { return {v.x, v.y, v.z}; }
+
+/// Whether four vertex pairs prove the overlap.
+bool proves(const Scene& s, const OverlapProof& proof) {
+  std::array<std::array<double, 3>, 4> a, b;
+  for (int k = 0; k < 4; ++k) {
+    a[k] = coordinates(s.a.vertices[proof.vertex_a[k]]);
+    b[k] = coordinates(s.b.vertices[proof.vertex_b[k]]);
+  }
+  return exact::tetrahedron_holds_origin(a, b, s.b_in_a);
+}
+
+/// The inner polytope of bodies that meet: differences of vertices, their hull taken by brute force over triples, which no
+/// degeneracy confuses. Finds out whether the origin is deeper inside than law 2's bound. Doubles do not know where the facets
+/// of a needle face.
+template <class Real>
+class Contact {
+ public:
+  Contact(const Scene& scene, std::uint32_t& plane_tests) : scene_(scene), tests_(plane_tests) {}
+
+  void add(std::uint32_t a, std::uint32_t b) {
+    if (count_ == kContactPoints || known(a, b)) return;
+    points_[count_++] = difference<Real>(scene_, a, b);
+  }
+
+  /// `depth` becomes the radius of a ball about the origin inside a tetrahedron, or 0 where it took more points. Touching when
+  /// a plane is found that the bodies overlap by no more than the bound; Overlapping when the inner polytope reaches farther on
+  /// all sides, or no more points help. `normal` is tried first, and becomes the plane's, or the last tried.
+  MarchStatus decide(Vec& normal, OverlapProof& proof, double& depth) {
+    const Vec hint = normal;
+    if (count_ == 4 && (depth = inner_radius()) > scene_.law_two && prove(proof)) return MarchStatus::Overlapping;
+    depth = 0;
+    if (touches(hint, normal)) return MarchStatus::Touching;
+    for (const Vec& n : {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}}) {
+      if (touches(n, normal) || touches(-n, normal)) return MarchStatus::Touching;
+    }
+    // Points on a line have no facet: look across it.
+    const Vec line = longest(), across = normalised(cross(line, least_axis(line)));
+    for (const Vec& n : {across, normalised(cross(line, across))}) {
+      if (touches(n, normal) || touches(-n, normal)) return MarchStatus::Touching;
+    }
+    while (count_ < kContactPoints) {
+      Vec n{0, 0, 0};
+      if (nearest_facet(n) > scene_.law_two) break;
+      normal = n;
+      const int before = count_;
+      if (width(n) <= scene_.law_two) return MarchStatus::Touching;
+      if (count_ == before) break;
+    }
+    return prove(proof) ? MarchStatus::Overlapping : MarchStatus::NotConverged;
+  }
+
+ private:
+  /// Whether the bodies overlap along unit n by no more than the bound; the vertex there joins the polytope either way.
+  bool touches(const Vec& n, Vec& normal) {
+    if (dot(n, n) == 0) return false;
+    normal = n;
+    return width(n) <= scene_.law_two;
+  }
+
+  /// The longest difference from the first point to another.
+  Vec longest() const {
+    Vec best{0, 0, 0};
+    for (int k = 1; k < count_; ++k) {
+      const Vec d = rounded(points_[k].p - points_[0].p);
+      if (dot(d, d) > dot(best, best)) best = d;
+    }
+    return best;
+  }
+
+  bool known(std::uint32_t a, std::uint32_t b) const {
+    for (int k = 0; k < count_; ++k) {
+      if (points_[k].a == a && points_[k].b == b) return true;
+    }
+    return false;
+  }
+
+  /// An upper bound on how far the Minkowski difference reaches along n; its vertex there joins the polytope.
+  double width(const Vec& n) {
+    const std::uint32_t a = support_a(scene_, n, count_ ? points_[0].a : 0, tests_);
+    const std::uint32_t b = support_b(scene_, n, count_ ? points_[0].b : 0, tests_);
+    add(a, b);
+    const Difference<DoubleDouble> d = difference<DoubleDouble>(scene_, a, b);
+    return double(dot(widened<DoubleDouble>(n), d.p)) * (1 + kGapError) + kDoubleDoubleError * scene_.magnitude;
+  }
+
+  /// The distance from the origin to the nearest face of the first four points; negative outside. In 106 bits: doubles see
+  /// slivers as deep as their own noise.
+  double inner_radius() const {
+    std::array<V3<DoubleDouble>, 4> p;
+    for (std::size_t k = 0; k < 4; ++k) p[k] = difference<DoubleDouble>(scene_, points_[k].a, points_[k].b).p;
+    double radius = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 4; ++k) {
+      const V3<DoubleDouble>&a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4], n = cross(b - a, c - a);
+      const double length = norm(rounded(n)), offset = rounded(dot(n, a)), apex = rounded(dot(n, p[k] - a));
+      if (!(length > 0) || apex == 0) return 0;
+      radius = std::fmin(radius, (apex < 0 ? offset : -offset) / length);
+    }
+    return radius;
+  }
+
+  /// The distance from the origin to the nearest facet, with its outward normal.
+  double nearest_facet(Vec& normal) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < count_; ++i) {
+      for (int j = i + 1; j < count_; ++j) {
+        for (int k = j + 1; k < count_; ++k) {
+          const V3<Real>& p = points_[std::size_t(i)].p;
+          const Vec n = normalised(rounded(cross(points_[std::size_t(j)].p - p, points_[std::size_t(k)].p - p)));
+          if (dot(n, n) == 0) continue;
+          const double offset = dot(n, rounded(p));
+          bool above = false, below = false;
+          for (int l = 0; l < count_; ++l) {
+            const double height = dot(n, rounded(points_[std::size_t(l)].p)) - offset;
+            above = above || height > scene_.point_error;
+            below = below || height < -scene_.point_error;
+          }
+          if (above && below) continue;
+          const double distance = above ? -offset : offset;
+          if (distance < nearest) nearest = distance, normal = above ? -n : n;
+        }
+      }
+    }
+    return nearest;
+  }
+
+  /// A tetrahedron that holds the origin, well inside if there is one: on a face, a translation of 1e-300 decides.
+  bool prove(OverlapProof& proof) const {
+    const auto deep = [&](const OverlapProof& p) { return proves_deep_overlap(scene_, p); };
+    const auto any = [&](const OverlapProof& p) { return proves(scene_, p); };
+    if (first_that(deep, proof) || first_that(any, proof)) return true;
+    proof = {};
+    return false;
+  }
+  template <class Holds>
+  bool first_that(Holds holds, OverlapProof& proof) const {
+    for (int i = 0; i < count_; ++i) {
+      for (int j = i + 1; j < count_; ++j) {
+        for (int k = j + 1; k < count_; ++k) {
+          for (int l = k + 1; l < count_; ++l) {
+            proof = {4,
+                     {points_[i].a, points_[j].a, points_[k].a, points_[l].a},
+                     {points_[i].b, points_[j].b, points_[k].b, points_[l].b}};
+            if (holds(proof)) return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+  const Scene& scene_;
+  std::uint32_t& tests_;
+  int count_ = 0;
+  std::array<Difference<Real>, kContactPoints> points_{};
+};
+
+/// Which bounds a certificate gathers: the best of all iterates, or plane and points of the same one.
+enum class Keep { Best, Last };
+
+/// One arithmetic's turn at the active set method.
+template <class Real>
+class Descent {
+ public:
+  Descent(const Scene& scene, const Goal& goal, std::uint32_t& plane_tests, Keep keep_bounds = Keep::Best)
+      : scene_(scene), goal_(goal), tests_(plane_tests), keep_bounds_(keep_bounds) {}
+
+  /// Improves `m` until the goal is met, the bodies meet, or this arithmetic cannot tell any more.
+  void run(Meeting& m) {
+    seed(m.certificate);
+    int patience = kProgressPatience;
+    for (int iteration = 0; iteration < kProgressLimit && patience > 0; ++iteration) {
+      const Nearest<Real> nearest = nearest_to_origin(set_, count_);
+      keep(nearest);
+      const double distance = std::sqrt(nearest.norm2);
+      if (keep_bounds_ == Keep::Last) m.certificate.lower = 0, m.certificate.upper = std::numeric_limits<double>::infinity();
+      take_points(m.certificate);
+      if (nearest.holds_origin || distance <= rounding<Real>(scene_)) {
+        met_ = true;
+        return;
+      }
+      const Vec n = normalised(-rounded(nearest.point));
+      const std::uint32_t a = support_a(scene_, n, set_[0].a, tests_), b = support_b(scene_, n, set_[0].b, tests_);
+      const double lower = bound(n, a, b);
+      if (lower > greatest_ || distance < least_)
+        patience = kProgressPatience;
+      else
+        --patience;
+      least_ = std::fmin(least_, distance);
+      greatest_ = std::fmax(greatest_, lower);
+      if (lower > m.certificate.lower) take_plane(m.certificate, n, a, b, lower);
+      // Bounds around 0 may be narrow enough, and the sign still open.
+      const bool open = m.certificate.lower == 0 && m.certificate.upper <= scene_.law_two;
+      if (!open && goal_.met(m.certificate.lower, m.certificate.upper)) {
+        m.status = MarchStatus::Disjoint;
+        return;
+      }
+      if (holds(a, b)) return;
+      set_[count_++] = difference<Real>(scene_, a, b);
+      weight_[count_ - 1] = Real(0);
+    }
+  }
+
+  bool met() const { return met_; }
+  int count() const { return count_; }
+  const Difference<Real>& operator[](int k) const { return set_[k]; }
+
+ private:
+  void seed(const Certificate& c) {
+    for (int k = 0; k < c.active.count; ++k) set_[count_++] = difference<Real>(scene_, c.active.a[k], c.active.b[k]);
+    if (count_ < 4 && !holds(c.support_a, c.support_b)) set_[count_++] = difference<Real>(scene_, c.support_a, c.support_b);
+  }
+
+  bool holds(std::uint32_t a, std::uint32_t b) const {
+    for (int k = 0; k < count_; ++k) {
+      if (set_[k].a == a && set_[k].b == b) return true;
+    }
+    return false;
+  }
+
+  void keep(const Nearest<Real>& nearest) {
+    std::array<Difference<Real>, 4> kept{};
+    for (int k = 0; k < nearest.count; ++k) {
+      kept[k] = set_[nearest.index[k]];
+      weight_[k] = nearest.weight[k];
+    }
+    set_ = kept;
+    count_ = nearest.count;
+  }
+
+  /// The convex combinations themselves bound the distance from above.
+  void take_points(Certificate& c) const {
+    V3<Real> a{Real(0), Real(0), Real(0)}, apart = a;
+    for (int k = 0; k < count_; ++k) {
+      a = a + widened<Real>(vec(scene_.a.vertices[set_[k].a])) * weight_[k];
+      apart = apart - set_[k].p * weight_[k];
+    }
+    const double upper = norm(rounded(apart)) * (1 + kNormError) + rounding<Real>(scene_);
+    if (!(upper < c.upper)) return;
+    c.upper = upper;
+    c.point_a = rounded(a);
+    c.point_b = rounded(a + apart);
+    c.active.count = count_;
+    for (int k = 0; k < count_; ++k) {
+      c.active.a[k] = set_[k].a;
+      c.active.b[k] = set_[k].b;
+      c.active.weight[k] = rounded(weight_[k]);
+    }
+  }
+
+  static void take_plane(Certificate& c, const Vec& n, std::uint32_t a, std::uint32_t b, double lower) {
+    c.normal = n;
+    c.support_a = a;
+    c.support_b = b;
+    c.lower = lower;
+  }
+
+  /// A lower bound on the distance from the supports along unit n.
+  double bound(const Vec& n, std::uint32_t a, std::uint32_t b) const {
+    if constexpr (std::is_same_v<Real, double>) return gap(scene_, n, a, b);
+    const double value = -double(dot(widened<DoubleDouble>(n), difference<DoubleDouble>(scene_, a, b).p));
+    return value * (value > 0 ? 1 - kGapError : 1 + kGapError) - kDoubleDoubleError * scene_.magnitude;
+  }
+
+  const Scene& scene_;
+  const Goal& goal_;
+  std::uint32_t& tests_;
+  const Keep keep_bounds_;
+  std::array<Difference<Real>, 4> set_{};
+  std::array<Real, 4> weight_{};
+  int count_ = 0;
+  double least_ = std::numeric_limits<double>::infinity(), greatest_ = -least_;  ///< distance, and gap, may be negative
+  bool met_ = false;
+};
+
+template <class Real>
+bool settle(const Scene& scene, const Goal& goal, Meeting& m, std::uint32_t& plane_tests) {
+  Descent<Real> descent(scene, goal, plane_tests);
+  descent.run(m);
+  const bool near_zero = m.certificate.upper <= scene.law_two && m.certificate.lower == 0;
+  if (m.status == MarchStatus::Disjoint && !near_zero) return true;
+  m.status = MarchStatus::NotConverged;
+  if (!descent.met() && !near_zero) return false;
+  Contact<Real> contact(scene, plane_tests);
+  for (int k = 0; k < descent.count(); ++k) contact.add(descent[k].a, descent[k].b);
+  Vec normal = m.certificate.normal;
+  const MarchStatus status = contact.decide(normal, m.proof, m.depth);
+  if (status == MarchStatus::NotConverged) return false;
+  if (status == MarchStatus::Touching && !near_zero) return false;  // thin bodies may be thin far apart
+  m.status = status;
+  m.certificate.lower = 0;
+  m.certificate.normal = normal;
+  if (status == MarchStatus::Overlapping) m.certificate.upper = 0;
+  return true;
+}
+
+}  // namespace
+
+Meeting progress(const Scene& scene, const Certificate& start, const Goal& goal, std::uint32_t& plane_tests) {
+  Meeting m;
+  m.certificate = start;
+  if (!settle<double>(scene, goal, m, plane_tests)) settle<DoubleDouble>(scene, goal, m, plane_tests);
+  return m;
+}
+
+bool proves_deep_overlap(const Scene& scene, const OverlapProof& proof) {
+  std::array<Vec, 4> p;
+  for (std::size_t k = 0; k < 4; ++k) p[k] = difference<double>(scene, proof.vertex_a[k], proof.vertex_b[k]).p;
+  const double m = scene.magnitude, rounding = 8 * kOffsetTripleProductError * m * m * m;  // differences of two, six terms
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec &a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4], n = cross(b - a, c - a);
+    if (!(std::fabs(dot(n, a)) > 2 * scene.law_two * norm(n) + rounding)) return false;
+  }
+  return proves(scene, proof);
+}
+
+bool straighten(const Scene& scene, Certificate& c, std::uint32_t& plane_tests) {
+  const Goal goal{scene.law_two, 0, std::numeric_limits<double>::infinity()};
+  Meeting m;
+  m.certificate = c;
+  Descent<DoubleDouble>(scene, goal, plane_tests, Keep::Last).run(m);
+  if (m.status != MarchStatus::Disjoint) return false;
+  c = m.certificate;
+  return true;
+}
+
+void sharpen(const Scene& scene, Certificate& c, std::uint32_t& plane_tests) {
+  const Goal as_far_as_it_goes{0, 0, std::numeric_limits<double>::infinity()};
+  Meeting m;
+  m.certificate = c;
+  Descent<DoubleDouble>(scene, as_far_as_it_goes, plane_tests).run(m);
+  c = m.certificate;
+}
+
+FeatureId feature_of(const ConvexView& view, const ActiveSet& active, const std::array<std::uint32_t, 4>& vertices) {
+  std::array<std::uint32_t, 4> distinct{};
+  int count = 0, heaviest = 0;
+  for (int k = 0; k < active.count; ++k) {
+    if (active.weight[k] > active.weight[heaviest]) heaviest = k;
+    bool seen = false;
+    for (int i = 0; i < count; ++i) seen = seen || distinct[i] == vertices[k];
+    if (!seen) distinct[count++] = vertices[k];
+  }
+  const Vertex& first = view.vertices[distinct[0]];
+  if (count == 1) return {FeatureKind::Vertex, distinct[0]};
+  for (std::uint32_t h = first.ring_begin; count == 2 && h < first.ring_begin + first.ring_count; ++h) {
+    if (view.half_edges[h].head == distinct[1] && !is_diagonal(view, h)) return {FeatureKind::Edge, h};
+  }
+  // A vertex may lie inside a face, where its loop does not come by.
+  const auto holds = [&](std::uint32_t face, std::uint32_t v) {
+    const Vertex& ring = view.vertices[v];
+    for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
+      if (view.half_edges[h].face == face) return true;
+    }
+    return false;
+  };
+  for (std::uint32_t h = first.ring_begin; h < first.ring_begin + first.ring_count; ++h) {
+    if (view.half_edges[h].face == kNone) continue;
+    int held = 1;
+    while (held < count && holds(view.half_edges[h].face, distinct[std::size_t(held)])) ++held;
+    if (held == count) return {FeatureKind::Face, view.half_edges[h].face};
+  }
+  return {FeatureKind::Vertex, vertices[heaviest]};
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,501 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// From a point x inside both bodies the rays to vertices that stick out of the other body leave through facets; between one
+// that leaves A last and one that leaves B last the surfaces change places:
+//
+//            w        The ray to v, a vertex of A, leaves B in y, which is inside A. From there over B's facets towards w,
+//       B ___/\       a vertex of B outside A, until one has a corner q outside A: its way there leaves A
+//        /  /  \      through a facet that crosses it.
+//   A __/__/____\__
+//     \ \ x      y----v      Doubles find the two facets; exact signs say whether an edge of one pierces the other, and where
+//      \_\______/___/        they deny it the facets beside are asked. Where doubles cannot tell, as of a body in one 1e16
+//         \____/             times larger, exact signs alone follow every edge that begins outside the other body.
+//
+// They walk: the facets of a convex surface seen from a point cut its directions into cells of a regular subdivision, over
+// whose sides no walk towards a direction comes round [Edelsbrunner 1990], so that it ends in the cell that holds it.
+#include "pair/intersection.h"
+
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "body/half_edge.h"
+#include "numeric/exact.h"
+#include "numeric/wide.h"
+#include "pair/certify.h"
+#include "pair/overlap.h"
+
+namespace swiftlet {
+namespace {
+
+using Quad = std::array<std::uint32_t, 4>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Three edges or more meet in a vertex, of a flat polygon two.
+bool bounds_solid(const ConvexView& view) { return view.vertices[0].ring_count > 2; }
+
+/// The smallest feature that holds given vertices exactly: none where no facet does.
+FeatureId feature_holding(const ConvexView& view, const Quad& vertices) {
+  Quad distinct{};
+  int count = 0;
+  for (const std::uint32_t v : vertices) {
+    bool seen = false;
+    for (int i = 0; i < count; ++i) seen = seen || distinct[std::size_t(i)] == v;
+    if (!seen) distinct[std::size_t(count++)] = v;
+  }
+  if (count == 1) return {FeatureKind::Vertex, distinct[0]};
+  const Vertex& ring = view.vertices[distinct[0]];
+  for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
+    if (count == 2 && view.half_edges[h].head == distinct[1] && !is_diagonal(view, h)) return {FeatureKind::Edge, h};
+  }
+  for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
+    if (view.half_edges[h].face == kNone) continue;
+    int held = 0;
+    std::uint32_t side = h;
+    do {
+      for (int i = 0; i < count; ++i) held += view.half_edges[side].head == distinct[std::size_t(i)];
+      side = next_in_facet(view, side);
+    } while (side != h);
+    if (held == count) return {FeatureKind::Face, view.half_edges[h].face};
+  }
+  return {};
+}
+
+/// Facets are named by one of their half-edges, bodies by 0 and 1; points are in the common frame.
+class Search {
+ public:
+  Search(const Scene& scene, std::uint32_t& tests)
+      : scene_(scene), tests_(tests), most_tests_(tests + scene.a.half_edges.size() + scene.b.half_edges.size()) {}
+
+  Crossing run(const OverlapProof& proof) {
+    const Vec x = common_point<DoubleDouble>(scene_, proof).point;
+    const FeatureId a = feature_holding(scene_.a, proof.vertex_a), b = feature_holding(scene_.b, proof.vertex_b);
+    if (a != FeatureId{} && b != FeatureId{}) return {a, b, x};
+    std::optional<Crossing> found;
+    if (bounds_solid(scene_.a) && bounds_solid(scene_.b)) {
+      hint_ = {scene_.a.vertices[proof.vertex_a[0]].ring_begin, scene_.b.vertices[proof.vertex_b[0]].ring_begin};
+      found = between_outsiders(inner_point(x));
+      if (!found) found = around(proof.vertex_a, proof.vertex_b);
+    }
+    return found ? *found : exactly(x);
+  }
+
+ private:
+  const ConvexView& view(int k) const { return k == 0 ? scene_.a : scene_.b; }
+  Vec point(int k, std::uint32_t v) const { return k == 0 ? body_a(scene_).point(v) : body_b(scene_).point(v); }
+  Vec centre(int k) const { return k == 0 ? vec(scene_.a.centre) : body_b(scene_).common(vec(scene_.b.centre)); }
+  std::uint32_t extreme(int k, const Vec& n, std::uint32_t start) const {
+    return k == 0 ? support_a(scene_, n, start, tests_) : support_b(scene_, -n, start, tests_);
+  }
+  template <class Visit>
+  void each_edge_of_facet(int k, std::uint32_t facet, Visit visit) const {
+    std::uint32_t h = facet;
+    do {
+      visit(h);
+      h = next_in_facet(view(k), h);
+    } while (h != facet);
+  }
+
+  // ---- Exactly ----
+
+  /// The sign of the determinant of three differences between points of body k and of the other.
+  int side(int k, const std::array<std::uint32_t, 3>& own, const std::array<std::uint32_t, 3>& other) const {
+    std::array<const double*, 3> p, q;
+    for (std::size_t i = 0; i < 3; ++i) p[i] = &view(k).vertices[own[i]].x, q[i] = &view(1 - k).vertices[other[i]].x;
+    ++tests_;
+    return k == 0 ? exact::triple_product(p, q, scene_.b_in_a) : exact::triple_product(q, p, scene_.b_in_a);
+  }
+
+  /// Whether an edge of body k meets a facet of the other in whose plane it does not lie. Of surfaces that meet some edge does:
+  /// where one that lies in the plane ends or leaves the facet, another edge or facet begins.
+  bool pierces(int k, std::uint32_t edge, std::uint32_t facet) const {
+    const ConvexView &own = view(k), &other = view(1 - k);
+    const std::uint32_t tail = origin(own, edge), head = own.half_edges[edge].head, q = origin(other, facet),
+                        r = other.half_edges[facet].head, s = other.half_edges[next_in_facet(other, facet)].head;
+    const int at_tail = side(k, {tail, tail, tail}, {q, r, s});
+    const int at_head = side(k, {head, head, head}, {q, r, s});
+    if (at_tail == at_head) return false;
+    int turn = 0;
+    std::uint32_t h = facet;
+    do {
+      const std::uint32_t q0 = origin(other, h), q1 = other.half_edges[h].head;
+      const int sign = side(k, {head, tail, tail}, {q0, q0, q1});
+      if (sign * turn < 0) return false;
+      turn = sign != 0 ? sign : turn;
+      h = next_in_facet(other, h);
+    } while (h != facet);
+    return true;
+  }
+
+  Crossing named(int k, std::uint32_t edge, std::uint32_t facet) const {
+    const ConvexView &own = view(k), &other = view(1 - k);
+    const FeatureId pierced{FeatureKind::Face, other.half_edges[facet].face};
+    const FeatureId piercing =
+        is_diagonal(own, edge) ? FeatureId{FeatureKind::Face, own.half_edges[edge].face} : FeatureId{FeatureKind::Edge, edge};
+    const Vec p = point(k, origin(own, edge)), e = point(k, own.half_edges[edge].head) - p, n = normal(1 - k, facet),
+              q = point(1 - k, origin(other, facet));
+    const double at_tail = dot(n, p - q), at_head = at_tail + dot(n, e), t = at_tail / (at_tail - at_head);
+    const Vec at = p + e * (t > 0 ? smaller(t, 1) : 0.0);
+    return k == 0 ? Crossing{piercing, pierced, at} : Crossing{pierced, piercing, at};
+  }
+
+  std::optional<Crossing> between(std::uint32_t facet_a, std::uint32_t facet_b) const {
+    std::optional<Crossing> found;
+    each_edge_of_facet(0, facet_a, [&](std::uint32_t h) {
+      if (!found && pierces(0, h, facet_b)) found = named(0, h, facet_b);
+    });
+    each_edge_of_facet(1, facet_b, [&](std::uint32_t h) {
+      if (!found && pierces(1, h, facet_a)) found = named(1, h, facet_a);
+    });
+    return found;
+  }
+
+  /// Among the edges and facets at some vertices of each body.
+  template <class VerticesA, class VerticesB>
+  std::optional<Crossing> around(const VerticesA& vertices_a, const VerticesB& vertices_b) const {
+    for (const std::uint32_t va : vertices_a) {
+      const Vertex& ring_a = scene_.a.vertices[va];
+      for (const std::uint32_t vb : vertices_b) {
+        const Vertex& ring_b = scene_.b.vertices[vb];
+        for (std::uint32_t g = ring_a.ring_begin; g < ring_a.ring_begin + ring_a.ring_count; ++g) {
+          for (std::uint32_t h = ring_b.ring_begin; h < ring_b.ring_begin + ring_b.ring_count; ++h) {
+            if (spent()) return std::nullopt;
+            if (pierces(0, g, h)) return named(0, g, h);
+            if (pierces(1, h, g)) return named(1, h, g);
+          }
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  // ---- Exactly, over a whole surface ----
+
+  /// A triangle of a facet's fan: the fan's first half-edge, from whose origin it spreads, and the triangle's side across from
+  /// there.
+  struct Cell {
+    std::uint32_t first, side;
+  };
+  Cell cell(int k, std::uint32_t facet) const { return {facet, next_in_facet(view(k), facet)}; }
+  std::uint32_t before_in_facet(int k, std::uint32_t h) const {
+    const ConvexView& own = view(k);
+    return own.half_edges[counter_clockwise(own.vertices[origin(own, h)], h)].twin;
+  }
+
+  /// The signs of `side` are positive outside the facets of the other body where this is.
+  int sense(int k) const {
+    const Motion& m = scene_.b_in_a;
+    return k == 1 || dot(m.row_x, cross(m.row_y, m.row_z)) < 0 ? -1 : 1;
+  }
+  /// Whether a vertex of body k lies above (1), in (0) or below the plane of a facet of the other.
+  int height(int k, std::uint32_t v, std::uint32_t facet) const {
+    const ConvexView& other = view(1 - k);
+    const std::uint32_t q = origin(other, facet), r = other.half_edges[facet].head,
+                        s = other.half_edges[next_in_facet(other, facet)].head;
+    return sense(k) * side(k, {v, v, v}, {q, r, s});
+  }
+
+  /// Turns in a fan to the triangle that holds a direction; the side of the facet that it lies beyond, or kNone. `left` says on
+  /// which side of the plane through the apex and two corners it lies.
+  template <class Left>
+  std::uint32_t beyond(int k, Cell& at, Left left) const {
+    const ConvexView& own = view(k);
+    const std::uint32_t root = origin(own, at.first);
+    for (;;) {
+      const std::uint32_t tail = origin(own, at.side), head = own.half_edges[at.side].head;
+      if (left(root, tail) < 0) {
+        if (tail == own.half_edges[at.first].head) return at.first;
+        at.side = before_in_facet(k, at.side);
+      } else if (left(head, root) < 0) {
+        const std::uint32_t next = next_in_facet(own, at.side);
+        if (own.half_edges[next].head == root) return next;
+        at.side = next;
+      } else {
+        return left(tail, head) < 0 ? at.side : kNone;
+      }
+    }
+  }
+
+  /// Where a vertex lies: outside a body (1), on its surface (0), or inside; and beyond or in which facet.
+  struct Place {
+    int side;
+    std::uint32_t facet;
+  };
+  /// Of a vertex of body k in the other, a solid. Seen from a vertex of that body the facets that do not hold it fill the body
+  /// with pyramids; one that does hold it is come to only by going outside.
+  Place locate(int k, std::uint32_t v) {
+    const ConvexView& other = view(1 - k);
+    const std::uint32_t apex = apex_[std::size_t(1 - k)], ring = other.vertices[apex].ring_begin;
+    Cell& last = cell_[std::size_t(1 - k)];
+    Cell at = last;
+    for (std::size_t steps = other.half_edges.size(); steps > 0; --steps) {  // of a convex body none are left
+      const int above = height(k, v, at.first);
+      if (above > 0) return {1, at.first};
+      bool on_side = false;
+      const std::uint32_t edge = beyond(1 - k, at, [&](std::uint32_t p, std::uint32_t q) {
+        const int sign = sense(k) * side(k, {v, v, v}, {apex, p, q});
+        on_side = on_side || sign == 0;
+        return sign;
+      });
+      last = at;
+      if (edge != kNone) {
+        at = cell(1 - k, other.half_edges[edge].twin);
+        continue;
+      }
+      if (above == 0) return {0, at.first};
+      for (std::uint32_t h = ring; on_side && h < ring + other.vertices[apex].ring_count; ++h) {
+        if (height(k, v, h) == 0) return {0, h};
+      }
+      break;
+    }
+    return {-1, at.first};
+  }
+
+  /// The facet that an edge of body k goes into, from p outside the other body to q; kNone where it misses that. `from` is a
+  /// facet below p, and becomes the last.
+  std::uint32_t entered(int k, std::uint32_t p, std::uint32_t q, Cell& from) const {
+    const ConvexView& other = view(1 - k);
+    Cell at = from;
+    for (std::size_t steps = other.half_edges.size(); steps > 0 && height(k, p, at.first) > 0; --steps) {
+      const std::uint32_t edge = beyond(1 - k, at, [&](std::uint32_t u, std::uint32_t w) {
+        return -sense(k) * side(k, {q, p, p}, {u, u, w});
+      });
+      from = at;
+      if (edge == kNone) return height(k, q, at.first) <= 0 ? at.first : kNone;
+      at = cell(1 - k, other.half_edges[edge].twin);
+    }
+    return kNone;
+  }
+
+  /// Where an edge of body k meets the other's surface; `inside` becomes false where a vertex of it is not inside.
+  std::optional<Crossing> along_edges(int k, bool& inside) {
+    const ConvexView &own = view(k), &other = view(1 - k);
+    inside = bounds_solid(other);
+    if (!inside) {
+      for (std::uint32_t h = 0; h < own.half_edges.size() && !other.face_first.empty(); ++h) {
+        if (h < own.half_edges[h].twin && pierces(k, h, other.face_first[0])) return named(k, h, other.face_first[0]);
+      }
+      return std::nullopt;
+    }
+    for (std::uint32_t v = 0; v < own.vertices.size(); ++v) {
+      const Place place = locate(k, v);
+      if (place.side < 0) continue;
+      inside = false;
+      Cell below = cell(1 - k, place.facet);
+      const Vertex& ring = own.vertices[v];
+      for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
+        const bool on = place.side == 0 && pierces(k, h, place.facet);
+        const std::uint32_t facet = on ? place.facet : place.side > 0 ? entered(k, v, own.half_edges[h].head, below) : kNone;
+        if (facet != kNone) return named(k, h, facet);
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// The same of both bodies, the smaller first; without any one body lies inside the other.
+  Crossing exactly(const Vec& x) {
+    for (const int k : {0, 1}) {
+      const ConvexView& own = view(k);
+      if (!bounds_solid(own)) continue;
+      std::uint32_t& apex = apex_[std::size_t(k)];  // in some vertex of a convex body no more than five edges meet
+      for (std::uint32_t v = 1; v < own.vertices.size(); ++v) {
+        if (own.vertices[v].ring_count < own.vertices[apex].ring_count) apex = v;
+      }
+      cell_[std::size_t(k)] = cell(k, own.half_edges[next_in_facet(own, own.vertices[apex].ring_begin)].twin);
+    }
+    const int smaller_one = scene_.a.extent < scene_.b.extent ? 0 : 1;
+    for (const int k : {smaller_one, 1 - smaller_one}) {
+      bool inside = false;
+      if (const auto found = along_edges(k, inside)) return *found;
+      if (inside) return inner(k, x);
+    }
+    return inner(bounds_solid(scene_.a) ? 1 : 0, x);
+  }
+
+  // ---- In doubles ----
+
+  /// A guess is worth no more than one look at each feature.
+  bool spent() const { return tests_ > most_tests_; }
+
+  /// Where the ray from a point inside leaves a body: after 1 / rate of its length; never, if the rate is not positive.
+  struct Exit {
+    std::uint32_t facet;
+    double rate, error;
+    bool ends_outside() const { return rate > 1 + error; }
+  };
+
+  /// Of any length; outward but where the pose reflects.
+  Vec normal(int k, std::uint32_t facet) const {
+    const ConvexView& own = view(k);
+    const Vec q = point(k, origin(own, facet));
+    return cross(point(k, own.half_edges[facet].head) - q, point(k, own.half_edges[next_in_facet(own, facet)].head) - q);
+  }
+
+  Exit through(int k, std::uint32_t facet, const Vec& p, const Vec& d) const {
+    const Vec n = normal(k, facet);
+    const double height = dot(n, point(k, origin(view(k), facet)) - p), along = dot(n, d);
+    ++tests_;
+    // In the plane of a facet, as a corner is: out at once, or never through it.
+    const double thin = scene_.point_error * norm(n);
+    if (std::fabs(height) <= thin) return {facet, std::fabs(along) <= thin ? 0 : kInfinity, 1};
+    return {facet, along / height, kExitError * thin / std::fabs(height)};
+  }
+
+  /// Facets seen from `p` are the vertices of the polar body, and the rate is linear over these: a climb ends at the greatest.
+  Exit leave(int k, const Vec& p, const Vec& d) {
+    Exit best = through(k, hint_[std::size_t(k)], p, d);
+    for (bool rises = true; rises && !spent();) {
+      rises = false;
+      each_edge_of_facet(k, best.facet, [&](std::uint32_t h) {
+        const Exit next = through(k, view(k).half_edges[h].twin, p, d);
+        if (next.rate > best.rate) best = next, rises = true;
+      });
+    }
+    hint_[std::size_t(k)] = best.facet;
+    return best;
+  }
+  Exit towards(int k, const Vec& x, const Vec& p) { return leave(k, x, p - x); }
+
+  /// From a point of both bodies halfway to where the way to each one's centre leaves the other.
+  Vec inner_point(Vec x) {
+    for (int k : {0, 1, 0, 1}) {
+      const Vec d = centre(k) - x;
+      const double rate = leave(1 - k, x, d).rate;
+      x = x + d * (0.5 / larger(1, rate));
+    }
+    return x;
+  }
+
+  /// A vertex of body k outside the other; kNone where few looks show none.
+  std::uint32_t outsider(int k, const Vec& x) {
+    const Vec apart = centre(k) - centre(1 - k);
+    std::uint32_t v = origin(view(k), hint_[std::size_t(k)]);
+    for (Vec n : {apart, Vec{1, 0, 0}, Vec{-1, 0, 0}, Vec{0, 1, 0}, Vec{0, -1, 0}, Vec{0, 0, 1}, Vec{0, 0, -1}}) {
+      for (int step = 0; step < kAimSteps && !spent(); ++step) {  // rounding may turn in a circle
+        const std::uint32_t farthest = extreme(k, rescaled(n), v);
+        if (step > 0 && farthest == v) break;
+        v = farthest;
+        const Exit exit = towards(1 - k, x, point(k, v));
+        if (exit.ends_outside()) return v;
+        const Vec facing = normal(1 - k, exit.facet);  // on from here, over the facet that the ray leaves through
+        n = dot(facing, point(k, v) - x) < 0 ? -facing : facing;
+      }
+    }
+    return kNone;
+  }
+
+  /// A corner of a facet of B outside A.
+  std::uint32_t corner_outside(std::uint32_t facet, const Vec& x) {
+    std::uint32_t found = kNone;
+    each_edge_of_facet(1, facet, [&](std::uint32_t h) {
+      if (found == kNone && towards(0, x, point(1, scene_.b.half_edges[h].head)).ends_outside())
+        found = scene_.b.half_edges[h].head;
+    });
+    return found;
+  }
+
+  std::optional<Crossing> between_outsiders(const Vec& x) {
+    const std::uint32_t v = outsider(0, x);
+    if (v == kNone) return std::nullopt;
+    const Exit first = towards(1, x, point(0, v));
+    std::uint32_t facet = first.facet, q = corner_outside(facet, x);
+    Vec p = x + (point(0, v) - x) * (1 / first.rate);
+    if (q == kNone) {
+      const std::uint32_t w = outsider(1, x);
+      if (w == kNone) return std::nullopt;
+      const Vec d = point(1, w) - x;
+      for (Exit at = through(1, facet, x, d); q == kNone;) {
+        Exit best = at;
+        std::uint32_t shared = kNone;
+        each_edge_of_facet(1, at.facet, [&](std::uint32_t h) {
+          const Exit next = through(1, scene_.b.half_edges[h].twin, x, d);
+          if (next.rate > best.rate) best = next, shared = scene_.b.half_edges[h].head;
+        });
+        if (shared == kNone || spent()) return std::nullopt;
+        p = point(1, shared);  // inside A, as all corners so far
+        at = best;
+        q = corner_outside(at.facet, x);
+        facet = at.facet;
+      }
+    }
+    const std::uint32_t other = towards(0, p, point(1, q)).facet;
+    if (const auto found = between(other, facet)) return found;
+    return around(corners(0, other), corners(1, facet));
+  }
+
+  std::array<std::uint32_t, 3> corners(int k, std::uint32_t facet) const {
+    const ConvexView& own = view(k);
+    return {origin(own, facet), own.half_edges[facet].head, own.half_edges[next_in_facet(own, facet)].head};
+  }
+
+  /// Body k lies inside the other.
+  Crossing inner(int k, const Vec& x) const {
+    const FeatureId any{FeatureKind::Vertex, 0};
+    return k == 0 ? Crossing{any, {}, x} : Crossing{{}, any, x};
+  }
+  const Scene& scene_;
+  std::uint32_t& tests_;
+  const std::size_t most_tests_;         ///< of guesses
+  std::array<std::uint32_t, 2> hint_{};  ///< the facet last seen of each
+  std::array<std::uint32_t, 2> apex_{};  ///< where all of a body is seen from
+  std::array<Cell, 2> cell_{};           ///< the one last seen from there
+};
+
+/// The distance from p to the segment from q0 to q1.
+double off_segment(const Vec& p, const Vec& q0, const Vec& q1) {
+  const Vec u = q1 - q0, r = p - q0;
+  const double t = dot(r, u) / dot(u, u);
+  return norm(r - u * (t > 0 ? smaller(t, 1) : 0.0));
+}
+
+template <class Body>
+FeatureId feature_at(const Body& body, FeatureId known, const Vec& p, double bound, std::uint32_t& tests) {
+  const ConvexView& view = body.view;
+  if (known.kind() != FeatureKind::Vertex || norm(p - body.point(known.index())) <= bound) return known;
+  double least = 2 * bound;
+  std::uint32_t nearest = kNone;
+  for (std::uint32_t facet = 0; facet < view.half_edges.size(); ++facet) {
+    // Planes of slivers are uncertain, their sides are not.
+    const Vec q = body.point(origin(view, facet)), tip = body.point(view.half_edges[facet].head),
+              n = cross(tip - q, body.point(view.half_edges[next_in_facet(view, facet)].head) - q);
+    const double height = std::fabs(dot(n, p - q)), length = norm(n);
+    ++tests;
+    double off = off_segment(p, q, tip);
+    bool above = length > 0 && height <= least * length;
+    for (std::uint32_t h = facet; above;) {
+      const Vec q0 = body.point(origin(view, h)), q1 = body.point(view.half_edges[h].head);
+      above = dot(cross(q1 - q0, p - q0), n) >= 0;
+      h = next_in_facet(view, h);
+      if (h == facet) break;
+    }
+    if (above) off = smaller(off, height / length);
+    if (off < least) least = off, nearest = facet;
+  }
+  if (nearest == kNone) return known;
+  FeatureId smallest{view.half_edges[nearest].face == kNone ? FeatureKind::Edge : FeatureKind::Face,
+                     view.half_edges[nearest].face == kNone ? nearest : view.half_edges[nearest].face};
+  std::uint32_t h = nearest;
+  do {
+    const std::uint32_t v0 = origin(view, h), v1 = view.half_edges[h].head;
+    if (norm(p - body.point(v0)) <= bound) return {FeatureKind::Vertex, v0};
+    if (!is_diagonal(view, h) && off_segment(p, body.point(v0), body.point(v1)) <= bound) smallest = {FeatureKind::Edge, h};
+    h = next_in_facet(view, h);
+  } while (h != nearest);
+  return smallest;
+}
+
+}  // namespace
+
+FeatureId feature_at_a(const Scene& scene, FeatureId known, const Vec& p, std::uint32_t& plane_tests) {
+  return feature_at(body_a(scene), known, p, scene.law_two, plane_tests);
+}
+FeatureId feature_at_b(const Scene& scene, FeatureId known, const Vec& p, std::uint32_t& plane_tests) {
+  return feature_at(body_b(scene), known, p, scene.law_two, plane_tests);
+}
+
+Crossing crossing(const Scene& scene, const OverlapProof& proof, std::uint32_t& plane_tests) {
+  return Search(scene, plane_tests).run(proof);
+}
+
+}  // namespace swiftlet

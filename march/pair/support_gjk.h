@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A cold start: from the line of centres towards the direction of the distance by steps of [Gilbert, Johnson & Keerthi 1988]
+// whose supports come from maps, one look-up each and no climb. Every step proves bounds. Knows one level pair.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include <swiftlet/march.h>
+
+#include "body/support_map.h"
+#include "pair/certify.h"
+#include "pair/pair_view.h"
+
+namespace swiftlet {
+
+/// What one step saw.
+struct Sight {
+  std::uint32_t a = 0, b = 0;  ///< supports along `normal` and against it, as the maps know them
+  double gap = 0;              ///< of these vertices along `normal`
+  double lower = 0;            ///< proved along `normal`: less than the gap by what the maps are uncertain of; may be negative
+  double most_lower = -std::numeric_limits<double>::infinity();  ///< of all steps so far: more steps never prove less
+  Vec lower_along{0, 0, 0};                                      ///< what that is proved along
+  double upper = 0;                                              ///< the distance of the points
+  Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};
+  bool near = false;                       ///< `a` and `b` lie no more than a few edges aside of each other: a walk is cheaper
+  std::uint32_t start_a = 0, start_b = 0;  ///< where a walk begins: the first supports that were near, else these
+  bool meets = false;  ///< the pair seems to overlap: the differences of `proof`'s vertices look to hold the origin
+  OverlapProof proof{};
+};
+
+/// The vertices of the Minkowski difference that a direction is taken from.
+class Simplex {
+ public:
+  struct Corner {
+    Vec p, a;  ///< b - a, and a, in the common frame
+    std::uint32_t va, vb;
+  };
+  struct Nearest {
+    Vec point{0, 0, 0};          ///< to the origin
+    int count = 0;               ///< of corners that hold it; 4: the simplex holds the origin
+    std::array<int, 4> index{};  ///< ascending
+    std::array<double, 4> weight{};
+  };
+
+  bool has(std::uint32_t va, std::uint32_t vb) const;
+  /// Adds a corner and finds the nearest point, the new corner among those that hold it.
+  Nearest add(const Corner& corner);
+  /// A point of A, and from there to one of B.
+  struct Points {
+    Vec a{0, 0, 0}, apart{0, 0, 0};
+  };
+  /// Keeps what holds the nearest point; returns the points that its weights stand for: of a triangle seen as a line the
+  /// nearest point is no combination of the corners, and off by more than rounding.
+  Points reduce(const Nearest& nearest);
+  OverlapProof proof() const;
+
+ private:
+  Nearest on_segment(int i, int j) const;
+  Nearest on_triangle(int i, int j, int k) const;
+  Nearest on_tetrahedron() const;
+
+  std::array<Corner, 4> corner_;
+  int count_ = 0;
+};
+
+/// What maps say along one direction, of any length.
+struct Glimpse {
+  Vec normal{0, 0, 0};                 ///< the direction at length 1; 0 where it names none
+  std::uint32_t a = 0, b = 0;          ///< supports along it and against it, as the maps know them
+  Vec point{0, 0, 0}, apart{0, 0, 0};  ///< A's, and from there to B's
+  double gap = 0, lower = 0;           ///< as in Sight
+};
+/// Looks up before the length is known: cells are where a direction of any length goes.
+static inline Glimpse glimpse(const Scene& scene, const Level& a, const Level& b, const Vec& direction) {
+  const Moved other = body_b(scene);
+  const MapSupport top_a = look_up(a, direction), top_b = look_up(b, -other.into(direction));
+  const Vec q = body_a(scene).point(top_a.vertex), p = other.point(top_b.vertex) - q;
+  const auto [n, scale] = unit_of(direction);
+  return {n, top_a.vertex, top_b.vertex, q, p, dot(n, p), gap(scene, n, p, (top_a.excess + top_b.excess) * scale)};
+}
+
+/// Looks on from what was seen, until a sight is enough or nothing changes. Both levels have maps. Supports that overlap by
+/// less than `hidden` count as near too.
+template <class Enough>
+Sight look(const Scene& scene, const Level& a, const Level& b, double hidden, Glimpse seen, Enough enough) {
+  const double few = kAimEdges * (a.edge_length + b.edge_length);
+  Simplex simplex;
+  Sight s;
+  bool was_near = false;
+  s.upper = std::numeric_limits<double>::infinity();
+  for (int steps = 0;; ++steps) {
+    const Vec &n = seen.normal, &q = seen.point, &p = seen.apart;
+    s.a = seen.a, s.b = seen.b;
+    s.gap = seen.gap, s.lower = seen.lower;
+    s.normal = n;
+    if (s.lower > s.most_lower) s.most_lower = s.lower, s.lower_along = n;
+    const double upper = norm(p) * (1 + kNormError) + scene.point_error;
+    if (upper < s.upper) s.upper = upper, s.point_a = q, s.point_b = q + p;
+    const Vec aside = p - n * s.gap;
+    s.near = s.gap > -hidden && dot(aside, aside) <= few * few;
+    if (!was_near) s.start_a = s.a, s.start_b = s.b;
+    was_near = was_near || s.near;
+    if (enough(s) || steps == kAimSteps || simplex.has(s.a, s.b)) return s;
+    const Simplex::Nearest nearest = simplex.add({p, q, s.a, s.b});
+    if (nearest.count == 4) {
+      s.meets = true;
+      s.proof = simplex.proof();
+      return s;
+    }
+    const Simplex::Points points = simplex.reduce(nearest);
+    const double distance = norm(nearest.point), nearer = norm(points.apart) * (1 + kNormError) + scene.point_error;
+    if (nearer < s.upper) s.upper = nearer, s.point_a = points.a, s.point_b = points.a + points.apart;
+    if (!(distance > scene.point_error)) return s;
+    seen = glimpse(scene, a, b, nearest.point);
+  }
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Each state finds the nearest points of its two closed features. A point on a feature's boundary drops to the boundary; else
+// the feature rises to the neighbour that is highest along the direction between them; where both features have one, on the way
+// to which the distance falls faster. Mirrored states run with the roles swapped.
+//
+//     VV  --ring-->  VE  --ring-->  EE  --face--> over the face
+//     VV <--clamp--  VE <--clamp--  EE
+//                    VE --face-->   VF  --ring--> over the face: to VF, EE with a side of it, or Inside
+//                    VE <--side---  VF
+//
+// Where we leave the paper: nearest points on closed features instead of clipped intervals with derivatives, so that no state
+// carries values from the one before (its stale values looped); vertex to vertex in one step where the whole edge falls; an
+// edge is taken over a face and down to where it ends in one step, so that the two are no state.
+//
+// A state is computed in the frame of its second body, and a ring in its own body's, so that of all points read only the
+// first body's feature is carried over. Of a state's choices the likely ones are taken without branches, which processors
+// would guess wrong every other time.
+#include "pair/walk.h"
+
+#include <limits>
+
+#include "pair/prism.h"
+
+namespace swiftlet {
+namespace {
+
+constexpr FeatureId vertex(std::uint32_t index) { return {FeatureKind::Vertex, index}; }
+constexpr FeatureId edge(std::uint32_t half_edge) { return {FeatureKind::Edge, half_edge}; }
+constexpr FeatureId face(std::uint32_t index) { return {FeatureKind::Face, index}; }
+
+/// Where a state leads: the next features, in the order of its arguments. A minimum leads to itself.
+struct Move {
+  FeatureId first, second;
+  double distance2;  ///< between the features left, for the stall guard
+};
+
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
+
+/// What rises highest along a direction of all that stands beside a feature: the distance falls on the way there if it is above
+/// the feature.
+struct Rise {
+  std::uint32_t to = kNone;    ///< half-edge of a ring, or face
+  double highest = -kUnknown;  ///< what it rises, times the direction's length
+  double length2 = 1;          ///< of the way there, squared
+  bool falls() const { return highest > 0; }
+  /// Of the fall, squared; less than any where there is none. Of slivers rounding leaves a length of 0 or less.
+  double rate2() const { return falls() ? highest / larger(std::numeric_limits<double>::denorm_min(), length2) * highest : -1; }
+};
+
+class Marcher {
+ public:
+  /// States read and end `walk`.
+  Marcher(PlaneRule rule, Walk& walk) : first_only_(rule == PlaneRule::FirstViolated), walk_(walk) {}
+
+  template <class P, class Q>
+  Move vertex_vertex(P a, std::uint32_t va, Q b, std::uint32_t vb) {
+    const Vec d = b.point(vb) - a.point(va);
+    const Rise from_a = ring(a, va, a.into(d)), from_b = ring(b, vb, b.into(-d));
+    const double distance2 = dot(d, d);
+    if (from_a.falls() && from_b.falls()) {
+      if (from_a.rate2() > from_b.rate2()) return {along(a, from_a), edge(from_b.to), distance2};
+      return {edge(from_a.to), along(b, from_b), distance2};
+    }
+    if (from_a.falls()) return {along(a, from_a), vertex(vb), distance2};
+    if (from_b.falls()) return {vertex(va), along(b, from_b), distance2};
+    end(a, {d, only(va), only(vb), from_a.highest, from_b.highest});
+    return {vertex(va), vertex(vb), distance2};
+  }
+
+  template <class P, class Q>
+  Move vertex_edge(P a, std::uint32_t va, Q b, std::uint32_t h) {
+    const std::uint32_t v0 = origin(b.view, h), v1 = b.view.half_edges[h].head;
+    const Vec q0 = b.own(v0), u = b.own(v1) - q0, r = b.local(a.point(va)) - q0;
+    const double length2 = dot(u, u), s = dot(r, u) / length2;
+    walk_.plane_tests += 2;
+    if (!(s > 0)) return {vertex(va), vertex(v0), dot(r, r)};
+    if (s >= 1) return {vertex(va), vertex(v1), dot(r - u, r - u)};
+    const Vec up = across(r - u * s, u, length2), down = b.turned(-up);
+    const double distance2 = dot(up, up);
+    const Rise rise = sides(b, v0, h, q0, u, up);
+    if (first_only_ && rise.falls()) return {vertex(va), face(rise.to), distance2};
+    const Rise from_a = ring(a, va, a.into(down));
+    if (!rise.falls() && !from_a.falls()) {
+      end(a, {down, only(va), between(v0, v1, s), from_a.highest, rise.highest});
+      return {vertex(va), edge(h), distance2};
+    }
+    if (rise.rate2() > from_a.rate2()) return {vertex(va), face(rise.to), distance2};
+    return {along(a, from_a), edge(h), distance2};
+  }
+
+  template <class P, class Q>
+  Move vertex_face(P a, std::uint32_t va, Q b, std::uint32_t f) {
+    const Prism prism(b, f);
+    const Vec p = b.local(a.point(va));
+    if (const std::uint32_t side = leave(prism, p); side != kNone) return {vertex(va), edge(side), kUnknown};
+    const double height = prism.height(p), distance2 = height / dot(prism.normal(), prism.normal()) * height;
+    if (!(height > 0)) return inside(vertex(va), face(f), distance2);
+    const Vec towards = b.turned(-prism.normal());
+    const Rise down = ring(a, va, a.into(towards));
+    if (!down.falls()) {
+      end(a, {towards, only(va), below(b, f, p), down.highest, kUnknown});
+      return {vertex(va), face(f), distance2};
+    }
+    const std::uint32_t to = a.view.half_edges[down.to].head;
+    return over_face(down.to, to, p, b.local(a.point(to)) - p, prism, f, distance2);
+  }
+
+  template <class P, class Q>
+  Move edge_edge(P a, std::uint32_t ha, Q b, std::uint32_t hb) {
+    const std::uint32_t a0 = origin(a.view, ha), a1 = a.view.half_edges[ha].head, b0 = origin(b.view, hb),
+                        b1 = b.view.half_edges[hb].head;
+    const Vec own_a = a.own(a0), along_a = a.own(a1) - own_a;
+    const Vec p0 = b.local(a.point(a0)), u = b.into(a.turned(along_a)), q0 = b.own(b0), v = b.own(b1) - q0;
+    const double uu = dot(u, u), vv = dot(v, v);
+    const Parameters at = nearest_on_segments(p0, u, uu, q0, v, vv);
+    const Vec p = p0 + u * at.s, q = q0 + v * at.t, d = q - p;
+    const double distance2 = dot(d, d);
+    walk_.plane_tests += 4;
+    const bool end_a = at.s == 0 || at.s == 1, end_b = at.t == 0 || at.t == 1;
+    if (end_a || end_b) {
+      return {end_a ? vertex(at.s == 0 ? a0 : a1) : edge(ha), end_b ? vertex(at.t == 0 ? b0 : b1) : edge(hb), distance2};
+    }
+    const Vec n = between_edges(u, uu, v, vv, d), normal = b.turned(n);
+    const Rise rise_a = sides(a, a0, ha, own_a, along_a, a.into(normal));
+    const Rise rise_b = first_only_ && rise_a.falls() ? Rise{} : sides(b, b0, hb, q0, v, -n);
+    if (!rise_a.falls() && !rise_b.falls()) {
+      end(a, {normal, between(a0, a1, at.s), between(b0, b1, at.t), rise_a.highest, rise_b.highest});
+      return {edge(ha), edge(hb), distance2};
+    }
+    if (rise_a.rate2() >= rise_b.rate2())
+      return swapped(edge_over_face(hb, b0, b1, a.local(b.common(q)), a.into(b.turned(v)), at.t, a, rise_a.to, distance2));
+    return edge_over_face(ha, a0, a1, p, u, at.s, b, rise_b.to, distance2);
+  }
+
+  static Move swapped(const Move& m) { return {m.second, m.first, m.distance2}; }
+
+ private:
+  /// `seen` in the order of the state's arguments, of which `a` is the first.
+  void end(Resting, const Witness& seen) { walk_.end = WalkEnd::Minimum, walk_.witness = seen; }
+  void end(Moved, const Witness& seen) { walk_.end = WalkEnd::Minimum, walk_.witness = swiftlet::swapped(seen); }
+  Move inside(FeatureId first, FeatureId second, double distance2) {
+    walk_.end = WalkEnd::Inside;
+    return {first, second, distance2};
+  }
+
+  // From here on all is in the body's own frame.
+
+  /// Among the neighbours of a vertex, the highest along `d`. The steepest would take fewer states and more time.
+  template <class P>
+  Rise ring(P body, std::uint32_t v, const Vec& d) {
+    const Vertex& record = body.view.vertices[v];
+    const Vec p = vec(record);
+    const std::uint32_t begin = record.ring_begin, end = begin + record.ring_count;
+    Rise rise;
+    std::uint32_t h = begin;
+    for (; h < end && !(first_only_ && rise.falls()); ++h) {
+      const double along_d = dot(d, body.own(body.view.half_edges[h].head) - p);
+      rise.to = along_d > rise.highest ? h : rise.to;
+      rise.highest = larger(along_d, rise.highest);
+    }
+    walk_.plane_tests += h - begin;
+    if (!rise.falls()) return rise;
+    const Vec e = body.own(body.view.half_edges[rise.to].head) - p;
+    rise.length2 = dot(e, e);
+    return rise;
+  }
+
+  /// To where the fall along an edge ends: on it, or at its head.
+  template <class P>
+  static FeatureId along(P body, const Rise& ring) {
+    return ring.highest >= ring.length2 ? vertex(body.view.half_edges[ring.to].head) : edge(ring.to);
+  }
+
+  /// Of the two faces beside an edge q0 + s u from vertex `v0`, the one whose other edge there rises higher along `d`, which is
+  /// perpendicular to u.
+  template <class Q>
+  Rise sides(Q body, std::uint32_t v0, std::uint32_t h, const Vec& q0, const Vec& u, const Vec& d) {
+    const Vertex& record = body.view.vertices[v0];
+    const std::uint32_t left = counter_clockwise(record, h), right = clockwise(record, h);
+    if (left == h) return {};  // a segment
+    const Vec to_left = body.own(body.view.half_edges[left].head) - q0,
+              to_right = body.own(body.view.half_edges[right].head) - q0;
+    const double left_rise = dot(d, to_left), right_rise = dot(d, to_right);
+    walk_.plane_tests += 2;
+    Rise rise;
+    rise.highest = larger(left_rise, right_rise);
+    if (!rise.falls()) return rise;
+    const bool is_left = first_only_ ? left_rise > 0 : left_rise > right_rise;
+    const Vec r = is_left ? to_left : to_right;
+    rise.to = body.view.half_edges[is_left ? h : right].face;
+    rise.length2 = dot(r, r) - dot(r, u) * dot(r, u) / dot(u, u);
+    return rise;
+  }
+
+  /// The side of a face's prism that `p` is farthest beyond.
+  template <class Q>
+  std::uint32_t leave(const Prism<Q>& prism, const Vec& p) {
+    std::uint32_t out = kNone;
+    double farthest2 = 0;
+    walk_.plane_tests += prism.each_side(p, {0, 0, 0}, [&](std::uint32_t side, const Vec& u, double beyond, double) {
+      if (!(beyond > 0) || (first_only_ && out != kNone)) return;
+      const double violation2 = beyond / dot(u, u) * beyond;  // eighth powers of small bodies underflow
+      if (violation2 > farthest2) out = side, farthest2 = violation2;
+    });
+    return out;
+  }
+
+  /// Edge `h`, from `tail` along u to `head`, from its point p at s on: over a face that rises towards p.
+  template <class Q>
+  Move edge_over_face(std::uint32_t h, std::uint32_t tail, std::uint32_t head, const Vec& p, const Vec& u, double s, Q body,
+                      std::uint32_t f, double distance2) {
+    const Prism prism(body, f);
+    const bool forward = dot(prism.normal(), u) < 0;
+    return over_face(h, forward ? head : tail, p, u * (forward ? 1 - s : -s), prism, f, distance2);
+  }
+
+  /// The part p + x e of edge `h` that falls towards a face, x from 0 to 1 at vertex `to`: there, or to the side where it
+  /// leaves the face's prism, if it does not get below the face before.
+  template <class Q>
+  Move over_face(std::uint32_t h, std::uint32_t to, const Vec& p, const Vec& e, const Prism<Q>& prism, std::uint32_t f,
+                 double distance2) {
+    double exit = 1;
+    std::uint32_t out = kNone;
+    walk_.plane_tests += prism.each_side(p, e, [&](std::uint32_t side, const Vec&, double beyond, double slope) {
+      if (beyond > 0)
+        exit = 0, out = side;
+      else if (beyond + slope > 0 && -beyond < exit * slope)
+        exit = -beyond / slope, out = side;
+    });
+    if (exit > 0 && !(prism.height(p) + exit * dot(prism.normal(), e) > 0)) return inside(edge(h), face(f), distance2);
+    if (out == kNone) return {vertex(to), face(f), distance2};
+    return {edge(h), edge(out), distance2};
+  }
+
+  const bool first_only_;
+  Walk& walk_;
+};
+
+/// The state of a feature pair. A face and an edge or face is none: a vertex or an edge of one is as near.
+template <class A, class B>
+Move state(Marcher& march, A a, FeatureId fa, B b, FeatureId fb) {
+  using enum FeatureKind;
+  const std::uint32_t i = fa.index(), j = fb.index();
+  switch (fa.kind()) {
+    case Vertex:
+      if (fb.kind() == Vertex) return march.vertex_vertex(a, i, b, j);
+      if (fb.kind() == Edge) return march.vertex_edge(a, i, b, j);
+      return march.vertex_face(a, i, b, j);
+    case Edge:
+      if (fb.kind() == Vertex) return march.swapped(march.vertex_edge(b, j, a, i));
+      return march.edge_edge(a, i, b, j);
+    default: return march.swapped(march.vertex_face(b, j, a, i));
+  }
+}
+
+}  // namespace
+
+Walk walk(const Scene& scene, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget) {
+  Walk result;
+  result.a = a;
+  result.b = b;
+  if (a.kind() == FeatureKind::Edge && b.kind() == FeatureKind::Face) result.a = vertex(origin(scene.a, a.index()));
+  if (b.kind() == FeatureKind::Edge && a.kind() == FeatureKind::Face) result.b = vertex(origin(scene.b, b.index()));
+  Marcher march(rule, result);
+  double distance2, least2 = kUnknown;
+  std::uint32_t stalled = 0;
+  do {
+    const Move move = state(march, body_a(scene), result.a, body_b(scene), result.b);
+    distance2 = move.distance2;
+    stalled = (stalled + 1) * !(distance2 < least2);
+    least2 = smaller(least2, distance2);
+    result.steps += 1 - (move.first == result.a) * (move.second == result.b);
+    result.a = move.first;
+    result.b = move.second;
+    if (stalled >= kStallLimit && result.end == WalkEnd::Budget) result.end = WalkEnd::Stalled;
+  } while (result.end == WalkEnd::Budget && result.steps < step_budget);
+  result.distance = std::sqrt(result.end == WalkEnd::Minimum ? distance2 : least2);
+  return result;
+}
+
+}  // namespace swiftlet

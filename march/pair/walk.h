@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Voronoi marching on one level pair [Ehmann & Lin 2000, sec. 5.1]: from any feature pair to one that looks nearest in doubles.
+// Proves nothing: see certify.h.
+#pragma once
+
+#include <cstdint>
+
+#include <swiftlet/march.h>
+
+#include "pair/pair_view.h"
+#include "pair/witness.h"
+
+namespace swiftlet {
+
+enum class WalkEnd : std::uint8_t {
+  Minimum,  ///< no Voronoi plane of either feature is violated
+  Inside,   ///< a vertex below a face, or an edge through one: overlapping, or a start behind the body
+  Stalled,  ///< kStallLimit states did not shorten the distance
+  Budget,
+};
+
+struct Walk {
+  WalkEnd end = WalkEnd::Budget;
+  FeatureId a, b;       ///< kinds VV, VE, EV, EE, VF, FV; with Inside also EF and FE
+  double distance = 0;  ///< between the features, rounded; what Minimum found, elsewhere the least seen
+  std::uint32_t steps = 0, plane_tests = 0;
+  Witness witness;  ///< with Minimum: what the last state saw
+};
+
+/// `a` and `b` name features of the scene's views, not both faces.
+Walk walk(const Scene& scene, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget);
+
+}  // namespace swiftlet

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What two closed features say of the distance: the direction between them and a point of each. A walk's last state fills it on
+// the way, any other pair is asked afresh.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "body/half_edge.h"
+#include "pair/pair_view.h"
+
+namespace swiftlet {
+
+/// A convex combination of vertices of one body, those with weights first.
+struct Combination {
+  std::array<std::uint32_t, 3> vertex;
+  std::array<double, 3> weight;
+};
+static inline Combination only(std::uint32_t v) { return {{v, v, v}, {1, 0, 0}}; }
+static inline Combination between(std::uint32_t tail, std::uint32_t head, double t) {
+  if (t == 0) return only(tail);
+  if (t == 1) return only(head);
+  return {{tail, head, head}, {1 - t, t, 0}};
+}
+
+/// The direction comes from the features, not from the difference of two close points: from the difference, a cube's corner
+/// 1e-8 above a face certifies only to 2e-8, from the face normal to 6e-16.
+struct Witness {
+  Vec normal;  ///< from the first body to the second, common frame, any length
+  Combination first, second;
+  /// What stands beside each feature rises no higher above it along the normal, times the normal's length, but for kRiseError
+  /// of the body's reach. Infinite where nobody looked.
+  double rise_first, rise_second;
+};
+static inline Witness swapped(const Witness& w) { return {-w.normal, w.second, w.first, w.rise_second, w.rise_first}; }
+
+/// `d` without its part along `u`, of squared length `uu`.
+static inline Vec across(const Vec& d, const Vec& u, double uu) { return d - u * (dot(d, u) / uu); }
+
+/// The direction from one edge's line to another's, along `u` and `v`, on the side of `d`, which is between them.
+static inline Vec between_edges(const Vec& u, double uu, const Vec& v, double vv, const Vec& d) {
+  const Vec n = cross(u, v);
+  // Edges within the rounding of parallel have no cross product worth the name.
+  return !(dot(n, n) > kU * uu * vv) ? across(d, u, uu) : dot(n, d) < 0 ? -n : n;
+}
+
+/// Nearest points p0 + s u and q0 + t v of two segments.
+struct Parameters {
+  double s, t;  ///< in [0, 1]
+};
+/// [Ericson 2004, sec. 5.1.9], and s once more from t, so that nearly parallel lines keep their difference perpendicular.
+static inline Parameters nearest_on_segments(const Vec& p0, const Vec& u, double uu, const Vec& q0, const Vec& v, double vv) {
+  const auto clamp = [](double x) { return smaller(1, larger(0, x)); };
+  const Vec r = p0 - q0;
+  const double uv = dot(u, v), ur = dot(u, r), vr = dot(v, r), area2 = uu * vv - uv * uv;
+  const double s = area2 > 0 ? clamp((uv * vr - ur * vv) / area2) : 0.0, t = clamp((uv * s + vr) / vv);
+  return {clamp((uv * t - ur) / uu), t};
+}
+
+/// The point of a face below `p`, both in the body's own frame. A point beside the face goes to the last triangle of its fan.
+template <class Q>
+Combination below(const Q& body, std::uint32_t f, const Vec& p) {
+  const ConvexView& view = body.view;
+  const std::uint32_t first = view.face_first[f], root = origin(view, first);
+  const Vec q0 = body.own(root), r = p - q0;
+  for (std::uint32_t v1 = view.half_edges[first].head, h = next_in_face(view, first);;
+       v1 = view.half_edges[h].head, h = next_in_face(view, h)) {
+    const std::uint32_t v2 = view.half_edges[h].head;
+    const Vec u = body.own(v1) - q0, v = body.own(v2) - q0, area = cross(u, v);
+    const Vec n = f < view.planes.size() ? Vec{view.planes[f].x, view.planes[f].y, view.planes[f].z} : area;
+    const double w1 = dot(n, cross(r, v)), w2 = dot(n, cross(u, r)), w0 = dot(n, area) - w1 - w2;
+    if ((w2 >= 0 && w1 >= 0) || view.half_edges[next_in_face(view, h)].head == root) {
+      const double c0 = larger(w0, 0), c1 = larger(w1, 0), c2 = larger(w2, 0), sum = c0 + c1 + c2;
+      if (!(sum > 0)) return only(root);
+      return {{root, v1, v2}, {c0 / sum, c1 / sum, c2 / sum}};
+    }
+  }
+}
+
+/// An outward normal of a face in the body's own frame, of any length.
+template <class Q>
+Vec face_normal(const Q& body, std::uint32_t f) {
+  if (f < body.view.planes.size()) return {body.view.planes[f].x, body.view.planes[f].y, body.view.planes[f].z};
+  const std::uint32_t h = body.view.face_first[f];
+  const Vec q0 = body.own(origin(body.view, h)), q1 = body.own(body.view.half_edges[h].head);
+  return cross(q1 - q0, body.own(body.view.half_edges[next_in_facet(body.view, h)].head) - q0);
+}
+
+/// Of features of any kinds but two faces; of a feature beside a face, one of its vertices.
+Witness witness(const Scene& scene, FeatureId a, FeatureId b);
+
+/// A vertex of a feature.
+std::uint32_t any_vertex(const ConvexView& view, FeatureId feature);
+
+}  // namespace swiftlet

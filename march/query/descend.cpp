@@ -1,0 +1,419 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Nothing of a walk but two features survives a change of level: the classics carried more, and looped on up to 5 % of queries.
+#include "query/descend.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pair/certify.h"
+#include "pair/conclude.h"
+#include "pair/gjk.h"
+#include "pair/overlap.h"
+#include "pair/start.h"
+#include "pair/support_gjk.h"
+#include "pair/walk.h"
+#include "query/model_pair.h"
+#include "query/seed.h"
+#include "query/separating_axis.h"
+
+namespace swiftlet {
+namespace {
+
+class Descent {
+ public:
+  Descent(const ModelPair& pair, const Limits& limits, const Target& target, const Glance& first, Answer& answer,
+          OverlapProof& proof)
+      : pair_(pair),
+        a_(pair.a),
+        b_(pair.b),
+        line_(line_of_centres(pair.motion, pair.line)),
+        budget_(limits.budget),
+        tuning_(limits.tuning),
+        trace_(limits.trace),
+        target_(target),
+        law_two_(pair.law_two),
+        finest_a_(pair.finest_a),
+        finest_b_(pair.finest_b),
+        exact_(target.absolute == 0 && target.relative == 0 && limits.tuning.start != StartPolicy::Paper &&
+               !target.is_threshold()),
+        first_(first),
+        answer_(answer),
+        proof_(proof) {}
+
+  void start(PairSeed& seed) {
+    Place place = first_place(a_, b_, line_, seed, finest_a_, finest_b_, tuning_.start);
+    const bool warm = is_warm(place.start);
+    const bool walked = warm && march(place, pair_.may_look);
+    const bool seen = !walked && pair_.may_look && aim(place, last_direction(line_.in_a, seed));
+    if (!walked && !seen) march(place, false);
+    const bool met = met_ == MarchStatus::Overlapping;
+    if (seen && (target_.is_threshold() || !met)) {  // vertices that were only looked at are no better start than none
+      remember(line_, vec(answer_.normal), seed);
+      seed.a = seed.b = {};
+      seed.met = met;
+    } else {
+      store(place, seed);
+    }
+    finish(place);
+  }
+
+  /// From where another descent ended.
+  void go_on(PairSeed& seed) {
+    Place place{std::clamp(int(answer_.level_a), a_.finest_level(), a_.level_count() - 1),
+                std::clamp(int(answer_.level_b), b_.finest_level(), b_.level_count() - 1),
+                {answer_.feature_a, answer_.feature_b}};
+    answer_.steps = answer_.plane_tests = 0;
+    answer_.levels_visited = 0;
+    place.start = settled(scene_at(place), place.start, answer_.plane_tests);
+    met_ = met_before();
+    if (!answered() && met_ == MarchStatus::NotConverged) narrow_down(place);
+    if (tuning_.start != StartPolicy::Coarsest) store(place, seed);  // whose seed is the first descent's
+    finish(place);
+  }
+
+ private:
+  static bool is_warm(const MarchStart& start) { return start.a.kind() != FeatureKind::None; }
+  static bool same_levels(const Place& x, const Place& y) { return x.level_a == y.level_a && x.level_b == y.level_b; }
+  bool finest(const Place& place) const { return place.level_a == finest_a_ && place.level_b == finest_b_; }
+  Scene scene_at(const Place& place) const { return pair_.scene_at(place); }
+  double deviation(int level_a, int level_b) const { return pair_.deviation(level_a, level_b); }
+  /// Certified progress may have taken one more than the budget.
+  std::uint32_t steps_left() const { return budget_.steps - std::min(answer_.steps, budget_.steps); }
+  /// Where nothing is allowed, nothing is narrow: an exact answer is known by its verdict.
+  double allowed(double lower) const {
+    return larger(target_.absolute, target_.relative * (lower - target_.zero)) - target_.rounding;
+  }
+  bool narrow(double lower, double width) const { return allowed(lower) > 0 && width <= allowed(lower); }
+  /// How wide the bounds of a coarse pair may be that deviates by `error`, rounding set aside: to prove more of it, such as
+  /// that its levels overlap, takes vertices from all around both.
+  double width_left(double error) const { return error > 0 ? larger(0, allowed(answer_.lower) * (1 - 8 * kU) - error) : 0; }
+  /// Thresholds are passed only by more than law 2's bound: nearer, what can be proved depends on the start.
+  bool clears(double lower) const { return lower > target_.clear_above + law_two_; }
+  bool answers(double lower, double upper) const {
+    return clears(lower) || narrow(lower, upper - lower) || upper < target_.hit_below - law_two_;
+  }
+  bool answered() const { return answers(answer_.lower, answer_.upper); }
+
+  /// From a pair that was not narrow enough to finer ones.
+  void narrow_down(Place& place) {
+    if (!finest(place)) place = refined(place);
+    const bool has_maps = pair_.may_look && place.level_a >= a_.map_level() && place.level_b >= b_.map_level();
+    if (has_maps && aim(place, vec(answer_.normal))) return;
+    march(place, false);
+  }
+
+  /// What an answer that cannot be narrowed says of the exact hulls.
+  MarchStatus met_before() const {
+    if (answer_.level_a != 0 || answer_.level_b != 0 || !(answer_.upper - answer_.lower <= larger(law_two_, target_.exact)))
+      return MarchStatus::NotConverged;
+    switch (answer_.verdict) {
+      case Verdict::Overlapping: return MarchStatus::Overlapping;
+      case Verdict::Touching: return MarchStatus::Touching;
+      case Verdict::Disjoint: return MarchStatus::Disjoint;
+      default: return MarchStatus::NotConverged;
+    }
+  }
+
+  /// The coarsest pair with maps that is likely to answer bodies no farther apart than `distance`, or the finest.
+  Place sight_for(double distance) const {
+    const int most_a = a_.level_count() - 1, most_b = b_.level_count() - 1;
+    Place place = pair_.finest_sight();
+    while (place.level_a < most_a || place.level_b < most_b) {
+      const Place coarser{std::min(place.level_a + 1, most_a), std::min(place.level_b + 1, most_b), {}};
+      if (!narrow(distance, kSightShare * pair_.sight_error(coarser))) break;
+      place = coarser;
+    }
+    return place;
+  }
+
+  /// Looks along support maps, where a glance did or on the coarsest pair that might answer, then on each finer one.
+  /// Whether that answers; else `place` becomes where to walk from. Each pair is looked at afresh, from the same direction, and
+  /// none is passed over: a looser tolerance sees all that a tighter one does, or stops earlier.
+  bool aim(Place& place, const Vec& likely) {
+    const bool glanced = max_abs(first_.seen.normal) > 0;
+    const Vec direction = glanced ? first_.seen.normal : max_abs(likely) > 0 ? likely : line_.in_a;
+    const Place least = pair_.finest_sight();
+    place = glanced ? first_.at : exact_ ? least : sight_for(norm(line_.in_a));
+    for (;;) {
+      const bool last = same_levels(place, least);
+      const Scene pair = scene_at(place);
+      const Level &of_a = a_.level(place.level_a), &of_b = b_.level(place.level_b);
+      const double error = deviation(place.level_a, place.level_b);
+      const Glimpse seen = glanced && same_levels(place, first_.at) ? first_.seen : glimpse(pair, of_a, of_b, direction);
+      const Sight sight = look(pair, of_a, of_b, error, seen, [&](const Sight& s) {
+        if (exact_) return s.near;
+        const double lower = larger(answer_.lower, s.most_lower), upper = smaller(answer_.upper, s.upper + error);
+        if (answers(lower, upper) || (!last && !narrow(upper, error))) return true;
+        const double doubt = s.gap > 0 ? kDoubtShare * (s.gap - s.lower) + error : kHiddenShare * error;
+        return s.near && !narrow(lower, doubt);
+      });
+      take(place, sight, pair);
+      if (target_.is_threshold() && last && !answered() && sight.gap > target_.clear_above) climb(place, sight, pair);
+      if (answered() || (sight.meets && overlap(place, sight))) return record(place), true;
+      if (!target_.is_threshold()) place.start = {{FeatureKind::Vertex, sight.start_a}, {FeatureKind::Vertex, sight.start_b}};
+      if (finest(place)) return false;  // a walk on the same pair follows
+      record(place);
+      if (last) return place = refined(place), false;
+      place = {std::max(place.level_a - 1, least.level_a), std::max(place.level_b - 1, least.level_b), {}};
+    }
+  }
+
+  /// The same direction, by supports that a climb makes certain: maps are uncertain by some 1e-3 of a body.
+  void climb(Place& place, const Sight& s, const Scene& pair) {
+    const auto [va, vb, lower] = supports(pair, s.normal, s.a, s.b, answer_.plane_tests);
+    place.start = {{FeatureKind::Vertex, va}, {FeatureKind::Vertex, vb}};
+    const Vec p = body_a(pair).point(va), q = body_b(pair).point(vb);
+    carry(place, {std::max(0.0, lower), apart(pair, va, vb), s.normal, p, q}, pair.law_two);
+  }
+  void take(Place& place, const Sight& s, const Scene& pair) {
+    place.start = {{FeatureKind::Vertex, s.a}, {FeatureKind::Vertex, s.b}};
+    carry(place, {std::max(0.0, s.most_lower), s.upper, s.lower_along, s.point_a, s.point_b}, pair.law_two);
+  }
+
+  /// Whether the vertices that seem to meet prove that the exact hulls do: their descendants on level 0.
+  bool overlap(Place& place, const Sight& sight) {
+    OverlapProof proof = sight.proof;
+    if (finest_a_ != 0 || finest_b_ != 0) return false;
+    for (std::size_t k = 0; k < proof.count; ++k) {
+      proof.vertex_a[k] = descendant(a_, place.level_a, proof.vertex_a[k]);
+      proof.vertex_b[k] = descendant(b_, place.level_b, proof.vertex_b[k]);
+    }
+    const Scene pair = scene_at({0, 0, {}});
+    if (!proves_deep_overlap(pair, proof)) return false;
+    place = {0, 0, {}};
+    take_overlap(pair, place, sight.normal, proof);
+    return true;
+  }
+
+  /// Whether features at which a walk got inside prove that the levels overlap, with what the maps say is behind them.
+  bool overlap(const Scene& pair, const Place& place) {
+    if (!pair_.may_look) return false;
+    const Vec n = across(pair, place.start);
+    const std::uint32_t behind_a = about_farthest(a_, place.level_a, -n),
+                        behind_b = about_farthest(b_, place.level_b, body_b(pair).into(n));
+    OverlapProof proof;
+    if (!meet(pair, place.start, behind_a, behind_b, proof)) return false;
+    take_overlap(pair, place, normalised(n), proof);
+    return true;
+  }
+  void take_overlap(const Scene& pair, const Place& place, const Vec& normal, const OverlapProof& proof) {
+    met_ = MarchStatus::Overlapping;
+    answer_.lower = 0;
+    answer_.upper = std::numeric_limits<double>::infinity();
+    const Vec common = surely_common_point(pair, proof);
+    carry(place, {0, 0, normal, common, common, proof}, pair.law_two);
+  }
+
+  /// Walks and certifies from level pair to finer level pair until the question is answered; false when the start turned out to
+  /// be worse than none, and `may_give_up`.
+  bool march(Place& place, bool may_give_up) {
+    for (;;) {
+      const Scene pair = scene_at(place);
+      const bool last = finest(place);
+      met_ = MarchStatus::NotConverged;
+      place.start = settled(pair, place.start, answer_.plane_tests);
+      const Walk walked =
+          walk(pair, place.start.a, place.start.b, tuning_.plane_rule, std::min(steps_left(), place.trial_steps));
+      answer_.steps += walked.steps;
+      answer_.plane_tests += walked.plane_tests;
+      spent_ = walked.end == WalkEnd::Budget && answer_.steps >= budget_.steps;
+      const bool lost = walked.end == WalkEnd::Budget && !spent_;
+      const bool wanted = last || may_answer(place, walked);
+      if (walked.end == WalkEnd::Inside && wanted && overlap(pair, {place.level_a, place.level_b, {walked.a, walked.b}})) {
+        place.start = {walked.a, walked.b};
+        record(place);
+        if (last || answered()) return true;
+        place = refined(place);
+        continue;
+      }
+      if (lost || (may_give_up && walked.end == WalkEnd::Inside)) {
+        record(place);
+        if (may_give_up) return false;
+        place = coarsest_place(a_, b_);
+        continue;
+      }
+      place.start = {walked.a, walked.b};
+      if (place.level_a + 1 == a_.level_count() && place.level_b + 1 == b_.level_count()) coarsest_ = place.start;
+      if (wanted || spent_) bound(pair, place, walked);
+      record(place);
+      if (last || spent_ || answered()) return true;
+      place = refined(place);
+    }
+  }
+
+  /// Whether a certificate is wanted on the way down. Of bodies apart always, whatever the tolerance, so that a looser one
+  /// stops earlier on the same way; where levels overlap, only if their deviations are an answer.
+  bool may_answer(const Place& place, const Walk& walked) const {
+    const double error = deviation(place.level_a, place.level_b);
+    return walked.end == WalkEnd::Minimum || !trace_.empty() || narrow(0, error) || error < target_.hit_below - law_two_;
+  }
+
+  /// What a level pair says of its own distance, between the features of its place.
+  struct Bounds {
+    double lower, upper;
+    Vec normal, point_a, point_b;
+    OverlapProof proof{};
+  };
+
+  /// Takes over the bounds of a pair where they are better: the plane with lower; points, levels and features with upper. A
+  /// finer pair's replace a coarser one's that are better by no more than rounding, so that plane and points belong together.
+  void carry(const Place& place, const Bounds& of, double rounding) {
+    if (of.lower >= answer_.lower - rounding) {
+      answer_.lower = of.lower;
+      answer_.normal = eigen(of.normal);
+    }
+    const double error = deviation(place.level_a, place.level_b);
+    const double upper = error > 0 ? (of.upper + error) * (1 + 2 * kU) : of.upper;
+    if (upper <= answer_.upper + rounding) {
+      answer_.upper = upper;
+      answer_.point_a = eigen(of.point_a);
+      answer_.point_b = eigen(of.point_b);
+      answer_.level_a = std::int16_t(place.level_a);
+      answer_.level_b = std::int16_t(place.level_b);
+      answer_.feature_a = place.start.a;
+      answer_.feature_b = place.start.b;
+      proof_ = of.proof;
+    }
+    answer_.upper = std::max(answer_.upper, answer_.lower);
+  }
+
+  /// Certifies a walk and carries the better bounds; the place's features become those it ended on.
+  void bound(const Scene& pair, Place& place, const Walk& walked) {
+    MarchRule rule;
+    rule.absolute = width_left(deviation(place.level_a, place.level_b));
+    rule.beyond = target_.clear_above;
+    rule.step_budget = walked.steps + steps_left();
+    MarchResult r = conclude(pair, walked, rule, target_.zero);
+    if (r.status == MarchStatus::Overlapping && !(2 * norm(vec(r.point_b) - vec(r.point_a)) <= pair.law_two))
+      r.point_a = r.point_b = eigen(surely_common_point(pair, r.proof));
+    answer_.steps += r.steps - walked.steps;
+    answer_.plane_tests += r.plane_tests - walked.plane_tests;
+    met_ = r.status;
+    place.start = {r.a, r.b};
+    carry(place, {r.lower, r.upper, vec(r.normal), vec(r.point_a), vec(r.point_b), r.proof}, pair.law_two);
+  }
+
+  void record(const Place& place) {
+    note(trace_, answer_.levels_visited,
+         {place.level_a, place.level_b, answer_.lower, answer_.upper, answer_.steps - recorded_steps_,
+          answer_.plane_tests - recorded_tests_});
+    recorded_steps_ = answer_.steps;
+    recorded_tests_ = answer_.plane_tests;
+    ++answer_.levels_visited;
+  }
+
+  /// The next finer levels, from no features.
+  Place finer(const Place& place) const {
+    Place next{place.level_a, place.level_b, {}};
+    const auto refine_a = [&] { next.level_a = std::max(next.level_a - 1, finest_a_); };
+    const auto refine_b = [&] { next.level_b = std::max(next.level_b - 1, finest_b_); };
+    if (tuning_.refinement == Refinement::Single) {
+      const bool a_is_coarser = a_.level(next.level_a).deviation >= b_.level(next.level_b).deviation;
+      if (next.level_b == finest_b_ || (a_is_coarser && next.level_a > finest_a_))
+        refine_a();
+      else
+        refine_b();
+      return next;
+    }
+    if (tuning_.refinement == Refinement::DoubleDouble) refine_a(), refine_b();
+    refine_a(), refine_b();  // whatever the value: a descent ends
+    return next;
+  }
+
+  /// The same, from the children of the place's features.
+  Place refined(const Place& place) const {
+    Place next = finer(place);
+    next.start = place.start;
+    for (int level = place.level_a; level > next.level_a; --level) next.start.a = child(a_, level, next.start.a);
+    for (int level = place.level_b; level > next.level_b; --level) next.start.b = child(b_, level, next.start.b);
+    return next;
+  }
+
+  void finish(const Place& place) {
+    const bool exact_levels = place.level_a == 0 && place.level_b == 0;
+    if (met_ == MarchStatus::Overlapping && exact_levels)
+      answer_.verdict = Verdict::Overlapping;
+    else if (met_ == MarchStatus::Touching && exact_levels)
+      answer_.verdict = Verdict::Touching;
+    else if (answer_.lower > 0)
+      answer_.verdict = Verdict::Disjoint;
+    const bool exact =
+        exact_levels && (met_ == MarchStatus::Disjoint || met_ == MarchStatus::Touching || met_ == MarchStatus::Overlapping);
+    if (clears(answer_.lower))
+      answer_.status = Status::Beyond;
+    else if (answered() || exact)
+      answer_.status = Status::Converged;
+    else if (spent_)
+      answer_.status = Status::Budget;
+    else if (!exact_levels)
+      answer_.status = Status::LevelLimit;
+    else
+      answer_.status = Status::NotConverged;
+  }
+
+  /// The features found, or their parents as long as the coarser pair would have answered as well.
+  void store(const Place& place, PairSeed& seed) const {
+    Place kept{place.level_a, place.level_b, place.start};
+    if (tuning_.start == StartPolicy::Coarsest) {
+      kept = coarsest_place(a_, b_);
+      kept.start = coarsest_;
+    } else if (tuning_.start != StartPolicy::Finest && !exact_) {
+      coarsen(kept);
+    }
+    remember(line_, vec(answer_.normal), seed);
+    seed.met = met_ == MarchStatus::Overlapping;
+    seed.a = kept.start.a;
+    seed.b = kept.start.b;
+    seed.level_a = std::uint8_t(kept.level_a);
+    seed.level_b = std::uint8_t(kept.level_b);
+  }
+  void coarsen(Place& kept) const {
+    const double found = deviation(kept.level_a, kept.level_b);
+    double slack = answer_.upper;  // Paper: the motion a coarser start can absorb is the distance
+    while (kept.level_a + 1 < a_.level_count() && kept.level_b + 1 < b_.level_count()) {
+      const double error = deviation(kept.level_a + 1, kept.level_b + 1);
+      const double grown = error - deviation(kept.level_a, kept.level_b), lower = answer_.lower - (error - found);
+      const bool absorbs = tuning_.start == StartPolicy::Paper && (slack -= std::max(0.0, grown)) >= 0 && answer_.lower > 0;
+      const bool suffices = lower > target_.clear_above || (lower > 0 && narrow(lower, error));
+      if (!absorbs && !suffices) break;
+      kept.start = {parent(a_, kept.level_a++, kept.start.a), parent(b_, kept.level_b++, kept.start.b)};
+    }
+  }
+
+  const ModelPair& pair_;
+  const Shape& a_;
+  const Shape& b_;
+  const Line line_;
+  const Budget& budget_;
+  const Tuning& tuning_;
+  const std::span<LevelRecord> trace_;
+  const Target& target_;
+  const double law_two_;
+  const int finest_a_, finest_b_;
+  const bool exact_;  ///< no coarser pair will do
+  const Glance& first_;
+  Answer& answer_;
+  OverlapProof& proof_;
+  MarchStatus met_ = MarchStatus::NotConverged;
+  MarchStart coarsest_;  ///< features on the coarsest pair, for StartPolicy::Coarsest
+  bool spent_ = false;   ///< the caller's step budget
+  std::uint32_t recorded_steps_ = 0, recorded_tests_ = 0;
+};
+
+}  // namespace
+
+void descend(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_error, PairSeed& seed, const Limits& limits,
+             const Target& target, bool goes_on, Answer& answer, OverlapProof& proof) {
+  const ModelPair pair(a, b, b_in_a, pose_error, limits);
+  Glance first;
+  if (!goes_on) {
+    answer.normal.setZero();
+    const bool asks = target.is_threshold() && pair.may_look && !seed.met && limits.trace.empty();
+    if (asks && glance(pair, target, seed, first, answer)) return;
+  }
+  Descent descent(pair, limits, target, first, answer, proof);
+  goes_on ? descent.go_on(seed) : descent.start(seed);
+}
+
+}  // namespace swiftlet

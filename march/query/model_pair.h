@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Two bodies in a legal pose, as every query sets out: what is known before any level is read.
+#pragma once
+
+#include <cmath>
+
+#include <swiftlet/query.h>
+
+#include "pair/pair_view.h"
+#include "query/seed.h"
+#include "query/target.h"
+
+namespace swiftlet {
+
+struct ModelPair {
+  ModelPair(const Shape& of_a, const Shape& of_b, const Motion& m, double error, const Limits& limits)
+      : a(of_a),
+        b(of_b),
+        motion(m),
+        pose_error(error),
+        stretch(std::sqrt(1 + 3 * error)),
+        shift(norm(m.t)),
+        law_two(swiftlet::law_two(a.level(0).view, b.level(0).view, shift, error)),
+        line(between_centres(a, b, m)),
+        finest_a(finest_allowed(a, limits.budget)),
+        finest_b(finest_allowed(b, limits.budget)),
+        may_look(limits.tuning.start == StartPolicy::Automatic && a.map_level() < a.level_count() &&
+                 b.map_level() < b.level_count()) {}
+
+  /// The finest levels with maps that the query may read.
+  Place finest_sight() const { return {std::max(a.map_level(), finest_a), std::max(b.map_level(), finest_b), {}}; }
+  /// By how much the exact hulls may be farther apart than levels are, at most: the pose stretches B.
+  double deviation(int level_a, int level_b) const { return a.level(level_a).deviation + stretch * b.level(level_b).deviation; }
+  /// The same of what maps say of levels: an estimate. A map's doubt goes with the square of its cells.
+  double sight_error(const Place& place) const {
+    const auto doubt = [](const Level& level) {
+      return kMapDoubt * level.view.extent / double(level.map_side * level.map_side);
+    };
+    return deviation(place.level_a, place.level_b) + doubt(a.level(place.level_a)) + doubt(b.level(place.level_b));
+  }
+  Scene scene_at(const Place& place) const {
+    return scene(a.level(place.level_a).view, b.level(place.level_b).view, motion, shift, pose_error);
+  }
+
+  const Shape& a;
+  const Shape& b;
+  const Motion& motion;
+  const double pose_error, stretch, shift, law_two;  ///< stretch bounds the rotation's norm
+  const Vec line;                                    ///< from A's centre to B's
+  const int finest_a, finest_b;
+  const bool may_look;  ///< both bodies have support maps and the caller leaves us the choice
+};
+
+}  // namespace swiftlet

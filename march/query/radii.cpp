@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "query/radii.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numeric/double_double.h"
+#include "pair/pair_view.h"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+Verdict verdict(double lower, double upper, double law_two) {
+  if (upper < 0) return Verdict::Overlapping;
+  if (lower > 0) return Verdict::Disjoint;
+  return lower >= -law_two && upper <= law_two ? Verdict::Touching : Verdict::Undecided;
+}
+
+/// The answer so far, for no work.
+void restate(const Answer& so_far, Status status, Answer& answer) {
+  answer = so_far;
+  answer.status = status;
+  answer.steps = answer.plane_tests = 0;
+  answer.levels_visited = 0;
+  answer.is_signed = false;
+}
+
+/// Whether the normal proves the lower bound. One pair of levels may overlap where a coarser one, which the bound is from, is
+/// disjoint: levels enclose the body, not each other.
+bool separates(const Answer& answer, const OverlapProof& proof) {
+  if (answer.is_signed) return answer.lower > -kInfinity;
+  return answer.lower > 0 || proof.count == 0;
+}
+
+/// Whether a distance can go on from there.
+bool tells_distance(const Answer& answer) {
+  return answer.feature_a.kind() != FeatureKind::None && (answer.lower > 0 || !answer.is_signed);
+}
+
+}  // namespace
+
+double tolerance(const Body& a, const Body& b, const Pose& b_in_a) {
+  const ShapeOf shape_a(a), shape_b(b);
+  const Motion m = motion(b_in_a);
+  const PoseQuality quality = pose_quality(m);
+  if (!quality.legal || !is_radius(a.radius()) || !is_radius(b.radius()) || !shape_a.is_legal() || !shape_b.is_legal())
+    return std::numeric_limits<double>::quiet_NaN();
+  const double largest = larger((*shape_a).level(0).view.extent + a.radius(), (*shape_b).level(0).view.extent + b.radius());
+  return larger((kLawTwo + 2 * quality.error) * (largest + norm(m.t)), kLeastWidth);
+}
+
+double Radii::law_two(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_error) const {
+  return swiftlet::law_two(a.level(0).view.extent + a_, b.level(0).view.extent + b_, norm(b_in_a.t), pose_error);
+}
+
+Target Radii::of_hulls(const Target& of, double law_two) const {
+  if (none()) return of;
+  return {of.absolute, of.relative, of.clear_above + sum(), of.hit_below + sum(), sum(), (1 + of.relative) * law_two};
+}
+
+Answer Radii::of_hulls(Answer of) const {
+  of.is_signed = false;
+  if (of.normal.hasNaN()) of.normal.setZero();
+  if (none()) return of;
+  of.verdict = of.verdict == Verdict::Disjoint ? Verdict::Disjoint : Verdict::Undecided;
+  Radii(-a_, -b_).move_points(of);
+  of.lower = of.lower > 0 ? more(of.lower, -kInfinity) : 0;
+  of.upper = more(of.upper, kInfinity);
+  return of;
+}
+
+void Radii::round(Answer& answer, OverlapProof& proof, double law_two) const {
+  const double low = lower(answer.lower), high = upper(answer.upper);
+  if (answer.verdict != Verdict::Overlapping) {
+    answer.verdict = verdict(low, high, law_two);
+    if (!separates(answer, proof)) answer.normal.setZero();
+    proof = {};
+    move_points(answer);
+  }
+  answer.lower = larger(0, low);
+  answer.upper = larger(answer.lower, high);
+}
+
+void Radii::round_signed(Answer& answer, OverlapProof& proof, double law_two) const {
+  if (none()) return;
+  answer.lower = lower(answer.lower);
+  answer.upper = upper(answer.upper);
+  answer.verdict = verdict(answer.lower, answer.upper, law_two);
+  if (answer.upper < 0) proof = {};
+  move_points(answer);
+}
+
+void Radii::round(std::span<LevelRecord> trace, int visited) const {
+  for (LevelRecord& record : trace.first(std::min(trace.size(), std::size_t(visited)))) {
+    record.lower = larger(0, lower(record.lower));
+    record.upper = larger(record.lower, upper(record.upper));
+  }
+}
+void Radii::round_signed(std::span<LevelRecord> trace, int visited) const {
+  for (LevelRecord& record : trace.first(std::min(trace.size(), std::size_t(visited)))) {
+    record.lower = lower(record.lower);
+    record.upper = upper(record.upper);
+  }
+}
+
+double Radii::less(double bound, double side) const {
+  if (!std::isfinite(bound)) return bound;
+  const Pair sum = two_sum(a_, b_), rest = two_sum(bound, -sum.high);
+  const double lost = rest.low - sum.low;
+  return lost == 0 ? rest.high : std::nextafter(rest.high + lost, side);
+}
+double Radii::more(double bound, double side) const { return Radii(-a_, -b_).less(bound, side); }
+double Radii::lower(double of_hulls) const { return less(of_hulls, -kInfinity); }
+double Radii::upper(double of_hulls) const { return less(of_hulls, kInfinity); }
+
+void Radii::move_points(Answer& answer) const {
+  answer.point_a = eigen(vec(answer.point_a) + vec(answer.normal) * a_);
+  answer.point_b = eigen(vec(answer.point_b) - vec(answer.normal) * b_);
+}
+
+void refuse(const Body& a, const Body& b, Status why, bool is_signed, Answer& answer) {
+  answer.status = why;
+  answer.is_signed = is_signed;
+  if (is_signed) answer.lower = -kInfinity;
+  answer.radius_a = a.radius(), answer.radius_b = b.radius();
+}
+
+void seal(const Radii& radii, const OverlapProof& proof, const Tuning& tuning, Answer& answer) {
+  answer.radius_a = radii.a(), answer.radius_b = radii.b();
+  if (tuning.proof) *tuning.proof = proof;
+  if (!separates(answer, proof) || max_abs(vec(answer.normal)) == 0) answer.normal.setConstant(kUnknown);
+  if (!(answer.upper < kInfinity)) answer.point_a.setConstant(kUnknown), answer.point_b.setConstant(kUnknown);
+}
+
+void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const Target& target,
+         Answer& answer, const Answer* so_far) {
+  if (limits.tuning.proof) *limits.tuning.proof = {};
+  const Setting at(a, b, b_in_a);
+  const Radii& radii = at.radii;
+  if (const Status fault = at.fault(); fault != Status::Converged) return refuse(a, b, fault, false, answer);
+  if (so_far && !tells_distance(*so_far)) so_far = nullptr;
+  Target of_hulls = target;
+  if (!radii.none()) of_hulls = radii.of_hulls(target, at.law_two());
+  if (so_far) {
+    if (Radii(*so_far) != radii) return refuse(a, b, Status::InvalidRadius, false, answer);
+    if (!radii.none() && so_far->verdict == Verdict::Overlapping) return restate(*so_far, Status::Converged, answer);
+    answer = radii.of_hulls(*so_far);
+    // Exact of the bodies is exact, whatever place the radii cost it.
+    if (so_far->upper - so_far->lower <= at.law_two()) of_hulls.exact = answer.upper - answer.lower;
+  }
+  OverlapProof proof;
+  descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, of_hulls, so_far != nullptr, answer, proof);
+  if (!radii.none()) {
+    if (so_far && answer.levels_visited == 0) return restate(*so_far, answer.status, answer);
+    radii.round(answer, proof, at.law_two());
+    radii.round(limits.trace, answer.levels_visited);
+  }
+  seal(radii, proof, limits.tuning, answer);
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Where a march starts: from stored features, from the line of centres, from a table. Knows levels and links, walks nothing.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include <swiftlet/march.h>
+#include <swiftlet/model.h>
+#include <swiftlet/query.h>
+
+#include "body/shape.h"
+#include "pair/pair_view.h"
+
+namespace swiftlet {
+
+/// A feature pair and the levels it lies on.
+struct Place {
+  int level_a, level_b;
+  MarchStart start;
+  std::uint32_t trial_steps = ~0u;  ///< after which the coarsest pair is tried instead
+};
+
+/// From the centre of A to that of B in A's frame, and back in B's.
+struct Line {
+  Vec in_a, in_b;
+};
+static inline Vec between_centres(const Shape& a, const Shape& b, const Motion& b_in_a) {
+  return apply(b_in_a, vec(b.level(0).view.centre)) - vec(a.level(0).view.centre);
+}
+static inline Line line_of_centres(const Motion& b_in_a, const Vec& between) { return {between, -turn_back(b_in_a, between)}; }
+
+/// Whether the line of centres turned since the seed was left by so much that a walk from its features costs more than a cold
+/// start.
+bool turned_far(const Line& line, const PairSeed& seed, const Level& a, const Level& b);
+
+/// Where a query begins.
+Place first_place(const Shape& a, const Shape& b, const Line& line, const PairSeed& seed, int finest_a, int finest_b,
+                  StartPolicy policy);
+
+/// Notes the line of centres and the direction of an answer in the seed.
+void remember(const Line& line, const Vec& normal, PairSeed& seed);
+static inline Vec direction(const PairSeed& seed) {
+  return {double(seed.normal[0]), double(seed.normal[1]), double(seed.normal[2])};
+}
+/// That direction while the line of centres has not turned by more than kSameLine, else 0.
+static inline Vec last_direction(const Vec& line, const PairSeed& seed) {
+  if ((seed.normal[0] | seed.normal[1] | seed.normal[2]) == 0) return {0, 0, 0};
+  const Vec was{double(seed.line_in_a[0]), double(seed.line_in_a[1]), double(seed.line_in_a[2])};
+  const double along = dot(line, was);
+  const bool same = along > 0 && along * along > kSameLine * kSameLine * dot(line, line) * dot(was, was);
+  return same ? direction(seed) : Vec{0, 0, 0};
+}
+
+/// The finest level of a body that a query may read.
+static inline int finest_allowed(const Shape& body, const Budget& budget) {
+  return std::clamp(budget.finest_level, body.finest_level(), body.level_count() - 1);
+}
+
+/// The coarsest pair, from nothing.
+static inline Place coarsest_place(const Shape& a, const Shape& b) { return {a.level_count() - 1, b.level_count() - 1, {}}; }
+
+/// The feature one level finer, or coarser.
+FeatureId child(const Shape& body, int level, FeatureId feature);
+FeatureId parent(const Shape& body, int level, FeatureId feature);
+
+/// A vertex of `level` that is about the farthest in a direction; of a body without maps any.
+std::uint32_t about_farthest(const Shape& body, int level, const Vec& direction);
+
+/// The vertex of level `finer` that stands for one of `level`.
+std::uint32_t descendant(const Shape& body, int level, std::uint32_t vertex, int finer = 0);
+
+}  // namespace swiftlet

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "query/separating_axis.h"
+
+namespace swiftlet {
+
+bool glance(const ModelPair& pair, const Target& target, PairSeed& seed, Glance& first, Answer& answer) {
+  const double close = kCloseRadii * (pair.a.radius() + pair.b.radius()) + target.clear_above;
+  first.at = dot(pair.line, pair.line) <= close * close ? pair.finest_sight() : coarsest_place(pair.a, pair.b);
+  const int level_a = first.at.level_a, level_b = first.at.level_b;
+  const Level &of_a = pair.a.level(level_a), &of_b = pair.b.level(level_b);
+  const Scene scene = pair.scene_at(first.at);
+  const auto clears = [&](const Vec& direction) {
+    first.seen = glimpse(scene, of_a, of_b, direction);
+    return first.seen.lower > larger(target.clear_above, 0) + pair.law_two;
+  };
+  const Vec last = last_direction(pair.line, seed);
+  if (!(max_abs(last) > 0 && clears(last))) {
+    if (!clears(pair.line)) return false;
+    seed.normal = {};
+  }
+
+  const double error = pair.deviation(level_a, level_b), upper = norm(first.seen.apart) * (1 + kNormError) + scene.point_error;
+  answer.status = Status::Beyond;
+  answer.verdict = Verdict::Disjoint;
+  answer.lower = first.seen.lower;
+  answer.upper = error > 0 ? (upper + error) * (1 + 2 * kU) : upper;
+  answer.normal = eigen(first.seen.normal);
+  answer.point_a = eigen(first.seen.point);
+  answer.point_b = eigen(first.seen.point + first.seen.apart);
+  answer.level_a = std::int16_t(level_a), answer.level_b = std::int16_t(level_b);
+  answer.feature_a = {FeatureKind::Vertex, first.seen.a}, answer.feature_b = {FeatureKind::Vertex, first.seen.b};
+  answer.levels_visited = 1;
+  return true;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// One look, along the last answer's direction or the line of centres: most questions of yes or no end there.
+#pragma once
+
+#include "pair/support_gjk.h"
+#include "query/model_pair.h"
+#include "query/target.h"
+
+namespace swiftlet {
+
+/// Where a question was looked at first.
+struct Glance {
+  Place at;
+  Glimpse seen;  ///< along 0: there was no look
+};
+
+/// Fills `answer` and returns true where the bodies are proved to be farther apart than `target` asks. A direction of the seed
+/// that the line of centres makes superfluous is forgotten.
+bool glance(const ModelPair& pair, const Target& target, PairSeed& seed, Glance& first, Answer& answer);
+
+}  // namespace swiftlet

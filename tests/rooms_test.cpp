@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The order of the house, read off its includes: arrows between the rooms of march run one way, folders stand in no circle, and
+// march/README.md names every source file in its room.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+const fs::path kRoot = fs::path(SWIFTLET_TEST_DIR).parent_path();
+const Names kFolders{"lut", "march", "lod", "tool", "adapters", "yardstick", "bench", "tests"};
+
+/// What a room may include beside itself.
+const std::map<std::string, Names> kBelow{
+    {"numeric", {}},
+    {"body", {"numeric"}},
+    {"pair", {"numeric", "body"}},
+    {"query", {"numeric", "body", "pair"}},
+    {"depth", {"numeric", "body", "pair", "query"}},
+    {"manifold", {"numeric", "body", "pair", "query", "depth"}},
+    {"make", {"numeric", "body", "pair"}},
+    {"check", {"numeric", "body", "pair", "query", "depth", "manifold", "make"}},
+};
+
+std::string text_of(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+std::vector<fs::path> sources(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string kind = entry.path().extension();
+    if (kind == ".cpp" || kind == ".h") found.push_back(entry.path());
+  }
+  return found;
+}
+
+/// The headers that a file names, in quotes or in angle brackets.
+std::vector<std::string> includes(const fs::path& path, char open, char close) {
+  const std::string text = text_of(path);
+  const std::regex line(std::string("#include ") + open + "([^\">]+)" + close);
+  std::vector<std::string> found;
+  for (auto match = std::sregex_iterator(text.begin(), text.end(), line); match != std::sregex_iterator(); ++match)
+    found.push_back((*match)[1]);
+  return found;
+}
+
+TEST(Rooms, IncludesRunOneWay) {
+  std::size_t arrows = 0;
+  for (const auto& [room, below] : kBelow) {
+    for (const fs::path& file : sources(kRoot / "march" / room)) {
+      for (const std::string& header : includes(file, '"', '"')) {
+        const std::string to = header.substr(0, header.find('/'));
+        EXPECT_TRUE(fs::exists(kRoot / "march" / header)) << file << " includes " << header << " without its room";
+        EXPECT_TRUE(to == room || below.count(to)) << file << " includes " << header;
+        arrows += to != room;
+      }
+    }
+  }
+  EXPECT_GE(arrows, 80u);
+  for (const fs::path& file : sources(kRoot / "march")) {
+    const std::string room = *file.lexically_relative(kRoot / "march").begin();
+    EXPECT_TRUE(room == "include" || kBelow.count(room)) << file << " is in no room";
+  }
+}
+
+TEST(Rooms, ReadmeNamesEverySource) {
+  const std::string readme = text_of(kRoot / "march/README.md");
+  for (const auto& [room, below] : kBelow) {
+    const std::size_t begin = readme.find("### `" + room + "/`");
+    ASSERT_NE(begin, std::string::npos) << room;
+    const std::string section = readme.substr(begin, readme.find("\n##", begin + 1) - begin);
+    for (const fs::path& file : sources(kRoot / "march" / room)) {
+      const std::string name = file.filename(), both = file.stem().string() + ".*";
+      EXPECT_TRUE(section.find('`' + name + '`') != std::string::npos || section.find('`' + both + '`') != std::string::npos)
+          << room << "/" << name;
+    }
+  }
+}
+
+/// Folders by the headers that they hold; those of a consumer are its own.
+std::map<std::string, Names> holders() {
+  std::map<std::string, Names> found;
+  for (const std::string& folder : kFolders) {
+    for (const fs::path& file : sources(kRoot / folder)) {
+      if (file.extension() != ".h" || file.string().find("/consumer/") != std::string::npos) continue;
+      const std::string path = file.generic_string();
+      const std::size_t is_public = path.find("/include/");
+      found[is_public == std::string::npos ? file.filename().string() : path.substr(is_public + 9)].insert(folder);
+    }
+  }
+  return found;
+}
+
+TEST(Folders, StandInNoCircle) {
+  const std::map<std::string, Names> holder = holders();
+  std::map<std::string, Names> arrows;
+  for (const std::string& folder : kFolders) {
+    for (const fs::path& file : sources(kRoot / folder)) {
+      if (file.string().find("/consumer/") != std::string::npos) continue;
+      std::vector<std::string> named = includes(file, '"', '"'), others = includes(file, '<', '>');
+      named.insert(named.end(), others.begin(), others.end());
+      for (const std::string& header : named) {
+        const bool is_public = header.starts_with("swiftlet/");
+        const auto found = holder.find(is_public ? header : fs::path(header).filename().string());
+        if (found == holder.end() || found->second.count(folder)) continue;
+        for (const std::string& other : found->second) arrows[folder].insert(other);
+      }
+    }
+  }
+  EXPECT_TRUE(arrows["lod"].count("march") && arrows["tests"].count("lod")) << "no includes were found";
+  std::vector<std::string> way;
+  Names done;
+  const std::function<void(const std::string&)> visit = [&](const std::string& folder) {
+    if (const auto again = std::find(way.begin(), way.end(), folder); again != way.end()) {
+      std::string circle;
+      for (auto step = again; step != way.end(); ++step) circle += *step + " > ";
+      ADD_FAILURE() << circle << folder;
+      return;
+    }
+    if (!done.insert(folder).second) return;
+    way.push_back(folder);
+    for (const std::string& other : arrows[folder]) visit(other);
+    way.pop_back();
+  };
+  for (const std::string& folder : kFolders) visit(folder);
+}
+
+}  // namespace

@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Front faces of one convex body never hide each other, so nothing is sorted by depth.
+#include "draw.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "body/half_edge.h"
+#include "off_text.h"
+#include "text.h"
+
+namespace swiftlet::tool {
+namespace {
+
+// Pixels.
+constexpr double kMargin = 28, kGap = 26, kCell = 230, kTallest = 300, kHeading = 78, kCaption = 66;
+constexpr std::size_t kPerRow = 6;
+constexpr int kShades = 40;
+
+struct Point2 {
+  double x, y;  // y downwards
+};
+
+/// Where the eye is, and the axes of the paper. Unit vectors.
+struct Eye {
+  Vec3 towards = Vec3(0.55, -1, 0.5).normalized();
+  Vec3 right = Vec3::UnitZ().cross(towards).normalized();
+  Vec3 up = towards.cross(right);
+  Vec3 light = (towards + 1.1 * up - 0.9 * right).normalized();
+
+  Point2 project(const Vertex& v) const {
+    const Vec3 p(v.x, v.y, v.z);
+    return {right.dot(p), -up.dot(p)};
+  }
+};
+
+struct Frame {
+  double left = INFINITY, top = INFINITY, right = -INFINITY, bottom = -INFINITY;
+
+  void hold(const Point2& p) {
+    left = std::min(left, p.x), right = std::max(right, p.x);
+    top = std::min(top, p.y), bottom = std::max(bottom, p.y);
+  }
+  double width() const { return right - left; }
+  double height() const { return bottom - top; }
+};
+
+Frame frame_of(const Model& model, const Eye& eye) {
+  Frame frame;
+  for (int k = 0; k < model.level_count(); ++k)
+    for (const Vertex& v : model.level(k).view.vertices) frame.hold(eye.project(v));
+  return frame;
+}
+
+/// From the paper's units to pixels of a cell whose corner is the origin.
+struct Placement {
+  Frame frame;
+  double scale = 1;
+
+  explicit Placement(const Frame& f) : frame(f) {
+    const double fits = std::min(kCell / f.width(), kTallest / f.height());
+    if (std::isfinite(fits)) scale = fits;
+  }
+  double height() const { return std::max(frame.height() * scale, 40.0); }
+  Point2 operator()(const Point2& p) const {
+    return {kCell / 2 + (p.x - (frame.left + frame.right) / 2) * scale,
+            height() / 2 + (p.y - (frame.top + frame.bottom) / 2) * scale};
+  }
+};
+
+std::string at(const Point2& p) { return format("%.2f %.2f", p.x, p.y); }
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (static_cast<unsigned char>(c) >= ' ')
+      result += c;
+  }
+  return result;
+}
+
+Vec3 facet_normal(const ConvexView& view, const std::vector<std::uint32_t>& loop) {
+  const auto corner = [&](std::size_t k) {
+    const Vertex& v = view.vertices[origin(view, loop[k])];
+    return Vec3(v.x, v.y, v.z);
+  };
+  Vec3 normal = Vec3::Zero();
+  for (std::size_t k = 2; k < loop.size(); ++k) normal += (corner(k - 1) - corner(0)).cross(corner(k) - corner(0));
+  return normal.stableNormalized();
+}
+
+std::string colour(int shade) {
+  constexpr std::array<double, 3> kDark{38, 60, 92}, kPale{236, 243, 250};
+  const double t = double(shade) / (kShades - 1);
+  const auto mix = [&](std::size_t k) { return int(std::lround(kDark[k] + (kPale[k] - kDark[k]) * t)); };
+  return format("#%02x%02x%02x", mix(0), mix(1), mix(2));
+}
+
+/// The front faces, one path per shade, and over them the edges.
+std::string draw_faces(const ConvexView& view, const Eye& eye, const Placement& place) {
+  const auto loops = facets(view);
+  std::map<int, std::string> paths;
+  std::vector<bool> front(view.half_edges.size(), false);
+  for (const auto& loop : loops) {
+    const Vec3 normal = facet_normal(view, loop);
+    if (!(normal.dot(eye.towards) > 0)) continue;
+    const double lit = 0.16 + 0.84 * std::max(0.0, normal.dot(eye.light));
+    std::string& path = paths[std::clamp(int(lit * kShades), 0, kShades - 1)];
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      path.append(k == 0 ? "M" : "L").append(at(place(eye.project(view.vertices[origin(view, loop[k])]))));
+      front[loop[k]] = true;
+    }
+    path += "Z";
+  }
+  std::string edges;
+  for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
+    const std::uint32_t twin = view.half_edges[h].twin;
+    const bool visible = view.half_edges[h].face == kNone || front[h] || front[twin];
+    if (h > twin || !visible || is_diagonal(view, h)) continue;
+    edges.append("M").append(at(place(eye.project(view.vertices[origin(view, h)]))));
+    edges.append("L").append(at(place(eye.project(view.vertices[view.half_edges[h].head]))));
+  }
+  std::string svg;
+  for (const auto& [shade, path] : paths) {
+    const std::string fill = colour(shade);
+    svg += "<path fill=\"" + fill + "\" stroke=\"" + fill + "\" stroke-width=\".5\" d=\"" + path + "\"/>\n";
+  }
+  const double width = std::clamp(14 / std::sqrt(double(loops.size() + 1)), 0.15, 0.9);
+  if (!edges.empty())
+    svg += format("<path fill=\"none\" stroke=\"#16263c\" stroke-opacity=\".45\" stroke-width=\"%.2f\" d=\"", width) + edges +
+           "\"/>\n";
+  if (view.vertices.size() == 1) {
+    const Point2 p = place(eye.project(view.vertices[0]));
+    svg += format("<circle cx=\"%.2f\" cy=\"%.2f\" r=\"3\" fill=\"#16263c\"/>\n", p.x, p.y);
+  }
+  return svg;
+}
+
+/// The convex hull of the projected vertices, by Andrew's monotone chain.
+std::string draw_outline(const ConvexView& view, const Eye& eye, const Placement& place) {
+  std::vector<Point2> points, chain;
+  for (const Vertex& v : view.vertices) points.push_back(place(eye.project(v)));
+  std::sort(points.begin(), points.end(),
+            [](const Point2& p, const Point2& q) { return p.x < q.x || (p.x == q.x && p.y < q.y); });
+  const auto turn = [](const Point2& o, const Point2& p, const Point2& q) {
+    return (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x);
+  };
+  for (int side = 0; side < 2; ++side, std::reverse(points.begin(), points.end())) {
+    const std::size_t begin = chain.size();
+    for (const Point2& p : points) {
+      while (chain.size() >= begin + 2 && turn(chain[chain.size() - 2], chain.back(), p) <= 0) chain.pop_back();
+      chain.push_back(p);
+    }
+    chain.pop_back();  // the other side begins with it
+  }
+  std::string path;
+  for (const Point2& p : chain) path.append(path.empty() ? "M" : "L").append(at(p));
+  return "<path fill=\"none\" stroke=\"#e4572e\" stroke-width=\"1.3\" stroke-dasharray=\"4 3\" d=\"" + path + "Z\"/>\n";
+}
+
+std::string caption(const Model& model, int k, double top) {
+  const Level& level = model.level(k);
+  const auto line = [&](int index, const char* look, const std::string& text) {
+    return format("<text x=\"%.0f\" y=\"%.1f\" text-anchor=\"middle\" %s>", kCell / 2, top + 20 + 17 * index, look) + text +
+           "</text>\n";
+  };
+  std::string deviation = "deviation 0: the exact hull";
+  if (k > 0) {
+    deviation = format("deviation %.3g", level.deviation);
+    if (model.radius() > 0) deviation += format(" (%.2g %%)", 100 * level.deviation / model.radius());
+  }
+  return line(0, "font-weight=\"bold\" fill=\"#16263c\"", "level " + std::to_string(k)) +
+         line(1, "fill=\"#3d4c60\"", std::to_string(level.triangle_count) + " triangles") +
+         line(2, "fill=\"#3d4c60\"", deviation);
+}
+
+std::string heading(const Model& model, const std::string& title) {
+  const int finest = model.finest_level(), last = model.level_count() - 1;
+  std::string what = format("%zu triangles, %zu bytes", model.level(finest).triangle_count, model.bytes().size());
+  if (last > finest) {
+    what = format("%d levels, %zu to %zu triangles, %zu bytes. Dashed: %s outline. Percent: of the bounding radius",
+                  last + 1 - finest, model.level(finest).triangle_count, model.level(last).triangle_count, model.bytes().size(),
+                  finest == 0 ? "the exact hull's" : "the finest level's");
+  }
+  return format("<text x=\"%.0f\" y=\"40\" font-size=\"22\" font-weight=\"bold\" fill=\"#16263c\">", kMargin) + escaped(title) +
+         "</text>\n" + format("<text x=\"%.0f\" y=\"62\" fill=\"#3d4c60\">", kMargin) + what + "</text>\n";
+}
+
+}  // namespace
+
+std::string draw(const Model& model, const std::string& title) {
+  const Eye eye;
+  const Placement place(frame_of(model, eye));
+  const int finest = model.finest_level();
+  const std::size_t count = std::size_t(model.level_count() - finest), rows = (count + kPerRow - 1) / kPerRow,
+                    columns = (count + rows - 1) / rows;
+  const double row_height = place.height() + kCaption + kGap;
+  // As wide as its heading, also with few levels.
+  const double width = std::max(2 * kMargin + double(columns) * kCell + double(columns - 1) * kGap, count > 1 ? 860.0 : 420.0);
+  const double height = kHeading + kGap / 2 + double(rows) * row_height;
+
+  std::string svg =
+      format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" ", width,
+             height, width, height) +
+      "font-family=\"sans-serif\" font-size=\"13\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<title>" +
+      escaped(title) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n" + heading(model, title);
+  for (std::size_t i = 0; i < count; ++i) {
+    const int k = finest + int(i);
+    const double x = kMargin + double(i % columns) * (kCell + kGap), y = kHeading + kGap / 2 + double(i / columns) * row_height;
+    svg += format("<g transform=\"translate(%.1f %.1f)\">\n", x, y) + draw_faces(model.level(k).view, eye, place);
+    if (k > finest) svg += draw_outline(model.level(finest).view, eye, place);
+    svg += caption(model, k, place.height()) + "</g>\n";
+  }
+  return svg + "</svg>\n";
+}
+
+}  // namespace swiftlet::tool
