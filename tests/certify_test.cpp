@@ -11,10 +11,10 @@
 #include <swiftlet/build.h>
 
 #include "bodies.h"
-#include "oracle.h"
 #include "body/half_edge.h"
-#include "shapes.h"
+#include "oracle.h"
 #include "pair/walk.h"
+#include "shapes.h"
 
 namespace swiftlet {
 namespace {
@@ -52,7 +52,7 @@ struct Trial {
   Pose pose;
   std::vector<Vec3> points_a = points(a), points_b = points(b);
   Motion b_in_a = motion(pose);
-  Scene scene() const { return swiftlet::scene(a, b, b_in_a, 4e-16); }
+  PairView pair_view() const { return swiftlet::pair_view(a, b, b_in_a, 4e-16); }
 };
 
 /// Rotations of a cube too, so that faces and edges are parallel.
@@ -78,14 +78,14 @@ TEST(Certify, FromAnyFeaturesTheIntervalHoldsTheDistance) {
     for (int k = 0; k < 6; ++k) {
       FeatureId fa = any_feature(random, t.a), fb = any_feature(random, t.b);
       if (fa.kind() == FeatureKind::Face && fb.kind() == FeatureKind::Face) fb = {FeatureKind::Vertex, any_vertex(t.b, fb)};
-      Witness seen = witness(t.scene(), fa, fb);
+      Witness seen = witness(t.pair_view(), fa, fb);
       if (k >= 3) {
-        const Walk end = walk(t.scene(), fa, fb, PlaneRule::MostViolated, ~0u);
+        const Walk end = walk(t.pair_view(), fa, fb, PlaneRule::MostViolated, ~0u);
         fa = end.a, fb = end.b;
-        seen = end.end == WalkEnd::Minimum ? end.witness : witness(t.scene(), fa, fb);
+        seen = end.end == WalkEnd::Minimum ? end.witness : witness(t.pair_view(), fa, fb);
       }
       std::uint32_t tests = 0;
-      const Certificate c = certify(t.scene(), fa, fb, seen, tests);
+      const Certificate c = certify(t.pair_view(), fa, fb, seen, tests);
       EXPECT_TRUE(oracle::holds(truth, c.lower, c.upper)) << c.lower << " " << truth.distance << " " << c.upper;
       ++trials;
       parted += c.lower > 0;
@@ -103,15 +103,16 @@ TEST(Certify, SupportsProveTheGapAlongAnyDirection) {
       if (k % 2 == 1) {  // level with a whole face, up to rounding
         const std::uint32_t h = t.a.face_first[f], v = origin(t.a, h);
         const Vec p = vec(t.a.vertices[v]);
-        n = normalised(cross(vec(t.a.vertices[t.a.half_edges[h].head]) - p, vec(t.a.vertices[t.a.half_edges[next_in_facet(t.a, h)].head]) - p));
+        n = normalised(cross(vec(t.a.vertices[t.a.half_edges[h].head]) - p,
+                             vec(t.a.vertices[t.a.half_edges[next_in_facet(t.a, h)].head]) - p));
         ++along_faces;
       }
       std::uint32_t tests = 0;
-      const Supports s = supports(t.scene(), n, std::uint32_t(random.bits() % t.a.vertices.size()),
+      const Supports s = supports(t.pair_view(), n, std::uint32_t(random.bits() % t.a.vertices.size()),
                                   std::uint32_t(random.bits() % t.b.vertices.size()), tests);
       const oracle::Interval gap = oracle::gap(t.points_a, t.points_b, t.pose, eigen(n));
       EXPECT_LE(s.lower, gap.upper);
-      EXPECT_GE(s.lower, gap.lower - t.scene().law_two);
+      EXPECT_GE(s.lower, gap.lower - t.pair_view().law_two);
     }
   });
   EXPECT_GE(along_faces, 500);
@@ -127,10 +128,10 @@ TEST(Certify, NearestFeaturesOfSmoothBodiesProveThemselvesCheaply) {
   constexpr int kTrials = 500;
   for (int k = 0; k < kTrials; ++k) {
     const Trial t{a.level(0).view, b.level(0).view, {random.rotation(), random.on_sphere() * 2.2}};
-    const Walk end = walk(t.scene(), {FeatureKind::Vertex, 0}, {FeatureKind::Vertex, 0}, PlaneRule::MostViolated, ~0u);
+    const Walk end = walk(t.pair_view(), {FeatureKind::Vertex, 0}, {FeatureKind::Vertex, 0}, PlaneRule::MostViolated, ~0u);
     ASSERT_EQ(end.end, WalkEnd::Minimum);
-    const Certificate c = certify(t.scene(), end.a, end.b, end.witness, tests);
-    wide += !(c.upper - c.lower <= t.scene().law_two);
+    const Certificate c = certify(t.pair_view(), end.a, end.b, end.witness, tests);
+    wide += !(c.upper - c.lower <= t.pair_view().law_two);
   }
   EXPECT_EQ(wide, 0);
   EXPECT_LE(double(tests) / kTrials, 10);

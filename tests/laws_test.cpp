@@ -276,7 +276,7 @@ TEST(Law1, IntervalsHoldTheTruthWhenAStepBudgetEndedTheMarch) {
       const Answer answer = exact(c, options);
       expect_true(c, answer);
       ended += answer.status == Status::Budget;
-      ASSERT_LE(answer.steps, budget + 1);  // certified progress counts as one
+      ASSERT_LE(answer.steps, budget + 1);  // certified GJK counts as one
     }
   });
   EXPECT_GE(ended, 500);

@@ -192,7 +192,7 @@ void exercise(const Model& hostile, const Model& honest, Work& most) {
   expect_harmless(distance(cut, honest, poses[1]));
 }
 
-/// The work that a small honest pair can cost at all, certified progress through both arithmetics at every level included.
+/// The work that a small honest pair can cost at all, certified GJK through both arithmetics at every level included.
 constexpr std::uint32_t kMostSteps = 60, kMostPlaneTests = 2000;
 
 TEST_F(ModelFile, EveryCorruptByteIsFoundByTheHashes) {

@@ -57,7 +57,7 @@ void expect_sound(const Model& a, const Model& b, const Pose& pose) {
   EXPECT_TRUE(checked) << checked.message;
 }
 
-/// Certified progress chose its active set by the norm, which is flat at the optimum: a step of 1e-9 hid under a rounding of
+/// Certified GJK chose its active set by the norm, which is flat at the optimum: a step of 1e-9 hid under a rounding of
 /// 1e-17, and the march ended NotConverged.
 TEST(Regress, ActiveSetWasChosenByAFlatNorm) {
   for (const double tilt : {0x1.3962e9a6af5b5p-31, -0x1.3962e9a6af5b5p-31}) {  // 5.7e-10

@@ -138,7 +138,7 @@ Named named(const Body& body) {
   for (int i = 0; i < n.count; ++i) {
     const Vertex& v = n.points[std::size_t(i)];
     n.is_legal = n.is_legal && is_legal_coordinate(v.x) && is_legal_coordinate(v.y) && is_legal_coordinate(v.z);
-    n.extent = larger(n.extent, max_abs(vec(v)));
+    n.extent = max(n.extent, max_abs(vec(v)));
   }
   return n;
 }
@@ -160,8 +160,8 @@ Primitive::Primitive(const Body& body) {
   Vec least = vec(vertices[0]), most = least;
   for (int i = 0; i < count; ++i) {
     const Vec v = vec(vertices[std::size_t(i)]);
-    least = {smaller(least.x, v.x), smaller(least.y, v.y), smaller(least.z, v.z)};
-    most = {larger(most.x, v.x), larger(most.y, v.y), larger(most.z, v.z)};
+    least = {min(least.x, v.x), min(least.y, v.y), min(least.z, v.z)};
+    most = {max(most.x, v.x), max(most.y, v.y), max(most.z, v.z)};
     std::uint32_t& name = source[std::size_t(i)] = 0;
     const auto differs = [&](const Vec& w) { return w.x != v.x || w.y != v.y || w.z != v.z; };
     while (differs(vec(p[name]))) ++name;
@@ -170,7 +170,7 @@ Primitive::Primitive(const Body& body) {
   const Vec centre = count == 1 ? least : least * 0.5 + most * 0.5;
   view.centre = eigen(centre);
   radius = 0;
-  for (const Vertex& v : view.vertices) radius = larger(radius, norm(vec(v) - centre) * (1 + 8 * kU));
+  for (const Vertex& v : view.vertices) radius = max(radius, norm(vec(v) - centre) * (1 + 8 * kU));
 }
 
 }  // namespace swiftlet

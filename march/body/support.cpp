@@ -17,7 +17,7 @@ class Ordering {
  public:
   explicit Ordering(const Vec& n) : n_(n), own_(n), error_(kDotError * sum_abs(n)) {}
   Ordering(const Vec& n, const Motion& motion)
-      : n_(n), motion_(&motion), own_(turn_back(motion, n)), error_(kTurnedSupportError * sum_abs(n)) {}
+      : n_(n), motion_(&motion), own_(rotate_back(motion, n)), error_(kTurnedSupportError * sum_abs(n)) {}
 
   /// The sign of n . (w - v), w and v carried into the common frame.
   int compare(const Vertex& w, const Vertex& v) {

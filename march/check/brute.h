@@ -58,14 +58,14 @@ static inline double gap_along(const Vertices& a, const Vertices& b, const Motio
 }
 
 /// R (w - v) of two vertices.
-static inline Wide turned(const Motion& m, const Vertex& w, const Vertex& v) {
+static inline Wide rotated(const Motion& m, const Vertex& w, const Vertex& v) {
   const Wide d = wide(vec(w)) - wide(vec(v));
   return {dot(wide(m.row_x), d), dot(wide(m.row_y), d), dot(wide(m.row_z), d)};
 }
 
 /// R (b - a) x R (c - a), off by kNormalError of its largest coordinate. Of slivers the products cancel: exactly, then.
 static inline Wide facet_normal(const Motion& m, const Vertex& a, const Vertex& b, const Vertex& c) {
-  const Wide u = turned(m, b, a), v = turned(m, c, a), n = cross(u, v);
+  const Wide u = rotated(m, b, a), v = rotated(m, c, a), n = cross(u, v);
   if (max_abs(rounded(n)) >= kCancelled * max_abs(rounded(u)) * max_abs(rounded(v))) return n;
   return exact::turned_normal(m, &a.x, &b.x, &c.x);
 }

@@ -23,7 +23,7 @@ std::uint32_t map_fault(const Level& level) {
       double& most = heights[(row + corner / 2) * (side + 1) + column + corner % 2];
       if (corner == 3 || row == 0 || column == 0) {
         most = dot(n, vec(level.view.vertices[0]));
-        for (const Vertex& v : level.view.vertices) most = larger(most, dot(n, vec(v)));
+        for (const Vertex& v : level.view.vertices) most = max(most, dot(n, vec(v)));
       }
       const std::uint32_t entry = level.support_map[cell];
       const double excess = most - dot(n, vec(level.view.vertices[map_vertex(entry)]));
@@ -46,8 +46,8 @@ Checked::Checked(const Body& of_a, const Body& of_b, const Pose& b_in_a, const A
   if (!of.normal.hasNaN()) normal = vec(of.normal);
   point_a = vec(of.point_a) - normal * at.radii.a(), point_b = vec(of.point_b) + normal * at.radii.b();
   touching = at.law_two();
-  slack = larger(scene(level_a.view, level_b.view, at.motion, error).law_two, touching);
-  magnitude = scene(a.level(a.finest_level()).view, b.level(b.finest_level()).view, at.motion, error).magnitude;
+  slack = max(pair_view(level_a.view, level_b.view, at.motion, error).law_two, touching);
+  magnitude = pair_view(a.level(a.finest_level()).view, b.level(b.finest_level()).view, at.motion, error).magnitude;
   deviation = level_a.deviation + stretch * level_b.deviation;
 }
 

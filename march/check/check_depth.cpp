@@ -20,7 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// v * 2^exponent.
 Wide scaled(const Wide& v, int exponent) {
   const auto scale = [&](const DoubleDouble& x) {
-    return DoubleDouble(Pair{std::ldexp(x.high, exponent), std::ldexp(x.low, exponent)});
+    return DoubleDouble(HighLow{std::ldexp(x.high, exponent), std::ldexp(x.low, exponent)});
   };
   return {scale(v.x), scale(v.y), scale(v.z)};
 }
@@ -73,7 +73,7 @@ struct Solid {
       vertices.push_back(v);
       points.push_back(wide(m, vec(v)));
       rough_points.push_back(rounded(points.back()));
-      reach = larger(reach, max_abs(rough_points.back()));
+      reach = max(reach, max_abs(rough_points.back()));
     }
     std::vector<std::uint32_t> facet_of(view.half_edges.size(), kNone);
     for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
@@ -86,8 +86,10 @@ struct Solid {
     for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
       if (view.half_edges[h].twin < h) continue;
       const std::uint32_t tail = origin(view, h), head = view.half_edges[h].head;
-      edges.push_back(
-          {tail, head, {facet_of[h], facet_of[view.half_edges[h].twin]}, direction(turned(m, vertices[head], vertices[tail]))});
+      edges.push_back({tail,
+                       head,
+                       {facet_of[h], facet_of[view.half_edges[h].twin]},
+                       direction(rotated(m, vertices[head], vertices[tail]))});
     }
   }
 
@@ -97,7 +99,7 @@ struct Solid {
   /// How far the body reaches along n.
   DoubleDouble height(const Direction& n) const {
     double most = -kInfinity;
-    for (const Vec& p : rough_points) most = larger(most, dot(n.rough, p));
+    for (const Vec& p : rough_points) most = max(most, dot(n.rough, p));
     DoubleDouble height = -kInfinity;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (dot(n.rough, rough_points[i]) < most - 2 * kRoughHeightError * reach) continue;
@@ -122,10 +124,10 @@ struct Solid {
 /// positive factor; on the right f . n; and on those beside f, e . n and -e . n.
 class LeastHeight {
  public:
-  LeastHeight(const Scene& scene, int exponent)
-      : a_(scene.a, kAtRest, exponent),
-        b_(scene.b, scaled(scene.b_in_a, exponent), exponent),
-        tie_(kHeightError / 2 * std::ldexp(scene.magnitude, exponent)) {}
+  LeastHeight(const PairView& pair, int exponent)
+      : a_(pair.a, kAtRest, exponent),
+        b_(pair.b, scaled(pair.b_in_a, exponent), exponent),
+        tie_(kHeightError / 2 * std::ldexp(pair.magnitude, exponent)) {}
 
   /// Infinite where all differences lie on a line.
   DoubleDouble find() {
@@ -140,7 +142,7 @@ class LeastHeight {
       const Vec left = a_.rough_normal(e.beside[0]), right = a_.rough_normal(e.beside[1]);
       for (const Solid::Edge& f : b_.edges) {
         const double l = dot(left, f.along.rough), r = dot(right, f.along.rough);
-        if (smaller(l, r) <= kRoughSideError && larger(l, r) >= -kRoughSideError) take(e, f);
+        if (min(l, r) <= kRoughSideError && max(l, r) >= -kRoughSideError) take(e, f);
       }
     }
     return least_;
@@ -210,11 +212,11 @@ class LeastHeight {
 
 DoubleDouble Checked::least_depth() const {
   const Level &finest_a = a.level(a.finest_level()), &finest_b = b.level(b.finest_level());
-  const Scene finest = scene(finest_a.view, finest_b.view, at.motion, at.quality.error);
+  const PairView finest = pair_view(finest_a.view, finest_b.view, at.motion, at.quality.error);
   const int exponent = finest.magnitude > 0 ? kCheckedExponent - std::ilogb(finest.magnitude) : 0;
   const DoubleDouble least = LeastHeight(finest, exponent).find();
   if (!(least.high < kInfinity)) return least;
-  return DoubleDouble(Pair{std::ldexp(least.high, -exponent), std::ldexp(least.low, -exponent)}) -
+  return DoubleDouble(HighLow{std::ldexp(least.high, -exponent), std::ldexp(least.low, -exponent)}) -
          (finest_a.deviation + stretch * finest_b.deviation);
 }
 

@@ -81,7 +81,7 @@ class Deepening {
     for (;;) {
       const double error = deviation();
       const bool last = place_.level_a == finest_a_ && place_.level_b == finest_b_;
-      const double allowed = larger(target_.absolute, target_.relative * smaller(upper, most));
+      const double allowed = max(target_.absolute, target_.relative * min(upper, most));
       if (last || error <= allowed || target_.is_threshold()) {
         const std::uint32_t steps_before = steps, tests_before = plane_tests;
         solve(seed, direction, error);
@@ -105,7 +105,7 @@ class Deepening {
   bool proved() const { return lower > law_two_; }
 
   /// With `floor`, where the depth has no other bound.
-  bool narrow(double floor) const { return upper - larger(lower, floor) <= larger(target_.absolute, law_two_); }
+  bool narrow(double floor) const { return upper - max(lower, floor) <= max(target_.absolute, law_two_); }
 
   void store(PairSeed& seed) const {
     remember(line_, normal, seed);
@@ -129,7 +129,7 @@ class Deepening {
   double deviation() const { return pair_.deviation(place_.level_a, place_.level_b); }
   bool answered() const {
     if (target_.is_threshold()) return lower > target_.depth + law_two_ || upper < target_.depth - law_two_;
-    return upper - larger(lower, floor_) <= larger(larger(target_.absolute, target_.relative * lower), law_two_);
+    return upper - max(lower, floor_) <= max(max(target_.absolute, target_.relative * lower), law_two_);
   }
 
   /// The line of centres, or where maps show the difference of the bodies lower, across the thinner side of either's box;
@@ -140,18 +140,18 @@ class Deepening {
     Vec lowest = normalised(line_.in_a);
     if (a_.map_level() == a_.level_count() || b_.map_level() == b_.level_count()) return lowest;
     double least = kInfinity;
-    for (const Vec& axis : {lowest, across(a_), turn(pair_.motion, across(b_))}) {
-      const Vec n = dot(axis, line_.in_a) < 0 ? -axis : axis, own = turn_back(pair_.motion, -n);
+    for (const Vec& axis : {lowest, across(a_), rotate(pair_.motion, across(b_))}) {
+      const Vec n = dot(axis, line_.in_a) < 0 ? -axis : axis, own = rotate_back(pair_.motion, -n);
       const Vec p = vec(view_a.vertices[about_farthest(a_, finest_a_, n)]),
                 q = vec(view_b.vertices[about_farthest(b_, finest_b_, own)]);
       if (const double height = dot(n, p - apply(pair_.motion, q)); height < least) least = height, lowest = n;
     }
-    if (least > 0) most = smaller(most, least);
+    if (least > 0) most = min(most, least);
     return lowest;
   }
 
   /// Pairs of the features' vertices, around what they span; and the direction between the features.
-  static DepthStart start_at(const Scene& pair, const MarchStart& features, const Vec& direction) {
+  static DepthStart start_at(const PairView& pair, const MarchStart& features, const Vec& direction) {
     DepthStart s;
     s.direction = direction;
     const Span a = span_of(pair.a, features.a);
@@ -171,7 +171,7 @@ class Deepening {
 
   /// Where the depth is locally least: B is moved along a direction until it is free, and whatever is nearest then names the
   /// next direction. Proves nothing.
-  DepthStart local_least(const Scene& pair, const Level& of_a, const Level& of_b, MarchStart at, const Vec& direction) {
+  DepthStart local_least(const PairView& pair, const Level& of_a, const Level& of_b, MarchStart at, const Vec& direction) {
     Vec n = normalised(direction);
     const Resting body = body_a(pair);
     const Moved other = body_b(pair);
@@ -187,12 +187,13 @@ class Deepening {
       if (!(height > 0)) break;
       Motion m = pair_.motion;
       m.t = m.t + n * (height * kSlideBy);
-      const Scene apart = scene(pair.a, pair.b, m, pair_.shift, pair_.pose_error);
+      const PairView apart = pair_view(pair.a, pair.b, m, pair_.shift, pair_.pose_error);
       if (far && has_maps) {
-        const Sight sight = look(apart, of_a, of_b, 0, glimpse(apart, of_a, of_b, n), [](const Sight& s) { return s.near; });
-        at = {{FeatureKind::Vertex, sight.start_a}, {FeatureKind::Vertex, sight.start_b}};
-        const bool turns = dot(sight.normal, n) < kSlideTurn;
-        n = sight.normal;
+        const SupportGjk found =
+            support_gjk(apart, of_a, of_b, 0, sample_axis(apart, of_a, of_b, n), [](const SupportGjk& s) { return s.near; });
+        at = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
+        const bool turns = dot(found.normal, n) < kSlideTurn;
+        n = found.normal;
         if (turns) continue;
       }
       at = settled(apart, at, plane_tests);
@@ -209,7 +210,7 @@ class Deepening {
     return start_at(pair, settled(pair, at, plane_tests), n);
   }
   /// Whether the point nearest to the origin lies within a polygon.
-  static bool stands_over(const Scene& pair, const DepthStart& s) {
+  static bool stands_over(const PairView& pair, const DepthStart& s) {
     std::array<Vec, 4> p;
     for (std::size_t k = 0; int(k) < s.count; ++k) p[k] = body_a(pair).point(s.a[k]) - body_b(pair).point(s.b[k]);
     int left = 0;
@@ -220,10 +221,10 @@ class Deepening {
   }
 
   /// At the seed's features, at the local least from there, or wherever it is: ever dearer.
-  Depth depth_of(const Scene& pair, const Level& of_a, const Level& of_b, const PairSeed& seed, const Vec& direction,
+  Depth depth_of(const PairView& pair, const Level& of_a, const Level& of_b, const PairSeed& seed, const Vec& direction,
                  DepthGoal goal) {
     const auto confirmed = [&](const DepthStart& at, Depth& found) {
-      const bool is_so = steps < budget_.steps && confirm(pair, of_a, of_b, at, goal, plane_tests, found);
+      const bool is_so = steps < budget_.steps && prove_facet(pair, of_a, of_b, at, goal, plane_tests, found);
       return steps += found.steps, is_so;
     };
     const bool fits = near_ && seed.level_a == place_.level_a && seed.level_b == place_.level_b &&
@@ -247,13 +248,12 @@ class Deepening {
 
   void solve(const PairSeed& seed, const Vec& direction, double error) {
     const Level &of_a = a_.level(place_.level_a), &of_b = b_.level(place_.level_b);
-    const Scene pair = pair_.scene_at(place_);
+    const PairView pair = pair_.view_at(place_);
     DepthGoal goal{target_.absolute, target_.relative, error, floor_};
     if (target_.is_threshold()) goal.deeper = target_.depth + law_two_, goal.shallower = target_.depth - law_two_;
     const Depth found = depth_of(pair, of_a, of_b, seed, direction, goal);
     end = found.end;
-    if (found.lower > 0)
-      lower = larger(lower, error > 0 ? (found.lower - error) - 2 * kU * (found.lower + error) : found.lower);
+    if (found.lower > 0) lower = max(lower, error > 0 ? (found.lower - error) - 2 * kU * (found.lower + error) : found.lower);
     if (found.upper > upper + law_two_) return;
     upper = found.upper;
     normal = found.normal;
@@ -306,7 +306,7 @@ void join(const Deepening& deep, Answer& s, OverlapProof& proof, PairSeed& seed)
   const bool overlapping = deep.proved() || s.verdict == Verdict::Overlapping;
   if (s.status == Status::Converged) s.status = deep.status();
   if (overlapping) s.verdict = Verdict::Overlapping;
-  s.upper = smaller(overlapping ? smaller(s.upper, 0) : s.upper, -deep.lower);
+  s.upper = min(overlapping ? min(s.upper, 0) : s.upper, -deep.lower);
   if (s.upper < 0) proof = {};
   take(deep, s);
   if (overlapping) deep.store(seed);
@@ -316,18 +316,18 @@ void join(const Deepening& deep, Answer& s, OverlapProof& proof, PairSeed& seed)
 void part(const Deepening& deep, Answer& s) {
   s.verdict = Verdict::Disjoint;
   s.lower = -deep.upper;
-  s.upper = larger(s.upper, s.lower);
+  s.upper = max(s.upper, s.lower);
   s.normal = eigen(deep.normal);
 }
 
 /// Bounds of a touching pair that law 2 allows one by one and not together: 106 bits narrow that of the distance.
 void sharpen(const ModelPair& pair, Answer& s) {
   const Place place{s.level_a, s.level_b, {s.feature_a, s.feature_b}};
-  const Scene scene = pair.scene_at(place);
-  const MarchStart from = settled(scene, place.start, s.plane_tests);
-  Certificate c = certify(scene, from.a, from.b, witness(scene, from.a, from.b), s.plane_tests);
-  sharpen(scene, c, s.plane_tests);
-  s.upper = larger(s.lower, smaller(s.upper, c.upper + pair.deviation(s.level_a, s.level_b)));
+  const PairView view = pair.view_at(place);
+  const MarchStart from = settled(view, place.start, s.plane_tests);
+  Certificate c = certify(view, from.a, from.b, witness(view, from.a, from.b), s.plane_tests);
+  sharpen(view, c, s.plane_tests);
+  s.upper = max(s.lower, min(s.upper, c.upper + pair.deviation(s.level_a, s.level_b)));
 }
 
 /// What the depth alone says.

@@ -22,12 +22,12 @@ struct DepthGoal {
   std::uint32_t step_budget = ~0u;                              ///< supports
 
   bool suffices(double upper, double lower, double law_two) const {
-    return upper - (lower > 0 ? lower : floor) <= larger(larger(absolute, relative * (lower - error)) - error, law_two);
+    return upper - (lower > 0 ? lower : floor) <= max(max(absolute, relative * (lower - error)) - error, law_two);
   }
   bool passed(double upper, double lower) const { return lower - error > deeper || upper < shallower; }
   /// Whether no bounds of this pair can suffice, for its error.
   bool hopeless(double upper, double lower) const {
-    return error > 0 && larger(absolute, relative * (upper - error)) < error && upper - error <= deeper && lower >= shallower;
+    return error > 0 && max(absolute, relative * (upper - error)) < error && upper - error <= deeper && lower >= shallower;
   }
 };
 

@@ -78,15 +78,15 @@ enum class End : std::uint8_t {
 
 class Polytope {
  public:
-  Polytope(const Scene& scene, const Level& a, const Level& b, const DepthGoal& goal, std::uint32_t& plane_tests)
-      : scene_(scene),
+  Polytope(const PairView& pair, const Level& a, const Level& b, const DepthGoal& goal, std::uint32_t& plane_tests)
+      : pair_(pair),
         level_a_(a),
         level_b_(b),
         goal_(goal),
         plane_tests_(plane_tests),
         exact_(goal.absolute == 0 && goal.relative == 0 && goal.deeper == kInfinity),
-        binade_(std::ldexp(1, std::ilogb(larger(scene.magnitude, kLeastWidth)))),
-        moved_((kGridError + kPlaneHeightFloor) * scene.magnitude) {}
+        binade_(std::ldexp(1, std::ilogb(max(pair.magnitude, kLeastWidth)))),
+        moved_((kGridError + kPlaneHeightFloor) * pair.magnitude) {}
 
   /// From the start's polygon, a point beyond each of its sides and one below: what proves a depth is often no more. False
   /// where M is flat on the grid: planes were found that say so.
@@ -114,7 +114,7 @@ class Polytope {
     for (int i = 0; i < rim_; ++i) {
       const Corner &from = found[std::size_t(i)], &to = found[std::size_t((i + 1) % rim_)];
       const Vec side = to.p - from.p;
-      include(glance(n * norm(side) + cross(side, n) * (turn * kFlare), from));
+      include(about_highest(n * norm(side) + cross(side, n) * (turn * kFlare), from));
     }
     return true;
   }
@@ -141,10 +141,10 @@ class Polytope {
   End grow(bool bounds_only = false, double lowest = kInfinity) {
     for (;;) {
       int next = hull_.lowest();
-      lower_ = smaller(lowest, below(hull_.facet(next).height));
+      lower_ = min(lowest, below(hull_.facet(next).height));
       if (goal_.passed(best_.height, lower_)) return End::Enough;
       if (goal_.hopeless(best_.height, lower_)) return End::TooCoarse;
-      if (best_.height < -scene_.law_two) return End::Apart;
+      if (best_.height < -pair_.law_two) return End::Apart;
       if (narrow(lower_) && bounds_only) return End::Enough;
       if (narrow(lower_)) next = nearest_point().facet;
       const HullFacet& facet = hull_.sharpened(next);
@@ -184,7 +184,7 @@ class Polytope {
 
   /// The points that the nearest point is the difference of.
   void witness(Depth& depth) {
-    const Nearest nearest = nearest_point();
+    const NearestFacet nearest = nearest_point();
     const HullFacet& facet = hull_.facet(nearest.facet);
     if (is_far(facet)) return;
     depth.active.count = 0;
@@ -192,24 +192,24 @@ class Polytope {
     for (std::size_t k = 0; k < 3; ++k) {
       const double weight = rounded(nearest.foot.weight[k]);
       if (weight == 0) continue;
-      const Pair of = pair_[facet.corner[k]];
+      const VertexPair of = vertex_pair_[facet.corner[k]];
       const auto slot = std::size_t(depth.active.count++);
       depth.active.a[slot] = of.a, depth.active.b[slot] = of.b, depth.active.weight[slot] = weight;
-      depth.point_a = depth.point_a + body_a(scene_).point(of.a) * weight;
-      depth.point_b = depth.point_b + body_b(scene_).point(of.b) * weight;
+      depth.point_a = depth.point_a + body_a(pair_).point(of.a) * weight;
+      depth.point_b = depth.point_b + body_b(pair_).point(of.b) * weight;
     }
   }
 
  private:
-  struct Pair {
+  struct VertexPair {
     std::uint32_t a, b;
   };
-  struct Nearest {
+  struct NearestFacet {
     int facet;
     Foot foot;
   };
 
-  bool suffices(double upper, double lower) const { return goal_.suffices(upper, lower, scene_.law_two); }
+  bool suffices(double upper, double lower) const { return goal_.suffices(upper, lower, pair_.law_two); }
   /// A proved lower bound of M's height where the hull's is `height`.
   double below(double height) const { return height - (kPlaneHeightError * std::fabs(height) + moved_); }
 
@@ -224,11 +224,11 @@ class Polytope {
     return {snapped(p.x), snapped(p.y), snapped(p.z)};
   }
   Corner corner_of(std::uint32_t a, std::uint32_t b) const {
-    return {on_grid(rounded(difference<DoubleDouble>(scene_, a, b).p)), a, b};
+    return {on_grid(rounded(difference<DoubleDouble>(pair_, a, b).p)), a, b};
   }
-  Corner corner(std::uint8_t k) const { return {hull_.corner(k), pair_[k].a, pair_[k].b}; }
+  Corner corner(std::uint8_t k) const { return {hull_.corner(k), vertex_pair_[k].a, vertex_pair_[k].b}; }
   bool is_far(const HullFacet& f) const {
-    return pair_[f.corner[0]].a == kNone || pair_[f.corner[1]].a == kNone || pair_[f.corner[2]].a == kNone;
+    return vertex_pair_[f.corner[0]].a == kNone || vertex_pair_[f.corner[1]].a == kNone || vertex_pair_[f.corner[2]].a == kNone;
   }
   /// Whether a facet is of the start's polygon: mostly M's own.
   bool is_starts(const HullFacet& f) const {
@@ -244,29 +244,29 @@ class Polytope {
   /// is the best.
   Corner support(const Vec& n, std::uint32_t a, std::uint32_t b) {
     ++steps_;
-    const Supports s = supports(scene_, n, higher(level_a_, n, a), higher(level_b_, body_b(scene_).into(-n), b), plane_tests_);
+    const Supports s = supports(pair_, n, higher(level_a_, n, a), higher(level_b_, body_b(pair_).into(-n), b), plane_tests_);
     take({-s.lower, n});
     return corner_of(s.a, s.b);
   }
   /// The same by exact comparisons, its height in 106 bits.
   Corner support_exactly(const Vec& n, std::uint32_t a, std::uint32_t b) {
     ++steps_;
-    a = support_a(scene_, n, a, plane_tests_), b = support_b(scene_, n, b, plane_tests_);
-    const double height = rounded(dot(wide(n), difference<DoubleDouble>(scene_, a, b).p));
-    take({height + (kGapError * std::fabs(height) + kDoubleDoubleError * scene_.magnitude), n});
+    a = support_a(pair_, n, a, plane_tests_), b = support_b(pair_, n, b, plane_tests_);
+    const double height = rounded(dot(wide(n), difference<DoubleDouble>(pair_, a, b).p));
+    take({height + (kGapError * std::fabs(height) + kDoubleDoubleError * pair_.magnitude), n});
     return corner_of(a, b);
   }
   /// A vertex pair about as high, as maps know it; without maps by a climb from another.
-  Corner glance(const Vec& n, const Corner& from) {
+  Corner about_highest(const Vec& n, const Corner& from) {
     if (level_a_.map_side == 0 || level_b_.map_side == 0) return climb(n, from.a, from.b);
-    return corner_of(look_up(level_a_, n).vertex, look_up(level_b_, body_b(scene_).into(-n)).vertex);
+    return corner_of(look_up(level_a_, n).vertex, look_up(level_b_, body_b(pair_).into(-n)).vertex);
   }
   /// A vertex pair about as high along n as there is one, which proves nothing.
   Corner climb(const Vec& n, std::uint32_t a, std::uint32_t b) {
     ++steps_;
-    const Vec own = body_b(scene_).into(-n);
-    return corner_of(ascend(scene_.a, n, higher(level_a_, n, a), plane_tests_),
-                     ascend(scene_.b, own, higher(level_b_, own, b), plane_tests_));
+    const Vec own = body_b(pair_).into(-n);
+    return corner_of(ascend(pair_.a, n, higher(level_a_, n, a), plane_tests_),
+                     ascend(pair_.b, own, higher(level_b_, own, b), plane_tests_));
   }
   static std::uint32_t higher(const Level& level, const Vec& own, std::uint32_t other) {
     if (level.map_side == 0) return other;
@@ -292,7 +292,7 @@ class Polytope {
   /// A point of M off the plane of three corners; where there is one below it along `direction`, that.
   bool leave_plane(const Vec& direction, const std::array<Corner, 3>& of, Corner& apex) {
     const auto leaves = [&](const Corner& c) { return exact::orientation(of[0].p, of[1].p, of[2].p, c.p) != 0; };
-    apex = glance(direction, of[0]);
+    apex = about_highest(direction, of[0]);
     return leaves(apex) || first_of({direction}, of[0], apex, leaves);
   }
   /// The first support along one of these directions, or against it, that serves. Where none does M is flat, and its exact
@@ -313,22 +313,22 @@ class Polytope {
   }
   void close(const std::array<Corner, 4>& corners) {
     hull_.begin({corners[0].p, corners[1].p, corners[2].p, corners[3].p});
-    for (std::size_t k = 0; k < 4; ++k) pair_[k] = {corners[k].a, corners[k].b};
+    for (std::size_t k = 0; k < 4; ++k) vertex_pair_[k] = {corners[k].a, corners[k].b};
   }
   void include(const Corner& c) {
     if (const int facet = hull_.seen_from(c.p); facet >= 0) add(c, facet);
   }
-  void add(const Corner& c, int facet) { pair_[std::size_t(hull_.add(c.p, facet))] = {c.a, c.b}; }
+  void add(const Corner& c, int facet) { vertex_pair_[std::size_t(hull_.add(c.p, facet))] = {c.a, c.b}; }
 
   // ---- The facets ----
 
   /// The point of the surface nearest to the origin: none of a facet higher than the best plane is.
-  Nearest nearest_point() {
+  NearestFacet nearest_point() {
     const int lowest = hull_.lowest();
-    Nearest best{lowest, foot_of(hull_.facet(lowest))};
+    NearestFacet best{lowest, foot_of(hull_.facet(lowest))};
     for (int k = 0; k < hull_.facet_count(); ++k) {
       const HullFacet& facet = hull_.facet(k);
-      if (k == lowest || facet.height > best_.height + scene_.law_two) continue;
+      if (k == lowest || facet.height > best_.height + pair_.law_two) continue;
       const Foot at = foot_of(facet);
       if (dot(at.point, at.point) < dot(best.foot.point, best.foot.point)) best = {k, at};
     }
@@ -340,17 +340,17 @@ class Polytope {
   /// One of a facet's that is no far point, or else any of M.
   Corner nearest_corner(const HullFacet& f) const {
     for (const std::uint8_t k : f.corner) {
-      if (pair_[k].a != kNone) return corner(k);
+      if (vertex_pair_[k].a != kNone) return corner(k);
     }
     return corner(0);
   }
   /// Whether a corner is a way on, and no plane through it is wanted for its own sake.
   bool leads_on(int facet, const Corner& c) const {
     const double height = dot(hull_.facet(facet).normal, c.p);
-    return height > larger(0, goal_.shallower) && (exact_ || !suffices(height, lower_)) && hull_.sees(facet, c.p);
+    return height > max(0, goal_.shallower) && (exact_ || !suffices(height, lower_)) && hull_.sees(facet, c.p);
   }
 
-  const Scene& scene_;
+  const PairView& pair_;
   const Level &level_a_, &level_b_;
   const DepthGoal& goal_;
   std::uint32_t& plane_tests_;
@@ -362,7 +362,7 @@ class Polytope {
   std::uint32_t steps_ = 0;
   Plane best_, last_;  ///< of all supports, and of the last
   ExactHull hull_;
-  std::array<Pair, ExactHull::kMostPoints> pair_;
+  std::array<VertexPair, ExactHull::kMostPoints> vertex_pair_;
 };
 
 /// A cone in four.
@@ -384,7 +384,7 @@ End cover(Polytope& polytope, const Cone& cone, int depth, double& lower) {
     }
     return end;
   }
-  lower = smaller(lower, polytope.lower());
+  lower = min(lower, polytope.lower());
   return end;
 }
 
@@ -409,16 +409,16 @@ Cone about(const Vec& n) {
 
 }  // namespace
 
-Depth epa(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
+Depth epa(const PairView& pair, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
           std::uint32_t& plane_tests) {
-  Polytope polytope(scene, a, b, goal, plane_tests);
+  Polytope polytope(pair, a, b, goal, plane_tests);
   Depth depth;
   bool has_facets = polytope.begin(start);
   End end = has_facets ? polytope.grow() : End::Flat;
-  depth.lower = larger(0, polytope.lower());
+  depth.lower = max(0, polytope.lower());
   if (end == End::Full) {
     end = cover_all(polytope, depth.lower);
-    depth.lower = larger(0, depth.lower);
+    depth.lower = max(0, depth.lower);
     has_facets = polytope.begin(about(polytope.best().normal));
     if (has_facets) polytope.grow(false, depth.lower);  // its facet again, for the points
   }
@@ -426,7 +426,7 @@ Depth epa(const Scene& scene, const Level& a, const Level& b, const DepthStart& 
   if (end == End::Enough || (end == End::Flat && polytope.narrow(0))) depth.end = DepthEnd::Converged;
   if (end == End::Apart) depth.end = DepthEnd::Apart;
   if (end == End::Budget) depth.end = DepthEnd::Budget;
-  depth.upper = larger(polytope.best().height, depth.lower);
+  depth.upper = max(polytope.best().height, depth.lower);
   depth.normal = polytope.best().normal;
   depth.steps = polytope.steps();
   return depth;

@@ -11,9 +11,9 @@
 
 namespace swiftlet {
 
-/// The expanding polytope algorithm. Nothing is allocated. The levels are those of the scene's views. Law 7: at most
+/// The expanding polytope algorithm. Nothing is allocated. The levels are those of the pair's views. Law 7: at most
 /// 12 * 4^kDepthCells * kDepthPoints supports.
-Depth epa(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
+Depth epa(const PairView& pair, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
           std::uint32_t& plane_tests);
 
 }  // namespace swiftlet

@@ -26,23 +26,23 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 using Corner = Difference<double>;
 
 /// A polygon between points of M, counter-clockwise along its unit normal; below it a ring of more.
-class Crown {
+class FacetRing {
  public:
-  Crown(const Scene& scene, const DepthStart& start) : scene_(scene), rim_(start.count) {
-    for (std::size_t k = 0; k < rim(); ++k) p_[k] = difference<double>(scene, start.a[k], start.b[k]);
+  FacetRing(const PairView& pair, const DepthStart& start) : pair_(pair), rim_(start.count) {
+    for (std::size_t k = 0; k < rim(); ++k) p_[k] = difference<double>(pair, start.a[k], start.b[k]);
     normal_ = normalised(cross(p_[1].p - p_[0].p, p_[rim() - 1].p - p_[0].p));
     if (dot(normal_, start.direction) < 0) std::reverse(p_.begin() + 1, p_.begin() + rim_), normal_ = -normal_;
     double high = 0;
     for (std::size_t k = 0; k < rim(); ++k) {
       const double h = dot(normal_, p_[k].p);
-      height_ = k == 0 ? h : smaller(height_, h), high = k == 0 ? h : larger(high, h);
+      height_ = k == 0 ? h : min(height_, h), high = k == 0 ? h : max(high, h);
     }
-    flat_ = high - height_ <= scene.law_two / 8;
+    flat_ = high - height_ <= pair.law_two / 8;
   }
 
   const Vec& normal() const { return normal_; }
   double height() const { return height_; }
-  double lower() const { return height_ - scene_.point_error; }  ///< proved
+  double lower() const { return height_ - pair_.point_error; }  ///< proved
   const Corner& operator[](std::size_t k) const { return p_[k]; }
 
   /// Finds the point that the origin is under, as the vertex pairs it is of, and returns how far it is from where the normal
@@ -52,13 +52,13 @@ class Crown {
     std::array<std::size_t, 3> of{0, 1, 2};
     if (rim_ == 4 && dot(normal_, cross(p_[0].p, p_[2].p)) > 0) of = {0, 2, 3};
     const Vec &p = p_[of[0]].p, &q = p_[of[1]].p, &r = p_[of[2]].p;
-    std::array<double, 3> weight{larger(dot(normal_, cross(q, r)), 0), larger(dot(normal_, cross(r, p)), 0),
-                                 larger(dot(normal_, cross(p, q)), 0)};
+    std::array<double, 3> weight{max(dot(normal_, cross(q, r)), 0), max(dot(normal_, cross(r, p)), 0),
+                                 max(dot(normal_, cross(p, q)), 0)};
     const double sum = weight[0] + weight[1] + weight[2];
     if (!(sum > 0)) return kInfinity;
-    weight[1] /= sum, weight[2] /= sum, weight[0] = larger(1 - weight[1] - weight[2], 0);
+    weight[1] /= sum, weight[2] /= sum, weight[0] = max(1 - weight[1] - weight[2], 0);
     const double off = norm(p * weight[0] + q * weight[1] + r * weight[2] - normal_ * height_);
-    if (off > scene_.law_two) return off;
+    if (off > pair_.law_two) return off;
     depth.active.count = 0;
     depth.point_a = depth.point_b = {0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -66,25 +66,25 @@ class Crown {
       const Corner& c = p_[of[k]];
       const auto slot = std::size_t(depth.active.count++);
       depth.active.a[slot] = c.a, depth.active.b[slot] = c.b, depth.active.weight[slot] = weight[k];
-      depth.point_a = depth.point_a + body_a(scene_).point(c.a) * weight[k];
-      depth.point_b = depth.point_b + body_b(scene_).point(c.b) * weight[k];
+      depth.point_a = depth.point_a + body_a(pair_).point(c.a) * weight[k];
+      depth.point_b = depth.point_b + body_b(pair_).point(c.b) * weight[k];
     }
     return off;
   }
 
   /// Puts a point beyond each side, less far the nearer that is to the nearest point; whether what closes the surface below the
   /// polygon is no nearer than it, and goes around the origin as it should.
-  template <class Glance>
-  bool closes(Glance glance) {
+  template <class AboutHighest>
+  bool closes(AboutHighest about_highest) {
     for (std::size_t k = 0; k < rim(); ++k) {
       const Vec &p = p_[k].p, &q = p_[after(k)].p, side = q - p;
       const double length = norm(side), beside = kLean * dot(normal_, cross(p, q)) / (length * height_);
-      p_[rim() + k] = glance(normal_ * length + cross(side, normal_) * smaller(larger(0, beside), kFlare), p_[k]);
+      p_[rim() + k] = about_highest(normal_ * length + cross(side, normal_) * min(max(0, beside), kFlare), p_[k]);
     }
     for (std::size_t k = 2; k < rim(); ++k) {
       if (!covers(0, k - 1, k, 0)) return false;
     }
-    const double least = height_ + scene_.point_error;
+    const double least = height_ + pair_.point_error;
     for (std::size_t k = 0, last = rim() - 1; k < rim(); last = k++) {
       if (!covers(after(k), k, rim() + k, least) || !covers(rim() + k, k, rim() + last, least)) return false;
       if (k >= 2 && !covers(rim(), rim() + k, rim() + last, least)) return false;
@@ -102,12 +102,12 @@ class Crown {
     const Corner &p = p_[i], &q = p_[j], &r = p_[k];
     if (same(p, q) || same(q, r) || same(r, p)) return true;
     const Vec u = q.p - p.p, v = r.p - p.p, area = cross(u, v);
-    const double low = smaller(dot(area, p.p), smaller(dot(area, q.p), dot(area, r.p)));
-    const double error = kOutwardError * scene_.magnitude;
-    return low > 0 && low * low > larger(error * error * (dot(u, u) * dot(v, v)), least * least * dot(area, area));
+    const double low = min(dot(area, p.p), min(dot(area, q.p), dot(area, r.p)));
+    const double error = kOutwardError * pair_.magnitude;
+    return low > 0 && low * low > max(error * error * (dot(u, u) * dot(v, v)), least * least * dot(area, area));
   }
 
-  const Scene& scene_;
+  const PairView& pair_;
   int rim_;
   bool flat_ = false;
   double height_ = 0;  ///< of the lowest corner along the normal
@@ -117,27 +117,26 @@ class Crown {
 
 }  // namespace
 
-bool confirm(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
-             std::uint32_t& plane_tests, Depth& depth) {
+bool prove_facet(const PairView& pair, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
+                 std::uint32_t& plane_tests, Depth& depth) {
   depth.steps = 0, depth.upper = kInfinity;
   if (start.count < 3) return false;
-  Crown crown(scene, start);
-  const Vec& n = crown.normal();
-  const double lower = crown.lower(), off = lower > 0 ? crown.stand(depth) : kInfinity;
-  if (!(off <= scene.law_two)) return false;
+  FacetRing ring(pair, start);
+  const Vec& n = ring.normal();
+  const double lower = ring.lower(), off = lower > 0 ? ring.stand(depth) : kInfinity;
+  if (!(off <= pair.law_two)) return false;
   ++depth.steps;
-  const Supports top = supports(scene, n, crown[0].a, crown[0].b, plane_tests);
+  const Supports top = supports(pair, n, ring[0].a, ring[0].b, plane_tests);
   const double upper = -top.lower;
-  if (!goal.suffices(upper, lower, scene.law_two) || off + (upper - crown.height()) > scene.law_two) return false;
-  const auto glance = [&](const Vec& direction, const Corner& from) {
-    const Vec own = body_b(scene).into(-direction);
+  if (!goal.suffices(upper, lower, pair.law_two) || off + (upper - ring.height()) > pair.law_two) return false;
+  const auto about_highest = [&](const Vec& direction, const Corner& from) {
+    const Vec own = body_b(pair).into(-direction);
     if (a.map_side == 0 || b.map_side == 0)
-      return difference<double>(scene, ascend(scene.a, direction, from.a, plane_tests),
-                                ascend(scene.b, own, from.b, plane_tests));
-    return difference<double>(scene, look_up(a, direction).vertex, look_up(b, own).vertex);
+      return difference<double>(pair, ascend(pair.a, direction, from.a, plane_tests), ascend(pair.b, own, from.b, plane_tests));
+    return difference<double>(pair, look_up(a, direction).vertex, look_up(b, own).vertex);
   };
   depth.upper = upper;
-  if (!crown.closes(glance)) return false;
+  if (!ring.closes(about_highest)) return false;
   depth.end = goal.passed(upper, lower) || !goal.hopeless(upper, lower) ? DepthEnd::Converged : DepthEnd::NotConverged;
   depth.lower = lower;
   depth.normal = n;

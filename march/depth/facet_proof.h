@@ -13,8 +13,8 @@ namespace swiftlet {
 
 /// Whether the start, of three or four vertex pairs, is a facet of the Minkowski difference that holds the point of its surface
 /// nearest to the origin, and a ring of points shows that: mostly, where it is. `depth` is filled only if so; of a facet of
-/// which only the ring does not show it `upper` is, and of any `steps`. The levels are those of the scene's views.
-bool confirm(const Scene& scene, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
-             std::uint32_t& plane_tests, Depth& depth);
+/// which only the ring does not show it `upper` is, and of any `steps`. The levels are those of the pair's views.
+bool prove_facet(const PairView& pair, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
+                 std::uint32_t& plane_tests, Depth& depth);
 
 }  // namespace swiftlet

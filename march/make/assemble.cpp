@@ -77,7 +77,7 @@ std::uint32_t nearest_of_rings(const ConvexView& view, const Vec& p, std::uint32
 
 /// The feature of `body` nearest to `point`, or none where a walk finds the point inside.
 FeatureId nearest_feature(const ConvexView& point, const ConvexView& body, const MarchStart& start) {
-  const Scene pair = scene(point, body, kAtRest, 0);
+  const PairView pair = pair_view(point, body, kAtRest, 0);
   std::uint32_t climbs = 0;
   const MarchStart from = settled(pair, start, climbs);
   if (walk(pair, from.a, from.b, PlaneRule::MostViolated, ~0u).end == WalkEnd::Inside) return {};

@@ -33,7 +33,7 @@ struct Left {
 };
 
 /// What a side lies on.
-struct Line {
+struct SideLine {
   double px, py, nx, ny;
   double height(const Left& c) const { return nx * (c.x - px) + ny * (c.y - py); }  ///< positive inside
 };
@@ -41,7 +41,7 @@ struct Line {
 /// The sides of an outline that count: corners that stand out by no more than a bound are none.
 class Reference {
  public:
-  Reference(const Outline& outline, double bound) : outline_(outline), bound_(bound), sense_(sense(outline)) {
+  Reference(const ContactFace& outline, double bound) : outline_(outline), bound_(bound), sense_(sense(outline)) {
     for (int k = 0, i = rightmost(outline); k < outline.count; ++k, i = outline.after(i)) {
       while (count_ > 1 && flat(index_[at(count_ - 2)], index_[at(count_ - 1)], i)) --count_;
       index_[at(count_++)] = i;
@@ -50,12 +50,12 @@ class Reference {
   }
 
   int sides() const { return count_ > 1 ? count_ : 0; }
-  const Corner& corner(int side) const { return outline_[index_[at(side)]]; }
-  const Corner& next_corner(int side) const { return corner(next(side)); }
+  const FaceCorner& corner(int side) const { return outline_[index_[at(side)]]; }
+  const FaceCorner& next_corner(int side) const { return corner(next(side)); }
   /// Of the outline's sides that this one stands for, the one that a place on it belongs to, by the corner it leaves.
   int part(int side, double x, double y) const {
-    const Corner &p = corner(side), &q = next_corner(side);
-    const auto before = [&](const Corner& c) { return (q.x - p.x) * (c.x - x) + (q.y - p.y) * (c.y - y) < 0; };
+    const FaceCorner &p = corner(side), &q = next_corner(side);
+    const auto before = [&](const FaceCorner& c) { return (q.x - p.x) * (c.x - x) + (q.y - p.y) * (c.y - y) < 0; };
     int i = index_[at(side)];
     while (outline_.after(i) != index_[at(next(side))] && before(outline_[outline_.after(i)])) i = outline_.after(i);
     return i;
@@ -71,8 +71,8 @@ class Reference {
     }
     return nearest;
   }
-  Line line(int side) const {
-    const Corner &p = corner(side), &q = next_corner(side);
+  SideLine line(int side) const {
+    const FaceCorner &p = corner(side), &q = next_corner(side);
     const double dx = q.x - p.x, dy = q.y - p.y, length = std::sqrt(dx * dx + dy * dy), unit = length > 0 ? sense_ / length : 0;
     return {p.x, p.y, -dy * unit, dx * unit};
   }
@@ -81,25 +81,25 @@ class Reference {
   static std::size_t at(int i) { return std::size_t(i); }
   int next(int side) const { return side + 1 == count_ ? 0 : side + 1; }
   /// A corner that stands out whatever else does.
-  static int rightmost(const Outline& o) {
+  static int rightmost(const ContactFace& o) {
     int found = 0;
     for (int i = 1; i < o.count; ++i) {
       if (o[i].x > o[found].x) found = i;
     }
     return found;
   }
-  static double sense(const Outline& o) {
+  static double sense(const ContactFace& o) {
     double area = 0;
     for (int i = 0; i < o.count; ++i) area += o[i].x * o[o.after(i)].y - o[i].y * o[o.after(i)].x;
     return area < 0 ? -1 : 1;
   }
   bool flat(int i, int j, int k) const {
-    const Corner &p = outline_[i], &q = outline_[j], &r = outline_[k];
+    const FaceCorner &p = outline_[i], &q = outline_[j], &r = outline_[k];
     const double dx = r.x - p.x, dy = r.y - p.y;
     return sense_ * (dy * (q.x - p.x) - dx * (q.y - p.y)) <= bound_ * std::sqrt(dx * dx + dy * dy);
   }
 
-  const Outline& outline_;
+  const ContactFace& outline_;
   double bound_, sense_;
   int count_ = 0;
   std::array<int, kMostCorners> index_;
@@ -108,7 +108,7 @@ class Reference {
 /// The corners of the intersection of two outlines.
 class Clip {
  public:
-  Clip(const Outline& incident, const Reference& reference, double bound) : reference_(reference), bound_(bound) {
+  Clip(const ContactFace& incident, const Reference& reference, double bound) : reference_(reference), bound_(bound) {
     for (int i = 0; i < incident.count; ++i) keep({incident[i].x, incident[i].y, {i, Mark::kNo}, {i, Mark::kNo}});
     for (int side = 0; side < reference.sides() && count_ > 0; ++side) cut(side);
   }
@@ -117,7 +117,7 @@ class Clip {
   const Left& operator[](int i) const { return left_[now_][std::size_t(i)]; }
 
  private:
-  static constexpr int kMost = int(kMostSpots);
+  static constexpr int kMost = int(kMostCandidates);
 
   void keep(const Left& corner) {
     if (count_ < kMost) left_[now_][std::size_t(count_++)] = corner;
@@ -127,7 +127,7 @@ class Clip {
   void cut(int side) {
     const std::array<Left, kMost>& whole = left_[now_];
     const int size = count_;
-    const Line line = reference_.line(side);
+    const SideLine line = reference_.line(side);
     std::array<double, kMost> height;
     bool is_whole = true;
     for (int i = 0; i < size; ++i) {
@@ -142,7 +142,7 @@ class Clip {
       const bool inside = height[k] >= -bound_, next_inside = height[l] >= -bound_;
       if (inside) keep(p);
       if (inside != next_inside) {
-        const double t = smaller(larger(height[k] / (height[k] - height[l]), 0), 1);
+        const double t = min(max(height[k] / (height[k] - height[l]), 0), 1);
         keep({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), cut_off(p.side, side), inside ? Mark{Mark::kNo, side} : p.side});
       }
     }
@@ -165,17 +165,17 @@ class Clip {
 Vec between(const Vec& p, const Vec& q, double t) { return p + (q - p) * t; }
 
 /// How far along a side the place is that is seen nearest to another: 0 at p, 1 at q.
-double along(const Corner& p, const Corner& q, double x, double y) {
+double along(const FaceCorner& p, const FaceCorner& q, double x, double y) {
   const double dx = q.x - p.x, dy = q.y - p.y, length2 = dx * dx + dy * dy, t = (x - p.x) * dx + (y - p.y) * dy;
-  return length2 > 0 && t > 0 ? smaller(t / length2, 1) : 0;
+  return length2 > 0 && t > 0 ? min(t / length2, 1) : 0;
 }
 
 /// The point of an outline's sides that is seen nearest to a place.
-Vec on_sides(const Outline& o, double x, double y) {
+Vec on_sides(const ContactFace& o, double x, double y) {
   double least = std::numeric_limits<double>::infinity();
   Vec nearest{0, 0, 0};
   for (int i = 0; i < o.count; ++i) {
-    const Corner &p = o[i], &q = o[o.after(i)];
+    const FaceCorner &p = o[i], &q = o[o.after(i)];
     const double t = along(p, q, x, y), dx = p.x + t * (q.x - p.x) - x, dy = p.y + t * (q.y - p.y) - y;
     if (dx * dx + dy * dy < least) least = dx * dx + dy * dy, nearest = between(p.p, q.p, t);
   }
@@ -184,11 +184,11 @@ Vec on_sides(const Outline& o, double x, double y) {
 
 /// The point of an outline's face over a place: between the sides to the left and to the right; where the place is not inside,
 /// on the nearest side.
-Vec over(const Outline& o, double x, double y) {
+Vec over(const ContactFace& o, double x, double y) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   Vec p_low{0, 0, 0}, p_high{0, 0, 0};
   for (int i = 0; i < o.count; ++i) {
-    const Corner &p = o[i], &q = o[o.after(i)];
+    const FaceCorner &p = o[i], &q = o[o.after(i)];
     if ((p.y <= y) == (q.y <= y)) continue;
     const double t = (y - p.y) / (q.y - p.y), place = p.x + t * (q.x - p.x);
     if (place < low) low = place, p_low = between(p.p, q.p, t);
@@ -198,10 +198,10 @@ Vec over(const Outline& o, double x, double y) {
 }
 
 /// The points of two sides where they cross, as they are seen.
-struct Pair {
+struct PointPair {
   Vec incident, reference;
 };
-Pair crossing(const Corner& i0, const Corner& i1, const Corner& r0, const Corner& r1) {
+PointPair side_crossing(const FaceCorner& i0, const FaceCorner& i1, const FaceCorner& r0, const FaceCorner& r1) {
   const double ix = i1.x - i0.x, iy = i1.y - i0.y, rx = r1.x - r0.x, ry = r1.y - r0.y;
   const double h0 = rx * (i0.y - r0.y) - ry * (i0.x - r0.x), h1 = rx * (i1.y - r0.y) - ry * (i1.x - r0.x);
   const double t = h0 != h1 ? h0 / (h0 - h1) : 0, s = along(r0, r1, i0.x + t * ix, i0.y + t * iy);
@@ -209,12 +209,12 @@ Pair crossing(const Corner& i0, const Corner& i1, const Corner& r0, const Corner
   return {between(i0.p, i1.p, along(i0, i1, r0.x + s * rx, r0.y + s * ry)), between(r0.p, r1.p, s)};
 }
 
-FeatureId side_id(const ConvexView& view, const Corner& corner) {
+FeatureId side_id(const ConvexView& view, const FaceCorner& corner) {
   if (corner.half_edge == kNone) return {FeatureKind::Vertex, corner.vertex};
   return named(view, {FeatureKind::Edge, corner.half_edge});
 }
-FeatureId corner_id(const Corner& corner) { return {FeatureKind::Vertex, corner.vertex}; }
-FeatureId face_id(const ConvexView& view, const Outline& outline) {
+FeatureId corner_id(const FaceCorner& corner) { return {FeatureKind::Vertex, corner.vertex}; }
+FeatureId face_id(const ConvexView& view, const ContactFace& outline) {
   if (outline.face != kNone) return {FeatureKind::Face, outline.face};
   return side_id(view, outline[0]);  // the whole body
 }
@@ -222,9 +222,9 @@ FeatureId face_id(const ConvexView& view, const Outline& outline) {
 /// Both outlines, and which of them is clipped.
 class Faces {
  public:
-  Faces(const Scene& scene, const Across& across, const Outline& a, const Outline& b, double bound)
-      : scene_(scene),
-        across_(across),
+  Faces(const PairView& pair, const Projection& projection, const ContactFace& a, const ContactFace& b, double bound)
+      : pair_(pair),
+        projection_(projection),
         a_(a),
         b_(b),
         a_is_reference_(std::fabs(a.facing) >= std::fabs(b.facing)),
@@ -233,50 +233,50 @@ class Faces {
 
   /// What stays may reach beyond a tip of the reference, or beyond the end of one that is seen as a line: then the corner there
   /// is meant.
-  int corners(std::span<Spot, kMostSpots> spots) const {
+  int corners(std::span<Candidate, kMostCandidates> candidates) const {
     const Clip clip(incident(), reference_, bound_);
     std::size_t count = 0;
     for (int i = 0; i < clip.count(); ++i) {
-      Spot c = placed(clip[i].corner, clip[i].x, clip[i].y);
+      Candidate c = placed(clip[i].corner, clip[i].x, clip[i].y);
       if (!fits(c)) c = placed({Mark::kNo, reference_.nearest_corner(c.x, c.y)}, c.x, c.y);
-      if (fits(c)) spots[count++] = c;
+      if (fits(c)) candidates[count++] = c;
     }
     return int(count);
   }
 
  private:
-  const Outline& incident() const { return a_is_reference_ ? b_ : a_; }
-  const Outline& reference() const { return a_is_reference_ ? a_ : b_; }
+  const ContactFace& incident() const { return a_is_reference_ ? b_ : a_; }
+  const ContactFace& reference() const { return a_is_reference_ ? a_ : b_; }
 
   /// Whether the points lie one above the other.
-  bool fits(const Spot& c) const { return norm(c.point_b - c.point_a - across_.n * c.separation) <= 2 * bound_; }
+  bool fits(const Candidate& c) const { return norm(c.point_b - c.point_a - projection_.n * c.separation) <= 2 * bound_; }
 
   /// What a mark means, seen about there.
-  Spot placed(const Mark& mark, double x, double y) const {
-    const ConvexView &view_i = a_is_reference_ ? scene_.b : scene_.a, &view_r = a_is_reference_ ? scene_.a : scene_.b;
-    Pair p;
+  Candidate placed(const Mark& mark, double x, double y) const {
+    const ConvexView &view_i = a_is_reference_ ? pair_.b : pair_.a, &view_r = a_is_reference_ ? pair_.a : pair_.b;
+    PointPair p;
     FeatureId feature_i, feature_r;
     if (mark.reference == Mark::kNo) {
-      const Corner& c = incident()[mark.incident];
+      const FaceCorner& c = incident()[mark.incident];
       p = {c.p, over(reference(), c.x, c.y)};
       feature_i = corner_id(c), feature_r = face_id(view_r, reference());
     } else if (mark.incident == Mark::kNo) {
-      const Corner& c = reference_.corner(mark.reference);
+      const FaceCorner& c = reference_.corner(mark.reference);
       p = {over(incident(), c.x, c.y), c.p};
       feature_i = face_id(view_i, incident()), feature_r = corner_id(c);
     } else {
       const int side = reference_.part(mark.reference, x, y);
-      const Corner &i = incident()[mark.incident], &r = reference()[side];
-      p = crossing(i, incident()[incident().after(mark.incident)], r, reference()[reference().after(side)]);
+      const FaceCorner &i = incident()[mark.incident], &r = reference()[side];
+      p = side_crossing(i, incident()[incident().after(mark.incident)], r, reference()[reference().after(side)]);
       feature_i = side_id(view_i, i), feature_r = side_id(view_r, r);
     }
-    return a_is_reference_ ? spot(across_, p.reference, p.incident, feature_r, feature_i)
-                           : spot(across_, p.incident, p.reference, feature_i, feature_r);
+    return a_is_reference_ ? candidate(projection_, p.reference, p.incident, feature_r, feature_i)
+                           : candidate(projection_, p.incident, p.reference, feature_i, feature_r);
   }
 
-  const Scene& scene_;
-  const Across& across_;
-  const Outline &a_, &b_;
+  const PairView& pair_;
+  const Projection& projection_;
+  const ContactFace &a_, &b_;
   bool a_is_reference_;
   double bound_;
   Reference reference_;
@@ -284,14 +284,21 @@ class Faces {
 
 }  // namespace
 
-Spot spot(const Across& across, const Vec& point_a, const Vec& point_b, FeatureId feature_a, FeatureId feature_b) {
-  const Vec seen = point_a - across.middle;
-  return {dot(across.u, seen), dot(across.v, seen), dot(across.n, point_b - point_a), point_a, point_b, feature_a, feature_b};
+Candidate candidate(const Projection& projection, const Vec& point_a, const Vec& point_b, FeatureId feature_a,
+                    FeatureId feature_b) {
+  const Vec seen = point_a - projection.middle;
+  return {dot(projection.u, seen),
+          dot(projection.v, seen),
+          dot(projection.n, point_b - point_a),
+          point_a,
+          point_b,
+          feature_a,
+          feature_b};
 }
 
-int overlay(const Scene& scene, const Across& across, const Outline& a, const Outline& b, double bound,
-            std::span<Spot, kMostSpots> spots) {
-  return Faces(scene, across, a, b, bound).corners(spots);
+int clip(const PairView& pair, const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
+         std::span<Candidate, kMostCandidates> candidates) {
+  return Faces(pair, projection, a, b, bound).corners(candidates);
 }
 
 }  // namespace swiftlet

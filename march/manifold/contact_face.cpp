@@ -44,7 +44,7 @@ struct Facing {
 
 /// Of faces that face along n equally well the one there was before, else the largest: it has the truest plane.
 template <class Body>
-Facing contact_face(const Body& body, const Vec& n, FeatureId feature, FeatureId before) {
+Facing best_facing(const Body& body, const Vec& n, FeatureId feature, FeatureId before) {
   Facing chosen;
   double most = 0;
   each_face_at(body.view, feature, [&](std::uint32_t face) {
@@ -127,12 +127,12 @@ class Plateau {
   double level_;
 };
 
-double twice_area(const Corner& a, const Corner& b, const Corner& c) {
+double twice_area(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c) {
   return std::fabs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
 }
 
 /// Leaves out the corner that takes the least area with it.
-void thin(Outline& outline) {
+void thin(ContactFace& outline) {
   double least = std::numeric_limits<double>::infinity();
   int flattest = 0;
   for (int before = outline.count - 1, i = 0; i < outline.count; before = i++) {
@@ -144,15 +144,15 @@ void thin(Outline& outline) {
 }
 
 template <class Body>
-void outline_of(const Body& body, const Across& across, const Vec& n, FeatureId feature, FeatureId before, double flatness,
-                Outline& outline) {
+void contact_face_of(const Body& body, const Projection& projection, const Vec& n, FeatureId feature, FeatureId before,
+                     double flatness, ContactFace& outline) {
   const ConvexView& view = body.view;
   const auto add = [&](std::uint32_t vertex, std::uint32_t half_edge) {
     if (outline.count == kMostCorners) thin(outline);
-    const Vec p = body.point(vertex), seen = p - across.middle;
-    outline.corners[std::size_t(outline.count++)] = {p, dot(across.u, seen), dot(across.v, seen), vertex, half_edge};
+    const Vec p = body.point(vertex), seen = p - projection.middle;
+    outline.corners[std::size_t(outline.count++)] = {p, dot(projection.u, seen), dot(projection.v, seen), vertex, half_edge};
   };
-  const Facing top = contact_face(body, n, feature, before);
+  const Facing top = best_facing(body, n, feature, before);
   outline.count = 0;
   outline.face = top.face;
   outline.facing = top.face == kNone ? 0 : top.cosine;
@@ -168,20 +168,20 @@ void outline_of(const Body& body, const Across& across, const Vec& n, FeatureId 
 }  // namespace
 
 /// The basis of [Duff et al. 2017]: exact but for rounding, whatever n.
-Across::Across(const Vec& normal, const Vec& about) : n(normal), middle(about) {
+Projection::Projection(const Vec& normal, const Vec& about) : n(normal), middle(about) {
   const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
   u = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
   v = {b, sign + n.y * n.y * a, -n.y};
 }
 
-void outline_a(const Scene& scene, const Across& across, FeatureId feature, FeatureId before, double flatness,
-               Outline& outline) {
-  outline_of(body_a(scene), across, across.n, feature, before, flatness, outline);
+void contact_face_a(const PairView& pair, const Projection& projection, FeatureId feature, FeatureId before, double flatness,
+                    ContactFace& outline) {
+  contact_face_of(body_a(pair), projection, projection.n, feature, before, flatness, outline);
 }
-void outline_b(const Scene& scene, const Across& across, FeatureId feature, FeatureId before, double flatness,
-               Outline& outline) {
-  const Moved body = body_b(scene);
-  outline_of(body, across, body.into(-across.n), feature, before, flatness, outline);
+void contact_face_b(const PairView& pair, const Projection& projection, FeatureId feature, FeatureId before, double flatness,
+                    ContactFace& outline) {
+  const Moved body = body_b(pair);
+  contact_face_of(body, projection, body.into(-projection.n), feature, before, flatness, outline);
 }
 
 }  // namespace swiftlet

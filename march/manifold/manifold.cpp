@@ -21,7 +21,7 @@ namespace {
 /// The convex loop around places, counter-clockwise; one that hardly stands out changes nothing.
 class Loop {
  public:
-  Loop(const Spot* spots, double bound) : spots_(spots), bound_(bound) {}
+  Loop(const Candidate* candidates, double bound) : candidates_(candidates), bound_(bound) {}
 
   int size() const { return size_; }
   int operator[](int i) const { return corner_[std::size_t(i)]; }
@@ -71,26 +71,26 @@ class Loop {
  private:
   int next(int i) const { return i + 1 == size_ ? 0 : i + 1; }
   int previous(int i) const { return i == 0 ? size_ - 1 : i - 1; }
-  const Spot& at(int corner) const { return spots_[corner_[std::size_t(corner)]]; }
+  const Candidate& at(int corner) const { return candidates_[corner_[std::size_t(corner)]]; }
 
   double from_corner(int spot) const {
-    const double dx = spots_[spot].x - at(0).x, dy = spots_[spot].y - at(0).y;
+    const double dx = candidates_[spot].x - at(0).x, dy = candidates_[spot].y - at(0).y;
     return std::sqrt(dx * dx + dy * dy);
   }
 
   /// Twice that between a side and a place, positive beyond it.
   double area(int side, int spot) const {
-    const Spot &p = at(side), &q = at(next(side)), &c = spots_[spot];
+    const Candidate &p = at(side), &q = at(next(side)), &c = candidates_[spot];
     return (c.x - p.x) * (q.y - p.y) - (c.y - p.y) * (q.x - p.x);
   }
   /// The same of a place that stands out, else 0.
   double beyond(int side, int spot) const {
-    const Spot &p = at(side), &q = at(next(side));
+    const Candidate &p = at(side), &q = at(next(side));
     const double dx = q.x - p.x, dy = q.y - p.y, size = area(side, spot);
     return size > 0 && size * size > bound_ * bound_ * (dx * dx + dy * dy) ? size : 0;
   }
 
-  const Spot* spots_;
+  const Candidate* candidates_;
   double bound_;
   int size_ = 0;
   std::array<int, kMostManifoldPoints> corner_;
@@ -99,9 +99,10 @@ class Loop {
 /// The corners of a common area and the witness.
 class Candidates {
  public:
-  Candidates(const Scene& scene, const Across& across, const Outline& a, const Outline& b, const Spot& witness, double bound)
+  Candidates(const PairView& pair, const Projection& projection, const ContactFace& a, const ContactFace& b,
+             const Candidate& witness, double bound)
       : bound_(bound) {
-    count_ = overlay(scene, across, a, b, bound, std::span(all_).first<kMostSpots>());
+    count_ = clip(pair, projection, a, b, bound, std::span(all_).first<kMostCandidates>());
     if (count_ == 0 || witness.separation < least() - bound / 2) all_[std::size_t(count_++)] = witness;
   }
 
@@ -132,12 +133,12 @@ class Candidates {
   enum class Among { Known, All };
   static constexpr int kNobody = -1;
 
-  const Spot& at(int i) const { return all_[std::size_t(i)]; }
+  const Candidate& at(int i) const { return all_[std::size_t(i)]; }
   bool is_chosen(int i) const { return chosen_[std::size_t(i)]; }
 
   double least() const {
     double least = all_[0].separation;
-    for (int i = 1; i < count_; ++i) least = smaller(least, at(i).separation);
+    for (int i = 1; i < count_; ++i) least = min(least, at(i).separation);
     return least;
   }
 
@@ -149,7 +150,7 @@ class Candidates {
     count_ = kept;
   }
 
-  static bool is_same(const ManifoldPoint& p, const Spot& c) {
+  static bool is_same(const ManifoldPoint& p, const Candidate& c) {
     return p.feature_a == c.feature_a && p.feature_b == c.feature_b;
   }
 
@@ -219,39 +220,39 @@ class Candidates {
   }
 
   void show(int i, Manifold& manifold) const {
-    const Spot& c = at(i);
+    const Candidate& c = at(i);
     manifold.points[manifold.count++] = {eigen(c.point_a), eigen(c.point_b), c.separation, c.feature_a, c.feature_b};
   }
 
   double bound_;
   int count_ = 0, size_ = 1, first_ = 0;
-  std::array<bool, kMostSpots + 1> known_, chosen_;  ///< of the manifold before, of this one
-  std::array<Spot, kMostSpots + 1> all_;
+  std::array<bool, kMostCandidates + 1> known_, chosen_;  ///< of the manifold before, of this one
+  std::array<Candidate, kMostCandidates + 1> all_;
 };
 
 /// What a manifold grows from, in A's frame; the points are on the hulls.
-struct Witness {
+struct Anchor {
   Vec normal, point_a, point_b;
   FeatureId feature_a, feature_b;
 };
 
 /// The manifold of two hulls, within a margin of theirs.
-Manifold grown(const Scene& scene, const Witness& w, double margin, double bound, const ManifoldOptions& options,
+Manifold grown(const PairView& pair, const Anchor& w, double margin, double bound, const ManifoldOptions& options,
                const Manifold& previous) {
   Manifold manifold;
-  const Across across(w.normal, w.point_a);
+  const Projection projection(w.normal, w.point_a);
   std::uint32_t tests = 0;
-  const FeatureId at_a = feature_at_a(scene, w.feature_a, w.point_a, tests),
-                  at_b = feature_at_b(scene, w.feature_b, w.point_b, tests);
-  Outline a, b;
-  outline_a(scene, across, at_a, previous.face_a, options.flatness, a);
-  outline_b(scene, across, at_b, previous.face_b, options.flatness, b);
+  const FeatureId at_a = feature_at_a(pair, w.feature_a, w.point_a, tests),
+                  at_b = feature_at_b(pair, w.feature_b, w.point_b, tests);
+  ContactFace a, b;
+  contact_face_a(pair, projection, at_a, previous.face_a, options.flatness, a);
+  contact_face_b(pair, projection, at_b, previous.face_b, options.flatness, b);
   manifold.normal = eigen(w.normal);
   if (a.face != kNone) manifold.face_a = {FeatureKind::Face, a.face};
   if (b.face != kNone) manifold.face_b = {FeatureKind::Face, b.face};
 
-  const Spot witness = spot(across, w.point_a, w.point_b, named(scene.a, at_a), named(scene.b, at_b));
-  Candidates candidates(scene, across, a, b, witness, bound);
+  const Candidate witness = candidate(projection, w.point_a, w.point_b, named(pair.a, at_a), named(pair.b, at_b));
+  Candidates candidates(pair, projection, a, b, witness, bound);
   candidates.choose(std::min(options.most_points, kMostManifoldPoints), margin, previous, manifold);
   return manifold;
 }
@@ -270,7 +271,8 @@ Manifold manifold(const Body& a, const Body& b, const Pose& b_in_a, const Answer
       !exists(body_a, answer.level_a, answer.feature_a) || !exists(body_b, answer.level_b, answer.feature_b))
     return {};
   const Vec n = vec(answer.normal);
-  const Scene hulls = scene(body_a.level(answer.level_a).view, body_b.level(answer.level_b).view, at.motion, at.quality.error);
+  const PairView hulls =
+      pair_view(body_a.level(answer.level_a).view, body_b.level(answer.level_b).view, at.motion, at.quality.error);
   const double radii = at.radii.sum();
   Manifold manifold = grown(
       hulls,

@@ -8,22 +8,22 @@
 
 namespace swiftlet {
 
-struct Pair {
+struct HighLow {
   double high, low;
 };
 
 /// a + b exactly.
-static inline Pair two_sum(double a, double b) {
+static inline HighLow two_sum(double a, double b) {
   const double s = a + b, bb = s - a;
   return {s, (a - (s - bb)) + (b - bb)};
 }
 /// a + b exactly, for |a| >= |b|.
-static inline Pair quick_two_sum(double a, double b) {
+static inline HighLow quick_two_sum(double a, double b) {
   const double s = a + b;
   return {s, b - (s - a)};
 }
 /// a * b exactly. Veltkamp's split, so that no unit depends on a fused multiply-add.
-static inline Pair two_product(double a, double b) {
+static inline HighLow two_product(double a, double b) {
   constexpr double kSplit = 134217729.0;  // 2^27 + 1
   const double p = a * b, ca = kSplit * a, cb = kSplit * b;
   const double ah = ca - (ca - a), al = a - ah, bh = cb - (cb - b), bl = b - bh;
@@ -34,19 +34,19 @@ struct DoubleDouble {
   double high = 0, low = 0;
   DoubleDouble() = default;
   DoubleDouble(double value) : high(value) {}
-  DoubleDouble(Pair p) : high(p.high), low(p.low) {}
+  DoubleDouble(HighLow p) : high(p.high), low(p.low) {}
   explicit operator double() const { return high + low; }
 };
 
 static inline DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
-  const Pair s = two_sum(a.high, b.high), t = two_sum(a.low, b.low);
-  const Pair u = quick_two_sum(s.high, s.low + t.high);
+  const HighLow s = two_sum(a.high, b.high), t = two_sum(a.low, b.low);
+  const HighLow u = quick_two_sum(s.high, s.low + t.high);
   return quick_two_sum(u.high, u.low + t.low);
 }
-static inline DoubleDouble operator-(const DoubleDouble& a) { return Pair{-a.high, -a.low}; }
+static inline DoubleDouble operator-(const DoubleDouble& a) { return HighLow{-a.high, -a.low}; }
 static inline DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
 static inline DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
-  const Pair p = two_product(a.high, b.high);
+  const HighLow p = two_product(a.high, b.high);
   return quick_two_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
 }
 static inline DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {

@@ -32,7 +32,7 @@ class Expansion {
     double carry = b;
     int kept = 0;
     for (int i = 0; i < count_; ++i) {
-      const Pair s = two_sum(carry, part_[i]);
+      const HighLow s = two_sum(carry, part_[i]);
       if (s.low != 0) part_[kept++] = s.low;
       carry = s.high;
     }
@@ -40,7 +40,7 @@ class Expansion {
     count_ = kept;
     return *this;
   }
-  Expansion& operator+=(Pair b) { return *this += b.low, *this += b.high; }
+  Expansion& operator+=(HighLow b) { return *this += b.low, *this += b.high; }
   /// Adds a * b, or subtracts it.
   void add_product(const Expansion& a, const Expansion& b, int sign = 1) {
     for (int i = 0; i < a.count_; ++i) {
@@ -58,14 +58,14 @@ class Expansion {
     int bottom = count_ - 1;
     double carry = part_[bottom];
     for (int i = bottom; i-- > 0;) {
-      const Pair s = quick_two_sum(carry, part_[i]);
+      const HighLow s = quick_two_sum(carry, part_[i]);
       carry = s.high;
       if (s.low != 0) part_[bottom--] = s.high, carry = s.low;
     }
     part_[bottom] = carry;
     int kept = 0;
     for (int i = bottom + 1; i < count_; ++i) {
-      const Pair s = quick_two_sum(part_[i], carry);
+      const HighLow s = quick_two_sum(part_[i], carry);
       if (s.low != 0) part_[kept++] = s.low;
       carry = s.high;
     }
@@ -128,7 +128,8 @@ Expansion3 offset3(const double a[3], const double b[3], const Motion& m, int ex
   const auto coordinate = [&](double from, const Vec& row, double t) {
     Expansion e(scaled(from));
     e += -scaled(t);
-    for (const auto& [r, x] : {Pair{row.x, b[0]}, Pair{row.y, b[1]}, Pair{row.z, b[2]}}) e += two_product(-r, scaled(x));
+    for (const auto& [r, x] : {HighLow{row.x, b[0]}, HighLow{row.y, b[1]}, HighLow{row.z, b[2]}})
+      e += two_product(-r, scaled(x));
     return e;
   };
   return {coordinate(a[0], m.row_x, m.t.x), coordinate(a[1], m.row_y, m.t.y), coordinate(a[2], m.row_z, m.t.z)};
@@ -139,7 +140,7 @@ Expansion3 offset3(const double a[3], const double b[3], const Motion& m, int ex
 int offset_determinant_sign(const std::array<const double*, 3>& a, const std::array<const double*, 3>& b, const Motion& m) {
   double largest = max_abs(m.t);
   for (std::size_t k = 0; k < 3; ++k) {
-    for (int axis : {0, 1, 2}) largest = larger(largest, larger(std::fabs(a[k][axis]), std::fabs(b[k][axis])));
+    for (int axis : {0, 1, 2}) largest = max(largest, max(std::fabs(a[k][axis]), std::fabs(b[k][axis])));
   }
   if (largest == 0) return 0;
   const int exponent = kProductExponent - std::ilogb(largest);
@@ -148,7 +149,7 @@ int offset_determinant_sign(const std::array<const double*, 3>& a, const std::ar
 }
 
 /// R (w - v).
-Expansion3 turned(const Motion& m, const double w[3], const double v[3]) {
+Expansion3 rotated(const Motion& m, const double w[3], const double v[3]) {
   const Expansion3 d = difference3(w, v);
   return {dot3(exactly(m.row_x), d), dot3(exactly(m.row_y), d), dot3(exactly(m.row_z), d)};
 }
@@ -212,15 +213,15 @@ int compare_along_normal(const double a[3], const double b[3], const double c[3]
 int compare_along_turned(const double n[3], const Motion& m, const double w[3], const double v[3]) {
   const Vec direction{n[0], n[1], n[2]}, e = subtract(w, v), a = absolute(e), b = absolute(direction);
   const double magnitude = b.x * dot(absolute(m.row_x), a) + b.y * dot(absolute(m.row_y), a) + b.z * dot(absolute(m.row_z), a);
-  if (const int sign = certain_sign(dot(direction, turn(m, e)), kTurnedDotError * magnitude)) return sign;
-  return dot3(exactly(direction), turned(m, w, v)).sign();
+  if (const int sign = certain_sign(dot(direction, rotate(m, e)), kTurnedDotError * magnitude)) return sign;
+  return dot3(exactly(direction), rotated(m, w, v)).sign();
 }
 
 int triple_product(const std::array<const double*, 3>& a, const std::array<const double*, 3>& b, const Motion& m) {
   // With the first and last less the middle one, which leaves no more of a body than the difference of two of its vertices:
   // of the facets of a body far away from the other such are all that doubles see.
   const auto in_doubles = [](const double* p) { return Vec{p[0], p[1], p[2]}; };
-  const auto less_middle = [&](std::size_t k) { return subtract(a[k], a[1]) - turn(m, subtract(b[k], b[1])); };
+  const auto less_middle = [&](std::size_t k) { return subtract(a[k], a[1]) - rotate(m, subtract(b[k], b[1])); };
   const auto turned_size = [&](const Vec& v) {
     const Vec size = absolute(v);
     return Vec{dot(absolute(m.row_x), size), dot(absolute(m.row_y), size), dot(absolute(m.row_z), size)};
@@ -243,7 +244,7 @@ int triple_product(const std::array<const double*, 3>& a, const std::array<const
 
 int compare_turned_along_normal(const double a[3], const double b[3], const double c[3], const Motion& m, const double w[3],
                                 const double v[3]) {
-  return dot3(cross3(difference3(b, a), difference3(c, a)), turned(m, w, v)).sign();
+  return dot3(cross3(difference3(b, a), difference3(c, a)), rotated(m, w, v)).sign();
 }
 
 int compare_along_turned_normal(const Motion& m, const double a[3], const double b[3], const double c[3], const double w[3],
@@ -256,7 +257,7 @@ Wide turned_normal(const Motion& m, const double a[3], const double b[3], const 
 }
 
 Wide edge_normal(const double a[3], const double b[3], const Motion& m, const double w[3], const double v[3]) {
-  return rounded(cross3(difference3(b, a), turned(m, w, v)));
+  return rounded(cross3(difference3(b, a), rotated(m, w, v)));
 }
 
 bool tetrahedron_holds_origin(const std::array<std::array<double, 3>, 4>& a, const std::array<std::array<double, 3>, 4>& b,

@@ -33,12 +33,12 @@ Motion product(const Motion& a, const Motion& b) {
 
 Pose relative(const Pose& a_in_world, const Pose& b_in_world) {
   const Motion a = motion(a_in_world), b = motion(b_in_world), back = inverse_rotation(a);
-  return pose(product(back, b), turn(back, b.t - a.t));
+  return pose(product(back, b), rotate(back, b.t - a.t));
 }
 
 Pose inverse(const Pose& p) {
   const Motion m = motion(p), back = inverse_rotation(m);
-  return pose(back, -turn(back, m.t));
+  return pose(back, -rotate(back, m.t));
 }
 
 }  // namespace swiftlet

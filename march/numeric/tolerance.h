@@ -108,7 +108,7 @@ inline constexpr double kNormError = 5 * kU;
 /// after it was looked up, 2 u of 2 sqrt(3), 7 u, and an excess of at most 4 with it, 4 u of 4, 16 u. Rounded up.
 inline constexpr double kMapError = 128 * kU;
 
-/// Double-double arithmetic as progress.cpp uses it keeps at least 90 bits of the largest term, whatever cancels. Relative to
+/// Double-double arithmetic as gjk.cpp uses it keeps at least 90 bits of the largest term, whatever cancels. Relative to
 /// the magnitude of coordinates and translation.
 inline constexpr double kDoubleDoubleError = 0x1p-90;
 
@@ -172,12 +172,12 @@ inline constexpr int kExchanges = 32;
 
 // ---- Bounds on work: counts ------------------------------------------------------------------------------------------------
 
-/// States in a row that do not shorten the distance before a walk is given to certified progress. In exact arithmetic at most
+/// States in a row that do not shorten the distance before a walk is given to certified GJK. In exact arithmetic at most
 /// three (face, edge, vertex) go by; twelve lets rounding waver on a flat spot.
 inline constexpr std::uint32_t kStallLimit = 12;
-/// Iterations of certified progress per arithmetic: a Frank-Wolfe step on an active set of at most four. Each shortens the
+/// Iterations of certified GJK per arithmetic: a Frank-Wolfe step on an active set of at most four. Each shortens the
 /// distance or is the last but `kProgressPatience`.
-inline constexpr int kProgressLimit = 400, kProgressPatience = 8;
+inline constexpr int kGjkLimit = 400, kProgressPatience = 8;
 /// An Automatic start walks from the seed's features while the line of centres turned by no more than so many edges of a body,
 /// at half a step each; a cold start costs as much as about six steps, on a level without a map, which is come down to, twice
 /// that. A walk that takes more than the last is given up for a cold start (ski rental).
@@ -193,7 +193,7 @@ inline constexpr double kAimEdges = 4;
 inline constexpr int kAimSteps = 12;
 /// What a map of side s leaves in doubt on average, times s^2 over the extent: 1.1 to 1.7 on ellipsoids. A pair of levels is
 /// looked at where this and its deviation, so many times, are within the tolerance.
-inline constexpr double kMapDoubt = 1.7, kSightShare = 4;
+inline constexpr double kMapDoubt = 1.7, kMapShare = 4;
 /// Looks go on past that while what the maps leave in doubt times this is within the tolerance; beyond, they turn in circles.
 inline constexpr double kDoubtShare = 3;
 /// Looks at levels that overlap by less than they deviate go on while the deviation times this is within the tolerance; beyond,
@@ -207,7 +207,7 @@ inline constexpr int kMostCorners = 64;
 /// Points of the inner polytope that tells touching from overlapping: 300 vertices slid into contact needed 20 to 32.
 inline constexpr int kContactPoints = 32;
 
-// ---- Depth (epa.cpp, confirm.cpp) ------------------------------------------------------------------------------------------
+// ---- Depth (epa.cpp, facet_proof.cpp) --------------------------------------------------------------------------------------
 
 /// A point of the Minkowski difference put on a grid of half an ulp of the magnitude's binade, 2 u of it: u in each coordinate,
 /// sqrt(3) for the vector. Relative to the magnitude.

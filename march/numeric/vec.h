@@ -47,8 +47,8 @@ static inline V3<R> cross(const V3<R>& a, const V3<R>& b) {
 }
 
 /// Of two numbers that are no NaN. std::fmax is a call.
-static inline double larger(double x, double y) { return x < y ? y : x; }
-static inline double smaller(double x, double y) { return y < x ? y : x; }
+static inline double max(double x, double y) { return x < y ? y : x; }
+static inline double min(double x, double y) { return y < x ? y : x; }
 
 /// The axis that `v` goes least along: one across it is far from it.
 static inline Vec least_axis(const Vec& v) {
@@ -57,7 +57,7 @@ static inline Vec least_axis(const Vec& v) {
 }
 
 /// Numbers only: a NaN may go unseen.
-static inline double max_abs(const Vec& a) { return larger(larger(std::fabs(a.x), std::fabs(a.y)), std::fabs(a.z)); }
+static inline double max_abs(const Vec& a) { return max(max(std::fabs(a.x), std::fabs(a.y)), std::fabs(a.z)); }
 
 /// Whether a sum of squares has lost nothing to underflow, and is finite.
 static inline bool has_range(double square) {
@@ -125,9 +125,9 @@ static inline Motion motion(const Pose& pose) {
   const Mat3& r = pose.rotation;
   return {{r(0, 0), r(0, 1), r(0, 2)}, {r(1, 0), r(1, 1), r(1, 2)}, {r(2, 0), r(2, 1), r(2, 2)}, vec(pose.translation)};
 }
-static inline Vec turn(const Motion& m, const Vec& p) { return {dot(m.row_x, p), dot(m.row_y, p), dot(m.row_z, p)}; }
-static inline Vec apply(const Motion& m, const Vec& p) { return turn(m, p) + m.t; }
+static inline Vec rotate(const Motion& m, const Vec& p) { return {dot(m.row_x, p), dot(m.row_y, p), dot(m.row_z, p)}; }
+static inline Vec apply(const Motion& m, const Vec& p) { return rotate(m, p) + m.t; }
 /// The transposed rotation: carries a direction n of the common frame to where n . (R p) = result . p.
-static inline Vec turn_back(const Motion& m, const Vec& n) { return m.row_x * n.x + m.row_y * n.y + m.row_z * n.z; }
+static inline Vec rotate_back(const Motion& m, const Vec& n) { return m.row_x * n.x + m.row_y * n.y + m.row_z * n.z; }
 
 }  // namespace swiftlet

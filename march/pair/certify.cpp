@@ -26,7 +26,7 @@ ActiveSet pairs(const Combination& a, const Combination& b) {
   std::size_t i = 0, j = 0;
   double rest_a = a.weight[0], rest_b = b.weight[0];
   while (i < 3 && j < 3) {
-    const double weight = smaller(rest_a, rest_b);
+    const double weight = min(rest_a, rest_b);
     if (weight > 0) set.a[set.count] = a.vertex[i], set.b[set.count] = b.vertex[j], set.weight[set.count++] = weight;
     rest_a -= weight, rest_b -= weight;
     if (rest_a <= 0 && ++i < 3) rest_a = a.weight[i];
@@ -50,7 +50,7 @@ struct Slope {
 };
 
 Slope slope_a(const Vec& n) { return {n, 0}; }
-Slope slope_b(const Scene& scene, const Vec& n) { return {-body_b(scene).into(n), kTurnedError}; }
+Slope slope_b(const PairView& pair, const Vec& n) { return {-body_b(pair).into(n), kTurnedError}; }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -136,60 +136,61 @@ std::optional<Extreme> top(const ConvexView& view, const Slope& slope, std::uint
     const Vec e = vec(view.vertices[plateau[i]]) - p;
     const double rise = slope.along(e), error = slope.error(e);
     if (rise > height) result.vertex = plateau[i], height = rise, uncertain = error;
-    highest = larger(highest, rise + error);
+    highest = max(highest, rise + error);
   }
-  result.slack = larger(0, highest - height + uncertain);
+  result.slack = max(0, highest - height + uncertain);
   return result;
 }
 
 }  // namespace
 
-double gap(const Scene& scene, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack) {
-  return gap(scene, n, body_b(scene).point(vb) - body_a(scene).point(va), slack);
+double gap(const PairView& pair, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack) {
+  return gap(pair, n, body_b(pair).point(vb) - body_a(pair).point(va), slack);
 }
 
-double apart(const Scene& scene, std::uint32_t va, std::uint32_t vb) {
-  return norm(body_b(scene).point(vb) - body_a(scene).point(va)) * (1 + kNormError) + scene.point_error;
+double apart(const PairView& pair, std::uint32_t va, std::uint32_t vb) {
+  return norm(body_b(pair).point(vb) - body_a(pair).point(va)) * (1 + kNormError) + pair.point_error;
 }
 
-Supports supports(const Scene& scene, const Vec& n, std::uint32_t start_a, std::uint32_t start_b, std::uint32_t& plane_tests) {
-  const auto a_top = top(scene.a, slope_a(n), start_a, plane_tests);
-  const auto b_top = top(scene.b, slope_b(scene, n), start_b, plane_tests);
-  const std::uint32_t va = a_top ? a_top->vertex : support_a(scene, n, start_a, plane_tests);
-  const std::uint32_t vb = b_top ? b_top->vertex : support_b(scene, n, start_b, plane_tests);
-  return {va, vb, gap(scene, n, va, vb, (a_top ? a_top->slack : 0) + (b_top ? b_top->slack : 0))};
+Supports supports(const PairView& pair, const Vec& n, std::uint32_t start_a, std::uint32_t start_b,
+                  std::uint32_t& plane_tests) {
+  const auto a_top = top(pair.a, slope_a(n), start_a, plane_tests);
+  const auto b_top = top(pair.b, slope_b(pair, n), start_b, plane_tests);
+  const std::uint32_t va = a_top ? a_top->vertex : support_a(pair, n, start_a, plane_tests);
+  const std::uint32_t vb = b_top ? b_top->vertex : support_b(pair, n, start_b, plane_tests);
+  return {va, vb, gap(pair, n, va, vb, (a_top ? a_top->slack : 0) + (b_top ? b_top->slack : 0))};
 }
 
-Certificate certify(const Scene& scene, FeatureId a, FeatureId b, const Witness& seen, std::uint32_t& plane_tests) {
+Certificate certify(const PairView& pair, FeatureId a, FeatureId b, const Witness& seen, std::uint32_t& plane_tests) {
   Certificate c;
-  c.point_a = point(body_a(scene), seen.first);
-  c.point_b = point(body_b(scene), seen.second);
-  c.upper = norm(c.point_b - c.point_a) * (1 + kNormError) + scene.point_error;
+  c.point_a = point(body_a(pair), seen.first);
+  c.point_b = point(body_b(pair), seen.second);
+  c.upper = norm(c.point_b - c.point_a) * (1 + kNormError) + pair.point_error;
   const double length = norm(seen.normal);
   c.normal = normalised(seen.normal);
   const auto proved = [&](std::uint32_t va, std::uint32_t vb, double lower) {
     c.support_a = va;
     c.support_b = vb;
-    c.lower = larger(0, lower);
-    return c.upper - c.lower <= scene.law_two;
+    c.lower = max(0, lower);
+    return c.upper - c.lower <= pair.law_two;
   };
   // Ever dearer: what stands beside the features, what is as high as doubles can tell, exact order.
   const std::uint32_t any_a = seen.first.vertex[0], any_b = seen.second.vertex[0];
-  const double rise_error = kRiseError + 3 * (scene.pose_error + kOrthonormalityError);
-  const double over_a = overhang(scene.a, a, slope_a(c.normal), seen.rise_first / length, rise_error);
+  const double rise_error = kRiseError + 3 * (pair.pose_error + kOrthonormalityError);
+  const double over_a = overhang(pair.a, a, slope_a(c.normal), seen.rise_first / length, rise_error);
   if (over_a < kInfinity) {
-    const double over_b = overhang(scene.b, b, slope_b(scene, c.normal), seen.rise_second / length, rise_error);
-    if (over_b < kInfinity && proved(any_a, any_b, gap(scene, c.normal, any_a, any_b, over_a + over_b))) {
-      if (leans(scene, c)) c.active = pairs(seen.first, seen.second);
+    const double over_b = overhang(pair.b, b, slope_b(pair, c.normal), seen.rise_second / length, rise_error);
+    if (over_b < kInfinity && proved(any_a, any_b, gap(pair, c.normal, any_a, any_b, over_a + over_b))) {
+      if (leans(pair, c)) c.active = pairs(seen.first, seen.second);
       return c;
     }
   }
   c.active = pairs(seen.first, seen.second);
-  const Supports near = supports(scene, c.normal, any_a, any_b, plane_tests);
+  const Supports near = supports(pair, c.normal, any_a, any_b, plane_tests);
   if (proved(near.a, near.b, near.lower)) return c;
-  const std::uint32_t va = support_a(scene, c.normal, near.a, plane_tests);
-  const std::uint32_t vb = support_b(scene, c.normal, near.b, plane_tests);
-  proved(va, vb, gap(scene, c.normal, va, vb, 0));
+  const std::uint32_t va = support_a(pair, c.normal, near.a, plane_tests);
+  const std::uint32_t vb = support_b(pair, c.normal, near.b, plane_tests);
+  proved(va, vb, gap(pair, c.normal, va, vb, 0));
   return c;
 }
 

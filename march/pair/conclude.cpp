@@ -10,73 +10,73 @@
 namespace swiftlet {
 namespace {
 
-MarchStatus status_of(const Scene& scene, const Goal& goal, const Certificate& c) {
+MarchStatus status_of(const PairView& pair, const GjkGoal& goal, const Certificate& c) {
   if (c.lower > goal.beyond) return MarchStatus::Beyond;
   if (!goal.narrow(c.lower, c.upper)) return MarchStatus::NotConverged;
-  if (c.upper <= scene.law_two) return MarchStatus::Touching;
+  if (c.upper <= pair.law_two) return MarchStatus::Touching;
   return c.lower > 0 ? MarchStatus::Disjoint : MarchStatus::Near;
 }
 
-/// Where certified progress ended.
-void name_features(const Scene& scene, const Certificate& c, MarchResult& r) {
-  r.a = feature_of(scene.a, c.active, c.active.a);
-  r.b = feature_of(scene.b, c.active, c.active.b);
+/// Where certified GJK ended.
+void name_features(const PairView& pair, const Certificate& c, MarchResult& r) {
+  r.a = feature_of(pair.a, c.active, c.active.a);
+  r.b = feature_of(pair.b, c.active, c.active.b);
   if (r.status == MarchStatus::Overlapping) return;  // no place
-  r.a = feature_at_a(scene, r.a, c.point_a, r.plane_tests);
-  r.b = feature_at_b(scene, r.b, c.point_b, r.plane_tests);
+  r.a = feature_at_a(pair, r.a, c.point_a, r.plane_tests);
+  r.b = feature_at_b(pair, r.b, c.point_b, r.plane_tests);
 }
 
 /// Fills `r`; true where it is so near a threshold that another start might prove another verdict.
 template <Until until>
-bool from_walk(const Scene& scene, const Walk& walk, const MarchRule& rule, double zero, MarchResult& r) {
+bool from_walk(const PairView& pair, const Walk& walk, const MarchRule& rule, double zero, MarchResult& r) {
   r.steps = walk.steps;
   r.plane_tests = walk.plane_tests;
   r.a = walk.a;
   r.b = walk.b;
-  const Goal goal{larger(rule.absolute, scene.law_two), rule.relative, rule.beyond + scene.law_two};
+  const GjkGoal goal{max(rule.absolute, pair.law_two), rule.relative, rule.beyond + pair.law_two};
   Witness afresh;
-  const Witness& seen = walk.end == WalkEnd::Minimum ? walk.witness : (afresh = witness(scene, walk.a, walk.b));
-  Certificate c = certify(scene, walk.a, walk.b, seen, r.plane_tests);
-  r.status = status_of(scene, goal, c);
-  // That features touch says nothing of the bodies: certified progress tells touching from overlapping.
+  const Witness& seen = walk.end == WalkEnd::Minimum ? walk.witness : (afresh = witness(pair, walk.a, walk.b));
+  Certificate c = certify(pair, walk.a, walk.b, seen, r.plane_tests);
+  r.status = status_of(pair, goal, c);
+  // That features touch says nothing of the bodies: certified GJK tells touching from overlapping.
   const bool settled = r.status != MarchStatus::NotConverged && (r.status != MarchStatus::Touching || c.lower > 0);
   double depth = 0;
   const bool progressed = !settled && walk.end != WalkEnd::Budget;
   if (!settled && !progressed) {
     r.status = MarchStatus::Budget;
   } else if (progressed) {
-    const Goal until_there = until == Until::Exact ? Goal{scene.law_two, 0, goal.beyond} : goal;
-    const Meeting meeting = progress(scene, c, until_there, r.plane_tests);
+    const GjkGoal until_there = until == Until::Exact ? GjkGoal{pair.law_two, 0, goal.beyond} : goal;
+    const GjkResult meeting = gjk(pair, c, until_there, r.plane_tests);
     c = meeting.certificate;
-    r.status = meeting.status == MarchStatus::Disjoint ? status_of(scene, goal, c) : meeting.status;
+    r.status = meeting.status == MarchStatus::Disjoint ? status_of(pair, goal, c) : meeting.status;
     r.proof = meeting.proof;
     depth = meeting.depth;
     ++r.steps;
   }
   const bool apart = r.status == MarchStatus::Disjoint || r.status == MarchStatus::Touching;
-  const bool straightened = apart && c.active.count > 0 && leans(scene, c) && straighten(scene, c, r.plane_tests);
-  if (progressed || straightened) name_features(scene, c, r);
+  const bool straightened = apart && c.active.count > 0 && leans(pair, c) && straighten(pair, c, r.plane_tests);
+  if (progressed || straightened) name_features(pair, c, r);
   r.lower = c.lower;
-  r.upper = larger(c.upper, c.lower);
+  r.upper = max(c.upper, c.lower);
   r.normal = eigen(c.normal);
   r.point_a = eigen(c.point_a);
   r.point_b = eigen(c.point_b);
   const auto near = [&](double threshold) {
-    return r.lower - scene.law_two <= threshold && threshold <= r.upper + scene.law_two;
+    return r.lower - pair.law_two <= threshold && threshold <= r.upper + pair.law_two;
   };
-  const bool deep = r.status == MarchStatus::Overlapping && depth > scene.law_two;
-  return r.upper - r.lower <= 2 * scene.law_two && !deep && (near(0) || near(zero) || near(rule.beyond));
+  const bool deep = r.status == MarchStatus::Overlapping && depth > pair.law_two;
+  return r.upper - r.lower <= 2 * pair.law_two && !deep && (near(0) || near(zero) || near(rule.beyond));
 }
 
 /// Within rounding of a threshold all starts take one and the same way: that of the cold one.
 template <Until until>
-void from_nothing(const Scene& scene, const MarchRule& rule, double zero, MarchResult& r) {
+void from_nothing(const PairView& pair, const MarchRule& rule, double zero, MarchResult& r) {
   std::uint32_t climbs = 0;
-  const MarchStart cold = settled(scene, {}, climbs);
-  const Walk cold_walk = walk(scene, cold.a, cold.b, PlaneRule::MostViolated, rule.step_budget - r.steps);
+  const MarchStart cold = settled(pair, {}, climbs);
+  const Walk cold_walk = walk(pair, cold.a, cold.b, PlaneRule::MostViolated, rule.step_budget - r.steps);
   if (cold_walk.end == WalkEnd::Budget) return;
   MarchResult same;
-  from_walk<until>(scene, cold_walk, rule, zero, same);
+  from_walk<until>(pair, cold_walk, rule, zero, same);
   same.steps += r.steps;
   same.plane_tests += r.plane_tests + climbs;
   r = same;
@@ -85,13 +85,13 @@ void from_nothing(const Scene& scene, const MarchRule& rule, double zero, MarchR
 }  // namespace
 
 template <Until until>
-MarchResult conclude(const Scene& scene, const Walk& walk, const MarchRule& rule, double zero) {
+MarchResult conclude(const PairView& pair, const Walk& walk, const MarchRule& rule, double zero) {
   MarchResult r;
-  if (from_walk<until>(scene, walk, rule, zero, r) && r.steps < rule.step_budget) from_nothing<until>(scene, rule, zero, r);
+  if (from_walk<until>(pair, walk, rule, zero, r) && r.steps < rule.step_budget) from_nothing<until>(pair, rule, zero, r);
   return r;
 }
 
-template MarchResult conclude<Until::Narrow>(const Scene&, const Walk&, const MarchRule&, double);
-template MarchResult conclude<Until::Exact>(const Scene&, const Walk&, const MarchRule&, double);
+template MarchResult conclude<Until::Narrow>(const PairView&, const Walk&, const MarchRule&, double);
+template MarchResult conclude<Until::Exact>(const PairView&, const Walk&, const MarchRule&, double);
 
 }  // namespace swiftlet

@@ -10,7 +10,7 @@
 
 namespace swiftlet {
 
-/// How far certified progress goes where the features alone do not prove enough.
+/// How far certified GJK goes where the features alone do not prove enough.
 enum class Until {
   Narrow,  ///< as the rule says; the points may then lie inside the bodies, whose distance they bound
   Exact,   ///< within law 2, or beyond the rule's threshold: the points are on the surfaces
@@ -18,6 +18,6 @@ enum class Until {
 
 /// `zero`: a distance whose two sides are different verdicts, as 0 is in any case.
 template <Until until = Until::Narrow>
-MarchResult conclude(const Scene& scene, const Walk& walk, const MarchRule& rule, double zero = 0);
+MarchResult conclude(const PairView& pair, const Walk& walk, const MarchRule& rule, double zero = 0);
 
 }  // namespace swiftlet

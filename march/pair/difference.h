@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Points of the Minkowski difference {p - q} of the bodies of a scene, in doubles or in 106 bits.
+// Points of the Minkowski difference {p - q} of the bodies of a pair, in doubles or in 106 bits.
 #pragma once
 
 #include <type_traits>
@@ -18,7 +18,7 @@ struct Difference {
 };
 
 template <class Real>
-static inline Difference<Real> difference(const Scene& s, std::uint32_t a, std::uint32_t b) {
+static inline Difference<Real> difference(const PairView& s, std::uint32_t a, std::uint32_t b) {
   return {widened<Real>(vec(s.a.vertices[a])) - moved<Real>(s.b_in_a, vec(s.b.vertices[b])), a, b};
 }
 
@@ -44,7 +44,7 @@ static inline std::uint32_t ascend(const ConvexView& view, const Vec& own, std::
 
 /// What rounding may do to a difference and to convex combinations of differences.
 template <class Real>
-static inline double rounding(const Scene& s) {
+static inline double rounding(const PairView& s) {
   return std::is_same_v<Real, double> ? s.point_error : kDoubleDoubleError * s.magnitude;
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 /// The point of a simplex nearest to the origin, as a convex combination.
 template <class Real>
-struct Nearest {
+struct NearestOrigin {
   int count = 0;
   std::array<int, 4> index{};
   std::array<Real, 4> weight{};
@@ -27,8 +27,8 @@ struct Nearest {
 /// By every subset: a candidate with weights >= 0 is a point of the simplex. The nearest is the one whose plane cuts off the
 /// least of the simplex: its norm alone is flat about the optimum, and would hide a step of 1e-9 under a rounding of 1e-17.
 template <class Real>
-Nearest<Real> nearest_to_origin(const std::array<Difference<Real>, 4>& set, int count) {
-  Nearest<Real> best;
+NearestOrigin<Real> nearest_to_origin(const std::array<Difference<Real>, 4>& set, int count) {
+  NearestOrigin<Real> best;
   const Real zero(0);
   double least_cut = std::numeric_limits<double>::infinity();
   const auto offer = [&](int n, std::array<int, 4> index, std::array<Real, 4> weight, const V3<Real>& point) {
@@ -79,7 +79,7 @@ Nearest<Real> nearest_to_origin(const std::array<Difference<Real>, 4>& set, int 
 std::array<double, 3> coordinates(const Vertex& v) { return {v.x, v.y, v.z}; }
 
 /// Whether four vertex pairs prove the overlap.
-bool proves(const Scene& s, const OverlapProof& proof) {
+bool proves(const PairView& s, const OverlapProof& proof) {
   std::array<std::array<double, 3>, 4> a, b;
   for (int k = 0; k < 4; ++k) {
     a[k] = coordinates(s.a.vertices[proof.vertex_a[k]]);
@@ -94,11 +94,11 @@ bool proves(const Scene& s, const OverlapProof& proof) {
 template <class Real>
 class Contact {
  public:
-  Contact(const Scene& scene, std::uint32_t& plane_tests) : scene_(scene), tests_(plane_tests) {}
+  Contact(const PairView& pair, std::uint32_t& plane_tests) : pair_(pair), tests_(plane_tests) {}
 
   void add(std::uint32_t a, std::uint32_t b) {
     if (count_ == kContactPoints || known(a, b)) return;
-    points_[count_++] = difference<Real>(scene_, a, b);
+    points_[count_++] = difference<Real>(pair_, a, b);
   }
 
   /// `depth` becomes the radius of a ball about the origin inside a tetrahedron, or 0 where it took more points. Touching when
@@ -106,7 +106,7 @@ class Contact {
   /// all sides, or no more points help. `normal` is tried first, and becomes the plane's, or the last tried.
   MarchStatus decide(Vec& normal, OverlapProof& proof, double& depth) {
     const Vec hint = normal;
-    if (count_ == 4 && (depth = inner_radius()) > scene_.law_two && prove(proof)) return MarchStatus::Overlapping;
+    if (count_ == 4 && (depth = inner_radius()) > pair_.law_two && prove(proof)) return MarchStatus::Overlapping;
     depth = 0;
     if (touches(hint, normal)) return MarchStatus::Touching;
     for (const Vec& n : {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}}) {
@@ -119,10 +119,10 @@ class Contact {
     }
     while (count_ < kContactPoints) {
       Vec n{0, 0, 0};
-      if (nearest_facet(n) > scene_.law_two) break;
+      if (nearest_facet(n) > pair_.law_two) break;
       normal = n;
       const int before = count_;
-      if (width(n) <= scene_.law_two) return MarchStatus::Touching;
+      if (width(n) <= pair_.law_two) return MarchStatus::Touching;
       if (count_ == before) break;
     }
     return prove(proof) ? MarchStatus::Overlapping : MarchStatus::NotConverged;
@@ -133,7 +133,7 @@ class Contact {
   bool touches(const Vec& n, Vec& normal) {
     if (dot(n, n) == 0) return false;
     normal = n;
-    return width(n) <= scene_.law_two;
+    return width(n) <= pair_.law_two;
   }
 
   /// The longest difference from the first point to another.
@@ -155,18 +155,18 @@ class Contact {
 
   /// An upper bound on how far the Minkowski difference reaches along n; its vertex there joins the polytope.
   double width(const Vec& n) {
-    const std::uint32_t a = support_a(scene_, n, count_ ? points_[0].a : 0, tests_);
-    const std::uint32_t b = support_b(scene_, n, count_ ? points_[0].b : 0, tests_);
+    const std::uint32_t a = support_a(pair_, n, count_ ? points_[0].a : 0, tests_);
+    const std::uint32_t b = support_b(pair_, n, count_ ? points_[0].b : 0, tests_);
     add(a, b);
-    const Difference<DoubleDouble> d = difference<DoubleDouble>(scene_, a, b);
-    return double(dot(widened<DoubleDouble>(n), d.p)) * (1 + kGapError) + kDoubleDoubleError * scene_.magnitude;
+    const Difference<DoubleDouble> d = difference<DoubleDouble>(pair_, a, b);
+    return double(dot(widened<DoubleDouble>(n), d.p)) * (1 + kGapError) + kDoubleDoubleError * pair_.magnitude;
   }
 
   /// The distance from the origin to the nearest face of the first four points; negative outside. In 106 bits: doubles see
   /// slivers as deep as their own noise.
   double inner_radius() const {
     std::array<V3<DoubleDouble>, 4> p;
-    for (std::size_t k = 0; k < 4; ++k) p[k] = difference<DoubleDouble>(scene_, points_[k].a, points_[k].b).p;
+    for (std::size_t k = 0; k < 4; ++k) p[k] = difference<DoubleDouble>(pair_, points_[k].a, points_[k].b).p;
     double radius = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 4; ++k) {
       const V3<DoubleDouble>&a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4], n = cross(b - a, c - a);
@@ -190,8 +190,8 @@ class Contact {
           bool above = false, below = false;
           for (int l = 0; l < count_; ++l) {
             const double height = dot(n, rounded(points_[std::size_t(l)].p)) - offset;
-            above = above || height > scene_.point_error;
-            below = below || height < -scene_.point_error;
+            above = above || height > pair_.point_error;
+            below = below || height < -pair_.point_error;
           }
           if (above && below) continue;
           const double distance = above ? -offset : offset;
@@ -204,8 +204,8 @@ class Contact {
 
   /// A tetrahedron that holds the origin, well inside if there is one: on a face, a translation of 1e-300 decides.
   bool prove(OverlapProof& proof) const {
-    const auto deep = [&](const OverlapProof& p) { return proves_deep_overlap(scene_, p); };
-    const auto any = [&](const OverlapProof& p) { return proves(scene_, p); };
+    const auto deep = [&](const OverlapProof& p) { return proves_deep_overlap(pair_, p); };
+    const auto any = [&](const OverlapProof& p) { return proves(pair_, p); };
     if (first_that(deep, proof) || first_that(any, proof)) return true;
     proof = {};
     return false;
@@ -227,7 +227,7 @@ class Contact {
     return false;
   }
 
-  const Scene& scene_;
+  const PairView& pair_;
   std::uint32_t& tests_;
   int count_ = 0;
   std::array<Difference<Real>, kContactPoints> points_{};
@@ -238,27 +238,27 @@ enum class Keep { Best, Last };
 
 /// One arithmetic's turn at the active set method.
 template <class Real>
-class Descent {
+class GjkDescent {
  public:
-  Descent(const Scene& scene, const Goal& goal, std::uint32_t& plane_tests, Keep keep_bounds = Keep::Best)
-      : scene_(scene), goal_(goal), tests_(plane_tests), keep_bounds_(keep_bounds) {}
+  GjkDescent(const PairView& pair, const GjkGoal& goal, std::uint32_t& plane_tests, Keep keep_bounds = Keep::Best)
+      : pair_(pair), goal_(goal), tests_(plane_tests), keep_bounds_(keep_bounds) {}
 
   /// Improves `m` until the goal is met, the bodies meet, or this arithmetic cannot tell any more.
-  void run(Meeting& m) {
+  void run(GjkResult& m) {
     seed(m.certificate);
     int patience = kProgressPatience;
-    for (int iteration = 0; iteration < kProgressLimit && patience > 0; ++iteration) {
-      const Nearest<Real> nearest = nearest_to_origin(set_, count_);
+    for (int iteration = 0; iteration < kGjkLimit && patience > 0; ++iteration) {
+      const NearestOrigin<Real> nearest = nearest_to_origin(set_, count_);
       keep(nearest);
       const double distance = std::sqrt(nearest.norm2);
       if (keep_bounds_ == Keep::Last) m.certificate.lower = 0, m.certificate.upper = std::numeric_limits<double>::infinity();
       take_points(m.certificate);
-      if (nearest.holds_origin || distance <= rounding<Real>(scene_)) {
+      if (nearest.holds_origin || distance <= rounding<Real>(pair_)) {
         met_ = true;
         return;
       }
       const Vec n = normalised(-rounded(nearest.point));
-      const std::uint32_t a = support_a(scene_, n, set_[0].a, tests_), b = support_b(scene_, n, set_[0].b, tests_);
+      const std::uint32_t a = support_a(pair_, n, set_[0].a, tests_), b = support_b(pair_, n, set_[0].b, tests_);
       const double lower = bound(n, a, b);
       if (lower > greatest_ || distance < least_)
         patience = kProgressPatience;
@@ -268,13 +268,13 @@ class Descent {
       greatest_ = std::fmax(greatest_, lower);
       if (lower > m.certificate.lower) take_plane(m.certificate, n, a, b, lower);
       // Bounds around 0 may be narrow enough, and the sign still open.
-      const bool open = m.certificate.lower == 0 && m.certificate.upper <= scene_.law_two;
+      const bool open = m.certificate.lower == 0 && m.certificate.upper <= pair_.law_two;
       if (!open && goal_.met(m.certificate.lower, m.certificate.upper)) {
         m.status = MarchStatus::Disjoint;
         return;
       }
       if (holds(a, b)) return;
-      set_[count_++] = difference<Real>(scene_, a, b);
+      set_[count_++] = difference<Real>(pair_, a, b);
       weight_[count_ - 1] = Real(0);
     }
   }
@@ -285,8 +285,8 @@ class Descent {
 
  private:
   void seed(const Certificate& c) {
-    for (int k = 0; k < c.active.count; ++k) set_[count_++] = difference<Real>(scene_, c.active.a[k], c.active.b[k]);
-    if (count_ < 4 && !holds(c.support_a, c.support_b)) set_[count_++] = difference<Real>(scene_, c.support_a, c.support_b);
+    for (int k = 0; k < c.active.count; ++k) set_[count_++] = difference<Real>(pair_, c.active.a[k], c.active.b[k]);
+    if (count_ < 4 && !holds(c.support_a, c.support_b)) set_[count_++] = difference<Real>(pair_, c.support_a, c.support_b);
   }
 
   bool holds(std::uint32_t a, std::uint32_t b) const {
@@ -296,7 +296,7 @@ class Descent {
     return false;
   }
 
-  void keep(const Nearest<Real>& nearest) {
+  void keep(const NearestOrigin<Real>& nearest) {
     std::array<Difference<Real>, 4> kept{};
     for (int k = 0; k < nearest.count; ++k) {
       kept[k] = set_[nearest.index[k]];
@@ -310,10 +310,10 @@ class Descent {
   void take_points(Certificate& c) const {
     V3<Real> a{Real(0), Real(0), Real(0)}, apart = a;
     for (int k = 0; k < count_; ++k) {
-      a = a + widened<Real>(vec(scene_.a.vertices[set_[k].a])) * weight_[k];
+      a = a + widened<Real>(vec(pair_.a.vertices[set_[k].a])) * weight_[k];
       apart = apart - set_[k].p * weight_[k];
     }
-    const double upper = norm(rounded(apart)) * (1 + kNormError) + rounding<Real>(scene_);
+    const double upper = norm(rounded(apart)) * (1 + kNormError) + rounding<Real>(pair_);
     if (!(upper < c.upper)) return;
     c.upper = upper;
     c.point_a = rounded(a);
@@ -335,13 +335,13 @@ class Descent {
 
   /// A lower bound on the distance from the supports along unit n.
   double bound(const Vec& n, std::uint32_t a, std::uint32_t b) const {
-    if constexpr (std::is_same_v<Real, double>) return gap(scene_, n, a, b);
-    const double value = -double(dot(widened<DoubleDouble>(n), difference<DoubleDouble>(scene_, a, b).p));
-    return value * (value > 0 ? 1 - kGapError : 1 + kGapError) - kDoubleDoubleError * scene_.magnitude;
+    if constexpr (std::is_same_v<Real, double>) return gap(pair_, n, a, b);
+    const double value = -double(dot(widened<DoubleDouble>(n), difference<DoubleDouble>(pair_, a, b).p));
+    return value * (value > 0 ? 1 - kGapError : 1 + kGapError) - kDoubleDoubleError * pair_.magnitude;
   }
 
-  const Scene& scene_;
-  const Goal& goal_;
+  const PairView& pair_;
+  const GjkGoal& goal_;
   std::uint32_t& tests_;
   const Keep keep_bounds_;
   std::array<Difference<Real>, 4> set_{};
@@ -352,14 +352,14 @@ class Descent {
 };
 
 template <class Real>
-bool settle(const Scene& scene, const Goal& goal, Meeting& m, std::uint32_t& plane_tests) {
-  Descent<Real> descent(scene, goal, plane_tests);
+bool settle(const PairView& pair, const GjkGoal& goal, GjkResult& m, std::uint32_t& plane_tests) {
+  GjkDescent<Real> descent(pair, goal, plane_tests);
   descent.run(m);
-  const bool near_zero = m.certificate.upper <= scene.law_two && m.certificate.lower == 0;
+  const bool near_zero = m.certificate.upper <= pair.law_two && m.certificate.lower == 0;
   if (m.status == MarchStatus::Disjoint && !near_zero) return true;
   m.status = MarchStatus::NotConverged;
   if (!descent.met() && !near_zero) return false;
-  Contact<Real> contact(scene, plane_tests);
+  Contact<Real> contact(pair, plane_tests);
   for (int k = 0; k < descent.count(); ++k) contact.add(descent[k].a, descent[k].b);
   Vec normal = m.certificate.normal;
   const MarchStatus status = contact.decide(normal, m.proof, m.depth);
@@ -374,39 +374,39 @@ bool settle(const Scene& scene, const Goal& goal, Meeting& m, std::uint32_t& pla
 
 }  // namespace
 
-Meeting progress(const Scene& scene, const Certificate& start, const Goal& goal, std::uint32_t& plane_tests) {
-  Meeting m;
+GjkResult gjk(const PairView& pair, const Certificate& start, const GjkGoal& goal, std::uint32_t& plane_tests) {
+  GjkResult m;
   m.certificate = start;
-  if (!settle<double>(scene, goal, m, plane_tests)) settle<DoubleDouble>(scene, goal, m, plane_tests);
+  if (!settle<double>(pair, goal, m, plane_tests)) settle<DoubleDouble>(pair, goal, m, plane_tests);
   return m;
 }
 
-bool proves_deep_overlap(const Scene& scene, const OverlapProof& proof) {
+bool proves_deep_overlap(const PairView& pair, const OverlapProof& proof) {
   std::array<Vec, 4> p;
-  for (std::size_t k = 0; k < 4; ++k) p[k] = difference<double>(scene, proof.vertex_a[k], proof.vertex_b[k]).p;
-  const double m = scene.magnitude, rounding = 8 * kOffsetTripleProductError * m * m * m;  // differences of two, six terms
+  for (std::size_t k = 0; k < 4; ++k) p[k] = difference<double>(pair, proof.vertex_a[k], proof.vertex_b[k]).p;
+  const double m = pair.magnitude, rounding = 8 * kOffsetTripleProductError * m * m * m;  // differences of two, six terms
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec &a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4], n = cross(b - a, c - a);
-    if (!(std::fabs(dot(n, a)) > 2 * scene.law_two * norm(n) + rounding)) return false;
+    if (!(std::fabs(dot(n, a)) > 2 * pair.law_two * norm(n) + rounding)) return false;
   }
-  return proves(scene, proof);
+  return proves(pair, proof);
 }
 
-bool straighten(const Scene& scene, Certificate& c, std::uint32_t& plane_tests) {
-  const Goal goal{scene.law_two, 0, std::numeric_limits<double>::infinity()};
-  Meeting m;
+bool straighten(const PairView& pair, Certificate& c, std::uint32_t& plane_tests) {
+  const GjkGoal goal{pair.law_two, 0, std::numeric_limits<double>::infinity()};
+  GjkResult m;
   m.certificate = c;
-  Descent<DoubleDouble>(scene, goal, plane_tests, Keep::Last).run(m);
+  GjkDescent<DoubleDouble>(pair, goal, plane_tests, Keep::Last).run(m);
   if (m.status != MarchStatus::Disjoint) return false;
   c = m.certificate;
   return true;
 }
 
-void sharpen(const Scene& scene, Certificate& c, std::uint32_t& plane_tests) {
-  const Goal as_far_as_it_goes{0, 0, std::numeric_limits<double>::infinity()};
-  Meeting m;
+void sharpen(const PairView& pair, Certificate& c, std::uint32_t& plane_tests) {
+  const GjkGoal as_far_as_it_goes{0, 0, std::numeric_limits<double>::infinity()};
+  GjkResult m;
   m.certificate = c;
-  Descent<DoubleDouble>(scene, as_far_as_it_goes, plane_tests).run(m);
+  GjkDescent<DoubleDouble>(pair, as_far_as_it_goes, plane_tests).run(m);
   c = m.certificate;
 }
 

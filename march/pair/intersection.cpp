@@ -63,18 +63,18 @@ FeatureId feature_holding(const ConvexView& view, const Quad& vertices) {
 }
 
 /// Facets are named by one of their half-edges, bodies by 0 and 1; points are in the common frame.
-class Search {
+class IntersectionSearch {
  public:
-  Search(const Scene& scene, std::uint32_t& tests)
-      : scene_(scene), tests_(tests), most_tests_(tests + scene.a.half_edges.size() + scene.b.half_edges.size()) {}
+  IntersectionSearch(const PairView& pair, std::uint32_t& tests)
+      : pair_(pair), tests_(tests), most_tests_(tests + pair.a.half_edges.size() + pair.b.half_edges.size()) {}
 
-  Crossing run(const OverlapProof& proof) {
-    const Vec x = common_point<DoubleDouble>(scene_, proof).point;
-    const FeatureId a = feature_holding(scene_.a, proof.vertex_a), b = feature_holding(scene_.b, proof.vertex_b);
+  Intersection run(const OverlapProof& proof) {
+    const Vec x = common_point<DoubleDouble>(pair_, proof).point;
+    const FeatureId a = feature_holding(pair_.a, proof.vertex_a), b = feature_holding(pair_.b, proof.vertex_b);
     if (a != FeatureId{} && b != FeatureId{}) return {a, b, x};
-    std::optional<Crossing> found;
-    if (bounds_solid(scene_.a) && bounds_solid(scene_.b)) {
-      hint_ = {scene_.a.vertices[proof.vertex_a[0]].ring_begin, scene_.b.vertices[proof.vertex_b[0]].ring_begin};
+    std::optional<Intersection> found;
+    if (bounds_solid(pair_.a) && bounds_solid(pair_.b)) {
+      hint_ = {pair_.a.vertices[proof.vertex_a[0]].ring_begin, pair_.b.vertices[proof.vertex_b[0]].ring_begin};
       found = between_outsiders(inner_point(x));
       if (!found) found = around(proof.vertex_a, proof.vertex_b);
     }
@@ -82,11 +82,11 @@ class Search {
   }
 
  private:
-  const ConvexView& view(int k) const { return k == 0 ? scene_.a : scene_.b; }
-  Vec point(int k, std::uint32_t v) const { return k == 0 ? body_a(scene_).point(v) : body_b(scene_).point(v); }
-  Vec centre(int k) const { return k == 0 ? vec(scene_.a.centre) : body_b(scene_).common(vec(scene_.b.centre)); }
+  const ConvexView& view(int k) const { return k == 0 ? pair_.a : pair_.b; }
+  Vec point(int k, std::uint32_t v) const { return k == 0 ? body_a(pair_).point(v) : body_b(pair_).point(v); }
+  Vec centre(int k) const { return k == 0 ? vec(pair_.a.centre) : body_b(pair_).common(vec(pair_.b.centre)); }
   std::uint32_t extreme(int k, const Vec& n, std::uint32_t start) const {
-    return k == 0 ? support_a(scene_, n, start, tests_) : support_b(scene_, -n, start, tests_);
+    return k == 0 ? support_a(pair_, n, start, tests_) : support_b(pair_, -n, start, tests_);
   }
   template <class Visit>
   void each_edge_of_facet(int k, std::uint32_t facet, Visit visit) const {
@@ -104,7 +104,7 @@ class Search {
     std::array<const double*, 3> p, q;
     for (std::size_t i = 0; i < 3; ++i) p[i] = &view(k).vertices[own[i]].x, q[i] = &view(1 - k).vertices[other[i]].x;
     ++tests_;
-    return k == 0 ? exact::triple_product(p, q, scene_.b_in_a) : exact::triple_product(q, p, scene_.b_in_a);
+    return k == 0 ? exact::triple_product(p, q, pair_.b_in_a) : exact::triple_product(q, p, pair_.b_in_a);
   }
 
   /// Whether an edge of body k meets a facet of the other in whose plane it does not lie. Of surfaces that meet some edge does:
@@ -128,7 +128,7 @@ class Search {
     return true;
   }
 
-  Crossing named(int k, std::uint32_t edge, std::uint32_t facet) const {
+  Intersection named(int k, std::uint32_t edge, std::uint32_t facet) const {
     const ConvexView &own = view(k), &other = view(1 - k);
     const FeatureId pierced{FeatureKind::Face, other.half_edges[facet].face};
     const FeatureId piercing =
@@ -136,12 +136,12 @@ class Search {
     const Vec p = point(k, origin(own, edge)), e = point(k, own.half_edges[edge].head) - p, n = normal(1 - k, facet),
               q = point(1 - k, origin(other, facet));
     const double at_tail = dot(n, p - q), at_head = at_tail + dot(n, e), t = at_tail / (at_tail - at_head);
-    const Vec at = p + e * (t > 0 ? smaller(t, 1) : 0.0);
-    return k == 0 ? Crossing{piercing, pierced, at} : Crossing{pierced, piercing, at};
+    const Vec at = p + e * (t > 0 ? min(t, 1) : 0.0);
+    return k == 0 ? Intersection{piercing, pierced, at} : Intersection{pierced, piercing, at};
   }
 
-  std::optional<Crossing> between(std::uint32_t facet_a, std::uint32_t facet_b) const {
-    std::optional<Crossing> found;
+  std::optional<Intersection> between(std::uint32_t facet_a, std::uint32_t facet_b) const {
+    std::optional<Intersection> found;
     each_edge_of_facet(0, facet_a, [&](std::uint32_t h) {
       if (!found && pierces(0, h, facet_b)) found = named(0, h, facet_b);
     });
@@ -153,11 +153,11 @@ class Search {
 
   /// Among the edges and facets at some vertices of each body.
   template <class VerticesA, class VerticesB>
-  std::optional<Crossing> around(const VerticesA& vertices_a, const VerticesB& vertices_b) const {
+  std::optional<Intersection> around(const VerticesA& vertices_a, const VerticesB& vertices_b) const {
     for (const std::uint32_t va : vertices_a) {
-      const Vertex& ring_a = scene_.a.vertices[va];
+      const Vertex& ring_a = pair_.a.vertices[va];
       for (const std::uint32_t vb : vertices_b) {
-        const Vertex& ring_b = scene_.b.vertices[vb];
+        const Vertex& ring_b = pair_.b.vertices[vb];
         for (std::uint32_t g = ring_a.ring_begin; g < ring_a.ring_begin + ring_a.ring_count; ++g) {
           for (std::uint32_t h = ring_b.ring_begin; h < ring_b.ring_begin + ring_b.ring_count; ++h) {
             if (spent()) return std::nullopt;
@@ -185,7 +185,7 @@ class Search {
 
   /// The signs of `side` are positive outside the facets of the other body where this is.
   int sense(int k) const {
-    const Motion& m = scene_.b_in_a;
+    const Motion& m = pair_.b_in_a;
     return k == 1 || dot(m.row_x, cross(m.row_y, m.row_z)) < 0 ? -1 : 1;
   }
   /// Whether a vertex of body k lies above (1), in (0) or below the plane of a facet of the other.
@@ -218,13 +218,13 @@ class Search {
   }
 
   /// Where a vertex lies: outside a body (1), on its surface (0), or inside; and beyond or in which facet.
-  struct Place {
+  struct FacetPlace {
     int side;
     std::uint32_t facet;
   };
   /// Of a vertex of body k in the other, a solid. Seen from a vertex of that body the facets that do not hold it fill the body
   /// with pyramids; one that does hold it is come to only by going outside.
-  Place locate(int k, std::uint32_t v) {
+  FacetPlace locate(int k, std::uint32_t v) {
     const ConvexView& other = view(1 - k);
     const std::uint32_t apex = apex_[std::size_t(1 - k)], ring = other.vertices[apex].ring_begin;
     Cell& last = cell_[std::size_t(1 - k)];
@@ -269,7 +269,7 @@ class Search {
   }
 
   /// Where an edge of body k meets the other's surface; `inside` becomes false where a vertex of it is not inside.
-  std::optional<Crossing> along_edges(int k, bool& inside) {
+  std::optional<Intersection> along_edges(int k, bool& inside) {
     const ConvexView &own = view(k), &other = view(1 - k);
     inside = bounds_solid(other);
     if (!inside) {
@@ -279,7 +279,7 @@ class Search {
       return std::nullopt;
     }
     for (std::uint32_t v = 0; v < own.vertices.size(); ++v) {
-      const Place place = locate(k, v);
+      const FacetPlace place = locate(k, v);
       if (place.side < 0) continue;
       inside = false;
       Cell below = cell(1 - k, place.facet);
@@ -294,7 +294,7 @@ class Search {
   }
 
   /// The same of both bodies, the smaller first; without any one body lies inside the other.
-  Crossing exactly(const Vec& x) {
+  Intersection exactly(const Vec& x) {
     for (const int k : {0, 1}) {
       const ConvexView& own = view(k);
       if (!bounds_solid(own)) continue;
@@ -304,13 +304,13 @@ class Search {
       }
       cell_[std::size_t(k)] = cell(k, own.half_edges[next_in_facet(own, own.vertices[apex].ring_begin)].twin);
     }
-    const int smaller_one = scene_.a.extent < scene_.b.extent ? 0 : 1;
+    const int smaller_one = pair_.a.extent < pair_.b.extent ? 0 : 1;
     for (const int k : {smaller_one, 1 - smaller_one}) {
       bool inside = false;
       if (const auto found = along_edges(k, inside)) return *found;
       if (inside) return inner(k, x);
     }
-    return inner(bounds_solid(scene_.a) ? 1 : 0, x);
+    return inner(bounds_solid(pair_.a) ? 1 : 0, x);
   }
 
   // ---- In doubles ----
@@ -337,7 +337,7 @@ class Search {
     const double height = dot(n, point(k, origin(view(k), facet)) - p), along = dot(n, d);
     ++tests_;
     // In the plane of a facet, as a corner is: out at once, or never through it.
-    const double thin = scene_.point_error * norm(n);
+    const double thin = pair_.point_error * norm(n);
     if (std::fabs(height) <= thin) return {facet, std::fabs(along) <= thin ? 0 : kInfinity, 1};
     return {facet, along / height, kExitError * thin / std::fabs(height)};
   }
@@ -362,7 +362,7 @@ class Search {
     for (int k : {0, 1, 0, 1}) {
       const Vec d = centre(k) - x;
       const double rate = leave(1 - k, x, d).rate;
-      x = x + d * (0.5 / larger(1, rate));
+      x = x + d * (0.5 / max(1, rate));
     }
     return x;
   }
@@ -389,13 +389,13 @@ class Search {
   std::uint32_t corner_outside(std::uint32_t facet, const Vec& x) {
     std::uint32_t found = kNone;
     each_edge_of_facet(1, facet, [&](std::uint32_t h) {
-      if (found == kNone && towards(0, x, point(1, scene_.b.half_edges[h].head)).ends_outside())
-        found = scene_.b.half_edges[h].head;
+      if (found == kNone && towards(0, x, point(1, pair_.b.half_edges[h].head)).ends_outside())
+        found = pair_.b.half_edges[h].head;
     });
     return found;
   }
 
-  std::optional<Crossing> between_outsiders(const Vec& x) {
+  std::optional<Intersection> between_outsiders(const Vec& x) {
     const std::uint32_t v = outsider(0, x);
     if (v == kNone) return std::nullopt;
     const Exit first = towards(1, x, point(0, v));
@@ -409,8 +409,8 @@ class Search {
         Exit best = at;
         std::uint32_t shared = kNone;
         each_edge_of_facet(1, at.facet, [&](std::uint32_t h) {
-          const Exit next = through(1, scene_.b.half_edges[h].twin, x, d);
-          if (next.rate > best.rate) best = next, shared = scene_.b.half_edges[h].head;
+          const Exit next = through(1, pair_.b.half_edges[h].twin, x, d);
+          if (next.rate > best.rate) best = next, shared = pair_.b.half_edges[h].head;
         });
         if (shared == kNone || spent()) return std::nullopt;
         p = point(1, shared);  // inside A, as all corners so far
@@ -430,11 +430,11 @@ class Search {
   }
 
   /// Body k lies inside the other.
-  Crossing inner(int k, const Vec& x) const {
+  Intersection inner(int k, const Vec& x) const {
     const FeatureId any{FeatureKind::Vertex, 0};
-    return k == 0 ? Crossing{any, {}, x} : Crossing{{}, any, x};
+    return k == 0 ? Intersection{any, {}, x} : Intersection{{}, any, x};
   }
-  const Scene& scene_;
+  const PairView& pair_;
   std::uint32_t& tests_;
   const std::size_t most_tests_;         ///< of guesses
   std::array<std::uint32_t, 2> hint_{};  ///< the facet last seen of each
@@ -446,7 +446,7 @@ class Search {
 double off_segment(const Vec& p, const Vec& q0, const Vec& q1) {
   const Vec u = q1 - q0, r = p - q0;
   const double t = dot(r, u) / dot(u, u);
-  return norm(r - u * (t > 0 ? smaller(t, 1) : 0.0));
+  return norm(r - u * (t > 0 ? min(t, 1) : 0.0));
 }
 
 template <class Body>
@@ -469,7 +469,7 @@ FeatureId feature_at(const Body& body, FeatureId known, const Vec& p, double bou
       h = next_in_facet(view, h);
       if (h == facet) break;
     }
-    if (above) off = smaller(off, height / length);
+    if (above) off = min(off, height / length);
     if (off < least) least = off, nearest = facet;
   }
   if (nearest == kNone) return known;
@@ -487,15 +487,15 @@ FeatureId feature_at(const Body& body, FeatureId known, const Vec& p, double bou
 
 }  // namespace
 
-FeatureId feature_at_a(const Scene& scene, FeatureId known, const Vec& p, std::uint32_t& plane_tests) {
-  return feature_at(body_a(scene), known, p, scene.law_two, plane_tests);
+FeatureId feature_at_a(const PairView& pair, FeatureId known, const Vec& p, std::uint32_t& plane_tests) {
+  return feature_at(body_a(pair), known, p, pair.law_two, plane_tests);
 }
-FeatureId feature_at_b(const Scene& scene, FeatureId known, const Vec& p, std::uint32_t& plane_tests) {
-  return feature_at(body_b(scene), known, p, scene.law_two, plane_tests);
+FeatureId feature_at_b(const PairView& pair, FeatureId known, const Vec& p, std::uint32_t& plane_tests) {
+  return feature_at(body_b(pair), known, p, pair.law_two, plane_tests);
 }
 
-Crossing crossing(const Scene& scene, const OverlapProof& proof, std::uint32_t& plane_tests) {
-  return Search(scene, plane_tests).run(proof);
+Intersection intersection(const PairView& pair, const OverlapProof& proof, std::uint32_t& plane_tests) {
+  return IntersectionSearch(pair, plane_tests).run(proof);
 }
 
 }  // namespace swiftlet

@@ -12,7 +12,7 @@ namespace swiftlet {
 
 /// Features of both bodies and a point that they share, rounded. Where one body lies inside the other and the surfaces share
 /// nothing: a vertex of the inner one, no feature of the outer, and a point of both bodies.
-struct Crossing {
+struct Intersection {
   FeatureId a, b;
   Vec point;
 };
@@ -22,13 +22,13 @@ struct Crossing {
 /// other too. Each walk begins where the last one ended, mostly a facet or two away, so that the count is linear in the
 /// features: 1 to 5 tests for each, whatever the ratio of sizes. At worst, where each goes around the whole other body, it is
 /// the product of features, or what a hostile file costs: all known bounds below that take working memory [Chazelle 1992].
-Crossing crossing(const Scene& scene, const OverlapProof& proof, std::uint32_t& plane_tests);
+Intersection intersection(const PairView& pair, const OverlapProof& proof, std::uint32_t& plane_tests);
 
 /// What holds a point of the common frame that lies on the surface but for law 2's bound: `known`, but where that is a vertex
 /// and the point is elsewhere, the smallest feature within the bound; `known` again where no facet comes near. Certified
 /// progress and the depth may end on vertices that no feature holds, near 0 or near the surface, and name one of them. Cost: of
 /// the search all facets.
-FeatureId feature_at_a(const Scene& scene, FeatureId known, const Vec& p, std::uint32_t& plane_tests);
-FeatureId feature_at_b(const Scene& scene, FeatureId known, const Vec& p, std::uint32_t& plane_tests);
+FeatureId feature_at_a(const PairView& pair, FeatureId known, const Vec& p, std::uint32_t& plane_tests);
+FeatureId feature_at_b(const PairView& pair, FeatureId known, const Vec& p, std::uint32_t& plane_tests);
 
 }  // namespace swiftlet

@@ -13,9 +13,9 @@
 namespace swiftlet {
 namespace {
 
-/// Where the budget ends a walk no nearer than it began, certified progress goes on: marches that follow one another do not
+/// Where the budget ends a walk no nearer than it began, certified GJK goes on: marches that follow one another do not
 /// come round.
-MarchResult concluded(const Scene& pair, const MarchStart& from, Walk walked, const MarchRule& rule) {
+MarchResult concluded(const PairView& pair, const MarchStart& from, Walk walked, const MarchRule& rule) {
   const MarchResult r = conclude<Until::Exact>(pair, walked, rule);
   if (r.status != MarchStatus::Budget) return r;
   std::uint32_t tests = 0;
@@ -25,8 +25,8 @@ MarchResult concluded(const Scene& pair, const MarchStart& from, Walk walked, co
 }
 
 /// Features that overlap are where the surfaces cross, not where the proof was found.
-void cross(const Scene& pair, MarchResult& r) {
-  const Crossing where = crossing(pair, r.proof, r.plane_tests);
+void cross(const PairView& pair, MarchResult& r) {
+  const Intersection where = intersection(pair, r.proof, r.plane_tests);
   r.a = where.a;
   r.b = where.b;
   r.point_a = r.point_b = eigen(where.point);
@@ -43,7 +43,7 @@ MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, 
     invalid.status = MarchStatus::InvalidPose;
     return invalid;
   }
-  const Scene pair = scene(a, b, m, quality.error);
+  const PairView pair = pair_view(a, b, m, quality.error);
   std::uint32_t climbs = 0;
   const MarchStart from = settled(pair, start, climbs);
   MarchResult result = concluded(pair, from, walk(pair, from.a, from.b, rule.plane_rule, rule.step_budget), rule);

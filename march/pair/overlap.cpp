@@ -46,18 +46,18 @@ Corners corners(const P& body, FeatureId feature, std::uint32_t behind) {
 
 }  // namespace
 
-Vec across(const Scene& scene, const MarchStart& met) {
-  if (met.a.kind() == FeatureKind::Face) return face_normal(body_a(scene), met.a.index());
-  if (met.b.kind() == FeatureKind::Face) return -body_b(scene).turned(face_normal(body_b(scene), met.b.index()));
+Vec across(const PairView& pair, const MarchStart& met) {
+  if (met.a.kind() == FeatureKind::Face) return face_normal(body_a(pair), met.a.index());
+  if (met.b.kind() == FeatureKind::Face) return -body_b(pair).rotated(face_normal(body_b(pair), met.b.index()));
   return {0, 0, 0};
 }
 
 template <class Real>
-Common common_point(const Scene& scene, const OverlapProof& proof) {
+Common common_point(const PairView& pair, const OverlapProof& proof) {
   std::array<V3<Real>, 4> a, p;
   for (std::size_t k = 0; k < 4; ++k) {
-    a[k] = widened<Real>(vec(scene.a.vertices[proof.vertex_a[k]]));
-    p[k] = difference<Real>(scene, proof.vertex_a[k], proof.vertex_b[k]).p;
+    a[k] = widened<Real>(vec(pair.a.vertices[proof.vertex_a[k]]));
+    p[k] = difference<Real>(pair, proof.vertex_a[k], proof.vertex_b[k]).p;
   }
   std::array<Real, 4> w{dot(cross(p[1], p[3]), p[2]), dot(cross(p[0], p[2]), p[3]), dot(cross(p[0], p[3]), p[1]),
                         dot(cross(p[0], p[1]), p[2])};
@@ -68,20 +68,19 @@ Common common_point(const Scene& scene, const OverlapProof& proof) {
   for (std::size_t k = 0; k < 4; ++k) x = x + a[k] * (w[k] / sum), apart = apart + p[k] * (w[k] / sum);
   return {rounded(x), norm(rounded(apart))};
 }
-template Common common_point<DoubleDouble>(const Scene&, const OverlapProof&);
+template Common common_point<DoubleDouble>(const PairView&, const OverlapProof&);
 
-Vec surely_common_point(const Scene& scene, const OverlapProof& proof) {
-  if (const Common in_doubles = common_point<double>(scene, proof); 2 * in_doubles.off <= scene.law_two)
-    return in_doubles.point;
-  if (const Common wide = common_point<DoubleDouble>(scene, proof); 2 * wide.off <= scene.law_two) return wide.point;
+Vec surely_common_point(const PairView& pair, const OverlapProof& proof) {
+  if (const Common in_doubles = common_point<double>(pair, proof); 2 * in_doubles.off <= pair.law_two) return in_doubles.point;
+  if (const Common wide = common_point<DoubleDouble>(pair, proof); 2 * wide.off <= pair.law_two) return wide.point;
   constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
   return {kNowhere, kNowhere, kNowhere};
 }
 
-bool meet(const Scene& scene, const MarchStart& met, std::uint32_t behind_a, std::uint32_t behind_b, OverlapProof& proof) {
-  const Corners a = corners(body_a(scene), met.a, behind_a), b = corners(body_b(scene), met.b, behind_b);
+bool meet(const PairView& pair, const MarchStart& met, std::uint32_t behind_a, std::uint32_t behind_b, OverlapProof& proof) {
+  const Corners a = corners(body_a(pair), met.a, behind_a), b = corners(body_b(pair), met.b, behind_b);
   Simplex simplex;
-  Vec n = across(scene, met);
+  Vec n = across(pair, met);
   for (int iteration = 0; iteration < kAimSteps; ++iteration) {
     const int i = a.highest(n), j = b.highest(-n);
     const Vec p = b.point[j] - a.point[i];
@@ -89,7 +88,7 @@ bool meet(const Scene& scene, const MarchStart& met, std::uint32_t behind_a, std
     const Simplex::Nearest nearest = simplex.add({p, a.point[i], a.vertex[i], b.vertex[j]});
     if (nearest.count == 4) {
       proof = simplex.proof();
-      return proves_deep_overlap(scene, proof);
+      return proves_deep_overlap(pair, proof);
     }
     simplex.reduce(nearest);
     n = nearest.point;

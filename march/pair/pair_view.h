@@ -11,7 +11,7 @@
 namespace swiftlet {
 
 /// The two polytopes and the pose between them.
-struct Scene {
+struct PairView {
   const ConvexView& a;
   const ConvexView& b;
   const Motion& b_in_a;
@@ -22,30 +22,30 @@ struct Scene {
   double law_two;       ///< at most law 2's bound for this pair: the width an exact answer keeps
 };
 
-/// A body of a scene at rest in the common frame, which is its own.
+/// A body of a pair at rest in the common frame, which is its own.
 struct Resting {
   const ConvexView& view;
   Vec own(std::uint32_t v) const { return vec(view.vertices[v]); }
   Vec common(const Vec& p) const { return p; }  ///< a point of its own frame in the common one
   Vec point(std::uint32_t v) const { return own(v); }
-  Vec turned(const Vec& n) const { return n; }  ///< a direction of its own frame in the common one
-  Vec local(const Vec& p) const { return p; }   ///< a point of the common frame in its own
-  Vec into(const Vec& n) const { return n; }    ///< orders its own points as `n` orders their images
+  Vec rotated(const Vec& n) const { return n; }  ///< a direction of its own frame in the common one
+  Vec local(const Vec& p) const { return p; }    ///< a point of the common frame in its own
+  Vec into(const Vec& n) const { return n; }     ///< orders its own points as `n` orders their images
 };
-/// A body of a scene that the pose moves into it. `local` takes the pose for a rigid motion.
+/// A body of a pair that the pose moves into it. `local` takes the pose for a rigid motion.
 struct Moved {
   const ConvexView& view;
   const Motion& motion;
   Vec own(std::uint32_t v) const { return vec(view.vertices[v]); }
   Vec common(const Vec& p) const { return apply(motion, p); }
   Vec point(std::uint32_t v) const { return common(own(v)); }
-  Vec turned(const Vec& n) const { return turn(motion, n); }
-  Vec local(const Vec& p) const { return turn_back(motion, p - motion.t); }
-  Vec into(const Vec& n) const { return turn_back(motion, n); }
+  Vec rotated(const Vec& n) const { return rotate(motion, n); }
+  Vec local(const Vec& p) const { return rotate_back(motion, p - motion.t); }
+  Vec into(const Vec& n) const { return rotate_back(motion, n); }
 };
 
-static inline Resting body_a(const Scene& s) { return {s.a}; }
-static inline Moved body_b(const Scene& s) { return {s.b, s.b_in_a}; }
+static inline Resting body_a(const PairView& s) { return {s.a}; }
+static inline Moved body_b(const PairView& s) { return {s.b, s.b_in_a}; }
 
 /// What a pose is worth: whether it is legal, and how far from a rigid motion it is.
 struct PoseQuality {
@@ -57,33 +57,32 @@ static inline PoseQuality pose_quality(const Motion& m) {
   const auto entry = [&](double Vec::*i, double Vec::*j) { return x.*i * x.*j + y.*i * y.*j + z.*i * z.*j; };
   const double xx = std::fabs(entry(&Vec::x, &Vec::x) - 1), yy = std::fabs(entry(&Vec::y, &Vec::y) - 1),
                zz = std::fabs(entry(&Vec::z, &Vec::z) - 1);
-  const double across = larger(larger(std::fabs(entry(&Vec::x, &Vec::y)), std::fabs(entry(&Vec::x, &Vec::z))),
-                               std::fabs(entry(&Vec::y, &Vec::z)));
+  const double across =
+      max(max(std::fabs(entry(&Vec::x, &Vec::y)), std::fabs(entry(&Vec::x, &Vec::z))), std::fabs(entry(&Vec::y, &Vec::z)));
   // A NaN or infinity in a column is one in its square. Farther away exact signs and squares overflow, and a climb need not
   // end.
   const bool legal = xx <= kOrthonormality && yy <= kOrthonormality && zz <= kOrthonormality && across <= kOrthonormality &&
                      std::fabs(m.t.x) <= kMostCoordinate && std::fabs(m.t.y) <= kMostCoordinate &&
                      std::fabs(m.t.z) <= kMostCoordinate;
-  return {legal, larger(larger(xx, yy), larger(zz, across))};
+  return {legal, max(max(xx, yy), max(zz, across))};
 }
 
 /// At most law 2's bound of a pair: the width an exact answer keeps. `shift` is |t|.
 static inline double law_two(double extent_a, double extent_b, double shift, double pose_error) {
-  return larger((kLawTwo + 2 * larger(0, pose_error - kOrthonormalityError)) * (larger(extent_a, extent_b) + shift),
-                kLeastWidth);
+  return max((kLawTwo + 2 * max(0, pose_error - kOrthonormalityError)) * (max(extent_a, extent_b) + shift), kLeastWidth);
 }
 static inline double law_two(const ConvexView& a, const ConvexView& b, double shift, double pose_error) {
   return law_two(a.extent, b.extent, shift, pose_error);
 }
 
-static inline Scene scene(const ConvexView& a, const ConvexView& b, const Motion& m, double shift, double pose_error) {
+static inline PairView pair_view(const ConvexView& a, const ConvexView& b, const Motion& m, double shift, double pose_error) {
   const double stretch = kSqrt3 * (1 + pose_error), magnitude = stretch * (a.extent + b.extent) + shift,
                motion_error = kTurnError * stretch * b.extent + kShiftError * shift;
   return {
       a, b, m, magnitude, motion_error, kPointError * magnitude + motion_error, pose_error, law_two(a, b, shift, pose_error)};
 }
-static inline Scene scene(const ConvexView& a, const ConvexView& b, const Motion& m, double pose_error) {
-  return scene(a, b, m, norm(m.t), pose_error);
+static inline PairView pair_view(const ConvexView& a, const ConvexView& b, const Motion& m, double pose_error) {
+  return pair_view(a, b, m, norm(m.t), pose_error);
 }
 
 }  // namespace swiftlet

@@ -7,15 +7,15 @@
 
 namespace swiftlet {
 
-MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& plane_tests) {
+MarchStart settled(const PairView& pair, const MarchStart& start, std::uint32_t& plane_tests) {
   MarchStart s = start;
-  const bool known_a = names_feature(scene.a, s.a), known_b = names_feature(scene.b, s.b);
+  const bool known_a = names_feature(pair.a, s.a), known_b = names_feature(pair.b, s.b);
   if (!known_a || !known_b) {
-    const Vec d = rescaled(apply(scene.b_in_a, vec(scene.b.centre)) - vec(scene.a.centre));
-    if (!known_a) s.a = {FeatureKind::Vertex, support_a(scene, d, 0, plane_tests)};
-    if (!known_b) s.b = {FeatureKind::Vertex, support_b(scene, d, 0, plane_tests)};
+    const Vec d = rescaled(apply(pair.b_in_a, vec(pair.b.centre)) - vec(pair.a.centre));
+    if (!known_a) s.a = {FeatureKind::Vertex, support_a(pair, d, 0, plane_tests)};
+    if (!known_b) s.b = {FeatureKind::Vertex, support_b(pair, d, 0, plane_tests)};
   }
-  if (s.a.kind() == FeatureKind::Face && s.b.kind() == FeatureKind::Face) s.b = {FeatureKind::Vertex, any_vertex(scene.b, s.b)};
+  if (s.a.kind() == FeatureKind::Face && s.b.kind() == FeatureKind::Face) s.b = {FeatureKind::Vertex, any_vertex(pair.b, s.b)};
   return s;
 }
 

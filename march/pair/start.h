@@ -11,8 +11,8 @@
 
 namespace swiftlet {
 
-/// The start as features of the scene's views: what is no feature of its view, or a face against a face, becomes vertices.
+/// The start as features of the pair's views: what is no feature of its view, or a face against a face, becomes vertices.
 /// `plane_tests` grows by the climbs along the line of centres.
-MarchStart settled(const Scene& scene, const MarchStart& start, std::uint32_t& plane_tests);
+MarchStart settled(const PairView& pair, const MarchStart& start, std::uint32_t& plane_tests);
 
 }  // namespace swiftlet

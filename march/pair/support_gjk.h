@@ -17,7 +17,7 @@
 namespace swiftlet {
 
 /// What one step saw.
-struct Sight {
+struct SupportGjk {
   std::uint32_t a = 0, b = 0;  ///< supports along `normal` and against it, as the maps know them
   double gap = 0;              ///< of these vertices along `normal`
   double lower = 0;            ///< proved along `normal`: less than the gap by what the maps are uncertain of; may be negative
@@ -67,28 +67,28 @@ class Simplex {
 };
 
 /// What maps say along one direction, of any length.
-struct Glimpse {
+struct AxisSample {
   Vec normal{0, 0, 0};                 ///< the direction at length 1; 0 where it names none
   std::uint32_t a = 0, b = 0;          ///< supports along it and against it, as the maps know them
   Vec point{0, 0, 0}, apart{0, 0, 0};  ///< A's, and from there to B's
-  double gap = 0, lower = 0;           ///< as in Sight
+  double gap = 0, lower = 0;           ///< as in SupportGjk
 };
 /// Looks up before the length is known: cells are where a direction of any length goes.
-static inline Glimpse glimpse(const Scene& scene, const Level& a, const Level& b, const Vec& direction) {
-  const Moved other = body_b(scene);
+static inline AxisSample sample_axis(const PairView& pair, const Level& a, const Level& b, const Vec& direction) {
+  const Moved other = body_b(pair);
   const MapSupport top_a = look_up(a, direction), top_b = look_up(b, -other.into(direction));
-  const Vec q = body_a(scene).point(top_a.vertex), p = other.point(top_b.vertex) - q;
+  const Vec q = body_a(pair).point(top_a.vertex), p = other.point(top_b.vertex) - q;
   const auto [n, scale] = unit_of(direction);
-  return {n, top_a.vertex, top_b.vertex, q, p, dot(n, p), gap(scene, n, p, (top_a.excess + top_b.excess) * scale)};
+  return {n, top_a.vertex, top_b.vertex, q, p, dot(n, p), gap(pair, n, p, (top_a.excess + top_b.excess) * scale)};
 }
 
-/// Looks on from what was seen, until a sight is enough or nothing changes. Both levels have maps. Supports that overlap by
+/// Goes on from what was sampled, until that is enough or nothing changes. Both levels have maps. Supports that overlap by
 /// less than `hidden` count as near too.
 template <class Enough>
-Sight look(const Scene& scene, const Level& a, const Level& b, double hidden, Glimpse seen, Enough enough) {
+SupportGjk support_gjk(const PairView& pair, const Level& a, const Level& b, double hidden, AxisSample seen, Enough enough) {
   const double few = kAimEdges * (a.edge_length + b.edge_length);
   Simplex simplex;
-  Sight s;
+  SupportGjk s;
   bool was_near = false;
   s.upper = std::numeric_limits<double>::infinity();
   for (int steps = 0;; ++steps) {
@@ -97,7 +97,7 @@ Sight look(const Scene& scene, const Level& a, const Level& b, double hidden, Gl
     s.gap = seen.gap, s.lower = seen.lower;
     s.normal = n;
     if (s.lower > s.most_lower) s.most_lower = s.lower, s.lower_along = n;
-    const double upper = norm(p) * (1 + kNormError) + scene.point_error;
+    const double upper = norm(p) * (1 + kNormError) + pair.point_error;
     if (upper < s.upper) s.upper = upper, s.point_a = q, s.point_b = q + p;
     const Vec aside = p - n * s.gap;
     s.near = s.gap > -hidden && dot(aside, aside) <= few * few;
@@ -111,10 +111,10 @@ Sight look(const Scene& scene, const Level& a, const Level& b, double hidden, Gl
       return s;
     }
     const Simplex::Points points = simplex.reduce(nearest);
-    const double distance = norm(nearest.point), nearer = norm(points.apart) * (1 + kNormError) + scene.point_error;
+    const double distance = norm(nearest.point), nearer = norm(points.apart) * (1 + kNormError) + pair.point_error;
     if (nearer < s.upper) s.upper = nearer, s.point_a = points.a, s.point_b = points.a + points.apart;
-    if (!(distance > scene.point_error)) return s;
-    seen = glimpse(scene, a, b, nearest.point);
+    if (!(distance > pair.point_error)) return s;
+    seen = sample_axis(pair, a, b, nearest.point);
   }
 }
 

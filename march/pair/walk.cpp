@@ -45,7 +45,7 @@ struct Rise {
   double length2 = 1;          ///< of the way there, squared
   bool falls() const { return highest > 0; }
   /// Of the fall, squared; less than any where there is none. Of slivers rounding leaves a length of 0 or less.
-  double rate2() const { return falls() ? highest / larger(std::numeric_limits<double>::denorm_min(), length2) * highest : -1; }
+  double rate2() const { return falls() ? highest / max(std::numeric_limits<double>::denorm_min(), length2) * highest : -1; }
 };
 
 class Marcher {
@@ -76,7 +76,7 @@ class Marcher {
     walk_.plane_tests += 2;
     if (!(s > 0)) return {vertex(va), vertex(v0), dot(r, r)};
     if (s >= 1) return {vertex(va), vertex(v1), dot(r - u, r - u)};
-    const Vec up = across(r - u * s, u, length2), down = b.turned(-up);
+    const Vec up = across(r - u * s, u, length2), down = b.rotated(-up);
     const double distance2 = dot(up, up);
     const Rise rise = sides(b, v0, h, q0, u, up);
     if (first_only_ && rise.falls()) return {vertex(va), face(rise.to), distance2};
@@ -96,7 +96,7 @@ class Marcher {
     if (const std::uint32_t side = leave(prism, p); side != kNone) return {vertex(va), edge(side), kUnknown};
     const double height = prism.height(p), distance2 = height / dot(prism.normal(), prism.normal()) * height;
     if (!(height > 0)) return inside(vertex(va), face(f), distance2);
-    const Vec towards = b.turned(-prism.normal());
+    const Vec towards = b.rotated(-prism.normal());
     const Rise down = ring(a, va, a.into(towards));
     if (!down.falls()) {
       end(a, {towards, only(va), below(b, f, p), down.highest, kUnknown});
@@ -111,7 +111,7 @@ class Marcher {
     const std::uint32_t a0 = origin(a.view, ha), a1 = a.view.half_edges[ha].head, b0 = origin(b.view, hb),
                         b1 = b.view.half_edges[hb].head;
     const Vec own_a = a.own(a0), along_a = a.own(a1) - own_a;
-    const Vec p0 = b.local(a.point(a0)), u = b.into(a.turned(along_a)), q0 = b.own(b0), v = b.own(b1) - q0;
+    const Vec p0 = b.local(a.point(a0)), u = b.into(a.rotated(along_a)), q0 = b.own(b0), v = b.own(b1) - q0;
     const double uu = dot(u, u), vv = dot(v, v);
     const Parameters at = nearest_on_segments(p0, u, uu, q0, v, vv);
     const Vec p = p0 + u * at.s, q = q0 + v * at.t, d = q - p;
@@ -121,7 +121,7 @@ class Marcher {
     if (end_a || end_b) {
       return {end_a ? vertex(at.s == 0 ? a0 : a1) : edge(ha), end_b ? vertex(at.t == 0 ? b0 : b1) : edge(hb), distance2};
     }
-    const Vec n = between_edges(u, uu, v, vv, d), normal = b.turned(n);
+    const Vec n = between_edges(u, uu, v, vv, d), normal = b.rotated(n);
     const Rise rise_a = sides(a, a0, ha, own_a, along_a, a.into(normal));
     const Rise rise_b = first_only_ && rise_a.falls() ? Rise{} : sides(b, b0, hb, q0, v, -n);
     if (!rise_a.falls() && !rise_b.falls()) {
@@ -129,7 +129,7 @@ class Marcher {
       return {edge(ha), edge(hb), distance2};
     }
     if (rise_a.rate2() >= rise_b.rate2())
-      return swapped(edge_over_face(hb, b0, b1, a.local(b.common(q)), a.into(b.turned(v)), at.t, a, rise_a.to, distance2));
+      return swapped(edge_over_face(hb, b0, b1, a.local(b.common(q)), a.into(b.rotated(v)), at.t, a, rise_a.to, distance2));
     return edge_over_face(ha, a0, a1, p, u, at.s, b, rise_b.to, distance2);
   }
 
@@ -157,7 +157,7 @@ class Marcher {
     for (; h < end && !(first_only_ && rise.falls()); ++h) {
       const double along_d = dot(d, body.own(body.view.half_edges[h].head) - p);
       rise.to = along_d > rise.highest ? h : rise.to;
-      rise.highest = larger(along_d, rise.highest);
+      rise.highest = max(along_d, rise.highest);
     }
     walk_.plane_tests += h - begin;
     if (!rise.falls()) return rise;
@@ -184,7 +184,7 @@ class Marcher {
     const double left_rise = dot(d, to_left), right_rise = dot(d, to_right);
     walk_.plane_tests += 2;
     Rise rise;
-    rise.highest = larger(left_rise, right_rise);
+    rise.highest = max(left_rise, right_rise);
     if (!rise.falls()) return rise;
     const bool is_left = first_only_ ? left_rise > 0 : left_rise > right_rise;
     const Vec r = is_left ? to_left : to_right;
@@ -256,20 +256,20 @@ Move state(Marcher& march, A a, FeatureId fa, B b, FeatureId fb) {
 
 }  // namespace
 
-Walk walk(const Scene& scene, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget) {
+Walk walk(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget) {
   Walk result;
   result.a = a;
   result.b = b;
-  if (a.kind() == FeatureKind::Edge && b.kind() == FeatureKind::Face) result.a = vertex(origin(scene.a, a.index()));
-  if (b.kind() == FeatureKind::Edge && a.kind() == FeatureKind::Face) result.b = vertex(origin(scene.b, b.index()));
+  if (a.kind() == FeatureKind::Edge && b.kind() == FeatureKind::Face) result.a = vertex(origin(pair.a, a.index()));
+  if (b.kind() == FeatureKind::Edge && a.kind() == FeatureKind::Face) result.b = vertex(origin(pair.b, b.index()));
   Marcher march(rule, result);
   double distance2, least2 = kUnknown;
   std::uint32_t stalled = 0;
   do {
-    const Move move = state(march, body_a(scene), result.a, body_b(scene), result.b);
+    const Move move = state(march, body_a(pair), result.a, body_b(pair), result.b);
     distance2 = move.distance2;
     stalled = (stalled + 1) * !(distance2 < least2);
-    least2 = smaller(least2, distance2);
+    least2 = min(least2, distance2);
     result.steps += 1 - (move.first == result.a) * (move.second == result.b);
     result.a = move.first;
     result.b = move.second;

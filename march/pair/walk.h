@@ -28,7 +28,7 @@ struct Walk {
   Witness witness;  ///< with Minimum: what the last state saw
 };
 
-/// `a` and `b` name features of the scene's views, not both faces.
-Walk walk(const Scene& scene, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget);
+/// `a` and `b` name features of the pair's views, not both faces.
+Walk walk(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget);
 
 }  // namespace swiftlet

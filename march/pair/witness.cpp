@@ -20,25 +20,25 @@ template <class P, class Q>
 Witness vertex_edge(const P& a, std::uint32_t va, const Q& b, std::uint32_t h) {
   const std::uint32_t tail = origin(b.view, h), head = b.view.half_edges[h].head;
   const Vec q = b.own(tail), u = b.own(head) - q, r = b.local(a.point(va)) - q;
-  const double uu = dot(u, u), along = dot(r, u) / uu, t = along > 0 ? smaller(along, 1) : 0;
+  const double uu = dot(u, u), along = dot(r, u) / uu, t = along > 0 ? min(along, 1) : 0;
   const Vec up = r - u * t;
-  return {b.turned(-(t > 0 && t < 1 ? across(up, u, uu) : up)), only(va), between(tail, head, t), kUnseen, kUnseen};
+  return {b.rotated(-(t > 0 && t < 1 ? across(up, u, uu) : up)), only(va), between(tail, head, t), kUnseen, kUnseen};
 }
 
 template <class P, class Q>
 Witness vertex_face(const P& a, std::uint32_t va, const Q& b, std::uint32_t f) {
-  return {-b.turned(face_normal(b, f)), only(va), below(b, f, b.local(a.point(va))), kUnseen, kUnseen};
+  return {-b.rotated(face_normal(b, f)), only(va), below(b, f, b.local(a.point(va))), kUnseen, kUnseen};
 }
 
 template <class P, class Q>
 Witness edge_edge(const P& a, std::uint32_t ha, const Q& b, std::uint32_t hb) {
   const std::uint32_t a0 = origin(a.view, ha), a1 = a.view.half_edges[ha].head, b0 = origin(b.view, hb),
                       b1 = b.view.half_edges[hb].head;
-  const Vec p0 = b.local(a.point(a0)), u = b.into(a.turned(a.own(a1) - a.own(a0))), q0 = b.own(b0), v = b.own(b1) - q0;
+  const Vec p0 = b.local(a.point(a0)), u = b.into(a.rotated(a.own(a1) - a.own(a0))), q0 = b.own(b0), v = b.own(b1) - q0;
   const double uu = dot(u, u), vv = dot(v, v);
   const Parameters at = nearest_on_segments(p0, u, uu, q0, v, vv);
   const Vec d = q0 + v * at.t - (p0 + u * at.s);
-  return {b.turned(between_edges(u, uu, v, vv, d)), between(a0, a1, at.s), between(b0, b1, at.t), kUnseen, kUnseen};
+  return {b.rotated(between_edges(u, uu, v, vv, d)), between(a0, a1, at.s), between(b0, b1, at.t), kUnseen, kUnseen};
 }
 
 template <class A, class B>
@@ -55,7 +55,7 @@ Witness witness(const A& a, FeatureId fa, const B& b, FeatureId fb) {
 
 }  // namespace
 
-Witness witness(const Scene& scene, FeatureId a, FeatureId b) { return witness(body_a(scene), a, body_b(scene), b); }
+Witness witness(const PairView& pair, FeatureId a, FeatureId b) { return witness(body_a(pair), a, body_b(pair), b); }
 
 std::uint32_t any_vertex(const ConvexView& view, FeatureId feature) {
   if (feature.kind() == FeatureKind::Vertex) return feature.index();

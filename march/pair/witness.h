@@ -51,7 +51,7 @@ struct Parameters {
 };
 /// [Ericson 2004, sec. 5.1.9], and s once more from t, so that nearly parallel lines keep their difference perpendicular.
 static inline Parameters nearest_on_segments(const Vec& p0, const Vec& u, double uu, const Vec& q0, const Vec& v, double vv) {
-  const auto clamp = [](double x) { return smaller(1, larger(0, x)); };
+  const auto clamp = [](double x) { return min(1, max(0, x)); };
   const Vec r = p0 - q0;
   const double uv = dot(u, v), ur = dot(u, r), vr = dot(v, r), area2 = uu * vv - uv * uv;
   const double s = area2 > 0 ? clamp((uv * vr - ur * vv) / area2) : 0.0, t = clamp((uv * s + vr) / vv);
@@ -71,7 +71,7 @@ Combination below(const Q& body, std::uint32_t f, const Vec& p) {
     const Vec n = f < view.planes.size() ? Vec{view.planes[f].x, view.planes[f].y, view.planes[f].z} : area;
     const double w1 = dot(n, cross(r, v)), w2 = dot(n, cross(u, r)), w0 = dot(n, area) - w1 - w2;
     if ((w2 >= 0 && w1 >= 0) || view.half_edges[next_in_face(view, h)].head == root) {
-      const double c0 = larger(w0, 0), c1 = larger(w1, 0), c2 = larger(w2, 0), sum = c0 + c1 + c2;
+      const double c0 = max(w0, 0), c1 = max(w1, 0), c2 = max(w2, 0), sum = c0 + c1 + c2;
       if (!(sum > 0)) return only(root);
       return {{root, v1, v2}, {c0 / sum, c1 / sum, c2 / sum}};
     }
@@ -88,7 +88,7 @@ Vec face_normal(const Q& body, std::uint32_t f) {
 }
 
 /// Of features of any kinds but two faces; of a feature beside a face, one of its vertices.
-Witness witness(const Scene& scene, FeatureId a, FeatureId b);
+Witness witness(const PairView& pair, FeatureId a, FeatureId b);
 
 /// A vertex of a feature.
 std::uint32_t any_vertex(const ConvexView& view, FeatureId feature);

@@ -22,7 +22,7 @@ namespace {
 
 class Descent {
  public:
-  Descent(const ModelPair& pair, const Limits& limits, const Target& target, const Glance& first, Answer& answer,
+  Descent(const ModelPair& pair, const Limits& limits, const Target& target, const AxisTest& first, Answer& answer,
           OverlapProof& proof)
       : pair_(pair),
         a_(pair.a),
@@ -45,7 +45,7 @@ class Descent {
     Place place = first_place(a_, b_, line_, seed, finest_a_, finest_b_, tuning_.start);
     const bool warm = is_warm(place.start);
     const bool walked = warm && march(place, pair_.may_look);
-    const bool seen = !walked && pair_.may_look && aim(place, last_direction(line_.in_a, seed));
+    const bool seen = !walked && pair_.may_look && look(place, last_direction(line_.in_a, seed));
     if (!walked && !seen) march(place, false);
     const bool met = met_ == MarchStatus::Overlapping;
     if (seen && (target_.is_threshold() || !met)) {  // vertices that were only looked at are no better start than none
@@ -65,7 +65,7 @@ class Descent {
                 {answer_.feature_a, answer_.feature_b}};
     answer_.steps = answer_.plane_tests = 0;
     answer_.levels_visited = 0;
-    place.start = settled(scene_at(place), place.start, answer_.plane_tests);
+    place.start = settled(view_at(place), place.start, answer_.plane_tests);
     met_ = met_before();
     if (!answered() && met_ == MarchStatus::NotConverged) narrow_down(place);
     if (tuning_.start != StartPolicy::Coarsest) store(place, seed);  // whose seed is the first descent's
@@ -76,18 +76,18 @@ class Descent {
   static bool is_warm(const MarchStart& start) { return start.a.kind() != FeatureKind::None; }
   static bool same_levels(const Place& x, const Place& y) { return x.level_a == y.level_a && x.level_b == y.level_b; }
   bool finest(const Place& place) const { return place.level_a == finest_a_ && place.level_b == finest_b_; }
-  Scene scene_at(const Place& place) const { return pair_.scene_at(place); }
+  PairView view_at(const Place& place) const { return pair_.view_at(place); }
   double deviation(int level_a, int level_b) const { return pair_.deviation(level_a, level_b); }
-  /// Certified progress may have taken one more than the budget.
+  /// Certified GJK may have taken one more than the budget.
   std::uint32_t steps_left() const { return budget_.steps - std::min(answer_.steps, budget_.steps); }
   /// Where nothing is allowed, nothing is narrow: an exact answer is known by its verdict.
   double allowed(double lower) const {
-    return larger(target_.absolute, target_.relative * (lower - target_.zero)) - target_.rounding;
+    return max(target_.absolute, target_.relative * (lower - target_.zero)) - target_.rounding;
   }
   bool narrow(double lower, double width) const { return allowed(lower) > 0 && width <= allowed(lower); }
   /// How wide the bounds of a coarse pair may be that deviates by `error`, rounding set aside: to prove more of it, such as
   /// that its levels overlap, takes vertices from all around both.
-  double width_left(double error) const { return error > 0 ? larger(0, allowed(answer_.lower) * (1 - 8 * kU) - error) : 0; }
+  double width_left(double error) const { return error > 0 ? max(0, allowed(answer_.lower) * (1 - 8 * kU) - error) : 0; }
   /// Thresholds are passed only by more than law 2's bound: nearer, what can be proved depends on the start.
   bool clears(double lower) const { return lower > target_.clear_above + law_two_; }
   bool answers(double lower, double upper) const {
@@ -99,13 +99,13 @@ class Descent {
   void narrow_down(Place& place) {
     if (!finest(place)) place = refined(place);
     const bool has_maps = pair_.may_look && place.level_a >= a_.map_level() && place.level_b >= b_.map_level();
-    if (has_maps && aim(place, vec(answer_.normal))) return;
+    if (has_maps && look(place, vec(answer_.normal))) return;
     march(place, false);
   }
 
   /// What an answer that cannot be narrowed says of the exact hulls.
   MarchStatus met_before() const {
-    if (answer_.level_a != 0 || answer_.level_b != 0 || !(answer_.upper - answer_.lower <= larger(law_two_, target_.exact)))
+    if (answer_.level_a != 0 || answer_.level_b != 0 || !(answer_.upper - answer_.lower <= max(law_two_, target_.exact)))
       return MarchStatus::NotConverged;
     switch (answer_.verdict) {
       case Verdict::Overlapping: return MarchStatus::Overlapping;
@@ -116,42 +116,42 @@ class Descent {
   }
 
   /// The coarsest pair with maps that is likely to answer bodies no farther apart than `distance`, or the finest.
-  Place sight_for(double distance) const {
+  Place mapped_for(double distance) const {
     const int most_a = a_.level_count() - 1, most_b = b_.level_count() - 1;
-    Place place = pair_.finest_sight();
+    Place place = pair_.finest_mapped();
     while (place.level_a < most_a || place.level_b < most_b) {
       const Place coarser{std::min(place.level_a + 1, most_a), std::min(place.level_b + 1, most_b), {}};
-      if (!narrow(distance, kSightShare * pair_.sight_error(coarser))) break;
+      if (!narrow(distance, kMapShare * pair_.map_error(coarser))) break;
       place = coarser;
     }
     return place;
   }
 
-  /// Looks along support maps, where a glance did or on the coarsest pair that might answer, then on each finer one.
+  /// Looks along support maps, where the axis test did or on the coarsest pair that might answer, then on each finer one.
   /// Whether that answers; else `place` becomes where to walk from. Each pair is looked at afresh, from the same direction, and
   /// none is passed over: a looser tolerance sees all that a tighter one does, or stops earlier.
-  bool aim(Place& place, const Vec& likely) {
-    const bool glanced = max_abs(first_.seen.normal) > 0;
-    const Vec direction = glanced ? first_.seen.normal : max_abs(likely) > 0 ? likely : line_.in_a;
-    const Place least = pair_.finest_sight();
-    place = glanced ? first_.at : exact_ ? least : sight_for(norm(line_.in_a));
+  bool look(Place& place, const Vec& likely) {
+    const bool sampled = max_abs(first_.seen.normal) > 0;
+    const Vec direction = sampled ? first_.seen.normal : max_abs(likely) > 0 ? likely : line_.in_a;
+    const Place least = pair_.finest_mapped();
+    place = sampled ? first_.at : exact_ ? least : mapped_for(norm(line_.in_a));
     for (;;) {
       const bool last = same_levels(place, least);
-      const Scene pair = scene_at(place);
+      const PairView pair = view_at(place);
       const Level &of_a = a_.level(place.level_a), &of_b = b_.level(place.level_b);
       const double error = deviation(place.level_a, place.level_b);
-      const Glimpse seen = glanced && same_levels(place, first_.at) ? first_.seen : glimpse(pair, of_a, of_b, direction);
-      const Sight sight = look(pair, of_a, of_b, error, seen, [&](const Sight& s) {
+      const AxisSample seen = sampled && same_levels(place, first_.at) ? first_.seen : sample_axis(pair, of_a, of_b, direction);
+      const SupportGjk found = support_gjk(pair, of_a, of_b, error, seen, [&](const SupportGjk& s) {
         if (exact_) return s.near;
-        const double lower = larger(answer_.lower, s.most_lower), upper = smaller(answer_.upper, s.upper + error);
+        const double lower = max(answer_.lower, s.most_lower), upper = min(answer_.upper, s.upper + error);
         if (answers(lower, upper) || (!last && !narrow(upper, error))) return true;
         const double doubt = s.gap > 0 ? kDoubtShare * (s.gap - s.lower) + error : kHiddenShare * error;
         return s.near && !narrow(lower, doubt);
       });
-      take(place, sight, pair);
-      if (target_.is_threshold() && last && !answered() && sight.gap > target_.clear_above) climb(place, sight, pair);
-      if (answered() || (sight.meets && overlap(place, sight))) return record(place), true;
-      if (!target_.is_threshold()) place.start = {{FeatureKind::Vertex, sight.start_a}, {FeatureKind::Vertex, sight.start_b}};
+      take(place, found, pair);
+      if (target_.is_threshold() && last && !answered() && found.gap > target_.clear_above) climb(place, found, pair);
+      if (answered() || (found.meets && overlap(place, found))) return record(place), true;
+      if (!target_.is_threshold()) place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
       if (finest(place)) return false;  // a walk on the same pair follows
       record(place);
       if (last) return place = refined(place), false;
@@ -160,34 +160,34 @@ class Descent {
   }
 
   /// The same direction, by supports that a climb makes certain: maps are uncertain by some 1e-3 of a body.
-  void climb(Place& place, const Sight& s, const Scene& pair) {
+  void climb(Place& place, const SupportGjk& s, const PairView& pair) {
     const auto [va, vb, lower] = supports(pair, s.normal, s.a, s.b, answer_.plane_tests);
     place.start = {{FeatureKind::Vertex, va}, {FeatureKind::Vertex, vb}};
     const Vec p = body_a(pair).point(va), q = body_b(pair).point(vb);
     carry(place, {std::max(0.0, lower), apart(pair, va, vb), s.normal, p, q}, pair.law_two);
   }
-  void take(Place& place, const Sight& s, const Scene& pair) {
+  void take(Place& place, const SupportGjk& s, const PairView& pair) {
     place.start = {{FeatureKind::Vertex, s.a}, {FeatureKind::Vertex, s.b}};
     carry(place, {std::max(0.0, s.most_lower), s.upper, s.lower_along, s.point_a, s.point_b}, pair.law_two);
   }
 
   /// Whether the vertices that seem to meet prove that the exact hulls do: their descendants on level 0.
-  bool overlap(Place& place, const Sight& sight) {
-    OverlapProof proof = sight.proof;
+  bool overlap(Place& place, const SupportGjk& found) {
+    OverlapProof proof = found.proof;
     if (finest_a_ != 0 || finest_b_ != 0) return false;
     for (std::size_t k = 0; k < proof.count; ++k) {
       proof.vertex_a[k] = descendant(a_, place.level_a, proof.vertex_a[k]);
       proof.vertex_b[k] = descendant(b_, place.level_b, proof.vertex_b[k]);
     }
-    const Scene pair = scene_at({0, 0, {}});
+    const PairView pair = view_at({0, 0, {}});
     if (!proves_deep_overlap(pair, proof)) return false;
     place = {0, 0, {}};
-    take_overlap(pair, place, sight.normal, proof);
+    take_overlap(pair, place, found.normal, proof);
     return true;
   }
 
   /// Whether features at which a walk got inside prove that the levels overlap, with what the maps say is behind them.
-  bool overlap(const Scene& pair, const Place& place) {
+  bool overlap(const PairView& pair, const Place& place) {
     if (!pair_.may_look) return false;
     const Vec n = across(pair, place.start);
     const std::uint32_t behind_a = about_farthest(a_, place.level_a, -n),
@@ -197,7 +197,7 @@ class Descent {
     take_overlap(pair, place, normalised(n), proof);
     return true;
   }
-  void take_overlap(const Scene& pair, const Place& place, const Vec& normal, const OverlapProof& proof) {
+  void take_overlap(const PairView& pair, const Place& place, const Vec& normal, const OverlapProof& proof) {
     met_ = MarchStatus::Overlapping;
     answer_.lower = 0;
     answer_.upper = std::numeric_limits<double>::infinity();
@@ -209,7 +209,7 @@ class Descent {
   /// be worse than none, and `may_give_up`.
   bool march(Place& place, bool may_give_up) {
     for (;;) {
-      const Scene pair = scene_at(place);
+      const PairView pair = view_at(place);
       const bool last = finest(place);
       met_ = MarchStatus::NotConverged;
       place.start = settled(pair, place.start, answer_.plane_tests);
@@ -279,7 +279,7 @@ class Descent {
   }
 
   /// Certifies a walk and carries the better bounds; the place's features become those it ended on.
-  void bound(const Scene& pair, Place& place, const Walk& walked) {
+  void bound(const PairView& pair, Place& place, const Walk& walked) {
     MarchRule rule;
     rule.absolute = width_left(deviation(place.level_a, place.level_b));
     rule.beyond = target_.clear_above;
@@ -392,7 +392,7 @@ class Descent {
   const double law_two_;
   const int finest_a_, finest_b_;
   const bool exact_;  ///< no coarser pair will do
-  const Glance& first_;
+  const AxisTest& first_;
   Answer& answer_;
   OverlapProof& proof_;
   MarchStatus met_ = MarchStatus::NotConverged;
@@ -406,11 +406,11 @@ class Descent {
 void descend(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_error, PairSeed& seed, const Limits& limits,
              const Target& target, bool goes_on, Answer& answer, OverlapProof& proof) {
   const ModelPair pair(a, b, b_in_a, pose_error, limits);
-  Glance first;
+  AxisTest first;
   if (!goes_on) {
     answer.normal.setZero();
     const bool asks = target.is_threshold() && pair.may_look && !seed.met && limits.trace.empty();
-    if (asks && glance(pair, target, seed, first, answer)) return;
+    if (asks && separating_axis(pair, target, seed, first, answer)) return;
   }
   Descent descent(pair, limits, target, first, answer, proof);
   goes_on ? descent.go_on(seed) : descent.start(seed);

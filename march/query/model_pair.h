@@ -29,18 +29,18 @@ struct ModelPair {
                  b.map_level() < b.level_count()) {}
 
   /// The finest levels with maps that the query may read.
-  Place finest_sight() const { return {std::max(a.map_level(), finest_a), std::max(b.map_level(), finest_b), {}}; }
+  Place finest_mapped() const { return {std::max(a.map_level(), finest_a), std::max(b.map_level(), finest_b), {}}; }
   /// By how much the exact hulls may be farther apart than levels are, at most: the pose stretches B.
   double deviation(int level_a, int level_b) const { return a.level(level_a).deviation + stretch * b.level(level_b).deviation; }
   /// The same of what maps say of levels: an estimate. A map's doubt goes with the square of its cells.
-  double sight_error(const Place& place) const {
+  double map_error(const Place& place) const {
     const auto doubt = [](const Level& level) {
       return kMapDoubt * level.view.extent / double(level.map_side * level.map_side);
     };
     return deviation(place.level_a, place.level_b) + doubt(a.level(place.level_a)) + doubt(b.level(place.level_b));
   }
-  Scene scene_at(const Place& place) const {
-    return scene(a.level(place.level_a).view, b.level(place.level_b).view, motion, shift, pose_error);
+  PairView view_at(const Place& place) const {
+    return pair_view(a.level(place.level_a).view, b.level(place.level_b).view, motion, shift, pose_error);
   }
 
   const Shape& a;

@@ -48,8 +48,8 @@ double tolerance(const Body& a, const Body& b, const Pose& b_in_a) {
   const PoseQuality quality = pose_quality(m);
   if (!quality.legal || !is_radius(a.radius()) || !is_radius(b.radius()) || !shape_a.is_legal() || !shape_b.is_legal())
     return std::numeric_limits<double>::quiet_NaN();
-  const double largest = larger((*shape_a).level(0).view.extent + a.radius(), (*shape_b).level(0).view.extent + b.radius());
-  return larger((kLawTwo + 2 * quality.error) * (largest + norm(m.t)), kLeastWidth);
+  const double largest = max((*shape_a).level(0).view.extent + a.radius(), (*shape_b).level(0).view.extent + b.radius());
+  return max((kLawTwo + 2 * quality.error) * (largest + norm(m.t)), kLeastWidth);
 }
 
 double Radii::law_two(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_error) const {
@@ -80,8 +80,8 @@ void Radii::round(Answer& answer, OverlapProof& proof, double law_two) const {
     proof = {};
     move_points(answer);
   }
-  answer.lower = larger(0, low);
-  answer.upper = larger(answer.lower, high);
+  answer.lower = max(0, low);
+  answer.upper = max(answer.lower, high);
 }
 
 void Radii::round_signed(Answer& answer, OverlapProof& proof, double law_two) const {
@@ -95,8 +95,8 @@ void Radii::round_signed(Answer& answer, OverlapProof& proof, double law_two) co
 
 void Radii::round(std::span<LevelRecord> trace, int visited) const {
   for (LevelRecord& record : trace.first(std::min(trace.size(), std::size_t(visited)))) {
-    record.lower = larger(0, lower(record.lower));
-    record.upper = larger(record.lower, upper(record.upper));
+    record.lower = max(0, lower(record.lower));
+    record.upper = max(record.lower, upper(record.upper));
   }
 }
 void Radii::round_signed(std::span<LevelRecord> trace, int visited) const {
@@ -108,7 +108,7 @@ void Radii::round_signed(std::span<LevelRecord> trace, int visited) const {
 
 double Radii::less(double bound, double side) const {
   if (!std::isfinite(bound)) return bound;
-  const Pair sum = two_sum(a_, b_), rest = two_sum(bound, -sum.high);
+  const HighLow sum = two_sum(a_, b_), rest = two_sum(bound, -sum.high);
   const double lost = rest.low - sum.low;
   return lost == 0 ? rest.high : std::nextafter(rest.high + lost, side);
 }

@@ -29,7 +29,9 @@ struct Line {
 static inline Vec between_centres(const Shape& a, const Shape& b, const Motion& b_in_a) {
   return apply(b_in_a, vec(b.level(0).view.centre)) - vec(a.level(0).view.centre);
 }
-static inline Line line_of_centres(const Motion& b_in_a, const Vec& between) { return {between, -turn_back(b_in_a, between)}; }
+static inline Line line_of_centres(const Motion& b_in_a, const Vec& between) {
+  return {between, -rotate_back(b_in_a, between)};
+}
 
 /// Whether the line of centres turned since the seed was left by so much that a walk from its features costs more than a cold
 /// start.

@@ -4,15 +4,15 @@
 
 namespace swiftlet {
 
-bool glance(const ModelPair& pair, const Target& target, PairSeed& seed, Glance& first, Answer& answer) {
+bool separating_axis(const ModelPair& pair, const Target& target, PairSeed& seed, AxisTest& first, Answer& answer) {
   const double close = kCloseRadii * (pair.a.radius() + pair.b.radius()) + target.clear_above;
-  first.at = dot(pair.line, pair.line) <= close * close ? pair.finest_sight() : coarsest_place(pair.a, pair.b);
+  first.at = dot(pair.line, pair.line) <= close * close ? pair.finest_mapped() : coarsest_place(pair.a, pair.b);
   const int level_a = first.at.level_a, level_b = first.at.level_b;
   const Level &of_a = pair.a.level(level_a), &of_b = pair.b.level(level_b);
-  const Scene scene = pair.scene_at(first.at);
+  const PairView view = pair.view_at(first.at);
   const auto clears = [&](const Vec& direction) {
-    first.seen = glimpse(scene, of_a, of_b, direction);
-    return first.seen.lower > larger(target.clear_above, 0) + pair.law_two;
+    first.seen = sample_axis(view, of_a, of_b, direction);
+    return first.seen.lower > max(target.clear_above, 0) + pair.law_two;
   };
   const Vec last = last_direction(pair.line, seed);
   if (!(max_abs(last) > 0 && clears(last))) {
@@ -20,7 +20,7 @@ bool glance(const ModelPair& pair, const Target& target, PairSeed& seed, Glance&
     seed.normal = {};
   }
 
-  const double error = pair.deviation(level_a, level_b), upper = norm(first.seen.apart) * (1 + kNormError) + scene.point_error;
+  const double error = pair.deviation(level_a, level_b), upper = norm(first.seen.apart) * (1 + kNormError) + view.point_error;
   answer.status = Status::Beyond;
   answer.verdict = Verdict::Disjoint;
   answer.lower = first.seen.lower;

@@ -10,13 +10,13 @@
 namespace swiftlet {
 
 /// Where a question was looked at first.
-struct Glance {
+struct AxisTest {
   Place at;
-  Glimpse seen;  ///< along 0: there was no look
+  AxisSample seen;  ///< along 0: there was no look
 };
 
 /// Fills `answer` and returns true where the bodies are proved to be farther apart than `target` asks. A direction of the seed
 /// that the line of centres makes superfluous is forgotten.
-bool glance(const ModelPair& pair, const Target& target, PairSeed& seed, Glance& first, Answer& answer);
+bool separating_axis(const ModelPair& pair, const Target& target, PairSeed& seed, AxisTest& first, Answer& answer);
 
 }  // namespace swiftlet

@@ -51,7 +51,7 @@ struct MarchRule {
   double absolute = 0, relative = 0;  ///< in the bodies' unit, and of `lower`; never narrower than law 2's bound
   double beyond = std::numeric_limits<double>::infinity();  ///< the bodies' unit; 0: only whether they are apart
   double floor = 0;                                         ///< a lower bound already proved; the answer's is never less
-  std::uint32_t step_budget = ~0u;  ///< steps of the walk, not time; certified progress, which follows a walk that the budget
+  std::uint32_t step_budget = ~0u;  ///< steps of the walk, not time; certified GJK, which follows a walk that the budget
                                     ///< ended no nearer than it began, counts as one more
   PlaneRule plane_rule = PlaneRule::MostViolated;  ///< changes the way, never the truth
 };
