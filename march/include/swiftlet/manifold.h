@@ -49,10 +49,11 @@ struct ManifoldOptions {
 /// bodies that are apart. The contact face of a body is, of those at that feature, the one that faces best along the normal;
 /// both are projected along it, and the corners of what they have in common are the points. Where there are more than asked for
 /// those stay that hold the least separation and most of the area: of a round face four keep 0.6, eight 0.9, of a square all;
-/// those of `previous`, the manifold of this pair a moment ago, are preferred. The least separation of a manifold is the
-/// answer's, within `tolerance`. No points of an answer without a normal (a distance knows no way out of an overlap), of other
-/// radii than the bodies', or of levels and features that these do not have. Nothing is allocated; 32 kB of stack. Cost: the
-/// product of both faces' sides; of a face of more than 64 sides the 64 corners count that keep most of its area.
+/// of any three keep 0.197 at least. Those of `previous`, the manifold of this pair a moment ago, are preferred. The least
+/// separation of a manifold is the answer's, within `tolerance`. No points of an answer without a normal (a distance knows no
+/// way out of an overlap), of other radii than the bodies', or of levels and features that these do not have. Nothing is
+/// allocated; 32 kB of stack. Cost: the product of both faces' sides; of a face of more than 64 sides the 64 corners count that
+/// keep most of its area.
 Manifold manifold(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const ManifoldOptions& options = {},
                   const Manifold& previous = {});
 
