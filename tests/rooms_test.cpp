@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The order of the house, read off its includes: arrows between the rooms of march run one way, folders stand in no circle, and
-// march/README.md names every source file in its room.
+// march/README.md names every source file in its room. And its pages: the first is short, and no link leads nowhere.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -139,6 +139,35 @@ TEST(Folders, StandInNoCircle) {
     way.pop_back();
   };
   for (const std::string& folder : kFolders) visit(folder);
+}
+
+TEST(Pages, TheFirstIsShort) {
+  const std::string readme = text_of(kRoot / "README.md");
+  EXPECT_LE(std::count(readme.begin(), readme.end(), '\n'), 150);
+}
+
+TEST(Pages, LinksLeadToFiles) {
+  const std::regex link("\\]\\(([^)# ]+)(#[^)]*)?\\)");
+  std::vector<fs::path> pages;
+  for (const fs::directory_entry& entry : fs::directory_iterator(kRoot)) {
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  }
+  for (const char* folder : {"march", "lod", "adapters", "yardstick", "tests", "tests/stability", "bench", "models"}) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(kRoot / folder)) {
+      if (entry.path().extension() == ".md") pages.push_back(entry.path());
+    }
+  }
+  int links = 0;
+  for (const fs::path& page : pages) {
+    const std::string text = text_of(page);
+    for (auto match = std::sregex_iterator(text.begin(), text.end(), link); match != std::sregex_iterator(); ++match) {
+      const std::string to = (*match)[1];
+      if (to.find("://") != std::string::npos) continue;
+      EXPECT_TRUE(fs::exists(page.parent_path() / to)) << page << " leads to " << to;
+      ++links;
+    }
+  }
+  EXPECT_GE(links, 30);
 }
 
 }  // namespace
