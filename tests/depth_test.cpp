@@ -18,10 +18,10 @@
 
 #include "bodies.h"
 #include "case.h"
+#include "numeric/tolerance.h"
 #include "oracle.h"
 #include "shapes.h"
 #include "suite.h"
-#include "numeric/tolerance.h"
 
 namespace swiftlet {
 namespace {

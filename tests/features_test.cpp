@@ -16,8 +16,8 @@
 #include <Eigen/Geometry>
 
 #include "bodies.h"
-#include "oracle.h"
 #include "body/half_edge.h"
+#include "oracle.h"
 #include "shapes.h"
 
 namespace swiftlet {

@@ -17,8 +17,7 @@ namespace swiftlet {
 /// A directory of one test's own, gone after it.
 class FolderTest : public testing::Test {
  protected:
-  FolderTest()
-      : folder_(std::filesystem::temp_directory_path() / ("swiftlet_test_" + std::to_string(std::random_device{}()))) {
+  FolderTest() : folder_(std::filesystem::temp_directory_path() / ("swiftlet_test_" + std::to_string(std::random_device{}()))) {
     std::filesystem::create_directory(folder_);
   }
   ~FolderTest() override { std::filesystem::remove_all(folder_); }

@@ -26,9 +26,9 @@
 
 #include "answers.h"
 #include "bodies.h"
+#include "make/surface.h"
 #include "oracle.h"
 #include "shapes.h"
-#include "make/surface.h"
 
 namespace {
 std::atomic<long> allocations{0};

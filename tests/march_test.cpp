@@ -56,8 +56,8 @@ std::vector<FeatureId> features(const ConvexView& v) {
   return all;
 }
 
-/// Law 7's function for one level pair, as march/numeric/tolerance.h's kStallLimit gives it: a state that shortens the distance never
-/// comes back, and twelve that do not in a row end the walk. What is ever seen is far below; see the census at the end.
+/// Law 7's function for one level pair, as march/numeric/tolerance.h's kStallLimit gives it: a state that shortens the distance
+/// never comes back, and twelve that do not in a row end the walk. What is ever seen is far below; see the census at the end.
 std::size_t most_steps(const ConvexView& a, const ConvexView& b) { return 12 * (features(a).size() * features(b).size() + 1); }
 
 /// What the whole file saw, printed once.

@@ -17,9 +17,9 @@
 #include <Eigen/Geometry>
 
 #include "bodies.h"
-#include "numeric/exact.h"
 #include "body/half_edge.h"
 #include "body/support_map.h"
+#include "numeric/exact.h"
 
 namespace swiftlet {
 namespace {
