@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The files of march/depth and march/manifold, one by one, on cubes that overlap by a slab and on a lid:
+//
+//        +-------+          A: [-1, 1]^3, B: the same, moved by (1.5, 0.5, 0.25). Their Minkowski difference A - B is the cube
+//        of |  A +--|----+     half size 2 around (-1.5, -0.5, -0.25); the origin is 0.5 below its side towards +x, the depth.
+//        |    |  |  B |
+//        +----|--+    |
+//             +-------+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "bodies.h"
+#include "depth/epa.h"
+#include "depth/facet_proof.h"
+#include "manifold/clip.h"
+#include "pair/pair_view.h"
+
+namespace swiftlet {
+namespace {
+
+const Model kCube = bodies::model(bodies::cube());
+const Level& kLevel = kCube.level(0);
+const Motion kApart = motion({Mat3::Identity(), {1.5, 0.5, 0.25}});
+const PairView kPair = pair_view(kLevel.view, kLevel.view, kApart, 0);
+
+/// A corner by its number in bodies::box: a model numbers its own.
+std::uint32_t index(std::uint32_t corner) {
+  const std::span<const std::uint32_t> corners = kCube.source().vertex;
+  return std::uint32_t(std::find(corners.begin(), corners.end(), corner) - corners.begin());
+}
+
+void expect_depth(const Depth& d) {
+  EXPECT_EQ(d.end, DepthEnd::Converged);
+  EXPECT_NEAR(d.lower, 0.5, 1e-14);
+  EXPECT_NEAR(d.upper, 0.5, 1e-14);
+  EXPECT_LE(d.lower, d.upper);
+  EXPECT_NEAR(d.normal.x, 1, 1e-14);
+  EXPECT_NEAR(norm(d.point_a - d.point_b), 0.5, 1e-14);
+}
+
+TEST(UnitEpa, FindsTheSideNearestToTheOriginFromAnyDirection) {
+  for (const Vec& direction : {Vec{1, 0, 0}, Vec{-1, 0, 0}, Vec{0, 1, 0}, Vec{1, -1, 1}, Vec{0, 0, -1}}) {
+    DepthStart start;
+    start.direction = direction;
+    std::uint32_t tests = 0;
+    expect_depth(epa(kPair, kLevel, kLevel, start, {}, tests));
+  }
+}
+
+///       3           A flat lid: a triangle 0 1 2 at z = 0 and, beyond its sides, 3 4 5 at z = -0.5. A point 0.01 below the
+///      / \          middle of the small triangle is that deep.
+///     1---0
+///    / \ / \        (seen from above, turned)
+///   4---2---5
+bodies::Polyhedron lid() {
+  bodies::Polyhedron b;
+  const double root = std::sqrt(3);
+  b.points = {{1, 0, 0},     {-0.5, root / 2, 0},     {-0.5, -root / 2, 0}, {1.5, 1.5 * root, -0.5},
+              {-3, 0, -0.5}, {1.5, -1.5 * root, -0.5}};
+  b.add({0, 1, 2}), b.add({5, 4, 3});
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const std::uint32_t next = (k + 1) % 3;
+    b.add({next, k, 3 + k}), b.add({3 + k, 3 + next, next});
+  }
+  return b;
+}
+
+TEST(UnitFacetProof, ProvesTheNearestFacetAndNoOther) {
+  const Model body = bodies::model(lid()), dot = bodies::model(bodies::point({0, 0, 0}));
+  const Motion m = motion({Mat3::Identity(), {0, 0, -0.01}});
+  const PairView pair = pair_view(body.level(0).view, dot.level(0).view, m, 0);
+  const std::span<const std::uint32_t> corners = body.source().vertex;
+  const auto proved = [&](std::uint32_t first, const Vec& direction, Depth& d) {
+    DepthStart start;
+    start.count = 3;
+    for (std::uint32_t k = 0; k < 3; ++k)
+      start.a[k] = std::uint32_t(std::find(corners.begin(), corners.end(), first + k) - corners.begin());
+    start.direction = direction;
+    std::uint32_t tests = 0;
+    return prove_facet(pair, body.level(0), dot.level(0), start, {}, tests, d);
+  };
+  Depth d;
+  ASSERT_TRUE(proved(0, {0, 0, 1}, d));
+  EXPECT_EQ(d.end, DepthEnd::Converged);
+  EXPECT_NEAR(d.lower, 0.01, 1e-14);
+  EXPECT_NEAR(d.upper, 0.01, 1e-14);
+  EXPECT_EQ(d.normal.z, 1);
+  EXPECT_FALSE(proved(3, {0, 0, -1}, d)) << "that is 0.49 deep";
+}
+
+TEST(UnitClip, OfTwoSquaresIsTheirCommonSquare) {
+  // Seen along z, where B's square is 1.5 and 0.5 aside: [0.5, 1] x [-0.5, 1].
+  const Motion above = motion({Mat3::Identity(), {1.5, 0.5, 2}});
+  const PairView pair = pair_view(kLevel.view, kLevel.view, above, 0);
+  const Projection along_z({0, 0, 1}, {0.75, 0, 1});
+  const FeatureId top{FeatureKind::Vertex, index(6)}, bottom{FeatureKind::Vertex, index(0)};
+  ContactFace a, b;
+  contact_face_a(pair, along_z, top, {}, 0, a);
+  contact_face_b(pair, along_z, bottom, {}, 0, b);
+  ASSERT_EQ(a.count, 4);
+  ASSERT_EQ(b.count, 4);
+  std::array<Candidate, kMostCandidates> found;
+  const int count = clip(pair, along_z, a, b, pair.law_two, found);
+  ASSERT_EQ(count, 4);
+  double area = 0;
+  for (int i = 0; i < count; ++i) {
+    const Candidate &p = found[std::size_t(i)], &q = found[std::size_t((i + 1) % count)];
+    area += (p.x * q.y - p.y * q.x) / 2;
+    EXPECT_NEAR(p.separation, 0, 1e-15);
+  }
+  EXPECT_NEAR(std::fabs(area), 0.75, 1e-14);
+}
+
+}  // namespace
+}  // namespace swiftlet

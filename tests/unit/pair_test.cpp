@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The files of march/pair and march/query that answer apart, one by one, on cubes whose answers can be read off the drawing.
+//
+//          z
+//          |  3-----2      A: [-1, 1]^3, corners numbered as bodies::box does (drawn: its top 4 5 6 7, its bottom 0 1 2 3).
+//        7-|--6   B |      B: the same cube at a pose.
+//        | +- | - - | x
+//        4----5-----1
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "bodies.h"
+#include "body/half_edge.h"
+#include "pair/gjk.h"
+#include "pair/intersection.h"
+#include "pair/pair_view.h"
+#include "pair/support_gjk.h"
+#include "pair/walk.h"
+#include "pair/witness.h"
+#include "query/model_pair.h"
+#include "query/separating_axis.h"
+
+namespace swiftlet {
+namespace {
+
+const Model kCube = bodies::model(bodies::cube());
+const Level& kLevel = kCube.level(0);
+
+/// Two cubes, B's centre at `t`; kept together, as views only refer.
+struct Cubes {
+  explicit Cubes(const Vec3& t) : b_in_a(motion({Mat3::Identity(), t})), pair(pair_view(kLevel.view, kLevel.view, b_in_a, 0)) {}
+  Motion b_in_a;
+  PairView pair;
+};
+
+/// A corner by its number in the drawing: a model numbers its own.
+std::uint32_t index(std::uint32_t corner) {
+  const std::span<const std::uint32_t> corners = kCube.source().vertex;
+  return std::uint32_t(std::find(corners.begin(), corners.end(), corner) - corners.begin());
+}
+FeatureId vertex(std::uint32_t corner) { return {FeatureKind::Vertex, index(corner)}; }
+/// From one corner to another.
+FeatureId edge(std::uint32_t tail, std::uint32_t head) {
+  const ConvexView& view = kLevel.view;
+  for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
+    if (origin(view, h) == index(tail) && view.half_edges[h].head == index(head)) return {FeatureKind::Edge, h};
+  }
+  throw std::logic_error("no such edge");
+}
+/// The face that looks along +-x, y or z.
+FeatureId face(int axis, double side) {
+  const ConvexView& view = kLevel.view;
+  for (std::uint32_t f = 0; f < view.face_first.size(); ++f) {
+    const FacePlane& n = view.planes[f];
+    const double along[] = {n.x, n.y, n.z};
+    if (along[axis] * side > 0) return {FeatureKind::Face, f};
+  }
+  throw std::logic_error("no such face");
+}
+
+// ---- Walk -----------------------------------------------------------------------------------------------------------------
+
+TEST(UnitWalk, GoesRoundTheCubeToTheNearestFeatures) {
+  const Cubes at({3, 3, 3});  // corner 6 of A, corner 0 of B, sqrt(3) apart
+  for (std::uint32_t a = 0; a < 8; ++a) {
+    for (std::uint32_t b = 0; b < 8; ++b) {
+      const Walk w = walk(at.pair, vertex(a), vertex(b), PlaneRule::MostViolated, ~0u);
+      EXPECT_EQ(w.end, WalkEnd::Minimum);
+      EXPECT_EQ(w.a, vertex(6));
+      EXPECT_EQ(w.b, vertex(0));
+      EXPECT_NEAR(w.distance, std::sqrt(3), 1e-15);
+    }
+  }
+}
+
+TEST(UnitWalk, EndsOnAnEdgeAndAVertex) {
+  const Motion m = motion({Mat3::Identity(), {3, 0.25, 3}});  // a point off A's edge from 5 to 6
+  const Model dot = bodies::model(bodies::point({0, 0, 0}));
+  const PairView pair = pair_view(kLevel.view, dot.level(0).view, m, 0);
+  const Walk w = walk(pair, vertex(0), {FeatureKind::Vertex, 0}, PlaneRule::MostViolated, ~0u);
+  EXPECT_EQ(w.end, WalkEnd::Minimum);
+  EXPECT_TRUE(w.a == edge(5, 6) || w.a == edge(6, 5));
+  EXPECT_NEAR(w.distance, std::sqrt(8), 1e-15);
+}
+
+TEST(UnitWalk, SaysWhereItGotInside) {
+  const Cubes at({0.5, 0.25, 0});
+  EXPECT_EQ(walk(at.pair, vertex(6), vertex(0), PlaneRule::MostViolated, ~0u).end, WalkEnd::Inside);
+}
+
+TEST(UnitWalk, EndsAtItsBudget) {
+  const Walk w = walk(Cubes({3, 3, 3}).pair, vertex(0), vertex(6), PlaneRule::MostViolated, 1);
+  EXPECT_EQ(w.end, WalkEnd::Budget);
+  EXPECT_EQ(w.steps, 1u);
+}
+
+// ---- Certificates ---------------------------------------------------------------------------------------------------------
+
+/// Of the nearest features both bounds are the distance; of others they hold it.
+TEST(UnitCertify, BoundsHoldTheDistanceWhateverTheFeatures) {
+  const Cubes at({3, 0.5, 0.25});  // faces 1 apart
+  std::uint32_t tests = 0;
+  const auto certified = [&](FeatureId a, FeatureId b) { return certify(at.pair, a, b, witness(at.pair, a, b), tests); };
+  const Certificate right = certified(face(0, 1), vertex(0));
+  EXPECT_NEAR(right.lower, 1, 1e-14);
+  EXPECT_GE(right.upper, 1);
+  const Certificate wrong = certified(vertex(0), vertex(6));
+  EXPECT_LE(wrong.lower, 1);
+  EXPECT_GE(wrong.upper, 1);
+}
+
+// ---- GJK ------------------------------------------------------------------------------------------------------------------
+
+GjkResult gjk_from(const PairView& pair, FeatureId a, FeatureId b) {
+  std::uint32_t tests = 0;
+  const Certificate start = certify(pair, a, b, witness(pair, a, b), tests);
+  return gjk(pair, start, {pair.law_two, 0, std::numeric_limits<double>::infinity()}, tests);
+}
+
+TEST(UnitGjk, NarrowsTheWorstStart) {
+  const Cubes at({3, 0.5, 0.25});
+  const GjkResult r = gjk_from(at.pair, vertex(0), vertex(6));
+  EXPECT_EQ(r.status, MarchStatus::Disjoint);
+  EXPECT_NEAR(r.certificate.lower, 1, 1e-14);
+  EXPECT_NEAR(r.certificate.upper, 1, 1e-14);
+  EXPECT_NEAR(r.certificate.normal.x, 1, 1e-14);
+}
+
+TEST(UnitGjk, TellsTouchingFromOverlapping) {
+  EXPECT_EQ(gjk_from(Cubes({2, 0.5, 0.25}).pair, vertex(6), vertex(0)).status, MarchStatus::Touching);
+  const GjkResult r = gjk_from(Cubes({1.5, 0.5, 0.25}).pair, vertex(6), vertex(0));
+  ASSERT_EQ(r.status, MarchStatus::Overlapping);
+  EXPECT_GT(r.proof.count, 0);
+}
+
+/// Corner by corner of a tetrahedron around the origin: nearest are a corner, a side's middle, a face's middle, the origin.
+TEST(UnitSimplex, FindsTheNearestPointOfASegmentATriangleAndATetrahedron) {
+  const Vec corners[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+  const double distances[] = {std::sqrt(3), 1, std::sqrt(1.0 / 3), 0};
+  Simplex simplex;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const Simplex::Nearest nearest = simplex.add({corners[k], {0, 0, 0}, k, k});
+    EXPECT_EQ(nearest.count, int(k + 1));
+    EXPECT_NEAR(norm(nearest.point), distances[k], 1e-15);
+    if (k < 3) simplex.reduce(nearest);
+    EXPECT_TRUE(simplex.has(k, k));
+  }
+}
+
+/// A corner that the nearest point does not need goes: of a triangle whose third corner is far the side stays.
+TEST(UnitSimplex, ForgetsWhatDoesNotHoldTheNearestPoint) {
+  Simplex simplex;
+  simplex.reduce(simplex.add({{5, 5, 0}, {0, 0, 0}, 0, 0}));
+  simplex.reduce(simplex.add({{1, 1, 0}, {0, 0, 0}, 1, 1}));
+  EXPECT_FALSE(simplex.has(0, 0));
+  const Simplex::Nearest nearest = simplex.add({{1, -1, 0}, {0, 0, 0}, 2, 2});
+  EXPECT_EQ(nearest.count, 2);
+  EXPECT_EQ(nearest.point.x, 1);
+  EXPECT_EQ(nearest.point.y, 0);
+}
+
+/// One look-up along the line of centres: the supports are the corners of the facing sides.
+TEST(UnitSupportGjk, SamplesAnAxis) {
+  ASSERT_GT(kLevel.map_side, 0u);
+  const Cubes at({3, 0, 0});
+  const AxisSample s = sample_axis(at.pair, kLevel, kLevel, {2, 0, 0});
+  EXPECT_EQ(s.normal.x, 1);
+  EXPECT_EQ(s.gap, 1);
+  EXPECT_LE(s.lower, 1);
+  EXPECT_GT(s.lower, 0.9);
+}
+
+// ---- Separating axis ------------------------------------------------------------------------------------------------------
+
+TEST(UnitSeparatingAxis, AnswersAtOneLookOrNotAtAll) {
+  const auto asked = [](double x, Answer& answer) {
+    const Shape shape(kCube);
+    const Motion m = motion({Mat3::Identity(), {x, 0, 0}});
+    const Budget budget;
+    const Tuning tuning;
+    const ModelPair pair(shape, shape, m, 0, {budget, tuning});
+    PairSeed seed;
+    AxisTest first;
+    return separating_axis(pair, {0, 0, 0, 0}, seed, first, answer);
+  };
+  Answer apart, together;
+  EXPECT_TRUE(asked(3, apart));
+  EXPECT_EQ(apart.verdict, Verdict::Disjoint);
+  EXPECT_LE(apart.lower, 1);
+  EXPECT_GE(apart.upper, 1);
+  EXPECT_FALSE(asked(1.5, together));
+}
+
+// ---- Intersection ---------------------------------------------------------------------------------------------------------
+
+/// Cubes that overlap by a corner: the surfaces cross where x, y or z is 1, and both features hold the point.
+TEST(UnitIntersection, LiesOnBothSurfaces) {
+  const Cubes at({1.5, 1.25, 1});
+  const GjkResult r = gjk_from(at.pair, vertex(6), vertex(0));
+  ASSERT_EQ(r.status, MarchStatus::Overlapping);
+  std::uint32_t tests = 0;
+  const Intersection found = intersection(at.pair, r.proof, tests);
+  const auto on_surface = [](const Vec& p) { return std::fabs(max_abs(p) - 1) <= 1e-15; };
+  EXPECT_TRUE(on_surface(found.point));
+  EXPECT_TRUE(on_surface(found.point - Vec{1.5, 1.25, 1}));
+  EXPECT_NE(found.a.kind(), FeatureKind::None);
+  EXPECT_NE(found.b.kind(), FeatureKind::None);
+}
+
+}  // namespace
+}  // namespace swiftlet
