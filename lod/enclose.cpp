@@ -290,6 +290,8 @@ std::optional<Polytope> balanced(Polytope level, const Climber& body, const Mat3
   if (rounds < kFewestRounds) return std::nullopt;
   const double enough = kStillWhole * double(level.triangles.size()), most = volume(level);
   Balance(level, body, metric).run(int(rounds));
+  // Squares of a needle's coordinates may leave the range of doubles.
+  if (!std::ranges::all_of(level.points, [](const Vec3& p) { return p.allFinite(); })) return std::nullopt;
   const Hull shape = hull(level.points);
   if (double(shape.triangles.size()) < enough) return std::nullopt;
   Result<Polytope> scaled = scale_to_hold(solid(level.points, shape), body, area_centroid(body.body()));
@@ -352,7 +354,8 @@ Polytope tighten(Polytope level, const Climber& body, const Mat3& metric, Watch&
     Mover mover(level, body);
     for (std::uint32_t v = 0; v < level.points.size(); ++v) {
       mover.look_around(v);
-      level.points[v] += (2 * sweep < sweeps ? kEarlyPart : 1) * mover.least_volume_move();
+      if (const Vec3 move = mover.least_volume_move(); move.allFinite())
+        level.points[v] += (2 * sweep < sweeps ? kEarlyPart : 1) * move;
       watch.work(kMoveWork);
     }
     const Hull shape = hull(level.points);

@@ -84,6 +84,10 @@ class IntersectionSearch {
  private:
   const ConvexView& view(int k) const { return k == 0 ? pair_.a : pair_.b; }
   Vec point(int k, std::uint32_t v) const { return k == 0 ? body_a(pair_).point(v) : body_b(pair_).point(v); }
+  Wide wide_point(int k, std::uint32_t v) const {
+    const Vec own = vec(view(k).vertices[v]);
+    return k == 0 ? wide(own) : wide(pair_.b_in_a, own);
+  }
   Vec centre(int k) const { return k == 0 ? vec(pair_.a.centre) : body_b(pair_).common(vec(pair_.b.centre)); }
   std::uint32_t extreme(int k, const Vec& n, std::uint32_t start) const {
     return k == 0 ? support_a(pair_, n, start, tests_) : support_b(pair_, -n, start, tests_);
@@ -133,10 +137,15 @@ class IntersectionSearch {
     const FeatureId pierced{FeatureKind::Face, other.half_edges[facet].face};
     const FeatureId piercing =
         is_diagonal(own, edge) ? FeatureId{FeatureKind::Face, own.half_edges[edge].face} : FeatureId{FeatureKind::Edge, edge};
-    const Vec p = point(k, origin(own, edge)), e = point(k, own.half_edges[edge].head) - p, n = normal(1 - k, facet),
-              q = point(1 - k, origin(other, facet));
-    const double at_tail = dot(n, p - q), at_head = at_tail + dot(n, e), t = at_tail / (at_tail - at_head);
-    const Vec at = p + e * (t > 0 ? min(t, 1) : 0.0);
+    // An edge may lie nearly in the facet's plane: where it goes through is as uncertain as that angle's inverse.
+    const Wide p = wide_point(k, origin(own, edge)), e = wide_point(k, own.half_edges[edge].head) - p;
+    const Wide q = wide_point(1 - k, origin(other, facet)), r = wide_point(1 - k, other.half_edges[facet].head),
+               s = wide_point(1 - k, other.half_edges[next_in_facet(other, facet)].head), n = cross(r - q, s - q);
+    const DoubleDouble at_tail = dot(n, p - q), fall = -dot(n, e);
+    DoubleDouble t = fall.high != 0 ? at_tail / fall : DoubleDouble(0);
+    if (!(t.high > 0)) t = 0;
+    if (t.high > 1) t = 1;
+    const Vec at = rounded(p + e * t);
     return k == 0 ? Intersection{piercing, pierced, at} : Intersection{pierced, piercing, at};
   }
 
