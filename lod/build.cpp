@@ -74,11 +74,11 @@ void add_two_sides(const Mesh& mesh, const Hull& shape, Finest& finest) {
   }
 }
 
-/// `mesh` is the user's times `scale`.
-Finest finest_level(const Mesh& mesh, const Hull& shape, const Polytope& body, double scale) {
+/// `mesh` is the user's, scaled: what is small beside the largest coordinate may have been lost on the way.
+Finest finest_level(const Mesh& users, const Mesh& mesh, const Hull& shape, const Polytope& body) {
   Finest finest;
   finest.sources = shape.vertices;
-  for (std::uint32_t v : shape.vertices) finest.vertices.push_back(mesh.points[v] / scale);
+  for (std::uint32_t v : shape.vertices) finest.vertices.push_back(users.points[v]);
   if (shape.dimension == 2) add_two_sides(mesh, shape, finest);
   if (shape.dimension < 3) return finest;
   for (const Triangle& triangle : body.triangles) finest.faces.emplace_back(triangle.begin(), triangle.end());
@@ -128,7 +128,7 @@ Result<Built> build_watched(const Mesh& users, const BuildOptions& options, Watc
   watch.begin("bake", 1, 1);
 
   report.end = levels.end;
-  Result<Model> model = bake(finest_level(mesh, shape, body, scale), levels.levels, scale, options, report.end);
+  Result<Model> model = bake(finest_level(users, mesh, shape, body), levels.levels, scale, options, report.end);
   if (!model) return model.error();
   describe(model.value(), report);
   watch.end();
