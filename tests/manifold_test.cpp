@@ -346,6 +346,21 @@ TEST(Manifold, OfFacesWithTinySidesIsAsWithout) {
   }
 }
 
+/// B's corner lies on a side of A, which B's own side leaves by 1e-3 there: the corner and the crossing are 6e-14 apart, and
+/// A's corner is on one line with them.
+TEST(Manifold, OfCornersNearlyInOnePlaceKeepsTheThirdOnTheirLine) {
+  const Model cube = bodies::model(bodies::cube());
+  Pose pose;
+  pose.rotation << 0x1.ffffc887ef22bp-1, -0x1.cfe1aa3f86a15p-10, -0x1.b672cf1d099c8p-12,  //
+      0x1.cf9734be1c57fp-10, 0x1.ffff56ad11a1dp-1, -0x1.59ea9ec483174p-9,                 //
+      0x1.bb57dea1ececp-12, 0x1.59d1a965cb924p-9, 0x1.ffff8836772f8p-1;
+  pose.translation = {-0x1.8da149d68b9cp-9, 0x1.47f1f018ae35bp+0, 4};
+  const Contacting c{cube, cube, pose, nearest(cube, cube, pose)};
+  Shares shares;
+  expect_true(c, shares);
+  EXPECT_GE(shares.four, 0.9);
+}
+
 /// Tips that are farthest apart are not the corners to keep.
 TEST(Manifold, OfALongFaceKeepsItsShoulders) {
   bodies::Polyhedron hexagon;

@@ -40,7 +40,7 @@ class Loop {
   /// How far a place lies from the only corner, or the area that it adds to more of them; 0 where it hardly stands out.
   double gain(int spot) const {
     if (size_ == 1) {
-      const double length = from_corner(spot);
+      const double length = apart(corner_[0], spot);
       return length > bound_ ? length : 0;
     }
     double area = 0;
@@ -51,12 +51,12 @@ class Loop {
   /// The corners between the sides that see the place give way to it.
   void add(int spot) {
     if (size_ < 2) {
-      if (size_ == 0 || from_corner(spot) > bound_) corner_[std::size_t(size_++)] = spot;
+      if (size_ == 0 || apart(corner_[0], spot) > bound_) corner_[std::size_t(size_++)] = spot;
       return;
     }
     int first = 0;
     while (first < size_ && !(beyond(first, spot) > 0 && beyond(previous(first), spot) == 0)) ++first;
-    if (first == size_) return;
+    if (first == size_) return size_ == 2 ? stretch(spot) : void();
     int after = first;
     while (after = next(after), after != first && beyond(after, spot) > 0) {
     }
@@ -69,12 +69,19 @@ class Loop {
   }
 
  private:
+  /// Of three on one line the two that are farthest apart stay: the first two may lie nearly in one place.
+  void stretch(int spot) {
+    const double from_first = apart(corner_[0], spot), from_second = apart(corner_[1], spot);
+    if (max(from_first, from_second) <= apart(corner_[0], corner_[1])) return;
+    corner_[from_first >= from_second] = spot;
+  }
+
   int next(int i) const { return i + 1 == size_ ? 0 : i + 1; }
   int previous(int i) const { return i == 0 ? size_ - 1 : i - 1; }
   const Candidate& at(int corner) const { return candidates_[corner_[std::size_t(corner)]]; }
 
-  double from_corner(int spot) const {
-    const double dx = candidates_[spot].x - at(0).x, dy = candidates_[spot].y - at(0).y;
+  double apart(int p, int q) const {
+    const double dx = candidates_[q].x - candidates_[p].x, dy = candidates_[q].y - candidates_[p].y;
     return std::sqrt(dx * dx + dy * dy);
   }
 
