@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What two outlines have in common, seen along one normal: its corners and the points of both bodies there. Knows nothing of
-// which of them a manifold keeps.
+// What two contact faces have in common, seen along one normal: its corners and the points of both bodies there. Knows nothing
+// of which of them a manifold keeps.
 #pragma once
 
 #include <span>
@@ -18,7 +18,7 @@ struct Candidate {
   FeatureId feature_a, feature_b;
 };
 
-/// The most corners that two outlines have in common.
+/// The most corners that two contact faces have in common.
 inline constexpr std::size_t kMostCandidates = 2 * kMostCorners;
 
 /// Two points as they are seen.

@@ -139,7 +139,7 @@ inline constexpr double kLeastEntry = 0x1p-250;
 /// A unit normal's squared length: kNormError twice, once of the length found and once of the division. Dimensionless.
 inline constexpr double kUnitError = 12 * kU;
 
-// ---- Where surfaces cross (crossing.cpp): doubles guide, exact signs decide ------------------------------------------------
+// ---- Where surfaces cross (intersection.cpp): doubles guide, exact signs decide -------------------------------------------
 
 /// Where a ray leaves a body, in point errors over the height of the facet above where it starts: ten of these, rounded up. A
 /// wrong guess costs a longer search, never a wrong answer.
@@ -189,8 +189,8 @@ inline constexpr double kSameLine = 0.99;
 /// their maps by as much.
 inline constexpr double kCloseRadii = 1.25;
 /// A cold start looks along maps until its supports lie this many edges of both bodies aside, or so many times.
-inline constexpr double kAimEdges = 4;
-inline constexpr int kAimSteps = 12;
+inline constexpr double kNearEdges = 4;
+inline constexpr int kMapGjkSteps = 12;
 /// What a map of side s leaves in doubt on average, times s^2 over the extent: 1.1 to 1.7 on ellipsoids. A pair of levels is
 /// looked at where this and its deviation, so many times, are within the tolerance.
 inline constexpr double kMapDoubt = 1.7, kMapShare = 4;

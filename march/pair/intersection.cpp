@@ -381,7 +381,7 @@ class IntersectionSearch {
     const Vec apart = centre(k) - centre(1 - k);
     std::uint32_t v = origin(view(k), hint_[std::size_t(k)]);
     for (Vec n : {apart, Vec{1, 0, 0}, Vec{-1, 0, 0}, Vec{0, 1, 0}, Vec{0, -1, 0}, Vec{0, 0, 1}, Vec{0, 0, -1}}) {
-      for (int step = 0; step < kAimSteps && !spent(); ++step) {  // rounding may turn in a circle
+      for (int step = 0; step < kMapGjkSteps && !spent(); ++step) {  // rounding may turn in a circle
         const std::uint32_t farthest = extreme(k, rescaled(n), v);
         if (step > 0 && farthest == v) break;
         v = farthest;

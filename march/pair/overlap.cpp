@@ -81,7 +81,7 @@ bool meet(const PairView& pair, const MarchStart& met, std::uint32_t behind_a, s
   const Corners a = corners(body_a(pair), met.a, behind_a), b = corners(body_b(pair), met.b, behind_b);
   Simplex simplex;
   Vec n = across(pair, met);
-  for (int iteration = 0; iteration < kAimSteps; ++iteration) {
+  for (int iteration = 0; iteration < kMapGjkSteps; ++iteration) {
     const int i = a.highest(n), j = b.highest(-n);
     const Vec p = b.point[j] - a.point[i];
     if (dot(n, p) > 0 || simplex.has(a.vertex[i], b.vertex[j])) return false;

@@ -86,7 +86,7 @@ static inline AxisSample sample_axis(const PairView& pair, const Level& a, const
 /// less than `hidden` count as near too.
 template <class Enough>
 SupportGjk support_gjk(const PairView& pair, const Level& a, const Level& b, double hidden, AxisSample seen, Enough enough) {
-  const double few = kAimEdges * (a.edge_length + b.edge_length);
+  const double few = kNearEdges * (a.edge_length + b.edge_length);
   Simplex simplex;
   SupportGjk s;
   bool was_near = false;
@@ -103,7 +103,7 @@ SupportGjk support_gjk(const PairView& pair, const Level& a, const Level& b, dou
     s.near = s.gap > -hidden && dot(aside, aside) <= few * few;
     if (!was_near) s.start_a = s.a, s.start_b = s.b;
     was_near = was_near || s.near;
-    if (enough(s) || steps == kAimSteps || simplex.has(s.a, s.b)) return s;
+    if (enough(s) || steps == kMapGjkSteps || simplex.has(s.a, s.b)) return s;
     const Simplex::Nearest nearest = simplex.add({p, q, s.a, s.b});
     if (nearest.count == 4) {
       s.meets = true;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// One look, along the last answer's direction or the line of centres: most questions of yes or no end there.
+// The separating-axis test along the last answer's direction, then the line of centres: most questions of yes or no end there.
 #pragma once
 
 #include "pair/support_gjk.h"
@@ -9,10 +9,10 @@
 
 namespace swiftlet {
 
-/// Where a question was looked at first.
+/// What the test sampled, for the descent that follows where it does not answer.
 struct AxisTest {
   Place at;
-  AxisSample seen;  ///< along 0: there was no look
+  AxisSample seen;  ///< its normal is 0: nothing was sampled
 };
 
 /// Fills `answer` and returns true where the bodies are proved to be farther apart than `target` asks. A direction of the seed
