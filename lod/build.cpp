@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
+#include <string>
 
 #include "bake.h"
 #include "hierarchy.h"
@@ -17,7 +19,8 @@ namespace {
 
 using namespace lod;
 
-constexpr double kHullDone = 0.15;  ///< of a build
+constexpr double kHullDone = 0.15;        ///< of a build
+constexpr double kMostCoordinate = 1e45;  ///< LevelArrays::vertices; beyond, squares of what is built on the way overflow
 
 std::optional<Error> problem(const BuildOptions& options) {
   const auto bad = [](const char* message) { return Error{ErrorCode::BadValue, message}; };
@@ -35,8 +38,16 @@ std::optional<Error> problem(const BuildOptions& options) {
 std::optional<Error> problem(const Mesh& mesh) {
   if (mesh.points.empty()) return Error{ErrorCode::Empty, "the mesh has no points"};
   if (mesh.points.size() > (1u << 30)) return Error{ErrorCode::TooLarge, "the mesh has more than 2^30 points"};
-  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     if (!mesh.points[v].allFinite()) return Error{ErrorCode::BadValue, "vertex " + std::to_string(v) + " is not finite"};
+    for (const double x : mesh.points[v]) {
+      if (std::abs(x) > kMostCoordinate) {
+        std::ostringstream text;
+        text << "vertex " << v << " has the coordinate " << x;
+        return Error{ErrorCode::BadValue, text.str()};
+      }
+    }
+  }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::uint32_t corner : mesh.triangles[t])
       if (corner >= mesh.points.size())
