@@ -356,6 +356,8 @@ bool settle(const PairView& pair, const GjkGoal& goal, GjkResult& m, std::uint32
   GjkDescent<Real> descent(pair, goal, plane_tests);
   descent.run(m);
   const bool near_zero = m.certificate.upper <= pair.law_two && m.certificate.lower == 0;
+  const bool is_apart = m.certificate.lower > 0 && goal.met(m.certificate.lower, m.certificate.upper);  // however it ended
+  if (is_apart) m.status = MarchStatus::Disjoint;
   if (m.status == MarchStatus::Disjoint && !near_zero) return true;
   m.status = MarchStatus::NotConverged;
   if (!descent.met() && !near_zero) return false;
