@@ -116,6 +116,7 @@ struct Checked {
   /// Of the finest levels, whether the kernel's own points prove `upper`; for what has no depth.
   bool is_near(double upper) const;
 
+  const Pose& pose;  ///< of B in A's frame
   const Setting at;
   const Shape &a, &b;
   const Answer& answer;

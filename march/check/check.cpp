@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Nothing here climbs or marches but `verify`'s deviations: supports are maxima over all vertices.
+// Supports are maxima over all vertices: nothing here climbs. `verify`'s deviations march, and so do overlaps whose upper bound
+// no plane and no point of the answer proves.
 #include <swiftlet/check.h>
 
 #include "body/support_map.h"
@@ -36,7 +37,7 @@ std::uint32_t map_fault(const Level& level) {
 }  // namespace
 
 Checked::Checked(const Body& of_a, const Body& of_b, const Pose& b_in_a, const Answer& of)
-    : at(of_a, of_b, b_in_a), a(at.a), b(at.b), answer(of) {
+    : pose(b_in_a), at(of_a, of_b, b_in_a), a(at.a), b(at.b), answer(of) {
   const auto has = [](const Shape& body, int level) { return level >= body.finest_level() && level < body.level_count(); };
   if (at.fault() != Status::Converged || !has(a, of.level_a) || !has(b, of.level_b)) return;
   const double error = at.quality.error;
@@ -97,11 +98,7 @@ Check Checked::hulls_overlap(const OverlapProof* proof) const {
 
 bool Checked::is_near(double upper) const {
   const Level &finest_a = a.level(a.finest_level()), &finest_b = b.level(b.finest_level());
-  Pose pose;
-  const Motion& m = at.motion;
-  pose.rotation << m.row_x.x, m.row_x.y, m.row_x.z, m.row_y.x, m.row_y.y, m.row_y.z, m.row_z.x, m.row_z.y, m.row_z.z;
-  pose.translation = eigen(m.t);
-  const MarchResult near = march(finest_a.view, finest_b.view, pose, {});
+  const MarchResult near = march(finest_a.view, finest_b.view, pose);
   const Vec near_a = vec(near.point_a), near_b = vec(near.point_b);
   return holds(finest_a.view, kAtRest, near_a, slack) && holds(finest_b.view, at.motion, near_b, slack) &&
          norm(near_b - near_a) + finest_a.deviation + stretch * finest_b.deviation <= upper + radii + 2 * slack;

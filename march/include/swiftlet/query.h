@@ -137,8 +137,8 @@ static_assert(sizeof(Answer) == 128);
 
 /// The distance between `a` and `b`, where `b_in_a` maps B's frame into A's: to the options' errors, exact by default. The
 /// interval is always true, errors are statuses. A seed is what the last query of this pair left; without one the query starts
-/// from nothing. Cost: law 7 bounds the steps (march.h); nothing is allocated; 4 kB of
-/// stack, 12 kB where only exact arithmetic tells a side.
+/// from nothing. Cost: law 7 bounds the steps (march.h); nothing is allocated; 4 kB of stack, 12 kB where only exact arithmetic
+/// tells a side.
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options = {});
 /// Likewise, cold.
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, const Options& options = {});
