@@ -60,9 +60,16 @@ struct Most {
 Most measured(const Body& a, const Body& b, int poses) {
   PaintedStack stack;
   Most most;
-  const auto keep = [&](std::size_t& kind, const std::function<void()>& work) { kind = std::max(kind, stack.use(work)); };
+  int i = -1;
+  const auto keep = [&](std::size_t& kind, const std::function<void()>& work) {
+    const std::size_t used = stack.use(work);
+    if (i >= 0) kind = std::max(kind, used);  // what is called for the first time is looked up by the loader, on this stack
+  };
   shapes::Random random(1);
-  for (int i = 0; i < poses; ++i) {
+  alignas(Manifold) unsigned char points[sizeof(Manifold)];
+  const Manifold before;
+  const ManifoldOptions wide{.margin = 1};
+  for (; i < poses; ++i) {
     const Pose pose{random.rotation(), random.in_ball() * (i % 2 ? 0.3 : 2.5)};
     keep(most.verdicts, [&] { intersects(a, b, pose); });
     keep(most.verdicts, [&] { within(a, b, pose, 0.5); });
@@ -73,7 +80,7 @@ Most measured(const Body& a, const Body& b, int poses) {
     Answer deep;
     keep(most.depths, [&] { deep = signed_distance(a, b, pose); });
     keep(most.depths, [&] { signed_within(a, b, pose, -0.1); });
-    keep(most.manifolds, [&] { manifold(a, b, pose, deep, {.margin = 1}); });
+    keep(most.manifolds, [&] { new (points) Manifold(manifold(a, b, pose, deep, wide, before)); });
   }
   return most;
 }
@@ -111,7 +118,7 @@ TEST(Stack, OfAQueryIsWhatItsCostLineSays) {
   EXPECT_LE(most.distances, 12u << 10);
   EXPECT_LE(resting, 16u << 10);
   EXPECT_LE(most.depths, 32u << 10);
-  EXPECT_LE(most.manifolds, 32u << 10);
+  EXPECT_LE(most.manifolds, 4u << 10);
 }
 
 }  // namespace

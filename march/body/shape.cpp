@@ -57,6 +57,10 @@ constexpr Topology<3, 2, 3> kTriangle({{0, 1, 2}, {0, 2, 1}});
 constexpr Topology<4, 2, 4> kQuad({{0, 1, 2, 3}, {0, 3, 2, 1}});
 // Corners are numbered by bits: x 1, y 2, z 4.
 constexpr Topology<8, 6, 4> kBox({{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}});
+// The planes of boxes, and of quads by the axis that they are thin along.
+constexpr FacePlane kPlanes[] = {{-1, 0, 0, 0}, {1, 0, 0, 0}, {0, -1, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}, {0, 0, 1, 0}};
+constexpr FacePlane kQuadPlanes[3][2] = {
+    {{1, 0, 0, 0}, {-1, 0, 0, 0}}, {{0, 1, 0, 0}, {0, -1, 0, 0}}, {{0, 0, 1, 0}, {0, 0, -1, 0}}};
 constexpr HalfEdge kSegment[] = {{1, 1, kNone}, {0, 0, kNone}};
 
 template <class AnyTopology>
@@ -94,23 +98,30 @@ int box(const std::array<Vertex, 8>& corner, Primitive& primitive) {
   const Vec size = vec(corner[7]) - vec(corner[0]);
   const bool thin[] = {size.x == 0, size.y == 0, size.z == 0};
   if (thin[0] + thin[1] + thin[2] > 1) return segment(corner[0], corner[7], primitive);
-  const auto plane = [](int axis, double side) {
-    return FacePlane{axis == 0 ? side : 0, axis == 1 ? side : 0, axis == 2 ? side : 0, 0};
-  };
   for (int axis = 0; axis < 3; ++axis) {
     if (!thin[axis]) continue;
     const unsigned u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3;
     primitive.vertices = {corner[0], corner[u], corner[u | v], corner[v]};
-    primitive.planes = {plane(axis, 1), plane(axis, -1)};
     connect(kQuad, primitive);
-    primitive.level.view.planes = std::span(primitive.planes).first(2);
+    primitive.level.view.planes = kQuadPlanes[axis];
     return 4;
   }
   primitive.vertices = corner;
-  for (int face = 0; face < 6; ++face) primitive.planes[std::size_t(face)] = plane(face / 2, face % 2 ? 1 : -1);
   connect(kBox, primitive);
-  primitive.level.view.planes = primitive.planes;
+  primitive.level.view.planes = kPlanes;
   return 8;
+}
+
+struct Box {
+  Vec least, most;
+};
+Box box_of(std::span<const Vertex> vertices) {
+  Box box{vec(vertices[0]), vec(vertices[0])};
+  for (const Vertex& v : vertices) {
+    box.least = {min(box.least.x, v.x), min(box.least.y, v.y), min(box.least.z, v.z)};
+    box.most = {max(box.most.x, v.x), max(box.most.y, v.y), max(box.most.z, v.z)};
+  }
+  return box;
 }
 
 /// The points that a body names, a box all corners.
@@ -157,20 +168,27 @@ Primitive::Primitive(const Body& body) {
                     : given.count == 3 ? triangle({p[0], p[1], p[2]}, *this)
                                        : segment(p[0], p[std::size_t(given.count - 1)], *this);
   view.vertices = std::span(vertices).first(std::size_t(count));
-  Vec least = vec(vertices[0]), most = least;
-  for (int i = 0; i < count; ++i) {
-    const Vec v = vec(vertices[std::size_t(i)]);
-    least = {min(least.x, v.x), min(least.y, v.y), min(least.z, v.z)};
-    most = {max(most.x, v.x), max(most.y, v.y), max(most.z, v.z)};
-    std::uint32_t& name = source[std::size_t(i)] = 0;
-    const auto differs = [&](const Vec& w) { return w.x != v.x || w.y != v.y || w.z != v.z; };
-    while (differs(vec(p[name]))) ++name;
-  }
-  size = most - least;
+  const auto [least, most] = box_of(view.vertices);
   const Vec centre = count == 1 ? least : least * 0.5 + most * 0.5;
   view.centre = eigen(centre);
   radius = 0;
   for (const Vertex& v : view.vertices) radius = max(radius, norm(vec(v) - centre) * (1 + 8 * kU));
+}
+
+Vec Shape::size() const {
+  if (model_) return vec(model_->box_max()) - vec(model_->box_min());
+  const Box box = box_of(levels_->view.vertices);
+  return box.most - box.least;
+}
+
+std::uint32_t source_vertex(const Body& body, const Shape& shape, std::uint32_t vertex) {
+  if (shape.model()) return shape.model()->source().vertex[vertex];
+  const Named given = named(body);
+  const Vec v = vec(shape.level(0).view.vertices[vertex]);
+  const auto differs = [&](const Vertex& w) { return w.x != v.x || w.y != v.y || w.z != v.z; };
+  std::uint32_t name = 0;
+  while (differs(given.points[name])) ++name;
+  return name;
 }
 
 }  // namespace swiftlet

@@ -21,11 +21,8 @@ struct Primitive {
 
   bool is_legal;
   std::array<Vertex, 8> vertices;
-  std::array<FacePlane, 6> planes;
   Level level;
-  double radius;                        ///< as Model::radius
-  Vec size;                             ///< of its bounding box
-  std::array<std::uint32_t, 8> source;  ///< per vertex, which of the body's points or of the box's corners it is
+  double radius;  ///< as Model::radius
 };
 
 class Shape {
@@ -46,8 +43,7 @@ class Shape {
     return levels_[index];
   }
   double radius() const { return model_ ? model_->radius() : primitive_->radius; }
-  Vec size() const { return model_ ? vec(model_->box_max()) - vec(model_->box_min()) : primitive_->size; }
-  SourceMap source() const { return model_ ? model_->source() : SourceMap{std::span(primitive_->source), {}, {}}; }
+  Vec size() const;                              ///< of its bounding box
   const Model* model() const { return model_; }  ///< null: a primitive
 
  private:
@@ -69,5 +65,9 @@ class ShapeOf {
   std::optional<Primitive> primitive_;
   const Shape shape_;
 };
+
+/// What of the body as the user gave it a vertex of its level 0 is: a vertex of the mesh, a point of the primitive, of a box
+/// the corner numbered by bits, x 1, y 2, z 4.
+std::uint32_t source_vertex(const Body& body, const Shape& shape, std::uint32_t vertex);
 
 }  // namespace swiftlet

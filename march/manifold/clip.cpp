@@ -1,304 +1,336 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The incident outline is clipped by the sides of the reference [Sutherland & Hodgman 1974], which decides nothing but what the
-// corners of the intersection are. Where they lie follows from what they are, by convex combinations of vertices, so that no
-// point leaves its body.
+// A line sweeps over both faces from below and meets their corners one after the other [Shamos & Hoey 1976]. Each face is a
+// left and a right border; of both left borders the one farther to the right, and of both right ones the one farther to the
+// left, is the border of what the faces have in common. Faces are read where they lie, and only four sides are known at a time.
 //
-//     r3__________r2     r: corners of the reference, i: of the incident outline. Left are the corner i2 over the reference
-//      |    i2    |      face and the crossings x of two sides each; a corner of the reference stays where the incident
-//      |   /  \   |      face covers it.
-//     r0__x____x__r1     The reference is the one that is seen flatter: its sides have clear directions, while the incident
-//        /      \        one may be seen as a line.
-//      i0--------i1
+//            b                  Events from below: a0, the lowest corner of what is common, begins it, since it lies in B; b1
+//         .-' '-.  a2           and b2 are corners of B's borders which A's hide; at a1, which has left B, the common area's
+//       b1   .--+-'--a1         right border has changed over from A to B where the sides cross; at b B's borders meet and the
+//        \ .'    b2 /           area ends, unless A's left border had passed B's right one before.
+//         +----+---'
+//         a0
+//
+// A border is left for the other face's only where that is farther in by more than a bound: sides that lie on one another up to
+// rounding do not cross. Everything that is said of places is said of the corners as they are seen in doubles, which are the
+// same whoever asks; their order from below is exact.
 #include "manifold/clip.h"
 
-#include <limits>
+#include <cmath>
+#include <utility>
 
 #include "body/half_edge.h"
 
 namespace swiftlet {
 namespace {
 
-/// What a corner of the intersection is: corner `incident` where reference is none, corner `reference` where incident is none,
-/// else the crossing of the sides that leave both.
-struct Mark {
-  static constexpr int kNo = -1;
-  int incident, reference;
+constexpr Border kBorders[] = {Border::Left, Border::Right};
+Border opposite(Border border) { return border == Border::Left ? Border::Right : Border::Left; }
+
+/// From below to above, and of places at one height from left to right.
+bool is_below(const Vec& p, const Vec& q) { return p.y < q.y || (p.y == q.y && p.x < q.x); }
+
+/// The vertices of a body as a projection shows them.
+struct SeenBody {
+  template <class Body>
+  SeenBody(const Body& body, const Projection& p) : view(body.view), x(body.into(p.x)), y(body.into(p.y)), n(body.into(p.n)) {
+    const Vec origin = body.common({0, 0, 0}) - p.middle;
+    shift = {dot(p.x, origin), dot(p.y, origin), dot(p.n, origin)};
+  }
+  Vec operator()(std::uint32_t vertex) const {
+    const Vec p = vec(view.vertices[vertex]);
+    return {dot(x, p) + shift.x, dot(y, p) + shift.y, dot(n, p) + shift.z};
+  }
+
+  const ConvexView& view;
+  Vec x, y, n, shift;
 };
 
-/// A corner of what is left, and what the side that leaves it lies on.
-struct Left {
-  double x, y;
-  Mark corner, side;
+struct Corner {
+  Vec at;
+  std::uint32_t vertex;
 };
 
-/// What a side lies on.
-struct SideLine {
-  double px, py, nx, ny;
-  double height(const Left& c) const { return nx * (c.x - px) + ny * (c.y - py); }  ///< positive inside
+/// A side of a border, or a chord over corners that turn back down.
+struct Side {
+  Corner from, to;          ///< below and above
+  std::uint32_t half_edge;  ///< that ends above, or the last that the chord cuts off
+  bool is_chord = false;
+
+  Vec at(double t) const { return from.at + (to.at - from.at) * t; }
+  /// How far along the place at a height is: 0 to 1.
+  double rise(double y) const {
+    const double height = to.at.y - from.at.y;
+    return height > 0 ? min(max((y - from.at.y) / height, 0), 1) : 0;
+  }
+  /// The same of the place nearest to another.
+  double along(const Vec& place) const {
+    const double dx = to.at.x - from.at.x, dy = to.at.y - from.at.y, length2 = dx * dx + dy * dy,
+                 t = (place.x - from.at.x) * dx + (place.y - from.at.y) * dy;
+    return length2 > 0 && t > 0 ? min(t / length2, 1) : 0;
+  }
 };
 
-/// The sides of an outline that count: corners that stand out by no more than a bound are none.
-class Reference {
+/// Where a place lies that is neither below a side nor above it.
+enum class Where { Left, On, Right };
+Where where(const Vec& place, const Side& side, double bound) {
+  const double dx = side.to.at.x - side.from.at.x, dy = side.to.at.y - side.from.at.y, px = place.x - side.from.at.x,
+               py = place.y - side.from.at.y, area = dx * py - dy * px, length2 = dx * dx + dy * dy;
+  if (area * area > bound * bound * length2) return area > 0 ? Where::Left : Where::Right;
+  // The line passes by within the bound; the side itself may not, where it lies crosswise.
+  if (px < min(dx, 0) - bound) return length2 - dx * dx > dx * dx ? Where::On : Where::Left;
+  if (px > max(dx, 0) + bound) return length2 - dx * dx > dx * dx ? Where::On : Where::Right;
+  return Where::On;
+}
+
+/// A contact face as a projection shows it, from its lowest corner to its highest.
+class SeenFace {
  public:
-  Reference(const ContactFace& outline, double bound) : outline_(outline), bound_(bound), sense_(sense(outline)) {
-    for (int k = 0, i = rightmost(outline); k < outline.count; ++k, i = outline.after(i)) {
-      while (count_ > 1 && flat(index_[at(count_ - 2)], index_[at(count_ - 1)], i)) --count_;
-      index_[at(count_++)] = i;
-    }
-    while (count_ > 2 && flat(index_[at(count_ - 2)], index_[at(count_ - 1)], index_[0])) --count_;
-  }
-
-  int sides() const { return count_ > 1 ? count_ : 0; }
-  const FaceCorner& corner(int side) const { return outline_[index_[at(side)]]; }
-  const FaceCorner& next_corner(int side) const { return corner(next(side)); }
-  /// Of the outline's sides that this one stands for, the one that a place on it belongs to, by the corner it leaves.
-  int part(int side, double x, double y) const {
-    const FaceCorner &p = corner(side), &q = next_corner(side);
-    const auto before = [&](const FaceCorner& c) { return (q.x - p.x) * (c.x - x) + (q.y - p.y) * (c.y - y) < 0; };
-    int i = index_[at(side)];
-    while (outline_.after(i) != index_[at(next(side))] && before(outline_[outline_.after(i)])) i = outline_.after(i);
-    return i;
-  }
-  int nearest_corner(double x, double y) const {
-    const auto distance2 = [&](int i) {
-      const double dx = corner(i).x - x, dy = corner(i).y - y;
-      return dx * dx + dy * dy;
-    };
-    int nearest = 0;
-    for (int i = 1; i < count_; ++i) {
-      if (distance2(i) < distance2(nearest)) nearest = i;
-    }
-    return nearest;
-  }
-  SideLine line(int side) const {
-    const FaceCorner &p = corner(side), &q = next_corner(side);
-    const double dx = q.x - p.x, dy = q.y - p.y, length = std::sqrt(dx * dx + dy * dy), unit = length > 0 ? sense_ / length : 0;
-    return {p.x, p.y, -dy * unit, dx * unit};
-  }
-
- private:
-  static std::size_t at(int i) { return std::size_t(i); }
-  int next(int side) const { return side + 1 == count_ ? 0 : side + 1; }
-  /// A corner that stands out whatever else does.
-  static int rightmost(const ContactFace& o) {
-    int found = 0;
-    for (int i = 1; i < o.count; ++i) {
-      if (o[i].x > o[found].x) found = i;
-    }
-    return found;
-  }
-  static double sense(const ContactFace& o) {
+  SeenFace(const SeenBody& body, const ContactFace& face) : body_(body), face_(face) {
+    const Corner first = face.side() == kNone ? Corner{body(0), 0} : corner_before(face.side());
+    Corner lowest = first, highest = first, last = first;
+    std::uint32_t half_edge = face.side();
     double area = 0;
-    for (int i = 0; i < o.count; ++i) area += o[i].x * o[o.after(i)].y - o[i].y * o[o.after(i)].x;
-    return area < 0 ? -1 : 1;
-  }
-  bool flat(int i, int j, int k) const {
-    const FaceCorner &p = outline_[i], &q = outline_[j], &r = outline_[k];
-    const double dx = r.x - p.x, dy = r.y - p.y;
-    return sense_ * (dy * (q.x - p.x) - dx * (q.y - p.y)) <= bound_ * std::sqrt(dx * dx + dy * dy);
-  }
-
-  const ContactFace& outline_;
-  double bound_, sense_;
-  int count_ = 0;
-  std::array<int, kMostCorners> index_;
-};
-
-/// The corners of the intersection of two outlines.
-class Clip {
- public:
-  Clip(const ContactFace& incident, const Reference& reference, double bound) : reference_(reference), bound_(bound) {
-    for (int i = 0; i < incident.count; ++i) keep({incident[i].x, incident[i].y, {i, Mark::kNo}, {i, Mark::kNo}});
-    for (int side = 0; side < reference.sides() && count_ > 0; ++side) cut(side);
+    for (std::uint32_t h = half_edge; h != kNone && (h = face.next(h)) != face.side();) {
+      const Corner c = corner_before(h);
+      if (is_below(c.at, lowest.at)) lowest = c, half_edge = h;
+      if (is_below(highest.at, c.at)) highest = c;
+      area += (last.at.x - first.at.x) * (c.at.y - first.at.y) - (last.at.y - first.at.y) * (c.at.x - first.at.x);
+      last = c;
+    }
+    is_ccw_ = area >= 0;
+    top_ = highest.vertex;
+    for (const Border border : kBorders) {
+      Side& side = side_[std::size_t(border)];
+      side = {lowest, lowest, half_edge, false};
+      if (is_at_top(border)) continue;
+      if (is_ahead(border)) side.half_edge = face.previous(half_edge);
+      advance(border);
+    }
   }
 
-  int count() const { return count_; }
-  const Left& operator[](int i) const { return left_[now_][std::size_t(i)]; }
+  /// Where both borders begin, as long as neither has gone on from its first side.
+  const Corner& lowest() const { return side_[0].from; }
+  const Side& operator[](Border border) const { return side_[std::size_t(border)]; }
+  bool is_at_top(Border border) const { return (*this)[border].to.vertex == top_; }
+
+  /// A border goes up to its next corner that is higher. Not from the top.
+  void advance(Border border) {
+    Side& side = side_[std::size_t(border)];
+    const bool ahead = is_ahead(border);
+    side.from = side.to;
+    bool is_first = true;
+    do {
+      side.is_chord = !std::exchange(is_first, false);
+      side.half_edge = ahead ? face_.next(side.half_edge) : face_.previous(side.half_edge);
+      side.to = corner_before(ahead ? body_.view.half_edges[side.half_edge].twin : side.half_edge);
+    } while (!is_at_top(border) && !is_below(side.from.at, side.to.at));
+  }
+
+  /// Between the borders, or on the nearer one where the place is beyond them: the coordinate along the normal.
+  double depth_at(const Vec& place) const {
+    const Side &left = side_[0], &right = side_[1];
+    const Vec l = left.at(left.rise(place.y)), r = right.at(right.rise(place.y));
+    if (l.x < place.x && place.x < r.x) return l.z + (r.z - l.z) * ((place.x - l.x) / (r.x - l.x));
+    const Side& side = place.x <= l.x ? left : right;
+    return side.at(side.along(place)).z;
+  }
 
  private:
-  static constexpr int kMost = int(kMostCandidates);
-
-  void keep(const Left& corner) {
-    if (count_ < kMost) left_[now_][std::size_t(count_++)] = corner;
+  /// Whether a border is up along its half-edges.
+  bool is_ahead(Border border) const { return is_ccw_ == (border == Border::Right); }
+  Corner corner_before(std::uint32_t half_edge) const {
+    const std::uint32_t vertex = origin(body_.view, half_edge);
+    return {body_(vertex), vertex};
   }
 
-  /// Each corner is judged once; what stands out by no more than the bound stays.
-  void cut(int side) {
-    const std::array<Left, kMost>& whole = left_[now_];
-    const int size = count_;
-    const SideLine line = reference_.line(side);
-    std::array<double, kMost> height;
-    bool is_whole = true;
-    for (int i = 0; i < size; ++i) {
-      height[std::size_t(i)] = line.height(whole[std::size_t(i)]);
-      is_whole = is_whole && height[std::size_t(i)] >= -bound_;
+  const SeenBody& body_;
+  const ContactFace& face_;
+  bool is_ccw_;        ///< as it is seen: B from within, and where the pose mirrors from outside
+  std::uint32_t top_;  ///< a vertex
+  Side side_[2];       ///< of both borders the one at the height of the sweep
+};
+
+class Sweep {
+ public:
+  Sweep(const PairView& pair, const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
+        Candidates& corners)
+      : body_{SeenBody(body_a(pair), projection), SeenBody(body_b(pair), projection)},
+        face_{SeenFace(body_[0], a), SeenFace(body_[1], b)},
+        name_{a.name(), b.name()},
+        bound_(bound),
+        corners_(corners) {}
+
+  void run() {
+    if (!begin()) return;
+    for (;;) {
+      const auto [f, border] = lowest_event();
+      if (!meet(f, border)) return;
+      if (face_[f].is_at_top(border)) return end(f, border);
+      face_[f].advance(border);
     }
-    if (is_whole) return;
-    now_ = 1 - now_, count_ = 0;
-    for (int i = 0; i < size; ++i) {
-      const std::size_t k = std::size_t(i), l = std::size_t(i + 1 == size ? 0 : i + 1);
-      const Left &p = whole[k], &q = whole[l];
-      const bool inside = height[k] >= -bound_, next_inside = height[l] >= -bound_;
-      if (inside) keep(p);
-      if (inside != next_inside) {
-        const double t = min(max(height[k] / (height[k] - height[l]), 0), 1);
-        keep({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), cut_off(p.side, side), inside ? Mark{Mark::kNo, side} : p.side});
+  }
+
+ private:
+  struct Event {
+    int face;
+    Border border;
+  };
+
+  const Side& side(int f, Border border) const { return face_[f][border]; }
+  int& leader(Border border) { return leader_[std::size_t(border)]; }
+
+  /// The higher of the lowest corners is where the sweep begins; false where the other face ends below.
+  bool begin() {
+    const int f = is_below(face_[0].lowest().at, face_[1].lowest().at) ? 1 : 0, other = 1 - f;
+    const Corner& lowest = face_[f].lowest();
+    for (const Border border : kBorders) {
+      while (!is_below(lowest.at, side(other, border).to.at)) {
+        if (face_[other].is_at_top(border)) return false;
+        face_[other].advance(border);
       }
     }
-  }
-
-  /// A side that lies on the reference's outline was cut from there before, and meets this one in a corner.
-  Mark cut_off(const Mark& of, int side) const {
-    if (of.reference == Mark::kNo) return {of.incident, side};
-    return {Mark::kNo, of.reference == 0 && side + 1 == reference_.sides() ? 0 : side};
-  }
-
-  const Reference& reference_;
-  double bound_;
-  int count_ = 0, now_ = 0;
-  std::array<Left, kMost> left_[2];  ///< before a cut and after it
-};
-
-// ---- Where corners lie ------------------------------------------------------------------------------------------------------
-
-Vec between(const Vec& p, const Vec& q, double t) { return p + (q - p) * t; }
-
-/// How far along a side the place is that is seen nearest to another: 0 at p, 1 at q.
-double along(const FaceCorner& p, const FaceCorner& q, double x, double y) {
-  const double dx = q.x - p.x, dy = q.y - p.y, length2 = dx * dx + dy * dy, t = (x - p.x) * dx + (y - p.y) * dy;
-  return length2 > 0 && t > 0 ? min(t / length2, 1) : 0;
-}
-
-/// The point of an outline's sides that is seen nearest to a place.
-Vec on_sides(const ContactFace& o, double x, double y) {
-  double least = std::numeric_limits<double>::infinity();
-  Vec nearest{0, 0, 0};
-  for (int i = 0; i < o.count; ++i) {
-    const FaceCorner &p = o[i], &q = o[o.after(i)];
-    const double t = along(p, q, x, y), dx = p.x + t * (q.x - p.x) - x, dy = p.y + t * (q.y - p.y) - y;
-    if (dx * dx + dy * dy < least) least = dx * dx + dy * dy, nearest = between(p.p, q.p, t);
-  }
-  return nearest;
-}
-
-/// The point of an outline's face over a place: between the sides to the left and to the right; where the place is not inside,
-/// on the nearest side.
-Vec over(const ContactFace& o, double x, double y) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  Vec p_low{0, 0, 0}, p_high{0, 0, 0};
-  for (int i = 0; i < o.count; ++i) {
-    const FaceCorner &p = o[i], &q = o[o.after(i)];
-    if ((p.y <= y) == (q.y <= y)) continue;
-    const double t = (y - p.y) / (q.y - p.y), place = p.x + t * (q.x - p.x);
-    if (place < low) low = place, p_low = between(p.p, q.p, t);
-    if (place > high) high = place, p_high = between(p.p, q.p, t);
-  }
-  return low < x && x < high ? between(p_low, p_high, (x - low) / (high - low)) : on_sides(o, x, y);
-}
-
-/// The points of two sides where they cross, as they are seen.
-struct PointPair {
-  Vec incident, reference;
-};
-PointPair side_crossing(const FaceCorner& i0, const FaceCorner& i1, const FaceCorner& r0, const FaceCorner& r1) {
-  const double ix = i1.x - i0.x, iy = i1.y - i0.y, rx = r1.x - r0.x, ry = r1.y - r0.y;
-  const double h0 = rx * (i0.y - r0.y) - ry * (i0.x - r0.x), h1 = rx * (i1.y - r0.y) - ry * (i1.x - r0.x);
-  const double t = h0 != h1 ? h0 / (h0 - h1) : 0, s = along(r0, r1, i0.x + t * ix, i0.y + t * iy);
-  // Of sides nearly parallel the first t is uncertain, the second one belongs to s.
-  return {between(i0.p, i1.p, along(i0, i1, r0.x + s * rx, r0.y + s * ry)), between(r0.p, r1.p, s)};
-}
-
-FeatureId side_id(const ConvexView& view, const FaceCorner& corner) {
-  if (corner.half_edge == kNone) return {FeatureKind::Vertex, corner.vertex};
-  return named(view, {FeatureKind::Edge, corner.half_edge});
-}
-FeatureId corner_id(const FaceCorner& corner) { return {FeatureKind::Vertex, corner.vertex}; }
-FeatureId face_id(const ConvexView& view, const ContactFace& outline) {
-  if (outline.face != kNone) return {FeatureKind::Face, outline.face};
-  return side_id(view, outline[0]);  // the whole body
-}
-
-/// Both outlines, and which of them is clipped.
-class Faces {
- public:
-  Faces(const PairView& pair, const Projection& projection, const ContactFace& a, const ContactFace& b, double bound)
-      : pair_(pair),
-        projection_(projection),
-        a_(a),
-        b_(b),
-        a_is_reference_(std::fabs(a.facing) >= std::fabs(b.facing)),
-        bound_(bound),
-        reference_(a_is_reference_ ? a : b, bound) {}
-
-  /// What stays may reach beyond a tip of the reference, or beyond the end of one that is seen as a line: then the corner there
-  /// is meant.
-  int corners(std::span<Candidate, kMostCandidates> candidates) const {
-    const Clip clip(incident(), reference_, bound_);
-    std::size_t count = 0;
-    for (int i = 0; i < clip.count(); ++i) {
-      Candidate c = placed(clip[i].corner, clip[i].x, clip[i].y);
-      if (!fits(c)) c = placed({Mark::kNo, reference_.nearest_corner(c.x, c.y)}, c.x, c.y);
-      if (fits(c)) candidates[count++] = c;
-    }
-    return int(count);
-  }
-
- private:
-  const ContactFace& incident() const { return a_is_reference_ ? b_ : a_; }
-  const ContactFace& reference() const { return a_is_reference_ ? a_ : b_; }
-
-  /// Whether the points lie one above the other.
-  bool fits(const Candidate& c) const { return norm(c.point_b - c.point_a - projection_.n * c.separation) <= 2 * bound_; }
-
-  /// What a mark means, seen about there.
-  Candidate placed(const Mark& mark, double x, double y) const {
-    const ConvexView &view_i = a_is_reference_ ? pair_.b : pair_.a, &view_r = a_is_reference_ ? pair_.a : pair_.b;
-    PointPair p;
-    FeatureId feature_i, feature_r;
-    if (mark.reference == Mark::kNo) {
-      const FaceCorner& c = incident()[mark.incident];
-      p = {c.p, over(reference(), c.x, c.y)};
-      feature_i = corner_id(c), feature_r = face_id(view_r, reference());
-    } else if (mark.incident == Mark::kNo) {
-      const FaceCorner& c = reference_.corner(mark.reference);
-      p = {over(incident(), c.x, c.y), c.p};
-      feature_i = face_id(view_i, incident()), feature_r = corner_id(c);
+    if (where(lowest.at, side(other, Border::Left), bound_) == Where::Left) {
+      west_ = f;
+    } else if (where(lowest.at, side(other, Border::Right), bound_) == Where::Right) {
+      west_ = other;
     } else {
-      const int side = reference_.part(mark.reference, x, y);
-      const FaceCorner &i = incident()[mark.incident], &r = reference()[side];
-      p = side_crossing(i, incident()[incident().after(mark.incident)], r, reference()[reference().after(side)]);
-      feature_i = side_id(view_i, i), feature_r = side_id(view_r, r);
+      leader(Border::Left) = leader(Border::Right) = f;
+      add_corner(Border::Left, f, lowest);
     }
-    return a_is_reference_ ? candidate(projection_, p.reference, p.incident, feature_r, feature_i)
-                           : candidate(projection_, p.incident, p.reference, feature_i, feature_r);
+    return true;
   }
 
-  const PairView& pair_;
-  const Projection& projection_;
-  const ContactFace &a_, &b_;
-  bool a_is_reference_;
-  double bound_;
-  Reference reference_;
+  Event lowest_event() const {
+    Event lowest{0, Border::Left};
+    for (const Event e : {Event{0, Border::Right}, Event{1, Border::Left}, Event{1, Border::Right}}) {
+      if (is_below(side(e.face, e.border).to.at, side(lowest.face, lowest.border).to.at)) lowest = e;
+    }
+    return lowest;
+  }
+
+  /// The sweep is at the upper end of a face's side. False where the common area ends before.
+  bool meet(int f, Border border) {
+    const Corner& corner = side(f, border).to;
+    const int other = 1 - f;
+    if (west_ != kNobody && !overlap_begins(f, corner)) return true;
+
+    const Border across = opposite(border);
+    if (where(corner.at, side(other, across), bound_) == outside(across)) {
+      if (leader(border) != f) add_crossing(border, {f, border}, {other, border});
+      if (leader(across) != other) add_crossing(across, {f, across}, {other, across});
+      add_crossing(border, {f, border}, {other, across});
+      return false;
+    }
+    const Where now = where(corner.at, side(other, border), bound_);
+    if (leader(border) == f && now == outside(border)) {
+      add_crossing(border, {f, border}, {other, border});
+      leader(border) = other;
+    } else if (leader(border) == other && now == outside(across)) {
+      add_crossing(border, {f, border}, {other, border});
+      leader(border) = f;
+    }
+    if (leader(border) == f) add_corner(border, f, corner);
+    return true;
+  }
+
+  /// While one face is to the west of the other: whether it is no more.
+  bool overlap_begins(int f, const Corner& corner) {
+    const int east = 1 - west_;
+    const Where now =
+        f == west_ ? where(corner.at, side(east, Border::Left), bound_) : where(corner.at, side(west_, Border::Right), bound_);
+    if (now == (f == west_ ? Where::Left : Where::Right)) return false;
+    add_crossing(Border::Left, {west_, Border::Right}, {east, Border::Left});
+    leader(Border::Left) = east, leader(Border::Right) = west_;
+    west_ = kNobody;
+    return true;
+  }
+
+  /// The sweep is at the top of a face, to which one border has come.
+  void end(int f, Border border) {
+    const Corner top = side(f, border).to;
+    if (!meet(f, opposite(border)) || west_ != kNobody || last_[f] == top.vertex) return;
+    for (const Border b : kBorders) {
+      if (where(top.at, side(1 - f, b), bound_) == outside(b)) return;
+    }
+    add_corner(border, f, top);
+  }
+
+  static Where outside(Border border) { return border == Border::Left ? Where::Left : Where::Right; }
+
+  /// A corner of one face over or on the other one.
+  void add_corner(Border border, int f, const Corner& corner) {
+    if (last_[f] == corner.vertex) return;
+    last_[f] = corner.vertex;
+    const double depth = face_[1 - f].depth_at(corner.at), z_a = f == 0 ? corner.at.z : depth,
+                 z_b = f == 0 ? depth : corner.at.z;
+    const FeatureId vertex{FeatureKind::Vertex, corner.vertex};
+    corners_.add(border, {{corner.at.x, corner.at.y, z_a}, z_b - z_a, f == 0 ? vertex : name_[0], f == 0 ? name_[1] : vertex});
+  }
+
+  /// Where two sides cross, one of each face; a corner that lies there stands for it.
+  void add_crossing(Border border, const Event& p, const Event& q) {
+    const Event &of_a = p.face == 0 ? p : q, &of_b = p.face == 0 ? q : p;
+    const Side &a = side(0, of_a.border), &b = side(1, of_b.border);
+    const double x = b.to.at.x - b.from.at.x, y = b.to.at.y - b.from.at.y;
+    const auto height = [&](const Vec& place) { return x * (place.y - b.from.at.y) - y * (place.x - b.from.at.x); };
+    const double h = height(a.from.at), h_to = height(a.to.at);
+    // Of sides nearly parallel the first place is uncertain, the last one belongs to the one on b.
+    const Vec on_b = b.at(b.along(a.at(h != h_to ? min(max(h / (h - h_to), 0), 1) : 0))), on_a = a.at(a.along(on_b));
+    const auto apart = [&](const Vec& place) {
+      const double dx = place.x - on_a.x, dy = place.y - on_a.y;
+      return std::sqrt(dx * dx + dy * dy);
+    };
+    for (const Corner* c : {&a.from, &a.to}) {
+      if (apart(c->at) <= bound_) return add_corner(border, 0, *c);
+    }
+    for (const Corner* c : {&b.from, &b.to}) {
+      if (apart(c->at) <= bound_) return add_corner(border, 1, *c);
+    }
+    if (apart(on_b) > bound_ / 2) return;
+    const auto feature = [&](int f, const Side& of) {
+      return of.is_chord ? name_[f] : named(body_[f].view, {FeatureKind::Edge, of.half_edge});
+    };
+    corners_.add(border, {on_a, on_b.z - on_a.z, feature(0, a), feature(1, b)});
+  }
+
+  static constexpr int kNobody = -1;
+
+  const SeenBody body_[2];
+  SeenFace face_[2];
+  const FeatureId name_[2];
+  const double bound_;
+  Candidates& corners_;
+  int west_ = kNobody;                      ///< the face that is still to the left of the other one
+  int leader_[2] = {};                      ///< whose border is that of the common area
+  std::uint32_t last_[2] = {kNone, kNone};  ///< the corner of a face that was added last
 };
 
 }  // namespace
 
-Candidate candidate(const Projection& projection, const Vec& point_a, const Vec& point_b, FeatureId feature_a,
-                    FeatureId feature_b) {
-  const Vec seen = point_a - projection.middle;
-  return {dot(projection.u, seen),
-          dot(projection.v, seen),
-          dot(projection.n, point_b - point_a),
-          point_a,
-          point_b,
-          feature_a,
-          feature_b};
+/// The basis of [Duff et al. 2017], exact but for rounding whatever n, turned about n.
+Projection::Projection(const Vec& normal, const Vec& about, const Vec& side) : n(normal), middle(about) {
+  const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
+  const Vec u{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, v{b, sign + n.y * n.y * a, -n.y};
+  const double du = dot(u, side), dv = dot(v, side), length = std::sqrt(du * du + dv * dv);
+  const double c = length > 0 ? (kSweepCos * dv + kSweepSin * du) / length : 1,
+               s = length > 0 ? (kSweepSin * dv - kSweepCos * du) / length : 0;
+  x = u * c + v * s;
+  y = v * c - u * s;
 }
 
-int clip(const PairView& pair, const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
-         std::span<Candidate, kMostCandidates> candidates) {
-  return Faces(pair, projection, a, b, bound).corners(candidates);
+Vec any_side(const PairView& pair, const ContactFace& a, const ContactFace& b) {
+  const auto along = [](const auto& body, std::uint32_t h) {
+    return body.point(body.view.half_edges[h].head) - body.point(origin(body.view, h));
+  };
+  if (a.side() != kNone) return along(body_a(pair), a.side());
+  return b.side() != kNone ? along(body_b(pair), b.side()) : Vec{0, 0, 0};
+}
+
+void clip(const PairView& pair, const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
+          Candidates& corners) {
+  Sweep(pair, projection, a, b, bound, corners).run();
+  corners.close();
 }
 
 }  // namespace swiftlet

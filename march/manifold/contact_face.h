@@ -1,47 +1,41 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The contact face of a body as a loop of corners seen along a normal. Knows one body of a pair.
+// The contact face of a body: where its border runs. Knows one body in its own frame.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include <swiftlet/model.h>
 
-#include "numeric/tolerance.h"
-#include "pair/pair_view.h"
+#include "numeric/vec.h"
 
 namespace swiftlet {
 
-/// What is seen along a unit normal: points of the common frame by two coordinates across it.
-struct Projection {
-  explicit Projection(const Vec& n, const Vec& middle);
-  Vec n, u, v;  ///< right-handed
-  Vec middle;   ///< at (0, 0); near what is looked at, so that little is lost
-};
+/// Of the faces at a feature the one that faces best along a direction, and those beside it that lie within some height of its
+/// plane: one piece without holes, for a face amidst them has all its corners there too. A body without faces is all border.
+class ContactFace {
+ public:
+  /// `n`: unit, own frame, outwards. `before`, a face of the body, is preferred as long as none faces better. `flatness`: the
+  /// height over the body's extent.
+  ContactFace(const ConvexView& view, const Vec& n, FeatureId feature, FeatureId before, double flatness);
 
-struct FaceCorner {
-  Vec p;                    ///< common frame
-  double x, y;              ///< across the normal
-  std::uint32_t vertex;     ///< of the body
-  std::uint32_t half_edge;  ///< leaves the corner along the outline; kNone of a point
-};
+  /// The face; of a body without faces its edge, or its vertex.
+  FeatureId name() const;
+  /// A half-edge of the border, which leaves the face on its left; kNone of a point.
+  std::uint32_t side() const { return side_; }
+  /// The side after another one, and the one before: they start and end where that ends and starts.
+  std::uint32_t next(std::uint32_t side) const;
+  std::uint32_t previous(std::uint32_t side) const;
 
-/// Either sense of rotation; not quite convex where faces are flat only nearly.
-struct ContactFace {
-  std::uint32_t face = kNone;  ///< around which it lies; kNone: the body has no faces
-  double facing = 0;           ///< cosine between the face's normal and the direction it was looked for
-  int count = 0;
-  std::array<FaceCorner, kMostCorners> corners;
-  const FaceCorner& operator[](int i) const { return corners[std::size_t(i)]; }
-  int after(int i) const { return i + 1 == count ? 0 : i + 1; }
-};
+ private:
+  bool holds(std::uint32_t face) const;
+  bool is_left_of(std::uint32_t half_edge) const;
+  std::uint32_t border() const;
 
-/// The outline of the faces within `flatness` times the extent of that face at `feature` which faces along n (A) or against it
-/// (B); `before`, a face of the body, is preferred as long as none faces better. A body without faces is its own outline.
-void contact_face_a(const PairView& pair, const Projection& projection, FeatureId feature, FeatureId before, double flatness,
-                    ContactFace& outline);
-void contact_face_b(const PairView& pair, const Projection& projection, FeatureId feature, FeatureId before, double flatness,
-                    ContactFace& outline);
+  const ConvexView& view_;
+  std::uint32_t top_ = kNone, side_ = kNone;
+  double level_ = 0;  ///< the least height along the normal
+  Vec normal_{0, 0, 0};
+};
 
 }  // namespace swiftlet

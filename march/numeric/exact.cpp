@@ -122,6 +122,15 @@ V3<DoubleDouble> wide_difference(const double b[3], const double a[3]) {
   return {two_sum(b[0], -a[0]), two_sum(b[1], -a[1]), two_sum(b[2], -a[2])};
 }
 
+/// Whether p q - r s is 0.
+bool vanishes(const DoubleDouble& p, const DoubleDouble& q, const DoubleDouble& r, const DoubleDouble& s) {
+  Expansion sum;
+  for (const auto& [f, g] : {std::pair{p, q}, std::pair{r, -s}}) {
+    for (const double x : {f.low, f.high}) sum += two_product(x, g.low), sum += two_product(x, g.high);
+  }
+  return sum.sign() == 0;
+}
+
 /// a - (R b + t), times 2^exponent.
 Expansion3 offset3(const double a[3], const double b[3], const Motion& m, int exponent) {
   const auto scaled = [exponent](double x) { return std::ldexp(x, exponent); };
@@ -182,8 +191,8 @@ bool collinear(const double a[3], const double b[3], const double c[3]) {
   if (certain(rough.x, u.y * v.z, u.z * v.y) || certain(rough.y, u.z * v.x, u.x * v.z) ||
       certain(rough.z, u.x * v.y, u.y * v.x))
     return false;
-  const auto n = cross3(difference3(b, a), difference3(c, a));
-  return n[0].sign() == 0 && n[1].sign() == 0 && n[2].sign() == 0;
+  const V3<DoubleDouble> p = wide_difference(b, a), q = wide_difference(c, a);
+  return vanishes(p.y, q.z, p.z, q.y) && vanishes(p.z, q.x, p.x, q.z) && vanishes(p.x, q.y, p.y, q.x);
 }
 
 Plane plane(const Vec& a, const Vec& b, const Vec& c) {

@@ -169,6 +169,12 @@ inline constexpr double kSameFacing = 0x1p-43;
 inline constexpr double kKeptWorth = 0.125;
 /// Points of a manifold that give way at most: two or three leave all as they are. A count.
 inline constexpr int kExchanges = 32;
+/// Corners of a common area that a manifold is chosen from: the 8 of the manifold before, the deepest, both ends of both
+/// borders, and as many to choose between. A count.
+inline constexpr int kMostCorners = 20;
+/// The angle between the first side of a face and the line that sweeps over it, 12.7 degrees from where they meet at right
+/// angles: of a regular polygon of up to 20 corners no side is within 0.1 degrees of that line. Cosine and sine.
+inline constexpr double kSweepCos = 40.0 / 41, kSweepSin = 9.0 / 41;
 
 // ---- Bounds on work: counts ------------------------------------------------------------------------------------------------
 
@@ -202,8 +208,6 @@ inline constexpr double kHiddenShare = 1.4;
 /// Vertices that doubles may find equally high before a certificate asks exact arithmetic which is the highest: two triangles
 /// and room for a flat spot.
 inline constexpr std::size_t kPlateau = 8;
-/// Corners of a contact face: as many as keep the cost of clipping one by another at some microseconds.
-inline constexpr int kMostCorners = 64;
 /// Points of the inner polytope that tells touching from overlapping: 300 vertices slid into contact needed 20 to 32.
 inline constexpr int kContactPoints = 32;
 

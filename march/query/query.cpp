@@ -15,13 +15,15 @@ SourceFeature source_feature(const Body& body, FeatureId feature) {
   SourceFeature result{feature.kind(), {kNone, kNone}, {}};
   const ShapeOf shape(body);
   const ConvexView& view = (*shape).level(0).view;
-  const SourceMap source = (*shape).source();
+  const auto source = [&](std::uint32_t vertex) { return source_vertex(body, shape, vertex); };
   const std::uint32_t i = feature.index();
-  if (feature.kind() == FeatureKind::Vertex) result.vertices[0] = source.vertex[i];
-  if (feature.kind() == FeatureKind::Edge)
-    result.vertices = {source.vertex[origin(view, i)], source.vertex[view.half_edges[i].head]};
-  if (feature.kind() == FeatureKind::Face && !source.face_begin.empty())
-    result.triangles = source.face.subspan(source.face_begin[i], source.face_begin[i + 1] - source.face_begin[i]);
+  if (feature.kind() == FeatureKind::Vertex) result.vertices[0] = source(i);
+  if (feature.kind() == FeatureKind::Edge) result.vertices = {source(origin(view, i)), source(view.half_edges[i].head)};
+  if (feature.kind() == FeatureKind::Face && body.model()) {
+    const SourceMap map = body.model()->source();
+    if (!map.face_begin.empty())
+      result.triangles = map.face.subspan(map.face_begin[i], map.face_begin[i + 1] - map.face_begin[i]);
+  }
   return result;
 }
 

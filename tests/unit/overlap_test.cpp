@@ -95,23 +95,27 @@ TEST(UnitClip, OfTwoSquaresIsTheirCommonSquare) {
   // Seen along z, where B's square is 1.5 and 0.5 aside: [0.5, 1] x [-0.5, 1].
   const Motion above = motion({Mat3::Identity(), {1.5, 0.5, 2}});
   const PairView pair = pair_view(kLevel.view, kLevel.view, above, 0);
-  const Projection along_z({0, 0, 1}, {0.75, 0, 1});
   const FeatureId top{FeatureKind::Vertex, index(6)}, bottom{FeatureKind::Vertex, index(0)};
-  ContactFace a, b;
-  contact_face_a(pair, along_z, top, {}, 0, a);
-  contact_face_b(pair, along_z, bottom, {}, 0, b);
-  ASSERT_EQ(a.count, 4);
-  ASSERT_EQ(b.count, 4);
-  std::array<Candidate, kMostCandidates> found;
-  const int count = clip(pair, along_z, a, b, pair.law_two, found);
-  ASSERT_EQ(count, 4);
-  double area = 0;
-  for (int i = 0; i < count; ++i) {
-    const Candidate &p = found[std::size_t(i)], &q = found[std::size_t((i + 1) % count)];
-    area += (p.x * q.y - p.y * q.x) / 2;
-    EXPECT_NEAR(p.separation, 0, 1e-15);
+  const ContactFace a(pair.a, {0, 0, 1}, top, {}, 0), b(pair.b, {0, 0, -1}, bottom, {}, 0);
+  const Projection along_z({0, 0, 1}, {0.75, 0, 1}, any_side(pair, a, b));
+  const Manifold none;
+  Candidates found(1, none);
+  clip(pair, along_z, a, b, pair.law_two, found);
+  ASSERT_EQ(found.count(), 4);
+  std::array<Vec, 4> corners;
+  for (int i = 0; i < 4; ++i) {
+    corners[std::size_t(i)] = along_z.point(found[i].on_a) - Vec{0.75, 0.25, 1};
+    EXPECT_NEAR(found[i].separation, 0, 1e-15);
   }
-  EXPECT_NEAR(std::fabs(area), 0.75, 1e-14);
+  std::sort(corners.begin(), corners.end(),
+            [](const Vec& p, const Vec& q) { return std::atan2(p.y, p.x) < std::atan2(q.y, q.x); });
+  double area = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec &p = corners[i], &q = corners[(i + 1) % 4];
+    area += (p.x * q.y - p.y * q.x) / 2;
+    EXPECT_NEAR(p.z, 0, 1e-15);
+  }
+  EXPECT_NEAR(area, 0.75, 1e-14);
 }
 
 }  // namespace

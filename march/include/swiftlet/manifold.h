@@ -19,8 +19,8 @@ struct ManifoldPoint {
   Vec3 point_b = Vec3::Zero();  ///< in B likewise: `point_a` + `separation` * normal, within twice `tolerance`
   double separation = 0;        ///< along the normal, the bodies' unit; negative where the bodies overlap
   /// What the point lies on, on the answer's levels: a corner of one body and the contact face of the other, or an edge of
-  /// each, which is named by the lesser of its half-edges; of a face of more than 64 sides one edge may stand for those after
-  /// it. It names the point from manifold to manifold: the same pair, the same place of the bodies.
+  /// each, which is named by the lesser of its half-edges. It names the point from manifold to manifold: the same pair, the
+  /// same place of the bodies.
   FeatureId feature_a;
   FeatureId feature_b;  ///< likewise, of B
 };
@@ -49,11 +49,10 @@ struct ManifoldOptions {
 /// bodies that are apart. The contact face of a body is, of those at that feature, the one that faces best along the normal;
 /// both are projected along it, and the corners of what they have in common are the points. Where there are more than asked for
 /// those stay that hold the least separation and most of the area: of a round face four keep 0.6, eight 0.9, of a square all;
-/// of any three keep 0.197 at least. Those of `previous`, the manifold of this pair a moment ago, are preferred. The least
+/// of any three keep 0.19 at least. Those of `previous`, the manifold of this pair a moment ago, are preferred. The least
 /// separation of a manifold is the answer's, within `tolerance`. No points of an answer without a normal (a distance knows no
 /// way out of an overlap), of other radii than the bodies', or of levels and features that these do not have. Nothing is
-/// allocated; 32 kB of stack. Cost: the product of both faces' sides; of a face of more than 64 sides the 64 corners count that
-/// keep most of its area.
+/// allocated; 4 kB of stack. Cost: the sum of both faces' sides.
 Manifold manifold(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const ManifoldOptions& options = {},
                   const Manifold& previous = {});
 
