@@ -52,19 +52,24 @@ class Ordering {
   Wide wide_own_;
 };
 
-/// Climbs the rings to the vertex that is last in the order. On an exactly convex body the end is extreme.
-std::uint32_t climb(const ConvexView& view, std::uint32_t v, Ordering order, std::uint32_t& plane_tests) {
+/// Climbs the rings to a vertex that none beside it is higher than. On an exactly convex body and by exact signs it is extreme.
+template <class IsHigher>
+std::uint32_t climb(const ConvexView& view, std::uint32_t v, std::uint32_t& plane_tests, IsHigher is_higher) {
   for (;;) {
     const Vertex& record = view.vertices[v];
     std::uint32_t best = v;
     for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
       const std::uint32_t w = view.half_edges[h].head;
-      if (order.compare(view.vertices[w], view.vertices[best]) > 0) best = w;
+      if (is_higher(view.vertices[w], view.vertices[best])) best = w;
     }
     plane_tests += record.ring_count;
     if (best == v) return v;
     v = best;
   }
+}
+
+std::uint32_t climb(const ConvexView& view, std::uint32_t start, Ordering order, std::uint32_t& plane_tests) {
+  return climb(view, start, plane_tests, [&](const Vertex& w, const Vertex& best) { return order.compare(w, best) > 0; });
 }
 
 }  // namespace
@@ -75,6 +80,14 @@ std::uint32_t support(const ConvexView& view, const Vec& n, std::uint32_t start,
 std::uint32_t support(const ConvexView& view, const Motion& in_common, const Vec& n, std::uint32_t start,
                       std::uint32_t& plane_tests) {
   return climb(view, start, Ordering(n, in_common), plane_tests);
+}
+
+std::uint32_t ascend(const ConvexView& view, const Vec& own, std::uint32_t start, std::uint32_t& plane_tests) {
+  double most = dot(own, vec(view.vertices[start]));
+  return climb(view, start, plane_tests, [&](const Vertex& w, const Vertex&) {
+    const double height = dot(own, vec(w));
+    return height > most ? most = height, true : false;
+  });
 }
 
 }  // namespace swiftlet

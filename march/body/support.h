@@ -17,4 +17,8 @@ std::uint32_t support(const ConvexView& view, const Vec& n, std::uint32_t start,
 std::uint32_t support(const ConvexView& view, const Motion& in_common, const Vec& n, std::uint32_t start,
                       std::uint32_t& plane_tests);
 
+/// The same in doubles, where nothing needs to be proved: a vertex that looks the highest along a direction of the body's own.
+/// Every vertex has one height, rounded: none comes twice.
+std::uint32_t ascend(const ConvexView& view, const Vec& own, std::uint32_t start, std::uint32_t& plane_tests);
+
 }  // namespace swiftlet

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "body/half_edge.h"
+#include "body/support.h"
 #include "depth/epa.h"
 #include "depth/facet_proof.h"
 #include "pair/difference.h"

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "body/support.h"
 #include "body/support_map.h"
 #include "depth/exact_hull.h"
 #include "pair/difference.h"

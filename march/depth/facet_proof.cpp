@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "body/support.h"
 #include "body/support_map.h"
 #include "pair/difference.h"
 

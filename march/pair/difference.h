@@ -27,21 +27,6 @@ static inline bool same(const Difference<Real>& p, const Difference<Real>& q) {
   return p.a == q.a && p.b == q.b;
 }
 
-/// Climbs the rings to a vertex that looks the highest along a direction of the body's own. Every vertex has one height,
-/// rounded: none comes twice.
-static inline std::uint32_t ascend(const ConvexView& view, const Vec& own, std::uint32_t v, std::uint32_t& plane_tests) {
-  for (double most = dot(own, vec(view.vertices[v]));;) {
-    const Vertex& ring = view.vertices[v];
-    const std::uint32_t from = v;
-    for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
-      const double height = dot(own, vec(view.vertices[view.half_edges[h].head]));
-      if (height > most) most = height, v = view.half_edges[h].head;
-    }
-    plane_tests += ring.ring_count;
-    if (v == from) return v;
-  }
-}
-
 /// What rounding may do to a difference and to convex combinations of differences.
 template <class Real>
 static inline double rounding(const PairView& s) {

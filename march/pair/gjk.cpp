@@ -9,72 +9,10 @@
 #include "body/half_edge.h"
 #include "numeric/exact.h"
 #include "pair/difference.h"
+#include "pair/simplex.h"
 
 namespace swiftlet {
 namespace {
-
-/// The point of a simplex nearest to the origin, as a convex combination.
-template <class Real>
-struct NearestOrigin {
-  int count = 0;
-  std::array<int, 4> index{};
-  std::array<Real, 4> weight{};
-  V3<Real> point{Real(0), Real(0), Real(0)};
-  double norm2 = std::numeric_limits<double>::infinity();
-  bool holds_origin = false;  ///< four points around it
-};
-
-/// By every subset: a candidate with weights >= 0 is a point of the simplex. The nearest is the one whose plane cuts off the
-/// least of the simplex: its norm alone is flat about the optimum, and would hide a step of 1e-9 under a rounding of 1e-17.
-template <class Real>
-NearestOrigin<Real> nearest_to_origin(const std::array<Difference<Real>, 4>& set, int count) {
-  NearestOrigin<Real> best;
-  const Real zero(0);
-  double least_cut = std::numeric_limits<double>::infinity();
-  const auto offer = [&](int n, std::array<int, 4> index, std::array<Real, 4> weight, const V3<Real>& point) {
-    const Real norm2 = dot(point, point);
-    Real cut = zero;
-    for (int i = 0; i < count; ++i) {
-      if (const Real beyond = norm2 - dot(set[i].p, point); beyond > cut) cut = beyond;
-    }
-    const double length = std::sqrt(rounded(norm2));
-    const double relative = length > 0 ? std::fmin(rounded(cut) / length, length) : 0;  // no plane proves less than 0
-    if (relative < least_cut) least_cut = relative, best = {n, index, weight, point, rounded(norm2), false};
-  };
-  for (int i = 0; i < count; ++i) offer(1, {i}, {Real(1)}, set[i].p);
-  for (int i = 0; i < count; ++i) {
-    for (int j = i + 1; j < count; ++j) {
-      const V3<Real>&p = set[i].p, u = set[j].p - p;
-      const Real length2 = dot(u, u), along = -dot(p, u);
-      if (!(along > zero && along < length2)) continue;
-      const Real t = along / length2;
-      offer(2, {i, j}, {Real(1) - t, t}, p + u * t);
-    }
-  }
-  for (int i = 0; i < count; ++i) {
-    for (int j = i + 1; j < count; ++j) {
-      for (int k = j + 1; k < count; ++k) {
-        const V3<Real>&p = set[i].p, &q = set[j].p, &r = set[k].p;
-        const V3<Real> n = cross(q - p, r - p);
-        const Real n2 = dot(n, n), wp = dot(n, cross(q, r)), wq = dot(n, cross(r, p)), wr = dot(n, cross(p, q));
-        if (!(n2 > zero && wp > zero && wq > zero && wr > zero)) continue;
-        const Real sum = wp + wq + wr;  // n2, but for rounding
-        offer(3, {i, j, k}, {wp / sum, wq / sum, wr / sum}, n * (dot(n, p) / n2));
-      }
-    }
-  }
-  if (count == 4) {
-    const V3<Real>&p = set[0].p, &q = set[1].p, &r = set[2].p, &s = set[3].p;
-    const std::array<Real, 4> w{dot(cross(q, s), r), dot(cross(p, r), s), dot(cross(p, s), q), dot(cross(p, q), r)};
-    const bool positive = w[0] > zero && w[1] > zero && w[2] > zero && w[3] > zero;
-    const bool negative = w[0] < zero && w[1] < zero && w[2] < zero && w[3] < zero;
-    if (positive || negative) {
-      const Real sum = w[0] + w[1] + w[2] + w[3];
-      best = {4, {0, 1, 2, 3}, {w[0] / sum, w[1] / sum, w[2] / sum, w[3] / sum}, {zero, zero, zero}, 0, true};
-    }
-  }
-  return best;
-}
 
 std::array<double, 3> coordinates(const Vertex& v) { return {v.x, v.y, v.z}; }
 

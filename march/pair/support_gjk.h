@@ -4,7 +4,6 @@
 // whose supports come from maps, one look-up each and no climb. Every step proves bounds. Knows one level pair.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -13,6 +12,7 @@
 #include "body/support_map.h"
 #include "pair/certify.h"
 #include "pair/pair_view.h"
+#include "pair/simplex.h"
 
 namespace swiftlet {
 
@@ -29,41 +29,6 @@ struct SupportGjk {
   std::uint32_t start_a = 0, start_b = 0;  ///< where a walk begins: the first supports that were near, else these
   bool meets = false;  ///< the pair seems to overlap: the differences of `proof`'s vertices look to hold the origin
   OverlapProof proof{};
-};
-
-/// The vertices of the Minkowski difference that a direction is taken from.
-class Simplex {
- public:
-  struct Corner {
-    Vec p, a;  ///< b - a, and a, in the common frame
-    std::uint32_t va, vb;
-  };
-  struct Nearest {
-    Vec point{0, 0, 0};          ///< to the origin
-    int count = 0;               ///< of corners that hold it; 4: the simplex holds the origin
-    std::array<int, 4> index{};  ///< ascending
-    std::array<double, 4> weight{};
-  };
-
-  bool has(std::uint32_t va, std::uint32_t vb) const;
-  /// Adds a corner and finds the nearest point, the new corner among those that hold it.
-  Nearest add(const Corner& corner);
-  /// A point of A, and from there to one of B.
-  struct Points {
-    Vec a{0, 0, 0}, apart{0, 0, 0};
-  };
-  /// Keeps what holds the nearest point; returns the points that its weights stand for: of a triangle seen as a line the
-  /// nearest point is no combination of the corners, and off by more than rounding.
-  Points reduce(const Nearest& nearest);
-  OverlapProof proof() const;
-
- private:
-  Nearest on_segment(int i, int j) const;
-  Nearest on_triangle(int i, int j, int k) const;
-  Nearest on_tetrahedron() const;
-
-  std::array<Corner, 4> corner_;
-  int count_ = 0;
 };
 
 /// What maps say along one direction, of any length.

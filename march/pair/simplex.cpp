@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pair/support_gjk.h"
+#include "pair/simplex.h"
 
 #include <limits>
 
