@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Composes a block from its sections, and reads one: headers, hashes and structure are checked before a section is believed.
 #include "body/block.h"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ static_assert(sizeof(Vertex) == 32 && sizeof(FacePlane) == 32 && sizeof(HalfEdge
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 60;  // so that sums of offsets do not overflow
 
-constexpr char kMagic[8] = {'\x89', 'S', 'W', 'L', '\r', '\n', '\x1a', '\n'};  // as PNG's: text transfer breaks it
+constexpr char kMagic[8] = {'\x89', 'S', 'W', 'L', '\r', '\n', '\x1a', '\n'};  // modelled on PNG's: a text transfer breaks it
 
 constexpr std::uint64_t aligned(std::uint64_t offset) { return (offset + 63) & ~std::uint64_t{63}; }
 
@@ -133,7 +134,7 @@ int Headers::finest(const Detail& detail) const {
 
 namespace {
 
-/// What is wrong with the numbers of a header, or nothing.
+/// An error text if a number in a header is out of range, else empty.
 std::string fault(const BlockHeader& h) {
   if (h.total_bytes > kMostBytes) return "more bytes than there can be";
   if (h.finest_level >= h.level_count) return "no level is in the block";
@@ -157,7 +158,7 @@ std::string fault(const LevelHeader& l, bool finest, bool coarsest) {
   return l.map_side > kMaxMapSide ? "has a support map whose side is out of range" : "";
 }
 
-/// Whether the sections follow one another to the end, none of a level that is left out.
+/// An error text unless the sections follow one another to the block's end and levels left out have offset 0.
 std::string layout_fault(const Headers& h) {
   std::uint64_t end = header_bytes(h.levels.size());
   bool fits = true;
@@ -177,7 +178,7 @@ std::string layout_fault(const Headers& h) {
   return end == h.block.total_bytes ? "" : "bytes after the end";
 }
 
-/// Table and source map belong to level 0.
+/// An error text unless the sections have the sizes that the headers imply. Without level 0 a block has no table or source map.
 std::string size_fault(const Headers& h) {
   std::uint64_t map_cells = 0;
   for (const LevelHeader& l : h.levels) map_cells += lut::cube_cell_count(l.map_side);
@@ -193,14 +194,14 @@ std::string size_fault(const Headers& h) {
 
 std::uint64_t end_of(const Section& section) { return section.offset + section.bytes; }
 
-/// Whether a section that the headers placed after `before` is damaged: only zeros between, and the bytes that were hashed.
+/// An error text unless all bytes from offset `before` to the section are zero and the section's bytes have its hash.
 std::string damage(std::span<const std::byte> block, std::uint64_t before, const Section& section, const std::string& name) {
   const auto gap = block.subspan(before, section.offset - before);
   if (std::any_of(gap.begin(), gap.end(), [](std::byte b) { return b != std::byte{0}; })) return "damaged before " + name;
   return hash_of(part(block, section)) == section.hash ? "" : "damaged " + name;
 }
 
-/// What the headers alone say of a level.
+/// A level with the numbers that the headers give and without arrays.
 Level described(const BlockHeader& block, const LevelHeader& l) {
   Level level;
   level.map_side = l.map_side;
@@ -216,7 +217,7 @@ Level described(const BlockHeader& block, const LevelHeader& l) {
   return level;
 }
 
-// Each takes over what a section holds and returns what is wrong with that, or nothing.
+// Each function sets spans to the arrays of a section and returns an error text, or an empty string if the section is sound.
 
 std::string take_maps(std::span<const std::byte> block, const Headers& h, std::vector<Level>& levels) {
   if (std::string f = damage(block, header_bytes(h.levels.size()), h.block.maps, "the support maps"); !f.empty()) return f;
@@ -339,7 +340,7 @@ Result<Model> BlockReader::with_levels(std::shared_ptr<Model::Content> body, int
     if (const std::string f = take_table(bytes, h, body->table); !f.empty()) return bad(f);
     if (const std::string f = take_source(bytes, h, body->source); !f.empty()) return bad(f);
   }
-  int map_level = int(body->levels.size());  // every level from the finest map on has one
+  int map_level = int(body->levels.size());  // all levels coarser than one with a map have maps
   while (map_level > 0 && body->levels[std::size_t(map_level) - 1].map_side > 0) --map_level;
   const std::span<const Level> levels = body->levels;
   return Model(std::move(body), levels, std::max(map_level, finest), finest);
@@ -367,7 +368,7 @@ BlockParts BlockReader::parts(const Model& model, int finest) {
       map_cells += lut::cube_cell_count(l.map_side);
     }
   }
-  parts.maps = copy(h.block.maps, 4 * map_cells);  // finest first
+  parts.maps = copy(h.block.maps, 4 * map_cells);  // the maps lie finest first, so these are the last
   parts.header.finest_level = std::uint32_t(finest);
   if (finest == 0) {
     parts.table = copy(h.block.table, h.block.table.bytes);

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The one block of memory that a model is, and that its file is: layout and hashes. Knows nothing of files or geometry.
+// The block of memory that makes a model, and that its file holds: layout and hashes. Knows nothing of files or geometry.
 //
 //   BlockHeader | LevelHeader x level_count | support maps | coarsest level | ... | level 0 | table | source map
 //
-// A block cut short at a level says so in its header: of the finer levels only the LevelHeaders are left, at offset 0, and
-// table and source map are empty.
+// The header of a cut block names its finest level. Of finer levels only the LevelHeaders are left, with a section offset of 0,
+// and the table and the source map are empty.
 //
 // Sections begin at multiples of 64 bytes. Little-endian, IEEE doubles. A level section holds, one after the other: Vertex[V],
 // FacePlane[P], HalfEdge[H], then 32-bit words face_first[F], child_vertex[V] child_face[F] (not on level 0),
-// parent_face[F] (not on the coarsest). The maps: 6 map_side^2 words per level, finest first, so that the one that queries
+// parent_face[F] (not on the coarsest). The maps: 6 map_side^2 words per level, finest first, so that the map that queries
 // begin with shares a page with the headers. The source section: vertex[V] face_begin[F + 1] face[...].
 #pragma once
 
@@ -27,7 +27,7 @@ namespace swiftlet {
 
 inline constexpr int kMaxLevels = 32;
 inline constexpr std::uint32_t kMaxMapSide = 64;
-inline constexpr std::uint32_t kMaxIndex = (1u << 30) - 1;  ///< what a FeatureId names
+inline constexpr std::uint32_t kMaxIndex = (1u << 30) - 1;  ///< the largest index in a FeatureId
 
 struct Section {
   std::uint64_t offset, bytes, hash;
@@ -36,14 +36,14 @@ struct Section {
 struct BlockHeader {
   char magic[8];
   std::uint32_t version, level_count;
-  std::uint64_t total_bytes, header_hash;  ///< over the headers with header_hash as 0
+  std::uint64_t total_bytes, header_hash;  ///< the hash of all headers, taken with header_hash at 0
   std::uint32_t dimension, resolution;
   double radius_factor;
   double centre[3], radius, box_min[3], box_max[3];
   Section maps, table, source;
   std::uint64_t source_face_count;
   std::uint32_t map_side;      ///< TableSpec::map_side
-  std::uint32_t finest_level;  ///< of those in the block
+  std::uint32_t finest_level;  ///< the finest level that the block holds
 };
 static_assert(sizeof(BlockHeader) == 216);
 
@@ -52,33 +52,33 @@ struct LevelHeader {
   std::uint32_t vertex_count, half_edge_count, face_count, plane_count;
   std::uint64_t edge_count, triangle_count;
   double extent, deviation, volume, edge_length;
-  std::uint32_t map_side, reserved;  ///< 0
+  std::uint32_t map_side, reserved;  ///< `reserved` is 0
 };
 static_assert(sizeof(LevelHeader) == 96);
 
 inline constexpr std::size_t kMostHeaderBytes = sizeof(BlockHeader) + kMaxLevels * sizeof(LevelHeader);
 
-/// What is known of a block before any of its sections is read.
+/// The headers of a block: all that is known before any section is read.
 struct Headers {
   BlockHeader block;
   std::vector<LevelHeader> levels;  ///< finest first
 
-  /// Bytes of the shortest beginning of the block that holds `level` and all coarser ones; the whole where it is the finest.
+  /// Bytes from the block's start to the end of `level`, after all coarser levels; all bytes if `level` is the finest.
   std::uint64_t prefix(int level) const;
-  /// The finest of the block's levels that `detail` asks for.
+  /// The finest level in the block that `detail` allows.
   int finest(const Detail& detail) const;
 };
 
-/// Whether a file of so many bytes is the whole block.
+/// An error text if a file of `bytes` bytes is not exactly the block that its headers describe, else empty.
 std::string length_fault(const Headers& headers, std::uint64_t bytes);
 
-/// Memory and who keeps it: the heap, or a mapping of a file.
+/// The bytes of a block and their owner, which is heap memory or a mapping of a file.
 struct Block {
   std::shared_ptr<const std::byte[]> owner;
-  std::span<const std::byte> bytes;  ///< from a multiple of 64 on
+  std::span<const std::byte> bytes;  ///< begins at an address that is a multiple of 64
 };
 
-/// A block to be written.
+/// Zeroed heap memory for a block that is about to be written.
 class AlignedBytes {
  public:
   explicit AlignedBytes(std::size_t size);
@@ -94,38 +94,38 @@ class AlignedBytes {
 struct Model::Content {
   Block block;
   Headers headers;
-  int finest;                 ///< of the levels whose views are ready
-  std::vector<Level> levels;  ///< finest first; of those finer than `finest` only the numbers
+  int finest;                 ///< the finest level whose view is ready
+  std::vector<Level> levels;  ///< finest first; levels finer than `finest` have numbers but no view
   SourceMap source;
   std::span<const std::uint32_t> table;
 };
 
-/// FNV-1a over 8-byte words, the last one filled with zeros. Finds damage, not malice.
+/// FNV-1a over 8-byte words, the last one filled up with zeros. It detects damage, not malice.
 std::uint64_t hash_of(std::span<const std::byte> bytes);
 
-/// The sections of a block to be. Those of levels finer than `header.finest_level` are empty, as are its table and source map.
+/// The sections from which `compose` makes a block. Levels finer than `header.finest_level` have empty sections; if there are
+/// any, the table and the source map are empty too.
 struct BlockParts {
-  BlockHeader header{};                    ///< sizes, offsets and hashes are filled in by compose
+  BlockHeader header{};                    ///< `compose` fills in sizes, offsets and hashes
   std::vector<LevelHeader> level_headers;  ///< finest first
   std::vector<std::vector<std::byte>> levels;
   std::vector<std::byte> maps, table, source;
 };
 AlignedBytes compose(const BlockParts& parts);
 
-/// The way into a Model, from the builder as from a file.
+/// Makes a Model from a block, which the builder or a file provides.
 class BlockReader {
  public:
-  /// The headers at the start of a block: their hash, numbers in range, sizes that fit the counts, sections one after the
-  /// other.
+  /// Reads the headers at the start of a block. Checks their hash, that numbers are in range, that sizes fit the counts, and
+  /// that sections follow one another.
   static Result<Headers> read_headers(std::span<const std::byte> start);
-  /// A model of a whole block.
+  /// Returns the model that a complete block holds.
   static Result<Model> read(Block block);
-  /// A model of a block's levels from `finest` on. Of the finer ones nothing is read, and they may be missing at the block's
-  /// end.
+  /// Returns a model of the block's levels from `finest` to the coarsest. Finer levels are not read, and may be cut off.
   static Result<Model> read(Block block, int finest);
-  /// The same with more levels of the block.
+  /// Returns `model` with the levels of its block from `finest` on made ready.
   static Result<Model> refined(const Model& model, int finest);
-  /// What a block of a model's levels from `finest` on is made of; these are ready.
+  /// Returns the sections for a block of the model's levels from `finest` on. These levels must be ready.
   static BlockParts parts(const Model& model, int finest);
 
  private:

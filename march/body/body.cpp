@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Constructors and corners of `Body`.
 #include <swiftlet/body.h>
 
 #include <limits>

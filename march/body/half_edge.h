@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Ways around a ConvexView: from half-edge to half-edge. Knows the data structure, nothing of coordinates.
+// Steps from half-edge to half-edge of a ConvexView. Knows the data structure, nothing of coordinates.
 #pragma once
 
 #include <cstdint>
@@ -19,37 +19,38 @@ static inline bool is_diagonal(const ConvexView& v, std::uint32_t half_edge) {
   return v.half_edges[half_edge].face == right_face(v, half_edge) && v.half_edges[half_edge].face != kNone;
 }
 
-/// One name for an edge's two half-edges: the lesser.
+/// The canonical id of a feature: an edge is named by the half-edge of lesser index.
 static inline FeatureId named(const ConvexView& v, FeatureId feature) {
   if (feature.kind() != FeatureKind::Edge || feature.index() < v.half_edges[feature.index()].twin) return feature;
   return {FeatureKind::Edge, v.half_edges[feature.index()].twin};
 }
 
-// Around a ring by arithmetic: of branches some would be guessed wrong in every ring.
+// Steps around a ring use arithmetic instead of branches, some of which would be mispredicted in every ring.
 
-/// The half-edge before `half_edge`, clockwise, in the ring of `vertex`, its origin.
+/// The half-edge before `half_edge`, clockwise, in the ring of `vertex`. `vertex` is the origin of `half_edge`.
 static inline std::uint32_t clockwise(const Vertex& vertex, std::uint32_t half_edge) {
   return half_edge - 1 + (half_edge == vertex.ring_begin) * vertex.ring_count;
 }
 
-/// The one after it, counter-clockwise.
+/// The half-edge after `half_edge`, counter-clockwise, in the ring of `vertex`. `vertex` is the origin of `half_edge`.
 static inline std::uint32_t counter_clockwise(const Vertex& vertex, std::uint32_t half_edge) {
   return half_edge + 1 - (half_edge + 1 == vertex.ring_begin + vertex.ring_count) * vertex.ring_count;
 }
 
-/// The half-edge after `half_edge` around the exact facet on its left.
+/// The half-edge that follows `half_edge` around the exact facet on its left.
 static inline std::uint32_t next_in_facet(const ConvexView& v, std::uint32_t half_edge) {
   return clockwise(v.vertices[v.half_edges[half_edge].head], v.half_edges[half_edge].twin);
 }
 
-/// The half-edge after `half_edge` around the face on its left: as in the facet, past diagonals.
+/// The half-edge that follows `half_edge` around the face on its left. A face may be made of several facets; the diagonals
+/// between them are skipped.
 static inline std::uint32_t next_in_face(const ConvexView& v, std::uint32_t half_edge) {
   std::uint32_t h = next_in_facet(v, half_edge);
   while (is_diagonal(v, h)) h = clockwise(v.vertices[origin(v, h)], h);
   return h;
 }
 
-/// Whether a feature id, of any bits, is a feature of the view.
+/// True if `h`, which may hold any bits, names a feature of `view`.
 static inline bool names_feature(const ConvexView& view, FeatureId h) {
   switch (h.kind()) {
     case FeatureKind::Vertex: return h.index() < view.vertices.size();

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
+// The members of `Model`: what its block says of it, its support vertices, and models with fewer levels or other maps.
 #include <swiftlet/model.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Saves, loads, maps and salvages model files. Knows the headers of a block; `BlockReader` reads the sections.
 #include <swiftlet/model_file.h>
 
 #include <fcntl.h>
@@ -23,7 +24,7 @@ Error named(const std::filesystem::path& path, Error error) {
   return error;
 }
 
-/// A file whose headers are in order.
+/// The checked headers of a file, and its size.
 struct File {
   Headers headers;
   std::uint64_t bytes;
@@ -41,7 +42,7 @@ Result<File> open(const std::filesystem::path& path) {
   return File{std::move(headers).value(), bytes};
 }
 
-/// A block's levels from `finest` on, in a block of their own where finer ones are left out.
+/// A model of the block's levels from `finest` on, in a block of its own if the block describes finer levels.
 Result<Model> kept(AlignedBytes block, int finest) {
   const Result<Model> model = BlockReader::read(std::move(block), finest);
   if (!model) return model.error();

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Makes the one level of a primitive: half-edges from constant tables, vertices and planes from the body.
 #include "body/shape.h"
 
 #include <algorithm>
@@ -10,15 +11,15 @@
 namespace swiftlet {
 namespace {
 
-/// The half-edges of a polytope whose faces all have as many sides. Around a vertex the half-edge that follows another is the
-/// twin of the one before that along its face.
+/// The half-edges of a polytope whose faces all have `Sides` sides. In the ring of a vertex, a half-edge h is followed by the
+/// twin of the half-edge that precedes h around its face.
 template <std::size_t Vertices, std::size_t Faces, std::size_t Sides>
 struct Topology {
   std::array<std::uint32_t, Vertices + 1> ring{};
   std::array<HalfEdge, Faces * Sides> half_edges{};
   std::array<std::uint32_t, Faces> face_first{};
 
-  /// Loops, counter-clockwise seen from outside.
+  /// `faces` lists the vertices of each face, counter-clockwise seen from outside.
   constexpr explicit Topology(const std::uint32_t (&faces)[Faces][Sides]) {
     std::uint32_t before[Vertices][Vertices] = {}, left[Vertices][Vertices] = {};
     for (std::uint32_t f = 0; f < Faces; ++f) {
@@ -57,7 +58,7 @@ constexpr Topology<3, 2, 3> kTriangle({{0, 1, 2}, {0, 2, 1}});
 constexpr Topology<4, 2, 4> kQuad({{0, 1, 2, 3}, {0, 3, 2, 1}});
 // Corners are numbered by bits: x 1, y 2, z 4.
 constexpr Topology<8, 6, 4> kBox({{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}});
-// The planes of boxes, and of quads by the axis that they are thin along.
+// The face planes of a box, and those of a flat box by the axis along which it is flat.
 constexpr FacePlane kPlanes[] = {{-1, 0, 0, 0}, {1, 0, 0, 0}, {0, -1, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}, {0, 0, 1, 0}};
 constexpr FacePlane kQuadPlanes[3][2] = {
     {{1, 0, 0, 0}, {-1, 0, 0, 0}}, {{0, 1, 0, 0}, {0, -1, 0, 0}}, {{0, 0, 1, 0}, {0, 0, -1, 0}}};
@@ -73,7 +74,7 @@ void connect(const AnyTopology& of, Primitive& primitive) {
 
 bool is_legal_coordinate(double x) { return x == 0 || (std::fabs(x) >= kLeastCoordinate && std::fabs(x) <= kMostCoordinate); }
 
-/// A segment or, where both ends are one, a point.
+/// Makes a segment or, if both ends are equal, a point. Returns the number of vertices.
 int segment(const Vertex& p, const Vertex& q, Primitive& primitive) {
   primitive.vertices[0] = p;
   if (p.x == q.x && p.y == q.y && p.z == q.z) return 1;
@@ -124,7 +125,7 @@ Box box_of(std::span<const Vertex> vertices) {
   return box;
 }
 
-/// The points that a body names, a box all corners.
+/// The points that define a primitive, in the user's order; of a box all eight corners.
 struct Named {
   int count = 0;
   std::array<Vertex, 8> points;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A body as queries read it: its levels, whoever keeps them. A primitive is one level that lies on the stack. Knows no radius.
+// A body as queries read it: its levels, without the radius around it. A model keeps its own levels; a primitive is one level
+// on the stack.
 #pragma once
 
 #include <array>
@@ -16,13 +17,13 @@ namespace swiftlet {
 /// The one level of a primitive: a point, a segment, a polygon of two sides, or a box.
 struct Primitive {
   explicit Primitive(const Body& body);
-  Primitive(const Primitive&) = delete;  ///< the level points into it
+  Primitive(const Primitive&) = delete;  ///< `level` points into this object
   Primitive& operator=(const Primitive&) = delete;
 
   bool is_legal;
   std::array<Vertex, 8> vertices;
   Level level;
-  double radius;  ///< as Model::radius
+  double radius;  ///< the largest distance of a vertex from the centre, rounded up, as Model::radius
 };
 
 class Shape {
@@ -43,8 +44,8 @@ class Shape {
     return levels_[index];
   }
   double radius() const { return model_ ? model_->radius() : primitive_->radius; }
-  Vec size() const;                              ///< of its bounding box
-  const Model* model() const { return model_; }  ///< null: a primitive
+  Vec size() const;                              ///< the sides of the bounding box
+  const Model* model() const { return model_; }  ///< null for a primitive
 
  private:
   const Level* levels_;
@@ -53,7 +54,7 @@ class Shape {
   int level_count_ = 1, finest_level_ = 0, map_level_ = 1;
 };
 
-/// The shape of a body, and what it lies in while a query runs.
+/// The shape of a body, together with the storage that a primitive's shape needs while a query runs.
 class ShapeOf {
  public:
   explicit ShapeOf(const Body& body) : shape_(body.model() ? Shape(*body.model()) : Shape(primitive_.emplace(body))) {}
@@ -66,8 +67,8 @@ class ShapeOf {
   const Shape shape_;
 };
 
-/// What of the body as the user gave it a vertex of its level 0 is: a vertex of the mesh, a point of the primitive, of a box
-/// the corner numbered by bits, x 1, y 2, z 4.
+/// The user's number of a vertex of level 0: of a model the mesh vertex, of a primitive the point in the order given, of a box
+/// the corner, numbered by bits, x 1, y 2, z 4.
 std::uint32_t source_vertex(const Body& body, const Shape& shape, std::uint32_t vertex);
 
 }  // namespace swiftlet

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Checks of the indices and the numbers of a level. Trusts no array.
 #include "body/structure.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 namespace swiftlet {
 namespace {
 
-/// Whether exact signs of products of these are exact: beyond, a climb need not end.
+/// True if the coordinates are in the range where signs of their products are exact. A climb over others might not end.
 bool in_range(std::initializer_list<double> coordinates) {
   return std::all_of(coordinates.begin(), coordinates.end(),
                      [](double x) { return x == 0 || (std::fabs(x) >= kLeastCoordinate && std::fabs(x) <= kMostCoordinate); });
@@ -53,7 +54,7 @@ std::string topology_fault(const ConvexView& v) {
     std::uint32_t h = v.face_first[f];
     do {
       if (v.half_edges[h].face != f || is_diagonal(v, h) || ++length > half_edges) return "loop of face " + std::to_string(f);
-      // As next_in_face, but a ring of nothing but diagonals ends the hunt.
+      // This step is next_in_face, but a ring that holds nothing but diagonals ends it.
       const std::uint32_t first = next_in_facet(v, h);
       const Vertex& ring = v.vertices[origin(v, first)];
       std::uint32_t tries = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the arrays of a level, whoever wrote them, are safe to walk over. Knows nothing of their layout, believes no
-// geometry.
+// Checks that the arrays of a level from an untrusted source are safe to walk over. Knows nothing of their layout in a file and
+// proves no geometry.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@
 
 namespace swiftlet {
 
-// Each returns what does not fit, or nothing.
+// Each function returns an error text, or an empty string if all is well.
 
-/// Whether rings, twins and face loops fit together, so that every walk over them stays inside and every loop closes.
+/// Checks that rings, twins and face loops fit together, so that every walk over them stays inside and every loop closes.
 std::string topology_fault(const ConvexView& view);
-/// Whether normals are of length 1 and thicknesses numbers.
+/// Checks that face normals have length 1 up to `kUnitNormalError` and that thicknesses are finite and not negative.
 std::string plane_fault(const ConvexView& view);
-/// Whether children and parents exist: the levels beside have so many vertices and faces.
+/// Checks that children and parents exist, given the numbers of vertices and faces of the finer and the coarser level.
 std::string link_fault(const Level& level, std::size_t finer_vertices, std::size_t finer_faces, std::size_t coarser_vertices);
 
 }  // namespace swiftlet

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Hill climbing to the support vertex: each step goes to the highest vertex of a ring, compared in doubles or exactly.
 #include "body/support.h"
 
 #include "body/half_edge.h"
@@ -11,15 +12,15 @@ namespace {
 
 double sum_abs(const Vec& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
 
-/// Orders the vertices of one body along a direction of the common frame, exactly: in doubles, in 106 bits where these tie (the
-/// corners of the very face that the direction is normal to), by expansions where those do.
+/// Orders the vertices of one body exactly along a direction of the common frame: in doubles; in 106 bits where doubles cannot
+/// tell, as for the corners of a face to which the direction is normal; by expansions where 106 bits cannot tell.
 class Ordering {
  public:
   explicit Ordering(const Vec& n) : n_(n), own_(n), error_(kDotError * sum_abs(n)) {}
   Ordering(const Vec& n, const Motion& motion)
       : n_(n), motion_(&motion), own_(rotate_back(motion, n)), error_(kTurnedSupportError * sum_abs(n)) {}
 
-  /// The sign of n . (w - v), w and v carried into the common frame.
+  /// The sign of n . (w - v), where the pose, if there is one, has moved `w` and `v` into the common frame.
   int compare(const Vertex& w, const Vertex& v) {
     const Vec e = vec(w) - vec(v);
     const double value = dot(own_, e), bound = error_ * sum_abs(e);
@@ -52,7 +53,7 @@ class Ordering {
   Wide wide_own_;
 };
 
-/// Climbs the rings to a vertex that none beside it is higher than. On an exactly convex body and by exact signs it is extreme.
+/// Climbs until no neighbour of the vertex is higher. On an exactly convex body and by exact signs it is the support vertex.
 template <class IsHigher>
 std::uint32_t climb(const ConvexView& view, std::uint32_t v, std::uint32_t& plane_tests, IsHigher is_higher) {
   for (;;) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The vertex of a body that is farthest in a direction, found by a climb over its edges and proved by exact signs.
+// The support vertex of a body, found by hill climbing over its edges and proved by exact signs.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,15 @@
 
 namespace swiftlet {
 
-/// The vertex farthest along n, climbed to from `start`: no vertex is farther. `plane_tests` grows by the neighbours compared.
+/// The vertex farthest along `n`, climbed to from `start`: no vertex is farther, exactly. `plane_tests` grows by the number of
+/// neighbours compared.
 std::uint32_t support(const ConvexView& view, const Vec& n, std::uint32_t start, std::uint32_t& plane_tests);
-/// Likewise of a body that a pose carries into the common frame, where n is.
+/// The vertex farthest along `n` of a body that `in_common` moves into the common frame. `n` is in the common frame.
 std::uint32_t support(const ConvexView& view, const Motion& in_common, const Vec& n, std::uint32_t start,
                       std::uint32_t& plane_tests);
 
-/// The same in doubles, where nothing needs to be proved: a vertex that looks the highest along a direction of the body's own.
-/// Every vertex has one height, rounded: none comes twice.
+/// A vertex that is about the farthest along `own`, a direction in the body's own frame. The climb compares rounded heights and
+/// proves nothing. It ends, because each vertex has one rounded height and heights only grow.
 std::uint32_t ascend(const ConvexView& view, const Vec& own, std::uint32_t start, std::uint32_t& plane_tests);
 
 }  // namespace swiftlet

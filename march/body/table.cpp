@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Brute-force nearest vertices for the table, and support vertices with their excess for the maps.
 #include "body/table.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ std::string spec_fault(const TableSpec& spec) {
 }
 
 void fill_table(BlockParts& parts, const TableSpec& spec, std::span<const Vertex> vertices) {
-  const lut::Resolution resolution = vertices.empty() ? lut::Resolution::None : spec.resolution;  // it names level 0's
+  const lut::Resolution resolution = vertices.empty() ? lut::Resolution::None : spec.resolution;  // it needs level 0
   const std::uint32_t samples = lut::sample_count(resolution);
   const Vec centre{parts.header.centre[0], parts.header.centre[1], parts.header.centre[2]};
   const double distance = spec.radius_factor * parts.header.radius;
@@ -59,7 +60,7 @@ std::uint32_t highest(std::span<const Vertex> vertices, const Vec& n) {
 std::vector<std::uint32_t> support_map(std::span<const Vertex> vertices, std::uint32_t side, double extent) {
   std::vector<std::uint32_t> cells;
   for (std::uint32_t face = 0; face < 6; ++face) {
-    std::vector<double> heights;  // of the body, at the corners of the cells
+    std::vector<double> heights;  // the body's, at the corners of the cells
     for (std::uint32_t j = 0; j <= side; ++j) {
       for (std::uint32_t i = 0; i <= side; ++i) {
         const Vec n = direction(side, face, 2 * i, 2 * j);

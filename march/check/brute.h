@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What checks are made of: supports and containment by brute force, in 106 bits or exactly, and failures in words.
+// Parts of checks: supports, gaps and containment by brute force over all vertices, in 106 bits or exactly; failure messages.
 #pragma once
 
 #include <cstdio>
@@ -29,7 +29,7 @@ Check failed(const char* format, Values... values) {
 }
 inline const Check kPassed{true, ""};
 
-/// How far vertices reach along a direction, when `place` has placed them.
+/// Returns the largest dot product of `direction` and a vertex, where `place` maps vertices to the common frame.
 template <class Placing>
 static inline DoubleDouble reach(std::span<const Vertex> vertices, const Wide& direction, Placing place) {
   DoubleDouble most = dot(direction, place(vec(vertices[0])));
@@ -38,7 +38,8 @@ static inline DoubleDouble reach(std::span<const Vertex> vertices, const Wide& d
   }
   return most;
 }
-/// Of the exact hull: as far as itself; without it, no farther than any level that encloses it.
+/// Returns how far the exact hull reaches along `direction`; if level 0 is absent, an upper bound, the least reach of the
+/// levels present, each of which encloses it.
 template <class Placing>
 static inline DoubleDouble reach(const Shape& body, const Wide& direction, Placing place) {
   DoubleDouble least = reach(body.level(body.finest_level()).view.vertices, direction, place);
@@ -48,7 +49,7 @@ static inline DoubleDouble reach(const Shape& body, const Wide& direction, Placi
   return least;
 }
 
-/// How far B, shapes or spans of vertices, stands from A along `n`, of any length.
+/// Returns the gap between A and B along `n`, which may have any length. A and B are both shapes, or both spans of vertices.
 template <class Vertices>
 static inline double gap_along(const Vertices& a, const Vertices& b, const Motion& b_in_a, const Vec& n) {
   const Wide direction = wide(n);
@@ -57,24 +58,25 @@ static inline double gap_along(const Vertices& a, const Vertices& b, const Motio
   return double(least_b - most_a) / norm(n);
 }
 
-/// R (w - v) of two vertices.
+/// Returns R (w - v), where R is the rotation of `m`.
 static inline Wide rotated(const Motion& m, const Vertex& w, const Vertex& v) {
   const Wide d = wide(vec(w)) - wide(vec(v));
   return {dot(wide(m.row_x), d), dot(wide(m.row_y), d), dot(wide(m.row_z), d)};
 }
 
-/// R (b - a) x R (c - a), off by kNormalError of its largest coordinate. Of slivers the products cancel: exactly, then.
+/// Returns R (b - a) x R (c - a), off by at most kNormalError of its largest coordinate. For slivers, whose products cancel, it
+/// is computed exactly and rounded.
 static inline Wide facet_normal(const Motion& m, const Vertex& a, const Vertex& b, const Vertex& c) {
   const Wide u = rotated(m, b, a), v = rotated(m, c, a), n = cross(u, v);
   if (max_abs(rounded(n)) >= kCancelled * max_abs(rounded(u)) * max_abs(rounded(v))) return n;
   return exact::turned_normal(m, &a.x, &b.x, &c.x);
 }
 
-/// Whether a moved body holds a point, up to `slack`: below every face's plane by then.
+/// Returns true if `p` is at most `slack` above the plane of every face of the body moved by `m`.
 static inline bool holds(const ConvexView& view, const Motion& m, const Vec& p, double slack) {
   if (view.face_first.empty() || view.vertices.size() < 4)
-    return true;  // flat bodies: the distance to them is checked by lower
-  const double outward = dot(m.row_x, cross(m.row_y, m.row_z)) < 0 ? -1 : 1;  // a reflection turns normals inside
+    return true;  // points, segments, triangles: `lower` checks the distance to them
+  const double outward = dot(m.row_x, cross(m.row_y, m.row_z)) < 0 ? -1 : 1;  // a reflection turns normals inwards
   bool inside = true;
   each_facet(view, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const Wide n = facet_normal(m, view.vertices[a], view.vertices[b], view.vertices[c]);
@@ -84,7 +86,7 @@ static inline bool holds(const ConvexView& view, const Motion& m, const Vec& p, 
   return inside;
 }
 
-/// Whether the proof names vertices of level 0 whose differences hold the origin.
+/// Checks that `proof` names vertices of `a` and `b`, views of level 0, whose differences have the origin in their hull.
 static inline Check check_proof(const ConvexView& a, const ConvexView& b, const Motion& b_in_a, const OverlapProof& proof) {
   if (proof.count != 4) return failed("overlap without a proof on level 0");
   std::array<std::array<double, 3>, 4> pa, pb;
@@ -98,39 +100,39 @@ static inline Check check_proof(const ConvexView& a, const ConvexView& b, const 
   return exact::tetrahedron_holds_origin(pa, pb, b_in_a) ? kPassed : failed("the proof does not hold the origin");
 }
 
-/// What every check of an answer knows.
+/// An answer, the bodies and pose it is about, and quantities that every check of an answer needs.
 struct Checked {
   Checked(const Body& of_a, const Body& of_b, const Pose& b_in_a, const Answer& of);
 
-  /// Whether what an answer refuses is illegal, and else radii, levels, the interval and its lower bound are right.
+  /// Checks that a refused pose, radius or body is illegal; otherwise radii, levels, the interval and a `lower` above 0.
   Check interval_holds() const;
   DoubleDouble of_hulls(double bound) const { return DoubleDouble(bound) + at.radii.a() + at.radii.b(); }
-  /// The points, on the hulls of their levels.
+  /// Returns true if the answer has both points.
   bool knows_points() const { return !answer.point_a.hasNaN() && !answer.point_b.hasNaN(); }
   Check points_lie_in_their_levels() const;
-  /// Whether the hulls are proved to overlap: by the proof's vertices, or since no plane separates them.
+  /// Checks that the hulls overlap: by the vertices of `proof`, or because no plane separates them.
   Check hulls_overlap(const OverlapProof* proof) const;
-  /// Of the exact hulls, which are no deeper than any levels around them, and shallower by no more than these deviate: at least
-  /// how deep they overlap; negative where they are apart. Infinite where all their differences lie on a line.
+  /// Returns a lower bound on the depth of the exact hulls, negative where they are apart: the depth of the finest levels less
+  /// their deviations, which is how much shallower the exact hulls may be. Infinite where all differences lie on a line.
   DoubleDouble least_depth() const;
-  /// Of the finest levels, whether the kernel's own points prove `upper`; for what has no depth.
+  /// Returns true if the points of a march on the finest levels prove that the distance is at most `upper`.
   bool is_near(double upper) const;
 
-  const Pose& pose;  ///< of B in A's frame
+  const Pose& pose;  ///< the pose of B in A's frame
   const Setting at;
   const Shape &a, &b;
   const Answer& answer;
   double stretch = 1, radii = 0;
-  Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};  ///< 0 where unknown; of the hulls
-  double touching = 0;                                      ///< law 2's bound of the bodies
-  double slack = 0;                                         ///< likewise, and of the answer's levels
-  double magnitude = 0;                                     ///< of the finest levels
-  double deviation = 0;                                     ///< of the answer's levels
+  Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};  ///< of the hulls; the normal is 0 if unknown
+  double touching = 0;                                      ///< law 2's bound for the bodies
+  double slack = 0;      ///< the larger of `touching` and law 2's bound for the answer's levels
+  double magnitude = 0;  ///< PairView::magnitude of the finest levels
+  double deviation = 0;  ///< of the answer's levels: A's plus `stretch` times B's
 };
 
-/// Of an answer as a distance.
+/// Checks an answer about a distance.
 Check check_distance(const Checked& of, const OverlapProof* proof);
-/// Of a signed answer.
+/// Checks an answer about a signed distance.
 Check check_signed(const Checked& of, const OverlapProof* proof);
 
 }  // namespace swiftlet

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Supports are maxima over all vertices: nothing here climbs. `verify`'s deviations march, and so do overlaps whose upper bound
-// no plane and no point of the answer proves.
+// Checks of distances and models. Supports are maxima over all vertices, without hill climbing. Marches are used only for the
+// deviations in `verify`, and for an overlap or an upper bound that neither planes nor the answer's points prove.
 #include <swiftlet/check.h>
 
 #include "body/support_map.h"
@@ -11,11 +11,11 @@
 namespace swiftlet {
 namespace {
 
-/// The cell of a level's support map that promises too much, or kNone: over a cell the heights above its vertex are highest at
-/// a corner.
+/// Returns a cell of the level's support map whose error bound is too small, or kNone. Corners of a cell suffice: over the cell
+/// the body's height above the cell's vertex is largest at a corner.
 std::uint32_t map_fault(const Level& level) {
   const std::uint32_t side = level.map_side;
-  std::vector<double> heights((side + 1) * (side + 1));  // of the body, at the corners of one face's cells
+  std::vector<double> heights((side + 1) * (side + 1));  // of the body, at the corners of the cells of one face
   for (std::uint32_t cell = 0; cell < lut::cube_cell_count(side); ++cell) {
     const std::uint32_t face = cell / (side * side), row = cell / side % side, column = cell % side;
     for (const std::uint32_t corner : {0, 1, 2, 3}) {
@@ -107,7 +107,7 @@ bool Checked::is_near(double upper) const {
 Check check_distance(const Checked& of, const OverlapProof* proof) {
   const Answer& answer = of.answer;
   if (!(answer.lower >= 0)) return failed("lower is %.17g of a distance", answer.lower);
-  const bool between = max_abs(of.normal) > 0;  // else the points are common ones of the hulls
+  const bool between = max_abs(of.normal) > 0;  // else the points are common to both hulls
   const double apart = norm(of.point_b - of.point_a) + of.deviation;
   if (std::isfinite(answer.upper) && of.knows_points()) {
     if (between && !(apart <= answer.upper + of.radii + 2 * of.slack))
@@ -142,7 +142,7 @@ Check verify(const Model& model) {
   for (int i = 0; i < model.level_count(); ++i) {
     const Level& level = model.level(i);
     const ConvexView& view = level.view;
-    // The arrays of this level, proved convex again from nothing.
+    // The facets of this level as plain arrays, which make_surface proves convex anew.
     std::vector<Vec3> points;
     for (const Vertex& v : view.vertices) points.emplace_back(v.x, v.y, v.z);
     std::vector<std::uint32_t> corners, sizes;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A depth by its definition: the least height of all planes that can bound the Minkowski difference, each told by exact signs.
-// Nothing here expands.
+// Checks of depths by definition: the least height of all planes that can bound the Minkowski difference, selected by exact
+// signs. No polytope is expanded.
 #include <swiftlet/check.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// v * 2^exponent.
+/// Returns v * 2^exponent.
 Wide scaled(const Wide& v, int exponent) {
   const auto scale = [&](const DoubleDouble& x) {
     return DoubleDouble(HighLow{std::ldexp(x.high, exponent), std::ldexp(x.low, exponent)});
@@ -25,7 +25,7 @@ Wide scaled(const Wide& v, int exponent) {
   return {scale(v.x), scale(v.y), scale(v.z)};
 }
 
-/// A normal or the direction of an edge at the power of two where its largest coordinate is from 1 to 2; 0 stays.
+/// A normal or the direction of an edge, scaled by a power of two so that its largest coordinate is from 1 to 2. 0 stays 0.
 struct Direction {
   Wide fine;
   Vec rough;
@@ -37,7 +37,7 @@ Direction direction(const Wide& v) {
 }
 Direction operator-(const Direction& d) { return {-d.fine, -d.rough}; }
 
-/// The sign of n . d where rounding leaves no doubt, else 0.
+/// Returns the sign of n . d, or 0 if rounding leaves it in doubt.
 int rough_side(const Vec& n, const Direction& d) {
   const double x = dot(n, d.rough);
   return x > kRoughSideError ? 1 : x < -kRoughSideError ? -1 : 0;
@@ -48,14 +48,14 @@ int side(const Direction& n, const Direction& d) {
   return x > kSideError ? 1 : x < -kSideError ? -1 : 0;
 }
 
-/// The pose at a check's scale.
+/// Returns the pose with its translation times 2^exponent and rotation entries below kLeastEntry set to 0.
 Motion scaled(const Motion& m, int exponent) {
   const auto entry = [](double x) { return std::fabs(x) < kLeastEntry ? 0 : x; };
   const auto row = [&](const Vec& r) { return Vec{entry(r.x), entry(r.y), entry(r.z)}; };
   return {row(m.row_x), row(m.row_y), row(m.row_z), rounded(scaled(wide(m.t), exponent))};
 }
 
-/// A body at a check's scale: its own vertices, and in the common frame all that planes are made of.
+/// A body scaled by 2^exponent: its vertices in its own frame, and its points, facets and edges in the common frame.
 struct Solid {
   struct Facet {
     std::array<std::uint32_t, 3> corner;
@@ -63,7 +63,7 @@ struct Solid {
   };
   struct Edge {
     std::uint32_t tail, head;
-    std::array<std::uint32_t, 2> beside;  ///< facets to the left and right; kNone of a segment
+    std::array<std::uint32_t, 2> beside;  ///< facets to the left and right; kNone for a segment
     Direction along;
   };
 
@@ -96,7 +96,7 @@ struct Solid {
   Vec rough_normal(std::uint32_t facet) const { return facet == kNone ? Vec{0, 0, 0} : facets[facet].normal.rough; }
   const double* at(std::uint32_t v) const { return &vertices[v].x; }
 
-  /// How far the body reaches along n.
+  /// Returns how far the body reaches along `n`, times the length of `n`.
   DoubleDouble height(const Direction& n) const {
     double most = -kInfinity;
     for (const Vec& p : rough_points) most = max(most, dot(n.rough, p));
@@ -117,11 +117,11 @@ struct Solid {
   std::vector<Edge> edges;
 };
 
-/// The least height of the Minkowski difference of A and B over the planes that can bound it, each parallel to a facet of A, to
-/// one of B, or to an edge of each. With e an edge of A and f one of B, N = e x f is normal to a facet of the difference, or to
-/// a plane that holds less of it, where no vertex across a facet beside e is above e along N and none beside f below f: of a
-/// convex body that shows all vertices. On the facet to the left of e, whose normal is n, N . (w - v) is -f . n up to a
-/// positive factor; on the right f . n; and on those beside f, e . n and -e . n.
+/// Finds the least height of the Minkowski difference of A and B over the planes that can bound it, each parallel to a facet of
+/// A, to a facet of B, or to an edge of each. Let e be an edge of A and f an edge of B. N = e x f is the normal of a supporting
+/// plane of the difference if no vertex of the facets beside e is above e along N, and no vertex of the facets beside f is
+/// below f; by convexity this then holds for all vertices. On the facet to the left of e, with normal n, N . (w - v) is -f . n
+/// up to a positive factor; on the right it is f . n; on the facets beside f it is e . n and -e . n.
 class LeastHeight {
  public:
   LeastHeight(const PairView& pair, int exponent)
@@ -129,7 +129,7 @@ class LeastHeight {
         b_(pair.b, scaled(pair.b_in_a, exponent), exponent),
         tie_(kHeightError / 2 * std::ldexp(pair.magnitude, exponent)) {}
 
-  /// Infinite where all differences lie on a line.
+  /// Returns the least height at the scale of the check; infinite where all differences lie on a line.
   DoubleDouble find() {
     for (const Solid* body : {&a_, &b_}) {
       for (const Solid::Facet& facet : body->facets) {
@@ -149,7 +149,7 @@ class LeastHeight {
   }
 
  private:
-  /// By more than rounding: of planes as near one will do.
+  /// Returns true if `height` is less than the least so far by more than rounding; of planes equally near, one is enough.
   bool is_lower(const DoubleDouble& height) const { return height + tie_ < least_; }
 
   void take(const Wide& n, const DoubleDouble& height) {
@@ -159,12 +159,12 @@ class LeastHeight {
   }
 
   void take(const Solid::Edge& e, const Solid::Edge& f) {
-    bool below = true, above = true;  // the vertices beside, seen along N
+    bool below = true, above = true;  // where the vertices of the facets beside e and f lie along N
     const auto may_bound = [&](int sign) {
       below = below && sign >= 0, above = above && sign <= 0;
       return below || above;
     };
-    for (const std::size_t k : {0, 1}) {  // most are no facet's, and doubles show it
+    for (const std::size_t k : {0, 1}) {  // most pairs bound nothing, which doubles show
       const int side = k == 0 ? 1 : -1;
       if (!may_bound(side * rough_side(a_.rough_normal(e.beside[k]), f.along))) return;
       if (!may_bound(side * rough_side(b_.rough_normal(f.beside[k]), e.along))) return;
@@ -186,7 +186,7 @@ class LeastHeight {
     if (above && is_lower(-height)) least_ = -height;
   }
 
-  /// The sign of n . f for a facet of A, 0 without one.
+  /// Returns the sign of n . f, where n is the normal of a facet of A; 0 if `facet` is kNone.
   int side_in_a(std::uint32_t facet, const Solid::Edge& f) const {
     if (facet == kNone) return 0;
     const auto& [corner, normal] = a_.facets[facet];
@@ -194,7 +194,7 @@ class LeastHeight {
     return exact::compare_turned_along_normal(a_.at(corner[0]), a_.at(corner[1]), a_.at(corner[2]), b_.motion, b_.at(f.head),
                                               b_.at(f.tail));
   }
-  /// The sign of n . e for a facet of B.
+  /// Returns the sign of n . e, where n is the normal of a facet of B; 0 if `facet` is kNone.
   int side_in_b(std::uint32_t facet, const Solid::Edge& e) const {
     if (facet == kNone) return 0;
     const auto& [corner, normal] = b_.facets[facet];
@@ -258,7 +258,7 @@ Check check_signed(const Checked& of, const OverlapProof* proof) {
       if (!(double(-upper - depth()) <= doubt))
         return failed("upper is %.17g, but the depth is %.17g", answer.upper, double(depth()) + of.radii);
     } else if (!proved && !(apart <= double(upper) + 2 * of.slack) && !of.is_near(answer.upper)) {
-      // A wide interval around 0 may come with the points of an overlap; any two others prove it as well.
+      // A wide interval around 0 may come with the points of an overlap; any other two points may then prove `upper`.
       return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart - of.radii);
     }
   }

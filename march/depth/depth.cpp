@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Which body is deep in which is asked of polytopes, from level pair to finer level pair: a coarse one is around the exact one,
-// so that its heights are no less, and more by no more than its deviation. Signs near 0 are those of `distance`.
+// The signed distance. The depth [van den Bergen 2001] is bounded from level pair to finer level pair: a coarse pair's
+// Minkowski difference encloses the exact one, so its heights are no less, and exceed the exact ones by at most its deviation.
+// Near 0 `distance` decides the sign. Knows levels and seeds.
 #include <swiftlet/depth.h>
 
 #include <algorithm>
@@ -26,15 +27,15 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What is asked: an interval narrow enough, or on which side of a threshold.
+/// What is asked of a depth: an interval that is narrow enough, or the side of a threshold that the depth is on.
 struct DepthTarget {
   double absolute = 0, relative = 0;
-  double depth = -1;  ///< the threshold where it is not negative
+  double depth = -1;  ///< the threshold; negative: there is none
   bool is_threshold() const { return depth >= 0; }
   bool is_exact() const { return absolute == 0 && relative == 0 && !is_threshold(); }
 };
 
-/// The vertices of a feature in order, of a large face the first four.
+/// The vertices of a feature in order; of a face with more than four, the first four.
 struct Span {
   int count = 0;
   std::array<std::uint32_t, 4> vertex{};
@@ -52,7 +53,7 @@ Span span_of(const ConvexView& view, FeatureId feature) {
   return span;
 }
 
-/// From level pair to finer level pair until the target is met.
+/// The search for the depth, from level pair to finer level pair until the target is met.
 class Deepening {
  public:
   Deepening(const Setting& at, const Limits& limits, const DepthTarget& target)
@@ -67,12 +68,13 @@ class Deepening {
         finest_a_(pair_.finest_a),
         finest_b_(pair_.finest_b) {}
 
-  /// `floor`: at most 0, as DepthGoal's. `visited`: level pairs that are in the trace already.
+  /// `floor`: as `DepthGoal::floor`. `visited`: the number of level pairs that are in the trace already.
   void run(const PairSeed& seed, double floor = 0, int visited = 0) {
     floor_ = floor;
     levels_visited = visited;
     lower = -kInfinity, upper = kInfinity;
-    // No farther than their centres and radii allow: a pair that deviates by more than that allows cannot answer.
+    // The depth is at most `most`, by the centres and bounding radii. A pair whose deviation exceeds the width allowed at that
+    // depth cannot answer.
     double most = a_.radius() + pair_.stretch * b_.radius() - norm(line_.in_a);
     place_ = target_.is_exact() ? Place{finest_a_, finest_b_, {}} : coarsest_place(a_, b_);
     near_ = seed.met && seed.level_a < a_.level_count() && seed.level_b < b_.level_count() &&
@@ -102,10 +104,10 @@ class Deepening {
     if (end == DepthEnd::Budget) return Status::Budget;
     return place_.level_a == 0 && place_.level_b == 0 ? Status::NotConverged : Status::LevelLimit;
   }
-  /// Overlapping for certain, and not to be taken for touching.
+  /// True if the depth is surely above law 2's bound: the bodies overlap and do not count as touching.
   bool proved() const { return lower > law_two_; }
 
-  /// With `floor`, where the depth has no other bound.
+  /// True if the bounds are narrow enough, with `floor` as the lower bound if that is better.
   bool narrow(double floor) const { return upper - max(lower, floor) <= max(target_.absolute, law_two_); }
 
   void store(PairSeed& seed) const {
@@ -118,7 +120,7 @@ class Deepening {
   const ModelPair& pair() const { return pair_; }
 
   DepthEnd end = DepthEnd::NotConverged;
-  double lower = -kInfinity, upper = kInfinity;  ///< of the depth of the exact hulls
+  double lower = -kInfinity, upper = kInfinity;  ///< bounds on the depth of the exact hulls
   Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};
   bool has_points = false;
   FeatureId feature_a, feature_b;
@@ -133,8 +135,8 @@ class Deepening {
     return upper - max(lower, floor_) <= max(max(target_.absolute, target_.relative * lower), law_two_);
   }
 
-  /// The line of centres, or where maps show the difference of the bodies lower, across the thinner side of either's box;
-  /// `most` becomes its height, if that is less.
+  /// The direction along which support maps show the Minkowski difference lowest: the line of centres, or the axis across the
+  /// thinnest side of either body's box. Without maps, the line of centres. `most` becomes that height if it is less.
   Vec lowest_seen(double& most) const {
     const auto across = [](const Shape& body) { return least_axis(body.size()); };
     const ConvexView &view_a = a_.level(finest_a_).view, &view_b = b_.level(finest_b_).view;
@@ -151,7 +153,8 @@ class Deepening {
     return lowest;
   }
 
-  /// Pairs of the features' vertices, around what they span; and the direction between the features.
+  /// The start of a search at two features: `direction`, and the pairs of their vertices, in order around the polygon that the
+  /// differences make. If there were more than four pairs, only the first vertex of B's feature is paired.
   static DepthStart start_at(const PairView& pair, const MarchStart& features, const Vec& direction) {
     DepthStart s;
     s.direction = direction;
@@ -170,8 +173,8 @@ class Deepening {
     return s;
   }
 
-  /// Where the depth is locally least: B is moved along a direction until it is free, and whatever is nearest then names the
-  /// next direction. Proves nothing.
+  /// Searches for a local minimum of the depth: B is moved along a direction until it is free, and the features nearest then
+  /// give the next direction. Proves nothing.
   DepthStart local_least(const PairView& pair, const Level& of_a, const Level& of_b, MarchStart at, const Vec& direction) {
     Vec n = normalised(direction);
     const Resting body = body_a(pair);
@@ -210,7 +213,7 @@ class Deepening {
     }
     return start_at(pair, settled(pair, at, plane_tests), n);
   }
-  /// Whether the point nearest to the origin lies within a polygon.
+  /// True if the origin, seen along `s.direction`, lies within the polygon of the differences of the vertex pairs.
   static bool stands_over(const PairView& pair, const DepthStart& s) {
     std::array<Vec, 4> p;
     for (std::size_t k = 0; int(k) < s.count; ++k) p[k] = body_a(pair).point(s.a[k]) - body_b(pair).point(s.b[k]);
@@ -221,7 +224,8 @@ class Deepening {
     return left == 0 || left == s.count;
   }
 
-  /// At the seed's features, at the local least from there, or wherever it is: ever dearer.
+  /// The depth of one level pair: proved at the seed's features, else at the local minimum from there, else found by EPA. Each
+  /// costs more than the one before.
   Depth depth_of(const PairView& pair, const Level& of_a, const Level& of_b, const PairSeed& seed, const Vec& direction,
                  DepthGoal goal) {
     const auto confirmed = [&](const DepthStart& at, Depth& found) {
@@ -241,7 +245,7 @@ class Deepening {
       at = local_least(pair, of_a, of_b, features, direction);
       if (confirmed(at, found)) return found;
     }
-    if (goal.error > 0) at = {}, at.direction = direction;  // of a coarse pair bounds are wanted, and no facet
+    if (goal.error > 0) at = {}, at.direction = direction;  // on a coarse pair bounds are wanted, and no facet
     goal.step_budget = budget_.steps - std::min(steps, budget_.steps);
     found = epa(pair, of_a, of_b, at, goal, plane_tests);
     return steps += found.steps, found;
@@ -267,7 +271,7 @@ class Deepening {
       feature_a = feature_of(of_a.view, found.active, found.active.a);
       feature_b = feature_of(of_b.view, found.active, found.active.b);
     }
-    if (error > 0 || !target_.is_exact()) return;  // not on the surface
+    if (error > 0 || !target_.is_exact()) return;  // the points need not lie on the surfaces
     feature_a = feature_at_a(pair, feature_a, point_a, plane_tests);
     feature_b = feature_at_b(pair, feature_b, point_b, plane_tests);
   }
@@ -281,16 +285,16 @@ class Deepening {
   const double law_two_;
   const int finest_a_, finest_b_;
   double floor_ = 0;
-  bool near_ = false;  ///< to the seed's pose
+  bool near_ = false;  ///< the pose is near the seed's, where the bodies overlapped
   Place place_{};
 };
 
-/// The depth found, as a signed distance of at most `upper`; what it lacks stays.
+/// Writes the depth found into `s`: minus its upper bound is `lower`; normal, levels, points and features as far as known.
 void take(const Deepening& deep, Answer& s) {
   s.lower = -deep.upper;
   s.normal = eigen(deep.normal);
   s.level_a = std::int16_t(deep.level_a), s.level_b = std::int16_t(deep.level_b);
-  if (deep.has_points && s.verdict != Verdict::Touching) {  // those of a distance of 0 are as near, on any shape
+  if (deep.has_points && s.verdict != Verdict::Touching) {  // a touching answer's own are as near, on any shape
     s.point_a = eigen(deep.point_a), s.point_b = eigen(deep.point_b);
     s.feature_a = deep.feature_a, s.feature_b = deep.feature_b;
   }
@@ -302,7 +306,7 @@ void add_work(const Deepening& deep, Answer& s) {
   s.levels_visited = std::uint8_t(std::max(int(s.levels_visited), deep.levels_visited));
 }
 
-/// One interval of a distance that is not surely above 0 and of the depth.
+/// Joins `s`, the answer of a distance that is not surely above 0, and the depth into one interval.
 void join(const Deepening& deep, Answer& s, OverlapProof& proof, PairSeed& seed) {
   const bool overlapping = deep.proved() || s.verdict == Verdict::Overlapping;
   if (s.status == Status::Converged) s.status = deep.status();
@@ -313,7 +317,7 @@ void join(const Deepening& deep, Answer& s, OverlapProof& proof, PairSeed& seed)
   if (overlapping) deep.store(seed);
 }
 
-/// A distance whose bound was 0, of bodies that a plane of the depth turned out to separate.
+/// Completes the answer of a distance with lower bound 0 whose bodies are separated by a plane that the depth found.
 void part(const Deepening& deep, Answer& s) {
   s.verdict = Verdict::Disjoint;
   s.lower = -deep.upper;
@@ -321,7 +325,8 @@ void part(const Deepening& deep, Answer& s) {
   s.normal = eigen(deep.normal);
 }
 
-/// Bounds of a touching pair that law 2 allows one by one and not together: 106 bits narrow that of the distance.
+/// Narrows the upper bound of a touching pair's distance in 106 bits, for when law 2 allows the bounds of distance and depth
+/// one by one, but not together.
 void sharpen(const ModelPair& pair, Answer& s) {
   const Place place{s.level_a, s.level_b, {s.feature_a, s.feature_b}};
   const PairView view = pair.view_at(place);
@@ -331,7 +336,7 @@ void sharpen(const ModelPair& pair, Answer& s) {
   s.upper = max(s.lower, min(s.upper, c.upper + pair.deviation(s.level_a, s.level_b)));
 }
 
-/// What the depth alone says.
+/// Fills an answer by the depth alone, without a distance.
 void overlap_part(const Deepening& deep, Answer& s) {
   s.normal.setZero();
   s.status = deep.status();
@@ -342,7 +347,7 @@ void overlap_part(const Deepening& deep, Answer& s) {
   add_work(deep, s);
 }
 
-/// An answer of the hulls as one of the bodies.
+/// Turns a signed answer about the hulls, and its trace, into those about the bodies.
 void finish(const Setting& at, const Limits& limits, OverlapProof& proof, Answer& s) {
   s.is_signed = true;
   if (!(s.lower > -kInfinity)) s.normal.setZero();
@@ -351,7 +356,7 @@ void finish(const Setting& at, const Limits& limits, OverlapProof& proof, Answer
   seal(at.radii, proof, limits.tuning, s);
 }
 
-/// Bounds of a distance say nothing of a depth.
+/// Sets the lower bounds of a trace that are not above 0 to -infinity: a distance of 0 says nothing of the depth.
 void make_signed(std::span<LevelRecord> trace, int visited) {
   for (LevelRecord& record : trace.first(std::min(trace.size(), std::size_t(visited)))) {
     if (!(record.lower > 0)) record.lower = -kInfinity;
@@ -384,9 +389,9 @@ Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, PairSee
   answer.levels_visited = std::uint8_t(answer.levels_visited + visited);
   if (!(answer.lower > 0)) {
     const bool touching = answer.verdict == Verdict::Touching;
-    PairSeed here = touching ? seed : PairSeed{};  // where bodies met, they need not be deepest
+    PairSeed here = touching ? seed : PairSeed{};  // features at which bodies overlap need not be the deepest
     here.met = touching;
-    const double floor = -answer.upper;  // the distance bounds the depth
+    const double floor = -answer.upper;  // the depth is at least minus the distance's upper bound
     if (deep.end != DepthEnd::Apart && (deep.steps == 0 || !deep.narrow(floor))) deep.run(here, floor, answer.levels_visited);
     if (deep.end == DepthEnd::Apart)
       part(deep, answer);

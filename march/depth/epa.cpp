@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The expanding polytope algorithm [van den Bergen 2001]. The polytope is the exact convex hull of points of the Minkowski
-// difference M, put on a grid: it is convex and closed whatever the points, so its lowest facet proves a lower bound, less what
-// the grid moved. The support of M along that facet's normal proves an upper bound, and is the next point where it is above the
-// facet. Where it is not, both bounds agree up to rounding: no arrangement of facets, however nearly coplanar, ends otherwise.
+// difference M, rounded to a grid. It is convex and closed whatever the points, so its lowest facet proves a lower bound, less
+// what the grid moved the points by. The support of M along that facet's normal proves an upper bound. If the support is above
+// the facet, it is the next point; if not, both bounds agree up to rounding, however nearly coplanar the facets are.
 #include "depth/epa.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A cone of directions: the span of three corners of a cell of the octahedron, counter-clockwise from outside.
+/// A cone of directions spanned by `x`, `y` and `z`, counter-clockwise seen from outside: mostly a cell of the octahedron.
 struct Cone {
   Vec x, y, z;
 };
@@ -29,7 +29,7 @@ struct Plane {
   Vec normal{0, 0, 0};
 };
 
-/// A point of M on the grid, and the vertex pair that it is the difference of; of a point far off M none.
+/// A point of M rounded to the grid, and the vertex pair whose difference it is; kNone for both at a point far off M.
 struct Corner {
   Vec p;
   std::uint32_t a, b;
@@ -41,8 +41,8 @@ struct Foot {
   Wide point;
 };
 
-/// Of a triangle whose plane is `height` above the origin: inside it, or on an edge, whichever is nearer: of slivers the
-/// weights inside may be noise.
+/// The foot on a triangle whose plane is `height` above the origin: the point inside, if it is as near as the plane; else the
+/// nearest of that and the points on the edges, because the weights inside a sliver may be noise.
 Foot foot_on(const Wide& a, const Wide& b, const Wide& c, double height) {
   const DoubleDouble zero(0), one(1);
   const Wide n = cross(b - a, c - a);
@@ -69,12 +69,12 @@ Foot foot_on(const Wide& a, const Wide& b, const Wide& c, double height) {
 /// How an expansion ended.
 enum class End : std::uint8_t {
   Enough,     ///< the goal is met
-  TooCoarse,  ///< it cannot be, on these levels
+  TooCoarse,  ///< the goal cannot be met on these levels
   Apart,
   Budget,
   Full,   ///< no room for another point
-  Stuck,  ///< rounding took more than its bound: never seen
-  Flat,   ///< M has no volume that the grid shows
+  Stuck,  ///< rounding exceeded its bound: never seen
+  Flat,   ///< M has no volume on the grid
 };
 
 class Polytope {
@@ -89,8 +89,8 @@ class Polytope {
         binade_(std::ldexp(1, std::ilogb(max(pair.magnitude, kLeastWidth)))),
         moved_((kGridError + kPlaneHeightFloor) * pair.magnitude) {}
 
-  /// From the start's polygon, a point beyond each of its sides and one below: what proves a depth is often no more. False
-  /// where M is flat on the grid: planes were found that say so.
+  /// Begins with the start's polygon, a point beyond each of its sides and one off its plane: often these prove the depth.
+  /// Returns false if M is flat on the grid; the supporting planes found then bound the depth.
   bool begin(const DepthStart& start) {
     lower_ = 0;
     std::array<Corner, 9> found;
@@ -106,7 +106,7 @@ class Polytope {
     }
     rim_ = count;
     Vec n = exact::plane(found[0].p, found[1].p, found[2].p).normal;
-    const double turn = dot(n, hint) < 0 ? -1 : 1;  // in which sense the polygon goes around a normal on the hint's side
+    const double turn = dot(n, hint) < 0 ? -1 : 1;  // 1: the polygon is counter-clockwise seen from the hint's side
     n = n * turn;
     Corner apex;
     if (!leave_plane(-n, {found[0], found[1], found[2]}, apex)) return false;
@@ -120,8 +120,8 @@ class Polytope {
     return true;
   }
 
-  /// From M and three points far away that no direction of the cone sees above the origin: over the cone the hull's heights are
-  /// those of M, elsewhere no less.
+  /// Begins with one point of M and three far ones that are not above the origin along any direction of the cone. Along
+  /// these directions the hull of M and the far points is as high as M; elsewhere it is no lower.
   bool begin(const Cone& cone) {
     lower_ = 0, rim_ = 0;
     std::array<Corner, 4> corners{support(normalised(cone.x + cone.y + cone.z), 0, 0)};
@@ -136,9 +136,9 @@ class Polytope {
     return true;
   }
 
-  /// Adds the support of the lowest facet until the goal is met and the plane is that of the nearest point: of several facets
-  /// as low, points and plane are to be of one. With `bounds_only` it is any plane. `lowest`: no lower bound above it counts,
-  /// for it is one over more directions than these.
+  /// Adds the support along the lowest facet's normal until the goal is met and, unless `bounds_only`, the best plane is that
+  /// of the facet with the nearest point: of several facets as low, points and plane must belong to one. `lowest` is a lower
+  /// bound over more directions than this polytope's; no higher one is used.
   End grow(bool bounds_only = false, double lowest = kInfinity) {
     for (;;) {
       int next = hull_.lowest();
@@ -176,14 +176,14 @@ class Polytope {
     }
   }
 
-  /// Proved of the heights of M, over all directions or the cone; 0 before anything is.
+  /// A proved lower bound on the heights of M, over all directions or the cone; 0 before one is proved.
   double lower() const { return lower_; }
   const Plane& best() const { return best_; }
   bool exact() const { return exact_; }
   std::uint32_t steps() const { return steps_; }
   bool narrow(double lower) const { return suffices(best_.height, lower); }
 
-  /// The points that the nearest point is the difference of.
+  /// Writes to `depth` the witness points whose difference is the nearest point, their vertex pairs and weights.
   void witness(Depth& depth) {
     const NearestFacet nearest = nearest_point();
     const HullFacet& facet = hull_.facet(nearest.facet);
@@ -211,12 +211,12 @@ class Polytope {
   };
 
   bool suffices(double upper, double lower) const { return goal_.suffices(upper, lower, pair_.law_two); }
-  /// A proved lower bound of M's height where the hull's is `height`.
+  /// A proved lower bound on the height of M if that of the hull's lowest facet is `height`.
   double below(double height) const { return height - (kPlaneHeightError * std::fabs(height) + moved_); }
 
   // ---- Points of M ----
 
-  /// The nearest point whose coordinates are multiples of 2 u of the binade.
+  /// The nearest point whose coordinates are multiples of 2 u * `binade_`.
   Vec on_grid(const Vec& p) const {
     const auto snapped = [this](double x) {
       const double anchor = std::copysign(binade_, x);
@@ -231,7 +231,7 @@ class Polytope {
   bool is_far(const HullFacet& f) const {
     return vertex_pair_[f.corner[0]].a == kNone || vertex_pair_[f.corner[1]].a == kNone || vertex_pair_[f.corner[2]].a == kNone;
   }
-  /// Whether a facet is of the start's polygon: mostly M's own.
+  /// True if a facet is part of the start's polygon, which is mostly a facet of M.
   bool is_starts(const HullFacet& f) const {
     return std::all_of(f.corner.begin(), f.corner.end(), [&](std::uint8_t k) { return of_start(k); });
   }
@@ -241,15 +241,15 @@ class Polytope {
     last_ = plane;
     if (last_.height < best_.height) best_ = last_;
   }
-  /// A vertex pair highest along unit n, climbed to from what a map says or the vertices given; the plane there is kept if it
-  /// is the best.
+  /// The vertex pair highest along unit `n`, by hill climbing from the maps' vertices or from `a` and `b`, whichever are
+  /// higher. Its plane becomes `last_`, and `best_` if it is lower.
   Corner support(const Vec& n, std::uint32_t a, std::uint32_t b) {
     ++steps_;
     const Supports s = supports(pair_, n, higher(level_a_, n, a), higher(level_b_, body_b(pair_).into(-n), b), plane_tests_);
     take({-s.lower, n});
     return corner_of(s.a, s.b);
   }
-  /// The same by exact comparisons, its height in 106 bits.
+  /// As `support`, but climbs from `a` and `b` by exact comparisons and computes the height in 106 bits.
   Corner support_exactly(const Vec& n, std::uint32_t a, std::uint32_t b) {
     ++steps_;
     a = support_a(pair_, n, a, plane_tests_), b = support_b(pair_, n, b, plane_tests_);
@@ -257,12 +257,12 @@ class Polytope {
     take({height + (kGapError * std::fabs(height) + kDoubleDoubleError * pair_.magnitude), n});
     return corner_of(a, b);
   }
-  /// A vertex pair about as high, as maps know it; without maps by a climb from another.
+  /// A vertex pair that is nearly the highest along `n`, by the support maps; without maps by hill climbing from `from`.
   Corner about_highest(const Vec& n, const Corner& from) {
     if (level_a_.map_side == 0 || level_b_.map_side == 0) return climb(n, from.a, from.b);
     return corner_of(look_up(level_a_, n).vertex, look_up(level_b_, body_b(pair_).into(-n)).vertex);
   }
-  /// A vertex pair about as high along n as there is one, which proves nothing.
+  /// A vertex pair that looks the highest along `n`, by hill climbing in doubles. Proves nothing.
   Corner climb(const Vec& n, std::uint32_t a, std::uint32_t b) {
     ++steps_;
     const Vec own = body_b(pair_).into(-n);
@@ -290,14 +290,14 @@ class Polytope {
     const Vec u = normalised(found[1].p - found[0].p), v = normalised(cross(u, least_axis(u)));
     return first_of({v, cross(u, v)}, found[0], found[2], leaves_line);
   }
-  /// A point of M off the plane of three corners; where there is one below it along `direction`, that.
+  /// Finds a point of M off the plane of three corners, along `direction` if there is one, else against it; false if M is flat.
   bool leave_plane(const Vec& direction, const std::array<Corner, 3>& of, Corner& apex) {
     const auto leaves = [&](const Corner& c) { return exact::orientation(of[0].p, of[1].p, of[2].p, c.p) != 0; };
     apex = about_highest(direction, of[0]);
     return leaves(apex) || first_of({direction}, of[0], apex, leaves);
   }
-  /// The first support along one of these directions, or against it, that serves. Where none does M is flat, and its exact
-  /// heights are all that is known of it.
+  /// Finds the first support along or against one of `directions` for which `serves` is true, in doubles, then exactly. Returns
+  /// false if there is none: M is flat, and its exact heights are all that is known of it.
   template <class Serves>
   bool first_of(std::initializer_list<Vec> directions, const Corner& from, Corner& found, Serves serves) {
     for (const Vec& n : directions) {
@@ -323,7 +323,7 @@ class Polytope {
 
   // ---- The facets ----
 
-  /// The point of the surface nearest to the origin: none of a facet higher than the best plane is.
+  /// The point of the polytope's surface nearest to the origin. A facet higher than `best_` by over law 2's bound is skipped.
   NearestFacet nearest_point() {
     const int lowest = hull_.lowest();
     NearestFacet best{lowest, foot_of(hull_.facet(lowest))};
@@ -338,14 +338,14 @@ class Polytope {
   Foot foot_of(const HullFacet& f) const {
     return foot_on(wide(hull_.corner(f.corner[0])), wide(hull_.corner(f.corner[1])), wide(hull_.corner(f.corner[2])), f.height);
   }
-  /// One of a facet's that is no far point, or else any of M.
+  /// A corner of the facet that is a point of M, or if all are far points, corner 0, which is one.
   Corner nearest_corner(const HullFacet& f) const {
     for (const std::uint8_t k : f.corner) {
       if (vertex_pair_[k].a != kNone) return corner(k);
     }
     return corner(0);
   }
-  /// Whether a corner is a way on, and no plane through it is wanted for its own sake.
+  /// True if adding `c` makes the polytope grow above `facet`, and the supporting plane along its normal is not needed.
   bool leads_on(int facet, const Corner& c) const {
     const double height = dot(hull_.facet(facet).normal, c.p);
     return height > max(0, goal_.shallower) && (exact_ || !suffices(height, lower_)) && hull_.sees(facet, c.p);
@@ -355,18 +355,18 @@ class Polytope {
   const Level &level_a_, &level_b_;
   const DepthGoal& goal_;
   std::uint32_t& plane_tests_;
-  const bool exact_;     ///< the facet itself is wanted: bounds that are narrow leave its plane room to lean
-  const double binade_;  ///< the power of two below the magnitude
-  const double moved_;   ///< by so much more the hull may be higher than M
+  const bool exact_;     ///< the facet itself is wanted: narrow bounds alone leave its plane room to lean
+  const double binade_;  ///< the largest power of two that is at most the magnitude
+  const double moved_;   ///< bound on what the grid and the rounding of planes add to the hull's heights
   double lower_ = 0;
-  int rim_ = 0;  ///< corners of the start's polygon
+  int rim_ = 0;  ///< number of corners of the start's polygon
   std::uint32_t steps_ = 0;
-  Plane best_, last_;  ///< of all supports, and of the last
+  Plane best_, last_;  ///< the lowest supporting plane found, and the last one
   ExactHull hull_;
   std::array<VertexPair, ExactHull::kMostPoints> vertex_pair_;
 };
 
-/// A cone in four.
+/// Divides a cone into four.
 std::array<Cone, 4> quarters(const Cone& c) {
   const Vec xy = (c.x + c.y) * 0.5, yz = (c.y + c.z) * 0.5, zx = (c.z + c.x) * 0.5;
   return {{{c.x, xy, zx}, {xy, c.y, yz}, {zx, yz, c.z}, {xy, yz, zx}}};
@@ -374,7 +374,7 @@ std::array<Cone, 4> quarters(const Cone& c) {
 
 bool ends_all(End end) { return end == End::TooCoarse || end == End::Apart || end == End::Budget; }
 
-/// Bounds the heights over a cone from below, by a polytope of its own or of each of its parts.
+/// Lowers `lower` to a proved bound on the heights over a cone: by one polytope, or if that is full, by one for each quarter.
 End cover(Polytope& polytope, const Cone& cone, int depth, double& lower) {
   End end = polytope.begin(cone) ? polytope.grow(true) : End::Flat;
   if (end == End::Full && depth < kDepthCells) {
@@ -389,7 +389,7 @@ End cover(Polytope& polytope, const Cone& cone, int depth, double& lower) {
   return end;
 }
 
-/// All directions, one octant after the other.
+/// Covers all directions, octant by octant; `lower` becomes the lower bound, or 0 if the search ends early.
 End cover_all(Polytope& polytope, double& lower) {
   End end = End::Enough;
   lower = kInfinity;
@@ -421,7 +421,7 @@ Depth epa(const PairView& pair, const Level& a, const Level& b, const DepthStart
     end = cover_all(polytope, depth.lower);
     depth.lower = max(0, depth.lower);
     has_facets = polytope.begin(about(polytope.best().normal));
-    if (has_facets) polytope.grow(false, depth.lower);  // its facet again, for the points
+    if (has_facets) polytope.grow(false, depth.lower);  // finds the best plane's facet again, for the points
   }
   if (has_facets) polytope.witness(depth);
   if (end == End::Enough || (end == End::Flat && polytope.narrow(0))) depth.end = DepthEnd::Converged;

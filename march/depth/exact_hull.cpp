@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
+// The convex hull of few points by exact signs [Preparata & Shamos 1985, sec. 3.4.3]. Knows points, nothing of bodies.
 #include "depth/exact_hull.h"
 
 #include <bitset>
@@ -15,7 +16,7 @@ constexpr std::size_t after(std::size_t e) { return e == 2 ? 0 : e + 1; }
 
 }  // namespace
 
-/// By doubles, the height less all that they may be off by; slivers at once sharp.
+/// Computes the plane of a new facet in doubles, its height less the error bound; a sliver is made sharp at once.
 void ExactHull::stand(HullFacet& f) const {
   const Vec &p = corner_[f.corner[2]], u = corner_[f.corner[0]] - p, v = corner_[f.corner[1]] - p, n = cross(u, v);
   const double area = norm(n), error = kCrossError * std::sqrt(dot(u, u) * dot(v, v));
@@ -52,7 +53,7 @@ void ExactHull::begin(const std::array<Vec, 4>& points) {
   for (std::size_t k = 0; k < 4; ++k) corner_[k] = points[k];
   corner_count_ = 4, facet_count_ = 4, free_count_ = 0;
   const bool turned = exact::orientation(points[0], points[1], points[2], points[3]) > 0;
-  // Facet k lies opposite corner k; across its edges lie the facets opposite the corners that these lack.
+  // Facet k lies opposite corner k. Across an edge of facet k lies the facet opposite the corner that this edge leaves out.
   static constexpr Index kCorner[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
   for (std::size_t k = 0; k < 4; ++k) {
     HullFacet& f = facet_[k];
@@ -91,7 +92,7 @@ int ExactHull::add(const Vec& p, int facet) {
     for (const Index beside : facet_[seen[i]].beside) visit(beside);
   }
 
-  // The border of what is seen, an edge from each of its corners.
+  // The border of the seen facets: entry k is the border's edge from corner k.
   struct Edge {
     Index to, outer;
   };
@@ -108,7 +109,7 @@ int ExactHull::add(const Vec& p, int facet) {
     free_[std::size_t(free_count_++)] = seen[i];
   }
 
-  // A cone over it, facet after facet; the last is beside the first.
+  // The cone over the border, facet after facet; the last is beside the first.
   const auto place = [&] { return Index(free_count_ > 0 ? free_[std::size_t(--free_count_)] : facet_count_++); };
   const Index begin = place();
   Index current = begin, from = first;

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A closed surface of triangles between points of the Minkowski difference M that all have the origin surely below them winds
-// around it: every ray from there leaves through a triangle, no nearer than the nearest plane that has the triangle above it,
-// and M is convex. The surface is the facet asked about, a point beyond each of its sides, and what closes it below:
+// A proof of depth. If the origin is surely below every triangle of a closed surface between points of the Minkowski difference
+// M, the surface winds around the origin: every ray from there leaves through a triangle, no nearer than the lowest of the
+// triangles' planes. M is convex, so the height of that plane is a lower bound on the depth. The surface is made of the facet
+// asked about, a point beyond each of its sides, and triangles that close it below:
 //
-//        r1                r: the ring, far below the facet p where the overlap is shallow. Its triangles may be
-//       / : \              degenerate where two of it are one point.
+//        r1                r: the ring, far below the facet p if the overlap is shallow. Its triangles may be
+//       / : \              degenerate, if two points of the ring coincide.
 //     p1-----p2
 //    / | p   | \           .
 //   r0-p0---p3-r2
@@ -26,7 +27,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 using Corner = Difference<double>;
 
-/// A polygon between points of M, counter-clockwise along its unit normal; below it a ring of more.
+/// A polygon between points of M, counter-clockwise seen from where its unit normal points, and a ring below it.
 class FacetRing {
  public:
   FacetRing(const PairView& pair, const DepthStart& start) : pair_(pair), rim_(start.count) {
@@ -43,11 +44,11 @@ class FacetRing {
 
   const Vec& normal() const { return normal_; }
   double height() const { return height_; }
-  double lower() const { return height_ - pair_.point_error; }  ///< proved
+  double lower() const { return height_ - pair_.point_error; }  ///< `height()` less the rounding bound
   const Corner& operator[](std::size_t k) const { return p_[k]; }
 
-  /// Finds the point that the origin is under, as the vertex pairs it is of, and returns how far it is from where the normal
-  /// leads; infinite where there is none.
+  /// Finds the point of the polygon over the origin and returns its distance from `normal()` * `height()`; infinite if there is
+  /// none. Within law 2's bound, the point's vertex pairs, weights and witness points are written to `depth`.
   double stand(Depth& depth) const {
     if (!flat_) return kInfinity;
     std::array<std::size_t, 3> of{0, 1, 2};
@@ -73,8 +74,8 @@ class FacetRing {
     return off;
   }
 
-  /// Puts a point beyond each side, less far the nearer that is to the nearest point; whether what closes the surface below the
-  /// polygon is no nearer than it, and goes around the origin as it should.
+  /// Looks for a point of the ring beyond each side of the polygon, leaning out less the nearer the side is to the nearest
+  /// point. True if the origin is below all triangles, and those that close the surface are no nearer to it than the polygon.
   template <class AboutHighest>
   bool closes(AboutHighest about_highest) {
     for (std::size_t k = 0; k < rim(); ++k) {
@@ -97,8 +98,8 @@ class FacetRing {
   std::size_t rim() const { return std::size_t(rim_); }
   std::size_t after(std::size_t k) const { return k + 1 == rim() ? 0 : k + 1; }
 
-  /// Whether the origin surely is below a triangle, by `least` and more. Squares: a product that overflows or vanishes covers
-  /// nothing.
+  /// True if the origin is surely below a triangle's plane by more than `least`, or two corners are the same vertex pair.
+  /// Compares squares, so that a product that overflows or vanishes covers nothing.
   bool covers(std::size_t i, std::size_t j, std::size_t k, double least) const {
     const Corner &p = p_[i], &q = p_[j], &r = p_[k];
     if (same(p, q) || same(q, r) || same(r, p)) return true;
@@ -111,9 +112,9 @@ class FacetRing {
   const PairView& pair_;
   int rim_;
   bool flat_ = false;
-  double height_ = 0;  ///< of the lowest corner along the normal
+  double height_ = 0;  ///< the height of the polygon's lowest corner along the normal
   Vec normal_{0, 0, 0};
-  std::array<Corner, 8> p_;  ///< the polygon, then the ring
+  std::array<Corner, 8> p_;  ///< the corners of the polygon, then the ring
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The depth where it is already known which facet of the Minkowski difference is nearest: one supporting plane and few points.
-// Knows one level pair.
+// Proves the depth where the nearest facet of the Minkowski difference is already known, by one supporting plane and a ring of
+// points of the difference. Knows one level pair.
 #pragma once
 
 #include <swiftlet/model.h>
@@ -11,9 +11,10 @@
 
 namespace swiftlet {
 
-/// Whether the start, of three or four vertex pairs, is a facet of the Minkowski difference that holds the point of its surface
-/// nearest to the origin, and a ring of points shows that: mostly, where it is. `depth` is filled only if so; of a facet of
-/// which only the ring does not show it `upper` is, and of any `steps`. The levels are those of the pair's views.
+/// Returns true if the start's three or four vertex pairs are proved to make a facet of the Minkowski difference that holds the
+/// point of its surface nearest to the origin. Where they do, the ring of points mostly proves it. `depth` is filled if so;
+/// otherwise only its `steps` are, and its `upper` if nothing but the ring failed (else that is infinite). `a` and `b` are the
+/// levels of the pair's views.
 bool prove_facet(const PairView& pair, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
                  std::uint32_t& plane_tests, Depth& depth);
 

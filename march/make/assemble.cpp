@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces, finest first, to a Model: enclosure proved, deviations measured, links and tables filled [Ehmann & Lin 2000,
-// sec. 4.3].
+// Makes a Model of surfaces, finest first [Ehmann & Lin 2000, sec. 4.3]: proves enclosure, measures deviations, fills links and
+// tables. Knows all levels of one model, no poses.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -19,7 +19,7 @@
 namespace swiftlet {
 namespace {
 
-/// A level in the making.
+/// The data of one level before it is written to the block.
 struct Draft {
   Surface surface;
   std::vector<std::uint32_t> child_vertex, parent_face;
@@ -27,7 +27,7 @@ struct Draft {
   double deviation = 0;
 };
 
-/// One point as a body.
+/// A polytope of one vertex, which can be moved.
 class PointBody {
  public:
   void move_to(const Vertex& v) { record_ = {v.x, v.y, v.z, 0, 0}; }
@@ -43,7 +43,8 @@ class PointBody {
   Vertex record_{};
 };
 
-/// The largest distance of a vertex from level 0: the distance to a convex body is convex, so no other point is farther.
+/// Returns the largest distance of a vertex of `level` from `exact_hull`. The distance to a convex body is a convex function,
+/// so no other point of the level is farther.
 double deviation_from(const ConvexView& exact_hull, const ConvexView& level) {
   MarchRule rule;
   rule.relative = kDeviationPrecision;
@@ -64,7 +65,7 @@ double squared_distance(const ConvexView& view, std::uint32_t v, const Vec& p) {
   return dot(d, d);
 }
 
-/// A vertex that none of its ring is nearer to `p` than.
+/// Climbs from `start` to a vertex whose neighbours are all no nearer to `p`.
 std::uint32_t nearest_of_rings(const ConvexView& view, const Vec& p, std::uint32_t start) {
   for (std::uint32_t best = start;; start = best) {
     const Vertex& ring = view.vertices[start];
@@ -75,7 +76,7 @@ std::uint32_t nearest_of_rings(const ConvexView& view, const Vec& p, std::uint32
   }
 }
 
-/// The feature of `body` nearest to `point`, or none where a walk finds the point inside.
+/// Returns the feature of `body` nearest to `point`, or `FeatureId{}` if a walk finds the point inside.
 FeatureId nearest_feature(const ConvexView& point, const ConvexView& body, const MarchStart& start) {
   const PairView pair = pair_view(point, body, kAtRest, 0);
   std::uint32_t climbs = 0;
@@ -84,8 +85,8 @@ FeatureId nearest_feature(const ConvexView& point, const ConvexView& body, const
   return march(point, body, Pose{}, start).b;
 }
 
-/// The vertex of `finer` nearest to each vertex of `level`: of the nearest feature's corners, the nearest. Of a vertex inside,
-/// which a level that was grown may have, the nearest along the rings from the one before.
+/// Returns for each vertex of `level` the vertex of `finer` nearest to it, among the corners of the nearest feature. A vertex
+/// of `level` may lie inside `finer`, if `finer` was grown; its nearest vertex is climbed to from the vertex found before.
 std::vector<std::uint32_t> nearest_vertices(const ConvexView& level, const ConvexView& finer) {
   std::vector<std::uint32_t> nearest;
   MarchStart start;
@@ -113,7 +114,7 @@ std::vector<std::uint32_t> nearest_vertices(const ConvexView& level, const Conve
   return nearest;
 }
 
-/// The face of `finer` whose corners are the children of `face`'s, or kNone: a face that refinement keeps.
+/// Returns the face of `finer` whose corners are the children of the corners of `face`, or kNone if refinement removes `face`.
 std::uint32_t kept_face(const ConvexView& level, std::uint32_t face, const std::vector<std::uint32_t>& child,
                         const ConvexView& finer) {
   const std::uint32_t h = level.face_first[face];
@@ -163,7 +164,7 @@ Result<bool> link_to_finer(Draft& level, const LevelArrays& arrays, const Draft&
   return true;
 }
 
-/// The vertex of `coarser` farthest out of each face.
+/// Sets `parent_face`: per face of `level`, the support vertex of `coarser` along the face's normal.
 void link_to_coarser(Draft& level, const ConvexView& coarser) {
   const ConvexView view = level.surface.view();
   std::uint32_t v = 0, comparisons = 0;
@@ -214,7 +215,7 @@ LevelHeader level_header(const Draft& d) {
   return header;
 }
 
-/// The area centroid; of flatter bodies the mean of their vertices.
+/// Returns the area centroid, or the mean of the vertices if the body has no area.
 Vec centroid(const ConvexView& view) {
   const Vec o = vec(view.vertices[0]);
   Vec sum{0, 0, 0};
@@ -253,7 +254,7 @@ void describe(BlockHeader& header, const Surface& surface) {
   }
 }
 
-/// The source section of a block: what stands for which input.
+/// Writes the source section of a block, the user's ids of vertices and faces; returns the number of its triangle ids.
 Result<std::uint64_t> write_source(BlockParts& parts, const LevelArrays& arrays, const Surface& surface) {
   const std::size_t inputs = surface.input_face.size();
   const bool own_ids = arrays.face_source_begin.empty();

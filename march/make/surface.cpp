@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles -> closed -> convex (exact signs) -> exactly coplanar ones merged to facets -> vertices on no corner dropped ->
-// nearly coplanar facets grouped to walking faces -> half-edges in surface order.
+// From faces to half-edges: fan the faces into triangles, prove that they close to one sphere, prove convexity by exact signs
+// [Mehlhorn et al. 1999], merge exactly coplanar triangles to facets, drop vertices that are no corners, group nearly coplanar
+// facets to walking faces, order the half-edges along a space-filling curve.
 #include "make/surface.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ double extent_of(std::span<const Vec3> points) {
   return extent;
 }
 
-/// A body of V vertices has at most 6 V - 12 half-edges, which a FeatureId must name.
+/// The most vertices that a level may have: V vertices make at most 6 V - 12 half-edges, each of which needs a FeatureId.
 constexpr std::size_t kMostVertices = kMaxIndex / 6;
 
 /// The input faces as loops of input vertices.
@@ -85,10 +86,10 @@ Result<Input> read_input(const LevelArrays& level) {
   return in;
 }
 
-/// What the half-edges are built from: facets as loops of corners, and what stands in which.
+/// The facets of a body, from which the half-edges are built.
 struct Facets {
-  std::vector<Loop> loops;         ///< input vertices, every one a corner of the body
-  std::vector<Index> input_facet;  ///< per input face
+  std::vector<Loop> loops;         ///< per facet, its input vertices in order; each is a corner of the body
+  std::vector<Index> input_facet;  ///< per input face, the facet that contains it
 };
 
 // ---- Solids: a mesh of triangles -------------------------------------------------------------------------------------------
@@ -101,7 +102,8 @@ struct Triangle {
 
 constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
 
-/// A polygon as triangles: a fan, from the first corner that makes none of them degenerate.
+/// Appends face `f` to `out` as a fan of triangles around its first corner that makes none of them degenerate; false if every
+/// corner makes one.
 bool fan(const Input& in, Index f, std::vector<Triangle>& out) {
   const Loop& loop = in.faces[f];
   const std::size_t n = loop.size();
@@ -123,7 +125,7 @@ class Mesh {
  public:
   Mesh(const Input& in, std::vector<Triangle> triangles) : in_(in), triangles_(std::move(triangles)) {}
 
-  /// Pairs the edges; the surface must be one closed sphere.
+  /// Finds the triangle across each edge, and returns an error unless the surface is one closed sphere.
   Result<bool> close() {
     struct Edge {
       Index low, high, triangle;
@@ -154,7 +156,8 @@ class Mesh {
     return one_sphere();
   }
 
-  /// Exact convexity; flips what may be flipped.
+  /// Proves by exact signs that the surface is convex. Flips a reflex edge if it is a diagonal of one input face, or with
+  /// `repair`; else a reflex edge is an error.
   Result<bool> make_convex(bool repair) {
     std::vector<std::pair<Index, int>> doubtful;
     for (Index t = 0; t < triangles_.size(); ++t) {
@@ -175,7 +178,7 @@ class Mesh {
     return globally_convex();
   }
 
-  /// Merges coplanar triangles and drops what is no corner.
+  /// Merges coplanar triangles to facets and drops vertices that are no corners.
   Facets facets() const {
     std::vector<Index> group(triangles_.size());
     std::iota(group.begin(), group.end(), 0u);
@@ -197,7 +200,7 @@ class Mesh {
     for (Index t = 0; t < triangles_.size(); ++t) {
       if (group[t] == t) number[t] = Index(result.loops.size()), result.loops.emplace_back();
     }
-    // A corner has at least three facets; two mean the inside of an edge, one the inside of a facet.
+    // A corner belongs to at least three facets. A vertex of two lies inside an edge, a vertex of one inside a facet.
     std::vector<std::array<Index, 3>> around(in_.points.size(), {kNone, kNone, kNone});
     for (Index t = 0; t < triangles_.size(); ++t) {
       for (const Index v : triangles_[t].v) {
@@ -239,7 +242,7 @@ class Mesh {
   }
 
  private:
-  /// The side of `t` that borders `s` and ends in `head`.
+  /// Returns the side of `t` that borders `s` and ends in `head`.
   int side_towards(Index t, Index s, Index head) const {
     for (int i = 0; i < 3; ++i) {
       if (triangles_[t].beside[i] == s && triangles_[t].v[next(i)] == head) return i;
@@ -252,15 +255,15 @@ class Mesh {
     }
     return 0;
   }
-  /// The vertex of the neighbour across side i that t lacks.
+  /// Returns the vertex that the triangle across side `i` of `t` has and `t` lacks.
   Index opposite(Index t, int i) const {
     const Triangle& s = triangles_[triangles_[t].beside[i]];
     for (const Index v : s.v) {
       if (v != triangles_[t].v[i] && v != triangles_[t].v[next(i)]) return v;
     }
-    return triangles_[t].v[next(next(i))];  // both sides of one triangle: flat, caught by the global proof
+    return triangles_[t].v[next(next(i))];  // both have the same vertices: flat, refused by the global proof
   }
-  /// Positive: the neighbour across side i rises above t's plane, a reflex edge.
+  /// Returns a positive sign if the triangle across side `i` rises above the plane of `t`, which makes the edge reflex.
   int height_sign(Index t, int i) const {
     const Triangle& a = triangles_[t];
     return in_.orientation(a.v[0], a.v[1], a.v[2], opposite(t, i));
@@ -296,7 +299,7 @@ class Mesh {
     return true;
   }
 
-  /// Replaces the edge of side i by the other diagonal, unless that edge exists already.
+  /// Replaces the edge of side `i` by the other diagonal of the two triangles; false if that edge exists already.
   bool flip(Index t, int i) {
     const Index s = triangles_[t].beside[i];
     const int j = side_towards(s, t);
@@ -312,7 +315,7 @@ class Mesh {
     triangles_[s] = {{y, w, x}, {d, a, t}, input_s};
     return true;
   }
-  /// Whether x, a vertex of t, has an edge to y.
+  /// Returns true if `x`, a vertex of `t`, has an edge to `y`.
   bool neighbours(Index x, Index t, Index y) const {
     Index s = t;
     do {
@@ -324,7 +327,7 @@ class Mesh {
     return false;
   }
 
-  /// The height is told where 106 bits know it.
+  /// Returns the error for a reflex edge. It states the height if 106-bit arithmetic finds it positive.
   Error reflex(Index t, int i) const {
     const Triangle& a = triangles_[t];
     const Index v = opposite(t, i);
@@ -337,15 +340,15 @@ class Mesh {
                       (height > 0 ? text(height) + " " : "") + "above face " + std::to_string(a.input));
   }
 
-  /// The point with coordinates that exact signs take.
+  /// Returns `p` with coordinates below kLeastCoordinate set to 0, as exact signs require.
   static Vec admissible(const Vec& p) {
     const auto flushed = [](double x) { return std::fabs(x) < kLeastCoordinate ? 0 : x; };
     return {flushed(p.x), flushed(p.y), flushed(p.z)};
   }
 
-  /// Edges that are nowhere reflex bound a convex body unless the surface winds about it twice or folds. With a point below
-  /// every face, a ray from it that meets the surface once rules both out [Mehlhorn et al. 1999, sec. 4]. Where rounding hides
-  /// such a point or ray, in small or thin bodies: every vertex against every face.
+  /// Proves that a surface without reflex edges bounds a convex body: it does unless it winds around the body more than once or
+  /// folds. A point below every face, and a ray from it that meets the surface once, rule both out [Mehlhorn et al. 1999,
+  /// sec. 4]. If rounding hides such a point or ray, in small or thin bodies, every vertex is tested against every face.
   Result<bool> globally_convex() const {
     Vec middle{0, 0, 0};
     for (Index v = 0; v < in_.points.size(); ++v) middle = middle + in_.point(v) * (1.0 / double(in_.points.size()));
@@ -363,7 +366,7 @@ class Mesh {
     }
     return every_vertex_below();
   }
-  /// How many triangles the ray from o through c crosses; 0 when it meets an edge.
+  /// Returns how many triangles the ray from `o` through `c` crosses, or 0 if it meets an edge.
   int ray_hits(const double* o, const double* c) const {
     int hits = 0;
     for (const Triangle& t : triangles_) {
@@ -378,11 +381,11 @@ class Mesh {
     }
     return hits;
   }
-  /// No vertex above a face, two in one place, or all in one plane: this alone proves a convex body. Each face then lies in a
-  /// facet of the hull, and beside its neighbours, so that the surface winds about the hull d times. Each corner of the hull is
-  /// one vertex, so that there is no second component, and around it the surface winds d times as well. A solid has at least
-  /// four such branch points of order d, but where a sphere covers a sphere d times the orders less one sum up to 2 d - 2
-  /// [Riemann-Hurwitz]: d is 1.
+  /// Proves a convex body from three facts: no vertex is above a face, no two vertices coincide, and not all lie in one plane.
+  /// Each face then lies in a facet of the hull, beside its neighbours, so that the surface covers the hull d times. Each
+  /// corner of the hull is one vertex, so that there is no second component, and the surface winds d times around that vertex.
+  /// A solid has at least four such branch points of order d. But where a sphere covers a sphere d times, the orders, each less
+  /// one, sum up to 2 d - 2 [Riemann-Hurwitz]: hence d is 1.
   Result<bool> every_vertex_below() const {
     if (auto apart = no_two_coincide(); !apart) return apart;
     const Triangle& base = triangles_.front();
@@ -442,7 +445,7 @@ bool is_two_sided(const Input& in) {
   return true;
 }
 
-/// The turn at b in the plane of two coordinates.
+/// Returns the sign of the turn from a over b to c, projected to the coordinates `x` and `y`.
 int turn_sign(const Input& in, Index a, Index b, Index c, int x, int y) {
   const double p[4][3] = {{in.at(a)[x], in.at(a)[y], 0},
                           {in.at(b)[x], in.at(b)[y], 0},
@@ -458,8 +461,8 @@ Result<Facets> two_sided(const Input& in) {
     if (in.orientation(loop[0], loop[1], loop[2], loop[i]) != 0)
       return not_convex("the polygon is not flat: vertex " + std::to_string(loop[i]) + " is off the plane of the first three");
   }
-  // A projection along an axis that the plane does not hold keeps every turn; exact signs find one, where the rounded normal of
-  // a thin polygon would not.
+  // A projection along an axis that is not parallel to the polygon's plane keeps the signs of all turns. Exact signs find such
+  // an axis even for a thin polygon, whose rounded normal would not.
   int drop = 0;
   while (drop < 2 && turn_sign(in, loop[0], loop[1], loop[2], (drop + 1) % 3, (drop + 2) % 3) == 0) ++drop;
   const int x = (drop + 1) % 3, y = (drop + 2) % 3;
@@ -477,10 +480,10 @@ Result<Facets> two_sided(const Input& in) {
 
 // ---- Half-edges ------------------------------------------------------------------------------------------------------------
 
-/// One facet's side.
+/// A side of a facet, from corner `tail` to corner `head`.
 struct Side {
   Index tail, head, facet;
-  Index before;  ///< the side before it around the facet
+  Index before;  ///< the preceding side of the same facet
   Index twin = kNone;
 };
 
@@ -504,7 +507,7 @@ std::vector<Side> sides_of(const Facets& facets) {
   return sides;
 }
 
-/// Twice the vector area of a loop.
+/// Returns twice the vector area of a loop.
 template <class Real>
 V3<Real> area_vector(const Input& in, const Loop& loop) {
   const auto from_first = [&](std::size_t i) { return widened<Real>(in.point(loop[i])) - widened<Real>(in.point(loop[0])); };
@@ -519,7 +522,8 @@ bool all_float(const Input& in) {
   });
 }
 
-/// Which facets walk as one face: per facet, its group. A group is flat to kWalkingFaceUlps, faces one way, and is a disc.
+/// Groups facets to walking faces. The facets of a group lie within kWalkingFaceUlps of one plane, their normals within 60
+/// degrees of its normal, and together they form a disc.
 class Grouping {
  public:
   Grouping(const Input& in, const Facets& facets, const std::vector<Side>& sides) : in_(in), facets_(facets), sides_(sides) {
@@ -566,7 +570,7 @@ class Grouping {
     }
   }
 
-  /// One border, which passes no vertex twice.
+  /// Returns true if the group has one border, and the border passes no vertex twice.
   bool is_disc(Index seed, const std::vector<Index>& members) const {
     std::size_t borders = 0;
     const Side* start = nullptr;
@@ -600,10 +604,10 @@ class Grouping {
   double tolerance_;
 };
 
-/// Input vertices in the order of a space-filling curve, so that neighbours share cache lines.
+/// Returns `corners` in the order of a space-filling curve (Morton order), so that neighbours share cache lines.
 std::vector<Index> along_curve(const Input& in, std::vector<Index> corners) {
   const double extent = extent_of(in.points);
-  const auto spread = [](std::uint64_t x) {  // two zero bits before each of 21
+  const auto spread = [](std::uint64_t x) {  // puts two zero bits before each of 21 bits
     x = (x | x << 32) & 0x1f00000000ffff;
     x = (x | x << 16) & 0x1f0000ff0000ff;
     x = (x | x << 8) & 0x100f00f00f00f00f;
@@ -622,7 +626,7 @@ std::vector<Index> along_curve(const Input& in, std::vector<Index> corners) {
   return corners;
 }
 
-/// In 106 bits: of slivers along an edge doubles see no area.
+/// Returns the plane of a face. Its normal is computed in 106 bits: in doubles the area of a sliver may vanish.
 FacePlane plane_of(const Input& in, const Loop& border, const Loop& members) {
   const Vec n = normalised(rounded(area_vector<DoubleDouble>(in, border))), p = in.point(border[0]);
   double thickness = 0;
@@ -643,7 +647,7 @@ Surface link(const Input& in, const Facets& facets) {
   out.input_vertex.assign(in.points.size(), kNone);
   for (Index i = 0; i < out.vertex_input.size(); ++i) out.input_vertex[out.vertex_input[i]] = i;
 
-  // Half-edges ring by ring: counter-clockwise around a tail, the next side is the twin of the one before.
+  // Half-edges ring by ring: counter-clockwise around a tail, the next side is the twin of the preceding side of the facet.
   std::vector<Index> any_side(in.points.size(), kNone), half_edge(sides.size(), kNone);
   for (Index s = Index(sides.size()); s-- > 0;) any_side[sides[s].tail] = s;
   std::vector<Index> order;
@@ -659,7 +663,7 @@ Surface link(const Input& in, const Facets& facets) {
     out.vertices.push_back({p.x, p.y, p.z, begin, Index(order.size()) - begin});
   }
 
-  // Faces with a plane first, then triangles, each in the order of their vertices.
+  // Number the faces: those with a plane first, then triangles, both in the order of their vertices.
   std::vector<Index> members(facets.loops.size(), 0), number(facets.loops.size(), kNone), sequence;
   for (const Index g : group) ++members[g];
   for (const Index s : order) {
@@ -697,7 +701,7 @@ Surface link(const Input& in, const Facets& facets) {
   return out;
 }
 
-/// A segment or a point.
+/// Makes the surface of a segment or a point.
 Result<Surface> without_faces(const Input& in) {
   if (in.points.size() > 2)
     return bad_value(std::to_string(in.points.size()) + " vertices without faces: a point has one, a segment two");
@@ -716,7 +720,7 @@ Result<Surface> without_faces(const Input& in) {
   return out;
 }
 
-/// Of the facets, not of the faces given: flips move volume.
+/// Returns the volume inside the facets. It may differ from that inside the given faces, since flips change the volume.
 double volume_of(const Input& in, const Facets& facets) {
   double six = 0;
   const Vec o = in.point(0);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Plain arrays to the surface of a convex body: proved convex, faces grouped, half-edges linked. Knows one level.
+// Turns plain arrays into the surface of a convex body: proves it convex, groups facets to faces, links half-edges. Knows one
+// level.
 #pragma once
 
 #include <cstdint>
@@ -10,30 +11,30 @@
 
 namespace swiftlet {
 
-/// The arrays of a ConvexView, and where each comes from.
+/// The arrays of a ConvexView, and their correspondence with the input arrays.
 struct Surface {
   std::vector<Vertex> vertices;
   std::vector<FacePlane> planes;
   std::vector<HalfEdge> half_edges;
   std::vector<std::uint32_t> face_first;
-  std::vector<std::uint32_t> vertex_input;  ///< per vertex, the input's
-  std::vector<std::uint32_t> input_vertex;  ///< per input vertex, ours; kNone where it is no vertex of the hull
-  std::vector<std::uint32_t> input_face;    ///< per input face, the face that holds it
+  std::vector<std::uint32_t> vertex_input;  ///< per vertex of `vertices`, the input vertex
+  std::vector<std::uint32_t> input_vertex;  ///< per input vertex, the index in `vertices`; kNone if it is no vertex of the hull
+  std::vector<std::uint32_t> input_face;    ///< per input face, the face in `face_first` that contains it
   int dimension = 3;
   double extent = 0, volume = 0;
 
   ConvexView view() const;
 };
 
-/// Proves that the arrays bound a convex body, or says where they do not. `repair` flips the reflex edges of triangles whose
-/// vertices were rounded.
+/// Proves that the arrays bound a convex body, or returns an error that says where they do not. With `repair`, reflex edges
+/// between the given faces are flipped, which rounding of vertices may have made.
 Result<Surface> make_surface(const LevelArrays& level, bool repair);
 
-/// A vertex of `exact_hull` above some facet of `level`, by exact support climbs from facet to facet; kNone: the level encloses
-/// it.
+/// Returns a vertex of `exact_hull` that lies above some facet of `level`, or kNone if the level encloses the hull. Decided by
+/// exact support climbs from facet to facet.
 std::uint32_t vertex_outside(const ConvexView& exact_hull, const ConvexView& level);
 
-/// Calls visit(a, b, c) with three vertices of each exact facet, which span its plane, counter-clockwise from outside.
+/// Calls visit(a, b, c) for each exact facet with three of its vertices, which span its plane, counter-clockwise from outside.
 template <class Visit>
 void each_facet(const ConvexView& view, Visit visit);
 

@@ -22,7 +22,7 @@ static inline HighLow quick_two_sum(double a, double b) {
   const double s = a + b;
   return {s, b - (s - a)};
 }
-/// a * b exactly. Veltkamp's split, so that no unit depends on a fused multiply-add.
+/// a * b exactly, by Veltkamp's split, so that no translation unit depends on a fused multiply-add.
 static inline HighLow two_product(double a, double b) {
   constexpr double kSplit = 134217729.0;  // 2^27 + 1
   const double p = a * b, ca = kSplit * a, cb = kSplit * b;
@@ -56,7 +56,7 @@ static inline DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& 
   const DoubleDouble r2 = r - b * DoubleDouble(q2);
   return DoubleDouble(quick_two_sum(q, q2)) + DoubleDouble(r2.high / b.high);
 }
-/// Of a number above 0: one step of Newton's on the root in doubles.
+/// The square root of a number above 0: the root in doubles, improved by one Newton step.
 static inline DoubleDouble root(const DoubleDouble& a) {
   const DoubleDouble r = std::sqrt(a.high);
   return r + (a - r * r) / (r + r);

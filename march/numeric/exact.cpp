@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Expansions: a number as the sum of few doubles, none overlapping another, least first. Everything is on the stack.
+// Expansions [Shewchuk 1997]: a number is the sum of few doubles that do not overlap, the least first. All are on the stack.
 #include "numeric/exact.h"
 
 #include <cmath>
@@ -12,14 +12,15 @@
 namespace swiftlet::exact {
 namespace {
 
-/// Every bit of a double's range, 2 098 of them, fits in kParts doubles: compressed, each but the last has 52 below it.
+/// An exact number. The 2 098 bits of the range of doubles fit in `kParts` doubles, because each part of a compressed expansion
+/// but the last has 52 bits below it.
 class Expansion {
  public:
   Expansion() = default;
   explicit Expansion(double value) { *this += value; }
 
   int sign() const { return count_ == 0 ? 0 : part_[count_ - 1] > 0 ? 1 : -1; }
-  /// The sum to 100 bits.
+  /// The number rounded to 100 bits.
   DoubleDouble rounded() const {
     DoubleDouble sum(0);
     for (int i = count_; i-- > 0;) sum = sum + DoubleDouble(part_[i]);
@@ -105,13 +106,13 @@ Expansion3 cross3(const Expansion3& a, const Expansion3& b) {
 Vec subtract(const double a[3], const double b[3]) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Vec absolute(const Vec& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
 
-/// The magnitude that bounds the rounding of a triple product of rounded differences.
+/// The sum of the magnitudes of the terms of u x v . w. The rounding error of that triple product is relative to it.
 double permanent(const Vec& u, const Vec& v, const Vec& w) {
   const Vec a = absolute(u), b = absolute(v), c = absolute(w);
   return (a.y * b.z + a.z * b.y) * c.x + (a.z * b.x + a.x * b.z) * c.y + (a.x * b.y + a.y * b.x) * c.z;
 }
 
-/// The sign of `value` if no error up to `bound` can change it, else 0; nor what products lose below the range of doubles.
+/// The sign of `value` if no error up to `bound`, nor the underflow of products, can change it; else 0.
 int certain_sign(double value, double bound) {
   bound += kUnderflow;
   return value > bound ? 1 : value < -bound ? -1 : 0;
@@ -122,7 +123,7 @@ V3<DoubleDouble> wide_difference(const double b[3], const double a[3]) {
   return {two_sum(b[0], -a[0]), two_sum(b[1], -a[1]), two_sum(b[2], -a[2])};
 }
 
-/// Whether p q - r s is 0.
+/// True if p q - r s is exactly 0.
 bool vanishes(const DoubleDouble& p, const DoubleDouble& q, const DoubleDouble& r, const DoubleDouble& s) {
   Expansion sum;
   for (const auto& [f, g] : {std::pair{p, q}, std::pair{r, -s}}) {
@@ -131,7 +132,7 @@ bool vanishes(const DoubleDouble& p, const DoubleDouble& q, const DoubleDouble& 
   return sum.sign() == 0;
 }
 
-/// a - (R b + t), times 2^exponent.
+/// a - (R b + t), times 2^exponent, exactly.
 Expansion3 offset3(const double a[3], const double b[3], const Motion& m, int exponent) {
   const auto scaled = [exponent](double x) { return std::ldexp(x, exponent); };
   const auto coordinate = [&](double from, const Vec& row, double t) {
@@ -144,8 +145,8 @@ Expansion3 offset3(const double a[3], const double b[3], const Motion& m, int ex
   return {coordinate(a[0], m.row_x, m.t.x), coordinate(a[1], m.row_y, m.t.y), coordinate(a[2], m.row_z, m.t.z)};
 }
 
-/// The sign of the determinant of three of them. At a scale where products of three stay far from the ends of the range,
-/// however small the translation is beside the bodies.
+/// The sign of the determinant of the three a[k] - (R b[k] + t), computed at a scale where products of three coordinates stay
+/// far from the ends of the range of doubles, however small the translation is beside the bodies.
 int offset_determinant_sign(const std::array<const double*, 3>& a, const std::array<const double*, 3>& b, const Motion& m) {
   double largest = max_abs(m.t);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -163,7 +164,7 @@ Expansion3 rotated(const Motion& m, const double w[3], const double v[3]) {
   return {dot3(exactly(m.row_x), d), dot3(exactly(m.row_y), d), dot3(exactly(m.row_z), d)};
 }
 
-/// R u x R v is the matrix of R's cofactors times u x v, whatever R is.
+/// R (b - a) x R (c - a), computed as the matrix of R's cofactors times (b - a) x (c - a), to which it is equal for any R.
 Expansion3 turned_cross(const Motion& m, const double a[3], const double b[3], const double c[3]) {
   const Expansion3 n = cross3(difference3(b, a), difference3(c, a));
   const auto coordinate = [&](const Vec& row, const Vec& other) { return dot3(cross3(exactly(row), exactly(other)), n); };
@@ -227,8 +228,8 @@ int compare_along_turned(const double n[3], const Motion& m, const double w[3], 
 }
 
 int triple_product(const std::array<const double*, 3>& a, const std::array<const double*, 3>& b, const Motion& m) {
-  // With the first and last less the middle one, which leaves no more of a body than the difference of two of its vertices:
-  // of the facets of a body far away from the other such are all that doubles see.
+  // The middle difference is subtracted from the first and the last. The determinant keeps its value, and these two then hold
+  // only differences of vertices of the same body: where the bodies are far apart, doubles resolve a facet by nothing else.
   const auto in_doubles = [](const double* p) { return Vec{p[0], p[1], p[2]}; };
   const auto less_middle = [&](std::size_t k) { return subtract(a[k], a[1]) - rotate(m, subtract(b[k], b[1])); };
   const auto turned_size = [&](const Vec& v) {

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Relative and inverse poses: rotations are inverted, not transposed, and translations subtracted first.
 #include <swiftlet/pose.h>
 
 #include "numeric/vec.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The runtime's arithmetic on three numbers. Functions are static on purpose: every unit compiles its own copy under its own
-// floating-point flags, and none can be replaced at link time by a consumer's.
+// The runtime's arithmetic on vectors of three numbers. Functions are static on purpose: every translation unit compiles its
+// own copy under its own floating-point flags, and none can be replaced at link time by a consumer's.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace swiftlet {
 
-/// Three numbers; Real is double, or DoubleDouble where doubles cannot tell.
+/// Three numbers. Real is double, or DoubleDouble where doubles are not precise enough.
 template <class Real>
 struct V3 {
   Real x, y, z;
@@ -46,32 +46,32 @@ static inline V3<R> cross(const V3<R>& a, const V3<R>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Of two numbers that are no NaN. std::fmax is a call.
+/// The larger of two numbers that are no NaN. `std::fmax` would be a function call.
 static inline double max(double x, double y) { return x < y ? y : x; }
 static inline double min(double x, double y) { return y < x ? y : x; }
 
-/// The axis that `v` goes least along: one across it is far from it.
+/// The unit vector of the axis along which `v` has its smallest coordinate: it is far from parallel to `v`.
 static inline Vec least_axis(const Vec& v) {
   const double x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z);
   return x <= y && x <= z ? Vec{1, 0, 0} : y <= z ? Vec{0, 1, 0} : Vec{0, 0, 1};
 }
 
-/// Numbers only: a NaN may go unseen.
+/// The largest magnitude of a coordinate. A NaN may be overlooked.
 static inline double max_abs(const Vec& a) { return max(max(std::fabs(a.x), std::fabs(a.y)), std::fabs(a.z)); }
 
-/// Whether a sum of squares has lost nothing to underflow, and is finite.
+/// True if a sum of squares has lost nothing to underflow and is finite.
 static inline bool has_range(double square) {
   return square >= kLeastSquare && square < std::numeric_limits<double>::infinity();
 }
-/// Times 2^exponent.
+/// `v` times 2^exponent.
 static inline Vec scaled(const Vec& v, int exponent) {
   return {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
 }
 
-// Vectors whose squares leave the range of doubles are scaled by a power of two, so that lengths and directions are those of
-// all their multiples by such, bit for bit.
+// The next functions scale vectors whose squares leave the range of doubles by a power of two. A vector times a power of two
+// then has its length times that power and its direction, bit for bit.
 
-/// To kNormError; of a subnormal length never less than it.
+/// The length of a vector, right to `kNormError`. A subnormal length is not below the true one.
 static inline double norm(const Vec& a) {
   if (const double square = dot(a, a); has_range(square)) return std::sqrt(square);
   const double largest = max_abs(a);
@@ -82,7 +82,7 @@ static inline double norm(const Vec& a) {
   return length < std::numeric_limits<double>::min() ? length + std::numeric_limits<double>::denorm_min() : length;
 }
 
-/// A vector at length 1, and what it was multiplied by; 0 and 0 where it names no direction.
+/// A vector at length 1 and the factor that scaled it. Both are 0 for a vector too short or too long to name a direction.
 struct Unit {
   Vec n;
   double scale;
@@ -101,22 +101,22 @@ static inline Unit unit_of(const Vec& v) {
 }
 static inline Vec normalised(const Vec& v) { return unit_of(v).n; }
 
-/// The same direction, at a length where no product of its coordinates with a body's over- or underflows; 0 where it names
-/// none.
+/// `v` times a power of two, at a length where no product of its coordinates with a body's over- or underflows. 0 if `v` is 0
+/// or not finite.
 static inline Vec rescaled(const Vec& v) {
   const double largest = max_abs(v);
   if (!(largest > 0) || !std::isfinite(dot(v, {0, 0, 0}))) return {0, 0, 0};
   return scaled(v, 400 - std::ilogb(largest));
 }
 
-/// Of a record that has them by name, as a body's vertices do.
+/// The coordinates of a record that names them x, y and z, as `Vertex` does.
 template <class Point>
 requires requires(const Point& p) { p.x; }
 static inline Vec vec(const Point& p) { return {p.x, p.y, p.z}; }
 static inline Vec vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
 static inline Vec3 eigen(const Vec& v) { return Vec3(v.x, v.y, v.z); }
 
-/// A pose unpacked: rows of the rotation, translation.
+/// A pose as vectors: the rows of its rotation R, and its translation t.
 struct Motion {
   Vec row_x, row_y, row_z, t;
 };
@@ -127,7 +127,7 @@ static inline Motion motion(const Pose& pose) {
 }
 static inline Vec rotate(const Motion& m, const Vec& p) { return {dot(m.row_x, p), dot(m.row_y, p), dot(m.row_z, p)}; }
 static inline Vec apply(const Motion& m, const Vec& p) { return rotate(m, p) + m.t; }
-/// The transposed rotation: carries a direction n of the common frame to where n . (R p) = result . p.
+/// R^T n, which orders points of the moved body's own frame as n orders their images: n . (R p) = result . p.
 static inline Vec rotate_back(const Motion& m, const Vec& n) { return m.row_x * n.x + m.row_y * n.y + m.row_z * n.z; }
 
 }  // namespace swiftlet

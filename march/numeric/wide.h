@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Points and directions in doubles or, where these cannot tell, in about 106 bits.
+// Points and directions in doubles or, where doubles are not precise enough, in about 106 bits.
 #pragma once
 
 #include "numeric/double_double.h"
@@ -19,7 +19,7 @@ static inline Vec rounded(const V3<Real>& v) {
   return {rounded(v.x), rounded(v.y), rounded(v.z)};
 }
 
-/// A point carried by the pose.
+/// R p + t in the arithmetic of `Real`.
 template <class Real>
 static inline V3<Real> moved(const Motion& m, const Vec& p) {
   const V3<Real> q = widened<Real>(p);

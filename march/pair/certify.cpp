@@ -19,8 +19,8 @@ Vec point(const P& body, const Combination& c) {
   return body.common(p);
 }
 
-/// Vertex pairs that have both combinations as their own: the transport that fills one from the other in order. At most
-/// four, for one of them has at most two vertices.
+/// Vertex pairs whose weights add up to those of `a` for the vertices of A and to those of `b` for the vertices of B: the
+/// weights of `a` are dealt out to `b` in order. At most four pairs, because `a` or `b` has at most two vertices.
 ActiveSet pairs(const Combination& a, const Combination& b) {
   ActiveSet set;
   std::size_t i = 0, j = 0;
@@ -35,17 +35,17 @@ ActiveSet pairs(const Combination& a, const Combination& b) {
   return set;
 }
 
-/// A direction of the common frame as one body's vertices see it, for comparisons in doubles that know their error.
+/// A direction of the common frame turned into one body's frame, for comparisons of its vertices in doubles with known errors.
 struct Slope {
   Vec own;            ///< in the body's frame
-  double turn_error;  ///< of own . e, relative to |e|_1
+  double turn_error;  ///< error of own . e that turning the direction causes, relative to |e|_1
   double along(const Vec& e) const { return dot(own, e); }
   double error(const Vec& e) const {
     const Vec m{std::fabs(e.x), std::fabs(e.y), std::fabs(e.z)};
     return kDotError * (std::fabs(own.x) * m.x + std::fabs(own.y) * m.y + std::fabs(own.z) * m.z) +
            turn_error * (m.x + m.y + m.z);
   }
-  /// No less than any between points of a body.
+  /// At least error(e) for every difference e of two points of a body of this extent.
   double most_error(double extent) const { return (kDotError * max_abs(own) + turn_error) * (7 * extent); }
 };
 
@@ -54,7 +54,7 @@ Slope slope_b(const PairView& pair, const Vec& n) { return {-body_b(pair).into(n
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A vertex that no other of its body exceeds by more than `slack`.
+/// A vertex that no other vertex of its body exceeds by more than `slack` along a direction.
 struct Extreme {
   std::uint32_t vertex = 0;
   double slack = 0;
@@ -63,7 +63,7 @@ struct Extreme {
 /// The farthest that two points of a body can be apart.
 double reach(const ConvexView& view) { return 2 * kSqrt3 * view.extent; }
 
-/// By how much the direction leans along a feature, a unit length of it.
+/// How much the unit direction of `slope` rises per unit of length along an edge, or at most along any line in a triangle.
 double lean(const ConvexView& view, FeatureId feature, const Slope& slope) {
   const std::uint32_t h = feature.kind() == FeatureKind::Edge ? feature.index() : view.face_first[feature.index()];
   const Vec p = vec(view.vertices[origin(view, h)]), e = vec(view.vertices[view.half_edges[h].head]) - p;
@@ -73,23 +73,23 @@ double lean(const ConvexView& view, FeatureId feature, const Slope& slope) {
   return norm(slope.own - n * (1 / area)) + kCrossError * std::sqrt(dot(e, e) * dot(f, f)) / area;
 }
 
-/// How far the body may stand above a feature along a slope, where the features beside it tell: the body is exactly convex, and
-/// these rise by at most `rise`, but for `rise_error` of the body's reach. They must be below for certain; what is level with
-/// the feature only up to rounding, itself, leaves a tilt. Infinite where doubles do not tell, or a face has more than three
-/// vertices.
+/// An upper bound on how far the body rises above a vertex of `feature` along `slope`. The body is exactly convex, and the
+/// feature's neighbours rise by at most `rise`, plus `rise_error` times the body's reach. If the neighbours are certainly
+/// below, the rest of the body is, and only the feature itself may rise: by its tilt against `slope`. Infinite if doubles do
+/// not tell, or for a face of more than three vertices.
 double overhang(const ConvexView& view, FeatureId feature, const Slope& slope, double rise, double rise_error) {
   const double far = reach(view);
   if (feature.kind() == FeatureKind::Vertex) return rise < -rise_error * far ? 0.0 : kInfinity;
   const bool is_edge = feature.kind() == FeatureKind::Edge;
   if (is_edge ? view.vertices[origin(view, feature.index())].ring_count < 2 : feature.index() < view.planes.size())
-    return kInfinity;  // a segment; a walking face
+    return kInfinity;  // the edge of a segment; a face of more than three vertices
   const double tilt = (lean(view, feature, slope) + kDotError + kSqrt3 * slope.turn_error) * far;
   return !is_edge || rise < -(tilt + rise_error * far) ? tilt : kInfinity;
 }
 
-/// Climbs in doubles and decides no tie: whatever may be as high as the top is visited too, until every neighbour of every one
-/// visited is itself visited or certainly below. On an exactly convex body the highest vertex is then among them. Nothing when
-/// more than `kPlateau` are as high.
+/// Climbs from `v` in doubles and decides no tie: every vertex that may be as high as the top is visited too, until all
+/// neighbours of visited vertices are visited themselves or certainly below. On an exactly convex body the highest vertex is
+/// then among the visited ones. `std::nullopt` if these are more than `kPlateau`.
 std::optional<Extreme> top(const ConvexView& view, const Slope& slope, std::uint32_t v, std::uint32_t& plane_tests) {
   std::array<std::uint32_t, kPlateau> plateau;
   std::size_t count = 0;
@@ -128,7 +128,7 @@ std::optional<Extreme> top(const ConvexView& view, const Slope& slope, std::uint
     });
   }
   if (!fits) return std::nullopt;
-  // Heights over the first; the top may be lower than any other by what both are uncertain.
+  // Heights are measured from the first vertex. The slack covers the errors of the result's height and of all others.
   const Vec p = vec(view.vertices[v]);
   Extreme result{v, 0};
   double height = 0, highest = 0, uncertain = 0;
@@ -174,7 +174,7 @@ Certificate certify(const PairView& pair, FeatureId a, FeatureId b, const Witnes
     c.lower = max(0, lower);
     return c.upper - c.lower <= pair.law_two;
   };
-  // Ever dearer: what stands beside the features, what is as high as doubles can tell, exact order.
+  // Three proofs, each dearer than the one before: by the features' neighbours, by supports in doubles, by exact supports.
   const std::uint32_t any_a = seen.first.vertex[0], any_b = seen.second.vertex[0];
   const double rise_error = kRiseError + 3 * (pair.pose_error + kOrthonormalityError);
   const double over_a = overhang(pair.a, a, slope_a(c.normal), seen.rise_first / length, rise_error);

@@ -17,16 +17,16 @@ MarchStatus status_of(const PairView& pair, const GjkGoal& goal, const Certifica
   return c.lower > 0 ? MarchStatus::Disjoint : MarchStatus::Near;
 }
 
-/// Where certified GJK ended.
+/// Names in `r` the features that hold the points of `c`, the certificate at which certified GJK ended.
 void name_features(const PairView& pair, const Certificate& c, MarchResult& r) {
   r.a = feature_of(pair.a, c.active, c.active.a);
   r.b = feature_of(pair.b, c.active, c.active.b);
-  if (r.status == MarchStatus::Overlapping) return;  // no place
+  if (r.status == MarchStatus::Overlapping) return;  // there are no nearest points
   r.a = feature_at_a(pair, r.a, c.point_a, r.plane_tests);
   r.b = feature_at_b(pair, r.b, c.point_b, r.plane_tests);
 }
 
-/// Fills `r`; true where it is so near a threshold that another start might prove another verdict.
+/// Fills `r` from the end of a walk. True if `r` is so near a threshold that another start might prove another verdict.
 template <Until until>
 bool from_walk(const PairView& pair, const Walk& walk, const MarchRule& rule, double zero, MarchResult& r) {
   r.steps = walk.steps;
@@ -38,7 +38,7 @@ bool from_walk(const PairView& pair, const Walk& walk, const MarchRule& rule, do
   const Witness& seen = walk.end == WalkEnd::Minimum ? walk.witness : (afresh = witness(pair, walk.a, walk.b));
   Certificate c = certify(pair, walk.a, walk.b, seen, r.plane_tests);
   r.status = status_of(pair, goal, c);
-  // That features touch says nothing of the bodies: certified GJK tells touching from overlapping.
+  // If the features touch, the bodies touch or overlap: certified GJK decides which.
   const bool settled = r.status != MarchStatus::NotConverged && (r.status != MarchStatus::Touching || c.lower > 0);
   double depth = 0;
   const bool progressed = !settled && walk.end != WalkEnd::Budget;
@@ -68,7 +68,8 @@ bool from_walk(const PairView& pair, const Walk& walk, const MarchRule& rule, do
   return r.upper - r.lower <= 2 * pair.law_two && !deep && (near(0) || near(zero) || near(rule.beyond));
 }
 
-/// Within rounding of a threshold all starts take one and the same way: that of the cold one.
+/// Replaces `r` by the result of a cold start if the budget allows one: within rounding of a threshold, the result then does
+/// not depend on the start.
 template <Until until>
 void from_nothing(const PairView& pair, const MarchRule& rule, double zero, MarchResult& r) {
   std::uint32_t climbs = 0;

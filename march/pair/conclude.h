@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The end of a march on one level pair: certify what the walk found, and go on where that fails. Knows nothing of levels.
+// The end of a march: a certificate of the features a walk found and, if it is too wide, certified GJK. Knows one level pair.
 #pragma once
 
 #include <swiftlet/march.h>
@@ -10,13 +10,14 @@
 
 namespace swiftlet {
 
-/// How far certified GJK goes where the features alone do not prove enough.
+/// The goal of certified GJK, which runs if the features alone do not prove enough.
 enum class Until {
-  Narrow,  ///< as the rule says; the points may then lie inside the bodies, whose distance they bound
-  Exact,   ///< within law 2, or beyond the rule's threshold: the points are on the surfaces
+  Narrow,  ///< the rule's width; the points bound the distance from above, but may lie inside the bodies
+  Exact,   ///< law 2's width, with points on the surfaces, or `lower` beyond the rule's threshold
 };
 
-/// `zero`: a distance whose two sides are different verdicts, as 0 is in any case.
+/// Proves bounds from the end of a walk. Verdicts change at the distances 0, `zero` and the rule's `beyond`: within rounding of
+/// these, the result is that of a cold start if the budget allows one.
 template <Until until = Until::Narrow>
 MarchResult conclude(const PairView& pair, const Walk& walk, const MarchRule& rule, double zero = 0);
 

@@ -10,7 +10,8 @@
 
 namespace swiftlet {
 
-/// The difference of a vertex pair: p = a - (R b + t).
+/// The difference of vertex `a` of A and vertex `b` of B in the common frame: p = v - (R w + t), where v and w are the
+/// vertices' coordinates.
 template <class Real>
 struct Difference {
   V3<Real> p;
@@ -27,7 +28,7 @@ static inline bool same(const Difference<Real>& p, const Difference<Real>& q) {
   return p.a == q.a && p.b == q.b;
 }
 
-/// What rounding may do to a difference and to convex combinations of differences.
+/// A bound on the rounding error of a difference, and of a convex combination of differences, in `Real`. A length.
 template <class Real>
 static inline double rounding(const PairView& s) {
   return std::is_same_v<Real, double> ? s.point_error : kDoubleDoubleError * s.magnitude;

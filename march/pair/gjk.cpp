@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The distance is the least norm over the Minkowski difference {p - q}, whose vertices are differences of vertices. The active
-// set method of [Gilbert, Johnson & Keerthi 1988] is used for its certificate: every step ends in a supporting plane.
+// Certified GJK. The distance is the least norm over the Minkowski difference {p - q}, whose vertices are differences of
+// vertices. The active set method of [Gilbert, Johnson & Keerthi 1988] is used for its certificate: every step ends in a
+// supporting plane.
 #include "pair/gjk.h"
 
 #include <limits>
@@ -16,7 +17,7 @@ namespace {
 
 std::array<double, 3> coordinates(const Vertex& v) { return {v.x, v.y, v.z}; }
 
-/// Whether four vertex pairs prove the overlap.
+/// True if the differences of the four vertex pairs hold the origin in their hull, decided exactly: the bodies overlap.
 bool proves(const PairView& s, const OverlapProof& proof) {
   std::array<std::array<double, 3>, 4> a, b;
   for (int k = 0; k < 4; ++k) {
@@ -26,9 +27,9 @@ bool proves(const PairView& s, const OverlapProof& proof) {
   return exact::tetrahedron_holds_origin(a, b, s.b_in_a);
 }
 
-/// The inner polytope of bodies that meet: differences of vertices, their hull taken by brute force over triples, which no
-/// degeneracy confuses. Finds out whether the origin is deeper inside than law 2's bound. Doubles do not know where the facets
-/// of a needle face.
+/// Tells touching from overlapping: is the origin deeper inside the Minkowski difference than law 2's bound? The inner polytope
+/// is the hull of some vertex differences, found by brute force over triples, which no degeneracy confuses. A needle needs 106
+/// bits: in doubles its facets' normals are unreliable.
 template <class Real>
 class Contact {
  public:
@@ -39,9 +40,10 @@ class Contact {
     points_[count_++] = difference<Real>(pair_, a, b);
   }
 
-  /// `depth` becomes the radius of a ball about the origin inside a tetrahedron, or 0 where it took more points. Touching when
-  /// a plane is found that the bodies overlap by no more than the bound; Overlapping when the inner polytope reaches farther on
-  /// all sides, or no more points help. `normal` is tried first, and becomes the plane's, or the last tried.
+  /// Touching if a direction is found along which the bodies overlap by no more than law 2's bound. Overlapping if the inner
+  /// polytope reaches farther on all sides, or no more points help, and four points prove it; else NotConverged. `depth`
+  /// becomes the radius of a ball about the origin inside the tetrahedron of the first four points, or 0 if more points were
+  /// needed. `normal` is tried first, and becomes the direction found or the last one tried.
   MarchStatus decide(Vec& normal, OverlapProof& proof, double& depth) {
     const Vec hint = normal;
     if (count_ == 4 && (depth = inner_radius()) > pair_.law_two && prove(proof)) return MarchStatus::Overlapping;
@@ -50,7 +52,7 @@ class Contact {
     for (const Vec& n : {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}}) {
       if (touches(n, normal) || touches(-n, normal)) return MarchStatus::Touching;
     }
-    // Points on a line have no facet: look across it.
+    // Points on a line span no facet: try directions at right angles to the line.
     const Vec line = longest(), across = normalised(cross(line, least_axis(line)));
     for (const Vec& n : {across, normalised(cross(line, across))}) {
       if (touches(n, normal) || touches(-n, normal)) return MarchStatus::Touching;
@@ -67,7 +69,7 @@ class Contact {
   }
 
  private:
-  /// Whether the bodies overlap along unit n by no more than the bound; the vertex there joins the polytope either way.
+  /// True if the bodies overlap along unit n by no more than law 2's bound. The support along n joins the polytope either way.
   bool touches(const Vec& n, Vec& normal) {
     if (dot(n, n) == 0) return false;
     normal = n;
@@ -91,7 +93,7 @@ class Contact {
     return false;
   }
 
-  /// An upper bound on how far the Minkowski difference reaches along n; its vertex there joins the polytope.
+  /// An upper bound on how far the Minkowski difference reaches along n; the support vertices along n join the polytope.
   double width(const Vec& n) {
     const std::uint32_t a = support_a(pair_, n, count_ ? points_[0].a : 0, tests_);
     const std::uint32_t b = support_b(pair_, n, count_ ? points_[0].b : 0, tests_);
@@ -100,8 +102,8 @@ class Contact {
     return double(dot(widened<DoubleDouble>(n), d.p)) * (1 + kGapError) + kDoubleDoubleError * pair_.magnitude;
   }
 
-  /// The distance from the origin to the nearest face of the first four points; negative outside. In 106 bits: doubles see
-  /// slivers as deep as their own noise.
+  /// The distance from the origin to the nearest face of the tetrahedron of the first four points; negative if the origin is
+  /// outside. Computed in 106 bits: in doubles the depth of a sliver is rounding noise.
   double inner_radius() const {
     std::array<V3<DoubleDouble>, 4> p;
     for (std::size_t k = 0; k < 4; ++k) p[k] = difference<DoubleDouble>(pair_, points_[k].a, points_[k].b).p;
@@ -115,7 +117,7 @@ class Contact {
     return radius;
   }
 
-  /// The distance from the origin to the nearest facet, with its outward normal.
+  /// The distance from the origin to the nearest facet of the inner polytope; `normal` becomes the facet's outward normal.
   double nearest_facet(Vec& normal) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (int i = 0; i < count_; ++i) {
@@ -140,7 +142,8 @@ class Contact {
     return nearest;
   }
 
-  /// A tetrahedron that holds the origin, well inside if there is one: on a face, a translation of 1e-300 decides.
+  /// Finds four points that prove the overlap, with the origin well inside their tetrahedron if possible: if it is on a face, a
+  /// translation of 1e-300 decides. False if there are none.
   bool prove(OverlapProof& proof) const {
     const auto deep = [&](const OverlapProof& p) { return proves_deep_overlap(pair_, p); };
     const auto any = [&](const OverlapProof& p) { return proves(pair_, p); };
@@ -171,17 +174,17 @@ class Contact {
   std::array<Difference<Real>, kContactPoints> points_{};
 };
 
-/// Which bounds a certificate gathers: the best of all iterates, or plane and points of the same one.
+/// Which bounds the certificate keeps: the best of all iterates, or plane and points of the last iterate.
 enum class Keep { Best, Last };
 
-/// One arithmetic's turn at the active set method.
+/// The active set method in one arithmetic, `Real`.
 template <class Real>
 class GjkDescent {
  public:
   GjkDescent(const PairView& pair, const GjkGoal& goal, std::uint32_t& plane_tests, Keep keep_bounds = Keep::Best)
       : pair_(pair), goal_(goal), tests_(plane_tests), keep_bounds_(keep_bounds) {}
 
-  /// Improves `m` until the goal is met, the bodies meet, or this arithmetic cannot tell any more.
+  /// Improves `m` until the goal is met, the bodies meet, or this arithmetic makes no more progress.
   void run(GjkResult& m) {
     seed(m.certificate);
     int patience = kProgressPatience;
@@ -205,7 +208,7 @@ class GjkDescent {
       least_ = std::fmin(least_, distance);
       greatest_ = std::fmax(greatest_, lower);
       if (lower > m.certificate.lower) take_plane(m.certificate, n, a, b, lower);
-      // Bounds around 0 may be narrow enough, and the sign still open.
+      // Bounds that begin at 0 may meet the goal and still not tell whether the bodies are apart.
       const bool open = m.certificate.lower == 0 && m.certificate.upper <= pair_.law_two;
       if (!open && goal_.met(m.certificate.lower, m.certificate.upper)) {
         m.status = MarchStatus::Disjoint;
@@ -244,7 +247,7 @@ class GjkDescent {
     count_ = nearest.count;
   }
 
-  /// The convex combinations themselves bound the distance from above.
+  /// Takes the points of the active set into `c` if their distance is a smaller upper bound.
   void take_points(Certificate& c) const {
     V3<Real> a{Real(0), Real(0), Real(0)}, apart = a;
     for (int k = 0; k < count_; ++k) {
@@ -271,7 +274,7 @@ class GjkDescent {
     c.lower = lower;
   }
 
-  /// A lower bound on the distance from the supports along unit n.
+  /// The lower bound on the distance that the support vertices `a` and `b` along unit `n` prove.
   double bound(const Vec& n, std::uint32_t a, std::uint32_t b) const {
     if constexpr (std::is_same_v<Real, double>) return gap(pair_, n, a, b);
     const double value = -double(dot(widened<DoubleDouble>(n), difference<DoubleDouble>(pair_, a, b).p));
@@ -285,7 +288,8 @@ class GjkDescent {
   std::array<Difference<Real>, 4> set_{};
   std::array<Real, 4> weight_{};
   int count_ = 0;
-  double least_ = std::numeric_limits<double>::infinity(), greatest_ = -least_;  ///< distance, and gap, may be negative
+  /// The least distance and the greatest lower bound of all iterates so far; the latter may be negative.
+  double least_ = std::numeric_limits<double>::infinity(), greatest_ = -least_;
   bool met_ = false;
 };
 
@@ -294,7 +298,7 @@ bool settle(const PairView& pair, const GjkGoal& goal, GjkResult& m, std::uint32
   GjkDescent<Real> descent(pair, goal, plane_tests);
   descent.run(m);
   const bool near_zero = m.certificate.upper <= pair.law_two && m.certificate.lower == 0;
-  const bool is_apart = m.certificate.lower > 0 && goal.met(m.certificate.lower, m.certificate.upper);  // however it ended
+  const bool is_apart = m.certificate.lower > 0 && goal.met(m.certificate.lower, m.certificate.upper);  // however run() ended
   if (is_apart) m.status = MarchStatus::Disjoint;
   if (m.status == MarchStatus::Disjoint && !near_zero) return true;
   m.status = MarchStatus::NotConverged;
@@ -304,7 +308,8 @@ bool settle(const PairView& pair, const GjkGoal& goal, GjkResult& m, std::uint32
   Vec normal = m.certificate.normal;
   const MarchStatus status = contact.decide(normal, m.proof, m.depth);
   if (status == MarchStatus::NotConverged) return false;
-  if (status == MarchStatus::Touching && !near_zero) return false;  // thin bodies may be thin far apart
+  // Thin bodies overlap by less than law 2's bound along some direction even if they are far apart.
+  if (status == MarchStatus::Touching && !near_zero) return false;
   m.status = status;
   m.certificate.lower = 0;
   m.certificate.normal = normal;
@@ -324,7 +329,8 @@ GjkResult gjk(const PairView& pair, const Certificate& start, const GjkGoal& goa
 bool proves_deep_overlap(const PairView& pair, const OverlapProof& proof) {
   std::array<Vec, 4> p;
   for (std::size_t k = 0; k < 4; ++k) p[k] = difference<double>(pair, proof.vertex_a[k], proof.vertex_b[k]).p;
-  const double m = pair.magnitude, rounding = 8 * kOffsetTripleProductError * m * m * m;  // differences of two, six terms
+  // Factors of the triple product are differences of two points; it has six terms.
+  const double m = pair.magnitude, rounding = 8 * kOffsetTripleProductError * m * m * m;
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec &a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4], n = cross(b - a, c - a);
     if (!(std::fabs(dot(n, a)) > 2 * pair.law_two * norm(n) + rounding)) return false;
@@ -364,7 +370,7 @@ FeatureId feature_of(const ConvexView& view, const ActiveSet& active, const std:
   for (std::uint32_t h = first.ring_begin; count == 2 && h < first.ring_begin + first.ring_count; ++h) {
     if (view.half_edges[h].head == distinct[1] && !is_diagonal(view, h)) return {FeatureKind::Edge, h};
   }
-  // A vertex may lie inside a face, where its loop does not come by.
+  // A vertex may lie inside a face, off the face's loop: the half-edges around the vertex are searched instead.
   const auto holds = [&](std::uint32_t face, std::uint32_t v) {
     const Vertex& ring = view.vertices[v];
     for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {

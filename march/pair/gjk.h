@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Certified GJK: the way on where a walk stalls, a certificate fails, or bodies meet. Each step adds the vertex pair that
-// the certificate exposed and takes the nearest point of at most four. Knows one level pair.
+// Certified GJK [Gilbert, Johnson & Keerthi 1988], for walks that stall, certificates too wide, and bodies that meet. Each step
+// adds the support vertices' difference to at most three others and finds their hull's nearest point. Knows one level pair.
 #pragma once
 
 #include "pair/certify.h"
@@ -11,10 +11,10 @@
 
 namespace swiftlet {
 
-/// When bounds are narrow enough: see MarchRule.
+/// The bounds at which certified GJK may end: narrow as MarchRule defines it, or beyond a threshold.
 struct GjkGoal {
   double absolute, relative;
-  double beyond;  ///< law 2's bound above the caller's
+  double beyond;  ///< the caller's threshold plus law 2's bound
   bool narrow(double lower, double upper) const { return upper - lower <= std::fmax(absolute, relative * lower); }
   bool met(double lower, double upper) const { return narrow(lower, upper) || lower > beyond; }
 };
@@ -23,23 +23,25 @@ struct GjkResult {
   MarchStatus status = MarchStatus::NotConverged;  ///< Disjoint (the goal is met), Touching, Overlapping or NotConverged
   Certificate certificate;
   OverlapProof proof;
-  double depth = 0;  ///< of Overlapping: a lower bound on the least translation that separates, 0 where none was needed
+  double depth = 0;  ///< if Overlapping: a lower bound on the least translation that separates the bodies; 0: none is known
 };
 
-/// Continues from `start`, first in doubles, then with about 106 bits. The bounds it returns are true in any case.
+/// Continues from the active set of `start`, first in doubles and, if these do not decide, in about 106 bits. The returned
+/// bounds are true whatever the status.
 GjkResult gjk(const PairView& pair, const Certificate& start, const GjkGoal& goal, std::uint32_t& plane_tests);
 
-/// Whether four vertex pairs prove that the bodies overlap, by clearly more than law 2's bound.
+/// True if the four vertex pairs of `proof` prove exactly that the bodies overlap, and the origin is more than twice law 2's
+/// bound from every plane of the tetrahedron of their differences.
 bool proves_deep_overlap(const PairView& pair, const OverlapProof& proof);
 
-/// Takes plane and points of a certificate that leans from one iterate of certified GJK in 106 bits, which does not; true
-/// if so.
+/// Replaces plane and points of a certificate that leans by those of a single iterate of certified GJK in 106 bits. Returns
+/// false, and changes nothing, if GJK does not reach law 2's width.
 bool straighten(const PairView& pair, Certificate& certificate, std::uint32_t& plane_tests);
 
-/// Improves a certificate's bounds by certified GJK in 106 bits, as far as these go: beyond law 2's.
+/// Narrows a certificate's bounds by certified GJK in 106 bits as far as that arithmetic goes: to less than law 2's width.
 void sharpen(const PairView& pair, Certificate& certificate, std::uint32_t& plane_tests);
 
-/// The smallest feature that holds the active vertices of one body.
+/// The smallest feature that holds `vertices`, one body's side of the pairs of `active`; else the vertex of greatest weight.
 FeatureId feature_of(const ConvexView& view, const ActiveSet& active, const std::array<std::uint32_t, 4>& vertices);
 
 }  // namespace swiftlet

@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// From a point x inside both bodies the rays to vertices that stick out of the other body leave through facets; between one
-// that leaves A last and one that leaves B last the surfaces change places:
+// Finds where the surfaces of overlapping bodies cross. Rays lead from a point x inside both bodies to vertices outside the
+// other body, and leave bodies through facets; between a ray that leaves A last and one that leaves B last the surfaces cross:
 //
-//            w        The ray to v, a vertex of A, leaves B in y, which is inside A. From there over B's facets towards w,
-//       B ___/\       a vertex of B outside A, until one has a corner q outside A: its way there leaves A
-//        /  /  \      through a facet that crosses it.
+//            w        The ray to v, a vertex of A, leaves B at y, which is inside A. From y a walk over B's facets leads
+//       B ___/\       towards w, a vertex of B outside A, until a facet has a corner q outside A. The way to q leaves A
+//        /  /  \      through a facet of A that crosses this facet of B.
 //   A __/__/____\__
-//     \ \ x      y----v      Doubles find the two facets; exact signs say whether an edge of one pierces the other, and where
-//      \_\______/___/        they deny it the facets beside are asked. Where doubles cannot tell, as of a body in one 1e16
+//     \ \ x      y----v      Doubles find the two facets; exact signs decide whether an edge of one pierces the other. If none
+//      \_\______/___/        does, the facets around them are tried. Where doubles cannot tell, as for a body in one 1e16
 //         \____/             times larger, exact signs alone follow every edge that begins outside the other body.
 //
-// They walk: the facets of a convex surface seen from a point cut its directions into cells of a regular subdivision, over
-// whose sides no walk towards a direction comes round [Edelsbrunner 1990], so that it ends in the cell that holds it.
+// The exact search walks from facet to facet. Seen from a point, the facets of a convex surface divide the directions into the
+// cells of a regular subdivision. A walk across cell sides towards a direction never cycles [Edelsbrunner 1990], so that it
+// ends in the cell that holds the direction.
 #include "pair/intersection.h"
 
 #include <array>
@@ -32,10 +33,10 @@ using Quad = std::array<std::uint32_t, 4>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Three edges or more meet in a vertex, of a flat polygon two.
+/// True for a solid: three edges or more meet in each of its vertices, but only two in a vertex of a flat polygon.
 bool bounds_solid(const ConvexView& view) { return view.vertices[0].ring_count > 2; }
 
-/// The smallest feature that holds given vertices exactly: none where no facet does.
+/// The smallest feature that holds all of `vertices` exactly; `FeatureId{}` if no facet has them all as corners.
 FeatureId feature_holding(const ConvexView& view, const Quad& vertices) {
   Quad distinct{};
   int count = 0;
@@ -62,7 +63,8 @@ FeatureId feature_holding(const ConvexView& view, const Quad& vertices) {
   return {};
 }
 
-/// Facets are named by one of their half-edges, bodies by 0 and 1; points are in the common frame.
+/// Finds two features that share a point. A facet is named by one of its half-edges, A is body 0 and B body 1; points are in
+/// the common frame.
 class IntersectionSearch {
  public:
   IntersectionSearch(const PairView& pair, std::uint32_t& tests)
@@ -103,7 +105,7 @@ class IntersectionSearch {
 
   // ---- Exactly ----
 
-  /// The sign of the determinant of three differences between points of body k and of the other.
+  /// The sign of the determinant of three differences, each a vertex of A less one of B; `own` are vertices of body k.
   int side(int k, const std::array<std::uint32_t, 3>& own, const std::array<std::uint32_t, 3>& other) const {
     std::array<const double*, 3> p, q;
     for (std::size_t i = 0; i < 3; ++i) p[i] = &view(k).vertices[own[i]].x, q[i] = &view(1 - k).vertices[other[i]].x;
@@ -111,8 +113,8 @@ class IntersectionSearch {
     return k == 0 ? exact::triple_product(p, q, pair_.b_in_a) : exact::triple_product(q, p, pair_.b_in_a);
   }
 
-  /// Whether an edge of body k meets a facet of the other in whose plane it does not lie. Of surfaces that meet some edge does:
-  /// where one that lies in the plane ends or leaves the facet, another edge or facet begins.
+  /// True if an edge of body k meets a facet of the other body in whose plane the edge does not lie. If surfaces meet, some
+  /// edge does: where an edge in the facet's plane ends or leaves the facet, another edge or facet begins.
   bool pierces(int k, std::uint32_t edge, std::uint32_t facet) const {
     const ConvexView &own = view(k), &other = view(1 - k);
     const std::uint32_t tail = origin(own, edge), head = own.half_edges[edge].head, q = origin(other, facet),
@@ -137,7 +139,8 @@ class IntersectionSearch {
     const FeatureId pierced{FeatureKind::Face, other.half_edges[facet].face};
     const FeatureId piercing =
         is_diagonal(own, edge) ? FeatureId{FeatureKind::Face, own.half_edges[edge].face} : FeatureId{FeatureKind::Edge, edge};
-    // An edge may lie nearly in the facet's plane: where it goes through is as uncertain as that angle's inverse.
+    // An edge may lie nearly in the facet's plane: the error of the common point grows as the inverse of the angle between
+    // them.
     const Wide p = wide_point(k, origin(own, edge)), e = wide_point(k, own.half_edges[edge].head) - p;
     const Wide q = wide_point(1 - k, origin(other, facet)), r = wide_point(1 - k, other.half_edges[facet].head),
                s = wide_point(1 - k, other.half_edges[next_in_facet(other, facet)].head), n = cross(r - q, s - q);
@@ -160,7 +163,7 @@ class IntersectionSearch {
     return found;
   }
 
-  /// Among the edges and facets at some vertices of each body.
+  /// Searches the edges and facets around the given vertices of both bodies for one that pierces another.
   template <class VerticesA, class VerticesB>
   std::optional<Intersection> around(const VerticesA& vertices_a, const VerticesB& vertices_b) const {
     for (const std::uint32_t va : vertices_a) {
@@ -181,8 +184,8 @@ class IntersectionSearch {
 
   // ---- Exactly, over a whole surface ----
 
-  /// A triangle of a facet's fan: the fan's first half-edge, from whose origin it spreads, and the triangle's side across from
-  /// there.
+  /// A triangle of a facet's fan. The fan spreads from the origin of half-edge `first`; `side` is the side opposite that
+  /// origin.
   struct Cell {
     std::uint32_t first, side;
   };
@@ -192,12 +195,12 @@ class IntersectionSearch {
     return own.half_edges[counter_clockwise(own.vertices[origin(own, h)], h)].twin;
   }
 
-  /// The signs of `side` are positive outside the facets of the other body where this is.
+  /// 1 or -1: `side` times this is positive for a point of body k outside a facet of the other body.
   int sense(int k) const {
     const Motion& m = pair_.b_in_a;
     return k == 1 || dot(m.row_x, cross(m.row_y, m.row_z)) < 0 ? -1 : 1;
   }
-  /// Whether a vertex of body k lies above (1), in (0) or below the plane of a facet of the other.
+  /// 1, 0 or -1 if a vertex of body k lies above, in or below the plane of a facet of the other body.
   int height(int k, std::uint32_t v, std::uint32_t facet) const {
     const ConvexView& other = view(1 - k);
     const std::uint32_t q = origin(other, facet), r = other.half_edges[facet].head,
@@ -205,8 +208,8 @@ class IntersectionSearch {
     return sense(k) * side(k, {v, v, v}, {q, r, s});
   }
 
-  /// Turns in a fan to the triangle that holds a direction; the side of the facet that it lies beyond, or kNone. `left` says on
-  /// which side of the plane through the apex and two corners it lies.
+  /// Moves `at` within its fan to the triangle that holds a direction. Returns the side of the facet beyond which the direction
+  /// lies, or kNone. `left` is the sign of the direction's side of the plane through the apex and two corners.
   template <class Left>
   std::uint32_t beyond(int k, Cell& at, Left left) const {
     const ConvexView& own = view(k);
@@ -226,19 +229,19 @@ class IntersectionSearch {
     }
   }
 
-  /// Where a vertex lies: outside a body (1), on its surface (0), or inside; and beyond or in which facet.
+  /// Where a vertex lies: `side` is 1 outside a body, 0 on its surface, -1 inside; `facet` is the facet it lies beyond or in.
   struct FacetPlace {
     int side;
     std::uint32_t facet;
   };
-  /// Of a vertex of body k in the other, a solid. Seen from a vertex of that body the facets that do not hold it fill the body
-  /// with pyramids; one that does hold it is come to only by going outside.
+  /// Locates a vertex of body k in the other body, a solid. Seen from the solid's apex, the facets without the apex as a corner
+  /// fill the solid with pyramids; a walk comes to a facet at the apex only on a way that leads outside.
   FacetPlace locate(int k, std::uint32_t v) {
     const ConvexView& other = view(1 - k);
     const std::uint32_t apex = apex_[std::size_t(1 - k)], ring = other.vertices[apex].ring_begin;
     Cell& last = cell_[std::size_t(1 - k)];
     Cell at = last;
-    for (std::size_t steps = other.half_edges.size(); steps > 0; --steps) {  // of a convex body none are left
+    for (std::size_t steps = other.half_edges.size(); steps > 0; --steps) {  // enough steps for any convex body
       const int above = height(k, v, at.first);
       if (above > 0) return {1, at.first};
       bool on_side = false;
@@ -261,8 +264,8 @@ class IntersectionSearch {
     return {-1, at.first};
   }
 
-  /// The facet that an edge of body k goes into, from p outside the other body to q; kNone where it misses that. `from` is a
-  /// facet below p, and becomes the last.
+  /// The facet through which the edge of body k from p, outside the other body, to q enters that body; kNone if the edge misses
+  /// it. `from` is in a facet whose plane p is above, and becomes the last cell visited.
   std::uint32_t entered(int k, std::uint32_t p, std::uint32_t q, Cell& from) const {
     const ConvexView& other = view(1 - k);
     Cell at = from;
@@ -277,7 +280,8 @@ class IntersectionSearch {
     return kNone;
   }
 
-  /// Where an edge of body k meets the other's surface; `inside` becomes false where a vertex of it is not inside.
+  /// Finds where an edge of body k meets the other surface. `inside` becomes false unless all vertices of body k lie inside the
+  /// other body.
   std::optional<Intersection> along_edges(int k, bool& inside) {
     const ConvexView &own = view(k), &other = view(1 - k);
     inside = bounds_solid(other);
@@ -302,12 +306,13 @@ class IntersectionSearch {
     return std::nullopt;
   }
 
-  /// The same of both bodies, the smaller first; without any one body lies inside the other.
+  /// Searches the edges of both bodies, the smaller body first. If none meets the other surface, one body lies inside the
+  /// other.
   Intersection exactly(const Vec& x) {
     for (const int k : {0, 1}) {
       const ConvexView& own = view(k);
       if (!bounds_solid(own)) continue;
-      std::uint32_t& apex = apex_[std::size_t(k)];  // in some vertex of a convex body no more than five edges meet
+      std::uint32_t& apex = apex_[std::size_t(k)];  // some vertex of a convex body has at most five edges
       for (std::uint32_t v = 1; v < own.vertices.size(); ++v) {
         if (own.vertices[v].ring_count < own.vertices[apex].ring_count) apex = v;
       }
@@ -324,17 +329,18 @@ class IntersectionSearch {
 
   // ---- In doubles ----
 
-  /// A guess is worth no more than one look at each feature.
+  /// True if the guesses in doubles took more tests than both bodies have half-edges.
   bool spent() const { return tests_ > most_tests_; }
 
-  /// Where the ray from a point inside leaves a body: after 1 / rate of its length; never, if the rate is not positive.
+  /// Where a ray from a point inside a body leaves it: through `facet`, after 1 / `rate` of the ray's length; never if `rate`
+  /// is not positive. `error` is the uncertainty of `rate`.
   struct Exit {
     std::uint32_t facet;
     double rate, error;
     bool ends_outside() const { return rate > 1 + error; }
   };
 
-  /// Of any length; outward but where the pose reflects.
+  /// A facet's normal, common frame, of any length; outward unless the pose reflects.
   Vec normal(int k, std::uint32_t facet) const {
     const ConvexView& own = view(k);
     const Vec q = point(k, origin(own, facet));
@@ -345,13 +351,14 @@ class IntersectionSearch {
     const Vec n = normal(k, facet);
     const double height = dot(n, point(k, origin(view(k), facet)) - p), along = dot(n, d);
     ++tests_;
-    // In the plane of a facet, as a corner is: out at once, or never through it.
+    // p lies in the facet's plane, as a corner does: the ray leaves through the facet at once, or never.
     const double thin = pair_.point_error * norm(n);
     if (std::fabs(height) <= thin) return {facet, std::fabs(along) <= thin ? 0 : kInfinity, 1};
     return {facet, along / height, kExitError * thin / std::fabs(height)};
   }
 
-  /// Facets seen from `p` are the vertices of the polar body, and the rate is linear over these: a climb ends at the greatest.
+  /// The exit of the ray from `p` along `d`. Seen from `p`, facets are the vertices of the polar body, over which the rate is
+  /// linear: hill climbing from facet to facet ends at the greatest rate.
   Exit leave(int k, const Vec& p, const Vec& d) {
     Exit best = through(k, hint_[std::size_t(k)], p, d);
     for (bool rises = true; rises && !spent();) {
@@ -366,7 +373,8 @@ class IntersectionSearch {
   }
   Exit towards(int k, const Vec& x, const Vec& p) { return leave(k, x, p - x); }
 
-  /// From a point of both bodies halfway to where the way to each one's centre leaves the other.
+  /// Moves a point of both bodies four times: halfway to the centre of A or of B, in turn, or halfway to where that way leaves
+  /// the other body.
   Vec inner_point(Vec x) {
     for (int k : {0, 1, 0, 1}) {
       const Vec d = centre(k) - x;
@@ -376,25 +384,25 @@ class IntersectionSearch {
     return x;
   }
 
-  /// A vertex of body k outside the other; kNone where few looks show none.
+  /// A vertex of body k outside the other body; kNone if a few support vertices show none.
   std::uint32_t outsider(int k, const Vec& x) {
     const Vec apart = centre(k) - centre(1 - k);
     std::uint32_t v = origin(view(k), hint_[std::size_t(k)]);
     for (Vec n : {apart, Vec{1, 0, 0}, Vec{-1, 0, 0}, Vec{0, 1, 0}, Vec{0, -1, 0}, Vec{0, 0, 1}, Vec{0, 0, -1}}) {
-      for (int step = 0; step < kMapGjkSteps && !spent(); ++step) {  // rounding may turn in a circle
+      for (int step = 0; step < kMapGjkSteps && !spent(); ++step) {  // rounding may make the loop cycle
         const std::uint32_t farthest = extreme(k, rescaled(n), v);
         if (step > 0 && farthest == v) break;
         v = farthest;
         const Exit exit = towards(1 - k, x, point(k, v));
         if (exit.ends_outside()) return v;
-        const Vec facing = normal(1 - k, exit.facet);  // on from here, over the facet that the ray leaves through
+        const Vec facing = normal(1 - k, exit.facet);  // next, along the normal of the facet that the ray leaves through
         n = dot(facing, point(k, v) - x) < 0 ? -facing : facing;
       }
     }
     return kNone;
   }
 
-  /// A corner of a facet of B outside A.
+  /// A corner of a facet of B that lies outside A; kNone if there is none.
   std::uint32_t corner_outside(std::uint32_t facet, const Vec& x) {
     std::uint32_t found = kNone;
     each_edge_of_facet(1, facet, [&](std::uint32_t h) {
@@ -438,17 +446,17 @@ class IntersectionSearch {
     return {origin(own, facet), own.half_edges[facet].head, own.half_edges[next_in_facet(own, facet)].head};
   }
 
-  /// Body k lies inside the other.
+  /// The result if body k lies inside the other body.
   Intersection inner(int k, const Vec& x) const {
     const FeatureId any{FeatureKind::Vertex, 0};
     return k == 0 ? Intersection{any, {}, x} : Intersection{{}, any, x};
   }
   const PairView& pair_;
   std::uint32_t& tests_;
-  const std::size_t most_tests_;         ///< of guesses
-  std::array<std::uint32_t, 2> hint_{};  ///< the facet last seen of each
-  std::array<std::uint32_t, 2> apex_{};  ///< where all of a body is seen from
-  std::array<Cell, 2> cell_{};           ///< the one last seen from there
+  const std::size_t most_tests_;         ///< guesses end at this count
+  std::array<std::uint32_t, 2> hint_{};  ///< per body, the facet that the last ray left through
+  std::array<std::uint32_t, 2> apex_{};  ///< per body, the vertex from which `locate` sees its facets
+  std::array<Cell, 2> cell_{};           ///< per body, the last cell that `locate` visited
 };
 
 /// The distance from p to the segment from q0 to q1.
@@ -465,7 +473,7 @@ FeatureId feature_at(const Body& body, FeatureId known, const Vec& p, double bou
   double least = 2 * bound;
   std::uint32_t nearest = kNone;
   for (std::uint32_t facet = 0; facet < view.half_edges.size(); ++facet) {
-    // Planes of slivers are uncertain, their sides are not.
+    // The plane of a sliver is uncertain, its sides are not: the distance to the sides counts too.
     const Vec q = body.point(origin(view, facet)), tip = body.point(view.half_edges[facet].head),
               n = cross(tip - q, body.point(view.half_edges[next_in_facet(view, facet)].head) - q);
     const double height = std::fabs(dot(n, p - q)), length = norm(n);

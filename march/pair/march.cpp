@@ -13,8 +13,8 @@
 namespace swiftlet {
 namespace {
 
-/// Where the budget ends a walk no nearer than it began, certified GJK goes on: marches that follow one another do not
-/// come round.
+/// Proves bounds from the end of a walk. If the budget ended the walk no nearer than it began, certified GJK goes on, so that
+/// marches which start from one another's features do not cycle.
 MarchResult concluded(const PairView& pair, const MarchStart& from, Walk walked, const MarchRule& rule) {
   const MarchResult r = conclude<Until::Exact>(pair, walked, rule);
   if (r.status != MarchStatus::Budget) return r;
@@ -24,7 +24,7 @@ MarchResult concluded(const PairView& pair, const MarchStart& from, Walk walked,
   return conclude<Until::Exact>(pair, walked, rule);
 }
 
-/// Features that overlap are where the surfaces cross, not where the proof was found.
+/// Moves features and points of an overlap from where the proof was found to where the surfaces cross.
 void cross(const PairView& pair, MarchResult& r) {
   const Intersection where = intersection(pair, r.proof, r.plane_tests);
   r.a = where.a;

@@ -16,7 +16,7 @@ namespace {
 /// A few vertices of one body in the common frame.
 struct Corners {
   int count = 0;
-  static constexpr int kMost = 8;  ///< of a face of more sides, some
+  static constexpr int kMost = 8;  ///< a face with more vertices gives only some of them
   std::array<std::uint32_t, kMost> vertex{};
   std::array<Vec, kMost> point{};
   int highest(const Vec& n) const {
@@ -62,7 +62,7 @@ Common common_point(const PairView& pair, const OverlapProof& proof) {
   std::array<Real, 4> w{dot(cross(p[1], p[3]), p[2]), dot(cross(p[0], p[2]), p[3]), dot(cross(p[0], p[3]), p[1]),
                         dot(cross(p[0], p[1]), p[2])};
   const Real zero(0), all = w[0] + w[1] + w[2] + w[3];
-  for (Real& weight : w) weight = weight / all > zero ? weight : zero;  // exact ones have one sign
+  for (Real& weight : w) weight = weight / all > zero ? weight : zero;  // exact weights all have the sign of their sum
   const Real sum = w[0] + w[1] + w[2] + w[3];
   V3<Real> x{zero, zero, zero}, apart = x;
   for (std::size_t k = 0; k < 4; ++k) x = x + a[k] * (w[k] / sum), apart = apart + p[k] * (w[k] / sum);

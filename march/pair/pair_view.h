@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// One level pair and one pose, as every step of a march reads them: all points in A's frame, B's by one transform.
+// One level pair and one pose, as every step of a march reads them. A's frame is the common frame; the pose carries B into it.
 #pragma once
 
 #include <swiftlet/model.h>
@@ -15,24 +15,24 @@ struct PairView {
   const ConvexView& a;
   const ConvexView& b;
   const Motion& b_in_a;
-  double magnitude;     ///< bounds |p| and |R q + t| over all points, summed
+  double magnitude;     ///< at least |p| + |R q + t| for all points p of A and q of B
   double motion_error;  ///< bounds the rounding of a vertex of B carried into A's frame
-  double point_error;   ///< bounds the rounding of two convex combinations of such vertices, one of each body
+  double point_error;   ///< bounds the rounding of two convex combinations of vertices, one of each body, together
   double pose_error;    ///< largest entry of |R^T R - I|
-  double law_two;       ///< at most law 2's bound for this pair: the width an exact answer keeps
+  double law_two;       ///< greatest width of an exact answer; at most law 2's bound for this pair
 };
 
-/// A body of a pair at rest in the common frame, which is its own.
+/// Body A of a pair: its own frame is the common frame.
 struct Resting {
   const ConvexView& view;
   Vec own(std::uint32_t v) const { return vec(view.vertices[v]); }
-  Vec common(const Vec& p) const { return p; }  ///< a point of its own frame in the common one
+  Vec common(const Vec& p) const { return p; }  ///< carries a point from the own to the common frame
   Vec point(std::uint32_t v) const { return own(v); }
-  Vec rotated(const Vec& n) const { return n; }  ///< a direction of its own frame in the common one
-  Vec local(const Vec& p) const { return p; }    ///< a point of the common frame in its own
-  Vec into(const Vec& n) const { return n; }     ///< orders its own points as `n` orders their images
+  Vec rotated(const Vec& n) const { return n; }  ///< carries a direction from the own to the common frame
+  Vec local(const Vec& p) const { return p; }    ///< carries a point from the common to the own frame
+  Vec into(const Vec& n) const { return n; }     ///< a direction that orders own points as `n` orders them in the common frame
 };
-/// A body of a pair that the pose moves into it. `local` takes the pose for a rigid motion.
+/// Body B of a pair, which the pose moves into the common frame. `local` treats the pose as a rigid motion.
 struct Moved {
   const ConvexView& view;
   const Motion& motion;
@@ -47,7 +47,7 @@ struct Moved {
 static inline Resting body_a(const PairView& s) { return {s.a}; }
 static inline Moved body_b(const PairView& s) { return {s.b, s.b_in_a}; }
 
-/// What a pose is worth: whether it is legal, and how far from a rigid motion it is.
+/// Says whether a pose is legal and how far it is from a rigid motion.
 struct PoseQuality {
   bool legal;
   double error;  ///< largest entry of |R^T R - I|
@@ -59,15 +59,15 @@ static inline PoseQuality pose_quality(const Motion& m) {
                zz = std::fabs(entry(&Vec::z, &Vec::z) - 1);
   const double across =
       max(max(std::fabs(entry(&Vec::x, &Vec::y)), std::fabs(entry(&Vec::x, &Vec::z))), std::fabs(entry(&Vec::y, &Vec::z)));
-  // A NaN or infinity in a column is one in its square. Farther away exact signs and squares overflow, and a climb need not
-  // end.
+  // A NaN or an infinity in a column of R is also in the column's square, which the comparison refuses. With a translation
+  // above kMostCoordinate exact signs and squares overflow, and a climb may not end.
   const bool legal = xx <= kOrthonormality && yy <= kOrthonormality && zz <= kOrthonormality && across <= kOrthonormality &&
                      std::fabs(m.t.x) <= kMostCoordinate && std::fabs(m.t.y) <= kMostCoordinate &&
                      std::fabs(m.t.z) <= kMostCoordinate;
   return {legal, max(max(xx, yy), max(zz, across))};
 }
 
-/// At most law 2's bound of a pair: the width an exact answer keeps. `shift` is |t|.
+/// The greatest width of an exact answer, which is at most law 2's bound of the pair. `shift` is |t|.
 static inline double law_two(double extent_a, double extent_b, double shift, double pose_error) {
   return max((kLawTwo + 2 * max(0, pose_error - kOrthonormalityError)) * (max(extent_a, extent_b) + shift), kLeastWidth);
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The prism over a face: above its plane, between planes through its sides. Knows one body, all is in that one's own frame.
+// The prism over a face: the space above its plane and between the planes at right angles to it through its sides. Knows one
+// body and works in that body's own frame.
 #pragma once
 
 #include <cstdint>
@@ -28,13 +29,14 @@ class Prism {
     normal_ = cross(u_, v_);
   }
 
-  /// Outward, of any length.
+  /// The face's outward normal, of any length.
   const Vec& normal() const { return normal_; }
-  /// Of `p` above the face, times the normal's length.
+  /// The height of `p` above the face's plane, times the length of `normal()`.
   double height(const Vec& p) const { return dot(normal_, p - corner_); }
 
-  /// Calls visit(half_edge, u, beyond, slope) for each side, u along it either way: how far p is beyond the prism's plane there
-  /// and how much farther p + e, times the lengths of u and the normal. Returns how many there are.
+  /// Calls visit(half_edge, u, beyond, slope) for each side of the face and returns the number of sides. `u` is the side's
+  /// vector, in either direction. `beyond` is how far `p` is outside the prism's plane through the side, and `slope` how much
+  /// farther outside `p` + `e` is; both are times the lengths of `u` and `normal()`.
   template <class Visit>
   std::uint32_t each_side(const Vec& p, const Vec& e, Visit visit) const {
     return is_triangle_ ? each_of_three(p, e, visit) : each_of_many(p, e, visit);
@@ -55,7 +57,7 @@ class Prism {
     return count;
   }
 
-  /// The sum of what a point is beyond the three sides is the same for all.
+  /// Computes `beyond` for two sides; the third follows, because the sum over the three sides is the same for all points.
   template <class Visit>
   std::uint32_t each_of_three(const Vec& p, const Vec& e, Visit visit) const {
     const Vec across_p = cross(normal_, p - corner_), across_e = cross(normal_, e);
@@ -70,9 +72,9 @@ class Prism {
   const Body body_;
   const bool is_triangle_;
   const std::uint32_t first_;
-  std::uint32_t second_ = kNone;  ///< of a triangle's sides
+  std::uint32_t second_ = kNone;  ///< a triangle's second half-edge
   const Vec corner_;
-  Vec u_{0, 0, 0}, v_{0, 0, 0};  ///< a triangle's, from the corner to the others
+  Vec u_{0, 0, 0}, v_{0, 0, 0};  ///< for a triangle: from `corner_` to the second and to the third corner
   Vec normal_;
 };
 

@@ -13,7 +13,7 @@ bool Simplex::has(std::uint32_t va, std::uint32_t vb) const {
   return false;
 }
 
-/// Of corners i and j, j the newest: the nearest point is not i alone.
+/// The nearest point of the segment between corners i and j, j the newest.
 Simplex::Nearest Simplex::on_segment(int i, int j) const {
   const Vec &p = corner_[i].p, &q = corner_[j].p, u = p - q;
   const double along = -dot(q, u), length2 = dot(u, u);
@@ -23,7 +23,7 @@ Simplex::Nearest Simplex::on_segment(int i, int j) const {
   return {q + u * t, 2, {i, j}, {t, 1 - t}};
 }
 
-/// [Ericson 2004, sec. 5.1.5], for the regions that hold k, the newest.
+/// The nearest point of a triangle [Ericson 2004, sec. 5.1.5], sought only in the regions that hold corner k, the newest.
 Simplex::Nearest Simplex::on_triangle(int i, int j, int k) const {
   const Vec &p = corner_[i].p, &q = corner_[j].p, &r = corner_[k].p;
   const Vec u = p - r, v = q - r, n = cross(u, v);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The point nearest to the origin of at most four points of the Minkowski difference, what an iteration of [Gilbert, Johnson &
-// Keerthi 1988] goes on from. Two solvers: a cold start takes a direction from it and needs no more, certified GJK lives by it.
+// The simplex step of GJK [Gilbert, Johnson & Keerthi 1988]: the point nearest to the origin in the hull of at most four points
+// of the Minkowski difference. Two solvers: `Simplex` for a cold start, which takes only a direction from the point, and
+// `nearest_to_origin` for certified GJK, which takes its bounds from it.
 #pragma once
 
 #include <array>
@@ -15,30 +16,30 @@
 
 namespace swiftlet {
 
-/// In doubles, by the regions of [Ericson 2004, sec. 5.1] that hold the newest corner. A whole cold query takes up to
-/// 14 % more instructions with the solver below.
+/// The solver in doubles. It tests the Voronoi regions of [Ericson 2004, sec. 5.1] that hold the newest corner. With
+/// `nearest_to_origin` instead, a whole cold query takes up to 14 % more instructions.
 class Simplex {
  public:
   struct Corner {
-    Vec p, a;  ///< b - a, and a, in the common frame
+    Vec p, a;  ///< `a` is the point of A, `p` that of B less `a`, in the common frame
     std::uint32_t va, vb;
   };
   struct Nearest {
-    Vec point{0, 0, 0};          ///< to the origin
-    int count = 0;               ///< of corners that hold it; 4: the simplex holds the origin
-    std::array<int, 4> index{};  ///< ascending
+    Vec point{0, 0, 0};          ///< the point of the simplex nearest to the origin
+    int count = 0;               ///< number of corners whose hull holds `point`; 4: the simplex holds the origin
+    std::array<int, 4> index{};  ///< the corners whose hull holds `point`, ascending
     std::array<double, 4> weight{};
   };
 
   bool has(std::uint32_t va, std::uint32_t vb) const;
-  /// Adds a corner and finds the nearest point, the new corner among those that hold it.
+  /// Adds a corner and finds the nearest point, taking for granted that the new corner is one of those that hold it.
   Nearest add(const Corner& corner);
-  /// A point of A, and from there to one of B.
+  /// A point of A, and the vector from it to a point of B.
   struct Points {
     Vec a{0, 0, 0}, apart{0, 0, 0};
   };
-  /// Keeps what holds the nearest point; returns the points that its weights stand for: of a triangle seen as a line the
-  /// nearest point is no combination of the corners, and off by more than rounding.
+  /// Keeps only the corners that hold the nearest point. Returns the points that the weights in `nearest` make of these
+  /// corners: if a triangle is nearly a line, `nearest.point` is no combination of the corners, and off by more than rounding.
   Points reduce(const Nearest& nearest);
   OverlapProof proof() const;
 
@@ -51,7 +52,7 @@ class Simplex {
   int count_ = 0;
 };
 
-/// The nearest point as a convex combination.
+/// The point of a simplex nearest to the origin, as a convex combination of its corners.
 template <class Real>
 struct NearestOrigin {
   int count = 0;
@@ -59,12 +60,13 @@ struct NearestOrigin {
   std::array<Real, 4> weight{};
   V3<Real> point{Real(0), Real(0), Real(0)};
   double norm2 = std::numeric_limits<double>::infinity();
-  bool holds_origin = false;  ///< four points around it
+  bool holds_origin = false;  ///< the simplex has four corners and holds the origin
 };
 
-/// In doubles or 106 bits, by every subset, which no degeneracy confuses: a candidate with weights >= 0 is a point of the
-/// simplex. The nearest is the one whose plane cuts off the least of the simplex: its norm alone is flat about the optimum, and
-/// would hide a step of 1e-9 under a rounding of 1e-17.
+/// The solver in doubles or 106 bits. It tries every subset of the first `count` points of `set`, so that no degeneracy
+/// confuses it: a candidate with weights >= 0 is a point of the simplex. It takes the candidate whose plane, through the
+/// candidate at right angles to it, cuts off the least of the simplex. The candidate's norm is no criterion: it is flat about
+/// the optimum, and would hide a step of 1e-9 under a rounding of 1e-17.
 template <class Real>
 static inline NearestOrigin<Real> nearest_to_origin(const std::array<Difference<Real>, 4>& set, int count) {
   NearestOrigin<Real> best;
@@ -77,7 +79,7 @@ static inline NearestOrigin<Real> nearest_to_origin(const std::array<Difference<
       if (const Real beyond = norm2 - dot(set[i].p, point); beyond > cut) cut = beyond;
     }
     const double length = std::sqrt(rounded(norm2));
-    const double relative = length > 0 ? std::fmin(rounded(cut) / length, length) : 0;  // no plane proves less than 0
+    const double relative = length > 0 ? std::fmin(rounded(cut) / length, length) : 0;  // every plane proves a bound >= 0
     if (relative < least_cut) least_cut = relative, best = {n, index, weight, point, rounded(norm2), false};
   };
   for (int i = 0; i < count; ++i) offer(1, {i}, {Real(1)}, set[i].p);

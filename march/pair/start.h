@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a walk on one level pair starts from. Knows no levels.
+// Turns any two feature ids into a start that a walk on one level pair can take. Knows no levels.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace swiftlet {
 
-/// The start as features of the pair's views: what is no feature of its view, or a face against a face, becomes vertices.
-/// `plane_tests` grows by the climbs along the line of centres.
+/// `start` made legal: an id that names no feature of its view becomes the support vertex along the line of centres; of two
+/// faces, that of B becomes one of its vertices. `plane_tests` grows by the tests of the support climbs.
 MarchStart settled(const PairView& pair, const MarchStart& start, std::uint32_t& plane_tests);
 
 }  // namespace swiftlet

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A cold start: from the line of centres towards the direction of the distance by steps of [Gilbert, Johnson & Keerthi 1988]
-// whose supports come from maps, one look-up each and no climb. Every step proves bounds. Knows one level pair.
+// GJK on support maps for a cold start [Gilbert, Johnson & Keerthi 1988]: from the line of centres towards the direction of the
+// distance, with one look-up in a map for each support and no climb. Every step proves bounds. Knows one level pair.
 #pragma once
 
 #include <cstdint>
@@ -16,29 +16,30 @@
 
 namespace swiftlet {
 
-/// What one step saw.
+/// The state of the algorithm after a step.
 struct SupportGjk {
-  std::uint32_t a = 0, b = 0;  ///< supports along `normal` and against it, as the maps know them
-  double gap = 0;              ///< of these vertices along `normal`
-  double lower = 0;            ///< proved along `normal`: less than the gap by what the maps are uncertain of; may be negative
-  double most_lower = -std::numeric_limits<double>::infinity();  ///< of all steps so far: more steps never prove less
-  Vec lower_along{0, 0, 0};                                      ///< what that is proved along
-  double upper = 0;                                              ///< the distance of the points
+  std::uint32_t a = 0, b = 0;  ///< support vertices of A along `normal` and of B against it, as the maps have them
+  double gap = 0;              ///< between vertices `a` and `b` along `normal`
+  double lower = 0;  ///< bound proved along `normal`: the gap less rounding and the maps' uncertainty; may be negative
+  double most_lower = -std::numeric_limits<double>::infinity();  ///< the greatest `lower` of all steps so far
+  Vec lower_along{0, 0, 0};                                      ///< the normal along which `most_lower` is proved
+  double upper = 0;  ///< upper bound: the distance of `point_a` and `point_b` plus rounding
   Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};
-  bool near = false;                       ///< `a` and `b` lie no more than a few edges aside of each other: a walk is cheaper
-  std::uint32_t start_a = 0, start_b = 0;  ///< where a walk begins: the first supports that were near, else these
-  bool meets = false;  ///< the pair seems to overlap: the differences of `proof`'s vertices look to hold the origin
+  bool near = false;  ///< `a` and `b` are within a few edges of each other across `normal`: a walk is cheaper
+  std::uint32_t start_a = 0, start_b = 0;  ///< where a walk begins: the first supports that were `near`, else `a` and `b`
+  bool meets = false;  ///< the pair seems to overlap: in doubles, the differences of the pairs in `proof` hold the origin
   OverlapProof proof{};
 };
 
-/// What maps say along one direction, of any length.
+/// The supports that the maps have along one direction, and the bound that they prove.
 struct AxisSample {
-  Vec normal{0, 0, 0};                 ///< the direction at length 1; 0 where it names none
-  std::uint32_t a = 0, b = 0;          ///< supports along it and against it, as the maps know them
-  Vec point{0, 0, 0}, apart{0, 0, 0};  ///< A's, and from there to B's
+  Vec normal{0, 0, 0};                 ///< the direction at length 1; 0 if it names no direction
+  std::uint32_t a = 0, b = 0;          ///< support vertices of A along `normal` and of B against it, as the maps have them
+  Vec point{0, 0, 0}, apart{0, 0, 0};  ///< vertex `a`, and the vector from it to vertex `b`: common frame
   double gap = 0, lower = 0;           ///< as in SupportGjk
 };
-/// Looks up before the length is known: cells are where a direction of any length goes.
+/// Samples the maps along `direction`. It may have any length, because its positive multiples all lie in the same cell of a
+/// map.
 static inline AxisSample sample_axis(const PairView& pair, const Level& a, const Level& b, const Vec& direction) {
   const Moved other = body_b(pair);
   const MapSupport top_a = look_up(a, direction), top_b = look_up(b, -other.into(direction));
@@ -47,8 +48,8 @@ static inline AxisSample sample_axis(const PairView& pair, const Level& a, const
   return {n, top_a.vertex, top_b.vertex, q, p, dot(n, p), gap(pair, n, p, (top_a.excess + top_b.excess) * scale)};
 }
 
-/// Goes on from what was sampled, until that is enough or nothing changes. Both levels have maps. Supports that overlap by
-/// less than `hidden` count as near too.
+/// Continues from the sample `seen` until `enough` returns true or nothing changes, for at most `kMapGjkSteps` steps. Both
+/// levels have maps. Supports that overlap, but by less than `hidden`, count as `near` too.
 template <class Enough>
 SupportGjk support_gjk(const PairView& pair, const Level& a, const Level& b, double hidden, AxisSample seen, Enough enough) {
   const double few = kNearEdges * (a.edge_length + b.edge_length);

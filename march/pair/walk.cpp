@@ -1,21 +1,23 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Each state finds the nearest points of its two closed features. A point on a feature's boundary drops to the boundary; else
-// the feature rises to the neighbour that is highest along the direction between them; where both features have one, on the way
-// to which the distance falls faster. Mirrored states run with the roles swapped.
+// Voronoi marching [Ehmann & Lin 2000, sec. 5.1]. Each state finds the nearest points of its two closed features. If a point is
+// on its feature's boundary, the walk drops to that boundary feature. Else it goes to the neighbour that rises highest along
+// the direction between the points; if both features have one that rises, to the one on the way to which the distance falls
+// faster. Mirrored states run with the roles swapped.
 //
 //     VV  --ring-->  VE  --ring-->  EE  --face--> over the face
 //     VV <--clamp--  VE <--clamp--  EE
 //                    VE --face-->   VF  --ring--> over the face: to VF, EE with a side of it, or Inside
 //                    VE <--side---  VF
 //
-// Where we leave the paper: nearest points on closed features instead of clipped intervals with derivatives, so that no state
-// carries values from the one before (its stale values looped); vertex to vertex in one step where the whole edge falls; an
-// edge is taken over a face and down to where it ends in one step, so that the two are no state.
+// Differences from the paper: nearest points on closed features instead of clipped intervals with derivatives, so that no state
+// carries values from the one before (the paper's stale values loop); vertex to vertex in one step where the distance falls
+// along the whole edge; an edge is followed over a face and down to where it ends in one step, so that edge and face are no
+// state.
 //
-// A state is computed in the frame of its second body, and a ring in its own body's, so that of all points read only the
-// first body's feature is carried over. Of a state's choices the likely ones are taken without branches, which processors
-// would guess wrong every other time.
+// A state is computed in the frame of its second body, and the ring of a vertex in its own body's frame, so that of all points
+// read only those of the first body's feature are transformed. A state's likely choices are made without branches, which
+// processors would guess wrong every other time.
 #include "pair/walk.h"
 
 #include <limits>
@@ -29,28 +31,29 @@ constexpr FeatureId vertex(std::uint32_t index) { return {FeatureKind::Vertex, i
 constexpr FeatureId edge(std::uint32_t half_edge) { return {FeatureKind::Edge, half_edge}; }
 constexpr FeatureId face(std::uint32_t index) { return {FeatureKind::Face, index}; }
 
-/// Where a state leads: the next features, in the order of its arguments. A minimum leads to itself.
+/// Where a state leads: the next features, in the order of the state's arguments. A minimum leads to itself.
 struct Move {
   FeatureId first, second;
-  double distance2;  ///< between the features left, for the stall guard
+  double distance2;  ///< squared distance of the features that the state leaves, for `kStallLimit`
 };
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-/// What rises highest along a direction of all that stands beside a feature: the distance falls on the way there if it is above
-/// the feature.
+/// The neighbour of a feature that rises highest along a direction. The distance falls on the way to it if it is above the
+/// feature.
 struct Rise {
-  std::uint32_t to = kNone;    ///< half-edge of a ring, or face
-  double highest = -kUnknown;  ///< what it rises, times the direction's length
-  double length2 = 1;          ///< of the way there, squared
+  std::uint32_t to = kNone;    ///< a half-edge of the vertex's ring, or a face beside the edge
+  double highest = -kUnknown;  ///< how far the neighbour rises above the feature, times the direction's length
+  double length2 = 1;          ///< squared length of the way to the neighbour
   bool falls() const { return highest > 0; }
-  /// Of the fall, squared; less than any where there is none. Of slivers rounding leaves a length of 0 or less.
+  /// The squared rate at which the distance falls; -1, below any rate, if it does not. Rounding may give a sliver a `length2`
+  /// of 0 or less.
   double rate2() const { return falls() ? highest / max(std::numeric_limits<double>::denorm_min(), length2) * highest : -1; }
 };
 
 class Marcher {
  public:
-  /// States read and end `walk`.
+  /// The states count their tests in `walk` and write how it ends.
   Marcher(PlaneRule rule, Walk& walk) : first_only_(rule == PlaneRule::FirstViolated), walk_(walk) {}
 
   template <class P, class Q>
@@ -136,7 +139,7 @@ class Marcher {
   static Move swapped(const Move& m) { return {m.second, m.first, m.distance2}; }
 
  private:
-  /// `seen` in the order of the state's arguments, of which `a` is the first.
+  /// Ends the walk in a minimum. The first argument is the state's first body; `seen` has the bodies in the state's order.
   void end(Resting, const Witness& seen) { walk_.end = WalkEnd::Minimum, walk_.witness = seen; }
   void end(Moved, const Witness& seen) { walk_.end = WalkEnd::Minimum, walk_.witness = swiftlet::swapped(seen); }
   Move inside(FeatureId first, FeatureId second, double distance2) {
@@ -144,9 +147,9 @@ class Marcher {
     return {first, second, distance2};
   }
 
-  // From here on all is in the body's own frame.
+  // From here on all arguments are in the own frame of `body`.
 
-  /// Among the neighbours of a vertex, the highest along `d`. The steepest would take fewer states and more time.
+  /// The neighbour of a vertex that is highest along `d`. Taking the steepest would need fewer states but more time.
   template <class P>
   Rise ring(P body, std::uint32_t v, const Vec& d) {
     const Vertex& record = body.view.vertices[v];
@@ -166,14 +169,14 @@ class Marcher {
     return rise;
   }
 
-  /// To where the fall along an edge ends: on it, or at its head.
+  /// Where the fall along the edge `ring.to` ends: the edge, or the vertex at its head if the distance falls up to there.
   template <class P>
   static FeatureId along(P body, const Rise& ring) {
     return ring.highest >= ring.length2 ? vertex(body.view.half_edges[ring.to].head) : edge(ring.to);
   }
 
-  /// Of the two faces beside an edge q0 + s u from vertex `v0`, the one whose other edge there rises higher along `d`, which is
-  /// perpendicular to u.
+  /// Of the two faces beside edge `h`, which is q0 + s u from vertex `v0`, the one whose other edge at `v0` rises higher along
+  /// `d`, a direction perpendicular to u.
   template <class Q>
   Rise sides(Q body, std::uint32_t v0, std::uint32_t h, const Vec& q0, const Vec& u, const Vec& d) {
     const Vertex& record = body.view.vertices[v0];
@@ -193,20 +196,20 @@ class Marcher {
     return rise;
   }
 
-  /// The side of a face's prism that `p` is farthest beyond.
+  /// The side of a face's prism that `p` is farthest beyond; kNone if `p` is inside the prism.
   template <class Q>
   std::uint32_t leave(const Prism<Q>& prism, const Vec& p) {
     std::uint32_t out = kNone;
     double farthest2 = 0;
     walk_.plane_tests += prism.each_side(p, {0, 0, 0}, [&](std::uint32_t side, const Vec& u, double beyond, double) {
       if (!(beyond > 0) || (first_only_ && out != kNone)) return;
-      const double violation2 = beyond / dot(u, u) * beyond;  // eighth powers of small bodies underflow
+      const double violation2 = beyond / dot(u, u) * beyond;  // in this order, as eighth powers of small lengths underflow
       if (violation2 > farthest2) out = side, farthest2 = violation2;
     });
     return out;
   }
 
-  /// Edge `h`, from `tail` along u to `head`, from its point p at s on: over a face that rises towards p.
+  /// Follows edge `h`, which leads from `tail` along u to `head`, from its point p at s over face `f`, which rises towards p.
   template <class Q>
   Move edge_over_face(std::uint32_t h, std::uint32_t tail, std::uint32_t head, const Vec& p, const Vec& u, double s, Q body,
                       std::uint32_t f, double distance2) {
@@ -215,8 +218,9 @@ class Marcher {
     return over_face(h, forward ? head : tail, p, u * (forward ? 1 - s : -s), prism, f, distance2);
   }
 
-  /// The part p + x e of edge `h` that falls towards a face, x from 0 to 1 at vertex `to`: there, or to the side where it
-  /// leaves the face's prism, if it does not get below the face before.
+  /// Follows the part p + x e of edge `h` that falls towards face `f`, x from 0 to 1 at vertex `to`. Leads to `to` and the
+  /// face, or to the edge and the side where it leaves the face's prism. The walk ends Inside if the edge gets below the face
+  /// first.
   template <class Q>
   Move over_face(std::uint32_t h, std::uint32_t to, const Vec& p, const Vec& e, const Prism<Q>& prism, std::uint32_t f,
                  double distance2) {
@@ -237,7 +241,7 @@ class Marcher {
   Walk& walk_;
 };
 
-/// The state of a feature pair. A face and an edge or face is none: a vertex or an edge of one is as near.
+/// Runs the state of a feature pair. A face with an edge or a face is no state: a vertex or an edge of one is as near.
 template <class A, class B>
 Move state(Marcher& march, A a, FeatureId fa, B b, FeatureId fb) {
   using enum FeatureKind;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Voronoi marching on one level pair [Ehmann & Lin 2000, sec. 5.1]: from any feature pair to one that looks nearest in doubles.
-// Proves nothing: see certify.h.
+// Voronoi marching on one level pair [Ehmann & Lin 2000, sec. 5.1]: walks from any feature pair to one that is nearest as far
+// as doubles can tell. Proves nothing: certify.h does.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace swiftlet {
 
 enum class WalkEnd : std::uint8_t {
   Minimum,  ///< no Voronoi plane of either feature is violated
-  Inside,   ///< a vertex below a face, or an edge through one: overlapping, or a start behind the body
+  Inside,   ///< a vertex is below a face, or an edge passes through one: overlap, or a start behind the body
   Stalled,  ///< kStallLimit states did not shorten the distance
   Budget,
 };
@@ -23,9 +23,9 @@ enum class WalkEnd : std::uint8_t {
 struct Walk {
   WalkEnd end = WalkEnd::Budget;
   FeatureId a, b;       ///< kinds VV, VE, EV, EE, VF, FV; with Inside also EF and FE
-  double distance = 0;  ///< between the features, rounded; what Minimum found, elsewhere the least seen
+  double distance = 0;  ///< with Minimum the rounded distance of `a` and `b`, else the least of all states
   std::uint32_t steps = 0, plane_tests = 0;
-  Witness witness;  ///< with Minimum: what the last state saw
+  Witness witness;  ///< with Minimum: the witness points and the direction of the last state
 };
 
 /// `a` and `b` name features of the pair's views, not both faces.

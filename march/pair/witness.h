@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What two closed features say of the distance: the direction between them and a point of each. A walk's last state fills it on
-// the way, any other pair is asked afresh.
+// The witness of two closed features: the direction from one to the other and a nearest point of each. The last state of a walk
+// fills it in; for any other feature pair `witness` computes it. Knows one level pair.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace swiftlet {
 
-/// A convex combination of vertices of one body, those with weights first.
+/// A convex combination of at most three vertices of one body; unused places have weight 0.
 struct Combination {
   std::array<std::uint32_t, 3> vertex;
   std::array<double, 3> weight;
@@ -24,24 +24,25 @@ static inline Combination between(std::uint32_t tail, std::uint32_t head, double
   return {{tail, head, head}, {1 - t, t, 0}};
 }
 
-/// The direction comes from the features, not from the difference of two close points: from the difference, a cube's corner
-/// 1e-8 above a face certifies only to 2e-8, from the face normal to 6e-16.
+/// The direction between two features and a point of each. It comes from the features, not from the difference of two close
+/// points: a cube's corner 1e-8 above a face certifies only to 2e-8 along the difference, to 6e-16 along the face normal.
 struct Witness {
   Vec normal;  ///< from the first body to the second, common frame, any length
   Combination first, second;
-  /// What stands beside each feature rises no higher above it along the normal, times the normal's length, but for kRiseError
-  /// of the body's reach. Infinite where nobody looked.
+  /// Upper bounds on how far each feature's neighbours rise above it towards the other body, along `normal` and times its
+  /// length, to within kRiseError of the body's reach. Infinite if the neighbours were not examined.
   double rise_first, rise_second;
 };
 static inline Witness swapped(const Witness& w) { return {-w.normal, w.second, w.first, w.rise_second, w.rise_first}; }
 
-/// `d` without its part along `u`, of squared length `uu`.
+/// The part of `d` at right angles to `u`, whose squared length is `uu`.
 static inline Vec across(const Vec& d, const Vec& u, double uu) { return d - u * (dot(d, u) / uu); }
 
-/// The direction from one edge's line to another's, along `u` and `v`, on the side of `d`, which is between them.
+/// The direction from one edge's line, along `u`, to another's, along `v`; `d` leads from a point of the first to one of the
+/// second, `uu` and `vv` are squared lengths.
 static inline Vec between_edges(const Vec& u, double uu, const Vec& v, double vv, const Vec& d) {
   const Vec n = cross(u, v);
-  // Edges within the rounding of parallel have no cross product worth the name.
+  // If the edges are parallel within rounding, the direction of their cross product is noise.
   return !(dot(n, n) > kU * uu * vv) ? across(d, u, uu) : dot(n, d) < 0 ? -n : n;
 }
 
@@ -49,7 +50,8 @@ static inline Vec between_edges(const Vec& u, double uu, const Vec& v, double vv
 struct Parameters {
   double s, t;  ///< in [0, 1]
 };
-/// [Ericson 2004, sec. 5.1.9], and s once more from t, so that nearly parallel lines keep their difference perpendicular.
+/// Follows [Ericson 2004, sec. 5.1.9], then computes s again from t, so that the difference stays perpendicular if the lines
+/// are nearly parallel.
 static inline Parameters nearest_on_segments(const Vec& p0, const Vec& u, double uu, const Vec& q0, const Vec& v, double vv) {
   const auto clamp = [](double x) { return min(1, max(0, x)); };
   const Vec r = p0 - q0;
@@ -58,7 +60,8 @@ static inline Parameters nearest_on_segments(const Vec& p0, const Vec& u, double
   return {clamp((uv * t - ur) / uu), t};
 }
 
-/// The point of a face below `p`, both in the body's own frame. A point beside the face goes to the last triangle of its fan.
+/// The point of face `f` below `p`, which is in the body's own frame. If `p` is beside the face, negative weights become 0, in
+/// the triangle of the face's fan whose sector holds `p`, or else in the last triangle.
 template <class Q>
 Combination below(const Q& body, std::uint32_t f, const Vec& p) {
   const ConvexView& view = body.view;
@@ -87,7 +90,8 @@ Vec face_normal(const Q& body, std::uint32_t f) {
   return cross(q1 - q0, body.own(body.view.half_edges[next_in_facet(body.view, h)].head) - q0);
 }
 
-/// Of features of any kinds but two faces; of a feature beside a face, one of its vertices.
+/// The witness of features `a` of A and `b` of B, of which at most one is a face; for an edge against a face it is that of one
+/// vertex of the edge. Both rises are infinite.
 Witness witness(const PairView& pair, FeatureId a, FeatureId b);
 
 /// A vertex of a feature.

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Batches of queries, cut into tasks for an executor, and an executor on a pool of threads. Knows no algorithm of a query.
 #include <swiftlet/batch.h>
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace swiftlet {
 namespace {
 
 constexpr unsigned kMostThreads = 1024;
-constexpr std::size_t kPairsPerTask = 32;  // so few that threads end together, so many that taking one costs nothing
+constexpr std::size_t kPairsPerTask = 32;  // so few that threads end together, so many that taking a task costs nothing
 
 /// Runs task(0) to task(count - 1) until a stop is requested.
 template <class Task>
@@ -29,7 +30,7 @@ void run_all(std::size_t count, const Run& run, const Task& task) {
   for (std::size_t i = 0; i < count; ++i) unless_stopped(i);
 }
 
-/// Trace and proof would be shared by all.
+/// The options without trace and proof, which all queries of a batch would share.
 template <class AnyOptions>
 AnyOptions alone(AnyOptions options) {
   options.tuning.trace = {};
@@ -62,9 +63,9 @@ void over_poses(std::span<const Pose> poses, std::span<AnyAnswer> answers, const
   run_all((poses.size() + kPosesPerChunk - 1) / kPosesPerChunk, run, ask_chunk);
 }
 
-/// Threads that wait for tasks: one that starts with each batch may get a core milliseconds late. Each has a range of tasks of
-/// its own, the same in every batch, so that what it touches stays in its core's cache; then it takes what the others have
-/// left. Where the system gives no more threads, those it gave take the rest.
+/// A pool of threads that wait for tasks, because a thread started with each batch may get a core milliseconds late. A thread
+/// first runs its own range of the tasks, the same in every batch of that size, so that its data stay in its core's cache; then
+/// it takes tasks left in other ranges. If the system starts fewer threads than asked for, those run all tasks.
 class Workers {
  public:
   explicit Workers(std::size_t count) : next_(count), gate_(std::ptrdiff_t(count)) {
@@ -102,7 +103,7 @@ class Workers {
       gate_.arrive_and_wait();
     }
   }
-  /// Takes tasks until there is none, or one failed on any thread.
+  /// Runs tasks, those of range `own` first, until none is left or one has thrown on any thread.
   void work(std::size_t own) try {
     for (std::size_t k = 0; k < next_.size(); ++k) {
       const std::size_t range = (own + k) % next_.size();
@@ -113,13 +114,13 @@ class Workers {
     if (!failed_.exchange(true)) failure_ = std::current_exception();
   }
 
-  std::vector<std::atomic<std::size_t>> next_;  ///< task of each range
+  std::vector<std::atomic<std::size_t>> next_;  ///< the next task of each range
   std::size_t tasks_ = 0;
   const std::function<void(std::size_t)>* task_ = nullptr;
   std::atomic<bool> failed_ = false;
-  std::exception_ptr failure_;  ///< the first task's that failed
+  std::exception_ptr failure_;  ///< thrown by the first task that failed
   std::mutex turn_;
-  std::barrier<> gate_;  ///< opens when a batch is there, and when it is done
+  std::barrier<> gate_;  ///< all threads pass it when a batch begins and when it ends
   std::vector<std::jthread> threads_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Nothing of a walk but two features survives a change of level: the classics carried more, and looped on up to 5 % of queries.
+// The descent through levels of detail [Ehmann & Lin 2000, sec. 5.2]. From one level pair to the next only two features are
+// carried: the classic implementations carried more of a walk's state, and looped on up to 5 % of queries.
 #include "query/descend.h"
 
 #include <algorithm>
@@ -48,7 +49,7 @@ class Descent {
     const bool seen = !walked && pair_.may_look && look(place, last_direction(line_.in_a, seed));
     if (!walked && !seen) march(place, false);
     const bool met = met_ == MarchStatus::Overlapping;
-    if (seen && (target_.is_threshold() || !met)) {  // vertices that were only looked at are no better start than none
+    if (seen && (target_.is_threshold() || !met)) {  // vertices that only maps named are no better start than none
       remember(line_, vec(answer_.normal), seed);
       seed.a = seed.b = {};
       seed.met = met;
@@ -58,7 +59,7 @@ class Descent {
     finish(place);
   }
 
-  /// From where another descent ended.
+  /// Goes on from where another descent ended, as `answer_` says.
   void go_on(PairSeed& seed) {
     Place place{std::clamp(int(answer_.level_a), a_.finest_level(), a_.level_count() - 1),
                 std::clamp(int(answer_.level_b), b_.finest_level(), b_.level_count() - 1),
@@ -68,7 +69,7 @@ class Descent {
     place.start = settled(view_at(place), place.start, answer_.plane_tests);
     met_ = met_before();
     if (!answered() && met_ == MarchStatus::NotConverged) narrow_down(place);
-    if (tuning_.start != StartPolicy::Coarsest) store(place, seed);  // whose seed is the first descent's
+    if (tuning_.start != StartPolicy::Coarsest) store(place, seed);  // else the seed stays as the first descent left it
     finish(place);
   }
 
@@ -78,24 +79,25 @@ class Descent {
   bool finest(const Place& place) const { return place.level_a == finest_a_ && place.level_b == finest_b_; }
   PairView view_at(const Place& place) const { return pair_.view_at(place); }
   double deviation(int level_a, int level_b) const { return pair_.deviation(level_a, level_b); }
-  /// Certified GJK may have taken one more than the budget.
+  /// Certified GJK may have taken one step more than the budget has.
   std::uint32_t steps_left() const { return budget_.steps - std::min(answer_.steps, budget_.steps); }
-  /// Where nothing is allowed, nothing is narrow: an exact answer is known by its verdict.
+  /// The interval width that the target allows at this `lower`. If it is not above 0, no interval is narrow: an exact answer is
+  /// recognised by `met_` instead.
   double allowed(double lower) const {
     return max(target_.absolute, target_.relative * (lower - target_.zero)) - target_.rounding;
   }
   bool narrow(double lower, double width) const { return allowed(lower) > 0 && width <= allowed(lower); }
-  /// How wide the bounds of a coarse pair may be that deviates by `error`, rounding set aside: to prove more of it, such as
-  /// that its levels overlap, takes vertices from all around both.
+  /// The width that the bounds on a coarse pair may have: the allowed width, less 8 u of it for rounding, less the deviation
+  /// `error`; 0 on the exact pair. To prove more, such as that coarse levels overlap, takes vertices from all around both.
   double width_left(double error) const { return error > 0 ? max(0, allowed(answer_.lower) * (1 - 8 * kU) - error) : 0; }
-  /// Thresholds are passed only by more than law 2's bound: nearer, what can be proved depends on the start.
+  /// A threshold is passed only by more than law 2's bound; within that bound, what can be proved depends on the start.
   bool clears(double lower) const { return lower > target_.clear_above + law_two_; }
   bool answers(double lower, double upper) const {
     return clears(lower) || narrow(lower, upper - lower) || upper < target_.hit_below - law_two_;
   }
   bool answered() const { return answers(answer_.lower, answer_.upper); }
 
-  /// From a pair that was not narrow enough to finer ones.
+  /// Goes on to finer pairs from a pair whose bounds are not narrow enough.
   void narrow_down(Place& place) {
     if (!finest(place)) place = refined(place);
     const bool has_maps = pair_.may_look && place.level_a >= a_.map_level() && place.level_b >= b_.map_level();
@@ -103,7 +105,7 @@ class Descent {
     march(place, false);
   }
 
-  /// What an answer that cannot be narrowed says of the exact hulls.
+  /// The march status of the exact hulls that `answer_` implies if it is exact; NotConverged if it can still be narrowed.
   MarchStatus met_before() const {
     if (answer_.level_a != 0 || answer_.level_b != 0 || !(answer_.upper - answer_.lower <= max(law_two_, target_.exact)))
       return MarchStatus::NotConverged;
@@ -115,7 +117,7 @@ class Descent {
     }
   }
 
-  /// The coarsest pair with maps that is likely to answer bodies no farther apart than `distance`, or the finest.
+  /// The coarsest pair with maps whose error is likely to be small enough for bodies at most `distance` apart, or the finest.
   Place mapped_for(double distance) const {
     const int most_a = a_.level_count() - 1, most_b = b_.level_count() - 1;
     Place place = pair_.finest_mapped();
@@ -127,9 +129,9 @@ class Descent {
     return place;
   }
 
-  /// Looks along support maps, where the axis test did or on the coarsest pair that might answer, then on each finer one.
-  /// Whether that answers; else `place` becomes where to walk from. Each pair is looked at afresh, from the same direction, and
-  /// none is passed over: a looser tolerance sees all that a tighter one does, or stops earlier.
+  /// Runs GJK on support maps: on the pair that the axis test sampled or the coarsest that might answer, then on each finer
+  /// one. Returns true if that answers; else `place` becomes where a walk begins. GJK begins anew on every pair, from the same
+  /// direction, and no pair is skipped: a looser tolerance does all that a tighter one does, or stops earlier.
   bool look(Place& place, const Vec& likely) {
     const bool sampled = max_abs(first_.seen.normal) > 0;
     const Vec direction = sampled ? first_.seen.normal : max_abs(likely) > 0 ? likely : line_.in_a;
@@ -159,7 +161,7 @@ class Descent {
     }
   }
 
-  /// The same direction, by supports that a climb makes certain: maps are uncertain by some 1e-3 of a body.
+  /// Bounds the distance along the direction of `s` by hill climbing, because maps are uncertain by some 1e-3 of a body.
   void climb(Place& place, const SupportGjk& s, const PairView& pair) {
     const auto [va, vb, lower] = supports(pair, s.normal, s.a, s.b, answer_.plane_tests);
     place.start = {{FeatureKind::Vertex, va}, {FeatureKind::Vertex, vb}};
@@ -171,7 +173,7 @@ class Descent {
     carry(place, {std::max(0.0, s.most_lower), s.upper, s.lower_along, s.point_a, s.point_b}, pair.law_two);
   }
 
-  /// Whether the vertices that seem to meet prove that the exact hulls do: their descendants on level 0.
+  /// Returns true if the descendants on level 0 of the vertices in `found.proof` prove that the exact hulls overlap.
   bool overlap(Place& place, const SupportGjk& found) {
     OverlapProof proof = found.proof;
     if (finest_a_ != 0 || finest_b_ != 0) return false;
@@ -186,7 +188,7 @@ class Descent {
     return true;
   }
 
-  /// Whether features at which a walk got inside prove that the levels overlap, with what the maps say is behind them.
+  /// Returns true if the features where a walk ended inside, and vertices behind them by the maps, prove that levels overlap.
   bool overlap(const PairView& pair, const Place& place) {
     if (!pair_.may_look) return false;
     const Vec n = across(pair, place.start);
@@ -205,8 +207,8 @@ class Descent {
     carry(place, {0, 0, normal, common, common, proof}, pair.law_two);
   }
 
-  /// Walks and certifies from level pair to finer level pair until the question is answered; false when the start turned out to
-  /// be worse than none, and `may_give_up`.
+  /// Walks and certifies from level pair to finer level pair until the question is answered. Returns false if `may_give_up` and
+  /// the start has turned out to be worse than none.
   bool march(Place& place, bool may_give_up) {
     for (;;) {
       const PairView pair = view_at(place);
@@ -242,22 +244,22 @@ class Descent {
     }
   }
 
-  /// Whether a certificate is wanted on the way down. Of bodies apart always, whatever the tolerance, so that a looser one
-  /// stops earlier on the same way; where levels overlap, only if their deviations are an answer.
+  /// True if a coarse pair is to be certified. Where the walk ended at a minimum it always is, whatever the tolerance, so that
+  /// a looser one stops earlier on the same way. Elsewhere it is if the deviation alone may answer, or for a trace.
   bool may_answer(const Place& place, const Walk& walked) const {
     const double error = deviation(place.level_a, place.level_b);
     return walked.end == WalkEnd::Minimum || !trace_.empty() || narrow(0, error) || error < target_.hit_below - law_two_;
   }
 
-  /// What a level pair says of its own distance, between the features of its place.
+  /// Bounds on the distance of one level pair, and the normal, points and overlap proof that go with them.
   struct Bounds {
     double lower, upper;
     Vec normal, point_a, point_b;
     OverlapProof proof{};
   };
 
-  /// Takes over the bounds of a pair where they are better: the plane with lower; points, levels and features with upper. A
-  /// finer pair's replace a coarser one's that are better by no more than rounding, so that plane and points belong together.
+  /// Takes over the bounds of a pair if they are better: the normal with `lower`; points, levels, features and proof with
+  /// `upper`. Bounds worse by no more than `rounding` are taken over too, so that plane and points belong to one pair.
   void carry(const Place& place, const Bounds& of, double rounding) {
     if (of.lower >= answer_.lower - rounding) {
       answer_.lower = of.lower;
@@ -278,7 +280,7 @@ class Descent {
     answer_.upper = std::max(answer_.upper, answer_.lower);
   }
 
-  /// Certifies a walk and carries the better bounds; the place's features become those it ended on.
+  /// Certifies a walk and takes over the better bounds; the features of `place` become those of the certificate.
   void bound(const PairView& pair, Place& place, const Walk& walked) {
     MarchRule rule;
     rule.absolute = width_left(deviation(place.level_a, place.level_b));
@@ -303,7 +305,7 @@ class Descent {
     ++answer_.levels_visited;
   }
 
-  /// The next finer levels, from no features.
+  /// The next finer level pair, without features to start from.
   Place finer(const Place& place) const {
     Place next{place.level_a, place.level_b, {}};
     const auto refine_a = [&] { next.level_a = std::max(next.level_a - 1, finest_a_); };
@@ -317,11 +319,11 @@ class Descent {
       return next;
     }
     if (tuning_.refinement == Refinement::DoubleDouble) refine_a(), refine_b();
-    refine_a(), refine_b();  // whatever the value: a descent ends
+    refine_a(), refine_b();  // whatever the value, so that a descent ends
     return next;
   }
 
-  /// The same, from the children of the place's features.
+  /// The next finer level pair, with the children of the features of `place`.
   Place refined(const Place& place) const {
     Place next = finer(place);
     next.start = place.start;
@@ -352,7 +354,7 @@ class Descent {
       answer_.status = Status::NotConverged;
   }
 
-  /// The features found, or their parents as long as the coarser pair would have answered as well.
+  /// Stores the features found in `seed`, or their ancestors on the coarsest pair that would have answered as well.
   void store(const Place& place, PairSeed& seed) const {
     Place kept{place.level_a, place.level_b, place.start};
     if (tuning_.start == StartPolicy::Coarsest) {
@@ -370,7 +372,7 @@ class Descent {
   }
   void coarsen(Place& kept) const {
     const double found = deviation(kept.level_a, kept.level_b);
-    double slack = answer_.upper;  // Paper: the motion a coarser start can absorb is the distance
+    double slack = answer_.upper;  // for StartPolicy::Paper: deviations may grow by the distance
     while (kept.level_a + 1 < a_.level_count() && kept.level_b + 1 < b_.level_count()) {
       const double error = deviation(kept.level_a + 1, kept.level_b + 1);
       const double grown = error - deviation(kept.level_a, kept.level_b), lower = answer_.lower - (error - found);
@@ -391,13 +393,13 @@ class Descent {
   const Target& target_;
   const double law_two_;
   const int finest_a_, finest_b_;
-  const bool exact_;  ///< no coarser pair will do
+  const bool exact_;  ///< the distance is asked exactly: no coarser pair can answer
   const AxisTest& first_;
   Answer& answer_;
   OverlapProof& proof_;
   MarchStatus met_ = MarchStatus::NotConverged;
   MarchStart coarsest_;  ///< features on the coarsest pair, for StartPolicy::Coarsest
-  bool spent_ = false;   ///< the caller's step budget
+  bool spent_ = false;   ///< the caller's step budget is used up
   std::uint32_t recorded_steps_ = 0, recorded_tests_ = 0;
 };
 

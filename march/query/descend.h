@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// From level pair to finer level pair, until the question is answered [Ehmann & Lin 2000, sec. 5.2].
+// The descent through levels of detail [Ehmann & Lin 2000, sec. 5.2]. Knows the hulls of two bodies and their levels.
 #pragma once
 
 #include <swiftlet/query.h>
@@ -11,8 +11,8 @@
 
 namespace swiftlet {
 
-/// An answer about the hulls of two bodies in a legal pose, from the seed, or on from what `answer` holds; else it is a new
-/// one. Its normal is 0 where none is known. `proof` is empty before, and filled where levels of the answer overlap.
+/// Answers `target` for the hulls of two bodies in a legal pose: from `seed` and a default `answer`, or if `goes_on` from what
+/// `answer` holds. An unknown normal becomes 0. `proof` must be empty, and is filled if the levels of the answer overlap.
 void descend(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_error, PairSeed& seed, const Limits& limits,
              const Target& target, bool goes_on, Answer& answer, OverlapProof& proof);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Two bodies in a legal pose, as every query sets out: what is known before any level is read.
+// Two bodies in a legal pose, and what every query computes about them before it searches any level pair.
 #pragma once
 
 #include <cmath>
@@ -28,11 +28,13 @@ struct ModelPair {
         may_look(limits.tuning.start == StartPolicy::Automatic && a.map_level() < a.level_count() &&
                  b.map_level() < b.level_count()) {}
 
-  /// The finest levels with maps that the query may read.
+  /// The finest level pair that has support maps and that the query may read.
   Place finest_mapped() const { return {std::max(a.map_level(), finest_a), std::max(b.map_level(), finest_b), {}}; }
-  /// By how much the exact hulls may be farther apart than levels are, at most: the pose stretches B.
+  /// The most by which the exact hulls may be farther apart than these levels. B's deviation counts `stretch` times, because a
+  /// pose that is not exactly orthonormal may stretch B.
   double deviation(int level_a, int level_b) const { return a.level(level_a).deviation + stretch * b.level(level_b).deviation; }
-  /// The same of what maps say of levels: an estimate. A map's doubt goes with the square of its cells.
+  /// An estimate, not a bound, of the error of what the support maps say about the exact hulls: the deviation, and a doubt for
+  /// each map that is proportional to the square of its cells' width.
   double map_error(const Place& place) const {
     const auto doubt = [](const Level& level) {
       return kMapDoubt * level.view.extent / double(level.map_side * level.map_side);
@@ -46,10 +48,10 @@ struct ModelPair {
   const Shape& a;
   const Shape& b;
   const Motion& motion;
-  const double pose_error, stretch, shift, law_two;  ///< stretch bounds the rotation's norm
-  const Vec line;                                    ///< from A's centre to B's
+  const double pose_error, stretch, shift, law_two;  ///< `stretch` bounds the norm of the pose's matrix; `shift` is |t|
+  const Vec line;                                    ///< from A's centre to B's, in A's frame
   const int finest_a, finest_b;
-  const bool may_look;  ///< both bodies have support maps and the caller leaves us the choice
+  const bool may_look;  ///< the query may use support maps: both bodies have them, and the start policy is Automatic
 };
 
 }  // namespace swiftlet

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
+// The distance queries: each states its `Target` and passes it to `ask`. Knows nothing of how `ask` answers.
 #include <swiftlet/query.h>
 
 #include "body/half_edge.h"
@@ -27,7 +28,7 @@ SourceFeature source_feature(const Body& body, FeatureId feature) {
   return result;
 }
 
-/// A question of yes or no that passed its threshold has its answer.
+/// Turns the status Beyond into Converged: a question of yes or no is answered once `lower` is beyond the threshold.
 void decide(Answer& answer) {
   if (answer.status == Status::Beyond) answer.status = Status::Converged;
 }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Rounded bodies: converts questions and answers between bodies and their hulls. Knows nothing of walks.
 #include "query/radii.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ Verdict verdict(double lower, double upper, double law_two) {
   return lower >= -law_two && upper <= law_two ? Verdict::Touching : Verdict::Undecided;
 }
 
-/// The answer so far, for no work.
+/// Copies `so_far` to `answer` as an unsigned answer with `status` and no work of its own.
 void restate(const Answer& so_far, Status status, Answer& answer) {
   answer = so_far;
   answer.status = status;
@@ -28,14 +29,14 @@ void restate(const Answer& so_far, Status status, Answer& answer) {
   answer.is_signed = false;
 }
 
-/// Whether the normal proves the lower bound. One pair of levels may overlap where a coarser one, which the bound is from, is
-/// disjoint: levels enclose the body, not each other.
+/// True if the normal proves the lower bound. The level pair that `proof` is about may overlap although a coarser pair, which
+/// proved the bound, is disjoint: levels enclose the body, not each other.
 bool separates(const Answer& answer, const OverlapProof& proof) {
   if (answer.is_signed) return answer.lower > -kInfinity;
   return answer.lower > 0 || proof.count == 0;
 }
 
-/// Whether a distance can go on from there.
+/// True if a distance query can go on from `answer`.
 bool tells_distance(const Answer& answer) {
   return answer.feature_a.kind() != FeatureKind::None && (answer.lower > 0 || !answer.is_signed);
 }
@@ -148,7 +149,7 @@ void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const
     if (Radii(*so_far) != radii) return refuse(a, b, Status::InvalidRadius, false, answer);
     if (!radii.none() && so_far->verdict == Verdict::Overlapping) return restate(*so_far, Status::Converged, answer);
     answer = radii.of_hulls(*so_far);
-    // Exact of the bodies is exact, whatever place the radii cost it.
+    // An answer that is exact for the bodies counts as exact for the hulls, even if rounding with the radii widened it.
     if (so_far->upper - so_far->lower <= at.law_two()) of_hulls.exact = answer.upper - answer.lower;
   }
   OverlapProof proof;

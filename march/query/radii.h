@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Rounded bodies: all that lies within a radius of a hull. What is asked of bodies becomes a question of their hulls, and the
-// hulls' answer becomes theirs. The only place that knows radii, but for checks. Knows nothing of the way between.
+// Rounded bodies: a body is the set of all points within its radius of its hull. A question about bodies is turned into one
+// about their hulls, and the answer about the hulls into one about the bodies. Everything but the checks handles radii through
+// this file. Knows nothing of how the hulls' answer is found.
 #pragma once
 
 #include <swiftlet/query.h>
@@ -15,41 +16,42 @@ namespace swiftlet {
 
 static inline bool is_radius(double value) { return value >= 0 && value <= kMostCoordinate; }
 
-/// The radii of two bodies. Where both are 0, all that it makes of questions and answers is themselves.
+/// The radii of two bodies. If both are 0, every question and every bound stays as it is.
 class Radii {
  public:
   Radii(const Body& a, const Body& b) : a_(a.radius()), b_(b.radius()) {}
   explicit Radii(const Answer& answer) : a_(answer.radius_a), b_(answer.radius_b) {}
 
-  /// Else nothing else is asked of it.
+  /// True if both radii are legal. If not, no question, answer or bound may be converted.
   bool legal() const { return is_radius(a_) && is_radius(b_); }
   bool none() const { return a_ + b_ == 0; }
   double sum() const { return a_ + b_; }
   double a() const { return a_; }
   double b() const { return b_; }
   bool operator==(const Radii&) const = default;
-  /// Of the bodies.
+  /// Law 2's bound for the bodies: each radius is added to its hull's extent.
   double law_two(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_error) const;
 
-  /// The question as one of the hulls. Law 2's bound, of the bodies, is more than the bounds are rounded by.
+  /// Turns a question about the bodies into one about their hulls. `law_two` is law 2's bound for the bodies; it exceeds the
+  /// rounding of the converted bounds.
   Target of_hulls(const Target& of, double law_two) const;
-  /// An answer about the bodies, as it was of the hulls, as far as it tells.
+  /// Turns an answer about the bodies back into one about their hulls, as far as it determines that.
   Answer of_hulls(Answer of) const;
 
-  /// The hulls' distance as the bodies'; `proof` is forgotten where it proves nothing of these.
+  /// Turns an answer about the hulls' distance into one about the bodies'. Clears `proof` unless the hulls overlap.
   void round(Answer& answer, OverlapProof& proof, double law_two) const;
-  /// The hulls' signed distance as the bodies'.
+  /// Turns an answer about the hulls' signed distance into one about the bodies'.
   void round_signed(Answer& answer, OverlapProof& proof, double law_two) const;
-  /// The same of a trace's first `visited` records, as far as there was room for them.
+  /// Convert the bounds of the first `visited` records of `trace`, or of all if it is shorter.
   void round(std::span<LevelRecord> trace, int visited) const;
   void round_signed(std::span<LevelRecord> trace, int visited) const;
 
  private:
   Radii(double a, double b) : a_(a), b_(b) {}
-  /// bound - a - b, at most a place off, to the side that is named.
+  /// `less` is `bound` - a - b, `more` is `bound` + a + b. A result that is not exact is moved one place towards `side`.
   double less(double bound, double side) const;
   double more(double bound, double side) const;
-  /// The hulls' bounds as the bodies', below 0 where these overlap.
+  /// Turn a bound on the hulls' distance into one on the bodies' signed distance.
   double lower(double of_hulls) const;
   double upper(double of_hulls) const;
   void move_points(Answer& answer) const;
@@ -57,12 +59,12 @@ class Radii {
   double a_, b_;
 };
 
-/// What every query asks first: whether bodies and pose are legal, and their shapes.
+/// What every query computes first: the shapes of both bodies, their radii, the pose, and whether all of these are legal.
 class Setting {
  public:
   Setting(const Body& of_a, const Body& of_b, const Pose& b_in_a)
       : a(of_a), b(of_b), motion(swiftlet::motion(b_in_a)), quality(pose_quality(motion)), radii(of_a, of_b) {}
-  /// Converged where nothing is wrong.
+  /// The status with which the query must be refused, or `Converged` if everything is legal.
   Status fault() const {
     if (!quality.legal) return Status::InvalidPose;
     if (!radii.legal()) return Status::InvalidRadius;
@@ -76,13 +78,14 @@ class Setting {
   const Radii radii;
 };
 
-/// An answer that tells nothing but why.
+/// Fills the answer of a refused query: the status `why` and the radii; nothing else is known.
 void refuse(const Body& a, const Body& b, Status why, bool is_signed, Answer& answer);
 
-/// What is not known becomes NaN, and the answer carries the radii.
+/// Completes `answer`: adds the radii, sets an unknown normal and unknown points to NaN, and copies `proof` to `tuning`.
 void seal(const Radii& radii, const OverlapProof& proof, const Tuning& tuning, Answer& answer);
 
-/// Answers `target` of two bodies: from the seed, or on from `so_far`. `answer` is a new one before.
+/// Answers `target` for two bodies. It starts from `seed`, or goes on from `so_far` if that is not null. `answer` must be a
+/// default one.
 void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const Target& target,
          Answer& answer, const Answer* so_far = nullptr);
 

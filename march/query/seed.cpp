@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
+// The first place of a query, the links between levels, and directions packed into a seed. Does not walk.
 #include "query/seed.h"
 
 #include <algorithm>
@@ -21,10 +22,11 @@ std::array<std::int16_t, 3> packed(const Vec& unit) {
   return {units(unit.x), units(unit.y), units(unit.z)};
 }
 
-/// Whether a line of centres of squared length `length2` turned since a seed packed it by so much that a walk would cross more
-/// than `kWarmEdges` edges of the level, or so: sqrt(V) edges make a radian. From the square of the chord, 2 - 2 cos.
+/// True if the line of centres, of squared length `length2`, has turned so far since a seed packed it as `was` that a walk
+/// would cross more than about `kWarmEdges` edges of the level (`kWarmEdgesUnmapped` without a map). A level of V vertices is
+/// taken to have sqrt(V) edges per radian; the angle is taken as its chord, whose square is 2 - 2 cos.
 bool turned_far(const Vec& line, double length2, const std::array<std::int16_t, 3>& was, const Level& level) {
-  if ((was[0] | was[1] | was[2]) == 0) return false;  // of a seed made by hand nothing is known
+  if ((was[0] | was[1] | was[2]) == 0) return false;  // unknown, as in a seed made by hand
   const double along = dot(line, {double(was[0]), double(was[1]), double(was[2])});
   const double edges = level.map_side > 0 ? kWarmEdges : kWarmEdgesUnmapped;
   const double whole = 2 * double(level.view.vertices.size()), least = whole - edges * edges;
@@ -83,8 +85,8 @@ bool turned_far(const Line& line, const PairSeed& seed, const Level& a, const Le
 
 void remember(const Line& line, const Vec& normal, PairSeed& seed) {
   seed.normal = packed(normal * (1 - 4 * kU));
-  const double length = norm(line.in_a), inverse = length > 0 ? (1 - 4 * kU) / length : 0;  // no coordinate above 1
-  const double scale = std::isfinite(inverse) ? inverse : 0;  // centres nearer than 1e-308 are one
+  const double length = norm(line.in_a), inverse = length > 0 ? (1 - 4 * kU) / length : 0;  // so that no coordinate is above 1
+  const double scale = std::isfinite(inverse) ? inverse : 0;  // centres nearer than 1e-308 count as one point
   seed.line_in_a = packed(line.in_a * scale);
   seed.line_in_b = packed(line.in_b * scale);
 }
@@ -95,7 +97,8 @@ FeatureId child(const Shape& body, int level, FeatureId feature) {
   const auto vertex_child = [&](std::uint32_t v) { return from.child_vertex[v]; };
   if (feature.kind() == FeatureKind::Vertex) return {FeatureKind::Vertex, vertex_child(feature.index())};
   if (feature.kind() == FeatureKind::Face) return from.child_face[feature.index()];
-  // An edge that the finer level still has is its own child; else whatever stands for a face beside it.
+  // The child of an edge is the finer level's edge between the children of its ends, if there is one. Otherwise it is the
+  // vertex that stands for the face on the edge's left, or if a face does, the child of the edge's origin.
   const std::uint32_t tail = vertex_child(origin(from.view, feature.index())),
                       head = vertex_child(from.view.half_edges[feature.index()].head);
   const Vertex& ring = fine.vertices[tail];

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a march starts: from stored features, from the line of centres, from a table. Knows levels and links, walks nothing.
+// Where a march starts: at the features of a seed, on the coarsest pair, or at an entry of a start table. Knows levels and the
+// links between them; does not walk.
 #pragma once
 
 #include <algorithm>
@@ -19,10 +20,10 @@ namespace swiftlet {
 struct Place {
   int level_a, level_b;
   MarchStart start;
-  std::uint32_t trial_steps = ~0u;  ///< after which the coarsest pair is tried instead
+  std::uint32_t trial_steps = ~0u;  ///< a walk that takes more steps is given up for a cold start
 };
 
-/// From the centre of A to that of B in A's frame, and back in B's.
+/// The line of centres: `in_a` leads from A's centre to B's in A's frame, `in_b` from B's centre to A's in B's frame.
 struct Line {
   Vec in_a, in_b;
 };
@@ -33,20 +34,20 @@ static inline Line line_of_centres(const Motion& b_in_a, const Vec& between) {
   return {between, -rotate_back(b_in_a, between)};
 }
 
-/// Whether the line of centres turned since the seed was left by so much that a walk from its features costs more than a cold
-/// start.
+/// True if the line of centres has turned so far since the seed was stored that a walk from the seed's features costs more than
+/// a cold start. `a` and `b` are the levels of the seed.
 bool turned_far(const Line& line, const PairSeed& seed, const Level& a, const Level& b);
 
-/// Where a query begins.
+/// The place where a query begins; `finest_a` and `finest_b` are the finest levels that it may read.
 Place first_place(const Shape& a, const Shape& b, const Line& line, const PairSeed& seed, int finest_a, int finest_b,
                   StartPolicy policy);
 
-/// Notes the line of centres and the direction of an answer in the seed.
+/// Stores the line of centres and an answer's normal in the seed.
 void remember(const Line& line, const Vec& normal, PairSeed& seed);
 static inline Vec direction(const PairSeed& seed) {
   return {double(seed.normal[0]), double(seed.normal[1]), double(seed.normal[2])};
 }
-/// That direction while the line of centres has not turned by more than kSameLine, else 0.
+/// The direction stored in `seed` if the line of centres has turned by less than the angle whose cosine is kSameLine, else 0.
 static inline Vec last_direction(const Vec& line, const PairSeed& seed) {
   if ((seed.normal[0] | seed.normal[1] | seed.normal[2]) == 0) return {0, 0, 0};
   const Vec was{double(seed.line_in_a[0]), double(seed.line_in_a[1]), double(seed.line_in_a[2])};
@@ -60,17 +61,17 @@ static inline int finest_allowed(const Shape& body, const Budget& budget) {
   return std::clamp(budget.finest_level, body.finest_level(), body.level_count() - 1);
 }
 
-/// The coarsest pair, from nothing.
+/// The coarsest level pair, without features to start from.
 static inline Place coarsest_place(const Shape& a, const Shape& b) { return {a.level_count() - 1, b.level_count() - 1, {}}; }
 
-/// The feature one level finer, or coarser.
+/// The feature that stands for `feature` of `level` one level finer (`child`) or coarser (`parent`).
 FeatureId child(const Shape& body, int level, FeatureId feature);
 FeatureId parent(const Shape& body, int level, FeatureId feature);
 
-/// A vertex of `level` that is about the farthest in a direction; of a body without maps any.
+/// A vertex of `level` that is nearly the farthest in a direction, by a support map; for a body without maps, vertex 0.
 std::uint32_t about_farthest(const Shape& body, int level, const Vec& direction);
 
-/// The vertex of level `finer` that stands for one of `level`.
+/// The vertex of level `finer` that stands for `vertex` of `level`, by the links to children.
 std::uint32_t descendant(const Shape& body, int level, std::uint32_t vertex, int finer = 0);
 
 }  // namespace swiftlet

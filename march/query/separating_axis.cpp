@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
+// The separating-axis test, by samples of support maps on one level pair. Does not walk.
 #include "query/separating_axis.h"
 
 namespace swiftlet {

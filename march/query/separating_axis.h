@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The separating-axis test along the last answer's direction, then the line of centres: most questions of yes or no end there.
+// The separating-axis test along the last answer's normal, then along the line of centres, each by one look-up in the support
+// maps. Most questions of yes or no end here.
 #pragma once
 
 #include "pair/support_gjk.h"
@@ -9,14 +10,14 @@
 
 namespace swiftlet {
 
-/// What the test sampled, for the descent that follows where it does not answer.
+/// The last sample of the test. If the test does not answer, the descent begins with it.
 struct AxisTest {
   Place at;
-  AxisSample seen;  ///< its normal is 0: nothing was sampled
+  AxisSample seen;  ///< on the levels of `at`; its normal is 0 if nothing was sampled
 };
 
-/// Fills `answer` and returns true where the bodies are proved to be farther apart than `target` asks. A direction of the seed
-/// that the line of centres makes superfluous is forgotten.
+/// Fills `answer` and returns true if the bodies are proved to be farther apart than `target` asks. If the line of centres
+/// proves it and the seed's direction does not, that direction is cleared.
 bool separating_axis(const ModelPair& pair, const Target& target, PairSeed& seed, AxisTest& first, Answer& answer);
 
 }  // namespace swiftlet

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The builder: mesh in, Model out. Linking this library brings CGAL's GPL; the models it writes are the user's.
+// The builder [Ehmann & Lin 2000, sec. 4]: makes a Model from a mesh or points. A program that links it comes under CGAL's GPL;
+// the models it writes are the user's.
 #pragma once
 
 #include <array>
@@ -18,86 +19,88 @@
 
 namespace swiftlet {
 
-/// Points and the triangles over them (polygons are fanned). Only the points shape a convex model; the triangles name its
-/// faces.
+/// Points and the triangles over them; polygons become fans of triangles. The model is the convex hull of the points; the
+/// triangles only give its faces their source ids.
 struct Mesh {
-  std::vector<Vec3> points;                             ///< in the frame and unit that the model will have
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices of points; any winding; may be empty
+  std::vector<Vec3> points;                             ///< in the frame and unit of the model
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `points`; any winding; may be empty
 };
 
-/// Reads OBJ, OFF, STL (ascii or binary), PLY, and SWIFT's TRI and POLY, by file extension. A point cloud is legal.
-/// Text is UTF-8, with or without its mark, and its lines end in LF, CR LF or CR. Nothing is passed over that may hold a point:
-/// a missing column, a word that OBJ or PLY does not have, and what follows the last element are errors.
-/// Errors: no points, a non-finite point (named), no regular file, anything the format's reader refuses (with the line where it
-/// is known).
+/// Reads a mesh file: OBJ, OFF, STL (ascii or binary), PLY, or SWIFT's TRI and POLY, by extension. A point cloud is legal.
+/// Text is UTF-8, with or without a byte order mark; lines end in LF, CR LF or CR. Nothing that may hold a point is skipped:
+/// a missing column, a word that OBJ or PLY does not have, and anything after the last element are errors.
+/// Errors: no points, a non-finite point (named), not a regular file, anything that the format's reader refuses (with the line,
+/// if known).
 Result<Mesh> read_mesh(const std::filesystem::path& path);
 
-/// How a coarse level is made from the one below.
+/// How a coarse level is simplified from the next finer one.
 enum class Method : std::uint8_t {
   Collapse,  ///< Garland & Heckbert's quadric error edge collapse [Ehmann & Lin 2000, sec. 4.5]
-  Peel,      ///< Dobkin & Kirkpatrick's independent sets [sec. 4.4]
+  Peel,      ///< removal of Dobkin & Kirkpatrick's independent sets [sec. 4.4]
 };
 
-/// How a coarse level is made to hold level 0.
+/// How a coarse level is made to enclose level 0.
 enum class Enclosing : std::uint8_t {
-  Tight,  ///< each vertex moves to where its faces just clear level 0
-  Scale,  ///< the paper's: scaling about the centre of mass, and for Peel a relaxation along the rays
+  Tight,  ///< each vertex is moved to where its faces just clear level 0
+  Scale,  ///< the paper's way: scaling about the centre of mass, and for Peel a relaxation along rays from it
 };
 
-/// Called with the fraction done in [0, 1], never decreasing, and what is being done; returning false cancels the build. Every
-/// 0.25 % or so of the levels. CGAL's hull cannot be interrupted; the last stage, Model::from_levels, is not: at 1 000 000
-/// triangles some seconds each.
+/// The callback that reports progress: it gets the fraction done in [0, 1], never decreasing, and the stage; returning false
+/// cancels the build. While levels are built it is called about every 0.25 %. CGAL's hull and the last stage, which is
+/// Model::from_levels, are not interrupted: at 1 000 000 triangles each takes some seconds.
 using Progress = std::function<bool(double fraction, std::string_view stage)>;
 
-/// What the hierarchy is like. Out of range: BadValue.
+/// Options of a build. A value out of its range gives the error BadValue.
 struct BuildOptions {
   Method method = Method::Collapse;        ///< how a level is simplified
-  Enclosing enclosing = Enclosing::Tight;  ///< how it is made to hold level 0
-  /// Triangles of a level over those one level finer, in (0, 1); Peel removes what it can. None: 0.25 where support maps reach,
-  /// and what costs queries least elsewhere; a level then has no more triangles than an error of 10, 1 or 0.1 % of the radius
-  /// asks for, where that is worth it.
+  Enclosing enclosing = Enclosing::Tight;  ///< how it is made to enclose level 0
+  /// Number of triangles of a level divided by that of the next finer level, in (0, 1); Peel removes as many as it can. Empty:
+  /// 0.25 for levels with support maps, and for finer levels what costs queries least; a level then has no more triangles than
+  /// an error of 10, 1 or 0.1 % of the radius needs, if that saves enough of them.
   std::optional<double> rate;
-  std::uint32_t cutoff = 60;  ///< no level has fewer triangles than this, nor a solid fewer than 4
-  int max_levels = 32;        ///< level 0 included, 1 to 32
-  double max_deviation = 0;   ///< the hierarchy ends before a level deviates more, in the mesh's unit; 0: no limit
-  /// What the model keeps of the levels built; a prefix in `bytes` is that of the whole model. With Collapse no level finer
-  /// than its deviation asks for is built at all, and the finest has as few triangles as that allows.
+  std::uint32_t cutoff = 60;  ///< least number of triangles of a level; a solid has at least 4
+  int max_levels = 32;        ///< 1 to 32, level 0 included
+  double max_deviation = 0;   ///< the hierarchy ends before a level that deviates more, in the mesh's unit; 0: no limit
+  /// Which of the levels built the model keeps; `detail.bytes` counts bytes of the whole model's block. With Collapse, levels
+  /// finer than `detail.deviation` needs are not built, and the finest coarse level has as few triangles as that deviation
+  /// allows.
   Detail detail;
   bool require_convex = false;  ///< refuse a mesh with dents
   bool require_solid = false;   ///< refuse flat, collinear and single-point input
-  TableSpec table;              ///< the start table
-  Progress progress;            ///< none by default
+  TableSpec table;              ///< the start table and support maps
+  Progress progress;            ///< empty: no calls
 };
 
-/// A level in numbers.
+/// The numbers of one level.
 struct LevelReport {
-  std::size_t vertices = 0, faces = 0, triangles = 0, bytes = 0;  ///< triangles: 2 V - 4 for a solid
-  double deviation = 0, volume_ratio = 1;  ///< the mesh's unit, as Level::deviation; volume over level 0's, 1 where that is 0
+  std::size_t vertices = 0, faces = 0, triangles = 0, bytes = 0;  ///< triangles: 2 V - 4 for a solid; bytes: Level::bytes
+  double deviation = 0, volume_ratio = 1;  ///< Level::deviation, the mesh's unit; volume over level 0's, or 1 if that is 0
 };
 
-/// What became of a mesh.
+/// What a build read, dropped and made.
 struct BuildReport {
-  std::size_t points_read = 0, triangles_read = 0;  ///< of the mesh as given
-  std::size_t duplicates_dropped = 0;               ///< points equal to an earlier one
-  std::size_t interior_dropped = 0;  ///< points that are no vertex of the hull: inside it, in a face or on an edge
-  std::size_t hull_triangles = 0, faces_grouped = 0;  ///< triangles before grouping; faces of more than three vertices
-  double volume_ratio = 1;                            ///< mesh over hull; 1 for convex input, and where the mesh does not close
-  double deepest_dent = 0;                            ///< distance from the hull to the farthest mesh vertex inside it
-  std::vector<LevelReport> levels;                    ///< level 0 first; also those that BuildOptions::detail drops
-  std::string end;                                    ///< why the hierarchy ended where it did
+  std::size_t points_read = 0, triangles_read = 0;  ///< counts of the mesh as given
+  std::size_t duplicates_dropped = 0;               ///< number of points equal to an earlier one
+  std::size_t interior_dropped = 0;  ///< number of points that are no vertex of the hull: inside it, in a face or on an edge
+  std::size_t hull_triangles = 0, faces_grouped = 0;  ///< triangles of the hull; its faces of more than three vertices
+  double volume_ratio = 1;                            ///< mesh over hull; 1 for convex input, and if the mesh is not closed
+  double deepest_dent = 0;          ///< distance from the hull's surface to the mesh vertex deepest inside; the mesh's unit
+  std::vector<LevelReport> levels;  ///< level 0 first; also those that BuildOptions::detail drops
+  std::string end;                  ///< why the hierarchy ended where it did
 };
 
-/// What `build` returns.
+/// The result of `build`.
 struct Built {
-  Model model;         ///< ready to query, or to save
-  BuildReport report;  ///< how it came about
+  Model model;         ///< ready to query or save
+  BuildReport report;  ///< how the model was built
 };
 
-/// Deterministic: same input and options, same bytes. Cost: about 20 microseconds per triangle.
+/// Builds a model from a mesh. Deterministic: the same input and options give the same bytes. Cost: about 20 microseconds per
+/// triangle.
 /// Errors: Empty, BadValue (names the option, vertex or triangle), TooLarge, NotConvex and NotSolid where the options refuse,
 /// Cancelled.
 Result<Built> build(const Mesh& mesh, const BuildOptions& options = {});
-/// The same for bare points.
+/// Builds a model from points alone.
 Result<Built> build(std::span<const Vec3> points, const BuildOptions& options = {});
 
 }  // namespace swiftlet

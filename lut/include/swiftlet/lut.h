@@ -10,7 +10,7 @@
 /// Directions as small integers, for start tables.
 namespace swiftlet::lut {
 
-/// Samples at multiples of 22.5, 11.25 or 5.625 degrees in altitude and azimuth, the poles once each.
+/// The spacing of samples: multiples of 22.5, 11.25 or 5.625 degrees in altitude and azimuth, with each pole once.
 enum class Resolution : std::uint8_t {
   None,       ///< no samples
   Degrees22,  ///< 22.5 degrees apart
@@ -18,14 +18,14 @@ enum class Resolution : std::uint8_t {
   Degrees5,   ///< 5.625 degrees
 };
 
-/// 0, 114, 482 or 1986.
+/// Returns the number of samples: 0, 114, 482 or 1986.
 std::uint32_t sample_count(Resolution resolution);
 
-/// The unit direction of a sample; `index` < sample_count(resolution).
+/// Returns the unit direction of sample `index` < sample_count(resolution).
 std::array<double, 3> sample(Resolution resolution, std::uint32_t index);
 
-/// The sample nearest to a direction of any length, in altitude first, then azimuth. The zero vector is the north pole's.
-/// Cost: constant, no trigonometry.
+/// Returns the index of the sample nearest to `direction` (any length), first in altitude, then in azimuth. The zero vector
+/// gives the north pole. Cost: constant, no trigonometry.
 std::uint32_t nearest(Resolution resolution, const std::array<double, 3>& direction);
 
 }  // namespace swiftlet::lut

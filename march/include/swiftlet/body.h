@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What takes part in a query: a model or a primitive, and all that lies within a radius of it.
+// The bodies that queries take: a model or a primitive, rounded by a radius. Knows models, not poses of pairs or queries.
 #pragma once
 
 #include <array>
@@ -13,36 +13,36 @@ namespace swiftlet {
 
 /// What a body is made of.
 enum class BodyKind : std::uint8_t {
-  Model,     ///< a hull at several levels
+  Model,     ///< a convex hull at several levels of detail
   Point,     ///< with a radius, a sphere
   Segment,   ///< with a radius, a capsule
-  Triangle,  ///< both sides of it
-  Box,       ///< its sides along the axes of the body's frame
+  Triangle,  ///< flat, with two sides
+  Box,       ///< its edges are parallel to the axes of the body's frame
 };
 
-/// All points within `radius()` of a model's hull or of a primitive: a view, trivially copyable, without any heap block. Every
-/// query takes bodies, and a model is one.
+/// The set of all points within `radius()` of a model's hull or of a primitive. A `Body` is a view: trivially copyable, without
+/// a heap block. Every query takes bodies, and a `Model` converts to one.
 ///
-/// Coordinates are in the body's own frame and follow the rules of LevelArrays::vertices, a box's smallest corner is nowhere
-/// above its largest, and a radius is from 0 to 1e45; the status of a query about any other body is InvalidBody or
-/// InvalidRadius. Primitives may be flat: a box without height, a triangle on one line, a segment without length.
+/// Coordinates are in the body's own frame and follow the rules of `LevelArrays::vertices`; no coordinate of a box's smallest
+/// corner exceeds that of its largest; a radius is from 0 to 1e45. A query about any other body answers InvalidBody or
+/// InvalidRadius. Primitives may be degenerate: a box without height, a triangle on one line, a segment without length.
 class Body {
  public:
-  /// None yet: a query about it answers InvalidBody.
+  /// An empty body: a query about it answers InvalidBody.
   Body();
-  /// Borrows the model, which stays where it is as long as the body is asked about. Implicit: models are bodies.
+  /// Borrows `model`, which must outlive every query about the body and not move. The conversion is implicit.
   Body(const Model& model, double radius = 0) : model_(&model), radius_(radius) {}
-  Body(const Model&&, double radius = 0) = delete;  ///< a model that ends with the expression
+  Body(const Model&&, double radius = 0) = delete;  ///< a temporary model would not outlive the expression
 
   static Body point(const Vec3& p, double radius = 0);                                   ///< a sphere around p
   static Body segment(const Vec3& p, const Vec3& q, double radius = 0);                  ///< a capsule from p to q
   static Body triangle(const Vec3& p, const Vec3& q, const Vec3& r, double radius = 0);  ///< vertices in any order
-  static Body box(const Vec3& smallest, const Vec3& largest, double radius = 0);         ///< two corners across
+  static Body box(const Vec3& smallest, const Vec3& largest, double radius = 0);         ///< two opposite corners
 
-  BodyKind kind() const { return kind_; }        ///< what it is made of
-  double radius() const { return radius_; }      ///< the body's unit
-  const Model* model() const { return model_; }  ///< null: a primitive
-  /// A primitive's point `i`: p, q, r, or a box's corners, smallest first. NaN where it has none.
+  BodyKind kind() const { return kind_; }        ///< what the body is made of
+  double radius() const { return radius_; }      ///< in the body's unit
+  const Model* model() const { return model_; }  ///< null for a primitive
+  /// Point `i` of a primitive: p, q, r in this order, or a box's smallest (0) and largest (1) corner. NaN for any other `i`.
   Vec3 corner(int i) const;
 
  private:
@@ -55,10 +55,10 @@ class Body {
   BodyKind kind_ = BodyKind::Model;
 };
 
-/// Law 2's bound for this pair (LAWS.md): an exact answer's interval is no wider, and what two queries say of the same bodies
-/// differs by no more. It is (64 * 2^-53 + 2 e) * size; size is the largest coordinate of A or B, and its radius, plus
-/// |translation|, and e the largest entry of |R^T R - I|. Radii may cost each bound its last place more. NaN where a query
-/// refuses the bodies or the pose.
+/// Law 2's bound for this pair (LAWS.md), in the bodies' unit: the interval of an exact answer is no wider, and exact answers
+/// of two queries about the same bodies differ by no more. It is (64 * 2^-53 + 2 e) * size, at least 2^-450. `size` is the
+/// larger of both bodies' (largest absolute coordinate + radius), plus |translation|; `e` is the largest entry of |R^T R - I|.
+/// With radii each bound may be off by one more unit in its last place. NaN where a query refuses the bodies or the pose.
 double tolerance(const Body& a, const Body& b, const Pose& b_in_a);
 
 }  // namespace swiftlet

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Certificates that anyone can recompute: of an answer, and of a model. Slow and plain on purpose. Laws by number: LAWS.md.
+// Checkers that recompute the certificates of answers and models by brute force: slow and plain. Laws by number: LAWS.md.
 #pragma once
 
 #include <string>
@@ -9,26 +9,27 @@
 
 namespace swiftlet {
 
-/// Whether a certificate holds.
+/// The result of a check.
 struct Check {
-  bool ok = false;      ///< it does
+  bool ok = false;      ///< the certificate holds
   std::string message;  ///< what failed first, with numbers; empty when ok
-  /// `ok`.
+  /// Returns `ok`.
   explicit operator bool() const { return ok; }
 };
 
-/// Recomputes what `answer` claims by brute force over every vertex: `lower` by the gap of the exact hulls along `normal` (of
-/// the levels present, where these lack), `upper` by the two points and the deviations, the verdict by all these. An overlap of
-/// the hulls is decided by exact arithmetic: on the vertices of `proof`, as Tuning::proof was filled, or else by all planes
-/// that could separate the hulls. Of a signed overlap `upper` is held against the least height of all planes that can bound the
-/// Minkowski difference, parallel to a face of A, to one of B, or to an edge of each whose neighbours are below, by exact
-/// signs; a touching pair's depth likewise; each point must lie in its body, and where the interval is no wider than law 2
-/// allows, the points must differ by the signed distance along the normal within that. Cost: linear in the vertices and faces;
-/// of an overlap without a proof the product of the edges, 0.2 s for two bodies of 2 000 triangles.
+/// Recomputes what `answer` claims by brute force over every vertex. `lower` is compared with the gap of the exact hulls along
+/// `normal` (or of the levels present, where level 0 is absent), `upper` with the distance of the two points plus the
+/// deviations, the verdict with both. An overlap of the hulls is decided exactly: by the vertices of `proof`, which is what
+/// `Tuning::proof` received, or without it by all planes that could separate the hulls. For a signed answer, the depth of an
+/// overlapping or touching pair is recomputed: the least height of the planes that can bound the Minkowski difference, parallel
+/// to a face of A, to a face of B, or to an edge of each; exact signs tell which. Each point must lie in its body; where
+/// the interval is within law 2's bound, the points must differ by the signed distance along the normal, within that bound.
+/// Cost: linear in vertices and faces; for an overlap without `proof` the product of the edges, 0.2 s for 2 000 triangles each.
 Check check(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const OverlapProof* proof = nullptr);
 
-/// Proves that every level is convex and encloses level 0, that every deviation holds, and that links and tables name features.
-/// Exact. Fails on a model whose level 0 is absent. Cost: a support climb per face and a distance query per vertex.
+/// Proves exactly that every level is convex and encloses level 0, and by certified bounds that every deviation and support map
+/// holds. (That links and tables name features is checked whenever a model is made or read.) Fails if level 0 is absent. Cost:
+/// a support climb per face, a distance query per vertex, all vertices per cell of a map.
 Check verify(const Model& model);
 
 }  // namespace swiftlet

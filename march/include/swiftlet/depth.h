@@ -1,30 +1,30 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// How near or how deep? One number from far apart to deep inside. All points and directions are in A's frame.
+// Signed distance and penetration depth [van den Bergen 2001]: one number from far apart to deep overlap. All points and
+// directions are in A's frame.
 #pragma once
 
 #include <swiftlet/query.h>
 
 namespace swiftlet {
 
-/// The signed distance between `a` and `b`, where `b_in_a` maps B's frame into A's: the distance where they are apart; where
-/// they overlap, minus the depth, which is the length of the least translation that separates them (their interiors: they still
-/// touch then). Exact by default, or to the options' errors. A body without thickness has no depth along it: 0 where both share
-/// a plane. The options' `beyond`, `start`, `refinement` and `plane_rule` say how the part of it goes that looks for a
-/// distance. Cost: apart that of `distance`; overlapping that of a walk to the local least and of some ten points that confirm
-/// it where the overlap is shallow, a climb for each point of a polytope where it is deep, 5 to 30, all vertices of the
-/// Minkowski difference at worst, where many facets are about as deep. Nothing is allocated; 16 kB of stack where no polytope
-/// grows, 32 kB where one does. Errors are statuses, and the interval is always true. Source: [van den Bergen 2001]; the proof
-/// is our own (march/README.md).
+/// Returns the signed distance between `a` and `b`, where `b_in_a` maps B's frame into A's. Apart, it is the distance; where
+/// the bodies overlap, it is minus the depth: the length of the shortest translation that separates their interiors, after
+/// which they still touch. It is exact by default, or within the errors of `options`. The depth is 0 where one plane holds both
+/// bodies. The options' `beyond`, `start`, `refinement` and `plane_rule` affect only the search for a distance. Cost: apart,
+/// that of `distance`; in a shallow overlap, a walk to the locally least depth and some ten points that confirm it; in a deep
+/// overlap, one support climb for each point of an expanding polytope, 5 to 30, at worst all vertices of the Minkowski
+/// difference, where many facets are about as deep. Allocates nothing; uses 16 kB of stack, or 32 kB where a polytope is
+/// expanded. Errors are statuses, and the interval is always true. Source: [van den Bergen 2001]; proof: march/README.md.
 Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options = {});
-/// Likewise, cold.
+/// Returns the signed distance, from a cold start.
 Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, const Options& options = {});
 
-/// Is the signed distance at most `threshold`? Below 0: do they overlap by -threshold or more? Ends at the first level pair,
-/// and with the first plane or polytope, that decides. Cost as above.
+/// Decides whether the signed distance is at most `threshold`; a negative threshold asks whether the depth is at least
+/// -threshold. Ends at the first level pair, plane or polytope that decides. Cost: that of `signed_distance`.
 Within signed_within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, PairSeed& seed,
                      const Effort& effort = {});
-/// Likewise, cold.
+/// Decides from a cold start whether the signed distance is at most `threshold`.
 Within signed_within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, const Effort& effort = {});
 
 }  // namespace swiftlet

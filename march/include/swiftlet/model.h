@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A convex body at several levels of detail: immutable, shared, one block of memory. Knows nothing of poses or queries.
+// A convex body at several levels of detail [Ehmann & Lin 2000, sec. 4]: immutable, shared, one block of memory. Knows nothing
+// of poses or queries.
 #pragma once
 
 #include <cassert>
@@ -15,59 +16,59 @@
 
 namespace swiftlet {
 
-/// What a FeatureId names.
+/// The kind of feature that a FeatureId names.
 enum class FeatureKind : std::uint8_t {
-  None,    ///< nothing; the index means nothing
-  Vertex,  ///< indexes ConvexView::vertices
-  Edge,    ///< indexes ConvexView::half_edges
-  Face,    ///< indexes ConvexView::face_first
+  None,    ///< no feature; the index has no meaning
+  Vertex,  ///< the index is one of ConvexView::vertices
+  Edge,    ///< the index is one of ConvexView::half_edges
+  Face,    ///< the index is one of ConvexView::face_first
 };
 
-/// A feature of one level in 32 bits: two for the kind, thirty for the index. An edge is named by either of its half-edges.
-/// The default is no feature.
+/// Names a feature of one level in 32 bits: two for the kind, thirty for the index. An edge is named by either of its
+/// half-edges. The default names no feature.
 class FeatureId {
  public:
   constexpr FeatureId() = default;
-  /// `index` < 2^30.
+  /// Requires `index` < 2^30.
   constexpr FeatureId(FeatureKind kind, std::uint32_t index) : bits_(std::uint32_t(kind) << 30 | index) {}
-  constexpr FeatureKind kind() const { return FeatureKind(bits_ >> 30); }  ///< None for FeatureId{}
+  constexpr FeatureKind kind() const { return FeatureKind(bits_ >> 30); }  ///< `None` for FeatureId{}
   constexpr std::uint32_t index() const { return bits_ & 0x3fffffffu; }    ///< within its kind, on its level
-  /// Same bits: an edge's two half-edges differ.
+  /// Compares the bits: the ids of an edge's two half-edges differ.
   constexpr bool operator==(const FeatureId&) const = default;
 
  private:
   std::uint32_t bits_ = 0;
 };
 
-/// "No index": the face beside a segment's edge, the source of a vertex the builder invented.
+/// Stands for "no index", for example the face beside a segment's edge, or the source of a vertex that the builder invented.
 inline constexpr std::uint32_t kNone = 0xffffffffu;
 
-/// A vertex and where its ring lies: half-edges [ring_begin, ring_begin + ring_count), counter-clockwise seen from outside.
+/// A vertex and its ring, the half-edges [ring_begin, ring_begin + ring_count) that start here, counter-clockwise seen from
+/// outside.
 struct Vertex {
   double x, y, z;                        ///< body frame, the caller's unit
-  std::uint32_t ring_begin, ring_count;  ///< indices of half-edges that start here
+  std::uint32_t ring_begin, ring_count;  ///< first half-edge of the ring, number of half-edges
 };
 
-/// The plane of a face of more than three vertices: unit outward normal, and the greatest distance of its vertices from the
-/// plane through the first of them, rounding included.
+/// The plane of a face with more than three vertices. It passes through the origin of the face's first half-edge.
 struct FacePlane {
   double x, y, z;    ///< unit outward normal, body frame
-  double thickness;  ///< the greatest distance, the caller's unit
+  double thickness;  ///< greatest distance of a vertex of the face from the plane, rounding included; the caller's unit
 };
 
-/// What a half-edge leads to, side by side, as a walk reads it.
+/// One of the two directed halves of an edge. Its origin is not stored: it is the head of its twin.
 struct HalfEdge {
-  std::uint32_t head;  ///< the vertex it ends at
-  std::uint32_t twin;  ///< the half-edge the other way
-  std::uint32_t face;  ///< on its left; kNone beside a segment
+  std::uint32_t head;  ///< the vertex at which it ends
+  std::uint32_t twin;  ///< the opposite half-edge of the same edge
+  std::uint32_t face;  ///< the face on its left; kNone for a segment
 
-  bool operator==(const HalfEdge&) const = default;  ///< all three
+  bool operator==(const HalfEdge&) const = default;  ///< compares all three members
 };
 
-/// One convex polytope as the march sees it: non-owning, trivially copyable. Half-edges are sorted by origin.
+/// A view of one convex polytope, as a march reads it: non-owning, trivially copyable. Half-edges are sorted by origin.
 ///
-///       h.head             A half-edge h leads from its origin to h.head and has h.face on its left; the one on its right
-///          /|\             is its twin's. The half-edge after h around h.face comes before h.twin in the ring of h.head.
+///       h.head             A half-edge h leads from its origin to h.head. The face h.face is on its left, the face of its
+///          /|\             twin on its right. The half-edge after h around h.face precedes h.twin in the ring of h.head.
 ///         / | \            A half-edge with the same face on both sides is a *diagonal*: a true edge of the exact hull
 ///        / h|  \           inside a face that is flat only up to rounding. Support climbs use it, face loops skip it.
 ///   right \ | / left       Faces with more than three vertices come first and have a FacePlane.
@@ -77,156 +78,159 @@ struct ConvexView {
   std::span<const Vertex> vertices;           ///< at least one
   std::span<const HalfEdge> half_edges;       ///< sorted by origin
   std::span<const std::uint32_t> face_first;  ///< per face, a half-edge of its loop
-  std::span<const FacePlane> planes;          ///< of faces [0, planes.size())
-  std::span<const std::uint8_t> tags;         ///< per face, the caller's; may be empty
+  std::span<const FacePlane> planes;          ///< planes of the faces [0, planes.size())
+  std::span<const std::uint8_t> tags;         ///< per face, a tag of the caller's; may be empty
   double extent = 0;                          ///< largest absolute coordinate
-  Vec3 centre = Vec3::Zero();                 ///< any point of the body, where a cold start looks from
+  Vec3 centre = Vec3::Zero();                 ///< any point of the body; the line of centres of a cold start ends here
 };
 
-/// How much of a model a scene needs. The coarsest level always comes along, finer ones as far as both members allow. Two
-/// bodies that deviate by d each answer any distance to 2 d.
+/// Says which levels of a model to keep: the coarsest always, and finer ones as far as both members allow. Two bodies whose
+/// finest levels deviate by d each answer any distance with an error of at most 2 d.
 struct Detail {
-  double deviation = 0;  ///< none finer than the coarsest level that deviates less, in the body's unit; 0: all
-  std::uint64_t bytes = ~std::uint64_t{0};  ///< none that the first so many bytes of the block do not hold
+  double deviation = 0;  ///< keep no level finer than the coarsest one with a smaller deviation, in the body's unit; 0: all
+  std::uint64_t bytes = ~std::uint64_t{0};  ///< keep only levels that lie wholly in this many first bytes of the block
 };
 
-/// The vertices of a face, counter-clockwise seen from outside, diagonals passed over: `for (std::uint32_t v : FaceLoop(view,
-/// f))`. Of a flat body's face too. As long as the view's arrays live.
+/// The range of a face's vertices, counter-clockwise seen from outside, diagonals skipped: `for (std::uint32_t v :
+/// FaceLoop(view, f))`. The faces of a flat body have loops too. A loop is usable while the view and its arrays live.
 class FaceLoop {
  public:
-  /// Where a loop is: at the vertex that its half-edge leads to.
+  /// A position in the loop: the vertex at the head of the current half-edge.
   class Iterator {
    public:
     Iterator(const ConvexView& view, std::uint32_t half_edge, bool started)
-        : view_(&view), half_edge_(half_edge), started_(started) {}                 ///< of FaceLoop
+        : view_(&view), half_edge_(half_edge), started_(started) {}                 ///< for FaceLoop
     std::uint32_t operator*() const { return view_->half_edges[half_edge_].head; }  ///< the vertex
-    Iterator& operator++();                                                         ///< the next one
+    Iterator& operator++();                                                         ///< moves to the next vertex
     bool operator==(const Iterator& other) const {
       return half_edge_ == other.half_edge_ && started_ == other.started_;
-    }  ///< of one loop
+    }  ///< compares positions in the same loop
 
    private:
     const ConvexView* view_;
     std::uint32_t half_edge_;
-    bool started_;  ///< tells the end from the beginning
+    bool started_;  ///< false only at `begin()`, which has the half-edge of `end()`
   };
 
-  /// `face` < view.face_first.size().
+  /// Requires `face` < view.face_first.size().
   FaceLoop(const ConvexView& view, std::uint32_t face) : view_(view), first_(view.face_first[face]) {}
-  Iterator begin() const { return {view_, first_, false}; }  ///< the vertex after the first half-edge's origin
-  Iterator end() const { return {view_, first_, true}; }     ///< round once
+  Iterator begin() const { return {view_, first_, false}; }  ///< at the head of the face's first half-edge
+  Iterator end() const { return {view_, first_, true}; }     ///< after one whole round
 
  private:
   const ConvexView& view_;
   std::uint32_t first_;
 };
 
-/// A level of a model: its polytope, its links to the levels beside it, and how far it stands off the exact hull.
+/// A level of a model: its polytope, its links to the next finer and coarser levels, and its deviation from the exact hull.
 struct Level {
-  ConvexView view;                              ///< its features, as long as the model lives; none finer than finest_level()
+  ConvexView view;  ///< lives as long as the model; has no features on levels finer than finest_level()
   std::span<const std::uint32_t> child_vertex;  ///< per vertex, the vertex one level finer (empty on level 0)
   std::span<const FeatureId> child_face;        ///< per face, the face or vertex one level finer (empty on level 0)
   std::span<const std::uint32_t> parent_face;   ///< per face, the vertex one level coarser (empty on the coarsest)
-  std::span<const std::uint32_t> support_map;   ///< per cell of a cube around the body, which vertex is extreme there and by
-                                                ///< how much it may not be; a query's cold start. Empty: none at this level
-  std::uint32_t map_side = 0;                   ///< its cells on an edge of that cube
-  double edge_length = 0;                       ///< mean over the level's edges
+  std::span<const std::uint32_t> support_map;  ///< per cell of a cube around the body, the vertex extreme in that direction and
+                                               ///< a bound on its error; cold queries start here. Empty: no map at this level
+  std::uint32_t map_side = 0;                  ///< cells of `support_map` along an edge of the cube
+  double edge_length = 0;                      ///< mean length of the level's edges, diagonals included
   double deviation = 0;    ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
-  double volume = 0;       ///< cubic units; 0 where flatter than a solid
-  std::size_t bytes = 0;   ///< of this level in a whole model's block
-  std::size_t prefix = 0;  ///< of the model's block, from its beginning to this level's end; 0 where the block lacks it
-  std::size_t edge_count = 0, triangle_count = 0;  ///< without diagonals; 2 V - 4 for a solid
+  double volume = 0;       ///< in cubic units; 0 for a body that is not solid
+  std::size_t bytes = 0;   ///< size of this level in the block of a whole model
+  std::size_t prefix = 0;  ///< bytes from the beginning of the model's block to this level's end; 0 if the block lacks it
+  std::size_t edge_count = 0, triangle_count = 0;  ///< edges without diagonals; triangles: 2 V - 4 for a solid
 };
 
-/// Level 0 given as the user knows it: which of the user's vertices and triangles a feature stands for.
+/// Maps the features of level 0 to the user's own ids of vertices and triangles.
 struct SourceMap {
   std::span<const std::uint32_t> vertex;      ///< per vertex of level 0, the user's vertex
-  std::span<const std::uint32_t> face_begin;  ///< per face of level 0 and one more, where its list begins in `face`
-  std::span<const std::uint32_t> face;        ///< the user's triangles, none or several per face
+  std::span<const std::uint32_t> face_begin;  ///< per face of level 0, the begin of its list in `face`; then the last's end
+  std::span<const std::uint32_t> face;        ///< lists of the user's triangles, none or several per face
 };
 
-/// One level as plain arrays. Faces are counter-clockwise seen from outside. Those of a solid are not all in one plane,
-/// exactly. A two-sided polygon is two opposite faces, a segment two vertices without faces, a point one vertex.
+/// One level as plain arrays. Faces are counter-clockwise seen from outside. Those of a solid must not all lie in one plane,
+/// decided exactly. A two-sided polygon is two opposite faces, a segment two vertices without faces, a point one vertex.
 struct LevelArrays {
-  /// Coordinates 0 or 1e-70 to 1e45 in magnitude, the largest of all 0 or at least 1e-45; the caller's unit.
+  /// Each coordinate is 0 or from 1e-70 to 1e45 in magnitude; the largest magnitude is 0 or at least 1e-45. The caller's unit.
   std::span<const Vec3> vertices;
-  std::span<const std::uint32_t> face_vertices;  ///< the faces' loops one after the other
+  std::span<const std::uint32_t> face_vertices;  ///< the vertices of each face, one face after the other
   std::span<const std::uint32_t> face_sizes;     ///< vertices per face; empty: all are triangles
 
-  std::span<const std::uint32_t> vertex_source;      ///< level 0: the user's vertex ids; empty: 0, 1, 2, ...
-  std::span<const std::uint32_t> face_source_begin;  ///< level 0: as SourceMap::face_begin, per face given; empty: face k is k
-  std::span<const std::uint32_t> face_source;        ///< level 0: the user's triangle ids, one list after the other
+  std::span<const std::uint32_t> vertex_source;      ///< level 0 only: the user's vertex ids; empty: 0, 1, 2, ...
+  std::span<const std::uint32_t> face_source_begin;  ///< level 0 only: as SourceMap::face_begin; empty: face k has the id k
+  std::span<const std::uint32_t> face_source;        ///< level 0 only: the user's triangle ids, as SourceMap::face
 
   std::span<const std::uint32_t> child_vertex;  ///< per vertex, a vertex of the finer arrays; empty: the nearest [sec. 4.3]
-  /// Per face that the finer level lacks, a vertex of the finer arrays; empty: as the face's first vertex.
+  /// Per face, a vertex of the finer arrays: the child of a face that the finer level lacks; empty: its first vertex's child.
   std::span<const std::uint32_t> child_of_face;
 };
 
-/// What a model carries to start cold queries from.
+/// The tables of vertices from which cold queries on a model start.
 struct TableSpec {
-  /// The paper's table, for StartPolicy::Table [Ehmann & Lin 2000, sec. 4.6]: 0, 114, 482 or 1986 entries of 4 bytes.
+  /// Resolution of the start table for StartPolicy::Table [Ehmann & Lin 2000, sec. 4.6]: 0, 114, 482 or 1986 32-bit entries.
   lut::Resolution resolution = lut::Resolution::None;
-  double radius_factor = 2;  ///< its samples lie on the sphere of this many bounding radii, at least 1
-  /// Of the finest support map: 6 side^2 entries of 4 bytes. It lies on the finest level of at most 4 096 vertices, else on the
-  /// coarsest; each coarser level has one of half the side, at least 1. 16 take about 8 kB. A power of two up to 64; 0: no
-  /// maps.
+  double radius_factor = 2;  ///< radius of the start table's sphere of samples, in bounding radii: 1 to 1e6
+  /// Side of the finest support map, a power of two up to 64; 0: no maps. A map of side s has 6 s^2 entries of 4 bytes. The
+  /// finest map lies on the finest level of at most 4 096 vertices, else on the coarsest level; each coarser level has a map of
+  /// half the side, at least 1. With 16 all maps take about 8 kB.
   std::uint32_t map_side = 16;
 };
 
-/// What Model::from_levels does beside proving.
+/// Options of Model::from_levels.
 struct ModelOptions {
-  bool repair = false;  ///< flip the reflex edges that rounding left in the faces given
-  TableSpec table;      ///< the tables and maps to fill
+  bool repair = false;  ///< flip reflex edges that rounding left in the given faces, instead of refusing them
+  TableSpec table;      ///< the start table and support maps to fill
 };
 
-/// A block of memory that is also the file. Copies share it; it never changes; any number of threads may query it.
+/// A convex body at one or several levels, in one block of memory that is also the file's content. Copies share the block,
+/// which never changes; any number of threads may query it.
 ///
-/// A model may lack its finest levels, cut away or not read from its file: level ids still count from the exact hull, and what
-/// is known of an absent level are its numbers. Queries answer as well as the finest level present allows, and their status
-/// says when that was not enough.
+/// A model may lack its finest levels, if they were cut away or not read from its file. Level ids still count from the exact
+/// hull, level 0; of an absent level only the numbers in `Level` are known. Queries answer as precisely as the finest level
+/// present allows, and their status says when that was not enough.
 class Model {
  public:
-  /// From one or several levels given finest first, without the builder. Convexity and enclosure are decided exactly; the error
-  /// names the reflex edge and its height. Cost: linear in the features, times the levels.
+  /// Makes a model of one or several levels, given finest first, without the builder. Convexity and enclosure are decided
+  /// exactly; the error names the reflex edge and its height. Cost: linear in the features, times the levels.
   static Result<Model> from_levels(std::span<const LevelArrays> levels, const ModelOptions& options = {});
-  /// One level.
+  /// Makes a model of one level.
   static Result<Model> from_level(const LevelArrays& level, const ModelOptions& options = {});
 
   int level_count() const { return level_count_; }    ///< at least 1; level 0 is the exact hull, larger is coarser
-  int finest_level() const { return finest_level_; }  ///< of those present; 0 in a whole model
-  /// Level `index` < level_count(); lives as long as the model.
+  int finest_level() const { return finest_level_; }  ///< the finest level present; 0 in a whole model
+  /// Returns level `index`, 0 <= `index` < level_count(); the reference lives as long as the model.
   const Level& level(int index) const {
     assert(index >= 0 && index < level_count_);
     return levels_[index];
   }
-  int map_level() const { return map_level_; }  ///< the finest with a support map; level_count() where none has
-  SourceMap source() const;                     ///< the user's ids of level 0; lives as long as the model; empty without it
+  int map_level() const { return map_level_; }  ///< the finest level with a support map; level_count() if there is none
+  SourceMap source() const;  ///< the user's ids of level 0, which live as long as the model; empty if level 0 is absent
 
-  Vec3 centre() const;    ///< body frame: area centroid of level 0 (of its edges or point, where flatter)
-  double radius() const;  ///< largest distance of a vertex of level 0 from the centre, rounded up
+  Vec3 centre() const;    ///< body frame: area centroid of level 0, or the mean of its vertices if it has no faces
+  double radius() const;  ///< largest distance of a vertex of level 0 from `centre()`, rounded up
   double extent() const;  ///< largest absolute coordinate over all levels
-  Vec3 box_min() const;   ///< of level 0
-  Vec3 box_max() const;   ///< the corner across
-  double volume() const;  ///< of level 0
+  Vec3 box_min() const;   ///< body frame: smallest coordinates of level 0
+  Vec3 box_max() const;   ///< body frame: largest coordinates of level 0
+  double volume() const;  ///< of level 0, in cubic units
   int dimension() const;  ///< 3 solid, 2 flat, 1 segment, 0 point
-  /// The model without the levels that `detail` does not ask for, in a block of its own. Cost: a copy of what is left.
+  /// Returns the model without the levels that `detail` leaves out, in a block of its own. Cost: a copy of the levels kept.
   Model cut(const Detail& detail) const;
-  /// Makes the levels from `level` (>= 0) on ready for queries, where the block holds them: a mapped one does. Proves their
-  /// hashes and structure; returns finest_level(). Copies made before stay as they are, seeds fit the same levels as before.
-  /// Not while a query reads this very object. Errors: BadValue where the block lacks the level, BadFormat where it is damaged;
-  /// either leaves the model as it was.
+  /// Makes `level` (>= 0) and all coarser levels ready for queries, if the block holds them, as that of a mapped model does.
+  /// Checks their hashes and structure; returns finest_level(). Copies made earlier do not change; seeds stay valid. No query
+  /// may read this very object meanwhile. Errors: BadValue if the block lacks the level, BadFormat if it is damaged; both leave
+  /// the model unchanged.
   Result<int> ensure(int level);
 
-  /// A vertex of the finest level that no other exceeds in `direction` (body frame, any length). Exact; a climb from a look-up.
+  /// Returns a support vertex of the finest level: no other is farther along `direction` (body frame, any length). Exact. Cost:
+  /// hill climbing from a look-up.
   std::uint32_t support(const Vec3& direction) const;
 
-  TableSpec table_spec() const;                  ///< of the table that follows
-  std::span<const std::uint32_t> table() const;  ///< a vertex of level 0 per sample of lut.h, empty without one
-  /// The levels present, with other maps, and with level 0 another table. Error: BadValue where `spec` is out of its ranges.
+  TableSpec table_spec() const;                  ///< what `table()` and the support maps were filled from
+  std::span<const std::uint32_t> table() const;  ///< the start table: a vertex of level 0 per sample of lut.h; may be empty
+  /// Returns a model of the levels present with new support maps and, if level 0 is present, a new start table. Error: BadValue
+  /// if `spec` is out of its ranges.
   Result<Model> with_table(const TableSpec& spec) const;
 
-  std::span<const std::byte> bytes() const;  ///< the block: what model_file.h writes; of a mapped model the whole file
-  std::uint64_t hash() const;                ///< of the block, which it reads to the end; equal hash, equal model
+  std::span<const std::byte> bytes() const;  ///< the block, which is what `save` writes; for a mapped model the whole file
+  std::uint64_t hash() const;                ///< hash over all of `bytes()`, which it reads; equal blocks have equal hashes
 
  private:
   friend class BlockReader;
@@ -238,7 +242,7 @@ class Model {
         map_level_(map_level),
         finest_level_(finest_level) {}
   std::shared_ptr<const Content> content_;
-  const Level* levels_;  ///< the body's
+  const Level* levels_;  ///< points into `content_`
   int level_count_, map_level_, finest_level_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Models on disk. The file is the model's block; its layout is described in march/README.md.
+// Models on disk. The file is the model's block; march/README.md describes its layout.
 #pragma once
 
 #include <cstddef>
@@ -14,35 +14,35 @@
 
 namespace swiftlet {
 
-/// The version written; files of another version are refused.
+/// The version of the file format that `save` writes. Files of any other version are refused.
 inline constexpr std::uint32_t kModelFileVersion = 3;
 
-/// Writes beside `path` and renames, so that a failure leaves the old file. Returns the bytes written.
-/// Errors: CannotWrite, with what the system says.
+/// Writes a file beside `path`, then renames it, so that a failure leaves the old file intact. Returns the bytes written.
+/// Errors: CannotWrite, with the cause.
 Result<std::size_t> save(const Model& model, const std::filesystem::path& path);
 
-/// Reads a file as far as `detail` asks: coarse levels come first, and what is not needed is neither read nor kept. Sizes,
-/// hashes, index ranges and topology are checked before anything large is allocated or believed; geometry is not: see `verify`
-/// in check.h. Cost: one pass over the bytes read.
-/// Errors: CannotRead, BadFormat (names what is damaged; a file cut short too), BadVersion.
+/// Reads the levels of a file that `detail` asks for. Coarse levels come first in the file; levels beyond `detail` are neither
+/// read nor kept. Sizes are checked before memory is allocated, then hashes, index ranges and topology; geometry is not
+/// checked, see `verify` in check.h. Cost: one pass over the bytes read. Errors: CannotRead, BadFormat (names what is damaged;
+/// also for a file cut short), BadVersion.
 Result<Model> load(const std::filesystem::path& path, const Detail& detail = {});
 
-/// The same from memory, which is copied.
+/// Loads a model from the bytes of a file, which are copied.
 Result<Model> load(std::span<const std::byte> bytes, const Detail& detail = {});
 
-/// The same without a copy: the model's memory is the file's pages, which processes share. Of levels finer than `detail` asks
-/// for no page is touched until `Model::ensure` reads them. The file must stay as it is while the model or a copy of it lives;
-/// renaming or deleting it, as `save` does with what it replaces, is fine.
+/// Loads a model without a copy: the model's memory is the mapped file, whose pages processes share. Pages of levels finer than
+/// `detail` asks for are not touched until `Model::ensure` reads them. The file's content must not change while the model or a
+/// copy of it lives; the file may be renamed or deleted, and replaced by `save`. Errors: as `load`.
 Result<Model> map(const std::filesystem::path& path, const Detail& detail = {});
 
-/// What is left of a file cut short.
+/// The result of `salvage`.
 struct Salvaged {
-  Model model;       ///< of the levels that are complete
-  std::string note;  ///< one sentence on what is missing; empty for a whole file
+  Model model;       ///< holds the levels that are complete in the file
+  std::string note;  ///< one sentence that says what is missing; empty for a whole file
 };
 
-/// Reads the complete levels of a file that ends early.
-/// Errors: as `load`; BadFormat where not even the coarsest level is complete.
+/// Reads the complete levels of a file that was cut short.
+/// Errors: as `load`, but BadFormat for a short file only if not even the coarsest level is complete.
 Result<Salvaged> salvage(const std::filesystem::path& path);
 
 }  // namespace swiftlet

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// How near are two bodies? All points and directions are in A's frame, lengths in the bodies' unit. The laws that the queries
-// keep are in LAWS.md.
+// Proximity queries by multi-level Voronoi marching [Ehmann & Lin 2000]: distance, intersection, threshold and nearest features
+// of two bodies. Points and directions are in A's frame, lengths in the bodies' unit. Laws by number: LAWS.md.
 #pragma once
 
 #include <array>
@@ -18,190 +18,192 @@ namespace swiftlet {
 
 /// How a query ended.
 enum class Status : std::uint8_t {
-  NotAsked,       ///< no query wrote this answer yet: nothing is known
+  NotAsked,       ///< no query has written this answer: nothing is known
   Converged,      ///< the interval is as narrow as asked, or the verdict is proved
-  Beyond,         ///< stopped early, as asked: lower > options.beyond
-  Budget,         ///< the budget's steps ended the march; the interval is true
+  Beyond,         ///< stopped early because lower > options.beyond
+  Budget,         ///< the query used up `Budget::steps`; the interval is true
   LevelLimit,     ///< a level that the tolerance needs is absent from a model or finer than the budget allows; the interval
                   ///< is true, and as narrow as the levels that the answer names allow
-  NotConverged,   ///< the interval is true but wider than asked. Known only of needles and plates whose thickness is
-                  ///< what law 2 rounds away (README.md, Limits)
-  InvalidPose,    ///< not finite, translated beyond 1e45, or not orthonormal to 1e-6: nothing is known
-  InvalidRadius,  ///< a radius that is no number from 0 to 1e45: likewise
-  InvalidBody,    ///< a primitive with a coordinate that no model may have, or a box of negative extent: likewise
+  NotConverged,   ///< the interval is true but wider than asked. Known only for needles and plates whose thickness is
+                  ///< within law 2's bound (README.md, Limits)
+  InvalidPose,    ///< the pose is not finite, translates beyond 1e45 or is not orthonormal to 1e-6: nothing is known
+  InvalidRadius,  ///< a radius is not a number from 0 to 1e45, or `refine` got an answer of other radii: nothing is known
+  InvalidBody,    ///< a primitive has a coordinate that no model may have, or a box a negative extent: nothing is known
 };
 
-/// What is proved of the two bodies as closed sets.
+/// What is proved about the two bodies as closed sets.
 enum class Verdict : std::uint8_t {
-  Undecided,    ///< none is proved: lower <= 0, and the interval is as narrow as asked or the query ended early
+  Undecided,    ///< no other verdict is proved: lower <= 0, and the interval is as narrow as asked or the query ended early
   Disjoint,     ///< lower > 0
-  Touching,     ///< the signed distance is within `tolerance` of 0; lower may still be above 0. So is the depth of bodies that
-                ///< share a plane, whichever way they lie in it
-  Overlapping,  ///< they share a point: proved, by an OverlapProof (Tuning::proof), by points of the hulls that are less than
-                ///< both radii apart, or by upper < 0
+  Touching,     ///< the signed distance is within `tolerance` of 0; lower may still be above 0. Bodies in one
+                ///< common plane that overlap in it are Touching too, since their depth is 0
+  Overlapping,  ///< the bodies share a point: proved by an OverlapProof (Tuning::proof), by points of the hulls whose distance
+                ///< is less than the sum of the radii, or by upper < 0
 };
 
-/// The levels in which order are refined [Ehmann & Lin 2000, sec. 5.2]: one level of one body (the coarser one), of both,
-/// or two of both.
+/// By how many levels a query descends where a level pair does not answer [Ehmann & Lin 2000, sec. 5.2].
 enum class Refinement : std::uint8_t {
-  Single,        ///< one level of the coarser body at a time
-  SingleSingle,  ///< one level of both
-  DoubleDouble,  ///< two levels of both
+  Single,        ///< one level finer in one body, the one whose level deviates more
+  SingleSingle,  ///< one level finer in both bodies
+  DoubleDouble,  ///< two levels finer in both bodies
 };
 
-/// Where a query starts. All give the same verdict and true intervals.
+/// Where a query starts. Every policy gives the same verdict and true intervals.
 enum class StartPolicy : std::uint8_t {
-  Automatic,  ///< the seed's features at the seed's level; when the bodies turned too far for that, or cold: the support maps,
-              ///< or without these the coarsest pair. Questions of yes or no look along the maps first
-  Paper,      ///< as Automatic, but the seed climbs to where the motion it can absorb is the distance [sec. 5.2]
-  Finest,     ///< the seed's features on level 0, without hierarchy
-  Coarsest,   ///< the coarsest pair, from the seed's features there
-  Table,      ///< level 0, from the start tables or else the maps, without hierarchy, whatever the seed [sec. 5.3]
+  Automatic,  ///< the seed's features at the seed's levels; if the bodies turned too far since, or without a seed, the support
+              ///< maps, or without maps the coarsest pair. Questions of yes or no sample a direction in the maps first
+  Paper,      ///< the seed's features, else the coarsest pair, never the maps; a query leaves features of the coarsest levels
+              ///< whose growth in deviation is at most the distance [sec. 5.2]
+  Finest,     ///< the seed's features on level 0, without the hierarchy
+  Coarsest,   ///< the coarsest level pair, from the seed's features there
+  Table,      ///< level 0, from the start tables or else the maps, without the hierarchy, whatever the seed [sec. 5.3]
 };
 
-/// What one query leaves for the next one of the same pair. The caller carries it; `PairSeed{}` is cold. Any bits are legal: a
-/// seed changes the work, never the truth.
+/// The warm start that one query leaves for the next query of the same pair. The caller keeps it; `PairSeed{}` is a cold start.
+/// Any bits are legal: a seed changes the work, never the truth.
 struct PairSeed {
-  FeatureId a, b;                                        ///< features at the levels below
-  std::array<std::int16_t, 3> line_in_a{}, line_in_b{};  ///< the line of centres, in units of 1/32767: how far it turned tells
-                                                         ///< whether the features are worth a try
-  std::array<std::int16_t, 3> normal{};                  ///< the answer's, in the same units: a verdict is tried along it first
-  std::uint8_t level_a = 0, level_b = 0;                 ///< where `a` and `b` lie
-  std::uint8_t met = 0;                                  ///< not 0: the bodies overlapped at these features
+  FeatureId a, b;                                        ///< features of A and B, on `level_a` and `level_b`
+  std::array<std::int16_t, 3> line_in_a{}, line_in_b{};  ///< unit line of centres, times 32767: A to B in A's frame, B to A
+                                                         ///< in B's; a query drops the features if it turned far
+  std::array<std::int16_t, 3> normal{};                  ///< normal of the answer, times 32767; tried as a separating axis
+  std::uint8_t level_a = 0, level_b = 0;                 ///< the levels of `a` and `b`
+  std::uint8_t met = 0;                                  ///< not 0: the bodies overlapped
 };
 static_assert(sizeof(PairSeed) <= 32);
 
 /// One level pair that a query visited.
 struct LevelRecord {
-  int level_a = 0, level_b = 0;                                       ///< the pair
-  double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved so far, of the bodies
-  std::uint32_t steps = 0, plane_tests = 0;                           ///< spent here
+  int level_a = 0, level_b = 0;                                       ///< the levels of A and B
+  double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< bounds proved so far for the bodies
+  std::uint32_t steps = 0, plane_tests = 0;                           ///< work on this level pair
 };
 
-/// How far a query may go. What ends at it is true, and says so by its status.
+/// Limits on a query. The interval of a query that ends at a limit is true, and the status names the limit.
 struct Budget {
-  std::uint32_t steps = ~0u;  ///< over all levels: changes of feature, or supports; not time
-  int finest_level = 0;       ///< read no level finer than this; models may hold less
+  std::uint32_t steps = ~0u;  ///< sum over all levels: changes of feature in walks, supports in depths; not time
+  int finest_level = 0;       ///< no level finer than this is read; a model may lack it
 };
 
-/// For experts: how a query goes, and what it tells beside its answer. The answer is true whatever is set here.
+/// Settings for experts: how a query proceeds, and what it reports beside its answer. The answer is true with any settings.
 struct Tuning {
-  StartPolicy start = StartPolicy::Automatic;        ///< where it starts
-  Refinement refinement = Refinement::SingleSingle;  ///< how it descends
-  PlaneRule plane_rule = PlaneRule::MostViolated;    ///< how it walks
-  std::span<LevelRecord> trace{};  ///< filled with the level pairs visited, the last one in the last place if too short;
-                                   ///< a trace asks for bounds at every level, which costs a certificate each
-  OverlapProof* proof = nullptr;   ///< filled where the answer rests on vertices of the hulls, those of its levels, that prove
-                                   ///< an overlap; else its count becomes 0. An answer about a coarser level may rest on one
+  StartPolicy start = StartPolicy::Automatic;        ///< where the query starts
+  Refinement refinement = Refinement::SingleSingle;  ///< how it descends through the levels
+  PlaneRule plane_rule = PlaneRule::MostViolated;    ///< how it walks on one level pair
+  std::span<LevelRecord> trace{};  ///< receives the level pairs visited; if it is too short, its last record is overwritten. A
+                                   ///< trace costs one certificate per level pair
+  OverlapProof* proof = nullptr;   ///< receives vertices of the answer's levels that prove an overlap of these, if the answer
+                                   ///< rests on such a proof; else its `count` becomes 0
 };
 
-/// What is asked of a distance. By default an exact one: the interval is no wider than `tolerance`.
+/// Options of a distance query. The default asks for an exact answer, whose interval is no wider than `tolerance`.
 struct Options {
-  double absolute = 0;  ///< stop when upper - lower <= max(absolute, relative * (the bound nearer to 0))
-  double relative = 0;  ///< a fraction of that bound
-  double beyond = std::numeric_limits<double>::infinity();  ///< stop when lower > beyond
-  Budget budget{};                                          ///< how far it may go
-  Tuning tuning{};                                          ///< how it goes
+  double absolute = 0;  ///< stop when upper - lower <= max(absolute, relative * (the bound nearer to 0)); the bodies' unit
+  double relative = 0;  ///< a fraction of the bound nearer to 0
+  double beyond = std::numeric_limits<double>::infinity();  ///< stop when lower > beyond; the bodies' unit
+  Budget budget{};                                          ///< limits on the query
+  Tuning tuning{};                                          ///< settings for experts
 };
 
-/// What a question of yes or no may take.
+/// Options of a question of yes or no.
 struct Effort {
-  Budget budget{};  ///< how far it may go
-  Tuning tuning{};  ///< how it goes
+  Budget budget{};  ///< limits on the query
+  Tuning tuning{};  ///< settings for experts
 };
 
-/// What a query found. A field that means nothing is NaN, a feature None.
+/// The result of a query. A number that means nothing is NaN, a feature that means nothing is `FeatureId{}`.
 struct Answer {
-  Status status = Status::NotAsked;       ///< how it ended
-  Verdict verdict = Verdict::Undecided;   ///< what is proved; also where a distance was asked for
-  bool is_signed = false;                 ///< the interval is that of the signed distance (depth.h)
-  std::uint8_t levels_visited = 0;        ///< level pairs: entries of a trace that were wanted
+  Status status = Status::NotAsked;       ///< how the query ended
+  Verdict verdict = Verdict::Undecided;   ///< what is proved; set by every query, also by distances
+  bool is_signed = false;                 ///< `lower` and `upper` bound the signed distance (depth.h)
+  std::uint8_t levels_visited = 0;        ///< number of level pairs visited: the records that a complete trace has
   std::int16_t level_a = 0, level_b = 0;  ///< the level pair that answered
-  FeatureId feature_a, feature_b;  ///< that hold the points below, on those levels; of an overlap's depth, of the deepest
+  FeatureId feature_a, feature_b;  ///< features on `level_a` and `level_b` that hold `point_a` and `point_b` on the hulls
   std::uint32_t steps = 0, plane_tests = 0;                           ///< work, as MarchResult counts it, over all levels
   double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved bounds on the distance of the bodies
-  /// Unit, from A to B: `lower` is proved by the gap of the bodies in this direction; where they overlap, B moved along it by
-  /// -lower is free. NaN where none is known, as of an overlap of hulls whose depth was not asked for.
+  /// Unit, from A to B: the gap of the bodies along it proves `lower`; if they overlap, moving B along it by -lower separates
+  /// them. NaN where no such direction is known, for example for an overlap of hulls whose depth was not asked for.
   Vec3 normal = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-  /// The nearest point of A, or that deepest inside B, on the level above, moved by the body's radius along the normal:
-  /// point_b - point_a is the signed distance times the normal. Of an overlap of hulls whose depth was not asked for, a point
-  /// that lies in both hulls, within `tolerance`, wherever the search ended, or NaN where not even 106 bits tell one.
+  /// The witness point of A: its point nearest to B, or deepest inside B, on `level_a`, moved by A's radius along the normal.
+  /// point_b - point_a is the signed distance times the normal. For an overlap of hulls whose depth was not asked for, it is
+  /// any point that lies in both hulls within `tolerance`, or NaN if 106-bit arithmetic finds none.
   Vec3 point_a = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-  Vec3 point_b = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< likewise, of B
-  double radius_a = 0, radius_b = 0;                                        ///< of the bodies asked about
+  Vec3 point_b = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< the witness point of B
+  double radius_a = 0, radius_b = 0;                                        ///< radii of the bodies asked about
 
-  /// The middle of the interval, at most half its width from the truth; NaN where it has no upper or no lower end.
+  /// Returns the middle of the interval, at most half its width from the truth; NaN if `lower` or `upper` is infinite.
   double value() const;
 };
 static_assert(sizeof(Answer) == 128);
 
-/// The distance between `a` and `b`, where `b_in_a` maps B's frame into A's: to the options' errors, exact by default. The
-/// interval is always true, errors are statuses. A seed is what the last query of this pair left; without one the query starts
-/// from nothing. Cost: law 7 bounds the steps (march.h); nothing is allocated; 4 kB of stack, 12 kB where only exact arithmetic
-/// tells a side.
+/// Returns the distance between `a` and `b`, where `b_in_a` maps B's frame into A's: exact by default, or within the errors of
+/// `options`. The interval is always true; errors are statuses. `seed` holds what the last query of this pair left, and
+/// receives the warm start for the next. Cost: law 7 bounds the steps (march.h). Allocates nothing; uses 4 kB of stack, and
+/// 12 kB where only exact arithmetic decides a sign.
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options = {});
-/// Likewise, cold.
+/// Returns the distance, from a cold start.
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, const Options& options = {});
 
-/// `distance`, on from an answer of any query about the same bodies and pose, to the precision that the options ask for: from
-/// its features, with its bounds, at the cost of the difference. The interval is never wider than before, but for `tolerance`,
-/// by which a plane that fits its points may be worse; one that is as narrow as asked comes back as it is. Steps and plane
-/// tests are this call's. Bounds are taken at their word: another pair's or pose's answer makes these wrong. Of a signed answer
-/// below 0 the distance is 0. An answer of other radii than the bodies' is InvalidRadius.
+/// Continues `distance` from `so_far`, the answer of any query about the same bodies and pose, to the precision that `options`
+/// asks for. It starts from the features and bounds of `so_far` and costs only the work still missing. The interval is at most
+/// `tolerance` wider than before, where a plane that fits the points replaces one with a better bound; an interval that is
+/// already as narrow as asked is returned as it is. `steps` and `plane_tests` count this call alone. The bounds of `so_far` are
+/// trusted: an answer about another pair or pose makes the result wrong. From a signed answer below 0 the result is the
+/// distance, 0. Status InvalidRadius if the radii of `so_far` are not those of the bodies.
 Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so_far, PairSeed& seed,
               const Options& options = {});
-/// Likewise, without a seed for the queries that follow.
+/// Continues `distance` from `so_far` without leaving a seed for later queries.
 Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so_far, const Options& options = {});
 
-/// Do they share a point? Read `verdict`. Ends at the first level pair that is disjoint.
+/// Decides whether the bodies share a point: read `verdict`. Ends at the first level pair that is proved disjoint.
 Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Effort& effort = {});
-/// Likewise, cold.
+/// Decides from a cold start whether the bodies share a point.
 Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, const Effort& effort = {});
 
-/// Is the distance at most the threshold?
+/// The answer to whether a distance is at most a threshold.
 enum class Decision : std::uint8_t {
-  Undecided,  ///< the interval holds the threshold
+  Undecided,  ///< the interval contains the threshold
   No,         ///< proved: lower > threshold
   Yes,        ///< proved: upper <= threshold
 };
 
-/// A decision and what it rests on.
+/// The result of a threshold query.
 struct Within {
-  Decision decision = Decision::Undecided;  ///< Undecided only within `tolerance` of the threshold, or as the status says
-  Answer answer;                            ///< as far as the decision needed
+  Decision decision = Decision::Undecided;  ///< Undecided only within `tolerance` of the threshold, or if `status` says why
+  Answer answer;                            ///< its interval is only as narrow as the decision needs
 };
 
-/// Is the distance at most `threshold` (>= 0)? Ends at the first level pair that decides.
+/// Decides whether the distance is at most `threshold` (>= 0). Ends at the first level pair that decides it.
 Within within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, PairSeed& seed, const Effort& effort = {});
-/// Likewise, cold.
+/// Decides from a cold start whether the distance is at most `threshold` (>= 0).
 Within within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, const Effort& effort = {});
 
-/// The user's ids of a nearest feature.
+/// A nearest feature by the user's own ids.
 struct SourceFeature {
-  FeatureKind kind = FeatureKind::None;  ///< None: the answer is not on level 0
+  FeatureKind kind = FeatureKind::None;  ///< None if the answer is not on level 0
   std::array<std::uint32_t, 2> vertices{kNone,
-                                        kNone};  ///< a vertex's one id, an edge's two; a primitive's points are 0, 1, ...
-  std::span<const std::uint32_t> triangles;      ///< a face's; none or several; lives as long as the model
+                                        kNone};  ///< the vertex, or both ends of the edge; a primitive's points are 0, 1, ...
+  std::span<const std::uint32_t> triangles;      ///< the triangles of the face, none or several; lives as long as the model
 };
 
-/// Where two bodies are nearest.
+/// The result of `closest_features`.
 struct ClosestFeatures {
-  Answer answer;                     ///< exact, on level 0; Beyond: as far as that needed
-  SourceFeature source_a, source_b;  ///< of the answer's features
+  Answer answer;                     ///< exact, on level 0; with status Beyond only as narrow as that needs
+  SourceFeature source_a, source_b;  ///< the answer's features by the user's ids
 };
 
-/// What is asked of the nearest features, which are those of level 0, exactly.
+/// Options of `closest_features`, which always asks for the exact answer on level 0.
 struct ClosestOptions {
-  double beyond = std::numeric_limits<double>::infinity();  ///< stop when lower > beyond
+  double beyond = std::numeric_limits<double>::infinity();  ///< stop when lower > beyond; the bodies' unit
   std::uint32_t steps = ~0u;                                ///< as Budget::steps
-  Tuning tuning{};                                          ///< how it goes
+  Tuning tuning{};                                          ///< settings for experts
 };
 
-/// The nearest features, their points and normal, and the user's own ids for them, while the hulls are disjoint: where only the
-/// radii overlap, by normal . (point_a - point_b), `distance` stops at that verdict, and this goes on to the nearest features.
+/// Returns the nearest features, their points and normal, and the user's ids of the features, as long as the hulls are
+/// disjoint. Where the bodies overlap only by their radii, `distance` stops at that verdict; this query goes on to the nearest
+/// features, and the overlap is normal . (point_a - point_b).
 ClosestFeatures closest_features(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed,
                                  const ClosestOptions& options = {});
-/// Likewise, cold.
+/// Returns the nearest features, from a cold start.
 ClosestFeatures closest_features(const Body& a, const Body& b, const Pose& b_in_a, const ClosestOptions& options = {});
 
 }  // namespace swiftlet

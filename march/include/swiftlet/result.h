@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a function returns where data enters the library: a value, or one sentence that says what is wrong with the data.
+// `Result`: what functions return where data enters the library, either a value or an error with one sentence on what is wrong.
 #pragma once
 
 #include <cassert>
@@ -10,29 +10,29 @@
 
 namespace swiftlet {
 
-/// What is wrong with data that enters.
+/// The kind of an `Error`.
 enum class ErrorCode {
   CannotRead,    ///< the file is missing, unreadable, or ends early
   CannotWrite,   ///< the file cannot be created or the disk is full; nothing half-written is left
-  BadFormat,     ///< not the format it claims to be, or damaged
-  BadVersion,    ///< a format version this library does not read
+  BadFormat,     ///< the data are not in the format expected, or damaged
+  BadVersion,    ///< a format version that this library does not read
   BadValue,      ///< an option or a number out of its range; a non-finite coordinate
-  Empty,         ///< no points
+  Empty,         ///< there are no points
   NotConvex,     ///< a reflex edge, or faces that do not close to one convex surface
   NotSolid,      ///< flat, collinear or a single point where a solid was required
-  NotEnclosing,  ///< a coarser level that does not hold level 0
-  TooLarge,      ///< more features than 30-bit feature ids name
+  NotEnclosing,  ///< a coarser level does not enclose level 0
+  TooLarge,      ///< more features than 30-bit feature ids can name, or too many levels
   Cancelled,     ///< the progress callback asked to stop
 };
 
-/// Why there is no value.
+/// Says why there is no value.
 struct Error {
   ErrorCode code;       ///< for the program
-  std::string message;  ///< for people: one sentence; names the file, line, vertex or edge
-  std::string file{};   ///< the file at fault, as its path was given; empty: none is
+  std::string message;  ///< for people: one sentence that names the file, line, vertex or edge
+  std::string file{};   ///< path of the file at fault, as the caller gave it; empty: no file is at fault
 };
 
-/// A value or an Error. Reading the one that is not there is misuse and asserts.
+/// Holds a value or an `Error`. Reading the one that is absent is misuse and asserts.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -41,24 +41,24 @@ class [[nodiscard]] Result {
   /// Failure.
   Result(Error error) : state_(std::move(error)) {}
 
-  /// Whether there is a value.
+  /// Returns true if there is a value.
   explicit operator bool() const { return state_.index() == 0; }
-  /// The value. Asserts that there is one.
+  /// Returns the value. Asserts that there is one.
   T& value() & {
     assert(*this);
     return std::get<0>(state_);
   }
-  /// The same, read only.
+  /// Returns the value, read only. Asserts that there is one.
   const T& value() const& {
     assert(*this);
     return std::get<0>(state_);
   }
-  /// The same, to be moved out of a result that goes away.
+  /// Returns the value, to be moved out of a temporary result. Asserts that there is one.
   T&& value() && {
     assert(*this);
     return std::get<0>(std::move(state_));
   }
-  /// The error. Asserts that there is one.
+  /// Returns the error. Asserts that there is one.
   const Error& error() const {
     assert(!*this);
     return std::get<1>(state_);
