@@ -197,11 +197,12 @@ void expect_true(const Contacting& c, Shares& shares) {
   shares.eight = std::min(shares.eight, shown_area(eight) / truth.area);
 }
 
-/// Of a round face no four corners keep more than 2 / pi = 0.637, no eight more than 0.901.
+/// Of a round face no four corners keep more than 2 / pi = 0.637, no eight more than 0.901; of the 13 corners that eight are
+/// chosen from some are twice as far apart as others.
 void expect_much_kept(const Shares& shares) {
   EXPECT_GE(shares.counted, 50);
   EXPECT_GE(shares.four, 0.59);
-  EXPECT_GE(shares.eight, 0.89);
+  EXPECT_GE(shares.eight, 0.87);
   std::printf("%d areas: four points keep at least %.3f, eight %.3f\n", shares.counted, shares.four, shares.eight);
 }
 
@@ -343,6 +344,26 @@ TEST(Manifold, OfFacesWithTinySidesIsAsWithout) {
     c.b_in_a.translation = turn * Vec3(0, 0, 1 + 1e-9);
     c.answer = nearest(c.a, c.b, c.b_in_a);
     EXPECT_NEAR(shown_area(manifold(c.a, c.b, c.b_in_a, c.answer, {.margin = 1e-8})), 2, 1e-8) << i;
+  }
+}
+
+/// A face merged of facets has a corner that lies 6e-14 inside of the side between its neighbours, and that side is crosswise
+/// to the sweep: the neighbour behind it is no higher. A sweep that went by height alone lost half the area.
+TEST(Manifold, OfAFaceWithACornerThatTurnsInwardsIsTheWholeFace) {
+  const Model a = bodies::model(bodies::box(3, 3, 1));
+  std::vector<Vec3> points;
+  for (const double z : {0., 1.})
+    for (const double y : {-1., 1.})
+      for (const double x : {-1., 1.}) points.emplace_back(x, y, z);
+  for (const auto& [x, y, z, turn] :
+       {std::array{-0.8993439010196298, -1 + 5.9730201712238363e-14, -7.9387296541624455e-09, 2.3847514239454443e-14},
+        std::array{0.84780495645623322, -1 + 1.7750549983543353e-10, -3.9206960890676559e-09, -6.8061168783520699e-11}}) {
+    std::vector<Vec3> with = points;
+    with.emplace_back(x, y, z);
+    const Model b = hull_of({with, {}});
+    const Pose pose = at(0.3, 0.1, 1.001, shapes::rotation(Vec3::UnitZ(), 1.5 * std::numbers::pi + std::atan2(9, 40) + turn));
+    const Manifold p = manifold(a, b, pose, nearest(a, b, pose), {.margin = kInfinity, .most_points = 8});
+    EXPECT_NEAR(shown_area(p), 4, 1e-6);
   }
 }
 
@@ -858,12 +879,13 @@ TEST(Manifold, KeepsThePointsOfTheFrameBefore) {
 
 /// Whatever the manifold before was of, what is chosen after it is chosen again.
 TEST(Manifold, KeepsWhatItChose) {
-  const Model prism_5 = bodies::model(prism(5, 1, 1)), cube = bodies::model(bodies::cube());
+  const Model prism_5 = bodies::model(prism(5, 1, 1)), cube = bodies::model(bodies::cube()),
+              prism_109 = bodies::model(prism(109, 1, 1));
   Random random(11);
   int others = 0;
-  for (const Model* model : {&cube, &prism_5}) {
+  for (const Model* model : {&cube, &prism_5, &prism_109}) {
     Manifold before;
-    for (int i = 0; i < 20'000; ++i) {
+    for (int i = 0; i < 15'000; ++i) {
       const double tilt = std::pow(10, random.uniform(-16, -1));
       const Mat3 rotation = shapes::rotation(Vec3::UnitX(), tilt * random.uniform(-1, 1)) *
                             shapes::rotation(Vec3::UnitZ(), i % 2 ? tilt * random.uniform(-1, 1) : random.uniform(-1, 1));

@@ -22,53 +22,63 @@ bool is_same(const ManifoldPoint& point, const Candidate& candidate) {
 
 void Candidates::add(Border border, const Candidate& candidate) {
   if (!(candidate.separation <= farthest_)) return;
+  if (is_known(candidate) && known_count_ < int(kMostManifoldPoints)) known_[std::size_t(known_count_++)] = candidate;
   if (candidate.separation < deepest_)
     deepest_ = candidate.separation, deepest_a_ = candidate.feature_a, deepest_b_ = candidate.feature_b;
-  int& count = count_[std::size_t(border)];
-  if (count_[0] + count_[1] == kMostCorners) {
-    if (replaces_last(border, candidate))
-      --count;
-    else
-      thin();
+  const std::size_t side = std::size_t(border);
+  if (count_[0] + count_[1] < kMostCorners) {
+    cut_off_[side] = 0;
+  } else if (replaces_last(border, candidate)) {
+    --count_[side];
+  } else {
+    thin();
+    cut_off_[side] = 0;
   }
-  at(border == Border::Left ? count : kMostCorners - 1 - count) = candidate;
-  ++count;
+  all_[std::size_t(border == Border::Left ? count_[0] : kMostCorners - 1 - count_[1])] = candidate;
+  ++count_[side];
 }
 
-bool Candidates::is_known(int i) const {
+bool Candidates::has_named(const Candidate& candidate) const {
+  for (int i = 0; i < kMostCorners; ++i) {
+    const bool is_kept = i < count_[0] || i >= kMostCorners - count_[1];
+    if (is_kept && at(i).feature_a == candidate.feature_a && at(i).feature_b == candidate.feature_b) return true;
+  }
+  return false;
+}
+
+bool Candidates::is_known(const Candidate& candidate) const {
   const auto first = previous_.points.begin();
   return std::any_of(first, first + std::min(previous_.count, kMostManifoldPoints),
-                     [&](const ManifoldPoint& p) { return is_same(p, (*this)[i]); });
+                     [&](const ManifoldPoint& p) { return is_same(p, candidate); });
 }
 
-bool Candidates::may_be_left_out(int i) const {
-  const bool is_deepest = (*this)[i].feature_a == deepest_a_ && (*this)[i].feature_b == deepest_b_;
-  return !is_deepest && !is_known(i);
-}
-
-/// Whether of all that may be left out the last of a border takes the least area with it.
-bool Candidates::replaces_last(Border border, const Candidate& candidate) const {
-  if (count_[std::size_t(border)] < 2) return false;
+/// Whether, of all corners that may be left out, the last one of a border takes the least area with it; counts what its chord
+/// has cut off already, since corners that follow closely each take little.
+bool Candidates::replaces_last(Border border, const Candidate& candidate) {
+  const std::size_t side = std::size_t(border);
+  if (count_[side] < 2) return false;
   const int last = border == Border::Left ? count_[0] - 1 : kMostCorners - count_[1], step = border == Border::Left ? 1 : -1;
-  const double area = twice_area((*this)[last - step].on_a, (*this)[last].on_a, candidate.on_a);
-  return area < next_area_ && may_be_left_out(last);
+  const double area = cut_off_[side] + twice_area(at(last - step).on_a, at(last).on_a, candidate.on_a);
+  if (!(area < next_area_) || is_deepest(last)) return false;
+  cut_off_[side] = area;
+  return true;
 }
 
-/// The ends of both borders, the least separation and the known ones stay.
+/// Leaves out the corner that takes the least area with it. The last ones of both borders and the deepest corner stay.
 void Candidates::thin() {
   const int left = count_[0], right = kMostCorners - count_[1];
   double least = std::numeric_limits<double>::infinity();
   int flattest = 0;
   next_area_ = least;
-  const auto look = [&](int first, int last) {
-    for (int i = first + 1; i + 1 < last; ++i) {
-      const double area = twice_area((*this)[i - 1].on_a, (*this)[i].on_a, (*this)[i + 1].on_a);
-      if (area >= next_area_ || !may_be_left_out(i)) continue;
-      next_area_ = max(least, area);
-      if (area < least) least = area, flattest = i;
-    }
+  const auto look = [&](int below, int i, int above) {
+    const double area = twice_area(at(below).on_a, at(i).on_a, at(above).on_a);
+    if (area >= next_area_ || is_deepest(i)) return;
+    next_area_ = max(least, area);
+    if (area < least) least = area, flattest = i;
   };
-  look(0, left), look(right, kMostCorners);
+  // The borders meet below.
+  for (int i = right == kMostCorners; i + 1 < left; ++i) look(i == 0 ? kMostCorners - 1 : i - 1, i, i + 1);
+  for (int i = kMostCorners - 1 - (left == 0); i > right; --i) look(i + 1 == kMostCorners ? 0 : i + 1, i, i - 1);
   if (flattest < left)
     std::move(all_.begin() + flattest + 1, all_.begin() + left, all_.begin() + flattest);
   else
@@ -78,13 +88,8 @@ void Candidates::thin() {
 
 void Candidates::close() {
   std::move(all_.end() - count_[1], all_.end(), all_.begin() + count_[0]);
-  count_ = {count_[0] + count_[1], 0};
-}
-
-double Candidates::least() const {
-  double least = all_[0].separation;
-  for (int i = 1; i < count(); ++i) least = min(least, all_[std::size_t(i)].separation);
-  return least;
+  count_[0] += count_[1];
+  count_[1] = 0;
 }
 
 }  // namespace swiftlet

@@ -26,35 +26,43 @@ struct Candidate {
 
 bool is_same(const ManifoldPoint& point, const Candidate& candidate);
 
+inline constexpr int kMostCandidates = kMostCorners + int(kMostManifoldPoints);
+
+/// All corners of an area or, of more than `kMostCorners`, as many that hold most of it, the deepest among them. The corners
+/// that `previous` names come in addition, so that what stays does not depend on them.
 class Candidates {
  public:
-  /// Candidates farther apart than `farthest` are left out; those that `previous` names are kept, whatever they hold.
+  /// Corners with a separation above `farthest` are left out.
   Candidates(double farthest, const Manifold& previous) : farthest_(farthest), previous_(previous) {}
 
-  /// The corner of a border after those that were added to it before.
+  /// Adds the corner that follows on a border, which is seen from below to above.
   void add(Border border, const Candidate& candidate);
-  /// Makes one row of both borders, around the area; what is added then belongs to neither.
+  /// Makes one row of both borders, around the area. A candidate that is added afterwards belongs to neither border.
   void close();
+  /// Whether a corner with the names of `candidate` is kept on a border.
+  bool has_named(const Candidate& candidate) const;
 
-  int count() const { return count_[0]; }
-  const Candidate& operator[](int i) const { return all_[std::size_t(i)]; }
-  bool is_known(int i) const;  ///< to the manifold before; cost: its points
-  double least() const;        ///< separation; of one candidate at least
+  /// After `close`: the candidates are the row, then the corners that `previous` names.
+  int count() const { return count_[0] + known_count_; }
+  const Candidate& operator[](int i) const { return i < count_[0] ? at(i) : known_[std::size_t(i - count_[0])]; }
+  bool is_known(const Candidate& candidate) const;  ///< whether `previous` names it
+  double least() const { return deepest_; }         ///< the least separation of all that were added
 
  private:
-  bool replaces_last(Border border, const Candidate& candidate) const;
+  const Candidate& at(int i) const { return all_[std::size_t(i)]; }
+  bool replaces_last(Border border, const Candidate& candidate);
+  bool is_deepest(int i) const { return at(i).feature_a == deepest_a_ && at(i).feature_b == deepest_b_; }
   void thin();
-
-  Candidate& at(int i) { return all_[std::size_t(i)]; }
-  bool may_be_left_out(int i) const;
 
   const double farthest_;
   const Manifold& previous_;
-  double deepest_ = std::numeric_limits<double>::infinity();  ///< separation of the first of the least
-  FeatureId deepest_a_, deepest_b_;                           ///< and its features
-  double next_area_ = 0;  ///< no candidate that may be left out takes less with it, but for the last ones
-  std::array<int, 2> count_{};
+  double deepest_ = std::numeric_limits<double>::infinity();
+  FeatureId deepest_a_, deepest_b_;  ///< names of the first corner with that separation
+  double next_area_ = 0;             ///< at most the area that any corner takes with it which `thin` may leave out
+  double cut_off_[2] = {};           ///< the area that the last chord of each border has cut off
+  int count_[2] = {}, known_count_ = 0;
   std::array<Candidate, kMostCorners> all_;  ///< the left border from the start, the right one from the end back
+  std::array<Candidate, kMostManifoldPoints> known_;
 };
 
 }  // namespace swiftlet

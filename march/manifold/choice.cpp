@@ -98,7 +98,7 @@ class Loop {
 class Choice {
  public:
   Choice(const Candidates& candidates, double bound) : candidates_(candidates), bound_(bound) {
-    for (int i = 0; i < candidates.count(); ++i) known_[std::size_t(i)] = candidates.is_known(i);
+    for (int i = 0; i < candidates.count(); ++i) known_[std::size_t(i)] = candidates.is_known(candidates[i]);
   }
 
   Chosen of(std::uint32_t most, const Manifold& previous) {
@@ -188,7 +188,7 @@ class Choice {
   const Candidates& candidates_;
   double bound_;
   int size_ = 1, first_ = 0;
-  std::array<bool, kMostCorners> known_{}, chosen_{};  ///< of the manifold before, of this one
+  std::array<bool, kMostCandidates> known_{}, chosen_{};  ///< of the manifold before, of this one
 };
 
 }  // namespace

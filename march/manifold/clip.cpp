@@ -30,22 +30,6 @@ Border opposite(Border border) { return border == Border::Left ? Border::Right :
 /// From below to above, and of places at one height from left to right.
 bool is_below(const Vec& p, const Vec& q) { return p.y < q.y || (p.y == q.y && p.x < q.x); }
 
-/// The vertices of a body as a projection shows them.
-struct SeenBody {
-  template <class Body>
-  SeenBody(const Body& body, const Projection& p) : view(body.view), x(body.into(p.x)), y(body.into(p.y)), n(body.into(p.n)) {
-    const Vec origin = body.common({0, 0, 0}) - p.middle;
-    shift = {dot(p.x, origin), dot(p.y, origin), dot(p.n, origin)};
-  }
-  Vec operator()(std::uint32_t vertex) const {
-    const Vec p = vec(view.vertices[vertex]);
-    return {dot(x, p) + shift.x, dot(y, p) + shift.y, dot(n, p) + shift.z};
-  }
-
-  const ConvexView& view;
-  Vec x, y, n, shift;
-};
-
 struct Corner {
   Vec at;
   std::uint32_t vertex;
@@ -86,7 +70,7 @@ Where where(const Vec& place, const Side& side, double bound) {
 /// A contact face as a projection shows it, from its lowest corner to its highest.
 class SeenFace {
  public:
-  SeenFace(const SeenBody& body, const ContactFace& face) : body_(body), face_(face) {
+  SeenFace(const SeenBody& body, const ContactFace& face, double bound) : body_(body), face_(face) {
     const Corner first = face.side() == kNone ? Corner{body(0), 0} : corner_before(face.side());
     Corner lowest = first, highest = first, last = first;
     std::uint32_t half_edge = face.side();
@@ -105,7 +89,7 @@ class SeenFace {
       side = {lowest, lowest, half_edge, false};
       if (is_at_top(border)) continue;
       if (is_ahead(border)) side.half_edge = face.previous(half_edge);
-      advance(border);
+      advance(border, bound);
     }
   }
 
@@ -114,17 +98,28 @@ class SeenFace {
   const Side& operator[](Border border) const { return side_[std::size_t(border)]; }
   bool is_at_top(Border border) const { return (*this)[border].to.vertex == top_; }
 
-  /// A border goes up to its next corner that is higher. Not from the top.
-  void advance(Border border) {
+  /// Goes on to the next side of a border: to the corner that no later one stands out of, as far as later ones lie within the
+  /// face's flatness of that side. Faces that are merged from facets may have borders that turn inwards by so much, and one
+  /// that is jagged beyond that is cut short to where it rises. Not from the top.
+  void advance(Border border, double bound) {
     Side& side = side_[std::size_t(border)];
     const bool ahead = is_ahead(border);
     side.from = side.to;
-    bool is_first = true;
-    do {
-      side.is_chord = !std::exchange(is_first, false);
-      side.half_edge = ahead ? face_.next(side.half_edge) : face_.previous(side.half_edge);
-      side.to = corner_before(ahead ? body_.view.half_edges[side.half_edge].twin : side.half_edge);
-    } while (!is_at_top(border) && !is_below(side.from.at, side.to.at));
+    std::uint32_t h = side.half_edge;
+    for (bool is_first = true;; is_first = false) {
+      h = ahead ? face_.next(h) : face_.previous(h);
+      const Corner c = corner_before(ahead ? body_.view.half_edges[h].twin : h);
+      const double dx = side.to.at.x - side.from.at.x, dy = side.to.at.y - side.from.at.y,
+                   area = dx * (c.at.y - side.from.at.y) - dy * (c.at.x - side.from.at.x),
+                   length = std::sqrt(dx * dx + dy * dy), out = border == Border::Left ? area : -area;
+      const bool falls = side.to.at.y < side.from.at.y - bound;
+      if (is_first || falls || out > 0.5 * bound * length) {
+        side.to = c, side.half_edge = h, side.is_chord = !is_first;
+      } else if (out < -face_.flatness() * length) {
+        return;
+      }
+      if (c.vertex == top_) return;
+    }
   }
 
   /// Between the borders, or on the nearer one where the place is beyond them: the coordinate along the normal.
@@ -134,6 +129,20 @@ class SeenFace {
     if (l.x < place.x && place.x < r.x) return l.z + (r.z - l.z) * ((place.x - l.x) / (r.x - l.x));
     const Side& side = place.x <= l.x ? left : right;
     return side.at(side.along(place)).z;
+  }
+
+  /// Names the edge of a side that a place on it belongs to: of a chord the edge that it passes there.
+  FeatureId edge_at(Border border, const Vec& place) const {
+    const Side& side = (*this)[border];
+    const Vec along = side.to.at - side.from.at;
+    std::uint32_t h = side.half_edge;
+    while (side.is_chord) {
+      const Corner from = corner_before(is_ahead(border) ? h : body_.view.half_edges[h].twin);
+      const Vec beyond = place - from.at;
+      if (from.vertex == side.from.vertex || beyond.x * along.x + beyond.y * along.y >= 0) break;
+      h = is_ahead(border) ? face_.previous(h) : face_.next(h);
+    }
+    return named(body_.view, {FeatureKind::Edge, h});
   }
 
  private:
@@ -153,10 +162,8 @@ class SeenFace {
 
 class Sweep {
  public:
-  Sweep(const PairView& pair, const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
-        Candidates& corners)
-      : body_{SeenBody(body_a(pair), projection), SeenBody(body_b(pair), projection)},
-        face_{SeenFace(body_[0], a), SeenFace(body_[1], b)},
+  Sweep(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound, Candidates& corners)
+      : face_{SeenFace(projection.a, a, bound), SeenFace(projection.b, b, bound)},
         name_{a.name(), b.name()},
         bound_(bound),
         corners_(corners) {}
@@ -167,7 +174,7 @@ class Sweep {
       const auto [f, border] = lowest_event();
       if (!meet(f, border)) return;
       if (face_[f].is_at_top(border)) return end(f, border);
-      face_[f].advance(border);
+      face_[f].advance(border, bound_);
     }
   }
 
@@ -187,7 +194,7 @@ class Sweep {
     for (const Border border : kBorders) {
       while (!is_below(lowest.at, side(other, border).to.at)) {
         if (face_[other].is_at_top(border)) return false;
-        face_[other].advance(border);
+        face_[other].advance(border, bound_);
       }
     }
     if (where(lowest.at, side(other, Border::Left), bound_) == Where::Left) {
@@ -269,9 +276,9 @@ class Sweep {
   }
 
   /// Where two sides cross, one of each face; a corner that lies there stands for it.
-  void add_crossing(Border border, const Event& p, const Event& q) {
-    const Event &of_a = p.face == 0 ? p : q, &of_b = p.face == 0 ? q : p;
-    const Side &a = side(0, of_a.border), &b = side(1, of_b.border);
+  void add_crossing(Border border, Event p, Event q) {
+    if (p.face == 1) std::swap(p, q);
+    const Side &a = side(0, p.border), &b = side(1, q.border);
     const double x = b.to.at.x - b.from.at.x, y = b.to.at.y - b.from.at.y;
     const auto height = [&](const Vec& place) { return x * (place.y - b.from.at.y) - y * (place.x - b.from.at.x); };
     const double h = height(a.from.at), h_to = height(a.to.at);
@@ -287,16 +294,13 @@ class Sweep {
     for (const Corner* c : {&b.from, &b.to}) {
       if (apart(c->at) <= bound_) return add_corner(border, 1, *c);
     }
-    if (apart(on_b) > bound_ / 2) return;
-    const auto feature = [&](int f, const Side& of) {
-      return of.is_chord ? name_[f] : named(body_[f].view, {FeatureKind::Edge, of.half_edge});
-    };
-    corners_.add(border, {on_a, on_b.z - on_a.z, feature(0, a), feature(1, b)});
+    if (apart(on_b) > bound_) return;
+    const Candidate crossing{on_a, on_b.z - on_a.z, face_[0].edge_at(p.border, on_a), face_[1].edge_at(q.border, on_b)};
+    if (!corners_.has_named(crossing)) corners_.add(border, crossing);  // sides that hardly part may change over twice
   }
 
   static constexpr int kNobody = -1;
 
-  const SeenBody body_[2];
   SeenFace face_[2];
   const FeatureId name_[2];
   const double bound_;
@@ -308,15 +312,20 @@ class Sweep {
 
 }  // namespace
 
-/// The basis of [Duff et al. 2017], exact but for rounding whatever n, turned about n.
-Projection::Projection(const Vec& normal, const Vec& about, const Vec& side) : n(normal), middle(about) {
-  const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-  const Vec u{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, v{b, sign + n.y * n.y * a, -n.y};
+/// The axes are the basis of [Duff et al. 2017], which is right to rounding for every n, turned about n.
+Projection::Projection(const PairView& pair, const Vec& n, const Vec& about, const Vec& side)
+    : a{pair.a, {}, {}, n, {}}, b{pair.b, {}, {}, {}, {}}, middle(about) {
+  const double sign = std::copysign(1.0, n.z), f = -1 / (sign + n.z), g = n.x * n.y * f;
+  const Vec u{1 + sign * n.x * n.x * f, sign * g, -sign * n.x}, v{g, sign + n.y * n.y * f, -n.y};
   const double du = dot(u, side), dv = dot(v, side), length = std::sqrt(du * du + dv * dv);
   const double c = length > 0 ? (kSweepCos * dv + kSweepSin * du) / length : 1,
                s = length > 0 ? (kSweepSin * dv - kSweepCos * du) / length : 0;
-  x = u * c + v * s;
-  y = v * c - u * s;
+  a.x = u * c + v * s;
+  a.y = v * c - u * s;
+  const auto seen = [&](const Vec& p) { return Vec{dot(a.x, p), dot(a.y, p), dot(n, p)}; };
+  const Moved moved = body_b(pair);
+  a.shift = seen(-middle), b.shift = seen(moved.common({0, 0, 0}) - middle);
+  b.x = moved.into(a.x), b.y = moved.into(a.y), b.n = moved.into(n);
 }
 
 Vec any_side(const PairView& pair, const ContactFace& a, const ContactFace& b) {
@@ -327,9 +336,8 @@ Vec any_side(const PairView& pair, const ContactFace& a, const ContactFace& b) {
   return b.side() != kNone ? along(body_b(pair), b.side()) : Vec{0, 0, 0};
 }
 
-void clip(const PairView& pair, const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
-          Candidates& corners) {
-  Sweep(pair, projection, a, b, bound, corners).run();
+void clip(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound, Candidates& corners) {
+  Sweep(projection, a, b, bound, corners).run();
   corners.close();
 }
 

@@ -9,14 +9,26 @@
 
 namespace swiftlet {
 
-/// Points of the common frame by two coordinates across a unit normal and one along it.
-struct Projection {
-  /// `middle` is at 0; near what is looked at, so that little is lost. `y` and a `side` of what is looked at make an angle that
-  /// no two sides of a regular polygon make: a sweep along y meets few of them crosswise.
-  Projection(const Vec& normal, const Vec& middle, const Vec& side);
-  Vec point(const Vec& seen) const { return middle + x * seen.x + y * seen.y + n * seen.z; }
+/// The vertices of a body as a unit normal shows them: two coordinates across the normal and one along it.
+struct SeenBody {
+  const ConvexView& view;
+  Vec x, y, n;  ///< the axes in the body's own frame, right-handed where the pose does not mirror
+  Vec shift;
+  Vec operator()(std::uint32_t vertex) const {
+    const Vec p = vec(view.vertices[vertex]);
+    return {dot(x, p) + shift.x, dot(y, p) + shift.y, dot(n, p) + shift.z};
+  }
+};
 
-  Vec x, y, n;  ///< right-handed
+/// Both bodies of a pair as one normal of the common frame shows them.
+struct Projection {
+  /// `middle`, a point near both contact faces, is seen at 0. The axis y and `side`, a side of a contact face, make an angle
+  /// that no two sides of a regular polygon make: a sweep along y meets few sides crosswise.
+  Projection(const PairView& pair, const Vec& normal, const Vec& middle, const Vec& side);
+  /// The point of the common frame, which is A's, that is seen there.
+  Vec point(const Vec& seen) const { return middle + a.x * seen.x + a.y * seen.y + a.n * seen.z; }
+
+  SeenBody a, b;
   Vec middle;
 };
 
@@ -25,7 +37,6 @@ Vec any_side(const PairView& pair, const ContactFace& a, const ContactFace& b);
 
 /// Adds the corners of the common area to `corners`, in order along each border; nothing where there is none. What stands out
 /// by less than `bound`, at least the rounding of the pair's points, is not cut off. Cost: the sum of the sides of both faces.
-void clip(const PairView& pair, const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
-          Candidates& corners);
+void clip(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound, Candidates& corners);
 
 }  // namespace swiftlet

@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include <swiftlet/manifold.h>
+
 #include "body/half_edge.h"
 
 namespace swiftlet {
@@ -61,15 +63,17 @@ Facing best_facing(const ConvexView& view, const Vec& n, FeatureId feature, Feat
 }  // namespace
 
 ContactFace::ContactFace(const ConvexView& view, const Vec& n, FeatureId feature, FeatureId before, double flatness)
-    : view_(view) {
+    : view_(view), flatness_(kWalkingFaceUlps * kFloatUlp * view.extent) {
   const Facing top = best_facing(view, n, feature, before);
   if (top.face == kNone) {
     side_ = view.half_edges.empty() ? kNone : 0;
     return;
   }
+  const double height = max(0, min(flatness, kMostFlatness)) * view.extent;
+  flatness_ = max(flatness_, height);
   top_ = top.face;
   normal_ = normalised(top.area);
-  level_ = dot(normal_, point(view, origin(view, view.face_first[top_]))) - flatness * view.extent;
+  level_ = dot(normal_, point(view, origin(view, view.face_first[top_]))) - height;
   side_ = border();
   if (side_ != kNone) return;
   level_ = std::numeric_limits<double>::infinity();  // rounding hid the border: the face alone has one
@@ -95,11 +99,12 @@ std::uint32_t ContactFace::previous(std::uint32_t side) const {
   return view_.half_edges[h].twin;
 }
 
-/// Mostly the corner across the facet tells.
+/// Tests a corner across the face first: mostly it decides. It is a corner of the face's loop, as `holds` tests these alone.
 bool ContactFace::is_left_of(std::uint32_t half_edge) const {
   const std::uint32_t face = view_.half_edges[half_edge].face;
-  if (face == top_) return face != kNone;
-  const Vec across = point(view_, view_.half_edges[next_in_facet(view_, half_edge)].head);
+  if (face == top_ || face == kNone) return face != kNone;
+  if (is_diagonal(view_, half_edge)) return holds(face);
+  const Vec across = point(view_, view_.half_edges[next_in_face(view_, half_edge)].head);
   return dot(normal_, across) >= level_ && holds(face);
 }
 

@@ -21,6 +21,8 @@ class ContactFace {
 
   /// The face; of a body without faces its edge, or its vertex.
   FeatureId name() const;
+  /// The height within which its corners lie in one plane, a length: the border may turn inwards by about as much.
+  double flatness() const { return flatness_; }
   /// A half-edge of the border, which leaves the face on its left; kNone of a point.
   std::uint32_t side() const { return side_; }
   /// The side after another one, and the one before: they start and end where that ends and starts.
@@ -34,7 +36,7 @@ class ContactFace {
 
   const ConvexView& view_;
   std::uint32_t top_ = kNone, side_ = kNone;
-  double level_ = 0;  ///< the least height along the normal
+  double flatness_ = 0, level_ = 0;  ///< the least height along the normal
   Vec normal_{0, 0, 0};
 };
 

@@ -17,15 +17,16 @@
 namespace swiftlet {
 namespace {
 
-/// What a manifold grows from, in A's frame; the points are on the hulls.
+/// The witness points of two hulls that a manifold grows from, in A's frame.
 struct Anchor {
-  Vec normal, point_a, point_b;
-  FeatureId feature_a, feature_b;
+  Vec normal, point_a;
+  double separation;               ///< of B's point along the normal
+  FeatureId feature_a, feature_b;  ///< that hold them
 };
 
 /// A corner of either body is where it is; the other point is above or below it.
 ManifoldPoint placed(const PairView& pair, const Projection& projection, const Candidate& c) {
-  const Vec across = projection.n * c.separation;
+  const Vec across = projection.a.n * c.separation;
   const Vec point_a = c.feature_a.kind() == FeatureKind::Vertex   ? body_a(pair).point(c.feature_a.index())
                       : c.feature_b.kind() == FeatureKind::Vertex ? body_b(pair).point(c.feature_b.index()) - across
                                                                   : projection.point(c.on_a);
@@ -35,23 +36,27 @@ ManifoldPoint placed(const PairView& pair, const Projection& projection, const C
 /// The manifold of two hulls, within a margin of theirs.
 void grow(const PairView& pair, const Anchor& w, double margin, double bound, const ManifoldOptions& options,
           const Manifold& previous, Manifold& manifold) {
-  std::uint32_t tests = 0;
-  const FeatureId at_a = feature_at_a(pair, w.feature_a, w.point_a, tests),
-                  at_b = feature_at_b(pair, w.feature_b, w.point_b, tests);
-  const ContactFace a(pair.a, w.normal, at_a, previous.face_a, options.flatness),
-      b(pair.b, body_b(pair).into(-w.normal), at_b, previous.face_b, options.flatness);
+  const ContactFace a(pair.a, w.normal, w.feature_a, previous.face_a, options.flatness),
+      b(pair.b, body_b(pair).into(-w.normal), w.feature_b, previous.face_b, options.flatness);
   manifold.normal = eigen(w.normal);
   if (a.name().kind() == FeatureKind::Face) manifold.face_a = a.name();
   if (b.name().kind() == FeatureKind::Face) manifold.face_b = b.name();
 
-  const Projection projection(w.normal, w.point_a, any_side(pair, a, b));
+  const Projection projection(pair, w.normal, w.point_a, any_side(pair, a, b));
   Candidates candidates(margin + bound, previous);
-  clip(pair, projection, a, b, bound, candidates);
-  const double separation = dot(w.normal, w.point_b - w.point_a);
-  if (candidates.count() == 0 || separation < candidates.least() - bound / 2)
-    candidates.add(Border::Left, {{0, 0, 0}, separation, named(pair.a, at_a), named(pair.b, at_b)});
+  clip(projection, a, b, bound / 2, candidates);  // what it does not cut off lies beside the other body by as much
+  if (candidates.count() == 0 || w.separation < candidates.least() - bound / 2)
+    candidates.add(Border::Left, {{0, 0, 0}, w.separation, named(pair.a, w.feature_a), named(pair.b, w.feature_b)});
   for (const int i : choose(candidates, std::min(options.most_points, kMostManifoldPoints), previous, bound))
     manifold.points[manifold.count++] = placed(pair, projection, candidates[i]);
+}
+
+Anchor anchor(const PairView& pair, const Radii& radii, const Answer& answer) {
+  const Vec n = vec(answer.normal), point_a = vec(answer.point_a) - n * radii.a(),
+            point_b = vec(answer.point_b) + n * radii.b();
+  std::uint32_t tests = 0;
+  return {n, point_a, dot(n, point_b - point_a), feature_at_a(pair, answer.feature_a, point_a, tests),
+          feature_at_b(pair, answer.feature_b, point_b, tests)};
 }
 
 bool exists(const Shape& body, int level, FeatureId feature) {
@@ -68,18 +73,15 @@ Manifold manifold(const Body& a, const Body& b, const Pose& b_in_a, const Answer
   if (at.fault() != Status::Converged || Radii(answer) != at.radii || answer.normal.hasNaN() || answer.point_a.hasNaN() ||
       !exists(body_a, answer.level_a, answer.feature_a) || !exists(body_b, answer.level_b, answer.feature_b))
     return manifold;
-  const Vec n = vec(answer.normal);
   const PairView hulls =
       pair_view(body_a.level(answer.level_a).view, body_b.level(answer.level_b).view, at.motion, at.quality.error);
-  const double radii = at.radii.sum();
-  const Anchor witness{n, vec(answer.point_a) - n * at.radii.a(), vec(answer.point_b) + n * at.radii.b(), answer.feature_a,
-                       answer.feature_b};
-  grow(hulls, witness, options.margin + radii, hulls.law_two + kLawTwo * radii, options, previous, manifold);
+  grow(hulls, anchor(hulls, at.radii, answer), options.margin + at.radii.sum(), hulls.law_two + kLawTwo * at.radii.sum(),
+       options, previous, manifold);
   for (std::uint32_t i = 0; i < manifold.count; ++i) {
     ManifoldPoint& p = manifold.points[i];
-    p.point_a = eigen(vec(p.point_a) + n * at.radii.a());
-    p.point_b = eigen(vec(p.point_b) - n * at.radii.b());
-    p.separation -= radii;
+    p.point_a += answer.normal * at.radii.a();
+    p.point_b -= answer.normal * at.radii.b();
+    p.separation -= at.radii.sum();
   }
   return manifold;
 }

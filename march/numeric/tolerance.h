@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Every epsilon of the runtime: its unit, what it scales with, and why it is that large. u is half an ulp of 1.
+// Every error bound, range limit and work limit of the runtime: its unit, the quantity that it is relative to, and its
+// derivation. u stands for `kU`, half an ulp of 1, the largest relative error of one rounded operation.
 #pragma once
 
 #include <cfloat>
@@ -10,230 +11,244 @@
 
 namespace swiftlet {
 
-// FLT_EVAL_METHOD: 2 and what is above 64 are wider than double, -1 is anything; 16 to 64 are narrower, or double itself.
+// FLT_EVAL_METHOD: 2 and values above 64 are formats wider than double, and -1 may be any; 16 to 64 are no wider than double.
 static_assert(
     FLT_EVAL_METHOD >= 0 && FLT_EVAL_METHOD != 2 && FLT_EVAL_METHOD <= 64,
     "this target evaluates doubles in a wider format, and no error bound of swiftlet holds there: compile for x86 with "
     "-msse2 -mfpmath=sse");
 
-inline constexpr double kU = 0x1p-53;
-inline constexpr double kSqrt3 = 1.7320508075688774;  ///< above the root
+inline constexpr double kU = 0x1p-53;                 ///< u: half an ulp of 1
+inline constexpr double kSqrt3 = 1.7320508075688774;  ///< the square root of 3, rounded up
 
 // ---- Laws -------------------------------------------------------------------------------------------------------------------
 
-/// Law 2: an exact answer has upper - lower <= 64 u size. Length over length.
+/// Law 2: an exact answer under a rigid pose has upper - lower <= 64 u size; LAWS.md defines size and what a pose that is not
+/// rigid adds. Relative to size: length over length.
 inline constexpr double kLawTwo = 64 * kU;
 
-/// A rotation R is accepted while every entry of R^T R - I is at most this. Dimensionless; the design's figure.
+/// A rotation R is accepted while every entry of |R^T R - I| is at most this. Dimensionless. The design sets the figure.
 inline constexpr double kOrthonormality = 1e-6;
-/// Rounding of such an entry: 3 products and 2 sums of terms whose sum is 1, 3 u, rounded up by a quarter. Law 2 allows for the
-/// exact entry and no more, so that its bound is taken with what is surely there. Dimensionless.
+/// Bounds the rounding error of a computed entry of R^T R - I: 3 products and 2 sums of terms whose sum is 1 make 3 u, rounded
+/// up by a quarter. Law 2 allows for the exact entry alone, so `law_two` subtracts this from the computed one. Dimensionless.
 inline constexpr double kOrthonormalityError = 4 * kU;
 
 // ---- Filters of exact.cpp: relative to the sum of the magnitudes of the terms ----------------------------------------------
-// A term that is a product of k rounded factors, each a sum of few, carries one u per operation on its path. The figures are
-// the operation counts, rounded up by a quarter for the second order and for the rounding of the magnitude itself.
+// Each bounds the rounding error of a sum of products. A term carries one u for each operation between the stored numbers and
+// the result. The constant is the number of these operations, rounded up by a quarter for errors of second order and for the
+// rounding of the magnitude itself. Dimensionless.
 
 /// n . (w - v): 1 difference, 1 product, 2 sums.
 inline constexpr double kDotError = 5 * kU;
 /// (b - a) x (c - a) . (w - v): 3 differences, 2 products, 1 difference, 2 sums = 8; [Shewchuk 1997] proves 7.
 inline constexpr double kTripleProductError = 10 * kU;
-/// A coordinate of (b - a) x (c - a): 1 difference, 1 product, 1 difference, and the differences of the other factor.
+/// A coordinate of (b - a) x (c - a): 1 difference for each of the two factors, 1 product, 1 difference.
 inline constexpr double kCrossProductError = 5 * kU;
 /// n . R (w - v): 1 difference, 2 products, 2 + 2 sums.
 inline constexpr double kTurnedDotError = 9 * kU;
-/// The same with n rotated first, relative to |n|_1 |w - v|_1, which bounds every product of a rotation's rows (|R_ij| <= 1 +
-/// 1e-6).
+/// (R^T n) . (w - v), where n is rotated first: 2 products, 2 + 2 sums, 1 difference. Relative to |n|_1 |w - v|_1, which bounds
+/// the sum of the magnitudes, because |R_ij| <= 1 + 1e-6.
 inline constexpr double kTurnedSupportError = 9 * kU;
-/// A coordinate of R^T n for unit n: 3 products of one sum of magnitudes at most 1 + 1e-6, 2 sums.
+/// A coordinate of R^T n for unit n, absolute: 1 product and 2 sums for each of 3 terms of magnitudes that sum to 1 + 1e-6.
 inline constexpr double kTurnedError = 4 * kU;
-/// Either in double-double arithmetic, whose sums and products keep at least 100 bits each.
+/// n . (w - v) and (R^T n) . (w - v) in double-double arithmetic, which keeps at least 100 bits in each sum and product.
+/// Relative to |n|_1 |w - v|_1.
 inline constexpr double kWideDotError = 0x1p-96;
-/// (b - a) x (c - a) . (d - a) in the same arithmetic, from exact differences: 2 products, 1 difference, 1 product, 2 sums,
+/// (b - a) x (c - a) . (d - a) in double-double arithmetic from exact differences: 2 products, 1 difference, 1 product, 2 sums,
 /// each right to 2^-100. Relative to the sum of the magnitudes of the terms.
 inline constexpr double kWideTripleProductError = 0x1p-96;
-/// (b - a) x (c - a) in the same arithmetic is right to 2^-99 of the product of the lengths. Where it is longer than this share
-/// of that product, it is right to 2^-58 of itself; else expansions tell. Dimensionless.
+/// (b - a) x (c - a) in double-double arithmetic is right to 2^-99 of the product of both lengths. Where it is longer than this
+/// share of that product, it is right to 2^-58 of itself; where it is not, `plane` computes it by expansions. Dimensionless.
 inline constexpr double kLeastWideArea = 0x1p-40;
-/// The height of a plane over its exact normal's length: 5 u for the length, 2 for the product, rounded up; and what the normal
-/// leaves uncertain, 2^-57, where the height is small beside the points. Relative to the height, and to the largest coordinate.
+/// Bound the error of `exact::Plane::height`. `kPlaneHeightError` is relative to the height: 5 u for the normal's length and 2
+/// u for the product, rounded up. `kPlaneHeightFloor` is relative to the largest coordinate: the normal's error of 2^-57, which
+/// counts where the height is small beside the points, rounded up.
 inline constexpr double kPlaneHeightError = 8 * kU, kPlaneHeightFloor = kU / 8;
-/// Three factors a - (R b + t) of 1 product and 4 sums each, then 2 products, 1 difference, 2 sums.
+/// The determinant of three differences a - (R b + t): 1 product and 4 sums for each, then 2 products, 1 difference, 2 sums.
 inline constexpr double kOffsetTripleProductError = 26 * kU;
-/// The same in double-double arithmetic: 26 operations that keep 100 bits each.
+/// The determinant of three differences a - (R b + t) in double-double arithmetic: 26 operations that keep 100 bits each.
 inline constexpr double kWideOffsetTripleProductError = 0x1p-95;
 
-/// Coordinates are 0 or at least this, so that products of three of them keep their rounding errors inside the range of
-/// doubles. Length.
+/// A coordinate is 0 or at least this in magnitude, so that products of three of them keep their rounding errors inside the
+/// range of doubles. Length.
 inline constexpr double kLeastCoordinate = 1e-70;
-/// A body's extent and a pose's translation are at most the second, an extent not below the first: sixth powers, the squared
-/// height of a vertex over an unnormalised normal, stay inside that range too. Length.
+/// A body's extent is 0 or at least `kLeastExtent`; extents and the coordinates of a translation are at most `kMostCoordinate`.
+/// Sixth powers, as the squared height of a vertex over an unnormalised normal, then stay in the range of doubles. Length.
 inline constexpr double kLeastExtent = 1e-45, kMostCoordinate = 1e45;
-/// A sum of squares above this has lost nothing to underflow. Length squared.
+/// A sum of squares that is at least this has lost nothing to underflow. Length squared.
 inline constexpr double kLeastSquare = 0x1p-900;
-/// Law 2 promises no interval narrower than this: the products of a walk underflow below. Only two points, each the origin of
-/// its frame, are a pair so small. Length.
+/// The least value of law 2's bound: below it the products of a walk underflow. Length. Only a pair of two points, each at the
+/// origin of its frame, can have a smaller 64 u size.
 inline constexpr double kLeastWidth = 0x1p-450;
-/// The largest coordinate of a vector that is still normalised: below, its inverse may overflow. Products of two lengths.
+/// A vector is normalised only if its largest coordinate is above this: else its inverse may overflow. Product of two lengths.
 inline constexpr double kLeastDirection = 0x1p-1000;
 
-/// A product below 2^-1022 is off by 2^-1075; in a sum of few, times one factor more of at most 2 kMostCoordinate, by less than
-/// this. Far below all that bodies of kLeastExtent make: their products are of 2^-448. Length cubed.
+/// Bounds the error of a triple product through underflow: a product below 2^-1022 is off by 2^-1075, and a sum of few such
+/// products times one more factor of at most 2 `kMostCoordinate` by less than this. Bodies of `kLeastExtent` make products of
+/// 2^-448, far above it. Length cubed.
 inline constexpr double kUnderflow = 0x1p-900;
-/// Exact determinants of differences are taken where the largest coordinate has this exponent: its cube stays below 2^1000, and
-/// of bodies and translations 2^-950 of it no bit is lost. An exponent of 2.
+/// Exact determinants of differences are computed at a scale where the largest coordinate has this exponent of 2. Its cube
+/// stays below 2^1000, and bodies and translations as small as 2^-950 of the largest coordinate lose no bit.
 inline constexpr int kProductExponent = 330;
 
-// ---- Rounding of a certificate in doubles (certify.cpp): lengths -----------------------------------------------------------
+// ---- Rounding of a certificate in doubles (certify.cpp): errors relative to lengths ----------------------------------------
 
-/// R b + t: a coordinate of R b is 3 products and 2 sums of terms that |b| bounds, 4 u |b| each with the last sum, sqrt(3) for
-/// the vector; the last sum also rounds t once.
+/// Bound the error of the vector R b + t, relative to |b| and |t|. A coordinate of R b is 3 products and 2 sums of terms that
+/// |b| bounds, 4 u |b| with the last sum, and sqrt(3) times that for the vector. The last sum also rounds t once.
 inline constexpr double kTurnError = 7 * kU, kShiftError = 2 * kU;
-/// n . c, normalised: 3 (difference, product, two sums) + 2 (|n| of a normalised n) on the sum of |n_i c_i|, rounded up.
+/// Bounds the error of n . c for a normalised n, relative to the sum of |n_i c_i|: the difference c, 1 product and 2 sums, and
+/// 2 u for the length of n, rounded up.
 inline constexpr double kGapError = 7 * kU;
-/// The cross product of two rounded differences: 2 differences, 1 product, 1 difference per term, two terms per coordinate; the
-/// vector's error relative to the product of the lengths.
+/// Bounds the error of the cross product of two rounded differences, relative to the product of their lengths: 2 differences,
+/// 1 product and 1 difference per term, two terms per coordinate.
 inline constexpr double kCrossError = 8 * kU;
-/// A convex combination of three points: 1 product and 2 sums, and weights whose sum is 1 only to 3 u. Relative to |p|.
+/// A convex combination of three points, relative to the largest |p|: 1 product, 2 sums, and weights that sum to 1 only to 3 u.
 inline constexpr double kPointError = 7 * kU;
-/// What a walk saw rise along a direction, said of its image at unit length: kDotError; turned there and back, 2 sqrt(3)
-/// kTurnedError; normalised, 4. Relative to both lengths.
+/// Bounds the error of a rise that a walk computed, taken for the rise along the normalised direction: `kDotError`; 2 sqrt(3)
+/// `kTurnedError`, as the direction is turned into a body's frame and back; 4 u for normalising. Relative to the product of the
+/// direction's length and the body's reach.
 inline constexpr double kRiseError = 24 * kU;
-/// sqrt of a sum of three squares of rounded differences, relative.
+/// Bounds the error of the length of a rounded difference, relative to the length. Its square carries 5 u: 2 of the difference,
+/// 1 of the product, 2 of the sums. The root halves these and adds 1; rounded up.
 inline constexpr double kNormError = 5 * kU;
 
-/// What a support map says of a direction, over the extent: two heights of 3 products and 2 sums of terms of at most the extent
-/// when it was made, 24 u; a cell's border off by 4 u in each coordinate of the direction, times 2, 16 u; the direction turned
-/// into the body's frame, kTurnedError in each coordinate, times 2, 24 u; two heights again, 24 u; the direction made unit
-/// after it was looked up, 2 u of 2 sqrt(3), 7 u, and an excess of at most 4 with it, 4 u of 4, 16 u. Rounded up.
+/// Bounds the rounding error of the excess that `look_up` returns, relative to the level's extent. When the map is made, two
+/// heights, each of 3 products and 2 sums of terms of at most the extent, make 24 u. A cell's border is off by 4 u in each of
+/// two coordinates of the direction, times 2 extents: 16 u. When the map is read, the direction is turned into the body's
+/// frame, which is off by `kTurnedError` in each coordinate, times 2 extents: 24 u; two heights again make 24 u. The direction
+/// is normalised after the look-up: 2 u times 2 sqrt(3), 7 u, and 4 u of an excess of at most 4, 16 u. The sum is rounded up.
 inline constexpr double kMapError = 128 * kU;
 
-/// Double-double arithmetic as gjk.cpp uses it keeps at least 90 bits of the largest term, whatever cancels. Relative to
-/// the magnitude of coordinates and translation.
+/// Bounds the error of double-double arithmetic as gjk.cpp uses it, which keeps at least 90 bits of the largest term, whatever
+/// cancels. Relative to the magnitude of coordinates and translation.
 inline constexpr double kDoubleDoubleError = 0x1p-90;
 
-// ---- Checks (brute.h, check_depth.cpp): their own arithmetic, in 106 bits unless said otherwise ----------------------------
+// ---- Errors of the checks (brute.h, check_depth.cpp): arithmetic of their own, in 106 bits unless said otherwise -----------
 
-/// Below so much of the largest coordinates of u and v the largest of u x v is taken exactly. Dimensionless.
+/// u x v is computed exactly if its largest coordinate is below this share of the product of those of u and v. Dimensionless.
 inline constexpr double kCancelled = 0x1p-10;
-/// A coordinate of u x v above: u = R d has 3 products and 2 sums of terms that |d| bounds, 6 * 2^-100 of u's largest
-/// coordinate, v as much, so that either product is off by 13 * 2^-100 and their difference by 28; over kCancelled. Relative to
-/// the normal's largest coordinate.
+/// Bounds the error of a coordinate of other u x v, relative to the largest coordinate of u x v. u = R d has 3 products and
+/// 2 sums of terms that |d| bounds, an error of 6 * 2^-100 of u's largest coordinate, and v has as much. Each product is then
+/// off by 13 * 2^-100 and their difference by 28 * 2^-100, divided by `kCancelled`.
 inline constexpr double kNormalError = 0x1p-85;
-/// n . d of a normal and an edge, each scaled to a largest coordinate from 1 to 2: kNormalError of 2, times 2, thrice, and the
-/// rest is less. A sign above is sure.
+/// Bounds the error of n . d for a normal n and an edge d, each scaled to a largest coordinate from 1 to 2: each of three terms
+/// is off by `kNormalError` times 2 times 2, and the rest is less. A larger result has a certain sign.
 inline constexpr double kSideError = 0x1p-81;
-/// The same in doubles: 2 roundings of the factors, 1 product, 2 sums, rounded up to 7 u, of terms whose sum is at most 12.
+/// n . d at the scale of `kSideError` in doubles: 2 roundings, 1 product, 2 sums, rounded up to 7 u, of terms that sum to 12.
 inline constexpr double kRoughSideError = 84 * kU;
-/// n . p of such a normal in doubles: 7 u of terms whose sum is at most 6 coordinates. Relative to the largest coordinate.
+/// n . p with n at the scale of `kSideError` in doubles: 7 u of terms that sum to 6 times p's largest coordinate. Relative to
+/// it.
 inline constexpr double kRoughHeightError = 42 * kU;
-/// The height of a plane: its normal leans by at most sqrt(3) kNormalError, points are off by 2^-97 of the magnitude, and
-/// product, root and quotient by as much, 2^-82 in all; and of planes that differ by as much any is the least. Relative to the
-/// magnitude of coordinates and translation.
+/// Bounds the error of the least height of a plane, relative to the magnitude of coordinates and translation. A plane's normal
+/// leans by at most sqrt(3) `kNormalError`, points are off by 2^-97 of the magnitude, and product, root and quotient by as
+/// much: 2^-82 in all. It is doubled, because any plane whose height is within 2^-82 of the least may be taken for the lowest.
 inline constexpr double kHeightError = 0x1p-81;
-/// Bodies are checked at a scale where the magnitude of coordinates and translation is 2 to this; and of a rotation entries
-/// below the second count as 0, which moves points by less than 2^-247 of themselves. Coordinates are then multiples of 2^-138,
-/// entries of 2^-303, and the product of three of those and two of these of 2^-1020: no bit of a sign is lost.
+/// Bodies are checked at a scale where the magnitude of coordinates and translation has this exponent of 2. Entries of a
+/// rotation below `kLeastEntry` count as 0, which moves points by less than 2^-247 of themselves. As coordinates are multiples
+/// of 2^-138, entries of 2^-303, and products of three coordinates and two entries of 2^-1020, no bit of a sign is lost.
 inline constexpr int kCheckedExponent = 300;
 inline constexpr double kLeastEntry = 0x1p-250;
-/// A unit normal's squared length: kNormError twice, once of the length found and once of the division. Dimensionless.
+/// Bounds the error of a unit normal's squared length: `kNormError` for computing the length, and again for dividing by it.
 inline constexpr double kUnitError = 12 * kU;
 
 // ---- Where surfaces cross (intersection.cpp): doubles guide, exact signs decide -------------------------------------------
 
-/// Where a ray leaves a body, in point errors over the height of the facet above where it starts: ten of these, rounded up. A
-/// wrong guess costs a longer search, never a wrong answer.
+/// Bounds the error of the rate at which a ray leaves a body, in point errors over the height of the facet above the ray's
+/// start: ten of these, rounded up. A wrong guess costs a longer search, never a wrong answer.
 inline constexpr double kExitError = 16;
 
 // ---- Faces -----------------------------------------------------------------------------------------------------------------
 
-/// Facets join one walking face while its vertices stay within this height of its plane, relative to the body's extent: each
-/// coordinate of a rounded planar polygon is off by half an ulp, sqrt(3)/2 for the vector, and the plane through three such
-/// points is off by as much at each, extrapolated up to twice. In ulps of the input's own precision.
+/// Facets join one walking face while its vertices stay within this height of its plane, in ulps of the input's precision times
+/// the body's extent. Each coordinate of a rounded planar polygon is off by half an ulp, sqrt(3)/2 for the vector; the plane
+/// through three such points is off by as much at each of them, and extrapolated up to twice.
 inline constexpr double kWalkingFaceUlps = 4;
-/// The ulp of input that was float32 when every coordinate is a float, and of doubles.
+/// The ulp of the input, relative to its extent: `kFloatUlp` when every coordinate is a float32, else `kDoubleUlp`.
 inline constexpr double kFloatUlp = 0x1p-23, kDoubleUlp = 0x1p-52;
 
-/// A stored normal's squared length is 1 to this, or the file is damaged: far above rounding, far below harm to a walk.
+/// A file is refused as damaged if the squared length of a stored normal differs from 1 by this or more. It is far above
+/// rounding errors and far below what would mislead a walk. Dimensionless.
 inline constexpr double kUnitNormalError = 1e-9;
-/// A level's deviation is measured to this part of itself: a tenth of the 1 % that the design allows above the truth.
+/// The relative precision to which a level's deviation is measured: a tenth of the 1 % that the design allows above the truth.
 inline constexpr double kDeviationPrecision = 1e-3;
 
 // ---- Manifolds -------------------------------------------------------------------------------------------------------------
 
-/// Faces turn as much towards a normal where the cosines differ by no more than this: an angle of 4 ulps of single precision,
-/// 2^-21, takes half its square from a cosine. Dimensionless.
+/// Two faces count as facing a normal equally where their cosines differ by no more than this: an angle of 2^-21, 4 ulps of
+/// single precision, lowers a cosine by half its square. Dimensionless.
 inline constexpr double kSameFacing = 0x1p-43;
-/// A point of a manifold gives way to one that adds so much more area: enough that the corners of a regular polygon, of which
-/// any four opposite ones are as good, do not take turns. A fraction.
+/// A point of a manifold is exchanged for one that adds more area by more than this fraction. That is enough to keep the
+/// corners of a regular polygon, of which any four opposite ones are equally good, from taking turns.
 inline constexpr double kKeptWorth = 0.125;
-/// Points of a manifold that give way at most: two or three leave all as they are. A count.
+/// The most exchanges of points of a manifold: after two or three no other follows. A count.
 inline constexpr int kExchanges = 32;
-/// Corners of a common area that a manifold is chosen from: the 8 of the manifold before, the deepest, both ends of both
-/// borders, and as many to choose between. A count.
-inline constexpr int kMostCorners = 20;
-/// The angle between the first side of a face and the line that sweeps over it, 12.7 degrees from where they meet at right
-/// angles: of a regular polygon of up to 20 corners no side is within 0.1 degrees of that line. Cosine and sine.
+/// The most corners of a common area that a manifold is chosen from, beside those of the previous manifold: the deepest, the
+/// last ones of both borders, and nine others. A count.
+inline constexpr int kMostCorners = 12;
+/// Cosine and sine of 12.7 degrees: the angle between the first side of a face and the line that sweeps over it differs from a
+/// right angle by that much. No side of a regular polygon of up to 20 corners is then within 0.1 degrees of the line.
 inline constexpr double kSweepCos = 40.0 / 41, kSweepSin = 9.0 / 41;
 
-// ---- Bounds on work: counts ------------------------------------------------------------------------------------------------
+// ---- Bounds on work: counts and dimensionless factors -----------------------------------------------------------------------
 
-/// States in a row that do not shorten the distance before a walk is given to certified GJK. In exact arithmetic at most
-/// three (face, edge, vertex) go by; twelve lets rounding waver on a flat spot.
+/// A walk is given to certified GJK after this many states in a row that do not shorten the distance. In exact arithmetic there
+/// are at most three (face, edge, vertex); twelve leaves room for rounding on a flat spot.
 inline constexpr std::uint32_t kStallLimit = 12;
-/// Iterations of certified GJK per arithmetic: a Frank-Wolfe step on an active set of at most four. Each shortens the
-/// distance or is the last but `kProgressPatience`.
+/// `kGjkLimit` bounds the iterations of certified GJK per arithmetic, each a Frank-Wolfe step on an active set of at most four.
+/// `kProgressPatience` bounds those in a row that neither shorten the distance nor raise the lower bound.
 inline constexpr int kGjkLimit = 400, kProgressPatience = 8;
-/// An Automatic start walks from the seed's features while the line of centres turned by no more than so many edges of a body,
-/// at half a step each; a cold start costs as much as about six steps, on a level without a map, which is come down to, twice
-/// that. A walk that takes more than the last is given up for a cold start (ski rental).
+/// An Automatic start walks from the seed's features while the line of centres turned by no more than `kWarmEdges` edges of a
+/// body, at half a step each; a cold start costs about six steps. On a level without a support map it descends from a coarser
+/// level and costs twice that: `kWarmEdgesUnmapped` edges. A walk of `kTrialSteps` is given up for a cold start (ski rental).
 inline constexpr double kWarmEdges = 6, kWarmEdgesUnmapped = 12;
 inline constexpr std::uint32_t kTrialSteps = 16;
-/// An answer's direction is tried again while the line of centres turned by less than this cosine says, 8 degrees.
+/// The seed's direction is tried again while the line of centres turned by less than the angle of this cosine, 8 degrees.
 inline constexpr double kSameLine = 0.99;
-/// Bodies nearer than so many times the sum of their radii are told apart on fine levels: coarse ones deviate by a tenth, and
-/// their maps by as much.
+/// Bodies whose centres are nearer than this times the sum of their radii are told apart on fine levels: coarse levels deviate
+/// by a tenth, and their maps by as much.
 inline constexpr double kCloseRadii = 1.25;
-/// A cold start looks along maps until its supports lie this many edges of both bodies aside, or so many times.
+/// A cold start steps along support maps until its two supports lie aside of each other by no more than `kNearEdges` mean edges
+/// of both bodies, but at most `kMapGjkSteps` times.
 inline constexpr double kNearEdges = 4;
 inline constexpr int kMapGjkSteps = 12;
-/// What a map of side s leaves in doubt on average, times s^2 over the extent: 1.1 to 1.7 on ellipsoids. A pair of levels is
-/// looked at where this and its deviation, so many times, are within the tolerance.
+/// `kMapDoubt` estimates the mean excess of a map of side s, times s^2 over the extent: 1.1 to 1.7 on ellipsoids. The maps of a
+/// level pair are used where `kMapShare` times the sum of this doubt and the pair's deviation is within the tolerance.
 inline constexpr double kMapDoubt = 1.7, kMapShare = 4;
-/// Looks go on past that while what the maps leave in doubt times this is within the tolerance; beyond, they turn in circles.
+/// Steps along maps go on between near supports while the deviation plus this times the maps' doubt is within the tolerance;
+/// where it is not, the steps cycle.
 inline constexpr double kDoubtShare = 3;
-/// Looks at levels that overlap by less than they deviate go on while the deviation times this is within the tolerance; beyond,
-/// a walk is cheaper. Measured: both take as long at 1.4 to 1.5.
+/// Steps along maps of levels that overlap by less than they deviate go on while the deviation times this is within the
+/// tolerance; where it is not, a walk is cheaper. Measured: both take equally long at 1.4 to 1.5.
 inline constexpr double kHiddenShare = 1.4;
-/// Vertices that doubles may find equally high before a certificate asks exact arithmetic which is the highest: two triangles
-/// and room for a flat spot.
+/// The most vertices that doubles may find equally high before a certificate asks exact arithmetic which is the highest: two
+/// triangles and room for a flat spot.
 inline constexpr std::size_t kPlateau = 8;
-/// Points of the inner polytope that tells touching from overlapping: 300 vertices slid into contact needed 20 to 32.
+/// The most points of the inner polytope that tells touching from overlapping: 300 vertices slid into contact needed 20 to 32.
 inline constexpr int kContactPoints = 32;
 
 // ---- Depth (epa.cpp, facet_proof.cpp) --------------------------------------------------------------------------------------
 
-/// A point of the Minkowski difference put on a grid of half an ulp of the magnitude's binade, 2 u of it: u in each coordinate,
-/// sqrt(3) for the vector. Relative to the magnitude.
+/// Bounds how far a point of the Minkowski difference moves when it is put on the grid, relative to the magnitude. The grid's
+/// step is 2 u of the magnitude's binade: u in each coordinate, sqrt(3) u for the vector; rounded up.
 inline constexpr double kGridError = 2 * kU;
-/// A triple product u x v . w of differences: kCrossError for u x v, 4 u for the rest, and w is no longer than twice the
-/// magnitude; rounded up. Relative to |u| |v| magnitude.
+/// Bounds the error of a triple product u x v . w of differences, relative to |u| |v| times the magnitude: `kCrossError` for
+/// u x v and 4 u for the rest, times 2, as w is no longer than twice the magnitude; rounded up.
 inline constexpr double kOutwardError = 32 * kU;
-/// The ring of points around the top of a polytope is looked for along directions that lean out by so much. A tangent: half
-/// and twice of it cost more on the whole.
+/// The ring of points around the start's polygon is searched for along directions that lean outwards from the polygon's normal.
+/// This is the tangent of the angle: half and twice of it cost more on the whole.
 inline constexpr double kFlare = 0.5;
-/// Beyond a side of a confirmed facet they lean by no more than so many times the angle under which the depth sees the nearest
-/// point beside that side: planes that lean by two of them are as near as the facet, and those to the point found lean by about
-/// half of what it was looked for along. Dimensionless.
+/// Around a facet to be confirmed the direction beyond a side leans by no more than this times the angle at the origin between
+/// the nearest point of the facet's plane and that side. Planes through the side that lean by two such angles are as near as
+/// the facet, and those to the point found lean by about half of the direction's lean. Dimensionless.
 inline constexpr double kLean = 3;
-/// The local least of a depth is looked for from so many directions at most; along each B stands off by as much as it was deep;
-/// and a cold start looks along maps until a direction turns by less. Counts, heights, a cosine.
+/// The local least of a depth is searched for along at most `kSlides` directions. Along each, B is moved by `kSlideBy` times
+/// the height of the overlap, and so stands off by as much as it was deep. A cold start steps along maps until a direction
+/// turns by less than the angle of the cosine `kSlideTurn`. A count, heights, a cosine.
 inline constexpr int kSlides = 8;
 inline constexpr double kSlideBy = 2, kSlideTurn = 0.98;
-/// Points of the inner polytope: overlaps by a tenth of the bodies take 10 to 30. One that needs more is proved octant by
-/// octant, and these by quarters of theirs, so many times.
+/// `kDepthPoints` is the most points of the inner polytope: overlaps by a tenth of the bodies take 10 to 30. A depth that needs
+/// more is proved octant by octant, and an octant by its quarters, divided up to `kDepthCells` times.
 inline constexpr int kDepthPoints = 128, kDepthCells = 6;
-/// The half-angle of the cone that is searched for the facet of a known plane: any shows all of its corners. Radians.
+/// The half-angle of the cone that is searched for the facet of a known plane; any angle shows all of its corners. Radians.
 inline constexpr double kNarrowCone = 0x1p-6;
 
 }  // namespace swiftlet

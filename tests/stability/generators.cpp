@@ -920,7 +920,7 @@ constexpr Family kFamilies[] = {
     {"lattice of eighth turns", "G16 G18", "touching", 0.01, 0.3, 78, lattice_eighths},
     {"shaken lattice", "G18", "touching", 0.001, 0.2, 624, lattice_shaken, 32},
     {"every start", "G16 G18", "not disjoint", 0.3, 0.9, 48, every_start},
-    {"degeneracy search", "G18", "a change of features between neighbouring doubles", 0.5, 1, 32, degeneracy_search},
+    {"degeneracy search", "G18", "a change of features between neighbouring doubles", 0.5, 1, 8, degeneracy_search},
     {"near parallel", "G18", "the parallel faces decide", 0.2, 0.9, 40, near_parallel},
     {"stacked prisms", "", "touching", 0.2, 0.9, 40, stacked_prisms},
     {"edge-edge angles", "G20", "two edges are nearest", 0.3, 1, 40, edge_edge_angles},

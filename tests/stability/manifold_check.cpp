@@ -17,10 +17,10 @@ namespace {
 /// way to one that adds less than an eighth: all lies no farther off the lines from the deepest through these than 9/8 of what
 /// they do, in half a parallelogram of 81/16 triangles.
 constexpr double kShares[] = {0, 0, 0, 0.197, 0.58, 0.6, 0.6, 0.6, 0.85};
-/// Of more corners than 20 these are chosen from 20, whose neighbours are at most twice as far apart as others, in steps that
-/// take as little area: ten of each on a circle keep 0.978 of it.
-constexpr std::size_t kCorners = 20;
-constexpr double kKept = 0.97;
+/// A manifold of more corners is chosen from 13, the distances of which differ by a factor of two: on a circle seven of one and
+/// six of the other keep 0.948.
+constexpr std::size_t kCorners = 13;
+constexpr double kKept = 0.94;
 
 bool is_named(const ConvexView& view, FeatureId feature) {
   switch (feature.kind()) {
@@ -52,10 +52,17 @@ struct Claim {
     if (!is_named(view, feature)) return "no feature is named";
     const bool on_face = feature.kind() == FeatureKind::Face;
     const std::vector<Vec3> corners = on_face ? subject.points : vertices_of(view, feature);
-    if (!oracle::holds(oracle::distance({&point, 1}, corners, pose), 0, bound))
+    const double flatness = std::max(std::min(options.flatness, kMostFlatness), own_flatness(subject)),
+                 depth = flatness * view.extent + bound;
+    const auto is_within = [&](const std::vector<Vec3>& hull, double off) {
+      return oracle::holds(oracle::distance({&point, 1}, hull, pose), 0, off);
+    };
+    // The border of a face that is flat only nearly runs beside its edges by as much, but inside of the body.
+    const bool on_edge = feature.kind() == FeatureKind::Edge;
+    if (!is_within(corners, on_edge ? depth : bound))
       return on_face ? "is not in the body" : "is not on what it is named after";
-    const double flatness = std::max(options.flatness, own_flatness(subject));
-    const double height = oracle::height_over(view, pose, point), depth = flatness * view.extent + bound;
+    if (on_edge && !is_within(corners, bound) && !is_within(subject.points, bound)) return "is not in the body";
+    const double height = oracle::height_over(view, pose, point);
     return height >= -depth ? "" : "is " + std::to_string(-height / depth) + " times the flatness below the surface";
   }
 };
@@ -106,9 +113,9 @@ std::string Judge::area_of(const Manifold& manifold, const ManifoldOptions& opti
   if (!std::isinf(options.margin) || manifold.face_a.kind() != FeatureKind::Face || manifold.face_b.kind() != FeatureKind::Face)
     return "";
   const ConvexView &a = a_.model.level(0).view, &b = b_.model.level(0).view;
-  const oracle::Overlay truth =
-      oracle::overlay(a, oracle::flat_faces(a, manifold.face_a, options.flatness), b,
-                      oracle::flat_faces(b, manifold.face_b, options.flatness), b_in_a_, manifold.normal);
+  const oracle::Overlay truth = oracle::overlay(
+      a, oracle::flat_faces(a, manifold.face_a, std::min(options.flatness, kMostFlatness)), b,
+      oracle::flat_faces(b, manifold.face_b, std::min(options.flatness, kMostFlatness)), b_in_a_, manifold.normal);
   const double common = truth.area;
   const auto text = [&](const char* what) {
     return std::to_string(manifold.count) + what + std::to_string(shown / common) + " of the area in common";
@@ -117,7 +124,7 @@ std::string Judge::area_of(const Manifold& manifold, const ManifoldOptions& opti
   // Faces that are one within the flatness are a line where they are seen narrower than that.
   const auto thin = [&](const Subject& subject, const ConvexView& view, FeatureId face, const Mat3& rotation) {
     const double across = (rotation * oracle::face_normal(view, face)).cross(manifold.normal).norm();
-    return std::max(options.flatness, own_flatness(subject)) * view.extent * across * length;
+    return std::max(std::min(options.flatness, kMostFlatness), own_flatness(subject)) * view.extent * across * length;
   };
   const double narrow = thin(a_, a, manifold.face_a, Mat3::Identity()) + thin(b_, b, manifold.face_b, b_in_a_.rotation);
   const double share = kShares[std::min(options.most_points, kMostManifoldPoints)] * (truth.corners > kCorners ? kKept : 1);

@@ -97,10 +97,10 @@ TEST(UnitClip, OfTwoSquaresIsTheirCommonSquare) {
   const PairView pair = pair_view(kLevel.view, kLevel.view, above, 0);
   const FeatureId top{FeatureKind::Vertex, index(6)}, bottom{FeatureKind::Vertex, index(0)};
   const ContactFace a(pair.a, {0, 0, 1}, top, {}, 0), b(pair.b, {0, 0, -1}, bottom, {}, 0);
-  const Projection along_z({0, 0, 1}, {0.75, 0, 1}, any_side(pair, a, b));
+  const Projection along_z(pair, {0, 0, 1}, {0.75, 0, 1}, any_side(pair, a, b));
   const Manifold none;
   Candidates found(1, none);
-  clip(pair, along_z, a, b, pair.law_two, found);
+  clip(along_z, a, b, pair.law_two, found);
   ASSERT_EQ(found.count(), 4);
   std::array<Vec, 4> corners;
   for (int i = 0; i < 4; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Where two bodies lie on each other: few points that stand for the whole area of contact, as a simulation wants them.
+// Contact manifolds: a few points that stand for the whole area in which two bodies touch, as a simulation wants them.
 #pragma once
 
 #include <array>
@@ -10,49 +10,53 @@
 
 namespace swiftlet {
 
-/// The most points that a manifold holds.
+/// The largest number of points in a manifold.
 inline constexpr std::uint32_t kMostManifoldPoints = 8;
 
-/// A place of contact: a point of each body, one above the other along the manifold's normal. In A's frame.
+/// The largest flatness of a contact face (`ManifoldOptions::flatness`), relative to the body's extent.
+inline constexpr double kMostFlatness = 0x1p-10;
+
+/// A place of contact: one point of each body, both on one line along the manifold's normal. In A's frame.
 struct ManifoldPoint {
-  Vec3 point_a = Vec3::Zero();  ///< in A, below its surface by no more than the flatness asked for
-  Vec3 point_b = Vec3::Zero();  ///< in B likewise: `point_a` + `separation` * normal, within twice `tolerance`
-  double separation = 0;        ///< along the normal, the bodies' unit; negative where the bodies overlap
-  /// What the point lies on, on the answer's levels: a corner of one body and the contact face of the other, or an edge of
-  /// each, which is named by the lesser of its half-edges. It names the point from manifold to manifold: the same pair, the
-  /// same place of the bodies.
+  Vec3 point_a = Vec3::Zero();  ///< in A, below its surface by no more than `flatness` allows
+  Vec3 point_b = Vec3::Zero();  ///< in B: `point_a` + `separation` * normal, within twice `tolerance`
+  double separation = 0;        ///< along the normal, in the bodies' unit; negative where the bodies overlap
+  /// The feature of A that `point_a` lies on, at the answer's level. `feature_a` and `feature_b` are a vertex of one body and
+  /// the contact face of the other, or an edge of each, named by its half-edge of lower index. The pair of features identifies
+  /// the point from one manifold to the next.
   FeatureId feature_a;
-  FeatureId feature_b;  ///< likewise, of B
+  FeatureId feature_b;  ///< the feature of B that `point_b` lies on
 };
 
-/// The area in which two bodies face each other, seen along one normal, by its corners.
+/// The area in which two bodies face each other, projected along one normal and given by corners of it.
 struct Manifold {
-  Vec3 normal = Vec3::Zero();  ///< that of the answer: unit, from A to B, A's frame
-  FeatureId face_a;            ///< the contact face of A, on the answer's level; none where A has no faces
-  FeatureId face_b;            ///< likewise, of B
-  std::uint32_t count = 0;     ///< of points; 0: the bodies are farther apart than asked, or the answer gives none
-  std::array<ManifoldPoint, kMostManifoldPoints> points{};  ///< the first `count`, in order around the area from the deepest on
+  Vec3 normal = Vec3::Zero();  ///< the answer's normal: unit, from A to B, A's frame
+  FeatureId face_a;            ///< the contact face of A, on the answer's level; `FeatureId{}` where A has no faces
+  FeatureId face_b;            ///< the contact face of B, on the answer's level
+  std::uint32_t count = 0;     ///< number of points; 0: the bodies are farther apart than `margin`, or the answer allows none
+  std::array<ManifoldPoint, kMostManifoldPoints> points{};  ///< [0, count): around the area, deepest first
 };
 
-/// What a manifold shall hold. Lengths are in the bodies' unit.
+/// Options of a manifold. Lengths are in the bodies' unit.
 struct ManifoldOptions {
-  double margin = 0;              ///< points farther apart than this, and than `tolerance` more, are left out
+  double margin = 0;              ///< points with a separation above this plus `tolerance` are left out
   std::uint32_t most_points = 4;  ///< 1 to kMostManifoldPoints
-  /// Faces that lie within so much of a body's contact face are one face with it, which makes one square of the two triangles
-  /// of a rounded one; seen narrower than this, from the side, they may be a line. Over the body's extent; by default 4 ulps of
-  /// single precision, from which such squares come. The faces of a model are flat to 4 ulps of its input's precision by
-  /// themselves: less has no effect on them.
+  /// A height relative to the body's extent: faces that lie within it of a body's contact face are merged into that face, so
+  /// that the two triangles of a rounded square count as one square. A face that appears narrower than this, seen from the
+  /// side, may count as a line. The default is 4 ulps of single precision, which such squares come from. The faces of a model
+  /// are already flat to 4 ulps of its input's precision: a smaller value does not split them. At most `kMostFlatness`: a larger
+  /// value counts as that.
   double flatness = 0x1p-21;
 };
 
-/// The manifold around the deepest or nearest features of `answer`, an exact one of these bodies at this pose, signed or of
-/// bodies that are apart. The contact face of a body is, of those at that feature, the one that faces best along the normal;
-/// both are projected along it, and the corners of what they have in common are the points. Where there are more than asked for
-/// those stay that hold the least separation and most of the area: of a round face four keep 0.6, eight 0.9, of a square all;
-/// of any three keep 0.19 at least. Those of `previous`, the manifold of this pair a moment ago, are preferred. The least
-/// separation of a manifold is the answer's, within `tolerance`. No points of an answer without a normal (a distance knows no
-/// way out of an overlap), of other radii than the bodies', or of levels and features that these do not have. Nothing is
-/// allocated; 4 kB of stack. Cost: the sum of both faces' sides.
+/// Returns the manifold around the nearest or deepest features of `answer`, which must be an exact answer about these bodies in
+/// this pose: a signed one, or one of bodies that are apart. The contact face of a body is the face at that feature that faces
+/// best along the normal. Both contact faces are projected along the normal; the corners of their intersection are the points.
+/// If there are more than `most_points`, those are kept that have the least separation and cover most of the area: four points
+/// keep 0.6 of a round face, eight 0.87; four keep all of a square; three keep at least 0.18 of any face. Points of `previous`,
+/// this pair's last manifold, are preferred. The least separation equals the answer's within `tolerance`. The manifold is empty
+/// if the answer has no normal (as a distance has none in an overlap), other radii than the bodies, or levels or features that
+/// the bodies lack. Allocates nothing; uses 4 kB of stack. Cost: the sum of both faces' sides.
 Manifold manifold(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const ManifoldOptions& options = {},
                   const Manifold& previous = {});
 
