@@ -31,7 +31,10 @@ function(swiftlet_package component package section description)
   set(CPACK_DEBIAN_${component_key}_PACKAGE_SECTION ${section} PARENT_SCOPE)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${package} RENAME copyright
     COMPONENT ${component} EXCLUDE_FROM_ALL)
+  install(FILES ${PROJECT_BINARY_DIR}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${package}
+    COMPONENT ${component} EXCLUDE_FROM_ALL)
 endfunction()
+file(ARCHIVE_CREATE OUTPUT ${PROJECT_BINARY_DIR}/changelog.gz PATHS ${PROJECT_SOURCE_DIR}/CHANGELOG.md FORMAT raw COMPRESSION GZip)
 
 swiftlet_package(march libswiftlet-dev libdevel "The runtime: headers and static libraries.")
 set(CPACK_DEBIAN_MARCH_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4)")

@@ -83,7 +83,7 @@ TEST_P(Refine, InTurnCostsAtMostAFifthMoreThanGoingStraight) {
 TEST_P(Refine, NarrowsTheIntervalWhicheverQueryBegan) {
   shapes::Random random(3);
   int coarse = 0, overlapping = 0, spent = 0;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const Pose pose{random.rotation(), random.on_sphere() * random.uniform(0.2, 4)};
     for (const double radius : {0.0, 0.05, 0.7}) {
       const Body a(a_, radius), b(b_, radius / 2);

@@ -67,7 +67,7 @@ Action declare_verify(CLI::App& word, const ModelOfMesh& model_of_mesh) { return
 
 Action declare_export(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   const auto level = std::make_shared<int>(0);
-  word.add_option("--level", *level, "0 is the exact hull, larger is coarser")->required();
+  word.add_option("--level", *level, "0 is the exact hull, larger is coarser")->capture_default_str();
   const auto write = [level](const LoadedModel& body, const std::string& out) {
     const int finest = body.model.finest_level(), coarsest = body.model.level_count() - 1;
     if (*level < finest || *level > coarsest)
