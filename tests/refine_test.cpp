@@ -118,9 +118,9 @@ TEST_P(Refine, NarrowsTheIntervalWhicheverQueryBegan) {
       }
     }
   }
-  EXPECT_GE(coarse, 200);
-  EXPECT_GE(overlapping, 200);
-  EXPECT_GE(spent, 100);
+  EXPECT_GE(coarse, 60);
+  EXPECT_GE(overlapping, 60);
+  EXPECT_GE(spent, 30);
 }
 
 TEST_P(Refine, EndsFromAnyFeatures) {
