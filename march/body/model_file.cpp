@@ -42,7 +42,8 @@ Result<File> open(const std::filesystem::path& path) {
   return File{std::move(headers).value(), bytes};
 }
 
-/// A model of the block's levels from `finest` on, in a block of its own if the block describes finer levels.
+/// Returns a model of level `finest` and all coarser levels of the block. `cut` copies them to a new block where finer levels
+/// stood before them.
 Result<Model> kept(AlignedBytes block, int finest) {
   const Result<Model> model = BlockReader::read(std::move(block), finest);
   if (!model) return model.error();

@@ -104,7 +104,9 @@ static inline Check check_proof(const ConvexView& a, const ConvexView& b, const 
 struct Checked {
   Checked(const Body& of_a, const Body& of_b, const Pose& b_in_a, const Answer& of);
 
-  /// Checks that a refused pose, radius or body is illegal; otherwise radii, levels, the interval and a `lower` above 0.
+  /// Checks that the answer refuses the pose, a radius or a body if and only if that is illegal. Of other answers, checks that
+  /// radii and levels are those of the bodies, that the interval is one, and that the gap along the normal proves a `lower`
+  /// above 0.
   Check interval_holds() const;
   DoubleDouble of_hulls(double bound) const { return DoubleDouble(bound) + at.radii.a() + at.radii.b(); }
   /// Returns true if the answer has both points.

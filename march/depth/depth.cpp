@@ -153,8 +153,8 @@ class Deepening {
     return lowest;
   }
 
-  /// The start of a search at two features: `direction`, and the pairs of their vertices, in order around the polygon that the
-  /// differences make. If there were more than four pairs, only the first vertex of B's feature is paired.
+  /// Returns a start with `direction` and the pairs of a vertex of each feature, sorted so that their differences go around a
+  /// polygon. If there were more than four pairs, the vertices of A's feature are paired with the first vertex of B's alone.
   static DepthStart start_at(const PairView& pair, const MarchStart& features, const Vec& direction) {
     DepthStart s;
     s.direction = direction;

@@ -85,8 +85,9 @@ FeatureId nearest_feature(const ConvexView& point, const ConvexView& body, const
   return march(point, body, Pose{}, start).b;
 }
 
-/// Returns for each vertex of `level` the vertex of `finer` nearest to it, among the corners of the nearest feature. A vertex
-/// of `level` may lie inside `finer`, if `finer` was grown; its nearest vertex is climbed to from the vertex found before.
+/// Returns a near vertex of `finer` for each vertex of `level`: the nearest corner of the nearest feature. A vertex of `level`
+/// may lie inside `finer` if that was enlarged to enclose a level finer still; then `nearest_of_rings` climbs from the result
+/// for the vertex before.
 std::vector<std::uint32_t> nearest_vertices(const ConvexView& level, const ConvexView& finer) {
   std::vector<std::uint32_t> nearest;
   MarchStart start;

@@ -143,8 +143,9 @@ inline constexpr double kRoughHeightError = 42 * kU;
 /// much: 2^-82 in all. It is doubled, because any plane whose height is within 2^-82 of the least may be taken for the lowest.
 inline constexpr double kHeightError = 0x1p-81;
 /// Bodies are checked at a scale where the magnitude of coordinates and translation has this exponent of 2. Entries of a
-/// rotation below `kLeastEntry` count as 0, which moves points by less than 2^-247 of themselves. As coordinates are multiples
-/// of 2^-138, entries of 2^-303, and products of three coordinates and two entries of 2^-1020, no bit of a sign is lost.
+/// rotation below `kLeastEntry` count as 0, which moves a point by less than 2^-247 of its distance from the origin.
+/// Coordinates are then multiples of 2^-138 and entries of 2^-303, so that a product of three coordinates and two entries is a
+/// multiple of 2^-1020: none underflows, and signs are exact.
 inline constexpr int kCheckedExponent = 300;
 inline constexpr double kLeastEntry = 0x1p-250;
 /// Bounds the error of a unit normal's squared length: `kNormError` for computing the length, and again for dividing by it.

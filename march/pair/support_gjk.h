@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// GJK on support maps for a cold start [Gilbert, Johnson & Keerthi 1988]: from the line of centres towards the direction of the
-// distance, with one look-up in a map for each support and no climb. Every step proves bounds. Knows one level pair.
+// GJK on support maps for a cold start [Gilbert, Johnson & Keerthi 1988]. The direction is at first the line of centres and
+// turns towards that of the distance. Each support is one look-up in a table of directions, a support map, without a climb.
+// Every step proves bounds. Knows one level pair.
 #pragma once
 
 #include <cstdint>

@@ -48,7 +48,8 @@ class Radii {
 
  private:
   Radii(double a, double b) : a_(a), b_(b) {}
-  /// `less` is `bound` - a - b, `more` is `bound` + a + b. A result that is not exact is moved one place towards `side`.
+  /// `less` is `bound` - a - b, `more` is `bound` + a + b. A result that is rounded is replaced by the next double towards
+  /// `side`, so that it remains a bound.
   double less(double bound, double side) const;
   double more(double bound, double side) const;
   /// Turn a bound on the hulls' distance into one on the bodies' signed distance.
