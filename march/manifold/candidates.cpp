@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Of too many corners the one is left out that takes the least area with it [Visvalingam & Whyatt 1993].
+// If there are too many corners, the one whose removal takes the least area is left out [Visvalingam & Whyatt 1993].
 #include "manifold/candidates.h"
 
 #include <algorithm>
@@ -52,8 +52,8 @@ bool Candidates::is_known(const Candidate& candidate) const {
                      [&](const ManifoldPoint& p) { return is_same(p, candidate); });
 }
 
-/// Whether, of all corners that may be left out, the last one of a border takes the least area with it; counts what its chord
-/// has cut off already, since corners that follow closely each take little.
+/// Returns true if of all corners that may be left out the last one of a border takes the least area. The area that the chord
+/// to it has cut off before counts, since close corners take little each.
 bool Candidates::replaces_last(Border border, const Candidate& candidate) {
   const std::size_t side = std::size_t(border);
   if (count_[side] < 2) return false;

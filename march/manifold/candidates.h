@@ -17,10 +17,10 @@ namespace swiftlet {
 /// The borders of an area between its lowest and its highest corner.
 enum class Border : std::uint8_t { Left, Right };
 
-/// A place of contact as a projection shows it.
+/// A possible point of the manifold, projected.
 struct Candidate {
-  Vec on_a;           ///< z along the normal
-  double separation;  ///< of the point of B that is seen there
+  Vec on_a;           ///< the point of A
+  double separation;  ///< by which B's point is farther along the normal
   FeatureId feature_a, feature_b;
 };
 

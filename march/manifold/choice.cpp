@@ -8,7 +8,7 @@
 namespace swiftlet {
 namespace {
 
-/// The convex loop around places, counter-clockwise; one that hardly stands out changes nothing.
+/// The convex hull of candidates' places, counter-clockwise; a place outside by no more than the bound does not change it.
 class Loop {
  public:
   Loop(const Candidates& candidates, double bound) : candidates_(candidates), bound_(bound) {}

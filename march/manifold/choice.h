@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Which corners of a common area a manifold gets.
+// Chooses the few points of a manifold among its candidates.
 #pragma once
 
 #include <array>
@@ -21,10 +21,10 @@ class Chosen {
   std::array<int, kMostManifoldPoints> index_;
 };
 
-/// One of least separation, which comes first, then whichever adds most to the area, those of `previous` before others; then
-/// each but the first gives way to one that adds distinctly more. What is chosen depends on nothing but the first and which are
-/// there, and stays what it is when asked again: all that changes them lets their area grow. What stands out by no more than
-/// `bound` adds nothing. Cost: 32 times the candidates.
+/// Chooses a candidate of least separation, which comes first, then those that add most to the area, those that `previous`
+/// names before others; then each chosen one but the first is exchanged for one that adds more by `kKeptWorth`. Every exchange
+/// lets the area grow, so that the same candidates are chosen when `previous` is the result. A candidate that stands out by no
+/// more than `bound` adds nothing. Makes at most `kExchanges` exchanges.
 Chosen choose(const Candidates& candidates, std::uint32_t most, const Manifold& previous, double bound);
 
 }  // namespace swiftlet

@@ -1,19 +1,20 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A line sweeps over both faces from below and meets their corners one after the other [Shamos & Hoey 1976]. Each face is a
-// left and a right border; of both left borders the one farther to the right, and of both right ones the one farther to the
-// left, is the border of what the faces have in common. Faces are read where they lie, and only four sides are known at a time.
+// The intersection of two polygons by a sweep line [Shamos & Hoey 1976], which moves from below to above and stops at each
+// corner. A face lies between a left and a right border. At each height the left border of the intersection is that of the face
+// whose left border is farther to the right, and its right border that of the face whose right border is farther to the left;
+// `leader_` names the face. The half-edges are read where they lie; only four sides are known at a time.
 //
-//            b                  Events from below: a0, the lowest corner of what is common, begins it, since it lies in B; b1
-//         .-' '-.  a2           and b2 are corners of B's borders which A's hide; at a1, which has left B, the common area's
-//       b1   .--+-'--a1         right border has changed over from A to B where the sides cross; at b B's borders meet and the
-//        \ .'    b2 /           area ends, unless A's left border had passed B's right one before.
-//         +----+---'
-//         a0
+//           b2            The sweep begins at b0, the higher of the lowest corners, which lies in A: both of B's borders lead.
+//          /  \           At a3 nothing changes, since A's left border is outside of B's. The line reaches a2, the top of A,
+//        b3    b1         on the side a3 a2 of A's left border, which lies beyond B's right border: the intersection has
+//   a3-----x--y-----a2    ended, and A's left border has crossed B's left one in x and B's right one in y.
+//    |      \/       |
+//    |      b0       |
+//   a0--------------a1
 //
-// A border is left for the other face's only where that is farther in by more than a bound: sides that lie on one another up to
-// rounding do not cross. Everything that is said of places is said of the corners as they are seen in doubles, which are the
-// same whoever asks; their order from below is exact.
+// A border passes on the lead only where the other face's border is farther inside by more than a bound, so that sides that lie
+// on one another up to rounding do not cross. The order of the corners from below is exact for their rounded coordinates.
 #include "manifold/clip.h"
 
 #include <cmath>
@@ -27,7 +28,7 @@ namespace {
 constexpr Border kBorders[] = {Border::Left, Border::Right};
 Border opposite(Border border) { return border == Border::Left ? Border::Right : Border::Left; }
 
-/// From below to above, and of places at one height from left to right.
+/// Returns true if `p` lies below `q`, or at the same height to the left of it.
 bool is_below(const Vec& p, const Vec& q) { return p.y < q.y || (p.y == q.y && p.x < q.x); }
 
 struct Corner {
@@ -35,19 +36,19 @@ struct Corner {
   std::uint32_t vertex;
 };
 
-/// A side of a border, or a chord over corners that turn back down.
+/// A side of a border, or a chord that cuts off corners which turn inwards.
 struct Side {
-  Corner from, to;          ///< below and above
-  std::uint32_t half_edge;  ///< that ends above, or the last that the chord cuts off
+  Corner from, to;          ///< the lower and the upper end
+  std::uint32_t half_edge;  ///< the half-edge at `to`; of a chord the last one that it cuts off
   bool is_chord = false;
 
   Vec at(double t) const { return from.at + (to.at - from.at) * t; }
-  /// How far along the place at a height is: 0 to 1.
+  /// The parameter, 0 at `from` and 1 at `to`, of the point at height `y`.
   double rise(double y) const {
     const double height = to.at.y - from.at.y;
     return height > 0 ? min(max((y - from.at.y) / height, 0), 1) : 0;
   }
-  /// The same of the place nearest to another.
+  /// The parameter of the point nearest to `place`.
   double along(const Vec& place) const {
     const double dx = to.at.x - from.at.x, dy = to.at.y - from.at.y, length2 = dx * dx + dy * dy,
                  t = (place.x - from.at.x) * dx + (place.y - from.at.y) * dy;
@@ -55,13 +56,13 @@ struct Side {
   }
 };
 
-/// Where a place lies that is neither below a side nor above it.
+/// On which side of a border's side a place lies whose height is between those of its ends.
 enum class Where { Left, On, Right };
 Where where(const Vec& place, const Side& side, double bound) {
   const double dx = side.to.at.x - side.from.at.x, dy = side.to.at.y - side.from.at.y, px = place.x - side.from.at.x,
                py = place.y - side.from.at.y, area = dx * py - dy * px, length2 = dx * dx + dy * dy;
   if (area * area > bound * bound * length2) return area > 0 ? Where::Left : Where::Right;
-  // The line passes by within the bound; the side itself may not, where it lies crosswise.
+  // The line is within the bound; the side itself may not be, if it is nearly horizontal.
   if (px < min(dx, 0) - bound) return length2 - dx * dx > dx * dx ? Where::On : Where::Left;
   if (px > max(dx, 0) + bound) return length2 - dx * dx > dx * dx ? Where::On : Where::Right;
   return Where::On;
@@ -98,9 +99,9 @@ class SeenFace {
   const Side& operator[](Border border) const { return side_[std::size_t(border)]; }
   bool is_at_top(Border border) const { return (*this)[border].to.vertex == top_; }
 
-  /// Goes on to the next side of a border: to the corner that no later one stands out of, as far as later ones lie within the
-  /// face's flatness of that side. Faces that are merged from facets may have borders that turn inwards by so much, and one
-  /// that is jagged beyond that is cut short to where it rises. Not from the top.
+  /// Moves a border on to the next side of its convex hull; must not be called at the top. A border of merged facets may turn
+  /// inwards by up to the face's flatness: corners are looked at until one lies farther inside of the side than that. A border
+  /// that is jagged by more is followed to the next corner that is no lower.
   void advance(Border border, double bound) {
     Side& side = side_[std::size_t(border)];
     const bool ahead = is_ahead(border);
@@ -122,7 +123,7 @@ class SeenFace {
     }
   }
 
-  /// Between the borders, or on the nearer one where the place is beyond them: the coordinate along the normal.
+  /// The coordinate along the normal at a place: interpolated between the borders, or that of the nearer border outside.
   double depth_at(const Vec& place) const {
     const Side &left = side_[0], &right = side_[1];
     const Vec l = left.at(left.rise(place.y)), r = right.at(right.rise(place.y));
@@ -131,7 +132,7 @@ class SeenFace {
     return side.at(side.along(place)).z;
   }
 
-  /// Names the edge of a side that a place on it belongs to: of a chord the edge that it passes there.
+  /// Names the edge at a place of a side; of a chord, the edge that it cuts off there.
   FeatureId edge_at(Border border, const Vec& place) const {
     const Side& side = (*this)[border];
     const Vec along = side.to.at - side.from.at;
@@ -146,7 +147,7 @@ class SeenFace {
   }
 
  private:
-  /// Whether a border is up along its half-edges.
+  /// Returns true if half-edges of the border point upwards.
   bool is_ahead(Border border) const { return is_ccw_ == (border == Border::Right); }
   Corner corner_before(std::uint32_t half_edge) const {
     const std::uint32_t vertex = origin(body_.view, half_edge);
@@ -155,9 +156,9 @@ class SeenFace {
 
   const SeenBody& body_;
   const ContactFace& face_;
-  bool is_ccw_;        ///< as it is seen: B from within, and where the pose mirrors from outside
-  std::uint32_t top_;  ///< a vertex
-  Side side_[2];       ///< of both borders the one at the height of the sweep
+  bool is_ccw_;        ///< the border's sense in the projection, where B is seen from inside unless the pose mirrors it
+  std::uint32_t top_;  ///< the highest vertex
+  Side side_[2];       ///< of each border the side at the height of the sweep line
 };
 
 class Sweep {
@@ -187,7 +188,7 @@ class Sweep {
   const Side& side(int f, Border border) const { return face_[f][border]; }
   int& leader(Border border) { return leader_[std::size_t(border)]; }
 
-  /// The higher of the lowest corners is where the sweep begins; false where the other face ends below.
+  /// Starts at the higher of the two lowest corners. Returns false if the other face ends below it.
   bool begin() {
     const int f = is_below(face_[0].lowest().at, face_[1].lowest().at) ? 1 : 0, other = 1 - f;
     const Corner& lowest = face_[f].lowest();
@@ -216,7 +217,7 @@ class Sweep {
     return lowest;
   }
 
-  /// The sweep is at the upper end of a face's side. False where the common area ends before.
+  /// Handles the upper end of a side of face `f`. Returns false if the intersection ends at or below it.
   bool meet(int f, Border border) {
     const Corner& corner = side(f, border).to;
     const int other = 1 - f;
@@ -241,7 +242,7 @@ class Sweep {
     return true;
   }
 
-  /// While one face is to the west of the other: whether it is no more.
+  /// Returns true if face `west_` no longer lies to the left of the other one at the height of `corner`.
   bool overlap_begins(int f, const Corner& corner) {
     const int east = 1 - west_;
     const Where now =
@@ -253,7 +254,7 @@ class Sweep {
     return true;
   }
 
-  /// The sweep is at the top of a face, to which one border has come.
+  /// Handles the top of face `f`, which `border` has reached; the other border reaches it too.
   void end(int f, Border border) {
     const Corner top = side(f, border).to;
     if (!meet(f, opposite(border)) || west_ != kNobody || last_[f] == top.vertex) return;
@@ -265,7 +266,7 @@ class Sweep {
 
   static Where outside(Border border) { return border == Border::Left ? Where::Left : Where::Right; }
 
-  /// A corner of one face over or on the other one.
+  /// Adds a corner of face `f` that lies within the other face.
   void add_corner(Border border, int f, const Corner& corner) {
     if (last_[f] == corner.vertex) return;
     last_[f] = corner.vertex;
@@ -275,14 +276,14 @@ class Sweep {
     corners_.add(border, {{corner.at.x, corner.at.y, z_a}, z_b - z_a, f == 0 ? vertex : name_[0], f == 0 ? name_[1] : vertex});
   }
 
-  /// Where two sides cross, one of each face; a corner that lies there stands for it.
+  /// Adds the point where two sides cross, one of each face, or a corner of either within the bound of it.
   void add_crossing(Border border, Event p, Event q) {
     if (p.face == 1) std::swap(p, q);
     const Side &a = side(0, p.border), &b = side(1, q.border);
     const double x = b.to.at.x - b.from.at.x, y = b.to.at.y - b.from.at.y;
     const auto height = [&](const Vec& place) { return x * (place.y - b.from.at.y) - y * (place.x - b.from.at.x); };
     const double h = height(a.from.at), h_to = height(a.to.at);
-    // Of sides nearly parallel the first place is uncertain, the last one belongs to the one on b.
+    // If the sides are nearly parallel, the first point on a is uncertain; the last one is the nearest to that on b.
     const Vec on_b = b.at(b.along(a.at(h != h_to ? min(max(h / (h - h_to), 0), 1) : 0))), on_a = a.at(a.along(on_b));
     const auto apart = [&](const Vec& place) {
       const double dx = place.x - on_a.x, dy = place.y - on_a.y;
@@ -296,7 +297,7 @@ class Sweep {
     }
     if (apart(on_b) > bound_) return;
     const Candidate crossing{on_a, on_b.z - on_a.z, face_[0].edge_at(p.border, on_a), face_[1].edge_at(q.border, on_b)};
-    if (!corners_.has_named(crossing)) corners_.add(border, crossing);  // sides that hardly part may change over twice
+    if (!corners_.has_named(crossing)) corners_.add(border, crossing);  // nearly parallel sides may pass the lead twice
   }
 
   static constexpr int kNobody = -1;
@@ -305,8 +306,8 @@ class Sweep {
   const FeatureId name_[2];
   const double bound_;
   Candidates& corners_;
-  int west_ = kNobody;                      ///< the face that is still to the left of the other one
-  int leader_[2] = {};                      ///< whose border is that of the common area
+  int west_ = kNobody;                      ///< before the intersection begins: the face to the left of the other one
+  int leader_[2] = {};                      ///< per border, the face whose border bounds the intersection
   std::uint32_t last_[2] = {kNone, kNone};  ///< the corner of a face that was added last
 };
 

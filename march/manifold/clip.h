@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What two contact faces have in common, seen along one normal. Knows nothing of which corners a manifold keeps.
+// The intersection of two contact faces, projected along one normal. Does not know which of its corners a manifold keeps.
 #pragma once
 
 #include "manifold/candidates.h"
@@ -9,7 +9,7 @@
 
 namespace swiftlet {
 
-/// The vertices of a body as a unit normal shows them: two coordinates across the normal and one along it.
+/// Projects the vertices of a body: x and y across a unit normal, z along it.
 struct SeenBody {
   const ConvexView& view;
   Vec x, y, n;  ///< the axes in the body's own frame, right-handed where the pose does not mirror
@@ -20,12 +20,12 @@ struct SeenBody {
   }
 };
 
-/// Both bodies of a pair as one normal of the common frame shows them.
+/// The projections of both bodies of a pair along one normal of the common frame.
 struct Projection {
   /// `middle`, a point near both contact faces, is seen at 0. The axis y and `side`, a side of a contact face, make an angle
-  /// that no two sides of a regular polygon make: a sweep along y meets few sides crosswise.
+  /// that no two sides of a regular polygon of up to 20 corners make, so that few sides are horizontal.
   Projection(const PairView& pair, const Vec& normal, const Vec& middle, const Vec& side);
-  /// The point of the common frame, which is A's, that is seen there.
+  /// The point of the common frame, A's, whose projection is `seen`.
   Vec point(const Vec& seen) const { return middle + a.x * seen.x + a.y * seen.y + a.n * seen.z; }
 
   SeenBody a, b;
@@ -35,8 +35,9 @@ struct Projection {
 /// A side of one of two faces, in the common frame; 0 where both are points.
 Vec any_side(const PairView& pair, const ContactFace& a, const ContactFace& b);
 
-/// Adds the corners of the common area to `corners`, in order along each border; nothing where there is none. What stands out
-/// by less than `bound`, at least the rounding of the pair's points, is not cut off. Cost: the sum of the sides of both faces.
+/// Adds the corners of the intersection to `corners`, each border's from below to above, and closes it. A corner that lies
+/// outside of the other face by less than `bound`, which covers the rounding of the pair's points, counts as inside. Cost: the
+/// sum of the sides of both faces.
 void clip(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound, Candidates& corners);
 
 }  // namespace swiftlet

@@ -11,8 +11,9 @@
 
 namespace swiftlet {
 
-/// Of the faces at a feature the one that faces best along a direction, and those beside it that lie within some height of its
-/// plane: one piece without holes, for a face amidst them has all its corners there too. A body without faces is all border.
+/// The face at a feature that faces best along a direction, merged with the faces beside it that lie within some height of its
+/// plane. They are one piece without holes, because a face enclosed by them has all its corners there too. The edge of a body
+/// without faces is its border.
 class ContactFace {
  public:
   /// `n`: unit, own frame, outwards. `before`, a face of the body, is preferred as long as none faces better. `flatness`: the
@@ -25,7 +26,7 @@ class ContactFace {
   double flatness() const { return flatness_; }
   /// A half-edge of the border, which leaves the face on its left; kNone of a point.
   std::uint32_t side() const { return side_; }
-  /// The side after another one, and the one before: they start and end where that ends and starts.
+  /// The side that starts where `side` ends, and the one that ends where it starts.
   std::uint32_t next(std::uint32_t side) const;
   std::uint32_t previous(std::uint32_t side) const;
 

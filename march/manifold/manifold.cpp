@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// From an answer to the contact faces at its features, to what these have in common, to few points of that.
+// Builds a manifold: contact faces at the answer's features, the corners of their intersection, and a choice of few of these.
 #include <swiftlet/manifold.h>
 
 #include <algorithm>
@@ -24,7 +24,8 @@ struct Anchor {
   FeatureId feature_a, feature_b;  ///< that hold them
 };
 
-/// A corner of either body is where it is; the other point is above or below it.
+/// The contact points of a candidate. If one of its features is a vertex, that body's point is the vertex; the other body's
+/// point lies on the line through it along the normal.
 ManifoldPoint placed(const PairView& pair, const Projection& projection, const Candidate& c) {
   const Vec across = projection.a.n * c.separation;
   const Vec point_a = c.feature_a.kind() == FeatureKind::Vertex   ? body_a(pair).point(c.feature_a.index())
@@ -33,7 +34,7 @@ ManifoldPoint placed(const PairView& pair, const Projection& projection, const C
   return {eigen(point_a), eigen(point_a + across), c.separation, c.feature_a, c.feature_b};
 }
 
-/// The manifold of two hulls, within a margin of theirs.
+/// Fills the manifold of two hulls; points farther apart than `margin` are left out.
 void grow(const PairView& pair, const Anchor& w, double margin, double bound, const ManifoldOptions& options,
           const Manifold& previous, Manifold& manifold) {
   const ContactFace a(pair.a, w.normal, w.feature_a, previous.face_a, options.flatness),
@@ -44,7 +45,7 @@ void grow(const PairView& pair, const Anchor& w, double margin, double bound, co
 
   const Projection projection(pair, w.normal, w.point_a, any_side(pair, a, b));
   Candidates candidates(margin + bound, previous);
-  clip(projection, a, b, bound / 2, candidates);  // what it does not cut off lies beside the other body by as much
+  clip(projection, a, b, bound / 2, candidates);  // a corner counts as inside of a face that it misses by so much
   if (candidates.count() == 0 || w.separation < candidates.least() - bound / 2)
     candidates.add(Border::Left, {{0, 0, 0}, w.separation, named(pair.a, w.feature_a), named(pair.b, w.feature_b)});
   for (const int i : choose(candidates, std::min(options.most_points, kMostManifoldPoints), previous, bound))

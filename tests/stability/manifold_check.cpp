@@ -17,8 +17,8 @@ namespace {
 /// way to one that adds less than an eighth: all lies no farther off the lines from the deepest through these than 9/8 of what
 /// they do, in half a parallelogram of 81/16 triangles.
 constexpr double kShares[] = {0, 0, 0, 0.197, 0.58, 0.6, 0.6, 0.6, 0.85};
-/// A manifold of more corners is chosen from 13, the distances of which differ by a factor of two: on a circle seven of one and
-/// six of the other keep 0.948.
+/// A manifold of many corners is chosen from 12, whose distances differ by a factor of at most two: on a circle six of one and
+/// six of the other keep 0.940. Up to this many corners, of which one at most is left out, nothing is allowed for that.
 constexpr std::size_t kCorners = 13;
 constexpr double kKept = 0.94;
 
