@@ -44,8 +44,8 @@ struct ManifoldOptions {
   /// A height relative to the body's extent: faces that lie within it of a body's contact face are merged into that face, so
   /// that the two triangles of a rounded square count as one square. A face that appears narrower than this, seen from the
   /// side, may count as a line. The default is 4 ulps of single precision, which such squares come from. The faces of a model
-  /// are already flat to 4 ulps of its input's precision: a smaller value does not split them. At most `kMostFlatness`: a larger
-  /// value counts as that.
+  /// are already flat to 4 ulps of its input's precision: a smaller value does not split them. At most `kMostFlatness`: a
+  /// larger value counts as that.
   double flatness = 0x1p-21;
 };
 
