@@ -95,17 +95,18 @@ inline constexpr int kProductExponent = 330;
 /// Bound the error of the vector R b + t, relative to |b| and |t|. A coordinate of R b is 3 products and 2 sums of terms that
 /// |b| bounds, 4 u |b| with the last sum, and sqrt(3) times that for the vector. The last sum also rounds t once.
 inline constexpr double kTurnError = 7 * kU, kShiftError = 2 * kU;
-/// Bounds the error of n . c for a normalised n, relative to the sum of |n_i c_i|: the difference c, 1 product and 2 sums, and
-/// 2 u for the length of n, rounded up.
-inline constexpr double kGapError = 7 * kU;
+/// Bounds the error of a gap n . c - e for a normalised n, relative to the sum of |n_i c_i|: the difference c, 1 product, 2
+/// sums and the last difference make 5 u. The length of n is off by 4.5 u: its square carries 3 u, the root halves these and
+/// adds 1, then come 1 quotient and 1 product. The sum is rounded up.
+inline constexpr double kGapError = 10 * kU;
 /// Bounds the error of the cross product of two rounded differences, relative to the product of their lengths: 2 differences,
 /// 1 product and 1 difference per term, two terms per coordinate.
 inline constexpr double kCrossError = 8 * kU;
 /// A convex combination of three points, relative to the largest |p|: 1 product, 2 sums, and weights that sum to 1 only to 3 u.
 inline constexpr double kPointError = 7 * kU;
 /// Bounds the error of a rise that a walk computed, taken for the rise along the normalised direction: `kDotError`; 2 sqrt(3)
-/// `kTurnedError`, as the direction is turned into a body's frame and back; 4 u for normalising. Relative to the product of the
-/// direction's length and the body's reach.
+/// `kTurnedError`, as the direction is turned into a body's frame and back; 4.5 u for normalising. Relative to the product of
+/// the direction's length and the body's reach.
 inline constexpr double kRiseError = 24 * kU;
 /// Bounds the error of the length of a rounded difference, relative to the length. Its square carries 5 u: 2 of the difference,
 /// 1 of the product, 2 of the sums. The root halves these and adds 1; rounded up.
@@ -115,7 +116,8 @@ inline constexpr double kNormError = 5 * kU;
 /// heights, each of 3 products and 2 sums of terms of at most the extent, make 24 u. A cell's border is off by 4 u in each of
 /// two coordinates of the direction, times 2 extents: 16 u. When the map is read, the direction is turned into the body's
 /// frame, which is off by `kTurnedError` in each coordinate, times 2 extents: 24 u; two heights again make 24 u. The direction
-/// is normalised after the look-up: 2 u times 2 sqrt(3), 7 u, and 4 u of an excess of at most 4, 16 u. The sum is rounded up.
+/// is normalised after the look-up: 4.5 u times 2 sqrt(3), 16 u, and 4 u of an excess of at most 4, 16 u. The sum is rounded
+/// up.
 inline constexpr double kMapError = 128 * kU;
 
 /// Bounds the error of double-double arithmetic as gjk.cpp uses it, which keeps at least 90 bits of the largest term, whatever
