@@ -16,15 +16,11 @@ double twice_area(const Vec& p, const Vec& q, const Vec& r) {
 
 }  // namespace
 
-bool is_same(const ManifoldPoint& point, const Candidate& candidate) {
-  return point.feature_a == candidate.feature_a && point.feature_b == candidate.feature_b;
-}
-
 void Candidates::add(Border border, const Candidate& candidate) {
   if (!(candidate.separation <= farthest_)) return;
   if (is_known(candidate) && known_count_ < int(kMostManifoldPoints)) known_[std::size_t(known_count_++)] = candidate;
   if (candidate.separation < deepest_)
-    deepest_ = candidate.separation, deepest_a_ = candidate.feature_a, deepest_b_ = candidate.feature_b;
+    deepest_ = candidate.separation, deepest_named_ = {candidate.feature_a, candidate.feature_b};
   const std::size_t side = std::size_t(border);
   if (count_[0] + count_[1] < kMostCorners) {
     cut_off_[side] = 0;
@@ -38,10 +34,25 @@ void Candidates::add(Border border, const Candidate& candidate) {
   ++count_[side];
 }
 
+void Candidates::add_deepest(const Candidate& candidate) {
+  bool is_there = false;
+  const auto replace = [&](Candidate& other) {
+    if (!is_same(candidate, other)) return;
+    other = candidate;
+    is_there = true;
+  };
+  std::for_each(all_.begin(), all_.begin() + count_[0], replace);
+  std::for_each(known_.begin(), known_.begin() + known_count_, replace);
+  if (is_there)
+    deepest_ = candidate.separation;
+  else
+    add(Border::Left, candidate);
+}
+
 bool Candidates::has_named(const Candidate& candidate) const {
   for (int i = 0; i < kMostCorners; ++i) {
     const bool is_kept = i < count_[0] || i >= kMostCorners - count_[1];
-    if (is_kept && at(i).feature_a == candidate.feature_a && at(i).feature_b == candidate.feature_b) return true;
+    if (is_kept && is_same(at(i), candidate)) return true;
   }
   return false;
 }
@@ -90,6 +101,13 @@ void Candidates::close() {
   std::move(all_.end() - count_[1], all_.end(), all_.begin() + count_[0]);
   count_[0] += count_[1];
   count_[1] = 0;
+  int kept = 0;
+  for (int i = 0; i < known_count_; ++i) {
+    const Candidate& c = known_[std::size_t(i)];
+    const auto is_named_so = [&](const Candidate& other) { return is_same(c, other); };
+    if (!has_named(c) && std::none_of(known_.begin(), known_.begin() + kept, is_named_so)) known_[std::size_t(kept++)] = c;
+  }
+  known_count_ = kept;
 }
 
 }  // namespace swiftlet

@@ -24,7 +24,10 @@ struct Candidate {
   FeatureId feature_a, feature_b;
 };
 
-bool is_same(const ManifoldPoint& point, const Candidate& candidate);
+/// Whether two points, of this manifold or the one before, have the same names.
+bool is_same(const auto& point, const auto& other) {
+  return point.feature_a == other.feature_a && point.feature_b == other.feature_b;
+}
 
 inline constexpr int kMostCandidates = kMostCorners + int(kMostManifoldPoints);
 
@@ -37,8 +40,10 @@ class Candidates {
 
   /// Adds the corner that follows on a border, which is seen from below to above.
   void add(Border border, const Candidate& candidate);
-  /// Makes one row of both borders, around the area. A candidate that is added afterwards belongs to neither border.
+  /// Makes one row of both borders, around the area, and leaves out of the others what is in it.
   void close();
+  /// Adds a point deeper than all corners, after `close`; it takes the place of the corners with its names.
+  void add_deepest(const Candidate& candidate);
   /// Whether a corner with the names of `candidate` is kept on a border.
   bool has_named(const Candidate& candidate) const;
 
@@ -51,15 +56,17 @@ class Candidates {
  private:
   const Candidate& at(int i) const { return all_[std::size_t(i)]; }
   bool replaces_last(Border border, const Candidate& candidate);
-  bool is_deepest(int i) const { return at(i).feature_a == deepest_a_ && at(i).feature_b == deepest_b_; }
+  bool is_deepest(int i) const { return is_same(at(i), deepest_named_); }
   void thin();
 
   const double farthest_;
   const Manifold& previous_;
   double deepest_ = std::numeric_limits<double>::infinity();
-  FeatureId deepest_a_, deepest_b_;  ///< names of the first corner with that separation
-  double next_area_ = 0;             ///< at most the area that any corner takes with it which `thin` may leave out
-  double cut_off_[2] = {};           ///< the area that the last chord of each border has cut off
+  struct {
+    FeatureId feature_a, feature_b;
+  } deepest_named_;         ///< names of the first corner with that separation
+  double next_area_ = 0;    ///< at most the area that any corner takes with it which `thin` may leave out
+  double cut_off_[2] = {};  ///< the area that the last chord of each border has cut off
   int count_[2] = {}, known_count_ = 0;
   std::array<Candidate, kMostCorners> all_;  ///< the left border from the start, the right one from the end back
   std::array<Candidate, kMostManifoldPoints> known_;

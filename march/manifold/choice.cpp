@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "manifold/choice.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "manifold/largest_polygon.h"
 
 namespace swiftlet {
 namespace {
@@ -36,6 +39,12 @@ class Loop {
     double area = 0;
     for (int side = 0; side < size_; ++side) area += beyond(side, spot);
     return area;
+  }
+
+  double twice_area() const {
+    double sum = 0;
+    for (int side = 1; side + 1 < size_; ++side) sum -= area(side, corner_[0]);
+    return sum;
   }
 
   /// The corners between the sides that see the place give way to it.
@@ -97,22 +106,22 @@ class Loop {
 /// Which of the candidates a manifold gets.
 class Choice {
  public:
-  Choice(const Candidates& candidates, double bound) : candidates_(candidates), bound_(bound) {
+  Choice(const Candidates& candidates, int most, double bound) : candidates_(candidates), most_(most), bound_(bound) {
     for (int i = 0; i < candidates.count(); ++i) known_[std::size_t(i)] = candidates.is_known(candidates[i]);
   }
 
-  Chosen of(std::uint32_t most, const Manifold& previous) {
+  Chosen of(const Manifold& previous) {
     Chosen chosen;
-    if (candidates_.count() == 0 || most == 0) return chosen;
+    if (candidates_.count() == 0 || most_ == 0) return chosen;
     first_ = deepest(previous);
     chosen_[std::size_t(first_)] = true;
-    while (size_ < int(most) && grow(Among::Known)) {
-    }
-    for (int rest = kExchanges; rest > 0; --rest) {
-      while (size_ < int(most) && grow(Among::All)) {
-      }
-      if (!exchange()) break;
-    }
+    if (std::count(known_.begin(), known_.end(), true) + !is_known(first_) <= most_)
+      take(known_);
+    else
+      grow(Among::Known);
+    const double worth = size_ > 1 ? 1 + kKeptWorth : 1;
+    grow(Among::All);
+    if (most_ > 2 && candidates_.count() > most_) give_way(largest_polygon(candidates_, first_, most_), worth);
     const Loop loop = around();
     bool is_corner = false;
     const int before = loop.before(first_, is_corner);
@@ -140,53 +149,60 @@ class Choice {
     return found;
   }
 
-  /// Of all that are chosen, but for one.
-  Loop around(int without = kNobody) const {
+  /// Chooses the first and of these all that stand out.
+  void take(const std::array<bool, kMostCandidates>& those) {
+    chosen_ = those;
+    chosen_[std::size_t(first_)] = true;
+    size_ = kMostCandidates;
+    for (int before = size_ + 1; size_ < before;) {
+      before = size_;
+      const Loop loop = around();
+      chosen_ = {};
+      for (int i = 0; i < loop.size(); ++i) chosen_[std::size_t(loop[i])] = true;
+      chosen_[std::size_t(first_)] = true;
+      size_ = int(std::count(chosen_.begin(), chosen_.end(), true));
+    }
+  }
+
+  /// Chooses a polygon instead if that has more than `worth` times the area.
+  void give_way(const LargestPolygon& polygon, double worth) {
+    const double enough = worth * around().twice_area();
+    if (!(polygon.twice_area > enough)) return;
+    const std::array<bool, kMostCandidates> before = chosen_;
+    std::array<bool, kMostCandidates> corners{};
+    for (const int corner : polygon) corners[std::size_t(corner)] = true;
+    take(corners);
+    if (!(around().twice_area() > enough)) take(before);
+    grow(Among::All);
+  }
+
+  Loop around() const {
     Loop loop(candidates_, bound_);
     for (int i = 0; i < candidates_.count(); ++i) {
-      if (is_chosen(i) && i != without) loop.add(i);
+      if (is_chosen(i)) loop.add(i);
     }
     return loop;
   }
 
-  /// The one that adds more than `least` and most to a loop.
-  int best(const Loop& loop, double least, Among those) const {
-    int found = kNobody;
-    for (int i = 0; i < candidates_.count(); ++i) {
-      if (is_chosen(i) || (those == Among::Known && !is_known(i))) continue;
-      if (const double gain = loop.gain(i); gain > least) least = gain, found = i;
+  /// Adds what adds most to the area until nothing does.
+  void grow(Among those) {
+    for (int rest = candidates_.count(); size_ < most_ && rest > 0; --rest) {
+      const Loop loop = around();
+      int found = kNobody;
+      double most = 0;
+      for (int i = 0; i < candidates_.count(); ++i) {
+        if (is_chosen(i) || (those == Among::Known && !is_known(i))) continue;
+        if (const double gain = loop.gain(i); gain > most) most = gain, found = i;
+      }
+      if (found == kNobody) return;
+      chosen_[std::size_t(found)] = true;
+      take(chosen_);
     }
-    return found;
-  }
-
-  bool grow(Among those) {
-    const int found = best(around(), 0, those);
-    if (found == kNobody) return false;
-    chosen_[std::size_t(found)] = true;
-    ++size_;
-    return true;
-  }
-
-  /// Leaves out one that adds nothing, or takes another for it; false where all stay.
-  bool exchange() {
-    for (int i = 0; i < candidates_.count(); ++i) {
-      if (!is_chosen(i) || i == first_) continue;
-      const Loop others = around(i);
-      const double gain = others.gain(i);
-      const int found = best(others, (1 + kKeptWorth) * gain, Among::All);
-      if (found == kNobody && gain > 0) continue;
-      chosen_[std::size_t(i)] = false;
-      if (found == kNobody)
-        --size_;
-      else
-        chosen_[std::size_t(found)] = true;
-      return true;
-    }
-    return false;
   }
 
   const Candidates& candidates_;
-  double bound_;
+  const int most_;
+  const double bound_;
   int size_ = 1, first_ = 0;
   std::array<bool, kMostCandidates> known_{}, chosen_{};  ///< of the manifold before, of this one
 };
@@ -194,7 +210,7 @@ class Choice {
 }  // namespace
 
 Chosen choose(const Candidates& candidates, std::uint32_t most, const Manifold& previous, double bound) {
-  return Choice(candidates, bound).of(most, previous);
+  return Choice(candidates, int(most), bound).of(previous);
 }
 
 }  // namespace swiftlet

@@ -21,10 +21,10 @@ class Chosen {
   std::array<int, kMostManifoldPoints> index_;
 };
 
-/// Chooses a candidate of least separation, which comes first, then those that add most to the area, those that `previous`
-/// names before others; then each chosen one but the first is exchanged for one that adds more by `kKeptWorth`. Every exchange
-/// lets the area grow, so that the same candidates are chosen when `previous` is the result. A candidate that stands out by no
-/// more than `bound` adds nothing. Makes at most `kExchanges` exchanges.
+/// Chooses a candidate of least separation, which comes first, then those that `previous` names, then those that add most to
+/// the area. Where the largest polygon of `most` candidates has more area than these by `kKeptWorth`, it is chosen instead, and
+/// it always is where `previous` names none. The same candidates are chosen when `previous` is the result. A candidate that
+/// stands out by no more than `bound` adds nothing. Cost: `most` times the square of the candidates' number.
 Chosen choose(const Candidates& candidates, std::uint32_t most, const Manifold& previous, double bound);
 
 }  // namespace swiftlet

@@ -47,7 +47,7 @@ void grow(const PairView& pair, const Anchor& w, double margin, double bound, co
   Candidates candidates(margin + bound, previous);
   clip(projection, a, b, bound / 2, candidates);  // a corner counts as inside of a face that it misses by so much
   if (candidates.count() == 0 || w.separation < candidates.least() - bound / 2)
-    candidates.add(Border::Left, {{0, 0, 0}, w.separation, named(pair.a, w.feature_a), named(pair.b, w.feature_b)});
+    candidates.add_deepest({{0, 0, 0}, w.separation, named(pair.a, w.feature_a), named(pair.b, w.feature_b)});
   for (const int i : choose(candidates, std::min(options.most_points, kMostManifoldPoints), previous, bound))
     manifold.points[manifold.count++] = placed(pair, projection, candidates[i]);
 }

@@ -179,11 +179,9 @@ inline constexpr double kDeviationPrecision = 1e-3;
 /// Two faces count as facing a normal equally where their cosines differ by no more than this: an angle of 2^-21, 4 ulps of
 /// single precision, lowers a cosine by half its square. Dimensionless.
 inline constexpr double kSameFacing = 0x1p-43;
-/// A point of a manifold is exchanged for one that adds more area by more than this fraction. That is enough to keep the
+/// The points of a manifold give way to others that have more area by more than this fraction. That is enough to keep the
 /// corners of a regular polygon, of which any four opposite ones are equally good, from taking turns.
-inline constexpr double kKeptWorth = 0.125;
-/// The most exchanges of points of a manifold: after two or three no other follows. A count.
-inline constexpr int kExchanges = 32;
+inline constexpr double kKeptWorth = 0.0625;
 /// The most corners of a common area that a manifold is chosen from, beside those of the previous manifold: the deepest, the
 /// last ones of both borders, and nine others. A count.
 inline constexpr int kMostCorners = 12;

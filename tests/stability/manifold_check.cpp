@@ -13,10 +13,10 @@
 namespace swiftlet::stability {
 namespace {
 
-/// Of a round face four corners keep 2 / pi at most, eight 0.901. Of three, one is the deepest, and neither of the others gives
-/// way to one that adds less than an eighth: all lies no farther off the lines from the deepest through these than 9/8 of what
-/// they do, in half a parallelogram of 81/16 triangles.
-constexpr double kShares[] = {0, 0, 0, 0.197, 0.58, 0.6, 0.6, 0.6, 0.85};
+/// The least share of a convex polygon that the largest one of so many corners has, one of which is given: found by a search
+/// over polygons of up to 20 corners. A manifold before keeps its points while others have no more than 17/16 of the area.
+constexpr double kShares[] = {
+    0, 0, 0, 0.316 * 16 / 17, 0.57 * 16 / 17, 0.72 * 16 / 17, 0.80 * 16 / 17, 0.85 * 16 / 17, 0.89 * 16 / 17};
 /// A manifold of many corners is chosen from 12, whose distances differ by a factor of at most two: on a circle six of one and
 /// six of the other keep 0.940. Up to this many corners, of which one at most is left out, nothing is allowed for that.
 constexpr std::size_t kCorners = 13;
@@ -40,12 +40,12 @@ double own_flatness(const Subject& subject) {
   return std::all_of(corners.begin(), corners.end(), is_single) ? 0x1p-21 : 0x1p-50;
 }
 
-/// Of one body: a point less its radius, what it is said to lie on, and where the body is.
+/// Of one body: a point less its radius, what it is said to lie on, the contact face, and where the body is.
 struct Claim {
   const Subject& subject;
   const Pose& pose;
   Vec3 point;
-  FeatureId feature;
+  FeatureId feature, face;
 
   std::string fault(const ManifoldOptions& options, double bound) const {
     const ConvexView& view = subject.model.level(0).view;
@@ -57,11 +57,24 @@ struct Claim {
     const auto is_within = [&](const std::vector<Vec3>& hull, double off) {
       return oracle::holds(oracle::distance({&point, 1}, hull, pose), 0, off);
     };
-    // The border of a face that is flat only nearly runs beside its edges by as much, but inside of the body.
-    const bool on_edge = feature.kind() == FeatureKind::Edge;
-    if (!is_within(corners, on_edge ? depth : bound))
-      return on_face ? "is not in the body" : "is not on what it is named after";
-    if (on_edge && !is_within(corners, bound) && !is_within(subject.points, bound)) return "is not in the body";
+    // The border of a face that is flat only nearly may turn inwards; an edge there is named for the chord that cuts it off.
+    const auto is_on_chord = [&] {
+      std::vector<Vec3> ends;
+      for (const std::uint32_t f : oracle::flat_faces(view, face, flatness)) {
+        for (const Vec3& corner : vertices_of(view, {FeatureKind::Face, f})) ends.push_back(corner);
+      }
+      for (std::size_t i = 0; i < ends.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+          if (is_within({ends[i], ends[k]}, bound)) return true;
+        }
+      }
+      return false;
+    };
+    if (!is_within(corners, bound)) {
+      if (on_face) return "is not in the body";
+      if (feature.kind() != FeatureKind::Edge || face.kind() != FeatureKind::Face || !is_on_chord())
+        return "is not on what it is named after";
+    }
     const double height = oracle::height_over(view, pose, point);
     return height >= -depth ? "" : "is " + std::to_string(-height / depth) + " times the flatness below the surface";
   }
@@ -87,8 +100,8 @@ std::string Judge::manifold(const Manifold& manifold, const Answer& answer, cons
       const ManifoldPoint& q = manifold.points[k];
       if (p.feature_a == q.feature_a && p.feature_b == q.feature_b) return name + " has the name of another";
     }
-    const Claim of_a{a_, Pose{}, p.point_a - answer.radius_a * n, p.feature_a},
-        of_b{b_, b_in_a_, p.point_b + answer.radius_b * n, p.feature_b};
+    const Claim of_a{a_, Pose{}, p.point_a - answer.radius_a * n, p.feature_a, manifold.face_a},
+        of_b{b_, b_in_a_, p.point_b + answer.radius_b * n, p.feature_b, manifold.face_b};
     if (const std::string wrong = of_a.fault(options, bound); !wrong.empty()) return name + " of A " + wrong;
     if (const std::string wrong = of_b.fault(options, bound); !wrong.empty()) return name + " of B " + wrong;
     least = std::min(least, p.separation);

@@ -23,7 +23,8 @@ struct ManifoldPoint {
   double separation = 0;        ///< along the normal, in the bodies' unit; negative where the bodies overlap
   /// The feature of A that `point_a` lies on, at the answer's level. `feature_a` and `feature_b` are a vertex of one body and
   /// the contact face of the other, or an edge of each, named by its half-edge of lower index. The pair of features identifies
-  /// the point from one manifold to the next.
+  /// the point from one manifold to the next. The border of a merged contact face may turn inwards: an edge there stands for
+  /// the chord that cuts it off, and the point lies on that chord.
   FeatureId feature_a;
   FeatureId feature_b;  ///< the feature of B that `point_b` lies on
 };
@@ -53,10 +54,10 @@ struct ManifoldOptions {
 /// this pose: a signed one, or one of bodies that are apart. The contact face of a body is the face at that feature that faces
 /// best along the normal. Both contact faces are projected along the normal; the corners of their intersection are the points.
 /// If there are more than `most_points`, those are kept that have the least separation and cover most of the area: four points
-/// keep 0.6 of a round face, eight 0.87; four keep all of a square; three keep at least 0.18 of any face. Points of `previous`,
-/// this pair's last manifold, are preferred. The least separation equals the answer's within `tolerance`. The manifold is empty
-/// if the answer has no normal (as a distance has none in an overlap), other radii than the bodies, or levels or features that
-/// the bodies lack. Allocates nothing; uses 4 kB of stack. Cost: the sum of both faces' sides.
+/// keep 0.6 of a round face, eight 0.87; four keep all of a square; of any face three keep at least 0.28, four 0.5, eight 0.78.
+/// Points of `previous`, this pair's last manifold, are preferred. The least separation equals the answer's within `tolerance`.
+/// The manifold is empty if the answer has no normal (as a distance has none in an overlap), other radii than the bodies, or
+/// levels or features that the bodies lack. Allocates nothing; uses 4 kB of stack. Cost: the sum of both faces' sides.
 Manifold manifold(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const ManifoldOptions& options = {},
                   const Manifold& previous = {});
 

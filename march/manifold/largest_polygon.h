@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The largest polygon of few candidates.
+#pragma once
+
+#include <array>
+
+#include "manifold/candidates.h"
+
+namespace swiftlet {
+
+struct LargestPolygon {
+  double twice_area = 0;
+  int count = 0;
+  std::array<int, kMostManifoldPoints> corner;  ///< indices of candidates
+
+  const int* begin() const { return corner.data(); }
+  const int* end() const { return corner.data() + count; }
+};
+
+/// Returns the largest polygon of at most `most` corners, 3 or more, all of them candidates and one of them `first`. If `first`
+/// lies inside of the candidates' hull, it is no corner, but counts among `most`, and the candidate farthest from it is a
+/// corner. Cost: `most` times the square of the number of candidates.
+LargestPolygon largest_polygon(const Candidates& candidates, int first, int most);
+
+}  // namespace swiftlet
