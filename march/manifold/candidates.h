@@ -38,14 +38,13 @@ class Candidates {
   /// Corners with a separation above `farthest` are left out.
   Candidates(double farthest, const Manifold& previous) : farthest_(farthest), previous_(previous) {}
 
-  /// Adds the corner that follows on a border, which is seen from below to above.
+  /// Adds the corner that follows on a border, which is seen from below to above, unless one with its names is kept already:
+  /// sides that are nearly parallel may pass the lead twice, and a corner may come as a crossing near it and as itself.
   void add(Border border, const Candidate& candidate);
   /// Makes one row of both borders, around the area, and leaves out of the others what is in it.
   void close();
   /// Adds a point deeper than all corners, after `close`; it takes the place of the corners with its names.
   void add_deepest(const Candidate& candidate);
-  /// Whether a corner with the names of `candidate` is kept on a border.
-  bool has_named(const Candidate& candidate) const;
 
   /// After `close`: the candidates are the row, then the corners that `previous` names.
   int count() const { return count_[0] + known_count_; }
@@ -55,6 +54,7 @@ class Candidates {
 
  private:
   const Candidate& at(int i) const { return all_[std::size_t(i)]; }
+  bool has_named(const Candidate& candidate) const;  ///< whether a corner with its names is kept
   bool replaces_last(Border border, const Candidate& candidate);
   bool is_deepest(int i) const { return is_same(at(i), deepest_named_); }
   void thin();

@@ -176,10 +176,12 @@ class Choice {
     grow(Among::All);
   }
 
+  /// Of all that are chosen; the first comes before others in its place.
   Loop around() const {
     Loop loop(candidates_, bound_);
+    loop.add(first_);
     for (int i = 0; i < candidates_.count(); ++i) {
-      if (is_chosen(i)) loop.add(i);
+      if (is_chosen(i) && i != first_) loop.add(i);
     }
     return loop;
   }

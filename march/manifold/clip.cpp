@@ -257,7 +257,7 @@ class Sweep {
   /// Handles the top of face `f`, which `border` has reached; the other border reaches it too.
   void end(int f, Border border) {
     const Corner top = side(f, border).to;
-    if (!meet(f, opposite(border)) || west_ != kNobody || last_[f] == top.vertex) return;
+    if (!meet(f, opposite(border)) || west_ != kNobody) return;
     for (const Border b : kBorders) {
       if (where(top.at, side(1 - f, b), bound_) == outside(b)) return;
     }
@@ -268,8 +268,6 @@ class Sweep {
 
   /// Adds a corner of face `f` that lies within the other face.
   void add_corner(Border border, int f, const Corner& corner) {
-    if (last_[f] == corner.vertex) return;
-    last_[f] = corner.vertex;
     const double depth = face_[1 - f].depth_at(corner.at), z_a = f == 0 ? corner.at.z : depth,
                  z_b = f == 0 ? depth : corner.at.z;
     const FeatureId vertex{FeatureKind::Vertex, corner.vertex};
@@ -296,8 +294,7 @@ class Sweep {
       if (apart(c->at) <= bound_) return add_corner(border, 1, *c);
     }
     if (apart(on_b) > bound_) return;
-    const Candidate crossing{on_a, on_b.z - on_a.z, face_[0].edge_at(p.border, on_a), face_[1].edge_at(q.border, on_b)};
-    if (!corners_.has_named(crossing)) corners_.add(border, crossing);  // nearly parallel sides may pass the lead twice
+    corners_.add(border, {on_a, on_b.z - on_a.z, face_[0].edge_at(p.border, on_a), face_[1].edge_at(q.border, on_b)});
   }
 
   static constexpr int kNobody = -1;
@@ -306,9 +303,8 @@ class Sweep {
   const FeatureId name_[2];
   const double bound_;
   Candidates& corners_;
-  int west_ = kNobody;                      ///< before the intersection begins: the face to the left of the other one
-  int leader_[2] = {};                      ///< per border, the face whose border bounds the intersection
-  std::uint32_t last_[2] = {kNone, kNone};  ///< the corner of a face that was added last
+  int west_ = kNobody;  ///< before the intersection begins: the face to the left of the other one
+  int leader_[2] = {};  ///< per border, the face whose border bounds the intersection
 };
 
 }  // namespace
