@@ -504,11 +504,12 @@ FeatureId feature_at(const Body& body, FeatureId known, const Vec& p, double bou
 
 }  // namespace
 
+// The points of B are known up to the pair's rounding.
 FeatureId feature_at_a(const PairView& pair, FeatureId known, const Vec& p, std::uint32_t& plane_tests) {
-  return feature_at(body_a(pair), known, p, pair.law_two, plane_tests);
+  return feature_at(body_a(pair), known, p, pair.law_two - pair.motion_error, plane_tests);
 }
 FeatureId feature_at_b(const PairView& pair, FeatureId known, const Vec& p, std::uint32_t& plane_tests) {
-  return feature_at(body_b(pair), known, p, pair.law_two, plane_tests);
+  return feature_at(body_b(pair), known, p, pair.law_two - pair.motion_error, plane_tests);
 }
 
 Intersection intersection(const PairView& pair, const OverlapProof& proof, std::uint32_t& plane_tests) {
