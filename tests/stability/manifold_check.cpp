@@ -70,7 +70,8 @@ struct Claim {
       }
       return false;
     };
-    if (!is_within(corners, bound)) {
+    // An edge opposite a vertex holds the answer's point, which lies within law 2's bound of the line through the vertex.
+    if (!is_within(corners, feature.kind() == FeatureKind::Edge ? 2 * bound : bound)) {
       if (on_face) return "is not in the body";
       if (feature.kind() != FeatureKind::Edge || face.kind() != FeatureKind::Face || !is_on_chord())
         return "is not on what it is named after";

@@ -20,11 +20,12 @@ struct Check {
 /// Recomputes what `answer` claims by brute force over every vertex. `lower` is compared with the gap of the exact hulls along
 /// `normal` (or of the levels present, where level 0 is absent), `upper` with the distance of the two points plus the
 /// deviations, the verdict with both. An overlap of the hulls is decided exactly: by the vertices of `proof`, which is what
-/// `Tuning::proof` received, or without it by all planes that could separate the hulls. For a signed answer, the depth of an
-/// overlapping or touching pair is recomputed: the least height of the planes that can bound the Minkowski difference, parallel
-/// to a face of A, to a face of B, or to an edge of each; exact signs tell which. Each point must lie in its body; where
-/// the interval is within law 2's bound, the points must differ by the signed distance along the normal, within that bound.
-/// Cost: linear in vertices and faces; for an overlap without `proof` the product of the edges, 0.2 s for 2 000 triangles each.
+/// `Tuning::proof` received, or without it by those that a march finds, or by all planes that could separate the hulls. For a
+/// signed answer, the depth of an overlapping or touching pair is recomputed: the least height of the planes that can bound the
+/// Minkowski difference, parallel to a face of A, to a face of B, or to an edge of each; exact signs tell which. Each point
+/// must lie in its body; where the interval is within law 2's bound, the points must differ by the signed distance along the
+/// normal, within that bound. Cost: linear in vertices and faces; for a signed overlap, and for one within rounding of touching
+/// without `proof`, the product of the edges, 0.2 s for 2 000 triangles each.
 Check check(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const OverlapProof* proof = nullptr);
 
 /// Proves exactly that every level is convex and encloses level 0, and by certified bounds that every deviation and support map

@@ -21,10 +21,10 @@ struct ManifoldPoint {
   Vec3 point_a = Vec3::Zero();  ///< in A, below its surface by no more than `flatness` allows
   Vec3 point_b = Vec3::Zero();  ///< in B: `point_a` + `separation` * normal, within twice `tolerance`
   double separation = 0;        ///< along the normal, in the bodies' unit; negative where the bodies overlap
-  /// The feature of A that `point_a` lies on, at the answer's level. `feature_a` and `feature_b` are a vertex of one body and
-  /// the contact face of the other, or an edge of each, named by its half-edge of lower index. The pair of features identifies
-  /// the point from one manifold to the next. The border of a merged contact face may turn inwards: an edge there stands for
-  /// the chord that cuts it off, and the point lies on that chord.
+  /// The feature of A that `point_a` lies on, within twice `tolerance`, at the answer's level. Both are a vertex of one body
+  /// and the contact face of the other, or an edge of each, named by its half-edge of lower index, or, of a deepest point that
+  /// is no corner, the answer's. The pair of features identifies the point from one manifold to the next. The border of a
+  /// merged contact face may turn inwards: an edge there stands for the chord that cuts it off, and the point lies on that.
   FeatureId feature_a;
   FeatureId feature_b;  ///< the feature of B that `point_b` lies on
 };
