@@ -77,10 +77,14 @@ static inline bool holds(const ConvexView& view, const Motion& m, const Vec& p, 
   if (view.face_first.empty() || view.vertices.size() < 4)
     return true;  // points, segments, triangles: `lower` checks the distance to them
   const double outward = dot(m.row_x, cross(m.row_y, m.row_z)) < 0 ? -1 : 1;  // a reflection turns normals inwards
+  const double reach = norm(p) + view.extent + norm(m.t);
   bool inside = true;
   each_facet(view, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const Wide n = facet_normal(m, view.vertices[a], view.vertices[b], view.vertices[c]);
-    const double height = outward * double(dot(n, wide(p) - wide(m, vec(view.vertices[a]))));
+    const Vertex &va = view.vertices[a], &vb = view.vertices[b], &vc = view.vertices[c];
+    const Vec u = rotate(m, vec(vb) - vec(va)), v = rotate(m, vec(vc) - vec(va)), d = p - apply(m, vec(va));
+    if (outward * dot(cross(u, v), d) < -kRoughFacetError * norm(u) * norm(v) * reach) return;  // far below the plane
+    const Wide n = facet_normal(m, va, vb, vc);
+    const double height = outward * double(dot(n, wide(p) - wide(m, vec(va))));
     inside = inside && height <= slack * norm(rounded(n));
   });
   return inside;

@@ -140,6 +140,11 @@ inline constexpr double kRoughSideError = 84 * kU;
 /// n . p with n at the scale of `kSideError` in doubles: 7 u of terms that sum to 6 times p's largest coordinate. Relative to
 /// it.
 inline constexpr double kRoughHeightError = 42 * kU;
+/// (b - a) x (c - a) . (p - a) of a turned facet in doubles. Each difference is off by 8 u of itself: 1 difference, 3 products
+/// and 2 sums in each of three coordinates. Their cross product is off by twice that and `kCrossError`, 24 u; p - a by
+/// `kTurnError`, `kShiftError` and 1 difference, 10 u; their product adds 3 u. The sum is rounded up. Relative to the product
+/// of the lengths of both differences and the largest distance of p and a from the origins.
+inline constexpr double kRoughFacetError = 48 * kU;
 /// Bounds the error of the least height of a plane, relative to the magnitude of coordinates and translation. A plane's normal
 /// leans by at most sqrt(3) `kNormalError`, points are off by 2^-97 of the magnitude, and product, root and quotient by as
 /// much: 2^-82 in all. It is doubled, because any plane whose height is within 2^-82 of the least may be taken for the lowest.
