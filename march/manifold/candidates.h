@@ -25,7 +25,7 @@ struct Candidate {
 };
 
 /// Whether two points, of this manifold or the one before, have the same names.
-bool is_same(const auto& point, const auto& other) {
+static inline bool is_same(const auto& point, const auto& other) {
   return point.feature_a == other.feature_a && point.feature_b == other.feature_b;
 }
 

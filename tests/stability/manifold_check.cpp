@@ -13,8 +13,9 @@
 namespace swiftlet::stability {
 namespace {
 
-/// The least share of a convex polygon that the largest one of so many corners has, one of which is given: found by a search
-/// over polygons of up to 20 corners. A manifold before keeps its points while others have no more than 17/16 of the area.
+/// The least share of a convex polygon that the largest one of so many corners has, one of which is given: what
+/// `Manifold.LargestPolygonsKeepTheSharesOfTheHeader` finds by a search. A manifold before keeps its points while others have
+/// no more than 17/16 of the area.
 constexpr double kShares[] = {
     0, 0, 0, 0.316 * 16 / 17, 0.57 * 16 / 17, 0.72 * 16 / 17, 0.80 * 16 / 17, 0.85 * 16 / 17, 0.89 * 16 / 17};
 /// A manifold of many corners is chosen from 12, whose distances differ by a factor of at most two: on a circle six of one and
@@ -33,11 +34,13 @@ bool is_named(const ConvexView& view, FeatureId feature) {
   return false;
 }
 
-/// What the faces of a body are flat to by themselves, over its extent: 4 ulps of the corners' own precision.
-double own_flatness(const Subject& subject) {
+/// What a manifold takes for one face, over the extent: what is asked for, or what the faces are flat to by themselves, 4 ulps
+/// of the corners' own precision.
+double flatness_of(const ManifoldOptions& options, const Subject& subject) {
   const auto is_single = [](const Vertex& v) { return float(v.x) == v.x && float(v.y) == v.y && float(v.z) == v.z; };
   const std::span<const Vertex> corners = subject.model.level(0).view.vertices;
-  return std::all_of(corners.begin(), corners.end(), is_single) ? 0x1p-21 : 0x1p-50;
+  const double own = std::all_of(corners.begin(), corners.end(), is_single) ? 0x1p-21 : 0x1p-50;
+  return std::max(std::min(options.flatness, kMostFlatness), own);
 }
 
 /// Of one body: a point less its radius, what it is said to lie on, the contact face, and where the body is.
@@ -52,8 +55,7 @@ struct Claim {
     if (!is_named(view, feature)) return "no feature is named";
     const bool on_face = feature.kind() == FeatureKind::Face;
     const std::vector<Vec3> corners = on_face ? subject.points : vertices_of(view, feature);
-    const double flatness = std::max(std::min(options.flatness, kMostFlatness), own_flatness(subject)),
-                 depth = flatness * view.extent + bound;
+    const double flatness = flatness_of(options, subject), depth = flatness * view.extent + bound;
     const auto is_within = [&](const std::vector<Vec3>& hull, double off) {
       return oracle::holds(oracle::distance({&point, 1}, hull, pose), 0, off);
     };
@@ -138,7 +140,7 @@ std::string Judge::area_of(const Manifold& manifold, const ManifoldOptions& opti
   // Faces that are one within the flatness are a line where they are seen narrower than that.
   const auto thin = [&](const Subject& subject, const ConvexView& view, FeatureId face, const Mat3& rotation) {
     const double across = (rotation * oracle::face_normal(view, face)).cross(manifold.normal).norm();
-    return std::max(std::min(options.flatness, kMostFlatness), own_flatness(subject)) * view.extent * across * length;
+    return flatness_of(options, subject) * view.extent * across * length;
   };
   const double narrow = thin(a_, a, manifold.face_a, Mat3::Identity()) + thin(b_, b, manifold.face_b, b_in_a_.rotation);
   const double share = kShares[std::min(options.most_points, kMostManifoldPoints)] * (truth.corners > kCorners ? kKept : 1);
