@@ -27,14 +27,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What is asked of a depth: an interval that is narrow enough, or the side of a threshold that the depth is on.
-struct DepthTarget {
-  double absolute = 0, relative = 0;
-  double depth = -1;  ///< the threshold; negative: there is none
-  bool is_threshold() const { return depth >= 0; }
-  bool is_exact() const { return absolute == 0 && relative == 0 && !is_threshold(); }
-};
-
 /// The vertices of a feature in order; of a face with more than four, the first four.
 struct Span {
   int count = 0;
@@ -53,18 +45,18 @@ Span span_of(const ConvexView& view, FeatureId feature) {
   return span;
 }
 
-/// The search for the depth, from level pair to finer level pair until the target is met.
+/// The search for the depth, from level pair to finer level pair until the bounds suffice.
 class Deepening {
  public:
-  Deepening(const Setting& at, const Limits& limits, const DepthTarget& target)
+  Deepening(const Setting& at, const Limits& limits, const StopRule& asked)
       : pair_(*at.a, *at.b, at.motion, at.quality.error, limits),
         a_(*at.a),
         b_(*at.b),
         line_(line_of_centres(at.motion, pair_.line)),
         budget_(limits.budget),
         trace_(limits.trace),
-        target_(target),
         law_two_(pair_.law_two),
+        stop_(asked.beyond_by(law_two_).at_least(law_two_)),
         finest_a_(pair_.finest_a),
         finest_b_(pair_.finest_b) {}
 
@@ -76,7 +68,7 @@ class Deepening {
     // The depth is at most `most`, by the centres and bounding radii. A pair whose deviation exceeds the width allowed at that
     // depth cannot answer.
     double most = a_.radius() + pair_.stretch * b_.radius() - norm(line_.in_a);
-    place_ = target_.is_exact() ? Place{finest_a_, finest_b_, {}} : coarsest_place(a_, b_);
+    place_ = stop_.is_exact() ? Place{finest_a_, finest_b_, {}} : coarsest_place(a_, b_);
     near_ = seed.met && seed.level_a < a_.level_count() && seed.level_b < b_.level_count() &&
             !turned_far(line_, seed, a_.level(seed.level_a), b_.level(seed.level_b));
     const bool remembers = near_ && (seed.normal[0] | seed.normal[1] | seed.normal[2]) != 0;
@@ -84,8 +76,7 @@ class Deepening {
     for (;;) {
       const double error = deviation();
       const bool last = place_.level_a == finest_a_ && place_.level_b == finest_b_;
-      const double allowed = max(target_.absolute, target_.relative * min(upper, most));
-      if (last || error <= allowed || target_.is_threshold()) {
+      if (last || error <= stop_.most(min(upper, most)) || stop_.is_threshold()) {
         const std::uint32_t steps_before = steps, tests_before = plane_tests;
         solve(seed, direction, error);
         note(trace_, std::size_t(levels_visited++),
@@ -100,7 +91,7 @@ class Deepening {
   }
 
   Status status() const {
-    if (end == DepthEnd::Converged || (target_.is_threshold() && end == DepthEnd::Apart)) return Status::Converged;
+    if (end == DepthEnd::Converged || (stop_.is_threshold() && end == DepthEnd::Apart)) return Status::Converged;
     if (end == DepthEnd::Budget) return Status::Budget;
     return place_.level_a == 0 && place_.level_b == 0 ? Status::NotConverged : Status::LevelLimit;
   }
@@ -108,7 +99,7 @@ class Deepening {
   bool proved() const { return lower > law_two_; }
 
   /// True if the bounds are narrow enough, with `floor` as the lower bound if that is better.
-  bool narrow(double floor) const { return upper - max(lower, floor) <= max(target_.absolute, law_two_); }
+  bool narrow(double floor) const { return stop_.narrow(max(lower, floor), upper); }
 
   void store(PairSeed& seed) const {
     remember(line_, normal, seed);
@@ -130,10 +121,7 @@ class Deepening {
 
  private:
   double deviation() const { return pair_.deviation(place_.level_a, place_.level_b); }
-  bool answered() const {
-    if (target_.is_threshold()) return lower > target_.depth + law_two_ || upper < target_.depth - law_two_;
-    return upper - max(lower, floor_) <= max(max(target_.absolute, target_.relative * lower), law_two_);
-  }
+  bool answered() const { return stop_.met(max(lower, floor_), upper); }
 
   /// The direction along which support maps show the Minkowski difference lowest: the line of centres, or the axis across the
   /// thinnest side of either body's box. Without maps, the line of centres. `most` becomes that height if it is less.
@@ -254,9 +242,7 @@ class Deepening {
   void solve(const PairSeed& seed, const Vec& direction, double error) {
     const Level &of_a = a_.level(place_.level_a), &of_b = b_.level(place_.level_b);
     const PairView pair = pair_.view_at(place_);
-    DepthGoal goal{target_.absolute, target_.relative, error, floor_};
-    if (target_.is_threshold()) goal.deeper = target_.depth + law_two_, goal.shallower = target_.depth - law_two_;
-    const Depth found = depth_of(pair, of_a, of_b, seed, direction, goal);
+    const Depth found = depth_of(pair, of_a, of_b, seed, direction, {stop_, pair.law_two, error, floor_});
     end = found.end;
     if (found.lower > 0) lower = max(lower, error > 0 ? (found.lower - error) - 2 * kU * (found.lower + error) : found.lower);
     if (found.upper > upper + law_two_) return;
@@ -271,7 +257,7 @@ class Deepening {
       feature_a = feature_of(of_a.view, found.active, found.active.a);
       feature_b = feature_of(of_b.view, found.active, found.active.b);
     }
-    if (error > 0 || !target_.is_exact()) return;  // the points need not lie on the surfaces
+    if (error > 0 || !stop_.is_exact()) return;  // the points need not lie on the surfaces
     feature_a = feature_at_a(pair, feature_a, point_a, plane_tests);
     feature_b = feature_at_b(pair, feature_b, point_b, plane_tests);
   }
@@ -281,8 +267,8 @@ class Deepening {
   const Line line_;
   const Budget& budget_;
   const std::span<LevelRecord> trace_;
-  const DepthTarget target_;
   const double law_two_;
+  const StopRule stop_;
   const int finest_a_, finest_b_;
   double floor_ = 0;
   bool near_ = false;  ///< the pose is near the seed's, where the bodies overlapped
@@ -379,11 +365,11 @@ Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, PairSee
     overlap_part(deep, answer);
     return finish(at, limits, proof, answer), answer;
   }
-  const Target target{options.absolute, options.relative, options.beyond, -kInfinity};
+  const StopRule of_bodies{options.absolute, options.relative, options.beyond};
   const int visited = deep.levels_visited;
   if (!limits.trace.empty()) limits.trace = limits.trace.last(std::max(1, int(limits.trace.size()) - visited));
-  const Target of_hulls = at.radii.of_hulls(target, at.law_two());
-  descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, of_hulls, false, answer, proof);
+  const StopRule of_hulls = at.radii.of_hulls(of_bodies, at.law_two());
+  descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, of_hulls, {}, answer, proof);
   make_signed(limits.trace, answer.levels_visited);
   limits.trace = options.tuning.trace;
   answer.levels_visited = std::uint8_t(answer.levels_visited + visited);
@@ -421,13 +407,12 @@ Within signed_within(const Body& a, const Body& b, const Pose& b_in_a, double th
   const double of_hulls = threshold + at.radii.sum();
   OverlapProof proof;
   if (of_hulls < 0) {
-    Deepening deep(at, limits, {0, 0, -of_hulls});
+    Deepening deep(at, limits, {0, 0, -of_hulls, -of_hulls});
     deep.run(seed);
     if (deep.proved()) deep.store(seed);
     overlap_part(deep, result.answer);
   } else {
-    const Target target{0, 0, of_hulls, of_hulls};
-    descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, target, false, result.answer, proof);
+    descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, {0, 0, of_hulls, of_hulls}, {}, result.answer, proof);
     make_signed(limits.trace, result.answer.levels_visited);
     if (result.answer.status == Status::Beyond) result.answer.status = Status::Converged;
     if (!(result.answer.lower > 0)) result.answer.lower = -kInfinity;

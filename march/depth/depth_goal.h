@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The depth of the overlap of one level pair: what is asked (`DepthGoal`), where the search begins (`DepthStart`) and what is
-// found (`Depth`).
+// The depth of the overlap of one level pair: what is asked of it (`DepthGoal`), where the search begins (`DepthStart`) and
+// what is found (`Depth`).
 #pragma once
 
 #include <array>
@@ -10,25 +10,28 @@
 
 #include "numeric/vec.h"
 #include "pair/certify.h"
+#include "pair/stop_rule.h"
 
 namespace swiftlet {
 
-/// When bounds on the depth are good enough. `upper` and `lower` are bounds on the depth of the level pair.
+/// When bounds `lower` and `upper` on the depth of the level pair are good enough.
 struct DepthGoal {
-  double absolute = 0, relative = 0;  ///< allowed width: a length, a fraction of the lower bound; at least law 2's bound
-  double error = 0;  ///< the exact hulls' depth is less by at most this: added to the width, subtracted from `lower`
-  double floor = 0;  ///< at most 0: the depth is not less, or need not be known below; replaces a `lower` of 0 or less
-  double deeper = std::numeric_limits<double>::infinity();      ///< enough when `lower` - `error` > this
-  double shallower = -std::numeric_limits<double>::infinity();  ///< enough when `upper` < this
-  std::uint32_t step_budget = ~0u;                              ///< the most supports to compute
-
-  bool suffices(double upper, double lower, double law_two) const {
-    return upper - (lower > 0 ? lower : floor) <= max(max(absolute, relative * (lower - error)) - error, law_two);
+  /// `asked` is about the exact hulls, whose depth is less by at most `of_error`. `law_two` is that of the level pair.
+  DepthGoal(const StopRule& asked, double law_two, double of_error, double of_floor)
+      : stop(asked.at_least(law_two)), error(of_error), floor(of_floor) {
+    stop.zero += error, stop.rounding += error, stop.above += error;
   }
-  bool passed(double upper, double lower) const { return lower - error > deeper || upper < shallower; }
-  /// True if no bounds on this level pair can suffice, because its `error` is too large.
-  bool hopeless(double upper, double lower) const {
-    return error > 0 && max(absolute, relative * (upper - error)) < error && upper - error <= deeper && lower >= shallower;
+
+  StopRule stop;
+  double error;  ///< 0 if the levels are the exact hulls
+  double floor;  ///< at most 0: the depth is not less, or need not be known below; replaces a `lower` of 0 or less
+  std::uint32_t step_budget = ~0u;  ///< the most supports to compute
+
+  bool narrow(double lower, double upper) const { return stop.narrow(lower > 0 ? lower : floor, upper); }
+  bool passed(double lower, double upper) const { return stop.passed(lower, upper); }
+  /// True if no bounds on this level pair can suffice, because its `error` takes up the width that is allowed.
+  bool hopeless(double lower, double upper) const {
+    return error > 0 && stop.most(upper) <= stop.least && upper <= stop.above && lower >= stop.below;
   }
 };
 

@@ -85,7 +85,7 @@ class Polytope {
         level_b_(b),
         goal_(goal),
         plane_tests_(plane_tests),
-        exact_(goal.absolute == 0 && goal.relative == 0 && goal.deeper == kInfinity),
+        exact_(goal.stop.is_exact()),
         binade_(std::ldexp(1, std::ilogb(max(pair.magnitude, kLeastWidth)))),
         moved_((kGridError + kPlaneHeightFloor) * pair.magnitude) {}
 
@@ -143,14 +143,14 @@ class Polytope {
     for (;;) {
       int next = hull_.lowest();
       lower_ = min(lowest, below(hull_.facet(next).height));
-      if (goal_.passed(best_.height, lower_)) return End::Enough;
-      if (goal_.hopeless(best_.height, lower_)) return End::TooCoarse;
+      if (goal_.passed(lower_, best_.height)) return End::Enough;
+      if (goal_.hopeless(lower_, best_.height)) return End::TooCoarse;
       if (best_.height < -pair_.law_two) return End::Apart;
       if (narrow(lower_) && bounds_only) return End::Enough;
       if (narrow(lower_)) next = nearest_point().facet;
       const HullFacet& facet = hull_.sharpened(next);
       if (facet.above < kInfinity) {
-        if (!suffices(facet.above, lower_)) return End::Stuck;
+        if (!goal_.narrow(lower_, facet.above)) return End::Stuck;
         best_ = {facet.above, facet.normal};
         return End::Enough;
       }
@@ -164,8 +164,8 @@ class Polytope {
       }
       Corner top = support(facet.normal, ahead.a, ahead.b);
       bool sees = hull_.sees(next, top.p);
-      const bool will_do = !exact_ && suffices(last_.height, lower_);
-      if (!will_do && !sees && !suffices(last_.height, lower_)) {
+      const bool will_do = !exact_ && goal_.narrow(lower_, last_.height);
+      if (!will_do && !sees && !goal_.narrow(lower_, last_.height)) {
         top = support_exactly(facet.normal, top.a, top.b);
         sees = hull_.sees(next, top.p);
       }
@@ -181,7 +181,7 @@ class Polytope {
   const Plane& best() const { return best_; }
   bool exact() const { return exact_; }
   std::uint32_t steps() const { return steps_; }
-  bool narrow(double lower) const { return suffices(best_.height, lower); }
+  bool narrow(double lower) const { return goal_.narrow(lower, best_.height); }
 
   /// Writes to `depth` the witness points whose difference is the nearest point, their vertex pairs and weights.
   void witness(Depth& depth) {
@@ -210,7 +210,6 @@ class Polytope {
     Foot foot;
   };
 
-  bool suffices(double upper, double lower) const { return goal_.suffices(upper, lower, pair_.law_two); }
   /// A proved lower bound on the height of M if that of the hull's lowest facet is `height`.
   double below(double height) const { return height - (kPlaneHeightError * std::fabs(height) + moved_); }
 
@@ -348,7 +347,7 @@ class Polytope {
   /// True if adding `c` makes the polytope grow above `facet`, and the supporting plane along its normal is not needed.
   bool leads_on(int facet, const Corner& c) const {
     const double height = dot(hull_.facet(facet).normal, c.p);
-    return height > max(0, goal_.shallower) && (exact_ || !suffices(height, lower_)) && hull_.sees(facet, c.p);
+    return height > max(0, goal_.stop.below) && (exact_ || !goal_.narrow(lower_, height)) && hull_.sees(facet, c.p);
   }
 
   const PairView& pair_;

@@ -130,7 +130,7 @@ bool prove_facet(const PairView& pair, const Level& a, const Level& b, const Dep
   ++depth.steps;
   const Supports top = supports(pair, n, ring[0].a, ring[0].b, plane_tests);
   const double upper = -top.lower;
-  if (!goal.suffices(upper, lower, pair.law_two) || off + (upper - ring.height()) > pair.law_two) return false;
+  if (!goal.narrow(lower, upper) || off + (upper - ring.height()) > pair.law_two) return false;
   const auto about_highest = [&](const Vec& direction, const Corner& from) {
     const Vec own = body_b(pair).into(-direction);
     if (a.map_side == 0 || b.map_side == 0)
@@ -139,7 +139,7 @@ bool prove_facet(const PairView& pair, const Level& a, const Level& b, const Dep
   };
   depth.upper = upper;
   if (!ring.closes(about_highest)) return false;
-  depth.end = goal.passed(upper, lower) || !goal.hopeless(upper, lower) ? DepthEnd::Converged : DepthEnd::NotConverged;
+  depth.end = goal.passed(lower, upper) || !goal.hopeless(lower, upper) ? DepthEnd::Converged : DepthEnd::NotConverged;
   depth.lower = lower;
   depth.normal = n;
   if (depth.active.count == 3) depth.feature_a = start.feature_a, depth.feature_b = start.feature_b;

@@ -81,15 +81,15 @@ void Candidates::thin() {
   double least = std::numeric_limits<double>::infinity();
   int flattest = 0;
   next_area_ = least;
-  const auto look = [&](int below, int i, int above) {
+  const auto consider = [&](int below, int i, int above) {
     const double area = twice_area(at(below).on_a, at(i).on_a, at(above).on_a);
     if (area >= next_area_ || is_deepest(i)) return;
     next_area_ = max(least, area);
     if (area < least) least = area, flattest = i;
   };
   // The borders meet below.
-  for (int i = right == kMostCorners; i + 1 < left; ++i) look(i == 0 ? kMostCorners - 1 : i - 1, i, i + 1);
-  for (int i = kMostCorners - 1 - (left == 0); i > right; --i) look(i + 1 == kMostCorners ? 0 : i + 1, i, i - 1);
+  for (int i = right == kMostCorners; i + 1 < left; ++i) consider(i == 0 ? kMostCorners - 1 : i - 1, i, i + 1);
+  for (int i = kMostCorners - 1 - (left == 0); i > right; --i) consider(i + 1 == kMostCorners ? 0 : i + 1, i, i - 1);
   if (flattest < left)
     std::move(all_.begin() + flattest + 1, all_.begin() + left, all_.begin() + flattest);
   else

@@ -10,9 +10,9 @@
 namespace swiftlet {
 namespace {
 
-MarchStatus status_of(const PairView& pair, const GjkGoal& goal, const Certificate& c) {
-  if (c.lower > goal.beyond) return MarchStatus::Beyond;
-  if (!goal.narrow(c.lower, c.upper)) return MarchStatus::NotConverged;
+MarchStatus status_of(const PairView& pair, const StopRule& stop, const Certificate& c) {
+  if (c.lower > stop.above) return MarchStatus::Beyond;
+  if (!stop.narrow(c.lower, c.upper)) return MarchStatus::NotConverged;
   if (c.upper <= pair.law_two) return MarchStatus::Touching;
   return c.lower > 0 ? MarchStatus::Disjoint : MarchStatus::Near;
 }
@@ -33,11 +33,12 @@ bool from_walk(const PairView& pair, const Walk& walk, const MarchRule& rule, do
   r.plane_tests = walk.plane_tests;
   r.a = walk.a;
   r.b = walk.b;
-  const GjkGoal goal{max(rule.absolute, pair.law_two), rule.relative, rule.beyond + pair.law_two};
+  const StopRule asked{rule.absolute, rule.relative, rule.beyond};
+  const StopRule stop = asked.beyond_by(pair.law_two).at_least(pair.law_two);
   Witness afresh;
   const Witness& seen = walk.end == WalkEnd::Minimum ? walk.witness : (afresh = witness(pair, walk.a, walk.b));
   Certificate c = certify(pair, walk.a, walk.b, seen, r.plane_tests);
-  r.status = status_of(pair, goal, c);
+  r.status = status_of(pair, stop, c);
   // If the features touch, the bodies touch or overlap: certified GJK decides which.
   const bool settled = r.status != MarchStatus::NotConverged && (r.status != MarchStatus::Touching || c.lower > 0);
   double depth = 0;
@@ -45,10 +46,10 @@ bool from_walk(const PairView& pair, const Walk& walk, const MarchRule& rule, do
   if (!settled && !progressed) {
     r.status = MarchStatus::Budget;
   } else if (progressed) {
-    const GjkGoal until_there = until == Until::Exact ? GjkGoal{pair.law_two, 0, goal.beyond} : goal;
+    const StopRule until_there = until == Until::Exact ? StopRule{pair.law_two, 0, stop.above} : stop;
     const GjkResult meeting = gjk(pair, c, until_there, r.plane_tests);
     c = meeting.certificate;
-    r.status = meeting.status == MarchStatus::Disjoint ? status_of(pair, goal, c) : meeting.status;
+    r.status = meeting.status == MarchStatus::Disjoint ? status_of(pair, stop, c) : meeting.status;
     r.proof = meeting.proof;
     depth = meeting.depth;
     ++r.steps;

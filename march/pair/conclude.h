@@ -10,7 +10,7 @@
 
 namespace swiftlet {
 
-/// The goal of certified GJK, which runs if the features alone do not prove enough.
+/// How far certified GJK goes. It runs if the features alone do not prove enough.
 enum class Until {
   Narrow,  ///< the rule's width; the points bound the distance from above, but may lie inside the bodies
   Exact,   ///< law 2's width, with points on the surfaces, or `lower` beyond the rule's threshold

@@ -181,10 +181,10 @@ enum class Keep { Best, Last };
 template <class Real>
 class GjkDescent {
  public:
-  GjkDescent(const PairView& pair, const GjkGoal& goal, std::uint32_t& plane_tests, Keep keep_bounds = Keep::Best)
-      : pair_(pair), goal_(goal), tests_(plane_tests), keep_bounds_(keep_bounds) {}
+  GjkDescent(const PairView& pair, const StopRule& stop, std::uint32_t& plane_tests, Keep keep_bounds = Keep::Best)
+      : pair_(pair), stop_(stop), tests_(plane_tests), keep_bounds_(keep_bounds) {}
 
-  /// Improves `m` until the goal is met, the bodies meet, or this arithmetic makes no more progress.
+  /// Improves `m` until `stop` is met, the bodies meet, or this arithmetic makes no more progress.
   void run(GjkResult& m) {
     seed(m.certificate);
     int patience = kProgressPatience;
@@ -208,9 +208,9 @@ class GjkDescent {
       least_ = std::fmin(least_, distance);
       greatest_ = std::fmax(greatest_, lower);
       if (lower > m.certificate.lower) take_plane(m.certificate, n, a, b, lower);
-      // Bounds that begin at 0 may meet the goal and still not tell whether the bodies are apart.
+      // Bounds that begin at 0 may be narrow and still not tell whether the bodies are apart.
       const bool open = m.certificate.lower == 0 && m.certificate.upper <= pair_.law_two;
-      if (!open && goal_.met(m.certificate.lower, m.certificate.upper)) {
+      if (!open && stop_.met(m.certificate.lower, m.certificate.upper)) {
         m.status = MarchStatus::Disjoint;
         return;
       }
@@ -282,7 +282,7 @@ class GjkDescent {
   }
 
   const PairView& pair_;
-  const GjkGoal& goal_;
+  const StopRule& stop_;
   std::uint32_t& tests_;
   const Keep keep_bounds_;
   std::array<Difference<Real>, 4> set_{};
@@ -294,11 +294,11 @@ class GjkDescent {
 };
 
 template <class Real>
-bool settle(const PairView& pair, const GjkGoal& goal, GjkResult& m, std::uint32_t& plane_tests) {
-  GjkDescent<Real> descent(pair, goal, plane_tests);
+bool settle(const PairView& pair, const StopRule& stop, GjkResult& m, std::uint32_t& plane_tests) {
+  GjkDescent<Real> descent(pair, stop, plane_tests);
   descent.run(m);
   const bool near_zero = m.certificate.upper <= pair.law_two && m.certificate.lower == 0;
-  const bool is_apart = m.certificate.lower > 0 && goal.met(m.certificate.lower, m.certificate.upper);  // however run() ended
+  const bool is_apart = m.certificate.lower > 0 && stop.met(m.certificate.lower, m.certificate.upper);  // however run() ended
   if (is_apart) m.status = MarchStatus::Disjoint;
   if (m.status == MarchStatus::Disjoint && !near_zero) return true;
   m.status = MarchStatus::NotConverged;
@@ -319,10 +319,10 @@ bool settle(const PairView& pair, const GjkGoal& goal, GjkResult& m, std::uint32
 
 }  // namespace
 
-GjkResult gjk(const PairView& pair, const Certificate& start, const GjkGoal& goal, std::uint32_t& plane_tests) {
+GjkResult gjk(const PairView& pair, const Certificate& start, const StopRule& stop, std::uint32_t& plane_tests) {
   GjkResult m;
   m.certificate = start;
-  if (!settle<double>(pair, goal, m, plane_tests)) settle<DoubleDouble>(pair, goal, m, plane_tests);
+  if (!settle<double>(pair, stop, m, plane_tests)) settle<DoubleDouble>(pair, stop, m, plane_tests);
   return m;
 }
 
@@ -339,17 +339,17 @@ bool proves_deep_overlap(const PairView& pair, const OverlapProof& proof) {
 }
 
 bool straighten(const PairView& pair, Certificate& c, std::uint32_t& plane_tests) {
-  const GjkGoal goal{pair.law_two, 0, std::numeric_limits<double>::infinity()};
+  const StopRule at_law_two{.absolute = pair.law_two};
   GjkResult m;
   m.certificate = c;
-  GjkDescent<DoubleDouble>(pair, goal, plane_tests, Keep::Last).run(m);
+  GjkDescent<DoubleDouble>(pair, at_law_two, plane_tests, Keep::Last).run(m);
   if (m.status != MarchStatus::Disjoint) return false;
   c = m.certificate;
   return true;
 }
 
 void sharpen(const PairView& pair, Certificate& c, std::uint32_t& plane_tests) {
-  const GjkGoal as_far_as_it_goes{0, 0, std::numeric_limits<double>::infinity()};
+  const StopRule as_far_as_it_goes;
   GjkResult m;
   m.certificate = c;
   GjkDescent<DoubleDouble>(pair, as_far_as_it_goes, plane_tests).run(m);

@@ -6,21 +6,14 @@
 
 #include "pair/certify.h"
 #include "pair/pair_view.h"
+#include "pair/stop_rule.h"
 
 #include <swiftlet/march.h>
 
 namespace swiftlet {
 
-/// The bounds at which certified GJK may end: narrow as MarchRule defines it, or beyond a threshold.
-struct GjkGoal {
-  double absolute, relative;
-  double beyond;  ///< the caller's threshold plus law 2's bound
-  bool narrow(double lower, double upper) const { return upper - lower <= std::fmax(absolute, relative * lower); }
-  bool met(double lower, double upper) const { return narrow(lower, upper) || lower > beyond; }
-};
-
 struct GjkResult {
-  MarchStatus status = MarchStatus::NotConverged;  ///< Disjoint (the goal is met), Touching, Overlapping or NotConverged
+  MarchStatus status = MarchStatus::NotConverged;  ///< Disjoint (`stop` is met), Touching, Overlapping or NotConverged
   Certificate certificate;
   OverlapProof proof;
   double depth = 0;  ///< if Overlapping: a lower bound on the least translation that separates the bodies; 0: none is known
@@ -28,7 +21,7 @@ struct GjkResult {
 
 /// Continues from the active set of `start`, first in doubles and, if these do not decide, in about 106 bits. The returned
 /// bounds are true whatever the status.
-GjkResult gjk(const PairView& pair, const Certificate& start, const GjkGoal& goal, std::uint32_t& plane_tests);
+GjkResult gjk(const PairView& pair, const Certificate& start, const StopRule& stop, std::uint32_t& plane_tests);
 
 /// True if the four vertex pairs of `proof` prove exactly that the bodies overlap, and the origin is more than twice law 2's
 /// bound from every plane of the tetrahedron of their differences.

@@ -23,7 +23,7 @@ namespace {
 
 class Descent {
  public:
-  Descent(const ModelPair& pair, const Limits& limits, const Target& target, const AxisTest& first, Answer& answer,
+  Descent(const ModelPair& pair, const Limits& limits, const StopRule& asked, const AxisTest& first, Answer& answer,
           OverlapProof& proof)
       : pair_(pair),
         a_(pair.a),
@@ -32,12 +32,12 @@ class Descent {
         budget_(limits.budget),
         tuning_(limits.tuning),
         trace_(limits.trace),
-        target_(target),
+        asked_(asked),
+        stop_(asked.beyond_by(pair.law_two)),
         law_two_(pair.law_two),
         finest_a_(pair.finest_a),
         finest_b_(pair.finest_b),
-        exact_(target.absolute == 0 && target.relative == 0 && limits.tuning.start != StartPolicy::Paper &&
-               !target.is_threshold()),
+        exact_(asked.is_exact() && limits.tuning.start != StartPolicy::Paper),
         first_(first),
         answer_(answer),
         proof_(proof) {}
@@ -45,11 +45,11 @@ class Descent {
   void start(PairSeed& seed) {
     Place place = first_place(a_, b_, line_, seed, finest_a_, finest_b_, tuning_.start);
     const bool warm = is_warm(place.start);
-    const bool walked = warm && march(place, pair_.may_look);
-    const bool seen = !walked && pair_.may_look && look(place, last_direction(line_.in_a, seed));
+    const bool walked = warm && march(place, pair_.has_maps);
+    const bool seen = !walked && pair_.has_maps && map_gjk(place, last_direction(line_.in_a, seed));
     if (!walked && !seen) march(place, false);
     const bool met = met_ == MarchStatus::Overlapping;
-    if (seen && (target_.is_threshold() || !met)) {  // vertices that only maps named are no better start than none
+    if (seen && (asked_.is_threshold() || !met)) {  // vertices that only maps named are no better start than none
       remember(line_, vec(answer_.normal), seed);
       seed.a = seed.b = {};
       seed.met = met;
@@ -60,14 +60,14 @@ class Descent {
   }
 
   /// Goes on from where another descent ended, as `answer_` says.
-  void go_on(PairSeed& seed) {
+  void go_on(PairSeed& seed, double exact_width) {
     Place place{std::clamp(int(answer_.level_a), a_.finest_level(), a_.level_count() - 1),
                 std::clamp(int(answer_.level_b), b_.finest_level(), b_.level_count() - 1),
                 {answer_.feature_a, answer_.feature_b}};
     answer_.steps = answer_.plane_tests = 0;
     answer_.levels_visited = 0;
     place.start = settled(view_at(place), place.start, answer_.plane_tests);
-    met_ = met_before();
+    met_ = met_before(exact_width);
     if (!answered() && met_ == MarchStatus::NotConverged) narrow_down(place);
     if (tuning_.start != StartPolicy::Coarsest) store(place, seed);  // else the seed stays as the first descent left it
     finish(place);
@@ -81,33 +81,24 @@ class Descent {
   double deviation(int level_a, int level_b) const { return pair_.deviation(level_a, level_b); }
   /// Certified GJK may have taken one step more than the budget has.
   std::uint32_t steps_left() const { return budget_.steps - std::min(answer_.steps, budget_.steps); }
-  /// The interval width that the target allows at this `lower`. If it is not above 0, no interval is narrow: an exact answer is
-  /// recognised by `met_` instead.
-  double allowed(double lower) const {
-    return max(target_.absolute, target_.relative * (lower - target_.zero)) - target_.rounding;
-  }
-  bool narrow(double lower, double width) const { return allowed(lower) > 0 && width <= allowed(lower); }
   /// The width that the bounds on a coarse pair may have: the allowed width, less 8 u of it for rounding, less the deviation
   /// `error`; 0 on the exact pair. To prove more, such as that coarse levels overlap, takes vertices from all around both.
-  double width_left(double error) const { return error > 0 ? max(0, allowed(answer_.lower) * (1 - 8 * kU) - error) : 0; }
-  /// A threshold is passed only by more than law 2's bound; within that bound, what can be proved depends on the start.
-  bool clears(double lower) const { return lower > target_.clear_above + law_two_; }
-  bool answers(double lower, double upper) const {
-    return clears(lower) || narrow(lower, upper - lower) || upper < target_.hit_below - law_two_;
-  }
-  bool answered() const { return answers(answer_.lower, answer_.upper); }
+  double width_left(double error) const { return error > 0 ? max(0, stop_.most(answer_.lower) * (1 - 8 * kU) - error) : 0; }
+  /// An exact answer allows no width: it is recognised by `met_`.
+  bool answered() const { return stop_.met(answer_.lower, answer_.upper); }
 
   /// Goes on to finer pairs from a pair whose bounds are not narrow enough.
   void narrow_down(Place& place) {
     if (!finest(place)) place = refined(place);
-    const bool has_maps = pair_.may_look && place.level_a >= a_.map_level() && place.level_b >= b_.map_level();
-    if (has_maps && look(place, vec(answer_.normal))) return;
+    const bool mapped = pair_.has_maps && place.level_a >= a_.map_level() && place.level_b >= b_.map_level();
+    if (mapped && map_gjk(place, vec(answer_.normal))) return;
     march(place, false);
   }
 
-  /// The march status of the exact hulls that `answer_` implies if it is exact; NotConverged if it can still be narrowed.
-  MarchStatus met_before() const {
-    if (answer_.level_a != 0 || answer_.level_b != 0 || !(answer_.upper - answer_.lower <= max(law_two_, target_.exact)))
+  /// The march status of the exact hulls that `answer_` implies if it is exact: on level 0, no wider than `exact_width` or law
+  /// 2's bound. NotConverged if it can still be narrowed.
+  MarchStatus met_before(double exact_width) const {
+    if (answer_.level_a != 0 || answer_.level_b != 0 || !(answer_.upper - answer_.lower <= max(law_two_, exact_width)))
       return MarchStatus::NotConverged;
     switch (answer_.verdict) {
       case Verdict::Overlapping: return MarchStatus::Overlapping;
@@ -123,7 +114,7 @@ class Descent {
     Place place = pair_.finest_mapped();
     while (place.level_a < most_a || place.level_b < most_b) {
       const Place coarser{std::min(place.level_a + 1, most_a), std::min(place.level_b + 1, most_b), {}};
-      if (!narrow(distance, kMapShare * pair_.map_error(coarser))) break;
+      if (!stop_.allows(distance, kMapShare * pair_.map_error(coarser))) break;
       place = coarser;
     }
     return place;
@@ -132,7 +123,7 @@ class Descent {
   /// Runs GJK on support maps: on the pair that the axis test sampled or the coarsest that might answer, then on each finer
   /// one. Returns true if that answers; else `place` becomes where a walk begins. GJK begins anew on every pair, from the same
   /// direction, and no pair is skipped: a looser tolerance does all that a tighter one does, or stops earlier.
-  bool look(Place& place, const Vec& likely) {
+  bool map_gjk(Place& place, const Vec& likely) {
     const bool sampled = max_abs(first_.seen.normal) > 0;
     const Vec direction = sampled ? first_.seen.normal : max_abs(likely) > 0 ? likely : line_.in_a;
     const Place least = pair_.finest_mapped();
@@ -146,14 +137,14 @@ class Descent {
       const SupportGjk found = support_gjk(pair, of_a, of_b, error, seen, [&](const SupportGjk& s) {
         if (exact_) return s.near;
         const double lower = max(answer_.lower, s.most_lower), upper = min(answer_.upper, s.upper + error);
-        if (answers(lower, upper) || (!last && !narrow(upper, error))) return true;
+        if (stop_.met(lower, upper) || (!last && !stop_.allows(upper, error))) return true;
         const double doubt = s.gap > 0 ? kDoubtShare * (s.gap - s.lower) + error : kHiddenShare * error;
-        return s.near && !narrow(lower, doubt);
+        return s.near && !stop_.allows(lower, doubt);
       });
       take(place, found, pair);
-      if (target_.is_threshold() && last && !answered() && found.gap > target_.clear_above) climb(place, found, pair);
+      if (asked_.is_threshold() && last && !answered() && found.gap > asked_.above) climb(place, found, pair);
       if (answered() || (found.meets && overlap(place, found))) return record(place), true;
-      if (!target_.is_threshold()) place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
+      if (!asked_.is_threshold()) place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
       if (finest(place)) return false;  // a walk on the same pair follows
       record(place);
       if (last) return place = refined(place), false;
@@ -190,7 +181,7 @@ class Descent {
 
   /// Returns true if the features where a walk ended inside, and vertices behind them by the maps, prove that levels overlap.
   bool overlap(const PairView& pair, const Place& place) {
-    if (!pair_.may_look) return false;
+    if (!pair_.has_maps) return false;
     const Vec n = across(pair, place.start);
     const std::uint32_t behind_a = about_farthest(a_, place.level_a, -n),
                         behind_b = about_farthest(b_, place.level_b, body_b(pair).into(n));
@@ -248,7 +239,7 @@ class Descent {
   /// a looser one stops earlier on the same way. Elsewhere it is if the deviation alone may answer, or for a trace.
   bool may_answer(const Place& place, const Walk& walked) const {
     const double error = deviation(place.level_a, place.level_b);
-    return walked.end == WalkEnd::Minimum || !trace_.empty() || narrow(0, error) || error < target_.hit_below - law_two_;
+    return walked.end == WalkEnd::Minimum || !trace_.empty() || stop_.allows(0, error) || error < stop_.below;
   }
 
   /// Bounds on the distance of one level pair, and the normal, points and overlap proof that go with them.
@@ -284,9 +275,9 @@ class Descent {
   void bound(const PairView& pair, Place& place, const Walk& walked) {
     MarchRule rule;
     rule.absolute = width_left(deviation(place.level_a, place.level_b));
-    rule.beyond = target_.clear_above;
+    rule.beyond = asked_.above;
     rule.step_budget = walked.steps + steps_left();
-    MarchResult r = conclude(pair, walked, rule, target_.zero);
+    MarchResult r = conclude(pair, walked, rule, asked_.zero);
     if (r.status == MarchStatus::Overlapping && !(2 * norm(vec(r.point_b) - vec(r.point_a)) <= pair.law_two))
       r.point_a = r.point_b = eigen(surely_common_point(pair, r.proof));
     answer_.steps += r.steps - walked.steps;
@@ -342,7 +333,7 @@ class Descent {
       answer_.verdict = Verdict::Disjoint;
     const bool exact =
         exact_levels && (met_ == MarchStatus::Disjoint || met_ == MarchStatus::Touching || met_ == MarchStatus::Overlapping);
-    if (clears(answer_.lower))
+    if (answer_.lower > stop_.above)
       answer_.status = Status::Beyond;
     else if (answered() || exact)
       answer_.status = Status::Converged;
@@ -377,7 +368,7 @@ class Descent {
       const double error = deviation(kept.level_a + 1, kept.level_b + 1);
       const double grown = error - deviation(kept.level_a, kept.level_b), lower = answer_.lower - (error - found);
       const bool absorbs = tuning_.start == StartPolicy::Paper && (slack -= std::max(0.0, grown)) >= 0 && answer_.lower > 0;
-      const bool suffices = lower > target_.clear_above || (lower > 0 && narrow(lower, error));
+      const bool suffices = lower > asked_.above || (lower > 0 && stop_.allows(lower, error));
       if (!absorbs && !suffices) break;
       kept.start = {parent(a_, kept.level_a++, kept.start.a), parent(b_, kept.level_b++, kept.start.b)};
     }
@@ -390,7 +381,9 @@ class Descent {
   const Budget& budget_;
   const Tuning& tuning_;
   const std::span<LevelRecord> trace_;
-  const Target& target_;
+  const StopRule& asked_;
+  const StopRule
+      stop_;  ///< passes a threshold only by more than law 2's bound: within it, what can be proved depends on the start
   const double law_two_;
   const int finest_a_, finest_b_;
   const bool exact_;  ///< the distance is asked exactly: no coarser pair can answer
@@ -406,16 +399,16 @@ class Descent {
 }  // namespace
 
 void descend(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_error, PairSeed& seed, const Limits& limits,
-             const Target& target, bool goes_on, Answer& answer, OverlapProof& proof) {
+             const StopRule& asked, std::optional<double> exact_width, Answer& answer, OverlapProof& proof) {
   const ModelPair pair(a, b, b_in_a, pose_error, limits);
   AxisTest first;
-  if (!goes_on) {
+  if (!exact_width) {
     answer.normal.setZero();
-    const bool asks = target.is_threshold() && pair.may_look && !seed.met && limits.trace.empty();
-    if (asks && separating_axis(pair, target, seed, first, answer)) return;
+    const bool asks = asked.is_threshold() && pair.has_maps && !seed.met && limits.trace.empty();
+    if (asks && separating_axis(pair, asked, seed, first, answer)) return;
   }
-  Descent descent(pair, limits, target, first, answer, proof);
-  goes_on ? descent.go_on(seed) : descent.start(seed);
+  Descent descent(pair, limits, asked, first, answer, proof);
+  exact_width ? descent.go_on(seed, *exact_width) : descent.start(seed);
 }
 
 }  // namespace swiftlet

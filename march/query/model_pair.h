@@ -8,8 +8,8 @@
 #include <swiftlet/query.h>
 
 #include "pair/pair_view.h"
+#include "query/limits.h"
 #include "query/seed.h"
-#include "query/target.h"
 
 namespace swiftlet {
 
@@ -25,7 +25,7 @@ struct ModelPair {
         line(between_centres(a, b, m)),
         finest_a(finest_allowed(a, limits.budget)),
         finest_b(finest_allowed(b, limits.budget)),
-        may_look(limits.tuning.start == StartPolicy::Automatic && a.map_level() < a.level_count() &&
+        has_maps(limits.tuning.start == StartPolicy::Automatic && a.map_level() < a.level_count() &&
                  b.map_level() < b.level_count()) {}
 
   /// The finest level pair that has support maps and that the query may read.
@@ -51,7 +51,7 @@ struct ModelPair {
   const double pose_error, stretch, shift, law_two;  ///< `stretch` bounds the norm of the pose's matrix; `shift` is |t|
   const Vec line;                                    ///< from A's centre to B's, in A's frame
   const int finest_a, finest_b;
-  const bool may_look;  ///< the query may use support maps: both bodies have them, and the start policy is Automatic
+  const bool has_maps;  ///< the query may use support maps: both bodies have them, and the start policy is Automatic
 };
 
 }  // namespace swiftlet

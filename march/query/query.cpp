@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The distance queries: each states its `Target` and passes it to `ask`. Knows nothing of how `ask` answers.
+// The distance queries: each states when its bounds suffice and passes that to `ask`. Knows nothing of how `ask` answers.
 #include <swiftlet/query.h>
 
 #include "body/half_edge.h"
@@ -51,8 +51,8 @@ Answer distance(const Body& a, const Body& b, const Pose& b_in_a, const Options&
 
 Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so_far, PairSeed& seed, const Options& options) {
   Answer answer;
-  const Target target{options.absolute, options.relative, options.beyond, 0};
-  ask(a, b, b_in_a, seed, {options.budget, options.tuning}, target, answer, &so_far);
+  ask(a, b, b_in_a, seed, {options.budget, options.tuning}, {options.absolute, options.relative, options.beyond, 0}, answer,
+      &so_far);
   return answer;
 }
 Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so_far, const Options& options) {

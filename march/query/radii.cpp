@@ -57,9 +57,9 @@ double Radii::law_two(const Shape& a, const Shape& b, const Motion& b_in_a, doub
   return swiftlet::law_two(a.level(0).view.extent + a_, b.level(0).view.extent + b_, norm(b_in_a.t), pose_error);
 }
 
-Target Radii::of_hulls(const Target& of, double law_two) const {
+StopRule Radii::of_hulls(const StopRule& of, double law_two) const {
   if (none()) return of;
-  return {of.absolute, of.relative, of.clear_above + sum(), of.hit_below + sum(), sum(), (1 + of.relative) * law_two};
+  return {of.absolute, of.relative, of.above + sum(), of.below + sum(), sum(), (1 + of.relative) * law_two};
 }
 
 Answer Radii::of_hulls(Answer of) const {
@@ -136,24 +136,25 @@ void seal(const Radii& radii, const OverlapProof& proof, const Tuning& tuning, A
   if (!(answer.upper < kInfinity)) answer.point_a.setConstant(kUnknown), answer.point_b.setConstant(kUnknown);
 }
 
-void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const Target& target,
+void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const StopRule& asked,
          Answer& answer, const Answer* so_far) {
   if (limits.tuning.proof) *limits.tuning.proof = {};
   const Setting at(a, b, b_in_a);
   const Radii& radii = at.radii;
   if (const Status fault = at.fault(); fault != Status::Converged) return refuse(a, b, fault, false, answer);
   if (so_far && !tells_distance(*so_far)) so_far = nullptr;
-  Target of_hulls = target;
-  if (!radii.none()) of_hulls = radii.of_hulls(target, at.law_two());
+  StopRule of_hulls = asked;
+  if (!radii.none()) of_hulls = radii.of_hulls(asked, at.law_two());
+  std::optional<double> exact_width;
   if (so_far) {
     if (Radii(*so_far) != radii) return refuse(a, b, Status::InvalidRadius, false, answer);
     if (!radii.none() && so_far->verdict == Verdict::Overlapping) return restate(*so_far, Status::Converged, answer);
     answer = radii.of_hulls(*so_far);
     // An answer that is exact for the bodies counts as exact for the hulls, even if rounding with the radii widened it.
-    if (so_far->upper - so_far->lower <= at.law_two()) of_hulls.exact = answer.upper - answer.lower;
+    exact_width = so_far->upper - so_far->lower <= at.law_two() ? answer.upper - answer.lower : 0;
   }
   OverlapProof proof;
-  descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, of_hulls, so_far != nullptr, answer, proof);
+  descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, of_hulls, exact_width, answer, proof);
   if (!radii.none()) {
     if (so_far && answer.levels_visited == 0) return restate(*so_far, answer.status, answer);
     radii.round(answer, proof, at.law_two());

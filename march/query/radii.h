@@ -34,7 +34,7 @@ class Radii {
 
   /// Turns a question about the bodies into one about their hulls. `law_two` is law 2's bound for the bodies; it exceeds the
   /// rounding of the converted bounds.
-  Target of_hulls(const Target& of, double law_two) const;
+  StopRule of_hulls(const StopRule& of, double law_two) const;
   /// Turns an answer about the bodies back into one about their hulls, as far as it determines that.
   Answer of_hulls(Answer of) const;
 
@@ -85,9 +85,9 @@ void refuse(const Body& a, const Body& b, Status why, bool is_signed, Answer& an
 /// Completes `answer`: adds the radii, sets an unknown normal and unknown points to NaN, and copies `proof` to `tuning`.
 void seal(const Radii& radii, const OverlapProof& proof, const Tuning& tuning, Answer& answer);
 
-/// Answers `target` for two bodies. It starts from `seed`, or goes on from `so_far` if that is not null. `answer` must be a
+/// Answers `asked` for two bodies. It starts from `seed`, or goes on from `so_far` if that is not null. `answer` must be a
 /// default one.
-void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const Target& target,
+void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const StopRule& asked,
          Answer& answer, const Answer* so_far = nullptr);
 
 }  // namespace swiftlet

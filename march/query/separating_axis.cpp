@@ -5,15 +5,15 @@
 
 namespace swiftlet {
 
-bool separating_axis(const ModelPair& pair, const Target& target, PairSeed& seed, AxisTest& first, Answer& answer) {
-  const double close = kCloseRadii * (pair.a.radius() + pair.b.radius()) + target.clear_above;
+bool separating_axis(const ModelPair& pair, const StopRule& asked, PairSeed& seed, AxisTest& first, Answer& answer) {
+  const double close = kCloseRadii * (pair.a.radius() + pair.b.radius()) + asked.above;
   first.at = dot(pair.line, pair.line) <= close * close ? pair.finest_mapped() : coarsest_place(pair.a, pair.b);
   const int level_a = first.at.level_a, level_b = first.at.level_b;
   const Level &of_a = pair.a.level(level_a), &of_b = pair.b.level(level_b);
   const PairView view = pair.view_at(first.at);
   const auto clears = [&](const Vec& direction) {
     first.seen = sample_axis(view, of_a, of_b, direction);
-    return first.seen.lower > max(target.clear_above, 0) + pair.law_two;
+    return first.seen.lower > max(asked.above, 0) + pair.law_two;
   };
   const Vec last = last_direction(pair.line, seed);
   if (!(max_abs(last) > 0 && clears(last))) {

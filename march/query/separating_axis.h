@@ -4,9 +4,9 @@
 // maps. Most questions of yes or no end here.
 #pragma once
 
+#include "pair/stop_rule.h"
 #include "pair/support_gjk.h"
 #include "query/model_pair.h"
-#include "query/target.h"
 
 namespace swiftlet {
 
@@ -16,8 +16,8 @@ struct AxisTest {
   AxisSample seen;  ///< on the levels of `at`; its normal is 0 if nothing was sampled
 };
 
-/// Fills `answer` and returns true if the bodies are proved to be farther apart than `target` asks. If the line of centres
+/// Fills `answer` and returns true if the bodies are proved to be farther apart than `asked`. If the line of centres
 /// proves it and the seed's direction does not, that direction is cleared.
-bool separating_axis(const ModelPair& pair, const Target& target, PairSeed& seed, AxisTest& first, Answer& answer);
+bool separating_axis(const ModelPair& pair, const StopRule& asked, PairSeed& seed, AxisTest& first, Answer& answer);
 
 }  // namespace swiftlet

@@ -32,6 +32,9 @@ std::uint32_t index(std::uint32_t corner) {
   return std::uint32_t(std::find(corners.begin(), corners.end(), corner) - corners.begin());
 }
 
+/// The goal of an exact depth.
+DepthGoal exactly(const PairView& pair) { return {{}, pair.law_two, 0, 0}; }
+
 void expect_depth(const Depth& d) {
   EXPECT_EQ(d.end, DepthEnd::Converged);
   EXPECT_NEAR(d.lower, 0.5, 1e-14);
@@ -46,7 +49,7 @@ TEST(UnitEpa, FindsTheSideNearestToTheOriginFromAnyDirection) {
     DepthStart start;
     start.direction = direction;
     std::uint32_t tests = 0;
-    expect_depth(epa(kPair, kLevel, kLevel, start, {}, tests));
+    expect_depth(epa(kPair, kLevel, kLevel, start, exactly(kPair), tests));
   }
 }
 
@@ -80,7 +83,7 @@ TEST(UnitFacetProof, ProvesTheNearestFacetAndNoOther) {
       start.a[k] = std::uint32_t(std::find(corners.begin(), corners.end(), first + k) - corners.begin());
     start.direction = direction;
     std::uint32_t tests = 0;
-    return prove_facet(pair, body.level(0), dot.level(0), start, {}, tests, d);
+    return prove_facet(pair, body.level(0), dot.level(0), start, exactly(pair), tests, d);
   };
   Depth d;
   ASSERT_TRUE(proved(0, {0, 0, 1}, d));

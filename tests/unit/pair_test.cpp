@@ -9,6 +9,7 @@
 //        4----5-----1
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -17,6 +18,7 @@
 #include "pair/gjk.h"
 #include "pair/intersection.h"
 #include "pair/pair_view.h"
+#include "pair/stop_rule.h"
 #include "pair/support_gjk.h"
 #include "pair/walk.h"
 #include "pair/witness.h"
@@ -25,6 +27,8 @@
 
 namespace swiftlet {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 const Model kCube = bodies::model(bodies::cube());
 const Level& kLevel = kCube.level(0);
@@ -118,6 +122,33 @@ GjkResult gjk_from(const PairView& pair, FeatureId a, FeatureId b) {
   std::uint32_t tests = 0;
   const Certificate start = certify(pair, a, b, witness(pair, a, b), tests);
   return gjk(pair, start, {pair.law_two, 0, std::numeric_limits<double>::infinity()}, tests);
+}
+
+TEST(UnitStopRule, IsMetByNarrowBoundsOrPastAThreshold) {
+  const StopRule loose{.absolute = 0.5, .relative = 0.25};
+  EXPECT_TRUE(loose.narrow(1, 1.5));
+  EXPECT_FALSE(loose.narrow(1, 1.75));
+  EXPECT_TRUE(loose.narrow(4, 5));
+  EXPECT_FALSE(loose.is_exact());
+
+  const StopRule exact;
+  EXPECT_TRUE(exact.is_exact());
+  EXPECT_FALSE(exact.met(1, 1)) << "no width is allowed";
+  EXPECT_TRUE(exact.at_least(0.125).met(1, 1.125));
+  EXPECT_FALSE(exact.met(-kInfinity, kInfinity));
+
+  const StopRule side{.above = 2, .below = 2};
+  EXPECT_TRUE(side.is_threshold());
+  EXPECT_TRUE(side.met(2.25, kInfinity));
+  EXPECT_TRUE(side.met(-kInfinity, 1.75));
+  EXPECT_FALSE(side.met(1.75, 2.25));
+  EXPECT_FALSE(side.beyond_by(0.5).met(2.25, 3));
+  EXPECT_TRUE(side.beyond_by(0.5).met(2.75, 3));
+
+  // Rounded bodies that touch at 1: a quarter of what is above that, less the rounding of their bounds.
+  const StopRule rounded{.relative = 0.25, .zero = 1, .rounding = 0.125};
+  EXPECT_TRUE(rounded.narrow(2, 2.125));
+  EXPECT_FALSE(rounded.narrow(2, 2.25));
 }
 
 TEST(UnitGjk, NarrowsTheWorstStart) {

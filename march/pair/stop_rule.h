@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// When bounds are good enough. One rule serves certified GJK, the descent through levels and the depth: it knows two numbers,
+// and not what they are bounds of.
+#pragma once
+
+#include <limits>
+
+#include "numeric/vec.h"
+
+namespace swiftlet {
+
+/// Bounds suffice when they are narrow, or on one side of a threshold. Lengths are in the bodies' unit.
+struct StopRule {
+  double absolute = 0, relative = 0;  ///< allowed width: a length, or a fraction of `lower` - `zero` if that is larger
+  double above = std::numeric_limits<double>::infinity();   ///< enough when `lower` exceeds this
+  double below = -std::numeric_limits<double>::infinity();  ///< enough when `upper` is less than this
+  double zero = 0;                                          ///< the relative width counts from here: where rounded bodies touch
+  double rounding = 0;                                      ///< the allowed width is reduced by this
+  double least = 0;                                         ///< a width that is always allowed
+
+  bool is_threshold() const { return above < std::numeric_limits<double>::infinity(); }
+  bool is_exact() const { return absolute == 0 && relative == 0 && !is_threshold(); }
+  /// The most that bounds may be apart at this `lower`. If it is not above 0, no bounds are narrow.
+  double most(double lower) const { return max(max(absolute, relative * (lower - zero)) - rounding, least); }
+  bool allows(double lower, double width) const { return most(lower) > 0 && width <= most(lower); }
+  bool narrow(double lower, double upper) const { return allows(lower, upper - lower); }
+  bool passed(double lower, double upper) const { return lower > above || upper < below; }
+  bool met(double lower, double upper) const { return narrow(lower, upper) || passed(lower, upper); }
+
+  /// The same with thresholds that are passed only by more than `margin`.
+  StopRule beyond_by(double margin) const {
+    StopRule stricter = *this;
+    stricter.above += margin, stricter.below -= margin;
+    return stricter;
+  }
+  /// The same, but `width` is always allowed.
+  StopRule at_least(double width) const {
+    StopRule looser = *this;
+    looser.least = max(least, width);
+    return looser;
+  }
+};
+
+}  // namespace swiftlet

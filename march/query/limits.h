@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// How far and how a query may go. Plain data, no algorithm.
+#pragma once
+
+#include <span>
+
+#include <swiftlet/query.h>
+
+namespace swiftlet {
+
+/// The caller's budget and tuning.
+struct Limits {
+  Limits(const Budget& of_budget, const Tuning& of_tuning) : budget(of_budget), tuning(of_tuning), trace(of_tuning.trace) {}
+  const Budget& budget;
+  const Tuning& tuning;
+  std::span<LevelRecord> trace;  ///< the part of `tuning.trace` that is still unused
+};
+
+/// Writes `record` at `index` of `trace`, or over its last entry if the trace is too short; an empty trace takes nothing.
+static inline void note(std::span<LevelRecord> trace, std::size_t index, const LevelRecord& record) {
+  if (!trace.empty()) trace[index < trace.size() ? index : trace.size() - 1] = record;
+}
+
+}  // namespace swiftlet
