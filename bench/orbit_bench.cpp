@@ -449,9 +449,9 @@ void sizes(const Arguments& arguments, const Field& field, const Shelf& shelf, R
                                                 : orbit(shelf, family, triangles, 2, step, arguments.extent());
         const Asked asked(scene);
         for (const Question question : {Question::Distance, Question::Intersects}) {
-          results.add(
-              "triangles", shapes::name(family), step, triangles,
-              measure(asked, question, everyone(field, asked, question, arguments.all(), Variants::Main), arguments.rounds()));
+          const bool peers = arguments.all() || question == Question::Distance;
+          results.add("triangles", shapes::name(family), step, triangles,
+                      measure(asked, question, everyone(field, asked, question, peers, Variants::Main), arguments.rounds()));
         }
       }
     }
