@@ -26,7 +26,8 @@ constexpr double kWorthwhile =
     0.65;  ///< a level with more of the triangles of the one before is not worth its memory, unless asked for
 
 /// Coordinates in which the surface of a solid spreads alike in all directions: a plate or a needle simplifies as a sphere
-/// does. Affine, so that it keeps hulls, volume ratios and which body holds which, up to rounding.
+/// does. The map is affine: hulls, ratios of volumes and enclosure are kept, up to rounding. For a body too thin to invert it
+/// is the identity.
 class Whitening {
  public:
   explicit Whitening(const Polytope& body) : centre_(area_centroid(body)) {
@@ -59,8 +60,8 @@ struct Step {
   std::string end;
 };
 
-/// Makes Garland & Heckbert levels [sec. 4.5]. Each simplifies the one before as it was before growing, so that growth never
-/// adds up.
+/// Makes Garland & Heckbert levels [sec. 4.5]. Each level is simplified from the shape that the previous one had before it was
+/// grown, so that growth does not add up.
 class Collapser {
  public:
   Collapser(const Polytope& level0, const BuildOptions& options, Watch& watch)

@@ -19,8 +19,8 @@ std::vector<double> importances(const Polytope& body);
 /// until it is enough or bounds nothing, for else the hierarchy of a sphere stalls at 24 triangles and a cube's never begins.
 std::vector<std::uint32_t> independent_set(const Polytope& body, std::size_t most);
 
-/// Per triangle of `coarse`, given by vertices of `fine`: the removed vertex of `fine` whose hole it fills, or its own first
-/// corner where it fills none [sec. 4.4.3].
+/// For each triangle of `coarse`, whose corners are vertices of `fine`: the removed vertex whose hole the triangle fills, or
+/// its first corner if it fills none [sec. 4.4.3].
 std::vector<std::uint32_t> removed_above(const Polytope& fine, const std::vector<std::uint32_t>& removed,
                                          const std::vector<Triangle>& coarse);
 

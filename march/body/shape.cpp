@@ -72,8 +72,6 @@ void connect(const AnyTopology& of, Primitive& primitive) {
   primitive.level.view.face_first = of.face_first;
 }
 
-bool is_legal_coordinate(double x) { return x == 0 || (std::fabs(x) >= kLeastCoordinate && std::fabs(x) <= kMostCoordinate); }
-
 /// Makes a segment or, if both ends are equal, a point. Returns the number of vertices.
 int segment(const Vertex& p, const Vertex& q, Primitive& primitive) {
   primitive.vertices[0] = p;
@@ -113,18 +111,6 @@ int box(const std::array<Vertex, 8>& corner, Primitive& primitive) {
   return 8;
 }
 
-struct Box {
-  Vec least, most;
-};
-Box box_of(std::span<const Vertex> vertices) {
-  Box box{vec(vertices[0]), vec(vertices[0])};
-  for (const Vertex& v : vertices) {
-    box.least = {min(box.least.x, v.x), min(box.least.y, v.y), min(box.least.z, v.z)};
-    box.most = {max(box.most.x, v.x), max(box.most.y, v.y), max(box.most.z, v.z)};
-  }
-  return box;
-}
-
 /// The points that define a primitive, in the user's order; of a box all eight corners.
 struct Named {
   int count = 0;
@@ -156,6 +142,15 @@ Named named(const Body& body) {
 }
 
 }  // namespace
+
+Box box_of(std::span<const Vertex> vertices) {
+  Box box{vec(vertices[0]), vec(vertices[0])};
+  for (const Vertex& v : vertices) {
+    box.least = {min(box.least.x, v.x), min(box.least.y, v.y), min(box.least.z, v.z)};
+    box.most = {max(box.most.x, v.x), max(box.most.y, v.y), max(box.most.z, v.z)};
+  }
+  return box;
+}
 
 Primitive::Primitive(const Body& body) {
   const Named given = named(body);

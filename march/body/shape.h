@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <optional>
+#include <span>
 
 #include <swiftlet/body.h>
 
@@ -66,6 +67,12 @@ class ShapeOf {
   std::optional<Primitive> primitive_;
   const Shape shape_;
 };
+
+/// The bounding box of vertices, along the axes of their frame.
+struct Box {
+  Vec least, most;
+};
+Box box_of(std::span<const Vertex> vertices);
 
 /// The user's number of a vertex of level 0: of a model the mesh vertex, of a primitive the point in the order given, of a box
 /// the corner, numbered by bits, x 1, y 2, z 4.

@@ -13,10 +13,9 @@
 namespace swiftlet {
 namespace {
 
-/// True if the coordinates are in the range where signs of their products are exact. A climb over others might not end.
+/// True if all coordinates are legal. A climb over others might not end.
 bool in_range(std::initializer_list<double> coordinates) {
-  return std::all_of(coordinates.begin(), coordinates.end(),
-                     [](double x) { return x == 0 || (std::fabs(x) >= kLeastCoordinate && std::fabs(x) <= kMostCoordinate); });
+  return std::all_of(coordinates.begin(), coordinates.end(), is_legal_coordinate);
 }
 
 bool all_below(const auto& values, std::size_t limit) {

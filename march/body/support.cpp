@@ -53,22 +53,6 @@ class Ordering {
   Wide wide_own_;
 };
 
-/// Climbs until no neighbour of the vertex is higher. On an exactly convex body and by exact signs it is the support vertex.
-template <class IsHigher>
-std::uint32_t climb(const ConvexView& view, std::uint32_t v, std::uint32_t& plane_tests, IsHigher is_higher) {
-  for (;;) {
-    const Vertex& record = view.vertices[v];
-    std::uint32_t best = v;
-    for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
-      const std::uint32_t w = view.half_edges[h].head;
-      if (is_higher(view.vertices[w], view.vertices[best])) best = w;
-    }
-    plane_tests += record.ring_count;
-    if (best == v) return v;
-    v = best;
-  }
-}
-
 std::uint32_t climb(const ConvexView& view, std::uint32_t start, Ordering order, std::uint32_t& plane_tests) {
   return climb(view, start, plane_tests, [&](const Vertex& w, const Vertex& best) { return order.compare(w, best) > 0; });
 }

@@ -11,6 +11,23 @@
 
 namespace swiftlet {
 
+/// Climbs from `v` until no neighbour is higher by `is_higher(vertex, best)`. If that decides exactly and the body is exactly
+/// convex, no vertex at all is higher. `plane_tests` grows by the number of neighbours compared.
+template <class IsHigher>
+static inline std::uint32_t climb(const ConvexView& view, std::uint32_t v, std::uint32_t& plane_tests, IsHigher is_higher) {
+  for (;;) {
+    const Vertex& record = view.vertices[v];
+    std::uint32_t best = v;
+    for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
+      const std::uint32_t w = view.half_edges[h].head;
+      if (is_higher(view.vertices[w], view.vertices[best])) best = w;
+    }
+    plane_tests += record.ring_count;
+    if (best == v) return v;
+    v = best;
+  }
+}
+
 /// The vertex farthest along `n`, climbed to from `start`: no vertex is farther, exactly. `plane_tests` grows by the number of
 /// neighbours compared.
 std::uint32_t support(const ConvexView& view, const Vec& n, std::uint32_t start, std::uint32_t& plane_tests);

@@ -414,12 +414,10 @@ Within signed_within(const Body& a, const Body& b, const Pose& b_in_a, double th
   } else {
     descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, {0, 0, of_hulls, of_hulls}, {}, result.answer, proof);
     make_signed(limits.trace, result.answer.levels_visited);
-    if (result.answer.status == Status::Beyond) result.answer.status = Status::Converged;
     if (!(result.answer.lower > 0)) result.answer.lower = -kInfinity;
   }
   finish(at, limits, proof, result.answer);
-  if (result.answer.lower > threshold) result.decision = Decision::No;
-  if (result.answer.upper <= threshold) result.decision = Decision::Yes;
+  decide(result, threshold);
   return result;
 }
 

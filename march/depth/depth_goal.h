@@ -24,7 +24,8 @@ struct DepthGoal {
 
   StopRule stop;
   double error;  ///< 0 if the levels are the exact hulls
-  double floor;  ///< at most 0: the depth is not less, or need not be known below; replaces a `lower` of 0 or less
+  double
+      floor;  ///< used in place of a `lower` of 0 or less: a lower bound known otherwise, or one below which nothing is asked
   std::uint32_t step_budget = ~0u;  ///< the most supports to compute
 
   bool narrow(double lower, double upper) const { return stop.narrow(lower > 0 ? lower : floor, upper); }

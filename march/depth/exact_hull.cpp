@@ -54,10 +54,10 @@ void ExactHull::begin(const std::array<Vec, 4>& points) {
   corner_count_ = 4, facet_count_ = 4, free_count_ = 0;
   const bool turned = exact::orientation(points[0], points[1], points[2], points[3]) > 0;
   // Facet k lies opposite corner k. Across an edge of facet k lies the facet opposite the corner that this edge leaves out.
-  static constexpr Index kCorner[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
   for (std::size_t k = 0; k < 4; ++k) {
     HullFacet& f = facet_[k];
-    f.corner = {kCorner[k][0], kCorner[k][1], kCorner[k][2]};
+    const auto& face = exact::kTetrahedronFace[k];
+    f.corner = {face[0], face[1], face[2]};
     if (turned) std::swap(f.corner[1], f.corner[2]);
     for (std::size_t e = 0; e < 3; ++e) f.beside[e] = f.corner[after(after(e))];
     stand(f);

@@ -9,6 +9,7 @@
 #include <swiftlet/march.h>
 
 #include "body/block.h"
+#include "body/shape.h"
 #include "body/table.h"
 #include "make/surface.h"
 #include "numeric/exact.h"
@@ -240,17 +241,12 @@ Vec centroid(const ConvexView& view) {
 void describe(BlockHeader& header, const Surface& surface) {
   const ConvexView view = surface.view();
   const Vec c = centroid(view);
-  Vec low = vec(view.vertices[0]), high = low;
+  const Box box = box_of(view.vertices);
   double radius = 0;
-  for (const Vertex& v : view.vertices) {
-    const Vec p = vec(v);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    radius = std::max(radius, norm(p - c));
-  }
+  for (const Vertex& v : view.vertices) radius = std::max(radius, norm(vec(v) - c));
   header.dimension = std::uint32_t(surface.dimension);
   header.radius = radius * (1 + kNormError);
-  for (const auto& [to, from] : {std::pair{header.centre, c}, {header.box_min, low}, {header.box_max, high}}) {
+  for (const auto& [to, from] : {std::pair{header.centre, c}, {header.box_min, box.least}, {header.box_max, box.most}}) {
     to[0] = from.x, to[1] = from.y, to[2] = from.z;
   }
 }

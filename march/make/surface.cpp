@@ -11,6 +11,7 @@
 #include <string>
 
 #include "body/block.h"
+#include "body/support.h"
 #include "numeric/exact.h"
 #include "numeric/tolerance.h"
 #include "numeric/vec.h"
@@ -59,8 +60,7 @@ Result<Input> read_input(const LevelArrays& level) {
   }
   for (std::size_t i = 0; i < in.points.size(); ++i) {
     for (const double x : {in.points[i][0], in.points[i][1], in.points[i][2]}) {
-      const bool in_range = x == 0 || (std::fabs(x) >= kLeastCoordinate && std::fabs(x) <= kMostCoordinate);
-      if (!in_range) return bad_value("vertex " + std::to_string(i) + " has the coordinate " + text(x));
+      if (!is_legal_coordinate(x)) return bad_value("vertex " + std::to_string(i) + " has the coordinate " + text(x));
     }
   }
   if (const double extent = extent_of(in.points); extent > 0 && extent < kLeastExtent)
@@ -735,19 +735,13 @@ double volume_of(const Input& in, const Facets& facets) {
 }  // namespace
 
 std::uint32_t vertex_outside(const ConvexView& exact_hull, const ConvexView& level) {
-  std::uint32_t outside = kNone, highest = 0;
+  std::uint32_t outside = kNone, highest = 0, plane_tests = 0;
   each_facet(level, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const Vertex &p = level.vertices[a], &q = level.vertices[b], &r = level.vertices[c];
-    const auto above = [&](std::uint32_t w) {
-      return exact::compare_along_normal(&p.x, &q.x, &r.x, &exact_hull.vertices[w].x, &exact_hull.vertices[highest].x) > 0;
+    const auto is_higher = [&](const Vertex& w, const Vertex& best) {
+      return exact::compare_along_normal(&p.x, &q.x, &r.x, &w.x, &best.x) > 0;
     };
-    for (bool climbing = true; climbing;) {
-      climbing = false;
-      const Vertex ring = exact_hull.vertices[highest];
-      for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
-        if (above(exact_hull.half_edges[h].head)) highest = exact_hull.half_edges[h].head, climbing = true;
-      }
-    }
+    highest = climb(exact_hull, highest, plane_tests, is_higher);
     if (exact::orientation(p, q, r, exact_hull.vertices[highest]) > 0) outside = highest;
   });
   return outside;

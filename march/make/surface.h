@@ -26,8 +26,8 @@ struct Surface {
   ConvexView view() const;
 };
 
-/// Proves that the arrays bound a convex body, or returns an error that says where they do not. With `repair`, reflex edges
-/// between the given faces are flipped, which rounding of vertices may have made.
+/// Makes the surface of a convex body of plain arrays, and proves it convex; else returns an error that says where it is not.
+/// With `repair`, it first flips reflex edges between the given faces, which rounding of the vertices may have made.
 Result<Surface> make_surface(const LevelArrays& level, bool repair);
 
 /// Returns a vertex of `exact_hull` that lies above some facet of `level`, or kNone if the level encloses the hull. Decided by

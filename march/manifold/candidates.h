@@ -41,7 +41,7 @@ class Candidates {
   /// Adds the corner that follows on a border, which is seen from below to above, unless one with its names is kept already:
   /// sides that are nearly parallel may pass the lead twice, and a corner may come as a crossing near it and as itself.
   void add(Border border, const Candidate& candidate);
-  /// Makes one row of both borders, around the area, and leaves out of the others what is in it.
+  /// Joins both borders into one row around the area, and drops the corners that `previous` names and that are in the row.
   void close();
   /// Adds a point deeper than all corners, after `close`; it takes the place of the corners with its names.
   void add_deepest(const Candidate& candidate);

@@ -19,7 +19,8 @@ class Loop {
   int size() const { return size_; }
   int operator[](int i) const { return corner_[std::size_t(i)]; }
 
-  /// A place that is a corner, or where it takes least from the area beside its nearest side: the corner after which it comes.
+  /// The corner after which `spot` comes: the one before it if it is a corner itself, else the start of the side that makes the
+  /// smallest triangle with it.
   int before(int spot, bool& is_corner) const {
     int found = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -68,7 +69,7 @@ class Loop {
   }
 
  private:
-  /// Of three on one line the two that are farthest apart stay: the first two may lie nearly in one place.
+  /// Of three candidates on one line, keeps the two that are farthest apart: the first two may lie nearly in one place.
   void stretch(int spot) {
     const double from_first = apart(corner_[0], spot), from_second = apart(corner_[1], spot);
     if (max(from_first, from_second) <= apart(corner_[0], corner_[1])) return;
@@ -85,12 +86,12 @@ class Loop {
     return std::sqrt(dx * dx + dy * dy);
   }
 
-  /// Twice that between a side and a place, positive beyond it.
+  /// Twice the area of the triangle of a side and a place, positive if the place lies beyond the side.
   double area(int side, int spot) const {
     const Vec &p = corner(side), &q = corner(next(side)), &c = place(spot);
     return (c.x - p.x) * (q.y - p.y) - (c.y - p.y) * (q.x - p.x);
   }
-  /// The same of a place that stands out, else 0.
+  /// The same if the place stands out beyond the side, else 0.
   double beyond(int side, int spot) const {
     const Vec &p = corner(side), &q = corner(next(side));
     const double dx = q.x - p.x, dy = q.y - p.y, size = area(side, spot);
@@ -137,7 +138,8 @@ class Choice {
   bool is_chosen(int i) const { return chosen_[std::size_t(i)]; }
   bool is_known(int i) const { return known_[std::size_t(i)]; }
 
-  /// The first of the manifold before, else one of it, else any: with what the witness may be deeper still within the bound.
+  /// Of the candidates within a quarter of the bound of the least separation: the first point of the manifold before, else
+  /// another of its points, else the first that was found. The rest of the bound is left for the rounding of the witness.
   int deepest(const Manifold& previous) const {
     const double enough = candidates_.least() + bound_ / 4;
     int found = kNobody;
@@ -149,7 +151,7 @@ class Choice {
     return found;
   }
 
-  /// Chooses the first and of these all that stand out.
+  /// Chooses `first_` and, of `those`, all that stand out.
   void take(const std::array<bool, kMostCandidates>& those) {
     chosen_ = those;
     chosen_[std::size_t(first_)] = true;
@@ -176,7 +178,7 @@ class Choice {
     grow(Among::All);
   }
 
-  /// Of all that are chosen; the first comes before others in its place.
+  /// The hull of all chosen candidates. `first_` is added first, so that others in its place do not replace it.
   Loop around() const {
     Loop loop(candidates_, bound_);
     loop.add(first_);

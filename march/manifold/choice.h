@@ -21,10 +21,11 @@ class Chosen {
   std::array<int, kMostManifoldPoints> index_;
 };
 
-/// Chooses a candidate of least separation, which comes first, then those that `previous` names, then those that add most to
-/// the area. Where the largest polygon of `most` candidates has more area than these by `kKeptWorth`, it is chosen instead, and
-/// it always is where `previous` names none. The same candidates are chosen when `previous` is the result. A candidate that
-/// stands out by no more than `bound` adds nothing. Cost: `most` times the square of the candidates' number.
+/// Chooses a candidate of least separation, then those that `previous` names, then those that add most to the area. The largest
+/// polygon of `most` candidates is chosen instead if its area is larger by more than `kKeptWorth`, or if it is larger at all
+/// and `previous` names no candidate. The result begins with the candidate of least separation. If `previous` is the result,
+/// the same candidates are chosen again. A candidate that stands out by no more than `bound` adds nothing. Cost: `most` times
+/// the square of the candidates' number.
 Chosen choose(const Candidates& candidates, std::uint32_t most, const Manifold& previous, double bound);
 
 }  // namespace swiftlet

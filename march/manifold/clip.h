@@ -22,8 +22,8 @@ struct SeenBody {
 
 /// The projections of both bodies of a pair along one normal of the common frame.
 struct Projection {
-  /// `middle`, a point near both contact faces, is seen at 0. The axis y and `side`, a side of a contact face, make an angle
-  /// that no two sides of a regular polygon of up to 20 corners make, so that few sides are horizontal.
+  /// `middle`, a point near both contact faces, is seen at 0. Axis x, which is the sweep line, and `side`, a side of a contact
+  /// face, make an angle that no two sides of a regular polygon of up to 20 corners make: few sides are parallel to the line.
   Projection(const PairView& pair, const Vec& normal, const Vec& middle, const Vec& side);
   /// The point of the common frame, A's, whose projection is `seen`.
   Vec point(const Vec& seen) const { return middle + a.x * seen.x + a.y * seen.y + a.n * seen.z; }

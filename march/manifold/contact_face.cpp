@@ -13,7 +13,7 @@ namespace {
 
 Vec point(const ConvexView& view, std::uint32_t vertex) { return vec(view.vertices[vertex]); }
 
-/// The loop's area times two, along its normal. Of slivers more true than any one corner's cross product.
+/// Twice the area of the face, along its normal. For a sliver this is more accurate than the cross product at any one corner.
 Vec area_of(const ConvexView& view, std::uint32_t face) {
   const std::uint32_t first = view.face_first[face];
   const Vec p = point(view, origin(view, first));
@@ -44,7 +44,8 @@ struct Facing {
   double cosine = -2;
 };
 
-/// Of faces that face along n equally well the one there was before, else the largest: it has the truest plane.
+/// The face that faces along n best. Among equals it is the face of the manifold before, else the largest, because its plane is
+/// the most accurate.
 Facing best_facing(const ConvexView& view, const Vec& n, FeatureId feature, FeatureId before) {
   Facing chosen;
   double most = 0;
@@ -73,10 +74,10 @@ ContactFace::ContactFace(const ConvexView& view, const Vec& n, FeatureId feature
   flatness_ = max(flatness_, height);
   top_ = top.face;
   normal_ = normalised(top.area);
-  level_ = dot(normal_, point(view, origin(view, view.face_first[top_]))) - height;
+  floor_ = dot(normal_, point(view, origin(view, view.face_first[top_]))) - height;
   side_ = border();
   if (side_ != kNone) return;
-  level_ = std::numeric_limits<double>::infinity();  // rounding hid the border: the face alone has one
+  floor_ = std::numeric_limits<double>::infinity();  // rounding hid the border: the face alone has one
   side_ = border();
 }
 
@@ -105,7 +106,7 @@ bool ContactFace::is_left_of(std::uint32_t half_edge) const {
   if (face == top_ || face == kNone) return face != kNone;
   if (is_diagonal(view_, half_edge)) return holds(face);
   const Vec across = point(view_, view_.half_edges[next_in_face(view_, half_edge)].head);
-  return dot(normal_, across) >= level_ && holds(face);
+  return dot(normal_, across) >= floor_ && holds(face);
 }
 
 bool ContactFace::holds(std::uint32_t face) const {
@@ -113,14 +114,15 @@ bool ContactFace::holds(std::uint32_t face) const {
   const std::uint32_t first = view_.face_first[face];
   std::uint32_t h = first;
   do {
-    if (!(dot(normal_, point(view_, view_.half_edges[h].head)) >= level_)) return false;
+    if (!(dot(normal_, point(view_, view_.half_edges[h].head)) >= floor_)) return false;
     h = next_in_face(view_, h);
   } while (h != first);
   const Vec area = area_of(view_, face);
   return dot(normal_, area) > 0.5 * norm(area);  // not a side of a thin body, nor its other face
 }
 
-/// A side of the face, mostly; else from corner to corner outwards, until one has something else beside it.
+/// A half-edge of the contact face's border. Mostly it is a side of the face; where another facet of the same plane lies
+/// beside that, it is found by going outwards from corner to corner.
 std::uint32_t ContactFace::border() const {
   const std::uint32_t first = view_.face_first[top_];
   if (!holds(right_face(view_, first))) return first;

@@ -281,18 +281,17 @@ bool tetrahedron_holds_origin(const std::array<std::array<double, 3>, 4>& a, con
     size[k] =
         absolute(va) + absolute(m.t) + Vec{dot(absolute(m.row_x), ab), dot(absolute(m.row_y), ab), dot(absolute(m.row_z), ab)};
   }
-  constexpr int kFace[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};  // opposite point k, counter-clockwise from outside
   std::array<int, 4> sign;
   bool certain = true;
   for (int k = 0; k < 4; ++k) {
-    const auto [i, j, l] = kFace[k];
+    const auto [i, j, l] = kTetrahedronFace[k];
     sign[k] = certain_sign(dot(cross(p[i], p[j]), p[l]), kOffsetTripleProductError * permanent(size[i], size[j], size[l]));
     certain = certain && sign[k] != 0;
   }
   if (!certain) {
     bool flat = true;
     for (int k = 0; k < 4; ++k) {
-      const auto [i, j, l] = kFace[k];
+      const auto [i, j, l] = kTetrahedronFace[k];
       sign[k] = offset_determinant_sign({a[i].data(), a[j].data(), a[l].data()}, {b[i].data(), b[j].data(), b[l].data()}, m);
       flat = flat && sign[k] == 0;
     }

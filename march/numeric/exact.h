@@ -20,6 +20,9 @@ template <class Point>
 requires requires(const Point& p) { p.x; }
 int orientation(const Point& a, const Point& b, const Point& c, const Point& d) { return orientation(&a.x, &b.x, &c.x, &d.x); }
 
+/// The corners of the face opposite each corner of a positively oriented tetrahedron, counter-clockwise from outside.
+inline constexpr std::uint8_t kTetrahedronFace[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+
 /// True if a, b and c lie on one line.
 bool collinear(const double a[3], const double b[3], const double c[3]);
 

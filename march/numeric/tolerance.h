@@ -74,6 +74,10 @@ inline constexpr double kLeastCoordinate = 1e-70;
 /// A body's extent is 0 or at least `kLeastExtent`; extents and the coordinates of a translation are at most `kMostCoordinate`.
 /// Sixth powers, as the squared height of a vertex over an unnormalised normal, then stay in the range of doubles. Length.
 inline constexpr double kLeastExtent = 1e-45, kMostCoordinate = 1e45;
+/// True if the signs of products of such a coordinate are exact.
+static inline bool is_legal_coordinate(double x) {
+  return x == 0 || (std::fabs(x) >= kLeastCoordinate && std::fabs(x) <= kMostCoordinate);
+}
 /// A sum of squares that is at least this has lost nothing to underflow. Length squared.
 inline constexpr double kLeastSquare = 0x1p-900;
 /// The least value of law 2's bound: below it the products of a walk underflow. Length. Only a pair of two points, each at the

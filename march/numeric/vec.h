@@ -50,7 +50,7 @@ static inline V3<R> cross(const V3<R>& a, const V3<R>& b) {
 static inline double max(double x, double y) { return x < y ? y : x; }
 static inline double min(double x, double y) { return y < x ? y : x; }
 
-/// The unit vector of the axis along which `v` has its smallest coordinate: it is far from parallel to `v`.
+/// The unit vector of the axis along which the coordinate of `v` has the least magnitude: it is far from parallel to `v`.
 static inline Vec least_axis(const Vec& v) {
   const double x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z);
   return x <= y && x <= z ? Vec{1, 0, 0} : y <= z ? Vec{0, 1, 0} : Vec{0, 0, 1};

@@ -24,18 +24,18 @@ struct Certificate {
   double lower = 0, upper = 0;  ///< proved bounds on the distance of the two polytopes; upper >= lower >= 0
   Vec normal{0, 0, 0};          ///< unit, common frame, from A to B: `lower` is proved along it
   Vec point_a{0, 0, 0}, point_b{0, 0, 0};
-  ActiveSet active;  ///< its weights make `point_a` and `point_b`; empty if the features alone prove bounds within law 2's that
-                     ///< do not lean
+  ActiveSet active;  ///< its weights make `point_a` and `point_b`; empty if the features alone prove bounds within law 2's
+                     ///< bound that do not lean
   std::uint32_t support_a = 0, support_b = 0;  ///< support vertices of A along `normal`, of B along -`normal`
 };
 
 /// Proves bounds from `seen`, the witness of features `a` of A and `b` of B, of which at most one is a face. If the features
-/// and the rises in `seen` prove bounds within law 2's, no other vertex is read; else the support vertices are climbed to.
+/// and the rises in `seen` prove bounds within law 2's bound, no other vertex is read; else the support vertices are climbed
+/// to.
 Certificate certify(const PairView& pair, FeatureId a, FeatureId b, const Witness& seen, std::uint32_t& plane_tests);
 
-/// True if the bounds agree within law 2's, but `point_b` - `point_a` differs from its length times `normal` by more than that.
-/// Bounds that agree within law 2's leave the plane room to lean by the root of law 2's: by 1e-8, say, between nearly parallel
-/// faces.
+/// True if the bounds agree within law 2's bound, but `point_b` - `point_a` differs from its length times `normal` by more than
+/// that. Bounds that agree so leave the plane room to lean by the root of law 2's: by 1e-8, say, between nearly parallel faces.
 static inline bool leans(const PairView& pair, const Certificate& c) {
   const Vec apart = c.point_b - c.point_a, aside = apart - c.normal * norm(apart);
   return c.upper - c.lower <= pair.law_two && norm(aside) > pair.law_two;

@@ -40,10 +40,10 @@ bool from_walk(const PairView& pair, const Walk& walk, const MarchRule& rule, do
   Certificate c = certify(pair, walk.a, walk.b, seen, r.plane_tests);
   r.status = status_of(pair, stop, c);
   // If the features touch, the bodies touch or overlap: certified GJK decides which.
-  const bool settled = r.status != MarchStatus::NotConverged && (r.status != MarchStatus::Touching || c.lower > 0);
+  const bool decided = r.status != MarchStatus::NotConverged && (r.status != MarchStatus::Touching || c.lower > 0);
   double depth = 0;
-  const bool progressed = !settled && walk.end != WalkEnd::Budget;
-  if (!settled && !progressed) {
+  const bool progressed = !decided && walk.end != WalkEnd::Budget;
+  if (!decided && !progressed) {
     r.status = MarchStatus::Budget;
   } else if (progressed) {
     const StopRule until_there = until == Until::Exact ? StopRule{pair.law_two, 0, stop.above} : stop;

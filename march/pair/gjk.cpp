@@ -294,7 +294,7 @@ class GjkDescent {
 };
 
 template <class Real>
-bool settle(const PairView& pair, const StopRule& stop, GjkResult& m, std::uint32_t& plane_tests) {
+bool solve(const PairView& pair, const StopRule& stop, GjkResult& m, std::uint32_t& plane_tests) {
   GjkDescent<Real> descent(pair, stop, plane_tests);
   descent.run(m);
   const bool near_zero = m.certificate.upper <= pair.law_two && m.certificate.lower == 0;
@@ -322,7 +322,7 @@ bool settle(const PairView& pair, const StopRule& stop, GjkResult& m, std::uint3
 GjkResult gjk(const PairView& pair, const Certificate& start, const StopRule& stop, std::uint32_t& plane_tests) {
   GjkResult m;
   m.certificate = start;
-  if (!settle<double>(pair, stop, m, plane_tests)) settle<DoubleDouble>(pair, stop, m, plane_tests);
+  if (!solve<double>(pair, stop, m, plane_tests)) solve<DoubleDouble>(pair, stop, m, plane_tests);
   return m;
 }
 

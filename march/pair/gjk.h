@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Certified GJK [Gilbert, Johnson & Keerthi 1988], for walks that stall, certificates too wide, and bodies that meet. Each step
 // adds the support vertices' difference to at most three others and finds their hull's nearest point. Knows one level pair.
+// Two more loops of the algorithm stand beside it: on support maps (support_gjk.h), and on the few vertices of two features
+// (overlap.h).
 #pragma once
 
 #include "pair/certify.h"

@@ -36,7 +36,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// True for a solid: three edges or more meet in each of its vertices, but only two in a vertex of a flat polygon.
 bool bounds_solid(const ConvexView& view) { return view.vertices[0].ring_count > 2; }
 
-/// The smallest feature that holds all of `vertices` exactly; `FeatureId{}` if no facet has them all as corners.
+/// The smallest feature that holds all of `vertices` exactly; `FeatureId{}` if no facet has them all as corners. `feature_of`
+/// accepts the corners of a merged face too, which holds them only up to its thickness.
 FeatureId feature_holding(const ConvexView& view, const Quad& vertices) {
   Quad distinct{};
   int count = 0;

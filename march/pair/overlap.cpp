@@ -46,7 +46,7 @@ Corners corners(const P& body, FeatureId feature, std::uint32_t behind) {
 
 }  // namespace
 
-Vec across(const PairView& pair, const MarchStart& met) {
+Vec normal_between(const PairView& pair, const MarchStart& met) {
   if (met.a.kind() == FeatureKind::Face) return face_normal(body_a(pair), met.a.index());
   if (met.b.kind() == FeatureKind::Face) return -body_b(pair).rotated(face_normal(body_b(pair), met.b.index()));
   return {0, 0, 0};
@@ -80,7 +80,7 @@ Vec surely_common_point(const PairView& pair, const OverlapProof& proof) {
 bool meet(const PairView& pair, const MarchStart& met, std::uint32_t behind_a, std::uint32_t behind_b, OverlapProof& proof) {
   const Corners a = corners(body_a(pair), met.a, behind_a), b = corners(body_b(pair), met.b, behind_b);
   Simplex simplex;
-  Vec n = across(pair, met);
+  Vec n = normal_between(pair, met);
   for (int iteration = 0; iteration < kMapGjkSteps; ++iteration) {
     const int i = a.highest(n), j = b.highest(-n);
     const Vec p = b.point[j] - a.point[i];

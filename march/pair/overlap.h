@@ -11,7 +11,7 @@
 namespace swiftlet {
 
 /// The normal of the face among the two features of `met`: common frame, from A to B, of any length; 0 if neither is a face.
-Vec across(const PairView& pair, const MarchStart& met);
+Vec normal_between(const PairView& pair, const MarchStart& met);
 
 /// True if four pairs of vertices of the features of `met`, `behind_a` and `behind_b` pass `proves_deep_overlap`; `proof` then
 /// names them. `behind_a` and `behind_b` are vertices far on the other side of each body. Cost: at most `kMapGjkSteps`

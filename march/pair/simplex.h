@@ -64,8 +64,9 @@ struct NearestOrigin {
 };
 
 /// The solver in doubles or 106 bits. It tries every subset of the first `count` points of `set`, so that no degeneracy
-/// confuses it: a candidate with weights >= 0 is a point of the simplex. It takes the candidate whose plane, through the
-/// candidate at right angles to it, cuts off the least of the simplex. The candidate's norm is no criterion: it is flat about
+/// confuses it: a candidate is a point of the simplex if its weights are positive, and smaller subsets stand for weights of 0.
+/// Through each candidate goes the plane normal to the line from the origin to it; the solver takes the candidate whose plane
+/// cuts off the least of the simplex. The candidate's norm is no criterion: it is flat about
 /// the optimum, and would hide a step of 1e-9 under a rounding of 1e-17.
 template <class Real>
 static inline NearestOrigin<Real> nearest_to_origin(const std::array<Difference<Real>, 4>& set, int count) {

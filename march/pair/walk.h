@@ -16,7 +16,7 @@ namespace swiftlet {
 enum class WalkEnd : std::uint8_t {
   Minimum,  ///< no Voronoi plane of either feature is violated
   Inside,   ///< a vertex is below a face, or an edge passes through one: overlap, or a start behind the body
-  Stalled,  ///< kStallLimit states did not shorten the distance
+  Stalled,  ///< kStallLimit states in a row did not shorten the distance
   Budget,
 };
 

@@ -120,9 +120,10 @@ class Descent {
     return place;
   }
 
-  /// Runs GJK on support maps: on the pair that the axis test sampled or the coarsest that might answer, then on each finer
-  /// one. Returns true if that answers; else `place` becomes where a walk begins. GJK begins anew on every pair, from the same
-  /// direction, and no pair is skipped: a looser tolerance does all that a tighter one does, or stops earlier.
+  /// Runs GJK on support maps, first on the pair that the axis test sampled or on the coarsest pair that might answer, then on
+  /// each finer one. Returns true if that answers; else `place` becomes where a walk begins. From the first pair on, GJK visits
+  /// every finer pair and begins anew there, from the same direction: of two tolerances that begin on the same pair, the looser
+  /// one does the same work and stops earlier.
   bool map_gjk(Place& place, const Vec& likely) {
     const bool sampled = max_abs(first_.seen.normal) > 0;
     const Vec direction = sampled ? first_.seen.normal : max_abs(likely) > 0 ? likely : line_.in_a;
@@ -179,10 +180,11 @@ class Descent {
     return true;
   }
 
-  /// Returns true if the features where a walk ended inside, and vertices behind them by the maps, prove that levels overlap.
+  /// Returns true if the features where a walk ended inside prove, together with a vertex of each body that its map names on
+  /// the far side, that the levels of the pair overlap.
   bool overlap(const PairView& pair, const Place& place) {
     if (!pair_.has_maps) return false;
-    const Vec n = across(pair, place.start);
+    const Vec n = normal_between(pair, place.start);
     const std::uint32_t behind_a = about_farthest(a_, place.level_a, -n),
                         behind_b = about_farthest(b_, place.level_b, body_b(pair).into(n));
     OverlapProof proof;
@@ -212,7 +214,7 @@ class Descent {
       answer_.plane_tests += walked.plane_tests;
       spent_ = walked.end == WalkEnd::Budget && answer_.steps >= budget_.steps;
       const bool lost = walked.end == WalkEnd::Budget && !spent_;
-      const bool wanted = last || may_answer(place, walked);
+      const bool wanted = last || worth_certifying(place, walked);
       if (walked.end == WalkEnd::Inside && wanted && overlap(pair, {place.level_a, place.level_b, {walked.a, walked.b}})) {
         place.start = {walked.a, walked.b};
         record(place);
@@ -235,9 +237,10 @@ class Descent {
     }
   }
 
-  /// True if a coarse pair is to be certified. Where the walk ended at a minimum it always is, whatever the tolerance, so that
-  /// a looser one stops earlier on the same way. Elsewhere it is if the deviation alone may answer, or for a trace.
-  bool may_answer(const Place& place, const Walk& walked) const {
+  /// True if a coarse pair is to be certified. A pair whose walk ended at a minimum always is, so that queries with different
+  /// tolerances take the same way, and that with the looser one stops earlier. Other pairs are certified if the deviation alone
+  /// may answer, or for a trace.
+  bool worth_certifying(const Place& place, const Walk& walked) const {
     const double error = deviation(place.level_a, place.level_b);
     return walked.end == WalkEnd::Minimum || !trace_.empty() || stop_.allows(0, error) || error < stop_.below;
   }

@@ -28,11 +28,6 @@ SourceFeature source_feature(const Body& body, FeatureId feature) {
   return result;
 }
 
-/// Turns the status Beyond into Converged: a question of yes or no is answered once `lower` is beyond the threshold.
-void decide(Answer& answer) {
-  if (answer.status == Status::Beyond) answer.status = Status::Converged;
-}
-
 }  // namespace
 
 double Answer::value() const {
@@ -74,9 +69,7 @@ Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, const Effort
 Within within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, PairSeed& seed, const Effort& effort) {
   Within result;
   ask(a, b, b_in_a, seed, {effort.budget, effort.tuning}, {0, 0, threshold, threshold}, result.answer);
-  decide(result.answer);
-  if (result.answer.lower > threshold) result.decision = Decision::No;
-  if (result.answer.upper <= threshold) result.decision = Decision::Yes;
+  decide(result, threshold);
   return result;
 }
 Within within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, const Effort& effort) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Rounded bodies: a body is the set of all points within its radius of its hull. A question about bodies is turned into one
-// about their hulls, and the answer about the hulls into one about the bodies. Everything but the checks handles radii through
-// this file. Knows nothing of how the hulls' answer is found.
+// about their hulls, and the answer about the hulls into one about the bodies. Distances and depths handle radii through this
+// file; manifolds and checks read them from the answer. Knows nothing of how the hulls' answer is found.
 #pragma once
 
 #include <swiftlet/query.h>
@@ -84,6 +84,17 @@ void refuse(const Body& a, const Body& b, Status why, bool is_signed, Answer& an
 
 /// Completes `answer`: adds the radii, sets an unknown normal and unknown points to NaN, and copies `proof` to `tuning`.
 void seal(const Radii& radii, const OverlapProof& proof, const Tuning& tuning, Answer& answer);
+
+/// Ends a question of yes or no: it is answered once `lower` is beyond the threshold, and the status then is Converged.
+static inline void decide(Answer& answer) {
+  if (answer.status == Status::Beyond) answer.status = Status::Converged;
+}
+/// The same, and reads off the answer whether the distance is at most `threshold`.
+static inline void decide(Within& result, double threshold) {
+  decide(result.answer);
+  if (result.answer.lower > threshold) result.decision = Decision::No;
+  if (result.answer.upper <= threshold) result.decision = Decision::Yes;
+}
 
 /// Answers `asked` for two bodies. It starts from `seed`, or goes on from `so_far` if that is not null. `answer` must be a
 /// default one.

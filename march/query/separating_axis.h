@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The separating-axis test along the last answer's normal, then along the line of centres, each by one look-up in the support
-// maps. Most questions of yes or no end here.
+// The separating-axis test, along the last answer's normal, then along the line of centres. Each direction takes one look-up in
+// either body's support map. Most questions of yes or no end here.
 #pragma once
 
 #include "pair/stop_rule.h"
