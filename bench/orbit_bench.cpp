@@ -249,7 +249,7 @@ PaperModels paper_models(const Arguments& arguments, Family family) {
       {"22.5", lut::Resolution::Degrees22}, {"11.25", lut::Resolution::Degrees11}, {"5.625", lut::Resolution::Degrees5}};
   for (const double factor : {1., 2., 4.}) {
     for (const auto& [degrees, resolution] : resolutions) {
-      models.tables.push_back(make(brief(factor) + " r " + degrees + " deg", [&](BuildOptions& b) {
+      models.tables.push_back(make(brief(factor) + " r " + degrees + " deg", [&, resolution = resolution](BuildOptions& b) {
         b.max_levels = 1, b.table = {resolution, factor};
       }));
     }

@@ -146,7 +146,8 @@ struct Crowd {
     for (std::uint32_t i = 0; i < count; ++i) {
       turned.push_back(random.rotation());
       axis.push_back(random.on_sphere());
-      centre.push_back(kSpacing * Vec3(i % side, i / side % side, i / side / side) + 0.1 * random.in_ball());
+      const std::uint32_t row = i / side % side, layer = i / side / side;
+      centre.push_back(kSpacing * Vec3(i % side, row, layer) + 0.1 * random.in_ball());
     }
     std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours;
     for (std::uint32_t i = 0; i < count; ++i) {

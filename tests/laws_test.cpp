@@ -620,7 +620,7 @@ TEST(Law4, SwappingTheBodiesSwapsTheAnswer) {
 TEST(Law5, ExactCommonTranslationsChangeNoBit) {
   shapes::Random random(7);
   for_each_case([&](const Case& c) {
-    const auto grid = [](Vec3 t) { return Vec3((t * 0x1p20).array().round() * 0x1p-20); };
+    const auto grid = [](const Vec3& t) { return Vec3((t * 0x1p20).array().round() * 0x1p-20); };
     const Pose a{random.rotation(), grid(random.in_ball())}, b{random.rotation(), grid(random.in_ball() + c.pose.translation)};
     PairSeed seed;
     const Answer here = distance(c.model_a(), c.model_b(), relative(a, b), seed);

@@ -949,7 +949,7 @@ TEST(Manifold, LargestPolygonsKeepTheSharesOfTheHeader) {
       std::vector<Eigen::Vector2d> sides(12);
       for (Eigen::Vector2d& side : sides) side = {random.uniform(-1, 1), random.uniform(-1, 1)};
       // Sides that sum to 0, in the order of their angles, make a convex polygon.
-      const auto share_of = [&](std::vector<Eigen::Vector2d> turned) {
+      const auto share_of = [&, most = most](std::vector<Eigen::Vector2d> turned) {
         Eigen::Vector2d sum = Eigen::Vector2d::Zero();
         for (const Eigen::Vector2d& side : turned) sum += side;
         turned.push_back(-sum);

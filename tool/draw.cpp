@@ -218,7 +218,8 @@ std::string draw(const Model& model, const std::string& title) {
       escaped(title) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n" + heading(model, title);
   for (std::size_t i = 0; i < count; ++i) {
     const int k = finest + int(i);
-    const double x = kMargin + double(i % columns) * (kCell + kGap), y = kHeading + kGap / 2 + double(i / columns) * row_height;
+    const std::size_t row = i / columns, column = i % columns;
+    const double x = kMargin + double(column) * (kCell + kGap), y = kHeading + kGap / 2 + double(row) * row_height;
     svg += format("<g transform=\"translate(%.1f %.1f)\">\n", x, y) + draw_faces(model.level(k).view, eye, place);
     if (k > finest) svg += draw_outline(model.level(finest).view, eye, place);
     svg += caption(model, k, place.height()) + "</g>\n";

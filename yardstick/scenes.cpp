@@ -8,7 +8,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <set>
 #include <span>
@@ -282,9 +281,8 @@ Coverage coverage(const Scene& scene) {
   for (const Query& query : scene.queries) {
     const BodyPair pair = scene.pairs[query.pair];
     result.closest = std::min(result.closest, offset(scene.models[pair.a], scene.models[pair.b], query.b_in_a).norm());
-    std::string bits(sizeof query, '\0');
-    std::memcpy(bits.data(), &query.b_in_a, sizeof(Pose));
-    std::memcpy(bits.data() + sizeof(Pose), &query.pair, sizeof query.pair);
+    std::string bits(reinterpret_cast<const char*>(&query.b_in_a), sizeof query.b_in_a);
+    bits.append(reinterpret_cast<const char*>(&query.pair), sizeof query.pair);
     distinct.insert(std::move(bits));
   }
   result.distinct_share = double(distinct.size()) / double(scene.queries.size());

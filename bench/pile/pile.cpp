@@ -95,11 +95,13 @@ Start start_of(const Scene& scene, std::uint64_t seed) {
     const std::uint32_t vertices = scene.vertices[i % scene.vertices.size()];
     const Model* const model = &start.models.emplace_back(ellipsoid(0.5 * axes, vertices, random));
 
+    const int layer = i / 9;
     Vec3 place(2.2 * (i % 3 - 1) + random.uniform(-0.4, 0.4), 2.2 * (i / 3 % 3 - 1) + random.uniform(-0.4, 0.4),
-               1.5 + 1.3 * (i / 9));
+               1.5 + 1.3 * layer);
     btVector3 velocity(0, 0, 0);
     if (rolls) {
-      place = Vec3(-12 + 1.5 * (i / 8), 2.5 * (i % 8) - 9, 0.56);
+      const int rank = i / 8;
+      place = Vec3(-12 + 1.5 * rank, 2.5 * (i % 8) - 9, 0.56);
       velocity = btVector3(btScalar(2 + 0.5 * (i % 3)), 0, 0);
     }
     btTransform in_world = at(place);

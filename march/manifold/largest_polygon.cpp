@@ -74,13 +74,13 @@ LargestPolygon largest_polygon(const Candidates& candidates, int first, int most
   Hull hull(candidates);
   const int corners = std::min(hull.begin_with(first) ? most : most - 1, hull.size());
   std::array<double, kMostCandidates> best{};  // twice the area of the best fan that ends at a corner
-  std::array<std::array<std::int8_t, kMostCandidates>, kMostManifoldPoints> before{};
+  std::array<std::array<std::uint8_t, kMostCandidates>, kMostManifoldPoints> before{};
   for (int corner = 2; corner < corners; ++corner) {
     for (int last = hull.size() - 1; last >= corner; --last) {
       double largest = -1;
       for (int i = corner - 1; i < last; ++i) {
         const double area = best[std::size_t(i)] + hull.twice_area(hull[0], hull[i], hull[last]);
-        if (area > largest) largest = area, before[std::size_t(corner)][std::size_t(last)] = std::int8_t(i);
+        if (area > largest) largest = area, before[std::size_t(corner)][std::size_t(last)] = std::uint8_t(i);
       }
       best[std::size_t(last)] = largest;
     }

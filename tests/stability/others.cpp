@@ -94,7 +94,7 @@ Findings ask_other(const bench::Method& method, double tolerance, const Case& c,
   const std::array models{&a.value().model, &b.value().model};
   findings.applicable = is_taken(*models[0]) && is_taken(*models[1]);
   if (!findings.applicable) return findings;
-  std::array<bench::Polyhedron, 2> bodies;
+  std::array<bench::SceneBody, 2> bodies;
   for (std::size_t i = 0; i < 2; ++i) bodies[i] = {models[i], models[i]->level(0).view, 0};
   const std::array<bench::BodyPair, 2> pairs{{{0, 1}, {1, 0}}};
   const auto session = method.open(bodies, pairs);
