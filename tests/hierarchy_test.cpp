@@ -318,7 +318,7 @@ TEST(Hierarchy, ProgressIsMadeWithinStages) {
       last = fraction;
       return true;
     };
-    const Mesh mesh = shapes::ellipsoid(Vec3(1, 1, 1), 5000, 1);
+    const Mesh mesh = shapes::ellipsoid(Vec3(1, 1, 1), 3000, 1);
     const auto whole = build(mesh, watched);
     ASSERT_TRUE(whole);
     EXPECT_GE(calls["hull"], 2);

@@ -245,7 +245,7 @@ TEST_F(ModelFile, RandomWordsWithRightHashesAreRefusedOrHarmless) {
   std::mt19937 engine(3);
   int accepted = 0;
   Work most;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 12000; ++i) {
     Bytes block = whole;
     for (int k = int(engine() % 3); k >= 0; --k) {
       const std::size_t word = level_header_at(0) / 4 + engine() % ((whole.size() - level_header_at(0)) / 4);
