@@ -47,10 +47,14 @@ std::string describe(const Answer& s) {
   return text;
 }
 
+oracle::SignedTruth truth_of(const Polyhedron& a, const Polyhedron& b, const Pose& pose) {
+  return oracle::signed_distance(a.points, Pose{}, b.points, pose);
+}
+
 /// What is wrong with an exact answer; empty if nothing.
-std::string fault(const Polyhedron& a, const Polyhedron& b, const Pose& pose, const Answer& s) {
+std::string fault(const Polyhedron& a, const Polyhedron& b, const Pose& pose, const Answer& s,
+                  const oracle::SignedTruth& truth) {
   const double bound = tolerance(a, b, pose);
-  const oracle::SignedTruth truth = oracle::signed_distance(a.points, Pose{}, b.points, pose);
   std::string wrong;
   const auto require = [&](bool holds, const char* what) {
     if (!holds) wrong += std::string(what) + "; ";
@@ -64,10 +68,10 @@ std::string fault(const Polyhedron& a, const Polyhedron& b, const Pose& pose, co
   require(s.verdict != Verdict::Touching || std::abs(truth.distance) <= bound, "touching");
   require(s.verdict != Verdict::Undecided, "undecided");
   require(std::abs(s.normal.norm() - 1) <= 1e-15, "normal is no unit");
-  require(oracle::gap(a.points, b.points, pose, s.normal).upper >= s.lower, "the normal does not prove lower");
+  require(oracle::is_apart_along(a.points, b.points, pose, s.normal, s.lower), "the normal does not prove lower");
   require((s.point_b - s.point_a - s.normal * (s.lower + s.upper) / 2).norm() <= 2 * bound, "points");
-  require(oracle::distance(a.points, Points{s.point_a}, Pose{}).bounds.lower <= bound, "point_a off A");
-  require(oracle::distance(Points{s.point_b}, b.points, pose).bounds.lower <= bound, "point_b off B");
+  require(oracle::is_within(a.points, Points{s.point_a}, Pose{}, bound), "point_a off A");
+  require(oracle::is_within(Points{s.point_b}, b.points, pose, bound), "point_b off B");
   if (!wrong.empty()) {
     char text[100];
     std::snprintf(text, sizeof text, " truth %.17g bound %.3g", truth.distance, bound);
@@ -76,14 +80,19 @@ std::string fault(const Polyhedron& a, const Polyhedron& b, const Pose& pose, co
   return wrong;
 }
 
+std::string fault(const Polyhedron& a, const Polyhedron& b, const Pose& pose, const Answer& s) {
+  return fault(a, b, pose, s, truth_of(a, b, pose));
+}
+
 TEST(SignedDistance, KnowsTwoCubes) {
   const Polyhedron cube = body(shapes::cube());
   for (const double x : {5., 2.5, 2., 1.5, .25, 0., -1.5}) {
     const Pose pose{Mat3::Identity(), {x, .125, -.125}};
     PairSeed seed;
+    const oracle::SignedTruth truth = truth_of(cube, cube, pose);
     for (int round = 0; round < 3; ++round) {
       const Answer s = signed_distance(cube, cube, pose, seed);
-      EXPECT_EQ(fault(cube, cube, pose, s), "") << x << " " << round;
+      EXPECT_EQ(fault(cube, cube, pose, s, truth), "") << x << " " << round;
     }
   }
 }
@@ -102,9 +111,10 @@ TEST(SignedDistance, HoldsTheTruthOfRandomOverlaps) {
     const Polyhedron a = body(p), b = body(q);
     const Pose pose{random.rotation(), random.in_ball() * .7};
     PairSeed seed;
+    const oracle::SignedTruth truth = truth_of(a, b, pose);
     for (int round = 0; round < 2; ++round) {
       const Answer s = signed_distance(a, b, pose, seed);
-      EXPECT_EQ(fault(a, b, pose, s), "") << i << " round " << round;
+      EXPECT_EQ(fault(a, b, pose, s, truth), "") << i << " round " << round;
       overlapping += s.verdict == Verdict::Overlapping;
       most = std::max(most, s.steps);
     }
@@ -120,9 +130,10 @@ TEST(SignedDistance, HoldsTheTruthOfTheSuite) {
       const Polyhedron a = body(c.a), b = body(c.b);
       const Pose pose = c.b_in_a();
       PairSeed seed;
+      const oracle::SignedTruth truth = truth_of(a, b, pose);
       for (int round = 0; round < 2; ++round) {
         const Answer s = signed_distance(a, b, pose, seed);
-        EXPECT_EQ(fault(a, b, pose, s), "") << c.name << " round " << round;
+        EXPECT_EQ(fault(a, b, pose, s, truth), "") << c.name << " round " << round;
         overlapping += s.verdict == Verdict::Overlapping;
       }
     }
@@ -396,9 +407,10 @@ TEST(SignedDistance, ConvergesForTouchingCubesTiltedByRounding) {
     for (const int axis : {0, 2}) pose.translation[axis] = (double(random.bits() % 7) - 3) / 2;
     for (double& x : pose.translation) x += size * random.uniform(-1, 1);
     PairSeed seed;
+    const oracle::SignedTruth truth = truth_of(cube, cube, pose);
     for (int round = 0; round < 3; ++round) {
       const Answer s = signed_distance(cube, cube, pose, seed);
-      EXPECT_EQ(fault(cube, cube, pose, s), "") << i << " round " << round;
+      EXPECT_EQ(fault(cube, cube, pose, s, truth), "") << i << " round " << round;
       overlapping += s.verdict == Verdict::Overlapping;
       seed = PairSeed{};
       seed.a = feature(), seed.b = feature();

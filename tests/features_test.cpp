@@ -86,17 +86,33 @@ bool share_point(const ConvexView& a, FeatureId of_a, const ConvexView& b, Featu
   return false;
 }
 
+/// A cell where it is, and a box around it.
+struct Piece {
+  std::vector<Point> points;
+  CGAL::Bbox_3 box;
+};
+
+std::vector<Piece> surface(const ConvexView& view, const Pose& in_a) {
+  std::vector<FeatureId> parts;
+  for (std::uint32_t f = 0; f < view.face_first.size(); ++f) parts.emplace_back(FeatureKind::Face, f);
+  for (std::uint32_t h = 0; parts.empty() && h < view.half_edges.size(); ++h) parts.emplace_back(FeatureKind::Edge, h);
+  if (parts.empty()) parts.emplace_back(FeatureKind::Vertex, 0);
+  std::vector<Piece> pieces;
+  for (const FeatureId part : parts) {
+    for (const Cell& cell : cells(view, part)) {
+      Piece piece{exactly(view, cell, in_a), {}};
+      for (const Point& p : piece.points) piece.box += p.bbox();
+      pieces.push_back(std::move(piece));
+    }
+  }
+  return pieces;
+}
+
 bool surfaces_share_point(const ConvexView& a, const ConvexView& b, const Pose& b_in_a) {
-  const auto surface = [](const ConvexView& view) {
-    std::vector<FeatureId> parts;
-    for (std::uint32_t f = 0; f < view.face_first.size(); ++f) parts.emplace_back(FeatureKind::Face, f);
-    for (std::uint32_t h = 0; parts.empty() && h < view.half_edges.size(); ++h) parts.emplace_back(FeatureKind::Edge, h);
-    if (parts.empty()) parts.emplace_back(FeatureKind::Vertex, 0);
-    return parts;
-  };
-  for (const FeatureId i : surface(a)) {
-    for (const FeatureId j : surface(b)) {
-      if (share_point(a, i, b, j, b_in_a)) return true;
+  const std::vector<Piece> surface_a = surface(a, {}), surface_b = surface(b, b_in_a);
+  for (const Piece& i : surface_a) {
+    for (const Piece& j : surface_b) {
+      if (CGAL::do_overlap(i.box, j.box) && share_point(i.points, j.points)) return true;
     }
   }
   return false;
@@ -110,7 +126,7 @@ bool holds(const ConvexView& view, FeatureId feature, const Pose& in_a, const Ve
   for (const Cell& cell : cells(view, feature)) {
     for (const std::uint32_t v : cell) corners.emplace_back(view.vertices[v].x, view.vertices[v].y, view.vertices[v].z);
   }
-  return oracle::holds(oracle::distance(p, corners, in_a), 0, bound);
+  return oracle::is_within(p, corners, in_a, bound);
 }
 
 struct Count {

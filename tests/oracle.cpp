@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Knows rationals and one algorithm for bodies apart, the minimum-norm point of the difference body by growing and shrinking a
-// simplex of vertex pairs. Run in double it is a guess where to start; run in rationals every comparison is exact, each round
-// strictly nearer, the simplices finitely many: it ends at the truth. How deep bodies overlap is the nearest facet of the
-// difference body, whose hull CGAL computes exactly.
+// Knows exact numbers and one algorithm for bodies apart, the minimum-norm point of the difference body by growing and
+// shrinking a simplex of vertex pairs. Run in double it is a guess where to start; run in dyadic numbers every comparison is
+// exact, each round strictly nearer, the simplices finitely many: it ends at the truth. How deep bodies overlap is the nearest
+// facet of the difference body, whose hull CGAL computes exactly.
 //
 //   P. Wolfe, Finding the nearest point in a polytope. Mathematical Programming 11, 1976.
 //   E. G. Gilbert, D. W. Johnson, S. S. Keerthi, A fast procedure for computing the distance between complex objects in
@@ -24,6 +24,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Gmpq.h>
+#include <CGAL/Gmpzf.h>
 #include <CGAL/Lazy_exact_nt.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -32,6 +33,8 @@
 namespace swiftlet::oracle {
 
 using Rational = CGAL::Gmpq;
+/// Sums and products of doubles: an integer times a power of two, where a rational would look for common divisors each time.
+using Dyadic = CGAL::Gmpzf;
 
 struct Exact {
   Rational distance2;
@@ -51,6 +54,17 @@ template <class N>
 Point<N> point(const Vec3& p) {
   return {N(p[0]), N(p[1]), N(p[2])};
 }
+
+Rational rational(const Dyadic& x) {
+  Rational result;
+  mpz_set(mpq_numref(result.mpq()), x.man());
+  if (x.exp() >= 0)
+    mpq_mul_2exp(result.mpq(), result.mpq(), mp_bitcnt_t(x.exp()));
+  else
+    mpq_div_2exp(result.mpq(), result.mpq(), mp_bitcnt_t(-x.exp()));
+  return result;
+}
+Point<Rational> rational(const Point<Dyadic>& p) { return {rational(p[0]), rational(p[1]), rational(p[2])}; }
 
 Vec3 rounded(const Point<Rational>& p) { return {CGAL::to_double(p[0]), CGAL::to_double(p[1]), CGAL::to_double(p[2])}; }
 
@@ -128,9 +142,23 @@ Vec3 rounded_direction(const Point<Rational>& direction) {
   return rounded({scaled(direction[0], exponent), scaled(direction[1], exponent), scaled(direction[2], exponent)});
 }
 
+// The same, each coordinate cut to 53 bits.
+Vec3 rounded_direction(const Point<Dyadic>& direction) {
+  std::array<std::pair<double, long>, 3> parts;
+  std::optional<long> exponent;
+  for (std::size_t i = 0; i < 3; ++i) {
+    parts[i] = direction[i].to_double_exp();
+    if (parts[i].first != 0) exponent = std::max(exponent.value_or(parts[i].second), parts[i].second);
+  }
+  Vec3 n = Vec3::Zero();
+  for (std::size_t i = 0; i < 3; ++i)
+    if (parts[i].first != 0) n[int(i)] = std::ldexp(parts[i].first, int(std::max(parts[i].second - *exponent, -2000l)));
+  return n;
+}
+
 // Exact: doubles only sort out what cannot be the answer. Rounding the direction costs 2^-52 of each coordinate, the products
 // and sums less than 3 * 2^-53 of the sum of their absolute values: 2^-50 of it covers both. The last term is underflow.
-std::uint32_t support(std::span<const Vec3> points, const Point<Rational>& direction) {
+std::uint32_t support(std::span<const Vec3> points, const Point<Dyadic>& direction) {
   const Vec3 n = rounded_direction(direction);
   std::vector<double> along(points.size());
   double greatest = -std::numeric_limits<double>::infinity(), extent = 0;
@@ -140,10 +168,10 @@ std::uint32_t support(std::span<const Vec3> points, const Point<Rational>& direc
   }
   const double error = std::ldexp(n.lpNorm<1>() * extent, -50) + 8 * std::numeric_limits<double>::denorm_min();
   std::optional<std::uint32_t> best;
-  Rational best_along;
+  Dyadic best_along;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     if (along[i] < greatest - 2 * error) continue;
-    const Rational exactly = dot(direction, point<Rational>(points[i]));
+    const Dyadic exactly = dot(direction, point<Dyadic>(points[i]));
     if (best && exactly <= best_along) continue;
     best = i;
     best_along = exactly;
@@ -156,14 +184,20 @@ std::uint32_t support(std::span<const Vec3> points, const Point<Rational>& direc
 template <class N>
 using Matrix = std::vector<std::vector<N>>;
 
-// Solves m x = y in place by elimination; m is symmetric and semidefinite, nothing comes back when it is singular.
+/// x = numerators / denominator, the denominator above 0.
 template <class N>
-std::optional<std::vector<N>> solved(Matrix<N> m, std::vector<N> y) {
+struct Fractions {
+  std::vector<N> numerators;
+  N denominator;
+};
+
+// Solves m x = y by elimination; m is symmetric and semidefinite, nothing comes back when it is singular.
+std::optional<Fractions<double>> solved(Matrix<double> m, std::vector<double> y) {
   const std::size_t n = y.size();
   for (std::size_t k = 0; k < n; ++k) {
-    if (!(m[k][k] > N(0))) return std::nullopt;
+    if (!(m[k][k] > 0)) return std::nullopt;
     for (std::size_t i = k + 1; i < n; ++i) {
-      const N factor = m[i][k] / m[k][k];
+      const double factor = m[i][k] / m[k][k];
       for (std::size_t j = k; j < n; ++j) m[i][j] = m[i][j] - factor * m[k][j];
       y[i] = y[i] - factor * y[k];
     }
@@ -172,13 +206,34 @@ std::optional<std::vector<N>> solved(Matrix<N> m, std::vector<N> y) {
     for (std::size_t j = k + 1; j < n; ++j) y[k] = y[k] - m[k][j] * y[j];
     y[k] = y[k] / m[k][k];
   }
-  return y;
+  return Fractions<double>{std::move(y), 1};
+}
+
+// Of no more than three rows, along the first.
+Dyadic determinant(const Matrix<Dyadic>& m) {
+  if (m.empty()) return 1;
+  if (m.size() == 1) return m[0][0];
+  if (m.size() == 2) return m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+// The same by Cramer's rule, which needs no division.
+std::optional<Fractions<Dyadic>> solved(const Matrix<Dyadic>& m, const std::vector<Dyadic>& y) {
+  Fractions<Dyadic> x{{}, determinant(m)};
+  if (CGAL::sign(x.denominator) != CGAL::POSITIVE) return std::nullopt;
+  for (std::size_t k = 0; k < y.size(); ++k) {
+    Matrix<Dyadic> replaced = m;
+    for (std::size_t i = 0; i < y.size(); ++i) replaced[i][k] = y[i];
+    x.numerators.push_back(determinant(replaced));
+  }
+  return x;
 }
 
 // Weights of the point nearest to the origin in the affine hull of the points `subset`, whose dot products are `gram`; nothing
 // when the points are affinely dependent.
 template <class N>
-std::optional<std::vector<N>> affine_weights(const Matrix<N>& gram, const std::vector<std::size_t>& subset) {
+std::optional<Fractions<N>> affine_weights(const Matrix<N>& gram, const std::vector<std::size_t>& subset) {
   const std::size_t o = subset[0], n = subset.size() - 1;
   Matrix<N> edges(n, std::vector<N>(n));
   std::vector<N> towards(n);
@@ -190,19 +245,20 @@ std::optional<std::vector<N>> affine_weights(const Matrix<N>& gram, const std::v
       edges[i][j] = gram[p][q] - gram[o][p] - gram[o][q] + gram[o][o];
     }
   }
-  std::optional<std::vector<N>> weights = solved(std::move(edges), std::move(towards));
+  std::optional<Fractions<N>> weights = solved(std::move(edges), std::move(towards));
   if (!weights) return std::nullopt;
-  N first(1);
-  for (const N& w : *weights) first = first - w;
-  weights->insert(weights->begin(), first);
+  N first = weights->denominator;
+  for (const N& w : weights->numerators) first = first - w;
+  weights->numerators.insert(weights->numerators.begin(), first);
   return weights;
 }
 
+/// The square is norm2 / weights.denominator.
 template <class N>
 struct Nearest {
   N norm2;
   std::vector<std::size_t> subset;  ///< the points that span it, all with positive weights
-  std::vector<N> weights;
+  Fractions<N> weights;
 };
 
 // Every point of the simplex lies beyond the plane through the nearest point, perpendicular to it.
@@ -210,7 +266,8 @@ template <class N>
 bool is_nearest(const Matrix<N>& gram, const Nearest<N>& candidate) {
   return std::all_of(gram.begin(), gram.end(), [&](const std::vector<N>& row) {
     N along(0);
-    for (std::size_t j = 0; j < candidate.subset.size(); ++j) along = along + row[candidate.subset[j]] * candidate.weights[j];
+    for (std::size_t j = 0; j < candidate.subset.size(); ++j)
+      along = along + row[candidate.subset[j]] * candidate.weights.numerators[j];
     return along >= candidate.norm2;
   });
 }
@@ -226,12 +283,14 @@ Nearest<N> nearest(const std::vector<Point<N>>& points) {
     std::vector<std::size_t> subset;
     for (std::size_t i = 0; i < points.size(); ++i)
       if (mask >> i & 1) subset.push_back(i);
-    const auto weights = affine_weights(gram, subset);
-    if (!weights || !std::all_of(weights->begin(), weights->end(), [](const N& w) { return w > N(0); })) continue;
+    auto weights = affine_weights(gram, subset);
+    if (!weights) continue;
+    const std::vector<N>& w = weights->numerators;
+    if (!std::all_of(w.begin(), w.end(), [](const N& x) { return x > N(0); })) continue;
     N norm2(0);  // the nearest point's dot product with each point of its subset is the same
-    for (std::size_t j = 0; j < subset.size(); ++j) norm2 = norm2 + gram[subset[0]][subset[j]] * (*weights)[j];
-    Nearest<N> candidate{norm2, subset, *weights};
-    if (best && candidate.norm2 >= best->norm2) continue;
+    for (std::size_t j = 0; j < subset.size(); ++j) norm2 = norm2 + gram[subset[0]][subset[j]] * w[j];
+    Nearest<N> candidate{norm2, subset, std::move(*weights)};
+    if (best && candidate.norm2 * best->weights.denominator >= best->norm2 * candidate.weights.denominator) continue;
     best = std::move(candidate);
     if (is_nearest(gram, *best)) break;
   }
@@ -262,34 +321,43 @@ struct VertexPair {
 
 template <class N>
 struct Solution {
-  N distance2{0};
-  Point<N> b_to_a;  ///< nearest point of A - B
+  N norm2{0};       ///< of the nearest point of A - B, times the weights' denominator
+  Point<N> b_to_a;  ///< that point, times the same
   std::vector<VertexPair> pairs;
-  std::vector<N> weights;  ///< one per pair: nearest points are the same combination of their vertices
+  Fractions<N> weights;  ///< one per pair: nearest points are the same combination of their vertices
+
+  bool is_as_far_as(const Solution& other) const {
+    return norm2 * other.weights.denominator >= other.norm2 * weights.denominator;
+  }
 };
+
+Rational distance2(const Solution<Dyadic>& solution) {
+  return rational(solution.norm2) / rational(solution.weights.denominator);
+}
 
 template <class N>
 class Solver {
  public:
   Solver(Placed<N> a, Placed<N> b) : a_(std::move(a)), b_(std::move(b)) {}
 
-  // In rationals neither a repeated pair nor a standstill can occur before the end; in double they are the end.
+  // Of exact numbers neither a repeated pair nor a standstill can occur before the end; in double they are the end.
   Solution<N> solve(std::vector<VertexPair> pairs) const {
     std::optional<Solution<N>> solution;
     for (;;) {
       Solution<N> next = nearest_of(pairs);
-      if (solution && next.distance2 >= solution->distance2) return *solution;
+      if (solution && next.is_as_far_as(*solution)) return *solution;
       solution = std::move(next);
-      if (!(solution->distance2 > N(0))) return *solution;
+      if (!(solution->norm2 > N(0))) return *solution;
       const VertexPair w = support_pair(solution->b_to_a);
       const auto& kept = solution->pairs;
-      if (std::find(kept.begin(), kept.end(), w) != kept.end() || dot(solution->b_to_a, difference(w)) >= solution->distance2)
+      if (std::find(kept.begin(), kept.end(), w) != kept.end() || dot(solution->b_to_a, difference(w)) >= solution->norm2)
         return *solution;
       pairs = kept;
       pairs.push_back(w);
     }
   }
 
+  /// Times the weights' denominator.
   Point<N> point_a(const Solution<N>& solution) const {
     return combination(solution, [&](const VertexPair& pair) { return a_[pair.a]; });
   }
@@ -314,7 +382,7 @@ class Solver {
     Point<N> sum{N(0), N(0), N(0)};
     for (std::size_t i = 0; i < solution.pairs.size(); ++i) {
       const Point<N> p = point_of(solution.pairs[i]);
-      for (int k = 0; k < 3; ++k) sum[k] = sum[k] + solution.weights[i] * p[k];
+      for (int k = 0; k < 3; ++k) sum[k] = sum[k] + solution.weights.numerators[i] * p[k];
     }
     return sum;
   }
@@ -324,7 +392,7 @@ class Solver {
     for (const VertexPair& pair : pairs) differences.push_back(difference(pair));
     Nearest<N> found = nearest(differences);
     Solution<N> solution;
-    solution.distance2 = found.norm2;
+    solution.norm2 = found.norm2;
     for (std::size_t i : found.subset) solution.pairs.push_back(pairs[i]);
     solution.weights = std::move(found.weights);
     solution.b_to_a = combination(solution, [&](const VertexPair& pair) { return difference(pair); });
@@ -333,6 +401,72 @@ class Solver {
 
   Placed<N> a_, b_;
 };
+
+/// A point times the denominator, as it is.
+Point<Rational> divided(const Point<Dyadic>& p, const Solution<Dyadic>& solution) {
+  const Rational by = rational(solution.weights.denominator);
+  return {rational(p[0]) / by, rational(p[1]) / by, rational(p[2]) / by};
+}
+
+// --- What doubles of more bits show by themselves ---------------------------------------------------------------------------
+
+using Extended = long double;
+constexpr Extended kEps = std::numeric_limits<Extended>::epsilon();
+/// Of at least 64 bits, and sums of products of doubles neither overflow nor vanish.
+constexpr bool kIsExtended =
+    std::numeric_limits<Extended>::digits >= 64 && std::numeric_limits<Extended>::max_exponent >= 16384;
+
+/// Whether the points that a solution in doubles combines, its weights taken as they are, surely lie within the bound of each
+/// other. A coordinate of a difference is off by less than 3 eps of the absolute values that it is summed from, their weighted
+/// sum by 2 more; root, sum of weights and quotient by less than 8 of the result. Twice that covers this sum's own rounding.
+bool surely_within(const Solution<double>& guess, std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_in_a,
+                   double bound) {
+  Point<Extended> sum{};
+  Extended weights = 0, largest = 0;
+  for (std::size_t i = 0; i < guess.pairs.size(); ++i) {
+    const Extended weight = guess.weights.numerators[i];
+    weights += weight;
+    for (int c = 0; c < 3; ++c) {
+      const Extended p = a[guess.pairs[i].a][c], t = b_in_a.translation[c];
+      Extended difference = p - t, absolute = std::fabs(p) + std::fabs(t);
+      for (int k = 0; k < 3; ++k) {
+        const Extended product = Extended(b_in_a.rotation(c, k)) * b[guess.pairs[i].b][k];
+        difference -= product, absolute += std::fabs(product);
+      }
+      sum[std::size_t(c)] += weight * difference;
+      largest = std::max(largest, absolute);
+    }
+  }
+  return std::sqrt(dot(sum, sum)) / weights * (1 + 16 * kEps) + 32 * kEps * largest <= bound;
+}
+
+/// Whether the gap surely is at least so wide. It is off by less than 8 eps of the absolute values that it is summed from, the
+/// direction's length by less than 4 of itself.
+bool surely_apart(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_in_a, const Vec3& direction, double least) {
+  Point<Extended> n{}, n_b{};
+  Extended shift = 0, length1 = 0, stretch = 0, extent = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    n[c] = direction[int(c)];
+    shift += n[c] * b_in_a.translation[int(c)];
+    length1 += std::fabs(n[c]);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      n_b[k] += n[c] * b_in_a.rotation(int(c), int(k));
+      stretch = std::max(stretch, std::fabs(Extended(b_in_a.rotation(int(c), int(k)))));
+    }
+  }
+  const auto along = [&](const Point<Extended>& m, const Vec3& p, Extended factor) {
+    for (const double x : p) extent = std::max(extent, factor * std::fabs(Extended(x)));
+    return m[0] * p[0] + m[1] * p[1] + m[2] * p[2];
+  };
+  Extended most = -std::numeric_limits<Extended>::infinity(), fewest = -most;
+  for (const Vec3& p : a) most = std::max(most, along(n, p, 1));
+  for (const Vec3& p : b) fewest = std::min(fewest, along(n_b, p, 3 * stretch));
+  const Extended size = length1 * (2 * extent + b_in_a.translation.lpNorm<Eigen::Infinity>());
+  const Extended wanted = least * std::sqrt(dot(n, n));
+  return shift + fewest - most - 16 * kEps * size >= wanted + 8 * kEps * std::fabs(wanted);
+}
 
 // --- The nearest facet of the difference body ------------------------------------------------------------------------------
 
@@ -350,10 +484,10 @@ std::vector<Vec3> extreme(std::span<const Vec3> points) {
   return result;
 }
 
-using Lazy = CGAL::Lazy_exact_nt<Rational>;
+using Lazy = CGAL::Lazy_exact_nt<Dyadic>;
 using LazyPoint = CGAL::Simple_cartesian<Lazy>::Point_3;
 
-Point<Rational> exactly(const LazyPoint& p) { return {p.x().exact(), p.y().exact(), p.z().exact()}; }
+Point<Dyadic> exactly(const LazyPoint& p) { return {p.x().exact(), p.y().exact(), p.z().exact()}; }
 
 template <class N>
 Point<N> operator-(const Point<N>& p, const Point<N>& q) {
@@ -367,13 +501,13 @@ Point<N> cross(const Point<N>& p, const Point<N>& q) {
 std::vector<LazyPoint> differences(std::span<const Vec3> a, const Pose& a_in_world, std::span<const Vec3> b,
                                    const Pose& b_in_world) {
   const std::vector<Vec3> corners_a = extreme(a), corners_b = extreme(b);
-  const Placed<Rational> placed_a(corners_a, a_in_world), placed_b(corners_b, b_in_world);
-  std::vector<Point<Rational>> moved_b;
+  const Placed<Dyadic> placed_a(corners_a, a_in_world), placed_b(corners_b, b_in_world);
+  std::vector<Point<Dyadic>> moved_b;
   for (std::uint32_t j = 0; j < corners_b.size(); ++j) moved_b.push_back(placed_b[j]);
   std::vector<LazyPoint> result;
   for (std::uint32_t i = 0; i < corners_a.size(); ++i) {
-    const Point<Rational> p = placed_a[i];
-    for (const Point<Rational>& q : moved_b) result.emplace_back(Lazy(p[0] - q[0]), Lazy(p[1] - q[1]), Lazy(p[2] - q[2]));
+    const Point<Dyadic> p = placed_a[i];
+    for (const Point<Dyadic>& q : moved_b) result.emplace_back(Lazy(p[0] - q[0]), Lazy(p[1] - q[1]), Lazy(p[2] - q[2]));
   }
   return result;
 }
@@ -389,7 +523,7 @@ bool is_solid(const std::vector<LazyPoint>& points) {
 
 struct Depth {
   Rational square{0};
-  Point<Rational> normal{};  ///< outward, any length
+  Point<Dyadic> normal{};  ///< outward, any length
 };
 
 /// From the origin, which the hull of the points holds, to the nearest plane of a facet.
@@ -400,12 +534,12 @@ Depth depth_of_origin(const std::vector<LazyPoint>& points) {
   std::optional<Depth> least;
   for (const auto face : hull.faces()) {
     const auto h = hull.halfedge(face);
-    const Point<Rational> p = exactly(hull.point(hull.source(h))), q = exactly(hull.point(hull.target(h))),
-                          r = exactly(hull.point(hull.target(hull.next(h))));
-    const Point<Rational> n = cross(q - p, r - p);
-    const Rational along = dot(n, p);
+    const Point<Dyadic> p = exactly(hull.point(hull.source(h))), q = exactly(hull.point(hull.target(h))),
+                        r = exactly(hull.point(hull.target(hull.next(h))));
+    const Point<Dyadic> n = cross(q - p, r - p);
+    const Dyadic along = dot(n, p);
     if (along < 0) throw std::logic_error("the minimum norm is 0, but the hull of the differences does not hold the origin");
-    const Rational square = along * along / dot(n, n);
+    const Rational square = rational(along * along) / rational(dot(n, n));
     if (!least || square < least->square) least = Depth{square, n};
   }
   return *least;
@@ -416,32 +550,33 @@ Depth depth_of_origin(const std::vector<LazyPoint>& points) {
 Truth distance(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_in_a) {
   assert(!a.empty() && !b.empty());
   const auto guess = Solver<double>(Placed<double>(a), {b, b_in_a}).solve({{0, 0}});
-  const Solver<Rational> solver(Placed<Rational>(a), {b, b_in_a});
+  const Solver<Dyadic> solver(Placed<Dyadic>(a), {b, b_in_a});
   const auto solution = solver.solve(guess.pairs);
+  const Rational square = distance2(solution);
   Truth truth;
-  truth.overlapping = CGAL::sign(solution.distance2) == CGAL::ZERO;
-  truth.bounds = square_root(solution.distance2);
+  truth.overlapping = CGAL::sign(square) == CGAL::ZERO;
+  truth.bounds = square_root(square);
   truth.distance = truth.bounds.lower;
-  std::tie(truth.bounds2.lower, truth.bounds2.upper) = CGAL::to_interval(solution.distance2);
-  truth.witness_a = rounded(solver.point_a(solution));
-  truth.witness_b = rounded(solver.point_b(solution));
-  if (!truth.overlapping) truth.normal = rounded_direction(opposite(solution.b_to_a)).stableNormalized();
-  truth.exact = std::make_shared<const Exact>(Exact{solution.distance2});
+  std::tie(truth.bounds2.lower, truth.bounds2.upper) = CGAL::to_interval(square);
+  truth.witness_a = rounded(divided(solver.point_a(solution), solution));
+  truth.witness_b = rounded(divided(solver.point_b(solution), solution));
+  if (!truth.overlapping) truth.normal = rounded_direction(opposite(divided(solution.b_to_a, solution))).stableNormalized();
+  truth.exact = std::make_shared<const Exact>(Exact{square});
   return truth;
 }
 
 SignedTruth signed_distance(std::span<const Vec3> a, const Pose& a_in_world, std::span<const Vec3> b, const Pose& b_in_world) {
   assert(!a.empty() && !b.empty());
   const auto guess = Solver<double>({a, a_in_world}, {b, b_in_world}).solve({{0, 0}});
-  const auto solution = Solver<Rational>({a, a_in_world}, {b, b_in_world}).solve(guess.pairs);
+  const auto solution = Solver<Dyadic>({a, a_in_world}, {b, b_in_world}).solve(guess.pairs);
   SignedTruth truth;
-  Rational square = solution.distance2;
-  Point<Rational> normal = opposite(solution.b_to_a);
+  Rational square = distance2(solution);
+  Point<Rational> normal = opposite(divided(solution.b_to_a, solution));
   truth.sign = int(CGAL::sign(square));
   if (truth.sign == 0) {
     const Depth depth = depth_of_origin(differences(a, a_in_world, b, b_in_world));
     square = depth.square;
-    normal = depth.normal;
+    normal = rational(depth.normal);
     truth.sign = -int(CGAL::sign(square));
   }
   truth.bounds = square_root(square);
@@ -455,7 +590,8 @@ SignedTruth signed_distance(std::span<const Vec3> a, const Pose& a_in_world, std
 int compare(const SignedTruth& truth, double x) {
   const int sign_x = x > 0 ? 1 : x < 0 ? -1 : 0;
   if (truth.sign != sign_x) return truth.sign < sign_x ? -1 : 1;
-  if (std::isinf(x)) return -sign_x;
+  if (x < truth.bounds.lower) return 1;
+  if (x > truth.bounds.upper) return -1;
   const Rational& square = truth.exact->distance2;
   return sign_x * int(CGAL::compare(square, Rational(x) * Rational(x)));
 }
@@ -468,16 +604,27 @@ std::string squared_text(const SignedTruth& truth) {
 }
 
 bool holds(const Truth& truth, double lower, double upper) {
-  const Rational& distance2 = truth.exact->distance2;
-  const bool above = lower <= 0 || (std::isfinite(lower) && Rational(lower) * Rational(lower) <= distance2);
-  const bool below = upper >= 0 && (std::isinf(upper) || distance2 <= Rational(upper) * Rational(upper));
-  return above && below;
+  // No double lies between the bounds.
+  return lower <= truth.bounds.lower && upper >= truth.bounds.upper;
+}
+
+bool is_within(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_in_a, double bound) {
+  assert(!a.empty() && !b.empty());
+  const auto guess = Solver<double>(Placed<double>(a), {b, b_in_a}).solve({{0, 0}});
+  if (kIsExtended && surely_within(guess, a, b, b_in_a, bound)) return true;
+  const Rational square = distance2(Solver<Dyadic>(Placed<Dyadic>(a), {b, b_in_a}).solve(guess.pairs));
+  return bound >= square_root(square).upper;
+}
+
+bool is_apart_along(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_in_a, const Vec3& direction, double least) {
+  if (kIsExtended && surely_apart(a, b, b_in_a, direction, least)) return true;
+  return least <= gap(a, b, b_in_a, direction).lower;
 }
 
 Interval gap(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_in_a, const Vec3& direction) {
-  const Point<Rational> n = point<Rational>(direction);
-  const Rational along = Solver<Rational>(Placed<Rational>(a), {b, b_in_a}).least_along(opposite(n));
-  const Interval size = square_root(along * along / dot(n, n));
+  const Point<Dyadic> n = point<Dyadic>(direction);
+  const Dyadic along = Solver<Dyadic>(Placed<Dyadic>(a), {b, b_in_a}).least_along(opposite(n));
+  const Interval size = square_root(rational(along * along) / rational(dot(n, n)));
   return along >= 0 ? size : Interval{-size.upper, -size.lower};
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The truth about two point sets and a pose, in rational arithmetic. Knows Vec3 and Pose; shares no algorithm, predicate or
+// The truth about two point sets and a pose, in exact arithmetic. Knows Vec3 and Pose; shares no algorithm, predicate or
 // epsilon with march, so that both being wrong alike is unlikely.
 #pragma once
 
@@ -40,6 +40,10 @@ struct Truth {
 /// Cost: about 0.15 ms for a cube, 0.3 ms for 1002 points, 1.5 ms for 10 002; ten times that at worst.
 Truth distance(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_in_a);
 
+/// distance <= bound, decided exactly: what `holds(distance(a, b, b_in_a), 0, bound)` says, at a tenth of its cost where two
+/// points that are nearer show it in doubles of more bits.
+bool is_within(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_in_a, double bound);
+
 /// lower <= distance <= upper, decided exactly; `upper` may be infinite. `holds(truth, 0, x)` asks whether distance <= x.
 bool holds(const Truth& truth, double lower, double upper);
 
@@ -69,6 +73,9 @@ std::string squared_text(const SignedTruth& truth);
 /// How far apart the two bodies are along `direction` (A's frame, any length but 0, used as if normalised exactly): least
 /// coordinate of B less greatest of A. Negative when that direction does not separate them.
 Interval gap(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_in_a, const Vec3& direction);
+
+/// least <= gap, decided exactly; quickly where doubles of more bits show it.
+bool is_apart_along(std::span<const Vec3> a, std::span<const Vec3> b, const Pose& b_in_a, const Vec3& direction, double least);
 
 /// No point lies outside of any triangle's plane; triangles are counter-clockwise seen from outside.
 bool encloses(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::span<const Vec3> points);

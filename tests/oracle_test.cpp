@@ -121,6 +121,35 @@ TEST(Oracle, HoldsIsFalseOutsideAndForEmptyIntervals) {
   EXPECT_FALSE(oracle::holds(truth, std::numeric_limits<double>::quiet_NaN(), kInfinity));
 }
 
+/// Bounds some ulps to both sides of the truth, near enough for doubles of more bits to tell nothing and far enough to tell.
+TEST(Oracle, WhatIsShownQuicklyIsTrue) {
+  shapes::Random random(7);
+  const auto cloud = [&](int count) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < count; ++i) points.push_back(random.in_ball());
+    return points;
+  };
+  int overlapping = 0;
+  for (int i = 0; i < 400; ++i) {
+    const std::vector<Vec3> a = cloud(1 + i % 5), b = cloud(1 + i % 7);
+    const Pose pose{random.rotation(), random.on_sphere() * random.uniform(0, 2) * std::pow(10., i % 4)};
+    const Vec3 n = random.on_sphere();
+    const Truth truth = oracle::distance(a, b, pose);
+    overlapping += truth.overlapping;
+    const oracle::Interval gap = oracle::gap(a, b, pose, n);
+    double far = truth.bounds.upper, near = std::nextafter(far, -1), less = gap.lower, more = std::nextafter(less, kInfinity);
+    for (int ulps = 0; ulps < 8; ++ulps) {
+      ASSERT_TRUE(oracle::is_within(a, b, pose, far)) << i;
+      ASSERT_FALSE(oracle::is_within(a, b, pose, near)) << i;
+      ASSERT_TRUE(oracle::is_apart_along(a, b, pose, n, less)) << i;
+      ASSERT_FALSE(oracle::is_apart_along(a, b, pose, n, more)) << i;
+      far = std::nextafter(far, kInfinity), near = std::nextafter(near, -1);
+      less = std::nextafter(less, -kInfinity), more = std::nextafter(more, kInfinity);
+    }
+  }
+  EXPECT_GE(overlapping, 20);
+}
+
 TEST(Oracle, GapAlongTheNormalIsTheDistance) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const Mesh a = shapes::random_polytope(20, 2 * seed), b = shapes::random_polytope(20, 2 * seed + 1);

@@ -115,7 +115,7 @@ std::string Judge::fault(const Manifold& manifold, const Answer& answer, const M
     if (!(p.point_a + p.point_b).allFinite() || !(p.separation <= options.margin + law_two_)) return "no point of a manifold";
     if (!((p.point_b - p.point_a - p.separation * manifold.normal).norm() <= 2 * law_two_)) return "not one above the other";
     const auto off = [&](const Vec3& point, const Model& body, const Pose& pose) {
-      return !oracle::holds(oracle::distance({&point, 1}, bodies::points_of(body.level(0).view), pose), 0, law_two_);
+      return !oracle::is_within({&point, 1}, bodies::points_of(body.level(0).view), pose, law_two_);
     };
     if (off(p.point_a, a_, Pose{}) || off(p.point_b, b_, b_in_a_)) return "a point outside its body";
     least = std::min(least, p.separation);

@@ -8,20 +8,20 @@
 #include <limits>
 #include <vector>
 
-#include <CGAL/Gmpq.h>
+#include <CGAL/Gmpzf.h>
 #include <Eigen/Geometry>
 
 namespace swiftlet::stability {
 namespace {
 
-using Rational = CGAL::Gmpq;
-using Exact = std::array<Rational, 3>;
+using Dyadic = CGAL::Gmpzf;  // nothing is divided
+using Exact = std::array<Dyadic, 3>;
 
 Exact moved(const Pose& pose, const Vec3& p, bool is_point) {
   Exact q;
   for (int i = 0; i < 3; ++i) {
-    q[std::size_t(i)] = is_point ? Rational(pose.translation[i]) : Rational(0);
-    for (int j = 0; j < 3; ++j) q[std::size_t(i)] += Rational(pose.rotation(i, j)) * Rational(p[j]);
+    q[std::size_t(i)] = is_point ? Dyadic(pose.translation[i]) : Dyadic(0);
+    for (int j = 0; j < 3; ++j) q[std::size_t(i)] += Dyadic(pose.rotation(i, j)) * Dyadic(p[j]);
   }
   return q;
 }
@@ -29,7 +29,7 @@ Exact minus(const Exact& p, const Exact& q) { return {p[0] - q[0], p[1] - q[1], 
 Exact cross(const Exact& p, const Exact& q) {
   return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
 }
-Rational dot(const Exact& p, const Exact& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+Dyadic dot(const Exact& p, const Exact& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
 
 /// One body in A's frame, rounded and exact, and the edges of its hull. Differences of rounded points are as precise as the
 /// body is small, however far it is.
@@ -108,7 +108,7 @@ class Difference {
     if (!below && !above) return std::nullopt;
     const Exact normal =
         cross(minus(x.exact_points[e.to], x.exact_points[e.from]), minus(y.exact_points[f.to], y.exact_points[f.from]));
-    const Rational square = dot(normal, normal);
+    const Dyadic square = dot(normal, normal);
     if (square == 0) return std::nullopt;
     found_ = true;
     const Exact opposite = minus({0, 0, 0}, normal);
@@ -130,22 +130,22 @@ class Difference {
   }
   /// Decided exactly, but for vertices that are surely below others, and planes that surely are higher: nearly parallel edges
   /// have a normal that their difference in doubles does not know.
-  bool is_lower(const Exact& n, const Rational& square) const {
+  bool is_lower(const Exact& n, const Dyadic& square) const {
     const Vec3 rounded(CGAL::to_double(n[0]), CGAL::to_double(n[1]), CGAL::to_double(n[2]));
     const double doubt = 0x1p-44 * rounded.norm();
     if (reaches(rounded, depth_ * rounded.norm() + doubt * (a_.extent + b_.extent + b_.shift.norm()))) return false;
-    const Rational height = farthest(a_, n, rounded, doubt) + farthest(b_, minus({0, 0, 0}, n), -rounded, doubt);
+    const Dyadic height = farthest(a_, n, rounded, doubt) + farthest(b_, minus({0, 0, 0}, n), -rounded, doubt);
     return height < 0 || height * height < exact_depth_ * exact_depth_ * square;
   }
   /// The greatest height of a body's vertices along n, among those that may have it.
-  static Rational farthest(const Moved& body, const Exact& n, const Vec3& rounded, double doubt) {
+  static Dyadic farthest(const Moved& body, const Exact& n, const Vec3& rounded, double doubt) {
     double enough = -std::numeric_limits<double>::infinity();
     for (const Vec3& p : body.points) enough = std::max(enough, rounded.dot(p));
     enough -= 2 * doubt * body.extent;
-    std::optional<Rational> most;
+    std::optional<Dyadic> most;
     for (std::size_t i = 0; i < body.points.size(); ++i) {
       if (rounded.dot(body.points[i]) < enough) continue;
-      const Rational height = dot(n, body.exact_points[i]);
+      const Dyadic height = dot(n, body.exact_points[i]);
       if (!most || height > *most) most = height;
     }
     return *most;
@@ -153,7 +153,7 @@ class Difference {
 
   const Moved &a_, &b_;
   const double depth_;
-  const Rational exact_depth_;
+  const Dyadic exact_depth_;
   bool found_ = false;  ///< a plane at all: a difference without one is a segment or a point
 };
 

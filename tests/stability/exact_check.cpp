@@ -9,15 +9,15 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include <CGAL/Gmpq.h>
+#include <CGAL/Gmpzf.h>
 
 #include "depth_check.h"
 
 namespace swiftlet::stability {
 namespace {
 
-using Rational = CGAL::Gmpq;
-using Point = std::array<Rational, 3>;
+using Dyadic = CGAL::Gmpzf;  // nothing is divided
+using Point = std::array<Dyadic, 3>;
 
 constexpr double kEpsilon = 0x1p-53;
 
@@ -30,7 +30,7 @@ constexpr double kEpsilon = 0x1p-53;
   return buffer;
 }
 
-Rational determinant(const Point& p, const Point& q, const Point& r) {
+Dyadic determinant(const Point& p, const Point& q, const Point& r) {
   return p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
 }
 
@@ -38,19 +38,19 @@ Rational determinant(const Point& p, const Point& q, const Point& r) {
 Point difference(const Vec3& a, const Vec3& b, const Pose& b_in_a) {
   Point d;
   for (int i = 0; i < 3; ++i) {
-    d[std::size_t(i)] = Rational(a[i]) - Rational(b_in_a.translation[i]);
-    for (int j = 0; j < 3; ++j) d[std::size_t(i)] -= Rational(b_in_a.rotation(i, j)) * Rational(b[j]);
+    d[std::size_t(i)] = Dyadic(a[i]) - Dyadic(b_in_a.translation[i]);
+    for (int j = 0; j < 3; ++j) d[std::size_t(i)] -= Dyadic(b_in_a.rotation(i, j)) * Dyadic(b[j]);
   }
   return d;
 }
 
 /// The largest entry of |R^T R - I|, rounded once.
 double orthonormality_error(const Mat3& r) {
-  Rational worst(0);
+  Dyadic worst(0);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j <= i; ++j) {
-      Rational entry(i == j ? -1 : 0);
-      for (int k = 0; k < 3; ++k) entry += Rational(r(k, i)) * Rational(r(k, j));
+      Dyadic entry(i == j ? -1 : 0);
+      for (int k = 0; k < 3; ++k) entry += Dyadic(r(k, i)) * Dyadic(r(k, j));
       worst = std::max(worst, CGAL::abs(entry));
     }
   }
@@ -60,10 +60,10 @@ double orthonormality_error(const Mat3& r) {
 /// Whether the tetrahedron of the four points has volume and holds the origin.
 bool holds_origin(const std::array<Point, 4>& p) {
   // The volumes that the origin spans with each face, turned alike: positive weights of the four points, or all negative.
-  const Rational weights[] = {determinant(p[1], p[3], p[2]), determinant(p[0], p[2], p[3]), determinant(p[0], p[3], p[1]),
-                              determinant(p[0], p[1], p[2])};
+  const Dyadic weights[] = {determinant(p[1], p[3], p[2]), determinant(p[0], p[2], p[3]), determinant(p[0], p[3], p[1]),
+                            determinant(p[0], p[1], p[2])};
   int above = 0, below = 0;
-  for (const Rational& w : weights) {
+  for (const Dyadic& w : weights) {
     above += CGAL::sign(w) == CGAL::POSITIVE;
     below += CGAL::sign(w) == CGAL::NEGATIVE;
   }
@@ -130,6 +130,12 @@ const oracle::Truth& Judge::truth() {
   return truth_;
 }
 
+std::string Judge::too_high(const Answer& answer) const {
+  if (oracle::is_apart_along(a_.points, b_.points, b_in_a_, answer.normal, answer.lower)) return "";
+  const oracle::Interval gap = oracle::gap(a_.points, b_.points, b_in_a_, answer.normal);
+  return text("lower is %a, the gap along the normal %a", answer.lower, gap.lower);
+}
+
 std::string Judge::interval(const Answer& answer, const OverlapProof& proof) {
   if (answer.status == Status::InvalidPose || answer.status == Status::NotConverged)
     return text("the status is %d", int(answer.status));
@@ -142,8 +148,7 @@ std::string Judge::interval(const Answer& answer, const OverlapProof& proof) {
   if (answer.lower > 0) {
     const double square = answer.normal.squaredNorm();
     if (!(std::fabs(square - 1) <= 8 * kEpsilon)) return text("|normal|^2 - 1 is %g", square - 1);
-    const oracle::Interval gap = oracle::gap(a_.points, b_.points, b_in_a_, answer.normal);
-    if (!(answer.lower <= gap.lower)) return text("lower is %a, the gap along the normal %a", answer.lower, gap.lower);
+    if (std::string wrong = too_high(answer); !wrong.empty()) return wrong;
   }
   if (a_.model.level_count() == 1 && b_.model.level_count() == 1 &&
       answer.steps > step_limit(a_.model.level(0), b_.model.level(0)))
@@ -157,9 +162,7 @@ std::string Judge::upper_bound(const Answer& answer) {
   if (!has_truth_ && answer.level_a == 0 && answer.level_b == 0) {
     const std::vector<Vec3> feature_a = vertices_of(a_.model.level(0).view, answer.feature_a);
     const std::vector<Vec3> feature_b = vertices_of(b_.model.level(0).view, answer.feature_b);
-    if (!feature_a.empty() && !feature_b.empty() &&
-        oracle::holds(oracle::distance(feature_a, feature_b, b_in_a_), 0, answer.upper))
-      return "";
+    if (!feature_a.empty() && !feature_b.empty() && oracle::is_within(feature_a, feature_b, b_in_a_, answer.upper)) return "";
   }
   if (oracle::holds(truth(), answer.lower, answer.upper)) return "";
   return text("[%a, %a] does not hold the distance %a", answer.lower, answer.upper, truth().distance);
@@ -187,9 +190,9 @@ std::string Judge::proved_verdict(const Answer& answer, const OverlapProof& proo
     case Verdict::Touching: {
       if (!(answer.upper <= law_two_)) return text("touching with an upper bound of %g, law 2's is %g", answer.upper, law_two_);
       if (!(std::fabs(answer.normal.squaredNorm() - 1) <= 8 * kEpsilon)) return "touching without a unit normal";
-      const oracle::Interval gap = oracle::gap(a_.points, b_.points, b_in_a_, answer.normal);
-      if (!(gap.upper >= -law_two_))
-        return text("touching, but %g deep along the normal, law 2's bound is %g", -gap.upper, law_two_);
+      if (!oracle::is_apart_along(a_.points, b_.points, b_in_a_, answer.normal, -law_two_))
+        return text("touching, but %g deep along the normal, law 2's bound is %g",
+                    -oracle::gap(a_.points, b_.points, b_in_a_, answer.normal).upper, law_two_);
       break;
     }
     case Verdict::Overlapping:
@@ -225,7 +228,7 @@ std::string Judge::witnesses(const Answer& answer) {
 }
 
 bool Judge::within_law_two(const Vec3& p_a, std::span<const Vec3> points, const Pose& pose) const {
-  return !points.empty() && oracle::holds(oracle::distance({&p_a, 1}, points, pose), 0, law_two_);
+  return !points.empty() && oracle::is_within({&p_a, 1}, points, pose, law_two_);
 }
 
 std::string Judge::verdict(const Answer& answer, const OverlapProof& proof) {
@@ -239,8 +242,7 @@ std::string Judge::signed_interval(const Answer& answer, const OverlapProof& pro
   if (std::isfinite(answer.lower)) {
     const double square = answer.normal.squaredNorm();
     if (!(std::fabs(square - 1) <= 8 * kEpsilon)) return text("|normal|^2 - 1 is %g", square - 1);
-    const oracle::Interval gap = oracle::gap(a_.points, b_.points, b_in_a_, answer.normal);
-    if (!(answer.lower <= gap.lower)) return text("lower is %a, the gap along the normal %a", answer.lower, gap.lower);
+    if (std::string wrong = too_high(answer); !wrong.empty()) return wrong;
   }
   return signed_upper_bound(answer, proof);
 }
@@ -254,18 +256,18 @@ std::string Judge::signed_upper_bound(const Answer& answer, const OverlapProof& 
     if (!has_truth_ && answer.level_a == 0 && answer.level_b == 0) {
       const std::vector<Vec3> feature_a = vertices_of(a_.model.level(0).view, answer.feature_a);
       const std::vector<Vec3> feature_b = vertices_of(b_.model.level(0).view, answer.feature_b);
-      if (!feature_a.empty() && !feature_b.empty() &&
-          oracle::holds(oracle::distance(feature_a, feature_b, b_in_a_), 0, answer.upper))
-        return "";
+      if (!feature_a.empty() && !feature_b.empty() && oracle::is_within(feature_a, feature_b, b_in_a_, answer.upper)) return "";
     }
     if (oracle::holds(truth(), 0, answer.upper)) return "";
     return text("upper is %a, the distance %a", answer.upper, truth().distance);
   }
   if (answer.verdict == Verdict::Disjoint) return "disjoint, but below 0";
+  if (-answer.upper <= least_depth_) return "";
   if (const auto n = shallower(a_, b_, b_in_a_, -answer.upper)) {
     const oracle::Interval gap = oracle::gap(a_.points, b_.points, b_in_a_, n->isZero() ? Vec3(1, 0, 0) : *n);
     return text("upper is %a, but along (%a, %a, %a) the gap is %a", answer.upper, (*n)[0], (*n)[1], (*n)[2], gap.lower);
   }
+  least_depth_ = -answer.upper;
   return "";
 }
 

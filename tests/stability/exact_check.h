@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Is an answer true? Decided in rational arithmetic over all points of both bodies; shares nothing with march, neither
+// Is an answer true? Decided in exact arithmetic over all points of both bodies; shares nothing with march, neither
 // predicate nor bound. Knows models and answers; not how they were asked for.
 #pragma once
 
@@ -68,6 +68,7 @@ class Judge {
   bool has_truth() const { return has_truth_; }
 
  private:
+  std::string too_high(const Answer& answer) const;
   std::string upper_bound(const Answer& answer);
   std::string proved_verdict(const Answer& answer, const OverlapProof& proof);
   std::string proved_overlap(const Answer& answer, const OverlapProof& proof) const;
@@ -81,6 +82,7 @@ class Judge {
   const Subject &a_, &b_;
   Pose b_in_a_;
   double size_, law_two_;
+  double least_depth_ = 0;  ///< what no plane was found to be nearer than
   bool has_truth_ = false;
   oracle::Truth truth_;
 };

@@ -918,7 +918,7 @@ void slivers(Examiner& examiner, std::uint64_t) {
 constexpr Family kFamilies[] = {
     {"lattice of quarter turns", "G16 G18", "touching", 0.1, 0.3, 78, lattice_quarters},
     {"lattice of eighth turns", "G16 G18", "touching", 0.01, 0.3, 78, lattice_eighths},
-    {"shaken lattice", "G18", "touching", 0.001, 0.2, 624, lattice_shaken, 32},
+    {"shaken lattice", "G18", "touching", 0.001, 0.2, 156, lattice_shaken, 32},
     {"every start", "G16 G18", "not disjoint", 0.3, 0.9, 48, every_start},
     {"degeneracy search", "G18", "a change of features between neighbouring doubles", 0.5, 1, 8, degeneracy_search},
     {"near parallel", "G18", "the parallel faces decide", 0.2, 0.9, 40, near_parallel},

@@ -57,7 +57,7 @@ struct Claim {
     const std::vector<Vec3> corners = on_face ? subject.points : vertices_of(view, feature);
     const double flatness = flatness_of(options, subject), depth = flatness * view.extent + bound;
     const auto is_within = [&](const std::vector<Vec3>& hull, double off) {
-      return oracle::holds(oracle::distance({&point, 1}, hull, pose), 0, off);
+      return oracle::is_within({&point, 1}, hull, pose, off);
     };
     // The border of a face that is flat only nearly may turn inwards; an edge there is named for the chord that cuts it off.
     const auto is_on_chord = [&] {

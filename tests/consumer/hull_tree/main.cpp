@@ -20,8 +20,6 @@
 namespace hull_tree {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 struct Body {
   std::string name;
   Mesh mesh;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 
 #include <swiftlet/build.h>
 #include <swiftlet/pose.h>
@@ -15,6 +16,8 @@ using swiftlet::Mat3;
 using swiftlet::Mesh;
 using swiftlet::Pose;
 using swiftlet::Vec3;
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Mesh torus(double major, double minor, std::uint32_t around, std::uint32_t across);
 /// A tube along the trefoil that winds three times around a torus of radii 2 and 1 while going around it twice.

@@ -11,8 +11,6 @@
 namespace hull_tree {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Between the inner points of two segments, infinity where an end is as near.
 double between_lines(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = d - c, w = c - a, n = u.cross(v);
