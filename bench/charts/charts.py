@@ -27,10 +27,11 @@ SHAPES = ("fat", "plate", "long")
 READABLE = {
     "vclip": "V-Clip", "plain": "our walk", "plain table": "our walk, table", "fcl indep": "FCL, own GJK",
     "fcl libccd": "FCL, libccd", "fcl libccd climb": "FCL, libccd, our support", "bullet": "Bullet", "bullet climb": "Bullet, our support",
-    "bullet guess climb": "Bullet, with guess", "libccd mpr": "libccd MPR, our support", "ode": "ODE",
+    "bullet guess climb": "Bullet, with guess", "libccd mpr": "libccd MPR, our support", "libccd gjk": "libccd GJK, our support",
+    "ode": "ODE", "swiftlet ~0.1": "swiftlet, to 0.1 r", "swiftlet ~0.01": "swiftlet, to 0.01 r",
 }
 # Builds of the same method for this machine alone, and what of ours is not as shipped, only crowd a picture of everyone.
-CROWD = (" native", " coarsest", " finest", "swiftlet table")
+CROWD = (" native", " coarsest", " finest", " paper", " first", " single", " double", "swiftlet table")
 RANDOM = 400  # the step that stands for random poses
 EXACT = 1e-13  # where the charts show an error below it
 
@@ -103,7 +104,7 @@ def figure(title, columns=1, lines=1, width=10.0, height=4.4, names_take=0.0):
     """Panels on the same axes; `names_take` inches stay free at the right of each for the names of its lines."""
     fig, axes = plt.subplots(lines, columns, figsize=(width, height), sharex=True, sharey=True, squeeze=False)
     fig.suptitle(title, x=0.012, y=0.985, ha="left", fontsize=13, fontweight="bold")
-    fig.text(0.012, 1 - 0.40 / height, "lower is better    ● proved    ○ not proved", ha="left", va="top", color=TEXT, fontsize=9)
+    fig.text(0.012, 1 - 0.40 / height, "lower is better · ● proved · ○ not proved", ha="left", va="top", color=TEXT, fontsize=9)
     fig.subplots_adjust(left=0.95 / width, right=1 - max(names_take, 0.15) / width, top=1 - 0.95 / height, bottom=0.62 / height,
                         wspace=max(names_take, 0.2) / ((width - 1.1) / columns - names_take), hspace=0.32)
     return fig, axes
@@ -130,6 +131,18 @@ def spread(wanted, apart):
     return found
 
 
+def within(heights, apart, low, high):
+    """Heights that `spread` found, moved as little as keeps them between low and high."""
+    order = sorted(range(len(heights)), key=lambda i: heights[i])
+    for i in order:
+        heights[i] = low = max(heights[i], low)
+        low += apart
+    for i in reversed(order):
+        heights[i] = high = min(heights[i], high)
+        high -= apart
+    return heights
+
+
 def name_lines(ax, ends, left_of=None):
     """Writes names right of a panel at the heights where lines end, or left of the place `left_of`; ends: (x, y, name, colour)."""
     ends = [end for end in ends if end[1] > 0]
@@ -139,19 +152,18 @@ def name_lines(ax, ends, left_of=None):
     box = ax.get_window_extent()
     place = box.x1 + 14 if left_of is None else ax.transData.transform((left_of, 1))[0] - 16
     pixel = lambda x, y: ax.transData.transform((x, y))
-    heights = spread([pixel(x, y)[1] for x, y, _, _ in ends], 12.5)
-    shift = max(0, max(heights) - box.y1) or min(0, min(heights) - box.y0)
+    heights = within(spread([pixel(x, y)[1] for x, y, _, _ in ends], 12.5), 12.5, box.y0, box.y1)
     for (x, y, name, colour), height in zip(ends, heights):
-        at = (place, height - shift)
+        at = (place, height)
         ax.annotate(name, xy=(x, y), xycoords="data", xytext=ax.transAxes.inverted().transform(at), textcoords="axes fraction",
                     va="center", ha="left" if left_of is None else "right", fontsize=9, color=colour, fontweight="bold" if colour == OURS else "normal",
-                    annotation_clip=False, arrowprops=dict(arrowstyle="-", linestyle=(0, (1, 3)), color=colour, linewidth=0.9, shrinkA=1, shrinkB=3))
+                    annotation_clip=False, arrowprops=dict(arrowstyle="-", relpos=(0 if left_of is None else 1, 0.5), linestyle=(0, (1, 3)), color=colour, linewidth=0.9, shrinkA=1, shrinkB=3))
 
 
 def motion_axis(ax):
     ax.set_xscale("log")
     ax.set_xlim(0.4, 560)
-    ax.set_xticks([0.5, 2, 10, 45, 180, RANDOM], ["0.5°", "2°", "10°", "45°", "180°", "random"], fontsize=9)
+    ax.set_xticks([1, 10, 45, RANDOM], ["1°", "10°", "45°", "random"], fontsize=9)
 
 
 def time_axis(ax, label="ns per query"):
@@ -159,13 +171,14 @@ def time_axis(ax, label="ns per query"):
     if label:
         ax.set_ylabel(label)
     ax.yaxis.set_major_formatter(lambda v, _: f"{v:,.0f}".replace(",", " ") if v >= 1 else f"{v:g}")
+    ax.yaxis.set_minor_formatter(lambda *_: "")
 
 
 # ---- Charts ------------------------------------------------------------------------------------------------------------------
 
 def over_motion(table, title, asked, label=readable, what="ns", unit="ns per query"):
     """A panel per shape: the series over the motion per query."""
-    fig, axes = figure(title, 3, width=11, height=4.4, names_take=1.5)
+    fig, axes = figure(title, 3, width=11, height=4.6, names_take=1.95)
     for ax, shape in zip(axes[0], SHAPES):
         ax.set_title(shape)
         motion_axis(ax)
@@ -187,13 +200,13 @@ def over_motion(table, title, asked, label=readable, what="ns", unit="ns per que
 
 def orbit(kind):
     def draw(results):
-        return over_motion(rows(results, "orbit"), {"distance": "Exact distance", "intersects": "Do they overlap?"}[kind] +
+        return over_motion(as_they_come(rows(results, "orbit")), {"distance": "Exact distance", "intersects": "Overlapping or not"}[kind] +
                            ", 2 000 triangles on an orbit", kind)
     return draw
 
 
 def standing(results):
-    shown = {"swiftlet", "swiftlet table", "swiftlet ~0.1", "vclip", "fcl libccd", "fcl libccd climb", "bullet climb", "bullet"}
+    shown = {"swiftlet", "swiftlet ~0.1", "vclip", "fcl libccd", "fcl libccd climb", "bullet climb", "bullet", "plain table"}
     table = [row for row in rows(results, "orbit") if row["series"] in shown]
     return over_motion(table, "Exact distance (ours also allowed 0.1 r), 2 000 triangles on an orbit", "distance")
 
@@ -214,11 +227,18 @@ def work(what, title):
     return draw
 
 
+def short(series):
+    """A hierarchy's name where the title says its kind and start: cutoff or rate, and S, SS or DD for the refinement."""
+    for long, brief in (("Double-Double", "DD"), ("Single-Single", "SS"), ("Single", "S"), ("DK ", ""), ("rate ", ""), (" ours", ""), (" paper", ", paper")):
+        series = series.replace(long, brief)
+    return series
+
+
 def paper_figure(name, asked, title, keep=lambda series: True):
     def draw(results):
         table = [row for row in rows(results, name) if keep(row["series"])]
         levels = {row["series"]: int(row["levels"]) for row in table}
-        label = lambda series: f"{series} ({levels[series]})" if levels[series] > 1 else series
+        label = lambda series: short(readable(series)) + (f" ({levels[series]})" if levels[series] > 1 else "")
         return over_motion(table, title, asked, label)
     return draw
 
@@ -272,7 +292,7 @@ def error(results):
 def triangles(results):
     table = [row for row in as_they_come(rows(results, "triangles")) if row["question"] == "distance"]
     steps = [step for step in (10.4, RANDOM) if any(row["step"] == step for row in table)]
-    fig, axes = figure("Exact distance against size", 3, len(steps), width=11, height=1.2 + 3.2 * len(steps), names_take=1.55)
+    fig, axes = figure("Exact distance against size", 3, len(steps), width=11, height=1.2 + 3.2 * len(steps), names_take=1.95)
     panels = [(ax, shape, step) for line, step in zip(axes, steps) for ax, shape in zip(line, SHAPES)]
     ends = []
     for ax, shape, step in panels:
@@ -304,7 +324,7 @@ def scenes(results):
     fig, axes = plt.subplots(lines, columns, figsize=(max(8.6, 3.3 * columns), 1.0 + lines * (0.55 + 0.2 * most)), squeeze=False, sharex=True)
     fig.suptitle("Exact distance in other scenes, 10° a query: ns per query", x=0.012, y=0.985, ha="left", fontsize=13,
                  fontweight="bold")
-    fig.text(0.012, 1 - 0.42 / fig.get_figheight(), "lower is better    filled: proved    hollow: not proved    ! beyond its own error, or wrong",
+    fig.text(0.012, 1 - 0.42 / fig.get_figheight(), "lower is better · filled: proved · hollow: not proved · ! beyond its own error, or wrong",
              ha="left", va="top", color=TEXT, fontsize=9)
     for ax in axes.flat[len(shown):]:
         ax.set_axis_off()
