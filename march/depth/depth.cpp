@@ -18,6 +18,7 @@
 #include "pair/start.h"
 #include "pair/support_gjk.h"
 #include "pair/walk.h"
+#include "pair/witness.h"
 #include "query/model_pair.h"
 #include "query/radii.h"
 #include "query/seed.h"
@@ -31,6 +32,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Span {
   int count = 0;
   std::array<std::uint32_t, 4> vertex{};
+  bool is_whole = true;  ///< the feature has no other vertices
 };
 Span span_of(const ConvexView& view, FeatureId feature) {
   const std::uint32_t i = feature.index();
@@ -42,7 +44,14 @@ Span span_of(const ConvexView& view, FeatureId feature) {
     span.vertex[std::size_t(span.count++)] = origin(view, h);
     h = next_in_face(view, h);
   } while (h != view.face_first[i] && span.count < 4);
+  span.is_whole = h == view.face_first[i];
   return span;
+}
+/// The corners of a triangle between vertices of a face that holds the point of the face below `p`.
+template <class Body>
+Span triangle_below(const Body& body, FeatureId face, const Vec& p) {
+  const Combination c = below(body, face.index(), p);
+  return {3, {c.vertex[0], c.vertex[1], c.vertex[2]}};
 }
 
 /// The search for the depth, from level pair to finer level pair until the bounds suffice.
@@ -142,12 +151,16 @@ class Deepening {
   }
 
   /// Returns a start with `direction` and the pairs of a vertex of each feature, sorted so that their differences go around a
-  /// polygon. If there were more than four pairs, the vertices of A's feature are paired with the first vertex of B's alone.
+  /// polygon. Of a face of many corners and a vertex, the triangle below the vertex stands for the face. If there are more than
+  /// four pairs, the vertices of A's feature are paired with the first vertex of B's alone.
   static DepthStart start_at(const PairView& pair, const MarchStart& features, const Vec& direction) {
     DepthStart s;
     s.direction = direction;
-    const Span a = span_of(pair.a, features.a);
-    Span b = span_of(pair.b, features.b);
+    Span a = span_of(pair.a, features.a), b = span_of(pair.b, features.b);
+    const Resting body = body_a(pair);
+    const Moved other = body_b(pair);
+    if (!a.is_whole && b.count == 1) a = triangle_below(body, features.a, other.point(b.vertex[0]));
+    if (!b.is_whole && a.count == 1) b = triangle_below(other, features.b, other.local(body.point(a.vertex[0])));
     if (a.count * b.count <= 4)
       s.feature_a = features.a, s.feature_b = features.b;
     else

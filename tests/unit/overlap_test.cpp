@@ -71,6 +71,23 @@ bodies::Polyhedron lid() {
   return b;
 }
 
+/// Two cubes of side 2, one on the other and 0.1 deep. Of the facet of 4 x 4 where they meet the start names 2 x 2, A's lid
+/// less one corner of B: beyond its sides the facet goes on.
+TEST(UnitFacetProof, ProvesAFacetByAPartOfIt) {
+  const Motion m = motion({Mat3::Identity(), {0.25, 0.5, 1.9}});
+  const PairView pair = pair_view(kLevel.view, kLevel.view, m, 0);
+  DepthStart start;
+  start.count = 4;
+  for (std::uint32_t k = 0; k < 4; ++k) start.a[k] = index(4 + k), start.b[k] = index(0);
+  start.direction = {0, 0, 1};
+  std::uint32_t tests = 0;
+  Depth d;
+  ASSERT_TRUE(prove_facet(pair, kLevel, kLevel, start, exactly(pair), tests, d));
+  EXPECT_NEAR(d.lower, 0.1, 1e-14);
+  EXPECT_NEAR(d.upper, 0.1, 1e-14);
+  EXPECT_EQ(d.normal.z, 1);
+}
+
 TEST(UnitFacetProof, ProvesTheNearestFacetAndNoOther) {
   const Model body = bodies::model(lid()), dot = bodies::model(bodies::point({0, 0, 0}));
   const Motion m = motion({Mat3::Identity(), {0, 0, -0.01}});
