@@ -82,10 +82,12 @@ class FacetRing {
       const Vec &p = p_[k].p, &q = p_[after(k)].p, side = q - p;
       const double length = norm(side), beside = kLean * dot(normal_, cross(p, q)) / (length * height_);
       const Vec out = cross(side, normal_), up = normal_ * length;
-      Corner& beyond = p_[rim() + k] = about_highest(up + out * min(max(0, beside), kFlare), p_[k]);
-      // Where the facet goes on beyond the side, what is highest there lies in its plane, and not below it.
-      if (dot(normal_, beyond.p) > lower() && !same(beyond, p_[k]) && !same(beyond, p_[after(k)]))
-        beyond = about_highest(out - up * kFlare, p_[k]);
+      Vec direction = up + out * min(max(0, beside), kFlare);
+      // Where the facet goes on beyond the side, what is highest there lies in its plane: the ring is looked for below it.
+      for (bool lower_down = false;; lower_down = true, direction = out - up * kFlare) {
+        p_[rim() + k] = about_highest(direction, p_[k]);
+        if (lower_down || !(dot(normal_, p_[rim() + k].p) > lower())) break;
+      }
     }
     for (std::size_t k = 2; k < rim(); ++k) {
       if (!covers(0, k - 1, k, 0)) return false;
