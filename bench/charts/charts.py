@@ -350,8 +350,8 @@ def scenes(results):
 
 def precision(results):
     """Bytes, build time and query time against the error a model is cut for."""
-    table, exact = rows(results, "precision"), 3e-4
-    fig, axes = plt.subplots(1, 3, figsize=(13, 4.4))
+    table, exact = rows(results, "precision"), 1e-4
+    fig, axes = plt.subplots(1, 3, figsize=(11, 4.4))
     fig.suptitle("What precision costs: models cut and built for an error of the distance", x=0.012, y=0.985, ha="left", fontsize=13,
                  fontweight="bold")
     fig.text(0.012, 0.91, "lower is better", ha="left", va="top", color=TEXT, fontsize=9)
@@ -359,18 +359,18 @@ def precision(results):
     for ax, what, title in zip(axes, ("bytes", "build_seconds", "ns"), ("bytes of a model", "seconds to build it", "ns per query")):
         ax.set_title(title)
         ax.set_xscale("log")
-        ax.set_xlim(2e-4, 0.16)
+        ax.set_xlim(7e-5, 0.16)
         ax.set_xticks([exact, 1e-3, 1e-2, 1e-1], ["exact", "0.1 %", "1 %", "10 %"])
         ax.set_xlabel("error over the radius")
         time_axis(ax, None)
-    fig.subplots_adjust(left=0.055, right=0.885, top=0.80, bottom=0.14, wspace=0.62)
+    fig.subplots_adjust(left=0.085, right=0.875, top=0.80, bottom=0.14, wspace=0.8)
     for ax, what in zip(axes, ("bytes", "build_seconds", "ns")):
         ends = []
         for place, shape in enumerate(shapes):
             line = sorted((row["tolerance"] or exact, row[what]) for row in table if row["shape"] == shape and row[what] > 0)
             if not line:
                 continue
-            colour = (OURS, *OTHERS)[place % 3]
+            colour = VARIANTS[place % 2]
             ax.plot(*zip(*line), color=colour, marker="o", markersize=3.5, linewidth=1.2)
             ends.append((*line[-1], shape, colour))
         name_lines(ax, ends)
@@ -382,14 +382,16 @@ def links(results):
     fig, axes = figure("1 000 robot links, each against its neighbours, turning by 2° a frame", width=8.6, height=4.6, names_take=1.7)
     ax = axes[0][0]
     ax.set_xscale("log")
-    ax.set_xlabel("bytes per link, were each a model of its own")
+    ax.set_xlim(7e3, 3e6)
+    ax.set_xticks([1e4, 1e5, 1e6], ["10 kB", "100 kB", "1 MB"])
+    ax.set_xlabel("size of a link, were each a model of its own")
     time_axis(ax)
     ends = []
     for place, row in enumerate(table):
         ours = is_ours(row["method"])
         tolerance = ", exact" if ours and not row["tolerance"] else f", {100 * row['tolerance']:g} %" if ours else ""
         ax.plot(row["bytes_per_link"], row["ns"], **look(row["method"], place))
-        ends.append((row["bytes_per_link"], row["ns"], row["method"] + tolerance, hue(row["method"], place)))
+        ends.append((row["bytes_per_link"], row["ns"], readable(row["method"]) + tolerance, hue(row["method"], place)))
     name_lines(ax, ends)
     return fig
 
