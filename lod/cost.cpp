@@ -21,8 +21,8 @@ std::size_t finest_mapped(const QueryCost& cost, std::span<const LevelSize> leve
   return k;
 }
 
-double looks(const QueryCost& cost, double slack) {
-  return 1 + cost.looks_per_decade * std::max(0.0, std::log10(cost.first_slack / slack));
+double samples(const QueryCost& cost, double slack) {
+  return 1 + cost.samples_per_decade * std::max(0.0, std::log10(cost.first_slack / slack));
 }
 
 /// An exact distance on one level, from its map.
@@ -35,7 +35,7 @@ double refined(const QueryCost& cost, double ratio) { return cost.refine_per_edg
 double cold_instructions(const QueryCost& cost, std::span<const LevelSize> levels, double error) {
   const std::size_t needed = answering(levels, error), mapped = finest_mapped(cost, levels);
   if (needed >= mapped && error >= cost.least_seen)
-    return cost.legal_pose + cost.look * looks(cost, error - 2 * levels[needed].deviation);
+    return cost.legal_pose + cost.sample * samples(cost, error - 2 * levels[needed].deviation);
   const std::size_t last = std::min(needed, mapped > 0 ? mapped - 1 : 0);
   double sum = walked(cost, levels[mapped].vertices);
   for (std::size_t k = mapped; k > last; --k)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the choice of levels costs the queries, and the choice that costs least. Knows numbers, no geometry.
 //
-//     cold  = look(error, V)                     at the finest mapped level that may answer, or else at the finest mapped one
+//     cold  = samples(error, V)                  at the finest mapped level that may answer, or else at the finest mapped one
 //             + refine(V' / V)                   to the level below it,
 //             + refine(V'' / V') + between ...   and on to the finest that the error needs
 //     warm  = proof + turn sqrt(V) transition    on the level that answers
@@ -31,12 +31,12 @@ inline constexpr Asked kAsked[] = {{0, 0.4}, {0.001, 0.2}, {0.01, 0.2}, {0.1, 0.
 struct QueryCost {
   double mapped_vertices = 4096;   ///< the finest level with a support map has at most so many: march's kMappedVertices
   double legal_pose = 880;         ///< what any query takes before and after
-  double look = 460;               ///< one direction along the maps
-  double first_slack = 0.2;        ///< of error that deviations leave, for which one look is enough;
-  double looks_per_decade = 3;     ///< each tenth of it takes so many more
-  double least_seen = 0.05;        ///< the least error that looks alone answer: a smaller one, though its level has a map, is
+  double sample = 460;             ///< one direction along the maps of both bodies
+  double first_slack = 0.2;        ///< of error that deviations leave, for which one sample is enough;
+  double samples_per_decade = 3;   ///< each tenth of it takes so many more
+  double least_seen = 0.05;        ///< the least error that samples alone answer: a smaller one, though its level has a map, is
                                    ///< walked for on the next finer level
-  double walk = 4820;              ///< from a look to a proved exact distance on the same level, all told,
+  double walk = 4820;              ///< from a sample to a proved exact distance on the same level, all told,
   double walk_per_edge = 17;       ///< and for each of the sqrt(V) edges around the body
   double refine_per_edge = 950;    ///< from a level to the next finer one, for each of the sqrt(V' / V) edges that one of its
                                    ///< edges becomes

@@ -1019,7 +1019,7 @@ TEST_P(Law10, FromTheSameSeedALooserToleranceNeverCostsMore) {
   }
 }
 
-/// Looks choose a level at once; who has no maps to look along descends.
+/// Samples of maps choose a level at once; bodies without maps descend.
 constexpr std::pair<StartPolicy, Refinement> kDescents[] = {{StartPolicy::Automatic, Refinement::SingleSingle},
                                                             {StartPolicy::Paper, Refinement::Single},
                                                             {StartPolicy::Paper, Refinement::SingleSingle},

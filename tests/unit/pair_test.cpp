@@ -206,7 +206,7 @@ TEST(UnitSupportGjk, SamplesAnAxis) {
 
 // ---- Separating axis ------------------------------------------------------------------------------------------------------
 
-TEST(UnitSeparatingAxis, AnswersAtOneLookOrNotAtAll) {
+TEST(UnitSeparatingAxis, AnswersAtOneSampleOrNotAtAll) {
   const auto asked = [](double x, Answer& answer) {
     const Shape shape(kCube);
     const Motion m = motion({Mat3::Identity(), {x, 0, 0}});
