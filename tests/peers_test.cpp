@@ -27,7 +27,7 @@ struct Scene {
   std::string name;
   std::deque<Model> models;
   std::deque<Mesh> meshes;
-  std::vector<Polyhedron> bodies;
+  std::vector<SceneBody> bodies;
   std::vector<BodyPair> pairs;
   std::vector<Query> queries;
   std::vector<Certified> truth;

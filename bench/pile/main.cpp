@@ -42,7 +42,7 @@ nlohmann::json json(const Measures& m) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   CLI::App app("Piles and rolling hulls in Bullet, with swiftlet's hull pairs and with Bullet's own narrowphase");
   int steps = 3000;
   std::uint64_t seed = 2026;
@@ -73,4 +73,7 @@ int main(int argc, char** argv) {
     }
   }
   if (as_json) std::puts(results.dump(2).c_str());
+} catch (const std::exception& failure) {
+  std::fprintf(stderr, "%s\n", failure.what());
+  return 1;
 }

@@ -100,7 +100,7 @@ int fail(const std::exception& error) {
 }  // namespace
 }  // namespace swiftlet::stability
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   swiftlet::stability::Options options;
   CLI::App app("Asks hard pairs of convex bodies, whose exact answers are computed beside, and counts what is wrong.");
   app.add_option("FILE", options.files, "cases as in tests/data/cases.json; by default that and tests/data/found/*.json");
@@ -120,9 +120,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  try {
-    return swiftlet::stability::run(options);
-  } catch (const std::exception& error) {
-    return swiftlet::stability::fail(error);
-  }
+  return swiftlet::stability::run(options);
+} catch (const std::exception& error) {
+  return swiftlet::stability::fail(error);
 }

@@ -223,7 +223,7 @@ class Soak {
 }  // namespace
 }  // namespace swiftlet::stability
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   using namespace swiftlet::stability;
   Options options;
   std::uint64_t batch = 0;
@@ -248,4 +248,7 @@ int main(int argc, char** argv) {
   }
   name_crashes();
   return Soak(options).run();
+} catch (const std::exception& failure) {
+  std::fprintf(stderr, "%s\n", failure.what());
+  return 2;
 }
