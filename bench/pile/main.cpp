@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The scenes of pile.h as a table or JSON.
 #include <cstdio>
+#include <exception>
 #include <string>
 
 #include <LinearMath/btScalar.h>
