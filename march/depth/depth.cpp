@@ -85,7 +85,7 @@ class Deepening {
     for (;;) {
       const double error = deviation();
       const bool last = place_.level_a == finest_a_ && place_.level_b == finest_b_;
-      if (last || error <= stop_.most(min(upper, most)) || stop_.is_threshold()) {
+      if (last || error <= stop_.allowed(min(upper, most)) || stop_.is_threshold()) {
         const std::uint32_t steps_before = steps, tests_before = plane_tests;
         solve(seed, direction, error);
         note(trace_, std::size_t(levels_visited++),

@@ -32,7 +32,7 @@ struct DepthGoal {
   bool passed(double lower, double upper) const { return stop.passed(lower, upper); }
   /// True if no bounds on this level pair can suffice, because its `error` takes up the width that is allowed.
   bool hopeless(double lower, double upper) const {
-    return error > 0 && stop.most(upper) <= stop.least && upper <= stop.above && lower >= stop.below;
+    return error > 0 && stop.allowed(upper) <= stop.least && upper <= stop.above && lower >= stop.below;
   }
 };
 

@@ -74,10 +74,10 @@ ContactFace::ContactFace(const ConvexView& view, const Vec& n, FeatureId feature
   flatness_ = max(flatness_, height);
   top_ = top.face;
   normal_ = normalised(top.area);
-  floor_ = dot(normal_, point(view, origin(view, view.face_first[top_]))) - height;
+  least_height_ = dot(normal_, point(view, origin(view, view.face_first[top_]))) - height;
   side_ = border();
   if (side_ != kNone) return;
-  floor_ = std::numeric_limits<double>::infinity();  // rounding hid the border: the face alone has one
+  least_height_ = std::numeric_limits<double>::infinity();  // rounding hid the border: the face alone has one
   side_ = border();
 }
 
@@ -106,7 +106,7 @@ bool ContactFace::is_left_of(std::uint32_t half_edge) const {
   if (face == top_ || face == kNone) return face != kNone;
   if (is_diagonal(view_, half_edge)) return holds(face);
   const Vec across = point(view_, view_.half_edges[next_in_face(view_, half_edge)].head);
-  return dot(normal_, across) >= floor_ && holds(face);
+  return dot(normal_, across) >= least_height_ && holds(face);
 }
 
 bool ContactFace::holds(std::uint32_t face) const {
@@ -114,7 +114,7 @@ bool ContactFace::holds(std::uint32_t face) const {
   const std::uint32_t first = view_.face_first[face];
   std::uint32_t h = first;
   do {
-    if (!(dot(normal_, point(view_, view_.half_edges[h].head)) >= floor_)) return false;
+    if (!(dot(normal_, point(view_, view_.half_edges[h].head)) >= least_height_)) return false;
     h = next_in_face(view_, h);
   } while (h != first);
   const Vec area = area_of(view_, face);

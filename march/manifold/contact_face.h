@@ -37,7 +37,7 @@ class ContactFace {
 
   const ConvexView& view_;
   std::uint32_t top_ = kNone, side_ = kNone;
-  double flatness_ = 0, floor_ = 0;  ///< the least height along the normal
+  double flatness_ = 0, least_height_ = 0;  ///< the least height along the normal
   Vec normal_{0, 0, 0};
 };
 

@@ -244,7 +244,8 @@ inline constexpr double kGridError = 2 * kU;
 /// u x v and 4 u for the rest, times 2, as w is no longer than twice the magnitude; rounded up.
 inline constexpr double kOutwardError = 32 * kU;
 /// The ring of points around the start's polygon is searched for along directions that lean outwards from the polygon's normal.
-/// This is the tangent of the angle: half and twice of it cost more on the whole.
+/// This is the tangent of the angle: half and twice of it cost more on the whole. Where the
+/// ring would lie in the polygon's plane, directions point outwards and lean below that plane by the same angle.
 inline constexpr double kFlare = 0.5;
 /// Around a facet to be confirmed the direction beyond a side leans by no more than this times the angle at the origin between
 /// the nearest point of the facet's plane and that side. Planes through the side that lean by two such angles are as near as

@@ -22,8 +22,8 @@ struct StopRule {
   bool is_threshold() const { return above < std::numeric_limits<double>::infinity(); }
   bool is_exact() const { return absolute == 0 && relative == 0 && !is_threshold(); }
   /// The most that bounds may be apart at this `lower`. If it is not above 0, no bounds are narrow.
-  double most(double lower) const { return max(max(absolute, relative * (lower - zero)) - rounding, least); }
-  bool allows(double lower, double width) const { return most(lower) > 0 && width <= most(lower); }
+  double allowed(double lower) const { return max(max(absolute, relative * (lower - zero)) - rounding, least); }
+  bool allows(double lower, double width) const { return allowed(lower) > 0 && width <= allowed(lower); }
   bool narrow(double lower, double upper) const { return allows(lower, upper - lower); }
   bool passed(double lower, double upper) const { return lower > above || upper < below; }
   bool met(double lower, double upper) const { return narrow(lower, upper) || passed(lower, upper); }

@@ -83,7 +83,7 @@ class Descent {
   std::uint32_t steps_left() const { return budget_.steps - std::min(answer_.steps, budget_.steps); }
   /// The width that the bounds on a coarse pair may have: the allowed width, less 8 u of it for rounding, less the deviation
   /// `error`; 0 on the exact pair. To prove more, such as that coarse levels overlap, takes vertices from all around both.
-  double width_left(double error) const { return error > 0 ? max(0, stop_.most(answer_.lower) * (1 - 8 * kU) - error) : 0; }
+  double width_left(double error) const { return error > 0 ? max(0, stop_.allowed(answer_.lower) * (1 - 8 * kU) - error) : 0; }
   /// An exact answer allows no width: it is recognised by `met_`.
   bool answered() const { return stop_.met(answer_.lower, answer_.upper); }
 
@@ -385,8 +385,8 @@ class Descent {
   const Tuning& tuning_;
   const std::span<LevelRecord> trace_;
   const StopRule& asked_;
-  const StopRule
-      stop_;  ///< passes a threshold only by more than law 2's bound: within it, what can be proved depends on the start
+  /// Passes a threshold only by more than law 2's bound: within it, what can be proved depends on the start.
+  const StopRule stop_;
   const double law_two_;
   const int finest_a_, finest_b_;
   const bool exact_;  ///< the distance is asked exactly: no coarser pair can answer

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The separating-axis test, along the last answer's normal, then along the line of centres. Each direction takes one look-up in
-// either body's support map. Most questions of yes or no end here.
+// the support map of each body. Most questions of yes or no end here.
 #pragma once
 
 #include "pair/stop_rule.h"
@@ -16,7 +16,7 @@ struct AxisTest {
   AxisSample seen;  ///< on the levels of `at`; its normal is 0 if nothing was sampled
 };
 
-/// Fills `answer` and returns true if the bodies are proved to be farther apart than `asked`. If the line of centres
+/// Fills `answer` and returns true if the bodies are proved to be farther apart than `asked.above`. If the line of centres
 /// proves it and the seed's direction does not, that direction is cleared.
 bool separating_axis(const ModelPair& pair, const StopRule& asked, PairSeed& seed, AxisTest& first, Answer& answer);
 
