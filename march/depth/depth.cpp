@@ -206,7 +206,7 @@ class Deepening {
       steps += w.steps, plane_tests += w.plane_tests;
       if (w.end != WalkEnd::Minimum) break;
       at = {w.a, w.b};
-      const Vec next = normalised(w.witness.normal);
+      const Vec next = normalised(w.nearest.normal);
       const DepthStart found = start_at(pair, at, next);
       far = dot(next, n) < kSlideTurn;
       n = next;
@@ -330,7 +330,7 @@ void sharpen(const ModelPair& pair, Answer& s) {
   const Place place{s.level_a, s.level_b, {s.feature_a, s.feature_b}};
   const PairView view = pair.view_at(place);
   const MarchStart from = settled(view, place.start, s.plane_tests);
-  Certificate c = certify(view, from.a, from.b, witness(view, from.a, from.b), s.plane_tests);
+  Certificate c = certify(view, witness(view, from.a, from.b), s.plane_tests);
   sharpen(view, c, s.plane_tests);
   s.upper = max(s.lower, min(s.upper, c.upper + pair.deviation(s.level_a, s.level_b)));
 }

@@ -171,7 +171,7 @@ void link_to_coarser(Draft& level, const ConvexView& coarser) {
   const ConvexView view = level.surface.view();
   std::uint32_t v = 0, comparisons = 0;
   for (std::uint32_t f = 0; f < view.face_first.size(); ++f) {
-    v = support(coarser, face_normal(Resting{view}, f), v, comparisons);
+    v = support(coarser, face_normal(Resting{view, 0}, f), v, comparisons);
     level.parent_face.push_back(v);
   }
 }

@@ -108,13 +108,42 @@ inline constexpr double kGapError = 10 * kU;
 inline constexpr double kCrossError = 8 * kU;
 /// A convex combination of three points, relative to the largest |p|: 1 product, 2 sums, and weights that sum to 1 only to 3 u.
 inline constexpr double kPointError = 7 * kU;
-/// Bounds the error of a rise that a walk computed, taken for the rise along the normalised direction: `kDotError`; 2 sqrt(3)
-/// `kTurnedError`, as the direction is turned into a body's frame and back; 4.5 u for normalising. Relative to the product of
-/// the direction's length and the body's reach.
-inline constexpr double kRiseError = 24 * kU;
 /// Bounds the error of the length of a rounded difference, relative to the length. Its square carries 5 u: 2 of the difference,
 /// 1 of the product, 2 of the sums. The root halves these and adds 1; rounded up.
 inline constexpr double kNormError = 5 * kU;
+
+// ---- Rounding of a walk's tests (walk.cpp) --------------------------------------------------------------------------------
+// The tests that end a walk also prove bounds. A direction d is taken exactly as it was computed; how far it is from the one
+// that was meant shows in the bounds. R is the pose's matrix as it was given: none of these terms needs it to be orthonormal.
+
+/// Bound the error of the vector from one vertex of a body to another in the common frame, relative to its length: of A 1
+/// difference; of B also 3 products and 2 sums, 3 u in each coordinate of R e, sqrt(3) times that for the vector: 6.2 u.
+inline constexpr double kWayError = kU, kTurnedWayError = 7 * kU;
+/// Bounds the error of a vertex's height above another along d, each rounded on its own, relative to the largest coordinate of
+/// the body times |d|_1. Of A, 1 product and 2 sums for both heights and their difference: 8 u. Of B, R^T d is computed first,
+/// 3 u, and has |R^T d|_1 <= sqrt(3) |d|_1: (6 + 6 + 2) sqrt(3) u = 25 u. Rounded up by a quarter.
+inline constexpr double kScanError = 32 * kU;
+/// Bounds the error of a corner's height beside an edge, relative to the body's reach times |d|_1. The difference of the two
+/// vertices has 1 u, its product with d 3 u, and R^T d, of B, 3 u: 7 u. Rounded up.
+inline constexpr double kBesideError = 12 * kU;
+/// Bounds how far the part of a vector w across an edge is from a right angle to the edge's computed vector u, as a sine. w
+/// itself leads from the nearest point of the edge's line, and leans along u by at most 0.7 of its length if that is above law
+/// 2's bound: s carries 8 u and w 3 u of 2 sqrt(3) extents, 38 u of the extent, over 64 u. The product w . u then errs by 3 u
+/// of 1.22 lengths, the quotient by 5 u of 0.7 lengths, and the last difference by 1 u: 8.2 u. Rounded up.
+inline constexpr double kAcrossError = 10 * kU;
+/// Bounds the error of u x v for computed u and v, relative to |u| |v|: 1 product and 1 difference, 2 u in each coordinate of
+/// terms that make at most 1.2 |u| |v|, and 1 u of the result. Rounded up.
+inline constexpr double kFlatError = 4 * kU;
+/// Bounds the error of cof(R) n, the image of a normal n, relative to |n|: 2 u for each cofactor and 3 u for their sum with n,
+/// (2 sqrt(3) + 3) u in each coordinate, sqrt(3) times that for the vector: 11.2 u. Rounded up.
+inline constexpr double kImageError = 16 * kU;
+/// Bounds the rounding of the sums that make a point of each body from a vertex and at most two vectors, relative to the pair's
+/// magnitude: 2 sums, each u of a vector no longer than the body's points are.
+inline constexpr double kStandError = 2 * kU;
+/// Bounds how far the point below p in a face of many corners may be from where own coordinates show it, relative to the pair's
+/// magnitude: R^T (p - t) has 7 u, its differences and products 8 u, rounded up; and the pose, taken for a rigid motion, adds
+/// `kFootTurn` times its error: 3 for R^T in place of the inverse, 3 for the direction of the plane's normal; rounded up.
+inline constexpr double kFootError = 24 * kU, kFootTurn = 8;
 
 /// Bounds the rounding error of the excess that `look_up` returns, relative to the level's extent. When the map is made, two
 /// heights, each of 3 products and 2 sums of terms of at most the extent, make 24 u. A cell's border is off by 4 u in each of

@@ -52,40 +52,11 @@ struct Slope {
 Slope slope_a(const Vec& n) { return {n, 0}; }
 Slope slope_b(const PairView& pair, const Vec& n) { return {-body_b(pair).into(n), kTurnedError}; }
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// A vertex that no other vertex of its body exceeds by more than `slack` along a direction.
 struct Extreme {
   std::uint32_t vertex = 0;
   double slack = 0;
 };
-
-/// The farthest that two points of a body can be apart.
-double reach(const ConvexView& view) { return 2 * kSqrt3 * view.extent; }
-
-/// How much the unit direction of `slope` rises per unit of length along an edge, or at most along any line in a triangle.
-double lean(const ConvexView& view, FeatureId feature, const Slope& slope) {
-  const std::uint32_t h = feature.kind() == FeatureKind::Edge ? feature.index() : view.face_first[feature.index()];
-  const Vec p = vec(view.vertices[origin(view, h)]), e = vec(view.vertices[view.half_edges[h].head]) - p;
-  if (feature.kind() == FeatureKind::Edge) return std::fabs(slope.along(e)) / norm(e);
-  const Vec f = vec(view.vertices[view.half_edges[next_in_facet(view, h)].head]) - p, n = cross(e, f);
-  const double area = norm(n);
-  return norm(slope.own - n * (1 / area)) + kCrossError * std::sqrt(dot(e, e) * dot(f, f)) / area;
-}
-
-/// An upper bound on how far the body rises above a vertex of `feature` along `slope`. The body is exactly convex, and the
-/// feature's neighbours rise by at most `rise`, plus `rise_error` times the body's reach. If the neighbours are certainly
-/// below, the rest of the body is, and only the feature itself may rise: by its tilt against `slope`. Infinite if doubles do
-/// not tell, or for a face of more than three vertices.
-double overhang(const ConvexView& view, FeatureId feature, const Slope& slope, double rise, double rise_error) {
-  const double far = reach(view);
-  if (feature.kind() == FeatureKind::Vertex) return rise < -rise_error * far ? 0.0 : kInfinity;
-  const bool is_edge = feature.kind() == FeatureKind::Edge;
-  if (is_edge ? view.vertices[origin(view, feature.index())].ring_count < 2 : feature.index() < view.planes.size())
-    return kInfinity;  // the edge of a segment; a face of more than three vertices
-  const double tilt = (lean(view, feature, slope) + kDotError + kSqrt3 * slope.turn_error) * far;
-  return !is_edge || rise < -(tilt + rise_error * far) ? tilt : kInfinity;
-}
 
 /// Climbs from `v` in doubles and decides no tie: every vertex that may be as high as the top is visited too, until all
 /// neighbours of visited vertices are visited themselves or certainly below. On an exactly convex body the highest vertex is
@@ -161,37 +132,36 @@ Supports supports(const PairView& pair, const Vec& n, std::uint32_t start_a, std
   return {va, vb, gap(pair, n, va, vb, (a_top ? a_top->slack : 0) + (b_top ? b_top->slack : 0))};
 }
 
-Certificate certify(const PairView& pair, FeatureId a, FeatureId b, const Witness& seen, std::uint32_t& plane_tests) {
+Certificate certify(const PairView& pair, const Witness& seen, std::uint32_t& plane_tests) {
   Certificate c;
   c.point_a = point(body_a(pair), seen.first);
   c.point_b = point(body_b(pair), seen.second);
   c.upper = norm(c.point_b - c.point_a) * (1 + kNormError) + pair.point_error;
-  const double length = norm(seen.normal);
   c.normal = normalised(seen.normal);
+  c.active = pairs(seen.first, seen.second);
   const auto proved = [&](std::uint32_t va, std::uint32_t vb, double lower) {
     c.support_a = va;
     c.support_b = vb;
     c.lower = max(0, lower);
     return c.upper - c.lower <= pair.law_two;
   };
-  // Three proofs, each dearer than the one before: by the features' neighbours, by supports in doubles, by exact supports.
-  const std::uint32_t any_a = seen.first.vertex[0], any_b = seen.second.vertex[0];
-  const double rise_error = kRiseError + 3 * (pair.pose_error + kOrthonormalityError);
-  const double over_a = overhang(pair.a, a, slope_a(c.normal), seen.rise_first / length, rise_error);
-  if (over_a < kInfinity) {
-    const double over_b = overhang(pair.b, b, slope_b(pair, c.normal), seen.rise_second / length, rise_error);
-    if (over_b < kInfinity && proved(any_a, any_b, gap(pair, c.normal, any_a, any_b, over_a + over_b))) {
-      if (leans(pair, c)) c.active = pairs(seen.first, seen.second);
-      return c;
-    }
-  }
-  c.active = pairs(seen.first, seen.second);
-  const Supports near = supports(pair, c.normal, any_a, any_b, plane_tests);
+  const Supports near = supports(pair, c.normal, seen.first.vertex[0], seen.second.vertex[0], plane_tests);
   if (proved(near.a, near.b, near.lower)) return c;
   const std::uint32_t va = support_a(pair, c.normal, near.a, plane_tests);
   const std::uint32_t vb = support_b(pair, c.normal, near.b, plane_tests);
   proved(va, vb, gap(pair, c.normal, va, vb, 0));
   return c;
+}
+
+bool certify(const PairView& pair, const Nearest& seen, Proof& proof) {
+  const double square = dot(seen.normal, seen.normal), over = seen.over_a + seen.over_b;
+  if (!has_range(square) || !(over <= pair.law_two)) return false;
+  proof.normal = seen.normal * (1 / std::sqrt(square));
+  proof.lower = gap(pair, proof.normal, seen.apart, over);
+  const Vec apart = seen.point_b - seen.point_a;
+  const double length = norm(apart);
+  proof.upper = max(proof.lower, length * (1 + kNormError) + pair.motion_error + kStandError * pair.magnitude + seen.blur);
+  return proof.lower > pair.law_two && proof.upper - proof.lower <= pair.law_two && !leans(pair, proof.normal, apart, length);
 }
 
 }  // namespace swiftlet

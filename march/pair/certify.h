@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "body/support.h"
+#include "pair/nearest.h"
 #include "pair/pair_view.h"
 #include "pair/witness.h"
 
@@ -24,21 +25,31 @@ struct Certificate {
   double lower = 0, upper = 0;  ///< proved bounds on the distance of the two polytopes; upper >= lower >= 0
   Vec normal{0, 0, 0};          ///< unit, common frame, from A to B: `lower` is proved along it
   Vec point_a{0, 0, 0}, point_b{0, 0, 0};
-  ActiveSet active;  ///< its weights make `point_a` and `point_b`; empty if the features alone prove bounds within law 2's
-                     ///< bound that do not lean
+  ActiveSet active;                            ///< its weights make `point_a` and `point_b`
   std::uint32_t support_a = 0, support_b = 0;  ///< support vertices of A along `normal`, of B along -`normal`
 };
 
-/// Proves bounds from `seen`, the witness of features `a` of A and `b` of B, of which at most one is a face. If the features
-/// and the rises in `seen` prove bounds within law 2's bound, no other vertex is read; else the support vertices are climbed
-/// to.
-Certificate certify(const PairView& pair, FeatureId a, FeatureId b, const Witness& seen, std::uint32_t& plane_tests);
+/// Proves bounds from `seen`, the witness of features `a` of A and `b` of B, of which at most one is a face, by climbing to the
+/// support vertices: in doubles, and if that is not within law 2's bound, by exact comparisons.
+Certificate certify(const PairView& pair, const Witness& seen, std::uint32_t& plane_tests);
 
-/// True if the bounds agree within law 2's bound, but `point_b` - `point_a` differs from its length times `normal` by more than
-/// that. Bounds that agree so leave the plane room to lean by the root of law 2's: by 1e-8, say, between nearly parallel faces.
+/// Proved bounds on the distance of two polytopes that are apart, within law 2's bound, with plane and points that fit.
+struct Proof {
+  double lower, upper;
+  Vec normal;  ///< unit, from A to B
+};
+/// Proves bounds by the tests of a walk's last state alone, and reads nothing else. Returns false if they do not tell.
+bool certify(const PairView& pair, const Nearest& seen, Proof& proof);
+
+/// True if `apart`, the vector between two points, differs from its length times the unit `normal` by more than law 2's bound.
+/// Bounds within law 2's bound leave the plane room to lean by the root of that: by 1e-8, say, between nearly parallel faces.
+static inline bool leans(const PairView& pair, const Vec& normal, const Vec& apart, double length) {
+  return norm(apart - normal * length) > pair.law_two;
+}
+/// True if the bounds of `c` are within law 2's bound, but its points lean against its normal.
 static inline bool leans(const PairView& pair, const Certificate& c) {
-  const Vec apart = c.point_b - c.point_a, aside = apart - c.normal * norm(apart);
-  return c.upper - c.lower <= pair.law_two && norm(aside) > pair.law_two;
+  const Vec apart = c.point_b - c.point_a;
+  return c.upper - c.lower <= pair.law_two && leans(pair, c.normal, apart, norm(apart));
 }
 
 /// The vertex of A farthest along n, climbed from `start` by exact comparisons: no vertex is farther.

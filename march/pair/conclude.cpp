@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pair/conclude.h"
 
-#include "pair/certify.h"
 #include "pair/gjk.h"
 #include "pair/intersection.h"
 #include "pair/start.h"
+#include "pair/witness.h"
 
 namespace swiftlet {
 namespace {
@@ -15,6 +15,11 @@ MarchStatus status_of(const PairView& pair, const StopRule& stop, const Certific
   if (!stop.narrow(c.lower, c.upper)) return MarchStatus::NotConverged;
   if (c.upper <= pair.law_two) return MarchStatus::Touching;
   return c.lower > 0 ? MarchStatus::Disjoint : MarchStatus::Near;
+}
+
+/// True if a threshold is within rounding of bounds.
+bool is_near(const PairView& pair, double lower, double upper, double threshold) {
+  return lower - pair.law_two <= threshold && threshold <= upper + pair.law_two;
 }
 
 /// Names in `r` the features that hold the points of `c`, the certificate at which certified GJK ended.
@@ -35,9 +40,7 @@ bool from_walk(const PairView& pair, const Walk& walk, const MarchRule& rule, do
   r.b = walk.b;
   const StopRule asked{rule.absolute, rule.relative, rule.beyond};
   const StopRule stop = asked.beyond_by(pair.law_two).at_least(pair.law_two);
-  Witness afresh;
-  const Witness& seen = walk.end == WalkEnd::Minimum ? walk.witness : (afresh = witness(pair, walk.a, walk.b));
-  Certificate c = certify(pair, walk.a, walk.b, seen, r.plane_tests);
+  Certificate c = certify(pair, witness(pair, walk.a, walk.b), r.plane_tests);
   r.status = status_of(pair, stop, c);
   // If the features touch, the bodies touch or overlap: certified GJK decides which.
   const bool decided = r.status != MarchStatus::NotConverged && (r.status != MarchStatus::Touching || c.lower > 0);
@@ -55,17 +58,15 @@ bool from_walk(const PairView& pair, const Walk& walk, const MarchRule& rule, do
     ++r.steps;
   }
   const bool apart = r.status == MarchStatus::Disjoint || r.status == MarchStatus::Touching;
-  const bool straightened = apart && c.active.count > 0 && leans(pair, c) && straighten(pair, c, r.plane_tests);
+  const bool straightened = apart && leans(pair, c) && straighten(pair, c, r.plane_tests);
   if (progressed || straightened) name_features(pair, c, r);
   r.lower = c.lower;
   r.upper = max(c.upper, c.lower);
   r.normal = eigen(c.normal);
   r.point_a = eigen(c.point_a);
   r.point_b = eigen(c.point_b);
-  const auto near = [&](double threshold) {
-    return r.lower - pair.law_two <= threshold && threshold <= r.upper + pair.law_two;
-  };
   const bool deep = r.status == MarchStatus::Overlapping && depth > pair.law_two;
+  const auto near = [&](double threshold) { return is_near(pair, r.lower, r.upper, threshold); };
   return r.upper - r.lower <= 2 * pair.law_two && !deep && (near(0) || near(zero) || near(rule.beyond));
 }
 
@@ -85,6 +86,11 @@ void from_nothing(const PairView& pair, const MarchRule& rule, double zero, Marc
 }
 
 }  // namespace
+
+bool settles(const PairView& pair, const Walk& walk, double zero, double beyond, Proof& proof) {
+  return walk.end == WalkEnd::Minimum && certify(pair, walk.nearest, proof) && !is_near(pair, proof.lower, proof.upper, zero) &&
+         !is_near(pair, proof.lower, proof.upper, beyond);
+}
 
 template <Until until>
 MarchResult conclude(const PairView& pair, const Walk& walk, const MarchRule& rule, double zero) {

@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The end of a march: a certificate of the features a walk found and, if it is too wide, certified GJK. Knows one level pair.
+// The end of a march. If the walk's own tests prove bounds that settle the question, that is all. On any doubt follow a
+// certificate by support vertices of the features that the walk found and, if it is too wide, certified GJK. Knows one level
+// pair.
 #pragma once
 
 #include <swiftlet/march.h>
 
+#include "pair/certify.h"
 #include "pair/pair_view.h"
 #include "pair/walk.h"
 
@@ -16,8 +19,12 @@ enum class Until {
   Exact,   ///< law 2's width, with points on the surfaces, or `lower` beyond the rule's threshold
 };
 
-/// Proves bounds from the end of a walk. Verdicts change at the distances 0, `zero` and the rule's `beyond`: within rounding of
-/// these, the result is that of a cold start if the budget allows one.
+/// True if the tests of a walk's last state prove the distance within law 2's bound, and neither `zero` nor `beyond`, where
+/// verdicts change, is within rounding of it. `proof` then holds the bounds.
+bool settles(const PairView& pair, const Walk& walk, double zero, double beyond, Proof& proof);
+
+/// Proves bounds from the end of a walk by climbs and certified GJK. Verdicts change at the distances 0, `zero` and the rule's
+/// `beyond`: within rounding of these, the result is that of a cold start if the budget allows one.
 template <Until until = Until::Narrow>
 MarchResult conclude(const PairView& pair, const Walk& walk, const MarchRule& rule, double zero = 0);
 

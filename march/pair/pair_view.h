@@ -15,37 +15,52 @@ struct PairView {
   const ConvexView& a;
   const ConvexView& b;
   const Motion& b_in_a;
-  double magnitude;     ///< at least |p| + |R q + t| for all points p of A and q of B
-  double motion_error;  ///< bounds the rounding of a vertex of B carried into A's frame
-  double point_error;   ///< bounds the rounding of two convex combinations of vertices, one of each body, together
-  double pose_error;    ///< largest entry of |R^T R - I|
-  double law_two;       ///< greatest width of an exact answer; at most law 2's bound for this pair
+  double magnitude;         ///< at least |p| + |R q + t| for all points p of A and q of B
+  double motion_error;      ///< bounds the rounding of a vertex of B carried into A's frame
+  double point_error;       ///< bounds the rounding of two convex combinations of vertices, one of each body, together
+  double pose_error;        ///< largest entry of |R^T R - I|
+  double law_two;           ///< greatest width of an exact answer; at most law 2's bound for this pair
+  double reach_a, reach_b;  ///< at least the distance of any two points of the body, in the common frame
 };
 
 /// Body A of a pair: its own frame is the common frame.
 struct Resting {
   const ConvexView& view;
+  const double reach;
+  static constexpr double kWay = kWayError, kImage = 0;
   Vec own(std::uint32_t v) const { return vec(view.vertices[v]); }
   Vec common(const Vec& p) const { return p; }  ///< carries a point from the own to the common frame
   Vec point(std::uint32_t v) const { return own(v); }
+  /// The vector from vertex `v` to `w` in the common frame, right to `kWay` of its length.
+  Vec way(std::uint32_t v, std::uint32_t w) const { return own(w) - own(v); }
+  /// A normal of the image of a plane of own normal `n`, right to `kImage` of the length of `n`.
+  Vec image(const Vec& n) const { return n; }
   Vec rotated(const Vec& n) const { return n; }  ///< carries a direction from the own to the common frame
   Vec local(const Vec& p) const { return p; }    ///< carries a point from the common to the own frame
   Vec into(const Vec& n) const { return n; }     ///< a direction that orders own points as `n` orders them in the common frame
 };
-/// Body B of a pair, which the pose moves into the common frame. `local` treats the pose as a rigid motion.
+/// Body B of a pair, which the pose moves into the common frame. Only `rotated`, taken for a normal, and `local` treat the pose
+/// as a rigid motion; all else holds for any matrix within `kOrthonormality` of a rotation.
 struct Moved {
   const ConvexView& view;
+  const double reach;
   const Motion& motion;
+  static constexpr double kWay = kTurnedWayError, kImage = kImageError;
   Vec own(std::uint32_t v) const { return vec(view.vertices[v]); }
   Vec common(const Vec& p) const { return apply(motion, p); }
   Vec point(std::uint32_t v) const { return common(own(v)); }
+  Vec way(std::uint32_t v, std::uint32_t w) const { return rotate(motion, own(w) - own(v)); }
+  Vec image(const Vec& n) const {
+    return {dot(cross(motion.row_y, motion.row_z), n), dot(cross(motion.row_z, motion.row_x), n),
+            dot(cross(motion.row_x, motion.row_y), n)};
+  }
   Vec rotated(const Vec& n) const { return rotate(motion, n); }
   Vec local(const Vec& p) const { return rotate_back(motion, p - motion.t); }
   Vec into(const Vec& n) const { return rotate_back(motion, n); }
 };
 
-static inline Resting body_a(const PairView& s) { return {s.a}; }
-static inline Moved body_b(const PairView& s) { return {s.b, s.b_in_a}; }
+static inline Resting body_a(const PairView& s) { return {s.a, s.reach_a}; }
+static inline Moved body_b(const PairView& s) { return {s.b, s.reach_b, s.b_in_a}; }
 
 /// Says whether a pose is legal and how far it is from a rigid motion.
 struct PoseQuality {
@@ -75,11 +90,22 @@ static inline double law_two(const ConvexView& a, const ConvexView& b, double sh
   return law_two(a.extent, b.extent, shift, pose_error);
 }
 
+/// At least the distance of any two points of a body, in its own frame.
+static inline double reach(const ConvexView& view) { return 2 * kSqrt3 * view.extent; }
+
 static inline PairView pair_view(const ConvexView& a, const ConvexView& b, const Motion& m, double shift, double pose_error) {
   const double stretch = kSqrt3 * (1 + pose_error), magnitude = stretch * (a.extent + b.extent) + shift,
                motion_error = kTurnError * stretch * b.extent + kShiftError * shift;
-  return {
-      a, b, m, magnitude, motion_error, kPointError * magnitude + motion_error, pose_error, law_two(a, b, shift, pose_error)};
+  return {a,
+          b,
+          m,
+          magnitude,
+          motion_error,
+          kPointError * magnitude + motion_error,
+          pose_error,
+          law_two(a, b, shift, pose_error),
+          reach(a),
+          reach(b) * (1 + 2 * pose_error)};
 }
 static inline PairView pair_view(const ConvexView& a, const ConvexView& b, const Motion& m, double pose_error) {
   return pair_view(a, b, m, norm(m.t), pose_error);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The prism over a face: the space above its plane and between the planes at right angles to it through its sides. Knows one
-// body and works in that body's own frame.
+// The prism over a face: the space above its plane and between the planes at right angles to it through its sides. Points and
+// directions are in the common frame. Knows one body.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,8 @@
 
 namespace swiftlet {
 
+/// The sides of a triangle are known by vectors of the common frame. Those of a larger face are compared in the body's own
+/// frame, so that no corner but the first is carried out of it.
 template <class Body>
 class Prism {
  public:
@@ -18,38 +20,78 @@ class Prism {
       : body_(body),
         is_triangle_(f >= body.view.planes.size()),
         first_(body.view.face_first[f]),
-        corner_(body.own(origin(body.view, first_))) {
+        corner_(body.point(origin(body.view, first_))) {
     if (!is_triangle_) {
-      normal_ = {body.view.planes[f].x, body.view.planes[f].y, body.view.planes[f].z};
+      const FacePlane& plane = body.view.planes[f];
+      own_normal_ = vec(plane);
+      normal_ = body.image(own_normal_);
       return;
     }
+    const std::uint32_t root = origin(body.view, first_);
     second_ = next_in_facet(body.view, first_);
-    u_ = body.own(body.view.half_edges[first_].head) - corner_;
-    v_ = body.own(body.view.half_edges[second_].head) - corner_;
+    u_ = body.way(root, body.view.half_edges[first_].head);
+    v_ = body.way(root, body.view.half_edges[second_].head);
     normal_ = cross(u_, v_);
   }
 
+  const Body& body() const { return body_; }
+  bool is_triangle() const { return is_triangle_; }
+  const Vec& corner() const { return corner_; }  ///< the origin of the face's first half-edge
+  /// From `corner()` to a triangle's second and third corner.
+  const Vec& u() const { return u_; }
+  const Vec& v() const { return v_; }
   /// The face's outward normal, of any length.
   const Vec& normal() const { return normal_; }
   /// The height of `p` above the face's plane, times the length of `normal()`.
   double height(const Vec& p) const { return dot(normal_, p - corner_); }
 
-  /// Calls visit(half_edge, u, beyond, slope) for each side of the face and returns the number of sides. `u` is the side's
-  /// vector, in either direction. `beyond` is how far `p` is outside the prism's plane through the side, and `slope` how much
-  /// farther outside `p` + `e` is; both are times the lengths of `u` and `normal()`.
+  /// How far something is beyond a triangle's sides u and v, times the lengths of side and normal.
+  struct Beyond {
+    double u, v;
+  };
+  /// `r` leads from `corner()` to a point. Of a triangle only: beyond the third side a point is -(u + v + |normal|^2).
+  Beyond beyond(const Vec& r) const {
+    const Vec c = cross(normal_, r);
+    return {dot(u_, c), -dot(v_, c)};
+  }
+
+  /// Calls visit(half_edge, uu, beyond, slope) for each side of the face and returns the number of sides. `uu` is the squared
+  /// length of the side. `beyond` is how far `p` is outside the prism's plane through the side, and `slope` how much farther
+  /// outside `p` + `e` is; both are times the lengths of the side and of `normal()`.
   template <class Visit>
   std::uint32_t each_side(const Vec& p, const Vec& e, Visit visit) const {
-    return is_triangle_ ? each_of_three(p, e, visit) : each_of_many(p, e, visit);
+    if (!is_triangle_) return each_of_many(body_.local(p), body_.into(e), visit);
+    const Beyond at = beyond(p - corner_), by = beyond(e);
+    const Vec third = v_ - u_;
+    visit(first_, dot(u_, u_), at.u, by.u);
+    visit(second_, dot(third, third), -(at.u + at.v + dot(normal_, normal_)), -(by.u + by.v));
+    visit(next_in_facet(body_.view, second_), dot(v_, v_), at.v, by.v);
+    return 3;
+  }
+
+  /// The same for a point that does not move: calls visit(half_edge, uu, beyond).
+  template <class Visit>
+  std::uint32_t each_side(const Vec& p, Visit visit) const {
+    if (!is_triangle_)
+      return each_of_many(body_.local(p), {0, 0, 0},
+                          [&](std::uint32_t h, double uu, double out, double) { visit(h, uu, out); });
+    const Beyond at = beyond(p - corner_);
+    const Vec third = v_ - u_;
+    visit(first_, dot(u_, u_), at.u);
+    visit(second_, dot(third, third), -(at.u + at.v + dot(normal_, normal_)));
+    visit(next_in_facet(body_.view, second_), dot(v_, v_), at.v);
+    return 3;
   }
 
  private:
+  /// `p` and `e` are in the body's own frame.
   template <class Visit>
   std::uint32_t each_of_many(const Vec& p, const Vec& e, Visit visit) const {
     std::uint32_t h = first_, count = 0;
-    Vec tail = corner_;
+    Vec tail = body_.own(origin(body_.view, first_));
     do {
-      const Vec head = body_.own(body_.view.half_edges[h].head), u = head - tail, out = cross(u, normal_);
-      visit(h, u, dot(p - tail, out), dot(e, out));
+      const Vec head = body_.own(body_.view.half_edges[h].head), u = head - tail, out = cross(u, own_normal_);
+      visit(h, dot(u, u), dot(p - tail, out), dot(e, out));
       tail = head;
       h = next_in_face(body_.view, h);
       ++count;
@@ -57,25 +99,12 @@ class Prism {
     return count;
   }
 
-  /// Computes `beyond` for two sides; the third follows, because the sum over the three sides is the same for all points.
-  template <class Visit>
-  std::uint32_t each_of_three(const Vec& p, const Vec& e, Visit visit) const {
-    const Vec across_p = cross(normal_, p - corner_), across_e = cross(normal_, e);
-    const double beyond_u = dot(u_, across_p), beyond_v = -dot(v_, across_p);
-    const double slope_u = dot(u_, across_e), slope_v = -dot(v_, across_e);
-    visit(first_, u_, beyond_u, slope_u);
-    visit(second_, v_ - u_, -(beyond_u + beyond_v + dot(normal_, normal_)), -(slope_u + slope_v));
-    visit(next_in_facet(body_.view, second_), v_, beyond_v, slope_v);
-    return 3;
-  }
-
   const Body body_;
   const bool is_triangle_;
   const std::uint32_t first_;
   std::uint32_t second_ = kNone;  ///< a triangle's second half-edge
   const Vec corner_;
-  Vec u_{0, 0, 0}, v_{0, 0, 0};  ///< for a triangle: from `corner_` to the second and to the third corner
-  Vec normal_;
+  Vec u_{0, 0, 0}, v_{0, 0, 0}, normal_, own_normal_{0, 0, 0};
 };
 
 }  // namespace swiftlet

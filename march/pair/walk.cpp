@@ -15,14 +15,17 @@
 // along the whole edge; an edge is followed over a face and down to where it ends in one step, so that edge and face are no
 // state.
 //
-// A state is computed in the frame of its second body, and the ring of a vertex in its own body's frame, so that of all points
-// read only those of the first body's feature are transformed. A state's likely choices are made without branches, which
-// processors would guess wrong every other time.
+// States are computed in the common frame, and directions are turned into a body's own frame to compare its vertices. The
+// comparisons that end a walk are a proof too: on an exactly convex body a vertex is extreme along d if all neighbours are
+// below it, an edge along a direction at right angles to it if both adjacent corners are below, and a face along its normal.
+// Each state knows by how much its direction may miss that right angle or normal: see `over`. A state's likely choices are made
+// without branches, which processors would guess wrong every other time.
 #include "pair/walk.h"
 
 #include <limits>
 
 #include "pair/prism.h"
+#include "pair/witness.h"
 
 namespace swiftlet {
 namespace {
@@ -42,50 +45,52 @@ constexpr double kUnknown = std::numeric_limits<double>::infinity();
 /// The neighbour of a feature that rises highest along a direction. The distance falls on the way to it if it is above the
 /// feature.
 struct Rise {
-  std::uint32_t to = kNone;    ///< a half-edge of the vertex's ring, or a face beside the edge
+  std::uint32_t to = kNone;  ///< a half-edge of the vertex's ring, or a face beside the edge
+  bool falls = false;
   double highest = -kUnknown;  ///< how far the neighbour rises above the feature, times the direction's length
   double length2 = 1;          ///< squared length of the way to the neighbour
-  bool falls() const { return highest > 0; }
+  double over = 0;  ///< the body rises no more than this above the feature along the direction at length 1; infinite if unknown
   /// The squared rate at which the distance falls; -1, below any rate, if it does not. Rounding may give a sliver a `length2`
   /// of 0 or less.
-  double rate2() const { return falls() ? highest / max(std::numeric_limits<double>::denorm_min(), length2) * highest : -1; }
+  double rate2() const { return falls ? highest / max(std::numeric_limits<double>::denorm_min(), length2) * highest : -1; }
 };
 
 class Marcher {
  public:
   /// The states count their tests in `walk` and write how it ends.
-  Marcher(PlaneRule rule, Walk& walk) : first_only_(rule == PlaneRule::FirstViolated), walk_(walk) {}
+  Marcher(const PairView& pair, PlaneRule rule, Walk& walk)
+      : pair_(pair), first_only_(rule == PlaneRule::FirstViolated), walk_(walk) {}
 
   template <class P, class Q>
   Move vertex_vertex(P a, std::uint32_t va, Q b, std::uint32_t vb) {
-    const Vec d = b.point(vb) - a.point(va);
-    const Rise from_a = ring(a, va, a.into(d)), from_b = ring(b, vb, b.into(-d));
+    const Vec p = a.point(va), q = b.point(vb), d = q - p;
+    const Rise from_a = ring(a, va, d), from_b = ring(b, vb, -d);
     const double distance2 = dot(d, d);
-    if (from_a.falls() && from_b.falls()) {
+    if (from_a.falls && from_b.falls) {
       if (from_a.rate2() > from_b.rate2()) return {along(a, from_a), edge(from_b.to), distance2};
       return {edge(from_a.to), along(b, from_b), distance2};
     }
-    if (from_a.falls()) return {along(a, from_a), vertex(vb), distance2};
-    if (from_b.falls()) return {vertex(va), along(b, from_b), distance2};
-    end(a, {d, only(va), only(vb), from_a.highest, from_b.highest});
+    if (from_a.falls) return {along(a, from_a), vertex(vb), distance2};
+    if (from_b.falls) return {vertex(va), along(b, from_b), distance2};
+    end(a, {d, d, p, q, 0, from_a.over, from_b.over});
     return {vertex(va), vertex(vb), distance2};
   }
 
   template <class P, class Q>
   Move vertex_edge(P a, std::uint32_t va, Q b, std::uint32_t h) {
     const std::uint32_t v0 = origin(b.view, h), v1 = b.view.half_edges[h].head;
-    const Vec q0 = b.own(v0), u = b.own(v1) - q0, r = b.local(a.point(va)) - q0;
+    const Vec p = a.point(va), q0 = b.point(v0), u = b.way(v0, v1), r = p - q0;
     const double length2 = dot(u, u), s = dot(r, u) / length2;
     walk_.plane_tests += 2;
     if (!(s > 0)) return {vertex(va), vertex(v0), dot(r, r)};
     if (s >= 1) return {vertex(va), vertex(v1), dot(r - u, r - u)};
-    const Vec up = across(r - u * s, u, length2), down = b.rotated(-up);
+    const Vec up = across(r - u * s, u, length2);
     const double distance2 = dot(up, up);
-    const Rise rise = sides(b, v0, h, q0, u, up);
-    if (first_only_ && rise.falls()) return {vertex(va), face(rise.to), distance2};
-    const Rise from_a = ring(a, va, a.into(down));
-    if (!rise.falls() && !from_a.falls()) {
-      end(a, {down, only(va), between(v0, v1, s), from_a.highest, rise.highest});
+    const Rise rise = sides(b, v0, h, u, up, kAcrossError + Q::kWay);
+    if (first_only_ && rise.falls) return {vertex(va), face(rise.to), distance2};
+    const Rise from_a = ring(a, va, -up);
+    if (!rise.falls && !from_a.falls) {
+      end(a, {-up, -r, p, q0 + u * s, blur_on<Q>(u), from_a.over, rise.over});
       return {vertex(va), edge(h), distance2};
     }
     if (rise.rate2() > from_a.rate2()) return {vertex(va), face(rise.to), distance2};
@@ -95,26 +100,28 @@ class Marcher {
   template <class P, class Q>
   Move vertex_face(P a, std::uint32_t va, Q b, std::uint32_t f) {
     const Prism prism(b, f);
-    const Vec p = b.local(a.point(va));
-    if (const std::uint32_t side = leave(prism, p); side != kNone) return {vertex(va), edge(side), kUnknown};
-    const double height = prism.height(p), distance2 = height / dot(prism.normal(), prism.normal()) * height;
+    const Vec p = a.point(va);
+    bool well_inside = true;
+    if (const std::uint32_t side = leave(prism, p, well_inside); side != kNone) return {vertex(va), edge(side), kUnknown};
+    const Vec& n = prism.normal();
+    const double height = prism.height(p), distance2 = height / dot(n, n) * height;
     if (!(height > 0)) return inside(vertex(va), face(f), distance2);
-    const Vec towards = b.rotated(-prism.normal());
-    const Rise down = ring(a, va, a.into(towards));
-    if (!down.falls()) {
-      end(a, {towards, only(va), below(b, f, p), down.highest, kUnknown});
+    const Rise down = ring(a, va, -n);
+    if (!down.falls) {
+      Nearest seen{-n, prism.corner() - p, p, {}, 0, down.over, kUnknown};
+      stand(prism, f, height, well_inside, seen);
+      end(a, seen);
       return {vertex(va), face(f), distance2};
     }
     const std::uint32_t to = a.view.half_edges[down.to].head;
-    return over_face(down.to, to, p, b.local(a.point(to)) - p, prism, f, distance2);
+    return over_face(down.to, to, p, a.way(va, to), prism, f, distance2);
   }
 
   template <class P, class Q>
   Move edge_edge(P a, std::uint32_t ha, Q b, std::uint32_t hb) {
     const std::uint32_t a0 = origin(a.view, ha), a1 = a.view.half_edges[ha].head, b0 = origin(b.view, hb),
                         b1 = b.view.half_edges[hb].head;
-    const Vec own_a = a.own(a0), along_a = a.own(a1) - own_a;
-    const Vec p0 = b.local(a.point(a0)), u = b.into(a.rotated(along_a)), q0 = b.own(b0), v = b.own(b1) - q0;
+    const Vec p0 = a.point(a0), u = a.way(a0, a1), q0 = b.point(b0), v = b.way(b0, b1);
     const double uu = dot(u, u), vv = dot(v, v);
     const Parameters at = nearest_on_segments(p0, u, uu, q0, v, vv);
     const Vec p = p0 + u * at.s, q = q0 + v * at.t, d = q - p;
@@ -124,15 +131,14 @@ class Marcher {
     if (end_a || end_b) {
       return {end_a ? vertex(at.s == 0 ? a0 : a1) : edge(ha), end_b ? vertex(at.t == 0 ? b0 : b1) : edge(hb), distance2};
     }
-    const Vec n = between_edges(u, uu, v, vv, d), normal = b.rotated(n);
-    const Rise rise_a = sides(a, a0, ha, own_a, along_a, a.into(normal));
-    const Rise rise_b = first_only_ && rise_a.falls() ? Rise{} : sides(b, b0, hb, q0, v, -n);
-    if (!rise_a.falls() && !rise_b.falls()) {
-      end(a, {normal, between(a0, a1, at.s), between(b0, b1, at.t), rise_a.highest, rise_b.highest});
+    const auto [n, tilt_u, tilt_v] = between_edges(u, uu, v, vv, d);
+    const Rise rise_a = sides(a, a0, ha, u, n, tilt_u + P::kWay);
+    const Rise rise_b = first_only_ && rise_a.falls ? Rise{} : sides(b, b0, hb, v, -n, tilt_v + Q::kWay);
+    if (!rise_a.falls && !rise_b.falls) {
+      end(a, {n, q0 - p0, p, q, blur_on<P>(u) + blur_on<Q>(v), rise_a.over, rise_b.over});
       return {edge(ha), edge(hb), distance2};
     }
-    if (rise_a.rate2() >= rise_b.rate2())
-      return swapped(edge_over_face(hb, b0, b1, a.local(b.common(q)), a.into(b.rotated(v)), at.t, a, rise_a.to, distance2));
+    if (rise_a.rate2() >= rise_b.rate2()) return swapped(edge_over_face(hb, b0, b1, q, v, at.t, a, rise_a.to, distance2));
     return edge_over_face(ha, a0, a1, p, u, at.s, b, rise_b.to, distance2);
   }
 
@@ -140,31 +146,43 @@ class Marcher {
 
  private:
   /// Ends the walk in a minimum. The first argument is the state's first body; `seen` has the bodies in the state's order.
-  void end(Resting, const Witness& seen) { walk_.end = WalkEnd::Minimum, walk_.witness = seen; }
-  void end(Moved, const Witness& seen) { walk_.end = WalkEnd::Minimum, walk_.witness = swiftlet::swapped(seen); }
+  void end(Resting, const Nearest& seen) { walk_.end = WalkEnd::Minimum, walk_.nearest = seen; }
+  void end(Moved, const Nearest& seen) { walk_.end = WalkEnd::Minimum, walk_.nearest = swiftlet::swapped(seen); }
   Move inside(FeatureId first, FeatureId second, double distance2) {
     walk_.end = WalkEnd::Inside;
     return {first, second, distance2};
   }
 
-  // From here on all arguments are in the own frame of `body`.
+  static double norm_1(const Vec& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
+
+  /// How far a computed point of an edge along `u` may be beside the edge: by the error of `u`, and of u times a number up
+  /// to 1.
+  template <class Q>
+  static double blur_on(const Vec& u) {
+    return (Q::kWay + kU) * norm_1(u);
+  }
 
   /// The neighbour of a vertex that is highest along `d`. Taking the steepest would need fewer states but more time.
   template <class P>
   Rise ring(P body, std::uint32_t v, const Vec& d) {
     const Vertex& record = body.view.vertices[v];
-    const Vec p = vec(record);
+    const Vec own = body.into(d);
+    const double height = dot(own, vec(record)), error = kScanError * body.view.extent * norm_1(d);
     const std::uint32_t begin = record.ring_begin, end = begin + record.ring_count;
+    double highest = -kUnknown;
     Rise rise;
     std::uint32_t h = begin;
-    for (; h < end && !(first_only_ && rise.falls()); ++h) {
-      const double along_d = dot(d, body.own(body.view.half_edges[h].head) - p);
-      rise.to = along_d > rise.highest ? h : rise.to;
-      rise.highest = max(along_d, rise.highest);
+    for (; h < end && !(first_only_ && highest - height > error); ++h) {
+      const double other = dot(own, body.own(body.view.half_edges[h].head));
+      rise.to = other > highest ? h : rise.to;
+      highest = max(other, highest);
     }
     walk_.plane_tests += h - begin;
-    if (!rise.falls()) return rise;
-    const Vec e = body.own(body.view.half_edges[rise.to].head) - p;
+    rise.highest = highest - height;
+    rise.falls = rise.highest > error;
+    rise.over = rise.highest < -error ? 0 : kUnknown;
+    if (!rise.falls) return rise;
+    const Vec e = body.own(body.view.half_edges[rise.to].head) - vec(record);
     rise.length2 = dot(e, e);
     return rise;
   }
@@ -175,38 +193,70 @@ class Marcher {
     return ring.highest >= ring.length2 ? vertex(body.view.half_edges[ring.to].head) : edge(ring.to);
   }
 
-  /// Of the two faces beside edge `h`, which is q0 + s u from vertex `v0`, the one whose other edge at `v0` rises higher along
-  /// `d`, a direction perpendicular to u.
+  /// Of the two faces beside edge `h`, which leads along `u` from vertex `v0`, the one whose other edge at `v0` rises higher
+  /// along `d`. The sine by which d misses a right angle to the edge is at most `tilt`.
   template <class Q>
-  Rise sides(Q body, std::uint32_t v0, std::uint32_t h, const Vec& q0, const Vec& u, const Vec& d) {
+  Rise sides(Q body, std::uint32_t v0, std::uint32_t h, const Vec& u, const Vec& d, double tilt) {
+    const double over = tilt * body.reach;
     const Vertex& record = body.view.vertices[v0];
     const std::uint32_t left = counter_clockwise(record, h), right = clockwise(record, h);
-    if (left == h) return {};  // a segment
+    Rise rise;
+    rise.over = over;
+    if (left == h) return rise;  // a segment
+    const Vec own = body.into(d), q0 = vec(record);
     const Vec to_left = body.own(body.view.half_edges[left].head) - q0,
               to_right = body.own(body.view.half_edges[right].head) - q0;
-    const double left_rise = dot(d, to_left), right_rise = dot(d, to_right);
+    const double left_rise = dot(own, to_left), right_rise = dot(own, to_right);
     walk_.plane_tests += 2;
-    Rise rise;
     rise.highest = max(left_rise, right_rise);
-    if (!rise.falls()) return rise;
+    rise.falls = rise.highest > 0;
+    // At a right angle to the edge the corners are below too if they are by more than the tilt and rounding can lift them.
+    rise.over = rise.highest < -(over + kBesideError * body.reach) * norm_1(d) ? over : kUnknown;
+    if (!rise.falls) return rise;
     const bool is_left = first_only_ ? left_rise > 0 : left_rise > right_rise;
     const Vec r = is_left ? to_left : to_right;
+    const double ru = dot(body.rotated(r), u);
     rise.to = body.view.half_edges[is_left ? h : right].face;
-    rise.length2 = dot(r, r) - dot(r, u) * dot(r, u) / dot(u, u);
+    rise.length2 = dot(r, r) - ru * ru / dot(u, u);
     return rise;
   }
 
-  /// The side of a face's prism that `p` is farthest beyond; kNone if `p` is inside the prism.
+  /// The side of a face's prism that `p` is farthest beyond; kNone if `p` is inside the prism. `well_inside` becomes false if
+  /// the point below `p` may be outside a face of many corners by rounding.
   template <class Q>
-  std::uint32_t leave(const Prism<Q>& prism, const Vec& p) {
+  std::uint32_t leave(const Prism<Q>& prism, const Vec& p, bool& well_inside) {
     std::uint32_t out = kNone;
     double farthest2 = 0;
-    walk_.plane_tests += prism.each_side(p, {0, 0, 0}, [&](std::uint32_t side, const Vec& u, double beyond, double) {
+    const double margin = (kFootError + kFootTurn * pair_.pose_error) * pair_.magnitude;
+    walk_.plane_tests += prism.each_side(p, [&](std::uint32_t side, double uu, double beyond) {
+      well_inside &= beyond < 0 && beyond / uu * beyond > margin * margin;
       if (!(beyond > 0) || (first_only_ && out != kNone)) return;
-      const double violation2 = beyond / dot(u, u) * beyond;  // in this order, as eighth powers of small lengths underflow
+      const double violation2 = beyond / uu * beyond;  // in this order, as eighth powers of small lengths underflow
       if (violation2 > farthest2) out = side, farthest2 = violation2;
     });
     return out;
+  }
+
+  /// Completes `seen` for the point at `height` times the normal's length above face `f`: with the point below it and what the
+  /// face's plane proves.
+  template <class Q>
+  void stand(const Prism<Q>& prism, std::uint32_t f, double height, bool well_inside, Nearest& seen) {
+    const Vec &n = prism.normal(), &u = prism.u(), &v = prism.v();
+    const double nn = dot(n, n);
+    if (prism.is_triangle()) {
+      const typename Prism<Q>::Beyond at = prism.beyond(-seen.apart);
+      const double slant = std::sqrt(dot(u, u) * dot(v, v) / nn);
+      seen.point_b = prism.corner() + u * (-at.v / nn) + v * (-at.u / nn);
+      seen.blur = (Q::kWay + 5 * kU) * (norm_1(u) + norm_1(v));
+      seen.over_b = (2 * Q::kWay + kFlatError) * slant * prism.body().reach;
+      return;
+    }
+    seen.point_b = seen.point_a - n * (height / nn);
+    if (!well_inside) return;
+    const FacePlane& plane = prism.body().view.planes[f];
+    const double stretch = 1 + 2 * pair_.pose_error;
+    seen.blur = plane.thickness * stretch + 8 * kU * norm_1(seen.apart);
+    seen.over_b = kUnknown;
   }
 
   /// Follows edge `h`, which leads from `tail` along u to `head`, from its point p at s over face `f`, which rises towards p.
@@ -226,7 +276,7 @@ class Marcher {
                  double distance2) {
     double exit = 1;
     std::uint32_t out = kNone;
-    walk_.plane_tests += prism.each_side(p, e, [&](std::uint32_t side, const Vec&, double beyond, double slope) {
+    walk_.plane_tests += prism.each_side(p, e, [&](std::uint32_t side, double, double beyond, double slope) {
       if (beyond > 0)
         exit = 0, out = side;
       else if (beyond + slope > 0 && -beyond < exit * slope)
@@ -237,6 +287,7 @@ class Marcher {
     return {edge(h), edge(out), distance2};
   }
 
+  const PairView& pair_;
   const bool first_only_;
   Walk& walk_;
 };
@@ -266,7 +317,7 @@ Walk walk(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::u
   result.b = b;
   if (a.kind() == FeatureKind::Edge && b.kind() == FeatureKind::Face) result.a = vertex(origin(pair.a, a.index()));
   if (b.kind() == FeatureKind::Edge && a.kind() == FeatureKind::Face) result.b = vertex(origin(pair.b, b.index()));
-  Marcher march(rule, result);
+  Marcher march(pair, rule, result);
   double distance2, least2 = kUnknown;
   std::uint32_t stalled = 0;
   do {
@@ -279,7 +330,6 @@ Walk walk(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::u
     result.b = move.second;
     if (stalled >= kStallLimit && result.end == WalkEnd::Budget) result.end = WalkEnd::Stalled;
   } while (result.end == WalkEnd::Budget && result.steps < step_budget);
-  result.distance = std::sqrt(result.end == WalkEnd::Minimum ? distance2 : least2);
   return result;
 }
 

@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Voronoi marching on one level pair [Ehmann & Lin 2000, sec. 5.1]: walks from any feature pair to one that is nearest as far
-// as doubles can tell. Proves nothing: certify.h does.
+// as doubles can tell. The tests of the last state also prove how far the bodies rise beyond its features; certify.h makes
+// bounds of that.
 #pragma once
 
 #include <cstdint>
 
 #include <swiftlet/march.h>
 
+#include "pair/nearest.h"
 #include "pair/pair_view.h"
-#include "pair/witness.h"
 
 namespace swiftlet {
 
@@ -22,10 +23,9 @@ enum class WalkEnd : std::uint8_t {
 
 struct Walk {
   WalkEnd end = WalkEnd::Budget;
-  FeatureId a, b;       ///< kinds VV, VE, EV, EE, VF, FV; with Inside also EF and FE
-  double distance = 0;  ///< with Minimum the rounded distance of `a` and `b`, else the least of all states
+  FeatureId a, b;  ///< kinds VV, VE, EV, EE, VF, FV; with Inside also EF and FE
   std::uint32_t steps = 0, plane_tests = 0;
-  Witness witness;  ///< with Minimum: the witness points and the direction of the last state
+  Nearest nearest;  ///< with Minimum: what the last state knows
 };
 
 /// `a` and `b` name features of the pair's views, not both faces.

@@ -2,18 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pair/witness.h"
 
-#include <limits>
-
 namespace swiftlet {
 namespace {
 
-constexpr double kUnseen = std::numeric_limits<double>::infinity();
-
-// Every pair is computed in the frame of its second body, as a walk's states are.
+// Every pair is computed in the frame of its second body: only the vertices of the first are carried.
 
 template <class P, class Q>
 Witness vertex_vertex(const P& a, std::uint32_t va, const Q& b, std::uint32_t vb) {
-  return {b.point(vb) - a.point(va), only(va), only(vb), kUnseen, kUnseen};
+  return {b.point(vb) - a.point(va), only(va), only(vb)};
 }
 
 template <class P, class Q>
@@ -22,12 +18,12 @@ Witness vertex_edge(const P& a, std::uint32_t va, const Q& b, std::uint32_t h) {
   const Vec q = b.own(tail), u = b.own(head) - q, r = b.local(a.point(va)) - q;
   const double uu = dot(u, u), along = dot(r, u) / uu, t = along > 0 ? min(along, 1) : 0;
   const Vec up = r - u * t;
-  return {b.rotated(-(t > 0 && t < 1 ? across(up, u, uu) : up)), only(va), between(tail, head, t), kUnseen, kUnseen};
+  return {b.rotated(-(t > 0 && t < 1 ? across(up, u, uu) : up)), only(va), between(tail, head, t)};
 }
 
 template <class P, class Q>
 Witness vertex_face(const P& a, std::uint32_t va, const Q& b, std::uint32_t f) {
-  return {-b.rotated(face_normal(b, f)), only(va), below(b, f, b.local(a.point(va))), kUnseen, kUnseen};
+  return {-b.rotated(face_normal(b, f)), only(va), below(b, f, b.local(a.point(va)))};
 }
 
 template <class P, class Q>
@@ -38,7 +34,7 @@ Witness edge_edge(const P& a, std::uint32_t ha, const Q& b, std::uint32_t hb) {
   const double uu = dot(u, u), vv = dot(v, v);
   const Parameters at = nearest_on_segments(p0, u, uu, q0, v, vv);
   const Vec d = q0 + v * at.t - (p0 + u * at.s);
-  return {b.rotated(between_edges(u, uu, v, vv, d)), between(a0, a1, at.s), between(b0, b1, at.t), kUnseen, kUnseen};
+  return {b.rotated(between_edges(u, uu, v, vv, d).normal), between(a0, a1, at.s), between(b0, b1, at.t)};
 }
 
 template <class A, class B>

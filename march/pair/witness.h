@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The witness of two closed features: the direction from one to the other and a nearest point of each. The last state of a walk
-// fills it in; for any other feature pair `witness` computes it. Knows one level pair.
+// The witness of any two closed features: the direction from one to the other and a nearest point of each, as a combination of
+// vertices. Knows one level pair.
 #pragma once
 
 #include <array>
@@ -29,21 +29,26 @@ static inline Combination between(std::uint32_t tail, std::uint32_t head, double
 struct Witness {
   Vec normal;  ///< from the first body to the second, common frame, any length
   Combination first, second;
-  /// Upper bounds on how far each feature's neighbours rise above it towards the other body, along `normal` and times its
-  /// length, to within kRiseError of the body's reach. Infinite if the neighbours were not examined.
-  double rise_first, rise_second;
 };
-static inline Witness swapped(const Witness& w) { return {-w.normal, w.second, w.first, w.rise_second, w.rise_first}; }
+static inline Witness swapped(const Witness& w) { return {-w.normal, w.second, w.first}; }
 
 /// The part of `d` at right angles to `u`, whose squared length is `uu`.
 static inline Vec across(const Vec& d, const Vec& u, double uu) { return d - u * (dot(d, u) / uu); }
 
-/// The direction from one edge's line, along `u`, to another's, along `v`; `d` leads from a point of the first to one of the
-/// second, `uu` and `vv` are squared lengths.
-static inline Vec between_edges(const Vec& u, double uu, const Vec& v, double vv, const Vec& d) {
+/// The direction from one edge's line to another's, and bounds on the sines by which it misses a right angle to either of the
+/// vectors from which it was computed.
+struct BetweenEdges {
+  Vec normal;
+  double tilt_u, tilt_v;
+};
+/// Of lines along `u` and `v`; `d` leads from a point of the first to one of the second, `uu` and `vv` are squared lengths.
+static inline BetweenEdges between_edges(const Vec& u, double uu, const Vec& v, double vv, const Vec& d) {
   const Vec n = cross(u, v);
+  const double nn = dot(n, n), lengths = std::sqrt(uu) * std::sqrt(vv);
   // If the edges are parallel within rounding, the direction of their cross product is noise.
-  return !(dot(n, n) > kU * uu * vv) ? across(d, u, uu) : dot(n, d) < 0 ? -n : n;
+  if (!(nn > kU * uu * vv)) return {across(d, u, uu), kAcrossError, kAcrossError + kFlatError + std::sqrt(nn) / lengths};
+  const double tilt = kFlatError * lengths / std::sqrt(nn);
+  return {dot(n, d) < 0 ? -n : n, tilt, tilt};
 }
 
 /// Nearest points p0 + s u and q0 + t v of two segments.
@@ -91,7 +96,7 @@ Vec face_normal(const Q& body, std::uint32_t f) {
 }
 
 /// The witness of features `a` of A and `b` of B, of which at most one is a face; for an edge against a face it is that of one
-/// vertex of the edge. Both rises are infinite.
+/// vertex of the edge.
 Witness witness(const PairView& pair, FeatureId a, FeatureId b);
 
 /// A vertex of a feature.

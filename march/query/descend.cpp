@@ -276,6 +276,11 @@ class Descent {
 
   /// Certifies a walk and takes over the better bounds; the features of `place` become those of the certificate.
   void bound(const PairView& pair, Place& place, const Walk& walked) {
+    if (Proof proof; settles(pair, walked, asked_.zero, asked_.above, proof)) {
+      met_ = MarchStatus::Disjoint;
+      const Nearest& at = walked.nearest;
+      return carry(place, {proof.lower, proof.upper, proof.normal, at.point_a, at.point_b}, pair.law_two);
+    }
     MarchRule rule;
     rule.absolute = width_left(deviation(place.level_a, place.level_b));
     rule.beyond = asked_.above;
