@@ -22,7 +22,7 @@ struct FreeAligned {
 };
 
 static_assert(std::endian::native == std::endian::little, "the block is little-endian; a byte-swapping reader is not written");
-static_assert(sizeof(Vertex) == 32 && sizeof(FacePlane) == 32 && sizeof(HalfEdge) == 12 && sizeof(FeatureId) == 4);
+static_assert(sizeof(Vertex) == 32 && sizeof(FacePlane) == 40 && sizeof(HalfEdge) == 12 && sizeof(FeatureId) == 4);
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 60;  // so that sums of offsets do not overflow
 
@@ -34,7 +34,7 @@ std::uint64_t header_bytes(std::uint64_t level_count) { return sizeof(BlockHeade
 
 std::uint64_t section_bytes(const LevelHeader& level, bool finest, bool coarsest) {
   const std::uint64_t v = level.vertex_count, h = level.half_edge_count, f = level.face_count, p = level.plane_count;
-  return 32 * (v + p) + 4 * (3 * h + f) + (finest ? 0 : 4 * (v + f)) + (coarsest ? 0 : 4 * f);
+  return 32 * v + 40 * p + 4 * (3 * h + f) + (finest ? 0 : 4 * (v + f)) + (coarsest ? 0 : 4 * f);
 }
 
 std::span<const std::byte> part(std::span<const std::byte> block, const Section& section) {
@@ -150,7 +150,8 @@ std::string fault(const BlockHeader& h) {
 std::string fault(const LevelHeader& l, bool finest, bool coarsest) {
   if (l.section.bytes != section_bytes(l, finest, coarsest)) return "has the wrong size";
   if (l.vertex_count < 1) return "is empty";
-  if (!finite({l.deviation, l.volume, l.edge_length}) || l.reserved != 0 ||
+  const bool zeros = l.unused == 0 && std::ranges::all_of(l.reserved, [](std::uint64_t word) { return word == 0; });
+  if (!finite({l.deviation, l.volume, l.edge_length, l.reach}) || !zeros || !(l.reach >= 0) ||
       !(l.extent == 0 || (l.extent >= kLeastExtent && l.extent <= kMostCoordinate)) || !(l.deviation >= 0) ||
       (finest && l.deviation != 0))
     return "has a number out of range";
@@ -208,6 +209,7 @@ Level described(const BlockHeader& block, const LevelHeader& l) {
   level.edge_length = l.edge_length;
   level.view.extent = l.extent;
   level.view.centre = Vec3(block.centre[0], block.centre[1], block.centre[2]);
+  level.view.reach = l.reach;
   level.deviation = l.deviation;
   level.volume = l.volume;
   level.bytes = l.section.bytes;
@@ -286,7 +288,8 @@ Result<Headers> BlockReader::read_headers(std::span<const std::byte> start) {
   if (std::memcmp(h.block.magic, kMagic, sizeof kMagic) != 0) return bad("not a swiftlet model");
   if (h.block.version != kModelFileVersion) {
     return Error{ErrorCode::BadVersion, "model version " + std::to_string(h.block.version) + ", this library reads version " +
-                                            std::to_string(kModelFileVersion) + ": build the model again"};
+                                            std::to_string(kModelFileVersion) +
+                                            ": build it again with `swiftlet build MESH -o MODEL`"};
   }
   const std::uint64_t size = header_bytes(h.block.level_count);
   if (h.block.level_count < 1 || h.block.level_count > kMaxLevels) return bad("bad level count");

@@ -52,9 +52,11 @@ struct LevelHeader {
   std::uint32_t vertex_count, half_edge_count, face_count, plane_count;
   std::uint64_t edge_count, triangle_count;
   double extent, deviation, volume, edge_length;
-  std::uint32_t map_side, reserved;  ///< `reserved` is 0
+  std::uint32_t map_side, unused;  ///< `unused` is 0
+  double reach;
+  std::uint64_t reserved[3];  ///< 0; room for one more section
 };
-static_assert(sizeof(LevelHeader) == 96);
+static_assert(sizeof(LevelHeader) == 128);
 
 inline constexpr std::size_t kMostHeaderBytes = sizeof(BlockHeader) + kMaxLevels * sizeof(LevelHeader);
 

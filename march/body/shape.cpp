@@ -59,9 +59,10 @@ constexpr Topology<4, 2, 4> kQuad({{0, 1, 2, 3}, {0, 3, 2, 1}});
 // Corners are numbered by bits: x 1, y 2, z 4.
 constexpr Topology<8, 6, 4> kBox({{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}});
 // The face planes of a box, and those of a flat box by the axis along which it is flat.
-constexpr FacePlane kPlanes[] = {{-1, 0, 0, 0}, {1, 0, 0, 0}, {0, -1, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}, {0, 0, 1, 0}};
+constexpr FacePlane kPlanes[] = {{-1, 0, 0, 0, 0}, {1, 0, 0, 0, 0},  {0, -1, 0, 0, 0},
+                                 {0, 1, 0, 0, 0},  {0, 0, -1, 0, 0}, {0, 0, 1, 0, 0}};
 constexpr FacePlane kQuadPlanes[3][2] = {
-    {{1, 0, 0, 0}, {-1, 0, 0, 0}}, {{0, 1, 0, 0}, {0, -1, 0, 0}}, {{0, 0, 1, 0}, {0, 0, -1, 0}}};
+    {{1, 0, 0, 0, 0}, {-1, 0, 0, 0, 0}}, {{0, 1, 0, 0, 0}, {0, -1, 0, 0, 0}}, {{0, 0, 1, 0, 0}, {0, 0, -1, 0, 0}}};
 constexpr HalfEdge kSegment[] = {{1, 1, kNone}, {0, 0, kNone}};
 
 template <class AnyTopology>
@@ -169,6 +170,7 @@ Primitive::Primitive(const Body& body) {
   view.centre = eigen(centre);
   radius = 0;
   for (const Vertex& v : view.vertices) radius = max(radius, norm(vec(v) - centre) * (1 + 8 * kU));
+  view.reach = 2 * radius;
 }
 
 Vec Shape::size() const {

@@ -18,6 +18,9 @@ bool in_range(std::initializer_list<double> coordinates) {
   return std::all_of(coordinates.begin(), coordinates.end(), is_legal_coordinate);
 }
 
+bool is_entry(double x) { return x == 0 || std::fabs(x) >= kLeastNormalEntry; }
+bool is_length(double x) { return x >= 0 && std::isfinite(x); }
+
 bool all_below(const auto& values, std::size_t limit) {
   return std::ranges::all_of(values, [limit](std::uint32_t v) { return v < limit; });
 }
@@ -71,8 +74,8 @@ std::string plane_fault(const ConvexView& v) {
   for (std::size_t i = 0; i < v.planes.size(); ++i) {
     const FacePlane& p = v.planes[i];
     const double length2 = p.x * p.x + p.y * p.y + p.z * p.z;
-    if (!(std::fabs(length2 - 1) < kUnitNormalError) || !(p.thickness >= 0) || !std::isfinite(p.thickness))
-      return "plane " + std::to_string(i);
+    const bool is_normal = std::fabs(length2 - 1) < kUnitNormalError && is_entry(p.x) && is_entry(p.y) && is_entry(p.z);
+    if (!is_normal || !is_length(p.thickness) || !is_length(p.over)) return "plane " + std::to_string(i);
   }
   return "";
 }

@@ -34,6 +34,14 @@ std::uint32_t map_fault(const Level& level) {
   return kNone;
 }
 
+/// Returns a face above whose plane a vertex is higher than the plane says, or kNone. Requires an exactly convex body.
+std::uint32_t over_fault(const ConvexView& view) {
+  for (std::uint32_t f = 0; f < view.planes.size(); ++f) {
+    if (!(height_over(view, vec(view.planes[f]), origin(view, view.face_first[f])) <= view.planes[f].over)) return f;
+  }
+  return kNone;
+}
+
 }  // namespace
 
 Checked::Checked(const Body& of_a, const Body& of_b, const Pose& b_in_a, const Answer& of)
@@ -172,6 +180,10 @@ Check verify(const Model& model) {
       return failed("level %d: a vertex is no corner of the hull", i);
     if (const std::uint32_t cell = map_fault(level); cell != kNone)
       return failed("level %d: its support map is wrong in cell %u", i, unsigned(cell));
+    if (const std::uint32_t f = over_fault(view); f != kNone)
+      return failed("level %d: a vertex is higher above the plane of face %u than %.17g", i, unsigned(f), view.planes[f].over);
+    if (const double reach = reach_of(view); !(view.reach >= reach))
+      return failed("level %d: its reach is %.17g, provable are %.17g", i, view.reach, reach);
     if (i == 0) continue;
     if (vertex_outside(exact_hull, view) != kNone) return failed("level %d does not enclose level 0", i);
     MarchStart start;

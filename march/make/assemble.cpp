@@ -214,6 +214,7 @@ LevelHeader level_header(const Draft& d) {
   header.extent = s.extent;
   header.deviation = d.deviation;
   header.volume = s.volume;
+  header.reach = reach_of(view);
   return header;
 }
 

@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 
 #include "body/block.h"
+#include "body/shape.h"
 #include "body/support.h"
 #include "numeric/exact.h"
 #include "numeric/tolerance.h"
@@ -626,12 +628,15 @@ std::vector<Index> along_curve(const Input& in, std::vector<Index> corners) {
   return corners;
 }
 
-/// Returns the plane of a face. Its normal is computed in 106 bits: in doubles the area of a sliver may vanish.
+/// Returns the plane of a face without FacePlane::over. Its normal is computed in 106 bits: in doubles the area of a sliver may
+/// vanish.
 FacePlane plane_of(const Input& in, const Loop& border, const Loop& members) {
-  const Vec n = normalised(rounded(area_vector<DoubleDouble>(in, border))), p = in.point(border[0]);
+  const auto entry = [](double x) { return std::fabs(x) < kLeastNormalEntry ? 0 : x; };
+  const Vec area = normalised(rounded(area_vector<DoubleDouble>(in, border))), p = in.point(border[0]);
+  const Vec n{entry(area.x), entry(area.y), entry(area.z)};
   double thickness = 0;
   for (const Index v : members) thickness = std::max(thickness, std::fabs(dot(n, in.point(v) - p)));
-  return {n.x, n.y, n.z, thickness + 8 * kU * extent_of(in.points)};
+  return {n.x, n.y, n.z, thickness + 8 * kU * extent_of(in.points), 0};
 }
 
 Surface link(const Input& in, const Facets& facets) {
@@ -694,7 +699,8 @@ Surface link(const Input& in, const Facets& facets) {
       border.push_back(out.vertex_input[origin(view, h)]);
       h = next_in_face(view, h);
     } while (h != out.face_first[f]);
-    out.planes.push_back(plane_of(in, border, held[f]));
+    FacePlane& plane = out.planes.emplace_back(plane_of(in, border, held[f]));
+    plane.over = height_over(view, vec(plane), origin(view, out.face_first[f]));
   }
   out.input_face.resize(facets.input_facet.size());
   for (std::size_t f = 0; f < out.input_face.size(); ++f) out.input_face[f] = number[group[facets.input_facet[f]]];
@@ -745,6 +751,25 @@ std::uint32_t vertex_outside(const ConvexView& exact_hull, const ConvexView& lev
     if (exact::orientation(p, q, r, exact_hull.vertices[highest]) > 0) outside = highest;
   });
   return outside;
+}
+
+double height_over(const ConvexView& view, const Vec& n, std::uint32_t v) {
+  std::uint32_t plane_tests = 0;
+  const std::uint32_t top = support(view, n, v, plane_tests);
+  return exact::height_along(&n.x, &view.vertices[top].x, &view.vertices[v].x);
+}
+
+double reach_of(const ConvexView& view) {
+  const Box box = box_of(view.vertices);
+  Vec mean{0, 0, 0};
+  for (const Vertex& v : view.vertices) mean = mean + vec(v) * (1.0 / double(view.vertices.size()));
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec& centre : {box.least * 0.5 + box.most * 0.5, mean}) {
+    double radius = 0;
+    for (const Vertex& v : view.vertices) radius = max(radius, norm(vec(v) - centre));
+    least = min(least, radius);
+  }
+  return 2 * least * (1 + 8 * kU);
 }
 
 ConvexView Surface::view() const {

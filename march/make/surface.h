@@ -9,6 +9,8 @@
 
 #include <swiftlet/model.h>
 
+#include "numeric/vec.h"
+
 namespace swiftlet {
 
 /// The arrays of a ConvexView, and their correspondence with the input arrays.
@@ -33,6 +35,15 @@ Result<Surface> make_surface(const LevelArrays& level, bool repair);
 /// Returns a vertex of `exact_hull` that lies above some facet of `level`, or kNone if the level encloses the hull. Decided by
 /// exact support climbs from facet to facet.
 std::uint32_t vertex_outside(const ConvexView& exact_hull, const ConvexView& level);
+
+/// Returns a bound on the heights of all vertices of `view` above the plane through vertex `v` with the normal `n`: the
+/// largest, rounded up, at least 0. Requires an exactly convex body and coordinates of `n` that are 0 or at least
+/// kLeastNormalEntry. Cost: a support climb from `v`.
+double height_over(const ConvexView& view, const Vec& n, std::uint32_t v);
+
+/// Returns an upper bound on the distance of two points of a body: twice the radius of a ball around all vertices, whose centre
+/// is that of the bounding box or the mean of the vertices. Cost: linear in the vertices.
+double reach_of(const ConvexView& view);
 
 /// Calls visit(a, b, c) for each exact facet with three of its vertices, which span its plane, counter-clockwise from outside.
 template <class Visit>

@@ -4,6 +4,7 @@
 #include "numeric/exact.h"
 
 #include <cmath>
+#include <limits>
 
 #include "numeric/double_double.h"
 #include "numeric/tolerance.h"
@@ -25,6 +26,13 @@ class Expansion {
     DoubleDouble sum(0);
     for (int i = count_; i-- > 0;) sum = sum + DoubleDouble(part_[i]);
     return sum;
+  }
+
+  /// The number rounded up to a double. The parts below the last sum up to less than its ulp.
+  double rounded_up() const {
+    if (count_ == 0) return 0;
+    const double last = part_[count_ - 1];
+    return count_ > 1 && part_[count_ - 2] > 0 ? std::nextafter(last, std::numeric_limits<double>::infinity()) : last;
   }
 
   /// [Shewchuk 1997, Grow-Expansion] with zeros eliminated.
@@ -212,6 +220,10 @@ int compare_along(const double n[3], const double w[3], const double v[3]) {
   const Vec direction{n[0], n[1], n[2]}, e = subtract(w, v);
   if (const int sign = certain_sign(dot(direction, e), kDotError * dot(absolute(direction), absolute(e)))) return sign;
   return dot3(exactly(direction), difference3(w, v)).sign();
+}
+
+double height_along(const double n[3], const double w[3], const double v[3]) {
+  return dot3(exactly({n[0], n[1], n[2]}), difference3(w, v)).rounded_up();
 }
 
 int compare_along_normal(const double a[3], const double b[3], const double c[3], const double w[3], const double v[3]) {

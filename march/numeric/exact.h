@@ -36,6 +36,9 @@ Plane plane(const Vec& a, const Vec& b, const Vec& c);
 /// The sign of n . (w - v).
 int compare_along(const double n[3], const double w[3], const double v[3]);
 
+/// n . (w - v), rounded up; exact if it is a double. Each n[i] is 0 or at least kLeastNormalEntry in magnitude.
+double height_along(const double n[3], const double w[3], const double v[3]);
+
 /// The sign of (b - a) x (c - a) . (w - v): compares w and v along the exact normal of the triangle a, b, c.
 int compare_along_normal(const double a[3], const double b[3], const double c[3], const double w[3], const double v[3]);
 

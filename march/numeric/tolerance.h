@@ -209,6 +209,9 @@ inline constexpr double kFloatUlp = 0x1p-23, kDoubleUlp = 0x1p-52;
 /// A file is refused as damaged if the squared length of a stored normal differs from 1 by this or more. It is far above
 /// rounding errors and far below what would mislead a walk. Dimensionless.
 inline constexpr double kUnitNormalError = 1e-9;
+/// A coordinate of a stored normal is 0 or at least this in magnitude: smaller ones are stored as 0, and refused in files. The
+/// exact height of a vertex along the normal then has no bit below 2^-900. Dimensionless.
+inline constexpr double kLeastNormalEntry = 0x1p-500;
 /// The relative precision to which a level's deviation is measured: a tenth of the 1 % that the design allows above the truth.
 inline constexpr double kDeviationPrecision = 1e-3;
 

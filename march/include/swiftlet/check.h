@@ -28,9 +28,10 @@ struct Check {
 /// without `proof`, the product of the edges, 0.2 s for 2 000 triangles each.
 Check check(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const OverlapProof* proof = nullptr);
 
-/// Proves exactly that every level is convex and encloses level 0, and by certified bounds that every deviation and support map
-/// holds. (That links and tables name features is checked whenever a model is made or read.) Fails if level 0 is absent. Cost:
-/// a support climb per face, a distance query per vertex, all vertices per cell of a map.
+/// Proves exactly that every level is convex and encloses level 0 and that no vertex is higher above a face's plane than
+/// FacePlane::over, and by certified bounds that every deviation, reach and support map holds. (That links and tables name
+/// features is checked whenever a model is made or read.) Fails if level 0 is absent. Cost: a support climb per face, a
+/// distance query per vertex, all vertices per cell of a map.
 Check verify(const Model& model);
 
 }  // namespace swiftlet

@@ -54,6 +54,9 @@ struct Vertex {
 struct FacePlane {
   double x, y, z;    ///< unit outward normal, body frame
   double thickness;  ///< greatest distance of a vertex of the face from the plane, rounding included; the caller's unit
+  /// No vertex of the body is higher than this above the plane, along the normal as it is stored; rounding included; the
+  /// caller's unit. It holds where ConvexView::reach is known.
+  double over;
 };
 
 /// One of the two directed halves of an edge. Its origin is not stored: it is the head of its twin.
@@ -82,6 +85,7 @@ struct ConvexView {
   std::span<const std::uint8_t> tags;         ///< per face, a tag of the caller's; may be empty
   double extent = 0;                          ///< largest absolute coordinate
   Vec3 centre = Vec3::Zero();                 ///< any point of the body; the line of centres of a cold start ends here
+  double reach = 0;  ///< upper bound on the distance of two points of the body; 0: not known, nor are FacePlane::over
 };
 
 /// Says which levels of a model to keep: the coarsest always, and finer ones as far as both members allow. Two bodies whose
