@@ -93,11 +93,13 @@ TEST_F(DetailTest, ACutModelHoldsTheLevelsAskedFor) {
         EXPECT_EQ(of_cut.deviation, whole.deviation);
         EXPECT_EQ(of_cut.triangle_count, whole.triangle_count);
         EXPECT_EQ(of_cut.bytes, whole.bytes);
+        EXPECT_EQ(of_cut.view.reach, whole.view.reach);
         if (i < k) {
           EXPECT_TRUE(of_cut.view.vertices.empty() && of_cut.support_map.empty());
           continue;
         }
         EXPECT_TRUE(same(of_cut.view.vertices, whole.view.vertices));
+        EXPECT_TRUE(same(of_cut.view.planes, whole.view.planes));
         EXPECT_TRUE(std::ranges::equal(of_cut.view.half_edges, whole.view.half_edges));
         EXPECT_TRUE(same(of_cut.child_vertex, whole.child_vertex));
         EXPECT_TRUE(same(of_cut.parent_face, whole.parent_face));

@@ -116,6 +116,12 @@ TEST_F(ModelFile, ForeignFilesAreNamedSo) {
   write(newer, offsetof(BlockHeader, version), kModelFileVersion + 1);
   rehash(newer);
   EXPECT_EQ(code_of(load(newer)), ErrorCode::BadVersion);
+  Bytes older = bytes_of(small());  // refused before anything else of it is read: the layout was another
+  write(older, offsetof(BlockHeader, version), 3u);
+  const Result<Model> old = load(write_file("old.swl", older));
+  EXPECT_EQ(code_of(old), ErrorCode::BadVersion);
+  for (const char* part : {"old.swl", "model version 3", "reads version 4", "`swiftlet build MESH -o MODEL`"})
+    EXPECT_NE(old.error().message.find(part), std::string::npos) << old.error().message;
   Bytes as_text = bytes_of(small());  // what a transfer that rewrites line ends does
   as_text.erase(as_text.begin() + 4);
   EXPECT_EQ(code_of(load(as_text)), ErrorCode::BadFormat);
@@ -155,6 +161,38 @@ TEST_F(ModelFile, HugeCountsAreRefused) {
   Bytes promise = whole;
   write(promise, offsetof(BlockHeader, total_bytes), std::uint64_t{1} << 50);
   EXPECT_EQ(code_of(load(write_file("promise.swl", promise))), ErrorCode::BadFormat);
+}
+
+TEST_F(ModelFile, BoundsThatAreNoLengthsAreRefused) {
+  const Bytes whole = bytes_of(small());
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto refused = [&whole](std::size_t at, auto value) {
+    Bytes block = whole;
+    write(block, at, value);
+    rehash(block);
+    return !load(block) && load(block).error().code == ErrorCode::BadFormat;
+  };
+  const auto section = read<LevelHeader>(whole, level_header_at(1)).section;
+  const std::size_t plane = std::size_t(section.offset) + 8 * sizeof(Vertex);  // of the cube's first face
+  for (const double bad : {std::nan(""), kInfinity, -kInfinity, -1.0, -0x1p-1074}) {
+    for (std::size_t level = 0; level < 2; ++level)
+      EXPECT_TRUE(refused(level_header_at(level) + offsetof(LevelHeader, reach), bad)) << bad;
+    EXPECT_TRUE(refused(plane + offsetof(FacePlane, over), bad)) << bad;
+    EXPECT_TRUE(refused(plane + offsetof(FacePlane, thickness), bad)) << bad;
+  }
+  for (const double good : {0.0, 0x1p-1074, 1e30}) {
+    EXPECT_FALSE(refused(level_header_at(0) + offsetof(LevelHeader, reach), good));
+    EXPECT_FALSE(refused(plane + offsetof(FacePlane, over), good));
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t at = plane + 8 * axis;
+    if (read<double>(whole, at) != 0) continue;
+    EXPECT_TRUE(refused(at, 0x1p-501)) << "heights along it would underflow";
+    EXPECT_FALSE(refused(at, 0x1p-500));
+  }
+  for (std::size_t word = 0; word < std::size(LevelHeader{}.reserved); ++word)
+    EXPECT_TRUE(refused(level_header_at(1) + offsetof(LevelHeader, reserved) + 8 * word, std::uint64_t{1}));
+  EXPECT_TRUE(refused(level_header_at(1) + offsetof(LevelHeader, unused), 1u));
 }
 
 /// Every query from several poses and seeds, cold and garbage. What a hostile model may cost is bounded, what it answers is an

@@ -811,8 +811,11 @@ TEST(Model, ScalingByAPowerOfTwoScalesBitForBit) {
       EXPECT_TRUE(std::ranges::equal(a.child_face, b.child_face));
       EXPECT_TRUE(std::ranges::equal(a.parent_face, b.parent_face));
       for (std::uint32_t v = 0; v < a.view.vertices.size(); ++v) EXPECT_EQ(s * at(a.view, v), at(b.view, v));
-      for (std::size_t f = 0; f < a.view.planes.size(); ++f)
+      EXPECT_EQ(s * a.view.reach, b.view.reach);
+      for (std::size_t f = 0; f < a.view.planes.size(); ++f) {
         EXPECT_EQ(s * a.view.planes[f].thickness, b.view.planes[f].thickness);
+        EXPECT_EQ(s * a.view.planes[f].over, b.view.planes[f].over);
+      }
     }
   }
 }
@@ -864,6 +867,26 @@ TEST(Verify, FindsWhatTheHashesCannot) {
     write(block, level_header_at(2), header);
   });
   expect_says(verify(boast).message, "deviation");
+
+  const Model narrow = tampered(m, [&](Bytes& block) {
+    const std::size_t at = level_header_at(1) + offsetof(LevelHeader, reach);
+    write(block, at, std::nextafter(read<double>(block, at), 0));
+  });
+  expect_says(verify(narrow).message, "level 1: its reach");
+
+  const Model turned = model(moved(cube(), rotation(1, 2, 3, 4)));
+  const auto& planes = turned.level(0).view.planes;
+  int low = 0;
+  for (std::size_t f = 0; f < planes.size(); ++f) {
+    if (planes[f].over == 0) continue;
+    const Model forged = tampered(turned, [&](Bytes& block) {
+      write(block, vertex_at(block, 0, 8) + f * sizeof(FacePlane) + offsetof(FacePlane, over),
+            std::nextafter(planes[f].over, 0));
+    });
+    expect_says(verify(forged).message, "higher above the plane of face " + std::to_string(f));
+    ++low;
+  }
+  EXPECT_GE(low, 1);
 }
 
 }  // namespace

@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What a level says of its body beyond its faces, against rationals over all vertices: how high the body rises above the planes
+// of its polygons, and how far apart two of its points are.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <vector>
+
+#include <CGAL/Exact_rational.h>
+#include <gtest/gtest.h>
+
+#include <swiftlet/body.h>
+#include <swiftlet/build.h>
+#include <swiftlet/model.h>
+
+#include "bodies.h"
+#include "body/half_edge.h"
+#include "body/shape.h"
+#include "random.h"
+#include "shapes.h"
+
+namespace swiftlet {
+namespace {
+
+using Number = CGAL::Exact_rational;
+
+constexpr double kU = 0x1p-53;
+
+using Point = std::array<Number, 3>;
+
+template <class Record>
+Point rational(const Record& r) {
+  return {Number(r.x), Number(r.y), Number(r.z)};
+}
+
+std::vector<Point> rational_points(const ConvexView& view) {
+  std::vector<Point> points;
+  for (const Vertex& v : view.vertices) points.push_back(rational(v));
+  return points;
+}
+
+/// The height of the highest vertex above a face's plane, exactly, at least 0.
+Number highest(const ConvexView& view, const std::vector<Point>& points, std::uint32_t face) {
+  const Point n = rational(view.planes[face]);
+  const auto along = [&n](const Point& p) -> Number { return n[0] * p[0] + n[1] * p[1] + n[2] * p[2]; };
+  const Number first = along(points[origin(view, view.face_first[face])]);
+  Number most = first;
+  for (const Point& p : points) most = std::max(most, along(p));
+  return most - first;
+}
+
+/// What was found on the way: planes, and those above which a vertex rises; the largest such height, in u times the extent.
+struct Tally {
+  std::size_t planes = 0, exceeded = 0;
+  double most = 0;
+};
+
+/// Expects of every plane the least double that no vertex's height exceeds.
+void expect_least(const ConvexView& view, Tally& tally) {
+  const std::vector<Point> points = rational_points(view);
+  for (std::uint32_t f = 0; f < view.planes.size(); ++f) {
+    const double over = view.planes[f].over;
+    const Number most = highest(view, points, f);
+    ASSERT_GE(over, 0);
+    ASSERT_LE(most, Number(over)) << "face " << f << ": a vertex is higher than " << over;
+    if (over > 0) {
+      ASSERT_LT(Number(std::nextafter(over, 0.)), most) << "face " << f << ": " << over << " is not tight";
+    }
+    ++tally.planes;
+    tally.exceeded += over > 0;
+    tally.most = std::max(tally.most, over / (kU * view.extent));
+  }
+}
+
+void expect_least(const Model& model, Tally& tally) {
+  for (int level = 0; level < model.level_count(); ++level) {
+    expect_least(model.level(level).view, tally);
+    if (testing::Test::HasFatalFailure()) FAIL() << "level " << level;
+  }
+}
+
+/// A mesh, turned and shifted in several ways.
+std::vector<Mesh> turned(const Mesh& mesh, std::uint64_t seed) {
+  shapes::Random random(seed);
+  std::vector<Mesh> result{mesh};
+  for (const double shift : {0., 0.3, 100.})
+    result.push_back(shapes::moved(mesh, {random.rotation(), shift * random.on_sphere()}));
+  return result;
+}
+
+/// The hull of two boxes at right angles, with a prism through both.
+Mesh bracket() {
+  Mesh mesh;
+  const auto add = [&](const Mesh& part, const Vec3& at) {
+    for (const Vec3& p : part.points) mesh.points.push_back(p + at);
+  };
+  add(shapes::box({4, 1, 0.25}), {0, 0, 0});
+  add(shapes::box({0.25, 1, 3}), {-2, 0, 1.5});
+  add(shapes::prism(24, 0.6, 0.5), {1.75, 0, 0});
+  return mesh;
+}
+
+/// Each coordinate moved by up to `ulps` ulps.
+Mesh nudged(Mesh mesh, int ulps, std::uint64_t seed) {
+  shapes::Random random(seed);
+  for (Vec3& p : mesh.points) {
+    for (double& x : p) {
+      for (int k = int(random.uniform(0, ulps + 1)); k > 0; --k)
+        x = std::nextafter(
+            x, random.uniform() < 0.5 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity());
+    }
+  }
+  return mesh;
+}
+
+Model built(const Mesh& mesh) {
+  BuildOptions options;
+  options.cutoff = 4;
+  return bodies::must(build(std::span<const Vec3>(mesh.points), options)).model;
+}
+
+std::vector<Mesh> parts() {
+  std::vector<Mesh> result{shapes::cube(), shapes::meshed_cube(4), shapes::dodecahedron(), shapes::needle(), bracket()};
+  for (const Vec3& size : {Vec3(1, 2, 3), Vec3(1, 1, 1e-3), Vec3(1, 1e-3, 1e-3), Vec3(1e-6, 1, 1e3)})
+    result.push_back(shapes::box(size));
+  for (const std::uint32_t sides : {5u, 6u, 7u, 12u, 31u, 64u, 200u}) {
+    result.push_back(shapes::prism(sides, 1, 2));
+    result.push_back(shapes::prism(sides, 1, 0.01));
+  }
+  return result;
+}
+
+TEST(FacePlanes, NoVertexIsHigherThanTheyState) {
+  Tally tally;
+  std::uint64_t seed = 1;
+  for (const Mesh& part : parts()) {
+    for (const Mesh& mesh : turned(part, seed++)) {
+      ASSERT_NO_FATAL_FAILURE(expect_least(built(mesh), tally)) << seed;
+    }
+  }
+  EXPECT_GE(tally.planes, 2000u);
+  EXPECT_GE(tally.exceeded, 1000u);
+  EXPECT_LE(tally.most, 4) << "flat up to rounding, so that doubles rise above them by little more";
+  std::printf("%zu planes, %zu exceeded, by at most %.2f u of the extent\n", tally.planes, tally.exceeded, tally.most);
+}
+
+TEST(FacePlanes, NoVertexIsHigherThanThoseOfSinglePrecisionState) {
+  Tally tally;
+  std::uint64_t seed = 100;
+  for (const Mesh& part : parts()) {
+    for (const Mesh& mesh : turned(part, seed++)) {
+      ASSERT_NO_FATAL_FAILURE(expect_least(built(shapes::float_rounded(mesh)), tally)) << seed;
+    }
+  }
+  EXPECT_GE(tally.planes, 2000u);
+  EXPECT_GE(tally.exceeded, 1000u);
+  EXPECT_LE(tally.most, 16 * 0x1p-23 / kU);
+  std::printf("%zu planes, %zu exceeded, by at most %.3g u of the extent\n", tally.planes, tally.exceeded, tally.most);
+}
+
+TEST(FacePlanes, NoVertexIsHigherThanThoseOffTheirPlaneState) {
+  Tally tally;
+  std::uint64_t seed = 200;
+  for (const Mesh& part : parts()) {
+    for (const int ulps : {1, 2, 4, 8}) {
+      ++seed;
+      ASSERT_NO_FATAL_FAILURE(expect_least(built(nudged(turned(part, seed)[2], ulps, seed)), tally)) << seed;
+    }
+  }
+  EXPECT_GE(tally.planes, 1000u);
+  EXPECT_GE(tally.exceeded, 500u);
+  std::printf("%zu planes, %zu exceeded, by at most %.2f u of the extent\n", tally.planes, tally.exceeded, tally.most);
+}
+
+TEST(FacePlanes, ThoseOfModelsFromArraysAndFlatBodiesHold) {
+  using namespace bodies;
+  Tally tally;
+  shapes::Random random(7);
+  for (int i = 0; i < 50; ++i) {
+    const Polyhedron body = moved(box(1, 0.5, 2), random.rotation(), 3 * random.in_ball());
+    ASSERT_NO_FATAL_FAILURE(expect_least(model(body), tally));
+    ASSERT_NO_FATAL_FAILURE(expect_least(model(float_rounded(body)), tally));
+  }
+  ASSERT_NO_FATAL_FAILURE(expect_least(nested(), tally));
+  for (const double scale : {0x1p-140, 0x1p+140}) {
+    Polyhedron body = moved(box(1, 0.5, 2), random.rotation());
+    for (Vec3& p : body.points) p *= scale;
+    ASSERT_NO_FATAL_FAILURE(expect_least(model(body), tally));
+  }
+  const Polyhedron sheet = two_sided({{0, 0, 0}, {1, 0.25, 0.5}, {2, 2, 1.5}, {0.5, 1, 0.5}});  // all 2 z = x + y / 2
+  EXPECT_THROW(model(moved(sheet, random.rotation())), std::runtime_error) << "rounding bends it";
+  ASSERT_NO_FATAL_FAILURE(expect_least(model(two_sided({{0, 0, 0}, {3, 0, 1}, {3, 5, 1}, {0, 5, 0}})), tally));
+  EXPECT_GE(tally.planes, 600u);
+}
+
+TEST(FacePlanes, NormalsHaveNoTinyCoordinates) {
+  // A plate of side 2e45 and height 1e-70 whose top leans by 1e-131: legal bodies have no smaller slopes.
+  using namespace bodies;
+  Polyhedron b = box(1e45, 1e45, 1);
+  for (std::size_t v = 0; v < 8; ++v) b.points[v].z() = v < 4 ? 0 : 1e-70;
+  b.points[5].z() = b.points[6].z() = std::nextafter(1e-70, 1);
+  const Model m = model(b);
+  Tally tally;
+  ASSERT_NO_FATAL_FAILURE(expect_least(m, tally));
+  for (const FacePlane& n : m.level(0).view.planes)
+    for (const double x : {n.x, n.y, n.z}) EXPECT_TRUE(x == 0 || std::fabs(x) >= 0x1p-500) << x;
+}
+
+/// Expects a bound on all distances that is at most sqrt(3) times the largest, as the diagonal of a bounding box is.
+void expect_reach(const ConvexView& view) {
+  const std::vector<Point> points = rational_points(view);
+  Number most2(0);
+  for (const Point& p : points) {
+    for (const Point& q : points) {
+      Number sum(0);
+      for (std::size_t i = 0; i < 3; ++i) sum += (p[i] - q[i]) * (p[i] - q[i]);
+      most2 = std::max(most2, sum);
+    }
+  }
+  const Number reach2 = Number(view.reach) * Number(view.reach);
+  EXPECT_GE(reach2, most2);
+  EXPECT_LE(reach2, Number(3 * (1 + 64 * kU)) * most2);
+}
+
+TEST(Reach, BoundsAllDistances) {
+  std::uint64_t seed = 300;
+  std::vector<Mesh> bodies = parts();
+  for (const Mesh& mesh : {shapes::tetrahedron(), shapes::octahedron(), shapes::icosahedron(), shapes::sliver(),
+                           shapes::random_polytope(40, 1), shapes::polygon(9), shapes::segment(3), shapes::point()})
+    bodies.push_back(mesh);
+  for (const Mesh& part : bodies) {
+    if (part.points.size() > 130) continue;
+    for (const Mesh& mesh : turned(part, seed++)) {
+      const Model model = built(mesh);
+      for (int level = 0; level < model.level_count(); ++level) expect_reach(model.level(level).view);
+    }
+  }
+  EXPECT_EQ(ConvexView{}.reach, 0) << "a view made by hand knows none";
+}
+
+TEST(Reach, PrimitivesKnowIt) {
+  shapes::Random random(9);
+  const auto point = [&] { return Vec3(random.in_ball() + Vec3(1, 2, 3)); };
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 p = point(), q = point(), r = point();
+    for (const Body& body :
+         {Body::point(p), Body::segment(p, q), Body::triangle(p, q, r), Body::box(p.cwiseMin(q), p.cwiseMax(q)),
+          Body::box(p.cwiseMin(q), p.cwiseMax(Vec3(q.x(), p.y(), q.z())))}) {
+      const ShapeOf shape(body);
+      const ConvexView& view = (*shape).level(0).view;
+      expect_reach(view);
+      for (std::uint32_t f = 0; f < view.planes.size(); ++f)
+        EXPECT_LE(highest(view, rational_points(view), f), Number(view.planes[f].over));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet
