@@ -630,13 +630,13 @@ std::vector<Index> along_curve(const Input& in, std::vector<Index> corners) {
 
 /// Returns the plane of a face without FacePlane::over. Its normal is computed in 106 bits: in doubles the area of a sliver may
 /// vanish.
-FacePlane plane_of(const Input& in, const Loop& border, const Loop& members) {
+FacePlane plane_of(const Input& in, double extent, const Loop& border, const Loop& members) {
   const auto entry = [](double x) { return std::fabs(x) < kLeastNormalEntry ? 0 : x; };
   const Vec area = normalised(rounded(area_vector<DoubleDouble>(in, border))), p = in.point(border[0]);
   const Vec n{entry(area.x), entry(area.y), entry(area.z)};
   double thickness = 0;
   for (const Index v : members) thickness = std::max(thickness, std::fabs(dot(n, in.point(v) - p)));
-  return {n.x, n.y, n.z, thickness + 8 * kU * extent_of(in.points), 0};
+  return {n.x, n.y, n.z, thickness + 8 * kU * extent, 0};
 }
 
 Surface link(const Input& in, const Facets& facets) {
@@ -692,6 +692,7 @@ Surface link(const Input& in, const Facets& facets) {
       held[number[group[f]]].insert(held[number[group[f]]].end(), facets.loops[f].begin(), facets.loops[f].end());
   }
   const ConvexView view = out.view();
+  const double extent = extent_of(in.points);
   for (Index f = 0; f < sequence.size() && has_plane(sequence[f]); ++f) {
     Loop border;
     Index h = out.face_first[f];
@@ -699,7 +700,7 @@ Surface link(const Input& in, const Facets& facets) {
       border.push_back(out.vertex_input[origin(view, h)]);
       h = next_in_face(view, h);
     } while (h != out.face_first[f]);
-    FacePlane& plane = out.planes.emplace_back(plane_of(in, border, held[f]));
+    FacePlane& plane = out.planes.emplace_back(plane_of(in, extent, border, held[f]));
     plane.over = height_over(view, vec(plane), origin(view, out.face_first[f]));
   }
   out.input_face.resize(facets.input_facet.size());
