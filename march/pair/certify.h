@@ -7,6 +7,8 @@
 #include <array>
 #include <cstdint>
 
+#include <swiftlet/march.h>
+
 #include "body/support.h"
 #include "pair/nearest.h"
 #include "pair/pair_view.h"
@@ -38,8 +40,8 @@ struct Proof {
   double lower, upper;
   Vec normal;  ///< unit, from A to B
 };
-/// Proves bounds by the tests of a walk's last state alone, and reads nothing else. Returns false if they do not tell.
-bool certify(const PairView& pair, const Nearest& seen, Proof& proof);
+/// Proves bounds by the tests of a walk's last state alone, and reads nothing else. Returns why they do not tell, or None.
+Doubt certify(const PairView& pair, const Nearest& seen, Proof& proof);
 
 /// True if `apart`, the vector between two points, differs from its length times the unit `normal` by more than law 2's bound.
 /// Bounds within law 2's bound leave the plane room to lean by the root of that: by 1e-8, say, between nearly parallel faces.

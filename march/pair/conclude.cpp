@@ -87,9 +87,12 @@ void from_nothing(const PairView& pair, const MarchRule& rule, double zero, Marc
 
 }  // namespace
 
-bool settles(const PairView& pair, const Walk& walk, double zero, double beyond, Proof& proof) {
-  return walk.end == WalkEnd::Minimum && certify(pair, walk.nearest, proof) && !is_near(pair, proof.lower, proof.upper, zero) &&
-         !is_near(pair, proof.lower, proof.upper, beyond);
+Doubt settle(const PairView& pair, const Walk& walk, double zero, double beyond, Proof& proof) {
+  if (walk.end != WalkEnd::Minimum) return Doubt::NoMinimum;
+  const Doubt doubt = certify(pair, walk.nearest, proof);
+  if (doubt != Doubt::None) return doubt;
+  const bool near = is_near(pair, proof.lower, proof.upper, zero) || is_near(pair, proof.lower, proof.upper, beyond);
+  return near ? Doubt::Threshold : Doubt::None;
 }
 
 template <Until until>

@@ -19,9 +19,9 @@ enum class Until {
   Exact,   ///< law 2's width, with points on the surfaces, or `lower` beyond the rule's threshold
 };
 
-/// True if the tests of a walk's last state prove the distance within law 2's bound, and neither `zero` nor `beyond`, where
-/// verdicts change, is within rounding of it. `proof` then holds the bounds.
-bool settles(const PairView& pair, const Walk& walk, double zero, double beyond, Proof& proof);
+/// Returns None if the tests of a walk's last state prove the distance within law 2's bound, and neither `zero` nor `beyond`,
+/// where verdicts change, is within rounding of it; `proof` then holds the bounds. Else returns why not.
+Doubt settle(const PairView& pair, const Walk& walk, double zero, double beyond, Proof& proof);
 
 /// Proves bounds from the end of a walk by climbs and certified GJK. Verdicts change at the distances 0, `zero` and the rule's
 /// `beyond`: within rounding of these, the result is that of a cold start if the budget allows one.

@@ -14,25 +14,31 @@
 namespace swiftlet {
 namespace {
 
+MarchResult settled_result(const Walk& walked, const Proof& proof, const MarchRule& rule) {
+  MarchResult r;
+  r.status = proof.lower > rule.beyond ? MarchStatus::Beyond : MarchStatus::Disjoint;
+  r.a = walked.a, r.b = walked.b;
+  r.lower = proof.lower, r.upper = proof.upper;
+  r.normal = eigen(proof.normal);
+  r.point_a = eigen(walked.nearest.point_a), r.point_b = eigen(walked.nearest.point_b);
+  r.steps = walked.steps, r.plane_tests = walked.plane_tests;
+  return r;
+}
+
 /// Proves bounds from the end of a walk. If the budget ended the walk no nearer than it began, certified GJK goes on, so that
 /// marches which start from one another's features do not cycle.
 MarchResult concluded(const PairView& pair, const MarchStart& from, Walk walked, const MarchRule& rule) {
-  if (Proof proof; settles(pair, walked, 0, rule.beyond, proof)) {
-    MarchResult r;
-    r.status = proof.lower > rule.beyond ? MarchStatus::Beyond : MarchStatus::Disjoint;
-    r.a = walked.a, r.b = walked.b;
-    r.lower = proof.lower, r.upper = proof.upper;
-    r.normal = eigen(proof.normal);
-    r.point_a = eigen(walked.nearest.point_a), r.point_b = eigen(walked.nearest.point_b);
-    r.steps = walked.steps, r.plane_tests = walked.plane_tests;
-    return r;
-  }
-  const MarchResult r = conclude<Until::Exact>(pair, walked, rule);
-  if (r.status != MarchStatus::Budget) return r;
+  Proof proof;
+  const Doubt doubt = rule.careful ? Doubt::Asked : settle(pair, walked, 0, rule.beyond, proof);
+  if (doubt == Doubt::None) return settled_result(walked, proof, rule);
+  MarchResult r = conclude<Until::Exact>(pair, walked, rule);
   std::uint32_t tests = 0;
-  if (r.upper < certify(pair, witness(pair, from.a, from.b), tests).upper) return r;
-  walked.end = WalkEnd::Stalled;
-  return conclude<Until::Exact>(pair, walked, rule);
+  if (r.status == MarchStatus::Budget && !(r.upper < certify(pair, witness(pair, from.a, from.b), tests).upper)) {
+    walked.end = WalkEnd::Stalled;
+    r = conclude<Until::Exact>(pair, walked, rule);
+  }
+  r.doubt = doubt;
+  return r;
 }
 
 /// Moves features and points of an overlap from where the proof was found to where the surfaces cross.

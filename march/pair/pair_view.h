@@ -91,7 +91,7 @@ static inline double law_two(const ConvexView& a, const ConvexView& b, double sh
 }
 
 /// At least the distance of any two points of a body, in its own frame.
-static inline double reach(const ConvexView& view) { return 2 * kSqrt3 * view.extent; }
+static inline double reach(const ConvexView& view) { return view.reach > 0 ? view.reach : 2 * kSqrt3 * view.extent; }
 
 static inline PairView pair_view(const ConvexView& a, const ConvexView& b, const Motion& m, double shift, double pose_error) {
   const double stretch = kSqrt3 * (1 + pose_error), magnitude = stretch * (a.extent + b.extent) + shift,

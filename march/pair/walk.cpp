@@ -252,11 +252,11 @@ class Marcher {
       return;
     }
     seen.point_b = seen.point_a - n * (height / nn);
-    if (!well_inside) return;
+    if (!well_inside || prism.body().view.reach == 0) return;
     const FacePlane& plane = prism.body().view.planes[f];
     const double stretch = 1 + 2 * pair_.pose_error;
     seen.blur = plane.thickness * stretch + 8 * kU * norm_1(seen.apart);
-    seen.over_b = kUnknown;
+    seen.over_b = plane.over * stretch + Q::kImage * prism.body().reach;
   }
 
   /// Follows edge `h`, which leads from `tail` along u to `head`, from its point p at s over face `f`, which rises towards p.
@@ -311,7 +311,7 @@ Move state(Marcher& march, A a, FeatureId fa, B b, FeatureId fb) {
 
 }  // namespace
 
-Walk walk(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget) {
+[[gnu::flatten]] Walk walk(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget) {
   Walk result;
   result.a = a;
   result.b = b;

@@ -28,7 +28,7 @@ class Descent {
       : pair_(pair),
         a_(pair.a),
         b_(pair.b),
-        line_(line_of_centres(pair.motion, pair.line)),
+        line_(pair.line),
         budget_(limits.budget),
         tuning_(limits.tuning),
         trace_(limits.trace),
@@ -276,7 +276,9 @@ class Descent {
 
   /// Certifies a walk and takes over the better bounds; the features of `place` become those of the certificate.
   void bound(const PairView& pair, Place& place, const Walk& walked) {
-    if (Proof proof; settles(pair, walked, asked_.zero, asked_.above, proof)) {
+    Proof proof;
+    doubt_ = tuning_.careful ? Doubt::Asked : settle(pair, walked, asked_.zero, asked_.above, proof);
+    if (doubt_ == Doubt::None) {
       met_ = MarchStatus::Disjoint;
       const Nearest& at = walked.nearest;
       return carry(place, {proof.lower, proof.upper, proof.normal, at.point_a, at.point_b}, pair.law_two);
@@ -296,12 +298,14 @@ class Descent {
   }
 
   void record(const Place& place) {
-    note(trace_, answer_.levels_visited,
+    const int visited = answer_.levels_visited++;
+    if (trace_.empty()) return;
+    note(trace_, std::size_t(visited),
          {place.level_a, place.level_b, answer_.lower, answer_.upper, answer_.steps - recorded_steps_,
-          answer_.plane_tests - recorded_tests_});
+          answer_.plane_tests - recorded_tests_, doubt_});
     recorded_steps_ = answer_.steps;
     recorded_tests_ = answer_.plane_tests;
-    ++answer_.levels_visited;
+    doubt_ = Doubt::None;
   }
 
   /// The next finer level pair, without features to start from.
@@ -385,7 +389,7 @@ class Descent {
   const ModelPair& pair_;
   const Shape& a_;
   const Shape& b_;
-  const Line line_;
+  const Line& line_;
   const Budget& budget_;
   const Tuning& tuning_;
   const std::span<LevelRecord> trace_;
@@ -401,6 +405,7 @@ class Descent {
   MarchStatus met_ = MarchStatus::NotConverged;
   MarchStart coarsest_;  ///< features on the coarsest pair, for StartPolicy::Coarsest
   bool spent_ = false;   ///< the caller's step budget is used up
+  Doubt doubt_ = Doubt::None;  ///< of the walk on the pair that is visited
   std::uint32_t recorded_steps_ = 0, recorded_tests_ = 0;
 };
 

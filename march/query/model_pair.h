@@ -19,10 +19,9 @@ struct ModelPair {
         b(of_b),
         motion(m),
         pose_error(error),
-        stretch(std::sqrt(1 + 3 * error)),
         shift(norm(m.t)),
         law_two(swiftlet::law_two(a.level(0).view, b.level(0).view, shift, error)),
-        line(between_centres(a, b, m)),
+        line(line_of_centres(a, b, m)),
         finest_a(finest_allowed(a, limits.budget)),
         finest_b(finest_allowed(b, limits.budget)),
         has_maps(limits.tuning.start == StartPolicy::Automatic && a.map_level() < a.level_count() &&
@@ -30,9 +29,11 @@ struct ModelPair {
 
   /// The finest level pair that has support maps and that the query may read.
   Place finest_mapped() const { return {std::max(a.map_level(), finest_a), std::max(b.map_level(), finest_b), {}}; }
-  /// The most by which the exact hulls may be farther apart than these levels. B's deviation counts `stretch` times, because a
-  /// pose that is not exactly orthonormal may stretch B.
-  double deviation(int level_a, int level_b) const { return a.level(level_a).deviation + stretch * b.level(level_b).deviation; }
+  /// The most by which the exact hulls may be farther apart than these levels. A pose that is not exactly orthonormal may stretch
+  /// B, and its deviation, by 1.5 times its error and a little of second order.
+  double deviation(int level_a, int level_b) const {
+    return a.level(level_a).deviation + b.level(level_b).deviation * (1 + 2 * pose_error);
+  }
   /// An estimate, not a bound, of the error of what the support maps say about the exact hulls: the deviation, and a doubt for
   /// each map that is proportional to the square of its cells' width.
   double map_error(const Place& place) const {
@@ -48,8 +49,8 @@ struct ModelPair {
   const Shape& a;
   const Shape& b;
   const Motion& motion;
-  const double pose_error, stretch, shift, law_two;  ///< `stretch` bounds the norm of the pose's matrix; `shift` is |t|
-  const Vec line;                                    ///< from A's centre to B's, in A's frame
+  const double pose_error, shift, law_two;  ///< `shift` is |t|
+  const Line line;
   const int finest_a, finest_b;
   const bool has_maps;  ///< the query may use support maps: both bodies have them, and the start policy is Automatic
 };

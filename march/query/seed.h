@@ -27,10 +27,8 @@ struct Place {
 struct Line {
   Vec in_a, in_b;
 };
-static inline Vec between_centres(const Shape& a, const Shape& b, const Motion& b_in_a) {
-  return apply(b_in_a, vec(b.level(0).view.centre)) - vec(a.level(0).view.centre);
-}
-static inline Line line_of_centres(const Motion& b_in_a, const Vec& between) {
+static inline Line line_of_centres(const Shape& a, const Shape& b, const Motion& b_in_a) {
+  const Vec between = apply(b_in_a, vec(b.level(0).view.centre)) - vec(a.level(0).view.centre);
   return {between, -rotate_back(b_in_a, between)};
 }
 

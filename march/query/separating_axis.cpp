@@ -7,7 +7,7 @@ namespace swiftlet {
 
 bool separating_axis(const ModelPair& pair, const StopRule& asked, PairSeed& seed, AxisTest& first, Answer& answer) {
   const double close = kCloseRadii * (pair.a.radius() + pair.b.radius()) + asked.above;
-  first.at = dot(pair.line, pair.line) <= close * close ? pair.finest_mapped() : coarsest_place(pair.a, pair.b);
+  first.at = dot(pair.line.in_a, pair.line.in_a) <= close * close ? pair.finest_mapped() : coarsest_place(pair.a, pair.b);
   const int level_a = first.at.level_a, level_b = first.at.level_b;
   const Level &of_a = pair.a.level(level_a), &of_b = pair.b.level(level_b);
   const PairView view = pair.view_at(first.at);
@@ -15,9 +15,9 @@ bool separating_axis(const ModelPair& pair, const StopRule& asked, PairSeed& see
     first.seen = sample_axis(view, of_a, of_b, direction);
     return first.seen.lower > max(asked.above, 0) + pair.law_two;
   };
-  const Vec last = last_direction(pair.line, seed);
+  const Vec last = last_direction(pair.line.in_a, seed);
   if (!(max_abs(last) > 0 && clears(last))) {
-    if (!clears(pair.line)) return false;
+    if (!clears(pair.line.in_a)) return false;
     seed.normal = {};
   }
 

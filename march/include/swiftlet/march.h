@@ -33,6 +33,17 @@ enum class MarchStatus : std::uint8_t {
   InvalidPose,   ///< the pose is not finite, translates beyond 1e45 or is not orthonormal to 1e-6: bounds are [0, inf]
 };
 
+/// Why the tests that ended a walk did not prove its bounds, so that support vertices and certified GJK did.
+enum class Doubt : std::uint8_t {
+  None,       ///< they did
+  NoMinimum,  ///< the walk got inside a body, stalled, or spent its budget
+  Neighbour,  ///< a neighbour is as high as the feature within rounding, or the point is that near to the side of its face
+  Width,      ///< the bounds are wider than law 2's: rounding, slivers
+  Lean,       ///< the points lean against the plane
+  Threshold,  ///< the distance is within law 2's bound of 0 or of another threshold: a cold start decides
+  Asked,      ///< the caller asked for the careful proof
+};
+
 /// Up to four vertex pairs whose differences have the origin in their convex hull, which proves that the bodies share a point.
 struct OverlapProof {
   std::uint32_t count = 0;                              ///< number of pairs; 0: nothing is proved
@@ -54,11 +65,13 @@ struct MarchRule {
   std::uint32_t step_budget = ~0u;  ///< steps of the walk, not time. If the budget ends the walk no nearer than it began,
                                     ///< certified GJK follows and counts as one more step
   PlaneRule plane_rule = PlaneRule::MostViolated;  ///< changes the steps, never the truth of the bounds
+  bool careful = false;  ///< prove bounds by support vertices and certified GJK even where the walk's own tests do: for tests
 };
 
 /// The result of a march. Lengths are in the bodies' unit.
 struct MarchResult {
   MarchStatus status = MarchStatus::NotConverged;  ///< how the march ended
+  Doubt doubt = Doubt::None;                       ///< why the walk's own tests were not the proof
   /// A feature of A; with `b` it can be stored and start the next march. Disjoint, Touching or Near: the features that hold
   /// `point_a` and `point_b`, within law 2's bound plus the thickness of a face. Overlapping: features that share a point,
   /// proved exactly, mostly an edge of one body and a face of the other; if one body lies inside the other and the surfaces

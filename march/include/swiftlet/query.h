@@ -76,6 +76,7 @@ struct LevelRecord {
   int level_a = 0, level_b = 0;                                       ///< the levels of A and B
   double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< bounds proved so far for the bodies
   std::uint32_t steps = 0, plane_tests = 0;                           ///< work on this level pair
+  Doubt doubt = Doubt::None;  ///< why the tests of a walk on this pair were not the proof; None also if none was wanted
 };
 
 /// Limits on a query. The interval of a query that ends at a limit is true, and the status names the limit.
@@ -89,6 +90,7 @@ struct Tuning {
   StartPolicy start = StartPolicy::Automatic;        ///< where the query starts
   Refinement refinement = Refinement::SingleSingle;  ///< how it descends through the levels
   PlaneRule plane_rule = PlaneRule::MostViolated;    ///< how it walks on one level pair
+  bool careful = false;                              ///< as MarchRule::careful
   std::span<LevelRecord> trace{};  ///< receives the level pairs visited; if it is too short, its last record is overwritten. A
                                    ///< trace costs one certificate per level pair
   OverlapProof* proof = nullptr;   ///< receives vertices of the answer's levels that prove an overlap of these, if the answer
