@@ -74,6 +74,26 @@ TEST(Scenes, MixedPosesOverlapAboutHalfTheTime) {
   }
 }
 
+TEST(Scenes, OverlappingPosesOverlapAndTheirCentresAreNear) {
+  for (const shapes::Family family : shapes::kFamilies) {
+    for (const Scene& scene : {orbit(shelf(), family, 200, 2, 10.4, {4, 50}), random_poses(shelf(), family, 200, {4, 50})}) {
+      const Scene near = overlapping(scene);
+      EXPECT_EQ(overlapping_share(near), 1) << near.name;
+      EXPECT_LE(coverage(near).closest, 0.8 + 1e-12);
+      EXPECT_GT(coverage(near).closest, family == shapes::Family::Fat ? 0.8 - 1e-12 : 0.1);
+    }
+  }
+}
+
+TEST(Scenes, PosesRoundedToFloatsAreFloats) {
+  for (const Query& query : rounded_to_float(random_poses(shelf(), shapes::Family::Fat, 200, {4, 50})).queries) {
+    const Pose& pose = query.b_in_a;
+    EXPECT_EQ(pose.rotation, pose.rotation.cast<float>().cast<double>());
+    EXPECT_EQ(pose.translation, pose.translation.cast<float>().cast<double>());
+    EXPECT_GT((pose.rotation.transpose() * pose.rotation - Mat3::Identity()).norm(), 1e-10);
+  }
+}
+
 TEST(Scenes, UnequalPairsComeAsNearAsTheirRadii) {
   const Scene small = ten_to_one(shelf(), 200, 10.4), crossed = plate_and_long(shelf(), 200, 10.4);
   EXPECT_NEAR(coverage(small).closest, 1.1, 0.011);

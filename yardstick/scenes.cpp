@@ -214,6 +214,29 @@ Scene mixed(const Shelf& shelf, shapes::Family family, std::uint32_t triangles, 
   }
 }
 
+Scene rounded_to_float(Scene scene) {
+  scene.name += "/float32";
+  for (Query& query : scene.queries) {
+    query.b_in_a.rotation = query.b_in_a.rotation.cast<float>().cast<double>();
+    query.b_in_a.translation = query.b_in_a.translation.cast<float>().cast<double>();
+  }
+  return scene;
+}
+
+Scene overlapping(Scene scene) {
+  constexpr double kShare = 0.8;
+  scene.name += "/overlapping";
+  for (Query& query : scene.queries) {
+    const BodyPair pair = scene.pairs[query.pair];
+    const Model &a = scene.models[pair.a], &b = scene.models[pair.b];
+    const double radius = std::max(a.radius(), b.radius());
+    const Vec3 touching = offset(a, b, moved_to(a, b, query.b_in_a, kContact));
+    const double apart = kShare * std::min(radius, touching.norm());
+    query.b_in_a.translation += touching.normalized() * apart - offset(a, b, query.b_in_a);
+  }
+  return scene;
+}
+
 Scene ten_to_one(const Shelf& shelf, std::uint32_t triangles, double step, Extent extent) {
   Scene scene = two(text("ten_to_one/%u/", triangles) + step_name(step), shelf.ellipsoid(shapes::Family::Fat, triangles, 1),
                     shelf.ellipsoid(shapes::Family::Fat, triangles, 2, 0.1));

@@ -83,6 +83,11 @@ Scene shallow(const Shelf& shelf, shapes::Family family, std::uint32_t triangles
 /// family needs for that.
 Scene mixed(const Shelf& shelf, shapes::Family family, std::uint32_t triangles, double step, Extent extent = {});
 
+/// The same with rotations and translations rounded to float32, as many who ask keep their poses.
+Scene rounded_to_float(Scene scene);
+/// The same directions and rotations with the centres 0.8 r apart, or nearer: at most 0.8 of where the bodies touch.
+Scene overlapping(Scene scene);
+
 // Unequal pairs, the closest centres as far apart as the bounding radii together.
 
 Scene ten_to_one(const Shelf& shelf, std::uint32_t triangles, double step, Extent extent = {});
