@@ -62,14 +62,16 @@ class GoalTable {
  public:
   /// A goal that nothing is added to stands as not measured.
   void begin(const Goal& goal) { lines_.push_back({goal, {}}); }
-  /// One shape of the goal that was begun last; `rows` of kGoalMethods.
-  void add(const Asked& asked, std::vector<Row> rows);
+  /// One shape of the goal that was begun last: who was asked, as kGoalMethods, and what came out. Asks them once more,
+  /// untimed.
+  void add(const Asked& asked, std::span<const Entrant> entrants, std::vector<Row> rows);
   std::string text() const;
 
  private:
   struct Cell {
     std::vector<Row> rows;
-    double width, of_bound;  ///< of our widest interval, warm: in radii, and over law 2's bound
+    double width, of_bound;      ///< of our widest interval, warm: in radii, and over law 2's bound
+    std::vector<double> errors;  ///< of each row the largest, in radii
     const Row& ours() const { return rows.front(); }
     const Row& fastest() const;  ///< of the baselines
     double ratio() const { return ours().ns / fastest().ns; }

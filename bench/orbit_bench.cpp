@@ -526,6 +526,19 @@ void manifolds(const Arguments& arguments, const Shelf& shelf, Results& results)
   }
 }
 
+Scene scene_of(const Goal& goal, const Shelf& shelf, Family family, Extent extent) {
+  const bool rounded = goal.poses == Goal::Poses::Rounded, held = rounded && goal.step == 0;
+  Scene scene = goal.step == kRandomStep ? random_poses(shelf, family, goal.triangles, extent)
+                                         : orbit(shelf, family, goal.triangles, 2, held ? 10.4 : goal.step, extent);
+  if (held) {  // a step of 0 turns nothing, and what is not turned is not rounded: each orbit's first turned pose instead
+    for (std::size_t i = 0; i < scene.queries.size(); ++i)
+      scene.queries[i] = scene.queries[i / extent.queries * extent.queries];
+  }
+  if (rounded) scene = rounded_to_float(std::move(scene));
+  if (goal.poses == Goal::Poses::Overlapping) scene = overlapping(std::move(scene));
+  return scene;
+}
+
 /// Ours beside the frozen baselines alone, each motion beside what it may take.
 void goals(const Arguments& arguments, const Field& field, const Shelf& shelf, Results& results) {
   if (!arguments.wants("goals")) return;
@@ -537,16 +550,13 @@ void goals(const Arguments& arguments, const Field& field, const Shelf& shelf, R
     if (goal.triangles > most) continue;
     const Extent extent = goal.triangles == kLargest ? Extent{4, 250} : arguments.extent();
     for (const Family family : kFamilies) {
-      Scene scene = goal.step == kRandomStep ? random_poses(shelf, family, goal.triangles, extent)
-                                             : orbit(shelf, family, goal.triangles, 2, goal.step, extent);
-      if (goal.poses == Goal::Poses::Rounded) scene = rounded_to_float(std::move(scene));
-      if (goal.poses == Goal::Poses::Overlapping) scene = overlapping(std::move(scene));
+      const Scene scene = scene_of(goal, shelf, family, extent);
       const Asked asked(scene);
       std::vector<Entrant> entrants;
       for (const char* series : kGoalMethods) entrants.push_back({series, &field.named(series), asked.bodies});
       const std::vector<Row> rows = measure(asked, goal.question(), entrants, kGoalRounds);
       results.add("goals", shapes::name(family), goal.step, goal.triangles, rows);
-      table.add(asked, rows);
+      table.add(asked, entrants, rows);
     }
   }
   std::fputs(table.text().c_str(), stdout);

@@ -4,7 +4,7 @@
 # A peer that is absent is named here and in the results.
 find_package(PkgConfig QUIET)
 
-add_library(swiftlet_methods STATIC method.cpp manifolds.cpp verdict.cpp)
+add_library(swiftlet_methods STATIC method.cpp manifolds.cpp nearest.cpp verdict.cpp)
 target_compile_options(swiftlet_methods PRIVATE -ffp-contract=off -Wall -Wextra -Wshadow)
 target_include_directories(swiftlet_methods PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(swiftlet_methods PUBLIC swiftlet::march swiftlet_vclip swiftlet_plain)

@@ -15,6 +15,7 @@
 #include <swiftlet/query.h>
 
 #include "method.h"
+#include "nearest.h"
 #include "oracle.h"
 #include "shapes.h"
 #include "verdict.h"
@@ -303,6 +304,19 @@ TEST(Verdict, CertifiesWhatTheOracleKnows) {
     EXPECT_EQ(truth.queries[i].overlapping, scene.truth[i].overlapping) << i;
     EXPECT_LE(truth.queries[i].lower, scene.truth[i].upper) << i;
     EXPECT_GE(truth.queries[i].upper, scene.truth[i].lower) << i;
+  }
+}
+
+TEST(Verdict, MeasuresErrorsAgainstWhatTheOracleSays) {
+  const Scene& scene = mixed_scene();
+  const double off = 1e-15 * scene.radius;
+  for (std::size_t i = 0; i < scene.queries.size(); ++i) {
+    const BodyPair pair = scene.pairs[scene.queries[i].pair];
+    const auto apart = nearest(scene.bodies[pair.a].view, scene.bodies[pair.b].view, scene.queries[i].b_in_a);
+    EXPECT_EQ(apart.has_value(), scene.truth[i].disjoint) << i;
+    if (!apart) continue;
+    EXPECT_GE(*apart, scene.truth[i].lower - off) << i;
+    EXPECT_LE(*apart, scene.truth[i].upper + off) << i;
   }
 }
 

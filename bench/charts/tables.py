@@ -12,12 +12,9 @@ from pathlib import Path
 
 import charts
 
-CLASSICS = ("vclip", "plain", "plain table")
-
 
 def turn(step):
     return {0: "same pose", charts.RANDOM: "random"}.get(step, f"{step:g} deg")
-
 
 
 def cell(rows):
@@ -29,7 +26,7 @@ def table(title, rows, key, keys):
     print(f"\n| {title} | " + " | ".join(heading for _, heading in keys) + " |")
     print("|---" * (len(keys) + 1) + "|")
     series = sorted(dict.fromkeys(row["series"] for row in rows),
-                    key=lambda name: (not charts.is_ours(name), next(row["ns"] for row in rows if row["series"] == name)))
+                    key=lambda name: (not name.startswith("swiftlet"), next(row["ns"] for row in rows if row["series"] == name)))
     for name in series:
         cells = [cell(row for row in rows if row["series"] == name and row[key] == value) for value, _ in keys]
         print(f"| {name} | " + " | ".join(cells) + " |")
@@ -56,18 +53,20 @@ def manifold(rows):
 
 
 def goals(rows):
-    """Ours, and of the classics the fastest of each cell, which proves nothing."""
+    """Ours, and of the baselines the fastest of each cell, which proves nothing."""
+    kinds = {"": "exact distance", "/float32": "exact distance, poses in float32", "/overlapping": "verdict, overlapping"}
     for size in sorted(dict.fromkeys(row["triangles"] for row in rows)):
-        of_size = [row for row in rows if row["triangles"] == size and row["shape"] in charts.SHAPES]
-        ours = [row for row in of_size if charts.is_ours(row["series"])]
-        for row in ours:
-            row["series"] += ", verdict" if row["question"] == "intersects" else ""
-        fastest = {}
-        for row in of_size:
-            place = row["shape"], row["step"]
-            if row["series"] in CLASSICS and (place not in fastest or row["ns"] < fastest[place]["ns"]):
-                fastest[place] = row
-        by_turn(f"{size:.0f} triangles", ours + [dict(row, series="the fastest classic, unproved") for row in fastest.values()])
+        for end, kind in kinds.items():
+            chosen = [row for row in rows if row["triangles"] == size and row["scene"].endswith(end)
+                      and (end or not row["scene"].endswith(tuple(kinds)[1:]))]
+            fastest = {}
+            for row in chosen:
+                place = row["shape"], row["step"]
+                if row["series"] != "swiftlet" and (place not in fastest or row["ns"] < fastest[place]["ns"]):
+                    fastest[place] = row
+            if chosen:
+                by_turn(f"{size:.0f} triangles, {kind}", [row for row in chosen if row["series"] == "swiftlet"]
+                        + [dict(row, series="the fastest baseline, unproved") for row in fastest.values()])
 
 
 GROUPS = {"orbit": orbit, "goals": goals, "depth": depth, "manifold": manifold}
