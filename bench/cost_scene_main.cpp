@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <swiftlet/model_file.h>
@@ -34,7 +35,7 @@ int main(int argc, char** argv) {
   if (argc < 6 || argc > 9) {
     return std::fputs(
                "swiftlet_cost_scene CACHE fat|plate|long TRIANGLES STEP PREFIX [DEVIATION [RATE [LEVELS]]]\n"
-               "step 400: random; d and a step: overlapping by 0.01 of the shortest semi-axis.\n"
+               "step 400: random; d and a step: overlapping by 0.01 of the shortest semi-axis; o and a step: by far.\n"
                "0 for the deviation or the rate: none. Prints what the model of lod/cost.h expects.\n",
                stderr),
            2;
@@ -44,15 +45,16 @@ int main(int argc, char** argv) {
   if (argc > 7 && std::atof(argv[7]) > 0) options.rate = std::atof(argv[7]);
   if (argc > 8) options.max_levels = std::atoi(argv[8]);
   const Shelf shelf(argv[1], options);
-  const bool deep = argv[4][0] == 'd';
-  const double step = std::atof(argv[4] + deep);
+  const bool deep = argv[4][0] == 'd', far = argv[4][0] == 'o';
+  const double step = std::atof(argv[4] + (deep || far));
   const auto triangles = std::uint32_t(std::atoi(argv[3]));
   for (const shapes::Family family : shapes::kFamilies) {
     if (std::string(argv[2]) != shapes::name(family)) continue;
     constexpr Extent kExtent{4, 500};
-    const Scene scene = deep ? shallow(shelf, family, triangles, step, 0.01 * shapes::semi_axes(family).minCoeff(), kExtent)
-                        : step == 400 ? random_poses(shelf, family, triangles, kExtent)
-                                      : orbit(shelf, family, triangles, 2, step, kExtent);
+    Scene scene = deep          ? shallow(shelf, family, triangles, step, 0.01 * shapes::semi_axes(family).minCoeff(), kExtent)
+                  : step == 400 ? random_poses(shelf, family, triangles, kExtent)
+                                : orbit(shelf, family, triangles, 2, step, kExtent);
+    if (far) scene = overlapping(std::move(scene));
     const std::string prefix = argv[5];
     for (const int i : {0, 1}) {
       if (const auto failed = save(scene.models[std::size_t(i)], prefix + (i == 0 ? "-a.swl" : "-b.swl")); !failed)
