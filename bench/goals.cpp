@@ -33,7 +33,7 @@ std::string motion(const Goal& goal) {
   return format("%u, ", unsigned(goal.triangles)) + text;
 }
 
-/// The largest errors of a method on a warm pass over the scene, against the distances of some of its queries, in radii.
+/// The largest error of a method on a warm pass over the scene, against the distances of some of its queries, in radii.
 double largest_error(const Asked& asked, const Entrant& entrant, std::span<const std::optional<long double>> truth) {
   const std::vector<Query>& queries = asked.scene->queries;
   std::vector<Outcome> outcomes(queries.size());
@@ -71,7 +71,9 @@ double GoalTable::Line::worst() const {
 }
 
 bool GoalTable::Line::right() const {
-  return std::none_of(cells.begin(), cells.end(), [](const Cell& cell) { return cell.ours().flagged; });
+  return std::none_of(cells.begin(), cells.end(), [](const Cell& cell) {
+    return cell.ours().flagged || cell.of_bound > 1 || (!cell.errors.empty() && cell.errors.front() > cell.width);
+  });
 }
 
 void GoalTable::add(const Asked& asked, std::span<const Entrant> entrants, std::vector<Row> rows) {

@@ -56,7 +56,7 @@ inline constexpr Goal kGoals[] = {
 inline constexpr std::array<const char*, 4> kGoalMethods{"swiftlet", "vclip", "plain", "plain table"};
 
 /// More than elsewhere: medians that are divided by each other.
-inline constexpr int kGoalRounds = 9;
+inline constexpr int kGoalRounds = 15;
 
 class GoalTable {
  public:
@@ -80,7 +80,7 @@ class GoalTable {
     Goal goal;
     std::vector<Cell> cells;  ///< one per shape
     double worst() const;
-    bool right() const;  ///< none of our answers is flagged
+    bool right() const;  ///< none of ours is flagged, wider than law 2, or farther off than wide
     bool met(double ratio) const { return right() && worst() <= ratio; }
   };
   static std::string text(const Line& line);
