@@ -79,7 +79,7 @@ class Deepening {
     double most = a_.radius() + b_.radius() * (1 + 2 * pair_.pose_error) - norm(line_.in_a);
     place_ = stop_.is_exact() ? Place{finest_a_, finest_b_, {}} : coarsest_place(a_, b_);
     near_ = seed.met && seed.level_a < a_.level_count() && seed.level_b < b_.level_count() &&
-            !turned_far(line_, seed, a_.level(seed.level_a), b_.level(seed.level_b));
+            turn_of(line_, seed, a_.level(seed.level_a), b_.level(seed.level_b)) != Turn::Far;
     const bool remembers = near_ && (seed.normal[0] | seed.normal[1] | seed.normal[2]) != 0;
     Vec direction = remembers ? swiftlet::direction(seed) : lowest_seen(most);
     for (;;) {

@@ -153,18 +153,4 @@ Certificate certify(const PairView& pair, const Witness& seen, std::uint32_t& pl
   return c;
 }
 
-Doubt certify(const PairView& pair, const Nearest& seen, Proof& proof) {
-  const double square = dot(seen.normal, seen.normal), over = seen.over_a + seen.over_b;
-  if (!(over <= pair.law_two)) return over < std::numeric_limits<double>::infinity() ? Doubt::Width : Doubt::Neighbour;
-  if (!has_range(square)) return Doubt::Width;
-  const Vec apart = seen.point_b - seen.point_a;
-  const double length = norm(apart);
-  proof.normal = seen.normal * (1 / std::sqrt(square));
-  proof.lower = gap(pair, proof.normal, seen.apart, over);
-  proof.upper = max(proof.lower, length * (1 + kNormError) + pair.motion_error + kStandError * pair.magnitude + seen.blur);
-  if (!(proof.lower > pair.law_two)) return Doubt::Threshold;
-  if (!(proof.upper - proof.lower <= pair.law_two)) return Doubt::Width;
-  return leans(pair, proof.normal, apart, length) ? Doubt::Lean : Doubt::None;
-}
-
 }  // namespace swiftlet

@@ -40,9 +40,6 @@ struct Proof {
   double lower, upper;
   Vec normal;  ///< unit, from A to B
 };
-/// Proves bounds by the tests of a walk's last state alone, and reads nothing else. Returns why they do not tell, or None.
-Doubt certify(const PairView& pair, const Nearest& seen, Proof& proof);
-
 /// True if `apart`, the vector between two points, differs from its length times the unit `normal` by more than law 2's bound.
 /// Bounds within law 2's bound leave the plane room to lean by the root of that: by 1e-8, say, between nearly parallel faces.
 static inline bool leans(const PairView& pair, const Vec& normal, const Vec& apart, double length) {
@@ -77,6 +74,21 @@ static inline double gap(const PairView& pair, const Vec& n, const Vec& c, doubl
   const double products = std::fabs(n.x * c.x) + std::fabs(n.y * c.y) + std::fabs(n.z * c.z);
   return dot(n, c) - (kGapError * products + pair.motion_error + slack);
 }
+/// Proves bounds by the tests of a walk's last state alone, and reads nothing else. Returns why they do not tell, or None.
+static inline Doubt certify(const PairView& pair, const Nearest& seen, Proof& proof) {
+  const double square = dot(seen.normal, seen.normal), over = seen.over_a + seen.over_b;
+  if (!(over <= pair.law_two)) return over < std::numeric_limits<double>::infinity() ? Doubt::Width : Doubt::Neighbour;
+  if (!has_range(square)) return Doubt::Width;
+  const Vec apart = seen.point_b - seen.point_a;
+  const double length = norm(apart);
+  proof.normal = seen.normal * (1 / std::sqrt(square));
+  proof.lower = gap(pair, proof.normal, seen.apart, over);
+  proof.upper = max(proof.lower, length * (1 + kNormError) + pair.motion_error + kStandError * pair.magnitude + seen.blur);
+  if (!(proof.lower > pair.law_two)) return Doubt::Threshold;
+  if (!(proof.upper - proof.lower <= pair.law_two)) return Doubt::Width;
+  return leans(pair, proof.normal, apart, length) ? Doubt::Lean : Doubt::None;
+}
+
 double gap(const PairView& pair, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack = 0);
 
 /// The distance of vertices `va` of A and `vb` of B plus its rounding error: an upper bound on the bodies' distance.

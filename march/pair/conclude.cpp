@@ -17,11 +17,6 @@ MarchStatus status_of(const PairView& pair, const StopRule& stop, const Certific
   return c.lower > 0 ? MarchStatus::Disjoint : MarchStatus::Near;
 }
 
-/// True if a threshold is within rounding of bounds.
-bool is_near(const PairView& pair, double lower, double upper, double threshold) {
-  return lower - pair.law_two <= threshold && threshold <= upper + pair.law_two;
-}
-
 /// Names in `r` the features that hold the points of `c`, the certificate at which certified GJK ended.
 void name_features(const PairView& pair, const Certificate& c, MarchResult& r) {
   r.a = feature_of(pair.a, c.active, c.active.a);
@@ -86,14 +81,6 @@ void from_nothing(const PairView& pair, const MarchRule& rule, double zero, Marc
 }
 
 }  // namespace
-
-Doubt settle(const PairView& pair, const Walk& walk, double zero, double beyond, Proof& proof) {
-  if (walk.end != WalkEnd::Minimum) return Doubt::NoMinimum;
-  const Doubt doubt = certify(pair, walk.nearest, proof);
-  if (doubt != Doubt::None) return doubt;
-  const bool near = is_near(pair, proof.lower, proof.upper, zero) || is_near(pair, proof.lower, proof.upper, beyond);
-  return near ? Doubt::Threshold : Doubt::None;
-}
 
 template <Until until>
 MarchResult conclude(const PairView& pair, const Walk& walk, const MarchRule& rule, double zero) {

@@ -19,9 +19,20 @@ enum class Until {
   Exact,   ///< law 2's width, with points on the surfaces, or `lower` beyond the rule's threshold
 };
 
+/// True if a threshold is within rounding of bounds.
+static inline bool is_near(const PairView& pair, double lower, double upper, double threshold) {
+  return lower - pair.law_two <= threshold && threshold <= upper + pair.law_two;
+}
+
 /// Returns None if the tests of a walk's last state prove the distance within law 2's bound, and neither `zero` nor `beyond`,
 /// where verdicts change, is within rounding of it; `proof` then holds the bounds. Else returns why not.
-Doubt settle(const PairView& pair, const Walk& walk, double zero, double beyond, Proof& proof);
+static inline Doubt settle(const PairView& pair, const Walk& walk, double zero, double beyond, Proof& proof) {
+  if (walk.end != WalkEnd::Minimum) return Doubt::NoMinimum;
+  const Doubt doubt = certify(pair, walk.nearest, proof);
+  if (doubt != Doubt::None) return doubt;
+  const bool near = is_near(pair, proof.lower, proof.upper, zero) || is_near(pair, proof.lower, proof.upper, beyond);
+  return near ? Doubt::Threshold : Doubt::None;
+}
 
 /// Proves bounds from the end of a walk by climbs and certified GJK. Verdicts change at the distances 0, `zero` and the rule's
 /// `beyond`: within rounding of these, the result is that of a cold start if the budget allows one.

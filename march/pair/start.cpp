@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pair/start.h"
 
-#include "body/half_edge.h"
 #include "pair/certify.h"
 
 namespace swiftlet {
 
-MarchStart settled(const PairView& pair, const MarchStart& start, std::uint32_t& plane_tests) {
+MarchStart resettled(const PairView& pair, const MarchStart& start, std::uint32_t& plane_tests) {
   MarchStart s = start;
   const bool known_a = names_feature(pair.a, s.a), known_b = names_feature(pair.b, s.b);
   if (!known_a || !known_b) {

@@ -7,12 +7,18 @@
 
 #include <swiftlet/march.h>
 
+#include "body/half_edge.h"
 #include "pair/pair_view.h"
 
 namespace swiftlet {
 
 /// `start` made legal: an id that names no feature of its view becomes the support vertex along the line of centres; of two
 /// faces, that of B becomes one of its vertices. `plane_tests` grows by the tests of the support climbs.
-MarchStart settled(const PairView& pair, const MarchStart& start, std::uint32_t& plane_tests);
+MarchStart resettled(const PairView& pair, const MarchStart& start, std::uint32_t& plane_tests);
+static inline MarchStart settled(const PairView& pair, const MarchStart& start, std::uint32_t& plane_tests) {
+  const bool faces = start.a.kind() == FeatureKind::Face && start.b.kind() == FeatureKind::Face;
+  if (names_feature(pair.a, start.a) && names_feature(pair.b, start.b) && !faces) return start;
+  return resettled(pair, start, plane_tests);
+}
 
 }  // namespace swiftlet

@@ -21,6 +21,36 @@
 namespace swiftlet {
 namespace {
 
+/// The ancestors of the features at `found`, on the coarsest level pair that would have answered as well.
+Place coarsened(const ModelPair& pair, const Tuning& tuning, const StopRule& asked, const Answer& answer, Place found) {
+  const StopRule stop = asked.beyond_by(pair.law_two);
+  const double error_found = pair.deviation(found.level_a, found.level_b);
+  double slack = answer.upper;  // for StartPolicy::Paper: deviations may grow by the distance
+  while (found.level_a + 1 < pair.a.level_count() && found.level_b + 1 < pair.b.level_count()) {
+    const double error = pair.deviation(found.level_a + 1, found.level_b + 1);
+    const double grown = error - pair.deviation(found.level_a, found.level_b), lower = answer.lower - (error - error_found);
+    const bool absorbs = tuning.start == StartPolicy::Paper && (slack -= std::max(0.0, grown)) >= 0 && answer.lower > 0;
+    const bool suffices = lower > asked.above || (lower > 0 && stop.allows(lower, error));
+    if (!absorbs && !suffices) break;
+    found.start = {parent(pair.a, found.level_a++, found.start.a), parent(pair.b, found.level_b++, found.start.b)};
+  }
+  return found;
+}
+
+/// Only the exact pair can answer, and the query begins there again.
+bool is_exact(const StopRule& asked, const Tuning& tuning) { return asked.is_exact() && tuning.start != StartPolicy::Paper; }
+
+/// Stores in `seed` where the next query begins: at the features `found`, or on a coarser pair that would have answered as
+/// well.
+void keep(const ModelPair& pair, const Tuning& tuning, const StopRule& asked, const Answer& answer, const Place& found,
+          PairSeed& seed) {
+  const bool stays =
+      is_exact(asked, tuning) || tuning.start == StartPolicy::Finest || tuning.start == StartPolicy::Coarsest;
+  const Place kept = stays ? found : coarsened(pair, tuning, asked, answer, found);
+  seed.a = kept.start.a, seed.b = kept.start.b;
+  seed.level_a = std::uint8_t(kept.level_a), seed.level_b = std::uint8_t(kept.level_b);
+}
+
 class Descent {
  public:
   Descent(const ModelPair& pair, const Limits& limits, const StopRule& asked, const AxisTest& first, Answer& answer,
@@ -37,13 +67,13 @@ class Descent {
         law_two_(pair.law_two),
         finest_a_(pair.finest_a),
         finest_b_(pair.finest_b),
-        exact_(asked.is_exact() && limits.tuning.start != StartPolicy::Paper),
+        exact_(is_exact(asked, limits.tuning)),
         first_(first),
         answer_(answer),
         proof_(proof) {}
 
-  void start(PairSeed& seed) {
-    Place place = first_place(a_, b_, line_, seed, finest_a_, finest_b_, tuning_.start);
+  /// Begins at `place`, unless a walk from there has shown already that another start is better.
+  void start(Place place, PairSeed& seed) {
     const bool warm = is_warm(place.start);
     const bool walked = warm && march(place, pair_.has_maps);
     const bool seen = !walked && pair_.has_maps && map_gjk(place, last_direction(line_.in_a, seed));
@@ -363,29 +393,11 @@ class Descent {
     if (tuning_.start == StartPolicy::Coarsest) {
       kept = coarsest_place(a_, b_);
       kept.start = coarsest_;
-    } else if (tuning_.start != StartPolicy::Finest && !exact_) {
-      coarsen(kept);
     }
+    keep(pair_, tuning_, asked_, answer_, kept, seed);
     remember(line_, vec(answer_.normal), seed);
     seed.met = met_ == MarchStatus::Overlapping;
-    seed.a = kept.start.a;
-    seed.b = kept.start.b;
-    seed.level_a = std::uint8_t(kept.level_a);
-    seed.level_b = std::uint8_t(kept.level_b);
   }
-  void coarsen(Place& kept) const {
-    const double found = deviation(kept.level_a, kept.level_b);
-    double slack = answer_.upper;  // for StartPolicy::Paper: deviations may grow by the distance
-    while (kept.level_a + 1 < a_.level_count() && kept.level_b + 1 < b_.level_count()) {
-      const double error = deviation(kept.level_a + 1, kept.level_b + 1);
-      const double grown = error - deviation(kept.level_a, kept.level_b), lower = answer_.lower - (error - found);
-      const bool absorbs = tuning_.start == StartPolicy::Paper && (slack -= std::max(0.0, grown)) >= 0 && answer_.lower > 0;
-      const bool suffices = lower > asked_.above || (lower > 0 && stop_.allows(lower, error));
-      if (!absorbs && !suffices) break;
-      kept.start = {parent(a_, kept.level_a++, kept.start.a), parent(b_, kept.level_b++, kept.start.b)};
-    }
-  }
-
   const ModelPair& pair_;
   const Shape& a_;
   const Shape& b_;
@@ -411,17 +423,61 @@ class Descent {
 
 }  // namespace
 
+namespace {
+
+/// Answers from one walk on the level pair of `place`, from the seed's features, if the tests that end it prove enough. Else
+/// `place` becomes where the descent goes on: at the features where the walk ended, or anywhere if it came to nothing.
+bool answers_at_once(const ModelPair& pair, const Limits& limits, const StopRule& asked, Turn turn, PairSeed& seed, Place& place,
+                     Answer& answer) {
+  const PairView view = pair.view_at(place);
+  const MarchStart from = settled(view, place.start, answer.plane_tests);
+  const Walk walked =
+      walk(view, from.a, from.b, limits.tuning.plane_rule, std::min(limits.budget.steps, place.trial_steps));
+  answer.steps = walked.steps;
+  answer.plane_tests += walked.plane_tests;
+  Proof proof;
+  if (settle(view, walked, asked.zero, asked.above, proof) != Doubt::None) {
+    const bool lost = walked.end == WalkEnd::Budget && walked.steps < limits.budget.steps;
+    place = lost ? coarsest_place(pair.a, pair.b) : Place{place.level_a, place.level_b, {walked.a, walked.b}, place.trial_steps};
+    return false;
+  }
+  place.start = {walked.a, walked.b};
+  const double error = pair.deviation(place.level_a, place.level_b);
+  const double upper = error > 0 ? (proof.upper + error) * (1 + 2 * kU) : proof.upper;
+  const StopRule stop = asked.beyond_by(pair.law_two);
+  if (!(place.level_a == 0 && place.level_b == 0) && !stop.met(proof.lower, upper)) return false;
+  answer.status = proof.lower > stop.above ? Status::Beyond : Status::Converged;
+  answer.verdict = Verdict::Disjoint;
+  answer.lower = proof.lower;
+  answer.upper = upper;
+  answer.normal = eigen(proof.normal);
+  answer.point_a = eigen(walked.nearest.point_a);
+  answer.point_b = eigen(walked.nearest.point_b);
+  answer.level_a = std::int16_t(place.level_a), answer.level_b = std::int16_t(place.level_b);
+  answer.feature_a = walked.a, answer.feature_b = walked.b;
+  answer.levels_visited = 1;
+  note(limits.trace, 0, {place.level_a, place.level_b, answer.lower, answer.upper, answer.steps, answer.plane_tests});
+  keep(pair, limits.tuning, asked, answer, place, seed);
+  turn == Turn::Little ? remember(proof.normal, seed) : remember(pair.line, proof.normal, seed);
+  seed.met = false;
+  return true;
+}
+
+}  // namespace
+
 void descend(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_error, PairSeed& seed, const Limits& limits,
              const StopRule& asked, std::optional<double> exact_width, Answer& answer, OverlapProof& proof) {
   const ModelPair pair(a, b, b_in_a, pose_error, limits);
   AxisTest first;
-  if (!exact_width) {
-    answer.normal.setZero();
-    const bool asks = asked.is_threshold() && pair.has_maps && !seed.met && limits.trace.empty();
-    if (asks && separating_axis(pair, asked, seed, first, answer)) return;
-  }
-  Descent descent(pair, limits, asked, first, answer, proof);
-  exact_width ? descent.go_on(seed, *exact_width) : descent.start(seed);
+  if (exact_width) return Descent(pair, limits, asked, first, answer, proof).go_on(seed, *exact_width);
+  answer.normal.setZero();
+  const bool asks = asked.is_threshold() && pair.has_maps && !seed.met && limits.trace.empty();
+  if (asks && separating_axis(pair, asked, seed, first, answer)) return;
+  Turn turn;
+  Place place = first_place(a, b, pair.line, seed, pair.finest_a, pair.finest_b, limits.tuning.start, turn);
+  const bool is_warm = place.start.a.kind() != FeatureKind::None && limits.tuning.start != StartPolicy::Coarsest;
+  if (is_warm && !limits.tuning.careful && answers_at_once(pair, limits, asked, turn, seed, place, answer)) return;
+  Descent(pair, limits, asked, first, answer, proof).start(place, seed);
 }
 
 }  // namespace swiftlet

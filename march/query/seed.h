@@ -32,14 +32,73 @@ static inline Line line_of_centres(const Shape& a, const Shape& b, const Motion&
   return {between, -rotate_back(b_in_a, between)};
 }
 
-/// True if the line of centres has turned so far since the seed was stored that a walk from the seed's features costs more than
-/// a cold start. `a` and `b` are the levels of the seed.
-bool turned_far(const Line& line, const PairSeed& seed, const Level& a, const Level& b);
+/// How far the line of centres has turned since a seed was stored.
+enum class Turn {
+  Little,  ///< by less than half an edge of either level: the line that is stored still serves
+  Some,
+  Far,  ///< so far that a walk from the seed's features costs more than a cold start
+};
+constexpr double kLineUnit = 32767;  ///< the length of a direction in a seed
 
-/// The place where a query begins; `finest_a` and `finest_b` are the finest levels that it may read.
+/// For one body, where the line, of squared length `length2`, is `line` and was packed as `was`. A level of V vertices is taken
+/// to have sqrt(V) edges per radian; the angle is taken as its chord, whose square is 2 - 2 cos.
+static inline Turn turn_of(const Vec& line, double length2, const std::array<std::int16_t, 3>& was, const Level& level) {
+  if ((was[0] | was[1] | was[2]) == 0) return Turn::Some;  // unknown, as in a seed made by hand
+  const double along = dot(line, {double(was[0]), double(was[1]), double(was[2])});
+  const double edges = level.map_side > 0 ? kWarmEdges : kWarmEdgesUnmapped, whole = 2 * double(level.view.vertices.size());
+  const auto within = [&](double edges2) {
+    const double least = whole - edges2;
+    return along * along * (whole * whole) >= least * least * length2 * (kLineUnit * kLineUnit);
+  };
+  if (along > 0 && whole > 0.25 && within(0.25)) return Turn::Little;
+  return whole <= edges * edges || (along > 0 && within(edges * edges)) ? Turn::Some : Turn::Far;
+}
+/// `a` and `b` are the levels of the seed.
+static inline Turn turn_of(const Line& line, const PairSeed& seed, const Level& a, const Level& b) {
+  const double length2 = dot(line.in_a, line.in_a);
+  return std::max(turn_of(line.in_a, length2, seed.line_in_a, a), turn_of(line.in_b, length2, seed.line_in_b, b));
+}
+
+/// The finest level of a body that a query may read.
+static inline int finest_allowed(const Shape& body, const Budget& budget) {
+  return std::clamp(budget.finest_level, body.finest_level(), body.level_count() - 1);
+}
+
+/// The coarsest level pair, without features to start from.
+static inline Place coarsest_place(const Shape& a, const Shape& b) { return {a.level_count() - 1, b.level_count() - 1, {}}; }
+
+/// True if the seed names features on levels that the query may read.
+static inline bool fits(const PairSeed& seed, const Shape& a, const Shape& b, int finest_a, int finest_b) {
+  return seed.a.kind() != FeatureKind::None && seed.b.kind() != FeatureKind::None && seed.level_a >= finest_a &&
+         seed.level_a < a.level_count() && seed.level_b >= finest_b && seed.level_b < b.level_count();
+}
+
+/// The place where a query begins by a policy other than Automatic.
 Place first_place(const Shape& a, const Shape& b, const Line& line, const PairSeed& seed, int finest_a, int finest_b,
                   StartPolicy policy);
 
+/// The place where a query begins, and how far the line of centres has turned if it begins at the seed's features. `finest_a`
+/// and `finest_b` are the finest levels that it may read.
+static inline Place first_place(const Shape& a, const Shape& b, const Line& line, const PairSeed& seed, int finest_a,
+                                int finest_b, StartPolicy policy, Turn& turn) {
+  turn = Turn::Some;
+  if (policy != StartPolicy::Automatic) return first_place(a, b, line, seed, finest_a, finest_b, policy);
+  if (!fits(seed, a, b, finest_a, finest_b)) return coarsest_place(a, b);
+  const Place place{seed.level_a, seed.level_b, {seed.a, seed.b}, kTrialSteps};
+  const Level &level_a = a.level(place.level_a), &level_b = b.level(place.level_b);
+  const bool has_choice =
+      place.level_a + 1 < a.level_count() || place.level_b + 1 < b.level_count() || level_a.map_side > 0;
+  if (!has_choice) return {place.level_a, place.level_b, place.start};
+  turn = turn_of(line, seed, level_a, level_b);
+  return turn == Turn::Far ? coarsest_place(a, b) : place;
+}
+
+static inline std::array<std::int16_t, 3> packed(const Vec& unit) {
+  const auto units = [](double x) { return std::int16_t(x * kLineUnit); };
+  return {units(unit.x), units(unit.y), units(unit.z)};
+}
+/// Stores an answer's normal in the seed.
+static inline void remember(const Vec& normal, PairSeed& seed) { seed.normal = packed(normal * (1 - 4 * kU)); }
 /// Stores the line of centres and an answer's normal in the seed.
 void remember(const Line& line, const Vec& normal, PairSeed& seed);
 static inline Vec direction(const PairSeed& seed) {
@@ -53,14 +112,6 @@ static inline Vec last_direction(const Vec& line, const PairSeed& seed) {
   const bool same = along > 0 && along * along > kSameLine * kSameLine * dot(line, line) * dot(was, was);
   return same ? direction(seed) : Vec{0, 0, 0};
 }
-
-/// The finest level of a body that a query may read.
-static inline int finest_allowed(const Shape& body, const Budget& budget) {
-  return std::clamp(budget.finest_level, body.finest_level(), body.level_count() - 1);
-}
-
-/// The coarsest level pair, without features to start from.
-static inline Place coarsest_place(const Shape& a, const Shape& b) { return {a.level_count() - 1, b.level_count() - 1, {}}; }
 
 /// The feature that stands for `feature` of `level` one level finer (`child`) or coarser (`parent`).
 FeatureId child(const Shape& body, int level, FeatureId feature);
