@@ -559,7 +559,7 @@ TEST(Law3, SameSeedSameBits) {
   });
 }
 
-TEST(Law3, SeedsAreSmallAndTrivial) { static_assert(std::is_trivially_copyable_v<PairSeed> && sizeof(PairSeed) <= 32); }
+TEST(Law3, SeedsAreSmallAndTrivial) { static_assert(std::is_trivially_copyable_v<PairSeed> && sizeof(PairSeed) <= 64); }
 
 TEST(Law3, TableStartsFromAnyDirection) {  // trap G21
   const Model centred = bodies::must(build(shapes::ellipsoid({1, 1, 1}, 400, 9))).model;

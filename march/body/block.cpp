@@ -202,11 +202,20 @@ std::string damage(std::span<const std::byte> block, std::uint64_t before, const
   return hash_of(part(block, section)) == section.hash ? "" : "damaged " + name;
 }
 
+/// The squared cosine of the angle that `edges` edges span on a level of so many vertices, which is taken to have as many edges
+/// per radian as the root of that; 0 if they span a right angle. The angle is taken as its chord, whose square is 2 - 2 cos.
+double cos2_of(double edges, std::uint32_t vertices) {
+  const double cosine = 1 - edges * edges / (2 * double(vertices));
+  return cosine > 0 ? cosine * cosine : 0;
+}
+
 /// A level with the numbers that the headers give and without arrays.
 Level described(const BlockHeader& block, const LevelHeader& l) {
   Level level;
   level.map_side = l.map_side;
   level.edge_length = l.edge_length;
+  level.same_cos2 = cos2_of(kSameEdges, l.vertex_count);
+  level.near_cos2 = cos2_of(l.map_side > 0 ? kWarmEdges : kWarmEdgesUnmapped, l.vertex_count);
   level.view.extent = l.extent;
   level.view.centre = Vec3(block.centre[0], block.centre[1], block.centre[2]);
   level.view.reach = l.reach;

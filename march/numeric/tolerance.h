@@ -242,6 +242,8 @@ inline constexpr int kGjkLimit = 400, kProgressPatience = 8;
 /// body, at half a step each; a cold start costs about six steps. On a level without a support map it descends from a coarser
 /// level and costs twice that: `kWarmEdgesUnmapped` edges. A walk of `kTrialSteps` is given up for a cold start (ski rental).
 inline constexpr double kWarmEdges = 6, kWarmEdgesUnmapped = 12;
+/// A seed keeps its line of centres until that has turned by this many edges.
+inline constexpr double kSameEdges = 0.5;
 inline constexpr std::uint32_t kTrialSteps = 16;
 /// The seed's direction is tried again while the line of centres turned by less than the angle of this cosine, 8 degrees.
 inline constexpr double kSameLine = 0.99;

@@ -40,15 +40,11 @@ struct Proof {
   double lower, upper;
   Vec normal;  ///< unit, from A to B
 };
-/// True if `apart`, the vector between two points, differs from its length times the unit `normal` by more than law 2's bound.
-/// Bounds within law 2's bound leave the plane room to lean by the root of that: by 1e-8, say, between nearly parallel faces.
-static inline bool leans(const PairView& pair, const Vec& normal, const Vec& apart, double length) {
-  return norm(apart - normal * length) > pair.law_two;
-}
-/// True if the bounds of `c` are within law 2's bound, but its points lean against its normal.
+/// True if the bounds agree within law 2's bound, but `point_b` - `point_a` differs from its length times `normal` by more than
+/// that. Bounds that agree so leave the plane room to lean by the root of law 2's: by 1e-8, say, between nearly parallel faces.
 static inline bool leans(const PairView& pair, const Certificate& c) {
-  const Vec apart = c.point_b - c.point_a;
-  return c.upper - c.lower <= pair.law_two && leans(pair, c.normal, apart, norm(apart));
+  const Vec apart = c.point_b - c.point_a, aside = apart - c.normal * norm(apart);
+  return c.upper - c.lower <= pair.law_two && norm(aside) > pair.law_two;
 }
 
 /// The vertex of A farthest along n, climbed from `start` by exact comparisons: no vertex is farther.
@@ -76,19 +72,19 @@ static inline double gap(const PairView& pair, const Vec& n, const Vec& c, doubl
 }
 /// Proves bounds by the tests of a walk's last state alone, and reads nothing else. Returns why they do not tell, or None.
 static inline Doubt certify(const PairView& pair, const Nearest& seen, Proof& proof) {
-  const double square = dot(seen.normal, seen.normal), over = seen.over_a + seen.over_b;
-  if (!(over <= pair.law_two)) return over < std::numeric_limits<double>::infinity() ? Doubt::Width : Doubt::Neighbour;
-  if (!has_range(square)) return Doubt::Width;
   const Vec apart = seen.point_b - seen.point_a;
-  const double length = norm(apart);
+  const double square = dot(seen.normal, seen.normal), apart2 = dot(apart, apart), over = seen.over_a + seen.over_b;
+  if (!(over <= pair.law_two)) return over < std::numeric_limits<double>::infinity() ? Doubt::Width : Doubt::Neighbour;
+  if (!has_range(square) || !has_range(apart2)) return Doubt::Width;
+  const double length = std::sqrt(apart2);
   proof.normal = seen.normal * (1 / std::sqrt(square));
   proof.lower = gap(pair, proof.normal, seen.apart, over);
   proof.upper = max(proof.lower, length * (1 + kNormError) + pair.motion_error + kStandError * pair.magnitude + seen.blur);
   if (!(proof.lower > pair.law_two)) return Doubt::Threshold;
   if (!(proof.upper - proof.lower <= pair.law_two)) return Doubt::Width;
-  return leans(pair, proof.normal, apart, length) ? Doubt::Lean : Doubt::None;
+  const Vec aside = apart - proof.normal * length;
+  return dot(aside, aside) > pair.law_two * pair.law_two ? Doubt::Lean : Doubt::None;
 }
-
 double gap(const PairView& pair, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack = 0);
 
 /// The distance of vertices `va` of A and `vb` of B plus its rounding error: an upper bound on the bodies' distance.

@@ -330,12 +330,15 @@ bool proves_deep_overlap(const PairView& pair, const OverlapProof& proof) {
   std::array<Vec, 4> p;
   for (std::size_t k = 0; k < 4; ++k) p[k] = difference<double>(pair, proof.vertex_a[k], proof.vertex_b[k]).p;
   // Factors of the triple product are differences of two points; it has six terms.
-  const double m = pair.magnitude, rounding = 8 * kOffsetTripleProductError * m * m * m;
+  const double m = pair.magnitude, rounding = 8 * kOffsetTripleProductError * m * m * m, least = 2 * pair.law_two;
+  int positive = 0;
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec &a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4], n = cross(b - a, c - a);
-    if (!(std::fabs(dot(n, a)) > 2 * pair.law_two * norm(n) + rounding)) return false;
+    const double volume = dot(n, a), surely = std::fabs(volume) - rounding;
+    if (!(surely > 0 && surely * surely > least * least * dot(n, n))) return false;
+    positive += (volume > 0) == (k % 2 == 0);  // the corners of every other face go around the other way
   }
-  return proves(pair, proof);
+  return positive == 0 || positive == 4;
 }
 
 bool straighten(const PairView& pair, Certificate& c, std::uint32_t& plane_tests) {

@@ -25,8 +25,8 @@ struct GjkResult {
 /// bounds are true whatever the status.
 GjkResult gjk(const PairView& pair, const Certificate& start, const StopRule& stop, std::uint32_t& plane_tests);
 
-/// True if the four vertex pairs of `proof` prove exactly that the bodies overlap, and the origin is more than twice law 2's
-/// bound from every plane of the tetrahedron of their differences.
+/// True if the four vertex pairs of `proof` prove that the bodies overlap, and the origin is more than twice law 2's bound from
+/// every plane of the tetrahedron of their differences. Doubles decide; what they cannot, is not deep.
 bool proves_deep_overlap(const PairView& pair, const OverlapProof& proof);
 
 /// Replaces plane and points of a certificate that leans by those of a single iterate of certified GJK in 106 bits. Returns

@@ -42,17 +42,22 @@ struct Move {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-/// The neighbour of a feature that rises highest along a direction. The distance falls on the way to it if it is above the
-/// feature.
+/// The comparisons of a feature with its neighbours along a direction.
+struct Scan {
+  Vec own;          ///< the direction in the body's own frame
+  double highest;   ///< how far the highest neighbour rises above the feature, times the direction's length
+  double falls_at;  ///< the distance falls on the way to a neighbour that rises more than this
+  double over;  ///< the body rises no more than this above the feature along the direction at length 1; infinite if unknown
+  bool falls() const { return highest > falls_at; }
+};
+
+/// A neighbour that rises.
 struct Rise {
-  std::uint32_t to = kNone;  ///< a half-edge of the vertex's ring, or a face beside the edge
-  bool falls = false;
-  double highest = -kUnknown;  ///< how far the neighbour rises above the feature, times the direction's length
-  double length2 = 1;          ///< squared length of the way to the neighbour
-  double over = 0;  ///< the body rises no more than this above the feature along the direction at length 1; infinite if unknown
-  /// The squared rate at which the distance falls; -1, below any rate, if it does not. Rounding may give a sliver a `length2`
-  /// of 0 or less.
-  double rate2() const { return falls ? highest / max(std::numeric_limits<double>::denorm_min(), length2) * highest : -1; }
+  std::uint32_t to;  ///< a half-edge of the vertex's ring, or a face beside the edge
+  double height;     ///< as Scan::highest
+  double length2;    ///< squared length of the way to the neighbour
+  /// The squared rate at which the distance falls. Rounding may give a sliver a `length2` of 0 or less.
+  double rate2() const { return height / max(std::numeric_limits<double>::denorm_min(), length2) * height; }
 };
 
 class Marcher {
@@ -64,16 +69,18 @@ class Marcher {
   template <class P, class Q>
   Move vertex_vertex(P a, std::uint32_t va, Q b, std::uint32_t vb) {
     const Vec p = a.point(va), q = b.point(vb), d = q - p;
-    const Rise from_a = ring(a, va, d), from_b = ring(b, vb, -d);
+    const Scan at_a = ring(a, va, d), at_b = ring(b, vb, -d);
     const double distance2 = dot(d, d);
-    if (from_a.falls && from_b.falls) {
-      if (from_a.rate2() > from_b.rate2()) return {along(a, from_a), edge(from_b.to), distance2};
-      return {edge(from_a.to), along(b, from_b), distance2};
+    if (!at_a.falls() && !at_b.falls()) {
+      end(a, {d, d, p, q, 0, at_a.over, at_b.over});
+      return {vertex(va), vertex(vb), distance2};
     }
-    if (from_a.falls) return {along(a, from_a), vertex(vb), distance2};
-    if (from_b.falls) return {vertex(va), along(b, from_b), distance2};
-    end(a, {d, d, p, q, 0, from_a.over, from_b.over});
-    return {vertex(va), vertex(vb), distance2};
+    if (!at_b.falls()) return {along(a, up_ring(a, va, at_a)), vertex(vb), distance2};
+    const Rise from_b = up_ring(b, vb, at_b);
+    if (!at_a.falls()) return {vertex(va), along(b, from_b), distance2};
+    const Rise from_a = up_ring(a, va, at_a);
+    if (from_a.rate2() > from_b.rate2()) return {along(a, from_a), edge(from_b.to), distance2};
+    return {edge(from_a.to), along(b, from_b), distance2};
   }
 
   template <class P, class Q>
@@ -86,14 +93,16 @@ class Marcher {
     if (s >= 1) return {vertex(va), vertex(v1), dot(r - u, r - u)};
     const Vec up = across(r - u * s, u, length2);
     const double distance2 = dot(up, up);
-    const Rise rise = sides(b, v0, h, u, up, kAcrossError + Q::kWay);
-    if (first_only_ && rise.falls) return {vertex(va), face(rise.to), distance2};
-    const Rise from_a = ring(a, va, -up);
-    if (!rise.falls && !from_a.falls) {
-      end(a, {-up, -r, p, q0 + u * s, blur_on<Q>(u), from_a.over, rise.over});
+    const Scan at_b = sides(b, v0, h, up, kAcrossError + Q::kWay), at_a = ring(a, va, -up);
+    if (!at_b.falls() && !at_a.falls()) {
+      end(a, {-up, -r, p, q0 + u * s, blur_on<Q>(u), at_a.over, at_b.over});
       return {vertex(va), edge(h), distance2};
     }
-    if (rise.rate2() > from_a.rate2()) return {vertex(va), face(rise.to), distance2};
+    if (!at_b.falls()) return {along(a, up_ring(a, va, at_a)), edge(h), distance2};
+    const Rise from_b = up_side(b, v0, h, u, at_b);
+    if (first_only_ || !at_a.falls()) return {vertex(va), face(from_b.to), distance2};
+    const Rise from_a = up_ring(a, va, at_a);
+    if (from_b.rate2() > from_a.rate2()) return {vertex(va), face(from_b.to), distance2};
     return {along(a, from_a), edge(h), distance2};
   }
 
@@ -106,15 +115,15 @@ class Marcher {
     const Vec& n = prism.normal();
     const double height = prism.height(p), distance2 = height / dot(n, n) * height;
     if (!(height > 0)) return inside(vertex(va), face(f), distance2);
-    const Rise down = ring(a, va, -n);
-    if (!down.falls) {
-      Nearest seen{-n, prism.corner() - p, p, {}, 0, down.over, kUnknown};
+    const Scan below = ring(a, va, -n);
+    if (!below.falls()) {
+      Nearest seen{-n, prism.corner() - p, p, {}, 0, below.over, kUnknown};
       stand(prism, f, height, well_inside, seen);
       end(a, seen);
       return {vertex(va), face(f), distance2};
     }
-    const std::uint32_t to = a.view.half_edges[down.to].head;
-    return over_face(down.to, to, p, a.way(va, to), prism, f, distance2);
+    const std::uint32_t down = up_ring(a, va, below).to, to = a.view.half_edges[down].head;
+    return over_face(down, to, p, a.way(va, to), prism, f, distance2);
   }
 
   template <class P, class Q>
@@ -132,13 +141,15 @@ class Marcher {
       return {end_a ? vertex(at.s == 0 ? a0 : a1) : edge(ha), end_b ? vertex(at.t == 0 ? b0 : b1) : edge(hb), distance2};
     }
     const auto [n, tilt_u, tilt_v] = between_edges(u, uu, v, vv, d);
-    const Rise rise_a = sides(a, a0, ha, u, n, tilt_u + P::kWay);
-    const Rise rise_b = first_only_ && rise_a.falls ? Rise{} : sides(b, b0, hb, v, -n, tilt_v + Q::kWay);
-    if (!rise_a.falls && !rise_b.falls) {
-      end(a, {n, q0 - p0, p, q, blur_on<P>(u) + blur_on<Q>(v), rise_a.over, rise_b.over});
+    const Scan at_a = sides(a, a0, ha, n, tilt_u + P::kWay), at_b = sides(b, b0, hb, -n, tilt_v + Q::kWay);
+    if (!at_a.falls() && !at_b.falls()) {
+      end(a, {n, q0 - p0, p, q, blur_on<P>(u) + blur_on<Q>(v), at_a.over, at_b.over});
       return {edge(ha), edge(hb), distance2};
     }
-    if (rise_a.rate2() >= rise_b.rate2()) return swapped(edge_over_face(hb, b0, b1, q, v, at.t, a, rise_a.to, distance2));
+    const Rise rise_a = at_a.falls() ? up_side(a, a0, ha, u, at_a) : Rise{kNone, -1, 1},
+               rise_b = at_b.falls() ? up_side(b, b0, hb, v, at_b) : Rise{kNone, -1, 1};
+    if (!at_b.falls() || (at_a.falls() && (first_only_ || rise_a.rate2() >= rise_b.rate2())))
+      return swapped(edge_over_face(hb, b0, b1, q, v, at.t, a, rise_a.to, distance2));
     return edge_over_face(ha, a0, a1, p, u, at.s, b, rise_b.to, distance2);
   }
 
@@ -162,63 +173,68 @@ class Marcher {
     return (Q::kWay + kU) * norm_1(u);
   }
 
-  /// The neighbour of a vertex that is highest along `d`. Taking the steepest would need fewer states but more time.
+  /// Compares a vertex with its ring along `d`.
   template <class P>
-  Rise ring(P body, std::uint32_t v, const Vec& d) {
+  Scan ring(P body, std::uint32_t v, const Vec& d) {
     const Vertex& record = body.view.vertices[v];
     const Vec own = body.into(d);
-    const double height = dot(own, vec(record)), error = kScanError * body.view.extent * norm_1(d);
-    const std::uint32_t begin = record.ring_begin, end = begin + record.ring_count;
+    const HalfEdge *h = body.view.half_edges.data() + record.ring_begin, *end = h + record.ring_count;
     double highest = -kUnknown;
-    Rise rise;
-    std::uint32_t h = begin;
-    for (; h < end && !(first_only_ && highest - height > error); ++h) {
-      const double other = dot(own, body.own(body.view.half_edges[h].head));
-      rise.to = other > highest ? h : rise.to;
-      highest = max(other, highest);
-    }
-    walk_.plane_tests += h - begin;
-    rise.highest = highest - height;
-    rise.falls = rise.highest > error;
-    rise.over = rise.highest < -error ? 0 : kUnknown;
-    if (!rise.falls) return rise;
-    const Vec e = body.own(body.view.half_edges[rise.to].head) - vec(record);
-    rise.length2 = dot(e, e);
-    return rise;
+    for (; h != end; ++h) highest = max(highest, dot(own, body.own(h->head)));
+    walk_.plane_tests += record.ring_count;
+    const double rise = highest - dot(own, vec(record)), error = kScanError * body.view.extent * norm_1(d);
+    return {own, rise, error, rise < -error ? 0 : kUnknown};
+  }
+
+  /// The way to the highest vertex of a ring, of which one rises, or to the first one that does. Taking the steepest way would
+  /// need fewer states but more time.
+  template <class P>
+  Rise up_ring(P body, std::uint32_t v, const Scan& scan) const {
+    const Vec p = vec(body.view.vertices[v]);
+    const double height = dot(scan.own, p);
+    std::uint32_t h = body.view.vertices[v].ring_begin;
+    const std::uint32_t last = h + body.view.vertices[v].ring_count - 1;
+    const auto rise = [&] { return dot(scan.own, body.own(body.view.half_edges[h].head)) - height; };
+    while (h < last && (first_only_ ? !(rise() > scan.falls_at) : rise() < scan.highest)) ++h;
+    const Vec e = body.own(body.view.half_edges[h].head) - p;
+    return {h, rise(), dot(e, e)};
   }
 
   /// Where the fall along the edge `ring.to` ends: the edge, or the vertex at its head if the distance falls up to there.
   template <class P>
   static FeatureId along(P body, const Rise& ring) {
-    return ring.highest >= ring.length2 ? vertex(body.view.half_edges[ring.to].head) : edge(ring.to);
+    return ring.height >= ring.length2 ? vertex(body.view.half_edges[ring.to].head) : edge(ring.to);
   }
 
-  /// Of the two faces beside edge `h`, which leads along `u` from vertex `v0`, the one whose other edge at `v0` rises higher
-  /// along `d`. The sine by which d misses a right angle to the edge is at most `tilt`.
+  /// Compares edge `h`, which begins at vertex `v0`, with the faces beside it along `d`: with their other edges at `v0`. The
+  /// sine by which d misses a right angle to the edge is at most `tilt`.
   template <class Q>
-  Rise sides(Q body, std::uint32_t v0, std::uint32_t h, const Vec& u, const Vec& d, double tilt) {
+  Scan sides(Q body, std::uint32_t v0, std::uint32_t h, const Vec& d, double tilt) {
     const double over = tilt * body.reach;
     const Vertex& record = body.view.vertices[v0];
     const std::uint32_t left = counter_clockwise(record, h), right = clockwise(record, h);
-    Rise rise;
-    rise.over = over;
-    if (left == h) return rise;  // a segment
     const Vec own = body.into(d), q0 = vec(record);
-    const Vec to_left = body.own(body.view.half_edges[left].head) - q0,
-              to_right = body.own(body.view.half_edges[right].head) - q0;
-    const double left_rise = dot(own, to_left), right_rise = dot(own, to_right);
+    if (left == h) return {own, -kUnknown, 0, over};  // a segment
     walk_.plane_tests += 2;
-    rise.highest = max(left_rise, right_rise);
-    rise.falls = rise.highest > 0;
+    const double highest = max(dot(own, body.own(body.view.half_edges[left].head) - q0),
+                               dot(own, body.own(body.view.half_edges[right].head) - q0));
     // At a right angle to the edge the corners are below too if they are by more than the tilt and rounding can lift them.
-    rise.over = rise.highest < -(over + kBesideError * body.reach) * norm_1(d) ? over : kUnknown;
-    if (!rise.falls) return rise;
+    return {own, highest, 0, highest < -(over + kBesideError * body.reach) * norm_1(d) ? over : kUnknown};
+  }
+
+  /// The way over the face beside edge `h`, along `u`, that rises more, or over the first one that rises.
+  template <class Q>
+  Rise up_side(Q body, std::uint32_t v0, std::uint32_t h, const Vec& u, const Scan& scan) const {
+    const Vertex& record = body.view.vertices[v0];
+    const std::uint32_t left = counter_clockwise(record, h), right = clockwise(record, h);
+    const Vec to_left = body.own(body.view.half_edges[left].head) - vec(record),
+              to_right = body.own(body.view.half_edges[right].head) - vec(record);
+    const double left_rise = dot(scan.own, to_left), right_rise = dot(scan.own, to_right);
     const bool is_left = first_only_ ? left_rise > 0 : left_rise > right_rise;
-    const Vec r = is_left ? to_left : to_right;
-    const double ru = dot(body.rotated(r), u);
-    rise.to = body.view.half_edges[is_left ? h : right].face;
-    rise.length2 = dot(r, r) - ru * ru / dot(u, u);
-    return rise;
+    const Vec r = body.rotated(is_left ? to_left : to_right);
+    const double ru = dot(r, u);
+    return {body.view.half_edges[is_left ? h : right].face, is_left ? left_rise : right_rise,
+            dot(r, r) - ru * ru / dot(u, u)};
   }
 
   /// The side of a face's prism that `p` is farthest beyond; kNone if `p` is inside the prism. `well_inside` becomes false if

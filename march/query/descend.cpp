@@ -79,6 +79,8 @@ class Descent {
     const bool seen = !walked && pair_.has_maps && map_gjk(place, last_direction(line_.in_a, seed));
     if (!walked && !seen) march(place, false);
     const bool met = met_ == MarchStatus::Overlapping;
+    if (proof_.count == 4 && answer_.level_a == 0 && answer_.level_b == 0)
+      seed.inside_a = proof_.vertex_a, seed.inside_b = proof_.vertex_b;
     if (seen && (asked_.is_threshold() || !met)) {  // vertices that only maps named are no better start than none
       remember(line_, vec(answer_.normal), seed);
       seed.a = seed.b = {};
@@ -463,6 +465,26 @@ bool answers_at_once(const ModelPair& pair, const Limits& limits, const StopRule
   return true;
 }
 
+/// Answers that the bodies overlap if the vertex pairs that proved it last time still do.
+bool overlaps_as_before(const ModelPair& pair, const PairSeed& seed, const Limits& limits, Answer& answer, OverlapProof& proof) {
+  const PairView view = pair.view_at({0, 0, {}});
+  const auto names = [](const std::array<std::uint32_t, 4>& vertices, const ConvexView& body) {
+    return std::ranges::all_of(vertices, [&](std::uint32_t v) { return v < body.vertices.size(); });
+  };
+  if (pair.finest_a != 0 || pair.finest_b != 0 || !names(seed.inside_a, view.a) || !names(seed.inside_b, view.b)) return false;
+  const OverlapProof again{4, seed.inside_a, seed.inside_b};
+  if (!proves_deep_overlap(view, again)) return false;
+  answer.status = Status::Converged;
+  answer.verdict = Verdict::Overlapping;
+  answer.lower = answer.upper = 0;
+  answer.point_a = answer.point_b = eigen(surely_common_point(view, again));
+  answer.feature_a = {FeatureKind::Vertex, seed.inside_a[0]}, answer.feature_b = {FeatureKind::Vertex, seed.inside_b[0]};
+  answer.levels_visited = 1;
+  note(limits.trace, 0, {0, 0, 0, 0});
+  proof = again;
+  return true;
+}
+
 }  // namespace
 
 void descend(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_error, PairSeed& seed, const Limits& limits,
@@ -471,6 +493,7 @@ void descend(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_e
   AxisTest first;
   if (exact_width) return Descent(pair, limits, asked, first, answer, proof).go_on(seed, *exact_width);
   answer.normal.setZero();
+  if (seed.met && limits.tuning.start == StartPolicy::Automatic && overlaps_as_before(pair, seed, limits, answer, proof)) return;
   const bool asks = asked.is_threshold() && pair.has_maps && !seed.met && limits.trace.empty();
   if (asks && separating_axis(pair, asked, seed, first, answer)) return;
   Turn turn;

@@ -40,18 +40,13 @@ enum class Turn {
 };
 constexpr double kLineUnit = 32767;  ///< the length of a direction in a seed
 
-/// For one body, where the line, of squared length `length2`, is `line` and was packed as `was`. A level of V vertices is taken
-/// to have sqrt(V) edges per radian; the angle is taken as its chord, whose square is 2 - 2 cos.
+/// For one body, where the line, of squared length `length2`, is `line` and was packed as `was`.
 static inline Turn turn_of(const Vec& line, double length2, const std::array<std::int16_t, 3>& was, const Level& level) {
-  if ((was[0] | was[1] | was[2]) == 0) return Turn::Some;  // unknown, as in a seed made by hand
   const double along = dot(line, {double(was[0]), double(was[1]), double(was[2])});
-  const double edges = level.map_side > 0 ? kWarmEdges : kWarmEdgesUnmapped, whole = 2 * double(level.view.vertices.size());
-  const auto within = [&](double edges2) {
-    const double least = whole - edges2;
-    return along * along * (whole * whole) >= least * least * length2 * (kLineUnit * kLineUnit);
-  };
-  if (along > 0 && whole > 0.25 && within(0.25)) return Turn::Little;
-  return whole <= edges * edges || (along > 0 && within(edges * edges)) ? Turn::Some : Turn::Far;
+  const double cos2 = along > 0 ? along * along : 0, whole = length2 * (kLineUnit * kLineUnit);
+  if (cos2 >= level.same_cos2 * whole) return Turn::Little;
+  const bool known = (was[0] | was[1] | was[2]) != 0;  // not of a seed made by hand
+  return known && cos2 < level.near_cos2 * whole ? Turn::Far : Turn::Some;
 }
 /// `a` and `b` are the levels of the seed.
 static inline Turn turn_of(const Line& line, const PairSeed& seed, const Level& a, const Level& b) {

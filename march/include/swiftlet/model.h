@@ -136,6 +136,8 @@ struct Level {
                                                ///< a bound on its error; cold queries start here. Empty: no map at this level
   std::uint32_t map_side = 0;                  ///< cells of `support_map` along an edge of the cube
   double edge_length = 0;                      ///< mean length of the level's edges, diagonals included
+  double same_cos2 = 0, near_cos2 = 0;  ///< squared cosines of the turns after which a seed's features are stored again, and
+                                        ///< after which they are worse than a cold start; 0: never
   double deviation = 0;    ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
   double volume = 0;       ///< in cubic units; 0 for a body that is not solid
   std::size_t bytes = 0;   ///< size of this level in the block of a whole model
