@@ -55,7 +55,8 @@ Pose Poses::next() {
 }
 
 PairSeed Poses::seed() {
-  std::array<std::uint64_t, 4> words{bits(), bits(), bits(), bits()};
+  std::array<std::uint64_t, sizeof(PairSeed) / 8> words;
+  for (std::uint64_t& word : words) word = bits();
   PairSeed seed;
   std::memcpy(static_cast<void*>(&seed), words.data(), sizeof seed);
   return seed;

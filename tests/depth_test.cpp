@@ -230,7 +230,7 @@ TEST(SignedDistance, TakesAnySeed) {
       agree(chain, "of this pose");
       for (int k = 0; k < 10; ++k) {
         PairSeed garbage;
-        std::array<std::uint64_t, 4> bits;
+        std::array<std::uint64_t, sizeof(PairSeed) / 8> bits;
         for (std::uint64_t& word : bits) word = random.bits();
         std::memcpy(static_cast<void*>(&garbage), bits.data(), sizeof garbage);
         garbage.met = k % 2;

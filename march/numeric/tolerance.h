@@ -137,6 +137,11 @@ inline constexpr double kFlatError = 4 * kU;
 /// Bounds the error of cof(R) n, the image of a normal n, relative to |n|: 2 u for each cofactor and 3 u for their sum with n,
 /// (2 sqrt(3) + 3) u in each coordinate, sqrt(3) times that for the vector: 11.2 u. Rounded up.
 inline constexpr double kImageError = 16 * kU;
+/// Bounds the error of d . u / |d|, relative to |u|: 1 product and 2 sums; the quotient is 0 but for rounding. Rounded up.
+inline constexpr double kLevelError = 4 * kU;
+/// A plane that may lean by more than this share of law 2's bound over a body's reach is held against the rings of the
+/// feature's corners, so that it counts only as far as the feature goes.
+inline constexpr double kCloseShare = 0.25;
 /// Bounds the rounding of the sums that make a point of each body from a vertex and at most two vectors, relative to the pair's
 /// magnitude: 2 sums, each u of a vector no longer than the body's points are.
 inline constexpr double kStandError = 2 * kU;
@@ -235,6 +240,8 @@ inline constexpr double kSweepCos = 40.0 / 41, kSweepSin = 9.0 / 41;
 /// A walk is given to certified GJK after this many states in a row that do not shorten the distance. In exact arithmetic there
 /// are at most three (face, edge, vertex); twelve leaves room for rounding on a flat spot.
 inline constexpr std::uint32_t kStallLimit = 12;
+/// The most facets of one face that are visited for the one below a point.
+inline constexpr int kFacetSteps = 32;
 /// `kGjkLimit` bounds the iterations of certified GJK per arithmetic, each a Frank-Wolfe step on an active set of at most four.
 /// `kProgressPatience` bounds those in a row that neither shorten the distance nor raise the lower bound.
 inline constexpr int kGjkLimit = 400, kProgressPatience = 8;

@@ -27,16 +27,16 @@ class Prism {
       normal_ = body.image(own_normal_);
       return;
     }
-    const std::uint32_t root = origin(body.view, first_);
-    second_ = next_in_facet(body.view, first_);
-    u_ = body.way(root, body.view.half_edges[first_].head);
-    v_ = body.way(root, body.view.half_edges[second_].head);
-    normal_ = cross(u_, v_);
+    span();
   }
+  /// The prism over the triangle that half-edge `h` begins: a triangular face, or a facet within a larger one.
+  static Prism over_facet(Body body, std::uint32_t h) { return Prism(body, h, Facet{}); }
 
   const Body& body() const { return body_; }
   bool is_triangle() const { return is_triangle_; }
-  const Vec& corner() const { return corner_; }  ///< the origin of the face's first half-edge
+  const Vec& corner() const { return corner_; }     ///< the origin of the face's first half-edge
+  std::uint32_t first() const { return first_; }    ///< that half-edge
+  std::uint32_t second() const { return second_; }  ///< a triangle's next one
   /// From `corner()` to a triangle's second and third corner.
   const Vec& u() const { return u_; }
   const Vec& v() const { return v_; }
@@ -97,6 +97,19 @@ class Prism {
       ++count;
     } while (h != first_);
     return count;
+  }
+
+  struct Facet {};
+  Prism(Body body, std::uint32_t h, Facet)
+      : body_(body), is_triangle_(true), first_(h), corner_(body.point(origin(body.view, h))) {
+    span();
+  }
+  void span() {
+    const std::uint32_t root = origin(body_.view, first_);
+    second_ = next_in_facet(body_.view, first_);
+    u_ = body_.way(root, body_.view.half_edges[first_].head);
+    v_ = body_.way(root, body_.view.half_edges[second_].head);
+    normal_ = cross(u_, v_);
   }
 
   const Body body_;

@@ -22,6 +22,8 @@
 // without branches, which processors would guess wrong every other time.
 #include "pair/walk.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 #include "pair/prism.h"
@@ -47,7 +49,7 @@ struct Scan {
   Vec own;          ///< the direction in the body's own frame
   double highest;   ///< how far the highest neighbour rises above the feature, times the direction's length
   double falls_at;  ///< the distance falls on the way to a neighbour that rises more than this
-  double over;  ///< the body rises no more than this above the feature along the direction at length 1; infinite if unknown
+  double over;      ///< the body rises no more than this above the feature along the direction at length 1; infinite if unknown
   bool falls() const { return highest > falls_at; }
 };
 
@@ -95,7 +97,8 @@ class Marcher {
     const double distance2 = dot(up, up);
     const Scan at_b = sides(b, v0, h, up, kAcrossError + Q::kWay), at_a = ring(a, va, -up);
     if (!at_b.falls() && !at_a.falls()) {
-      end(a, {-up, -r, p, q0 + u * s, blur_on<Q>(u), at_a.over, at_b.over});
+      const double over_b = over_edge(b, h, at_b, u, up);
+      end(a, {-up, -r, p, q0 + u * s, blur_on<Q>(u), at_a.over, over_b});
       return {vertex(va), edge(h), distance2};
     }
     if (!at_b.falls()) return {along(a, up_ring(a, va, at_a)), edge(h), distance2};
@@ -118,7 +121,8 @@ class Marcher {
     const Scan below = ring(a, va, -n);
     if (!below.falls()) {
       Nearest seen{-n, prism.corner() - p, p, {}, 0, below.over, kUnknown};
-      stand(prism, f, height, well_inside, seen);
+      // A facet within a face has a direction of its own.
+      if (stand(prism, f, height, well_inside, seen)) seen.over_a = ring(a, va, seen.normal).over;
       end(a, seen);
       return {vertex(va), face(f), distance2};
     }
@@ -143,7 +147,8 @@ class Marcher {
     const auto [n, tilt_u, tilt_v] = between_edges(u, uu, v, vv, d);
     const Scan at_a = sides(a, a0, ha, n, tilt_u + P::kWay), at_b = sides(b, b0, hb, -n, tilt_v + Q::kWay);
     if (!at_a.falls() && !at_b.falls()) {
-      end(a, {n, q0 - p0, p, q, blur_on<P>(u) + blur_on<Q>(v), at_a.over, at_b.over});
+      const double over_a = over_edge(a, ha, at_a, u, n), over_b = over_edge(b, hb, at_b, v, -n);
+      end(a, {n, q0 - p0, p, q, blur_on<P>(u) + blur_on<Q>(v), over_a, over_b});
       return {edge(ha), edge(hb), distance2};
     }
     const Rise rise_a = at_a.falls() ? up_side(a, a0, ha, u, at_a) : Rise{kNone, -1, 1},
@@ -222,6 +227,14 @@ class Marcher {
     return {own, highest, 0, highest < -(over + kBesideError * body.reach) * norm_1(d) ? over : kUnknown};
   }
 
+  /// Scan::over of an edge that is a minimum, held against the rings of its ends where its tilt counts for too much.
+  template <class Q>
+  [[gnu::noinline]] double over_edge(Q body, std::uint32_t h, const Scan& scan, const Vec& u, const Vec& d) {
+    if (scan.over <= kCloseShare * pair_.law_two) return scan.over;
+    const std::array ends{origin(body.view, h), body.view.half_edges[h].head};
+    return on_top(body, ends, d) ? rise_along<Q>(u, d) : scan.over;
+  }
+
   /// The way over the face beside edge `h`, along `u`, that rises more, or over the first one that rises.
   template <class Q>
   Rise up_side(Q body, std::uint32_t v0, std::uint32_t h, const Vec& u, const Scan& scan) const {
@@ -233,8 +246,7 @@ class Marcher {
     const bool is_left = first_only_ ? left_rise > 0 : left_rise > right_rise;
     const Vec r = body.rotated(is_left ? to_left : to_right);
     const double ru = dot(r, u);
-    return {body.view.half_edges[is_left ? h : right].face, is_left ? left_rise : right_rise,
-            dot(r, r) - ru * ru / dot(u, u)};
+    return {body.view.half_edges[is_left ? h : right].face, is_left ? left_rise : right_rise, dot(r, r) - ru * ru / dot(u, u)};
   }
 
   /// The side of a face's prism that `p` is farthest beyond; kNone if `p` is inside the prism. `well_inside` becomes false if
@@ -254,25 +266,102 @@ class Marcher {
   }
 
   /// Completes `seen` for the point at `height` times the normal's length above face `f`: with the point below it and what the
-  /// face's plane proves.
+  /// face's plane proves. Of a face that is flat only up to the input's rounding, the exact facet proves: returns true if
+  /// `seen` has its normal, along which the first body is not compared yet.
   template <class Q>
-  void stand(const Prism<Q>& prism, std::uint32_t f, double height, bool well_inside, Nearest& seen) {
-    const Vec &n = prism.normal(), &u = prism.u(), &v = prism.v();
-    const double nn = dot(n, n);
-    if (prism.is_triangle()) {
-      const typename Prism<Q>::Beyond at = prism.beyond(-seen.apart);
-      const double slant = std::sqrt(dot(u, u) * dot(v, v) / nn);
-      seen.point_b = prism.corner() + u * (-at.v / nn) + v * (-at.u / nn);
-      seen.blur = (Q::kWay + 5 * kU) * (norm_1(u) + norm_1(v));
-      seen.over_b = (2 * Q::kWay + kFlatError) * slant * prism.body().reach;
-      return;
-    }
-    seen.point_b = seen.point_a - n * (height / nn);
-    if (!well_inside || prism.body().view.reach == 0) return;
-    const FacePlane& plane = prism.body().view.planes[f];
+  [[gnu::noinline]] bool stand(const Prism<Q>& prism, std::uint32_t f, double height, bool well_inside, Nearest& seen) {
+    if (prism.is_triangle()) return stand_on_facet(prism, seen), false;
+    const Q& body = prism.body();
+    const Vec& n = prism.normal();
+    const FacePlane& plane = body.view.planes[f];
     const double stretch = 1 + 2 * pair_.pose_error;
+    seen.point_b = seen.point_a - n * (height / dot(n, n));
     seen.blur = plane.thickness * stretch + 8 * kU * norm_1(seen.apart);
-    seen.over_b = plane.over * stretch + Q::kImage * prism.body().reach;
+    seen.over_b = plane.over * stretch + Q::kImage * body.reach;
+    if (body.view.reach == 0 || seen.blur + seen.over_b > 2 * kCloseShare * pair_.law_two)
+      return search_facets(body, prism.first(), seen), true;
+    if (!well_inside) seen.over_b = kUnknown;
+    return false;
+  }
+
+  /// Completes `seen` for the point below its first one in a triangle.
+  template <class Q>
+  void stand_on_facet(const Prism<Q>& prism, Nearest& seen) {
+    const Vec &n = prism.normal(), &u = prism.u(), &v = prism.v();
+    const Q& body = prism.body();
+    const double nn = dot(n, n), tilt = (2 * Q::kWay + kFlatError) * std::sqrt(dot(u, u) * dot(v, v) / nn);
+    const typename Prism<Q>::Beyond at = prism.beyond(seen.point_a - prism.corner());
+    seen.point_b = prism.corner() + u * (-at.v / nn) + v * (-at.u / nn);
+    seen.blur = (Q::kWay + 5 * kU) * (norm_1(u) + norm_1(v));
+    seen.over_b = tilt * body.reach;
+    if (seen.over_b <= kCloseShare * pair_.law_two) return;
+    const HalfEdge* h = body.view.half_edges.data();
+    const std::array corners{origin(body.view, prism.first()), h[prism.first()].head, h[prism.second()].head};
+    if (on_top(body, corners, n)) seen.over_b = max(rise_along<Q>(u, n), rise_along<Q>(v, n));
+  }
+
+  /// Completes `seen` for the nearest point in a face made of several facets, of which `h` begins one: goes from facet to facet
+  /// across the diagonals that the first point is beyond, to a triangle below it or to a ridge between two.
+  template <class Q>
+  [[gnu::noinline]] void search_facets(Q body, std::uint32_t h, Nearest& seen) {
+    seen.over_b = kUnknown;
+    std::uint32_t from = kNone;
+    for (int steps = 0; steps < kFacetSteps; ++steps) {
+      const Prism<Q> facet = Prism<Q>::over_facet(body, h);
+      if (next_in_facet(body.view, next_in_facet(body.view, facet.second())) != h) return;  // no triangle
+      std::uint32_t out = kNone;
+      bool leaves_face = false;
+      double farthest2 = 0;
+      walk_.plane_tests += facet.each_side(seen.point_a, [&](std::uint32_t side, double uu, double beyond) {
+        if (!(beyond > 0)) return;
+        const double violation2 = beyond / uu * beyond;
+        if (violation2 > farthest2) out = side, farthest2 = violation2;
+        leaves_face |= !is_diagonal(body.view, side);
+      });
+      seen.normal = -facet.normal();
+      seen.apart = facet.corner() - seen.point_a;
+      if (out == kNone) return stand_on_facet(facet, seen);
+      if (leaves_face) return;
+      if (out == from) return stand_on_ridge(body, out, seen);
+      from = h = body.view.half_edges[out].twin;
+    }
+  }
+
+  /// Completes `seen` for the point of edge `h` that is nearest to its first one.
+  template <class Q>
+  void stand_on_ridge(Q body, std::uint32_t h, Nearest& seen) {
+    const std::uint32_t tail = origin(body.view, h);
+    const Vec q = body.point(tail), u = body.way(tail, body.view.half_edges[h].head), r = seen.point_a - q;
+    const double length2 = dot(u, u), s = dot(r, u) / length2;
+    if (!(s > 0 && s < 1)) return;
+    const Vec up = across(r - u * s, u, length2);
+    const double over_b = over_edge(body, h, sides(body, tail, h, up, kAcrossError + Q::kWay), u, up);
+    seen = {-up, -r, seen.point_a, q + u * s, blur_on<Q>(u), seen.over_a, over_b};
+  }
+
+  /// How far the way `u` between two vertices can rise or fall along `d` at length 1.
+  template <class Q>
+  static double rise_along(const Vec& u, const Vec& d) {
+    return std::fabs(dot(d, u)) / norm(d) + (kLevelError + Q::kWay) * norm_1(u);
+  }
+
+  /// True if all neighbours of a feature's corners, besides these corners, are below them along `d`: the highest corner is then
+  /// extreme, because the body is convex.
+  template <class Q, std::size_t kCount>
+  [[gnu::noinline]] bool on_top(Q body, const std::array<std::uint32_t, kCount>& corners, const Vec& d) {
+    const Vec own = body.into(d);
+    const double error = kScanError * body.view.extent * norm_1(d);
+    for (const std::uint32_t v : corners) {
+      const Vertex& record = body.view.vertices[v];
+      const double least = dot(own, vec(record)) - error;
+      for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
+        const std::uint32_t w = body.view.half_edges[h].head;
+        const bool is_corner = std::find(corners.begin(), corners.end(), w) != corners.end();
+        if (!is_corner && !(dot(own, body.own(w)) < least)) return false;
+      }
+      walk_.plane_tests += record.ring_count;
+    }
+    return true;
   }
 
   /// Follows edge `h`, which leads from `tail` along u to `head`, from its point p at s over face `f`, which rises towards p.

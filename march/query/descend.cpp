@@ -44,8 +44,7 @@ bool is_exact(const StopRule& asked, const Tuning& tuning) { return asked.is_exa
 /// well.
 void keep(const ModelPair& pair, const Tuning& tuning, const StopRule& asked, const Answer& answer, const Place& found,
           PairSeed& seed) {
-  const bool stays =
-      is_exact(asked, tuning) || tuning.start == StartPolicy::Finest || tuning.start == StartPolicy::Coarsest;
+  const bool stays = is_exact(asked, tuning) || tuning.start == StartPolicy::Finest || tuning.start == StartPolicy::Coarsest;
   const Place kept = stays ? found : coarsened(pair, tuning, asked, answer, found);
   seed.a = kept.start.a, seed.b = kept.start.b;
   seed.level_a = std::uint8_t(kept.level_a), seed.level_b = std::uint8_t(kept.level_b);
@@ -417,8 +416,8 @@ class Descent {
   Answer& answer_;
   OverlapProof& proof_;
   MarchStatus met_ = MarchStatus::NotConverged;
-  MarchStart coarsest_;  ///< features on the coarsest pair, for StartPolicy::Coarsest
-  bool spent_ = false;   ///< the caller's step budget is used up
+  MarchStart coarsest_;        ///< features on the coarsest pair, for StartPolicy::Coarsest
+  bool spent_ = false;         ///< the caller's step budget is used up
   Doubt doubt_ = Doubt::None;  ///< of the walk on the pair that is visited
   std::uint32_t recorded_steps_ = 0, recorded_tests_ = 0;
 };
@@ -429,18 +428,18 @@ namespace {
 
 /// Answers from one walk on the level pair of `place`, from the seed's features, if the tests that end it prove enough. Else
 /// `place` becomes where the descent goes on: at the features where the walk ended, or anywhere if it came to nothing.
-bool answers_at_once(const ModelPair& pair, const Limits& limits, const StopRule& asked, Turn turn, PairSeed& seed, Place& place,
-                     Answer& answer) {
+bool answers_at_once(const ModelPair& pair, const Limits& limits, const StopRule& asked, Turn turn, PairSeed& seed,
+                     Place& place, Answer& answer) {
   const PairView view = pair.view_at(place);
   const MarchStart from = settled(view, place.start, answer.plane_tests);
-  const Walk walked =
-      walk(view, from.a, from.b, limits.tuning.plane_rule, std::min(limits.budget.steps, place.trial_steps));
+  const Walk walked = walk(view, from.a, from.b, limits.tuning.plane_rule, std::min(limits.budget.steps, place.trial_steps));
   answer.steps = walked.steps;
   answer.plane_tests += walked.plane_tests;
   Proof proof;
   if (settle(view, walked, asked.zero, asked.above, proof) != Doubt::None) {
     const bool lost = walked.end == WalkEnd::Budget && walked.steps < limits.budget.steps;
-    place = lost ? coarsest_place(pair.a, pair.b) : Place{place.level_a, place.level_b, {walked.a, walked.b}, place.trial_steps};
+    place =
+        lost ? coarsest_place(pair.a, pair.b) : Place{place.level_a, place.level_b, {walked.a, walked.b}, place.trial_steps};
     return false;
   }
   place.start = {walked.a, walked.b};
@@ -466,7 +465,8 @@ bool answers_at_once(const ModelPair& pair, const Limits& limits, const StopRule
 }
 
 /// Answers that the bodies overlap if the vertex pairs that proved it last time still do.
-bool overlaps_as_before(const ModelPair& pair, const PairSeed& seed, const Limits& limits, Answer& answer, OverlapProof& proof) {
+bool overlaps_as_before(const ModelPair& pair, const PairSeed& seed, const Limits& limits, Answer& answer,
+                        OverlapProof& proof) {
   const PairView view = pair.view_at({0, 0, {}});
   const auto names = [](const std::array<std::uint32_t, 4>& vertices, const ConvexView& body) {
     return std::ranges::all_of(vertices, [&](std::uint32_t v) { return v < body.vertices.size(); });
@@ -493,7 +493,8 @@ void descend(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_e
   AxisTest first;
   if (exact_width) return Descent(pair, limits, asked, first, answer, proof).go_on(seed, *exact_width);
   answer.normal.setZero();
-  if (seed.met && limits.tuning.start == StartPolicy::Automatic && overlaps_as_before(pair, seed, limits, answer, proof)) return;
+  if (seed.met && limits.tuning.start == StartPolicy::Automatic && overlaps_as_before(pair, seed, limits, answer, proof))
+    return;
   const bool asks = asked.is_threshold() && pair.has_maps && !seed.met && limits.trace.empty();
   if (asks && separating_axis(pair, asked, seed, first, answer)) return;
   Turn turn;

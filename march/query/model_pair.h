@@ -29,8 +29,8 @@ struct ModelPair {
 
   /// The finest level pair that has support maps and that the query may read.
   Place finest_mapped() const { return {std::max(a.map_level(), finest_a), std::max(b.map_level(), finest_b), {}}; }
-  /// The most by which the exact hulls may be farther apart than these levels. A pose that is not exactly orthonormal may stretch
-  /// B, and its deviation, by 1.5 times its error and a little of second order.
+  /// The most by which the exact hulls may be farther apart than these levels. A pose that is not exactly orthonormal may
+  /// stretch B, and its deviation, by 1.5 times its error and a little of second order.
   double deviation(int level_a, int level_b) const {
     return a.level(level_a).deviation + b.level(level_b).deviation * (1 + 2 * pose_error);
   }

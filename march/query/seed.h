@@ -81,8 +81,7 @@ static inline Place first_place(const Shape& a, const Shape& b, const Line& line
   if (!fits(seed, a, b, finest_a, finest_b)) return coarsest_place(a, b);
   const Place place{seed.level_a, seed.level_b, {seed.a, seed.b}, kTrialSteps};
   const Level &level_a = a.level(place.level_a), &level_b = b.level(place.level_b);
-  const bool has_choice =
-      place.level_a + 1 < a.level_count() || place.level_b + 1 < b.level_count() || level_a.map_side > 0;
+  const bool has_choice = place.level_a + 1 < a.level_count() || place.level_b + 1 < b.level_count() || level_a.map_side > 0;
   if (!has_choice) return {place.level_a, place.level_b, place.start};
   turn = turn_of(line, seed, level_a, level_b);
   return turn == Turn::Far ? coarsest_place(a, b) : place;

@@ -94,6 +94,7 @@ Tally& Tally::operator+=(const Tally& other) {
   pairs += other.pairs, judged += other.judged, answers += other.answers, solved += other.solved, trials += other.trials,
       hits += other.hits;
   for (std::size_t v = 0; v < verdicts.size(); ++v) verdicts[v] += other.verdicts[v];
+  for (std::size_t d = 0; d < doubts.size(); ++d) doubts[d] += other.doubts[d];
   failed += other.failed;
   steps = std::max(steps, other.steps);
   depths += other.depths;
@@ -148,6 +149,7 @@ Answer Pair::examine(PairSeed& seed, std::uint64_t choice) {
     PairSeed cold, cold_depth;
     agree(deep, exact_depth(cold_depth), "a cold start");
     agree(answer, exact(cold), "a cold start");
+    carefully(start, answer);
   }
   if (choice % 2) seed = used;
   return answer;
@@ -160,6 +162,7 @@ Answer Pair::compare(PairSeed& seed, std::uint64_t choice) {
   const Answer answer = distance(a_.model, b_.model, b_in_a_, seed);
   const Answer deep = signed_distance(a_.model, b_.model, b_in_a_, used);
   count(answer), count(deep);
+  count_doubt(start, {}, answer);
   const double bound = law_two();
   judged(unsettled(answer, bound), "distance", start);
   judged(unsettled(deep, deep.verdict == Verdict::Touching ? 2 * bound : bound), "signed distance", start);
@@ -200,6 +203,7 @@ Answer Pair::exact(PairSeed& seed, const Options& options) {
   OverlapProof proof;
   const Answer answer = distance(a_.model, b_.model, b_in_a_, seed, proving(options, proof));
   count(answer);
+  count_doubt(start, options, answer);
   judged(is_judged_ ? judge_.exact(answer, proof) : unsettled(answer, law_two()), "distance", start);
   if (is_judged_ && answer.verdict != Verdict::Overlapping) manifolds(answer);
   examiner_.tally.widest = std::max(examiner_.tally.widest, (answer.upper - answer.lower) / judge_.law_two());
@@ -227,6 +231,24 @@ Answer Pair::exact_depth(PairSeed& seed) {
   agree(answer, signed_distance(a_.model, b_.model, b_in_a_, again), "where it ended");
   manifolds(answer);
   return answer;
+}
+
+void Pair::carefully(PairSeed seed, const Answer& answer) {
+  const PairSeed start = seed;
+  OverlapProof proof;
+  const Options options{.tuning = {.careful = true, .proof = &proof}};
+  const Answer careful = distance(a_.model, b_.model, b_in_a_, seed, options);
+  judged(judge_.exact(careful, proof), "careful distance", start);
+  agree(answer, careful, "the careful path");
+  const ConvexView &a = a_.model.level(0).view, &b = b_.model.level(0).view;
+  MarchRule rule;
+  const MarchResult found = swiftlet::march(a, b, b_in_a_, {}, rule);
+  rule.careful = true;
+  const MarchResult proved = swiftlet::march(a, b, b_in_a_, {}, rule);
+  require(proved.doubt == Doubt::Asked, "a careful march does not say so");
+  require(proved.status == found.status && std::fabs(proved.lower - found.lower) <= law_two() &&
+              std::fabs(proved.upper - found.upper) <= law_two(),
+          "a march and the careful one differ");
 }
 
 void Pair::manifolds(const Answer& answer) {
@@ -292,6 +314,14 @@ void Pair::count(const Answer& answer) {
   for (const Vec3& v : {answer.normal, answer.point_a, answer.point_b})
     for (const double x : v) mix(tally.hash, std::isnan(x) ? 0 : x);
   mix(tally.hash, answer.feature_a), mix(tally.hash, answer.feature_b), mix(tally.hash, answer.steps);
+}
+
+void Pair::count_doubt(PairSeed seed, Options options, const Answer& answer) {
+  if (answer.status != Status::Converged || answer.verdict == Verdict::Overlapping) return;
+  std::array<LevelRecord, 1> last;
+  options.tuning.trace = last;
+  distance(a_.model, b_.model, b_in_a_, seed, options);
+  ++examiner_.tally.doubts[std::size_t(last[0].doubt)];
 }
 
 void Pair::count(const Manifold& manifold) {

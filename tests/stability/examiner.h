@@ -33,6 +33,7 @@ struct Tally {
   std::uint32_t supports = 0;               ///< most steps of one of these
   std::uint64_t manifolds = 0;              ///< judged
   double widest = 0;                        ///< exact interval, in units of law 2's bound, of a touching depth twice that
+  std::array<std::uint64_t, 6> doubts{};    ///< of exact distances of bodies that do not overlap, by Doubt
   std::uint64_t hash = 0;                   ///< of all bits of all answers, in order
 
   double hit_rate() const { return trials ? double(hits) / double(trials) : 0; }
@@ -95,6 +96,10 @@ class Pair {
   /// The exact signed distance, and again from where that ended.
   Answer exact_depth(PairSeed& seed);
 
+  /// The exact distance and the march on level 0 once more, proved the careful way: the same verdict as `answer`, which is what
+  /// the distance from `seed` gave, and as the march without care.
+  void carefully(PairSeed seed, const Answer& answer);
+
   /// Of one in 32 exact answers, but of overlaps without depth, the manifold, as options of all kinds ask for it; from that of
   /// another pair, and again from itself, which must keep its points.
   void manifolds(const Answer& answer);
@@ -110,6 +115,8 @@ class Pair {
   Answer compare(PairSeed& seed, std::uint64_t choice);
   void count(const Answer& answer);
   void count(const Manifold& manifold);
+  /// Why the tests of the last walk did not prove `answer`. The query is asked again for it: a trace is more work.
+  void count_doubt(PairSeed seed, Options options, const Answer& answer);
   void judged(const std::string& wrong, const char* query, const PairSeed& seed);
 
   Examiner& examiner_;

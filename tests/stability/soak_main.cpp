@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -194,6 +195,10 @@ class Soak {
     }
     const Tally sum = total();
     row("all", sum);
+    std::printf("\n%-26s %9s %8s  %9s %9s %9s %9s %11s\n", "proved the careful way", "distances", "of these", "neighbour",
+                "width", "lean", "threshold", "no minimum");
+    for (std::size_t i = 0; i < chosen_.size(); ++i) doubt_row(chosen_[i]->name, tallies_[i]);
+    doubt_row("all", sum);
     std::printf("\n%llu depths, of at most %u supports\n", count(sum.depths), sum.supports);
     std::printf("%.0f s on %u threads, %.0f pairs a minute; widest is in units of law 2's bound; answer hash %016llx\n",
                 seconds(), options_.threads, 60 * double(sum.pairs) / seconds(), count(sum.hash));
@@ -204,6 +209,15 @@ class Soak {
     std::printf("%-26s %9llu %9llu %9llu %8llu %8llu %6.1f%%  %8llu %8llu %8llu %6u %7.3f %7llu\n", name, count(t.pairs),
                 count(t.judged), count(t.answers), count(t.manifolds), count(t.solved), 100 * t.hit_rate(),
                 count(t.verdicts[1]), count(t.verdicts[2]), count(t.verdicts[3]), t.steps, t.widest, count(t.failed));
+  }
+  /// Of exact distances of bodies that do not overlap, how many the last walk's own tests did not prove, and why.
+  static void doubt_row(const char* name, const Tally& t) {
+    const std::uint64_t all = std::accumulate(t.doubts.begin(), t.doubts.end(), std::uint64_t{0});
+    const auto share = [&](std::uint64_t n) { return all ? 100 * double(n) / double(all) : 0; };
+    const auto of = [&](Doubt doubt) { return share(t.doubts[std::size_t(doubt)]); };
+    std::printf("%-26s %9llu %7.2f%%  %8.2f%% %8.2f%% %8.2f%% %8.2f%% %10.2f%%\n", name, count(all),
+                share(all - t.doubts[std::size_t(Doubt::None)]), of(Doubt::Neighbour), of(Doubt::Width), of(Doubt::Lean),
+                of(Doubt::Threshold), of(Doubt::NoMinimum));
   }
   static unsigned long long count(std::uint64_t n) { return n; }
 
