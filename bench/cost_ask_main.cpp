@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Asks every query of a written scene once, for callgrind: see cost.
+// Asks every query of a written scene once, for callgrind: see cost. Says also, in a run of its own, how many distances were
+// not proved by their walk's own tests, and why.
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -10,10 +12,37 @@
 #include <swiftlet/model_file.h>
 #include <swiftlet/query.h>
 
+namespace {
+
+using namespace swiftlet;
+
+/// Prints the share of the distances of bodies apart that the careful path proved, and why. Each query is asked as it is when
+/// counted, and before that with a trace, which is more work and may leave another seed.
+void print_doubts(const Body& a, const Body& b, const std::vector<Pose>& poses, Options options) {
+  constexpr std::array kNames{"none", "no minimum", "neighbour", "width", "lean", "threshold"};
+  std::array<int, kNames.size()> counts{};
+  int all = 0;
+  PairSeed seed;
+  for (const Pose& pose : poses) {
+    PairSeed same = seed;
+    std::array<LevelRecord, 1> last;
+    options.tuning.trace = last;
+    if (distance(a, b, pose, same, options).verdict != Verdict::Overlapping) ++all, ++counts.at(std::size_t(last[0].doubt));
+    options.tuning.trace = {};
+    distance(a, b, pose, seed, options);
+  }
+  const auto share = [&](int count) { return all ? 100. * count / all : 0; };
+  std::printf("%.1f%%", share(all - counts[std::size_t(Doubt::None)]));
+  for (std::size_t i = 1; i < counts.size(); ++i)
+    if (counts[i] > 0) std::printf(", %s %.1f", kNames[i], share(counts[i]));
+  std::printf("\n");
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  using namespace swiftlet;
   if (argc != 3 && argc != 4)
-    return std::fputs("swiftlet_cost_ask PREFIX distance|intersects|cold|signed_distance [ERROR]\n", stderr), 2;
+    return std::fputs("swiftlet_cost_ask PREFIX distance|intersects|cold|signed_distance|doubts [ERROR]\n", stderr), 2;
   const std::string prefix = argv[1], question = argv[2];
   const Result<Model> model_a = load(prefix + "-a.swl"), model_b = load(prefix + "-b.swl");
   if (!model_a || !model_b) return std::fprintf(stderr, "%s\n", (model_a ? model_b : model_a).error().message.c_str()), 1;
@@ -25,6 +54,7 @@ int main(int argc, char** argv) {
   Options options;
   if (argc == 4) options.absolute = std::atof(argv[3]) * model_a.value().radius();
   const Body a = model_a.value(), b = model_b.value();
+  if (question == "doubts") return print_doubts(a, b, poses, options), 0;
   PairSeed seed;
   double steps = 0, tests = 0;
   for (const Pose& pose : poses) {
