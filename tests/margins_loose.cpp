@@ -12,4 +12,4 @@ constexpr double kNoError = 0;
 #define kFlatError kNoError
 #define kFootError kNoError
 #define walk loose_walk
-#include "pair/walk.cpp"
+#include "pair/walk.cpp"  // NOLINT(bugprone-suspicious-include)

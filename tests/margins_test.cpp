@@ -11,10 +11,12 @@ namespace {
 TEST(Margins, HoldWhatRoundingDoes) {
   for (const Kind& kind : kinds()) {
     const Attack found = attack(kind, 10'000);
-    EXPECT_LE(found.largest, kind.margin) << kind.name;
+    EXPECT_LE(found.largest, kind.margin * (1 + 0x1p-40)) << kind.name;  // a quotient of exact numbers, each rounded
     EXPECT_LE(kind.needed, kind.margin) << kind.name;
     // So many scenes err by a quarter of what is needed; ./run margins with more by half, where that can be reached.
-    if (kind.bites) EXPECT_GT(found.largest, kind.needed / 4) << kind.name;
+    if (kind.bites) {
+      EXPECT_GT(found.largest, kind.needed / 4) << kind.name;
+    }
   }
 }
 

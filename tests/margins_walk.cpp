@@ -139,14 +139,6 @@ bool is_feature(const ConvexView& view, FeatureId feature, int corners) {
   return corners == (feature.index() < view.planes.size() ? 4 : 3);
 }
 
-/// One pair: both bodies, the pose and the depths at which their near vertices were put.
-struct Posed {
-  Built a, b;
-  Pose pose;
-};
-
-constexpr double kMostSide = 3;  // in margins
-
 /// The depth below a feature from which a walk's tests prove that the vertex is below, as walk.cpp has it, for a unit normal.
 double border_of(int corners, bool moved, const Vec3& n, double extent, double reach, double sine) {
   if (corners == 1) return kScanError * extent * n.lpNorm<1>();
@@ -174,8 +166,8 @@ void attack_once(Random& random, const State& state, bool loose, Walks& result) 
   const Frame up = frame(random, n), down = frame(random, -n);
   const auto fraction = [&] { return random.bits() & 1 ? random.uniform(0, 3) : random.uniform(-0.05, 0.05); };
   const double sine = state.corners_a == 2 && state.corners_b == 2 ? std::fabs(up.e.cross(down.e).norm()) : 0,
-               magnitude = kSqrt3 * span + pose.translation.norm(),
-               side = random.bits() & 1 ? fraction() * kFootError * magnitude : 0.05 * random.uniform() * size;
+               foot_margin = (kFootError + kFootTurn * pose_error) * (kSqrt3 * span + pose.translation.norm()),
+               side = random.bits() & 1 ? fraction() * foot_margin : 0.05 * random.uniform() * size;
   const double border_a = border_of(state.corners_a, false, n, foot_a.cwiseAbs().maxCoeff() + size_a, 2 * size_a, sine),
                border_b = border_of(state.corners_b, true, n, (foot_b - pose.translation).cwiseAbs().maxCoeff() + size_b,
                                     2 * size_b, sine);
@@ -193,9 +185,9 @@ void attack_once(Random& random, const State& state, bool loose, Walks& result) 
 
   const ConvexView &view_a = model_a.value().level(0).view, &view_b = model_b.value().level(0).view;
   const Motion m = motion(pose);
+  const PlaneRule rule = random.bits() & 1 ? PlaneRule::MostViolated : PlaneRule::FirstViolated;
   const PairView pair = pair_view(view_a, view_b, m, pose_error);
-  const Walk end =
-      (loose ? loose_walk : walk)(pair, {FeatureKind::Vertex, 0}, {FeatureKind::Vertex, 0}, PlaneRule::MostViolated, 100);
+  const Walk end = (loose ? loose_walk : walk)(pair, {FeatureKind::Vertex, 0}, {FeatureKind::Vertex, 0}, rule, 100);
   if (end.end != WalkEnd::Minimum || !is_feature(view_a, end.a, state.corners_a) || !is_feature(view_b, end.b, state.corners_b))
     return;
   ++result.count;
@@ -205,7 +197,7 @@ void attack_once(Random& random, const State& state, bool loose, Walks& result) 
 
   const Vec3 normal = eigen(end.nearest.normal).normalized();
   const auto is_near = [](double over) { return over > -1 && over < 3; };
-  bool near = false;
+  bool near = (state.corners_a == 4 || state.corners_b == 4) && is_near(side / foot_margin);
   if (a.near >= 0) {
     const double border = border_of(state.corners_a, false, normal, view_a.extent, pair.reach_a, sine);
     near |= is_near(depth_over_border(a.body.points, a.near, Long33::Identity(), normal, border));

@@ -128,8 +128,9 @@ inline constexpr double kScanError = 32 * kU;
 inline constexpr double kBesideError = 12 * kU;
 /// Bounds how far the part of a vector w across an edge is from a right angle to the edge's computed vector u, as a sine. w
 /// itself leads from the nearest point of the edge's line, and leans along u by at most 0.7 of its length if that is above law
-/// 2's bound: s carries 8 u and w 3 u of 2 sqrt(3) extents, 38 u of the extent, over 64 u. The product w . u then errs by 3 u
-/// of 1.22 lengths, the quotient by 5 u of 0.7 lengths, and the last difference by 1 u: 8.2 u. Rounded up.
+/// 2's bound: s carries 8 u and w 3 u of 2 sqrt(3) extents, 38 u of the extent, over 64 u. Between parallel edges s carries 9 u
+/// and the points of both edges 3 u, 42 u of the extent. The product w . u then errs by 3 u of 1.22 lengths, the quotient by 5
+/// u of 0.7 lengths, and the last difference by 1 u: 8.2 u. Rounded up.
 inline constexpr double kAcrossError = 10 * kU;
 /// Bounds the error of u x v for computed u and v, relative to |u| |v|: 1 product and 1 difference, 2 u in each coordinate of
 /// terms that make at most 1.2 |u| |v|, and 1 u of the result. Rounded up.
