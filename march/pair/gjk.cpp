@@ -10,6 +10,7 @@
 #include "body/half_edge.h"
 #include "numeric/exact.h"
 #include "pair/difference.h"
+#include "pair/overlap.h"
 #include "pair/simplex.h"
 
 namespace swiftlet {
@@ -326,19 +327,30 @@ GjkResult gjk(const PairView& pair, const Certificate& start, const StopRule& st
   return m;
 }
 
-bool proves_deep_overlap(const PairView& pair, const OverlapProof& proof) {
+bool proves_deep_overlap(const PairView& pair, const OverlapProof& proof, Vec* common) {
   std::array<Vec, 4> p;
   for (std::size_t k = 0; k < 4; ++k) p[k] = difference<double>(pair, proof.vertex_a[k], proof.vertex_b[k]).p;
   // Factors of the triple product are differences of two points; it has six terms.
   const double m = pair.magnitude, rounding = 8 * kOffsetTripleProductError * m * m * m, least = 2 * pair.law_two;
+  std::array<double, 4> weight;
+  double sum = 0;
   int positive = 0;
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec &a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4], n = cross(b - a, c - a);
     const double volume = dot(n, a), surely = std::fabs(volume) - rounding;
     if (!(surely > 0 && surely * surely > least * least * dot(n, n))) return false;
     positive += (volume > 0) == (k % 2 == 0);  // the corners of every other face go around the other way
+    sum += weight[k] = std::fabs(volume);
   }
-  return positive == 0 || positive == 4;
+  if (positive != 0 && positive != 4) return false;
+  if (!common) return true;
+  Vec x{0, 0, 0}, off = x;
+  for (std::size_t k = 0; k < 4; ++k) {
+    x = x + vec(pair.a.vertices[proof.vertex_a[k]]) * (weight[k] / sum);
+    off = off + p[k] * (weight[k] / sum);
+  }
+  *common = 4 * dot(off, off) <= pair.law_two * pair.law_two ? x : surely_common_point(pair, proof);
+  return true;
 }
 
 bool straighten(const PairView& pair, Certificate& c, std::uint32_t& plane_tests) {

@@ -473,11 +473,12 @@ bool overlaps_as_before(const ModelPair& pair, const PairSeed& seed, const Limit
   };
   if (pair.finest_a != 0 || pair.finest_b != 0 || !names(seed.inside_a, view.a) || !names(seed.inside_b, view.b)) return false;
   const OverlapProof again{4, seed.inside_a, seed.inside_b};
-  if (!proves_deep_overlap(view, again)) return false;
+  Vec common;
+  if (!proves_deep_overlap(view, again, &common)) return false;
   answer.status = Status::Converged;
   answer.verdict = Verdict::Overlapping;
   answer.lower = answer.upper = 0;
-  answer.point_a = answer.point_b = eigen(surely_common_point(view, again));
+  answer.point_a = answer.point_b = eigen(common);
   answer.feature_a = {FeatureKind::Vertex, seed.inside_a[0]}, answer.feature_b = {FeatureKind::Vertex, seed.inside_b[0]};
   answer.levels_visited = 1;
   note(limits.trace, 0, {0, 0, 0, 0});
