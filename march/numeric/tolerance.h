@@ -123,8 +123,8 @@ inline constexpr double kWayError = kU, kTurnedWayError = 7 * kU;
 /// the body times |d|_1. Of A, 1 product and 2 sums for both heights and their difference: 8 u. Of B, R^T d is computed first,
 /// 3 u, and has |R^T d|_1 <= sqrt(3) |d|_1: (6 + 6 + 2) sqrt(3) u = 25 u. Rounded up by a quarter.
 inline constexpr double kScanError = 32 * kU;
-/// Bounds the error of a corner's height beside an edge, relative to the body's reach times |d|_1. The difference of the two
-/// vertices has 1 u, its product with d 3 u, and R^T d, of B, 3 u: 7 u. Rounded up.
+/// Bounds the error of a corner's height beside an edge, relative to the distance of the two vertices times |d|_1. The
+/// difference of the two vertices has 1 u, its product with d 3 u, and R^T d, of B, 3 u: 7 u. Rounded up.
 inline constexpr double kBesideError = 12 * kU;
 /// Bounds how far the part of a vector w across an edge is from a right angle to the edge's computed vector u, as a sine. w
 /// itself leads from the nearest point of the edge's line, and leans along u by at most 0.7 of its length if that is above law
@@ -138,10 +138,8 @@ inline constexpr double kFlatError = 4 * kU;
 /// Bounds the error of cof(R) n, the image of a normal n, relative to |n|: 2 u for each cofactor and 3 u for their sum with n,
 /// (2 sqrt(3) + 3) u in each coordinate, sqrt(3) times that for the vector: 11.2 u. Rounded up.
 inline constexpr double kImageError = 16 * kU;
-/// Bounds the error of d . u / |d|, relative to |u|: 1 product and 2 sums; the quotient is 0 but for rounding. Rounded up.
-inline constexpr double kLevelError = 4 * kU;
 /// A plane that may lean by more than this share of law 2's bound over a body's reach is held against the rings of the
-/// feature's corners, so that it counts only as far as the feature goes.
+/// feature's corners, so that its lean counts only as far as the feature goes.
 inline constexpr double kCloseShare = 0.25;
 /// Bounds the rounding of the sums that make a point of each body from a vertex and at most two vectors, relative to the pair's
 /// magnitude: 2 sums, each u of a vector no longer than the body's points are.

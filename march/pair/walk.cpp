@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
 
 #include "pair/prism.h"
 #include "pair/witness.h"
@@ -74,7 +75,7 @@ class Marcher {
     const Scan at_a = ring(a, va, d), at_b = ring(b, vb, -d);
     const double distance2 = dot(d, d);
     if (!at_a.falls() && !at_b.falls()) {
-      end(a, {d, d, p, q, 0, at_a.over, at_b.over});
+      end(a, {d, d, p, q, 0, surely(a, std::array{va}, d, at_a.over), surely(b, std::array{vb}, -d, at_b.over)});
       return {vertex(va), vertex(vb), distance2};
     }
     if (!at_b.falls()) return {along(a, up_ring(a, va, at_a)), vertex(vb), distance2};
@@ -97,8 +98,8 @@ class Marcher {
     const double distance2 = dot(up, up);
     const Scan at_b = sides(b, v0, h, up, kAcrossError + Q::kWay), at_a = ring(a, va, -up);
     if (!at_b.falls() && !at_a.falls()) {
-      const double over_b = over_edge(b, h, at_b, u, up);
-      end(a, {-up, -r, p, q0 + u * s, blur_on<Q>(u), at_a.over, over_b});
+      const double over_a = surely(a, std::array{va}, -up, at_a.over), over_b = surely(b, std::array{v0, v1}, up, at_b.over);
+      end(a, {-up, -r, p, q0 + u * s, blur_on<Q>(u), over_a, over_b});
       return {vertex(va), edge(h), distance2};
     }
     if (!at_b.falls()) return {along(a, up_ring(a, va, at_a)), edge(h), distance2};
@@ -123,6 +124,7 @@ class Marcher {
       Nearest seen{-n, prism.corner() - p, p, {}, 0, below.over, kUnknown};
       // A facet within a face has a direction of its own.
       if (stand(prism, f, height, well_inside, seen)) seen.over_a = ring(a, va, seen.normal).over;
+      seen.over_a = surely(a, std::array{va}, seen.normal, seen.over_a);
       end(a, seen);
       return {vertex(va), face(f), distance2};
     }
@@ -147,7 +149,7 @@ class Marcher {
     const auto [n, tilt_u, tilt_v] = between_edges(u, uu, v, vv, d);
     const Scan at_a = sides(a, a0, ha, n, tilt_u + P::kWay), at_b = sides(b, b0, hb, -n, tilt_v + Q::kWay);
     if (!at_a.falls() && !at_b.falls()) {
-      const double over_a = over_edge(a, ha, at_a, u, n), over_b = over_edge(b, hb, at_b, v, -n);
+      const double over_a = surely(a, std::array{a0, a1}, n, at_a.over), over_b = surely(b, std::array{b0, b1}, -n, at_b.over);
       end(a, {n, q0 - p0, p, q, blur_on<P>(u) + blur_on<Q>(v), over_a, over_b});
       return {edge(ha), edge(hb), distance2};
     }
@@ -227,14 +229,6 @@ class Marcher {
     return {own, highest, 0, highest < -(over + kBesideError * body.reach) * norm_1(d) ? over : kUnknown};
   }
 
-  /// Scan::over of an edge that is a minimum, held against the rings of its ends where its tilt counts for too much.
-  template <class Q>
-  [[gnu::noinline]] double over_edge(Q body, std::uint32_t h, const Scan& scan, const Vec& u, const Vec& d) {
-    if (scan.over <= kCloseShare * pair_.law_two) return scan.over;
-    const std::array ends{origin(body.view, h), body.view.half_edges[h].head};
-    return on_top(body, ends, d) ? rise_along<Q>(u, d) : scan.over;
-  }
-
   /// The way over the face beside edge `h`, along `u`, that rises more, or over the first one that rises.
   template <class Q>
   Rise up_side(Q body, std::uint32_t v0, std::uint32_t h, const Vec& u, const Scan& scan) const {
@@ -293,11 +287,9 @@ class Marcher {
     const typename Prism<Q>::Beyond at = prism.beyond(seen.point_a - prism.corner());
     seen.point_b = prism.corner() + u * (-at.v / nn) + v * (-at.u / nn);
     seen.blur = (Q::kWay + 5 * kU) * (norm_1(u) + norm_1(v));
-    seen.over_b = tilt * body.reach;
-    if (seen.over_b <= kCloseShare * pair_.law_two) return;
     const HalfEdge* h = body.view.half_edges.data();
     const std::array corners{origin(body.view, prism.first()), h[prism.first()].head, h[prism.second()].head};
-    if (on_top(body, corners, n)) seen.over_b = max(rise_along<Q>(u, n), rise_along<Q>(v, n));
+    seen.over_b = surely(body, corners, n, tilt * body.reach);
   }
 
   /// Completes `seen` for the nearest point in a face made of several facets, of which `h` begins one: goes from facet to facet
@@ -335,33 +327,46 @@ class Marcher {
     const double length2 = dot(u, u), s = dot(r, u) / length2;
     if (!(s > 0 && s < 1)) return;
     const Vec up = across(r - u * s, u, length2);
-    const double over_b = over_edge(body, h, sides(body, tail, h, up, kAcrossError + Q::kWay), u, up);
+    const double over_b =
+        surely(body, std::array{tail, body.view.half_edges[h].head}, up, sides(body, tail, h, up, kAcrossError + Q::kWay).over);
     seen = {-up, -r, seen.point_a, q + u * s, blur_on<Q>(u), seen.over_a, over_b};
   }
 
-  /// How far the way `u` between two vertices can rise or fall along `d` at length 1.
-  template <class Q>
-  static double rise_along(const Vec& u, const Vec& d) {
-    return std::fabs(dot(d, u)) / norm(d) + (kLevelError + Q::kWay) * norm_1(u);
+  /// How far the body rises along `d`, taken at length 1, above the first of a minimum's `corners`: `over`, or, where that is
+  /// not known or counts for too much, what the plateau around the corners proves.
+  template <class Q, std::size_t kCount>
+  double surely(const Q& body, const std::array<std::uint32_t, kCount>& corners, const Vec& d, double over) {
+    return over <= kCloseShare * pair_.law_two
+               ? over
+               : min(over, above_plateau(body.view, body.into(d), norm_1(d), corners) / norm(d));
   }
 
-  /// True if all neighbours of a feature's corners, besides these corners, are below them along `d`: the highest corner is then
-  /// extreme, because the body is convex.
-  template <class Q, std::size_t kCount>
-  [[gnu::noinline]] bool on_top(Q body, const std::array<std::uint32_t, kCount>& corners, const Vec& d) {
-    const Vec own = body.into(d);
-    const double error = kScanError * body.view.extent * norm_1(d);
-    for (const std::uint32_t v : corners) {
-      const Vertex& record = body.view.vertices[v];
+  /// Gathers the vertices around `corners` that are level with them within rounding, until all other neighbours of those are
+  /// below: on an exactly convex body one of these is extreme. Returns how far one of them may rise along `own` above the first
+  /// corner; infinite if they are more than `kPlateau`. `length_1` is |d|_1 in the common frame.
+  [[gnu::noinline]] double above_plateau(const ConvexView& view, const Vec& own, double length_1,
+                                         std::span<const std::uint32_t> corners) {
+    std::array<std::uint32_t, kPlateau> level;
+    std::size_t count = std::size_t(std::copy(corners.begin(), corners.end(), level.begin()) - level.begin());
+    const double error = kScanError * view.extent * length_1;
+    const Vec p = vec(view.vertices[corners[0]]);
+    double most = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vertex& record = view.vertices[level[i]];
+      const Vec e = vec(record) - p;
+      most = max(most, dot(own, e) + kBesideError * length_1 * norm(e));
       const double least = dot(own, vec(record)) - error;
       for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
-        const std::uint32_t w = body.view.half_edges[h].head;
-        const bool is_corner = std::find(corners.begin(), corners.end(), w) != corners.end();
-        if (!is_corner && !(dot(own, body.own(w)) < least)) return false;
+        const std::uint32_t w = view.half_edges[h].head;
+        if (dot(own, vec(view.vertices[w])) < least ||
+            std::find(level.begin(), level.begin() + count, w) != level.begin() + count)
+          continue;
+        if (count == kPlateau) return kUnknown;
+        level[count++] = w;
       }
       walk_.plane_tests += record.ring_count;
     }
-    return true;
+    return most;
   }
 
   /// Follows edge `h`, which leads from `tail` along u to `head`, from its point p at s over face `f`, which rises towards p.
