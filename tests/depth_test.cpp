@@ -595,5 +595,33 @@ TEST(SignedDistance, ConvergesOverManyDecadesOfCoordinates) {
   }
 }
 
+/// A speck at the centre of a regular tetrahedron is as deep below all four faces: whatever the search begins from, the points
+/// belong to the face whose plane is answered.
+TEST(SignedDistance, PointsAndPlaneBelongToOneOfEquallyDeepFaces) {
+  const auto tetrahedron = [](double s) {
+    const Points corners{{s, s, s}, {s, -s, -s}, {-s, s, -s}, {-s, -s, s}};
+    LevelArrays arrays;
+    const std::vector<std::uint32_t> faces{0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
+    arrays.vertices = corners;
+    arrays.face_vertices = faces;
+    return Polyhedron{corners, bodies::must(Model::from_level(arrays))};
+  };
+  const Polyhedron speck = tetrahedron(0x1p-53), whole = tetrahedron(1);
+  shapes::Random random(5);
+  for (int i = 0; i < 40; ++i) {
+    const Pose pose{random.rotation(), {0, 0, 0}};
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      for (std::uint32_t v = 0; v < 4; ++v) {
+        PairSeed seed;
+        seed.met = 1;
+        seed.a = {FeatureKind::Face, f}, seed.b = {FeatureKind::Vertex, v};
+        const Answer s = signed_distance(speck, whole, pose, seed);
+        EXPECT_EQ(fault(speck, whole, pose, s), "") << i;
+        EXPECT_LE((s.point_b - s.point_a - s.lower * s.normal).norm(), 1e-14) << i;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace swiftlet

@@ -185,7 +185,8 @@ class Polytope {
 
   /// Writes to `depth` the witness points whose difference is the nearest point, their vertex pairs and weights.
   void witness(Depth& depth) {
-    const NearestFacet nearest = nearest_point();
+    // Of several facets as low, points and plane must belong to one.
+    const NearestFacet nearest = nearest_point(best_.normal * best_.height);
     const HullFacet& facet = hull_.facet(nearest.facet);
     if (is_far(facet)) return;
     depth.active.count = 0;
@@ -322,15 +323,17 @@ class Polytope {
 
   // ---- The facets ----
 
-  /// The point of the polytope's surface nearest to the origin. A facet higher than `best_` by over law 2's bound is skipped.
-  NearestFacet nearest_point() {
+  /// The facets' point below the origin that is nearest to `to`: with 0, the point of the polytope's surface nearest to the
+  /// origin. A facet higher than `best_` by over law 2's bound is skipped.
+  NearestFacet nearest_point(const Vec& to = {0, 0, 0}) {
+    const auto off = [to = wide(to)](const Foot& at) { return dot(at.point - to, at.point - to); };
     const int lowest = hull_.lowest();
     NearestFacet best{lowest, foot_of(hull_.facet(lowest))};
     for (int k = 0; k < hull_.facet_count(); ++k) {
       const HullFacet& facet = hull_.facet(k);
       if (k == lowest || facet.height > best_.height + pair_.law_two) continue;
       const Foot at = foot_of(facet);
-      if (dot(at.point, at.point) < dot(best.foot.point, best.foot.point)) best = {k, at};
+      if (off(at) < off(best.foot)) best = {k, at};
     }
     return best;
   }
