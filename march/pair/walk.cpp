@@ -51,6 +51,9 @@ struct Scan {
   double highest;   ///< how far the highest neighbour rises above the feature, times the direction's length
   double falls_at;  ///< the distance falls on the way to a neighbour that rises more than this
   double over;      ///< the body rises no more than this above the feature along the direction at length 1; infinite if unknown
+  /// Where the highest neighbour is: a half-edge of the vertex's ring, or one that has the higher face beside the edge on its
+  /// left.
+  std::uint32_t to;
   bool falls() const { return highest > falls_at; }
 };
 
@@ -103,7 +106,7 @@ class Marcher {
       return {vertex(va), edge(h), distance2};
     }
     if (!at_b.falls()) return {along(a, up_ring(a, va, at_a)), edge(h), distance2};
-    const Rise from_b = up_side(b, v0, h, u, at_b);
+    const Rise from_b = up_side(b, v0, h, at_b);
     if (first_only_ || !at_a.falls()) return {vertex(va), face(from_b.to), distance2};
     const Rise from_a = up_ring(a, va, at_a);
     if (from_b.rate2() > from_a.rate2()) return {vertex(va), face(from_b.to), distance2};
@@ -153,8 +156,8 @@ class Marcher {
       end(a, {n, q0 - p0, p, q, blur_on<P>(u) + blur_on<Q>(v), over_a, over_b});
       return {edge(ha), edge(hb), distance2};
     }
-    const Rise rise_a = at_a.falls() ? up_side(a, a0, ha, u, at_a) : Rise{kNone, -1, 1},
-               rise_b = at_b.falls() ? up_side(b, b0, hb, v, at_b) : Rise{kNone, -1, 1};
+    const Rise rise_a = at_a.falls() ? up_side(a, a0, ha, at_a) : Rise{kNone, -1, 1},
+               rise_b = at_b.falls() ? up_side(b, b0, hb, at_b) : Rise{kNone, -1, 1};
     if (!at_b.falls() || (at_a.falls() && (first_only_ || rise_a.rate2() >= rise_b.rate2())))
       return swapped(edge_over_face(hb, b0, b1, q, v, at.t, a, rise_a.to, distance2));
     return edge_over_face(ha, a0, a1, p, u, at.s, b, rise_b.to, distance2);
@@ -180,31 +183,32 @@ class Marcher {
     return (Q::kWay + kU) * norm_1(u);
   }
 
-  /// Compares a vertex with its ring along `d`.
+  /// Compares a vertex with its ring along `d`. Taking the steepest way instead of the highest neighbour's would need fewer
+  /// states but more time.
   template <class P>
   Scan ring(P body, std::uint32_t v, const Vec& d) {
     const Vertex& record = body.view.vertices[v];
     const Vec own = body.into(d);
-    const HalfEdge *h = body.view.half_edges.data() + record.ring_begin, *end = h + record.ring_count;
+    const double height = dot(own, vec(record)), error = kScanError * body.view.extent * norm_1(d);
+    const std::uint32_t begin = record.ring_begin, end = begin + record.ring_count;
     double highest = -kUnknown;
-    for (; h != end; ++h) highest = max(highest, dot(own, body.own(h->head)));
-    walk_.plane_tests += record.ring_count;
-    const double rise = highest - dot(own, vec(record)), error = kScanError * body.view.extent * norm_1(d);
-    return {own, rise, error, rise < -error ? 0 : kUnknown};
+    std::uint32_t to = kNone, h = begin;
+    for (; h != end; ++h) {
+      const double other = dot(own, body.own(body.view.half_edges[h].head));
+      to = other > highest ? h : to;
+      highest = max(highest, other);
+      if (first_only_ && highest - height > error) break;
+    }
+    walk_.plane_tests += h - begin + (h != end);
+    const double rise = highest - height;
+    return {own, rise, error, rise < -error ? 0 : kUnknown, to};
   }
 
-  /// The way to the highest vertex of a ring, of which one rises, or to the first one that does. Taking the steepest way would
-  /// need fewer states but more time.
+  /// The way to the neighbour of a vertex that a scan found.
   template <class P>
-  Rise up_ring(P body, std::uint32_t v, const Scan& scan) const {
-    const Vec p = vec(body.view.vertices[v]);
-    const double height = dot(scan.own, p);
-    std::uint32_t h = body.view.vertices[v].ring_begin;
-    const std::uint32_t last = h + body.view.vertices[v].ring_count - 1;
-    const auto rise = [&] { return dot(scan.own, body.own(body.view.half_edges[h].head)) - height; };
-    while (h < last && (first_only_ ? !(rise() > scan.falls_at) : rise() < scan.highest)) ++h;
-    const Vec e = body.own(body.view.half_edges[h].head) - p;
-    return {h, rise(), dot(e, e)};
+  static Rise up_ring(P body, std::uint32_t v, const Scan& scan) {
+    const Vec e = body.own(body.view.half_edges[scan.to].head) - body.own(v);
+    return {scan.to, scan.highest, dot(e, e)};
   }
 
   /// Where the fall along the edge `ring.to` ends: the edge, or the vertex at its head if the distance falls up to there.
@@ -221,26 +225,25 @@ class Marcher {
     const Vertex& record = body.view.vertices[v0];
     const std::uint32_t left = counter_clockwise(record, h), right = clockwise(record, h);
     const Vec own = body.into(d), q0 = vec(record);
-    if (left == h) return {own, -kUnknown, 0, over};  // a segment
+    if (left == h) return {own, -kUnknown, 0, over, kNone};  // a segment
     walk_.plane_tests += 2;
-    const double highest = max(dot(own, body.own(body.view.half_edges[left].head) - q0),
-                               dot(own, body.own(body.view.half_edges[right].head) - q0));
+    const double left_rise = dot(own, body.own(body.view.half_edges[left].head) - q0),
+                 right_rise = dot(own, body.own(body.view.half_edges[right].head) - q0), highest = max(left_rise, right_rise);
+    const bool is_left = first_only_ ? left_rise > 0 : left_rise > right_rise;
     // At a right angle to the edge the corners are below too if they are by more than the tilt and rounding can lift them.
-    return {own, highest, 0, highest < -(over + kBesideError * body.reach) * norm_1(d) ? over : kUnknown};
+    const bool below = highest < -(over + kBesideError * body.reach) * norm_1(d);
+    return {own, highest, 0, below ? over : kUnknown, is_left ? h : right};
   }
 
-  /// The way over the face beside edge `h`, along `u`, that rises more, or over the first one that rises.
+  /// The way over the face beside edge `h` that a scan found.
   template <class Q>
-  Rise up_side(Q body, std::uint32_t v0, std::uint32_t h, const Vec& u, const Scan& scan) const {
+  static Rise up_side(Q body, std::uint32_t v0, std::uint32_t h, const Scan& scan) {
     const Vertex& record = body.view.vertices[v0];
-    const std::uint32_t left = counter_clockwise(record, h), right = clockwise(record, h);
-    const Vec to_left = body.own(body.view.half_edges[left].head) - vec(record),
-              to_right = body.own(body.view.half_edges[right].head) - vec(record);
-    const double left_rise = dot(scan.own, to_left), right_rise = dot(scan.own, to_right);
-    const bool is_left = first_only_ ? left_rise > 0 : left_rise > right_rise;
-    const Vec r = body.rotated(is_left ? to_left : to_right);
+    const std::uint32_t beside = scan.to == h ? counter_clockwise(record, h) : scan.to;
+    const Vec p = vec(record), u = body.own(body.view.half_edges[h].head) - p,
+              r = body.own(body.view.half_edges[beside].head) - p;
     const double ru = dot(r, u);
-    return {body.view.half_edges[is_left ? h : right].face, is_left ? left_rise : right_rise, dot(r, r) - ru * ru / dot(u, u)};
+    return {body.view.half_edges[scan.to].face, scan.highest, dot(r, r) - ru * ru / dot(u, u)};
   }
 
   /// The side of a face's prism that `p` is farthest beyond; kNone if `p` is inside the prism. `well_inside` becomes false if
