@@ -192,7 +192,7 @@ class Deepening {
       if (!(height > 0)) break;
       Motion m = pair_.motion;
       m.t = m.t + n * (height * kSlideBy);
-      const PairView apart = pair_view(pair.a, pair.b, m, pair_.shift, pair_.pose_error, pair_.law_two);
+      const PairView apart = pair_view(pair.a, pair.b, m, pair_.shift, pair_.pose_error);
       if (far && has_maps) {
         const SupportGjk found =
             support_gjk(apart, of_a, of_b, 0, sample_axis(apart, of_a, of_b, n), [](const SupportGjk& s) { return s.near; });

@@ -93,8 +93,7 @@ static inline double law_two(const ConvexView& a, const ConvexView& b, double sh
 /// At least the distance of any two points of a body, in its own frame.
 static inline double reach(const ConvexView& view) { return view.reach > 0 ? view.reach : 2 * kSqrt3 * view.extent; }
 
-static inline PairView pair_view(const ConvexView& a, const ConvexView& b, const Motion& m, double shift, double pose_error,
-                                 double most_width) {
+static inline PairView pair_view(const ConvexView& a, const ConvexView& b, const Motion& m, double shift, double pose_error) {
   const double stretch = kSqrt3 * (1 + pose_error), magnitude = stretch * (a.extent + b.extent) + shift,
                motion_error = kTurnError * stretch * b.extent + kShiftError * shift;
   return {a,
@@ -104,13 +103,12 @@ static inline PairView pair_view(const ConvexView& a, const ConvexView& b, const
           motion_error,
           kPointError * magnitude + motion_error,
           pose_error,
-          most_width,
+          law_two(a, b, shift, pose_error),
           reach(a),
           reach(b) * (1 + 2 * pose_error)};
 }
 static inline PairView pair_view(const ConvexView& a, const ConvexView& b, const Motion& m, double pose_error) {
-  const double shift = norm(m.t);
-  return pair_view(a, b, m, shift, pose_error, law_two(a, b, shift, pose_error));
+  return pair_view(a, b, m, norm(m.t), pose_error);
 }
 
 }  // namespace swiftlet

@@ -43,7 +43,7 @@ struct ModelPair {
     return deviation(place.level_a, place.level_b) + doubt(a.level(place.level_a)) + doubt(b.level(place.level_b));
   }
   PairView view_at(const Place& place) const {
-    return pair_view(a.level(place.level_a).view, b.level(place.level_b).view, motion, shift, pose_error, law_two);
+    return pair_view(a.level(place.level_a).view, b.level(place.level_b).view, motion, shift, pose_error);
   }
 
   const Shape& a;
