@@ -144,6 +144,12 @@ inline constexpr double kCloseShare = 0.25;
 /// Bounds the rounding of the sums that make a point of each body from a vertex and at most two vectors, relative to the pair's
 /// magnitude: 2 sums, each u of a vector no longer than the body's points are.
 inline constexpr double kStandError = 2 * kU;
+/// Bounds what the weights of a point of a triangle add, relative to the lengths of its sides: they sum to 1 only to 3 u, and
+/// their products have 1 u. Rounded up.
+inline constexpr double kWeightError = 5 * kU;
+/// Bounds how far the point below p is above or below the plane of a face of many corners, relative to the vector from a corner
+/// to p: the height has 1 difference, 1 product and 2 sums, the drop by it 3 u. `kImageError` comes on top. Rounded up.
+inline constexpr double kDropError = 8 * kU;
 /// Bounds how far the point below p in a face of many corners may be from where own coordinates show it, relative to the pair's
 /// magnitude: R^T (p - t) has 7 u, its differences and products 8 u, rounded up; and the pose, taken for a rigid motion, adds
 /// `kFootTurn` times its error: 3 for R^T in place of the inverse, 3 for the direction of the plane's normal; rounded up.

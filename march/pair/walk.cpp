@@ -273,7 +273,7 @@ class Marcher {
     const FacePlane& plane = body.view.planes[f];
     const double stretch = 1 + 2 * pair_.pose_error;
     seen.point_b = seen.point_a - n * (height / dot(n, n));
-    seen.blur = plane.thickness * stretch + 8 * kU * norm_1(seen.apart);
+    seen.blur = plane.thickness * stretch + (kDropError + Q::kImage) * norm_1(seen.apart);
     seen.over_b = plane.over * stretch + Q::kImage * body.reach;
     if (body.view.reach == 0 || seen.blur + seen.over_b > 2 * kCloseShare * pair_.law_two)
       return search_facets(body, prism.first(), seen), true;
@@ -289,7 +289,7 @@ class Marcher {
     const double nn = dot(n, n), tilt = (2 * Q::kWay + kFlatError) * std::sqrt(dot(u, u) * dot(v, v) / nn);
     const typename Prism<Q>::Beyond at = prism.beyond(seen.point_a - prism.corner());
     seen.point_b = prism.corner() + u * (-at.v / nn) + v * (-at.u / nn);
-    seen.blur = (Q::kWay + 5 * kU) * (norm_1(u) + norm_1(v));
+    seen.blur = (Q::kWay + kWeightError) * (norm_1(u) + norm_1(v));
     const HalfEdge* h = body.view.half_edges.data();
     const std::array corners{origin(body.view, prism.first()), h[prism.first()].head, h[prism.second()].head};
     seen.over_b = surely(body, corners, n, tilt * body.reach);
