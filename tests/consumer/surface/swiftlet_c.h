@@ -27,7 +27,7 @@ typedef struct {
 } swiftlet_pose;
 
 typedef struct {
-  uint32_t words[8]; /* zero: cold */
+  uint32_t words[16]; /* zero: cold */
 } swiftlet_seed;
 
 typedef enum {
