@@ -434,6 +434,28 @@ TEST(March, ReflectionsAreAnsweredAsGiven) {
   }
 }
 
+/// Triangles and larger faces, of either body, at poses where planes and lattice points meet.
+TEST(March, ReflectionsOfCornersAndFacesAreAnsweredAsGiven) {
+  const std::vector<bodies::Polyhedron> shapes{bodies::cube(), bodies::octahedron(), bodies::tetrahedron(1),
+                                               bodies::tetrahedron(3)};
+  shapes::Random random(36);
+  for (const bodies::Polyhedron& a : shapes) {
+    for (const bodies::Polyhedron& b : shapes) {
+      const Model model_a = model(a), model_b = model(b);
+      const ConvexView &view_a = model_a.level(0).view, &view_b = model_b.level(0).view;
+      for (int i = 0; i < 150; ++i) {
+        const auto steps = [&] { return 0.75 * double(int(random.bits() % 13) - 6); };
+        const Mat3 turn = i % 2 ? random.rotation() : Mat3(Mat3::Identity());
+        const Pose pose{turn * Vec3(1, 1, -1).asDiagonal(), {steps(), steps(), steps()}};
+        const MarchResult r = march(view_a, view_b, pose);
+        const oracle::Truth truth = oracle::distance(a.points, b.points, pose);
+        ASSERT_TRUE(oracle::holds(truth, r.lower, r.upper)) << i << ' ' << r.lower << ' ' << truth.distance << ' ' << r.upper;
+        ASSERT_EQ(r.status == MarchStatus::Disjoint, r.lower > 0) << i;
+      }
+    }
+  }
+}
+
 TEST(March, TagsOfEdgesAndVerticesAreTheLargestBeside) {
   const Model cube = model(bodies::cube());
   ConvexView v = cube.level(0).view;

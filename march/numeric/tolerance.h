@@ -137,7 +137,7 @@ inline constexpr double kAcrossError = 10 * kU;
 inline constexpr double kFlatError = 4 * kU;
 /// Bounds the error of cof(R) n, the image of a normal n, relative to |n|: 2 u for each cofactor and 3 u for their sum with n,
 /// (2 sqrt(3) + 3) u in each coordinate, sqrt(3) times that for the vector: 11.2 u. Rounded up.
-inline constexpr double kImageError = 16 * kU;
+inline constexpr double kImageError = 12 * kU;
 /// A plane that may lean by more than this share of law 2's bound over a body's reach is held against the rings of the
 /// feature's corners, so that its lean counts only as far as the feature goes.
 inline constexpr double kCloseShare = 0.25;

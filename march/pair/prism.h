@@ -20,11 +20,12 @@ class Prism {
       : body_(body),
         is_triangle_(f >= body.view.planes.size()),
         first_(body.view.face_first[f]),
+        sense_(body.sense()),
         corner_(body.point(origin(body.view, first_))) {
     if (!is_triangle_) {
       const FacePlane& plane = body.view.planes[f];
       own_normal_ = vec(plane);
-      normal_ = body.image(own_normal_);
+      normal_ = body.image(own_normal_) * sense_;
       return;
     }
     span();
@@ -52,7 +53,7 @@ class Prism {
   /// `r` leads from `corner()` to a point. Of a triangle only: beyond the third side a point is -(u + v + |normal|^2).
   Beyond beyond(const Vec& r) const {
     const Vec c = cross(normal_, r);
-    return {dot(u_, c), -dot(v_, c)};
+    return {dot(u_, c) * sense_, -dot(v_, c) * sense_};
   }
 
   /// Calls visit(half_edge, uu, beyond, slope) for each side of the face and returns the number of sides. `uu` is the squared
@@ -101,7 +102,7 @@ class Prism {
 
   struct Facet {};
   Prism(Body body, std::uint32_t h, Facet)
-      : body_(body), is_triangle_(true), first_(h), corner_(body.point(origin(body.view, h))) {
+      : body_(body), is_triangle_(true), first_(h), sense_(body.sense()), corner_(body.point(origin(body.view, h))) {
     span();
   }
   void span() {
@@ -109,13 +110,14 @@ class Prism {
     second_ = next_in_facet(body_.view, first_);
     u_ = body_.way(root, body_.view.half_edges[first_].head);
     v_ = body_.way(root, body_.view.half_edges[second_].head);
-    normal_ = cross(u_, v_);
+    normal_ = cross(u_, v_) * sense_;
   }
 
   const Body body_;
   const bool is_triangle_;
   const std::uint32_t first_;
   std::uint32_t second_ = kNone;  ///< a triangle's second half-edge
+  const double sense_;
   const Vec corner_;
   Vec u_{0, 0, 0}, v_{0, 0, 0}, normal_, own_normal_{0, 0, 0};
 };

@@ -275,8 +275,7 @@ class Marcher {
     seen.point_b = seen.point_a - n * (height / dot(n, n));
     seen.blur = plane.thickness * stretch + (kDropError + Q::kImage) * norm_1(seen.apart);
     seen.over_b = plane.over * stretch + Q::kImage * body.reach;
-    if (body.view.reach == 0 || seen.blur + seen.over_b > 2 * kCloseShare * pair_.law_two)
-      return search_facets(body, prism.first(), seen), true;
+    if (body.view.reach == 0 || seen.blur + seen.over_b > pair_.law_two) return search_facets(body, prism.first(), seen), true;
     if (!well_inside) seen.over_b = kUnknown;
     return false;
   }
