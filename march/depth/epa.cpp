@@ -429,7 +429,7 @@ Depth epa(const PairView& pair, const Level& a, const Level& b, const DepthStart
   if (end == End::Enough || (end == End::Flat && polytope.narrow(0))) depth.end = DepthEnd::Converged;
   if (end == End::Apart) depth.end = DepthEnd::Apart;
   if (end == End::Budget) depth.end = DepthEnd::Budget;
-  depth.upper = max(polytope.best().height, depth.lower);
+  depth.upper = end == End::Apart ? polytope.best().height : max(polytope.best().height, depth.lower);
   depth.normal = polytope.best().normal;
   depth.steps = polytope.steps();
   return depth;
