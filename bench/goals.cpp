@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -16,15 +15,6 @@
 
 namespace swiftlet::bench {
 namespace {
-
-std::string format(const char* pattern, ...) {
-  char line[256];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(line, sizeof line, pattern, arguments);
-  va_end(arguments);
-  return line;
-}
 
 std::string motion(const Goal& goal) {
   std::string text = goal.step == kRandomStep ? "random" : goal.step == 0 ? "same pose" : format("%g deg", goal.step);

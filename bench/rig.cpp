@@ -26,14 +26,18 @@ constexpr std::size_t kFloorPoses = 20;
 constexpr double kFloorMove = 1e-9;  // radii
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-std::string text(const char* format, ...) {
+}  // namespace
+
+std::string format(const char* pattern, ...) {
   char line[512];
   va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
+  va_start(arguments, pattern);
+  std::vsnprintf(line, sizeof line, pattern, arguments);
   va_end(arguments);
   return line;
 }
+
+namespace {
 
 /// A method in a cell: its session, and what it answered last.
 class Runner {
@@ -241,24 +245,25 @@ std::string csv_header() {
 }
 
 std::string csv_line(const Row& r) {
-  return text("%s,%s,%s,%u,%g,%s,%s,%s,%d,%g,%zu,%zu,%.5g,%.3g,%.5g,%.4g,%.3g,%.3g,%zu,%zu,%d,%016llx,%d,%.5g,%.5g,%.5g,%.4g\n",
-              r.group.c_str(), r.scene.c_str(), r.shape.c_str(), r.triangles, r.step, name(r.question), r.series.c_str(),
-              r.choice.c_str(), r.levels, r.allowed, r.queries, r.rounds, r.ns, r.spread, r.floor_ns, r.ratio(), r.error,
-              r.mean_error, r.wrong, r.failed, int(r.flagged), static_cast<unsigned long long>(r.hash), int(r.hash_true),
-              r.steps, r.plane_tests, r.bytes, r.build_seconds);
+  return format(
+      "%s,%s,%s,%u,%g,%s,%s,%s,%d,%g,%zu,%zu,%.5g,%.3g,%.5g,%.4g,%.3g,%.3g,%zu,%zu,%d,%016llx,%d,%.5g,%.5g,%.5g,%.4g\n",
+      r.group.c_str(), r.scene.c_str(), r.shape.c_str(), r.triangles, r.step, name(r.question), r.series.c_str(),
+      r.choice.c_str(), r.levels, r.allowed, r.queries, r.rounds, r.ns, r.spread, r.floor_ns, r.ratio(), r.error, r.mean_error,
+      r.wrong, r.failed, int(r.flagged), static_cast<unsigned long long>(r.hash), int(r.hash_true), r.steps, r.plane_tests,
+      r.bytes, r.build_seconds);
 }
 
 std::string table(std::span<const Row> rows) {
   if (rows.empty()) return {};
   const Row& first = rows.front();
-  std::string result = text("\n%s: %s, %s; %zu queries a round; floor %.1f ns\n", first.group.c_str(), first.scene.c_str(),
-                            name(first.question), first.queries, first.floor_ns);
-  result += text("  %-26s %9s %6s %7s %8s %6s %6s %8s %8s %7s %8s  %s\n", "", "ns", "spread", "/floor", "error/r", "wrong",
-                 "failed", "steps", "tests", "B/tri", "build s", "hash");
+  std::string result = format("\n%s: %s, %s; %zu queries a round; floor %.1f ns\n", first.group.c_str(), first.scene.c_str(),
+                              name(first.question), first.queries, first.floor_ns);
+  result += format("  %-26s %9s %6s %7s %8s %6s %6s %8s %8s %7s %8s  %s\n", "", "ns", "spread", "/floor", "error/r", "wrong",
+                   "failed", "steps", "tests", "B/tri", "build s", "hash");
   for (const Row& r : rows) {
-    result += text("  %-26s %9.1f %5.0f%% %7.2f %8.1e %6zu %6zu %8.2f %8.1f %7.1f %8.3g  %08llx%s\n", r.series.c_str(), r.ns,
-                   100 * r.spread, r.ratio(), r.error, r.wrong, r.failed, r.steps, r.plane_tests, r.bytes, r.build_seconds,
-                   static_cast<unsigned long long>(r.hash >> 32), r.flagged ? "  <-- WRONG" : "");
+    result += format("  %-26s %9.1f %5.0f%% %7.2f %8.1e %6zu %6zu %8.2f %8.1f %7.1f %8.3g  %08llx%s\n", r.series.c_str(), r.ns,
+                     100 * r.spread, r.ratio(), r.error, r.wrong, r.failed, r.steps, r.plane_tests, r.bytes, r.build_seconds,
+                     static_cast<unsigned long long>(r.hash >> 32), r.flagged ? "  <-- WRONG" : "");
   }
   return result;
 }

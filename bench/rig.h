@@ -72,6 +72,9 @@ inline constexpr double kRandomStep = 400;
 /// one over the scene's last 5 000 queries. A method that takes longer than 10 us per query gets 500, and two rounds.
 std::vector<Row> measure(const Asked& asked, Question question, std::span<const Entrant> entrants, int rounds);
 
+/// A line as `std::printf` writes it, of at most 511 characters.
+std::string format(const char* pattern, ...);
+
 std::string csv_header();
 std::string csv_line(const Row& row);
 /// The cell as a table for people.

@@ -76,7 +76,7 @@ class Deepening {
     lower = -kInfinity, upper = kInfinity;
     // The depth is at most `most`, by the centres and bounding radii. A pair whose deviation exceeds the width allowed at that
     // depth cannot answer.
-    double most = a_.radius() + b_.radius() * (1 + 2 * pair_.pose_error) - norm(line_.in_a);
+    double most = a_.radius() + b_.radius() * stretch_of(pair_.pose_error) - norm(line_.in_a);
     place_ = stop_.is_exact() ? Place{finest_a_, finest_b_, {}} : coarsest_place(a_, b_);
     near_ = seed.met && seed.level_a < a_.level_count() && seed.level_b < b_.level_count() &&
             turn_of(line_, seed, a_.level(seed.level_a), b_.level(seed.level_b)) != Turn::Far;

@@ -143,7 +143,7 @@ inline constexpr double kImageError = 12 * kU;
 inline constexpr double kCloseShare = 0.25;
 /// Bounds the rounding of the sums that make a point of each body from a vertex and at most two vectors, relative to the pair's
 /// magnitude: 2 sums, each u of a vector no longer than the body's points are.
-inline constexpr double kStandError = 2 * kU;
+inline constexpr double kPointSumError = 2 * kU;
 /// Bounds what the weights of a point of a triangle add, relative to the lengths of its sides: they sum to 1 only to 3 u, and
 /// their products have 1 u. Rounded up.
 inline constexpr double kWeightError = 5 * kU;
@@ -290,8 +290,8 @@ inline constexpr double kGridError = 2 * kU;
 /// u x v and 4 u for the rest, times 2, as w is no longer than twice the magnitude; rounded up.
 inline constexpr double kOutwardError = 32 * kU;
 /// The ring of points around the start's polygon is searched for along directions that lean outwards from the polygon's normal.
-/// This is the tangent of the angle: half and twice of it cost more on the whole. Where the
-/// ring would lie in the polygon's plane, directions point outwards and lean below that plane by the same angle.
+/// This is the tangent of the angle: half and twice of it cost more on the whole. Where the ring would lie in the polygon's
+/// plane, directions point outwards and lean below that plane by the same angle.
 inline constexpr double kFlare = 0.5;
 /// Around a facet to be confirmed the direction beyond a side leans by no more than this times the angle at the origin between
 /// the nearest point of the facet's plane and that side. Planes through the side that lean by two such angles are as near as

@@ -3,7 +3,6 @@
 #include "pair/certify.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 #include "body/half_edge.h"

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include <swiftlet/march.h>
 
@@ -79,7 +80,7 @@ static inline Doubt certify(const PairView& pair, const Nearest& seen, Proof& pr
   const double length = std::sqrt(apart2);
   proof.normal = seen.normal * (1 / std::sqrt(square));
   proof.lower = gap(pair, proof.normal, seen.apart, over);
-  proof.upper = max(proof.lower, length * (1 + kNormError) + pair.motion_error + kStandError * pair.magnitude + seen.blur);
+  proof.upper = max(proof.lower, length * (1 + kNormError) + pair.motion_error + kPointSumError * pair.magnitude + seen.blur);
   if (!(proof.lower > pair.law_two)) return Doubt::Threshold;
   if (!(proof.upper - proof.lower <= pair.law_two)) return Doubt::Width;
   const Vec aside = apart - proof.normal * length;

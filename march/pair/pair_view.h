@@ -93,6 +93,9 @@ static inline double law_two(const ConvexView& a, const ConvexView& b, double sh
   return law_two(a.extent, b.extent, shift, pose_error);
 }
 
+/// Bounds how many times longer a pose within `pose_error` of a rigid motion makes a vector: the root of 1 + 3 `pose_error`.
+static inline double stretch_of(double pose_error) { return 1 + 2 * pose_error; }
+
 /// At least the distance of any two points of a body, in its own frame.
 static inline double reach(const ConvexView& view) { return view.reach > 0 ? view.reach : 2 * kSqrt3 * view.extent; }
 
@@ -108,7 +111,7 @@ static inline PairView pair_view(const ConvexView& a, const ConvexView& b, const
           pose_error,
           law_two(a, b, shift, pose_error),
           reach(a),
-          reach(b) * (1 + 2 * pose_error)};
+          reach(b) * stretch_of(pose_error)};
 }
 static inline PairView pair_view(const ConvexView& a, const ConvexView& b, const Motion& m, double pose_error) {
   return pair_view(a, b, m, norm(m.t), pose_error);

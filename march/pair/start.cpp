@@ -6,7 +6,7 @@
 
 namespace swiftlet {
 
-MarchStart resettled(const PairView& pair, const MarchStart& start, std::uint32_t& plane_tests) {
+MarchStart made_legal(const PairView& pair, const MarchStart& start, std::uint32_t& plane_tests) {
   MarchStart s = start;
   const bool known_a = names_feature(pair.a, s.a), known_b = names_feature(pair.b, s.b);
   if (!known_a || !known_b) {

@@ -12,13 +12,14 @@
 
 namespace swiftlet {
 
+/// `settled` of a start that is not legal.
+MarchStart made_legal(const PairView& pair, const MarchStart& start, std::uint32_t& plane_tests);
 /// `start` made legal: an id that names no feature of its view becomes the support vertex along the line of centres; of two
 /// faces, that of B becomes one of its vertices. `plane_tests` grows by the tests of the support climbs.
-MarchStart resettled(const PairView& pair, const MarchStart& start, std::uint32_t& plane_tests);
 static inline MarchStart settled(const PairView& pair, const MarchStart& start, std::uint32_t& plane_tests) {
   const bool faces = start.a.kind() == FeatureKind::Face && start.b.kind() == FeatureKind::Face;
   if (names_feature(pair.a, start.a) && names_feature(pair.b, start.b) && !faces) return start;
-  return resettled(pair, start, plane_tests);
+  return made_legal(pair, start, plane_tests);
 }
 
 }  // namespace swiftlet

@@ -78,7 +78,7 @@ class Marcher {
     const Scan at_a = ring(a, va, d), at_b = ring(b, vb, -d);
     const double distance2 = dot(d, d);
     if (!at_a.falls() && !at_b.falls()) {
-      end(a, {d, d, p, q, 0, surely(a, std::array{va}, d, at_a.over), surely(b, std::array{vb}, -d, at_b.over)});
+      end(a, {d, d, p, q, 0, proved_rise(a, std::array{va}, d, at_a.over), proved_rise(b, std::array{vb}, -d, at_b.over)});
       return {vertex(va), vertex(vb), distance2};
     }
     if (!at_b.falls()) return {along(a, up_ring(a, va, at_a)), vertex(vb), distance2};
@@ -101,7 +101,8 @@ class Marcher {
     const double distance2 = dot(up, up);
     const Scan at_b = sides(b, v0, h, up, kAcrossError + Q::kWay), at_a = ring(a, va, -up);
     if (!at_b.falls() && !at_a.falls()) {
-      const double over_a = surely(a, std::array{va}, -up, at_a.over), over_b = surely(b, std::array{v0, v1}, up, at_b.over);
+      const double over_a = proved_rise(a, std::array{va}, -up, at_a.over),
+                   over_b = proved_rise(b, std::array{v0, v1}, up, at_b.over);
       end(a, {-up, -r, p, q0 + u * s, blur_on<Q>(u), over_a, over_b});
       return {vertex(va), edge(h), distance2};
     }
@@ -126,8 +127,8 @@ class Marcher {
     if (!below.falls()) {
       Nearest seen{-n, prism.corner() - p, p, {}, 0, below.over, kUnknown};
       // A facet within a face has a direction of its own.
-      if (stand(prism, f, height, well_inside, seen)) seen.over_a = ring(a, va, seen.normal).over;
-      seen.over_a = surely(a, std::array{va}, seen.normal, seen.over_a);
+      if (foot_on_face(prism, f, height, well_inside, seen)) seen.over_a = ring(a, va, seen.normal).over;
+      seen.over_a = proved_rise(a, std::array{va}, seen.normal, seen.over_a);
       end(a, seen);
       return {vertex(va), face(f), distance2};
     }
@@ -152,7 +153,8 @@ class Marcher {
     const auto [n, tilt_u, tilt_v] = between_edges(u, uu, v, vv, d);
     const Scan at_a = sides(a, a0, ha, n, tilt_u + P::kWay), at_b = sides(b, b0, hb, -n, tilt_v + Q::kWay);
     if (!at_a.falls() && !at_b.falls()) {
-      const double over_a = surely(a, std::array{a0, a1}, n, at_a.over), over_b = surely(b, std::array{b0, b1}, -n, at_b.over);
+      const double over_a = proved_rise(a, std::array{a0, a1}, n, at_a.over),
+                   over_b = proved_rise(b, std::array{b0, b1}, -n, at_b.over);
       end(a, {n, q0 - p0, p, q, blur_on<P>(u) + blur_on<Q>(v), over_a, over_b});
       return {edge(ha), edge(hb), distance2};
     }
@@ -266,12 +268,12 @@ class Marcher {
   /// face's plane proves. Of a face that is flat only up to the input's rounding, the exact facet proves: returns true if
   /// `seen` has its normal, along which the first body is not compared yet.
   template <class Q>
-  [[gnu::noinline]] bool stand(const Prism<Q>& prism, std::uint32_t f, double height, bool well_inside, Nearest& seen) {
-    if (prism.is_triangle()) return stand_on_facet(prism, seen), false;
+  [[gnu::noinline]] bool foot_on_face(const Prism<Q>& prism, std::uint32_t f, double height, bool well_inside, Nearest& seen) {
+    if (prism.is_triangle()) return foot_on_facet(prism, seen), false;
     const Q& body = prism.body();
     const Vec& n = prism.normal();
     const FacePlane& plane = body.view.planes[f];
-    const double stretch = 1 + 2 * pair_.pose_error;
+    const double stretch = stretch_of(pair_.pose_error);
     seen.point_b = seen.point_a - n * (height / dot(n, n));
     seen.blur = plane.thickness * stretch + (kDropError + Q::kImage) * norm_1(seen.apart);
     seen.over_b = plane.over * stretch + Q::kImage * body.reach;
@@ -282,7 +284,7 @@ class Marcher {
 
   /// Completes `seen` for the point below its first one in a triangle.
   template <class Q>
-  void stand_on_facet(const Prism<Q>& prism, Nearest& seen) {
+  void foot_on_facet(const Prism<Q>& prism, Nearest& seen) {
     const Vec &n = prism.normal(), &u = prism.u(), &v = prism.v();
     const Q& body = prism.body();
     const double nn = dot(n, n), tilt = (2 * Q::kWay + kFlatError) * std::sqrt(dot(u, u) * dot(v, v) / nn);
@@ -291,11 +293,11 @@ class Marcher {
     seen.blur = (Q::kWay + kWeightError) * (norm_1(u) + norm_1(v));
     const HalfEdge* h = body.view.half_edges.data();
     const std::array corners{origin(body.view, prism.first()), h[prism.first()].head, h[prism.second()].head};
-    seen.over_b = surely(body, corners, n, tilt * body.reach);
+    seen.over_b = proved_rise(body, corners, n, tilt * body.reach);
   }
 
   /// Completes `seen` for the nearest point in a face made of several facets, of which `h` begins one: goes from facet to facet
-  /// across the diagonals that the first point is beyond, to a triangle below it or to a ridge between two.
+  /// across the diagonals that the first point is beyond, to the triangle below it, or to the diagonal between two.
   template <class Q>
   [[gnu::noinline]] void search_facets(Q body, std::uint32_t h, Nearest& seen) {
     seen.over_b = kUnknown;
@@ -314,30 +316,30 @@ class Marcher {
       });
       seen.normal = -facet.normal();
       seen.apart = facet.corner() - seen.point_a;
-      if (out == kNone) return stand_on_facet(facet, seen);
+      if (out == kNone) return foot_on_facet(facet, seen);
       if (leaves_face) return;
-      if (out == from) return stand_on_ridge(body, out, seen);
+      if (out == from) return foot_on_diagonal(body, out, seen);
       from = h = body.view.half_edges[out].twin;
     }
   }
 
   /// Completes `seen` for the point of edge `h` that is nearest to its first one.
   template <class Q>
-  void stand_on_ridge(Q body, std::uint32_t h, Nearest& seen) {
+  void foot_on_diagonal(Q body, std::uint32_t h, Nearest& seen) {
     const std::uint32_t tail = origin(body.view, h);
     const Vec q = body.point(tail), u = body.way(tail, body.view.half_edges[h].head), r = seen.point_a - q;
     const double length2 = dot(u, u), s = dot(r, u) / length2;
     if (!(s > 0 && s < 1)) return;
     const Vec up = across(r - u * s, u, length2);
-    const double over_b =
-        surely(body, std::array{tail, body.view.half_edges[h].head}, up, sides(body, tail, h, up, kAcrossError + Q::kWay).over);
+    const double over_b = proved_rise(body, std::array{tail, body.view.half_edges[h].head}, up,
+                                      sides(body, tail, h, up, kAcrossError + Q::kWay).over);
     seen = {-up, -r, seen.point_a, q + u * s, blur_on<Q>(u), seen.over_a, over_b};
   }
 
   /// How far the body rises along `d`, taken at length 1, above the first of a minimum's `corners`: `over`, or, where that is
   /// not known or counts for too much, what the plateau around the corners proves.
   template <class Q, std::size_t kCount>
-  double surely(const Q& body, const std::array<std::uint32_t, kCount>& corners, const Vec& d, double over) {
+  double proved_rise(const Q& body, const std::array<std::uint32_t, kCount>& corners, const Vec& d, double over) {
     return over <= kCloseShare * pair_.law_two
                ? over
                : min(over, above_plateau(body.view, body.into(d), norm_1(d), corners) / norm(d));

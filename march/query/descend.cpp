@@ -71,7 +71,7 @@ class Descent {
         answer_(answer),
         proof_(proof) {}
 
-  /// Begins at `place`, unless a walk from there has shown already that another start is better.
+  /// Begins at the features of `place`; if it has none, or a walk from them gets lost, on support maps or the coarsest pair.
   void start(Place place, PairSeed& seed) {
     const bool warm = is_warm(place.start);
     const bool walked = warm && march(place, pair_.has_maps);

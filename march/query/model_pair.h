@@ -32,7 +32,7 @@ struct ModelPair {
   /// The most by which the exact hulls may be farther apart than these levels. A pose that is not exactly orthonormal may
   /// stretch B, and its deviation, by 1.5 times its error and a little of second order.
   double deviation(int level_a, int level_b) const {
-    return a.level(level_a).deviation + b.level(level_b).deviation * (1 + 2 * pose_error);
+    return a.level(level_a).deviation + b.level(level_b).deviation * stretch_of(pose_error);
   }
   /// An estimate, not a bound, of the error of what the support maps say about the exact hulls: the deviation, and a doubt for
   /// each map that is proportional to the square of its cells' width.

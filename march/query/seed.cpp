@@ -30,8 +30,8 @@ FeatureId table_start(const Model& model, const Vec3& direction) {
   return {FeatureKind::Vertex, model.table()[sample]};
 }
 
-Place first_place(const Shape& a, const Shape& b, const Line& line, const PairSeed& seed, int finest_a, int finest_b,
-                  StartPolicy policy) {
+Place place_by_policy(const Shape& a, const Shape& b, const Line& line, const PairSeed& seed, int finest_a, int finest_b,
+                      StartPolicy policy) {
   const bool seed_fits = fits(seed, a, b, finest_a, finest_b);
   const MarchStart of_seed{seed.a, seed.b};
   Place coarsest = coarsest_place(a, b);

@@ -69,15 +69,15 @@ static inline bool fits(const PairSeed& seed, const Shape& a, const Shape& b, in
 }
 
 /// The place where a query begins by a policy other than Automatic.
-Place first_place(const Shape& a, const Shape& b, const Line& line, const PairSeed& seed, int finest_a, int finest_b,
-                  StartPolicy policy);
+Place place_by_policy(const Shape& a, const Shape& b, const Line& line, const PairSeed& seed, int finest_a, int finest_b,
+                      StartPolicy policy);
 
 /// The place where a query begins, and how far the line of centres has turned if it begins at the seed's features. `finest_a`
 /// and `finest_b` are the finest levels that it may read.
 static inline Place first_place(const Shape& a, const Shape& b, const Line& line, const PairSeed& seed, int finest_a,
                                 int finest_b, StartPolicy policy, Turn& turn) {
   turn = Turn::Some;
-  if (policy != StartPolicy::Automatic) return first_place(a, b, line, seed, finest_a, finest_b, policy);
+  if (policy != StartPolicy::Automatic) return place_by_policy(a, b, line, seed, finest_a, finest_b, policy);
   if (!fits(seed, a, b, finest_a, finest_b)) return coarsest_place(a, b);
   const Place place{seed.level_a, seed.level_b, {seed.a, seed.b}, kTrialSteps};
   const Level &level_a = a.level(place.level_a), &level_b = b.level(place.level_b);
