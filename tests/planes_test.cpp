@@ -241,6 +241,49 @@ TEST(Reach, BoundsAllDistances) {
   EXPECT_EQ(ConvexView{}.reach, 0) << "a view made by hand knows none";
 }
 
+/// Expects of a level that a ball around the centre is inside, and that none larger by more than rounding is. Returns its
+/// radius.
+double expect_inner_radius(const ConvexView& view) {
+  const Point centre{Number(view.centre.x()), Number(view.centre.y()), Number(view.centre.z())};
+  const std::vector<Point> points = rational_points(view);
+  const Number r(view.inner_radius), more = r + Number(64 * kU * view.extent);
+  bool tight = view.face_first.empty();
+  for (std::uint32_t h = 0; h < view.half_edges.size() && !view.face_first.empty(); ++h) {
+    const Point &a = points[origin(view, h)], &b = points[view.half_edges[h].head],
+                &c = points[view.half_edges[next_in_facet(view, h)].head];
+    Point u, v, w;
+    for (std::size_t i = 0; i < 3; ++i) u[i] = b[i] - a[i], v[i] = c[i] - a[i], w[i] = a[i] - centre[i];
+    const Point n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    const Number depth = n[0] * w[0] + n[1] * w[1] + n[2] * w[2], nn = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    if (r > 0) {
+      EXPECT_GE(depth, 0);
+      EXPECT_GE(depth * depth, r * r * nn);
+    }
+    tight = tight || depth <= 0 || depth * depth <= more * more * nn;
+  }
+  EXPECT_TRUE(tight) << "a ball larger than " << view.inner_radius << " is inside";
+  return view.inner_radius;
+}
+
+TEST(InnerRadius, IsThatOfTheLargestBallAroundTheCentre) {
+  std::uint64_t seed = 400;
+  int balls = 0;
+  std::vector<Mesh> bodies = parts();
+  for (const Mesh& mesh : {shapes::tetrahedron(), shapes::octahedron(), shapes::icosahedron(), shapes::sliver(),
+                           shapes::random_polytope(40, 1), shapes::polygon(9), shapes::segment(3), shapes::point()})
+    bodies.push_back(mesh);
+  for (const Mesh& part : bodies) {
+    for (const Mesh& mesh : turned(part, seed++)) {
+      const Model model = built(mesh);
+      for (int level = 0; level < model.level_count(); ++level) balls += expect_inner_radius(model.level(level).view) > 0;
+    }
+  }
+  EXPECT_GT(balls, 50);
+  for (const Body& box : {Body::box({-1, -2, -3}, {2, 1, 5}), Body::box({0.1, 0.2, 0.3}, {0.4, 0.7, 0.9})})
+    EXPECT_GT(expect_inner_radius((*ShapeOf(box)).level(0).view), 0);
+  EXPECT_EQ((*ShapeOf(Body::box({0, 0, 0}, {1, 1, 0}))).level(0).view.inner_radius, 0);
+}
+
 TEST(Reach, PrimitivesKnowIt) {
   shapes::Random random(9);
   const auto point = [&] { return Vec3(random.in_ball() + Vec3(1, 2, 3)); };

@@ -186,8 +186,15 @@ TEST(Distance, StopsBeyondTheCutOff) {
   const Answer cut = distance(pair.a, pair.b, far, seed, options), exact = distance(pair.a, pair.b, far, seed_exact);
   EXPECT_EQ(cut.status, Status::Beyond);
   EXPECT_GT(cut.lower, 2);
-  EXPECT_GT(cut.level_a, 0) << "the coarsest pair is far enough";
-  EXPECT_LT(cut.steps + cut.plane_tests, exact.steps + exact.plane_tests);
+  EXPECT_EQ(cut.levels_visited, 0) << "the balls around the bodies are far enough";
+  EXPECT_LE(cut.lower, exact.upper);
+  EXPECT_GE(cut.upper, exact.lower);
+  far.translation = {2.3, 0, 0};
+  options.beyond = 0.05;
+  const Answer close = distance(pair.a, pair.b, far, seed, options);
+  EXPECT_EQ(close.status, Status::Beyond);
+  EXPECT_GT(close.level_a, 0) << "a coarse pair is far enough";
+  EXPECT_EQ(close.steps, 0u);
 }
 
 TEST(Distance, SaysWhichPrecisionWasOutOfReach) {

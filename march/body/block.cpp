@@ -151,9 +151,9 @@ std::string fault(const LevelHeader& l, bool finest, bool coarsest) {
   if (l.section.bytes != section_bytes(l, finest, coarsest)) return "has the wrong size";
   if (l.vertex_count < 1) return "is empty";
   const bool zeros = l.unused == 0 && std::ranges::all_of(l.reserved, [](std::uint64_t word) { return word == 0; });
-  if (!finite({l.deviation, l.volume, l.edge_length, l.reach}) || !zeros || !(l.reach >= 0) ||
-      !(l.extent == 0 || (l.extent >= kLeastExtent && l.extent <= kMostCoordinate)) || !(l.deviation >= 0) ||
-      (finest && l.deviation != 0))
+  if (!finite({l.deviation, l.volume, l.edge_length, l.reach, l.inner_radius}) || !zeros || !(l.reach >= 0) ||
+      !(l.inner_radius >= 0) || !(l.extent == 0 || (l.extent >= kLeastExtent && l.extent <= kMostCoordinate)) ||
+      !(l.deviation >= 0) || (finest && l.deviation != 0))
     return "has a number out of range";
   if (l.plane_count > l.face_count || l.half_edge_count > kMaxIndex || l.vertex_count > kMaxIndex) return "has bad counts";
   return l.map_side > kMaxMapSide ? "has a support map whose side is out of range" : "";
@@ -219,6 +219,7 @@ Level described(const BlockHeader& block, const LevelHeader& l) {
   level.view.extent = l.extent;
   level.view.centre = Vec3(block.centre[0], block.centre[1], block.centre[2]);
   level.view.reach = l.reach;
+  level.view.inner_radius = l.inner_radius;
   level.deviation = l.deviation;
   level.volume = l.volume;
   level.bytes = l.section.bytes;
@@ -355,7 +356,8 @@ Result<Model> BlockReader::with_levels(std::shared_ptr<Model::Content> body, int
   int map_level = int(body->levels.size());  // all levels coarser than one with a map have maps
   while (map_level > 0 && body->levels[std::size_t(map_level) - 1].map_side > 0) --map_level;
   const std::span<const Level> levels = body->levels;
-  return Model(std::move(body), levels, std::max(map_level, finest), finest);
+  const double radius = h.block.radius;
+  return Model(std::move(body), levels, radius, std::max(map_level, finest), finest);
 }
 
 BlockParts BlockReader::parts(const Model& model, int finest) {

@@ -53,8 +53,8 @@ struct LevelHeader {
   std::uint64_t edge_count, triangle_count;
   double extent, deviation, volume, edge_length;
   std::uint32_t map_side, unused;  ///< `unused` is 0
-  double reach;
-  std::uint64_t reserved[3];  ///< 0; room for one more section
+  double reach, inner_radius;      ///< `inner_radius` is 0 on coarser levels
+  std::uint64_t reserved[2];       ///< 0
 };
 static_assert(sizeof(LevelHeader) == 128);
 

@@ -21,7 +21,6 @@ Result<Model> Model::from_level(const LevelArrays& level, const ModelOptions& op
 SourceMap Model::source() const { return content_->source; }
 
 Vec3 Model::centre() const { return content_->levels[0].view.centre; }
-double Model::radius() const { return content_->headers.block.radius; }
 Vec3 Model::box_min() const {
   return Vec3(content_->headers.block.box_min[0], content_->headers.block.box_min[1], content_->headers.block.box_min[2]);
 }

@@ -171,6 +171,10 @@ Primitive::Primitive(const Body& body) {
   radius = 0;
   for (const Vertex& v : view.vertices) radius = max(radius, norm(vec(v) - centre) * (1 + 8 * kU));
   view.reach = 2 * radius;
+  if (given.count == 8) {
+    const Vec below = centre - least, above = most - centre;  // exact sides of a box, each rounded once
+    view.inner_radius = min(min(min(below.x, below.y), below.z), min(min(above.x, above.y), above.z)) * (1 - 4 * kU);
+  }
 }
 
 Vec Shape::size() const {

@@ -184,6 +184,8 @@ Check verify(const Model& model) {
       return failed("level %d: a vertex is higher above the plane of face %u than %.17g", i, unsigned(f), view.planes[f].over);
     if (const double reach = reach_of(view); !(view.reach >= reach))
       return failed("level %d: its reach is %.17g, provable are %.17g", i, view.reach, reach);
+    if (view.inner_radius > 0 && !(view.inner_radius <= inner_radius_of(view, vec(view.centre))))
+      return failed("level %d: nothing proves that a ball of radius %.17g is inside", i, view.inner_radius);
     if (i == 0) continue;
     if (vertex_outside(exact_hull, view) != kNone) return failed("level %d does not enclose level 0", i);
     MarchStart start;

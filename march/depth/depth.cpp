@@ -19,6 +19,7 @@
 #include "pair/support_gjk.h"
 #include "pair/walk.h"
 #include "pair/witness.h"
+#include "query/ask.h"
 #include "query/model_pair.h"
 #include "query/radii.h"
 #include "query/seed.h"
@@ -61,13 +62,13 @@ class Deepening {
       : pair_(*at.a, *at.b, at.motion, at.quality.error, limits),
         a_(*at.a),
         b_(*at.b),
-        line_(pair_.line),
+        line_(pair_.line()),
         budget_(limits.budget),
         trace_(limits.trace),
         law_two_(pair_.law_two),
         stop_(asked.beyond_by(law_two_).at_least(law_two_)),
-        finest_a_(pair_.finest_a),
-        finest_b_(pair_.finest_b) {}
+        finest_a_(pair_.finest_a()),
+        finest_b_(pair_.finest_b()) {}
 
   /// `floor`: as `DepthGoal::floor`. `visited`: the number of level pairs that are in the trace already.
   void run(const PairSeed& seed, double floor = 0, int visited = 0) {
@@ -382,7 +383,7 @@ Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, PairSee
   const int visited = deep.levels_visited;
   if (!limits.trace.empty()) limits.trace = limits.trace.last(std::max(1, int(limits.trace.size()) - visited));
   const StopRule of_hulls = at.radii.of_hulls(of_bodies, at.law_two());
-  descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, of_hulls, {}, answer, proof);
+  ask_hulls({*at.a, *at.b, at.motion, at.quality.error, limits}, of_hulls, seed, answer, proof);
   make_signed(limits.trace, answer.levels_visited);
   limits.trace = options.tuning.trace;
   answer.levels_visited = std::uint8_t(answer.levels_visited + visited);
@@ -425,7 +426,7 @@ Within signed_within(const Body& a, const Body& b, const Pose& b_in_a, double th
     if (deep.proved()) deep.store(seed);
     overlap_part(deep, result.answer);
   } else {
-    descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, {0, 0, of_hulls, of_hulls}, {}, result.answer, proof);
+    ask_hulls({*at.a, *at.b, at.motion, at.quality.error, limits}, {0, 0, of_hulls, of_hulls}, seed, result.answer, proof);
     make_signed(limits.trace, result.answer.levels_visited);
     if (!(result.answer.lower > 0)) result.answer.lower = -kInfinity;
   }

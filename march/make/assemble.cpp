@@ -323,6 +323,8 @@ Result<Model> Model::from_levels(std::span<const LevelArrays> levels, const Mode
     parts.level_headers.push_back(level_header(draft));
     parts.levels.push_back(level_bytes(draft));
   }
+  const Vec centre{parts.header.centre[0], parts.header.centre[1], parts.header.centre[2]};
+  parts.level_headers[0].inner_radius = inner_radius_of(drafts[0].surface.view(), centre);
   const Result<std::uint64_t> sources = write_source(parts, levels[0], drafts[0].surface);
   if (!sources) return sources.error();
   parts.header.source_face_count = sources.value();

@@ -773,6 +773,15 @@ double reach_of(const ConvexView& view) {
   return 2 * least * (1 + 8 * kU);
 }
 
+double inner_radius_of(const ConvexView& view, const Vec& centre) {
+  double least = view.face_first.empty() ? 0 : view.extent;
+  each_facet(view, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const exact::Plane plane = exact::plane(vec(view.vertices[a]), vec(view.vertices[b]), vec(view.vertices[c]));
+    if (dot(plane.normal, plane.normal) > 0) least = min(least, plane.height - dot(plane.normal, centre));
+  });
+  return max(0, least - kInnerError * view.extent);
+}
+
 ConvexView Surface::view() const {
   ConvexView v;
   v.vertices = vertices;

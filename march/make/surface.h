@@ -45,6 +45,10 @@ double height_over(const ConvexView& view, const Vec& n, std::uint32_t v);
 /// is that of the bounding box or the mean of the vertices. Cost: linear in the vertices.
 double reach_of(const ConvexView& view);
 
+/// Returns the radius, rounded down, of a ball around `centre` that the body holds; 0 if there is none. Cost: linear in the
+/// facets.
+double inner_radius_of(const ConvexView& view, const Vec& centre);
+
 /// Calls visit(a, b, c) for each exact facet with three of its vertices, which span its plane, counter-clockwise from outside.
 template <class Visit>
 void each_facet(const ConvexView& view, Visit visit);

@@ -65,6 +65,12 @@ inline constexpr double kLeastWideArea = 0x1p-40;
 inline constexpr double kPlaneHeightError = 8 * kU, kPlaneHeightFloor = kU / 8;
 /// The determinant of three differences a - (R b + t): 1 product and 4 sums for each, then 2 products, 1 difference, 2 sums.
 inline constexpr double kOffsetTripleProductError = 26 * kU;
+/// Bounds the error of six times the volume of a tetrahedron of the origin and three of four differences a - (R b + t),
+/// relative to the cube of the pair's magnitude m. A difference is off by 7 u of m and an edge, whose length is at most 2 m, by
+/// 16 u: a normal of two edges by 64 u of m^2, and the sum of three by 192 u. The products and sums add 52 u of m^2. The dot
+/// product with a corner, of length m, makes 244 u of m^3, the corner's own error 7 u of 12 m^3, and its sum 3 u of 12 m^3: 364
+/// u. Rounded up.
+inline constexpr double kTetrahedronError = 416 * kU;
 /// The determinant of three differences a - (R b + t) in double-double arithmetic: 26 operations that keep 100 bits each.
 inline constexpr double kWideOffsetTripleProductError = 0x1p-95;
 
@@ -138,6 +144,9 @@ inline constexpr double kFlatError = 4 * kU;
 /// Bounds the error of cof(R) n, the image of a normal n, relative to |n|: 2 u for each cofactor and 3 u for their sum with n,
 /// (2 sqrt(3) + 3) u in each coordinate, sqrt(3) times that for the vector: 11.2 u. Rounded up.
 inline constexpr double kImageError = 12 * kU;
+/// Bounds the error of a point's depth below a facet's `exact::Plane`, relative to the largest coordinate. The plane's height
+/// has 8.2 u; the normal's 3 u, the products' 3 u and the difference's 1 u count for |p|: 15.2 u times sqrt(3). Rounded up.
+inline constexpr double kInnerError = 32 * kU;
 /// A plane that may lean by more than this share of law 2's bound over a body's reach is held against the rings of the
 /// feature's corners, so that its lean counts only as far as the feature goes.
 inline constexpr double kCloseShare = 0.25;

@@ -12,6 +12,7 @@
 #include "pair/difference.h"
 #include "pair/overlap.h"
 #include "pair/simplex.h"
+#include "pair/tetrahedron.h"
 
 namespace swiftlet {
 namespace {
@@ -325,32 +326,6 @@ GjkResult gjk(const PairView& pair, const Certificate& start, const StopRule& st
   m.certificate = start;
   if (!solve<double>(pair, stop, m, plane_tests)) solve<DoubleDouble>(pair, stop, m, plane_tests);
   return m;
-}
-
-bool proves_deep_overlap(const PairView& pair, const OverlapProof& proof, Vec* common) {
-  std::array<Vec, 4> p;
-  for (std::size_t k = 0; k < 4; ++k) p[k] = difference<double>(pair, proof.vertex_a[k], proof.vertex_b[k]).p;
-  // Factors of the triple product are differences of two points; it has six terms.
-  const double m = pair.magnitude, rounding = 8 * kOffsetTripleProductError * m * m * m, least = 2 * pair.law_two;
-  std::array<double, 4> weight;
-  double sum = 0;
-  int positive = 0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Vec &a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4], n = cross(b - a, c - a);
-    const double volume = dot(n, a), surely = std::fabs(volume) - rounding;
-    if (!(surely > 0 && surely * surely > least * least * dot(n, n))) return false;
-    positive += (volume > 0) == (k % 2 == 0);  // the corners of every other face go around the other way
-    sum += weight[k] = std::fabs(volume);
-  }
-  if (positive != 0 && positive != 4) return false;
-  if (!common) return true;
-  Vec x{0, 0, 0}, off = x;
-  for (std::size_t k = 0; k < 4; ++k) {
-    x = x + vec(pair.a.vertices[proof.vertex_a[k]]) * (weight[k] / sum);
-    off = off + p[k] * (weight[k] / sum);
-  }
-  *common = 4 * dot(off, off) <= pair.law_two * pair.law_two ? x : surely_common_point(pair, proof);
-  return true;
 }
 
 bool straighten(const PairView& pair, Certificate& c, std::uint32_t& plane_tests) {

@@ -25,11 +25,6 @@ struct GjkResult {
 /// bounds are true whatever the status.
 GjkResult gjk(const PairView& pair, const Certificate& start, const StopRule& stop, std::uint32_t& plane_tests);
 
-/// True if the four vertex pairs of `proof` prove that the bodies overlap, and the origin is more than twice law 2's bound from
-/// every plane of the tetrahedron of their differences. Doubles decide; what they cannot, is not deep. `common`, if wanted,
-/// becomes a point within law 2's bound of both bodies; NaN if 106-bit arithmetic finds none.
-bool proves_deep_overlap(const PairView& pair, const OverlapProof& proof, Vec* common = nullptr);
-
 /// Replaces plane and points of a certificate that leans by those of a single iterate of certified GJK in 106 bits. Returns
 /// false, and changes nothing, if GJK does not reach law 2's width.
 bool straighten(const PairView& pair, Certificate& certificate, std::uint32_t& plane_tests);

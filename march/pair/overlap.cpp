@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pair/overlap.h"
-
-#include <limits>
-
 #include "body/half_edge.h"
 #include "pair/difference.h"
-#include "pair/gjk.h"
 #include "pair/support_gjk.h"
+#include "pair/tetrahedron.h"
 #include "pair/witness.h"
+
+#include <limits>
 
 namespace swiftlet {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "numeric/tolerance.h"
 #include "numeric/vec.h"
+#include "numeric/vec4.h"
 
 namespace swiftlet {
 
@@ -71,18 +72,15 @@ struct PoseQuality {
   double error;  ///< largest entry of |R^T R - I|
 };
 static inline PoseQuality pose_quality(const Motion& m) {
-  const Vec &x = m.row_x, &y = m.row_y, &z = m.row_z;
-  const auto entry = [&](double Vec::*i, double Vec::*j) { return x.*i * x.*j + y.*i * y.*j + z.*i * z.*j; };
-  const double xx = std::fabs(entry(&Vec::x, &Vec::x) - 1), yy = std::fabs(entry(&Vec::y, &Vec::y) - 1),
-               zz = std::fabs(entry(&Vec::z, &Vec::z) - 1);
-  const double across =
-      max(max(std::fabs(entry(&Vec::x, &Vec::y)), std::fabs(entry(&Vec::x, &Vec::z))), std::fabs(entry(&Vec::y, &Vec::z)));
+  const Vec4 x = vec4(m.row_x), y = vec4(m.row_y), z = vec4(m.row_z);
+  const Vec4 squares = abs(x * x + y * y + z * z - all(1)), across = abs(x * yzx(x) + y * yzx(y) + z * yzx(z));
   // A NaN or an infinity in a column of R is also in the column's square, which the comparison refuses. With a translation
   // above kMostCoordinate exact signs and squares overflow, and a climb may not end.
-  const bool legal = xx <= kOrthonormality && yy <= kOrthonormality && zz <= kOrthonormality && across <= kOrthonormality &&
-                     std::fabs(m.t.x) <= kMostCoordinate && std::fabs(m.t.y) <= kMostCoordinate &&
-                     std::fabs(m.t.z) <= kMostCoordinate;
-  return {legal, max(max(xx, yy), max(zz, across))};
+  const bool legal = ((at_most(squares, all(kOrthonormality)) & at_most(across, all(kOrthonormality)) &
+                       at_most(abs(vec4(m.t)), all(kMostCoordinate))) &
+                      7) == 7;
+  const Vec4 most = max(squares, across);
+  return {legal, max(max(most[0], most[1]), most[2])};
 }
 
 /// The greatest width of an exact answer, which is at most law 2's bound of the pair. `shift` is |t|.

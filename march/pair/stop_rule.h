@@ -20,7 +20,7 @@ struct StopRule {
   double least = 0;                                         ///< a width that is always allowed
 
   bool is_threshold() const { return above < std::numeric_limits<double>::infinity(); }
-  bool is_exact() const { return absolute == 0 && relative == 0 && !is_threshold(); }
+  bool is_exact() const { return !(absolute > 0 || relative > 0 || is_threshold()); }
   /// The most that bounds may be apart at this `lower`. If it is not above 0, no bounds are narrow.
   double allowed(double lower) const { return max(max(absolute, relative * (lower - zero)) - rounding, least); }
   bool allows(double lower, double width) const { return allowed(lower) > 0 && width <= allowed(lower); }

@@ -34,10 +34,10 @@ struct SupportGjk {
 
 /// The supports that the maps have along one direction, and the bound that they prove.
 struct AxisSample {
-  Vec normal{0, 0, 0};                 ///< the direction at length 1; 0 if it names no direction
-  std::uint32_t a = 0, b = 0;          ///< support vertices of A along `normal` and of B against it, as the maps have them
-  Vec point{0, 0, 0}, apart{0, 0, 0};  ///< vertex `a`, and the vector from it to vertex `b`: common frame
-  double gap = 0, lower = 0;           ///< as in SupportGjk
+  Vec normal;          ///< the direction at length 1; 0 if it names no direction
+  std::uint32_t a, b;  ///< support vertices of A along `normal` and of B against it, as the maps have them
+  Vec point, apart;    ///< vertex `a`, and the vector from it to vertex `b`: common frame
+  double gap, lower;   ///< as in SupportGjk
 };
 /// Samples the maps along `direction`. It may have any length, because its positive multiples all lie in the same cell of a
 /// map.

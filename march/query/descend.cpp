@@ -3,70 +3,42 @@
 // The descent through levels of detail [Ehmann & Lin 2000, sec. 5.2]. From one level pair to the next only two features are
 // carried: the classic implementations carried more of a walk's state, and looped on up to 5 % of queries.
 #include "query/descend.h"
-
-#include <algorithm>
-#include <cmath>
-
 #include "pair/certify.h"
 #include "pair/conclude.h"
 #include "pair/gjk.h"
 #include "pair/overlap.h"
 #include "pair/start.h"
 #include "pair/support_gjk.h"
+#include "pair/tetrahedron.h"
 #include "pair/walk.h"
 #include "query/model_pair.h"
 #include "query/seed.h"
 #include "query/separating_axis.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace swiftlet {
 namespace {
 
-/// The ancestors of the features at `found`, on the coarsest level pair that would have answered as well.
-Place coarsened(const ModelPair& pair, const Tuning& tuning, const StopRule& asked, const Answer& answer, Place found) {
-  const StopRule stop = asked.beyond_by(pair.law_two);
-  const double error_found = pair.deviation(found.level_a, found.level_b);
-  double slack = answer.upper;  // for StartPolicy::Paper: deviations may grow by the distance
-  while (found.level_a + 1 < pair.a.level_count() && found.level_b + 1 < pair.b.level_count()) {
-    const double error = pair.deviation(found.level_a + 1, found.level_b + 1);
-    const double grown = error - pair.deviation(found.level_a, found.level_b), lower = answer.lower - (error - error_found);
-    const bool absorbs = tuning.start == StartPolicy::Paper && (slack -= std::max(0.0, grown)) >= 0 && answer.lower > 0;
-    const bool suffices = lower > asked.above || (lower > 0 && stop.allows(lower, error));
-    if (!absorbs && !suffices) break;
-    found.start = {parent(pair.a, found.level_a++, found.start.a), parent(pair.b, found.level_b++, found.start.b)};
-  }
-  return found;
-}
-
-/// Only the exact pair can answer, and the query begins there again.
-bool is_exact(const StopRule& asked, const Tuning& tuning) { return asked.is_exact() && tuning.start != StartPolicy::Paper; }
-
-/// Stores in `seed` where the next query begins: at the features `found`, or on a coarser pair that would have answered as
-/// well.
-void keep(const ModelPair& pair, const Tuning& tuning, const StopRule& asked, const Answer& answer, const Place& found,
-          PairSeed& seed) {
-  const bool stays = is_exact(asked, tuning) || tuning.start == StartPolicy::Finest || tuning.start == StartPolicy::Coarsest;
-  const Place kept = stays ? found : coarsened(pair, tuning, asked, answer, found);
-  seed.a = kept.start.a, seed.b = kept.start.b;
-  seed.level_a = std::uint8_t(kept.level_a), seed.level_b = std::uint8_t(kept.level_b);
-}
-
 class Descent {
  public:
-  Descent(const ModelPair& pair, const Limits& limits, const StopRule& asked, const AxisTest& first, Answer& answer,
+  Descent(const ModelPair& pair, const Line& line, const StopRule& asked, const AxisTest& first, Answer& answer,
           OverlapProof& proof)
       : pair_(pair),
         a_(pair.a),
         b_(pair.b),
-        line_(pair.line),
-        budget_(limits.budget),
-        tuning_(limits.tuning),
-        trace_(limits.trace),
+        line_(line),
+        budget_(pair.limits.budget),
+        tuning_(pair.limits.tuning),
+        trace_(pair.limits.trace),
         asked_(asked),
         stop_(asked.beyond_by(pair.law_two)),
         law_two_(pair.law_two),
-        finest_a_(pair.finest_a),
-        finest_b_(pair.finest_b),
-        exact_(is_exact(asked, limits.tuning)),
+        finest_a_(pair.finest_a()),
+        finest_b_(pair.finest_b()),
+        has_maps_(pair.has_maps()),
+        exact_(is_exact(asked, tuning_)),
         first_(first),
         answer_(answer),
         proof_(proof) {}
@@ -74,8 +46,8 @@ class Descent {
   /// Begins at the features of `place`; if it has none, or a walk from them gets lost, on support maps or the coarsest pair.
   void start(Place place, PairSeed& seed) {
     const bool warm = is_warm(place.start);
-    const bool walked = warm && march(place, pair_.has_maps);
-    const bool seen = !walked && pair_.has_maps && map_gjk(place, last_direction(line_.in_a, seed));
+    const bool walked = warm && march(place, has_maps_);
+    const bool seen = !walked && has_maps_ && map_gjk(place, last_direction(line_.in_a, seed));
     if (!walked && !seen) march(place, false);
     const bool met = met_ == MarchStatus::Overlapping;
     if (proof_.count == 4 && answer_.level_a == 0 && answer_.level_b == 0)
@@ -121,7 +93,7 @@ class Descent {
   /// Goes on to finer pairs from a pair whose bounds are not narrow enough.
   void narrow_down(Place& place) {
     if (!finest(place)) place = refined(place);
-    const bool mapped = pair_.has_maps && place.level_a >= a_.map_level() && place.level_b >= b_.map_level();
+    const bool mapped = has_maps_ && place.level_a >= a_.map_level() && place.level_b >= b_.map_level();
     if (mapped && map_gjk(place, vec(answer_.normal))) return;
     march(place, false);
   }
@@ -214,7 +186,7 @@ class Descent {
   /// Returns true if the features where a walk ended inside prove, together with a vertex of each body that its map names on
   /// the far side, that the levels of the pair overlap.
   bool overlap(const PairView& pair, const Place& place) {
-    if (!pair_.has_maps) return false;
+    if (!has_maps_) return false;
     const Vec n = normal_between(pair, place.start);
     const std::uint32_t behind_a = about_farthest(a_, place.level_a, -n),
                         behind_b = about_farthest(b_, place.level_b, body_b(pair).into(n));
@@ -395,7 +367,7 @@ class Descent {
       kept = coarsest_place(a_, b_);
       kept.start = coarsest_;
     }
-    keep(pair_, tuning_, asked_, answer_, kept, seed);
+    keep(pair_, asked_, answer_, kept, seed);
     remember(line_, vec(answer_.normal), seed);
     seed.met = met_ == MarchStatus::Overlapping;
   }
@@ -411,6 +383,7 @@ class Descent {
   const StopRule stop_;
   const double law_two_;
   const int finest_a_, finest_b_;
+  const bool has_maps_;
   const bool exact_;  ///< the distance is asked exactly: no coarser pair can answer
   const AxisTest& first_;
   Answer& answer_;
@@ -424,85 +397,30 @@ class Descent {
 
 }  // namespace
 
-namespace {
+void descend(const ModelPair& pair, const Line& line, const StopRule& asked, const AxisTest& first, const Place& place,
+             PairSeed& seed, Answer& answer, OverlapProof& proof) {
+  Descent(pair, line, asked, first, answer, proof).start(place, seed);
+}
 
-/// Answers from one walk on the level pair of `place`, from the seed's features, if the tests that end it prove enough. Else
-/// `place` becomes where the descent goes on: at the features where the walk ended, or anywhere if it came to nothing.
-bool answers_at_once(const ModelPair& pair, const Limits& limits, const StopRule& asked, Turn turn, PairSeed& seed,
-                     Place& place, Answer& answer) {
-  const PairView view = pair.view_at(place);
-  const MarchStart from = settled(view, place.start, answer.plane_tests);
-  const Walk walked = walk(view, from.a, from.b, limits.tuning.plane_rule, std::min(limits.budget.steps, place.trial_steps));
-  answer.steps = walked.steps;
-  answer.plane_tests += walked.plane_tests;
-  Proof proof;
-  if (settle(view, walked, asked.zero, asked.above, proof) != Doubt::None) {
-    const bool lost = walked.end == WalkEnd::Budget && walked.steps < limits.budget.steps;
-    place =
-        lost ? coarsest_place(pair.a, pair.b) : Place{place.level_a, place.level_b, {walked.a, walked.b}, place.trial_steps};
-    return false;
-  }
-  place.start = {walked.a, walked.b};
-  const double error = pair.deviation(place.level_a, place.level_b);
-  const double upper = error > 0 ? (proof.upper + error) * (1 + 2 * kU) : proof.upper;
+void go_on(const ModelPair& pair, const StopRule& asked, double exact_width, PairSeed& seed, Answer& answer,
+           OverlapProof& proof) {
+  Descent(pair, pair.line(), asked, {}, answer, proof).go_on(seed, exact_width);
+}
+
+Place coarsened(const ModelPair& pair, const StopRule& asked, const Answer& answer, Place found) {
   const StopRule stop = asked.beyond_by(pair.law_two);
-  if (!(place.level_a == 0 && place.level_b == 0) && !stop.met(proof.lower, upper)) return false;
-  answer.status = proof.lower > stop.above ? Status::Beyond : Status::Converged;
-  answer.verdict = Verdict::Disjoint;
-  answer.lower = proof.lower;
-  answer.upper = upper;
-  answer.normal = eigen(proof.normal);
-  answer.point_a = eigen(walked.nearest.point_a);
-  answer.point_b = eigen(walked.nearest.point_b);
-  answer.level_a = std::int16_t(place.level_a), answer.level_b = std::int16_t(place.level_b);
-  answer.feature_a = walked.a, answer.feature_b = walked.b;
-  answer.levels_visited = 1;
-  note(limits.trace, 0, {place.level_a, place.level_b, answer.lower, answer.upper, answer.steps, answer.plane_tests});
-  keep(pair, limits.tuning, asked, answer, place, seed);
-  turn == Turn::Little ? remember(proof.normal, seed) : remember(pair.line, proof.normal, seed);
-  seed.met = false;
-  return true;
-}
-
-/// Answers that the bodies overlap if the vertex pairs that proved it last time still do.
-bool overlaps_as_before(const ModelPair& pair, const PairSeed& seed, const Limits& limits, Answer& answer,
-                        OverlapProof& proof) {
-  const PairView view = pair.view_at({0, 0, {}});
-  const auto names = [](const std::array<std::uint32_t, 4>& vertices, const ConvexView& body) {
-    return std::ranges::all_of(vertices, [&](std::uint32_t v) { return v < body.vertices.size(); });
-  };
-  if (pair.finest_a != 0 || pair.finest_b != 0 || !names(seed.inside_a, view.a) || !names(seed.inside_b, view.b)) return false;
-  const OverlapProof again{4, seed.inside_a, seed.inside_b};
-  Vec common;
-  if (!proves_deep_overlap(view, again, &common)) return false;
-  answer.status = Status::Converged;
-  answer.verdict = Verdict::Overlapping;
-  answer.lower = answer.upper = 0;
-  answer.point_a = answer.point_b = eigen(common);
-  answer.feature_a = {FeatureKind::Vertex, seed.inside_a[0]}, answer.feature_b = {FeatureKind::Vertex, seed.inside_b[0]};
-  answer.levels_visited = 1;
-  note(limits.trace, 0, {0, 0, 0, 0});
-  proof = again;
-  return true;
-}
-
-}  // namespace
-
-void descend(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_error, PairSeed& seed, const Limits& limits,
-             const StopRule& asked, std::optional<double> exact_width, Answer& answer, OverlapProof& proof) {
-  const ModelPair pair(a, b, b_in_a, pose_error, limits);
-  AxisTest first;
-  if (exact_width) return Descent(pair, limits, asked, first, answer, proof).go_on(seed, *exact_width);
-  answer.normal.setZero();
-  if (seed.met && limits.tuning.start == StartPolicy::Automatic && overlaps_as_before(pair, seed, limits, answer, proof))
-    return;
-  const bool asks = asked.is_threshold() && pair.has_maps && !seed.met && limits.trace.empty();
-  if (asks && separating_axis(pair, asked, seed, first, answer)) return;
-  Turn turn;
-  Place place = first_place(a, b, pair.line, seed, pair.finest_a, pair.finest_b, limits.tuning.start, turn);
-  const bool is_warm = place.start.a.kind() != FeatureKind::None && limits.tuning.start != StartPolicy::Coarsest;
-  if (is_warm && !limits.tuning.careful && answers_at_once(pair, limits, asked, turn, seed, place, answer)) return;
-  Descent(pair, limits, asked, first, answer, proof).start(place, seed);
+  const double error_found = pair.deviation(found.level_a, found.level_b);
+  double slack = answer.upper;  // for StartPolicy::Paper: deviations may grow by the distance
+  while (found.level_a + 1 < pair.a.level_count() && found.level_b + 1 < pair.b.level_count()) {
+    const double error = pair.deviation(found.level_a + 1, found.level_b + 1);
+    const double grown = error - pair.deviation(found.level_a, found.level_b), lower = answer.lower - (error - error_found);
+    const bool absorbs =
+        pair.limits.tuning.start == StartPolicy::Paper && (slack -= std::max(0.0, grown)) >= 0 && answer.lower > 0;
+    const bool suffices = lower > asked.above || (lower > 0 && stop.allows(lower, error));
+    if (!absorbs && !suffices) break;
+    found.start = {parent(pair.a, found.level_a++, found.start.a), parent(pair.b, found.level_b++, found.start.b)};
+  }
+  return found;
 }
 
 }  // namespace swiftlet

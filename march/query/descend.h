@@ -3,22 +3,42 @@
 // The descent through levels of detail [Ehmann & Lin 2000, sec. 5.2]. Knows the hulls of two bodies and their levels.
 #pragma once
 
-#include <optional>
-
 #include <swiftlet/query.h>
 
-#include "body/shape.h"
-#include "numeric/vec.h"
 #include "pair/stop_rule.h"
-#include "query/limits.h"
+#include "query/model_pair.h"
+#include "query/seed.h"
+#include "query/separating_axis.h"
 
 namespace swiftlet {
 
-/// Answers `asked` for the hulls of two bodies in a legal pose, from `seed` and a default `answer`; or, if `exact_width` is
-/// given, goes on from what `answer` holds, which is exact if it is no wider than that or law 2's bound. Thresholds are passed
-/// by more than law 2's bound. An unknown normal becomes 0. `proof` must be empty, and is filled if the levels of the answer
-/// overlap.
-void descend(const Shape& a, const Shape& b, const Motion& b_in_a, double pose_error, PairSeed& seed, const Limits& limits,
-             const StopRule& asked, std::optional<double> exact_width, Answer& answer, OverlapProof& proof);
+/// Answers `asked` for the hulls of two bodies: begins at the features of `place`, or, if it has none, on the maps, with the
+/// sample `first` if there is one, or on the coarsest pair. Thresholds are passed by more than law 2's bound. `answer` must be
+/// a default one with normal 0; an unknown normal stays 0. `proof` must be empty, and is filled if the levels of the answer
+/// overlap. `line` is the pair's.
+void descend(const ModelPair& pair, const Line& line, const StopRule& asked, const AxisTest& first, const Place& place,
+             PairSeed& seed, Answer& answer, OverlapProof& proof);
+
+/// The same, but goes on from what `answer` holds, which is exact if it is no wider than `exact_width` or law 2's bound.
+void go_on(const ModelPair& pair, const StopRule& asked, double exact_width, PairSeed& seed, Answer& answer,
+           OverlapProof& proof);
+
+/// Only the exact pair can answer, and the query begins there again.
+static inline bool is_exact(const StopRule& asked, const Tuning& tuning) {
+  return asked.is_exact() && tuning.start != StartPolicy::Paper;
+}
+
+/// The ancestors of the features at `found`, on the coarsest level pair that would have answered as well.
+Place coarsened(const ModelPair& pair, const StopRule& asked, const Answer& answer, Place found);
+/// Stores in `seed` where the next query begins: at the features `found`, or on a coarser pair that would have answered as
+/// well.
+static inline void keep(const ModelPair& pair, const StopRule& asked, const Answer& answer, const Place& found,
+                        PairSeed& seed) {
+  const Tuning& tuning = pair.limits.tuning;
+  const bool stays = is_exact(asked, tuning) || tuning.start == StartPolicy::Finest || tuning.start == StartPolicy::Coarsest;
+  const Place kept = stays ? found : coarsened(pair, asked, answer, found);
+  seed.a = kept.start.a, seed.b = kept.start.b;
+  seed.level_a = std::uint8_t(kept.level_a), seed.level_b = std::uint8_t(kept.level_b);
+}
 
 }  // namespace swiftlet

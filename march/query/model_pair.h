@@ -14,21 +14,28 @@
 namespace swiftlet {
 
 struct ModelPair {
-  ModelPair(const Shape& of_a, const Shape& of_b, const Motion& m, double error, const Limits& limits)
+  ModelPair(const Shape& of_a, const Shape& of_b, const Motion& m, double error, const Limits& of)
       : a(of_a),
         b(of_b),
         motion(m),
         pose_error(error),
         shift(norm(m.t)),
         law_two(swiftlet::law_two(a.level(0).view, b.level(0).view, shift, error)),
-        line(line_of_centres(a, b, m)),
-        finest_a(finest_allowed(a, limits.budget)),
-        finest_b(finest_allowed(b, limits.budget)),
-        has_maps(limits.tuning.start == StartPolicy::Automatic && a.map_level() < a.level_count() &&
-                 b.map_level() < b.level_count()) {}
+        limits(of) {}
 
+  Line line() const {
+    const Vec between = between_centres(a, b, motion);
+    return {between, turned_line(between, motion)};
+  }
+  /// The finest levels that the query may read.
+  int finest_a() const { return finest_allowed(a, limits.budget); }
+  int finest_b() const { return finest_allowed(b, limits.budget); }
+  /// The query may use support maps: both bodies have them, and the start policy is Automatic.
+  bool has_maps() const {
+    return limits.tuning.start == StartPolicy::Automatic && a.map_level() < a.level_count() && b.map_level() < b.level_count();
+  }
   /// The finest level pair that has support maps and that the query may read.
-  Place finest_mapped() const { return {std::max(a.map_level(), finest_a), std::max(b.map_level(), finest_b), {}}; }
+  Place finest_mapped() const { return {std::max(a.map_level(), finest_a()), std::max(b.map_level(), finest_b()), {}}; }
   /// The most by which the exact hulls may be farther apart than these levels. A pose that is not exactly orthonormal may
   /// stretch B, and its deviation, by 1.5 times its error and a little of second order.
   double deviation(int level_a, int level_b) const {
@@ -42,17 +49,16 @@ struct ModelPair {
     };
     return deviation(place.level_a, place.level_b) + doubt(a.level(place.level_a)) + doubt(b.level(place.level_b));
   }
-  PairView view_at(const Place& place) const {
-    return pair_view(a.level(place.level_a).view, b.level(place.level_b).view, motion, shift, pose_error);
+  PairView view_of(const Level& of_a, const Level& of_b) const {
+    return pair_view(of_a.view, of_b.view, motion, shift, pose_error);
   }
+  PairView view_at(const Place& place) const { return view_of(a.level(place.level_a), b.level(place.level_b)); }
 
   const Shape& a;
   const Shape& b;
   const Motion& motion;
   const double pose_error, shift, law_two;  ///< `shift` is |t|
-  const Line line;
-  const int finest_a, finest_b;
-  const bool has_maps;  ///< the query may use support maps: both bodies have them, and the start policy is Automatic
+  const Limits& limits;
 };
 
 }  // namespace swiftlet

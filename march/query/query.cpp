@@ -5,7 +5,7 @@
 
 #include "body/half_edge.h"
 #include "body/shape.h"
-#include "query/radii.h"
+#include "query/ask.h"
 
 namespace swiftlet {
 namespace {
@@ -28,6 +28,44 @@ SourceFeature source_feature(const Body& body, FeatureId feature) {
   return result;
 }
 
+/// Copies `so_far` to `answer` as an unsigned answer with `status` and no work of its own.
+void restate(const Answer& so_far, Status status, Answer& answer) {
+  answer = so_far;
+  answer.status = status;
+  answer.steps = answer.plane_tests = 0;
+  answer.levels_visited = 0;
+  answer.is_signed = false;
+}
+
+/// True if a distance query can go on from `answer`.
+bool tells_distance(const Answer& answer) {
+  return answer.feature_a.kind() != FeatureKind::None && (answer.lower > 0 || !answer.is_signed);
+}
+
+/// Answers `asked` like `ask`, but goes on from `so_far`, if that tells anything of the distance.
+void ask_on(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const StopRule& asked,
+            const Answer& so_far, Answer& answer) {
+  if (!tells_distance(so_far)) return ask(a, b, b_in_a, seed, limits, asked, answer);
+  if (limits.tuning.proof) *limits.tuning.proof = {};
+  const Setting at(a, b, b_in_a);
+  const Radii& radii = at.radii;
+  if (const Status fault = at.fault(); fault != Status::Converged) return refuse(a, b, fault, false, answer);
+  if (Radii(so_far) != radii) return refuse(a, b, Status::InvalidRadius, false, answer);
+  if (!radii.none() && so_far.verdict == Verdict::Overlapping) return restate(so_far, Status::Converged, answer);
+  answer = radii.of_hulls(so_far);
+  // An answer that is exact for the bodies counts as exact for the hulls, even if rounding with the radii widened it.
+  const double law_two = at.law_two(), exact_width = so_far.upper - so_far.lower <= law_two ? answer.upper - answer.lower : 0;
+  const ModelPair pair(*at.a, *at.b, at.motion, at.quality.error, limits);
+  OverlapProof proof;
+  go_on(pair, radii.none() ? asked : radii.of_hulls(asked, law_two), exact_width, seed, answer, proof);
+  if (!radii.none()) {
+    if (answer.levels_visited == 0) return restate(so_far, answer.status, answer);
+    radii.round(answer, proof, law_two);
+    radii.round(limits.trace, answer.levels_visited);
+  }
+  seal(radii, proof, limits.tuning, answer);
+}
+
 }  // namespace
 
 double Answer::value() const {
@@ -46,8 +84,8 @@ Answer distance(const Body& a, const Body& b, const Pose& b_in_a, const Options&
 
 Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so_far, PairSeed& seed, const Options& options) {
   Answer answer;
-  ask(a, b, b_in_a, seed, {options.budget, options.tuning}, {options.absolute, options.relative, options.beyond, 0}, answer,
-      &so_far);
+  ask_on(a, b, b_in_a, seed, {options.budget, options.tuning}, {options.absolute, options.relative, options.beyond, 0}, so_far,
+         answer);
   return answer;
 }
 Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so_far, const Options& options) {

@@ -20,27 +20,6 @@ Verdict verdict(double lower, double upper, double law_two) {
   return lower >= -law_two && upper <= law_two ? Verdict::Touching : Verdict::Undecided;
 }
 
-/// Copies `so_far` to `answer` as an unsigned answer with `status` and no work of its own.
-void restate(const Answer& so_far, Status status, Answer& answer) {
-  answer = so_far;
-  answer.status = status;
-  answer.steps = answer.plane_tests = 0;
-  answer.levels_visited = 0;
-  answer.is_signed = false;
-}
-
-/// True if the normal proves the lower bound. The level pair that `proof` is about may overlap although a coarser pair, which
-/// proved the bound, is disjoint: levels enclose the body, not each other.
-bool separates(const Answer& answer, const OverlapProof& proof) {
-  if (answer.is_signed) return answer.lower > -kInfinity;
-  return answer.lower > 0 || proof.count == 0;
-}
-
-/// True if a distance query can go on from `answer`.
-bool tells_distance(const Answer& answer) {
-  return answer.feature_a.kind() != FeatureKind::None && (answer.lower > 0 || !answer.is_signed);
-}
-
 }  // namespace
 
 double tolerance(const Body& a, const Body& b, const Pose& b_in_a) {
@@ -127,40 +106,6 @@ void refuse(const Body& a, const Body& b, Status why, bool is_signed, Answer& an
   answer.is_signed = is_signed;
   if (is_signed) answer.lower = -kInfinity;
   answer.radius_a = a.radius(), answer.radius_b = b.radius();
-}
-
-void seal(const Radii& radii, const OverlapProof& proof, const Tuning& tuning, Answer& answer) {
-  answer.radius_a = radii.a(), answer.radius_b = radii.b();
-  if (tuning.proof) *tuning.proof = proof;
-  if (!separates(answer, proof) || max_abs(vec(answer.normal)) == 0) answer.normal.setConstant(kUnknown);
-  if (!(answer.upper < kInfinity)) answer.point_a.setConstant(kUnknown), answer.point_b.setConstant(kUnknown);
-}
-
-void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const StopRule& asked,
-         Answer& answer, const Answer* so_far) {
-  if (limits.tuning.proof) *limits.tuning.proof = {};
-  const Setting at(a, b, b_in_a);
-  const Radii& radii = at.radii;
-  if (const Status fault = at.fault(); fault != Status::Converged) return refuse(a, b, fault, false, answer);
-  if (so_far && !tells_distance(*so_far)) so_far = nullptr;
-  StopRule of_hulls = asked;
-  if (!radii.none()) of_hulls = radii.of_hulls(asked, at.law_two());
-  std::optional<double> exact_width;
-  if (so_far) {
-    if (Radii(*so_far) != radii) return refuse(a, b, Status::InvalidRadius, false, answer);
-    if (!radii.none() && so_far->verdict == Verdict::Overlapping) return restate(*so_far, Status::Converged, answer);
-    answer = radii.of_hulls(*so_far);
-    // An answer that is exact for the bodies counts as exact for the hulls, even if rounding with the radii widened it.
-    exact_width = so_far->upper - so_far->lower <= at.law_two() ? answer.upper - answer.lower : 0;
-  }
-  OverlapProof proof;
-  descend(*at.a, *at.b, at.motion, at.quality.error, seed, limits, of_hulls, exact_width, answer, proof);
-  if (!radii.none()) {
-    if (so_far && answer.levels_visited == 0) return restate(*so_far, answer.status, answer);
-    radii.round(answer, proof, at.law_two());
-    radii.round(limits.trace, answer.levels_visited);
-  }
-  seal(radii, proof, limits.tuning, answer);
 }
 
 }  // namespace swiftlet

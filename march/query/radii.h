@@ -10,7 +10,7 @@
 #include "body/shape.h"
 #include "numeric/vec.h"
 #include "pair/pair_view.h"
-#include "query/descend.h"
+#include "pair/stop_rule.h"
 
 namespace swiftlet {
 
@@ -82,8 +82,21 @@ class Setting {
 /// Fills the answer of a refused query: the status `why` and the radii; nothing else is known.
 void refuse(const Body& a, const Body& b, Status why, bool is_signed, Answer& answer);
 
+/// True if the normal proves the lower bound. The level pair that `proof` is about may overlap although a coarser pair, which
+/// proved the bound, is disjoint: levels enclose the body, not each other.
+static inline bool separates(const Answer& answer, const OverlapProof& proof) {
+  if (answer.is_signed) return answer.lower > -std::numeric_limits<double>::infinity();
+  return answer.lower > 0 || proof.count == 0;
+}
 /// Completes `answer`: adds the radii, sets an unknown normal and unknown points to NaN, and copies `proof` to `tuning`.
-void seal(const Radii& radii, const OverlapProof& proof, const Tuning& tuning, Answer& answer);
+static inline void seal(const Radii& radii, const OverlapProof& proof, const Tuning& tuning, Answer& answer) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
+  answer.radius_a = radii.a(), answer.radius_b = radii.b();
+  if (tuning.proof) *tuning.proof = proof;
+  const Vec n = vec(answer.normal);
+  if (!separates(answer, proof) || (n.x == 0 && n.y == 0 && n.z == 0)) answer.normal.setConstant(kUnknown);
+  if (!(answer.upper < kInfinity)) answer.point_a.setConstant(kUnknown), answer.point_b.setConstant(kUnknown);
+}
 
 /// Ends a question of yes or no: it is answered once `lower` is beyond the threshold, and the status then is Converged.
 static inline void decide(Answer& answer) {
@@ -95,10 +108,5 @@ static inline void decide(Within& result, double threshold) {
   if (result.answer.lower > threshold) result.decision = Decision::No;
   if (result.answer.upper <= threshold) result.decision = Decision::Yes;
 }
-
-/// Answers `asked` for two bodies. It starts from `seed`, or goes on from `so_far` if that is not null. `answer` must be a
-/// default one.
-void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const StopRule& asked,
-         Answer& answer, const Answer* so_far = nullptr);
 
 }  // namespace swiftlet

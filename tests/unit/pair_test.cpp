@@ -24,6 +24,7 @@
 #include "pair/witness.h"
 #include "query/model_pair.h"
 #include "query/separating_axis.h"
+#include "query/spheres.h"
 
 namespace swiftlet {
 namespace {
@@ -212,10 +213,11 @@ TEST(UnitSeparatingAxis, AnswersAtOneSampleOrNotAtAll) {
     const Motion m = motion({Mat3::Identity(), {x, 0, 0}});
     const Budget budget;
     const Tuning tuning;
-    const ModelPair pair(shape, shape, m, 0, {budget, tuning});
+    const Limits limits(budget, tuning);
+    const ModelPair pair(shape, shape, m, 0, limits);
     PairSeed seed;
     AxisTest first;
-    return separating_axis(pair, {0, 0, 0, 0}, seed, first, answer);
+    return separating_axis(pair, pair.line().in_a, {0, 0, 0, 0}, seed, first, answer);
   };
   Answer apart, together;
   EXPECT_TRUE(asked(3, apart));
@@ -223,6 +225,36 @@ TEST(UnitSeparatingAxis, AnswersAtOneSampleOrNotAtAll) {
   EXPECT_LE(apart.lower, 1);
   EXPECT_GE(apart.upper, 1);
   EXPECT_FALSE(asked(1.5, together));
+}
+
+// ---- Spheres --------------------------------------------------------------------------------------------------------------
+
+/// Cubes of side 2: the balls around them are apart from 2 sqrt(3) on, those inside them meet below 2. Between, none tells.
+TEST(UnitSpheres, TellWhatIsFarApartAndWhatIsDeep) {
+  const auto asked = [](double x, double threshold, Answer& answer) {
+    const Shape shape(kCube);
+    const Motion m = motion({Mat3::Identity(), {x, 0, 0}});
+    const Budget budget;
+    const Tuning tuning;
+    const Limits limits(budget, tuning);
+    const ModelPair pair(shape, shape, m, 0, limits);
+    const Vec between = pair.line().in_a;
+    return spheres_are_apart(pair, between, {0, 0, threshold, threshold}, answer) ? 1
+           : spheres_meet(pair, between, answer)                                  ? -1
+                                                                                  : 0;
+  };
+  Answer apart, deep, other;
+  EXPECT_EQ(asked(3.5, 0, apart), 1);
+  EXPECT_EQ(apart.verdict, Verdict::Disjoint);
+  EXPECT_GT(apart.lower, 3.5 - 2 * std::sqrt(3.0) - 1e-12);
+  EXPECT_LE(apart.lower, 3.5 - 2 * std::sqrt(3.0));
+  EXPECT_GE(apart.upper, 1.5) << "the distance of the cubes";
+  EXPECT_EQ(asked(1.99, 0, deep), -1);
+  EXPECT_EQ(deep.verdict, Verdict::Overlapping);
+  EXPECT_NEAR(deep.point_a.x() - kLevel.view.centre.x(), 0.995, 1e-12);
+  EXPECT_EQ(asked(3.4, 0, other), 0);
+  EXPECT_EQ(asked(3.5, 0.1, other), 0) << "farther apart than 0.1 is not proved";
+  EXPECT_EQ(asked(2.0, 0, other), 0) << "touching is not overlapping";
 }
 
 // ---- Intersection ---------------------------------------------------------------------------------------------------------

@@ -85,6 +85,7 @@ struct ConvexView {
   std::span<const std::uint8_t> tags;         ///< per face, a tag of the caller's; may be empty
   double extent = 0;                          ///< largest absolute coordinate
   Vec3 centre = Vec3::Zero();                 ///< any point of the body; the line of centres of a cold start ends here
+  double inner_radius = 0;                    ///< radius of a ball around `centre` that lies in the body; 0: none is known
   double reach = 0;  ///< upper bound on the distance of two points of the body; 0: not known, nor are FacePlane::over
 };
 
@@ -210,13 +211,13 @@ class Model {
   int map_level() const { return map_level_; }  ///< the finest level with a support map; level_count() if there is none
   SourceMap source() const;  ///< the user's ids of level 0, which live as long as the model; empty if level 0 is absent
 
-  Vec3 centre() const;    ///< body frame: area centroid of level 0, or the mean of its vertices if it has no faces
-  double radius() const;  ///< largest distance of a vertex of level 0 from `centre()`, rounded up
-  double extent() const;  ///< largest absolute coordinate over all levels
-  Vec3 box_min() const;   ///< body frame: smallest coordinates of level 0
-  Vec3 box_max() const;   ///< body frame: largest coordinates of level 0
-  double volume() const;  ///< of level 0, in cubic units
-  int dimension() const;  ///< 3 solid, 2 flat, 1 segment, 0 point
+  Vec3 centre() const;  ///< body frame: area centroid of level 0, or the mean of its vertices if it has no faces
+  double radius() const { return radius_; }  ///< largest distance of a vertex of level 0 from `centre()`, rounded up
+  double extent() const;                     ///< largest absolute coordinate over all levels
+  Vec3 box_min() const;                      ///< body frame: smallest coordinates of level 0
+  Vec3 box_max() const;                      ///< body frame: largest coordinates of level 0
+  double volume() const;                     ///< of level 0, in cubic units
+  int dimension() const;                     ///< 3 solid, 2 flat, 1 segment, 0 point
   /// Returns the model without the levels that `detail` leaves out, in a block of its own. Cost: a copy of the levels kept.
   Model cut(const Detail& detail) const;
   /// Makes `level` (>= 0) and all coarser levels ready for queries, if the block holds them, as that of a mapped model does.
@@ -241,14 +242,16 @@ class Model {
  private:
   friend class BlockReader;
   struct Content;
-  Model(std::shared_ptr<const Content> body, std::span<const Level> levels, int map_level, int finest_level)
+  Model(std::shared_ptr<const Content> body, std::span<const Level> levels, double radius, int map_level, int finest_level)
       : content_(std::move(body)),
         levels_(levels.data()),
+        radius_(radius),
         level_count_(int(levels.size())),
         map_level_(map_level),
         finest_level_(finest_level) {}
   std::shared_ptr<const Content> content_;
   const Level* levels_;  ///< points into `content_`
+  double radius_;
   int level_count_, map_level_, finest_level_;
 };
 

@@ -120,7 +120,9 @@ struct Answer {
   bool is_signed = false;                 ///< `lower` and `upper` bound the signed distance (depth.h)
   std::uint8_t levels_visited = 0;        ///< number of level pairs visited: the records that a complete trace has
   std::int16_t level_a = 0, level_b = 0;  ///< the level pair that answered
-  FeatureId feature_a, feature_b;  ///< features on `level_a` and `level_b` that hold `point_a` and `point_b` on the hulls
+  /// Features on `level_a` and `level_b` that hold `point_a` and `point_b` on the hulls. None where balls around or inside the
+  /// bodies answered; no level pair is visited then.
+  FeatureId feature_a, feature_b;
   std::uint32_t steps = 0, plane_tests = 0;                           ///< work, as MarchResult counts it, over all levels
   double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved bounds on the distance of the bodies
   /// Unit, from A to B: the gap of the bodies along it proves `lower`; if they overlap, moving B along it by -lower separates

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Four doubles at a time: one register of AVX, or two of SSE2 or NEON. Every lane is rounded as the same operation on doubles
+// is and sums have the order of vec.h, so both widths give the same bits. Functions are static, and without calls of others
+// that are not: a file compiled for AVX defines no symbol that another file could be linked to.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include "numeric/vec.h"
+
+namespace swiftlet {
+
+using Vec2 = double __attribute__((vector_size(16)));
+#if defined(__AVX__)
+using Register = double __attribute__((vector_size(32)));
+#endif
+
+/// A vector's x, y, z and a lane without meaning, which is mostly 0, or four numbers of one kind.
+struct Vec4 {
+#if defined(__AVX__)
+  Register v;
+  double operator[](int lane) const { return v[lane]; }
+#else
+  Vec2 lo, hi;
+  double operator[](int lane) const { return lane < 2 ? lo[lane] : hi[lane - 2]; }
+#endif
+};
+
+static inline Vec2 load2(const double* p) {
+  Vec2 v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+
+#if defined(__AVX__)
+static inline Vec4 vec4(Vec2 lo, Vec2 hi) { return {__builtin_shufflevector(lo, hi, 0, 1, 2, 3)}; }
+static inline Vec2 low(const Vec4& a) { return __builtin_shufflevector(a.v, a.v, 0, 1); }
+static inline Vec2 high(const Vec4& a) { return __builtin_shufflevector(a.v, a.v, 2, 3); }
+static inline Vec4 all(double x) { return {Register{x, x, x, x}}; }
+static inline Vec4 operator+(const Vec4& a, const Vec4& b) { return {a.v + b.v}; }
+static inline Vec4 operator-(const Vec4& a, const Vec4& b) { return {a.v - b.v}; }
+static inline Vec4 operator*(const Vec4& a, const Vec4& b) { return {a.v * b.v}; }
+static inline Vec4 operator/(const Vec4& a, const Vec4& b) { return {a.v / b.v}; }
+static inline Vec4 operator-(const Vec4& a) { return {-a.v}; }
+static inline Vec4 max(const Vec4& a, const Vec4& b) { return {_mm256_max_pd(b.v, a.v)}; }
+static inline Vec4 abs(const Vec4& a) { return {_mm256_andnot_pd(all(-0.0).v, a.v)}; }
+template <int i>
+static inline Vec4 lane(const Vec4& a) {
+  return {__builtin_shufflevector(a.v, a.v, i, i, i, i)};
+}
+static inline Vec4 yzx(const Vec4& a) { return {__builtin_shufflevector(a.v, a.v, 1, 2, 0, 3)}; }
+/// a0 b0 a2 b2 and a1 b1 a3 b3.
+static inline Vec4 even(const Vec4& a, const Vec4& b) { return {__builtin_shufflevector(a.v, b.v, 0, 4, 2, 6)}; }
+static inline Vec4 odd(const Vec4& a, const Vec4& b) { return {__builtin_shufflevector(a.v, b.v, 1, 5, 3, 7)}; }
+/// Bit i is set if lane i of `a` is equal to, or greater than, that of `b`.
+static inline unsigned equal(const Vec4& a, const Vec4& b) { return _mm256_movemask_pd(_mm256_cmp_pd(a.v, b.v, _CMP_EQ_OQ)); }
+static inline unsigned greater(const Vec4& a, const Vec4& b) { return _mm256_movemask_pd(_mm256_cmp_pd(a.v, b.v, _CMP_GT_OQ)); }
+static inline unsigned at_most(const Vec4& a, const Vec4& b) { return _mm256_movemask_pd(_mm256_cmp_pd(a.v, b.v, _CMP_LE_OQ)); }
+#else
+static inline Vec4 vec4(Vec2 lo, Vec2 hi) { return {lo, hi}; }
+static inline Vec2 low(const Vec4& a) { return a.lo; }
+static inline Vec2 high(const Vec4& a) { return a.hi; }
+static inline Vec4 all(double x) { return {Vec2{x, x}, Vec2{x, x}}; }
+static inline Vec4 operator+(const Vec4& a, const Vec4& b) { return {a.lo + b.lo, a.hi + b.hi}; }
+static inline Vec4 operator-(const Vec4& a, const Vec4& b) { return {a.lo - b.lo, a.hi - b.hi}; }
+static inline Vec4 operator*(const Vec4& a, const Vec4& b) { return {a.lo * b.lo, a.hi * b.hi}; }
+static inline Vec4 operator/(const Vec4& a, const Vec4& b) { return {a.lo / b.lo, a.hi / b.hi}; }
+static inline Vec4 operator-(const Vec4& a) { return {-a.lo, -a.hi}; }
+template <int i>
+static inline Vec4 lane(const Vec4& a) {
+  return all(a[i]);
+}
+static inline Vec4 yzx(const Vec4& a) { return {__builtin_shufflevector(a.lo, a.hi, 1, 2), a.lo}; }
+static inline Vec4 even(const Vec4& a, const Vec4& b) {
+  return {__builtin_shufflevector(a.lo, b.lo, 0, 2), __builtin_shufflevector(a.hi, b.hi, 0, 2)};
+}
+static inline Vec4 odd(const Vec4& a, const Vec4& b) {
+  return {__builtin_shufflevector(a.lo, b.lo, 1, 3), __builtin_shufflevector(a.hi, b.hi, 1, 3)};
+}
+#if defined(__SSE2__)
+static inline Vec4 max(const Vec4& a, const Vec4& b) { return {_mm_max_pd(b.lo, a.lo), _mm_max_pd(b.hi, a.hi)}; }
+static inline Vec4 abs(const Vec4& a) {
+  const Vec2 sign{-0.0, -0.0};
+  return {_mm_andnot_pd(sign, a.lo), _mm_andnot_pd(sign, a.hi)};
+}
+static inline unsigned equal(const Vec4& a, const Vec4& b) {
+  return _mm_movemask_pd(_mm_cmpeq_pd(a.lo, b.lo)) + 4u * _mm_movemask_pd(_mm_cmpeq_pd(a.hi, b.hi));
+}
+static inline unsigned greater(const Vec4& a, const Vec4& b) {
+  return _mm_movemask_pd(_mm_cmpgt_pd(a.lo, b.lo)) + 4u * _mm_movemask_pd(_mm_cmpgt_pd(a.hi, b.hi));
+}
+static inline unsigned at_most(const Vec4& a, const Vec4& b) {
+  return _mm_movemask_pd(_mm_cmple_pd(a.lo, b.lo)) + 4u * _mm_movemask_pd(_mm_cmple_pd(a.hi, b.hi));
+}
+#else
+static inline Vec4 max(const Vec4& a, const Vec4& b) { return {a.lo < b.lo ? b.lo : a.lo, a.hi < b.hi ? b.hi : a.hi}; }
+static inline Vec4 abs(const Vec4& a) {
+  return {Vec2{std::fabs(a[0]), std::fabs(a[1])}, Vec2{std::fabs(a[2]), std::fabs(a[3])}};
+}
+static inline unsigned equal(const Vec4& a, const Vec4& b) {
+  return (a[0] == b[0]) + 2u * (a[1] == b[1]) + 4u * (a[2] == b[2]) + 8u * (a[3] == b[3]);
+}
+static inline unsigned greater(const Vec4& a, const Vec4& b) {
+  return (a[0] > b[0]) + 2u * (a[1] > b[1]) + 4u * (a[2] > b[2]) + 8u * (a[3] > b[3]);
+}
+static inline unsigned at_most(const Vec4& a, const Vec4& b) {
+  return (a[0] <= b[0]) + 2u * (a[1] <= b[1]) + 4u * (a[2] <= b[2]) + 8u * (a[3] <= b[3]);
+}
+#endif
+#endif
+
+static inline Vec4 operator*(const Vec4& a, double s) { return a * all(s); }
+static inline Vec4 vec4(double x, double y, double z) { return vec4(Vec2{x, y}, Vec2{z, 0}); }
+/// The coordinates of a record that begins with them.
+template <class Record>
+static inline Vec4 vec4(const Record& p) {
+#if defined(__AVX__)
+  return {_mm256_maskload_pd(&p.x, _mm256_setr_epi64x(-1, -1, -1, 0))};
+#else
+  return vec4(load2(&p.x), Vec2{p.z, 0});
+#endif
+}
+/// Four integers.
+static inline Vec4 vec4(const std::int16_t* p) {
+  std::int16_t __attribute__((vector_size(8))) units;
+  __builtin_memcpy(&units, p, sizeof units);
+#if defined(__AVX__)
+  return {__builtin_convertvector(__builtin_convertvector(units, std::int32_t __attribute__((vector_size(16)))),
+                                  double __attribute__((vector_size(32))))};
+#elif defined(__SSE2__)
+  __m128i wide;
+  __builtin_memcpy(&wide, &units, sizeof units);
+  const __m128i whole = _mm_srai_epi32(_mm_unpacklo_epi16(wide, wide), 16);
+  return {_mm_cvtepi32_pd(whole), _mm_cvtepi32_pd(_mm_unpackhi_epi64(whole, whole))};
+#else
+  return {{double(units[0]), double(units[1])}, {double(units[2]), double(units[3])}};
+#endif
+}
+static inline Vec vec(const Vec4& a) { return {a[0], a[1], a[2]}; }
+
+/// The sum of x, y and z, and the dot product of such vectors.
+static inline double sum(const Vec4& a) { return a[0] + a[1] + a[2]; }
+static inline double dot(const Vec4& a, const Vec4& b) { return sum(a * b); }
+static inline Vec4 cross(const Vec4& a, const Vec4& b) { return yzx(a * yzx(b) - yzx(a) * b); }
+static inline double norm_1(const Vec4& a) { return sum(abs(a)); }
+
+/// The greatest of four numbers.
+static inline double greatest(const Vec4& a) {
+  const Vec4 pairs = max(a, vec4(high(a), low(a)));
+  return max(pairs[0], pairs[1]);
+}
+
+/// Four dot products of vectors.
+static inline Vec4 dots(const Vec4& a, const Vec4& b, const Vec4& c, const Vec4& d, const Vec4& e, const Vec4& f, const Vec4& g,
+                        const Vec4& h) {
+  const Vec4 p = a * b, q = c * d, r = e * f, s = g * h;
+  const Vec4 pq = even(p, q), rs = even(r, s), xy_pq = pq + odd(p, q), xy_rs = rs + odd(r, s);
+  return vec4(low(xy_pq), low(xy_rs)) + vec4(high(pq), high(rs));
+}
+
+/// Four points: their x, their y and their z.
+template <class Point>
+static inline V3<Vec4> transposed(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Vec4 ac = vec4(load2(&a.x), load2(&c.x)), bd = vec4(load2(&b.x), load2(&d.x));
+  return {even(ac, bd), odd(ac, bd), vec4(Vec2{a.z, b.z}, Vec2{c.z, d.z})};
+}
+/// A vector four times.
+static inline V3<Vec4> repeated(const Vec4& a) { return {lane<0>(a), lane<1>(a), lane<2>(a)}; }
+
+}  // namespace swiftlet
