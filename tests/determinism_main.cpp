@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints hashes of many answers, for ./run determinism to compare between compilers and flags; --record renews the recorded
-// answers.
+// Prints hashes of many answers, for ./run determinism to compare between compilers and flags, and fails if walks by another
+// width of registers give others; --record renews the recorded answers.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <string>
 #include <string_view>
 
 #include "answers.h"
+#include "pair/walk.h"
 
 int main(int argc, char** argv) {
   using namespace swiftlet;
@@ -21,5 +23,15 @@ int main(int argc, char** argv) {
     answers::write(answers::records(models, answers::kRecordedRounds), file);
     return file.flush() ? 0 : (std::fputs("cannot write answers.txt\n", stderr), 1);
   }
-  for (const answers::Print& print : answers::prints(models, rounds)) std::puts(answers::text(print).c_str());
+  const auto hashes = [&] {
+    std::string lines;
+    for (const answers::Print& print : answers::prints(models, rounds)) lines += answers::text(print) + "\n";
+    return lines;
+  };
+  const std::string widest = hashes();
+  std::fputs(widest.c_str(), stdout);
+  for (const Width width : {Width::Two, Width::Four})
+    if (set_width(width))
+      if (const std::string these = hashes(); these != widest)
+        return std::fprintf(stderr, "by registers of %d doubles:\n%s", width == Width::Two ? 2 : 4, these.c_str()), 1;
 }

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "answers.h"
+#include "pair/walk.h"
 
 namespace swiftlet {
 namespace {
@@ -41,6 +42,16 @@ TEST(Determinism, AnswersAreTheRecordedOnes) {
       << " fields:" << some(changes.values) << "\nthese fields are gone:" << counts(changes.gone)
       << "\nthese are new:" << counts(changes.added)
       << "\nIf that is meant, `build/bin/swiftlet_determinism --record` renews tests/data/answers.txt.";
+}
+
+TEST(Determinism, RegistersOfTwoAndOfFourGiveTheSameAnswers) {
+  const std::vector<Model> models = answers::models(SWIFTLET_TEST_DIR "/data/models");
+  if (!set_width(Width::Four)) GTEST_SKIP() << "walks know one width here";
+  const std::vector<Record> by_four = answers::records(models, answers::kRecordedRounds);
+  ASSERT_TRUE(set_width(Width::Two));
+  const answers::Changes changes = answers::compare(by_four, answers::records(models, answers::kRecordedRounds));
+  set_width(Width::Four);
+  EXPECT_TRUE(changes.empty()) << some(changes.hashes) << some(changes.values);
 }
 
 TEST(Determinism, ARecordIsReadAsItWasWritten) {

@@ -11,5 +11,12 @@ constexpr double kNoError = 0;
 #define kAcrossError kNoError
 #define kFlatError kNoError
 #define kFootError kNoError
-#define walk loose_walk
-#include "pair/walk.cpp"  // NOLINT(bugprone-suspicious-include)
+#include "pair/marcher.h"
+
+namespace swiftlet {
+
+Walk loose_walk(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget) {
+  return walked(pair, a, b, rule, step_budget);
+}
+
+}  // namespace swiftlet

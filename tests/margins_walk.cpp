@@ -139,7 +139,7 @@ bool is_feature(const ConvexView& view, FeatureId feature, int corners) {
   return corners == (feature.index() < view.planes.size() ? 4 : 3);
 }
 
-/// The depth below a feature from which a walk's tests prove that the vertex is below, as walk.cpp has it, for a unit normal.
+/// The depth below a feature from which a walk's tests prove that the vertex is below, as marcher.h has it, for a unit normal.
 double border_of(int corners, bool moved, const Vec3& n, double extent, double reach, double sine) {
   if (corners == 1) return kScanError * extent * n.lpNorm<1>();
   const double way = moved ? kTurnedWayError : kWayError, tilt = sine > 0 ? kFlatError / sine : kAcrossError;

@@ -118,7 +118,7 @@ inline constexpr double kPointError = 7 * kU;
 /// 1 of the product, 2 of the sums. The root halves these and adds 1; rounded up.
 inline constexpr double kNormError = 5 * kU;
 
-// ---- Rounding of a walk's tests (walk.cpp) --------------------------------------------------------------------------------
+// ---- Rounding of a walk's tests (marcher.h) -------------------------------------------------------------------------------
 // The tests that end a walk also prove bounds. A direction d is taken exactly as it was computed; how far it is from the one
 // that was meant shows in the bounds. R is the pose's matrix as it was given: none of these terms needs it to be orthonormal.
 

@@ -39,10 +39,18 @@ static inline Vec2 load2(const double* p) {
   return v;
 }
 
+static inline Vec2 max(Vec2 a, Vec2 b) {
+#if defined(__SSE2__)
+  return _mm_max_pd(b, a);
+#else
+  return a < b ? b : a;
+#endif
+}
+
 #if defined(__AVX__)
-static inline Vec4 vec4(Vec2 lo, Vec2 hi) { return {__builtin_shufflevector(lo, hi, 0, 1, 2, 3)}; }
-static inline Vec2 low(const Vec4& a) { return __builtin_shufflevector(a.v, a.v, 0, 1); }
-static inline Vec2 high(const Vec4& a) { return __builtin_shufflevector(a.v, a.v, 2, 3); }
+static inline Vec4 vec4(Vec2 lo, Vec2 hi) { return {_mm256_insertf128_pd(_mm256_castpd128_pd256(lo), hi, 1)}; }
+static inline Vec2 low(const Vec4& a) { return _mm256_castpd256_pd128(a.v); }
+static inline Vec2 high(const Vec4& a) { return _mm256_extractf128_pd(a.v, 1); }
 static inline Vec4 all(double x) { return {Register{x, x, x, x}}; }
 static inline Vec4 operator+(const Vec4& a, const Vec4& b) { return {a.v + b.v}; }
 static inline Vec4 operator-(const Vec4& a, const Vec4& b) { return {a.v - b.v}; }
@@ -84,8 +92,8 @@ static inline Vec4 even(const Vec4& a, const Vec4& b) {
 static inline Vec4 odd(const Vec4& a, const Vec4& b) {
   return {__builtin_shufflevector(a.lo, b.lo, 1, 3), __builtin_shufflevector(a.hi, b.hi, 1, 3)};
 }
+static inline Vec4 max(const Vec4& a, const Vec4& b) { return {max(a.lo, b.lo), max(a.hi, b.hi)}; }
 #if defined(__SSE2__)
-static inline Vec4 max(const Vec4& a, const Vec4& b) { return {_mm_max_pd(b.lo, a.lo), _mm_max_pd(b.hi, a.hi)}; }
 static inline Vec4 abs(const Vec4& a) {
   const Vec2 sign{-0.0, -0.0};
   return {_mm_andnot_pd(sign, a.lo), _mm_andnot_pd(sign, a.hi)};
@@ -100,7 +108,6 @@ static inline unsigned at_most(const Vec4& a, const Vec4& b) {
   return _mm_movemask_pd(_mm_cmple_pd(a.lo, b.lo)) + 4u * _mm_movemask_pd(_mm_cmple_pd(a.hi, b.hi));
 }
 #else
-static inline Vec4 max(const Vec4& a, const Vec4& b) { return {a.lo < b.lo ? b.lo : a.lo, a.hi < b.hi ? b.hi : a.hi}; }
 static inline Vec4 abs(const Vec4& a) {
   return {Vec2{std::fabs(a[0]), std::fabs(a[1])}, Vec2{std::fabs(a[2]), std::fabs(a[3])}};
 }
@@ -153,7 +160,7 @@ static inline double norm_1(const Vec4& a) { return sum(abs(a)); }
 
 /// The greatest of four numbers.
 static inline double greatest(const Vec4& a) {
-  const Vec4 pairs = max(a, vec4(high(a), low(a)));
+  const Vec2 pairs = max(low(a), high(a));
   return max(pairs[0], pairs[1]);
 }
 

@@ -4,10 +4,11 @@
 // directions are in the common frame. Knows one body.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "body/half_edge.h"
-#include "pair/pair_view.h"
+#include "pair/pair_view4.h"
 
 namespace swiftlet {
 
@@ -16,110 +17,111 @@ namespace swiftlet {
 template <class Body>
 class Prism {
  public:
-  Prism(Body body, std::uint32_t f)
-      : body_(body),
-        is_triangle_(f >= body.view.planes.size()),
-        first_(body.view.face_first[f]),
-        sense_(body.sense()),
-        corner_(body.point(origin(body.view, first_))) {
-    if (!is_triangle_) {
-      const FacePlane& plane = body.view.planes[f];
-      own_normal_ = vec(plane);
-      normal_ = body.image(own_normal_) * sense_;
-      return;
-    }
-    span();
+  Prism(const Body& body, std::uint32_t f) : Prism(body, body.view.face_first[f], f >= body.view.planes.size()) {
+    if (is_triangle_) return;
+    own_normal_ = vec4(body.view.planes[f]);
+    normal_ = body.image(own_normal_) * sense_;
   }
   /// The prism over the triangle that half-edge `h` begins: a triangular face, or a facet within a larger one.
-  static Prism over_facet(Body body, std::uint32_t h) { return Prism(body, h, Facet{}); }
+  static Prism over_facet(const Body& body, std::uint32_t h) { return Prism(body, h, true); }
 
   const Body& body() const { return body_; }
   bool is_triangle() const { return is_triangle_; }
-  const Vec& corner() const { return corner_; }     ///< the origin of the face's first half-edge
-  std::uint32_t first() const { return first_; }    ///< that half-edge
-  std::uint32_t second() const { return second_; }  ///< a triangle's next one
+  const Vec4& corner() const { return corner_; }                              ///< the origin of the face's first half-edge
+  std::uint32_t first() const { return first_; }                              ///< that half-edge
+  std::uint32_t second() const { return next_in_facet(body_.view, first_); }  ///< a triangle's next one
+  /// A triangle's three corners.
+  std::array<std::uint32_t, 3> corners() const {
+    const HalfEdge* h = body_.view.half_edges.data();
+    return {origin(body_.view, first_), h[first_].head, h[before_].head};
+  }
   /// From `corner()` to a triangle's second and third corner.
-  const Vec& u() const { return u_; }
-  const Vec& v() const { return v_; }
+  const Vec4& u() const { return u_; }
+  const Vec4& v() const { return v_; }
   /// The face's outward normal, of any length.
-  const Vec& normal() const { return normal_; }
+  const Vec4& normal() const { return normal_; }
   /// The height of `p` above the face's plane, times the length of `normal()`.
-  double height(const Vec& p) const { return dot(normal_, p - corner_); }
+  double height(const Vec4& p) const { return dot(normal_, p - corner_); }
 
   /// How far something is beyond a triangle's sides u and v, times the lengths of side and normal.
   struct Beyond {
     double u, v;
   };
   /// `r` leads from `corner()` to a point. Of a triangle only: beyond the third side a point is -(u + v + |normal|^2).
-  Beyond beyond(const Vec& r) const {
-    const Vec c = cross(normal_, r);
+  Beyond beyond(const Vec4& r) const {
+    const Vec4 c = cross(normal_, r);
     return {dot(u_, c) * sense_, -dot(v_, c) * sense_};
   }
 
-  /// Calls visit(half_edge, uu, beyond, slope) for each side of the face and returns the number of sides. `uu` is the squared
-  /// length of the side. `beyond` is how far `p` is outside the prism's plane through the side, and `slope` how much farther
-  /// outside `p` + `e` is; both are times the lengths of the side and of `normal()`.
+  /// Four sides of the face, or fewer, of which the last is repeated. `uu` are the squared lengths of the sides. `beyond` is
+  /// how far a point is outside the prism's planes through the sides, and `slope` how much farther outside another one is; both
+  /// are times the lengths of the side and of `normal()`.
+  struct Sides {
+    Vec4 uu, beyond, slope;
+  };
+  /// Calls visit(sides, half_edge) for all sides of the face and returns their number: half_edge(i) is the side in lane i.
+  /// `beyond` is of p, `slope` of p + e.
   template <class Visit>
-  std::uint32_t each_side(const Vec& p, const Vec& e, Visit visit) const {
+  std::uint32_t each_side(const Vec4& p, const Vec4& e, Visit visit) const {
     if (!is_triangle_) return each_of_many(body_.local(p), body_.into(e), visit);
     const Beyond at = beyond(p - corner_), by = beyond(e);
-    const Vec third = v_ - u_;
-    visit(first_, dot(u_, u_), at.u, by.u);
-    visit(second_, dot(third, third), -(at.u + at.v + dot(normal_, normal_)), -(by.u + by.v));
-    visit(next_in_facet(body_.view, second_), dot(v_, v_), at.v, by.v);
-    return 3;
-  }
-
-  /// The same for a point that does not move: calls visit(half_edge, uu, beyond).
-  template <class Visit>
-  std::uint32_t each_side(const Vec& p, Visit visit) const {
-    if (!is_triangle_)
-      return each_of_many(body_.local(p), {0, 0, 0},
-                          [&](std::uint32_t h, double uu, double out, double) { visit(h, uu, out); });
-    const Beyond at = beyond(p - corner_);
-    const Vec third = v_ - u_;
-    visit(first_, dot(u_, u_), at.u);
-    visit(second_, dot(third, third), -(at.u + at.v + dot(normal_, normal_)));
-    visit(next_in_facet(body_.view, second_), dot(v_, v_), at.v);
+    const Vec4 third = v_ - u_;
+    const double at_third = -(at.u + at.v + dot(normal_, normal_)), by_third = -(by.u + by.v);
+    visit(Sides{dots(u_, u_, third, third, v_, v_, v_, v_), vec4(Vec2{at.u, at_third}, Vec2{at.v, at.v}),
+                vec4(Vec2{by.u, by_third}, Vec2{by.v, by.v})},
+          [&view = body_.view, first = first_, before = before_](int i) {
+            return std::array{first, next_in_facet(view, first), view.half_edges[before].twin}[i < 2 ? i : 2];
+          });
     return 3;
   }
 
  private:
   /// `p` and `e` are in the body's own frame.
   template <class Visit>
-  std::uint32_t each_of_many(const Vec& p, const Vec& e, Visit visit) const {
+  std::uint32_t each_of_many(const Vec4& p, const Vec4& e, Visit visit) const {
+    const ConvexView& view = body_.view;
+    const V3<Vec4> own_normal = repeated(own_normal_), from = repeated(p), way = repeated(e);
+    std::array<std::uint32_t, 4> sides;
+    std::array<const Vertex*, 4> tail, head;
+    const Vertex* corner = &view.vertices[origin(view, first_)];
     std::uint32_t h = first_, count = 0;
-    Vec tail = body_.own(origin(body_.view, first_));
     do {
-      const Vec head = body_.own(body_.view.half_edges[h].head), u = head - tail, out = cross(u, own_normal_);
-      visit(h, dot(u, u), dot(p - tail, out), dot(e, out));
-      tail = head;
-      h = next_in_face(body_.view, h);
-      ++count;
+      for (std::size_t i = 0; i < 4; ++i) {
+        if (i > 0 && h == first_) {
+          sides[i] = sides[i - 1], tail[i] = tail[i - 1], head[i] = head[i - 1];
+          continue;
+        }
+        sides[i] = h, tail[i] = corner, head[i] = corner = &view.vertices[view.half_edges[h].head];
+        h = next_in_face(view, h);
+        ++count;
+      }
+      const V3<Vec4> tails = transposed(*tail[0], *tail[1], *tail[2], *tail[3]),
+                     u = transposed(*head[0], *head[1], *head[2], *head[3]) - tails, out = cross(u, own_normal);
+      visit(Sides{dot(u, u), dot(from - tails, out), dot(way, out)}, [&](int i) { return sides[std::size_t(i)]; });
     } while (h != first_);
     return count;
   }
 
-  struct Facet {};
-  Prism(Body body, std::uint32_t h, Facet)
-      : body_(body), is_triangle_(true), first_(h), sense_(body.sense()), corner_(body.point(origin(body.view, h))) {
-    span();
-  }
-  void span() {
-    const std::uint32_t root = origin(body_.view, first_);
-    second_ = next_in_facet(body_.view, first_);
-    u_ = body_.way(root, body_.view.half_edges[first_].head);
-    v_ = body_.way(root, body_.view.half_edges[second_].head);
+  Prism(const Body& body, std::uint32_t h, bool is_triangle)
+      : body_(body), is_triangle_(is_triangle), first_(h), sense_(body.sense()) {
+    const ConvexView& view = body.view;
+    const std::uint32_t root = origin(view, h);
+    corner_ = body.point(root);
+    if (!is_triangle) return;
+    const Vertex& record = view.vertices[root];
+    before_ = counter_clockwise(record, h);
+    const Vec4 q = vec4(record);
+    u_ = body.way(body.own(view.half_edges[h].head) - q);
+    v_ = body.way(body.own(view.half_edges[before_].head) - q);
     normal_ = cross(u_, v_) * sense_;
   }
 
-  const Body body_;
-  const bool is_triangle_;
-  const std::uint32_t first_;
-  std::uint32_t second_ = kNone;  ///< a triangle's second half-edge
-  const double sense_;
-  const Vec corner_;
-  Vec u_{0, 0, 0}, v_{0, 0, 0}, normal_, own_normal_{0, 0, 0};
+  const Body& body_;
+  bool is_triangle_;
+  std::uint32_t first_;
+  std::uint32_t before_ = kNone;  ///< the twin of a triangle's third half-edge
+  double sense_;
+  Vec4 corner_, u_{}, v_{}, normal_, own_normal_{};
 };
 
 }  // namespace swiftlet

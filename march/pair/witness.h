@@ -33,17 +33,22 @@ struct Witness {
 static inline Witness swapped(const Witness& w) { return {-w.normal, w.second, w.first}; }
 
 /// The part of `d` at right angles to `u`, whose squared length is `uu`.
-static inline Vec across(const Vec& d, const Vec& u, double uu) { return d - u * (dot(d, u) / uu); }
+template <class V>
+static inline V across(const V& d, const V& u, double uu) {
+  return d - u * (dot(d, u) / uu);
+}
 
 /// The direction from one edge's line to another's, and bounds on the sines by which it misses a right angle to either of the
 /// vectors from which it was computed.
+template <class V>
 struct BetweenEdges {
-  Vec normal;
+  V normal;
   double tilt_u, tilt_v;
 };
 /// Of lines along `u` and `v`; `d` leads from a point of the first to one of the second, `uu` and `vv` are squared lengths.
-static inline BetweenEdges between_edges(const Vec& u, double uu, const Vec& v, double vv, const Vec& d) {
-  const Vec n = cross(u, v);
+template <class V>
+static inline BetweenEdges<V> between_edges(const V& u, double uu, const V& v, double vv, const V& d) {
+  const V n = cross(u, v);
   const double nn = dot(n, n), lengths = std::sqrt(uu) * std::sqrt(vv);
   // If the edges are parallel within rounding, the direction of their cross product is noise.
   if (!(nn > kU * uu * vv)) return {across(d, u, uu), kAcrossError, kAcrossError + kFlatError + std::sqrt(nn) / lengths};
@@ -57,9 +62,10 @@ struct Parameters {
 };
 /// Follows [Ericson 2004, sec. 5.1.9], then computes s again from t, so that the difference stays perpendicular if the lines
 /// are nearly parallel.
-static inline Parameters nearest_on_segments(const Vec& p0, const Vec& u, double uu, const Vec& q0, const Vec& v, double vv) {
+template <class V>
+static inline Parameters nearest_on_segments(const V& p0, const V& u, double uu, const V& q0, const V& v, double vv) {
   const auto clamp = [](double x) { return min(1, max(0, x)); };
-  const Vec r = p0 - q0;
+  const V r = p0 - q0;
   const double uv = dot(u, v), ur = dot(u, r), vr = dot(v, r), area2 = uu * vv - uv * uv;
   const double s = area2 > 0 ? clamp((uv * vr - ur * vv) / area2) : 0.0, t = clamp((uv * s + vr) / vv);
   return {clamp((uv * t - ur) / uu), t};
