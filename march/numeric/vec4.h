@@ -1,13 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Four doubles at a time: one register of AVX, or two of SSE2 or NEON. Every lane is rounded as the same operation on doubles
-// is and sums have the order of vec.h, so both widths give the same bits. Functions are static, and without calls of others
-// that are not: a file compiled for AVX defines no symbol that another file could be linked to.
+// is and sums have the order of vec.h, so both widths give the same bits. Functions are static, as those of vec.h.
 #pragma once
-
-#include <array>
-#include <bit>
-#include <cstdint>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -18,20 +13,23 @@
 namespace swiftlet {
 
 using Vec2 = double __attribute__((vector_size(16)));
-#if defined(__AVX__)
-using Register = double __attribute__((vector_size(32)));
-#endif
 
-/// A vector's x, y, z and a lane without meaning, which is mostly 0, or four numbers of one kind.
-struct Vec4 {
+// Each width has a name of its own, so that no function of the one is taken for a function of the other.
 #if defined(__AVX__)
+struct Avx4 {
+  using Register = double __attribute__((vector_size(32)));
   Register v;
   double operator[](int lane) const { return v[lane]; }
+};
+using Vec4 = Avx4;
 #else
+struct Pair4 {
   Vec2 lo, hi;
   double operator[](int lane) const { return lane < 2 ? lo[lane] : hi[lane - 2]; }
-#endif
 };
+/// A vector's x, y, z and a lane without meaning, which is mostly 0, or four numbers of one kind.
+using Vec4 = Pair4;
+#endif
 
 static inline Vec2 load2(const double* p) {
   Vec2 v;
@@ -51,7 +49,7 @@ static inline Vec2 max(Vec2 a, Vec2 b) {
 static inline Vec4 vec4(Vec2 lo, Vec2 hi) { return {_mm256_insertf128_pd(_mm256_castpd128_pd256(lo), hi, 1)}; }
 static inline Vec2 low(const Vec4& a) { return _mm256_castpd256_pd128(a.v); }
 static inline Vec2 high(const Vec4& a) { return _mm256_extractf128_pd(a.v, 1); }
-static inline Vec4 all(double x) { return {Register{x, x, x, x}}; }
+static inline Vec4 all(double x) { return {Vec4::Register{x, x, x, x}}; }
 static inline Vec4 operator+(const Vec4& a, const Vec4& b) { return {a.v + b.v}; }
 static inline Vec4 operator-(const Vec4& a, const Vec4& b) { return {a.v - b.v}; }
 static inline Vec4 operator*(const Vec4& a, const Vec4& b) { return {a.v * b.v}; }

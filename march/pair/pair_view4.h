@@ -7,6 +7,7 @@
 #include "pair/pair_view.h"
 
 namespace swiftlet {
+namespace {
 
 /// Body A of a pair: its own frame is the common frame.
 struct Resting4 {
@@ -55,4 +56,5 @@ struct Moved4 {
   V3<Vec4> rows() const { return {vec4(motion.row_x), vec4(motion.row_y), vec4(motion.row_z)}; }
 };
 
+}  // namespace
 }  // namespace swiftlet

@@ -11,6 +11,7 @@
 #include "pair/pair_view4.h"
 
 namespace swiftlet {
+namespace {
 
 /// The sides of a triangle are known by vectors of the common frame. Those of a larger face are compared in the body's own
 /// frame, so that no corner but the first is carried out of it.
@@ -124,4 +125,5 @@ class Prism {
   Vec4 corner_, u_{}, v_{}, normal_, own_normal_{};
 };
 
+}  // namespace
 }  // namespace swiftlet
