@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "answers.h"
-#include "pair/walk.h"
+#include "numeric/width.h"
 
 int main(int argc, char** argv) {
   using namespace swiftlet;

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "answers.h"
-#include "pair/walk.h"
+#include "numeric/width.h"
 
 namespace swiftlet {
 namespace {

@@ -31,11 +31,7 @@ struct Walk {
 /// `a` and `b` name features of the pair's views, not both faces.
 Walk walk(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget);
 
-/// How many doubles the registers of a walk hold. The result is the same, bit for bit.
-enum class Width : std::uint8_t { Two, Four };
-/// Walks take the widest registers that the processor has, unless a test chooses others. False if there are none of this width.
-bool set_width(Width width);
-/// `walk` by `Width::Four`, which not every processor has.
+/// The same by registers of four doubles: see width.h.
 Walk walk_by_four(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget);
 
 }  // namespace swiftlet

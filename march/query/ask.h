@@ -1,133 +1,27 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The way of every question about distance: what the last query of the pair left in its seed answers most of them, by a
-// separating axis, the nearest features to walk on from, or the vertices that proved an overlap; else the descent. All of that
-// is inline, so that each query leaves out what it does not ask.
+// Answers a question about distance: see recall.h. Compiled once for each width of registers.
 #pragma once
-
-#include <algorithm>
 
 #include <swiftlet/query.h>
 
-#include "pair/conclude.h"
-#include "pair/start.h"
 #include "pair/stop_rule.h"
-#include "pair/tetrahedron.h"
-#include "pair/walk.h"
-#include "query/descend.h"
 #include "query/limits.h"
 #include "query/model_pair.h"
-#include "query/radii.h"
-#include "query/seed.h"
-#include "query/separating_axis.h"
-#include "query/spheres.h"
 
 namespace swiftlet {
 
-/// Answers from one walk on the level pair of `place`, from the seed's features, if the tests that end it prove enough. Else
-/// `place` becomes where the descent goes on: at the features where the walk ended, or anywhere if it came to nothing.
-[[gnu::always_inline]] static inline bool nearest_as_before(const ModelPair& pair, const Line& line, const StopRule& asked,
-                                                            Turn turn, PairSeed& seed, Place& place, Answer& answer) {
-  const Limits& limits = pair.limits;
-  const PairView view = pair.view_at(place);
-  const MarchStart from = settled(view, place.start, answer.plane_tests);
-  const Walk walked = walk(view, from.a, from.b, limits.tuning.plane_rule, std::min(limits.budget.steps, place.trial_steps));
-  answer.steps = walked.steps;
-  answer.plane_tests += walked.plane_tests;
-  Proof proof;
-  if (settle(view, walked, asked.zero, asked.above, proof) != Doubt::None) {
-    const bool lost = walked.end == WalkEnd::Budget && walked.steps < limits.budget.steps;
-    place =
-        lost ? coarsest_place(pair.a, pair.b) : Place{place.level_a, place.level_b, {walked.a, walked.b}, place.trial_steps};
-    return false;
-  }
-  place.start = {walked.a, walked.b};
-  double upper = proof.upper;
-  if (place.level_a != 0 || place.level_b != 0) {
-    upper = (upper + pair.deviation(place.level_a, place.level_b)) * (1 + 2 * kU);
-    if (!asked.beyond_by(pair.law_two).met(proof.lower, upper)) return false;
-  }
-  answer.status = proof.lower > asked.above + pair.law_two ? Status::Beyond : Status::Converged;
-  answer.verdict = Verdict::Disjoint;
-  answer.lower = proof.lower;
-  answer.upper = upper;
-  answer.normal = eigen(proof.normal);
-  answer.point_a = eigen(walked.nearest.point_a);
-  answer.point_b = eigen(walked.nearest.point_b);
-  answer.level_a = std::int16_t(place.level_a), answer.level_b = std::int16_t(place.level_b);
-  answer.feature_a = walked.a, answer.feature_b = walked.b;
-  answer.levels_visited = 1;
-  note(limits.trace, 0, {place.level_a, place.level_b, answer.lower, answer.upper, answer.steps, answer.plane_tests});
-  keep(pair, asked, answer, place, seed);
-  turn == Turn::Little ? remember(proof.normal, seed) : remember(line, proof.normal, seed);
-  seed.met = false;
-  return true;
-}
-
-/// Answers that the bodies overlap if the vertex pairs that proved it last time still do.
-[[gnu::always_inline]] static inline bool overlaps_as_before(const ModelPair& pair, const PairSeed& seed, Answer& answer,
-                                                             OverlapProof& proof) {
-  const PairView view = pair.view_at({0, 0, {}});
-  const auto names = [](const std::array<std::uint32_t, 4>& v, const ConvexView& body) {
-    return std::max(std::max(v[0], v[1]), std::max(v[2], v[3])) < body.vertices.size();
-  };
-  if (pair.finest_a() != 0 || pair.finest_b() != 0 || !names(seed.inside_a, view.a) || !names(seed.inside_b, view.b))
-    return false;
-  const OverlapProof again{4, seed.inside_a, seed.inside_b};
-  Vec common;
-  if (!proves_deep_overlap(view, again, &common)) return false;
-  answer.status = Status::Converged;
-  answer.verdict = Verdict::Overlapping;
-  answer.lower = answer.upper = 0;
-  answer.point_a = answer.point_b = eigen(common);
-  answer.feature_a = {FeatureKind::Vertex, seed.inside_a[0]}, answer.feature_b = {FeatureKind::Vertex, seed.inside_b[0]};
-  answer.levels_visited = 1;
-  note(pair.limits.trace, 0, {0, 0, 0, 0});
-  proof = again;
-  return true;
-}
+/// Answers `asked` for two bodies. `answer` must be a default one.
+void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const StopRule& asked,
+         Answer& answer);
 
 /// Answers `asked` for the hulls of two bodies. Thresholds are passed by more than law 2's bound. An unknown normal becomes 0.
 /// `proof` must be empty, and is filled if the levels of the answer overlap.
-[[gnu::always_inline]] static inline void ask_hulls(const ModelPair& pair, const StopRule& asked, PairSeed& seed,
-                                                    Answer& answer, OverlapProof& proof) {
-  const Tuning& tuning = pair.limits.tuning;
-  const bool automatic = tuning.start == StartPolicy::Automatic;
-  const Vec between = between_centres(pair.a, pair.b, pair.motion);
-  const bool asks = asked.is_threshold(), unwatched = pair.limits.trace.empty() && !tuning.proof && !tuning.careful;
-  if (asks && automatic && unwatched && spheres_are_apart(pair, between, asked, answer)) return;
-  if ((asks || seed.met) && automatic && unwatched && spheres_meet(pair, between, answer)) return;
-  if (seed.met && automatic && overlaps_as_before(pair, seed, answer, proof)) return;
-  AxisTest first;
-  if (asks && !seed.met && pair.limits.trace.empty() && pair.has_maps() &&
-      separating_axis(pair, between, asked, seed, first, answer))
-    return;
-  const Line line{between, turned_line(between, pair.motion)};
-  Turn turn;
-  Place place = first_place(pair.a, pair.b, line, seed, pair.finest_a(), pair.finest_b(), tuning.start, turn);
-  const bool is_warm = place.start.a.kind() != FeatureKind::None && tuning.start != StartPolicy::Coarsest;
-  if (is_warm && !tuning.careful && nearest_as_before(pair, line, asked, turn, seed, place, answer)) return;
-  answer.normal.setZero();
-  descend(pair, line, asked, first, place, seed, answer, proof);
-}
+void ask_hulls(const ModelPair& pair, const StopRule& asked, PairSeed& seed, Answer& answer, OverlapProof& proof);
 
-/// Answers `asked` for two bodies. `answer` must be a default one.
-[[gnu::always_inline]] static inline void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed,
-                                              const Limits& limits, const StopRule& asked, Answer& answer) {
-  if (limits.tuning.proof) *limits.tuning.proof = {};
-  const Setting at(a, b, b_in_a);
-  const Radii& radii = at.radii;
-  if (const Status fault = at.fault(); fault != Status::Converged) return refuse(a, b, fault, false, answer);
-  const ModelPair pair(*at.a, *at.b, at.motion, at.quality.error, limits);
-  OverlapProof proof;
-  StopRule converted;
-  if (!radii.none()) converted = radii.of_hulls(asked, at.law_two());
-  ask_hulls(pair, radii.none() ? asked : converted, seed, answer, proof);
-  if (!radii.none()) {
-    radii.round(answer, proof, at.law_two());
-    radii.round(limits.trace, answer.levels_visited);
-  }
-  seal(radii, proof, limits.tuning, answer);
-}
+/// The same by registers of four doubles: see width.h.
+void ask_by_four(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const StopRule& asked,
+                 Answer& answer);
+void ask_hulls_by_four(const ModelPair& pair, const StopRule& asked, PairSeed& seed, Answer& answer, OverlapProof& proof);
 
 }  // namespace swiftlet

@@ -6,6 +6,8 @@
 #include "body/half_edge.h"
 #include "body/shape.h"
 #include "query/ask.h"
+#include "query/descend.h"
+#include "query/radii.h"
 
 namespace swiftlet {
 namespace {

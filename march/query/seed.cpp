@@ -18,7 +18,7 @@ FeatureId table_start(const Shape& body, const Vec& direction) {
   return body.model() ? swiftlet::table_start(*body.model(), eigen(direction)) : FeatureId{};
 }
 MarchStart from_tables(const Shape& a, const Shape& b, const Line& line) {
-  return {table_start(a, line.in_a), table_start(b, vec(line.in_b))};
+  return {table_start(a, line.in_a), table_start(b, line.in_b)};
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ void remember(const Line& line, const Vec& normal, PairSeed& seed) {
   const double length = norm(line.in_a), inverse = length > 0 ? (1 - 4 * kU) / length : 0;  // so that no coordinate is above 1
   const double scale = std::isfinite(inverse) ? inverse : 0;  // centres nearer than 1e-308 count as one point
   seed.line_in_a = packed(line.in_a * scale);
-  seed.line_in_b = packed(vec(line.in_b) * scale);
+  seed.line_in_b = packed(line.in_b * scale);
 }
 
 FeatureId child(const Shape& body, int level, FeatureId feature) {

@@ -25,14 +25,13 @@ struct Place {
 
 /// The line of centres: `in_a` leads from A's centre to B's in A's frame, `in_b` from B's centre to A's in B's frame.
 struct Line {
-  Vec in_a;
-  Vec4 in_b;
+  Vec in_a, in_b;
 };
 static inline Vec between_centres(const Shape& a, const Shape& b, const Motion& b_in_a) {
   return apply(b_in_a, vec(b.level(0).view.centre)) - vec(a.level(0).view.centre);
 }
-static inline Vec4 turned_line(const Vec& in_a, const Motion& m) {
-  return -(vec4(m.row_x) * in_a.x + vec4(m.row_y) * in_a.y + vec4(m.row_z) * in_a.z);
+static inline Vec turned_line(const Vec& in_a, const Motion& m) {
+  return vec(-(vec4(m.row_x) * in_a.x + vec4(m.row_y) * in_a.y + vec4(m.row_z) * in_a.z));
 }
 
 /// How far the line of centres has turned since a seed was stored.
@@ -44,8 +43,8 @@ enum class Turn {
 constexpr double kLineUnit = 32767;  ///< the length of a direction in a seed
 
 /// For one body, where the line, of squared length `length2`, is `line` and was packed as `was`.
-static inline Turn turn_of(const Vec4& line, double length2, const std::array<std::int16_t, 3>& was, const Level& level) {
-  const double along = dot(line, vec4(was.data()));
+static inline Turn turn_of(const Vec& line, double length2, const std::array<std::int16_t, 3>& was, const Level& level) {
+  const double along = dot(vec4(line), vec4(was.data()));
   const double cos2 = along > 0 ? along * along : 0, whole = length2 * (kLineUnit * kLineUnit);
   if (cos2 >= level.same_cos2 * whole) return Turn::Little;
   const bool known = (was[0] | was[1] | was[2]) != 0;  // not of a seed made by hand
@@ -54,7 +53,7 @@ static inline Turn turn_of(const Vec4& line, double length2, const std::array<st
 /// `a` and `b` are the levels of the seed.
 static inline Turn turn_of(const Line& line, const PairSeed& seed, const Level& a, const Level& b) {
   const double length2 = dot(line.in_a, line.in_a);
-  return std::max(turn_of(vec4(line.in_a), length2, seed.line_in_a, a), turn_of(line.in_b, length2, seed.line_in_b, b));
+  return std::max(turn_of(line.in_a, length2, seed.line_in_a, a), turn_of(line.in_b, length2, seed.line_in_b, b));
 }
 
 /// The finest level of a body that a query may read.

@@ -85,8 +85,8 @@ struct ConvexView {
   std::span<const std::uint8_t> tags;         ///< per face, a tag of the caller's; may be empty
   double extent = 0;                          ///< largest absolute coordinate
   Vec3 centre = Vec3::Zero();                 ///< any point of the body; the line of centres of a cold start ends here
-  double inner_radius = 0;                    ///< radius of a ball around `centre` that lies in the body; 0: none is known, as on coarser levels
-  double reach = 0;  ///< upper bound on the distance of two points of the body; 0: not known, nor are FacePlane::over
+  double inner_radius = 0;  ///< radius of a ball around `centre` that lies in the body; 0: none is known, as on coarser levels
+  double reach = 0;         ///< upper bound on the distance of two points of the body; 0: not known, nor are FacePlane::over
 };
 
 /// Says which levels of a model to keep: the coarsest always, and finer ones as far as both members allow. Two bodies whose
