@@ -13,6 +13,9 @@
 
 #if SWIFTLET_AVX2 && defined(__OPTIMIZE__)
 #define SWIFTLET_BY_FOUR 1
+#define SWIFTLET_BY_WIDTH(name) (by_four() ? name##_by_four : name##_by_two)
+#else
+#define SWIFTLET_BY_WIDTH(name) name##_by_two
 #endif
 
 namespace swiftlet {

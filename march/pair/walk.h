@@ -9,6 +9,7 @@
 
 #include <swiftlet/march.h>
 
+#include "numeric/width.h"
 #include "pair/nearest.h"
 #include "pair/pair_view.h"
 
@@ -28,10 +29,11 @@ struct Walk {
   Nearest nearest;  ///< with Minimum: what the last state knows
 };
 
-/// `a` and `b` name features of the pair's views, not both faces.
-Walk walk(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget);
-
-/// The same by registers of four doubles: see width.h.
+Walk walk_by_two(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget);
 Walk walk_by_four(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget);
+/// `a` and `b` name features of the pair's views, not both faces.
+static inline Walk walk(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget) {
+  return SWIFTLET_BY_WIDTH(walk)(pair, a, b, rule, step_budget);
+}
 
 }  // namespace swiftlet

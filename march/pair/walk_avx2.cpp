@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The walk with registers of four doubles, compiled for AVX2: see width.h.
-#include "numeric/width.h"
+#include "pair/walk.h"
 
 #if SWIFTLET_BY_FOUR
 #include "pair/marcher.h"

@@ -1,27 +1,34 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Answers a question about distance: see recall.h. Compiled once for each width of registers.
+// Answers a question about distance: see recall.h.
 #pragma once
 
 #include <swiftlet/query.h>
 
+#include "numeric/width.h"
 #include "pair/stop_rule.h"
 #include "query/limits.h"
 #include "query/model_pair.h"
 
 namespace swiftlet {
 
-/// Answers `asked` for two bodies. `answer` must be a default one.
-void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const StopRule& asked,
-         Answer& answer);
-
-/// Answers `asked` for the hulls of two bodies. Thresholds are passed by more than law 2's bound. An unknown normal becomes 0.
-/// `proof` must be empty, and is filled if the levels of the answer overlap.
-void ask_hulls(const ModelPair& pair, const StopRule& asked, PairSeed& seed, Answer& answer, OverlapProof& proof);
-
-/// The same by registers of four doubles: see width.h.
+void ask_by_two(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const StopRule& asked,
+                Answer& answer);
 void ask_by_four(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const StopRule& asked,
                  Answer& answer);
+/// Answers `asked` for two bodies. `answer` must be a default one.
+static inline void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits,
+                       const StopRule& asked, Answer& answer) {
+  SWIFTLET_BY_WIDTH(ask)(a, b, b_in_a, seed, limits, asked, answer);
+}
+
+void ask_hulls_by_two(const ModelPair& pair, const StopRule& asked, PairSeed& seed, Answer& answer, OverlapProof& proof);
 void ask_hulls_by_four(const ModelPair& pair, const StopRule& asked, PairSeed& seed, Answer& answer, OverlapProof& proof);
+/// Answers `asked` for the hulls of two bodies. Thresholds are passed by more than law 2's bound. An unknown normal becomes 0.
+/// `proof` must be empty, and is filled if the levels of the answer overlap.
+static inline void ask_hulls(const ModelPair& pair, const StopRule& asked, PairSeed& seed, Answer& answer,
+                             OverlapProof& proof) {
+  SWIFTLET_BY_WIDTH(ask_hulls)(pair, asked, seed, answer, proof);
+}
 
 }  // namespace swiftlet

@@ -3,8 +3,6 @@
 // Questions about distance with registers of four doubles, compiled for AVX2: see width.h.
 #include "query/ask.h"
 
-#include "numeric/width.h"
-
 #if SWIFTLET_BY_FOUR
 #include "query/recall.h"
 
