@@ -77,11 +77,16 @@ class Deepening {
     lower = -kInfinity, upper = kInfinity;
     // The depth is at most `most`, by the centres and bounding radii. A pair whose deviation exceeds the width allowed at that
     // depth cannot answer.
-    double most = a_.radius() + b_.radius() * stretch_of(pair_.pose_error) - norm(line_.in_a);
-    place_ = stop_.is_exact() ? Place{finest_a_, finest_b_, {}} : coarsest_place(a_, b_);
-    near_ = seed.met && seed.level_a < a_.level_count() && seed.level_b < b_.level_count() &&
-            turn_of(line_, seed, a_.level(seed.level_a), b_.level(seed.level_b)) != Turn::Far;
-    const bool remembers = near_ && (seed.normal[0] | seed.normal[1] | seed.normal[2]) != 0;
+    double most = kInfinity;
+    place_ = {finest_a_, finest_b_, {}};
+    if (!stop_.is_exact()) {
+      most = a_.radius() + b_.radius() * stretch_of(pair_.pose_error) - norm(line_.in_a);
+      place_ = coarsest_place(a_, b_);
+    }
+    turn_ = seed.met && seed.level_a < a_.level_count() && seed.level_b < b_.level_count()
+                ? turn_of(line_, seed, a_.level(seed.level_a), b_.level(seed.level_b))
+                : Turn::Far;
+    const bool remembers = turn_ != Turn::Far && (seed.normal[0] | seed.normal[1] | seed.normal[2]) != 0;
     Vec direction = remembers ? swiftlet::direction(seed) : lowest_seen(most);
     for (;;) {
       const double error = deviation();
@@ -112,7 +117,7 @@ class Deepening {
   bool narrow(double floor) const { return stop_.narrow(max(lower, floor), upper); }
 
   void store(PairSeed& seed) const {
-    remember(line_, normal, seed);
+    turn_ == Turn::Little ? remember(normal, seed) : remember(line_, normal, seed);
     seed.a = feature_a, seed.b = feature_b;
     seed.level_a = std::uint8_t(place_.level_a), seed.level_b = std::uint8_t(place_.level_b);
     seed.met = true;
@@ -155,98 +160,102 @@ class Deepening {
   /// polygon. Of a face of many corners and a vertex, the triangle below the vertex stands for the face. If there are more than
   /// four pairs, the vertices of A's feature are paired with the first vertex of B's alone.
   static DepthStart start_at(const PairView& pair, const MarchStart& features, const Vec& direction) {
-    DepthStart s;
-    s.direction = direction;
     Span a = span_of(pair.a, features.a), b = span_of(pair.b, features.b);
     const Resting body = body_a(pair);
     const Moved other = body_b(pair);
     if (!a.is_whole && b.count == 1) a = triangle_below(body, features.a, other.point(b.vertex[0]));
     if (!b.is_whole && a.count == 1) b = triangle_below(other, features.b, other.local(body.point(a.vertex[0])));
-    if (a.count * b.count <= 4)
-      s.feature_a = features.a, s.feature_b = features.b;
-    else
-      b.count = 1;
-    for (int i = 0; i < a.count; ++i) {
-      for (int j = 0; j < b.count; ++j) {
-        s.a[std::size_t(s.count)] = a.vertex[std::size_t(i)];
-        s.b[std::size_t(s.count++)] = b.vertex[std::size_t(i % 2 ? b.count - 1 - j : j)];
-      }
-    }
+    if (a.count == 2 && b.count == 2)
+      return {4,
+              {a.vertex[0], a.vertex[0], a.vertex[1], a.vertex[1]},
+              {b.vertex[0], b.vertex[1], b.vertex[1], b.vertex[0]},
+              direction,
+              features.a,
+              features.b};
+    if (a.count == 1)
+      return {b.count, {a.vertex[0], a.vertex[0], a.vertex[0], a.vertex[0]}, b.vertex, direction, features.a, features.b};
+    DepthStart s{a.count, a.vertex, {b.vertex[0], b.vertex[0], b.vertex[0], b.vertex[0]}, direction, features.a, features.b};
+    if (b.count > 1) s.feature_a = s.feature_b = {};
     return s;
   }
 
-  /// Searches for a local minimum of the depth: B is moved along a direction until it is free, and the features nearest then
-  /// give the next direction. Proves nothing.
-  DepthStart local_least(const PairView& pair, const Level& of_a, const Level& of_b, MarchStart at, const Vec& direction) {
-    Vec n = normalised(direction);
+  /// An upper bound on the height of the Minkowski difference along `n`, the unit normal of `seen`, where the walk that saw it
+  /// had B moved by `way`.
+  static double height_along(const Vec& n, const PairView& moved, const Nearest& seen, const Vec& way) {
+    const double over = seen.over_a + seen.over_b;
+    return over <= moved.law_two ? -gap(moved, n, seen.apart - way, over + kPointSumError * moved.magnitude) : kInfinity;
+  }
+
+  /// Moves B along a direction until it is free; the features that are nearest then give the next direction, until they span a
+  /// facet of the Minkowski difference that holds the nearest point. Returns true if it is proved to. `at` becomes where the
+  /// search ended.
+  bool slide(const PairView& pair, const Level& of_a, const Level& of_b, MarchStart from, const DepthGoal& goal, DepthStart& at,
+             Depth& found) {
+    Vec n = normalised(at.direction);
     const Resting body = body_a(pair);
     const Moved other = body_b(pair);
     const bool has_maps = of_a.map_side > 0 && of_b.map_side > 0;
-    bool far = at.a.kind() == FeatureKind::None;
+    bool far = from.a.kind() == FeatureKind::None, climbs = far;
     if (far)
-      at = {{FeatureKind::Vertex, about_farthest(a_, place_.level_a, n)},
-            {FeatureKind::Vertex, about_farthest(b_, place_.level_b, other.into(-n))}};
+      from = {{FeatureKind::Vertex, about_farthest(a_, place_.level_a, n)},
+              {FeatureKind::Vertex, about_farthest(b_, place_.level_b, other.into(-n))}};
     for (int round = 0; round < kSlides; ++round) {
-      const std::uint32_t va = ascend(pair.a, n, any_vertex(pair.a, at.a), plane_tests),
-                          vb = ascend(pair.b, other.into(-n), any_vertex(pair.b, at.b), plane_tests);
+      std::uint32_t va = any_vertex(pair.a, from.a), vb = any_vertex(pair.b, from.b);
+      if (climbs) va = ascend(pair.a, n, va, plane_tests), vb = ascend(pair.b, other.into(-n), vb, plane_tests);
       const double height = dot(n, body.point(va) - other.point(vb));
-      if (!(height > 0)) break;
+      if (!(height > 0)) {
+        if (climbs) break;
+        climbs = true;
+        continue;
+      }
       Motion m = pair_.motion;
       m.t = m.t + n * (height * kSlideBy);
-      const PairView apart = pair_view(pair.a, pair.b, m, pair_.shift, pair_.pose_error);
+      const PairView apart = moved_by(pair, m, height * kSlideBy);
       if (far && has_maps) {
-        const SupportGjk found =
+        const SupportGjk seen =
             support_gjk(apart, of_a, of_b, 0, sample_axis(apart, of_a, of_b, n), [](const SupportGjk& s) { return s.near; });
-        at = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
-        const bool turns = dot(found.normal, n) < kSlideTurn;
-        n = found.normal;
+        from = {{FeatureKind::Vertex, seen.start_a}, {FeatureKind::Vertex, seen.start_b}};
+        const bool turns = dot(seen.normal, n) < kSlideTurn;
+        n = seen.normal;
         if (turns) continue;
       }
-      at = settled(apart, at, plane_tests);
-      const Walk w = walk(apart, at.a, at.b, PlaneRule::MostViolated, budget_.steps - std::min(steps, budget_.steps));
+      from = settled(apart, from, plane_tests);
+      const Walk w = walk(apart, from.a, from.b, PlaneRule::MostViolated, budget_.steps - std::min(steps, budget_.steps));
       steps += w.steps, plane_tests += w.plane_tests;
-      if (w.end != WalkEnd::Minimum) break;
-      at = {w.a, w.b};
-      const Vec next = normalised(w.nearest.normal);
-      const DepthStart found = start_at(pair, at, next);
+      if (w.end != WalkEnd::Minimum) {
+        if (climbs) break;
+        climbs = true;
+        continue;
+      }
+      from = {w.a, w.b};
+      Vec next = normalised(w.nearest.normal);
+      at = start_at(pair, from, next);
+      const double highest = height_along(next, apart, w.nearest, m.t - pair_.motion.t);
+      const bool proved = prove_facet(pair, of_a, of_b, at, highest, goal, plane_tests, found);
+      steps += found.steps;
+      if (proved) return true;
+      const bool is_facet = found.upper < kInfinity;
+      if (is_facet && dot(found.normal, found.normal) == 0) return false;
+      if (is_facet) next = normalised(found.normal);
       far = dot(next, n) < kSlideTurn;
+      climbs = far || is_facet;
       n = next;
-      if (found.count > 2 && stands_over(pair, found)) return found;
     }
-    return start_at(pair, settled(pair, at, plane_tests), n);
-  }
-  /// True if the origin, seen along `s.direction`, lies within the polygon of the differences of the vertex pairs.
-  static bool stands_over(const PairView& pair, const DepthStart& s) {
-    std::array<Vec, 4> p;
-    for (std::size_t k = 0; int(k) < s.count; ++k) p[k] = body_a(pair).point(s.a[k]) - body_b(pair).point(s.b[k]);
-    int left = 0;
-    for (std::size_t k = 0, last = std::size_t(s.count - 1); int(k) < s.count; last = k++) {
-      left += dot(cross(p[k], p[last]), s.direction) > 0;
-    }
-    return left == 0 || left == s.count;
+    at = start_at(pair, settled(pair, from, plane_tests), n);
+    return false;
   }
 
-  /// The depth of one level pair: proved at the seed's features, else at the local minimum from there, else found by EPA. Each
-  /// costs more than the one before.
+  /// The depth of one level pair: proved at the local minimum near the seed's features, else found by EPA, which costs more.
   Depth depth_of(const PairView& pair, const Level& of_a, const Level& of_b, const PairSeed& seed, const Vec& direction,
                  DepthGoal goal) {
-    const auto confirmed = [&](const DepthStart& at, Depth& found) {
-      const bool is_so = steps < budget_.steps && prove_facet(pair, of_a, of_b, at, goal, plane_tests, found);
-      return steps += found.steps, is_so;
-    };
-    const bool fits = near_ && seed.level_a == place_.level_a && seed.level_b == place_.level_b &&
+    const bool fits = turn_ != Turn::Far && seed.level_a == place_.level_a && seed.level_b == place_.level_b &&
                       names_feature(pair.a, seed.a) && names_feature(pair.b, seed.b);
-    const MarchStart features = fits ? MarchStart{seed.a, seed.b} : MarchStart{};
     Depth found;
     DepthStart at;
-    if (fits) {
-      at = start_at(pair, features, direction);
-      if (confirmed(at, found)) return found;
-    }
-    if (goal.error == 0 && !(found.upper < kInfinity)) {
-      at = local_least(pair, of_a, of_b, features, direction);
-      if (confirmed(at, found)) return found;
-    }
+    at.direction = direction;
+    if ((fits || goal.error == 0) && steps < budget_.steps &&
+        slide(pair, of_a, of_b, fits ? MarchStart{seed.a, seed.b} : MarchStart{}, goal, at, found))
+      return found;
     if (goal.error > 0) at = {}, at.direction = direction;  // on a coarse pair bounds are wanted, and no facet
     goal.step_budget = budget_.steps - std::min(steps, budget_.steps);
     found = epa(pair, of_a, of_b, at, goal, plane_tests);
@@ -267,10 +276,9 @@ class Deepening {
     if (!has_points) return;
     point_a = found.point_a, point_b = found.point_b;
     feature_a = found.feature_a, feature_b = found.feature_b;
-    if (feature_a.kind() == FeatureKind::None) {
-      feature_a = feature_of(of_a.view, found.active, found.active.a);
-      feature_b = feature_of(of_b.view, found.active, found.active.b);
-    }
+    if (feature_a.kind() != FeatureKind::None) return;
+    feature_a = feature_of(of_a.view, found.active, found.active.a);
+    feature_b = feature_of(of_b.view, found.active, found.active.b);
     if (error > 0 || !stop_.is_exact()) return;  // the points need not lie on the surfaces
     feature_a = feature_at_a(pair, feature_a, point_a, plane_tests);
     feature_b = feature_at_b(pair, feature_b, point_b, plane_tests);
@@ -285,7 +293,7 @@ class Deepening {
   const StopRule stop_;
   const int finest_a_, finest_b_;
   double floor_ = 0;
-  bool near_ = false;  ///< the pose is near the seed's, where the bodies overlapped
+  Turn turn_ = Turn::Far;  ///< from the seed's pose, if the bodies overlapped there
   Place place_{};
 };
 
@@ -351,8 +359,10 @@ void overlap_part(const Deepening& deep, Answer& s) {
 void finish(const Setting& at, const Limits& limits, OverlapProof& proof, Answer& s) {
   s.is_signed = true;
   if (!(s.lower > -kInfinity)) s.normal.setZero();
-  at.radii.round_signed(limits.trace, s.levels_visited);
-  at.radii.round_signed(s, proof, at.law_two());
+  if (!at.radii.none()) {
+    at.radii.round_signed(limits.trace, s.levels_visited);
+    at.radii.round_signed(s, proof, at.law_two());
+  }
   seal(at.radii, proof, limits.tuning, s);
 }
 
@@ -369,7 +379,10 @@ Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, PairSee
   Answer answer;
   if (options.tuning.proof) *options.tuning.proof = {};
   const Setting at(a, b, b_in_a);
-  if (const Status fault = at.fault(); fault != Status::Converged) return refuse(a, b, fault, true, answer), answer;
+  if (const Status fault = at.fault(); fault != Status::Converged) {
+    refuse(a, b, fault, true, answer);
+    return answer;
+  }
   Limits limits(options.budget, options.tuning);
   Deepening deep(at, limits, {options.absolute, options.relative});
   OverlapProof proof;
@@ -377,7 +390,8 @@ Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, PairSee
   if (deep.proved()) {
     deep.store(seed);
     overlap_part(deep, answer);
-    return finish(at, limits, proof, answer), answer;
+    finish(at, limits, proof, answer);
+    return answer;
   }
   const StopRule of_bodies{options.absolute, options.relative, options.beyond};
   const int visited = deep.levels_visited;

@@ -1,20 +1,25 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A proof of depth. If the origin is surely below every triangle of a closed surface between points of the Minkowski difference
-// M, the surface winds around the origin: every ray from there leaves through a triangle, no nearer than the lowest of the
-// triangles' planes. M is convex, so the height of that plane is a lower bound on the depth. The surface is made of the facet
-// asked about, a point beyond each of its sides, and triangles that close it below:
+// A proof of depth. The facet asked about is one side of a closed surface between points of the Minkowski difference M:
 //
-//        r1                r: the ring, far below the facet p if the overlap is shallow. Its triangles may be
-//       / : \              degenerate, if two points of the ring coincide.
-//     p1-----p2
-//    / | p   | \           .
-//   r0-p0---p3-r2
-//       \ : /
-//        r3
+//      p1---------p2        p: the facet, of which every point is at least as far from the origin as it is high.
+//      |\    p   /|         t: the tip, far below.
+//      | p0----p3 |
+//       \  \  /  /
+//        ---t---
+//
+// If the origin is surely below the planes of all other triangles, by more than the facet is high, that height is a lower bound
+// on the depth. Each of these triangles that a ray from the origin passes adds one to the number of times that the surface
+// winds around the origin. A ray towards the tip passes no point of the facet, so that number is above 0, and every ray passes
+// some triangle before it leaves M, which is convex.
+//
+// The surface begins as a pyramid. A triangle that the origin is too near to is taken away, with all others that some point of
+// M beyond it sees, and the edges they leave are joined to that point. The surface stays closed whichever triangles go: what a
+// point sees need not be sure.
 #include "depth/facet_proof.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "body/support.h"
@@ -25,126 +30,175 @@ namespace swiftlet {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-using Corner = Difference<double>;
 
-/// A polygon between points of M, counter-clockwise seen from where its unit normal points, and a ring below it.
-class FacetRing {
+/// A polygon between points of M, and the surface below it.
+class FacetProof {
  public:
-  FacetRing(const PairView& pair, const DepthStart& start) : pair_(pair), rim_(start.count) {
-    for (std::size_t k = 0; k < rim(); ++k) p_[k] = difference<double>(pair, start.a[k], start.b[k]);
-    normal_ = normalised(cross(p_[1].p - p_[0].p, p_[rim() - 1].p - p_[0].p));
-    if (dot(normal_, start.direction) < 0) std::reverse(p_.begin() + 1, p_.begin() + rim_), normal_ = -normal_;
+  FacetProof(const PairView& pair, const DepthStart& start)
+      : pair_(pair), start_(start), rim_(std::size_t(start.count)), normal_(start.direction) {
+    const Resting body = body_a(pair);
+    const Moved other = body_b(pair);
     double high = 0;
-    for (std::size_t k = 0; k < rim(); ++k) {
-      const double h = dot(normal_, p_[k].p);
+    Vec q{0, 0, 0};
+    for (std::size_t k = 0; k < rim_; ++k) {
+      if (k == 0 || start.b[k] != start.b[k - 1]) q = other.point(start.b[k]);
+      p_[k] = body.point(start.a[k]) - q;
+      const double h = dot(normal_, p_[k]);
       height_ = k == 0 ? h : min(height_, h), high = k == 0 ? h : max(high, h);
     }
     flat_ = high - height_ <= pair.law_two / 8;
   }
 
   const Vec& normal() const { return normal_; }
-  double height() const { return height_; }
+  double height() const { return height_; }                     ///< of the polygon's lowest corner along the normal
   double lower() const { return height_ - pair_.point_error; }  ///< `height()` less the rounding bound
-  const Corner& operator[](std::size_t k) const { return p_[k]; }
 
   /// Finds the point of the polygon over the origin and returns its distance from `normal()` * `height()`; infinite if there is
   /// none. Within law 2's bound, the point's vertex pairs, weights and witness points are written to `depth`.
-  double stand(Depth& depth) const {
+  double stand(Depth& depth) {
     if (!flat_) return kInfinity;
+    const auto turn = [this](std::size_t i, std::size_t j) { return dot(normal_, cross(p_[i], p_[j])); };
     std::array<std::size_t, 3> of{0, 1, 2};
-    if (rim_ == 4 && dot(normal_, cross(p_[0].p, p_[2].p)) > 0) of = {0, 2, 3};
-    const Vec &p = p_[of[0]].p, &q = p_[of[1]].p, &r = p_[of[2]].p;
-    std::array<double, 3> weight{max(dot(normal_, cross(q, r)), 0), max(dot(normal_, cross(r, p)), 0),
-                                 max(dot(normal_, cross(p, q)), 0)};
-    const double sum = weight[0] + weight[1] + weight[2];
-    if (!(sum > 0)) return kInfinity;
-    weight[1] /= sum, weight[2] /= sum, weight[0] = max(1 - weight[1] - weight[2], 0);
-    const double off = norm(p * weight[0] + q * weight[1] + r * weight[2] - normal_ * height_);
+    std::array<double, 3> weight{turn(1, 2), turn(2, 0), turn(0, 1)};
+    double sum = weight[0] + weight[1] + weight[2];
+    if (rim_ == 4 && weight[1] * sum < 0)
+      of = {0, 2, 3}, weight = {turn(2, 3), turn(3, 0), -weight[1]}, sum = weight[0] + weight[1] + weight[2];
+    if (!(std::fabs(sum) > 0)) return kInfinity;
+    turned_ = sum < 0;
+    weight[1] = max(weight[1] / sum, 0), weight[2] = max(weight[2] / sum, 0), weight[0] = max(1 - weight[1] - weight[2], 0);
+    const Vec foot = p_[of[0]] * weight[0] + p_[of[1]] * weight[1] + p_[of[2]] * weight[2];
+    const double off = norm(foot - normal_ * height_);
     if (off > pair_.law_two) return off;
     depth.active.count = 0;
-    depth.point_a = depth.point_b = {0, 0, 0};
+    depth.point_a = {0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
       if (weight[k] == 0) continue;
-      const Corner& c = p_[of[k]];
       const auto slot = std::size_t(depth.active.count++);
-      depth.active.a[slot] = c.a, depth.active.b[slot] = c.b, depth.active.weight[slot] = weight[k];
-      depth.point_a = depth.point_a + body_a(pair_).point(c.a) * weight[k];
-      depth.point_b = depth.point_b + body_b(pair_).point(c.b) * weight[k];
+      depth.active.a[slot] = start_.a[of[k]], depth.active.b[slot] = start_.b[of[k]], depth.active.weight[slot] = weight[k];
+      depth.point_a = depth.point_a + body_a(pair_).point(start_.a[of[k]]) * weight[k];
     }
+    depth.point_b = depth.point_a - foot;
     return off;
   }
 
-  /// Looks for a point of the ring beyond each side of the polygon, leaning out less the nearer the side is to the nearest
-  /// point. True if the origin is below all triangles, and those that close the surface are no nearer to it than the polygon.
-  template <class AboutHighest>
-  bool closes(AboutHighest about_highest) {
-    for (std::size_t k = 0; k < rim(); ++k) {
-      const Vec &p = p_[k].p, &q = p_[after(k)].p, side = q - p;
-      const double length = norm(side), beside = kLean * dot(normal_, cross(p, q)) / (length * height_);
-      const Vec out = cross(side, normal_), up = normal_ * length;
-      Vec direction = up + out * min(max(0, beside), kFlare);
-      // Where the facet goes on beyond the side, what is highest there lies in its plane: the ring is looked for below it.
-      for (bool lower_down = false;; lower_down = true, direction = out - up * kFlare) {
-        p_[rim() + k] = about_highest(direction, p_[k]);
-        if (lower_down || !(dot(normal_, p_[rim() + k].p) > lower())) break;
+  /// True if the origin is surely below all triangles but the polygon, by more than that is high. `about_highest` returns a
+  /// point of M that is nearly the highest along a direction, `climb` one that is higher. Where M is seen to be no higher than
+  /// the polygon along some direction, `lowest` becomes that, of any length. To be called after `stand`.
+  template <class AboutHighest, class Climb>
+  bool closes(AboutHighest about_highest, Climb climb, Vec& lowest) {
+    p_[rim_] = about_highest(-normal_);
+    if (!(dot(normal_, p_[rim_]) < -pair_.point_error)) return false;
+    points_ = rim_ + 1, triangles_ = 0;
+    for (std::size_t k = 0, last = rim_ - 1; k < rim_; last = k++) turned_ ? add(last, k, rim_) : add(k, last, rim_);
+    for (std::size_t t = 0; t < triangles_;) {
+      if (triangle_[t].covers) {
+        ++t;
+        continue;
       }
+      if (points_ == kMostPoints) return false;
+      const Vec out = outwards(triangle_[t]);
+      const double level = dot(out, p_[triangle_[t].corner[0]]) + kOutwardError * pair_.magnitude * norm(out);
+      Vec& p = p_[points_];
+      p = about_highest(out);
+      if (!(dot(out, p) > level)) p = climb(out);
+      if (!(dot(out, p) > level)) return lowest = out, false;
+      if (!replace(t)) return false;
+      t = 0;
     }
-    for (std::size_t k = 2; k < rim(); ++k) {
-      if (!covers(0, k - 1, k, 0)) return false;
-    }
-    const double least = height_ + pair_.point_error;
-    for (std::size_t k = 0, last = rim() - 1; k < rim(); last = k++) {
-      if (!covers(after(k), k, rim() + k, least) || !covers(rim() + k, k, rim() + last, least)) return false;
-      if (k >= 2 && !covers(rim(), rim() + k, rim() + last, least)) return false;
-    }
-    return true;
+    return std::any_of(triangle_.begin(), triangle_.begin() + triangles_, [&](const Triangle& t) { return t.has(rim_); });
   }
 
  private:
-  std::size_t rim() const { return std::size_t(rim_); }
-  std::size_t after(std::size_t k) const { return k + 1 == rim() ? 0 : k + 1; }
+  static constexpr std::size_t kMostPoints = 16, kMostTriangles = 32;
+  struct Triangle {
+    std::array<std::uint8_t, 3> corner;
+    bool covers;    ///< the origin is surely below it, by more than the polygon is high
+    Vec area;       ///< its normal, twice as long as its area
+    double height;  ///< of its plane, times that length
+    bool has(std::size_t k) const { return corner[0] == k || corner[1] == k || corner[2] == k; }
+  };
 
-  /// True if the origin is surely below a triangle's plane by more than `least`, or two corners are the same vertex pair.
-  /// Compares squares, so that a product that overflows or vanishes covers nothing.
-  bool covers(std::size_t i, std::size_t j, std::size_t k, double least) const {
-    const Corner &p = p_[i], &q = p_[j], &r = p_[k];
-    if (same(p, q) || same(q, r) || same(r, p)) return true;
-    const Vec u = q.p - p.p, v = r.p - p.p, area = cross(u, v);
-    const double low = min(dot(area, p.p), min(dot(area, q.p), dot(area, r.p)));
-    const double error = kOutwardError * pair_.magnitude;
-    return low > 0 && low * low > max(error * error * (dot(u, u) * dot(v, v)), least * least * dot(area, area));
+  void add(std::size_t i, std::size_t j, std::size_t k) {
+    const Vec &p = p_[i], u = p_[j] - p, v = p_[k] - p, area = cross(u, v);
+    const double area2 = dot(area, area), height = dot(area, p),
+                 error = kOutwardError * pair_.magnitude * std::sqrt(dot(u, u) * dot(v, v));
+    // An area that overflows or vanishes covers nothing.
+    const bool covers = area2 >= kLeastSquare && height - error > (height_ + pair_.point_error) * std::sqrt(area2);
+    triangle_[triangles_++] = {{std::uint8_t(i), std::uint8_t(j), std::uint8_t(k)}, covers, area, height};
+  }
+
+  /// Where a point of M beyond a triangle is looked for: along its normal or, where it has a side of the polygon, along that of
+  /// the other plane through the side that is as near as the polygon. Any point beyond that plane will do.
+  Vec outwards(const Triangle& of) const {
+    if (of.corner[0] >= rim_ || of.corner[1] >= rim_) return of.area;
+    const Vec across = cross(p_[of.corner[0]], p_[of.corner[1]]);
+    return normal_ - across * (2 * dot(normal_, across) / dot(across, across));
+  }
+
+  /// Takes away triangle `t` and all others that the next point sees, and joins the edges they leave to that point. Returns
+  /// false if there is no room.
+  bool replace(std::size_t t) {
+    const std::size_t next = points_++;
+    const auto edge_of = [](std::size_t from, std::size_t to) { return std::uint16_t(from << 8 | to); };
+    std::array<std::uint16_t, 3 * kMostTriangles> edge;
+    std::size_t edges = 0, kept = 0;
+    for (std::size_t k = 0; k < triangles_; ++k) {
+      const Triangle& of = triangle_[k];
+      if (k != t && !(dot(of.area, p_[next]) > of.height)) {
+        triangle_[kept++] = of;
+        continue;
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint8_t from = of.corner[i], to = of.corner[i == 2 ? 0 : i + 1];
+        const auto end = edge.begin() + edges, twin = std::find(edge.begin(), end, edge_of(to, from));
+        if (twin == end)
+          edge[edges++] = edge_of(from, to);
+        else
+          *twin = edge[--edges];
+      }
+    }
+    triangles_ = kept;
+    if (kept + edges > kMostTriangles) return false;
+    for (std::size_t k = 0; k < edges; ++k) add(edge[k] >> 8, edge[k] & 0xff, next);
+    return true;
   }
 
   const PairView& pair_;
-  int rim_;
-  bool flat_ = false;
-  double height_ = 0;  ///< the height of the polygon's lowest corner along the normal
-  Vec normal_{0, 0, 0};
-  std::array<Corner, 8> p_;  ///< the corners of the polygon, then the ring
+  const DepthStart& start_;
+  const std::size_t rim_;  ///< the number of the polygon's corners
+  std::size_t points_, triangles_;
+  double height_ = 0;
+  bool flat_, turned_;  ///< `turned_`: clockwise seen from where the normal points
+  Vec normal_;
+  std::array<Vec, kMostPoints> p_;  ///< the polygon's corners first
+  std::array<Triangle, kMostTriangles> triangle_;
 };
 
 }  // namespace
 
-bool prove_facet(const PairView& pair, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
-                 std::uint32_t& plane_tests, Depth& depth) {
-  depth.steps = 0, depth.upper = kInfinity;
+bool prove_facet(const PairView& pair, const Level& a, const Level& b, const DepthStart& start, double upper,
+                 const DepthGoal& goal, std::uint32_t& plane_tests, Depth& depth) {
+  depth.steps = 0, depth.upper = kInfinity, depth.normal = {0, 0, 0};
   if (start.count < 3) return false;
-  FacetRing ring(pair, start);
-  const Vec& n = ring.normal();
-  const double lower = ring.lower(), off = lower > 0 ? ring.stand(depth) : kInfinity;
+  FacetProof facet(pair, start);
+  const Vec& n = facet.normal();
+  const double lower = facet.lower(), off = lower > 0 ? facet.stand(depth) : kInfinity;
   if (!(off <= pair.law_two)) return false;
-  ++depth.steps;
-  const Supports top = supports(pair, n, ring[0].a, ring[0].b, plane_tests);
-  const double upper = -top.lower;
-  if (!goal.narrow(lower, upper) || off + (upper - ring.height()) > pair.law_two) return false;
-  const auto about_highest = [&](const Vec& direction, const Corner& from) {
-    const Vec own = body_b(pair).into(-direction);
-    if (a.map_side == 0 || b.map_side == 0)
-      return difference<double>(pair, ascend(pair.a, direction, from.a, plane_tests), ascend(pair.b, own, from.b, plane_tests));
-    return difference<double>(pair, look_up(a, direction).vertex, look_up(b, own).vertex);
+  const std::uint32_t va = start.a[0], vb = start.b[0];
+  const auto is_close = [&] { return goal.narrow(lower, upper) && off + (upper - facet.height()) <= pair.law_two; };
+  if (!is_close()) ++depth.steps, upper = -supports(pair, n, va, vb, plane_tests).lower;
+  if (!is_close()) return false;
+  const Moved other = body_b(pair);
+  const auto point = [&](std::uint32_t of_a, std::uint32_t of_b) { return body_a(pair).point(of_a) - other.point(of_b); };
+  const auto climb = [&](const Vec& direction) {
+    return point(ascend(pair.a, direction, va, plane_tests), ascend(pair.b, other.into(-direction), vb, plane_tests));
+  };
+  const auto about_highest = [&](const Vec& direction) {
+    if (a.map_side == 0 || b.map_side == 0) return climb(direction);
+    return point(look_up(a, direction).vertex, look_up(b, other.into(-direction)).vertex);
   };
   depth.upper = upper;
-  if (!ring.closes(about_highest)) return false;
+  if (!facet.closes(about_highest, climb, depth.normal)) return false;
   depth.end = goal.passed(lower, upper) || !goal.hopeless(lower, upper) ? DepthEnd::Converged : DepthEnd::NotConverged;
   depth.lower = lower;
   depth.normal = n;

@@ -296,16 +296,12 @@ inline constexpr int kContactPoints = 32;
 /// step is 2 u of the magnitude's binade: u in each coordinate, sqrt(3) u for the vector; rounded up.
 inline constexpr double kGridError = 2 * kU;
 /// Bounds the error of a triple product u x v . w of differences, relative to |u| |v| times the magnitude: `kCrossError` for
-/// u x v and 4 u for the rest, times 2, as w is no longer than twice the magnitude; rounded up.
+/// u x v and 4 u for the rest, times 2, as w is no longer than twice the magnitude; rounded up. Where w is no longer than the
+/// magnitude, it bounds that and the error of |u x v| times a height together: 12 u and 8 u, and 2 u for the height's product.
 inline constexpr double kOutwardError = 32 * kU;
-/// The ring of points around the start's polygon is searched for along directions that lean outwards from the polygon's normal.
-/// This is the tangent of the angle: half and twice of it cost more on the whole. Where the ring would lie in the polygon's
-/// plane, directions point outwards and lean below that plane by the same angle.
+/// An expanding polytope begins with points beyond the sides of the start's polygon, along directions that lean outwards from
+/// its normal. This is the tangent of the angle: half and twice of it cost more on the whole.
 inline constexpr double kFlare = 0.5;
-/// Around a facet to be confirmed the direction beyond a side leans by no more than this times the angle at the origin between
-/// the nearest point of the facet's plane and that side. Planes through the side that lean by two such angles are as near as
-/// the facet, and those to the point found lean by about half of the direction's lean. Dimensionless.
-inline constexpr double kLean = 3;
 /// The local least of a depth is searched for along at most `kSlides` directions. Along each, B is moved by `kSlideBy` times
 /// the height of the overlap, and so stands off by as much as it was deep. A cold start steps along maps until a direction
 /// turns by less than the angle of the cosine `kSlideTurn`. A count, heights, a cosine.

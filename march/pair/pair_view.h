@@ -114,5 +114,12 @@ static inline PairView pair_view(const ConvexView& a, const ConvexView& b, const
 static inline PairView pair_view(const ConvexView& a, const ConvexView& b, const Motion& m, double pose_error) {
   return pair_view(a, b, m, norm(m.t), pose_error);
 }
+/// The same bodies with B moved by a vector of length `way`, which changes the pose to `m`.
+static inline PairView moved_by(const PairView& pair, const Motion& m, double way) {
+  const double motion_error = pair.motion_error + kShiftError * way, magnitude = pair.magnitude + way;
+  return {
+      pair.a,       pair.b,       m,           magnitude, motion_error, kPointError * magnitude + motion_error, pair.pose_error,
+      pair.law_two, pair.reach_a, pair.reach_b};
+}
 
 }  // namespace swiftlet

@@ -9,6 +9,7 @@
 //             +-------+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -31,6 +32,8 @@ std::uint32_t index(std::uint32_t corner) {
   const std::span<const std::uint32_t> corners = kCube.source().vertex;
   return std::uint32_t(std::find(corners.begin(), corners.end(), corner) - corners.begin());
 }
+
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
 /// The goal of an exact depth.
 DepthGoal exactly(const PairView& pair) { return {{}, pair.law_two, 0, 0}; }
@@ -82,33 +85,48 @@ TEST(UnitFacetProof, ProvesAFacetByAPartOfIt) {
   start.direction = {0, 0, 1};
   std::uint32_t tests = 0;
   Depth d;
-  ASSERT_TRUE(prove_facet(pair, kLevel, kLevel, start, exactly(pair), tests, d));
+  ASSERT_TRUE(prove_facet(pair, kLevel, kLevel, start, kUnknown, exactly(pair), tests, d));
   EXPECT_NEAR(d.lower, 0.1, 1e-14);
   EXPECT_NEAR(d.upper, 0.1, 1e-14);
   EXPECT_EQ(d.normal.z, 1);
 }
 
-TEST(UnitFacetProof, ProvesTheNearestFacetAndNoOther) {
+/// Proves that `at` is as far below the lid as below the face of vertices `first` to `first` + 2.
+bool is_proved_at(const Vec3& at, std::uint32_t first, const Vec& direction, Depth& d) {
   const Model body = bodies::model(lid()), dot = bodies::model(bodies::point({0, 0, 0}));
-  const Motion m = motion({Mat3::Identity(), {0, 0, -0.01}});
+  const Motion m = motion({Mat3::Identity(), at});
   const PairView pair = pair_view(body.level(0).view, dot.level(0).view, m, 0);
   const std::span<const std::uint32_t> corners = body.source().vertex;
-  const auto proved = [&](std::uint32_t first, const Vec& direction, Depth& d) {
-    DepthStart start;
-    start.count = 3;
-    for (std::uint32_t k = 0; k < 3; ++k)
-      start.a[k] = std::uint32_t(std::find(corners.begin(), corners.end(), first + k) - corners.begin());
-    start.direction = direction;
-    std::uint32_t tests = 0;
-    return prove_facet(pair, body.level(0), dot.level(0), start, exactly(pair), tests, d);
-  };
+  DepthStart start;
+  start.count = 3;
+  for (std::uint32_t k = 0; k < 3; ++k)
+    start.a[k] = std::uint32_t(std::find(corners.begin(), corners.end(), first + k) - corners.begin());
+  start.direction = direction;
+  std::uint32_t tests = 0;
+  return prove_facet(pair, body.level(0), dot.level(0), start, kUnknown, exactly(pair), tests, d);
+}
+
+TEST(UnitFacetProof, ProvesTheNearestFacetAndNoOther) {
   Depth d;
-  ASSERT_TRUE(proved(0, {0, 0, 1}, d));
+  ASSERT_TRUE(is_proved_at({0, 0, -0.01}, 0, {0, 0, 1}, d));
   EXPECT_EQ(d.end, DepthEnd::Converged);
   EXPECT_NEAR(d.lower, 0.01, 1e-14);
   EXPECT_NEAR(d.upper, 0.01, 1e-14);
   EXPECT_EQ(d.normal.z, 1);
-  EXPECT_FALSE(proved(3, {0, 0, -1}, d)) << "that is 0.49 deep";
+  EXPECT_FALSE(is_proved_at({0, 0, -0.01}, 3, {0, 0, -1}, d)) << "that is 0.49 deep";
+}
+
+/// The faces beyond the lid's sides lean by 11.3 degrees: a point is as far below one as below the lid if it is 0.099 of its
+/// depth, the tangent of half that angle, from the side. The side of vertices 1 and 2 is at x = -0.5.
+TEST(UnitFacetProof, ProvesAFacetUpToWhereTheNextIsAsNear) {
+  for (const double side : {1., 0.2, 0.1}) {
+    Depth d;
+    EXPECT_TRUE(is_proved_at({-0.5 + 0.01 * side, 0, -0.01}, 0, {0, 0, 1}, d)) << side;
+    EXPECT_NEAR(d.lower, 0.01, 1e-14);
+  }
+  Depth d;
+  EXPECT_FALSE(is_proved_at({-0.5 + 0.01 * 0.098, 0, -0.01}, 0, {0, 0, 1}, d));
+  EXPECT_LT(d.normal.x, 0) << "the difference is lower along the normal of the face beyond";
 }
 
 TEST(UnitClip, OfTwoSquaresIsTheirCommonSquare) {

@@ -12,8 +12,8 @@ namespace swiftlet {
 /// the bodies overlap, it is minus the depth: the length of the shortest translation that separates their interiors, after
 /// which they still touch. It is exact by default, or within the errors of `options`. The depth is 0 where one plane holds both
 /// bodies. The options' `beyond`, `start`, `refinement` and `plane_rule` affect only the search for a distance. Cost: apart,
-/// that of `distance`. In a shallow overlap, a walk to a locally least depth and about ten support points that prove it to be
-/// the least of all. In a deep overlap, one support climb for each point of an expanding polytope, mostly 5 to 30; if many
+/// that of `distance`. In a shallow overlap, a walk to a locally least depth and one to three support points that prove it to
+/// be the least of all. In a deep overlap, one support climb for each point of an expanding polytope, mostly 5 to 30; if many
 /// facets of the Minkowski difference are almost equally deep, as many as march/README.md says under law 7. Allocates nothing;
 /// uses 16 kB of stack, or 32 kB where a polytope is expanded. Errors are statuses, and the interval is always true. Source:
 /// [van den Bergen 2001]; proof: march/README.md.
