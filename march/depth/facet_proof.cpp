@@ -90,31 +90,26 @@ class FacetProof {
     if (!(dot(normal_, p_[rim_]) < -pair_.point_error)) return false;
     points_ = rim_ + 1, triangles_ = 0;
     for (std::size_t k = 0, last = rim_ - 1; k < rim_; last = k++) turned_ ? add(last, k, rim_) : add(k, last, rim_);
-    for (std::size_t t = 0; t < triangles_;) {
-      if (triangle_[t].covers) {
-        ++t;
-        continue;
-      }
-      if (points_ == kMostPoints) return false;
+    for (std::size_t t = nearest(); !(triangle_[t].distance > least()); t = nearest()) {
+      if (points_ == kFacetPoints) return false;
       const Vec out = outwards(triangle_[t]);
       const double level = dot(out, p_[triangle_[t].corner[0]]) + kOutwardError * pair_.magnitude * norm(out);
       Vec& p = p_[points_];
       p = about_highest(out);
       if (!(dot(out, p) > level)) p = climb(out);
       if (!(dot(out, p) > level)) return lowest = out, false;
-      if (!replace(t)) return false;
-      t = 0;
+      if (!join()) return false;
     }
     return std::any_of(triangle_.begin(), triangle_.begin() + triangles_, [&](const Triangle& t) { return t.has(rim_); });
   }
 
  private:
-  static constexpr std::size_t kMostPoints = 16, kMostTriangles = 32;
+  static constexpr std::size_t kMostTriangles = 2 * kFacetPoints;
   struct Triangle {
     std::array<std::uint8_t, 3> corner;
-    bool covers;    ///< the origin is surely below it, by more than the polygon is high
-    Vec area;       ///< its normal, twice as long as its area
-    double height;  ///< of its plane, times that length
+    Vec area;         ///< its normal, twice as long as its area
+    double height;    ///< of its plane, times that length
+    double distance;  ///< the origin is surely below it by as much, if this is above 0
     bool has(std::size_t k) const { return corner[0] == k || corner[1] == k || corner[2] == k; }
   };
 
@@ -122,10 +117,15 @@ class FacetProof {
     const Vec &p = p_[i], u = p_[j] - p, v = p_[k] - p, area = cross(u, v);
     const double area2 = dot(area, area), height = dot(area, p),
                  error = kOutwardError * pair_.magnitude * std::sqrt(dot(u, u) * dot(v, v));
-    // An area that overflows or vanishes covers nothing.
-    const bool covers = area2 >= kLeastSquare && height - error > (height_ + pair_.point_error) * std::sqrt(area2);
-    triangle_[triangles_++] = {{std::uint8_t(i), std::uint8_t(j), std::uint8_t(k)}, covers, area, height};
+    const double distance = has_range(area2) ? (height - error) / std::sqrt(area2) : 0;
+    triangle_[triangles_++] = {{std::uint8_t(i), std::uint8_t(j), std::uint8_t(k)}, area, height, distance};
   }
+  std::size_t nearest() const {
+    std::size_t best = 0;
+    for (std::size_t t = 1; t < triangles_; ++t) best = triangle_[t].distance < triangle_[best].distance ? t : best;
+    return best;
+  }
+  double least() const { return height_ + pair_.point_error; }
 
   /// Where a point of M beyond a triangle is looked for: along its normal or, where it has a side of the polygon, along that of
   /// the other plane through the side that is as near as the polygon. Any point beyond that plane will do.
@@ -135,21 +135,22 @@ class FacetProof {
     return normal_ - across * (2 * dot(normal_, across) / dot(across, across));
   }
 
-  /// Takes away triangle `t` and all others that the next point sees, and joins the edges they leave to that point. Returns
-  /// false if there is no room.
-  bool replace(std::size_t t) {
+  /// Takes away all triangles that the next point sees, and joins the edges they leave to it. Returns false if there is no
+  /// room, or it sees none.
+  bool join() {
     const std::size_t next = points_++;
     const auto edge_of = [](std::size_t from, std::size_t to) { return std::uint16_t(from << 8 | to); };
     std::array<std::uint16_t, 3 * kMostTriangles> edge;
-    std::size_t edges = 0, kept = 0;
-    for (std::size_t k = 0; k < triangles_; ++k) {
-      const Triangle& of = triangle_[k];
-      if (k != t && !(dot(of.area, p_[next]) > of.height)) {
-        triangle_[kept++] = of;
+    std::size_t edges = 0;
+    for (std::size_t k = 0; k < triangles_;) {
+      if (!(dot(triangle_[k].area, p_[next]) > triangle_[k].height)) {
+        ++k;
         continue;
       }
+      const std::array<std::uint8_t, 3> corner = triangle_[k].corner;
+      triangle_[k] = triangle_[--triangles_];
       for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint8_t from = of.corner[i], to = of.corner[i == 2 ? 0 : i + 1];
+        const std::uint8_t from = corner[i], to = corner[i == 2 ? 0 : i + 1];
         const auto end = edge.begin() + edges, twin = std::find(edge.begin(), end, edge_of(to, from));
         if (twin == end)
           edge[edges++] = edge_of(from, to);
@@ -157,8 +158,7 @@ class FacetProof {
           *twin = edge[--edges];
       }
     }
-    triangles_ = kept;
-    if (kept + edges > kMostTriangles) return false;
+    if (edges == 0 || triangles_ + edges > kMostTriangles) return false;
     for (std::size_t k = 0; k < edges; ++k) add(edge[k] >> 8, edge[k] & 0xff, next);
     return true;
   }
@@ -170,7 +170,7 @@ class FacetProof {
   double height_ = 0;
   bool flat_, turned_;  ///< `turned_`: clockwise seen from where the normal points
   Vec normal_;
-  std::array<Vec, kMostPoints> p_;  ///< the polygon's corners first
+  std::array<Vec, kFacetPoints> p_;  ///< the polygon's corners first
   std::array<Triangle, kMostTriangles> triangle_;
 };
 

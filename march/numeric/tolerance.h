@@ -307,6 +307,9 @@ inline constexpr double kFlare = 0.5;
 /// turns by less than the angle of the cosine `kSlideTurn`. A count, heights, a cosine.
 inline constexpr int kSlides = 8;
 inline constexpr double kSlideBy = 2, kSlideTurn = 0.98;
+/// The most points of the surface that proves a facet to be the nearest: 4 or 5, mostly, of a shallow overlap, and 25 to 45 of
+/// round bodies that overlap by a third of their size.
+inline constexpr std::size_t kFacetPoints = 64;
 /// `kDepthPoints` is the most points of the inner polytope: overlaps by a tenth of the bodies take 10 to 30. A depth that needs
 /// more is proved octant by octant, and an octant by its quarters, divided up to `kDepthCells` times.
 inline constexpr int kDepthPoints = 128, kDepthCells = 6;
