@@ -3,7 +3,7 @@
 // Measures of a closed triangle surface, its half-edges, and the climb to a support. Plain doubles; no truth rests on them.
 #include "polytope.h"
 
-#include <cube.h>
+#include <octahedron.h>
 
 #include <algorithm>
 #include <cmath>
@@ -106,8 +106,8 @@ Climber::Climber(const Polytope& body)
     : body_(body),
       begin_(body.points.size() + 1),
       neighbour_(3 * body.triangles.size()),
-      side_(std::uint32_t(std::sqrt(double(body.points.size()) / kVerticesPerCell / 6)) + 1),
-      found_(lut::cube_cell_count(side_)) {
+      side_(std::uint32_t(std::sqrt(double(body.points.size()) / kVerticesPerCell / 2)) + 1),
+      found_(lut::octahedron_cell_count(side_)) {
   for (const Triangle& triangle : body.triangles)
     for (std::uint32_t corner : triangle) ++begin_[corner + 1];
   for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
@@ -133,7 +133,7 @@ std::span<const std::uint32_t> Climber::neighbours(std::uint32_t vertex) const {
 
 std::uint32_t Climber::climb(const Vec3& direction, std::uint32_t start) const {
   std::uint32_t best = node_[start];
-  std::uint32_t& found = found_[lut::cube_cell(side_, direction.x(), direction.y(), direction.z())];
+  std::uint32_t& found = found_[lut::octahedron_cell(side_, direction.x(), direction.y(), direction.z())];
   double height = direction.dot(nodes_[best].point);
   if (const double known = direction.dot(nodes_[found].point); known > height) height = known, best = found;
   while (true) {

@@ -409,7 +409,7 @@ Case make(std::uint64_t number) {
   place(random, given.levels[0], scaled ? random.between(-80, 80) : 0, reach);
   given.moderate = reach <= 20;
   given.options.repair = random.once_in(4);
-  given.options.table.map_side = 1u << random.below(3);
+  given.options.table.map_cells = 1 + random.below(8);
   if (random.once_in(16)) {
     const lut::Resolution resolution = lut::Resolution(random.below(6));
     const double factors[] = {-1, 0, 1, 2, 1e6, 1e7, std::numeric_limits<double>::quiet_NaN()};

@@ -3,7 +3,7 @@
 // The direction tables: every bin, every border between bins, and directions that are none. Knows only lut.
 #include <swiftlet/lut.h>
 
-#include <cube.h>
+#include <octahedron.h>
 
 #include <cmath>
 #include <limits>
@@ -140,43 +140,47 @@ TEST(Lut, NoDirectionIsTheNorthPole) {
   }
 }
 
-// ---- The cube
+// ---- The octahedron
 
-TEST(Cube, EveryDirectionLiesInItsCell) {
+/// The coordinates (p, q) of the grid on a half of the octahedron, each from -1 to 1.
+std::array<double, 2> on_grid(const Direction& d) {
+  const double length = std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]);
+  return {(d[0] + d[1]) / length, (d[0] - d[1]) / length};
+}
+
+TEST(Octahedron, EveryDirectionLiesInItsCell) {
   std::mt19937_64 engine(1);
   std::uniform_real_distribution<double> draw(-1, 1);
-  for (const std::uint32_t side : {1u, 2u, 3u, 16u, 64u}) {
+  for (const std::uint32_t side : {1u, 2u, 3u, 16u, 44u}) {
     std::set<std::uint32_t> seen;
-    for (int i = 0; i < 20000; ++i) {
+    for (int i = 0; i < 40000; ++i) {
       const Direction d{draw(engine), draw(engine), draw(engine)};
-      const std::uint32_t cell = cube_cell(side, d[0], d[1], d[2]);
-      ASSERT_LT(cell, cube_cell_count(side));
+      const std::uint32_t cell = octahedron_cell(side, d[0], d[1], d[2]);
+      ASSERT_LT(cell, octahedron_cell_count(side));
       seen.insert(cell);
-      const std::uint32_t face = cell / (side * side), row = cell / side % side, column = cell % side;
-      const Direction low = cube_point(side, face, 2 * column, 2 * row),
-                      high = cube_point(side, face, 2 * column + 2, 2 * row + 2);
-      const double scale = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
-      for (int k = 0; k < 3; ++k) {
-        ASSERT_GE(d[k] / scale, std::min(low[k], high[k]) - 1e-15);
-        ASSERT_LE(d[k] / scale, std::max(low[k], high[k]) + 1e-15);
-      }
-      ASSERT_EQ(cell, cube_cell(side, d[0] * 0x1p-900, d[1] * 0x1p-900, d[2] * 0x1p-900));
+      const std::uint32_t lower = cell / (side * side), row = cell / side % side, column = cell % side;
+      ASSERT_EQ(lower, d[2] < 0);
+      const std::array<double, 2> at = on_grid(d);
+      ASSERT_NEAR(at[0], (2 * column + 1.0) / side - 1, 1.0 / side + 1e-15);
+      ASSERT_NEAR(at[1], (2 * row + 1.0) / side - 1, 1.0 / side + 1e-15);
+      ASSERT_EQ(cell, octahedron_cell(side, d[0] * 0x1p-900, d[1] * 0x1p-900, d[2] * 0x1p-900));
     }
     if (side <= 16) {
-      EXPECT_EQ(seen.size(), cube_cell_count(side));
+      EXPECT_EQ(seen.size(), octahedron_cell_count(side));
     }
   }
 }
 
-TEST(Cube, MiddlesAreInTheirCellsAndNoDirectionIsInSomeCell) {
-  for (const std::uint32_t side : {1u, 4u, 16u}) {
-    for (std::uint32_t cell = 0; cell < cube_cell_count(side); ++cell) {
-      const Direction d = cube_point(side, cell / (side * side), 2 * (cell % side) + 1, 2 * (cell / side % side) + 1);
-      EXPECT_EQ(cube_cell(side, d[0], d[1], d[2]), cell);
+TEST(Octahedron, MiddlesAreInTheirCellsAndNoDirectionIsInSomeCell) {
+  for (const std::uint32_t side : {1u, 3u, 4u, 16u}) {
+    for (std::uint32_t cell = 0; cell < octahedron_cell_count(side); ++cell) {
+      const Direction d = octahedron_point(side, cell / (side * side), 2 * (cell % side) + 1, 2 * (cell / side % side) + 1);
+      EXPECT_EQ(octahedron_cell(side, d[0], d[1], d[2]), cell);
+      EXPECT_EQ(std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]), side);
     }
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_LT(cube_cell(side, 0, 0, 0), cube_cell_count(side));
-    EXPECT_LT(cube_cell(side, nan, nan, nan), cube_cell_count(side));
+    EXPECT_LT(octahedron_cell(side, 0, 0, 0), octahedron_cell_count(side));
+    EXPECT_LT(octahedron_cell(side, nan, nan, nan), octahedron_cell_count(side));
     for (const Direction& d : {Direction{kInfinity, 0, 0},
                                {1, 1, 1},
                                {-1, -1, -1},
@@ -187,7 +191,7 @@ TEST(Cube, MiddlesAreInTheirCellsAndNoDirectionIsInSomeCell) {
                                {nan, -5, 1},
                                {1, -5, nan},
                                {-kInfinity, 1, nan}})
-      EXPECT_LT(cube_cell(side, d[0], d[1], d[2]), cube_cell_count(side));
+      EXPECT_LT(octahedron_cell(side, d[0], d[1], d[2]), octahedron_cell_count(side));
   }
 }
 

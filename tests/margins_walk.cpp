@@ -178,7 +178,7 @@ void attack_once(Random& random, const State& state, bool loose, Walks& result) 
   close(a.body), close(b.body);
   ModelOptions options;
   options.repair = true;
-  options.table.map_side = 0;
+  options.table.map_cells = 0;
   const Result<Model> model_a = Model::from_level(a.body.level(), options),
                       model_b = Model::from_level(b.body.level(), options);
   if (!model_a || !model_b) return;

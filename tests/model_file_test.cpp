@@ -190,8 +190,8 @@ TEST_F(ModelFile, BoundsThatAreNoLengthsAreRefused) {
     EXPECT_TRUE(refused(at, 0x1p-501)) << "heights along it would underflow";
     EXPECT_FALSE(refused(at, 0x1p-500));
   }
-  for (std::size_t word = 0; word < std::size(LevelHeader{}.reserved); ++word)
-    EXPECT_TRUE(refused(level_header_at(1) + offsetof(LevelHeader, reserved) + 8 * word, std::uint64_t{1}));
+  for (const float bad : {0.0f, -1.0f, 17.0f, float(kInfinity), std::nanf("")})
+    EXPECT_TRUE(refused(level_header_at(1) + offsetof(LevelHeader, map_frame), bad)) << bad;
   EXPECT_TRUE(refused(level_header_at(1) + offsetof(LevelHeader, unused), 1u));
 }
 

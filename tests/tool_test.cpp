@@ -464,7 +464,7 @@ TEST_F(Tool, ErrorsAreJsonWhereJsonIsAsked) {
   }
   fails("build -o b.swl bent.off", 1, "BadFormat", "bent.off");
   fails("build -o b.swl bent.off --map x", 2, "BadValue", nullptr);
-  fails("build -o b.swl cube.off --map 3", 1, "BadValue", "cube.off");
+  fails("build -o b.swl cube.off --map 65", 1, "BadValue", "cube.off");
   fails("build -o b.swl nowhere.off", 1, "CannotRead", "nowhere.off");
 }
 

@@ -159,7 +159,7 @@ Action declare_build(CLI::App& word) {
       ->capture_default_str()
       ->check(number_in(0, std::numeric_limits<double>::max(), "from 0 up"));
   add_detail(word, o.detail);
-  word.add_option("--map", o.table.map_side, "cells on an edge of the finest support map: 0 or a power of two up to 64")
+  word.add_option("--map", o.table.map_cells, "entries of the support maps per vertex, 0 to 64; 0: no maps")
       ->capture_default_str();
   add_choice(word, "--table", tables, o.table.resolution, "none", "degrees between the samples of the paper's start table");
   word.add_option("--radius-factor", o.table.radius_factor, "its samples lie on a sphere of so many bounding radii, 1 to 1e6")

@@ -305,7 +305,7 @@ Output info(const LoadedModel& body) {
       {"volume", model.volume()},
       {"table",
        {{"degrees", degrees(table.resolution)}, {"entries", model.table().size()}, {"radius_factor", table.radius_factor}}},
-      {"map", {{"side", table.map_side}, {"entries", map_entries(model)}}},
+      {"map", {{"cells", table.map_cells}, {"entries", map_entries(model)}}},
       {"levels", levels_json(model)}};
   std::string text = body.path + "\n";
   text += format(" bytes      %zu", bytes);
@@ -324,8 +324,8 @@ Output info(const LoadedModel& body) {
                                 : format(" table      %zu entries, every %g degrees, on a sphere of %g radii\n",
                                          model.table().size(), degrees(table.resolution), table.radius_factor);
   text += map_entries(model) == 0 ? " maps       none\n"
-                                  : format(" maps       %zu entries from level %d on, %u x %u on each face of the finest\n",
-                                           map_entries(model), model.map_level(), table.map_side, table.map_side);
+                                  : format(" maps       %zu entries from level %d on, %u per vertex\n",
+                                           map_entries(model), model.map_level(), table.map_cells);
   return {text + levels_text(model), dump(json)};
 }
 

@@ -65,7 +65,7 @@ Model ellipsoid(const Vec3& semi_axes, std::uint64_t seed) {
   level.vertices = points;
   level.face_vertices = corners;
   ModelOptions options;
-  options.table = {.resolution = lut::Resolution::Degrees5, .map_side = 0};
+  options.table = {.resolution = lut::Resolution::Degrees5, .map_cells = 0};
   Result<Model> model = Model::from_level(level, options);
   if (!model) throw std::runtime_error(model.error().message);
   return std::move(model).value();

@@ -139,21 +139,27 @@ std::string fault(const BlockHeader& h) {
   if (h.total_bytes > kMostBytes) return "more bytes than there can be";
   if (h.finest_level >= h.level_count) return "no level is in the block";
   const bool numbers =
-      finite({h.radius_factor, h.radius, h.box_min[0], h.box_min[1], h.box_min[2], h.box_max[0], h.box_max[1], h.box_max[2]});
+      finite({h.radius_factor, h.radius, h.inner_radius, h.box_min[0], h.box_min[1], h.box_min[2], h.box_max[0], h.box_max[1], h.box_max[2]});
   const bool near = std::all_of(h.centre, h.centre + 3, [](double c) { return std::fabs(c) <= kMostCoordinate; });
-  if (!numbers || !near || h.resolution > 3 || h.dimension > 3 || !(h.radius_factor >= 1) || !(h.radius >= 0) ||
-      h.map_side > kMaxMapSide)
+  if (!numbers || !near || h.resolution > 3 || h.dimension > 3 || !(h.radius_factor >= 1) || !(h.radius >= 0) || !(h.inner_radius >= 0) ||
+      h.map_cells > kMostMapCells)
     return "a number in the header is out of range";
   return {};
+}
+
+/// True if the entries have the bound that `kMapError` takes for granted.
+bool is_frame(std::span<const float, 6> frame) {
+  double sum = 0;
+  for (const float entry : frame) sum += std::fabs(double(entry));
+  return sum <= kMostMapFrame && frame[0] > 0 && frame[3] > 0 && frame[5] > 0;
 }
 
 std::string fault(const LevelHeader& l, bool finest, bool coarsest) {
   if (l.section.bytes != section_bytes(l, finest, coarsest)) return "has the wrong size";
   if (l.vertex_count < 1) return "is empty";
-  const bool zeros = l.unused == 0 && std::ranges::all_of(l.reserved, [](std::uint64_t word) { return word == 0; });
-  if (!finite({l.deviation, l.volume, l.edge_length, l.reach, l.inner_radius}) || !zeros || !(l.reach >= 0) ||
-      !(l.inner_radius >= 0) || !(l.extent == 0 || (l.extent >= kLeastExtent && l.extent <= kMostCoordinate)) ||
-      !(l.deviation >= 0) || (finest && l.deviation != 0))
+  if (!finite({l.deviation, l.volume, l.edge_length, l.reach}) || l.unused != 0 || !(l.reach >= 0) || !is_frame(l.map_frame) ||
+      !(l.extent == 0 || (l.extent >= kLeastExtent && l.extent <= kMostCoordinate)) || !(l.deviation >= 0) ||
+      (finest && l.deviation != 0))
     return "has a number out of range";
   if (l.plane_count > l.face_count || l.half_edge_count > kMaxIndex || l.vertex_count > kMaxIndex) return "has bad counts";
   return l.map_side > kMaxMapSide ? "has a support map whose side is out of range" : "";
@@ -182,7 +188,7 @@ std::string layout_fault(const Headers& h) {
 /// An error text unless the sections have the sizes that the headers imply. Without level 0 a block has no table or source map.
 std::string size_fault(const Headers& h) {
   std::uint64_t map_cells = 0;
-  for (const LevelHeader& l : h.levels) map_cells += lut::cube_cell_count(l.map_side);
+  for (const LevelHeader& l : h.levels) map_cells += lut::octahedron_cell_count(l.map_side);
   if (h.block.maps.bytes != 4 * map_cells) return "the support maps have the wrong size";
   if (h.block.table.bytes != 4 * std::uint64_t{lut::sample_count(lut::Resolution(h.block.resolution))})
     return "the table has the wrong size";
@@ -213,13 +219,13 @@ double cos2_of(double edges, std::uint32_t vertices) {
 Level described(const BlockHeader& block, const LevelHeader& l) {
   Level level;
   level.map_side = l.map_side;
+  level.map_frame = map_frame(l);
   level.edge_length = l.edge_length;
   level.same_cos2 = cos2_of(kSameEdges, l.vertex_count);
   level.near_cos2 = cos2_of(l.map_side > 0 ? kWarmEdges : kWarmEdgesUnmapped, l.vertex_count);
   level.view.extent = l.extent;
   level.view.centre = Vec3(block.centre[0], block.centre[1], block.centre[2]);
   level.view.reach = l.reach;
-  level.view.inner_radius = l.inner_radius;
   level.deviation = l.deviation;
   level.volume = l.volume;
   level.bytes = l.section.bytes;
@@ -235,7 +241,7 @@ std::string take_maps(std::span<const std::byte> block, const Headers& h, std::v
   if (std::string f = damage(block, header_bytes(h.levels.size()), h.block.maps, "the support maps"); !f.empty()) return f;
   Cursor cursor(part(block, h.block.maps));
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    levels[i].support_map = cursor.take<std::uint32_t>(lut::cube_cell_count(h.levels[i].map_side));
+    levels[i].support_map = cursor.take<std::uint32_t>(lut::octahedron_cell_count(h.levels[i].map_side));
     for (const std::uint32_t entry : levels[i].support_map) {
       if (map_vertex(entry) >= h.levels[i].vertex_count)
         return "level " + std::to_string(i) + ": the support map names no vertex";
@@ -334,6 +340,7 @@ Result<Model> BlockReader::read(Block block, int finest) {
   const int count = int(headers.value().levels.size());
   auto body = std::make_shared<Model::Content>(Model::Content{std::move(block), std::move(headers).value(), count, {}, {}, {}});
   for (const LevelHeader& l : body->headers.levels) body->levels.push_back(described(body->headers.block, l));
+  body->levels[0].view.inner_radius = body->headers.block.inner_radius;
   if (const std::string f = take_maps(body->block.bytes, body->headers, body->levels); !f.empty()) return bad(f);
   return with_levels(std::move(body), finest);
 }
@@ -379,7 +386,7 @@ BlockParts BlockReader::parts(const Model& model, int finest) {
       l.map_side = 0;
     } else {
       parts.levels[i] = copy(l.section, l.section.bytes);
-      map_cells += lut::cube_cell_count(l.map_side);
+      map_cells += lut::octahedron_cell_count(l.map_side);
     }
   }
   parts.maps = copy(h.block.maps, 4 * map_cells);  // the maps lie finest first, so these are the last

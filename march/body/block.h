@@ -9,10 +9,11 @@
 //
 // Sections begin at multiples of 64 bytes. Little-endian, IEEE doubles. A level section holds, one after the other: Vertex[V],
 // FacePlane[P], HalfEdge[H], then 32-bit words face_first[F], child_vertex[V] child_face[F] (not on level 0),
-// parent_face[F] (not on the coarsest). The maps: 6 map_side^2 words per level, finest first, so that the map that queries
+// parent_face[F] (not on the coarsest). The maps: 2 map_side^2 words per level, finest first, so that the map that queries
 // begin with shares a page with the headers. The source section: vertex[V] face_begin[F + 1] face[...].
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -26,7 +27,9 @@
 namespace swiftlet {
 
 inline constexpr int kMaxLevels = 32;
-inline constexpr std::uint32_t kMaxMapSide = 64;
+/// Sides of a support map. Small bodies have more cells than they ask for: cells across an axis are of no use for a box.
+inline constexpr std::uint32_t kLeastMapSide = 16, kMaxMapSide = 4096;
+inline constexpr std::uint32_t kMostMapCells = 64;  ///< the largest TableSpec::map_cells
 inline constexpr std::uint32_t kMaxIndex = (1u << 30) - 1;  ///< the largest index in a FeatureId
 
 struct Section {
@@ -39,13 +42,13 @@ struct BlockHeader {
   std::uint64_t total_bytes, header_hash;  ///< the hash of all headers, taken with header_hash at 0
   std::uint32_t dimension, resolution;
   double radius_factor;
-  double centre[3], radius, box_min[3], box_max[3];
+  double centre[3], radius, inner_radius, box_min[3], box_max[3];
   Section maps, table, source;
   std::uint64_t source_face_count;
-  std::uint32_t map_side;      ///< TableSpec::map_side
+  std::uint32_t map_cells;     ///< TableSpec::map_cells
   std::uint32_t finest_level;  ///< the finest level that the block holds
 };
-static_assert(sizeof(BlockHeader) == 216);
+static_assert(sizeof(BlockHeader) == 224);
 
 struct LevelHeader {
   Section section;
@@ -53,10 +56,17 @@ struct LevelHeader {
   std::uint64_t edge_count, triangle_count;
   double extent, deviation, volume, edge_length;
   std::uint32_t map_side, unused;  ///< `unused` is 0
-  double reach, inner_radius;      ///< `inner_radius` is 0 on coarser levels
-  std::uint64_t reserved[2];       ///< 0
+  double reach;
+  float map_frame[6] = {1, 0, 0, 1, 0, 1};  ///< Level::map_frame over the extent
 };
 static_assert(sizeof(LevelHeader) == 128);
+
+/// Level::map_frame as a header states it.
+static inline std::array<double, 6> map_frame(const LevelHeader& l) {
+  std::array<double, 6> frame;
+  for (std::size_t k = 0; k < 6; ++k) frame[k] = l.extent * l.map_frame[k];
+  return frame;
+}
 
 inline constexpr std::size_t kMostHeaderBytes = sizeof(BlockHeader) + kMaxLevels * sizeof(LevelHeader);
 

@@ -57,7 +57,7 @@ FaceLoop::Iterator& FaceLoop::Iterator::operator++() {
 
 TableSpec Model::table_spec() const {
   return {lut::Resolution(content_->headers.block.resolution), content_->headers.block.radius_factor,
-          content_->headers.block.map_side};
+          content_->headers.block.map_cells};
 }
 std::span<const std::uint32_t> Model::table() const { return content_->table; }
 
@@ -67,9 +67,9 @@ Result<Model> Model::with_table(const TableSpec& spec) const {
   for (LevelHeader& level : parts.level_headers) level.map_side = 0;
   parts.maps.clear();
   fill_table(parts, spec, content_->levels[0].view.vertices);
-  std::vector<std::span<const Vertex>> vertices;
-  for (const Level& level : content_->levels) vertices.push_back(level.view.vertices);
-  fill_maps(parts, spec, vertices);
+  std::vector<ConvexView> views;
+  for (const Level& level : content_->levels) views.push_back(level.view);
+  fill_maps(parts, spec, views);
   return BlockReader::read(compose(parts));
 }
 

@@ -1,30 +1,32 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Support maps: a table of directions gives an approximate support vertex v without a climb, and a bound on its error, the
-// excess. The support function h(n) of a body is convex in n and n . v is linear, so over a cell of the cube of directions
-// h(n) - n . v is largest at a corner of the cell.
+// excess. The support function h(n) of a body is convex in n and n . v is linear, so over a cell of directions h(n) - n . v is
+// largest at a corner of the cell.
+//
+// Directions are looked up as M n, where M is the level's map frame. The heights of the body's points x along n are those of the
+// points M^-T x along M n, and these make a body that is about as wide in all directions. So plates and needles need no more
+// cells than balls.
 #pragma once
 
 #include <bit>
 #include <cstdint>
 
-#include <cube.h>
+#include <octahedron.h>
 #include <swiftlet/model.h>
 
 #include "numeric/vec.h"
 
 namespace swiftlet {
 
-/// An entry of a map holds a vertex in the low 24 bits and the excess, relative to the level's extent, in the high eight: 0, or
-/// a number of five bits exponent and three bits mantissa from 2^-29 to 7. No excess is over 4 extents: two coordinates of the
-/// direction differ by at most 1 from the cell's middle, and two vertices by at most 2 extents in a coordinate.
+/// An entry of a map holds a vertex in the low 24 bits and in the high eight the excess for a direction whose image by the map
+/// frame has coordinates that sum to 1 in magnitude: 0, or a number of five bits exponent and three bits mantissa from 2^-29 to
+/// 7. No excess is over 4: the coordinates of two directions in a cell differ by at most 2 in all, and those of two points
+/// M^-T x by at most 2 each.
 inline constexpr std::uint32_t kMapVertices = 1u << 24;
-/// The most vertices of the finest level with a map, except where every level has more. A cell is then at most three of the
-/// level's edges wide.
-inline constexpr std::size_t kMappedVertices = 4096;
 
 static inline std::uint32_t map_vertex(std::uint32_t entry) { return entry & (kMapVertices - 1); }
-/// The excess of an entry, relative to the level's extent, for a direction whose largest coordinate is 1.
+/// The excess of an entry.
 static inline double map_excess(std::uint32_t entry) {
   const std::uint64_t code = entry >> 24;
   return code == 0 ? 0 : std::bit_cast<double>((std::uint64_t(1023 - 29) << 52) + ((code - 1) << 49));
@@ -36,15 +38,28 @@ static inline std::uint32_t map_entry(std::uint32_t vertex, double excess) {
   return code << 24 | vertex;
 }
 
+/// M n.
+static inline Vec into_map(const Level& level, const Vec& n) {
+  const auto& m = level.map_frame;
+  return {m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.y + m[4] * n.z, m[5] * n.z};
+}
+
+/// A direction n for which M n is `m`.
+static inline Vec from_map(const std::array<double, 6>& frame, const Vec& m) {
+  const double z = m.z / frame[5], y = (m.y - frame[4] * z) / frame[3];
+  return {(m.x - frame[1] * y - frame[2] * z) / frame[0], y, z};
+}
+
 /// A vertex of a level, and a bound on how much higher any other vertex is along the direction that was looked up.
 struct MapSupport {
   std::uint32_t vertex;
-  double excess;  ///< a height along the direction at its given length; includes rounding errors
+  double excess;  ///< a height along the direction at its given length, without `kMapError`
 };
 static inline MapSupport look_up(const Level& level, const Vec& n) {
-  const lut::CubeHit hit = lut::cube_hit(level.map_side, n.x, n.y, n.z);
+  const Vec m = into_map(level, n);
+  const lut::OctahedronHit hit = lut::octahedron_hit(level.map_side, m.x, m.y, m.z);
   const std::uint32_t entry = level.support_map[hit.cell];
-  return {map_vertex(entry), (map_excess(entry) + kMapError) * level.view.extent * hit.major};
+  return {map_vertex(entry), map_excess(entry) * hit.length};
 }
 
 }  // namespace swiftlet

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Brute-force nearest vertices for the table, and support vertices with their excess for the maps.
+// Brute-force nearest vertices for the table; support vertices with their excess for the maps, and the frames of these.
 #include "body/table.h"
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
 #include <limits>
+#include <utility>
 
+#include "body/half_edge.h"
+#include "body/support.h"
 #include "body/support_map.h"
 #include "numeric/vec.h"
 
@@ -15,8 +18,7 @@ namespace swiftlet {
 std::string spec_fault(const TableSpec& spec) {
   if (spec.resolution > lut::Resolution::Degrees5) return "the table has none of the resolutions that there are";
   if (!(spec.radius_factor >= 1 && spec.radius_factor <= 1e6)) return "the table's radius factor is not between 1 and 1e6";
-  if (spec.map_side > kMaxMapSide || !(spec.map_side == 0 || std::has_single_bit(spec.map_side)))
-    return "the support map's side is neither 0 nor a power of two up to 64";
+  if (spec.map_cells > kMostMapCells) return "the support maps have more than 64 cells per vertex";
   return {};
 }
 
@@ -43,40 +45,94 @@ void fill_table(BlockParts& parts, const TableSpec& spec, std::span<const Vertex
 
 namespace {
 
-Vec direction(std::uint32_t side, std::uint32_t face, std::uint32_t i, std::uint32_t j) {
-  const std::array<double, 3> p = lut::cube_point(side, face, i, j);
-  return {p[0], p[1], p[2]};
-}
-
-std::uint32_t highest(std::span<const Vertex> vertices, const Vec& n) {
-  std::uint32_t best = 0;
-  double most = dot(n, vec(vertices[0]));
-  for (std::uint32_t v = 1; v < vertices.size(); ++v) {
-    if (const double height = dot(n, vec(vertices[v])); height > most) most = height, best = v;
+/// The moments of a level's surface about its centroid, over its area, for coordinates in extents: xx, xy, xz, yy, yz, zz. Those
+/// of a triangle are those of three points in the middle of its sides. A body without faces counts by its vertices.
+std::array<double, 6> moments(const ConvexView& view) {
+  const double scale = view.extent > 0 ? 1 / view.extent : 0;
+  double weight = 0;
+  std::array<double, 3> first{};
+  std::array<double, 6> second{};
+  const auto add = [&](const Vec& p, double w) {
+    weight += w;
+    for (const auto& [k, x] : {std::pair{0u, p.x}, {1u, p.y}, {2u, p.z}}) first[k] += w * x;
+    for (const auto& [k, xx] : {std::pair{0u, p.x * p.x}, {1u, p.x * p.y}, {2u, p.x * p.z}, {3u, p.y * p.y}, {4u, p.y * p.z}, {5u, p.z * p.z}})
+      second[k] += w * xx;
+  };
+  const Vec o = vec(view.vertices[0]);
+  const auto at = [&](std::uint32_t v) { return (vec(view.vertices[v]) - o) * scale; };
+  for (const std::uint32_t first_edge : view.face_first) {
+    const std::uint32_t corner = origin(view, first_edge);
+    for (std::uint32_t h = next_in_face(view, first_edge); view.half_edges[h].head != corner; h = next_in_face(view, h)) {
+      const Vec p = at(corner), q = at(origin(view, h)), r = at(view.half_edges[h].head);
+      const double area = norm(cross(q - p, r - p));
+      add((p + q) * 0.5, area), add((q + r) * 0.5, area), add((r + p) * 0.5, area);
+    }
   }
-  return best;
+  if (!(weight > 0)) {
+    for (std::uint32_t v = 0; v < view.vertices.size(); ++v) add(at(v), 1);
+  }
+  const double x = first[0] / weight, y = first[1] / weight, z = first[2] / weight;
+  const std::array<double, 6> of_centroid{x * x, x * y, x * z, y * y, y * z, z * z};
+  for (std::size_t k = 0; k < 6; ++k) second[k] = second[k] / weight - of_centroid[k];
+  return second;
 }
 
-std::vector<std::uint32_t> support_map(std::span<const Vertex> vertices, std::uint32_t side, double extent) {
+/// Writes the map frame of a level: the transposed Cholesky factor of the moments, times what makes points M^-T x differ by at
+/// most 2 in a coordinate. If that leaves the bounds of a frame, which no body known does, the frame is a multiple of identity.
+void write_frame(LevelHeader& header, const ConvexView& view) {
+  const auto [xx, xy, xz, yy, yz, zz] = moments(view);
+  const double least = max(kLeastMoment * (xx + yy + zz), std::numeric_limits<float>::min());
+  const double a = std::sqrt(xx + least), b = xy / a, c = xz / a, d = std::sqrt(max(yy - b * b, 0) + least),
+               e = (yz - b * c) / d, f = std::sqrt(max(zz - c * c - e * e, 0) + least);
+  const Vec o = vec(view.vertices[0]);
+  double low[3] = {}, high[3] = {};  // of the points M^-T (x - o), with x and o in extents
+  for (const Vertex& v : view.vertices) {
+    const Vec p = (vec(v) - o) * (view.extent > 0 ? 1 / view.extent : 0);
+    const double x = p.x / a, y = (p.y - b * x) / d, z = (p.z - c * x - e * y) / f;
+    for (const auto& [k, image] : {std::pair{0u, x}, {1u, y}, {2u, z}}) {
+      low[k] = min(low[k], image), high[k] = max(high[k], image);
+    }
+  }
+  constexpr double kSlack = 1 + 0x1p-20;  // for the rounding to float32
+  const double scale = max(max(high[0] - low[0], high[1] - low[1]), high[2] - low[2]) / 2 * kSlack;
+  const std::array<double, 6> frame{a, b, c, d, e, f};
+  double sum = 0;
+  for (std::size_t k = 0; k < 6; ++k) sum += std::fabs(frame[k] * scale);
+  for (std::size_t k = 0; k < 6; ++k) {
+    header.map_frame[k] = sum > 0 && sum < kMostMapFrame / 2 ? float(frame[k] * scale) : k == 0 || k == 3 || k == 5 ? 2.0f : 0.0f;
+  }
+}
+
+std::vector<std::uint32_t> support_map(const ConvexView& view, std::uint32_t side, const std::array<double, 6>& frame) {
   std::vector<std::uint32_t> cells;
-  for (std::uint32_t face = 0; face < 6; ++face) {
-    std::vector<double> heights;  // the body's, at the corners of the cells
+  if (!(view.extent > 0)) return std::vector<std::uint32_t>(lut::octahedron_cell_count(side));
+  std::uint32_t tests = 0;
+  const auto direction = [&](std::uint32_t lower, std::uint32_t i, std::uint32_t j) {
+    const std::array<double, 3> p = lut::octahedron_point(side, lower, i, j);
+    return from_map(frame, {p[0] / side, p[1] / side, p[2] / side});
+  };
+  struct Corner {
+    Vec n;
+    std::uint32_t top;
+  };
+  std::vector<Corner> corners((side + 1) * (side + 1));
+  std::uint32_t near = 0;
+  for (const std::uint32_t lower : {0u, 1u}) {
     for (std::uint32_t j = 0; j <= side; ++j) {
+      if (j > 0) near = corners[(j - 1) * (side + 1)].top;
       for (std::uint32_t i = 0; i <= side; ++i) {
-        const Vec n = direction(side, face, 2 * i, 2 * j);
-        heights.push_back(dot(n, vec(vertices[highest(vertices, n)])));
+        const Vec n = direction(lower, 2 * i, 2 * j);
+        corners[j * (side + 1) + i] = {n, near = support(view, rescaled(n), near, tests)};
       }
     }
     for (std::uint32_t j = 0; j < side; ++j) {
       for (std::uint32_t i = 0; i < side; ++i) {
-        const std::uint32_t v = highest(vertices, direction(side, face, 2 * i + 1, 2 * j + 1));
+        const Corner* const corner = &corners[j * (side + 1) + i];
+        const std::uint32_t v = ascend(view, direction(lower, 2 * i + 1, 2 * j + 1), corner->top, tests);
         double excess = 0;
-        for (const std::uint32_t corner : {0, 1, 2, 3}) {
-          const std::uint32_t x = i + corner % 2, y = j + corner / 2;
-          const double height = dot(direction(side, face, 2 * x, 2 * y), vec(vertices[v]));
-          excess = std::max(excess, heights[y * (side + 1) + x] - height);
-        }
-        cells.push_back(map_entry(v, extent > 0 ? excess / extent : 0));
+        for (const Corner* at : {corner, corner + 1, corner + side + 1, corner + side + 2})
+          excess = std::max(excess, excess_at(frame, at->n, vec(view.vertices[at->top]) - vec(view.vertices[v])));
+        cells.push_back(map_entry(v, excess));
       }
     }
   }
@@ -85,18 +141,24 @@ std::vector<std::uint32_t> support_map(std::span<const Vertex> vertices, std::ui
 
 }  // namespace
 
-void fill_maps(BlockParts& parts, const TableSpec& spec, std::span<const std::span<const Vertex>> levels) {
-  parts.header.map_side = spec.map_side;
-  std::size_t finest = parts.header.finest_level;
-  while (finest + 1 < levels.size() && levels[finest].size() > kMappedVertices) ++finest;
-  if (levels[finest].size() > kMapVertices) return;
-  std::vector<std::vector<std::uint32_t>> maps;
-  std::uint32_t side = spec.map_side;
-  for (std::size_t i = finest; i < levels.size() && side > 0; ++i, side = std::max(side / 2, 1u)) {
-    maps.push_back(support_map(levels[i], side, parts.level_headers[i].extent));
-    parts.level_headers[i].map_side = side;
-  }
-  for (const std::vector<std::uint32_t>& map : maps) {
+double excess_at(const std::array<double, 6>& frame, const Vec& n, const Vec& above) {
+  const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
+  const double of_frame = std::fabs(frame[0]) * x + (std::fabs(frame[1]) + std::fabs(frame[3])) * y +
+                          (std::fabs(frame[2]) + std::fabs(frame[4]) + std::fabs(frame[5])) * z;
+  const double of_height = x * std::fabs(above.x) + y * std::fabs(above.y) + z * std::fabs(above.z);
+  return max(0, dot(n, above)) + 2 * kFrameError * of_frame + kDotError * of_height;
+}
+
+void fill_maps(BlockParts& parts, const TableSpec& spec, std::span<const ConvexView> levels) {
+  parts.header.map_cells = spec.map_cells;
+  if (spec.map_cells == 0) return;
+  for (std::size_t i = parts.header.finest_level; i < levels.size(); ++i) {
+    LevelHeader& header = parts.level_headers[i];
+    const std::size_t count = levels[i].vertices.size();
+    if (count > kMapVertices) continue;
+    write_frame(header, levels[i]);
+    header.map_side = std::clamp(std::uint32_t(std::sqrt(double(count) * spec.map_cells / 2)), kLeastMapSide, kMaxMapSide);
+    const std::vector<std::uint32_t> map = support_map(levels[i], header.map_side, map_frame(header));
     const auto bytes = std::as_bytes(std::span(map));
     parts.maps.insert(parts.maps.end(), bytes.begin(), bytes.end());
   }

@@ -4,7 +4,9 @@
 // deviations in `verify`, and for an overlap or an upper bound that neither planes nor the answer's points prove.
 #include <swiftlet/check.h>
 
+#include "body/support.h"
 #include "body/support_map.h"
+#include "body/table.h"
 #include "check/brute.h"
 #include "query/radii.h"
 
@@ -12,23 +14,22 @@ namespace swiftlet {
 namespace {
 
 /// Returns a cell of the level's support map whose error bound is too small, or kNone. Corners of a cell suffice: over the cell
-/// the body's height above the cell's vertex is largest at a corner.
+/// the body's height above the cell's vertex is largest at a corner. Requires an exactly convex body: its heights are climbed to.
 std::uint32_t map_fault(const Level& level) {
   const std::uint32_t side = level.map_side;
-  std::vector<double> heights((side + 1) * (side + 1));  // of the body, at the corners of the cells of one face
-  for (std::uint32_t cell = 0; cell < lut::cube_cell_count(side); ++cell) {
-    const std::uint32_t face = cell / (side * side), row = cell / side % side, column = cell % side;
+  std::vector<std::uint32_t> tops((side + 1) * (side + 1));  // highest vertices at the corners of the cells of one half
+  std::uint32_t tests = 0, near = 0;
+  for (std::uint32_t cell = 0; cell < lut::octahedron_cell_count(side); ++cell) {
+    const std::uint32_t lower = cell / (side * side), row = cell / side % side, column = cell % side;
     for (const std::uint32_t corner : {0, 1, 2, 3}) {
-      const std::array<double, 3> d = lut::cube_point(side, face, 2 * (column + corner % 2), 2 * (row + corner / 2));
-      const Vec n{d[0], d[1], d[2]};
-      double& most = heights[(row + corner / 2) * (side + 1) + column + corner % 2];
-      if (corner == 3 || row == 0 || column == 0) {
-        most = dot(n, vec(level.view.vertices[0]));
-        for (const Vertex& v : level.view.vertices) most = max(most, dot(n, vec(v)));
-      }
+      const std::uint32_t i = column + corner % 2, j = row + corner / 2;
+      const std::array<double, 3> d = lut::octahedron_point(side, lower, 2 * i, 2 * j);
+      const Vec n = from_map(level.map_frame, {d[0] / side, d[1] / side, d[2] / side});
+      std::uint32_t& top = tops[j * (side + 1) + i];
+      if (corner == 3 || row == 0 || column == 0) top = near = support(level.view, rescaled(n), near, tests);
       const std::uint32_t entry = level.support_map[cell];
-      const double excess = most - dot(n, vec(level.view.vertices[map_vertex(entry)]));
-      if (!(excess <= (map_excess(entry) + kMapError) * level.view.extent)) return cell;
+      const Vec above = vec(level.view.vertices[top]) - vec(level.view.vertices[map_vertex(entry)]);
+      if (!(excess_at(level.map_frame, n, above) <= map_excess(entry)) && level.view.extent > 0) return cell;
     }
   }
   return kNone;

@@ -324,14 +324,14 @@ Result<Model> Model::from_levels(std::span<const LevelArrays> levels, const Mode
     parts.levels.push_back(level_bytes(draft));
   }
   const Vec centre{parts.header.centre[0], parts.header.centre[1], parts.header.centre[2]};
-  parts.level_headers[0].inner_radius = inner_radius_of(drafts[0].surface.view(), centre);
+  parts.header.inner_radius = inner_radius_of(drafts[0].surface.view(), centre);
   const Result<std::uint64_t> sources = write_source(parts, levels[0], drafts[0].surface);
   if (!sources) return sources.error();
   parts.header.source_face_count = sources.value();
   fill_table(parts, options.table, drafts[0].surface.vertices);
-  std::vector<std::span<const Vertex>> vertices;
-  for (const Draft& draft : drafts) vertices.push_back(draft.surface.vertices);
-  fill_maps(parts, options.table, vertices);
+  std::vector<ConvexView> views;
+  for (const Draft& draft : drafts) views.push_back(draft.surface.view());
+  fill_maps(parts, options.table, views);
   return BlockReader::read(compose(parts));
 }
 

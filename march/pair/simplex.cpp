@@ -5,68 +5,81 @@
 #include <limits>
 
 namespace swiftlet {
+namespace {
 
-bool Simplex::has(std::uint32_t va, std::uint32_t vb) const {
-  for (int k = 0; k < count_; ++k) {
-    if (corner_[k].va == va && corner_[k].vb == vb) return true;
+/// The segment from the newest corner r to r + u, beside the origin: how far the nearest point is along u, and by how much its
+/// squared norm is less than that of r.
+struct Along {
+  double share, gain;
+};
+Along along(double towards, double length2) {
+  if (!(towards > 0)) return {0, 0};
+  if (towards >= length2) return {1, 2 * towards - length2};
+  const double share = towards / length2;
+  return {share, share * towards};
+}
+
+}  // namespace
+
+void Simplex::keep(const Corner& only) {
+  nearest_ = only.p, weight_[0] = 1;
+  corner_[0] = only, count_ = 1;
+}
+
+void Simplex::keep(const Corner& p, const Corner& q, double share_p) {
+  if (!(share_p > 0)) return keep(q);
+  if (share_p == 1) return keep(p);
+  nearest_ = q.p + (p.p - q.p) * share_p;
+  weight_[0] = share_p, weight_[1] = 1 - share_p;
+  const Corner newest = q;
+  corner_[0] = p, corner_[1] = newest, count_ = 2;
+}
+
+void Simplex::add_second(const Corner& q) {
+  const Corner p = corner_[0];
+  const Vec u = p.p - q.p;
+  keep(p, q, along(-dot(q.p, u), dot(u, u)).share);
+}
+
+void Simplex::add_third(const Corner& r) {
+  const Corner p = corner_[0], q = corner_[1];
+  const Vec u = p.p - r.p, v = q.p - r.p;
+  const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), ru = -dot(r.p, u), rv = -dot(r.p, v);
+  const double area2 = uu * vv - uv * uv, w_p = ru * vv - rv * uv, w_q = rv * uu - ru * uv, w_r = area2 - w_p - w_q;
+  if (w_p > 0 && w_q > 0 && w_r > 0) {
+    const double scale = 1 / area2;
+    weight_ = {w_p * scale, w_q * scale, w_r * scale};
+    nearest_ = r.p + u * weight_[0] + v * weight_[1];
+    corner_[2] = r, count_ = 3;
+    return;
   }
-  return false;
+  const Along on_p = along(ru, uu), on_q = along(rv, vv);
+  on_p.gain >= on_q.gain ? keep(p, r, on_p.share) : keep(q, r, on_q.share);
 }
 
-/// The nearest point of the segment between corners i and j, j the newest.
-Simplex::Nearest Simplex::on_segment(int i, int j) const {
-  const Vec &p = corner_[i].p, &q = corner_[j].p, u = p - q;
-  const double along = -dot(q, u), length2 = dot(u, u);
-  if (!(along > 0)) return {q, 1, {j}, {1}};
-  if (along >= length2) return {p, 1, {i}, {1}};
-  const double t = along / length2;
-  return {q + u * t, 2, {i, j}, {t, 1 - t}};
-}
-
-/// The nearest point of a triangle [Ericson 2004, sec. 5.1.5], sought only in the regions that hold corner k, the newest.
-Simplex::Nearest Simplex::on_triangle(int i, int j, int k) const {
-  const Vec &p = corner_[i].p, &q = corner_[j].p, &r = corner_[k].p;
-  const Vec u = p - r, v = q - r, n = cross(u, v);
-  const double area2 = dot(n, n), w_p = dot(n, cross(v, r)), w_q = dot(n, cross(r, u)), w_r = area2 - w_p - w_q;
-  if (w_p > 0 && w_q > 0 && w_r > 0) return {n * (dot(n, r) / area2), 3, {i, j, k}, {w_p / area2, w_q / area2, w_r / area2}};
-  const Nearest a = on_segment(i, k), b = on_segment(j, k);
-  return dot(a.point, a.point) <= dot(b.point, b.point) ? a : b;
-}
-
-Simplex::Nearest Simplex::on_tetrahedron() const {
-  Nearest best;
+void Simplex::add_fourth(const Corner& apex) {
+  const Simplex base = *this;
   double least2 = std::numeric_limits<double>::infinity();
-  const Vec& apex = corner_[3].p;
   for (const auto& [i, j, opposite] : {std::array{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}) {
-    const Vec n = cross(corner_[i].p - apex, corner_[j].p - apex);
-    const double height = dot(n, corner_[opposite].p - apex), from_origin = dot(n, apex);
+    const Vec n = cross(base[i].p - apex.p, base[j].p - apex.p);
+    const double height = dot(n, base[opposite].p - apex.p), from_origin = dot(n, apex.p);
     if (height < 0 ? from_origin > 0 : height > 0 && from_origin < 0) continue;  // the origin is on the inner side
-    const Nearest face = on_triangle(i, j, 3);
-    if (const double d2 = dot(face.point, face.point); d2 < least2) least2 = d2, best = face;
+    Simplex face;
+    face.corner_[0] = base[i], face.corner_[1] = base[j], face.count_ = 2;
+    face.add_third(apex);
+    if (const double d2 = dot(face.nearest_, face.nearest_); d2 < least2) least2 = d2, *this = face;
   }
-  if (best.count == 0) best.count = 4;
-  return best;
+  if (least2 < std::numeric_limits<double>::infinity()) return;
+  corner_[3] = apex, count_ = 4;
 }
 
-Simplex::Nearest Simplex::add(const Corner& corner) {
-  corner_[count_++] = corner;
+[[gnu::flatten]] void Simplex::add(const Corner& corner) {
   switch (count_) {
-    case 1: return {corner.p, 1, {0}, {1}};
-    case 2: return on_segment(0, 1);
-    case 3: return on_triangle(0, 1, 2);
-    default: return on_tetrahedron();
+    case 0: return keep(corner);
+    case 1: return add_second(corner);
+    case 2: return add_third(corner);
+    default: return add_fourth(corner);
   }
-}
-
-Simplex::Points Simplex::reduce(const Nearest& nearest) {
-  Points points;
-  for (int k = 0; k < nearest.count; ++k) {
-    if (nearest.index[k] != k) corner_[k] = corner_[nearest.index[k]];
-    points.a = points.a + corner_[k].a * nearest.weight[k];
-    points.apart = points.apart + corner_[k].p * nearest.weight[k];
-  }
-  count_ = nearest.count;
-  return points;
 }
 
 OverlapProof Simplex::proof() const {

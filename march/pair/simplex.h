@@ -16,39 +16,41 @@
 
 namespace swiftlet {
 
-/// The solver in doubles. It tests the Voronoi regions of [Ericson 2004, sec. 5.1] that hold the newest corner. With
-/// `nearest_to_origin` instead, a whole cold query takes up to 14 % more instructions.
+/// The solver in doubles: the corners that hold the nearest point of those added so far. It tests the Voronoi regions of
+/// [Ericson 2004, sec. 5.1] that hold the newest corner. With `nearest_to_origin` instead, a whole cold query takes up to 14 %
+/// more instructions.
 class Simplex {
  public:
   struct Corner {
-    Vec p, a;  ///< `a` is the point of A, `p` that of B less `a`, in the common frame
+    Vec p;  ///< vertex `vb` of B less vertex `va` of A, in the common frame
     std::uint32_t va, vb;
   };
-  struct Nearest {
-    Vec point{0, 0, 0};          ///< the point of the simplex nearest to the origin
-    int count = 0;               ///< number of corners whose hull holds `point`; 4: the simplex holds the origin
-    std::array<int, 4> index{};  ///< the corners whose hull holds `point`, ascending
-    std::array<double, 4> weight{};
-  };
 
-  bool has(std::uint32_t va, std::uint32_t vb) const;
-  /// Adds a corner and finds the nearest point, taking for granted that the new corner is one of those that hold it.
-  Nearest add(const Corner& corner);
-  /// A point of A, and the vector from it to a point of B.
-  struct Points {
-    Vec a{0, 0, 0}, apart{0, 0, 0};
-  };
-  /// Keeps only the corners that hold the nearest point. Returns the points that the weights in `nearest` make of these
-  /// corners: if a triangle is nearly a line, `nearest.point` is no combination of the corners, and off by more than rounding.
-  Points reduce(const Nearest& nearest);
+  int count() const { return count_; }  ///< 4: the simplex holds the origin
+  const Corner& operator[](int k) const { return corner_[k]; }
+  double weight(int k) const { return weight_[k]; }  ///< of at most three corners; they sum to 1, but for rounding
+  /// The point of the simplex nearest to the origin. It is off the weighted sum of the corners by rounding.
+  const Vec& nearest() const { return nearest_; }
+  bool has(std::uint32_t va, std::uint32_t vb) const {
+    for (int k = 0; k < count_; ++k) {
+      if (corner_[k].va == va && corner_[k].vb == vb) return true;
+    }
+    return false;
+  }
+  /// Adds a corner and drops those that do not hold the nearest point, taking for granted that the new one does.
+  void add(const Corner& corner);
   OverlapProof proof() const;
 
  private:
-  Nearest on_segment(int i, int j) const;
-  Nearest on_triangle(int i, int j, int k) const;
-  Nearest on_tetrahedron() const;
+  void add_second(const Corner& q);
+  void add_third(const Corner& r);
+  void add_fourth(const Corner& apex);
+  void keep(const Corner& only);
+  void keep(const Corner& p, const Corner& q, double share_p);
 
   std::array<Corner, 4> corner_;
+  std::array<double, 3> weight_;
+  Vec nearest_;
   int count_ = 0;
 };
 

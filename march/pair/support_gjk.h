@@ -17,71 +17,124 @@
 
 namespace swiftlet {
 
-/// The state of the algorithm after a step.
-struct SupportGjk {
-  std::uint32_t a = 0, b = 0;  ///< support vertices of A along `normal` and of B against it, as the maps have them
-  double gap = 0;              ///< between vertices `a` and `b` along `normal`
-  double lower = 0;  ///< bound proved along `normal`: the gap less rounding and the maps' uncertainty; may be negative
-  double most_lower = -std::numeric_limits<double>::infinity();  ///< the greatest `lower` of all steps so far
-  Vec lower_along{0, 0, 0};                                      ///< the normal along which `most_lower` is proved
-  double upper = 0;  ///< upper bound: the distance of `point_a` and `point_b` plus rounding
-  Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};
-  bool near = false;  ///< `a` and `b` are within a few edges of each other across `normal`: a walk is cheaper
-  std::uint32_t start_a = 0, start_b = 0;  ///< where a walk begins: the first supports that were `near`, else `a` and `b`
-  bool meets = false;  ///< the pair seems to overlap: in doubles, the differences of the pairs in `proof` hold the origin
-  OverlapProof proof{};
+/// The supports that the maps have along one direction.
+struct Look {
+  std::uint32_t a, b;  ///< support vertices of A along the direction and of B against it, as the maps have them
+  Vec point, apart;    ///< vertex `a`, and the vector from it to vertex `b`: common frame
+  double excess;       ///< how far the bodies may reach beyond both, along the direction at its given length
 };
+/// Looks along `d`. It may have any length, because its positive multiples all lie in the same cell of a map.
+[[gnu::always_inline]] static inline Look look(const PairView& pair, const Level& a, const Level& b, const Vec& d) {
+  const Moved other = body_b(pair);
+  const MapSupport top_a = look_up(a, d), top_b = look_up(b, -other.into(d));
+  const Vec q = body_a(pair).point(top_a.vertex);
+  return {top_a.vertex, top_b.vertex, q, other.point(top_b.vertex) - q, top_a.excess + top_b.excess};
+}
 
-/// The supports that the maps have along one direction, and the bound that they prove.
+/// A look and the bound that it proves.
 struct AxisSample {
   Vec normal;          ///< the direction at length 1; 0 if it names no direction
-  std::uint32_t a, b;  ///< support vertices of A along `normal` and of B against it, as the maps have them
-  Vec point, apart;    ///< vertex `a`, and the vector from it to vertex `b`: common frame
-  double gap, lower;   ///< as in SupportGjk
+  std::uint32_t a, b;  ///< as in Look
+  Vec point, apart;    ///< as in Look
+  double gap;          ///< between vertices `a` and `b` along `normal`
+  double lower;        ///< bound proved along `normal`: the gap less rounding and the maps' uncertainty; may be negative
 };
-/// Samples the maps along `direction`. It may have any length, because its positive multiples all lie in the same cell of a
-/// map.
-static inline AxisSample sample_axis(const PairView& pair, const Level& a, const Level& b, const Vec& direction) {
-  const Moved other = body_b(pair);
-  const MapSupport top_a = look_up(a, direction), top_b = look_up(b, -other.into(direction));
-  const Vec q = body_a(pair).point(top_a.vertex), p = other.point(top_b.vertex) - q;
+static inline double map_error(const PairView& pair) { return kMapError * (pair.a.extent + pair.b.extent); }
+[[gnu::flatten]] static inline AxisSample sample_axis(const PairView& pair, const Level& a, const Level& b,
+                                                      const Vec& direction) {
+  const Look at = look(pair, a, b, direction);
   const auto [n, scale] = unit_of(direction);
-  return {n, top_a.vertex, top_b.vertex, q, p, dot(n, p), gap(pair, n, p, (top_a.excess + top_b.excess) * scale)};
+  return {n, at.a, at.b, at.point, at.apart, dot(n, at.apart), gap(pair, n, at.apart, at.excess * scale + map_error(pair))};
+}
+
+/// True if a level is about as wide in all directions.
+static inline bool is_round(const Level& level) {
+  const auto& m = level.map_frame;
+  return std::fabs(m[3] - m[0]) + std::fabs(m[5] - m[0]) + std::fabs(m[1]) + std::fabs(m[2]) + std::fabs(m[4]) < kRound * m[0];
+}
+
+/// A symmetric matrix.
+struct Symmetric {
+  double xx, xy, xz, yy, yz, zz;
+};
+static inline double squared_along(const Symmetric& q, const Vec& n) {
+  return n.x * (q.xx * n.x + 2 * (q.xy * n.y + q.xz * n.z)) + n.y * (q.yy * n.y + 2 * q.yz * n.z) + n.z * q.zz * n.z;
+}
+/// A vector along x for which `q` x is along `v`, for a positive definite `q`.
+static inline Vec solved(const Symmetric& q, const Vec& v) {
+  const double xx = q.yy * q.zz - q.yz * q.yz, xy = q.xz * q.yz - q.xy * q.zz, xz = q.xy * q.yz - q.xz * q.yy,
+               yy = q.xx * q.zz - q.xz * q.xz, yz = q.xy * q.xz - q.xx * q.yz, zz = q.xx * q.yy - q.xy * q.xy;
+  return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
+}
+
+/// About the direction of the distance, where `line` is the line of centres: the bodies are taken for ellipsoids, the points M^T
+/// y, |y| <= 1, for the map frame M. The distance h of two of them lies along n where (h + M_a^T M_a / |M_a n| + M_b^T M_b / |M_b
+/// n|) n = `line`. `kEllipsoidSteps` steps take h and the lengths from the last n. Between round bodies, `line`.
+[[gnu::flatten]] static inline Vec between_ellipsoids(const Level& a, const Level& b, const Motion& b_in_a, const Vec& line) {
+  if (is_round(a) && is_round(b)) return line;
+  const auto &m = a.map_frame, &f = b.map_frame;
+  const Vec &x = b_in_a.row_x, &y = b_in_a.row_y, &z = b_in_a.row_z;
+  const Vec r{x.x * f[0] + x.y * f[1] + x.z * f[2], y.x * f[0] + y.y * f[1] + y.z * f[2], z.x * f[0] + z.y * f[1] + z.z * f[2]},
+      s{x.y * f[3] + x.z * f[4], y.y * f[3] + y.z * f[4], z.y * f[3] + z.z * f[4]}, t{x.z * f[5], y.z * f[5], z.z * f[5]};
+  const Symmetric of_a{m[0] * m[0], m[0] * m[1],
+                       m[0] * m[2], m[1] * m[1] + m[3] * m[3],
+                       m[1] * m[2] + m[3] * m[4], m[2] * m[2] + m[4] * m[4] + m[5] * m[5]},
+      of_b{r.x * r.x + s.x * s.x + t.x * t.x, r.x * r.y + s.x * s.y + t.x * t.y, r.x * r.z + s.x * s.z + t.x * t.z,
+           r.y * r.y + s.y * s.y + t.y * t.y, r.y * r.z + s.y * s.z + t.y * t.z, r.z * r.z + s.z * s.z + t.z * t.z};
+  Vec n = normalised(line);
+  for (int k = 0; k < kEllipsoidSteps; ++k) {
+    const double wide_a = std::sqrt(squared_along(of_a, n)), wide_b = std::sqrt(squared_along(of_b, n)),
+                 h = max(0, dot(n, line) - wide_a - wide_b), by_a = 1 / wide_a, by_b = 1 / wide_b;
+    n = normalised(solved({h + of_a.xx * by_a + of_b.xx * by_b, of_a.xy * by_a + of_b.xy * by_b,
+                           of_a.xz * by_a + of_b.xz * by_b, h + of_a.yy * by_a + of_b.yy * by_b,
+                           of_a.yz * by_a + of_b.yz * by_b, h + of_a.zz * by_a + of_b.zz * by_b},
+                          line));
+  }
+  return n;
+}
+
+/// The state of the algorithm after a step.
+struct SupportGjk {
+  AxisSample seen;                                               ///< the last sample
+  double most_lower = -std::numeric_limits<double>::infinity();  ///< the greatest `lower` of all samples
+  Vec lower_along{0, 0, 0};                                      ///< the normal along which `most_lower` is proved
+  double upper = std::numeric_limits<double>::infinity();  ///< about the distance of the points of `feet_of`
+  bool near = false;  ///< the supports are within a few edges of each other across `normal`: a walk is cheaper
+  Simplex simplex;    ///< its nearest point gives the next direction; with four corners, the pair seems to overlap
+};
+
+/// A point of A, the vector from it to a point of B, and an upper bound on the distance of the bodies.
+struct Feet {
+  Vec point, apart;
+  double upper;
+};
+/// The points of both bodies that the simplex's weights make of its corners.
+static inline Feet feet_of(const PairView& pair, const Simplex& simplex) {
+  Feet feet{{0, 0, 0}, {0, 0, 0}, 0};
+  for (int k = 0; k < simplex.count(); ++k) {
+    feet.point = feet.point + body_a(pair).point(simplex[k].va) * simplex.weight(k);
+    feet.apart = feet.apart + simplex[k].p * simplex.weight(k);
+  }
+  feet.upper = norm(feet.apart) * (1 + kNormError) + pair.point_error;
+  return feet;
 }
 
 /// Continues from the sample `seen` until `enough` returns true or nothing changes, for at most `kMapGjkSteps` steps. Both
 /// levels have maps. Supports that overlap, but by less than `hidden`, count as `near` too.
 template <class Enough>
-SupportGjk support_gjk(const PairView& pair, const Level& a, const Level& b, double hidden, AxisSample seen, Enough enough) {
+[[gnu::flatten]] SupportGjk support_gjk(const PairView& pair, const Level& a, const Level& b, double hidden,
+                                        const AxisSample& seen, Enough enough) {
   const double few = kNearEdges * (a.edge_length + b.edge_length);
-  Simplex simplex;
   SupportGjk s;
-  bool was_near = false;
-  s.upper = std::numeric_limits<double>::infinity();
+  s.seen = seen;
   for (int steps = 0;; ++steps) {
-    const Vec &n = seen.normal, &q = seen.point, &p = seen.apart;
-    s.a = seen.a, s.b = seen.b;
-    s.gap = seen.gap, s.lower = seen.lower;
-    s.normal = n;
-    if (s.lower > s.most_lower) s.most_lower = s.lower, s.lower_along = n;
-    const double upper = norm(p) * (1 + kNormError) + pair.point_error;
-    if (upper < s.upper) s.upper = upper, s.point_a = q, s.point_b = q + p;
-    const Vec aside = p - n * s.gap;
-    s.near = s.gap > -hidden && dot(aside, aside) <= few * few;
-    if (!was_near) s.start_a = s.a, s.start_b = s.b;
-    was_near = was_near || s.near;
-    if (enough(s) || steps == kMapGjkSteps || simplex.has(s.a, s.b)) return s;
-    const Simplex::Nearest nearest = simplex.add({p, q, s.a, s.b});
-    if (nearest.count == 4) {
-      s.meets = true;
-      s.proof = simplex.proof();
-      return s;
-    }
-    const Simplex::Points points = simplex.reduce(nearest);
-    const double distance = norm(nearest.point), nearer = norm(points.apart) * (1 + kNormError) + pair.point_error;
-    if (nearer < s.upper) s.upper = nearer, s.point_a = points.a, s.point_b = points.a + points.apart;
-    if (!(distance > pair.point_error)) return s;
-    seen = sample_axis(pair, a, b, nearest.point);
+    if (s.seen.lower > s.most_lower) s.most_lower = s.seen.lower, s.lower_along = s.seen.normal;
+    s.near = s.seen.gap > -hidden && dot(s.seen.apart, s.seen.apart) - s.seen.gap * s.seen.gap <= few * few;
+    const bool known = s.simplex.has(s.seen.a, s.seen.b);
+    if (!known) s.simplex.add({s.seen.apart, s.seen.a, s.seen.b});
+    s.upper = s.simplex.count() == 4 ? 0 : norm(s.simplex.nearest());
+    if (known || s.simplex.count() == 4 || !(s.upper > pair.point_error) || enough(s) || steps == kMapGjkSteps) return s;
+    s.seen = sample_axis(pair, a, b, s.simplex.nearest());
   }
 }
 

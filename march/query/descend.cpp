@@ -129,7 +129,9 @@ class Descent {
   /// one does the same work and stops earlier.
   bool map_gjk(Place& place, const Vec& likely) {
     const bool sampled = max_abs(first_.seen.normal) > 0;
-    const Vec direction = sampled ? first_.seen.normal : max_abs(likely) > 0 ? likely : line_.in_a;
+    const Vec direction = sampled             ? first_.seen.normal
+                          : max_abs(likely) > 0 ? likely
+                                                : between_ellipsoids(a_.level(0), b_.level(0), pair_.motion, line_.in_a);
     const Place least = pair_.finest_mapped();
     place = sampled ? first_.at : exact_ ? least : mapped_for(norm(line_.in_a));
     for (;;) {
@@ -142,13 +144,13 @@ class Descent {
         if (exact_) return s.near;
         const double lower = max(answer_.lower, s.most_lower), upper = min(answer_.upper, s.upper + error);
         if (stop_.met(lower, upper) || (!last && !stop_.allows(upper, error))) return true;
-        const double doubt = s.gap > 0 ? kDoubtShare * (s.gap - s.lower) + error : kHiddenShare * error;
+        const double doubt = s.seen.gap > 0 ? kDoubtShare * (s.seen.gap - s.seen.lower) + error : kHiddenShare * error;
         return s.near && !stop_.allows(lower, doubt);
       });
-      take(place, found, pair);
-      if (asked_.is_threshold() && last && !answered() && found.gap > asked_.above) climb(place, found, pair);
-      if (answered() || (found.meets && overlap(place, found))) return record(place), true;
-      if (!asked_.is_threshold()) place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
+      if (!exact_) take(place, found, pair);
+      if (asked_.is_threshold() && last && !answered() && found.seen.gap > asked_.above) climb(place, found, pair);
+      if (answered() || (found.simplex.count() == 4 && overlap(place, found))) return record(place), true;
+      if (!asked_.is_threshold()) place.start = {{FeatureKind::Vertex, found.seen.a}, {FeatureKind::Vertex, found.seen.b}};
       if (finest(place)) return false;  // a walk on the same pair follows
       record(place);
       if (last) return place = refined(place), false;
@@ -158,19 +160,21 @@ class Descent {
 
   /// Bounds the distance along the direction of `s` by hill climbing, because maps are uncertain by some 1e-3 of a body.
   void climb(Place& place, const SupportGjk& s, const PairView& pair) {
-    const auto [va, vb, lower] = supports(pair, s.normal, s.a, s.b, answer_.plane_tests);
+    const auto [va, vb, lower] = supports(pair, s.seen.normal, s.seen.a, s.seen.b, answer_.plane_tests);
     place.start = {{FeatureKind::Vertex, va}, {FeatureKind::Vertex, vb}};
     const Vec p = body_a(pair).point(va), q = body_b(pair).point(vb);
-    carry(place, {std::max(0.0, lower), apart(pair, va, vb), s.normal, p, q}, pair.law_two);
+    carry(place, {std::max(0.0, lower), apart(pair, va, vb), s.seen.normal, p, q}, pair.law_two);
   }
   void take(Place& place, const SupportGjk& s, const PairView& pair) {
-    place.start = {{FeatureKind::Vertex, s.a}, {FeatureKind::Vertex, s.b}};
-    carry(place, {std::max(0.0, s.most_lower), s.upper, s.lower_along, s.point_a, s.point_b}, pair.law_two);
+    place.start = {{FeatureKind::Vertex, s.seen.a}, {FeatureKind::Vertex, s.seen.b}};
+    const Feet feet = s.simplex.count() < 4 ? feet_of(pair, s.simplex)
+                                            : Feet{s.seen.point, s.seen.apart, apart(pair, s.seen.a, s.seen.b)};
+    carry(place, {std::max(0.0, s.most_lower), feet.upper, s.lower_along, feet.point, feet.point + feet.apart}, pair.law_two);
   }
 
   /// Returns true if the descendants on level 0 of the vertices in `found.proof` prove that the exact hulls overlap.
   bool overlap(Place& place, const SupportGjk& found) {
-    OverlapProof proof = found.proof;
+    OverlapProof proof = found.simplex.proof();
     if (finest_a_ != 0 || finest_b_ != 0) return false;
     for (std::size_t k = 0; k < proof.count; ++k) {
       proof.vertex_a[k] = descendant(a_, place.level_a, proof.vertex_a[k]);
@@ -179,7 +183,7 @@ class Descent {
     const PairView pair = view_at({0, 0, {}});
     if (!proves_deep_overlap(pair, proof)) return false;
     place = {0, 0, {}};
-    take_overlap(pair, place, found.normal, proof);
+    take_overlap(pair, place, found.seen.normal, proof);
     return true;
   }
 

@@ -174,10 +174,11 @@ TEST(UnitSimplex, FindsTheNearestPointOfASegmentATriangleAndATetrahedron) {
   const double distances[] = {std::sqrt(3), 1, std::sqrt(1.0 / 3), 0};
   Simplex simplex;
   for (std::uint32_t k = 0; k < 4; ++k) {
-    const Simplex::Nearest nearest = simplex.add({corners[k], {0, 0, 0}, k, k});
-    EXPECT_EQ(nearest.count, int(k + 1));
-    EXPECT_NEAR(norm(nearest.point), distances[k], 1e-15);
-    if (k < 3) simplex.reduce(nearest);
+    simplex.add({corners[k], k, k});
+    EXPECT_EQ(simplex.count(), int(k + 1));
+    if (k < 3) {
+      EXPECT_NEAR(norm(simplex.nearest()), distances[k], 1e-15);
+    }
     EXPECT_TRUE(simplex.has(k, k));
   }
 }
@@ -185,13 +186,13 @@ TEST(UnitSimplex, FindsTheNearestPointOfASegmentATriangleAndATetrahedron) {
 /// A corner that the nearest point does not need goes: of a triangle whose third corner is far the side stays.
 TEST(UnitSimplex, ForgetsWhatDoesNotHoldTheNearestPoint) {
   Simplex simplex;
-  simplex.reduce(simplex.add({{5, 5, 0}, {0, 0, 0}, 0, 0}));
-  simplex.reduce(simplex.add({{1, 1, 0}, {0, 0, 0}, 1, 1}));
+  simplex.add({{5, 5, 0}, 0, 0});
+  simplex.add({{1, 1, 0}, 1, 1});
   EXPECT_FALSE(simplex.has(0, 0));
-  const Simplex::Nearest nearest = simplex.add({{1, -1, 0}, {0, 0, 0}, 2, 2});
-  EXPECT_EQ(nearest.count, 2);
-  EXPECT_EQ(nearest.point.x, 1);
-  EXPECT_EQ(nearest.point.y, 0);
+  simplex.add({{1, -1, 0}, 2, 2});
+  EXPECT_EQ(simplex.count(), 2);
+  EXPECT_EQ(simplex.nearest().x, 1);
+  EXPECT_EQ(simplex.nearest().y, 0);
 }
 
 /// One look-up along the line of centres: the supports are the corners of the facing sides.

@@ -4,6 +4,7 @@
 // of poses or queries.
 #pragma once
 
+#include <array>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -133,9 +134,11 @@ struct Level {
   std::span<const std::uint32_t> child_vertex;  ///< per vertex, the vertex one level finer (empty on level 0)
   std::span<const FeatureId> child_face;        ///< per face, the face or vertex one level finer (empty on level 0)
   std::span<const std::uint32_t> parent_face;   ///< per face, the vertex one level coarser (empty on the coarsest)
-  std::span<const std::uint32_t> support_map;  ///< per cell of a cube around the body, the vertex extreme in that direction and
+  std::span<const std::uint32_t> support_map;  ///< per cell of an octahedron around the body, the vertex extreme there and
                                                ///< a bound on its error; cold queries start here. Empty: no map at this level
-  std::uint32_t map_side = 0;                  ///< cells of `support_map` along an edge of the cube
+  std::uint32_t map_side = 0;                  ///< `support_map` has 2 map_side^2 cells
+  /// The rows of an upper triangular matrix M, from the diagonal on: `support_map` is looked up along M n.
+  std::array<double, 6> map_frame{1, 0, 0, 1, 0, 1};
   double edge_length = 0;                      ///< mean length of the level's edges, diagonals included
   double same_cos2 = 0, near_cos2 = 0;  ///< squared cosines of the turns after which a seed's features are stored again, and
                                         ///< after which they are worse than a cold start; 0: never
@@ -175,10 +178,9 @@ struct TableSpec {
   /// Resolution of the start table for StartPolicy::Table [Ehmann & Lin 2000, sec. 4.6]: 0, 114, 482 or 1986 32-bit entries.
   lut::Resolution resolution = lut::Resolution::None;
   double radius_factor = 2;  ///< radius of the start table's sphere of samples, in bounding radii: 1 to 1e6
-  /// Side of the finest support map, a power of two up to 64; 0: no maps. A map of side s has 6 s^2 entries of 4 bytes. The
-  /// finest map lies on the finest level of at most 4 096 vertices, else on the coarsest level; each coarser level has a map of
-  /// half the side, at least 1. With 16 all maps take about 8 kB.
-  std::uint32_t map_side = 16;
+  /// Entries of 4 bytes that the support map of each level has per vertex, about, up to 64, but at least 512; 0: no maps.
+  /// Levels of more than 2^24 vertices have none.
+  std::uint32_t map_cells = 4;
 };
 
 /// Options of Model::from_levels.

@@ -15,7 +15,7 @@
 namespace swiftlet {
 
 /// The version of the file format that `save` writes. Files of any other version are refused.
-inline constexpr std::uint32_t kModelFileVersion = 4;
+inline constexpr std::uint32_t kModelFileVersion = 5;
 
 /// Writes a file beside `path`, then renames it, so that a failure leaves the old file intact. Returns the bytes written.
 /// Errors: CannotWrite, with the cause.
