@@ -144,7 +144,7 @@ class Marcher {
     const Prism prism(b, f);
     const Vec4 p = a.point(va);
     bool well_inside = true;
-    if (const std::uint32_t side = leave(prism, p, well_inside); side != kNone) return {vertex(va), edge(side), kUnknown};
+    if (const std::uint32_t side = leave(b, prism, p, well_inside); side != kNone) return {vertex(va), edge(side), kUnknown};
     const Vec4& n = prism.normal();
     const double height = prism.height(p), distance2 = height / dot(n, n) * height;
     if (!(height > 0)) return inside(vertex(va), face(f), distance2);
@@ -152,8 +152,8 @@ class Marcher {
     if (!below.falls()) {
       Ending seen{-n, prism.corner() - p, p, p, 0, below.over(), kUnknown};
       if (prism.is_triangle())
-        foot_on_facet(prism, seen);
-      else if (foot_on_face(prism, f, height, well_inside, seen))
+        foot_on_facet(b, prism, seen);
+      else if (foot_on_face(b, prism, f, height, well_inside, seen))
         // A facet within a face has a direction of its own.
         seen.over_a = ring(a, va, a.into(seen.normal), norm_1(seen.normal)).over();
       seen.over_a = proved_rise(a, std::array{va}, seen.normal, seen.over_a);
@@ -161,7 +161,7 @@ class Marcher {
       return {vertex(va), face(f), distance2};
     }
     const std::uint32_t to = a.view.half_edges[below.to].head;
-    return over_face(below.to, to, p, a.way(a.own(to) - a.own(va)), prism, f, distance2);
+    return over_face(below.to, to, p, a.way(a.own(to) - a.own(va)), b, prism, f, distance2);
   }
 
   template <class P, class Q>
@@ -307,12 +307,12 @@ class Marcher {
   /// The side of a face's prism that `p` is farthest beyond; kNone if `p` is inside the prism. `well_inside` becomes false if
   /// the point below `p` may be outside a face of many corners by rounding.
   template <class Q>
-  std::uint32_t leave(const Prism<Q>& prism, const Vec4& p, bool& well_inside) {
+  std::uint32_t leave(const Q& body, const Prism<Q>& prism, const Vec4& p, bool& well_inside) {
     std::uint32_t out = kNone;
     double farthest2 = 0;
     const double margin = (kFootError + kFootTurn * pair_.pose_error) * pair_.magnitude;
     const bool is_triangle = prism.is_triangle();
-    walk_.plane_tests += prism.each_side(p, all(0), [&](const auto& sides, const auto& half_edge) {
+    walk_.plane_tests += prism.each_side(body, p, all(0), [&](const auto& sides, const auto& half_edge) {
       if (!is_triangle) {
         const Vec4 distance2 = sides.beyond / sides.uu * sides.beyond;
         well_inside &= greater(all(0), sides.beyond) == 15 && greater(distance2, all(margin * margin)) == 15;
@@ -332,8 +332,7 @@ class Marcher {
   /// it and what the face's plane proves. Of a face that is flat only up to the input's rounding, the exact facet proves:
   /// returns true if `seen` has its normal, along which the first body is not compared yet.
   template <class Q>
-  bool foot_on_face(const Prism<Q>& prism, std::uint32_t f, double height, bool well_inside, Ending& seen) {
-    const Q& body = prism.body();
+  bool foot_on_face(const Q& body, const Prism<Q>& prism, std::uint32_t f, double height, bool well_inside, Ending& seen) {
     const Vec4& n = prism.normal();
     const FacePlane& plane = body.view.planes[f];
     const double stretch = stretch_of(pair_.pose_error);
@@ -352,9 +351,8 @@ class Marcher {
 
   /// Completes `seen` for the point below its first one in a triangle.
   template <class Q>
-  void foot_on_facet(const Prism<Q>& prism, Ending& seen) {
+  void foot_on_facet(const Q& body, const Prism<Q>& prism, Ending& seen) {
     const Vec4 &n = prism.normal(), &u = prism.u(), &v = prism.v();
-    const Q& body = prism.body();
     const double nn = dot(n, n), tilt = (2 * Q::kWay + kFlatError) * std::sqrt(dot(u, u) * dot(v, v) / nn);
     const typename Prism<Q>::Beyond at = prism.beyond(seen.point_a - prism.corner());
     seen.point_b = prism.corner() + u * (-at.v / nn) + v * (-at.u / nn);
@@ -374,7 +372,7 @@ class Marcher {
       if (next_in_facet(body.view, next_in_facet(body.view, facet.second())) != h) return;  // no triangle
       std::uint32_t out = kNone;
       bool leaves_face = false;
-      walk_.plane_tests += facet.each_side(seen.point_a, all(0), [&](const auto& sides, const auto& half_edge) {
+      walk_.plane_tests += facet.each_side(body, seen.point_a, all(0), [&](const auto& sides, const auto& half_edge) {
         const Vec4 beyond = max(sides.beyond, all(0)), violation2 = beyond / sides.uu * beyond;
         const double most = greatest(violation2);
         if (most > 0) out = half_edge(std::countr_zero(equal(violation2, all(most))));
@@ -382,7 +380,7 @@ class Marcher {
       });
       seen.normal = -facet.normal();
       seen.apart = facet.corner() - seen.point_a;
-      if (out == kNone) return foot_on_facet(facet, seen);
+      if (out == kNone) return foot_on_facet(body, facet, seen);
       if (leaves_face) return;
       if (out == from) return foot_on_diagonal(body, out, seen);
       from = h = body.view.half_edges[out].twin;
@@ -444,18 +442,18 @@ class Marcher {
                       const Q& body, std::uint32_t f, double distance2) {
     const Prism prism(body, f);
     const bool forward = dot(prism.normal(), u) < 0;
-    return over_face(h, forward ? head : tail, p, u * (forward ? 1 - s : -s), prism, f, distance2);
+    return over_face(h, forward ? head : tail, p, u * (forward ? 1 - s : -s), body, prism, f, distance2);
   }
 
   /// Follows the part p + x e of edge `h` that falls towards face `f`, x from 0 to 1 at vertex `to`. Leads to `to` and the
   /// face, or to the edge and the side where it leaves the face's prism. The walk ends Inside if the edge gets below the face
   /// first.
   template <class Q>
-  Move over_face(std::uint32_t h, std::uint32_t to, const Vec4& p, const Vec4& e, const Prism<Q>& prism, std::uint32_t f,
-                 double distance2) {
+  Move over_face(std::uint32_t h, std::uint32_t to, const Vec4& p, const Vec4& e, const Q& body, const Prism<Q>& prism,
+                 std::uint32_t f, double distance2) {
     double exit = 1;
     std::uint32_t out = kNone;
-    walk_.plane_tests += prism.each_side(p, e, [&](const auto& sides, const auto& half_edge) {
+    walk_.plane_tests += prism.each_side(body, p, e, [&](const auto& sides, const auto& half_edge) {
       int at = -1;
       if (const unsigned outside = greater(sides.beyond, all(0)); outside != 0) {
         exit = 0, at = std::bit_width(outside) - 1;
@@ -510,9 +508,9 @@ Move state(Marcher& march, const A& a, FeatureId fa, const B& b, FeatureId fb) {
   do {
     const Move move = state(march, resting, result.a, moved, result.b);
     distance2 = move.distance2;
-    stalled = (stalled + 1) * !(distance2 < least2);
+    stalled = distance2 < least2 ? 0 : stalled + 1;
     least2 = min(least2, distance2);
-    result.steps += 1 - (move.first == result.a) * (move.second == result.b);
+    result.steps += (move.first != result.a) | (move.second != result.b);
     result.a = move.first;
     result.b = move.second;
     if (stalled >= kStallLimit && result.end == WalkEnd::Budget) result.end = WalkEnd::Stalled;

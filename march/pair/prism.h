@@ -26,15 +26,14 @@ class Prism {
   /// The prism over the triangle that half-edge `h` begins: a triangular face, or a facet within a larger one.
   static Prism over_facet(const Body& body, std::uint32_t h) { return Prism(body, h, true); }
 
-  const Body& body() const { return body_; }
   bool is_triangle() const { return is_triangle_; }
-  const Vec4& corner() const { return corner_; }                              ///< the origin of the face's first half-edge
-  std::uint32_t first() const { return first_; }                              ///< that half-edge
-  std::uint32_t second() const { return next_in_facet(body_.view, first_); }  ///< a triangle's next one
+  const Vec4& corner() const { return corner_; }                         ///< the origin of the face's first half-edge
+  std::uint32_t first() const { return first_; }                         ///< that half-edge
+  std::uint32_t second() const { return next_in_facet(view_, first_); }  ///< a triangle's next one
   /// A triangle's three corners.
   std::array<std::uint32_t, 3> corners() const {
-    const HalfEdge* h = body_.view.half_edges.data();
-    return {origin(body_.view, first_), h[first_].head, h[before_].head};
+    const HalfEdge* h = view_.half_edges.data();
+    return {origin(view_, first_), h[first_].head, h[before_].head};
   }
   /// From `corner()` to a triangle's second and third corner.
   const Vec4& u() const { return u_; }
@@ -63,14 +62,14 @@ class Prism {
   /// Calls visit(sides, half_edge) for all sides of the face and returns their number: half_edge(i) is the side in lane i.
   /// `beyond` is of p, `slope` of p + e.
   template <class Visit>
-  std::uint32_t each_side(const Vec4& p, const Vec4& e, Visit visit) const {
-    if (!is_triangle_) return each_of_many(body_.local(p), body_.into(e), visit);
+  std::uint32_t each_side(const Body& body, const Vec4& p, const Vec4& e, Visit visit) const {
+    if (!is_triangle_) return each_of_many(body.local(p), body.into(e), visit);
     const Beyond at = beyond(p - corner_), by = beyond(e);
     const Vec4 third = v_ - u_;
     const double at_third = -(at.u + at.v + dot(normal_, normal_)), by_third = -(by.u + by.v);
     visit(Sides{dots(u_, u_, third, third, v_, v_, v_, v_), vec4(Vec2{at.u, at_third}, Vec2{at.v, at.v}),
                 vec4(Vec2{by.u, by_third}, Vec2{by.v, by.v})},
-          [&view = body_.view, first = first_, before = before_](int i) {
+          [&view = view_, first = first_, before = before_](int i) {
             return std::array{first, next_in_facet(view, first), view.half_edges[before].twin}[i < 2 ? i : 2];
           });
     return 3;
@@ -80,7 +79,7 @@ class Prism {
   /// `p` and `e` are in the body's own frame.
   template <class Visit>
   std::uint32_t each_of_many(const Vec4& p, const Vec4& e, Visit visit) const {
-    const ConvexView& view = body_.view;
+    const ConvexView& view = view_;
     const V3<Vec4> own_normal = repeated(own_normal_), from = repeated(p), way = repeated(e);
     std::array<std::uint32_t, 4> sides;
     std::array<const Vertex*, 4> tail, head;
@@ -104,7 +103,7 @@ class Prism {
   }
 
   Prism(const Body& body, std::uint32_t h, bool is_triangle)
-      : body_(body), is_triangle_(is_triangle), first_(h), sense_(body.sense()) {
+      : view_(body.view), is_triangle_(is_triangle), first_(h), sense_(body.sense()) {
     const ConvexView& view = body.view;
     const std::uint32_t root = origin(view, h);
     corner_ = body.point(root);
@@ -117,7 +116,7 @@ class Prism {
     normal_ = cross(u_, v_) * sense_;
   }
 
-  const Body& body_;
+  const ConvexView& view_;
   bool is_triangle_;
   std::uint32_t first_;
   std::uint32_t before_ = kNone;  ///< the twin of a triangle's third half-edge
