@@ -324,8 +324,8 @@ Output info(const LoadedModel& body) {
                                 : format(" table      %zu entries, every %g degrees, on a sphere of %g radii\n",
                                          model.table().size(), degrees(table.resolution), table.radius_factor);
   text += map_entries(model) == 0 ? " maps       none\n"
-                                  : format(" maps       %zu entries from level %d on, %u per vertex\n",
-                                           map_entries(model), model.map_level(), table.map_cells);
+                                  : format(" maps       %zu entries from level %d on, %u per vertex\n", map_entries(model),
+                                           model.map_level(), table.map_cells);
   return {text + levels_text(model), dump(json)};
 }
 

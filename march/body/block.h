@@ -29,7 +29,7 @@ namespace swiftlet {
 inline constexpr int kMaxLevels = 32;
 /// Sides of a support map. Small bodies have more cells than they ask for: cells across an axis are of no use for a box.
 inline constexpr std::uint32_t kLeastMapSide = 16, kMaxMapSide = 4096;
-inline constexpr std::uint32_t kMostMapCells = 64;  ///< the largest TableSpec::map_cells
+inline constexpr std::uint32_t kMostMapCells = 64;          ///< the largest TableSpec::map_cells
 inline constexpr std::uint32_t kMaxIndex = (1u << 30) - 1;  ///< the largest index in a FeatureId
 
 struct Section {

@@ -4,9 +4,9 @@
 // excess. The support function h(n) of a body is convex in n and n . v is linear, so over a cell of directions h(n) - n . v is
 // largest at a corner of the cell.
 //
-// Directions are looked up as M n, where M is the level's map frame. The heights of the body's points x along n are those of the
-// points M^-T x along M n, and these make a body that is about as wide in all directions. So plates and needles need no more
-// cells than balls.
+// Directions are looked up as M n, where M is the level's map frame. The heights of the body's points x along n are those of
+// the points M^-T x along M n, and these make a body that is about as wide in all directions. So plates and needles need no
+// more cells than balls.
 #pragma once
 
 #include <bit>

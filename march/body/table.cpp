@@ -45,8 +45,8 @@ void fill_table(BlockParts& parts, const TableSpec& spec, std::span<const Vertex
 
 namespace {
 
-/// The moments of a level's surface about its centroid, over its area, for coordinates in extents: xx, xy, xz, yy, yz, zz. Those
-/// of a triangle are those of three points in the middle of its sides. A body without faces counts by its vertices.
+/// The moments of a level's surface about its centroid, over its area, for coordinates in extents: xx, xy, xz, yy, yz, zz.
+/// Those of a triangle are those of three points in the middle of its sides. A body without faces counts by its vertices.
 std::array<double, 6> moments(const ConvexView& view) {
   const double scale = view.extent > 0 ? 1 / view.extent : 0;
   double weight = 0;
@@ -55,7 +55,8 @@ std::array<double, 6> moments(const ConvexView& view) {
   const auto add = [&](const Vec& p, double w) {
     weight += w;
     for (const auto& [k, x] : {std::pair{0u, p.x}, {1u, p.y}, {2u, p.z}}) first[k] += w * x;
-    for (const auto& [k, xx] : {std::pair{0u, p.x * p.x}, {1u, p.x * p.y}, {2u, p.x * p.z}, {3u, p.y * p.y}, {4u, p.y * p.z}, {5u, p.z * p.z}})
+    for (const auto& [k, xx] :
+         {std::pair{0u, p.x * p.x}, {1u, p.x * p.y}, {2u, p.x * p.z}, {3u, p.y * p.y}, {4u, p.y * p.z}, {5u, p.z * p.z}})
       second[k] += w * xx;
   };
   const Vec o = vec(view.vertices[0]);
@@ -99,7 +100,9 @@ void write_frame(LevelHeader& header, const ConvexView& view) {
   double sum = 0;
   for (std::size_t k = 0; k < 6; ++k) sum += std::fabs(frame[k] * scale);
   for (std::size_t k = 0; k < 6; ++k) {
-    header.map_frame[k] = sum > 0 && sum < kMostMapFrame / 2 ? float(frame[k] * scale) : k == 0 || k == 3 || k == 5 ? 2.0f : 0.0f;
+    header.map_frame[k] = sum > 0 && sum < kMostMapFrame / 2 ? float(frame[k] * scale)
+                          : k == 0 || k == 3 || k == 5       ? 2.0f
+                                                             : 0.0f;
   }
 }
 

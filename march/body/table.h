@@ -22,13 +22,13 @@ std::string spec_fault(const TableSpec& spec);
 /// `header.radius_factor` and `table`.
 void fill_table(BlockParts& parts, const TableSpec& spec, std::span<const Vertex> vertices);
 
-/// Fills the support maps of `levels`, given finest first: for each cell the support vertex of its middle, and the most by which
-/// any other vertex is higher over the cell. Cost: a climb per cell and corner, mostly of one ring. Sets `maps` and what the
-/// headers say of them.
+/// Fills the support maps of `levels`, given finest first: for each cell the support vertex of its middle, and the most by
+/// which any other vertex is higher over the cell. Cost: a climb per cell and corner, mostly of one ring. Sets `maps` and what
+/// the headers say of them.
 void fill_maps(BlockParts& parts, const TableSpec& spec, std::span<const ConvexView> levels);
 
-/// A bound on how much `above` rises along a direction whose image by the map frame is a corner of a cell, and of which `n` is a
-/// rounded multiple. `above` leads from a vertex to the highest.
+/// A bound on how much `above` rises along a direction whose image by the map frame is a corner of a cell, and of which `n` is
+/// a rounded multiple. `above` leads from a vertex to the highest.
 double excess_at(const std::array<double, 6>& frame, const Vec& n, const Vec& above);
 
 }  // namespace swiftlet

@@ -14,7 +14,8 @@ namespace swiftlet {
 namespace {
 
 /// Returns a cell of the level's support map whose error bound is too small, or kNone. Corners of a cell suffice: over the cell
-/// the body's height above the cell's vertex is largest at a corner. Requires an exactly convex body: its heights are climbed to.
+/// the body's height above the cell's vertex is largest at a corner. Requires an exactly convex body: its heights are climbed
+/// to.
 std::uint32_t map_fault(const Level& level) {
   const std::uint32_t side = level.map_side;
   std::vector<std::uint32_t> tops((side + 1) * (side + 1));  // highest vertices at the corners of the cells of one half

