@@ -289,8 +289,9 @@ inline constexpr int kMapGjkSteps = 12;
 /// centres first; others along the direction between ellipsoids, which `kEllipsoidSteps` steps find. Factor, count.
 inline constexpr double kRound = 0.25;
 inline constexpr int kEllipsoidSteps = 2;
-/// `kMapDoubt` estimates the mean excess of a map of side s, times s^2 over the extent: 3.3 to 5.1 on ellipsoids. The maps of a
-/// level pair are used where `kMapShare` times the sum of this doubt and the pair's deviation is within the tolerance.
+/// `kMapDoubt` estimates the mean excess of a map of side s, times s^2 over the extent: 5.0 to 5.9 on balls, 0.7 to 2.7 on
+/// plates and needles. The maps of a level pair are used where `kMapShare` times the sum of this doubt and the pair's deviation
+/// is within the tolerance.
 inline constexpr double kMapDoubt = 5, kMapShare = 4;
 /// Steps along maps go on between near supports while the deviation plus this times the maps' doubt is within the tolerance;
 /// where it is not, the steps cycle.
