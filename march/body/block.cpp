@@ -138,11 +138,11 @@ namespace {
 std::string fault(const BlockHeader& h) {
   if (h.total_bytes > kMostBytes) return "more bytes than there can be";
   if (h.finest_level >= h.level_count) return "no level is in the block";
-  const bool numbers =
-      finite({h.radius_factor, h.radius, h.inner_radius, h.box_min[0], h.box_min[1], h.box_min[2], h.box_max[0], h.box_max[1], h.box_max[2]});
+  const bool numbers = finite({h.radius_factor, h.radius, h.inner_radius, h.box_min[0], h.box_min[1], h.box_min[2],
+                               h.box_max[0], h.box_max[1], h.box_max[2]});
   const bool near = std::all_of(h.centre, h.centre + 3, [](double c) { return std::fabs(c) <= kMostCoordinate; });
-  if (!numbers || !near || h.resolution > 3 || h.dimension > 3 || !(h.radius_factor >= 1) || !(h.radius >= 0) || !(h.inner_radius >= 0) ||
-      h.map_cells > kMostMapCells)
+  if (!numbers || !near || h.resolution > 3 || h.dimension > 3 || !(h.radius_factor >= 1) || !(h.radius >= 0) ||
+      !(h.inner_radius >= 0) || h.map_cells > kMostMapCells)
     return "a number in the header is out of range";
   return {};
 }

@@ -75,30 +75,22 @@ class Deepening {
     floor_ = floor;
     levels_visited = visited;
     lower = -kInfinity, upper = kInfinity;
-    // The depth is at most `most`, by the centres and bounding radii. A pair whose deviation exceeds the width allowed at that
-    // depth cannot answer.
-    double most = kInfinity;
-    place_ = {finest_a_, finest_b_, {}};
-    if (!stop_.is_exact()) {
-      most = a_.radius() + b_.radius() * stretch_of(pair_.pose_error) - norm(line_.in_a);
-      place_ = coarsest_place(a_, b_);
-    }
+    // Coarse pairs may pass a threshold. To a tolerance they cost more than the finest pair, where the walk ends at a facet.
+    place_ = stop_.is_threshold() ? coarsest_place(a_, b_) : Place{finest_a_, finest_b_, {}};
     turn_ = seed.met && seed.level_a < a_.level_count() && seed.level_b < b_.level_count()
                 ? turn_of(line_, seed, a_.level(seed.level_a), b_.level(seed.level_b))
                 : Turn::Far;
     const bool remembers = turn_ != Turn::Far && (seed.normal[0] | seed.normal[1] | seed.normal[2]) != 0;
-    Vec direction = remembers ? swiftlet::direction(seed) : lowest_seen(most);
+    Vec direction = remembers ? swiftlet::direction(seed) : lowest_seen();
     for (;;) {
       const double error = deviation();
       const bool last = place_.level_a == finest_a_ && place_.level_b == finest_b_;
-      if (last || error <= stop_.allowed(min(upper, most)) || stop_.is_threshold()) {
-        const std::uint32_t steps_before = steps, tests_before = plane_tests;
-        solve(seed, direction, error);
-        note(trace_, std::size_t(levels_visited++),
-             {place_.level_a, place_.level_b, -upper, -lower, steps - steps_before, plane_tests - tests_before});
-        if (last || end == DepthEnd::Apart || end == DepthEnd::Budget || answered()) break;
-        direction = normal;
-      }
+      const std::uint32_t steps_before = steps, tests_before = plane_tests;
+      solve(seed, direction, error);
+      note(trace_, std::size_t(levels_visited++),
+           {place_.level_a, place_.level_b, -upper, -lower, steps - steps_before, plane_tests - tests_before});
+      if (last || end == DepthEnd::Apart || end == DepthEnd::Budget || answered()) break;
+      direction = normal;
       place_ = {std::max(place_.level_a - 1, finest_a_), std::max(place_.level_b - 1, finest_b_), {}};
     }
     if (end == DepthEnd::NotConverged && steps >= budget_.steps) end = DepthEnd::Budget;
@@ -139,8 +131,8 @@ class Deepening {
   bool answered() const { return stop_.met(max(lower, floor_), upper); }
 
   /// The direction along which support maps show the Minkowski difference lowest: the line of centres, or the axis across the
-  /// thinnest side of either body's box. Without maps, the line of centres. `most` becomes that height if it is less.
-  Vec lowest_seen(double& most) const {
+  /// thinnest side of either body's box. Without maps, the line of centres.
+  Vec lowest_seen() const {
     const auto across = [](const Shape& body) { return least_axis(body.size()); };
     const ConvexView &view_a = a_.level(finest_a_).view, &view_b = b_.level(finest_b_).view;
     Vec lowest = normalised(line_.in_a);
@@ -152,7 +144,6 @@ class Deepening {
                 q = vec(view_b.vertices[about_farthest(b_, finest_b_, own)]);
       if (const double height = dot(n, p - apply(pair_.motion, q)); height < least) least = height, lowest = n;
     }
-    if (least > 0) most = min(most, least);
     return lowest;
   }
 
