@@ -189,12 +189,6 @@ TEST(Distance, StopsBeyondTheCutOff) {
   EXPECT_EQ(cut.levels_visited, 0) << "the balls around the bodies are far enough";
   EXPECT_LE(cut.lower, exact.upper);
   EXPECT_GE(cut.upper, exact.lower);
-  far.translation = {2.8, 0, 0};
-  options.beyond = 0.82;
-  const Answer close = distance(pair.a, pair.b, far, seed, options);
-  EXPECT_EQ(close.status, Status::Beyond);
-  EXPECT_GT(close.level_a, 0) << "a coarse pair is far enough";
-  EXPECT_EQ(close.steps, 0u);
 }
 
 TEST(Distance, SaysWhichPrecisionWasOutOfReach) {

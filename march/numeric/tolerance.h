@@ -278,9 +278,6 @@ inline constexpr double kSameEdges = 0.5;
 inline constexpr std::uint32_t kTrialSteps = 16;
 /// The seed's direction is tried again while the line of centres turned by less than the angle of this cosine, 8 degrees.
 inline constexpr double kSameLine = 0.99;
-/// Bodies whose centres are nearer than this times the sum of their radii are told apart on fine levels: coarse levels deviate
-/// by a tenth, and their maps by as much.
-inline constexpr double kCloseRadii = 1.25;
 /// A cold start steps along support maps until its two supports lie aside of each other by no more than `kNearEdges` mean edges
 /// of both bodies, but at most `kMapGjkSteps` times.
 inline constexpr double kNearEdges = 2;

@@ -21,8 +21,7 @@ struct AxisTest {
 /// proves it and the seed's direction does not, that direction is cleared.
 static inline bool separating_axis(const ModelPair& pair, const Vec& between, const StopRule& asked, PairSeed& seed,
                                    AxisTest& first, Answer& answer) {
-  const double close = kCloseRadii * (pair.a.radius() + pair.b.radius()) + asked.above;
-  first.at = dot(between, between) <= close * close ? pair.finest_mapped() : coarsest_place(pair.a, pair.b);
+  first.at = pair.finest_mapped();
   const int level_a = first.at.level_a, level_b = first.at.level_b;
   const Level &of_a = pair.a.level(level_a), &of_b = pair.b.level(level_b);
   const PairView view = pair.view_at(first.at);
