@@ -120,9 +120,9 @@ struct Answer {
   bool is_signed = false;                 ///< `lower` and `upper` bound the signed distance (depth.h)
   std::uint8_t levels_visited = 0;        ///< number of level pairs visited: the records that a complete trace has
   std::int16_t level_a = 0, level_b = 0;  ///< the level pair that answered
-  /// Features on `level_a` and `level_b` that hold `point_a` and `point_b` on the hulls. None where balls around or inside the
-  /// bodies answered; no level pair is visited then.
-  FeatureId feature_a, feature_b;
+  FeatureId feature_a;  ///< on `level_a`, holds `point_a` on the hull; none where balls around or inside the bodies answered,
+                        ///< which visits no level pair
+  FeatureId feature_b;  ///< on `level_b`, holds `point_b` on the hull; none where `feature_a` is
   std::uint32_t steps = 0, plane_tests = 0;                           ///< work, as MarchResult counts it, over all levels
   double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved bounds on the distance of the bodies
   /// Unit, from A to B: the gap of the bodies along it proves `lower`; if they overlap, moving B along it by -lower separates
