@@ -78,6 +78,7 @@ static inline Doubt certify(const PairView& pair, const Nearest& seen, Proof& pr
   if (!(over <= pair.law_two)) return over < std::numeric_limits<double>::infinity() ? Doubt::Width : Doubt::Neighbour;
   if (!has_range(square) || !has_range(apart2)) return Doubt::Width;
   const double length = std::sqrt(apart2);
+  if (!(length > pair.law_two)) return Doubt::Threshold;  // nearer points may lie aside along an edge: see kAcrossError
   proof.normal = seen.normal * (1 / std::sqrt(square));
   proof.lower = gap(pair, proof.normal, seen.apart, over);
   proof.upper = max(proof.lower, length * (1 + kNormError) + pair.motion_error + kPointSumError * pair.magnitude + seen.blur);
