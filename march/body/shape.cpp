@@ -166,7 +166,10 @@ Primitive::Primitive(const Body& body) {
                                        : segment(p[0], p[std::size_t(given.count - 1)], *this);
   view.vertices = std::span(vertices).first(std::size_t(count));
   const auto [least, most] = box_of(view.vertices);
-  const Vec centre = count == 1 ? least : least * 0.5 + most * 0.5;
+  const auto corner = [&](std::size_t k) { return vec(vertices[k]); };
+  const Vec centre = count == 1   ? least
+                     : count == 3 ? corner(0) * (1.0 / 3) + corner(1) * (1.0 / 3) + corner(2) * (1.0 / 3)
+                                  : least * 0.5 + most * 0.5;  // a point of the body
   view.centre = eigen(centre);
   radius = 0;
   for (const Vertex& v : view.vertices) radius = max(radius, norm(vec(v) - centre) * (1 + 8 * kU));
