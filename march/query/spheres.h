@@ -18,7 +18,7 @@ namespace swiftlet {
 /// leads from A's centre to B's, rounded.
 static inline bool spheres_are_apart(const ModelPair& pair, const Vec& between, const StopRule& asked, Answer& answer) {
   const double radii = pair.a.radius() + pair.b.radius() * stretch_of(pair.pose_error),
-               most = radii + asked.above + 2 * pair.law_two, apart2 = dot(between, between);
+               most = radii + max(asked.above, 0) + 2 * pair.law_two, apart2 = dot(between, between);
   if (!(apart2 > most * most && has_range(apart2))) return false;
   const double length = std::sqrt(apart2);
   const int level_a = pair.finest_a(), level_b = pair.finest_b();
