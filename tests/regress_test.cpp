@@ -4,6 +4,7 @@
 #include <swiftlet/check.h>
 #include <swiftlet/query.h>
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -210,6 +211,51 @@ TEST(Regress, PointsLeanedFromTheNormal) {
   const Vec3 apart = answer.point_b - answer.point_a;
   EXPECT_LE((apart - apart.norm() * answer.normal).norm(), law_two(cube.level(0).view, cube.level(0).view, pose));
   expect_sound(cube, cube, pose);
+}
+
+/// The direction from a vertex to an edge may lean along the edge by 0.7 of its length and more where the length is rounding
+/// noise. Walks proved a gap along it: of bodies that meet 6.7e-9, of a segment and a point 8.4e-24 apart 3.1e-10.
+TEST(Regress, ALeaningDirectionProvedAGap) {
+  const Body edge = Body::segment({0x1.14c9c76af6db6p-1, -0x1.284082a86dea3p-30, 0x1.2387ac2b29ac9p-30},
+                                  {0x1.85ff4d6618c8p-6, -0x1.c0f9ae5ee1b94p-31, 0x1.73cfcc6885766p-33}),
+             sliver = Body::triangle({0x1.0ed0014c91c0cp-9, 0x1.c82edd1342725p-42, 0x1.625ac4030e3e7p-39},
+                                     {-0x1.30be4991a9fadp-11, 0x1.d5fa00ea7843fp-40, 0x1.3dafbd9d9d062p-43},
+                                     {0x1.6b3f4134cc6c2p-10, 0x1.68a3a6a4111dcp-44, -0x1.da28f4c3d6c5bp-40});
+  const Pose meeting{Mat3::Identity(), {0x1.47cca0d65a686p-2, -0x1.0a086eef86031p-30, 0x1.76898be3fd6bap-31}};
+  EXPECT_LE(distance(edge, sliver, meeting).lower, tolerance(edge, sliver, meeting));
+  EXPECT_NE(intersects(edge, sliver, meeting).verdict, Verdict::Disjoint);
+  EXPECT_LE(signed_distance(edge, sliver, meeting).lower, tolerance(edge, sliver, meeting));
+
+  const Body segment = Body::segment({-0x1.8d2102a80105p-4, 0x1.6c52c59091189p-24, -0x1.492b6819832dcp-23},
+                                     {0x1.18565c249a978p-1, 0x1.2beb79c35fd67p-23, 0x1.1c1f08b63927fp-25}),
+             point = Body::point({-0x1.0fbe71021fae7p-95, 0x1.28963d092dbbfp-94, 0x1.32e823eeafe3bp-96});
+  Pose beside;
+  beside.rotation << 0x1.d5d81e7b93c5p-4, -0x1.16e9768a669bp-5, 0x1.fc52547bacedcp-1,  //
+      -0x1.f0b6bc398aaa3p-1, 0x1.b06b0d002f728p-3, 0x1.e8c5eb2e61ae8p-4,               //
+      -0x1.b5a1d214b392ap-3, -0x1.f4274c6d4e6d9p-1, -0x1.20b5accf8af8p-7;
+  beside.translation = {0x1.facff83253212p-4, 0x1.bcf8487d16732p-24, -0x1.8043433361562p-24};
+  EXPECT_LE(distance(segment, point, beside).lower, tolerance(segment, point, beside));
+}
+
+/// The centre of a triangle was that of its box, which is none of its points: the upper bound of bodies far apart was too low.
+TEST(Regress, TheCentreOfATriangleWasBesideIt) {
+  const Body triangle = Body::triangle({1, 0, 0}, {0, 1, 0}, {0, 0, 1}), point = Body::point({0, 0, 0});
+  const Pose far{Mat3::Identity(), {10, 10, 10}};
+  const Answer answer = intersects(triangle, point, far);
+  EXPECT_EQ(answer.verdict, Verdict::Disjoint);
+  EXPECT_GE(answer.upper, 29 / std::sqrt(3.0));
+  EXPECT_NEAR(answer.point_a.sum(), 1, 1e-15);
+}
+
+/// A threshold below 0 made balls that overlap prove that the bodies are apart.
+TEST(Regress, BallsWereApartByLessThanNothing) {
+  const Body box = Body::box({-1, -1, -1}, {1, 1, 1});
+  const Pose deep{Mat3::Identity(), {0.5, 0, 0}};
+  for (const double threshold : {-1.0, -3.0, -1e300, -std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(distance(box, box, deep, {.beyond = threshold}).verdict, Verdict::Overlapping) << threshold;
+    EXPECT_NE(within(box, box, deep, threshold).answer.verdict, Verdict::Disjoint) << threshold;
+    EXPECT_NE(closest_features(box, box, deep, {.beyond = threshold}).answer.verdict, Verdict::Disjoint) << threshold;
+  }
 }
 
 }  // namespace

@@ -171,10 +171,12 @@ class Deepening {
   }
 
   /// An upper bound on the height of the Minkowski difference along `n`, the unit normal of `seen`, where the walk that saw it
-  /// had B moved by `way`.
+  /// had B moved by `way`; infinite if the walk does not tell, as where it ended nearer than law 2's bound.
   static double height_along(const Vec& n, const PairView& moved, const Nearest& seen, const Vec& way) {
+    const Vec apart = seen.point_b - seen.point_a;
     const double over = seen.over_a + seen.over_b;
-    return over <= moved.law_two ? -gap(moved, n, seen.apart - way, over + kPointSumError * moved.magnitude) : kInfinity;
+    const bool tells = over <= moved.law_two && dot(apart, apart) > moved.law_two * moved.law_two;
+    return tells ? -gap(moved, n, seen.apart - way, over + kPointSumError * moved.magnitude) : kInfinity;
   }
 
   /// Moves B along a direction until it is free; the features that are nearest then give the next direction, until they span a
