@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What once went wrong, as literal doubles, with what used to happen.
 #include <swiftlet/check.h>
+#include <swiftlet/depth.h>
 #include <swiftlet/query.h>
 
 #include <cmath>
