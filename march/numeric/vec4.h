@@ -123,6 +123,14 @@ static inline unsigned at_most(const Vec4& a, const Vec4& b) {
 
 static inline Vec4 operator*(const Vec4& a, double s) { return a * all(s); }
 static inline Vec4 vec4(double x, double y, double z) { return vec4(Vec2{x, y}, Vec2{z, 0}); }
+// Coordinates of a vector are loaded one by one: they may have been stored so a moment ago, and a wider load would wait until
+// that is done, for 10 ns. Records of a model are at rest.
+static inline Vec2 xy(const Vec& a) { return Vec2{a.x, a.y}; }
+template <class Record>
+static inline Vec2 xy(const Record& p) {
+  return load2(&p.x);
+}
+static inline Vec4 vec4(const Vec& a) { return vec4(xy(a), Vec2{a.z, 0}); }
 /// The coordinates of a record that begins with them.
 template <class Record>
 static inline Vec4 vec4(const Record& p) {
@@ -173,7 +181,7 @@ static inline Vec4 dots(const Vec4& a, const Vec4& b, const Vec4& c, const Vec4&
 /// Four points: their x, their y and their z.
 template <class Point>
 static inline V3<Vec4> transposed(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const Vec4 ac = vec4(load2(&a.x), load2(&c.x)), bd = vec4(load2(&b.x), load2(&d.x));
+  const Vec4 ac = vec4(xy(a), xy(c)), bd = vec4(xy(b), xy(d));
   return {even(ac, bd), odd(ac, bd), vec4(Vec2{a.z, b.z}, Vec2{c.z, d.z})};
 }
 /// A vector four times.
