@@ -94,8 +94,7 @@ void write_frame(LevelHeader& header, const ConvexView& view) {
       low[k] = min(low[k], image), high[k] = max(high[k], image);
     }
   }
-  constexpr double kSlack = 1 + 0x1p-20;  // for the rounding to float32
-  const double scale = max(max(high[0] - low[0], high[1] - low[1]), high[2] - low[2]) / 2 * kSlack;
+  const double scale = max(max(high[0] - low[0], high[1] - low[1]), high[2] - low[2]) / 2 * kFrameSlack;
   const std::array<double, 6> frame{a, b, c, d, e, f};
   double sum = 0;
   for (std::size_t k = 0; k < 6; ++k) sum += std::fabs(frame[k] * scale);

@@ -172,12 +172,15 @@ inline constexpr double kMostMapFrame = 16;
 /// borders is off by 8 u of its length in each of both coordinates of the grid, 32 u in all of the direction's three, twice
 /// that for heights: 64 u times 16 extents. An excess of at most 4 times that length has 6 u: 24 u times 16 extents. The
 /// direction was turned into the body's frame, which is off by `kTurnedError` in each coordinate, times 2 extents: 24 u; the
-/// two heights compared make 24 u; and it is normalised after the look-up: 4.5 u times 2 sqrt(3), 16 u. The sum is rounded up.
+/// two heights compared make 24 u; and its length is off by 4.5 u, times 2 sqrt(3): 16 u. The sum is rounded up.
 /// What rounds when a map is made is part of the excess.
 inline constexpr double kMapError = 2048 * kU;
 /// Bounds the rounding of a direction n whose M n is a corner of a cell: at that M n is off by at most this times |M| |n| in
 /// each coordinate. A substitution by rows of up to 3 terms has 3 u [Higham 2002, th. 8.5], the corner itself 1 u; rounded up.
 inline constexpr double kFrameError = 5 * kU;
+/// Times this a map frame is made larger, so that its rounding to float32, 2^-24 of each entry, cannot make it too small.
+/// Factor.
+inline constexpr double kFrameSlack = 1 + 0x1p-20;
 /// Of the trace of the moments of a level's surface, this is added to each of the three, so that the map frame of a flat body
 /// has an inverse. Directions along which a body is thinner than 1 : 100 are looked up among more cells than they need.
 inline constexpr double kLeastMoment = 0x1p-14;

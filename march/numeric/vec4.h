@@ -140,7 +140,7 @@ static inline Vec4 vec4(const Record& p) {
   return vec4(load2(&p.x), Vec2{p.z, 0});
 #endif
 }
-/// Four integers.
+/// Three integers. What follows them in memory is read too.
 static inline Vec4 vec4(const std::int16_t* p) {
   std::int16_t __attribute__((vector_size(8))) units;
   __builtin_memcpy(&units, p, sizeof units);

@@ -32,12 +32,8 @@ struct Resting {
   Vec own(std::uint32_t v) const { return vec(view.vertices[v]); }
   Vec common(const Vec& p) const { return p; }  ///< carries a point from the own to the common frame
   Vec point(std::uint32_t v) const { return own(v); }
-  /// The vector from vertex `v` to `w` in the common frame, right to `kWay` of its length.
-  Vec way(std::uint32_t v, std::uint32_t w) const { return own(w) - own(v); }
-  /// A normal of the image of a plane of own normal `n`, right to `kImage` of the length of `n`, times `sense()`.
+  /// A normal of the image of a plane of own normal `n`, right to `kImage` of the length of `n`, times `Moved4::sense()`.
   Vec image(const Vec& n) const { return n; }
-  /// -1 if the body is mirrored in the common frame: cross products of ways then point the other way.
-  double sense() const { return 1; }
   Vec rotated(const Vec& n) const { return n; }  ///< carries a direction from the own to the common frame
   Vec local(const Vec& p) const { return p; }    ///< carries a point from the common to the own frame
   Vec into(const Vec& n) const { return n; }     ///< a direction that orders own points as `n` orders them in the common frame
@@ -52,12 +48,10 @@ struct Moved {
   Vec own(std::uint32_t v) const { return vec(view.vertices[v]); }
   Vec common(const Vec& p) const { return apply(motion, p); }
   Vec point(std::uint32_t v) const { return common(own(v)); }
-  Vec way(std::uint32_t v, std::uint32_t w) const { return rotate(motion, own(w) - own(v)); }
   Vec image(const Vec& n) const {
     return {dot(cross(motion.row_y, motion.row_z), n), dot(cross(motion.row_z, motion.row_x), n),
             dot(cross(motion.row_x, motion.row_y), n)};
   }
-  double sense() const { return dot(motion.row_x, cross(motion.row_y, motion.row_z)) < 0 ? -1 : 1; }
   Vec rotated(const Vec& n) const { return rotate(motion, n); }
   Vec local(const Vec& p) const { return rotate_back(motion, p - motion.t); }
   Vec into(const Vec& n) const { return rotate_back(motion, n); }

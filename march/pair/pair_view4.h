@@ -17,8 +17,10 @@ struct Resting4 {
   explicit Resting4(const PairView& pair) : view(pair.a), reach(pair.reach_a) {}
   Vec4 own(std::uint32_t v) const { return vec4(view.vertices[v]); }
   Vec4 point(std::uint32_t v) const { return own(v); }
+  /// The vector between two vertices in the common frame, from that in the own frame: right to `kWay` of its length.
   Vec4 way(const Vec4& own_way) const { return own_way; }
   Vec4 image(const Vec4& n) const { return n; }
+  /// -1 if the body is mirrored in the common frame: cross products of ways then point the other way.
   double sense() const { return 1; }
   Vec4 local(const Vec4& p) const { return p; }
   Vec4 into(const Vec4& n) const { return n; }

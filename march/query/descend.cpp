@@ -23,7 +23,7 @@ namespace {
 
 class Descent {
  public:
-  Descent(const ModelPair& pair, const Line& line, const StopRule& asked, const AxisTest& first, Answer& answer,
+  Descent(const ModelPair& pair, const Line& line, const StopRule& asked, const AxisSample& seen, Answer& answer,
           OverlapProof& proof)
       : pair_(pair),
         a_(pair.a),
@@ -39,7 +39,7 @@ class Descent {
         finest_b_(pair.finest_b()),
         has_maps_(pair.has_maps()),
         exact_(is_exact(asked, tuning_)),
-        first_(first),
+        seen_(seen),
         answer_(answer),
         proof_(proof) {}
 
@@ -128,18 +128,18 @@ class Descent {
   /// every finer pair and begins anew there, from the same direction: of two tolerances that begin on the same pair, the looser
   /// one does the same work and stops earlier.
   bool map_gjk(Place& place, const Vec& likely) {
-    const bool sampled = max_abs(first_.seen.normal) > 0;
-    const Vec direction = sampled               ? first_.seen.normal
+    const bool sampled = max_abs(seen_.normal) > 0;
+    const Vec direction = sampled               ? seen_.normal
                           : max_abs(likely) > 0 ? likely
                                                 : between_ellipsoids(a_.level(0), b_.level(0), pair_.motion, line_.in_a);
     const Place least = pair_.finest_mapped();
-    place = sampled ? first_.at : exact_ ? least : mapped_for(norm(line_.in_a));
+    place = sampled || exact_ ? least : mapped_for(norm(line_.in_a));
     for (;;) {
       const bool last = same_levels(place, least);
       const PairView pair = view_at(place);
       const Level &of_a = a_.level(place.level_a), &of_b = b_.level(place.level_b);
       const double error = deviation(place.level_a, place.level_b);
-      const AxisSample seen = sampled && same_levels(place, first_.at) ? first_.seen : sample_axis(pair, of_a, of_b, direction);
+      const AxisSample seen = sampled ? seen_ : sample_axis(pair, of_a, of_b, direction);
       const SupportGjk found = support_gjk(pair, of_a, of_b, error, seen, [&](const SupportGjk& s) {
         if (exact_) return s.near;
         const double lower = max(answer_.lower, s.most_lower), upper = min(answer_.upper, s.upper + error);
@@ -172,7 +172,7 @@ class Descent {
     carry(place, {std::max(0.0, s.most_lower), feet.upper, s.lower_along, feet.point, feet.point + feet.apart}, pair.law_two);
   }
 
-  /// Returns true if the descendants on level 0 of the vertices in `found.proof` prove that the exact hulls overlap.
+  /// Returns true if the descendants on level 0 of the corners of `found.simplex` prove that the exact hulls overlap.
   bool overlap(Place& place, const SupportGjk& found) {
     OverlapProof proof = found.simplex.proof();
     if (finest_a_ != 0 || finest_b_ != 0) return false;
@@ -388,8 +388,8 @@ class Descent {
   const double law_two_;
   const int finest_a_, finest_b_;
   const bool has_maps_;
-  const bool exact_;  ///< the distance is asked exactly: no coarser pair can answer
-  const AxisTest& first_;
+  const bool exact_;        ///< the distance is asked exactly: no coarser pair can answer
+  const AxisSample& seen_;  ///< on the finest pair with maps; its normal is 0 if nothing was sampled
   Answer& answer_;
   OverlapProof& proof_;
   MarchStatus met_ = MarchStatus::NotConverged;
@@ -401,9 +401,9 @@ class Descent {
 
 }  // namespace
 
-void descend(const ModelPair& pair, const Line& line, const StopRule& asked, const AxisTest& first, const Place& place,
+void descend(const ModelPair& pair, const Line& line, const StopRule& asked, const AxisSample& seen, const Place& place,
              PairSeed& seed, Answer& answer, OverlapProof& proof) {
-  Descent(pair, line, asked, first, answer, proof).start(place, seed);
+  Descent(pair, line, asked, seen, answer, proof).start(place, seed);
 }
 
 void go_on(const ModelPair& pair, const StopRule& asked, double exact_width, PairSeed& seed, Answer& answer,

@@ -6,17 +6,17 @@
 #include <swiftlet/query.h>
 
 #include "pair/stop_rule.h"
+#include "pair/support_gjk.h"
 #include "query/model_pair.h"
 #include "query/seed.h"
-#include "query/separating_axis.h"
 
 namespace swiftlet {
 
 /// Answers `asked` for the hulls of two bodies: begins at the features of `place`, or, if it has none, on the maps, with the
-/// sample `first` if there is one, or on the coarsest pair. Thresholds are passed by more than law 2's bound. `answer` must be
-/// a default one with normal 0; an unknown normal stays 0. `proof` must be empty, and is filled if the levels of the answer
-/// overlap. `line` is the pair's.
-void descend(const ModelPair& pair, const Line& line, const StopRule& asked, const AxisTest& first, const Place& place,
+/// sample `seen` if its normal is not 0, or on the coarsest pair. Thresholds are passed by more than law 2's bound. `answer`
+/// must be a default one with normal 0; an unknown normal stays 0. `proof` must be empty, and is filled if the levels of the
+/// answer overlap. `line` is the pair's.
+void descend(const ModelPair& pair, const Line& line, const StopRule& asked, const AxisSample& seen, const Place& place,
              PairSeed& seed, Answer& answer, OverlapProof& proof);
 
 /// The same, but goes on from what `answer` holds, which is exact if it is no wider than `exact_width` or law 2's bound.

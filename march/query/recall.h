@@ -97,9 +97,10 @@ namespace swiftlet {
   if (asks && automatic && unwatched && spheres_are_apart(pair, between, asked, answer)) return;
   if ((asks || seed.met) && automatic && unwatched && spheres_meet(pair, between, answer)) return;
   if (seed.met && automatic && overlaps_as_before(pair, seed, answer, proof)) return;
-  AxisTest first;
+  AxisSample seen;
+  seen.normal = {0, 0, 0};
   if (asks && !seed.met && pair.limits.trace.empty() && pair.has_maps() &&
-      separating_axis(pair, between, asked, seed, first, answer))
+      separating_axis(pair, between, asked, seed, seen, answer))
     return;
   const Line line{between, turned_line(between, pair.motion)};
   Turn turn;
@@ -107,7 +108,7 @@ namespace swiftlet {
   const bool is_warm = place.start.a.kind() != FeatureKind::None && tuning.start != StartPolicy::Coarsest;
   if (is_warm && !tuning.careful && nearest_as_before(pair, line, asked, turn, seed, place, answer)) return;
   answer.normal.setZero();
-  descend(pair, line, asked, first, place, seed, answer, proof);
+  descend(pair, line, asked, seen, place, seed, answer, proof);
 }
 
 /// As `ask`.

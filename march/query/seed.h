@@ -27,9 +27,11 @@ struct Place {
 struct Line {
   Vec in_a, in_b;
 };
+/// From A's centre to B's, in A's frame.
 static inline Vec between_centres(const Shape& a, const Shape& b, const Motion& b_in_a) {
   return apply(b_in_a, vec(b.level(0).view.centre)) - vec(a.level(0).view.centre);
 }
+/// From B's centre to A's in B's frame, where `in_a` leads the other way in A's.
 static inline Vec turned_line(const Vec& in_a, const Motion& m) {
   return vec(-(vec4(m.row_x) * in_a.x + vec4(m.row_y) * in_a.y + vec4(m.row_z) * in_a.z));
 }

@@ -10,24 +10,18 @@
 
 namespace swiftlet {
 
-/// The last sample of the test. If the test does not answer, the descent begins with it.
-struct AxisTest {
-  AxisTest() { seen.normal = {0, 0, 0}; }
-  Place at;
-  AxisSample seen;  ///< on the levels of `at`; its normal is 0 if nothing was sampled, and nothing else is set
-};
-
 /// Fills `answer` and returns true if the bodies are proved to be farther apart than `asked.above`. If the line of centres
-/// proves it and the seed's direction does not, that direction is cleared.
+/// proves it and the seed's direction does not, that direction is cleared. `seen` becomes the last sample, on the finest pair
+/// with maps.
 static inline bool separating_axis(const ModelPair& pair, const Vec& between, const StopRule& asked, PairSeed& seed,
-                                   AxisTest& first, Answer& answer) {
-  first.at = pair.finest_mapped();
-  const int level_a = first.at.level_a, level_b = first.at.level_b;
+                                   AxisSample& seen, Answer& answer) {
+  const Place at = pair.finest_mapped();
+  const int level_a = at.level_a, level_b = at.level_b;
   const Level &of_a = pair.a.level(level_a), &of_b = pair.b.level(level_b);
-  const PairView view = pair.view_at(first.at);
+  const PairView view = pair.view_at(at);
   const auto clears = [&](const Vec& direction) {
-    first.seen = sample_axis(view, of_a, of_b, direction);
-    return first.seen.lower > max(asked.above, 0) + pair.law_two;
+    seen = sample_axis(view, of_a, of_b, direction);
+    return seen.lower > max(asked.above, 0) + pair.law_two;
   };
   const Vec last = last_direction(between, seed);
   if (!(max_abs(last) > 0 && clears(last))) {
@@ -35,16 +29,16 @@ static inline bool separating_axis(const ModelPair& pair, const Vec& between, co
     seed.normal = {};
   }
 
-  const double error = pair.deviation(level_a, level_b), upper = norm(first.seen.apart) * (1 + kNormError) + view.point_error;
+  const double error = pair.deviation(level_a, level_b), upper = norm(seen.apart) * (1 + kNormError) + view.point_error;
   answer.status = Status::Beyond;
   answer.verdict = Verdict::Disjoint;
-  answer.lower = first.seen.lower;
+  answer.lower = seen.lower;
   answer.upper = error > 0 ? (upper + error) * (1 + 2 * kU) : upper;
-  answer.normal = eigen(first.seen.normal);
-  answer.point_a = eigen(first.seen.point);
-  answer.point_b = eigen(first.seen.point + first.seen.apart);
+  answer.normal = eigen(seen.normal);
+  answer.point_a = eigen(seen.point);
+  answer.point_b = eigen(seen.point + seen.apart);
   answer.level_a = std::int16_t(level_a), answer.level_b = std::int16_t(level_b);
-  answer.feature_a = {FeatureKind::Vertex, first.seen.a}, answer.feature_b = {FeatureKind::Vertex, first.seen.b};
+  answer.feature_a = {FeatureKind::Vertex, seen.a}, answer.feature_b = {FeatureKind::Vertex, seen.b};
   answer.levels_visited = 1;
   return true;
 }

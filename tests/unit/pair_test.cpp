@@ -209,17 +209,23 @@ TEST(UnitSupportGjk, SamplesAnAxis) {
 
 // ---- Separating axis ------------------------------------------------------------------------------------------------------
 
+/// Two cubes, the second moved by x, as a query has them.
+struct CubesAlongX {
+  explicit CubesAlongX(double x) : m(motion({Mat3::Identity(), {x, 0, 0}})) {}
+  const Motion m;
+  const Shape shape{kCube};
+  const Budget budget{};
+  const Tuning tuning{};
+  const Limits limits{budget, tuning};
+  const ModelPair pair{shape, shape, m, 0, limits};
+};
+
 TEST(UnitSeparatingAxis, AnswersAtOneSampleOrNotAtAll) {
   const auto asked = [](double x, Answer& answer) {
-    const Shape shape(kCube);
-    const Motion m = motion({Mat3::Identity(), {x, 0, 0}});
-    const Budget budget;
-    const Tuning tuning;
-    const Limits limits(budget, tuning);
-    const ModelPair pair(shape, shape, m, 0, limits);
+    const CubesAlongX at(x);
     PairSeed seed;
-    AxisTest first;
-    return separating_axis(pair, pair.line().in_a, {0, 0, 0, 0}, seed, first, answer);
+    AxisSample seen;
+    return separating_axis(at.pair, at.pair.line().in_a, {0, 0, 0, 0}, seed, seen, answer);
   };
   Answer apart, together;
   EXPECT_TRUE(asked(3, apart));
@@ -234,16 +240,11 @@ TEST(UnitSeparatingAxis, AnswersAtOneSampleOrNotAtAll) {
 /// Cubes of side 2: the balls around them are apart from 2 sqrt(3) on, those inside them meet below 2. Between, none tells.
 TEST(UnitSpheres, TellWhatIsFarApartAndWhatIsDeep) {
   const auto asked = [](double x, double threshold, Answer& answer) {
-    const Shape shape(kCube);
-    const Motion m = motion({Mat3::Identity(), {x, 0, 0}});
-    const Budget budget;
-    const Tuning tuning;
-    const Limits limits(budget, tuning);
-    const ModelPair pair(shape, shape, m, 0, limits);
-    const Vec between = pair.line().in_a;
-    return spheres_are_apart(pair, between, {0, 0, threshold, threshold}, answer) ? 1
-           : spheres_meet(pair, between, answer)                                  ? -1
-                                                                                  : 0;
+    const CubesAlongX at(x);
+    const Vec between = at.pair.line().in_a;
+    return spheres_are_apart(at.pair, between, {0, 0, threshold, threshold}, answer) ? 1
+           : spheres_meet(at.pair, between, answer)                                  ? -1
+                                                                                     : 0;
   };
   Answer apart, deep, other;
   EXPECT_EQ(asked(3.5, 0, apart), 1);
