@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// GJK on support maps for a cold start [Gilbert, Johnson & Keerthi 1988]. The direction is at first the line of centres and
-// turns towards that of the distance. Each support is one look-up in a table of directions, a support map, without a climb.
-// Every step proves bounds. Knows one level pair.
+// GJK on support maps for a cold start [Gilbert, Johnson & Keerthi 1988]. The direction is at first about that between
+// ellipsoids, between round bodies the line of centres, and turns towards that of the distance. Each support is one look-up in
+// a table of directions, a support map, without a climb. Every step proves bounds. Knows one level pair.
 #pragma once
 
 #include <cstdint>
@@ -17,34 +17,23 @@
 
 namespace swiftlet {
 
-/// The supports that the maps have along one direction.
-struct Look {
-  std::uint32_t a, b;  ///< support vertices of A along the direction and of B against it, as the maps have them
-  Vec point, apart;    ///< vertex `a`, and the vector from it to vertex `b`: common frame
-  double excess;       ///< how far the bodies may reach beyond both, along the direction at its given length
-};
-/// Looks along `d`. It may have any length, because its positive multiples all lie in the same cell of a map.
-[[gnu::always_inline]] static inline Look look(const PairView& pair, const Level& a, const Level& b, const Vec& d) {
-  const Moved other = body_b(pair);
-  const MapSupport top_a = look_up(a, d), top_b = look_up(b, -other.into(d));
-  const Vec q = body_a(pair).point(top_a.vertex);
-  return {top_a.vertex, top_b.vertex, q, other.point(top_b.vertex) - q, top_a.excess + top_b.excess};
-}
-
-/// A look and the bound that it proves.
+/// The supports that the maps have along one direction, and the bound that they prove.
 struct AxisSample {
   Vec normal;          ///< the direction at length 1; 0 if it names no direction
-  std::uint32_t a, b;  ///< as in Look
-  Vec point, apart;    ///< as in Look
+  std::uint32_t a, b;  ///< support vertices of A along `normal` and of B against it, as the maps have them
+  Vec point, apart;    ///< vertex `a`, and the vector from it to vertex `b`: common frame
   double gap;          ///< between vertices `a` and `b` along `normal`
   double lower;        ///< bound proved along `normal`: the gap less rounding and the maps' uncertainty; may be negative
 };
-static inline double map_error(const PairView& pair) { return kMapError * (pair.a.extent + pair.b.extent); }
+/// Samples the maps along `direction`, of any length: it is normalised first, as M n of a short one may underflow.
 [[gnu::flatten]] static inline AxisSample sample_axis(const PairView& pair, const Level& a, const Level& b,
                                                       const Vec& direction) {
-  const Look at = look(pair, a, b, direction);
-  const auto [n, scale] = unit_of(direction);
-  return {n, at.a, at.b, at.point, at.apart, dot(n, at.apart), gap(pair, n, at.apart, at.excess * scale + map_error(pair))};
+  const Moved other = body_b(pair);
+  const Vec n = normalised(direction);
+  const MapSupport top_a = look_up(a, n), top_b = look_up(b, -other.into(n));
+  const Vec q = body_a(pair).point(top_a.vertex), p = other.point(top_b.vertex) - q;
+  const double excess = top_a.excess + top_b.excess + kMapError * (pair.a.extent + pair.b.extent);
+  return {n, top_a.vertex, top_b.vertex, q, p, dot(n, p), gap(pair, n, p, excess)};
 }
 
 /// True if a level is about as wide in all directions.
