@@ -176,7 +176,7 @@ class Deepening {
     const Vec apart = seen.point_b - seen.point_a;
     const double over = seen.over_a + seen.over_b;
     const bool tells = over <= moved.law_two && dot(apart, apart) > moved.law_two * moved.law_two;
-    return tells ? -gap(moved, n, seen.apart - way, over + kPointSumError * moved.magnitude) : kInfinity;
+    return tells ? -gap(moved, vec4(n), vec4(seen.apart - way), over + kPointSumError * moved.magnitude) : kInfinity;
   }
 
   /// Moves B along a direction until it is free; the features that are nearest then give the next direction, until they span a

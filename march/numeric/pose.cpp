@@ -3,7 +3,7 @@
 // Relative and inverse poses: rotations are inverted, not transposed, and translations subtracted first.
 #include <swiftlet/pose.h>
 
-#include "numeric/vec.h"
+#include "numeric/vec4.h"
 
 namespace swiftlet {
 namespace {

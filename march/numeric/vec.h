@@ -20,6 +20,13 @@ struct V3 {
   Real x, y, z;
 };
 using Vec = V3<double>;
+/// A vector with room for a fourth number, so that a register of four stores and loads it whole.
+struct alignas(32) Padded : Vec {
+  Padded() = default;
+  constexpr Padded(double of_x, double of_y, double of_z) : Vec{of_x, of_y, of_z}, fourth(0) {}
+  constexpr Padded(const Vec& v) : Padded(v.x, v.y, v.z) {}
+  double fourth;  ///< without meaning, mostly 0
+};
 
 template <class R>
 static inline V3<R> operator+(const V3<R>& a, const V3<R>& b) {
@@ -118,13 +125,9 @@ static inline Vec3 eigen(const Vec& v) { return Vec3(v.x, v.y, v.z); }
 
 /// A pose as vectors: the rows of its rotation R, and its translation t.
 struct Motion {
-  Vec row_x, row_y, row_z, t;
+  Padded row_x, row_y, row_z, t;
 };
 static constexpr Motion kAtRest{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
-static inline Motion motion(const Pose& pose) {
-  const Mat3& r = pose.rotation;
-  return {{r(0, 0), r(0, 1), r(0, 2)}, {r(1, 0), r(1, 1), r(1, 2)}, {r(2, 0), r(2, 1), r(2, 2)}, vec(pose.translation)};
-}
 static inline Vec rotate(const Motion& m, const Vec& p) { return {dot(m.row_x, p), dot(m.row_y, p), dot(m.row_z, p)}; }
 static inline Vec apply(const Motion& m, const Vec& p) { return rotate(m, p) + m.t; }
 /// R^T n, which orders points of the moved body's own frame as n orders their images: n . (R p) = result . p.

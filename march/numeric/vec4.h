@@ -140,6 +140,30 @@ static inline Vec4 vec4(const Record& p) {
   return vec4(load2(&p.x), Vec2{p.z, 0});
 #endif
 }
+static inline Vec4 vec4(const Padded& a) {
+#if defined(__AVX__)
+  return {_mm256_load_pd(&a.x)};
+#else
+  return vec4(load2(&a.x), load2(&a.z));
+#endif
+}
+static inline void store(const Vec4& a, Padded& p) {
+#if defined(__AVX__)
+  _mm256_store_pd(&p.x, a.v);
+#else
+  __builtin_memcpy(&p.x, &a.lo, sizeof a.lo);
+  __builtin_memcpy(&p.z, &a.hi, sizeof a.hi);
+#endif
+}
+/// A pose as vectors. Its numbers are loaded one by one, as those of a vector.
+static inline Motion motion(const Pose& pose) {
+  const double *r = pose.rotation.data(), *t = pose.translation.data();
+  const auto row = [r](int i) { return vec4(Vec2{r[i], r[3 + i]}, Vec2{r[6 + i], 0}); };
+  Motion m;
+  store(row(0), m.row_x), store(row(1), m.row_y), store(row(2), m.row_z);
+  store(vec4(t[0], t[1], t[2]), m.t);
+  return m;
+}
 /// Three integers. What follows them in memory is read too.
 static inline Vec4 vec4(const std::int16_t* p) {
   std::int16_t __attribute__((vector_size(8))) units;
@@ -154,6 +178,22 @@ static inline Vec4 vec4(const std::int16_t* p) {
   return {_mm_cvtepi32_pd(whole), _mm_cvtepi32_pd(_mm_unpackhi_epi64(whole, whole))};
 #else
   return {{double(units[0]), double(units[1])}, {double(units[2]), double(units[3])}};
+#endif
+}
+/// Stores x, y and z, whose magnitudes are below 2^15, without their fractions.
+static inline void store_units(const Vec4& a, std::int16_t* p) {
+#if defined(__AVX__)
+  const __m128i whole = _mm256_cvttpd_epi32(a.v);
+#elif defined(__SSE2__)
+  const __m128i whole = _mm_unpacklo_epi64(_mm_cvttpd_epi32(a.lo), _mm_cvttpd_epi32(a.hi));
+#endif
+#if defined(__SSE2__)
+  const __m128i units = _mm_packs_epi32(whole, whole);
+  const int x_y = _mm_cvtsi128_si32(units);
+  __builtin_memcpy(p, &x_y, sizeof x_y);
+  p[2] = std::int16_t(_mm_extract_epi16(units, 2));
+#else
+  for (int i = 0; i < 3; ++i) p[i] = std::int16_t(a[i]);
 #endif
 }
 static inline Vec vec(const Vec4& a) { return {a[0], a[1], a[2]}; }

@@ -115,7 +115,7 @@ std::optional<Extreme> top(const ConvexView& view, const Slope& slope, std::uint
 }  // namespace
 
 double gap(const PairView& pair, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack) {
-  return gap(pair, n, body_b(pair).point(vb) - body_a(pair).point(va), slack);
+  return gap(pair, vec4(n), vec4(body_b(pair).point(vb) - body_a(pair).point(va)), slack);
 }
 
 double apart(const PairView& pair, std::uint32_t va, std::uint32_t vb) {

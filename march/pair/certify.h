@@ -39,7 +39,7 @@ Certificate certify(const PairView& pair, const Witness& seen, std::uint32_t& pl
 /// Proved bounds on the distance of two polytopes that are apart, within law 2's bound, with plane and points that fit.
 struct Proof {
   double lower, upper;
-  Vec normal;  ///< unit, from A to B
+  Padded normal;  ///< unit, from A to B
 };
 /// True if the bounds agree within law 2's bound, but `point_b` - `point_a` differs from its length times `normal` by more than
 /// that. Bounds that agree so leave the plane room to lean by the root of law 2's: by 1e-8, say, between nearly parallel faces.
@@ -67,24 +67,25 @@ Supports supports(const PairView& pair, const Vec& n, std::uint32_t start_a, std
 
 /// A lower bound on n . (q - p), less `slack`, for unit n, a vertex p of A and a vertex q of B, where `c` is q - p rounded. May
 /// be negative.
-static inline double gap(const PairView& pair, const Vec& n, const Vec& c, double slack) {
-  const double products = std::fabs(n.x * c.x) + std::fabs(n.y * c.y) + std::fabs(n.z * c.z);
-  return dot(n, c) - (kGapError * products + pair.motion_error + slack);
+static inline double gap(const PairView& pair, const Vec4& n, const Vec4& c, double slack) {
+  const Vec4 products = n * c;
+  return sum(products) - (kGapError * norm_1(products) + pair.motion_error + slack);
 }
 /// Proves bounds by the tests of a walk's last state alone, and reads nothing else. Returns why they do not tell, or None.
 static inline Doubt certify(const PairView& pair, const Nearest& seen, Proof& proof) {
-  const Vec apart = seen.point_b - seen.point_a;
-  const double square = dot(seen.normal, seen.normal), apart2 = dot(apart, apart), over = seen.over_a + seen.over_b;
+  const Vec4 along = vec4(seen.normal), apart = vec4(seen.point_b) - vec4(seen.point_a);
+  const double square = dot(along, along), apart2 = dot(apart, apart), over = seen.over_a + seen.over_b;
   if (!(over <= pair.law_two)) return over < std::numeric_limits<double>::infinity() ? Doubt::Width : Doubt::Neighbour;
   if (!has_range(square) || !has_range(apart2)) return Doubt::Width;
   const double length = std::sqrt(apart2);
   if (!(length > pair.law_two)) return Doubt::Threshold;  // nearer points may lie aside along an edge: see kAcrossError
-  proof.normal = seen.normal * (1 / std::sqrt(square));
-  proof.lower = gap(pair, proof.normal, seen.apart, over);
+  const Vec4 normal = along * (1 / std::sqrt(square));
+  store(normal, proof.normal);
+  proof.lower = gap(pair, normal, vec4(seen.apart), over);
   proof.upper = max(proof.lower, length * (1 + kNormError) + pair.motion_error + kPointSumError * pair.magnitude + seen.blur);
   if (!(proof.lower > pair.law_two)) return Doubt::Threshold;
   if (!(proof.upper - proof.lower <= pair.law_two)) return Doubt::Width;
-  const Vec aside = apart - proof.normal * length;
+  const Vec4 aside = apart - normal * length;
   return dot(aside, aside) > pair.law_two * pair.law_two ? Doubt::Lean : Doubt::None;
 }
 double gap(const PairView& pair, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack = 0);

@@ -200,14 +200,18 @@ class Marcher {
  private:
   /// Ends the walk in a minimum. The first argument is the state's first body; `seen` has the bodies in the state's order.
   void end(const Resting4&, const Ending& seen) {
-    walk_.end = WalkEnd::Minimum;
-    walk_.nearest = {vec(seen.normal), vec(seen.apart), vec(seen.point_a), vec(seen.point_b),
-                     seen.blur,        seen.over_a,     seen.over_b};
+    end(seen.normal, seen.apart, seen.point_a, seen.point_b, seen.blur, seen.over_a, seen.over_b);
   }
   void end(const Moved4&, const Ending& seen) {
+    end(-seen.normal, -seen.apart, seen.point_b, seen.point_a, seen.blur, seen.over_b, seen.over_a);
+  }
+  void end(const Vec4& normal, const Vec4& apart, const Vec4& point_a, const Vec4& point_b, double blur, double over_a,
+           double over_b) {
+    Nearest& nearest = walk_.nearest;
+    store(normal, nearest.normal), store(apart, nearest.apart);
+    store(point_a, nearest.point_a), store(point_b, nearest.point_b);
+    nearest.blur = blur, nearest.over_a = over_a, nearest.over_b = over_b;
     walk_.end = WalkEnd::Minimum;
-    walk_.nearest = {vec(-seen.normal), vec(-seen.apart), vec(seen.point_b), vec(seen.point_a),
-                     seen.blur,         seen.over_b,      seen.over_a};
   }
   Move inside(FeatureId first, FeatureId second, double distance2) {
     walk_.end = WalkEnd::Inside;

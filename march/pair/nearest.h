@@ -10,16 +10,13 @@ namespace swiftlet {
 
 /// The nearest points of two features of a pair, in the common frame.
 struct Nearest {
-  Vec normal;            ///< from A to B, any length
-  Vec apart;             ///< from a vertex of A's feature to a vertex of B's, rounded as `Moved::point` is
-  Vec point_a, point_b;  ///< a point of each feature
-  double blur;           ///< how far both points may be beside their features, besides the rounding of their own coordinates
+  Padded normal;            ///< from A to B, any length
+  Padded apart;             ///< from a vertex of A's feature to a vertex of B's, rounded as `Moved::point` is
+  Padded point_a, point_b;  ///< a point of each feature
+  double blur;              ///< how far both points may be beside their features, besides the rounding of their own coordinates
   /// Upper bounds on how far A rises along `normal`, taken at length 1, above any vertex of its feature, and B against it above
   /// any of its own. Infinite where the walk's tests do not tell.
   double over_a, over_b;
 };
-static inline Nearest swapped(const Nearest& n) {
-  return {-n.normal, -n.apart, n.point_b, n.point_a, n.blur, n.over_b, n.over_a};
-}
 
 }  // namespace swiftlet

@@ -33,7 +33,7 @@ struct AxisSample {
   const MapSupport top_a = look_up(a, n), top_b = look_up(b, -other.into(n));
   const Vec q = body_a(pair).point(top_a.vertex), p = other.point(top_b.vertex) - q;
   const double excess = top_a.excess + top_b.excess + kMapError * (pair.a.extent + pair.b.extent);
-  return {n, top_a.vertex, top_b.vertex, q, p, dot(n, p), gap(pair, n, p, excess)};
+  return {n, top_a.vertex, top_b.vertex, q, p, dot(n, p), gap(pair, vec4(n), vec4(p), excess)};
 }
 
 /// True if a level is about as wide in all directions.

@@ -23,10 +23,7 @@ struct ModelPair {
         law_two(swiftlet::law_two(a.level(0).view, b.level(0).view, shift, error)),
         limits(of) {}
 
-  Line line() const {
-    const Vec between = between_centres(a, b, motion);
-    return {between, turned_line(between, motion)};
-  }
+  Line line() const { return line_of_centres(a, b, motion); }
   /// The finest levels that the query may read.
   int finest_a() const { return finest_allowed(a, limits.budget); }
   int finest_b() const { return finest_allowed(b, limits.budget); }

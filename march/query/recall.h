@@ -92,17 +92,16 @@ namespace swiftlet {
                                                        Answer& answer, OverlapProof& proof) {
   const Tuning& tuning = pair.limits.tuning;
   const bool automatic = tuning.start == StartPolicy::Automatic;
-  const Vec between = between_centres(pair.a, pair.b, pair.motion);
+  const Line line = pair.line();
   const bool asks = asked.is_threshold(), unwatched = pair.limits.trace.empty() && !tuning.proof && !tuning.careful;
-  if (asks && automatic && unwatched && spheres_are_apart(pair, between, asked, answer)) return;
-  if ((asks || seed.met) && automatic && unwatched && spheres_meet(pair, between, answer)) return;
+  if (asks && automatic && unwatched && spheres_are_apart(pair, line.in_a, asked, answer)) return;
+  if ((asks || seed.met) && automatic && unwatched && spheres_meet(pair, line.in_a, answer)) return;
   if (seed.met && automatic && overlaps_as_before(pair, seed, answer, proof)) return;
   AxisSample seen;
   seen.normal = {0, 0, 0};
   if (asks && !seed.met && pair.limits.trace.empty() && pair.has_maps() &&
-      separating_axis(pair, between, asked, seed, seen, answer))
+      separating_axis(pair, line.in_a, asked, seed, seen, answer))
     return;
-  const Line line{between, turned_line(between, pair.motion)};
   Turn turn;
   Place place = first_place(pair.a, pair.b, line, seed, pair.finest_a(), pair.finest_b(), tuning.start, turn);
   const bool is_warm = place.start.a.kind() != FeatureKind::None && tuning.start != StartPolicy::Coarsest;

@@ -25,15 +25,14 @@ struct Place {
 
 /// The line of centres: `in_a` leads from A's centre to B's in A's frame, `in_b` from B's centre to A's in B's frame.
 struct Line {
-  Vec in_a, in_b;
+  Padded in_a, in_b;
 };
-/// From A's centre to B's, in A's frame.
-static inline Vec between_centres(const Shape& a, const Shape& b, const Motion& b_in_a) {
-  return apply(b_in_a, vec(b.level(0).view.centre)) - vec(a.level(0).view.centre);
-}
-/// From B's centre to A's in B's frame, where `in_a` leads the other way in A's.
-static inline Vec turned_line(const Vec& in_a, const Motion& m) {
-  return vec(-(vec4(m.row_x) * in_a.x + vec4(m.row_y) * in_a.y + vec4(m.row_z) * in_a.z));
+static inline Line line_of_centres(const Shape& a, const Shape& b, const Motion& m) {
+  const Vec4 x = vec4(m.row_x), y = vec4(m.row_y), z = vec4(m.row_z), centre_b = vec4(vec(b.level(0).view.centre));
+  const Vec4 in_a = dots(x, centre_b, y, centre_b, z, centre_b, z, centre_b) + vec4(m.t) - vec4(vec(a.level(0).view.centre));
+  Line line;
+  store(in_a, line.in_a), store(-dot(repeated(in_a), V3<Vec4>{x, y, z}), line.in_b);
+  return line;
 }
 
 /// How far the line of centres has turned since a seed was stored.
@@ -44,18 +43,20 @@ enum class Turn {
 };
 constexpr double kLineUnit = 32767;  ///< the length of a direction in a seed
 
-/// For one body, where the line, of squared length `length2`, is `line` and was packed as `was`.
-static inline Turn turn_of(const Vec& line, double length2, const std::array<std::int16_t, 3>& was, const Level& level) {
-  const double along = dot(vec4(line), vec4(was.data()));
-  const double cos2 = along > 0 ? along * along : 0, whole = length2 * (kLineUnit * kLineUnit);
-  if (cos2 >= level.same_cos2 * whole) return Turn::Little;
-  const bool known = (was[0] | was[1] | was[2]) != 0;  // not of a seed made by hand
-  return known && cos2 < level.near_cos2 * whole ? Turn::Far : Turn::Some;
-}
 /// `a` and `b` are the levels of the seed.
 static inline Turn turn_of(const Line& line, const PairSeed& seed, const Level& a, const Level& b) {
-  const double length2 = dot(line.in_a, line.in_a);
-  return std::max(turn_of(line.in_a, length2, seed.line_in_a, a), turn_of(line.in_b, length2, seed.line_in_b, b));
+  const Vec4 in_a = vec4(line.in_a);
+  const double whole = dot(in_a, in_a) * (kLineUnit * kLineUnit),
+               along_a = max(0, dot(in_a, vec4(seed.line_in_a.data()))),
+               along_b = max(0, dot(vec4(line.in_b), vec4(seed.line_in_b.data()))), cos2_a = along_a * along_a,
+               cos2_b = along_b * along_b;
+  const bool same_a = cos2_a >= a.same_cos2 * whole, same_b = cos2_b >= b.same_cos2 * whole;
+  if (same_a & same_b) return Turn::Little;
+  const auto is_far = [whole](double cos2, const std::array<std::int16_t, 3>& was, const Level& level) {
+    const bool known = (was[0] | was[1] | was[2]) != 0;  // not of a seed made by hand
+    return known && cos2 < level.near_cos2 * whole;
+  };
+  return (!same_a && is_far(cos2_a, seed.line_in_a, a)) || (!same_b && is_far(cos2_b, seed.line_in_b, b)) ? Turn::Far : Turn::Some;
 }
 
 /// The finest level of a body that a query may read.
@@ -91,14 +92,12 @@ static inline Place first_place(const Shape& a, const Shape& b, const Line& line
   return turn == Turn::Far ? coarsest_place(a, b) : place;
 }
 
-static inline std::array<std::int16_t, 3> packed(const Vec& unit) {
-  const auto units = [](double x) { return std::int16_t(x * kLineUnit); };
-  return {units(unit.x), units(unit.y), units(unit.z)};
-}
+/// Stores a unit vector, of which no coordinate may be above 1 by rounding.
+static inline void pack(const Vec4& unit, std::array<std::int16_t, 3>& units) { store_units(unit * kLineUnit, units.data()); }
 /// Stores an answer's normal in the seed.
-static inline void remember(const Vec& normal, PairSeed& seed) { seed.normal = packed(normal * (1 - 4 * kU)); }
+static inline void remember(const Padded& normal, PairSeed& seed) { pack(vec4(normal) * (1 - 4 * kU), seed.normal); }
 /// Stores the line of centres and an answer's normal in the seed.
-void remember(const Line& line, const Vec& normal, PairSeed& seed);
+void remember(const Line& line, const Padded& normal, PairSeed& seed);
 static inline Vec direction(const PairSeed& seed) {
   return {double(seed.normal[0]), double(seed.normal[1]), double(seed.normal[2])};
 }
