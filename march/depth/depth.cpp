@@ -65,7 +65,7 @@ class Deepening {
         line_(pair_.line()),
         budget_(limits.budget),
         trace_(limits.trace),
-        law_two_(pair_.law_two),
+        law_two_(pair_.law_two()),
         stop_(asked.beyond_by(law_two_).at_least(law_two_)),
         finest_a_(pair_.finest_a()),
         finest_b_(pair_.finest_b()) {}
@@ -406,7 +406,7 @@ Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, PairSee
       join(deep, answer, proof, seed);
     if (touching && answer.status == Status::NotConverged) {
       sharpen(deep.pair(), answer);
-      if (answer.upper - answer.lower <= deep.pair().law_two) answer.status = Status::Converged;
+      if (answer.upper - answer.lower <= deep.pair().law_two()) answer.status = Status::Converged;
     }
   }
   add_work(deep, answer);

@@ -51,7 +51,7 @@ class FacetProof {
 
   const Vec& normal() const { return normal_; }
   double height() const { return height_; }                     ///< of the polygon's lowest corner along the normal
-  double lower() const { return height_ - pair_.point_error; }  ///< `height()` less the rounding bound
+  double lower() const { return height_ - pair_.point_error(); }  ///< `height()` less the rounding bound
 
   /// Finds the point of the polygon over the origin and returns its distance from `normal()` * `height()`; infinite if there is
   /// none. Within law 2's bound, the point's vertex pairs, weights and witness points are written to `depth`.
@@ -87,7 +87,7 @@ class FacetProof {
   template <class AboutHighest, class Climb>
   bool closes(AboutHighest about_highest, Climb climb, Vec& lowest) {
     p_[rim_] = about_highest(-normal_);
-    if (!(dot(normal_, p_[rim_]) < -pair_.point_error)) return false;
+    if (!(dot(normal_, p_[rim_]) < -pair_.point_error())) return false;
     points_ = rim_ + 1, triangles_ = 0;
     for (std::size_t k = 0, last = rim_ - 1; k < rim_; last = k++) turned_ ? add(last, k, rim_) : add(k, last, rim_);
     for (std::size_t t = nearest(); !(triangle_[t].distance > least()); t = nearest()) {
@@ -125,7 +125,7 @@ class FacetProof {
     for (std::size_t t = 1; t < triangles_; ++t) best = triangle_[t].distance < triangle_[best].distance ? t : best;
     return best;
   }
-  double least() const { return height_ + pair_.point_error; }
+  double least() const { return height_ + pair_.point_error(); }
 
   /// Where a point of M beyond a triangle is looked for: along its normal or, where it has a side of the polygon, along that of
   /// the other plane through the side that is as near as the polygon. Any point beyond that plane will do.

@@ -166,18 +166,19 @@ static inline Motion motion(const Pose& pose) {
 }
 /// Three integers. What follows them in memory is read too.
 static inline Vec4 vec4(const std::int16_t* p) {
+#if defined(__AVX__)
+  return {_mm256_cvtepi32_pd(_mm_cvtepi16_epi32(_mm_loadu_si64(p)))};
+#else
   std::int16_t __attribute__((vector_size(8))) units;
   __builtin_memcpy(&units, p, sizeof units);
-#if defined(__AVX__)
-  return {__builtin_convertvector(__builtin_convertvector(units, std::int32_t __attribute__((vector_size(16)))),
-                                  double __attribute__((vector_size(32))))};
-#elif defined(__SSE2__)
+#if defined(__SSE2__)
   __m128i wide;
   __builtin_memcpy(&wide, &units, sizeof units);
   const __m128i whole = _mm_srai_epi32(_mm_unpacklo_epi16(wide, wide), 16);
   return {_mm_cvtepi32_pd(whole), _mm_cvtepi32_pd(_mm_unpackhi_epi64(whole, whole))};
 #else
   return {{double(units[0]), double(units[1])}, {double(units[2]), double(units[3])}};
+#endif
 #endif
 }
 /// Stores x, y and z, whose magnitudes are below 2^15, without their fractions.

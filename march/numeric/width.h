@@ -13,7 +13,11 @@
 
 #if SWIFTLET_AVX2 && defined(__OPTIMIZE__)
 #define SWIFTLET_BY_FOUR 1
+#if defined(__AVX__)
+#define SWIFTLET_BY_WIDTH(name) name##_by_four
+#else
 #define SWIFTLET_BY_WIDTH(name) (by_four() ? name##_by_four : name##_by_two)
+#endif
 #else
 #define SWIFTLET_BY_WIDTH(name) name##_by_two
 #endif

@@ -119,7 +119,7 @@ double gap(const PairView& pair, const Vec& n, std::uint32_t va, std::uint32_t v
 }
 
 double apart(const PairView& pair, std::uint32_t va, std::uint32_t vb) {
-  return norm(body_b(pair).point(vb) - body_a(pair).point(va)) * (1 + kNormError) + pair.point_error;
+  return norm(body_b(pair).point(vb) - body_a(pair).point(va)) * (1 + kNormError) + pair.point_error();
 }
 
 Supports supports(const PairView& pair, const Vec& n, std::uint32_t start_a, std::uint32_t start_b,
@@ -135,7 +135,7 @@ Certificate certify(const PairView& pair, const Witness& seen, std::uint32_t& pl
   Certificate c;
   c.point_a = point(body_a(pair), seen.first);
   c.point_b = point(body_b(pair), seen.second);
-  c.upper = norm(c.point_b - c.point_a) * (1 + kNormError) + pair.point_error;
+  c.upper = norm(c.point_b - c.point_a) * (1 + kNormError) + pair.point_error();
   c.normal = normalised(seen.normal);
   c.active = pairs(seen.first, seen.second);
   const auto proved = [&](std::uint32_t va, std::uint32_t vb, double lower) {

@@ -76,9 +76,10 @@ static inline Doubt certify(const PairView& pair, const Nearest& seen, Proof& pr
   const Vec4 along = vec4(seen.normal), apart = vec4(seen.point_b) - vec4(seen.point_a);
   const double square = dot(along, along), apart2 = dot(apart, apart), over = seen.over_a + seen.over_b;
   if (!(over <= pair.law_two)) return over < std::numeric_limits<double>::infinity() ? Doubt::Width : Doubt::Neighbour;
-  if (!has_range(square) || !has_range(apart2)) return Doubt::Width;
+  if (!has_range(square)) return Doubt::Width;
   const double length = std::sqrt(apart2);
-  if (!(length > pair.law_two)) return Doubt::Threshold;  // nearer points may lie aside along an edge: see kAcrossError
+  // Nearer points may lie aside along an edge (kAcrossError), or have a length that underflowed.
+  if (!(length > pair.law_two)) return Doubt::Threshold;
   const Vec4 normal = along * (1 / std::sqrt(square));
   store(normal, proof.normal);
   proof.lower = gap(pair, normal, vec4(seen.apart), over);

@@ -31,7 +31,7 @@ static inline bool same(const Difference<Real>& p, const Difference<Real>& q) {
 /// A bound on the rounding error of a difference, and of a convex combination of differences, in `Real`. A length.
 template <class Real>
 static inline double rounding(const PairView& s) {
-  return std::is_same_v<Real, double> ? s.point_error : kDoubleDoubleError * s.magnitude;
+  return std::is_same_v<Real, double> ? s.point_error() : kDoubleDoubleError * s.magnitude;
 }
 
 }  // namespace swiftlet

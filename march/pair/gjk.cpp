@@ -132,8 +132,8 @@ class Contact {
           bool above = false, below = false;
           for (int l = 0; l < count_; ++l) {
             const double height = dot(n, rounded(points_[std::size_t(l)].p)) - offset;
-            above = above || height > pair_.point_error;
-            below = below || height < -pair_.point_error;
+            above = above || height > pair_.point_error();
+            below = below || height < -pair_.point_error();
           }
           if (above && below) continue;
           const double distance = above ? -offset : offset;

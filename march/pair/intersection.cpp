@@ -353,7 +353,7 @@ class IntersectionSearch {
     const double height = dot(n, point(k, origin(view(k), facet)) - p), along = dot(n, d);
     ++tests_;
     // p lies in the facet's plane, as a corner does: the ray leaves through the facet at once, or never.
-    const double thin = pair_.point_error * norm(n);
+    const double thin = pair_.point_error() * norm(n);
     if (std::fabs(height) <= thin) return {facet, std::fabs(along) <= thin ? 0 : kInfinity, 1};
     return {facet, along / height, kExitError * thin / std::fabs(height)};
   }

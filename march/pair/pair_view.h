@@ -18,10 +18,12 @@ struct PairView {
   const Motion& b_in_a;
   double magnitude;         ///< at least |p| + |R q + t| for all points p of A and q of B
   double motion_error;      ///< bounds the rounding of a vertex of B carried into A's frame
-  double point_error;       ///< bounds the rounding of two convex combinations of vertices, one of each body, together
   double pose_error;        ///< largest entry of |R^T R - I|
   double law_two;           ///< greatest width of an exact answer; at most law 2's bound for this pair
   double reach_a, reach_b;  ///< at least the distance of any two points of the body, in the common frame
+
+  /// Bounds the rounding of two convex combinations of vertices, one of each body, together.
+  double point_error() const { return kPointError * magnitude + motion_error; }
 };
 
 /// Body A of a pair: its own frame is the common frame.
@@ -79,7 +81,7 @@ static inline PoseQuality pose_quality(const Motion& m) {
 
 /// The greatest width of an exact answer, which is at most law 2's bound of the pair. `shift` is |t|.
 static inline double law_two(double extent_a, double extent_b, double shift, double pose_error) {
-  return max((kLawTwo + 2 * max(0, pose_error - kOrthonormalityError)) * (max(extent_a, extent_b) + shift), kLeastWidth);
+  return max((kLawTwo + 2 * max(pose_error - kOrthonormalityError, 0)) * (max(extent_a, extent_b) + shift), kLeastWidth);
 }
 static inline double law_two(const ConvexView& a, const ConvexView& b, double shift, double pose_error) {
   return law_two(a.extent, b.extent, shift, pose_error);
@@ -92,14 +94,12 @@ static inline double stretch_of(double pose_error) { return 1 + 2 * pose_error; 
 static inline double reach(const ConvexView& view) { return view.reach > 0 ? view.reach : 2 * kSqrt3 * view.extent; }
 
 static inline PairView pair_view(const ConvexView& a, const ConvexView& b, const Motion& m, double shift, double pose_error) {
-  const double stretch = kSqrt3 * (1 + pose_error), magnitude = stretch * (a.extent + b.extent) + shift,
-               motion_error = kTurnError * stretch * b.extent + kShiftError * shift;
+  const double stretch = kSqrt3 * (1 + pose_error);
   return {a,
           b,
           m,
-          magnitude,
-          motion_error,
-          kPointError * magnitude + motion_error,
+          stretch * (a.extent + b.extent) + shift,
+          kTurnError * stretch * b.extent + kShiftError * shift,
           pose_error,
           law_two(a, b, shift, pose_error),
           reach(a),
@@ -110,10 +110,8 @@ static inline PairView pair_view(const ConvexView& a, const ConvexView& b, const
 }
 /// The same bodies with B moved by a vector of length `way`, which changes the pose to `m`.
 static inline PairView moved_by(const PairView& pair, const Motion& m, double way) {
-  const double motion_error = pair.motion_error + kShiftError * way, magnitude = pair.magnitude + way;
-  return {
-      pair.a,       pair.b,       m,           magnitude, motion_error, kPointError * magnitude + motion_error, pair.pose_error,
-      pair.law_two, pair.reach_a, pair.reach_b};
+  return {pair.a,          pair.b,       m,           pair.magnitude + way, pair.motion_error + kShiftError * way,
+          pair.pose_error, pair.law_two, pair.reach_a, pair.reach_b};
 }
 
 }  // namespace swiftlet

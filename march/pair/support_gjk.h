@@ -108,7 +108,7 @@ static inline Feet feet_of(const PairView& pair, const Simplex& simplex) {
     feet.point = feet.point + body_a(pair).point(simplex[k].va) * simplex.weight(k);
     feet.apart = feet.apart + simplex[k].p * simplex.weight(k);
   }
-  feet.upper = norm(feet.apart) * (1 + kNormError) + pair.point_error;
+  feet.upper = norm(feet.apart) * (1 + kNormError) + pair.point_error();
   return feet;
 }
 
@@ -128,7 +128,7 @@ template <class Enough>
     const bool known = s.simplex.has(s.seen.a, s.seen.b);
     if (!known) s.simplex.add({s.seen.apart, s.seen.a, s.seen.b});
     s.upper = s.simplex.count() == 4 ? 0 : norm(s.simplex.nearest());
-    if (known || s.simplex.count() == 4 || !(s.upper > pair.point_error) || enough(s) || steps == kMapGjkSteps) return s;
+    if (known || s.simplex.count() == 4 || !(s.upper > pair.point_error()) || enough(s) || steps == kMapGjkSteps) return s;
     s.seen = sample_axis(pair, a, b, s.simplex.nearest());
   }
 }

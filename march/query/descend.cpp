@@ -33,8 +33,8 @@ class Descent {
         tuning_(pair.limits.tuning),
         trace_(pair.limits.trace),
         asked_(asked),
-        stop_(asked.beyond_by(pair.law_two)),
-        law_two_(pair.law_two),
+        stop_(asked.beyond_by(pair.law_two())),
+        law_two_(pair.law_two()),
         finest_a_(pair.finest_a()),
         finest_b_(pair.finest_b()),
         has_maps_(pair.has_maps()),
@@ -412,7 +412,7 @@ void go_on(const ModelPair& pair, const StopRule& asked, double exact_width, Pai
 }
 
 Place coarsened(const ModelPair& pair, const StopRule& asked, const Answer& answer, Place found) {
-  const StopRule stop = asked.beyond_by(pair.law_two);
+  const StopRule stop = asked.beyond_by(pair.law_two());
   const double error_found = pair.deviation(found.level_a, found.level_b);
   double slack = answer.upper;  // for StartPolicy::Paper: deviations may grow by the distance
   while (found.level_a + 1 < pair.a.level_count() && found.level_b + 1 < pair.b.level_count()) {

@@ -36,9 +36,11 @@ static inline void keep(const ModelPair& pair, const StopRule& asked, const Answ
                         PairSeed& seed) {
   const Tuning& tuning = pair.limits.tuning;
   const bool stays = is_exact(asked, tuning) || tuning.start == StartPolicy::Finest || tuning.start == StartPolicy::Coarsest;
-  const Place kept = stays ? found : coarsened(pair, asked, answer, found);
-  seed.a = kept.start.a, seed.b = kept.start.b;
-  seed.level_a = std::uint8_t(kept.level_a), seed.level_b = std::uint8_t(kept.level_b);
+  const auto store = [&seed](const Place& kept) {
+    seed.a = kept.start.a, seed.b = kept.start.b;
+    seed.level_a = std::uint8_t(kept.level_a), seed.level_b = std::uint8_t(kept.level_b);
+  };
+  stays ? store(found) : store(coarsened(pair, asked, answer, found));
 }
 
 }  // namespace swiftlet

@@ -20,9 +20,10 @@ struct ModelPair {
         motion(m),
         pose_error(error),
         shift(norm(m.t)),
-        law_two(swiftlet::law_two(a.level(0).view, b.level(0).view, shift, error)),
         limits(of) {}
 
+  /// The greatest width of an exact answer about the exact hulls.
+  double law_two() const { return swiftlet::law_two(a.level(0).view, b.level(0).view, shift, pose_error); }
   Line line() const { return line_of_centres(a, b, motion); }
   /// The finest levels that the query may read.
   int finest_a() const { return finest_allowed(a, limits.budget); }
@@ -54,7 +55,7 @@ struct ModelPair {
   const Shape& a;
   const Shape& b;
   const Motion& motion;
-  const double pose_error, shift, law_two;  ///< `shift` is |t|
+  const double pose_error, shift;  ///< `shift` is |t|
   const Limits& limits;
 };
 

@@ -93,8 +93,7 @@ static inline void seal(const Radii& radii, const OverlapProof& proof, const Tun
   constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
   answer.radius_a = radii.a(), answer.radius_b = radii.b();
   if (tuning.proof) *tuning.proof = proof;
-  const Vec n = vec(answer.normal);
-  if (!separates(answer, proof) || (n.x == 0 && n.y == 0 && n.z == 0)) answer.normal.setConstant(kUnknown);
+  if (!(answer.lower > 0) && (!separates(answer, proof) || answer.normal.isZero(0))) answer.normal.setConstant(kUnknown);
   if (!(answer.upper < kInfinity)) answer.point_a.setConstant(kUnknown), answer.point_b.setConstant(kUnknown);
 }
 

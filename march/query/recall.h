@@ -14,6 +14,7 @@
 #include "pair/stop_rule.h"
 #include "pair/tetrahedron.h"
 #include "pair/walk.h"
+#include "query/ask.h"
 #include "query/descend.h"
 #include "query/limits.h"
 #include "query/model_pair.h"
@@ -45,9 +46,9 @@ namespace swiftlet {
   double upper = proof.upper;
   if (place.level_a != 0 || place.level_b != 0) {
     upper = (upper + pair.deviation(place.level_a, place.level_b)) * (1 + 2 * kU);
-    if (!asked.beyond_by(pair.law_two).met(proof.lower, upper)) return false;
+    if (!asked.beyond_by(pair.law_two()).met(proof.lower, upper)) return false;
   }
-  answer.status = proof.lower > asked.above + pair.law_two ? Status::Beyond : Status::Converged;
+  answer.status = proof.lower > asked.above ? Status::Beyond : Status::Converged;
   answer.verdict = Verdict::Disjoint;
   answer.lower = proof.lower;
   answer.upper = upper;
@@ -119,10 +120,10 @@ namespace swiftlet {
   if (const Status fault = at.fault(); fault != Status::Converged) return refuse(a, b, fault, false, answer);
   const ModelPair pair(*at.a, *at.b, at.motion, at.quality.error, limits);
   OverlapProof proof;
-  StopRule converted;
-  if (!radii.none()) converted = radii.of_hulls(asked, at.law_two());
-  answer_hulls(pair, radii.none() ? asked : converted, seed, answer, proof);
-  if (!radii.none()) {
+  if (radii.none()) {
+    answer_hulls(pair, asked, seed, answer, proof);
+  } else {
+    ask_hulls(pair, radii.of_hulls(asked, at.law_two()), seed, answer, proof);
     radii.round(answer, proof, at.law_two());
     radii.round(limits.trace, answer.levels_visited);
   }

@@ -47,8 +47,8 @@ constexpr double kLineUnit = 32767;  ///< the length of a direction in a seed
 static inline Turn turn_of(const Line& line, const PairSeed& seed, const Level& a, const Level& b) {
   const Vec4 in_a = vec4(line.in_a);
   const double whole = dot(in_a, in_a) * (kLineUnit * kLineUnit),
-               along_a = max(0, dot(in_a, vec4(seed.line_in_a.data()))),
-               along_b = max(0, dot(vec4(line.in_b), vec4(seed.line_in_b.data()))), cos2_a = along_a * along_a,
+               along_a = max(dot(in_a, vec4(seed.line_in_a.data())), 0),
+               along_b = max(dot(vec4(line.in_b), vec4(seed.line_in_b.data())), 0), cos2_a = along_a * along_a,
                cos2_b = along_b * along_b;
   const bool same_a = cos2_a >= a.same_cos2 * whole, same_b = cos2_b >= b.same_cos2 * whole;
   if (same_a & same_b) return Turn::Little;

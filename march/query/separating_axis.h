@@ -21,7 +21,7 @@ static inline bool separating_axis(const ModelPair& pair, const Vec& between, co
   const PairView view = pair.view_at(at);
   const auto clears = [&](const Vec& direction) {
     seen = sample_axis(view, of_a, of_b, direction);
-    return seen.lower > max(asked.above, 0) + pair.law_two;
+    return seen.lower > max(asked.above, 0) + pair.law_two();
   };
   const Vec last = last_direction(between, seed);
   if (!(max_abs(last) > 0 && clears(last))) {
@@ -29,7 +29,7 @@ static inline bool separating_axis(const ModelPair& pair, const Vec& between, co
     seed.normal = {};
   }
 
-  const double error = pair.deviation(level_a, level_b), upper = norm(seen.apart) * (1 + kNormError) + view.point_error;
+  const double error = pair.deviation(level_a, level_b), upper = norm(seen.apart) * (1 + kNormError) + view.point_error();
   answer.status = Status::Beyond;
   answer.verdict = Verdict::Disjoint;
   answer.lower = seen.lower;

@@ -18,15 +18,15 @@ namespace swiftlet {
 /// leads from A's centre to B's, rounded.
 static inline bool spheres_are_apart(const ModelPair& pair, const Vec& between, const StopRule& asked, Answer& answer) {
   const double radii = pair.a.radius() + pair.b.radius() * stretch_of(pair.pose_error),
-               most = radii + max(asked.above, 0) + 2 * pair.law_two, apart2 = dot(between, between);
+               most = radii + max(asked.above, 0) + 2 * pair.law_two(), apart2 = dot(between, between);
   if (!(apart2 > most * most && has_range(apart2))) return false;
   const double length = std::sqrt(apart2);
   const int level_a = pair.finest_a(), level_b = pair.finest_b();
   const Vec centre = vec(pair.a.level(0).view.centre);
   answer.status = Status::Beyond;
   answer.verdict = Verdict::Disjoint;
-  answer.lower = length - radii - pair.law_two;
-  answer.upper = length + pair.law_two + pair.deviation(level_a, level_b);
+  answer.lower = length - radii - pair.law_two();
+  answer.upper = length + pair.law_two() + pair.deviation(level_a, level_b);
   answer.normal = eigen(between * (1 / length));
   answer.point_a = eigen(centre);
   answer.point_b = eigen(centre + between);
@@ -37,7 +37,7 @@ static inline bool spheres_are_apart(const ModelPair& pair, const Vec& between, 
 /// Fills `answer` and returns true if the balls inside the bodies are proved to overlap by more than law 2's bound.
 static inline bool spheres_meet(const ModelPair& pair, const Vec& between, Answer& answer) {
   const ConvexView &a = pair.a.level(0).view, &b = pair.b.level(0).view;
-  const double radii = a.inner_radius + b.inner_radius * (2 - stretch_of(pair.pose_error)), least = radii - 2 * pair.law_two;
+  const double radii = a.inner_radius + b.inner_radius * (2 - stretch_of(pair.pose_error)), least = radii - 2 * pair.law_two();
   if (!(least > 0 && dot(between, between) < least * least) || pair.finest_a() != 0 || pair.finest_b() != 0) return false;
   answer.status = Status::Converged;
   answer.verdict = Verdict::Overlapping;
