@@ -43,11 +43,13 @@ class Descent {
         answer_(answer),
         proof_(proof) {}
 
-  /// Begins at the features of `place`; if it has none, or a walk from them gets lost, on support maps or the coarsest pair.
-  void start(Place place, PairSeed& seed) {
-    const bool warm = is_warm(place.start);
+  /// Begins at the features of `place`, where GJK on its maps ended with `found`, if that is not null; if it has no features, or
+  /// a walk from a seed's gets lost, on support maps or the coarsest pair.
+  void start(Place place, const SupportGjk* found, PairSeed& seed) {
+    const bool warm = is_warm(place.start) && !found;
     const bool walked = warm && march(place, has_maps_);
-    const bool seen = !walked && has_maps_ && map_gjk(place, last_direction(line_.in_a, seed));
+    const bool seen = found ? found->simplex.count() == 4 && overlap(place, *found) && (record(place), true)
+                            : !walked && has_maps_ && map_gjk(place, last_direction(line_.in_a, seed));
     if (!walked && !seen) march(place, false);
     const bool met = met_ == MarchStatus::Overlapping;
     if (proof_.count == 4 && answer_.level_a == 0 && answer_.level_b == 0)
@@ -129,9 +131,7 @@ class Descent {
   /// one does the same work and stops earlier.
   bool map_gjk(Place& place, const Vec& likely) {
     const bool sampled = max_abs(seen_.normal) > 0;
-    const Vec direction = sampled               ? seen_.normal
-                          : max_abs(likely) > 0 ? likely
-                                                : between_ellipsoids(a_.level(0), b_.level(0), pair_.motion, line_.in_a);
+    const Vec direction = sampled ? seen_.normal : first_direction(pair_, line_, likely);
     const Place least = pair_.finest_mapped();
     place = sampled || exact_ ? least : mapped_for(norm(line_.in_a));
     for (;;) {
@@ -402,8 +402,8 @@ class Descent {
 }  // namespace
 
 void descend(const ModelPair& pair, const Line& line, const StopRule& asked, const AxisSample& seen, const Place& place,
-             PairSeed& seed, Answer& answer, OverlapProof& proof) {
-  Descent(pair, line, asked, seen, answer, proof).start(place, seed);
+             const SupportGjk* found, PairSeed& seed, Answer& answer, OverlapProof& proof) {
+  Descent(pair, line, asked, seen, answer, proof).start(place, found, seed);
 }
 
 void go_on(const ModelPair& pair, const StopRule& asked, double exact_width, PairSeed& seed, Answer& answer,

@@ -15,9 +15,9 @@ namespace swiftlet {
 /// Answers `asked` for the hulls of two bodies: begins at the features of `place`, or, if it has none, on the maps, with the
 /// sample `seen` if its normal is not 0, or on the coarsest pair. Thresholds are passed by more than law 2's bound. `answer`
 /// must be a default one with normal 0; an unknown normal stays 0. `proof` must be empty, and is filled if the levels of the
-/// answer overlap. `line` is the pair's.
+/// answer overlap. `line` is the pair's. `found`, if not null, is where GJK on the maps of `place` ended.
 void descend(const ModelPair& pair, const Line& line, const StopRule& asked, const AxisSample& seen, const Place& place,
-             PairSeed& seed, Answer& answer, OverlapProof& proof);
+             const SupportGjk* found, PairSeed& seed, Answer& answer, OverlapProof& proof);
 
 /// The same, but goes on from what `answer` holds, which is exact if it is no wider than `exact_width` or law 2's bound.
 void go_on(const ModelPair& pair, const StopRule& asked, double exact_width, PairSeed& seed, Answer& answer,

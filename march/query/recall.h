@@ -25,19 +25,20 @@
 
 namespace swiftlet {
 
-/// Answers from one walk on the level pair of `place`, from the seed's features, if the tests that end it prove enough. Else
-/// `place` becomes where the descent goes on: at the features where the walk ended, or anywhere if it came to nothing.
-[[gnu::always_inline]] static inline bool nearest_as_before(const ModelPair& pair, const Line& line, const StopRule& asked,
+/// Answers from one walk on the level pair of `place`, from its features, if the tests that end it prove enough. Else `place`
+/// becomes where the query goes on: at the features where the walk ended, or anywhere if it came to nothing.
+[[gnu::always_inline]] static inline bool nearest_from(const ModelPair& pair, const Line& line, const StopRule& asked,
                                                             Turn turn, PairSeed& seed, Place& place, Answer& answer) {
   const Limits& limits = pair.limits;
   const PairView view = pair.view_at(place);
   const MarchStart from = settled(view, place.start, answer.plane_tests);
-  const Walk walked = walk(view, from.a, from.b, limits.tuning.plane_rule, std::min(limits.budget.steps, place.trial_steps));
-  answer.steps = walked.steps;
+  const std::uint32_t steps_left = limits.budget.steps - std::min(answer.steps, limits.budget.steps);
+  const Walk walked = walk(view, from.a, from.b, limits.tuning.plane_rule, std::min(steps_left, place.trial_steps));
+  answer.steps += walked.steps;
   answer.plane_tests += walked.plane_tests;
   Proof proof;
   if (settle(view, walked, asked.zero, asked.above, proof) != Doubt::None) {
-    const bool lost = walked.end == WalkEnd::Budget && walked.steps < limits.budget.steps;
+    const bool lost = walked.end == WalkEnd::Budget && walked.steps < steps_left;
     place =
         lost ? coarsest_place(pair.a, pair.b) : Place{place.level_a, place.level_b, {walked.a, walked.b}, place.trial_steps};
     return false;
@@ -63,6 +64,24 @@ namespace swiftlet {
   turn == Turn::Little ? remember(proof.normal, seed) : remember(line, proof.normal, seed);
   seed.met = false;
   return true;
+}
+
+/// True if a cold query begins on the maps of the level pair that answers it.
+static inline bool starts_on_maps(const ModelPair& pair, const StopRule& asked) {
+  const Place at = pair.finest_mapped();
+  return is_exact(asked, pair.limits.tuning) && pair.has_maps() && at.level_a == pair.finest_a() &&
+         at.level_b == pair.finest_b();
+}
+/// GJK on the maps of the finest level pair. `place` becomes where a walk begins.
+static inline SupportGjk nearest_on_maps(const ModelPair& pair, const Line& line, const PairSeed& seed, Place& place) {
+  place = pair.finest_mapped();
+  const PairView view = pair.view_at(place);
+  const Level &a = pair.a.level(place.level_a), &b = pair.b.level(place.level_b);
+  const AxisSample first = sample_axis(view, a, b, first_direction(pair, line, last_direction(line.in_a, seed)));
+  const SupportGjk found = support_gjk(view, a, b, pair.deviation(place.level_a, place.level_b), first,
+                                       [](const SupportGjk& s) { return s.near; });
+  place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
+  return found;
 }
 
 /// Answers that the bodies overlap if the vertex pairs that proved it last time still do.
@@ -105,10 +124,16 @@ namespace swiftlet {
     return;
   Turn turn;
   Place place = first_place(pair.a, pair.b, line, seed, pair.finest_a(), pair.finest_b(), tuning.start, turn);
-  const bool is_warm = place.start.a.kind() != FeatureKind::None && tuning.start != StartPolicy::Coarsest;
-  if (is_warm && !tuning.careful && nearest_as_before(pair, line, asked, turn, seed, place, answer)) return;
+  const auto has_features = [&place] { return place.start.a.kind() != FeatureKind::None; };
+  const bool walks = !tuning.careful && tuning.start != StartPolicy::Coarsest;
+  if (walks && has_features() && nearest_from(pair, line, asked, turn, seed, place, answer)) return;
   answer.normal.setZero();
-  descend(pair, line, asked, seen, place, seed, answer, proof);
+  if (walks && !has_features() && starts_on_maps(pair, asked)) {
+    const SupportGjk found = nearest_on_maps(pair, line, seed, place);
+    if (found.simplex.count() < 4 && nearest_from(pair, line, asked, Turn::Some, seed, place, answer)) return;
+    return descend(pair, line, asked, seen, place, &found, seed, answer, proof);
+  }
+  descend(pair, line, asked, seen, place, nullptr, seed, answer, proof);
 }
 
 /// As `ask`.

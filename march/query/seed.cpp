@@ -49,13 +49,6 @@ Place place_by_policy(const Shape& a, const Shape& b, const Line& line, const Pa
   }
 }
 
-void remember(const Line& line, const Padded& normal, PairSeed& seed) {
-  remember(normal, seed);
-  const double length = norm(line.in_a), inverse = length > 0 ? (1 - 4 * kU) / length : 0;  // so that no coordinate is above 1
-  const double scale = std::isfinite(inverse) ? inverse : 0;  // centres nearer than 1e-308 count as one point
-  pack(vec4(line.in_a) * scale, seed.line_in_a), pack(vec4(line.in_b) * scale, seed.line_in_b);
-}
-
 FeatureId child(const Shape& body, int level, FeatureId feature) {
   const Level& from = body.level(level);
   const ConvexView& fine = body.level(level - 1).view;

@@ -97,7 +97,12 @@ static inline void pack(const Vec4& unit, std::array<std::int16_t, 3>& units) { 
 /// Stores an answer's normal in the seed.
 static inline void remember(const Padded& normal, PairSeed& seed) { pack(vec4(normal) * (1 - 4 * kU), seed.normal); }
 /// Stores the line of centres and an answer's normal in the seed.
-void remember(const Line& line, const Padded& normal, PairSeed& seed);
+static inline void remember(const Line& line, const Padded& normal, PairSeed& seed) {
+  remember(normal, seed);
+  const double length = norm(line.in_a), inverse = length > 0 ? (1 - 4 * kU) / length : 0;  // so that no coordinate is above 1
+  const double scale = std::isfinite(inverse) ? inverse : 0;  // centres nearer than 1e-308 count as one point
+  pack(vec4(line.in_a) * scale, seed.line_in_a), pack(vec4(line.in_b) * scale, seed.line_in_b);
+}
 static inline Vec direction(const PairSeed& seed) {
   return {double(seed.normal[0]), double(seed.normal[1]), double(seed.normal[2])};
 }
