@@ -50,7 +50,7 @@ class FacetProof {
   }
 
   const Vec& normal() const { return normal_; }
-  double height() const { return height_; }                     ///< of the polygon's lowest corner along the normal
+  double height() const { return height_; }                       ///< of the polygon's lowest corner along the normal
   double lower() const { return height_ - pair_.point_error(); }  ///< `height()` less the rounding bound
 
   /// Finds the point of the polygon over the origin and returns its distance from `normal()` * `height()`; infinite if there is

@@ -507,18 +507,21 @@ Move state(Marcher& march, const A& a, FeatureId fa, const B& b, FeatureId fb) {
   Marcher march(pair, rule, result);
   const Resting4 resting(pair);
   const Moved4 moved(pair);
-  double distance2, least2 = kUnknown;
+  double least2 = kUnknown;
   std::uint32_t stalled = 0;
-  do {
+  for (;;) {
     const Move move = state(march, resting, result.a, moved, result.b);
-    distance2 = move.distance2;
-    stalled = distance2 < least2 ? 0 : stalled + 1;
-    least2 = min(least2, distance2);
-    result.steps += (move.first != result.a) | (move.second != result.b);
+    const bool stays = move.first == result.a && move.second == result.b;
     result.a = move.first;
     result.b = move.second;
-    if (stalled >= kStallLimit && result.end == WalkEnd::Budget) result.end = WalkEnd::Stalled;
-  } while (result.end == WalkEnd::Budget && result.steps < step_budget);
+    result.steps += !stays;
+    if (result.end != WalkEnd::Budget || result.steps >= step_budget) break;
+    stalled = move.distance2 < least2 ? 0 : stalled + 1;
+    least2 = min(least2, move.distance2);
+    if (stalled < kStallLimit) continue;
+    result.end = WalkEnd::Stalled;
+    break;
+  }
   return result;
 }
 

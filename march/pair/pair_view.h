@@ -110,8 +110,8 @@ static inline PairView pair_view(const ConvexView& a, const ConvexView& b, const
 }
 /// The same bodies with B moved by a vector of length `way`, which changes the pose to `m`.
 static inline PairView moved_by(const PairView& pair, const Motion& m, double way) {
-  return {pair.a,          pair.b,       m,           pair.magnitude + way, pair.motion_error + kShiftError * way,
-          pair.pose_error, pair.law_two, pair.reach_a, pair.reach_b};
+  return {pair.a,       pair.b,       m,           pair.magnitude + way, pair.motion_error + kShiftError * way, pair.pose_error,
+          pair.law_two, pair.reach_a, pair.reach_b};
 }
 
 }  // namespace swiftlet

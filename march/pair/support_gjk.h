@@ -116,7 +116,7 @@ static inline Feet feet_of(const PairView& pair, const Simplex& simplex) {
 /// levels have maps. Supports that overlap, but by less than `hidden`, count as `near` too.
 template <class Enough>
 [[gnu::flatten]] static SupportGjk support_gjk(const PairView& pair, const Level& a, const Level& b, double hidden,
-                                        const AxisSample& seen, Enough enough) {
+                                               const AxisSample& seen, Enough enough) {
   const double few = kNearEdges * (a.edge_length + b.edge_length);
   SupportGjk s;
   s.seen = seen;

@@ -43,8 +43,8 @@ class Descent {
         answer_(answer),
         proof_(proof) {}
 
-  /// Begins at the features of `place`, where GJK on its maps ended with `found`, if that is not null; if it has no features, or
-  /// a walk from a seed's gets lost, on support maps or the coarsest pair.
+  /// Begins at the features of `place`, where GJK on its maps ended with `found`, if that is not null; if it has no features,
+  /// or a walk from a seed's gets lost, on support maps or the coarsest pair.
   void start(Place place, const SupportGjk* found, PairSeed& seed) {
     const bool warm = is_warm(place.start) && !found;
     const bool walked = warm && march(place, has_maps_);

@@ -15,12 +15,7 @@ namespace swiftlet {
 
 struct ModelPair {
   ModelPair(const Shape& of_a, const Shape& of_b, const Motion& m, double error, const Limits& of)
-      : a(of_a),
-        b(of_b),
-        motion(m),
-        pose_error(error),
-        shift(norm(m.t)),
-        limits(of) {}
+      : a(of_a), b(of_b), motion(m), pose_error(error), shift(norm(m.t)), limits(of) {}
 
   /// The greatest width of an exact answer about the exact hulls.
   double law_two() const { return swiftlet::law_two(a.level(0).view, b.level(0).view, shift, pose_error); }

@@ -28,7 +28,7 @@ namespace swiftlet {
 /// Answers from one walk on the level pair of `place`, from its features, if the tests that end it prove enough. Else `place`
 /// becomes where the query goes on: at the features where the walk ended, or anywhere if it came to nothing.
 [[gnu::always_inline]] static inline bool nearest_from(const ModelPair& pair, const Line& line, const StopRule& asked,
-                                                            Turn turn, PairSeed& seed, Place& place, Answer& answer) {
+                                                       Turn turn, PairSeed& seed, Place& place, Answer& answer) {
   const Limits& limits = pair.limits;
   const PairView view = pair.view_at(place);
   const MarchStart from = settled(view, place.start, answer.plane_tests);
@@ -78,8 +78,8 @@ static inline SupportGjk nearest_on_maps(const ModelPair& pair, const Line& line
   const PairView view = pair.view_at(place);
   const Level &a = pair.a.level(place.level_a), &b = pair.b.level(place.level_b);
   const AxisSample first = sample_axis(view, a, b, first_direction(pair, line, last_direction(line.in_a, seed)));
-  const SupportGjk found = support_gjk(view, a, b, pair.deviation(place.level_a, place.level_b), first,
-                                       [](const SupportGjk& s) { return s.near; });
+  const SupportGjk found =
+      support_gjk(view, a, b, pair.deviation(place.level_a, place.level_b), first, [](const SupportGjk& s) { return s.near; });
   place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
   return found;
 }

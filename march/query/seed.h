@@ -46,8 +46,7 @@ constexpr double kLineUnit = 32767;  ///< the length of a direction in a seed
 /// `a` and `b` are the levels of the seed.
 static inline Turn turn_of(const Line& line, const PairSeed& seed, const Level& a, const Level& b) {
   const Vec4 in_a = vec4(line.in_a);
-  const double whole = dot(in_a, in_a) * (kLineUnit * kLineUnit),
-               along_a = max(dot(in_a, vec4(seed.line_in_a.data())), 0),
+  const double whole = dot(in_a, in_a) * (kLineUnit * kLineUnit), along_a = max(dot(in_a, vec4(seed.line_in_a.data())), 0),
                along_b = max(dot(vec4(line.in_b), vec4(seed.line_in_b.data())), 0), cos2_a = along_a * along_a,
                cos2_b = along_b * along_b;
   const bool same_a = cos2_a >= a.same_cos2 * whole, same_b = cos2_b >= b.same_cos2 * whole;
@@ -56,7 +55,8 @@ static inline Turn turn_of(const Line& line, const PairSeed& seed, const Level& 
     const bool known = (was[0] | was[1] | was[2]) != 0;  // not of a seed made by hand
     return known && cos2 < level.near_cos2 * whole;
   };
-  return (!same_a && is_far(cos2_a, seed.line_in_a, a)) || (!same_b && is_far(cos2_b, seed.line_in_b, b)) ? Turn::Far : Turn::Some;
+  return (!same_a && is_far(cos2_a, seed.line_in_a, a)) || (!same_b && is_far(cos2_b, seed.line_in_b, b)) ? Turn::Far
+                                                                                                          : Turn::Some;
 }
 
 /// The finest level of a body that a query may read.
