@@ -19,7 +19,12 @@ struct ModelPair {
 
   /// The greatest width of an exact answer about the exact hulls.
   double law_two() const { return swiftlet::law_two(a.level(0).view, b.level(0).view, shift, pose_error); }
-  Line line() const { return line_of_centres(a, b, motion); }
+  Line line() const {
+    const Vec4 in_a = between_centres(a, b, motion);
+    Line line;
+    store(in_a, line.in_a), store(turned_line(in_a, motion), line.in_b);
+    return line;
+  }
   /// The finest levels that the query may read.
   int finest_a() const { return finest_allowed(a, limits.budget); }
   int finest_b() const { return finest_allowed(b, limits.budget); }

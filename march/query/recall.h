@@ -112,7 +112,8 @@ static inline SupportGjk nearest_on_maps(const ModelPair& pair, const Line& line
                                                        Answer& answer, OverlapProof& proof) {
   const Tuning& tuning = pair.limits.tuning;
   const bool automatic = tuning.start == StartPolicy::Automatic;
-  const Line line = pair.line();
+  Line line;
+  store(between_centres(pair.a, pair.b, pair.motion), line.in_a);
   const bool asks = asked.is_threshold(), unwatched = pair.limits.trace.empty() && !tuning.proof && !tuning.careful;
   if (asks && automatic && unwatched && spheres_are_apart(pair, line.in_a, asked, answer)) return;
   if ((asks || seed.met) && automatic && unwatched && spheres_meet(pair, line.in_a, answer)) return;
@@ -122,6 +123,7 @@ static inline SupportGjk nearest_on_maps(const ModelPair& pair, const Line& line
   if (asks && !seed.met && pair.limits.trace.empty() && pair.has_maps() &&
       separating_axis(pair, line.in_a, asked, seed, seen, answer))
     return;
+  store(turned_line(vec4(line.in_a), pair.motion), line.in_b);
   Turn turn;
   Place place = first_place(pair.a, pair.b, line, seed, pair.finest_a(), pair.finest_b(), tuning.start, turn);
   const auto has_features = [&place] { return place.start.a.kind() != FeatureKind::None; };

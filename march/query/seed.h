@@ -27,12 +27,15 @@ struct Place {
 struct Line {
   Padded in_a, in_b;
 };
-static inline Line line_of_centres(const Shape& a, const Shape& b, const Motion& m) {
-  const Vec4 x = vec4(m.row_x), y = vec4(m.row_y), z = vec4(m.row_z), centre_b = vec4(vec(b.level(0).view.centre));
-  const Vec4 in_a = dots(x, centre_b, y, centre_b, z, centre_b, z, centre_b) + vec4(m.t) - vec4(vec(a.level(0).view.centre));
-  Line line;
-  store(in_a, line.in_a), store(-dot(repeated(in_a), V3<Vec4>{x, y, z}), line.in_b);
-  return line;
+/// From A's centre to B's, in A's frame.
+static inline Vec4 between_centres(const Shape& a, const Shape& b, const Motion& m) {
+  const Vec4 centre_b = vec4(vec(b.level(0).view.centre)), z = vec4(m.row_z);
+  return dots(vec4(m.row_x), centre_b, vec4(m.row_y), centre_b, z, centre_b, z, centre_b) + vec4(m.t) -
+         vec4(vec(a.level(0).view.centre));
+}
+/// From B's centre to A's in B's frame, where `in_a` leads the other way in A's.
+static inline Vec4 turned_line(const Vec4& in_a, const Motion& m) {
+  return -dot(repeated(in_a), V3<Vec4>{vec4(m.row_x), vec4(m.row_y), vec4(m.row_z)});
 }
 
 /// How far the line of centres has turned since a seed was stored.
