@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "numeric/vec4.h"
 #include "shapes.h"
 
 namespace swiftlet::exact {

@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "numeric/vec4.h"
+
 namespace swiftlet::exact {
 namespace {
 

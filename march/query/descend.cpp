@@ -23,7 +23,7 @@ namespace {
 
 class Descent {
  public:
-  Descent(const ModelPair& pair, const Line& line, const StopRule& asked, const AxisSample& seen, Answer& answer,
+  Descent(const ModelPair& pair, const Line& line, const StopRule& asked, const Beginning& from, Answer& answer,
           OverlapProof& proof)
       : pair_(pair),
         a_(pair.a),
@@ -39,18 +39,18 @@ class Descent {
         finest_b_(pair.finest_b()),
         has_maps_(pair.has_maps()),
         exact_(is_exact(asked, tuning_)),
-        seen_(seen),
+        from_(from),
         answer_(answer),
         proof_(proof) {}
 
-  /// Begins at the features of `place`, where GJK on its maps ended with `found`, if that is not null; if it has no features,
-  /// or a walk from a seed's gets lost, on support maps or the coarsest pair.
-  void start(Place place, const SupportGjk* found, PairSeed& seed) {
-    const bool warm = is_warm(place.start) && !found;
-    const bool walked = warm && march(place, has_maps_);
-    const bool seen = found ? found->simplex.count() == 4 && overlap(place, *found) && (record(place), true)
-                            : !walked && has_maps_ && map_gjk(place, last_direction(line_.in_a, seed));
-    if (!walked && !seen) march(place, false);
+  /// Begins at the features of `place`; if it has none, or a walk from a seed's gets lost, on support maps or the coarsest
+  /// pair.
+  void start(Place place, PairSeed& seed) {
+    const SupportGjk* on_maps = from_.on_maps;
+    const bool walked = is_warm(place.start) && !on_maps && march(place, has_maps_, from_.walk);
+    const bool seen = on_maps ? on_maps->simplex.count() == 4 && overlap(place, *on_maps) && (record(place), true)
+                              : !walked && has_maps_ && map_gjk(place, last_direction(line_.in_a, seed));
+    if (!walked && !seen) march(place, false, on_maps ? from_.walk : nullptr);
     const bool met = met_ == MarchStatus::Overlapping;
     if (proof_.count == 4 && answer_.level_a == 0 && answer_.level_b == 0)
       seed.inside_a = proof_.vertex_a, seed.inside_b = proof_.vertex_b;
@@ -130,8 +130,8 @@ class Descent {
   /// every finer pair and begins anew there, from the same direction: of two tolerances that begin on the same pair, the looser
   /// one does the same work and stops earlier.
   bool map_gjk(Place& place, const Vec& likely) {
-    const bool sampled = max_abs(seen_.normal) > 0;
-    const Vec direction = sampled ? seen_.normal : first_direction(pair_, line_, likely);
+    const bool sampled = max_abs(from_.seen.normal) > 0;
+    const Vec direction = sampled ? from_.seen.normal : first_direction(pair_, line_, likely);
     const Place least = pair_.finest_mapped();
     place = sampled || exact_ ? least : mapped_for(norm(line_.in_a));
     for (;;) {
@@ -139,7 +139,7 @@ class Descent {
       const PairView pair = view_at(place);
       const Level &of_a = a_.level(place.level_a), &of_b = b_.level(place.level_b);
       const double error = deviation(place.level_a, place.level_b);
-      const AxisSample seen = sampled ? seen_ : sample_axis(pair, of_a, of_b, direction);
+      const AxisSample seen = sampled ? from_.seen : sample_axis(pair, of_a, of_b, direction);
       const SupportGjk found = support_gjk(pair, of_a, of_b, error, seen, [&](const SupportGjk& s) {
         if (exact_) return s.near;
         const double lower = max(answer_.lower, s.most_lower), upper = min(answer_.upper, s.upper + error);
@@ -208,17 +208,13 @@ class Descent {
   }
 
   /// Walks and certifies from level pair to finer level pair until the question is answered. Returns false if `may_give_up` and
-  /// the start has turned out to be worse than none.
-  bool march(Place& place, bool may_give_up) {
-    for (;;) {
+  /// the start has turned out to be worse than none. `known`, if not null, is the walk on the first pair.
+  bool march(Place& place, bool may_give_up, const Walk* known = nullptr) {
+    for (;; known = nullptr) {
       const PairView pair = view_at(place);
       const bool last = finest(place);
       met_ = MarchStatus::NotConverged;
-      place.start = settled(pair, place.start, answer_.plane_tests);
-      const Walk walked =
-          walk(pair, place.start.a, place.start.b, tuning_.plane_rule, std::min(steps_left(), place.trial_steps));
-      answer_.steps += walked.steps;
-      answer_.plane_tests += walked.plane_tests;
+      const Walk walked = known ? *known : walk_on(pair, place);
       spent_ = walked.end == WalkEnd::Budget && answer_.steps >= budget_.steps;
       const bool lost = walked.end == WalkEnd::Budget && !spent_;
       const bool wanted = last || worth_certifying(place, walked);
@@ -242,6 +238,14 @@ class Descent {
       if (last || spent_ || answered()) return true;
       place = refined(place);
     }
+  }
+
+  Walk walk_on(const PairView& pair, const Place& place) {
+    const MarchStart from = settled(pair, place.start, answer_.plane_tests);
+    const Walk walked = walk(pair, from.a, from.b, tuning_.plane_rule, std::min(steps_left(), place.trial_steps));
+    answer_.steps += walked.steps;
+    answer_.plane_tests += walked.plane_tests;
+    return walked;
   }
 
   /// True if a coarse pair is to be certified. A pair whose walk ended at a minimum always is, so that queries with different
@@ -388,8 +392,8 @@ class Descent {
   const double law_two_;
   const int finest_a_, finest_b_;
   const bool has_maps_;
-  const bool exact_;        ///< the distance is asked exactly: no coarser pair can answer
-  const AxisSample& seen_;  ///< on the finest pair with maps; its normal is 0 if nothing was sampled
+  const bool exact_;  ///< the distance is asked exactly: no coarser pair can answer
+  const Beginning& from_;
   Answer& answer_;
   OverlapProof& proof_;
   MarchStatus met_ = MarchStatus::NotConverged;
@@ -401,14 +405,16 @@ class Descent {
 
 }  // namespace
 
-void descend(const ModelPair& pair, const Line& line, const StopRule& asked, const AxisSample& seen, const Place& place,
-             const SupportGjk* found, PairSeed& seed, Answer& answer, OverlapProof& proof) {
-  Descent(pair, line, asked, seen, answer, proof).start(place, found, seed);
+void descend(const ModelPair& pair, const Line& line, const StopRule& asked, const Beginning& from, const Place& place,
+             PairSeed& seed, Answer& answer, OverlapProof& proof) {
+  Descent(pair, line, asked, from, answer, proof).start(place, seed);
 }
 
 void go_on(const ModelPair& pair, const StopRule& asked, double exact_width, PairSeed& seed, Answer& answer,
            OverlapProof& proof) {
-  Descent(pair, pair.line(), asked, {}, answer, proof).go_on(seed, exact_width);
+  const Line line = pair.line();
+  const Beginning anywhere{};
+  Descent(pair, line, asked, anywhere, answer, proof).go_on(seed, exact_width);
 }
 
 Place coarsened(const ModelPair& pair, const StopRule& asked, const Answer& answer, Place found) {

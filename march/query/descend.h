@@ -7,17 +7,23 @@
 
 #include "pair/stop_rule.h"
 #include "pair/support_gjk.h"
+#include "pair/walk.h"
 #include "query/model_pair.h"
 #include "query/seed.h"
 
 namespace swiftlet {
 
-/// Answers `asked` for the hulls of two bodies: begins at the features of `place`, or, if it has none, on the maps, with the
-/// sample `seen` if its normal is not 0, or on the coarsest pair. Thresholds are passed by more than law 2's bound. `answer`
-/// must be a default one with normal 0; an unknown normal stays 0. `proof` must be empty, and is filled if the levels of the
-/// answer overlap. `line` is the pair's. `found`, if not null, is where GJK on the maps of `place` ended.
-void descend(const ModelPair& pair, const Line& line, const StopRule& asked, const AxisSample& seen, const Place& place,
-             const SupportGjk* found, PairSeed& seed, Answer& answer, OverlapProof& proof);
+/// What a query has found out before it descends.
+struct Beginning {
+  AxisSample seen;                      ///< on the finest pair with maps; its normal is 0 if nothing was sampled
+  const SupportGjk* on_maps = nullptr;  ///< where GJK on the maps of the first place ended
+  const Walk* walk = nullptr;           ///< a walk on the first place that did not answer, counted already
+};
+/// Answers `asked` for the hulls of two bodies: begins at the features of `place`, or, if it has none, on the maps or on the
+/// coarsest pair. Thresholds are passed by more than law 2's bound. `answer` must be a default one with normal 0; an unknown
+/// normal stays 0. `proof` must be empty, and is filled if the levels of the answer overlap. `line` is the pair's.
+void descend(const ModelPair& pair, const Line& line, const StopRule& asked, const Beginning& from, const Place& place,
+             PairSeed& seed, Answer& answer, OverlapProof& proof);
 
 /// The same, but goes on from what `answer` holds, which is exact if it is no wider than `exact_width` or law 2's bound.
 void go_on(const ModelPair& pair, const StopRule& asked, double exact_width, PairSeed& seed, Answer& answer,

@@ -25,25 +25,23 @@
 
 namespace swiftlet {
 
-/// Answers from one walk on the level pair of `place`, from its features, if the tests that end it prove enough. Else `place`
-/// becomes where the query goes on: at the features where the walk ended, or anywhere if it came to nothing.
-[[gnu::always_inline]] static inline bool nearest_from(const ModelPair& pair, const Line& line, const StopRule& asked,
-                                                       Turn turn, PairSeed& seed, Place& place, Answer& answer) {
+/// Walks on the level pair of `place`, from its features.
+[[gnu::always_inline]] static inline Walk walk_from(const ModelPair& pair, const PairView& view, const Place& place,
+                                                    Answer& answer) {
   const Limits& limits = pair.limits;
-  const PairView view = pair.view_at(place);
   const MarchStart from = settled(view, place.start, answer.plane_tests);
   const std::uint32_t steps_left = limits.budget.steps - std::min(answer.steps, limits.budget.steps);
-  const Walk walked = walk(view, from.a, from.b, limits.tuning.plane_rule, std::min(steps_left, place.trial_steps));
+  return walk(view, from.a, from.b, limits.tuning.plane_rule, std::min(steps_left, place.trial_steps));
+}
+/// Answers from a walk on the level pair of `place` if the tests that end it prove enough. `place` gets the walk's features.
+[[gnu::always_inline]] static inline bool answers(const ModelPair& pair, const PairView& view, const Walk& walked,
+                                                  const Line& line, const StopRule& asked, Turn turn, PairSeed& seed,
+                                                  Place& place, Answer& answer) {
   answer.steps += walked.steps;
   answer.plane_tests += walked.plane_tests;
-  Proof proof;
-  if (settle(view, walked, asked.zero, asked.above, proof) != Doubt::None) {
-    const bool lost = walked.end == WalkEnd::Budget && walked.steps < steps_left;
-    place =
-        lost ? coarsest_place(pair.a, pair.b) : Place{place.level_a, place.level_b, {walked.a, walked.b}, place.trial_steps};
-    return false;
-  }
   place.start = {walked.a, walked.b};
+  Proof proof;
+  if (settle(view, walked, asked.zero, asked.above, proof) != Doubt::None) return false;
   double upper = proof.upper;
   if (place.level_a != 0 || place.level_b != 0) {
     upper = (upper + pair.deviation(place.level_a, place.level_b)) * (1 + 2 * kU);
@@ -59,7 +57,7 @@ namespace swiftlet {
   answer.level_a = std::int16_t(place.level_a), answer.level_b = std::int16_t(place.level_b);
   answer.feature_a = walked.a, answer.feature_b = walked.b;
   answer.levels_visited = 1;
-  note(limits.trace, 0, {place.level_a, place.level_b, answer.lower, answer.upper, answer.steps, answer.plane_tests});
+  note(pair.limits.trace, 0, {place.level_a, place.level_b, answer.lower, answer.upper, answer.steps, answer.plane_tests});
   keep(pair, asked, answer, place, seed);
   turn == Turn::Little ? remember(proof.normal, seed) : remember(line, proof.normal, seed);
   seed.met = false;
@@ -72,10 +70,9 @@ static inline bool starts_on_maps(const ModelPair& pair, const StopRule& asked) 
   return is_exact(asked, pair.limits.tuning) && pair.has_maps() && at.level_a == pair.finest_a() &&
          at.level_b == pair.finest_b();
 }
-/// GJK on the maps of the finest level pair. `place` becomes where a walk begins.
-static inline SupportGjk nearest_on_maps(const ModelPair& pair, const Line& line, const PairSeed& seed, Place& place) {
-  place = pair.finest_mapped();
-  const PairView view = pair.view_at(place);
+/// GJK on the maps of `place`, which gets the features where a walk begins.
+static inline SupportGjk nearest_on_maps(const ModelPair& pair, const PairView& view, const Line& line, const PairSeed& seed,
+                                         Place& place) {
   const Level &a = pair.a.level(place.level_a), &b = pair.b.level(place.level_b);
   const AxisSample first = sample_axis(view, a, b, first_direction(pair, line, last_direction(line.in_a, seed)));
   const SupportGjk found =
@@ -126,16 +123,27 @@ static inline SupportGjk nearest_on_maps(const ModelPair& pair, const Line& line
   store(turned_line(vec4(line.in_a), pair.motion), line.in_b);
   Turn turn;
   Place place = first_place(pair.a, pair.b, line, seed, pair.finest_a(), pair.finest_b(), tuning.start, turn);
-  const auto has_features = [&place] { return place.start.a.kind() != FeatureKind::None; };
   const bool walks = !tuning.careful && tuning.start != StartPolicy::Coarsest;
-  if (walks && has_features() && nearest_from(pair, line, asked, turn, seed, place, answer)) return;
-  answer.normal.setZero();
-  if (walks && !has_features() && starts_on_maps(pair, asked)) {
-    const SupportGjk found = nearest_on_maps(pair, line, seed, place);
-    if (found.simplex.count() < 4 && nearest_from(pair, line, asked, Turn::Some, seed, place, answer)) return;
-    return descend(pair, line, asked, seen, place, &found, seed, answer, proof);
+  if (walks && place.start.a.kind() != FeatureKind::None) {
+    const PairView view = pair.view_at(place);
+    const Walk walked = walk_from(pair, view, place, answer);
+    if (answers(pair, view, walked, line, asked, turn, seed, place, answer)) return;
+    answer.normal.setZero();
+    const bool lost = walked.end == WalkEnd::Budget && answer.steps < pair.limits.budget.steps;
+    if (!lost) return descend(pair, line, asked, {seen, nullptr, &walked}, place, seed, answer, proof);
+    place = coarsest_place(pair.a, pair.b);
   }
-  descend(pair, line, asked, seen, place, nullptr, seed, answer, proof);
+  answer.normal.setZero();
+  if (!walks || place.start.a.kind() != FeatureKind::None || !starts_on_maps(pair, asked))
+    return descend(pair, line, asked, {seen}, place, seed, answer, proof);
+  place = pair.finest_mapped();
+  const PairView view = pair.view_at(place);
+  const SupportGjk found = nearest_on_maps(pair, view, line, seed, place);
+  if (found.simplex.count() == 4) return descend(pair, line, asked, {seen, &found}, place, seed, answer, proof);
+  const Walk walked = walk_from(pair, view, place, answer);
+  if (answers(pair, view, walked, line, asked, Turn::Some, seed, place, answer)) return;
+  answer.normal.setZero();
+  descend(pair, line, asked, {seen, &found, &walked}, place, seed, answer, proof);
 }
 
 /// As `ask`.

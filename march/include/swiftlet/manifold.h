@@ -57,7 +57,7 @@ struct ManifoldOptions {
 /// keep 0.6 of a round face, eight 0.87; four keep all of a square; of any face three keep at least 0.28, four 0.5, eight 0.78.
 /// Points of `previous`, this pair's last manifold, are preferred. The least separation equals the answer's within `tolerance`.
 /// The manifold is empty if the answer has no normal (as a distance has none in an overlap), other radii than the bodies, or
-/// levels or features that the bodies lack. Allocates nothing; uses 4.2 kB of stack. Cost: the sum of both faces' sides.
+/// levels or features that the bodies lack. Allocates nothing; uses 4.3 kB of stack. Cost: the sum of both faces' sides.
 Manifold manifold(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const ManifoldOptions& options = {},
                   const Manifold& previous = {});
 
