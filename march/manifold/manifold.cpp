@@ -44,7 +44,7 @@ void grow(const PairView& pair, const Anchor& w, double margin, double bound, co
   if (b.name().kind() == FeatureKind::Face) manifold.face_b = b.name();
 
   const Projection projection(pair, w.normal, w.point_a, any_side(pair, a, b));
-  Candidates candidates(margin + bound, previous);
+  Candidates candidates(w.separation - bound / 2, margin + bound, previous);
   clip(projection, a, b, bound / 2, candidates);  // a corner counts as inside of a face that it misses by so much
   if (candidates.count() == 0 || w.separation < candidates.least() - bound / 2)
     candidates.add_deepest({{0, 0, 0}, w.separation, named(pair.a, w.feature_a), named(pair.b, w.feature_b)});
@@ -55,8 +55,10 @@ void grow(const PairView& pair, const Anchor& w, double margin, double bound, co
 Anchor anchor(const PairView& pair, const Radii& radii, const Answer& answer) {
   const Vec n = vec(answer.normal), point_a = vec(answer.point_a) - n * radii.a(),
             point_b = vec(answer.point_b) + n * radii.b();
+  // The points of a touching pair may be one, which is as far from the interval as law 2 allows.
+  const double separation = min(max(dot(n, point_b - point_a), answer.lower + radii.sum()), answer.upper + radii.sum());
   std::uint32_t tests = 0;
-  return {n, point_a, dot(n, point_b - point_a), feature_at_a(pair, answer.feature_a, point_a, tests),
+  return {n, point_a, separation, feature_at_a(pair, answer.feature_a, point_a, tests),
           feature_at_b(pair, answer.feature_b, point_b, tests)};
 }
 
