@@ -16,8 +16,7 @@ double twice_area(const Vec& p, const Vec& q, const Vec& r) {
 
 }  // namespace
 
-void Candidates::add(Border border, Candidate candidate) {
-  candidate.separation = max(candidate.separation, nearest_);
+void Candidates::add(Border border, const Candidate& candidate) {
   if (!(candidate.separation <= farthest_) || has_named(candidate)) return;
   if (is_known(candidate) && known_count_ < int(kMostManifoldPoints)) known_[std::size_t(known_count_++)] = candidate;
   if (candidate.separation < deepest_)

@@ -35,14 +35,12 @@ inline constexpr int kMostCandidates = kMostCorners + int(kMostManifoldPoints);
 /// that `previous` names come in addition, so that what stays does not depend on them.
 class Candidates {
  public:
-  /// Corners with a separation above `farthest` are left out. No points of the bodies are nearer than `nearest`: a corner that
-  /// lies beside a steep face, and counts as inside, seems to be.
-  Candidates(double nearest, double farthest, const Manifold& previous)
-      : nearest_(nearest), farthest_(farthest), previous_(previous) {}
+  /// Corners with a separation above `farthest` are left out.
+  Candidates(double farthest, const Manifold& previous) : farthest_(farthest), previous_(previous) {}
 
   /// Adds the corner that follows on a border, which is seen from below to above, unless one with its names is kept already:
   /// sides that are nearly parallel may pass the lead twice, and a corner may come as a crossing near it and as itself.
-  void add(Border border, Candidate candidate);
+  void add(Border border, const Candidate& candidate);
   /// Joins both borders into one row around the area, and drops the corners that `previous` names and that are in the row.
   void close();
   /// Adds a point deeper than all corners, after `close`; it takes the place of the corners with its names.
@@ -61,7 +59,7 @@ class Candidates {
   bool is_deepest(int i) const { return is_same(at(i), deepest_named_); }
   void thin();
 
-  const double nearest_, farthest_;
+  const double farthest_;
   const Manifold& previous_;
   double deepest_ = std::numeric_limits<double>::infinity();
   struct {

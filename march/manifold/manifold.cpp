@@ -25,13 +25,15 @@ struct Anchor {
 };
 
 /// The contact points of a candidate. If one of its features is a vertex, that body's point is the vertex; the other body's
-/// point lies on the line through it along the normal.
-ManifoldPoint placed(const PairView& pair, const Projection& projection, const Candidate& c) {
-  const Vec across = projection.a.n * c.separation;
+/// point lies on the line through it along the normal. No points are nearer than `nearest`, but a corner that lies beside a
+/// steep face and counts as inside seems to be.
+ManifoldPoint placed(const PairView& pair, const Projection& projection, const Candidate& c, double nearest) {
+  const double separation = max(c.separation, nearest);
+  const Vec across = projection.a.n * separation;
   const Vec point_a = c.feature_a.kind() == FeatureKind::Vertex   ? body_a(pair).point(c.feature_a.index())
                       : c.feature_b.kind() == FeatureKind::Vertex ? body_b(pair).point(c.feature_b.index()) - across
                                                                   : projection.point(c.on_a);
-  return {eigen(point_a), eigen(point_a + across), c.separation, c.feature_a, c.feature_b};
+  return {eigen(point_a), eigen(point_a + across), separation, c.feature_a, c.feature_b};
 }
 
 /// Fills the manifold of two hulls; points farther apart than `margin` are left out.
@@ -44,12 +46,12 @@ void grow(const PairView& pair, const Anchor& w, double margin, double bound, co
   if (b.name().kind() == FeatureKind::Face) manifold.face_b = b.name();
 
   const Projection projection(pair, w.normal, w.point_a, any_side(pair, a, b));
-  Candidates candidates(w.separation - bound / 2, margin + bound, previous);
+  Candidates candidates(margin + bound, previous);
   clip(projection, a, b, bound / 2, candidates);  // a corner counts as inside of a face that it misses by so much
   if (candidates.count() == 0 || w.separation < candidates.least() - bound / 2)
     candidates.add_deepest({{0, 0, 0}, w.separation, named(pair.a, w.feature_a), named(pair.b, w.feature_b)});
   for (const int i : choose(candidates, std::min(options.most_points, kMostManifoldPoints), previous, bound))
-    manifold.points[manifold.count++] = placed(pair, projection, candidates[i]);
+    manifold.points[manifold.count++] = placed(pair, projection, candidates[i], w.separation - bound / 2);
 }
 
 Anchor anchor(const PairView& pair, const Radii& radii, const Answer& answer) {

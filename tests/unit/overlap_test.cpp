@@ -137,7 +137,7 @@ TEST(UnitClip, OfTwoSquaresIsTheirCommonSquare) {
   const ContactFace a(pair.a, {0, 0, 1}, top, {}, 0), b(pair.b, {0, 0, -1}, bottom, {}, 0);
   const Projection along_z(pair, {0, 0, 1}, {0.75, 0, 1}, any_side(pair, a, b));
   const Manifold none;
-  Candidates found(-1, 1, none);
+  Candidates found(1, none);
   clip(along_z, a, b, pair.law_two, found);
   ASSERT_EQ(found.count(), 4);
   std::array<Vec, 4> corners;
