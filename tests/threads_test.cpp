@@ -267,6 +267,65 @@ TEST_F(Threads, BatchesOverPairsAnswerAsOneAfterTheOther) {
   }
 }
 
+/// Bodies of every kind: whole models, models without their fine levels or without maps, a model of a point and one of a
+/// segment, and primitives, one of them illegal.
+std::vector<Body> bodies_of_all_kinds() {
+  static const std::vector<Model> made = [] {
+    std::vector<Model> some;
+    for (const Model& model : models()) {
+      const int last = model.level_count() - 1;
+      for (const int level : {last, last / 2}) some.push_back(model.cut({.bytes = model.level(level).prefix}));
+      some.push_back(model.with_table({.map_cells = 0}).value());
+    }
+    const std::vector<Vec3> ends{{0.5, 0, 0}, {0.25, 1, 0.5}};
+    LevelArrays arrays;
+    for (const std::size_t count : {1, 2}) {
+      arrays.vertices = std::span(ends).first(count);
+      some.push_back(Model::from_level(arrays).value());
+    }
+    return some;
+  }();
+  std::vector<Body> bodies{Body::point({0.5, 0.25, 0}), Body::segment({0, 0, 0}, {1, 0.5, 0}, 0.125),
+                           Body::triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), Body::box({-1, -0.5, -0.25}, {1, 0.5, 0.25}),
+                           Body{}};
+  for (const std::vector<Model>* all : {&models(), &made}) bodies.insert(bodies.end(), all->begin(), all->end());
+  return bodies;
+}
+
+/// Pairs of any two of these, cold, from seeds of any bits, and from those that the frame before has left.
+TEST_F(Threads, BatchesOfBodiesOfAllKindsInAnyOrderAnswerAsOneAfterTheOther) {
+  constexpr std::size_t kPairs = 3000, kFrames = 3;
+  const std::vector<Body> bodies = bodies_of_all_kinds();
+  EXPECT_GE(std::ranges::count_if(bodies, [](const Body& b) { return b.model() && b.model()->finest_level() > 0; }), 3);
+  for (const Query& query : queries()) {
+    SCOPED_TRACE(query.name);
+    answers::Poses poses(9);
+    const auto any = [&] { return bodies[poses.bits() % bodies.size()]; };
+    std::vector<PairSeed> start(kPairs), seeds, own;
+    std::vector<PairQuery> pairs;
+    for (PairSeed& seed : start) {
+      seed = poses.seed();
+      pairs.push_back({any(), any(), {}, nullptr});
+    }
+    for (const Executor& executor : executors()) {
+      seeds = own = start;
+      answers::Poses moving(10);
+      for (std::size_t frame = 0; frame < kFrames; ++frame) {
+        std::vector<Fields> expected;
+        for (std::size_t i = 0; i < kPairs; ++i) {
+          PairQuery& q = pairs[i];
+          q.b_in_a = moving.next();
+          const bool cold = i % 4 == 0;
+          q.seed = cold ? nullptr : &seeds[i];
+          PairSeed none;
+          expected.push_back(query.one(q.a, q.b, q.b_in_a, cold ? none : own[i]));
+        }
+        ASSERT_TRUE(query.over_pairs(pairs, {executor}) == expected) << "frame " << frame;
+      }
+    }
+  }
+}
+
 /// Poses that follow one another, some of them in the next chunk and some in the one after that.
 std::vector<Pose> many_poses() {
   answers::Poses poses(6);

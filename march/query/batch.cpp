@@ -4,6 +4,7 @@
 #include <swiftlet/batch.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <barrier>
 #include <cassert>
@@ -13,6 +14,8 @@
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "query/prefetch.h"
 
 namespace swiftlet {
 namespace {
@@ -38,15 +41,26 @@ AnyOptions alone(AnyOptions options) {
   return options;
 }
 
-template <class AnyAnswer, class Ask>
+/// `kBegin` says what the queries read first.
+template <Begin kBegin, class AnyAnswer, class Ask>
 void over_pairs(std::span<const PairQuery> pairs, std::span<AnyAnswer> answers, const Run& run, Ask ask) {
   assert(answers.size() >= pairs.size());
   const auto ask_some = [&](std::size_t task) {
-    const std::size_t first = task * kPairsPerTask, end = std::min(first + kPairsPerTask, pairs.size());
-    for (std::size_t i = first; i < end; ++i) {
+    const std::size_t first = task * kPairsPerTask, count = std::min(kPairsPerTask, pairs.size() - first);
+    // In each turn every pair that is on its way goes a step, and the one that has gone all is asked.
+    std::array<Prefetch<kBegin>, kPairsPerTask> ahead;
+    constexpr std::size_t kSteps = Prefetch<kBegin>::kSteps;
+    for (std::size_t turn = 0; turn < count + kSteps; ++turn) {
+      const auto go = [&]<std::size_t kStep>() {
+        const std::size_t i = turn - kStep;  // wraps where no pair has come so far
+        if (i < count) ahead[i].template step<kStep>(pairs[first + i]);
+      };
+      [&]<std::size_t... kStep>(std::index_sequence<kStep...>) { (go.template operator()<kStep>(), ...); }
+      (std::make_index_sequence<kSteps>());
+      if (turn < kSteps) continue;
       PairSeed cold;
-      const PairQuery& q = pairs[i];
-      answers[i] = ask(q.a, q.b, q.b_in_a, q.seed ? *q.seed : cold);
+      const PairQuery& q = pairs[first + turn - kSteps];
+      answers[first + turn - kSteps] = ask(q.a, q.b, q.b_in_a, q.seed ? *q.seed : cold);
     }
   };
   run_all((pairs.size() + kPairsPerTask - 1) / kPairsPerTask, run, ask_some);
@@ -132,43 +146,43 @@ Executor on_threads(unsigned count) {
 }
 
 void distance(std::span<const PairQuery> pairs, std::span<Answer> answers, const Options& options, const Run& run) {
-  over_pairs(pairs, answers, run,
-             [&, options = alone(options)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
-               return distance(a, b, b_in_a, seed, options);
-             });
+  over_pairs<Begin::Features>(pairs, answers, run,
+                              [&, options = alone(options)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
+                                return distance(a, b, b_in_a, seed, options);
+                              });
 }
 void signed_distance(std::span<const PairQuery> pairs, std::span<Answer> answers, const Options& options, const Run& run) {
-  over_pairs(pairs, answers, run,
-             [&, options = alone(options)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
-               return signed_distance(a, b, b_in_a, seed, options);
-             });
+  over_pairs<Begin::Features>(pairs, answers, run,
+                              [&, options = alone(options)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
+                                return signed_distance(a, b, b_in_a, seed, options);
+                              });
 }
 void intersects(std::span<const PairQuery> pairs, std::span<Answer> answers, const Effort& effort, const Run& run) {
-  over_pairs(pairs, answers, run,
-             [&, effort = alone(effort)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
-               return intersects(a, b, b_in_a, seed, effort);
-             });
+  over_pairs<Begin::Verdict>(pairs, answers, run,
+                             [&, effort = alone(effort)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
+                               return intersects(a, b, b_in_a, seed, effort);
+                             });
 }
 void within(std::span<const PairQuery> pairs, double threshold, std::span<Within> answers, const Effort& effort,
             const Run& run) {
-  over_pairs(pairs, answers, run,
-             [&, effort = alone(effort)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
-               return within(a, b, b_in_a, threshold, seed, effort);
-             });
+  over_pairs<Begin::Verdict>(pairs, answers, run,
+                             [&, effort = alone(effort)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
+                               return within(a, b, b_in_a, threshold, seed, effort);
+                             });
 }
 void signed_within(std::span<const PairQuery> pairs, double threshold, std::span<Within> answers, const Effort& effort,
                    const Run& run) {
-  over_pairs(pairs, answers, run,
-             [&, effort = alone(effort)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
-               return signed_within(a, b, b_in_a, threshold, seed, effort);
-             });
+  over_pairs<Begin::Verdict>(pairs, answers, run,
+                             [&, effort = alone(effort)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
+                               return signed_within(a, b, b_in_a, threshold, seed, effort);
+                             });
 }
 void closest_features(std::span<const PairQuery> pairs, std::span<ClosestFeatures> answers, const ClosestOptions& options,
                       const Run& run) {
-  over_pairs(pairs, answers, run,
-             [&, options = alone(options)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
-               return closest_features(a, b, b_in_a, seed, options);
-             });
+  over_pairs<Begin::Features>(pairs, answers, run,
+                              [&, options = alone(options)](const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
+                                return closest_features(a, b, b_in_a, seed, options);
+                              });
 }
 void distance(const Body& a, const Body& b, std::span<const Pose> b_in_a, std::span<Answer> answers, const Options& options,
               const Run& run) {
