@@ -68,11 +68,12 @@ class Arrival {
     level_ = &model_->level(model_->map_level());
     prefetch(*level_);
   }
-  /// Where the centre is, and the inner ball.
+  /// The centre, the inner ball, and how far the finest level is from the exact hull.
   [[gnu::always_inline]] void balls() const {
     if (!model_) return;
     const ConvexView& view = model_->level(0).view;
-    prefetch(view.extent), prefetch(view.centre), prefetch(view.inner_radius);
+    prefetch(view.extent), prefetch(view.inner_radius);
+    prefetch(model_->level(model_->finest_level()).deviation);
   }
   const Model* model() const { return model_; }
   bool has_map() const { return level_ && level_->map_side > 0; }
