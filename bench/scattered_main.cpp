@@ -24,7 +24,7 @@ using namespace yardstick;
 namespace {
 
 constexpr std::uint32_t kTriangles140 = 276;  ///< of a hull with 140 vertices
-constexpr std::size_t kModels = 20'000, kPairs = 100'000, kFewModels = 40, kFewPairs = 1'000;
+constexpr std::size_t kModels = 20'000, kPairs = 100'000, kFewModels = 40, kFewPairs = 2'000;
 constexpr int kRounds = 9;
 constexpr double kTurn = 1.04 * 3.14159265358979 / 180;  ///< between two frames
 constexpr double kNearest = 1.7, kFarthest = 2.7;        ///< centres, in bounding radii
