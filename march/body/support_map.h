@@ -15,7 +15,7 @@
 #include <octahedron.h>
 #include <swiftlet/model.h>
 
-#include "numeric/vec.h"
+#include "numeric/vec4.h"
 
 namespace swiftlet {
 
@@ -60,6 +60,27 @@ static inline MapSupport look_up(const Level& level, const Vec& n) {
   const lut::OctahedronHit hit = lut::octahedron_hit(level.map_side, m.x, m.y, m.z);
   const std::uint32_t entry = level.support_map[hit.cell];
   return {map_vertex(entry), map_excess(entry) * hit.length};
+}
+
+/// The same for a direction of each of two bodies, in two lanes.
+struct MapSupports {
+  MapSupport a, b;
+};
+static inline MapSupports look_up(const Level& a, const Vec4& n_a, const Level& b, const Vec4& n_b) {
+  const Vec m = into_map(a, vec(n_a)), k = into_map(b, vec(n_b));
+  const Vec2 x{m.x, k.x}, y{m.y, k.y}, z{m.z, k.z}, side{double(a.map_side), double(b.map_side)};
+  // The cell as `lut::octahedron_hit` finds it.
+  const Vec2 length = abs(x) + abs(y) + abs(z), half = side * Vec2{0.5, 0.5}, scale = half / length, last = side - Vec2{0.5, 0.5};
+  const auto index = [&](Vec2 along) { return whole(max(Vec2{0, 0}, min(last, along * scale + half))); };
+  const auto row = index(x - y), column = index(x + y);
+  const auto found = [&](const Level& level, std::size_t lane) {
+    const auto lower = std::uint32_t(std::bit_cast<std::uint64_t>(double(z[lane])) >> 63);
+    const std::uint32_t cell =
+        (lower * level.map_side + std::uint32_t(row[lane])) * level.map_side + std::uint32_t(column[lane]);
+    const std::uint32_t entry = level.support_map[cell];
+    return MapSupport{map_vertex(entry), map_excess(entry) * length[lane]};
+  };
+  return {found(a, 0), found(b, 1)};
 }
 
 }  // namespace swiftlet

@@ -4,6 +4,9 @@
 // is and sums have the order of vec.h, so both widths give the same bits. Functions are static, as those of vec.h.
 #pragma once
 
+#include <array>
+#include <bit>
+
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
@@ -42,6 +45,29 @@ static inline Vec2 max(Vec2 a, Vec2 b) {
   return _mm_max_pd(b, a);
 #else
   return a < b ? b : a;
+#endif
+}
+
+static inline Vec2 min(Vec2 a, Vec2 b) {
+#if defined(__SSE2__)
+  return _mm_min_pd(b, a);
+#else
+  return b < a ? b : a;
+#endif
+}
+static inline Vec2 abs(Vec2 a) {
+#if defined(__SSE2__)
+  return _mm_andnot_pd(Vec2{-0.0, -0.0}, a);
+#else
+  return Vec2{std::fabs(a[0]), std::fabs(a[1])};
+#endif
+}
+/// The whole parts of numbers that are no NaN and fit.
+static inline std::array<std::int32_t, 2> whole(Vec2 a) {
+#if defined(__SSE2__)
+  return std::bit_cast<std::array<std::int32_t, 2>>(_mm_cvtsi128_si64(_mm_cvttpd_epi32(a)));
+#else
+  return {std::int32_t(a[0]), std::int32_t(a[1])};
 #endif
 }
 
@@ -91,11 +117,8 @@ static inline Vec4 odd(const Vec4& a, const Vec4& b) {
   return {__builtin_shufflevector(a.lo, b.lo, 1, 3), __builtin_shufflevector(a.hi, b.hi, 1, 3)};
 }
 static inline Vec4 max(const Vec4& a, const Vec4& b) { return {max(a.lo, b.lo), max(a.hi, b.hi)}; }
+static inline Vec4 abs(const Vec4& a) { return {abs(a.lo), abs(a.hi)}; }
 #if defined(__SSE2__)
-static inline Vec4 abs(const Vec4& a) {
-  const Vec2 sign{-0.0, -0.0};
-  return {_mm_andnot_pd(sign, a.lo), _mm_andnot_pd(sign, a.hi)};
-}
 static inline unsigned equal(const Vec4& a, const Vec4& b) {
   return _mm_movemask_pd(_mm_cmpeq_pd(a.lo, b.lo)) + 4u * _mm_movemask_pd(_mm_cmpeq_pd(a.hi, b.hi));
 }
@@ -106,9 +129,6 @@ static inline unsigned at_most(const Vec4& a, const Vec4& b) {
   return _mm_movemask_pd(_mm_cmple_pd(a.lo, b.lo)) + 4u * _mm_movemask_pd(_mm_cmple_pd(a.hi, b.hi));
 }
 #else
-static inline Vec4 abs(const Vec4& a) {
-  return {Vec2{std::fabs(a[0]), std::fabs(a[1])}, Vec2{std::fabs(a[2]), std::fabs(a[3])}};
-}
 static inline unsigned equal(const Vec4& a, const Vec4& b) {
   return (a[0] == b[0]) + 2u * (a[1] == b[1]) + 4u * (a[2] == b[2]) + 8u * (a[3] == b[3]);
 }
@@ -204,6 +224,17 @@ static inline double sum(const Vec4& a) { return a[0] + a[1] + a[2]; }
 static inline double dot(const Vec4& a, const Vec4& b) { return sum(a * b); }
 static inline Vec4 cross(const Vec4& a, const Vec4& b) { return yzx(a * yzx(b) - yzx(a) * b); }
 static inline double norm_1(const Vec4& a) { return sum(abs(a)); }
+// Of vectors whose squares leave the range of doubles.
+[[maybe_unused, gnu::noinline, gnu::cold]] static double norm_of_far(const Vec4& v) { return norm(vec(v)); }
+[[maybe_unused, gnu::noinline, gnu::cold]] static Vec4 normalised_far(const Vec4& v) { return vec4(normalised(vec(v))); }
+static inline double norm(const Vec4& v) {
+  const double square = dot(v, v);
+  return has_range(square) ? std::sqrt(square) : norm_of_far(v);
+}
+static inline Vec4 normalised(const Vec4& v) {
+  const double square = dot(v, v);
+  return has_range(square) ? v * (1 / std::sqrt(square)) : normalised_far(v);
+}
 
 /// The greatest of four numbers.
 static inline double greatest(const Vec4& a) {

@@ -13,6 +13,7 @@
 #include "body/support_map.h"
 #include "pair/certify.h"
 #include "pair/pair_view.h"
+#include "pair/pair_view4.h"
 #include "pair/simplex.h"
 
 namespace swiftlet {
@@ -25,15 +26,17 @@ struct AxisSample {
   double gap;          ///< between vertices `a` and `b` along `normal`
   double lower;        ///< bound proved along `normal`: the gap less rounding and the maps' uncertainty; may be negative
 };
-/// Samples the maps along `direction`, of any length: it is normalised first, as M n of a short one may underflow.
-[[gnu::flatten]] static inline AxisSample sample_axis(const PairView& pair, const Level& a, const Level& b,
-                                                      const Vec& direction) {
-  const Moved other = body_b(pair);
-  const Vec n = normalised(direction);
-  const MapSupport top_a = look_up(a, n), top_b = look_up(b, -other.into(n));
-  const Vec q = body_a(pair).point(top_a.vertex), p = other.point(top_b.vertex) - q;
+/// Samples the maps along `direction`, of any length: it is normalised first, as M n of a short one may underflow. `other` is B.
+[[gnu::flatten]] static inline AxisSample sample_axis(const PairView& pair, const Moved4& other, const Level& a, const Level& b,
+                                                      const Vec4& direction) {
+  const Vec4 n = normalised(direction);
+  const auto [top_a, top_b] = look_up(a, n, b, -other.into(n));
+  const Vec4 q = vec4(pair.a.vertices[top_a.vertex]), p = other.point(top_b.vertex) - q;
   const double excess = top_a.excess + top_b.excess + kMapError * (pair.a.extent + pair.b.extent);
-  return {n, top_a.vertex, top_b.vertex, q, p, dot(n, p), gap(pair, vec4(n), vec4(p), excess)};
+  return {vec(n), top_a.vertex, top_b.vertex, vec(q), vec(p), dot(n, p), gap(pair, n, p, excess)};
+}
+static inline AxisSample sample_axis(const PairView& pair, const Level& a, const Level& b, const Vec& direction) {
+  return sample_axis(pair, Moved4(pair), a, b, vec4(direction));
 }
 
 /// True if a level is about as wide in all directions.
@@ -42,45 +45,33 @@ static inline bool is_round(const Level& level) {
   return std::fabs(m[3] - m[0]) + std::fabs(m[5] - m[0]) + std::fabs(m[1]) + std::fabs(m[2]) + std::fabs(m[4]) < kRound * m[0];
 }
 
-/// A symmetric matrix.
-struct Symmetric {
-  double xx, xy, xz, yy, yz, zz;
-};
-static inline double squared_along(const Symmetric& q, const Vec& n) {
-  return n.x * (q.xx * n.x + 2 * (q.xy * n.y + q.xz * n.z)) + n.y * (q.yy * n.y + 2 * q.yz * n.z) + n.z * q.zz * n.z;
-}
-/// A vector along x for which `q` x is along `v`, for a positive definite `q`.
-static inline Vec solved(const Symmetric& q, const Vec& v) {
-  const double xx = q.yy * q.zz - q.yz * q.yz, xy = q.xz * q.yz - q.xy * q.zz, xz = q.xy * q.yz - q.xz * q.yy,
-               yy = q.xx * q.zz - q.xz * q.xz, yz = q.xy * q.xz - q.xx * q.yz, zz = q.xx * q.yy - q.xy * q.xy;
-  return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
-}
-
 /// About the direction of the distance, where `line` is the line of centres: the bodies are taken for ellipsoids, the points
 /// M^T y, |y| <= 1, for the map frame M. The distance h of two of them lies along n where (h + M_a^T M_a / |M_a n| + M_b^T M_b
-/// / |M_b n|) n = `line`. `kEllipsoidSteps` steps take h and the lengths from the last n. Between round bodies, `line`.
-[[gnu::flatten]] static inline Vec between_ellipsoids(const Level& a, const Level& b, const Motion& b_in_a, const Vec& line) {
+/// / |M_b n|) n = `line`. `steps` steps take h and the lengths from the last n. Between round bodies, `line`.
+[[gnu::flatten]] static inline Vec4 between_ellipsoids(const Level& a, const Level& b, const Motion& b_in_a, const Vec4& line,
+                                                       int steps) {
   if (is_round(a) && is_round(b)) return line;
+  using Columns = V3<Vec4>;
   const auto &m = a.map_frame, &f = b.map_frame;
-  const Vec &x = b_in_a.row_x, &y = b_in_a.row_y, &z = b_in_a.row_z;
-  const Vec r{x.x * f[0] + x.y * f[1] + x.z * f[2], y.x * f[0] + y.y * f[1] + y.z * f[2], z.x * f[0] + z.y * f[1] + z.z * f[2]},
-      s{x.y * f[3] + x.z * f[4], y.y * f[3] + y.z * f[4], z.y * f[3] + z.z * f[4]}, t{x.z * f[5], y.z * f[5], z.z * f[5]};
-  const Symmetric of_a{m[0] * m[0],
-                       m[0] * m[1],
-                       m[0] * m[2],
-                       m[1] * m[1] + m[3] * m[3],
-                       m[1] * m[2] + m[3] * m[4],
-                       m[2] * m[2] + m[4] * m[4] + m[5] * m[5]},
-      of_b{r.x * r.x + s.x * s.x + t.x * t.x, r.x * r.y + s.x * s.y + t.x * t.y, r.x * r.z + s.x * s.z + t.x * t.z,
-           r.y * r.y + s.y * s.y + t.y * t.y, r.y * r.z + s.y * s.z + t.y * t.z, r.z * r.z + s.z * s.z + t.z * t.z};
-  Vec n = normalised(line);
-  for (int k = 0; k < kEllipsoidSteps; ++k) {
-    const double wide_a = std::sqrt(squared_along(of_a, n)), wide_b = std::sqrt(squared_along(of_b, n)),
-                 h = max(0, dot(n, line) - wide_a - wide_b), by_a = 1 / wide_a, by_b = 1 / wide_b;
-    n = normalised(
-        solved({h + of_a.xx * by_a + of_b.xx * by_b, of_a.xy * by_a + of_b.xy * by_b, of_a.xz * by_a + of_b.xz * by_b,
-                h + of_a.yy * by_a + of_b.yy * by_b, of_a.yz * by_a + of_b.yz * by_b, h + of_a.zz * by_a + of_b.zz * by_b},
-               line));
+  const Columns turn = transposed(b_in_a.row_x, b_in_a.row_y, b_in_a.row_z, b_in_a.row_z);
+  // The rows of M_a, and those of M_b turned into A's frame.
+  const Columns rows_a{vec4(m[0], m[1], m[2]), vec4(0, m[3], m[4]), vec4(0, 0, m[5])},
+      rows_b{turn.x * f[0] + turn.y * f[1] + turn.z * f[2], turn.y * f[3] + turn.z * f[4], turn.z * f[5]};
+  const auto times = [](const Columns& c, const Vec4& v) { return dot(repeated(v), c); };
+  const auto square = [](const Columns& rows) {  // M^T M
+    const Columns x = repeated(rows.x), y = repeated(rows.y), z = repeated(rows.z);
+    return Columns{x.x * rows.x + y.x * rows.y + z.x * rows.z, x.y * rows.x + y.y * rows.y + z.y * rows.z,
+                   x.z * rows.x + y.z * rows.y + z.z * rows.z};
+  };
+  const Columns of_a = square(rows_a), of_b = square(rows_b);
+  Vec4 n = normalised(line);
+  for (int k = 0; k < steps; ++k) {
+    const double wide_a = std::sqrt(dot(n, times(of_a, n))), wide_b = std::sqrt(dot(n, times(of_b, n))),
+                 h = max(0, dot(n, line) - wide_a - wide_b);
+    const Vec4 by_a = all(1 / wide_a), by_b = all(1 / wide_b), x = vec4(h, 0, 0) + of_a.x * by_a + of_b.x * by_b,
+               y = vec4(0, h, 0) + of_a.y * by_a + of_b.y * by_b, z = vec4(0, 0, h) + of_a.z * by_a + of_b.z * by_b;
+    // Cramer's rule, without the determinant, which is positive.
+    n = normalised(times({cross(y, z), cross(z, x), cross(x, y)}, line));
   }
   return n;
 }
@@ -118,6 +109,7 @@ template <class Enough>
 [[gnu::flatten]] static SupportGjk support_gjk(const PairView& pair, const Level& a, const Level& b, double hidden,
                                                const AxisSample& seen, Enough enough) {
   const double few = kNearEdges * (a.edge_length + b.edge_length);
+  const Moved4 other(pair);
   SupportGjk s;
   s.seen = seen;
   for (int steps = 0;; ++steps) {
@@ -127,9 +119,10 @@ template <class Enough>
     if (!was_near) s.start_a = s.seen.a, s.start_b = s.seen.b;
     const bool known = s.simplex.has(s.seen.a, s.seen.b);
     if (!known) s.simplex.add({s.seen.apart, s.seen.a, s.seen.b});
-    s.upper = s.simplex.count() == 4 ? 0 : norm(s.simplex.nearest());
+    const Vec4 nearest = vec4(s.simplex.nearest());
+    s.upper = s.simplex.count() == 4 ? 0 : norm(nearest);
     if (known || s.simplex.count() == 4 || !(s.upper > pair.point_error()) || enough(s) || steps == kMapGjkSteps) return s;
-    s.seen = sample_axis(pair, a, b, s.simplex.nearest());
+    s.seen = sample_axis(pair, other, a, b, nearest);
   }
 }
 

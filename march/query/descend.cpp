@@ -131,7 +131,7 @@ class Descent {
   /// one does the same work and stops earlier.
   bool map_gjk(Place& place, const Vec& likely) {
     const bool sampled = max_abs(from_.seen.normal) > 0;
-    const Vec direction = sampled ? from_.seen.normal : first_direction(pair_, line_, likely);
+    const Vec direction = sampled ? Vec(from_.seen.normal) : vec(first_direction(pair_, line_, likely));
     const Place least = pair_.finest_mapped();
     place = sampled || exact_ ? least : mapped_for(norm(line_.in_a));
     for (;;) {

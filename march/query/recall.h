@@ -74,7 +74,7 @@ static inline bool starts_on_maps(const ModelPair& pair, const StopRule& asked) 
 static inline SupportGjk nearest_on_maps(const ModelPair& pair, const PairView& view, const Line& line, const PairSeed& seed,
                                          Place& place) {
   const Level &a = pair.a.level(place.level_a), &b = pair.b.level(place.level_b);
-  const AxisSample first = sample_axis(view, a, b, first_direction(pair, line, last_direction(line.in_a, seed)));
+  const AxisSample first = sample_axis(view, Moved4(view), a, b, first_direction(pair, line, last_direction(line.in_a, seed)));
   const SupportGjk found =
       support_gjk(view, a, b, pair.deviation(place.level_a, place.level_b), first, [](const SupportGjk& s) { return s.near; });
   place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};

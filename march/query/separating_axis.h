@@ -11,8 +11,10 @@
 namespace swiftlet {
 
 /// The direction along which a cold query samples first: `likely`, or, if that is 0, about that of the distance.
-static inline Vec first_direction(const ModelPair& pair, const Line& line, const Vec& likely) {
-  return max_abs(likely) > 0 ? likely : between_ellipsoids(pair.a.level(0), pair.b.level(0), pair.motion, line.in_a);
+static inline Vec4 first_direction(const ModelPair& pair, const Line& line, const Vec& likely) {
+  return max_abs(likely) > 0
+             ? vec4(likely)
+             : between_ellipsoids(pair.a.level(0), pair.b.level(0), pair.motion, vec4(line.in_a), kEllipsoidSteps);
 }
 
 /// Fills `answer` and returns true if the bodies are proved to be farther apart than `asked.above`. If the line of centres
