@@ -70,7 +70,8 @@ static inline MapSupports look_up(const Level& a, const Vec4& n_a, const Level& 
   const Vec m = into_map(a, vec(n_a)), k = into_map(b, vec(n_b));
   const Vec2 x{m.x, k.x}, y{m.y, k.y}, z{m.z, k.z}, side{double(a.map_side), double(b.map_side)};
   // The cell as `lut::octahedron_hit` finds it.
-  const Vec2 length = abs(x) + abs(y) + abs(z), half = side * Vec2{0.5, 0.5}, scale = half / length, last = side - Vec2{0.5, 0.5};
+  const Vec2 length = abs(x) + abs(y) + abs(z), half = side * Vec2{0.5, 0.5}, scale = half / length,
+             last = side - Vec2{0.5, 0.5};
   const auto index = [&](Vec2 along) { return whole(max(Vec2{0, 0}, min(last, along * scale + half))); };
   const auto row = index(x - y), column = index(x + y);
   const auto found = [&](const Level& level, std::size_t lane) {

@@ -26,7 +26,8 @@ struct AxisSample {
   double gap;          ///< between vertices `a` and `b` along `normal`
   double lower;        ///< bound proved along `normal`: the gap less rounding and the maps' uncertainty; may be negative
 };
-/// Samples the maps along `direction`, of any length: it is normalised first, as M n of a short one may underflow. `other` is B.
+/// Samples the maps along `direction`, of any length: it is normalised first, as M n of a short one may underflow. `other` is
+/// B.
 [[gnu::flatten]] static inline AxisSample sample_axis(const PairView& pair, const Moved4& other, const Level& a, const Level& b,
                                                       const Vec4& direction) {
   const Vec4 n = normalised(direction);

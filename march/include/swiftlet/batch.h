@@ -39,9 +39,9 @@ struct Run {
 };
 
 // Each query over pairs writes the answer of pairs[i] to answers[i]; `answers` must be at least as long as `pairs`. The
-// options' `trace` and `proof` are ignored: one of each cannot serve all pairs. A task is 32 pairs. Cost: that of the queries, but
-// a task asks memory for what its next pairs will read. Pairs of bodies that no cache holds take half to three quarters of the
-// time that they take one by one; distances without a seed, of bodies that a cache holds, a third more.
+// options' `trace` and `proof` are ignored: one of each cannot serve all pairs. A task is 32 pairs. Cost: that of the queries,
+// but a task asks memory for what its next pairs will read. Pairs of bodies that no cache holds take half to three quarters of
+// the time that they take one by one; distances without a seed, of bodies that a cache holds, a third more.
 
 /// Asks `distance` for each pair.
 void distance(std::span<const PairQuery> pairs, std::span<Answer> answers, const Options& options = {}, const Run& run = {});
