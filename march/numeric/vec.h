@@ -25,7 +25,7 @@ struct alignas(32) Padded : Vec {
   Padded() = default;
   constexpr Padded(double of_x, double of_y, double of_z) : Vec{of_x, of_y, of_z}, fourth(0) {}
   constexpr Padded(const Vec& v) : Padded(v.x, v.y, v.z) {}
-  double fourth;  ///< without meaning, mostly 0
+  double fourth;  ///< without meaning
 };
 
 template <class R>

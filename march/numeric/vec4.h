@@ -30,7 +30,7 @@ struct Pair4 {
   Vec2 lo, hi;
   double operator[](int lane) const { return lane < 2 ? lo[lane] : hi[lane - 2]; }
 };
-/// A vector's x, y, z and a lane without meaning, which is mostly 0, or four numbers of one kind.
+/// A vector's x, y, z and a lane without meaning, or four numbers of one kind.
 using Vec4 = Pair4;
 #endif
 
@@ -142,7 +142,7 @@ static inline unsigned at_most(const Vec4& a, const Vec4& b) {
 #endif
 
 static inline Vec4 operator*(const Vec4& a, double s) { return a * all(s); }
-static inline Vec4 vec4(double x, double y, double z) { return vec4(Vec2{x, y}, Vec2{z, 0}); }
+static inline Vec4 vec4(double x, double y, double z) { return vec4(Vec2{x, y}, Vec2{z, z}); }
 // Coordinates of a vector are loaded one by one: they may have been stored so a moment ago, and a wider load would wait until
 // that is done, for 10 ns. Records of a model are at rest.
 static inline Vec2 xy(const Vec& a) { return Vec2{a.x, a.y}; }
@@ -150,7 +150,7 @@ template <class Record>
 static inline Vec2 xy(const Record& p) {
   return load2(&p.x);
 }
-static inline Vec4 vec4(const Vec& a) { return vec4(xy(a), Vec2{a.z, 0}); }
+static inline Vec4 vec4(const Vec& a) { return vec4(xy(a), Vec2{a.z, a.z}); }
 /// The coordinates of a record that begins with them.
 template <class Record>
 static inline Vec4 vec4(const Record& p) {

@@ -69,8 +69,8 @@ static inline bool is_round(const Level& level) {
   for (int k = 0; k < steps; ++k) {
     const double wide_a = std::sqrt(dot(n, times(of_a, n))), wide_b = std::sqrt(dot(n, times(of_b, n))),
                  h = max(0, dot(n, line) - wide_a - wide_b);
-    const Vec4 by_a = all(1 / wide_a), by_b = all(1 / wide_b), x = vec4(h, 0, 0) + of_a.x * by_a + of_b.x * by_b,
-               y = vec4(0, h, 0) + of_a.y * by_a + of_b.y * by_b, z = vec4(0, 0, h) + of_a.z * by_a + of_b.z * by_b;
+    const Vec4 by_a = all(1 / wide_a), by_b = all(1 / wide_b), x = vec4(1, 0, 0) * h + of_a.x * by_a + of_b.x * by_b,
+               y = vec4(0, 1, 0) * h + of_a.y * by_a + of_b.y * by_b, z = vec4(0, 0, 1) * h + of_a.z * by_a + of_b.z * by_b;
     // Cramer's rule, without the determinant, which is positive.
     n = normalised(times({cross(y, z), cross(z, x), cross(x, y)}, line));
   }

@@ -38,7 +38,7 @@ class Descent {
         finest_a_(pair.finest_a()),
         finest_b_(pair.finest_b()),
         has_maps_(pair.has_maps()),
-        exact_(is_exact(asked, tuning_)),
+        exact_(from.exact),
         from_(from),
         answer_(answer),
         proof_(proof) {}
@@ -113,18 +113,6 @@ class Descent {
     }
   }
 
-  /// The coarsest pair with maps whose error is likely to be small enough for bodies at most `distance` apart, or the finest.
-  Place mapped_for(double distance) const {
-    const int most_a = a_.level_count() - 1, most_b = b_.level_count() - 1;
-    Place place = pair_.finest_mapped();
-    while (place.level_a < most_a || place.level_b < most_b) {
-      const Place coarser{std::min(place.level_a + 1, most_a), std::min(place.level_b + 1, most_b), {}};
-      if (!stop_.allows(distance, kMapShare * pair_.map_error(coarser))) break;
-      place = coarser;
-    }
-    return place;
-  }
-
   /// Runs GJK on support maps, first on the pair that the axis test sampled or on the coarsest pair that might answer, then on
   /// each finer one. Returns true if that answers; else `place` becomes where a walk begins. From the first pair on, GJK visits
   /// every finer pair and begins anew there, from the same direction: of two tolerances that begin on the same pair, the looser
@@ -133,13 +121,13 @@ class Descent {
     const bool sampled = max_abs(from_.seen.normal) > 0;
     const Vec direction = sampled ? Vec(from_.seen.normal) : vec(first_direction(pair_, line_, likely));
     const Place least = pair_.finest_mapped();
-    place = sampled || exact_ ? least : mapped_for(norm(line_.in_a));
-    for (;;) {
+    place = exact_ || asked_.is_threshold() ? least : mapped_for(pair_, asked_, norm(line_.in_a));
+    for (bool first = true;; first = false) {
       const bool last = same_levels(place, least);
       const PairView pair = view_at(place);
       const Level &of_a = a_.level(place.level_a), &of_b = b_.level(place.level_b);
       const double error = deviation(place.level_a, place.level_b);
-      const AxisSample seen = sampled ? from_.seen : sample_axis(pair, of_a, of_b, direction);
+      const AxisSample seen = sampled && first ? from_.seen : sample_axis(pair, of_a, of_b, direction);
       const SupportGjk found = support_gjk(pair, of_a, of_b, error, seen, [&](const SupportGjk& s) {
         if (exact_) return s.near;
         const double lower = max(answer_.lower, s.most_lower), upper = min(answer_.upper, s.upper + error);
@@ -375,7 +363,7 @@ class Descent {
       kept = coarsest_place(a_, b_);
       kept.start = coarsest_;
     }
-    keep(pair_, asked_, answer_, kept, seed);
+    keep(pair_, asked_, exact_, answer_, kept, seed);
     remember(line_, vec(answer_.normal), seed);
     seed.met = met_ == MarchStatus::Overlapping;
   }
@@ -392,7 +380,7 @@ class Descent {
   const double law_two_;
   const int finest_a_, finest_b_;
   const bool has_maps_;
-  const bool exact_;  ///< the distance is asked exactly: no coarser pair can answer
+  const bool exact_;  ///< no coarser pair is likely to answer
   const Beginning& from_;
   Answer& answer_;
   OverlapProof& proof_;
@@ -413,7 +401,8 @@ void descend(const ModelPair& pair, const Line& line, const StopRule& asked, con
 void go_on(const ModelPair& pair, const StopRule& asked, double exact_width, PairSeed& seed, Answer& answer,
            OverlapProof& proof) {
   const Line line = pair.line();
-  const Beginning anywhere{};
+  Beginning anywhere{};
+  anywhere.exact = is_exact(pair, line.in_a, asked);
   Descent(pair, line, asked, anywhere, answer, proof).go_on(seed, exact_width);
 }
 

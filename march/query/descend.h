@@ -18,6 +18,7 @@ struct Beginning {
   AxisSample seen;                      ///< on the finest pair with maps; its normal is 0 if nothing was sampled
   const SupportGjk* on_maps = nullptr;  ///< where GJK on the maps of the first place ended
   const Walk* walk = nullptr;           ///< a walk on the first place that did not answer, counted already
+  bool exact = false;                   ///< as `is_exact`
 };
 /// Answers `asked` for the hulls of two bodies: begins at the features of `place`, or, if it has none, on the maps or on the
 /// coarsest pair. Thresholds are passed by more than law 2's bound. `answer` must be a default one with normal 0; an unknown
@@ -29,19 +30,24 @@ void descend(const ModelPair& pair, const Line& line, const StopRule& asked, con
 void go_on(const ModelPair& pair, const StopRule& asked, double exact_width, PairSeed& seed, Answer& answer,
            OverlapProof& proof);
 
-/// Only the exact pair can answer, and the query begins there again.
-static inline bool is_exact(const StopRule& asked, const Tuning& tuning) {
-  return asked.is_exact() && tuning.start != StartPolicy::Paper;
+/// True if nothing but a walk on the finest pair is likely to bound the distance as narrowly as asked, so that the query begins
+/// there again. `between` leads from A's centre to B's.
+static inline bool is_exact(const ModelPair& pair, const Vec& between, const StopRule& asked) {
+  const StartPolicy start = pair.limits.tuning.start;
+  if (asked.is_exact() || asked.is_threshold() || start != StartPolicy::Automatic)
+    return asked.is_exact() && start != StartPolicy::Paper;
+  const double length = norm(between), allowed = asked.allowed(length);
+  return allowed < pair.least_error() || pair.is_near(length, allowed);
 }
 
 /// The ancestors of the features at `found`, on the coarsest level pair that would have answered as well.
 Place coarsened(const ModelPair& pair, const StopRule& asked, const Answer& answer, Place found);
 /// Stores in `seed` where the next query begins: at the features `found`, or on a coarser pair that would have answered as
 /// well.
-static inline void keep(const ModelPair& pair, const StopRule& asked, const Answer& answer, const Place& found,
+static inline void keep(const ModelPair& pair, const StopRule& asked, bool exact, const Answer& answer, const Place& found,
                         PairSeed& seed) {
   const Tuning& tuning = pair.limits.tuning;
-  const bool stays = is_exact(asked, tuning) || tuning.start == StartPolicy::Finest || tuning.start == StartPolicy::Coarsest;
+  const bool stays = exact || tuning.start == StartPolicy::Finest || tuning.start == StartPolicy::Coarsest;
   const auto store = [&seed](const Place& kept) {
     seed.a = kept.start.a, seed.b = kept.start.b;
     seed.level_a = std::uint8_t(kept.level_a), seed.level_b = std::uint8_t(kept.level_b);

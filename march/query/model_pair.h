@@ -47,6 +47,21 @@ struct ModelPair {
     };
     return deviation(place.level_a, place.level_b) + doubt(a.level(place.level_a)) + doubt(b.level(place.level_b));
   }
+  /// About the least error to which anything but a walk on the exact pair bounds the distance.
+  double least_error() const {
+    const int coarser_a = std::min(1, a.level_count() - 1), coarser_b = std::min(1, b.level_count() - 1);
+    double least = std::numeric_limits<double>::infinity();
+    if (coarser_a + coarser_b > 0) least = deviation(coarser_a, coarser_b);
+    return has_maps() ? min(least, map_error(finest_mapped())) : least;
+  }
+  /// True if bodies whose centres are `length` apart are so near, by the balls inside, that the vertices of a sample, which lie
+  /// about a quarter of an edge of each body aside of each other, are likely to be more than `allowed` farther apart than the
+  /// bodies.
+  bool is_near(double length, double allowed) const {
+    const Level &of_a = a.level(0), &of_b = b.level(0);
+    const double aside = (of_a.edge_length + of_b.edge_length) / 4;
+    return 2 * allowed * (length - of_a.view.inner_radius - of_b.view.inner_radius) < aside * aside;
+  }
   PairView view_of(const Level& of_a, const Level& of_b) const {
     return pair_view(of_a.view, of_b.view, motion, shift, pose_error);
   }

@@ -35,8 +35,8 @@ namespace swiftlet {
 }
 /// Answers from a walk on the level pair of `place` if the tests that end it prove enough. `place` gets the walk's features.
 [[gnu::always_inline]] static inline bool answers(const ModelPair& pair, const PairView& view, const Walk& walked,
-                                                  const Line& line, const StopRule& asked, Turn turn, PairSeed& seed,
-                                                  Place& place, Answer& answer) {
+                                                  const Line& line, const StopRule& asked, bool exact, Turn turn,
+                                                  PairSeed& seed, Place& place, Answer& answer) {
   answer.steps += walked.steps;
   answer.plane_tests += walked.plane_tests;
   place.start = {walked.a, walked.b};
@@ -58,17 +58,16 @@ namespace swiftlet {
   answer.feature_a = walked.a, answer.feature_b = walked.b;
   answer.levels_visited = 1;
   note(pair.limits.trace, 0, {place.level_a, place.level_b, answer.lower, answer.upper, answer.steps, answer.plane_tests});
-  keep(pair, asked, answer, place, seed);
+  keep(pair, asked, exact, answer, place, seed);
   turn == Turn::Little ? remember(proof.normal, seed) : remember(line, proof.normal, seed);
   seed.met = false;
   return true;
 }
 
-/// True if a cold query begins on the maps of the level pair that answers it.
-static inline bool starts_on_maps(const ModelPair& pair, const StopRule& asked) {
+/// True if the finest pair has maps.
+static inline bool finest_has_maps(const ModelPair& pair) {
   const Place at = pair.finest_mapped();
-  return is_exact(asked, pair.limits.tuning) && pair.has_maps() && at.level_a == pair.finest_a() &&
-         at.level_b == pair.finest_b();
+  return pair.has_maps() && at.level_a == pair.finest_a() && at.level_b == pair.finest_b();
 }
 /// GJK on the maps of `place`, which gets the features where a walk begins.
 static inline SupportGjk nearest_on_maps(const ModelPair& pair, const PairView& view, const Line& line, const PairSeed& seed,
@@ -121,29 +120,34 @@ static inline SupportGjk nearest_on_maps(const ModelPair& pair, const PairView& 
       separating_axis(pair, line.in_a, asked, seed, seen, answer))
     return;
   store(turned_line(vec4(line.in_a), pair.motion), line.in_b);
+  const bool exact = is_exact(pair, line.in_a, asked), roughly = !asks && !exact && automatic && unwatched;
+  if (roughly && spheres_suffice(pair, line.in_a, asked, answer)) return;
+  if (roughly && seed.a.kind() == FeatureKind::None && !seed.met && pair.has_maps() &&
+      sample_suffices(pair, line, asked, seed, seen, answer))
+    return;
   Turn turn;
   Place place = first_place(pair.a, pair.b, line, seed, pair.finest_a(), pair.finest_b(), tuning.start, turn);
   const bool walks = !tuning.careful && tuning.start != StartPolicy::Coarsest;
   if (walks && place.start.a.kind() != FeatureKind::None) {
     const PairView view = pair.view_at(place);
     const Walk walked = walk_from(pair, view, place, answer);
-    if (answers(pair, view, walked, line, asked, turn, seed, place, answer)) return;
+    if (answers(pair, view, walked, line, asked, exact, turn, seed, place, answer)) return;
     answer.normal.setZero();
     const bool lost = walked.end == WalkEnd::Budget && answer.steps < pair.limits.budget.steps;
-    if (!lost) return descend(pair, line, asked, {seen, nullptr, &walked}, place, seed, answer, proof);
+    if (!lost) return descend(pair, line, asked, {seen, nullptr, &walked, exact}, place, seed, answer, proof);
     place = coarsest_place(pair.a, pair.b);
   }
   answer.normal.setZero();
-  if (!walks || place.start.a.kind() != FeatureKind::None || !starts_on_maps(pair, asked))
-    return descend(pair, line, asked, {seen}, place, seed, answer, proof);
+  if (!walks || place.start.a.kind() != FeatureKind::None || !exact || !finest_has_maps(pair))
+    return descend(pair, line, asked, {seen, nullptr, nullptr, exact}, place, seed, answer, proof);
   place = pair.finest_mapped();
   const PairView view = pair.view_at(place);
   const SupportGjk found = nearest_on_maps(pair, view, line, seed, place);
-  if (found.simplex.count() == 4) return descend(pair, line, asked, {seen, &found}, place, seed, answer, proof);
+  if (found.simplex.count() == 4) return descend(pair, line, asked, {seen, &found, nullptr, exact}, place, seed, answer, proof);
   const Walk walked = walk_from(pair, view, place, answer);
-  if (answers(pair, view, walked, line, asked, Turn::Some, seed, place, answer)) return;
+  if (answers(pair, view, walked, line, asked, exact, Turn::Some, seed, place, answer)) return;
   answer.normal.setZero();
-  descend(pair, line, asked, {seen, &found, &walked}, place, seed, answer, proof);
+  descend(pair, line, asked, {seen, &found, &walked, exact}, place, seed, answer, proof);
 }
 
 /// As `ask`.

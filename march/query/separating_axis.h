@@ -17,6 +17,34 @@ static inline Vec4 first_direction(const ModelPair& pair, const Line& line, cons
              : between_ellipsoids(pair.a.level(0), pair.b.level(0), pair.motion, vec4(line.in_a), kEllipsoidSteps);
 }
 
+/// The coarsest pair with maps whose error is likely to be small enough for bodies at most `distance` apart, or the finest.
+static inline Place mapped_for(const ModelPair& pair, const StopRule& asked, double distance) {
+  const int most_a = pair.a.level_count() - 1, most_b = pair.b.level_count() - 1;
+  Place place = pair.finest_mapped();
+  while (place.level_a < most_a || place.level_b < most_b) {
+    const Place coarser{std::min(place.level_a + 1, most_a), std::min(place.level_b + 1, most_b), {}};
+    if (!asked.allows(distance, kMapShare * pair.map_error(coarser))) break;
+    place = coarser;
+  }
+  return place;
+}
+
+/// Fills `answer` with what a sample of the level pair `at` bounds the distance by, except for the status.
+static inline void take_sample(const ModelPair& pair, const PairView& view, const Place& at, const AxisSample& seen,
+                               Answer& answer) {
+  const double error = pair.deviation(at.level_a, at.level_b),
+               upper = norm(vec4(seen.apart)) * (1 + kNormError) + view.point_error();
+  answer.verdict = seen.lower > 0 ? Verdict::Disjoint : Verdict::Undecided;
+  answer.lower = max(0, seen.lower);
+  answer.upper = max(answer.lower, error > 0 ? (upper + error) * (1 + 2 * kU) : upper);
+  answer.normal = eigen(seen.normal);
+  answer.point_a = eigen(seen.point);
+  answer.point_b = eigen(seen.point + seen.apart);
+  answer.level_a = std::int16_t(at.level_a), answer.level_b = std::int16_t(at.level_b);
+  answer.feature_a = {FeatureKind::Vertex, seen.a}, answer.feature_b = {FeatureKind::Vertex, seen.b};
+  answer.levels_visited = 1;
+}
+
 /// Fills `answer` and returns true if the bodies are proved to be farther apart than `asked.above`. If the line of centres
 /// proves it and the seed's direction does not, that direction is cleared. `seen` becomes the last sample, on the finest pair
 /// with maps.
@@ -36,17 +64,26 @@ static inline bool separating_axis(const ModelPair& pair, const Vec& between, co
     seed.normal = {};
   }
 
-  const double error = pair.deviation(level_a, level_b), upper = norm(seen.apart) * (1 + kNormError) + view.point_error();
+  take_sample(pair, view, at, seen, answer);
   answer.status = Status::Beyond;
-  answer.verdict = Verdict::Disjoint;
-  answer.lower = seen.lower;
-  answer.upper = error > 0 ? (upper + error) * (1 + 2 * kU) : upper;
-  answer.normal = eigen(seen.normal);
-  answer.point_a = eigen(seen.point);
-  answer.point_b = eigen(seen.point + seen.apart);
-  answer.level_a = std::int16_t(level_a), answer.level_b = std::int16_t(level_b);
-  answer.feature_a = {FeatureKind::Vertex, seen.a}, answer.feature_b = {FeatureKind::Vertex, seen.b};
-  answer.levels_visited = 1;
+  return true;
+}
+
+/// Fills `answer` and returns true if one sample bounds the distance as narrowly as asked: along the seed's direction, or, if
+/// that is old, along a new one, which the seed then keeps in place of features: vertices that only maps name are no better
+/// start than none. `seen` becomes the sample, on the level pair where GJK on maps would begin.
+static inline bool sample_suffices(const ModelPair& pair, const Line& line, const StopRule& asked, PairSeed& seed,
+                                   AxisSample& seen, Answer& answer) {
+  const Place at = mapped_for(pair, asked, norm(line.in_a));
+  const PairView view = pair.view_at(at);
+  const Vec last = last_direction(line.in_a, seed);
+  seen = sample_axis(view, pair.a.level(at.level_a), pair.b.level(at.level_b), vec(first_direction(pair, line, last)));
+  Answer found;
+  take_sample(pair, view, at, seen, found);
+  if (!asked.narrow(found.lower, found.upper)) return false;
+  answer = found;
+  answer.status = Status::Converged;
+  if (max_abs(last) == 0) remember(line, seen.normal, seed);
   return true;
 }
 

@@ -34,6 +34,24 @@ static inline bool spheres_are_apart(const ModelPair& pair, const Vec& between, 
   return true;
 }
 
+/// Fills `answer` and returns true if the balls around and inside the bodies bound their distance as narrowly as asked.
+static inline bool spheres_suffice(const ModelPair& pair, const Vec& between, const StopRule& asked, Answer& answer) {
+  const double stretch = stretch_of(pair.pose_error), inside_a = pair.a.level(0).view.inner_radius,
+               inside = inside_a + pair.b.level(0).view.inner_radius * (2 - stretch), margin = pair.law_two(),
+               around = pair.a.radius() + pair.b.radius() * stretch + margin, length = norm(between),
+               lower = max(0, length - around), upper = length - inside + margin;
+  if (!(length - inside > margin && asked.narrow(lower, upper)) || pair.finest_a() != 0 || pair.finest_b() != 0) return false;
+  const Vec normal = between * (1 / length), point_a = vec(pair.a.level(0).view.centre) + normal * inside_a;
+  answer.status = Status::Converged;
+  answer.verdict = lower > 0 ? Verdict::Disjoint : Verdict::Undecided;
+  answer.lower = lower;
+  answer.upper = upper;
+  answer.normal = eigen(normal);
+  answer.point_a = eigen(point_a);
+  answer.point_b = eigen(point_a + normal * (length - inside));
+  return true;
+}
+
 /// Fills `answer` and returns true if the balls inside the bodies are proved to overlap by more than law 2's bound.
 static inline bool spheres_meet(const ModelPair& pair, const Vec& between, Answer& answer) {
   const ConvexView &a = pair.a.level(0).view, &b = pair.b.level(0).view;
