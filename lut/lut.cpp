@@ -8,6 +8,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "double_bits.h"
+
 namespace swiftlet::lut {
 namespace {
 
@@ -73,9 +75,10 @@ std::array<double, 3> scaled(const std::array<double, 3>& direction) {
     if (!std::isfinite(c)) return {};
     largest = std::max(largest, std::abs(c));
   }
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  return {std::ldexp(direction[0], -exponent), std::ldexp(direction[1], -exponent), std::ldexp(direction[2], -exponent)};
+  if (largest == 0) return direction;
+  const int exponent = -1 - exponent_of(largest);
+  return {times_power_of_two(direction[0], exponent), times_power_of_two(direction[1], exponent),
+          times_power_of_two(direction[2], exponent)};
 }
 
 }  // namespace

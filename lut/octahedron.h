@@ -5,10 +5,12 @@
 // unit compiles its own copy under its own floating-point flags. Knows nothing of hulls.
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
+
+#include "double_bits.h"
 
 namespace swiftlet::lut {
 
@@ -26,7 +28,7 @@ static inline OctahedronHit octahedron_hit(std::uint32_t side, double x, double 
     const double at = along * scale + half, least = at < last ? at : last;
     return std::uint32_t(std::int32_t(least > 0 ? least : 0));
   };
-  const auto lower = std::uint32_t(std::bit_cast<std::uint64_t>(z) >> 63);
+  const auto lower = std::uint32_t(bit_cast<std::uint64_t>(z) >> 63);
   return {(lower * side + index(x - y)) * side + index(x + y), length};
 }
 static inline std::uint32_t octahedron_cell(std::uint32_t side, double x, double y, double z) {
@@ -39,7 +41,7 @@ static inline std::uint32_t octahedron_cell(std::uint32_t side, double x, double
 /// directions and grows with their length is largest over a cell at a corner.
 static inline std::array<double, 3> octahedron_point(std::uint32_t side, std::uint32_t lower, std::uint32_t i,
                                                      std::uint32_t j) {
-  const double p = double(i) - side, q = double(j) - side, z = side - std::fmax(std::fabs(p), std::fabs(q));
+  const double p = double(i) - side, q = double(j) - side, z = side - std::max(std::fabs(p), std::fabs(q));
   return {(p + q) / 2, (p - q) / 2, lower ? -z : z};
 }
 

@@ -14,7 +14,6 @@
 #include <random>
 #include <span>
 #include <stdexcept>
-#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -377,12 +376,11 @@ TEST_F(Threads, AStoppedBatchKeepsWhatIsDoneAndLeavesTheRest) {
     const std::vector<Fields> of_pairs = query.over_pairs(pairs, {}), of_poses = query.over_poses(a, b, poses, {});
     for (const unsigned threads : {1u, unsigned(kThreads)}) {
       const auto stopped = [&](bool at_once, const auto& ask) {
-        std::stop_source source;
-        if (at_once) source.request_stop();
+        std::atomic<bool> stop = at_once;
         const Executor stops_after_a_task = [&](std::size_t count, const std::function<void(std::size_t)>& task) {
-          on_threads(threads)(count, [&](std::size_t i) { task(i), source.request_stop(); });
+          on_threads(threads)(count, [&](std::size_t i) { task(i), stop = true; });
         };
-        return ask(swiftlet::Run{stops_after_a_task, source.get_token()});
+        return ask(swiftlet::Run{stops_after_a_task, [&stop] { return stop.load(); }});
       };
       const auto ask_pairs = [&](const auto& run) {
         return tasks_done(query.over_pairs(pairs, run), of_pairs, query.untouched, kPairsPerTask);

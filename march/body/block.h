@@ -24,6 +24,8 @@
 
 #include <swiftlet/model.h>
 
+#include "body/file.h"
+
 namespace swiftlet {
 
 inline constexpr int kMaxLevels = 32;
@@ -84,11 +86,8 @@ struct Headers {
 /// An error text if a file of `bytes` bytes is not exactly the block that its headers describe, else empty.
 std::string length_fault(const Headers& headers, std::uint64_t bytes);
 
-/// The bytes of a block and their owner, which is heap memory or a mapping of a file.
-struct Block {
-  std::shared_ptr<const std::byte[]> owner;
-  std::span<const std::byte> bytes;  ///< begins at an address that is a multiple of 64
-};
+/// A block begins at an address that is a multiple of 64.
+using Block = OwnedBytes;
 
 /// Zeroed heap memory for a block that is about to be written.
 class AlignedBytes {

@@ -3,26 +3,16 @@
 // Saves, loads, maps and salvages model files. Knows the headers of a block; `BlockReader` reads the sections.
 #include <swiftlet/model_file.h>
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <array>
-#include <cerrno>
 #include <fstream>
+#include <limits>
 #include <system_error>
 
 #include "body/block.h"
+#include "body/file.h"
 
 namespace swiftlet {
 namespace {
-
-Error named(const std::filesystem::path& path, Error error) {
-  error.message = path.string() + ": " + error.message;
-  error.file = path.string();
-  return error;
-}
 
 /// The checked headers of a file, and its size.
 struct File {
@@ -51,7 +41,10 @@ Result<Model> kept(AlignedBytes block, int finest) {
 }
 
 Result<Model> read(const std::filesystem::path& path, const Headers& headers, int finest) {
-  AlignedBytes block(headers.prefix(finest));
+  const std::uint64_t bytes = headers.prefix(finest);
+  if (bytes > std::uint64_t(std::numeric_limits<std::ptrdiff_t>::max()))
+    return named(path, {ErrorCode::TooLarge, std::to_string(bytes) + " bytes are more than this machine can address"});
+  AlignedBytes block{std::size_t(bytes)};
   std::ifstream file(path, std::ios::binary);
   file.read(reinterpret_cast<char*>(block.data()), std::streamsize(block.view().size()));
   if (!file) return named(path, {ErrorCode::CannotRead, "ends early"});
@@ -60,52 +53,9 @@ Result<Model> read(const std::filesystem::path& path, const Headers& headers, in
   return model;
 }
 
-Result<Block> mapped(const std::filesystem::path& path) {
-  const auto refused = [&path] { return named(path, {ErrorCode::CannotRead, std::generic_category().message(errno)}); };
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return refused();
-  struct stat about {};
-  const bool known = fstat(file, &about) == 0;
-  const auto size = std::size_t(about.st_size);
-  void* const pages = known && size > 0 ? mmap(nullptr, size, PROT_READ, MAP_SHARED, file, 0) : MAP_FAILED;
-  if (known && size == 0) errno = EINVAL;
-  if (pages == MAP_FAILED) {
-    const Error error = refused();
-    close(file);
-    return error;
-  }
-  close(file);
-  const auto* const bytes = static_cast<const std::byte*>(pages);
-  return Block{{bytes, [pages, size](const std::byte*) { munmap(pages, size); }}, {bytes, size}};
-}
-
 }  // namespace
 
-Result<std::size_t> save(const Model& model, const std::filesystem::path& path) {
-  const std::span<const std::byte> bytes = model.bytes();
-  std::filesystem::path part = path;
-  part += ".part";
-  std::error_code failure;
-  if (std::filesystem::exists(path, failure) && !std::filesystem::is_regular_file(path, failure)) {
-    return named(path, {ErrorCode::CannotWrite, "exists and is no file"});
-  }
-  {
-    std::ofstream file(part, std::ios::binary | std::ios::trunc);
-    file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    file.close();
-    if (!file) {
-      std::filesystem::remove(part, failure);
-      return named(path, {ErrorCode::CannotWrite, "cannot write " + std::to_string(bytes.size()) + " bytes"});
-    }
-  }
-  std::filesystem::rename(part, path, failure);
-  if (failure) {
-    const std::string why = failure.message();
-    std::filesystem::remove(part, failure);
-    return named(path, {ErrorCode::CannotWrite, why});
-  }
-  return bytes.size();
-}
+Result<std::size_t> save(const Model& model, const std::filesystem::path& path) { return replace_file(path, model.bytes()); }
 
 Result<Model> load(const std::filesystem::path& path, const Detail& detail) {
   const Result<File> file = open(path);
@@ -127,7 +77,7 @@ Result<Model> load(std::span<const std::byte> bytes, const Detail& detail) {
 }
 
 Result<Model> map(const std::filesystem::path& path, const Detail& detail) {
-  Result<Block> block = mapped(path);
+  Result<Block> block = map_file(path);
   if (!block) return block.error();
   const auto bytes = block.value().bytes;
   const Result<Headers> headers = BlockReader::read_headers(bytes);
@@ -153,7 +103,7 @@ Result<Salvaged> salvage(const std::filesystem::path& path) {
   }
   Result<Model> model = read(path, headers, finest);
   if (!model) return model.error();
-  const std::string note = path.string() + ": " + cut + ": levels finer than " + std::to_string(finest) + " are missing";
+  const std::string note = text_of(path) + ": " + cut + ": levels finer than " + std::to_string(finest) + " are missing";
   return Salvaged{std::move(model).value(), cut.empty() ? "" : note};
 }
 

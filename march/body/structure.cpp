@@ -9,6 +9,7 @@
 
 #include "body/half_edge.h"
 #include "numeric/tolerance.h"
+#include "numeric/vec.h"
 
 namespace swiftlet {
 namespace {
@@ -22,7 +23,7 @@ bool is_entry(double x) { return x == 0 || std::fabs(x) >= kLeastNormalEntry; }
 bool is_length(double x) { return x >= 0 && std::isfinite(x); }
 
 bool all_below(const auto& values, std::size_t limit) {
-  return std::ranges::all_of(values, [limit](std::uint32_t v) { return v < limit; });
+  return std::all_of(values.begin(), values.end(), [limit](std::uint32_t v) { return v < limit; });
 }
 
 }  // namespace
@@ -33,7 +34,7 @@ std::string topology_fault(const ConvexView& v) {
   for (std::size_t i = 0; i < v.vertices.size(); ++i) {
     const Vertex& r = v.vertices[i];
     if (!in_range({r.x, r.y, r.z})) return "vertex " + std::to_string(i) + " is out of range";
-    if (std::fmax(std::fmax(std::fabs(r.x), std::fabs(r.y)), std::fabs(r.z)) > v.extent) return "the extent is too small";
+    if (max_abs(vec(r)) > v.extent) return "the extent is too small";
     if (r.ring_begin != next_ring || (r.ring_count == 0 && half_edges != 0)) return "ring of vertex " + std::to_string(i);
     next_ring += r.ring_count;
   }

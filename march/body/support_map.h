@@ -9,7 +9,6 @@
 // more cells than balls.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
 #include <octahedron.h>
@@ -29,7 +28,7 @@ static inline std::uint32_t map_vertex(std::uint32_t entry) { return entry & (kM
 /// The excess of an entry.
 static inline double map_excess(std::uint32_t entry) {
   const std::uint64_t code = entry >> 24;
-  return code == 0 ? 0 : std::bit_cast<double>((std::uint64_t(1023 - 29) << 52) + ((code - 1) << 49));
+  return code == 0 ? 0 : bit_cast<double>((std::uint64_t(1023 - 29) << 52) + ((code - 1) << 49));
 }
 
 static inline std::uint32_t map_entry(std::uint32_t vertex, double excess) {

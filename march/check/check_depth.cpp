@@ -20,7 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Returns v * 2^exponent.
 Wide scaled(const Wide& v, int exponent) {
   const auto scale = [&](const DoubleDouble& x) {
-    return DoubleDouble(HighLow{std::ldexp(x.high, exponent), std::ldexp(x.low, exponent)});
+    return DoubleDouble(HighLow{times_power_of_two(x.high, exponent), times_power_of_two(x.low, exponent)});
   };
   return {scale(v.x), scale(v.y), scale(v.z)};
 }
@@ -32,7 +32,7 @@ struct Direction {
 };
 Direction direction(const Wide& v) {
   const double largest = max_abs(rounded(v));
-  const Wide fine = scaled(v, largest > 0 ? -std::ilogb(largest) : 0);
+  const Wide fine = scaled(v, largest > 0 ? -exponent_of(largest) : 0);
   return {fine, rounded(fine)};
 }
 Direction operator-(const Direction& d) { return {-d.fine, -d.rough}; }
@@ -69,7 +69,7 @@ struct Solid {
 
   Solid(const ConvexView& view, const Motion& m, int exponent) : motion(m) {
     for (Vertex v : view.vertices) {
-      v.x = std::ldexp(v.x, exponent), v.y = std::ldexp(v.y, exponent), v.z = std::ldexp(v.z, exponent);
+      v.x = times_power_of_two(v.x, exponent), v.y = times_power_of_two(v.y, exponent), v.z = times_power_of_two(v.z, exponent);
       vertices.push_back(v);
       points.push_back(wide(m, vec(v)));
       rough_points.push_back(rounded(points.back()));
@@ -127,7 +127,7 @@ class LeastHeight {
   LeastHeight(const PairView& pair, int exponent)
       : a_(pair.a, kAtRest, exponent),
         b_(pair.b, scaled(pair.b_in_a, exponent), exponent),
-        tie_(kHeightError / 2 * std::ldexp(pair.magnitude, exponent)) {}
+        tie_(kHeightError / 2 * times_power_of_two(pair.magnitude, exponent)) {}
 
   /// Returns the least height at the scale of the check; infinite where all differences lie on a line.
   DoubleDouble find() {
@@ -213,10 +213,10 @@ class LeastHeight {
 DoubleDouble Checked::least_depth() const {
   const Level &finest_a = a.level(a.finest_level()), &finest_b = b.level(b.finest_level());
   const PairView finest = pair_view(finest_a.view, finest_b.view, at.motion, at.quality.error);
-  const int exponent = finest.magnitude > 0 ? kCheckedExponent - std::ilogb(finest.magnitude) : 0;
+  const int exponent = finest.magnitude > 0 ? kCheckedExponent - exponent_of(finest.magnitude) : 0;
   const DoubleDouble least = LeastHeight(finest, exponent).find();
   if (!(least.high < kInfinity)) return least;
-  return DoubleDouble(HighLow{std::ldexp(least.high, -exponent), std::ldexp(least.low, -exponent)}) -
+  return DoubleDouble(HighLow{times_power_of_two(least.high, -exponent), times_power_of_two(least.low, -exponent)}) -
          (finest_a.deviation + stretch * finest_b.deviation);
 }
 

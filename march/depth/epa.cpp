@@ -86,7 +86,7 @@ class Polytope {
         goal_(goal),
         plane_tests_(plane_tests),
         exact_(goal.stop.is_exact()),
-        binade_(std::ldexp(1, std::ilogb(max(pair.magnitude, kLeastWidth)))),
+        binade_(power_of_two(exponent_of(max(pair.magnitude, kLeastWidth)))),
         moved_((kGridError + kPlaneHeightFloor) * pair.magnitude) {}
 
   /// Begins with the start's polygon, a point beyond each of its sides and one off its plane: often these prove the depth.
@@ -127,8 +127,8 @@ class Polytope {
     std::array<Corner, 4> corners{support(normalised(cone.x + cone.y + cone.z), 0, 0)};
     std::size_t count = 1;
     for (const Vec& edge : {cross(cone.x, cone.y), cross(cone.y, cone.z), cross(cone.z, cone.x)}) {
-      const int exponent = std::ilogb(binade_) - std::ilogb(max_abs(edge)) + 1;
-      const Vec far{std::ldexp(edge.x, exponent), std::ldexp(edge.y, exponent), std::ldexp(edge.z, exponent)};
+      const int exponent = exponent_of(binade_) - exponent_of(max_abs(edge)) + 1;
+      const Vec far = scaled(edge, exponent);
       corners[count++] = {on_grid(-far), kNone, kNone};
     }
     if (exact::orientation(corners[0].p, corners[1].p, corners[2].p, corners[3].p) == 0) return false;

@@ -32,7 +32,7 @@ class Expansion {
   double rounded_up() const {
     if (count_ == 0) return 0;
     const double last = part_[count_ - 1];
-    return count_ > 1 && part_[count_ - 2] > 0 ? std::nextafter(last, std::numeric_limits<double>::infinity()) : last;
+    return count_ > 1 && part_[count_ - 2] > 0 ? next_above(last) : last;
   }
 
   /// [Shewchuk 1997, Grow-Expansion] with zeros eliminated.
@@ -142,7 +142,7 @@ bool vanishes(const DoubleDouble& p, const DoubleDouble& q, const DoubleDouble& 
 
 /// a - (R b + t), times 2^exponent, exactly.
 Expansion3 offset3(const double a[3], const double b[3], const Motion& m, int exponent) {
-  const auto scaled = [exponent](double x) { return std::ldexp(x, exponent); };
+  const auto scaled = [exponent](double x) { return times_power_of_two(x, exponent); };
   const auto coordinate = [&](double from, const Vec& row, double t) {
     Expansion e(scaled(from));
     e += -scaled(t);
@@ -161,7 +161,7 @@ int offset_determinant_sign(const std::array<const double*, 3>& a, const std::ar
     for (int axis : {0, 1, 2}) largest = max(largest, max(std::fabs(a[k][axis]), std::fabs(b[k][axis])));
   }
   if (largest == 0) return 0;
-  const int exponent = kProductExponent - std::ilogb(largest);
+  const int exponent = kProductExponent - exponent_of(largest);
   return dot3(cross3(offset3(a[0], b[0], m, exponent), offset3(a[1], b[1], m, exponent)), offset3(a[2], b[2], m, exponent))
       .sign();
 }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 
+#include <double_bits.h>
 #include <swiftlet/pose.h>
 
 #include "numeric/tolerance.h"
@@ -72,7 +73,7 @@ static inline bool has_range(double square) {
 }
 /// `v` times 2^exponent.
 static inline Vec scaled(const Vec& v, int exponent) {
-  return {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
+  return {times_power_of_two(v.x, exponent), times_power_of_two(v.y, exponent), times_power_of_two(v.z, exponent)};
 }
 
 // The next functions scale vectors whose squares leave the range of doubles by a power of two. A vector times a power of two
@@ -83,9 +84,9 @@ static inline double norm(const Vec& a) {
   if (const double square = dot(a, a); has_range(square)) return std::sqrt(square);
   const double largest = max_abs(a);
   if (!(largest > 0 && std::isfinite(largest))) return largest;
-  const int exponent = std::ilogb(largest);
+  const int exponent = exponent_of(largest);
   const Vec w = scaled(a, -exponent);
-  const double length = std::ldexp(std::sqrt(dot(w, w)), exponent);
+  const double length = times_power_of_two(std::sqrt(dot(w, w)), exponent);
   return length < std::numeric_limits<double>::min() ? length + std::numeric_limits<double>::denorm_min() : length;
 }
 
@@ -101,10 +102,10 @@ static inline Unit unit_of(const Vec& v) {
   }
   const double largest = max_abs(v);
   if (!(largest > kLeastDirection && std::isfinite(largest))) return {{0, 0, 0}, 0};
-  const int exponent = std::ilogb(largest);
+  const int exponent = exponent_of(largest);
   const Vec w = scaled(v, -exponent);
   const double scale = 1 / std::sqrt(dot(w, w));
-  return {w * scale, std::ldexp(scale, -exponent)};
+  return {w * scale, times_power_of_two(scale, -exponent)};
 }
 static inline Vec normalised(const Vec& v) { return unit_of(v).n; }
 
@@ -113,7 +114,7 @@ static inline Vec normalised(const Vec& v) { return unit_of(v).n; }
 static inline Vec rescaled(const Vec& v) {
   const double largest = max_abs(v);
   if (!(largest > 0) || !std::isfinite(dot(v, {0, 0, 0}))) return {0, 0, 0};
-  return scaled(v, 400 - std::ilogb(largest));
+  return scaled(v, 400 - exponent_of(largest));
 }
 
 /// The coordinates of a record that names them x, y and z, as `Vertex` does.

@@ -114,7 +114,7 @@ class Contact {
       const V3<DoubleDouble>&a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4], n = cross(b - a, c - a);
       const double length = norm(rounded(n)), offset = rounded(dot(n, a)), apex = rounded(dot(n, p[k] - a));
       if (!(length > 0) || apex == 0) return 0;
-      radius = std::fmin(radius, (apex < 0 ? offset : -offset) / length);
+      radius = min(radius, (apex < 0 ? offset : -offset) / length);
     }
     return radius;
   }
@@ -207,8 +207,8 @@ class GjkDescent {
         patience = kProgressPatience;
       else
         --patience;
-      least_ = std::fmin(least_, distance);
-      greatest_ = std::fmax(greatest_, lower);
+      least_ = min(least_, distance);
+      greatest_ = max(greatest_, lower);
       if (lower > m.certificate.lower) take_plane(m.certificate, n, a, b, lower);
       // Bounds that begin at 0 may be narrow and still not tell whether the bodies are apart.
       const bool open = m.certificate.lower == 0 && m.certificate.upper <= pair_.law_two;

@@ -82,7 +82,7 @@ static inline NearestOrigin<Real> nearest_to_origin(const std::array<Difference<
       if (const Real beyond = norm2 - dot(set[i].p, point); beyond > cut) cut = beyond;
     }
     const double length = std::sqrt(rounded(norm2));
-    const double relative = length > 0 ? std::fmin(rounded(cut) / length, length) : 0;  // every plane proves a bound >= 0
+    const double relative = length > 0 ? min(length, rounded(cut) / length) : 0;  // every plane proves a bound >= 0
     if (relative < least_cut) least_cut = relative, best = {n, index, weight, point, rounded(norm2), false};
   };
   for (int i = 0; i < count; ++i) offer(1, {i}, {Real(1)}, set[i].p);

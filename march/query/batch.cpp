@@ -20,14 +20,18 @@
 namespace swiftlet {
 namespace {
 
+#if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
+constexpr unsigned kMostThreads = 1;  // to start one would end the program
+#else
 constexpr unsigned kMostThreads = 1024;
+#endif
 constexpr std::size_t kPairsPerTask = 32;  // so few that threads end together, so many that taking a task costs nothing
 
-/// Runs task(0) to task(count - 1) until a stop is requested.
+/// Runs task(0) to task(count - 1) until it is told to stop.
 template <class Task>
 void run_all(std::size_t count, const Run& run, const Task& task) {
   const auto unless_stopped = [&](std::size_t i) {
-    if (!run.stop.stop_requested()) task(i);
+    if (!run.stop || !run.stop()) task(i);
   };
   if (run.executor) return run.executor(count, unless_stopped);
   for (std::size_t i = 0; i < count; ++i) unless_stopped(i);
@@ -92,7 +96,10 @@ class Workers {
       }
     }
   }
-  ~Workers() { gate_.arrive_and_wait(); }
+  ~Workers() {
+    gate_.arrive_and_wait();
+    for (std::thread& thread : threads_) thread.join();
+  }
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
@@ -135,7 +142,7 @@ class Workers {
   std::exception_ptr failure_;  ///< thrown by the first task that failed
   std::mutex turn_;
   std::barrier<> gate_;  ///< all threads pass it when a batch begins and when it ends
-  std::vector<std::jthread> threads_;
+  std::vector<std::thread> threads_;
 };
 
 }  // namespace

@@ -90,7 +90,8 @@ double Radii::less(double bound, double side) const {
   if (!std::isfinite(bound)) return bound;
   const HighLow sum = two_sum(a_, b_), rest = two_sum(bound, -sum.high);
   const double lost = rest.low - sum.low;
-  return lost == 0 ? rest.high : std::nextafter(rest.high + lost, side);
+  if (lost == 0) return rest.high;
+  return side > 0 ? next_above(rest.high + lost) : next_below(rest.high + lost);
 }
 double Radii::more(double bound, double side) const { return Radii(-a_, -b_).less(bound, side); }
 double Radii::lower(double of_hulls) const { return less(of_hulls, -kInfinity); }

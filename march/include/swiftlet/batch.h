@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <functional>
 #include <span>
-#include <stop_token>
 
 #include <swiftlet/depth.h>
 #include <swiftlet/query.h>
@@ -35,7 +34,9 @@ Executor on_threads(unsigned count);
 /// How a batch runs.
 struct Run {
   Executor executor{};     ///< runs the tasks of the batch; empty: the calling thread does
-  std::stop_token stop{};  ///< once a stop is requested no task begins; answers of tasks that did not run stay unchanged
+  /// Asked before each task, on the thread that is about to run it; empty: never. Once it is true no further task begins; the
+  /// answers of tasks that did not run stay unchanged.
+  std::function<bool()> stop{};
 };
 
 // Each query over pairs writes the answer of pairs[i] to answers[i]; `answers` must be at least as long as `pairs`. The

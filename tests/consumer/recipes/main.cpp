@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program of RECIPES.md, and of what README.md asks: a function per block. Ends with 1 where a block does not do what the
 // page says of it.
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <future>
-#include <stop_token>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -109,8 +109,8 @@ std::vector<swiftlet::Answer> many_poses(const Model& a, const Model& b, const s
 void threads(const std::vector<swiftlet::PairQuery>& pairs, const std::vector<swiftlet::Answer>& alone) {
   std::vector<swiftlet::Answer> answers(pairs.size());
   const swiftlet::Executor threads = swiftlet::on_threads(4);  // kept: they wait for the next batch
-  std::stop_source stop;  // request_stop(), from any thread, ends a long batch: what is done is done
-  swiftlet::distance(pairs, answers, {}, {.executor = threads, .stop = stop.get_token()});
+  std::atomic<bool> stop = false;  // set from any thread it ends a long batch: what is done is done
+  swiftlet::distance(pairs, answers, {}, {.executor = threads, .stop = [&stop] { return stop.load(); }});
 
   const swiftlet::Executor ours = [](std::size_t count, const std::function<void(std::size_t)>& task) {
     std::vector<std::future<void>> running;  // here your own job system
@@ -122,9 +122,9 @@ void threads(const std::vector<swiftlet::PairQuery>& pairs, const std::vector<sw
   for (std::size_t i = 0; i < pairs.size(); ++i)
     expect(same(answers[i], alone[i]) && same(again[i], alone[i]),
            "on threads the answers are those of one query after the other");
-  stop.request_stop();
+  stop = true;
   again.assign(pairs.size(), {});
-  swiftlet::distance(pairs, again, {}, {.executor = threads, .stop = stop.get_token()});
+  swiftlet::distance(pairs, again, {}, {.executor = threads, .stop = [&stop] { return stop.load(); }});
   expect(again.front().steps == 0 && again.front().lower == 0, "a batch that is stopped leaves answers as they were");
 }
 

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What the runtime asks of the system's files, beyond streams: pages of one in memory, and one put in another's place whole or
+// not at all. Knows no format.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include <swiftlet/result.h>
+
+namespace swiftlet {
+
+/// A path as people read it, in UTF-8 on every system.
+std::string text_of(const std::filesystem::path& path);
+/// The path of such a text.
+std::filesystem::path path_of(const std::string& utf8);
+/// The error with its file's name, in `file` and before its message.
+Error named(const std::filesystem::path& path, Error error);
+
+/// Bytes and their owner: heap memory, or a mapping of a file that ends with it.
+struct OwnedBytes {
+  std::shared_ptr<const std::byte[]> owner;
+  std::span<const std::byte> bytes;
+};
+
+/// The pages of a file, which stay as they are when another file takes its place. Errors: CannotRead.
+Result<OwnedBytes> map_file(const std::filesystem::path& path);
+
+/// Writes beside `path`, then renames, so that a failure leaves the old file and nothing beside it. Returns the bytes written.
+/// Errors: CannotWrite.
+Result<std::size_t> replace_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+}  // namespace swiftlet
