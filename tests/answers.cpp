@@ -3,7 +3,6 @@
 #include "answers.h"
 
 #include <algorithm>
-#include <bit>
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +13,7 @@
 #include <sstream>
 #include <string_view>
 
+#include <double_bits.h>
 #include <swiftlet/model_file.h>
 
 #include "answer_fields.h"
@@ -68,7 +68,7 @@ namespace {
 
 struct Words {
   std::vector<std::uint64_t>& words;
-  void number(const char*, double x) { words.push_back(std::isnan(x) ? ~std::uint64_t{0} : std::bit_cast<std::uint64_t>(x)); }
+  void number(const char*, double x) { words.push_back(std::isnan(x) ? ~std::uint64_t{0} : bit_cast<std::uint64_t>(x)); }
   void numbers(const char* name, const Vec3& v) { number(name, v.x()), number(name, v.y()), number(name, v.z()); }
   void feature(const char*, FeatureId h) { words.push_back(std::uint64_t(h.kind()) << 32 | h.index()); }
   void count(const char*, std::uint32_t n) { words.push_back(n); }

@@ -20,6 +20,9 @@
 
 namespace swiftlet::bodies {
 
+/// std::ranges::equal, which not every C++20 library has.
+bool same_elements(const auto& a, const auto& b) { return std::equal(a.begin(), a.end(), b.begin(), b.end()); }
+
 /// One level's arrays, owned.
 struct Polyhedron {
   std::vector<Vec3> points;

@@ -11,6 +11,8 @@
 
 #include "numeric/vec4.h"
 
+#ifdef __SIZEOF_INT128__  // GCC has none of these on machines of 32 bits
+
 namespace swiftlet::exact {
 namespace {
 
@@ -252,3 +254,5 @@ TEST(Exact, OneUlpDecidesWhetherAFaceHoldsTheOrigin) {
 
 }  // namespace
 }  // namespace swiftlet::exact
+
+#endif

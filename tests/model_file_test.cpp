@@ -4,6 +4,12 @@
 // harmless.
 #include <swiftlet/model_file.h>
 
+#if defined(__linux__)
+#include <sys/resource.h>
+
+#include <csignal>
+#endif
+
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -84,6 +90,80 @@ TEST_F(ModelFile, UnwritableAndMissingPathsAreErrors) {
   EXPECT_FALSE(std::filesystem::exists(path("taken.swl.part")));
   EXPECT_EQ(code_of(load(path("missing.swl"))), ErrorCode::CannotRead);
   EXPECT_EQ(code_of(load(path("taken.swl"))), ErrorCode::CannotRead);  // a directory
+}
+
+TEST_F(ModelFile, PathsMayHoldBlanksAndLettersOfAnyScript) {
+  const std::string name = "Körper & Maße 小さい.swl";
+  const auto file = path_of(utf8(path("")) + name);
+  ASSERT_TRUE(save(small(), file));
+  EXPECT_EQ(must(load(file)).hash(), small().hash());
+  EXPECT_EQ(must(map(file)).hash(), small().hash());
+  EXPECT_EQ(must(salvage(file)).model.hash(), small().hash());
+  EXPECT_EQ(utf8(std::filesystem::directory_iterator(path(""))->path().filename()), name);
+  const auto missing = path_of(utf8(path("")) + "größer.swl");
+  const Error error = load(missing).error();
+  EXPECT_EQ(error.file, utf8(missing));
+  EXPECT_NE(error.message.find("größer.swl: "), std::string::npos);
+}
+
+#if defined(__linux__)
+TEST_F(ModelFile, WhereNothingMayBeWrittenNothingIs) {  // also for root, whom a folder's own flags do not stop
+  const Result<std::size_t> saved = save(small(), "/proc/m.swl");
+  ASSERT_FALSE(saved);
+  EXPECT_EQ(saved.error().code, ErrorCode::CannotWrite);
+}
+
+TEST_F(ModelFile, AFullDiskLeavesTheOldFile) {  // or rather one that takes no larger files
+  const auto file = path("m.swl");
+  ASSERT_TRUE(save(small(), file));
+  rlimit before;
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit limit{1000, before.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+  const Result<std::size_t> saved = save(nested(3), file);
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  ASSERT_FALSE(saved);
+  EXPECT_EQ(saved.error().code, ErrorCode::CannotWrite);
+  EXPECT_EQ(must(load(file)).hash(), small().hash());
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("")), {}), 1);
+}
+#endif
+
+/// A file of more than 3 GB, the finest level a hole without a block on the disk.
+TEST_F(ModelFile, WhatALooseToleranceNeedsOfAFileIsReadWhateverItsSize) {
+  const Model m = nested(2, {false, {lut::Resolution::None, 2}});
+  Bytes block = bytes_of(m);
+  auto header = read<BlockHeader>(block, 0);
+  auto finest = read<LevelHeader>(block, level_header_at(0));
+  constexpr std::uint32_t kMore = 100'000'000;
+  finest.vertex_count += kMore;
+  finest.section.bytes += 32 * std::uint64_t{kMore};
+  const auto after = [](const Section& s) { return (s.offset + s.bytes + 63) / 64 * 64; };
+  header.table.offset = after(finest.section);
+  header.source.offset = after(header.table);
+  header.source.bytes += 4 * std::uint64_t{kMore};
+  header.total_bytes = header.source.offset + header.source.bytes;
+  block.resize(finest.section.offset);
+  write(block, 0, header);
+  write(block, level_header_at(0), finest);
+  rehash(block);
+  const auto file = write_file("large.swl", block);
+  std::error_code failure;
+  std::filesystem::resize_file(file, header.total_bytes, failure);
+  if (failure) GTEST_SKIP() << "no such files here: " << failure.message();
+
+  const Detail coarse{.deviation = m.level(1).deviation * 2};
+  EXPECT_EQ(must(load(file, coarse)).level_count(), 2);
+  EXPECT_EQ(must(load(file, coarse)).finest_level(), 1);
+  const Result<Model> mapped = map(file, coarse);
+  if (sizeof(void*) > 4) {
+    EXPECT_EQ(must(mapped).finest_level(), 1);
+  } else {
+    EXPECT_EQ(code_of(mapped), ErrorCode::CannotRead);
+    EXPECT_EQ(code_of(load(file)), ErrorCode::TooLarge);
+  }
 }
 
 TEST_F(ModelFile, EveryTruncationIsRefused) {

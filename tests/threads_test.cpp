@@ -5,7 +5,10 @@
 #include <swiftlet/batch.h>
 
 #include <gtest/gtest.h>
+
+#if defined(__unix__) && GTEST_HAS_DEATH_TEST
 #include <sys/resource.h>
+#endif
 
 #include <algorithm>
 #include <atomic>
@@ -79,6 +82,12 @@ std::vector<std::vector<Fields>> alone() {
   return answers;
 }
 
+#if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
+#define SWIFTLET_NEEDS_THREADS() GTEST_SKIP() << "there are no threads here"
+#else
+#define SWIFTLET_NEEDS_THREADS() static_assert(true)
+#endif
+
 template <class Work>
 void in_threads(Work work) {
   std::vector<std::thread> threads;
@@ -105,6 +114,7 @@ class Threads : public testing::Test {
 };
 
 TEST_F(Threads, WarmQueriesOfInterleavedMotionsAnswerAsOneThread) {
+  SWIFTLET_NEEDS_THREADS();
   const auto expected = alone();
   std::atomic<int> different{0}, asked{0};
   in_threads([&](std::size_t t) {
@@ -125,6 +135,7 @@ TEST_F(Threads, WarmQueriesOfInterleavedMotionsAnswerAsOneThread) {
 }
 
 TEST_F(Threads, ColdQueriesInAnyOrderAnswerAsOneThread) {
+  SWIFTLET_NEEDS_THREADS();
   std::vector<Fields> expected;
   for (const Motion& motion : motions()) {
     for (std::size_t i = 0; i < motion.poses.size(); ++i) {
@@ -146,6 +157,7 @@ TEST_F(Threads, ColdQueriesInAnyOrderAnswerAsOneThread) {
 }
 
 TEST_F(Threads, ModelsAreCopiedAndDroppedWhileOthersAsk) {
+  SWIFTLET_NEEDS_THREADS();
   const auto expected = alone();
   std::atomic<int> different{0};
   in_threads([&](std::size_t t) {
@@ -447,6 +459,7 @@ TEST(Executor, ThrowsATasksExceptionOnTheCallerAfterTheBatchHasStopped) {
   }
 }
 
+#if defined(__unix__) && GTEST_HAS_DEATH_TEST
 TEST(Executor, DoesWithTheThreadsThatTheSystemGives) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer needs all the addresses that this test takes away";
@@ -460,6 +473,7 @@ TEST(Executor, DoesWithTheThreadsThatTheSystemGives) {
   };
   EXPECT_EXIT(few_threads(), testing::ExitedWithCode(0), "");
 }
+#endif
 
 }  // namespace
 }  // namespace swiftlet

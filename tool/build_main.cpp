@@ -18,6 +18,7 @@
 #include <swiftlet/build.h>
 #include <swiftlet/model_file.h>
 
+#include "body/file.h"
 #include "text.h"
 #include "tool.h"
 
@@ -25,7 +26,7 @@ namespace swiftlet::tool {
 namespace {
 
 Result<Built> build_file(const std::string& path, const BuildOptions& options) {
-  const Result<Mesh> mesh = read_mesh(path);
+  const Result<Mesh> mesh = read_mesh(path_of(path));
   if (!mesh) return in_file(path, mesh.error());
   Result<Built> built = build(mesh.value(), options);
   if (!built) return in_file(path, built.error());
@@ -33,7 +34,7 @@ Result<Built> build_file(const std::string& path, const BuildOptions& options) {
 }
 
 Result<Model> model_of_mesh(const std::filesystem::path& path) {
-  Result<Built> built = build_file(path.string(), {});
+  Result<Built> built = build_file(utf8(path), {});
   if (!built) return built.error();
   return std::move(built).value().model;
 }
@@ -100,7 +101,7 @@ nlohmann::ordered_json report_json(const Request& request, const Built& built) {
 }
 
 Result<Output> build_word(const Request& request) {
-  if (const auto may = may_write(request.out, request.in); !may) return may.error();
+  if (const auto may = may_write(path_of(request.out), path_of(request.in)); !may) return may.error();
   BuildOptions options = request.options;
   const auto built = [&]() -> Result<Built> {
     const ProgressBar bar(!request.quiet);
@@ -108,7 +109,7 @@ Result<Output> build_word(const Request& request) {
     return build_file(request.in, options);
   }();
   if (!built) return built.error();
-  if (const auto saved = save(built.value().model, request.out); !saved) return saved.error();
+  if (const auto saved = save(built.value().model, path_of(request.out)); !saved) return saved.error();
   using Json = nlohmann::ordered_json;
   return Output{request.quiet ? "" : report_text(request, built.value()),
                 report_json(request, built.value()).dump(2, ' ', false, Json::error_handler_t::replace) + "\n"};

@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -14,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "body/file.h"
 #include "pair/pair_view.h"
 #include "text.h"
 
@@ -39,15 +39,12 @@ Numbers read_numbers(std::string_view text) {
   for (skip_blanks(); !text.empty(); skip_blanks()) {
     if (!read.values.empty() && text.front() == ',') text.remove_prefix(1), skip_blanks();
     if (text.starts_with('+')) text.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const std::string_view digits = text.substr(0, std::size_t(end - text.data()));
-    text.remove_prefix(digits.size());
-    if (error == std::errc::result_out_of_range && read.beyond.empty()) read.beyond = digits;
-    read.only_numbers = error != std::errc::invalid_argument &&
-                        (text.empty() || text.front() == ',' || kBlank.find(text.front()) != kBlank.npos);
+    const ReadNumber next = read_number(text);
+    if (next.is_beyond && read.beyond.empty()) read.beyond = text.substr(0, next.length);
+    text.remove_prefix(next.length);
+    read.only_numbers = next.length > 0 && (text.empty() || text.front() == ',' || kBlank.find(text.front()) != kBlank.npos);
     if (!read.only_numbers) break;
-    read.values.push_back(value);
+    read.values.push_back(next.value);
   }
   return read;
 }
@@ -101,7 +98,7 @@ Result<Pose> typed_pose(const std::string& text, const std::vector<double>& valu
 }
 
 Result<Pose> filed_pose(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file(path_of(path), std::ios::binary);
   const std::string content{std::istreambuf_iterator<char>(file), {}};
   const Numbers read = read_numbers(content);
   const std::vector<double>& values = read.values;
@@ -123,7 +120,7 @@ Result<Pose> read_pose(const std::string& text) {
   std::error_code ignored;
   if (const Numbers read = read_numbers(text); read.only_numbers && !read.values.empty())
     return read.beyond.empty() ? typed_pose(text, read.values) : beyond_range(text, read);
-  if (std::filesystem::is_regular_file(text, ignored)) return filed_pose(text);
+  if (std::filesystem::is_regular_file(path_of(text), ignored)) return filed_pose(text);
   return bad_pose("\"" + text + "\"", "is neither x,y,z nor x,y,z,qw,qx,qy,qz nor a file");
 }
 

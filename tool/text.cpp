@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "text.h"
 
+#include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <fstream>
+#include <cstdlib>
+#include <span>
 #include <system_error>
+
+#include "body/file.h"
 
 namespace swiftlet::tool {
 
@@ -19,15 +24,41 @@ std::string format(const char* pattern, ...) {
   return text;
 }
 
+#ifdef __cpp_lib_to_chars
 std::string number(double value) {
   char text[32];
   const auto [end, error] = std::to_chars(text, text + sizeof text, value);
   return {text, end};
 }
 
+ReadNumber read_number(std::string_view text) {
+  ReadNumber read;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), read.value);
+  if (error != std::errc::invalid_argument) read.length = std::size_t(end - text.data());
+  read.is_beyond = error == std::errc::result_out_of_range;
+  return read;
+}
+#else  // libc++ before 14 has these for integers alone
+std::string number(double value) {
+  std::string text;
+  int digits = 0;
+  do text = format("%.*g", ++digits, value);
+  while (digits < 17 && std::strtod(text.c_str(), nullptr) != value);
+  return text;
+}
+
+ReadNumber read_number(std::string_view text) {
+  const std::string number(text.substr(0, text.find_first_of(" \t\r\n,+xX", 1)));
+  char* end = nullptr;
+  errno = 0;
+  const double value = std::strtod(number.c_str(), &end);
+  return {std::size_t(end - number.c_str()), value, errno == ERANGE && (value == 0 || std::isinf(value))};
+}
+#endif
+
 std::string numbers(const Vec3& v) { return v.hasNaN() ? "none" : number(v.x()) + " " + number(v.y()) + " " + number(v.z()); }
 
-std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+std::string stem(const std::string& path) { return utf8(path_of(path).stem()); }
 
 Error in_file(const std::string& path, Error error) {
   if (!error.message.starts_with(path)) error.message = path + ": " + error.message;
@@ -37,7 +68,7 @@ Error in_file(const std::string& path, Error error) {
 
 Result<bool> may_write(const std::filesystem::path& path, const std::filesystem::path& input) {
   std::error_code ignored;
-  const auto refused = [&](const char* why) { return in_file(path.string(), {ErrorCode::CannotWrite, why}); };
+  const auto refused = [&](const char* why) { return named(path, {ErrorCode::CannotWrite, why}); };
   if (std::filesystem::equivalent(path, input, ignored)) return refused("is the input itself");
   if (std::filesystem::is_directory(path, ignored)) return refused("is a folder");
   // A link too: the rename would replace it, /dev/stdout for one.
@@ -52,17 +83,7 @@ Result<bool> may_write(const std::filesystem::path& path, const std::filesystem:
 
 Result<std::size_t> write_file(const std::filesystem::path& path, const std::string& text) {
   if (const auto may = may_write(path); !may) return may.error();
-  std::filesystem::path part = path;
-  part += ".part";
-  std::error_code failure;
-  std::ofstream file(part, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  if (file) std::filesystem::rename(part, path, failure);
-  if (file && !failure) return text.size();
-  const std::string why = file ? failure.message() : "cannot write " + std::to_string(text.size()) + " bytes";
-  std::filesystem::remove(part, failure);
-  return in_file(path.string(), {ErrorCode::CannotWrite, why});
+  return replace_file(path, std::as_bytes(std::span(text)));
 }
 
 }  // namespace swiftlet::tool

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include <swiftlet/pose.h>
 #include <swiftlet/result.h>
@@ -13,7 +14,9 @@
 namespace swiftlet::tool {
 
 /// printf, in a string of at most 400 characters.
-#if defined(__GNUC__)
+#if defined(__MINGW32__)
+[[gnu::format(gnu_printf, 1, 2)]]
+#elif defined(__GNUC__)
 [[gnu::format(printf, 1, 2)]]
 #endif
 std::string
@@ -21,6 +24,13 @@ format(const char* pattern, ...);
 
 /// The shortest decimal that reads back as the same double.
 std::string number(double value);
+/// The double nearest to the decimal number that a text begins with.
+struct ReadNumber {
+  std::size_t length = 0;  ///< of the number in the text; 0 if it begins with none
+  double value = 0;
+  bool is_beyond = false;  ///< no double is near it
+};
+ReadNumber read_number(std::string_view text);
 /// Three numbers, one blank between; "none" where the answer knows none.
 std::string numbers(const Vec3& v);
 

@@ -4,6 +4,12 @@
 
 #include <CLI/CLI.hpp>
 
+#ifdef _WIN32
+#include <windows.h>
+
+#include <shellapi.h>
+#endif
+
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -15,6 +21,7 @@
 
 #include <swiftlet/model_file.h>
 
+#include "body/file.h"
 #include "pose_text.h"
 #include "text.h"
 
@@ -24,11 +31,11 @@ namespace {
 constexpr const char* kBodyHelp = "a .swl model, or a mesh where the tool has the builder";
 
 Result<LoadedModel> open(const std::string& path, const ModelOfMesh& model_of_mesh) {
-  if (std::filesystem::path(path).extension() != ".swl" && !model_of_mesh)
+  const bool is_model = path_of(path).extension() == ".swl";
+  if (!is_model && !model_of_mesh)
     return in_file(path,
                    {ErrorCode::BadFormat, "is no .swl model, and this tool was made without the builder that reads meshes"});
-  Result<Model> model =
-      std::filesystem::path(path).extension() == ".swl" ? load(std::filesystem::path(path)) : model_of_mesh(path);
+  Result<Model> model = is_model ? load(path_of(path)) : model_of_mesh(path_of(path));
   if (!model) return model.error();
   return LoadedModel{path, std::move(model).value()};
 }
@@ -52,10 +59,10 @@ Action on_body_to_file(CLI::App& word, const ModelOfMesh& model_of_mesh, const c
   word.add_option("X", *in, kBodyHelp)->required();
   word.add_option("-o,--output", *out, help)->required();
   return [in, out, model_of_mesh, act]() -> Result<Output> {
-    if (const auto may = may_write(*out, *in); !may) return may.error();
+    if (const auto may = may_write(path_of(*out), path_of(*in)); !may) return may.error();
     const Result<LoadedModel> body = open(*in, model_of_mesh);
     if (!body) return body.error();
-    return act(body.value(), *out);
+    return act(body.value(), path_of(*out));
   };
 }
 
@@ -68,7 +75,7 @@ Action declare_verify(CLI::App& word, const ModelOfMesh& model_of_mesh) { return
 Action declare_export(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   const auto level = std::make_shared<int>(0);
   word.add_option("--level", *level, "0 is the exact hull, larger is coarser")->capture_default_str();
-  const auto write = [level](const LoadedModel& body, const std::string& out) {
+  const auto write = [level](const LoadedModel& body, const std::filesystem::path& out) {
     const int finest = body.model.finest_level(), coarsest = body.model.level_count() - 1;
     if (*level < finest || *level > coarsest)
       throw CLI::ValidationError(
@@ -79,8 +86,7 @@ Action declare_export(CLI::App& word, const ModelOfMesh& model_of_mesh) {
 }
 
 Action declare_draw(CLI::App& word, const ModelOfMesh& model_of_mesh) {
-  return on_body_to_file(word, model_of_mesh, "the SVG file to write",
-                         [](const LoadedModel& body, const std::string& out) { return draw_levels(body, out); });
+  return on_body_to_file(word, model_of_mesh, "the SVG file to write", draw_levels);
 }
 
 Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
@@ -153,6 +159,25 @@ std::vector<Word> all_words(const ModelOfMesh& model_of_mesh, std::span<const Wo
   words.push_back({"draw", "draws the levels side by side as an SVG", bind(declare_draw)});
   return words;
 }
+
+/// The words of the command line in UTF-8, which Windows' own `argv` is not.
+class Utf8Arguments {
+ public:
+  Utf8Arguments(int argc, char** argv) : words_(argv, argv + argc) {
+#ifdef _WIN32
+    wchar_t** const wide = CommandLineToArgvW(GetCommandLineW(), &argc);
+    for (int i = 0; i < argc; ++i) words_[std::size_t(i)] = utf8(wide[i]);
+    LocalFree(wide);
+#endif
+    for (std::string& word : words_) pointers_.push_back(word.data());
+    pointers_.push_back(nullptr);
+  }
+  char** begin() { return pointers_.data(); }
+
+ private:
+  std::vector<std::string> words_;
+  std::vector<char*> pointers_;
+};
 
 /// Tells why there is no output, in one line on stderr or as JSON on stdout, whatever the message holds.
 class Failure {
@@ -242,6 +267,8 @@ void add_detail(CLI::App& word, Detail& detail) {
 }
 
 int run_tool(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const Word> more_words) {
+  Utf8Arguments arguments(argc, argv);
+  argv = arguments.begin();
   const Failure fail(argc, argv);
   try {
     return run(argc, argv, model_of_mesh, more_words, fail);

@@ -11,6 +11,7 @@
 #include <swiftlet/check.h>
 #include <swiftlet/model_file.h>
 
+#include "body/file.h"
 #include "draw.h"
 #include "off_text.h"
 #include "text.h"
@@ -387,22 +388,22 @@ Output distance(const LoadedModel& a, const LoadedModel& b, const Pose& b_in_a, 
 Result<Output> export_level(const LoadedModel& body, int level, const std::filesystem::path& path) {
   const Result<std::size_t> bytes = write_file(path, off_text(body.model.level(level).view));
   if (!bytes) return bytes.error();
-  return Output{path.string() + format(": level %d, %zu bytes\n", level, bytes.value()),
-                dump({{"path", path.string()}, {"level", level}, {"bytes", bytes.value()}})};
+  return Output{utf8(path) + format(": level %d, %zu bytes\n", level, bytes.value()),
+                dump({{"path", utf8(path)}, {"level", level}, {"bytes", bytes.value()}})};
 }
 
 Result<Output> cut(const std::string& path, const std::string& to, const Detail& detail, bool salvaging) {
-  if (const auto may = may_write(to, path); !may) return may.error();
+  if (const auto may = may_write(path_of(to), path_of(path)); !may) return may.error();
   std::string note;
   Result<Model> model = [&]() -> Result<Model> {
-    if (!salvaging) return load(std::filesystem::path(path), detail);
-    Result<Salvaged> left = salvage(path);
+    if (!salvaging) return load(path_of(path), detail);
+    Result<Salvaged> left = salvage(path_of(path));
     if (!left) return left.error();
     note = left.value().note;
     return left.value().model.cut(detail);
   }();
   if (!model) return model.error();
-  const Result<std::size_t> bytes = save(model.value(), to);
+  const Result<std::size_t> bytes = save(model.value(), path_of(to));
   if (!bytes) return bytes.error();
   const int finest = model.value().finest_level(), coarsest = model.value().level_count() - 1;
   return Output{
@@ -413,8 +414,8 @@ Result<Output> cut(const std::string& path, const std::string& to, const Detail&
 Result<Output> draw_levels(const LoadedModel& body, const std::filesystem::path& path) {
   const Result<std::size_t> bytes = write_file(path, draw(body.model, stem(body.path)));
   if (!bytes) return bytes.error();
-  return Output{path.string() + ": " + counted(body.model.level_count()) + format(", %zu bytes\n", bytes.value()),
-                dump({{"path", path.string()}, {"levels", body.model.level_count()}, {"bytes", bytes.value()}})};
+  return Output{utf8(path) + ": " + counted(body.model.level_count()) + format(", %zu bytes\n", bytes.value()),
+                dump({{"path", utf8(path)}, {"levels", body.model.level_count()}, {"bytes", bytes.value()}})};
 }
 
 }  // namespace swiftlet::tool

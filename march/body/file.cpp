@@ -3,11 +3,9 @@
 #include "body/file.h"
 
 #include <fstream>
-#include <limits>
 #include <system_error>
 
 #ifdef _WIN32
-#define NOMINMAX
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
 #else
@@ -87,7 +85,7 @@ class OpenFile {
 
 }  // namespace
 
-std::string text_of(const std::filesystem::path& path) {
+std::string utf8(const std::filesystem::path& path) {
   const std::u8string text = path.u8string();
   return {text.begin(), text.end()};
 }
@@ -95,7 +93,7 @@ std::string text_of(const std::filesystem::path& path) {
 std::filesystem::path path_of(const std::string& utf8) { return std::u8string(utf8.begin(), utf8.end()); }
 
 Error named(const std::filesystem::path& path, Error error) {
-  error.file = text_of(path);
+  error.file = utf8(path);
   error.message = error.file + ": " + error.message;
   return error;
 }
@@ -105,7 +103,7 @@ Result<OwnedBytes> map_file(const std::filesystem::path& path) {
   if (!file.is_open()) return named(path, {ErrorCode::CannotRead, last_failure()});
   const std::uint64_t size = file.size();
   if (size == 0) return named(path, {ErrorCode::CannotRead, "is empty, or no file"});
-  if (size > std::uint64_t(std::numeric_limits<std::ptrdiff_t>::max()))
+  if (size > std::uint64_t{PTRDIFF_MAX})
     return named(path, {ErrorCode::CannotRead, "is larger than what this machine can address"});
   auto pages = file.pages(std::size_t(size));
   if (!pages) return named(path, {ErrorCode::CannotRead, last_failure()});

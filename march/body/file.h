@@ -16,7 +16,7 @@
 namespace swiftlet {
 
 /// A path as people read it, in UTF-8 on every system.
-std::string text_of(const std::filesystem::path& path);
+std::string utf8(const std::filesystem::path& path);
 /// The path of such a text.
 std::filesystem::path path_of(const std::string& utf8);
 /// The error with its file's name, in `file` and before its message.

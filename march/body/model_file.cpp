@@ -5,7 +5,6 @@
 
 #include <array>
 #include <fstream>
-#include <limits>
 #include <system_error>
 
 #include "body/block.h"
@@ -42,7 +41,7 @@ Result<Model> kept(AlignedBytes block, int finest) {
 
 Result<Model> read(const std::filesystem::path& path, const Headers& headers, int finest) {
   const std::uint64_t bytes = headers.prefix(finest);
-  if (bytes > std::uint64_t(std::numeric_limits<std::ptrdiff_t>::max()))
+  if (bytes > std::uint64_t{PTRDIFF_MAX})
     return named(path, {ErrorCode::TooLarge, std::to_string(bytes) + " bytes are more than this machine can address"});
   AlignedBytes block{std::size_t(bytes)};
   std::ifstream file(path, std::ios::binary);
@@ -103,7 +102,7 @@ Result<Salvaged> salvage(const std::filesystem::path& path) {
   }
   Result<Model> model = read(path, headers, finest);
   if (!model) return model.error();
-  const std::string note = text_of(path) + ": " + cut + ": levels finer than " + std::to_string(finest) + " are missing";
+  const std::string note = utf8(path) + ": " + cut + ": levels finer than " + std::to_string(finest) + " are missing";
   return Salvaged{std::move(model).value(), cut.empty() ? "" : note};
 }
 

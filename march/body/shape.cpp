@@ -85,8 +85,9 @@ int segment(const Vertex& p, const Vertex& q, Primitive& primitive) {
 
 int triangle(const std::array<Vertex, 3>& corner, Primitive& primitive) {
   if (exact::collinear(&corner[0].x, &corner[1].x, &corner[2].x)) {
-    const auto [first, last] = std::minmax_element(
-        corner.begin(), corner.end(), [](const Vertex& v, const Vertex& w) { return std::tie(v.x, v.y, v.z) < std::tie(w.x, w.y, w.z); });
+    const auto [first, last] = std::minmax_element(corner.begin(), corner.end(), [](const Vertex& v, const Vertex& w) {
+      return std::tie(v.x, v.y, v.z) < std::tie(w.x, w.y, w.z);
+    });
     return segment(*first, *last, primitive);
   }
   std::copy(corner.begin(), corner.end(), primitive.vertices.begin());

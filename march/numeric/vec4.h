@@ -197,7 +197,7 @@ static inline Vec4 vec4(const std::int16_t* p) {
   const __m128i whole = _mm_srai_epi32(_mm_unpacklo_epi16(wide, wide), 16);
   return {_mm_cvtepi32_pd(whole), _mm_cvtepi32_pd(_mm_unpackhi_epi64(whole, whole))};
 #else
-  return {{double(units[0]), double(units[1])}, {double(units[2]), double(units[3])}};
+  return vec4(Vec2{double(units[0]), double(units[1])}, Vec2{double(units[2]), double(units[3])});
 #endif
 #endif
 }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <barrier>
 #include <cassert>
+#include <condition_variable>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -81,23 +81,53 @@ void over_poses(std::span<const Pose> poses, std::span<AnyAnswer> answers, const
   run_all((poses.size() + kPosesPerChunk - 1) / kPosesPerChunk, run, ask_chunk);
 }
 
+/// A gate that opens when all have come to it, again and again. (Of std::barrier there are libraries in which it hangs:
+/// libstdc++ 12 on Windows.)
+class Gate {
+ public:
+  explicit Gate(std::size_t count) : count_(count), missing_(count) {}
+  /// Waits for the others.
+  void pass() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    if (--missing_ == 0) return open(std::move(lock));
+    opened_.wait(lock, [this, before = rounds_] { return rounds_ != before; });
+  }
+  /// From now on there is one less to wait for.
+  void leave() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    --count_;
+    if (--missing_ == 0) open(std::move(lock));
+  }
+
+ private:
+  void open(std::unique_lock<std::mutex> lock) {
+    missing_ = count_;
+    ++rounds_;
+    lock.unlock();  // those who wake need it
+    opened_.notify_all();
+  }
+  std::mutex mutex_;
+  std::condition_variable opened_;
+  std::size_t count_, missing_, rounds_ = 0;
+};
+
 /// A pool of threads that wait for tasks, because a thread started with each batch may get a core milliseconds late. A thread
 /// first runs its own range of the tasks, the same in every batch of that size, so that its data stay in its core's cache; then
 /// it takes tasks left in other ranges. If the system starts fewer threads than asked for, those run all tasks.
 class Workers {
  public:
-  explicit Workers(std::size_t count) : next_(count), gate_(std::ptrdiff_t(count)) {
+  explicit Workers(std::size_t count) : next_(count), gate_(count) {
     threads_.reserve(count);
     for (std::size_t worker = 1; worker < count; ++worker) {
       try {
         threads_.emplace_back([this, worker] { wait_and_work(worker); });
       } catch (const std::exception&) {
-        gate_.arrive_and_drop();
+        gate_.leave();
       }
     }
   }
   ~Workers() {
-    gate_.arrive_and_wait();
+    gate_.pass();
     for (std::thread& thread : threads_) thread.join();
   }
   Workers(const Workers&) = delete;
@@ -109,9 +139,9 @@ class Workers {
     task_ = &task;
     for (std::size_t range = 0; range < next_.size(); ++range) next_[range] = begin(range);
     failed_ = false;
-    gate_.arrive_and_wait();
+    gate_.pass();
     work(0);
-    gate_.arrive_and_wait();
+    gate_.pass();
     task_ = nullptr;
     if (failed_) std::rethrow_exception(std::exchange(failure_, nullptr));
   }
@@ -119,9 +149,9 @@ class Workers {
  private:
   std::size_t begin(std::size_t range) const { return tasks_ * range / next_.size(); }
   void wait_and_work(std::size_t worker) {
-    for (gate_.arrive_and_wait(); task_; gate_.arrive_and_wait()) {
+    for (gate_.pass(); task_; gate_.pass()) {
       work(worker);
-      gate_.arrive_and_wait();
+      gate_.pass();
     }
   }
   /// Runs tasks, those of range `own` first, until none is left or one has thrown on any thread.
@@ -141,7 +171,7 @@ class Workers {
   std::atomic<bool> failed_ = false;
   std::exception_ptr failure_;  ///< thrown by the first task that failed
   std::mutex turn_;
-  std::barrier<> gate_;  ///< all threads pass it when a batch begins and when it ends
+  Gate gate_;  ///< all threads pass it when a batch begins and when it ends
   std::vector<std::thread> threads_;
 };
 

@@ -12,7 +12,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Verdict verdict(double lower, double upper, double law_two) {
   if (upper < 0) return Verdict::Overlapping;

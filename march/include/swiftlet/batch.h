@@ -33,7 +33,7 @@ Executor on_threads(unsigned count);
 
 /// How a batch runs.
 struct Run {
-  Executor executor{};     ///< runs the tasks of the batch; empty: the calling thread does
+  Executor executor{};  ///< runs the tasks of the batch; empty: the calling thread does
   /// Asked before each task, on the thread that is about to run it; empty: never. Once it is true no further task begins; the
   /// answers of tasks that did not run stay unchanged.
   std::function<bool()> stop{};

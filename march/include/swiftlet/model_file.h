@@ -17,6 +17,8 @@ namespace swiftlet {
 /// The version of the file format that `save` writes. Files of any other version are refused.
 inline constexpr std::uint32_t kModelFileVersion = 5;
 
+// Paths are the system's; those in errors are UTF-8.
+
 /// Writes a file beside `path`, then renames it, so that a failure leaves the old file intact. Returns the bytes written.
 /// Errors: CannotWrite, with the cause.
 Result<std::size_t> save(const Model& model, const std::filesystem::path& path);
@@ -24,7 +26,7 @@ Result<std::size_t> save(const Model& model, const std::filesystem::path& path);
 /// Reads the levels of a file that `detail` asks for. Coarse levels come first in the file; levels beyond `detail` are neither
 /// read nor kept. Sizes are checked before memory is allocated, then hashes, index ranges and topology; geometry is not
 /// checked, see `verify` in check.h. Cost: one pass over the bytes read. Errors: CannotRead, BadFormat (names what is damaged;
-/// also for a file cut short), BadVersion.
+/// also for a file cut short), BadVersion, TooLarge (on machines of 32 bits).
 Result<Model> load(const std::filesystem::path& path, const Detail& detail = {});
 
 /// Loads a model from the bytes of a file, which are copied.
@@ -32,7 +34,8 @@ Result<Model> load(std::span<const std::byte> bytes, const Detail& detail = {});
 
 /// Loads a model without a copy: the model's memory is the mapped file, whose pages processes share. Pages of levels finer than
 /// `detail` asks for are not touched until `Model::ensure` reads them. The file's content must not change while the model or a
-/// copy of it lives; the file may be renamed or deleted, and replaced by `save`. Errors: as `load`.
+/// copy of it lives; the file may be renamed or deleted, and replaced by `save`, unless the system refuses that of mapped
+/// files, as Windows may. Errors: as `load`.
 Result<Model> map(const std::filesystem::path& path, const Detail& detail = {});
 
 /// The result of `salvage`.

@@ -109,7 +109,8 @@ std::vector<swiftlet::Answer> many_poses(const Model& a, const Model& b, const s
 void threads(const std::vector<swiftlet::PairQuery>& pairs, const std::vector<swiftlet::Answer>& alone) {
   std::vector<swiftlet::Answer> answers(pairs.size());
   const swiftlet::Executor threads = swiftlet::on_threads(4);  // kept: they wait for the next batch
-  std::atomic<bool> stop = false;  // set from any thread it ends a long batch: what is done is done
+  // Set from any thread this ends a long batch: what is done is done.
+  std::atomic<bool> stop = false;
   swiftlet::distance(pairs, answers, {}, {.executor = threads, .stop = [&stop] { return stop.load(); }});
 
   const swiftlet::Executor ours = [](std::size_t count, const std::function<void(std::size_t)>& task) {
