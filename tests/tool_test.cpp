@@ -14,6 +14,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -97,6 +98,27 @@ class Tool : public testing::Test {
     Ran ran{WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(streams / "out"), content(streams / "err")};
     std::filesystem::remove_all(streams);
     return ran;
+  }
+
+  /// With the folder "disk" a file system of its own: 64 kB, 20 of them taken by the file "old", and then as `prepare` leaves
+  /// it. Nothing where none may be mounted. The output begins with the names there afterwards.
+  std::optional<Ran> run_on_disk(const std::string& prepare, const std::string& arguments) const {
+    std::filesystem::create_directories(folder_ / "disk");
+    const std::filesystem::path beside = folder_.string() + ".disk";
+    std::filesystem::create_directories(beside);
+    write(beside / "script", "mount -t tmpfs -o size=64k none disk && head -c 20000 /dev/zero >disk/old || exit\n" + prepare +
+                                 "\n'" + kTool + "' " + arguments + " >'" + (beside / "said").string() + "' 2>'" +
+                                 (beside / "err").string() + "' </dev/null; echo $? >'" + (beside / "code").string() +
+                                 "'\n(ls disk; cmp -n 20000 disk/old /dev/zero; cat '" + (beside / "said").string() + "') >'" +
+                                 (beside / "out").string() + "'\n");
+    const std::string command = "cd '" + folder_.string() + "' && unshare --map-root-user --mount sh '" +
+                                (beside / "script").string() + "' >/dev/null 2>&1";
+    [[maybe_unused]] const int status = std::system(command.c_str());
+    const std::string code = content(beside / "code");
+    const Ran ran{code.empty() ? -1 : std::stoi(code), content(beside / "out"), content(beside / "err")};
+    std::filesystem::remove_all(beside);
+    std::filesystem::remove_all(folder_ / "disk");
+    return code.empty() ? std::nullopt : std::optional(ran);
   }
 
   std::string says(const std::string& arguments) const {
@@ -400,6 +422,75 @@ TEST_F(Tool, KeepsTheOldFileWhenItFails) {
   says("export a.swl --level 0 -o kept.off");
   EXPECT_TRUE(content(folder_ / "kept.off").starts_with("OFF"));
   EXPECT_EQ(names(), before_);
+}
+
+/// The words that write, each to a path that is to follow.
+std::vector<std::string> writing_words() {
+  std::vector<std::string> words{"cut a.swl -o ", "export a.swl --level 0 -o ", "draw a.swl -o "};
+  if (kBuilds) words.push_back("build cube.off --quiet -o ");
+  return words;
+}
+
+TEST_F(Tool, OnAFullDiskTheFileIsWholeOrAbsent) {
+  for (const std::string& word : writing_words()) {
+    for (const std::string name : {"new", "old"}) {
+      const auto full = run_on_disk("head -c 100000 /dev/zero >disk/filler 2>/dev/null", word + "disk/" + name);
+      if (!full) GTEST_SKIP() << "no file system may be mounted here";
+      EXPECT_EQ(full->code, 1) << word;
+      EXPECT_EQ(full->out, "filler\nold\n") << word;
+      EXPECT_TRUE(full->err.starts_with("swiftlet: disk/" + name + ": cannot write ")) << full->err;
+      EXPECT_EQ(std::count(full->err.begin(), full->err.end(), '\n'), 1) << full->err;
+    }
+    const auto roomy = run_on_disk(":", word + "disk/new");
+    EXPECT_EQ(roomy->code, 0) << word << roomy->err;
+    EXPECT_TRUE(roomy->out.starts_with("new\nold\n")) << roomy->out;
+  }
+}
+
+TEST_F(Tool, AFolderThatMayNotBeWrittenIsNamed) {
+  for (const std::string& word : writing_words()) {
+    for (const std::string name : {"new", "old"}) {
+      const auto ran = run_on_disk("mount -o remount,ro disk", word + "disk/" + name);
+      if (!ran) GTEST_SKIP() << "no file system may be mounted here";
+      EXPECT_EQ(ran->code, 1) << word;
+      EXPECT_EQ(ran->out, "old\n") << word;
+      EXPECT_TRUE(ran->err.starts_with("swiftlet: disk/" + name + ": cannot write ")) << ran->err;
+      EXPECT_EQ(std::count(ran->err.begin(), ran->err.end(), '\n'), 1) << ran->err;
+    }
+  }
+}
+
+TEST_F(Tool, TextThatCannotBeWrittenNamesTheCause) {
+  const auto full = run_on_disk("head -c 100000 /dev/zero >disk/filler 2>/dev/null", "export a.swl --level 0 -o disk/new");
+  const auto readonly = run_on_disk("mount -o remount,ro disk", "export a.swl --level 0 -o disk/new");
+  if (!full) GTEST_SKIP() << "no file system may be mounted here";
+  EXPECT_TRUE(full->err.ends_with(": No space left on device\n")) << full->err;
+  EXPECT_TRUE(readonly->err.ends_with(": Read-only file system\n")) << readonly->err;
+}
+
+TEST_F(Tool, ReadsFromAFolderThatMayNotBeWritten) {
+  const auto info = run_on_disk("cp a.swl disk/b.swl; mount -o remount,ro disk", "info disk/b.swl");
+  if (!info) GTEST_SKIP() << "no file system may be mounted here";
+  EXPECT_EQ(info->code, 0) << info->err;
+  EXPECT_NE(info->out.find("disk/b.swl"), std::string::npos) << info->out;
+}
+
+TEST_F(Tool, TakesPathsWithSpacesAndUmlauts) {
+  const std::string odd = "\u00e4 \u00f6/\u00fc \u00df", quoted = "'" + odd;  // "ä ö/ü ß"
+  std::filesystem::create_directories(folder_ / std::filesystem::path(odd).parent_path());
+  std::filesystem::copy(folder_ / "a.swl", folder_ / (odd + ".swl"));
+  EXPECT_EQ(says_json("info " + quoted + ".swl'")["path"], odd + ".swl");
+  says("verify " + quoted + ".swl'");
+  EXPECT_EQ(says("distance " + quoted + ".swl' a.swl --pose 3,0,0"), says("distance a.swl " + quoted + ".swl' --pose 3,0,0"));
+  says("cut " + quoted + ".swl' --deviation 1e9 -o " + quoted + " cut.swl'");
+  says("export " + quoted + ".swl' --level 0 -o " + quoted + ".off'");
+  EXPECT_EQ(says_json("draw " + quoted + ".swl' -o " + quoted + ".svg'")["path"], odd + ".svg");
+  for (const char* made : {" cut.swl", ".off", ".svg"}) EXPECT_TRUE(std::filesystem::exists(folder_ / (odd + made))) << made;
+  before_ = names();
+  refuses("info " + quoted + ".none'", odd + ".none");
+  if (!kBuilds) return;
+  EXPECT_EQ(says_json("build " + quoted + ".off' -o " + quoted + " built.swl'")["path"], odd + " built.swl");
+  says("verify " + quoted + " built.swl'");
 }
 
 TEST_F(Tool, RefusesToWriteOntoItsInput) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "body/file.h"
 
+#include <cerrno>
 #include <fstream>
 #include <system_error>
 
@@ -14,7 +15,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #endif
 
 namespace swiftlet {
@@ -118,13 +118,16 @@ Result<std::size_t> replace_file(const std::filesystem::path& path, std::span<co
   std::error_code failure, ignored;
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
     return refused("exists and is no file");
+  errno = 0;
   std::ofstream file(part, std::ios::binary | std::ios::trunc);
   file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
   file.close();
+  const int cause = errno;  // as the system's calls below the stream left it
   if (file) std::filesystem::rename(part, path, failure);
   if (file && !failure) return bytes.size();
   std::filesystem::remove(part, ignored);
-  return refused(file ? failure.message() : "cannot write " + std::to_string(bytes.size()) + " bytes");
+  const std::string because = cause ? ": " + std::generic_category().message(cause) : "";
+  return refused(file ? failure.message() : "cannot write " + std::to_string(bytes.size()) + " bytes" + because);
 }
 
 }  // namespace swiftlet
