@@ -103,28 +103,35 @@ static inline SupportGjk nearest_on_maps(const ModelPair& pair, const PairView& 
   return true;
 }
 
+/// Answers, if that suffices, by what needs no features: the balls around and inside the bodies, the vertices that proved an
+/// overlap, one sample of the maps, which `seen` becomes. `line` has its first half, and gets the second if none of these does.
+[[gnu::always_inline]] static inline bool answers_at_once(const ModelPair& pair, const StopRule& asked, bool exact, Line& line,
+                                                          PairSeed& seed, AxisSample& seen, Answer& answer,
+                                                          OverlapProof& proof) {
+  const Tuning& tuning = pair.limits.tuning;
+  const bool automatic = tuning.start == StartPolicy::Automatic, asks = asked.is_threshold(),
+             unwatched = pair.limits.trace.empty() && !tuning.proof && !tuning.careful;
+  if (asks && automatic && unwatched && spheres_are_apart(pair, line.in_a, asked, answer)) return true;
+  if ((asks || seed.met) && automatic && unwatched && spheres_meet(pair, line.in_a, answer)) return true;
+  if (seed.met && automatic && overlaps_as_before(pair, seed, answer, proof)) return true;
+  const bool samples = !seed.met && pair.limits.trace.empty() && pair.has_maps();
+  if (asks && samples && separating_axis(pair, line.in_a, asked, seed, seen, answer)) return true;
+  store(turned_line(vec4(line.in_a), pair.motion), line.in_b);
+  if (asks || exact || !automatic || !unwatched) return false;
+  if (spheres_suffice(pair, line.in_a, asked, answer)) return true;
+  return samples && seed.a.kind() == FeatureKind::None && sample_suffices(pair, line, asked, seed, seen, answer);
+}
+
 /// As `ask_hulls`.
 [[gnu::always_inline]] static inline void answer_hulls(const ModelPair& pair, const StopRule& asked, PairSeed& seed,
                                                        Answer& answer, OverlapProof& proof) {
   const Tuning& tuning = pair.limits.tuning;
-  const bool automatic = tuning.start == StartPolicy::Automatic;
   Line line;
   store(between_centres(pair.a, pair.b, pair.motion), line.in_a);
-  const bool asks = asked.is_threshold(), unwatched = pair.limits.trace.empty() && !tuning.proof && !tuning.careful;
-  if (asks && automatic && unwatched && spheres_are_apart(pair, line.in_a, asked, answer)) return;
-  if ((asks || seed.met) && automatic && unwatched && spheres_meet(pair, line.in_a, answer)) return;
-  if (seed.met && automatic && overlaps_as_before(pair, seed, answer, proof)) return;
+  const bool exact = is_exact(pair, line.in_a, asked);
   AxisSample seen;
   seen.normal = {0, 0, 0};
-  if (asks && !seed.met && pair.limits.trace.empty() && pair.has_maps() &&
-      separating_axis(pair, line.in_a, asked, seed, seen, answer))
-    return;
-  store(turned_line(vec4(line.in_a), pair.motion), line.in_b);
-  const bool exact = is_exact(pair, line.in_a, asked), roughly = !asks && !exact && automatic && unwatched;
-  if (roughly && spheres_suffice(pair, line.in_a, asked, answer)) return;
-  if (roughly && seed.a.kind() == FeatureKind::None && !seed.met && pair.has_maps() &&
-      sample_suffices(pair, line, asked, seed, seen, answer))
-    return;
+  if (answers_at_once(pair, asked, exact, line, seed, seen, answer, proof)) return;
   Turn turn;
   Place place = first_place(pair.a, pair.b, line, seed, pair.finest_a(), pair.finest_b(), tuning.start, turn);
   const bool walks = !tuning.careful && tuning.start != StartPolicy::Coarsest;
