@@ -74,7 +74,7 @@ static inline MapSupports look_up(const Level& a, const Vec4& n_a, const Level& 
   const auto index = [&](Vec2 along) { return whole(max(Vec2{0, 0}, min(last, along * scale + half))); };
   const auto row = index(x - y), column = index(x + y);
   const auto found = [&](const Level& level, std::size_t lane) {
-    const auto lower = std::uint32_t(std::bit_cast<std::uint64_t>(double(z[lane])) >> 63);
+    const auto lower = std::uint32_t(bit_cast<std::uint64_t>(double(z[lane])) >> 63);
     const std::uint32_t cell =
         (lower * level.map_side + std::uint32_t(row[lane])) * level.map_side + std::uint32_t(column[lane]);
     const std::uint32_t entry = level.support_map[cell];

@@ -57,8 +57,10 @@ void grow(const PairView& pair, const Anchor& w, double margin, double bound, co
 Anchor anchor(const PairView& pair, const Radii& radii, const Answer& answer) {
   const Vec n = vec(answer.normal), point_a = vec(answer.point_a) - n * radii.a(),
             point_b = vec(answer.point_b) + n * radii.b();
-  // The points of a touching pair may be one, which is as far from the interval as law 2 allows.
-  const double separation = min(max(dot(n, point_b - point_a), answer.lower + radii.sum()), answer.upper + radii.sum());
+  double separation = dot(n, point_b - point_a);
+  // The points of a touching pair may be one, which is as far from the interval as law 2 allows. A distance of 0 says nothing.
+  if (answer.is_signed || answer.lower > 0)
+    separation = min(max(separation, answer.lower + radii.sum()), answer.upper + radii.sum());
   std::uint32_t tests = 0;
   return {n, point_a, separation, feature_at_a(pair, answer.feature_a, point_a, tests),
           feature_at_b(pair, answer.feature_b, point_b, tests)};

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -65,7 +64,8 @@ static inline Vec2 abs(Vec2 a) {
 /// The whole parts of numbers that are no NaN and fit.
 static inline std::array<std::int32_t, 2> whole(Vec2 a) {
 #if defined(__SSE2__)
-  return std::bit_cast<std::array<std::int32_t, 2>>(_mm_cvtsi128_si64(_mm_cvttpd_epi32(a)));
+  const __m128i whole = _mm_cvttpd_epi32(a);
+  return {_mm_cvtsi128_si32(whole), _mm_cvtsi128_si32(_mm_shuffle_epi32(whole, 1))};
 #else
   return {std::int32_t(a[0]), std::int32_t(a[1])};
 #endif

@@ -342,6 +342,8 @@ class Descent {
       answer_.verdict = Verdict::Touching;
     else if (answer_.lower > 0)
       answer_.verdict = Verdict::Disjoint;
+    else if (answer_.verdict == Verdict::Disjoint)  // by a bound that a plane which fits the points has replaced
+      answer_.verdict = Verdict::Undecided;
     const bool exact =
         exact_levels && (met_ == MarchStatus::Disjoint || met_ == MarchStatus::Touching || met_ == MarchStatus::Overlapping);
     if (answer_.lower > stop_.above)
