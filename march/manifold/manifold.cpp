@@ -54,15 +54,15 @@ void grow(const PairView& pair, const Anchor& w, double margin, double bound, co
     manifold.points[manifold.count++] = placed(pair, projection, candidates[i], w.separation - bound / 2);
 }
 
-Anchor anchor(const PairView& pair, const Radii& radii, const Answer& answer) {
+/// `bound` is law 2's for the bodies.
+Anchor anchor(const PairView& pair, const Radii& radii, const Answer& answer, double bound) {
   const Vec n = vec(answer.normal), point_a = vec(answer.point_a) - n * radii.a(),
             point_b = vec(answer.point_b) + n * radii.b();
-  double separation = dot(n, point_b - point_a);
-  // The points of a touching pair may be one, which is as far from the interval as law 2 allows. A distance of 0 says nothing.
-  if (answer.is_signed || answer.lower > 0)
-    separation = min(max(separation, answer.lower + radii.sum()), answer.upper + radii.sum());
+  // The points of a touching pair may be one, which is as far from the interval as law 2 allows.
+  const double seen = dot(n, point_b - point_a),
+               proved = min(max(seen, answer.lower + radii.sum()), answer.upper + radii.sum());
   std::uint32_t tests = 0;
-  return {n, point_a, separation, feature_at_a(pair, answer.feature_a, point_a, tests),
+  return {n, point_a, std::fabs(seen - proved) <= bound ? proved : seen, feature_at_a(pair, answer.feature_a, point_a, tests),
           feature_at_b(pair, answer.feature_b, point_b, tests)};
 }
 
@@ -82,8 +82,8 @@ Manifold manifold(const Body& a, const Body& b, const Pose& b_in_a, const Answer
     return manifold;
   const PairView hulls =
       pair_view(body_a.level(answer.level_a).view, body_b.level(answer.level_b).view, at.motion, at.quality.error);
-  grow(hulls, anchor(hulls, at.radii, answer), options.margin + at.radii.sum(), hulls.law_two + kLawTwo * at.radii.sum(),
-       options, previous, manifold);
+  const double bound = hulls.law_two + kLawTwo * at.radii.sum();
+  grow(hulls, anchor(hulls, at.radii, answer, bound), options.margin + at.radii.sum(), bound, options, previous, manifold);
   for (std::uint32_t i = 0; i < manifold.count; ++i) {
     ManifoldPoint& p = manifold.points[i];
     p.point_a += answer.normal * at.radii.a();
