@@ -70,8 +70,8 @@ static inline bool finest_has_maps(const ModelPair& pair) {
   return pair.has_maps() && at.level_a == pair.finest_a() && at.level_b == pair.finest_b();
 }
 /// GJK on the maps of `place`, which gets the features where a walk begins.
-static inline SupportGjk nearest_on_maps(const ModelPair& pair, const PairView& view, const Line& line, const PairSeed& seed,
-                                         Place& place) {
+[[gnu::noinline]] static SupportGjk nearest_on_maps(const ModelPair& pair, const PairView& view, const Line& line,
+                                                    const PairSeed& seed, Place& place) {
   const Level &a = pair.a.level(place.level_a), &b = pair.b.level(place.level_b);
   const AxisSample first = sample_axis(view, Moved4(view), a, b, first_direction(pair, line, last_direction(line.in_a, seed)));
   const SupportGjk found =

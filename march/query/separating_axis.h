@@ -72,8 +72,8 @@ static inline bool separating_axis(const ModelPair& pair, const Vec& between, co
 /// Fills `answer` and returns true if one sample bounds the distance as narrowly as asked: along the seed's direction, or, if
 /// that is old, along a new one, which the seed then keeps in place of features: vertices that only maps name are no better
 /// start than none. `seen` becomes the sample, on the level pair where GJK on maps would begin.
-static inline bool sample_suffices(const ModelPair& pair, const Line& line, const StopRule& asked, PairSeed& seed,
-                                   AxisSample& seen, Answer& answer) {
+[[maybe_unused, gnu::noinline]] static bool sample_suffices(const ModelPair& pair, const Line& line, const StopRule& asked,
+                                                            PairSeed& seed, AxisSample& seen, Answer& answer) {
   const Place at = mapped_for(pair, asked, norm(line.in_a));
   const PairView view = pair.view_at(at);
   const Vec last = last_direction(line.in_a, seed);
