@@ -79,15 +79,6 @@ TEST_F(ModelFile, SaveReplacesAndLeavesNothingBeside) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file.parent_path()), {}), 1);
 }
 
-TEST_F(ModelFile, PathsMayHoldSpacesAndUmlauts) {
-  std::filesystem::create_directory(path("\u00e4 \u00f6"));
-  const auto file = path("\u00e4 \u00f6/\u00fc \u00df.swl");
-  ASSERT_TRUE(save(small(), file));
-  EXPECT_EQ(must(load(file)).hash(), small().hash());
-  EXPECT_EQ(must(map(file)).hash(), small().hash());
-  EXPECT_NE(load(path("\u00e4 \u00f6/\u00fc.swl")).error().message.find("\u00fc.swl"), std::string::npos);
-}
-
 TEST_F(ModelFile, UnwritableAndMissingPathsAreErrors) {
   const Result<std::size_t> saved = save(small(), path("no/such/folder.swl"));
   ASSERT_FALSE(saved);
