@@ -48,9 +48,8 @@ static inline bool is_round(const Level& level) {
 
 /// About the direction of the distance, where `line` is the line of centres: the bodies are taken for ellipsoids, the points
 /// M^T y, |y| <= 1, for the map frame M. The distance h of two of them lies along n where (h + M_a^T M_a / |M_a n| + M_b^T M_b
-/// / |M_b n|) n = `line`. `steps` steps take h and the lengths from the last n. Between round bodies, `line`.
-[[gnu::flatten]] static inline Vec4 between_ellipsoids(const Level& a, const Level& b, const Motion& b_in_a, const Vec4& line,
-                                                       int steps) {
+/// / |M_b n|) n = `line`. `kEllipsoidSteps` steps take h and the lengths from the last n. Between round bodies, `line`.
+[[gnu::flatten]] static inline Vec4 between_ellipsoids(const Level& a, const Level& b, const Motion& b_in_a, const Vec4& line) {
   if (is_round(a) && is_round(b)) return line;
   using Columns = V3<Vec4>;
   const auto &m = a.map_frame, &f = b.map_frame;
@@ -66,7 +65,7 @@ static inline bool is_round(const Level& level) {
   };
   const Columns of_a = square(rows_a), of_b = square(rows_b);
   Vec4 n = normalised(line);
-  for (int k = 0; k < steps; ++k) {
+  for (int k = 0; k < kEllipsoidSteps; ++k) {
     const double wide_a = std::sqrt(dot(n, times(of_a, n))), wide_b = std::sqrt(dot(n, times(of_b, n))),
                  h = max(0, dot(n, line) - wide_a - wide_b);
     const Vec4 by_a = all(1 / wide_a), by_b = all(1 / wide_b), x = vec4(1, 0, 0) * h + of_a.x * by_a + of_b.x * by_b,

@@ -15,7 +15,7 @@ namespace swiftlet {
 
 /// What a query has found out before it descends.
 struct Beginning {
-  AxisSample seen;                      ///< on the finest pair with maps; its normal is 0 if nothing was sampled
+  AxisSample seen;                      ///< on the pair where GJK on maps would begin; its normal is 0 if nothing was sampled
   const SupportGjk* on_maps = nullptr;  ///< where GJK on the maps of the first place ended
   const Walk* walk = nullptr;           ///< a walk on the first place that did not answer, counted already
   bool exact = false;                   ///< as `is_exact`

@@ -191,7 +191,7 @@ class Prefetch {
       if (!has_maps_) return;
       const Motion m = motion(q.b_in_a);
       const Vec line = between(m), last = q.seed ? last_direction(line, *q.seed) : Vec{0, 0, 0};
-      look(m, max_abs(last) > 0 ? last : vec(between_ellipsoids(a_.level(), b_.level(), m, vec4(line), kEllipsoidSteps)));
+      look(m, max_abs(last) > 0 ? last : vec(between_ellipsoids(a_.level(), b_.level(), m, vec4(line))));
     }
     if (!has_maps_) return;
     if constexpr (kStep == 3) a_.vertex(), b_.vertex();

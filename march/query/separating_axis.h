@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The separating-axis test, along the last answer's normal, then along the line of centres. Each direction takes one look-up in
-// the support map of each body. Most questions of yes or no end here.
+// Samples of the support maps: one look-up in the map of each body along one direction. The separating-axis test samples along
+// the last answer's normal, then along the line of centres; most questions of yes or no end here. A loose distance samples
+// once.
 #pragma once
 
 #include "pair/stop_rule.h"
@@ -12,9 +13,8 @@ namespace swiftlet {
 
 /// The direction along which a cold query samples first: `likely`, or, if that is 0, about that of the distance.
 static inline Vec4 first_direction(const ModelPair& pair, const Line& line, const Vec& likely) {
-  return max_abs(likely) > 0
-             ? vec4(likely)
-             : between_ellipsoids(pair.a.level(0), pair.b.level(0), pair.motion, vec4(line.in_a), kEllipsoidSteps);
+  return max_abs(likely) > 0 ? vec4(likely)
+                             : between_ellipsoids(pair.a.level(0), pair.b.level(0), pair.motion, vec4(line.in_a));
 }
 
 /// The coarsest pair with maps whose error is likely to be small enough for bodies at most `distance` apart, or the finest.
@@ -63,7 +63,6 @@ static inline bool separating_axis(const ModelPair& pair, const Vec& between, co
     if (!clears(between)) return false;
     seed.normal = {};
   }
-
   take_sample(pair, view, at, seen, answer);
   answer.status = Status::Beyond;
   return true;
