@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The atomic kernel: every kind of body against every other, from every start, under every stop rule. Truth is the oracle's.
+#include <swiftlet/check.h>
 #include <swiftlet/march.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>
@@ -460,6 +462,38 @@ TEST(March, ReflectionsOfCornersAndFacesAreAnsweredAsGiven) {
           expect_true({{FeatureKind::Face, f}, {FeatureKind::Vertex, f % std::uint32_t(view_b.vertices.size())}});
       }
     }
+  }
+}
+
+/// Coins that nearly lie on each other: the walk goes around the rim from one side to the other, and a look at all sides of a
+/// face in every state would make that quadratic.
+TEST(March, RimsOfFacesOfManySidesAreWalkedInLinearTime) {
+  for (const std::uint32_t sides : {100u, 400u, 1600u}) {
+    const Model coin = model(bodies::body_of(shapes::prism(sides, 1, 0.2)));
+    const ConvexView& view = coin.level(0).view;
+    shapes::Random random(sides);
+    std::uint32_t most_tests = 0, most_steps = 0;
+    for (int i = 0; i < 40; ++i) {
+      Pose pose;
+      const double angle = random.uniform(0, 6.28);
+      pose.rotation = shapes::rotation(Vec3(std::cos(angle), std::sin(angle), 0), std::pow(10, -random.uniform(1, 6))) *
+                      shapes::rotation(Vec3::UnitZ(), random.uniform(0, 6.28));
+      pose.translation = Vec3(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), 0.35);
+      const auto any = [&] { return FeatureId(FeatureKind::Vertex, std::uint32_t(random.uniform(0, 2 * sides))); };
+      const MarchResult r = march(view, view, pose, {any(), any()});
+      ASSERT_EQ(r.status, MarchStatus::Disjoint);
+      most_tests = std::max(most_tests, r.plane_tests), most_steps = std::max(most_steps, r.steps);
+
+      Answer answer;
+      answer.status = Status::Converged, answer.verdict = Verdict::Disjoint;
+      answer.lower = r.lower, answer.upper = r.upper, answer.normal = r.normal;
+      answer.point_a = r.point_a, answer.point_b = r.point_b, answer.feature_a = r.a, answer.feature_b = r.b;
+      const Check judged = check(coin, coin, pose, answer);
+      EXPECT_TRUE(judged) << sides << " sides, " << i << ": " << judged.message;
+    }
+    std::printf("%u sides: at most %u steps and %u tests\n", sides, most_steps, most_tests);
+    EXPECT_GT(most_steps, sides / 4) << "no walk around the rim: the test tests nothing";
+    EXPECT_LT(most_tests, 40 * sides);
   }
 }
 

@@ -50,6 +50,14 @@ static inline std::uint32_t next_in_face(const ConvexView& v, std::uint32_t half
   return h;
 }
 
+/// The half-edge that `half_edge` follows around the face on its left.
+static inline std::uint32_t previous_in_face(const ConvexView& v, std::uint32_t half_edge) {
+  const Vertex& ring = v.vertices[origin(v, half_edge)];
+  std::uint32_t h = counter_clockwise(ring, half_edge);
+  while (is_diagonal(v, h)) h = counter_clockwise(ring, h);
+  return v.half_edges[h].twin;
+}
+
 /// True if `h`, which may hold any bits, names a feature of `view`.
 static inline bool names_feature(const ConvexView& view, FeatureId h) {
   switch (h.kind()) {

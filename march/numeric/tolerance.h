@@ -267,6 +267,9 @@ inline constexpr double kSweepCos = 40.0 / 41, kSweepSin = 9.0 / 41;
 /// A walk is given to certified GJK after this many states in a row that do not shorten the distance. In exact arithmetic there
 /// are at most three (face, edge, vertex); twelve leaves room for rounding on a flat spot.
 inline constexpr std::uint32_t kStallLimit = 12;
+/// A walk that comes back over a face of more sides than this looks at the sides near the last one; the state that ends it
+/// looks at all. A count.
+inline constexpr std::uint32_t kManySides = 16;
 /// The most facets of one face that are visited for the one below a point.
 inline constexpr int kFacetSteps = 32;
 /// `kGjkLimit` bounds the iterations of certified GJK per arithmetic, each a Frank-Wolfe step on an active set of at most four.

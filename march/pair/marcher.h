@@ -143,17 +143,20 @@ class Marcher {
   Move vertex_face(const P& a, std::uint32_t va, const Q& b, std::uint32_t f) {
     const Prism prism(b, f);
     const Vec4 p = a.point(va);
-    bool well_inside = true;
-    if (const std::uint32_t side = leave(b, prism, p, well_inside); side != kNone) return {vertex(va), edge(side), kUnknown};
+    Look look;
+    if (const std::uint32_t side = leave(b, prism, f, p, look); side != kNone) return {vertex(va), edge(side), kUnknown};
     const Vec4& n = prism.normal();
     const double height = prism.height(p), distance2 = height / dot(n, n) * height;
     if (!(height > 0)) return inside(vertex(va), face(f), distance2);
     const RingScan below = ring(a, va, a.into(-n), norm_1(n));
     if (!below.falls()) {
+      if (!look.at_all)
+        if (const std::uint32_t side = leave_by_any(b, prism, f, vec(p), look); side != kNone)
+          return {vertex(va), edge(side), kUnknown};
       Ending seen{-n, prism.corner() - p, p, p, 0, below.over(), kUnknown};
       if (prism.is_triangle())
         foot_on_facet(b, prism, seen);
-      else if (foot_on_face(b, prism, f, height, well_inside, seen))
+      else if (foot_on_face(b, prism, f, height, look.well_inside, seen))
         // A facet within a face has a direction of its own.
         seen.over_a = ring(a, va, a.into(seen.normal), norm_1(seen.normal)).over();
       seen.over_a = proved_rise(a, std::array{va}, seen.normal, seen.over_a);
@@ -308,26 +311,71 @@ class Marcher {
     return {edges[scan.is_left ? h : scan.right].face, scan.height, dot(r, r) - ru * ru / dot(u, u)};
   }
 
-  /// The side of a face's prism that `p` is farthest beyond; kNone if `p` is inside the prism. `well_inside` becomes false if
-  /// the point below `p` may be outside a face of many corners by rounding.
+  /// What is known of a point in a face's prism.
+  struct Look {
+    bool at_all = true;       ///< all sides were looked at
+    bool well_inside = true;  ///< false if the point below may be outside a face of many corners by rounding
+  };
+  /// The side of a face's prism that `p` is farthest beyond; kNone if `p` is inside the prism.
   template <class Q>
-  std::uint32_t leave(const Q& body, const Prism<Q>& prism, const Vec4& p, bool& well_inside) {
+  std::uint32_t leave(const Q& body, const Prism<Q>& prism, std::uint32_t f, const Vec4& p, Look& look) {
+    if (!prism.is_triangle()) {
+      look.at_all = border(body).face != f;
+      return look.at_all ? leave_by_any(body, prism, f, vec(p), look) : leave_nearby(body, prism, vec(p));
+    }
     std::uint32_t out = kNone;
     double farthest2 = 0;
+    walk_.plane_tests += prism.each_side(
+        body, p, all(0), [&](const auto& sides, const auto& half_edge) { go_out(sides, half_edge, farthest2, out); });
+    return out;
+  }
+  /// Makes `out` the side that is passed by most, squared: by more than `farthest2`.
+  template <class Sides>
+  void go_out(const Sides& sides, const auto& half_edge, double& farthest2, std::uint32_t& out) const {
+    const Vec4 beyond = max(sides.beyond, all(0));
+    if (greater(beyond, all(0)) == 0 || (first_only_ && out != kNone)) return;
+    const Vec4 violation2 = beyond / sides.uu * beyond;  // in this order, as eighth powers of small lengths underflow
+    const double most = greatest(violation2);
+    if (!(most > farthest2)) return;
+    out = half_edge(std::countr_zero(first_only_ ? greater(violation2, all(0)) : equal(violation2, all(most))));
+    farthest2 = most;
+  }
+
+  /// A face of more than `kManySides` sides that the walk has looked at around, and the side that it is near.
+  struct Border {
+    std::uint32_t face = kNone, side = kNone;
+  };
+  template <class Q>
+  Border& border(const Q&) {
+    return borders_[std::is_same_v<Q, Moved4>];
+  }
+
+  /// As `leave`, of a face of many corners.
+  template <class Q>
+  [[gnu::noinline, gnu::flatten]] std::uint32_t leave_by_any(const Q& body, const Prism<Q>& prism, std::uint32_t f, Vec p,
+                                                             Look& look) {
+    std::uint32_t out = kNone, nearest = kNone;
+    double farthest2 = 0, least2 = kUnknown;
     const double margin = (kFootError + kFootTurn * pair_.pose_error) * pair_.magnitude;
-    const bool is_triangle = prism.is_triangle();
-    walk_.plane_tests += prism.each_side(body, p, all(0), [&](const auto& sides, const auto& half_edge) {
-      if (!is_triangle) {
-        const Vec4 distance2 = sides.beyond / sides.uu * sides.beyond;
-        well_inside &= greater(all(0), sides.beyond) == 15 && greater(distance2, all(margin * margin)) == 15;
-      }
-      const Vec4 beyond = max(sides.beyond, all(0));
-      if (greater(beyond, all(0)) == 0 || (first_only_ && out != kNone)) return;
-      const Vec4 violation2 = beyond / sides.uu * beyond;  // in this order, as eighth powers of small lengths underflow
-      const double most = greatest(violation2);
-      if (!(most > farthest2)) return;
-      out = half_edge(std::countr_zero(first_only_ ? greater(violation2, all(0)) : equal(violation2, all(most))));
-      farthest2 = most;
+    const std::uint32_t count = prism.each_side(body, vec4(p), all(0), [&](const auto& sides, const auto& half_edge) {
+      const Vec4 distance2 = sides.beyond / sides.uu * sides.beyond;
+      look.well_inside &= greater(all(0), sides.beyond) == 15 && greater(distance2, all(margin * margin)) == 15;
+      if (const double least = -greatest(-distance2); least < least2)
+        least2 = least, nearest = half_edge(std::countr_zero(equal(distance2, all(least))));
+      go_out(sides, half_edge, farthest2, out);
+    });
+    walk_.plane_tests += count;
+    if (count > kManySides && !first_only_) border(body) = {f, out != kNone ? out : nearest};
+    return out;
+  }
+  /// As `leave`, of sides near the one that the walk was near before. A minimum is to be tested by all.
+  template <class Q>
+  [[gnu::noinline, gnu::flatten]] std::uint32_t leave_nearby(const Q& body, const Prism<Q>& prism, Vec p) {
+    std::uint32_t &side = border(body).side, out = kNone;
+    double farthest2 = 0;
+    side = prism.nearest_side(body, side, vec4(p), all(0), [&](const auto& seen, std::uint32_t half_edge) {
+      ++walk_.plane_tests;
+      if (seen.beyond2() > farthest2) farthest2 = seen.beyond2(), out = half_edge;
     });
     return out;
   }
@@ -455,29 +503,62 @@ class Marcher {
   template <class Q>
   Move over_face(std::uint32_t h, std::uint32_t to, const Vec4& p, const Vec4& e, const Q& body, const Prism<Q>& prism,
                  std::uint32_t f, double distance2) {
-    double exit = 1;
-    std::uint32_t out = kNone;
-    walk_.plane_tests += prism.each_side(body, p, e, [&](const auto& sides, const auto& half_edge) {
-      int at = -1;
+    Exit exit;
+    if (!prism.is_triangle())
+      exit = border(body).face == f ? exit_nearby(body, prism, vec(p), vec(e)) : exit_by_any(body, prism, vec(p), vec(e));
+    else
+      walk_.plane_tests +=
+          prism.each_side(body, p, e, [&](const auto& sides, const auto& half_edge) { exit.pass(sides, half_edge); });
+    if (exit.at > 0 && !(prism.height(p) + exit.at * dot(prism.normal(), e) > 0)) return inside(edge(h), face(f), distance2);
+    if (exit.side == kNone) return {vertex(to), face(f), distance2};
+    return {edge(h), edge(exit.side), distance2};
+  }
+  /// Where p + x e leaves a prism: at x = `at`, through `side`; not before x = 1 if that is kNone.
+  struct Exit {
+    double at = 1;
+    std::uint32_t side = kNone;
+    template <class Sides>
+    void pass(const Sides& sides, const auto& half_edge) {
+      int lane = -1;
       if (const unsigned outside = greater(sides.beyond, all(0)); outside != 0) {
-        exit = 0, at = std::bit_width(outside) - 1;
+        at = 0, lane = std::bit_width(outside) - 1;
       } else {
         for (unsigned leaving = greater(sides.beyond + sides.slope, all(0)); leaving != 0; leaving &= leaving - 1) {
           const int i = std::countr_zero(leaving);
           const double beyond = sides.beyond[i], slope = sides.slope[i];
-          if (-beyond < exit * slope) exit = -beyond / slope, at = i;
+          if (-beyond < at * slope) at = -beyond / slope, lane = i;
         }
       }
-      if (at >= 0) out = half_edge(at);
+      if (lane >= 0) side = half_edge(lane);
+    }
+  };
+  template <class Q>
+  [[gnu::noinline, gnu::flatten]] Exit exit_by_any(const Q& body, const Prism<Q>& prism, Vec p, Vec e) {
+    Exit exit;
+    walk_.plane_tests +=
+        prism.each_side(body, vec4(p), vec4(e), [&](const auto& sides, const auto& half_edge) { exit.pass(sides, half_edge); });
+    return exit;
+  }
+  /// The same by sides near the one that the walk was near before.
+  template <class Q>
+  [[gnu::noinline, gnu::flatten]] Exit exit_nearby(const Q& body, const Prism<Q>& prism, Vec p, Vec e) {
+    Exit exit;
+    std::uint32_t& side = border(body).side;
+    side = prism.nearest_side(body, side, vec4(p), vec4(e), [&](const auto& seen, std::uint32_t half_edge) {
+      ++walk_.plane_tests;
+      if (seen.beyond > 0)
+        exit = {0, half_edge};
+      else if (seen.beyond + seen.slope > 0 && -seen.beyond < exit.at * seen.slope)
+        exit = {-seen.beyond / seen.slope, half_edge};
     });
-    if (exit > 0 && !(prism.height(p) + exit * dot(prism.normal(), e) > 0)) return inside(edge(h), face(f), distance2);
-    if (out == kNone) return {vertex(to), face(f), distance2};
-    return {edge(h), edge(out), distance2};
+    if (exit.side != kNone) side = exit.side;
+    return exit;
   }
 
   const PairView& pair_;
   const bool first_only_;
   Walk& walk_;
+  std::array<Border, 2> borders_;  ///< of A's face and of B's
 };
 
 /// Runs the state of a feature pair. A face with an edge or a face is no state: a vertex or an edge of one is as near.

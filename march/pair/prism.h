@@ -75,6 +75,36 @@ class Prism {
     return 3;
   }
 
+  /// The same of one side of a face of many.
+  struct Side {
+    double uu, beyond, slope;
+    /// How far the point is beyond the side, squared; below 0 where it is inside.
+    double beyond2() const { return beyond / uu * std::fabs(beyond); }
+  };
+  /// Calls visit(side, half_edge) for the sides from `from` on to the one that `p` + `e` is the farthest beyond, as long as
+  /// each next one brings it farther, and returns that one: the nearest side, if `from` is not far.
+  template <class Visit>
+  std::uint32_t nearest_side(const Body& body, std::uint32_t from, const Vec4& p, const Vec4& e, Visit visit) const {
+    const Vec own_p = vec(body.local(p)), own_e = vec(body.into(e)), own_normal = vec(own_normal_);
+    const auto look = [&](std::uint32_t h) {
+      const Vec tail = vec(view_.vertices[origin(view_, h)]), u = vec(view_.vertices[view_.half_edges[h].head]) - tail,
+                out = cross(u, own_normal);
+      const Side side{dot(u, u), dot(own_p - tail, out), dot(own_e, out)};
+      visit(side, h);
+      return Side{side.uu, side.beyond + side.slope, 0}.beyond2();
+    };
+    double most = look(from);
+    const auto follow = [&](auto next) {
+      for (std::uint32_t h = next(view_, from);; h = next(view_, from)) {
+        const double beyond2 = look(h);
+        if (!(beyond2 > most)) return;
+        most = beyond2, from = h;
+      }
+    };
+    follow(next_in_face), follow(previous_in_face);
+    return from;
+  }
+
  private:
   /// `p` and `e` are in the body's own frame.
   template <class Visit>
