@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <swiftlet/bullet.h>
 
+#include <algorithm>
+#include <array>
+#include <iterator>
 #include <memory>
 #include <new>
+#include <utility>
 
 #include <BulletCollision/CollisionDispatch/btCollisionConfiguration.h>
 #include <BulletCollision/CollisionDispatch/btConvexConvexAlgorithm.h>
@@ -33,6 +37,10 @@ Placed placed(const btCollisionObjectWrapper& body) {
   return {Body(hull.model(), hull.getMargin()), pose_of(body.getWorldTransform())};
 }
 
+/// Points of the steps before stay while they span this share of the area that this step's span, and are less deep by no more
+/// than this share of Bullet's breaking threshold.
+constexpr btScalar kHeldArea = btScalar(0.9), kHeldDepth = btScalar(0.25);
+
 /// Lives as long as Bullet knows the pair, and with it the pair's seed. Bullet's manifold collects points over steps, ours
 /// holds those of one step.
 class HullAlgorithm final : public btActivatingCollisionAlgorithm {
@@ -52,7 +60,8 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo& info,
                         btManifoldResult* result) override {
     result->setPersistentManifold(persistent_);
-    if (!answer(*a, *b, *result)) bullets().processCollision(a, b, info, result);
+    if (answer(*a, *b, *result)) return;
+    bullets().processCollision(a, b, info, result);
     if (owns_persistent_) result->refreshContactPoints();
   }
   btScalar calculateTimeOfImpact(btCollisionObject* a, btCollisionObject* b, const btDispatcherInfo& info,
@@ -82,30 +91,68 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
     return true;
   }
 
-  /// All points of this step. A manifold of Bullet's that is shared keeps those of others.
+  /// Points that hold the area of this step. A manifold of Bullet's that is shared keeps those of others.
   bool add_all(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btScalar touching,
                btManifoldResult& result) {
     if (contacts(placed(a), placed(b), touching, MANIFOLD_CACHE_SIZE, seed_, *manifold_) == Found::Nothing) return false;
-    if (owns_persistent_) forget_others(a);
+    const btVector3 normal = vector_of(-manifold_->normal);
+    if (owns_persistent_) {
+      for (int i = persistent_->getNumContacts(); i-- > 0;) persistent_->getContactPoint(i).m_normalWorldOnB = normal;
+      result.refreshContactPoints();
+      if (hold_the_area()) return turn_around(), true;
+      forget_others(a);
+    }
     for (std::uint32_t i = manifold_->count;
          i-- > 0;) {  // the deepest is the first and comes last: it takes the place of others
       const ManifoldPoint& p = manifold_->points[i];
-      result.addContactPoint(vector_of(-manifold_->normal), vector_of(p.point_b), btScalar(p.separation));
+      result.addContactPoint(normal, vector_of(p.point_b), btScalar(p.separation));
     }
+    if (owns_persistent_) turn_around();
     return true;
+  }
+
+  /// Whether the points of the steps before, as places on both bodies, still stand for the area of this step. Points that stay
+  /// keep their impulses; the corners of the area, of which the deepest four count, change from step to step on a round face.
+  bool hold_the_area() const {
+    const int kept = persistent_->getNumContacts();
+    if (kept < 3 || manifold_->count < 3) return false;
+    std::array<btVector3, MANIFOLD_CACHE_SIZE> before, now;
+    btScalar deepest = persistent_->getContactPoint(0).getDistance();
+    for (int i = 0; i < kept; ++i) {
+      before[std::size_t(i)] = persistent_->getContactPoint(i).getPositionWorldOnB();
+      deepest = std::min(deepest, persistent_->getContactPoint(i).getDistance());
+    }
+    for (std::uint32_t i = 0; i < manifold_->count; ++i) now[i] = vector_of(manifold_->points[i].point_b);
+    const btVector3 n = vector_of(manifold_->normal);
+    return area(before, kept, n) >= kHeldArea * area(now, int(manifold_->count), n) &&
+           manifold_->points[0].separation >= deepest - kHeldDepth * persistent_->getContactBreakingThreshold();
+  }
+  /// Twice the area of three or four places, in any order, seen along `n`.
+  static btScalar area(const std::array<btVector3, MANIFOLD_CACHE_SIZE>& p, int count, const btVector3& n) {
+    const auto across = [&](const btVector3& u, const btVector3& v) { return btFabs(u.cross(v).dot(n)); };
+    if (count == 3) return across(p[1] - p[0], p[2] - p[0]);
+    const btScalar of_diagonals[] = {across(p[0] - p[1], p[2] - p[3]), across(p[0] - p[2], p[1] - p[3]),
+                                     across(p[0] - p[3], p[1] - p[2])};
+    return *std::max_element(std::begin(of_diagonals), std::end(of_diagonals));
+  }
+
+  /// Bullet's solver goes through the points one by one, and what it leaves undone is always on the same side of those it
+  /// visits in the same order: a tower leans that way more with every step. The first point becomes the last.
+  void turn_around() {
+    for (int i = 1; i < persistent_->getNumContacts(); ++i)
+      std::swap(persistent_->getContactPoint(i - 1), persistent_->getContactPoint(i));
   }
 
   /// Bullet adds a point to those of the steps before, or carries the impulse of the one nearby over to it. Those that are near
   /// none of this step's go.
   void forget_others(const btCollisionObjectWrapper& a) {
     const bool swapped = persistent_->getBody0() != a.getCollisionObject();
-    const btTransform& in_world = persistent_->getBody0()->getWorldTransform();
     for (int i = persistent_->getNumContacts(); i-- > 0;) {
-      const btVector3 old = in_world(persistent_->getContactPoint(i).m_localPointA);
+      const btManifoldPoint& old = persistent_->getContactPoint(i);
       bool stays = false;
       for (std::uint32_t k = 0; k < manifold_->count; ++k) {
         const btVector3 p = vector_of(swapped ? manifold_->points[k].point_b : manifold_->points[k].point_a);
-        stays = stays || (p - old).length() < persistent_->getContactBreakingThreshold();
+        stays = stays || (p - old.getPositionWorldOnA()).length() < persistent_->getContactBreakingThreshold();
       }
       if (!stays) persistent_->removeContactPoint(i);
     }
