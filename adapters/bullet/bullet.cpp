@@ -107,7 +107,6 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
       const ManifoldPoint& p = manifold_->points[i];
       result.addContactPoint(normal, vector_of(p.point_b), btScalar(p.separation));
     }
-    if (owns_persistent_) turn_around();
     return true;
   }
 

@@ -100,11 +100,13 @@ def look(series, place):
                 linewidth=2.4 if series == "swiftlet" else 1.2, zorder=3 if is_ours(series) else 2)
 
 
-def figure(title, columns=1, lines=1, width=10.0, height=4.4, names_take=0.0):
-    """Panels on the same axes; `names_take` inches stay free at the right of each for the names of its lines."""
-    fig, axes = plt.subplots(lines, columns, figsize=(width, height), sharex=True, sharey=True, squeeze=False)
+def figure(title, columns=1, lines=1, width=10.0, height=4.4, names_take=0.0, note="lower is better · ● proved · ○ not proved",
+           share=True):
+    """Panels on the same axes, or those of a line on the same; `names_take` inches stay free at the right of each for the names
+    of its lines."""
+    fig, axes = plt.subplots(lines, columns, figsize=(width, height), sharex=share, sharey=share or "row", squeeze=False)
     fig.suptitle(title, x=0.012, y=0.985, ha="left", fontsize=13, fontweight="bold")
-    fig.text(0.012, 1 - 0.40 / height, "lower is better · ● proved · ○ not proved", ha="left", va="top", color=TEXT, fontsize=9)
+    fig.text(0.012, 1 - 0.40 / height, note, ha="left", va="top", color=TEXT, fontsize=9)
     fig.subplots_adjust(left=1.2 / width, right=1 - max(names_take, 0.15) / width, top=1 - 0.95 / height, bottom=0.62 / height,
                         wspace=max(names_take, 0.2) / ((width - 1.1) / columns - names_take), hspace=0.32)
     return fig, axes
@@ -396,7 +398,51 @@ def links(results):
     return fig
 
 
+def stacks(results):
+    """The share of towers that still stand, by time, and how far those that stand have moved."""
+    table = [row for row in rows(results, "stack") if "tower" in row["scene"]]
+    shapes = {"swiftlet": OURS, "Bullet's hulls": OTHERS[0], "Bullet's boxes": OTHERS[1]}
+    towers = list(dict.fromkeys(row["scene"].split(" ")[0] for row in table))
+    few, many = min(row["iterations"] for row in table), max(row["iterations"] for row in table)
+    fig, axes = figure("Towers of ten prisms in Bullet", len(towers), 2, width=10.0, height=5.2, share=False,
+                       note=f"above: how many still stand, {few:.0f} solver iterations · below: how far one has moved sideways "
+                            f"after 20 s, {many:.0f} iterations, lower is better")
+    fig.subplots_adjust(hspace=0.3, bottom=0.07)
+    for column, tower in enumerate(towers):
+        standing, moved = axes[0][column], axes[1][column]
+        sides = int(tower.split("-")[0])
+        standing.set_title("boxes" if sides == 4 else f"{sides} sides")
+        for place, (shape, colour) in enumerate(shapes.items()):
+            runs = [row for row in table if row["shapes"] == shape and row["scene"].startswith(tower)]
+            wide = dict(color=colour, linewidth=2.4 if colour == OURS else 1.4, zorder=3 if colour == OURS else 2)
+            first = [row for row in runs if row["iterations"] == few]
+            if first:
+                falls = sorted(row["stood"] / 60 for row in first if row["fell"])
+                share = [100 * (1 - i / len(first)) for i in range(len(falls) + 1)]
+                standing.step([0, *falls, first[0]["steps"] / 60], [*share, share[-1]], where="post", **wide)
+            if column == 0:
+                standing.text(0.5, 44 - 14 * place, shape, fontsize=8.5, color=colour, zorder=4,
+                              fontweight="bold" if colour == OURS else "normal")
+            drifts = [1000 * row["drift"] for row in runs if row["iterations"] == many and not row["fell"]]
+            if drifts:
+                spread_out = [place + 0.5 * (i / len(drifts) - 0.5) for i in range(len(drifts))]
+                moved.plot(spread_out, drifts, "o", color=colour, markersize=3, alpha=0.6, markeredgewidth=0)
+                middle = sorted(drifts)[len(drifts) // 2]
+                moved.plot([place - 0.38, place + 0.38], [middle, middle], color=colour, linewidth=2.4)
+        standing.set_ylim(-4, 104)
+        standing.set_yticks([0, 50, 100], ["none", "half", "all"])
+        standing.set_xlim(0, 20.5)
+        standing.set_xticks([0, 10, 20], ["0", "10 s", "20 s"])
+        moved.set_yscale("log")
+        moved.set_yticks([1, 10, 100], ["1 mm", "1 cm", "10 cm"])
+        moved.set_xlim(-0.6, 2.6)
+        moved.set_xticks(range(3), ["swiftlet", "hulls", "boxes"])
+        moved.grid(axis="x", visible=False)
+    return fig
+
+
 CHARTS = {
+    "stack": (("stack",), stacks),
     "error": (("error",), error),
     "standing": (("orbit",), standing),
     "orbit_distance": (("orbit",), orbit("distance")),

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -86,6 +89,18 @@ nlohmann::json json(const Cell& cell) {
   return all;
 }
 
+/// Throws std::runtime_error where the file cannot be written.
+void write(const std::string& path, const std::vector<Cell>& cells, int steps) {
+  std::ofstream file(path);
+  file << "scene,iterations,shapes,steps,stood,fell,drift,energy,kept,step_us\n";
+  for (const Cell& cell : cells)
+    for (const Series& s : cell.series)
+      for (const Outcome& o : s.outcomes)
+        file << cell.name << ',' << cell.iterations << ',' << name(s.shapes) << ',' << steps << ',' << o.stood << ',' << o.fell
+             << ',' << o.drift << ',' << o.energy << ',' << o.kept << ',' << o.step_us << '\n';
+  if (!file.flush()) throw std::runtime_error("cannot write " + path);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -93,14 +108,15 @@ int main(int argc, char** argv) try {
   int starts = 30, steps = 1200;
   std::uint64_t seed = 2026;
   bool as_json = false;
-  std::string only, meshes = "models/cache";
+  std::string only, csv, meshes = "models/cache";
   std::vector<int> iterations{10, 50};
   app.add_option("--starts", starts, "of every scene")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--steps", steps, "of 1/60 s each")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--seed", seed, "of the first start; the others follow it")->capture_default_str();
   app.add_option("--iterations", iterations, "of Bullet's solver")->capture_default_str();
   app.add_option("--only", only, "scenes whose name holds this");
-  app.add_option("--meshes", meshes, "the folder of the real links")->capture_default_str();
+  app.add_option("--meshes", meshes, "the folder of the real links; without it that scene is left out")->capture_default_str();
+  app.add_option("--csv", csv, "writes every start to this file, for the chart");
   app.add_flag("--json", as_json, "JSON instead of the table");
   CLI11_PARSE(app, argc, argv);
 
@@ -110,7 +126,7 @@ int main(int argc, char** argv) try {
   scenes.push_back(wall());
   scenes.push_back(pyramid());
   scenes.push_back(pile());
-  scenes.push_back(links(meshes));
+  if (std::filesystem::exists(meshes)) scenes.push_back(links(meshes));
 
   if (!as_json) {
     std::puts(
@@ -135,6 +151,7 @@ int main(int argc, char** argv) try {
     }
   }
 
+  if (!csv.empty()) write(csv, cells, steps);
   std::vector<double> p;
   for (const Cell& cell : cells) p.push_back(cell.p);
   const std::vector<double> adjusted = holm(p);
