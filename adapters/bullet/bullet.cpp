@@ -39,7 +39,7 @@ Placed placed(const btCollisionObjectWrapper& body) {
 
 /// Points of the steps before stay while they span this share of the area that this step's span, and are less deep by no more
 /// than this share of Bullet's breaking threshold.
-constexpr btScalar kHeldArea = btScalar(0.9), kHeldDepth = btScalar(0.25);
+constexpr btScalar kHeldArea = btScalar(0.9), kHeldDepth = btScalar(0.02);
 
 /// Lives as long as Bullet knows the pair, and with it the pair's seed. Bullet's manifold collects points over steps, ours
 /// holds those of one step.
@@ -60,8 +60,7 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo& info,
                         btManifoldResult* result) override {
     result->setPersistentManifold(persistent_);
-    if (answer(*a, *b, *result)) return;
-    bullets().processCollision(a, b, info, result);
+    if (!answer(*a, *b, *result)) bullets().processCollision(a, b, info, result);
     if (owns_persistent_) result->refreshContactPoints();
   }
   btScalar calculateTimeOfImpact(btCollisionObject* a, btCollisionObject* b, const btDispatcherInfo& info,
@@ -95,36 +94,44 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
   bool add_all(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btScalar touching,
                btManifoldResult& result) {
     if (contacts(placed(a), placed(b), touching, MANIFOLD_CACHE_SIZE, seed_, *manifold_) == Found::Nothing) return false;
-    const btVector3 normal = vector_of(-manifold_->normal);
     if (owns_persistent_) {
-      for (int i = persistent_->getNumContacts(); i-- > 0;) persistent_->getContactPoint(i).m_normalWorldOnB = normal;
-      result.refreshContactPoints();
-      if (hold_the_area()) return turn_around(), true;
+      if (holds_the_area(a)) return true;
       forget_others(a);
     }
     for (std::uint32_t i = manifold_->count;
          i-- > 0;) {  // the deepest is the first and comes last: it takes the place of others
       const ManifoldPoint& p = manifold_->points[i];
-      result.addContactPoint(normal, vector_of(p.point_b), btScalar(p.separation));
+      result.addContactPoint(vector_of(-manifold_->normal), vector_of(p.point_b), btScalar(p.separation));
     }
     return true;
   }
 
-  /// Whether the points of the steps before, as places on both bodies, still stand for the area of this step. Points that stay
-  /// keep their impulses; the corners of the area, of which the deepest four count, change from step to step on a round face.
-  bool hold_the_area() const {
+  /// Whether the points of the steps before, as places on both bodies, still stand for the area of this step; if so they get
+  /// its normal. Points that stay keep their impulses; the corners of the area, of which the deepest four count, change from
+  /// step to step on a round face.
+  bool holds_the_area(const btCollisionObjectWrapper& a) {
     const int kept = persistent_->getNumContacts();
-    if (kept < 3 || manifold_->count < 3) return false;
+    if (kept < 3 || manifold_->count < 3 || persistent_->getBody0() != a.getCollisionObject()) return false;
+    const btVector3 n = vector_of(-manifold_->normal);
+    const btScalar far = persistent_->getContactBreakingThreshold();
     std::array<btVector3, MANIFOLD_CACHE_SIZE> before, now;
-    btScalar deepest = persistent_->getContactPoint(0).getDistance();
+    btScalar deepest = far;
     for (int i = 0; i < kept; ++i) {
-      before[std::size_t(i)] = persistent_->getContactPoint(i).getPositionWorldOnB();
-      deepest = std::min(deepest, persistent_->getContactPoint(i).getDistance());
+      const btManifoldPoint& p = persistent_->getContactPoint(i);
+      const btVector3 on_b = persistent_->getBody1()->getWorldTransform()(p.m_localPointB),
+                      apart = persistent_->getBody0()->getWorldTransform()(p.m_localPointA) - on_b;
+      const btScalar distance = apart.dot(n);
+      if (distance > far || (apart - n * distance).length2() > far * far) return false;
+      deepest = std::min(deepest, distance);
+      before[std::size_t(i)] = on_b;
     }
     for (std::uint32_t i = 0; i < manifold_->count; ++i) now[i] = vector_of(manifold_->points[i].point_b);
-    const btVector3 n = vector_of(manifold_->normal);
-    return area(before, kept, n) >= kHeldArea * area(now, int(manifold_->count), n) &&
-           manifold_->points[0].separation >= deepest - kHeldDepth * persistent_->getContactBreakingThreshold();
+    if (area(before, kept, n) < kHeldArea * area(now, int(manifold_->count), n) ||
+        manifold_->points[0].separation < deepest - kHeldDepth * far)
+      return false;
+    for (int i = 0; i < kept; ++i) persistent_->getContactPoint(i).m_normalWorldOnB = n;
+    turn_around();
+    return true;
   }
   /// Twice the area of three or four places, in any order, seen along `n`.
   static btScalar area(const std::array<btVector3, MANIFOLD_CACHE_SIZE>& p, int count, const btVector3& n) {
@@ -146,12 +153,13 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
   /// none of this step's go.
   void forget_others(const btCollisionObjectWrapper& a) {
     const bool swapped = persistent_->getBody0() != a.getCollisionObject();
+    const btTransform& in_world = persistent_->getBody0()->getWorldTransform();
     for (int i = persistent_->getNumContacts(); i-- > 0;) {
-      const btManifoldPoint& old = persistent_->getContactPoint(i);
+      const btVector3 old = in_world(persistent_->getContactPoint(i).m_localPointA);
       bool stays = false;
       for (std::uint32_t k = 0; k < manifold_->count; ++k) {
         const btVector3 p = vector_of(swapped ? manifold_->points[k].point_b : manifold_->points[k].point_a);
-        stays = stays || (p - old.getPositionWorldOnA()).length() < persistent_->getContactBreakingThreshold();
+        stays = stays || (p - old).length() < persistent_->getContactBreakingThreshold();
       }
       if (!stays) persistent_->removeContactPoint(i);
     }

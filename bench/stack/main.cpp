@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "alone.h"
 #include "rank_sum.h"
 #include "stack.h"
 
@@ -87,6 +88,25 @@ nlohmann::json json(const Cell& cell) {
                       {"hash", o.hash}});
   }
   return all;
+}
+
+/// One prism in motions whose outcome is known.
+void print_alone() {
+  std::puts(
+      "\nOne prism alone: down a slope of 0.5 for 2 s, where Coulomb's law says its speed; spinning at 10 / s; on a floor that "
+      "rocks.\n");
+  std::puts(
+      "| sides | shapes | speed m/s | of | hop mm | turns at | spin: stops after s | moved mm | hop mm | rock: slides mm | "
+      "leans |");
+  std::puts("|---|---|---|---|---|---|---|---|---|---|---|");
+  for (const std::uint32_t sides : {4u, 12u, 40u, 200u}) {
+    for (const Shapes shapes : {Shapes::Swiftlet, Shapes::Hulls}) {
+      const Alone slid = slide(sides, shapes, 0.5), spun = spin(sides, shapes), rocked = rock(sides, shapes);
+      std::printf("| %u | %s | %.4f | %.4f | %.2f | %.4f | %.2f | %.1f | %.2f | %.1f | %.4f |\n", sides, name(shapes),
+                  slid.moved, slid.ideal, 1000 * slid.hop, slid.wobble, spun.stopped, 1000 * spun.moved, 1000 * spun.hop,
+                  1000 * rocked.moved, rocked.wobble);
+    }
+  }
 }
 
 /// Throws std::runtime_error where the file cannot be written.
@@ -174,6 +194,7 @@ int main(int argc, char** argv) try {
     for (const Outcome& o : cells[i].series[1].outcomes) theirs.push_back(o.stood);
   }
   std::printf("| all | | %.3f | |\n", p_smaller(ours, theirs));
+  if (only.empty()) print_alone();
 } catch (const std::exception& failure) {
   std::fprintf(stderr, "%s\n", failure.what());
   return 1;

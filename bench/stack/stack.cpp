@@ -7,43 +7,27 @@
 #include <cstring>
 #include <ctime>
 #include <limits>
-#include <map>
-#include <optional>
 #include <stdexcept>
 
-#include <btBulletDynamicsCommon.h>
 #include <Eigen/Geometry>
 
 #include <swiftlet/build.h>
-#include <swiftlet/bullet.h>
 
+#include "in_bullet.h"
 #include "shapes.h"
 
 namespace swiftlet::stack {
 namespace {
 
-constexpr double kMargin = 0.04;  // Bullet's default, outside the points
-constexpr double kFriction = 0.6, kGravity = 9.81, kDensity = 1000;
 constexpr double kFallen = 0.5, kLeaning = 30 * 3.14159265358979 / 180;
 
 std::shared_ptr<const Model> built(const Mesh& mesh) {
   return std::make_shared<const Model>(std::move(build(mesh.points)).value().model);
 }
 
-btVector3 vector_of(const Vec3& v) { return {btScalar(v[0]), btScalar(v[1]), btScalar(v[2])}; }
-
 btMatrix3x3 matrix_of(const Mat3& r) {
   return {btScalar(r(0, 0)), btScalar(r(0, 1)), btScalar(r(0, 2)), btScalar(r(1, 0)), btScalar(r(1, 1)),
           btScalar(r(1, 2)), btScalar(r(2, 0)), btScalar(r(2, 1)), btScalar(r(2, 2))};
-}
-
-Vec3 point_of(const Vertex& v) { return {v.x, v.y, v.z}; }
-
-/// Half the extent of a model along its axes.
-Vec3 half_extents(const Model& model) {
-  Vec3 most = Vec3::Zero();
-  for (const Vertex& v : model.level(0).view.vertices) most = most.cwiseMax(point_of(v).cwiseAbs());
-  return most;
 }
 
 /// Height of a body above its lowest point, as it is placed.
@@ -105,10 +89,8 @@ Vec3 steadiest_facet(const Model& model) {
 class World {
  public:
   World(const Scene& scene, const Setting& setting, Shapes shapes, std::uint64_t seed)
-      : scene_(scene), setting_(setting), shapes_(shapes) {
-    if (shapes == Shapes::Swiftlet) hull_pairs_.emplace(dispatcher_);
-    world_.setGravity(btVector3(0, 0, btScalar(-kGravity)));
-    world_.getSolverInfo().m_numIterations = setting.iterations;
+      : scene_(scene), setting_(setting), in_(shapes) {
+    in_.world.getSolverInfo().m_numIterations = setting.iterations;
     add_fixed(Vec3(20, 20, 1), Vec3(0, 0, -1 - kMargin));
     if (scene.pen != Vec3::Zero()) {
       for (const double s : {-1., 1.}) {
@@ -121,12 +103,8 @@ class World {
       const Vec3 shake(random.uniform(-1e-3, 1e-3), random.uniform(-1e-3, 1e-3), random.uniform(0, 1e-4));
       const Mat3 turn = shapes::rotation(Vec3::UnitZ(), placing.yaw + random.uniform(-1e-3, 1e-3));
       const btTransform start(matrix_of(turn * placing.rotation), vector_of(placing.position + shake));
-      const double mass = kDensity * placing.model->volume();
-      moving_.push_back({&add(shape_of(placing.model), start, btScalar(mass)), start, half_height(placing)});
+      moving_.push_back({&in_.add(placing.model, start, true), start, half_height(placing)});
     }
-  }
-  ~World() {
-    for (const auto& body : bodies_) world_.removeRigidBody(body.get());
   }
 
   Outcome run() {
@@ -162,46 +140,16 @@ class World {
     btVector3 halfway{0, 0, 0};
   };
 
-  btCollisionShape& shape_of(const std::shared_ptr<const Model>& model) {
-    std::unique_ptr<btCollisionShape>& shape = shape_of_[model.get()];
-    if (shape) return *shape;
-    if (shapes_ == Shapes::Boxes) {
-      shape = std::make_unique<btBoxShape>(vector_of(half_extents(*model) + Vec3::Constant(kMargin)));
-    } else if (shapes_ == Shapes::Swiftlet) {
-      shape = std::make_unique<bullet::HullShape>(*model);
-    } else {
-      auto hull = std::make_unique<btConvexHullShape>();
-      for (const Vertex& v : model->level(0).view.vertices) hull->addPoint(vector_of(point_of(v)), false);
-      hull->recalcLocalAabb();
-      shape = std::move(hull);
-    }
-    shape->setMargin(btScalar(kMargin));
-    return *shape;
-  }
-
-  btRigidBody& add(btCollisionShape& shape, const btTransform& start, btScalar mass) {
-    btVector3 inertia(0, 0, 0);
-    if (mass > 0) shape.calculateLocalInertia(mass, inertia);
-    btRigidBody& body = *bodies_.emplace_back(std::make_unique<btRigidBody>(mass, nullptr, &shape, inertia));
-    body.setWorldTransform(start);
-    body.setInterpolationWorldTransform(start);
-    body.setFriction(btScalar(kFriction));
-    body.setActivationState(DISABLE_DEACTIVATION);  // a stack that sleeps does not fall
-    world_.addRigidBody(&body);
-    return body;
-  }
-
   void add_fixed(const Vec3& half, const Vec3& position) {
-    models_.push_back(built(shapes::box(2 * half)));
-    add(shape_of(models_.back()), btTransform(btMatrix3x3::getIdentity(), vector_of(position)), 0);
+    in_.add(built(shapes::box(2 * half)), btTransform(btMatrix3x3::getIdentity(), vector_of(position)), false);
   }
 
   void step() {
     const std::clock_t begin = std::clock();
-    world_.stepSimulation(btScalar(1) / 60, 0);
+    in_.step();
     outcome_.step_us += 1e6 * double(std::clock() - begin) / CLOCKS_PER_SEC;
-    for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
-      const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(i);
+    for (int i = 0; i < in_.dispatcher.getNumManifolds(); ++i) {
+      const btPersistentManifold& manifold = *in_.dispatcher.getManifoldByIndexInternal(i);
       pairs_ += manifold.getNumContacts() > 0;
       for (int k = 0; k < manifold.getNumContacts(); ++k) {
         ++points_;
@@ -232,16 +180,7 @@ class World {
 
   const Scene& scene_;
   const Setting setting_;
-  const Shapes shapes_;
-  btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_{&configuration_};
-  std::optional<bullet::HullPairs> hull_pairs_;
-  btDbvtBroadphase broadphase_;
-  btSequentialImpulseConstraintSolver solver_;
-  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
-  std::vector<std::shared_ptr<const Model>> models_;  // of the floor and the pen
-  std::map<const Model*, std::unique_ptr<btCollisionShape>> shape_of_;
-  std::vector<std::unique_ptr<btRigidBody>> bodies_;
+  InBullet in_;
   std::vector<Moving> moving_;
   Outcome outcome_;
   double points_ = 0, kept_ = 0, pairs_ = 0;
