@@ -4,19 +4,14 @@
 
 #include <stdexcept>
 
+#include <Eigen/Geometry>
+
 #include <swiftlet/depth.h>
+
+#include "along.h"
 
 namespace swiftlet {
 namespace {
-
-/// One Newton step of the polar decomposition: |R^T R - I| = e becomes 3/4 e^2, 5e-4 becomes 2e-7. Two such rotations stay
-/// within the 1e-6 that a query asks for. Rotations of single precision are off by up to 1e-6 each.
-Pose orthonormal(const Pose& pose) {
-  const Mat3 gram = pose.rotation.transpose() * pose.rotation;
-  return {pose.rotation * (1.5 * Mat3::Identity() - 0.5 * gram), pose.translation};
-}
-
-Vec3 transform(const Pose& pose, const Vec3& p) { return pose.rotation * p + pose.translation; }
 
 Pose b_in_a(const Placed& a, const Placed& b) { return relative(orthonormal(a.in_world), orthonormal(b.in_world)); }
 
@@ -37,6 +32,41 @@ Pair pair_of(const Placed& a, const Placed& b, double beyond, PairSeed& seed) {
   return pair;
 }
 
+Nearest in_world(const Pair& pair) {
+  return {pair.found,
+          pair.answer.verdict,
+          pair.answer.lower,
+          pair.a_in_world.rotation * pair.answer.normal,
+          transform(pair.a_in_world, pair.answer.point_a),
+          transform(pair.a_in_world, pair.answer.point_b)};
+}
+
+Found contacts(const Placed& a, const Body& b, const Pair& pair, double beyond, std::uint32_t most_points, Manifold& manifold) {
+  const ManifoldOptions options{.margin = beyond, .most_points = most_points};
+  manifold =
+      pair.found == Found::Nearest ? swiftlet::manifold(a.body, b, pair.b_in_a, pair.answer, options, manifold) : Manifold{};
+  into_world(pair.a_in_world, manifold);
+  return pair.found;
+}
+
+/// A triangle in the half-space's plane, below a model and larger.
+Placed part_below(const Placed& a, const HalfSpace& b) {
+  const Model& model = *a.body.model();
+  const Vec3 centre = transform(a.in_world, model.centre()), foot = centre - b.normal * (b.normal.dot(centre) - b.offset);
+  const Vec3 side = b.normal.unitOrthogonal() * model.radius(), other = b.normal.cross(side);
+  return {Body::triangle(4 * side, 4 * other - 4 * side, -4 * other - 4 * side), {Mat3::Identity(), foot}};
+}
+
+Pair pair_of(const Placed& a, const Placed& part, double beyond) {
+  Pair pair{orthonormal(a.in_world), b_in_a(a, part)};
+  if (tolerance(a.body, part.body, pair.b_in_a) >= 0)
+    pair.answer = above(a.body, part.body, pair.b_in_a, Side::Front, normal_of(part.body, Side::Front));
+  else
+    pair.found = Found::Nothing;  // no rigid motion
+  if (pair.answer.lower > beyond) pair.found = Found::Beyond;
+  return pair;
+}
+
 }  // namespace
 
 const Model& whole(const Model& model) {
@@ -47,27 +77,18 @@ const Model& whole(const Model& model) {
 double tolerance(const Placed& a, const Placed& b) { return tolerance(a.body, b.body, b_in_a(a, b)); }
 
 Nearest nearest(const Placed& a, const Placed& b, double beyond, PairSeed& seed) {
-  const Pair pair = pair_of(a, b, beyond, seed);
-  return {pair.found,
-          pair.answer.verdict,
-          pair.answer.lower,
-          pair.a_in_world.rotation * pair.answer.normal,
-          transform(pair.a_in_world, pair.answer.point_a),
-          transform(pair.a_in_world, pair.answer.point_b)};
+  return in_world(pair_of(a, b, beyond, seed));
 }
 
+Nearest nearest(const Placed& a, const HalfSpace& b, double beyond) { return in_world(pair_of(a, part_below(a, b), beyond)); }
+
 Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t most_points, PairSeed& seed, Manifold& manifold) {
-  const Pair pair = pair_of(a, b, beyond, seed);
-  const ManifoldOptions options{.margin = beyond, .most_points = most_points};
-  manifold = pair.found == Found::Nearest ? swiftlet::manifold(a.body, b.body, pair.b_in_a, pair.answer, options, manifold)
-                                          : Manifold{};
-  manifold.normal = pair.a_in_world.rotation * manifold.normal;
-  for (std::uint32_t i = 0; i < manifold.count; ++i) {
-    ManifoldPoint& p = manifold.points[i];
-    p.point_a = transform(pair.a_in_world, p.point_a);
-    p.point_b = transform(pair.a_in_world, p.point_b);
-  }
-  return pair.found;
+  return contacts(a, b.body, pair_of(a, b, beyond, seed), beyond, most_points, manifold);
+}
+
+Found contacts(const Placed& a, const HalfSpace& b, double beyond, std::uint32_t most_points, Manifold& manifold) {
+  const Placed part = part_below(a, b);
+  return contacts(a, part.body, pair_of(a, part, beyond), beyond, most_points, manifold);
 }
 
 Verdict meeting(const Placed& a, const Placed& b, PairSeed& seed) {

@@ -22,6 +22,12 @@ struct Placed {
   Pose in_world;  ///< its rotation orthonormal to 5e-4; what single precision took from it is given back before the query
 };
 
+/// All points p of the world with `normal` . p <= `offset`.
+struct HalfSpace {
+  Vec3 normal = Vec3::UnitZ();  ///< unit, outwards
+  double offset = 0;            ///< of the plane from the origin, along the normal
+};
+
 /// `tolerance` of the pair as the queries below see it.
 double tolerance(const Placed& a, const Placed& b);
 
@@ -44,9 +50,16 @@ struct Nearest {
 /// `beyond`: a distance of the bodies; those farther apart answer Beyond, early.
 Nearest nearest(const Placed& a, const Placed& b, double beyond, PairSeed& seed);
 
+/// The same of a body that is a model, and of a half-space. Cost: one support.
+Nearest nearest(const Placed& a, const HalfSpace& b, double beyond);
+
 /// Fills `manifold` with at most `most_points` points of contact in the world's frame, none farther apart than `beyond`: of
 /// Nearest at least one, else none. It brings the pair's manifold of the step before, or none.
 Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t most_points, PairSeed& seed, Manifold& manifold);
+
+/// The same of a body that is a model, and of a half-space: the corners of the model's contact face. Cost: one support, and the
+/// face's sides.
+Found contacts(const Placed& a, const HalfSpace& b, double beyond, std::uint32_t most_points, Manifold& manifold);
 
 /// Of the bodies, exactly; Undecided: a pose is no rigid motion.
 Verdict meeting(const Placed& a, const Placed& b, PairSeed& seed);

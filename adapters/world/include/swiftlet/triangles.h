@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A model against a surface of triangles, as engines' meshes and heightfields hand them out one by one. Inner edges are welded,
+// and no triangle pushes a model through to its other side. Knows no engine.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <swiftlet/world.h>
+
+namespace swiftlet {
+
+/// A place of contact with one triangle, in the world's frame.
+struct TrianglePoint {
+  Vec3 normal;                     ///< unit, from the model to the surface
+  Vec3 point_a, point_b;           ///< on the model and on the surface, both on one line along the normal
+  double separation = 0;           ///< along the normal, below 0 where they overlap
+  std::uint32_t triangle = 0;      ///< its number in the order of `add`
+  bool is_deepest_of_its = false;  ///< of the points that its triangle has
+};
+
+/// A model and the triangles near it. It lives as long as the pair does: from step to step it remembers each triangle's seed,
+/// and the side on which the model is.
+class TrianglePair {
+ public:
+  void clear();  ///< forgets the triangles, not what is remembered of them
+  /// Adds a triangle, its corners in the surface's frame. Names are unique within a step and stay from step to step.
+  void add(std::uint64_t name, const Vec3& p, const Vec3& q, const Vec3& r);
+
+  /// All points of contact of the model `a` with the triangles that were added, no farther apart than `beyond`; the triangles
+  /// have a radius. Those that touch the model's neighbourhood must all be there, because they are each other's neighbours.
+  /// `moved`: how far the model's centre moved, relative to the surface, since the step before: a triangle that is new counts
+  /// as met from the side on which the model was. The answer lives until the next call.
+  std::span<const TrianglePoint> contacts(const Placed& a, const Pose& surface, double radius, const Vec3& moved,
+                                          double beyond);
+
+ private:
+  struct Memory {
+    std::uint64_t name;
+    PairSeed seed;
+    bool is_behind;  ///< the model, of the triangle's plane
+  };
+  struct Triangle {
+    std::array<Vec3, 3> corners;
+    Vec3 normal;  ///< unit, of the side on which the model is; 0 where the corners lie on one line
+    bool is_new = true;
+    Memory memory;
+  };
+  struct View;
+
+  void recall(const Vec3& before);
+  void meet(View& view, std::uint32_t number);
+  bool is_supported(const View& view, const Vec3& p, const Vec3& direction) const;
+
+  std::vector<Triangle> triangles_;
+  std::vector<Memory> memories_;  ///< of the step before, by name
+  std::vector<TrianglePoint> points_;
+};
+
+/// Of points whose normals are alike, the numbers of at most four: the deepest, and those that span the largest area with it.
+struct Spread {
+  std::array<std::uint32_t, 4> index{};
+  std::uint32_t count = 0;
+};
+Spread spread(std::span<const TrianglePoint> points);
+
+}  // namespace swiftlet
