@@ -20,79 +20,10 @@
 #include <swiftlet/query.h>
 
 #include "bodies.h"
+#include "bullet_world.h"
 
 namespace swiftlet {
 namespace {
-
-using bullet::HullPairs;
-using bullet::HullShape;
-
-const btScalar kRounding = sizeof(btScalar) == 4 ? btScalar(4e-6) : btScalar(1e-13);  // at sizes of a few units
-
-/// A collision world without and with swiftlet's hull pairs.
-struct World {
-  btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher{&configuration};
-  std::optional<HullPairs> hull_pairs;
-  btDbvtBroadphase broadphase;
-  btCollisionWorld world{&dispatcher, &broadphase, &configuration};
-
-  explicit World(bool with_swiftlet = true) {
-    if (with_swiftlet) hull_pairs.emplace(dispatcher);
-  }
-};
-
-struct Point {
-  btVector3 normal_on_b, on_a, on_b;
-  btScalar distance;
-};
-
-/// What contactPairTest reports, as seen with `a` first.
-std::vector<Point> closest_points(World& w, btCollisionShape& a, const btTransform& a_in_world, btCollisionShape& b,
-                                  const btTransform& b_in_world, btScalar threshold = 0) {
-  struct Collector : btCollisionWorld::ContactResultCallback {
-    const btCollisionObject* first = nullptr;
-    std::vector<Point> points;
-    btScalar addSingleResult(btManifoldPoint& p, const btCollisionObjectWrapper* object, int, int,
-                             const btCollisionObjectWrapper*, int, int) override {
-      EXPECT_EQ(object->getCollisionObject(), first);
-      points.push_back({p.m_normalWorldOnB, p.getPositionWorldOnA(), p.getPositionWorldOnB(), p.getDistance()});
-      return 0;
-    }
-  } collector;
-  btCollisionObject object_a, object_b;
-  object_a.setCollisionShape(&a), object_b.setCollisionShape(&b);
-  object_a.setWorldTransform(a_in_world), object_b.setWorldTransform(b_in_world);
-  collector.first = &object_a;
-  collector.m_closestDistanceThreshold = threshold;
-  w.world.contactPairTest(&object_a, &object_b, collector);
-  return collector.points;
-}
-
-/// Moves the points that Bullet sees far aside: only the model can give the answer from then on.
-void blind_bullet(HullShape& hull) {
-  for (int i = 0; i < hull.getNumPoints(); ++i) hull.getUnscaledPoints()[i] += btVector3(50, 50, 50);
-}
-
-btTransform at(double x, double y, double z) {
-  return btTransform(btQuaternion::getIdentity(), btVector3(btScalar(x), btScalar(y), btScalar(z)));
-}
-
-Model stored(const char* name) { return load(std::string(SWIFTLET_TEST_DIR) + "/data/models/" + name + ".swl").value(); }
-
-Pose pose_of(const btTransform& t) {
-  Pose pose;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) pose.rotation(i, j) = t.getBasis()[i][j];
-    pose.translation[i] = t.getOrigin()[i];
-  }
-  return pose;
-}
-
-void expect_near(const btVector3& p, const btVector3& q, btScalar tolerance) {
-  EXPECT_LE((p - q).length(), tolerance) << p.x() << " " << p.y() << " " << p.z() << " and " << q.x() << " " << q.y() << " "
-                                         << q.z();
-}
 
 TEST(HullShape, IsABtConvexHullShapeOfTheModelsVertices) {
   const HullShape hull(bodies::model(bodies::box(1, 2, 3)));
@@ -359,27 +290,58 @@ TEST(HullPairs, KeepThePointsOfTheStepBefore) {
   w.world.removeCollisionObject(&object_a), w.world.removeCollisionObject(&object_b);
 }
 
-TEST(HullPairs, LeaveScaledHullsToBullet) {
-  HullShape a(bodies::model(bodies::cube())), b(bodies::model(bodies::cube()));
-  b.setLocalScaling(btVector3(2, 1, 1));
-  expect_bullets_own(a, b, at(4, 0, 0));
+TEST(HullPairs, AnswerScaledHullsByTheirScaledPoints) {
   World w;
-  EXPECT_NEAR(closest_points(w, a, at(0, 0, 0), b, at(4, 0, 0), 2)[0].distance, 1 - 2 * CONVEX_DISTANCE_MARGIN, 1e-5);
+  HullShape a(bodies::model(bodies::cube())), b(bodies::model(bodies::cube()));
+  const auto distance = [&] { return closest_points(w, a, at(0, 0, 0), b, at(4, 0, 0), 4)[0].distance; };
+  b.setLocalScaling(btVector3(2, 1, 1));
+  EXPECT_NEAR(distance(), 1 - 2 * CONVEX_DISTANCE_MARGIN, kRounding);
   b.setLocalScaling(btVector3(1, 1, 1));
   blind_bullet(a), blind_bullet(b);
-  EXPECT_NEAR(closest_points(w, a, at(0, 0, 0), b, at(4, 0, 0), 4)[0].distance, 2 - 2 * CONVEX_DISTANCE_MARGIN, kRounding);
+  EXPECT_NEAR(distance(), 2 - 2 * CONVEX_DISTANCE_MARGIN, kRounding);
 }
 
-TEST(HullPairs, LeaveOtherShapesToBullet) {
-  HullShape hull(bodies::model(bodies::cube()));
+/// A body that is scaled while the pair lives is no longer what its algorithm was made for.
+TEST(HullPairs, SeeThatAShapeWasScaled) {
+  World w;
+  HullShape a(bodies::model(bodies::cube()));
+  btConvexHullShape b;
+  for (int i = 0; i < a.getNumPoints(); ++i) b.addPoint(a.getUnscaledPoints()[i]);
+  btCollisionObject object_a, object_b;
+  object_a.setCollisionShape(&a), object_b.setCollisionShape(&b);
+  object_b.setWorldTransform(at(0, 0, 2.05));
+  w.world.addCollisionObject(&object_a), w.world.addCollisionObject(&object_b);
+  const auto deepest = [&] {
+    w.world.performDiscreteCollisionDetection();
+    const btPersistentManifold& manifold = *w.dispatcher.getManifoldByIndexInternal(0);
+    btScalar least = 1;
+    for (int i = 0; i < manifold.getNumContacts(); ++i) least = std::min(least, manifold.getContactPoint(i).getDistance());
+    return least;
+  };
+  EXPECT_NEAR(deepest(), 0.05 - 2 * CONVEX_DISTANCE_MARGIN, kRounding);
+  b.setLocalScaling(btVector3(1, 1, btScalar(1.02)));
+  EXPECT_NEAR(deepest(), 0.03 - 2 * CONVEX_DISTANCE_MARGIN, 1e-4);
+  a.setLocalScaling(btVector3(1, 1, btScalar(1.01)));
+  EXPECT_NEAR(deepest(), 0.02 - 2 * CONVEX_DISTANCE_MARGIN, 1e-4);
+  w.world.removeCollisionObject(&object_a), w.world.removeCollisionObject(&object_b);
+}
+
+TEST(HullPairs, LeavePairsWithoutAHullShapeToBullet) {
+  HullShape hull(bodies::model(bodies::cube())), scaled(bodies::model(bodies::cube()));
+  scaled.setLocalScaling(btVector3(2, 1, 1));
   btConvexHullShape without_model;
   for (int i = 0; i < hull.getNumPoints(); ++i) without_model.addPoint(hull.getUnscaledPoints()[i]);
-  btBoxShape box(btVector3(1, 1, 1));  // its margin lies inside
+  btBoxShape box(btVector3(1, 1, 1));
   btSphereShape sphere(1);
-  expect_bullets_own(hull, without_model, at(3, 0.2, 0.1));
-  expect_bullets_own(without_model, hull, at(3, 0.2, 0.1));
-  expect_bullets_own(hull, box, at(3, 0.2, 0.1));
-  expect_bullets_own(hull, sphere, at(3, 0.2, 0.1));
+  for (btCollisionShape* other : {static_cast<btCollisionShape*>(&without_model), static_cast<btCollisionShape*>(&box),
+                                  static_cast<btCollisionShape*>(&sphere)}) {
+    expect_bullets_own(without_model, *other, at(4, 0.2, 0.1));
+    expect_bullets_own(*other, without_model, at(4, 0.2, 0.1));
+    expect_bullets_own(scaled, *other, at(4, 0.2, 0.1));
+  }
+  btCylinderShape cylinder(btVector3(1, 1, 1));
+  expect_bullets_own(hull, cylinder, at(3, 0.2, 0.1));
+  expect_bullets_own(cylinder, hull, at(3, 0.2, 0.1));
 }
 
 /// A simulation leaves up to 1e-6, which a query as such refuses.

@@ -10,32 +10,51 @@
 #include <utility>
 
 #include <BulletCollision/CollisionDispatch/btCollisionConfiguration.h>
-#include <BulletCollision/CollisionDispatch/btConvexConvexAlgorithm.h>
-#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletCollision/CollisionDispatch/btConvexConcaveCollisionAlgorithm.h>
 
 #include <swiftlet/world.h>
+
+#include "algorithms.h"
 
 namespace swiftlet::bullet {
 namespace {
 
-btVector3 vector_of(const Vec3& v) { return {btScalar(v[0]), btScalar(v[1]), btScalar(v[2])}; }
+/// A HullShape and a convex shape or plane, in either order, as the kernel sees them.
+class SolidPair {
+ public:
+  SolidPair(Solid a, Solid b) : a_(std::move(a)), b_(std::move(b)) {}
 
-Pose pose_of(const btTransform& t) {
-  const btMatrix3x3& r = t.getBasis();
-  Pose pose;
-  for (int row = 0; row < 3; ++row) pose.rotation.row(row) << r[row].x(), r[row].y(), r[row].z();
-  pose.translation << t.getOrigin().x(), t.getOrigin().y(), t.getOrigin().z();
-  return pose;
-}
+  bool is_current(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) const {
+    return a_.is_current(*a.getCollisionShape()) && b_.is_current(*b.getCollisionShape());
+  }
+  Nearest nearest(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double beyond, PairSeed& seed) const {
+    if (b_.role() == Role::Plane) return swiftlet::nearest(a_.placed(a), b_.half_space(b), beyond);
+    if (a_.role() != Role::Plane) return swiftlet::nearest(a_.placed(a), b_.placed(b), beyond, seed);
+    Nearest near = swiftlet::nearest(b_.placed(b), a_.half_space(a), beyond);
+    near.normal = -near.normal;
+    std::swap(near.point_a, near.point_b);
+    return near;
+  }
+  Found contacts(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double beyond, PairSeed& seed,
+                 Manifold& manifold) const {
+    constexpr std::uint32_t kMost = MANIFOLD_CACHE_SIZE;
+    if (b_.role() == Role::Plane) return swiftlet::contacts(a_.placed(a), b_.half_space(b), beyond, kMost, manifold);
+    if (a_.role() != Role::Plane) return swiftlet::contacts(a_.placed(a), b_.placed(b), beyond, kMost, seed, manifold);
+    swap(manifold);
+    const Found found = swiftlet::contacts(b_.placed(b), a_.half_space(a), beyond, kMost, manifold);
+    swap(manifold);
+    return found;
+  }
 
-const HullShape& hull_of(const btCollisionObjectWrapper& body) {
-  return *static_cast<const HullShape*>(body.getCollisionShape());
-}
+ private:
+  static void swap(Manifold& manifold) {
+    manifold.normal = -manifold.normal;
+    std::swap(manifold.face_a, manifold.face_b);
+    for (ManifoldPoint& p : manifold.points) std::swap(p.point_a, p.point_b), std::swap(p.feature_a, p.feature_b);
+  }
 
-Placed placed(const btCollisionObjectWrapper& body) {
-  const HullShape& hull = hull_of(body);
-  return {Body(hull.model(), hull.getMargin()), pose_of(body.getWorldTransform())};
-}
+  Solid a_, b_;
+};
 
 /// Points of the steps before stay while they span this share of the area that this step's span, and are less deep by no more
 /// than this share of Bullet's breaking threshold.
@@ -45,10 +64,13 @@ constexpr btScalar kHeldArea = btScalar(0.9), kHeldDepth = btScalar(0.02);
 /// holds those of one step.
 class HullAlgorithm final : public btActivatingCollisionAlgorithm {
  public:
-  HullAlgorithm(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper& a,
-                const btCollisionObjectWrapper& b, btConvexPenetrationDepthSolver& depth_solver, bool all_points)
-      : btActivatingCollisionAlgorithm(info), depth_solver_(&depth_solver), persistent_(info.m_manifold) {
-    if (all_points) manifold_ = std::make_unique<Manifold>();
+  HullAlgorithm(const Create& create, const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper& a,
+                const btCollisionObjectWrapper& b, SolidPair solids)
+      : btActivatingCollisionAlgorithm(info),
+        create_(create),
+        solids_(std::make_unique<SolidPair>(std::move(solids))),
+        persistent_(info.m_manifold) {
+    if (create.all_points) manifold_ = std::make_unique<Manifold>();
     if (persistent_) return;
     persistent_ = m_dispatcher->getNewManifold(a.getCollisionObject(), b.getCollisionObject());
     owns_persistent_ = true;
@@ -60,21 +82,23 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo& info,
                         btManifoldResult* result) override {
     result->setPersistentManifold(persistent_);
-    if (!answer(*a, *b, *result)) bullets().processCollision(a, b, info, result);
+    if (!answer(*a, *b, *result)) others(*a, *b)->processCollision(a, b, info, result);
     if (owns_persistent_) result->refreshContactPoints();
   }
   btScalar calculateTimeOfImpact(btCollisionObject* a, btCollisionObject* b, const btDispatcherInfo& info,
                                  btManifoldResult* result) override {
-    return bullets().calculateTimeOfImpact(a, b, info, result);
+    const btCollisionObjectWrapper a_wrap(nullptr, a->getCollisionShape(), a, a->getWorldTransform(), -1, -1),
+        b_wrap(nullptr, b->getCollisionShape(), b, b->getWorldTransform(), -1, -1);
+    return others(a_wrap, b_wrap)->calculateTimeOfImpact(a, b, info, result);
   }
   void getAllContactManifolds(btManifoldArray& manifolds) override {
     if (owns_persistent_) manifolds.push_back(persistent_);
   }
 
  private:
-  /// False where it has nothing to say, and Bullet's algorithm shall.
+  /// False where it has nothing to say, and the configuration's algorithm shall.
   bool answer(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btManifoldResult& result) {
-    if (hull_of(a).is_scaled() || hull_of(b).is_scaled()) return false;
+    if (!solids_->is_current(a, b)) return false;
     const btScalar touching = persistent_->getContactBreakingThreshold() + result.m_closestPointDistanceThreshold;
     return manifold_ ? add_all(a, b, touching, result) : add_nearest(a, b, touching, result);
   }
@@ -83,7 +107,8 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
   bool add_nearest(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btScalar touching,
                    btManifoldResult& result) {
     // As far as Bullet's own algorithm looks.
-    const Nearest near = nearest(placed(a), placed(b), hull_of(a).getMargin() + hull_of(b).getMargin() + touching, seed_);
+    const btScalar reach = a.getCollisionShape()->getMargin() + b.getCollisionShape()->getMargin() + touching;
+    const Nearest near = solids_->nearest(a, b, reach, seed_);
     if (near.found == Found::Nothing) return false;
     if (near.found == Found::Nearest)
       result.addContactPoint(vector_of(-near.normal), vector_of(near.point_b), btScalar(near.distance));
@@ -93,7 +118,7 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
   /// Points that hold the area of this step. A manifold of Bullet's that is shared keeps those of others.
   bool add_all(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btScalar touching,
                btManifoldResult& result) {
-    if (contacts(placed(a), placed(b), touching, MANIFOLD_CACHE_SIZE, seed_, *manifold_) == Found::Nothing) return false;
+    if (solids_->contacts(a, b, touching, seed_, *manifold_) == Found::Nothing) return false;
     if (owns_persistent_) {
       if (holds_the_area(a)) return true;
       forget_others(a);
@@ -165,13 +190,13 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
     }
   }
 
-  /// Bullet's algorithm on this pair's manifold. It keeps nothing from step to step.
-  btConvexConvexAlgorithm bullets() const {
-    btCollisionAlgorithmConstructionInfo info(m_dispatcher, 0);
-    return {persistent_, info, nullptr, nullptr, depth_solver_, 0, 0};
+  /// The configuration's algorithm on this pair's manifold. It keeps nothing from step to step.
+  OthersAlgorithm others(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) const {
+    return {create_, *m_dispatcher, persistent_, a, b};
   }
 
-  btConvexPenetrationDepthSolver* depth_solver_;
+  const Create& create_;
+  std::unique_ptr<SolidPair> solids_;
   btPersistentManifold* persistent_;
   PairSeed seed_;
   std::unique_ptr<Manifold> manifold_;  ///< of the step before; none where closest points are asked for
@@ -179,38 +204,82 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
 };
 
 // Bullet's pool hands out blocks of at least this size, whatever size is asked for.
-static_assert(sizeof(HullAlgorithm) <= sizeof(btConvexConvexAlgorithm));
+static_assert(sizeof(HullAlgorithm) <= sizeof(btConvexConcaveCollisionAlgorithm));
 
-bool holds_model(const btCollisionObjectWrapper& body) {
-  return dynamic_cast<const HullShape*>(body.getCollisionShape()) != nullptr;
-}
+/// Whether swiftlet answers the pair, but for Points of which there is no model.
+bool is_ours(Role a, Role b) { return (a == Role::Hull && b != Role::Bullets) || (b == Role::Hull && a != Role::Bullets); }
 
 }  // namespace
 
 HullShape::HullShape(const Model& model) : model_(whole(model)) {
-  for (const Vertex& v : model.level(0).view.vertices) addPoint(vector_of({v.x, v.y, v.z}), false);
+  for (const Vertex& v : model.level(0).view.vertices) addPoint(vector_of(Vec3(v.x, v.y, v.z)), false);
   recalcLocalAabb();
 }
 
 bool HullShape::is_scaled() const { return getLocalScaling() != btVector3(1, 1, 1); }
 
-btCollisionAlgorithm* HullPairs::Create::CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
-                                                                  const btCollisionObjectWrapper* a,
-                                                                  const btCollisionObjectWrapper* b) {
-  if (!holds_model(*a) || !holds_model(*b)) return others->CreateCollisionAlgorithm(info, a, b);
-  void* const place = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(HullAlgorithm));
-  return new (place) HullAlgorithm(info, *a, *b, *depth_solver, all_points);
+OthersAlgorithm::OthersAlgorithm(const Create& create, btDispatcher& dispatcher, btPersistentManifold* persistent,
+                                 const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b)
+    : dispatcher_(dispatcher) {
+  btCollisionAlgorithmConstructionInfo info(&dispatcher, 0);
+  info.m_manifold = persistent;
+  algorithm_ = create.others->CreateCollisionAlgorithm(info, &a, &b);
 }
 
-HullPairs::HullPairs(btCollisionDispatcher& dispatcher) {
+OthersAlgorithm::~OthersAlgorithm() {
+  algorithm_->~btCollisionAlgorithm();
+  dispatcher_.freeCollisionAlgorithm(algorithm_);
+}
+
+btCollisionAlgorithm* Create::CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                                       const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b) {
+  const btCollisionShape &shape_a = *a->getCollisionShape(), &shape_b = *b->getCollisionShape();
+  const Role role_a = role_of(shape_a), role_b = role_of(shape_b);
+  if (!is_ours(role_a, role_b)) return others->CreateCollisionAlgorithm(info, a, b);
+  if (role_a == Role::Triangles || role_b == Role::Triangles) return create_triangles_algorithm(*this, info, *a, *b);
+  std::optional<Solid> solid_a = Solid::of(shape_a, *models), solid_b = Solid::of(shape_b, *models);
+  if (!solid_a || !solid_b) return others->CreateCollisionAlgorithm(info, a, b);
+  void* const place = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(HullAlgorithm));
+  return new (place) HullAlgorithm(*this, info, *a, *b, {std::move(*solid_a), std::move(*solid_b)});
+}
+
+struct HullPairs::Entries {
+  HullModels models;
+  struct {
+    Create hull_first, hull_second;
+  } contact_points[MAX_BROADPHASE_COLLISION_TYPES], closest_points[MAX_BROADPHASE_COLLISION_TYPES];
+};
+
+HullPairs::HullPairs(btCollisionDispatcher& dispatcher) : entries_(std::make_unique<Entries>()) {
   constexpr int kHull = CONVEX_HULL_SHAPE_PROXYTYPE;
   btCollisionConfiguration& configuration = *dispatcher.getCollisionConfiguration();
-  contact_points_.others = configuration.getCollisionAlgorithmCreateFunc(kHull, kHull);
-  closest_points_.others = configuration.getClosestPointsAlgorithmCreateFunc(kHull, kHull);
-  contact_points_.all_points = true;
-  contact_points_.depth_solver = closest_points_.depth_solver = &depth_solver_;
-  dispatcher.registerCollisionCreateFunc(kHull, kHull, &contact_points_);
-  dispatcher.registerClosestPointsCreateFunc(kHull, kHull, &closest_points_);
+  const auto fill = [&](Create& create, btCollisionAlgorithmCreateFunc* others, bool all_points) {
+    create.others = others;
+    create.models = &entries_->models;
+    create.all_points = all_points;
+    return &create;
+  };
+  for (int other = 0; other < MAX_BROADPHASE_COLLISION_TYPES; ++other) {
+    if (role_of(other) == Role::Bullets) continue;
+    auto& contacts = entries_->contact_points[other];
+    auto& closest = entries_->closest_points[other];
+    const auto enter = [&](int a, int b, Create& contact, Create& near) {
+      dispatcher.registerCollisionCreateFunc(a, b, fill(contact, configuration.getCollisionAlgorithmCreateFunc(a, b), true));
+      dispatcher.registerClosestPointsCreateFunc(a, b,
+                                                 fill(near, configuration.getClosestPointsAlgorithmCreateFunc(a, b), false));
+    };
+    enter(kHull, other, contacts.hull_first, closest.hull_first);
+    if (other != kHull) enter(other, kHull, contacts.hull_second, closest.hull_second);
+  }
+}
+
+HullPairs::~HullPairs() = default;
+
+bool HullPairs::answers(const btCollisionShape& a, const btCollisionShape& b) const {
+  const auto has_model = [&](const btCollisionShape& shape) {
+    return role_of(shape) != Role::Points || entries_->models.of(shape) != nullptr;
+  };
+  return is_ours(role_of(a), role_of(b)) && has_model(a) && has_model(b);
 }
 
 }  // namespace swiftlet::bullet

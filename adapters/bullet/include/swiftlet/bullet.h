@@ -4,12 +4,13 @@
 // Bullet it is compiled with: single as swiftlet::bullet, double as swiftlet::bullet_float64.
 #pragma once
 
-#include <BulletCollision/CollisionDispatch/btCollisionCreateFunc.h>
+#include <memory>
+
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
-#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 
 #include <swiftlet/model.h>
+#include <swiftlet/result.h>
 
 namespace swiftlet::bullet {
 
@@ -20,33 +21,38 @@ class HullShape : public btConvexHullShape {
   /// Shares the model's block. Throws std::invalid_argument where the model lacks level 0 (Detail).
   explicit HullShape(const Model& model);
   const Model& model() const { return model_; }  ///< in double precision, as given
-  /// A model is rigid: a shape with a local scaling is answered by Bullet. Scale the points before the model is built.
+  /// A model is rigid: with a local scaling the shape counts as any btConvexHullShape of its scaled points.
   bool is_scaled() const;
 
  private:
   Model model_;
 };
 
-/// Makes pairs of two unscaled HullShapes swiftlet's, in contacts, up to four a step, and in closest-point queries, apart or
-/// overlapping. All other pairs stay with what the dispatcher's configuration has for them. Create one after the dispatcher and
-/// before the world; it outlives the world.
+/// The model of the convex hull of points, by Bullet's own hull of them, for hulls of which there is no mesh. Errors: NotSolid
+/// where they lie in one plane; NotConvex and NotEnclosing where they are too close to one another for that hull, which rounds
+/// them to 1/10216 of their extent. The builder of swiftlet::lod takes any points.
+Result<Model> model_of(const btVector3* points, int count);
+/// Of a shape's scaled points.
+Result<Model> model_of(const btConvexHullShape& shape);
+
+/// Makes the pairs of an unscaled HullShape swiftlet's, in contacts and in closest-point queries, apart or overlapping: with
+/// another one, a sphere, capsule, box, triangle, static plane, hull of points, triangle mesh or heightfield, in either order
+/// and as children of compounds. All other pairs stay with what the dispatcher's configuration has for them; adapters/README.md
+/// has the table. Create one after the dispatcher and before the world; it outlives the world.
 class HullPairs {
  public:
   explicit HullPairs(btCollisionDispatcher& dispatcher);  ///< registers itself in both of the dispatcher's tables
+  ~HullPairs();
   HullPairs(const HullPairs&) = delete;
   HullPairs& operator=(const HullPairs&) = delete;
 
+  /// Whether pairs of these two shapes are swiftlet's; of children of compounds their own shapes decide. Of a hull of points
+  /// this builds the model, unless a pair has it.
+  bool answers(const btCollisionShape& a, const btCollisionShape& b) const;
+
  private:
-  struct Create : btCollisionAlgorithmCreateFunc {
-    btCollisionAlgorithmCreateFunc* others = nullptr;
-    btConvexPenetrationDepthSolver* depth_solver = nullptr;
-    bool all_points = false;  ///< of contact, not the nearest one alone
-    btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
-                                                   const btCollisionObjectWrapper* a,
-                                                   const btCollisionObjectWrapper* b) override;
-  };
-  btGjkEpaPenetrationDepthSolver depth_solver_;
-  Create contact_points_, closest_points_;
+  struct Entries;
+  std::unique_ptr<Entries> entries_;
 };
 
 }  // namespace swiftlet::bullet

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// How the dispatcher gets an algorithm for a pair of shapes. Knows which, not how they work.
+#pragma once
+
+#include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
+#include <BulletCollision/CollisionDispatch/btCollisionCreateFunc.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+
+#include "shapes.h"
+
+namespace swiftlet::bullet {
+
+/// One entry of a dispatcher's table: makes algorithms for the pairs that swiftlet answers, and leaves all others to what was
+/// there.
+struct Create : btCollisionAlgorithmCreateFunc {
+  btCollisionAlgorithmCreateFunc* others = nullptr;
+  HullModels* models = nullptr;
+  bool all_points = false;  ///< of contact, not the nearest one alone
+  btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
+                                                 const btCollisionObjectWrapper* b) override;
+};
+
+/// An algorithm of the configuration's for the pair, on a manifold of ours. It lives for one call.
+class OthersAlgorithm {
+ public:
+  OthersAlgorithm(const Create& create, btDispatcher& dispatcher, btPersistentManifold* persistent,
+                  const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
+  ~OthersAlgorithm();
+  OthersAlgorithm(const OthersAlgorithm&) = delete;
+  OthersAlgorithm& operator=(const OthersAlgorithm&) = delete;
+  btCollisionAlgorithm* operator->() const { return algorithm_; }
+
+ private:
+  btDispatcher& dispatcher_;
+  btCollisionAlgorithm* algorithm_;
+};
+
+/// A HullShape, which is `a` or `b`, and triangles.
+btCollisionAlgorithm* create_triangles_algorithm(const Create& create, const btCollisionAlgorithmConstructionInfo& info,
+                                                 const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
+
+}  // namespace swiftlet::bullet

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shapes.h"
+
+#include <cstring>
+#include <vector>
+
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+#include <BulletCollision/CollisionShapes/btTriangleShape.h>
+
+namespace swiftlet::bullet {
+namespace {
+
+/// Of so many kept models those go that no pair uses.
+constexpr std::size_t kMostModels = 1024;
+
+const btPolyhedralConvexShape& points_of(const btCollisionShape& shape) {
+  return static_cast<const btPolyhedralConvexShape&>(shape);
+}
+
+std::vector<btVector3> vertices_of(const btPolyhedralConvexShape& shape) {
+  std::vector<btVector3> vertices(std::size_t(shape.getNumVertices()));
+  for (int i = 0; i < shape.getNumVertices(); ++i) shape.getVertex(i, vertices[std::size_t(i)]);
+  return vertices;
+}
+
+/// FNV-1a of the coordinates.
+std::uint64_t hash_of(const std::vector<btVector3>& vertices) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const btVector3& v : vertices) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x = v[axis];
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &x, sizeof bits);
+      hash = (hash ^ bits) * 0x100000001b3u;
+      hash ^= hash >> 29;
+    }
+  }
+  return hash;
+}
+
+Body capsule(const btCapsuleShape& shape) {
+  Vec3 top = Vec3::Zero();
+  top[shape.getUpAxis()] = shape.getHalfHeight();
+  return Body::segment(-top, top, shape.getRadius());
+}
+
+/// A btBoxShape's margin is inside of it.
+Body box(const btBoxShape& shape) {
+  const Vec3 half = vector_of(shape.getHalfExtentsWithMargin());
+  return Body::box(-half, half);
+}
+
+Body triangle(const btTriangleShape& shape) {
+  return Body::triangle(vector_of(shape.m_vertices1[0]), vector_of(shape.m_vertices1[1]), vector_of(shape.m_vertices1[2]),
+                        shape.getMargin());
+}
+
+Body primitive(const btCollisionShape& shape) {
+  switch (shape.getShapeType()) {
+    case SPHERE_SHAPE_PROXYTYPE: return Body::point(Vec3::Zero(), static_cast<const btSphereShape&>(shape).getRadius());
+    case CAPSULE_SHAPE_PROXYTYPE: return capsule(static_cast<const btCapsuleShape&>(shape));
+    case BOX_SHAPE_PROXYTYPE: return box(static_cast<const btBoxShape&>(shape));
+    default: return triangle(static_cast<const btTriangleShape&>(shape));
+  }
+}
+
+}  // namespace
+
+btVector3 vector_of(const Vec3& v) { return {btScalar(v[0]), btScalar(v[1]), btScalar(v[2])}; }
+Vec3 vector_of(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+
+Pose pose_of(const btTransform& t) {
+  const btMatrix3x3& r = t.getBasis();
+  Pose pose;
+  for (int row = 0; row < 3; ++row) pose.rotation.row(row) << r[row].x(), r[row].y(), r[row].z();
+  pose.translation = vector_of(t.getOrigin());
+  return pose;
+}
+
+Role role_of(int proxy_type) {
+  switch (proxy_type) {
+    case SPHERE_SHAPE_PROXYTYPE:
+    case CAPSULE_SHAPE_PROXYTYPE:
+    case BOX_SHAPE_PROXYTYPE:
+    case TRIANGLE_SHAPE_PROXYTYPE: return Role::Body;
+    case CONVEX_HULL_SHAPE_PROXYTYPE:
+    case CONVEX_POINT_CLOUD_SHAPE_PROXYTYPE:
+    case TETRAHEDRAL_SHAPE_PROXYTYPE: return Role::Points;
+    case STATIC_PLANE_PROXYTYPE: return Role::Plane;
+    case TRIANGLE_MESH_SHAPE_PROXYTYPE:
+    case SCALED_TRIANGLE_MESH_SHAPE_PROXYTYPE:
+    case MULTIMATERIAL_TRIANGLE_MESH_PROXYTYPE:
+    case TERRAIN_SHAPE_PROXYTYPE: return Role::Triangles;
+    default: return Role::Bullets;
+  }
+}
+
+Role role_of(const btCollisionShape& shape) {
+  const auto* const hull = dynamic_cast<const HullShape*>(&shape);
+  return hull && !hull->is_scaled() ? Role::Hull : role_of(shape.getShapeType());
+}
+
+std::shared_ptr<const Model> HullModels::of(const btCollisionShape& shape) {
+  const std::vector<btVector3> vertices = vertices_of(points_of(shape));
+  const std::uint64_t hash = hash_of(vertices);
+  const std::lock_guard lock(mutex_);
+  if (const auto known = models_.find(hash); known != models_.end()) return known->second;
+  if (models_.size() >= kMostModels) std::erase_if(models_, [](const auto& entry) { return entry.second.use_count() <= 1; });
+  Result<Model> built = model_of(vertices.data(), int(vertices.size()));
+  return models_[hash] = built ? std::make_shared<const Model>(std::move(built).value()) : nullptr;
+}
+
+std::optional<Solid> Solid::of(const btCollisionShape& shape, HullModels& models) {
+  Solid solid(role_of(shape));
+  if (solid.role_ == Role::Bullets || solid.role_ == Role::Triangles) return std::nullopt;
+  if (solid.role_ != Role::Points) return solid;
+  solid.model_ = models.of(shape);
+  if (!solid.model_) return std::nullopt;
+  solid.point_count_ = points_of(shape).getNumVertices();
+  solid.scaling_ = shape.getLocalScaling();
+  return solid;
+}
+
+bool Solid::is_current(const btCollisionShape& shape) const {
+  if (role_ != role_of(shape)) return false;
+  return role_ != Role::Points || (points_of(shape).getNumVertices() == point_count_ && shape.getLocalScaling() == scaling_);
+}
+
+Placed Solid::placed(const btCollisionObjectWrapper& body) const {
+  const btCollisionShape& shape = *body.getCollisionShape();
+  const Pose in_world = pose_of(body.getWorldTransform());
+  if (role_ == Role::Hull) return {Body(static_cast<const HullShape&>(shape).model(), shape.getMargin()), in_world};
+  if (role_ == Role::Points) return {Body(*model_, shape.getMargin()), in_world};
+  return {primitive(shape), in_world};
+}
+
+/// Single precision leaves the normal's length wrong by an ulp.
+HalfSpace Solid::half_space(const btCollisionObjectWrapper& body) const {
+  const auto& plane = static_cast<const btStaticPlaneShape&>(*body.getCollisionShape());
+  const Pose in_world = pose_of(body.getWorldTransform());
+  const Vec3 normal = vector_of(plane.getPlaneNormal());
+  const Vec3 up = (in_world.rotation * normal).normalized();
+  return {up, up.dot(in_world.translation) + plane.getPlaneConstant() / normal.norm()};
+}
+
+}  // namespace swiftlet::bullet

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What Bullet's shapes are to the kernel. The table of adapters/README.md in code; knows no algorithm.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <unordered_map>
+
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+
+#include <swiftlet/bullet.h>
+#include <swiftlet/world.h>
+
+namespace swiftlet::bullet {
+
+btVector3 vector_of(const Vec3& v);
+Vec3 vector_of(const btVector3& v);
+Pose pose_of(const btTransform& t);
+
+/// What a shape is in a pair with a HullShape.
+enum class Role : std::uint8_t {
+  Bullets,   ///< nothing that the kernel answers: the pair is Bullet's
+  Hull,      ///< a HullShape
+  Body,      ///< a primitive
+  Points,    ///< the hull of points, of which a model can be built
+  Plane,     ///< a half-space
+  Triangles  ///< hands out triangles
+};
+
+/// By the shape's type; a HullShape that is scaled is a hull of points.
+Role role_of(const btCollisionShape& shape);
+Role role_of(int proxy_type);  ///< of a shape of this type that is no HullShape
+
+/// Models of Bullet's own hulls, one for each set of points. Any thread may ask.
+class HullModels {
+ public:
+  /// The model of a shape that is a hull of points, in its present scaling; null where its points do not span a solid, or
+  /// rounding keeps them from being convex.
+  std::shared_ptr<const Model> of(const btCollisionShape& shape);
+
+ private:
+  std::mutex mutex_;
+  std::unordered_map<std::uint64_t, std::shared_ptr<const Model>> models_;  ///< by a hash of the points; null: there is none
+};
+
+/// A convex shape or plane, as the kernel sees it. Borrows the shape.
+class Solid {
+ public:
+  /// None where the kernel sees nothing in the shape.
+  static std::optional<Solid> of(const btCollisionShape& shape, HullModels& models);
+
+  Role role() const { return role_; }
+  /// Whether the shape still is what the model was built of: nobody scaled it or added points.
+  bool is_current(const btCollisionShape& shape) const;
+  Placed placed(const btCollisionObjectWrapper& body) const;         ///< of a Hull, Body or Points
+  HalfSpace half_space(const btCollisionObjectWrapper& body) const;  ///< of a Plane
+
+ private:
+  explicit Solid(Role role) : role_(role) {}
+
+  Role role_;
+  std::shared_ptr<const Model> model_;  ///< of Points
+  int point_count_ = 0;
+  btVector3 scaling_{1, 1, 1};
+};
+
+}  // namespace swiftlet::bullet

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A collision world with and without swiftlet's pairs, and what contactPairTest reports in it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <btBulletDynamicsCommon.h>
+
+#include <swiftlet/bullet.h>
+#include <swiftlet/model_file.h>
+#include <swiftlet/pose.h>
+
+namespace swiftlet {
+
+using bullet::HullPairs;
+using bullet::HullShape;
+
+inline const btScalar kRounding = sizeof(btScalar) == 4 ? btScalar(4e-6) : btScalar(1e-13);  // at sizes of a few units
+
+/// A collision world without and with swiftlet's hull pairs.
+struct World {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  std::optional<HullPairs> hull_pairs;
+  btDbvtBroadphase broadphase;
+  btCollisionWorld world{&dispatcher, &broadphase, &configuration};
+
+  explicit World(bool with_swiftlet = true) {
+    if (with_swiftlet) hull_pairs.emplace(dispatcher);
+  }
+};
+
+struct Point {
+  btVector3 normal_on_b, on_a, on_b;
+  btScalar distance;
+};
+
+/// What contactPairTest reports, as seen with `a` first.
+inline std::vector<Point> closest_points(World& w, btCollisionShape& a, const btTransform& a_in_world, btCollisionShape& b,
+                                         const btTransform& b_in_world, btScalar threshold = 0) {
+  struct Collector : btCollisionWorld::ContactResultCallback {
+    const btCollisionObject* first = nullptr;
+    std::vector<Point> points;
+    btScalar addSingleResult(btManifoldPoint& p, const btCollisionObjectWrapper* object, int, int,
+                             const btCollisionObjectWrapper*, int, int) override {
+      EXPECT_EQ(object->getCollisionObject(), first);
+      points.push_back({p.m_normalWorldOnB, p.getPositionWorldOnA(), p.getPositionWorldOnB(), p.getDistance()});
+      return 0;
+    }
+  } collector;
+  btCollisionObject object_a, object_b;
+  object_a.setCollisionShape(&a), object_b.setCollisionShape(&b);
+  object_a.setWorldTransform(a_in_world), object_b.setWorldTransform(b_in_world);
+  collector.first = &object_a;
+  collector.m_closestDistanceThreshold = threshold;
+  w.world.contactPairTest(&object_a, &object_b, collector);
+  return collector.points;
+}
+
+/// Moves the points that Bullet sees far aside: only the model can give the answer from then on.
+inline void blind_bullet(HullShape& hull) {
+  for (int i = 0; i < hull.getNumPoints(); ++i) hull.getUnscaledPoints()[i] += btVector3(50, 50, 50);
+}
+
+inline btTransform at(double x, double y, double z) {
+  return btTransform(btQuaternion::getIdentity(), btVector3(btScalar(x), btScalar(y), btScalar(z)));
+}
+
+inline Model stored(const char* name) { return load(std::string(SWIFTLET_TEST_DIR) + "/data/models/" + name + ".swl").value(); }
+
+inline Pose pose_of(const btTransform& t) {
+  Pose pose;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) pose.rotation(i, j) = t.getBasis()[i][j];
+    pose.translation[i] = t.getOrigin()[i];
+  }
+  return pose;
+}
+
+inline void expect_near(const btVector3& p, const btVector3& q, btScalar tolerance) {
+  EXPECT_LE((p - q).length(), tolerance) << p.x() << " " << p.y() << " " << p.z() << " and " << q.x() << " " << q.y() << " "
+                                         << q.z();
+}
+
+}  // namespace swiftlet
