@@ -20,6 +20,8 @@
 #include <BulletCollision/CollisionShapes/btBox2dShape.h>
 #include <BulletCollision/CollisionShapes/btConvex2dShape.h>
 #include <BulletCollision/CollisionShapes/btConvexPointCloudShape.h>
+#include <BulletCollision/CollisionShapes/btConvexTriangleMeshShape.h>
+#include <BulletCollision/CollisionShapes/btEmptyShape.h>
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <BulletCollision/CollisionShapes/btMinkowskiSumShape.h>
 #include <BulletCollision/CollisionShapes/btMultimaterialTriangleMeshShape.h>
@@ -518,6 +520,375 @@ TEST(Triangles, OfOnePlaneAreOnePlane) {
     EXPECT_GE(deepest, gap - hull.getMargin() - kRounding * 8) << i;
     EXPECT_LE(deepest, (leans ? 0.4 : 1) * (gap - hull.getMargin()) + kRounding * 8) << i;
     w.world.removeCollisionObject(&a), w.world.removeCollisionObject(&b);
+  }
+}
+
+// ---- Motion ----------------------------------------------------------------------------------------------------------------
+
+constexpr btScalar kStep = btScalar(1) / 60;
+
+struct Dynamics {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  std::optional<HullPairs> hull_pairs;
+  btDbvtBroadphase broadphase;
+  btSequentialImpulseConstraintSolver solver;
+  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+  std::vector<std::unique_ptr<btRigidBody>> bodies;
+
+  explicit Dynamics(bool with_swiftlet = true) {
+    if (with_swiftlet) hull_pairs.emplace(dispatcher);
+    world.setGravity(btVector3(0, 0, btScalar(-9.81)));
+  }
+  ~Dynamics() {
+    for (const auto& body : bodies) world.removeRigidBody(body.get());
+  }
+  btRigidBody& add(btCollisionShape& shape, const btTransform& in_world, btScalar mass = 0,
+                   const btVector3& velocity = {0, 0, 0}) {
+    btVector3 inertia(0, 0, 0);
+    if (mass > 0) shape.calculateLocalInertia(mass, inertia);
+    btRigidBody& body = *bodies.emplace_back(std::make_unique<btRigidBody>(mass, nullptr, &shape, inertia));
+    body.setWorldTransform(in_world);
+    body.setInterpolationWorldTransform(in_world);
+    body.setLinearVelocity(velocity);
+    body.setActivationState(DISABLE_DEACTIVATION);
+    world.addRigidBody(&body);
+    return body;
+  }
+  void step() { world.stepSimulation(kStep, 0); }
+};
+
+/// A heightfield over [-size, size]^2, up in z.
+struct Field {
+  std::vector<float> heights;
+  std::unique_ptr<btHeightfieldTerrainShape> shape;
+  Field(int cells, double size, const std::function<double(double, double)>& height)
+      : heights(std::size_t(cells + 1) * (cells + 1)) {
+    const double width = 2 * size / cells;
+    for (int j = 0; j <= cells; ++j) {
+      for (int i = 0; i <= cells; ++i)
+        heights[std::size_t(j * (cells + 1) + i)] = float(height(i * width - size, j * width - size));
+    }
+    shape =
+        std::make_unique<btHeightfieldTerrainShape>(cells + 1, cells + 1, heights.data(), btScalar(-5), btScalar(5), 2, false);
+    shape->setLocalScaling(btVector3(btScalar(width), btScalar(width), 1));
+  }
+};
+
+/// A box of half a metre that is half through the floor, or more, at the end of the step in which they meet: it comes back to
+/// where it came from, on either side. Faster ones pass a floor between two steps, which is for continuous detection.
+void expect_no_fall_through(btCollisionShape& floor, const char* name) {
+  HullShape hull(bodies::model(bodies::box(0.25, 0.25, 0.25)));
+  hull.setMargin(btScalar(0.01));
+  int deep = 0, fell = 0;
+  for (const double side : {1., -1.}) {
+    for (const double speed : {5., 15., 25., 29.}) {
+      for (int phase = 0; phase < 8; ++phase) {
+        Dynamics d;
+        d.world.setGravity(btVector3(0, 0, 0));
+        d.add(floor, at(0, 0, 0));
+        const double way = speed * kStep, start = 0.27 + way * (0.02 + phase / 8.);
+        btTransform in_world = at(0.13, 0.07, side * start);
+        in_world.setRotation(btQuaternion(btVector3(1, 2, 3).normalized(), btScalar(0.3 * (phase % 3))));
+        const btRigidBody& body = d.add(hull, in_world, 1, btVector3(0, 0, btScalar(-side * speed)));
+        double lowest = 1;
+        for (int step = 0; step < 120; ++step)
+          d.step(), lowest = std::min(lowest, side * body.getWorldTransform().getOrigin().z());
+        deep += lowest < 0;
+        const bool is_through = side * body.getWorldTransform().getOrigin().z() < 0.2;
+        fell += is_through;
+        EXPECT_FALSE(is_through) << name << " " << speed << " m/s, phase " << phase << ", side " << side << ": " << lowest;
+      }
+    }
+  }
+  EXPECT_GT(deep, 6);
+  std::printf("%s: of 64 fast boxes %d had their centre beyond the floor, %d stayed there\n", name, deep, fell);
+}
+
+TEST(Triangles, NeverPushABodyThrough) {
+  const auto floor = terrain(9, 3, flat);
+  expect_no_fall_through(*floor->shape, "mesh");
+  Surface two;
+  two.add(btVector3(-3, -3, 0), btVector3(3, -3, 0), btVector3(3, 3, 0)),
+      two.add(btVector3(-3, -3, 0), btVector3(3, 3, 0), btVector3(-3, 3, 0));
+  expect_no_fall_through(two.finish(), "two large triangles");
+  btScaledBvhTriangleMeshShape scaled(floor->shape.get(), btVector3(1, 2, 3));
+  expect_no_fall_through(scaled, "scaled mesh");
+  Field field(9, 3, flat);
+  expect_no_fall_through(*field.shape, "heightfield");
+}
+
+/// What a slide over the floor did to a body that a plane would not do.
+struct Slide {
+  double rise = 0, speed = 0, lost = 0;  ///< above and below its height of rest; along the normal; of the speed it had
+};
+
+Slide slide(btCollisionShape& floor, HullShape& hull, const btTransform& start, double speed, bool with_swiftlet = true) {
+  Dynamics d(with_swiftlet);
+  d.add(floor, at(0, 0, 0)).setFriction(0);
+  btRigidBody& body = d.add(hull, start, 1);
+  body.setFriction(0);
+  for (int step = 0; step < 120; ++step) d.step();  // comes to rest
+  body.setLinearVelocity(btVector3(btScalar(speed), btScalar(0.37 * speed), 0));
+  const double rest = body.getWorldTransform().getOrigin().z();
+  Slide worst;
+  for (int step = 0; step < 120; ++step) {
+    d.step();
+    worst.rise = std::max(worst.rise, std::abs(body.getWorldTransform().getOrigin().z() - rest));
+    worst.speed = std::max(worst.speed, std::abs(double(body.getLinearVelocity().z())));
+  }
+  worst.lost = 1 - body.getLinearVelocity().length() / (speed * std::hypot(1, 0.37));
+  return worst;
+}
+
+TEST(Triangles, LetABoxSlideAsOnOnePlane) {
+  const auto floor = terrain(60, 30, flat);
+  Field field(60, 30, flat);
+  btStaticPlaneShape plane(btVector3(0, 0, 1), 0);
+  HullShape hull(bodies::model(bodies::box(0.5, 0.4, 0.25)));
+  for (const double speed : {1., 4., 8.}) {
+    const btTransform start = at(-18, -6, 0.3);
+    const Slide on_plane = slide(plane, hull, start, speed), on_mesh = slide(*floor->shape, hull, start, speed),
+                on_field = slide(*field.shape, hull, start, speed), bullets = slide(*floor->shape, hull, start, speed, false);
+    std::printf(
+        "%g m/s: plane %.2e m %.2e m/s, mesh %.2e %.2e, heightfield %.2e %.2e, Bullet's mesh %.2e %.2e; lost %.1e %.1e %.1e "
+        "%.1e\n",
+        speed, on_plane.rise, on_plane.speed, on_mesh.rise, on_mesh.speed, on_field.rise, on_field.speed, bullets.rise,
+        bullets.speed, on_plane.lost, on_mesh.lost, on_field.lost, bullets.lost);
+    for (const Slide& other : {on_mesh, on_field}) {
+      EXPECT_LE(other.rise, 1.1 * on_plane.rise + 1e-6);
+      EXPECT_LE(other.speed, 1.1 * on_plane.speed + 1e-5);
+    }
+  }
+}
+
+/// A round body rolls on as on a plane: no triangle's edge stops or lifts it.
+TEST(Triangles, LetARoundBodyRollAsOnOnePlane) {
+  const auto floor = terrain(60, 30, flat);
+  btStaticPlaneShape plane(btVector3(0, 0, 1), 0);
+  HullShape hull(stored("fat_a"));
+  const auto roll = [&](btCollisionShape& on, bool with_swiftlet) {
+    Dynamics d(with_swiftlet);
+    d.add(on, at(0, 0, 0)).setFriction(1);
+    btRigidBody& body = d.add(hull, at(-15, -5, hull.model().radius() + 0.1), 1, btVector3(4, 1, 0));
+    body.setFriction(1);
+    for (int step = 0; step < 90; ++step) d.step();
+    return body.getWorldTransform().getOrigin();
+  };
+  const btVector3 on_plane = roll(plane, true), on_mesh = roll(*floor->shape, true), bullets = roll(*floor->shape, false);
+  std::printf("rolled to %g %g %g on the plane, %g %g %g on the mesh, Bullet's mesh %g %g %g\n", on_plane.x(), on_plane.y(),
+              on_plane.z(), on_mesh.x(), on_mesh.y(), on_mesh.z(), bullets.x(), bullets.y(), bullets.z());
+  EXPECT_LE((on_plane - on_mesh).length(), 0.2);
+}
+
+/// In a corner each face has its own manifold.
+TEST(Triangles, OfTwoFacesHoldABodyByBoth) {
+  Surface valley;
+  for (int j = -4; j < 4; ++j) {
+    for (const int s : {-1, 1}) {
+      const btVector3 p(0, btScalar(j), 0), q(btScalar(4 * s), btScalar(j), 4), r(btScalar(4 * s), btScalar(j + 1), 4),
+          t(0, btScalar(j + 1), 0);
+      valley.add(p, q, r), valley.add(p, r, t);
+    }
+  }
+  HullShape hull(bodies::model(bodies::box(0.5, 0.8, 0.5)));
+  Dynamics d;
+  d.add(valley.finish(), at(0, 0, 0));
+  btTransform in_world = at(0, 0.3, 0.9);
+  in_world.setRotation(btQuaternion(btVector3(0, 1, 0), btScalar(0.25 * 3.14159265358979)));
+  const btRigidBody& body = d.add(hull, in_world, 1);
+  for (int step = 0; step < 180; ++step) d.step();
+  EXPECT_LE(body.getLinearVelocity().length(), 1e-3);
+  EXPECT_NEAR(body.getWorldTransform().getOrigin().z(), std::sqrt(2.) * (0.5 + hull.getMargin()), 0.01);
+  ASSERT_EQ(d.dispatcher.getNumManifolds(), 2);
+  for (int m = 0; m < 2; ++m) {
+    const btPersistentManifold& manifold = *d.dispatcher.getManifoldByIndexInternal(m);
+    EXPECT_EQ(manifold.getNumContacts(), 4);
+    for (int i = 0; i < manifold.getNumContacts(); ++i)
+      EXPECT_NEAR(std::abs(manifold.getContactPoint(i).m_normalWorldOnB.x()), std::sqrt(0.5), 1e-4);
+  }
+}
+
+/// Around the border of a sheet, a body may come to its other side.
+TEST(Triangles, MayBePassedAroundTheBorder) {
+  World w;
+  const auto sheet = terrain(4, 1, flat);
+  HullShape hull(bodies::model(bodies::box(0.2, 0.2, 0.2)));
+  btCollisionObject a, b;
+  a.setCollisionShape(&hull), b.setCollisionShape(sheet->shape.get());
+  w.world.addCollisionObject(&a), w.world.addCollisionObject(&b);
+  const auto up = [&](double x, double z) {
+    a.setWorldTransform(at(x, 0.1, z));
+    w.world.performDiscreteCollisionDetection();
+    const btPersistentManifold* const m = w.dispatcher.getNumManifolds() ? w.dispatcher.getManifoldByIndexInternal(0) : nullptr;
+    return m && m->getNumContacts() ? m->getContactPoint(0).m_normalWorldOnB.z() * (m->getBody0() == &a ? 1 : -1) : btScalar(0);
+  };
+  EXPECT_NEAR(up(0, 0.21), 1, 1e-5);
+  EXPECT_NEAR(up(0, -0.1), 1, 1e-5);  // pushed back up
+  EXPECT_NEAR(up(0, 0.21), 1, 1e-5);
+  for (int i = 0; i <= 20; ++i) up(i * 0.1, 0.21);
+  for (int i = 0; i <= 20; ++i) up(2 - i * 0.1, -0.21);
+  EXPECT_NEAR(up(0, -0.21), -1, 1e-5);
+  EXPECT_NEAR(up(0, 0.1), -1, 1e-5);  // pushed back down
+  w.world.removeCollisionObject(&a), w.world.removeCollisionObject(&b);
+}
+
+// ---- Who answers -----------------------------------------------------------------------------------------------------------
+
+/// One shape of every class that Bullet has, each about as large as a cube of side 2 around the origin, and what it borrows.
+struct Zoo {
+  btTriangleMesh pyramid;
+  std::vector<btVector3> corners{btVector3(1, 1, -1), btVector3(-1, 1, -1), btVector3(-1, -1, -1), btVector3(1, -1, -1),
+                                 btVector3(0, 0, 1)};
+  std::vector<float> heights = std::vector<float>(9, 0.5f);
+  btSphereShape child{1};
+  std::vector<std::pair<std::string, std::shared_ptr<btCollisionShape>>> all;
+
+  Zoo() {
+    for (const auto& [i, j, k] : {std::array{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 2}, {3, 2, 0}})
+      pyramid.addTriangle(corners[i], corners[j], corners[k]);
+    add("HullShape", std::make_shared<HullShape>(bodies::model(bodies::octahedron())));
+    add("btBoxShape", std::make_shared<btBoxShape>(btVector3(1, 1, 1)));
+    add("btTriangleShape", std::make_shared<btTriangleShape>(corners[0], corners[1], corners[4]));
+    add("btBU_Simplex1to4", std::make_shared<btBU_Simplex1to4>(corners[0], corners[1], corners[2], corners[4]));
+    add("btConvexTriangleMeshShape", std::make_shared<btConvexTriangleMeshShape>(&pyramid));
+    add("btConvexHullShape", std::make_shared<btConvexHullShape>(&corners[0].x(), int(corners.size())));
+    add("btConvexPointCloudShape",
+        std::make_shared<btConvexPointCloudShape>(corners.data(), int(corners.size()), btVector3(1, 1, 1)));
+    add("btSphereShape", std::make_shared<btSphereShape>(btScalar(1)));
+    const btScalar radii[] = {btScalar(0.5), btScalar(0.7)};
+    add("btMultiSphereShape", std::make_shared<btMultiSphereShape>(corners.data(), radii, 2));
+    add("btCapsuleShape", std::make_shared<btCapsuleShape>(btScalar(0.5), btScalar(1)));
+    add("btConeShape", std::make_shared<btConeShape>(btScalar(1), btScalar(2)));
+    add("btCylinderShape", std::make_shared<btCylinderShape>(btVector3(1, 1, 1)));
+    add("btUniformScalingShape", std::make_shared<btUniformScalingShape>(&child, btScalar(0.9)));
+    add("btMinkowskiSumShape", std::make_shared<btMinkowskiSumShape>(&child, &child));
+    add("btBox2dShape", std::make_shared<btBox2dShape>(btVector3(1, 1, btScalar(0.1))));
+    add("btConvex2dShape", std::make_shared<btConvex2dShape>(&child));
+    const auto mesh = std::make_shared<btBvhTriangleMeshShape>(&pyramid, true);
+    add("btBvhTriangleMeshShape", mesh);
+    add("btScaledBvhTriangleMeshShape",
+        std::make_shared<btScaledBvhTriangleMeshShape>(mesh.get(), btVector3(1, btScalar(1.1), 1)));
+    add("btMultimaterialTriangleMeshShape", std::make_shared<btMultimaterialTriangleMeshShape>(&pyramid, true));
+    add("btHeightfieldTerrainShape",
+        std::make_shared<btHeightfieldTerrainShape>(3, 3, heights.data(), btScalar(-1), btScalar(1), 2, false));
+    const auto gimpact = std::make_shared<btGImpactMeshShape>(&pyramid);
+    gimpact->updateBound();
+    add("btGImpactMeshShape", gimpact);
+    add("btSdfCollisionShape", std::make_shared<btSdfCollisionShape>());
+    add("btEmptyShape", std::make_shared<btEmptyShape>());
+    add("btStaticPlaneShape", std::make_shared<btStaticPlaneShape>(btVector3(0, 0, 1), btScalar(1)));
+    const auto compound = std::make_shared<btCompoundShape>();
+    compound->addChildShape(at(0, 0, 0), &child);
+    add("btCompoundShape", compound);
+  }
+  void add(const char* name, std::shared_ptr<btCollisionShape> shape) { all.emplace_back(name, std::move(shape)); }
+};
+
+/// The rows of the page's table that begin with a class, and who answers.
+std::map<std::string, std::string> table_of_the_page() {
+  std::ifstream page(std::string(SWIFTLET_TEST_DIR) + "/../adapters/README.md");
+  std::map<std::string, std::string> rows;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with("| `bt") && !line.starts_with("| `HullShape`")) continue;
+    const std::size_t end = line.find(" | ", 2), next = line.find(" | ", end + 3);
+    if (end == std::string::npos || next == std::string::npos) continue;
+    std::string names = line.substr(2, end - 2);
+    for (std::size_t begin = 0; (begin = names.find('`', begin)) != std::string::npos;) {
+      const std::size_t close = names.find('`', begin + 1);
+      rows[names.substr(begin + 1, close - begin - 1)] = line.substr(end + 3, next - end - 3);
+      begin = close + 1;
+    }
+  }
+  return rows;
+}
+
+/// The page's table, `answers` and what happens are one and the same, in both tables of the dispatcher and both orders.
+TEST(WhoAnswers, IsWhatThePageSays) {
+  const std::map<std::string, std::string> page = table_of_the_page();
+  Zoo zoo;
+  World w, bullets(false);
+  std::set<std::string> seen;
+  int ours = 0, theirs = 0;
+  for (const auto& [name, shape] : zoo.all) {
+    seen.insert(name);
+    ASSERT_TRUE(page.count(name)) << name << " is in no row of the page";
+    HullShape hull(bodies::model(bodies::cube()));
+    const bool is_ours = w.hull_pairs->answers(hull, *shape), is_compound = shape->isCompound();
+    EXPECT_EQ(is_ours, w.hull_pairs->answers(*shape, hull));
+    EXPECT_EQ(page.at(name), is_compound ? "child by child" : is_ours ? "swiftlet" : "Bullet") << name;
+    (is_ours || is_compound ? ours : theirs) += 1;
+    if (name == "btGImpactMeshShape" || name == "btSdfCollisionShape" || name == "btEmptyShape")
+      continue;  // no answer by default
+
+    const btTransform in_world = at(0.1, 0.05, 2.03);
+    for (const bool hull_first : {true, false}) {
+      const auto ask = [&](World& world) {
+        return hull_first ? closest_points(world, hull, in_world, *shape, at(0, 0, 0), btScalar(3))
+                          : closest_points(world, *shape, at(0, 0, 0), hull, in_world, btScalar(3));
+      };
+      const auto touches = [&](World& world) {
+        btCollisionObject a, b;
+        a.setCollisionShape(&hull), b.setCollisionShape(shape.get());
+        a.setWorldTransform(in_world);
+        for (btCollisionObject* object : hull_first ? std::array{&a, &b} : std::array{&b, &a})
+          world.world.addCollisionObject(object);
+        world.world.performDiscreteCollisionDetection();
+        std::vector<btScalar> found;
+        for (int m = 0; m < world.dispatcher.getNumManifolds(); ++m) {
+          const btPersistentManifold& manifold = *world.dispatcher.getManifoldByIndexInternal(m);
+          for (int i = 0; i < manifold.getNumContacts(); ++i) found.push_back(manifold.getContactPoint(i).getDistance());
+        }
+        world.world.removeCollisionObject(&a), world.world.removeCollisionObject(&b);
+        return found;
+      };
+      const auto before = ask(w);
+      const auto touched = touches(w), touched_in_bullet = touches(bullets);
+      ASSERT_FALSE(before.empty()) << name;
+      if (is_ours || is_compound) {
+        blind_bullet(hull);
+        const auto after = ask(w);
+        ASSERT_EQ(after.size(), before.size()) << name;
+        for (std::size_t i = 0; i < after.size(); ++i) EXPECT_EQ(after[i].distance, before[i].distance) << name;
+        EXPECT_EQ(touches(w), touched) << name;
+        for (int i = 0; i < hull.getNumPoints(); ++i) hull.getUnscaledPoints()[i] -= btVector3(50, 50, 50);
+      } else {
+        const auto others = ask(bullets);
+        ASSERT_EQ(before.size(), others.size()) << name;
+        for (std::size_t i = 0; i < others.size(); ++i) {
+          EXPECT_EQ(before[i].distance, others[i].distance) << name;
+          EXPECT_TRUE(before[i].on_b == others[i].on_b) << name;
+        }
+        EXPECT_EQ(touched, touched_in_bullet) << name;
+      }
+    }
+  }
+  for (const auto& [name, who] : page) EXPECT_TRUE(seen.count(name)) << name << " is a row of the page, and no shape here";
+  std::printf("%d classes of shapes are swiftlet's, %d Bullet's\n", ours, theirs);
+}
+
+/// Shapes of the user's own, and types that have no class: nothing that is not named is taken.
+TEST(WhoAnswers, LeavesUnknownTypesAlone) {
+  struct Other : btSphereShape {
+    explicit Other(int type) : btSphereShape(1) { m_shapeType = type; }
+  };
+  const Zoo zoo;
+  std::set<int> ours;
+  World w;
+  HullShape hull(bodies::model(bodies::cube()));
+  for (const auto& [name, shape] : zoo.all) {
+    if (w.hull_pairs->answers(hull, *shape)) ours.insert(shape->getShapeType());
+  }
+  EXPECT_EQ(ours.size(), 13u);
+  for (int type = 0; type < MAX_BROADPHASE_COLLISION_TYPES; ++type) {
+    if (ours.count(type)) continue;
+    EXPECT_FALSE(w.hull_pairs->answers(hull, Other(type))) << type;
+  }
+  for (const auto& [name, shape] : zoo.all) {
+    for (const auto& [other_name, other] : zoo.all) {
+      if (name == "HullShape" || other_name == "HullShape") continue;
+      EXPECT_FALSE(w.hull_pairs->answers(*shape, *other)) << name << " " << other_name;
+    }
   }
 }
 

@@ -7,8 +7,10 @@
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btConvexTriangleMeshShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+#include <BulletCollision/CollisionShapes/btStridingMeshInterface.h>
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
 
 namespace swiftlet::bullet {
@@ -17,13 +19,25 @@ namespace {
 /// Of so many kept models those go that no pair uses.
 constexpr std::size_t kMostModels = 1024;
 
-const btPolyhedralConvexShape& points_of(const btCollisionShape& shape) {
-  return static_cast<const btPolyhedralConvexShape&>(shape);
-}
+/// Of a mesh none, which does not say when it changes.
+int point_count(const btCollisionShape& shape) { return static_cast<const btPolyhedralConvexShape&>(shape).getNumVertices(); }
 
-std::vector<btVector3> vertices_of(const btPolyhedralConvexShape& shape) {
-  std::vector<btVector3> vertices(std::size_t(shape.getNumVertices()));
-  for (int i = 0; i < shape.getNumVertices(); ++i) shape.getVertex(i, vertices[std::size_t(i)]);
+std::vector<btVector3> vertices_of(const btCollisionShape& shape) {
+  std::vector<btVector3> vertices;
+  if (shape.getShapeType() == CONVEX_TRIANGLEMESH_SHAPE_PROXYTYPE) {
+    struct Corners final : btInternalTriangleIndexCallback {
+      std::vector<btVector3>& all;
+      explicit Corners(std::vector<btVector3>& vertices_) : all(vertices_) {}
+      void internalProcessTriangleIndex(btVector3* corners, int, int) override { all.insert(all.end(), corners, corners + 3); }
+    } corners(vertices);
+    const auto& mesh = *static_cast<const btConvexTriangleMeshShape&>(shape).getMeshInterface();
+    const btScalar far(BT_LARGE_FLOAT);
+    mesh.InternalProcessAllTriangles(&corners, btVector3(-far, -far, -far), btVector3(far, far, far));
+    return vertices;
+  }
+  const auto& polyhedron = static_cast<const btPolyhedralConvexShape&>(shape);
+  vertices.resize(std::size_t(polyhedron.getNumVertices()));
+  for (int i = 0; i < polyhedron.getNumVertices(); ++i) polyhedron.getVertex(i, vertices[std::size_t(i)]);
   return vertices;
 }
 
@@ -89,6 +103,7 @@ Role role_of(int proxy_type) {
     case TRIANGLE_SHAPE_PROXYTYPE: return Role::Body;
     case CONVEX_HULL_SHAPE_PROXYTYPE:
     case CONVEX_POINT_CLOUD_SHAPE_PROXYTYPE:
+    case CONVEX_TRIANGLEMESH_SHAPE_PROXYTYPE:
     case TETRAHEDRAL_SHAPE_PROXYTYPE: return Role::Points;
     case STATIC_PLANE_PROXYTYPE: return Role::Plane;
     case TRIANGLE_MESH_SHAPE_PROXYTYPE:
@@ -105,7 +120,7 @@ Role role_of(const btCollisionShape& shape) {
 }
 
 std::shared_ptr<const Model> HullModels::of(const btCollisionShape& shape) {
-  const std::vector<btVector3> vertices = vertices_of(points_of(shape));
+  const std::vector<btVector3> vertices = vertices_of(shape);
   const std::uint64_t hash = hash_of(vertices);
   const std::lock_guard lock(mutex_);
   if (const auto known = models_.find(hash); known != models_.end()) return known->second;
@@ -120,14 +135,14 @@ std::optional<Solid> Solid::of(const btCollisionShape& shape, HullModels& models
   if (solid.role_ != Role::Points) return solid;
   solid.model_ = models.of(shape);
   if (!solid.model_) return std::nullopt;
-  solid.point_count_ = points_of(shape).getNumVertices();
+  solid.point_count_ = point_count(shape);
   solid.scaling_ = shape.getLocalScaling();
   return solid;
 }
 
 bool Solid::is_current(const btCollisionShape& shape) const {
   if (role_ != role_of(shape)) return false;
-  return role_ != Role::Points || (points_of(shape).getNumVertices() == point_count_ && shape.getLocalScaling() == scaling_);
+  return role_ != Role::Points || (point_count(shape) == point_count_ && shape.getLocalScaling() == scaling_);
 }
 
 Placed Solid::placed(const btCollisionObjectWrapper& body) const {
