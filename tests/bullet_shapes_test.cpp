@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -890,6 +891,199 @@ TEST(WhoAnswers, LeavesUnknownTypesAlone) {
       EXPECT_FALSE(w.hull_pairs->answers(*shape, *other)) << name << " " << other_name;
     }
   }
+}
+
+// ---- Beside Bullet ---------------------------------------------------------------------------------------------------------
+
+Model ellipsoid(int vertices) {
+  Random random;
+  std::vector<btVector3> points;
+  for (int i = 0; i < vertices; ++i) {
+    const btVector3 p = random.vector(1);
+    points.push_back(p.normalized() * btVector3(1, btScalar(0.8), btScalar(0.6)));
+  }
+  return bodies::must(bullet::model_of(points.data(), vertices));
+}
+
+struct Others {
+  std::unique_ptr<Surface> hills = terrain(20, 4, [](double x, double y) { return 0.1 * std::sin(2 * x) * std::cos(3 * y); });
+  btSphereShape sphere{1};
+  btCapsuleShape capsule{btScalar(0.5), 1};
+  btBoxShape box{btVector3(1, btScalar(0.8), btScalar(0.6))};
+  btConvexHullShape hull;
+  btStaticPlaneShape plane{btVector3(0, 0, 1), 0};
+  btCylinderShape cylinder{btVector3(btScalar(0.7), 1, btScalar(0.7))};
+  std::vector<std::pair<std::string, btCollisionShape*>> all{
+      {"sphere", &sphere}, {"capsule", &capsule},        {"box", &box},          {"hull of 60 points", &hull},
+      {"plane", &plane},   {"mesh", hills->shape.get()}, {"cylinder", &cylinder}};
+  Others() {
+    for (const Vec3& p : bodies::points_of(ellipsoid(60).level(0).view))
+      hull.addPoint(btVector3(btScalar(p[0]), btScalar(p[1]), btScalar(p[2])));
+  }
+};
+
+/// Both see the same pairs touch. The times are of whole steps of the narrowphase, of one pair, in the middle.
+TEST(BesideBullet, PairsTouchInTheSameSteps) {
+  Others others;
+  for (const int vertices : {8, 60, 200}) {
+    HullShape hull(ellipsoid(vertices));
+    for (const auto& [name, shape] : others.all) {
+      World both[2] = {World(true), World(false)};
+      btCollisionObject a[2], b[2];
+      for (int w = 0; w < 2; ++w) {
+        a[w].setCollisionShape(&hull), b[w].setCollisionShape(shape);
+        both[w].world.addCollisionObject(&b[w]), both[w].world.addCollisionObject(&a[w]);
+      }
+      Random random;
+      std::vector<double> times[2];
+      int touching[2] = {}, differ = 0;
+      btVector3 axis = random.vector(1).normalized();
+      for (int step = 0; step < 600; ++step) {
+        btTransform pose(btQuaternion(axis, btScalar(0.01 * step)), btVector3(btScalar(0.003 * step - 0.9), btScalar(0.2), 3));
+        const auto near = closest_points(both[0], hull, pose, *shape, at(0, 0, 0), 10);
+        ASSERT_FALSE(near.empty());
+        const Point& nearest =
+            *std::min_element(near.begin(), near.end(), [](const Point& p, const Point& q) { return p.distance < q.distance; });
+        pose.setOrigin(pose.getOrigin() - nearest.normal_on_b * (nearest.distance + btScalar(0.03 * std::sin(0.05 * step))));
+        bool touches[2];
+        for (int w = 0; w < 2; ++w) {
+          a[w].setWorldTransform(pose);
+          both[w].world.updateAabbs();
+          both[w].world.computeOverlappingPairs();
+          const auto begin = std::chrono::steady_clock::now();
+          both[w].dispatcher.dispatchAllCollisionPairs(both[w].broadphase.getOverlappingPairCache(),
+                                                       both[w].world.getDispatchInfo(), &both[w].dispatcher);
+          times[w].push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
+          touches[w] = false;
+          for (int m = 0; m < both[w].dispatcher.getNumManifolds(); ++m)
+            touches[w] |= both[w].dispatcher.getManifoldByIndexInternal(m)->getNumContacts() > 0;
+          touching[w] += touches[w];
+        }
+        differ += touches[0] != touches[1];
+      }
+      for (auto& t : times) std::nth_element(t.begin(), t.begin() + 300, t.end());
+      std::printf("| %d vertices, %s | %.2f | %.2f |\n", vertices, name.c_str(), times[0][300], times[1][300]);
+      EXPECT_GT(touching[0], 200) << name;
+      EXPECT_LE(differ, 60) << name << " " << touching[0] << " " << touching[1];
+      for (int w = 0; w < 2; ++w) both[w].world.removeCollisionObject(&a[w]), both[w].world.removeCollisionObject(&b[w]);
+    }
+  }
+}
+
+/// Bodies of all kinds on hills between four planes: none is lost, and of the pairs that touch with a HullShape none is
+/// Bullet's but a cylinder's.
+TEST(BesideBullet, AMixedWorldIsSwiftlets) {
+  const auto hills = terrain(16, 5, [](double x, double y) { return 0.3 * std::sin(1.3 * x) * std::cos(1.7 * y); });
+  const Others others;
+  for (const bool with_swiftlet : {true, false}) {
+    Dynamics d(with_swiftlet);
+    d.add(*hills->shape, at(0, 0, 0));
+    btStaticPlaneShape walls[4] = {
+        {btVector3(1, 0, 0), -4}, {btVector3(-1, 0, 0), -4}, {btVector3(0, 1, 0), -4}, {btVector3(0, -1, 0), -4}};
+    for (btStaticPlaneShape& wall : walls) d.add(wall, at(0, 0, 0));
+    HullShape small(ellipsoid(20)), large(ellipsoid(60)), cube(bodies::model(bodies::box(0.5, 0.5, 0.5)));
+    btSphereShape sphere(btScalar(0.5));
+    btCapsuleShape capsule(btScalar(0.3), btScalar(0.6));
+    btBoxShape box(btVector3(btScalar(0.5), btScalar(0.4), btScalar(0.3)));
+    btCylinderShape cylinder(btVector3(btScalar(0.4), btScalar(0.5), btScalar(0.4)));
+    btConvexHullShape points;
+    for (int i = 0; i < large.getNumPoints(); ++i) points.addPoint(large.getUnscaledPoints()[i] * btScalar(0.6));
+    btCompoundShape compound;
+    compound.addChildShape(at(-0.5, 0, 0), &cube), compound.addChildShape(at(0.5, 0, 0), &sphere);
+    btCollisionShape* const kinds[] = {&small, &sphere, &large, &capsule, &cube, &box, &compound, &points, &small, &cylinder};
+    Random random;
+    for (int i = 0; i < 50; ++i) {
+      btTransform in_world = random.transform(0.3);
+      in_world.setOrigin(in_world.getOrigin() + btVector3(btScalar(1.6 * (i % 5) - 3.2), btScalar(1.6 * (i / 5 % 5) - 3.2),
+                                                          btScalar(2 + 2 * (i / 25))));
+      d.add(*kinds[i % 10], in_world, 1);
+    }
+    long touching = 0, with_hull = 0, hull_hull = 0, ours = 0;
+    double lowest = 10, jitter = 0;
+    for (int step = 0; step < 600; ++step) {
+      d.step();
+      if (step >= 450)
+        for (const auto& body : d.bodies)
+          jitter += body->isStaticObject() ? 0 : body->getLinearVelocity().length2() / (150 * 50);
+      for (const auto& body : d.bodies) {
+        if (!body->isStaticObject()) lowest = std::min(lowest, double(body->getWorldTransform().getOrigin().z()));
+      }
+      if (step % 10) continue;
+      for (int m = 0; m < d.dispatcher.getNumManifolds(); ++m) {
+        const btPersistentManifold& manifold = *d.dispatcher.getManifoldByIndexInternal(m);
+        if (!manifold.getNumContacts()) continue;
+        const btCollisionShape &a = *manifold.getBody0()->getCollisionShape(), &b = *manifold.getBody1()->getCollisionShape();
+        const auto is_hull = [](const btCollisionShape& shape) { return dynamic_cast<const HullShape*>(&shape) != nullptr; };
+        const bool any = is_hull(a) || is_hull(b);
+        ++touching, with_hull += any, hull_hull += is_hull(a) && is_hull(b);
+        if (!with_swiftlet || !any) continue;
+        const bool has_compound = a.isCompound() || b.isCompound();
+        ours += has_compound || d.hull_pairs->answers(a, b);
+        const int other = is_hull(a) ? b.getShapeType() : a.getShapeType();
+        EXPECT_EQ(has_compound || d.hull_pairs->answers(a, b), other != CYLINDER_SHAPE_PROXYTYPE);
+      }
+    }
+    EXPECT_GT(lowest, -0.5) << "a body was lost";
+    std::printf(
+        "%s: of %ld touching manifolds %ld are hull and hull, %ld have a hull, %ld of these swiftlet's; lowest %.2f m, jitter "
+        "%.4f m/s\n",
+        with_swiftlet ? "swiftlet" : "Bullet", touching, hull_hull, with_hull, ours, lowest, std::sqrt(jitter));
+  }
+}
+
+/// Hulls dropped on hills of small triangles stay above them, come to rest, and gain no energy.
+TEST(BesideBullet, HullsComeToRestOnHills) {
+  const auto height = [](double x, double y) { return std::sin(2 * x) * std::cos(2.6 * y); };
+  const auto hills = terrain(40, 5, height);
+  struct {
+    double gained = 0, jitter = 0, contacts = 0;
+  } both[2];
+  for (int w = 0; w < 2; ++w) {
+    Dynamics d(w == 0);
+    d.add(*hills->shape, at(0, 0, 0));
+    btStaticPlaneShape walls[4] = {
+        {btVector3(1, 0, 0), -4}, {btVector3(-1, 0, 0), -4}, {btVector3(0, 1, 0), -4}, {btVector3(0, -1, 0), -4}};
+    for (btStaticPlaneShape& wall : walls) d.add(wall, at(0, 0, 0));
+    HullShape box(bodies::model(bodies::box(0.4, 0.3, 0.2))), pointed(bodies::model(bodies::tetrahedron(0.4))),
+        round(ellipsoid(60));
+    Random random;
+    for (int i = 0; i < 25; ++i) {
+      btTransform in_world = random.transform(0.2);
+      in_world.setOrigin(in_world.getOrigin() + btVector3(btScalar(1.6 * (i % 5) - 3.2), btScalar(1.6 * (i / 5) - 3.2), 3));
+      d.add(i % 3 == 0 ? box : i % 3 == 1 ? pointed : round, in_world, 1, btVector3(0, 0, -4));
+    }
+    const auto energy = [&] {
+      double sum = 0;
+      for (const auto& body : d.bodies) {
+        if (body->isStaticObject()) continue;
+        const btVector3 spin = body->getAngularVelocity();
+        sum += 0.5 * body->getLinearVelocity().length2() + 9.81 * body->getWorldTransform().getOrigin().z() +
+               0.5 * spin.dot(body->getInvInertiaTensorWorld().inverse() * spin);
+      }
+      return sum;
+    };
+    const double start = energy();
+    double before = start;
+    for (int step = 0; step < 480; ++step) {
+      d.step();
+      const double now = energy();
+      both[w].gained += std::max(0., now - before) / start;
+      before = now;
+      for (const auto& body : d.bodies) {
+        if (body->isStaticObject()) continue;
+        if (step >= 360) both[w].jitter += body->getLinearVelocity().length2() / (120 * 25);
+        const btVector3& p = body->getWorldTransform().getOrigin();
+        EXPECT_TRUE(w == 1 || p.z() > height(p.x(), p.y()) - 0.05) << step;
+      }
+      for (int m = 0; m < d.dispatcher.getNumManifolds(); ++m)
+        both[w].contacts += d.dispatcher.getManifoldByIndexInternal(m)->getNumContacts() / 480.;
+    }
+    both[w].jitter = std::sqrt(both[w].jitter);
+    std::printf("| %s | %.1e | %.1f | %.0f |\n", w == 0 ? "swiftlet" : "Bullet", both[w].gained, 1000 * both[w].jitter,
+                both[w].contacts);
+  }
+  EXPECT_LE(both[0].gained, both[1].gained);
+  EXPECT_LE(both[0].jitter, both[1].jitter);
 }
 
 }  // namespace
