@@ -3,6 +3,7 @@
 // A HullShape against the triangles of a concave shape: those that lie in its box, all in one step. Bullet's own algorithm asks
 // for triangle by triangle, and knows neither edges nor sides.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <new>
 #include <vector>
@@ -71,17 +72,19 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
     btPersistentManifold* const first = shared_ ? shared_ : state_->own.front();
     result->setPersistentManifold(first);
     const btCollisionObjectWrapper &hull = hull_is_a_ ? *a : *b, &surface = hull_is_a_ ? *b : *a;
-    if (role_of(*hull.getCollisionShape()) != Role::Hull) {
+    const HullShape& shape = static_cast<const HullShape&>(*hull.getCollisionShape());
+    const Placed placed{Body(shape.model(), shape.getMargin()), pose_of(hull.getWorldTransform())};
+    const Pose surface_in_world = pose_of(surface.getWorldTransform());
+    const bool is_rigid = !std::isnan(tolerance(placed, {Body::point(Vec3::Zero()), surface_in_world}));
+    if (role_of(shape) != Role::Hull || !is_rigid) {
       OthersAlgorithm(create_, *m_dispatcher, first, *a, *b)->processCollision(a, b, info, result);
       return;
     }
     const double touching = first->getContactBreakingThreshold() + result->m_closestPointDistanceThreshold;
     gather(hull, surface, touching);
-    const btConcaveShape& shape = static_cast<const btConcaveShape&>(*surface.getCollisionShape());
-    const HullShape& hull_shape = static_cast<const HullShape&>(*hull.getCollisionShape());
-    const Placed placed{Body(hull_shape.model(), hull_shape.getMargin()), pose_of(hull.getWorldTransform())};
     const Vec3 moved = create_.all_points ? moved_by(hull, surface, info.m_timeStep) : Vec3::Zero();
-    const auto points = state_->pair.contacts(placed, pose_of(surface.getWorldTransform()), shape.getMargin(), moved, touching);
+    const btScalar radius = surface.getCollisionShape()->getMargin();
+    const auto points = state_->pair.contacts(placed, surface_in_world, radius, moved, touching);
     if (create_.all_points)
       hand_over_groups(points, *a, *b, *result);
     else

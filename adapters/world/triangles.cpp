@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -44,10 +45,15 @@ struct TrianglePair::View {
   Vec3 in_b(const Vec3& p_a) const { return into_b * (p_a - b_in_a.translation); }
 };
 
-void TrianglePair::clear() { triangles_.clear(); }
+void TrianglePair::clear() {
+  triangles_.clear();
+  widest_ = 0;
+}
 
 void TrianglePair::add(std::uint64_t name, const Vec3& p, const Vec3& q, const Vec3& r) {
-  triangles_.push_back({{p, q, r}, normal_of(Body::triangle(p, q, r), Side::Front), true, {name, {}, false}});
+  const Vec3 least = p.cwiseMin(q).cwiseMin(r), most = p.cwiseMax(q).cwiseMax(r);
+  triangles_.push_back({{p, q, r}, least, most, normal_of(Body::triangle(p, q, r), Side::Front), {name, {}, false}});
+  widest_ = std::max(widest_, most[0] - least[0]);
 }
 
 std::span<const TrianglePoint> TrianglePair::contacts(const Placed& a, const Pose& surface, double radius, const Vec3& moved,
@@ -60,6 +66,10 @@ std::span<const TrianglePoint> TrianglePair::contacts(const Placed& a, const Pos
   View view{a.body, a_in_world, b_in_a, into_b, {}, radius, beyond, kOnePlace * model.radius()};
   view.centre = view.in_b(model.centre());
   recall(view.centre - surface_in_world.rotation.transpose() * moved);
+  by_x_.resize(triangles_.size());
+  std::iota(by_x_.begin(), by_x_.end(), 0u);
+  std::sort(by_x_.begin(), by_x_.end(),
+            [&](std::uint32_t i, std::uint32_t j) { return triangles_[i].least[0] < triangles_[j].least[0]; });
   for (std::uint32_t i = 0; i < triangles_.size(); ++i) meet(view, i);
 
   memories_.clear();
@@ -73,11 +83,10 @@ void TrianglePair::recall(const Vec3& before) {
   for (Triangle& t : triangles_) {
     const auto known = std::lower_bound(memories_.begin(), memories_.end(), t.memory.name,
                                         [](const Memory& m, std::uint64_t name) { return m.name < name; });
-    t.is_new = known == memories_.end() || known->name != t.memory.name;
-    if (t.is_new)
-      t.memory.is_behind = t.normal.dot(before - t.corners[0]) < 0;
-    else
+    if (known != memories_.end() && known->name == t.memory.name)
       t.memory = *known;
+    else
+      t.memory.is_behind = t.normal.dot(before - t.corners[0]) < 0;
     if (t.memory.is_behind) t.normal = -t.normal;
   }
 }
@@ -143,14 +152,17 @@ void TrianglePair::meet(View& view, std::uint32_t number) {
 /// Whether `direction`, unit, from the surface's point `p` to the model, is right: p is the highest point along it of all
 /// triangles that hold p. In the surface's frame.
 bool TrianglePair::is_supported(const View& view, const Vec3& p, const Vec3& direction) const {
-  for (const Triangle& t : triangles_) {
-    const Vec3 least = t.corners[0].cwiseMin(t.corners[1]).cwiseMin(t.corners[2]).array() - view.one_place,
-               most = t.corners[0].cwiseMax(t.corners[1]).cwiseMax(t.corners[2]).array() + view.one_place;
-    if (t.normal == Vec3::Zero() || (p.array() < least.array()).any() || (p.array() > most.array()).any()) continue;
+  const double slack = view.one_place;
+  auto next = std::lower_bound(by_x_.begin(), by_x_.end(), p[0] - slack - widest_,
+                               [&](std::uint32_t i, double x) { return triangles_[i].least[0] < x; });
+  for (; next != by_x_.end() && triangles_[*next].least[0] <= p[0] + slack; ++next) {
+    const Triangle& t = triangles_[*next];
+    if ((p.array() < t.least.array() - slack).any() || (p.array() > t.most.array() + slack).any()) continue;
+    if (t.normal == Vec3::Zero() || std::abs(t.normal.dot(p - t.corners[0])) > slack) continue;
     const Vec3 front = t.memory.is_behind ? Vec3(-t.normal) : t.normal;
-    if (std::abs(t.normal.dot(p - t.corners[0])) > view.one_place || !covers(t.corners, front, p, view.one_place)) continue;
+    if (!covers(t.corners, front, p, slack)) continue;
     for (const Vec3& q : t.corners) {
-      if (direction.dot(q - p) > view.one_place) return false;
+      if (direction.dot(q - p) > slack) return false;
     }
   }
   return true;

@@ -45,8 +45,8 @@ class TrianglePair {
   };
   struct Triangle {
     std::array<Vec3, 3> corners;
-    Vec3 normal;  ///< unit, of the side on which the model is; 0 where the corners lie on one line
-    bool is_new = true;
+    Vec3 least, most;  ///< corners of its box
+    Vec3 normal;       ///< unit, of the side on which the model is; 0 where the corners lie on one line
     Memory memory;
   };
   struct View;
@@ -56,7 +56,9 @@ class TrianglePair {
   bool is_supported(const View& view, const Vec3& p, const Vec3& direction) const;
 
   std::vector<Triangle> triangles_;
-  std::vector<Memory> memories_;  ///< of the step before, by name
+  std::vector<std::uint32_t> by_x_;  ///< their numbers, in the order of their boxes' least x
+  double widest_ = 0;                ///< the greatest width of a box along x
+  std::vector<Memory> memories_;     ///< of the step before, by name
   std::vector<TrianglePoint> points_;
 };
 
