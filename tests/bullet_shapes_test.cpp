@@ -663,6 +663,30 @@ TEST(Triangles, LetABoxSlideAsOnOnePlane) {
   }
 }
 
+/// Children of compounds as well, on either side: two boxes on a floor that is itself a child.
+TEST(Triangles, LetCompoundsSlideToo) {
+  const auto floor = terrain(60, 30, flat);
+  btCompoundShape ground;
+  ground.addChildShape(at(0.3, 0.2, -0.1), floor->shape.get());
+  HullShape half(bodies::model(bodies::box(0.5, 0.4, 0.25)));
+  btCompoundShape both;
+  both.addChildShape(at(-0.7, 0, 0), &half), both.addChildShape(at(0.7, 0, 0), &half);
+  Dynamics d;
+  d.add(ground, at(0, 0, 0)).setFriction(0);
+  btRigidBody& body = d.add(both, at(-18, -6, 0.2), 1);
+  body.setFriction(0);
+  for (int step = 0; step < 120; ++step) d.step();
+  EXPECT_NEAR(body.getWorldTransform().getOrigin().z(), -0.1 + 0.25 + half.getMargin(), 1e-2);
+  body.setLinearVelocity(btVector3(6, 2, 0));
+  const btScalar rest = body.getWorldTransform().getOrigin().z();
+  for (int step = 0; step < 120; ++step) {
+    d.step();
+    EXPECT_NEAR(body.getWorldTransform().getOrigin().z(), rest, 1e-5);
+    EXPECT_NEAR(body.getLinearVelocity().x(), 6, 1e-4);
+  }
+  EXPECT_EQ(d.dispatcher.getNumManifolds(), 2);
+}
+
 /// A round body rolls on as on a plane: no triangle's edge stops or lifts it.
 TEST(Triangles, LetARoundBodyRollAsOnOnePlane) {
   const auto floor = terrain(60, 30, flat);

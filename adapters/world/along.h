@@ -3,7 +3,7 @@
 // A pair of bodies in A's frame, and a model seen along the normal of a flat face. Knows no engine.
 #pragma once
 
-#include <swiftlet/world.h>
+#include <swiftlet/triangles.h>
 
 namespace swiftlet {
 
@@ -15,9 +15,6 @@ Vec3 transform(const Pose& pose, const Vec3& p);
 
 /// Takes a manifold of A's frame into the world's.
 void into_world(const Pose& a_in_world, Manifold& manifold);
-
-/// The side of a triangle from which its corners turn counter-clockwise, or the other one.
-enum class Side : std::uint8_t { Front, Back };
 
 /// The normal of one side of a triangle: unit, in the triangle's frame; 0 where its corners lie on one line.
 Vec3 normal_of(const Body& triangle, Side side);

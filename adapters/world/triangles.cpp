@@ -23,14 +23,7 @@ namespace {
 /// engines keep meshes.
 constexpr double kOnePlace = 0x1p-20;
 
-/// Whether `p` lies above or below the triangle, or beside it by no more than `slack`.
-bool covers(const std::array<Vec3, 3>& corners, const Vec3& normal, const Vec3& p, double slack) {
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 &from = corners[std::size_t(i)], side = corners[std::size_t((i + 1) % 3)] - from;
-    if (normal.cross(side).dot(p - from) < -slack * side.norm()) return false;
-  }
-  return true;
-}
+bool is_less_separated(const TrianglePoint& p, const TrianglePoint& q) { return p.separation < q.separation; }
 
 }  // namespace
 
@@ -52,8 +45,129 @@ void TrianglePair::clear() {
 
 void TrianglePair::add(std::uint64_t name, const Vec3& p, const Vec3& q, const Vec3& r) {
   const Vec3 least = p.cwiseMin(q).cwiseMin(r), most = p.cwiseMax(q).cwiseMax(r);
-  triangles_.push_back({{p, q, r}, least, most, normal_of(Body::triangle(p, q, r), Side::Front), {name, {}, false}});
+  triangles_.push_back({{p, q, r}, least, most, normal_of(Body::triangle(p, q, r), Side::Front), {name, {}, Side::Front}});
   widest_ = std::max(widest_, most[0] - least[0]);
+}
+
+/// Recalls what is known of each triangle; of a new one, on which side the model was `before`.
+void TrianglePair::recall(const Vec3& before) {
+  for (Triangle& t : triangles_) {
+    const auto known = std::lower_bound(memories_.begin(), memories_.end(), t.memory.name,
+                                        [](const Memory& m, std::uint64_t name) { return m.name < name; });
+    if (known != memories_.end() && known->name == t.memory.name)
+      t.memory = *known;
+    else
+      t.memory.side = t.side_of(before);
+  }
+}
+
+/// Whether `p` lies above or below the triangle, or beside it by no more than `slack`.
+bool TrianglePair::Triangle::covers(const Vec3& p, double slack) const {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 edge = corners[(i + 1) % 3] - corners[i];
+    if (front.cross(edge).dot(p - corners[i]) < -slack * edge.norm()) return false;
+  }
+  return true;
+}
+
+/// The points of contact with one triangle.
+class TrianglePair::Meeting {
+ public:
+  Meeting(TrianglePair& pair, const View& view, std::uint32_t number)
+      : pair_(pair),
+        view_(view),
+        t_(pair.triangles_[number]),
+        number_(number),
+        b_(Body::triangle(t_.corners[0], t_.corners[1], t_.corners[2], view.radius)),
+        radii_(view.a.radius() + view.radius),
+        first_(pair.points_.size()) {}
+
+  void add_points() {
+    find();
+    const auto first = pair_.points_.begin() + std::ptrdiff_t(first_);
+    if (first != pair_.points_.end()) std::min_element(first, pair_.points_.end(), is_less_separated)->is_deepest_of_its = true;
+  }
+
+ private:
+  void find() {
+    Answer face;
+    if (t_.has_plane()) {
+      face = above_face();
+      if (face.lower > view_.beyond) return;
+      if (face.lower + radii_ >= 0 && is_over(face.point_b)) return add_those_over(face);  // the nearest point, without a walk
+    }
+    const Answer alone = signed_distance(view_.a, b_, view_.b_in_a, t_.memory.seed, {.beyond = view_.beyond});
+    const bool is_apart = alone.lower + radii_ > 0;
+    if (t_.has_plane() && is_apart && t_.side_of(view_.centre) != t_.memory.side) {  // it went around the border
+      t_.memory.side = t_.side_of(view_.centre);
+      face = above_face();
+    }
+    if (alone.status == Status::Beyond) return;
+    if (!alone.normal.hasNaN()) {
+      const Vec3 direction = view_.into_b * -alone.normal;
+      const bool leads_back = is_apart || t_.up().dot(direction) >= -kOnePlace;  // not through to the other side
+      if (leads_back && pair_.is_supported(view_, view_.in_b(core_b(alone)), direction)) return add_all(alone);
+    }
+    if (!t_.has_plane() || (is_apart && face.lower + radii_ < 0)) return;  // apart, and its lowest point is elsewhere
+    add_those_over(face);
+    // Deep in the model and not below its lowest face: no deeper than the shortest way out of the triangle alone.
+    const bool is_missed = pair_.points_.size() == first_ && !is_apart && !alone.normal.hasNaN();
+    if (!is_missed) return;
+    const Vec3 on_b = core_b(alone) - face.normal * view_.radius;
+    add(face.normal, on_b - face.normal * alone.lower, on_b, alone.lower);
+  }
+
+  Answer above_face() const { return above(view_.a, b_, view_.b_in_a, t_.memory.side, t_.up()); }
+  Vec3 core_b(const Answer& answer) const { return answer.point_b + answer.normal * view_.radius; }
+  /// Of a point that is moved along the normal by the radius, too.
+  bool is_over(const Vec3& p_a) const { return t_.covers(view_.in_b(p_a), view_.one_place); }
+
+  Manifold manifold_of(const Answer& answer) const {
+    const ManifoldOptions options{.margin = view_.beyond, .most_points = kMostManifoldPoints};
+    return manifold(view_.a, b_, view_.b_in_a, answer, options);
+  }
+  void add_all(const Answer& answer) {
+    const Manifold all = manifold_of(answer);
+    for (std::uint32_t i = 0; i < all.count; ++i) add(all, i);
+  }
+  void add_those_over(const Answer& face) {
+    const Manifold all = manifold_of(face);
+    for (std::uint32_t i = 0; i < all.count; ++i) {
+      if (is_over(all.points[i].point_b)) add(all, i);
+    }
+  }
+  void add(const Manifold& all, std::uint32_t i) {
+    add(all.normal, all.points[i].point_a, all.points[i].point_b, all.points[i].separation);
+  }
+  void add(const Vec3& normal, const Vec3& point_a, const Vec3& point_b, double separation) {
+    pair_.points_.push_back({view_.a_in_world.rotation * normal, transform(view_.a_in_world, point_a),
+                             transform(view_.a_in_world, point_b), separation, number_, false});
+  }
+
+  TrianglePair& pair_;
+  const View& view_;
+  Triangle& t_;
+  const std::uint32_t number_;
+  const Body b_;
+  const double radii_;
+  const std::size_t first_;  ///< of its points
+};
+
+/// Whether `direction`, unit, from the surface's point `p` to the model, is right: p is the highest point along it of all
+/// triangles that hold p. In the surface's frame.
+bool TrianglePair::is_supported(const View& view, const Vec3& p, const Vec3& direction) const {
+  const double slack = view.one_place;
+  auto next = std::lower_bound(by_x_.begin(), by_x_.end(), p[0] - slack - widest_,
+                               [&](std::uint32_t i, double x) { return triangles_[i].least[0] < x; });
+  for (; next != by_x_.end() && triangles_[*next].least[0] <= p[0] + slack; ++next) {
+    const Triangle& t = triangles_[*next];
+    if ((p.array() < t.least.array() - slack).any() || (p.array() > t.most.array() + slack).any()) continue;
+    if (!t.has_plane() || std::abs(t.front.dot(p - t.corners[0])) > slack || !t.covers(p, slack)) continue;
+    for (const Vec3& q : t.corners) {
+      if (direction.dot(q - p) > slack) return false;
+    }
+  }
+  return true;
 }
 
 std::span<const TrianglePoint> TrianglePair::contacts(const Placed& a, const Pose& surface, double radius, const Vec3& moved,
@@ -70,102 +184,12 @@ std::span<const TrianglePoint> TrianglePair::contacts(const Placed& a, const Pos
   std::iota(by_x_.begin(), by_x_.end(), 0u);
   std::sort(by_x_.begin(), by_x_.end(),
             [&](std::uint32_t i, std::uint32_t j) { return triangles_[i].least[0] < triangles_[j].least[0]; });
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i) meet(view, i);
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i) Meeting(*this, view, i).add_points();
 
   memories_.clear();
   for (const Triangle& t : triangles_) memories_.push_back(t.memory);
   std::sort(memories_.begin(), memories_.end(), [](const Memory& m, const Memory& n) { return m.name < n.name; });
   return points_;
-}
-
-/// Turns each triangle's normal to the side on which the model is known to be, or was `before`.
-void TrianglePair::recall(const Vec3& before) {
-  for (Triangle& t : triangles_) {
-    const auto known = std::lower_bound(memories_.begin(), memories_.end(), t.memory.name,
-                                        [](const Memory& m, std::uint64_t name) { return m.name < name; });
-    if (known != memories_.end() && known->name == t.memory.name)
-      t.memory = *known;
-    else
-      t.memory.is_behind = t.normal.dot(before - t.corners[0]) < 0;
-    if (t.memory.is_behind) t.normal = -t.normal;
-  }
-}
-
-/// Adds the points of contact with one triangle.
-void TrianglePair::meet(View& view, std::uint32_t number) {
-  Triangle& t = triangles_[number];
-  const Body b = Body::triangle(t.corners[0], t.corners[1], t.corners[2], view.radius);
-  const double radii = view.a.radius() + view.radius;
-  const auto height = [&] { return above(view.a, b, view.b_in_a, t.memory.is_behind ? Side::Back : Side::Front, t.normal); };
-  const auto is_over = [&](const Vec3& p_a) {  // the radii are along the normal, which `covers` does not see
-    const Vec3 normal = t.memory.is_behind ? Vec3(-t.normal) : t.normal;
-    return covers(t.corners, normal, view.in_b(p_a), view.one_place);
-  };
-  const auto add = [&](const Vec3& normal, const Vec3& point_a, const Vec3& point_b, double separation) {
-    points_.push_back({view.a_in_world.rotation * normal, transform(view.a_in_world, point_a),
-                       transform(view.a_in_world, point_b), separation, number, false});
-  };
-  const std::size_t before = points_.size();
-  const auto add_all = [&](const Answer& answer, bool only_over) {
-    const ManifoldOptions options{.margin = view.beyond, .most_points = kMostManifoldPoints};
-    const Manifold all = manifold(view.a, b, view.b_in_a, answer, options);
-    for (std::uint32_t i = 0; i < all.count; ++i) {
-      const ManifoldPoint& p = all.points[i];
-      if (!only_over || is_over(p.point_b)) add(all.normal, p.point_a, p.point_b, p.separation);
-    }
-    if (points_.size() == before) return;
-    const auto deepest = std::min_element(points_.begin() + std::ptrdiff_t(before), points_.end(),
-                                          [](const auto& p, const auto& q) { return p.separation < q.separation; });
-    deepest->is_deepest_of_its = true;
-  };
-
-  const bool has_plane = t.normal != Vec3::Zero();
-  Answer face;
-  if (has_plane) {
-    face = height();
-    if (face.lower > view.beyond) return;
-    if (face.lower + radii >= 0 && is_over(face.point_b)) return add_all(face, true);  // the nearest point, without a walk
-  }
-
-  const Answer alone = signed_distance(view.a, b, view.b_in_a, t.memory.seed, {.beyond = view.beyond});
-  const bool is_apart = alone.lower + radii > 0;
-  if (has_plane && is_apart && t.normal.dot(view.centre - t.corners[0]) < 0) {  // it went around the border
-    t.memory.is_behind = !t.memory.is_behind;
-    t.normal = -t.normal;
-    face = height();
-  }
-  if (alone.status == Status::Beyond) return;
-  if (!alone.normal.hasNaN()) {
-    const Vec3 core_b = alone.point_b + alone.normal * view.radius, direction = view.into_b * -alone.normal;
-    const bool leads_back = is_apart || t.normal.dot(direction) >= -kOnePlace;  // not through to the other side
-    if (leads_back && is_supported(view, view.in_b(core_b), direction)) return add_all(alone, false);
-  }
-  if (!has_plane || (is_apart && face.lower + radii < 0)) return;  // apart, and its lowest point is elsewhere
-  add_all(face, true);
-  if (points_.size() > before || is_apart || alone.normal.hasNaN()) return;
-  // Deep in the model and not below its lowest face: no deeper than the shortest way out of the triangle alone.
-  const Vec3 up = -face.normal, on_b = alone.point_b + alone.normal * view.radius + up * view.radius;
-  add(face.normal, on_b + up * alone.lower, on_b, alone.lower);
-  points_.back().is_deepest_of_its = true;
-}
-
-/// Whether `direction`, unit, from the surface's point `p` to the model, is right: p is the highest point along it of all
-/// triangles that hold p. In the surface's frame.
-bool TrianglePair::is_supported(const View& view, const Vec3& p, const Vec3& direction) const {
-  const double slack = view.one_place;
-  auto next = std::lower_bound(by_x_.begin(), by_x_.end(), p[0] - slack - widest_,
-                               [&](std::uint32_t i, double x) { return triangles_[i].least[0] < x; });
-  for (; next != by_x_.end() && triangles_[*next].least[0] <= p[0] + slack; ++next) {
-    const Triangle& t = triangles_[*next];
-    if ((p.array() < t.least.array() - slack).any() || (p.array() > t.most.array() + slack).any()) continue;
-    if (t.normal == Vec3::Zero() || std::abs(t.normal.dot(p - t.corners[0])) > slack) continue;
-    const Vec3 front = t.memory.is_behind ? Vec3(-t.normal) : t.normal;
-    if (!covers(t.corners, front, p, slack)) continue;
-    for (const Vec3& q : t.corners) {
-      if (direction.dot(q - p) > slack) return false;
-    }
-  }
-  return true;
 }
 
 namespace {
@@ -188,8 +212,7 @@ Spread spread(std::span<const TrianglePoint> points) {
   };
   const auto place = [&](std::uint32_t i) -> const Vec3& { return points[chosen.index[i]].point_b; };
   if (points.empty()) return chosen;
-  const auto deepest =
-      std::min_element(points.begin(), points.end(), [](const auto& p, const auto& q) { return p.separation < q.separation; });
+  const auto deepest = std::min_element(points.begin(), points.end(), is_less_separated);
   chosen.index[chosen.count++] = std::uint32_t(deepest - points.begin());
   const Vec3& n = deepest->normal;
   if (!take_most([&](const TrianglePoint& p) { return (p.point_b - place(0)).squaredNorm(); })) return chosen;

@@ -22,6 +22,9 @@ struct TrianglePoint {
   bool is_deepest_of_its = false;  ///< of the points that its triangle has
 };
 
+/// The side of a triangle from which its corners turn counter-clockwise, or the other one.
+enum class Side : std::uint8_t { Front, Back };
+
 /// A model and the triangles near it. It lives as long as the pair does: from step to step it remembers each triangle's seed,
 /// and the side on which the model is.
 class TrianglePair {
@@ -41,18 +44,23 @@ class TrianglePair {
   struct Memory {
     std::uint64_t name;
     PairSeed seed;
-    bool is_behind;  ///< the model, of the triangle's plane
+    Side side;  ///< on which the model is
   };
   struct Triangle {
     std::array<Vec3, 3> corners;
     Vec3 least, most;  ///< corners of its box
-    Vec3 normal;       ///< unit, of the side on which the model is; 0 where the corners lie on one line
+    Vec3 front;        ///< unit normal, or 0 where the corners lie on one line
     Memory memory;
+
+    bool has_plane() const { return front != Vec3::Zero(); }
+    Side side_of(const Vec3& p) const { return front.dot(p - corners[0]) < 0 ? Side::Back : Side::Front; }
+    Vec3 up() const { return memory.side == Side::Front ? front : Vec3(-front); }  ///< towards the model
+    bool covers(const Vec3& p, double slack) const;
   };
   struct View;
+  class Meeting;
 
   void recall(const Vec3& before);
-  void meet(View& view, std::uint32_t number);
   bool is_supported(const View& view, const Vec3& p, const Vec3& direction) const;
 
   std::vector<Triangle> triangles_;
