@@ -734,6 +734,34 @@ TEST(Triangles, OfTwoFacesHoldABodyByBoth) {
   }
 }
 
+/// A hull that is scaled while it lies on a mesh is Bullet's from then on, and swiftlet's again when it is not.
+TEST(Triangles, PassAScaledHullOnToBullet) {
+  World w;
+  const auto floor = terrain(6, 3, flat);
+  HullShape hull(bodies::model(bodies::box(0.5, 0.5, 0.5)));
+  btCollisionObject a, b;
+  a.setCollisionShape(&hull), b.setCollisionShape(floor->shape.get());
+  a.setWorldTransform(at(0.1, 0.2, 0.53));
+  w.world.addCollisionObject(&a), w.world.addCollisionObject(&b);
+  const auto deepest = [&] {
+    w.world.performDiscreteCollisionDetection();
+    btScalar least = 1;
+    for (int m = 0; m < w.dispatcher.getNumManifolds(); ++m) {
+      const btPersistentManifold& manifold = *w.dispatcher.getManifoldByIndexInternal(m);
+      for (int i = 0; i < manifold.getNumContacts(); ++i) least = std::min(least, manifold.getContactPoint(i).getDistance());
+    }
+    return least;
+  };
+  EXPECT_NEAR(deepest(), -0.01, 1e-5);
+  hull.setLocalScaling(btVector3(1, 1, btScalar(1.04)));
+  EXPECT_NEAR(deepest(), -0.03, 1e-3);
+  EXPECT_NEAR(deepest(), -0.03, 1e-3);
+  hull.setLocalScaling(btVector3(1, 1, 1));
+  EXPECT_NEAR(deepest(), -0.01, 1e-5);
+  w.world.removeCollisionObject(&a), w.world.removeCollisionObject(&b);
+  EXPECT_EQ(w.dispatcher.getNumManifolds(), 0);
+}
+
 /// Around the border of a sheet, a body may come to its other side.
 TEST(Triangles, MayBePassedAroundTheBorder) {
   World w;

@@ -21,7 +21,7 @@ struct Create : btCollisionAlgorithmCreateFunc {
                                                  const btCollisionObjectWrapper* b) override;
 };
 
-/// An algorithm of the configuration's for the pair, on a manifold of ours. It lives for one call.
+/// An algorithm of the configuration's for the pair, on a manifold of ours if it takes one.
 class OthersAlgorithm {
  public:
   OthersAlgorithm(const Create& create, btDispatcher& dispatcher, btPersistentManifold* persistent,

@@ -23,6 +23,8 @@ namespace {
 /// The normals of one manifold's points make smaller angles than this with that of its deepest one; of all others of them have
 /// larger ones. Cosine, of 26 degrees.
 constexpr double kAlike = 0.9;
+/// Points whose normals differ by more than 60 degrees leave nothing to others.
+constexpr btScalar kLikeAnEmptyOne = btScalar(0.5);
 /// As many as a corner of a room has walls, and one more.
 constexpr std::size_t kMostManifolds = 4;
 
@@ -77,9 +79,10 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
     const Pose surface_in_world = pose_of(surface.getWorldTransform());
     const bool is_rigid = !std::isnan(tolerance(placed, {Body::point(Vec3::Zero()), surface_in_world}));
     if (role_of(shape) != Role::Hull || !is_rigid) {
-      OthersAlgorithm(create_, *m_dispatcher, first, *a, *b)->processCollision(a, b, info, result);
+      others(*a, *b)->processCollision(a, b, info, result);
       return;
     }
+    state_->others.reset();
     const double touching = first->getContactBreakingThreshold() + result->m_closestPointDistanceThreshold;
     gather(hull, surface, touching);
     const Vec3 moved = create_.all_points ? moved_by(hull, surface, info.m_timeStep) : Vec3::Zero();
@@ -95,12 +98,12 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
                                  btManifoldResult* result) override {
     const btCollisionObjectWrapper a_wrap(nullptr, a->getCollisionShape(), a, a->getWorldTransform(), -1, -1),
         b_wrap(nullptr, b->getCollisionShape(), b, b->getWorldTransform(), -1, -1);
-    return OthersAlgorithm(create_, *m_dispatcher, shared_ ? shared_ : state_->own.front(), a_wrap, b_wrap)
-        ->calculateTimeOfImpact(a, b, info, result);
+    return others(a_wrap, b_wrap)->calculateTimeOfImpact(a, b, info, result);
   }
 
   void getAllContactManifolds(btManifoldArray& manifolds) override {
     for (btPersistentManifold* manifold : state_->own) manifolds.push_back(manifold);
+    if (state_->others) (*state_->others)->getAllContactManifolds(manifolds);
   }
 
  private:
@@ -109,7 +112,15 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
     std::vector<Gather::Id> ids;
     std::vector<Group> groups;
     std::vector<btPersistentManifold*> own;  ///< at least one, unless the caller has one for all
+    std::unique_ptr<OthersAlgorithm> others;
   };
+
+  /// Bullet's algorithm for meshes has a manifold of its own, hence it stays as long as it is wanted.
+  OthersAlgorithm& others(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
+    for (btPersistentManifold* manifold : state_->own) manifold->clearManifold();
+    if (!state_->others) state_->others = std::make_unique<OthersAlgorithm>(create_, *m_dispatcher, shared_, a, b);
+    return *state_->others;
+  }
 
   void gather(const btCollisionObjectWrapper& hull, const btCollisionObjectWrapper& surface, double touching) {
     const btConcaveShape& shape = static_cast<const btConcaveShape&>(*surface.getCollisionShape());
@@ -162,13 +173,7 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
     const btCollisionObjectWrapper& surface = hull_is_a_ ? b : a;
     std::vector<btPersistentManifold*> free = shared_ ? std::vector{shared_} : state_->own;
     for (const Group& group : state_->groups) {
-      if (free.empty()) {
-        state_->own.push_back(m_dispatcher->getNewManifold(a.getCollisionObject(), b.getCollisionObject()));
-        free.push_back(state_->own.back());
-      }
-      const auto found = most_similar(free, group.front());
-      btPersistentManifold& manifold = **found;
-      free.erase(found);
+      btPersistentManifold& manifold = taken_from(free, group.front(), a, b);
       const Spread chosen = spread(group);
       if (!shared_) forget_others(manifold, group, chosen, a);
       result.setPersistentManifold(&manifold);
@@ -204,15 +209,22 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
     }
   }
 
-  /// A manifold without points is like nothing.
-  std::vector<btPersistentManifold*>::iterator most_similar(std::vector<btPersistentManifold*>& manifolds,
-                                                            const TrianglePoint& p) const {
+  /// Of the manifolds that are free the one whose points had the most similar normals, or an empty one, or a new one.
+  btPersistentManifold& taken_from(std::vector<btPersistentManifold*>& free, const TrianglePoint& p,
+                                   const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
     const btVector3 normal = vector_of(hull_is_a_ ? Vec3(-p.normal) : p.normal);
     const auto likeness = [&](const btPersistentManifold* m) {
-      return m->getNumContacts() ? m->getContactPoint(0).m_normalWorldOnB.dot(normal) : btScalar(-2);
+      return m->getNumContacts() ? m->getContactPoint(0).m_normalWorldOnB.dot(normal) : kLikeAnEmptyOne;
     };
-    return std::max_element(manifolds.begin(), manifolds.end(),
-                            [&](const auto* m, const auto* n) { return likeness(m) < likeness(n); });
+    const auto found =
+        std::max_element(free.begin(), free.end(), [&](const auto* m, const auto* n) { return likeness(m) < likeness(n); });
+    if (found == free.end() || (!shared_ && likeness(*found) < kLikeAnEmptyOne)) {
+      state_->own.push_back(m_dispatcher->getNewManifold(a.getCollisionObject(), b.getCollisionObject()));
+      return *state_->own.back();
+    }
+    btPersistentManifold& manifold = **found;
+    free.erase(found);
+    return manifold;
   }
 
   /// Bullet carries the impulse of an old point nearby over to a new one. Those that are near none of this step's go.
