@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <Eigen/Geometry>
@@ -70,6 +71,17 @@ bool TrianglePair::Triangle::covers(const Vec3& p, double slack) const {
   return true;
 }
 
+double TrianglePair::Triangle::distance_from(const Vec3& p) const {
+  if (has_plane() && covers(p, 0)) return std::abs(front.dot(p - corners[0]));
+  double least2 = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 edge = corners[(i + 1) % 3] - corners[i], away = p - corners[i];
+    const double length2 = edge.squaredNorm(), t = length2 > 0 ? std::clamp(edge.dot(away) / length2, 0., 1.) : 0;
+    least2 = std::min(least2, (away - t * edge).squaredNorm());
+  }
+  return std::sqrt(least2);
+}
+
 /// The points of contact with one triangle.
 class TrianglePair::Meeting {
  public:
@@ -90,6 +102,10 @@ class TrianglePair::Meeting {
 
  private:
   void find() {
+    if (t_.distance_from(view_.centre) > view_.a.model()->radius() + radii_ + view_.beyond) {
+      t_.memory.side = t_.side_of(view_.centre);
+      return;
+    }
     Answer face;
     if (t_.has_plane()) {
       face = above_face();

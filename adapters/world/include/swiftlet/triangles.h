@@ -56,6 +56,7 @@ class TrianglePair {
     Side side_of(const Vec3& p) const { return front.dot(p - corners[0]) < 0 ? Side::Back : Side::Front; }
     Vec3 up() const { return memory.side == Side::Front ? front : Vec3(-front); }  ///< towards the model
     bool covers(const Vec3& p, double slack) const;
+    double distance_from(const Vec3& p) const;
   };
   struct View;
   class Meeting;
