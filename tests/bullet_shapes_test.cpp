@@ -570,8 +570,8 @@ struct Field {
       for (int i = 0; i <= cells; ++i)
         heights[std::size_t(j * (cells + 1) + i)] = float(height(i * width - size, j * width - size));
     }
-    shape =
-        std::make_unique<btHeightfieldTerrainShape>(cells + 1, cells + 1, heights.data(), btScalar(-5), btScalar(5), 2, false);
+    shape = std::make_unique<btHeightfieldTerrainShape>(cells + 1, cells + 1, heights.data(), btScalar(-10), btScalar(10), 2,
+                                                        false);
     shape->setLocalScaling(btVector3(btScalar(width), btScalar(width), 1));
   }
 };
@@ -619,46 +619,58 @@ TEST(Triangles, NeverPushABodyThrough) {
   expect_no_fall_through(*field.shape, "heightfield");
 }
 
-/// What a slide over the floor did to a body that a plane would not do.
+/// What a slide over a flat floor did to a body, along the floor's normal.
 struct Slide {
-  double rise = 0, speed = 0, lost = 0;  ///< above and below its height of rest; along the normal; of the speed it had
+  double rise = 0, speed = 0;  ///< from its height of rest, and of its velocity: the largest
+  double lost = 0;             ///< of the speed it had
 };
 
-Slide slide(btCollisionShape& floor, HullShape& hull, const btTransform& start, double speed, bool with_swiftlet = true) {
+/// Without friction, weighed down along `up`, the floor's normal.
+Slide slide(btCollisionShape& floor, HullShape& hull, const btVector3& up, double speed, bool with_swiftlet = true) {
   Dynamics d(with_swiftlet);
+  d.world.setGravity(up * btScalar(-9.81));
   d.add(floor, at(0, 0, 0)).setFriction(0);
-  btRigidBody& body = d.add(hull, start, 1);
+  const btTransform upright(shortestArcQuat(btVector3(0, 0, 1), up));
+  btRigidBody& body = d.add(hull, upright * at(-14, -5, 0.3), 1);
   body.setFriction(0);
   for (int step = 0; step < 120; ++step) d.step();  // comes to rest
-  body.setLinearVelocity(btVector3(btScalar(speed), btScalar(0.37 * speed), 0));
-  const double rest = body.getWorldTransform().getOrigin().z();
-  Slide worst;
+  const btVector3 velocity = upright * btVector3(btScalar(speed), btScalar(0.37 * speed), 0);
+  body.setLinearVelocity(velocity);
+  const double rest = up.dot(body.getWorldTransform().getOrigin());
+  Slide most;
   for (int step = 0; step < 120; ++step) {
     d.step();
-    worst.rise = std::max(worst.rise, std::abs(body.getWorldTransform().getOrigin().z() - rest));
-    worst.speed = std::max(worst.speed, std::abs(double(body.getLinearVelocity().z())));
+    most.rise = std::max(most.rise, std::abs(up.dot(body.getWorldTransform().getOrigin()) - rest));
+    most.speed = std::max(most.speed, std::abs(double(up.dot(body.getLinearVelocity()))));
   }
-  worst.lost = 1 - body.getLinearVelocity().length() / (speed * std::hypot(1, 0.37));
-  return worst;
+  most.lost = 1 - body.getLinearVelocity().length() / velocity.length();
+  return most;
+}
+
+void print(const char* name, const Slide& s) {
+  std::printf("  %s: %.1e m, %.1e m/s, lost %.1f %%\n", name, s.rise, s.speed, 100 * s.lost);
 }
 
 TEST(Triangles, LetABoxSlideAsOnOnePlane) {
-  const auto floor = terrain(60, 30, flat);
-  Field field(60, 30, flat);
-  btStaticPlaneShape plane(btVector3(0, 0, 1), 0);
+  constexpr double kUlp = 0x1p-20;  // of places 8 to 16 m away in single precision
   HullShape hull(bodies::model(bodies::box(0.5, 0.4, 0.25)));
-  for (const double speed : {1., 4., 8.}) {
-    const btTransform start = at(-18, -6, 0.3);
-    const Slide on_plane = slide(plane, hull, start, speed), on_mesh = slide(*floor->shape, hull, start, speed),
-                on_field = slide(*field.shape, hull, start, speed), bullets = slide(*floor->shape, hull, start, speed, false);
-    std::printf(
-        "%g m/s: plane %.2e m %.2e m/s, mesh %.2e %.2e, heightfield %.2e %.2e, Bullet's mesh %.2e %.2e; lost %.1e %.1e %.1e "
-        "%.1e\n",
-        speed, on_plane.rise, on_plane.speed, on_mesh.rise, on_mesh.speed, on_field.rise, on_field.speed, bullets.rise,
-        bullets.speed, on_plane.lost, on_mesh.lost, on_field.lost, bullets.lost);
-    for (const Slide& other : {on_mesh, on_field}) {
-      EXPECT_LE(other.rise, 1.1 * on_plane.rise + 1e-6);
-      EXPECT_LE(other.speed, 1.1 * on_plane.speed + 1e-5);
+  for (const double tilt : {0., 0.3}) {
+    const auto height = [&](double x, double y) { return tilt * x + tilt / 2 * y; };
+    const auto floor = terrain(60, 30, height), fine = terrain(150, 30, height);
+    const Field field(60, 20, height);
+    const btVector3 up = btVector3(btScalar(-tilt), btScalar(-tilt / 2), 1).normalized();
+    btStaticPlaneShape plane(up, 0);
+    for (const double speed : {1., 4., 8.}) {
+      const Slide on_plane = slide(plane, hull, up, speed), on_mesh = slide(*floor->shape, hull, up, speed),
+                  on_fine = slide(*fine->shape, hull, up, speed), on_field = slide(*field.shape, hull, up, speed),
+                  bullets = slide(*floor->shape, hull, up, speed, false);
+      std::printf("tilted by %g, %g m/s\n", tilt, speed);
+      print("plane", on_plane), print("mesh", on_mesh), print("fine mesh", on_fine), print("heightfield", on_field);
+      print("Bullet's mesh", bullets);
+      for (const Slide& other : {on_mesh, on_fine, on_field}) {
+        EXPECT_LE(other.rise, 1.1 * on_plane.rise + kUlp);
+        EXPECT_LE(other.speed, 1.1 * on_plane.speed + kUlp / kStep);
+      }
     }
   }
 }
