@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <swiftlet/bullet.h>
 
-#include <algorithm>
-#include <array>
-#include <iterator>
 #include <memory>
 #include <new>
 #include <utility>
@@ -15,6 +12,7 @@
 #include <swiftlet/world.h>
 
 #include "algorithms.h"
+#include "held_points.h"
 
 namespace swiftlet::bullet {
 namespace {
@@ -36,10 +34,10 @@ class SolidPair {
     return near;
   }
   Found contacts(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double beyond, PairSeed& seed,
-                 Manifold& manifold) const {
+                 Manifold& manifold, Rest& rest) const {
     constexpr std::uint32_t kMost = MANIFOLD_CACHE_SIZE;
     if (b_.role() == Role::Plane) return swiftlet::contacts(a_.placed(a), b_.half_space(b), beyond, kMost, manifold);
-    if (a_.role() != Role::Plane) return swiftlet::contacts(a_.placed(a), b_.placed(b), beyond, kMost, seed, manifold);
+    if (a_.role() != Role::Plane) return swiftlet::contacts(a_.placed(a), b_.placed(b), beyond, kMost, seed, manifold, rest);
     swap(manifold);
     const Found found = swiftlet::contacts(b_.placed(b), a_.half_space(a), beyond, kMost, manifold);
     swap(manifold);
@@ -56,10 +54,6 @@ class SolidPair {
   Solid a_, b_;
 };
 
-/// Points of the steps before stay while they span this share of the area that this step's span, and are less deep by no more
-/// than this share of Bullet's breaking threshold.
-constexpr btScalar kHeldArea = btScalar(0.9), kHeldDepth = btScalar(0.02);
-
 /// Lives as long as Bullet knows the pair, and with it the pair's seed. Bullet's manifold collects points over steps, ours
 /// holds those of one step.
 class HullAlgorithm final : public btActivatingCollisionAlgorithm {
@@ -70,7 +64,7 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
         create_(create),
         solids_(std::make_unique<SolidPair>(std::move(solids))),
         persistent_(info.m_manifold) {
-    if (create.all_points) manifold_ = std::make_unique<Manifold>();
+    if (create.all_points) touches_ = std::make_unique<Touches>();
     if (persistent_) return;
     persistent_ = m_dispatcher->getNewManifold(a.getCollisionObject(), b.getCollisionObject());
     owns_persistent_ = true;
@@ -100,7 +94,7 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
   bool answer(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btManifoldResult& result) {
     if (!solids_->is_current(a, b)) return false;
     const btScalar touching = persistent_->getContactBreakingThreshold() + result.m_closestPointDistanceThreshold;
-    return manifold_ ? add_all(a, b, touching, result) : add_nearest(a, b, touching, result);
+    return touches_ ? add_all(a, b, touching, result) : add_nearest(a, b, touching, result);
   }
 
   /// Bullet's normal is on B and points to A.
@@ -118,76 +112,24 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
   /// Points that hold the area of this step. A manifold of Bullet's that is shared keeps those of others.
   bool add_all(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btScalar touching,
                btManifoldResult& result) {
-    if (solids_->contacts(a, b, touching, seed_, *manifold_) == Found::Nothing) return false;
-    if (owns_persistent_) {
-      if (holds_the_area(a)) return true;
-      forget_others(a);
+    Manifold& now = touches_->manifold;
+    Rest& rest = touches_->rest;
+    const bool holds = owns_persistent_ && persistent_->getBody0() == a.getCollisionObject();
+    rest.within = holds ? kAtRest * persistent_->getContactBreakingThreshold() : -1;
+    Found found = solids_->contacts(a, b, touching, seed_, now, rest);
+    if (found == Found::AtRest) {
+      if (hold_on(*persistent_, vector_of(-now.normal))) return true;
+      rest.within = -1;
+      found = solids_->contacts(a, b, touching, seed_, now, rest);
     }
-    for (std::uint32_t i = manifold_->count;
-         i-- > 0;) {  // the deepest is the first and comes last: it takes the place of others
-      const ManifoldPoint& p = manifold_->points[i];
-      result.addContactPoint(vector_of(-manifold_->normal), vector_of(p.point_b), btScalar(p.separation));
+    if (found == Found::Nothing) return false;
+    if (holds && hold_the_area(*persistent_, now)) return true;
+    if (owns_persistent_) forget_others(*persistent_, now, persistent_->getBody0() != a.getCollisionObject());
+    for (std::uint32_t i = now.count; i-- > 0;) {  // the deepest is the first and comes last: it takes the place of others
+      const ManifoldPoint& p = now.points[i];
+      result.addContactPoint(vector_of(-now.normal), vector_of(p.point_b), btScalar(p.separation));
     }
     return true;
-  }
-
-  /// Whether the points of the steps before, as places on both bodies, still stand for the area of this step; if so they get
-  /// its normal. Points that stay keep their impulses; the corners of the area, of which the deepest four count, change from
-  /// step to step on a round face.
-  bool holds_the_area(const btCollisionObjectWrapper& a) {
-    const int kept = persistent_->getNumContacts();
-    if (kept < 3 || manifold_->count < 3 || persistent_->getBody0() != a.getCollisionObject()) return false;
-    const btVector3 n = vector_of(-manifold_->normal);
-    const btScalar far = persistent_->getContactBreakingThreshold();
-    std::array<btVector3, MANIFOLD_CACHE_SIZE> before, now;
-    btScalar deepest = far;
-    for (int i = 0; i < kept; ++i) {
-      const btManifoldPoint& p = persistent_->getContactPoint(i);
-      const btVector3 on_b = persistent_->getBody1()->getWorldTransform()(p.m_localPointB),
-                      apart = persistent_->getBody0()->getWorldTransform()(p.m_localPointA) - on_b;
-      const btScalar distance = apart.dot(n);
-      if (distance > far || (apart - n * distance).length2() > far * far) return false;
-      deepest = std::min(deepest, distance);
-      before[std::size_t(i)] = on_b;
-    }
-    for (std::uint32_t i = 0; i < manifold_->count; ++i) now[i] = vector_of(manifold_->points[i].point_b);
-    if (area(before, kept, n) < kHeldArea * area(now, int(manifold_->count), n) ||
-        manifold_->points[0].separation < deepest - kHeldDepth * far)
-      return false;
-    for (int i = 0; i < kept; ++i) persistent_->getContactPoint(i).m_normalWorldOnB = n;
-    turn_around();
-    return true;
-  }
-  /// Twice the area of three or four places, in any order, seen along `n`.
-  static btScalar area(const std::array<btVector3, MANIFOLD_CACHE_SIZE>& p, int count, const btVector3& n) {
-    const auto across = [&](const btVector3& u, const btVector3& v) { return btFabs(u.cross(v).dot(n)); };
-    if (count == 3) return across(p[1] - p[0], p[2] - p[0]);
-    const btScalar of_diagonals[] = {across(p[0] - p[1], p[2] - p[3]), across(p[0] - p[2], p[1] - p[3]),
-                                     across(p[0] - p[3], p[1] - p[2])};
-    return *std::max_element(std::begin(of_diagonals), std::end(of_diagonals));
-  }
-
-  /// Bullet's solver goes through the points one by one, and what it leaves undone is always on the same side of those it
-  /// visits in the same order: a tower leans that way more with every step. The first point becomes the last.
-  void turn_around() {
-    for (int i = 1; i < persistent_->getNumContacts(); ++i)
-      std::swap(persistent_->getContactPoint(i - 1), persistent_->getContactPoint(i));
-  }
-
-  /// Bullet adds a point to those of the steps before, or carries the impulse of the one nearby over to it. Those that are near
-  /// none of this step's go.
-  void forget_others(const btCollisionObjectWrapper& a) {
-    const bool swapped = persistent_->getBody0() != a.getCollisionObject();
-    const btTransform& in_world = persistent_->getBody0()->getWorldTransform();
-    for (int i = persistent_->getNumContacts(); i-- > 0;) {
-      const btVector3 old = in_world(persistent_->getContactPoint(i).m_localPointA);
-      bool stays = false;
-      for (std::uint32_t k = 0; k < manifold_->count; ++k) {
-        const btVector3 p = vector_of(swapped ? manifold_->points[k].point_b : manifold_->points[k].point_a);
-        stays = stays || (p - old).length() < persistent_->getContactBreakingThreshold();
-      }
-      if (!stays) persistent_->removeContactPoint(i);
-    }
   }
 
   /// The configuration's algorithm on this pair's manifold. It keeps nothing from step to step.
@@ -199,7 +141,12 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
   std::unique_ptr<SolidPair> solids_;
   btPersistentManifold* persistent_;
   PairSeed seed_;
-  std::unique_ptr<Manifold> manifold_;  ///< of the step before; none where closest points are asked for
+  /// Of the step before; none where closest points are asked for.
+  struct Touches {
+    Manifold manifold;
+    Rest rest;
+  };
+  std::unique_ptr<Touches> touches_;
   bool owns_persistent_ = false;
 };
 

@@ -41,10 +41,29 @@ Nearest in_world(const Pair& pair) {
           transform(pair.a_in_world, pair.answer.point_b)};
 }
 
-Found contacts(const Placed& a, const Body& b, const Pair& pair, double beyond, std::uint32_t most_points, Manifold& manifold) {
+bool is_at_rest(const Rest& rest, const Pose& b_in_a) {
+  for (std::uint32_t i = 0; i < rest.count; ++i) {
+    if (!((transform(b_in_a, rest.in_b[i]) - rest.in_a[i]).squaredNorm() <= rest.within * rest.within)) return false;
+  }
+  return rest.count > 0 && rest.within >= 0;
+}
+
+/// `manifold` is in A's frame.
+void note(const Manifold& manifold, const Pose& b_in_a, Rest& rest) {
+  const Pose back = inverse(b_in_a);
+  rest.count = manifold.count;
+  for (std::uint32_t i = 0; i < rest.count; ++i) {
+    rest.in_a[i] = manifold.points[i].point_b;
+    rest.in_b[i] = transform(back, rest.in_a[i]);
+  }
+}
+
+Found contacts(const Placed& a, const Body& b, const Pair& pair, double beyond, std::uint32_t most_points, Manifold& manifold,
+               Rest* rest = nullptr) {
   const ManifoldOptions options{.margin = beyond, .most_points = most_points};
   manifold =
       pair.found == Found::Nearest ? swiftlet::manifold(a.body, b, pair.b_in_a, pair.answer, options, manifold) : Manifold{};
+  if (rest) note(manifold, pair.b_in_a, *rest);
   into_world(pair.a_in_world, manifold);
   return pair.found;
 }
@@ -84,6 +103,16 @@ Nearest nearest(const Placed& a, const HalfSpace& b, double beyond) { return in_
 
 Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t most_points, PairSeed& seed, Manifold& manifold) {
   return contacts(a, b.body, pair_of(a, b, beyond, seed), beyond, most_points, manifold);
+}
+
+Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t most_points, PairSeed& seed, Manifold& manifold,
+               Rest& rest) {
+  const Pair pair = pair_of(a, b, beyond, seed);
+  if (pair.found == Found::Nearest && is_at_rest(rest, pair.b_in_a)) {
+    manifold.normal = pair.a_in_world.rotation * pair.answer.normal;
+    return Found::AtRest;
+  }
+  return contacts(a, b.body, pair, beyond, most_points, manifold, &rest);
 }
 
 Found contacts(const Placed& a, const HalfSpace& b, double beyond, std::uint32_t most_points, Manifold& manifold) {

@@ -4,6 +4,7 @@
 // engine.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <swiftlet/body.h>
@@ -36,6 +37,7 @@ enum class Found : std::uint8_t {
   Nearest,  ///< how far apart or how deep in one another, and along which direction
   Beyond,   ///< the bodies are farther apart than asked
   Nothing,  ///< a pose is no rigid motion, or no direction leads out, as of two points in one place
+  AtRest,   ///< as Nearest, and the bodies hardly moved against each other since their manifold was made: see `Rest`
 };
 
 /// Points and normal in the world's frame.
@@ -56,6 +58,17 @@ Nearest nearest(const Placed& a, const HalfSpace& b, double beyond);
 /// Fills `manifold` with at most `most_points` points of contact in the world's frame, none farther apart than `beyond`: of
 /// Nearest at least one, else none. It brings the pair's manifold of the step before, or none.
 Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t most_points, PairSeed& seed, Manifold& manifold);
+
+/// Where two bodies were when their manifold was made, at its points.
+struct Rest {
+  double within = 0;        ///< how far a point may have moved against the other body since then; below 0: never at rest
+  std::uint32_t count = 0;  ///< of points
+  std::array<Vec3, kMostManifoldPoints> in_a, in_b;  ///< the same places, in either body's frame
+};
+/// The same for a pair that is asked in every step: where the bodies are at rest, its manifold keeps its points, which have
+/// moved with the bodies since, and gets the normal of this step, at the price of a distance alone.
+Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t most_points, PairSeed& seed, Manifold& manifold,
+               Rest& rest);
 
 /// The same of a body that is a model, and of a half-space: the corners of the model's contact face. Cost: one support, and the
 /// face's sides.

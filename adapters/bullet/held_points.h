@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The points of Bullet's manifold from step to step. Bodies that rest on each other keep theirs, as places on both, and with
+// them the impulses that hold them up: the corners of the area that they share, of which the deepest four would count, change
+// from step to step on a round face.
+#pragma once
+
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+
+#include <swiftlet/manifold.h>
+
+namespace swiftlet::bullet {
+
+/// In shares of Bullet's breaking threshold: points stay while no other place of contact is deeper by more than the first, and
+/// an area counts as that of a step before until a body has moved against the other by the second.
+constexpr btScalar kHeldDepth = btScalar(0.01), kAtRest = btScalar(0.005);
+/// Points stay while they span this share of the area that the best ones span.
+constexpr btScalar kHeldArea = btScalar(0.9);
+
+/// Gives the points the normal of this step, which is on B, and the next turn, unless they have left each other.
+bool hold_on(btPersistentManifold& points, const btVector3& normal);
+
+/// The same if they also stand for the area of this step.
+bool hold_the_area(btPersistentManifold& points, const Manifold& now);
+
+/// Bullet adds a point to those of the steps before, or carries the impulse of the one nearby over to it. Those that are near
+/// none of this step's go. `swapped`: the manifold's first body is Bullet's second.
+void forget_others(btPersistentManifold& points, const Manifold& now, bool swapped);
+
+}  // namespace swiftlet::bullet
