@@ -1,37 +1,31 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// If there are too many corners, the one whose removal takes the least area is left out [Visvalingam & Whyatt 1993].
+// If there are too many corners, those are left out whose chords cut off little: the bound on that grows with the area.
 #include "manifold/candidates.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace swiftlet {
-namespace {
 
-double twice_area(const Vec& p, const Vec& q, const Vec& r) {
-  return std::fabs((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x));
+Candidates::Candidates(double farthest, const Manifold& previous) : farthest_(farthest), previous_(previous) {
+  for (std::uint32_t i = 0; i < std::min(previous.count, kMostManifoldPoints); ++i) {
+    known_bits_[0] |= std::uint64_t(1) << previous.points[i].feature_a.index() % 64;
+    known_bits_[1] |= std::uint64_t(1) << previous.points[i].feature_b.index() % 64;
+  }
 }
 
-}  // namespace
-
-void Candidates::add(Border border, const Candidate& candidate) {
+void Candidates::add(Border border, const Candidate& candidate, bool wanted) {
   if (!(candidate.separation <= farthest_) || has_named(candidate)) return;
-  if (is_known(candidate) && known_count_ < int(kMostManifoldPoints)) known_[std::size_t(known_count_++)] = candidate;
+  const bool knows = known_bits_[0] != 0 && is_known(candidate) && known_count_ < int(kMostManifoldPoints);
+  if (knows) known_[std::size_t(known_count_++)] = candidate;
+  if (wanted || knows) least_ = min(least_, candidate.separation);
+  if (!wanted) return;
   if (candidate.separation < deepest_)
     deepest_ = candidate.separation, deepest_named_ = {candidate.feature_a, candidate.feature_b};
+  if (count_[0] + count_[1] == kMostCorners) thin();
   const std::size_t side = std::size_t(border);
-  if (count_[0] + count_[1] < kMostCorners) {
-    cut_off_[side] = 0;
-  } else if (replaces_last(border, candidate)) {
-    --count_[side];
-  } else {
-    thin();
-    cut_off_[side] = 0;
-  }
-  all_[std::size_t(border == Border::Left ? count_[0] : kMostCorners - 1 - count_[1])] = candidate;
-  ++count_[side];
+  row(border, count_[side]++) = candidate;
+  last_[side] = candidate.place(), cut_off_[side] = 0;
 }
 
 void Candidates::add_deepest(const Candidate& candidate) {
@@ -44,9 +38,9 @@ void Candidates::add_deepest(const Candidate& candidate) {
   std::for_each(all_.begin(), all_.begin() + count_[0], replace);
   std::for_each(known_.begin(), known_.begin() + known_count_, replace);
   if (is_there)
-    deepest_ = candidate.separation;
+    least_ = candidate.separation;
   else
-    add(Border::Left, candidate);
+    add(Border::Left, candidate, true);
 }
 
 bool Candidates::has_named(const Candidate& candidate) const {
@@ -63,38 +57,35 @@ bool Candidates::is_known(const Candidate& candidate) const {
                      [&](const ManifoldPoint& p) { return is_same(p, candidate); });
 }
 
-/// Returns true if of all corners that may be left out the last one of a border takes the least area. The area that the chord
-/// to it has cut off before counts, since close corners take little each.
-bool Candidates::replaces_last(Border border, const Candidate& candidate) {
-  const std::size_t side = std::size_t(border);
-  if (count_[side] < 2) return false;
-  const int last = border == Border::Left ? count_[0] - 1 : kMostCorners - count_[1], step = border == Border::Left ? 1 : -1;
-  const double area = cut_off_[side] + twice_area(at(last - step).on_a, at(last).on_a, candidate.on_a);
-  if (!(area < next_area_) || is_deepest(last)) return false;
-  cut_off_[side] = area;
-  return true;
+/// Leaves out corners, until a quarter of the room is free, by chords that cut off ever more.
+void Candidates::thin() {
+  is_crowded_ = true;
+  const Place lowest = row(count_[0] > 0 ? Border::Left : Border::Right, 0).place();
+  double area = 0;
+  for (const Border border : {Border::Left, Border::Right}) {
+    for (int i = 1; i < count_[std::size_t(border)]; ++i)
+      area += std::fabs(cross(row(border, i - 1).place() - lowest, row(border, i).place() - lowest));
+  }
+  for (;; enough_ = max(2 * enough_, area * kLeastChord)) {
+    thin(Border::Left, lowest, true), thin(Border::Right, lowest, count_[0] == 0);
+    if (count_[0] + count_[1] <= kMostCorners * 3 / 4) return;
+  }
 }
 
-/// Leaves out the corner that takes the least area with it. The last ones of both borders and the deepest corner stay.
-void Candidates::thin() {
-  const int left = count_[0], right = kMostCorners - count_[1];
-  double least = std::numeric_limits<double>::infinity();
-  int flattest = 0;
-  next_area_ = least;
-  const auto consider = [&](int below, int i, int above) {
-    const double area = twice_area(at(below).on_a, at(i).on_a, at(above).on_a);
-    if (area >= next_area_ || is_deepest(i)) return;
-    next_area_ = max(least, area);
-    if (area < least) least = area, flattest = i;
-  };
-  // The borders meet below.
-  for (int i = right == kMostCorners; i + 1 < left; ++i) consider(i == 0 ? kMostCorners - 1 : i - 1, i, i + 1);
-  for (int i = kMostCorners - 1 - (left == 0); i > right; --i) consider(i + 1 == kMostCorners ? 0 : i + 1, i, i - 1);
-  if (flattest < left)
-    std::move(all_.begin() + flattest + 1, all_.begin() + left, all_.begin() + flattest);
-  else
-    std::move_backward(all_.begin() + right, all_.begin() + flattest, all_.begin() + flattest + 1);
-  --count_[flattest < left ? 0 : 1];
+/// The deepest corner and the border's last one stay.
+void Candidates::thin(Border border, Place last, bool keeps_first) {
+  int& count = count_[std::size_t(border)];
+  int kept = 0;
+  double cut_off = 0;
+  for (int i = 0; i < count; ++i) {
+    const Candidate& c = row(border, i);
+    const bool stays = (i == 0 && keeps_first) || i + 1 == count || is_same(c, deepest_named_);
+    if (!stays) cut_off += std::fabs(cross(c.place() - last, row(border, i + 1).place() - last));
+    if (!stays && cut_off <= enough_) continue;
+    last = c.place(), cut_off = 0;
+    row(border, kept++) = c;
+  }
+  count = kept;
 }
 
 void Candidates::close() {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -17,11 +18,23 @@ namespace swiftlet {
 /// The borders of an area between its lowest and its highest corner.
 enum class Border : std::uint8_t { Left, Right };
 
+/// A place in the projection.
+struct Place {
+  double x, y;
+};
+static inline Place operator+(const Place& p, const Place& q) { return {p.x + q.x, p.y + q.y}; }
+static inline Place operator-(const Place& p, const Place& q) { return {p.x - q.x, p.y - q.y}; }
+static inline Place operator*(const Place& p, double s) { return {p.x * s, p.y * s}; }
+static inline double dot(const Place& p, const Place& q) { return p.x * q.x + p.y * q.y; }
+static inline double cross(const Place& p, const Place& q) { return p.x * q.y - p.y * q.x; }
+
 /// A possible point of the manifold, projected.
 struct Candidate {
   Vec on_a;           ///< the point of A
   double separation;  ///< by which B's point is farther along the normal
   FeatureId feature_a, feature_b;
+
+  Place place() const { return {on_a.x, on_a.y}; }
 };
 
 /// Whether two points, of this manifold or the one before, have the same names.
@@ -36,11 +49,23 @@ inline constexpr int kMostCandidates = kMostCorners + int(kMostManifoldPoints);
 class Candidates {
  public:
   /// Corners with a separation above `farthest` are left out.
-  Candidates(double farthest, const Manifold& previous) : farthest_(farthest), previous_(previous) {}
+  Candidates(double farthest, const Manifold& previous);
 
+  /// Whether to add the next corner of a border, which goes on from there to `next`: if not, a chord cuts off little. `rise`: the
+  /// separation rises there from then on if it is at least 0.
+  bool wants(Border border, const Place& at, const Place& next, double rise) {
+    return !is_crowded_ || cuts(border, at, next) || turns(border, rise);
+  }
+  /// The same of a corner somewhere between `from` and `to`.
+  bool wants(Border border, const Place& from, const Place& to, const Place& next, double rise) {
+    return !is_crowded_ || cuts(border, from, to, next) || turns(border, rise);
+  }
+  /// False if `previous` surely does not name this vertex or half-edge of body 0 or 1.
+  bool may_know(int body, std::uint32_t index) const { return known_bits_[body] >> (index % 64) & 1; }
   /// Adds the corner that follows on a border, which is seen from below to above, unless one with its names is kept already:
-  /// sides that are nearly parallel may pass the lead twice, and a corner may come as a crossing near it and as itself.
-  void add(Border border, const Candidate& candidate);
+  /// sides that are nearly parallel may pass the lead twice, and a corner may come as a crossing near it and as itself. A corner
+  /// that is not `wanted` is added only if `previous` names it.
+  void add(Border border, const Candidate& candidate, bool wanted);
   /// Joins both borders into one row around the area, and drops the corners that `previous` names and that are in the row.
   void close();
   /// Adds a point deeper than all corners, after `close`; it takes the place of the corners with its names.
@@ -50,23 +75,43 @@ class Candidates {
   int count() const { return count_[0] + known_count_; }
   const Candidate& operator[](int i) const { return i < count_[0] ? at(i) : known_[std::size_t(i - count_[0])]; }
   bool is_known(const Candidate& candidate) const;  ///< whether `previous` names it
-  double least() const { return deepest_; }         ///< the least separation of all that were added
+  double least() const { return least_; }           ///< the least separation of all that were added
 
  private:
   const Candidate& at(int i) const { return all_[std::size_t(i)]; }
   bool has_named(const Candidate& candidate) const;  ///< whether a corner with its names is kept
-  bool replaces_last(Border border, const Candidate& candidate);
-  bool is_deepest(int i) const { return is_same(at(i), deepest_named_); }
+  Candidate& row(Border border, int i) { return all_[std::size_t(border == Border::Left ? i : kMostCorners - 1 - i)]; }
+
+  /// Adds a triangle above the border's last chord to the area that the chord to `next` would cut off.
+  bool cuts(Border border, const Place& at, const Place& next) {
+    const Place& last = last_[std::size_t(border)];
+    return (cut_off_[std::size_t(border)] += std::fabs(cross(at - last, next - last))) > enough_;
+  }
+  bool cuts(Border border, const Place& from, const Place& to, const Place& next) {
+    const Place &last = last_[std::size_t(border)], w = next - last;
+    const double most = max(std::fabs(cross(from - last, w)), std::fabs(cross(to - last, w)));
+    return (cut_off_[std::size_t(border)] += most) > enough_;
+  }
+  /// True where the separation stops falling along the border.
+  bool turns(Border border, double rise) {
+    bool& has_turned = has_turned_[std::size_t(border)];
+    return !has_turned && (has_turned = rise >= 0);
+  }
   void thin();
+  void thin(Border border, Place last, bool keeps_first);
 
   const double farthest_;
   const Manifold& previous_;
-  double deepest_ = std::numeric_limits<double>::infinity();
+  std::uint64_t known_bits_[2] = {};  ///< per body, those of the indices that `previous` names, modulo 64
+  double least_ = std::numeric_limits<double>::infinity(), deepest_ = least_;  ///< of all, and of the row
   struct {
     FeatureId feature_a, feature_b;
-  } deepest_named_;         ///< names of the first corner with that separation
-  double next_area_ = 0;    ///< at most the area that any corner takes with it which `thin` may leave out
-  double cut_off_[2] = {};  ///< the area that the last chord of each border has cut off
+  } deepest_named_;            ///< names of the first corner of the row with that separation
+  bool is_crowded_ = false;    ///< more corners have come than there is room for
+  bool has_turned_[2] = {};    ///< per border, as `turns` found
+  double enough_ = 0;          ///< twice the area that a chord may cut off
+  double cut_off_[2] = {};     ///< twice the area that the chord of each border up to now cuts off, or more
+  Place last_[2] = {};         ///< where it begins: the border's last corner that was added
   int count_[2] = {}, known_count_ = 0;
   std::array<Candidate, kMostCorners> all_;  ///< the left border from the start, the right one from the end back
   std::array<Candidate, kMostManifoldPoints> known_;

@@ -29,136 +29,191 @@ constexpr Border kBorders[] = {Border::Left, Border::Right};
 Border opposite(Border border) { return border == Border::Left ? Border::Right : Border::Left; }
 
 /// Returns true if `p` lies below `q`, or at the same height to the left of it.
-bool is_below(const Vec& p, const Vec& q) { return p.y < q.y || (p.y == q.y && p.x < q.x); }
+bool is_below(const Place& p, const Place& q) { return p.y < q.y || (p.y == q.y && p.x < q.x); }
 
 struct Corner {
-  Vec at;
+  Place at;
   std::uint32_t vertex;
 };
 
 /// A side of a border, or a chord that cuts off corners which turn inwards.
 struct Side {
-  Corner from, to;          ///< the lower and the upper end
-  std::uint32_t half_edge;  ///< the half-edge at `to`; of a chord the last one that it cuts off
-  bool is_chord = false;
+  Corner from, to;  ///< the lower and the upper end
+  Place way;        ///< from one to the other
+  double length2;
+  std::uint32_t half_edge;  ///< the half-edge that ends at `to`; of a chord the last one that it cuts off
+  bool is_chord;
 
-  Vec at(double t) const { return from.at + (to.at - from.at) * t; }
+  Place at(double t) const { return from.at + way * t; }
   /// The parameter, 0 at `from` and 1 at `to`, of the point at height `y`.
-  double rise(double y) const {
-    const double height = to.at.y - from.at.y;
-    return height > 0 ? min(max((y - from.at.y) / height, 0), 1) : 0;
-  }
+  double rise(double y) const { return way.y > 0 ? min(max((y - from.at.y) / way.y, 0), 1) : 0; }
   /// The parameter of the point nearest to `place`.
-  double along(const Vec& place) const {
-    const double dx = to.at.x - from.at.x, dy = to.at.y - from.at.y, length2 = dx * dx + dy * dy,
-                 t = (place.x - from.at.x) * dx + (place.y - from.at.y) * dy;
+  double along(const Place& place) const {
+    const double t = dot(place - from.at, way);
     return length2 > 0 && t > 0 ? min(t / length2, 1) : 0;
   }
 };
 
 /// On which side of a border's side a place lies whose height is between those of its ends.
 enum class Where { Left, On, Right };
-Where where(const Vec& place, const Side& side, double bound) {
-  const double dx = side.to.at.x - side.from.at.x, dy = side.to.at.y - side.from.at.y, px = place.x - side.from.at.x,
-               py = place.y - side.from.at.y, area = dx * py - dy * px, length2 = dx * dx + dy * dy;
-  if (area * area > bound * bound * length2) return area > 0 ? Where::Left : Where::Right;
+Where where(const Place& place, const Side& side, double bound) {
+  const Place p = place - side.from.at;
+  const double area = cross(side.way, p);
+  if (area * area > bound * bound * side.length2) return area > 0 ? Where::Left : Where::Right;
   // The line is within the bound; the side itself may not be, if it is nearly horizontal.
-  if (px < min(dx, 0) - bound) return length2 - dx * dx > dx * dx ? Where::On : Where::Left;
-  if (px > max(dx, 0) + bound) return length2 - dx * dx > dx * dx ? Where::On : Where::Right;
+  const double dx = side.way.x;
+  if (p.x < min(dx, 0) - bound) return side.length2 - dx * dx > dx * dx ? Where::On : Where::Left;
+  if (p.x > max(dx, 0) + bound) return side.length2 - dx * dx > dx * dx ? Where::On : Where::Right;
   return Where::On;
 }
 
 /// A contact face as a projection shows it, from its lowest corner to its highest.
 class SeenFace {
  public:
-  SeenFace(const SeenBody& body, const ContactFace& face, double bound) : body_(body), face_(face) {
-    const Corner first = face.side() == kNone ? Corner{body(0), 0} : corner_before(face.side());
-    Corner lowest = first, highest = first, last = first;
-    std::uint32_t half_edge = face.side();
-    double area = 0;
-    for (std::uint32_t h = half_edge; h != kNone && (h = face.next(h)) != face.side();) {
-      const Corner c = corner_before(h);
-      if (is_below(c.at, lowest.at)) lowest = c, half_edge = h;
-      if (is_below(highest.at, c.at)) highest = c;
-      area += (last.at.x - first.at.x) * (c.at.y - first.at.y) - (last.at.y - first.at.y) * (c.at.x - first.at.x);
-      last = c;
-    }
-    is_ccw_ = area >= 0;
-    top_ = highest.vertex;
+  SeenFace(const SeenBody& body, const ContactFace& face, double bound)
+      : body_(body), face_(face), bound_(bound), is_ccw_(dot(cross(body.x, body.y), face.normal()) >= 0) {
+    const bool is_point = face.side() == kNone;
+    const std::uint32_t below = is_point ? kNone : lowest_side();
+    const Corner lowest = is_point ? Corner{body.at(0), 0} : start_of(below);
+    for (Chain& chain : chain_) chain.side = {lowest, lowest, {0, 0}, 0, below, false};
     for (const Border border : kBorders) {
-      Side& side = side_[std::size_t(border)];
-      side = {lowest, lowest, half_edge, false};
-      if (is_at_top(border)) continue;
-      if (is_ahead(border)) side.half_edge = face.previous(half_edge);
-      advance(border, bound);
+      Chain& chain = chain_[std::size_t(border)];
+      if (is_point) continue;
+      chain.half_edge = is_left(border) ? below : face_.onward(twin(below), false);
+      chain.next = end_of(chain.half_edge);
+      advance(border);
     }
   }
 
   /// Where both borders begin, as long as neither has gone on from its first side.
-  const Corner& lowest() const { return side_[0].from; }
-  const Side& operator[](Border border) const { return side_[std::size_t(border)]; }
-  bool is_at_top(Border border) const { return (*this)[border].to.vertex == top_; }
+  const Corner& lowest() const { return chain_[0].side.from; }
+  const Side& operator[](Border border) const { return chain_[std::size_t(border)].side; }
+  /// The borders end where they meet.
+  bool is_at_top(Border border) const { return (*this)[border].to.vertex == (*this)[opposite(border)].to.vertex; }
+  /// The corner after the side of a border that is not at the top.
+  const Corner& next(Border border) const { return chain_[std::size_t(border)].next; }
 
-  /// Moves a border on to the next side of its convex hull; must not be called at the top. A border of merged facets may turn
-  /// inwards by up to the face's flatness: corners are looked at until one lies farther inside of the side than that. A border
-  /// that is jagged by more is followed to the next corner that is no lower.
-  void advance(Border border, double bound) {
-    Side& side = side_[std::size_t(border)];
-    const bool ahead = is_ahead(border);
-    side.from = side.to;
-    std::uint32_t h = side.half_edge;
-    for (bool is_first = true;; is_first = false) {
-      h = ahead ? face_.next(h) : face_.previous(h);
-      const Corner c = corner_before(ahead ? body_.view.half_edges[h].twin : h);
-      const double dx = side.to.at.x - side.from.at.x, dy = side.to.at.y - side.from.at.y,
-                   area = dx * (c.at.y - side.from.at.y) - dy * (c.at.x - side.from.at.x),
-                   length = std::sqrt(dx * dx + dy * dy), out = border == Border::Left ? area : -area;
-      const bool falls = side.to.at.y < side.from.at.y - bound;
-      if (is_first || falls || out > 0.5 * bound * length) {
-        side.to = c, side.half_edge = h, side.is_chord = !is_first;
-      } else if (out < -face_.flatness() * length) {
-        return;
-      }
-      if (c.vertex == top_) return;
-    }
+  /// Moves a border on to the next side of its convex hull; must not be called at the top.
+  void advance(Border border) {
+    Chain& chain = chain_[std::size_t(border)];
+    Side& side = chain.side;
+    const std::uint32_t top = (*this)[opposite(border)].to.vertex;
+    side.from = side.to, side.is_chord = false;
+    lead(side, chain.next, chain.half_edge);
+    do {
+      if (side.to.vertex == top) return;
+      chain.half_edge = face_.onward(side.half_edge, is_left(border));
+      chain.next = end_of(chain.half_edge);
+    } while (!turns_in(side, border, chain.next) && extend(side, border, chain.half_edge, top));
   }
 
   /// The coordinate along the normal at a place: interpolated between the borders, or that of the nearer border outside.
-  double depth_at(const Vec& place) const {
-    const Side &left = side_[0], &right = side_[1];
-    const Vec l = left.at(left.rise(place.y)), r = right.at(right.rise(place.y));
-    if (l.x < place.x && place.x < r.x) return l.z + (r.z - l.z) * ((place.x - l.x) / (r.x - l.x));
-    const Side& side = place.x <= l.x ? left : right;
-    return side.at(side.along(place)).z;
-  }
-
-  /// Names the edge at a place of a side; of a chord, the edge that it cuts off there.
-  FeatureId edge_at(Border border, const Vec& place) const {
-    const Side& side = (*this)[border];
-    const Vec along = side.to.at - side.from.at;
-    std::uint32_t h = side.half_edge;
-    while (side.is_chord) {
-      const Corner from = corner_before(is_ahead(border) ? h : body_.view.half_edges[h].twin);
-      const Vec beyond = place - from.at;
-      if (from.vertex == side.from.vertex || beyond.x * along.x + beyond.y * along.y >= 0) break;
-      h = is_ahead(border) ? face_.previous(h) : face_.next(h);
+  double depth_at(const Place& place) const {
+    const Side &left = chain_[0].side, &right = chain_[1].side;
+    const double t_left = left.rise(place.y), t_right = right.rise(place.y), x_left = left.at(t_left).x,
+                 x_right = right.at(t_right).x;
+    if (x_left < place.x && place.x < x_right) {
+      const double z = z_at(left, t_left);
+      return z + (z_at(right, t_right) - z) * ((place.x - x_left) / (x_right - x_left));
     }
-    return named(body_.view, {FeatureKind::Edge, h});
+    const Side& side = place.x <= x_left ? left : right;
+    return z_at(side, side.along(place));
+  }
+  double z_at(const Side& side, double t) const {
+    const double z = body_.z(side.from.vertex);
+    return z + (body_.z(side.to.vertex) - z) * t;
+  }
+  double z(std::uint32_t vertex) const { return body_.z(vertex); }
+
+  /// Names the edge of a side that is no chord.
+  FeatureId edge(Border border) const { return named(body_.view, {FeatureKind::Edge, (*this)[border].half_edge}); }
+  /// Names the edge at a place of a side; of a chord, the edge that it cuts off there.
+  FeatureId edge_at(Border border, const Place& place) const {
+    const Side& side = (*this)[border];
+    std::uint32_t back = twin(side.half_edge);
+    while (side.is_chord) {
+      const Corner from = end_of(back);
+      if (from.vertex == side.from.vertex || dot(place - from.at, side.way) >= 0) break;
+      back = face_.onward(back, !is_left(border));
+    }
+    return named(body_.view, {FeatureKind::Edge, back});
   }
 
  private:
-  /// Returns true if half-edges of the border point upwards.
-  bool is_ahead(Border border) const { return is_ccw_ == (border == Border::Right); }
-  Corner corner_before(std::uint32_t half_edge) const {
-    const std::uint32_t vertex = origin(body_.view, half_edge);
-    return {body_(vertex), vertex};
+  struct Chain {
+    Side side;                ///< at the height of the sweep line
+    Corner next;              ///< the corner after it
+    std::uint32_t half_edge;  ///< the half-edge that ends there
+  };
+
+  std::uint32_t twin(std::uint32_t half_edge) const { return body_.view.half_edges[half_edge].twin; }
+  Corner end_of(std::uint32_t half_edge) const {
+    const std::uint32_t vertex = body_.view.half_edges[half_edge].head;
+    return {body_.at(vertex), vertex};
+  }
+  Corner start_of(std::uint32_t half_edge) const { return end_of(twin(half_edge)); }
+  /// Returns true if half-edges that point upwards along the border have the face on their left.
+  bool is_left(Border border) const { return is_ccw_ == (border == Border::Right); }
+
+  /// The half-edge of the border that leaves its lowest corner: where the border rises on both sides, by more than the border of
+  /// merged facets may turn inwards.
+  std::uint32_t lowest_side() const {
+    const std::uint32_t first = face_.side();
+    std::uint32_t side = first;
+    Place lowest = start_of(first).at;
+    const double more = 2 * face_.flatness();
+    for (std::uint32_t h = first;;) {
+      const Place place = end_of(h).at;
+      h = face_.onward(h, true);
+      if (place.y > lowest.y + more || h == first) break;
+      if (is_below(place, lowest)) lowest = place, side = h;
+    }
+    const std::uint32_t last = face_.onward(twin(first), false);
+    for (std::uint32_t h = last;;) {
+      const Place place = end_of(h).at;
+      if (place.y > lowest.y + more) break;
+      if (is_below(place, lowest)) lowest = place, side = twin(h);
+      h = face_.onward(h, false);
+      if (h == last) break;
+    }
+    return side;
+  }
+
+  static void lead(Side& side, const Corner& to, std::uint32_t half_edge) {
+    side.to = to, side.half_edge = half_edge;
+    side.way = to.at - side.from.at;
+    side.length2 = dot(side.way, side.way);
+  }
+  bool falls(const Side& side) const { return side.way.y < -bound_; }
+  /// Twice the area of a side and a corner, positive where that lies beyond the side.
+  static double beyond(const Side& side, Border border, const Corner& corner) {
+    const double area = cross(side.way, corner.at - side.from.at);
+    return border == Border::Left ? area : -area;
+  }
+  bool turns_in(const Side& side, Border border, const Corner& next) const {
+    const double out = beyond(side, border, next);
+    return out < 0 && out * out > face_.flatness() * face_.flatness() * side.length2 && !falls(side);
+  }
+  /// A border of merged facets may turn inwards by up to the face's flatness: corners are looked at until one lies farther inside
+  /// of the side than that. If one lies beyond, the side becomes a chord to it, and true is returned. A border that is jagged by
+  /// more is followed to the next corner that is no lower. `h` ends at the corner after the side.
+  bool extend(Side& side, Border border, std::uint32_t h, std::uint32_t top) const {
+    for (;; h = face_.onward(h, is_left(border))) {
+      const Corner corner = end_of(h);
+      const double out = beyond(side, border, corner);
+      if (falls(side) || (out > 0 && out * out > 0.25 * bound_ * bound_ * side.length2)) {
+        lead(side, corner, h);
+        return side.is_chord = true;
+      }
+      if (turns_in(side, border, corner) || corner.vertex == top) return false;
+    }
   }
 
   const SeenBody& body_;
   const ContactFace& face_;
-  bool is_ccw_;        ///< the border's sense in the projection, where B is seen from inside unless the pose mirrors it
-  std::uint32_t top_;  ///< the highest vertex
-  Side side_[2];       ///< of each border the side at the height of the sweep line
+  const double bound_;
+  const bool is_ccw_;  ///< the border's sense in the projection, where B is seen from inside unless the pose mirrors it
+  Chain chain_[2];     ///< the left and the right border
 };
 
 class Sweep {
@@ -167,6 +222,7 @@ class Sweep {
       : face_{SeenFace(projection.a, a, bound), SeenFace(projection.b, b, bound)},
         name_{a.name(), b.name()},
         bound_(bound),
+        slope_(slope(projection.b, b) - slope(projection.a, a)),
         corners_(corners) {}
 
   void run() {
@@ -175,7 +231,7 @@ class Sweep {
       const auto [f, border] = lowest_event();
       if (!meet(f, border)) return;
       if (face_[f].is_at_top(border)) return end(f, border);
-      face_[f].advance(border, bound_);
+      face_[f].advance(border);
     }
   }
 
@@ -188,6 +244,12 @@ class Sweep {
   const Side& side(int f, Border border) const { return face_[f][border]; }
   int& leader(Border border) { return leader_[std::size_t(border)]; }
 
+  /// How the height of a face's plane along the normal changes with x and y.
+  static Place slope(const SeenBody& seen, const ContactFace& face) {
+    const Vec& m = face.normal();
+    return Place{dot(seen.x, m), dot(seen.y, m)} * (-1 / dot(seen.n, m));
+  }
+
   /// Starts at the higher of the two lowest corners. Returns false if the other face ends below it.
   bool begin() {
     const int f = is_below(face_[0].lowest().at, face_[1].lowest().at) ? 1 : 0, other = 1 - f;
@@ -195,7 +257,7 @@ class Sweep {
     for (const Border border : kBorders) {
       while (!is_below(lowest.at, side(other, border).to.at)) {
         if (face_[other].is_at_top(border)) return false;
-        face_[other].advance(border, bound_);
+        face_[other].advance(border);
       }
     }
     if (where(lowest.at, side(other, Border::Left), bound_) == Where::Left) {
@@ -231,14 +293,11 @@ class Sweep {
       return false;
     }
     const Where now = where(corner.at, side(other, border), bound_);
-    if (leader(border) == f && now == outside(border)) {
-      add_crossing(border, {f, border}, {other, border});
-      leader(border) = other;
-    } else if (leader(border) == other && now == outside(across)) {
-      add_crossing(border, {f, border}, {other, border});
-      leader(border) = f;
-    }
-    if (leader(border) == f) add_corner(border, f, corner);
+    const int next = leader(border) == f && now == outside(border)      ? other
+                     : leader(border) == other && now == outside(across) ? f
+                                                                         : leader(border);
+    if (next != leader(border)) turn_off(border, next);
+    if (next == f) pass(border, f);
     return true;
   }
 
@@ -264,37 +323,65 @@ class Sweep {
     add_corner(border, f, top);
   }
 
+  /// False if the manifold before surely names no point of this side.
+  bool may_know(int f, Border border) const {
+    return side(f, border).is_chord || corners_.may_know(f, face_[f].edge(border).index());
+  }
+
   static Where outside(Border border) { return border == Border::Left ? Where::Left : Where::Right; }
 
+  /// Passes the upper end of a side of face `f`, which leads the border. Of many corners only few are worth their names and
+  /// depths.
+  void pass(Border border, int f) {
+    const Side& s = side(f, border);
+    if (face_[f].is_at_top(border)) return add_corner(border, f, s.to);
+    const Place& next = face_[f].next(border).at;
+    const bool wanted = corners_.wants(border, s.to.at, next, dot(next - s.to.at, slope_));
+    if (wanted || corners_.may_know(f, s.to.vertex)) add_corner(border, f, s.to, wanted);
+  }
+
+  /// Passes the lead on a border to face `f` where its side crosses the one that led.
+  void turn_off(Border border, int f) {
+    leader(border) = f;
+    const Side &from = side(1 - f, border), &to = side(f, border);
+    const bool wanted = corners_.wants(border, from.from.at, from.to.at, to.to.at, dot(to.way, slope_));
+    if (wanted || (may_know(f, border) && may_know(1 - f, border)))
+      add_crossing(border, {0, border}, {1, border}, wanted);
+  }
+
   /// Adds a corner of face `f` that lies within the other face.
-  void add_corner(Border border, int f, const Corner& corner) {
-    const double depth = face_[1 - f].depth_at(corner.at), z_a = f == 0 ? corner.at.z : depth,
-                 z_b = f == 0 ? depth : corner.at.z;
+  void add_corner(Border border, int f, const Corner& corner, bool wanted = true) {
+    const double depth = face_[1 - f].depth_at(corner.at), z = face_[f].z(corner.vertex), z_a = f == 0 ? z : depth,
+                 z_b = f == 0 ? depth : z;
     const FeatureId vertex{FeatureKind::Vertex, corner.vertex};
-    corners_.add(border, {{corner.at.x, corner.at.y, z_a}, z_b - z_a, f == 0 ? vertex : name_[0], f == 0 ? name_[1] : vertex});
+    corners_.add(border, {{corner.at.x, corner.at.y, z_a}, z_b - z_a, f == 0 ? vertex : name_[0], f == 0 ? name_[1] : vertex},
+                 wanted);
   }
 
   /// Adds the point where two sides cross, one of each face, or a corner of either within the bound of it.
-  void add_crossing(Border border, Event p, Event q) {
+  void add_crossing(Border border, Event p, Event q, bool wanted = true) {
     if (p.face == 1) std::swap(p, q);
     const Side &a = side(0, p.border), &b = side(1, q.border);
-    const double x = b.to.at.x - b.from.at.x, y = b.to.at.y - b.from.at.y;
-    const auto height = [&](const Vec& place) { return x * (place.y - b.from.at.y) - y * (place.x - b.from.at.x); };
+    const auto height = [&](const Place& place) { return cross(b.way, place - b.from.at); };
     const double h = height(a.from.at), h_to = height(a.to.at);
     // If the sides are nearly parallel, the first point on a is uncertain; the last one is the nearest to that on b.
-    const Vec on_b = b.at(b.along(a.at(h != h_to ? min(max(h / (h - h_to), 0), 1) : 0))), on_a = a.at(a.along(on_b));
-    const auto apart = [&](const Vec& place) {
-      const double dx = place.x - on_a.x, dy = place.y - on_a.y;
-      return std::sqrt(dx * dx + dy * dy);
-    };
+    const double t_b = b.along(a.at(h != h_to ? min(max(h / (h - h_to), 0), 1) : 0)), t_a = a.along(b.at(t_b));
+    const Place on_b = b.at(t_b), on_a = a.at(t_a);
+    const auto apart = [&](const Place& place) { return std::sqrt(dot(place - on_a, place - on_a)); };
     for (const Corner* c : {&a.from, &a.to}) {
-      if (apart(c->at) <= bound_) return add_corner(border, 0, *c);
+      if (apart(c->at) <= bound_) return add_corner(border, 0, *c, wanted);
     }
     for (const Corner* c : {&b.from, &b.to}) {
-      if (apart(c->at) <= bound_) return add_corner(border, 1, *c);
+      if (apart(c->at) <= bound_) return add_corner(border, 1, *c, wanted);
     }
     if (apart(on_b) > bound_) return;
-    corners_.add(border, {on_a, on_b.z - on_a.z, face_[0].edge_at(p.border, on_a), face_[1].edge_at(q.border, on_b)});
+    const double z_a = face_[0].z_at(a, t_a);
+    corners_.add(border,
+                 {{on_a.x, on_a.y, z_a},
+                  face_[1].z_at(b, t_b) - z_a,
+                  face_[0].edge_at(p.border, on_a),
+                  face_[1].edge_at(q.border, on_b)},
+                 wanted);
   }
 
   static constexpr int kNobody = -1;
@@ -302,6 +389,7 @@ class Sweep {
   SeenFace face_[2];
   const FeatureId name_[2];
   const double bound_;
+  const Place slope_;  ///< how the separation changes with x and y
   Candidates& corners_;
   int west_ = kNobody;  ///< before the intersection begins: the face to the left of the other one
   int leader_[2] = {};  ///< per border, the face whose border bounds the intersection
@@ -315,8 +403,8 @@ Projection::Projection(const PairView& pair, const Vec& n, const Vec& about, con
   const double sign = std::copysign(1.0, n.z), f = -1 / (sign + n.z), g = n.x * n.y * f;
   const Vec u{1 + sign * n.x * n.x * f, sign * g, -sign * n.x}, v{g, sign + n.y * n.y * f, -n.y};
   const double du = dot(u, side), dv = dot(v, side), length = std::sqrt(du * du + dv * dv);
-  const double c = length > 0 ? (kSweepCos * dv + kSweepSin * du) / length : 1,
-               s = length > 0 ? (kSweepSin * dv - kSweepCos * du) / length : 0;
+  const double c = length > 0 ? (kSweepCos * du + kSweepSin * dv) / length : 1,
+               s = length > 0 ? (kSweepCos * dv - kSweepSin * du) / length : 0;
   a.x = u * c + v * s;
   a.y = v * c - u * s;
   const auto seen = [&](const Vec& p) { return Vec{dot(a.x, p), dot(a.y, p), dot(n, p)}; };

@@ -14,16 +14,18 @@ struct SeenBody {
   const ConvexView& view;
   Vec x, y, n;  ///< the axes in the body's own frame, right-handed where the pose does not mirror
   Vec shift;
-  Vec operator()(std::uint32_t vertex) const {
+  Place at(std::uint32_t vertex) const {
     const Vec p = vec(view.vertices[vertex]);
-    return {dot(x, p) + shift.x, dot(y, p) + shift.y, dot(n, p) + shift.z};
+    return {dot(x, p) + shift.x, dot(y, p) + shift.y};
   }
+  double z(std::uint32_t vertex) const { return dot(n, vec(view.vertices[vertex])) + shift.z; }
 };
 
 /// The projections of both bodies of a pair along one normal of the common frame.
 struct Projection {
   /// `middle`, a point near both contact faces, is seen at 0. Axis x, which is the sweep line, and `side`, a side of a contact
   /// face, make an angle that no two sides of a regular polygon of up to 20 corners make: few sides are parallel to the line.
+  /// It is small, and the face above the side, so that the sweep begins nearby.
   Projection(const PairView& pair, const Vec& normal, const Vec& middle, const Vec& side);
   /// The point of the common frame, A's, whose projection is `seen`.
   Vec point(const Vec& seen) const { return middle + a.x * seen.x + a.y * seen.y + a.n * seen.z; }

@@ -24,6 +24,11 @@ Vec area_of(const ConvexView& view, std::uint32_t face) {
   return sum;
 }
 
+/// The unit normal of a face; 0 of a triangle that has none.
+Vec normal_of(const ConvexView& view, std::uint32_t face) {
+  return face < view.planes.size() ? vec(view.planes[face]) : normalised(area_of(view, face));
+}
+
 template <class Visit>
 void each_face_at(const ConvexView& view, FeatureId feature, Visit visit) {
   switch (feature.kind()) {
@@ -37,26 +42,20 @@ void each_face_at(const ConvexView& view, FeatureId feature, Visit visit) {
   }
 }
 
-/// A face, and its area_of.
-struct Facing {
-  std::uint32_t face = kNone;
-  Vec area{0, 0, 0};
-  double cosine = -2;
-};
-
 /// The face that faces along n best. Among equals it is the face of the manifold before, else the largest, because its plane is
 /// the most accurate.
-Facing best_facing(const ConvexView& view, const Vec& n, FeatureId feature, FeatureId before) {
-  Facing chosen;
-  double most = 0;
+std::uint32_t best_facing(const ConvexView& view, const Vec& n, FeatureId feature, FeatureId before) {
+  std::uint32_t chosen = kNone;
+  double most = -2;
+  const auto size = [&](std::uint32_t face) {
+    return FeatureId(FeatureKind::Face, face) == before ? std::numeric_limits<double>::infinity() : norm(area_of(view, face));
+  };
   each_face_at(view, feature, [&](std::uint32_t face) {
-    if (face == kNone || face == chosen.face) return;
-    const Vec area = area_of(view, face);
-    const double length = norm(area), cosine = length > 0 ? dot(area, n) / length : -1,
-                 size = FeatureId(FeatureKind::Face, face) == before ? std::numeric_limits<double>::infinity() : length;
-    if (cosine < chosen.cosine - kSameFacing || (cosine <= chosen.cosine + kSameFacing && size <= most)) return;
-    chosen = {face, area, cosine};
-    most = size;
+    if (face == kNone || face == chosen) return;
+    const Vec normal = normal_of(view, face);
+    const double cosine = dot(normal, normal) > 0 ? dot(normal, n) : -1;
+    if (cosine < most - kSameFacing || (cosine <= most + kSameFacing && size(face) <= size(chosen))) return;
+    chosen = face, most = cosine;
   });
   return chosen;
 }
@@ -65,15 +64,14 @@ Facing best_facing(const ConvexView& view, const Vec& n, FeatureId feature, Feat
 
 ContactFace::ContactFace(const ConvexView& view, const Vec& n, FeatureId feature, FeatureId before, double flatness)
     : view_(view), flatness_(kWalkingFaceUlps * kFloatUlp * view.extent) {
-  const Facing top = best_facing(view, n, feature, before);
-  if (top.face == kNone) {
+  top_ = best_facing(view, n, feature, before);
+  if (top_ == kNone) {
     side_ = view.half_edges.empty() ? kNone : 0;
     return;
   }
   const double height = max(0, min(flatness, kMostFlatness)) * view.extent;
   flatness_ = max(flatness_, height);
-  top_ = top.face;
-  normal_ = normalised(top.area);
+  normal_ = normal_of(view, top_);
   least_height_ = dot(normal_, point(view, origin(view, view.face_first[top_]))) - height;
   side_ = border();
   if (side_ != kNone) return;
@@ -87,38 +85,16 @@ FeatureId ContactFace::name() const {
   return {FeatureKind::Vertex, 0};
 }
 
-std::uint32_t ContactFace::next(std::uint32_t side) const {
-  std::uint32_t h = next_in_facet(view_, side);
-  while (is_left_of(view_.half_edges[h].twin)) h = clockwise(view_.vertices[origin(view_, h)], h);
-  return h;
-}
-
-std::uint32_t ContactFace::previous(std::uint32_t side) const {
-  const Vertex& ring = view_.vertices[origin(view_, side)];
-  std::uint32_t h = counter_clockwise(ring, side);
-  while (is_left_of(h)) h = counter_clockwise(ring, h);
-  return view_.half_edges[h].twin;
-}
-
-/// Tests a corner across the face first: mostly it decides. It is a corner of the face's loop, as `holds` tests these alone.
-bool ContactFace::is_left_of(std::uint32_t half_edge) const {
-  const std::uint32_t face = view_.half_edges[half_edge].face;
-  if (face == top_ || face == kNone) return face != kNone;
-  if (is_diagonal(view_, half_edge)) return holds(face);
-  const Vec across = point(view_, view_.half_edges[next_in_face(view_, half_edge)].head);
-  return dot(normal_, across) >= least_height_ && holds(face);
-}
-
 bool ContactFace::holds(std::uint32_t face) const {
   if (face == top_ || face == kNone) return face != kNone;
+  if (!(dot(normal_, normal_of(view_, face)) > 0.5)) return false;  // a side of a thin body, or its other face
   const std::uint32_t first = view_.face_first[face];
   std::uint32_t h = first;
   do {
     if (!(dot(normal_, point(view_, view_.half_edges[h].head)) >= least_height_)) return false;
     h = next_in_face(view_, h);
   } while (h != first);
-  const Vec area = area_of(view_, face);
-  return dot(normal_, area) > 0.5 * norm(area);  // not a side of a thin body, nor its other face
+  return true;
 }
 
 /// A half-edge of the contact face's border. Mostly it is a side of the face; where another facet of the same plane lies

@@ -7,6 +7,7 @@
 
 #include <swiftlet/model.h>
 
+#include "body/half_edge.h"
 #include "numeric/vec.h"
 
 namespace swiftlet {
@@ -22,17 +23,36 @@ class ContactFace {
 
   /// The face; of a body without faces its edge, or its vertex.
   FeatureId name() const;
+  /// Of the face, unit, own frame; 0 of a body without faces.
+  const Vec& normal() const { return normal_; }
   /// The height within which its corners lie in one plane, a length: the border may turn inwards by about as much.
   double flatness() const { return flatness_; }
   /// A half-edge of the border, which leaves the face on its left; kNone of a point.
   std::uint32_t side() const { return side_; }
-  /// The side that starts where `side` ends, and the one that ends where it starts.
-  std::uint32_t next(std::uint32_t side) const;
-  std::uint32_t previous(std::uint32_t side) const;
+  /// The half-edge that goes on along the border where `h` ends, and leaves the face on the same side as `h`.
+  std::uint32_t onward(std::uint32_t h, bool is_left) const {
+    const HalfEdge& last = view_.half_edges[h];
+    const Vertex& ring = view_.vertices[last.head];
+    std::uint32_t next = last.twin;
+    if (is_left) {
+      std::uint32_t beside = clockwise(ring, next);
+      do next = beside, beside = clockwise(ring, next);
+      while (holds(view_.half_edges[beside].face, beside));
+    } else {
+      std::uint32_t beside = counter_clockwise(ring, next);
+      do next = beside, beside = counter_clockwise(ring, next);
+      while (holds(view_.half_edges[next].face, beside));
+    }
+    return next;
+  }
 
  private:
   bool holds(std::uint32_t face) const;
-  bool is_left_of(std::uint32_t half_edge) const;
+  /// The same; `h` ends at a corner of the face, which mostly decides.
+  bool holds(std::uint32_t face, std::uint32_t h) const {
+    if (face == top_ || face == kNone) return face != kNone;
+    return dot(normal_, vec(view_.vertices[view_.half_edges[h].head])) >= least_height_ && holds(face);
+  }
   std::uint32_t border() const;
 
   const ConvexView& view_;

@@ -255,11 +255,13 @@ inline constexpr double kSameFacing = 0x1p-43;
 /// The points of a manifold give way to others that have more area by more than this fraction. That is enough to keep the
 /// corners of a regular polygon, of which any four opposite ones are equally good, from taking turns.
 inline constexpr double kKeptWorth = 0.0625;
-/// The most corners of a common area that a manifold is chosen from, beside those of the previous manifold: the deepest, the
-/// last ones of both borders, and nine others. A count.
-inline constexpr int kMostCorners = 12;
-/// Cosine and sine of 12.7 degrees: the angle between the first side of a face and the line that sweeps over it differs from a
-/// right angle by that much. No side of a regular polygon of up to 20 corners is then within 0.1 degrees of the line.
+/// The most corners of a common area that a manifold is chosen from, beside those of the previous manifold; of more, those stay
+/// whose chords cut off equal areas, three quarters of as many or more. A count.
+inline constexpr int kMostCorners = 16;
+/// What a chord between such corners may cut off at first, over the area up to there; it is doubled until few corners stay.
+inline constexpr double kLeastChord = 0x1p-12;
+/// Cosine and sine of 12.7 degrees: the angle between the first side of a face and the line that sweeps over it. No side of a
+/// regular polygon of up to 20 corners is then within 0.1 degrees of the line.
 inline constexpr double kSweepCos = 40.0 / 41, kSweepSin = 9.0 / 41;
 
 // ---- Bounds on work: counts and dimensionless factors -----------------------------------------------------------------------
