@@ -25,7 +25,7 @@ void Candidates::add(Border border, const Candidate& candidate, bool wanted) {
   if (count_[0] + count_[1] == kMostCorners) thin();
   const std::size_t side = std::size_t(border);
   row(border, count_[side]++) = candidate;
-  last_[side] = candidate.place(), cut_off_[side] = 0;
+  last_[side] = {border == Border::Left ? -candidate.on_a.x : candidate.on_a.x, candidate.on_a.y}, cut_off_[side] = 0;
 }
 
 void Candidates::add_deepest(const Candidate& candidate) {

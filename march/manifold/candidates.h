@@ -51,8 +51,8 @@ class Candidates {
   /// Corners with a separation above `farthest` are left out.
   Candidates(double farthest, const Manifold& previous);
 
-  /// Whether to add the next corner of a border, which goes on from there to `next`: if not, a chord cuts off little. `rise`: the
-  /// separation rises there from then on if it is at least 0.
+  /// Whether to add the next corner of a border, which goes on from there to `next`: if not, a chord cuts off little. The left
+  /// border's places are mirrored. `rise`: the separation rises from there on if it is at least 0.
   bool wants(Border border, const Place& at, const Place& next, double rise) {
     return !is_crowded_ || cuts(border, at, next) || turns(border, rise);
   }

@@ -26,11 +26,9 @@ namespace swiftlet {
 namespace {
 
 constexpr Border kBorders[] = {Border::Left, Border::Right};
-Border opposite(Border border) { return border == Border::Left ? Border::Right : Border::Left; }
+constexpr Border opposite(Border border) { return border == Border::Left ? Border::Right : Border::Left; }
 
-/// Returns true if `p` lies below `q`, or at the same height to the left of it.
-bool is_below(const Place& p, const Place& q) { return p.y < q.y || (p.y == q.y && p.x < q.x); }
-
+/// A corner as its border sees it: x grows outwards, so that both borders are alike.
 struct Corner {
   Place at;
   std::uint32_t vertex;
@@ -52,197 +50,197 @@ struct Side {
     const double t = dot(place - from.at, way);
     return length2 > 0 && t > 0 ? min(t / length2, 1) : 0;
   }
+  /// Twice the area of the side and a place, positive where that lies outside.
+  double beyond(const Place& place) const { return cross(place - from.at, way); }
+
+  void lead(const Corner& corner, std::uint32_t h) {
+    to = corner, half_edge = h;
+    way = to.at - from.at;
+    length2 = dot(way, way);
+  }
 };
 
 /// On which side of a border's side a place lies whose height is between those of its ends.
-enum class Where { Left, On, Right };
+enum class Where { Inside, On, Outside };
 Where where(const Place& place, const Side& side, double bound) {
-  const Place p = place - side.from.at;
-  const double area = cross(side.way, p);
-  if (area * area > bound * bound * side.length2) return area > 0 ? Where::Left : Where::Right;
+  const double area = side.beyond(place);
+  if (area * area > bound * bound * side.length2) return area > 0 ? Where::Outside : Where::Inside;
   // The line is within the bound; the side itself may not be, if it is nearly horizontal.
-  const double dx = side.way.x;
-  if (p.x < min(dx, 0) - bound) return side.length2 - dx * dx > dx * dx ? Where::On : Where::Left;
-  if (p.x > max(dx, 0) + bound) return side.length2 - dx * dx > dx * dx ? Where::On : Where::Right;
+  const double dx = side.way.x, x = place.x - side.from.at.x;
+  if (x < min(dx, 0) - bound) return side.length2 - dx * dx > dx * dx ? Where::On : Where::Inside;
+  if (x > max(dx, 0) + bound) return side.length2 - dx * dx > dx * dx ? Where::On : Where::Outside;
   return Where::On;
 }
 
-/// A contact face as a projection shows it, from its lowest corner to its highest.
-class SeenFace {
+/// One of the two borders of a contact face as a projection shows it, from its lowest corner to its highest.
+class SeenBorder {
  public:
-  SeenFace(const SeenBody& body, const ContactFace& face, double bound)
-      : body_(body), face_(face), bound_(bound), is_ccw_(dot(cross(body.x, body.y), face.normal()) >= 0) {
-    const bool is_point = face.side() == kNone;
-    const std::uint32_t below = is_point ? kNone : lowest_side();
-    const Corner lowest = is_point ? Corner{body.at(0), 0} : start_of(below);
-    for (Chain& chain : chain_) chain.side = {lowest, lowest, {0, 0}, 0, below, false};
-    for (const Border border : kBorders) {
-      Chain& chain = chain_[std::size_t(border)];
-      if (is_point) continue;
-      chain.half_edge = is_left(border) ? below : face_.onward(twin(below), false);
-      chain.next = end_of(chain.half_edge);
-      advance(border);
-    }
+  /// Begins at the origin of `half_edge`, a side of the face, or at the only vertex of a body without sides.
+  SeenBorder(const SeenBody& body, const ContactFace& face, Border border, std::uint32_t half_edge, double bound)
+      : body_(body),
+        face_(face),
+        bound_(bound),
+        outwards_(border == Border::Left ? -1 : 1),
+        is_left_((dot(cross(body.x, body.y), face.normal()) >= 0) == (border == Border::Right)) {
+    const bool is_point = half_edge == kNone;
+    const Corner lowest = is_point ? corner(0) : end_of(twin(half_edge));
+    side_ = {lowest, lowest, {0, 0}, 0, half_edge, false};
+    if (is_point) return;
+    half_edge_ = is_left_ ? half_edge : face.onward(twin(half_edge), false);
+    next_ = end_of(half_edge_);
   }
 
-  /// Where both borders begin, as long as neither has gone on from its first side.
-  const Corner& lowest() const { return chain_[0].side.from; }
-  const Side& operator[](Border border) const { return chain_[std::size_t(border)].side; }
-  /// The borders end where they meet.
-  bool is_at_top(Border border) const { return (*this)[border].to.vertex == (*this)[opposite(border)].to.vertex; }
-  /// The corner after the side of a border that is not at the top.
-  const Corner& next(Border border) const { return chain_[std::size_t(border)].next; }
-
-  /// Moves a border on to the next side of its convex hull; must not be called at the top.
-  void advance(Border border) {
-    Chain& chain = chain_[std::size_t(border)];
-    Side& side = chain.side;
-    const std::uint32_t top = (*this)[opposite(border)].to.vertex;
-    side.from = side.to, side.is_chord = false;
-    lead(side, chain.next, chain.half_edge);
-    do {
-      if (side.to.vertex == top) return;
-      chain.half_edge = face_.onward(side.half_edge, is_left(border));
-      chain.next = end_of(chain.half_edge);
-    } while (!turns_in(side, border, chain.next) && extend(side, border, chain.half_edge, top));
+  const Side& side() const { return side_; }
+  const Corner& end() const { return side_.to; }
+  /// The corner after the side; has no meaning where both borders have met.
+  const Corner& next() const { return next_; }
+  /// A place of the projection as the border sees it, and back.
+  Place seen(const Place& place) const { return {place.x * outwards_, place.y}; }
+  /// The side as the projection shows it.
+  Side plain() const {
+    Side side = side_;
+    for (Place* place : {&side.from.at, &side.to.at, &side.way}) *place = seen(*place);
+    return side;
   }
-
-  /// The coordinate along the normal at a place: interpolated between the borders, or that of the nearer border outside.
-  double depth_at(const Place& place) const {
-    const Side &left = chain_[0].side, &right = chain_[1].side;
-    const double t_left = left.rise(place.y), t_right = right.rise(place.y), x_left = left.at(t_left).x,
-                 x_right = right.at(t_right).x;
-    if (x_left < place.x && place.x < x_right) {
-      const double z = z_at(left, t_left);
-      return z + (z_at(right, t_right) - z) * ((place.x - x_left) / (x_right - x_left));
-    }
-    const Side& side = place.x <= x_left ? left : right;
-    return z_at(side, side.along(place));
-  }
-  double z_at(const Side& side, double t) const {
-    const double z = body_.z(side.from.vertex);
-    return z + (body_.z(side.to.vertex) - z) * t;
-  }
+  /// The coordinate along the normal of a vertex, and of a place on the side.
   double z(std::uint32_t vertex) const { return body_.z(vertex); }
+  double z_at(double t) const {
+    const double z = body_.z(side_.from.vertex);
+    return z + (body_.z(side_.to.vertex) - z) * t;
+  }
 
-  /// Names the edge of a side that is no chord.
-  FeatureId edge(Border border) const { return named(body_.view, {FeatureKind::Edge, (*this)[border].half_edge}); }
-  /// Names the edge at a place of a side; of a chord, the edge that it cuts off there.
-  FeatureId edge_at(Border border, const Place& place) const {
-    const Side& side = (*this)[border];
-    std::uint32_t back = twin(side.half_edge);
-    while (side.is_chord) {
+  /// Moves on to the next side of the face's convex hull, up to vertex `top`.
+  void advance(std::uint32_t top) {
+    side_.from = side_.to, side_.is_chord = false;
+    side_.lead(next_, half_edge_);
+    do {
+      if (side_.to.vertex == top) return;
+      half_edge_ = face_.onward(side_.half_edge, is_left_);
+      next_ = end_of(half_edge_);
+    } while (!turns_in(next_) && extend(half_edge_, top));
+  }
+
+  /// Names the edge at a place of the side; of a chord, the edge that it cuts off there.
+  FeatureId edge_at(const Place& place) const {
+    std::uint32_t back = twin(side_.half_edge);
+    while (side_.is_chord) {
       const Corner from = end_of(back);
-      if (from.vertex == side.from.vertex || dot(place - from.at, side.way) >= 0) break;
-      back = face_.onward(back, !is_left(border));
+      if (from.vertex == side_.from.vertex || dot(place - from.at, side_.way) >= 0) break;
+      back = face_.onward(back, !is_left_);
     }
     return named(body_.view, {FeatureKind::Edge, back});
   }
 
  private:
-  struct Chain {
-    Side side;                ///< at the height of the sweep line
-    Corner next;              ///< the corner after it
-    std::uint32_t half_edge;  ///< the half-edge that ends there
-  };
-
   std::uint32_t twin(std::uint32_t half_edge) const { return body_.view.half_edges[half_edge].twin; }
-  Corner end_of(std::uint32_t half_edge) const {
-    const std::uint32_t vertex = body_.view.half_edges[half_edge].head;
-    return {body_.at(vertex), vertex};
-  }
-  Corner start_of(std::uint32_t half_edge) const { return end_of(twin(half_edge)); }
-  /// Returns true if half-edges that point upwards along the border have the face on their left.
-  bool is_left(Border border) const { return is_ccw_ == (border == Border::Right); }
+  Corner corner(std::uint32_t vertex) const { return {seen(body_.at(vertex)), vertex}; }
+  Corner end_of(std::uint32_t half_edge) const { return corner(body_.view.half_edges[half_edge].head); }
 
-  /// The half-edge of the border that leaves its lowest corner: where the border rises on both sides, by more than the border of
-  /// merged facets may turn inwards.
-  std::uint32_t lowest_side() const {
-    const std::uint32_t first = face_.side();
-    std::uint32_t side = first;
-    Place lowest = start_of(first).at;
-    const double more = 2 * face_.flatness();
-    for (std::uint32_t h = first;;) {
-      const Place place = end_of(h).at;
-      h = face_.onward(h, true);
-      if (place.y > lowest.y + more || h == first) break;
-      if (is_below(place, lowest)) lowest = place, side = h;
-    }
-    const std::uint32_t last = face_.onward(twin(first), false);
-    for (std::uint32_t h = last;;) {
-      const Place place = end_of(h).at;
-      if (place.y > lowest.y + more) break;
-      if (is_below(place, lowest)) lowest = place, side = twin(h);
-      h = face_.onward(h, false);
-      if (h == last) break;
-    }
-    return side;
-  }
-
-  static void lead(Side& side, const Corner& to, std::uint32_t half_edge) {
-    side.to = to, side.half_edge = half_edge;
-    side.way = to.at - side.from.at;
-    side.length2 = dot(side.way, side.way);
-  }
-  bool falls(const Side& side) const { return side.way.y < -bound_; }
-  /// Twice the area of a side and a corner, positive where that lies beyond the side.
-  static double beyond(const Side& side, Border border, const Corner& corner) {
-    const double area = cross(side.way, corner.at - side.from.at);
-    return border == Border::Left ? area : -area;
-  }
-  bool turns_in(const Side& side, Border border, const Corner& next) const {
-    const double out = beyond(side, border, next);
-    return out < 0 && out * out > face_.flatness() * face_.flatness() * side.length2 && !falls(side);
+  bool falls() const { return side_.way.y < -bound_; }
+  bool turns_in(const Corner& next) const {
+    const double out = side_.beyond(next.at);
+    return out < 0 && out * out > face_.flatness() * face_.flatness() * side_.length2 && !falls();
   }
   /// A border of merged facets may turn inwards by up to the face's flatness: corners are looked at until one lies farther inside
   /// of the side than that. If one lies beyond, the side becomes a chord to it, and true is returned. A border that is jagged by
   /// more is followed to the next corner that is no lower. `h` ends at the corner after the side.
-  bool extend(Side& side, Border border, std::uint32_t h, std::uint32_t top) const {
-    for (;; h = face_.onward(h, is_left(border))) {
+  bool extend(std::uint32_t h, std::uint32_t top) {
+    for (;; h = face_.onward(h, is_left_)) {
       const Corner corner = end_of(h);
-      const double out = beyond(side, border, corner);
-      if (falls(side) || (out > 0 && out * out > 0.25 * bound_ * bound_ * side.length2)) {
-        lead(side, corner, h);
-        return side.is_chord = true;
+      const double out = side_.beyond(corner.at);
+      if (falls() || (out > 0 && out * out > 0.25 * bound_ * bound_ * side_.length2)) {
+        side_.lead(corner, h);
+        return side_.is_chord = true;
       }
-      if (turns_in(side, border, corner) || corner.vertex == top) return false;
+      if (turns_in(corner) || corner.vertex == top) return false;
     }
   }
 
   const SeenBody& body_;
   const ContactFace& face_;
-  const double bound_;
-  const bool is_ccw_;  ///< the border's sense in the projection, where B is seen from inside unless the pose mirrors it
-  Chain chain_[2];     ///< the left and the right border
+  const double bound_, outwards_;
+  const bool is_left_;       ///< half-edges that point upwards have the face on their left
+  Side side_;                ///< at the height of the sweep line
+  Corner next_;              ///< the corner after it
+  std::uint32_t half_edge_;  ///< the half-edge that ends there
 };
+
+/// The half-edge of a face that leaves its lowest corner: where the border rises on both sides, by more than the border of merged
+/// facets may turn inwards.
+std::uint32_t lowest_side(const SeenBody& body, const ContactFace& face) {
+  const std::uint32_t first = face.side();
+  if (first == kNone) return kNone;
+  const auto end_of = [&](std::uint32_t h) { return body.at(body.view.half_edges[h].head); };
+  const auto twin = [&](std::uint32_t h) { return body.view.half_edges[h].twin; };
+  std::uint32_t side = first;
+  Place lowest = end_of(twin(first));
+  const auto is_lower = [&](const Place& p) { return p.y < lowest.y || (p.y == lowest.y && p.x < lowest.x); };
+  const double more = 2 * face.flatness();
+  for (std::uint32_t h = first;;) {
+    const Place place = end_of(h);
+    h = face.onward(h, true);
+    if (place.y > lowest.y + more || h == first) break;
+    if (is_lower(place)) lowest = place, side = h;
+  }
+  const std::uint32_t last = face.onward(twin(first), false);
+  for (std::uint32_t h = last;;) {
+    const Place place = end_of(h);
+    if (place.y > lowest.y + more) break;
+    if (is_lower(place)) lowest = place, side = twin(h);
+    h = face.onward(h, false);
+    if (h == last) break;
+  }
+  return side;
+}
 
 class Sweep {
  public:
   Sweep(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound, Candidates& corners)
-      : face_{SeenFace(projection.a, a, bound), SeenFace(projection.b, b, bound)},
-        name_{a.name(), b.name()},
-        bound_(bound),
-        slope_(slope(projection.b, b) - slope(projection.a, a)),
-        corners_(corners) {}
+      : Sweep(projection, a, b, lowest_side(projection.a, a), lowest_side(projection.b, b), bound, corners) {}
 
   void run() {
     if (!begin()) return;
+    int first[] = {ends_first(Border::Left), ends_first(Border::Right)};
     for (;;) {
-      const auto [f, border] = lowest_event();
-      if (!meet(f, border)) return;
-      if (face_[f].is_at_top(border)) return end(f, border);
-      face_[f].advance(border);
+      const Border border = is_below(at(Border::Right, first[1]), at(Border::Left, first[0])) ? Border::Right : Border::Left;
+      int& f = first[std::size_t(border)];
+      if (!meet(border, f)) return;
+      if (is_at_top(f)) return end(border, f);
+      advance(border, f);
+      f = ends_first(border);
     }
   }
 
  private:
-  struct Event {
-    int face;
-    Border border;
-  };
+  Sweep(const Projection& projection, const ContactFace& a, const ContactFace& b, std::uint32_t from_a, std::uint32_t from_b,
+        double bound, Candidates& corners)
+      : border_{{projection.a, a, Border::Left, from_a, bound},
+                {projection.b, b, Border::Left, from_b, bound},
+                {projection.a, a, Border::Right, from_a, bound},
+                {projection.b, b, Border::Right, from_b, bound}},
+        name_{a.name(), b.name()},
+        bound_(bound),
+        slope_(slope(projection.b, b) - slope(projection.a, a)),
+        corners_(corners) {
+    for (const int f : {0, 1}) {
+      for (const Border border : kBorders) {
+        if ((f == 0 ? from_a : from_b) != kNone) advance(border, f);
+      }
+    }
+  }
 
-  const Side& side(int f, Border border) const { return face_[f][border]; }
+  SeenBorder& at(Border border, int f) { return border_[2 * std::size_t(border) + std::size_t(f)]; }
+  const SeenBorder& at(Border border, int f) const { return border_[2 * std::size_t(border) + std::size_t(f)]; }
   int& leader(Border border) { return leader_[std::size_t(border)]; }
+
+  /// Both borders of a face end where they meet.
+  bool is_at_top(int f) const { return at(Border::Left, f).end().vertex == at(Border::Right, f).end().vertex; }
+  void advance(Border border, int f) { at(border, f).advance(at(opposite(border), f).end().vertex); }
+
+  /// Returns true if the side of `p` ends below that of `q`, or at the same height to the left of it.
+  static bool is_below(const SeenBorder& p, const SeenBorder& q) { return is_below(p.seen(p.end().at), q.seen(q.end().at)); }
+  static bool is_below(const Place& p, const Place& q) { return p.y < q.y || (p.y == q.y && p.x < q.x); }
+  int ends_first(Border border) const { return is_below(at(border, 1), at(border, 0)); }
 
   /// How the height of a face's plane along the normal changes with x and y.
   static Place slope(const SeenBody& seen, const ContactFace& face) {
@@ -250,143 +248,150 @@ class Sweep {
     return Place{dot(seen.x, m), dot(seen.y, m)} * (-1 / dot(seen.n, m));
   }
 
+  Where where(const Place& place, Border border, int f) const {
+    const SeenBorder& b = at(border, f);
+    return swiftlet::where(b.seen(place), b.side(), bound_);
+  }
+
   /// Starts at the higher of the two lowest corners. Returns false if the other face ends below it.
   bool begin() {
-    const int f = is_below(face_[0].lowest().at, face_[1].lowest().at) ? 1 : 0, other = 1 - f;
-    const Corner& lowest = face_[f].lowest();
+    const auto lowest_of = [&](int f) { return at(Border::Right, f).side().from; };
+    const int f = is_below(lowest_of(0).at, lowest_of(1).at) ? 1 : 0, other = 1 - f;
+    const Corner lowest = lowest_of(f);
     for (const Border border : kBorders) {
-      while (!is_below(lowest.at, side(other, border).to.at)) {
-        if (face_[other].is_at_top(border)) return false;
-        face_[other].advance(border);
+      for (const SeenBorder& b = at(border, other); !is_below(lowest.at, b.seen(b.end().at)); advance(border, other)) {
+        if (is_at_top(other)) return false;
       }
     }
-    if (where(lowest.at, side(other, Border::Left), bound_) == Where::Left) {
+    if (where(lowest.at, Border::Left, other) == Where::Outside) {
       west_ = f;
-    } else if (where(lowest.at, side(other, Border::Right), bound_) == Where::Right) {
+    } else if (where(lowest.at, Border::Right, other) == Where::Outside) {
       west_ = other;
     } else {
       leader(Border::Left) = leader(Border::Right) = f;
-      add_corner(Border::Left, f, lowest);
+      add_corner(Border::Left, f, lowest.at, lowest.vertex);
     }
     return true;
   }
 
-  Event lowest_event() const {
-    Event lowest{0, Border::Left};
-    for (const Event e : {Event{0, Border::Right}, Event{1, Border::Left}, Event{1, Border::Right}}) {
-      if (is_below(side(e.face, e.border).to.at, side(lowest.face, lowest.border).to.at)) lowest = e;
-    }
-    return lowest;
-  }
-
   /// Handles the upper end of a side of face `f`. Returns false if the intersection ends at or below it.
-  bool meet(int f, Border border) {
-    const Corner& corner = side(f, border).to;
+  bool meet(Border border, int f) {
+    if (west_ != kNobody && !overlap_begins(border, f)) return true;
     const int other = 1 - f;
-    if (west_ != kNobody && !overlap_begins(f, corner)) return true;
-
     const Border across = opposite(border);
-    if (where(corner.at, side(other, across), bound_) == outside(across)) {
+    const Place& place = at(border, f).end().at;
+    if (is_across(place, at(across, other).side())) {
       if (leader(border) != f) add_crossing(border, {f, border}, {other, border});
       if (leader(across) != other) add_crossing(across, {f, across}, {other, across});
       add_crossing(border, {f, border}, {other, across});
       return false;
     }
-    const Where now = where(corner.at, side(other, border), bound_);
-    const int next = leader(border) == f && now == outside(border)      ? other
-                     : leader(border) == other && now == outside(across) ? f
-                                                                         : leader(border);
-    if (next != leader(border)) turn_off(border, next);
-    if (next == f) pass(border, f);
+    const Where now = swiftlet::where(place, at(border, other).side(), bound_);
+    if (now == (leader(border) == f ? Where::Outside : Where::Inside)) turn_off(border, 1 - leader(border));
+    if (leader(border) == f) pass(border, f);
     return true;
   }
 
-  /// Returns true if face `west_` no longer lies to the left of the other one at the height of `corner`.
-  bool overlap_begins(int f, const Corner& corner) {
-    const int east = 1 - west_;
-    const Where now =
-        f == west_ ? where(corner.at, side(east, Border::Left), bound_) : where(corner.at, side(west_, Border::Right), bound_);
-    if (now == (f == west_ ? Where::Left : Where::Right)) return false;
-    add_crossing(Border::Left, {west_, Border::Right}, {east, Border::Left});
-    leader(Border::Left) = east, leader(Border::Right) = west_;
+  /// Returns true if a place of one border lies outside of a side of the other, which sees it mirrored.
+  bool is_across(const Place& place, const Side& side) const {
+    return -place.x >= min(side.from.at.x, side.to.at.x) - bound_ &&
+           swiftlet::where({-place.x, place.y}, side, bound_) == Where::Outside;
+  }
+
+  /// Returns true if face `west_` no longer lies to the left of the other one at the height of this corner.
+  bool overlap_begins(Border border, int f) {
+    const SeenBorder& own = at(border, f);
+    if (where(own.seen(own.end().at), f == west_ ? Border::Left : Border::Right, 1 - f) == Where::Outside) return false;
+    add_crossing(Border::Left, {west_, Border::Right}, {1 - west_, Border::Left});
+    leader(Border::Left) = 1 - west_, leader(Border::Right) = west_;
     west_ = kNobody;
     return true;
   }
 
   /// Handles the top of face `f`, which `border` has reached; the other border reaches it too.
-  void end(int f, Border border) {
-    const Corner top = side(f, border).to;
-    if (!meet(f, opposite(border)) || west_ != kNobody) return;
+  void end(Border border, int f) {
+    const SeenBorder& own = at(border, f);
+    const Place top = own.seen(own.end().at);
+    if (!meet(opposite(border), f) || west_ != kNobody) return;
     for (const Border b : kBorders) {
-      if (where(top.at, side(1 - f, b), bound_) == outside(b)) return;
+      if (where(top, b, 1 - f) == Where::Outside) return;
     }
-    add_corner(border, f, top);
+    add_corner(border, f, top, own.end().vertex);
   }
-
-  /// False if the manifold before surely names no point of this side.
-  bool may_know(int f, Border border) const {
-    return side(f, border).is_chord || corners_.may_know(f, face_[f].edge(border).index());
-  }
-
-  static Where outside(Border border) { return border == Border::Left ? Where::Left : Where::Right; }
 
   /// Passes the upper end of a side of face `f`, which leads the border. Of many corners only few are worth their names and
   /// depths.
   void pass(Border border, int f) {
-    const Side& s = side(f, border);
-    if (face_[f].is_at_top(border)) return add_corner(border, f, s.to);
-    const Place& next = face_[f].next(border).at;
-    const bool wanted = corners_.wants(border, s.to.at, next, dot(next - s.to.at, slope_));
-    if (wanted || corners_.may_know(f, s.to.vertex)) add_corner(border, f, s.to, wanted);
+    const SeenBorder& own = at(border, f);
+    const Corner& corner = own.end();
+    const bool wanted =
+        is_at_top(f) || corners_.wants(border, corner.at, own.next().at, rise(own, own.next().at - corner.at));
+    if (wanted || corners_.may_know(f, corner.vertex)) add_corner(border, f, own.seen(corner.at), corner.vertex, wanted);
   }
 
   /// Passes the lead on a border to face `f` where its side crosses the one that led.
   void turn_off(Border border, int f) {
     leader(border) = f;
-    const Side &from = side(1 - f, border), &to = side(f, border);
-    const bool wanted = corners_.wants(border, from.from.at, from.to.at, to.to.at, dot(to.way, slope_));
-    if (wanted || (may_know(f, border) && may_know(1 - f, border)))
-      add_crossing(border, {0, border}, {1, border}, wanted);
+    const SeenBorder &from = at(border, 1 - f), &to = at(border, f);
+    const bool wanted = corners_.wants(border, from.side().from.at, from.end().at, to.end().at, rise(to, to.side().way));
+    if (wanted || (may_know(f, to) && may_know(1 - f, from))) add_crossing(border, {0, border}, {1, border}, wanted);
+  }
+
+  /// How much the separation rises along a way that a border sees.
+  double rise(const SeenBorder& border, const Place& way) const { return dot(slope_, border.seen(way)); }
+  /// False if the manifold before surely names no point of this side.
+  bool may_know(int f, const SeenBorder& border) const {
+    return border.side().is_chord || corners_.may_know(f, border.edge_at({}).index());
   }
 
   /// Adds a corner of face `f` that lies within the other face.
-  void add_corner(Border border, int f, const Corner& corner, bool wanted = true) {
-    const double depth = face_[1 - f].depth_at(corner.at), z = face_[f].z(corner.vertex), z_a = f == 0 ? z : depth,
-                 z_b = f == 0 ? depth : z;
-    const FeatureId vertex{FeatureKind::Vertex, corner.vertex};
-    corners_.add(border, {{corner.at.x, corner.at.y, z_a}, z_b - z_a, f == 0 ? vertex : name_[0], f == 0 ? name_[1] : vertex},
-                 wanted);
+  void add_corner(Border border, int f, const Place& place, std::uint32_t v, bool wanted = true) {
+    const double depth = depth_at(1 - f, place), z = at(border, f).z(v), z_a = f == 0 ? z : depth, z_b = f == 0 ? depth : z;
+    const FeatureId vertex{FeatureKind::Vertex, v};
+    corners_.add(border, {{place.x, place.y, z_a}, z_b - z_a, f == 0 ? vertex : name_[0], f == 0 ? name_[1] : vertex}, wanted);
   }
 
+  /// The coordinate along the normal at a place of a face: interpolated between its borders, or that of the nearer one outside.
+  double depth_at(int f, const Place& place) const {
+    const SeenBorder &left = at(Border::Left, f), &right = at(Border::Right, f);
+    const double t_left = left.side().rise(place.y), t_right = right.side().rise(place.y),
+                 x_left = left.seen(left.side().at(t_left)).x, x_right = right.seen(right.side().at(t_right)).x;
+    if (x_left < place.x && place.x < x_right) {
+      const double z = left.z_at(t_left);
+      return z + (right.z_at(t_right) - z) * ((place.x - x_left) / (x_right - x_left));
+    }
+    const SeenBorder& nearer = place.x <= x_left ? left : right;
+    return nearer.z_at(nearer.side().along(nearer.seen(place)));
+  }
+
+  struct Which {
+    int face;
+    Border border;
+  };
   /// Adds the point where two sides cross, one of each face, or a corner of either within the bound of it.
-  void add_crossing(Border border, Event p, Event q, bool wanted = true) {
+  void add_crossing(Border border, Which p, Which q, bool wanted = true) {
     if (p.face == 1) std::swap(p, q);
-    const Side &a = side(0, p.border), &b = side(1, q.border);
-    const auto height = [&](const Place& place) { return cross(b.way, place - b.from.at); };
-    const double h = height(a.from.at), h_to = height(a.to.at);
+    const SeenBorder &of_a = at(p.border, 0), &of_b = at(q.border, 1);
+    const Side a = of_a.plain(), b = of_b.plain();
+    const double h = b.beyond(a.from.at), h_to = b.beyond(a.to.at);
     // If the sides are nearly parallel, the first point on a is uncertain; the last one is the nearest to that on b.
     const double t_b = b.along(a.at(h != h_to ? min(max(h / (h - h_to), 0), 1) : 0)), t_a = a.along(b.at(t_b));
     const Place on_b = b.at(t_b), on_a = a.at(t_a);
-    const auto apart = [&](const Place& place) { return std::sqrt(dot(place - on_a, place - on_a)); };
+    const auto is_near = [&](const Place& place) { return std::sqrt(dot(place - on_a, place - on_a)) <= bound_; };
     for (const Corner* c : {&a.from, &a.to}) {
-      if (apart(c->at) <= bound_) return add_corner(border, 0, *c, wanted);
+      if (is_near(c->at)) return add_corner(border, 0, c->at, c->vertex, wanted);
     }
     for (const Corner* c : {&b.from, &b.to}) {
-      if (apart(c->at) <= bound_) return add_corner(border, 1, *c, wanted);
+      if (is_near(c->at)) return add_corner(border, 1, c->at, c->vertex, wanted);
     }
-    if (apart(on_b) > bound_) return;
-    const double z_a = face_[0].z_at(a, t_a);
-    corners_.add(border,
-                 {{on_a.x, on_a.y, z_a},
-                  face_[1].z_at(b, t_b) - z_a,
-                  face_[0].edge_at(p.border, on_a),
-                  face_[1].edge_at(q.border, on_b)},
-                 wanted);
+    if (!is_near(on_b)) return;
+    const double z_a = of_a.z_at(t_a), z_b = of_b.z_at(t_b);
+    corners_.add(border, {{on_a.x, on_a.y, z_a}, z_b - z_a, of_a.edge_at(of_a.seen(on_a)), of_b.edge_at(of_b.seen(on_b))}, wanted);
   }
 
   static constexpr int kNobody = -1;
 
-  SeenFace face_[2];
+  SeenBorder border_[4];
   const FeatureId name_[2];
   const double bound_;
   const Place slope_;  ///< how the separation changes with x and y
