@@ -21,6 +21,7 @@
 #include <utility>
 
 #include "body/half_edge.h"
+#include "numeric/vec4.h"
 
 namespace swiftlet {
 namespace {
@@ -79,8 +80,14 @@ class SeenBorder {
   SeenBorder(const SeenBody& body, const ContactFace& face, Border border, std::uint32_t half_edge, double bound)
       : body_(body),
         face_(face),
-        bound_(bound),
+        half_edges_(body.view.half_edges.data()),
+        vertices_(body.view.vertices.data()),
         outwards_(border == Border::Left ? -1 : 1),
+        bound_(bound),
+        x_{body.x.x * outwards_, body.y.x},
+        y_{body.x.y * outwards_, body.y.y},
+        z_{body.x.z * outwards_, body.y.z},
+        shift_{body.shift.x * outwards_, body.shift.y},
         is_left_((dot(cross(body.x, body.y), face.normal()) >= 0) == (border == Border::Right)) {
     const bool is_point = half_edge == kNone;
     const Corner lowest = is_point ? corner(0) : end_of(twin(half_edge));
@@ -132,9 +139,13 @@ class SeenBorder {
   }
 
  private:
-  std::uint32_t twin(std::uint32_t half_edge) const { return body_.view.half_edges[half_edge].twin; }
-  Corner corner(std::uint32_t vertex) const { return {seen(body_.at(vertex)), vertex}; }
-  Corner end_of(std::uint32_t half_edge) const { return corner(body_.view.half_edges[half_edge].head); }
+  std::uint32_t twin(std::uint32_t half_edge) const { return half_edges_[half_edge].twin; }
+  Corner corner(std::uint32_t vertex) const {
+    const Vertex& v = vertices_[vertex];
+    const Vec2 at = x_ * v.x + y_ * v.y + z_ * v.z + shift_;
+    return {{at[0], at[1]}, vertex};
+  }
+  Corner end_of(std::uint32_t half_edge) const { return corner(half_edges_[half_edge].head); }
 
   bool falls() const { return side_.way.y < -bound_; }
   bool turns_in(const Corner& next) const {
@@ -158,7 +169,10 @@ class SeenBorder {
 
   const SeenBody& body_;
   const ContactFace& face_;
-  const double bound_, outwards_;
+  const HalfEdge* const half_edges_;
+  const Vertex* const vertices_;
+  const double outwards_, bound_;
+  const Vec2 x_, y_, z_, shift_;  ///< where the projection has the body's axes and its origin
   const bool is_left_;       ///< half-edges that point upwards have the face on their left
   Side side_;                ///< at the height of the sweep line
   Corner next_;              ///< the corner after it
@@ -199,15 +213,12 @@ class Sweep {
       : Sweep(projection, a, b, lowest_side(projection.a, a), lowest_side(projection.b, b), bound, corners) {}
 
   void run() {
-    if (!begin()) return;
-    int first[] = {ends_first(Border::Left), ends_first(Border::Right)};
-    for (;;) {
-      const Border border = is_below(at(Border::Right, first[1]), at(Border::Left, first[0])) ? Border::Right : Border::Left;
-      int& f = first[std::size_t(border)];
-      if (!meet(border, f)) return;
-      if (is_at_top(f)) return end(border, f);
-      advance(border, f);
-      f = ends_first(border);
+    for (bool goes_on = begin(); goes_on;) {
+      const int left = ends_first<Border::Left>(), right = ends_first<Border::Right>();
+      if (is_below(at(Border::Right, right), at(Border::Left, left)))
+        goes_on = right == 0 ? step<Border::Right, 0>() : step<Border::Right, 1>();
+      else
+        goes_on = left == 0 ? step<Border::Left, 0>() : step<Border::Left, 1>();
     }
   }
 
@@ -238,9 +249,17 @@ class Sweep {
   void advance(Border border, int f) { at(border, f).advance(at(opposite(border), f).end().vertex); }
 
   /// Returns true if the side of `p` ends below that of `q`, or at the same height to the left of it.
-  static bool is_below(const SeenBorder& p, const SeenBorder& q) { return is_below(p.seen(p.end().at), q.seen(q.end().at)); }
+  static bool is_below(const SeenBorder& p, const SeenBorder& q) {
+    const double y_p = p.end().at.y, y_q = q.end().at.y;
+    if (y_p == y_q) [[unlikely]]
+      return p.seen(p.end().at).x < q.seen(q.end().at).x;
+    return y_p < y_q;
+  }
   static bool is_below(const Place& p, const Place& q) { return p.y < q.y || (p.y == q.y && p.x < q.x); }
-  int ends_first(Border border) const { return is_below(at(border, 1), at(border, 0)); }
+  template <Border border>
+  int ends_first() const {
+    return is_below(at(border, 1), at(border, 0));
+  }
 
   /// How the height of a face's plane along the normal changes with x and y.
   static Place slope(const SeenBody& seen, const ContactFace& face) {
@@ -274,11 +293,21 @@ class Sweep {
     return true;
   }
 
+  /// Handles the upper end of a side and moves on. Returns false at the end of the intersection.
+  template <Border border, int f>
+  bool step() {
+    if (!meet<border, f>()) return false;
+    if (is_at_top(f)) return end<border, f>(), false;
+    advance(border, f);
+    return true;
+  }
+
   /// Handles the upper end of a side of face `f`. Returns false if the intersection ends at or below it.
-  bool meet(Border border, int f) {
+  template <Border border, int f>
+  bool meet() {
     if (west_ != kNobody && !overlap_begins(border, f)) return true;
-    const int other = 1 - f;
-    const Border across = opposite(border);
+    constexpr int other = 1 - f;
+    constexpr Border across = opposite(border);
     const Place& place = at(border, f).end().at;
     if (is_across(place, at(across, other).side())) {
       if (leader(border) != f) add_crossing(border, {f, border}, {other, border});
@@ -288,7 +317,7 @@ class Sweep {
     }
     const Where now = swiftlet::where(place, at(border, other).side(), bound_);
     if (now == (leader(border) == f ? Where::Outside : Where::Inside)) turn_off(border, 1 - leader(border));
-    if (leader(border) == f) pass(border, f);
+    if (leader(border) == f) pass<border, f>();
     return true;
   }
 
@@ -309,10 +338,11 @@ class Sweep {
   }
 
   /// Handles the top of face `f`, which `border` has reached; the other border reaches it too.
-  void end(Border border, int f) {
+  template <Border border, int f>
+  void end() {
     const SeenBorder& own = at(border, f);
     const Place top = own.seen(own.end().at);
-    if (!meet(opposite(border), f) || west_ != kNobody) return;
+    if (!meet<opposite(border), f>() || west_ != kNobody) return;
     for (const Border b : kBorders) {
       if (where(top, b, 1 - f) == Where::Outside) return;
     }
@@ -321,7 +351,8 @@ class Sweep {
 
   /// Passes the upper end of a side of face `f`, which leads the border. Of many corners only few are worth their names and
   /// depths.
-  void pass(Border border, int f) {
+  template <Border border, int f>
+  void pass() {
     const SeenBorder& own = at(border, f);
     const Corner& corner = own.end();
     const bool wanted =

@@ -31,17 +31,17 @@ class ContactFace {
   std::uint32_t side() const { return side_; }
   /// The half-edge that goes on along the border where `h` ends, and leaves the face on the same side as `h`.
   std::uint32_t onward(std::uint32_t h, bool is_left) const {
-    const HalfEdge& last = view_.half_edges[h];
-    const Vertex& ring = view_.vertices[last.head];
+    const HalfEdge& last = half_edges_[h];
+    const Vertex& ring = vertices_[last.head];
     std::uint32_t next = last.twin;
     if (is_left) {
       std::uint32_t beside = clockwise(ring, next);
       do next = beside, beside = clockwise(ring, next);
-      while (holds(view_.half_edges[beside].face, beside));
+      while (holds(half_edges_[beside].face, beside));
     } else {
       std::uint32_t beside = counter_clockwise(ring, next);
       do next = beside, beside = counter_clockwise(ring, next);
-      while (holds(view_.half_edges[next].face, beside));
+      while (holds(half_edges_[next].face, beside));
     }
     return next;
   }
@@ -51,11 +51,13 @@ class ContactFace {
   /// The same; `h` ends at a corner of the face, which mostly decides.
   bool holds(std::uint32_t face, std::uint32_t h) const {
     if (face == top_ || face == kNone) return face != kNone;
-    return dot(normal_, vec(view_.vertices[view_.half_edges[h].head])) >= least_height_ && holds(face);
+    return dot(normal_, vec(vertices_[half_edges_[h].head])) >= least_height_ && holds(face);
   }
   std::uint32_t border() const;
 
   const ConvexView& view_;
+  const HalfEdge* const half_edges_ = view_.half_edges.data();
+  const Vertex* const vertices_ = view_.vertices.data();
   std::uint32_t top_ = kNone, side_ = kNone;
   double flatness_ = 0, least_height_ = 0;  ///< the least height along the normal
   Vec normal_{0, 0, 0};
