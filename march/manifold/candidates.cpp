@@ -66,7 +66,7 @@ void Candidates::thin() {
     for (int i = 1; i < count_[std::size_t(border)]; ++i)
       area += std::fabs(cross(row(border, i - 1).place() - lowest, row(border, i).place() - lowest));
   }
-  for (;; enough_ = max(2 * enough_, area * kLeastChord)) {
+  for (;; enough_ = max(kChordGrowth * enough_, area * kLeastChord)) {
     thin(Border::Left, lowest, true), thin(Border::Right, lowest, count_[0] == 0);
     if (count_[0] + count_[1] <= kMostCorners * 3 / 4) return;
   }

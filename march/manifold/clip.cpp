@@ -93,7 +93,7 @@ class SeenBorder {
     const Corner lowest = is_point ? corner(0) : end_of(twin(half_edge));
     side_ = {lowest, lowest, {0, 0}, 0, half_edge, false};
     if (is_point) return;
-    half_edge_ = is_left_ ? half_edge : face.onward(twin(half_edge), false);
+    half_edge_ = is_left_ ? half_edge : face.onward<false>(twin(half_edge));
     next_ = end_of(half_edge_);
   }
 
@@ -122,7 +122,7 @@ class SeenBorder {
     side_.lead(next_, half_edge_);
     do {
       if (side_.to.vertex == top) return;
-      half_edge_ = face_.onward(side_.half_edge, is_left_);
+      half_edge_ = onward(side_.half_edge, is_left_);
       next_ = end_of(half_edge_);
     } while (!turns_in(next_) && extend(half_edge_, top));
   }
@@ -133,7 +133,7 @@ class SeenBorder {
     while (side_.is_chord) {
       const Corner from = end_of(back);
       if (from.vertex == side_.from.vertex || dot(place - from.at, side_.way) >= 0) break;
-      back = face_.onward(back, !is_left_);
+      back = onward(back, !is_left_);
     }
     return named(body_.view, {FeatureKind::Edge, back});
   }
@@ -146,6 +146,7 @@ class SeenBorder {
     return {{at[0], at[1]}, vertex};
   }
   Corner end_of(std::uint32_t half_edge) const { return corner(half_edges_[half_edge].head); }
+  std::uint32_t onward(std::uint32_t h, bool is_left) const { return is_left ? face_.onward<true>(h) : face_.onward<false>(h); }
 
   bool falls() const { return side_.way.y < -bound_; }
   bool turns_in(const Corner& next) const {
@@ -155,8 +156,8 @@ class SeenBorder {
   /// A border of merged facets may turn inwards by up to the face's flatness: corners are looked at until one lies farther inside
   /// of the side than that. If one lies beyond, the side becomes a chord to it, and true is returned. A border that is jagged by
   /// more is followed to the next corner that is no lower. `h` ends at the corner after the side.
-  bool extend(std::uint32_t h, std::uint32_t top) {
-    for (;; h = face_.onward(h, is_left_)) {
+  [[gnu::noinline]] bool extend(std::uint32_t h, std::uint32_t top) {
+    for (;; h = onward(h, is_left_)) {
       const Corner corner = end_of(h);
       const double out = side_.beyond(corner.at);
       if (falls() || (out > 0 && out * out > 0.25 * bound_ * bound_ * side_.length2)) {
@@ -192,16 +193,16 @@ std::uint32_t lowest_side(const SeenBody& body, const ContactFace& face) {
   const double more = 2 * face.flatness();
   for (std::uint32_t h = first;;) {
     const Place place = end_of(h);
-    h = face.onward(h, true);
+    h = face.onward<true>(h);
     if (place.y > lowest.y + more || h == first) break;
     if (is_lower(place)) lowest = place, side = h;
   }
-  const std::uint32_t last = face.onward(twin(first), false);
+  const std::uint32_t last = face.onward<false>(twin(first));
   for (std::uint32_t h = last;;) {
     const Place place = end_of(h);
     if (place.y > lowest.y + more) break;
     if (is_lower(place)) lowest = place, side = twin(h);
-    h = face.onward(h, false);
+    h = face.onward<false>(h);
     if (h == last) break;
   }
   return side;

@@ -30,20 +30,16 @@ class ContactFace {
   /// A half-edge of the border, which leaves the face on its left; kNone of a point.
   std::uint32_t side() const { return side_; }
   /// The half-edge that goes on along the border where `h` ends, and leaves the face on the same side as `h`.
-  std::uint32_t onward(std::uint32_t h, bool is_left) const {
+  template <bool is_left>
+  std::uint32_t onward(std::uint32_t h) const {
     const HalfEdge& last = half_edges_[h];
     const Vertex& ring = vertices_[last.head];
-    std::uint32_t next = last.twin;
-    if (is_left) {
-      std::uint32_t beside = clockwise(ring, next);
-      do next = beside, beside = clockwise(ring, next);
-      while (holds(half_edges_[beside].face, beside));
-    } else {
-      std::uint32_t beside = counter_clockwise(ring, next);
-      do next = beside, beside = counter_clockwise(ring, next);
-      while (holds(half_edges_[next].face, beside));
+    const auto beside = [&](std::uint32_t i) { return is_left ? clockwise(ring, i) : counter_clockwise(ring, i); };
+    for (std::uint32_t next = beside(last.twin);;) {
+      const std::uint32_t after = beside(next);
+      if (!holds(half_edges_[is_left ? after : next].face, after)) return next;
+      next = after;
     }
-    return next;
   }
 
  private:
