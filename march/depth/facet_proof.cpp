@@ -9,9 +9,10 @@
 //        ---t---
 //
 // If the origin is surely below the planes of all other triangles, by more than the facet is high, that height is a lower bound
-// on the depth. Each of these triangles that a ray from the origin passes adds one to the number of times that the surface
-// winds around the origin. A ray towards the tip passes no point of the facet, so that number is above 0, and every ray passes
-// some triangle before it leaves M, which is convex.
+// on the depth. Of a triangle beside the facet in its plane, as flush faces of many sides have them, the height of the corners
+// says as much, and the origin need only be below it. Each of these triangles that a ray from the origin passes adds one to the
+// number of times that the surface winds around the origin. A ray towards the tip passes no point of the facet, so that number
+// is above 0, and every ray passes some triangle before it leaves M, which is convex.
 //
 // The surface begins as a pyramid. A triangle that the origin is too near to is taken away, with all others that some point of
 // M beyond it sees, and the edges they leave are joined to that point. The surface stays closed whichever triangles go: what a
@@ -91,6 +92,10 @@ class FacetProof {
     points_ = rim_ + 1, triangles_ = 0;
     for (std::size_t k = 0, last = rim_ - 1; k < rim_; last = k++) turned_ ? add(last, k, rim_) : add(k, last, rim_);
     for (std::size_t t = nearest(); !(triangle_[t].distance > least()); t = nearest()) {
+      if (is_beside(triangle_[t])) {
+        triangle_[t].distance = kInfinity;
+        continue;
+      }
       if (points_ == kFacetPoints) return false;
       const Vec out = outwards(triangle_[t]);
       const double level = dot(out, p_[triangle_[t].corner[0]]) + kOutwardError * pair_.magnitude * norm(out);
@@ -126,6 +131,16 @@ class FacetProof {
     return best;
   }
   double least() const { return height_ + pair_.point_error(); }
+
+  /// True if the origin is surely below a triangle that is as high as the polygon; `height()` becomes that of the lowest
+  /// corner.
+  bool is_beside(const Triangle& of) {
+    double low = height_;
+    for (const std::uint8_t k : of.corner) low = min(low, dot(normal_, p_[k]));
+    const bool is = of.distance > 0 && height_ - low <= pair_.law_two / 8;
+    if (is) height_ = low;
+    return is;
+  }
 
   /// Where a point of M beyond a triangle is looked for: along its normal or, where it has a side of the polygon, along that of
   /// the other plane through the side that is as near as the polygon. Any point beyond that plane will do.
@@ -182,10 +197,10 @@ bool prove_facet(const PairView& pair, const Level& a, const Level& b, const Dep
   if (start.count < 3) return false;
   FacetProof facet(pair, start);
   const Vec& n = facet.normal();
-  const double lower = facet.lower(), off = lower > 0 ? facet.stand(depth) : kInfinity;
+  const double off = facet.lower() > 0 ? facet.stand(depth) : kInfinity;
   if (!(off <= pair.law_two)) return false;
   const std::uint32_t va = start.a[0], vb = start.b[0];
-  const auto is_close = [&] { return goal.narrow(lower, upper) && off + (upper - facet.height()) <= pair.law_two; };
+  const auto is_close = [&] { return goal.narrow(facet.lower(), upper) && off + (upper - facet.height()) <= pair.law_two; };
   if (!is_close()) ++depth.steps, upper = -supports(pair, n, va, vb, plane_tests).lower;
   if (!is_close()) return false;
   const Moved other = body_b(pair);
@@ -198,7 +213,8 @@ bool prove_facet(const PairView& pair, const Level& a, const Level& b, const Dep
     return point(look_up(a, direction).vertex, look_up(b, other.into(-direction)).vertex);
   };
   depth.upper = upper;
-  if (!facet.closes(about_highest, climb, depth.normal)) return false;
+  if (!facet.closes(about_highest, climb, depth.normal) || !is_close()) return false;
+  const double lower = facet.lower();
   depth.end = goal.passed(lower, upper) || !goal.hopeless(lower, upper) ? DepthEnd::Converged : DepthEnd::NotConverged;
   depth.lower = lower;
   depth.normal = n;

@@ -63,8 +63,8 @@ class Candidates {
   /// False if `previous` surely does not name this vertex or half-edge of body 0 or 1.
   bool may_know(int body, std::uint32_t index) const { return known_bits_[body] >> (index % 64) & 1; }
   /// Adds the corner that follows on a border, which is seen from below to above, unless one with its names is kept already:
-  /// sides that are nearly parallel may pass the lead twice, and a corner may come as a crossing near it and as itself. A corner
-  /// that is not `wanted` is added only if `previous` names it.
+  /// sides that are nearly parallel may pass the lead twice, and a corner may come as a crossing near it and as itself. A
+  /// corner that is not `wanted` is added only if `previous` names it.
   void add(Border border, const Candidate& candidate, bool wanted);
   /// Joins both borders into one row around the area, and drops the corners that `previous` names and that are in the row.
   void close();
@@ -106,12 +106,12 @@ class Candidates {
   double least_ = std::numeric_limits<double>::infinity(), deepest_ = least_;  ///< of all, and of the row
   struct {
     FeatureId feature_a, feature_b;
-  } deepest_named_;            ///< names of the first corner of the row with that separation
-  bool is_crowded_ = false;    ///< more corners have come than there is room for
-  bool has_turned_[2] = {};    ///< per border, as `turns` found
-  double enough_ = 0;          ///< twice the area that a chord may cut off
-  double cut_off_[2] = {};     ///< twice the area that the chord of each border up to now cuts off, or more
-  Place last_[2] = {};         ///< where it begins: the border's last corner that was added
+  } deepest_named_;          ///< names of the first corner of the row with that separation
+  bool is_crowded_ = false;  ///< more corners have come than there is room for
+  bool has_turned_[2] = {};  ///< per border, as `turns` found
+  double enough_ = 0;        ///< twice the area that a chord may cut off
+  double cut_off_[2] = {};   ///< twice the area that the chord of each border up to now cuts off, or more
+  Place last_[2] = {};       ///< where it begins: the border's last corner that was added
   int count_[2] = {}, known_count_ = 0;
   std::array<Candidate, kMostCorners> all_;  ///< the left border from the start, the right one from the end back
   std::array<Candidate, kMostManifoldPoints> known_;

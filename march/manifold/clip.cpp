@@ -153,9 +153,9 @@ class SeenBorder {
     const double out = side_.beyond(next.at);
     return out < 0 && out * out > face_.flatness() * face_.flatness() * side_.length2 && !falls();
   }
-  /// A border of merged facets may turn inwards by up to the face's flatness: corners are looked at until one lies farther inside
-  /// of the side than that. If one lies beyond, the side becomes a chord to it, and true is returned. A border that is jagged by
-  /// more is followed to the next corner that is no lower. `h` ends at the corner after the side.
+  /// A border of merged facets may turn inwards by up to the face's flatness: corners are looked at until one lies farther
+  /// inside of the side than that. If one lies beyond, the side becomes a chord to it, and true is returned. A border that is
+  /// jagged by more is followed to the next corner that is no lower. `h` ends at the corner after the side.
   [[gnu::noinline]] bool extend(std::uint32_t h, std::uint32_t top) {
     for (;; h = onward(h, is_left_)) {
       const Corner corner = end_of(h);
@@ -174,14 +174,14 @@ class SeenBorder {
   const Vertex* const vertices_;
   const double outwards_, bound_;
   const Vec2 x_, y_, z_, shift_;  ///< where the projection has the body's axes and its origin
-  const bool is_left_;       ///< half-edges that point upwards have the face on their left
-  Side side_;                ///< at the height of the sweep line
-  Corner next_;              ///< the corner after it
-  std::uint32_t half_edge_;  ///< the half-edge that ends there
+  const bool is_left_;            ///< half-edges that point upwards have the face on their left
+  Side side_;                     ///< at the height of the sweep line
+  Corner next_;                   ///< the corner after it
+  std::uint32_t half_edge_;       ///< the half-edge that ends there
 };
 
-/// The half-edge of a face that leaves its lowest corner: where the border rises on both sides, by more than the border of merged
-/// facets may turn inwards.
+/// The half-edge of a face that leaves its lowest corner: where the border rises on both sides, by more than the border of
+/// merged facets may turn inwards.
 std::uint32_t lowest_side(const SeenBody& body, const ContactFace& face) {
   const std::uint32_t first = face.side();
   if (first == kNone) return kNone;
@@ -356,8 +356,7 @@ class Sweep {
   void pass() {
     const SeenBorder& own = at(border, f);
     const Corner& corner = own.end();
-    const bool wanted =
-        is_at_top(f) || corners_.wants(border, corner.at, own.next().at, rise(own, own.next().at - corner.at));
+    const bool wanted = is_at_top(f) || corners_.wants(border, corner.at, own.next().at, rise(own, own.next().at - corner.at));
     if (wanted || corners_.may_know(f, corner.vertex)) add_corner(border, f, own.seen(corner.at), corner.vertex, wanted);
   }
 
@@ -418,7 +417,8 @@ class Sweep {
     }
     if (!is_near(on_b)) return;
     const double z_a = of_a.z_at(t_a), z_b = of_b.z_at(t_b);
-    corners_.add(border, {{on_a.x, on_a.y, z_a}, z_b - z_a, of_a.edge_at(of_a.seen(on_a)), of_b.edge_at(of_b.seen(on_b))}, wanted);
+    corners_.add(border, {{on_a.x, on_a.y, z_a}, z_b - z_a, of_a.edge_at(of_a.seen(on_a)), of_b.edge_at(of_b.seen(on_b))},
+                 wanted);
   }
 
   static constexpr int kNobody = -1;
