@@ -97,6 +97,16 @@ class Deepening {
     if (end == DepthEnd::NotConverged && answered()) end = DepthEnd::Converged;
   }
 
+  /// Bounds the depth of touching bodies by their height along a unit direction. `floor`: as `run`'s.
+  void touch(const Vec& n, FeatureId from_a, FeatureId from_b, double floor) {
+    place_ = {finest_a_, finest_b_, {}};
+    const PairView pair = pair_.view_at(place_);
+    floor_ = floor;
+    ++steps, upper = -supports(pair, n, any_vertex(pair.a, from_a), any_vertex(pair.b, from_b), plane_tests).lower;
+    normal = n, level_a = finest_a_, level_b = finest_b_;
+    end = upper < 0 ? DepthEnd::Apart : answered() ? DepthEnd::Converged : DepthEnd::NotConverged;
+  }
+
   Status status() const {
     if (end == DepthEnd::Converged || (stop_.is_threshold() && end == DepthEnd::Apart)) return Status::Converged;
     if (end == DepthEnd::Budget) return Status::Budget;
@@ -399,6 +409,7 @@ Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, PairSee
     PairSeed here = touching ? seed : PairSeed{};  // features at which bodies overlap need not be the deepest
     here.met = touching;
     const double floor = -answer.upper;  // the depth is at least minus the distance's upper bound
+    if (touching && !answer.normal.hasNaN()) deep.touch(vec(answer.normal), answer.feature_a, answer.feature_b, floor);
     if (deep.end != DepthEnd::Apart && (deep.steps == 0 || !deep.narrow(floor))) deep.run(here, floor, answer.levels_visited);
     if (deep.end == DepthEnd::Apart)
       part(deep, answer);
