@@ -908,6 +908,77 @@ TEST(Manifold, KeepsWhatItChose) {
   EXPECT_GT(others, 1000) << "what was before changes nothing";
 }
 
+bool same_names(const Manifold& p, const Manifold& q) {
+  if (p.count != q.count) return false;
+  for (std::uint32_t i = 0; i < p.count; ++i) {
+    bool found = false;
+    for (std::uint32_t k = 0; k < q.count; ++k)
+      found |= p.points[i].feature_a == q.points[k].feature_a && p.points[i].feature_b == q.points[k].feature_b;
+    if (!found) return false;
+  }
+  return true;
+}
+
+/// Bodies far from their origins: the bound is as large as a body's sides, and the deepest point is no corner.
+TEST(Manifold, OfBodiesFarFromTheirOriginsStays) {
+  Random random(16);
+  int asked = 0;
+  for (int i = 0; i < 400; ++i) {
+    const auto body = [&](const Vec3& centre) {
+      std::vector<Vec3> points;
+      for (int k = 0; k < 24; ++k) points.push_back(centre + (32 * random.on_sphere()).array().round().matrix());
+      return hull_of({points, {}});
+    };
+    const auto far = [&] { return Vec3((0x1p48 * random.on_sphere()).array().round().matrix()); };
+    const Vec3 centre_a = far(), centre_b = far();
+    const Model a = body(centre_a), b = body(centre_b);
+    Pose pose;
+    pose.translation = centre_a - centre_b + (random.uniform(20, 70) * random.on_sphere()).array().round().matrix();
+    const Answer answer = signed_distance(a, b, pose);
+    const ManifoldOptions options{.margin = kInfinity, .most_points = 1 + std::uint32_t(random.bits() % kMostManifoldPoints)};
+    const Manifold first = manifold(a, b, pose, answer, options), again = manifold(a, b, pose, answer, options, first);
+    asked += first.count > 0;
+    ASSERT_TRUE(same_names(first, again)) << i;
+  }
+  EXPECT_GT(asked, 200);
+}
+
+/// Stacks at rest, as a simulation in single precision sees them: each entry of both poses off by up to 4 ulps, anew each step.
+TEST(Manifold, OfAPairAtRestKeepsItsPointsUnderNoise) {
+  Random random(17);
+  for (const std::uint32_t sides : {4u, 12u, 40u, 200u}) {
+    const Model upper = bodies::model(prism(sides, 1, 1)), lower = sides == 4 ? bodies::model(bodies::box(3, 2, 0.5)) : upper;
+    const Mat3 turn = random.rotation();
+    for (const auto& [twist, slide, tilt] : {std::tuple{0.4, 0.03, 0.}, std::tuple{1.1, 0.3, 0.}, std::tuple{0.7, 0.2, 1e-6}}) {
+      const auto noisy = [&](const Mat3& rotation, const Vec3& translation) {
+        const auto off = [&](double x) {
+          const float f = float(x), ulp = std::nextafter(std::fabs(f), std::numeric_limits<float>::infinity()) - std::fabs(f);
+          return double(f) + double(ulp) * (double(random.bits() % 9) - 4);
+        };
+        Pose pose{rotation, translation};
+        pose.rotation = Eigen::Quaterniond(rotation.unaryExpr(off).eval()).normalized().toRotationMatrix();
+        pose.translation = translation.unaryExpr(off);
+        return pose;
+      };
+      const Mat3 on_top = shapes::rotation(Vec3::UnitX(), tilt) * shapes::rotation(Vec3::UnitZ(), twist);
+      PairSeed seed;
+      Manifold before;
+      int changes = 0;
+      for (int step = 0; step < 10'000; ++step) {
+        const Pose a = noisy(turn, turn * Vec3(0.3, 0.2, 0.1)),
+                   b = noisy(turn * on_top, turn * Vec3(0.3 + slide, 0.2 + slide / 3, 1.1 - 1e-4)), pose = relative(a, b);
+        const Answer answer = signed_distance(lower, upper, pose, seed);
+        ASSERT_EQ(answer.status, Status::Converged);
+        const Manifold now = manifold(lower, upper, pose, answer, {.margin = 0.01}, before);
+        ASSERT_EQ(now.count, 4u);
+        changes += step > 0 && !same_names(now, before);
+        before = now;
+      }
+      EXPECT_EQ(changes, 0) << sides << " sides, turned by " << twist;
+    }
+  }
+}
+
 /// A cube that balances on an edge faces along the normal with two faces alike: the one of the frame before stays.
 TEST(Manifold, KeepsTheFaceOfTheFrameBefore) {
   const Model cube = bodies::model(bodies::cube());

@@ -104,7 +104,7 @@ class Deepening {
     floor_ = floor;
     ++steps, upper = -supports(pair, n, any_vertex(pair.a, from_a), any_vertex(pair.b, from_b), plane_tests).lower;
     normal = n, level_a = finest_a_, level_b = finest_b_;
-    end = upper < 0 ? DepthEnd::Apart : answered() ? DepthEnd::Converged : DepthEnd::NotConverged;
+    end = answered() ? DepthEnd::Converged : DepthEnd::NotConverged;
   }
 
   Status status() const {

@@ -16,10 +16,13 @@ Candidates::Candidates(double farthest, const Manifold& previous) : farthest_(fa
 
 void Candidates::add(Border border, const Candidate& candidate, bool wanted) {
   if (!(candidate.separation <= farthest_) || has_named(candidate)) return;
-  const bool knows = known_bits_[0] != 0 && is_known(candidate) && known_count_ < int(kMostManifoldPoints);
+  const bool knows = known_count_ < int(kMostManifoldPoints) && is_known(candidate);
   if (knows) known_[std::size_t(known_count_++)] = candidate;
-  if (wanted || knows) least_ = min(least_, candidate.separation);
-  if (!wanted) return;
+  if (knows || wanted) least_ = min(least_, candidate.separation);
+  if (wanted) append(border, candidate);
+}
+
+void Candidates::append(Border border, const Candidate& candidate) {
   if (candidate.separation < deepest_)
     deepest_ = candidate.separation, deepest_named_ = {candidate.feature_a, candidate.feature_b};
   if (count_[0] + count_[1] == kMostCorners) thin();
@@ -29,6 +32,7 @@ void Candidates::add(Border border, const Candidate& candidate, bool wanted) {
 }
 
 void Candidates::add_deepest(const Candidate& candidate) {
+  if (!(candidate.separation <= farthest_)) return;
   bool is_there = false;
   const auto replace = [&](Candidate& other) {
     if (!is_same(candidate, other)) return;
@@ -37,10 +41,8 @@ void Candidates::add_deepest(const Candidate& candidate) {
   };
   std::for_each(all_.begin(), all_.begin() + count_[0], replace);
   std::for_each(known_.begin(), known_.begin() + known_count_, replace);
-  if (is_there)
-    least_ = candidate.separation;
-  else
-    add(Border::Left, candidate, true);
+  least_ = candidate.separation;
+  if (!is_there) append(Border::Left, candidate);
 }
 
 bool Candidates::has_named(const Candidate& candidate) const {

@@ -68,7 +68,8 @@ class Candidates {
   void add(Border border, const Candidate& candidate, bool wanted);
   /// Joins both borders into one row around the area, and drops the corners that `previous` names and that are in the row.
   void close();
-  /// Adds a point deeper than all corners, after `close`; it takes the place of the corners with its names.
+  /// Adds a point deeper than all corners, after `close`; it takes the place of the corners with its names. It is there whether
+  /// `previous` names it or not.
   void add_deepest(const Candidate& candidate);
 
   /// After `close`: the candidates are the row, then the corners that `previous` names.
@@ -97,6 +98,7 @@ class Candidates {
     bool& has_turned = has_turned_[std::size_t(border)];
     return !has_turned && (has_turned = rise >= 0);
   }
+  void append(Border border, const Candidate& candidate);
   void thin();
   void thin(Border border, Place last, bool keeps_first);
 

@@ -107,7 +107,8 @@ class Loop {
 /// Which of the candidates a manifold gets.
 class Choice {
  public:
-  Choice(const Candidates& candidates, int most, double bound) : candidates_(candidates), most_(most), bound_(bound) {
+  Choice(const Candidates& candidates, int most, double bound, double slack)
+      : candidates_(candidates), most_(most), bound_(bound), slack_(slack) {
     for (int i = 0; i < candidates.count(); ++i) known_[std::size_t(i)] = candidates.is_known(candidates[i]);
   }
 
@@ -138,15 +139,16 @@ class Choice {
   bool is_chosen(int i) const { return chosen_[std::size_t(i)]; }
   bool is_known(int i) const { return known_[std::size_t(i)]; }
 
-  /// Of the candidates within a quarter of the bound of the least separation: the first point of the manifold before, else
-  /// another of its points, else the first that was found. The rest of the bound is left for the rounding of the witness.
+  /// The first point of the manifold before if it is nearly the deepest, else the deepest of its points that are, else the
+  /// first candidate within a quarter of the bound of the least separation. The rest of the bound is left for the rounding of
+  /// the witness.
   int deepest(const Manifold& previous) const {
-    const double enough = candidates_.least() + bound_ / 4;
     int found = kNobody;
     for (int i = 0; i < candidates_.count(); ++i) {
-      if (candidates_[i].separation > enough) continue;
+      const double separation = candidates_[i].separation;
+      if (!(separation <= candidates_.least() + (is_known(i) ? slack_ : bound_ / 4))) continue;
       if (is_known(i) && is_same(previous.points[0], candidates_[i])) return i;
-      if (found == kNobody || (is_known(i) && !is_known(found))) found = i;
+      if (found == kNobody || (is_known(i) && !(is_known(found) && candidates_[found].separation <= separation))) found = i;
     }
     return found;
   }
@@ -206,15 +208,15 @@ class Choice {
 
   const Candidates& candidates_;
   const int most_;
-  const double bound_;
+  const double bound_, slack_;
   int size_ = 1, first_ = 0;
   std::array<bool, kMostCandidates> known_{}, chosen_{};  ///< of the manifold before, of this one
 };
 
 }  // namespace
 
-Chosen choose(const Candidates& candidates, std::uint32_t most, const Manifold& previous, double bound) {
-  return Choice(candidates, int(most), bound).of(previous);
+Chosen choose(const Candidates& candidates, std::uint32_t most, const Manifold& previous, double bound, double slack) {
+  return Choice(candidates, int(most), bound, max(slack, bound / 4)).of(previous);
 }
 
 }  // namespace swiftlet

@@ -21,11 +21,12 @@ class Chosen {
   std::array<int, kMostManifoldPoints> index_;
 };
 
-/// Chooses a candidate of least separation, then those that `previous` names, then those that add most to the area. The largest
-/// polygon of `most` candidates is chosen instead if its area is larger by more than `kKeptWorth`, or if it is larger at all
-/// and `previous` names no candidate. The result begins with the candidate of least separation. If `previous` is the result,
-/// the same candidates are chosen again. A candidate that stands out by no more than `bound` adds nothing. Cost: `most` times
-/// the square of the candidates' number.
-Chosen choose(const Candidates& candidates, std::uint32_t most, const Manifold& previous, double bound);
+/// Chooses a candidate of least separation, then those that `previous` names, then those that add most to the area. A candidate
+/// that `previous` names counts as one of least separation within `slack` of it: at rest others take turns. The largest polygon
+/// of `most` candidates is chosen instead if its area is larger by more than `kKeptWorth`, or if it is larger at all and
+/// `previous` names no candidate. The result begins with the candidate of least separation. If `previous` is the result, the
+/// same candidates are chosen again. A candidate that stands out by no more than `bound` adds nothing. Cost: `most` times the
+/// square of the candidates' number.
+Chosen choose(const Candidates& candidates, std::uint32_t most, const Manifold& previous, double bound, double slack);
 
 }  // namespace swiftlet

@@ -4,8 +4,6 @@
 
 #include <limits>
 
-#include <swiftlet/manifold.h>
-
 #include "body/half_edge.h"
 
 namespace swiftlet {
@@ -69,7 +67,7 @@ ContactFace::ContactFace(const ConvexView& view, const Vec& n, FeatureId feature
     side_ = view.half_edges.empty() ? kNone : 0;
     return;
   }
-  const double height = max(0, min(flatness, kMostFlatness)) * view.extent;
+  const double height = flatness * view.extent;
   flatness_ = max(flatness_, height);
   normal_ = normal_of(view, top_);
   least_height_ = dot(normal_, point(view, origin(view, view.face_first[top_]))) - height;

@@ -36,11 +36,14 @@ ManifoldPoint placed(const PairView& pair, const Projection& projection, const C
   return {eigen(point_a), eigen(point_a + across), separation, c.feature_a, c.feature_b};
 }
 
+/// What is asked for, in the range that is allowed.
+double flatness(const ManifoldOptions& options) { return max(0, min(options.flatness, kMostFlatness)); }
+
 /// Fills the manifold of two hulls; points farther apart than `margin` are left out.
 void grow(const PairView& pair, const Anchor& w, double margin, double bound, const ManifoldOptions& options,
           const Manifold& previous, Manifold& manifold) {
-  const ContactFace a(pair.a, w.normal, w.feature_a, previous.face_a, options.flatness),
-      b(pair.b, body_b(pair).into(-w.normal), w.feature_b, previous.face_b, options.flatness);
+  const ContactFace a(pair.a, w.normal, w.feature_a, previous.face_a, flatness(options)),
+      b(pair.b, body_b(pair).into(-w.normal), w.feature_b, previous.face_b, flatness(options));
   manifold.normal = eigen(w.normal);
   if (a.name().kind() == FeatureKind::Face) manifold.face_a = a.name();
   if (b.name().kind() == FeatureKind::Face) manifold.face_b = b.name();
@@ -50,7 +53,9 @@ void grow(const PairView& pair, const Anchor& w, double margin, double bound, co
   clip(projection, a, b, bound / 2, candidates);  // a corner counts as inside of a face that it misses by so much
   if (candidates.count() == 0 || w.separation < candidates.least() - bound / 2)
     candidates.add_deepest({{0, 0, 0}, w.separation, named(pair.a, w.feature_a), named(pair.b, w.feature_b)});
-  for (const int i : choose(candidates, std::min(options.most_points, kMostManifoldPoints), previous, bound))
+  const bool rests = norm(w.normal - vec(previous.normal)) <= kRestingTurn * flatness(options);
+  const double slack = rests ? flatness(options) * max(pair.a.extent, pair.b.extent) : 0;
+  for (const int i : choose(candidates, std::min(options.most_points, kMostManifoldPoints), previous, bound, slack))
     manifold.points[manifold.count++] = placed(pair, projection, candidates[i], w.separation - bound / 2);
 }
 

@@ -255,6 +255,9 @@ inline constexpr double kSameFacing = 0x1p-43;
 /// The points of a manifold give way to others that have more area by more than this fraction. That is enough to keep the
 /// corners of a regular polygon, of which any four opposite ones are equally good, from taking turns.
 inline constexpr double kKeptWorth = 0.0625;
+/// A pair is at rest where the normal has turned since the manifold before by no more than this times the flatness of contact
+/// faces: poses whose entries are off by 4 ulps of single precision turn it by 2^-19 at most. Radians.
+inline constexpr double kRestingTurn = 8;
 /// The most corners of a common area that a manifold is chosen from, beside those of the previous manifold; of more, those stay
 /// whose chords cut off equal areas, three quarters of as many or more. A count.
 inline constexpr int kMostCorners = 20;
