@@ -412,8 +412,8 @@ TEST(Manifold, OfFacesOfAThousandSidesKeepsTheirArea) {
   EXPECT_GE(shown_area(p), 0.88 * lens);
 }
 
-/// Of many corners few are candidates: beside all of them by brute force, a few points keep as much as the header says. Round and
-/// stretched faces, anywhere on one another, down to lenses of a thousandth of their width.
+/// Of many corners few are candidates: beside all of them by brute force, a few points keep as much as the header says. Round
+/// and stretched faces, anywhere on one another, down to lenses of a thousandth of their width.
 TEST(Manifold, OfManySidesKeepsTheSharesOfTheHeader) {
   Random random(18);
   constexpr double kLeast[] = {0, 0, 0, 0.28, 0.5, 0, 0, 0, 0.78}, kRound[] = {0, 0, 0, 0, 0.6, 0, 0, 0, 0.87};

@@ -46,14 +46,13 @@ void Candidates::add_deepest(const Candidate& candidate) {
 }
 
 bool Candidates::has_named(const Candidate& candidate) const {
-  for (int i = 0; i < kMostCorners; ++i) {
-    const bool is_kept = i < count_[0] || i >= kMostCorners - count_[1];
-    if (is_kept && is_same(at(i), candidate)) return true;
-  }
-  return false;
+  const auto is_named_so = [&](const Candidate& other) { return is_same(candidate, other); };
+  return std::any_of(all_.begin(), all_.begin() + count_[0], is_named_so) ||
+         std::any_of(all_.end() - count_[1], all_.end(), is_named_so);
 }
 
 bool Candidates::is_known(const Candidate& candidate) const {
+  if (!may_know(0, candidate.feature_a.index()) || !may_know(1, candidate.feature_b.index())) return false;
   const auto first = previous_.points.begin();
   return std::any_of(first, first + std::min(previous_.count, kMostManifoldPoints),
                      [&](const ManifoldPoint& p) { return is_same(p, candidate); });

@@ -121,9 +121,9 @@ class Choice {
       take(known_);
     else
       grow(Among::Known);
-    const double worth = size_ > 1 ? 1 + kKeptWorth : 1;
-    grow(Among::All);
-    if (most_ > 2 && candidates_.count() > most_) give_way(largest_polygon(candidates_, first_, most_), worth);
+    const bool is_new = size_ == 1, has_choice = most_ > 2 && candidates_.count() > most_;
+    if (!(is_new && has_choice)) grow(Among::All);
+    if (has_choice) give_way(largest_polygon(candidates_, first_, most_), is_new ? 1 : 1 + kKeptWorth);
     const Loop loop = around();
     bool is_corner = false;
     const int before = loop.before(first_, is_corner);
@@ -171,12 +171,13 @@ class Choice {
   /// Chooses a polygon instead if that has more than `worth` times the area.
   void give_way(const LargestPolygon& polygon, double worth) {
     const double enough = worth * around().twice_area();
-    if (!(polygon.twice_area > enough)) return;
-    const std::array<bool, kMostCandidates> before = chosen_;
-    std::array<bool, kMostCandidates> corners{};
-    for (const int corner : polygon) corners[std::size_t(corner)] = true;
-    take(corners);
-    if (!(around().twice_area() > enough)) take(before);
+    if (polygon.twice_area > enough) {
+      const std::array<bool, kMostCandidates> before = chosen_;
+      std::array<bool, kMostCandidates> corners{};
+      for (const int corner : polygon) corners[std::size_t(corner)] = true;
+      take(corners);
+      if (!(around().twice_area() > enough)) take(before);
+    }
     grow(Among::All);
   }
 

@@ -408,7 +408,7 @@ class Sweep {
     // If the sides are nearly parallel, the first point on a is uncertain; the last one is the nearest to that on b.
     const double t_b = b.along(a.at(h != h_to ? min(max(h / (h - h_to), 0), 1) : 0)), t_a = a.along(b.at(t_b));
     const Place on_b = b.at(t_b), on_a = a.at(t_a);
-    const auto is_near = [&](const Place& place) { return std::sqrt(dot(place - on_a, place - on_a)) <= bound_; };
+    const auto is_near = [&](const Place& place) { return dot(place - on_a, place - on_a) <= bound_ * bound_; };
     for (const Corner* c : {&a.from, &a.to}) {
       if (is_near(c->at)) return add_corner(border, 0, c->at, c->vertex, wanted);
     }
