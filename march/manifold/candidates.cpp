@@ -67,10 +67,10 @@ void Candidates::thin() {
     for (int i = 1; i < count_[std::size_t(border)]; ++i)
       area += std::fabs(cross(row(border, i - 1).place() - lowest, row(border, i).place() - lowest));
   }
-  for (;; enough_ = max(kChordGrowth * enough_, area * kLeastChord)) {
+  do {
+    enough_ = max(kChordGrowth * enough_, area * kLeastChord);
     thin(Border::Left, lowest, true), thin(Border::Right, lowest, count_[0] == 0);
-    if (count_[0] + count_[1] <= kMostCorners * 3 / 4) return;
-  }
+  } while (count_[0] + count_[1] > kMostCorners * 3 / 4);
 }
 
 /// The deepest corner and the border's last one stay.
@@ -84,7 +84,7 @@ void Candidates::thin(Border border, Place last, bool keeps_first) {
     if (!stays) cut_off += std::fabs(cross(c.place() - last, row(border, i + 1).place() - last));
     if (!stays && cut_off <= enough_) continue;
     last = c.place(), cut_off = 0;
-    row(border, kept++) = c;
+    if (kept++ != i) row(border, kept - 1) = c;
   }
   count = kept;
 }

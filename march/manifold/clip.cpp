@@ -17,6 +17,7 @@
 // on one another up to rounding do not cross. The order of the corners from below is exact for their rounded coordinates.
 #include "manifold/clip.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -135,8 +136,10 @@ class SeenBorder {
       if (from.vertex == side_.from.vertex || dot(place - from.at, side_.way) >= 0) break;
       back = onward(back, !is_left_);
     }
-    return named(body_.view, {FeatureKind::Edge, back});
+    return {FeatureKind::Edge, std::min(back, twin(back))};
   }
+  /// The index of the side's edge; of a chord, of the last one that it cuts off.
+  std::uint32_t edge() const { return std::min(side_.half_edge, twin(side_.half_edge)); }
 
  private:
   std::uint32_t twin(std::uint32_t half_edge) const { return half_edges_[half_edge].twin; }
@@ -371,9 +374,7 @@ class Sweep {
   /// How much the separation rises along a way that a border sees.
   double rise(const SeenBorder& border, const Place& way) const { return dot(slope_, border.seen(way)); }
   /// False if the manifold before surely names no point of this side.
-  bool may_know(int f, const SeenBorder& border) const {
-    return border.side().is_chord || corners_.may_know(f, border.edge_at({}).index());
-  }
+  bool may_know(int f, const SeenBorder& border) const { return border.side().is_chord || corners_.may_know(f, border.edge()); }
 
   /// Adds a corner of face `f` that lies within the other face.
   void add_corner(Border border, int f, const Place& place, std::uint32_t v, bool wanted = true) {

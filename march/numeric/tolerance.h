@@ -263,7 +263,7 @@ inline constexpr double kRestingTurn = 8;
 inline constexpr int kMostCorners = 20;
 /// What a chord between such corners may cut off at first, over the area up to there, and by which factor that grows until few
 /// corners stay.
-inline constexpr double kLeastChord = 0x1p-12, kChordGrowth = 4;
+inline constexpr double kLeastChord = 0x1p-9, kChordGrowth = 4;
 /// Cosine and sine of 12.7 degrees: the angle between the first side of a face and the line that sweeps over it. No side of a
 /// regular polygon of up to 20 corners is then within 0.1 degrees of the line.
 inline constexpr double kSweepCos = 40.0 / 41, kSweepSin = 9.0 / 41;
