@@ -88,7 +88,7 @@ std::vector<ManifoldCell> manifold_cells(const Shelf& shelf, std::uint32_t poses
   for (const double depth : kShallow) {
     const std::string end = depth < 1e-3 ? "/touching" : "/shallow";
     cells.push_back(stacked("box" + end, shapes::cube(), 2, depth, poses));
-    for (const std::uint32_t sides : {12u, 60u})
+    for (const std::uint32_t sides : {12u, 60u, 200u, 1000u})
       cells.push_back(stacked("prism" + std::to_string(sides) + end, shapes::prism(sides, 1, 1), 1, depth, poses));
     const Scene scene = shallow(shelf, shapes::Family::Fat, 2'000, 0.1, depth, {1, poses});
     ManifoldCell fat{"fat2000" + end, scene.models[0], scene.models[1], {}};

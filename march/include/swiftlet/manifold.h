@@ -35,7 +35,7 @@ struct Manifold {
   FeatureId face_a;            ///< the contact face of A, on the answer's level; `FeatureId{}` where A has no faces
   FeatureId face_b;            ///< the contact face of B, on the answer's level
   std::uint32_t count = 0;     ///< number of points; 0: the bodies are farther apart than `margin`, or the answer allows none
-  std::array<ManifoldPoint, kMostManifoldPoints> points{};  ///< [0, count): around the area, deepest first
+  std::array<ManifoldPoint, kMostManifoldPoints> points{};  ///< [0, count): around the area, the one of least separation first
 };
 
 /// Options of a manifold. Lengths are in the bodies' unit.
@@ -55,7 +55,9 @@ struct ManifoldOptions {
 /// best along the normal. Both contact faces are projected along the normal; the corners of their intersection are the points.
 /// If there are more than `most_points`, those are kept that have the least separation and cover most of the area: four points
 /// keep 0.6 of a round face, eight 0.87; four keep all of a square; of any face three keep at least 0.28, four 0.5, eight 0.78.
-/// Points of `previous`, this pair's last manifold, are preferred. The least separation equals the answer's within `tolerance`.
+/// Points of `previous`, this pair's last manifold, are preferred: a pair at rest keeps its points while poses are off by a few
+/// ulps of single precision. The least separation equals the answer's within `tolerance`; where the normal has turned by no more
+/// than 8 `flatness` since `previous`, within `flatness` more, for then other corners take turns as the deepest.
 /// The manifold is empty if the answer has no normal (as a distance has none in an overlap), other radii than the bodies, or
 /// levels or features that the bodies lack. Allocates nothing; uses 4.3 kB of stack. Cost: the sum of both faces' sides.
 Manifold manifold(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const ManifoldOptions& options = {},
