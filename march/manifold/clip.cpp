@@ -85,6 +85,7 @@ class SeenBorder {
         vertices_(body.view.vertices.data()),
         outwards_(border == Border::Left ? -1 : 1),
         bound_(bound),
+        flat2_(face.flatness() * face.flatness()),
         x_{body.x.x * outwards_, body.y.x},
         y_{body.x.y * outwards_, body.y.y},
         z_{body.x.z * outwards_, body.y.z},
@@ -118,7 +119,7 @@ class SeenBorder {
   }
 
   /// Moves on to the next side of the face's convex hull, up to vertex `top`.
-  void advance(std::uint32_t top) {
+  [[gnu::always_inline]] void advance(std::uint32_t top) {
     side_.from = side_.to, side_.is_chord = false;
     side_.lead(next_, half_edge_);
     do {
@@ -154,7 +155,7 @@ class SeenBorder {
   bool falls() const { return side_.way.y < -bound_; }
   bool turns_in(const Corner& next) const {
     const double out = side_.beyond(next.at);
-    return out < 0 && out * out > face_.flatness() * face_.flatness() * side_.length2 && !falls();
+    return out < 0 && out * out > flat2_ * side_.length2 && !falls();
   }
   /// A border of merged facets may turn inwards by up to the face's flatness: corners are looked at until one lies farther
   /// inside of the side than that. If one lies beyond, the side becomes a chord to it, and true is returned. A border that is
@@ -175,7 +176,7 @@ class SeenBorder {
   const ContactFace& face_;
   const HalfEdge* const half_edges_;
   const Vertex* const vertices_;
-  const double outwards_, bound_;
+  const double outwards_, bound_, flat2_;
   const Vec2 x_, y_, z_, shift_;  ///< where the projection has the body's axes and its origin
   const bool is_left_;            ///< half-edges that point upwards have the face on their left
   Side side_;                     ///< at the height of the sweep line

@@ -56,10 +56,10 @@ struct ManifoldOptions {
 /// If there are more than `most_points`, those are kept that have the least separation and cover most of the area: four points
 /// keep 0.6 of a round face, eight 0.87; four keep all of a square; of any face three keep at least 0.28, four 0.5, eight 0.78.
 /// Points of `previous`, this pair's last manifold, are preferred: a pair at rest keeps its points while poses are off by a few
-/// ulps of single precision. The least separation equals the answer's within `tolerance`; where the normal has turned by no more
-/// than 8 `flatness` since `previous`, within `flatness` more, for then other corners take turns as the deepest.
-/// The manifold is empty if the answer has no normal (as a distance has none in an overlap), other radii than the bodies, or
-/// levels or features that the bodies lack. Allocates nothing; uses 4.3 kB of stack. Cost: the sum of both faces' sides.
+/// ulps of single precision. The least separation equals the answer's within `tolerance`; where the normal has turned by no
+/// more than 8 `flatness` since `previous`, within `flatness` more, for then other corners take turns as the deepest. The
+/// manifold is empty if the answer has no normal (as a distance has none in an overlap), other radii than the bodies, or levels
+/// or features that the bodies lack. Allocates nothing; uses 5.4 kB of stack. Cost: the sum of both faces' sides.
 Manifold manifold(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const ManifoldOptions& options = {},
                   const Manifold& previous = {});
 
