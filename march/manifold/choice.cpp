@@ -123,7 +123,7 @@ class Choice {
       grow(Among::Known);
     const bool is_new = size_ == 1, has_choice = most_ > 2 && candidates_.count() > most_;
     if (!(is_new && has_choice)) grow(Among::All);
-    if (has_choice) give_way(largest_polygon(candidates_, first_, most_), is_new ? 1 : 1 + kKeptWorth);
+    if (has_choice) give_way(largest_polygon(candidates_, first_, most_, bound_), is_new ? 1 : 1 + kKeptWorth);
     const Loop loop = around();
     bool is_corner = false;
     const int before = loop.before(first_, is_corner);

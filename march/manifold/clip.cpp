@@ -417,7 +417,8 @@ class Sweep {
     for (const Corner* c : {&b.from, &b.to}) {
       if (is_near(c->at)) return add_corner(border, 1, c->at, c->vertex, wanted);
     }
-    if (!is_near(on_b)) return;
+    // A corner within the bound of a side may be farther than that from where the sides cross.
+    if (dot(on_b - on_a, on_b - on_a) > 4 * bound_ * bound_) return;
     const double z_a = of_a.z_at(t_a), z_b = of_b.z_at(t_b);
     corners_.add(border, {{on_a.x, on_a.y, z_a}, z_b - z_a, of_a.edge_at(of_a.seen(on_a)), of_b.edge_at(of_b.seen(on_b))},
                  wanted);

@@ -35,15 +35,16 @@ class Hull {
     return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
   }
 
-  /// Makes `first` the first corner and returns true, or, if it is inside, the corner farthest from it and returns false.
-  bool begin_with(int first) {
+  /// Makes `first` the first corner and returns true, or, if it is inside, the corner farthest from it and returns false. A
+  /// corner within the bound of it is in its place.
+  bool begin_with(int first, double bound) {
     const auto away = [&](int spot) {
       const double x = place(spot).x - place(first).x, y = place(spot).y - place(first).y;
       return x * x + y * y;
     };
     const auto end = corner_.begin() + size_;
-    auto begin = std::find_if(corner_.begin(), end, [&](int spot) { return away(spot) == 0; });
-    const bool is_corner = begin != end;
+    auto begin = std::min_element(corner_.begin(), end, [&](int i, int j) { return away(i) < away(j); });
+    const bool is_corner = away(*begin) <= bound * bound;
     if (!is_corner) begin = std::max_element(corner_.begin(), end, [&](int i, int j) { return away(i) < away(j); });
     std::rotate(corner_.begin(), begin, end);
     if (is_corner) corner_[0] = first;
@@ -70,9 +71,9 @@ class Hull {
 
 }  // namespace
 
-LargestPolygon largest_polygon(const Candidates& candidates, int first, int most) {
+LargestPolygon largest_polygon(const Candidates& candidates, int first, int most, double bound) {
   Hull hull(candidates);
-  const int corners = std::min(hull.begin_with(first) ? most : most - 1, hull.size());
+  const int corners = std::min(hull.begin_with(first, bound) ? most : most - 1, hull.size());
   std::array<double, kMostCandidates> best{};  // twice the area of the best fan that ends at a corner
   std::array<std::array<std::uint8_t, kMostCandidates>, kMostManifoldPoints> before{};
   for (int corner = 2; corner < corners; ++corner) {

@@ -19,8 +19,8 @@ struct LargestPolygon {
 };
 
 /// Returns the largest polygon of at most `most` corners, 3 or more, all of them candidates and one of them `first`. If `first`
-/// lies inside of the candidates' hull, it is no corner, but counts among `most`, and the candidate farthest from it is a
-/// corner. Cost: `most` times the square of the number of candidates.
-LargestPolygon largest_polygon(const Candidates& candidates, int first, int most);
+/// lies inside of the candidates' hull, farther than `bound` from its corners, it is no corner, but counts among `most`, and
+/// the candidate farthest from it is a corner. Cost: `most` times the square of the number of candidates.
+LargestPolygon largest_polygon(const Candidates& candidates, int first, int most, double bound);
 
 }  // namespace swiftlet
