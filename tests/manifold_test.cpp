@@ -382,6 +382,28 @@ TEST(Manifold, OfCornersNearlyInOnePlaceKeepsTheThirdOnTheirLine) {
   EXPECT_GE(shares.four, 0.9);
 }
 
+/// B's corner lies on a side of A within the bound, but no side of B crosses A's within it; and the deepest points are a corner
+/// of each body in one place, 4e-16 apart: one of them alone is a point.
+TEST(Manifold, OfCornersOnSidesLosesNone) {
+  const Model cube = bodies::model(bodies::cube());
+  Pose on_side, in_place;
+  on_side.rotation << 0x1.ffffffffff2fbp-1, -0x1.781d8697d4f53p-22, 0x1.a5d32edf4985ap-21,  //
+      0x1.781d74551f03bp-22, 0x1.ffffffffffbecp-1, 0x1.62a0af198500ep-22,                   //
+      -0x1.a5d332f1531f8p-21, -0x1.62a09bbb8ec5p-22, 0x1.ffffffffff338p-1;
+  on_side.translation = {-0x1.10c5f89970e4p-6, 0x1.57e23062p-21, 4};
+  in_place.rotation << 0x1.fe4e834ee0827p-1, -0x1.278aa72cf2c06p-4, -0x1.323b1bb7bcddfp-5,  //
+      0x1.2c15c5610fd24p-4, 0x1.fe67b543979b4p-1, 0x1.de7ab91254bc3p-6,                     //
+      0x1.2003d35b5ba4fp-5, -0x1.04e243d7cb78p-5, 0x1.ff6c717d6813dp-1;
+  in_place.translation = {-0x1.ee61744339c24p-6, 0x1.b076c98948644p-4, 4};
+  for (const Pose& pose : {on_side, in_place}) {
+    for (const Answer& answer : {nearest(cube, cube, pose), signed_distance(cube, cube, pose)}) {
+      Shares shares;
+      expect_true({cube, cube, pose, answer}, shares);
+      EXPECT_GE(shares.four, 0.8);
+    }
+  }
+}
+
 /// Tips that are farthest apart are not the corners to keep.
 TEST(Manifold, OfALongFaceKeepsItsShoulders) {
   bodies::Polyhedron hexagon;
