@@ -202,8 +202,8 @@ TEST(HullPairs, FollowAMovingPair) {
     const double expected = truth.lower - a.getMargin() - b.getMargin();
     if (manifold && expected < manifold->getContactBreakingThreshold() - 1e-5) {
       ++contacts;
-      // Points that hold the area may be less deep than the deepest place by this share of the threshold.
-      EXPECT_LE(least, expected + 0.02 * manifold->getContactBreakingThreshold() + kRounding * 2) << step;
+      // Points that hold the area may be less deep than the deepest place by this share of the threshold: held_points.h.
+      EXPECT_LE(least, expected + 0.05 * manifold->getContactBreakingThreshold() + kRounding * 2) << step;
     } else if (expected > 0.1) {
       EXPECT_EQ(least, 1) << step;
     }

@@ -13,7 +13,7 @@ namespace swiftlet::bullet {
 
 /// In shares of Bullet's breaking threshold: points stay while no other place of contact is deeper by more than the first, and
 /// an area counts as that of a step before until a body has moved against the other by the second.
-constexpr btScalar kHeldDepth = btScalar(0.01), kAtRest = btScalar(0.005);
+constexpr btScalar kHeldDepth = btScalar(0.01), kAtRest = btScalar(0.02);
 /// Points stay while they span this share of the area that the best ones span.
 constexpr btScalar kHeldArea = btScalar(0.9);
 
