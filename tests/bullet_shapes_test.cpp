@@ -344,6 +344,55 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Solids,
                            return name;
                          });
 
+// ---- Models of points ------------------------------------------------------------------------------------------------------
+
+/// Random points, and those of ellipsoids, prisms and grids, straight and turned: each model is convex by proof, has no corner
+/// but the points, and holds them all.
+TEST(ModelOf, HoldsItsPoints) {
+  Random random;
+  using Place = std::function<btVector3(int, int)>;
+  const Place on_ellipsoid = [&](int, int) {
+    return random.vector(1).normalized() * btVector3(1, btScalar(0.8), btScalar(0.5));
+  };
+  const Place anywhere = [&](int, int) { return random.vector(1); };
+  const Place on_prism = [](int i, int n) {
+    const double angle = 4 * 3.14159265358979 * (i / 2) / n;
+    return btVector3(btScalar(std::cos(angle)), btScalar(std::sin(angle)), i % 2 ? btScalar(1) : btScalar(-1));
+  };
+  const Place in_grid = [](int i, int n) {
+    const int side = int(std::lround(std::cbrt(n)));
+    const btVector3 place(btScalar(i % side), btScalar(i / side % side), btScalar(i / side / side % side));
+    return place * (2 / btScalar(side - 1)) - btVector3(1, 1, 1);
+  };
+  int made = 0, refused = 0;
+  for (const Place& place : {on_ellipsoid, anywhere, on_prism, in_grid}) {
+    for (const int count : {8, 64, 216, 512}) {
+      for (int turn = 0; turn < 6; ++turn) {
+        const btTransform turned = turn ? random.transform(1) : at(0, 0, 0);
+        std::vector<btVector3> points;
+        for (int i = 0; i < count; ++i) points.push_back(turned(place(i, count)));
+        const Result<Model> model = bullet::model_of(points.data(), count);
+        (model ? made : refused) += 1;
+        if (!model) continue;
+        const Polytope hull = polytope_of(model.value().level(0).view);
+        for (const Vec3& v : hull.points)
+          EXPECT_TRUE(std::any_of(points.begin(), points.end(), [&](const btVector3& p) { return vec3(p) == v; }));
+        double highest = 0;
+        for (const auto& [i, j, k] : hull.triangles) {
+          const Vec3 area = (hull.points[j] - hull.points[i]).cross(hull.points[k] - hull.points[i]);
+          for (const btVector3& p : points) highest = std::max(highest, area.dot(vec3(p) - hull.points[i]));
+        }
+        EXPECT_LE(highest, 4e-6);  // faces are flat to 4 ulps of single precision
+      }
+    }
+  }
+  std::printf("of %d sets of points %d have no model\n", made + refused, refused);
+  EXPECT_LE(refused, sizeof(btScalar) == 4 ? 0 : made / 2);  // turned prisms and grids of doubles
+  const btVector3 flat_ones[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  EXPECT_EQ(bullet::model_of(flat_ones, 4).error().code, ErrorCode::NotSolid);
+  EXPECT_EQ(bullet::model_of(flat_ones, 0).error().code, ErrorCode::NotSolid);
+}
+
 // ---- Planes ----------------------------------------------------------------------------------------------------------------
 
 TEST(Planes, AreAnsweredByTheLowestVertex) {
