@@ -16,14 +16,18 @@ namespace swiftlet {
 /// A place of contact with one triangle, in the world's frame.
 struct TrianglePoint {
   Vec3 normal;                     ///< unit, from the model to the surface
-  Vec3 point_a, point_b;           ///< on the model and on the surface, both on one line along the normal
+  Vec3 point_a;                    ///< on the model
+  Vec3 point_b;                    ///< on the surface: `point_a` + `separation` * normal
   double separation = 0;           ///< along the normal, below 0 where they overlap
   std::uint32_t triangle = 0;      ///< its number in the order of `add`
   bool is_deepest_of_its = false;  ///< of the points that its triangle has
 };
 
-/// The side of a triangle from which its corners turn counter-clockwise, or the other one.
-enum class Side : std::uint8_t { Front, Back };
+/// A side of a triangle.
+enum class Side : std::uint8_t {
+  Front,  ///< from which its corners turn counter-clockwise
+  Back,   ///< the other one
+};
 
 /// A model and the triangles near it. It lives as long as the pair does: from step to step it remembers each triangle's seed,
 /// and the side on which the model is.
@@ -71,11 +75,12 @@ class TrianglePair {
   std::vector<TrianglePoint> points_;
 };
 
-/// Of points whose normals are alike, the numbers of at most four: the deepest, and those that span the largest area with it.
+/// The few of many points that stand for them.
 struct Spread {
-  std::array<std::uint32_t, 4> index{};
-  std::uint32_t count = 0;
+  std::array<std::uint32_t, 4> index{};  ///< [0, count): the deepest first
+  std::uint32_t count = 0;               ///< at most four
 };
+/// Of points whose normals are alike, chooses the deepest, and those that span the largest area with it.
 Spread spread(std::span<const TrianglePoint> points);
 
 }  // namespace swiftlet
