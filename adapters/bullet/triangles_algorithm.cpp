@@ -16,6 +16,7 @@
 #include <swiftlet/triangles.h>
 
 #include "algorithms.h"
+#include "held_points.h"
 
 namespace swiftlet::bullet {
 namespace {
@@ -175,9 +176,13 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
     for (const Group& group : state_->groups) {
       btPersistentManifold& manifold = taken_from(free, group.front(), a, b);
       const Spread chosen = spread(group);
-      if (!shared_) forget_others(manifold, group, chosen, a);
       result.setPersistentManifold(&manifold);
-      for (std::uint32_t i = chosen.count; i-- > 0;) add(group[chosen.index[i]], surface, result);  // the deepest comes last
+      const Manifold now = manifold_of(group, chosen);
+      const bool swapped = manifold.getBody0() != a.getCollisionObject();
+      if (shared_ || swapped || !hold_the_area(manifold, now)) {
+        if (!shared_) forget_others(manifold, now, swapped);
+        for (std::uint32_t i = chosen.count; i-- > 0;) add(group[chosen.index[i]], surface, result);  // the deepest comes last
+      }
       if (!shared_) result.refreshContactPoints();
     }
     if (shared_) return;
@@ -227,21 +232,18 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
     return manifold;
   }
 
-  /// Bullet carries the impulse of an old point nearby over to a new one. Those that are near none of this step's go.
-  void forget_others(btPersistentManifold& manifold, const Group& group, const Spread& chosen,
-                     const btCollisionObjectWrapper& a) const {
-    const bool swapped = manifold.getBody0() != a.getCollisionObject();
-    const btTransform& in_world = manifold.getBody0()->getWorldTransform();
-    for (int i = manifold.getNumContacts(); i-- > 0;) {
-      const btVector3 old = in_world(manifold.getContactPoint(i).m_localPointA);
-      bool stays = false;
-      for (std::uint32_t k = 0; k < chosen.count; ++k) {
-        const TrianglePoint& p = group[chosen.index[k]];
-        const Vec3& on_first = hull_is_a_ != swapped ? p.point_a : p.point_b;
-        stays = stays || (vector_of(on_first) - old).length() < manifold.getContactBreakingThreshold();
-      }
-      if (!stays) manifold.removeContactPoint(i);
+  /// The chosen points of a group as two bodies' manifold.
+  Manifold manifold_of(const Group& group, const Spread& chosen) const {
+    Manifold now;
+    now.normal = hull_is_a_ ? group.front().normal : Vec3(-group.front().normal);
+    for (std::uint32_t i = 0; i < chosen.count; ++i) {
+      const TrianglePoint& p = group[chosen.index[i]];
+      ManifoldPoint& point = now.points[now.count++];
+      point.point_a = hull_is_a_ ? p.point_a : p.point_b;
+      point.point_b = hull_is_a_ ? p.point_b : p.point_a;
+      point.separation = p.separation;
     }
+    return now;
   }
 
   const Create& create_;
