@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Insertion, rotations and both searches of the tree of boxes.
+#include "broad_phase.h"
+
+#include <algorithm>
+#include <queue>
+
+namespace swiftlet {
+namespace {
+
+/// A leaf's box is larger than its item's by this share of the longest side.
+constexpr double kRoom = 0.125;
+
+Box both(const Box& a, const Box& b) {
+  Box box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.min[i] = std::min(a.min[i], b.min[i]);
+    box.max[i] = std::max(a.max[i], b.max[i]);
+  }
+  return box;
+}
+
+/// Half the surface.
+double area(const Box& box) {
+  const double x = box.max[0] - box.min[0], y = box.max[1] - box.min[1], z = box.max[2] - box.min[2];
+  return x * y + y * z + z * x;
+}
+
+bool holds(const Box& outer, const Box& inner) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (inner.min[i] < outer.min[i] || inner.max[i] > outer.max[i]) return false;
+  }
+  return true;
+}
+
+Box roomy(Box box) {
+  double side = 0;
+  for (std::size_t i = 0; i < 3; ++i) side = std::max(side, box.max[i] - box.min[i]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.min[i] -= kRoom * side;
+    box.max[i] += kRoom * side;
+  }
+  return box;
+}
+
+}  // namespace
+
+double squared_gap(const Box& a, const Box& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double gap = std::max(0.0, std::max(a.min[i] - b.max[i], b.min[i] - a.max[i]));
+    sum += gap * gap;
+  }
+  return sum;
+}
+
+void BoxTree::put(std::uint32_t item, const Box& box) {
+  if (item >= leaf_.size()) {
+    leaf_.resize(item + 1, kNothing);
+    boxes_.resize(item + 1);
+  }
+  boxes_[item] = box;
+  std::uint32_t& leaf = leaf_[item];
+  if (leaf == kNothing) {
+    leaf = new_node();
+    nodes_[leaf].child = {item, kNothing};
+  } else if (holds(nodes_[leaf].box, box)) {
+    return;
+  } else {
+    take_out(leaf);
+  }
+  nodes_[leaf].box = roomy(box);
+  insert(leaf);
+}
+
+void BoxTree::remove(std::uint32_t item) {
+  take_out(leaf_[item]);
+  free_.push_back(leaf_[item]);
+  leaf_[item] = kNothing;
+}
+
+std::uint32_t BoxTree::new_node() {
+  if (free_.empty()) {
+    nodes_.emplace_back();
+    return std::uint32_t(nodes_.size() - 1);
+  }
+  const std::uint32_t node = free_.back();
+  free_.pop_back();
+  return node;
+}
+
+void BoxTree::insert(std::uint32_t leaf) {
+  if (root_ == kNothing) {
+    root_ = leaf;
+    nodes_[leaf].parent = kNothing;
+    return;
+  }
+  // Downwards as long as a child promises less growth of all surfaces than a new parent here.
+  const Box box = nodes_[leaf].box;
+  std::uint32_t sibling = root_;
+  while (!nodes_[sibling].is_leaf()) {
+    const Node& node = nodes_[sibling];
+    const double here = area(both(node.box, box)), inherited = here - area(node.box);
+    std::array<double, 2> cost;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Node& child = nodes_[node.child[i]];
+      cost[i] = inherited + area(both(child.box, box)) - (child.is_leaf() ? 0 : area(child.box));
+    }
+    const std::size_t better = cost[1] < cost[0];
+    if (here <= cost[better]) break;
+    sibling = node.child[better];
+  }
+  const std::uint32_t parent = new_node(), above = nodes_[sibling].parent;
+  nodes_[parent].parent = above;
+  nodes_[parent].child = {sibling, leaf};
+  if (above == kNothing) {
+    root_ = parent;
+  } else {
+    nodes_[above].child[nodes_[above].child[1] == sibling] = parent;
+  }
+  nodes_[sibling].parent = nodes_[leaf].parent = parent;
+  refit(parent);
+}
+
+void BoxTree::take_out(std::uint32_t leaf) {
+  const std::uint32_t parent = nodes_[leaf].parent;
+  if (parent == kNothing) {
+    root_ = kNothing;
+    return;
+  }
+  const std::uint32_t sibling = nodes_[parent].child[nodes_[parent].child[0] == leaf], above = nodes_[parent].parent;
+  nodes_[sibling].parent = above;
+  free_.push_back(parent);
+  if (above == kNothing) {
+    root_ = sibling;
+  } else {
+    nodes_[above].child[nodes_[above].child[1] == parent] = sibling;
+    refit(above);
+  }
+}
+
+void BoxTree::refit(std::uint32_t node) {
+  for (; node != kNothing; node = nodes_[node].parent) {
+    Node& n = nodes_[node];
+    n.box = both(nodes_[n.child[0]].box, nodes_[n.child[1]].box);
+    rotate(node);
+  }
+}
+
+/// Exchanges a child for a child of the other where that makes the other's surface least.
+void BoxTree::rotate(std::uint32_t node) {
+  double best = 0;
+  std::size_t side = 0, grandchild = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Node& lower = nodes_[nodes_[node].child[i]];
+    if (lower.is_leaf()) continue;
+    const Box& other = nodes_[nodes_[node].child[1 - i]].box;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double less = area(lower.box) - area(both(other, nodes_[lower.child[1 - k]].box));
+      if (less > best) best = less, side = i, grandchild = k;
+    }
+  }
+  if (best <= 0) return;
+  const std::uint32_t lower = nodes_[node].child[side];
+  std::uint32_t &up = nodes_[lower].child[grandchild], &down = nodes_[node].child[1 - side];
+  std::swap(up, down);
+  nodes_[up].parent = lower;
+  nodes_[down].parent = node;
+  nodes_[lower].box = both(nodes_[nodes_[lower].child[0]].box, nodes_[nodes_[lower].child[1]].box);
+}
+
+template <class Split>
+void BoxTree::below(const BoxTree& other, std::uint32_t a, std::uint32_t b, Split split) const {
+  const Node &node_a = nodes_[a], &node_b = other.nodes_[b];
+  if (this == &other && a == b) {
+    split(node_a.child[0], node_a.child[0]);
+    split(node_a.child[1], node_a.child[1]);
+    split(node_a.child[0], node_a.child[1]);
+  } else if (node_b.is_leaf() || (!node_a.is_leaf() && area(node_a.box) > area(node_b.box))) {
+    for (const std::uint32_t child : node_a.child) split(child, b);
+  } else {
+    for (const std::uint32_t child : node_b.child) split(a, child);
+  }
+}
+
+BoxTree::Pair BoxTree::items(const BoxTree& other, std::uint32_t a, std::uint32_t b) const {
+  const Pair pair{nodes_[a].child[0], other.nodes_[b].child[0]};
+  return this == &other && pair.b < pair.a ? Pair{pair.b, pair.a} : pair;
+}
+
+std::vector<BoxTree::Pair> BoxTree::near(const BoxTree& other, double most) const {
+  std::vector<Pair> found, to_do;
+  if (root_ != kNothing && other.root_ != kNothing) to_do.push_back({root_, other.root_});
+  while (!to_do.empty()) {
+    const auto [a, b] = to_do.back();
+    to_do.pop_back();
+    if (!nodes_[a].is_leaf() || !other.nodes_[b].is_leaf()) {
+      below(other, a, b, [&](std::uint32_t c, std::uint32_t d) {
+        const bool same = this == &other && c == d;
+        if (same ? !nodes_[c].is_leaf() : !(squared_gap(nodes_[c].box, other.nodes_[d].box) > most)) to_do.push_back({c, d});
+      });
+    } else if (this != &other || a != b) {
+      const Pair pair = items(other, a, b);
+      if (!(squared_gap(boxes_[pair.a], other.boxes_[pair.b]) > most)) found.push_back(pair);
+    }
+  }
+  // By counting for the first item, then each item's few.
+  std::vector<std::uint32_t> begin(leaf_.size() + 1);
+  for (const Pair& pair : found) ++begin[pair.a + 1];
+  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+  std::vector<Pair> sorted(found.size());
+  std::vector<std::uint32_t> end = begin;
+  for (const Pair& pair : found) sorted[end[pair.a]++] = pair;
+  for (std::size_t i = 0; i + 1 < begin.size(); ++i)
+    std::sort(sorted.begin() + begin[i], sorted.begin() + end[i], [](const Pair& x, const Pair& y) { return x.b < y.b; });
+  return sorted;
+}
+
+std::optional<BoxTree::Pair> BoxTree::nearest(const BoxTree& other, const std::function<bool(Pair)>& wanted) const {
+  struct Item {
+    double gap;
+    std::size_t when;
+    Pair nodes;
+    /// Of equal gaps the one that came last, which is the deepest.
+    bool operator<(const Item& x) const { return gap > x.gap || (gap == x.gap && when < x.when); }
+  };
+  std::priority_queue<Item> to_do;
+  std::size_t count = 0;
+  if (root_ != kNothing && other.root_ != kNothing) to_do.push({0, count++, {root_, other.root_}});
+  while (!to_do.empty()) {
+    const auto [a, b] = to_do.top().nodes;
+    to_do.pop();
+    if (!nodes_[a].is_leaf() || !other.nodes_[b].is_leaf()) {
+      below(other, a, b, [&](std::uint32_t c, std::uint32_t d) {
+        if (this != &other || c != d || !nodes_[c].is_leaf())
+          to_do.push({squared_gap(nodes_[c].box, other.nodes_[d].box), count++, {c, d}});
+      });
+    } else if (this != &other || a != b) {
+      const Pair pair = items(other, a, b);
+      if (wanted(pair)) return pair;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A dynamic tree of boxes [Catto 2019, Dynamic Bounding Volume Hierarchies]: leaves are the boxes of items and a little more,
+// so that small moves change nothing; inserted where the surface grows least, kept flat by rotations. Knows boxes and items by
+// number, not bodies.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace swiftlet {
+
+/// All points between two corners.
+struct Box {
+  std::array<double, 3> min, max;
+};
+
+/// The square of the distance of two boxes, to rounding.
+double squared_gap(const Box& a, const Box& b);
+
+class BoxTree {
+ public:
+  /// An item of each tree; of one tree with itself a < b.
+  struct Pair {
+    std::uint32_t a, b;
+  };
+
+  /// Adds the item, or moves it. Items are small numbers.
+  void put(std::uint32_t item, const Box& box);
+  /// Removes the item, which must be there.
+  void remove(std::uint32_t item);
+  const Box& box(std::uint32_t item) const { return boxes_[item]; }
+
+  /// Pairs of items whose boxes have a squared gap that is not above `most`, sorted; each once.
+  std::vector<Pair> near(const BoxTree& other, double most) const;
+  /// A pair with the least gap of boxes of those that are wanted.
+  std::optional<Pair> nearest(const BoxTree& other, const std::function<bool(Pair)>& wanted) const;
+
+ private:
+  static constexpr std::uint32_t kNothing = ~0u;
+  struct alignas(64) Node {
+    Box box;
+    std::uint32_t parent;
+    std::array<std::uint32_t, 2> child;  ///< of a leaf: its item, and nothing
+    bool is_leaf() const { return child[1] == kNothing; }
+  };
+  void insert(std::uint32_t leaf);
+  void take_out(std::uint32_t leaf);
+  void refit(std::uint32_t node);
+  void rotate(std::uint32_t node);
+  std::uint32_t new_node();
+  /// Calls split(a, b) for the node pairs below one that is not of two leaves.
+  template <class Split>
+  void below(const BoxTree& other, std::uint32_t a, std::uint32_t b, Split split) const;
+  Pair items(const BoxTree& other, std::uint32_t a, std::uint32_t b) const;
+
+  std::vector<Node> nodes_;
+  std::vector<Box> boxes_;           ///< per item, as it was put
+  std::vector<std::uint32_t> leaf_;  ///< per item
+  std::vector<std::uint32_t> free_;
+  std::uint32_t root_ = kNothing;
+};
+
+}  // namespace swiftlet

@@ -1,0 +1,464 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Scenes beside brute force: every pair asked on its own, cold. Bodies of all kinds and sizes, that touch exactly, far from the
+// origin, mirrored, moved, removed; on any executor the same bytes.
+#include <swiftlet/scene.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <set>
+#include <thread>
+
+#include <broad_phase.h>
+#include <random.h>
+#include <swiftlet/depth.h>
+#include <swiftlet/model_file.h>
+
+namespace swiftlet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity(), kNaN = std::numeric_limits<double>::quiet_NaN();
+using shapes::Random;
+using Ids = std::set<std::pair<BodyId, BodyId>>;
+
+const std::vector<Model>& models() {
+  static const std::vector<Model> all = [] {
+    std::vector<Model> read;
+    for (const char* name : {"fat_a", "fat_b", "plate", "long"})
+      read.push_back(load(std::string(SWIFTLET_TEST_DIR "/data/models/") + name + ".swl").value());
+    return read;
+  }();
+  return all;
+}
+
+/// A cube of any side is a box; a model of one, by arrays.
+Model cube_model(double side) {
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) corners.emplace_back(side / 2 * Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+  const std::uint32_t quads[] = {0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6},
+                      sizes[] = {4, 4, 4, 4, 4, 4};
+  LevelArrays arrays;
+  arrays.vertices = corners;
+  arrays.face_vertices = quads;
+  arrays.face_sizes = sizes;
+  return Model::from_level(arrays).value();
+}
+
+const std::vector<Model>& cubes() {
+  static const std::vector<Model> all{cube_model(1), cube_model(0.125), cube_model(4)};
+  return all;
+}
+
+Body any_body(Random& random) {
+  const double radius = random.bits() % 3 ? 0 : random.uniform(0, 0.3);
+  const auto p = [&] { return Vec3(0.7 * random.in_ball()); };
+  switch (random.bits() % 8) {
+    case 0: return Body::point(p(), radius);
+    case 1: return Body::segment(p(), p(), radius);
+    case 2: return Body::triangle(p(), p(), p(), radius);
+    case 3: return Body::box({-0.5, -0.25, 0}, {0.5, 0.25, 0.125}, radius);
+    case 4: return Body(cubes()[random.bits() % cubes().size()], radius);
+    default: return Body(models()[random.bits() % models().size()], radius);
+  }
+}
+
+/// On a lattice, where cubes touch exactly, or anywhere; one in eight mirrored. Around `centre`.
+Pose any_pose(Random& random, double reach, const Vec3& centre) {
+  Pose pose;
+  if (random.bits() % 4 == 0) {
+    for (double& x : pose.translation) x = std::round(reach * random.uniform(-1, 1));
+  } else {
+    pose.rotation = random.rotation();
+    pose.translation = reach * random.in_ball();
+  }
+  if (random.bits() % 8 == 0) pose.rotation.col(0) *= -1;
+  pose.translation += centre;
+  return pose;
+}
+
+Ids ids(const auto& pairs) {
+  Ids all;
+  for (const ScenePair& pair : pairs) all.emplace(pair.a, pair.b);
+  EXPECT_EQ(all.size(), pairs.size()) << "a pair twice";
+  EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end(),
+                             [](const ScenePair& x, const ScenePair& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); }));
+  return all;
+}
+
+/// visit(a, b, body of a, body of b, b_in_a) for all pairs.
+void all_pairs(const Scene& scene, const Scene& other, const auto& visit) {
+  for (const BodyId a : scene.bodies()) {
+    for (const BodyId b : other.bodies()) {
+      if (&scene == &other && !(a < b)) continue;
+      visit(a, b, scene.body(a), other.body(b), relative(scene.pose(a), other.pose(b)));
+    }
+  }
+}
+
+/// Asks everything and compares with every pair asked on its own.
+void expect_as_brute_force(Scene& scene, const Scene& other, double reach) {
+  Ids overlapping, within, up_to, in_contact;
+  std::map<std::pair<BodyId, BodyId>, std::pair<Answer, double>> distances, depths;
+  double upper = kInfinity, lower = kInfinity;
+  all_pairs(scene, other, [&](BodyId a, BodyId b, const Body& body_a, const Body& body_b, const Pose& pose) {
+    const double bound = tolerance(body_a, body_b, pose);
+    if (intersects(body_a, body_b, pose).verdict != Verdict::Disjoint) overlapping.emplace(a, b);
+    if (swiftlet::within(body_a, body_b, pose, reach).decision != Decision::No) within.emplace(a, b);
+    const Answer d = distance(body_a, body_b, pose), s = signed_distance(body_a, body_b, pose);
+    if (d.lower <= reach) up_to.emplace(a, b);
+    if (s.lower <= reach) in_contact.emplace(a, b);
+    distances[{a, b}] = {d, bound};
+    depths[{a, b}] = {s, bound};
+    lower = std::min(lower, d.lower);
+    upper = std::min(upper, d.upper);
+  });
+  EXPECT_EQ(ids(scene.overlapping(other)), overlapping);
+  EXPECT_EQ(ids(scene.within(other, reach)), within);
+  const auto found = scene.distances(other, {.beyond = reach});
+  EXPECT_EQ(ids(found), up_to);
+  for (const ScenePair& pair : found) {
+    const auto& [alone, bound] = distances[{pair.a, pair.b}];
+    EXPECT_LE(pair.answer.lower, alone.upper);
+    EXPECT_LE(alone.lower, pair.answer.upper);
+    EXPECT_LE(pair.answer.upper - pair.answer.lower, bound);
+  }
+  const auto contacts = scene.contacts(other, {.margin = reach});
+  EXPECT_EQ(ids(contacts), in_contact);
+  for (const SceneContact& contact : contacts) {
+    const auto& [alone, bound] = depths[{contact.a, contact.b}];
+    EXPECT_LE(contact.answer.lower, alone.upper);
+    EXPECT_LE(alone.lower, contact.answer.upper);
+    EXPECT_GT(contact.manifold.count, 0u);
+  }
+  const NearestPair nearest = scene.nearest(other);
+  ASSERT_EQ(scene.has(nearest.a), !distances.empty());
+  if (distances.empty()) return;
+  EXPECT_LE(nearest.lower, upper);
+  EXPECT_LE(lower, nearest.answer.upper);
+  const double bound = distances[{nearest.a, nearest.b}].second;
+  EXPECT_LE(nearest.answer.upper - nearest.lower, 2 * bound);
+}
+
+TEST(BoxTree, FindsWhatBruteForceFinds) {
+  Random random(1);
+  BoxTree trees[2];
+  std::map<std::uint32_t, Box> boxes[2];
+  for (int step = 0; step < 3000; ++step) {
+    const std::size_t which = random.bits() % 2;
+    const auto item = std::uint32_t(random.bits() % 60);
+    if (boxes[which].count(item) && random.bits() % 4 == 0) {
+      trees[which].remove(item);
+      boxes[which].erase(item);
+    } else {
+      Box box;
+      const double size = std::ldexp(1, int(random.bits() % 12) - 10), far = random.bits() % 50 ? 0 : 1e12;
+      for (std::size_t i = 0; i < 3; ++i) {
+        box.min[i] = std::round(8 * random.uniform(-5, 5)) / 8 + far;
+        box.max[i] = box.min[i] + size;
+      }
+      if (boxes[which].count(item) && random.bits() % 2) {  // a small move
+        box = boxes[which][item];
+        for (std::size_t i = 0; i < 3; ++i) box.min[i] += 1e-3, box.max[i] += 1e-3;
+      }
+      trees[which].put(item, box);
+      boxes[which][item] = box;
+    }
+    if (step % 10) continue;
+    for (const std::size_t other : {which, 1 - which}) {
+      for (const double most : {0.0, 0.5, kInfinity, kNaN}) {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> found, wanted;
+        for (const auto& [a, b] : trees[which].near(trees[other], most)) found.emplace_back(a, b);
+        for (const auto& [a, box_a] : boxes[which]) {
+          for (const auto& [b, box_b] : boxes[other])
+            if ((which != other || a < b) && !(squared_gap(box_a, box_b) > most)) wanted.emplace_back(a, b);
+        }
+        EXPECT_EQ(found, wanted);
+      }
+      const auto any = trees[which].nearest(trees[other], [](BoxTree::Pair) { return true; });
+      EXPECT_EQ(any.has_value(), which == other ? boxes[which].size() > 1 : !boxes[0].empty() && !boxes[1].empty());
+      std::size_t all = 0;
+      trees[which].nearest(trees[other], [&](BoxTree::Pair) { return ++all, false; });
+      EXPECT_EQ(all, trees[which].near(trees[other], kInfinity).size());
+    }
+  }
+}
+
+TEST(Scene, AnswersAsBruteForce) {
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    Random random(seed);
+    const Vec3 centre = seed % 3 == 2 ? Vec3(1e15, -3e14, 7e14) : Vec3(0, 0, 0);
+    const double reach = std::array{1.5, 3.0, 6.0, 12.0}[seed % 4];
+    Scene scene, other;
+    for (int i = 0; i < 40; ++i) (void)scene.add("", any_body(random), any_pose(random, reach, centre));
+    for (int i = 0; i < 15; ++i) (void)other.add("", any_body(random), any_pose(random, reach, centre));
+    for (int step = 0; step < 4; ++step) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << " step " << step);
+      expect_as_brute_force(scene, scene, 0.2);
+      expect_as_brute_force(scene, other, step == 2 ? 5 : 0.1);
+      for (Scene* moved : {&scene, &other}) {
+        for (const BodyId id : moved->bodies()) {
+          Pose pose = moved->pose(id);
+          pose.translation += 0.05 * random.in_ball();
+          if (random.bits() % 8 == 0) pose = any_pose(random, reach, centre);
+          EXPECT_TRUE(moved->move(id, pose));
+        }
+      }
+    }
+  }
+}
+
+/// Pairs whose boxes just do not touch, but of which queries say Touching: law 2's bound is widest in frames as far from
+/// orthonormal as queries take.
+TEST(Scene, MissesNoPairThatTouches) {
+  Random random(3);
+  int touching = 0;
+  for (int round = 0; round < 600; ++round) {
+    const double side = std::array{1.0, 0.125, 4.0}[std::size_t(round % 3)], strain = 2e-7 * (round % 2);
+    const Body cube = cubes()[std::size_t(round % 3)];
+    Pose first{Mat3::Identity() * (1 + strain), random.in_ball()}, second = first;
+    second.translation += side * Vec3((1 + strain) * (1 + 1e-15 * (round % 8)), random.uniform(-1, 1), random.uniform(-1, 1));
+    Scene scene;
+    (void)scene.add("", cube, first);
+    (void)scene.add("", cube, second);
+    touching += int(intersects(cube, cube, relative(first, second)).verdict == Verdict::Touching);
+    expect_as_brute_force(scene, scene, 0);
+  }
+  EXPECT_GT(touching, 300);
+}
+
+TEST(Scene, NamesIdsAndChurn) {
+  Random random(7);
+  Scene scene;
+  std::map<std::string, BodyId> there;
+  std::vector<BodyId> gone;
+  for (int step = 0; step < 400; ++step) {
+    const std::string name = "body " + std::to_string(random.bits() % 50);
+    const auto found = there.find(name);
+    EXPECT_EQ(scene.find(name), found == there.end() ? BodyId{} : found->second);
+    if (found == there.end()) {
+      const BodyId id = scene.add(name, any_body(random), any_pose(random, 4, {0, 0, 0}));
+      EXPECT_TRUE(scene.has(id));
+      EXPECT_EQ(scene.name(id), name);
+      EXPECT_EQ(std::count(gone.begin(), gone.end(), id), 0) << "an id came back";
+      there[name] = id;
+    } else if (random.bits() % 2) {
+      EXPECT_EQ(scene.add(name, any_body(random), Pose{}), BodyId{}) << "a name twice";
+      EXPECT_TRUE(scene.move(found->second, any_pose(random, 4, {0, 0, 0})));
+    } else {
+      EXPECT_TRUE(scene.remove(found->second));
+      gone.push_back(found->second);
+      there.erase(found);
+    }
+    EXPECT_EQ(scene.size(), there.size());
+    if (step % 20 == 0) expect_as_brute_force(scene, scene, 0.1);
+  }
+  for (const BodyId id : gone) {
+    EXPECT_FALSE(scene.has(id) || scene.move(id, Pose{}) || scene.remove(id));
+    EXPECT_TRUE(scene.name(id).empty());
+    EXPECT_TRUE(std::isnan(scene.pose(id).translation[0]));
+  }
+  EXPECT_FALSE(scene.remove({}));
+  EXPECT_EQ(scene.find(""), BodyId{});
+}
+
+TEST(Scene, OfNoneAndOne) {
+  Scene none, one(models()[0], Pose{});
+  for (Scene* scene : {&none, &one}) {
+    EXPECT_TRUE(scene->overlapping().empty() && scene->within(kInfinity).empty() && scene->contacts().empty());
+    EXPECT_EQ(scene->nearest().a, BodyId{});
+    EXPECT_EQ(scene->nearest().lower, kInfinity);
+  }
+  EXPECT_TRUE(none.overlapping(one).empty() && one.overlapping(none).empty());
+  EXPECT_EQ(one.overlapping(Scene(models()[1], Pose{})).size(), 1u);
+  Pose away;
+  away.translation = {10, 0, 0};
+  const NearestPair far = one.nearest(Scene(models()[1], away), {.beyond = 2});
+  EXPECT_EQ(far.a, BodyId{});
+  EXPECT_EQ(far.lower, 2);
+}
+
+/// The model may go: the scene shares its block.
+TEST(Scene, KeepsItsModels) {
+  Scene scene;
+  {
+    const Model model = cube_model(2);
+    (void)scene.add("a", model, Pose{});
+    (void)scene.add("b", Body(model, 0.5), Pose{.translation = {0.5, 0, 0}});
+  }
+  Scene moved = std::move(scene);
+  EXPECT_EQ(moved.overlapping().size(), 1u);
+  EXPECT_EQ(moved.body(moved.find("b")).radius(), 0.5);
+}
+
+TEST(Scene, WhatQueriesRefuseIsListedWithItsStatus) {
+  Scene scene;
+  const BodyId a = scene.add("a", models()[0], Pose{});
+  const BodyId b = scene.add("b", models()[1], Pose{.translation = {100, 0, 0}});
+  EXPECT_TRUE(scene.overlapping().empty());
+  Pose bad;
+  bad.translation[1] = kNaN;
+  EXPECT_TRUE(scene.move(b, bad));
+  for (const auto& pairs : {scene.overlapping(), scene.within(0.1), scene.distances({.beyond = 1})}) {
+    ASSERT_EQ(pairs.size(), 1u);
+    EXPECT_EQ(pairs[0].answer.status, Status::InvalidPose);
+  }
+  ASSERT_EQ(scene.contacts().size(), 1u);
+  EXPECT_EQ(scene.contacts()[0].manifold.count, 0u);
+  EXPECT_EQ(scene.nearest().answer.status, Status::InvalidPose);
+  EXPECT_EQ(scene.nearest().lower, 0);
+  EXPECT_TRUE(scene.move(b, Pose{.translation = {100, 0, 0}}));
+  EXPECT_TRUE(scene.overlapping().empty());
+  EXPECT_EQ(scene.nearest().answer.status, Status::Converged);
+  bad = {.rotation = 1.1 * Mat3::Identity()};
+  EXPECT_EQ(scene.overlapping(Scene(models()[0], bad)).size(), 2u);
+  EXPECT_EQ(scene.overlapping(Scene(Body(), Pose{})).at(1).answer.status, Status::InvalidBody);
+  EXPECT_EQ(scene.overlapping(Scene(Body(models()[0], -1), Pose{})).at(0).answer.status, Status::InvalidRadius);
+  EXPECT_EQ(scene.within(kNaN).size(), 1u) << "no pair is proved farther apart than NaN";
+  EXPECT_EQ(scene.within(Scene(models()[0], Pose{}), 50).size(), 1u);
+  EXPECT_TRUE(scene.has(a));
+}
+
+bool same_bytes(const auto& left, const auto& right) {
+  if (left.size() != right.size()) return false;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (left[i].a != right[i].a || left[i].b != right[i].b ||
+        std::memcmp(&left[i].answer, &right[i].answer, sizeof(Answer)) != 0)
+      return false;
+  }
+  return true;
+}
+
+TEST(Scene, OnThreadsTheSameBytes) {
+  const Executor threads = on_threads(4);
+  const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) {
+    while (count > 0) task(--count);
+  };
+  Random random(11);
+  Scene scenes[3];
+  scenes[1].run_by({.executor = threads});
+  scenes[2].run_by({.executor = backwards});
+  for (int i = 0; i < 400; ++i) {
+    const Body body = any_body(random);
+    const Pose pose = any_pose(random, 6, {0, 0, 0});
+    for (Scene& scene : scenes) (void)scene.add("", body, pose);
+  }
+  std::size_t listed = 0;
+  for (int step = 0; step < 5; ++step) {
+    const auto overlapping = scenes[0].overlapping();
+    const auto within = scenes[0].within(0.2);
+    const auto distances = scenes[0].distances({.relative = 0.01, .beyond = 0.3});
+    const auto contacts = scenes[0].contacts({.margin = 0.05});
+    const std::vector<NearestPair> nearest{scenes[0].nearest()};
+    listed += overlapping.size();
+    for (Scene* scene : {&scenes[1], &scenes[2]}) {
+      EXPECT_TRUE(same_bytes(overlapping, scene->overlapping()));
+      EXPECT_TRUE(same_bytes(within, scene->within(0.2)));
+      EXPECT_TRUE(same_bytes(distances, scene->distances({.relative = 0.01, .beyond = 0.3})));
+      const auto again = scene->contacts({.margin = 0.05});
+      EXPECT_TRUE(same_bytes(contacts, again));
+      for (std::size_t i = 0; i < again.size(); ++i) {
+        ASSERT_EQ(contacts[i].manifold.count, again[i].manifold.count);
+        for (std::uint32_t k = 0; k < again[i].manifold.count; ++k)
+          EXPECT_EQ(contacts[i].manifold.points[k].point_a, again[i].manifold.points[k].point_a);
+      }
+      EXPECT_TRUE(same_bytes(nearest, std::vector{scene->nearest()}));
+    }
+    for (const BodyId id : scenes[0].bodies()) {
+      Pose pose = scenes[0].pose(id);
+      pose.translation += 0.05 * random.in_ball();
+      for (Scene& scene : scenes) scene.move(id, pose);
+    }
+  }
+  EXPECT_GT(listed, 1000u);
+}
+
+/// What is kept of pairs changes the work, never the truth.
+TEST(Scene, WarmAsCold) {
+  Random random(13);
+  Scene warm;
+  for (int i = 0; i < 60; ++i) (void)warm.add("", any_body(random), any_pose(random, 4, {0, 0, 0}));
+  std::uint64_t steps_warm = 0, steps_cold = 0;
+  for (int step = 0; step < 30; ++step) {
+    Scene cold;
+    for (const BodyId id : warm.bodies()) {
+      Pose pose = warm.pose(id);
+      pose.translation += 0.01 * random.in_ball();
+      warm.move(id, pose);
+      EXPECT_EQ(cold.add("", warm.body(id), pose), id);
+    }
+    const auto left = warm.distances({.beyond = 0.5}), right = cold.distances({.beyond = 0.5});
+    EXPECT_EQ(ids(left), ids(right));
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      EXPECT_EQ(left[i].answer.verdict, right[i].answer.verdict);
+      EXPECT_LE(left[i].answer.lower, right[i].answer.upper);
+      EXPECT_LE(right[i].answer.lower, left[i].answer.upper);
+      steps_warm += left[i].answer.steps;
+      steps_cold += right[i].answer.steps;
+    }
+  }
+  EXPECT_LT(2 * steps_warm, steps_cold);
+}
+
+TEST(Scene, AsksOnlyWhatIsWanted) {
+  Random random(17);
+  Scene scene, other;
+  for (int i = 0; i < 10; ++i) {
+    (void)scene.add("", cubes()[0], Pose{.translation = {0.5 * i, 0, 0}});
+    (void)other.add("", cubes()[0], Pose{.translation = {0.5 * i, 0, 0}});
+  }
+  EXPECT_EQ(scene.overlapping().size(), 9u + 8u);  // those that touch too
+  scene.ask_only([](BodyId a, BodyId b) { return b.index - a.index > 2; });
+  EXPECT_TRUE(scene.overlapping().empty());
+  const NearestPair nearest = scene.nearest();
+  EXPECT_EQ(nearest.b.index - nearest.a.index, 3u);
+  EXPECT_NEAR(nearest.answer.value(), 0.5, 1e-12);
+  EXPECT_EQ(scene.overlapping(other).size(), 10u + 2 * (9u + 8u));
+  scene.ask_only([](BodyId, BodyId) { return false; });
+  EXPECT_EQ(scene.nearest().a, BodyId{});
+}
+
+TEST(Scene, WhatWasStoppedIsListedAsNotAsked) {
+  Scene scene;
+  for (int i = 0; i < 300; ++i) (void)scene.add("", cubes()[0], Pose{.translation = {1.001 * i, 0, 0}});
+  EXPECT_TRUE(scene.overlapping().empty());
+  int tasks = 0;
+  scene.run_by({.stop = [&tasks] { return ++tasks > 1; }});
+  const auto pairs = scene.within(0.000999);
+  EXPECT_GT(pairs.size(), 50u);
+  for (const ScenePair& pair : pairs) EXPECT_EQ(pair.answer.status, Status::NotAsked);
+  scene.run_by({});
+  EXPECT_TRUE(scene.within(0.000999).empty());
+}
+
+/// A point of contact keeps its place while two others' bodies come and go.
+TEST(Scene, ManifoldsStay) {
+  Scene scene;
+  const BodyId floor = scene.add("floor", Body::box({-50, -50, -1}, {50, 50, 0}), Pose{});
+  std::vector<BodyId> dice;
+  for (int i = 0; i < 30; ++i) dice.push_back(scene.add("", cubes()[0], Pose{.translation = {1.5 * i - 20, 0, 0.501}}));
+  auto before = scene.contacts({.margin = 0.01});
+  ASSERT_EQ(before.size(), dice.size());
+  EXPECT_EQ(before[0].a, floor);
+  for (const SceneContact& contact : before) EXPECT_EQ(contact.manifold.count, 4u);
+  EXPECT_TRUE(scene.remove(dice[4]));
+  for (const BodyId id : dice) {
+    Pose pose = scene.pose(id);
+    pose.translation += Vec3(1e-3, 0, -2e-4);
+    if (id != dice[4]) scene.move(id, pose);
+  }
+  const auto after = scene.contacts({.margin = 0.01});
+  ASSERT_EQ(after.size(), dice.size() - 1);
+  for (const SceneContact& contact : after) {
+    const auto old = std::find_if(before.begin(), before.end(), [&](const SceneContact& c) { return c.b == contact.b; });
+    ASSERT_NE(old, before.end());
+    for (std::uint32_t k = 0; k < 4; ++k) EXPECT_EQ(contact.manifold.points[k].feature_b, old->manifold.points[k].feature_b);
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet
