@@ -292,7 +292,7 @@ void run(const std::filesystem::path& results, const std::filesystem::path& cach
 int main(int argc, char** argv) try {
   using namespace swiftlet::bench;
   const bool scale = argc == 4 && std::string(argv[3]) == "scale";
-  if (argc != 3 && !scale) return std::fputs("swiftlet_scene RESULTS_DIRECTORY LINKS_DIRECTORY [scale]\n", stderr), 2;
+  if (argc != 3 && !scale) return std::fputs("swiftlet_scene_bench RESULTS_DIRECTORY LINKS_DIRECTORY [scale]\n", stderr), 2;
   scale ? measure_scale(argv[1]) : run(argv[1], argv[2]);
 } catch (const std::exception& failure) {
   return std::fprintf(stderr, "%s\n", failure.what()), 1;

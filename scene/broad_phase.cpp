@@ -46,15 +46,6 @@ Box roomy(Box box) {
 
 }  // namespace
 
-double squared_gap(const Box& a, const Box& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double gap = std::max(0.0, std::max(a.min[i] - b.max[i], b.min[i] - a.max[i]));
-    sum += gap * gap;
-  }
-  return sum;
-}
-
 void BoxTree::put(std::uint32_t item, const Box& box) {
   if (item >= leaf_.size()) {
     leaf_.resize(item + 1, kNothing);

@@ -5,6 +5,7 @@
 // number, not bodies.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -19,7 +20,14 @@ struct Box {
 };
 
 /// The square of the distance of two boxes, to rounding.
-double squared_gap(const Box& a, const Box& b);
+inline double squared_gap(const Box& a, const Box& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double gap = std::max(0.0, std::max(a.min[i] - b.max[i], b.min[i] - a.max[i]));
+    sum += gap * gap;
+  }
+  return sum;
+}
 
 class BoxTree {
  public:
