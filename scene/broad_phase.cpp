@@ -11,6 +11,8 @@ namespace {
 
 /// A leaf's box is larger than its item's by this share of the longest side.
 constexpr double kRoom = 0.125;
+/// Into so many tasks a search is cut, at least, where the trees are large enough.
+constexpr std::size_t kTasks = 256;
 
 Box both(const Box& a, const Box& b) {
   Box box;
@@ -180,22 +182,40 @@ BoxTree::Pair BoxTree::items(const BoxTree& other, std::uint32_t a, std::uint32_
   return this == &other && pair.b < pair.a ? Pair{pair.b, pair.a} : pair;
 }
 
-std::vector<BoxTree::Pair> BoxTree::near(const BoxTree& other, double most) const {
-  std::vector<Pair> found, to_do;
-  if (root_ != kNothing && other.root_ != kNothing) to_do.push_back({root_, other.root_});
-  while (!to_do.empty()) {
-    const auto [a, b] = to_do.back();
-    to_do.pop_back();
-    if (!nodes_[a].is_leaf() || !other.nodes_[b].is_leaf()) {
-      below(other, a, b, [&](std::uint32_t c, std::uint32_t d) {
-        const bool same = this == &other && c == d;
-        if (same ? !nodes_[c].is_leaf() : !(squared_gap(nodes_[c].box, other.nodes_[d].box) > most)) to_do.push_back({c, d});
-      });
-    } else if (this != &other || a != b) {
-      const Pair pair = items(other, a, b);
-      if (!(squared_gap(boxes_[pair.a], other.boxes_[pair.b]) > most)) found.push_back(pair);
-    }
+void BoxTree::step(const BoxTree& other, double most, Pair nodes, std::vector<Pair>& to_do, std::vector<Pair>& found) const {
+  const auto [a, b] = nodes;
+  if (!nodes_[a].is_leaf() || !other.nodes_[b].is_leaf()) {
+    below(other, a, b, [&](std::uint32_t c, std::uint32_t d) {
+      const bool same = this == &other && c == d;
+      if (same ? !nodes_[c].is_leaf() : !(squared_gap(nodes_[c].box, other.nodes_[d].box) > most)) to_do.push_back({c, d});
+    });
+  } else if (this != &other || a != b) {
+    const Pair pair = items(other, a, b);
+    if (!(squared_gap(boxes_[pair.a], other.boxes_[pair.b]) > most)) found.push_back(pair);
   }
+}
+
+std::vector<BoxTree::Pair> BoxTree::near(const BoxTree& other, double most, const Executor& executor) const {
+  std::vector<Pair> found, first;
+  if (root_ != kNothing && other.root_ != kNothing) first.push_back({root_, other.root_});
+  // Level by level until there is enough for tasks, then each of these to its end.
+  std::size_t begun = 0;
+  while (begun < first.size() && first.size() - begun < kTasks) step(other, most, first[begun++], first, found);
+  std::vector<std::vector<Pair>> found_by(first.size() - begun);
+  const auto search = [&](std::size_t task) {
+    std::vector<Pair> to_do{first[begun + task]};
+    while (!to_do.empty()) {
+      const Pair nodes = to_do.back();
+      to_do.pop_back();
+      step(other, most, nodes, to_do, found_by[task]);
+    }
+  };
+  if (executor) {
+    executor(found_by.size(), search);
+  } else {
+    for (std::size_t task = 0; task < found_by.size(); ++task) search(task);
+  }
+  for (const std::vector<Pair>& more : found_by) found.insert(found.end(), more.begin(), more.end());
   // By counting for the first item, then each item's few.
   std::vector<std::uint32_t> begin(leaf_.size() + 1);
   for (const Pair& pair : found) ++begin[pair.a + 1];

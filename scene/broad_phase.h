@@ -12,6 +12,8 @@
 #include <optional>
 #include <vector>
 
+#include <swiftlet/batch.h>
+
 namespace swiftlet {
 
 /// All points between two corners.
@@ -43,7 +45,7 @@ class BoxTree {
   const Box& box(std::uint32_t item) const { return boxes_[item]; }
 
   /// Pairs of items whose boxes have a squared gap that is not above `most`, sorted; each once.
-  std::vector<Pair> near(const BoxTree& other, double most) const;
+  std::vector<Pair> near(const BoxTree& other, double most, const Executor& executor = {}) const;
   /// A pair with the least gap of boxes of those that are wanted.
   std::optional<Pair> nearest(const BoxTree& other, const std::function<bool(Pair)>& wanted) const;
 
@@ -63,6 +65,8 @@ class BoxTree {
   /// Calls split(a, b) for the node pairs below one that is not of two leaves.
   template <class Split>
   void below(const BoxTree& other, std::uint32_t a, std::uint32_t b, Split split) const;
+  /// One step of a search from a pair of nodes: what is left to do below it, or the pair of items found.
+  void step(const BoxTree& other, double most, Pair nodes, std::vector<Pair>& to_do, std::vector<Pair>& found) const;
   Pair items(const BoxTree& other, std::uint32_t a, std::uint32_t b) const;
 
   std::vector<Node> nodes_;

@@ -131,7 +131,7 @@ struct Scene::Content {
       if (++old->idle <= kQuestionsKept && has(old->a) && other->has(old->b)) k.spare.push_back(*old);
       ++old;
     };
-    for (const BoxTree::Pair& pair : tree.near(other->tree, squared_reach(reach))) {
+    for (const BoxTree::Pair& pair : tree.near(other->tree, squared_reach(reach), run.executor)) {
       const BodyId a = id(pair.a), b = other->id(pair.b);
       if (own && asks && !asks(a, b)) continue;
       while (old != k.pairs.end() && before(old->a, old->b, a, b)) keep_idle();
