@@ -10,7 +10,7 @@ namespace swiftlet {
 namespace {
 
 /// A leaf's box is larger than its item's by this share of the longest side.
-constexpr double kRoom = 0.125;
+constexpr double kRoom = 0.0625;
 /// Into so many tasks a search is cut, at least, where the trees are large enough.
 constexpr std::size_t kTasks = 256;
 
@@ -210,11 +210,7 @@ std::vector<BoxTree::Pair> BoxTree::near(const BoxTree& other, double most, cons
       step(other, most, nodes, to_do, found_by[task]);
     }
   };
-  if (executor) {
-    executor(found_by.size(), search);
-  } else {
-    for (std::size_t task = 0; task < found_by.size(); ++task) search(task);
-  }
+  run_all(executor, found_by.size(), search);
   for (const std::vector<Pair>& more : found_by) found.insert(found.end(), more.begin(), more.end());
   // By counting for the first item, then each item's few.
   std::vector<std::uint32_t> begin(leaf_.size() + 1);

@@ -31,6 +31,13 @@ inline double squared_gap(const Box& a, const Box& b) {
   return sum;
 }
 
+/// Runs task(0) to task(count - 1) as `Executor` says; a single one, and without an executor all, on the calling thread.
+template <class Task>
+void run_all(const Executor& executor, std::size_t count, const Task& task) {
+  if (executor && count > 1) return executor(count, task);
+  for (std::size_t i = 0; i < count; ++i) task(i);
+}
+
 class BoxTree {
  public:
   /// An item of each tree; of one tree with itself a < b.

@@ -176,11 +176,7 @@ struct Scene::Content {
       for (std::size_t i = 0; i < queries.size(); ++i) list(k.pairs[some(task)[i]], queries[i], answers[i], found[task]);
       done[task] = true;
     };
-    if (run.executor) {
-      run.executor(tasks, run_one);
-    } else {
-      for (std::size_t task = 0; task < tasks; ++task) run_one(task);
-    }
+    run_all(run.executor, tasks, run_one);
     std::vector<Found> all;
     for (std::size_t task = 0; task < tasks; ++task) {
       if (done[task]) {
