@@ -212,16 +212,27 @@ std::vector<BoxTree::Pair> BoxTree::near(const BoxTree& other, double most, cons
   };
   run_all(executor, found_by.size(), search);
   for (const std::vector<Pair>& more : found_by) found.insert(found.end(), more.begin(), more.end());
-  // By counting for the first item, then each item's few.
-  std::vector<std::uint32_t> begin(leaf_.size() + 1);
-  for (const Pair& pair : found) ++begin[pair.a + 1];
-  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-  std::vector<Pair> sorted(found.size());
-  std::vector<std::uint32_t> end = begin;
-  for (const Pair& pair : found) sorted[end[pair.a]++] = pair;
-  for (std::size_t i = 0; i + 1 < begin.size(); ++i)
-    std::sort(sorted.begin() + begin[i], sorted.begin() + end[i], [](const Pair& x, const Pair& y) { return x.b < y.b; });
-  return sorted;
+  sort(found);
+  return found;
+}
+
+/// By counting for the first item, then each item's few; where there are fewer pairs than items, all as one.
+void BoxTree::sort(std::vector<Pair>& pairs) const {
+  const auto before = [](const Pair& x, const Pair& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; };
+  if (pairs.size() < leaf_.size()) return std::sort(pairs.begin(), pairs.end(), before);
+  std::vector<std::uint32_t> end(leaf_.size() + 1);
+  for (const Pair& pair : pairs) ++end[pair.a + 1];
+  for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
+  std::vector<Pair> sorted(pairs.size());
+  for (const Pair& pair : pairs) sorted[end[pair.a]++] = pair;
+  // By now `end` of an item is that: where the pairs of the next begin.
+  auto from = sorted.begin();
+  for (std::size_t i = 0; i < leaf_.size(); ++i) {
+    const auto to = sorted.begin() + end[i];
+    std::sort(from, to, before);
+    from = to;
+  }
+  pairs.swap(sorted);
 }
 
 std::optional<BoxTree::Pair> BoxTree::nearest(const BoxTree& other, const std::function<bool(Pair)>& wanted) const {

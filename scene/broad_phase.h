@@ -74,6 +74,7 @@ class BoxTree {
   void below(const BoxTree& other, std::uint32_t a, std::uint32_t b, Split split) const;
   /// One step of a search from a pair of nodes: what is left to do below it, or the pair of items found.
   void step(const BoxTree& other, double most, Pair nodes, std::vector<Pair>& to_do, std::vector<Pair>& found) const;
+  void sort(std::vector<Pair>& pairs) const;
   Pair items(const BoxTree& other, std::uint32_t a, std::uint32_t b) const;
 
   std::vector<Node> nodes_;
