@@ -56,7 +56,8 @@ struct SceneContact : ScenePair {
 /// pose that queries refuse may be anywhere: its pairs are all listed, and the status of their answers says why.
 ///
 /// The same calls in the same order give the same bits, whatever the executor. Seeds change the work, never the truth (LAWS.md,
-/// law 3). One thread at a time may use a scene; several may ask about the same `other`, if that rests meanwhile.
+/// law 3). Questions allocate. One thread at a time may use a scene; several may ask about the same `other`, if that rests
+/// meanwhile.
 class Scene {
  public:
   Scene();  ///< without bodies
