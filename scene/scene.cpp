@@ -18,11 +18,12 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity(), kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kPairsPerTask = 64;  // as in a batch, but small enough that their answers stay in a core's cache
 
-/// Boxes are larger by this share of the body's extent and radius, and reaches by this share of themselves. That covers, ten
-/// times and more, law 2's bound and all that a pose may differ from a rigid motion: 64 * 2^-53 + 2e-6, times a size of at most
-/// 4.5 extents of both bodies, as their frames' origins are no farther from them than sqrt(3) extents. So a pair that is left
-/// out is proved farther apart by the boxes, in the world's frame and in A's.
-constexpr double kSlack = 0x1p-16;
+/// Boxes are larger by this share of the body's extent and radius, and reaches by this share of themselves. Of near bodies law
+/// 2's bound is at most 64 * 2^-53 + 2e-6 times 2.8 times the sum of their extents, radii and the reach, as neither is farther
+/// from its frame's origin than sqrt(3) extents; and a rotation that is rigid to 1e-6 alone stretches distances and balls, of
+/// at most 3.5 extents, by 1.5e-6 of them. Both are a fifth of this share together. So a pair that is left out is proved
+/// farther apart by the boxes, in the world's frame and in A's, and by more than a query may doubt.
+constexpr double kSlack = 0x1p-14;
 /// What rounding adds to a box far from the origin, relative to its translation, 8 u; and what is lost below normal numbers.
 constexpr double kFar = 0x1p-50, kTiny = 1e-290;
 /// Larger than any body in any pose that queries take.
