@@ -16,6 +16,7 @@
 
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/detail/gjk_solver_indep.h>
@@ -216,13 +217,17 @@ TEST(Collision, OfOverlappingBodiesHasTheirDepth) {
   EXPECT_EQ(collide(a, at(0, 0, 0), a, at(0, 0, 0), Solver()).numContacts(), 4u);  // two in one place
 }
 
+std::vector<fcl::Touch> touches(const Placed& a, const Placed& b) {
+  PairSeed seed;
+  return fcl::touches(a, b, seed);
+}
+
 TEST(Touches, AreNoneOfBodiesThatAreApart) {
   const Model a = bodies::model(bodies::cube()), b = bodies::model(bodies::octahedron());
-  PairSeed seed;
   for (const double gap : {1.0, 1e-12}) {
-    EXPECT_TRUE(fcl::touches({a, {}}, {b, {Mat3::Identity(), Vec3(0, 0, 2 + gap)}}, seed).empty()) << gap;
+    EXPECT_TRUE(touches({a, {}}, {b, {Mat3::Identity(), Vec3(0, 0, 2 + gap)}}).empty()) << gap;
   }
-  EXPECT_EQ(fcl::touches({a, {}}, {b, {Mat3::Identity(), Vec3(0, 0, 2)}}, seed).size(), 1u);
+  EXPECT_EQ(touches({a, {}}, {b, {Mat3::Identity(), Vec3(0, 0, 2)}}).size(), 1u);
 }
 
 /// It grows with coordinates far from a frame's origin, and with what a rotation lacks of being one.
@@ -231,15 +236,14 @@ TEST(Touches, AreAsDeepAsTheTolerance) {
   const Model left = bodies::model(bodies::moved(bodies::cube(), Mat3::Identity(), Vec3(-far, 0, 0)));
   const Model right = bodies::model(bodies::moved(bodies::cube(), Mat3::Identity(), Vec3(far, 0, 0)));
   const Pose between{Mat3::Identity(), Vec3(2 - 2 * far, 0, 0)};
-  PairSeed seed;
-  const auto face_on_face = fcl::touches({left, {}}, {right, between}, seed);
+  const auto face_on_face = touches({left, {}}, {right, between});
   EXPECT_EQ(face_on_face.size(), 4u);
   for (const fcl::Touch& touch : face_on_face) {
     EXPECT_EQ(touch.depth, tolerance(left, right, between));
     EXPECT_NEAR(touch.point.x(), 1 - far, 1e-9);
   }
   const Placed stretched{right, {Vec3(1, 1 + wrong, 1 - wrong).asDiagonal(), between.translation}};
-  const auto on_stretched = fcl::touches({left, {}}, stretched, seed);
+  const auto on_stretched = touches({left, {}}, stretched);
   EXPECT_EQ(on_stretched.size(), 4u);
   for (const fcl::Touch& touch : on_stretched) EXPECT_GT(touch.depth, tolerance(left, right, between) + wrong * wrong * far);
 }
@@ -282,6 +286,7 @@ TEST(Solver, LeavesOtherShapesToTheOther) {
                                      std::make_shared<std::vector<int>>(convex.getFaces()));
   const ::fcl::Boxd box(1, 1, 1);
   const ::fcl::Sphered sphere(0.5);
+  const ::fcl::Cylinderd cylinder(0.5, 1);
   Solver solver;
   solver.others.distance_tolerance = 1e-12;  // as measure() asks of FCL
   const Transform there = at(3, 0.25, 0.5);
@@ -292,15 +297,17 @@ TEST(Solver, LeavesOtherShapesToTheOther) {
   };
   expect_same(convex, without_model);
   expect_same(without_model, convex);
-  expect_same(convex, box);
-  expect_same(sphere, convex);
+  expect_same(convex, cylinder);
+  expect_same(cylinder, convex);
   expect_same(box, sphere);
+  expect_same(without_model, box);
 
   ::fcl::BVHModel<::fcl::OBBRSSd> mesh;
   mesh.beginModel();
   mesh.addTriangle(Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0));
   mesh.endModel();
-  expect_same(mesh, convex);
+  expect_same(mesh, without_model);
+  expect_same(mesh, sphere);
 }
 
 TEST(Solver, TakesSinglePrecision) {

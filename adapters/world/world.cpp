@@ -94,6 +94,7 @@ const Model& whole(const Model& model) {
 }
 
 double tolerance(const Placed& a, const Placed& b) { return tolerance(a.body, b.body, b_in_a(a, b)); }
+double tolerance(const Placed& a, const HalfSpace& b) { return tolerance(a, part_below(a, b)); }
 
 Nearest nearest(const Placed& a, const Placed& b, double beyond, PairSeed& seed) {
   return in_world(pair_of(a, b, beyond, seed));

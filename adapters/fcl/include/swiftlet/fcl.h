@@ -1,21 +1,33 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// swiftlet in FCL 0.7: a convex shape that holds a model, and a solver for fcl::distance and fcl::collide. The templates only
-// hand on; what they call is compiled in swiftlet::fcl.
+// swiftlet in FCL 0.7: a convex shape that holds a model, a solver for fcl::distance and fcl::collide, and what keeps a solver
+// per pair for broadphase managers. The templates only hand on; what they call is compiled in swiftlet::fcl.
 #pragma once
 
 #include <cstddef>
-#include <limits>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <type_traits>
+#include <unordered_map>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/plane.h>
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/geometry/shape/triangle_p.h>
+#include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/contact_point.h>
 #include <fcl/narrowphase/detail/collision_func_matrix.h>
 #include <fcl/narrowphase/detail/distance_func_matrix.h>
 #include <fcl/narrowphase/detail/gjk_solver_libccd.h>
+#include <fcl/narrowphase/distance.h>
 
 #include <swiftlet/model.h>
 #include <swiftlet/world.h>
@@ -45,17 +57,94 @@ class Convex final : public ::fcl::Convex<S> {
   Model model_;
 };
 
+/// A model of an fcl::Convex, once and for all: `Convex(model_of(theirs).value())`. Errors: as Model::from_level, of faces that
+/// are no convex solid.
+template <class S>
+Result<Model> model_of(const ::fcl::Convex<S>& shape);
+
+/// A plane, which has no inside: all points p of the world with `normal` . p = `offset`.
+struct Plane {
+  Vec3 normal = Vec3::UnitZ();  ///< unit
+  double offset = 0;            ///< from the origin, along the normal
+};
+
+/// What a shape of FCL's is to the kernel, where it is in the world; nothing where the kernel knows no such shape. It borrows
+/// the model of a Convex.
+using Operand = std::variant<std::monostate, Placed, HalfSpace, Plane>;
+
+template <class S>
+Pose pose_of(const ::fcl::Transform3<S>& tf) {
+  return {tf.linear().template cast<double>(), tf.translation().template cast<double>()};
+}
+
+template <class S>
+Operand operand(const ::fcl::ShapeBase<S>&, const ::fcl::Transform3<S>&) {
+  return {};
+}
+template <class S>
+Operand operand(const ::fcl::Convex<S>& shape, const ::fcl::Transform3<S>& tf) {
+  const auto* const with_model = dynamic_cast<const Convex<S>*>(&shape);
+  return with_model ? Operand(Placed{with_model->model(), pose_of(tf)}) : Operand();
+}
+template <class S>
+Operand operand(const ::fcl::Sphere<S>& shape, const ::fcl::Transform3<S>& tf) {
+  return Placed{Body::point(Vec3::Zero(), shape.radius), pose_of(tf)};
+}
+template <class S>
+Operand operand(const ::fcl::Capsule<S>& shape, const ::fcl::Transform3<S>& tf) {
+  const Vec3 top = Vec3::UnitZ() * (double(shape.lz) / 2);
+  return Placed{Body::segment(-top, top, shape.radius), pose_of(tf)};
+}
+template <class S>
+Operand operand(const ::fcl::Box<S>& shape, const ::fcl::Transform3<S>& tf) {
+  const Vec3 half = shape.side.template cast<double>() / 2;
+  return Placed{Body::box(-half, half), pose_of(tf)};
+}
+template <class S>
+Placed triangle(const ::fcl::Vector3<S>& p, const ::fcl::Vector3<S>& q, const ::fcl::Vector3<S>& r, const Pose& in_world) {
+  return {Body::triangle(p.template cast<double>(), q.template cast<double>(), r.template cast<double>()), in_world};
+}
+template <class S>
+Operand operand(const ::fcl::TriangleP<S>& shape, const ::fcl::Transform3<S>& tf) {
+  return triangle<S>(shape.a, shape.b, shape.c, pose_of(tf));
+}
+/// Of a shape with a normal `n` and an offset `d`, whose length single precision leaves wrong by an ulp.
+template <class Flat, class Shape, class S>
+Flat flat(const Shape& shape, const ::fcl::Transform3<S>& tf) {
+  const Vec3 n = shape.n.template cast<double>(), up = (pose_of(tf).rotation * n).normalized();
+  return {up, up.dot(pose_of(tf).translation) + double(shape.d) / n.norm()};
+}
+template <class S>
+Operand operand(const ::fcl::Halfspace<S>& shape, const ::fcl::Transform3<S>& tf) {
+  return flat<HalfSpace>(shape, tf);
+}
+template <class S>
+Operand operand(const ::fcl::Plane<S>& shape, const ::fcl::Transform3<S>& tf) {
+  return flat<Plane>(shape, tf);
+}
+
+// The kernel answers where one of both holds a model and the other one is anything it knows.
+
+/// Whether they share a point; Undecided: the kernel does not answer.
+Verdict meeting(const Operand& a, const Operand& b, PairSeed& seed);
+/// How far apart or how deep; Found::Nothing: the kernel does not answer.
+Nearest nearest(const Operand& a, const Operand& b, PairSeed& seed);
+
 /// A contact in the world's frame.
 struct Touch {
-  Vec3 normal, point;  ///< from 1 to 2; between the bodies
-  double depth = 0;    ///< above 0, as FCL wants it: `tolerance` where they only touch
+  Vec3 normal = Vec3::Zero();  ///< unit, from 1 to 2
+  Vec3 point = Vec3::Zero();   ///< between the bodies
+  double depth = 0;            ///< above 0, as FCL wants it: `tolerance` where they only touch
 };
 /// One to four of two solids that touch or overlap; none of bodies that are apart, or that no direction leads out of.
-std::vector<Touch> touches(const Placed& a, const Placed& b, PairSeed& seed);
+std::vector<Touch> touches(const Operand& a, const Operand& b, PairSeed& seed);
+/// The deepest, where `nearest` finds one.
+std::optional<Touch> deepest_touch(const Operand& a, const Operand& b, PairSeed& seed);
 
-/// A NarrowPhaseSolver. Pairs of two swiftlet::fcl::Convex are swiftlet's: distances, signed ones too, nearest points,
-/// contacts, and whether they collide, which touching bodies do. All other pairs go to `Others`. Keep one solver per pair and
-/// its seed makes the next query of that pair cheap; one for all is as right. Not to be shared by threads.
+/// A NarrowPhaseSolver. Pairs of a swiftlet::fcl::Convex and a shape that is an `operand` are swiftlet's: distances, signed
+/// ones too, nearest points, contacts, and whether they collide, which touching bodies do; so are a Convex and the triangles of
+/// a mesh or the boxes of an octree. All other pairs go to `Others`. Keep one solver per pair and its seed makes the next query
+/// of that pair cheap; one for all is as right. Not to be shared by threads.
 template <class S_, class Others = ::fcl::detail::GJKSolver_libccd<S_>>
 struct Solver {
   using S = S_;                                          ///< FCL's scalar; queries of ours are in double
@@ -72,77 +161,195 @@ struct Solver {
   template <class Shape1, class Shape2>
   bool shapeIntersect(const Shape1& s1, const Transform& tf1, const Shape2& s2, const Transform& tf2,
                       Contacts* contacts = nullptr) const {
-    return others.shapeIntersect(s1, tf1, s2, tf2, contacts);
-  }
-  bool shapeIntersect(const ::fcl::Convex<S>& s1, const Transform& tf1, const ::fcl::Convex<S>& s2, const Transform& tf2,
-                      Contacts* contacts = nullptr) const {
-    const auto a = placed(s1, tf1), b = placed(s2, tf2);
-    const Verdict verdict = a && b ? meeting(*a, *b, seed) : Verdict::Undecided;
-    if (verdict == Verdict::Undecided) return others.shapeIntersect(s1, tf1, s2, tf2, contacts);
-    if (verdict == Verdict::Disjoint) return false;
-    if (!contacts) return true;
-    for (const Touch& t : touches(*a, *b, seed)) {
-      contacts->emplace_back(t.normal.template cast<S>(), t.point.template cast<S>(), S(t.depth));
+    if constexpr (may_be_ours<Shape1, Shape2>) {
+      const Operand a = operand(s1, tf1), b = operand(s2, tf2);
+      const Verdict verdict = meeting(a, b, seed);
+      if (verdict == Verdict::Disjoint) return false;
+      if (verdict != Verdict::Undecided) {
+        if (!contacts) return true;
+        for (const Touch& t : touches(a, b, seed)) {
+          contacts->emplace_back(t.normal.template cast<S>(), t.point.template cast<S>(), S(t.depth));
+        }
+        return true;
+      }
     }
-    return true;
+    return others.shapeIntersect(s1, tf1, s2, tf2, contacts);
   }
 
   template <class Shape1, class Shape2>
   bool shapeDistance(const Shape1& s1, const Transform& tf1, const Shape2& s2, const Transform& tf2, S* distance = nullptr,
                      Point* p1 = nullptr, Point* p2 = nullptr) const {
+    if constexpr (may_be_ours<Shape1, Shape2>) {
+      const Nearest near = nearest(operand(s1, tf1), operand(s2, tf2), seed);
+      if (near.found != Found::Nothing) return is_apart(near, distance, p1, p2);
+    }
     return others.shapeDistance(s1, tf1, s2, tf2, distance, p1, p2);
-  }
-  bool shapeDistance(const ::fcl::Convex<S>& s1, const Transform& tf1, const ::fcl::Convex<S>& s2, const Transform& tf2,
-                     S* distance = nullptr, Point* p1 = nullptr, Point* p2 = nullptr) const {
-    const Nearest near = between(s1, tf1, s2, tf2);
-    if (near.found == Found::Nothing) return others.shapeDistance(s1, tf1, s2, tf2, distance, p1, p2);
-    hand_out(near, distance, p1, p2);
-    if (near.verdict != Verdict::Overlapping) return true;
-    if (distance) *distance = -1;  // FCL's word for a collision
-    return false;
   }
 
   template <class Shape1, class Shape2>
   bool shapeSignedDistance(const Shape1& s1, const Transform& tf1, const Shape2& s2, const Transform& tf2,
                            S* distance = nullptr, Point* p1 = nullptr, Point* p2 = nullptr) const {
+    if constexpr (may_be_ours<Shape1, Shape2>) {
+      const Nearest near = nearest(operand(s1, tf1), operand(s2, tf2), seed);
+      if (near.found != Found::Nothing) return hand_out(near, distance, p1, p2), near.verdict != Verdict::Overlapping;
+    }
     return others.shapeSignedDistance(s1, tf1, s2, tf2, distance, p1, p2);
   }
-  bool shapeSignedDistance(const ::fcl::Convex<S>& s1, const Transform& tf1, const ::fcl::Convex<S>& s2, const Transform& tf2,
-                           S* distance = nullptr, Point* p1 = nullptr, Point* p2 = nullptr) const {
-    const Nearest near = between(s1, tf1, s2, tf2);
-    if (near.found == Found::Nothing) return others.shapeSignedDistance(s1, tf1, s2, tf2, distance, p1, p2);
-    hand_out(near, distance, p1, p2);
-    return near.verdict != Verdict::Overlapping;
+
+  template <class Shape>
+  bool shapeTriangleIntersect(const Shape& s, const Transform& tf, const Point& p, const Point& q, const Point& r,
+                              Point* contact = nullptr, S* depth = nullptr, Point* normal = nullptr) const {
+    if constexpr (may_be_ours<Shape>) {
+      const std::optional<bool> found = meets(operand(s, tf), triangle<S>(p, q, r, {}), contact, depth, normal);
+      if (found) return *found;
+    }
+    return others.shapeTriangleIntersect(s, tf, p, q, r, contact, depth, normal);
+  }
+  template <class Shape>
+  bool shapeTriangleIntersect(const Shape& s, const Transform& tf1, const Point& p, const Point& q, const Point& r,
+                              const Transform& tf2, Point* contact = nullptr, S* depth = nullptr,
+                              Point* normal = nullptr) const {
+    if constexpr (may_be_ours<Shape>) {
+      const std::optional<bool> found = meets(operand(s, tf1), triangle<S>(p, q, r, pose_of(tf2)), contact, depth, normal);
+      if (found) return *found;
+    }
+    return others.shapeTriangleIntersect(s, tf1, p, q, r, tf2, contact, depth, normal);
   }
 
-  template <class... Arguments>
-  bool shapeTriangleIntersect(Arguments&&... arguments) const {
-    return others.shapeTriangleIntersect(std::forward<Arguments>(arguments)...);
+  template <class Shape>
+  bool shapeTriangleDistance(const Shape& s, const Transform& tf, const Point& p, const Point& q, const Point& r,
+                             S* distance = nullptr, Point* p1 = nullptr, Point* p2 = nullptr) const {
+    if constexpr (may_be_ours<Shape>) {
+      const Nearest near = nearest(operand(s, tf), triangle<S>(p, q, r, {}), seed);
+      if (near.found != Found::Nothing) return is_apart(near, distance, p1, p2);
+    }
+    return others.shapeTriangleDistance(s, tf, p, q, r, distance, p1, p2);
   }
-  template <class... Arguments>
-  bool shapeTriangleDistance(Arguments&&... arguments) const {
-    return others.shapeTriangleDistance(std::forward<Arguments>(arguments)...);
+  template <class Shape>
+  bool shapeTriangleDistance(const Shape& s, const Transform& tf1, const Point& p, const Point& q, const Point& r,
+                             const Transform& tf2, S* distance = nullptr, Point* p1 = nullptr, Point* p2 = nullptr) const {
+    if constexpr (may_be_ours<Shape>) {
+      const Nearest near = nearest(operand(s, tf1), triangle<S>(p, q, r, pose_of(tf2)), seed);
+      if (near.found != Found::Nothing) return is_apart(near, distance, p1, p2);
+    }
+    return others.shapeTriangleDistance(s, tf1, p, q, r, tf2, distance, p1, p2);
   }
+
   void enableCachedGuess(bool enable) const { others.enableCachedGuess(enable); }
   void setCachedGuess(const Point& guess) const { others.setCachedGuess(guess); }
   Point getCachedGuess() const { return others.getCachedGuess(); }
   /// @endcond
 
  private:
-  /// Nothing where the shape holds no model.
-  static std::optional<Placed> placed(const ::fcl::Convex<S>& shape, const Transform& tf) {
-    const auto* const with_model = dynamic_cast<const Convex<S>*>(&shape);
-    if (!with_model) return {};
-    return Placed{with_model->model(), {tf.linear().template cast<double>(), tf.translation().template cast<double>()}};
-  }
-  Nearest between(const ::fcl::Convex<S>& s1, const Transform& tf1, const ::fcl::Convex<S>& s2, const Transform& tf2) const {
-    const auto a = placed(s1, tf1), b = placed(s2, tf2);
-    return a && b ? nearest(*a, *b, std::numeric_limits<double>::infinity(), seed) : Nearest{};
+  /// Whether one of them can hold a model.
+  template <class... Shapes>
+  static constexpr bool may_be_ours = (std::is_same_v<Shapes, ::fcl::Convex<S>> || ...);
+
+  /// Whether they share a point, and where; nothing where the kernel does not answer.
+  std::optional<bool> meets(const Operand& a, const Operand& b, Point* contact, S* depth, Point* normal) const {
+    const Verdict verdict = meeting(a, b, seed);
+    if (verdict == Verdict::Undecided) return {};
+    if (verdict == Verdict::Disjoint) return false;
+    if (!contact && !depth && !normal) return true;
+    const std::optional<Touch> touch = deepest_touch(a, b, seed);
+    if (!touch) return {};
+    if (contact) *contact = touch->point.template cast<S>();
+    if (depth) *depth = S(touch->depth);
+    if (normal) *normal = touch->normal.template cast<S>();
+    return true;
   }
   static void hand_out(const Nearest& near, S* distance, Point* p1, Point* p2) {
     if (distance) *distance = S(near.distance);
     if (p1) *p1 = near.point_a.template cast<S>();
     if (p2) *p2 = near.point_b.template cast<S>();
+  }
+  static bool is_apart(const Nearest& near, S* distance, Point* p1, Point* p2) {
+    hand_out(near, distance, p1, p2);
+    if (near.verdict != Verdict::Overlapping) return true;
+    if (distance) *distance = -1;  // FCL's word for a collision
+    return false;
+  }
+};
+
+/// A solver for each pair of objects that a broadphase manager brings, so that each pair has a seed of its own. Those of pairs
+/// that did not come in a step are forgotten at the start of the next one. Not to be shared by threads.
+template <class S, class Others>
+class PairSolvers {
+ public:
+  using Object = ::fcl::CollisionObject<S>;
+
+  /// `first`: what the solver of a new pair is a copy of.
+  explicit PairSolvers(const Solver<S, Others>& first) : first_(first) {}
+  std::size_t pair_count() const { return kept_.size(); }  ///< pairs remembered
+
+ protected:
+  void start_step() {
+    std::erase_if(kept_, [this](const auto& entry) { return entry.second.step != step_; });
+    ++step_;
+  }
+  const Solver<S, Others>& of(const Object* a, const Object* b) {
+    Kept& kept = kept_.try_emplace({a, b}, first_).first->second;
+    kept.step = step_;
+    return kept.solver;
+  }
+
+ private:
+  struct Kept {
+    explicit Kept(const Solver<S, Others>& first) : solver(first) {}
+    Solver<S, Others> solver;
+    std::uint64_t step = 0;  ///< in which the pair last came
+  };
+  using Key = std::pair<const Object*, const Object*>;
+  struct Hash {
+    std::size_t operator()(const Key& key) const {
+      return std::hash<const Object*>()(key.first) * 31 + std::hash<const Object*>()(key.second);
+    }
+  };
+  Solver<S, Others> first_;
+  std::unordered_map<Key, Kept, Hash> kept_;
+  std::uint64_t step_ = 0;
+};
+
+/// For a manager's `collide`: contacts of all pairs in one result, until there are as many as the request wants.
+template <class S, class Others = ::fcl::detail::GJKSolver_libccd<S>>
+class CollisionPairs : public PairSolvers<S, Others> {
+ public:
+  ::fcl::CollisionRequest<S> request;
+  ::fcl::CollisionResult<S> result;  ///< of the step
+
+  explicit CollisionPairs(const Solver<S, Others>& first = {}) : PairSolvers<S, Others>(first) {}
+  /// Before each `collide` of the manager.
+  void start_step() {
+    PairSolvers<S, Others>::start_step();
+    result.clear();
+  }
+  /// An fcl::CollisionCallBack; `pairs` is a CollisionPairs.
+  static bool callback(::fcl::CollisionObject<S>* a, ::fcl::CollisionObject<S>* b, void* pairs) {
+    auto& self = *static_cast<CollisionPairs*>(pairs);
+    if (!self.request.isSatisfied(self.result)) ::fcl::collide(a, b, &self.of(a, b), self.request, self.result);
+    return self.request.isSatisfied(self.result);
+  }
+};
+
+/// For a manager's `distance`: the least of all pairs.
+template <class S, class Others = ::fcl::detail::GJKSolver_libccd<S>>
+class DistancePairs : public PairSolvers<S, Others> {
+ public:
+  ::fcl::DistanceRequest<S> request;
+  ::fcl::DistanceResult<S> result;  ///< of the step
+
+  explicit DistancePairs(const Solver<S, Others>& first = {}) : PairSolvers<S, Others>(first) {}
+  /// Before each `distance` of the manager.
+  void start_step() {
+    PairSolvers<S, Others>::start_step();
+    result.clear();
+  }
+  /// An fcl::DistanceCallBack; `pairs` is a DistancePairs. Ends the search at the first pair that touches or overlaps.
+  static bool callback(::fcl::CollisionObject<S>* a, ::fcl::CollisionObject<S>* b, void* pairs, S& least) {
+    auto& self = *static_cast<DistancePairs*>(pairs);
+    if (!(self.result.min_distance <= 0)) ::fcl::distance(a, b, &self.of(a, b), self.request, self.result);
+    least = self.result.min_distance;
+    return least <= 0;
   }
 };
 
@@ -151,3 +358,5 @@ struct Solver {
 /// FCL's tables of functions by shape, compiled once; they are half a minute of a translation unit otherwise.
 extern template struct fcl::detail::CollisionFunctionMatrix<swiftlet::fcl::Solver<double>>;
 extern template struct fcl::detail::DistanceFunctionMatrix<swiftlet::fcl::Solver<double>>;
+extern template struct fcl::detail::CollisionFunctionMatrix<swiftlet::fcl::Solver<float>>;
+extern template struct fcl::detail::DistanceFunctionMatrix<swiftlet::fcl::Solver<float>>;

@@ -29,8 +29,9 @@ struct HalfSpace {
   double offset = 0;            ///< of the plane from the origin, along the normal
 };
 
-/// `tolerance` of the pair as the queries below see it.
+/// `tolerance` of the pair as the queries below see it; NaN where a pose is no rigid motion.
 double tolerance(const Placed& a, const Placed& b);
+double tolerance(const Placed& a, const HalfSpace& b);  ///< of a body that is a model
 
 /// What a pair of bodies is found to be.
 enum class Found : std::uint8_t {
