@@ -3,6 +3,7 @@
 #include "manifold/choice.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <limits>
 
@@ -14,7 +15,7 @@ namespace {
 /// The convex hull of candidates' places, counter-clockwise; a place outside by no more than the bound does not change it.
 class Loop {
  public:
-  Loop(const Candidates& candidates, double bound) : candidates_(candidates), bound_(bound) {}
+  Loop(const Candidates& candidates, double bound) : candidates_(&candidates), bound_(bound) {}
 
   int size() const { return size_; }
   int operator[](int i) const { return corner_[std::size_t(i)]; }
@@ -78,7 +79,7 @@ class Loop {
 
   int next(int i) const { return i + 1 == size_ ? 0 : i + 1; }
   int previous(int i) const { return i == 0 ? size_ - 1 : i - 1; }
-  const Vec& place(int spot) const { return candidates_[spot].on_a; }
+  const Vec& place(int spot) const { return (*candidates_)[spot].on_a; }
   const Vec& corner(int i) const { return place(corner_[std::size_t(i)]); }
 
   double apart(int spot, int other) const {
@@ -98,7 +99,7 @@ class Loop {
     return size > 0 && size * size > bound_ * bound_ * (dx * dx + dy * dy) ? size : 0;
   }
 
-  const Candidates& candidates_;
+  const Candidates* candidates_;
   double bound_;
   int size_ = 0;
   std::array<int, kMostManifoldPoints> corner_;
@@ -108,7 +109,7 @@ class Loop {
 class Choice {
  public:
   Choice(const Candidates& candidates, int most, double bound, double slack)
-      : candidates_(candidates), most_(most), bound_(bound), slack_(slack) {
+      : candidates_(candidates), most_(most), bound_(bound), slack_(slack), loop_(candidates, bound) {
     for (int i = 0; i < candidates.count(); ++i) known_[std::size_t(i)] = candidates.is_known(candidates[i]);
   }
 
@@ -117,23 +118,24 @@ class Choice {
     if (candidates_.count() == 0 || most_ == 0) return chosen;
     first_ = deepest(previous);
     chosen_[std::size_t(first_)] = true;
-    if (std::count(known_.begin(), known_.end(), true) + !is_known(first_) <= most_)
+    loop_.add(first_);
+    if (int(known_.count()) + !is_known(first_) <= most_)
       take(known_);
     else
       grow(Among::Known);
     const bool is_new = size_ == 1, has_choice = most_ > 2 && candidates_.count() > most_;
     if (!(is_new && has_choice)) grow(Among::All);
     if (has_choice) give_way(largest_polygon(candidates_, first_, most_, bound_), is_new ? 1 : 1 + kKeptWorth);
-    const Loop loop = around();
     bool is_corner = false;
-    const int before = loop.before(first_, is_corner);
+    const int before = loop_.before(first_, is_corner);
     chosen.add(first_);
-    for (int i = 1 + is_corner; i <= loop.size(); ++i) chosen.add(loop[(before + i) % loop.size()]);
+    for (int i = 1 + is_corner; i <= loop_.size(); ++i) chosen.add(loop_[(before + i) % loop_.size()]);
     return chosen;
   }
 
  private:
   enum class Among { Known, All };
+  using Set = std::bitset<kMostCandidates>;
   static constexpr int kNobody = -1;
 
   bool is_chosen(int i) const { return chosen_[std::size_t(i)]; }
@@ -154,29 +156,29 @@ class Choice {
   }
 
   /// Chooses `first_` and, of `those`, all that stand out.
-  void take(const std::array<bool, kMostCandidates>& those) {
+  void take(const Set& those) {
     chosen_ = those;
     chosen_[std::size_t(first_)] = true;
-    size_ = kMostCandidates;
-    for (int before = size_ + 1; size_ < before;) {
-      before = size_;
-      const Loop loop = around();
-      chosen_ = {};
-      for (int i = 0; i < loop.size(); ++i) chosen_[std::size_t(loop[i])] = true;
+    Set before;
+    do {
+      before = chosen_;
+      loop_ = around();
+      chosen_.reset();
+      for (int i = 0; i < loop_.size(); ++i) chosen_[std::size_t(loop_[i])] = true;
       chosen_[std::size_t(first_)] = true;
-      size_ = int(std::count(chosen_.begin(), chosen_.end(), true));
-    }
+    } while (chosen_ != before);
+    size_ = int(chosen_.count());
   }
 
   /// Chooses a polygon instead if that has more than `worth` times the area.
   void give_way(const LargestPolygon& polygon, double worth) {
-    const double enough = worth * around().twice_area();
+    const double enough = worth * loop_.twice_area();
     if (polygon.twice_area > enough) {
-      const std::array<bool, kMostCandidates> before = chosen_;
-      std::array<bool, kMostCandidates> corners{};
+      const Set before = chosen_;
+      Set corners;
       for (const int corner : polygon) corners[std::size_t(corner)] = true;
       take(corners);
-      if (!(around().twice_area() > enough)) take(before);
+      if (!(loop_.twice_area() > enough)) take(before);
     }
     grow(Among::All);
   }
@@ -194,12 +196,11 @@ class Choice {
   /// Adds what adds most to the area until nothing does.
   void grow(Among those) {
     for (int rest = candidates_.count(); size_ < most_ && rest > 0; --rest) {
-      const Loop loop = around();
       int found = kNobody;
       double most = 0;
       for (int i = 0; i < candidates_.count(); ++i) {
         if (is_chosen(i) || (those == Among::Known && !is_known(i))) continue;
-        if (const double gain = loop.gain(i); gain > most) most = gain, found = i;
+        if (const double gain = loop_.gain(i); gain > most) most = gain, found = i;
       }
       if (found == kNobody) return;
       chosen_[std::size_t(found)] = true;
@@ -211,7 +212,8 @@ class Choice {
   const int most_;
   const double bound_, slack_;
   int size_ = 1, first_ = 0;
-  std::array<bool, kMostCandidates> known_{}, chosen_{};  ///< of the manifold before, of this one
+  Set known_, chosen_;  ///< of the manifold before, of this one
+  Loop loop_;           ///< around the chosen ones
 };
 
 }  // namespace
