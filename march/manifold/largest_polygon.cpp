@@ -14,12 +14,13 @@ namespace {
 /// The convex hull of the candidates' places, counter-clockwise.
 class Hull {
  public:
-  explicit Hull(const Candidates& candidates) : candidates_(candidates) {
+  explicit Hull(const Candidates& candidates) {
     std::array<int, kMostCandidates> order;
     const auto end = order.begin() + candidates.count();
     std::iota(order.begin(), end, 0);
+    for (int i = 0; i < candidates.count(); ++i) place_[std::size_t(i)] = candidates[i].place();
     std::sort(order.begin(), end, [&](int i, int j) {
-      const Vec &p = place(i), &q = place(j);
+      const Place &p = place(i), &q = place(j);
       return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : i < j;
     });
     add_chain(order.begin(), end);
@@ -29,18 +30,15 @@ class Hull {
 
   int size() const { return size_; }
   int operator[](int i) const { return corner_[std::size_t(i)]; }
-  /// Twice the area of three candidates, positive where they turn left.
-  double twice_area(int i, int j, int k) const {
-    const Vec &p = place(i), &q = place(j), &r = place(k);
-    return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
-  }
+  /// The way from the first corner to another.
+  Place spoke(int i) const { return place((*this)[i]) - place((*this)[0]); }
 
   /// Makes `first` the first corner and returns true, or, if it is inside, the corner farthest from it and returns false. A
   /// corner within the bound of it is in its place.
   bool begin_with(int first, double bound) {
     const auto away = [&](int spot) {
-      const double x = place(spot).x - place(first).x, y = place(spot).y - place(first).y;
-      return x * x + y * y;
+      const Place way = place(spot) - place(first);
+      return dot(way, way);
     };
     const auto end = corner_.begin() + size_;
     auto begin = std::min_element(corner_.begin(), end, [&](int i, int j) { return away(i) < away(j); });
@@ -52,7 +50,9 @@ class Hull {
   }
 
  private:
-  const Vec& place(int spot) const { return candidates_[spot].on_a; }
+  const Place& place(int spot) const { return place_[std::size_t(spot)]; }
+  /// Twice the area of three candidates, positive where they turn left.
+  double twice_area(int i, int j, int k) const { return cross(place(j) - place(i), place(k) - place(i)); }
 
   /// Adds the lower or the upper chain but for its last corner [Andrew 1979].
   template <class Iterator>
@@ -64,7 +64,7 @@ class Hull {
     --size_;
   }
 
-  const Candidates& candidates_;
+  std::array<Place, kMostCandidates> place_;  ///< of the candidates
   int size_ = 0;
   std::array<int, kMostCandidates + 1> corner_;
 };
@@ -74,13 +74,15 @@ class Hull {
 LargestPolygon largest_polygon(const Candidates& candidates, int first, int most, double bound) {
   Hull hull(candidates);
   const int corners = std::min(hull.begin_with(first, bound) ? most : most - 1, hull.size());
+  std::array<Place, kMostCandidates> spoke;
+  for (int i = 0; i < hull.size(); ++i) spoke[std::size_t(i)] = hull.spoke(i);
   std::array<double, kMostCandidates> best{};  // twice the area of the best fan that ends at a corner
   std::array<std::array<std::uint8_t, kMostCandidates>, kMostManifoldPoints> before{};
   for (int corner = 2; corner < corners; ++corner) {
     for (int last = hull.size() - 1; last >= corner; --last) {
       double largest = -1;
       for (int i = corner - 1; i < last; ++i) {
-        const double area = best[std::size_t(i)] + hull.twice_area(hull[0], hull[i], hull[last]);
+        const double area = best[std::size_t(i)] + cross(spoke[std::size_t(i)], spoke[std::size_t(last)]);
         if (area > largest) largest = area, before[std::size_t(corner)][std::size_t(last)] = std::uint8_t(i);
       }
       best[std::size_t(last)] = largest;
