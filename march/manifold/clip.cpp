@@ -55,9 +55,9 @@ struct Side {
   /// Twice the area of the side and a place, positive where that lies outside.
   double beyond(const Place& place) const { return cross(place - from.at, way); }
 
-  void lead(const Corner& corner, std::uint32_t h) {
+  void lead(const Corner& corner, const Place& there, std::uint32_t h) {
     to = corner, half_edge = h;
-    way = to.at - from.at;
+    way = there;
     length2 = dot(way, way);
   }
 };
@@ -97,12 +97,14 @@ class SeenBorder {
     if (is_point) return;
     half_edge_ = is_left_ ? half_edge : face.onward<false>(twin(half_edge));
     next_ = end_of(half_edge_);
+    ahead_ = next_.at - lowest.at;
   }
 
   const Side& side() const { return side_; }
   const Corner& end() const { return side_.to; }
-  /// The corner after the side; has no meaning where both borders have met.
+  /// The corner after the side, and the way there; have no meaning where both borders have met.
   const Corner& next() const { return next_; }
+  const Place& ahead() const { return ahead_; }
   /// A place of the projection as the border sees it, and back.
   Place seen(const Place& place) const { return {place.x * outwards_, place.y}; }
   /// The side as the projection shows it.
@@ -121,12 +123,13 @@ class SeenBorder {
   /// Moves on to the next side of the face's convex hull, up to vertex `top`.
   [[gnu::always_inline]] void advance(std::uint32_t top) {
     side_.from = side_.to, side_.is_chord = false;
-    side_.lead(next_, half_edge_);
+    side_.lead(next_, ahead_, half_edge_);
     do {
       if (side_.to.vertex == top) return;
       half_edge_ = onward(side_.half_edge, is_left_);
       next_ = end_of(half_edge_);
-    } while (!turns_in(next_) && extend(half_edge_, top));
+      ahead_ = next_.at - side_.to.at;
+    } while (!turns_in(ahead_) && extend(half_edge_, top));
   }
 
   /// Names the edge at a place of the side; of a chord, the edge that it cuts off there.
@@ -153,8 +156,9 @@ class SeenBorder {
   std::uint32_t onward(std::uint32_t h, bool is_left) const { return is_left ? face_.onward<true>(h) : face_.onward<false>(h); }
 
   bool falls() const { return side_.way.y < -bound_; }
-  bool turns_in(const Corner& next) const {
-    const double out = side_.beyond(next.at);
+  /// Whether a way from the end of the side leads inwards, by more than the flatness.
+  bool turns_in(const Place& way) const {
+    const double out = cross(way, side_.way);
     return out < 0 && out * out > flat2_ * side_.length2 && !falls();
   }
   /// A border of merged facets may turn inwards by up to the face's flatness: corners are looked at until one lies farther
@@ -165,10 +169,10 @@ class SeenBorder {
       const Corner corner = end_of(h);
       const double out = side_.beyond(corner.at);
       if (falls() || (out > 0 && out * out > 0.25 * bound_ * bound_ * side_.length2)) {
-        side_.lead(corner, h);
+        side_.lead(corner, corner.at - side_.from.at, h);
         return side_.is_chord = true;
       }
-      if (turns_in(corner) || corner.vertex == top) return false;
+      if (turns_in(corner.at - side_.to.at) || corner.vertex == top) return false;
     }
   }
 
@@ -181,6 +185,7 @@ class SeenBorder {
   const bool is_left_;            ///< half-edges that point upwards have the face on their left
   Side side_;                     ///< at the height of the sweep line
   Corner next_;                   ///< the corner after it
+  Place ahead_;                   ///< the way there
   std::uint32_t half_edge_;       ///< the half-edge that ends there
 };
 
@@ -218,12 +223,15 @@ class Sweep {
       : Sweep(projection, a, b, lowest_side(projection.a, a), lowest_side(projection.b, b), bound, corners) {}
 
   void run() {
-    for (bool goes_on = begin(); goes_on;) {
-      const int left = ends_first<Border::Left>(), right = ends_first<Border::Right>();
-      if (is_below(at(Border::Right, right), at(Border::Left, left)))
-        goes_on = right == 0 ? step<Border::Right, 0>() : step<Border::Right, 1>();
-      else
-        goes_on = left == 0 ? step<Border::Left, 0>() : step<Border::Left, 1>();
+    bool goes_on = begin();
+    for (Ending left = ends_first<Border::Left>(), right = ends_first<Border::Right>(); goes_on;) {
+      if (right.y < left.y || (right.y == left.y && is_below(at(Border::Right, right.face), at(Border::Left, left.face)))) {
+        goes_on = right.face == 0 ? step<Border::Right, 0>() : step<Border::Right, 1>();
+        right = ends_first<Border::Right>();
+      } else {
+        goes_on = left.face == 0 ? step<Border::Left, 0>() : step<Border::Left, 1>();
+        left = ends_first<Border::Left>();
+      }
     }
   }
 
@@ -261,9 +269,15 @@ class Sweep {
     return y_p < y_q;
   }
   static bool is_below(const Place& p, const Place& q) { return p.y < q.y || (p.y == q.y && p.x < q.x); }
+  /// The face whose side ends first on a border, and at which height.
+  struct Ending {
+    int face;
+    double y;
+  };
   template <Border border>
-  int ends_first() const {
-    return is_below(at(border, 1), at(border, 0));
+  Ending ends_first() const {
+    const int face = is_below(at(border, 1), at(border, 0));
+    return {face, min(at(border, 0).end().at.y, at(border, 1).end().at.y)};
   }
 
   /// How the height of a face's plane along the normal changes with x and y.
@@ -320,10 +334,17 @@ class Sweep {
       add_crossing(border, {f, border}, {other, across});
       return false;
     }
-    const Where now = swiftlet::where(place, at(border, other).side(), bound_);
-    if (now == (leader(border) == f ? Where::Outside : Where::Inside)) turn_off(border, 1 - leader(border));
+    if (passes_lead(place, at(border, other).side(), leader(border) == f)) turn_off(border, 1 - leader(border));
     if (leader(border) == f) pass<border, f>();
     return true;
+  }
+
+  /// Returns true where a border's corner lies outside of the other face's side and led, or inside and did not.
+  bool passes_lead(const Place& place, const Side& side, bool leads) const {
+    const double area = side.beyond(place);
+    if (area * area > bound_ * bound_ * side.length2) [[likely]]
+      return (area > 0) == leads;
+    return swiftlet::where(place, side, bound_) == (leads ? Where::Outside : Where::Inside);
   }
 
   /// Returns true if a place of one border lies outside of a side of the other, which sees it mirrored.
@@ -360,7 +381,7 @@ class Sweep {
   void pass() {
     const SeenBorder& own = at(border, f);
     const Corner& corner = own.end();
-    const bool wanted = is_at_top(f) || corners_.wants(border, corner.at, own.next().at, rise(own, own.next().at - corner.at));
+    const bool wanted = is_at_top(f) || corners_.wants(border, corner.at, own.next().at, rise(own, own.ahead()));
     if (wanted || corners_.may_know(f, corner.vertex)) add_corner(border, f, own.seen(corner.at), corner.vertex, wanted);
   }
 
