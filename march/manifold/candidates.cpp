@@ -28,6 +28,7 @@ void Candidates::append(Border border, const Candidate& candidate) {
   if (count_[0] + count_[1] == kMostCorners) thin();
   const std::size_t side = std::size_t(border);
   row(border, count_[side]++) = candidate;
+  name_bits_ |= name_bit(candidate);
   last_[side] = {border == Border::Left ? -candidate.on_a.x : candidate.on_a.x, candidate.on_a.y}, cut_off_[side] = 0;
 }
 
@@ -46,6 +47,7 @@ void Candidates::add_deepest(const Candidate& candidate) {
 }
 
 bool Candidates::has_named(const Candidate& candidate) const {
+  if (!(name_bits_ & name_bit(candidate))) return false;
   const auto is_named_so = [&](const Candidate& other) { return is_same(candidate, other); };
   return std::any_of(all_.begin(), all_.begin() + count_[0], is_named_so) ||
          std::any_of(all_.end() - count_[1], all_.end(), is_named_so);
@@ -68,6 +70,7 @@ void Candidates::thin() {
       area += std::fabs(cross(row(border, i - 1).place() - lowest, row(border, i).place() - lowest));
   }
   do {
+    name_bits_ = 0;
     enough_ = max(kChordGrowth * enough_, area * kLeastChord);
     thin(Border::Left, lowest, true), thin(Border::Right, lowest, count_[0] == 0);
   } while (count_[0] + count_[1] > kMostCorners * 3 / 4);
@@ -80,10 +83,12 @@ void Candidates::thin(Border border, Place last, bool keeps_first) {
   double cut_off = 0;
   for (int i = 0; i < count; ++i) {
     const Candidate& c = row(border, i);
-    const bool stays = (i == 0 && keeps_first) || i + 1 == count || is_same(c, deepest_named_);
-    if (!stays) cut_off += std::fabs(cross(c.place() - last, row(border, i + 1).place() - last));
-    if (!stays && cut_off <= enough_) continue;
+    if ((i > 0 || !keeps_first) && i + 1 < count) {
+      cut_off += std::fabs(cross(c.place() - last, row(border, i + 1).place() - last));
+      if (cut_off <= enough_ && !is_same(c, deepest_named_)) continue;
+    }
     last = c.place(), cut_off = 0;
+    name_bits_ |= name_bit(c);
     if (kept++ != i) row(border, kept - 1) = c;
   }
   count = kept;

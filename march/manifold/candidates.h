@@ -81,6 +81,10 @@ class Candidates {
  private:
   const Candidate& at(int i) const { return all_[std::size_t(i)]; }
   bool has_named(const Candidate& candidate) const;  ///< whether a corner with its names is kept
+  /// One of 64 bits. Candidates of other bits have other names.
+  static std::uint64_t name_bit(const Candidate& c) {
+    return std::uint64_t(1) << (c.feature_a.index() + c.feature_b.index()) % 64;
+  }
   Candidate& row(Border border, int i) { return all_[std::size_t(border == Border::Left ? i : kMostCorners - 1 - i)]; }
 
   /// Adds a triangle above the border's last chord to the area that the chord to `next` would cut off.
@@ -105,6 +109,7 @@ class Candidates {
   const double farthest_;
   const Manifold& previous_;
   std::uint64_t known_bits_[2] = {};  ///< per body, those of the indices that `previous` names, modulo 64
+  std::uint64_t name_bits_ = 0;       ///< those of the corners that are kept
   double least_ = std::numeric_limits<double>::infinity(), deepest_ = least_;  ///< of all, and of the row
   struct {
     FeatureId feature_a, feature_b;
