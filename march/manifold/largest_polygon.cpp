@@ -81,10 +81,13 @@ LargestPolygon largest_polygon(const Candidates& candidates, int first, int most
   for (int corner = 2; corner < corners; ++corner) {
     for (int last = hull.size() - 1; last >= corner; --last) {
       double largest = -1;
-      for (int i = corner - 1; i < last; ++i) {
+      int from = 0;
+      for (int i = corner - 1; i < last; ++i) {  // no branch, which would often be mispredicted
         const double area = best[std::size_t(i)] + cross(spoke[std::size_t(i)], spoke[std::size_t(last)]);
-        if (area > largest) largest = area, before[std::size_t(corner)][std::size_t(last)] = std::uint8_t(i);
+        from = area > largest ? i : from;
+        largest = max(largest, area);
       }
+      before[std::size_t(corner)][std::size_t(last)] = std::uint8_t(from);
       best[std::size_t(last)] = largest;
     }
   }
