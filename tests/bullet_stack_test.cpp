@@ -6,10 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
+#include <swiftlet/build.h>
+
 #include "alone.h"
+#include "in_bullet.h"
 #include "rank_sum.h"
+#include "shapes.h"
 #include "stack.h"
 
 namespace swiftlet::stack {
@@ -78,6 +83,80 @@ TEST(Alone, RidesOnARockingFloor) {
     EXPECT_LT(seen.moved, 0.1) << sides << " sides";
     EXPECT_LT(seen.wobble, 0.01) << sides << " sides";
   }
+}
+
+/// A prism of 12 sides at rest on a floor, of which something changes.
+struct AtRest {
+  AtRest() : in(Shapes::Swiftlet) {
+    const auto built = [](const Mesh& mesh) {
+      return std::make_shared<const Model>(std::move(build(mesh.points)).value().model);
+    };
+    const auto at = [](double z) { return btTransform(btMatrix3x3::getIdentity(), btVector3(0, 0, btScalar(z))); };
+    floor = &in.add(built(shapes::box({60, 60, 2})), at(-1 - kMargin), false);
+    body = &in.add(built(shapes::prism(12, 0.5, 0.5)), at(0.25 + kMargin), true);
+    step(60);
+  }
+  void step(int times) {
+    for (int i = 0; i < times; ++i) in.step();
+  }
+  double height() const { return double(body->getWorldTransform().getOrigin().z()); }
+
+  InBullet in;
+  btRigidBody *floor, *body;
+};
+
+TEST(PointsThatStay, FeelTheFrictionOfThisStep) {
+  AtRest scene;
+  scene.body->setFriction(0), scene.floor->setFriction(0);
+  scene.body->setLinearVelocity(btVector3(1, 0, 0));
+  scene.step(60);
+  EXPECT_NEAR(scene.body->getLinearVelocity().x(), 1, 0.01);
+}
+
+TEST(PointsThatStay, BounceAsInThisStep) {
+  AtRest scene;
+  scene.body->setRestitution(btScalar(0.9)), scene.floor->setRestitution(1);
+  scene.body->setLinearVelocity(btVector3(0, 0, -3));
+  scene.step(2);
+  EXPECT_GT(scene.body->getLinearVelocity().z(), 1);
+}
+
+TEST(PointsThatStay, FollowAMarginThatGrows) {
+  AtRest scene;
+  scene.body->getCollisionShape()->setMargin(btScalar(0.14));
+  scene.step(120);
+  EXPECT_NEAR(scene.height(), 0.25 + 0.14, 0.01);
+}
+
+TEST(PointsThatStay, CallBackInEveryStep) {
+  static int calls;
+  AtRest scene;
+  scene.body->setCollisionFlags(scene.body->getCollisionFlags() | btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
+  gContactAddedCallback = [](btManifoldPoint&, const btCollisionObjectWrapper*, int, int, const btCollisionObjectWrapper*, int,
+                             int) { return ++calls > 0; };
+  calls = 0;
+  scene.step(10);
+  gContactAddedCallback = nullptr;
+  EXPECT_GE(calls, 10);
+}
+
+/// A floor below one body of a compound: what the body hangs on goes down with it.
+TEST(PointsThatStay, GoWhereAPartOfACompoundGoes) {
+  AtRest scene;
+  scene.in.world.removeRigidBody(scene.floor);
+  btCompoundShape compound;
+  compound.addChildShape(btTransform(btMatrix3x3::getIdentity(), btVector3(0, 0, 0)), scene.floor->getCollisionShape());
+  btRigidBody floor(0, nullptr, &compound);
+  floor.setWorldTransform(btTransform(btMatrix3x3::getIdentity(), btVector3(0, 0, btScalar(-1 - kMargin))));
+  scene.in.world.addRigidBody(&floor);
+  scene.step(60);
+  for (int i = 0; i < 60; ++i) {
+    compound.updateChildTransform(0, btTransform(btMatrix3x3::getIdentity(), btVector3(0, 0, btScalar(-0.0005 * i))));
+    scene.step(1);
+    EXPECT_LT(scene.height() + 0.0005 * i - (0.25 + kMargin), 0.005) << i;
+  }
+  scene.in.world.removeRigidBody(&floor);
+  scene.in.world.addRigidBody(scene.floor);
 }
 
 /// By hand.

@@ -118,12 +118,12 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
     rest.within = holds ? kAtRest * persistent_->getContactBreakingThreshold() : -1;
     Found found = solids_->contacts(a, b, touching, seed_, now, rest);
     if (found == Found::AtRest) {
-      if (hold_on(*persistent_, vector_of(-now.normal))) return true;
+      if (hold_on(now, result)) return true;
       rest.within = -1;
       found = solids_->contacts(a, b, touching, seed_, now, rest);
     }
     if (found == Found::Nothing) return false;
-    if (holds && hold_the_area(*persistent_, now)) return true;
+    if (holds && hold_the_area(now, result)) return true;
     if (owns_persistent_) forget_others(*persistent_, now, persistent_->getBody0() != a.getCollisionObject());
     for (std::uint32_t i = now.count; i-- > 0;) {  // the deepest is the first and comes last: it takes the place of others
       const ManifoldPoint& p = now.points[i];

@@ -5,23 +5,25 @@
 // from step to step on a round face.
 #pragma once
 
-#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 
 #include <swiftlet/manifold.h>
 
 namespace swiftlet::bullet {
 
-/// In shares of Bullet's breaking threshold: points stay while no other place of contact is deeper by more than the first, and
-/// an area counts as that of a step before until a body has moved against the other by the second.
+/// In shares of Bullet's breaking threshold: points stay while the deepest of them is as deep as the deepest place of contact,
+/// to the first; and an area counts as that of a step before until a body has moved against the other by the second.
 constexpr btScalar kHeldDepth = btScalar(0.01), kAtRest = btScalar(0.02);
 /// Points stay while they span this share of the area that the best ones span.
 constexpr btScalar kHeldArea = btScalar(0.9);
 
-/// Gives the points the normal of this step, which is on B, and the next turn, unless they have left each other.
-bool hold_on(btPersistentManifold& points, const btVector3& normal);
+/// Keeps the points of the manifold that `result` fills, unless they have left each other or are not as deep as `now` says: all
+/// get the normal of this step and what the bodies are made of now, and take turns. `now` is of bodies at rest: its points
+/// are those of a step before, but the first separation is of this step.
+bool hold_on(const Manifold& now, btManifoldResult& result);
 
 /// The same if they also stand for the area of this step.
-bool hold_the_area(btPersistentManifold& points, const Manifold& now);
+bool hold_the_area(const Manifold& now, btManifoldResult& result);
 
 /// Bullet adds a point to those of the steps before, or carries the impulse of the one nearby over to it. Those that are near
 /// none of this step's go. `swapped`: the manifold's first body is Bullet's second.

@@ -29,6 +29,8 @@ constexpr btScalar kLikeAnEmptyOne = btScalar(0.5);
 /// As many as a corner of a room has walls, and one more.
 constexpr std::size_t kMostManifolds = 4;
 
+/// Normals that differ by less are one.
+constexpr double kOneNormal = 1e-4;
 /// Points whose normals are alike; the first one is the deepest.
 using Group = std::vector<TrianglePoint>;
 
@@ -179,7 +181,7 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
       result.setPersistentManifold(&manifold);
       const Manifold now = manifold_of(group, chosen);
       const bool swapped = manifold.getBody0() != a.getCollisionObject();
-      if (shared_ || swapped || !hold_the_area(manifold, now)) {
+      if (shared_ || swapped || !is_flat(group) || !hold_the_area(now, result)) {
         if (!shared_) forget_others(manifold, now, swapped);
         for (std::uint32_t i = chosen.count; i-- > 0;) add(group[chosen.index[i]], surface, result);  // the deepest comes last
       }
@@ -230,6 +232,13 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
     btPersistentManifold& manifold = **found;
     free.erase(found);
     return manifold;
+  }
+
+  /// Whether the points of a group have one normal: those of an area.
+  static bool is_flat(const Group& group) {
+    return std::all_of(group.begin(), group.end(), [&](const TrianglePoint& p) {
+      return (p.normal - group.front().normal).squaredNorm() < kOneNormal * kOneNormal;
+    });
   }
 
   /// The chosen points of a group as two bodies' manifold.

@@ -111,6 +111,7 @@ Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t mo
   const Pair pair = pair_of(a, b, beyond, seed);
   if (pair.found == Found::Nearest && is_at_rest(rest, pair.b_in_a)) {
     manifold.normal = pair.a_in_world.rotation * pair.answer.normal;
+    manifold.points[0].separation = pair.answer.lower;
     return Found::AtRest;
   }
   return contacts(a, b.body, pair, beyond, most_points, manifold, &rest);

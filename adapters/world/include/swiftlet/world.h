@@ -67,7 +67,8 @@ struct Rest {
   std::array<Vec3, kMostManifoldPoints> in_a, in_b;  ///< the same places, in either body's frame
 };
 /// The same for a pair that is asked in every step: where the bodies are at rest, its manifold keeps its points, which have
-/// moved with the bodies since, and gets the normal of this step, at the price of a distance alone.
+/// moved with the bodies since, and gets the normal of this step and, as its first separation, the least one, at the price of a
+/// distance alone.
 Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t most_points, PairSeed& seed, Manifold& manifold,
                Rest& rest);
 
