@@ -276,17 +276,19 @@ struct Solver {
 template <class S, class Others>
 class PairSolvers {
  public:
-  using Object = ::fcl::CollisionObject<S>;
+  using Object = ::fcl::CollisionObject<S>;  ///< what a manager holds
 
   /// `first`: what the solver of a new pair is a copy of.
   explicit PairSolvers(const Solver<S, Others>& first) : first_(first) {}
   std::size_t pair_count() const { return kept_.size(); }  ///< pairs remembered
 
  protected:
+  /// Forgets the pairs that did not come in the step that ends.
   void start_step() {
     std::erase_if(kept_, [this](const auto& entry) { return entry.second.step != step_; });
     ++step_;
   }
+  /// The pair's solver: the order of the objects counts.
   const Solver<S, Others>& of(const Object* a, const Object* b) {
     Kept& kept = kept_.try_emplace({a, b}, first_).first->second;
     kept.step = step_;
