@@ -316,9 +316,10 @@ class PairSolvers {
 template <class S, class Others = ::fcl::detail::GJKSolver_libccd<S>>
 class CollisionPairs : public PairSolvers<S, Others> {
  public:
-  ::fcl::CollisionRequest<S> request;
-  ::fcl::CollisionResult<S> result;  ///< of the step
+  ::fcl::CollisionRequest<S> request;  ///< of every pair
+  ::fcl::CollisionResult<S> result;    ///< of the step
 
+  /// `first`: what the solver of a new pair is a copy of.
   explicit CollisionPairs(const Solver<S, Others>& first = {}) : PairSolvers<S, Others>(first) {}
   /// Before each `collide` of the manager.
   void start_step() {
@@ -337,9 +338,10 @@ class CollisionPairs : public PairSolvers<S, Others> {
 template <class S, class Others = ::fcl::detail::GJKSolver_libccd<S>>
 class DistancePairs : public PairSolvers<S, Others> {
  public:
-  ::fcl::DistanceRequest<S> request;
-  ::fcl::DistanceResult<S> result;  ///< of the step
+  ::fcl::DistanceRequest<S> request;  ///< of every pair
+  ::fcl::DistanceResult<S> result;    ///< of the step
 
+  /// `first`: what the solver of a new pair is a copy of.
   explicit DistancePairs(const Solver<S, Others>& first = {}) : PairSolvers<S, Others>(first) {}
   /// Before each `distance` of the manager.
   void start_step() {
