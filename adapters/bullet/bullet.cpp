@@ -54,8 +54,7 @@ class SolidPair {
   Solid a_, b_;
 };
 
-/// Lives as long as Bullet knows the pair, and with it the pair's seed. Bullet's manifold collects points over steps, ours
-/// holds those of one step.
+/// Lives as long as Bullet knows the pair, and with it the pair's seed.
 class HullAlgorithm final : public btActivatingCollisionAlgorithm {
  public:
   HullAlgorithm(const Create& create, const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper& a,
