@@ -159,7 +159,7 @@ TEST(PointsThatStay, GoWhereAPartOfACompoundGoes) {
   scene.in.world.addRigidBody(scene.floor);
 }
 
-/// By hand.
+/// The values of z are worked out by hand.
 TEST(RankSum, AgreesWithTablesAndAdjustsInOrder) {
   std::vector<double> low, high;
   for (int i = 0; i < 10; ++i) low.push_back(i), high.push_back(i + 4.5);

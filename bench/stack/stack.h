@@ -45,7 +45,7 @@ Scene links(const std::filesystem::path& meshes);
 
 /// What became of one start. Means are over the steps until the fall.
 struct Outcome {
-  int stood = 0;  ///< steps until one body lay half its height lower, or leaned by 30 degrees; `steps` where none did
+  int stood = 0;  ///< steps until one body lay half its half height lower, or leaned by 30 degrees; `steps` where none did
   bool fell = false;
   double drift = 0;    ///< metres: the farthest that a body that stood moved sideways from its place
   double energy = 0;   ///< joules per body: mean kinetic energy over the last quarter
