@@ -5,6 +5,7 @@
 
 #include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btCollisionCreateFunc.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 
 #include "shapes.h"
@@ -20,6 +21,11 @@ struct Create : btCollisionAlgorithmCreateFunc {
   btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
                                                  const btCollisionObjectWrapper* b) override;
 };
+
+/// An object as Bullet hands one to an algorithm where it is no part of a compound.
+inline btCollisionObjectWrapper wrapped(const btCollisionObject& object) {
+  return {nullptr, object.getCollisionShape(), &object, object.getWorldTransform(), -1, -1};
+}
 
 /// An algorithm of the configuration's for the pair, on a manifold of ours if it takes one.
 class OthersAlgorithm {

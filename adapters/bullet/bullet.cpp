@@ -80,9 +80,7 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
   }
   btScalar calculateTimeOfImpact(btCollisionObject* a, btCollisionObject* b, const btDispatcherInfo& info,
                                  btManifoldResult* result) override {
-    const btCollisionObjectWrapper a_wrap(nullptr, a->getCollisionShape(), a, a->getWorldTransform(), -1, -1),
-        b_wrap(nullptr, b->getCollisionShape(), b, b->getWorldTransform(), -1, -1);
-    return others(a_wrap, b_wrap)->calculateTimeOfImpact(a, b, info, result);
+    return others(wrapped(*a), wrapped(*b))->calculateTimeOfImpact(a, b, info, result);
   }
   void getAllContactManifolds(btManifoldArray& manifolds) override {
     if (owns_persistent_) manifolds.push_back(persistent_);
