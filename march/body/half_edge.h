@@ -42,6 +42,22 @@ static inline std::uint32_t next_in_facet(const ConvexView& v, std::uint32_t hal
   return clockwise(v.vertices[v.half_edges[half_edge].head], v.half_edges[half_edge].twin);
 }
 
+/// The half-edge that `half_edge` follows around the exact facet on its left.
+static inline std::uint32_t previous_in_facet(const ConvexView& v, std::uint32_t half_edge) {
+  return v.half_edges[counter_clockwise(v.vertices[origin(v, half_edge)], half_edge)].twin;
+}
+
+/// Whether no half-edge around the exact facet on its left has a lower index. Looks both ways, so that asking it of all n of
+/// them takes n log n steps [Hirschberg & Sinclair 1980].
+static inline bool is_first_in_facet(const ConvexView& v, std::uint32_t half_edge) {
+  std::uint32_t next = half_edge, previous = half_edge;
+  do {
+    next = next_in_facet(v, next), previous = previous_in_facet(v, previous);
+    if (next < half_edge || previous < half_edge) return false;
+  } while (next != half_edge);
+  return true;
+}
+
 /// The half-edge that follows `half_edge` around the face on its left. A face may be made of several facets; the diagonals
 /// between them are skipped.
 static inline std::uint32_t next_in_face(const ConvexView& v, std::uint32_t half_edge) {

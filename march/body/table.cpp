@@ -11,6 +11,7 @@
 #include "body/half_edge.h"
 #include "body/support.h"
 #include "body/support_map.h"
+#include "numeric/chunks.h"
 #include "numeric/vec.h"
 
 namespace swiftlet {
@@ -22,13 +23,14 @@ std::string spec_fault(const TableSpec& spec) {
   return {};
 }
 
-void fill_table(BlockParts& parts, const TableSpec& spec, std::span<const Vertex> vertices) {
+void fill_table(BlockParts& parts, const TableSpec& spec, std::span<const Vertex> vertices, const Executor& executor) {
   const lut::Resolution resolution = vertices.empty() ? lut::Resolution::None : spec.resolution;  // it needs level 0
   const std::uint32_t samples = lut::sample_count(resolution);
   const Vec centre{parts.header.centre[0], parts.header.centre[1], parts.header.centre[2]};
   const double distance = spec.radius_factor * parts.header.radius;
   std::vector<std::uint32_t> table(samples);
-  for (std::uint32_t i = 0; i < samples; ++i) {
+  run_tasks(executor, samples, [&](std::size_t task) {
+    const auto i = std::uint32_t(task);
     const std::array<double, 3> direction = lut::sample(resolution, i);
     const Vec point = centre + Vec{direction[0], direction[1], direction[2]} * distance;
     double least2 = std::numeric_limits<double>::infinity();
@@ -36,7 +38,7 @@ void fill_table(BlockParts& parts, const TableSpec& spec, std::span<const Vertex
       const Vec d = vec(vertices[v]) - point;
       if (const double d2 = dot(d, d); d2 < least2) least2 = d2, table[i] = v;
     }
-  }
+  });
   const auto bytes = std::as_bytes(std::span(table));
   parts.table.assign(bytes.begin(), bytes.end());
   parts.header.resolution = std::uint32_t(resolution);
@@ -105,10 +107,12 @@ void write_frame(LevelHeader& header, const ConvexView& view) {
   }
 }
 
-std::vector<std::uint32_t> support_map(const ConvexView& view, std::uint32_t side, const std::array<double, 6>& frame) {
-  std::vector<std::uint32_t> cells;
-  if (!(view.extent > 0)) return std::vector<std::uint32_t>(lut::octahedron_cell_count(side));
-  std::uint32_t tests = 0;
+constexpr std::size_t kRowsPerTask = 16;  ///< of a support map: the first climb of a task is a long one
+
+std::vector<std::uint32_t> support_map(const ConvexView& view, std::uint32_t side, const std::array<double, 6>& frame,
+                                       const Executor& executor) {
+  std::vector<std::uint32_t> cells(lut::octahedron_cell_count(side));
+  if (!(view.extent > 0)) return cells;
   const auto direction = [&](std::uint32_t lower, std::uint32_t i, std::uint32_t j) {
     const std::array<double, 3> p = lut::octahedron_point(side, lower, i, j);
     return from_map(frame, {p[0] / side, p[1] / side, p[2] / side});
@@ -117,27 +121,32 @@ std::vector<std::uint32_t> support_map(const ConvexView& view, std::uint32_t sid
     Vec n;
     std::uint32_t top;
   };
-  std::vector<Corner> corners((side + 1) * (side + 1));
-  std::uint32_t near = 0;
-  for (const std::uint32_t lower : {0u, 1u}) {
-    for (std::uint32_t j = 0; j <= side; ++j) {
-      if (j > 0) near = corners[(j - 1) * (side + 1)].top;
+  // Both halves of the octahedron, row by row. A task has its rows' corners and those of the row after them.
+  over_chunks(executor, 2 * std::size_t(side), kRowsPerTask, [&](std::size_t begin, std::size_t end) {
+    std::vector<Corner> corners(2 * (side + 1));
+    std::uint32_t tests = 0, near = 0;
+    const auto climb_row = [&](std::uint32_t lower, std::uint32_t j) {
+      Corner* const row = &corners[j % 2 * (side + 1)];
       for (std::uint32_t i = 0; i <= side; ++i) {
         const Vec n = direction(lower, 2 * i, 2 * j);
-        corners[j * (side + 1) + i] = {n, near = support(view, rescaled(n), near, tests)};
+        row[i] = {n, near = support(view, rescaled(n), near, tests)};
       }
-    }
-    for (std::uint32_t j = 0; j < side; ++j) {
+      near = row[0].top;
+      return row;
+    };
+    for (auto at = std::uint32_t(begin); at < end; ++at) {
+      const std::uint32_t lower = at / side, j = at % side;
+      const Corner* const row = at == begin || j == 0 ? climb_row(lower, j) : &corners[j % 2 * (side + 1)];
+      const Corner* const after = climb_row(lower, j + 1);
       for (std::uint32_t i = 0; i < side; ++i) {
-        const Corner* const corner = &corners[j * (side + 1) + i];
-        const std::uint32_t v = ascend(view, direction(lower, 2 * i + 1, 2 * j + 1), corner->top, tests);
+        const std::uint32_t v = ascend(view, direction(lower, 2 * i + 1, 2 * j + 1), row[i].top, tests);
         double excess = 0;
-        for (const Corner* at : {corner, corner + 1, corner + side + 1, corner + side + 2})
-          excess = std::max(excess, excess_at(frame, at->n, vec(view.vertices[at->top]) - vec(view.vertices[v])));
-        cells.push_back(map_entry(v, excess));
+        for (const Corner* corner : {row + i, row + i + 1, after + i, after + i + 1})
+          excess = std::max(excess, excess_at(frame, corner->n, vec(view.vertices[corner->top]) - vec(view.vertices[v])));
+        cells[at * side + i] = map_entry(v, excess);
       }
     }
-  }
+  });
   return cells;
 }
 
@@ -151,7 +160,7 @@ double excess_at(const std::array<double, 6>& frame, const Vec& n, const Vec& ab
   return max(0, dot(n, above)) + 2 * kFrameError * of_frame + kDotError * of_height;
 }
 
-void fill_maps(BlockParts& parts, const TableSpec& spec, std::span<const ConvexView> levels) {
+void fill_maps(BlockParts& parts, const TableSpec& spec, std::span<const ConvexView> levels, const Executor& executor) {
   parts.header.map_cells = spec.map_cells;
   if (spec.map_cells == 0) return;
   for (std::size_t i = parts.header.finest_level; i < levels.size(); ++i) {
@@ -160,7 +169,7 @@ void fill_maps(BlockParts& parts, const TableSpec& spec, std::span<const ConvexV
     if (count > kMapVertices) continue;
     write_frame(header, levels[i]);
     header.map_side = std::clamp(std::uint32_t(std::sqrt(double(count) * spec.map_cells / 2)), kLeastMapSide, kMaxMapSide);
-    const std::vector<std::uint32_t> map = support_map(levels[i], header.map_side, map_frame(header));
+    const std::vector<std::uint32_t> map = support_map(levels[i], header.map_side, map_frame(header), executor);
     const auto bytes = std::as_bytes(std::span(map));
     parts.maps.insert(parts.maps.end(), bytes.begin(), bytes.end());
   }

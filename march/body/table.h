@@ -20,12 +20,12 @@ std::string spec_fault(const TableSpec& spec);
 /// Finds by brute force the vertex nearest to each sample point, which lies `radius_factor` bounding radii from the centre
 /// [Ehmann & Lin 2000, sec. 4.6]; ties go to the lowest index. Cost: samples x vertices. Sets `header.resolution`,
 /// `header.radius_factor` and `table`.
-void fill_table(BlockParts& parts, const TableSpec& spec, std::span<const Vertex> vertices);
+void fill_table(BlockParts& parts, const TableSpec& spec, std::span<const Vertex> vertices, const Executor& executor = {});
 
 /// Fills the support maps of `levels`, given finest first: for each cell the support vertex of its middle, and the most by
 /// which any other vertex is higher over the cell. Cost: a climb per cell and corner, mostly of one ring. Sets `maps` and what
 /// the headers say of them.
-void fill_maps(BlockParts& parts, const TableSpec& spec, std::span<const ConvexView> levels);
+void fill_maps(BlockParts& parts, const TableSpec& spec, std::span<const ConvexView> levels, const Executor& executor = {});
 
 /// A bound on how much `above` rises along a direction whose image by the map frame is a corner of a cell, and of which `n` is
 /// a rounded multiple. `above` leads from a vertex to the highest.

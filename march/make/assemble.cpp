@@ -12,6 +12,7 @@
 #include "body/shape.h"
 #include "body/table.h"
 #include "make/surface.h"
+#include "numeric/chunks.h"
 #include "numeric/exact.h"
 #include "pair/certify.h"
 #include "pair/start.h"
@@ -44,21 +45,27 @@ class PointBody {
   Vertex record_{};
 };
 
+constexpr std::size_t kWalksPerTask = 1024;  ///< vertices, faces: each walk begins where the one before ended, the first afar
+
+constexpr std::size_t tasks_over(std::size_t count) { return (count + kWalksPerTask - 1) / kWalksPerTask; }
+
 /// Returns the largest distance of a vertex of `level` from `exact_hull`. The distance to a convex body is a convex function,
 /// so no other point of the level is farther.
-double deviation_from(const ConvexView& exact_hull, const ConvexView& level) {
+double deviation_from(const ConvexView& exact_hull, const ConvexView& level, const Executor& executor) {
   MarchRule rule;
   rule.relative = kDeviationPrecision;
-  MarchStart start;
-  double deviation = 0;
-  PointBody point;
-  for (const Vertex& v : level.vertices) {
-    point.move_to(v);
-    const MarchResult r = march(point.view(), exact_hull, Pose{}, start, rule);
-    start.b = r.b;
-    deviation = std::max(deviation, r.upper);
-  }
-  return deviation * (1 + 2 * kU);
+  std::vector<double> farthest(tasks_over(level.vertices.size()));
+  over_chunks(executor, level.vertices.size(), kWalksPerTask, [&](std::size_t begin, std::size_t end) {
+    MarchStart start;
+    PointBody point;
+    for (const Vertex& v : level.vertices.subspan(begin, end - begin)) {
+      point.move_to(v);
+      const MarchResult r = march(point.view(), exact_hull, Pose{}, start, rule);
+      start.b = r.b;
+      farthest[begin / kWalksPerTask] = std::max(farthest[begin / kWalksPerTask], r.upper);
+    }
+  });
+  return *std::max_element(farthest.begin(), farthest.end()) * (1 + 2 * kU);
 }
 
 double squared_distance(const ConvexView& view, std::uint32_t v, const Vec& p) {
@@ -86,15 +93,15 @@ FeatureId nearest_feature(const ConvexView& point, const ConvexView& body, const
   return march(point, body, Pose{}, start).b;
 }
 
-/// Returns a near vertex of `finer` for each vertex of `level`: the nearest corner of the nearest feature. A vertex of `level`
+/// Writes a near vertex of `finer` for each of `vertices` to `nearest`: the nearest corner of the nearest feature. A vertex
 /// may lie inside `finer` if that was enlarged to enclose a level finer still; then `nearest_of_rings` climbs from the result
 /// for the vertex before.
-std::vector<std::uint32_t> nearest_vertices(const ConvexView& level, const ConvexView& finer) {
-  std::vector<std::uint32_t> nearest;
+void find_nearest(std::span<const Vertex> vertices, const ConvexView& finer, std::span<std::uint32_t> nearest) {
   MarchStart start;
   PointBody point;
   std::uint32_t best = 0;
-  for (const Vertex& v : level.vertices) {
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Vertex& v = vertices[i];
     point.move_to(v);
     start.b = nearest_feature(point.view(), finer, start);
     if (start.b.kind() == FeatureKind::None) start.b = {FeatureKind::Vertex, nearest_of_rings(finer, vec(v), best)};
@@ -111,8 +118,16 @@ std::vector<std::uint32_t> nearest_vertices(const ConvexView& level, const Conve
         h = next_in_face(finer, h);
       } while (h != first);
     }
-    nearest.push_back(best);
+    nearest[i] = best;
   }
+}
+
+/// Returns a near vertex of `finer` for each vertex of `level`.
+std::vector<std::uint32_t> nearest_vertices(const ConvexView& level, const ConvexView& finer, const Executor& executor) {
+  std::vector<std::uint32_t> nearest(level.vertices.size());
+  over_chunks(executor, nearest.size(), kWalksPerTask, [&](std::size_t begin, std::size_t end) {
+    find_nearest(level.vertices.subspan(begin, end - begin), finer, std::span(nearest).subspan(begin));
+  });
   return nearest;
 }
 
@@ -135,13 +150,14 @@ std::uint32_t kept_face(const ConvexView& level, std::uint32_t face, const std::
   return kNone;
 }
 
-Result<bool> link_to_finer(Draft& level, const LevelArrays& arrays, const Draft& finer, const std::string& name) {
+Result<bool> link_to_finer(Draft& level, const LevelArrays& arrays, const Draft& finer, const std::string& name,
+                           const Executor& executor) {
   const ConvexView view = level.surface.view(), fine = finer.surface.view();
   const auto ours = [&](std::uint32_t input) {
     return input < finer.surface.input_vertex.size() ? finer.surface.input_vertex[input] : kNone;
   };
   if (arrays.child_vertex.empty()) {
-    level.child_vertex = nearest_vertices(view, fine);
+    level.child_vertex = nearest_vertices(view, fine, executor);
   } else {
     for (const std::uint32_t input : level.surface.vertex_input) {
       const std::uint32_t child = input < arrays.child_vertex.size() ? ours(arrays.child_vertex[input]) : kNone;
@@ -167,13 +183,14 @@ Result<bool> link_to_finer(Draft& level, const LevelArrays& arrays, const Draft&
 }
 
 /// Sets `parent_face`: per face of `level`, the support vertex of `coarser` along the face's normal.
-void link_to_coarser(Draft& level, const ConvexView& coarser) {
+void link_to_coarser(Draft& level, const ConvexView& coarser, const Executor& executor) {
   const ConvexView view = level.surface.view();
-  std::uint32_t v = 0, comparisons = 0;
-  for (std::uint32_t f = 0; f < view.face_first.size(); ++f) {
-    v = support(coarser, face_normal(Resting{view, 0}, f), v, comparisons);
-    level.parent_face.push_back(v);
-  }
+  level.parent_face.resize(view.face_first.size());
+  over_chunks(executor, view.face_first.size(), kWalksPerTask, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t v = 0, comparisons = 0;
+    for (auto f = std::uint32_t(begin); f < end; ++f)
+      level.parent_face[f] = v = support(coarser, face_normal(Resting{view, 0}, f), v, comparisons);
+  });
 }
 
 template <class T>
@@ -299,7 +316,7 @@ Result<Model> Model::from_levels(std::span<const LevelArrays> levels, const Mode
   std::vector<Draft> drafts;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const std::string name = levels.size() == 1 ? "" : "level " + std::to_string(i) + ": ";
-    Result<Surface> surface = make_surface(levels[i], options.repair);
+    Result<Surface> surface = make_surface(levels[i], options.repair, options.executor);
     if (!surface) return Error{surface.error().code, name + surface.error().message};
     Draft draft;
     draft.surface = std::move(surface).value();
@@ -311,9 +328,9 @@ Result<Model> Model::from_levels(std::span<const LevelArrays> levels, const Mode
         return Error{ErrorCode::NotEnclosing,
                      name + "vertex " + std::to_string(drafts[0].surface.vertex_input[v]) + " of level 0 is outside"};
       }
-      draft.deviation = deviation_from(exact_hull, view);
-      if (auto linked = link_to_finer(draft, levels[i], drafts.back(), name); !linked) return linked.error();
-      link_to_coarser(drafts.back(), view);
+      draft.deviation = deviation_from(exact_hull, view, options.executor);
+      if (auto linked = link_to_finer(draft, levels[i], drafts.back(), name, options.executor); !linked) return linked.error();
+      link_to_coarser(drafts.back(), view, options.executor);
     }
     drafts.push_back(std::move(draft));
   }
@@ -328,10 +345,11 @@ Result<Model> Model::from_levels(std::span<const LevelArrays> levels, const Mode
   const Result<std::uint64_t> sources = write_source(parts, levels[0], drafts[0].surface);
   if (!sources) return sources.error();
   parts.header.source_face_count = sources.value();
-  fill_table(parts, options.table, drafts[0].surface.vertices);
+  fill_table(parts, options.table, drafts[0].surface.vertices, options.executor);
   std::vector<ConvexView> views;
   for (const Draft& draft : drafts) views.push_back(draft.surface.view());
-  fill_maps(parts, options.table, views);
+  fill_maps(parts, options.table, views, options.executor);
+  views.clear(), drafts.clear();  // what is composed needs as much room again
   return BlockReader::read(compose(parts));
 }
 

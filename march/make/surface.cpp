@@ -6,6 +6,7 @@
 #include "make/surface.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -14,6 +15,7 @@
 #include "body/block.h"
 #include "body/shape.h"
 #include "body/support.h"
+#include "numeric/chunks.h"
 #include "numeric/exact.h"
 #include "numeric/tolerance.h"
 #include "numeric/vec.h"
@@ -43,10 +45,13 @@ double extent_of(std::span<const Vec3> points) {
 /// The most vertices that a level may have: V vertices make at most 6 V - 12 half-edges, each of which needs a FeatureId.
 constexpr std::size_t kMostVertices = kMaxIndex / 6;
 
+constexpr std::size_t kPerTask = 8192;       ///< triangles, facets
+constexpr std::size_t kPlanesPerTask = 256;  ///< each takes a climb
+
 /// The input faces as loops of input vertices.
 struct Input {
   std::span<const Vec3> points;
-  std::vector<Loop> faces;
+  std::vector<std::span<const Index>> faces;
 
   const double* at(Index v) const { return points[v].data(); }
   Vec point(Index v) const { return vec(points[v]); }
@@ -81,7 +86,7 @@ Result<Input> read_input(const LevelArrays& level) {
         return bad_value("face " + std::to_string(f) + " names vertex " + std::to_string(v) + " of " +
                          std::to_string(in.points.size()));
     }
-    in.faces.emplace_back(loop.begin(), loop.end());
+    in.faces.push_back(loop);
     at += size;
   }
   if (at != level.face_vertices.size()) return bad_value("face_sizes and face_vertices disagree");
@@ -104,10 +109,25 @@ struct Triangle {
 
 constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
 
+/// Returns 0 to `count` - 1 in the order of the edges that they are the sides of: by the lesser end, then by the greater one.
+/// `ends` gives both ends of a side.
+template <class Ends>
+std::vector<Index> by_edge(std::size_t vertices, Index count, Ends ends) {
+  std::vector<Index> begin(vertices + 2, 0), order(count);
+  for (Index s = 0; s < count; ++s) ++begin[std::min(ends(s).first, ends(s).second) + 2];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  for (Index s = 0; s < count; ++s) order[begin[std::min(ends(s).first, ends(s).second) + 1]++] = s;
+  const auto place = [&](Index s) { return std::pair(std::max(ends(s).first, ends(s).second), s); };
+  for (std::size_t v = 0; v < vertices; ++v) {
+    std::sort(order.begin() + begin[v], order.begin() + begin[v + 1], [&](Index a, Index b) { return place(a) < place(b); });
+  }
+  return order;
+}
+
 /// Appends face `f` to `out` as a fan of triangles around its first corner that makes none of them degenerate; false if every
 /// corner makes one.
 bool fan(const Input& in, Index f, std::vector<Triangle>& out) {
-  const Loop& loop = in.faces[f];
+  const std::span<const Index> loop = in.faces[f];
   const std::size_t n = loop.size();
   for (std::size_t apex = 0; apex < n; ++apex) {
     const std::size_t before = out.size();
@@ -125,34 +145,23 @@ bool fan(const Input& in, Index f, std::vector<Triangle>& out) {
 
 class Mesh {
  public:
-  Mesh(const Input& in, std::vector<Triangle> triangles) : in_(in), triangles_(std::move(triangles)) {}
+  Mesh(const Input& in, std::vector<Triangle> triangles, const Executor& executor)
+      : in_(in), triangles_(std::move(triangles)), executor_(executor) {}
 
   /// Finds the triangle across each edge, and returns an error unless the surface is one closed sphere.
   Result<bool> close() {
-    struct Edge {
-      Index low, high, triangle;
-      int side;
-      bool forward;
-    };
-    std::vector<Edge> edges;
-    for (Index t = 0; t < triangles_.size(); ++t) {
-      for (int i = 0; i < 3; ++i) {
-        const Index u = triangles_[t].v[i], w = triangles_[t].v[next(i)];
-        edges.push_back({std::min(u, w), std::max(u, w), t, i, u < w});
-      }
-    }
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-      return std::tie(a.low, a.high, a.triangle, a.side) < std::tie(b.low, b.high, b.triangle, b.side);
-    });
-    for (std::size_t i = 0; i < edges.size();) {
+    const auto ends = [&](Index s) { return std::pair(triangles_[s / 3].v[s % 3], triangles_[s / 3].v[next(int(s % 3))]); };
+    const std::vector<Index> order = by_edge(in_.points.size(), Index(3 * triangles_.size()), ends);
+    for (std::size_t i = 0; i < order.size();) {
+      const auto [u, w] = std::minmax({ends(order[i]).first, ends(order[i]).second});
+      const auto same_edge = [&](Index s) { return std::minmax({ends(s).first, ends(s).second}) == std::pair(u, w); };
       std::size_t end = i;
-      while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
-      if (end - i != 2)
-        return not_convex(edge_text(edges[i].low, edges[i].high) + " belongs to " + std::to_string(end - i) + " faces, not 2");
-      if (edges[i].forward == edges[i + 1].forward)
-        return not_convex("the faces at " + edge_text(edges[i].low, edges[i].high) + " are wound against each other");
-      triangles_[edges[i].triangle].beside[edges[i].side] = edges[i + 1].triangle;
-      triangles_[edges[i + 1].triangle].beside[edges[i + 1].side] = edges[i].triangle;
+      while (end < order.size() && same_edge(order[end])) ++end;
+      if (end - i != 2) return not_convex(edge_text(u, w) + " belongs to " + std::to_string(end - i) + " faces, not 2");
+      const Index s = order[i], t = order[i + 1];
+      if (ends(s) == ends(t)) return not_convex("the faces at " + edge_text(u, w) + " are wound against each other");
+      triangles_[s / 3].beside[s % 3] = t / 3;
+      triangles_[t / 3].beside[t % 3] = s / 3;
       i = end;
     }
     return one_sphere();
@@ -161,10 +170,7 @@ class Mesh {
   /// Proves by exact signs that the surface is convex. Flips a reflex edge if it is a diagonal of one input face, or with
   /// `repair`; else a reflex edge is an error.
   Result<bool> make_convex(bool repair) {
-    std::vector<std::pair<Index, int>> doubtful;
-    for (Index t = 0; t < triangles_.size(); ++t) {
-      for (int i = 0; i < 3; ++i) doubtful.push_back({t, i});
-    }
+    std::vector<std::pair<Index, int>> doubtful = edges_where([](int sign) { return sign > 0; });
     std::size_t flips = 0;
     while (!doubtful.empty()) {
       const auto [t, i] = doubtful.back();
@@ -188,13 +194,9 @@ class Mesh {
       while (group[t] != t) t = group[t] = group[group[t]];
       return t;
     };
-    for (Index t = 0; t < triangles_.size(); ++t) {
-      for (int i = 0; i < 3; ++i) {
-        if (height_sign(t, i) == 0) {
-          const Index a = root(t), b = root(triangles_[t].beside[i]);
-          group[std::max(a, b)] = std::min(a, b);
-        }
-      }
+    for (const auto& [t, i] : edges_where([](int sign) { return sign == 0; })) {
+      const Index a = root(t), b = root(triangles_[t].beside[i]);
+      group[std::max(a, b)] = std::min(a, b);
     }
     Facets result;
     std::vector<Index> number(triangles_.size(), kNone);
@@ -269,6 +271,23 @@ class Mesh {
   int height_sign(Index t, int i) const {
     const Triangle& a = triangles_[t];
     return in_.orientation(a.v[0], a.v[1], a.v[2], opposite(t, i));
+  }
+
+  /// Returns the edges whose sign, of the height of one side's triangle above the other's, is as asked: each as the side of the
+  /// triangle of greater index, in the order of these.
+  template <class IsAsked>
+  std::vector<std::pair<Index, int>> edges_where(IsAsked is_asked) const {
+    std::vector<std::vector<std::pair<Index, int>>> found((triangles_.size() + kPerTask - 1) / kPerTask);
+    over_chunks(executor_, triangles_.size(), kPerTask, [&](std::size_t begin, std::size_t end) {
+      for (auto t = Index(begin); t < end; ++t) {
+        for (int i = 0; i < 3; ++i) {
+          if (t >= triangles_[t].beside[i] && is_asked(height_sign(t, i))) found[begin / kPerTask].push_back({t, i});
+        }
+      }
+    });
+    std::vector<std::pair<Index, int>> edges;
+    for (const auto& of_task : found) edges.insert(edges.end(), of_task.begin(), of_task.end());
+    return edges;
   }
 
   Result<bool> one_sphere() const {
@@ -356,9 +375,13 @@ class Mesh {
     for (Index v = 0; v < in_.points.size(); ++v) middle = middle + in_.point(v) * (1.0 / double(in_.points.size()));
     middle = admissible(middle);
     const double* o = &middle.x;
-    bool inside = true;
-    for (const Triangle& t : triangles_)
-      inside = inside && exact::orientation(in_.at(t.v[0]), in_.at(t.v[1]), in_.at(t.v[2]), o) < 0;
+    std::atomic<bool> inside = true;
+    over_chunks(executor_, triangles_.size(), kPerTask, [&](std::size_t begin, std::size_t end) {
+      const bool below = std::all_of(
+          triangles_.begin() + std::ptrdiff_t(begin), triangles_.begin() + std::ptrdiff_t(end),
+          [&](const Triangle& t) { return exact::orientation(in_.at(t.v[0]), in_.at(t.v[1]), in_.at(t.v[2]), o) < 0; });
+      if (!below) inside = false;
+    });
     if (!inside) return every_vertex_below();
     for (const Triangle& target : triangles_) {
       const Vec c = admissible((in_.point(target.v[0]) + in_.point(target.v[1]) + in_.point(target.v[2])) * (1.0 / 3));
@@ -370,18 +393,21 @@ class Mesh {
   }
   /// Returns how many triangles the ray from `o` through `c` crosses, or 0 if it meets an edge.
   int ray_hits(const double* o, const double* c) const {
-    int hits = 0;
-    for (const Triangle& t : triangles_) {
-      int positive = 0, zero = 0;
-      for (int i = 0; i < 3; ++i) {
-        const int sign = exact::orientation(o, in_.at(t.v[i]), in_.at(t.v[next(i)]), c);
-        positive += sign > 0;
-        zero += sign == 0;
+    std::atomic<int> hits = 0;
+    std::atomic<bool> meets_edge = false;
+    over_chunks(executor_, triangles_.size(), kPerTask, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        int positive = 0, zero = 0;
+        for (int i = 0; i < 3; ++i) {
+          const int sign = exact::orientation(o, in_.at(triangles_[k].v[i]), in_.at(triangles_[k].v[next(i)]), c);
+          positive += sign > 0;
+          zero += sign == 0;
+        }
+        if (positive + zero == 3 && zero > 0) meets_edge = true;
+        if (positive == 3) ++hits;
       }
-      if (positive + zero == 3 && zero > 0) return 0;
-      hits += positive == 3;
-    }
-    return hits;
+    });
+    return meets_edge ? 0 : int(hits);
   }
   /// Proves a convex body from three facts: no vertex is above a face, no two vertices coincide, and not all lie in one plane.
   /// Each face then lies in a facet of the hull, beside its neighbours, so that the surface covers the hull d times. Each
@@ -420,14 +446,15 @@ class Mesh {
 
   const Input& in_;
   std::vector<Triangle> triangles_;
+  const Executor& executor_;
 };
 
-Result<Facets> solid(const Input& in, bool repair) {
+Result<Facets> solid(const Input& in, bool repair, const Executor& executor) {
   std::vector<Triangle> triangles;
   for (Index f = 0; f < in.faces.size(); ++f) {
     if (!fan(in, f, triangles)) return not_convex("face " + std::to_string(f) + " is degenerate: its vertices are collinear");
   }
-  Mesh mesh(in, std::move(triangles));
+  Mesh mesh(in, std::move(triangles), executor);
   if (auto closed = mesh.close(); !closed) return closed.error();
   if (auto convex = mesh.make_convex(repair); !convex) return convex.error();
   return mesh.facets();
@@ -437,7 +464,7 @@ Result<Facets> solid(const Input& in, bool repair) {
 
 bool is_two_sided(const Input& in) {
   if (in.faces.size() != 2 || in.faces[0].size() != in.points.size() || in.faces[1].size() != in.points.size()) return false;
-  const Loop& front = in.faces[0];
+  const std::span<const Index> front = in.faces[0];
   const auto at = std::find(in.faces[1].begin(), in.faces[1].end(), front[0]);
   if (at == in.faces[1].end()) return false;
   const std::size_t n = front.size(), offset = std::size_t(at - in.faces[1].begin());
@@ -457,7 +484,7 @@ int turn_sign(const Input& in, Index a, Index b, Index c, int x, int y) {
 }
 
 Result<Facets> two_sided(const Input& in) {
-  const Loop& loop = in.faces[0];
+  const std::span<const Index> loop = in.faces[0];
   const std::size_t n = loop.size();
   for (std::size_t i = 3; i < n; ++i) {
     if (in.orientation(loop[0], loop[1], loop[2], loop[i]) != 0)
@@ -477,7 +504,7 @@ Result<Facets> two_sided(const Input& in) {
       if (sign == 0 || sign != winding) return not_convex("the polygon is not strictly convex at vertex " + std::to_string(b));
     }
   }
-  return Facets{in.faces, {0, 1}};
+  return Facets{{Loop(loop.begin(), loop.end()), Loop(in.faces[1].begin(), in.faces[1].end())}, {0, 1}};
 }
 
 // ---- Half-edges ------------------------------------------------------------------------------------------------------------
@@ -489,19 +516,15 @@ struct Side {
   Index twin = kNone;
 };
 
-std::vector<Side> sides_of(const Facets& facets) {
+std::vector<Side> sides_of(const Facets& facets, std::size_t vertices) {
   std::vector<Side> sides;
   for (Index f = 0; f < facets.loops.size(); ++f) {
     const Loop& loop = facets.loops[f];
     const Index begin = Index(sides.size()), n = Index(loop.size());
     for (Index i = 0; i < n; ++i) sides.push_back({loop[i], loop[(i + 1) % n], f, begin + (i + n - 1) % n});
   }
-  std::vector<Index> order(sides.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](Index s) {
-    return std::tuple(std::min(sides[s].tail, sides[s].head), std::max(sides[s].tail, sides[s].head), s);
-  };
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b); });
+  const std::vector<Index> order =
+      by_edge(vertices, Index(sides.size()), [&](Index s) { return std::pair(sides[s].tail, sides[s].head); });
   for (std::size_t i = 0; i + 1 < order.size(); i += 2) {
     sides[order[i]].twin = order[i + 1];
     sides[order[i + 1]].twin = order[i];
@@ -528,19 +551,31 @@ bool all_float(const Input& in) {
 /// degrees of its normal, and together they form a disc.
 class Grouping {
  public:
-  Grouping(const Input& in, const Facets& facets, const std::vector<Side>& sides) : in_(in), facets_(facets), sides_(sides) {
+  Grouping(const Input& in, const Facets& facets, const std::vector<Side>& sides, const Executor& executor)
+      : in_(in), facets_(facets), sides_(sides) {
     const std::size_t count = facets.loops.size();
     first_side_.resize(count);
     for (Index s = Index(sides.size()); s-- > 0;) first_side_[sides[s].facet] = s;
-    for (const Loop& loop : facets.loops) area_.push_back(area_vector<double>(in, loop));
-    std::vector<Index> order(count);
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](Index a, Index b) { return dot(area_[a], area_[a]) > dot(area_[b], area_[b]); });
-    group_.assign(count, kNone);
+    area_.resize(count);
+    over_chunks(executor, count, kPerTask, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) area_[f] = area_vector<double>(in, facets.loops[f]);
+    });
     tolerance_ = kWalkingFaceUlps * (all_float(in) ? kFloatUlp : kDoubleUlp) * extent_of(in.points);
+    alone_.resize(count);
+    over_chunks(executor, count, kPerTask, [&](std::size_t begin, std::size_t end) {
+      for (auto f = Index(begin); f < end; ++f) alone_[f] = is_alone(f);
+    });
+    std::vector<Index> order;
+    for (Index f = 0; f < count; ++f) {
+      if (!alone_[f]) order.push_back(f);
+    }
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) { return is_before(a, b); });
+    group_.assign(count, kNone);
     for (const Index seed : order) {
       if (group_[seed] == kNone) grow(seed);
+    }
+    for (Index f = 0; f < count; ++f) {
+      if (group_[f] == kNone) group_[f] = f;
     }
   }
   const std::vector<Index>& groups() const { return group_; }
@@ -551,8 +586,22 @@ class Grouping {
     for (Index s = first_side_[facet]; s < sides_.size() && sides_[s].facet == facet; ++s) visit(sides_[s]);
   }
 
-  bool joins(Index facet, const Vec& n, const Vec& p) const {
-    if (group_[facet] != kNone || !(dot(normalised(area_[facet]), n) > 0.5)) return false;
+  /// Groups grow from the larger facets first.
+  bool is_before(Index a, Index b) const {
+    const double area_a = dot(area_[a], area_[a]), area_b = dot(area_[b], area_[b]);
+    return area_a > area_b || (area_a == area_b && a < b);
+  }
+  /// Returns true if the facet would stay a group of its own, were it the first to grow, as nearly all of a round body would.
+  bool is_alone(Index facet) const {
+    const Vec n = normalised(area_[facet]), p = in_.point(facets_.loops[facet][0]);
+    bool alone = true;
+    each_side(facet, [&](const Side& side) { alone = alone && !is_near(sides_[side.twin].facet, n, p); });
+    return alone;
+  }
+  /// Returns true if the facet belongs to no group when that of `seed` grows.
+  bool is_free(Index facet, Index seed) const { return group_[facet] == kNone && !(alone_[facet] && is_before(facet, seed)); }
+  bool is_near(Index facet, const Vec& n, const Vec& p) const {
+    if (!(dot(normalised(area_[facet]), n) > 0.5)) return false;
     return std::all_of(facets_.loops[facet].begin(), facets_.loops[facet].end(),
                        [&](Index v) { return std::fabs(dot(n, in_.point(v) - p)) <= tolerance_; });
   }
@@ -564,7 +613,7 @@ class Grouping {
     for (std::size_t i = 0; i < members.size(); ++i) {
       each_side(members[i], [&](const Side& side) {
         const Index other = sides_[side.twin].facet;
-        if (joins(other, n, p)) group_[other] = seed, members.push_back(other);
+        if (is_free(other, seed) && is_near(other, n, p)) group_[other] = seed, members.push_back(other);
       });
     }
     if (members.size() > 1 && !is_disc(seed, members)) {
@@ -602,6 +651,7 @@ class Grouping {
   const Facets& facets_;
   const std::vector<Side>& sides_;
   std::vector<Index> first_side_, group_;
+  std::vector<std::uint8_t> alone_;
   std::vector<Vec> area_;
   double tolerance_;
 };
@@ -639,15 +689,17 @@ FacePlane plane_of(const Input& in, double extent, const Loop& border, const Loo
   return {n.x, n.y, n.z, thickness + 8 * kU * extent, 0};
 }
 
-Surface link(const Input& in, const Facets& facets) {
+Surface link(const Input& in, const Facets& facets, const Executor& executor) {
   Surface out;
-  const std::vector<Side> sides = sides_of(facets);
-  const std::vector<Index> group = Grouping(in, facets, sides).groups();
+  const std::vector<Side> sides = sides_of(facets, in.points.size());
+  const std::vector<Index> group = Grouping(in, facets, sides, executor).groups();
 
+  std::vector<bool> is_corner(in.points.size());
+  for (const Side& side : sides) is_corner[side.tail] = true;
   std::vector<Index> corners;
-  for (const Side& side : sides) corners.push_back(side.tail);
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  for (Index v = 0; v < is_corner.size(); ++v) {
+    if (is_corner[v]) corners.push_back(v);
+  }
   out.vertex_input = along_curve(in, corners);
   out.input_vertex.assign(in.points.size(), kNone);
   for (Index i = 0; i < out.vertex_input.size(); ++i) out.input_vertex[out.vertex_input[i]] = i;
@@ -693,16 +745,19 @@ Surface link(const Input& in, const Facets& facets) {
   }
   const ConvexView view = out.view();
   const double extent = extent_of(in.points);
-  for (Index f = 0; f < sequence.size() && has_plane(sequence[f]); ++f) {
-    Loop border;
-    Index h = out.face_first[f];
-    do {
-      border.push_back(out.vertex_input[origin(view, h)]);
-      h = next_in_face(view, h);
-    } while (h != out.face_first[f]);
-    FacePlane& plane = out.planes.emplace_back(plane_of(in, extent, border, held[f]));
-    plane.over = height_over(view, vec(plane), origin(view, out.face_first[f]));
-  }
+  out.planes.resize(std::size_t(std::find_if_not(sequence.begin(), sequence.end(), has_plane) - sequence.begin()));
+  over_chunks(executor, out.planes.size(), kPlanesPerTask, [&](std::size_t begin, std::size_t end) {
+    for (auto f = Index(begin); f < end; ++f) {
+      Loop border;
+      Index h = out.face_first[f];
+      do {
+        border.push_back(out.vertex_input[origin(view, h)]);
+        h = next_in_face(view, h);
+      } while (h != out.face_first[f]);
+      out.planes[f] = plane_of(in, extent, border, held[f]);
+      out.planes[f].over = height_over(view, vec(out.planes[f]), origin(view, out.face_first[f]));
+    }
+  });
   out.input_face.resize(facets.input_facet.size());
   for (std::size_t f = 0; f < out.input_face.size(); ++f) out.input_face[f] = number[group[facets.input_facet[f]]];
   return out;
@@ -792,16 +847,16 @@ ConvexView Surface::view() const {
   return v;
 }
 
-Result<Surface> make_surface(const LevelArrays& level, bool repair) {
+Result<Surface> make_surface(const LevelArrays& level, bool repair, const Executor& executor) {
   const Result<Input> read = read_input(level);
   if (!read) return read.error();
   const Input& in = read.value();
   Result<Surface> surface = [&]() -> Result<Surface> {
     if (in.faces.empty()) return without_faces(in);
     const bool flat = is_two_sided(in);
-    const Result<Facets> facets = flat ? two_sided(in) : solid(in, repair);
+    const Result<Facets> facets = flat ? two_sided(in) : solid(in, repair, executor);
     if (!facets) return facets.error();
-    Surface linked = link(in, facets.value());
+    Surface linked = link(in, facets.value(), executor);
     linked.dimension = flat ? 2 : 3;
     linked.volume = flat ? 0 : volume_of(in, facets.value());
     return linked;

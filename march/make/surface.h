@@ -30,7 +30,8 @@ struct Surface {
 
 /// Makes the surface of a convex body of plain arrays, and proves it convex; else returns an error that says where it is not.
 /// With `repair`, it first flips reflex edges between the given faces, which rounding of the vertices may have made.
-Result<Surface> make_surface(const LevelArrays& level, bool repair);
+/// The same surface on any executor.
+Result<Surface> make_surface(const LevelArrays& level, bool repair, const Executor& executor = {});
 
 /// Returns a vertex of `exact_hull` that lies above some facet of `level`, or kNone if the level encloses the hull. Decided by
 /// exact support climbs from facet to facet.

@@ -38,9 +38,9 @@ struct Corner {
 
 /// A side of a border, or a chord that cuts off corners which turn inwards.
 struct Side {
-  Corner from, to;  ///< the lower and the upper end
-  Place way;        ///< from one to the other
-  double length2;
+  Corner from, to;          ///< the lower and the upper end
+  Place way;                ///< from one to the other
+  double most;              ///< at least its length: the sum of its coordinates
   std::uint32_t half_edge;  ///< the half-edge that ends at `to`; of a chord the last one that it cuts off
   bool is_chord;
 
@@ -49,28 +49,29 @@ struct Side {
   double rise(double y) const { return way.y > 0 ? min(max((y - from.at.y) / way.y, 0), 1) : 0; }
   /// The parameter of the point nearest to `place`.
   double along(const Place& place) const {
-    const double t = dot(place - from.at, way);
+    const double t = dot(place - from.at, way), length2 = this->length2();
     return length2 > 0 && t > 0 ? min(t / length2, 1) : 0;
   }
+  double length2() const { return dot(way, way); }
   /// Twice the area of the side and a place, positive where that lies outside.
   double beyond(const Place& place) const { return cross(place - from.at, way); }
 
   void lead(const Corner& corner, const Place& there, std::uint32_t h) {
     to = corner, half_edge = h;
     way = there;
-    length2 = dot(way, way);
+    most = std::fabs(way.x) + std::fabs(way.y);
   }
 };
 
 /// On which side of a border's side a place lies whose height is between those of its ends.
 enum class Where { Inside, On, Outside };
 Where where(const Place& place, const Side& side, double bound) {
-  const double area = side.beyond(place);
-  if (area * area > bound * bound * side.length2) return area > 0 ? Where::Outside : Where::Inside;
+  const double area = side.beyond(place), length2 = side.length2();
+  if (area * area > bound * bound * length2) return area > 0 ? Where::Outside : Where::Inside;
   // The line is within the bound; the side itself may not be, if it is nearly horizontal.
   const double dx = side.way.x, x = place.x - side.from.at.x;
-  if (x < min(dx, 0) - bound) return side.length2 - dx * dx > dx * dx ? Where::On : Where::Inside;
-  if (x > max(dx, 0) + bound) return side.length2 - dx * dx > dx * dx ? Where::On : Where::Outside;
+  if (x < min(dx, 0) - bound) return length2 - dx * dx > dx * dx ? Where::On : Where::Inside;
+  if (x > max(dx, 0) + bound) return length2 - dx * dx > dx * dx ? Where::On : Where::Outside;
   return Where::On;
 }
 
@@ -85,7 +86,7 @@ class SeenBorder {
         vertices_(body.view.vertices.data()),
         outwards_(border == Border::Left ? -1 : 1),
         bound_(bound),
-        flat2_(face.flatness() * face.flatness()),
+        flatness_(face.flatness()),
         x_{body.x.x * outwards_, body.y.x},
         y_{body.x.y * outwards_, body.y.y},
         z_{body.x.z * outwards_, body.y.z},
@@ -124,6 +125,7 @@ class SeenBorder {
   [[gnu::always_inline]] void advance(std::uint32_t top) {
     side_.from = side_.to, side_.is_chord = false;
     side_.lead(next_, ahead_, half_edge_);
+    if (half_edge_ == convex_to_) convex_to_ = kNone;
     do {
       if (side_.to.vertex == top) return;
       half_edge_ = onward(side_.half_edge, is_left_);
@@ -159,34 +161,61 @@ class SeenBorder {
   /// Whether a way from the end of the side leads inwards, by more than the flatness.
   bool turns_in(const Place& way) const {
     const double out = cross(way, side_.way);
-    return out < 0 && out * out > flat2_ * side_.length2 && !falls();
+    if (out < -flatness_ * side_.most && side_.way.y > 0) return true;
+    return out < 0 && out * out > flatness_ * flatness_ * side_.length2() && !falls();
   }
   /// A border of merged facets may turn inwards by up to the face's flatness: corners are looked at until one lies farther
   /// inside of the side than that. If one lies beyond, the side becomes a chord to it, and true is returned. A border that is
   /// jagged by more is followed to the next corner that is no lower. `h` ends at the corner after the side.
   [[gnu::noinline]] bool extend(std::uint32_t h, std::uint32_t top) {
+    if (is_convex(top)) return false;
     for (;; h = onward(h, is_left_)) {
       const Corner corner = end_of(h);
       const double out = side_.beyond(corner.at);
-      if (falls() || (out > 0 && out * out > 0.25 * bound_ * bound_ * side_.length2)) {
+      if (falls() || (out > 0 && out * out > 0.25 * bound_ * bound_ * side_.length2())) {
         side_.lead(corner, corner.at - side_.from.at, h);
+        convex_to_ = kNone;
         return side_.is_chord = true;
       }
       if (turns_in(corner.at - side_.to.at) || corner.vertex == top) return false;
     }
   }
 
+  /// Whether none of the corners that `extend` would look at can lie beyond the side: whether the border surely turns inwards
+  /// at all of them, in all by less than half a turn. What was found for the side before is true of this one, so that each
+  /// corner is looked at once.
+  bool is_convex(std::uint32_t top) {
+    if (falls()) return false;
+    const auto turns = [](const Place& way, const Place& before) {
+      return cross(way, before) <
+             -kCornerError * (std::fabs(way.x) + std::fabs(way.y)) * (std::fabs(before.x) + std::fabs(before.y));
+    };
+    if (convex_to_ == kNone && turns(ahead_, side_.way)) convex_to_ = half_edge_;
+    if (convex_to_ == kNone) return false;
+    Corner corner = end_of(convex_to_);
+    for (Place way = corner.at - end_of(twin(convex_to_)).at; !turns_in(corner.at - side_.to.at) && corner.vertex != top;) {
+      const std::uint32_t h = onward(convex_to_, is_left_);
+      const Corner next = end_of(h);
+      const Place before = way;
+      way = next.at - corner.at;
+      if (!turns(way, before) || !turns(way, side_.way)) return false;
+      convex_to_ = h, corner = next;
+    }
+    return true;
+  }
+
   const SeenBody& body_;
   const ContactFace& face_;
   const HalfEdge* const half_edges_;
   const Vertex* const vertices_;
-  const double outwards_, bound_, flat2_;
-  const Vec2 x_, y_, z_, shift_;  ///< where the projection has the body's axes and its origin
-  const bool is_left_;            ///< half-edges that point upwards have the face on their left
-  Side side_;                     ///< at the height of the sweep line
-  Corner next_;                   ///< the corner after it
-  Place ahead_;                   ///< the way there
-  std::uint32_t half_edge_;       ///< the half-edge that ends there
+  const double outwards_, bound_, flatness_;
+  const Vec2 x_, y_, z_, shift_;     ///< where the projection has the body's axes and its origin
+  const bool is_left_;               ///< half-edges that point upwards have the face on their left
+  Side side_;                        ///< at the height of the sweep line
+  Corner next_;                      ///< the corner after it
+  Place ahead_;                      ///< the way there
+  std::uint32_t half_edge_;          ///< the half-edge that ends there
+  std::uint32_t convex_to_ = kNone;  ///< ahead of the side: up to its end the border surely is convex, if that is known
 };
 
 /// The half-edge of a face that leaves its lowest corner: where the border rises on both sides, by more than the border of
@@ -342,14 +371,14 @@ class Sweep {
   /// Returns true where a border's corner lies outside of the other face's side and led, or inside and did not.
   bool passes_lead(const Place& place, const Side& side, bool leads) const {
     const double area = side.beyond(place);
-    if (area * area > bound_ * bound_ * side.length2) [[likely]]
-      return (area > 0) == leads;
+    if ((leads ? -area : area) > bound_ * side.most) [[likely]]
+      return false;
     return swiftlet::where(place, side, bound_) == (leads ? Where::Outside : Where::Inside);
   }
 
   /// Returns true if a place of one border lies outside of a side of the other, which sees it mirrored.
   bool is_across(const Place& place, const Side& side) const {
-    return -place.x >= min(side.from.at.x, side.to.at.x) - bound_ &&
+    return place.x + min(side.from.at.x, side.to.at.x) <= bound_ &&
            swiftlet::where({-place.x, place.y}, side, bound_) == Where::Outside;
   }
 

@@ -34,7 +34,8 @@ class ContactFace {
   std::uint32_t onward(std::uint32_t h) const {
     const HalfEdge& last = half_edges_[h];
     const Vertex& ring = vertices_[last.head];
-    const auto beside = [&](std::uint32_t i) { return is_left ? clockwise(ring, i) : counter_clockwise(ring, i); };
+    const std::uint32_t first = ring.ring_begin, end = first + ring.ring_count;
+    const auto beside = [&](std::uint32_t i) { return is_left ? (i == first ? end : i) - 1 : i + 1 == end ? first : i + 1; };
     for (std::uint32_t next = beside(last.twin);;) {
       const std::uint32_t after = beside(next);
       if (!holds(half_edges_[is_left ? after : next].face, after)) return next;
@@ -46,7 +47,7 @@ class ContactFace {
   bool holds(std::uint32_t face) const;
   /// The same; `h` ends at a corner of the face, which mostly decides.
   bool holds(std::uint32_t face, std::uint32_t h) const {
-    if (face == top_ || face == kNone) return face != kNone;
+    if (face == top_) return face != kNone;
     return dot(normal_, vec(vertices_[half_edges_[h].head])) >= least_height_ && holds(face);
   }
   std::uint32_t border() const;

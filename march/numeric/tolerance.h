@@ -264,6 +264,10 @@ inline constexpr int kMostCorners = 20;
 /// What a chord between such corners may cut off at first, over the area up to there, and by which factor that grows until few
 /// corners stay.
 inline constexpr double kLeastChord = 0x1p-9, kChordGrowth = 4;
+/// Bounds the error of the cross product of two sides of a projected border, whose corners count as exact, relative to the
+/// product of the sums of their coordinates: 2 differences, 1 product and 1 difference, 4 u of terms that this sum bounds.
+/// Rounded up.
+inline constexpr double kCornerError = 8 * kU;
 /// Cosine and sine of 12.7 degrees: the angle between the first side of a face and the line that sweeps over it. No side of a
 /// regular polygon of up to 20 corners is then within 0.1 degrees of the line.
 inline constexpr double kSweepCos = 40.0 / 41, kSweepSin = 9.0 / 41;

@@ -82,6 +82,7 @@ static inline Vec4 operator*(const Vec4& a, const Vec4& b) { return {a.v * b.v};
 static inline Vec4 operator/(const Vec4& a, const Vec4& b) { return {a.v / b.v}; }
 static inline Vec4 operator-(const Vec4& a) { return {-a.v}; }
 static inline Vec4 max(const Vec4& a, const Vec4& b) { return {_mm256_max_pd(b.v, a.v)}; }
+static inline Vec4 min(const Vec4& a, const Vec4& b) { return {_mm256_min_pd(b.v, a.v)}; }
 static inline Vec4 abs(const Vec4& a) { return {_mm256_andnot_pd(all(-0.0).v, a.v)}; }
 template <int i>
 static inline Vec4 lane(const Vec4& a) {
@@ -117,6 +118,7 @@ static inline Vec4 odd(const Vec4& a, const Vec4& b) {
   return {__builtin_shufflevector(a.lo, b.lo, 1, 3), __builtin_shufflevector(a.hi, b.hi, 1, 3)};
 }
 static inline Vec4 max(const Vec4& a, const Vec4& b) { return {max(a.lo, b.lo), max(a.hi, b.hi)}; }
+static inline Vec4 min(const Vec4& a, const Vec4& b) { return {min(a.lo, b.lo), min(a.hi, b.hi)}; }
 static inline Vec4 abs(const Vec4& a) { return {abs(a.lo), abs(a.hi)}; }
 #if defined(__SSE2__)
 static inline unsigned equal(const Vec4& a, const Vec4& b) {

@@ -191,10 +191,6 @@ class IntersectionSearch {
     std::uint32_t first, side;
   };
   Cell cell(int k, std::uint32_t facet) const { return {facet, next_in_facet(view(k), facet)}; }
-  std::uint32_t before_in_facet(int k, std::uint32_t h) const {
-    const ConvexView& own = view(k);
-    return own.half_edges[counter_clockwise(own.vertices[origin(own, h)], h)].twin;
-  }
 
   /// 1 or -1: `side` times this is positive for a point of body k outside a facet of the other body.
   int sense(int k) const {
@@ -219,7 +215,7 @@ class IntersectionSearch {
       const std::uint32_t tail = origin(own, at.side), head = own.half_edges[at.side].head;
       if (left(root, tail) < 0) {
         if (tail == own.half_edges[at.first].head) return at.first;
-        at.side = before_in_facet(k, at.side);
+        at.side = previous_in_facet(own, at.side);
       } else if (left(head, root) < 0) {
         const std::uint32_t next = next_in_facet(own, at.side);
         if (own.half_edges[next].head == root) return next;
@@ -467,28 +463,42 @@ double off_segment(const Vec& p, const Vec& q0, const Vec& q1) {
   return norm(r - u * (t > 0 ? min(t, 1) : 0.0));
 }
 
+/// The distance from p to the facet on the left of a half-edge if p lies above or below that by less than `most`, else `most`.
+template <class Body>
+double off_facet(const Body& body, std::uint32_t facet, const Vec& p, double most) {
+  const ConvexView& view = body.view;
+  const auto head = [&](std::uint32_t h) { return body.point(view.half_edges[h].head); };
+  const Vec q = body.point(origin(view, facet));
+  Vec n{0, 0, 0};  // twice the area: of a sliver this is more accurate than the cross product at any one corner
+  Vec last = head(facet) - q;
+  for (std::uint32_t h = next_in_facet(view, facet); h != facet; h = next_in_facet(view, h)) {
+    const Vec next = head(h) - q;
+    n = n + cross(last, next), last = next;
+  }
+  const double height = std::fabs(dot(n, p - q)), length = norm(n);
+  if (!(height < most * length)) return most;
+  Vec tail = q;
+  std::uint32_t h = facet;
+  do {
+    const Vec tip = head(h);
+    if (dot(cross(tip - tail, p - tail), n) < 0) return most;
+    tail = tip, h = next_in_facet(view, h);
+  } while (h != facet);
+  return height / length;
+}
+
 template <class Body>
 FeatureId feature_at(const Body& body, FeatureId known, const Vec& p, double bound, std::uint32_t& tests) {
   const ConvexView& view = body.view;
   if (known.kind() != FeatureKind::Vertex || norm(p - body.point(known.index())) <= bound) return known;
   double least = 2 * bound;
   std::uint32_t nearest = kNone;
-  for (std::uint32_t facet = 0; facet < view.half_edges.size(); ++facet) {
+  for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
     // The plane of a sliver is uncertain, its sides are not: the distance to the sides counts too.
-    const Vec q = body.point(origin(view, facet)), tip = body.point(view.half_edges[facet].head),
-              n = cross(tip - q, body.point(view.half_edges[next_in_facet(view, facet)].head) - q);
-    const double height = std::fabs(dot(n, p - q)), length = norm(n);
+    double off = off_segment(p, body.point(origin(view, h)), body.point(view.half_edges[h].head));
+    if (is_first_in_facet(view, h)) off = min(off, off_facet(body, h, p, least));
+    if (off < least) least = off, nearest = h;
     ++tests;
-    double off = off_segment(p, q, tip);
-    bool above = length > 0 && height <= least * length;
-    for (std::uint32_t h = facet; above;) {
-      const Vec q0 = body.point(origin(view, h)), q1 = body.point(view.half_edges[h].head);
-      above = dot(cross(q1 - q0, p - q0), n) >= 0;
-      h = next_in_facet(view, h);
-      if (h == facet) break;
-    }
-    if (above) off = min(off, height / length);
-    if (off < least) least = off, nearest = facet;
   }
   if (nearest == kNone) return known;
   FeatureId smallest{view.half_edges[nearest].face == kNone ? FeatureKind::Edge : FeatureKind::Face,

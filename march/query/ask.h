@@ -31,4 +31,7 @@ static inline void ask_hulls(const ModelPair& pair, const StopRule& asked, PairS
   SWIFTLET_BY_WIDTH(ask_hulls)(pair, asked, seed, answer, proof);
 }
 
+/// A feature of a body's level 0 by the user's ids.
+SourceFeature source_feature(const Body& body, FeatureId feature);
+
 }  // namespace swiftlet

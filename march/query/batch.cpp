@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "query/prefetch.h"
+#include "query/run.h"
 
 namespace swiftlet {
 namespace {
@@ -25,17 +26,6 @@ constexpr unsigned kMostThreads = 1;  // to start one would end the program
 #else
 constexpr unsigned kMostThreads = 1024;
 #endif
-constexpr std::size_t kPairsPerTask = 32;  // so few that threads end together, so many that taking a task costs nothing
-
-/// Runs task(0) to task(count - 1) until it is told to stop.
-template <class Task>
-void run_all(std::size_t count, const Run& run, const Task& task) {
-  const auto unless_stopped = [&](std::size_t i) {
-    if (!run.stop || !run.stop()) task(i);
-  };
-  if (run.executor) return run.executor(count, unless_stopped);
-  for (std::size_t i = 0; i < count; ++i) unless_stopped(i);
-}
 
 /// The options without trace and proof, which all queries of a batch would share.
 template <class AnyOptions>
@@ -68,17 +58,6 @@ void over_pairs(std::span<const PairQuery> pairs, std::span<AnyAnswer> answers, 
     }
   };
   run_all((pairs.size() + kPairsPerTask - 1) / kPairsPerTask, run, ask_some);
-}
-
-template <class AnyAnswer, class Ask>
-void over_poses(std::span<const Pose> poses, std::span<AnyAnswer> answers, const Run& run, Ask ask) {
-  assert(answers.size() >= poses.size());
-  const auto ask_chunk = [&](std::size_t chunk) {
-    const std::size_t first = chunk * kPosesPerChunk, end = std::min(first + kPosesPerChunk, poses.size());
-    PairSeed seed;
-    for (std::size_t i = first; i < end; ++i) answers[i] = ask(poses[i], seed);
-  };
-  run_all((poses.size() + kPosesPerChunk - 1) / kPosesPerChunk, run, ask_chunk);
 }
 
 /// A gate that opens when all have come to it, again and again. (Of std::barrier there are libraries in which it hangs:
@@ -223,35 +202,37 @@ void closest_features(std::span<const PairQuery> pairs, std::span<ClosestFeature
 }
 void distance(const Body& a, const Body& b, std::span<const Pose> b_in_a, std::span<Answer> answers, const Options& options,
               const Run& run) {
-  over_poses(b_in_a, answers, run,
-             [&, options = alone(options)](const Pose& pose, PairSeed& seed) { return distance(a, b, pose, seed, options); });
+  over_poses<PairSeed>(b_in_a, answers, run, [&, options = alone(options)](const Pose& pose, PairSeed& seed) {
+    return distance(a, b, pose, seed, options);
+  });
 }
 void signed_distance(const Body& a, const Body& b, std::span<const Pose> b_in_a, std::span<Answer> answers,
                      const Options& options, const Run& run) {
-  over_poses(b_in_a, answers, run, [&, options = alone(options)](const Pose& pose, PairSeed& seed) {
+  over_poses<PairSeed>(b_in_a, answers, run, [&, options = alone(options)](const Pose& pose, PairSeed& seed) {
     return signed_distance(a, b, pose, seed, options);
   });
 }
 void intersects(const Body& a, const Body& b, std::span<const Pose> b_in_a, std::span<Answer> answers, const Effort& effort,
                 const Run& run) {
-  over_poses(b_in_a, answers, run,
-             [&, effort = alone(effort)](const Pose& pose, PairSeed& seed) { return intersects(a, b, pose, seed, effort); });
+  over_poses<PairSeed>(b_in_a, answers, run, [&, effort = alone(effort)](const Pose& pose, PairSeed& seed) {
+    return intersects(a, b, pose, seed, effort);
+  });
 }
 void within(const Body& a, const Body& b, std::span<const Pose> b_in_a, double threshold, std::span<Within> answers,
             const Effort& effort, const Run& run) {
-  over_poses(b_in_a, answers, run, [&, effort = alone(effort)](const Pose& pose, PairSeed& seed) {
+  over_poses<PairSeed>(b_in_a, answers, run, [&, effort = alone(effort)](const Pose& pose, PairSeed& seed) {
     return within(a, b, pose, threshold, seed, effort);
   });
 }
 void signed_within(const Body& a, const Body& b, std::span<const Pose> b_in_a, double threshold, std::span<Within> answers,
                    const Effort& effort, const Run& run) {
-  over_poses(b_in_a, answers, run, [&, effort = alone(effort)](const Pose& pose, PairSeed& seed) {
+  over_poses<PairSeed>(b_in_a, answers, run, [&, effort = alone(effort)](const Pose& pose, PairSeed& seed) {
     return signed_within(a, b, pose, threshold, seed, effort);
   });
 }
 void closest_features(const Body& a, const Body& b, std::span<const Pose> b_in_a, std::span<ClosestFeatures> answers,
                       const ClosestOptions& options, const Run& run) {
-  over_poses(b_in_a, answers, run, [&, options = alone(options)](const Pose& pose, PairSeed& seed) {
+  over_poses<PairSeed>(b_in_a, answers, run, [&, options = alone(options)](const Pose& pose, PairSeed& seed) {
     return closest_features(a, b, pose, seed, options);
   });
 }

@@ -14,22 +14,6 @@ namespace {
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();  // no upper bound is this low
 
-SourceFeature source_feature(const Body& body, FeatureId feature) {
-  SourceFeature result{feature.kind(), {kNone, kNone}, {}};
-  const ShapeOf shape(body);
-  const ConvexView& view = (*shape).level(0).view;
-  const auto source = [&](std::uint32_t vertex) { return source_vertex(body, shape, vertex); };
-  const std::uint32_t i = feature.index();
-  if (feature.kind() == FeatureKind::Vertex) result.vertices[0] = source(i);
-  if (feature.kind() == FeatureKind::Edge) result.vertices = {source(origin(view, i)), source(view.half_edges[i].head)};
-  if (feature.kind() == FeatureKind::Face && body.model()) {
-    const SourceMap map = body.model()->source();
-    if (!map.face_begin.empty())
-      result.triangles = map.face.subspan(map.face_begin[i], map.face_begin[i + 1] - map.face_begin[i]);
-  }
-  return result;
-}
-
 /// Copies `so_far` to `answer` as an unsigned answer with `status` and no work of its own.
 void restate(const Answer& so_far, Status status, Answer& answer) {
   answer = so_far;
@@ -69,6 +53,22 @@ void ask_on(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, co
 }
 
 }  // namespace
+
+SourceFeature source_feature(const Body& body, FeatureId feature) {
+  SourceFeature result{feature.kind(), {kNone, kNone}, {}};
+  const ShapeOf shape(body);
+  const ConvexView& view = (*shape).level(0).view;
+  const auto source = [&](std::uint32_t vertex) { return source_vertex(body, shape, vertex); };
+  const std::uint32_t i = feature.index();
+  if (feature.kind() == FeatureKind::Vertex) result.vertices[0] = source(i);
+  if (feature.kind() == FeatureKind::Edge) result.vertices = {source(origin(view, i)), source(view.half_edges[i].head)};
+  if (feature.kind() == FeatureKind::Face && body.model()) {
+    const SourceMap map = body.model()->source();
+    if (!map.face_begin.empty())
+      result.triangles = map.face.subspan(map.face_begin[i], map.face_begin[i + 1] - map.face_begin[i]);
+  }
+  return result;
+}
 
 double Answer::value() const {
   return std::isfinite(lower) && std::isfinite(upper) ? lower + (upper - lower) / 2 : std::numeric_limits<double>::quiet_NaN();

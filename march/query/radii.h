@@ -21,6 +21,7 @@ class Radii {
  public:
   Radii(const Body& a, const Body& b) : a_(a.radius()), b_(b.radius()) {}
   explicit Radii(const Answer& answer) : a_(answer.radius_a), b_(answer.radius_b) {}
+  Radii(double a, double b) : a_(a), b_(b) {}
 
   /// True if both radii are legal. If not, no question, answer or bound may be converted.
   bool legal() const { return is_radius(a_) && is_radius(b_); }
@@ -47,7 +48,6 @@ class Radii {
   void round_signed(std::span<LevelRecord> trace, int visited) const;
 
  private:
-  Radii(double a, double b) : a_(a), b_(b) {}
   /// `less` is `bound` - a - b, `more` is `bound` + a + b. A result that is rounded is replaced by the next double towards
   /// `side`, so that it remains a bound.
   double less(double bound, double side) const;

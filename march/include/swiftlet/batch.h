@@ -9,6 +9,7 @@
 #include <span>
 
 #include <swiftlet/depth.h>
+#include <swiftlet/executor.h>
 #include <swiftlet/query.h>
 
 namespace swiftlet {
@@ -19,17 +20,6 @@ struct PairQuery {
   Pose b_in_a;               ///< maps B's frame into A's
   PairSeed* seed = nullptr;  ///< no two pairs of a batch may share a seed; null: the query starts cold
 };
-
-/// Calls task(0) to task(count - 1), each once, in any order, on any threads, and returns when all are done. With an empty
-/// `Executor` a batch runs its tasks on the calling thread, one after the other.
-using Executor = std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)>;
-
-/// Returns an executor that runs tasks on the calling thread and on `count` - 1 threads of its own. These threads wait for
-/// batches as long as the executor or a copy of it lives, so keep it. `count` is clamped to 1 to 1 024; fewer threads start
-/// where the system gives no more. Batches that share an executor take turns; a task must not use the executor that runs it. An
-/// exception that leaves a task is thrown again on the calling thread after the tasks that had begun have ended; no further
-/// task begins. Threads pay off for batches of some 100 microseconds of work or more.
-Executor on_threads(unsigned count);
 
 /// How a batch runs.
 struct Run {

@@ -11,6 +11,7 @@
 #include <memory>
 #include <span>
 
+#include <swiftlet/executor.h>
 #include <swiftlet/lut.h>
 #include <swiftlet/pose.h>
 #include <swiftlet/result.h>
@@ -187,6 +188,7 @@ struct TableSpec {
 struct ModelOptions {
   bool repair = false;  ///< flip reflex edges that rounding left in the given faces, instead of refusing them
   TableSpec table;      ///< the start table and support maps to fill
+  Executor executor{};  ///< runs what can be cut into tasks; empty: the calling thread does. The same bytes on any
 };
 
 /// A convex body at one or several levels, in one block of memory that is also the file's content. Copies share the block,

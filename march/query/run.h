@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// How batches are cut into tasks. Knows no query.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <span>
+
+#include <swiftlet/batch.h>
+
+namespace swiftlet {
+
+inline constexpr std::size_t kPairsPerTask = 32;  // so few that threads end together, so many that taking a task costs nothing
+
+/// Runs task(0) to task(count - 1) until it is told to stop.
+template <class Task>
+void run_all(std::size_t count, const Run& run, const Task& task) {
+  const auto unless_stopped = [&](std::size_t i) {
+    if (!run.stop || !run.stop()) task(i);
+  };
+  if (run.executor) return run.executor(count, unless_stopped);
+  for (std::size_t i = 0; i < count; ++i) unless_stopped(i);
+}
+
+/// Asks in each pose; within a chunk each query starts from the `Seed` of the one before.
+template <class Seed, class AnyAnswer, class Ask>
+void over_poses(std::span<const Pose> poses, std::span<AnyAnswer> answers, const Run& run, Ask ask) {
+  assert(answers.size() >= poses.size());
+  const auto ask_chunk = [&](std::size_t chunk) {
+    const std::size_t first = chunk * kPosesPerChunk, end = std::min(first + kPosesPerChunk, poses.size());
+    Seed seed;
+    for (std::size_t i = first; i < end; ++i) answers[i] = ask(poses[i], seed);
+  };
+  run_all((poses.size() + kPosesPerChunk - 1) / kPosesPerChunk, run, ask_chunk);
+}
+
+}  // namespace swiftlet
