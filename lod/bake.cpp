@@ -13,24 +13,21 @@ namespace {
 /// One level's arrays; LevelArrays points into them.
 struct Storage {
   std::vector<Vec3> vertices;
-  std::vector<std::uint32_t> loops, sizes, sources, face_source_begin, face_sources, vertex_child, face_child;
+  std::vector<std::uint32_t> loops, vertex_child, face_child;
 
   LevelArrays arrays() const {
-    return {vertices, loops, sizes, sources, face_source_begin, face_sources, vertex_child, face_child};
+    LevelArrays level;
+    level.vertices = vertices, level.face_vertices = loops;
+    level.child_vertex = vertex_child, level.child_of_face = face_child;
+    return level;
   }
 };
 
-Storage stored(const Finest& finest) {
-  Storage level;
-  level.vertices = finest.vertices;
-  level.sources = finest.sources;
-  level.face_source_begin.push_back(0);
-  for (std::size_t f = 0; f < finest.faces.size(); ++f) {
-    level.loops.insert(level.loops.end(), finest.faces[f].begin(), finest.faces[f].end());
-    level.sizes.push_back(std::uint32_t(finest.faces[f].size()));
-    level.face_sources.insert(level.face_sources.end(), finest.face_sources[f].begin(), finest.face_sources[f].end());
-    level.face_source_begin.push_back(std::uint32_t(level.face_sources.size()));
-  }
+LevelArrays arrays(const Finest& finest) {
+  LevelArrays level;
+  level.vertices = finest.vertices, level.face_vertices = finest.loops, level.face_sizes = finest.sizes;
+  level.vertex_source = finest.sources;
+  level.face_source_begin = finest.face_source_begin, level.face_source = finest.face_sources;
   return level;
 }
 
@@ -68,21 +65,21 @@ std::vector<LevelArrays> worth_keeping(const Model& model, const std::vector<Lev
 
 Result<Model> bake(const Finest& finest, const std::vector<CoarseLevel>& coarse, double scale, const BuildOptions& options,
                    std::string& end) {
-  std::vector<Storage> storage{stored(finest)};
+  std::vector<Storage> storage;
   for (const CoarseLevel& level : coarse) storage.push_back(stored(level, scale));
-  std::vector<LevelArrays> levels;
+  std::vector<LevelArrays> levels{arrays(finest)};
   for (const Storage& level : storage) levels.push_back(level.arrays());
 
-  Result<Model> model = Model::from_levels(levels, {.repair = false, .table = options.table});
+  const ModelOptions how{.repair = false, .table = options.table, .executor = options.executor};
+  Result<Model> model = Model::from_levels(levels, how);
   while (!model && levels.size() > 1) {
     end = model.error().message;
     levels.pop_back();
-    model = Model::from_levels(levels, {.repair = false, .table = options.table});
+    model = Model::from_levels(levels, how);
   }
   if (!model) return model;
   const std::vector<LevelArrays> worth = worth_keeping(model.value(), levels, options.max_deviation, end);
-  return worth.size() == levels.size() ? std::move(model)
-                                       : Model::from_levels(worth, {.repair = false, .table = options.table});
+  return worth.size() == levels.size() ? std::move(model) : Model::from_levels(worth, how);
 }
 
 }  // namespace swiftlet::lod

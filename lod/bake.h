@@ -16,9 +16,9 @@ namespace swiftlet::lod {
 /// Level 0 of any rank, in the user's coordinates.
 struct Finest {
   std::vector<Vec3> vertices;
-  std::vector<std::uint32_t> sources;                    ///< the user's vertex of each
-  std::vector<std::vector<std::uint32_t>> faces;         ///< loops; two for a flat body, none below
-  std::vector<std::vector<std::uint32_t>> face_sources;  ///< per face, the user's triangles on it
+  std::vector<std::uint32_t> sources;       ///< the user's vertex of each
+  std::vector<std::uint32_t> loops, sizes;  ///< of the faces: two of a flat body, none below; sizes: if not 3
+  std::vector<std::uint32_t> face_source_begin, face_sources;  ///< per face, the user's triangles on it
 };
 
 /// Joins the levels, whose coordinates are `scale` times the user's, into a model, up to the first that the model refuses or

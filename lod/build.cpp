@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -12,6 +13,7 @@
 #include "bake.h"
 #include "hierarchy.h"
 #include "hull.h"
+#include "numeric/chunks.h"
 #include "trace.h"
 
 namespace swiftlet {
@@ -70,30 +72,48 @@ Mesh scaled(Mesh mesh, double scale) {
   return mesh;
 }
 
-/// A flat body has two sides; a triangle is on the one whose normal it shares.
-void add_two_sides(const Mesh& mesh, const Hull& shape, Finest& finest) {
-  std::vector<std::uint32_t> loop(shape.vertices.size());
-  for (std::uint32_t k = 0; k < loop.size(); ++k) loop[k] = k;
-  finest.faces = {loop, {loop.rbegin(), loop.rend()}};
-  finest.face_sources.resize(2);
-  Vec3 normal = Vec3::Zero();
-  for (std::size_t k = 2; k < loop.size(); ++k)
-    normal += area_normal(mesh.points[shape.vertices[0]], mesh.points[shape.vertices[k - 1]], mesh.points[shape.vertices[k]]);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    finest.face_sources[normal.dot(area_normal(mesh.points[a], mesh.points[b], mesh.points[c])) < 0].push_back(t);
-  }
+/// Writes which triangles lie on which of so many faces; `face_of` gives the face of each, or none that there is.
+void list_sources(const std::vector<std::uint32_t>& face_of, std::size_t faces, Finest& finest) {
+  std::vector<std::uint32_t>& begin = finest.face_source_begin;
+  begin.assign(faces + 2, 0);
+  for (const std::uint32_t face : face_of)
+    if (face < faces) ++begin[face + 2];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  finest.face_sources.resize(begin.back());
+  for (std::uint32_t t = 0; t < face_of.size(); ++t)
+    if (face_of[t] < faces) finest.face_sources[begin[face_of[t] + 1]++] = t;
+  begin.pop_back();
 }
 
-/// `mesh` is the user's, scaled: what is small beside the largest coordinate may have been lost on the way.
-Finest finest_level(const Mesh& users, const Mesh& mesh, const Hull& shape, const Polytope& body) {
+/// A flat body has two sides; a triangle is on the one whose normal it shares.
+std::vector<std::uint32_t> sides_of(const Mesh& mesh, const Hull& shape) {
+  Vec3 normal = Vec3::Zero();
+  for (std::size_t k = 2; k < shape.vertices.size(); ++k)
+    normal += area_normal(mesh.points[shape.vertices[0]], mesh.points[shape.vertices[k - 1]], mesh.points[shape.vertices[k]]);
+  std::vector<std::uint32_t> side;
+  for (const auto& [a, b, c] : mesh.triangles)
+    side.push_back(normal.dot(area_normal(mesh.points[a], mesh.points[b], mesh.points[c])) < 0);
+  return side;
+}
+
+/// `mesh` is the user's, scaled: what is small beside the largest coordinate may have been lost on the way. `face_of` gives the
+/// triangle of `body` that each of a solid's lies on.
+Finest finest_level(const Mesh& users, const Mesh& mesh, const Hull& shape, const Polytope& body,
+                    const std::vector<std::uint32_t>& face_of) {
   Finest finest;
   finest.sources = shape.vertices;
   for (std::uint32_t v : shape.vertices) finest.vertices.push_back(users.points[v]);
-  if (shape.dimension == 2) add_two_sides(mesh, shape, finest);
+  if (shape.dimension == 2) {
+    const auto corners = std::uint32_t(shape.vertices.size());
+    for (std::uint32_t k = 0; k < corners; ++k) finest.loops.push_back(k);
+    for (std::uint32_t k = corners; k-- > 0;) finest.loops.push_back(k);
+    finest.sizes = {corners, corners};
+    list_sources(sides_of(mesh, shape), 2, finest);
+  }
   if (shape.dimension < 3) return finest;
-  for (const Triangle& triangle : body.triangles) finest.faces.emplace_back(triangle.begin(), triangle.end());
-  finest.face_sources = triangles_on(mesh, shape, body);
+  finest.loops.reserve(3 * body.triangles.size());
+  for (const Triangle& triangle : body.triangles) finest.loops.insert(finest.loops.end(), triangle.begin(), triangle.end());
+  list_sources(face_of, body.triangles.size(), finest);
   return finest;
 }
 
@@ -116,7 +136,7 @@ Result<Built> build_watched(const Mesh& users, const BuildOptions& options, Watc
   watch.begin("hull", kHullDone, 3);
   const double scale = unit_scale(users.points);
   const Mesh mesh = scaled(users, scale);
-  const Hull shape = hull(mesh.points);
+  const Hull shape = hull(mesh.points, options.executor);
   watch.work();
   const Polytope body = solid(mesh.points, shape);
   BuildReport report;
@@ -124,10 +144,14 @@ Result<Built> build_watched(const Mesh& users, const BuildOptions& options, Watc
   report.duplicates_dropped = shape.duplicates, report.interior_dropped = shape.interior;
   report.hull_triangles = body.triangles.size();
   Hierarchy levels{{}, "the body is not solid and has one level"};
+  std::vector<std::uint32_t> face_of;
   if (shape.dimension == 3) {
-    report.volume_ratio = volume_ratio(mesh, body);
+    run_tasks(options.executor, 3, [&](std::size_t task) {
+      if (task == 0) face_of = triangles_on(mesh, shape, body);
+      if (task == 1) report.volume_ratio = volume_ratio(mesh, body);
+      if (task == 2) report.deepest_dent = deepest_dent(mesh, shape, body) / scale;
+    });
     watch.work();
-    report.deepest_dent = deepest_dent(mesh, shape, body) / scale;
     if (options.require_convex && has_dents(mesh, body, report, scale))
       return Error{ErrorCode::NotConvex, "the mesh has dents, the deepest " + std::to_string(report.deepest_dent)};
     BuildOptions in_scale = options;
@@ -139,7 +163,7 @@ Result<Built> build_watched(const Mesh& users, const BuildOptions& options, Watc
   watch.begin("bake", 1, 1);
 
   report.end = levels.end;
-  Result<Model> model = bake(finest_level(users, mesh, shape, body), levels.levels, scale, options, report.end);
+  Result<Model> model = bake(finest_level(users, mesh, shape, body, face_of), levels.levels, scale, options, report.end);
   if (!model) return model.error();
   describe(model.value(), report);
   watch.end();

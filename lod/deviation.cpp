@@ -11,11 +11,14 @@
 #include <cmath>
 #include <vector>
 
+#include "numeric/chunks.h"
+
 namespace swiftlet::lod {
 namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Faces = std::vector<Kernel::Triangle_3>;
+constexpr std::size_t kPointsPerTask = 1024;
 
 Kernel::Point_3 cgal(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -37,14 +40,23 @@ struct Deviation::Tree {
 Deviation::Deviation(const Polytope& body) : tree_(std::make_unique<Tree>()) {
   tree_->faces = faces_of(body);
   tree_->boxes.insert(tree_->faces.cbegin(), tree_->faces.cend());
+  tree_->boxes.do_not_accelerate_distance_queries();  // the face nearest to the point before is a better start
+  tree_->boxes.build();
 }
 
 Deviation::~Deviation() = default;
 
-double Deviation::operator()(std::span<const Vec3> points) const {
-  double most2 = 0;
-  for (const Vec3& p : points) most2 = std::max(most2, tree_->boxes.squared_distance(cgal(p)));
-  return std::sqrt(most2);
+double Deviation::operator()(std::span<const Vec3> points, const Executor& executor) const {
+  std::vector<double> most2((points.size() + kPointsPerTask - 1) / kPointsPerTask);
+  over_chunks(executor, points.size(), kPointsPerTask, [&](std::size_t begin, std::size_t end) {
+    auto nearest = tree_->boxes.any_reference_point_and_id();
+    for (const Vec3& p : points.subspan(begin, end - begin)) {
+      nearest = tree_->boxes.closest_point_and_primitive(cgal(p), nearest);
+      double& most = most2[begin / kPointsPerTask];
+      most = std::max(most, CGAL::squared_distance(cgal(p), nearest.first));
+    }
+  });
+  return std::sqrt(*std::max_element(most2.begin(), most2.end()));
 }
 
 }  // namespace swiftlet::lod

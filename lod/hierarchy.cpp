@@ -16,6 +16,7 @@
 #include "deviation.h"
 #include "enclose.h"
 #include "hull.h"
+#include "numeric/chunks.h"
 #include "peel.h"
 
 namespace swiftlet::lod {
@@ -67,11 +68,15 @@ class Collapser {
   Collapser(const Polytope& level0, const BuildOptions& options, Watch& watch)
       : options_(options),
         watch_(watch),
-        level0_(level0),
-        plain_(level0),
         whitening_(level0),
         shape_(tight() ? whitening_.whitened(level0) : level0),
-        body_(shape_) {}
+        plain_centre_(area_centroid(level0)),
+        centre_(area_centroid(shape_)) {
+    run_tasks(options.executor, 2, [&](std::size_t task) {
+      if (task == 0) plain_.emplace(level0);
+      if (task == 1) body_.emplace(shape_);
+    });
+  }
 
   /// A shape with fewer triangles, before it is grown, or the sentence why there is none.
   struct Simpler {
@@ -98,25 +103,26 @@ class Collapser {
     return coarser;
   }
   Simpler simpler(const Polytope& shape, std::size_t target) const {
-    const std::vector<Vec3> points = collapse(shape, target, watch_);
-    if (points.empty()) return {{}, "too thin for quadric errors"};
-    const Hull coarse = hull(points);
+    const std::vector<Vec3> points = collapse(shape, target, options_.executor, watch_);
+    const Hull coarse = hull(points, options_.executor);
     if (coarse.dimension < 3) return {{}, "the next level would be flat"};
     return {solid(points, coarse), {}};
   }
 
   const Polytope& shape() const { return shape_; }  ///< level 0 as it is simplified
 
+  /// May run for several levels at once.
   Step enclosed(const Polytope& simple) const {
-    const Vec3 centre = area_centroid(shape_), drift = centre - area_centroid(simple);
+    const Climber plain = *plain_, body = *body_;
+    const Vec3 drift = centre_ - area_centroid(simple);
     Polytope moved = simple;
     for (Vec3& p : moved.points) p += drift;
-    Result<Polytope> scaled = scale_to_hold(std::move(moved), body_, centre);
+    Result<Polytope> scaled = scale_to_hold(std::move(moved), body, centre_);
     if (!scaled) return {{}, scaled.error().message};
     std::vector<Vec3> points =
-        tight() ? whitening_.restored(tighten(std::move(scaled).value(), body_, whitening_.spread(), watch_).points)
+        tight() ? whitening_.restored(tighten(std::move(scaled).value(), body, whitening_.spread(), watch_).points)
                 : scaled.value().points;
-    Result<Proved> proved = prove(std::move(points), plain_, area_centroid(level0_));
+    Result<Proved> proved = prove(std::move(points), plain, plain_centre_);
     if (!proved) return {{}, proved.error().message};
     return {CoarseLevel{std::move(proved.value().level), {}, {}}, {}};
   }
@@ -128,11 +134,10 @@ class Collapser {
   const BuildOptions& options_;
   const QueryCost cost_;
   Watch& watch_;
-  const Polytope& level0_;
-  Climber plain_;  ///< level 0
   Whitening whitening_;
-  Polytope shape_;  ///< level 0, whitened for Tight
-  Climber body_;    ///< over shape_
+  Polytope shape_;                       ///< level 0, whitened for Tight
+  std::optional<Climber> plain_, body_;  ///< over level 0, over shape_; copied, never climbed
+  Vec3 plain_centre_, centre_;           ///< of these
 };
 
 /// Dobkin & Kirkpatrick levels [sec. 4.4]: each keeps vertices of the one before, as it was grown: built on the
@@ -214,7 +219,7 @@ Hierarchy peeled(const Polytope& level0, const BuildOptions& options, Watch& wat
 class Collapse {
  public:
   Collapse(const Polytope& level0, const BuildOptions& options, Watch& watch)
-      : options_(options), watch_(watch), collapser_(level0, options, watch), deviation_(level0) {
+      : options_(options), watch_(watch), collapser_(level0, options, watch) {
     if (is_aimed()) {
       wanted_ = {options.detail.deviation / kStated};
     } else if (!options.rate) {
@@ -224,19 +229,22 @@ class Collapse {
         if (asked.error > 0) wanted_.push_back(asked.error / 2 * radius_ / kStated);
       std::sort(wanted_.begin(), wanted_.end(), std::greater<>());
     }
+    if (!wanted_.empty()) deviation_.emplace(level0);
   }
 
   Hierarchy run() {
     announce();
     simplify();
+    std::vector<Enclosed> enclosed(simple_.size());
+    if (!is_aimed())  // else the finer ones may not be needed
+      run_tasks(options_.executor, simple_.size(), [&](std::size_t k) { enclosed[k] = made_to_hold(simple_[k], {}); });
     for (std::size_t k = simple_.size(); k-- > 0 && !(is_aimed() && wanted_.empty());) {
-      Step step = collapser_.enclosed(simple_[k]);
+      auto [step, deviation] = is_aimed() ? made_to_hold(simple_[k], options_.executor) : std::move(enclosed[k]);
       if (!step.level) {
         result_.end = step.end;
         if (!is_aimed()) result_.levels.clear(), sizes_.clear();
         continue;
       }
-      const double deviation = wanted_.empty() ? 0 : deviation_(step.level->body.points);
       if (wanted_.empty() || deviation >= wanted_.front() || !push_leaner(simple_[k], deviation, k))
         push(std::move(*step.level), deviation);
     }
@@ -250,6 +258,16 @@ class Collapse {
   static constexpr double kStated = 1.01;  ///< the deviations that models state are at most so many times the true ones
   static constexpr double kAim = 0.95;     ///< of the deviation allowed; the estimate is a power law through two levels
   static constexpr int kTries = 3;
+
+  struct Enclosed {
+    Step step;
+    double deviation = 0;  ///< of the level, where one is wanted
+  };
+  Enclosed made_to_hold(const Polytope& simple, const Executor& executor) const {
+    Step step = collapser_.enclosed(simple);
+    const double deviation = step.level && deviation_ ? (*deviation_)(step.level->body.points, executor) : 0;
+    return {std::move(step), deviation};
+  }
 
   bool is_aimed() const { return options_.detail.deviation > 0; }
 
@@ -291,8 +309,8 @@ class Collapse {
       if (!is_aimed() && !is_better({triangles / 2 + 2, allowed}, {most / 2 + 2, deviation}, finer)) break;
       const Collapser::Simpler shape = collapser_.simpler(simple, std::size_t(triangles));
       if (!shape.shape) break;
-      Step step = collapser_.enclosed(*shape.shape);
-      const double found = step.level ? deviation_(step.level->body.points) : allowed;
+      auto [step, deviates] = made_to_hold(*shape.shape, options_.executor);
+      const double found = step.level ? deviates : allowed;
       if (found < allowed) {
         drop_if_near(double(step.level->body.triangles.size()));
         return push(std::move(*step.level), found), true;
@@ -328,7 +346,7 @@ class Collapse {
   const BuildOptions& options_;
   Watch& watch_;
   Collapser collapser_;
-  Deviation deviation_;
+  std::optional<Deviation> deviation_;  ///< where some are wanted
   double radius_ = 0;
   std::vector<double> wanted_;    ///< deviations no level is fine enough for yet, coarsest first
   std::vector<Polytope> simple_;  ///< finest first

@@ -9,6 +9,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
+
+#include "numeric/chunks.h"
 
 namespace swiftlet::lod {
 namespace {
@@ -16,8 +19,8 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point2 = Kernel::Point_2;
 using Point3 = Kernel::Point_3;
-using Mesh3 = CGAL::Surface_mesh<Point3>;
 using Ids = std::vector<std::uint32_t>;
+constexpr std::size_t kPerTask = 8192;  ///< vertices, half-edges
 
 Point3 exact(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -72,61 +75,70 @@ Ids polygon(std::span<const Vec3> points, const Ids& sorted, const Projection& o
   return loop;
 }
 
-Mesh3 quickhull(std::span<const Vec3> points, const Ids& ids) {
-  std::vector<Point3> input;
+/// As plain arrays: CGAL fills meshes of half-edges by way of a hash table, which takes as long as the hull.
+Polytope quickhull(std::span<const Vec3> points, const Ids& ids) {
+  namespace internal = CGAL::Convex_hull_3::internal;
+  std::vector<Point3> input, corners;
   input.reserve(ids.size());
   for (std::uint32_t id : ids) input.push_back(exact(points[id]));
-  Mesh3 mesh;
-  CGAL::convex_hull_3(input.begin(), input.end(), mesh);
+  Polytope mesh;
+  internal::Indexed_triangle_set<std::vector<Point3>, std::vector<Triangle>> filled(corners, mesh.triangles);
+  CGAL::convex_hull_3(input.begin(), input.end(), filled,
+                      internal::Default_traits_for_Chull_3<Point3, CGAL::Surface_mesh<Point3>>::type());
+  if (corners.size() == 4) {  // CGAL 5.5 gives the hull of four points inside out
+    const auto& [a, b, c] = mesh.triangles.front();
+    if (CGAL::orientation(corners[a], corners[b], corners[c], corners[6 - a - b - c]) == CGAL::POSITIVE)
+      for (Triangle& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
+  }
+  mesh.points.reserve(corners.size());
+  for (const Point3& p : corners) mesh.points.emplace_back(p.x(), p.y(), p.z());
   return mesh;
 }
 
-/// Whether the faces beside an edge lie in one plane.
-bool is_flat(const Mesh3& mesh, Mesh3::Halfedge_index h) {
-  const auto apex = [&](Mesh3::Halfedge_index side) { return mesh.point(mesh.target(mesh.next(side))); };
-  return CGAL::coplanar(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)), apex(h), apex(mesh.opposite(h)));
-}
-
-/// A vertex of the hull has at least three edges with a true dihedral angle; quickhull also returns points inside faces and
-/// edges.
-bool is_extreme(const Mesh3& mesh, Mesh3::Vertex_index vertex) {
-  int sharp = 0;
-  for (Mesh3::Halfedge_index h : CGAL::halfedges_around_target(vertex, mesh)) {
-    if (!is_flat(mesh, h) && ++sharp == 3) return true;
-  }
-  return false;
+/// Per half-edge, whether the faces beside it lie in one plane.
+std::vector<std::uint8_t> flat_edges(const Polytope& mesh, const HalfEdges& edges, const Executor& executor) {
+  std::vector<std::uint8_t> flat(edges.twin.size());
+  const auto corner = [&](std::uint32_t h) { return exact(mesh.points[origin(mesh, h)]); };
+  over_chunks(executor, flat.size(), kPerTask, [&](std::size_t begin, std::size_t end) {
+    for (auto h = std::uint32_t(begin); h < end; ++h)
+      flat[h] = CGAL::coplanar(corner(h), corner(HalfEdges::next(h)), corner(HalfEdges::previous(h)),
+                               corner(HalfEdges::previous(edges.twin[h])));
+  });
+  return flat;
 }
 
 /// The points' ids of the mesh's vertices; `sorted` is in lexicographic order.
-Ids identify(const Mesh3& mesh, std::span<const Vec3> points, const Ids& sorted) {
-  Ids ids;
-  for (Mesh3::Vertex_index v : mesh.vertices()) {
-    const Vec3 p{mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()};
-    ids.push_back(*std::lower_bound(sorted.begin(), sorted.end(), p,
-                                    [&](std::uint32_t id, const Vec3& q) { return before(points[id], q); }));
-  }
+Ids identify(const Polytope& mesh, std::span<const Vec3> points, const Ids& sorted, const Executor& executor) {
+  Ids ids(mesh.points.size());
+  over_chunks(executor, ids.size(), kPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v)
+      ids[v] = *std::lower_bound(sorted.begin(), sorted.end(), mesh.points[v],
+                                 [&](std::uint32_t id, const Vec3& q) { return before(points[id], q); });
+  });
   return ids;
 }
 
 /// Vertices ascending; facets fanned from their lowest corner, the triangles sorted: independent of the order quickhull met
 /// points in and of how it cut coplanar ones into triangles.
-void put_in_order(const Mesh3& mesh, const Ids& ids, Hull& hull) {
+void put_in_order(const Polytope& mesh, const HalfEdges& edges, const std::vector<std::uint8_t>& flat, const Ids& ids,
+                  Hull& hull) {
   hull.vertices = ids;
   std::sort(hull.vertices.begin(), hull.vertices.end());
   Ids rank;
   for (std::uint32_t id : ids)
     rank.push_back(std::uint32_t(std::lower_bound(hull.vertices.begin(), hull.vertices.end(), id) - hull.vertices.begin()));
-  std::vector<bool> flat(mesh.num_halfedges()), passed(mesh.num_halfedges());
-  for (Mesh3::Halfedge_index h : mesh.halfedges()) flat[h] = is_flat(mesh, h);
-  for (Mesh3::Halfedge_index first : mesh.halfedges()) {
+  std::vector<bool> passed(flat.size());
+  hull.triangles.reserve(mesh.triangles.size());
+  Ids border;
+  for (std::uint32_t first = 0; first < flat.size(); ++first) {
     if (flat[first] || passed[first]) continue;
-    Ids border;
-    Mesh3::Halfedge_index h = first;
+    border.clear();
+    std::uint32_t h = first;
     do {
       passed[h] = true;
-      border.push_back(rank[mesh.source(h)]);
-      h = mesh.next(h);
-      while (flat[h]) h = mesh.next(mesh.opposite(h));
+      border.push_back(rank[origin(mesh, h)]);
+      h = HalfEdges::next(h);
+      while (flat[h]) h = HalfEdges::next(edges.twin[h]);
     } while (h != first);
     std::rotate(border.begin(), std::min_element(border.begin(), border.end()), border.end());
     for (std::size_t i = 1; i + 1 < border.size(); ++i) hull.triangles.push_back({border[0], border[i], border[i + 1]});
@@ -134,22 +146,32 @@ void put_in_order(const Mesh3& mesh, const Ids& ids, Hull& hull) {
   std::sort(hull.triangles.begin(), hull.triangles.end());
 }
 
-void solid_hull(std::span<const Vec3> points, const Ids& sorted, Hull& hull) {
-  Mesh3 mesh = quickhull(points, sorted);
-  Ids ids = identify(mesh, points, sorted), extreme;
-  for (Mesh3::Vertex_index v : mesh.vertices())
-    if (is_extreme(mesh, v)) extreme.push_back(ids[v]);
+void solid_hull(std::span<const Vec3> points, const Ids& sorted, const Executor& executor, Hull& hull) {
+  Polytope mesh = quickhull(points, sorted);
+  HalfEdges edges = half_edges(mesh);
+  std::vector<std::uint8_t> flat = flat_edges(mesh, edges, executor);
+  Ids ids = identify(mesh, points, sorted, executor);
+  // A vertex of the hull has at least three edges with a true dihedral angle; quickhull also returns points inside faces and
+  // edges.
+  std::vector<std::uint8_t> sharp(mesh.points.size());
+  for (std::uint32_t h = 0; h < flat.size(); ++h)
+    if (std::uint8_t& count = sharp[origin(mesh, h)]; !flat[h] && count < 3) ++count;
+  Ids extreme;
+  for (std::uint32_t v = 0; v < sharp.size(); ++v)
+    if (sharp[v] == 3) extreme.push_back(ids[v]);
   if (extreme.size() < ids.size()) {
     std::sort(extreme.begin(), extreme.end(), [&](std::uint32_t i, std::uint32_t j) { return before(points[i], points[j]); });
     mesh = quickhull(points, extreme);
-    ids = identify(mesh, points, extreme);
+    edges = half_edges(mesh);
+    flat = flat_edges(mesh, edges, executor);
+    ids = identify(mesh, points, extreme, executor);
   }
-  put_in_order(mesh, ids, hull);
+  put_in_order(mesh, edges, flat, ids, hull);
 }
 
 }  // namespace
 
-Hull hull(std::span<const Vec3> points) {
+Hull hull(std::span<const Vec3> points, const Executor& executor) {
   const Ids sorted = distinct(points);
   const Vec3 &first = points[sorted.front()], &last = points[sorted.back()];
   const auto off_line = std::find_if(sorted.begin(), sorted.end(), [&](std::uint32_t id) {
@@ -171,7 +193,7 @@ Hull hull(std::span<const Vec3> points) {
     result.vertices = polygon(points, sorted, widest_projection(first, last, points[*off_line]));
   } else {
     result.dimension = 3;
-    solid_hull(points, sorted, result);
+    solid_hull(points, sorted, executor, result);
   }
   result.interior = sorted.size() - result.vertices.size();
   return result;

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include <swiftlet/executor.h>
+
 #include "polytope.h"
 
 namespace swiftlet::lod {
@@ -22,7 +24,7 @@ struct Hull {
 };
 
 /// Decided by exact predicates on the doubles as given; the same points give the same hull. At least one point, all finite.
-Hull hull(std::span<const Vec3> points);
+Hull hull(std::span<const Vec3> points, const Executor& executor = {});
 
 /// The vertices of a solid hull as a body of their own.
 Polytope solid(std::span<const Vec3> points, const Hull& hull);

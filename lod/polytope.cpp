@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace swiftlet::lod {
@@ -53,32 +54,26 @@ Mat3 area_covariance(const Polytope& body) {
   return moment / total;
 }
 
+// The half-edges are put in order by their origins; the opposite of one is among the few that leave its end.
 HalfEdges half_edges(const Polytope& body) {
-  struct Side {
-    std::uint32_t low, high, half_edge;
-    auto operator<=>(const Side&) const = default;
-  };
   const std::uint32_t count = 3 * std::uint32_t(body.triangles.size());
-  std::vector<Side> sides(count);
+  std::vector<std::uint32_t> begin(body.points.size() + 2), order(count);
+  for (const Triangle& triangle : body.triangles)
+    for (const std::uint32_t corner : triangle) ++begin[corner + 2];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  for (std::uint32_t h = 0; h < count; ++h) order[begin[origin(body, h) + 1]++] = h;
   HalfEdges edges{std::vector<std::uint32_t>(count), std::vector<std::uint32_t>(body.points.size())};
+  for (std::uint32_t v = 0; v < body.points.size(); ++v)
+    if (begin[v] < begin[v + 1]) edges.outgoing[v] = order[begin[v + 1] - 1];
   for (std::uint32_t h = 0; h < count; ++h) {
     const std::uint32_t from = origin(body, h), to = origin(body, HalfEdges::next(h));
-    sides[h] = {std::min(from, to), std::max(from, to), h};
-    edges.outgoing[from] = h;
-  }
-  std::sort(sides.begin(), sides.end());
-  for (std::uint32_t k = 0; k < count; k += 2) {
-    edges.twin[sides[k].half_edge] = sides[k + 1].half_edge;
-    edges.twin[sides[k + 1].half_edge] = sides[k].half_edge;
+    std::uint32_t k = begin[to];
+    while (origin(body, HalfEdges::next(order[k])) != from) ++k;
+    edges.twin[h] = order[k];
   }
   return edges;
 }
 
-namespace {
-
-constexpr double kVerticesPerCell = 4;  ///< of a climber's cube: a step or two across
-
-/// Along Morton's space-filling curve.
 std::vector<std::uint32_t> along_curve(std::span<const Vec3> points) {
   Vec3 low = points.front(), high = low;
   for (const Vec3& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
@@ -99,53 +94,61 @@ std::vector<std::uint32_t> along_curve(std::span<const Vec3> points) {
   return order;
 }
 
+namespace {
+
+constexpr double kVerticesPerCell = 4;  ///< of a climber's cube: a step or two across
+
 }  // namespace
 
 // Every directed edge occurs once, so that the triangles' sides list each neighbour once.
-Climber::Climber(const Polytope& body)
-    : body_(body),
-      begin_(body.points.size() + 1),
-      neighbour_(3 * body.triangles.size()),
-      side_(std::uint32_t(std::sqrt(double(body.points.size()) / kVerticesPerCell / 2)) + 1),
-      found_(lut::octahedron_cell_count(side_)) {
+Climber::Graph::Graph(const Polytope& solid)
+    : body(solid), begin(body.points.size() + 1), neighbour(3 * body.triangles.size()), node(body.points.size()) {
   for (const Triangle& triangle : body.triangles)
-    for (std::uint32_t corner : triangle) ++begin_[corner + 1];
-  for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
-  std::vector<std::uint32_t> slot(begin_.begin(), begin_.end() - 1);
+    for (std::uint32_t corner : triangle) ++begin[corner + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::uint32_t> slot(begin.begin(), begin.end() - 1);
   for (const auto& [a, b, c] : body.triangles) {
-    neighbour_[slot[a]++] = b;
-    neighbour_[slot[b]++] = c;
-    neighbour_[slot[c]++] = a;
+    neighbour[slot[a]++] = b;
+    neighbour[slot[b]++] = c;
+    neighbour[slot[c]++] = a;
   }
-  node_.resize(body.points.size());
+  nodes.reserve(body.points.size() + 1);
+  near.reserve(neighbour.size());
   for (const std::uint32_t v : along_curve(body.points)) {
-    node_[v] = std::uint32_t(nodes_.size());
-    nodes_.push_back({body.points[v], std::uint32_t(near_.size()), v});
-    near_.insert(near_.end(), neighbours(v).begin(), neighbours(v).end());
+    node[v] = std::uint32_t(nodes.size());
+    nodes.push_back({body.points[v], std::uint32_t(near.size()), v});
+    near.insert(near.end(), neighbour.begin() + begin[v], neighbour.begin() + begin[v + 1]);
   }
-  nodes_.push_back({Vec3::Zero(), std::uint32_t(near_.size()), 0});
-  for (std::uint32_t& v : near_) v = node_[v];
+  nodes.push_back({Vec3::Zero(), std::uint32_t(near.size()), 0});
+  for (std::uint32_t& v : near) v = node[v];
 }
 
+Climber::Climber(const Polytope& body)
+    : graph_(std::make_shared<const Graph>(body)),
+      side_(std::uint32_t(std::sqrt(double(body.points.size()) / kVerticesPerCell / 2)) + 1),
+      found_(lut::octahedron_cell_count(side_)) {}
+
 std::span<const std::uint32_t> Climber::neighbours(std::uint32_t vertex) const {
-  return {neighbour_.data() + begin_[vertex], begin_[vertex + 1] - begin_[vertex]};
+  return {graph_->neighbour.data() + graph_->begin[vertex], graph_->begin[vertex + 1] - graph_->begin[vertex]};
 }
 
 std::uint32_t Climber::climb(const Vec3& direction, std::uint32_t start) const {
-  std::uint32_t best = node_[start];
+  const std::vector<Node>& nodes = graph_->nodes;
+  const std::vector<std::uint32_t>& near = graph_->near;
+  std::uint32_t best = graph_->node[start];
   std::uint32_t& found = found_[lut::octahedron_cell(side_, direction.x(), direction.y(), direction.z())];
-  double height = direction.dot(nodes_[best].point);
-  if (const double known = direction.dot(nodes_[found].point); known > height) height = known, best = found;
+  double height = direction.dot(nodes[best].point);
+  if (const double known = direction.dot(nodes[found].point); known > height) height = known, best = found;
   while (true) {
     const std::uint32_t from = best;
-    for (std::uint32_t k = nodes_[from].begin; k < nodes_[from + 1].begin; ++k) {
-      const double to_height = direction.dot(nodes_[near_[k]].point);
-      if (to_height > height) height = to_height, best = near_[k];
+    for (std::uint32_t k = nodes[from].begin; k < nodes[from + 1].begin; ++k) {
+      const double to_height = direction.dot(nodes[near[k]].point);
+      if (to_height > height) height = to_height, best = near[k];
     }
     if (best == from) break;
   }
   found = best;
-  return nodes_[best].vertex;
+  return nodes[best].vertex;
 }
 
 }  // namespace swiftlet::lod

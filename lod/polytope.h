@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,9 @@ Vec3 area_centroid(const Polytope& body);
 /// Second moments of the surface about its centroid, over its area.
 Mat3 area_covariance(const Polytope& body);
 
+/// The points' indices along Morton's space-filling curve.
+std::vector<std::uint32_t> along_curve(std::span<const Vec3> points);
+
 /// Half-edge 3 t + k runs from corner k of triangle t to the next corner; `twin` holds the opposite of each.
 struct HalfEdges {
   std::vector<std::uint32_t> twin;
@@ -48,11 +52,11 @@ inline std::uint32_t origin(const Polytope& body, std::uint32_t h) { return body
 
 /// Finds extreme vertices of one solid by walking uphill; cheap when the start is near, or a direction was much like one
 /// before. Keeps a reference to the body, its points in an order of its own, in which neighbours in space are neighbours in
-/// memory, and what it found last about each direction: not for several threads at once.
+/// memory, and what it found last about each direction: not for several threads at once. Copies share all but that.
 class Climber {
  public:
   explicit Climber(const Polytope& body);
-  const Polytope& body() const { return body_; }
+  const Polytope& body() const { return graph_->body; }
   std::span<const std::uint32_t> neighbours(std::uint32_t vertex) const;
   /// A vertex that no neighbour exceeds in `direction`, up to rounding.
   std::uint32_t climb(const Vec3& direction, std::uint32_t start) const;
@@ -62,12 +66,16 @@ class Climber {
     Vec3 point;
     std::uint32_t begin, vertex;  ///< of its neighbours; the body's
   };
-  const Polytope& body_;
-  std::vector<std::uint32_t> begin_, neighbour_;  ///< per vertex
-  std::vector<Node> nodes_;                       ///< along a curve, and one more where neighbours end
-  std::vector<std::uint32_t> node_, near_;        ///< of each vertex; neighbours of the nodes
-  std::uint32_t side_;                            ///< of a cube of directions
-  mutable std::vector<std::uint32_t> found_;      ///< per cell of it, the node last found there; the first one where none was
+  struct Graph {
+    explicit Graph(const Polytope& solid);
+    const Polytope& body;
+    std::vector<std::uint32_t> begin, neighbour;  ///< per vertex
+    std::vector<Node> nodes;                      ///< along a curve, and one more where neighbours end
+    std::vector<std::uint32_t> node, near;        ///< of each vertex; neighbours of the nodes
+  };
+  std::shared_ptr<const Graph> graph_;
+  std::uint32_t side_;                        ///< of a cube of directions
+  mutable std::vector<std::uint32_t> found_;  ///< per cell of it, the node last found there; the first one where none was
 };
 
 }  // namespace swiftlet::lod

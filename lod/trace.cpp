@@ -22,6 +22,7 @@ namespace swiftlet::lod {
 namespace {
 
 using Ids = std::vector<std::uint32_t>;
+constexpr std::uint32_t kNone = 0xffffffffu;
 
 bool before(const Vec3& p, const Vec3& q) {
   return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
@@ -45,14 +46,24 @@ Ids first_of_equals(std::span<const Vec3> points) {
 }
 
 /// Every edge once in each direction: two-sided triangles do not close.
-bool closes(const std::vector<Triangle>& triangles) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> forth, back;
+bool closes(const std::vector<Triangle>& triangles, std::size_t point_count) {
+  std::vector<std::uint32_t> begin(point_count + 2), heads(3 * triangles.size());  // the ends of the edges out of each point
+  for (const Triangle& triangle : triangles)
+    for (const std::uint32_t corner : triangle) ++begin[corner + 2];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
   for (const auto& [a, b, c] : triangles)
-    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}})
-      forth.emplace_back(from, to), back.emplace_back(to, from);
-  std::sort(forth.begin(), forth.end());
-  std::sort(back.begin(), back.end());
-  return forth == back && std::adjacent_find(forth.begin(), forth.end()) == forth.end();
+    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) heads[begin[from + 1]++] = to;
+  const auto out_of = [&](std::uint32_t point) {
+    return std::span(heads).subspan(begin[point], begin[point + 1] - begin[point]);
+  };
+  for (std::uint32_t from = 0; from < point_count; ++from) std::sort(out_of(from).begin(), out_of(from).end());
+  for (std::uint32_t from = 0; from < point_count; ++from) {
+    const auto ends = out_of(from);
+    if (std::adjacent_find(ends.begin(), ends.end()) != ends.end()) return false;
+    for (const std::uint32_t to : ends)
+      if (!std::binary_search(out_of(to).begin(), out_of(to).end(), from)) return false;
+  }
+  return true;
 }
 
 /// Finds hull triangles by the plane they lie on.
@@ -84,7 +95,6 @@ class PlaneFinder {
   }
 
  private:
-  static constexpr std::uint32_t kNone = 0xffffffffu;
   const Polytope& body_;
   Climber climber_;
   HalfEdges edges_;
@@ -143,28 +153,29 @@ double rounding_of(std::span<const Vec3> points) {
   return 8 * size * (floats ? 0x1p-24 : 0x1p-53);
 }
 
-std::vector<std::vector<std::uint32_t>> triangles_on(const Mesh& mesh, const Hull& hull, const Polytope& body) {
-  const Ids first = first_of_equals(mesh.points);
-  std::vector<std::vector<std::uint32_t>> found(body.triangles.size());
+std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, const Polytope& body) {
+  Ids vertex = first_of_equals(mesh.points);  // per point, the hull's vertex there
+  {
+    Ids rank(mesh.points.size(), kNone);
+    for (std::uint32_t v = 0; v < hull.vertices.size(); ++v) rank[hull.vertices[v]] = v;
+    for (std::uint32_t& point : vertex) point = rank[point];
+  }
+  Ids begin(body.points.size() + 1);  // of the triangles with each lowest corner
+  for (const Triangle& triangle : body.triangles) ++begin[triangle[0] + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  Ids found(mesh.triangles.size());
   std::optional<PlaneFinder> planes;  // of a triangulated hull every triangle is found by its corners
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [i, j, k] = mesh.triangles[t];
-    Triangle corners{first[i], first[j], first[k]};
-    bool all_extreme = true;
-    for (std::uint32_t& corner : corners) {
-      const auto at = std::lower_bound(hull.vertices.begin(), hull.vertices.end(), corner);
-      all_extreme = all_extreme && at != hull.vertices.end() && *at == corner;
-      corner = std::uint32_t(at - hull.vertices.begin());
-    }
-    corners = from_lowest(corners);
-    const auto at = std::lower_bound(body.triangles.begin(), body.triangles.end(), corners);
-    if (all_extreme && at != body.triangles.end() && *at == corners) {
-      found[at - body.triangles.begin()].push_back(t);
-    } else {
+    const Triangle corners = from_lowest({vertex[i], vertex[j], vertex[k]});
+    const bool all_extreme = std::find(corners.begin(), corners.end(), kNone) == corners.end();
+    std::uint32_t on = all_extreme ? begin[corners[0]] : kNone;
+    while (all_extreme && on < begin[corners[0] + 1] && body.triangles[on] != corners) ++on;
+    if (!all_extreme || on == begin[corners[0] + 1]) {
       if (!planes) planes.emplace(body, rounding_of(mesh.points));
-      const std::uint32_t on = planes->find(mesh.points[i], mesh.points[j], mesh.points[k]);
-      if (on < found.size()) found[on].push_back(t);
+      on = planes->find(mesh.points[i], mesh.points[j], mesh.points[k]);
     }
+    found[t] = on;
   }
   return found;
 }
@@ -174,7 +185,9 @@ double volume_ratio(const Mesh& mesh, const Polytope& body) {
   Polytope surface{mesh.points, mesh.triangles};
   for (Triangle& triangle : surface.triangles)
     for (std::uint32_t& corner : triangle) corner = first[corner];
-  return !surface.triangles.empty() && closes(surface.triangles) ? std::abs(volume(surface)) / volume(body) : 1;
+  return !surface.triangles.empty() && closes(surface.triangles, surface.points.size())
+             ? std::abs(volume(surface)) / volume(body)
+             : 1;
 }
 
 double deepest_dent(const Mesh& mesh, const Hull& hull, const Polytope& body) {

@@ -17,9 +17,9 @@ namespace swiftlet::lod {
 /// coordinate, as doubles, or as floats where all coordinates are floats.
 double rounding_of(std::span<const Vec3> points);
 
-/// Per hull triangle, the user's triangles whose corners lie on its plane up to rounding and whose normal agrees; a triangle is
-/// listed once, under the hull triangle with its corners where there is one.
-std::vector<std::vector<std::uint32_t>> triangles_on(const Mesh& mesh, const Hull& hull, const Polytope& body);
+/// Per triangle of the user's, the hull triangle on whose plane its corners lie up to rounding and whose normal agrees, that
+/// with its corners where there is one; 0xffffffff for none.
+std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, const Polytope& body);
 
 /// The mesh's volume over the hull's; 1 where an edge of the mesh lacks its opposite.
 double volume_ratio(const Mesh& mesh, const Polytope& body);

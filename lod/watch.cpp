@@ -16,8 +16,14 @@ void Watch::begin(std::string_view stage, double end, double units) {
 }
 
 void Watch::work(double units) {
-  done_ += units;
-  if (done_ >= due_) report(begin_ + (end_ - begin_) * std::min(1.0, done_ / units_));
+  double done = done_.load(std::memory_order_relaxed);
+  while (!done_.compare_exchange_weak(done, done + units, std::memory_order_relaxed)) {
+  }
+  if (std::this_thread::get_id() != thread_) {
+    if (cancelled_.load(std::memory_order_relaxed)) throw Cancelled{};
+  } else if (done + units >= due_) {
+    report(begin_ + (end_ - begin_) * std::min(1.0, (done + units) / units_));
+  }
 }
 
 void Watch::end() { report(1); }
@@ -26,7 +32,13 @@ void Watch::end() { report(1); }
 void Watch::report(double fraction) {
   due_ = done_ + kStride * units_ / std::max(end_ - begin_, kStride);
   reported_ = std::max(reported_, fraction);
-  if (progress_ && !progress_(reported_, stage_)) throw Cancelled{};
+  if (!progress_) return;
+  try {
+    if (!progress_(reported_, stage_)) throw Cancelled{};
+  } catch (...) {
+    cancelled_ = true;
+    throw;
+  }
 }
 
 }  // namespace swiftlet::lod

@@ -3,8 +3,10 @@
 // How far a build is, and whether it is still wanted. Knows nothing of what is done.
 #pragma once
 
+#include <atomic>
 #include <string>
 #include <string_view>
+#include <thread>
 
 #include <swiftlet/build.h>
 
@@ -14,7 +16,8 @@ namespace swiftlet::lod {
 struct Cancelled {};
 
 /// Turns work, in units that only its stage knows, into calls of the progress callback: one wherever the fraction done grew by
-/// `kStride`, and one where a stage begins. Throws Cancelled where that returns false.
+/// `kStride`, and one where a stage begins. Throws Cancelled where that returns false. Work may be told of on any thread, but
+/// the callback is called on that which made the watch; the others throw Cancelled when it has.
 class Watch {
  public:
   explicit Watch(const Progress& progress) : progress_(progress) {}
@@ -32,8 +35,11 @@ class Watch {
   void report(double fraction);
 
   const Progress& progress_;
+  const std::thread::id thread_ = std::this_thread::get_id();
   std::string stage_;
-  double begin_ = 0, end_ = 0, units_ = 1, done_ = 0, due_ = 0, reported_ = 0;
+  double begin_ = 0, end_ = 0, units_ = 1, due_ = 0, reported_ = 0;
+  std::atomic<double> done_ = 0;
+  std::atomic<bool> cancelled_ = false;
 };
 
 }  // namespace swiftlet::lod
