@@ -7,7 +7,7 @@ configure_package_config_file(swiftletConfig.cmake.in swiftletConfig.cmake INSTA
 write_basic_package_version_file(swiftletConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/swiftletConfig.cmake ${PROJECT_BINARY_DIR}/swiftletConfigVersion.cmake
   DESTINATION ${config_dir} COMPONENT march)
-foreach(component march scene lod bullet bullet_float64 fcl)
+foreach(component march bvh scene lod bullet bullet_float64 fcl)
   if(TARGET swiftlet_${component})
     install(EXPORT swiftlet-${component}-targets NAMESPACE swiftlet:: DESTINATION ${config_dir} COMPONENT ${component})
   endif()
@@ -38,6 +38,10 @@ file(ARCHIVE_CREATE OUTPUT ${PROJECT_BINARY_DIR}/changelog.gz PATHS ${PROJECT_SO
 
 swiftlet_package(march libswiftlet-dev libdevel "The runtime: headers and static libraries.")
 set(CPACK_DEBIAN_MARCH_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4)")
+if(SWIFTLET_BVH)
+  swiftlet_package(bvh libswiftlet-bvh-dev libdevel "Triangle meshes: headers and static library.")
+  set(CPACK_COMPONENT_BVH_DEPENDS march)
+endif()
 if(SWIFTLET_SCENE)
   swiftlet_package(scene libswiftlet-scene-dev libdevel "Scenes of many bodies: header and static library.")
   set(CPACK_COMPONENT_SCENE_DEPENDS march)

@@ -1,0 +1,348 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The way down two trees, nearest boxes first [Quinlan 1994]: pairs of nodes whose boxes are no nearer than the limit are left
+// out, and pairs of triangles that are not are measured. The limit follows the least distance so far and the question, and all
+// that was left out is no nearer than the last limit: so bounds in floats cost an exact answer nothing but time.
+#pragma once
+
+#include <utility>
+
+#include "node_pair.h"
+#include "search.h"
+#include "triangle_pair.h"
+
+namespace swiftlet {
+namespace {  // compiled once for each width of registers: see numeric/width.h
+
+/// So many of a pair's children are visited in order; the others as they were found.
+inline constexpr int kSortedFew = 4;
+/// From this ratio of sizes on the larger one of two nodes is opened alone.
+inline constexpr float kOneSided = 3;
+
+class Descent {
+ public:
+  Descent(const MeshView& a, const MeshView& b, const Pose& b_in_a, const MeshQuestion& question, MeshSeed& seed,
+          MeshFinding& finding)
+      : a_(a),
+        b_(b),
+        pose_(b_in_a),
+        motion_(motion(b_in_a)),
+        question_(question),
+        seed_(seed),
+        finding_(finding),
+        unit_(unit_of_pair(a, b, motion_.t)),
+        frame_(over_unit(), power_of_two(a.unit - unit_), power_of_two(b.unit - unit_)) {}
+
+  void run() {
+    set_limit();
+    look_ahead();
+    if (seed_.triangle_a < a_.triangle_count && seed_.triangle_b < b_.triangle_count)
+      measure(seed_.triangle_a, seed_.triangle_b);
+    top_ = 0;
+    stack_[top_++] = {0, 0, 0};
+    while (top_ > 0 && !done_) {
+      const Entry entry = stack_[--top_];
+      if (double(entry.lower) >= limit_over_unit_) continue;
+      if (spent()) {
+        ++top_;  // it is still to do
+        break;
+      }
+      open(entry);
+    }
+    conclude();
+  }
+
+ private:
+  /// A pair of nodes, or of triangles; `lower` bounds the distance of their boxes, over the unit.
+  struct Entry {
+    std::uint32_t a, b;
+    float lower;
+  };
+  /// Each step down leaves at most 63 entries behind if it opens both nodes, and 7 if one.
+  static constexpr int kMostEntries = 64 * kMostDepth + 8;
+
+  static int unit_of_pair(const MeshView& a, const MeshView& b, const Vec& t) {
+    const double length = max_abs(t);
+    const int shift = length > 0 ? exponent_of(length) + 1 : -1100, larger = a.unit > b.unit ? a.unit : b.unit;
+    return shift > larger ? shift : larger;
+  }
+  Motion over_unit() const {
+    Motion m = motion_;
+    m.t = scaled(motion_.t, -unit_);
+    return m;
+  }
+
+  /// Sets the bound from which on nothing matters. Bodies that touch may still overlap elsewhere: what is not apart is never
+  /// left out.
+  void set_limit() {
+    const StopRule& stop = question_.stop;
+    const double upper = finding_.upper;
+    double limit = HUGE_VAL;
+    if (upper < HUGE_VAL) {
+      const double width = max(stop.absolute - stop.rounding, kLeftOutShare * question_.law_two);
+      double by_width = upper - width;
+      if (upper - by_width > width) by_width = next_above(by_width);  // it was rounded down
+      double by_ratio = (upper - stop.zero) / (1 + stop.relative) * (1 + 8 * kU) + stop.zero + stop.rounding;
+      if (stop.zero > 0) by_ratio = next_above(next_above(by_ratio));  // both sums were rounded
+      limit = min(by_width, by_ratio);
+    }
+    if (stop.above < HUGE_VAL) limit = min(limit, next_above(stop.above));
+    limit_ = max(limit, std::numeric_limits<double>::denorm_min());
+    // Above 0, so that what is not apart is below it also where the quotient underflows.
+    limit_over_unit_ =
+        limit_ < HUGE_VAL ? max(times_power_of_two(limit_, -unit_), std::numeric_limits<double>::denorm_min()) : HUGE_VAL;
+    limit_ahead_ = limit_ * (1 + kAheadOfItself) + kAheadError * question_.size;
+    limit_of_boxes_ = limit_over_unit_ < 1e30 ? float(limit_over_unit_ * (1 + kFloatUp)) : HUGE_VALF;
+  }
+
+  /// The seventh axis before any pair is measured: the seed's, or else from the middle of A to that of B.
+  void look_ahead() {
+    Vec n{double(seed_.direction[0]), double(seed_.direction[1]), double(seed_.direction[2])};
+    if (!has_range(dot(n, n))) {
+      const auto middle = [](const MeshView& of, double unit) {
+        return Vec{of.nodes->origin[0], of.nodes->origin[1], of.nodes->origin[2]} * unit;
+      };
+      n = apply(frame_.b_in_a, middle(b_, frame_.unit_b)) - middle(a_, frame_.unit_a);
+    }
+    look(normalised(n));
+  }
+  void look(const Vec& n) {
+    ahead_ = n, ahead_in_b_ = rotate_back(motion_, n), ahead_of_origin_ = dot(n, motion_.t);
+    frame_.look(n);
+  }
+
+  bool spent() const { return finding_.nodes + finding_.triangles >= question_.steps; }
+
+  void open(const Entry& entry) {
+    ++finding_.nodes;
+    const Node &a = a_.nodes[entry.a], &b = b_.nodes[entry.b];
+    NodePair pair(frame_, a, b);
+    const float most = pair.square_of(limit_of_boxes_);
+    if (!(pair.square() <= most)) return;
+    const bool lowest_a = a.lowest(), lowest_b = b.lowest();
+    const bool both = lowest_a == lowest_b;
+    const bool only_a = both ? !lowest_a && pair.size_a() > kOneSided * pair.size_b() : lowest_b;
+    const bool only_b = both ? !lowest_b && pair.size_b() > kOneSided * pair.size_a() : lowest_a;
+    const int bottom = top_;
+    NodePair::Near near;
+    float key[kFanOut * kFanOut];
+    const auto push = [&](std::uint32_t of_a, std::uint32_t of_b, int k) {
+      const float lower = pair.lower(near.gap[k]);
+      key[top_ - bottom] = lower + std::sqrt(near.centres[k]);
+      stack_[top_++] = {of_a, of_b, lower};
+    };
+    if (only_b) {
+      pair.look_at_b();
+      for (unsigned left = pair.near_b(most, near); left != 0; left &= left - 1) {
+        const int k = __builtin_ctz(left);
+        push(entry.a, b.first() + unsigned(k), k);
+      }
+    } else {
+      pair.look_at_a();
+      if (!only_a) pair.look_at_b();
+      for (unsigned left = pair.near_a(most, near); left != 0; left &= left - 1) {
+        const int i = __builtin_ctz(left);
+        if (only_a) {
+          push(a.first() + unsigned(i), entry.b, i);
+          continue;
+        }
+        for (unsigned left_b = pair.near_b(i, most, near); left_b != 0; left_b &= left_b - 1) {
+          const int k = __builtin_ctz(left_b);
+          push(a.first() + unsigned(i), b.first() + unsigned(k), k);
+        }
+      }
+    }
+    raise_least(bottom, key, lowest_a && lowest_b ? 1 : kSortedFew);
+    if (!(lowest_a && lowest_b)) return;
+    while (top_ > bottom && !done_ && !spent()) {
+      const Entry next = stack_[--top_];
+      if (double(next.lower) < limit_over_unit_) measure(next.a, next.b);
+    }
+  }
+
+  /// Puts the few entries from `bottom` on that have the least keys last, the least of all at the end.
+  void raise_least(int bottom, float* key, int few) {
+    for (int end = top_ - 1; few > 0 && end > bottom; --end, --few) {
+      int least = end;
+      for (int i = bottom; i < end; ++i) least = key[i - bottom] < key[least - bottom] ? i : least;
+      std::swap(stack_[least], stack_[end]), std::swap(key[least - bottom], key[end - bottom]);
+    }
+  }
+
+  static void corners(const MeshView& of, std::uint32_t triangle, Vec (&corner)[3]) {
+    const std::uint32_t* const v = of.triangles[triangle].data();
+    for (int k = 0; k < 3; ++k) corner[k] = of.vertices[v[k]];
+  }
+
+  /// The gap of two triangles along the seventh axis, not yet less its error.
+  double gap_ahead(std::uint32_t of_a, std::uint32_t of_b) const {
+    const auto along = [](const MeshView& of, std::uint32_t triangle, const Vec& n, int k) {
+      return dot(n, of.vertices[of.triangles[triangle].data()[k]]);
+    };
+    const double top = max(max(along(a_, of_a, ahead_, 0), along(a_, of_a, ahead_, 1)), along(a_, of_a, ahead_, 2));
+    const double bottom =
+        min(min(along(b_, of_b, ahead_in_b_, 0), along(b_, of_b, ahead_in_b_, 1)), along(b_, of_b, ahead_in_b_, 2));
+    return bottom + (ahead_of_origin_ - top);
+  }
+
+  /// Bounds the distance of two triangles, or of a triangle and a convex body.
+  void measure(std::uint32_t of_a, std::uint32_t of_b) {
+    ++finding_.triangles;
+    if (!a_.triangles || !b_.triangles) return ask_kernel(of_a, of_b);
+    if (gap_ahead(of_a, of_b) >= limit_ahead_) return;
+    Vec a[3], b[3];
+    corners(a_, of_a, a), corners(b_, of_b, b);
+    const TrianglePair pair(a, b, motion_, question_.size);
+    const double ahead = pair.gap(ahead_);
+    if (ahead >= limit_) return;
+    // Where the bodies touch already, a pair that a direction parts up to law 2's bound touches at most.
+    if (finding_.upper <= question_.law_two && (ahead >= -question_.law_two || pair.faces_part(question_.law_two))) {
+      lower_ = 0;
+      return;
+    }
+    const StopRule& stop = question_.stop;
+    if (const double corners_apart = pair.upper(pair.way()); corners_apart < stop.below) {
+      const Place corner{Part::Corner, 0};
+      lower_ = min(lower_, ahead);
+      return nearer(of_a, of_b, a[0], {{0, 0, 0}, pair.way(), {0, 0, 0}, corner, corner}, normalised(pair.way()),
+                    corners_apart);
+    }
+    // What asks for contact alone is mostly answered by triangles that cross, and else by nearest points.
+    Vec met;
+    const auto crossing = [&] {
+      if (!pair.cross_deeper(question_.law_two, met)) return false;
+      finding_.sure = true;
+      overlapping(of_a, of_b, met + a[0], met + a[0]);
+      return true;
+    };
+    if (stop.above <= 0 && crossing()) return;
+    if (pair.gap(normalised(pair.between_middles())) >= (stop.is_threshold() ? limit_ : finding_.upper)) return;
+    const NearestPoints points = pair.nearest();
+    const double upper = pair.upper(points.way);
+    Vec n = normalised(points.way);
+    double lower = pair.gap(n);
+    if (upper - lower > question_.law_two && max_abs(points.across) > 0) {
+      Vec across = normalised(points.across);
+      if (dot(across, points.way) < 0) across = -across;
+      if (const double gap = pair.gap(across); gap > lower) lower = gap, n = across;
+    }
+    if (lower > 0 && (upper - lower <= question_.law_two || lower >= limit_)) {
+      lower_ = min(lower_, lower);
+      if (upper < finding_.upper) nearer(of_a, of_b, a[0], points, n, upper);
+      return;
+    }
+    if (stop.above <= 0 || !crossing()) ask_kernel(of_a, of_b);
+  }
+
+  /// Leaves it to the atomic kernel, which decides signs exactly.
+  [[gnu::noinline]] void ask_kernel(std::uint32_t of_a, std::uint32_t of_b) {
+    const auto body = [](const MeshView& of, std::uint32_t triangle) {
+      if (!of.triangles) return of.convex->body;
+      Vec corner[3];
+      corners(of, triangle, corner);
+      return Body::triangle(eigen(corner[0]), eigen(corner[1]), eigen(corner[2]));
+    };
+    const Body a = body(a_, of_a), b = body(b_, of_b);
+    const StopRule& stop = question_.stop;
+    const bool loose = stop.zero == 0 && max(stop.absolute, stop.relative) > 0;
+    ClosestFeatures closest;
+    if (loose) {
+      closest.answer = distance(a, b, pose_, seed_.pair, {stop.absolute, stop.relative, limit_, {}, {}});
+    } else {
+      ClosestOptions options;
+      options.beyond = limit_;
+      closest = closest_features(a, b, pose_, seed_.pair, options);
+    }
+    const Answer& answer = closest.answer;
+    if (answer.status >= Status::InvalidPose) {
+      finding_.refused = done_ = true;
+      return;
+    }
+    if (answer.verdict == Verdict::Overlapping) return overlapping(of_a, of_b, vec(answer.point_a), vec(answer.point_b));
+    lower_ = min(lower_, answer.lower);
+    if (!(answer.upper < finding_.upper) || answer.status == Status::Beyond) return;
+    finding_.point_a = vec(answer.point_a), finding_.point_b = vec(answer.point_b);
+    name(a_, of_a, closest.source_a, answer.feature_a, finding_.feature_a);
+    name(b_, of_b, closest.source_b, answer.feature_b, finding_.feature_b);
+    finding_.level_a = a_.triangles ? 0 : answer.level_a, finding_.level_b = b_.triangles ? 0 : answer.level_b;
+    const Vec n = vec(answer.normal);
+    nearer(of_a, of_b, dot(n, n) > 0 ? n : Vec{0, 0, 0}, answer.upper);
+  }
+
+  static FeatureId side(std::uint32_t triangle, int index) { return {FeatureKind::Edge, 3 * triangle + unsigned(index)}; }
+  static void name(const MeshView& of, std::uint32_t triangle, const Place& place, FeatureId& feature) {
+    feature = place.part == Part::Corner ? FeatureId(FeatureKind::Vertex, of.triangles[triangle].data()[place.index])
+              : place.part == Part::Side ? side(triangle, place.index)
+                                         : FeatureId(FeatureKind::Face, triangle);
+  }
+  /// `source` names corners of the triangle; of a convex body `own` is the name.
+  static void name(const MeshView& of, std::uint32_t triangle, const SourceFeature& source, FeatureId own, FeatureId& feature) {
+    if (!of.triangles) {
+      feature = own;
+      return;
+    }
+    const std::uint32_t* const corner = source.vertices.data();
+    feature = FeatureId(FeatureKind::Face, triangle);
+    if (source.kind == FeatureKind::Vertex && corner[0] < 3)
+      feature = FeatureId(FeatureKind::Vertex, of.triangles[triangle].data()[corner[0]]);
+    if (source.kind == FeatureKind::Edge && corner[0] < 3 && corner[1] < 3)
+      feature = side(triangle, (corner[0] + 1) % 3 == corner[1] ? int(corner[0]) : int(corner[1]));
+  }
+
+  /// The pair is nearer than any before: its points and features are stored.
+  void nearer(std::uint32_t of_a, std::uint32_t of_b, const Vec& origin, const NearestPoints& points, const Vec& n,
+              double upper) {
+    finding_.point_a = points.a + origin, finding_.point_b = finding_.point_a + points.way;
+    name(a_, of_a, points.on_a, finding_.feature_a), name(b_, of_b, points.on_b, finding_.feature_b);
+    finding_.level_a = finding_.level_b = 0;
+    nearer(of_a, of_b, n, upper);
+  }
+  void nearer(std::uint32_t of_a, std::uint32_t of_b, const Vec& n, double upper) {
+    finding_.upper = upper, finding_.normal = n;
+    finding_.triangle_a = of_a, finding_.triangle_b = of_b;
+    set_limit();
+    if (dot(n, n) > 0) look(n);
+    done_ = upper < question_.stop.below;
+  }
+  void overlapping(std::uint32_t of_a, std::uint32_t of_b, const Vec& point_a, const Vec& point_b) {
+    finding_.verdict = Verdict::Overlapping;
+    finding_.upper = lower_ = 0;
+    finding_.point_a = point_a, finding_.point_b = point_b, finding_.normal = {0, 0, 0};
+    const auto whole = [](const MeshView& of, std::uint32_t i) {
+      return of.triangles ? FeatureId(FeatureKind::Face, i) : FeatureId();
+    };
+    finding_.feature_a = whole(a_, of_a), finding_.feature_b = whole(b_, of_b);
+    finding_.triangle_a = of_a, finding_.triangle_b = of_b;
+    done_ = true;
+  }
+
+  void conclude() {
+    double lower = min(limit_, lower_);
+    for (int i = 0; i < top_; ++i) lower = min(lower, times_power_of_two(double(stack_[i].lower), unit_));
+    finding_.lower = finding_.verdict == Verdict::Overlapping ? 0 : max(0, min(lower, finding_.upper));
+    finding_.cut_short = top_ > 0 && !done_;
+    if (finding_.triangle_a != kNone) seed_.triangle_a = finding_.triangle_a, seed_.triangle_b = finding_.triangle_b;
+    float* const direction = seed_.direction.data();
+    direction[0] = float(ahead_.x), direction[1] = float(ahead_.y), direction[2] = float(ahead_.z);
+  }
+
+  const MeshView &a_, &b_;
+  const Pose& pose_;
+  const Motion motion_;
+  const MeshQuestion& question_;
+  MeshSeed& seed_;
+  MeshFinding& finding_;
+  const int unit_;  ///< exponent of the pair's unit
+  PairFrame frame_;
+  Vec ahead_{}, ahead_in_b_{};                    ///< a unit direction from A to B, and R^T times it
+  double ahead_of_origin_ = 0;                    ///< how far B's origin is along it
+  double limit_ = 0, lower_ = HUGE_VAL;           ///< `lower_` is the least bound of a measured pair
+  double limit_over_unit_ = 0, limit_ahead_ = 0;  ///< for `gap_ahead`
+  float limit_of_boxes_ = 0;                      ///< the same, rounded up
+  bool done_ = false;
+  int top_ = 0;
+  Entry stack_[kMostEntries];
+};
+
+}  // namespace
+}  // namespace swiftlet

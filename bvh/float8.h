@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Four and eight floats at a time: registers of SSE2, NEON or AVX. Every lane is rounded as the same operation on floats is, so
+// all widths give the same bits. Functions are static, as those of vec.h.
+#pragma once
+
+#include <cmath>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace swiftlet {
+
+/// A vector's x, y, z and a lane without meaning, or four numbers of one kind.
+using Float4 = float __attribute__((vector_size(16)));
+
+static inline Float4 float4(float x, float y, float z) { return Float4{x, y, z, 0}; }
+/// Three numbers, and a fourth one that follows them in memory.
+static inline Float4 load4(const float* p) {
+  Float4 v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+template <int i>
+static inline Float4 lane(Float4 a) {
+  return __builtin_shufflevector(a, a, i, i, i, i);
+}
+static inline Float4 max(Float4 a, Float4 b) {
+#if defined(__SSE2__)
+  return _mm_max_ps(b, a);
+#else
+  return a < b ? b : a;
+#endif
+}
+static inline Float4 abs(Float4 a) {
+#if defined(__SSE2__)
+  return _mm_andnot_ps(Float4{-0.0f, -0.0f, -0.0f, -0.0f}, a);
+#else
+  return Float4{std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2]), std::fabs(a[3])};
+#endif
+}
+/// The sum of x, y and z.
+static inline float sum(Float4 a) { return a[0] + a[1] + a[2]; }
+static inline Float4 cross(Float4 a, Float4 b) {
+  const auto yzx = [](Float4 v) { return __builtin_shufflevector(v, v, 1, 2, 0, 3); };
+  const auto zxy = [](Float4 v) { return __builtin_shufflevector(v, v, 2, 0, 1, 3); };
+  return yzx(a) * zxy(b) - zxy(a) * yzx(b);
+}
+
+/// A matrix by its columns, which times a vector is a sum of columns.
+struct Columns {
+  Float4 x, y, z;
+  /// The matrix of these rows.
+  static Columns of_rows(Float4 a, Float4 b, Float4 c) {
+    const Float4 xy = __builtin_shufflevector(a, b, 0, 4, 1, 5);  // ax bx ay by
+    return {__builtin_shufflevector(xy, c, 0, 1, 4, 4), __builtin_shufflevector(xy, c, 2, 3, 5, 5),
+            __builtin_shufflevector(__builtin_shufflevector(a, b, 2, 6, 2, 6), c, 0, 1, 6, 6)};
+  }
+  Float4 operator*(Float4 v) const { return x * lane<0>(v) + y * lane<1>(v) + z * lane<2>(v); }
+};
+
+// Each width has a name of its own, so that no function of the one is taken for a function of the other.
+#if defined(__AVX__)
+struct Avx8 {
+  using Register = float __attribute__((vector_size(32)));
+  Register v;
+};
+/// Eight numbers of one kind.
+using Float8 = Avx8;
+static inline Float8 all8(float x) { return {Float8::Register{x, x, x, x, x, x, x, x}}; }
+static inline Float8 load8(const float* p) { return {_mm256_load_ps(p)}; }
+static inline void store(Float8 a, float* p) { _mm256_store_ps(p, a.v); }
+static inline Float8 operator+(Float8 a, Float8 b) { return {a.v + b.v}; }
+static inline Float8 operator-(Float8 a, Float8 b) { return {a.v - b.v}; }
+static inline Float8 operator*(Float8 a, Float8 b) { return {a.v * b.v}; }
+static inline Float8 max(Float8 a, Float8 b) { return {_mm256_max_ps(b.v, a.v)}; }
+static inline Float8 abs(Float8 a) { return {_mm256_andnot_ps(all8(-0.0f).v, a.v)}; }
+/// Bit i is set if lane i of `a` is at most that of `b`.
+static inline unsigned at_most(Float8 a, Float8 b) { return unsigned(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ))); }
+#else
+struct Pair8 {
+  Float4 lo, hi;
+};
+using Float8 = Pair8;
+static inline Float8 all8(float x) { return {Float4{x, x, x, x}, Float4{x, x, x, x}}; }
+static inline Float8 load8(const float* p) {
+  Float8 a;
+  __builtin_memcpy(&a, p, sizeof a);
+  return a;
+}
+static inline void store(Float8 a, float* p) { __builtin_memcpy(p, &a, sizeof a); }
+static inline Float8 operator+(Float8 a, Float8 b) { return {a.lo + b.lo, a.hi + b.hi}; }
+static inline Float8 operator-(Float8 a, Float8 b) { return {a.lo - b.lo, a.hi - b.hi}; }
+static inline Float8 operator*(Float8 a, Float8 b) { return {a.lo * b.lo, a.hi * b.hi}; }
+static inline Float8 max(Float8 a, Float8 b) { return {max(a.lo, b.lo), max(a.hi, b.hi)}; }
+static inline Float8 abs(Float8 a) { return {abs(a.lo), abs(a.hi)}; }
+static inline unsigned at_most(Float4 a, Float4 b) {
+#if defined(__SSE2__)
+  return unsigned(_mm_movemask_ps(_mm_cmple_ps(a, b)));
+#else
+  return (a[0] <= b[0]) + 2u * (a[1] <= b[1]) + 4u * (a[2] <= b[2]) + 8u * (a[3] <= b[3]);
+#endif
+}
+static inline unsigned at_most(Float8 a, Float8 b) { return at_most(a.lo, b.lo) + 16u * at_most(a.hi, b.hi); }
+#endif
+
+}  // namespace swiftlet

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Proximity of triangle meshes, each with another or with a convex body: distance, intersection, threshold and nearest
+// features, by trees of boxes over the triangles and exact signs where triangles meet. Points and directions are in A's frame,
+// lengths in the bodies' unit. Laws by number: LAWS.md.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <swiftlet/check.h>
+#include <swiftlet/mesh.h>
+#include <swiftlet/query.h>
+
+namespace swiftlet {
+
+/// The warm start that one mesh query leaves for the next query of the same pair: the nearest triangles. The caller keeps it;
+/// `MeshSeed{}` is a cold start. Any bits are legal: a seed changes the work, never the truth.
+struct MeshSeed {
+  std::uint32_t triangle_a = kNone, triangle_b = kNone;  ///< the last nearest pair; of a convex body 0
+  std::array<float, 3> direction{};                      ///< from A to B, in A's frame; tried as a separating axis
+  PairSeed pair{};                                       ///< warm start of a triangle and a convex body
+};
+static_assert(sizeof(MeshSeed) <= 128);
+
+// Answers are those of query.h, with these readings. `normal` is the unit direction from `point_a` to `point_b`, and no plane
+// across it need separate the bodies. Features are named as MeshModel says, on level 0; one of a triangle may be the whole
+// triangle where a vertex or an edge of it holds the point too. `steps` counts pairs of nodes that were opened, `plane_tests`
+// pairs of triangles that were looked at; `Budget::steps` limits their sum. `Budget::finest_level` and `Tuning` concern hulls:
+// of a mesh they say nothing. Two convex bodies are answered by query.h.
+
+/// Returns the distance between `a` and `b`, where `b_in_a` maps B's frame into A's: exact by default, or within the errors of
+/// `options`. The interval is always true. Cost: see bench/RESULTS.md. Allocates nothing; uses 16 kB of stack, and up
+/// to 32 where only exact arithmetic decides.
+Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options = {});
+/// Returns the distance, from a cold start.
+Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Options& options = {});
+
+/// Decides whether the bodies share a point: read `verdict`. It is Overlapping where two triangles cross by exact signs. Of
+/// triangles that meet without crossing, as in one plane or in a vertex, it is Touching.
+Answer intersects(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Effort& effort = {});
+/// Decides from a cold start whether the bodies share a point.
+Answer intersects(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Effort& effort = {});
+
+/// Decides whether the distance is at most `threshold` (>= 0). Ends at the first pair of triangles that decides it; of a Yes
+/// the verdict is Undecided and `lower` is 0, since whether the bodies meet was not asked.
+Within within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double threshold, MeshSeed& seed,
+              const Effort& effort = {});
+/// Decides from a cold start whether the distance is at most `threshold` (>= 0).
+Within within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double threshold, const Effort& effort = {});
+
+/// Returns the nearest features and the user's ids of the features: of a face the user's triangle, of an edge its ends, of a
+/// vertex its point.
+ClosestFeatures closest_features(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed,
+                                 const ClosestOptions& options = {});
+/// Returns the nearest features, from a cold start.
+ClosestFeatures closest_features(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const ClosestOptions& options = {});
+
+/// Law 2's bound for this pair, as `tolerance` of bodies. NaN where a query refuses the bodies or the pose.
+double tolerance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a);
+
+/// Recomputes what `answer` claims by brute force over all pairs of triangles, each by a query of the atomic kernel, without
+/// the trees: bounds and verdict must agree with the least distance, and each point must lie on its feature. Cost: about 1
+/// microsecond for each pair of triangles.
+Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answer& answer);
+
+/// Proves that the box of every node holds its triangles, that axes are unit and at right angles, that each triangle is in the
+/// tree once, and that `box_min` and `box_max` are the mesh's: all that the truth of answers rests on. Cost: linear in the
+/// triangles times the depth of the tree.
+Check verify(const MeshModel& mesh);
+
+}  // namespace swiftlet

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Answers recomputed pair by pair without the trees, and trees without a query.
+#include <swiftlet/mesh_query.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "mesh_block.h"
+
+namespace swiftlet {
+namespace {
+
+/// The convex parts of a body, each with the body's radius.
+struct Parts {
+  explicit Parts(const MeshBody& body) : of(body), count(body.mesh() ? body.mesh()->triangle_count() : 1) {}
+  Body operator[](std::size_t i) const {
+    if (!of.mesh()) return of.convex();
+    const std::array<std::uint32_t, 3> corners = of.mesh()->triangle(i);
+    const auto at = [&](std::size_t k) { return of.mesh()->vertex(corners[k]); };
+    return Body::triangle(at(0), at(1), at(2), of.radius());
+  }
+  /// The part that a feature belongs to, as a body without a radius: a point, a segment or a triangle; of a convex body all.
+  Body feature(FeatureId id) const {
+    if (!of.mesh()) return of.convex();
+    const std::uint32_t i = id.index();
+    const auto at = [&](std::uint32_t v) { return of.mesh()->vertex(v); };
+    if (id.kind() == FeatureKind::Vertex) return Body::point(at(i));
+    const std::array<std::uint32_t, 3> c = of.mesh()->triangle(id.kind() == FeatureKind::Edge ? i / 3 : i);
+    if (id.kind() == FeatureKind::Edge) return Body::segment(at(c[i % 3]), at(c[(i + 1) % 3]));
+    return Body::triangle(at(c[0]), at(c[1]), at(c[2]));
+  }
+  bool names(FeatureId id) const {
+    if (!of.mesh()) return true;
+    const std::size_t triangles = of.mesh()->triangle_count();
+    return id.kind() == FeatureKind::Vertex ? id.index() < of.mesh()->vertex_count()
+           : id.kind() == FeatureKind::Edge ? id.index() < 3 * triangles
+                                            : id.kind() == FeatureKind::Face && id.index() < triangles;
+  }
+  const MeshBody& of;
+  std::size_t count;
+};
+
+}  // namespace
+
+Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answer& answer) {
+  const auto fail = [](const auto&... words) {
+    std::ostringstream text;
+    text.precision(17);
+    (text << ... << words);
+    return Check{false, text.str()};
+  };
+  const double law_two = tolerance(a, b, b_in_a);
+  if (std::isnan(law_two)) {
+    return answer.status >= Status::InvalidPose ? Check{true, ""}
+                                                : fail("the bodies or the pose are refused, the answer is not");
+  }
+  if (answer.status == Status::NotAsked || answer.status >= Status::InvalidPose) return fail("the answer says nothing");
+  const Parts of_a(a), of_b(b);
+  double lower = HUGE_VAL, upper = HUGE_VAL;
+  bool overlapping = false;
+  for (std::size_t i = 0; i < of_a.count; ++i) {
+    for (std::size_t k = 0; k < of_b.count; ++k) {
+      const Answer pair = distance(of_a[i], of_b[k], b_in_a);
+      lower = std::min(lower, pair.lower), upper = std::min(upper, pair.upper);
+      overlapping = overlapping || pair.verdict == Verdict::Overlapping;
+    }
+  }
+  // Each bound here is within law 2's bound of the truth, and so is what the answer may claim.
+  if (!(answer.lower <= upper)) return fail("lower is ", answer.lower, " where the distance is at most ", upper);
+  if (!(answer.upper >= lower)) return fail("upper is ", answer.upper, " where the distance is at least ", lower);
+  if (answer.verdict == Verdict::Disjoint && overlapping) return fail("Disjoint, but two triangles cross");
+  if (answer.verdict == Verdict::Overlapping && !(upper <= law_two)) return fail("Overlapping, ", lower, " apart");
+  if (answer.verdict == Verdict::Touching && !(lower <= law_two)) return fail("Touching, ", lower, " apart");
+  if (answer.verdict != Verdict::Overlapping && answer.upper < HUGE_VAL) {
+    if (!of_a.names(answer.feature_a) || !of_b.names(answer.feature_b)) return fail("a feature that does not exist");
+    const Body points[] = {Body::point(answer.point_a, answer.radius_a), Body::point(answer.point_b, answer.radius_b)};
+    if (const double off = distance(of_a.feature(answer.feature_a), points[0], {}).lower; off > law_two)
+      return fail("point_a is ", off, " off its feature");
+    const Answer far = distance(points[1], of_b.feature(answer.feature_b), b_in_a);
+    if (far.lower > law_two) return fail("point_b is ", far.lower, " off its feature");
+    const double length = (answer.point_b - answer.point_a).norm();
+    if (std::fabs(length - answer.upper) > law_two + answer.upper - answer.lower)
+      return fail("the points are ", length, " apart, upper is ", answer.upper);
+  }
+  return {true, ""};
+}
+
+Check verify(const MeshModel& mesh) {
+  const MeshReader::Content& c = MeshReader::content(mesh);
+  const auto fail = [](std::size_t node, const std::string& what) {
+    return Check{false, "node " + std::to_string(node) + ": " + what};
+  };
+  // The triangles below each node lie one after the other.
+  struct Range {
+    std::uint32_t begin, end;
+  };
+  std::vector<Range> below(c.nodes.size());
+  std::vector<bool> seen(c.triangles.size());
+  for (std::size_t i = c.nodes.size(); i-- > 0;) {
+    const Node& node = c.nodes[i];
+    const std::uint32_t first = node.first(), last = first + std::uint32_t(node.count()) - 1;
+    below[i] = node.lowest() ? Range{first, last + 1} : Range{below[first].begin, below[last].end};
+    for (std::uint32_t child = first; child <= last; ++child) {
+      if (node.lowest() && seen[child]) return fail(i, "triangle " + std::to_string(child) + " is in another one too");
+      if (node.lowest()) seen[child] = true;
+      if (!node.lowest() && child > first && below[child].begin != below[child - 1].end) return fail(i, "children apart");
+    }
+    float third[3];
+    third_axis(node.axis, third);
+    const Vec axis[3] = {{node.axis[0][0], node.axis[0][1], node.axis[0][2]},
+                         {node.axis[1][0], node.axis[1][1], node.axis[1][2]},
+                         {third[0], third[1], third[2]}};
+    for (int k = 0; k < 3; ++k) {
+      for (int l = 0; l <= k; ++l) {
+        if (!(std::fabs(dot(axis[k], axis[l]) - (k == l)) <= kAxisError)) return fail(i, "axes that are not orthonormal");
+      }
+    }
+    const Vec origin{node.origin[0], node.origin[1], node.origin[2]};
+    for (int child = 0; child < node.count(); ++child) {
+      const std::uint32_t at = first + std::uint32_t(child);
+      const Range range = node.lowest() ? Range{at, at + 1} : below[at];
+      for (std::uint32_t t = range.begin; t < range.end; ++t) {
+        for (const std::uint32_t v : c.triangles[t]) {
+          const Vec p = scaled(c.vertices[v], -c.header.unit) - origin;
+          for (int k = 0; k < 3; ++k) {
+            // Off by 4 u of |p| and by u of the vertex and the origin, which the margin of the box holds twice over.
+            const double off = std::fabs(dot(axis[k], p) - double(node.centre[k][child]));
+            if (!(off <= double(node.half[k][child])) ||
+                !(off <= double(node.extent[k]) + std::fabs(double(node.centre[k][child]))))
+              return fail(i, "triangle " + std::to_string(t) + " reaches out of its box");
+            if (!(std::fabs(double(node.centre[k][child])) + double(node.half[k][child]) <= double(node.extent[k])))
+              return fail(i, "a child's box reaches out of it");
+          }
+        }
+      }
+    }
+  }
+  if (!(below[0].begin == 0 && below[0].end == c.triangles.size())) return fail(0, "triangles are missing");
+  Vec3 least = mesh.vertex(c.triangles[0][0]), most = least;
+  for (const Corners& corners : c.triangles) {
+    for (const std::uint32_t v : corners) least = least.cwiseMin(mesh.vertex(v)), most = most.cwiseMax(mesh.vertex(v));
+  }
+  if (least != mesh.box_min() || most != mesh.box_max()) return {false, "the box of the mesh is another"};
+  if (c.header.unit != unit_of(mesh.extent())) return {false, "the unit of the mesh is another"};
+  return {true, ""};
+}
+
+}  // namespace swiftlet

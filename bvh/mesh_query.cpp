@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The queries about meshes: each turns its question into one about the surfaces, and what the search finds into an answer.
+#include <swiftlet/mesh_query.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pair/pair_view.h"
+#include "query/ask.h"
+#include "query/radii.h"
+#include "search.h"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+Body without_radius(const Body& of) {
+  switch (of.kind()) {
+    case BodyKind::Model: return Body(*of.model());
+    case BodyKind::Point: return Body::point(of.corner(0));
+    case BodyKind::Segment: return Body::segment(of.corner(0), of.corner(1));
+    case BodyKind::Triangle: return Body::triangle(of.corner(0), of.corner(1), of.corner(2));
+    case BodyKind::Box: return Body::box(of.corner(0), of.corner(1));
+  }
+  return of;
+}
+
+/// What every mesh query computes first.
+struct MeshSetting {
+  MeshSetting(const MeshBody& of_a, const MeshBody& of_b, const Pose& b_in_a)
+      : a(of_a), b(of_b), motion(swiftlet::motion(b_in_a)), quality(pose_quality(motion)), radii(of_a.radius(), of_b.radius()) {
+    const double extent_a = a.extent + of_a.radius(), extent_b = b.extent + of_b.radius(), shift = norm(motion.t);
+    size = max(extent_a, extent_b) + shift;
+    law_two = swiftlet::law_two(extent_a, extent_b, shift, quality.error);
+  }
+  Status fault() const {
+    if (!quality.legal) return Status::InvalidPose;
+    if (!radii.legal()) return Status::InvalidRadius;
+    return a.is_legal && b.is_legal ? Status::Converged : Status::InvalidBody;
+  }
+
+  const MeshView a, b;
+  const Motion motion;
+  const PoseQuality quality;
+  const Radii radii;
+  double size, law_two;
+};
+
+/// Half the length of a root's box along a unit direction of its body's frame.
+double reach_along(const MeshView& of, const Vec& n) {
+  const Node& root = *of.nodes;
+  float third[3];
+  third_axis(root.axis, third);
+  const auto along = [&n](const float(&axis)[3]) { return std::fabs(n.x * axis[0] + n.y * axis[1] + n.z * axis[2]); };
+  return along(root.axis[0]) * root.extent[0] + along(root.axis[1]) * root.extent[1] + along(third) * root.extent[2];
+}
+
+/// A lower bound on the distance, or a number that is not above 0: the gap of both roots' boxes along the line of their
+/// middles. `kBoxSlack` of all lengths is far above what rounding in doubles adds.
+double gap_of_roots(const MeshSetting& at) {
+  const auto middle = [](const MeshView& of) {
+    const double unit = power_of_two(of.unit);
+    return Vec{of.nodes->origin[0] * unit, of.nodes->origin[1] * unit, of.nodes->origin[2] * unit};
+  };
+  const Vec way = apply(at.motion, middle(at.b)) - middle(at.a);
+  const double square = dot(way, way);
+  if (!has_range(square)) return 0;
+  const double length = std::sqrt(square);
+  const Vec n = way * (1 / length);
+  const double reach_a = reach_along(at.a, n) * power_of_two(at.a.unit),
+               reach_b = reach_along(at.b, rotate_back(at.motion, n)) * power_of_two(at.b.unit);
+  return length - reach_a - reach_b - kBoxSlack * (length + at.size + 2 * (reach_a + reach_b));
+}
+
+Verdict verdict_of(const MeshFinding& found, double law_two) {
+  if (found.verdict == Verdict::Overlapping) return Verdict::Overlapping;
+  if (found.lower > 0) return Verdict::Disjoint;
+  return found.upper <= law_two ? Verdict::Touching : Verdict::Undecided;
+}
+
+Status status_of(const MeshFinding& found, const StopRule& stop, double law_two) {
+  if (found.verdict == Verdict::Overlapping || stop.at_least(law_two).narrow(found.lower, found.upper) ||
+      found.upper < stop.below)
+    return Status::Converged;
+  if (found.lower > stop.above) return Status::Beyond;
+  if (found.cut_short) return Status::Budget;
+  return found.upper - found.lower <= law_two ? Status::Converged : Status::NotConverged;
+}
+
+/// Searches. Within law 2's bound of contact of the surfaces or of the bodies, or of a threshold, what is seen first decides
+/// the verdict: there a cold search does, so that no seed can [law 3].
+void look(const MeshSetting& at, const Pose& b_in_a, const StopRule& stop, std::uint32_t steps, MeshSeed& seed,
+          MeshFinding& found) {
+  const bool cold = seed.triangle_a == kNone && seed.direction == MeshSeed{}.direction;
+  const StopRule passed = cold ? stop : stop.beyond_by(at.law_two);
+  search(at.a, at.b, b_in_a, {passed, at.law_two, at.size, steps}, seed, found);
+  if (cold || found.sure || found.cut_short || found.refused || found.upper < passed.below) return;
+  const double near = 3 * at.law_two;
+  const bool near_contact = found.verdict == Verdict::Overlapping || found.upper <= near ||
+                            (!at.radii.none() && found.lower <= stop.zero + near && found.upper >= stop.zero - near);
+  const bool near_threshold = found.lower <= passed.above && found.upper >= stop.above - at.law_two;
+  if (!near_contact && !near_threshold) return;
+  const MeshFinding first = found;
+  seed = {}, found = {};
+  search(at.a, at.b, b_in_a, {stop, at.law_two, at.size, steps - std::min(steps, first.nodes + first.triangles)}, seed, found);
+  found.nodes += first.nodes, found.triangles += first.triangles;
+}
+
+void ask(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Budget& budget, const StopRule& asked,
+         Answer& answer) {
+  const MeshSetting at(a, b, b_in_a);
+  answer.radius_a = a.radius(), answer.radius_b = b.radius();
+  if (answer.status = at.fault(); answer.status != Status::Converged) return;
+
+  // With radii thresholds are passed by more than rounding may take back.
+  const StopRule stop = at.radii.of_hulls(asked, at.law_two).beyond_by(at.radii.none() ? 0 : at.law_two);
+  MeshFinding found;
+  if (const double gap = stop.is_threshold() ? gap_of_roots(at) : 0; gap > 0 && gap > stop.above) {
+    found.lower = gap;
+  } else {
+    look(at, b_in_a, stop, budget.steps, seed, found);
+  }
+  answer.steps = found.nodes, answer.plane_tests = found.triangles;
+  if (found.refused) {
+    answer.status = Status::InvalidBody;
+    return;
+  }
+  answer.lower = found.lower, answer.upper = found.upper;
+  answer.status = status_of(found, stop, at.law_two);
+  answer.verdict = verdict_of(found, at.law_two);
+  answer.feature_a = found.feature_a, answer.feature_b = found.feature_b;
+  answer.level_a = std::int16_t(found.level_a), answer.level_b = std::int16_t(found.level_b);
+  const bool has_normal = dot(found.normal, found.normal) > 0;
+  answer.normal = eigen(found.normal);
+  if (answer.upper < kInfinity) answer.point_a = eigen(found.point_a), answer.point_b = eigen(found.point_b);
+  if (!at.radii.none()) {
+    OverlapProof none;
+    if (answer.verdict != Verdict::Overlapping) answer.verdict = Verdict::Disjoint;  // `round` tells from the bounds
+    at.radii.round(answer, none, at.law_two);
+  }
+  if (!has_normal || answer.verdict == Verdict::Overlapping) answer.normal = Vec3::Constant(kUnknown);
+}
+
+/// Asks about convex bodies alone; `Asker` asks query.h.
+template <class Asker>
+bool both_convex(const MeshBody& a, const MeshBody& b, MeshSeed& seed, const Asker& asker) {
+  if (a.mesh() || b.mesh()) return false;
+  asker(a.convex(), b.convex(), seed.pair);
+  return true;
+}
+
+SourceFeature source_of(const MeshModel& mesh, FeatureId feature) {
+  SourceFeature source{feature.kind(), {kNone, kNone}, {}};
+  const std::uint32_t i = feature.index();
+  const auto vertex = [&](std::uint32_t v) { return mesh.source_vertex()[v]; };
+  if (feature.kind() == FeatureKind::Vertex) source.vertices[0] = vertex(i);
+  if (feature.kind() == FeatureKind::Edge) {
+    const std::array<std::uint32_t, 3> corners = mesh.triangle(i / 3);
+    source.vertices = {vertex(corners[i % 3]), vertex(corners[(i + 1) % 3])};
+  }
+  if (feature.kind() == FeatureKind::Face) source.triangles = mesh.source_triangle().subspan(i, 1);
+  return source;
+}
+
+}  // namespace
+
+ConvexLeaf::ConvexLeaf(const Body& of) : body(without_radius(of)) {
+  const ShapeOf shape(body);
+  is_legal = shape.is_legal();
+  if (!is_legal) return;
+  const ConvexView& view = (*shape).level(0).view;
+  extent = view.extent, unit = unit_of(extent);
+  const Model* const model = body.model();
+  const Box box = model ? Box{vec(model->box_min()), vec(model->box_max())} : box_of(view.vertices);
+  node.link = Node::link_of(0, 1, true);
+  node.axis[0][0] = node.axis[1][1] = 1;
+  for (int k = 0; k < 3; ++k) {
+    const double low = times_power_of_two(eigen(box.least)[k], -unit), high = times_power_of_two(eigen(box.most)[k], -unit);
+    node.origin[k] = low + (high - low) / 2;
+    node.half[k][0] = node.extent[k] = float((max(high - node.origin[k], node.origin[k] - low) + kBoxMargin) * (1 + kFloatUp));
+  }
+}
+
+MeshView::MeshView(const MeshBody& body) {
+  if (const MeshModel* const mesh = body.mesh()) {
+    const MeshReader::Content& content = MeshReader::content(*mesh);
+    nodes = content.nodes.data(), triangles = content.triangles.data(), vertices = content.vertices.data();
+    triangle_count = content.header.triangle_count;
+    unit = content.header.unit, extent = content.extent, is_legal = true;
+    return;
+  }
+  const ConvexLeaf& leaf = convex.emplace(body.convex());
+  nodes = &leaf.node, triangles = nullptr, vertices = nullptr, triangle_count = 1;
+  unit = leaf.unit, extent = leaf.extent, is_legal = leaf.is_legal;
+}
+
+Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options) {
+  Answer answer;
+  if (both_convex(a, b, seed, [&](const Body& x, const Body& y, PairSeed& s) { answer = distance(x, y, b_in_a, s, options); }))
+    return answer;
+  ask(a, b, b_in_a, seed, options.budget, {options.absolute, options.relative, options.beyond, 0}, answer);
+  return answer;
+}
+Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Options& options) {
+  MeshSeed cold;
+  return distance(a, b, b_in_a, cold, options);
+}
+
+Answer intersects(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Effort& effort) {
+  Answer answer;
+  if (both_convex(a, b, seed, [&](const Body& x, const Body& y, PairSeed& s) { answer = intersects(x, y, b_in_a, s, effort); }))
+    return answer;
+  ask(a, b, b_in_a, seed, effort.budget, {0, 0, 0, 0}, answer);
+  decide(answer);
+  return answer;
+}
+Answer intersects(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Effort& effort) {
+  MeshSeed cold;
+  return intersects(a, b, b_in_a, cold, effort);
+}
+
+Within within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double threshold, MeshSeed& seed,
+              const Effort& effort) {
+  Within result;
+  if (both_convex(a, b, seed,
+                  [&](const Body& x, const Body& y, PairSeed& s) { result = within(x, y, b_in_a, threshold, s, effort); }))
+    return result;
+  ask(a, b, b_in_a, seed, effort.budget, {0, 0, threshold, threshold}, result.answer);
+  decide(result, threshold);
+  // The search ended at the first pair that is near enough, whichever that was.
+  if (result.decision == Decision::Yes) result.answer.verdict = Verdict::Undecided, result.answer.lower = 0;
+  return result;
+}
+Within within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double threshold, const Effort& effort) {
+  MeshSeed cold;
+  return within(a, b, b_in_a, threshold, cold, effort);
+}
+
+ClosestFeatures closest_features(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed,
+                                 const ClosestOptions& options) {
+  ClosestFeatures result;
+  if (both_convex(a, b, seed,
+                  [&](const Body& x, const Body& y, PairSeed& s) { result = closest_features(x, y, b_in_a, s, options); }))
+    return result;
+  ask(a, b, b_in_a, seed, {options.steps, 0}, {0, 0, options.beyond, -kInfinity}, result.answer);
+  const Answer& answer = result.answer;
+  const auto source = [](const MeshBody& of, FeatureId feature, int level) {
+    if (of.mesh()) return source_of(*of.mesh(), feature);
+    return level == 0 ? source_feature(of.convex(), feature) : SourceFeature{};
+  };
+  result.source_a = source(a, answer.feature_a, answer.level_a);
+  result.source_b = source(b, answer.feature_b, answer.level_b);
+  return result;
+}
+ClosestFeatures closest_features(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const ClosestOptions& options) {
+  MeshSeed cold;
+  return closest_features(a, b, b_in_a, cold, options);
+}
+
+double tolerance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a) {
+  const MeshSetting at(a, b, b_in_a);
+  return at.fault() == Status::Converged ? max((kLawTwo + 2 * at.quality.error) * at.size, kLeastWidth) : kUnknown;
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Every error bound of mesh queries, with the quantity that it is relative to and its derivation. u stands for `kU`, as in
+// numeric/tolerance.h.
+#pragma once
+
+#include "numeric/tolerance.h"
+
+namespace swiftlet {
+
+// ---- Boxes, in floats ---------------------------------------------------------------------------------------------------
+
+/// The product of two axes of a node, less 1 if they are the same, is at most this: their entries are rounded to floats, each
+/// off by 2^-25 at most, and those of the third by 3 more. Dimensionless.
+inline constexpr double kAxisError = 0x1p-21;
+/// The share of a node's size by which boxes are made larger, so that rounding in doubles, 30 u of the size, cannot lose a
+/// point, nor that of a node's origin, 10 u of where it is. Dimensionless.
+inline constexpr double kBoxMargin = 0x1p-44;
+
+// Bound what rounding does to a bound on the distance of two boxes. A gap along an axis of one node is exact for its own boxes
+// and, for those of the other, off by: 3 kAxisError of their size, as a point is found again from its coordinates along axes
+// that are not quite at right angles; 2^-19, as an entry of the product of both nodes' axes carries 8 roundings of floats;
+// 2^-20 of all lengths for the sums; and 2^-18 of all lengths, where the rotation's inverse is taken to be its transpose: its
+// columns are at right angles to 1e-6. That is less than 2^-16 of both sizes and of the distance of both origins. What
+// underflows is far below the second, in the pair's unit. The third is relative to a bound: axes are unit to kAxisError, as far
+// as the rotation is to 1e-6, and a root and a sum of squares carry 5 roundings.
+inline constexpr float kBoxSlack = 0x1p-16f, kLeastBoxSlack = 0x1p-60f, kBoundShare = 0x1p-16f;
+/// A double times one more than this is, as a float, not below it: two roundings of floats. Dimensionless.
+inline constexpr double kFloatUp = 0x1p-22;
+
+// ---- Pairs of triangles, in doubles -------------------------------------------------------------------------------------
+
+// The way from A's first corner to B's, in A's frame: a coordinate of a rotated corner carries 3 u of its length, at most the
+// root of 3 of the extent, and there are three: 9 u. The difference of t and A's corner is off by u of both, and the sum by u
+// of itself. Relative to law 2's size; rounded up.
+inline constexpr double kWayOfPairError = 12 * kU;
+// The rest is relative to the length w of that way, and to the greatest length s of a side from a first corner. A side carries
+// 1 u of itself, and one of B, rotated, 6.2 u. A gap along a unit vector: dot products carry 3 u each, the difference of both
+// sides' 2 u of s, the last sum 1 u of w + 2 s; and the vector's length is off by 4.5 u, relative to the gap. A distance: a
+// point carries 6 u of s beside its sides' error, the difference of both 2 u of s, the last sum 1 u of w + 2 s, and its length
+// 5 u of itself. Rounded up.
+inline constexpr double kGapOfWay = 5 * kU, kGapOfSide = 20 * kU, kGapOfItself = 5 * kU;
+inline constexpr double kLengthOfWay = 2 * kU, kLengthOfSide = 25 * kU, kLengthOfItself = kNormError;
+/// A corner's error beside that of the way: its side's, and the last sum, relative to D, the greatest distance of a corner.
+inline constexpr double kCornerOfSize = 8 * kU;
+// The triple product of three differences of corners, each of length 2 D at most and off by twice a corner's error e: 3 times
+// 2 e times (2 D)^2, and 8 roundings of a product of at most (2 D)^3 [Shewchuk 1997]. Rounded up. Moving one
+// triangle by a depth changes a product by the depth times two sides.
+inline constexpr double kSideOfCorner = 26, kSideOfSize = 80 * kU, kSideOfDepth = 4;
+
+/// A gap along a unit direction, relative to law 2's size: dot products with points carry 3 u of their lengths, at most the
+/// root of 3 of an extent, R^T times the direction 5.2 u of B's, that with t 3 u, and two sums 1 u each of all. Rounded up. The
+/// direction's length is off by 4.5 u, relative to the gap.
+inline constexpr double kAheadError = 28 * kU, kAheadOfItself = 5 * kU;
+/// The share of law 2's bound by which what is left out may be nearer than the nearest pair: ties with it are, and are left
+/// out.
+inline constexpr double kLeftOutShare = 0.75;
+
+}  // namespace swiftlet

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A node of the tree over a mesh's triangles: up to eight boxes along axes of the node's own, each around a node or, of the
+// lowest nodes, around a triangle.
+#pragma once
+
+#include <cstdint>
+
+#include "mesh_tolerance.h"
+#include "numeric/vec.h"
+
+namespace swiftlet {
+
+inline constexpr int kFanOut = 8;
+/// No way from the root to a triangle passes more nodes.
+inline constexpr int kMostDepth = 16;
+
+/// Lengths are over the mesh's unit, a power of two that is above its extent and at most twice it. Of lanes that have no child
+/// all numbers are 0.
+struct alignas(64) Node {
+  double origin[3];          ///< body frame; the middle of the box around all children
+  std::uint32_t link;        ///< the first child; bit 28 says that children are triangles; above it their number less one
+  float axis[2][3];          ///< body frame: two of the axes; their cross product is the third
+  float extent[3];           ///< half the sides of the box around all children, rounded up
+  float centre[3][kFanOut];  ///< centres of the children's boxes, along each axis, from the origin
+  float half[3][kFanOut];    ///< half their sides, rounded up
+
+  static std::uint32_t link_of(std::uint32_t first, std::uint32_t count, bool lowest) {
+    return first | std::uint32_t(lowest) << 28 | (count - 1) << 29;
+  }
+  std::uint32_t first() const { return link & ((1u << 28) - 1); }
+  int count() const { return int(link >> 29) + 1; }
+  bool lowest() const { return (link >> 28 & 1) != 0; }
+};
+static_assert(sizeof(Node) == 256);
+
+/// The third axis, rounded as every reader of a node rounds it.
+static inline void third_axis(const float (&axis)[2][3], float (&third)[3]) {
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    third[i] = axis[0][j] * axis[1][k] - axis[0][k] * axis[1][j];
+  }
+}
+
+/// The exponent of the unit of a body of this extent. A body that is one point at its origin has the smallest unit there is.
+static inline int unit_of(double extent) { return exponent_of(max(extent, kLeastExtent)) + 1; }
+
+}  // namespace swiftlet

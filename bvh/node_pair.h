@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Two nodes and the boxes of their children: bounds on the distances of boxes, eight at a time, in floats. A bound is the
+// greatest of three: the gaps of two boxes along A's axes, taken together, those along B's, and the gap along one direction
+// more, from A's nearest point so far to B's.
+#pragma once
+
+#include "float8.h"
+#include "node.h"
+#include "numeric/vec4.h"
+
+namespace swiftlet {
+namespace {  // compiled once for each width of registers: see numeric/width.h
+
+/// A pose as boxes need it. Lengths are over the pair's unit, a power of two that is no less than either body's unit and than
+/// the translation, so that no float overflows.
+struct PairFrame {
+  Motion b_in_a;             ///< the translation over the unit
+  Columns rotation, back;    ///< R and its transpose
+  double unit_a, unit_b;     ///< the bodies' units, at most 1
+  Float4 ahead, ahead_in_b;  ///< a unit direction from A to B, in A's body frame, and R^T times it
+
+  PairFrame(const Motion& m, double of_a, double of_b) : b_in_a(m), unit_a(of_a), unit_b(of_b) {
+    const auto rounded = [](const Vec& v) { return float4(float(v.x), float(v.y), float(v.z)); };
+    back = {rounded(m.row_x), rounded(m.row_y), rounded(m.row_z)};
+    rotation = {rounded({m.row_x.x, m.row_y.x, m.row_z.x}), rounded({m.row_x.y, m.row_y.y, m.row_z.y}),
+                rounded({m.row_x.z, m.row_y.z, m.row_z.z})};
+    look({0, 0, 0});
+  }
+  void look(const Vec& direction) {
+    ahead = float4(float(direction.x), float(direction.y), float(direction.z));
+    ahead_in_b = back * ahead;
+  }
+};
+
+class NodePair {
+ public:
+  NodePair(const PairFrame& frame, const Node& a, const Node& b)
+      : a_(a), b_(b), unit_a_(float(frame.unit_a)), unit_b_(float(frame.unit_b)) {
+    const Float4 x_a = load4(a.axis[0]), y_a = load4(a.axis[1]), x_b = load4(b.axis[0]), y_b = load4(b.axis[1]);
+    const Columns of_a = Columns::of_rows(x_a, y_a, cross(x_a, y_a)), of_b = Columns::of_rows(x_b, y_b, cross(x_b, y_b));
+    m_[0] = of_a * (frame.rotation * x_b), m_[1] = of_a * (frame.rotation * y_b);
+    m_[2] = of_a * (frame.rotation * cross(x_b, y_b));
+    const Vec at_b = apply(frame.b_in_a, Vec{b.origin[0], b.origin[1], b.origin[2]} * frame.unit_b);
+    const Vec way = at_b - Vec{a.origin[0], a.origin[1], a.origin[2]} * frame.unit_a;
+    const Float4 offset = float4(float(way.x), float(way.y), float(way.z));
+    offset_a_ = of_a * offset, offset_b_ = of_b * (frame.back * offset);
+    ahead_a_ = of_a * frame.ahead, ahead_b_ = of_b * frame.ahead_in_b;
+    offset_ahead_ = sum(frame.ahead * offset);
+    extent_a_ = load4(a.extent) * unit_a_, extent_b_ = load4(b.extent) * unit_b_;
+    size_a_ = sum(extent_a_), size_b_ = sum(extent_b_);
+    slack_ = kBoxSlack * (size_a_ + size_b_ + sum(abs(offset))) + kLeastBoxSlack;
+    const Float4 x = abs(m_[0]), y = abs(m_[1]), z = abs(m_[2]);
+    extent_b_in_a_ = x * lane<0>(extent_b_) + y * lane<1>(extent_b_) + z * lane<2>(extent_b_);
+    extent_a_in_b_ = float4(sum(x * extent_a_), sum(y * extent_a_), sum(z * extent_a_));
+    top_of_a_ = sum(abs(ahead_a_) * extent_a_);
+    bottom_of_b_ = offset_ahead_ - sum(abs(ahead_b_) * extent_b_);
+  }
+  /// The square of the gap between all of A and all of B.
+  float square() const {
+    const auto squared = [](Float4 gap) {
+      const Float4 positive = max(gap, Float4{0, 0, 0, 0});
+      return sum(positive * positive);
+    };
+    const float ahead = bottom_of_b_ - top_of_a_, along_a = squared(abs(offset_a_) - (extent_a_ + extent_b_in_a_)),
+                along_b = squared(abs(offset_b_) - (extent_b_ + extent_a_in_b_)),
+                greatest = along_a < along_b ? along_b : along_a;
+    return ahead > 0 && ahead * ahead > greatest ? ahead * ahead : greatest;
+  }
+  float size_a() const { return size_a_; }
+  float size_b() const { return size_b_; }
+  /// The square that a child's gap must exceed, if the distance is to be no less than `limit`.
+  float square_of(float limit) const {
+    const float most = (limit + slack_) * (1 + kBoundShare);
+    return most * most;
+  }
+  /// The bound on a distance that the square of a gap proves.
+  float lower(float square) const {
+    const float bound = std::sqrt(square) * (1 - kBoundShare) - slack_;
+    return bound > 0 ? bound : 0;
+  }
+
+  /// Sees the children of A, or of B, along both nodes' axes.
+  void look_at_a() {
+    Float8 up = all8(0);
+    for (int k = 0; k < 3; ++k) {
+      const Float8 centre = load8(a_.centre[k]) * all8(unit_a_), half = load8(a_.half[k]) * all8(unit_a_);
+      store(centre, own_a_[k]), store(half, half_a_[k]);
+      const Float8 along = all8(ahead_a_[k]);
+      up = up + along * centre + abs(along) * half;
+    }
+    for (int l = 0; l < 3; ++l) {
+      Float8 centre = all8(-offset_b_[l]), half = all8(0);
+      for (int k = 0; k < 3; ++k) {
+        const Float8 m = all8(m_[l][k]);
+        centre = centre + m * load8(own_a_[k]), half = half + abs(m) * load8(half_a_[k]);
+      }
+      store(centre, in_b_[l]), store(half, half_in_b_[l]);
+    }
+    store(up, top_a_);
+  }
+  void look_at_b() {
+    Float8 down = all8(offset_ahead_);
+    for (int l = 0; l < 3; ++l) {
+      own_b_[l] = load8(b_.centre[l]) * all8(unit_b_), half_b_[l] = load8(b_.half[l]) * all8(unit_b_);
+      const Float8 along = all8(ahead_b_[l]);
+      down = down + along * own_b_[l] - abs(along) * half_b_[l];
+    }
+    for (int k = 0; k < 3; ++k) {
+      in_a_[k] = all8(offset_a_[k]), half_in_a_[k] = all8(0);
+      for (int l = 0; l < 3; ++l) {
+        const Float8 m = all8(m_[l][k]);
+        in_a_[k] = in_a_[k] + m * own_b_[l], half_in_a_[k] = half_in_a_[k] + abs(m) * half_b_[l];
+      }
+    }
+    bottom_b_ = down;
+  }
+
+  /// Squares of the gaps of eight pairs of boxes, and of the distances of their centres.
+  struct Near {
+    alignas(32) float gap[kFanOut], centres[kFanOut];
+  };
+  /// Compares each child of A with all of B. Returns the children whose squared gap is at most `most`, one bit each.
+  unsigned near_a(float most, Near& near) const {
+    Float8 along_a = all8(0), along_b = all8(0), centres = all8(0);
+    for (int k = 0; k < 3; ++k) {
+      const Float8 way = load8(own_a_[k]) - all8(offset_a_[k]);
+      along_a = along_a + squared(abs(way) - (load8(half_a_[k]) + all8(extent_b_in_a_[k])));
+      along_b = along_b + squared(abs(load8(in_b_[k])) - (load8(half_in_b_[k]) + all8(extent_b_[k])));
+      centres = centres + way * way;
+    }
+    store(centres, near.centres);
+    return chosen(along_a, along_b, all8(bottom_of_b_) - load8(top_a_), most, near.gap) & ((1u << a_.count()) - 1);
+  }
+  /// The same between each child of B and all of A.
+  unsigned near_b(float most, Near& near) const {
+    Float8 along_a = all8(0), along_b = all8(0), centres = all8(0);
+    for (int k = 0; k < 3; ++k) {
+      along_a = along_a + squared(abs(in_a_[k]) - (half_in_a_[k] + all8(extent_a_[k])));
+      centres = centres + in_a_[k] * in_a_[k];
+      along_b = along_b + squared(abs(own_b_[k] + all8(offset_b_[k])) - (half_b_[k] + all8(extent_a_in_b_[k])));
+    }
+    store(centres, near.centres);
+    return chosen(along_a, along_b, bottom_b_ - all8(top_of_a_), most, near.gap) & ((1u << b_.count()) - 1);
+  }
+  /// The same between each child of B and child `i` of A.
+  unsigned near_b(int i, float most, Near& near) const {
+    Float8 along_a = all8(0), along_b = all8(0), centres = all8(0);
+    for (int k = 0; k < 3; ++k) {
+      const Float8 way = in_a_[k] - all8(own_a_[k][i]);
+      along_a = along_a + squared(abs(way) - (half_in_a_[k] + all8(half_a_[k][i])));
+      centres = centres + way * way;
+      along_b = along_b + squared(abs(own_b_[k] - all8(in_b_[k][i])) - (half_b_[k] + all8(half_in_b_[k][i])));
+    }
+    store(centres, near.centres);
+    return chosen(along_a, along_b, bottom_b_ - all8(top_a_[i]), most, near.gap) & ((1u << b_.count()) - 1);
+  }
+
+ private:
+  static Float8 squared(Float8 gap) {
+    const Float8 positive = max(gap, all8(0));
+    return positive * positive;
+  }
+  static unsigned chosen(Float8 along_a, Float8 along_b, Float8 ahead, float most, float (&square)[kFanOut]) {
+    const Float8 greatest = max(max(along_a, along_b), squared(ahead));
+    store(greatest, square);
+    return at_most(greatest, all8(most));
+  }
+
+  const Node &a_, &b_;
+  float unit_a_, unit_b_, size_a_, size_b_, slack_, offset_ahead_;
+  Float4 m_[3];                 ///< B's axes in A's node frame
+  Float4 offset_a_, offset_b_;  ///< from A's origin to B's, along the axes of each
+  Float4 ahead_a_, ahead_b_;
+  Float4 extent_a_, extent_b_, extent_b_in_a_, extent_a_in_b_;       ///< half the sides of both, along the axes of each
+  float top_of_a_, bottom_of_b_;                                     ///< where A ends and B begins ahead of A's origin
+  alignas(32) float own_a_[3][kFanOut], half_a_[3][kFanOut];         ///< A's children along A's axes, from A's origin
+  alignas(32) float in_b_[3][kFanOut], half_in_b_[3][kFanOut];       ///< along B's, from B's origin
+  alignas(32) float top_a_[kFanOut];                                 ///< how far they reach ahead of A's origin
+  Float8 own_b_[3], half_b_[3], in_a_[3], half_in_a_[3], bottom_b_;  ///< B's children likewise; where they begin
+};
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The search with registers that every processor of the target has: see numeric/width.h.
+#include "search.h"
+
+#include "descent.h"
+
+namespace swiftlet {
+
+void search_by_two(const MeshView& a, const MeshView& b, const Pose& b_in_a, const MeshQuestion& question, MeshSeed& seed,
+                   MeshFinding& finding) {
+  Descent(a, b, b_in_a, question, seed, finding).run();
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The question that every mesh query is, and its answer: see descent.h for how it is found.
+#pragma once
+
+#include <optional>
+
+#include <swiftlet/mesh_query.h>
+
+#include "mesh_block.h"
+#include "numeric/vec.h"
+#include "numeric/width.h"
+#include "pair/stop_rule.h"
+
+namespace swiftlet {
+
+/// A convex body in place of a mesh: a node with one child, its box.
+struct ConvexLeaf {
+  explicit ConvexLeaf(const Body& body);
+
+  Body body;  ///< without its radius
+  bool is_legal;
+  double extent = 0;
+  int unit = 0;
+  Node node{};
+};
+
+/// A body as a search reads it.
+struct MeshView {
+  explicit MeshView(const MeshBody& body);
+  MeshView(const MeshView&) = delete;  ///< `nodes` may point into this object
+  MeshView& operator=(const MeshView&) = delete;
+
+  const Node* nodes;
+  const Corners* triangles;  ///< null for a convex body
+  const Vec* vertices;
+  std::uint32_t triangle_count;
+  int unit;
+  double extent;
+  bool is_legal;
+  std::optional<ConvexLeaf> convex;
+};
+
+/// What is asked about the surfaces, without radii.
+struct MeshQuestion {
+  StopRule stop;
+  double law_two;       ///< law 2's bound for the bodies
+  double size;          ///< law 2's size
+  std::uint32_t steps;  ///< the most pairs of nodes and triangles to look at
+};
+
+/// What is known of the surfaces.
+struct MeshFinding {
+  double lower = 0, upper = HUGE_VAL;
+  Verdict verdict = Verdict::Undecided;  ///< only Overlapping or Undecided
+  bool sure = false;                     ///< two triangles cross by more than law 2's bound
+  bool cut_short = false;                ///< the budget ended the search
+  bool refused = false;                  ///< the kernel refused a body
+  Vec point_a{}, point_b{}, normal{};    ///< where `upper` is finite; the normal is 0 if unknown
+  FeatureId feature_a, feature_b;
+  int level_a = 0, level_b = 0;
+  std::uint32_t triangle_a = kNone, triangle_b = kNone;
+  std::uint32_t nodes = 0, triangles = 0;  ///< pairs opened, and looked at
+};
+
+void search_by_two(const MeshView& a, const MeshView& b, const Pose& b_in_a, const MeshQuestion& question, MeshSeed& seed,
+                   MeshFinding& finding);
+void search_by_four(const MeshView& a, const MeshView& b, const Pose& b_in_a, const MeshQuestion& question, MeshSeed& seed,
+                    MeshFinding& finding);
+/// Answers `question`. `finding` must be a default one; `seed` receives the nearest pair.
+static inline void search(const MeshView& a, const MeshView& b, const Pose& b_in_a, const MeshQuestion& question,
+                          MeshSeed& seed, MeshFinding& finding) {
+  SWIFTLET_BY_WIDTH(search)(a, b, b_in_a, question, seed, finding);
+}
+
+}  // namespace swiftlet

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The search with registers of eight floats, compiled for AVX2: see numeric/width.h.
+#include "search.h"
+
+#if SWIFTLET_BY_FOUR
+#include "descent.h"
+
+namespace swiftlet {
+
+void search_by_four(const MeshView& a, const MeshView& b, const Pose& b_in_a, const MeshQuestion& question, MeshSeed& seed,
+                    MeshFinding& finding) {
+  Descent(a, b, b_in_a, question, seed, finding).run();
+}
+
+}  // namespace swiftlet
+#endif

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// From the user's points and triangles to a mesh whose vertices are all different, and what it is made of.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <swiftlet/mesh.h>
+
+#include "numeric/vec.h"
+
+namespace swiftlet {
+
+/// Triangles in the user's order over vertices that are all different.
+struct Soup {
+  std::vector<Vec> vertices;                            ///< in the order in which triangles first name them
+  std::vector<std::uint32_t> source;                    ///< per vertex, the first of the user's points there
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of vertices
+  MeshTopology topology;
+};
+
+/// Errors: Empty, BadValue (names the triangle or point), TooLarge.
+Result<Soup> weld(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles);
+
+}  // namespace swiftlet
