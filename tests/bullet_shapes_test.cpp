@@ -712,6 +712,36 @@ TEST(Triangles, OfTwoFacesHoldABodyByBoth) {
   }
 }
 
+/// The walls of a shallow groove share a manifold, as normals less than 26 degrees apart do. Points that stay from step to step
+/// were all given the normal of the deepest one, which is one wall's: the other wall pushed sideways.
+TEST(Triangles, OfAShallowGrooveKeepTheirNormals) {
+  constexpr double kSlope = 0.15;
+  Surface groove;
+  for (int j = -4; j < 4; ++j) {
+    for (const int s : {-1, 1}) {
+      const btVector3 p(0, btScalar(j), 0), q(btScalar(4 * s), btScalar(j), btScalar(4 * kSlope)),
+          r(btScalar(4 * s), btScalar(j + 1), btScalar(4 * kSlope)), t(0, btScalar(j + 1), 0);
+      groove.add(p, q, r), groove.add(p, r, t);
+    }
+  }
+  HullShape hull(bodies::model(bodies::box(0.5, 0.8, 0.5)));
+  Dynamics d;
+  d.add(groove.finish(), at(0, 0, 0));
+  const btRigidBody& body = d.add(hull, at(0, 0.3, 0.5 * kSlope + 0.56), 1);
+  for (int step = 0; step < 180; ++step) {
+    d.step();
+    if (step < 120) continue;
+    ASSERT_EQ(d.dispatcher.getNumManifolds(), 1);
+    const btPersistentManifold& manifold = *d.dispatcher.getManifoldByIndexInternal(0);
+    EXPECT_EQ(manifold.getNumContacts(), 4);
+    for (int i = 0; i < manifold.getNumContacts(); ++i) {
+      const btManifoldPoint& p = manifold.getContactPoint(i);  // a wall pushes inwards
+      EXPECT_LT(p.m_normalWorldOnB.x() * p.m_normalWorldOnB.z() * p.m_positionWorldOnB.x(), 0) << step << ": " << i;
+    }
+    EXPECT_LE(body.getLinearVelocity().length(), 1e-3) << step;
+  }
+}
+
 /// A hull that is scaled while it lies on a mesh is Bullet's from then on, and swiftlet's again when it is not.
 TEST(Triangles, PassAScaledHullOnToBullet) {
   World w;

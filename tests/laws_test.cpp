@@ -26,24 +26,10 @@
 
 #include "answers.h"
 #include "bodies.h"
+#include "counted_allocations.h"
 #include "make/surface.h"
 #include "oracle.h"
 #include "shapes.h"
-
-namespace {
-std::atomic<long> allocations{0};
-}  // namespace
-// Not inline: GCC would see malloc meet delete. The nothrow form too: sanitizers insist that new and delete come in pairs.
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size ? size : 1);
-}
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  if (void* p = operator new(size, std::nothrow)) return p;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 namespace swiftlet {
 namespace {

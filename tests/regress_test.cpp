@@ -5,8 +5,11 @@
 #include <swiftlet/depth.h>
 #include <swiftlet/query.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -257,6 +260,38 @@ TEST(Regress, BallsWereApartByLessThanNothing) {
     EXPECT_NE(within(box, box, deep, threshold).answer.verdict, Verdict::Disjoint) << threshold;
     EXPECT_NE(closest_features(box, box, deep, {.beyond = threshold}).answer.verdict, Verdict::Disjoint) << threshold;
   }
+}
+
+/// Which feature holds a point was asked of a face as often as it has sides: where cones of 1 000 sides touch along their rims,
+/// a query took 23 ms from the seed of the last one and 0.13 ms from nothing.
+TEST(Regress, NamingAPointTookTheSquareOfAFacesSides) {
+  constexpr std::uint32_t kSides = 1000;
+  bodies::Polyhedron cone;
+  std::vector<std::uint32_t> base(kSides);
+  for (std::uint32_t i = 0; i < kSides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kSides;
+    cone.points.emplace_back(0.5 * std::cos(angle), 0.5 * std::sin(angle), -0.5);
+    base[i] = kSides - 1 - i;
+  }
+  cone.points.emplace_back(0, 0, 0.5);
+  cone.corners = base, cone.sizes = {kSides};
+  for (std::uint32_t i = 0; i < kSides; ++i) cone.add({i, (i + 1) % kSides, kSides});
+  const Model model = bodies::model(cone);
+  Pose pose{Mat3::Identity(), {-0.5, 0.5, -1}};
+  pose.rotation << 1, 0, 0, 0, -1, -0x1.1a62633145c07p-53, 0, 0x1.1a62633145c07p-53, -1;
+  const auto least_time = [&](const PairSeed& from) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < 5; ++round) {
+      PairSeed seed = from;
+      const auto begin = std::chrono::steady_clock::now();
+      EXPECT_EQ(distance(model, model, pose, seed).verdict, Verdict::Touching);
+      least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    }
+    return least;
+  };
+  PairSeed seed;
+  distance(model, model, pose, seed);
+  EXPECT_LE(least_time(seed), 20 * least_time({}));
 }
 
 }  // namespace

@@ -427,7 +427,7 @@ TEST_F(Tool, KeepsTheOldFileWhenItFails) {
 /// The words that write, each to a path that is to follow.
 std::vector<std::string> writing_words() {
   std::vector<std::string> words{"cut a.swl -o ", "export a.swl --level 0 -o ", "draw a.swl -o "};
-  if (kBuilds) words.push_back("build cube.off --quiet -o ");
+  if (kBuilds) words.insert(words.end(), {"build cube.off --quiet -o ", "build --mesh cube.off --quiet -o "});
   return words;
 }
 
@@ -610,6 +610,199 @@ TEST_F(Tool, BuildRefusesWhatIsWrongInOneLine) {
   refuses("build cube.off -o c.swl --rate 2", "rate");
   refuses("build cube.off -o c.swl --levels 99", "--levels");
   refuses("build cube.off -o c.swl --cutoff -3", "--cutoff");
+}
+
+/// A square of two triangles in z = 0, where point 4 is point 0 again; half of the square cut the other way and upside down; a
+/// flat triangle; and the first one again. Point 7 is no triangle's.
+constexpr const char* kSheet =
+    "OFF\n8 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 0\n5 5 5\n6 5 5\n7 7 7\n3 0 1 2\n3 4 2 3\n3 1 0 3\n3 5 6 5\n3 2 0 1\n";
+
+TEST_F(Tool, BuildMeshKeepsAllTrianglesAndTellsWhatTheyAre) {
+  if (!kBuilds) GTEST_SKIP() << "this tool has no builder";
+  write(folder_ / "sheet.off", kSheet);
+  const json built = says_json("build --mesh sheet.off -o sheet.swm");
+  EXPECT_EQ(built["path"], "sheet.swm");
+  EXPECT_EQ(built["mesh"], "sheet.off");
+  EXPECT_EQ(built["points_read"], 8);
+  EXPECT_EQ(built["triangles_read"], 5);
+  EXPECT_EQ(built["vertices"], 6) << "4 is 0, and 7 is of no triangle";
+  EXPECT_EQ(built["triangles"], 5);
+  EXPECT_EQ(built["topology"]["flat_triangles"], 1);
+  EXPECT_EQ(built["topology"]["duplicates"], 1);
+  EXPECT_EQ(built["topology"]["components"], 2);
+  EXPECT_GT(built["topology"]["open_edges"], 0);
+  EXPECT_GT(built["topology"]["non_manifold_edges"], 0);
+  EXPECT_EQ(built["topology"]["closed"], false);
+  EXPECT_TRUE(built["topology"]["volume"].is_null());
+  EXPECT_EQ(built["bytes"], std::filesystem::file_size(folder_ / "sheet.swm"));
+  EXPECT_EQ(built["bytes_per_triangle"].get<double>(), built["bytes"].get<double>() / 5);
+  for (const char* key : {"seconds_read", "seconds_built"}) EXPECT_GE(built[key].get<double>(), 0) << key;
+
+  const std::string report = says("build --mesh cube.off -o cube.swm");
+  for (const char* line : {"8 points, 12 triangles", "components 1", "0 open", "volume     ", "wrote      cube.swm"})
+    EXPECT_NE(report.find(line), std::string::npos) << line << "\n" << report;
+  EXPECT_EQ(report.find("not closed"), std::string::npos) << report;
+  EXPECT_EQ(says("build --mesh cube.off -o cube.swm --quiet"), "");
+  EXPECT_EQ(content(folder_ / "cube.swm"), (says("build --mesh cube.off -o again.swm"), content(folder_ / "again.swm")));
+}
+
+TEST_F(Tool, InfoAndVerifyTakeMeshes) {
+  if (!kBuilds) GTEST_SKIP() << "this tool has no builder";
+  write(folder_ / "inside_out.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n");
+  json built = says_json("build --mesh inside_out.off -o solid.swm"), info = says_json("info solid.swm");
+  EXPECT_EQ(info["topology"]["closed"], true);
+  EXPECT_NEAR(info["topology"]["volume"].get<double>(), -1.0 / 6, 1e-15);
+  EXPECT_NE(says("info solid.swm").find("inside out"), std::string::npos);
+  for (const char* key : {"path", "mesh", "points_read", "triangles_read", "seconds_read", "seconds_built"}) built.erase(key);
+  EXPECT_EQ(info["path"], "solid.swm");
+  info.erase("path");
+  EXPECT_EQ(info, built);
+  EXPECT_EQ(says_json("verify solid.swm")["verified"], true);
+  EXPECT_EQ(says_json("verify solid.swm")["triangles"], 4);
+  EXPECT_NE(says("verify solid.swm").find("verified"), std::string::npos);
+  std::filesystem::copy(folder_ / "solid.swm", folder_ / "solid");  // by what it is, not by its name
+  EXPECT_EQ(says_json("info solid")["hash"], info["hash"]);
+}
+
+TEST_F(Tool, DistanceTakesMeshesAndModelsInAnyMix) {
+  if (!kBuilds) GTEST_SKIP() << "this tool has no builder";
+  write(folder_ / "sheet.off", kSheet);
+  says("build --mesh sheet.off -o sheet.swm");
+  says("build --mesh cube.off -o cube.swm");
+  const double truth = 0.5 - std::sqrt(0.1);  // above the middle of the second triangle, by the octahedron's lowest vertex
+  const json down = says_json("distance sheet.swm a.swl --pose 0.25,0.6,0.5"),
+             up = says_json("distance a.swl sheet.swm --pose -0.25,-0.6,-0.5");
+  for (const json& answer : {down, up}) {
+    EXPECT_LE(answer["lower"].get<double>(), truth);
+    EXPECT_GE(answer["upper"].get<double>(), truth);
+    EXPECT_LE(answer["upper"].get<double>() - answer["lower"].get<double>(), 1e-13);
+    EXPECT_EQ(answer["verdict"], "Disjoint");
+    EXPECT_EQ(answer["status"], "Converged");
+    EXPECT_FALSE(answer.contains("proof"));
+  }
+  EXPECT_EQ(down["feature_a"]["kind"], "face");
+  EXPECT_EQ(down["feature_b"]["vertices"], json::array({5}));
+  EXPECT_EQ(up["feature_a"]["vertices"], json::array({5}));
+  for (const json& face : {down["feature_a"], up["feature_b"]}) {
+    EXPECT_EQ(face["triangles"].size(), 1u);
+    EXPECT_TRUE(face["triangles"] == json::array({1}) || face["triangles"] == json::array({2})) << face << ": both are there";
+  }
+  EXPECT_NEAR(down["normal"][2].get<double>(), 1, 1e-12);
+  EXPECT_NEAR(down["point_a"][0].get<double>(), 0.25, 1e-12);
+  EXPECT_NEAR(up["normal"][2].get<double>(), -1, 1e-12);
+
+  const json inside = says_json("distance cube.swm a.swl --pose 0.5,0.5,0.5");
+  EXPECT_NEAR(inside["lower"].get<double>(), 0.5 - 1.0 / 3, 1e-12) << "surfaces alone are bodies";
+  EXPECT_EQ(says_json("distance cube.off a.swl --pose 0.5,0.5,0.5")["verdict"], "Overlapping") << "a mesh file is its hull";
+  const json crossing = says_json("distance cube.swm cube.swm --pose 0.5,0.5,0.5");
+  EXPECT_EQ(crossing["verdict"], "Overlapping");
+  EXPECT_EQ(crossing["upper"], 0);
+  EXPECT_EQ(crossing["feature_a"]["triangles"].size(), 1u);
+  EXPECT_TRUE(crossing["normal"].is_null());
+
+  const json apart = says_json("distance cube.swm cube.swm --pose 3,3,0.25");
+  EXPECT_NEAR(apart["lower"].get<double>(), std::sqrt(8.0), 1e-12);
+  const std::string text = says("distance cube.swm cube.swm --pose 3,3,0.25");
+  for (const char* line : {"distance   [2.828", "normal     0.70", "verdict    Disjoint", "status     Converged"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
+  EXPECT_EQ(text.find("level"), std::string::npos) << text;
+  const json far = says_json("distance cube.swm cube.swm --pose 9,0,0 --beyond 1");
+  EXPECT_EQ(far["status"], "Beyond");
+  EXPECT_GT(far["lower"], 1);
+  EXPECT_LE(far["lower"], 8);
+  EXPECT_TRUE(says_json("distance cube.swm cube.swm --pose 3,3,0.25 --beyond 9")["feature_a"].contains("vertices"));
+  for (const char* error : {" --max-error 0.3", " --relative-error 0.1"}) {
+    const json rough = says_json(std::string("distance cube.swm cube.off --pose 3,3,0.25") + error);
+    EXPECT_LE(rough["lower"].get<double>(), std::sqrt(8.0)) << error;
+    EXPECT_GE(rough["upper"].get<double>(), std::sqrt(8.0)) << error;
+    EXPECT_LE(rough["upper"].get<double>() - rough["lower"].get<double>(), 0.3) << error;
+  }
+}
+
+TEST_F(Tool, DrawShowsEveryTriangleOfAMesh) {
+  if (!kBuilds) GTEST_SKIP() << "this tool has no builder";
+  write(folder_ / "sheet.off", kSheet);
+  says("build --mesh sheet.off -o sheet.swm");
+  const json drawn = says_json("draw sheet.swm -o sheet.svg");
+  const std::string svg = content(folder_ / "sheet.svg");
+  EXPECT_EQ(drawn["triangles"], 5);
+  EXPECT_EQ(drawn["bytes"], svg.size());
+  EXPECT_TRUE(svg.starts_with("<svg"));
+  EXPECT_TRUE(svg.ends_with("</svg>\n"));
+  std::size_t paths = 0;
+  for (std::size_t at = svg.find("<path"); at != std::string::npos; at = svg.find("<path", at + 1)) ++paths;
+  EXPECT_EQ(paths, 5u) << "a flat one too";
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_NE(svg.find("not closed"), std::string::npos);
+}
+
+TEST_F(Tool, WhatMeshesHaveNotIsRefusedInOneLine) {
+  if (!kBuilds) GTEST_SKIP() << "this tool has no builder";
+  write(folder_ / "cloud.off", "OFF\n2 0 0\n0 0 0\n1 0 0\n");
+  write(folder_ / "far.off", "OFF\n3 1 0\n0 0 0\n1e50 0 0\n0 1 0\n3 0 1 2\n");
+  write(folder_ / "bent.off", "OFF\n1 0 0\n0 0\n");
+  says("build --mesh cube.off -o cube.swm");
+  const std::string whole = content(folder_ / "cube.swm");
+  std::string changed = whole;
+  changed[whole.size() / 2] ^= 1;
+  write(folder_ / "changed.swm", changed);
+  write(folder_ / "short.swm", whole.substr(0, whole.size() - 1));
+  write(folder_ / "alien.swm", content(folder_ / "a.swl"));
+  before_ = names();
+  refuses("build --mesh cloud.off -o c.swm", "cloud.off: is a cloud of points without triangles", 1);
+  refuses("build --mesh far.off -o c.swm", "far.off: point 1 ", 1);
+  refuses("build --mesh bent.off -o c.swm", "bent.off: line 3", 1);
+  refuses("build --mesh nowhere.off -o c.swm", "nowhere.off", 1);
+  refuses("build --mesh cube.off -o nowhere/c.swm", "folder", 1);
+  refuses("build --mesh cube.off -o cube.off", "is the input itself", 1);
+  for (const char* option : {"--method peel", "--cutoff 8", "--map 1", "--bytes 9", "--require-solid", "--threads 2"})
+    refuses(std::string("build --mesh cube.off -o c.swm ") + option, "is not for --mesh", 2);
+  for (const char* name : {"changed.swm", "short.swm", "alien.swm", "nowhere.swm"}) {
+    for (const std::string word : {"info ", "verify ", "distance --pose 1,2,3 a.swl "}) refuses(word + name, name, 1);
+  }
+  refuses("distance cube.swm a.swl --pose 1,2,3 --levels", "cube.swm: is a mesh, which has no levels", 2);
+  refuses("distance a.swl cube.swm --pose 1,2,3 --levels", "cube.swm: is a mesh, which has no levels", 2);
+  for (const char* word : {"cut", "cut --salvage", "export"})
+    refuses(std::string(word) + " cube.swm -o c", "cube.swm: is a mesh, which has no levels", 1);
+  const json error = json::parse(run("build --mesh cloud.off -o c.swm --json").out, nullptr, false);
+  EXPECT_EQ(error["error"]["code"], "Empty");
+  EXPECT_EQ(error["error"]["file"], "cloud.off");
+}
+
+TEST_F(Tool, MeshesOfScansAndLinksAreBuiltAndAsked) {
+  if (!kBuilds) GTEST_SKIP() << "this tool has no builder";
+  std::filesystem::path mesh = folder_ / "bumps.off";
+#ifdef SWIFTLET_MESHES
+  if (const std::filesystem::path elephant = SWIFTLET_MESHES "/elephant.off"; std::filesystem::exists(elephant))
+    mesh = elephant;
+#endif
+  if (mesh.parent_path() == folder_) {  // a surface over a grid
+    constexpr int kSide = 40;
+    std::ostringstream off;
+    off << "OFF\n" << kSide * kSide << ' ' << 2 * (kSide - 1) * (kSide - 1) << " 0\n";
+    for (int i = 0; i < kSide * kSide; ++i)
+      off << i % kSide << ' ' << i / kSide << ' ' << std::sin(0.7 * (i % kSide)) * std::sin(0.9 * (i / kSide)) << '\n';
+    for (int i = 0; i < kSide * (kSide - 1); ++i) {
+      if (i % kSide == kSide - 1) continue;
+      off << "3 " << i << ' ' << i + 1 << ' ' << i + kSide << "\n3 " << i + 1 << ' ' << i + kSide + 1 << ' ' << i + kSide
+          << '\n';
+    }
+    write(mesh, off.str());
+  }
+  const json built = says_json("build --mesh '" + mesh.string() + "' -o mesh.swm");
+  EXPECT_EQ(built["triangles"], built["triangles_read"]);
+  EXPECT_EQ(built["topology"]["components"], 1);
+  EXPECT_LT(built["bytes_per_triangle"], 120);
+  says("verify mesh.swm");
+  says("build '" + mesh.string() + "' -o hull.swl");
+  const json extent = says_json("info hull.swl");
+  const double far = 3 * extent["radius"].get<double>();
+  const std::string pose = " --pose " + std::to_string(far) + ",0,0";
+  const json meshes = says_json("distance mesh.swm mesh.swm" + pose), hulls = says_json("distance hull.swl hull.swl" + pose);
+  EXPECT_GE(meshes["upper"].get<double>(), hulls["lower"].get<double>()) << "a mesh lies in its hull";
+  const json mixed = says_json("distance mesh.swm hull.swl" + pose);
+  EXPECT_GE(mixed["upper"].get<double>(), hulls["lower"].get<double>());
+  EXPECT_LE(mixed["lower"].get<double>(), meshes["upper"].get<double>());
 }
 
 }  // namespace

@@ -44,11 +44,22 @@ std::string mesh(Input input);
 std::string query(Input input);
 /// Two small point sets and a pose: built, asked every question, compared with the oracle.
 std::string hulls(Input input);
+#if SWIFTLET_FUZZ_MESHES
+/// A pose, a seed, options and two soups of few triangles: meshes made, verified, asked, compared with brute force.
+std::string triangles(Input input);
+/// The block of a mesh whose hashes and size are made right. Loaded or refused; a loaded one answers every query and ends.
+std::string block(Input input);
+#endif
 
 struct Target {
   const char* name;
   std::string (*run)(Input);
 };
-inline constexpr Target kTargets[] = {{"model", model}, {"mesh", mesh}, {"query", query}, {"hulls", hulls}};
+inline constexpr Target kTargets[] = {
+    {"model", model},         {"mesh", mesh},   {"query", query}, {"hulls", hulls},
+#if SWIFTLET_FUZZ_MESHES
+    {"triangles", triangles}, {"block", block},
+#endif
+};
 
 }  // namespace swiftlet::fuzz

@@ -11,6 +11,9 @@
 #include "bodies.h"
 #include "judge.h"
 #include "shapes.h"
+#if SWIFTLET_FUZZ_MESHES
+#include "soups.h"
+#endif
 
 namespace swiftlet::fuzz {
 namespace {
@@ -112,6 +115,36 @@ void write_hulls(Folder folder) {
   }
 }
 
+#if SWIFTLET_FUZZ_MESHES
+void write_triangles(Folder folder) {
+  shapes::Random random(3);
+  for (int i = 0; i < 40; ++i) {
+    std::string bytes = i % 2 ? shifted(int(random.bits() % 64), 16, 0) : raw({random.rotation(), 2 * random.on_sphere()});
+    bytes += packed(std::uint8_t(i % 4), std::uint8_t(i % 5)) + packed(1.f, 0.f, 0.f) + cold + packed(0.5f);
+    bytes += packed(std::uint8_t(i % 8 ? 0 : 8 + 16), std::uint8_t(9));
+    if (i % 8) bytes.pop_back();
+    for (int body = 0; body < 2; ++body) {
+      const int points = 3 + int(random.bits() % 9), count = 1 + int(random.bits() % 8);
+      bytes += packed(std::uint8_t(i % 3), std::uint8_t(points - 1), std::uint8_t(count - 1));
+      for (int k = 0; k < 3 * points; ++k) {
+        const double x = random.uniform(-1, 1);
+        bytes += i % 3 == 0 ? packed(std::int8_t(4 * x)) : i % 3 == 1 ? packed(float(x)) : packed(x);
+      }
+      for (int k = 0; k < 3 * count; ++k) bytes += packed(std::uint8_t(random.bits()));
+    }
+    folder.add(bytes);
+  }
+}
+
+void write_blocks(Folder folder) {
+  shapes::Random random(4);
+  for (int i = 0; i < 8; ++i) {
+    const MeshModel mesh = (i % 2 ? soups::scattered(random, 1 + 4 * i, 0.5) : soups::any(random)).mesh();
+    folder.add({reinterpret_cast<const char*>(mesh.bytes().data()), mesh.bytes().size()});
+  }
+}
+#endif
+
 }  // namespace
 }  // namespace swiftlet::fuzz
 
@@ -123,4 +156,8 @@ int main(int argc, char** argv) {
   write_meshes(Folder(folder / "mesh"));
   write_queries(Folder(folder / "query"));
   write_hulls(Folder(folder / "hulls"));
+#if SWIFTLET_FUZZ_MESHES
+  write_triangles(Folder(folder / "triangles"));
+  write_blocks(Folder(folder / "block"));
+#endif
 }

@@ -186,7 +186,7 @@ class Vcpkg(unittest.TestCase):
                              ["ON" if f in features else "OFF" for f in ("builder", "tool")])
             # All that is not asked for is off, whatever the defaults are; what installs is on.
             self.assertEqual({k for k in Truth.options if options.get(k, "") != "OFF"} - {"SWIFTLET_LOD", "SWIFTLET_TOOL"},
-                             {"SWIFTLET_INSTALL", "SWIFTLET_FUZZ", "SWIFTLET_SCENE"})
+                             {"SWIFTLET_INSTALL", "SWIFTLET_FUZZ", "SWIFTLET_BVH", "SWIFTLET_SCENE"})
 
     def test_an_archive_of_another_digest_is_refused(self):
         done, _ = self.run_port([], False)
@@ -234,7 +234,8 @@ class Conan(unittest.TestCase):
         for on in (False, True):
             recipe = self.recipe(builder=on, tool=on)
             recipe.generate()
-            self.assertEqual(Truth.options - set(recipe.cache_variables), {"SWIFTLET_INSTALL", "SWIFTLET_FUZZ", "SWIFTLET_SCENE"})
+            self.assertEqual(Truth.options - set(recipe.cache_variables),
+                             {"SWIFTLET_INSTALL", "SWIFTLET_FUZZ", "SWIFTLET_BVH", "SWIFTLET_SCENE"})
             self.assertEqual({k for k, v in recipe.cache_variables.items() if v}, {"SWIFTLET_LOD", "SWIFTLET_TOOL"} if on else set())
 
     def test_what_it_exports_can_be_configured(self):
@@ -246,7 +247,7 @@ class Conan(unittest.TestCase):
         conan_stand_in.CMake(recipe).configure()
         exported = WORK / "conan/source"
         self.assertFalse((exported / "bench").exists())
-        for folder in ("lut", "march", "scene", "lod", "tool"):
+        for folder in ("lut", "march", "bvh", "scene", "lod", "tool"):
             files = [{p.relative_to(root) for p in (root / folder).rglob("*") if p.is_file()} for root in (SOURCE, exported)]
             self.assertEqual(*files)
 

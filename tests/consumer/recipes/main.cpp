@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 #include <future>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -17,6 +18,7 @@
 #include <swiftlet/build.h>
 #include <swiftlet/check.h>
 #include <swiftlet/manifold.h>
+#include <swiftlet/mesh_query.h>
 #include <swiftlet/model_file.h>
 #include <swiftlet/query.h>
 
@@ -228,6 +230,47 @@ void refinement(const Model& a, const Model& b, const Pose& b_in_a, double neede
   expect(answer.lower > needed || answer.upper <= needed, "exact decides");
 }
 
+/// A mesh of its own: all triangles as they are.
+Result<swiftlet::MeshModel> triangles(const std::filesystem::path& file) {
+  const auto given = swiftlet::read_mesh(file);  // or arrays of your own: points, and three indices a triangle
+  if (!given) return given.error();
+  auto mesh = swiftlet::MeshModel::from_triangles(given.value().points, given.value().triangles);
+  if (!mesh) return mesh.error();
+  const swiftlet::MeshTopology& made_of = mesh.value().topology();
+  std::printf("%zu triangles, components %u, open edges %u, %s\n", mesh.value().triangle_count(), made_of.components,
+              made_of.open_edges, made_of.closed() ? "closed" : "not closed");
+  return mesh;
+}
+
+/// The user's ids.
+std::string text(const swiftlet::SourceFeature& feature) {
+  const auto id = [](std::uint32_t i) { return std::to_string(i); };
+  if (feature.kind == swiftlet::FeatureKind::Vertex) return "vertex " + id(feature.vertices[0]);
+  if (feature.kind == swiftlet::FeatureKind::Edge) return "edge " + id(feature.vertices[0]) + " " + id(feature.vertices[1]);
+  return "triangle " + id(feature.triangles[0]);
+}
+
+/// How many poses the link takes until it meets the room.
+std::size_t walk(const swiftlet::MeshModel& room, const swiftlet::MeshModel& link, const std::vector<Pose>& path) {
+  swiftlet::MeshSeed seed;  // one per ordered pair
+  for (std::size_t step = 0; step < path.size(); ++step) {
+    if (swiftlet::within(room, link, path[step], 0.15, seed).decision == swiftlet::Decision::No) continue;
+    const swiftlet::ClosestFeatures found = swiftlet::closest_features(room, link, path[step], seed);
+    std::printf("step %zu: %.3f apart, %s of the room, %s of the link\n", step, found.answer.value(),
+                text(found.source_a).c_str(), text(found.source_b).c_str());
+    if (found.answer.verdict == swiftlet::Verdict::Overlapping) return step;  // these two triangles cross
+  }
+  return path.size();
+}
+
+void mesh_and_convex(const swiftlet::MeshModel& room, const Model& a) {
+  Pose above;
+  above.translation = {0, 0, 3};
+  const double hull = swiftlet::distance(room, Body(a), above, {.relative = 0.01}).lower;  // a model takes either place
+  const double ball = swiftlet::distance(Body::point({0, 0, 3}, 0.5), {room, 0.01}, Pose{}).lower;  // radii as of bodies
+  expect(hull > 2 && hull < 3 && ball > 2 && ball < 2.8, "the floor is below");
+}
+
 /// Points of an ellipsoid on a spiral, as an OFF file without faces.
 void write_points(const std::filesystem::path& path) {
   std::ofstream file(path);
@@ -237,6 +280,32 @@ void write_points(const std::filesystem::path& path) {
   for (int i = 0; i < count; ++i) {
     const double z = 1 - (2 * i + 1.0) / count, turn = 2.399963 * i, r = std::sqrt(1 - z * z);
     file << r * std::cos(turn) << ' ' << 0.8 * r * std::sin(turn) << ' ' << 0.6 * z << '\n';
+  }
+}
+
+/// A bumpy floor with a hole, and a ring.
+void write_meshes(const std::filesystem::path& room, const std::filesystem::path& link) {
+  std::ofstream floor(room), ring(link);
+  const int side = 31, around = 24, across = 12;
+  for (int i = 0; i < side * side; ++i) {
+    const double x = 0.1 * (i % side) - 1.5, y = 0.1 * (i / side) - 1.5;
+    floor << "v " << x << ' ' << y << ' ' << 0.1 * std::sin(4 * x) * std::cos(3 * y) << '\n';
+  }
+  for (int i = 1; i <= side * (side - 1); ++i) {
+    if (i % side == 0 || i == 480) continue;
+    floor << "f " << i << ' ' << i + 1 << ' ' << i + side + 1 << ' ' << i + side << '\n';
+  }
+  for (int i = 0; i < around * across; ++i) {
+    const double turn = 2 * EIGEN_PI * (i / across) / around, roll = 2 * EIGEN_PI * (i % across) / across;
+    const double r = 0.3 + 0.08 * std::cos(roll);
+    ring << "v " << r * std::cos(turn) << ' ' << r * std::sin(turn) << ' ' << 0.08 * std::sin(roll) << '\n';
+  }
+  for (int i = 0; i < around; ++i) {
+    for (int k = 0; k < across; ++k) {
+      const int next = (i + 1) % around, up = (k + 1) % across;
+      ring << "f " << i * across + k + 1 << ' ' << next * across + k + 1 << ' ' << next * across + up + 1 << ' '
+           << i * across + up + 1 << '\n';
+    }
   }
 }
 
@@ -279,5 +348,23 @@ int main(int, char** arguments) {
   radii(a, b, poses[0]);
   refinement(a, b, poses[0], 0.99);
   expect(bool(no_more_than_needed(here / "link.swl", poses[0])), "a part of a file is a model");
+
+  write_meshes(here / "room.obj", here / "ring.obj");
+  const auto room = triangles(here / "room.obj"), ring = triangles(here / "ring.obj");
+  if (!room || !ring) return std::puts((room ? ring : room).error().message.c_str()), 1;
+  expect(!room.value().topology().closed() && ring.value().topology().volume > 0, "a floor has a border, a ring an inside");
+  expect(bool(swiftlet::verify(room.value())) && bool(swiftlet::verify(ring.value())), "the trees hold");
+  std::vector<Pose> path(100);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    path[i].rotation = Eigen::AngleAxisd(0.02 * double(i), Vec3::UnitX()).toRotationMatrix();
+    path[i].translation = {0.05 * double(i) - 1.5, 0.1, 1.2 - 0.03 * double(i)};
+  }
+  const std::size_t met = walk(room.value(), ring.value(), path);
+  expect(met < path.size(), "the link meets the floor on its way");
+  for (std::size_t i = 0; i <= met && met < path.size(); ++i) {
+    const bool meet = swiftlet::intersects(room.value(), ring.value(), path[i]).verdict == swiftlet::Verdict::Overlapping;
+    expect(meet == (i == met), "not earlier, and a seed changes nothing");
+  }
+  mesh_and_convex(room.value(), a);
   return failed ? 1 : 0;
 }
