@@ -1,21 +1,24 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The tool with the builder: adds the word `build`, and reads meshes wherever a model is expected.
+// The tool with the builder: adds the word `build`, and reads mesh files wherever a model is expected.
 #include <CLI/CLI.hpp>
 
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include <swiftlet/build.h>
+#include <swiftlet/mesh.h>
 #include <swiftlet/model_file.h>
 
 #include "body/file.h"
@@ -63,7 +66,9 @@ class ProgressBar {
 
 struct Request {
   std::string in, out;
+  bool mesh = false;
   BuildOptions options;
+  unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   bool quiet = false;
 };
 
@@ -100,9 +105,45 @@ nlohmann::ordered_json report_json(const Request& request, const Built& built) {
           {"end", r.end}};
 }
 
+/// `build --mesh`: all triangles as they are.
+Result<Output> build_mesh(const Request& request) {
+  using Clock = std::chrono::steady_clock;
+  const auto seconds = [](Clock::duration time) { return std::chrono::duration<double>(time).count(); };
+  const auto begin = Clock::now();
+  const Result<Mesh> read = read_mesh(path_of(request.in));
+  if (!read) return in_file(request.in, read.error());
+  const Mesh& given = read.value();
+  if (given.triangles.empty())
+    return in_file(request.in, {ErrorCode::Empty, "is a cloud of points without triangles; without --mesh they make a hull"});
+  const auto middle = Clock::now();
+  const auto built = [&] {
+    const ProgressBar bar(!request.quiet);
+    return MeshModel::from_triangles(given.points, given.triangles,
+                                     {.progress = [&bar](double fraction) { return bar(fraction, "tree of boxes"); }});
+  }();
+  if (!built) return in_file(request.in, built.error());
+  const double reading = seconds(middle - begin), building = seconds(Clock::now() - middle);
+  const MeshModel& mesh = built.value();
+  if (const auto saved = save(mesh, path_of(request.out)); !saved) return saved.error();
+
+  nlohmann::ordered_json json{{"path", request.out},
+                              {"mesh", request.in},
+                              {"points_read", given.points.size()},
+                              {"triangles_read", given.triangles.size()}};
+  json.update(mesh_json(mesh));
+  json.update({{"seconds_read", reading}, {"seconds_built", building}});
+  std::string text =
+      request.in + format("\n read       %zu points, %zu triangles\n", given.points.size(), given.triangles.size());
+  text += mesh_text(mesh) + format(" time       %.1f ms to read, %.1f ms to build\n", 1e3 * reading, 1e3 * building);
+  text += " wrote      " + request.out + "\n";
+  return Output{request.quiet ? "" : text, dump(json)};
+}
+
 Result<Output> build_word(const Request& request) {
   if (const auto may = may_write(path_of(request.out), path_of(request.in)); !may) return may.error();
+  if (request.mesh) return build_mesh(request);
   BuildOptions options = request.options;
+  if (request.threads > 1) options.executor = on_threads(request.threads);
   const auto built = [&]() -> Result<Built> {
     const ProgressBar bar(!request.quiet);
     options.progress = [&bar](double fraction, std::string_view stage) { return bar(fraction, stage); };
@@ -110,9 +151,7 @@ Result<Output> build_word(const Request& request) {
   }();
   if (!built) return built.error();
   if (const auto saved = save(built.value().model, path_of(request.out)); !saved) return saved.error();
-  using Json = nlohmann::ordered_json;
-  return Output{request.quiet ? "" : report_text(request, built.value()),
-                report_json(request, built.value()).dump(2, ' ', false, Json::error_handler_t::replace) + "\n"};
+  return Output{request.quiet ? "" : report_text(request, built.value()), dump(report_json(request, built.value()))};
 }
 
 template <class Value>
@@ -144,8 +183,11 @@ Action declare_build(CLI::App& word) {
                                         {"22.5", lut::Resolution::Degrees22},
                                         {"11.25", lut::Resolution::Degrees11},
                                         {"5.625", lut::Resolution::Degrees5}};
-  word.add_option("IN", request->in, "a mesh: .obj .off .stl .ply .tri .poly; only its points shape the model")->required();
-  word.add_option("-o,--output", request->out, "the .swl model to write")->required();
+  word.add_option("IN", request->in, "a mesh: .obj .off .stl .ply .tri .poly; only its points shape a model")->required();
+  word.add_option("-o,--output", request->out, "the .swl model or .swm mesh to write")->required();
+  word.add_flag("--mesh", request->mesh, "write a .swm mesh of all triangles as they are; the options below are not for it");
+  word.add_flag("--quiet", request->quiet, "no progress bar, no report");
+  const std::size_t common = word.get_options().size();
   add_choice(word, "--method", methods, o.method, "collapse", "quadric error edge collapse, or peeling of independent sets");
   add_choice(word, "--enclosing", enclosings, o.enclosing, "tight",
              "how a level is made to hold level 0: vertex by vertex, or by scaling");
@@ -168,8 +210,16 @@ Action declare_build(CLI::App& word) {
       ->check(number_in(1, 1e6, "from 1 to 1e6"));
   word.add_flag("--require-convex", o.require_convex, "refuse a mesh with dents");
   word.add_flag("--require-solid", o.require_solid, "refuse flat, collinear and single-point input");
-  word.add_flag("--quiet", request->quiet, "no progress bar, no report");
-  return [request] { return build_word(*request); };
+  word.add_option("--threads", request->threads, "how many threads build; the model is the same with any; all cores")
+      ->capture_default_str()
+      ->check(number_in(1, 1024, "from 1 to 1024"));
+  const std::vector<CLI::Option*> options = word.get_options();
+  const std::vector<CLI::Option*> of_hulls(options.begin() + std::ptrdiff_t(common), options.end());
+  return [request, of_hulls] {
+    for (const CLI::Option* option : of_hulls)
+      if (request->mesh && option->count() > 0) throw CLI::ValidationError(option->get_name(), "is not for --mesh");
+    return build_word(*request);
+  };
 }
 
 }  // namespace
@@ -177,6 +227,8 @@ Action declare_build(CLI::App& word) {
 
 int main(int argc, char** argv) {
   using namespace swiftlet::tool;
-  const Word build{"build", "makes a model of a mesh: its hull and coarser levels that enclose it", declare_build};
+  const Word build{"build",
+                   "makes a model of a mesh: its hull and coarser levels that enclose it; or, with --mesh, the mesh itself",
+                   declare_build};
   return run_tool(argc, argv, model_of_mesh, {&build, 1});
 }

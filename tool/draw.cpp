@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Front faces of one convex body never hide each other, so nothing is sorted by depth.
+// Front faces of one convex body never hide each other, so only a mesh's triangles are sorted by depth.
 #include "draw.h"
 
 #include <Eigen/Geometry>
@@ -34,9 +34,11 @@ struct Eye {
   Vec3 up = towards.cross(right);
   Vec3 light = (towards + 1.1 * up - 0.9 * right).normalized();
 
-  Point2 project(const Vertex& v) const {
-    const Vec3 p(v.x, v.y, v.z);
-    return {right.dot(p), -up.dot(p)};
+  Point2 project(const Vec3& p) const { return {right.dot(p), -up.dot(p)}; }
+  Point2 project(const Vertex& v) const { return project(Vec3(v.x, v.y, v.z)); }
+  /// Of a surface with this unit normal.
+  int shade(const Vec3& normal) const {
+    return std::clamp(int((0.16 + 0.84 * std::max(0.0, normal.dot(light))) * kShades), 0, kShades - 1);
   }
 };
 
@@ -55,6 +57,12 @@ Frame frame_of(const Model& model, const Eye& eye) {
   Frame frame;
   for (int k = 0; k < model.level_count(); ++k)
     for (const Vertex& v : model.level(k).view.vertices) frame.hold(eye.project(v));
+  return frame;
+}
+
+Frame frame_of(const MeshModel& mesh, const Eye& eye) {
+  Frame frame;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) frame.hold(eye.project(mesh.vertex(v)));
   return frame;
 }
 
@@ -108,6 +116,8 @@ std::string colour(int shade) {
   return format("#%02x%02x%02x", mix(0), mix(1), mix(2));
 }
 
+double edge_width(std::size_t faces) { return std::clamp(14 / std::sqrt(double(faces + 1)), 0.15, 0.9); }
+
 /// The front faces, one path per shade, and over them the edges.
 std::string draw_faces(const ConvexView& view, const Eye& eye, const Placement& place) {
   const auto loops = facets(view);
@@ -116,8 +126,7 @@ std::string draw_faces(const ConvexView& view, const Eye& eye, const Placement& 
   for (const auto& loop : loops) {
     const Vec3 normal = facet_normal(view, loop);
     if (!(normal.dot(eye.towards) > 0)) continue;
-    const double lit = 0.16 + 0.84 * std::max(0.0, normal.dot(eye.light));
-    std::string& path = paths[std::clamp(int(lit * kShades), 0, kShades - 1)];
+    std::string& path = paths[eye.shade(normal)];
     for (std::size_t k = 0; k < loop.size(); ++k) {
       path.append(k == 0 ? "M" : "L").append(at(place(eye.project(view.vertices[origin(view, loop[k])]))));
       front[loop[k]] = true;
@@ -137,15 +146,43 @@ std::string draw_faces(const ConvexView& view, const Eye& eye, const Placement& 
     const std::string fill = colour(shade);
     svg += "<path fill=\"" + fill + "\" stroke=\"" + fill + "\" stroke-width=\".5\" d=\"" + path + "\"/>\n";
   }
-  const double width = std::clamp(14 / std::sqrt(double(loops.size() + 1)), 0.15, 0.9);
   if (!edges.empty())
-    svg += format("<path fill=\"none\" stroke=\"#16263c\" stroke-opacity=\".45\" stroke-width=\"%.2f\" d=\"", width) + edges +
-           "\"/>\n";
+    svg += format("<path fill=\"none\" stroke=\"#16263c\" stroke-opacity=\".45\" stroke-width=\"%.2f\" d=\"",
+                  edge_width(loops.size())) +
+           edges + "\"/>\n";
   if (view.vertices.size() == 1) {
     const Point2 p = place(eye.project(view.vertices[0]));
     svg += format("<circle cx=\"%.2f\" cy=\"%.2f\" r=\"3\" fill=\"#16263c\"/>\n", p.x, p.y);
   }
   return svg;
+}
+
+/// The triangles, farthest first.
+std::string draw_triangles(const MeshModel& mesh, const Eye& eye, const Placement& place) {
+  struct Triangle {
+    double nearness;
+    std::array<Vec3, 3> corners;
+  };
+  std::vector<Triangle> triangles;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    Triangle triangle{0, {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      triangle.corners[k] = mesh.vertex(mesh.triangle(t)[k]);
+      triangle.nearness += eye.towards.dot(triangle.corners[k]) / 3;
+    }
+    triangles.push_back(triangle);
+  }
+  std::stable_sort(triangles.begin(), triangles.end(),
+                   [](const Triangle& a, const Triangle& b) { return a.nearness < b.nearness; });
+  std::string svg =
+      format("<g stroke=\"#16263c\" stroke-opacity=\".45\" stroke-width=\"%.2f\">\n", edge_width(triangles.size()));
+  for (const auto& [nearness, p] : triangles) {
+    Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]).stableNormalized();
+    if (normal.dot(eye.towards) < 0) normal = -normal;
+    svg += "<path fill=\"" + colour(eye.shade(normal)) + "\" d=\"M" + at(place(eye.project(p[0]))) + "L" +
+           at(place(eye.project(p[1]))) + "L" + at(place(eye.project(p[2]))) + "Z\"/>\n";
+  }
+  return svg + "</g>\n";
 }
 
 /// The convex hull of the projected vertices, by Andrew's monotone chain.
@@ -186,7 +223,7 @@ std::string caption(const Model& model, int k, double top) {
          line(2, "fill=\"#3d4c60\"", deviation);
 }
 
-std::string heading(const Model& model, const std::string& title) {
+std::string summary(const Model& model) {
   const int finest = model.finest_level(), last = model.level_count() - 1;
   std::string what = format("%zu triangles, %zu bytes", model.level(finest).triangle_count, model.bytes().size());
   if (last > finest) {
@@ -194,7 +231,21 @@ std::string heading(const Model& model, const std::string& title) {
                   last + 1 - finest, model.level(finest).triangle_count, model.level(last).triangle_count, model.bytes().size(),
                   finest == 0 ? "the exact hull's" : "the finest level's");
   }
-  return format("<text x=\"%.0f\" y=\"40\" font-size=\"22\" font-weight=\"bold\" fill=\"#16263c\">", kMargin) + escaped(title) +
+  return what;
+}
+
+std::string summary(const MeshModel& mesh) {
+  return format("%zu triangles, %zu bytes, ", mesh.triangle_count(), mesh.bytes().size()) +
+         (mesh.topology().closed() ? "closed" : "not closed");
+}
+
+/// A picture's beginning, as far as what it shows.
+std::string heading(double width, double height, const std::string& title, const std::string& what) {
+  return format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" ", width,
+                height, width, height) +
+         "font-family=\"sans-serif\" font-size=\"13\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<title>" +
+         escaped(title) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n" +
+         format("<text x=\"%.0f\" y=\"40\" font-size=\"22\" font-weight=\"bold\" fill=\"#16263c\">", kMargin) + escaped(title) +
          "</text>\n" + format("<text x=\"%.0f\" y=\"62\" fill=\"#3d4c60\">", kMargin) + what + "</text>\n";
 }
 
@@ -211,11 +262,7 @@ std::string draw(const Model& model, const std::string& title) {
   const double width = std::max(2 * kMargin + double(columns) * kCell + double(columns - 1) * kGap, count > 1 ? 860.0 : 420.0);
   const double height = kHeading + kGap / 2 + double(rows) * row_height;
 
-  std::string svg =
-      format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" ", width,
-             height, width, height) +
-      "font-family=\"sans-serif\" font-size=\"13\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<title>" +
-      escaped(title) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n" + heading(model, title);
+  std::string svg = heading(width, height, title, summary(model));
   for (std::size_t i = 0; i < count; ++i) {
     const int k = finest + int(i);
     const std::size_t row = i / columns, column = i % columns;
@@ -225,6 +272,14 @@ std::string draw(const Model& model, const std::string& title) {
     svg += caption(model, k, place.height()) + "</g>\n";
   }
   return svg + "</svg>\n";
+}
+
+std::string draw(const MeshModel& mesh, const std::string& title) {
+  const Eye eye;
+  const Placement place(frame_of(mesh, eye));
+  const double y = kHeading + kGap / 2;
+  return heading(420, y + place.height() + kGap, title, summary(mesh)) +
+         format("<g transform=\"translate(%.1f %.1f)\">\n", kMargin, y) + draw_triangles(mesh, eye, place) + "</g>\n</svg>\n";
 }
 
 }  // namespace swiftlet::tool

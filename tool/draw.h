@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A model as a picture. Knows geometry and SVG, nothing of files.
+// Models and meshes as pictures. Knows geometry and SVG, nothing of files.
 #pragma once
 
 #include <string>
 
+#include <swiftlet/mesh.h>
 #include <swiftlet/model.h>
 
 namespace swiftlet::tool {
@@ -12,5 +13,9 @@ namespace swiftlet::tool {
 /// An SVG of all levels side by side, finest first: orthographic, seen from the front, the right and a little above, z up, all
 /// to one scale. Over each coarser level lies the outline of level 0. Cost: about 40 bytes per triangle.
 std::string draw(const Model& model, const std::string& title);
+
+/// An SVG of the mesh from there, each triangle over those that are farther away by their middles, from whichever side it is
+/// seen. Cost: about 70 bytes per triangle.
+std::string draw(const MeshModel& mesh, const std::string& title);
 
 }  // namespace swiftlet::tool

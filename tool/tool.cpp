@@ -13,12 +13,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
+#include <swiftlet/mesh.h>
 #include <swiftlet/model_file.h>
 
 #include "body/file.h"
@@ -28,16 +32,32 @@
 namespace swiftlet::tool {
 namespace {
 
-constexpr const char* kBodyHelp = "a .swl model, or a mesh where the tool has the builder";
+constexpr const char* kBodyHelp = "a .swl model, a .swm mesh, or any mesh file for its hull where the tool has the builder";
 
-Result<LoadedModel> open(const std::string& path, const ModelOfMesh& model_of_mesh) {
+/// Whether a file is a mesh of `build --mesh`, or is called one.
+bool is_mesh(const std::filesystem::path& path) {
+  std::error_code ignored;  // a fifo waits to be opened
+  return path.extension() == ".swm" || (std::filesystem::is_regular_file(path, ignored) && is_mesh_file(path));
+}
+
+Result<LoadedBody> open(const std::string& path, const ModelOfMesh& model_of_mesh) {
+  if (is_mesh(path_of(path))) {
+    Result<MeshModel> mesh = load_mesh(path_of(path));
+    if (!mesh) return mesh.error();
+    return LoadedBody(LoadedMesh{path, std::move(mesh).value()});
+  }
   const bool is_model = path_of(path).extension() == ".swl";
   if (!is_model && !model_of_mesh)
     return in_file(path,
-                   {ErrorCode::BadFormat, "is no .swl model, and this tool was made without the builder that reads meshes"});
+                   {ErrorCode::BadFormat,
+                    "is no .swl model and no .swm mesh, and this tool was made without the builder that reads mesh files"});
   Result<Model> model = is_model ? load(path_of(path)) : model_of_mesh(path_of(path));
   if (!model) return model.error();
-  return LoadedModel{path, std::move(model).value()};
+  return LoadedBody(LoadedModel{path, std::move(model).value()});
+}
+
+Error no_levels(const std::string& path) {
+  return in_file(path, {ErrorCode::BadFormat, "is a mesh, which has no levels; info, verify, distance and draw take it"});
 }
 
 /// A word whose one input is a body.
@@ -46,9 +66,9 @@ Action on_body(CLI::App& word, const ModelOfMesh& model_of_mesh, Do act) {
   const auto path = std::make_shared<std::string>();
   word.add_option("X", *path, kBodyHelp)->required();
   return [path, model_of_mesh, act]() -> Result<Output> {
-    const Result<LoadedModel> body = open(*path, model_of_mesh);
+    const Result<LoadedBody> body = open(*path, model_of_mesh);
     if (!body) return body.error();
-    return act(body.value());
+    return std::visit([&act](const auto& loaded) -> Result<Output> { return act(loaded); }, body.value());
   };
 }
 
@@ -60,33 +80,40 @@ Action on_body_to_file(CLI::App& word, const ModelOfMesh& model_of_mesh, const c
   word.add_option("-o,--output", *out, help)->required();
   return [in, out, model_of_mesh, act]() -> Result<Output> {
     if (const auto may = may_write(path_of(*out), path_of(*in)); !may) return may.error();
-    const Result<LoadedModel> body = open(*in, model_of_mesh);
+    const Result<LoadedBody> body = open(*in, model_of_mesh);
     if (!body) return body.error();
-    return act(body.value(), path_of(*out));
+    return std::visit([&](const auto& loaded) -> Result<Output> { return act(loaded, path_of(*out)); }, body.value());
   };
 }
 
 Action declare_info(CLI::App& word, const ModelOfMesh& model_of_mesh) {
-  return on_body(word, model_of_mesh, [](const LoadedModel& body) -> Result<Output> { return info(body); });
+  return on_body(word, model_of_mesh, [](const auto& body) { return info(body); });
 }
 
-Action declare_verify(CLI::App& word, const ModelOfMesh& model_of_mesh) { return on_body(word, model_of_mesh, verify); }
+Action declare_verify(CLI::App& word, const ModelOfMesh& model_of_mesh) {
+  return on_body(word, model_of_mesh, [](const auto& body) { return verify(body); });
+}
 
 Action declare_export(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   const auto level = std::make_shared<int>(0);
   word.add_option("--level", *level, "0 is the exact hull, larger is coarser")->capture_default_str();
-  const auto write = [level](const LoadedModel& body, const std::filesystem::path& out) {
+  const auto write_level = [level](const LoadedModel& body, const std::filesystem::path& out) {
     const int finest = body.model.finest_level(), coarsest = body.model.level_count() - 1;
     if (*level < finest || *level > coarsest)
       throw CLI::ValidationError(
           "--level", body.path + format(": there is no level %d, the finest is %d, the coarsest %d", *level, finest, coarsest));
     return export_level(body, *level, out);
   };
+  const auto write = [write_level](const auto& body, const std::filesystem::path& out) -> Result<Output> {
+    if constexpr (std::is_same_v<decltype(body), const LoadedModel&>) return write_level(body, out);
+    return no_levels(body.path);
+  };
   return on_body_to_file(word, model_of_mesh, "the OFF file to write; its doubles read back bit for bit", write);
 }
 
 Action declare_draw(CLI::App& word, const ModelOfMesh& model_of_mesh) {
-  return on_body_to_file(word, model_of_mesh, "the SVG file to write", draw_levels);
+  return on_body_to_file(word, model_of_mesh, "the SVG file to write",
+                         [](const auto& body, const std::filesystem::path& out) { return draw_file(body, out); });
 }
 
 Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
@@ -104,7 +131,8 @@ Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
       "(which is taken as it stands and must be orthonormal to 1e-6). All points and directions of the answer are in A's "
       "frame;\n"
       "the normal points from A to B. Ids of vertices and triangles are the mesh file's, counted from 0, and are given with\n"
-      "exact answers, which are those without --max-error, --relative-error and --beyond.");
+      "exact answers, which are those without --max-error and --relative-error. Of a .swm mesh the surface is the\n"
+      "body: of two closed meshes, one inside the other, the distance is that of their surfaces.");
   word.add_option("A", request->a, kBodyHelp)->required();
   word.add_option("B", request->b, kBodyHelp)->required();
   const auto take_pose = [request](const std::string& text) {
@@ -120,13 +148,18 @@ Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   absolute->check(not_negative)->excludes(relative);
   relative->check(not_negative);
   word.add_option("--beyond", request->query.beyond, "stop when the distance is proved greater than this")->check(not_negative);
-  word.add_flag("--levels", request->levels,
-                "show what each level pair proved, coarsest first, and how long a query takes that stops there");
+  word.add_flag(
+      "--levels", request->levels,
+      "show what each level pair proved, coarsest first, and how long a query takes that stops there; of models only");
   return [request, model_of_mesh]() -> Result<Output> {
-    const Result<LoadedModel> a = open(request->a, model_of_mesh);
+    const Result<LoadedBody> a = open(request->a, model_of_mesh);
     if (!a) return a.error();
-    const Result<LoadedModel> b = open(request->b, model_of_mesh);
+    const Result<LoadedBody> b = open(request->b, model_of_mesh);
     if (!b) return b.error();
+    for (const LoadedBody& body : {std::cref(a.value()), std::cref(b.value())}) {
+      if (request->levels && std::holds_alternative<LoadedMesh>(body))
+        throw CLI::ValidationError("--levels", path_of_body(body) + ": is a mesh, which has no levels");
+    }
     return distance(a.value(), b.value(), request->b_in_a, request->query, request->levels);
   };
 }
@@ -142,7 +175,10 @@ Action declare_cut(CLI::App& word, const ModelOfMesh&) {
   word.add_option("-o,--output", request->out, "the .swl model to write")->required();
   add_detail(word, request->detail);
   word.add_flag("--salvage", request->salvage, "take what is complete of a file that ends early");
-  return [request]() -> Result<Output> { return cut(request->in, request->out, request->detail, request->salvage); };
+  return [request]() -> Result<Output> {
+    if (is_mesh(path_of(request->in))) return no_levels(request->in);
+    return cut(request->in, request->out, request->detail, request->salvage);
+  };
 }
 
 std::vector<Word> all_words(const ModelOfMesh& model_of_mesh, std::span<const Word> more) {
@@ -150,13 +186,16 @@ std::vector<Word> all_words(const ModelOfMesh& model_of_mesh, std::span<const Wo
     return [declare, model_of_mesh](CLI::App& word) { return declare(word, model_of_mesh); };
   };
   std::vector<Word> words(more.begin(), more.end());
-  words.push_back({"info", "what a model holds, level by level", bind(declare_info)});
-  words.push_back({"verify", "proves that all levels are convex, enclose level 0, and deviate no more than they say",
-                   bind(declare_verify)});
+  words.push_back({"info", "what a model holds, level by level, or a mesh", bind(declare_info)});
+  words.push_back(
+      {"verify",
+       "proves that all levels are convex, enclose level 0, and deviate no more than they say; or that the boxes of a "
+       "mesh hold its triangles",
+       bind(declare_verify)});
   words.push_back({"distance", "how near two bodies are, with proved bounds, and where", bind(declare_distance)});
   words.push_back({"export", "writes one level as an OFF mesh", bind(declare_export)});
   words.push_back({"cut", "writes a model without its finest levels", bind(declare_cut)});
-  words.push_back({"draw", "draws the levels side by side as an SVG", bind(declare_draw)});
+  words.push_back({"draw", "draws the levels side by side as an SVG, or a mesh", bind(declare_draw)});
   return words;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <swiftlet/check.h>
+#include <swiftlet/mesh_query.h>
 #include <swiftlet/model_file.h>
 
 #include "body/file.h"
@@ -20,8 +21,6 @@ namespace swiftlet::tool {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 Json json_of(const Vec3& v) { return v.hasNaN() ? Json() : Json{v.x(), v.y(), v.z()}; }
 
@@ -83,12 +82,14 @@ struct Witness {
   FeatureId feature;
   int level = 0;
   SourceFeature source;
+  bool of_mesh = false;
 };
 
 std::string text_of(const Witness& w) {
   if (w.feature.kind() == FeatureKind::None) return "none";
   std::string text = name(w.feature.kind());
-  if (w.source.kind == FeatureKind::None) return text + format(" %u of level %d", w.feature.index(), w.level);
+  if (w.source.kind == FeatureKind::None)
+    return text + format(" %u of ", w.feature.index()) + (w.of_mesh ? "the tree" : format("level %d", w.level));
   if (w.source.kind == FeatureKind::Vertex) return text + format(" %u", w.source.vertices[0]);
   if (w.source.kind == FeatureKind::Edge)
     return text + format(" between vertices %u and %u", w.source.vertices[0], w.source.vertices[1]);
@@ -185,11 +186,22 @@ Json json_of(const std::vector<Visit>& visits) {
   return rows;
 }
 
-/// User ids are known of exact answers only: closest_features() gives them, and the same answer.
-ClosestFeatures ask(const LoadedModel& a, const LoadedModel& b, const Pose& b_in_a, const Options& options) {
-  const bool exact = options.absolute == 0 && options.relative == 0 && std::isinf(options.beyond);
-  if (exact) return closest_features(a.model, b.model, b_in_a, {.tuning = options.tuning});
-  return {distance(a.model, b.model, b_in_a, options), {}, {}};
+/// User ids are known of answers without an error only: closest_features() gives them, and the same answer.
+ClosestFeatures ask(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Options& options) {
+  if (options.absolute == 0 && options.relative == 0)
+    return closest_features(a, b, b_in_a, {.beyond = options.beyond, .tuning = options.tuning});
+  return {distance(a, b, b_in_a, options), {}, {}};
+}
+
+/// Null of a mesh.
+const Model* model_of(const LoadedBody& body) {
+  const LoadedModel* const loaded = std::get_if<LoadedModel>(&body);
+  return loaded ? &loaded->model : nullptr;
+}
+
+MeshBody shape_of(const LoadedBody& body) {
+  if (const Model* const model = model_of(body)) return Body(*model);
+  return std::get<LoadedMesh>(body).mesh;
 }
 
 Json json_of(const Pose& pose) {
@@ -230,7 +242,15 @@ const char* name(ErrorCode code) {
   return "Cancelled";
 }
 
+std::string hash_text(std::uint64_t hash) { return format("%016llx", static_cast<unsigned long long>(hash)); }
+
 }  // namespace
+
+std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+const std::string& path_of_body(const LoadedBody& body) {
+  return std::visit([](const auto& loaded) -> const std::string& { return loaded.path; }, body);
+}
 
 std::string error_json(const Error& error) {
   const Json file = error.file.empty() ? Json() : Json(error.file);
@@ -287,7 +307,7 @@ Output info(const LoadedModel& body) {
   const std::size_t bytes = model.bytes().size();
   const Account account(model);
   const TableSpec table = model.table_spec();
-  const std::string hash = format("%016llx", static_cast<unsigned long long>(model.hash()));
+  const std::string hash = hash_text(model.hash());
   const Json json{
       {"path", body.path},
       {"bytes", bytes},
@@ -330,6 +350,57 @@ Output info(const LoadedModel& body) {
   return {text + levels_text(model), dump(json)};
 }
 
+Json mesh_json(const MeshModel& mesh) {
+  const MeshTopology& t = mesh.topology();
+  const std::size_t bytes = mesh.bytes().size();
+  return {{"bytes", bytes},
+          {"bytes_per_triangle", double(bytes) / double(mesh.triangle_count())},
+          {"hash", hash_text(mesh.hash())},
+          {"vertices", mesh.vertex_count()},
+          {"triangles", mesh.triangle_count()},
+          {"topology",
+           {{"components", t.components},
+            {"open_edges", t.open_edges},
+            {"non_manifold_edges", t.non_manifold_edges},
+            {"flipped_edges", t.flipped_edges},
+            {"flat_triangles", t.flat_triangles},
+            {"duplicates", t.duplicates},
+            {"closed", t.closed()},
+            {"volume", t.closed() ? Json(t.volume) : Json()}}},
+          {"box_min", json_of(mesh.box_min())},
+          {"box_max", json_of(mesh.box_max())},
+          {"nodes", mesh.node_count()}};
+}
+
+std::string mesh_text(const MeshModel& mesh) {
+  const MeshTopology& t = mesh.topology();
+  const std::size_t bytes = mesh.bytes().size();
+  std::string text = format(" bytes      %zu, %.1f per triangle\n", bytes, double(bytes) / double(mesh.triangle_count()));
+  text += " hash       " + hash_text(mesh.hash()) + "\n";
+  text += format(" vertices   %zu\n triangles  %zu, %u of them flat, %u duplicates\n", mesh.vertex_count(),
+                 mesh.triangle_count(), t.flat_triangles, t.duplicates);
+  text += format(" components %u\n edges      %u open, %u non-manifold, %u flipped\n", t.components, t.open_edges,
+                 t.non_manifold_edges, t.flipped_edges);
+  text += " volume     " + (t.closed() ? number(t.volume) + (t.volume < 0 ? ", inside out" : "") : "none: not closed") + "\n";
+  text += " box        " + numbers(mesh.box_min()) + "  to  " + numbers(mesh.box_max()) + "\n";
+  return text + format(" nodes      %zu\n", mesh.node_count());
+}
+
+Output info(const LoadedMesh& body) {
+  Json json{{"path", body.path}};
+  json.update(mesh_json(body.mesh));
+  return {body.path + "\n" + mesh_text(body.mesh), dump(json)};
+}
+
+Result<Output> verify(const LoadedMesh& body) {
+  const Check outcome = swiftlet::verify(body.mesh);
+  if (!outcome) return in_file(body.path, {ErrorCode::BadValue, outcome.message});
+  const std::size_t nodes = body.mesh.node_count(), triangles = body.mesh.triangle_count();
+  return Output{
+      body.path + format(": verified: the boxes of %zu nodes hold their triangles, each of %zu once\n", nodes, triangles),
+      dump({{"path", body.path}, {"verified", true}, {"nodes", nodes}, {"triangles", triangles}})};
+}
+
 Result<Output> verify(const LoadedModel& body) {
   const Check outcome = swiftlet::verify(body.model);
   if (!outcome) return in_file(body.path, {ErrorCode::BadValue, outcome.message});
@@ -338,22 +409,27 @@ Result<Output> verify(const LoadedModel& body) {
                 dump({{"path", body.path}, {"verified", true}, {"levels", levels}})};
 }
 
-Output distance(const LoadedModel& a, const LoadedModel& b, const Pose& b_in_a, const Options& asked, bool show_levels) {
-  std::vector<LevelRecord> trace(std::size_t(a.model.level_count() + b.model.level_count()));
+Output distance(const LoadedBody& a, const LoadedBody& b, const Pose& b_in_a, const Options& asked, bool show_levels) {
+  const Model *const model_a = model_of(a), *const model_b = model_of(b);
+  std::vector<LevelRecord> trace;
   OverlapProof proof;
   Options options = asked;
   options.tuning.proof = &proof;
-  if (show_levels) options.tuning.trace = trace, options.tuning.start = StartPolicy::Coarsest;
-  const ClosestFeatures found = ask(a, b, b_in_a, options);
+  if (show_levels) {
+    trace.resize(std::size_t(model_a->level_count() + model_b->level_count()));
+    options.tuning.trace = trace, options.tuning.start = StartPolicy::Coarsest;
+  }
+  const ClosestFeatures found = ask(shape_of(a), shape_of(b), b_in_a, options);
   const Answer& answer = found.answer;
   std::vector<Visit> visits;
   if (show_levels) {
     trace.resize(std::min(trace.size(), std::size_t(answer.levels_visited)));
-    visits = timed(a.model, b.model, b_in_a, options, trace);
+    visits = timed(*model_a, *model_b, b_in_a, options, trace);
   }
-  const Witness on_a{answer.feature_a, answer.level_a, found.source_a}, on_b{answer.feature_b, answer.level_b, found.source_b};
+  const Witness on_a{answer.feature_a, answer.level_a, found.source_a, !model_a},
+      on_b{answer.feature_b, answer.level_b, found.source_b, !model_b};
 
-  Json json{{"a", a.path}, {"b", b.path}, {"b_in_a", json_of(b_in_a)}};
+  Json json{{"a", path_of_body(a)}, {"b", path_of_body(b)}, {"b_in_a", json_of(b_in_a)}};
   if (show_levels) json["levels"] = json_of(visits);
   json.update({{"lower", answer.lower},
                {"upper", answer.upper},
@@ -370,13 +446,13 @@ Output distance(const LoadedModel& a, const LoadedModel& b, const Pose& b_in_a, 
                {"plane_tests", answer.plane_tests}});
 
   std::string text = show_levels ? text_of(visits) : "";
-  text += "distance   [" + number(answer.lower) + ", " + number(answer.upper) + "]" +
-          format(" at levels (%d, %d)\n", answer.level_a, answer.level_b);
+  text += "distance   [" + number(answer.lower) + ", " + number(answer.upper) + "]";
+  text += model_a || model_b ? format(" at levels (%d, %d)\n", answer.level_a, answer.level_b) : "\n";
   text += "point_a    " + numbers(answer.point_a) + "\npoint_b    " + numbers(answer.point_b) + "   in A's frame\n";
   text += "normal     " + numbers(answer.normal) + "   from A to B\n";
   text += "feature_a  " + text_of(on_a) + "\nfeature_b  " + text_of(on_b) + "\n";
-  if (answer.verdict == Verdict::Overlapping) {
-    const auto proof_a = proof_of(a.model, proof, proof.vertex_a), proof_b = proof_of(b.model, proof, proof.vertex_b);
+  if (answer.verdict == Verdict::Overlapping && model_a && model_b) {
+    const auto proof_a = proof_of(*model_a, proof, proof.vertex_a), proof_b = proof_of(*model_b, proof, proof.vertex_b);
     json["proof"] = {{"vertices_a", proof_a}, {"vertices_b", proof_b}};
     text += "proof      vertices" + joined(proof_a) + " of A minus" + joined(proof_b) + " of B hold the origin\n";
   }
@@ -411,11 +487,19 @@ Result<Output> cut(const std::string& path, const std::string& to, const Detail&
       dump({{"path", to}, {"finest_level", finest}, {"levels", coarsest + 1}, {"bytes", bytes.value()}, {"note", note}})};
 }
 
-Result<Output> draw_levels(const LoadedModel& body, const std::filesystem::path& path) {
+Result<Output> draw_file(const LoadedModel& body, const std::filesystem::path& path) {
   const Result<std::size_t> bytes = write_file(path, draw(body.model, stem(body.path)));
   if (!bytes) return bytes.error();
   return Output{utf8(path) + ": " + counted(body.model.level_count()) + format(", %zu bytes\n", bytes.value()),
                 dump({{"path", utf8(path)}, {"levels", body.model.level_count()}, {"bytes", bytes.value()}})};
+}
+
+Result<Output> draw_file(const LoadedMesh& body, const std::filesystem::path& path) {
+  const Result<std::size_t> bytes = write_file(path, draw(body.mesh, stem(body.path)));
+  if (!bytes) return bytes.error();
+  const std::size_t triangles = body.mesh.triangle_count();
+  return Output{utf8(path) + format(": %zu triangles, %zu bytes\n", triangles, bytes.value()),
+                dump({{"path", utf8(path)}, {"triangles", triangles}, {"bytes", bytes.value()}})};
 }
 
 }  // namespace swiftlet::tool

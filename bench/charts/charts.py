@@ -21,14 +21,14 @@ import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
 PAPER, INK, TEXT, RULE, OURS = "#fbfaf7", "#16263c", "#3d4c60", "#dcdad3", "#e4572e"
 # In turn, so that neighbours differ: others, and what of ours is not as shipped.
 OTHERS, VARIANTS = ("#445874", "#7286a5"), ("#b8431f", "#ee9474")
-PEERS = ("vclip", "plain", "fcl", "bullet", "ccd", "libccd", "ode")
+PEERS = ("vclip", "plain", "fcl", "cgal", "bullet", "ccd", "libccd", "ode")
 SHAPES = ("fat", "plate", "long")
 # What a reader calls the methods; `bench/README.md` says what each is. "our support": the method's own loop on our hill climbing.
 READABLE = {
     "vclip": "V-Clip", "plain": "our walk", "plain table": "our walk, table", "fcl indep": "FCL, own GJK",
     "fcl libccd": "FCL, libccd", "fcl libccd climb": "FCL, libccd, our support", "bullet": "Bullet", "bullet climb": "Bullet, our support",
     "bullet guess climb": "Bullet, with guess", "libccd mpr": "libccd MPR, our support", "libccd gjk": "libccd GJK, our support",
-    "ode": "ODE", "swiftlet ~0.1": "swiftlet, to 0.1 r", "swiftlet ~0.01": "swiftlet, to 0.01 r",
+    "fcl": "FCL", "fcl node": "FCL, its traversal with triangle caching", "fcl native": "the same, for this machine", "cgal": "CGAL", "ode": "ODE", "swiftlet ~0.1": "swiftlet, to 0.1 r", "swiftlet ~0.01": "swiftlet, to 0.01 r",
 }
 # Builds of the same method for this machine alone, and what of ours is not as shipped, only crowd a picture of everyone.
 CROWD = (" native", " coarsest", " finest", " paper", " first", " single", " double", "swiftlet table")
@@ -441,7 +441,41 @@ def stacks(results):
     return fig
 
 
+def meshes(questions, title):
+    """A panel per question, a line per scene, a mark per method."""
+    def draw(results):
+        table = [row for row in rows(results, "mesh") if row["question"] in questions]
+        shown = list(dict.fromkeys(row["scene"] for row in table))[::-1]
+        fig, axes = figure(title, len(questions), width=11, height=1.6 + 0.24 * len(shown),
+                           note="left is better · ● proved · ○ not proved")
+        for ax, (question, heading) in zip(axes[0], questions.items()):
+            of = [row for row in table if row["question"] == question]
+            ax.set_title(heading)
+            ax.set_xscale("log")
+            ax.set_xlabel("µs per query")
+            ax.xaxis.set_major_formatter(lambda v, _: f"{v:,.0f}".replace(",", " ") if v >= 1 else f"{v:g}")
+            for height, scene in enumerate(shown):
+                times = [row["ns"] / 1000 for row in of if row["scene"] == scene]
+                ax.plot([min(times), max(times)], [height, height], color=RULE, linewidth=2.5, zorder=1)
+            for place, series in enumerate(names(of)):
+                points = [(row["ns"] / 1000, shown.index(row["scene"])) for row in of if row["series"] == series]
+                ax.plot(*zip(*points), **dict(look(series, place), linestyle="none", label=READABLE.get(series, series)))
+            ax.set_yticks(range(len(shown)), shown, fontsize=8)
+            ax.set_ylim(-0.6, len(shown) - 0.4)
+            ax.grid(axis="y", visible=False)
+            ax.tick_params(axis="y", length=0, pad=1)
+        fig.subplots_adjust(left=1.35 / fig.get_figwidth())
+        handles, labels = axes[0][0].get_legend_handles_labels()
+        fig.legend(handles, labels, loc="upper right", bbox_to_anchor=(0.99, 1 - 0.28 / fig.get_figheight()), ncols=len(labels), frameon=False, fontsize=9)
+        return fig
+    return draw
+
+
 CHARTS = {
+    "mesh_verdicts": (("mesh",), meshes({"intersects": "do they meet", "within0.8": "within 0.8 d", "within1.25": "within 1.25 d"},
+                                        "Meshes: questions of yes or no, d the distance of the pose")),
+    "mesh_distances": (("mesh",), meshes({"distance10%": "to 10 %", "distance1%": "to 1 %", "distance": "exact"},
+                                         "Meshes: distances, by the error allowed")),
     "stack": (("stack",), stacks),
     "error": (("error",), error),
     "standing": (("orbit",), standing),

@@ -1,12 +1,16 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 the swiftlet authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prints what the benchmarks measured as the tables of bench/RESULTS.md: tables.py [--results DIR] [GROUP ...].
+"""Prints what the benchmarks measured as the tables of bench/RESULTS.md: tables.py [--results DIR] [--into FILE] [GROUP ...].
 
 A cell is the time per query of each shape, in ns; `!` marks answers that are wrong, missing, or off by more than their method
-states. Rows are sorted by their first cell, ours first.
+states. Rows are sorted by their first cell, ours first. With --into the file's lines between `<!-- GROUP -->` and
+`<!-- end of GROUP -->` are replaced.
 """
 import argparse
+import contextlib
+import io
+import statistics
 import sys
 from pathlib import Path
 
@@ -69,13 +73,61 @@ def goals(rows):
                         + [dict(row, series="the fastest baseline, unproved") for row in fastest.values()])
 
 
-GROUPS = {"orbit": orbit, "goals": goals, "depth": depth, "manifold": manifold}
+MESH_QUESTIONS = {"intersects": "intersects", "within0.8": "within 0.8 d", "within1.25": "within 1.25 d", "distance10%": "distance to 10 %",
+                  "distance1%": "to 1 %", "distance": "exact"}
+
+
+def digits(value):
+    """Three of them, without an exponent."""
+    return f"{value:.0f}" if value >= 100 else f"{value:#.3g}".rstrip(".")
+
+
+def microseconds(row):
+    return digits(row["ns"] / 1000) + ("!" if row["flagged"] else "")
+
+
+def mesh(rows):
+    """Ours and the fastest other, whoever that is; below, how many times as long all that others do takes."""
+    at = {(row["scene"], row["question"], row["series"]): row for row in rows}
+    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    others = [series for series in dict.fromkeys(row["series"] for row in rows) if series != "swiftlet"]
+    print("\n| us: ours / fastest other | " + " | ".join(MESH_QUESTIONS.values()) + " |")
+    print("|---" * (len(MESH_QUESTIONS) + 1) + "|")
+    for scene in scenes:
+        cells = []
+        for question in MESH_QUESTIONS:
+            fastest = min((at[scene, question, other] for other in others if (scene, question, other) in at), key=lambda row: row["ns"], default=None)
+            cells.append(f"{microseconds(at[scene, question, 'swiftlet'])} / {microseconds(fastest) if fastest else '-'}")
+        print(f"| {scene} | " + " | ".join(cells) + " |")
+    for other in others:
+        cells = []
+        for question in MESH_QUESTIONS:
+            gains = sorted(at[scene, question, other]["ns"] / at[scene, question, "swiftlet"]["ns"] for scene in scenes
+                           if (scene, question, other) in at)
+            cells.append(f"{digits(statistics.median(gains))} ({digits(gains[0])} to {digits(gains[-1])})" if gains else "")
+        print(f"| *median of {other} over ours (least to most)* | " + " | ".join(cells) + " |")
+    print("\n| a triangle | bytes | us to build |\n|---|---|---|")
+    for series in ["swiftlet"] + others:
+        of = [row for row in rows if row["series"] == series and row["question"] == "intersects"]
+        print(f"| {series} | {statistics.median(row['bytes'] for row in of):.0f} | {statistics.median(row['build_us'] for row in of):.1f} |")
+
+
+GROUPS = {"orbit": orbit, "goals": goals, "depth": depth, "manifold": manifold, "mesh": mesh}
+
+
+def write_into(path, group, text):
+    before, begin, rest = path.read_text().partition(f"<!-- {group} -->\n")
+    old, end, after = rest.partition(f"<!-- end of {group} -->")
+    if not end:
+        sys.exit(f"{path} has no place for {group}")
+    path.write_text(before + begin + text.lstrip("\n") + end + after)
 
 
 def main():
     parser = argparse.ArgumentParser(description="Prints what the benchmarks measured as tables.")
     parser.add_argument("groups", nargs="*", metavar="GROUP", help="which: " + " ".join(GROUPS) + "; all that were measured")
     parser.add_argument("--results", type=Path, default=Path(__file__).resolve().parent.parent / "results")
+    parser.add_argument("--into", type=Path, metavar="FILE", help="write them there, each in its place")
     options = parser.parse_args()
     for group in options.groups:
         if group not in GROUPS:
@@ -83,7 +135,12 @@ def main():
     missing = [group for group in options.groups or GROUPS if not (options.results / f"{group}.csv").is_file()]
     for group in options.groups or GROUPS:
         if group not in missing:
-            GROUPS[group](charts.rows(options.results, group))
+            with contextlib.redirect_stdout(io.StringIO()) as printed:
+                GROUPS[group](charts.rows(options.results, group))
+            if options.into:
+                write_into(options.into, group, printed.getvalue())
+            else:
+                print(printed.getvalue(), end="")
     if missing:
         print("not measured yet:", " ".join(missing), file=sys.stderr)
     return 1 if missing and options.groups else 0
