@@ -32,7 +32,7 @@ class Swiftlet(ConanFile):
 
     def export_sources(self):
         for pattern in ("CMakeLists.txt", "packages.cmake", "swiftlet*", "LICENSE", "CHANGELOG.md", "lut/*", "march/*",
-                        "scene/*", "lod/*", "tool/*", "tests/data/models/fat_*.swl"):
+                        "bvh/*", "scene/*", "lod/*", "tool/*", "tests/data/models/fat_*.swl"):
             copy(self, pattern, src=self._root, dst=self.export_sources_folder)
 
     def layout(self):
