@@ -26,11 +26,21 @@ struct Part {
   std::size_t size;
   std::uint32_t MeshHeader::*count;
 };
-constexpr Part kParts[] = {{"nodes", &MeshHeader::nodes, sizeof(Node), &MeshHeader::node_count},
+constexpr Part kParts[] = {{"hulls", &MeshHeader::hulls, sizeof(HullRecord), &MeshHeader::hull_count},
+                           {"hints", &MeshHeader::hints, 4, &MeshHeader::hint_count},
+                           {"models of hulls", &MeshHeader::hull_models, 64, &MeshHeader::hull_units},
+                           {"shells", &MeshHeader::shells, 4, &MeshHeader::components},
                            {"triangles", &MeshHeader::triangles, sizeof(Corners), &MeshHeader::triangle_count},
                            {"vertices", &MeshHeader::vertices, sizeof(Vec), &MeshHeader::vertex_count},
                            {"sources of triangles", &MeshHeader::source_triangle, 4, &MeshHeader::triangle_count},
                            {"sources of vertices", &MeshHeader::source_vertex, 4, &MeshHeader::vertex_count}};
+/// A cut block has these of the parts alone.
+constexpr std::size_t kPartsOfNodes = 3;
+
+/// How many of a part's elements a block with this header holds.
+std::uint64_t held(const MeshHeader& h, std::size_t part) {
+  return part < kPartsOfNodes || h.levels == h.depth ? h.*kParts[part].count : 0;
+}
 
 template <class T>
 std::span<const T> section_of(const Block& block, const Section& section) {
@@ -41,26 +51,36 @@ std::string fault(const MeshHeader& h) {
   if (h.triangle_count == 0 || h.triangle_count > kMostTriangles || h.vertex_count == 0 || h.node_count == 0 ||
       h.vertex_count > 3 * std::uint64_t{kMostTriangles} || h.node_count > kMostTriangles)
     return "a count out of range";
-  if (h.depth < 1 || h.depth > kMostDepth || h.unit < -160 || h.unit > 160) return "a depth or unit out of range";
+  if (h.depth < 1 || h.depth > kMostDepth || h.levels != h.depth || h.components > h.triangle_count || h.unit < -160 ||
+      h.unit > 160)
+    return "a depth or unit out of range";
   const double largest = power_of_two(h.unit);
   for (int axis = 0; axis < 3; ++axis) {
     if (!(h.box_min[axis] <= h.box_max[axis] && h.box_min[axis] >= -largest && h.box_max[axis] <= largest))
       return "a box out of range";
   }
   if (!std::isfinite(h.volume)) return "a volume that is no number";
+  for (std::uint32_t k = 0; k < kMostDepth; ++k) {
+    if (!(h.deviation[k] >= 0 && h.deviation[k] < HUGE_VAL)) return "a deviation out of range";
+    if (h.level[k].bytes > std::uint64_t{h.node_count} * sizeof(Node) || h.level[k].bytes % sizeof(Node) != 0 ||
+        (h.level[k].bytes > 0) != (k < h.levels))
+      return "a level out of range";
+  }
   return "";
 }
 
 /// Checks nodes level by level: the children of one are all of the next, one after the other, so that a way down ends after
 /// `depth` steps, whatever the boxes say.
 std::string fault(const MeshHeader& h, std::span<const Node> nodes) {
-  std::uint64_t child = 1, triangles = 0, level_end = 1;
-  std::uint32_t depth = 1;
+  std::uint64_t child = 1, triangles = 0, level_end = 0;
+  std::uint32_t level = 0;
   for (std::uint64_t i = 0; i < nodes.size(); ++i) {
-    if (i == level_end) ++depth, level_end = child;
+    if (i == level_end) {
+      level_end = i + h.level[level++].bytes / sizeof(Node);
+      if (level_end != child) return "a level of too few or too many nodes";
+    }
     const Node& node = nodes[i];
     const std::uint64_t count = std::uint64_t(node.count());
-    if (i >= child) return "node " + std::to_string(i) + " of no other";
     if (node.lowest()) {
       triangles += count;
       if (node.first() + count > h.triangle_count) return "node " + std::to_string(i) + " with triangles that do not exist";
@@ -77,8 +97,85 @@ std::string fault(const MeshHeader& h, std::span<const Node> nodes) {
         !std::all_of(node.origin, node.origin + 3, [](double x) { return std::fabs(x) <= 8; }))
       return "node " + std::to_string(i) + " with a number out of range";
   }
-  if (child != nodes.size() || depth != h.depth) return "nodes that are too few or too many";
+  if (h.levels < h.depth) return child > nodes.size() && child <= h.node_count ? "" : "nodes that are too few or too many";
+  if (child != nodes.size() || nodes.size() != h.node_count) return "nodes that are too few or too many";
   return triangles == h.triangle_count ? "" : "nodes that miss triangles";
+}
+
+/// The size of each level of nodes, and how far the boxes below it reach from the surface inside them: a bound, since
+/// axes are unit to `kAxisError`.
+void measure_levels(const MeshParts& parts, MeshHeader& header) {
+  std::size_t begin = 0, end = 1;
+  double lowest = 0;
+  for (int k = 0; k < parts.depth; ++k) {
+    double inner = 0;
+    std::size_t next = end;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Node& node = parts.nodes[i];
+      for (int child = 0; child < node.count(); ++child) {
+        const Vec half{node.half[0][child], node.half[1][child], node.half[2][child]};
+        double& most = node.lowest() ? lowest : inner;
+        most = max(most, norm(half));
+      }
+      next += node.lowest() ? 0 : std::size_t(node.count());
+    }
+    header.level[k].bytes = (end - begin) * sizeof(Node);
+    header.deviation[k] = times_power_of_two(2 * max(lowest, inner) * (1 + 4 * kAxisError), parts.unit);
+    begin = end, end = next;
+  }
+}
+
+/// Writes a block: the header, whose levels have their sizes, and what follows it, in the order of the file.
+AlignedBytes assemble(MeshHeader header, std::span<const std::byte> nodes,
+                      const std::array<std::span<const std::byte>, std::size(kParts)>& data) {
+  std::uint64_t offset = aligned(sizeof header);
+  for (std::uint32_t k = 0; k < header.levels; ++k) {
+    Section& level = header.level[k];
+    level = {offset, level.bytes,
+             hash_of(nodes.subspan(std::size_t(offset - aligned(sizeof header)), std::size_t(level.bytes)))};
+    offset += level.bytes;
+  }
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    offset = aligned(offset);
+    header.*kParts[i].section = {offset, data[i].size(), hash_of(data[i])};
+    offset += data[i].size();
+  }
+  header.total_bytes = offset;
+  header.header_hash = hash_of_header(header);
+  AlignedBytes block{std::size_t(offset)};
+  const auto put = [&](std::uint64_t at, std::span<const std::byte> bytes) {
+    if (!bytes.empty()) std::memcpy(block.data() + at, bytes.data(), bytes.size());
+  };
+  put(0, std::as_bytes(std::span(&header, 1)));
+  put(header.level[0].offset, nodes);
+  for (std::size_t i = 0; i < data.size(); ++i) put((header.*kParts[i].section).offset, data[i]);
+  return block;
+}
+
+/// The hulls that a block holds, or what is wrong with them.
+std::string read_hulls(const MeshHeader& h, const Block& block, MeshReader::Content& content) {
+  std::uint64_t offset = 0, hints = 0;
+  const auto named = [](const HullRecord& r, const std::string& what) {
+    return "the hull of node " + std::to_string(r.node) + ": " + what;
+  };
+  for (const HullRecord& r : section_of<HullRecord>(block, h.hulls)) {
+    if (r.node >= content.nodes.size() || r.node < content.hull_of.size()) return "hulls out of order";
+    if (r.offset != offset || r.bytes > h.hull_models.bytes - offset) return named(r, "its model is not in the file");
+    if (r.hint_count > h.hint_count - hints) return named(r, "its hints are not in the file");
+    const auto at = std::size_t(h.hull_models.offset + offset);
+    Result<Model> model = BlockReader::read(Block{block.owner, block.bytes.subspan(at, std::size_t(r.bytes))});
+    if (!model) return named(r, model.error().message);
+    const ConvexView& view = model.value().level(0).view;
+    if (model.value().finest_level() > 0) return named(r, "its model has no level 0");
+    if (r.hint_count != 0 && r.hint_count != view.vertices.size() + view.half_edges.size() + view.face_first.size())
+      return named(r, "its hints do not fit its model");
+    content.hull_of.resize(r.node, kNone);
+    content.hull_of.push_back(std::uint32_t(content.hulls.size()));
+    content.hulls.push_back({r.node, std::move(model).value(),
+                             section_of<std::uint32_t>(block, h.hints).subspan(std::size_t(hints), r.hint_count)});
+    offset = aligned(offset + r.bytes), hints += r.hint_count;
+  }
+  return offset == h.hull_models.bytes && hints == h.hint_count ? "" : "hulls that do not fill their sections";
 }
 
 }  // namespace
@@ -99,23 +196,25 @@ AlignedBytes compose(const MeshParts& parts) {
   header.flipped_edges = t.flipped_edges, header.flat_triangles = t.flat_triangles, header.duplicates = t.duplicates;
   header.volume = t.volume;
 
-  const std::span<const std::byte> data[] = {std::as_bytes(std::span(parts.nodes)), std::as_bytes(std::span(parts.triangles)),
-                                             std::as_bytes(std::span(parts.vertices)),
-                                             std::as_bytes(std::span(parts.source_triangle)),
-                                             std::as_bytes(std::span(parts.source_vertex))};
-  std::uint64_t offset = sizeof header;
-  for (std::size_t i = 0; i < std::size(kParts); ++i) {
-    offset = aligned(offset);
-    header.*kParts[i].section = {offset, data[i].size(), hash_of(data[i])};
-    offset += data[i].size();
+  header.levels = header.depth;
+  measure_levels(parts, header);
+  std::vector<HullRecord> hulls;
+  std::vector<std::uint32_t> hints;
+  std::vector<std::byte> models;
+  for (const NodeHull& hull : parts.hulls) {
+    const std::span<const std::byte> bytes = hull.model.bytes();
+    hulls.push_back({hull.node, std::uint32_t(hull.hints.size()), models.size(), bytes.size()});
+    hints.insert(hints.end(), hull.hints.begin(), hull.hints.end());
+    models.insert(models.end(), bytes.begin(), bytes.end());
+    models.resize(std::size_t(aligned(models.size())));
   }
-  header.total_bytes = offset;
-  header.header_hash = hash_of_header(header);
-  AlignedBytes block{std::size_t(offset)};
-  std::memcpy(block.data(), &header, sizeof header);
-  for (std::size_t i = 0; i < std::size(kParts); ++i)
-    std::memcpy(block.data() + (header.*kParts[i].section).offset, data[i].data(), data[i].size());
-  return block;
+  header.hull_count = std::uint32_t(hulls.size()), header.hint_count = std::uint32_t(hints.size());
+  header.hull_units = std::uint32_t(models.size() / 64);
+  return assemble(
+      header, std::as_bytes(std::span(parts.nodes)),
+      {std::as_bytes(std::span(hulls)), std::as_bytes(std::span(hints)), models, std::as_bytes(std::span(parts.shells)),
+       std::as_bytes(std::span(parts.triangles)), std::as_bytes(std::span(parts.vertices)),
+       std::as_bytes(std::span(parts.source_triangle)), std::as_bytes(std::span(parts.source_vertex))});
 }
 
 bool is_mesh_block(std::span<const std::byte> start) {
@@ -134,25 +233,30 @@ Result<MeshModel> MeshReader::read(Block block) {
   }
   if (h.header_hash != hash_of_header(h)) return bad("damaged header");
   if (const std::string f = fault(h); !f.empty()) return bad("the header has " + f);
+  // What lies one after the other, gaps apart, each with its name.
+  std::vector<std::pair<Section, std::string>> sections;
+  for (std::uint32_t k = 0; k < h.levels; ++k) sections.emplace_back(h.level[k], "nodes of level " + std::to_string(k));
+  for (std::size_t i = 0; i < std::size(kParts); ++i) {
+    sections.emplace_back(h.*kParts[i].section, kParts[i].name);
+    if ((h.*kParts[i].section).bytes != held(h, i) * kParts[i].size)
+      return bad(std::string("the size of its ") + kParts[i].name + " does not fit its header");
+  }
   std::uint64_t offset = sizeof h;
-  for (const Part& part : kParts) {
-    const Section& section = h.*part.section;
+  for (const auto& [section, name] : sections) {
     offset = aligned(offset);
-    if (section.offset != offset || section.bytes != std::uint64_t(h.*part.count) * part.size)
-      return bad(std::string("the size of its ") + part.name + " does not fit its header");
+    if (section.offset != offset) return bad("its " + name + " do not begin where they should");
     offset += section.bytes;
   }
   if (h.total_bytes != offset) return bad("its size does not fit its header");
   if (block.bytes.size() != offset)
     return bad("it has " + std::to_string(block.bytes.size()) + " bytes where its header says " + std::to_string(offset));
   std::uint64_t end = sizeof h;
-  for (const Part& part : kParts) {
-    const Section& section = h.*part.section;
-    const auto gap = block.bytes.subspan(end, section.offset - end);
+  for (const auto& [section, name] : sections) {
+    const auto gap = block.bytes.subspan(std::size_t(end), std::size_t(section.offset - end));
     if (std::any_of(gap.begin(), gap.end(), [](std::byte b) { return b != std::byte{0}; })) return bad("damaged padding");
     end = section.offset + section.bytes;
-    if (hash_of(block.bytes.subspan(section.offset, section.bytes)) != section.hash)
-      return bad(std::string("damaged ") + part.name);
+    if (hash_of(block.bytes.subspan(std::size_t(section.offset), std::size_t(section.bytes))) != section.hash)
+      return bad("damaged " + name);
   }
 
   auto content = std::make_shared<MeshModel::Content>();
@@ -160,13 +264,20 @@ Result<MeshModel> MeshReader::read(Block block) {
   c.header = h;
   c.topology = {h.components, h.open_edges, h.non_manifold_edges, h.flipped_edges, h.flat_triangles, h.duplicates, h.volume};
   for (int axis = 0; axis < 3; ++axis) c.extent = std::max({c.extent, std::fabs(h.box_min[axis]), std::fabs(h.box_max[axis])});
-  c.nodes = section_of<Node>(block, h.nodes);
+  std::uint64_t of_nodes = 0;
+  for (std::uint32_t k = 0; k < h.levels; ++k) of_nodes += h.level[k].bytes;
+  c.nodes = section_of<Node>(block, {h.level[0].offset, of_nodes, 0});
+  c.shells = section_of<std::uint32_t>(block, h.shells);
   c.triangles = section_of<Corners>(block, h.triangles);
   c.vertices = section_of<Vec>(block, h.vertices);
   c.source_triangle = section_of<std::uint32_t>(block, h.source_triangle);
   c.source_vertex = section_of<std::uint32_t>(block, h.source_vertex);
   c.block = std::move(block);
   if (const std::string f = fault(h, c.nodes); !f.empty()) return bad("it has " + f);
+  if (const std::string f = read_hulls(h, c.block, c); !f.empty()) return bad("it has " + f);
+  for (const std::uint32_t t : c.shells) {
+    if (t >= h.triangle_count) return bad("a shell has a triangle that does not exist");
+  }
   for (const Corners& corners : c.triangles) {
     if (std::max({corners[0], corners[1], corners[2]}) >= h.vertex_count)
       return bad("triangle " + std::to_string(&corners - c.triangles.data()) + " has a vertex that does not exist");
@@ -178,6 +289,20 @@ Result<MeshModel> MeshReader::read(Block block) {
       return bad("vertex " + std::to_string(&v - c.vertices.data()) + " has a coordinate out of range");
   }
   return MeshModel(std::move(content));
+}
+
+MeshParts MeshReader::parts(const MeshModel& mesh) {
+  const Content& c = content(mesh);
+  const auto copied = [](const auto& from, auto& to) { to.assign(from.begin(), from.end()); };
+  MeshParts parts;
+  parts.unit = c.header.unit, parts.depth = int(c.header.depth);
+  parts.box_min = vec(mesh.box_min()), parts.box_max = vec(mesh.box_max());
+  parts.topology = c.topology;
+  parts.hulls = c.hulls;
+  copied(c.nodes, parts.nodes), copied(c.shells, parts.shells), copied(c.triangles, parts.triangles);
+  copied(c.vertices, parts.vertices), copied(c.source_triangle, parts.source_triangle);
+  copied(c.source_vertex, parts.source_vertex);
+  return parts;
 }
 
 }  // namespace swiftlet

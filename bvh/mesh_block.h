@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The block of memory that makes a mesh, and that its file holds: layout, hashes and what is safe to read of it.
 //
-//   MeshHeader | nodes, level by level | triangles | vertices | source of triangles | source of vertices
+//   MeshHeader | nodes, level by level | hulls | their hints | their models | shells | triangles | vertices
+//              | source of triangles | source of vertices
 //
-// Sections begin at multiples of 64 bytes. Little-endian, IEEE doubles and floats.
+// The header of a cut block names the levels of nodes that it holds; what comes after the models is then empty, and hulls are
+// those of nodes held. Sections begin at multiples of 64 bytes. Little-endian, IEEE doubles and floats.
 #pragma once
 
 #include <array>
@@ -31,9 +33,29 @@ struct MeshHeader {
   std::int32_t unit;  ///< exponent of the power of two that nodes are measured in
   double box_min[3], box_max[3], volume;
   std::uint32_t components, open_edges, non_manifold_edges, flipped_edges, flat_triangles, duplicates;
-  Section nodes, triangles, vertices, source_triangle, source_vertex;
+  std::uint32_t levels;                  ///< of nodes, that the block holds; `depth` unless it was cut
+  std::uint32_t hull_count, hint_count;  ///< hulls, and triangles named for their features, of all together
+  std::uint32_t hull_units;              ///< size of all models of hulls, over 64 bytes
+  double deviation[kMostDepth];          ///< [k]: of the mesh cut after k + 1 levels
+  Section level[kMostDepth];             ///< the nodes of each level, one after the other
+  Section hulls, hints, hull_models, shells, triangles, vertices, source_triangle, source_vertex;
 };
-static_assert(sizeof(MeshHeader) == 248);
+static_assert(sizeof(MeshHeader) == 848);
+
+/// The hull of a node's triangles: a model's block. Sorted by node.
+struct HullRecord {
+  std::uint32_t node, hint_count;
+  std::uint64_t offset, bytes;  ///< of the block, from where the section of models begins; a multiple of 64
+};
+static_assert(sizeof(HullRecord) == 24);
+
+/// A convex model that holds the triangles of a node and, per feature of its level 0, a triangle that is likely to hold a point
+/// of it: of vertices, then half-edges, then faces. Hints may be wrong: they are tried, not believed.
+struct NodeHull {
+  std::uint32_t node;
+  Model model;
+  std::span<const std::uint32_t> hints;  ///< empty: none
+};
 
 struct MeshModel::Content {
   Block block;
@@ -41,9 +63,17 @@ struct MeshModel::Content {
   MeshTopology topology;
   double extent;
   std::span<const Node> nodes;
+  std::vector<NodeHull> hulls;            ///< sorted by node
+  std::vector<std::uint32_t> hull_of;     ///< per node, up to the last that has one, its place in `hulls`, or kNone
+  std::span<const std::uint32_t> shells;  ///< per component, one of its triangles
   std::span<const Corners> triangles;
   std::span<const Vec> vertices;
   std::span<const std::uint32_t> source_triangle, source_vertex;
+
+  bool is_whole() const { return header.levels == header.depth; }
+  const NodeHull* hull_at(std::uint32_t node) const {
+    return node < hull_of.size() && hull_of[node] != kNone ? &hulls[hull_of[node]] : nullptr;
+  }
 };
 
 /// What a block is made of.
@@ -52,6 +82,8 @@ struct MeshParts {
   Vec box_min, box_max;
   MeshTopology topology;
   std::vector<Node> nodes;
+  std::vector<NodeHull> hulls;  ///< sorted by node
+  std::vector<std::uint32_t> shells;
   std::vector<Corners> triangles;
   std::vector<Vec> vertices;
   std::vector<std::uint32_t> source_triangle, source_vertex;
@@ -65,6 +97,8 @@ bool is_mesh_block(std::span<const std::byte> start);
 class MeshReader {
  public:
   static Result<MeshModel> read(Block block);
+  /// The parts of a whole mesh. Spans of hints point into it.
+  static MeshParts parts(const MeshModel& mesh);
   using Content = MeshModel::Content;
   static const Content& content(const MeshModel& mesh) { return *mesh.content_; }
 };

@@ -294,6 +294,9 @@ class Grower {
       }
       parts_.triangles.push_back(corners);
     }
+    std::vector<std::uint32_t> of(order_.size());
+    for (std::uint32_t i = 0; i < order_.size(); ++i) of[order_[i]] = i;
+    for (const std::uint32_t t : soup_.shells) parts_.shells.push_back(of[t]);
     parts_.source_triangle = std::move(order_);
   }
 

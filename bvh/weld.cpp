@@ -53,24 +53,20 @@ class VertexTable {
 /// Sets that are joined two by two.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t count) : parent_(count), count_(std::uint32_t(count)) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
+  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
   void join(std::uint32_t a, std::uint32_t b) {
     a = root(a), b = root(b);
     if (a == b) return;
     parent_[std::max(a, b)] = std::min(a, b);
-    --count_;
   }
-  std::uint32_t count() const { return count_; }
-
- private:
+  /// The least element of the set that holds `i`.
   std::uint32_t root(std::uint32_t i) {
     for (; parent_[i] != i; i = parent_[i]) parent_[i] = parent_[parent_[i]];
     return i;
   }
+
+ private:
   std::vector<std::uint32_t> parent_;
-  std::uint32_t count_;
 };
 
 /// An edge of a triangle, from its lower vertex to its higher one or the other way.
@@ -79,8 +75,9 @@ struct Side {
   bool forward;
 };
 
-MeshTopology topology_of(const Soup& soup) {
-  MeshTopology t;
+/// Fills in `topology` and `shells`.
+void survey(Soup& soup) {
+  MeshTopology& t = soup.topology;
   std::vector<Side> sides;
   sides.reserve(3 * soup.triangles.size());
   std::vector<Corners> sorted = soup.triangles;
@@ -110,9 +107,11 @@ MeshTopology topology_of(const Soup& soup) {
     t.non_manifold_edges += end - i > 2;
     t.flipped_edges += end - i == 2 && sides[i].forward == sides[i + 1].forward;
   }
-  t.components = sets.count();
+  for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) {
+    if (sets.root(i) == i) soup.shells.push_back(i);
+  }
+  t.components = std::uint32_t(soup.shells.size());
   t.volume = t.closed() && std::isfinite(volume) ? volume / 6 : 0;
-  return t;
 }
 
 }  // namespace
@@ -149,7 +148,7 @@ Result<Soup> weld(std::span<const Vec3> points, std::span<const Corners> triangl
     }
     soup.triangles.push_back(of);
   }
-  soup.topology = topology_of(soup);
+  survey(soup);
   return soup;
 }
 

@@ -19,6 +19,7 @@ struct Soup {
   std::vector<Vec> vertices;                            ///< in the order in which triangles first name them
   std::vector<std::uint32_t> source;                    ///< per vertex, the first of the user's points there
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of vertices
+  std::vector<std::uint32_t> shells;                    ///< per component, its first triangle
   MeshTopology topology;
 };
 

@@ -21,10 +21,17 @@ inline MeshHeader header_of(const Block& block) {
   std::memcpy(&header, block.data(), sizeof header);
   return header;
 }
+/// What a block consists of behind its header.
+inline std::vector<Section*> sections_of(MeshHeader& header) {
+  std::vector<Section*> sections{&header.hulls,     &header.hints,    &header.hull_models,     &header.shells,
+                                 &header.triangles, &header.vertices, &header.source_triangle, &header.source_vertex};
+  for (std::uint32_t k = 0; k < header.levels && k < kMostDepth; ++k) sections.push_back(&header.level[k]);
+  return sections;
+}
 /// Makes every hash fit what it covers, as far as the sections lie inside the block.
 inline void rehash(Block& block) {
   MeshHeader header = header_of(block);
-  for (Section* s : {&header.nodes, &header.triangles, &header.vertices, &header.source_triangle, &header.source_vertex}) {
+  for (Section* s : sections_of(header)) {
     if (s->offset <= block.size() && s->bytes <= block.size() - s->offset)
       s->hash = hash_of(std::span<const std::byte>(block).subspan(s->offset, s->bytes));
   }

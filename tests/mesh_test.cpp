@@ -281,11 +281,11 @@ TEST_F(MeshFile, DamagedOrCutOffIsRefused) {
   for (const Soup& soup : {unit_box(), scattered(random, 100, 0.3)}) {
     const MeshModel mesh = soup.mesh();
     const soups::Block good = bytes_of(mesh);
-    const MeshHeader header = header_of(good);
+    MeshHeader header = header_of(good);
     const auto covered = [&](std::size_t at) {
       if (at < sizeof header) return true;
-      for (const Section& s : {header.nodes, header.triangles, header.vertices, header.source_triangle, header.source_vertex})
-        if (at >= s.offset && at < s.offset + s.bytes) return true;
+      for (const Section* s : sections_of(header))
+        if (at >= s->offset && at < s->offset + s->bytes) return true;
       return false;
     };
     std::size_t tried = 0;
@@ -351,9 +351,11 @@ T some(Random& random) {
 }
 /// One value of a block replaced.
 void mutate(soups::Block& block, Random& random) {
-  const MeshHeader header = header_of(block);
-  const Section sections[] = {{0, sizeof header, 0}, header.nodes, header.triangles, header.vertices};
-  const Section& s = sections[random.bits() % std::size(sections)];
+  MeshHeader header = header_of(block);
+  Section whole{0, sizeof header, 0};
+  std::vector<Section*> sections = sections_of(header);
+  sections.push_back(&whole);
+  const Section& s = *sections[random.bits() % sections.size()];
   const auto write = [&](auto value) {
     if (s.bytes < sizeof value || s.offset > block.size() || s.bytes > block.size() - s.offset) return;
     std::memcpy(block.data() + s.offset + random.bits() % (s.bytes / sizeof value) * sizeof value, &value, sizeof value);
@@ -428,7 +430,7 @@ TEST_F(MeshFile, ThatLiesIsFoundOutByVerify) {
   const auto put = [](soups::Block& block, std::size_t at, auto value) {
     std::memcpy(block.data() + at, &value, sizeof value);
   };
-  const std::size_t node = header.nodes.offset;
+  const std::size_t node = header.level[0].offset;
   expect_found("a smaller box of a child", [&](soups::Block& b) { put(b, node + offsetof(Node, half), 0.01f); });
   expect_found("a child elsewhere", [&](soups::Block& b) { put(b, node + offsetof(Node, centre), 0.9f); });
   expect_found("a smaller box of a node", [&](soups::Block& b) { put(b, node + offsetof(Node, extent), 0.01f); });

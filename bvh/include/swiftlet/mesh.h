@@ -103,7 +103,7 @@ class MeshBody {
 };
 
 /// The version of the file format that `save` writes for meshes. Files of any other version are refused.
-inline constexpr std::uint32_t kMeshFileVersion = 1;
+inline constexpr std::uint32_t kMeshFileVersion = 2;
 
 /// Writes a file beside `path`, then renames it, so that a failure leaves the old file intact. Returns the bytes written.
 /// Errors: CannotWrite, with the cause.
