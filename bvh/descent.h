@@ -36,6 +36,9 @@ class Descent {
   void run() {
     set_limit();
     look_ahead();
+    // The seed's pair is that of the hulls, or else of a triangle and a convex body.
+    const bool has_hulls = a_.has_hull(0) && b_.has_hull(0);
+    if (!has_hulls) kernel_seed_ = seed_.pair;
     if (seed_.triangle_a < a_.triangle_count && seed_.triangle_b < b_.triangle_count)
       measure(seed_.triangle_a, seed_.triangle_b);
     top_ = 0;
@@ -50,6 +53,7 @@ class Descent {
       open(entry);
     }
     conclude();
+    if (!has_hulls) seed_.pair = kernel_seed_;
   }
 
  private:
@@ -117,8 +121,9 @@ class Descent {
     ++finding_.nodes;
     const Node &a = a_.nodes[entry.a], &b = b_.nodes[entry.b];
     NodePair pair(frame_, a, b);
-    const float most = pair.square_of(limit_of_boxes_);
-    if (!(pair.square() <= most)) return;
+    const float most = pair.square_of(limit_of_boxes_), square = pair.square();
+    if (!(square <= most)) return;
+    if (pair.lower(square) > 0 && a_.has_hull(entry.a) && b_.has_hull(entry.b) && part_by_hulls(entry)) return;
     const bool lowest_a = a.lowest(), lowest_b = b.lowest();
     const bool both = lowest_a == lowest_b;
     const bool only_a = both ? !lowest_a && pair.size_a() > kOneSided * pair.size_b() : lowest_b;
@@ -158,6 +163,28 @@ class Descent {
       const Entry next = stack_[--top_];
       if (double(next.lower) < limit_over_unit_) measure(next.a, next.b);
     }
+  }
+
+  /// Asks for the distance of the hulls of two nodes, whose boxes are apart, and tries the triangles at their nearest points.
+  /// True if nothing else in the nodes matters.
+  [[gnu::noinline]] bool part_by_hulls(const Entry& entry) {
+    PairSeed cold;
+    PairSeed& seed = entry.a == 0 && entry.b == 0 ? seed_.pair : cold;
+    Options options;
+    options.beyond = limit_;
+    const Answer answer = distance(a_.hull(entry.a), b_.hull(entry.b), pose_, seed, options);
+    if (!(answer.lower > 0)) return false;
+    if (answer.lower >= limit_) return true;
+    const bool on_hulls = answer.feature_a.kind() != FeatureKind::None && answer.feature_b.kind() != FeatureKind::None;
+    if (on_hulls && answer.level_a == 0 && answer.level_b == 0) {
+      const std::uint32_t of_a = a_.triangle_at(entry.a, answer.feature_a), of_b = b_.triangle_at(entry.b, answer.feature_b);
+      if (of_a < a_.triangle_count && of_b < b_.triangle_count) measure(of_a, of_b);
+    }
+    if (done_ || answer.lower >= limit_) return true;
+    if (!(finding_.upper - answer.lower <= question_.law_two)) return false;
+    // As near as rounding tells, the nearest points of the hulls are of the surfaces.
+    lower_ = min(lower_, answer.lower);
+    return true;
   }
 
   /// Puts the few entries from `bottom` on that have the least keys last, the least of all at the end.
@@ -247,11 +274,11 @@ class Descent {
     const bool loose = stop.zero == 0 && max(stop.absolute, stop.relative) > 0;
     ClosestFeatures closest;
     if (loose) {
-      closest.answer = distance(a, b, pose_, seed_.pair, {stop.absolute, stop.relative, limit_, {}, {}});
+      closest.answer = distance(a, b, pose_, kernel_seed_, {stop.absolute, stop.relative, limit_, {}, {}});
     } else {
       ClosestOptions options;
       options.beyond = limit_;
-      closest = closest_features(a, b, pose_, seed_.pair, options);
+      closest = closest_features(a, b, pose_, kernel_seed_, options);
     }
     const Answer& answer = closest.answer;
     if (answer.status >= Status::InvalidPose) {
@@ -331,6 +358,7 @@ class Descent {
   const Motion motion_;
   const MeshQuestion& question_;
   MeshSeed& seed_;
+  PairSeed kernel_seed_;
   MeshFinding& finding_;
   const int unit_;  ///< exponent of the pair's unit
   PairFrame frame_;

@@ -45,6 +45,7 @@ Vec3 MeshModel::box_min() const { return Vec3(content_->header.box_min); }
 Vec3 MeshModel::box_max() const { return Vec3(content_->header.box_max); }
 double MeshModel::extent() const { return content_->extent; }
 std::size_t MeshModel::node_count() const { return content_->nodes.size(); }
+std::size_t MeshModel::hull_count() const { return content_->hulls.size(); }
 std::span<const std::byte> MeshModel::bytes() const { return content_->block.bytes; }
 std::uint64_t MeshModel::hash() const { return hash_of(bytes()); }
 

@@ -27,7 +27,6 @@ struct Part {
   std::uint32_t MeshHeader::*count;
 };
 constexpr Part kParts[] = {{"hulls", &MeshHeader::hulls, sizeof(HullRecord), &MeshHeader::hull_count},
-                           {"hints", &MeshHeader::hints, 4, &MeshHeader::hint_count},
                            {"models of hulls", &MeshHeader::hull_models, 64, &MeshHeader::hull_units},
                            {"shells", &MeshHeader::shells, 4, &MeshHeader::components},
                            {"triangles", &MeshHeader::triangles, sizeof(Corners), &MeshHeader::triangle_count},
@@ -35,7 +34,7 @@ constexpr Part kParts[] = {{"hulls", &MeshHeader::hulls, sizeof(HullRecord), &Me
                            {"sources of triangles", &MeshHeader::source_triangle, 4, &MeshHeader::triangle_count},
                            {"sources of vertices", &MeshHeader::source_vertex, 4, &MeshHeader::vertex_count}};
 /// A cut block has these of the parts alone.
-constexpr std::size_t kPartsOfNodes = 3;
+constexpr std::size_t kPartsOfNodes = 2;
 
 /// How many of a part's elements a block with this header holds.
 std::uint64_t held(const MeshHeader& h, std::size_t part) {
@@ -51,6 +50,7 @@ std::string fault(const MeshHeader& h) {
   if (h.triangle_count == 0 || h.triangle_count > kMostTriangles || h.vertex_count == 0 || h.node_count == 0 ||
       h.vertex_count > 3 * std::uint64_t{kMostTriangles} || h.node_count > kMostTriangles)
     return "a count out of range";
+  if (h.unused != 0) return "a word that is not 0";
   if (h.depth < 1 || h.depth > kMostDepth || h.levels != h.depth || h.components > h.triangle_count || h.unit < -160 ||
       h.unit > 160)
     return "a depth or unit out of range";
@@ -154,28 +154,22 @@ AlignedBytes assemble(MeshHeader header, std::span<const std::byte> nodes,
 
 /// The hulls that a block holds, or what is wrong with them.
 std::string read_hulls(const MeshHeader& h, const Block& block, MeshReader::Content& content) {
-  std::uint64_t offset = 0, hints = 0;
+  std::uint64_t offset = 0;
   const auto named = [](const HullRecord& r, const std::string& what) {
     return "the hull of node " + std::to_string(r.node) + ": " + what;
   };
   for (const HullRecord& r : section_of<HullRecord>(block, h.hulls)) {
     if (r.node >= content.nodes.size() || r.node < content.hull_of.size()) return "hulls out of order";
     if (r.offset != offset || r.bytes > h.hull_models.bytes - offset) return named(r, "its model is not in the file");
-    if (r.hint_count > h.hint_count - hints) return named(r, "its hints are not in the file");
     const auto at = std::size_t(h.hull_models.offset + offset);
     Result<Model> model = BlockReader::read(Block{block.owner, block.bytes.subspan(at, std::size_t(r.bytes))});
     if (!model) return named(r, model.error().message);
-    const ConvexView& view = model.value().level(0).view;
-    if (model.value().finest_level() > 0) return named(r, "its model has no level 0");
-    if (r.hint_count != 0 && r.hint_count != view.vertices.size() + view.half_edges.size() + view.face_first.size())
-      return named(r, "its hints do not fit its model");
     content.hull_of.resize(r.node, kNone);
     content.hull_of.push_back(std::uint32_t(content.hulls.size()));
-    content.hulls.push_back({r.node, std::move(model).value(),
-                             section_of<std::uint32_t>(block, h.hints).subspan(std::size_t(hints), r.hint_count)});
-    offset = aligned(offset + r.bytes), hints += r.hint_count;
+    content.hulls.push_back({r.node, r.first_triangle, std::move(model).value()});
+    offset = aligned(offset + r.bytes);
   }
-  return offset == h.hull_models.bytes && hints == h.hint_count ? "" : "hulls that do not fill their sections";
+  return offset == h.hull_models.bytes ? "" : "hulls that do not fill their section";
 }
 
 }  // namespace
@@ -199,22 +193,18 @@ AlignedBytes compose(const MeshParts& parts) {
   header.levels = header.depth;
   measure_levels(parts, header);
   std::vector<HullRecord> hulls;
-  std::vector<std::uint32_t> hints;
   std::vector<std::byte> models;
   for (const NodeHull& hull : parts.hulls) {
     const std::span<const std::byte> bytes = hull.model.bytes();
-    hulls.push_back({hull.node, std::uint32_t(hull.hints.size()), models.size(), bytes.size()});
-    hints.insert(hints.end(), hull.hints.begin(), hull.hints.end());
+    hulls.push_back({hull.node, hull.first_triangle, models.size(), bytes.size()});
     models.insert(models.end(), bytes.begin(), bytes.end());
     models.resize(std::size_t(aligned(models.size())));
   }
-  header.hull_count = std::uint32_t(hulls.size()), header.hint_count = std::uint32_t(hints.size());
-  header.hull_units = std::uint32_t(models.size() / 64);
-  return assemble(
-      header, std::as_bytes(std::span(parts.nodes)),
-      {std::as_bytes(std::span(hulls)), std::as_bytes(std::span(hints)), models, std::as_bytes(std::span(parts.shells)),
-       std::as_bytes(std::span(parts.triangles)), std::as_bytes(std::span(parts.vertices)),
-       std::as_bytes(std::span(parts.source_triangle)), std::as_bytes(std::span(parts.source_vertex))});
+  header.hull_count = std::uint32_t(hulls.size()), header.hull_units = std::uint32_t(models.size() / 64);
+  return assemble(header, std::as_bytes(std::span(parts.nodes)),
+                  {std::as_bytes(std::span(hulls)), models, std::as_bytes(std::span(parts.shells)),
+                   std::as_bytes(std::span(parts.triangles)), std::as_bytes(std::span(parts.vertices)),
+                   std::as_bytes(std::span(parts.source_triangle)), std::as_bytes(std::span(parts.source_vertex))});
 }
 
 bool is_mesh_block(std::span<const std::byte> start) {

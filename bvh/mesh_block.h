@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The block of memory that makes a mesh, and that its file holds: layout, hashes and what is safe to read of it.
 //
-//   MeshHeader | nodes, level by level | hulls | their hints | their models | shells | triangles | vertices
-//              | source of triangles | source of vertices
+//   MeshHeader | nodes, level by level | hulls | their models | shells | triangles | vertices | source of triangles
+//              | source of vertices
 //
 // The header of a cut block names the levels of nodes that it holds; what comes after the models is then empty, and hulls are
 // those of nodes held. Sections begin at multiples of 64 bytes. Little-endian, IEEE doubles and floats.
@@ -33,28 +33,29 @@ struct MeshHeader {
   std::int32_t unit;  ///< exponent of the power of two that nodes are measured in
   double box_min[3], box_max[3], volume;
   std::uint32_t components, open_edges, non_manifold_edges, flipped_edges, flat_triangles, duplicates;
-  std::uint32_t levels;                  ///< of nodes, that the block holds; `depth` unless it was cut
-  std::uint32_t hull_count, hint_count;  ///< hulls, and triangles named for their features, of all together
-  std::uint32_t hull_units;              ///< size of all models of hulls, over 64 bytes
-  double deviation[kMostDepth];          ///< [k]: of the mesh cut after k + 1 levels
-  Section level[kMostDepth];             ///< the nodes of each level, one after the other
-  Section hulls, hints, hull_models, shells, triangles, vertices, source_triangle, source_vertex;
+  std::uint32_t levels;          ///< of nodes, that the block holds; `depth` unless it was cut
+  std::uint32_t hull_count;      ///< at most one for each node that the block holds
+  std::uint32_t hull_units;      ///< size of all models of hulls, over 64 bytes
+  std::uint32_t unused;          ///< 0
+  double deviation[kMostDepth];  ///< [k]: of the mesh cut after k + 1 levels
+  Section level[kMostDepth];     ///< the nodes of each level, one after the other
+  Section hulls, hull_models, shells, triangles, vertices, source_triangle, source_vertex;
 };
-static_assert(sizeof(MeshHeader) == 848);
+static_assert(sizeof(MeshHeader) == 824);
 
 /// The hull of a node's triangles: a model's block. Sorted by node.
 struct HullRecord {
-  std::uint32_t node, hint_count;
+  std::uint32_t node, first_triangle;
   std::uint64_t offset, bytes;  ///< of the block, from where the section of models begins; a multiple of 64
 };
 static_assert(sizeof(HullRecord) == 24);
 
-/// A convex model that holds the triangles of a node and, per feature of its level 0, a triangle that is likely to hold a point
-/// of it: of vertices, then half-edges, then faces. Hints may be wrong: they are tried, not believed.
+/// A convex model that holds the triangles of a node, the first of which is `first_triangle`. If it has level 0, that is their
+/// hull, and its source ids tell a triangle that is likely to hold a point of a feature: a vertex has the id 3 t + k if it is
+/// corner k of the triangle t after the first, a face those of triangles. They may be wrong: they are tried, not believed.
 struct NodeHull {
-  std::uint32_t node;
+  std::uint32_t node, first_triangle;
   Model model;
-  std::span<const std::uint32_t> hints;  ///< empty: none
 };
 
 struct MeshModel::Content {
@@ -97,7 +98,7 @@ bool is_mesh_block(std::span<const std::byte> start);
 class MeshReader {
  public:
   static Result<MeshModel> read(Block block);
-  /// The parts of a whole mesh. Spans of hints point into it.
+  /// The parts of a whole mesh.
   static MeshParts parts(const MeshModel& mesh);
   using Content = MeshModel::Content;
   static const Content& content(const MeshModel& mesh) { return *mesh.content_; }

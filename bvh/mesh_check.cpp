@@ -139,6 +139,16 @@ Check verify(const MeshModel& mesh) {
     }
   }
   if (!(below[0].begin == 0 && below[0].end == c.triangles.size())) return fail(0, "triangles are missing");
+  for (const NodeHull& hull : c.hulls) {
+    if (const Check hulls = verify(hull.model); !hulls) return fail(hull.node, "its hull: " + hulls.message);
+    const Body body(hull.model);
+    for (std::uint32_t t = below[hull.node].begin; t < below[hull.node].end; ++t) {
+      for (const std::uint32_t v : c.triangles[t]) {
+        if (intersects(body, Body::point(eigen(c.vertices[v])), {}).verdict == Verdict::Disjoint)
+          return fail(hull.node, "triangle " + std::to_string(t) + " reaches out of its hull");
+      }
+    }
+  }
   Vec3 least = mesh.vertex(c.triangles[0][0]), most = least;
   for (const Corners& corners : c.triangles) {
     for (const std::uint32_t v : corners) least = least.cwiseMin(mesh.vertex(v)), most = most.cwiseMax(mesh.vertex(v));

@@ -185,15 +185,42 @@ ConvexLeaf::ConvexLeaf(const Body& of) : body(without_radius(of)) {
 
 MeshView::MeshView(const MeshBody& body) {
   if (const MeshModel* const mesh = body.mesh()) {
-    const MeshReader::Content& content = MeshReader::content(*mesh);
-    nodes = content.nodes.data(), triangles = content.triangles.data(), vertices = content.vertices.data();
-    triangle_count = content.header.triangle_count;
-    unit = content.header.unit, extent = content.extent, is_legal = true;
+    content = &MeshReader::content(*mesh);
+    nodes = content->nodes.data(), triangles = content->triangles.data(), vertices = content->vertices.data();
+    triangle_count = content->header.triangle_count;
+    unit = content->header.unit, extent = content->extent, is_legal = true;
     return;
   }
   const ConvexLeaf& leaf = convex.emplace(body.convex());
   nodes = &leaf.node, triangles = nullptr, vertices = nullptr, triangle_count = 1;
   unit = leaf.unit, extent = leaf.extent, is_legal = leaf.is_legal;
+}
+
+std::uint32_t MeshView::triangle_at(std::uint32_t node, FeatureId feature) const {
+  if (convex) return 0;
+  const NodeHull& hull = *content->hull_at(node);
+  const SourceMap source = hull.model.source();
+  const ConvexView& view = hull.model.level(0).view;
+  std::uint32_t vertex = feature.index();
+  if (feature.kind() != FeatureKind::Vertex) {
+    // An edge of the surface is one of a triangle that lies in either face at it.
+    const auto of_face = [&](std::uint32_t face) {
+      const bool has_any = face < view.face_first.size() && source.face_begin[face] < source.face_begin[face + 1];
+      return has_any ? source.face[source.face_begin[face]] : kNone;
+    };
+    std::uint32_t triangle, half_edge;
+    if (feature.kind() == FeatureKind::Edge) {
+      half_edge = feature.index();
+      triangle = of_face(view.half_edges[half_edge].face);
+      if (triangle == kNone) triangle = of_face(view.half_edges[view.half_edges[half_edge].twin].face);
+    } else {
+      half_edge = view.face_first[feature.index()];
+      triangle = of_face(feature.index());
+    }
+    if (triangle != kNone) return hull.first_triangle + triangle;
+    vertex = view.half_edges[half_edge].head;
+  }
+  return hull.first_triangle + source.vertex[vertex] / 3;
 }
 
 Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options) {

@@ -31,6 +31,13 @@ struct MeshView {
   MeshView(const MeshView&) = delete;  ///< `nodes` may point into this object
   MeshView& operator=(const MeshView&) = delete;
 
+  bool has_hull(std::uint32_t node) const { return convex || content->hull_at(node); }
+  /// Of a node that has one. The hull of a convex body is the body.
+  Body hull(std::uint32_t node) const { return convex ? convex->body : Body(content->hull_at(node)->model); }
+  /// A triangle that is likely to hold the point of a feature on level 0 of a node's hull, or kNone.
+  std::uint32_t triangle_at(std::uint32_t node, FeatureId feature) const;
+
+  const MeshReader::Content* content = nullptr;  ///< null for a convex body
   const Node* nodes;
   const Corners* triangles;  ///< null for a convex body
   const Vec* vertices;

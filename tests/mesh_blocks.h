@@ -23,8 +23,8 @@ inline MeshHeader header_of(const Block& block) {
 }
 /// What a block consists of behind its header.
 inline std::vector<Section*> sections_of(MeshHeader& header) {
-  std::vector<Section*> sections{&header.hulls,     &header.hints,    &header.hull_models,     &header.shells,
-                                 &header.triangles, &header.vertices, &header.source_triangle, &header.source_vertex};
+  std::vector<Section*> sections{&header.hulls,    &header.hull_models,     &header.shells,       &header.triangles,
+                                 &header.vertices, &header.source_triangle, &header.source_vertex};
   for (std::uint32_t k = 0; k < header.levels && k < kMostDepth; ++k) sections.push_back(&header.level[k]);
   return sections;
 }

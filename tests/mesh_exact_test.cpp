@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes against rational arithmetic over all pairs of their triangles, in families that are each made for one difficulty; and
 // large ones against CGAL's trees. SWIFTLET_MESH_PAIRS=100000 asks about so many pairs instead of some 2 000.
+#include <swiftlet/build_mesh.h>
 #include <swiftlet/mesh_query.h>
 
 #include <algorithm>
@@ -605,6 +606,15 @@ int pairs_of_each_family() {
   return wanted ? std::max(1, std::atoi(wanted) / int(std::size(kFamilies))) : 90;
 }
 
+/// With the hull of every node.
+MeshModel hulled(const MeshModel& mesh) {
+  HullOptions options;
+  options.levels = 16, options.least_triangles = 1, options.bytes_per_triangle = 1e6;
+  Result<MeshModel> made = rebuild_hulls(mesh, options);
+  if (!made) throw std::runtime_error(made.error().message);
+  return std::move(made).value();
+}
+
 class Families : public testing::TestWithParam<Family> {};
 
 TEST_P(Families, AgreeWithRationals) {
@@ -623,7 +633,12 @@ TEST_P(Families, AgreeWithRationals) {
     decided += exactly.decided;
     ++(exactly.squared == 0 ? touching : apart);
     const Judged judged{c, a, b, exactly, tolerance(a, b, c.pose)};
-    const std::string fault = judge(judged, random);
+    std::string fault = judge(judged, random);
+    if (fault.empty()) {
+      const MeshModel hulled_a = hulled(a), hulled_b = hulled(b);
+      fault = judge({c, hulled_a, hulled_b, exactly, judged.law_two}, random);
+      if (!fault.empty()) fault = "with hulls: " + fault;
+    }
     const Answer answer = distance(a, b, c.pose);
     ++verdicts[int(answer.verdict)];
     widest = std::max(widest, (answer.upper - answer.lower) / judged.law_two);

@@ -72,6 +72,7 @@ class MeshModel {
   Vec3 box_max() const;                      ///< body frame: largest coordinates
   double extent() const;                     ///< largest absolute coordinate
   std::size_t node_count() const;            ///< nodes of the tree, each with up to eight children
+  std::size_t hull_count() const;            ///< nodes that have a convex hull (build_mesh.h)
   std::span<const std::byte> bytes() const;  ///< the block, which is what `save` writes
   std::uint64_t hash() const;                ///< hash over all of `bytes()`, which it reads; equal blocks have equal hashes
 

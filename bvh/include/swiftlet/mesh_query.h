@@ -19,7 +19,7 @@ namespace swiftlet {
 struct MeshSeed {
   std::uint32_t triangle_a = kNone, triangle_b = kNone;  ///< the last nearest pair; of a convex body 0
   std::array<float, 3> direction{};                      ///< from A to B, in A's frame; tried as a separating axis
-  PairSeed pair{};                                       ///< warm start of a triangle and a convex body
+  PairSeed pair{};  ///< warm start of both bodies' hulls, or else of a triangle and a convex body
 };
 static_assert(sizeof(MeshSeed) <= 128);
 
@@ -65,8 +65,9 @@ double tolerance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a);
 Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answer& answer);
 
 /// Proves that the box of every node holds its triangles, that axes are unit and at right angles, that each triangle is in the
-/// tree once, and that `box_min` and `box_max` are the mesh's: all that the truth of answers rests on. Cost: linear in the
-/// triangles times the depth of the tree.
+/// tree once, that the hull of a node holds its triangles and is convex, and that `box_min` and `box_max` are the mesh's: all
+/// that the truth of answers rests on. Cost: linear in the triangles times the depth of the tree; a microsecond for each vertex
+/// and hull around it.
 Check verify(const MeshModel& mesh);
 
 }  // namespace swiftlet

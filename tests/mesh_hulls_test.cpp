@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Hulls of nodes: how they are built, what a block with them must be, and that queries with them answer as those without.
+#include <swiftlet/build_mesh.h>
+#include <swiftlet/mesh_query.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "mesh_blocks.h"
+#include "painted_stack.h"
+#include "soups.h"
+
+namespace swiftlet {
+namespace {
+
+using namespace soups;
+using shapes::Random;
+
+Mesh mesh_of(const Soup& soup) { return {soup.points, soup.triangles}; }
+MeshModel made(const Result<MeshModel>& result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return result.value();
+}
+HullOptions everywhere() {
+  HullOptions options;
+  options.levels = 16, options.least_triangles = 1, options.bytes_per_triangle = 1e6;
+  return options;
+}
+MeshModel hulled(const Soup& soup) { return made(build_mesh(mesh_of(soup), everywhere())); }
+Pose any_pose(Random& random, double distance) { return {random.rotation(), distance * random.on_sphere()}; }
+
+TEST(BuildMesh, GivesTheLargestNodesHullsAsLongAsTheyFit) {
+  const Soup soup = torus(60, 24);
+  const MeshModel plain = soup.mesh(), usual = made(build_mesh(mesh_of(soup))), all = hulled(soup);
+  EXPECT_EQ(plain.hull_count(), 0u);
+  EXPECT_GE(usual.hull_count(), 1u);
+  EXPECT_EQ(all.hull_count(), all.node_count());
+  EXPECT_LE(double(usual.bytes().size()), 120 * double(usual.triangle_count()));
+  EXPECT_TRUE(verify(usual));
+  EXPECT_TRUE(verify(all));
+  HullOptions none;
+  none.bytes_per_triangle = 0;
+  EXPECT_EQ(made(build_mesh(mesh_of(soup), none)).hash(), plain.hash());
+  EXPECT_EQ(made(rebuild_hulls(all, none)).hash(), plain.hash());
+  EXPECT_EQ(made(rebuild_hulls(usual)).hash(), usual.hash());
+}
+
+TEST(BuildMesh, SavesAndLoads) {
+  const MeshModel mesh = hulled(ball(3));
+  const MeshModel copy = made(load_mesh(mesh.bytes()));
+  EXPECT_EQ(copy.hash(), mesh.hash());
+  EXPECT_EQ(copy.hull_count(), mesh.hull_count());
+  EXPECT_TRUE(verify(copy));
+}
+
+TEST(BuildMesh, MakesTheSameBytesOnAnyThreads) {
+  const Soup soup = torus(50, 20);
+  const Executor threads = on_threads(3);
+  HullOptions options = everywhere();
+  options.executor = threads;
+  EXPECT_EQ(made(build_mesh(mesh_of(soup), options)).hash(), hulled(soup).hash());
+}
+
+TEST(BuildMesh, ReportsProgressAndStopsWhereTold) {
+  const Mesh mesh = mesh_of(torus(80, 40));
+  HullOptions options = everywhere();
+  std::vector<double> fractions;
+  options.progress = [&](double done, std::string_view) { return fractions.push_back(done), true; };
+  ASSERT_TRUE(build_mesh(mesh, options));
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_GE(fractions.size(), 20u);
+  EXPECT_EQ(fractions.back(), 1);
+  for (const double until : {0.0, 0.3, 0.7}) {
+    options.progress = [until](double done, std::string_view) { return done < until; };
+    const Result<MeshModel> stopped = build_mesh(mesh, options);
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(stopped.error().code, ErrorCode::Cancelled);
+  }
+}
+
+TEST(BuildMesh, RefusesWhatNoMeshIs) {
+  EXPECT_EQ(build_mesh({}).error().code, ErrorCode::Empty);
+  EXPECT_EQ(build_mesh({{Vec3(0, 0, 0)}, {{0, 0, 1}}}).error().code, ErrorCode::BadValue);
+  HullOptions options;
+  options.levels = 0;
+  EXPECT_EQ(build_mesh(mesh_of(ball(1)), options).error().code, ErrorCode::BadValue);
+  options = {};
+  options.bytes_per_triangle = std::nan("");
+  EXPECT_EQ(build_mesh(mesh_of(ball(1)), options).error().code, ErrorCode::BadValue);
+}
+
+/// Points, segments and flat pieces have hulls too.
+TEST(BuildMesh, TakesFlatAndTinyMeshes) {
+  for (const Soup& soup : {patch(3, [](double, double) { return 0.0; }), Soup{{Vec3(1, 2, 3)}, {{0, 0, 0}}},
+                           Soup{{Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(2, 2, 0)}, {{0, 1, 2}, {0, 2, 2}}},
+                           scaled(ball(1), 0x1p-140), scaled(ball(1), 0x1p140)}) {
+    const MeshModel mesh = hulled(soup), plain = soup.mesh();
+    EXPECT_TRUE(verify(mesh));
+    const double size = std::max(mesh.extent(), 0x1p-149);
+    const Pose pose{Mat3::Identity(), Vec3(5 * size, 0, 0)};
+    const Answer with = distance(mesh, mesh, pose), without = distance(plain, plain, pose);
+    EXPECT_LE(std::fabs(with.lower - without.lower), tolerance(mesh, mesh, pose));
+    EXPECT_EQ(with.verdict, without.verdict);
+  }
+}
+
+/// Whatever the question, with hulls or without.
+TEST(Hulls, AnswerAsBoxesDo) {
+  Random random(31);
+  int disjoint = 0, overlapping = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Soup a = any(random), b = any(random);
+    const MeshModel boxes_a = a.mesh(), boxes_b = b.mesh(), hulls_a = hulled(a), hulls_b = hulled(b);
+    const Body convex = i % 4 ? Body::point(random.in_ball(), 0.1) : Body::box(Vec3(-0.3, -0.2, -0.1), Vec3(0.1, 0.2, 0.3));
+    const Pose pose = any_pose(random, random.uniform(0.2, 4));
+    const double radius = i % 3 == 0 ? 0.05 : 0;
+    const auto compare = [&](const MeshBody& plain, const MeshBody& with, const MeshBody& plain_b, const MeshBody& with_b) {
+      const double law_two = tolerance(plain, plain_b, pose);
+      const Answer expected = distance(plain, plain_b, pose);
+      MeshSeed seed;
+      for (int pass = 0; pass < 2; ++pass) {
+        const Answer answer = distance(with, with_b, pose, seed);
+        ASSERT_EQ(answer.status, Status::Converged);
+        EXPECT_LE(answer.upper - answer.lower, law_two);
+        EXPECT_LE(std::fabs(answer.upper - expected.upper), law_two);
+        EXPECT_EQ(answer.verdict, expected.verdict);
+        EXPECT_EQ(intersects(with, with_b, pose, seed).verdict, expected.verdict);
+        const double threshold = expected.upper * random.uniform(0.5, 1.5);
+        if (std::fabs(threshold - expected.upper) > 2 * law_two) {
+          EXPECT_EQ(within(with, with_b, pose, threshold, seed).decision,
+                    threshold > expected.upper ? Decision::Yes : Decision::No);
+        }
+        EXPECT_LE(distance(with, with_b, pose, seed, {.relative = 0.1}).lower, expected.upper + law_two);
+      }
+      ++(expected.verdict == Verdict::Disjoint ? disjoint : overlapping);
+      EXPECT_TRUE(check(with, with_b, pose, distance(with, with_b, pose)));
+    };
+    compare({boxes_a, radius}, {hulls_a, radius}, {boxes_b, radius}, {hulls_b, radius});
+    compare({boxes_a, radius}, {hulls_a, radius}, {boxes_b, radius}, {boxes_b, radius});
+    compare({boxes_a, radius}, {hulls_a, radius}, convex, convex);
+    if (HasFatalFailure()) FAIL() << "pair " << i;
+  }
+  EXPECT_GE(disjoint, 300);
+  EXPECT_GE(overlapping, 100);
+}
+
+/// Apart, the hulls of nearly convex bodies answer, and their nearest points lie on the surfaces: one pair of nodes is opened.
+TEST(Hulls, OfConvexBodiesAnswerAtTheRoot) {
+  Random random(32);
+  const MeshModel boxes = ball(4).mesh(), hulls = hulled(ball(4));
+  MeshSeed seed_of_boxes, seed_of_hulls;
+  std::uint64_t opened_by_boxes = 0, opened_by_hulls = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Pose pose = any_pose(random, random.uniform(3.5, 6));
+    opened_by_boxes += distance(boxes, boxes, pose, seed_of_boxes).steps;
+    opened_by_hulls += distance(hulls, hulls, pose, seed_of_hulls).steps;
+  }
+  EXPECT_LE(opened_by_hulls, 220u);
+  EXPECT_GE(opened_by_boxes, 1000u);
+}
+
+TEST(Hulls, ScaleBitForBit) {
+  Random random(33);
+  for (int i = 0; i < 60; ++i) {
+    const Soup a = any(random), b = any(random);
+    const Pose pose = any_pose(random, random.uniform(1, 4));
+    const MeshModel hulled_a = hulled(a), hulled_b = hulled(b);
+    const Answer one = distance(hulled_a, hulled_b, pose);
+    for (const double factor : {0x1p-40, 0x1p70}) {
+      const MeshModel other_a = hulled(scaled(a, factor)), other_b = hulled(scaled(b, factor));
+      const Answer other = distance(other_a, other_b, {pose.rotation, factor * pose.translation});
+      EXPECT_EQ(other.lower, factor * one.lower);
+      EXPECT_EQ(other.upper, factor * one.upper);
+      EXPECT_EQ(other.feature_a, one.feature_a);
+    }
+  }
+}
+
+TEST(Hulls, FillNoMoreStackThanExactArithmeticDoes) {
+  Random random(34);
+  PaintedStack stack;
+  std::size_t most = 0;
+  for (int i = -1; i < 100; ++i) {
+    const MeshModel a = hulled(any(random)), b = hulled(any(random));
+    const Pose pose = any_pose(random, i % 2 ? 1 : 4);
+    MeshSeed seed;
+    const std::size_t used =
+        std::max(stack.use([&] { distance(a, b, pose, seed); }), stack.use([&] { intersects(a, b, pose); }));
+    if (i >= 0) most = std::max(most, used);
+  }
+  EXPECT_GE(most, 10000u) << "nothing was measured";
+  if (!kIsMeasured) GTEST_SKIP() << "not optimised, or with a sanitizer's own variables";
+  EXPECT_LE(most, 32u << 10);
+}
+
+/// A block whose hulls lie: `verify` finds it out.
+TEST(HullsOfFiles, ThatLieAreFoundOutByVerify) {
+  const MeshModel mesh = hulled(ball(2));
+  const MeshModel smaller = hulled(scaled(ball(2), 0.5));
+  ASSERT_EQ(mesh.hull_count(), smaller.hull_count());
+  MeshParts parts = MeshReader::parts(mesh);
+  parts.hulls = MeshReader::parts(smaller).hulls;
+  const MeshModel liar = made(MeshReader::read(std::move(compose(parts))));
+  const Check check = verify(liar);
+  EXPECT_FALSE(check);
+  EXPECT_NE(check.message.find("hull"), std::string::npos) << check.message;
+}
+
+/// Numbers in records and models of hulls are checked, and whatever passes does no harm.
+TEST(HullsOfFiles, WithAnyNumberAreRefusedOrHarmless) {
+  Random random(35);
+  const soups::Block good = bytes_of(hulled(ball(2)));
+  const MeshModel honest = hulled(torus(6, 4));
+  MeshHeader header = header_of(good);
+  int loaded = 0, refused = 0;
+  for (int i = 0; i < 6000; ++i) {
+    soups::Block block = good;
+    const Section& s = i % 2 ? header.hulls : header.hull_models;
+    const std::uint32_t values[] = {0, 1, std::uint32_t(random.bits() % 300), ~0u, std::uint32_t(random.bits())};
+    const std::size_t at = s.offset + random.bits() % (s.bytes / 4) * 4;
+    std::memcpy(block.data() + at, &values[random.bits() % 5], 4);
+    rehash(block);
+    const Result<MeshModel> read = load_mesh(block);
+    if (!read) {
+      EXPECT_FALSE(read.error().message.empty());
+      ++refused;
+      continue;
+    }
+    ++loaded;
+    MeshSeed seed;
+    for (int k = 0; k < 3; ++k) {
+      const Answer answer = distance(read.value(), honest, any_pose(random, random.uniform(1, 4)), seed);
+      if (answer.status < Status::InvalidPose) {
+        ASSERT_LE(answer.lower, answer.upper);
+      }
+    }
+  }
+  EXPECT_GE(loaded, 100);
+  EXPECT_GE(refused, 1000);
+}
+
+}  // namespace
+}  // namespace swiftlet
