@@ -67,7 +67,7 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
 /// Proves that the box of every node holds its triangles, that axes are unit and at right angles, that each triangle is in the
 /// tree once, that the hull of a node holds its triangles and is convex, and that `box_min` and `box_max` are the mesh's: all
 /// that the truth of answers rests on. Cost: linear in the triangles times the depth of the tree; a microsecond for each vertex
-/// and hull around it.
+/// inside a hull, a millisecond for one in a face of it.
 Check verify(const MeshModel& mesh);
 
 }  // namespace swiftlet
