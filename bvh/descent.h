@@ -5,19 +5,11 @@
 // that was left out is no nearer than the last limit: so bounds in floats cost an exact answer nothing but time.
 #pragma once
 
-#include <utility>
-
 #include "node_pair.h"
-#include "search.h"
-#include "triangle_pair.h"
+#include "triangle_names.h"
 
 namespace swiftlet {
 namespace {  // compiled once for each width of registers: see numeric/width.h
-
-/// So many of a pair's children are visited in order; the others as they were found.
-inline constexpr int kSortedFew = 4;
-/// From this ratio of sizes on the larger one of two nodes is opened alone.
-inline constexpr float kOneSided = 3;
 
 class Descent {
  public:
@@ -30,7 +22,7 @@ class Descent {
         question_(question),
         seed_(seed),
         finding_(finding),
-        unit_(unit_of_pair(a, b, motion_.t)),
+        unit_(unit_of_pair(a.unit, b.unit, motion_.t)),
         frame_(over_unit(), power_of_two(a.unit - unit_), power_of_two(b.unit - unit_)) {}
 
   void run() {
@@ -44,7 +36,7 @@ class Descent {
     top_ = 0;
     stack_[top_++] = {0, 0, 0};
     while (top_ > 0 && !done_) {
-      const Entry entry = stack_[--top_];
+      const PairEntry entry = stack_[--top_];
       if (double(entry.lower) >= limit_over_unit_) continue;
       if (spent()) {
         ++top_;  // it is still to do
@@ -57,19 +49,6 @@ class Descent {
   }
 
  private:
-  /// A pair of nodes, or of triangles; `lower` bounds the distance of their boxes, over the unit.
-  struct Entry {
-    std::uint32_t a, b;
-    float lower;
-  };
-  /// Each step down leaves at most 63 entries behind if it opens both nodes, and 7 if one.
-  static constexpr int kMostEntries = 64 * kMostDepth + 8;
-
-  static int unit_of_pair(const MeshView& a, const MeshView& b, const Vec& t) {
-    const double length = max_abs(t);
-    const int shift = length > 0 ? exponent_of(length) + 1 : -1100, larger = a.unit > b.unit ? a.unit : b.unit;
-    return shift > larger ? shift : larger;
-  }
   Motion over_unit() const {
     Motion m = motion_;
     m.t = scaled(motion_.t, -unit_);
@@ -117,57 +96,32 @@ class Descent {
 
   bool spent() const { return finding_.nodes + finding_.triangles >= question_.steps; }
 
-  void open(const Entry& entry) {
+  void open(const PairEntry& entry) {
     ++finding_.nodes;
     const Node &a = a_.nodes[entry.a], &b = b_.nodes[entry.b];
     NodePair pair(frame_, a, b);
     const float most = pair.square_of(limit_of_boxes_), square = pair.square();
     if (!(square <= most)) return;
     if (pair.lower(square) > 0 && a_.has_hull(entry.a) && b_.has_hull(entry.b) && part_by_hulls(entry)) return;
-    const bool lowest_a = a.lowest(), lowest_b = b.lowest();
-    const bool both = lowest_a == lowest_b;
-    const bool only_a = both ? !lowest_a && pair.size_a() > kOneSided * pair.size_b() : lowest_b;
-    const bool only_b = both ? !lowest_b && pair.size_b() > kOneSided * pair.size_a() : lowest_a;
+    const bool lowest = a.lowest() && b.lowest();
     const int bottom = top_;
-    NodePair::Near near;
     float key[kFanOut * kFanOut];
-    const auto push = [&](std::uint32_t of_a, std::uint32_t of_b, int k) {
-      const float lower = pair.lower(near.gap[k]);
-      key[top_ - bottom] = lower + std::sqrt(near.centres[k]);
+    for_near_children(pair, most, {entry.a, entry.b}, [&](std::uint32_t of_a, std::uint32_t of_b, float gap, float centres) {
+      const float lower = pair.lower(gap);
+      key[top_ - bottom] = lower + std::sqrt(centres);
       stack_[top_++] = {of_a, of_b, lower};
-    };
-    if (only_b) {
-      pair.look_at_b();
-      for (unsigned left = pair.near_b(most, near); left != 0; left &= left - 1) {
-        const int k = __builtin_ctz(left);
-        push(entry.a, b.first() + unsigned(k), k);
-      }
-    } else {
-      pair.look_at_a();
-      if (!only_a) pair.look_at_b();
-      for (unsigned left = pair.near_a(most, near); left != 0; left &= left - 1) {
-        const int i = __builtin_ctz(left);
-        if (only_a) {
-          push(a.first() + unsigned(i), entry.b, i);
-          continue;
-        }
-        for (unsigned left_b = pair.near_b(i, most, near); left_b != 0; left_b &= left_b - 1) {
-          const int k = __builtin_ctz(left_b);
-          push(a.first() + unsigned(i), b.first() + unsigned(k), k);
-        }
-      }
-    }
-    raise_least(bottom, key, lowest_a && lowest_b ? 1 : kSortedFew);
-    if (!(lowest_a && lowest_b)) return;
+    });
+    raise_least(stack_ + bottom, key, top_ - bottom, lowest ? 1 : kSortedFew);
+    if (!lowest) return;
     while (top_ > bottom && !done_ && !spent()) {
-      const Entry next = stack_[--top_];
+      const PairEntry next = stack_[--top_];
       if (double(next.lower) < limit_over_unit_) measure(next.a, next.b);
     }
   }
 
   /// Asks for the distance of the hulls of two nodes, whose boxes are apart, and tries the triangles at their nearest points.
   /// True if nothing else in the nodes matters.
-  [[gnu::noinline]] bool part_by_hulls(const Entry& entry) {
+  [[gnu::noinline]] bool part_by_hulls(const PairEntry& entry) {
     PairSeed cold;
     PairSeed& seed = entry.a == 0 && entry.b == 0 ? seed_.pair : cold;
     Options options;
@@ -185,20 +139,6 @@ class Descent {
     // As near as rounding tells, the nearest points of the hulls are of the surfaces.
     lower_ = min(lower_, answer.lower);
     return true;
-  }
-
-  /// Puts the few entries from `bottom` on that have the least keys last, the least of all at the end.
-  void raise_least(int bottom, float* key, int few) {
-    for (int end = top_ - 1; few > 0 && end > bottom; --end, --few) {
-      int least = end;
-      for (int i = bottom; i < end; ++i) least = key[i - bottom] < key[least - bottom] ? i : least;
-      std::swap(stack_[least], stack_[end]), std::swap(key[least - bottom], key[end - bottom]);
-    }
-  }
-
-  static void corners(const MeshView& of, std::uint32_t triangle, Vec (&corner)[3]) {
-    const std::uint32_t* const v = of.triangles[triangle].data();
-    for (int k = 0; k < 3; ++k) corner[k] = of.vertices[v[k]];
   }
 
   /// The gap of two triangles along the seventh axis, not yet less its error.
@@ -229,7 +169,7 @@ class Descent {
     }
     const StopRule& stop = question_.stop;
     if (const double corners_apart = pair.upper(pair.way()); corners_apart < stop.below) {
-      const Place corner{Part::Corner, 0};
+      const PartId corner{Part::Corner, 0};
       lower_ = min(lower_, ahead);
       return nearer(of_a, of_b, a[0], {{0, 0, 0}, pair.way(), {0, 0, 0}, corner, corner}, normalised(pair.way()),
                     corners_apart);
@@ -263,13 +203,7 @@ class Descent {
 
   /// Leaves it to the atomic kernel, which decides signs exactly.
   [[gnu::noinline]] void ask_kernel(std::uint32_t of_a, std::uint32_t of_b) {
-    const auto body = [](const MeshView& of, std::uint32_t triangle) {
-      if (!of.triangles) return of.convex->body;
-      Vec corner[3];
-      corners(of, triangle, corner);
-      return Body::triangle(eigen(corner[0]), eigen(corner[1]), eigen(corner[2]));
-    };
-    const Body a = body(a_, of_a), b = body(b_, of_b);
+    const Body a = body_of(a_, of_a), b = body_of(b_, of_b);
     const StopRule& stop = question_.stop;
     const bool loose = stop.zero == 0 && max(stop.absolute, stop.relative) > 0;
     ClosestFeatures closest;
@@ -296,26 +230,6 @@ class Descent {
     nearer(of_a, of_b, dot(n, n) > 0 ? n : Vec{0, 0, 0}, answer.upper);
   }
 
-  static FeatureId side(std::uint32_t triangle, int index) { return {FeatureKind::Edge, 3 * triangle + unsigned(index)}; }
-  static void name(const MeshView& of, std::uint32_t triangle, const Place& place, FeatureId& feature) {
-    feature = place.part == Part::Corner ? FeatureId(FeatureKind::Vertex, of.triangles[triangle].data()[place.index])
-              : place.part == Part::Side ? side(triangle, place.index)
-                                         : FeatureId(FeatureKind::Face, triangle);
-  }
-  /// `source` names corners of the triangle; of a convex body `own` is the name.
-  static void name(const MeshView& of, std::uint32_t triangle, const SourceFeature& source, FeatureId own, FeatureId& feature) {
-    if (!of.triangles) {
-      feature = own;
-      return;
-    }
-    const std::uint32_t* const corner = source.vertices.data();
-    feature = FeatureId(FeatureKind::Face, triangle);
-    if (source.kind == FeatureKind::Vertex && corner[0] < 3)
-      feature = FeatureId(FeatureKind::Vertex, of.triangles[triangle].data()[corner[0]]);
-    if (source.kind == FeatureKind::Edge && corner[0] < 3 && corner[1] < 3)
-      feature = side(triangle, (corner[0] + 1) % 3 == corner[1] ? int(corner[0]) : int(corner[1]));
-  }
-
   /// The pair is nearer than any before: its points and features are stored.
   void nearer(std::uint32_t of_a, std::uint32_t of_b, const Vec& origin, const NearestPoints& points, const Vec& n,
               double upper) {
@@ -335,9 +249,6 @@ class Descent {
     finding_.verdict = Verdict::Overlapping;
     finding_.upper = lower_ = 0;
     finding_.point_a = point_a, finding_.point_b = point_b, finding_.normal = {0, 0, 0};
-    const auto whole = [](const MeshView& of, std::uint32_t i) {
-      return of.triangles ? FeatureId(FeatureKind::Face, i) : FeatureId();
-    };
     finding_.feature_a = whole(a_, of_a), finding_.feature_b = whole(b_, of_b);
     finding_.triangle_a = of_a, finding_.triangle_b = of_b;
     done_ = true;
@@ -369,7 +280,7 @@ class Descent {
   float limit_of_boxes_ = 0;                      ///< the same, rounded up
   bool done_ = false;
   int top_ = 0;
-  Entry stack_[kMostEntries];
+  PairEntry stack_[kMostEntries];
 };
 
 }  // namespace

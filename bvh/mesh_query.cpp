@@ -6,15 +6,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pair/pair_view.h"
+#include "mesh_setting.h"
 #include "query/ask.h"
-#include "query/radii.h"
-#include "search.h"
 
 namespace swiftlet {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+Verdict verdict_of(const MeshFinding& found, double law_two) {
+  if (found.verdict == Verdict::Overlapping) return Verdict::Overlapping;
+  if (found.lower > 0) return Verdict::Disjoint;
+  return found.upper <= law_two ? Verdict::Touching : Verdict::Undecided;
+}
 
 Body without_radius(const Body& of) {
   switch (of.kind()) {
@@ -26,27 +30,6 @@ Body without_radius(const Body& of) {
   }
   return of;
 }
-
-/// What every mesh query computes first.
-struct MeshSetting {
-  MeshSetting(const MeshBody& of_a, const MeshBody& of_b, const Pose& b_in_a)
-      : a(of_a), b(of_b), motion(swiftlet::motion(b_in_a)), quality(pose_quality(motion)), radii(of_a.radius(), of_b.radius()) {
-    const double extent_a = a.extent + of_a.radius(), extent_b = b.extent + of_b.radius(), shift = norm(motion.t);
-    size = max(extent_a, extent_b) + shift;
-    law_two = swiftlet::law_two(extent_a, extent_b, shift, quality.error);
-  }
-  Status fault() const {
-    if (!quality.legal) return Status::InvalidPose;
-    if (!radii.legal()) return Status::InvalidRadius;
-    return a.is_legal && b.is_legal ? Status::Converged : Status::InvalidBody;
-  }
-
-  const MeshView a, b;
-  const Motion motion;
-  const PoseQuality quality;
-  const Radii radii;
-  double size, law_two;
-};
 
 /// Half the length of a root's box along a unit direction of its body's frame.
 double reach_along(const MeshView& of, const Vec& n) {
@@ -72,12 +55,6 @@ double gap_of_roots(const MeshSetting& at) {
   const double reach_a = reach_along(at.a, n) * power_of_two(at.a.unit),
                reach_b = reach_along(at.b, rotate_back(at.motion, n)) * power_of_two(at.b.unit);
   return length - reach_a - reach_b - kBoxSlack * (length + at.size + 2 * (reach_a + reach_b));
-}
-
-Verdict verdict_of(const MeshFinding& found, double law_two) {
-  if (found.verdict == Verdict::Overlapping) return Verdict::Overlapping;
-  if (found.lower > 0) return Verdict::Disjoint;
-  return found.upper <= law_two ? Verdict::Touching : Verdict::Undecided;
 }
 
 Status status_of(const MeshFinding& found, const StopRule& stop, double law_two) {
@@ -127,20 +104,8 @@ void ask(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& see
     answer.status = Status::InvalidBody;
     return;
   }
-  answer.lower = found.lower, answer.upper = found.upper;
   answer.status = status_of(found, stop, at.law_two);
-  answer.verdict = verdict_of(found, at.law_two);
-  answer.feature_a = found.feature_a, answer.feature_b = found.feature_b;
-  answer.level_a = std::int16_t(found.level_a), answer.level_b = std::int16_t(found.level_b);
-  const bool has_normal = dot(found.normal, found.normal) > 0;
-  answer.normal = eigen(found.normal);
-  if (answer.upper < kInfinity) answer.point_a = eigen(found.point_a), answer.point_b = eigen(found.point_b);
-  if (!at.radii.none()) {
-    OverlapProof none;
-    if (answer.verdict != Verdict::Overlapping) answer.verdict = Verdict::Disjoint;  // `round` tells from the bounds
-    at.radii.round(answer, none, at.law_two);
-  }
-  if (!has_normal || answer.verdict == Verdict::Overlapping) answer.normal = Vec3::Constant(kUnknown);
+  describe(at, found, answer);
 }
 
 /// Asks about convex bodies alone; `Asker` asks query.h.
@@ -165,6 +130,22 @@ SourceFeature source_of(const MeshModel& mesh, FeatureId feature) {
 }
 
 }  // namespace
+
+void describe(const MeshSetting& at, const MeshFinding& found, Answer& answer) {
+  answer.lower = found.lower, answer.upper = found.upper;
+  answer.verdict = verdict_of(found, at.law_two);
+  answer.feature_a = found.feature_a, answer.feature_b = found.feature_b;
+  answer.level_a = std::int16_t(found.level_a), answer.level_b = std::int16_t(found.level_b);
+  const bool has_normal = dot(found.normal, found.normal) > 0;
+  answer.normal = eigen(found.normal);
+  if (answer.upper < kInfinity) answer.point_a = eigen(found.point_a), answer.point_b = eigen(found.point_b);
+  if (!at.radii.none()) {
+    OverlapProof none;
+    if (answer.verdict != Verdict::Overlapping) answer.verdict = Verdict::Disjoint;  // `round` tells from the bounds
+    at.radii.round(answer, none, at.law_two);
+  }
+  if (!has_normal || answer.verdict == Verdict::Overlapping) answer.normal = Vec3::Constant(kUnknown);
+}
 
 ConvexLeaf::ConvexLeaf(const Body& of) : body(without_radius(of)) {
   const ShapeOf shape(body);

@@ -5,12 +5,22 @@
 // more, from A's nearest point so far to B's.
 #pragma once
 
+#include <array>
+#include <utility>
+
 #include "float8.h"
 #include "node.h"
 #include "numeric/vec4.h"
 
 namespace swiftlet {
 namespace {  // compiled once for each width of registers: see numeric/width.h
+
+/// The exponent of a pair's unit, from those of both bodies' units.
+static inline int unit_of_pair(int of_a, int of_b, const Vec& t) {
+  const double length = max_abs(t);
+  const int shift = length > 0 ? exponent_of(length) + 1 : -1100, larger = of_a > of_b ? of_a : of_b;
+  return shift > larger ? shift : larger;
+}
 
 /// A pose as boxes need it. Lengths are over the pair's unit, a power of two that is no less than either body's unit and than
 /// the translation, so that no float overflows.
@@ -67,6 +77,8 @@ class NodePair {
                 greatest = along_a < along_b ? along_b : along_a;
     return ahead > 0 && ahead * ahead > greatest ? ahead * ahead : greatest;
   }
+  const Node& a() const { return a_; }
+  const Node& b() const { return b_; }
   float size_a() const { return size_a_; }
   float size_b() const { return size_b_; }
   /// The square that a child's gap must exceed, if the distance is to be no less than `limit`.
@@ -179,6 +191,62 @@ class NodePair {
   alignas(32) float top_a_[kFanOut];                                 ///< how far they reach ahead of A's origin
   Float8 own_b_[3], half_b_[3], in_a_[3], half_in_a_[3], bottom_b_;  ///< B's children likewise; where they begin
 };
+
+/// A pair of nodes, or of triangles, that a search has still to look at; `lower` bounds the distance of their boxes, over the
+/// unit.
+struct PairEntry {
+  std::uint32_t a, b;
+  float lower;
+};
+/// The most entries of a search that opens the last pair first: each step down leaves at most 63 behind if it opens both
+/// nodes, and 7 if one.
+inline constexpr int kMostEntries = 64 * kMostDepth + 8;
+
+/// So many of a pair's children are visited in order; the others as they were found.
+inline constexpr int kSortedFew = 4;
+/// Puts the few of `count` entries that have the least keys last, the least of all at the end.
+static inline void raise_least(PairEntry* entries, float* key, int count, int few) {
+  for (int end = count - 1; few > 0 && end > 0; --end, --few) {
+    int least = end;
+    for (int i = 0; i < end; ++i) least = key[i] < key[least] ? i : least;
+    std::swap(entries[least], entries[end]), std::swap(key[least], key[end]);
+  }
+}
+
+/// From this ratio of sizes on the larger one of two nodes is opened alone.
+inline constexpr float kOneSided = 3;
+
+/// Opens two nodes, or the larger one alone, and calls `near(child_a, child_b, gap, centres)` for each pair of children, or of
+/// a child and the other node, `nodes`, whose squared gap is at most `most`.
+template <class OnNear>
+static inline void for_near_children(NodePair& pair, float most, std::array<std::uint32_t, 2> nodes, const OnNear& on_near) {
+  const Node &a = pair.a(), &b = pair.b();
+  const bool both = a.lowest() == b.lowest();
+  const bool only_a = both ? !a.lowest() && pair.size_a() > kOneSided * pair.size_b() : b.lowest();
+  const bool only_b = both ? !b.lowest() && pair.size_b() > kOneSided * pair.size_a() : a.lowest();
+  NodePair::Near near;
+  if (only_b) {
+    pair.look_at_b();
+    for (unsigned left = pair.near_b(most, near); left != 0; left &= left - 1) {
+      const int k = __builtin_ctz(left);
+      on_near(nodes[0], b.first() + unsigned(k), near.gap[k], near.centres[k]);
+    }
+    return;
+  }
+  pair.look_at_a();
+  if (!only_a) pair.look_at_b();
+  for (unsigned left = pair.near_a(most, near); left != 0; left &= left - 1) {
+    const int i = __builtin_ctz(left);
+    if (only_a) {
+      on_near(a.first() + unsigned(i), nodes[1], near.gap[i], near.centres[i]);
+      continue;
+    }
+    for (unsigned left_b = pair.near_b(i, most, near); left_b != 0; left_b &= left_b - 1) {
+      const int k = __builtin_ctz(left_b);
+      on_near(a.first() + unsigned(i), b.first() + unsigned(k), near.gap[k], near.centres[k]);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace swiftlet

@@ -15,7 +15,7 @@ namespace {  // compiled once for each width of registers: see numeric/width.h
 
 /// Which corners of a triangle hold a point.
 enum class Part : std::uint8_t { Corner, Side, Inside };
-struct Place {
+struct PartId {
   Part part;
   std::uint8_t index;  ///< of the corner, or of the side's first corner
 };
@@ -25,7 +25,7 @@ struct NearestPoints {
   Vec a;       ///< from A's first corner
   Vec way;     ///< from it to the point of B
   Vec across;  ///< a direction at right angles to the features that hold them; 0 if these are corners
-  Place on_a, on_b;
+  PartId on_a, on_b;
 };
 
 class TrianglePair {
@@ -135,8 +135,8 @@ class TrianglePair {
   static Vec combined(const Vec (&t)[3], const double (&weight)[3]) {
     return t[0] * weight[0] + t[1] * weight[1] + t[2] * weight[2];
   }
-  static Place corner(int k) { return {Part::Corner, std::uint8_t(k)}; }
-  static Place place(double parameter, int side) {
+  static PartId corner(int k) { return {Part::Corner, std::uint8_t(k)}; }
+  static PartId place(double parameter, int side) {
     if (parameter <= 0) return corner(side);
     if (parameter >= 1) return corner((side + 1) % 3);
     return {Part::Side, std::uint8_t(side)};
