@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Contacts of triangle meshes, each with another or with a convex body: every region where the surfaces come near each other,
+// with its nearest pair, and the few points of a region that a simulation wants. Points and directions are in A's frame,
+// lengths in the bodies' unit. Laws by number: LAWS.md.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <swiftlet/manifold.h>
+#include <swiftlet/mesh.h>
+#include <swiftlet/mesh_query.h>
+
+namespace swiftlet {
+
+/// A region where two surfaces are within reach of each other, and its nearest pair of triangles. Numbers that mean nothing are
+/// NaN, features that mean nothing `FeatureId{}`.
+struct MeshContact {
+  double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved bounds on the bodies' distance in the region
+  Verdict verdict = Verdict::Undecided;  ///< Overlapping where two of its triangles cross, by exact signs, or the radii overlap
+  FeatureId feature_a, feature_b;        ///< of the nearest points, as Answer names them; of triangles that cross the triangles
+  std::uint32_t triangle_a = kNone, triangle_b = kNone;  ///< the nearest pair, in the meshes' order; of a convex body 0
+  Vec3 point_a = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< A's nearest point; of a crossing, one of it
+  Vec3 point_b = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< B's
+  /// Unit, from A to B, as Answer's; where the surfaces are apart it is known even if radii overlap. NaN where triangles cross:
+  /// there `manifold` finds one.
+  Vec3 normal = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  Vec3 box_min = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< the region's box: smallest coordinates
+  Vec3 box_max = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< largest coordinates
+};
+
+/// What `contacts` found.
+struct MeshContacts {
+  /// Converged: all regions are stored. Budget: not all are, as the span is too short or the steps came to an end. Else as of
+  /// other queries.
+  Status status = Status::NotAsked;
+  bool is_counted = false;        ///< `count` is the number of regions
+  std::uint32_t count = 0;        ///< regions in all; unless `is_counted`, as many as were told apart
+  std::uint32_t stored = 0;       ///< regions that the span holds: the lesser of `count` and its size
+  std::uint32_t steps = 0;        ///< pairs of nodes that were opened
+  std::uint32_t plane_tests = 0;  ///< pairs of triangles that were looked at
+};
+
+/// So many regions more than the caller's span holds can be told apart at once.
+inline constexpr std::size_t kSpareRegions = 64;
+
+/// Finds every region where the bodies are within `reach` (>= 0) of each other. `into` receives them, nearest first; if there
+/// are more, the nearest ones.
+///
+/// What a region is does not depend on the order in which a search sees triangles. The place of two triangles is what their
+/// boxes have in common, taken along A's axes and each grown by the reach, the radii and law 2's bound; of a convex body
+/// the box is that of its own box. The places of all pairs of triangles within reach are joined: two that meet become the box
+/// around both, until none meet. Those boxes are the regions. So the pair within reach at any spot lies in one region's box, a
+/// table on a floor has four regions, and a box on a floor of thousands of triangles one. Since boxes are along A's axes, a
+/// rotation of A's frame, or swapping the bodies, may join regions or part them where their boxes nearly meet; a translation
+/// that is exact and a power of two change nothing. A pair whose distance is above the reach by law 2's bound or less may count
+/// as within it.
+///
+/// If more than `into.size() + kSpareRegions` regions are told apart at a time, the nearest are joined though they do not meet:
+/// then `count` is less than the true number, and `is_counted` false. If `budget` ends the search, bounds are true of what
+/// was found, `count` tells the regions so far, and what was not looked at may join or add some. Without such an end each
+/// interval is as narrow as law 2's bound, and holds the least distance over all pairs of triangles in the region.
+///
+/// Cost: that of all pairs of triangles within reach that are not inside a region that is nearer, at 50 to 200 ns each, and for
+/// each a look at the regions so far. Allocates nothing; uses 32 kB of stack, and up to 48 where only exact arithmetic decides.
+MeshContacts contacts(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double reach, std::span<MeshContact> into,
+                      const Budget& budget = {});
+
+}  // namespace swiftlet
