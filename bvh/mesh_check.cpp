@@ -11,7 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "inside.h"
 #include "mesh_block.h"
+#include "search.h"
 
 namespace swiftlet {
 namespace {
@@ -42,6 +44,15 @@ struct Parts {
            : id.kind() == FeatureKind::Edge ? id.index() < 3 * triangles
                                             : id.kind() == FeatureKind::Face && id.index() < triangles;
   }
+  /// Whether a body that does not meet the surface of this solid has a part inside.
+  bool encloses(const MeshBody& guest, const Pose& b_in_a, bool is_b) const {
+    if (!of.is_solid()) return false;
+    const Enclosure volume(MeshReader::content(*of.mesh()), b_in_a, is_b);
+    if (!guest.mesh()) return volume.holds_without_tree(ConvexLeaf(guest.convex()).point);
+    const MeshReader::Content& content = MeshReader::content(*guest.mesh());
+    return std::any_of(content.triangles.begin(), content.triangles.end(),
+                       [&](const Corners& corners) { return volume.holds_without_tree(content.vertices[corners[0]]); });
+  }
   const MeshBody& of;
   std::size_t count;
 };
@@ -71,6 +82,8 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
       overlapping = overlapping || pair.verdict == Verdict::Overlapping;
     }
   }
+  if (lower > 0 && !overlapping && (of_a.encloses(b, b_in_a, false) || of_b.encloses(a, b_in_a, true)))
+    lower = upper = 0, overlapping = true;
   // Each bound here is within law 2's bound of the truth, and so is what the answer may claim.
   if (!(answer.lower <= upper)) return fail("lower is ", answer.lower, " where the distance is at most ", upper);
   if (!(answer.upper >= lower)) return fail("upper is ", answer.upper, " where the distance is at least ", lower);

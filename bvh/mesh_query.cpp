@@ -8,6 +8,7 @@
 
 #include "mesh_setting.h"
 #include "query/ask.h"
+#include "solid.h"
 
 namespace swiftlet {
 namespace {
@@ -99,6 +100,8 @@ void ask(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& see
   } else {
     look(at, b_in_a, stop, budget.steps, seed, found);
   }
+  if (found.verdict != Verdict::Overlapping && !found.refused && !(found.upper < stop.below))
+    look_inside(at.a, at.b, b_in_a, {stop, at.law_two, at.size, budget.steps}, found);
   answer.steps = found.nodes, answer.plane_tests = found.triangles;
   if (found.refused) {
     answer.status = Status::InvalidBody;
@@ -153,6 +156,7 @@ ConvexLeaf::ConvexLeaf(const Body& of) : body(without_radius(of)) {
   if (!is_legal) return;
   const ConvexView& view = (*shape).level(0).view;
   extent = view.extent, unit = unit_of(extent);
+  point = view.vertices.empty() ? vec(view.centre) : vec(view.vertices[0]);
   const Model* const model = body.model();
   const Box box = model ? Box{vec(model->box_min()), vec(model->box_max())} : box_of(view.vertices);
   node.link = Node::link_of(0, 1, true);
@@ -169,9 +173,11 @@ MeshView::MeshView(const MeshBody& body) {
     content = &MeshReader::content(*mesh);
     nodes = content->nodes.data(), triangles = content->triangles.data(), vertices = content->vertices.data();
     triangle_count = content->header.triangle_count;
-    unit = content->header.unit, extent = content->extent, is_legal = true;
+    unit = content->header.unit, extent = content->extent, solid = body.is_solid();
+    is_legal = !solid || (content->topology.closed() && content->is_whole());
     return;
   }
+  content = nullptr, solid = false;
   const ConvexLeaf& leaf = convex.emplace(body.convex());
   nodes = &leaf.node, triangles = nullptr, vertices = nullptr, triangle_count = 1;
   unit = leaf.unit, extent = leaf.extent, is_legal = leaf.is_legal;

@@ -59,4 +59,16 @@ inline constexpr double kAheadError = 28 * kU, kAheadOfItself = 5 * kU;
 /// out.
 inline constexpr double kLeftOutShare = 0.75;
 
+// ---- Points inside ------------------------------------------------------------------------------------------------------
+
+/// A point of A's frame in B's, R^-1 (p - t), relative to |p - t|: the difference carries 1 u. An entry of the inverse by
+/// cofactors is off by 2 u, as products whose magnitudes sum to 1 carry 1 u and their difference another one: 6 u for the
+/// matrix; and by 8.5 u of itself for the determinant, 6.5 u, its inverse and the product with it: the root of 3 times that.
+/// The last products and sums carry 3 u, the root of 3 times that. That is 27 u; rounded up.
+inline constexpr double kTurnBackError = 32 * kU;
+/// A coordinate of a ray's start in a node's axes, from the middle of a child's box, over the mesh's unit: the difference with
+/// the origin is off by 4 u, times the root of 3, the dot product by 21 u and the last difference by 8 u; and the products of
+/// two coordinates and two directions by 3 u of the coordinates, at most 16, 48 u. That is 84 u; rounded up.
+inline constexpr double kRayError = 128 * kU;
+
 }  // namespace swiftlet

@@ -22,6 +22,7 @@ struct ConvexLeaf {
   bool is_legal;
   double extent = 0;
   int unit = 0;
+  Vec point;  ///< of the body; of a model without its level 0 any that its levels know
   Node node{};
 };
 
@@ -37,7 +38,7 @@ struct MeshView {
   /// A triangle that is likely to hold the point of a feature on level 0 of a node's hull, or kNone.
   std::uint32_t triangle_at(std::uint32_t node, FeatureId feature) const;
 
-  const MeshReader::Content* content = nullptr;  ///< null for a convex body
+  const MeshReader::Content* content;  ///< null for a convex body
   const Node* nodes;
   const Corners* triangles;  ///< null for a convex body
   const Vec* vertices;
@@ -45,6 +46,7 @@ struct MeshView {
   int unit;
   double extent;
   bool is_legal;
+  bool solid;  ///< the volume that the mesh encloses belongs to it
   std::optional<ConvexLeaf> convex;
 };
 

@@ -46,8 +46,8 @@ inline constexpr std::uint32_t kMostTriangles = 1u << 27;
 /// A set of triangles and a tree of boxes over them, in one block of memory that is also the file's content. Copies share the
 /// block, which never changes; any number of threads may query it.
 ///
-/// The surface alone is the body: of two closed meshes, one inside the other, the distance is that of their surfaces. Triangles
-/// may be open, inside out, duplicate, crossing or flat.
+/// The surface alone is the body, unless MeshBody::solid asks about the volume: of two closed meshes, one inside the other,
+/// the distance is that of their surfaces. Triangles may be open, inside out, duplicate, crossing or flat.
 ///
 /// Vertices and triangles are kept in the order of the tree. Indices of this order name them in a `FeatureId`: a vertex by its
 /// own, a face by its triangle's, edge k of triangle t, from corner k to the next one, by 3 t + k.
@@ -83,24 +83,35 @@ class MeshModel {
   std::shared_ptr<const Content> content_;
 };
 
-/// A body of mesh queries: a mesh, or any convex `Body`. It is a view: what it is made of must outlive every query about it and
-/// not move. Within its radius all points belong to the body.
+/// A body of mesh queries: a mesh, which is its surface, the solid that a closed mesh bounds, or any convex `Body`. It is a
+/// view: what it is made of must outlive every query about it and not move. Within its radius all points belong to the body.
 class MeshBody {
  public:
   /// A mesh and all points within `radius` of it.
   MeshBody(const MeshModel& mesh, double radius = 0) : mesh_(&mesh), radius_(radius) {}
   MeshBody(const MeshModel&&, double radius = 0) = delete;  ///< a temporary mesh would not outlive the expression
+  /// A closed mesh, the volume that it encloses and all points within `radius` of these. Enclosed is a point from which a ray
+  /// crosses the surface an odd number of times, whichever way triangles face: components within others are cavities. Queries
+  /// answer InvalidBody unless `topology().closed()`.
+  static MeshBody solid(const MeshModel& mesh, double radius = 0) {
+    MeshBody body(mesh, radius);
+    body.is_solid_ = true;
+    return body;
+  }
+  static MeshBody solid(const MeshModel&&, double radius = 0) = delete;  ///< a temporary mesh would not outlive the expression
   /// A convex body with its radius.
   MeshBody(const Body& convex) : convex_(convex), radius_(convex.radius()) {}
 
   const MeshModel* mesh() const { return mesh_; }  ///< null for a convex body
   const Body& convex() const { return convex_; }   ///< of a mesh a body that queries refuse
   double radius() const { return radius_; }        ///< in the body's unit
+  bool is_solid() const { return is_solid_; }      ///< true of a mesh whose volume belongs to it
 
  private:
   const MeshModel* mesh_ = nullptr;
   Body convex_;
   double radius_;
+  bool is_solid_ = false;
 };
 
 /// The version of the file format that `save` writes for meshes. Files of any other version are refused.

@@ -28,10 +28,17 @@ static_assert(sizeof(MeshSeed) <= 128);
 // triangle where a vertex or an edge of it holds the point too. `steps` counts pairs of nodes that were opened, `plane_tests`
 // pairs of triangles that were looked at; `Budget::steps` limits their sum. `Budget::finest_level` and `Tuning` concern hulls:
 // of a mesh they say nothing. Two convex bodies are answered by query.h.
+//
+// Of a solid (MeshBody::solid) the surfaces are searched first; where they do not cross, exact signs tell whether a component
+// of one body is inside the other. Then the verdict is Overlapping, the distance 0, and both points are one point that lies in
+// both; its features are a vertex of the body inside and none of the other. Where the surfaces touch within law 2's bound and
+// do not cross, a point that is inside by more than this bound is looked for among a few: if there is none, the verdict is
+// Touching, as of surfaces. Cost: some 10 ns for each component of the one body and one or two microseconds for each whose
+// vertex is in the other's box, which no budget limits.
 
 /// Returns the distance between `a` and `b`, where `b_in_a` maps B's frame into A's: exact by default, or within the errors of
 /// `options`. The interval is always true. Cost: see bench/RESULTS.md. Allocates nothing; uses 16 kB of stack, and up
-/// to 32 where only exact arithmetic decides.
+/// to 40 where only exact arithmetic decides.
 Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options = {});
 /// Returns the distance, from a cold start.
 Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Options& options = {});
@@ -60,8 +67,9 @@ ClosestFeatures closest_features(const MeshBody& a, const MeshBody& b, const Pos
 double tolerance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a);
 
 /// Recomputes what `answer` claims by brute force over all pairs of triangles, each by a query of the atomic kernel, without
-/// the trees: bounds and verdict must agree with the least distance, and each point must lie on its feature. Cost: about 1
-/// microsecond for each pair of triangles.
+/// the trees: bounds and verdict must agree with the least distance, and each point must lie on its feature. Of solids a corner
+/// of every triangle is looked for inside the other, by a ray through all triangles. Cost: about 1 microsecond for each pair of
+/// triangles.
 Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answer& answer);
 
 /// Proves that the box of every node holds its triangles, that axes are unit and at right angles, that each triangle is in the
