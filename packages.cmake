@@ -44,7 +44,7 @@ if(SWIFTLET_BVH)
 endif()
 if(SWIFTLET_SCENE)
   swiftlet_package(scene libswiftlet-scene-dev libdevel "Scenes of many bodies: header and static library.")
-  set(CPACK_COMPONENT_SCENE_DEPENDS march)
+  set(CPACK_COMPONENT_SCENE_DEPENDS bvh)
 endif()
 if(SWIFTLET_LOD)
   swiftlet_package(lod libswiftlet-lod-dev libdevel

@@ -10,6 +10,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include <swiftlet/mesh_batch.h>
+
 #include "broad_phase.h"
 
 namespace swiftlet {
@@ -45,24 +47,29 @@ Box box_of(const Vec3& centre, const Vec3& half, double slack, const Pose& in_wo
 }
 
 /// A box that holds the body, and all that its queries may take for it; of what they refuse, one that holds everything.
-Box box_of(const Body& body, const Pose& in_world) {
-  if (std::isnan(tolerance(body, body, in_world)))
+Box box_of(const MeshBody& body, const Pose& in_world) {
+  const Body& convex = body.convex();
+  const Model* const model = convex.model();
+  const MeshModel* const mesh = body.mesh();
+  if (std::isnan(mesh ? tolerance(body, body, in_world) : tolerance(convex, convex, in_world)))
     return {{-kAnywhere, -kAnywhere, -kAnywhere}, {kAnywhere, kAnywhere, kAnywhere}};
   Vec3 lowest, highest;
-  if (const Model* model = body.model()) {
+  if (mesh) {
+    lowest = mesh->box_min(), highest = mesh->box_max();
+  } else if (model) {
     lowest = model->box_min(), highest = model->box_max();
   } else {
     constexpr int kCorners[] = {0, 1, 2, 3, 2};
-    lowest = highest = body.corner(0);
-    for (int i = 1; i < kCorners[int(body.kind())]; ++i) {
-      lowest = lowest.cwiseMin(body.corner(i));
-      highest = highest.cwiseMax(body.corner(i));
+    lowest = highest = convex.corner(0);
+    for (int i = 1; i < kCorners[int(convex.kind())]; ++i) {
+      lowest = lowest.cwiseMin(convex.corner(i));
+      highest = highest.cwiseMax(convex.corner(i));
     }
   }
   const double extent = std::max(lowest.cwiseAbs().maxCoeff(), highest.cwiseAbs().maxCoeff());
   const double slack = body.radius() + kSlack * (extent + body.radius());
   Box box = box_of((lowest + highest) / 2, (highest - lowest) / 2, slack, in_world);
-  if (const Model* model = body.model()) {  // of a round body the ball is the smaller one
+  if (model) {  // of a round body the ball is the smaller one
     const Box ball = box_of(model->centre(), Vec3::Zero(), slack + model->radius(), in_world);
     for (std::size_t i = 0; i < 3; ++i) {
       box.min[i] = std::max(box.min[i], ball.min[i]);
@@ -82,7 +89,7 @@ double squared_reach(double reach) {
 struct KeptPair {
   BodyId a, b;
   std::uint32_t idle = 0;  ///< questions that did not come to it
-  PairSeed seed{};
+  MeshSeed seed{};         ///< of two convex bodies its `pair` alone
 };
 
 bool before(const BodyId& a, const BodyId& b, const BodyId& c, const BodyId& d) {
@@ -101,13 +108,15 @@ struct Kept {
 
 struct Scene::Content {
   struct Place {
-    Body body{};
+    MeshBody body{Body()};
     Pose in_world{};
-    std::unique_ptr<const Model> model{};  ///< that `body` borrows
+    std::unique_ptr<const Model> model{};     ///< that `body` borrows
+    std::unique_ptr<const MeshModel> mesh{};  ///< likewise
     std::string name{};
     std::uint32_t generation = 0;
     bool taken = false;
   };
+  static bool are_convex(const Place& a, const Place& b) { return !a.body.mesh() && !b.body.mesh(); }
   std::vector<Place> places;
   std::vector<std::uint32_t> free;
   std::unordered_map<std::string, BodyId> names;
@@ -153,8 +162,9 @@ struct Scene::Content {
     return kept[other];
   }
 
-  /// Asks the pairs of kept.pairs that `near` names, some at a time: ask(queries, answers) as a batch; list(pair, query,
-  /// answer, found) lists what is to be told. What it lists stands in the order of `near`.
+  /// Asks the pairs of kept.pairs that `near` names, some at a time: ask(queries, answers) as a batch, those of two convex
+  /// bodies as PairQuery, those with a mesh as MeshPairQuery; list(pair, query, answer, found) lists what is to be told. What
+  /// it lists stands in the order of `near`.
   template <class Found, class AnyAnswer, class Ask, class List>
   std::vector<Found> ask_all(const Content& other, Kept& k, std::span<const std::uint32_t> near, Ask ask, List list) const {
     const std::size_t tasks = (near.size() + kPairsPerTask - 1) / kPairsPerTask;
@@ -166,15 +176,31 @@ struct Scene::Content {
     const auto run_one = [&](std::size_t task) {
       if (run.stop && run.stop()) return;
       std::vector<PairQuery> queries;
+      std::vector<MeshPairQuery> mesh_queries;
       queries.reserve(kPairsPerTask);
       for (const std::uint32_t i : some(task)) {
         KeptPair& pair = k.pairs[i];
         const Place &a = places[pair.a.index], &b = other.places[pair.b.index];
-        queries.push_back({a.body, b.body, relative(a.in_world, b.in_world), &pair.seed});
+        const Pose b_in_a = relative(a.in_world, b.in_world);
+        if (are_convex(a, b))
+          queries.push_back({a.body.convex(), b.body.convex(), b_in_a, &pair.seed.pair});
+        else
+          mesh_queries.push_back({a.body, b.body, b_in_a, &pair.seed});
       }
-      std::vector<AnyAnswer> answers(queries.size());
-      ask(queries, answers);
-      for (std::size_t i = 0; i < queries.size(); ++i) list(k.pairs[some(task)[i]], queries[i], answers[i], found[task]);
+      std::vector<AnyAnswer> answers(queries.size()), mesh_answers(mesh_queries.size());
+      ask(std::span<const PairQuery>(queries), std::span(answers));
+      ask(std::span<const MeshPairQuery>(mesh_queries), std::span(mesh_answers));
+      std::size_t convex = 0, mesh = 0;
+      for (const std::uint32_t i : some(task)) {
+        const KeptPair& pair = k.pairs[i];
+        if (are_convex(places[pair.a.index], other.places[pair.b.index])) {
+          list(pair, queries[convex], answers[convex], found[task]);
+          ++convex;
+        } else {
+          list(pair, mesh_queries[mesh], mesh_answers[mesh], found[task]);
+          ++mesh;
+        }
+      }
       done[task] = true;
     };
     run_all(run.executor, tasks, run_one);
@@ -195,12 +221,14 @@ struct Scene::Content {
 };
 
 Scene::Scene() : content_(std::make_shared<Content>()) {}
-Scene::Scene(const Body& body, const Pose& in_world) : Scene() { (void)add({}, body, in_world); }
+Scene::Scene(const Body& body, const Pose& in_world) : Scene(MeshBody(body), in_world) {}
+Scene::Scene(const MeshBody& body, const Pose& in_world) : Scene() { (void)add({}, body, in_world); }
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 
-BodyId Scene::add(std::string_view name, const Body& body, const Pose& in_world) {
+BodyId Scene::add(std::string_view name, const Body& body, const Pose& in_world) { return add(name, MeshBody(body), in_world); }
+BodyId Scene::add(std::string_view name, const MeshBody& body, const Pose& in_world) {
   Content& c = *content_;
   if (!name.empty() && c.names.count(std::string(name))) return {};
   if (c.free.empty()) {
@@ -211,8 +239,11 @@ BodyId Scene::add(std::string_view name, const Body& body, const Pose& in_world)
   c.free.pop_back();
   Content::Place& place = c.places[id.index];
   place.body = body;
-  if (body.model()) {
-    place.model = std::make_unique<const Model>(*body.model());
+  if (body.mesh()) {
+    place.mesh = std::make_unique<const MeshModel>(*body.mesh());
+    place.body = MeshBody(*place.mesh, body.radius());
+  } else if (body.convex().model()) {
+    place.model = std::make_unique<const Model>(*body.convex().model());
     place.body = Body(*place.model, body.radius());
   }
   place.in_world = in_world;
@@ -259,7 +290,8 @@ std::vector<BodyId> Scene::bodies() const {
   return all;
 }
 std::string_view Scene::name(BodyId id) const { return has(id) ? content_->places[id.index].name : std::string_view{}; }
-Body Scene::body(BodyId id) const { return has(id) ? content_->places[id.index].body : Body(); }
+Body Scene::body(BodyId id) const { return mesh_body(id).convex(); }
+MeshBody Scene::mesh_body(BodyId id) const { return has(id) ? content_->places[id.index].body : MeshBody(Body()); }
 Pose Scene::pose(BodyId id) const {
   return has(id) ? content_->places[id.index].in_world : Pose{Mat3::Constant(kNaN), Vec3::Constant(kNaN)};
 }
@@ -267,9 +299,8 @@ Pose Scene::pose(BodyId id) const {
 std::vector<ScenePair> Scene::overlapping(const Scene& other, const Effort& effort) {
   Kept& k = content_->near(other.content_, 0);
   return content_->ask_all<ScenePair, Answer>(
-      *other.content_, k, k.near,
-      [&](std::span<const PairQuery> pairs, std::span<Answer> answers) { intersects(pairs, answers, effort); },
-      [](const KeptPair& pair, const PairQuery&, const Answer& answer, std::vector<ScenePair>& found) {
+      *other.content_, k, k.near, [&](auto pairs, auto answers) { intersects(pairs, answers, effort); },
+      [](const KeptPair& pair, const auto&, const Answer& answer, std::vector<ScenePair>& found) {
         if (answer.verdict != Verdict::Disjoint) found.push_back({pair.a, pair.b, answer});
       });
 }
@@ -277,9 +308,8 @@ std::vector<ScenePair> Scene::overlapping(const Scene& other, const Effort& effo
 std::vector<ScenePair> Scene::within(const Scene& other, double threshold, const Effort& effort) {
   Kept& k = content_->near(other.content_, threshold);
   return content_->ask_all<ScenePair, Within>(
-      *other.content_, k, k.near,
-      [&](std::span<const PairQuery> pairs, std::span<Within> answers) { swiftlet::within(pairs, threshold, answers, effort); },
-      [](const KeptPair& pair, const PairQuery&, const Within& within, std::vector<ScenePair>& found) {
+      *other.content_, k, k.near, [&](auto pairs, auto answers) { swiftlet::within(pairs, threshold, answers, effort); },
+      [](const KeptPair& pair, const auto&, const Within& within, std::vector<ScenePair>& found) {
         if (within.decision != Decision::No) found.push_back({pair.a, pair.b, within.answer});
       });
 }
@@ -288,10 +318,10 @@ namespace {
 
 /// A question about distances, and which of them to list.
 auto ask_distance(const Options& options) {
-  return [&options](std::span<const PairQuery> pairs, std::span<Answer> answers) { distance(pairs, answers, options); };
+  return [&options](auto pairs, auto answers) { distance(pairs, answers, options); };
 }
 auto list_up_to(double beyond) {
-  return [beyond](const KeptPair& pair, const PairQuery&, const Answer& answer, std::vector<ScenePair>& found) {
+  return [beyond](const KeptPair& pair, const auto&, const Answer& answer, std::vector<ScenePair>& found) {
     if (!(answer.lower > beyond)) found.push_back({pair.a, pair.b, answer});
   };
 }
@@ -316,9 +346,14 @@ NearestPair Scene::nearest(const Scene& other, const Options& options) {
     first = {c.id(pair->a), o.id(pair->b)};
   }
   const Content::Place &a = c.places[first.a.index], &b = o.places[first.b.index];
-  const PairQuery query{a.body, b.body, relative(a.in_world, b.in_world), &first.seed};
+  const Pose b_in_a = relative(a.in_world, b.in_world);
   Answer answer;
-  distance(std::span(&query, 1), std::span(&answer, 1), options);
+  if (Content::are_convex(a, b)) {
+    const PairQuery query{a.body.convex(), b.body.convex(), b_in_a, &first.seed.pair};
+    distance(std::span(&query, 1), std::span(&answer, 1), options);
+  } else {
+    answer = distance(a.body, b.body, b_in_a, first.seed, options);
+  }
   const auto is_unknown = [](const Answer& x) { return !(x.upper < kInfinity); };
   content_->kept_with(other.content_).nearest = first;
   if (is_unknown(answer) || answer.upper <= 0) return {{first.a, first.b, answer}, 0};
@@ -348,20 +383,44 @@ NearestPair Scene::nearest(const Scene& other, const Options& options) {
   return nearest;
 }
 
+namespace {
+
+/// A question about contacts: of convex bodies how deep, of meshes how far apart.
+struct AskContact {
+  double margin;
+  void operator()(std::span<const PairQuery> pairs, std::span<Answer> answers) const {
+    signed_distance(pairs, answers, {.beyond = margin});
+  }
+  void operator()(std::span<const MeshPairQuery> pairs, std::span<Answer> answers) const {
+    distance(pairs, answers, {.beyond = margin});
+  }
+};
+
+Manifold manifold_of(const PairQuery& q, const Answer& answer, const ManifoldOptions& options, const Manifold& previous) {
+  return manifold(q.a, q.b, q.b_in_a, answer, options, previous);
+}
+/// The nearest points, where surfaces are apart.
+Manifold manifold_of(const MeshPairQuery&, const Answer& answer, const ManifoldOptions&, const Manifold&) {
+  Manifold one;
+  if (answer.normal.hasNaN()) return one;
+  one.normal = answer.normal;
+  one.count = 1;
+  one.points[0] = {answer.point_a, answer.point_b, answer.lower, answer.feature_a, answer.feature_b};
+  return one;
+}
+
+}  // namespace
+
 std::vector<SceneContact> Scene::contacts(const Scene& other, const ManifoldOptions& options) {
   Kept& k = content_->near(other.content_, options.margin);
-  const auto list = [&](const KeptPair& pair, const PairQuery& q, const Answer& answer, std::vector<SceneContact>& found) {
+  const auto list = [&](const KeptPair& pair, const auto& query, const Answer& answer, std::vector<SceneContact>& found) {
     if (answer.lower > options.margin) return;
     const auto last = std::lower_bound(k.contacts.begin(), k.contacts.end(), pair,
                                        [](const SceneContact& x, const KeptPair& y) { return before(x.a, x.b, y.a, y.b); });
     const bool had = last != k.contacts.end() && last->a == pair.a && last->b == pair.b;
-    found.push_back(
-        {{pair.a, pair.b, answer}, manifold(q.a, q.b, q.b_in_a, answer, options, had ? last->manifold : Manifold{})});
+    found.push_back({{pair.a, pair.b, answer}, manifold_of(query, answer, options, had ? last->manifold : Manifold{})});
   };
-  const auto ask = [&](std::span<const PairQuery> pairs, std::span<Answer> answers) {
-    signed_distance(pairs, answers, {.beyond = options.margin});
-  };
-  k.contacts = content_->ask_all<SceneContact, Answer>(*other.content_, k, k.near, ask, list);
+  k.contacts = content_->ask_all<SceneContact, Answer>(*other.content_, k, k.near, AskContact{options.margin}, list);
   return k.contacts;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes beside brute force: every pair asked on its own, cold. Bodies of all kinds and sizes, that touch exactly, far from the
-// origin, mirrored, moved, removed; on any executor the same bytes.
+// Scenes beside brute force: every pair asked on its own, cold, and of meshes every pair of triangles. Bodies of all kinds and
+// sizes, that touch exactly, far from the origin, mirrored, moved, removed; on any executor the same bytes.
 #include <swiftlet/scene.h>
 
 #include <gtest/gtest.h>
@@ -14,7 +14,9 @@
 
 #include <broad_phase.h>
 #include <random.h>
+#include <soups.h>
 #include <swiftlet/depth.h>
+#include <swiftlet/mesh_query.h>
 #include <swiftlet/model_file.h>
 
 namespace swiftlet {
@@ -65,6 +67,25 @@ Body any_body(Random& random) {
   }
 }
 
+/// Closed and open, flat, duplicate and scattered triangles.
+const std::vector<MeshModel>& meshes() {
+  static const std::vector<MeshModel> all = [] {
+    Random random(101);
+    soups::Soup twice = soups::tetrahedron();
+    twice.add(soups::tetrahedron());
+    return std::vector<MeshModel>{soups::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}).mesh(), soups::torus(12, 6).mesh(),
+                                  soups::scattered(random, 30, 0.5).mesh(), twice.mesh(),
+                                  soups::patch(4, [](double x, double y) { return x * y; }).mesh()};
+  }();
+  return all;
+}
+
+/// Half of them meshes.
+MeshBody any_mesh_body(Random& random) {
+  if (random.bits() % 2) return any_body(random);
+  return {meshes()[random.bits() % meshes().size()], random.bits() % 3 ? 0 : random.uniform(0, 0.3)};
+}
+
 /// On a lattice, where cubes touch exactly, or anywhere; one in eight mirrored. Around `centre`.
 Pose any_pose(Random& random, double reach, const Vec3& centre) {
   Pose pose;
@@ -93,7 +114,7 @@ void all_pairs(const Scene& scene, const Scene& other, const auto& visit) {
   for (const BodyId a : scene.bodies()) {
     for (const BodyId b : other.bodies()) {
       if (&scene == &other && !(a < b)) continue;
-      visit(a, b, scene.body(a), other.body(b), relative(scene.pose(a), other.pose(b)));
+      visit(a, b, scene.mesh_body(a), other.mesh_body(b), relative(scene.pose(a), other.pose(b)));
     }
   }
 }
@@ -103,11 +124,13 @@ void expect_as_brute_force(Scene& scene, const Scene& other, double reach) {
   Ids overlapping, within, up_to, in_contact;
   std::map<std::pair<BodyId, BodyId>, std::pair<Answer, double>> distances, depths;
   double upper = kInfinity, lower = kInfinity;
-  all_pairs(scene, other, [&](BodyId a, BodyId b, const Body& body_a, const Body& body_b, const Pose& pose) {
+  all_pairs(scene, other, [&](BodyId a, BodyId b, const MeshBody& body_a, const MeshBody& body_b, const Pose& pose) {
     const double bound = tolerance(body_a, body_b, pose);
     if (intersects(body_a, body_b, pose).verdict != Verdict::Disjoint) overlapping.emplace(a, b);
     if (swiftlet::within(body_a, body_b, pose, reach).decision != Decision::No) within.emplace(a, b);
-    const Answer d = distance(body_a, body_b, pose), s = signed_distance(body_a, body_b, pose);
+    const Answer d = distance(body_a, body_b, pose);
+    const bool convex = !body_a.mesh() && !body_b.mesh();
+    const Answer s = convex ? signed_distance(body_a.convex(), body_b.convex(), pose) : d;
     if (d.lower <= reach) up_to.emplace(a, b);
     if (s.lower <= reach) in_contact.emplace(a, b);
     distances[{a, b}] = {d, bound};
@@ -131,7 +154,7 @@ void expect_as_brute_force(Scene& scene, const Scene& other, double reach) {
     const auto& [alone, bound] = depths[{contact.a, contact.b}];
     EXPECT_LE(contact.answer.lower, alone.upper);
     EXPECT_LE(alone.lower, contact.answer.upper);
-    EXPECT_GT(contact.manifold.count, 0u);
+    EXPECT_EQ(contact.manifold.count > 0, !contact.answer.normal.hasNaN());
   }
   const NearestPair nearest = scene.nearest(other);
   ASSERT_EQ(scene.has(nearest.a), !distances.empty());
@@ -186,14 +209,15 @@ TEST(BoxTree, FindsWhatBruteForceFinds) {
   }
 }
 
-TEST(Scene, AnswersAsBruteForce) {
-  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+/// Scenes of bodies of `make`.
+void expect_all_as_brute_force(const auto& make, std::uint64_t seeds, int count) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     Random random(seed);
     const Vec3 centre = seed % 3 == 2 ? Vec3(1e15, -3e14, 7e14) : Vec3(0, 0, 0);
     const double reach = std::array{1.5, 3.0, 6.0, 12.0}[seed % 4];
     Scene scene, other;
-    for (int i = 0; i < 40; ++i) (void)scene.add("", any_body(random), any_pose(random, reach, centre));
-    for (int i = 0; i < 15; ++i) (void)other.add("", any_body(random), any_pose(random, reach, centre));
+    for (int i = 0; i < count; ++i) (void)scene.add("", make(random), any_pose(random, reach, centre));
+    for (int i = 0; i < 15; ++i) (void)other.add("", make(random), any_pose(random, reach, centre));
     for (int step = 0; step < 4; ++step) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << " step " << step);
       expect_as_brute_force(scene, scene, 0.2);
@@ -208,6 +232,42 @@ TEST(Scene, AnswersAsBruteForce) {
       }
     }
   }
+}
+
+TEST(Scene, AnswersAsBruteForce) { expect_all_as_brute_force(any_body, 24, 40); }
+TEST(Scene, WithMeshesAnswersAsBruteForce) { expect_all_as_brute_force(any_mesh_body, 12, 25); }
+
+/// Every pair of triangles of every pair of meshes, in long doubles.
+TEST(Scene, FindsMeshesAsTheirTrianglesAre) {
+  Random random(23);
+  const soups::Soup soups[] = {soups::torus(9, 5), soups::tetrahedron(), soups::scattered(random, 20, 0.6)};
+  int near = 0, far = 0;
+  for (int round = 0; round < 6; ++round) {
+    Scene scene;
+    std::vector<std::size_t> kind;
+    for (int i = 0; i < 12; ++i) {
+      kind.push_back(random.bits() % std::size(soups));
+      const MeshModel mesh = soups[kind.back()].mesh();
+      (void)scene.add("", mesh, any_pose(random, 3.5, {0, 0, 0}));
+    }
+    Ids within, overlapping;
+    for (const ScenePair& pair : scene.within(0.3)) within.emplace(pair.a, pair.b);
+    for (const ScenePair& pair : scene.overlapping()) overlapping.emplace(pair.a, pair.b);
+    double least = kInfinity;
+    all_pairs(scene, scene, [&](BodyId a, BodyId b, const MeshBody& body_a, const MeshBody& body_b, const Pose& pose) {
+      const double truth = soups::brute_force(soups[kind[a.index]], soups[kind[b.index]], pose);
+      const double bound = tolerance(body_a, body_b, pose);
+      least = std::min(least, truth);
+      (truth < 0.3 ? near : far)++;
+      EXPECT_TRUE((within.count({a, b}) > 0) == (truth < 0.3) || std::abs(truth - 0.3) <= bound) << truth;
+      EXPECT_TRUE((overlapping.count({a, b}) > 0) == (truth == 0) || (truth > 0 && truth <= bound)) << truth;
+    });
+    const NearestPair nearest = scene.nearest();
+    EXPECT_LE(nearest.lower, least + 1e-14);
+    EXPECT_GE(nearest.answer.upper, least - 1e-14);
+  }
+  EXPECT_GT(near, 40);
+  EXPECT_GT(far, 100);
 }
 
 /// Pairs whose boxes just do not touch, but of which queries say Touching: law 2's bound is widest in frames as far from
@@ -239,7 +299,7 @@ TEST(Scene, NamesIdsAndChurn) {
     const auto found = there.find(name);
     EXPECT_EQ(scene.find(name), found == there.end() ? BodyId{} : found->second);
     if (found == there.end()) {
-      const BodyId id = scene.add(name, any_body(random), any_pose(random, 4, {0, 0, 0}));
+      const BodyId id = scene.add(name, any_mesh_body(random), any_pose(random, 4, {0, 0, 0}));
       EXPECT_TRUE(scene.has(id));
       EXPECT_EQ(scene.name(id), name);
       EXPECT_EQ(std::count(gone.begin(), gone.end(), id), 0) << "an id came back";
@@ -288,9 +348,17 @@ TEST(Scene, KeepsItsModels) {
     (void)scene.add("a", model, Pose{});
     (void)scene.add("b", Body(model, 0.5), Pose{.translation = {0.5, 0, 0}});
   }
+  {
+    const MeshModel mesh = soups::box({-1, -1, -1}, {1, 1, 1}).mesh();
+    (void)scene.add("c", MeshBody(mesh, 0.25), Pose{.translation = {0, 0, 2}});
+  }
   Scene moved = std::move(scene);
-  EXPECT_EQ(moved.overlapping().size(), 1u);
+  EXPECT_EQ(moved.overlapping().size(), 3u);
   EXPECT_EQ(moved.body(moved.find("b")).radius(), 0.5);
+  EXPECT_EQ(moved.mesh_body(moved.find("b")).convex().model(), moved.body(moved.find("b")).model());
+  EXPECT_EQ(moved.mesh_body(moved.find("c")).radius(), 0.25);
+  EXPECT_EQ(moved.mesh_body(moved.find("c")).mesh()->triangle_count(), 12u);
+  EXPECT_EQ(intersects(moved.body(moved.find("c")), models()[0], Pose{}).status, Status::InvalidBody) << "no convex body";
 }
 
 TEST(Scene, WhatQueriesRefuseIsListedWithItsStatus) {
@@ -341,7 +409,7 @@ TEST(Scene, OnThreadsTheSameBytes) {
   scenes[1].run_by({.executor = threads});
   scenes[2].run_by({.executor = backwards});
   for (int i = 0; i < 400; ++i) {
-    const Body body = any_body(random);
+    const MeshBody body = any_mesh_body(random);
     const Pose pose = any_pose(random, 6, {0, 0, 0});
     for (Scene& scene : scenes) (void)scene.add("", body, pose);
   }
@@ -376,10 +444,10 @@ TEST(Scene, OnThreadsTheSameBytes) {
 }
 
 /// What is kept of pairs changes the work, never the truth.
-TEST(Scene, WarmAsCold) {
+std::pair<std::uint64_t, std::uint64_t> steps_warm_and_cold(const auto& make) {
   Random random(13);
   Scene warm;
-  for (int i = 0; i < 60; ++i) (void)warm.add("", any_body(random), any_pose(random, 4, {0, 0, 0}));
+  for (int i = 0; i < 60; ++i) (void)warm.add("", make(random), any_pose(random, 4, {0, 0, 0}));
   std::uint64_t steps_warm = 0, steps_cold = 0;
   for (int step = 0; step < 30; ++step) {
     Scene cold;
@@ -387,7 +455,7 @@ TEST(Scene, WarmAsCold) {
       Pose pose = warm.pose(id);
       pose.translation += 0.01 * random.in_ball();
       warm.move(id, pose);
-      EXPECT_EQ(cold.add("", warm.body(id), pose), id);
+      EXPECT_EQ(cold.add("", warm.mesh_body(id), pose), id);
     }
     const auto left = warm.distances({.beyond = 0.5}), right = cold.distances({.beyond = 0.5});
     EXPECT_EQ(ids(left), ids(right));
@@ -399,7 +467,16 @@ TEST(Scene, WarmAsCold) {
       steps_cold += right[i].answer.steps;
     }
   }
-  EXPECT_LT(2 * steps_warm, steps_cold);
+  return {steps_warm, steps_cold};
+}
+
+TEST(Scene, WarmAsCold) {
+  const auto [warm, cold] = steps_warm_and_cold(any_body);
+  EXPECT_LT(2 * warm, cold);
+}
+TEST(Scene, WithMeshesWarmAsCold) {
+  const auto [warm, cold] = steps_warm_and_cold(any_mesh_body);
+  EXPECT_LT(4 * warm, 3 * cold);
 }
 
 TEST(Scene, AsksOnlyWhatIsWanted) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes: named bodies in one world, and the questions about all their pairs, or about all pairs with another scene's. A tree
-// of boxes leaves out the pairs that are far apart; what is left is asked by the library's queries. Knows no algorithm of a
-// query.
+// Scenes: named bodies, convex ones and meshes, in one world, and the questions about all their pairs, or about all pairs with
+// another scene's. A tree of boxes leaves out the pairs that are far apart; what is left is asked by the library's queries.
+// Knows no algorithm of a query.
 #pragma once
 
 #include <compare>
@@ -17,6 +17,7 @@
 
 #include <swiftlet/batch.h>
 #include <swiftlet/manifold.h>
+#include <swiftlet/mesh.h>
 #include <swiftlet/query.h>
 
 namespace swiftlet {
@@ -62,14 +63,17 @@ class Scene {
  public:
   Scene();  ///< without bodies
   Scene(const Body& body,
-        const Pose& in_world);         ///< one body without a name, to ask about: `scene.overlapping(Scene(a, pose))`
-  Scene(Scene&&) noexcept;             ///< what is moved from may only be assigned or destroyed
-  Scene& operator=(Scene&&) noexcept;  ///< likewise
+        const Pose& in_world);  ///< one body without a name, to ask about: `scene.overlapping(Scene(a, pose))`
+  Scene(const MeshBody& body, const Pose& in_world);  ///< likewise
+  Scene(Scene&&) noexcept;                            ///< what is moved from may only be assigned or destroyed
+  Scene& operator=(Scene&&) noexcept;                 ///< likewise
   ~Scene();
 
   /// Adds a body; an empty name names nothing. Keeps a copy of its `Model`, which shares the block: the caller's may go.
   /// Returns BodyId{} where another body has the name. Cost: O(log bodies).
   [[nodiscard]] BodyId add(std::string_view name, const Body& body, const Pose& in_world);
+  /// The same of a mesh, or of any convex body: keeps a copy of the `MeshModel` or `Model`, which shares the block.
+  [[nodiscard]] BodyId add(std::string_view name, const MeshBody& body, const Pose& in_world);
   /// Moves a body. Returns false if `id` names none. Cost: O(log bodies), less for small moves.
   bool move(BodyId id, const Pose& in_world);
   /// Removes a body. Returns false if `id` names none.
@@ -86,7 +90,8 @@ class Scene {
   std::size_t size() const;                  ///< number of bodies
   std::vector<BodyId> bodies() const;        ///< in order
   std::string_view name(BodyId id) const;    ///< until the next `add` or `remove`; empty if `id` names none
-  Body body(BodyId id) const;                ///< as long as it is in the scene; Body() if `id` names none
+  Body body(BodyId id) const;                ///< as long as it is in the scene; Body() of a mesh, or if `id` names none
+  MeshBody mesh_body(BodyId id) const;       ///< likewise, of a mesh too
   Pose pose(BodyId id) const;                ///< in the world; NaN if `id` names none
 
   // All questions ignore `trace` and `proof`. The bodies of `other` are B; it may be this scene: the pairs within it.
@@ -103,7 +108,8 @@ class Scene {
   /// distance as the first bound.
   NearestPair nearest(const Scene& other, const Options& options = {});
   /// Lists the pairs whose signed distance is not proved to be above options.margin, with it and the contact manifold, which
-  /// keeps the points of the last call's.
+  /// keeps the points of the last call's. Of a pair with a mesh it is the distance, and the manifold the nearest points, of
+  /// which surfaces that meet have none.
   std::vector<SceneContact> contacts(const Scene& other, const ManifoldOptions& options = {});
 
   /// As above, of the pairs within this scene.

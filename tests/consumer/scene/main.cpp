@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// RECIPES.md's scene: things on a table, and a gripper that comes down. Ends with 1 where a block does not do what the page
-// says.
+// RECIPES.md's scene: things on a table, a mesh among them, and a gripper that comes down. Ends with 1 where a block does not
+// do what the page says.
+#include <array>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <swiftlet/scene.h>
@@ -22,12 +24,13 @@ Pose at(double x, double y, double z) {
 
 std::string text(const swiftlet::Scene& scene, swiftlet::BodyId id) { return std::string(scene.name(id)); }
 
-int run(const Model& cup) {
+int run(const Model& cup, const swiftlet::MeshModel& bowl) {
   swiftlet::Scene scene;
   (void)scene.add("table", Body::box({-1, -1, -0.05}, {1, 1, 0}), Pose{});  // a name that is taken gives BodyId{}
   (void)scene.add("ball", Body::point({0, 0, 0}, 0.06), at(0.25, 0, 0.075));
   const swiftlet::BodyId id =
-      scene.add("cup", cup, at(0, 0, 0.101));  // keeps its own copy of the model, which shares the block
+      scene.add("cup", cup, at(0, 0, 0.101));           // keeps its own copy of the model, which shares the block
+  (void)scene.add("bowl", bowl, at(-0.5, 0.5, 0.015));  // a MeshModel; with a radius, a MeshBody
 
   for (const swiftlet::ScenePair& pair : scene.within(0.02))
     std::printf("%s and %s are near\n", text(scene, pair.a).c_str(), text(scene, pair.b).c_str());
@@ -48,7 +51,7 @@ int run(const Model& cup) {
   const bool blocked = !scene.overlapping(swiftlet::Scene(Body::box({-0.1, -0.1, 0}, {0.1, 0.1, 0.1}), at(0.3, 0, 0))).empty();
   std::printf("a box there: %s\n", blocked ? "no" : "yes");
   scene.remove(scene.find("ball"));
-  return nearest.answer.upper > 0.002 || !blocked || scene.size() != 2;
+  return nearest.answer.upper > 0.002 || !blocked || scene.size() != 3;
 }
 
 }  // namespace
@@ -64,5 +67,11 @@ int main() {
   arrays.face_sizes = sizes;
   const auto cup = Model::from_level(arrays);
   if (!cup) return std::puts(cup.error().message.c_str()), 1;
-  return run(cup.value());
+
+  std::vector<swiftlet::Vec3> rim{{0, 0, 0}};  // an open pyramid, upside down
+  for (const auto& [x, y] : {std::pair(1, 0), {0, 1}, {-1, 0}, {0, -1}}) rim.emplace_back(0.2 * x, 0.2 * y, 0.1);
+  const std::array<std::uint32_t, 3> sides_of_bowl[] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
+  const auto bowl = swiftlet::MeshModel::from_triangles(rim, sides_of_bowl);
+  if (!bowl) return std::puts(bowl.error().message.c_str()), 1;
+  return run(cup.value(), bowl.value());
 }
