@@ -50,7 +50,7 @@ if(SWIFTLET_LOD)
   swiftlet_package(lod libswiftlet-lod-dev libdevel
     "The builder: header and static library. What links it comes under CGAL's GPL.")
   set(CPACK_DEBIAN_LOD_PACKAGE_DEPENDS "libcgal-dev (>= 5.5)")
-  set(CPACK_COMPONENT_LOD_DEPENDS march)
+  set(CPACK_COMPONENT_LOD_DEPENDS bvh)
 endif()
 if(SWIFTLET_TOOL)
   swiftlet_package(tools swiftlet-tools science "The command line tool. With `build` in it, it comes under CGAL's GPL.")
