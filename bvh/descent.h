@@ -103,20 +103,64 @@ class Descent {
     const float most = pair.square_of(limit_of_boxes_), square = pair.square();
     if (!(square <= most)) return;
     if (pair.lower(square) > 0 && a_.has_hull(entry.a) && b_.has_hull(entry.b) && part_by_hulls(entry)) return;
-    const bool lowest = a.lowest() && b.lowest();
+    const std::array<bool, 2> ends{a_.ends(a), b_.ends(b)};
     const int bottom = top_;
     float key[kFanOut * kFanOut];
-    for_near_children(pair, most, {entry.a, entry.b}, [&](std::uint32_t of_a, std::uint32_t of_b, float gap, float centres) {
-      const float lower = pair.lower(gap);
-      key[top_ - bottom] = lower + std::sqrt(centres);
-      stack_[top_++] = {of_a, of_b, lower};
-    });
-    raise_least(stack_ + bottom, key, top_ - bottom, lowest ? 1 : kSortedFew);
-    if (!lowest) return;
+    for_near_children(pair, most, {entry.a, entry.b}, ends,
+                      [&](std::uint32_t of_a, std::uint32_t of_b, float gap, float centres) {
+                        const float lower = pair.lower(gap);
+                        key[top_ - bottom] = lower + std::sqrt(centres);
+                        stack_[top_++] = {of_a, of_b, lower};
+                      });
+    raise_least(stack_ + bottom, key, top_ - bottom, ends[0] && ends[1] ? 1 : kSortedFew);
+    if (!(ends[0] && ends[1])) return;
+    const bool whole = a_.triangle_count > 0 && b_.triangle_count > 0;
     while (top_ > bottom && !done_ && !spent()) {
       const PairEntry next = stack_[--top_];
-      if (double(next.lower) < limit_over_unit_) measure(next.a, next.b);
+      if (double(next.lower) >= limit_over_unit_) continue;
+      whole ? measure(next.a, next.b) : bound(entry, next);
     }
+  }
+
+  /// Where a tree ends: a triangle or a convex body or, of a mesh that was cut, a ball around a box.
+  struct End {
+    Body body;
+    double radius;
+  };
+  End end_of(const MeshView& of, std::uint32_t node, std::uint32_t child) const {
+    if (of.triangle_count > 0) return {body_of(of, child), 0};
+    const Node& n = of.nodes[node];
+    const std::uint32_t k = child - n.first();
+    float third[3];
+    third_axis(n.axis, third);
+    Vec centre{n.origin[0], n.origin[1], n.origin[2]};
+    for (int l = 0; l < 3; ++l) {
+      const float* const axis = l < 2 ? n.axis[l] : third;
+      centre = centre + Vec{axis[0], axis[1], axis[2]} * double(n.centre[l][k]);
+    }
+    // So little is no legal coordinate of a point, and within the error.
+    for (double* x : {&centre.x, &centre.y, &centre.z}) *x = std::fabs(*x) < kMiddleError / 8 ? 0 : *x;
+    const double radius = norm({n.half[0][k], n.half[1][k], n.half[2][k]}) * (1 + 4 * kAxisError) + kMiddleError;
+    return {Body::point(eigen(scaled(centre, of.unit))), times_power_of_two(radius, of.unit)};
+  }
+
+  /// Bounds the distance of what two boxes of a mesh that was cut hold: each holds a point of its surface.
+  [[gnu::noinline]] void bound(const PairEntry& nodes, const PairEntry& children) {
+    ++finding_.triangles;
+    const End a = end_of(a_, nodes.a, children.a), b = end_of(b_, nodes.b, children.b);
+    const Answer answer = distance(a.body, b.body, pose_, kernel_seed_);
+    if (answer.status >= Status::InvalidPose) {
+      finding_.refused = done_ = true;
+      return;
+    }
+    const double slack = a.radius + b.radius;
+    const double nearer_boxes = times_power_of_two(double(children.lower), unit_);
+    lower_ = min(lower_, max(nearer_boxes, answer.lower - slack - kEndError * (answer.lower + slack)));
+    const double upper = answer.upper + slack + kEndError * (answer.upper + slack);
+    if (!(upper < finding_.upper)) return;
+    finding_.point_a = vec(answer.point_a), finding_.point_b = vec(answer.point_b);
+    finding_.feature_a = finding_.feature_b = FeatureId();
+    nearer(kNone, kNone, answer.verdict == Verdict::Disjoint ? vec(answer.normal) : Vec{0, 0, 0}, upper);
   }
 
   /// Asks for the distance of the hulls of two nodes, whose boxes are apart, and tries the triangles at their nearest points.

@@ -46,8 +46,18 @@ Vec3 MeshModel::box_max() const { return Vec3(content_->header.box_max); }
 double MeshModel::extent() const { return content_->extent; }
 std::size_t MeshModel::node_count() const { return content_->nodes.size(); }
 std::size_t MeshModel::hull_count() const { return content_->hulls.size(); }
+bool MeshModel::is_whole() const { return content_->is_whole(); }
+int MeshModel::level_count() const { return int(content_->header.levels); }
+int MeshModel::depth() const { return int(content_->header.depth); }
+double MeshModel::deviation(int levels) const { return levels < depth() ? content_->header.deviation[levels - 1] : 0; }
 std::span<const std::byte> MeshModel::bytes() const { return content_->block.bytes; }
 std::uint64_t MeshModel::hash() const { return hash_of(bytes()); }
+
+MeshModel MeshModel::cut(const Detail& detail) const {
+  const std::uint32_t levels = MeshReader::levels(content_->header, detail);
+  if (levels == content_->header.levels) return *this;
+  return MeshReader::cut(bytes(), levels).value();  // of a block that was read before
+}
 
 Result<std::size_t> save(const MeshModel& mesh, const std::filesystem::path& path) { return replace_file(path, mesh.bytes()); }
 
@@ -57,12 +67,37 @@ Result<MeshModel> load_mesh(std::span<const std::byte> bytes) {
   return MeshReader::read(std::move(block));
 }
 
-Result<MeshModel> load_mesh(const std::filesystem::path& path) {
+Result<MeshModel> load_mesh(const std::filesystem::path& path, const Detail& detail) {
   const Result<OwnedBytes> file = map_file(path);
   if (!file) return file.error();
-  Result<MeshModel> mesh = load_mesh(file.value().bytes);
+  const std::span<const std::byte> bytes = file.value().bytes;
+  const Result<MeshHeader> header = MeshReader::read_header(bytes);
+  if (!header) return named(path, header.error());
+  const std::uint32_t levels = MeshReader::levels(header.value(), detail);
+  Result<MeshModel> mesh = levels < header.value().levels ? MeshReader::cut(bytes, levels) : load_mesh(bytes);
   if (!mesh) return named(path, mesh.error());
   return mesh;
+}
+
+Result<SalvagedMesh> salvage_mesh(const std::filesystem::path& path) {
+  const Result<OwnedBytes> file = map_file(path);
+  if (!file) return file.error();
+  const std::span<const std::byte> bytes = file.value().bytes;
+  const Result<MeshHeader> header = MeshReader::read_header(bytes);
+  if (!header) return named(path, header.error());
+  const MeshHeader& h = header.value();
+  if (bytes.size() >= h.total_bytes) {
+    Result<MeshModel> mesh = load_mesh(bytes);
+    if (!mesh) return named(path, mesh.error());
+    return SalvagedMesh{std::move(mesh).value(), ""};
+  }
+  const std::uint32_t levels = MeshReader::levels(h, {0, bytes.size()});
+  Result<MeshModel> mesh = MeshReader::cut(bytes, std::min(levels, h.levels));
+  if (!mesh) return named(path, mesh.error());
+  return SalvagedMesh{std::move(mesh).value(), utf8(path) + ": it has " + std::to_string(bytes.size()) +
+                                                   " bytes where its header says " + std::to_string(h.total_bytes) + ": " +
+                                                   std::to_string(levels) + " of " + std::to_string(h.depth) +
+                                                   " levels of nodes are complete"};
 }
 
 Result<MeshModel> map_mesh(const std::filesystem::path& path) {

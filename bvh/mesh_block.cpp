@@ -51,8 +51,8 @@ std::string fault(const MeshHeader& h) {
       h.vertex_count > 3 * std::uint64_t{kMostTriangles} || h.node_count > kMostTriangles)
     return "a count out of range";
   if (h.unused != 0) return "a word that is not 0";
-  if (h.depth < 1 || h.depth > kMostDepth || h.levels != h.depth || h.components > h.triangle_count || h.unit < -160 ||
-      h.unit > 160)
+  if (h.depth < 1 || h.depth > kMostDepth || h.levels < 1 || h.levels > h.depth || h.components > h.triangle_count ||
+      h.unit < -160 || h.unit > 160)
     return "a depth or unit out of range";
   const double largest = power_of_two(h.unit);
   for (int axis = 0; axis < 3; ++axis) {
@@ -120,7 +120,7 @@ void measure_levels(const MeshParts& parts, MeshHeader& header) {
       next += node.lowest() ? 0 : std::size_t(node.count());
     }
     header.level[k].bytes = (end - begin) * sizeof(Node);
-    header.deviation[k] = times_power_of_two(2 * max(lowest, inner) * (1 + 4 * kAxisError), parts.unit);
+    header.deviation[k] = times_power_of_two(2 * (max(lowest, inner) * (1 + 4 * kAxisError) + kMiddleError), parts.unit);
     begin = end, end = next;
   }
 }
@@ -211,18 +211,72 @@ bool is_mesh_block(std::span<const std::byte> start) {
   return start.size() >= sizeof kMagic && std::memcmp(start.data(), kMagic, sizeof kMagic) == 0;
 }
 
-Result<MeshModel> MeshReader::read(Block block) {
+Result<MeshHeader> MeshReader::read_header(std::span<const std::byte> start) {
   const auto bad = [](const std::string& what) { return Error{ErrorCode::BadFormat, what}; };
-  if (!is_mesh_block(block.bytes)) return bad("this is no mesh file");
+  if (!is_mesh_block(start)) return bad("this is no mesh file");
   MeshHeader h{};
-  if (block.bytes.size() < sizeof h) return bad("the file ends within its header");
-  std::memcpy(&h, block.bytes.data(), sizeof h);
+  if (start.size() < sizeof h) return bad("the file ends within its header");
+  std::memcpy(&h, start.data(), sizeof h);
   if (h.version != kMeshFileVersion) {
     return Error{ErrorCode::BadVersion, "file version " + std::to_string(h.version) + " where this library reads " +
                                             std::to_string(kMeshFileVersion) + ": build the mesh again"};
   }
   if (h.header_hash != hash_of_header(h)) return bad("damaged header");
   if (const std::string f = fault(h); !f.empty()) return bad("the header has " + f);
+  return h;
+}
+
+std::uint32_t MeshReader::levels(const MeshHeader& h, const Detail& detail) {
+  std::uint32_t levels = h.levels;
+  for (std::uint32_t k = 1; k < h.levels && detail.deviation > 0; ++k) {
+    if (h.deviation[k - 1] < detail.deviation) levels = std::min(levels, k);
+  }
+  if (levels == h.depth && h.total_bytes > detail.bytes) --levels;
+  while (levels > 1 && h.level[levels - 1].offset + h.level[levels - 1].bytes > detail.bytes) --levels;
+  return std::max(levels, 1u);
+}
+
+Result<MeshModel> MeshReader::cut(std::span<const std::byte> bytes, std::uint32_t levels) {
+  const Result<MeshHeader> whole = read_header(bytes);
+  if (!whole) return whole.error();
+  MeshHeader header = whole.value();
+  // Not all of it is where it says: a section's end may be beyond what is left, or lie about it.
+  const auto is_whole = [&](const Section& s) {
+    return s.offset <= bytes.size() && s.bytes <= bytes.size() - s.offset &&
+           hash_of(bytes.subspan(std::size_t(s.offset), std::size_t(s.bytes))) == s.hash;
+  };
+  std::vector<std::byte> nodes;
+  for (std::uint32_t k = 0; k < levels; ++k) {
+    const Section& level = header.level[k];
+    if (!is_whole(level)) return Error{ErrorCode::BadFormat, "nodes of level " + std::to_string(k) + " are missing or damaged"};
+    const auto of_level = bytes.subspan(std::size_t(level.offset), std::size_t(level.bytes));
+    nodes.insert(nodes.end(), of_level.begin(), of_level.end());
+  }
+  std::vector<HullRecord> hulls;
+  std::vector<std::byte> models;
+  if (is_whole(header.hulls) && is_whole(header.hull_models) && header.hulls.bytes == held(header, 0) * sizeof(HullRecord)) {
+    for (std::uint32_t i = 0; i < header.hull_count; ++i) {
+      HullRecord r;
+      std::memcpy(&r, bytes.data() + header.hulls.offset + i * sizeof r, sizeof r);
+      if (r.node >= nodes.size() / sizeof(Node)) break;
+      if (r.offset > header.hull_models.bytes || r.bytes > header.hull_models.bytes - r.offset) break;
+      const auto model = bytes.subspan(std::size_t(header.hull_models.offset + r.offset), std::size_t(r.bytes));
+      hulls.push_back({r.node, r.first_triangle, models.size(), r.bytes});
+      models.insert(models.end(), model.begin(), model.end());
+      models.resize(std::size_t(aligned(models.size())));
+    }
+  }
+  header.levels = levels;
+  for (std::uint32_t k = levels; k < kMostDepth; ++k) header.level[k] = {};
+  header.hull_count = std::uint32_t(hulls.size()), header.hull_units = std::uint32_t(models.size() / 64);
+  return read(assemble(header, nodes, {std::as_bytes(std::span(hulls)), models, {}, {}, {}, {}, {}}));
+}
+
+Result<MeshModel> MeshReader::read(Block block) {
+  const auto bad = [](const std::string& what) { return Error{ErrorCode::BadFormat, what}; };
+  const Result<MeshHeader> header = read_header(block.bytes);
+  if (!header) return header.error();
+  const MeshHeader& h = header.value();
   // What lies one after the other, gaps apart, each with its name.
   std::vector<std::pair<Section, std::string>> sections;
   for (std::uint32_t k = 0; k < h.levels; ++k) sections.emplace_back(h.level[k], "nodes of level " + std::to_string(k));

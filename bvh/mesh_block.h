@@ -98,6 +98,13 @@ bool is_mesh_block(std::span<const std::byte> start);
 class MeshReader {
  public:
   static Result<MeshModel> read(Block block);
+  /// The header at the start of a block, which may end early: its hash and ranges are checked.
+  static Result<MeshHeader> read_header(std::span<const std::byte> start);
+  /// The levels of nodes that `detail` asks for; all of them if it wants the whole mesh.
+  static std::uint32_t levels(const MeshHeader& header, const Detail& detail);
+  /// A mesh of the first `levels` levels of nodes, fewer than the block's, in a block of its own. What follows them may be cut
+  /// off: hulls are kept if all of them are there.
+  static Result<MeshModel> cut(std::span<const std::byte> bytes, std::uint32_t levels);
   /// The parts of a whole mesh.
   static MeshParts parts(const MeshModel& mesh);
   using Content = MeshModel::Content;

@@ -72,6 +72,9 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
                                                 : fail("the bodies or the pose are refused, the answer is not");
   }
   if (answer.status == Status::NotAsked || answer.status >= Status::InvalidPose) return fail("the answer says nothing");
+  for (const MeshBody* body : {&a, &b}) {
+    if (body->mesh() && !body->mesh()->is_whole()) return fail("the triangles of a mesh that was cut are not there");
+  }
   const Parts of_a(a), of_b(b);
   double lower = HUGE_VAL, upper = HUGE_VAL;
   bool overlapping = false;
@@ -109,6 +112,7 @@ Check verify(const MeshModel& mesh) {
   const auto fail = [](std::size_t node, const std::string& what) {
     return Check{false, "node " + std::to_string(node) + ": " + what};
   };
+  if (!mesh.is_whole()) return {false, "the mesh was cut: nothing tells whether its boxes hold the surface"};
   // The triangles below each node lie one after the other.
   struct Range {
     std::uint32_t begin, end;

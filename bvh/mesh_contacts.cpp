@@ -42,6 +42,10 @@ MeshContacts contacts(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, 
   MeshContacts result;
   const MeshSetting at(a, b, b_in_a);
   if (result.status = at.fault(); result.status != Status::Converged) return result;
+  if (at.a.triangle_count == 0 || at.b.triangle_count == 0) {
+    result.status = Status::LevelLimit;
+    return result;
+  }
   result.is_counted = true;
   if (!(reach >= 0)) return result;
 

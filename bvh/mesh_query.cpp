@@ -58,13 +58,14 @@ double gap_of_roots(const MeshSetting& at) {
   return length - reach_a - reach_b - kBoxSlack * (length + at.size + 2 * (reach_a + reach_b));
 }
 
-Status status_of(const MeshFinding& found, const StopRule& stop, double law_two) {
+Status status_of(const MeshFinding& found, const StopRule& stop, double law_two, bool whole) {
   if (found.verdict == Verdict::Overlapping || stop.at_least(law_two).narrow(found.lower, found.upper) ||
       found.upper < stop.below)
     return Status::Converged;
   if (found.lower > stop.above) return Status::Beyond;
   if (found.cut_short) return Status::Budget;
-  return found.upper - found.lower <= law_two ? Status::Converged : Status::NotConverged;
+  if (found.upper - found.lower <= law_two) return Status::Converged;
+  return whole ? Status::NotConverged : Status::LevelLimit;
 }
 
 /// Searches. Within law 2's bound of contact of the surfaces or of the bodies, or of a threshold, what is seen first decides
@@ -107,7 +108,7 @@ void ask(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& see
     answer.status = Status::InvalidBody;
     return;
   }
-  answer.status = status_of(found, stop, at.law_two);
+  answer.status = status_of(found, stop, at.law_two, at.a.triangle_count > 0 && at.b.triangle_count > 0);
   describe(at, found, answer);
 }
 
@@ -172,14 +173,14 @@ MeshView::MeshView(const MeshBody& body) {
   if (const MeshModel* const mesh = body.mesh()) {
     content = &MeshReader::content(*mesh);
     nodes = content->nodes.data(), triangles = content->triangles.data(), vertices = content->vertices.data();
-    triangle_count = content->header.triangle_count;
+    node_count = std::uint32_t(content->nodes.size()), triangle_count = std::uint32_t(content->triangles.size());
     unit = content->header.unit, extent = content->extent, solid = body.is_solid();
     is_legal = !solid || (content->topology.closed() && content->is_whole());
     return;
   }
   content = nullptr, solid = false;
   const ConvexLeaf& leaf = convex.emplace(body.convex());
-  nodes = &leaf.node, triangles = nullptr, vertices = nullptr, triangle_count = 1;
+  nodes = &leaf.node, triangles = nullptr, vertices = nullptr, node_count = triangle_count = 1;
   unit = leaf.unit, extent = leaf.extent, is_legal = leaf.is_legal;
 }
 

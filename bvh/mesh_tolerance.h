@@ -17,6 +17,12 @@ inline constexpr double kAxisError = 0x1p-21;
 /// point, nor that of a node's origin, 10 u of where it is. Dimensionless.
 inline constexpr double kBoxMargin = 0x1p-44;
 
+/// The middle of a child's box, along three axes of its node from the node's origin, in the body's frame, over its unit: four
+/// terms of at most 2, each a product of 2 roundings, and 3 sums: 40 u a coordinate. Rounded up over three.
+inline constexpr double kMiddleError = 0x1p-46;
+/// The sum of two radii and that of a distance and this sum are off by u each, relative to all three. Dimensionless.
+inline constexpr double kEndError = 4 * kU;
+
 // Bound what rounding does to a bound on the distance of two boxes. A gap along an axis of one node is exact for its own boxes
 // and, for those of the other, off by: 3 kAxisError of their size, as a point is found again from its coordinates along axes
 // that are not quite at right angles; 2^-19, as an entry of the product of both nodes' axes carries 8 roundings of floats;

@@ -217,13 +217,14 @@ static inline void raise_least(PairEntry* entries, float* key, int count, int fe
 inline constexpr float kOneSided = 3;
 
 /// Opens two nodes, or the larger one alone, and calls `near(child_a, child_b, gap, centres)` for each pair of children, or of
-/// a child and the other node, `nodes`, whose squared gap is at most `most`.
+/// a child and the other node, `nodes`, whose squared gap is at most `most`. A node that `ends` has children that are none.
 template <class OnNear>
-static inline void for_near_children(NodePair& pair, float most, std::array<std::uint32_t, 2> nodes, const OnNear& on_near) {
+static inline void for_near_children(NodePair& pair, float most, std::array<std::uint32_t, 2> nodes, std::array<bool, 2> ends,
+                                     const OnNear& on_near) {
   const Node &a = pair.a(), &b = pair.b();
-  const bool both = a.lowest() == b.lowest();
-  const bool only_a = both ? !a.lowest() && pair.size_a() > kOneSided * pair.size_b() : b.lowest();
-  const bool only_b = both ? !b.lowest() && pair.size_b() > kOneSided * pair.size_a() : a.lowest();
+  const bool both = ends[0] == ends[1];
+  const bool only_a = both ? !ends[0] && pair.size_a() > kOneSided * pair.size_b() : ends[1];
+  const bool only_b = both ? !ends[1] && pair.size_b() > kOneSided * pair.size_a() : ends[0];
   NodePair::Near near;
   if (only_b) {
     pair.look_at_b();

@@ -39,10 +39,14 @@ struct MeshView {
   std::uint32_t triangle_at(std::uint32_t node, FeatureId feature) const;
 
   const MeshReader::Content* content;  ///< null for a convex body
+  /// True if no node is below the children of a node: these are triangles or, of a mesh that was cut, boxes.
+  bool ends(const Node& node) const { return node.lowest() || node.first() >= node_count; }
+
   const Node* nodes;
+  std::uint32_t node_count;
   const Corners* triangles;  ///< null for a convex body
   const Vec* vertices;
-  std::uint32_t triangle_count;
+  std::uint32_t triangle_count;  ///< 0 of a mesh that was cut; of a convex body 1
   int unit;
   double extent;
   bool is_legal;

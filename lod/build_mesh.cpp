@@ -106,6 +106,7 @@ Result<MeshModel> rebuild_hulls(const MeshModel& mesh, const HullOptions& option
   if (options.levels < 1 || options.levels > std::uint32_t(kMostDepth))
     return Error{ErrorCode::BadValue, "levels must be from 1 to " + std::to_string(kMostDepth)};
   if (!(options.bytes_per_triangle >= 0)) return Error{ErrorCode::BadValue, "bytes_per_triangle must be a number from 0 on"};
+  if (!mesh.is_whole()) return Error{ErrorCode::BadValue, "the mesh was cut: it has no triangles"};
   Watch watch(options.progress);
   return with_hulls(mesh, options, watch);
 } catch (const Cancelled&) {

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 
 #include <swiftlet/body.h>
 #include <swiftlet/pose.h>
@@ -60,19 +61,30 @@ class MeshModel {
   static Result<MeshModel> from_triangles(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
                                           const MeshOptions& options = {});
 
-  std::size_t vertex_count() const;                                ///< vertices kept, at least 1
-  std::size_t triangle_count() const;                              ///< as many as were given, at least 1
+  std::size_t vertex_count() const;                                ///< vertices kept, at least 1; 0 of a mesh that was cut
+  std::size_t triangle_count() const;                              ///< as many as were given, at least 1; 0 likewise
   Vec3 vertex(std::size_t index) const;                            ///< a vertex in the body's frame
   std::array<std::uint32_t, 3> triangle(std::size_t index) const;  ///< the vertices of a triangle, in the user's order
   std::span<const std::uint32_t> source_vertex() const;            ///< per vertex, the first of the user's points there
   std::span<const std::uint32_t> source_triangle() const;          ///< per triangle, the user's triangle
   const MeshTopology& topology() const;                            ///< what the mesh is made of
 
-  Vec3 box_min() const;                      ///< body frame: smallest coordinates
-  Vec3 box_max() const;                      ///< body frame: largest coordinates
-  double extent() const;                     ///< largest absolute coordinate
-  std::size_t node_count() const;            ///< nodes of the tree, each with up to eight children
-  std::size_t hull_count() const;            ///< nodes that have a convex hull (build_mesh.h)
+  Vec3 box_min() const;            ///< body frame: smallest coordinates
+  Vec3 box_max() const;            ///< body frame: largest coordinates
+  double extent() const;           ///< largest absolute coordinate
+  std::size_t node_count() const;  ///< nodes of the tree, each with up to eight children
+  std::size_t hull_count() const;  ///< nodes that have a convex hull (build_mesh.h)
+  bool is_whole() const;           ///< true unless the mesh was cut
+  int level_count() const;         ///< levels of nodes that the mesh has, at least 1; fewer than `depth` if it was cut
+  int depth() const;               ///< levels of nodes of the whole tree
+  /// How far a point of the mesh cut after so many levels, from 1 to depth() - 1, may be from the surface; of a whole
+  /// mesh 0. In the body's unit.
+  double deviation(int levels) const;
+  double deviation() const { return is_whole() ? 0 : deviation(level_count()); }  ///< that of this mesh
+  /// Returns the mesh without the triangles and without the lower levels of nodes that `detail` allows to leave out: what is
+  /// left is boxes around the surface, none farther from it than `deviation`. Any distance is then answered with an error of at
+  /// most the sum of both meshes' deviations, status LevelLimit, and no feature. A mesh of one level is returned as it is.
+  MeshModel cut(const Detail& detail) const;
   std::span<const std::byte> bytes() const;  ///< the block, which is what `save` writes
   std::uint64_t hash() const;                ///< hash over all of `bytes()`, which it reads; equal blocks have equal hashes
 
@@ -123,8 +135,8 @@ Result<std::size_t> save(const MeshModel& mesh, const std::filesystem::path& pat
 
 /// Reads a mesh from its file. Checks sizes, hashes and the ranges of indices, and that no number is infinite or NaN; that
 /// boxes hold their triangles is not checked, see `verify` in mesh_query.h. Cost: one pass over the file. Errors: CannotRead,
-/// BadFormat, BadVersion, TooLarge.
-Result<MeshModel> load_mesh(const std::filesystem::path& path);
+/// BadFormat, BadVersion, TooLarge. Of a mesh that `detail` cuts only what is kept is read: it comes first in the file.
+Result<MeshModel> load_mesh(const std::filesystem::path& path, const Detail& detail = {});
 
 /// Loads a mesh from the bytes of a file, which are copied.
 Result<MeshModel> load_mesh(std::span<const std::byte> bytes);
@@ -132,6 +144,16 @@ Result<MeshModel> load_mesh(std::span<const std::byte> bytes);
 /// Loads a mesh without a copy: its memory is the mapped file, whose pages processes share. The file's content must not change
 /// while the mesh or a copy of it lives. Errors: as `load_mesh`.
 Result<MeshModel> map_mesh(const std::filesystem::path& path);
+
+/// The result of `salvage_mesh`.
+struct SalvagedMesh {
+  MeshModel mesh;    ///< holds the levels of nodes that are complete in the file
+  std::string note;  ///< one sentence that says what is missing; empty for a whole file
+};
+
+/// Reads the complete levels of nodes of a file that was cut short, as `MeshModel::cut` leaves them. Errors: as `load_mesh`,
+/// but BadFormat for a short file only if not even the root is complete.
+Result<SalvagedMesh> salvage_mesh(const std::filesystem::path& path);
 
 /// True if a file begins as a mesh's does.
 bool is_mesh_file(const std::filesystem::path& path);

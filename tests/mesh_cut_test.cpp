@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes that were cut: what is left of them, of their files, and what queries still say.
+#include <swiftlet/mesh_contacts.h>
+#include <swiftlet/mesh_query.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "folder.h"
+#include "mesh_blocks.h"
+#include "soups.h"
+
+namespace swiftlet {
+namespace {
+
+using namespace soups;
+using shapes::Random;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+MeshModel cut_after(const MeshModel& mesh, int levels) {
+  const MeshModel cut = levels < mesh.depth() ? mesh.cut({std::nextafter(mesh.deviation(levels), kInfinity)}) : mesh;
+  EXPECT_LE(cut.level_count(), levels);
+  return cut;
+}
+/// The least distance over all pairs of triangles, in long doubles.
+double distance_by_all_pairs(const Soup& a, const Soup& b, const Pose& pose) {
+  const auto of_a = triangles<long double>(a), of_b = triangles<long double>(b, pose);
+  double least = kInfinity;
+  for (const auto& s : of_a) {
+    for (const auto& t : of_b) least = std::min(least, double(nearest(s, t).squared));
+  }
+  return std::sqrt(least);
+}
+
+TEST(Cut, LeavesLevelsOfBoxes) {
+  const MeshModel mesh = torus(40, 20).mesh();
+  ASSERT_GE(mesh.depth(), 3);
+  EXPECT_TRUE(mesh.is_whole());
+  EXPECT_EQ(mesh.deviation(), 0);
+  EXPECT_EQ(mesh.cut({}).hash(), mesh.hash());
+  std::size_t bytes = 0;
+  for (int levels = 1; levels < mesh.depth(); ++levels) {
+    EXPECT_LT(mesh.deviation(levels), levels > 1 ? mesh.deviation(levels - 1) : kInfinity);
+    const MeshModel cut = cut_after(mesh, levels);
+    EXPECT_FALSE(cut.is_whole());
+    EXPECT_EQ(cut.level_count(), levels);
+    EXPECT_EQ(cut.depth(), mesh.depth());
+    EXPECT_EQ(cut.deviation(), mesh.deviation(levels));
+    EXPECT_EQ(cut.triangle_count(), 0u);
+    EXPECT_EQ(cut.extent(), mesh.extent());
+    EXPECT_EQ(cut.topology(), mesh.topology());
+    EXPECT_GT(cut.bytes().size(), bytes);
+    bytes = cut.bytes().size();
+    EXPECT_EQ(mesh.cut({0, bytes}).level_count(), levels);
+    EXPECT_EQ(cut_after(cut, 1).hash(), cut_after(mesh, 1).hash());
+    EXPECT_FALSE(verify(cut));
+  }
+  EXPECT_LT(bytes, mesh.bytes().size());
+  EXPECT_EQ(tetrahedron().mesh().cut({1e9}).level_count(), 1);
+  EXPECT_TRUE(tetrahedron().mesh().cut({1e9}).is_whole());
+}
+
+/// Intervals hold the truth and are no wider than both deviations, whatever is cut and of whatever size.
+TEST(Cut, AnswersAsPreciselyAsItsBoxesAre) {
+  Random random(41);
+  int disjoint = 0, undecided = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double unit = i % 5 == 0 ? 0x1p-80 : i % 5 == 1 ? 0x1p130 : 1;
+    const Soup a = scaled(i % 2 ? torus(10, 6) : any(random), unit), b = scaled(any(random), unit * (i % 7 ? 1 : 0x1p-12));
+    const Pose pose{random.rotation(), unit * random.uniform(0, 5) * random.on_sphere()};
+    const MeshModel whole_a = a.mesh(), whole_b = b.mesh();
+    const double truth = distance_by_all_pairs(a, b, pose), law_two = tolerance(whole_a, whole_b, pose);
+    for (int levels_a = 1; levels_a <= whole_a.depth(); ++levels_a) {
+      for (int levels_b = 1; levels_b <= whole_b.depth(); ++levels_b) {
+        const MeshModel cut_a = cut_after(whole_a, levels_a), cut_b = cut_after(whole_b, levels_b);
+        const double width = cut_a.deviation() + cut_b.deviation();
+        if (width == 0) continue;
+        MeshSeed seed;
+        for (int pass = 0; pass < 2; ++pass) {
+          const Answer answer = distance(cut_a, cut_b, pose, seed);
+          ASSERT_LE(answer.lower, truth + law_two);
+          ASSERT_GE(answer.upper, truth - law_two);
+          ASSERT_LE(answer.upper - answer.lower, width + 2 * law_two);
+          ASSERT_TRUE(answer.status == Status::LevelLimit || answer.upper - answer.lower <= law_two) << int(answer.status);
+          ASSERT_TRUE(answer.verdict == Verdict::Undecided || (answer.verdict == Verdict::Disjoint && answer.lower > 0));
+          ++(answer.verdict == Verdict::Disjoint ? disjoint : undecided);
+          EXPECT_EQ(answer.feature_a.kind() == FeatureKind::None || cut_a.is_whole(), true);
+          EXPECT_LE(std::fabs((answer.point_b - answer.point_a).norm() - truth), width + 2 * law_two);
+        }
+        const Answer loose = distance(cut_a, cut_b, pose, seed, {.absolute = width + 3 * law_two});
+        EXPECT_EQ(loose.status, Status::Converged);
+        EXPECT_LE(loose.lower, truth + law_two);
+        for (const double threshold : {0.5 * truth, 1.5 * truth, truth + 1.1 * width}) {
+          const Within answer = within(cut_a, cut_b, pose, threshold, seed);
+          EXPECT_TRUE(answer.decision != Decision::Yes || threshold >= truth - law_two);
+          EXPECT_TRUE(answer.decision != Decision::No || threshold <= truth + law_two);
+          if (answer.decision == Decision::Undecided) {
+            EXPECT_LE(std::fabs(threshold - truth), width + 2 * law_two);
+            EXPECT_EQ(answer.answer.status, Status::LevelLimit);
+          }
+        }
+        const Answer met = intersects(cut_a, cut_b, pose);
+        EXPECT_TRUE(met.verdict == Verdict::Disjoint ? truth > 0 : met.verdict == Verdict::Undecided);
+      }
+    }
+  }
+  EXPECT_GE(disjoint, 500);
+  EXPECT_GE(undecided, 200);
+}
+
+TEST(Cut, AgainstConvexBodiesAndWithRadii) {
+  Random random(42);
+  for (int i = 0; i < 200; ++i) {
+    const Soup a = torus(12, 8);
+    const MeshModel whole = a.mesh(), cut = cut_after(whole, 1 + int(random.bits() % unsigned(whole.depth() - 1)));
+    const Body ball = Body::point(random.in_ball(), 0.25);
+    const Pose pose{random.rotation(), random.uniform(0, 4) * random.on_sphere()};
+    const Answer exact = distance(MeshBody(whole, 0.1), ball, pose), answer = distance(MeshBody(cut, 0.1), ball, pose);
+    EXPECT_LE(answer.lower, exact.upper + 1e-12);
+    EXPECT_GE(answer.upper, exact.lower - 1e-12);
+    EXPECT_LE(answer.upper - answer.lower, cut.deviation() + 1e-12);
+  }
+}
+
+TEST(Cut, HasNoFeaturesContactsOrVolume) {
+  const MeshModel cut = cut_after(torus(40, 20).mesh(), 1);
+  const Pose pose{Mat3::Identity(), Vec3(5, 0, 0)};
+  const ClosestFeatures closest = closest_features(cut, cut, pose);
+  EXPECT_EQ(closest.answer.status, Status::LevelLimit);
+  EXPECT_EQ(closest.source_a.kind, FeatureKind::None);
+  EXPECT_EQ(contacts(cut, cut, pose, 10, {}).status, Status::LevelLimit);
+  EXPECT_EQ(distance(MeshBody::solid(cut), cut, pose).status, Status::InvalidBody);
+  EXPECT_FALSE(check(cut, cut, pose, distance(cut, cut, pose)));
+}
+
+TEST(Cut, ScalesBitForBit) {
+  Random random(43);
+  for (int i = 0; i < 100; ++i) {
+    const Soup a = torus(10, 6);
+    const Pose pose{random.rotation(), random.uniform(1, 5) * random.on_sphere()};
+    const MeshModel one = cut_after(a.mesh(), 1 + i % 2);
+    const Answer answer = distance(one, one, pose);
+    for (const double factor : {0x1p-80, 0x1p100}) {
+      const MeshModel other = cut_after(scaled(a, factor).mesh(), 1 + i % 2);
+      const Answer of_other = distance(other, other, {pose.rotation, factor * pose.translation});
+      EXPECT_EQ(of_other.lower, factor * answer.lower);
+      EXPECT_EQ(of_other.upper, factor * answer.upper);
+    }
+  }
+}
+
+class CutFile : public FolderTest {};
+
+TEST_F(CutFile, IsLoadedAsFarAsItIsWanted) {
+  const MeshModel mesh = torus(60, 30).mesh();
+  const std::filesystem::path file = this->path("torus.swm");
+  ASSERT_TRUE(save(mesh, file));
+  for (int levels = 1; levels < mesh.depth(); ++levels) {
+    const Detail detail{std::nextafter(mesh.deviation(levels), kInfinity)};
+    const Result<MeshModel> part = load_mesh(file, detail);
+    ASSERT_TRUE(part) << part.error().message;
+    EXPECT_EQ(part.value().hash(), mesh.cut(detail).hash());
+    ASSERT_TRUE(save(part.value(), this->path("part.swm")));
+    EXPECT_EQ(load_mesh(this->path("part.swm")).value().hash(), part.value().hash());
+  }
+  EXPECT_EQ(load_mesh(file, {0, mesh.bytes().size()}).value().hash(), mesh.hash());
+}
+
+/// However much of a file is missing, its complete levels are read.
+TEST_F(CutFile, ThatEndsEarlyIsSalvaged) {
+  const MeshModel mesh = torus(60, 30).mesh();
+  const soups::Block whole = bytes_of(mesh);
+  const MeshHeader header = header_of(whole);
+  const std::filesystem::path file = this->path("short.swm");
+  const auto write = [&](std::size_t bytes) {
+    std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(whole.data()), std::streamsize(bytes));
+  };
+  Random random(44);
+  std::vector<std::size_t> lengths{0, 7, sizeof header - 1, sizeof header, whole.size() - 1, whole.size()};
+  for (const Section* s : {&header.level[0], &header.level[1], &header.level[2], &header.triangles})
+    lengths.insert(lengths.end(), {s->offset, s->offset + s->bytes - 1, s->offset + s->bytes});
+  for (int i = 0; i < 100; ++i) lengths.push_back(random.bits() % whole.size());
+  for (const std::size_t bytes : lengths) {
+    write(bytes);
+    const Result<SalvagedMesh> salvaged = salvage_mesh(file);
+    int complete = 0;
+    while (complete < mesh.depth() && header.level[complete].offset + header.level[complete].bytes <= bytes) ++complete;
+    if (bytes < sizeof header || complete == 0) {
+      EXPECT_FALSE(salvaged) << bytes;
+      continue;
+    }
+    ASSERT_TRUE(salvaged) << bytes << ": " << salvaged.error().message;
+    const MeshModel& left = salvaged.value().mesh;
+    EXPECT_EQ(salvaged.value().note.empty(), bytes == whole.size());
+    EXPECT_EQ(left.is_whole(), bytes == whole.size());
+    if (!left.is_whole()) {
+      EXPECT_EQ(left.level_count(), std::min(complete, mesh.depth() - 1));
+    }
+    const Pose pose{Mat3::Identity(), Vec3(4, 0, 0)};
+    const Answer answer = distance(left, left, pose), exact = distance(mesh, mesh, pose);
+    EXPECT_LE(answer.lower, exact.upper);
+    EXPECT_GE(answer.upper, exact.lower);
+  }
+  EXPECT_FALSE(salvage_mesh(this->path("absent.swm")));
+  soups::Block damaged = whole;
+  damaged[header.level[1].offset + 5] ^= std::byte{1};
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(damaged.data()), std::streamsize(header.level[2].offset + header.level[2].bytes));
+  EXPECT_FALSE(salvage_mesh(file)) << "its nodes are damaged";
+}
+
+}  // namespace
+}  // namespace swiftlet
