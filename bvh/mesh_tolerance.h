@@ -77,4 +77,18 @@ inline constexpr double kTurnBackError = 32 * kU;
 /// two coordinates and two directions by 3 u of the coordinates, at most 16, 48 u. That is 84 u; rounded up.
 inline constexpr double kRayError = 128 * kU;
 
+// ---- Manifolds ----------------------------------------------------------------------------------------------------------
+
+/// The cosine of two unit vectors is off by 12 u: 3 u of the products and sums, and 4.5 u of the length of each.
+inline constexpr double kSlopeError = 12 * kU;
+/// An axis parts triangles by a motion along a direction that is farther than this from right angles to it: by one nearer,
+/// the way would be longer than any body. Cosine.
+inline constexpr double kLeastSlope = 0x1p-20;
+/// A triangle whose height over its longest side, as a projection shows them, is less than this counts as its sides: a height
+/// above it would be off by more than 2^20 times a corner's error. Two sides whose sine is less do not cross. The same share of
+/// law 2's size covers what this and a way along a slant axis add to separations.
+inline constexpr double kNarrowest = 0x1p-20;
+/// Two candidates for the normal of a crossing are one if their cosine is within this of 1: an angle of 2^-20.
+inline constexpr double kSameDirection = 0x1p-41;
+
 }  // namespace swiftlet

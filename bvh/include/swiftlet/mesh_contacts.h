@@ -67,4 +67,29 @@ inline constexpr std::size_t kSpareRegions = 64;
 MeshContacts contacts(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double reach, std::span<MeshContact> into,
                       const Budget& budget = {});
 
+/// Returns the points of a region that `contacts` found about the same bodies in the same pose: where the two surfaces face
+/// each other along one normal. Readings of `Manifold` and `ManifoldOptions` are those of manifold.h, with these:
+///
+/// Normal. Where the surfaces are apart it is the contact's. Where triangles cross, or touch within law 2's bound, it is chosen
+/// among the normals of those triangles, their mean, and directions at right angles to two of their sides: that along which B
+/// has the least way to go until each pair that crosses or touches now is apart. The way is proved, pair by pair, by an axis
+/// along which the two do not overlap once B has gone it; pairs that do not meet now may meet then. `-separation` of the
+/// first point is no less than the way. It is the depth of the triangles that cross, not of closed bodies.
+///
+/// Points. Each pair of triangles of the region is projected along the normal; corners of one over the other, and sides that
+/// cross, are points: on both surfaces within twice `tolerance`, over triangles seen from the side or very narrow ones within
+/// `flatness`. Separations are from the region's least one to `margin`. Those that reach farthest in 16 directions are
+/// kept, and of them `most_points` chosen as manifold.h says. Triangles of one plane are one face so, however many they are.
+/// A feature is a vertex, a side, or a triangle of a mesh; of a convex body the names are its own. `flatness` is that of the
+/// contact face of a convex body, and of meshes what counts as rest. `face_a` and `face_b` are the nearest pair of triangles.
+/// The manifold is empty if the bodies or the pose are refused, the contact names no region, or its distance is above `margin`.
+/// A region has one normal: where the surfaces also face each other across it, as a box in a corner does that touches wall and
+/// floor within one region, the points are of one of both.
+///
+/// Of two convex bodies: manifold.h's, of their signed distance. Cost: 0.1 to 0.3 microseconds for each pair of triangles
+/// within reach in the region, and up to 10 for each that crosses. Allocates nothing; uses 32 kB of stack, and up to 48 where
+/// only exact arithmetic decides.
+Manifold manifold(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const MeshContact& contact,
+                  const ManifoldOptions& options = {}, const Manifold& previous = {});
+
 }  // namespace swiftlet

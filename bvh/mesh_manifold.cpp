@@ -1,0 +1,339 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The manifold of a region: its normal, the pairs of triangles that face each other along it, and few of the points where they
+// do.
+#include <swiftlet/mesh_contacts.h>
+
+#include <algorithm>
+
+#include <swiftlet/depth.h>
+
+#include "body/half_edge.h"
+#include "body/support.h"
+#include "facet.h"
+#include "manifold/choice.h"
+#include "manifold/contact_face.h"
+#include "near_pairs.h"
+#include "pair_axes.h"
+
+namespace swiftlet {
+namespace {
+
+/// So many pairs that meet are kept while a normal is chosen, and so many directions are tried.
+constexpr int kMostMet = 128, kMostTried = 32;
+
+struct Ids {
+  std::uint32_t a, b;
+};
+
+/// The region, as every step reads it.
+struct RegionOf {
+  const MeshSetting& at;
+  const Pose& b_in_a;
+  Box box;
+};
+
+/// A convex body's vertices; a mesh has none.
+class ConvexFace {
+ public:
+  /// The contact face of `of` along `n`, a direction of A's frame into which `in_a` moves the body.
+  ConvexFace(const MeshView& of, const Motion& in_a) : in_a_(in_a) {
+    if (of.triangles) return;
+    shape_.emplace(of.convex->body);
+    level_ = &(**shape_).level((**shape_).finest_level()).view;
+  }
+  explicit operator bool() const { return level_ != nullptr; }
+  const ConvexView& view() const { return *level_; }
+  Vec point(std::uint32_t vertex) const { return apply(in_a_, vec(level_->vertices[vertex])); }
+  /// The vertex farthest along `n`.
+  std::uint32_t support(const Vec& n) const {
+    std::uint32_t tests = 0;
+    return swiftlet::support(*level_, rotate_back(in_a_, n), 0, tests);
+  }
+
+ private:
+  const Motion& in_a_;
+  std::optional<ShapeOf> shape_;
+  const ConvexView* level_ = nullptr;
+};
+
+// ---- The normal of surfaces that meet --------------------------------------------------------------------------------------
+
+/// How far B must go along directions until a pair of triangles, or a triangle and a convex body, is apart.
+class Way {
+ public:
+  Way(const RegionOf& in, const ConvexFace& face_a, const ConvexFace& face_b) : in_(in), face_a_(face_a), face_b_(face_b) {}
+
+  /// Looks at a pair. Returns false if it is apart by more than law 2's bound.
+  bool look(Ids ids) {
+    const MeshView &a = in_.at.a, &b = in_.at.b;
+    if (a.triangles) corners(a, ids.a, a_);
+    if (b.triangles) corners(b, ids.b, b_);
+    if (a.triangles && b.triangles) {
+      const TrianglePair pair(a_, b_, in_.at.motion, in_.at.size);
+      if (pair.gap(normalised(pair.between_middles())) > in_.at.law_two) return false;
+      axes_.emplace(a_, b_, in_.at.motion, in_.at.size);
+      return axes_->least(least_) >= -in_.at.law_two;
+    }
+    const Answer answer = signed_distance(body_of(a, ids.a), body_of(b, ids.b), in_.b_in_a, seed_);
+    if (answer.status >= Status::InvalidPose || answer.normal.hasNaN() || answer.lower > in_.at.law_two) return false;
+    least_ = vec(answer.normal), depth_ = max(0, -answer.lower);
+    return true;
+  }
+  /// Of the pair looked at.
+  double along(const Vec& n) const {
+    if (axes_) return axes_->travel(n);
+    const double slope = dot(least_, n);
+    double way = slope > kLeastSlope ? depth_ / (slope - kSlopeError) : HUGE_VAL;
+    const auto most = [&](const MeshView& of, const Vec(&corner)[3], const ConvexFace& face, const Motion& in_a, const Vec& m) {
+      if (!of.triangles) return dot(m, face.point(face.support(m)));
+      return max(max(dot(m, apply(in_a, corner[0])), dot(m, apply(in_a, corner[1]))), dot(m, apply(in_a, corner[2])));
+    };
+    const double overlap = most(in_.at.a, a_, face_a_, kAtRest, n) + most(in_.at.b, b_, face_b_, in_.at.motion, -n);
+    way = min(way, overlap + in_.at.law_two);
+    return max(0, way);
+  }
+  const Vec& least() const { return least_; }  ///< the direction of the shortest way
+  Vec normal_a() const { return axes_ ? axes_->normal_a() : in_.at.a.triangles ? normal(a_, kAtRest) : least_; }
+  Vec normal_b() const { return axes_ ? axes_->normal_b() : in_.at.b.triangles ? normal(b_, in_.at.motion) : -least_; }
+
+ private:
+  static Vec normal(const Vec (&corner)[3], const Motion& in_a) {
+    return normalised(cross(rotate(in_a, corner[1] - corner[0]), rotate(in_a, corner[2] - corner[0])));
+  }
+
+  const RegionOf& in_;
+  const ConvexFace &face_a_, &face_b_;
+  Vec a_[3], b_[3];
+  std::optional<PairAxes> axes_;
+  Vec least_{0, 0, 0};
+  double depth_ = 0;
+  PairSeed seed_{};
+};
+
+/// Visits the pairs of triangles whose boxes both meet the region's.
+template <class OnPair>
+struct InRegion {
+  const NearPairs& pairs;
+  const Box& box;
+  OnPair on_pair;
+
+  bool goes_on() const { return true; }
+  bool skips(const NearPairs::Boxes& boxes, double) const { return !meet(boxes.a, box) || !meet(boxes.b, box); }
+  void visit(std::uint32_t a, std::uint32_t b, double) {
+    const NearPairs::Boxes boxes = pairs.boxes(a, b);
+    if (meet(boxes.a, boxes.b) && !skips(boxes, 0)) on_pair(Ids{a, b});
+  }
+};
+template <class OnPair>
+[[gnu::noinline]] void for_pairs(const RegionOf& in, double reach, const OnPair& on_pair) {
+  NearPairs pairs(in.at, reach);
+  InRegion<const OnPair&> visitor{pairs, in.box, on_pair};
+  pairs.run(visitor);
+}
+
+/// Directions to try, each once.
+class Tried {
+ public:
+  void add(const Vec& n) {
+    if (!(dot(n, n) > 0) || count_ == kMostTried) return;
+    for (int i = 0; i < count_; ++i)
+      if (dot(n, at_[i]) > 1 - kSameDirection) return;
+    at_[count_++] = n;
+  }
+  void add_both(const Vec& n) { add(n), add(-n); }
+  const Vec* begin() const { return at_; }
+  const Vec* end() const { return at_ + count_; }
+
+ private:
+  int count_ = 0;
+  Vec at_[kMostTried];
+};
+
+/// Chooses the normal along which B has the least way to go until all pairs that meet are apart. Returns the way; if no pair
+/// meets, or no direction parts them, it is infinite.
+double choose_normal(const RegionOf& in, const ConvexFace& face_a, const ConvexFace& face_b, const Vec& first, Vec& normal) {
+  Way way(in, face_a, face_b);
+  Ids met[kMostMet];
+  int count = 0;
+  bool is_all = true;
+  Tried tried;
+  tried.add(first);
+  Vec sum_a{0, 0, 0}, sum_b{0, 0, 0};
+  for_pairs(in, in.at.law_two, [&](Ids ids) {
+    if (!way.look(ids)) return;
+    if (count == kMostMet) {
+      is_all = false;
+      return;
+    }
+    met[count++] = ids;
+    const Vec a = way.normal_a(), b = way.normal_b();
+    sum_a = sum_a + a, sum_b = sum_b + b;
+    if (count <= kMostTried / 4) tried.add_both(a), tried.add_both(b), tried.add(way.least());
+  });
+  tried.add_both(normalised(sum_a - sum_b)), tried.add_both(normalised(sum_a)), tried.add_both(normalised(sum_b));
+  double least = HUGE_VAL;
+  for (const Vec& n : tried) {
+    double most = 0;
+    for (int i = 0; i < count && most < least; ++i) {
+      way.look(met[i]);
+      most = max(most, way.along(n));
+      if (most >= least) std::swap(met[i], met[0]);  // it may rule out the next one too
+    }
+    if (most < least && count > 0) least = most, normal = n;
+  }
+  if (!is_all && least < HUGE_VAL) {
+    for_pairs(in, in.at.law_two, [&](Ids ids) {
+      if (way.look(ids)) least = max(least, way.along(normal));
+    });
+  }
+  return least;
+}
+
+// ---- The points ------------------------------------------------------------------------------------------------------------
+
+/// Calls `on_facet` for the triangle, or for those of a fan over a convex body's contact face.
+template <class OnFacet>
+void for_facets(const MeshView& of, const Motion& in_a, std::uint32_t triangle, const ConvexFace& body,
+                const ContactFace* contact_face, const NormalView& seen, const OnFacet& on_facet) {
+  Facet facet;
+  if (of.triangles) {
+    Vec corner[3];
+    corners(of, triangle, corner);
+    for (int k = 0; k < 3; ++k) {
+      facet.at[k] = seen.at(apply(in_a, corner[k]));
+      facet.vertex[k] = {FeatureKind::Vertex, of.triangles[triangle][std::size_t(k)]};
+      facet.side[k] = side(triangle, k);
+    }
+    facet.face = whole(of, triangle);
+    facet.measure();
+    return on_facet(facet);
+  }
+  const ConvexView& view = body.view();
+  facet.face = contact_face->name();
+  const auto put = [&](int k, std::uint32_t v) {
+    facet.at[k] = seen.at(body.point(v)), facet.vertex[k] = {FeatureKind::Vertex, v};
+  };
+  const std::uint32_t first = contact_face->side();
+  if (first == kNone) {
+    for (int k = 0; k < 3; ++k) put(k, 0);
+    return on_facet(facet);
+  }
+  const auto edge = [&](std::uint32_t h) { return named(view, {FeatureKind::Edge, h}); };
+  const std::uint32_t top = origin(view, first);
+  put(0, top), put(1, view.half_edges[first].head);
+  facet.side[0] = edge(first);
+  for (std::uint32_t h = contact_face->onward<true>(first);; h = contact_face->onward<true>(h)) {
+    const bool is_last = view.half_edges[h].head == top;
+    if (is_last && facet.side[0].kind() == FeatureKind::None) break;  // the fan's last triangle has had this side
+    put(2, view.half_edges[h].head);
+    facet.side[1] = edge(h);
+    const std::uint32_t next = is_last ? h : contact_face->onward<true>(h);
+    facet.side[2] = !is_last && view.half_edges[next].head == top ? edge(next) : FeatureId();
+    facet.measure();
+    on_facet(facet);
+    if (is_last) break;
+    facet.side[0] = {};
+    put(1, view.half_edges[h].head);
+  }
+}
+
+/// The contact points of a candidate. If one of its features is a vertex, that body's point is the vertex.
+ManifoldPoint placed(const RegionOf& in, const ConvexFace& face_a, const ConvexFace& face_b, const NormalView& seen,
+                     const Candidate& c) {
+  const Vec across = seen.n * c.separation;
+  const auto vertex = [](const MeshView& of, const ConvexFace& face, const Motion& in_a, FeatureId name) {
+    return of.triangles ? apply(in_a, of.vertices[name.index()]) : face.point(name.index());
+  };
+  const Vec point_a = c.feature_a.kind() == FeatureKind::Vertex   ? vertex(in.at.a, face_a, kAtRest, c.feature_a)
+                      : c.feature_b.kind() == FeatureKind::Vertex ? vertex(in.at.b, face_b, in.at.motion, c.feature_b) - across
+                                                                  : seen.point(c.on_a);
+  return {eigen(point_a), eigen(point_a + across), c.separation, c.feature_a, c.feature_b};
+}
+
+/// Fills the manifold of two surfaces from the region's nearest or deepest points.
+void grow(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b, const Candidate& witness, const Vec& normal,
+          const Vec& middle, double margin, const ManifoldOptions& options, const Manifold& previous, Manifold& manifold) {
+  const double bound = in.at.law_two, flatness = max(0, min(options.flatness, kMostFlatness)), least = witness.separation;
+  const NormalView seen(normal, middle);
+  std::optional<ContactFace> face_a, face_b;
+  const auto contact_face = [&](const ConvexFace& body, const Vec& n, const Motion& in_a, FeatureId before,
+                                std::optional<ContactFace>& face) {
+    if (body)
+      face.emplace(body.view(), rotate_back(in_a, n), FeatureId(FeatureKind::Vertex, body.support(n)), before, flatness);
+  };
+  contact_face(body_a, normal, kAtRest, previous.face_a, face_a);
+  contact_face(body_b, -normal, in.at.motion, previous.face_b, face_b);
+
+  Farthest farthest(previous, bound);
+  for_pairs(in, max(margin, std::fabs(least)) + bound, [&](Ids ids) {
+    for_facets(in.at.a, kAtRest, ids.a, body_a, face_a ? &*face_a : nullptr, seen, [&](const Facet& a) {
+      for_facets(in.at.b, in.at.motion, ids.b, body_b, face_b ? &*face_b : nullptr, seen, [&](const Facet& b) {
+        face_each_other(a, b, bound / 2, [&](const Candidate& c) {
+          if (c.separation >= least - bound && c.separation <= margin + bound) farthest.add(c);
+        });
+      });
+    });
+  });
+  Candidates candidates(margin + bound, previous);
+  const bool has_least = farthest.least() <= least + kNarrowest * in.at.size;
+  farthest.give(candidates);
+  if (!has_least) candidates.add_deepest(witness);
+  const bool rests = norm(normal - vec(previous.normal)) <= kRestingTurn * flatness;
+  const double slack = rests ? flatness * max(in.at.a.extent, in.at.b.extent) : 0;
+  for (const int i : choose(candidates, std::min(options.most_points, kMostManifoldPoints), previous, bound, slack))
+    manifold.points[manifold.count++] = placed(in, body_a, body_b, seen, candidates[i]);
+}
+
+bool names_a_region(const MeshContact& contact, const MeshView& a, const MeshView& b) {
+  return contact.triangle_a < a.triangle_count && contact.triangle_b < b.triangle_count && !contact.box_min.hasNaN() &&
+         !contact.box_max.hasNaN() && !contact.point_a.hasNaN() && !contact.point_b.hasNaN();
+}
+
+}  // namespace
+
+Manifold manifold(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const MeshContact& contact,
+                  const ManifoldOptions& options, const Manifold& previous) {
+  if (!a.mesh() && !b.mesh()) {
+    const Answer answer = signed_distance(a.convex(), b.convex(), b_in_a);
+    return manifold(a.convex(), b.convex(), b_in_a, answer, options, previous);
+  }
+  Manifold manifold;
+  const MeshSetting at(a, b, b_in_a);
+  if (at.fault() != Status::Converged || !names_a_region(contact, at.a, at.b)) return manifold;
+  const RegionOf in{at, b_in_a, {vec(contact.box_min), vec(contact.box_max)}};
+  const ConvexFace body_a(at.a, kAtRest), body_b(at.b, at.motion);
+  const double margin = options.margin + at.radii.sum();
+
+  // The points of the surfaces.
+  const bool has_normal = !contact.normal.hasNaN();
+  Vec normal = has_normal ? vec(contact.normal) : Vec{0, 0, 0};
+  const Vec point_a = vec(contact.point_a) - normal * at.radii.a(), point_b = vec(contact.point_b) + normal * at.radii.b();
+  double separation = dot(normal, point_b - point_a);
+  Vec middle = point_a;
+  if (!has_normal || separation <= at.law_two) {
+    const double way = choose_normal(in, body_a, body_b, normal, normal);
+    if (way == HUGE_VAL && !has_normal) return manifold;
+    if (way < HUGE_VAL) separation = -way;
+  }
+  manifold.normal = eigen(normal);
+  manifold.face_a = whole(at.a, contact.triangle_a), manifold.face_b = whole(at.b, contact.triangle_b);
+  if (separation > margin + at.law_two) return manifold;
+  // A crossing's own point, half the depth off each surface.
+  const Candidate witness{{0, 0, separation < 0 ? -separation / 2 : 0}, separation, contact.feature_a, contact.feature_b};
+  grow(in, body_a, body_b, witness, normal, middle, margin, options, previous, manifold);
+  if (manifold.count > 0 && std::fabs(manifold.points[0].separation - separation) <= kNarrowest * at.size) {
+    // The proved way, and not what rounding made of it.
+    manifold.points[0].separation = separation;
+    manifold.points[0].point_b = manifold.points[0].point_a + manifold.normal * separation;
+  }
+  for (std::uint32_t i = 0; i < manifold.count; ++i) {
+    ManifoldPoint& p = manifold.points[i];
+    p.point_a += manifold.normal * at.radii.a();
+    p.point_b -= manifold.normal * at.radii.b();
+    p.separation -= at.radii.sum();
+  }
+  return manifold;
+}
+
+}  // namespace swiftlet
