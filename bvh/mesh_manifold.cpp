@@ -20,7 +20,7 @@ namespace swiftlet {
 namespace {
 
 /// So many pairs that meet are kept while a normal is chosen, and so many directions are tried.
-constexpr int kMostMet = 128, kMostTried = 32;
+constexpr int kMostMet = 64, kMostTried = 32;
 
 struct Ids {
   std::uint32_t a, b;
@@ -59,55 +59,82 @@ class ConvexFace {
 
 // ---- The normal of surfaces that meet --------------------------------------------------------------------------------------
 
-/// How far B must go along directions until a pair of triangles, or a triangle and a convex body, is apart.
+/// A pair of triangles, or of a triangle and a convex body, that meet or are within law 2's bound of it. The shortest way of B
+/// to be apart; known of a convex body at once, and of two triangles by their axes.
+struct Met {
+  Ids ids;
+  Vec least;
+  double depth;
+};
+
+/// How far B must go along a direction until pairs are apart.
 class Way {
  public:
-  Way(const RegionOf& in, const ConvexFace& face_a, const ConvexFace& face_b) : in_(in), face_a_(face_a), face_b_(face_b) {}
+  Way(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b) : in_(in), body_a_(body_a), body_b_(body_b) {}
 
-  /// Looks at a pair. Returns false if it is apart by more than law 2's bound.
-  bool look(Ids ids) {
-    const MeshView &a = in_.at.a, &b = in_.at.b;
-    if (a.triangles) corners(a, ids.a, a_);
-    if (b.triangles) corners(b, ids.b, b_);
-    if (a.triangles && b.triangles) {
-      const TrianglePair pair(a_, b_, in_.at.motion, in_.at.size);
-      if (pair.gap(normalised(pair.between_middles())) > in_.at.law_two) return false;
-      axes_.emplace(a_, b_, in_.at.motion, in_.at.size);
-      return axes_->least(least_) >= -in_.at.law_two;
+  /// Looks along `n`, a unit direction, from now on.
+  void turn(const Vec& n) {
+    n_ = n;
+    if (body_a_) end_of_a_ = dot(n, body_a_.point(body_a_.support(n)));
+    if (body_b_) end_of_b_ = dot(n, body_b_.point(body_b_.support(-n)));
+  }
+  /// How far both overlap along the direction: by more B need not go.
+  double overlap(Ids ids) {
+    read(ids);
+    if (both_) return -TrianglePair(a_, b_, in_.at.motion, in_.at.size).gap(n_);
+    if (in_.at.a.triangles) end_of_a_ = max(max(dot(n_, a_[0]), dot(n_, a_[1])), dot(n_, a_[2]));
+    if (in_.at.b.triangles) {
+      const auto along = [&](int k) { return dot(n_, apply(in_.at.motion, b_[k])); };
+      end_of_b_ = min(min(along(0), along(1)), along(2));
     }
-    const Answer answer = signed_distance(body_of(a, ids.a), body_of(b, ids.b), in_.b_in_a, seed_);
+    return end_of_a_ - end_of_b_ + in_.at.law_two;
+  }
+  /// Fills all of `met` but its ids. Returns false if the pair is apart by more than law 2's bound.
+  bool meets(Met& met) {
+    read(met.ids);
+    if (both_) {
+      if (TrianglePair pair(a_, b_, in_.at.motion, in_.at.size); pair.gap(normalised(pair.between_middles())) > in_.at.law_two)
+        return false;
+      axes_.emplace(a_, b_, in_.at.motion, in_.at.size);
+      met.depth = axes_->least(met.least);
+      return met.depth >= -in_.at.law_two;
+    }
+    const MeshView &a = in_.at.a, &b = in_.at.b;
+    const Answer answer = signed_distance(body_of(a, met.ids.a), body_of(b, met.ids.b), in_.b_in_a, seed_);
     if (answer.status >= Status::InvalidPose || answer.normal.hasNaN() || answer.lower > in_.at.law_two) return false;
-    least_ = vec(answer.normal), depth_ = max(0, -answer.lower);
+    met.least = vec(answer.normal), met.depth = max(0, -answer.lower);
     return true;
   }
-  /// Of the pair looked at.
-  double along(const Vec& n) const {
-    if (axes_) return axes_->travel(n);
-    const double slope = dot(least_, n);
-    double way = slope > kLeastSlope ? depth_ / (slope - kSlopeError) : HUGE_VAL;
-    const auto most = [&](const MeshView& of, const Vec(&corner)[3], const ConvexFace& face, const Motion& in_a, const Vec& m) {
-      if (!of.triangles) return dot(m, face.point(face.support(m)));
-      return max(max(dot(m, apply(in_a, corner[0])), dot(m, apply(in_a, corner[1]))), dot(m, apply(in_a, corner[2])));
-    };
-    const double overlap = most(in_.at.a, a_, face_a_, kAtRest, n) + most(in_.at.b, b_, face_b_, in_.at.motion, -n);
-    way = min(way, overlap + in_.at.law_two);
-    return max(0, way);
+  /// How far B must go along the direction until the pair is apart.
+  double way(const Met& met) {
+    const double most = max(0, overlap(met.ids));
+    if (both_) {
+      axes_.emplace(a_, b_, in_.at.motion, in_.at.size);
+      return min(most, axes_->travel(n_));
+    }
+    const double slope = dot(met.least, n_);
+    return slope > kLeastSlope ? min(most, met.depth / (slope - kSlopeError)) : most;
   }
-  const Vec& least() const { return least_; }  ///< the direction of the shortest way
-  Vec normal_a() const { return axes_ ? axes_->normal_a() : in_.at.a.triangles ? normal(a_, kAtRest) : least_; }
-  Vec normal_b() const { return axes_ ? axes_->normal_b() : in_.at.b.triangles ? normal(b_, in_.at.motion) : -least_; }
+  /// Unit normals of both triangles, of the pair that `meets` was last asked about; of a convex body the way's.
+  Vec normal_a(const Met& met) const { return in_.at.a.triangles ? normal(a_, kAtRest) : met.least; }
+  Vec normal_b(const Met& met) const { return in_.at.b.triangles ? normal(b_, in_.at.motion) : -met.least; }
 
  private:
+  void read(Ids ids) {
+    if (in_.at.a.triangles) corners(in_.at.a, ids.a, a_);
+    if (in_.at.b.triangles) corners(in_.at.b, ids.b, b_);
+  }
   static Vec normal(const Vec (&corner)[3], const Motion& in_a) {
     return normalised(cross(rotate(in_a, corner[1] - corner[0]), rotate(in_a, corner[2] - corner[0])));
   }
 
   const RegionOf& in_;
-  const ConvexFace &face_a_, &face_b_;
+  const ConvexFace &body_a_, &body_b_;
+  const bool both_ = in_.at.a.triangles && in_.at.b.triangles;
+  Vec n_{0, 0, 0};
+  double end_of_a_ = 0, end_of_b_ = 0;  ///< along the direction
   Vec a_[3], b_[3];
   std::optional<PairAxes> axes_;
-  Vec least_{0, 0, 0};
-  double depth_ = 0;
   PairSeed seed_{};
 };
 
@@ -116,13 +143,14 @@ template <class OnPair>
 struct InRegion {
   const NearPairs& pairs;
   const Box& box;
-  OnPair on_pair;
+  OnPair on_pair;  ///< returns false to end the search
+  bool going = true;
 
-  bool goes_on() const { return true; }
+  bool goes_on() const { return going; }
   bool skips(const NearPairs::Boxes& boxes, double) const { return !meet(boxes.a, box) || !meet(boxes.b, box); }
   void visit(std::uint32_t a, std::uint32_t b, double) {
     const NearPairs::Boxes boxes = pairs.boxes(a, b);
-    if (meet(boxes.a, boxes.b) && !skips(boxes, 0)) on_pair(Ids{a, b});
+    if (meet(boxes.a, boxes.b) && !skips(boxes, 0)) going = on_pair(Ids{a, b});
   }
 };
 template <class OnPair>
@@ -142,6 +170,7 @@ class Tried {
     at_[count_++] = n;
   }
   void add_both(const Vec& n) { add(n), add(-n); }
+  int size() const { return count_; }
   const Vec* begin() const { return at_; }
   const Vec* end() const { return at_ + count_; }
 
@@ -150,43 +179,64 @@ class Tried {
   Vec at_[kMostTried];
 };
 
-/// Chooses the normal along which B has the least way to go until all pairs that meet are apart. Returns the way; if no pair
-/// meets, or no direction parts them, it is infinite.
-double choose_normal(const RegionOf& in, const ConvexFace& face_a, const ConvexFace& face_b, const Vec& first, Vec& normal) {
-  Way way(in, face_a, face_b);
-  Ids met[kMostMet];
+/// True if along `n` each pair of the region that meets overlaps by law 2's bound at most: by `most`.
+bool parts_all(const RegionOf& in, Way& way, const Vec& n, double& most) {
+  if (!(dot(n, n) > 0)) return false;
+  way.turn(n);
+  most = 0;
+  bool parts = true;
+  for_pairs(in, in.at.law_two, [&](Ids ids) {
+    const double overlap = way.overlap(ids);
+    if (Met met{ids, {}, 0}; overlap > 2 * in.at.law_two && way.meets(met)) return parts = false;
+    most = max(most, min(overlap, 2 * in.at.law_two));
+    return true;
+  });
+  return parts;
+}
+
+/// Chooses the normal along which B has the least way to go until all pairs that meet are apart; `first` if the way is nothing.
+/// Returns the way; if no pair meets, or no direction parts them, it is infinite.
+[[gnu::noinline]] double choose_normal(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b, const Vec& first,
+                                       Vec& normal) {
+  Way way(in, body_a, body_b);
+  double least = HUGE_VAL;
+  if (parts_all(in, way, first, least)) return least;
+
+  Met met[kMostMet];
   int count = 0;
   bool is_all = true;
   Tried tried;
   tried.add(first);
   Vec sum_a{0, 0, 0}, sum_b{0, 0, 0};
   for_pairs(in, in.at.law_two, [&](Ids ids) {
-    if (!way.look(ids)) return;
-    if (count == kMostMet) {
-      is_all = false;
-      return;
-    }
-    met[count++] = ids;
-    const Vec a = way.normal_a(), b = way.normal_b();
+    if (count == kMostMet) return is_all = false;
+    Met& last = met[count];
+    last.ids = ids;
+    if (!way.meets(last)) return true;
+    ++count;
+    const Vec a = way.normal_a(last), b = way.normal_b(last);
     sum_a = sum_a + a, sum_b = sum_b + b;
-    if (count <= kMostTried / 4) tried.add_both(a), tried.add_both(b), tried.add(way.least());
+    if (tried.size() + 11 <= kMostTried) tried.add_both(a), tried.add_both(b), tried.add(last.least);
+    return true;
   });
   tried.add_both(normalised(sum_a - sum_b)), tried.add_both(normalised(sum_a)), tried.add_both(normalised(sum_b));
-  double least = HUGE_VAL;
+  least = HUGE_VAL;
   for (const Vec& n : tried) {
+    way.turn(n);
     double most = 0;
     for (int i = 0; i < count && most < least; ++i) {
-      way.look(met[i]);
-      most = max(most, way.along(n));
+      if (way.overlap(met[i].ids) <= most) continue;
+      most = max(most, way.way(met[i]));
       if (most >= least) std::swap(met[i], met[0]);  // it may rule out the next one too
     }
     if (most < least && count > 0) least = most, normal = n;
   }
-  if (!is_all && least < HUGE_VAL) {
-    for_pairs(in, in.at.law_two, [&](Ids ids) {
-      if (way.look(ids)) least = max(least, way.along(normal));
-    });
-  }
+  if (is_all || least == HUGE_VAL) return least;
+  way.turn(normal);
+  for_pairs(in, in.at.law_two, [&](Ids ids) {
+    if (Met other{ids, {}, 0}; way.overlap(ids) > least && way.meets(other)) least = max(least, way.way(other));
+    return true;
+  });
   return least;
 }
 
@@ -274,6 +324,7 @@ void grow(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b
         });
       });
     });
+    return true;
   });
   Candidates candidates(margin + bound, previous);
   const bool has_least = farthest.least() <= least + kNarrowest * in.at.size;

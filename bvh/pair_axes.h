@@ -16,16 +16,14 @@ class PairAxes {
   PairAxes(const Vec (&a)[3], const Vec (&b)[3], const Motion& b_in_a, double size) : pair_(a, b, b_in_a, size) {
     Vec side_a[3], side_b[3];
     for (int k = 0; k < 3; ++k) side_a[k] = a[(k + 1) % 3] - a[k], side_b[k] = rotate(b_in_a, b[(k + 1) % 3] - b[k]);
-    normal_a_ = normalised(cross(side_a[0], side_a[1])), normal_b_ = normalised(cross(side_b[0], side_b[1]));
-    add(normal_a_), add(normal_b_), add(normalised(pair_.between_middles()));
+    const Vec normal_a = normalised(cross(side_a[0], side_a[1])), normal_b = normalised(cross(side_b[0], side_b[1]));
+    add(normal_a), add(normal_b), add(normalised(pair_.between_middles()));
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) add(normalised(cross(side_a[i], side_b[k])));
-      add(normalised(cross(normal_a_, side_a[i]))), add(normalised(cross(normal_b_, side_b[i])));
+      add(normalised(cross(normal_a, side_a[i]))), add(normalised(cross(normal_b, side_b[i])));
     }
   }
 
-  const Vec& normal_a() const { return normal_a_; }  ///< unit, of A, in A's frame; 0 of a flat triangle
-  const Vec& normal_b() const { return normal_b_; }
   /// By how much the triangles overlap along the axis along which they do least; negative if they are apart by as much. The
   /// axis, from A to B.
   double least(Vec& axis) const {
@@ -58,7 +56,6 @@ class PairAxes {
   }
 
   TrianglePair pair_;
-  Vec normal_a_, normal_b_;
   int count_ = 0;
   Vec axis_[kMostAxes];
   double ahead_[kMostAxes], back_[kMostAxes];  ///< the overlap along the axis that going ahead, or back, must undo; rounded up
