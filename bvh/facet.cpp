@@ -12,6 +12,10 @@ namespace {
 constexpr double kCos[] = {1, 0.92387953251128674,  0.70710678118654752,  0.38268343236508977,
                            0, -0.38268343236508977, -0.70710678118654752, -0.92387953251128674};
 
+/// Their sines, of which none is negative.
+double sine(int i) { return i < 4 ? kCos[4 - i] : kCos[i - 4]; }
+
+std::uint64_t bit_of(FeatureId feature) { return std::uint64_t(1) << feature.index() % 64; }
 Place flat(const Vec& v) { return {v.x, v.y}; }
 
 }  // namespace
@@ -19,6 +23,7 @@ Place flat(const Vec& v) { return {v.x, v.y}; }
 void Facet::measure() {
   const Place u = flat(at[1]) - flat(at[0]), v = flat(at[2]) - flat(at[0]), w = v - u;
   area = cross(u, v);
+  box = {least_of(least_of(at[0], at[1]), at[2]), most_of(most_of(at[0], at[1]), at[2])};
   is_face = std::fabs(area) > kNarrowest * max(max(dot(u, u), dot(v, v)), dot(w, w));
 }
 
@@ -31,10 +36,10 @@ bool is_over(const Facet& facet, const Vec& place, double bound, Shares& shares)
     if (beside < 0 && beside * beside > bound * bound * dot(side, side)) return false;
   }
   // Beyond a sharp corner a place may be near the lines of both sides.
-  for (double Vec::*x : {&Vec::x, &Vec::y}) {
-    const auto [low, high] = std::minmax({facet.at[0].*x, facet.at[1].*x, facet.at[2].*x});
-    if (place.*x < low - bound || place.*x > high + bound) return false;
-  }
+  const Box& box = facet.box;
+  if (place.x < box.least.x - bound || place.x > box.most.x + bound || place.y < box.least.y - bound ||
+      place.y > box.most.y + bound)
+    return false;
   shares = {cross(p - first, v) / facet.area, cross(u, p - first) / facet.area};
   return true;
 }
@@ -53,6 +58,31 @@ bool cross_at(const Vec& p, const Vec& to_p, const Vec& q, const Vec& to_q, doub
   return true;
 }
 
+Farthest::Farthest(const Manifold& previous, double bound) : previous_(previous), bound_(bound) {
+  for (std::uint32_t i = 0; i < std::min(previous.count, kMostManifoldPoints); ++i) {
+    known_bits_[0] |= bit_of(previous.points[i].feature_a);
+    known_bits_[1] |= bit_of(previous.points[i].feature_b);
+  }
+}
+
+bool Farthest::may_take(const Facet& a, const Facet& b) const {
+  const Vec least = most_of(a.box.least, b.box.least), most = least_of(a.box.most, b.box.most);
+  if (least.x > most.x + bound_ || least.y > most.y + bound_) return false;
+  if (count_ == 0 || b.box.least.z - a.box.most.z < deepest_.separation - bound_) return true;
+  const double x = (least.x + most.x) / 2, y = (least.y + most.y) / 2, half_x = (most.x - least.x) / 2 + bound_,
+               half_y = (most.y - least.y) / 2 + bound_;
+  for (int i = 0; i < kHalf; ++i) {
+    const double along = x * kCos[i] + y * sine(i), half = half_x * std::fabs(kCos[i]) + half_y * sine(i);
+    if (half + along >= far_[i] - bound_ || half - along >= far_[i + kHalf] - bound_) return true;
+  }
+  const auto bits = [](const Facet& f) {
+    std::uint64_t all = bit_of(f.face);
+    for (int k = 0; k < 3; ++k) all |= bit_of(f.vertex[k]) | bit_of(f.side[k]);
+    return all;
+  };
+  return previous_.count > 0 && (bits(a) & known_bits_[0]) && (bits(b) & known_bits_[1]);
+}
+
 bool Farthest::is_known(const Candidate& candidate) const {
   const auto first = previous_.points.begin();
   return std::any_of(first, first + std::min(previous_.count, kMostManifoldPoints),
@@ -67,8 +97,7 @@ bool Farthest::is_better(const Candidate& candidate, const Candidate& than) cons
 void Farthest::add(const Candidate& candidate) {
   if (count_ == 0 || candidate.separation < deepest_.separation) deepest_ = candidate;
   for (int i = 0; i < kHalf; ++i) {
-    const double sine = i < 4 ? kCos[4 - i] : kCos[i - 4];
-    const double along = candidate.on_a.x * kCos[i] + candidate.on_a.y * sine;
+    const double along = candidate.on_a.x * kCos[i] + candidate.on_a.y * sine(i);
     for (const bool back : {false, true}) {
       const int k = back ? i + kHalf : i;
       const double far = back ? -along : along;

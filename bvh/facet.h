@@ -3,6 +3,7 @@
 // A triangle as a projection along a contact normal shows it, and where two of them face each other.
 #pragma once
 
+#include "boxes.h"
 #include "manifold/candidates.h"
 #include "mesh_tolerance.h"
 
@@ -32,8 +33,9 @@ struct Facet {
   FeatureId face;
   double area = 0;       ///< twice the projected area, positive if counter-clockwise
   bool is_face = false;  ///< it is not seen from the side: what lies over it has a height
+  Box box;               ///< around the corners
 
-  /// Sets `area` and `is_face`.
+  /// Sets the last three from the corners.
   void measure();
 };
 
@@ -53,10 +55,6 @@ bool cross_at(const Vec& p, const Vec& to_p, const Vec& q, const Vec& to_q, doub
 
 template <class Add>
 void face_each_other(const Facet& a, const Facet& b, double bound, const Add& add) {
-  const auto low = [](const Facet& f, double Vec::*x) { return min(min(f.at[0].*x, f.at[1].*x), f.at[2].*x); };
-  const auto high = [](const Facet& f, double Vec::*x) { return max(max(f.at[0].*x, f.at[1].*x), f.at[2].*x); };
-  for (double Vec::*x : {&Vec::x, &Vec::y})
-    if (low(a, x) > high(b, x) + bound || low(b, x) > high(a, x) + bound) return;
   const auto height = [](const Facet& f, const Shares& s) {
     return f.at[0].z + ((f.at[1].z - f.at[0].z) * s.first + (f.at[2].z - f.at[0].z) * s.second);
   };
@@ -83,8 +81,10 @@ void face_each_other(const Facet& a, const Facet& b, double bound, const Add& ad
 /// Keeps the few candidates that reach farthest, the deepest, and those that `previous` names.
 class Farthest {
  public:
-  Farthest(const Manifold& previous, double bound) : previous_(previous), bound_(bound) {}
+  Farthest(const Manifold& previous, double bound);
 
+  /// Whether a candidate of these facets may change what is kept. Of many triangles of a flat contact few do.
+  bool may_take(const Facet& a, const Facet& b) const;
   void add(const Candidate& candidate);
   /// The least separation of all; infinite if there are none.
   double least() const { return count_ == 0 ? HUGE_VAL : deepest_.separation; }
@@ -99,6 +99,7 @@ class Farthest {
 
   const Manifold& previous_;
   const double bound_;
+  std::uint64_t known_bits_[2] = {};  ///< per body, those of the indices that `previous` names, modulo 64
   int count_ = 0, known_count_ = 0;
   Candidate deepest_, at_[2 * kHalf], known_[kMostManifoldPoints];
   double far_[2 * kHalf];

@@ -20,7 +20,9 @@ namespace swiftlet {
 namespace {
 
 /// So many pairs that meet are kept while a normal is chosen, and so many directions are tried.
-constexpr int kMostMet = 64, kMostTried = 32;
+constexpr int kMostMet = 64, kMostTried = 40;
+/// So often pairs that were not kept are looked for.
+constexpr int kMostRounds = 8;
 
 struct Ids {
   std::uint32_t a, b;
@@ -195,7 +197,8 @@ bool parts_all(const RegionOf& in, Way& way, const Vec& n, double& most) {
 }
 
 /// Chooses the normal along which B has the least way to go until all pairs that meet are apart; `first` if the way is nothing.
-/// Returns the way; if no pair meets, or no direction parts them, it is infinite.
+/// Returns the way; if no pair meets, or no direction parts them, it is infinite. Of more than `kMostMet` pairs some are looked
+/// at; of all others the one that has the longest way along the normal found joins these, until that is no longer than theirs.
 [[gnu::noinline]] double choose_normal(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b, const Vec& first,
                                        Vec& normal) {
   Way way(in, body_a, body_b);
@@ -216,27 +219,45 @@ bool parts_all(const RegionOf& in, Way& way, const Vec& n, double& most) {
     ++count;
     const Vec a = way.normal_a(last), b = way.normal_b(last);
     sum_a = sum_a + a, sum_b = sum_b + b;
-    if (tried.size() + 11 <= kMostTried) tried.add_both(a), tried.add_both(b), tried.add(last.least);
+    if (tried.size() + 11 + kMostRounds <= kMostTried) tried.add_both(a), tried.add_both(b), tried.add(last.least);
     return true;
   });
   tried.add_both(normalised(sum_a - sum_b)), tried.add_both(normalised(sum_a)), tried.add_both(normalised(sum_b));
+
+  const double nothing = 2 * in.at.law_two;
+  const auto way_of = [&](const Met& of, double most) {
+    const double overlap = way.overlap(of.ids);
+    return overlap <= max(most, nothing) ? overlap : way.way(of);
+  };
   least = HUGE_VAL;
-  for (const Vec& n : tried) {
-    way.turn(n);
-    double most = 0;
-    for (int i = 0; i < count && most < least; ++i) {
-      if (way.overlap(met[i].ids) <= most) continue;
-      most = max(most, way.way(met[i]));
-      if (most >= least) std::swap(met[i], met[0]);  // it may rule out the next one too
+  for (int round = 0; round < kMostRounds && count > 0; ++round) {
+    double of_met = HUGE_VAL;
+    Vec best = first;
+    for (const Vec& n : tried) {
+      way.turn(n);
+      double most = 0;
+      for (int i = 0; i < count && most < of_met; ++i) {
+        most = max(most, way_of(met[i], most));
+        if (most >= of_met) std::swap(met[i], met[0]);  // it may rule out the next one too
+      }
+      if (most < of_met) of_met = most, best = n;
     }
-    if (most < least && count > 0) least = most, normal = n;
+    if (of_met >= least) break;
+    if (is_all) return normal = best, of_met;
+    double most = 0;
+    Met worst{};
+    way.turn(best);
+    for_pairs(in, in.at.law_two, [&](Ids ids) {
+      Met other{ids, {}, 0};
+      if (way.overlap(ids) > max(most, nothing) && !way.meets(other)) return true;
+      if (const double along = way_of(other, most); along > most) most = along, worst = other;
+      return true;
+    });
+    if (most < least) least = most, normal = best;
+    if (most <= max(of_met, nothing)) break;
+    met[kMostMet - 1 - round] = worst;
+    tried.add(worst.least);
   }
-  if (is_all || least == HUGE_VAL) return least;
-  way.turn(normal);
-  for_pairs(in, in.at.law_two, [&](Ids ids) {
-    if (Met other{ids, {}, 0}; way.overlap(ids) > least && way.meets(other)) least = max(least, way.way(other));
-    return true;
-  });
   return least;
 }
 
@@ -267,6 +288,7 @@ void for_facets(const MeshView& of, const Motion& in_a, std::uint32_t triangle, 
   const std::uint32_t first = contact_face->side();
   if (first == kNone) {
     for (int k = 0; k < 3; ++k) put(k, 0);
+    facet.measure();
     return on_facet(facet);
   }
   const auto edge = [&](std::uint32_t h) { return named(view, {FeatureKind::Edge, h}); };
@@ -316,13 +338,17 @@ void grow(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b
   contact_face(body_b, -normal, in.at.motion, previous.face_b, face_b);
 
   Farthest farthest(previous, bound);
+  const auto look = [&](const Facet& a, const Facet& b) {
+    if (b.box.least.z - a.box.most.z > margin + bound || b.box.most.z - a.box.least.z < least - bound ||
+        !farthest.may_take(a, b))
+      return;
+    face_each_other(a, b, bound / 2, [&](const Candidate& c) {
+      if (c.separation >= least - bound && c.separation <= margin + bound) farthest.add(c);
+    });
+  };
   for_pairs(in, max(margin, std::fabs(least)) + bound, [&](Ids ids) {
     for_facets(in.at.a, kAtRest, ids.a, body_a, face_a ? &*face_a : nullptr, seen, [&](const Facet& a) {
-      for_facets(in.at.b, in.at.motion, ids.b, body_b, face_b ? &*face_b : nullptr, seen, [&](const Facet& b) {
-        face_each_other(a, b, bound / 2, [&](const Candidate& c) {
-          if (c.separation >= least - bound && c.separation <= margin + bound) farthest.add(c);
-        });
-      });
+      for_facets(in.at.b, in.at.motion, ids.b, body_b, face_b ? &*face_b : nullptr, seen, [&](const Facet& b) { look(a, b); });
     });
     return true;
   });
