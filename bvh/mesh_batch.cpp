@@ -37,6 +37,16 @@ auto asking_within(double threshold, const Effort& effort) {
     return within(a, b, pose, threshold, seed, effort);
   };
 }
+auto asking_signed_distance(const Options& options) {
+  return [&options](const MeshBody& a, const MeshBody& b, const Pose& pose, MeshSeed& seed) {
+    return signed_distance(a, b, pose, seed, options);
+  };
+}
+auto asking_signed_within(double threshold, const Effort& effort) {
+  return [threshold, &effort](const MeshBody& a, const MeshBody& b, const Pose& pose, MeshSeed& seed) {
+    return signed_within(a, b, pose, threshold, seed, effort);
+  };
+}
 auto asking_closest(const ClosestOptions& options) {
   return [&options](const MeshBody& a, const MeshBody& b, const Pose& pose, MeshSeed& seed) {
     return closest_features(a, b, pose, seed, options);
@@ -60,6 +70,13 @@ void within(std::span<const MeshPairQuery> pairs, double threshold, std::span<Wi
             const Run& run) {
   over_pairs(pairs, answers, run, asking_within(threshold, effort));
 }
+void signed_distance(std::span<const MeshPairQuery> pairs, std::span<Answer> answers, const Options& options, const Run& run) {
+  over_pairs(pairs, answers, run, asking_signed_distance(options));
+}
+void signed_within(std::span<const MeshPairQuery> pairs, double threshold, std::span<Within> answers, const Effort& effort,
+                   const Run& run) {
+  over_pairs(pairs, answers, run, asking_signed_within(threshold, effort));
+}
 void closest_features(std::span<const MeshPairQuery> pairs, std::span<ClosestFeatures> answers, const ClosestOptions& options,
                       const Run& run) {
   over_pairs(pairs, answers, run, asking_closest(options));
@@ -76,6 +93,14 @@ void intersects(const MeshBody& a, const MeshBody& b, std::span<const Pose> b_in
 void within(const MeshBody& a, const MeshBody& b, std::span<const Pose> b_in_a, double threshold, std::span<Within> answers,
             const Effort& effort, const Run& run) {
   over_poses<MeshSeed>(b_in_a, answers, run, of(a, b, asking_within(threshold, effort)));
+}
+void signed_distance(const MeshBody& a, const MeshBody& b, std::span<const Pose> b_in_a, std::span<Answer> answers,
+                     const Options& options, const Run& run) {
+  over_poses<MeshSeed>(b_in_a, answers, run, of(a, b, asking_signed_distance(options)));
+}
+void signed_within(const MeshBody& a, const MeshBody& b, std::span<const Pose> b_in_a, double threshold,
+                   std::span<Within> answers, const Effort& effort, const Run& run) {
+  over_poses<MeshSeed>(b_in_a, answers, run, of(a, b, asking_signed_within(threshold, effort)));
 }
 void closest_features(const MeshBody& a, const MeshBody& b, std::span<const Pose> b_in_a, std::span<ClosestFeatures> answers,
                       const ClosestOptions& options, const Run& run) {

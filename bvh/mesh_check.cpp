@@ -11,6 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include <swiftlet/depth.h>
+
+#include "body/shape.h"
 #include "inside.h"
 #include "mesh_block.h"
 #include "search.h"
@@ -53,9 +56,57 @@ struct Parts {
     return std::any_of(content.triangles.begin(), content.triangles.end(),
                        [&](const Corners& corners) { return volume.holds_without_tree(content.vertices[corners[0]]); });
   }
+  /// The greatest height of the body along `n`, a direction of the frame that `at` moves it into.
+  double top(const Vec3& n, const Pose& at) const {
+    double most = -HUGE_VAL;
+    const auto add = [&](const Vec3& p) { most = std::max(most, n.dot(at.rotation * p + at.translation)); };
+    if (of.mesh()) {
+      for (std::size_t v = 0; v < of.mesh()->vertex_count(); ++v) add(of.mesh()->vertex(v));
+    } else {
+      const ShapeOf shape(of.convex());
+      for (const Vertex& v : (*shape).level(0).view.vertices) add(eigen(vec(v)));
+    }
+    return most + n.norm() * of.radius();
+  }
+  /// The radius of a ball around a point of A's frame that lies in the body, if the point is inside; else 0.
+  double free_ball(const Vec3& p, const Pose& at, bool is_b) const {
+    if (!of.mesh()) {
+      const Body point = Body::point(p);
+      return std::max(0.0, -(is_b ? signed_distance(point, of.convex(), at) : signed_distance(of.convex(), point, at)).lower);
+    }
+    if (!of.is_solid() || !Enclosure(MeshReader::content(*of.mesh()), at, is_b).holds_without_tree(vec(p))) return of.radius();
+    double least = HUGE_VAL;
+    for (std::size_t i = 0; i < count; ++i) {
+      const MeshBody plain(*of.mesh());
+      const Body part = Parts(plain)[i], point = Body::point(p);
+      least = std::min(least, (is_b ? distance(point, part, at) : distance(part, point, at)).upper);
+    }
+    return least + of.radius();
+  }
+
   const MeshBody& of;
   std::size_t count;
 };
+
+/// What is wrong with the interval of an answer about a depth; "" if nothing.
+std::string depth_fault(const Parts& a, const Parts& b, const Pose& b_in_a, const Answer& answer, double law_two) {
+  std::ostringstream text;
+  text.precision(17);
+  if (answer.lower > -HUGE_VAL) {
+    const Vec3& n = answer.normal;
+    const double over = a.top(n, {}) + b.top(-n, b_in_a) + answer.lower;
+    if (!(std::fabs(n.norm() - 1) <= 1e-15)) return "the normal is no unit vector";
+    if (!(over <= law_two)) text << "moved by " << -answer.lower << " along the normal, the hulls overlap by " << over;
+  }
+  double upper = HUGE_VAL;
+  for (std::size_t i = 0; i < a.count; ++i) {
+    for (std::size_t k = 0; k < b.count; ++k) upper = std::min(upper, signed_distance(a[i], b[k], b_in_a).lower);
+  }
+  if (answer.verdict == Verdict::Overlapping && !answer.point_a.hasNaN())
+    upper = std::min(upper, -a.free_ball(answer.point_a, {}, false) - b.free_ball(answer.point_a, b_in_a, true));
+  if (!(answer.upper >= upper - law_two)) text << "upper is " << answer.upper << " where only " << upper << " is proved";
+  return text.str();
+}
 
 }  // namespace
 
@@ -76,6 +127,12 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
     if (body->mesh() && !body->mesh()->is_whole()) return fail("the triangles of a mesh that was cut are not there");
   }
   const Parts of_a(a), of_b(b);
+  if (answer.is_signed && !(answer.lower > 0)) {
+    if (const std::string fault = depth_fault(of_a, of_b, b_in_a, answer, law_two); !fault.empty()) return fail(fault);
+    Answer met = answer;
+    met.is_signed = false, met.lower = 0, met.upper = std::max(answer.upper, 0.0);
+    return check(a, b, b_in_a, met);
+  }
   double lower = HUGE_VAL, upper = HUGE_VAL;
   bool overlapping = false;
   for (std::size_t i = 0; i < of_a.count; ++i) {

@@ -91,4 +91,13 @@ inline constexpr double kNarrowest = 0x1p-20;
 /// Two candidates for the normal of a crossing are one if their cosine is within this of 1: an angle of 2^-20.
 inline constexpr double kSameDirection = 0x1p-41;
 
+// ---- Depths -------------------------------------------------------------------------------------------------------------
+
+/// The height of a box along a unit direction, and of a vertex that is compared with it, over the mesh's unit: dot products
+/// of lengths of at most 2 root 3 carry 3 u each, and the sums over the box 7 u. Rounded up.
+inline constexpr double kBoxHeightError = 64 * kU;
+/// A length of a translation along a direction whose length is off by 4.5 u: what separates is longer by its square, 9 u, and
+/// radii by 4.5 u, the last sums by 3 u. Relative to itself, rounded up.
+inline constexpr double kMoveError = 24 * kU;
+
 }  // namespace swiftlet

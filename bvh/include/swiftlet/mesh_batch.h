@@ -30,6 +30,12 @@ void intersects(std::span<const MeshPairQuery> pairs, std::span<Answer> answers,
 /// Asks `within` for each pair.
 void within(std::span<const MeshPairQuery> pairs, double threshold, std::span<Within> answers, const Effort& effort = {},
             const Run& run = {});
+/// Asks `signed_distance` for each pair.
+void signed_distance(std::span<const MeshPairQuery> pairs, std::span<Answer> answers, const Options& options = {},
+                     const Run& run = {});
+/// Asks `signed_within` for each pair.
+void signed_within(std::span<const MeshPairQuery> pairs, double threshold, std::span<Within> answers, const Effort& effort = {},
+                   const Run& run = {});
 /// Asks `closest_features` for each pair.
 void closest_features(std::span<const MeshPairQuery> pairs, std::span<ClosestFeatures> answers,
                       const ClosestOptions& options = {}, const Run& run = {});
@@ -46,6 +52,12 @@ void intersects(const MeshBody& a, const MeshBody& b, std::span<const Pose> b_in
 /// Asks `within` in each pose.
 void within(const MeshBody& a, const MeshBody& b, std::span<const Pose> b_in_a, double threshold, std::span<Within> answers,
             const Effort& effort = {}, const Run& run = {});
+/// Asks `signed_distance` in each pose.
+void signed_distance(const MeshBody& a, const MeshBody& b, std::span<const Pose> b_in_a, std::span<Answer> answers,
+                     const Options& options = {}, const Run& run = {});
+/// Asks `signed_within` in each pose.
+void signed_within(const MeshBody& a, const MeshBody& b, std::span<const Pose> b_in_a, double threshold,
+                   std::span<Within> answers, const Effort& effort = {}, const Run& run = {});
 /// Asks `closest_features` in each pose.
 void closest_features(const MeshBody& a, const MeshBody& b, std::span<const Pose> b_in_a, std::span<ClosestFeatures> answers,
                       const ClosestOptions& options = {}, const Run& run = {});

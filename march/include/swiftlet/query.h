@@ -24,8 +24,8 @@ enum class Status : std::uint8_t {
   Budget,         ///< the query used up `Budget::steps`; the interval is true
   LevelLimit,     ///< a level that the tolerance needs is absent from a model or finer than the budget allows; the interval
                   ///< is true, and as narrow as the levels that the answer names allow
-  NotConverged,   ///< the interval is true but wider than asked. Known only for needles and plates whose thickness is
-                  ///< within law 2's bound (README.md, Limits)
+  NotConverged,   ///< the interval is true but wider than asked. Known only for depths of meshes (mesh_query.h), and for
+                  ///< needles and plates whose thickness is within law 2's bound (README.md, Limits)
   InvalidPose,    ///< the pose is not finite, translates beyond 1e45 or is not orthonormal to 1e-6: nothing is known
   InvalidRadius,  ///< a radius is not a number from 0 to 1e45, or `refine` got an answer of other radii: nothing is known
   InvalidBody,    ///< a primitive has a coordinate that no model may have, or a box a negative extent: nothing is known

@@ -1,0 +1,335 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Signed distances of meshes. Apart, they are distances. Of an overlap no more is known than an interval: from below what
+// separates the bodies' hulls, and from above what separates two triangles that cross, or two balls around one point.
+#include <algorithm>
+#include <cmath>
+
+#include <swiftlet/depth.h>
+#include <swiftlet/mesh_query.h>
+
+#include "body/shape.h"
+#include "body/support.h"
+#include "inside.h"
+#include "numeric/vec4.h"
+#include "pair/pair_view.h"
+#include "query/radii.h"
+#include "search.h"
+
+namespace swiftlet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
+/// So often is the best direction turned towards a lower height.
+constexpr int kTurns = 16;
+
+/// The vertices of a body by their heights along directions of its own frame.
+class Supports {
+ public:
+  explicit Supports(const MeshView& of) : of_(of) {
+    if (of.convex) shape_.emplace(of.convex->body);
+  }
+  /// A vertex than which none is higher along `n` by more than a product with `n` is rounded.
+  Vec highest(const Vec& n) const {
+    if (!shape_) return highest_of_mesh(n);
+    const ConvexView& view = (**shape_).level((**shape_).finest_level()).view;
+    std::uint32_t tests = 0;
+    return vec(view.vertices[support(view, n, 0, tests)]);
+  }
+
+ private:
+  struct Entry {
+    std::uint32_t node;
+    double bound;
+  };
+  Vec highest_of_mesh(const Vec& n) const {
+    const double unit = power_of_two(of_.unit);
+    double best = -kInfinity;
+    Vec at{};
+    Entry stack[(kFanOut - 1) * kMostDepth + 1];
+    int top = 0;
+    stack[top++] = {0, kInfinity};
+    while (top > 0) {
+      const Entry entry = stack[--top];
+      if (!(entry.bound > best)) continue;
+      const Node& node = of_.nodes[entry.node];
+      if (node.lowest()) {
+        for (std::uint32_t t = node.first(); t < node.first() + std::uint32_t(node.count()); ++t) {
+          for (const std::uint32_t v : of_.triangles[t]) {
+            if (const double height = dot(n, of_.vertices[v]); height > best) best = height, at = of_.vertices[v];
+          }
+        }
+        continue;
+      }
+      float third[3];
+      third_axis(node.axis, third);
+      const float* const axes[3] = {node.axis[0], node.axis[1], third};
+      double along[3];
+      for (int k = 0; k < 3; ++k) along[k] = n.x * axes[k][0] + n.y * axes[k][1] + n.z * axes[k][2];
+      const double base = dot(n, Vec{node.origin[0], node.origin[1], node.origin[2]});
+      const int bottom = top;
+      for (int i = 0; i < node.count(); ++i) {
+        double bound = base, size = 0;
+        for (int k = 0; k < 3; ++k) {
+          const double centre = node.centre[k][i], half = node.half[k][i];
+          bound += along[k] * centre + std::fabs(along[k]) * half, size += std::fabs(centre) + half;
+        }
+        bound = unit * (bound + kBoxSlack * size + kBoxHeightError);
+        if (bound > best) stack[top++] = {node.first() + std::uint32_t(i), bound};
+      }
+      std::sort(stack + bottom, stack + top, [](const Entry& x, const Entry& y) { return x.bound < y.bound; });
+    }
+    return at;
+  }
+
+  const MeshView& of_;
+  std::optional<ShapeOf> shape_;
+};
+
+/// A translation along a unit direction that separates the bodies' hulls.
+struct Way {
+  double length = kInfinity;  ///< below 0 if they are so far apart; proved
+  Vec n{};                    ///< from A to B
+  Vec of_a{}, of_b{};         ///< the vertices that are deepest along it, each in its own frame
+};
+
+/// Bounds the depth of two bodies that are not apart.
+class Depth {
+ public:
+  Depth(const MeshBody& a, const MeshBody& b, const Pose& b_in_a)
+      : a_(a),
+        b_(b),
+        pose_(b_in_a),
+        motion_(motion(b_in_a)),
+        view_a_(a),
+        view_b_(b),
+        of_a_(view_a_),
+        of_b_(view_b_),
+        radii_(a.radius() + b.radius()),
+        size_(max(view_a_.extent, view_b_.extent) + norm(motion_.t)) {}
+
+  /// The shortest of the ways along some directions.
+  Way way_out(const Answer& answer, const MeshSeed& seed) {
+    if (const Model* const a = hull(view_a_), * const b = hull(view_b_); (a || view_a_.convex) && (b || view_b_.convex))
+      return way_of_hulls(a ? Body(*a) : view_a_.convex->body, b ? Body(*b) : view_b_.convex->body);
+    Way best;
+    try_axes(
+        view_a_, [](const Vec& n) { return n; }, best);
+    try_axes(
+        view_b_, [this](const Vec& n) { return rotate(motion_, n); }, best);
+    try_both(middle(view_b_, true) - middle(view_a_, false), best);
+    if (!answer.normal.hasNaN()) try_both(vec(answer.normal), best);
+    try_both({double(seed.direction[0]), double(seed.direction[1]), double(seed.direction[2])}, best);
+    if (seed.triangle_a < view_a_.triangle_count && seed.triangle_b < view_b_.triangle_count) {
+      if (view_a_.triangles) try_both(normal(view_a_, seed.triangle_a), best);
+      if (view_b_.triangles) try_both(rotate(motion_, normal(view_b_, seed.triangle_b)), best);
+    }
+    descend(best);
+    return best;
+  }
+
+  /// An upper bound on the signed distance; `at` becomes a point, in A's frame, that proves it, if there is one.
+  double least_upper(const Way& way, const Answer& answer, const MeshSeed& seed, Vec3& at) const {
+    double upper = kInfinity;
+    if (seed.triangle_a < view_a_.triangle_count && seed.triangle_b < view_b_.triangle_count) {
+      upper = signed_distance(part(a_, view_a_, seed.triangle_a), part(b_, view_b_, seed.triangle_b), pose_).upper;
+    }
+    const auto take = [&](double depth, const Vec& p) {
+      if (-depth < upper) upper = -depth, at = eigen(p);
+    };
+    // Vertices of one body inside the other: those that are deepest, and the one that the query found.
+    const auto take_vertex = [&](const Vec& p, bool of_b) {
+      const double free = free_ball(of_b ? a_ : b_, !of_b, p, of_b);
+      if (free >= 0) take(rounded_down(free + (of_b ? b_ : a_).radius()), of_b ? apply(motion_, p) : p);
+    };
+    take_vertex(way.of_b, true), take_vertex(way.of_a, false);
+    const auto named = [](const MeshView& of, FeatureId feature) {
+      return of.triangles && feature.kind() == FeatureKind::Vertex;
+    };
+    if (answer.verdict == Verdict::Overlapping && named(view_a_, answer.feature_a))
+      take_vertex(view_a_.vertices[answer.feature_a.index()], false);
+    if (answer.verdict == Verdict::Overlapping && named(view_b_, answer.feature_b))
+      take_vertex(view_b_.vertices[answer.feature_b.index()], true);
+    if (!has_volume(a_) || !has_volume(b_)) return upper;
+    // Points between: in the middle of the overlap along the way, below the middles of both bodies and of what is deepest.
+    const Vec p = way.of_a, q = apply(motion_, way.of_b), deepest = (p + q) * 0.5;
+    const double height = dot(way.n, deepest);
+    const Vec between = (middle(view_a_, false) + middle(view_b_, true)) * 0.5;
+    for (const Vec& point : {deepest, between, between + way.n * (height - dot(way.n, between)), common_middle()}) {
+      const Vec legal = without_tiny(point);
+      const double of_a = free_ball(a_, false, legal, false);
+      if (of_a < 0) continue;
+      if (const double of_b = free_ball(b_, true, legal, false); of_b >= 0) take(rounded_down(of_a + of_b), legal);
+    }
+    return upper;
+  }
+
+ private:
+  static const Model* hull(const MeshView& of) {
+    const NodeHull* const root = of.content ? of.content->hull_at(0) : nullptr;
+    return root ? &root->model : nullptr;
+  }
+  static bool has_volume(const MeshBody& body) { return body.is_solid() || !body.mesh(); }
+  static double rounded_down(double x) { return x * (1 - 4 * kU); }
+  static Vec without_tiny(Vec p) {
+    for (double* const x : {&p.x, &p.y, &p.z}) *x = std::fabs(*x) < kLeastCoordinate ? 0 : *x;
+    return p;
+  }
+  static Body part(const MeshBody& body, const MeshView& view, std::uint32_t triangle) {
+    if (!view.triangles) return body.convex();
+    const auto at = [&](std::size_t k) { return eigen(view.vertices[view.triangles[triangle][k]]); };
+    return Body::triangle(at(0), at(1), at(2), body.radius());
+  }
+  static Vec normal(const MeshView& of, std::uint32_t triangle) {
+    const Corners& c = of.triangles[triangle];
+    return cross(of.vertices[c[1]] - of.vertices[c[0]], of.vertices[c[2]] - of.vertices[c[0]]);
+  }
+  /// Of the root's box, in A's frame.
+  Vec middle(const MeshView& of, bool is_b) const {
+    const double unit = power_of_two(of.unit);
+    const Vec own{of.nodes->origin[0] * unit, of.nodes->origin[1] * unit, of.nodes->origin[2] * unit};
+    return is_b ? apply(motion_, own) : own;
+  }
+  /// The middle of what both bodies' boxes along A's axes have in common, if they have.
+  Vec common_middle() const {
+    double x[3];
+    for (int k = 0; k < 3; ++k) {
+      const Vec n{double(k == 0), double(k == 1), double(k == 2)}, own = rotate_back(motion_, n);
+      const auto of_b = [&](const Vec& direction) { return dot(n, apply(motion_, of_b_.highest(direction))); };
+      const double most = min(dot(n, of_a_.highest(n)), of_b(own)), least = max(dot(n, of_a_.highest(-n)), of_b(-own));
+      x[k] = least + (most - least) / 2;
+    }
+    return {x[0], x[1], x[2]};
+  }
+
+  /// The shortest way of all, by the kernel.
+  Way way_of_hulls(const Body& a, const Body& b) const {
+    const Answer answer = signed_distance(a, b, pose_);
+    Way way = along(answer.normal.hasNaN() ? Vec{0, 0, 1} : vec(answer.normal));
+    if (!answer.normal.hasNaN()) way.length = min(way.length, grown(radii_ - answer.lower));
+    return way;
+  }
+
+  /// A length that is no less after `kMoveError`.
+  static double grown(double length) { return length + kMoveError * std::fabs(length); }
+
+  Way along(const Vec& n) const {
+    Way way{kInfinity, n, of_a_.highest(n), {}};
+    const Vec own = rotate_back(motion_, n);
+    way.of_b = of_b_.highest(-own);
+    const double gap = dot(own, way.of_b) + (dot(n, motion_.t) - dot(n, way.of_a));
+    way.length = grown(radii_ - gap + kAheadError * size_ + kAheadOfItself * std::fabs(gap));
+    return way;
+  }
+  void try_both(const Vec& direction, Way& best) const {
+    const Vec n = normalised(direction);
+    if (!(dot(n, n) > 0.5)) return;
+    for (const Vec& m : {n, -n}) {
+      if (const Way way = along(m); way.length < best.length) best = way;
+    }
+  }
+  template <class Turned>
+  void try_axes(const MeshView& of, const Turned& turned, Way& best) const {
+    float third[3];
+    third_axis(of.nodes->axis, third);
+    const auto vector = [](const float(&n)[3]) { return Vec{n[0], n[1], n[2]}; };
+    for (const Vec& n : {vector(of.nodes->axis[0]), vector(of.nodes->axis[1]), vector(third)}) try_both(turned(n), best);
+  }
+  /// Turns the direction against the vertices that bound it, by less and less: the height is convex around its least.
+  void descend(Way& best) const {
+    double turn = 0.25;
+    for (int i = 0; i < kTurns; ++i) {
+      const Vec w = normalised(best.of_a - apply(motion_, best.of_b));
+      const Vec across = w - best.n * dot(w, best.n);
+      const Way next = along(normalised(best.n - across * turn));
+      if (next.length < best.length)
+        best = next;
+      else
+        turn *= 0.5;
+    }
+  }
+
+  /// A radius, proved, of a ball around a point that lies in a body; below 0 if the point is not known to be in it. The point
+  /// is in B's frame if `in_b`.
+  double free_ball(const MeshBody& of, bool is_b, const Vec& p, bool in_b) const {
+    const bool own = is_b == in_b, turned = is_b && !own;  // in its own frame the body takes A's place
+    const Pose& at = own ? identity_ : pose_;
+    const Body point = Body::point(eigen(p));
+    if (!of.mesh()) {
+      const double upper =
+          turned ? signed_distance(point, of.convex(), at).upper : signed_distance(of.convex(), point, at).upper;
+      return upper <= 0 ? -upper : -1;
+    }
+    if (!of.is_solid() || !Enclosure(MeshReader::content(*of.mesh()), at, turned).holds(p)) return -1;
+    const MeshBody surface(*of.mesh()), guest(point);
+    const Answer answer = distance(turned ? guest : surface, turned ? surface : guest, at);
+    return rounded_down(answer.lower + of.radius());
+  }
+
+  const MeshBody &a_, &b_;
+  const Pose& pose_;
+  const Pose identity_{};
+  const Motion motion_;
+  const MeshView view_a_, view_b_;
+  const Supports of_a_, of_b_;
+  const double radii_, size_;
+};
+
+/// Makes an answer about a distance of bodies that are not apart one about their depth.
+[[gnu::noinline]] void deepen(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const MeshSeed& seed,
+                              const Options& options, Answer& answer) {
+  Depth depth(a, b, b_in_a);
+  const Way way = depth.way_out(answer, seed);
+  Vec3 at = answer.point_a;
+  const double upper = depth.least_upper(way, answer, seed, at);
+  if (upper < answer.upper) {
+    answer.upper = upper;
+    if (upper < 0) answer.point_a = answer.point_b = at;
+  }
+  if (answer.upper < 0) answer.verdict = Verdict::Overlapping;
+  answer.lower = min(-way.length, answer.upper), answer.normal = eigen(way.n);
+  const double width = answer.upper - answer.lower;
+  const double asked = max(max(options.absolute, options.relative * -answer.upper), tolerance(a, b, b_in_a));
+  if (width <= asked)
+    answer.status = Status::Converged;
+  else if (answer.status != Status::Budget)
+    answer.status = Status::NotConverged;
+}
+
+}  // namespace
+
+Answer signed_distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options) {
+  if (!a.mesh() && !b.mesh()) return signed_distance(a.convex(), b.convex(), b_in_a, seed.pair, options);
+  Answer answer = distance(a, b, b_in_a, seed, options);
+  answer.is_signed = true;
+  if (answer.status >= Status::InvalidPose)
+    answer.lower = -kInfinity;
+  else if (!(answer.lower > 0))
+    deepen(a, b, b_in_a, seed, options, answer);
+  return answer;
+}
+Answer signed_distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Options& options) {
+  MeshSeed cold;
+  return signed_distance(a, b, b_in_a, cold, options);
+}
+
+Within signed_within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double threshold, MeshSeed& seed,
+                     const Effort& effort) {
+  if (!a.mesh() && !b.mesh()) return signed_within(a.convex(), b.convex(), b_in_a, threshold, seed.pair, effort);
+  if (!(threshold < 0)) {
+    Within result = within(a, b, b_in_a, threshold, seed, effort);
+    result.answer.is_signed = true;
+    if (!(result.answer.lower > 0)) result.answer.lower = -kInfinity, result.answer.normal = Vec3::Constant(kUnknown);
+    return result;
+  }
+  Within result{Decision::Undecided, signed_distance(a, b, b_in_a, seed, {.beyond = 0, .budget = effort.budget, .tuning = {}})};
+  decide(result, threshold);
+  if (result.decision != Decision::Undecided) result.answer.status = Status::Converged;
+  return result;
+}
+Within signed_within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double threshold, const Effort& effort) {
+  MeshSeed cold;
+  return signed_within(a, b, b_in_a, threshold, cold, effort);
+}
+
+}  // namespace swiftlet
