@@ -302,7 +302,8 @@ Answer signed_distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a,
   if (!a.mesh() && !b.mesh()) return signed_distance(a.convex(), b.convex(), b_in_a, seed.pair, options);
   Answer answer = distance(a, b, b_in_a, seed, options);
   answer.is_signed = true;
-  if (answer.status >= Status::InvalidPose)
+  const auto was_cut = [](const MeshBody& body) { return body.mesh() && !body.mesh()->is_whole(); };
+  if (answer.status >= Status::InvalidPose || (!(answer.lower > 0) && (was_cut(a) || was_cut(b))))
     answer.lower = -kInfinity;
   else if (!(answer.lower > 0))
     deepen(a, b, b_in_a, seed, options, answer);

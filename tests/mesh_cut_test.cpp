@@ -136,6 +136,11 @@ TEST(Cut, HasNoFeaturesContactsOrVolume) {
   EXPECT_EQ(contacts(cut, cut, pose, 10, {}).status, Status::LevelLimit);
   EXPECT_EQ(distance(MeshBody::solid(cut), cut, pose).status, Status::InvalidBody);
   EXPECT_FALSE(check(cut, cut, pose, distance(cut, cut, pose)));
+  EXPECT_EQ(signed_distance(cut, cut, pose).lower, distance(cut, cut, pose).lower);
+  const Answer met = signed_distance(cut, cut, {});
+  EXPECT_EQ(met.lower, -kInfinity);
+  EXPECT_GE(met.upper, 0);
+  EXPECT_EQ(met.status, Status::LevelLimit);
 }
 
 TEST(Cut, ScalesBitForBit) {

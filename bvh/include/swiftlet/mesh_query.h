@@ -70,8 +70,8 @@ ClosestFeatures closest_features(const MeshBody& a, const MeshBody& b, const Pos
 /// or else two balls, one in each solid, around the point that both points then are. The status is NotConverged where this
 /// interval is wider than asked, and law 2 does not hold for it; of convex solids it is mostly narrow. Nor does law 3: the
 /// interval of an overlap depends on the seed, but is always true. Bodies that only touch have an interval of the same
-/// kind. Cost: that of `distance`, and of an overlap some 10 to 300 microseconds, which no budget limits; up
-/// to 48 kB of stack.
+/// kind. Of a mesh that was cut, `lower` is minus infinity unless it is above 0. Cost: that of `distance`, and of an overlap
+/// some 10 to 300 microseconds, which no budget limits; up to 48 kB of stack.
 Answer signed_distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options = {});
 /// Returns the signed distance, from a cold start.
 Answer signed_distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Options& options = {});
