@@ -11,6 +11,7 @@
 #include <utility>
 
 #include <swiftlet/mesh_batch.h>
+#include <swiftlet/mesh_contacts.h>
 
 #include "broad_phase.h"
 
@@ -241,7 +242,7 @@ BodyId Scene::add(std::string_view name, const MeshBody& body, const Pose& in_wo
   place.body = body;
   if (body.mesh()) {
     place.mesh = std::make_unique<const MeshModel>(*body.mesh());
-    place.body = MeshBody(*place.mesh, body.radius());
+    place.body = body.is_solid() ? MeshBody::solid(*place.mesh, body.radius()) : MeshBody(*place.mesh, body.radius());
   } else if (body.convex().model()) {
     place.model = std::make_unique<const Model>(*body.convex().model());
     place.body = Body(*place.model, body.radius());
@@ -385,7 +386,7 @@ NearestPair Scene::nearest(const Scene& other, const Options& options) {
 
 namespace {
 
-/// A question about contacts: of convex bodies how deep, of meshes how far apart.
+/// A question about contacts: of convex bodies how deep, of meshes whether there are any.
 struct AskContact {
   double margin;
   void operator()(std::span<const PairQuery> pairs, std::span<Answer> answers) const {
@@ -396,17 +397,46 @@ struct AskContact {
   }
 };
 
-Manifold manifold_of(const PairQuery& q, const Answer& answer, const ManifoldOptions& options, const Manifold& previous) {
-  return manifold(q.a, q.b, q.b_in_a, answer, options, previous);
+using LastContacts = std::span<const SceneContact>;  // of one pair
+
+void list_contacts(const KeptPair& pair, const PairQuery& q, const Answer& answer, const ManifoldOptions& options,
+                   LastContacts last, std::vector<SceneContact>& found) {
+  found.push_back({{pair.a, pair.b, answer},
+                   manifold(q.a, q.b, q.b_in_a, answer, options, last.empty() ? Manifold{} : last.front().manifold)});
 }
-/// The nearest points, where surfaces are apart.
-Manifold manifold_of(const MeshPairQuery&, const Answer& answer, const ManifoldOptions&, const Manifold&) {
-  Manifold one;
-  if (answer.normal.hasNaN()) return one;
-  one.normal = answer.normal;
-  one.count = 1;
-  one.points[0] = {answer.point_a, answer.point_b, answer.lower, answer.feature_a, answer.feature_b};
-  return one;
+
+/// The last manifold that was nearest to a point.
+Manifold last_at(const Vec3& point, LastContacts last) {
+  const SceneContact* nearest = nullptr;
+  double least = kInfinity;
+  for (const SceneContact& contact : last) {
+    const double square = (contact.answer.point_a - point).squaredNorm();
+    if (square < least) least = square, nearest = &contact;
+  }
+  return nearest ? nearest->manifold : Manifold{};
+}
+
+/// One for each region; of a body inside a solid, whose surfaces do not meet, how deep it is.
+void list_contacts(const KeptPair& pair, const MeshPairQuery& q, const Answer& answer, const ManifoldOptions& options,
+                   LastContacts last, std::vector<SceneContact>& found) {
+  std::vector<MeshContact> regions(kSpareRegions);
+  MeshContacts told = contacts(q.a, q.b, q.b_in_a, options.margin, regions);
+  if (told.stored < told.count) {
+    regions.resize(told.count + kSpareRegions);
+    told = contacts(q.a, q.b, q.b_in_a, options.margin, regions);
+  }
+  if (told.stored == 0) {
+    const bool is_inside = answer.verdict == Verdict::Overlapping;
+    found.push_back({{pair.a, pair.b, is_inside ? signed_distance(q.a, q.b, q.b_in_a, *q.seed) : answer}, {}});
+    return;
+  }
+  for (const MeshContact& region : std::span(regions).first(told.stored)) {
+    Answer one = answer;
+    one.status = told.status, one.verdict = region.verdict, one.lower = region.lower, one.upper = region.upper;
+    one.normal = region.normal, one.point_a = region.point_a, one.point_b = region.point_b;
+    one.feature_a = region.feature_a, one.feature_b = region.feature_b;
+    found.push_back({{pair.a, pair.b, one}, manifold(q.a, q.b, q.b_in_a, region, options, last_at(region.point_a, last))});
+  }
 }
 
 }  // namespace
@@ -415,10 +445,10 @@ std::vector<SceneContact> Scene::contacts(const Scene& other, const ManifoldOpti
   Kept& k = content_->near(other.content_, options.margin);
   const auto list = [&](const KeptPair& pair, const auto& query, const Answer& answer, std::vector<SceneContact>& found) {
     if (answer.lower > options.margin) return;
-    const auto last = std::lower_bound(k.contacts.begin(), k.contacts.end(), pair,
-                                       [](const SceneContact& x, const KeptPair& y) { return before(x.a, x.b, y.a, y.b); });
-    const bool had = last != k.contacts.end() && last->a == pair.a && last->b == pair.b;
-    found.push_back({{pair.a, pair.b, answer}, manifold_of(query, answer, options, had ? last->manifold : Manifold{})});
+    const auto is_before = [](const auto& x, const auto& y) { return before(x.a, x.b, y.a, y.b); };
+    const auto first = std::lower_bound(k.contacts.begin(), k.contacts.end(), pair, is_before);
+    const auto end = std::upper_bound(first, k.contacts.end(), pair, is_before);
+    list_contacts(pair, query, answer, options, LastContacts(first, end), found);
   };
   k.contacts = content_->ask_all<SceneContact, Answer>(*other.content_, k, k.near, AskContact{options.margin}, list);
   return k.contacts;
