@@ -353,7 +353,7 @@ void grow(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b
     return true;
   });
   Candidates candidates(margin + bound, previous);
-  const bool has_least = farthest.least() <= least + kNarrowest * in.at.size;
+  const bool has_least = farthest.least() <= least + bound + kNarrowest * in.at.size;
   farthest.give(candidates);
   if (!has_least) candidates.add_deepest(witness);
   const bool rests = norm(normal - vec(previous.normal)) <= kRestingTurn * flatness;
@@ -399,13 +399,14 @@ Manifold manifold(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, cons
   // A crossing's own point, half the depth off each surface.
   const Candidate witness{{0, 0, separation < 0 ? -separation / 2 : 0}, separation, contact.feature_a, contact.feature_b};
   grow(in, body_a, body_b, witness, normal, middle, margin, options, previous, manifold);
-  if (manifold.count > 0 && std::fabs(manifold.points[0].separation - separation) <= kNarrowest * at.size) {
-    // The proved way, and not what rounding made of it.
-    manifold.points[0].separation = separation;
-    manifold.points[0].point_b = manifold.points[0].point_a + manifold.normal * separation;
-  }
   for (std::uint32_t i = 0; i < manifold.count; ++i) {
     ManifoldPoint& p = manifold.points[i];
+    // No point is nearer than what is proved, and the nearest one is as near as that, whatever rounding made of them.
+    const bool is_least = i == 0 && std::fabs(p.separation - separation) <= at.law_two + kNarrowest * at.size;
+    if (is_least || p.separation < separation) {
+      p.separation = separation;
+      p.point_b = p.point_a + manifold.normal * separation;
+    }
     p.point_a += manifold.normal * at.radii.a();
     p.point_b -= manifold.normal * at.radii.b();
     p.separation -= at.radii.sum();

@@ -122,7 +122,9 @@ TEST(MeshContacts, AreThoseOfBruteForce) {
     const MeshModel x = a.mesh(), y = b.mesh();
     const Found found = find(x, y, pose, reach);
     ASSERT_EQ(found.about.status, Status::Converged);
-    const std::string fault = fault_of(found.regions, a, b, pose, reach, tolerance(x, y, pose), x, y, told);
+    const double law_two = tolerance(x, y, pose);
+    const BrutePairs pairs(a, b, pose, law_two / 16, reach + law_two, {});
+    const std::string fault = fault_of(found.regions, pairs, reach, law_two, x, y, told);
     ASSERT_EQ(fault, "") << i;
     many += found.about.count > 1;
   }

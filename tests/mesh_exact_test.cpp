@@ -24,6 +24,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "mesh_regions.h"
 #include "painted_stack.h"
 #include "soups.h"
 
@@ -33,7 +34,6 @@ namespace {
 using namespace soups;
 using shapes::Random;
 using Number = CGAL::Exact_rational;
-using Real = long double;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -600,6 +600,50 @@ std::string judge(const Judged& j, Random& random) {
   return "";
 }
 
+/// The regions of contact and their manifolds, within a reach a little above the distance, or far above it.
+std::string judge_contacts(const Judged& j, Random& random, int& told, int& regions) {
+  const double d = approximate(j.truth);
+  double size = 0;
+  for (const MeshModel* mesh : {&j.a, &j.b}) size = std::max(size, mesh->extent());
+  const double reach = random.bits() % 4   ? d + size * std::pow(10, random.uniform(-6, -1))
+                       : random.bits() % 2 ? d
+                                           : d + j.law_two;
+  const auto exact_a = triangles<Number>(j.c.a), exact_b = triangles<Number>(j.c.b, j.c.pose);
+  const BrutePairs pairs(j.c.a, j.c.b, j.c.pose, j.law_two / 16, reach + j.law_two, [&](std::size_t i, std::size_t k) {
+    return Real(std::sqrt(CGAL::to_double(nearest(exact_a[i], exact_b[k]).squared)));
+  });
+  std::vector<MeshContact> found(300);
+  const MeshContacts about = contacts(j.a, j.b, j.c.pose, reach, found);
+  if (about.status != Status::Converged || !about.is_counted || about.count != about.stored) return "not all regions";
+  found.resize(about.stored);
+  regions += int(about.stored);
+  if (const std::string f = fault_of(found, pairs, reach, j.law_two, j.a, j.b, told); !f.empty()) return f;
+  for (const MeshContact& region : found) {
+    const Manifold m = manifold(j.a, j.b, j.c.pose, region, {.margin = reach});
+    if (m.count == 0) {
+      if (!(region.lower <= j.law_two)) return "no points although the surfaces are apart";
+      continue;  // of segments and points no normal may be known
+    }
+    if (std::fabs(m.normal.norm() - 1) > 1e-14) return "a normal that is no unit";
+    for (std::uint32_t i = 0; i < m.count; ++i) {
+      const ManifoldPoint& p = m.points[i];
+      if (!(p.separation <= reach + j.law_two + 0x1p-20 * size) || p.separation < m.points[0].separation)
+        return "no such separation";
+      if (!((p.point_b - p.point_a - p.separation * m.normal).norm() <= 4 * j.law_two)) return "points aside of the normal";
+    }
+    if (region.verdict != Verdict::Overlapping) continue;
+    const Point<Real> way = point<Real>(m.normal) * Real(-m.points[0].separation);
+    for (const BrutePair& pair : pairs.all) {
+      if (pair.upper > j.law_two / 8) continue;
+      const Triangle<Real>&s = pairs.of_a[pair.i], &t = pairs.of_b[pair.k];
+      if (!holds(place_of(region), place_of(s, t, 0), 0)) continue;
+      const Triangle<Real> gone{t[0] + way, t[1] + way, t[2] + way};
+      if (depth(s, gone) > 2 * j.law_two && nearest(s, gone).squared == 0) return "the way does not part a pair that crosses";
+    }
+  }
+  return "";
+}
+
 /// Of SWIFTLET_MESH_PAIRS, or else of so many that the default run is short.
 int pairs_of_each_family() {
   const char* const wanted = std::getenv("SWIFTLET_MESH_PAIRS");
@@ -620,7 +664,7 @@ class Families : public testing::TestWithParam<Family> {};
 TEST_P(Families, AgreeWithRationals) {
   const Family& family = GetParam();
   const int count = pairs_of_each_family();
-  int touching = 0, apart = 0, verdicts[4] = {0, 0, 0, 0}, failed = 0;
+  int touching = 0, apart = 0, verdicts[4] = {0, 0, 0, 0}, failed = 0, told = 0, regions = 0;
   double widest = 0;
   long decided = 0;
   std::uint64_t seed = 0;
@@ -639,6 +683,9 @@ TEST_P(Families, AgreeWithRationals) {
       fault = judge({c, hulled_a, hulled_b, exactly, judged.law_two}, random);
       if (!fault.empty()) fault = "with hulls: " + fault;
     }
+    if (fault.empty()) {
+      if (const std::string f = judge_contacts(judged, random, told, regions); !f.empty()) fault = "contacts: " + f;
+    }
     const Answer answer = distance(a, b, c.pose);
     ++verdicts[int(answer.verdict)];
     widest = std::max(widest, (answer.upper - answer.lower) / judged.law_two);
@@ -653,8 +700,10 @@ TEST_P(Families, AgreeWithRationals) {
   }
   std::printf(
       "%s: %d touching, %d apart; %d undecided, %d disjoint, %d touching, %d overlapping; widest %.2f of law 2; %.1f exact "
-      "pairs\n",
-      family.name, touching, apart, verdicts[0], verdicts[1], verdicts[2], verdicts[3], widest, double(decided) / count);
+      "pairs; %d regions, told apart for sure in %d\n",
+      family.name, touching, apart, verdicts[0], verdicts[1], verdicts[2], verdicts[3], widest, double(decided) / count,
+      regions, told);
+  EXPECT_GE(told, count * 3 / 4);
   if (failed == 0) {
     EXPECT_GE(touching, family.touching * count);
     EXPECT_GE(apart, family.apart * count);

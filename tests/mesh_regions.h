@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // What the regions of contact of two meshes are, by brute force over all pairs of their triangles: places of pairs within reach
-// are joined until none meet. Shares no code with bvh.
+// are joined until none meet. What is within rounding of a region's border is decided twice, with boxes and a reach a little
+// larger and with a little smaller ones: where both say the same, so must the query. Shares no code with bvh.
 #pragma once
 
+#include <algorithm>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,22 +16,27 @@
 
 namespace swiftlet::soups {
 
+using Real = long double;
+
+/// The distance of a pair of triangles, by their indices, exact but for one rounding.
+using ExactDistance = std::function<Real(std::size_t, std::size_t)>;
+
 /// A box along the axes, by its smallest and largest coordinates.
 struct Place {
-  std::array<long double, 3> least, most;
+  std::array<Real, 3> least, most;
 };
 inline bool meet(const Place& p, const Place& q) {
   for (std::size_t k = 0; k < 3; ++k)
     if (p.least[k] > q.most[k] || q.least[k] > p.most[k]) return false;
   return true;
 }
-inline bool holds(const Place& p, const Place& in, long double slack) {
+inline bool holds(const Place& p, const Place& in, Real slack) {
   for (std::size_t k = 0; k < 3; ++k)
     if (p.least[k] > in.least[k] + slack || p.most[k] < in.most[k] - slack) return false;
   return true;
 }
-inline Place place_of(const Triangle<long double>& a, const Triangle<long double>& b, long double growth) {
-  const auto of = [](const Point<long double>& p, std::size_t k) { return k == 0 ? p.x : k == 1 ? p.y : p.z; };
+inline Place place_of(const Triangle<Real>& a, const Triangle<Real>& b, Real growth) {
+  const auto of = [](const Point<Real>& p, std::size_t k) { return k == 0 ? p.x : k == 1 ? p.y : p.z; };
   Place place;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto [low_a, high_a] = std::minmax({of(a[0], k), of(a[1], k), of(a[2], k)});
@@ -37,105 +45,129 @@ inline Place place_of(const Triangle<long double>& a, const Triangle<long double
   }
   return place;
 }
+inline Place place_of(const MeshContact& region) {
+  Place place;
+  for (std::size_t k = 0; k < 3; ++k)
+    place.least[k] = region.box_min[std::ptrdiff_t(k)], place.most[k] = region.box_max[std::ptrdiff_t(k)];
+  return place;
+}
 
+/// A pair of triangles: bounds on its distance.
+struct BrutePair {
+  std::size_t i, k;
+  Real lower, upper;
+};
 struct BruteRegion {
   Place box;
-  long double least;  ///< distance
-  long pairs;
+  Real lower, upper;  ///< bounds on the least distance
+  std::vector<BrutePair> pairs;
 };
-/// The regions of all pairs within `reach`, whose boxes are grown by `growth`.
-inline std::vector<BruteRegion> brute_regions(const Soup& a, const Soup& b, const Pose& pose, long double reach,
-                                              long double growth) {
-  std::vector<BruteRegion> regions;
-  const auto of_a = triangles<long double>(a), of_b = triangles<long double>(b, pose);
-  for (const auto& s : of_a) {
-    for (const auto& t : of_b) {
-      const long double distance = std::sqrt(nearest(s, t).squared);
-      if (distance <= reach) regions.push_back({place_of(s, t, growth), distance, 1});
-    }
-  }
-  for (bool joined = true; joined;) {
-    joined = false;
-    for (std::size_t i = 0; i < regions.size(); ++i) {
-      for (std::size_t k = i + 1; k < regions.size();) {
-        if (!meet(regions[i].box, regions[k].box)) {
-          ++k;
-          continue;
-        }
-        for (std::size_t x = 0; x < 3; ++x) {
-          regions[i].box.least[x] = std::min(regions[i].box.least[x], regions[k].box.least[x]);
-          regions[i].box.most[x] = std::max(regions[i].box.most[x], regions[k].box.most[x]);
-        }
-        regions[i].least = std::min(regions[i].least, regions[k].least);
-        regions[i].pairs += regions[k].pairs;
-        regions.erase(regions.begin() + std::ptrdiff_t(k));
-        joined = true;
+
+/// Of a triangle so thin long doubles may take another direction for its normal.
+inline bool is_thin(const Triangle<Real>& t) {
+  const Point<Real> u = t[1] - t[0], v = t[2] - t[0], w = t[2] - t[1], normal = cross(u, v);
+  const Real longest = std::max({dot(u, u), dot(v, v), dot(w, w)});
+  return dot(normal, normal) < 1e-6L * longest * longest;
+}
+
+/// All pairs of two soups, the second one moved.
+class BrutePairs {
+ public:
+  /// Pairs whose distance long doubles know to `slack`, others as `exact` says, if it can, where they are no farther than
+  /// `most`.
+  BrutePairs(const Soup& a, const Soup& b, const Pose& pose, Real slack, Real most, const ExactDistance& exact)
+      : of_a(triangles<Real>(a)), of_b(triangles<Real>(b, pose)) {
+    for (std::size_t i = 0; i < of_a.size(); ++i) {
+      for (std::size_t k = 0; k < of_b.size(); ++k) {
+        const Nearest<Real> near = nearest(of_a[i], of_b[k]);
+        const Real length = std::sqrt(near.squared);
+        Real lower = 0, upper = length + slack / 4;
+        if (length > 0) lower = std::max<Real>(gap(of_a[i], of_b[k], near.way * (1 / length)) - slack / 4, 0);
+        const bool is_sure = upper - lower <= slack && !is_thin(of_a[i]) && !is_thin(of_b[k]);
+        if (!is_sure && lower <= most && exact) lower = upper = exact(i, k);
+        all.push_back({i, k, lower, upper});
       }
     }
   }
-  return regions;
-}
+  const BrutePair& of(std::size_t i, std::size_t k) const { return all[i * of_b.size() + k]; }
+
+  /// The regions of all pairs that are `within`, whose boxes are grown by `growth`.
+  template <class Within>
+  std::vector<BruteRegion> regions(Real growth, const Within& within) const {
+    std::vector<BruteRegion> regions;
+    for (const BrutePair& pair : all) {
+      if (!within(pair)) continue;
+      BruteRegion joined{place_of(of_a[pair.i], of_b[pair.k], growth), pair.lower, pair.upper, {pair}};
+      for (std::size_t r = 0; r < regions.size();) {
+        BruteRegion& other = regions[r];
+        if (!meet(other.box, joined.box)) {
+          ++r;
+          continue;
+        }
+        for (std::size_t x = 0; x < 3; ++x) {
+          joined.box.least[x] = std::min(joined.box.least[x], other.box.least[x]);
+          joined.box.most[x] = std::max(joined.box.most[x], other.box.most[x]);
+        }
+        joined.lower = std::min(joined.lower, other.lower), joined.upper = std::min(joined.upper, other.upper);
+        joined.pairs.insert(joined.pairs.end(), other.pairs.begin(), other.pairs.end());
+        std::swap(other, regions.back());
+        regions.pop_back();
+        r = 0;
+      }
+      regions.push_back(std::move(joined));
+    }
+    return regions;
+  }
+
+  std::vector<Triangle<Real>> of_a, of_b;
+  std::vector<BrutePair> all;
+};
 
 /// What is wrong with the regions that a query found, all of them; empty if nothing is. `told` counts the cases that rounding
 /// does not leave open.
-inline std::string fault_of(const std::vector<MeshContact>& found, const Soup& a, const Soup& b, const Pose& pose, double reach,
-                            double law_two, const MeshModel& x, const MeshModel& y, int& told) {
-  const long double slack = law_two;
-  const auto wide = brute_regions(a, b, pose, reach + slack, reach + 2 * slack),
-             narrow = brute_regions(a, b, pose, std::max(reach - slack / 16, 0.0L), reach);
+inline std::string fault_of(const std::vector<MeshContact>& found, const BrutePairs& pairs, double reach, double law_two,
+                            const MeshModel& x, const MeshModel& y, int& told) {
+  const Real slack = law_two, little = slack / 8;
+  const auto narrow = pairs.regions(reach, [&](const BrutePair&p) { return p.upper <= reach; }),
+             wide = pairs.regions(reach + 2 * slack, [&](const BrutePair&p) { return p.lower <= reach + slack; });
   for (std::size_t i = 0; i < found.size(); ++i) {
     const MeshContact& region = found[i];
-    Place box;
-    for (std::size_t k = 0; k < 3; ++k) {
-      box.least[k] = region.box_min[std::ptrdiff_t(k)], box.most[k] = region.box_max[std::ptrdiff_t(k)];
-    }
     if (!(region.lower >= 0 && region.lower <= region.upper)) return "no interval";
     if (region.upper - region.lower > law_two) return "wider than law 2's bound";
     if (region.lower > reach) return "beyond the reach";
-    for (std::size_t k = i + 1; k < found.size(); ++k) {
-      const Place other{{found[k].box_min.x(), found[k].box_min.y(), found[k].box_min.z()},
-                        {found[k].box_max.x(), found[k].box_max.y(), found[k].box_max.z()}};
-      if (meet(box, other)) return "regions that meet";
-    }
+    for (std::size_t k = i + 1; k < found.size(); ++k)
+      if (meet(place_of(region), place_of(found[k]))) return "regions that meet";
     // Its nearest pair is a pair of triangles at that distance, whose place it holds.
-    const auto corners = [](const MeshModel& mesh, std::uint32_t t, const Pose& in_a) {
-      Triangle<long double> triangle;
-      for (std::size_t k = 0; k < 3; ++k) triangle[k] = apply<long double>(in_a, mesh.vertex(mesh.triangle(t)[k]));
-      return triangle;
-    };
-    const auto s = corners(x, region.triangle_a, {}), t = corners(y, region.triangle_b, pose);
-    const long double distance = std::sqrt(nearest(s, t).squared);
-    if (distance < region.lower - slack / 16 || distance > region.upper + slack / 16) return "not the distance of its pair";
-    if (!holds(box, place_of(s, t, reach), slack)) return "does not hold its pair";
+    const std::size_t s = x.source_triangle()[region.triangle_a], t = y.source_triangle()[region.triangle_b];
+    const BrutePair& pair = pairs.of(s, t);
+    if (pair.upper < region.lower - little || pair.lower > region.upper + little) return "not the distance of its pair";
+    if (!holds(place_of(region), place_of(pairs.of_a[s], pairs.of_b[t], reach), 0)) return "does not hold its pair";
     if ((region.verdict == Verdict::Disjoint) != (region.lower > 0)) return "Disjoint is said where lower is above 0";
-    if (region.verdict == Verdict::Overlapping && distance > slack / 16) return "Overlapping, but its pair is apart";
+    if (region.verdict == Verdict::Overlapping && pair.lower > little) return "Overlapping, but its pair is apart";
     if (region.verdict == Verdict::Undecided) return "undecided";
     const Vec3 way = region.point_b - region.point_a;
     if (region.verdict != Verdict::Overlapping && std::fabs(way.norm() - region.upper) > 2 * law_two)
       return "points at another distance";
   }
-  // The regions of fewer pairs are inside of these, and these inside of those of more pairs.
+  // What is surely a region is in one of those found, and these are in what may be one.
   for (const BruteRegion& region : narrow) {
     long held = 0;
     for (const MeshContact& f : found) {
-      const Place box{{f.box_min.x(), f.box_min.y(), f.box_min.z()}, {f.box_max.x(), f.box_max.y(), f.box_max.z()}};
-      if (!holds(box, region.box, slack)) continue;
+      if (!holds(place_of(f), region.box, 0)) continue;
       ++held;
-      if (f.lower > region.least + slack / 16) return "lower is above a region's least distance";
+      if (f.lower > region.upper + little) return "lower is above a region's least distance";
     }
     if (held != 1) return "a region is not held by one";
   }
+  for (const MeshContact& f : found) {
+    const auto holder = [&](const BruteRegion& w) { return holds(w.box, place_of(f), 0); };
+    const auto same = std::find_if(wide.begin(), wide.end(), holder);
+    if (same == wide.end()) return "a box larger than its pairs";
+    if (f.upper < same->lower - little) return "upper is below the truth";
+  }
   if (wide.size() != narrow.size()) return {};
   ++told;
-  if (found.size() != wide.size()) return "another count";
-  for (const MeshContact& f : found) {
-    const Place box{{f.box_min.x(), f.box_min.y(), f.box_min.z()}, {f.box_max.x(), f.box_max.y(), f.box_max.z()}};
-    const auto same = std::find_if(wide.begin(), wide.end(), [&](const BruteRegion& w) { return holds(w.box, box, slack); });
-    if (same == wide.end()) return "a box larger than its pairs";
-    if (f.lower > same->least + slack / 16) return "lower is above the truth";
-    if (f.upper < same->least - slack / 16) return "upper is below the truth";
-  }
-  return {};
+  return found.size() == wide.size() ? "" : "another count";
 }
 
 }  // namespace swiftlet::soups
