@@ -11,10 +11,7 @@
 #include "body/shape.h"
 #include "body/support.h"
 #include "inside.h"
-#include "numeric/vec4.h"
-#include "pair/pair_view.h"
-#include "query/radii.h"
-#include "search.h"
+#include "mesh_setting.h"
 
 namespace swiftlet {
 namespace {
@@ -97,32 +94,19 @@ struct Way {
 class Depth {
  public:
   Depth(const MeshBody& a, const MeshBody& b, const Pose& b_in_a)
-      : a_(a),
-        b_(b),
-        pose_(b_in_a),
-        motion_(motion(b_in_a)),
-        view_a_(a),
-        view_b_(b),
-        of_a_(view_a_),
-        of_b_(view_b_),
-        radii_(a.radius() + b.radius()),
-        size_(max(view_a_.extent, view_b_.extent) + norm(motion_.t)) {}
+      : a_(a), b_(b), pose_(b_in_a), at_(a, b, b_in_a), of_a_(at_.a), of_b_(at_.b) {}
 
   /// The shortest of the ways along some directions.
   Way way_out(const Answer& answer, const MeshSeed& seed) {
-    if (const Model* const a = hull(view_a_), * const b = hull(view_b_); (a || view_a_.convex) && (b || view_b_.convex))
-      return way_of_hulls(a ? Body(*a) : view_a_.convex->body, b ? Body(*b) : view_b_.convex->body);
+    if (at_.a.has_hull(0) && at_.b.has_hull(0)) return way_of_hulls();
     Way best;
-    try_axes(
-        view_a_, [](const Vec& n) { return n; }, best);
-    try_axes(
-        view_b_, [this](const Vec& n) { return rotate(motion_, n); }, best);
-    try_both(middle(view_b_, true) - middle(view_a_, false), best);
+    try_axes(at_.a, false, best), try_axes(at_.b, true, best);
+    try_both(middle(at_.b, true) - middle(at_.a, false), best);
     if (!answer.normal.hasNaN()) try_both(vec(answer.normal), best);
     try_both({double(seed.direction[0]), double(seed.direction[1]), double(seed.direction[2])}, best);
-    if (seed.triangle_a < view_a_.triangle_count && seed.triangle_b < view_b_.triangle_count) {
-      if (view_a_.triangles) try_both(normal(view_a_, seed.triangle_a), best);
-      if (view_b_.triangles) try_both(rotate(motion_, normal(view_b_, seed.triangle_b)), best);
+    if (seed.triangle_a < at_.a.triangle_count && seed.triangle_b < at_.b.triangle_count) {
+      if (at_.a.triangles) try_both(normal(at_.a, seed.triangle_a), best);
+      if (at_.b.triangles) try_both(rotate(at_.motion, normal(at_.b, seed.triangle_b)), best);
     }
     descend(best);
     return best;
@@ -131,8 +115,8 @@ class Depth {
   /// An upper bound on the signed distance; `at` becomes a point, in A's frame, that proves it, if there is one.
   double least_upper(const Way& way, const Answer& answer, const MeshSeed& seed, Vec3& at) const {
     double upper = kInfinity;
-    if (seed.triangle_a < view_a_.triangle_count && seed.triangle_b < view_b_.triangle_count) {
-      upper = signed_distance(part(a_, view_a_, seed.triangle_a), part(b_, view_b_, seed.triangle_b), pose_).upper;
+    if (seed.triangle_a < at_.a.triangle_count && seed.triangle_b < at_.b.triangle_count) {
+      upper = signed_distance(part(a_, at_.a, seed.triangle_a), part(b_, at_.b, seed.triangle_b), pose_).upper;
     }
     const auto take = [&](double depth, const Vec& p) {
       if (-depth < upper) upper = -depth, at = eigen(p);
@@ -140,21 +124,21 @@ class Depth {
     // Vertices of one body inside the other: those that are deepest, and the one that the query found.
     const auto take_vertex = [&](const Vec& p, bool of_b) {
       const double free = free_ball(of_b ? a_ : b_, !of_b, p, of_b);
-      if (free >= 0) take(rounded_down(free + (of_b ? b_ : a_).radius()), of_b ? apply(motion_, p) : p);
+      if (free >= 0) take(rounded_down(free + (of_b ? b_ : a_).radius()), of_b ? apply(at_.motion, p) : p);
     };
     take_vertex(way.of_b, true), take_vertex(way.of_a, false);
     const auto named = [](const MeshView& of, FeatureId feature) {
       return of.triangles && feature.kind() == FeatureKind::Vertex;
     };
-    if (answer.verdict == Verdict::Overlapping && named(view_a_, answer.feature_a))
-      take_vertex(view_a_.vertices[answer.feature_a.index()], false);
-    if (answer.verdict == Verdict::Overlapping && named(view_b_, answer.feature_b))
-      take_vertex(view_b_.vertices[answer.feature_b.index()], true);
+    if (answer.verdict == Verdict::Overlapping && named(at_.a, answer.feature_a))
+      take_vertex(at_.a.vertices[answer.feature_a.index()], false);
+    if (answer.verdict == Verdict::Overlapping && named(at_.b, answer.feature_b))
+      take_vertex(at_.b.vertices[answer.feature_b.index()], true);
     if (!has_volume(a_) || !has_volume(b_)) return upper;
     // Points between: in the middle of the overlap along the way, below the middles of both bodies and of what is deepest.
-    const Vec p = way.of_a, q = apply(motion_, way.of_b), deepest = (p + q) * 0.5;
+    const Vec p = way.of_a, q = apply(at_.motion, way.of_b), deepest = (p + q) * 0.5;
     const double height = dot(way.n, deepest);
-    const Vec between = (middle(view_a_, false) + middle(view_b_, true)) * 0.5;
+    const Vec between = (middle(at_.a, false) + middle(at_.b, true)) * 0.5;
     for (const Vec& point : {deepest, between, between + way.n * (height - dot(way.n, between)), common_middle()}) {
       const Vec legal = without_tiny(point);
       const double of_a = free_ball(a_, false, legal, false);
@@ -165,10 +149,6 @@ class Depth {
   }
 
  private:
-  static const Model* hull(const MeshView& of) {
-    const NodeHull* const root = of.content ? of.content->hull_at(0) : nullptr;
-    return root ? &root->model : nullptr;
-  }
   static bool has_volume(const MeshBody& body) { return body.is_solid() || !body.mesh(); }
   static double rounded_down(double x) { return x * (1 - 4 * kU); }
   static Vec without_tiny(Vec p) {
@@ -188,14 +168,14 @@ class Depth {
   Vec middle(const MeshView& of, bool is_b) const {
     const double unit = power_of_two(of.unit);
     const Vec own{of.nodes->origin[0] * unit, of.nodes->origin[1] * unit, of.nodes->origin[2] * unit};
-    return is_b ? apply(motion_, own) : own;
+    return is_b ? apply(at_.motion, own) : own;
   }
   /// The middle of what both bodies' boxes along A's axes have in common, if they have.
   Vec common_middle() const {
     double x[3];
     for (int k = 0; k < 3; ++k) {
-      const Vec n{double(k == 0), double(k == 1), double(k == 2)}, own = rotate_back(motion_, n);
-      const auto of_b = [&](const Vec& direction) { return dot(n, apply(motion_, of_b_.highest(direction))); };
+      const Vec n{double(k == 0), double(k == 1), double(k == 2)}, own = rotate_back(at_.motion, n);
+      const auto of_b = [&](const Vec& direction) { return dot(n, apply(at_.motion, of_b_.highest(direction))); };
       const double most = min(dot(n, of_a_.highest(n)), of_b(own)), least = max(dot(n, of_a_.highest(-n)), of_b(-own));
       x[k] = least + (most - least) / 2;
     }
@@ -203,10 +183,10 @@ class Depth {
   }
 
   /// The shortest way of all, by the kernel.
-  Way way_of_hulls(const Body& a, const Body& b) const {
-    const Answer answer = signed_distance(a, b, pose_);
+  Way way_of_hulls() const {
+    const Answer answer = signed_distance(at_.a.hull(0), at_.b.hull(0), pose_);
     Way way = along(answer.normal.hasNaN() ? Vec{0, 0, 1} : vec(answer.normal));
-    if (!answer.normal.hasNaN()) way.length = min(way.length, grown(radii_ - answer.lower));
+    if (!answer.normal.hasNaN()) way.length = min(way.length, grown(at_.radii.sum() - answer.lower));
     return way;
   }
 
@@ -215,10 +195,10 @@ class Depth {
 
   Way along(const Vec& n) const {
     Way way{kInfinity, n, of_a_.highest(n), {}};
-    const Vec own = rotate_back(motion_, n);
+    const Vec own = rotate_back(at_.motion, n);
     way.of_b = of_b_.highest(-own);
-    const double gap = dot(own, way.of_b) + (dot(n, motion_.t) - dot(n, way.of_a));
-    way.length = grown(radii_ - gap + kAheadError * size_ + kAheadOfItself * std::fabs(gap));
+    const double gap = dot(own, way.of_b) + (dot(n, at_.motion.t) - dot(n, way.of_a));
+    way.length = grown(at_.radii.sum() - gap + kAheadError * at_.size + kAheadOfItself * std::fabs(gap));
     return way;
   }
   void try_both(const Vec& direction, Way& best) const {
@@ -228,18 +208,18 @@ class Depth {
       if (const Way way = along(m); way.length < best.length) best = way;
     }
   }
-  template <class Turned>
-  void try_axes(const MeshView& of, const Turned& turned, Way& best) const {
+  void try_axes(const MeshView& of, bool is_b, Way& best) const {
     float third[3];
     third_axis(of.nodes->axis, third);
     const auto vector = [](const float(&n)[3]) { return Vec{n[0], n[1], n[2]}; };
-    for (const Vec& n : {vector(of.nodes->axis[0]), vector(of.nodes->axis[1]), vector(third)}) try_both(turned(n), best);
+    for (const Vec& n : {vector(of.nodes->axis[0]), vector(of.nodes->axis[1]), vector(third)})
+      try_both(is_b ? rotate(at_.motion, n) : n, best);
   }
   /// Turns the direction against the vertices that bound it, by less and less: the height is convex around its least.
   void descend(Way& best) const {
     double turn = 0.25;
     for (int i = 0; i < kTurns; ++i) {
-      const Vec w = normalised(best.of_a - apply(motion_, best.of_b));
+      const Vec w = normalised(best.of_a - apply(at_.motion, best.of_b));
       const Vec across = w - best.n * dot(w, best.n);
       const Way next = along(normalised(best.n - across * turn));
       if (next.length < best.length)
@@ -269,10 +249,8 @@ class Depth {
   const MeshBody &a_, &b_;
   const Pose& pose_;
   const Pose identity_{};
-  const Motion motion_;
-  const MeshView view_a_, view_b_;
+  const MeshSetting at_;
   const Supports of_a_, of_b_;
-  const double radii_, size_;
 };
 
 /// Makes an answer about a distance of bodies that are not apart one about their depth.

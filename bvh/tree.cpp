@@ -12,6 +12,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "fit.h"
+
 namespace swiftlet {
 namespace {
 
@@ -20,31 +22,6 @@ struct Range {
   std::uint32_t begin, end;
   std::uint32_t count() const { return end - begin; }
 };
-
-/// The rows of a matrix: three axes.
-struct Axes {
-  Vec row[3];
-  Vec along(const Vec& v) const { return {dot(row[0], v), dot(row[1], v), dot(row[2], v)}; }
-};
-
-/// Smallest and largest coordinates along axes.
-struct Bounds {
-  double least[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  void add(const Vec& p) {
-    const double x[3] = {p.x, p.y, p.z};
-    for (int k = 0; k < 3; ++k) least[k] = min(least[k], x[k]), most[k] = max(most[k], x[k]);
-  }
-  void add(const Bounds& other) {
-    for (int k = 0; k < 3; ++k) least[k] = min(least[k], other.least[k]), most[k] = max(most[k], other.most[k]);
-  }
-  double side(int k) const { return most[k] - least[k]; }
-};
-
-/// The least float that is not below x >= 0. Bits of such floats are in their order.
-float rounded_up(double x) {
-  const float f = float(x);
-  return double(f) < x ? bit_cast<float>(bit_cast<std::uint32_t>(f) + 1) : f;
-}
 
 /// A triangle and its bounds along the axes of a node.
 struct Item {
@@ -227,10 +204,7 @@ class Grower {
     const Axes exact = axes(range);
     for (int k = 0; k < 2; ++k)
       n.axis[k][0] = float(exact.row[k].x), n.axis[k][1] = float(exact.row[k].y), n.axis[k][2] = float(exact.row[k].z);
-    float third[3];
-    third_axis(n.axis, third);
-    const auto row = [](const float(&f)[3]) { return Vec{f[0], f[1], f[2]}; };
-    const Axes along{{row(n.axis[0]), row(n.axis[1]), row(third)}};
+    const Axes along = axes_of(n);
 
     items_.resize(order_.size());
     Bounds all;
@@ -252,27 +226,9 @@ class Grower {
       n.link = Node::link_of(first_child, std::uint32_t(groups_.size()), false);
     }
 
-    double size = 0;
-    for (int k = 0; k < 3; ++k) size += all.side(k);
-    const double margin = kBoxMargin * (size + norm(Vec{all.least[0], all.least[1], all.least[2]}));
-    // The middle in the body's frame: axes are at right angles but for their rounding, which the boxes below know.
-    Vec middle{0, 0, 0};
-    for (int k = 0; k < 3; ++k) middle = middle + along.row[k] * (all.least[k] + all.side(k) / 2);
-    n.origin[0] = middle.x, n.origin[1] = middle.y, n.origin[2] = middle.z;
-    const Vec origin = along.along(middle);
-    const double shift[3] = {origin.x, origin.y, origin.z};
-    for (int k = 0; k < 3; ++k) {
-      double extent = 0;
-      for (std::size_t i = 0; i < groups_.size(); ++i) {
-        const Bounds& box = groups_[i].box;
-        const double least = box.least[k] - shift[k] - margin, over = box.most[k] - shift[k] + margin;
-        const float centre = float(least + (over - least) / 2);
-        n.centre[k][i] = centre;
-        n.half[k][i] = rounded_up(max(over - double(centre), double(centre) - least));
-        extent = max(extent, std::fabs(double(centre)) + double(n.half[k][i]));
-      }
-      n.extent[k] = rounded_up(extent);
-    }
+    Bounds boxes[kFanOut];
+    for (std::size_t i = 0; i < groups_.size(); ++i) boxes[i] = groups_[i].box;
+    put_boxes({boxes, groups_.size()}, along, n);
     return n;
   }
 

@@ -82,13 +82,11 @@ void survey(Soup& soup) {
   sides.reserve(3 * soup.triangles.size());
   std::vector<Corners> sorted = soup.triangles;
   DisjointSets sets(soup.triangles.size());
-  double volume = 0;
+  CornerSums sums;
   const auto corner = [&](std::uint32_t v) { return soup.vertices[v]; };
   for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) {
     const Corners& c = soup.triangles[i];
-    const Vec a = corner(c[0]), b = corner(c[1]), d = corner(c[2]);
-    t.flat_triangles += exact::collinear(&a.x, &b.x, &d.x);
-    volume += dot(a, cross(b, d));
+    sums.add(corner(c[0]), corner(c[1]), corner(c[2]));
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t v = c[std::size_t(k)], w = c[std::size_t((k + 1) % 3)];
       if (v != w) sides.push_back({std::min(v, w), std::max(v, w), i, v < w});
@@ -111,10 +109,30 @@ void survey(Soup& soup) {
     if (sets.root(i) == i) soup.shells.push_back(i);
   }
   t.components = std::uint32_t(soup.shells.size());
-  t.volume = t.closed() && std::isfinite(volume) ? volume / 6 : 0;
+  sums.put(t);
 }
 
 }  // namespace
+
+Result<Vec> vertex_at(std::span<const Vec3> points, std::uint32_t point) {
+  Vec p = vec(points[point]);
+  for (double* x : {&p.x, &p.y, &p.z}) {
+    if (!(*x == 0 || (std::fabs(*x) >= kLeastExtent && std::fabs(*x) <= kMostCoordinate)))
+      return Error{ErrorCode::BadValue, "point " + std::to_string(point) + " has the coordinate " + text(*x) +
+                                            ", which is neither 0 nor from 1e-45 to 1e45 in magnitude"};
+    *x += 0.0;  // -0 becomes 0, which it is equal to
+  }
+  return p;
+}
+
+void CornerSums::add(const Vec& a, const Vec& b, const Vec& c) {
+  flat_ += exact::collinear(&a.x, &b.x, &c.x);
+  volume_ += dot(a, cross(b, c));
+}
+void CornerSums::put(MeshTopology& topology) const {
+  topology.flat_triangles = flat_;
+  topology.volume = topology.closed() && std::isfinite(volume_) ? volume_ / 6 : 0;
+}
 
 Result<Soup> weld(std::span<const Vec3> points, std::span<const Corners> triangles) {
   if (triangles.empty()) return Error{ErrorCode::Empty, "there are no triangles"};
@@ -133,16 +151,11 @@ Result<Soup> weld(std::span<const Vec3> points, std::span<const Corners> triangl
         return Error{ErrorCode::BadValue, "triangle " + std::to_string(&corners - triangles.data()) + " names point " +
                                               std::to_string(point) + " of " + std::to_string(points.size()) + " points"};
       if (vertex_of[point] == kNone) {
-        Vec p = vec(points[point]);
-        for (double* x : {&p.x, &p.y, &p.z}) {
-          if (!(*x == 0 || (std::fabs(*x) >= kLeastExtent && std::fabs(*x) <= kMostCoordinate)))
-            return Error{ErrorCode::BadValue, "point " + std::to_string(point) + " has the coordinate " + text(*x) +
-                                                  ", which is neither 0 nor from 1e-45 to 1e45 in magnitude"};
-          *x += 0.0;  // -0 becomes 0, which it is equal to
-        }
+        const Result<Vec> p = vertex_at(points, point);
+        if (!p) return p.error();
         const std::uint32_t next = std::uint32_t(soup.vertices.size());
-        vertex_of[point] = table.find(p, next, soup.vertices);
-        if (vertex_of[point] == next) soup.vertices.push_back(p), soup.source.push_back(point);
+        vertex_of[point] = table.find(p.value(), next, soup.vertices);
+        if (vertex_of[point] == next) soup.vertices.push_back(p.value()), soup.source.push_back(point);
       }
       of[k] = vertex_of[point];
     }

@@ -23,6 +23,21 @@ struct Soup {
   MeshTopology topology;
 };
 
+/// A user's point as a vertex. Error: BadValue, which names the point.
+Result<Vec> vertex_at(std::span<const Vec3> points, std::uint32_t point);
+
+/// Sums up what corners say of triangles, taken in the user's order.
+class CornerSums {
+ public:
+  void add(const Vec& a, const Vec& b, const Vec& c);
+  /// Sets the number of flat triangles and, of a closed surface, the volume.
+  void put(MeshTopology& topology) const;
+
+ private:
+  std::uint32_t flat_ = 0;
+  double volume_ = 0;
+};
+
 /// Errors: Empty, BadValue (names the triangle or point), TooLarge.
 Result<Soup> weld(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Intervals of the signed distance of meshes, held against translations: by -lower along the normal the bodies come apart, by
 // rational arithmetic, and no translation by less than -upper that was tried takes them apart.
+#include <swiftlet/build_mesh.h>
 #include <swiftlet/depth.h>
 #include <swiftlet/mesh_batch.h>
 #include <swiftlet/mesh_query.h>
@@ -220,6 +221,26 @@ TEST(MeshDepth, OfAConvexBodyInASolidHoldsTheKernels) {
       EXPECT_TRUE(checked) << checked.message;
     }
   }
+}
+
+/// The direction is then the best of all.
+TEST(MeshDepth, WithHullsIsNoWider) {
+  Random random(11);
+  int better = 0, asked = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Case c = any_case(random, i);
+    const auto hulled = [](const Soup& soup) { return build_mesh(Mesh{soup.points, soup.triangles}).value(); };
+    const MeshModel a = hulled(c.a), b = hulled(c.b);
+    const Answer plain = signed_distance(c.mesh_a, c.mesh_b, c.pose), answer = signed_distance(a, b, c.pose);
+    if (answer.lower > 0) continue;
+    ++asked, better += answer.lower > plain.lower + 1e-3 * c.mesh_a.extent();
+    ASSERT_GE(answer.lower, plain.lower - 2 * tolerance(a, b, c.pose)) << i;
+    ASSERT_LE(overlap(c, answer.normal, -answer.lower), Number(0)) << i;
+    const Check checked = check(a, b, c.pose, answer);
+    ASSERT_TRUE(checked) << i << ": " << checked.message;
+  }
+  std::printf("%d of %d are narrower\n", better, asked);
+  EXPECT_GE(asked, 30);
 }
 
 TEST(MeshDepth, OfConvexBodiesIsTheKernels) {

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A mesh whose points have moved: its tree as it was, with boxes around its triangles where they are now.
+#include <algorithm>
+#include <string>
+
+#include <swiftlet/mesh.h>
+
+#include "fit.h"
+#include "mesh_block.h"
+#include "weld.h"
+
+namespace swiftlet {
+namespace {
+
+/// Puts boxes around the triangles below each node, whose corners are over the mesh's unit. Triangles below a node lie one
+/// after the other.
+void fit_tree(std::span<const Vec> vertices, std::span<const Corners> triangles, std::vector<Node>& nodes) {
+  struct Range {
+    std::uint32_t begin, end;
+  };
+  std::vector<Range> below(nodes.size());
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    Node& node = nodes[i];
+    const std::uint32_t first = node.first(), count = std::uint32_t(node.count());
+    below[i] = node.lowest() ? Range{first, first + count} : Range{below[first].begin, below[first + count - 1].end};
+    const Axes along = axes_of(node);
+    Bounds boxes[kFanOut];
+    for (std::uint32_t child = 0; child < count; ++child) {
+      const Range range = node.lowest() ? Range{first + child, first + child + 1} : below[first + child];
+      for (std::uint32_t t = range.begin; t < range.end; ++t) {
+        for (const std::uint32_t v : triangles[t]) boxes[child].add(along.along(vertices[v]));
+      }
+    }
+    put_boxes({boxes, count}, along, node);
+  }
+}
+
+}  // namespace
+
+Result<MeshModel> refit(const MeshModel& mesh, std::span<const Vec3> points) {
+  const MeshReader::Content& content = MeshReader::content(mesh);
+  if (!content.is_whole()) return Error{ErrorCode::BadValue, "the mesh was cut: it has no points to be moved"};
+  MeshParts parts = MeshReader::parts(mesh);
+  parts.hulls.clear();
+  for (std::size_t v = 0; v < parts.vertices.size(); ++v) {
+    const std::uint32_t point = parts.source_vertex[v];
+    if (point >= points.size())
+      return Error{ErrorCode::BadValue, "there are " + std::to_string(points.size()) +
+                                            " points, and the mesh has one from point " + std::to_string(point)};
+    const Result<Vec> moved = vertex_at(points, point);
+    if (!moved) return moved.error();
+    parts.vertices[v] = moved.value();
+  }
+
+  Bounds box;
+  for (const Vec& v : parts.vertices) box.add(v);
+  parts.box_min = {box.least[0], box.least[1], box.least[2]}, parts.box_max = {box.most[0], box.most[1], box.most[2]};
+  parts.unit = unit_of(max(max_abs(parts.box_min), max_abs(parts.box_max)));
+  std::vector<Vec> over_unit;
+  over_unit.reserve(parts.vertices.size());
+  for (const Vec& v : parts.vertices) over_unit.push_back(scaled(v, -parts.unit));
+  fit_tree(over_unit, parts.triangles, parts.nodes);
+
+  std::vector<std::uint32_t> at(parts.triangles.size());  // by the user's numbers, in whose order sums are made
+  for (std::uint32_t t = 0; t < at.size(); ++t) {
+    const std::uint32_t source = parts.source_triangle[t];  // of a file they may be any numbers
+    if (source < at.size()) at[source] = t;
+  }
+  CornerSums sums;
+  for (const std::uint32_t t : at) {
+    const Corners& c = parts.triangles[t];
+    sums.add(parts.vertices[c[0]], parts.vertices[c[1]], parts.vertices[c[2]]);
+  }
+  sums.put(parts.topology);
+  return MeshReader::read(compose(parts));
+}
+
+}  // namespace swiftlet
