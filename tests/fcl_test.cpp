@@ -26,7 +26,7 @@
 #include <swiftlet/model_file.h>
 #include <swiftlet/query.h>
 
-#include "bodies.h"
+#include "fcl_world.h"
 
 namespace swiftlet {
 namespace {
@@ -36,18 +36,13 @@ using Solver = fcl::Solver<double>;
 struct FclsOwn {};  // the calls without a solver: libccd's GJK
 using Transform = ::fcl::Transform3d;
 
-Transform at(double x, double y, double z) {
-  Transform t = Transform::Identity();
-  t.translation() = Vec3(x, y, z);
-  return t;
-}
+constexpr auto at = fcl_world::at<double>;
+using fcl_world::stored;
 
 template <class S>
 Pose pose_of(const ::fcl::Transform3<S>& t) {
   return {t.linear().template cast<double>(), t.translation().template cast<double>()};
 }
-
-Model stored(const char* name) { return load(std::string(SWIFTLET_TEST_DIR) + "/data/models/" + name + ".swl").value(); }
 
 struct Measured {
   double distance;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <swiftlet/fcl.h>
 
-template struct fcl::detail::CollisionFunctionMatrix<swiftlet::fcl::Solver<double>>;
-template struct fcl::detail::DistanceFunctionMatrix<swiftlet::fcl::Solver<double>>;
-template struct fcl::detail::CollisionFunctionMatrix<swiftlet::fcl::Solver<float>>;
-template struct fcl::detail::DistanceFunctionMatrix<swiftlet::fcl::Solver<float>>;
+template struct fcl::detail::CollisionFunctionMatrix<swiftlet::fcl::ShapeSolver<double>>;
+template struct fcl::detail::DistanceFunctionMatrix<swiftlet::fcl::ShapeSolver<double>>;
+template struct fcl::detail::CollisionFunctionMatrix<swiftlet::fcl::ShapeSolver<float>>;
+template struct fcl::detail::DistanceFunctionMatrix<swiftlet::fcl::ShapeSolver<float>>;

@@ -7,10 +7,6 @@
 
 namespace swiftlet {
 
-/// One Newton step of the polar decomposition: |R^T R - I| = e becomes 3/4 e^2, 5e-4 becomes 2e-7. Two such rotations stay
-/// within the 1e-6 that a query asks for. Rotations of single precision are off by up to 1e-6 each.
-Pose orthonormal(const Pose& pose);
-
 Vec3 transform(const Pose& pose, const Vec3& p);
 
 /// Takes a manifold of A's frame into the world's.

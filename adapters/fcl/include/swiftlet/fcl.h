@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // swiftlet in FCL 0.7: a convex shape that holds a model, a solver for fcl::distance and fcl::collide, and what keeps a solver
-// per pair for broadphase managers. The templates only hand on; what they call is compiled in swiftlet::fcl.
+// per pair for broadphase managers; meshes are fcl_mesh.h's. The templates only hand on; what they call is compiled in
+// swiftlet::fcl.
 #pragma once
 
 #include <cstddef>
@@ -29,6 +30,7 @@
 #include <fcl/narrowphase/detail/gjk_solver_libccd.h>
 #include <fcl/narrowphase/distance.h>
 
+#include <swiftlet/fcl_mesh.h>
 #include <swiftlet/model.h>
 #include <swiftlet/world.h>
 
@@ -141,19 +143,17 @@ std::vector<Touch> touches(const Operand& a, const Operand& b, PairSeed& seed);
 /// The deepest, where `nearest` finds one.
 std::optional<Touch> deepest_touch(const Operand& a, const Operand& b, PairSeed& seed);
 
-/// A NarrowPhaseSolver. Pairs of a swiftlet::fcl::Convex and a shape that is an `operand` are swiftlet's: distances, signed
-/// ones too, nearest points, contacts, and whether they collide, which touching bodies do; so are a Convex and the triangles of
-/// a mesh or the boxes of an octree. All other pairs go to `Others`. Keep one solver per pair and its seed makes the next query
-/// of that pair cheap; one for all is as right. Not to be shared by threads.
+/// What a Solver is but for meshes of ours, which FCL's functions of shapes do not bring to a solver as a whole.
 template <class S_, class Others = ::fcl::detail::GJKSolver_libccd<S_>>
-struct Solver {
+struct ShapeSolver {
   using S = S_;                                          ///< FCL's scalar; queries of ours are in double
   using Point = ::fcl::Vector3<S>;                       ///< in the world's frame
   using Transform = ::fcl::Transform3<S>;                ///< maps a shape's frame into the world's
   using Contacts = std::vector<::fcl::ContactPoint<S>>;  ///< normals from 1 to 2
 
-  Others others;          ///< answers all other pairs
-  mutable PairSeed seed;  ///< of the last query; FCL hands solvers on as const
+  Others others;               ///< answers all other pairs
+  mutable PairSeed seed;       ///< of the last query; FCL hands solvers on as const
+  mutable MeshSeed mesh_seed;  ///< of the last query of a pair with a swiftlet::fcl::Mesh
 
   // What FCL calls, by its names and as it describes them.
   /// @cond
@@ -271,6 +271,102 @@ struct Solver {
   }
 };
 
+/// A NarrowPhaseSolver. Pairs of a swiftlet::fcl::Convex and a shape that is an `operand` are swiftlet's: distances, signed
+/// ones too, nearest points, contacts, and whether they collide, which touching bodies do; so are a Convex and the triangles of
+/// a mesh or the boxes of an octree, and a swiftlet::fcl::Mesh with another, or with what a `mesh_operand` is. All other pairs
+/// go to `Others`. Keep one solver per pair and its seeds make the next query of that pair cheap; one for all is as right. Not
+/// to be shared by threads.
+template <class S_, class Others = ::fcl::detail::GJKSolver_libccd<S_>>
+struct Solver : ShapeSolver<S_, Others> {};
+
+/// What a geometry of FCL's is to a mesh of ours: a Mesh, or what `operand` places; nothing where it is neither.
+template <class S>
+std::optional<PlacedMesh> mesh_operand(const ::fcl::CollisionGeometry<S>& geometry, const ::fcl::Transform3<S>& tf) {
+  const auto placed = [&tf](const auto& shape) -> std::optional<PlacedMesh> {
+    const Operand convex = operand(shape, tf);
+    const auto* const found = std::get_if<Placed>(&convex);
+    return found ? std::optional(PlacedMesh{found->body, found->in_world}) : std::nullopt;
+  };
+  switch (geometry.getNodeType()) {
+    case ::fcl::GEOM_CONVEX: return placed(static_cast<const ::fcl::Convex<S>&>(geometry));
+    case ::fcl::GEOM_SPHERE: return placed(static_cast<const ::fcl::Sphere<S>&>(geometry));
+    case ::fcl::GEOM_CAPSULE: return placed(static_cast<const ::fcl::Capsule<S>&>(geometry));
+    case ::fcl::GEOM_BOX: return placed(static_cast<const ::fcl::Box<S>&>(geometry));
+    default: break;
+  }
+  if (geometry.getObjectType() != ::fcl::OT_BVH) return {};
+  const auto* const mesh = dynamic_cast<const MeshHolder*>(&geometry);
+  return mesh ? std::optional(PlacedMesh{mesh->mesh(), pose_of(tf)}) : std::nullopt;
+}
+
+/// FCL's functions of pairs of geometries, which stand in its tables, with what they are when both are a `mesh_operand`.
+template <class S, class Others>
+struct MeshFunctions {
+  // What FCL calls, by its names and as it describes them. The first geometry is a BVHModel.
+  /// @cond
+  using Geometry = ::fcl::CollisionGeometry<S>;
+  using Transform = ::fcl::Transform3<S>;
+  using Asked = ShapeSolver<S, Others>;
+
+  static std::size_t collide(const Geometry* o1, const Transform& tf1, const Geometry* o2, const Transform& tf2,
+                             const Asked* solver, const ::fcl::CollisionRequest<S>& request,
+                             ::fcl::CollisionResult<S>& result) {
+    const auto a = mesh_operand(*o1, tf1), b = mesh_operand(*o2, tf2);
+    if (a && b && !request.enable_cost) {
+      if (request.isSatisfied(result)) return result.numContacts();
+      const MeshMeeting found = meeting_of(*a, *b, solver->mesh_seed);
+      if (found.is_known()) {
+        if (found.verdict != Verdict::Disjoint) add_contacts(*a, *b, found, *o1, *o2, request, result);
+        return result.numContacts();
+      }
+    }
+    const auto& fcls = ::fcl::getCollisionFunctionLookTable<Asked>().collision_matrix;
+    return fcls[o1->getNodeType()][o2->getNodeType()](o1, tf1, o2, tf2, solver, request, result);
+  }
+
+  static S distance(const Geometry* o1, const Transform& tf1, const Geometry* o2, const Transform& tf2, const Asked* solver,
+                    const ::fcl::DistanceRequest<S>& request, ::fcl::DistanceResult<S>& result) {
+    const auto a = mesh_operand(*o1, tf1), b = mesh_operand(*o2, tf2);
+    if (a && b) {
+      if (request.isSatisfied(result)) return result.min_distance;
+      const Options options{.absolute = request.abs_err, .relative = request.rel_err, .beyond = result.min_distance};
+      const MeshMeeting found = distance_of(*a, *b, options, solver->mesh_seed);
+      if (found.is_known()) {
+        hand_out(found, *o1, *o2, request, result);
+        return result.min_distance;
+      }
+    }
+    const auto& fcls = ::fcl::getDistanceFunctionLookTable<Asked>().distance_matrix;
+    return fcls[o1->getNodeType()][o2->getNodeType()](o1, tf1, o2, tf2, solver, request, result);
+  }
+  /// @endcond
+
+ private:
+  static void add_contacts(const PlacedMesh& a, const PlacedMesh& b, const MeshMeeting& found, const Geometry& o1,
+                           const Geometry& o2, const ::fcl::CollisionRequest<S>& request, ::fcl::CollisionResult<S>& result) {
+    std::vector<MeshTouch> touches;
+    if (request.enable_contact) touches = touches_of(a, b);
+    for (const MeshTouch& t : touches) {
+      if (result.numContacts() >= request.num_max_contacts) return;
+      result.addContact(
+          {&o1, &o2, t.triangle_a, t.triangle_b, t.point.template cast<S>(), t.normal.template cast<S>(), S(t.depth)});
+    }
+    if (touches.empty()) result.addContact({&o1, &o2, found.triangle_a, found.triangle_b});
+  }
+  static void hand_out(const MeshMeeting& found, const Geometry& o1, const Geometry& o2,
+                       const ::fcl::DistanceRequest<S>& request, ::fcl::DistanceResult<S>& result) {
+    if (found.status == Status::Beyond) return;
+    // FCL's word for a collision with a shape is -1; of two meshes it is 0.
+    const bool is_collision = found.verdict == Verdict::Overlapping && o2.getObjectType() == ::fcl::OT_GEOM;
+    const S distance = is_collision ? S(-1) : S(found.distance);
+    if (request.enable_nearest_points)
+      result.update(distance, &o1, &o2, found.triangle_a, found.triangle_b, found.point_a.template cast<S>(),
+                    found.point_b.template cast<S>());
+    else
+      result.update(distance, &o1, &o2, found.triangle_a, found.triangle_b);
+  }
+};
+
 /// A solver for each pair of objects that a broadphase manager brings, so that each pair has a seed of its own. Those of pairs
 /// that did not come in a step are forgotten at the start of the next one. Not to be shared by threads.
 template <class S, class Others>
@@ -359,8 +455,38 @@ class DistancePairs : public PairSolvers<S, Others> {
 
 }  // namespace swiftlet::fcl
 
+namespace fcl::detail {
+
+/// FCL's table of collisions, in which functions of BVHModels ask for meshes of ours first.
+template <class S_, class Others>
+struct CollisionFunctionMatrix<swiftlet::fcl::Solver<S_, Others>>
+    : CollisionFunctionMatrix<swiftlet::fcl::ShapeSolver<S_, Others>> {
+  /// Takes the place of all functions of a BVHModel that FCL has.
+  CollisionFunctionMatrix() {
+    for (int i = BV_AABB; i < GEOM_BOX; ++i) {
+      for (auto& function : this->collision_matrix[i])
+        if (function) function = &swiftlet::fcl::MeshFunctions<S_, Others>::collide;
+    }
+  }
+};
+
+/// FCL's table of distances, likewise.
+template <class S_, class Others>
+struct DistanceFunctionMatrix<swiftlet::fcl::Solver<S_, Others>>
+    : DistanceFunctionMatrix<swiftlet::fcl::ShapeSolver<S_, Others>> {
+  /// Takes the place of all functions of a BVHModel that FCL has.
+  DistanceFunctionMatrix() {
+    for (int i = BV_AABB; i < GEOM_BOX; ++i) {
+      for (auto& function : this->distance_matrix[i])
+        if (function) function = &swiftlet::fcl::MeshFunctions<S_, Others>::distance;
+    }
+  }
+};
+
+}  // namespace fcl::detail
+
 /// FCL's tables of functions by shape, compiled once; they are half a minute of a translation unit otherwise.
-extern template struct fcl::detail::CollisionFunctionMatrix<swiftlet::fcl::Solver<double>>;
-extern template struct fcl::detail::DistanceFunctionMatrix<swiftlet::fcl::Solver<double>>;
-extern template struct fcl::detail::CollisionFunctionMatrix<swiftlet::fcl::Solver<float>>;
-extern template struct fcl::detail::DistanceFunctionMatrix<swiftlet::fcl::Solver<float>>;
+extern template struct fcl::detail::CollisionFunctionMatrix<swiftlet::fcl::ShapeSolver<double>>;
+extern template struct fcl::detail::DistanceFunctionMatrix<swiftlet::fcl::ShapeSolver<double>>;
+extern template struct fcl::detail::CollisionFunctionMatrix<swiftlet::fcl::ShapeSolver<float>>;
+extern template struct fcl::detail::DistanceFunctionMatrix<swiftlet::fcl::ShapeSolver<float>>;
