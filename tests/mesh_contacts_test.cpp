@@ -191,5 +191,180 @@ TEST(MeshContacts, BeyondAllRoomAreJoinedAndNoneIsLost) {
   EXPECT_GT(held, 200);
 }
 
+struct Pair {
+  Soup a, b;
+  Pose pose;
+  double reach;
+};
+/// Apart, touching and crossing; one region or many.
+std::vector<Pair> pairs_of_all_kinds() {
+  Random random(23);
+  std::vector<Pair> all;
+  for (const double height : {0.01, 0.0, -0.01}) {
+    all.push_back({floor_of(9, 5), table(), shift(0.013, 0.017, height), 0.02});
+    all.push_back({ball(3), ball(2), {random.rotation(), Vec3(0, 0, 1.98 + height)}, 0.05});
+  }
+  for (int i = 0; i < 60; ++i) all.push_back({any(random), any(random), any_pose(random, 2), random.uniform(0, 0.3)});
+  for (int i = 0; i < 20; ++i)
+    all.push_back({scattered(random, 40, 0.2), scattered(random, 40, 0.2), any_pose(random, 0.3), random.uniform(0, 0.05)});
+  return all;
+}
+
+void expect_scaled(const MeshContact& of, const MeshContact& by, double scale) {
+  EXPECT_EQ(by.lower, of.lower == std::numeric_limits<double>::denorm_min() ? by.lower : of.lower * scale);
+  EXPECT_EQ(by.upper, of.upper * scale);
+  EXPECT_EQ(by.verdict, of.verdict);
+  EXPECT_EQ(by.triangle_a, of.triangle_a);
+  EXPECT_EQ(by.triangle_b, of.triangle_b);
+  EXPECT_EQ(by.feature_a, of.feature_a);
+  EXPECT_EQ(by.feature_b, of.feature_b);
+  EXPECT_EQ(by.box_min, of.box_min * scale);
+  EXPECT_EQ(by.box_max, of.box_max * scale);
+  EXPECT_TRUE(by.point_a == of.point_a * scale || of.point_a.hasNaN());
+  EXPECT_TRUE(by.normal == of.normal || of.normal.hasNaN());
+}
+
+TEST(MeshContacts, ScaleByAPowerOfTwoBitForBit) {
+  for (const Pair& pair : pairs_of_all_kinds()) {
+    const MeshModel a = pair.a.mesh(), b = pair.b.mesh();
+    const Found found = find(a, b, pair.pose, pair.reach);
+    for (const int power : {-60, -3, 1, 100}) {
+      const double scale = std::ldexp(1, power);
+      const MeshModel x = scaled(pair.a, scale).mesh(), y = scaled(pair.b, scale).mesh();
+      const Pose pose{pair.pose.rotation, pair.pose.translation * scale};
+      const Found other = find(x, y, pose, pair.reach * scale);
+      ASSERT_EQ(other.about.count, found.about.count);
+      EXPECT_EQ(other.about.steps, found.about.steps);
+      EXPECT_EQ(other.about.plane_tests, found.about.plane_tests);
+      for (std::size_t i = 0; i < found.regions.size(); ++i) {
+        expect_scaled(found.regions[i], other.regions[i], scale);
+        const Manifold m = manifold(a, b, pair.pose, found.regions[i], {.margin = pair.reach}),
+                       n = manifold(x, y, pose, other.regions[i], {.margin = pair.reach * scale});
+        ASSERT_EQ(m.count, n.count);
+        EXPECT_EQ(m.normal, n.normal);
+        for (std::uint32_t k = 0; k < m.count; ++k) {
+          EXPECT_EQ(m.points[k].separation * scale, n.points[k].separation);
+          EXPECT_EQ(m.points[k].point_a * scale, n.points[k].point_a);
+          EXPECT_EQ(m.points[k].feature_a, n.points[k].feature_a);
+        }
+      }
+    }
+  }
+}
+
+TEST(MeshContacts, SwappingTheBodiesKeepsDistances) {
+  for (const Pair& pair : pairs_of_all_kinds()) {
+    const MeshModel a = pair.a.mesh(), b = pair.b.mesh();
+    const Found found = find(a, b, pair.pose, pair.reach), swapped = find(b, a, inverse(pair.pose), pair.reach);
+    const double law_two = tolerance(a, b, pair.pose);
+    ASSERT_EQ(found.about.count > 0, swapped.about.count > 0);
+    // Boxes are along other axes, so that regions may be others; but the nearest is the same.
+    if (found.about.count == 0) continue;
+    EXPECT_NEAR(found.regions[0].upper, swapped.regions[0].upper, law_two);
+    EXPECT_NEAR(found.regions[0].lower, swapped.regions[0].lower, law_two);
+    const Answer answer = distance(a, b, pair.pose);
+    EXPECT_NEAR(found.regions[0].upper, answer.upper, law_two);
+    EXPECT_TRUE(found.regions[0].verdict == answer.verdict || answer.upper <= law_two);
+  }
+}
+
+TEST(MeshContacts, WithRadiiReachFarther) {
+  Random random(5);
+  for (int i = 0; i < 60; ++i) {
+    const MeshModel a = any(random).mesh(), b = any(random).mesh();
+    const Pose pose = any_pose(random, 2);
+    const double of_a = random.uniform(0, 0.2), of_b = i % 2 ? 0 : random.uniform(0, 0.2), reach = random.uniform(0, 0.1);
+    const Found thin = find(a, b, pose, reach + of_a + of_b), thick = find({a, of_a}, {b, of_b}, pose, reach);
+    const double law_two = tolerance(MeshBody(a, of_a), MeshBody(b, of_b), pose);
+    ASSERT_EQ(thin.about.count, thick.about.count);
+    for (std::size_t k = 0; k < thin.regions.size(); ++k) {
+      const MeshContact &x = thin.regions[k], &y = thick.regions[k];
+      const double signed_distance = x.upper - of_a - of_b;
+      EXPECT_NEAR(y.upper, std::max(signed_distance, 0.0), law_two);
+      EXPECT_TRUE(signed_distance <= law_two || y.verdict == Verdict::Disjoint);
+      EXPECT_TRUE(signed_distance >= -law_two || y.verdict == Verdict::Overlapping);
+      const Manifold m = manifold({a, of_a}, {b, of_b}, pose, y, {.margin = reach});
+      if (x.verdict != Verdict::Disjoint || m.count == 0) continue;
+      EXPECT_NEAR(m.points[0].separation, signed_distance, 2 * law_two);
+    }
+  }
+}
+
+TEST(MeshContacts, OfACutSearchAreTrueAndSaySo) {
+  int cut = 0;
+  for (const Pair& pair : pairs_of_all_kinds()) {
+    const MeshModel a = pair.a.mesh(), b = pair.b.mesh();
+    const Found all = find(a, b, pair.pose, pair.reach);
+    const std::uint32_t work = all.about.steps + all.about.plane_tests;
+    EXPECT_LE(all.about.plane_tests, a.triangle_count() * b.triangle_count());
+    for (const std::uint32_t steps : {0u, 1u, work / 3, work - 1, work}) {
+      const Found some = find(a, b, pair.pose, pair.reach, 256, {.steps = steps});
+      EXPECT_LE(some.about.steps + some.about.plane_tests, steps);
+      EXPECT_EQ(some.about.is_counted, some.about.status == Status::Converged);
+      EXPECT_TRUE(steps < work || some.about.count == all.about.count);
+      cut += !some.about.is_counted;
+      for (const MeshContact& region : some.regions) {
+        double least = kInfinity;  // over what the whole search found in its box
+        for (const MeshContact& other : all.regions) {
+          const bool inside = (other.box_min.array() <= region.box_max.array()).all() &&
+                              (region.box_min.array() <= other.box_max.array()).all();
+          if (inside) least = std::min(least, other.upper);
+        }
+        EXPECT_LE(region.lower, least);
+      }
+    }
+  }
+  EXPECT_GT(cut, 100);
+}
+
+TEST(MeshContacts, RefuseWhatQueriesRefuse) {
+  const MeshModel mesh = ball(1).mesh();
+  const auto status_of = [&](const MeshBody& a, const Pose& pose, double reach) {
+    const Found found = find(a, mesh, pose, reach);
+    EXPECT_EQ(found.about.count, 0u);
+    return found.about.status;
+  };
+  Pose crooked;
+  crooked.rotation(0, 1) = 0.1;
+  EXPECT_EQ(status_of(mesh, crooked, 1), Status::InvalidPose);
+  EXPECT_EQ(status_of({mesh, -1}, {}, 1), Status::InvalidRadius);
+  EXPECT_EQ(status_of(Body(), {}, 1), Status::InvalidBody);
+  EXPECT_EQ(status_of(Body::point({kNaN, 0, 0}), {}, 1), Status::InvalidBody);
+  EXPECT_EQ(status_of(mesh, {}, -1), Status::Converged);  // nothing is nearer than that
+  EXPECT_EQ(status_of(mesh, {}, kNaN), Status::Converged);
+  EXPECT_EQ(find(mesh, mesh, shift(5, 0, 0), kInfinity).about.count, 1u);
+  EXPECT_EQ(find(mesh, mesh, shift(5, 0, 0), 1e300).about.count, 1u);
+
+  MeshContact nowhere;
+  EXPECT_EQ(manifold(mesh, mesh, {}, nowhere).count, 0u);
+  MeshContact contact;
+  ASSERT_EQ(contacts(mesh, mesh, shift(1.9, 0, 0), 1, {&contact, 1}).count, 1u);
+  EXPECT_EQ(manifold(mesh, mesh, crooked, contact).count, 0u);
+  EXPECT_EQ(manifold(mesh, {mesh, kNaN}, shift(1.9, 0, 0), contact).count, 0u);
+  contact.triangle_b = 1000000;
+  EXPECT_EQ(manifold(mesh, mesh, shift(1.9, 0, 0), contact).count, 0u);
+}
+
+TEST(MeshContacts, UseTheStackThatTheHeaderTells) {
+  if (!kIsMeasured) GTEST_SKIP() << "of optimised code without sanitizers";
+  std::size_t most = 0, of_manifolds = 0, of_meshes = 0;
+  const Body solid = Body::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  for (const Pair& pair : pairs_of_all_kinds()) {
+    const MeshModel a = pair.a.mesh(), b = pair.b.mesh();
+    MeshContact into[4];
+    for (const MeshBody& second : {MeshBody(b), MeshBody(solid)}) {
+      MeshContacts about;
+      most = std::max(most, PaintedStack().use([&] { about = contacts(a, second, pair.pose, pair.reach, into); }));
+      for (std::uint32_t i = 0; i < about.stored; ++i) {
+        std::size_t& of = second.mesh() ? of_meshes : of_manifolds;
+        of = std::max(of, PaintedStack().use([&] { manifold(a, second, pair.pose, into[i]); }));
+      }
+    }
+  }
+  EXPECT_LE(most, 48u << 10);
+  EXPECT_LE(of_meshes, 32u << 10);
+  EXPECT_LE(of_manifolds, 64u << 10) << "of a convex body, of which the kernel knows the depth";
+}
+
 }  // namespace
 }  // namespace swiftlet

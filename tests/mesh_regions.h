@@ -81,7 +81,7 @@ class BrutePairs {
       for (std::size_t k = 0; k < of_b.size(); ++k) {
         const Nearest<Real> near = nearest(of_a[i], of_b[k]);
         const Real length = std::sqrt(near.squared);
-        Real lower = 0, upper = length + slack / 4;
+        Real lower = 0, upper = length > 0 ? length + slack / 4 : 0;
         if (length > 0) lower = std::max<Real>(gap(of_a[i], of_b[k], near.way * (1 / length)) - slack / 4, 0);
         const bool is_sure = upper - lower <= slack && !is_thin(of_a[i]) && !is_thin(of_b[k]);
         if (!is_sure && lower <= most && exact) lower = upper = exact(i, k);

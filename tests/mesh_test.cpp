@@ -3,6 +3,7 @@
 // Meshes: what is made of triangles, their files, and the laws that their queries keep. Truth is brute force over all pairs of
 // triangles in long doubles (soups.h); mesh_exact_test.cpp has exact truth.
 #include <swiftlet/mesh_batch.h>
+#include <swiftlet/mesh_contacts.h>
 #include <swiftlet/mesh_query.h>
 
 #include <algorithm>
@@ -953,6 +954,9 @@ TEST(MeshLaw8, QueriesAllocateNothing) {
     closest_features(c.mesh_a, c.mesh_b, c.pose, seed);
     distance(c.mesh_a, sphere, c.pose, seed);
     tolerance(c.mesh_a, c.mesh_b, c.pose);
+    MeshContact contact;
+    if (contacts(c.mesh_a, c.mesh_b, c.pose, 10, {&contact, 1}).count > 0) manifold(c.mesh_a, c.mesh_b, c.pose, contact);
+    if (contacts(c.mesh_a, sphere, c.pose, 10, {&contact, 1}).count > 0) manifold(c.mesh_a, sphere, c.pose, contact);
     const long after = allocations;
     ASSERT_EQ(after, before);
   }

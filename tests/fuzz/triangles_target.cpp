@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
+#include <swiftlet/mesh_contacts.h>
 #include <swiftlet/mesh_query.h>
 
 #include <CGAL/Exact_rational.h>
@@ -9,6 +10,7 @@
 #include "fuzz.h"
 #include "judge.h"
 #include "mesh_blocks.h"
+#include "mesh_regions.h"
 #include "soups.h"
 
 namespace swiftlet::fuzz {
@@ -70,6 +72,32 @@ std::string fault(const Answer& answer, double truth, double slack, double law_t
   return {};
 }
 
+/// What is wrong with the regions within a reach, and with their points.
+std::string fault_of_contacts(const Soup& soup_a, const Soup& soup_b, const MeshModel& a, const MeshModel& b, const Pose& pose,
+                              double reach, const Answer& exact, double law_two) {
+  std::vector<MeshContact> found(kMostTriangles * kMostTriangles);
+  const MeshContacts about = contacts(a, b, pose, reach, found);
+  if (!(reach >= 0)) return about.count == 0 ? "" : "a region within no reach";
+  if (about.status != Status::Converged || !about.is_counted || about.count != about.stored) return "not all regions";
+  found.resize(about.stored);
+  if (found.empty()) return exact.upper <= reach ? "no region, but they are within reach" : "";
+  if (!(exact.lower <= reach)) return "a region, but they are beyond the reach";
+  if (!(found[0].upper >= exact.lower && found[0].lower <= exact.upper)) return "the nearest region is at another distance";
+  int told = 0;
+  const BrutePairs pairs(soup_a, soup_b, pose, law_two / 16, reach + law_two, [&](std::size_t i, std::size_t k) {
+    return Real(exact_distance({soup_a.points, {soup_a.triangles[i]}}, {soup_b.points, {soup_b.triangles[k]}}, pose));
+  });
+  if (const std::string f = soups::fault_of(found, pairs, reach, law_two, a, b, told); !f.empty()) return f;
+  for (const MeshContact& region : found) {
+    const Manifold m = manifold(a, b, pose, region, {.margin = reach, .most_points = 8});
+    for (std::uint32_t i = 0; i < m.count; ++i) {
+      const ManifoldPoint& p = m.points[i];
+      if (!p.point_a.allFinite() || !p.point_b.allFinite() || !(p.separation >= m.points[0].separation)) return "no such point";
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string triangles(Input input) {
@@ -114,7 +142,7 @@ std::string triangles(Input input) {
     if (const Check checked = check(x, y, pose, *answer); !checked) return checked.message;
   }
   if (met.verdict == Verdict::Undecided) return "intersects is undecided";
-  return {};
+  return fault_of_contacts(soup_a, soup_b, x, y, pose, threshold, exact, bound);
 }
 
 std::string block(Input input) {
@@ -135,6 +163,8 @@ std::string block(Input input) {
     for (const Pose& pose : poses) {
       MeshSeed seed;
       const ClosestFeatures closest = closest_features(*a, *b, pose, seed);
+      MeshContact contact;
+      if (contacts(*a, *b, pose, 0.5, {&contact, 1}).stored == 1) (void)manifold(*a, *b, pose, contact);
       for (const Answer& answer : {distance(*a, *b, pose, seed), intersects(*a, *b, pose, seed), closest.answer}) {
         if (!(answer.lower >= 0 && answer.lower <= answer.upper)) return "no interval";
         const std::uint64_t pairs = std::uint64_t{a->triangle_count()} * b->triangle_count();

@@ -87,8 +87,8 @@ MeshContacts contacts(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, 
 /// floor within one region, the points are of one of both.
 ///
 /// Of two convex bodies: manifold.h's, of their signed distance. Cost: 0.1 to 0.3 microseconds for each pair of triangles
-/// within reach in the region, and up to 10 for each that crosses. Allocates nothing; uses 32 kB of stack, and up to 48 where
-/// only exact arithmetic decides.
+/// within reach in the region, and some 100 more where triangles cross or touch. Allocates nothing; uses 32 kB of stack, and up
+/// to 64 if one is a convex body.
 Manifold manifold(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const MeshContact& contact,
                   const ManifoldOptions& options = {}, const Manifold& previous = {});
 
