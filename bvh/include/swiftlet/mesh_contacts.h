@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include <swiftlet/manifold.h>
@@ -51,40 +52,42 @@ inline constexpr std::size_t kSpareRegions = 64;
 /// What a region is does not depend on the order in which a search sees triangles. The place of two triangles is what their
 /// boxes have in common, taken along A's axes and each grown by the reach, the radii and law 2's bound; of a convex body
 /// the box is that of its own box. The places of all pairs of triangles within reach are joined: two that meet become the box
-/// around both, until none meet. Those boxes are the regions. So the pair within reach at any spot lies in one region's box, a
-/// table on a floor has four regions, and a box on a floor of thousands of triangles one. Since boxes are along A's axes, a
-/// rotation of A's frame, or swapping the bodies, may join regions or part them where their boxes nearly meet; a translation
-/// that is exact and a power of two change nothing. A pair whose distance is above the reach by law 2's bound or less may count
-/// as within it.
+/// around both, until none meet. Those boxes are the regions: each pair within reach is in one. So a table on a floor has four
+/// regions, and a box on a floor of thousands of triangles one. Since boxes are along A's axes, a rotation of A's frame, or
+/// swapping the bodies, may join or part regions whose boxes nearly meet; a power of two changes nothing. A pair whose distance
+/// is above the reach by law 2's bound or less may count as within it.
 ///
-/// If more than `into.size() + kSpareRegions` regions are told apart at a time, the nearest are joined though they do not meet:
-/// then `count` is less than the true number, and `is_counted` false. If `budget` ends the search, bounds are true of what
-/// was found, `count` tells the regions so far, and what was not looked at may join or add some. Without such an end each
-/// interval is as narrow as law 2's bound, and holds the least distance over all pairs of triangles in the region.
+/// Each interval is as narrow as law 2's bound, and holds the least distance of all pairs of triangles in the region. If
+/// more than `into.size() + kSpareRegions` regions are told apart at a time, the nearest are joined though they do not meet:
+/// then `count` is a lower bound of the true number, and `is_counted` false. If `budget` ends the search, the bounds are true,
+/// `count` tells the regions so far, and what was not looked at may join them or add others.
 ///
-/// Cost: that of all pairs of triangles within reach that are not inside a region that is nearer, at 50 to 200 ns each, and for
-/// each a look at the regions so far. Allocates nothing; uses 32 kB of stack, and up to 48 where only exact arithmetic decides.
+/// Cost: that of all pairs of triangles within reach but those inside of a region that is no farther, at 0.1 to 0.3
+/// microseconds each, and for each a look at the regions so far. Starts cold. Allocates nothing; uses 32 kB of stack, and up
+/// to 48 where only exact arithmetic decides.
 MeshContacts contacts(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double reach, std::span<MeshContact> into,
                       const Budget& budget = {});
 
 /// Returns the points of a region that `contacts` found about the same bodies in the same pose: where the two surfaces face
-/// each other along one normal. Readings of `Manifold` and `ManifoldOptions` are those of manifold.h, with these:
+/// each other along one normal. The words of `Manifold` and `ManifoldOptions` hold, with these readings.
 ///
-/// Normal. Where the surfaces are apart it is the contact's. Where triangles cross, or touch within law 2's bound, it is chosen
-/// among the normals of those triangles, their mean, and directions at right angles to two of their sides: that along which B
-/// has the least way to go until each pair that crosses or touches now is apart. The way is proved, pair by pair, by an axis
-/// along which the two do not overlap once B has gone it; pairs that do not meet now may meet then. `-separation` of the
-/// first point is no less than the way. It is the depth of the triangles that cross, not of closed bodies.
+/// Normal. Where the surfaces are apart it is the contact's. Where triangles cross, or touch within law 2's bound, it is that
+/// direction of few along which B has the least way to go until each pair of triangles of the region that meets now is apart:
+/// of the normals of these triangles, the means of them, and the shortest ways of single pairs. Each pair is proved apart, by
+/// an axis along which the two do not overlap once B has gone the way; pairs that do not meet now may meet then. The first
+/// point's separation is minus the way. It is the depth of the triangles that cross, and not of closed bodies.
 ///
-/// Points. Each pair of triangles of the region is projected along the normal; corners of one over the other, and sides that
-/// cross, are points: on both surfaces within twice `tolerance`, over triangles seen from the side or very narrow ones within
-/// `flatness`. Separations are from the region's least one to `margin`. Those that reach farthest in 16 directions are
-/// kept, and of them `most_points` chosen as manifold.h says. Triangles of one plane are one face so, however many they are.
-/// A feature is a vertex, a side, or a triangle of a mesh; of a convex body the names are its own. `flatness` is that of the
-/// contact face of a convex body, and of meshes what counts as rest. `face_a` and `face_b` are the nearest pair of triangles.
-/// The manifold is empty if the bodies or the pose are refused, the contact names no region, or its distance is above `margin`.
-/// A region has one normal: where the surfaces also face each other across it, as a box in a corner does that touches wall and
-/// floor within one region, the points are of one of both.
+/// Points. All pairs of the region are projected along the normal; corners of one triangle over the other, and sides that
+/// cross, lie on both surfaces within 2^-20 of law 2's size, mostly within twice `tolerance`. Their separations are from the
+/// least one to `margin`. Those that reach farthest in 16 directions are candidates, and `most_points` of them are chosen as
+/// manifold.h says: triangles of one plane are one face so, however many they are. Where all triangles that cross are seen from
+/// the side there may be no such point: then the first one is a point of the crossing, half the way off each surface.
+///
+/// A feature is a vertex, a side or a triangle of a mesh; those of a convex body are as manifold.h names them. `face_a` and
+/// `face_b` are the contact's triangles. `flatness` is about the contact face of a convex body, and about what counts as rest.
+/// The manifold is empty if the bodies or the pose are refused, if the contact names no region of them, or if its distance is
+/// above `margin`. A region has one normal: of a box that touches wall and floor within one region, the points are on one
+/// of both.
 ///
 /// Of two convex bodies: manifold.h's, of their signed distance. Cost: 0.1 to 0.3 microseconds for each pair of triangles
 /// within reach in the region, and some 100 more where triangles cross or touch. Allocates nothing; uses 32 kB of stack, and up

@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <vector>
 
+#include <swiftlet/mesh_contacts.h>
 #include <swiftlet/mesh_query.h>
 
 namespace {
@@ -71,6 +72,9 @@ int main() {
 
   const swiftlet::Body ball = swiftlet::Body::point({1.5, 2, 0.5}, 0.25);
   right &= is_exact("one and a ball", a, ball, swiftlet::Pose{}, 0.25);
+  swiftlet::MeshContact contact;
+  right &= swiftlet::contacts(a, ball, {}, 0.3, {&contact, 1}).count == 1 && std::fabs(contact.upper - 0.25) < 1e-14;
+  right &= swiftlet::manifold(a, ball, {}, contact, {.margin = 0.3}).count == 1;
   right &= is_exact("a thicker one", {a, 0.125}, ball, swiftlet::Pose{}, 0.125);
 
   const std::filesystem::path file = "bracket.mesh";
