@@ -127,7 +127,7 @@ class BrutePairs {
 /// does not leave open.
 inline std::string fault_of(const std::vector<MeshContact>& found, const BrutePairs& pairs, double reach, double law_two,
                             const MeshModel& x, const MeshModel& y, int& told) {
-  const Real slack = law_two, little = slack / 8;
+  const Real slack = law_two, little = slack / 8, rounding = reach * 0x1p-51L;  // a box grown by far more than its size
   const auto narrow = pairs.regions(reach, [&](const BrutePair&p) { return p.upper <= reach; }),
              wide = pairs.regions(reach + 2 * slack, [&](const BrutePair&p) { return p.lower <= reach + slack; });
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -141,7 +141,7 @@ inline std::string fault_of(const std::vector<MeshContact>& found, const BrutePa
     const std::size_t s = x.source_triangle()[region.triangle_a], t = y.source_triangle()[region.triangle_b];
     const BrutePair& pair = pairs.of(s, t);
     if (pair.upper < region.lower - little || pair.lower > region.upper + little) return "not the distance of its pair";
-    if (!holds(place_of(region), place_of(pairs.of_a[s], pairs.of_b[t], reach), 0)) return "does not hold its pair";
+    if (!holds(place_of(region), place_of(pairs.of_a[s], pairs.of_b[t], reach), rounding)) return "does not hold its pair";
     if ((region.verdict == Verdict::Disjoint) != (region.lower > 0)) return "Disjoint is said where lower is above 0";
     if (region.verdict == Verdict::Overlapping && pair.lower > little) return "Overlapping, but its pair is apart";
     if (region.verdict == Verdict::Undecided) return "undecided";
@@ -153,14 +153,14 @@ inline std::string fault_of(const std::vector<MeshContact>& found, const BrutePa
   for (const BruteRegion& region : narrow) {
     long held = 0;
     for (const MeshContact& f : found) {
-      if (!holds(place_of(f), region.box, 0)) continue;
+      if (!holds(place_of(f), region.box, rounding)) continue;
       ++held;
       if (f.lower > region.upper + little) return "lower is above a region's least distance";
     }
     if (held != 1) return "a region is not held by one";
   }
   for (const MeshContact& f : found) {
-    const auto holder = [&](const BruteRegion& w) { return holds(w.box, place_of(f), 0); };
+    const auto holder = [&](const BruteRegion& w) { return holds(w.box, place_of(f), rounding); };
     const auto same = std::find_if(wide.begin(), wide.end(), holder);
     if (same == wide.end()) return "a box larger than its pairs";
     if (f.upper < same->lower - little) return "upper is below the truth";

@@ -84,8 +84,13 @@ std::string fault_of_contacts(const Soup& soup_a, const Soup& soup_b, const Mesh
   if (!(exact.lower <= reach)) return "a region, but they are beyond the reach";
   if (!(found[0].upper >= exact.lower && found[0].lower <= exact.upper)) return "the nearest region is at another distance";
   int told = 0;
+  const auto alone = [](const Soup& soup, std::size_t t) {  // points that no triangle has may be anything
+    Soup one;
+    one.add(soup.corner(t, 0), soup.corner(t, 1), soup.corner(t, 2));
+    return one;
+  };
   const BrutePairs pairs(soup_a, soup_b, pose, law_two / 16, reach + law_two, [&](std::size_t i, std::size_t k) {
-    return Real(exact_distance({soup_a.points, {soup_a.triangles[i]}}, {soup_b.points, {soup_b.triangles[k]}}, pose));
+    return Real(exact_distance(alone(soup_a, i), alone(soup_b, k), pose));
   });
   if (const std::string f = soups::fault_of(found, pairs, reach, law_two, a, b, told); !f.empty()) return f;
   for (const MeshContact& region : found) {
