@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The boxes of a node around what lies below its children. Lengths are over the mesh's unit.
+// The axes of a node, and its boxes around what lies below its children. Lengths are over the mesh's unit.
 #pragma once
 
 #include <cmath>
 #include <span>
+
+#include <Eigen/Eigenvalues>
 
 #include "node.h"
 
@@ -35,6 +37,18 @@ static inline float rounded_up(double x) {
   return double(f) < x ? bit_cast<float>(bit_cast<std::uint32_t>(f) + 1) : f;
 }
 
+/// The axes of a surface with these second moments, longest first.
+static inline Axes principal_axes(const Eigen::Matrix3d& square) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(square.trace() > 0 ? Eigen::Matrix3d(square / square.trace())
+                                                                                 : Eigen::Matrix3d::Identity());
+  const Vec x = vec(Vec3(solver.eigenvectors().col(2))), y = vec(Vec3(solver.eigenvectors().col(1)));
+  return {{x, y, cross(x, y)}};
+}
+/// Gives a node axes, rounded to floats.
+static inline void put_axes(const Axes& axes, Node& n) {
+  for (int k = 0; k < 2; ++k)
+    n.axis[k][0] = float(axes.row[k].x), n.axis[k][1] = float(axes.row[k].y), n.axis[k][2] = float(axes.row[k].z);
+}
 /// The axes of a node as its readers see them.
 static inline Axes axes_of(const Node& n) {
   float third[3];

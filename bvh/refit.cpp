@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh whose points have moved: its tree as it was, with boxes around its triangles where they are now.
+// A mesh whose points have moved: its tree as it was, with boxes around its triangles where they are now, along new axes where
+// the old ones no longer suit the surface.
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <swiftlet/mesh.h>
@@ -13,6 +15,42 @@
 namespace swiftlet {
 namespace {
 
+/// The share of both variances that a covariance along a node's axes may reach, and the share of all moments that rounding
+/// makes of it, before the node gets new axes.
+constexpr double kSkewed = 0.25, kSkewOfRounding = 0x1p-20;
+
+/// The moments of a surface: its area, twice; its middle; and its second moments around that, twice.
+struct Moments {
+  double weight = 0;
+  Vec mean{0, 0, 0};
+  Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+
+  Moments() = default;
+  Moments(const Vec& a, const Vec& b, const Vec& c)
+      : weight(norm(cross(b - a, c - a))), mean(a + ((b - a) + (c - a)) * (1.0 / 3)) {
+    for (const Vec& p : {a - mean, b - mean, c - mean}) square += weight / 12 * eigen(p) * eigen(p).transpose();
+  }
+  void add(const Moments& other) {
+    if (!(other.weight > 0)) return;
+    const Vec way = other.mean - mean;
+    const double both = weight + other.weight, share = other.weight / both;
+    square += other.square + weight * share * eigen(way) * eigen(way).transpose();
+    mean = weight > 0 ? mean + way * share : other.mean, weight = both;
+  }
+  bool suit(const Axes& axes) const {
+    double along[3][3];
+    for (int k = 0; k < 3; ++k) {
+      for (int l = 0; l < 3; ++l) along[k][l] = eigen(axes.row[k]).dot(square * eigen(axes.row[l]));
+    }
+    for (int k = 0; k < 3; ++k) {
+      const int l = (k + 1) % 3;
+      const double allowed = kSkewed * std::sqrt(max(along[k][k] * along[l][l], 0));
+      if (std::fabs(along[k][l]) > max(allowed, kSkewOfRounding * square.trace())) return false;
+    }
+    return true;
+  }
+};
+
 /// Puts boxes around the triangles below each node, whose corners are over the mesh's unit. Triangles below a node lie one
 /// after the other.
 void fit_tree(std::span<const Vec> vertices, std::span<const Corners> triangles, std::vector<Node>& nodes) {
@@ -20,10 +58,16 @@ void fit_tree(std::span<const Vec> vertices, std::span<const Corners> triangles,
     std::uint32_t begin, end;
   };
   std::vector<Range> below(nodes.size());
+  std::vector<Moments> moments(nodes.size());
   for (std::size_t i = nodes.size(); i-- > 0;) {
     Node& node = nodes[i];
     const std::uint32_t first = node.first(), count = std::uint32_t(node.count());
     below[i] = node.lowest() ? Range{first, first + count} : Range{below[first].begin, below[first + count - 1].end};
+    for (std::uint32_t child = first; child < first + count; ++child) {
+      const auto corner = [&](std::size_t k) { return vertices[triangles[child][k]]; };
+      moments[i].add(node.lowest() ? Moments(corner(0), corner(1), corner(2)) : moments[child]);
+    }
+    if (moments[i].weight > 0 && !moments[i].suit(axes_of(node))) put_axes(principal_axes(moments[i].square), node);
     const Axes along = axes_of(node);
     Bounds boxes[kFanOut];
     for (std::uint32_t child = 0; child < count; ++child) {

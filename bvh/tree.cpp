@@ -10,8 +10,6 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
-
 #include "fit.h"
 
 namespace swiftlet {
@@ -111,10 +109,7 @@ class Grower {
     };
     Eigen::Matrix3d square = moments(true);
     if (!(square.trace() > 0)) square = moments(false);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(square.trace() > 0 ? Eigen::Matrix3d(square / square.trace())
-                                                                                   : Eigen::Matrix3d::Identity());
-    const Vec x = vec(Vec3(solver.eigenvectors().col(2))), y = vec(Vec3(solver.eigenvectors().col(1)));
-    return {{x, y, cross(x, y)}};
+    return principal_axes(square);
   }
 
   /// The place of an axis where a group is cut: triangles whose middle is below it go left.
@@ -201,9 +196,7 @@ class Grower {
 
   Node node(Range range, std::uint32_t first_child, std::vector<Range>& next) {
     Node n{};
-    const Axes exact = axes(range);
-    for (int k = 0; k < 2; ++k)
-      n.axis[k][0] = float(exact.row[k].x), n.axis[k][1] = float(exact.row[k].y), n.axis[k][2] = float(exact.row[k].z);
+    put_axes(axes(range), n);
     const Axes along = axes_of(n);
 
     items_.resize(order_.size());

@@ -96,11 +96,12 @@ class MeshModel {
 };
 
 /// Returns the mesh with its points moved: `points` are the user's, in the order in which `from_triangles` got them, each
-/// coordinate as there. Triangles, ids and the tree stay, and boxes are put around the triangles where they are now; hulls are
-/// dropped. So the queries are as true as of a mesh made anew, and slower as far as the old tree suits the new shape less. Of
-/// points that were equal the first one is read: they must move alike. Points that come to be equal are not joined, and
-/// `topology` counts flat triangles and the volume anew, not what edges say. With no point moved, and without hulls, the bytes
-/// are the same. Cost: see bvh/README.md. Errors: BadValue for a coordinate, too few points, or a mesh that was cut.
+/// coordinate as there. Triangles, ids and the tree's nodes stay; boxes are put around the triangles where they are now, along
+/// new axes where the surface has turned; hulls are dropped (rebuild_hulls in build_mesh.h). Queries are as true as of a mesh
+/// made anew, and slower as far as triangles that were neighbours no longer are. Of points that were equal the first one is
+/// read: they must move alike. Points that come to be equal are not joined: `topology` counts flat triangles and the volume
+/// anew, not what edges say. With no point moved, and without hulls, the bytes are the same. Cost: about a quarter of
+/// `from_triangles`. Errors: BadValue for a coordinate, too few points, or a mesh that was cut.
 Result<MeshModel> refit(const MeshModel& mesh, std::span<const Vec3> points);
 
 /// A body of mesh queries: a mesh, which is its surface, the solid that a closed mesh bounds, or any convex `Body`. It is a
