@@ -18,6 +18,9 @@
 
 #include "answer_fields.h"
 #include "bodies.h"
+#if SWIFTLET_MESH_ANSWERS
+#include "mesh_answers.h"
+#endif
 
 namespace swiftlet::answers {
 
@@ -152,17 +155,11 @@ struct Texts {
 
 // ---- Questions -------------------------------------------------------------------------------------------------------------
 
-namespace {
+std::string Asked::name() const {
+  return text("%.*s/%zu-%zu/%d", int(query.size()), query.data(), a, b, round) + "/" + std::string(how);
+}
 
-/// What was asked: the query and how, the models by their numbers, the number of the pose.
-struct Asked {
-  std::string_view query, how;
-  std::size_t a, b;
-  int round;
-  std::string name() const {
-    return text("%.*s/%zu-%zu/%d", int(query.size()), query.data(), a, b, round) + "/" + std::string(how);
-  }
-};
+namespace {
 
 /// Calls ask(a, b, its numbers and round, next pose) for so many poses of each pair.
 template <class Ask>
@@ -286,11 +283,20 @@ void each_kind(const std::vector<Model>& models, int rounds, Collect collect) {
   collect("answers", [&](auto take) { each_answer(models, rounds, take); });
   collect("signed", [&](auto take) { each_signed_answer(models, rounds, take); });
   collect("manifolds", [&](auto take) { each_manifold(models, rounds, take); });
+#if SWIFTLET_MESH_ANSWERS
+  collect("meshes", [&](auto take) { each_mesh_answer(models, rounds, take); });
+  collect("mesh_contacts", [&](auto take) { each_mesh_contact(rounds, take); });
+  collect("mesh_manifolds", [&](auto take) { each_mesh_manifold(rounds, take); });
+#endif
 }
 
-/// Empty, but for the first kind: what models are made at run time.
+/// Empty, but for the first kind of models and of meshes: what of these is made at run time.
 Fingerprint first_print(const std::vector<Model>& models, std::string_view kind) {
   Fingerprint print;
+#if SWIFTLET_MESH_ANSWERS
+  if (kind == "meshes")
+    for (const MeshModel& mesh : meshes()) print.add(mesh.hash());
+#endif
   if (kind != "answers") return print;
   for (const Model& model : models) {
     print.add(model.hash());
@@ -305,7 +311,7 @@ std::vector<Print> prints(const std::vector<Model>& models, int rounds) {
   std::vector<Print> all;
   each_kind(models, rounds, [&](const char* kind, auto each) {
     all.push_back({kind, first_print(models, kind)});
-    each([&](const Asked&, const auto& answer) { all.back().print.add(answer); });
+    each([&](const Asked&, const auto& answer) { add_fields(answer, all.back().print); });
   });
   return all;
 }
@@ -321,7 +327,7 @@ std::string text(const Print& print) {
 namespace {
 
 /// Of one kind of answers: prime to the numbers of ways in which a pose is asked, so that each way is in the sample.
-constexpr std::uint64_t kSampled[] = {13, 5, 5};
+constexpr std::uint64_t kSampled[] = {13, 5, 5, 37, 31, 37};
 
 std::string hex(std::uint64_t hash) { return text("%016" PRIx64, hash); }
 
@@ -342,7 +348,7 @@ std::vector<Record> records(const std::vector<Model>& models, int rounds) {
         for (const char c : value) print.add(std::uint8_t(c));
       }
       if (all.answers % every == 0) sample.push_back(std::move(record));
-      all.add(answer);
+      add_fields(answer, all);
     });
     heads.push_back({text("all/%s", kind), {{"hash", hex(all.hash)}, {"count", std::to_string(all.answers)}}});
     heads.push_back({text("fields/%s", kind), {}});

@@ -10,6 +10,7 @@
 #include <map>
 #include <random>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,14 @@ struct Fingerprint {
   void add(std::uint64_t word);
 };
 
+/// What was asked: the query and how, the bodies by their numbers, the number of the pose.
+struct Asked {
+  std::string_view query, how;
+  std::size_t a, b;
+  int round;
+  std::string name() const;
+};
+
 /// What was asked, and the hash of all answers to it.
 struct Print {
   const char* name;
@@ -59,7 +68,8 @@ std::string text(const Print& print);
 /// of models, cold, from random seeds, of all queries, tolerances and budgets, tables and models made at run time; "signed"
 /// distances warm, cold, from random seeds, swapped, loose, limited and against thresholds, of overlaps for the most part;
 /// "manifolds" of both kinds of exact answers, with and without a margin, radii and flatness, few points and many, after one
-/// another and alone.
+/// another and alone. Then, unless the meshes are left out (SWIFTLET_BVH), "meshes", "mesh_contacts" and "mesh_manifolds": see
+/// mesh_answers.h.
 std::vector<Print> prints(const std::vector<Model>& models, int rounds);
 
 // ---- Records ---------------------------------------------------------------------------------------------------------------
@@ -70,7 +80,7 @@ struct Record {
   std::vector<std::pair<std::string, std::string>> fields;
 };
 
-/// Poses per pair of the models that are recorded.
+/// Poses per pair of models or meshes that are recorded.
 inline constexpr int kRecordedRounds = 10;
 
 /// For each of `prints` its hash, a hash of each field over all its answers, and a sample of about one answer in ten as it is.
