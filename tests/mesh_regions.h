@@ -98,6 +98,7 @@ class BrutePairs {
     for (const BrutePair& pair : all) {
       if (!within(pair)) continue;
       BruteRegion joined{place_of(of_a[pair.i], of_b[pair.k], growth), pair.lower, pair.upper, {pair}};
+      if (!meet(joined.box, joined.box)) continue;  // long doubles took triangles for near that are not: a box inside out
       for (std::size_t r = 0; r < regions.size();) {
         BruteRegion& other = regions[r];
         if (!meet(other.box, joined.box)) {
