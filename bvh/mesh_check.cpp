@@ -17,6 +17,7 @@
 #include "inside.h"
 #include "mesh_block.h"
 #include "search.h"
+#include "weld.h"
 
 namespace swiftlet {
 namespace {
@@ -232,6 +233,13 @@ Check verify(const MeshModel& mesh) {
       }
     }
   }
+  Soup soup{{c.vertices.begin(), c.vertices.end()}, {}, {c.triangles.begin(), c.triangles.end()}, {}, {}};
+  const std::vector<std::uint32_t> first = survey(soup);
+  soup.topology.volume = c.topology.volume;  // a sum in another order
+  if (soup.topology != c.topology) return {false, "the edges of the mesh are others"};
+  std::set<std::uint32_t> components;
+  for (const std::uint32_t t : c.shells) components.insert(first[t]);
+  if (components.size() != soup.shells.size()) return {false, "a component has no triangle among the shells"};
   Vec3 least = mesh.vertex(c.triangles[0][0]), most = least;
   for (const Corners& corners : c.triangles) {
     for (const std::uint32_t v : corners) least = least.cwiseMin(mesh.vertex(v)), most = most.cwiseMax(mesh.vertex(v));

@@ -75,8 +75,9 @@ struct Side {
   bool forward;
 };
 
-/// Fills in `topology` and `shells`.
-void survey(Soup& soup) {
+}  // namespace
+
+std::vector<std::uint32_t> survey(Soup& soup) {
   MeshTopology& t = soup.topology;
   std::vector<Side> sides;
   sides.reserve(3 * soup.triangles.size());
@@ -105,14 +106,14 @@ void survey(Soup& soup) {
     t.non_manifold_edges += end - i > 2;
     t.flipped_edges += end - i == 2 && sides[i].forward == sides[i + 1].forward;
   }
+  std::vector<std::uint32_t> first(soup.triangles.size());
   for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) {
-    if (sets.root(i) == i) soup.shells.push_back(i);
+    if ((first[i] = sets.root(i)) == i) soup.shells.push_back(i);
   }
   t.components = std::uint32_t(soup.shells.size());
   sums.put(t);
+  return first;
 }
-
-}  // namespace
 
 Result<Vec> vertex_at(std::span<const Vec3> points, std::uint32_t point) {
   Vec p = vec(points[point]);

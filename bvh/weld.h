@@ -38,6 +38,9 @@ class CornerSums {
   double volume_ = 0;
 };
 
+/// Fills in `topology` and `shells`. Returns, per triangle, the first one of its component.
+std::vector<std::uint32_t> survey(Soup& soup);
+
 /// Errors: Empty, BadValue (names the triangle or point), TooLarge.
 Result<Soup> weld(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles);
 

@@ -444,7 +444,16 @@ TEST_F(MeshFile, ThatLiesIsFoundOutByVerify) {
   expect_found("another unit", [&](soups::Block& b) { put(b, offsetof(MeshHeader, unit), std::int32_t(header.unit + 1)); });
   expect_found("a unit that has no magnitude",
                [&](soups::Block& b) { put(b, offsetof(MeshHeader, unit), std::numeric_limits<std::int32_t>::min()); });
+  expect_found("an edge that is open", [&](soups::Block& b) { put(b, offsetof(MeshHeader, open_edges), 1u); });
+  expect_found("a flat triangle", [&](soups::Block& b) { put(b, offsetof(MeshHeader, flat_triangles), 1u); });
   EXPECT_TRUE(verify(load_mesh(good).value()));
+
+  soups::Block two = bytes_of(together({unit_box(), unit_box(3)}).mesh());
+  const std::size_t shells = header_of(two).shells.offset;
+  std::memcpy(two.data() + shells, two.data() + shells + 4, 4);  // one of them twice
+  rehash(two);
+  const Result<MeshModel> read = load_mesh(two);
+  EXPECT_TRUE(!read || !verify(read.value()));
 }
 
 // ---- The cases of the laws -------------------------------------------------------------------------------------------------

@@ -93,9 +93,9 @@ double tolerance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a);
 Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answer& answer);
 
 /// Proves that the box of every node holds its triangles, that axes are unit and at right angles, that each triangle is in the
-/// tree once, that the hull of a node holds its triangles and is convex, and that `box_min` and `box_max` are the mesh's: all
-/// that the truth of answers rests on. Cost: linear in the triangles times the depth of the tree; a microsecond for each vertex
-/// inside a hull, a millisecond for one in a face of it.
+/// tree once, that the hull of a node holds its triangles and is convex, that edges and components are as `topology` says, its
+/// volume apart, and that `box_min` and `box_max` are the mesh's: all that the truth of answers rests on. Cost: linear in the
+/// triangles times the depth of the tree; a microsecond for each vertex inside a hull, a millisecond for one in a face of it.
 Check verify(const MeshModel& mesh);
 
 }  // namespace swiftlet
