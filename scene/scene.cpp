@@ -182,11 +182,10 @@ struct Scene::Content {
       for (const std::uint32_t i : some(task)) {
         KeptPair& pair = k.pairs[i];
         const Place &a = places[pair.a.index], &b = other.places[pair.b.index];
-        const Pose b_in_a = relative(a.in_world, b.in_world);
         if (are_convex(a, b))
-          queries.push_back({a.body.convex(), b.body.convex(), b_in_a, &pair.seed.pair});
+          queries.push_back({a.body.convex(), b.body.convex(), relative(a.in_world, b.in_world), &pair.seed.pair});
         else
-          mesh_queries.push_back({a.body, b.body, b_in_a, &pair.seed});
+          mesh_queries.push_back({a.body, b.body, relative(a.in_world, b.in_world), &pair.seed});
       }
       std::vector<AnyAnswer> answers(queries.size()), mesh_answers(mesh_queries.size());
       ask(std::span<const PairQuery>(queries), std::span(answers));
@@ -397,34 +396,38 @@ struct AskContact {
   }
 };
 
-using LastContacts = std::span<const SceneContact>;  // of one pair
+/// The contacts of the last call.
+struct LastContacts {
+  std::span<const SceneContact> of_pair;
+  const Manifold& none;
+
+  const Manifold& first() const { return of_pair.empty() ? none : of_pair.front().manifold; }
+  /// The manifold that was nearest to a point.
+  const Manifold& at(const Vec3& point) const {
+    const Manifold* nearest = &none;
+    double least = kInfinity;
+    for (const SceneContact& contact : of_pair) {
+      const double square = (contact.answer.point_a - point).squaredNorm();
+      if (square < least) least = square, nearest = &contact.manifold;
+    }
+    return *nearest;
+  }
+};
 
 void list_contacts(const KeptPair& pair, const PairQuery& q, const Answer& answer, const ManifoldOptions& options,
                    LastContacts last, std::vector<SceneContact>& found) {
-  found.push_back({{pair.a, pair.b, answer},
-                   manifold(q.a, q.b, q.b_in_a, answer, options, last.empty() ? Manifold{} : last.front().manifold)});
-}
-
-/// The last manifold that was nearest to a point.
-Manifold last_at(const Vec3& point, LastContacts last) {
-  const SceneContact* nearest = nullptr;
-  double least = kInfinity;
-  for (const SceneContact& contact : last) {
-    const double square = (contact.answer.point_a - point).squaredNorm();
-    if (square < least) least = square, nearest = &contact;
-  }
-  return nearest ? nearest->manifold : Manifold{};
+  found.push_back({{pair.a, pair.b, answer}, manifold(q.a, q.b, q.b_in_a, answer, options, last.first())});
 }
 
 /// One for each region; of a body inside a solid, whose surfaces do not meet, how deep it is.
 void list_contacts(const KeptPair& pair, const MeshPairQuery& q, const Answer& answer, const ManifoldOptions& options,
                    LastContacts last, std::vector<SceneContact>& found) {
-  std::vector<MeshContact> regions(kSpareRegions);
-  MeshContacts told = contacts(q.a, q.b, q.b_in_a, options.margin, regions);
-  if (told.stored < told.count) {
-    regions.resize(told.count + kSpareRegions);
+  std::vector<MeshContact> regions;
+  MeshContacts told;
+  do {
+    regions.resize(kSpareRegions + std::max<std::size_t>(2 * regions.size(), told.count));
     told = contacts(q.a, q.b, q.b_in_a, options.margin, regions);
-  }
+  } while (told.status == Status::Budget);  // there are more
   if (told.stored == 0) {
     const bool is_inside = answer.verdict == Verdict::Overlapping;
     found.push_back({{pair.a, pair.b, is_inside ? signed_distance(q.a, q.b, q.b_in_a, *q.seed) : answer}, {}});
@@ -435,7 +438,7 @@ void list_contacts(const KeptPair& pair, const MeshPairQuery& q, const Answer& a
     one.status = told.status, one.verdict = region.verdict, one.lower = region.lower, one.upper = region.upper;
     one.normal = region.normal, one.point_a = region.point_a, one.point_b = region.point_b;
     one.feature_a = region.feature_a, one.feature_b = region.feature_b;
-    found.push_back({{pair.a, pair.b, one}, manifold(q.a, q.b, q.b_in_a, region, options, last_at(region.point_a, last))});
+    found.push_back({{pair.a, pair.b, one}, manifold(q.a, q.b, q.b_in_a, region, options, last.at(region.point_a))});
   }
 }
 
@@ -443,12 +446,13 @@ void list_contacts(const KeptPair& pair, const MeshPairQuery& q, const Answer& a
 
 std::vector<SceneContact> Scene::contacts(const Scene& other, const ManifoldOptions& options) {
   Kept& k = content_->near(other.content_, options.margin);
+  const Manifold none;
   const auto list = [&](const KeptPair& pair, const auto& query, const Answer& answer, std::vector<SceneContact>& found) {
     if (answer.lower > options.margin) return;
     const auto is_before = [](const auto& x, const auto& y) { return before(x.a, x.b, y.a, y.b); };
     const auto first = std::lower_bound(k.contacts.begin(), k.contacts.end(), pair, is_before);
     const auto end = std::upper_bound(first, k.contacts.end(), pair, is_before);
-    list_contacts(pair, query, answer, options, LastContacts(first, end), found);
+    list_contacts(pair, query, answer, options, {{first, end}, none}, found);
   };
   k.contacts = content_->ask_all<SceneContact, Answer>(*other.content_, k, k.near, AskContact{options.margin}, list);
   return k.contacts;

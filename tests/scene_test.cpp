@@ -16,6 +16,7 @@
 #include <random.h>
 #include <soups.h>
 #include <swiftlet/depth.h>
+#include <swiftlet/mesh_contacts.h>
 #include <swiftlet/mesh_query.h>
 #include <swiftlet/model_file.h>
 
@@ -122,6 +123,16 @@ void all_pairs(const Scene& scene, const Scene& other, const auto& visit) {
   }
 }
 
+/// Of two convex bodies 1.
+std::size_t region_count(const Scene& scene, const Scene& other, const ScenePair& pair, double reach) {
+  const MeshBody a = scene.mesh_body(pair.a), b = other.mesh_body(pair.b);
+  if (!a.mesh() && !b.mesh()) return 1;
+  std::vector<MeshContact> regions(1000);
+  const MeshContacts told = swiftlet::contacts(a, b, relative(scene.pose(pair.a), other.pose(pair.b)), reach, regions);
+  EXPECT_EQ(told.status, Status::Converged);
+  return told.count;
+}
+
 /// Asks everything and compares with every pair asked on its own.
 void expect_as_brute_force(Scene& scene, const Scene& other, double reach) {
   Ids overlapping, within, up_to, in_contact;
@@ -154,7 +165,9 @@ void expect_as_brute_force(Scene& scene, const Scene& other, double reach) {
   const auto contacts = scene.contacts(other, {.margin = reach});
   EXPECT_EQ(ids(contacts), in_contact);
   std::map<std::pair<BodyId, BodyId>, double> least;
+  std::size_t regions = 0;
   for (const SceneContact& contact : contacts) {
+    if (!least.count({contact.a, contact.b})) regions += region_count(scene, other, contact, reach);
     const auto& [alone, bound] = depths[{contact.a, contact.b}];
     double& lower_of_pair = least.try_emplace({contact.a, contact.b}, kInfinity).first->second;
     lower_of_pair = std::min(lower_of_pair, contact.answer.lower);
@@ -166,6 +179,7 @@ void expect_as_brute_force(Scene& scene, const Scene& other, double reach) {
       EXPECT_GT(contact.manifold.count, 0u);
   }
   for (const auto& [pair, lower_of_pair] : least) EXPECT_LE(lower_of_pair, depths[pair].first.upper);
+  EXPECT_EQ(contacts.size(), regions);
   const NearestPair nearest = scene.nearest(other);
   ASSERT_EQ(scene.has(nearest.a), !distances.empty());
   if (distances.empty()) return;
@@ -267,6 +281,44 @@ TEST(Scene, ListsEachRegionOfMeshesInContact) {
         EXPECT_NEAR(contact.manifold.points[i].separation, 0.001, 1e-9);
     }
   }
+}
+
+/// More regions than a first look has room for: spikes on a floor.
+TEST(Scene, ListsAllOfManyRegions) {
+  soups::Soup spikes;
+  for (int x = 0; x < 20; ++x)
+    for (int y = 0; y < 20; ++y)
+      spikes.add(soups::moved(soups::scaled(soups::tetrahedron(), 0.2), Mat3::Identity(), Vec3(x, y, 0.2)));
+  const MeshModel bed = spikes.mesh();
+  Scene scene;
+  (void)scene.add("floor", Body::box({-5, -5, -1}, {25, 25, 0}), {});
+  (void)scene.add("spikes", bed, {.translation = {0, 0, 0.001}});
+  const auto contacts = scene.contacts({.margin = 0.01});
+  EXPECT_EQ(contacts.size(), 400u);
+  for (const SceneContact& contact : contacts) EXPECT_EQ(contact.answer.status, Status::Converged);
+}
+
+/// A table that slides keeps the points of each foot.
+TEST(Scene, RegionsKeepTheirPoints) {
+  soups::Soup table = soups::box({-1, -1, 0.9}, {1, 1, 1});
+  for (const double x : {-0.9, 0.7}) {
+    for (const double y : {-0.9, 0.7}) table.add(soups::box({x, y, 0}, {x + 0.2, y + 0.2, 0.9}));
+  }
+  const MeshModel legs = table.mesh(), floor = soups::scaled(soups::patch(9, [](double, double) { return 0.0; }), 2).mesh();
+  Scene scene;
+  (void)scene.add("floor", floor, {});
+  const BodyId id = scene.add("table", legs, {.translation = {0, 0, 0.001}});
+  const auto corners = [](const SceneContact& contact) {
+    std::set<std::uint32_t> all;
+    for (std::uint32_t i = 0; i < contact.manifold.count; ++i) all.insert(contact.manifold.points[i].feature_b.index());
+    return all;
+  };
+  std::set<std::set<std::uint32_t>> before, after;
+  for (const SceneContact& contact : scene.contacts({.margin = 0.01})) before.insert(corners(contact));
+  EXPECT_TRUE(scene.move(id, {.translation = {1e-4, 2e-4, 0.001}}));
+  for (const SceneContact& contact : scene.contacts({.margin = 0.01})) after.insert(corners(contact));
+  EXPECT_EQ(before.size(), 4u);
+  EXPECT_EQ(before, after);
 }
 
 TEST(Scene, FindsASolidInASolid) {
@@ -456,7 +508,7 @@ TEST(Scene, OnThreadsTheSameBytes) {
   scenes[1].run_by({.executor = threads});
   scenes[2].run_by({.executor = backwards});
   for (int i = 0; i < 400; ++i) {
-    const MeshBody body = any_mesh_body(random);
+    const MeshBody body = i % 8 ? MeshBody(any_body(random)) : any_mesh_body(random);
     const Pose pose = any_pose(random, 6, {0, 0, 0});
     for (Scene& scene : scenes) (void)scene.add("", body, pose);
   }
