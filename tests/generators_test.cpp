@@ -42,6 +42,7 @@ TEST_P(Generators, FindNothingWrongAndHitWhatTheyAreMadeFor) {
       EXPECT_EQ(run_batch(f, kSeed, 1, f.judge_every).tally.hash, batch.tally.hash) << "not reproducible";
     }
     for (const Case& failure : batch.failures) ADD_FAILURE() << failure.name << ": " << failure.symptom;
+    for (const std::string& fault : batch.faults) ADD_FAILURE() << fault;
   }
   EXPECT_EQ(seen.failed, 0u);
   EXPECT_GE(seen.trials, 40u);

@@ -300,8 +300,7 @@ void Pair::judged(const std::string& wrong, const char* query, const PairSeed& s
   require(false, std::string(query) + " from the seed " + hex(seed) + ": " + wrong);
 }
 
-void Pair::count(const Answer& answer) {
-  Tally& tally = examiner_.tally;
+void Examiner::count(const Answer& answer) {
   ++tally.answers;
   if (answer.is_signed && answer.verdict == Verdict::Overlapping) {
     ++tally.depths;

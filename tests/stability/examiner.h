@@ -52,10 +52,12 @@ class Examiner {
         label_(std::move(label)) {}
 
   void hit(bool is_hit) { ++tally.trials, tally.hits += is_hit; }
+  void count(const Answer& answer);  ///< in the tally
 
   shapes::Random random;
   Tally tally;
-  std::vector<Case> failures;  ///< the pairs that failed, once each, with what was wrong; at most 8
+  std::vector<Case> failures;       ///< the pairs that failed, once each, with what was wrong; at most 8
+  std::vector<std::string> faults;  ///< what was wrong with pairs of meshes, which no Case holds, and these
 
  private:
   friend class Pair;
@@ -113,7 +115,7 @@ class Pair {
  private:
   Answer examine(PairSeed& seed, std::uint64_t choice);
   Answer compare(PairSeed& seed, std::uint64_t choice);
-  void count(const Answer& answer);
+  void count(const Answer& answer) { examiner_.count(answer); }
   void count(const Manifold& manifold);
   /// Why the tests of the last walk did not prove `answer`. The query is asked again for it: a trace is more work.
   void count_doubt(PairSeed seed, Options options, const Answer& answer);

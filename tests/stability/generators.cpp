@@ -15,6 +15,7 @@
 #include <string>
 
 #include "bodies.h"
+#include "mesh_pairs.h"
 
 namespace swiftlet::stability {
 namespace {
@@ -940,6 +941,7 @@ constexpr Family kFamilies[] = {
     {"stretched rotations", "", "disjoint", 0.2, 0.95, 40, stretched},
     {"random hulls", "", "disjoint", 0.3, 0.7, 40, random_hulls},
     {"slivers", "", "disjoint", 0.4, 0.97, 40, slivers},
+    {"meshes", "", "touching", 0.2, 0.8, 4, mesh_pairs},
 };
 
 }  // namespace

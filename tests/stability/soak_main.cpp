@@ -133,6 +133,8 @@ class Soak {
       running_[thread] = -1;
       tallies_[family] += seen.tally;
       for (const Case& c : seen.failures) store(c, *chosen_[family], options_.first_batch + batch);
+      for (const std::string& fault : seen.faults)
+        std::printf("FAILED %s  again: %s\n", fault.c_str(), rerun(*chosen_[family], options_.first_batch + batch).c_str());
     }
     --working_;
   }
