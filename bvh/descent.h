@@ -140,7 +140,7 @@ class Descent {
     }
     // So little is no legal coordinate of a point, and within the error.
     for (double* x : {&centre.x, &centre.y, &centre.z}) *x = std::fabs(*x) < kMiddleError / 8 ? 0 : *x;
-    const double radius = norm({n.half[0][k], n.half[1][k], n.half[2][k]}) * (1 + 4 * kAxisError) + kMiddleError;
+    const double radius = norm(Vec{n.half[0][k], n.half[1][k], n.half[2][k]}) * (1 + 4 * kAxisError) + kMiddleError;
     return {Body::point(eigen(scaled(centre, of.unit))), times_power_of_two(radius, of.unit)};
   }
 
