@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program of RECIPES.md, and of what README.md asks: a function per block. Ends with 1 where a block does not do what the
 // page says of it.
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
@@ -16,11 +18,14 @@
 
 #include <swiftlet/batch.h>
 #include <swiftlet/build.h>
+#include <swiftlet/build_mesh.h>
 #include <swiftlet/check.h>
 #include <swiftlet/manifold.h>
 #include <swiftlet/mesh_query.h>
 #include <swiftlet/model_file.h>
 #include <swiftlet/query.h>
+
+#include "arm.h"
 
 namespace {
 
@@ -283,6 +288,45 @@ void write_points(const std::filesystem::path& path) {
   }
 }
 
+/// Returns in how many poses the arm meets the plant.
+std::size_t move_arm(const swiftlet::MeshModel& room, const std::vector<swiftlet::MeshModel>& links) {
+  std::vector<swiftlet::MeshSeed> seeds(links.size());  // one per link, along the whole trajectory
+  double lower = HUGE_VAL, upper = HUGE_VAL;            // bounds on the least distance of all poses that are free
+  std::size_t met = 0, nearest = 0;
+  for (std::size_t step = 0; step < 1000; ++step) {
+    const std::array<Pose, 3> poses = plant::arm_at(double(step) / 1000);
+    bool free = true;
+    for (std::size_t k = 0; free && k < links.size(); ++k)
+      free = swiftlet::intersects(room, links[k], poses[k], seeds[k]).verdict == swiftlet::Verdict::Disjoint;
+    met += !free;
+    for (std::size_t k = 0; free && k < links.size(); ++k) {  // to 10 %, and if farther than the nearest so far not how far
+      const auto found = swiftlet::distance(room, links[k], poses[k], seeds[k], {.relative = 0.1, .beyond = upper});
+      lower = std::min(lower, found.lower);
+      if (found.upper < upper) upper = found.upper, nearest = step;
+    }
+  }
+  std::printf("the arm meets the plant in %zu poses; of the others the nearest, %zu, is %.5f to %.5f away\n", met, nearest,
+              lower, upper);
+  return met;
+}
+
+/// Whether as many poses are in collision as by queries without seeds.
+bool arm() {
+  const auto room = swiftlet::build_mesh(plant::environment());  // with hulls, which answer links that are far away
+  std::vector<swiftlet::MeshModel> links;
+  for (const swiftlet::Mesh& link : plant::links()) links.push_back(swiftlet::build_mesh(link).value());
+  expect(room.value().triangle_count() == 38200 && room.value().hull_count() > 0, "a plant of 38 200 triangles with hulls");
+  std::size_t met = move_arm(room.value(), links);
+  for (std::size_t step = 0; step < 1000; ++step) {
+    const std::array<Pose, 3> poses = plant::arm_at(double(step) / 1000);
+    bool meets = false;
+    for (std::size_t k = 0; k < links.size(); ++k)
+      meets = meets || swiftlet::distance(room.value(), links[k], poses[k]).verdict != swiftlet::Verdict::Disjoint;
+    met -= meets;
+  }
+  return met == 0;
+}
+
 /// A bumpy floor with a hole, and a ring.
 void write_meshes(const std::filesystem::path& room, const std::filesystem::path& link) {
   std::ofstream floor(room), ring(link);
@@ -366,5 +410,7 @@ int main(int, char** arguments) {
     expect(meet == (i == met), "not earlier, and a seed changes nothing");
   }
   mesh_and_convex(room.value(), a);
+
+  expect(arm(), "cold and exact the same poses are in collision");
   return failed ? 1 : 0;
 }
