@@ -120,7 +120,11 @@ bool both_convex(const MeshBody& a, const MeshBody& b, MeshSeed& seed, const Ask
   return true;
 }
 
-SourceFeature source_of(const MeshModel& mesh, FeatureId feature) {
+}  // namespace
+
+SourceFeature source_feature(const MeshBody& body, FeatureId feature, int level) {
+  if (!body.mesh()) return level == 0 ? source_feature(body.convex(), feature) : SourceFeature{};
+  const MeshModel& mesh = *body.mesh();
   SourceFeature source{feature.kind(), {kNone, kNone}, {}};
   const std::uint32_t i = feature.index();
   const auto vertex = [&](std::uint32_t v) { return mesh.source_vertex()[v]; };
@@ -132,8 +136,6 @@ SourceFeature source_of(const MeshModel& mesh, FeatureId feature) {
   if (feature.kind() == FeatureKind::Face) source.triangles = mesh.source_triangle().subspan(i, 1);
   return source;
 }
-
-}  // namespace
 
 void describe(const MeshSetting& at, const MeshFinding& found, Answer& answer) {
   answer.lower = found.lower, answer.upper = found.upper;
@@ -261,12 +263,8 @@ ClosestFeatures closest_features(const MeshBody& a, const MeshBody& b, const Pos
     return result;
   ask(a, b, b_in_a, seed, {options.steps, 0}, {0, 0, options.beyond, -kInfinity}, result.answer);
   const Answer& answer = result.answer;
-  const auto source = [](const MeshBody& of, FeatureId feature, int level) {
-    if (of.mesh()) return source_of(*of.mesh(), feature);
-    return level == 0 ? source_feature(of.convex(), feature) : SourceFeature{};
-  };
-  result.source_a = source(a, answer.feature_a, answer.level_a);
-  result.source_b = source(b, answer.feature_b, answer.level_b);
+  result.source_a = source_feature(a, answer.feature_a, answer.level_a);
+  result.source_b = source_feature(b, answer.feature_b, answer.level_b);
   return result;
 }
 ClosestFeatures closest_features(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const ClosestOptions& options) {

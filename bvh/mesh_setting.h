@@ -34,4 +34,7 @@ struct MeshSetting {
 /// levels, with the bodies' radii.
 void describe(const MeshSetting& at, const MeshFinding& found, Answer& answer);
 
+/// A feature of an answer by the user's ids; of a convex body none unless the answer is on level 0.
+SourceFeature source_feature(const MeshBody& body, FeatureId feature, int level);
+
 }  // namespace swiftlet

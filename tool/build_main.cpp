@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <swiftlet/build.h>
+#include <swiftlet/build_mesh.h>
 #include <swiftlet/mesh.h>
 #include <swiftlet/model_file.h>
 
@@ -67,6 +68,8 @@ class ProgressBar {
 struct Request {
   std::string in, out;
   bool mesh = false;
+  HullOptions hulls;
+  bool no_hulls = false;
   BuildOptions options;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   bool quiet = false;
@@ -105,8 +108,8 @@ nlohmann::ordered_json report_json(const Request& request, const Built& built) {
           {"end", r.end}};
 }
 
-/// `build --mesh`: all triangles as they are.
-Result<Output> build_mesh(const Request& request) {
+/// `build --mesh`: all triangles as they are, with hulls.
+Result<Output> build_mesh_file(const Request& request) {
   using Clock = std::chrono::steady_clock;
   const auto seconds = [](Clock::duration time) { return std::chrono::duration<double>(time).count(); };
   const auto begin = Clock::now();
@@ -118,8 +121,13 @@ Result<Output> build_mesh(const Request& request) {
   const auto middle = Clock::now();
   const auto built = [&] {
     const ProgressBar bar(!request.quiet);
-    return MeshModel::from_triangles(given.points, given.triangles,
-                                     {.progress = [&bar](double fraction) { return bar(fraction, "tree of boxes"); }});
+    if (request.no_hulls)
+      return MeshModel::from_triangles(given.points, given.triangles,
+                                       {.progress = [&bar](double fraction) { return bar(fraction, "tree"); }});
+    HullOptions options = request.hulls;
+    options.progress = [&bar](double fraction, std::string_view stage) { return bar(fraction, stage); };
+    if (request.threads > 1) options.executor = on_threads(request.threads);
+    return swiftlet::build_mesh(given, options);
   }();
   if (!built) return in_file(request.in, built.error());
   const double reading = seconds(middle - begin), building = seconds(Clock::now() - middle);
@@ -141,7 +149,7 @@ Result<Output> build_mesh(const Request& request) {
 
 Result<Output> build_word(const Request& request) {
   if (const auto may = may_write(path_of(request.out), path_of(request.in)); !may) return may.error();
-  if (request.mesh) return build_mesh(request);
+  if (request.mesh) return build_mesh_file(request);
   BuildOptions options = request.options;
   if (request.threads > 1) options.executor = on_threads(request.threads);
   const auto built = [&]() -> Result<Built> {
@@ -174,6 +182,23 @@ void add_choice(CLI::App& word, const std::string& name, const Choices<Value>& c
   word.add_option_function<std::string>(name, read, help)->type_name(all)->default_str(standard);
 }
 
+/// The options of `build --mesh` alone.
+void declare_hulls(CLI::App& word, Request& request) {
+  HullOptions& o = request.hulls;
+  const std::vector<CLI::Option*> about_hulls{
+      word.add_option("--hull-levels", o.levels, "levels of the tree, from the root on, whose nodes may have hulls, 1 to 16")
+          ->capture_default_str()
+          ->check(number_in(1, 16, "from 1 to 16")),
+      word.add_option("--hull-triangles", o.least_triangles, "no node of fewer triangles has a hull, but the root")
+          ->capture_default_str(),
+      word.add_option("--hull-bytes", o.bytes_per_triangle,
+                      "hulls may make the file as large as so many bytes a triangle; those of most triangles come first")
+          ->capture_default_str()
+          ->check(number_in(0, std::numeric_limits<double>::max(), "from 0 up"))};
+  CLI::Option* const none = word.add_flag("--no-hulls", request.no_hulls, "no hulls: sooner built, slower asked from afar");
+  for (CLI::Option* const option : about_hulls) none->excludes(option);
+}
+
 Action declare_build(CLI::App& word) {
   const auto request = std::make_shared<Request>();
   BuildOptions& o = request->options;
@@ -185,9 +210,14 @@ Action declare_build(CLI::App& word) {
                                         {"5.625", lut::Resolution::Degrees5}};
   word.add_option("IN", request->in, "a mesh: .obj .off .stl .ply .tri .poly; only its points shape a model")->required();
   word.add_option("-o,--output", request->out, "the .swl model or .swm mesh to write")->required();
-  word.add_flag("--mesh", request->mesh, "write a .swm mesh of all triangles as they are; the options below are not for it");
+  word.add_flag("--mesh", request->mesh, "write a .swm mesh of all triangles as they are, with hulls that answer from afar");
   word.add_flag("--quiet", request->quiet, "no progress bar, no report");
+  word.add_option("--threads", request->threads, "how many threads build; the file is the same with any; all cores")
+      ->capture_default_str()
+      ->check(number_in(1, 1024, "from 1 to 1024"));
   const std::size_t common = word.get_options().size();
+  declare_hulls(word, *request);
+  const std::size_t of_meshes = word.get_options().size();
   add_choice(word, "--method", methods, o.method, "collapse", "quadric error edge collapse, or peeling of independent sets");
   add_choice(word, "--enclosing", enclosings, o.enclosing, "tight",
              "how a level is made to hold level 0: vertex by vertex, or by scaling");
@@ -210,14 +240,13 @@ Action declare_build(CLI::App& word) {
       ->check(number_in(1, 1e6, "from 1 to 1e6"));
   word.add_flag("--require-convex", o.require_convex, "refuse a mesh with dents");
   word.add_flag("--require-solid", o.require_solid, "refuse flat, collinear and single-point input");
-  word.add_option("--threads", request->threads, "how many threads build; the model is the same with any; all cores")
-      ->capture_default_str()
-      ->check(number_in(1, 1024, "from 1 to 1024"));
   const std::vector<CLI::Option*> options = word.get_options();
-  const std::vector<CLI::Option*> of_hulls(options.begin() + std::ptrdiff_t(common), options.end());
-  return [request, of_hulls] {
-    for (const CLI::Option* option : of_hulls)
-      if (request->mesh && option->count() > 0) throw CLI::ValidationError(option->get_name(), "is not for --mesh");
+  for (std::size_t i = common; i < options.size(); ++i) options[i]->group(i < of_meshes ? "With --mesh" : "Without --mesh");
+  return [request, options, common, of_meshes] {
+    for (std::size_t i = common; i < options.size(); ++i) {
+      if (options[i]->count() > 0 && request->mesh != (i < of_meshes))
+        throw CLI::ValidationError(options[i]->get_name(), request->mesh ? "is not for --mesh" : "is for --mesh alone");
+    }
     return build_word(*request);
   };
 }

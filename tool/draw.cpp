@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Front faces of one convex body never hide each other, so only a mesh's triangles are sorted by depth.
+// Front faces of one convex body never hide each other, so only a mesh's triangles, or its boxes' sides, are sorted by depth.
 #include "draw.h"
 
 #include <Eigen/Geometry>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "body/half_edge.h"
+#include "mesh_boxes.h"
 #include "off_text.h"
 #include "text.h"
 
@@ -60,9 +61,45 @@ Frame frame_of(const Model& model, const Eye& eye) {
   return frame;
 }
 
-Frame frame_of(const MeshModel& mesh, const Eye& eye) {
+/// A flat polygon of a mesh's picture, and how near to the eye its middle is.
+struct Polygon {
+  double nearness;
+  Vec3 normal;  // unit, towards the eye
+  std::vector<Point2> corners;
+
+  Polygon(const std::vector<Vec3>& points, const Vec3& across, const Eye& eye)
+      : nearness(0), normal(across.dot(eye.towards) < 0 ? -across : across) {
+    for (const Vec3& p : points) {
+      nearness += eye.towards.dot(p) / double(points.size());
+      corners.push_back(eye.project(p));
+    }
+  }
+};
+
+/// The triangles of a mesh; the sides of its lowest boxes that face the eye, if it was cut.
+std::vector<Polygon> polygons_of(const MeshModel& mesh, const Eye& eye) {
+  std::vector<Polygon> polygons;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    std::vector<Vec3> p;
+    for (const std::uint32_t v : mesh.triangle(t)) p.push_back(mesh.vertex(v));
+    polygons.emplace_back(p, (p[1] - p[0]).cross(p[2] - p[0]).stableNormalized(), eye);
+  }
+  if (mesh.is_whole()) return polygons;
+  for (const auto& [middle, half] : lowest_boxes(mesh)) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 &u = half[(k + 1) % 3], &v = half[(k + 2) % 3],
+                 at = middle + (half[k].dot(eye.towards) < 0 ? -1 : 1) * half[k];
+      polygons.emplace_back(std::vector<Vec3>{at + u + v, at - u + v, at - u - v, at + u - v}, u.cross(v).stableNormalized(),
+                            eye);
+    }
+  }
+  return polygons;
+}
+
+Frame frame_of(const std::vector<Polygon>& polygons) {
   Frame frame;
-  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) frame.hold(eye.project(mesh.vertex(v)));
+  for (const Polygon& polygon : polygons)
+    for (const Point2& p : polygon.corners) frame.hold(p);
   return frame;
 }
 
@@ -157,30 +194,16 @@ std::string draw_faces(const ConvexView& view, const Eye& eye, const Placement& 
   return svg;
 }
 
-/// The triangles, farthest first.
-std::string draw_triangles(const MeshModel& mesh, const Eye& eye, const Placement& place) {
-  struct Triangle {
-    double nearness;
-    std::array<Vec3, 3> corners;
-  };
-  std::vector<Triangle> triangles;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    Triangle triangle{0, {}};
-    for (std::size_t k = 0; k < 3; ++k) {
-      triangle.corners[k] = mesh.vertex(mesh.triangle(t)[k]);
-      triangle.nearness += eye.towards.dot(triangle.corners[k]) / 3;
-    }
-    triangles.push_back(triangle);
-  }
-  std::stable_sort(triangles.begin(), triangles.end(),
-                   [](const Triangle& a, const Triangle& b) { return a.nearness < b.nearness; });
+/// Farthest first.
+std::string draw_polygons(std::vector<Polygon> polygons, const Eye& eye, const Placement& place) {
+  std::stable_sort(polygons.begin(), polygons.end(),
+                   [](const Polygon& a, const Polygon& b) { return a.nearness < b.nearness; });
   std::string svg =
-      format("<g stroke=\"#16263c\" stroke-opacity=\".45\" stroke-width=\"%.2f\">\n", edge_width(triangles.size()));
-  for (const auto& [nearness, p] : triangles) {
-    Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]).stableNormalized();
-    if (normal.dot(eye.towards) < 0) normal = -normal;
-    svg += "<path fill=\"" + colour(eye.shade(normal)) + "\" d=\"M" + at(place(eye.project(p[0]))) + "L" +
-           at(place(eye.project(p[1]))) + "L" + at(place(eye.project(p[2]))) + "Z\"/>\n";
+      format("<g stroke=\"#16263c\" stroke-opacity=\".45\" stroke-width=\"%.2f\">\n", edge_width(polygons.size()));
+  for (const Polygon& polygon : polygons) {
+    svg += "<path fill=\"" + colour(eye.shade(polygon.normal)) + "\" d=\"";
+    for (const Point2& p : polygon.corners) svg.append(&p == polygon.corners.data() ? "M" : "L").append(at(place(p)));
+    svg += "Z\"/>\n";
   }
   return svg + "</g>\n";
 }
@@ -235,6 +258,9 @@ std::string summary(const Model& model) {
 }
 
 std::string summary(const MeshModel& mesh) {
+  if (!mesh.is_whole())
+    return format("boxes of %d of %d levels, no point of them farther than %.3g from the surface, %zu bytes",
+                  mesh.level_count(), mesh.depth(), mesh.deviation(), mesh.bytes().size());
   return format("%zu triangles, %zu bytes, ", mesh.triangle_count(), mesh.bytes().size()) +
          (mesh.topology().closed() ? "closed" : "not closed");
 }
@@ -276,10 +302,12 @@ std::string draw(const Model& model, const std::string& title) {
 
 std::string draw(const MeshModel& mesh, const std::string& title) {
   const Eye eye;
-  const Placement place(frame_of(mesh, eye));
-  const double y = kHeading + kGap / 2;
-  return heading(420, y + place.height() + kGap, title, summary(mesh)) +
-         format("<g transform=\"translate(%.1f %.1f)\">\n", kMargin, y) + draw_triangles(mesh, eye, place) + "</g>\n</svg>\n";
+  const std::vector<Polygon> polygons = polygons_of(mesh, eye);
+  const Placement place(frame_of(polygons));
+  const double y = kHeading + kGap / 2, width = mesh.is_whole() ? 420 : 620;  // as wide as its heading
+  return heading(width, y + place.height() + kGap, title, summary(mesh)) +
+         format("<g transform=\"translate(%.1f %.1f)\">\n", kMargin, y) + draw_polygons(polygons, eye, place) +
+         "</g>\n</svg>\n";
 }
 
 }  // namespace swiftlet::tool

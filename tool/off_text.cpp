@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "off_text.h"
 
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <span>
+
 #include "body/half_edge.h"
 #include "text.h"
 
@@ -21,6 +26,18 @@ std::vector<std::vector<std::uint32_t>> facets(const ConvexView& view) {
   return loops;
 }
 
+namespace {
+
+/// Places in the order of their ids.
+std::vector<std::uint32_t> by_id(std::span<const std::uint32_t> ids) {
+  std::vector<std::uint32_t> places(ids.size());
+  std::iota(places.begin(), places.end(), 0u);
+  std::stable_sort(places.begin(), places.end(), [ids](std::uint32_t x, std::uint32_t y) { return ids[x] < ids[y]; });
+  return places;
+}
+
+}  // namespace
+
 std::string off_text(const ConvexView& view) {
   const auto loops = facets(view);
   std::string text = format("OFF\n%zu %zu 0\n", view.vertices.size(), loops.size());
@@ -29,6 +46,22 @@ std::string off_text(const ConvexView& view) {
     text += std::to_string(loop.size());
     for (std::uint32_t h : loop) text.append(" ").append(std::to_string(origin(view, h)));
     text += "\n";
+  }
+  return text;
+}
+
+std::string off_text(const MeshModel& mesh) {
+  std::string text = format("OFF\n%zu %zu 0\n", mesh.vertex_count(), mesh.triangle_count());
+  std::vector<std::uint32_t> place(mesh.vertex_count());
+  std::uint32_t written = 0;
+  for (const std::uint32_t v : by_id(mesh.source_vertex())) {
+    const Vec3 p = mesh.vertex(v);
+    text += format("%.17g %.17g %.17g\n", p.x(), p.y(), p.z());
+    place[v] = written++;
+  }
+  for (const std::uint32_t t : by_id(mesh.source_triangle())) {
+    const std::array<std::uint32_t, 3> corner = mesh.triangle(t);
+    text += format("3 %u %u %u\n", place[corner[0]], place[corner[1]], place[corner[2]]);
   }
   return text;
 }

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// One level as the faces a viewer wants. Knows the half-edges, nothing of files.
+// One level, or a mesh, as the faces a viewer wants. Knows the half-edges, nothing of files.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include <swiftlet/mesh.h>
 #include <swiftlet/model.h>
 
 namespace swiftlet::tool {
@@ -16,5 +17,9 @@ std::vector<std::vector<std::uint32_t>> facets(const ConvexView& view);
 
 /// OFF with seventeen digits, so that every double reads back bit for bit. Its faces are `facets`: exactly convex.
 std::string off_text(const ConvexView& view);
+
+/// The same of a whole mesh: the user's triangles and vertices, both in the user's order. Of equal points that one is there
+/// which a triangle names first, of points without triangles none.
+std::string off_text(const MeshModel& mesh);
 
 }  // namespace swiftlet::tool

@@ -56,8 +56,9 @@ Result<LoadedBody> open(const std::string& path, const ModelOfMesh& model_of_mes
   return LoadedBody(LoadedModel{path, std::move(model).value()});
 }
 
-Error no_levels(const std::string& path) {
-  return in_file(path, {ErrorCode::BadFormat, "is a mesh, which has no levels; info, verify, distance and draw take it"});
+/// Refuses `option`, which is about a model's levels.
+[[noreturn]] void no_levels(const char* option, const std::string& path) {
+  throw CLI::ValidationError(option, path + ": is a mesh, which has no levels of this kind");
 }
 
 /// A word whose one input is a body.
@@ -96,7 +97,8 @@ Action declare_verify(CLI::App& word, const ModelOfMesh& model_of_mesh) {
 
 Action declare_export(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   const auto level = std::make_shared<int>(0);
-  word.add_option("--level", *level, "0 is the exact hull, larger is coarser")->capture_default_str();
+  const CLI::Option* const option =
+      word.add_option("--level", *level, "0 is the exact hull, larger is coarser; of models only")->capture_default_str();
   const auto write_level = [level](const LoadedModel& body, const std::filesystem::path& out) {
     const int finest = body.model.finest_level(), coarsest = body.model.level_count() - 1;
     if (*level < finest || *level > coarsest)
@@ -104,9 +106,13 @@ Action declare_export(CLI::App& word, const ModelOfMesh& model_of_mesh) {
           "--level", body.path + format(": there is no level %d, the finest is %d, the coarsest %d", *level, finest, coarsest));
     return export_level(body, *level, out);
   };
-  const auto write = [write_level](const auto& body, const std::filesystem::path& out) -> Result<Output> {
-    if constexpr (std::is_same_v<decltype(body), const LoadedModel&>) return write_level(body, out);
-    return no_levels(body.path);
+  const auto write = [write_level, option](const auto& body, const std::filesystem::path& out) -> Result<Output> {
+    if constexpr (std::is_same_v<decltype(body), const LoadedModel&>) {
+      return write_level(body, out);
+    } else {
+      if (option->count() > 0) no_levels("--level", body.path);
+      return export_mesh(body, out);
+    }
   };
   return on_body_to_file(word, model_of_mesh, "the OFF file to write; its doubles read back bit for bit", write);
 }
@@ -120,8 +126,7 @@ Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   struct Request {
     std::string a, b;
     Pose b_in_a;
-    Options query;
-    bool levels = false;
+    Asked asked;
   };
   const auto request = std::make_shared<Request>();
   word.footer(
@@ -132,7 +137,12 @@ Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
       "frame;\n"
       "the normal points from A to B. Ids of vertices and triangles are the mesh file's, counted from 0, and are given with\n"
       "exact answers, which are those without --max-error and --relative-error. Of a .swm mesh the surface is the\n"
-      "body: of two closed meshes, one inside the other, the distance is that of their surfaces.");
+      "body: of two closed meshes, one inside the other, the distance is that of their surfaces, unless --solid is said.\n"
+      "A signed distance below 0 is minus the depth of an overlap: the length of the least translation that separates. Of\n"
+      "meshes it is an interval that is seldom narrow. Of a mesh that was cut the distance is an interval, too: as wide as\n"
+      "the deviations of both meshes together.\n"
+      "With --contacts the answer is a list, nearest first, of all regions where the surfaces are within REACH of each\n"
+      "other, each with its nearest pair of triangles.");
   word.add_option("A", request->a, kBodyHelp)->required();
   word.add_option("B", request->b, kBodyHelp)->required();
   const auto take_pose = [request](const std::string& text) {
@@ -141,26 +151,37 @@ Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
     request->b_in_a = pose.value();
   };
   word.add_option_function<std::string>("--pose", take_pose, "of B in A's frame, see below")->required();
-  const auto absolute = word.add_option("--max-error", request->query.absolute, "stop when upper - lower is at most this");
+  const auto absolute =
+      word.add_option("--max-error", request->asked.query.absolute, "stop when upper - lower is at most this");
   const auto relative =
-      word.add_option("--relative-error", request->query.relative, "stop when upper - lower is at most this times lower");
+      word.add_option("--relative-error", request->asked.query.relative, "stop when upper - lower is at most this times lower");
   const CLI::Validator not_negative = number_in(0, std::numeric_limits<double>::infinity(), "from 0 up");
   absolute->check(not_negative)->excludes(relative);
   relative->check(not_negative);
-  word.add_option("--beyond", request->query.beyond, "stop when the distance is proved greater than this")->check(not_negative);
-  word.add_flag(
-      "--levels", request->levels,
+  const auto beyond =
+      word.add_option("--beyond", request->asked.query.beyond, "stop when the distance is proved greater than this");
+  beyond->check(not_negative);
+  const auto levels = word.add_flag(
+      "--levels", request->asked.levels,
       "show what each level pair proved, coarsest first, and how long a query takes that stops there; of models only");
+  word.add_flag("--solid", request->asked.solid, "a mesh, which must be closed, is the volume that it bounds, as a model is");
+  const auto is_signed = word.add_flag("--signed", request->asked.is_signed, "of an overlap tell the depth")->excludes(levels);
+  const auto reach =
+      word.add_option("--contacts", request->asked.reach, "list every region where the bodies are within this of each other")
+          ->type_name("REACH")
+          ->check(number_in(0, std::numeric_limits<double>::max(), "from 0 up"));
+  for (CLI::Option* const other : {absolute, relative, beyond, levels, is_signed}) reach->excludes(other);
+  word.add_flag("--manifold", request->asked.manifolds, "of each region the few points that stand for it")->needs(reach);
   return [request, model_of_mesh]() -> Result<Output> {
     const Result<LoadedBody> a = open(request->a, model_of_mesh);
     if (!a) return a.error();
     const Result<LoadedBody> b = open(request->b, model_of_mesh);
     if (!b) return b.error();
     for (const LoadedBody& body : {std::cref(a.value()), std::cref(b.value())}) {
-      if (request->levels && std::holds_alternative<LoadedMesh>(body))
-        throw CLI::ValidationError("--levels", path_of_body(body) + ": is a mesh, which has no levels");
+      if (request->asked.levels && std::holds_alternative<LoadedMesh>(body)) no_levels("--levels", path_of_body(body));
     }
-    return distance(a.value(), b.value(), request->b_in_a, request->query, request->levels);
+    const auto answer = request->asked.reach ? contacts : distance;
+    return answer(a.value(), b.value(), request->b_in_a, request->asked);
   };
 }
 
@@ -171,13 +192,17 @@ Action declare_cut(CLI::App& word, const ModelOfMesh&) {
     bool salvage = false;
   };
   const auto request = std::make_shared<Request>();
-  word.add_option("X", request->in, "a .swl model")->required();
-  word.add_option("-o,--output", request->out, "the .swl model to write")->required();
+  word.footer(
+      "The levels of a mesh are those of its tree, the root first, and cutting leaves boxes around the surface instead of\n"
+      "triangles: none deviates by more than info says. A file that was cut is asked as a whole one is; its answers are\n"
+      "intervals that are true of the whole one.");
+  word.add_option("X", request->in, "a .swl model or a .swm mesh")->required();
+  word.add_option("-o,--output", request->out, "the .swl model or .swm mesh to write")->required();
   add_detail(word, request->detail);
-  word.add_flag("--salvage", request->salvage, "take what is complete of a file that ends early");
+  word.add_flag("--salvage", request->salvage, "take what is complete of a file that ends early, and say what is missing");
   return [request]() -> Result<Output> {
-    if (is_mesh(path_of(request->in))) return no_levels(request->in);
-    return cut(request->in, request->out, request->detail, request->salvage);
+    const auto write = is_mesh(path_of(request->in)) ? cut_mesh : cut;
+    return write(request->in, request->out, request->detail, request->salvage);
   };
 }
 
@@ -190,11 +215,11 @@ std::vector<Word> all_words(const ModelOfMesh& model_of_mesh, std::span<const Wo
   words.push_back(
       {"verify",
        "proves that all levels are convex, enclose level 0, and deviate no more than they say; or that the boxes of a "
-       "mesh hold its triangles",
+       "mesh, and its hulls, hold its triangles",
        bind(declare_verify)});
   words.push_back({"distance", "how near two bodies are, with proved bounds, and where", bind(declare_distance)});
-  words.push_back({"export", "writes one level as an OFF mesh", bind(declare_export)});
-  words.push_back({"cut", "writes a model without its finest levels", bind(declare_cut)});
+  words.push_back({"export", "writes one level, or a mesh, as an OFF mesh", bind(declare_export)});
+  words.push_back({"cut", "writes a model or a mesh without its finest levels", bind(declare_cut)});
   words.push_back({"draw", "draws the levels side by side as an SVG, or a mesh", bind(declare_draw)});
   return words;
 }
@@ -278,6 +303,7 @@ int run(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const
     app.parse(argc, argv);
     const Result<Output> output = chosen();
     if (!output) return fail(output.error(), 1);
+    if (!as_json && !output.value().note.empty()) std::fprintf(stderr, "swiftlet: %s\n", output.value().note.c_str());
     if (Failure::write(as_json ? output.value().json : output.value().text)) return 0;
     return fail({ErrorCode::CannotWrite, "cannot write to standard output"}, 1);
   } catch (const CLI::Success& help_or_version) {

@@ -5,59 +5,21 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include <swiftlet/check.h>
 #include <swiftlet/mesh_query.h>
 #include <swiftlet/model_file.h>
 
+#include "answer_text.h"
 #include "body/file.h"
 #include "draw.h"
+#include "mesh_setting.h"
 #include "off_text.h"
 #include "text.h"
 
 namespace swiftlet::tool {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json json_of(const Vec3& v) { return v.hasNaN() ? Json() : Json{v.x(), v.y(), v.z()}; }
-
-const char* name(Status status) {
-  switch (status) {
-    case Status::NotAsked: return "NotAsked";
-    case Status::Converged: return "Converged";
-    case Status::Beyond: return "Beyond";
-    case Status::Budget: return "Budget";
-    case Status::LevelLimit: return "LevelLimit";
-    case Status::NotConverged: return "NotConverged";
-    case Status::InvalidPose: return "InvalidPose";
-    case Status::InvalidRadius: return "InvalidRadius";
-    case Status::InvalidBody: break;
-  }
-  return "InvalidBody";
-}
-
-const char* name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::Disjoint: return "Disjoint";
-    case Verdict::Touching: return "Touching";
-    case Verdict::Overlapping: return "Overlapping";
-    case Verdict::Undecided: break;
-  }
-  return "Undecided";
-}
-
-const char* name(FeatureKind kind) {
-  switch (kind) {
-    case FeatureKind::Vertex: return "vertex";
-    case FeatureKind::Edge: return "edge";
-    case FeatureKind::Face: return "face";
-    case FeatureKind::None: break;
-  }
-  return "none";
-}
 
 double volume_ratio(const Model& model, const Level& level) { return model.volume() > 0 ? level.volume / model.volume() : 1; }
 
@@ -75,39 +37,6 @@ std::string counted(int levels) { return std::to_string(levels) + (levels == 1 ?
 
 double per_triangle(std::size_t bytes, const Model& model) {
   return model.level(0).triangle_count > 0 ? double(bytes) / double(model.level(0).triangle_count) : 0;
-}
-
-/// A pair of features and what the user calls them, which is known of an exact answer.
-struct Witness {
-  FeatureId feature;
-  int level = 0;
-  SourceFeature source;
-  bool of_mesh = false;
-};
-
-std::string text_of(const Witness& w) {
-  if (w.feature.kind() == FeatureKind::None) return "none";
-  std::string text = name(w.feature.kind());
-  if (w.source.kind == FeatureKind::None)
-    return text + format(" %u of ", w.feature.index()) + (w.of_mesh ? "the tree" : format("level %d", w.level));
-  if (w.source.kind == FeatureKind::Vertex) return text + format(" %u", w.source.vertices[0]);
-  if (w.source.kind == FeatureKind::Edge)
-    return text + format(" between vertices %u and %u", w.source.vertices[0], w.source.vertices[1]);
-  constexpr std::size_t kShown = 8;
-  if (w.source.triangles.empty()) return text + " of the hull, on no triangle of the input";
-  text += w.source.triangles.size() == 1 ? ", triangle" : ", triangles";
-  for (std::size_t k = 0; k < std::min(kShown, w.source.triangles.size()); ++k) text += format(" %u", w.source.triangles[k]);
-  if (w.source.triangles.size() > kShown) text += format(" and %zu more", w.source.triangles.size() - kShown);
-  return text;
-}
-
-Json json_of(const Witness& w) {
-  Json json{{"kind", name(w.feature.kind())}, {"level", w.level}, {"index", w.feature.index()}};
-  if (w.source.kind == FeatureKind::Vertex) json["vertices"] = Json::array({w.source.vertices[0]});
-  if (w.source.kind == FeatureKind::Edge) json["vertices"] = w.source.vertices;
-  if (w.source.kind == FeatureKind::Face)
-    json["triangles"] = std::vector<std::uint32_t>(w.source.triangles.begin(), w.source.triangles.end());
-  return json;
 }
 
 /// What a line of the levels' table says.
@@ -187,10 +116,15 @@ Json json_of(const std::vector<Visit>& visits) {
 }
 
 /// User ids are known of answers without an error only: closest_features() gives them, and the same answer.
-ClosestFeatures ask(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Options& options) {
-  if (options.absolute == 0 && options.relative == 0)
-    return closest_features(a, b, b_in_a, {.beyond = options.beyond, .tuning = options.tuning});
-  return {distance(a, b, b_in_a, options), {}, {}};
+ClosestFeatures ask(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Asked& asked, const Tuning& tuning) {
+  Options options = asked.query;
+  options.tuning = tuning;
+  const bool is_exact = options.absolute == 0 && options.relative == 0;
+  if (is_exact && !asked.is_signed) return closest_features(a, b, b_in_a, {.beyond = options.beyond, .tuning = tuning});
+  if (!asked.is_signed) return {distance(a, b, b_in_a, options), {}, {}};
+  const Answer answer = signed_distance(a, b, b_in_a, options);
+  if (!is_exact) return {answer, {}, {}};
+  return {answer, source_feature(a, answer.feature_a, answer.level_a), source_feature(b, answer.feature_b, answer.level_b)};
 }
 
 /// Null of a mesh.
@@ -199,16 +133,10 @@ const Model* model_of(const LoadedBody& body) {
   return loaded ? &loaded->model : nullptr;
 }
 
-MeshBody shape_of(const LoadedBody& body) {
-  if (const Model* const model = model_of(body)) return Body(*model);
-  return std::get<LoadedMesh>(body).mesh;
-}
-
-Json json_of(const Pose& pose) {
-  Json rows = Json::array();
-  for (int row = 0; row < 3; ++row)
-    rows.push_back({pose.rotation(row, 0), pose.rotation(row, 1), pose.rotation(row, 2), pose.translation[row]});
-  return rows;
+/// Of the level that answered, or of the mesh.
+double deviation_of(const LoadedBody& body, int level) {
+  const Model* const model = model_of(body);
+  return model ? model->level(level).deviation : std::get<LoadedMesh>(body).mesh.deviation();
 }
 
 /// The user's vertices that prove an overlap, of one body.
@@ -241,8 +169,6 @@ const char* name(ErrorCode code) {
   }
   return "Cancelled";
 }
-
-std::string hash_text(std::uint64_t hash) { return format("%016llx", static_cast<unsigned long long>(hash)); }
 
 }  // namespace
 
@@ -350,57 +276,6 @@ Output info(const LoadedModel& body) {
   return {text + levels_text(model), dump(json)};
 }
 
-Json mesh_json(const MeshModel& mesh) {
-  const MeshTopology& t = mesh.topology();
-  const std::size_t bytes = mesh.bytes().size();
-  return {{"bytes", bytes},
-          {"bytes_per_triangle", double(bytes) / double(mesh.triangle_count())},
-          {"hash", hash_text(mesh.hash())},
-          {"vertices", mesh.vertex_count()},
-          {"triangles", mesh.triangle_count()},
-          {"topology",
-           {{"components", t.components},
-            {"open_edges", t.open_edges},
-            {"non_manifold_edges", t.non_manifold_edges},
-            {"flipped_edges", t.flipped_edges},
-            {"flat_triangles", t.flat_triangles},
-            {"duplicates", t.duplicates},
-            {"closed", t.closed()},
-            {"volume", t.closed() ? Json(t.volume) : Json()}}},
-          {"box_min", json_of(mesh.box_min())},
-          {"box_max", json_of(mesh.box_max())},
-          {"nodes", mesh.node_count()}};
-}
-
-std::string mesh_text(const MeshModel& mesh) {
-  const MeshTopology& t = mesh.topology();
-  const std::size_t bytes = mesh.bytes().size();
-  std::string text = format(" bytes      %zu, %.1f per triangle\n", bytes, double(bytes) / double(mesh.triangle_count()));
-  text += " hash       " + hash_text(mesh.hash()) + "\n";
-  text += format(" vertices   %zu\n triangles  %zu, %u of them flat, %u duplicates\n", mesh.vertex_count(),
-                 mesh.triangle_count(), t.flat_triangles, t.duplicates);
-  text += format(" components %u\n edges      %u open, %u non-manifold, %u flipped\n", t.components, t.open_edges,
-                 t.non_manifold_edges, t.flipped_edges);
-  text += " volume     " + (t.closed() ? number(t.volume) + (t.volume < 0 ? ", inside out" : "") : "none: not closed") + "\n";
-  text += " box        " + numbers(mesh.box_min()) + "  to  " + numbers(mesh.box_max()) + "\n";
-  return text + format(" nodes      %zu\n", mesh.node_count());
-}
-
-Output info(const LoadedMesh& body) {
-  Json json{{"path", body.path}};
-  json.update(mesh_json(body.mesh));
-  return {body.path + "\n" + mesh_text(body.mesh), dump(json)};
-}
-
-Result<Output> verify(const LoadedMesh& body) {
-  const Check outcome = swiftlet::verify(body.mesh);
-  if (!outcome) return in_file(body.path, {ErrorCode::BadValue, outcome.message});
-  const std::size_t nodes = body.mesh.node_count(), triangles = body.mesh.triangle_count();
-  return Output{
-      body.path + format(": verified: the boxes of %zu nodes hold their triangles, each of %zu once\n", nodes, triangles),
-      dump({{"path", body.path}, {"verified", true}, {"nodes", nodes}, {"triangles", triangles}})};
-}
-
 Result<Output> verify(const LoadedModel& body) {
   const Check outcome = swiftlet::verify(body.model);
   if (!outcome) return in_file(body.path, {ErrorCode::BadValue, outcome.message});
@@ -409,20 +284,23 @@ Result<Output> verify(const LoadedModel& body) {
                 dump({{"path", body.path}, {"verified", true}, {"levels", levels}})};
 }
 
-Output distance(const LoadedBody& a, const LoadedBody& b, const Pose& b_in_a, const Options& asked, bool show_levels) {
+Result<Output> distance(const LoadedBody& a, const LoadedBody& b, const Pose& b_in_a, const Asked& asked) {
+  const Result<MeshBody> shape_a = shape_of(a, asked.solid), shape_b = shape_of(b, asked.solid);
+  if (!shape_a) return shape_a.error();
+  if (!shape_b) return shape_b.error();
   const Model *const model_a = model_of(a), *const model_b = model_of(b);
   std::vector<LevelRecord> trace;
   OverlapProof proof;
-  Options options = asked;
+  Options options = asked.query;
   options.tuning.proof = &proof;
-  if (show_levels) {
+  if (asked.levels) {
     trace.resize(std::size_t(model_a->level_count() + model_b->level_count()));
     options.tuning.trace = trace, options.tuning.start = StartPolicy::Coarsest;
   }
-  const ClosestFeatures found = ask(shape_of(a), shape_of(b), b_in_a, options);
+  const ClosestFeatures found = ask(shape_a.value(), shape_b.value(), b_in_a, asked, options.tuning);
   const Answer& answer = found.answer;
   std::vector<Visit> visits;
-  if (show_levels) {
+  if (asked.levels) {
     trace.resize(std::min(trace.size(), std::size_t(answer.levels_visited)));
     visits = timed(*model_a, *model_b, b_in_a, options, trace);
   }
@@ -430,14 +308,17 @@ Output distance(const LoadedBody& a, const LoadedBody& b, const Pose& b_in_a, co
       on_b{answer.feature_b, answer.level_b, found.source_b, !model_b};
 
   Json json{{"a", path_of_body(a)}, {"b", path_of_body(b)}, {"b_in_a", json_of(b_in_a)}};
-  if (show_levels) json["levels"] = json_of(visits);
+  if (asked.levels) json["levels"] = json_of(visits);
   json.update({{"lower", answer.lower},
                {"upper", answer.upper},
+               {"signed", answer.is_signed},
                {"point_a", json_of(answer.point_a)},
                {"point_b", json_of(answer.point_b)},
                {"normal", json_of(answer.normal)},
                {"level_a", answer.level_a},
                {"level_b", answer.level_b},
+               {"deviation_a", deviation_of(a, answer.level_a)},
+               {"deviation_b", deviation_of(b, answer.level_b)},
                {"feature_a", json_of(on_a)},
                {"feature_b", json_of(on_b)},
                {"verdict", name(answer.verdict)},
@@ -445,20 +326,23 @@ Output distance(const LoadedBody& a, const LoadedBody& b, const Pose& b_in_a, co
                {"steps", answer.steps},
                {"plane_tests", answer.plane_tests}});
 
-  std::string text = show_levels ? text_of(visits) : "";
-  text += "distance   [" + number(answer.lower) + ", " + number(answer.upper) + "]";
+  std::string text = asked.levels ? text_of(visits) : "";
+  text += "distance   [" + number(answer.lower) + ", " + number(answer.upper) + "]" + (answer.is_signed ? ", signed" : "");
   text += model_a || model_b ? format(" at levels (%d, %d)\n", answer.level_a, answer.level_b) : "\n";
   text += "point_a    " + numbers(answer.point_a) + "\npoint_b    " + numbers(answer.point_b) + "   in A's frame\n";
   text += "normal     " + numbers(answer.normal) + "   from A to B\n";
   text += "feature_a  " + text_of(on_a) + "\nfeature_b  " + text_of(on_b) + "\n";
-  if (answer.verdict == Verdict::Overlapping && model_a && model_b) {
+  if (answer.verdict == Verdict::Overlapping && model_a && model_b && proof.count > 0) {
     const auto proof_a = proof_of(*model_a, proof, proof.vertex_a), proof_b = proof_of(*model_b, proof, proof.vertex_b);
     json["proof"] = {{"vertices_a", proof_a}, {"vertices_b", proof_b}};
     text += "proof      vertices" + joined(proof_a) + " of A minus" + joined(proof_b) + " of B hold the origin\n";
   }
-  text += std::string("verdict    ") + name(answer.verdict) + "\nstatus     " + name(answer.status) +
+  if (answer.status == Status::LevelLimit)
+    text += "deviation  " + number(deviation_of(a, answer.level_a)) + " of A, " + number(deviation_of(b, answer.level_b)) +
+            " of B: how far they may be from the whole bodies\n";
+  text += std::string("verdict    ") + name(answer.verdict) + "\nstatus     " + in_words(answer.status) +
           format(", %u steps, %u plane tests\n", answer.steps, answer.plane_tests);
-  return {text, dump(json)};
+  return Output{text, dump(json)};
 }
 
 Result<Output> export_level(const LoadedModel& body, int level, const std::filesystem::path& path) {
@@ -483,8 +367,8 @@ Result<Output> cut(const std::string& path, const std::string& to, const Detail&
   if (!bytes) return bytes.error();
   const int finest = model.value().finest_level(), coarsest = model.value().level_count() - 1;
   return Output{
-      (note.empty() ? "" : note + "\n") + to + format(": levels %d to %d, %zu bytes\n", finest, coarsest, bytes.value()),
-      dump({{"path", to}, {"finest_level", finest}, {"levels", coarsest + 1}, {"bytes", bytes.value()}, {"note", note}})};
+      to + format(": levels %d to %d, %zu bytes\n", finest, coarsest, bytes.value()),
+      dump({{"path", to}, {"finest_level", finest}, {"levels", coarsest + 1}, {"bytes", bytes.value()}, {"note", note}}), note};
 }
 
 Result<Output> draw_file(const LoadedModel& body, const std::filesystem::path& path) {
@@ -492,14 +376,6 @@ Result<Output> draw_file(const LoadedModel& body, const std::filesystem::path& p
   if (!bytes) return bytes.error();
   return Output{utf8(path) + ": " + counted(body.model.level_count()) + format(", %zu bytes\n", bytes.value()),
                 dump({{"path", utf8(path)}, {"levels", body.model.level_count()}, {"bytes", bytes.value()}})};
-}
-
-Result<Output> draw_file(const LoadedMesh& body, const std::filesystem::path& path) {
-  const Result<std::size_t> bytes = write_file(path, draw(body.mesh, stem(body.path)));
-  if (!bytes) return bytes.error();
-  const std::size_t triangles = body.mesh.triangle_count();
-  return Output{utf8(path) + format(": %zu triangles, %zu bytes\n", triangles, bytes.value()),
-                dump({{"path", utf8(path)}, {"triangles", triangles}, {"bytes", bytes.value()}})};
 }
 
 }  // namespace swiftlet::tool
