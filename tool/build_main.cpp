@@ -127,7 +127,7 @@ Result<Output> build_mesh_file(const Request& request) {
     HullOptions options = request.hulls;
     options.progress = [&bar](double fraction, std::string_view stage) { return bar(fraction, stage); };
     if (request.threads > 1) options.executor = on_threads(request.threads);
-    return swiftlet::build_mesh(given, options);
+    return build_mesh(given, options);
   }();
   if (!built) return in_file(request.in, built.error());
   const double reading = seconds(middle - begin), building = seconds(Clock::now() - middle);

@@ -3,8 +3,6 @@
 // What the words say of meshes.
 #include "words.h"
 
-#include <algorithm>
-#include <numeric>
 #include <vector>
 
 #include <swiftlet/check.h>
