@@ -967,9 +967,7 @@ TEST(MeshLaw8, QueriesAllocateNothing) {
     if (contacts(c.mesh_a, c.mesh_b, c.pose, 10, {&contact, 1}).count > 0) manifold(c.mesh_a, c.mesh_b, c.pose, contact);
     if (contacts(c.mesh_a, sphere, c.pose, 10, {&contact, 1}).count > 0) manifold(c.mesh_a, sphere, c.pose, contact);
     signed_distance(c.mesh_a, c.mesh_b, c.pose, seed);
-    const auto volume = [](const MeshModel& mesh) {
-      return mesh.topology().closed() ? MeshBody::solid(mesh) : MeshBody(mesh);
-    };
+    const auto volume = [](const MeshModel& mesh) { return mesh.topology().closed() ? MeshBody::solid(mesh) : MeshBody(mesh); };
     distance(volume(c.mesh_a), volume(c.mesh_b), c.pose, seed);
     signed_distance(volume(c.mesh_a), volume(c.mesh_b), c.pose, seed);
     signed_distance(volume(c.mesh_a), sphere, c.pose, seed);

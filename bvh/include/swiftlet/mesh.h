@@ -65,9 +65,9 @@ class MeshModel {
   std::size_t triangle_count() const;                              ///< as many as were given, at least 1; 0 likewise
   Vec3 vertex(std::size_t index) const;                            ///< a vertex in the body's frame
   std::array<std::uint32_t, 3> triangle(std::size_t index) const;  ///< the vertices of a triangle, in the user's order
-  std::span<const std::uint32_t> source_vertex() const;            ///< per vertex, the first of the user's points there
-  std::span<const std::uint32_t> source_triangle() const;          ///< per triangle, the user's triangle
-  const MeshTopology& topology() const;                            ///< what the mesh is made of
+  std::span<const std::uint32_t> source_vertex() const;    ///< per vertex, the user's point there that a triangle names first
+  std::span<const std::uint32_t> source_triangle() const;  ///< per triangle, the user's triangle
+  const MeshTopology& topology() const;                    ///< what the mesh is made of
 
   Vec3 box_min() const;            ///< body frame: smallest coordinates
   Vec3 box_max() const;            ///< body frame: largest coordinates

@@ -74,8 +74,8 @@ struct PlacedMesh {
 
 /// What is known of a pair with a mesh. Points are in the world's frame.
 struct MeshMeeting {
-  Status status = Status::NotAsked;  ///< InvalidPose, InvalidBody, InvalidRadius: the kernel does not answer
-  Verdict verdict = Verdict::Undecided;  ///< of the bodies
+  Status status = Status::NotAsked;                     ///< InvalidPose, InvalidBody, InvalidRadius: the kernel does not answer
+  Verdict verdict = Verdict::Undecided;                 ///< of the bodies
   double distance = 0;                                  ///< the certified lower bound
   int triangle_a = -1, triangle_b = -1;                 ///< the user's triangles where they are nearest; -1 of a convex body
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< of `distance_of`
