@@ -133,11 +133,14 @@ class Descent {
     const std::uint32_t k = child - n.first();
     float third[3];
     third_axis(n.axis, third);
-    Vec centre{n.origin[0], n.origin[1], n.origin[2]};
-    for (int l = 0; l < 3; ++l) {
-      const float* const axis = l < 2 ? n.axis[l] : third;
-      centre = centre + Vec{axis[0], axis[1], axis[2]} * double(n.centre[l][k]);
+    const float* const rows[3] = {n.axis[0], n.axis[1], third};
+    const auto axis = [&](int l) { return Vec{rows[l][0], rows[l][1], rows[l][2]}; };
+    Vec off{0, 0, 0};  // from the origin; what the axes lack of right angles is mended once
+    for (int times = 0; times < 2; ++times) {
+      const Vec before = off;
+      for (int l = 0; l < 3; ++l) off = off + axis(l) * (double(n.centre[l][k]) - dot(axis(l), before));
     }
+    Vec centre = Vec{n.origin[0], n.origin[1], n.origin[2]} + off;
     // So little is no legal coordinate of a point, and within the error.
     for (double* x : {&centre.x, &centre.y, &centre.z}) *x = std::fabs(*x) < kMiddleError / 8 ? 0 : *x;
     const double radius = norm(Vec{n.half[0][k], n.half[1][k], n.half[2][k]}) * (1 + 4 * kAxisError) + kMiddleError;

@@ -17,9 +17,10 @@ inline constexpr double kAxisError = 0x1p-21;
 /// point, nor that of a node's origin, 10 u of where it is. Dimensionless.
 inline constexpr double kBoxMargin = 0x1p-44;
 
-/// The middle of a child's box, along three axes of its node from the node's origin, in the body's frame, over its unit: four
-/// terms of at most 2, each a product of 2 roundings, and 3 sums: 40 u a coordinate. Rounded up over three.
-inline constexpr double kMiddleError = 0x1p-46;
+/// The middle of a child's box from its place along a node's axes, over the body's unit. Rows of axes M are orthonormal but for
+/// E, |E| <= 3 kAxisError in all; M^T c is off by E c, and M^T (c + (c - M M^T c)) by E^2 c: 9 kAxisError^2 times |c| <= 4,
+/// which is 2^-36.8. Rounding, some 100 u, is far below. Rounded up.
+inline constexpr double kMiddleError = 0x1p-36;
 /// The sum of two radii and that of a distance and this sum are off by u each, relative to all three. Dimensionless.
 inline constexpr double kEndError = 4 * kU;
 

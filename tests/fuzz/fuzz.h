@@ -45,9 +45,11 @@ std::string query(Input input);
 /// Two small point sets and a pose: built, asked every question, compared with the oracle.
 std::string hulls(Input input);
 #if SWIFTLET_FUZZ_MESHES
-/// A pose, a seed, options and two soups of few triangles: meshes made, verified, asked, compared with brute force.
+/// A pose, a seed, options and two soups of few triangles: meshes made, with hulls and without, as surfaces and as solids,
+/// moved to other points and cut; verified, asked, compared with brute force.
 std::string triangles(Input input);
-/// The block of a mesh whose hashes and size are made right. Loaded or refused; a loaded one answers every query and ends.
+/// The block of a mesh whose hashes and size are made right. Loaded, salvaged or refused; a loaded one answers every query, is
+/// cut, moved, and ends.
 std::string block(Input input);
 #endif
 

@@ -12,6 +12,10 @@
 #include "judge.h"
 #include "shapes.h"
 #if SWIFTLET_FUZZ_MESHES
+#include <cmath>
+
+#include <swiftlet/build_mesh.h>
+
 #include "soups.h"
 #endif
 
@@ -121,7 +125,7 @@ void write_triangles(Folder folder) {
   for (int i = 0; i < 40; ++i) {
     std::string bytes = i % 2 ? shifted(int(random.bits() % 64), 16, 0) : raw({random.rotation(), 2 * random.on_sphere()});
     bytes += packed(std::uint8_t(i % 4), std::uint8_t(i % 5)) + packed(1.f, 0.f, 0.f) + cold + packed(0.5f);
-    bytes += packed(std::uint8_t(i % 8 ? 0 : 8 + 16), std::uint8_t(9));
+    bytes += packed(std::uint8_t((i % 8 ? 0 : 8 + 16) + (i % 3 ? 0 : 32 + 64)), std::uint8_t(9));
     if (i % 8) bytes.pop_back();
     for (int body = 0; body < 2; ++body) {
       const int points = 3 + int(random.bits() % 9), count = 1 + int(random.bits() % 8);
@@ -138,10 +142,17 @@ void write_triangles(Folder folder) {
 
 void write_blocks(Folder folder) {
   shapes::Random random(4);
+  HullOptions options;
+  options.levels = 16, options.least_triangles = 1, options.bytes_per_triangle = 1e6;
   for (int i = 0; i < 8; ++i) {
     const MeshModel mesh = (i % 2 ? soups::scattered(random, 1 + 4 * i, 0.5) : soups::any(random)).mesh();
-    folder.add({reinterpret_cast<const char*>(mesh.bytes().data()), mesh.bytes().size()});
+    const MeshModel with_hulls = bodies::must(rebuild_hulls(mesh, options));
+    for (const MeshModel* m : {&mesh, &with_hulls})
+      folder.add({reinterpret_cast<const char*>(m->bytes().data()), m->bytes().size()});
   }
+  const MeshModel fine = soups::ball(2).mesh();
+  const MeshModel cut = fine.cut({.deviation = std::nextafter(fine.deviation(1), 1e9)});
+  folder.add({reinterpret_cast<const char*>(cut.bytes().data()), cut.bytes().size()});
 }
 #endif
 

@@ -1,7 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
+#include <unistd.h>
 
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include <swiftlet/build_mesh.h>
 #include <swiftlet/mesh_contacts.h>
 #include <swiftlet/mesh_query.h>
 
@@ -10,7 +17,6 @@
 #include "fuzz.h"
 #include "judge.h"
 #include "mesh_blocks.h"
-#include "mesh_regions.h"
 #include "soups.h"
 
 namespace swiftlet::fuzz {
@@ -72,6 +78,33 @@ std::string fault(const Answer& answer, double truth, double slack, double law_t
   return {};
 }
 
+/// With the hull of every node.
+MeshModel hulled(const MeshModel& mesh) {
+  HullOptions options;
+  options.levels = 16, options.least_triangles = 1, options.bytes_per_triangle = 1e6;
+  return rebuild_hulls(mesh, options).value();
+}
+
+/// Along the normal of an overlap the bodies come apart by -lower; and moved by less than -upper surfaces still meet.
+std::string depth_fault(const Answer& answer, const Soup& a, const Soup& b, const Pose& pose, double bound) {
+  if (!(answer.lower <= answer.upper)) return "no interval of a depth";
+  if (answer.lower > 0 || answer.normal.hasNaN() || !std::isfinite(answer.lower)) return {};
+  const auto of_a = soups::triangles<long double>(a), of_b = soups::triangles<long double>(b, pose);
+  const auto n = point<long double>(answer.normal);
+  long double most = -HUGE_VALL, least = HUGE_VALL;
+  for (const auto& t : of_a)
+    for (const auto& p : t) most = std::max(most, dot(p, n));
+  for (const auto& t : of_b)
+    for (const auto& p : t) least = std::min(least, dot(p, n));
+  if (least - most < answer.lower - bound) return "moved by -lower the bodies are not apart";
+  for (const Vec3& way : {answer.normal, Vec3(-answer.normal), Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, 1)}) {
+    Pose moved = pose;
+    moved.translation -= 0.99 * answer.upper * way;
+    if (answer.upper < -bound && brute_force(a, b, moved) > bound) return "less than -upper takes the surfaces apart";
+  }
+  return {};
+}
+
 /// What is wrong with the regions within a reach, and with their points.
 std::string fault_of_contacts(const Soup& soup_a, const Soup& soup_b, const MeshModel& a, const MeshModel& b, const Pose& pose,
                               double reach, const Answer& exact, double law_two) {
@@ -103,6 +136,13 @@ std::string fault_of_contacts(const Soup& soup_a, const Soup& soup_b, const Mesh
   return {};
 }
 
+/// A mesh that was cut: no answer is farther from the truth than boxes are from the surface.
+std::string cut_fault(const MeshModel& mesh, const MeshModel& other, const Pose& pose, const Answer& exact) {
+  const MeshModel cut = mesh.cut({.deviation = std::numeric_limits<double>::max()});
+  const Answer answer = distance(cut, other, pose);
+  return answer.lower <= exact.upper && exact.lower <= answer.upper ? "" : "the interval of a mesh that was cut is not true";
+}
+
 }  // namespace
 
 std::string triangles(Input input) {
@@ -123,7 +163,7 @@ std::string triangles(Input input) {
     if (!*made) return made->error().message.empty() ? "refused without a reason" : "";
     if (const Check verified = verify(made->value()); !verified) return verified.message;
   }
-  const MeshModel &x = a.value(), &y = b.value();
+  const MeshModel x = which & 32 ? hulled(a.value()) : a.value(), y = which & 64 ? hulled(b.value()) : b.value();
   MeshSeed other = seed;
   const Answer loose = distance(x, y, pose, seed, options), exact = distance(x, y, pose, other),
                met = intersects(x, y, pose, other);
@@ -147,8 +187,39 @@ std::string triangles(Input input) {
     if (const Check checked = check(x, y, pose, *answer); !checked) return checked.message;
   }
   if (met.verdict == Verdict::Undecided) return "intersects is undecided";
-  return fault_of_contacts(soup_a, soup_b, x, y, pose, threshold, exact, bound);
+  const Answer deep = signed_distance(x, y, pose, seed);
+  if (const std::string f = depth_fault(deep, soup_a, soup_b, pose, bound); !f.empty()) return f;
+  if (exact.lower > 2 * bound && !(deep.lower <= exact.upper && exact.lower <= deep.upper))
+    return "the signed distance of bodies that are apart is not the distance";
+  if (const std::string f = fault_of_contacts(soup_a, soup_b, x, y, pose, threshold, exact, bound); !f.empty()) return f;
+  if (const std::string f = cut_fault(x, y, pose, exact); !f.empty()) return f;
+  if (x.topology().closed() && y.topology().closed()) {
+    const MeshBody full_x = MeshBody::solid(x), full_y = MeshBody::solid(y);
+    const Answer inside = distance(full_x, full_y, pose);
+    if (const Check checked = check(full_x, full_y, pose, inside); !checked) return "solid: " + checked.message;
+    if (const Answer d = signed_distance(full_x, full_y, pose); !(d.lower <= d.upper)) return "no interval of a solid's depth";
+  }
+  const Result<MeshModel> moved = refit(x, soup_b.points);
+  if (!moved) return moved.error().message.empty() ? "not moved without a reason" : "";
+  if (const Check verified = verify(moved.value()); !verified) return "refit: " + verified.message;
+  const Answer again = distance(moved.value(), y, pose);
+  if (const Check checked = check(moved.value(), y, pose, again); !checked) return "refit: " + checked.message;
+  return {};
 }
+
+namespace {
+
+/// A file of these bytes, salvaged.
+Result<SalvagedMesh> salvaged(const soups::Block& bytes) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("swiftlet_fuzz_" + std::to_string(getpid()) + ".swm");
+  std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+  Result<SalvagedMesh> result = salvage_mesh(path);
+  std::filesystem::remove(path);
+  return result;
+}
+
+}  // namespace
 
 std::string block(Input input) {
   soups::Block bytes(input.size());
@@ -159,6 +230,12 @@ std::string block(Input input) {
     std::memcpy(bytes.data() + offsetof(MeshHeader, total_bytes), &size, sizeof size);
     rehash(bytes);
   }
+  if (const Result<SalvagedMesh> part = salvaged(bytes)) {
+    const MeshModel good = tetrahedron().mesh();
+    const Answer answer = distance(part.value().mesh, good, shift(2, 0, 0));
+    if (!(answer.lower <= answer.upper)) return "no interval of a salvaged mesh";
+    (void)verify(part.value().mesh);
+  }
   const Result<MeshModel> loaded = load_mesh(bytes);
   if (!loaded) return loaded.error().message.empty() ? "refused without a reason" : "";
   const MeshModel &hostile = loaded.value(), honest = box({-1, -1, -1}, {1, 1, 1}).mesh();
@@ -168,17 +245,26 @@ std::string block(Input input) {
     for (const Pose& pose : poses) {
       MeshSeed seed;
       const ClosestFeatures closest = closest_features(*a, *b, pose, seed);
-      MeshContact contact;
-      if (contacts(*a, *b, pose, 0.5, {&contact, 1}).stored == 1) (void)manifold(*a, *b, pose, contact);
       for (const Answer& answer : {distance(*a, *b, pose, seed), intersects(*a, *b, pose, seed), closest.answer}) {
         if (!(answer.lower >= 0 && answer.lower <= answer.upper)) return "no interval";
-        const std::uint64_t pairs = std::uint64_t{a->triangle_count()} * b->triangle_count();
+        const auto size = [](const MeshModel* m) { return std::uint64_t{m->triangle_count()} + 8 * m->node_count(); };
+        const std::uint64_t pairs = size(a) * size(b);  // a mesh that was cut has boxes alone
         if (answer.steps + std::uint64_t{answer.plane_tests} > 20 * pairs + 100) return "more steps than pairs of triangles";
       }
+      const Answer deep = signed_distance(*a, *b, pose, seed), solid = distance(MeshBody::solid(*a), MeshBody::solid(*b), pose);
+      if (deep.lower > deep.upper || solid.lower > solid.upper) return "no interval of a depth or a solid";
+      std::array<MeshContact, 4> regions;
+      const MeshContacts met = contacts(*a, *b, pose, 0.25, regions);
+      for (std::uint32_t i = 0; i < met.stored; ++i) (void)manifold(*a, *b, pose, regions[i], {.margin = 0.25});
       for (const std::span<const std::uint32_t> ids : {closest.source_a.triangles, closest.source_b.triangles})
         if (std::find(ids.begin(), ids.end(), kNone) != ids.end()) break;  // read every one
     }
   }
+  const MeshModel cut = hostile.cut({.deviation = std::numeric_limits<double>::max()});
+  (void)distance(cut, honest, {});
+  (void)verify(cut);
+  if (const Result<MeshModel> moved = refit(hostile, std::vector<Vec3>(64, Vec3(1, 2, 3))))
+    (void)distance(moved.value(), honest, {});
   return {};
 }
 
