@@ -71,7 +71,13 @@ TEST(Cut, AnswersAsPreciselyAsItsBoxesAre) {
   int disjoint = 0, undecided = 0;
   for (int i = 0; i < 300; ++i) {
     const double unit = i % 5 == 0 ? 0x1p-80 : i % 5 == 1 ? 0x1p130 : 1;
-    const Soup a = scaled(i % 2 ? torus(10, 6) : any(random), unit), b = scaled(any(random), unit * (i % 7 ? 1 : 0x1p-12));
+    // Specks far from each other: boxes that are small beside their place in a node.
+    const Soup specks = scattered(random, 12, 1e-8);
+    const Soup a = scaled(i % 3 == 0 ? specks
+                          : i % 2    ? torus(10, 6)
+                                     : any(random),
+                          unit),
+               b = scaled(any(random), unit * (i % 7 ? 1 : 0x1p-12));
     const Pose pose{random.rotation(), unit * random.uniform(0, 5) * random.on_sphere()};
     const MeshModel whole_a = a.mesh(), whole_b = b.mesh();
     const double truth = distance_by_all_pairs(a, b, pose), law_two = tolerance(whole_a, whole_b, pose);
