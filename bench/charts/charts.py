@@ -28,7 +28,7 @@ READABLE = {
     "vclip": "V-Clip", "plain": "our walk", "plain table": "our walk, table", "fcl indep": "FCL, own GJK",
     "fcl libccd": "FCL, libccd", "fcl libccd climb": "FCL, libccd, our support", "bullet": "Bullet", "bullet climb": "Bullet, our support",
     "bullet guess climb": "Bullet, with guess", "libccd mpr": "libccd MPR, our support", "libccd gjk": "libccd GJK, our support",
-    "fcl": "FCL", "fcl node": "FCL, its traversal with triangle caching", "fcl native": "the same, for this machine", "cgal": "CGAL", "ode": "ODE", "swiftlet ~0.1": "swiftlet, to 0.1 r", "swiftlet ~0.01": "swiftlet, to 0.01 r",
+    "fcl": "FCL", "fcl node": "FCL, its traversal with triangle caching", "fcl native": "the same, for this machine", "cgal": "CGAL", "swiftlet boxes": "swiftlet without hulls", "ode": "ODE", "swiftlet ~0.1": "swiftlet, to 0.1 r", "swiftlet ~0.01": "swiftlet, to 0.01 r",
 }
 # Builds of the same method for this machine alone, and what of ours is not as shipped, only crowd a picture of everyone.
 CROWD = (" native", " coarsest", " finest", " paper", " first", " single", " double", "swiftlet table")

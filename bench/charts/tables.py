@@ -87,10 +87,12 @@ def microseconds(row):
 
 
 def mesh(rows):
-    """Ours and the fastest other, whoever that is; below, how many times as long all that others do takes."""
+    """Ours and the fastest other, whoever that is; below, how many times as long all that others do takes. Then contacts and
+    depths, and what bodies take."""
     at = {(row["scene"], row["question"], row["series"]): row for row in rows}
-    scenes = list(dict.fromkeys(row["scene"] for row in rows))
-    others = [series for series in dict.fromkeys(row["series"] for row in rows) if series != "swiftlet"]
+    scenes = list(dict.fromkeys(row["scene"] for row in rows if row["question"] == "intersects"))
+    series_but_ours = [series for series in dict.fromkeys(row["series"] for row in rows) if series != "swiftlet"]
+    others = [series for series in series_but_ours if not series.startswith("swiftlet")]
     print("\n| us: ours / fastest other | " + " | ".join(MESH_QUESTIONS.values()) + " |")
     print("|---" * (len(MESH_QUESTIONS) + 1) + "|")
     for scene in scenes:
@@ -99,17 +101,35 @@ def mesh(rows):
             fastest = min((at[scene, question, other] for other in others if (scene, question, other) in at), key=lambda row: row["ns"], default=None)
             cells.append(f"{microseconds(at[scene, question, 'swiftlet'])} / {microseconds(fastest) if fastest else '-'}")
         print(f"| {scene} | " + " | ".join(cells) + " |")
-    for other in others:
+    for other in series_but_ours:
         cells = []
         for question in MESH_QUESTIONS:
             gains = sorted(at[scene, question, other]["ns"] / at[scene, question, "swiftlet"]["ns"] for scene in scenes
                            if (scene, question, other) in at)
             cells.append(f"{digits(statistics.median(gains))} ({digits(gains[0])} to {digits(gains[-1])})" if gains else "")
         print(f"| *median of {other} over ours (least to most)* | " + " | ".join(cells) + " |")
+    mesh_contacts(at, others)
     print("\n| a triangle | bytes | us to build |\n|---|---|---|")
-    for series in ["swiftlet"] + others:
+    for series in ["swiftlet"] + series_but_ours:
         of = [row for row in rows if row["series"] == series and row["question"] == "intersects"]
         print(f"| {series} | {statistics.median(row['bytes'] for row in of):.0f} | {statistics.median(row['build_us'] for row in of):.1f} |")
+
+
+def mesh_contacts(at, others):
+    """Contacts within reach of near bodies and of those that overlap; then depths."""
+    scenes = list(dict.fromkeys(scene for scene, question, _ in at if question == "contacts"))
+    print("\n| contacts: us (how many) | regions, ours | with manifolds: points | " + " | ".join(others_of := [
+        other for other in others if any((scene, "contacts", other) in at for scene in scenes)]) + " |")
+    print("|---" * (len(others_of) + 3) + "|")
+    for scene in scenes:
+        cells = [at.get((scene, "contacts", "swiftlet")), at.get((scene, "manifolds", "swiftlet"))]
+        cells += [at.get((scene, "contacts", other)) for other in others_of]
+        print(f"| {scene} | " + " | ".join(f"{microseconds(row)} ({row['found']:g})" if row else "" for row in cells) + " |")
+    print("\n| signed distance | us | without hulls | width of the interval over the depth |\n|---|---|---|---|")
+    for scene in scenes:
+        if (scene, "signed", "swiftlet") in at:
+            ours = at[scene, "signed", "swiftlet"]
+            print(f"| {scene} | {microseconds(ours)} | {microseconds(at[scene, 'signed', 'swiftlet boxes'])} | {ours['found']:.2g} |")
 
 
 GROUPS = {"orbit": orbit, "goals": goals, "depth": depth, "manifold": manifold, "mesh": mesh}

@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Asks one question about every pose of a scene by registers of SSE2, for callgrind: what `ask_all` takes are the queries
-// alone, from the seed that an earlier pass left. See count.
+// alone, from the seed that an earlier pass left. Its meshes are those of files, or made here without hulls: what makes hulls
+// needs CGAL, which valgrind does not bear. See count.
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "method.h"
@@ -31,7 +34,7 @@ struct Work {
 
 int main(int argc, char** argv) try {
   if (argc < 3) {
-    std::fputs("swiftlet_mesh_count SCENE QUESTION [POSES [MESHES]]\nscenes:", stderr);
+    std::fputs("swiftlet_mesh_count SCENE QUESTION [POSES [MESHES [FILE FILE]]]\nscenes:", stderr);
     for (const std::string& name : scene_names()) std::fprintf(stderr, " %s", name.c_str());
     std::fputs("\nquestions:", stderr);
     for (const Asked& asked : kAsked) std::fprintf(stderr, " %s", asked.name);
@@ -43,14 +46,21 @@ int main(int argc, char** argv) try {
   const std::optional<Scene> scene =
       make_scene(argv[1], argc > 4 ? argv[4] : "models/cache", argc > 3 ? std::atoi(argv[3]) : 200);
   if (!scene) return std::fputs("its mesh file is missing: models/fetch\n", stderr), 1;
-  const auto session = swiftlet_method()->open(scene->a, scene->b);
+  if (!asked->concerns(*scene)) return std::fprintf(stderr, "%s is not asked in this scene\n", asked->name), 2;
+  const auto load = [](const char* file) {
+    swiftlet::Result<swiftlet::MeshModel> model = swiftlet::load_mesh(file);
+    if (!model) throw std::runtime_error(model.error().message);
+    return std::move(model).value();
+  };
+  const auto session =
+      argc > 6 ? swiftlet_session(load(argv[5]), load(argv[6])) : swiftlet_session(scene->model_a, scene->model_b);
   std::vector<Question> questions;
   std::vector<swiftlet::Pose> poses;
   for (const swiftlet::Pose& pose : scene->poses) {
     const double truth = session->ask({}, pose).distance;
     if (!asked->concerns(truth)) continue;
     poses.push_back(pose);
-    questions.push_back(asked->question(truth));
+    questions.push_back(asked->question(*scene, truth));
   }
   for (std::size_t i = 0; i < poses.size(); ++i) session->ask(questions[i], poses[i]);
   const Work all = ask_all(*session, questions, poses);

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include <swiftlet/build_mesh.h>
 #include <swiftlet/mesh_query.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -82,6 +83,7 @@ struct Row {
   std::size_t wrong = 0, failed = 0;
   std::uint64_t hash = 0;
   double bytes = 0, build_us = 0;  ///< a triangle
+  double found = NAN;  ///< the median over the poses of contacts or points, or of an interval's width over the greatest depth
 
   bool flagged() const { return wrong + failed > 0 || error > (allowed > 0 ? allowed * (1 + kClose) : kClose); }
 };
@@ -104,11 +106,16 @@ struct Hash {
 void judge(Row& row, const Asked& asked, const Scene& scene, const std::vector<Truth>& truths,
            const std::vector<Reply>& replies) {
   Hash hash;
+  std::vector<double> found;
   for (std::size_t i = 0; i < replies.size(); ++i) {
     const Reply& reply = replies[i];
     const Truth& truth = truths[i];
     hash.add(reply.yes);
     hash.add(std::bit_cast<std::uint64_t>(reply.distance));
+    if (!asked.is_apart()) {
+      hash.add(std::bit_cast<std::uint64_t>(reply.upper));
+      hash.add(reply.count);
+    }
     row.failed += reply.failed;
     const double apart = truth.value();
     switch (asked.kind) {
@@ -120,9 +127,23 @@ void judge(Row& row, const Asked& asked, const Scene& scene, const std::vector<T
                                         : apart > 0         ? off / apart
                                         : off > 0           ? HUGE_VAL
                                                             : 0);
+        break;
+      }
+      case Kind::Contacts:
+      case Kind::Manifolds: {
+        const double reach = asked.question(scene, apart).threshold;
+        row.wrong += reply.count > 0 ? truth.lower > reach + kClose * scene.radius : truth.upper <= reach;
+        found.push_back(double(reply.count));
+        break;
+      }
+      case Kind::SignedDistance: {
+        // The surfaces of bodies one inside the other are apart.
+        row.wrong += reply.distance > reply.upper || reply.distance > truth.upper || (truth.meets() && reply.upper > 0);
+        if (reply.distance < 0) found.push_back((reply.upper - reply.distance) / -reply.distance);
       }
     }
   }
+  row.found = median(found);
   row.hash = hash.value;
 }
 
@@ -145,21 +166,24 @@ std::vector<Row> Rig::run(const Scene& scene) {
   const double triangles = double(scene.a.triangles.size() + scene.b.triangles.size());
   std::vector<Row> rows;
   for (const Asked& asked : kAsked) {
+    if (!asked.concerns(scene)) continue;
     std::vector<Question> questions;
     std::vector<Pose> poses;
     std::vector<Truth> asked_truths;
     for (std::size_t i = 0; i < scene.poses.size(); ++i) {
       if (!asked.concerns(truths[i].value())) continue;
       poses.push_back(scene.poses[i]);
-      questions.push_back(asked.question(truths[i].value()));
+      questions.push_back(asked.question(scene, truths[i].value()));
       asked_truths.push_back(truths[i]);
     }
     const std::size_t n = poses.size();
     std::vector<std::vector<double>> least(methods.size(), std::vector<double>(n, HUGE_VAL));
     std::vector<std::vector<Reply>> replies(methods.size(), std::vector<Reply>(n));
     for (int pass = 0; pass < passes; ++pass) {
-      for (std::size_t m = 0; m < methods.size(); ++m) {
-        if (!methods[m]->can(asked.question(1))) continue;
+      for (std::size_t k = 0; k < methods.size(); ++k) {
+        // Back and forth, so that none is always first after another one's memory.
+        const std::size_t m = pass % 2 == 0 ? k : methods.size() - 1 - k;
+        if (!methods[m]->can(asked.question(scene, 1))) continue;
         for (std::size_t i = 0; i < n; ++i) {
           watch.begin();
           replies[m][i] = sessions[m]->ask(questions[i], poses[i]);
@@ -168,7 +192,7 @@ std::vector<Row> Rig::run(const Scene& scene) {
       }
     }
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      if (!methods[m]->can(asked.question(1))) continue;
+      if (!methods[m]->can(asked.question(scene, 1))) continue;
       Row row{.scene = scene.name, .question = asked.name, .series = methods[m]->name(), .allowed = asked.relative, .poses = n};
       row.us = median(least[m]);
       row.bytes = double(sessions[m]->bytes) / triangles;
@@ -186,6 +210,8 @@ const Row* find(const std::vector<Row>& rows, const std::string& question, const
   return nullptr;
 }
 
+bool is_ours(const std::string& series) { return series.starts_with("swiftlet"); }
+
 /// How many times as long as ours the fastest other takes; NaN where nobody else answers.
 double gain(const std::vector<Row>& rows, const std::string& question) {
   double ours = NAN, best = NAN;
@@ -193,28 +219,30 @@ double gain(const std::vector<Row>& rows, const std::string& question) {
     if (row.question != question) continue;
     if (row.series == "swiftlet")
       ours = row.us;
-    else
+    else if (!is_ours(row.series))
       best = std::fmin(best, row.us);
   }
   return best / ours;
 }
 
 void print(const Scene& scene, const Methods& methods, const std::vector<Row>& rows) {
-  std::printf("\n%s: %zu and %zu triangles, %zu poses, %zu of them apart\n", scene.name.c_str(), scene.a.triangles.size(),
-              scene.b.triangles.size(), scene.poses.size(), find(rows, "within0.8", "swiftlet")->poses);
-  std::printf("  %-12s", "us per query");
-  for (const auto& method : methods) std::printf("%12s", method->name().c_str());
-  std::printf("%8s  %s\n", "gain", "errors, and the hash of ours");
+  std::printf("\n%s: %zu and %zu triangles, %zu poses", scene.name.c_str(), scene.a.triangles.size(), scene.b.triangles.size(),
+              scene.poses.size());
+  if (const Row* row = find(rows, "within0.8", "swiftlet")) std::printf(", %zu of them apart", row->poses);
+  std::printf("\n  %-12s", "us per query");
+  for (const auto& method : methods) std::printf("%15s", method->name().c_str());
+  std::printf("%8s  %s\n", "gain", "errors or what was found, and the hashes of ours");
   for (const Asked& asked : kAsked) {
+    if (!asked.concerns(scene)) continue;
     std::printf("  %-12s", asked.name);
     std::string notes;
     for (const auto& method : methods) {
       const Row* row = find(rows, asked.name, method->name());
       if (!row) {
-        std::printf("%12s", "-");
+        std::printf("%15s", "-");
         continue;
       }
-      std::printf("%11.3f%c", row->us, row->flagged() ? '!' : ' ');
+      std::printf("%14.3f%c", row->us, row->flagged() ? '!' : ' ');
       char note[160];
       std::snprintf(note, sizeof note, " %s", row->series.c_str());
       std::string said;
@@ -222,18 +250,28 @@ void print(const Scene& scene, const Methods& methods, const std::vector<Row>& r
         std::snprintf(note, sizeof note, " %.1e", row->error);
         said += note;
       }
+      if (!asked.is_apart()) {
+        std::snprintf(note, sizeof note, " %.3g", row->found);
+        said += note;
+      }
       if (row->wrong > 0) said += " wrong " + std::to_string(row->wrong);
       if (row->failed > 0) said += " failed " + std::to_string(row->failed);
       if (!said.empty()) notes += " " + row->series + said + ";";
     }
-    std::printf("%8.2f %s %016llx\n", gain(rows, asked.name), notes.c_str(),
-                static_cast<unsigned long long>(find(rows, asked.name, "swiftlet")->hash));
+    std::printf("%8.2f %s", gain(rows, asked.name), notes.c_str());
+    for (const Row& row : rows)
+      if (row.question == asked.name && is_ours(row.series)) std::printf(" %016llx", static_cast<unsigned long long>(row.hash));
+    std::puts("");
   }
-  std::printf("  %-12s", "bytes/tri.");
-  for (const auto& method : methods) std::printf("%11.0f ", find(rows, "intersects", method->name())->bytes);
-  std::printf("\n  %-12s", "build us/t.");
-  for (const auto& method : methods) std::printf("%11.2f ", find(rows, "intersects", method->name())->build_us);
-  std::puts("");
+  const auto print_of_bodies = [&](const char* name, double Row::*what, int digits) {
+    std::printf("  %-12s", name);
+    for (const auto& method : methods) {
+      const Row* row = find(rows, rows.front().question, method->name());
+      row ? std::printf("%14.*f ", digits, row->*what) : std::printf("%15s", "-");
+    }
+    std::puts("");
+  };
+  print_of_bodies("bytes/tri.", &Row::bytes, 0), print_of_bodies("build us/t.", &Row::build_us, 2);
   std::fflush(stdout);
 }
 
@@ -255,12 +293,12 @@ void print_medians(const std::vector<std::vector<Row>>& scenes) {
   }
 }
 
-constexpr const char* kHeader = "scene,question,series,allowed,poses,ns,error,wrong,failed,flagged,hash,bytes,build_us\n";
+constexpr const char* kHeader = "scene,question,series,allowed,poses,ns,error,wrong,failed,flagged,hash,bytes,build_us,found\n";
 std::string csv(const Row& r) {
   char line[400];
-  std::snprintf(line, sizeof line, "%s,%s,%s,%g,%zu,%.1f,%.3g,%zu,%zu,%d,%016llx,%.1f,%.3f\n", r.scene.c_str(),
+  std::snprintf(line, sizeof line, "%s,%s,%s,%g,%zu,%.1f,%.3g,%zu,%zu,%d,%016llx,%.1f,%.3f,%.4g\n", r.scene.c_str(),
                 r.question.c_str(), r.series.c_str(), r.allowed, r.poses, 1000 * r.us, r.error, r.wrong, r.failed,
-                int(r.flagged()), static_cast<unsigned long long>(r.hash), r.bytes, r.build_us);
+                int(r.flagged()), static_cast<unsigned long long>(r.hash), r.bytes, r.build_us, r.found);
   return line;
 }
 
@@ -269,7 +307,13 @@ nlohmann::json json(const Row& r) {
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(r.hash));
   return {{"scene", r.scene}, {"question", r.question}, {"series", r.series}, {"allowed", r.allowed}, {"poses", r.poses},
           {"us", r.us},       {"error", r.error},       {"wrong", r.wrong},   {"failed", r.failed},   {"hash", hash},
-          {"bytes", r.bytes}, {"build_us", r.build_us}};
+          {"bytes", r.bytes}, {"build_us", r.build_us}, {"found", r.found}};
+}
+
+swiftlet::MeshModel hulls_of(const swiftlet::Mesh& mesh) {
+  swiftlet::Result<swiftlet::MeshModel> model = swiftlet::build_mesh(mesh);
+  if (!model) throw std::runtime_error(model.error().message);
+  return std::move(model).value();
 }
 
 }  // namespace
@@ -291,7 +335,8 @@ int main(int argc, char** argv) try {
   if (quick) poses = 24;
 
   Rig rig;
-  rig.methods.push_back(swiftlet_method());
+  rig.methods.push_back(swiftlet_method("swiftlet", "build_mesh, proved, from the last pose's seed", hulls_of));
+  rig.methods.push_back(swiftlet_method("swiftlet boxes", "the same without hulls, from_triangles", boxes_of));
 #ifdef SWIFTLET_PEER_FCL
   add_fcl(rig.methods);
 #endif
@@ -300,7 +345,7 @@ int main(int argc, char** argv) try {
 #endif
   rig.methods.push_back(cgal_method());
   if (!as_json)
-    for (const auto& method : rig.methods) std::printf("%-10s %s\n", method->name().c_str(), method->settings().c_str());
+    for (const auto& method : rig.methods) std::printf("%-14s %s\n", method->name().c_str(), method->settings().c_str());
 
   std::ofstream out;
   if (!file.empty()) out = std::ofstream(file), out << kHeader;
@@ -329,7 +374,7 @@ int main(int argc, char** argv) try {
   }
   for (const auto& rows : all)
     for (const Row& row : rows)
-      if (row.series == "swiftlet" && row.flagged()) return 1;
+      if (is_ours(row.series) && row.flagged()) return 1;
 } catch (const std::exception& failure) {
   std::fprintf(stderr, "%s\n", failure.what());
   return 1;

@@ -13,20 +13,27 @@
 #include <swiftlet/build.h>
 #include <swiftlet/pose.h>
 
+namespace swiftlet {
+class MeshModel;
+}
+
 namespace swiftlet::bench::mesh {
 
-enum class Kind { Intersects, Within, Distance };
+enum class Kind { Intersects, Within, Distance, Contacts, Manifolds, SignedDistance };
+inline constexpr std::size_t kKinds = 6;
 
 /// One question about a pair in one pose.
 struct Question {
   Kind kind = Kind::Distance;
-  double threshold = 0;  ///< of Within, in units
+  double threshold = 0;  ///< in units: of Within, and the reach of Contacts and Manifolds
   double relative = 0;   ///< of Distance: the error that is allowed, as a fraction of the distance
 };
 
 struct Reply {
   bool yes = false;                         ///< of Intersects and Within
-  double distance = 0;                      ///< of Distance
+  double distance = 0;                      ///< of Distance; of SignedDistance the lower bound
+  double upper = 0;                         ///< of SignedDistance the upper bound
+  std::size_t count = 0;                    ///< of Contacts regions or pairs of triangles, of Manifolds points
   bool failed = false;                      ///< the method says itself that it has no answer
   std::uint32_t opened = 0, looked_at = 0;  ///< pairs of nodes and of triangles, where the method tells
 };
@@ -51,7 +58,10 @@ class Method {
 };
 
 using Methods = std::vector<std::unique_ptr<Method>>;
-std::unique_ptr<Method> swiftlet_method();
+using MakeModel = MeshModel (*)(const Mesh&);
+MeshModel boxes_of(const Mesh& mesh);  ///< ours without hulls
+std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, MakeModel make);
+std::unique_ptr<Session> swiftlet_session(MeshModel a, MeshModel b);
 void add_fcl(Methods& methods);         ///< where it is installed
 void add_fcl_native(Methods& methods);  ///< and can be compiled for this machine alone
 std::unique_ptr<Method> cgal_method();

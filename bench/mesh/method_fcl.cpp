@@ -79,6 +79,7 @@ class FclSession : public Session {
   Reply ask(const Question& question, const Pose& b_in_a) final {
     const fcl::Transform3d pose = transform_of(b_in_a);
     if (question.kind == Kind::Intersects) return {.yes = intersects(pose)};
+    if (question.kind == Kind::Contacts) return {.count = contacts(pose)};
     if (question.kind == Kind::Distance) return {.distance = std::max(0., distance(question, pose))};
     return {.yes = distance(question, pose) < question.threshold};
   }
@@ -86,6 +87,9 @@ class FclSession : public Session {
  protected:
   inline static const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
   virtual bool intersects(const fcl::Transform3d& pose) = 0;
+  /// How many contacts it makes of all pairs of triangles that cross.
+  virtual std::size_t contacts(const fcl::Transform3d& pose) = 0;
+  static fcl::CollisionRequestd all_contacts() { return fcl::CollisionRequestd(std::size_t(1) << 24, true); }
   /// Of Within any distance on the same side of the threshold.
   virtual double distance(const Question& question, const fcl::Transform3d& pose) = 0;
 
@@ -101,6 +105,10 @@ class PublicSession final : public FclSession {
   bool intersects(const fcl::Transform3d& pose) override {
     fcl::CollisionResultd result;
     return fcl::collide<double>(&a_, kIdentity, &b_, pose, fcl::CollisionRequestd(1, false), result) > 0;
+  }
+  std::size_t contacts(const fcl::Transform3d& pose) override {
+    fcl::CollisionResultd result;
+    return fcl::collide<double>(&a_, kIdentity, &b_, pose, all_contacts(), result);
   }
   double distance(const Question& question, const fcl::Transform3d& pose) override {
     fcl::DistanceResultd result;
@@ -137,6 +145,13 @@ class NodeSession final : public FclSession {
     fcl::detail::collide<double>(&node);
     return result.isCollision();
   }
+  std::size_t contacts(const fcl::Transform3d& pose) override {
+    fcl::CollisionResultd result;
+    fcl::detail::MeshCollisionTraversalNodeOBBRSSd node;
+    fcl::detail::initialize(node, a_, kIdentity, b_, pose, all_contacts(), result);
+    fcl::detail::collide<double>(&node);
+    return result.numContacts();
+  }
   double distance(const Question& question, const fcl::Transform3d& pose) override {
     fcl::DistanceResultd result;
     Node node;
@@ -160,7 +175,10 @@ class FclMethod final : public Method {
   FclMethod(const char* name, const char* settings) : name_(name), settings_(settings) {}
   std::string name() const override { return name_; }
   std::string settings() const override { return kBuild + settings_; }
-  bool can(const Question&) const override { return true; }
+  /// Its contacts are those of triangles that cross: it has no reach, no region and no depth of meshes.
+  bool can(const Question& question) const override {
+    return question.kind <= Kind::Distance || (question.kind == Kind::Contacts && question.threshold == 0);
+  }
   std::unique_ptr<Session> open(const Mesh& a, const Mesh& b) const override { return std::make_unique<Of>(a, b); }
 
  private:

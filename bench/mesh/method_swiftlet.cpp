@@ -4,7 +4,10 @@
 #include <array>
 #include <chrono>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
+#include <swiftlet/mesh_contacts.h>
 #include <swiftlet/mesh_query.h>
 
 #include "method.h"
@@ -12,15 +15,9 @@
 namespace swiftlet::bench::mesh {
 namespace {
 
-MeshModel model_of(const Mesh& mesh) {
-  Result<MeshModel> model = MeshModel::from_triangles(mesh.points, mesh.triangles);
-  if (!model) throw std::runtime_error(model.error().message);
-  return std::move(model).value();
-}
-
 class OurSession final : public Session {
  public:
-  OurSession(const Mesh& a, const Mesh& b) : OurSession(a, b, std::chrono::steady_clock::now()) {}
+  OurSession(MeshModel a, MeshModel b) : a_(std::move(a)), b_(std::move(b)) { bytes = a_.bytes().size() + b_.bytes().size(); }
 
   Reply ask(const Question& question, const Pose& b_in_a) override {
     MeshSeed& seed = seeds_[std::size_t(question.kind)];
@@ -46,30 +43,80 @@ class OurSession final : public Session {
                 .opened = answer.steps,
                 .looked_at = answer.plane_tests};
       }
+      case Kind::Contacts: {
+        const MeshContacts found = contacts(a_, b_, b_in_a, question.threshold, regions_);
+        return {.count = found.count,
+                .failed = found.status != Status::Converged,
+                .opened = found.steps,
+                .looked_at = found.plane_tests};
+      }
+      case Kind::Manifolds: {
+        const MeshContacts found = contacts(a_, b_, b_in_a, question.threshold, regions_);
+        std::size_t points = 0;
+        for (std::uint32_t i = 0; i < found.stored; ++i) {
+          points += std::size_t(manifold(a_, b_, b_in_a, regions_[i], {.margin = question.threshold}).count);
+        }
+        return {.count = points,
+                .failed = found.status != Status::Converged,
+                .opened = found.steps,
+                .looked_at = found.plane_tests};
+      }
+      case Kind::SignedDistance: {
+        const Answer answer = signed_distance(body(a_), body(b_), b_in_a, seed);
+        return {.distance = answer.lower,
+                .upper = answer.upper,
+                .failed = answer.status != Status::Converged && answer.status != Status::NotConverged,
+                .opened = answer.steps,
+                .looked_at = answer.plane_tests};
+      }
     }
     return {.failed = true};
   }
 
  private:
-  OurSession(const Mesh& a, const Mesh& b, std::chrono::steady_clock::time_point begin) : a_(model_of(a)), b_(model_of(b)) {
-    build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    bytes = a_.bytes().size() + b_.bytes().size();
-  }
+  /// A closed mesh is the solid that it bounds: else a depth is one of triangles.
+  static MeshBody body(const MeshModel& mesh) { return mesh.topology().closed() ? MeshBody::solid(mesh) : MeshBody(mesh); }
 
   MeshModel a_, b_;
-  std::array<MeshSeed, 3> seeds_;
+  std::array<MeshSeed, kKinds> seeds_;
+  std::vector<MeshContact> regions_ = std::vector<MeshContact>(1024);
 };
 
 class OurMethod final : public Method {
  public:
-  std::string name() const override { return "swiftlet"; }
-  std::string settings() const override { return "proved, from the last pose's seed"; }
+  OurMethod(std::string name, std::string settings, MakeModel make)
+      : name_(std::move(name)), settings_(std::move(settings)), make_(make) {}
+  std::string name() const override { return name_; }
+  std::string settings() const override { return settings_; }
   bool can(const Question&) const override { return true; }
-  std::unique_ptr<Session> open(const Mesh& a, const Mesh& b) const override { return std::make_unique<OurSession>(a, b); }
+  std::unique_ptr<Session> open(const Mesh& a, const Mesh& b) const override {
+    const auto begin = std::chrono::steady_clock::now();
+    MeshModel model_a = make_(a), model_b = make_(b);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    auto session = std::make_unique<OurSession>(std::move(model_a), std::move(model_b));
+    session->build_seconds = taken.count();
+    return session;
+  }
+
+ private:
+  std::string name_, settings_;
+  MakeModel make_;
 };
 
 }  // namespace
 
-std::unique_ptr<Method> swiftlet_method() { return std::make_unique<OurMethod>(); }
+MeshModel boxes_of(const Mesh& mesh) {
+  Result<MeshModel> model = MeshModel::from_triangles(mesh.points, mesh.triangles);
+  if (!model) throw std::runtime_error(model.error().message);
+  return std::move(model).value();
+}
+
+std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, MakeModel make) {
+  return std::make_unique<OurMethod>(std::move(name), std::move(settings), make);
+}
+
+std::unique_ptr<Session> swiftlet_session(MeshModel a, MeshModel b) {
+  return std::make_unique<OurSession>(std::move(a), std::move(b));
+}
 
 }  // namespace swiftlet::bench::mesh

@@ -3,7 +3,6 @@
 #include "scenes.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -13,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "bodies.h"
+#include "method.h"
 #include "random.h"
 
 namespace swiftlet::bench::mesh {
@@ -28,18 +28,10 @@ double radius(const MeshModel& m) {
   return std::sqrt(r2);
 }
 
-MeshModel model_of(const Mesh& mesh) {
-  Result<MeshModel> model = MeshModel::from_triangles(mesh.points, mesh.triangles);
-  if (!model) throw std::runtime_error(model.error().message);
-  return std::move(model).value();
-}
-
 Scene pair(const Mesh& a, const Mesh& b) {
-  const auto begin = std::chrono::steady_clock::now();
-  MeshModel model_a = model_of(a), model_b = model_of(b);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  MeshModel model_a = boxes_of(a), model_b = boxes_of(b);
   const double r = std::max(radius(model_a), radius(model_b));
-  return {{}, a, b, std::move(model_a), std::move(model_b), seconds.count(), r, {}};
+  return {{}, a, b, std::move(model_a), std::move(model_b), r, {}, {}};
 }
 
 /// A turn as a unit quaternion; sums, products and square roots only.
@@ -70,8 +62,8 @@ Pose posed(const Scene& s, const Turn& turn, const Vec3& at) {
 constexpr double kDegree = std::numbers::pi / 180;
 
 /// B comes from outside along a direction until the gap is as wanted; direction and B turn by one degree a query. Where the
-/// last bit of the way leads past a ledge, the gap stays a little wider.
-void add_approach(Scene& s, std::size_t count, double least, double most, std::uint64_t seed) {
+/// last bit of the way leads past a ledge, the gap stays a little wider. From there it goes on by up to `deepest` r.
+void add_approach(Scene& s, std::size_t count, double least, double most, std::uint64_t seed, double deepest = 0) {
   Random random(seed);
   Turn turn, sky;
   turn = turn.then(random.on_sphere(), 2);
@@ -89,6 +81,7 @@ void add_approach(Scene& s, std::size_t count, double least, double most, std::u
       if (here <= 1.01 * gap) break;
       away -= here - gap;
     }
+    if (deepest > 0) away -= random.uniform(deepest / 5, deepest) * s.radius;
     s.poses.push_back(posed(s, turn, direction * (std::round(away / s.radius * 0x1p30) * 0x1p-30 * s.radius)));
   }
 }
@@ -158,14 +151,16 @@ void add_opening(Scene& s, std::size_t count) {
   }
 }
 
-constexpr double kNearLeast = 0.0005, kNearMost = 0.002, kFarLeast = 0.5, kFarMost = 1.5;
-enum Motion { Near, Far, Any };
+constexpr double kNearLeast = 0.0005, kNearMost = 0.002, kFarLeast = 0.5, kFarMost = 1.5, kDeepest = 0.05;
+enum Motion { Near, Far, Any, Pressed };
 
 void add(Scene& s, Motion motion, std::size_t count) {
   constexpr std::uint64_t kSeed = 22;
   if (motion == Near) add_approach(s, count, kNearLeast, kNearMost, kSeed);
   if (motion == Far) add_approach(s, count, kFarLeast, kFarMost, kSeed);
   if (motion == Any) add_random(s, count, kSeed);
+  if (motion == Pressed) add_approach(s, count, kNearLeast, kNearMost, kSeed, kDeepest);
+  s.stance = motion == Near ? Stance::Near : motion == Pressed ? Stance::Pressed : Stance::Any;
 }
 
 struct Maker {
@@ -209,7 +204,7 @@ std::vector<Maker> makers() {
   });
   const auto of_motions = [&](const std::string& name, std::initializer_list<Motion> motions, auto make) {
     for (const Motion motion : motions) {
-      constexpr const char* kNames[] = {"near", "far", "random"};
+      constexpr const char* kNames[] = {"near", "far", "random", "pressed"};
       all.push_back({name + "-" + kNames[motion],
                      [make, motion](const std::filesystem::path& meshes, std::size_t count) -> std::optional<Scene> {
                        std::optional<Scene> s = make(meshes);
@@ -226,16 +221,16 @@ std::vector<Maker> makers() {
       return pair(mesh_a.value(), mesh_b.value());
     };
   };
-  of_motions("elephant", {Near, Far, Any}, of_files("elephant.off", "elephant.off"));
-  of_motions("bunny", {Near, Far, Any}, of_files("bunny.off", "bunny.off"));
-  of_motions("torus400", {Near, Any}, [](const std::filesystem::path&) -> std::optional<Scene> {
+  of_motions("elephant", {Near, Far, Any, Pressed}, of_files("elephant.off", "elephant.off"));
+  of_motions("bunny", {Near, Far, Any, Pressed}, of_files("bunny.off", "bunny.off"));
+  of_motions("torus400", {Near, Any, Pressed}, [](const std::filesystem::path&) -> std::optional<Scene> {
     const Mesh mesh = torus({.around = 20, .across = 10});
     return pair(mesh, mesh);
   });
-  of_motions("comb-frame", {Near, Any},
+  of_motions("comb-frame", {Near, Any, Pressed},
              [](const std::filesystem::path&) -> std::optional<Scene> { return pair(comb(), frame()); });
-  of_motions("fetch", {Near, Any}, of_files("fetch_base.stl", "fetch_gripper.stl"));
-  of_motions("ur10", {Near, Any}, of_files("ur10_forearm.obj", "ur10_wrist2.obj"));
+  of_motions("fetch", {Near, Any, Pressed}, of_files("fetch_base.stl", "fetch_gripper.stl"));
+  of_motions("ur10", {Near, Any, Pressed}, of_files("ur10_forearm.obj", "ur10_wrist2.obj"));
   return all;
 }
 

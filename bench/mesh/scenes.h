@@ -15,13 +15,16 @@
 
 namespace swiftlet::bench::mesh {
 
+/// How the bodies of a scene are to each other.
+enum class Stance { Any, Near, Pressed };
+
 struct Scene {
   std::string name;
   Mesh a, b;
-  MeshModel model_a, model_b;  ///< ours, of these
-  double build_seconds = 0;    ///< to make them
+  MeshModel model_a, model_b;  ///< ours, of these, without hulls
   double radius = 0;           ///< the larger of their radii, each about the middle of its box
-  std::vector<Pose> poses;     ///< of B in A, in the order in which they are asked about
+  Stance stance = Stance::Any;
+  std::vector<Pose> poses;  ///< of B in A, in the order in which they are asked about
 };
 
 std::vector<std::string> scene_names();
