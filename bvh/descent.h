@@ -167,14 +167,18 @@ class Descent {
   }
 
   /// Asks for the distance of the hulls of two nodes, whose boxes are apart, and tries the triangles at their nearest points.
-  /// True if nothing else in the nodes matters.
+  /// True if nothing else in the nodes matters. Where the roots' hulls were not found apart few of those below are asked:
+  /// of bodies that interlock they part little that boxes do not part as soon.
   [[gnu::noinline]] bool part_by_hulls(const PairEntry& entry) {
+    const bool of_roots = entry.a == 0 && entry.b == 0;
+    if (!of_roots && !roots_apart_ && few_left_-- <= 0) return false;
     PairSeed cold;
-    PairSeed& seed = entry.a == 0 && entry.b == 0 ? seed_.pair : cold;
+    PairSeed& seed = of_roots ? seed_.pair : cold;
     Options options;
     options.beyond = limit_;
     const Answer answer = distance(a_.hull(entry.a), b_.hull(entry.b), pose_, seed, options);
     if (!(answer.lower > 0)) return false;
+    roots_apart_ = roots_apart_ || of_roots;
     if (answer.lower >= limit_) return true;
     const bool on_hulls = answer.feature_a.kind() != FeatureKind::None && answer.feature_b.kind() != FeatureKind::None;
     if (on_hulls && answer.level_a == 0 && answer.level_b == 0) {
@@ -326,6 +330,8 @@ class Descent {
   double limit_over_unit_ = 0, limit_ahead_ = 0;  ///< for `gap_ahead`
   float limit_of_boxes_ = 0;                      ///< the same, rounded up
   bool done_ = false;
+  int few_left_ = 4;          ///< pairs of hulls that are asked though those of the roots are not known to be apart
+  bool roots_apart_ = false;  ///< their hulls are
   int top_ = 0;
   PairEntry stack_[kMostEntries];
 };
