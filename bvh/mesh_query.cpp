@@ -159,7 +159,7 @@ ConvexLeaf::ConvexLeaf(const Body& of) : body(without_radius(of)) {
   if (!is_legal) return;
   const ConvexView& view = (*shape).level(0).view;
   extent = view.extent, unit = unit_of(extent);
-  point = view.vertices.empty() ? vec(view.centre) : vec(view.vertices[0]);
+  point = view.vertices.empty() ? vec(body.model()->centre()) : vec(view.vertices[0]);
   const Model* const model = body.model();
   const Box box = model ? Box{vec(model->box_min()), vec(model->box_max())} : box_of(view.vertices);
   node.link = Node::link_of(0, 1, true);

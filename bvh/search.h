@@ -22,7 +22,7 @@ struct ConvexLeaf {
   bool is_legal;
   double extent = 0;
   int unit = 0;
-  Vec point;  ///< of the body; of a model without its level 0 any that its levels know
+  Vec point;  ///< of the body
   Node node{};
 };
 

@@ -45,6 +45,7 @@ class Visit {
     if (!guest_.content) {
       const ShapeOf shape(guest_.convex->body);
       const std::span<const Vertex> vertices = (*shape).level(0).view.vertices;
+      if (vertices.empty()) return deep(guest_.convex->point, {});  // of a model without level 0
       Vec sum{0, 0, 0};
       for (const Vertex& v : vertices) sum = sum + vec(v) * (1 / double(vertices.size()));
       return deep(sum, {}) ||
@@ -137,6 +138,10 @@ void look_inside(const MeshView& a, const MeshView& b, const Pose& b_in_a, const
   for (const bool solid_is_b : {false, true}) {
     const MeshView &solid = solid_is_b ? b : a, &guest = solid_is_b ? a : b;
     if (!solid.solid || too_far_apart(solid, finding.lower)) continue;
+    if (guest.content && guest.triangle_count == 0) {  // nothing tells where its components are
+      finding.lower = 0;
+      continue;
+    }
     Visit visit(solid, guest, b_in_a, solid_is_b, question, finding);
     if (finding.lower > 0 ? visit.of_components() : visit.of_some_points()) return;
   }

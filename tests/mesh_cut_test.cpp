@@ -149,6 +149,22 @@ TEST(Cut, HasNoFeaturesContactsOrVolume) {
   EXPECT_EQ(met.status, Status::LevelLimit);
 }
 
+/// Where a mesh that was cut lies in a solid, nothing tells that it does: the interval begins at 0.
+TEST(Cut, InsideOfASolidIsNotApart) {
+  const MeshModel outer = scaled(ball(3), 10).mesh(), cut = cut_after(ball(3).mesh(), 1);
+  for (const double x : {0.0, 3.0, 9.0, 9.99}) {
+    const Pose pose{Mat3::Identity(), Vec3(x, 0.1, 0)};
+    for (const Answer& answer : {distance(MeshBody::solid(outer), cut, pose), intersects(MeshBody::solid(outer), cut, pose),
+                                 distance(cut, MeshBody::solid(outer), inverse(pose))}) {
+      EXPECT_EQ(answer.lower, 0) << x;
+      EXPECT_EQ(answer.verdict, Verdict::Undecided) << x;
+      EXPECT_EQ(answer.status, Status::LevelLimit) << x;
+    }
+    EXPECT_NE(within(MeshBody::solid(outer), cut, pose, 0.5).decision, Decision::No);
+  }
+  EXPECT_EQ(distance(MeshBody::solid(outer), cut, {Mat3::Identity(), Vec3(30, 0, 0)}).verdict, Verdict::Disjoint);
+}
+
 TEST(Cut, ScalesBitForBit) {
   Random random(43);
   for (int i = 0; i < 100; ++i) {

@@ -17,6 +17,7 @@
 #include "fuzz.h"
 #include "judge.h"
 #include "mesh_blocks.h"
+#include "mesh_regions.h"
 #include "soups.h"
 
 namespace swiftlet::fuzz {
