@@ -28,8 +28,8 @@ int run(const Model& cup, const swiftlet::MeshModel& bowl) {
   swiftlet::Scene scene;
   (void)scene.add("table", Body::box({-1, -1, -0.05}, {1, 1, 0}), Pose{});  // a name that is taken gives BodyId{}
   (void)scene.add("ball", Body::point({0, 0, 0}, 0.06), at(0.25, 0, 0.075));
-  const swiftlet::BodyId id =
-      scene.add("cup", cup, at(0, 0, 0.101));           // keeps its own copy of the model, which shares the block
+  // A scene keeps its own copy of a model, which shares the block.
+  const swiftlet::BodyId id = scene.add("cup", cup, at(0, 0, 0.101));
   (void)scene.add("bowl", bowl, at(-0.5, 0.5, 0.015));  // a MeshModel; with a radius, a MeshBody
 
   for (const swiftlet::ScenePair& pair : scene.within(0.02))
