@@ -11,8 +11,8 @@
 
 namespace swiftlet {
 
-/// Which nodes of a mesh get hulls. Of a node that has one, only its hull is asked how far it is from another one's, where
-/// boxes are apart: worth most where surfaces are nearly convex, or far apart.
+/// Which nodes of a mesh get hulls. Where the boxes of two nodes with hulls are apart, a query asks how far the hulls are,
+/// which is worth most where surfaces are nearly convex or far apart.
 struct HullOptions {
   std::uint32_t levels = 4;            ///< levels of nodes, from the root on, that may have hulls: 1 to 16
   std::uint32_t least_triangles = 64;  ///< below the root no node of fewer triangles has a hull
@@ -28,8 +28,8 @@ struct HullOptions {
 /// option out of its range.
 Result<MeshModel> build_mesh(const Mesh& mesh, const HullOptions& options = {});
 
-/// Returns the mesh with new hulls, for example after `refit`. Errors: BadValue for an option out of its range, and
-/// Cancelled.
+/// Returns the mesh with new hulls, for example after `refit`. Errors: BadValue for an option out of its range or a mesh that
+/// was cut, and Cancelled.
 Result<MeshModel> rebuild_hulls(const MeshModel& mesh, const HullOptions& options = {});
 
 }  // namespace swiftlet
