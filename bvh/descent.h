@@ -81,12 +81,7 @@ class Descent {
   /// The seventh axis before any pair is measured: the seed's, or else from the middle of A to that of B.
   void look_ahead() {
     Vec n{double(seed_.direction[0]), double(seed_.direction[1]), double(seed_.direction[2])};
-    if (!has_range(dot(n, n))) {
-      const auto middle = [](const MeshView& of, double unit) {
-        return Vec{of.nodes->origin[0], of.nodes->origin[1], of.nodes->origin[2]} * unit;
-      };
-      n = apply(frame_.b_in_a, middle(b_, frame_.unit_b)) - middle(a_, frame_.unit_a);
-    }
+    if (!has_range(dot(n, n))) n = apply(motion_, b_.middle) - a_.middle;
     look(normalised(n));
   }
   void look(const Vec& n) {

@@ -23,32 +23,32 @@ void over_pairs(std::span<const MeshPairQuery> pairs, std::span<AnyAnswer> answe
 
 // Each query of one pair, as a function of what differs within a batch.
 auto asking_distance(const Options& options) {
-  return [&options](const MeshBody& a, const MeshBody& b, const Pose& pose, MeshSeed& seed) {
+  return [options = alone(options)](const MeshBody& a, const MeshBody& b, const Pose& pose, MeshSeed& seed) {
     return distance(a, b, pose, seed, options);
   };
 }
 auto asking_intersects(const Effort& effort) {
-  return [&effort](const MeshBody& a, const MeshBody& b, const Pose& pose, MeshSeed& seed) {
+  return [effort = alone(effort)](const MeshBody& a, const MeshBody& b, const Pose& pose, MeshSeed& seed) {
     return intersects(a, b, pose, seed, effort);
   };
 }
 auto asking_within(double threshold, const Effort& effort) {
-  return [threshold, &effort](const MeshBody& a, const MeshBody& b, const Pose& pose, MeshSeed& seed) {
+  return [threshold, effort = alone(effort)](const MeshBody& a, const MeshBody& b, const Pose& pose, MeshSeed& seed) {
     return within(a, b, pose, threshold, seed, effort);
   };
 }
 auto asking_signed_distance(const Options& options) {
-  return [&options](const MeshBody& a, const MeshBody& b, const Pose& pose, MeshSeed& seed) {
+  return [options = alone(options)](const MeshBody& a, const MeshBody& b, const Pose& pose, MeshSeed& seed) {
     return signed_distance(a, b, pose, seed, options);
   };
 }
 auto asking_signed_within(double threshold, const Effort& effort) {
-  return [threshold, &effort](const MeshBody& a, const MeshBody& b, const Pose& pose, MeshSeed& seed) {
+  return [threshold, effort = alone(effort)](const MeshBody& a, const MeshBody& b, const Pose& pose, MeshSeed& seed) {
     return signed_within(a, b, pose, threshold, seed, effort);
   };
 }
 auto asking_closest(const ClosestOptions& options) {
-  return [&options](const MeshBody& a, const MeshBody& b, const Pose& pose, MeshSeed& seed) {
+  return [options = alone(options)](const MeshBody& a, const MeshBody& b, const Pose& pose, MeshSeed& seed) {
     return closest_features(a, b, pose, seed, options);
   };
 }

@@ -318,6 +318,7 @@ Result<MeshModel> MeshReader::read(Block block) {
   c.source_vertex = section_of<std::uint32_t>(block, h.source_vertex);
   c.block = std::move(block);
   if (const std::string f = fault(h, c.nodes); !f.empty()) return bad("it has " + f);
+  c.middle = middle_of(c.nodes[0], h.unit), c.reach = reach_of(c.nodes[0], h.unit);
   if (const std::string f = read_hulls(h, c.block, c); !f.empty()) return bad("it has " + f);
   for (const std::uint32_t t : c.shells) {
     if (t >= h.triangle_count) return bad("a shell has a triangle that does not exist");

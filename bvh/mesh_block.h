@@ -63,6 +63,8 @@ struct MeshModel::Content {
   MeshHeader header;
   MeshTopology topology;
   double extent;
+  Vec middle;    ///< of the root's box
+  double reach;  ///< from there to its corners, but for rounding
   std::span<const Node> nodes;
   std::vector<NodeHull> hulls;            ///< sorted by node
   std::vector<std::uint32_t> hull_of;     ///< per node, up to the last that has one, its place in `hulls`, or kNone

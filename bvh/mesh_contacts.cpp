@@ -4,6 +4,7 @@
 #include <swiftlet/mesh_contacts.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "region_search.h"
 
@@ -46,8 +47,12 @@ MeshContacts contacts(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, 
     result.status = Status::LevelLimit;
     return result;
   }
+  if (std::isnan(reach)) {
+    result.status = Status::NotConverged;
+    return result;
+  }
   result.is_counted = true;
-  if (!(reach >= 0)) return result;
+  if (reach < 0) return result;
 
   RegionQuestion question{reach, budget.steps};
   if (!at.radii.none()) question.reach = next_above(reach + at.radii.sum());

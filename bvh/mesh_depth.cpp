@@ -165,11 +165,7 @@ class Depth {
     return cross(of.vertices[c[1]] - of.vertices[c[0]], of.vertices[c[2]] - of.vertices[c[0]]);
   }
   /// Of the root's box, in A's frame.
-  Vec middle(const MeshView& of, bool is_b) const {
-    const double unit = power_of_two(of.unit);
-    const Vec own{of.nodes->origin[0] * unit, of.nodes->origin[1] * unit, of.nodes->origin[2] * unit};
-    return is_b ? apply(at_.motion, own) : own;
-  }
+  Vec middle(const MeshView& of, bool is_b) const { return is_b ? apply(at_.motion, of.middle) : of.middle; }
   /// The middle of what both bodies' boxes along A's axes have in common, if they have.
   Vec common_middle() const {
     double x[3];

@@ -41,21 +41,21 @@ double reach_along(const MeshView& of, const Vec& n) {
   return along(root.axis[0]) * root.extent[0] + along(root.axis[1]) * root.extent[1] + along(third) * root.extent[2];
 }
 
-/// A lower bound on the distance, or a number that is not above 0: the gap of both roots' boxes along the line of their
-/// middles. `kBoxSlack` of all lengths is far above what rounding in doubles adds.
-double gap_of_roots(const MeshSetting& at) {
-  const auto middle = [](const MeshView& of) {
-    const double unit = power_of_two(of.unit);
-    return Vec{of.nodes->origin[0] * unit, of.nodes->origin[1] * unit, of.nodes->origin[2] * unit};
-  };
-  const Vec way = apply(at.motion, middle(at.b)) - middle(at.a);
+/// A lower bound on the distance, or a number that is not above 0: the gap of the balls around both roots' boxes or, if it is
+/// not above `enough`, that of the boxes along the line of their middles. `kBoxSlack` of all lengths is far above what rounding
+/// in doubles adds.
+double gap_of_roots(const MeshSetting& at, double enough) {
+  const Vec way = apply(at.motion, at.b.middle) - at.a.middle;
   const double square = dot(way, way);
   if (!has_range(square)) return 0;
   const double length = std::sqrt(square);
+  const auto gap = [&](double reach_a, double reach_b) {
+    return length - reach_a - reach_b - kBoxSlack * (length + at.size + 2 * (reach_a + reach_b));
+  };
+  if (const double of_balls = gap(at.a.reach, at.b.reach); of_balls > enough) return of_balls;
   const Vec n = way * (1 / length);
-  const double reach_a = reach_along(at.a, n) * power_of_two(at.a.unit),
-               reach_b = reach_along(at.b, rotate_back(at.motion, n)) * power_of_two(at.b.unit);
-  return length - reach_a - reach_b - kBoxSlack * (length + at.size + 2 * (reach_a + reach_b));
+  return gap(reach_along(at.a, n) * power_of_two(at.a.unit),
+             reach_along(at.b, rotate_back(at.motion, n)) * power_of_two(at.b.unit));
 }
 
 Status status_of(const MeshFinding& found, const StopRule& stop, double law_two, bool whole) {
@@ -96,19 +96,20 @@ void ask(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& see
   // With radii thresholds are passed by more than rounding may take back.
   const StopRule stop = at.radii.of_hulls(asked, at.law_two).beyond_by(at.radii.none() ? 0 : at.law_two);
   MeshFinding found;
-  if (const double gap = stop.is_threshold() ? gap_of_roots(at) : 0; gap > 0 && gap > stop.above) {
+  if (const double gap = stop.is_threshold() ? gap_of_roots(at, max(stop.above, 0)) : 0; gap > 0 && gap > stop.above) {
     found.lower = gap;
   } else {
     look(at, b_in_a, stop, budget.steps, seed, found);
   }
-  if (found.verdict != Verdict::Overlapping && !found.refused && !(found.upper < stop.below))
+  const bool any_solid = at.a.solid || at.b.solid;
+  if (any_solid && found.verdict != Verdict::Overlapping && !found.refused && !(found.upper < stop.below))
     look_inside(at.a, at.b, b_in_a, {stop, at.law_two, at.size, budget.steps}, found);
   answer.steps = found.nodes, answer.plane_tests = found.triangles;
   if (found.refused) {
     answer.status = Status::InvalidBody;
     return;
   }
-  answer.status = status_of(found, stop, at.law_two, at.a.triangle_count > 0 && at.b.triangle_count > 0);
+  answer.status = status_of(found, stop, at.law_two, at.a.is_whole() && at.b.is_whole());
   describe(at, found, answer);
 }
 
@@ -176,7 +177,8 @@ MeshView::MeshView(const MeshBody& body) {
     content = &MeshReader::content(*mesh);
     nodes = content->nodes.data(), triangles = content->triangles.data(), vertices = content->vertices.data();
     node_count = std::uint32_t(content->nodes.size()), triangle_count = std::uint32_t(content->triangles.size());
-    unit = content->header.unit, extent = content->extent, solid = body.is_solid();
+    unit = content->header.unit, extent = content->extent, middle = content->middle, reach = content->reach;
+    solid = body.is_solid();
     is_legal = !solid || (content->topology.closed() && content->is_whole());
     return;
   }
@@ -184,6 +186,7 @@ MeshView::MeshView(const MeshBody& body) {
   const ConvexLeaf& leaf = convex.emplace(body.convex());
   nodes = &leaf.node, triangles = nullptr, vertices = nullptr, node_count = triangle_count = 1;
   unit = leaf.unit, extent = leaf.extent, is_legal = leaf.is_legal;
+  middle = middle_of(leaf.node, unit), reach = reach_of(leaf.node, unit);
 }
 
 std::uint32_t MeshView::triangle_at(std::uint32_t node, FeatureId feature) const {

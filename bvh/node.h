@@ -45,4 +45,12 @@ static inline void third_axis(const float (&axis)[2][3], float (&third)[3]) {
 /// The exponent of the unit of a body of this extent. A body that is one point at its origin has the smallest unit there is.
 static inline int unit_of(double extent) { return exponent_of(max(extent, kLeastExtent)) + 1; }
 
+/// The middle of the box around all children, and how far its corners are from there, over a unit of 2^-unit.
+static inline Vec middle_of(const Node& node, int unit) {
+  return scaled({node.origin[0], node.origin[1], node.origin[2]}, unit);
+}
+static inline double reach_of(const Node& node, int unit) {
+  return times_power_of_two(norm(Vec{node.extent[0], node.extent[1], node.extent[2]}), unit);
+}
+
 }  // namespace swiftlet

@@ -38,6 +38,11 @@ struct MeshView {
   /// A triangle that is likely to hold the point of a feature on level 0 of a node's hull, or kNone.
   std::uint32_t triangle_at(std::uint32_t node, FeatureId feature) const;
 
+  /// False if the finest detail of the body is missing.
+  bool is_whole() const {
+    return triangle_count > 0 && !(convex && convex->body.model() && convex->body.model()->finest_level() > 0);
+  }
+
   const MeshReader::Content* content;  ///< null for a convex body
   /// True if no node is below the children of a node: these are triangles or, of a mesh that was cut, boxes.
   bool ends(const Node& node) const { return node.lowest() || node.first() >= node_count; }
@@ -49,6 +54,8 @@ struct MeshView {
   std::uint32_t triangle_count;  ///< 0 of a mesh that was cut; of a convex body 1
   int unit;
   double extent;
+  Vec middle;    ///< of the root's box
+  double reach;  ///< of the ball around it that holds the box, but for rounding
   bool is_legal;
   bool solid;  ///< the volume that the mesh encloses belongs to it
   std::optional<ConvexLeaf> convex;

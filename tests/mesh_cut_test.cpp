@@ -165,6 +165,46 @@ TEST(Cut, InsideOfASolidIsNotApart) {
   EXPECT_EQ(distance(MeshBody::solid(outer), cut, {Mat3::Identity(), Vec3(30, 0, 0)}).verdict, Verdict::Disjoint);
 }
 
+/// A hull with one coarse level, both from eight corners: the coarse one twice as large.
+Model without_its_exact_level() {
+  std::array<std::vector<Vec3>, 2> corners;
+  for (const int k : {0, 1}) {
+    for (int i = 0; i < 8; ++i) corners[std::size_t(k)].push_back((k + 1) * Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+  }
+  constexpr std::array<std::uint32_t, 24> kSides{0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+  constexpr std::array<std::uint32_t, 6> kSizes{4, 4, 4, 4, 4, 4};
+  std::array<LevelArrays, 2> levels;
+  for (const std::size_t k : {0u, 1u}) {
+    levels[k].vertices = corners[k];
+    levels[k].face_vertices = kSides;
+    levels[k].face_sizes = kSizes;
+  }
+  const Result<Model> model = Model::from_levels(levels);
+  EXPECT_TRUE(model) << model.error().message;
+  Result<Model> cut = model.value().cut({std::numeric_limits<double>::max()});
+  EXPECT_EQ(cut.value().finest_level(), 1);
+  return std::move(cut).value();
+}
+
+/// Of a convex model that was cut only its centre is known to be in it: a solid that may hold it is not said to be apart, and
+/// what is said is as wide as its finest level deviates.
+TEST(Cut, ConvexModelBesideAMeshIsOfItsFinestLevel) {
+  const Model cut = without_its_exact_level();
+  const MeshModel outer = scaled(ball(3), 100).mesh();
+  for (const MeshBody& mesh : {MeshBody(outer), MeshBody::solid(outer)}) {
+    const Pose away{Mat3::Identity(), Vec3(105, 0.1, 0.2)};
+    const Answer answer = distance(mesh, cut, away);
+    EXPECT_EQ(answer.status, Status::LevelLimit);
+    EXPECT_EQ(answer.verdict, Verdict::Disjoint);
+    EXPECT_LE(answer.lower, 4);
+    EXPECT_GE(answer.upper, 4);
+  }
+  const Answer inside = distance(MeshBody::solid(outer), cut, {});
+  EXPECT_EQ(inside.verdict, Verdict::Overlapping);
+  EXPECT_EQ(inside.point_a, inside.point_b);
+  EXPECT_LE(inside.point_a.cwiseAbs().maxCoeff(), 1);  // a point of the exact hull
+}
+
 TEST(Cut, ScalesBitForBit) {
   Random random(43);
   for (int i = 0; i < 100; ++i) {

@@ -15,7 +15,6 @@ Body& Body::with(int i, const Vec3& p) {
   return *this;
 }
 
-Body::Body() : Body(point(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()))) {}
 Body Body::point(const Vec3& p, double radius) { return Body(BodyKind::Point, radius).with(0, p); }
 Body Body::segment(const Vec3& p, const Vec3& q, double radius) {
   return Body(BodyKind::Segment, radius).with(0, p).with(1, q);

@@ -27,14 +27,6 @@ constexpr unsigned kMostThreads = 1;  // to start one would end the program
 constexpr unsigned kMostThreads = 1024;
 #endif
 
-/// The options without trace and proof, which all queries of a batch would share.
-template <class AnyOptions>
-AnyOptions alone(AnyOptions options) {
-  options.tuning.trace = {};
-  options.tuning.proof = nullptr;
-  return options;
-}
-
 /// `kBegin` says what the queries read first.
 template <Begin kBegin, class AnyAnswer, class Ask>
 void over_pairs(std::span<const PairQuery> pairs, std::span<AnyAnswer> answers, const Run& run, Ask ask) {

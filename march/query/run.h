@@ -36,4 +36,12 @@ void over_poses(std::span<const Pose> poses, std::span<AnyAnswer> answers, const
   run_all((poses.size() + kPosesPerChunk - 1) / kPosesPerChunk, run, ask_chunk);
 }
 
+/// The options without trace and proof, which all queries of a batch would share.
+template <class AnyOptions>
+static inline AnyOptions alone(AnyOptions options) {
+  options.tuning.trace = {};
+  options.tuning.proof = nullptr;
+  return options;
+}
+
 }  // namespace swiftlet

@@ -29,7 +29,7 @@ enum class BodyKind : std::uint8_t {
 class Body {
  public:
   /// An empty body: a query about it answers InvalidBody.
-  Body();
+  Body() : radius_(0), kind_(BodyKind::Point) { corners_.fill(std::numeric_limits<double>::quiet_NaN()); }
   /// Borrows `model`, which must outlive every query about the body and not move. The conversion is implicit.
   Body(const Model& model, double radius = 0) : model_(&model), radius_(radius) {}
   Body(const Model&&, double radius = 0) = delete;  ///< a temporary model would not outlive the expression
