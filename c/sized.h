@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The rule of structs that say their size: older and newer callers than the library.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "failure.h"
+
+namespace swiftlet::c {
+
+inline constexpr std::size_t kLargestSize = 4096;  // no struct comes near: a larger size was never set
+
+[[noreturn]] inline void refuse_size(const char* name, std::size_t size, std::size_t least, std::size_t known) {
+  throw Failure{SWIFTLET_BAD_SIZE, std::string(name) + ".size is " + std::to_string(size) + ": it may be from " +
+                                       std::to_string(least) + ", and what exceeds the " + std::to_string(known) +
+                                       " bytes of this library must be 0"};
+}
+
+inline bool is_size(std::size_t size, std::size_t least) { return size >= least && size <= kLargestSize && size % 4 == 0; }
+
+/// The bytes of an input of `size` bytes, over the defaults that are in `into`.
+template <class T>
+void read_bytes(const void* from, std::size_t size, std::size_t least, T& into, const char* name) {
+  if (!is_size(size, least)) refuse_size(name, size, least, sizeof(T));
+  std::memcpy(&into, from, std::min(size, sizeof(T)));
+  const auto* bytes = static_cast<const unsigned char*>(from);
+  for (std::size_t i = sizeof(T); i < size; ++i)
+    if (bytes[i]) refuse_size(name, size, least, sizeof(T));
+}
+
+/// An input: the caller's, or `room`, which holds the defaults, with what the caller says.
+template <class T>
+const T& read(const T* from, T& room, const char* name, std::size_t least = 8) {
+  need(from, name);
+  if (from->size == sizeof(T)) return *from;
+  read_bytes(from, from->size, least, room, name);
+  return room;
+}
+
+/// An output that can be written. Null where it may be.
+template <class T>
+void check_output(const T* to, const char* name, std::size_t least = sizeof(T)) {
+  if (to && !is_size(to->size, least)) refuse_size(name, to->size, least, sizeof(T));
+}
+
+/// Writes what `size` says of `value`, whose own size is set to that.
+template <class T>
+void write_bytes(T value, std::size_t size, void* to) {
+  value.size = std::uint32_t(size);
+  std::memcpy(to, &value, std::min(size, sizeof(T)));
+  if (size > sizeof(T)) std::memset(static_cast<unsigned char*>(to) + sizeof(T), 0, size - sizeof(T));
+}
+
+template <class T>
+void write(const T& value, T* to) {
+  write_bytes(value, to->size, to);
+}
+
+/// Sets a caller's struct of options to their defaults.
+template <class T>
+swiftlet_code init(const T& defaults, T* to, std::size_t size, swiftlet_error* error) {
+  return guard(error, [&] {
+    need(to, "options");
+    if (!is_size(size, 8)) refuse_size("options", size, 8, sizeof(T));
+    write_bytes(defaults, size, to);
+  });
+}
+
+/// An enumerator of a C++ enumeration whose last one is given.
+template <class Enum>
+Enum enumerator(std::int32_t value, Enum last, const char* name) {
+  if (value < 0 || value > std::int32_t(last))
+    throw Failure{SWIFTLET_BAD_VALUE,
+                  std::string(name) + " is " + std::to_string(value) + ", not from 0 to " + std::to_string(std::int32_t(last))};
+  return Enum(value);
+}
+
+}  // namespace swiftlet::c
