@@ -75,16 +75,25 @@ inline Body GivenBody::convex() const {
 
 // ---- Seeds -----------------------------------------------------------------------------------------------------------------
 
+// 0 bytes are a cold start: of a mesh's seed they stand for no triangles.
+inline void flip(PairSeed&) {}
+inline void flip(MeshSeed& seed) { seed.triangle_a = ~seed.triangle_a, seed.triangle_b = ~seed.triangle_b; }
+static_assert(kNone == ~std::uint32_t{0});
+
 template <class Seed>
 Seed seed_of(const swiftlet_seed* from) {
   Seed to;
-  if (from) std::memcpy(static_cast<void*>(&to), from, sizeof to);
+  if (!from) return to;
+  std::memcpy(static_cast<void*>(&to), from, sizeof to);
+  flip(to);
   return to;
 }
 
 template <class Seed>
-void keep(const Seed& from, swiftlet_seed* to) {
-  if (to) std::memcpy(to, &from, sizeof from);
+void keep(Seed from, swiftlet_seed* to) {
+  if (!to) return;
+  flip(from);
+  std::memcpy(to, &from, sizeof from);
 }
 
 // ---- Options ---------------------------------------------------------------------------------------------------------------

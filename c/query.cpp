@@ -197,8 +197,12 @@ void ask(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_pose* b_
     report.hand_out(answer_in(result));
     to.put(0, result);
   };
-  if (body_a.is_mesh() || body_b.is_mesh()) return ask_of(body_a.mesh(), body_b.mesh(), seed_of<MeshSeed>(seed));
-  ask_of(body_a.convex(), body_b.convex(), seed_of<PairSeed>(seed));
+  if (body_a.is_mesh() || body_b.is_mesh()) {
+    const MeshBody one = body_a.mesh(), other = body_b.mesh();
+    return ask_of(one, other, seed_of<MeshSeed>(seed));
+  }
+  const Body one = body_a.convex(), other = body_b.convex();
+  ask_of(one, other, seed_of<PairSeed>(seed));
 }
 
 // ---- Many ------------------------------------------------------------------------------------------------------------------
@@ -323,8 +327,12 @@ void ask_poses(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_po
       for (std::size_t i = chunk * kPosesPerChunk; i < end_of(chunk); ++i) to.put(i, {});
     });
   };
-  if (body_a.is_mesh() || body_b.is_mesh()) return ask_of(body_a.mesh(), body_b.mesh(), MeshSeed{});
-  ask_of(body_a.convex(), body_b.convex(), PairSeed{});
+  if (body_a.is_mesh() || body_b.is_mesh()) {
+    const MeshBody one = body_a.mesh(), other = body_b.mesh();
+    return ask_of(one, other, MeshSeed{});
+  }
+  const Body one = body_a.convex(), other = body_b.convex();
+  ask_of(one, other, PairSeed{});
 }
 
 }  // namespace

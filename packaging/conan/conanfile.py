@@ -54,7 +54,7 @@ class Swiftlet(ConanFile):
         toolchain = CMakeToolchain(self)
         toolchain.cache_variables["SWIFTLET_LOD"] = bool(self.options.builder)
         toolchain.cache_variables["SWIFTLET_TOOL"] = bool(self.options.tool)
-        for left_out in ("SWIFTLET_ADAPTERS", "SWIFTLET_BENCH", "SWIFTLET_TESTS"):
+        for left_out in ("SWIFTLET_ADAPTERS", "SWIFTLET_BENCH", "SWIFTLET_C", "SWIFTLET_TESTS"):
             toolchain.cache_variables[left_out] = False
         toolchain.generate()
         dependencies = CMakeDeps(self)

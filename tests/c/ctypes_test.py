@@ -109,16 +109,17 @@ class FromAnotherLanguage(unittest.TestCase):
         box = Body(kind=4, points=((-1, -1, -1), (1, 1, 1)))
         ball = Body(kind=1, radius=0.5)
         apart = distance(box, ball, at(3, 0, 0))
-        self.assertEqual((apart.status, apart.verdict, apart.lower, tuple(apart.normal)), (1, 1, 1.5, (1, 0, 0)))
+        self.assertEqual((apart.status, apart.verdict, tuple(apart.normal)), (1, 1, (1, 0, 0)))
+        self.assertAlmostEqual(apart.lower, 1.5, delta=1e-13)
         inside = Answer()
         must(LIBRARY.swiftlet_signed_distance, C.byref(box), C.byref(ball), C.byref(at(0.75, 0, 0)), None, None, C.byref(inside))
-        self.assertAlmostEqual(inside.upper, -0.75, delta=1e-14)
+        self.assertAlmostEqual(inside.upper, -0.75, delta=1e-13)
 
     def test_rotations_are_row_by_row(self):
         bar = Body(kind=2, points=((0, 0, 0), (1, 0, 0)))
         origin = Body(kind=1)
         turned = distance(origin, bar, at(0, -2, 0, math.pi / 2))  # its end is at (0, -1, 0)
-        self.assertAlmostEqual(turned.lower, 1, delta=1e-14)
+        self.assertAlmostEqual(turned.lower, 1, delta=1e-13)
 
     def test_errors_have_words(self):
         with self.assertRaisesRegex(RuntimeError, "1: .*nowhere"):

@@ -20,19 +20,20 @@ def functions_of_cpp():
     for header in sorted([*ROOT.glob("march/include/swiftlet/*.h"), *ROOT.glob("bvh/include/swiftlet/*.h"),
                           *ROOT.glob("scene/include/swiftlet/*.h")]):
         text = code(header)
-        names |= set(re.findall(r"^(?:\[\[nodiscard\]\] )?[A-Za-z_][\w:<> ]*[ &*](\w+)\(", text, re.M))
+        names |= set(re.findall(r"^(?:\[\[nodiscard\]\] )?[A-Za-z_][\w:<> ]*[ &*]+(\w+)\(", text, re.M))
         for kind in ("Model", "MeshModel", "Scene"):
             found = re.search(rf"^class {kind} {{\n public:\n(.*?)\n private:", text, re.M | re.S)
             if found:
-                members = re.findall(r"^  (?:\[\[nodiscard\]\] |static )*[A-Za-z_][\w:<>, ]*[ &*](\w+)\(", found.group(1), re.M)
+                members = re.findall(r"^  (?:\[\[nodiscard\]\] |static )*[A-Za-z_][\w:<>, ]*[ &*]+(\w+)\(", found.group(1), re.M)
                 names |= {f"{kind}::{name}" for name in members} - {f"{kind}::{kind}"}
     return names - {"assert"}
 
 
 declared = set(re.findall(r"^SWIFTLET_API [^;]*?\b(swiftlet_\w+)\(", code(ROOT / "c/include/swiftlet/swiftlet.h"), re.M))
-table = re.findall(r"^\| (`[^|]*) \| ([^|]*) \|$", (ROOT / "c/README.md").read_text(), re.M)
+page = (ROOT / "c/README.md").read_text().split("| C++ | C |")[1]
+table = re.findall(r"^\| (`[^|]*) \| ([^|]*) \|$", page, re.M)
 cpp = {name for left, _ in table for name in re.findall(r"`([\w:]+)`", left)}
-c = {name for row in table for name in re.findall(r"`(swiftlet_\w+)`", row[1])}
+c = set(re.findall(r"`(swiftlet_\w+)`", page))
 shown = subprocess.run(["nm", "-D", "--defined-only", sys.argv[1]], check=True, capture_output=True, text=True).stdout.split("\n")
 symbols = {line.split()[2].split("@")[0] for line in shown if line} - {"SWIFTLET_C_1"}
 

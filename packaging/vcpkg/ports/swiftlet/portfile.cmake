@@ -21,6 +21,7 @@ vcpkg_cmake_configure(
     ${features}
     -DSWIFTLET_ADAPTERS=OFF
     -DSWIFTLET_BENCH=OFF
+    -DSWIFTLET_C=OFF
     -DSWIFTLET_TESTS=OFF
 )
 vcpkg_cmake_install()
