@@ -43,7 +43,7 @@ inline void copy(const Pose& from, swiftlet_pose* to) {
 /// A body as the caller says it: all of it, whatever its size was.
 class GivenBody {
  public:
-  GivenBody(const swiftlet_body* from, const char* name) : body_(read(from, room_, name)), name_(name) {}
+  GivenBody(const swiftlet_body* from, const char* name) : body_(whole(from, name)), name_(name) {}
   GivenBody(const GivenBody&) = delete;
   GivenBody& operator=(const GivenBody&) = delete;
   bool is_mesh() const { return body_.kind == SWIFTLET_BODY_MESH || body_.kind == SWIFTLET_BODY_SOLID; }
@@ -55,7 +55,12 @@ class GivenBody {
   }
 
  private:
-  swiftlet_body room_{};
+  const swiftlet_body& whole(const swiftlet_body* from, const char* name) {
+    if (from && from->size == sizeof room_) return *from;
+    room_ = {};
+    return read(from, room_, name);
+  }
+  swiftlet_body room_;  ///< written where the caller's is of another size
   const swiftlet_body& body_;
   const char* name_;
 };

@@ -186,7 +186,7 @@ const Answer& answer_in(const auto& result) { return result.answer; }
 // ---- One pair --------------------------------------------------------------------------------------------------------------
 
 template <class Query>
-void ask(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_pose* b_in_a, swiftlet_seed* seed, Query query,
+void ask(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_pose* b_in_a, swiftlet_seed* seed, Query&& query,
          const auto& to) {
   const GivenBody body_a(a, "a"), body_b(b, "b");
   const Pose pose = pose_of(b_in_a);

@@ -132,7 +132,9 @@ struct Beside {
       EXPECT_EQ(swiftlet_check(&plain_a, &plain_b, &b_in_a, &c.signed_distance, nullptr, &checked, Sound()), SWIFTLET_OK);
       EXPECT_TRUE(checked.ok == 1 && checked.message[0] == 0) << checked.message;
     }
-    if constexpr (kConvex) EXPECT_TRUE(std::memcmp(&distance, &seeds.distance, sizeof distance) == 0);
+    if constexpr (kConvex) {
+      EXPECT_EQ(0, std::memcmp(&distance, &seeds.distance, sizeof distance));
+    }
     ++asked, met += depth.verdict == Verdict::Overlapping;
   }
 };
