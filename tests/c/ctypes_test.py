@@ -53,7 +53,8 @@ EXECUTE = C.CFUNCTYPE(None, C.c_size_t, TASK, C.c_void_p, C.c_void_p)
 
 
 class Run(Sized):
-    _fields_ = [("size", C.c_uint32), ("reserved", C.c_uint32), ("executor", C.c_void_p), ("stop", STOP), ("stop_data", C.c_void_p)]
+    _fields_ = [("size", C.c_uint32), ("reserved", C.c_uint32), ("executor", C.c_void_p), ("stop", STOP),
+                ("stop_data", C.c_void_p)]
 
 
 def must(function, *arguments):
@@ -97,8 +98,8 @@ class FromAnotherLanguage(unittest.TestCase):
         answers = (Answer * len(self.poses))()
         answers[0].size = C.sizeof(Answer)
         run = Run(**how)
-        must(LIBRARY.swiftlet_distance_poses, C.byref(self.bodies[0]), C.byref(self.bodies[1]), self.poses, C.c_size_t(len(self.poses)),
-             None, C.byref(run), answers)
+        must(LIBRARY.swiftlet_distance_poses, C.byref(self.bodies[0]), C.byref(self.bodies[1]), self.poses,
+             C.c_size_t(len(self.poses)), None, C.byref(run), answers)
         return answers
 
     def test_one_file_says_its_version(self):
