@@ -366,5 +366,16 @@ TEST(MeshContacts, UseTheStackThatTheHeaderTells) {
   EXPECT_LE(of_manifolds, 64u << 10) << "of a convex body, of which the kernel knows the depth";
 }
 
+TEST(Contacts, OfAReachThatIsNoneAreNone) {
+  const MeshModel mesh = torus(8, 6).mesh();
+  const MeshContacts below = contacts(mesh, mesh, {}, -1, {});
+  EXPECT_EQ(below.status, Status::Converged);
+  EXPECT_TRUE(below.is_counted);
+  EXPECT_EQ(below.count, 0u);
+  const MeshContacts unknown = contacts(mesh, mesh, {}, std::numeric_limits<double>::quiet_NaN(), {});
+  EXPECT_EQ(unknown.status, Status::NotConverged);
+  EXPECT_FALSE(unknown.is_counted);
+}
+
 }  // namespace
 }  // namespace swiftlet

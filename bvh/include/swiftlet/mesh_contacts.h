@@ -46,8 +46,8 @@ struct MeshContacts {
 /// So many regions more than the caller's span holds can be told apart at once.
 inline constexpr std::size_t kSpareRegions = 64;
 
-/// Finds every region where the bodies are within `reach` (>= 0) of each other. `into` receives them, nearest first; if there
-/// are more, the nearest ones.
+/// Finds every region where the bodies are within `reach` of each other. `into` receives them, nearest first; if there
+/// are more, the nearest ones. Of a reach below 0 there is none; if it is NaN, the status is NotConverged.
 ///
 /// What a region is does not depend on the order in which a search sees triangles. The place of two triangles is what their
 /// boxes have in common, taken along A's axes and each grown by the reach, the radii and law 2's bound; of a convex body
