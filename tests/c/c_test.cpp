@@ -19,8 +19,8 @@
 #include <swiftlet/mesh_query.h>
 
 #include "answers.h"
+#include "c_questions.h"
 #include "mesh_answers.h"
-#include "questions.h"
 
 namespace swiftlet {
 namespace {
@@ -99,7 +99,7 @@ bool same(const Manifold& a, const swiftlet_manifold& b) {
   return all;
 }
 
-/// Asks C++ what questions.c asks C, with seeds of its own, and compares.
+/// Asks C++ what c_questions.c asks C, with seeds of its own, and compares.
 template <class AnyBody, class Seed>
 struct Beside {
   Seed distance, signed_distance, intersects, within, signed_within, closest;

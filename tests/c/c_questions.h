@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Every query as a C program asks it: questions.c is C99, what it gets is judged in c_test.cpp.
+// Every query as a C program asks it: c_questions.c is C99, what it gets is judged in c_test.cpp.
 #ifndef SWIFTLET_TESTS_C_QUESTIONS_H
 #define SWIFTLET_TESTS_C_QUESTIONS_H
 

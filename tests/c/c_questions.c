@@ -1,6 +1,6 @@
 /* SPDX-FileCopyrightText: 2026 the swiftlet authors */
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "questions.h"
+#include "c_questions.h"
 
 #include <stdio.h>
 #include <string.h>
