@@ -193,13 +193,13 @@ TEST(Cut, ConvexModelBesideAMeshIsOfItsFinestLevel) {
   const MeshModel outer = scaled(ball(3), 100).mesh();
   for (const MeshBody& mesh : {MeshBody(outer), MeshBody::solid(outer)}) {
     const Pose away{Mat3::Identity(), Vec3(105, 0.1, 0.2)};
-    const Answer answer = distance(mesh, cut, away);
+    const Answer answer = distance(mesh, Body(cut), away);
     EXPECT_EQ(answer.status, Status::LevelLimit);
     EXPECT_EQ(answer.verdict, Verdict::Disjoint);
     EXPECT_LE(answer.lower, 4);
     EXPECT_GE(answer.upper, 4);
   }
-  const Answer inside = distance(MeshBody::solid(outer), cut, {});
+  const Answer inside = distance(MeshBody::solid(outer), Body(cut), Pose{});
   EXPECT_EQ(inside.verdict, Verdict::Overlapping);
   EXPECT_EQ(inside.point_a, inside.point_b);
   EXPECT_LE(inside.point_a.cwiseAbs().maxCoeff(), 1);  // a point of the exact hull
