@@ -7,6 +7,7 @@
 #include <BulletCollision/CollisionDispatch/btCollisionCreateFunc.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "shapes.h"
 
@@ -42,8 +43,19 @@ class OthersAlgorithm {
   btCollisionAlgorithm* algorithm_;
 };
 
-/// A HullShape, which is `a` or `b`, and triangles.
+/// How fast an object is at a point of the world: what has moved it in the last step.
+inline btVector3 velocity_at(const btCollisionObjectWrapper& body, const btVector3& point) {
+  const btRigidBody* const rigid = btRigidBody::upcast(body.getCollisionObject());
+  return rigid ? rigid->getVelocityInLocalPoint(point - rigid->getWorldTransform().getOrigin()) : btVector3(0, 0, 0);
+}
+
+/// A convex body, which is `a` or `b`, and triangles.
 btCollisionAlgorithm* create_triangles_algorithm(const Create& create, const btCollisionAlgorithmConstructionInfo& info,
-                                                 const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
+                                                 const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
+                                                 bool body_is_a, Solid solid);
+
+/// A MeshShape and another one or a plane.
+btCollisionAlgorithm* create_mesh_algorithm(const Create& create, const btCollisionAlgorithmConstructionInfo& info,
+                                            const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
 
 }  // namespace swiftlet::bullet

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <swiftlet/bullet.h>
 
+#include <deque>
 #include <memory>
 #include <new>
 #include <utility>
@@ -26,9 +27,9 @@ class SolidPair {
     return a_.is_current(*a.getCollisionShape()) && b_.is_current(*b.getCollisionShape());
   }
   Nearest nearest(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double beyond, PairSeed& seed) const {
-    if (b_.role() == Role::Plane) return swiftlet::nearest(a_.placed(a), b_.half_space(b), beyond);
+    if (b_.role() == Role::Plane) return swiftlet::nearest(a_.placed(a), half_space_of(b), beyond);
     if (a_.role() != Role::Plane) return swiftlet::nearest(a_.placed(a), b_.placed(b), beyond, seed);
-    Nearest near = swiftlet::nearest(b_.placed(b), a_.half_space(a), beyond);
+    Nearest near = swiftlet::nearest(b_.placed(b), half_space_of(a), beyond);
     near.normal = -near.normal;
     std::swap(near.point_a, near.point_b);
     return near;
@@ -36,10 +37,10 @@ class SolidPair {
   Found contacts(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double beyond, PairSeed& seed,
                  Manifold& manifold, Rest& rest) const {
     constexpr std::uint32_t kMost = MANIFOLD_CACHE_SIZE;
-    if (b_.role() == Role::Plane) return swiftlet::contacts(a_.placed(a), b_.half_space(b), beyond, kMost, manifold);
+    if (b_.role() == Role::Plane) return swiftlet::contacts(a_.placed(a), half_space_of(b), beyond, kMost, manifold);
     if (a_.role() != Role::Plane) return swiftlet::contacts(a_.placed(a), b_.placed(b), beyond, kMost, seed, manifold, rest);
     swap(manifold);
-    const Found found = swiftlet::contacts(b_.placed(b), a_.half_space(a), beyond, kMost, manifold);
+    const Found found = swiftlet::contacts(b_.placed(b), half_space_of(a), beyond, kMost, manifold);
     swap(manifold);
     return found;
   }
@@ -151,7 +152,13 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
 static_assert(sizeof(HullAlgorithm) <= sizeof(btConvexConcaveCollisionAlgorithm));
 
 /// Whether swiftlet answers the pair, but for Points of which there is no model.
-bool is_ours(Role a, Role b) { return (a == Role::Hull && b != Role::Bullets) || (b == Role::Hull && a != Role::Bullets); }
+bool is_ours(Role a, Role b) {
+  if (a == Role::Bullets || b == Role::Bullets) return false;
+  if (a == Role::Hull || b == Role::Hull) return true;
+  return (a == Role::Mesh && b != Role::Triangles) || (b == Role::Mesh && a != Role::Triangles);
+}
+
+bool is_surface(Role role) { return role == Role::Mesh || role == Role::Triangles; }
 
 }  // namespace
 
@@ -180,8 +187,15 @@ btCollisionAlgorithm* Create::CreateCollisionAlgorithm(btCollisionAlgorithmConst
   const btCollisionShape &shape_a = *a->getCollisionShape(), &shape_b = *b->getCollisionShape();
   const Role role_a = role_of(shape_a), role_b = role_of(shape_b);
   if (!is_ours(role_a, role_b)) return others->CreateCollisionAlgorithm(info, a, b);
-  if (role_a == Role::Triangles || role_b == Role::Triangles) return create_triangles_algorithm(*this, info, *a, *b);
   std::optional<Solid> solid_a = Solid::of(shape_a, *models), solid_b = Solid::of(shape_b, *models);
+  if (is_surface(role_a) || is_surface(role_b)) {
+    const bool second_is = is_surface(role_b);
+    if (is_surface(second_is ? role_a : role_b) || role_a == Role::Plane || role_b == Role::Plane)
+      return create_mesh_algorithm(*this, info, *a, *b);
+    std::optional<Solid>& solid = second_is ? solid_a : solid_b;
+    if (!solid) return others->CreateCollisionAlgorithm(info, a, b);
+    return create_triangles_algorithm(*this, info, *a, *b, second_is, std::move(*solid));
+  }
   if (!solid_a || !solid_b) return others->CreateCollisionAlgorithm(info, a, b);
   void* const place = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(HullAlgorithm));
   return new (place) HullAlgorithm(*this, info, *a, *b, {std::move(*solid_a), std::move(*solid_b)});
@@ -189,31 +203,26 @@ btCollisionAlgorithm* Create::CreateCollisionAlgorithm(btCollisionAlgorithmConst
 
 struct HullPairs::Entries {
   HullModels models;
-  struct {
-    Create hull_first, hull_second;
-  } contact_points[MAX_BROADPHASE_COLLISION_TYPES], closest_points[MAX_BROADPHASE_COLLISION_TYPES];
+  std::deque<Create> creates;  ///< the dispatcher points to them
 };
 
 HullPairs::HullPairs(btCollisionDispatcher& dispatcher) : entries_(std::make_unique<Entries>()) {
-  constexpr int kHull = CONVEX_HULL_SHAPE_PROXYTYPE;
   btCollisionConfiguration& configuration = *dispatcher.getCollisionConfiguration();
-  const auto fill = [&](Create& create, btCollisionAlgorithmCreateFunc* others, bool all_points) {
+  const auto entry = [&](btCollisionAlgorithmCreateFunc* others, bool all_points) {
+    Create& create = entries_->creates.emplace_back();
     create.others = others;
     create.models = &entries_->models;
     create.all_points = all_points;
     return &create;
   };
-  for (int other = 0; other < MAX_BROADPHASE_COLLISION_TYPES; ++other) {
-    if (role_of(other) == Role::Bullets) continue;
-    auto& contacts = entries_->contact_points[other];
-    auto& closest = entries_->closest_points[other];
-    const auto enter = [&](int a, int b, Create& contact, Create& near) {
-      dispatcher.registerCollisionCreateFunc(a, b, fill(contact, configuration.getCollisionAlgorithmCreateFunc(a, b), true));
-      dispatcher.registerClosestPointsCreateFunc(a, b,
-                                                 fill(near, configuration.getClosestPointsAlgorithmCreateFunc(a, b), false));
-    };
-    enter(kHull, other, contacts.hull_first, closest.hull_first);
-    if (other != kHull) enter(other, kHull, contacts.hull_second, closest.hull_second);
+  const auto may_be_ours = [](int type) { return role_of(type) != Role::Bullets || type == kMeshType; };
+  for (int a = 0; a < MAX_BROADPHASE_COLLISION_TYPES; ++a) {
+    for (int b = 0; b < MAX_BROADPHASE_COLLISION_TYPES; ++b) {
+      const auto is_one = [&](int type) { return a == type || b == type; };
+      if (!(is_one(CONVEX_HULL_SHAPE_PROXYTYPE) || is_one(kMeshType)) || !may_be_ours(a) || !may_be_ours(b)) continue;
+      dispatcher.registerCollisionCreateFunc(a, b, entry(configuration.getCollisionAlgorithmCreateFunc(a, b), true));
+      dispatcher.registerClosestPointsCreateFunc(a, b, entry(configuration.getClosestPointsAlgorithmCreateFunc(a, b), false));
+    }
   }
 }
 

@@ -114,7 +114,13 @@ Role role_of(int proxy_type) {
   }
 }
 
+const MeshShape* unscaled_mesh(const btCollisionShape& shape) {
+  const auto* const mesh = dynamic_cast<const MeshShape*>(&shape);
+  return mesh && !mesh->is_scaled() ? mesh : nullptr;
+}
+
 Role role_of(const btCollisionShape& shape) {
+  if (const auto* const mesh = dynamic_cast<const MeshShape*>(&shape)) return mesh->is_scaled() ? Role::Triangles : Role::Mesh;
   const auto* const hull = dynamic_cast<const HullShape*>(&shape);
   return hull && !hull->is_scaled() ? Role::Hull : role_of(shape.getShapeType());
 }
@@ -131,7 +137,7 @@ std::shared_ptr<const Model> HullModels::of(const btCollisionShape& shape) {
 
 std::optional<Solid> Solid::of(const btCollisionShape& shape, HullModels& models) {
   Solid solid(role_of(shape));
-  if (solid.role_ == Role::Bullets || solid.role_ == Role::Triangles) return std::nullopt;
+  if (solid.role_ == Role::Bullets || solid.role_ == Role::Mesh || solid.role_ == Role::Triangles) return std::nullopt;
   if (solid.role_ != Role::Points) return solid;
   solid.model_ = models.of(shape);
   if (!solid.model_) return std::nullopt;
@@ -153,8 +159,16 @@ Placed Solid::placed(const btCollisionObjectWrapper& body) const {
   return {primitive(shape), in_world};
 }
 
+Vec3 Solid::centre(const btCollisionShape& shape) const {
+  if (role_ == Role::Hull) return static_cast<const HullShape&>(shape).model().centre();
+  if (role_ == Role::Points) return model_->centre();
+  const Body body = primitive(shape);
+  if (body.kind() != BodyKind::Triangle) return Vec3::Zero();
+  return (body.corner(0) + body.corner(1) + body.corner(2)) / 3;
+}
+
 /// Single precision leaves the normal's length wrong by an ulp.
-HalfSpace Solid::half_space(const btCollisionObjectWrapper& body) const {
+HalfSpace half_space_of(const btCollisionObjectWrapper& body) {
   const auto& plane = static_cast<const btStaticPlaneShape&>(*body.getCollisionShape());
   const Pose in_world = pose_of(body.getWorldTransform());
   const Vec3 normal = vector_of(plane.getPlaneNormal());

@@ -20,19 +20,23 @@ btVector3 vector_of(const Vec3& v);
 Vec3 vector_of(const btVector3& v);
 Pose pose_of(const btTransform& t);
 
-/// What a shape is in a pair with a HullShape.
+/// What a shape is in a pair with a HullShape or a MeshShape.
 enum class Role : std::uint8_t {
   Bullets,   ///< nothing that the kernel answers: the pair is Bullet's
   Hull,      ///< a HullShape
   Body,      ///< a primitive
   Points,    ///< the hull of points, of which a model can be built
   Plane,     ///< a half-space
+  Mesh,      ///< a MeshShape
   Triangles  ///< hands out triangles
 };
 
-/// By the shape's type; a HullShape that is scaled is a hull of points.
+/// By the shape's type; a HullShape that is scaled is a hull of points, a MeshShape that is hands out triangles.
 Role role_of(const btCollisionShape& shape);
-Role role_of(int proxy_type);  ///< of a shape of this type that is no HullShape
+Role role_of(int proxy_type);  ///< of a shape of this type that is none of swiftlet's
+const MeshShape* unscaled_mesh(const btCollisionShape& shape);  ///< null of any other shape
+
+HalfSpace half_space_of(const btCollisionObjectWrapper& body);  ///< of a Plane
 
 /// Models of Bullet's own hulls, one for each set of points. Any thread may ask.
 class HullModels {
@@ -56,7 +60,7 @@ class Solid {
   /// Whether the shape still is what the model was built of: nobody scaled it or added points.
   bool is_current(const btCollisionShape& shape) const;
   Placed placed(const btCollisionObjectWrapper& body) const;         ///< of a Hull, Body or Points
-  HalfSpace half_space(const btCollisionObjectWrapper& body) const;  ///< of a Plane
+  Vec3 centre(const btCollisionShape& shape) const;                  ///< likewise: in the middle of it, in its frame
 
  private:
   explicit Solid(Role role) : role_(role) {}

@@ -1,100 +1,79 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A HullShape against the triangles of a concave shape: those that lie in its box, all in one step. Bullet's own algorithm asks
-// for triangle by triangle, and knows neither edges nor sides.
-#include <algorithm>
+// A convex body against the triangles of a concave shape: those that lie in its box, all in one step. Bullet's own algorithm
+// asks for triangle by triangle, and knows neither edges nor sides.
 #include <cmath>
 #include <memory>
 #include <new>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <BulletCollision/CollisionDispatch/btConvexConcaveCollisionAlgorithm.h>
 #include <BulletCollision/CollisionShapes/btConcaveShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
-#include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <swiftlet/triangles.h>
 
 #include "algorithms.h"
-#include "held_points.h"
+#include "mesh_pair.h"
+#include "point_groups.h"
 
 namespace swiftlet::bullet {
 namespace {
 
-/// The normals of one manifold's points make smaller angles than this with that of its deepest one; of all others of them have
-/// larger ones. Cosine, of 26 degrees.
-constexpr double kAlike = 0.9;
-/// Points whose normals differ by more than 60 degrees leave nothing to others.
-constexpr btScalar kLikeAnEmptyOne = btScalar(0.5);
-/// As many as a corner of a room has walls, and one more.
-constexpr std::size_t kMostManifolds = 4;
-
-/// Normals that differ by less are one.
-constexpr double kOneNormal = 1e-4;
-/// Points whose normals are alike; the first one is the deepest.
-using Group = std::vector<TrianglePoint>;
-
 /// Collects a concave shape's triangles.
 class Gather final : public btTriangleCallback {
  public:
-  struct Id {
-    int part, index;
-    bool operator==(const Id&) const = default;
-  };
-  Gather(TrianglePair& pair, std::vector<Id>& ids) : pair_(pair), ids_(ids) {}
+  Gather(TrianglePair& pair, std::vector<PointIds>& ids) : pair_(pair), ids_(ids) {}
 
   /// Both triangles of a square of a heightfield come with the same numbers, one after the other.
   void processTriangle(btVector3* corners, int part, int index) override {
-    const Id id{part, index};
-    const bool is_second = !ids_.empty() && ids_.back() == id;
-    ids_.push_back(id);
+    const TriangleId id{part, index};
+    const bool is_second = !ids_.empty() && ids_.back().second == id;
+    ids_.push_back({{}, id});
     pair_.add(std::uint64_t(std::uint32_t(part)) << 33 | std::uint64_t(std::uint32_t(index)) << 1 | is_second,
               vector_of(corners[0]), vector_of(corners[1]), vector_of(corners[2]));
   }
 
  private:
   TrianglePair& pair_;
-  std::vector<Id>& ids_;
+  std::vector<PointIds>& ids_;
 };
 
 class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
  public:
   TrianglesAlgorithm(const Create& create, const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper& a,
-                     const btCollisionObjectWrapper& b)
+                     const btCollisionObjectWrapper& b, bool body_is_a, Solid solid)
       : btActivatingCollisionAlgorithm(info),
         create_(create),
-        shared_(info.m_manifold),
-        hull_is_a_(role_of(*a.getCollisionShape()) == Role::Hull),
-        state_(std::make_unique<State>()) {
-    if (!shared_) state_->own.push_back(m_dispatcher->getNewManifold(a.getCollisionObject(), b.getCollisionObject()));
-  }
-  ~TrianglesAlgorithm() override {
-    for (btPersistentManifold* manifold : state_->own) m_dispatcher->releaseManifold(manifold);
-  }
+        state_(std::make_unique<State>(*info.m_dispatcher1, info.m_manifold, a, b, body_is_a, std::move(solid))) {}
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo& info,
                         btManifoldResult* result) override {
-    btPersistentManifold* const first = shared_ ? shared_ : state_->own.front();
-    result->setPersistentManifold(first);
-    const btCollisionObjectWrapper &hull = hull_is_a_ ? *a : *b, &surface = hull_is_a_ ? *b : *a;
-    const HullShape& shape = static_cast<const HullShape&>(*hull.getCollisionShape());
-    const Placed placed{Body(shape.model(), shape.getMargin()), pose_of(hull.getWorldTransform())};
-    const Pose surface_in_world = pose_of(surface.getWorldTransform());
-    const bool is_rigid = !std::isnan(tolerance(placed, {Body::point(Vec3::Zero()), surface_in_world}));
-    if (role_of(shape) != Role::Hull || !is_rigid) {
+    PointGroups& groups = state_->groups;
+    result->setPersistentManifold(&groups.first());
+    const btCollisionObjectWrapper &body = state_->body_is_a ? *a : *b, &surface = state_->body_is_a ? *b : *a;
+    if (!is_ours(body, surface)) {
       others(*a, *b)->processCollision(a, b, info, result);
       return;
     }
     state_->others.reset();
-    const double touching = first->getContactBreakingThreshold() + result->m_closestPointDistanceThreshold;
-    gather(hull, surface, touching);
-    const Vec3 moved = create_.all_points ? moved_by(hull, surface, info.m_timeStep) : Vec3::Zero();
-    const btScalar radius = surface.getCollisionShape()->getMargin();
+    const double touching = groups.first().getContactBreakingThreshold() + result->m_closestPointDistanceThreshold;
+    const Placed placed = state_->solid.placed(body);
+    const Pose surface_in_world = pose_of(surface.getWorldTransform());
+    const double radius = surface.getCollisionShape()->getMargin();
+    const Vec3 moved = create_.all_points ? moved_by(body, surface, info.m_timeStep) : Vec3::Zero();
+    if (add_way_out(placed, *a, *b, moved, *result)) return;
+    gather(body, surface, touching);
     const auto points = state_->pair.contacts(placed, surface_in_world, radius, moved, touching);
-    if (create_.all_points)
-      hand_over_groups(points, *a, *b, *result);
-    else
-      hand_over_nearest(points, surface, *result);
+    if (create_.all_points) {
+      groups.hand_over(points, state_->ids, *a, *b, *result);
+      return;
+    }
+    for (const TrianglePoint& p : points) {  // as Bullet does: one point of each triangle
+      if (p.is_deepest_of_its) groups.add(p, state_->ids, *a, *result);
+    }
   }
 
   btScalar calculateTimeOfImpact(btCollisionObject* a, btCollisionObject* b, const btDispatcherInfo& info,
@@ -103,159 +82,90 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
   }
 
   void getAllContactManifolds(btManifoldArray& manifolds) override {
-    for (btPersistentManifold* manifold : state_->own) manifolds.push_back(manifold);
+    for (btPersistentManifold* manifold : state_->groups.own()) manifolds.push_back(manifold);
     if (state_->others) (*state_->others)->getAllContactManifolds(manifolds);
   }
 
  private:
   struct State {
+    State(btDispatcher& dispatcher, btPersistentManifold* shared, const btCollisionObjectWrapper& a,
+          const btCollisionObjectWrapper& b, bool is_a, Solid of)
+        : body_is_a(is_a), solid(std::move(of)), groups(dispatcher, shared, a, b, is_a) {}
+
+    const bool body_is_a;
+    Solid solid;
+    PointGroups groups;
     TrianglePair pair;
-    std::vector<Gather::Id> ids;
-    std::vector<Group> groups;
-    std::vector<btPersistentManifold*> own;  ///< at least one, unless the caller has one for all
+    std::vector<PointIds> ids;
+    Enclosed enclosed;
     std::unique_ptr<OthersAlgorithm> others;
   };
 
+  /// Whether the body still is what it was, and both poses are rigid motions.
+  bool is_ours(const btCollisionObjectWrapper& body, const btCollisionObjectWrapper& surface) const {
+    const Role role = role_of(*surface.getCollisionShape());
+    if (role != Role::Mesh && !(role == Role::Triangles && state_->solid.role() == Role::Hull)) return false;
+    if (!state_->solid.is_current(*body.getCollisionShape())) return false;
+    const Placed point{Body::point(Vec3::Zero()), pose_of(surface.getWorldTransform())};
+    return !std::isnan(tolerance(state_->solid.placed(body), point));
+  }
+
   /// Bullet's algorithm for meshes has a manifold of its own, hence it stays as long as it is wanted.
   OthersAlgorithm& others(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
-    for (btPersistentManifold* manifold : state_->own) manifold->clearManifold();
-    if (!state_->others) state_->others = std::make_unique<OthersAlgorithm>(create_, *m_dispatcher, shared_, a, b);
+    state_->groups.clear();
+    if (!state_->others)
+      state_->others = std::make_unique<OthersAlgorithm>(create_, *m_dispatcher, state_->groups.shared(), a, b);
     return *state_->others;
   }
 
-  void gather(const btCollisionObjectWrapper& hull, const btCollisionObjectWrapper& surface, double touching) {
+  /// Of a body that was inside a solid when both met, and still is.
+  bool add_way_out(const Placed& body, const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, const Vec3& moved,
+                   btManifoldResult& result) {
+    const bool body_is_a = state_->body_is_a;
+    const MeshShape* const mesh = unscaled_mesh(*(body_is_a ? b : a).getCollisionShape());
+    if (!mesh || !state_->enclosed.may_hold()) return false;
+    const PlacedMeshShape placed{mesh, pose_of((body_is_a ? b : a).getWorldTransform())};
+    const Vec3 centre = state_->solid.centre(*(body_is_a ? a : b).getCollisionShape());
+    const std::optional<TrianglePoint> way = state_->enclosed.way_out(placed, body, centre, moved);
+    if (!way) return false;
+    state_->ids.assign(1, {});
+    if (create_.all_points)
+      state_->groups.hand_over({&*way, 1}, state_->ids, a, b, result);
+    else
+      state_->groups.add(*way, state_->ids, a, result);
+    return true;
+  }
+
+  void gather(const btCollisionObjectWrapper& body, const btCollisionObjectWrapper& surface, double touching) {
     const btConcaveShape& shape = static_cast<const btConcaveShape&>(*surface.getCollisionShape());
-    btVector3 least, most;
-    hull.getCollisionShape()->getAabb(surface.getWorldTransform().inverse() * hull.getWorldTransform(), least, most);
+    const btTransform in_surface = surface.getWorldTransform().inverse() * body.getWorldTransform();
     const btScalar reach = btScalar(touching) + shape.getMargin();
     const btVector3 around(reach, reach, reach);
     state_->pair.clear();
     state_->ids.clear();
+    if (const MeshShape* const mesh = unscaled_mesh(shape)) {
+      btVector3 least, most;
+      body.getCollisionShape()->getAabb(btTransform::getIdentity(), least, most);
+      const auto add = [&](std::uint32_t t, const Vec3& p, const Vec3& q, const Vec3& r) {
+        state_->ids.push_back({{}, {0, int(mesh->mesh().source_triangle()[t])}});
+        state_->pair.add(t, p, q, r);
+      };
+      for_triangles(mesh->mesh(), {vector_of(least - around), vector_of(most + around), pose_of(in_surface)}, add);
+      return;
+    }
+    btVector3 least, most;
+    body.getCollisionShape()->getAabb(in_surface, least, most);
     Gather gather(state_->pair, state_->ids);
     shape.processAllTriangles(&gather, least - around, most + around);
   }
 
-  /// How far the hull's centre came in the last step, against the surface: their velocities are those that moved them.
-  static Vec3 moved_by(const btCollisionObjectWrapper& hull, const btCollisionObjectWrapper& surface, btScalar time_step) {
-    const auto& shape = static_cast<const HullShape&>(*hull.getCollisionShape());
-    const btVector3 centre = hull.getWorldTransform()(vector_of(shape.model().centre()));
-    const auto velocity = [&](const btCollisionObjectWrapper& body) {
-      const btRigidBody* const rigid = btRigidBody::upcast(body.getCollisionObject());
-      return rigid ? rigid->getVelocityInLocalPoint(centre - rigid->getWorldTransform().getOrigin()) : btVector3(0, 0, 0);
-    };
-    return vector_of((velocity(hull) - velocity(surface)) * time_step);
-  }
-
-  /// Bullet's normal is on the second body and points to the first.
-  void add(const TrianglePoint& p, const btCollisionObjectWrapper& surface, btManifoldResult& result) const {
-    const auto [part, index] = state_->ids[p.triangle];
-    if (result.getBody0Internal() == surface.getCollisionObject())
-      result.setShapeIdentifiersA(part, index);
-    else
-      result.setShapeIdentifiersB(part, index);
-    if (hull_is_a_)
-      result.addContactPoint(vector_of(-p.normal), vector_of(p.point_b), btScalar(p.separation));
-    else
-      result.addContactPoint(vector_of(p.normal), vector_of(p.point_a), btScalar(p.separation));
-  }
-
-  /// As Bullet does: one point of each triangle.
-  void hand_over_nearest(std::span<const TrianglePoint> points, const btCollisionObjectWrapper& surface,
-                         btManifoldResult& result) const {
-    for (const TrianglePoint& p : points) {
-      if (p.is_deepest_of_its) add(p, surface, result);
-    }
-  }
-
-  /// Each group of points goes to the manifold whose points had the most similar normals; at most four of each.
-  void hand_over_groups(std::span<const TrianglePoint> points, const btCollisionObjectWrapper& a,
-                        const btCollisionObjectWrapper& b, btManifoldResult& result) {
-    divide(points);
-    const btCollisionObjectWrapper& surface = hull_is_a_ ? b : a;
-    std::vector<btPersistentManifold*> free = shared_ ? std::vector{shared_} : state_->own;
-    for (const Group& group : state_->groups) {
-      btPersistentManifold& manifold = taken_from(free, group.front(), a, b);
-      const Spread chosen = spread(group);
-      result.setPersistentManifold(&manifold);
-      const Manifold now = manifold_of(group, chosen);
-      const bool swapped = manifold.getBody0() != a.getCollisionObject();
-      if (shared_ || swapped || !is_flat(group) || !hold_the_area(now, result)) {
-        if (!shared_) forget_others(manifold, now, swapped);
-        for (std::uint32_t i = chosen.count; i-- > 0;) add(group[chosen.index[i]], surface, result);  // the deepest comes last
-      }
-      if (!shared_) result.refreshContactPoints();
-    }
-    if (shared_) return;
-    for (btPersistentManifold* manifold : free) {
-      manifold->clearManifold();
-      if (state_->own.size() == 1) break;
-      std::erase(state_->own, manifold);
-      m_dispatcher->releaseManifold(manifold);
-    }
-    result.setPersistentManifold(state_->own.front());
-  }
-
-  /// Points whose normals are alike, beginning with the deepest. A manifold of the caller's has room for one group.
-  void divide(std::span<const TrianglePoint> points) {
-    std::vector<Group>& groups = state_->groups;
-    groups.clear();
-    std::vector<TrianglePoint> deepest_first(points.begin(), points.end());
-    std::stable_sort(deepest_first.begin(), deepest_first.end(),
-                     [](const auto& p, const auto& q) { return p.separation < q.separation; });
-    const std::size_t most = shared_ ? 1 : kMostManifolds;
-    for (const TrianglePoint& p : deepest_first) {
-      const auto likeness = [&](const Group& group) { return group.front().normal.dot(p.normal); };
-      const auto best = std::max_element(groups.begin(), groups.end(),
-                                         [&](const Group& g, const Group& h) { return likeness(g) < likeness(h); });
-      if (best == groups.end() || (likeness(*best) < kAlike && groups.size() < most))
-        groups.push_back({p});
-      else
-        best->push_back(p);
-    }
-  }
-
-  /// Of the manifolds that are free the one whose points had the most similar normals, or an empty one, or a new one.
-  btPersistentManifold& taken_from(std::vector<btPersistentManifold*>& free, const TrianglePoint& p,
-                                   const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
-    const btVector3 normal = vector_of(hull_is_a_ ? Vec3(-p.normal) : p.normal);
-    const auto likeness = [&](const btPersistentManifold* m) {
-      return m->getNumContacts() ? m->getContactPoint(0).m_normalWorldOnB.dot(normal) : kLikeAnEmptyOne;
-    };
-    const auto found =
-        std::max_element(free.begin(), free.end(), [&](const auto* m, const auto* n) { return likeness(m) < likeness(n); });
-    if (found == free.end() || (!shared_ && likeness(*found) < kLikeAnEmptyOne)) {
-      state_->own.push_back(m_dispatcher->getNewManifold(a.getCollisionObject(), b.getCollisionObject()));
-      return *state_->own.back();
-    }
-    btPersistentManifold& manifold = **found;
-    free.erase(found);
-    return manifold;
-  }
-
-  /// Whether the points of a group have one normal: those of an area.
-  static bool is_flat(const Group& group) {
-    return std::all_of(group.begin(), group.end(), [&](const TrianglePoint& p) {
-      return (p.normal - group.front().normal).squaredNorm() < kOneNormal * kOneNormal;
-    });
-  }
-
-  /// The chosen points of a group as two bodies' manifold.
-  Manifold manifold_of(const Group& group, const Spread& chosen) const {
-    Manifold now;
-    now.normal = hull_is_a_ ? group.front().normal : Vec3(-group.front().normal);
-    for (std::uint32_t i = 0; i < chosen.count; ++i) {
-      const TrianglePoint& p = group[chosen.index[i]];
-      ManifoldPoint& point = now.points[now.count++];
-      point.point_a = hull_is_a_ ? p.point_a : p.point_b;
-      point.point_b = hull_is_a_ ? p.point_b : p.point_a;
-      point.separation = p.separation;
-    }
-    return now;
+  /// How far the body's centre came in the last step, against the surface.
+  Vec3 moved_by(const btCollisionObjectWrapper& body, const btCollisionObjectWrapper& surface, btScalar time_step) const {
+    const btVector3 centre = body.getWorldTransform()(vector_of(state_->solid.centre(*body.getCollisionShape())));
+    return vector_of((velocity_at(body, centre) - velocity_at(surface, centre)) * time_step);
   }
 
   const Create& create_;
-  btPersistentManifold* shared_;
-  bool hull_is_a_;
   std::unique_ptr<State> state_;
 };
 
@@ -265,9 +175,10 @@ static_assert(sizeof(TrianglesAlgorithm) <= sizeof(btConvexConcaveCollisionAlgor
 }  // namespace
 
 btCollisionAlgorithm* create_triangles_algorithm(const Create& create, const btCollisionAlgorithmConstructionInfo& info,
-                                                 const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
+                                                 const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
+                                                 bool body_is_a, Solid solid) {
   void* const place = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(TrianglesAlgorithm));
-  return new (place) TrianglesAlgorithm(create, info, a, b);
+  return new (place) TrianglesAlgorithm(create, info, a, b, body_is_a, std::move(solid));
 }
 
 }  // namespace swiftlet::bullet

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "along.h"
 
+#include <algorithm>
+#include <array>
+
 #include <Eigen/Geometry>
 
 namespace swiftlet {
@@ -22,6 +25,56 @@ void into_world(const Pose& a_in_world, Manifold& manifold) {
   }
 }
 
+namespace {
+
+/// The vertices of a primitive, numbered as queries do: those of a box by bits, x 1, y 2, z 4.
+class Vertices {
+ public:
+  explicit Vertices(const Body& body) {
+    if (body.kind() == BodyKind::Box) {
+      for (int i = 0; i < 8; ++i) add({body.corner(i & 1)[0], body.corner(i >> 1 & 1)[1], body.corner(i >> 2 & 1)[2]});
+      return;
+    }
+    const int count = body.kind() == BodyKind::Point ? 1 : body.kind() == BodyKind::Segment ? 2 : 3;
+    for (int i = 0; i < count; ++i) add(body.corner(i));
+  }
+  const Vec3* begin() const { return all_.data(); }
+  const Vec3* end() const { return all_.data() + count_; }
+
+ private:
+  void add(const Vec3& p) { all_[count_++] = p; }
+  std::array<Vec3, 8> all_;
+  std::size_t count_ = 0;
+};
+
+/// The vertex of a body that is lowest along `up`, in the body's frame.
+struct Lowest {
+  std::uint32_t index;
+  Vec3 at;
+};
+Lowest lowest_of(const Body& body, const Vec3& up) {
+  if (const Model* const model = body.model()) {
+    const std::uint32_t lowest = model->support(-up);
+    const Vertex& v = model->level(0).view.vertices[lowest];
+    return {lowest, Vec3(v.x, v.y, v.z)};
+  }
+  const Vertices vertices(body);
+  const Vec3* const lowest = std::min_element(vertices.begin(), vertices.end(),
+                                              [&](const Vec3& p, const Vec3& q) { return up.dot(p) < up.dot(q); });
+  return {std::uint32_t(lowest - vertices.begin()), *lowest};
+}
+
+}  // namespace
+
+Ball ball_around(const Body& body) {
+  if (const Model* const model = body.model()) return {model->centre(), model->radius()};
+  const Vertices vertices(body);
+  Ball ball{Vec3::Zero(), 0};
+  for (const Vec3& v : vertices) ball.centre += v / double(vertices.end() - vertices.begin());
+  for (const Vec3& v : vertices) ball.radius = std::max(ball.radius, (v - ball.centre).norm());
+  return ball;
+}
+
 Vec3 normal_of(const Body& triangle, Side side) {
   const Vec3 p = triangle.corner(0), area = (triangle.corner(1) - p).cross(triangle.corner(2) - p);
   const double twice = area.norm();
@@ -31,9 +84,7 @@ Vec3 normal_of(const Body& triangle, Side side) {
 
 Answer above(const Body& a, const Body& triangle, const Pose& b_in_a, Side side, const Vec3& normal) {
   const Vec3 up = b_in_a.rotation * normal;
-  const std::uint32_t lowest = a.model()->support(-up);
-  const Vertex& v = a.model()->level(0).view.vertices[lowest];
-  const Vec3 p(v.x, v.y, v.z);
+  const auto [lowest, p] = lowest_of(a, up);
   const double height = up.dot(p - transform(b_in_a, triangle.corner(0)));
   Answer answer;
   answer.status = Status::Converged;

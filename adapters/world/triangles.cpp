@@ -20,7 +20,7 @@
 namespace swiftlet {
 namespace {
 
-/// Over the model's radius: what is nearer counts as one place. Some units in the last place of single precision, in which
+/// Over the body's radius: what is nearer counts as one place. Some units in the last place of single precision, in which
 /// engines keep meshes.
 constexpr double kOnePlace = 0x1p-20;
 
@@ -28,42 +28,15 @@ bool is_less_separated(const TrianglePoint& p, const TrianglePoint& q) { return 
 
 }  // namespace
 
-/// One step's pair, as all triangles see it.
-struct TrianglePair::View {
-  Body a;
-  Pose a_in_world, b_in_a;
-  Mat3 into_b;
-  Vec3 centre;  ///< the model's, in the surface's frame
-  double radius, beyond, one_place;
+// ---- The surface -----------------------------------------------------------------------------------------------------------
 
-  Vec3 in_b(const Vec3& p_a) const { return into_b * (p_a - b_in_a.translation); }
-};
+SurfaceTriangle::SurfaceTriangle(const Vec3& p, const Vec3& q, const Vec3& r)
+    : corners{p, q, r},
+      least(p.cwiseMin(q).cwiseMin(r)),
+      most(p.cwiseMax(q).cwiseMax(r)),
+      front(normal_of(Body::triangle(p, q, r), Side::Front)) {}
 
-void TrianglePair::clear() {
-  triangles_.clear();
-  widest_ = 0;
-}
-
-void TrianglePair::add(std::uint64_t name, const Vec3& p, const Vec3& q, const Vec3& r) {
-  const Vec3 least = p.cwiseMin(q).cwiseMin(r), most = p.cwiseMax(q).cwiseMax(r);
-  triangles_.push_back({{p, q, r}, least, most, normal_of(Body::triangle(p, q, r), Side::Front), {name, {}, Side::Front}});
-  widest_ = std::max(widest_, most[0] - least[0]);
-}
-
-/// Recalls what is known of each triangle; of a new one, on which side the model was `before`.
-void TrianglePair::recall(const Vec3& before) {
-  for (Triangle& t : triangles_) {
-    const auto known = std::lower_bound(memories_.begin(), memories_.end(), t.memory.name,
-                                        [](const Memory& m, std::uint64_t name) { return m.name < name; });
-    if (known != memories_.end() && known->name == t.memory.name)
-      t.memory = *known;
-    else
-      t.memory.side = t.side_of(before);
-  }
-}
-
-/// Whether `p` lies above or below the triangle, or beside it by no more than `slack`.
-bool TrianglePair::Triangle::covers(const Vec3& p, double slack) const {
+bool SurfaceTriangle::covers(const Vec3& p, double slack) const {
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 edge = corners[(i + 1) % 3] - corners[i];
     if (front.cross(edge).dot(p - corners[i]) < -slack * edge.norm()) return false;
@@ -71,7 +44,7 @@ bool TrianglePair::Triangle::covers(const Vec3& p, double slack) const {
   return true;
 }
 
-double TrianglePair::Triangle::distance_from(const Vec3& p) const {
+double SurfaceTriangle::distance_from(const Vec3& p) const {
   if (has_plane() && covers(p, 0)) return std::abs(front.dot(p - corners[0]));
   double least2 = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 3; ++i) {
@@ -82,13 +55,84 @@ double TrianglePair::Triangle::distance_from(const Vec3& p) const {
   return std::sqrt(least2);
 }
 
+void SurfacePatch::clear() {
+  triangles_.clear();
+  by_x_.clear();
+  widest_ = 0;
+}
+
+void SurfacePatch::add(const Vec3& p, const Vec3& q, const Vec3& r) {
+  triangles_.emplace_back(p, q, r);
+  widest_ = std::max(widest_, triangles_.back().most[0] - triangles_.back().least[0]);
+}
+
+void SurfacePatch::sort() {
+  by_x_.resize(triangles_.size());
+  std::iota(by_x_.begin(), by_x_.end(), 0u);
+  std::sort(by_x_.begin(), by_x_.end(),
+            [&](std::uint32_t i, std::uint32_t j) { return triangles_[i].least[0] < triangles_[j].least[0]; });
+}
+
+bool SurfacePatch::is_supported(const Vec3& p, const Vec3& direction, double slack) {
+  if (by_x_.size() != triangles_.size()) sort();
+  auto next = std::lower_bound(by_x_.begin(), by_x_.end(), p[0] - slack - widest_,
+                               [&](std::uint32_t i, double x) { return triangles_[i].least[0] < x; });
+  for (; next != by_x_.end() && triangles_[*next].least[0] <= p[0] + slack; ++next) {
+    const SurfaceTriangle& t = triangles_[*next];
+    if ((p.array() < t.least.array() - slack).any() || (p.array() > t.most.array() + slack).any()) continue;
+    if (!t.has_plane() || std::abs(t.front.dot(p - t.corners[0])) > slack || !t.covers(p, slack)) continue;
+    for (const Vec3& q : t.corners) {
+      if (direction.dot(q - p) > slack) return false;
+    }
+  }
+  return true;
+}
+
+// ---- A body and the surface ------------------------------------------------------------------------------------------------
+
+/// One step's pair, as all triangles see it.
+struct TrianglePair::View {
+  Body a;
+  Pose a_in_world, b_in_a;
+  Mat3 into_b;
+  Ball ball;    ///< around the body, without its radius, in its frame
+  Vec3 centre;  ///< the ball's, in the surface's frame
+  double radius, beyond, one_place;
+
+  Vec3 in_b(const Vec3& p_a) const { return into_b * (p_a - b_in_a.translation); }
+};
+
+void TrianglePair::clear() {
+  surface_.clear();
+  now_.clear();
+}
+
+void TrianglePair::add(std::uint64_t name, const Vec3& p, const Vec3& q, const Vec3& r) {
+  surface_.add(p, q, r);
+  now_.push_back({name, {}, Side::Front});
+}
+
+/// Recalls what is known of each triangle; of a new one, on which side the body was `before`.
+void TrianglePair::recall(const Vec3& before) {
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    Memory& memory = now_[i];
+    const auto known = std::lower_bound(memories_.begin(), memories_.end(), memory.name,
+                                        [](const Memory& m, std::uint64_t name) { return m.name < name; });
+    if (known != memories_.end() && known->name == memory.name)
+      memory = *known;
+    else
+      memory.side = surface_.triangles()[i].side_of(before);
+  }
+}
+
 /// The points of contact with one triangle.
 class TrianglePair::Meeting {
  public:
   Meeting(TrianglePair& pair, const View& view, std::uint32_t number)
       : pair_(pair),
         view_(view),
-        t_(pair.triangles_[number]),
+        t_(pair.surface_.triangles()[number]),
+        memory_(pair.now_[number]),
         number_(number),
         b_(Body::triangle(t_.corners[0], t_.corners[1], t_.corners[2], view.radius)),
         radii_(view.a.radius() + view.radius),
@@ -102,8 +146,8 @@ class TrianglePair::Meeting {
 
  private:
   void find() {
-    if (t_.distance_from(view_.centre) > view_.a.model()->radius() + radii_ + view_.beyond) {
-      t_.memory.side = t_.side_of(view_.centre);
+    if (t_.distance_from(view_.centre) > view_.ball.radius + radii_ + view_.beyond) {
+      memory_.side = t_.side_of(view_.centre);
       return;
     }
     Answer face;
@@ -112,28 +156,40 @@ class TrianglePair::Meeting {
       if (face.lower > view_.beyond) return;
       if (face.lower + radii_ >= 0 && is_over(face.point_b)) return add_those_over(face);  // the nearest point, without a walk
     }
-    const Answer alone = signed_distance(view_.a, b_, view_.b_in_a, t_.memory.seed, {.beyond = view_.beyond});
-    const bool is_apart = alone.lower + radii_ > 0;
-    if (t_.has_plane() && is_apart && t_.side_of(view_.centre) != t_.memory.side) {  // it went around the border
-      t_.memory.side = t_.side_of(view_.centre);
-      face = above_face();
+    const Answer alone = signed_distance(view_.a, b_, view_.b_in_a, memory_.seed, {.beyond = view_.beyond});
+    bool is_apart = alone.lower + radii_ > 0;
+    if (t_.has_plane() && is_apart && t_.side_of(view_.centre) != memory_.side) {
+      if (may_have_gone_around(alone)) {
+        memory_.side = t_.side_of(view_.centre);
+        face = above_face();
+      } else {
+        is_apart = false;
+      }
     }
     if (alone.status == Status::Beyond) return;
     if (!alone.normal.hasNaN()) {
       const Vec3 direction = view_.into_b * -alone.normal;
-      const bool leads_back = is_apart || t_.up().dot(direction) >= -kOnePlace;  // not through to the other side
-      if (leads_back && pair_.is_supported(view_, view_.in_b(core_b(alone)), direction)) return add_all(alone);
+      const bool leads_back = is_apart || up().dot(direction) >= -kOnePlace;  // not through to the other side
+      if (leads_back && pair_.surface_.is_supported(view_.in_b(core_b(alone)), direction, view_.one_place)) return add_all(alone);
     }
     if (!t_.has_plane() || (is_apart && face.lower + radii_ < 0)) return;  // apart, and its lowest point is elsewhere
     add_those_over(face);
-    // Deep in the model and not below its lowest face: no deeper than the shortest way out of the triangle alone.
+    // Deep in the body and not below its lowest face: no deeper than the shortest way out of the triangle alone.
     const bool is_missed = pair_.points_.size() == first_ && !is_apart && !alone.normal.hasNaN();
     if (!is_missed) return;
     const Vec3 on_b = core_b(alone) - face.normal * view_.radius;
     add(face.normal, on_b - face.normal * alone.lower, on_b, alone.lower);
   }
 
-  Answer above_face() const { return above(view_.a, b_, view_.b_in_a, t_.memory.side, t_.up()); }
+  /// Whether the body, apart from the triangle but for its radius and on the other side than remembered, came there around the
+  /// border. A point or segment may have passed through since the step before: it is then below the triangle.
+  bool may_have_gone_around(const Answer& alone) const {
+    const BodyKind kind = view_.a.kind();
+    return kind == BodyKind::Model || kind == BodyKind::Box || alone.lower > 0 || !t_.covers(view_.centre, 0);
+  }
+  /// Towards the body.
+  Vec3 up() const { return memory_.side == Side::Front ? t_.front : Vec3(-t_.front); }
+  Answer above_face() const { return above(view_.a, b_, view_.b_in_a, memory_.side, up()); }
   Vec3 core_b(const Answer& answer) const { return answer.point_b + answer.normal * view_.radius; }
   /// Of a point that is moved along the normal by the radius, too.
   bool is_over(const Vec3& p_a) const { return t_.covers(view_.in_b(p_a), view_.one_place); }
@@ -162,29 +218,13 @@ class TrianglePair::Meeting {
 
   TrianglePair& pair_;
   const View& view_;
-  Triangle& t_;
+  const SurfaceTriangle& t_;
+  Memory& memory_;
   const std::uint32_t number_;
   const Body b_;
   const double radii_;
   const std::size_t first_;  ///< of its points
 };
-
-/// Whether `direction`, unit, from the surface's point `p` to the model, is right: p is the highest point along it of all
-/// triangles that hold p. In the surface's frame.
-bool TrianglePair::is_supported(const View& view, const Vec3& p, const Vec3& direction) const {
-  const double slack = view.one_place;
-  auto next = std::lower_bound(by_x_.begin(), by_x_.end(), p[0] - slack - widest_,
-                               [&](std::uint32_t i, double x) { return triangles_[i].least[0] < x; });
-  for (; next != by_x_.end() && triangles_[*next].least[0] <= p[0] + slack; ++next) {
-    const Triangle& t = triangles_[*next];
-    if ((p.array() < t.least.array() - slack).any() || (p.array() > t.most.array() + slack).any()) continue;
-    if (!t.has_plane() || std::abs(t.front.dot(p - t.corners[0])) > slack || !t.covers(p, slack)) continue;
-    for (const Vec3& q : t.corners) {
-      if (direction.dot(q - p) > slack) return false;
-    }
-  }
-  return true;
-}
 
 std::span<const TrianglePoint> TrianglePair::contacts(const Placed& a, const Pose& surface, double radius, const Vec3& moved,
                                                       double beyond) {
@@ -192,18 +232,14 @@ std::span<const TrianglePoint> TrianglePair::contacts(const Placed& a, const Pos
   const Pose a_in_world = orthonormal(a.in_world), surface_in_world = orthonormal(surface);
   const Pose b_in_a = relative(a_in_world, surface_in_world);
   const Mat3 into_b = b_in_a.rotation.transpose();
-  const Model& model = *a.body.model();
-  View view{a.body, a_in_world, b_in_a, into_b, {}, radius, beyond, kOnePlace * model.radius()};
-  view.centre = view.in_b(model.centre());
+  const Ball ball = ball_around(a.body);
+  const double size = a.body.model() ? ball.radius : ball.radius + a.body.radius();
+  View view{a.body, a_in_world, b_in_a, into_b, ball, {}, radius, beyond, kOnePlace * size};
+  view.centre = view.in_b(ball.centre);
   recall(view.centre - surface_in_world.rotation.transpose() * moved);
-  by_x_.resize(triangles_.size());
-  std::iota(by_x_.begin(), by_x_.end(), 0u);
-  std::sort(by_x_.begin(), by_x_.end(),
-            [&](std::uint32_t i, std::uint32_t j) { return triangles_[i].least[0] < triangles_[j].least[0]; });
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i) Meeting(*this, view, i).add_points();
+  for (std::uint32_t i = 0; i < now_.size(); ++i) Meeting(*this, view, i).add_points();
 
-  memories_.clear();
-  for (const Triangle& t : triangles_) memories_.push_back(t.memory);
+  memories_.assign(now_.begin(), now_.end());
   std::sort(memories_.begin(), memories_.end(), [](const Memory& m, const Memory& n) { return m.name < n.name; });
   return points_;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A model against a surface of triangles, as engines' meshes and heightfields hand them out one by one. Inner edges are welded,
-// and no triangle pushes a model through to its other side. Knows no engine.
+// A convex body against a surface of triangles, as engines' meshes and heightfields hand them out one by one. Inner edges are
+// welded, and no triangle pushes a body through to its other side. Knows no engine.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ namespace swiftlet {
 
 /// A place of contact with one triangle, in the world's frame.
 struct TrianglePoint {
-  Vec3 normal;                     ///< unit, from the model to the surface
-  Vec3 point_a;                    ///< on the model
+  Vec3 normal;                     ///< unit, from the body to the surface
+  Vec3 point_a;                    ///< on the body
   Vec3 point_b;                    ///< on the surface: `point_a` + `separation` * normal
   double separation = 0;           ///< along the normal, below 0 where they overlap
   std::uint32_t triangle = 0;      ///< its number in the order of `add`
@@ -29,18 +29,50 @@ enum class Side : std::uint8_t {
   Back,   ///< the other one
 };
 
-/// A model and the triangles near it. It lives as long as the pair does: from step to step it remembers each triangle's seed,
-/// and the side on which the model is.
+/// A triangle of a surface, in the surface's frame.
+struct SurfaceTriangle {
+  SurfaceTriangle(const Vec3& p, const Vec3& q, const Vec3& r);
+  bool has_plane() const { return front != Vec3::Zero(); }
+  Side side_of(const Vec3& p) const { return front.dot(p - corners[0]) < 0 ? Side::Back : Side::Front; }
+  bool covers(const Vec3& p, double slack) const;  ///< whether p lies above or below it, or beside it by no more than `slack`
+  double distance_from(const Vec3& p) const;
+
+  std::array<Vec3, 3> corners;
+  Vec3 least, most;  ///< corners of its box
+  Vec3 front;        ///< unit normal, or 0 where the corners lie on one line
+};
+
+/// Some triangles of a surface, and the rule for its edges: a direction of contact is right where no triangle that holds the
+/// point rises above the plane across it.
+class SurfacePatch {
+ public:
+  void clear();
+  void add(const Vec3& p, const Vec3& q, const Vec3& r);
+  std::span<const SurfaceTriangle> triangles() const { return triangles_; }
+  /// Whether no triangle that holds `p`, to `slack`, has a corner above the plane through p across `direction`, which is unit and
+  /// leads away from the surface. All triangles that hold p must have been added.
+  bool is_supported(const Vec3& p, const Vec3& direction, double slack);
+
+ private:
+  void sort();
+
+  std::vector<SurfaceTriangle> triangles_;
+  std::vector<std::uint32_t> by_x_;  ///< their numbers, in the order of their boxes' least x
+  double widest_ = 0;                ///< the greatest width of a box along x
+};
+
+/// A convex body and the triangles near it. It lives as long as the pair does: from step to step it remembers each triangle's seed,
+/// and the side on which the body is.
 class TrianglePair {
  public:
   void clear();  ///< forgets the triangles, not what is remembered of them
   /// Adds a triangle, its corners in the surface's frame. Names are unique within a step and stay from step to step.
   void add(std::uint64_t name, const Vec3& p, const Vec3& q, const Vec3& r);
 
-  /// All points of contact of the model `a` with the triangles that were added, no farther apart than `beyond`; the triangles
-  /// have a radius. Those that touch the model's neighbourhood must all be there, because they are each other's neighbours.
-  /// `moved`: how far the model's centre moved, relative to the surface, since the step before: a triangle that is new counts
-  /// as met from the side on which the model was. The answer lives until the next call.
+  /// All points of contact of the body `a` with the triangles that were added, no farther apart than `beyond`; the triangles
+  /// have a radius. Those that touch the body's neighbourhood must all be there, because they are each other's neighbours.
+  /// `moved`: how far the body's centre moved, relative to the surface, since the step before: a triangle that is new counts
+  /// as met from the side on which the body was. The answer lives until the next call.
   std::span<const TrianglePoint> contacts(const Placed& a, const Pose& surface, double radius, const Vec3& moved,
                                           double beyond);
 
@@ -48,30 +80,16 @@ class TrianglePair {
   struct Memory {
     std::uint64_t name;
     PairSeed seed;
-    Side side;  ///< on which the model is
-  };
-  struct Triangle {
-    std::array<Vec3, 3> corners;
-    Vec3 least, most;  ///< corners of its box
-    Vec3 front;        ///< unit normal, or 0 where the corners lie on one line
-    Memory memory;
-
-    bool has_plane() const { return front != Vec3::Zero(); }
-    Side side_of(const Vec3& p) const { return front.dot(p - corners[0]) < 0 ? Side::Back : Side::Front; }
-    Vec3 up() const { return memory.side == Side::Front ? front : Vec3(-front); }  ///< towards the model
-    bool covers(const Vec3& p, double slack) const;
-    double distance_from(const Vec3& p) const;
+    Side side;  ///< on which the body is
   };
   struct View;
   class Meeting;
 
   void recall(const Vec3& before);
-  bool is_supported(const View& view, const Vec3& p, const Vec3& direction) const;
 
-  std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> by_x_;  ///< their numbers, in the order of their boxes' least x
-  double widest_ = 0;                ///< the greatest width of a box along x
-  std::vector<Memory> memories_;     ///< of the step before, by name
+  SurfacePatch surface_;
+  std::vector<Memory> now_;       ///< of each triangle
+  std::vector<Memory> memories_;  ///< of the step before, by name
   std::vector<TrianglePoint> points_;
 };
 

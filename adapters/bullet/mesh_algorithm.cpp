@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A MeshShape against another one or a plane. Bullet has no algorithm for two concave shapes.
+#include <cmath>
+#include <memory>
+#include <new>
+#include <optional>
+#include <vector>
+
+#include <BulletCollision/CollisionDispatch/btConvexConcaveCollisionAlgorithm.h>
+
+#include "algorithms.h"
+#include "mesh_pair.h"
+#include "point_groups.h"
+
+namespace swiftlet::bullet {
+namespace {
+
+class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
+ public:
+  MeshAlgorithm(const Create& create, const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper& a,
+                const btCollisionObjectWrapper& b)
+      : btActivatingCollisionAlgorithm(info), create_(create) {
+    const bool mesh_is_a = role_of(*a.getCollisionShape()) == Role::Mesh;
+    state_ = std::make_unique<State>(*info.m_dispatcher1, info.m_manifold, a, b, mesh_is_a);
+  }
+
+  void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo& info,
+                        btManifoldResult* result) override {
+    PointGroups& groups = state_->groups;
+    result->setPersistentManifold(&groups.first());
+    const bool first_is_a = state_->first_is_a;
+    const btCollisionObjectWrapper &first = first_is_a ? *a : *b, &second = first_is_a ? *b : *a;
+    const MeshShape* const mesh = unscaled_mesh(*first.getCollisionShape());
+    if (!mesh || role_of(*second.getCollisionShape()) == Role::Triangles) return groups.clear();  // scaled since then
+    const PlacedMeshShape placed{mesh, pose_of(first.getWorldTransform())};
+    const Placed origin{Body::point(Vec3::Zero()), placed.in_world}, other{origin.body, pose_of(second.getWorldTransform())};
+    if (std::isnan(tolerance(origin, other))) return groups.clear();  // no rigid motion
+    const double touching = groups.first().getContactBreakingThreshold() + result->m_closestPointDistanceThreshold;
+    if (const MeshShape* const other_mesh = unscaled_mesh(*second.getCollisionShape()))
+      meshes(placed, {other_mesh, other.in_world}, first, second, info.m_timeStep, touching);
+    else
+      plane(placed, second, touching);
+    if (create_.all_points) {
+      groups.hand_over(state_->points, state_->ids, *a, *b, *result);
+      return;
+    }
+    for (const TrianglePoint& p : state_->points) groups.add(p, state_->ids, *a, *result);
+  }
+
+  /// Bullet sweeps no concave shape.
+  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&, btManifoldResult*) override {
+    return 1;
+  }
+  void getAllContactManifolds(btManifoldArray& manifolds) override {
+    for (btPersistentManifold* manifold : state_->groups.own()) manifolds.push_back(manifold);
+  }
+
+ private:
+  struct State {
+    State(btDispatcher& dispatcher, btPersistentManifold* shared, const btCollisionObjectWrapper& a,
+          const btCollisionObjectWrapper& b, bool is_a)
+        : first_is_a(is_a), groups(dispatcher, shared, a, b, is_a) {}
+
+    const bool first_is_a;  ///< a mesh; of two meshes Bullet's first
+    PointGroups groups;
+    MeshPair pair;
+    std::vector<TrianglePoint> points;  ///< all, or the nearest alone
+    std::vector<PointIds> ids;
+  };
+
+  void meshes(const PlacedMeshShape& first, const PlacedMeshShape& second, const btCollisionObjectWrapper& first_object,
+              const btCollisionObjectWrapper& second_object, btScalar time_step, double touching) {
+    state_->points.clear();
+    if (create_.all_points) {
+      const Vec3 middle = (first.mesh().box_min() + first.mesh().box_max()) / 2;
+      const btVector3 centre = first_object.getWorldTransform()(vector_of(middle));
+      const Vec3 moved = vector_of((velocity_at(first_object, centre) - velocity_at(second_object, centre)) * time_step);
+      const auto points = state_->pair.contacts(first, second, moved, touching);
+      state_->points.assign(points.begin(), points.end());
+    } else if (const std::optional<TrianglePoint> near = state_->pair.nearest(first, second, touching)) {
+      state_->points.push_back(*near);
+    }
+    state_->ids.assign(state_->pair.ids().begin(), state_->pair.ids().end());
+  }
+
+  void plane(const PlacedMeshShape& mesh, const btCollisionObjectWrapper& object, double touching) {
+    state_->points = contacts(mesh, half_space_of(object), touching, state_->ids);
+    if (create_.all_points || state_->points.empty()) return;
+    const Spread deepest = spread(state_->points);
+    state_->points = {state_->points[deepest.index[0]]};
+  }
+
+  const Create& create_;
+  std::unique_ptr<State> state_;
+};
+
+// Bullet's pool hands out blocks of at least this size, whatever size is asked for.
+static_assert(sizeof(MeshAlgorithm) <= sizeof(btConvexConcaveCollisionAlgorithm));
+
+}  // namespace
+
+btCollisionAlgorithm* create_mesh_algorithm(const Create& create, const btCollisionAlgorithmConstructionInfo& info,
+                                            const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
+  void* const place = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(MeshAlgorithm));
+  return new (place) MeshAlgorithm(create, info, a, b);
+}
+
+}  // namespace swiftlet::bullet

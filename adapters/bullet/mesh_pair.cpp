@@ -1,0 +1,312 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Two meshes meet in regions, of each of which the kernel knows the nearest points and one normal. A body that lies in a bowl
+// has one region and many normals: so each vertex in a region is a place of contact too, along the way to the nearest point of
+// the other surface, where the rule for edges (triangles.h) lets it count. A vertex beyond the other surface is pushed back: of a
+// solid inside is beyond; of any other surface a vertex is beyond that crossed it since both met.
+#include "mesh_pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace swiftlet::bullet {
+namespace {
+
+/// Over the body's extent: what is nearer counts as one place, as of a convex body against triangles.
+constexpr double kOnePlace = 0x1p-20;
+/// Directions within 26 degrees of each other are alike.
+constexpr double kAlike = 0.9;
+
+Vec3 transform(const Pose& pose, const Vec3& p) { return pose.rotation * p + pose.translation; }
+
+TriangleId id_of(const MeshModel& mesh, std::uint32_t triangle) {
+  if (triangle >= mesh.triangle_count()) return {};
+  return {0, int(mesh.source_triangle()[triangle])};
+}
+
+/// Unit, or 0 of a triangle whose corners lie on one line.
+Vec3 front_of(const MeshModel& mesh, std::uint32_t triangle) {
+  const auto [p, q, r] = mesh.triangle(triangle);
+  return SurfaceTriangle(mesh.vertex(p), mesh.vertex(q), mesh.vertex(r)).front;
+}
+
+bool holds(const MeshContact& region, const Vec3& p, double around) {
+  return (p.array() >= region.box_min.array() - around).all() && (p.array() <= region.box_max.array() + around).all();
+}
+
+}  // namespace
+
+MayMeet::MayMeet(const SearchBox& box) : box_(box), width_(box.in_mesh.rotation.cwiseAbs()) {
+  const Vec3 middle = transform(box.in_mesh, (box.least + box.most) / 2), half = width_ * (box.most - box.least) / 2;
+  least_ = middle - half, most_ = middle + half;
+}
+
+bool MayMeet::operator()(const Vec3& box_min, const Vec3& box_max) const {
+  if ((box_min.array() > most_.array()).any() || (box_max.array() < least_.array()).any()) return false;
+  const Vec3 half = width_.transpose() * (box_max - box_min) / 2;
+  const Vec3 middle = box_.in_mesh.rotation.transpose() * ((box_min + box_max) / 2 - box_.in_mesh.translation);
+  return (middle.array() - half.array() <= box_.most.array()).all() && (middle.array() + half.array() >= box_.least.array()).all();
+}
+
+std::optional<TrianglePoint> Enclosed::way_out(const PlacedMeshShape& mesh, const Placed& body, const Vec3& centre,
+                                               const Vec3& moved) {
+  const bool is_first = state_ == State::Unknown;
+  state_ = State::Outside;
+  if (!mesh.shape->is_solid()) return std::nullopt;
+  const Pose mesh_in_world = orthonormal(mesh.in_world), body_in_world = orthonormal(body.in_world);
+  const Vec3 in_world = transform(body_in_world, centre), asked = is_first ? Vec3(in_world - moved) : in_world;
+  const Body point = Body::point(transform(inverse(mesh_in_world), asked));
+  if (intersects(mesh.core(), point, Pose{}).verdict != Verdict::Overlapping) return std::nullopt;
+  const MeshBody rounded = MeshBody::solid(mesh.mesh(), mesh.radius());
+  const Answer answer = signed_distance(rounded, body.body, relative(mesh_in_world, body_in_world));
+  if (answer.normal.hasNaN() || !std::isfinite(answer.lower)) return std::nullopt;
+  state_ = State::Inside;
+  const Vec3 out = mesh_in_world.rotation * answer.normal;
+  return TrianglePoint{-out, in_world, in_world - out * answer.lower, answer.lower, 0, true};
+}
+
+/// One step of a pair, in A's frame.
+struct MeshPair::Step {
+  Step(const PlacedMeshShape& of_a, const PlacedMeshShape& of_b, const Vec3& moved, const std::optional<Pose>& before, double beyond_)
+      : a(of_a),
+        b(of_b),
+        a_in_world(orthonormal(of_a.in_world)),
+        b_in_a(relative(a_in_world, orthonormal(of_b.in_world))),
+        b_in_a_before(before ? *before : b_in_a),
+        moved_in_a(a_in_world.rotation.transpose() * moved),
+        beyond(beyond_),
+        radii(of_a.radius() + of_b.radius()) {
+    if (!before) b_in_a_before.translation += moved_in_a;
+  }
+
+  const PlacedMeshShape &a, &b;
+  const Pose a_in_world, b_in_a;
+  Pose b_in_a_before;
+  const Vec3 moved_in_a;
+  const double beyond, radii;
+  bool meet = false;  ///< the bodies without their margins do
+};
+
+/// The vertices of one mesh as places of contact with the surface of the other.
+class MeshPair::Corners {
+ public:
+  Corners(MeshPair& pair, const Step& step, bool of_a)
+      : pair_(pair),
+        step_(step),
+        of_a_(of_a),
+        own_(of_a ? step.a : step.b),
+        other_(of_a ? step.b : step.a),
+        in_other_(of_a ? inverse(step.b_in_a) : step.b_in_a),
+        in_other_before_(of_a ? inverse(step.b_in_a_before) : step.b_in_a_before),
+        through_(pair.through_[of_a ? 0 : 1]) {}
+
+  void add_points() {
+    gather();
+    std::vector<std::uint32_t> through;
+    for (const Candidate& c : candidates_) {
+      if (look(c)) through.push_back(c.vertex);
+    }
+    through_ = std::move(through);
+  }
+
+ private:
+  struct Candidate {
+    std::uint32_t vertex, triangle;
+    bool operator<(const Candidate& other) const { return vertex < other.vertex; }
+    bool operator==(const Candidate& other) const { return vertex == other.vertex; }
+  };
+
+  /// The triangles of the regions, and their vertices there.
+  void gather() {
+    const MeshModel& mesh = own_.mesh();
+    for (const MeshContact& region : pair_.regions_) {
+      const Vec3 middle = (region.box_min + region.box_max) / 2, before = of_a_ ? step_.moved_in_a : -step_.moved_in_a;
+      const double around = (transform(in_other_, middle) - transform(in_other_before_, middle)).norm() + before.norm();
+      SearchBox box{region.box_min - Vec3::Constant(around), region.box_max + Vec3::Constant(around), Pose{}};
+      if (!of_a_) box.in_mesh = inverse(step_.b_in_a);
+      const auto inside = [&](const Vec3& p) {
+        return holds(region, of_a_ ? p : transform(step_.b_in_a, p), around);
+      };
+      for_triangles(mesh, box, [&](std::uint32_t t, const Vec3& p, const Vec3& q, const Vec3& r) {
+        patch_.add(p, q, r);
+        const auto [i, j, k] = mesh.triangle(t);
+        if (inside(p)) candidates_.push_back({i, t});
+        if (inside(q)) candidates_.push_back({j, t});
+        if (inside(r)) candidates_.push_back({k, t});
+      });
+    }
+    for (const std::uint32_t v : through_) candidates_.push_back({v, kNone});
+    std::stable_sort(candidates_.begin(), candidates_.end());
+    candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
+  }
+
+  /// Adds the contact of a vertex, if it is one. Returns whether it is beyond the other surface.
+  bool look(const Candidate& c) {
+    const Vec3 own = own_.mesh().vertex(c.vertex), p = transform(in_other_, own);
+    const bool was_through = std::binary_search(through_.begin(), through_.end(), c.vertex);
+    const Vec3 before = transform(in_other_before_, own);
+    const double way = (p - before).norm(), reach = step_.beyond + step_.radii;
+    const Body point = Body::point(p);
+    Answer near;
+    bool is_through = was_through;
+    if (other_.shape->is_solid()) {
+      is_through = step_.meet && intersects(other_.core(), point, Pose{}).verdict == Verdict::Overlapping;
+      near = distance(other_.mesh(), point, Pose{}, seed_, {.beyond = is_through ? HUGE_VAL : reach});
+    } else {
+      near = distance(other_.mesh(), point, Pose{}, seed_, {.beyond = was_through ? HUGE_VAL : std::max(reach, way)});
+      if (near.lower <= way && way > 0 &&
+          intersects(other_.mesh(), Body::segment(before, p), Pose{}).verdict == Verdict::Overlapping)
+        is_through = !is_through;
+    }
+    if (near.status == Status::Beyond || near.point_a.hasNaN()) return is_through;
+    const double apart = (p - near.point_a).norm(), separation = (is_through ? -apart : apart) - step_.radii;
+    if (separation > step_.beyond) return is_through;
+    const double nothing = kOnePlace * other_.mesh().extent();
+    Vec3 up = apart > nothing ? Vec3((p - near.point_a) / (is_through ? -apart : apart)) : Vec3::Zero();
+    if (apart <= nothing && other_.shape->is_solid() && seed_.triangle_a < other_.mesh().triangle_count())
+      up = front_of(other_.mesh(), seed_.triangle_a);  // on the surface
+    const Vec3 up_in_own = in_other_.rotation.transpose() * up;
+    if (up == Vec3::Zero() || !patch_.is_supported(own, -up_in_own, kOnePlace * own_.mesh().extent())) return is_through;
+    const PointIds own_first{id_of(own_.mesh(), c.triangle), id_of(other_.mesh(), seed_.triangle_a)};
+    if (of_a_) {
+      pair_.add(step_, -up_in_own, own - up_in_own * own_.radius(), own - up_in_own * (own_.radius() + separation), separation,
+                own_first);
+    } else {
+      const Vec3 on_own = p - up * own_.radius();
+      pair_.add(step_, up, on_own - up * separation, on_own, separation, {own_first.second, own_first.first});
+    }
+    return is_through;
+  }
+
+  MeshPair& pair_;
+  const Step& step_;
+  const bool of_a_;
+  const PlacedMeshShape &own_, &other_;
+  const Pose in_other_, in_other_before_;
+  std::vector<std::uint32_t>& through_;
+  SurfacePatch patch_;
+  std::vector<Candidate> candidates_;
+  MeshSeed seed_;
+};
+
+void MeshPair::add(const Step& step, const Vec3& normal, const Vec3& point_a, const Vec3& point_b, double separation, PointIds ids) {
+  points_.push_back({step.a_in_world.rotation * normal, transform(step.a_in_world, point_a), transform(step.a_in_world, point_b),
+                     separation, std::uint32_t(ids_.size()), true});
+  ids_.push_back(ids);
+}
+
+/// Adds the points where both surfaces face each other along the region's normal. Where vertices are beyond, they tell whether
+/// this leads back; where none is, the region's normal of the step before, or else the way that both came.
+void MeshPair::add_region(const Step& step, const MeshContact& region, std::size_t of_vertices) {
+  const ManifoldOptions options{.margin = step.beyond, .most_points = kMostManifoldPoints};
+  const Manifold all = manifold(step.a.surface(), step.b.surface(), step.b_in_a, region, options);
+  if (all.count == 0) return;
+  const bool crosses = region.normal.hasNaN();
+  Vec3 normal = all.normal, back = Vec3::Zero();
+  for (std::size_t i = 0; i < of_vertices; ++i) {
+    const TrianglePoint& p = points_[i];
+    const bool is_beyond = p.separation < -step.radii;
+    const Vec3 in_a = step.a_in_world.rotation.transpose() * (p.point_a - step.a_in_world.translation);
+    if (is_beyond && holds(region, in_a, 0)) back += step.a_in_world.rotation.transpose() * p.normal;
+  }
+  if (back != Vec3::Zero() && back.normalized().dot(normal) < (crosses ? kAlike : 0)) return;
+  if (crosses && back == Vec3::Zero()) {
+    Vec3 came = step.moved_in_a;
+    double nearest = HUGE_VAL;
+    for (const Known& known : known_) {
+      if (const double away = (known.place - region.point_a).norm(); away < nearest) nearest = away, came = known.normal;
+    }
+    if (came.dot(normal) < 0) normal = -normal;
+  }
+  found_.push_back({region.point_a, normal});
+  const PointIds ids{id_of(step.a.mesh(), region.triangle_a), id_of(step.b.mesh(), region.triangle_b)};
+  for (std::uint32_t i = 0; i < all.count; ++i) {
+    const ManifoldPoint& p = all.points[i];
+    add(step, normal, p.point_a, p.point_a + normal * p.separation, p.separation, ids);
+  }
+}
+
+std::span<const TrianglePoint> MeshPair::contacts(const PlacedMeshShape& a, const PlacedMeshShape& b, const Vec3& moved,
+                                                  double beyond) {
+  points_.clear(), ids_.clear();
+  Step step(a, b, moved, b_in_a_before_, beyond);
+  regions_.resize(std::max<std::size_t>(regions_.capacity(), 16));
+  MeshContacts told;
+  while ((told = swiftlet::contacts(a.surface(), b.surface(), step.b_in_a, beyond, regions_)).status == Status::Budget &&
+         regions_.size() < told.count + 1024)
+    regions_.resize(2 * regions_.size());
+  regions_.resize(told.stored);
+  b_in_a_before_ = step.b_in_a;
+
+  const bool cross = std::any_of(regions_.begin(), regions_.end(), [](const MeshContact& r) { return r.normal.hasNaN(); });
+  const bool any_solid = a.shape->is_solid() || b.shape->is_solid();
+  step.meet = cross || (any_solid && intersects(a.core(), b.core(), step.b_in_a, seed_).verdict == Verdict::Overlapping);
+  if (step.meet && !cross) {  // one is inside the other as a whole
+    const Answer out = signed_distance(a.core(), b.core(), step.b_in_a);
+    if (!out.normal.hasNaN() && std::isfinite(out.lower)) {
+      const Vec3 middle = (b.mesh().box_min() + b.mesh().box_max()) / 2, place = transform(step.b_in_a, middle);
+      add(step, out.normal, place - out.normal * out.lower, place, out.lower, {});
+      known_.clear();
+      return points_;
+    }
+  }
+  Corners(*this, step, true).add_points();
+  Corners(*this, step, false).add_points();
+  const std::size_t of_vertices = points_.size();
+  found_.clear();
+  for (const MeshContact& region : regions_) add_region(step, region, of_vertices);
+  known_.swap(found_);
+  return points_;
+}
+
+std::optional<TrianglePoint> MeshPair::nearest(const PlacedMeshShape& a, const PlacedMeshShape& b, double beyond) {
+  points_.clear(), ids_.clear();
+  const Step step(a, b, Vec3::Zero(), std::nullopt, beyond);
+  const MeshBody core_a = a.core(), core_b = b.core();
+  const Answer near = distance(core_a, core_b, step.b_in_a, seed_, {.beyond = beyond + step.radii});
+  if (near.status == Status::Beyond) return std::nullopt;
+  if (near.lower > 0 && !near.normal.hasNaN()) {
+    const PointIds ids{id_of(a.mesh(), seed_.triangle_a), id_of(b.mesh(), seed_.triangle_b)};
+    const Vec3 on_a = near.point_a + near.normal * a.radius();
+    const double separation = near.lower - step.radii;
+    add(step, near.normal, on_a, on_a + near.normal * separation, separation, ids);
+    return points_.front();
+  }
+  contacts(a, b, Vec3::Zero(), std::min(beyond, 0.));
+  if (points_.empty()) return std::nullopt;
+  return *std::min_element(points_.begin(), points_.end(),
+                           [](const TrianglePoint& p, const TrianglePoint& q) { return p.separation < q.separation; });
+}
+
+std::vector<TrianglePoint> contacts(const PlacedMeshShape& a, const HalfSpace& b, double beyond, std::vector<PointIds>& ids) {
+  struct Visitor final : MeshVisitor {
+    bool enters(const Vec3& box_min, const Vec3& box_max) override {
+      return up.cwiseMax(0).dot(box_min) + up.cwiseMin(0).dot(box_max) <= height;
+    }
+    bool visit(std::uint32_t t) override { return triangles.push_back(t), true; }
+    Vec3 up;
+    double height;
+    std::vector<std::uint32_t> triangles;
+  } visitor;
+  const Pose in_world = orthonormal(a.in_world);
+  visitor.up = in_world.rotation.transpose() * b.normal;
+  const double ground = b.offset - b.normal.dot(in_world.translation);  // of the plane, along `up`
+  visitor.height = ground + a.radius() + beyond;
+  visit_triangles(a.mesh(), visitor);
+  std::vector<TrianglePoint> points;
+  ids.clear();
+  for (const std::uint32_t t : visitor.triangles) {
+    ids.push_back({id_of(a.mesh(), t), {}});
+    for (const std::uint32_t v : a.mesh().triangle(t)) {
+      const Vec3 p = a.mesh().vertex(v);
+      const double height = visitor.up.dot(p), separation = height - ground - a.radius();
+      if (height > visitor.height) continue;
+      const Vec3 point = transform(in_world, p) - b.normal * a.radius();
+      points.push_back({-b.normal, point, point - b.normal * separation, separation, std::uint32_t(ids.size() - 1), true});
+    }
+  }
+  return points;
+}
+
+}  // namespace swiftlet::bullet

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "point_groups.h"
+
+#include <algorithm>
+
+#include "held_points.h"
+#include "shapes.h"
+
+namespace swiftlet::bullet {
+namespace {
+
+/// The normals of one manifold's points make smaller angles than this with that of its deepest one; of all others of them have
+/// larger ones. Cosine, of 26 degrees.
+constexpr double kAlike = 0.9;
+/// Points whose normals differ by more than 60 degrees leave nothing to others.
+constexpr btScalar kLikeAnEmptyOne = btScalar(0.5);
+/// As many as a corner of a room has walls, and one more.
+constexpr std::size_t kMostManifolds = 4;
+/// Normals that differ by less are one.
+constexpr double kOneNormal = 1e-4;
+
+/// Whether the points of a group have one normal: those of an area.
+bool is_flat(std::span<const TrianglePoint> group) {
+  return std::all_of(group.begin(), group.end(), [&](const TrianglePoint& p) {
+    return (p.normal - group.front().normal).squaredNorm() < kOneNormal * kOneNormal;
+  });
+}
+
+}  // namespace
+
+PointGroups::PointGroups(btDispatcher& dispatcher, btPersistentManifold* shared, const btCollisionObjectWrapper& a,
+                         const btCollisionObjectWrapper& b, bool first_is_a)
+    : dispatcher_(dispatcher), shared_(shared), first_is_a_(first_is_a) {
+  if (!shared_) own_.push_back(dispatcher_.getNewManifold(a.getCollisionObject(), b.getCollisionObject()));
+}
+
+PointGroups::~PointGroups() {
+  for (btPersistentManifold* manifold : own_) dispatcher_.releaseManifold(manifold);
+}
+
+void PointGroups::clear() {
+  for (btPersistentManifold* manifold : own_) manifold->clearManifold();
+}
+
+/// Bullet's normal is on its second body and points to the first. The result of a compound's child may have the bodies the other
+/// way round.
+void PointGroups::add(const TrianglePoint& p, std::span<const PointIds> ids, const btCollisionObjectWrapper& a,
+                      btManifoldResult& result) const {
+  const bool a_is_first = result.getBody0Internal() == a.getCollisionObject();
+  const PointIds& of = ids[p.triangle];
+  const TriangleId &id_a = first_is_a_ == a_is_first ? of.first : of.second,
+                   &id_b = first_is_a_ == a_is_first ? of.second : of.first;
+  if (id_a.index >= 0) result.setShapeIdentifiersA(id_a.part, id_a.index);
+  if (id_b.index >= 0) result.setShapeIdentifiersB(id_b.part, id_b.index);
+  if (first_is_a_)
+    result.addContactPoint(vector_of(-p.normal), vector_of(p.point_b), btScalar(p.separation));
+  else
+    result.addContactPoint(vector_of(p.normal), vector_of(p.point_a), btScalar(p.separation));
+}
+
+void PointGroups::hand_over(std::span<const TrianglePoint> points, std::span<const PointIds> ids,
+                            const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btManifoldResult& result) {
+  divide(points);
+  std::vector<btPersistentManifold*> free = shared_ ? std::vector{shared_} : own_;
+  for (const Group& group : groups_) {
+    btPersistentManifold& manifold = taken_from(free, group.front(), a, b);
+    const Spread chosen = spread(group);
+    result.setPersistentManifold(&manifold);
+    const Manifold now = manifold_of(group, chosen);
+    const bool swapped = manifold.getBody0() != a.getCollisionObject();
+    if (shared_ || swapped || !is_flat(group) || !hold_the_area(now, result)) {
+      if (!shared_) forget_others(manifold, now, swapped);
+      for (std::uint32_t i = chosen.count; i-- > 0;) add(group[chosen.index[i]], ids, a, result);  // the deepest comes last
+    }
+    if (!shared_) result.refreshContactPoints();
+  }
+  if (shared_) return;
+  for (btPersistentManifold* manifold : free) {
+    manifold->clearManifold();
+    if (own_.size() == 1) break;
+    std::erase(own_, manifold);
+    dispatcher_.releaseManifold(manifold);
+  }
+  result.setPersistentManifold(own_.front());
+}
+
+/// Points whose normals are alike, beginning with the deepest. A manifold of the caller's has room for one group.
+void PointGroups::divide(std::span<const TrianglePoint> points) {
+  groups_.clear();
+  std::vector<TrianglePoint> deepest_first(points.begin(), points.end());
+  std::stable_sort(deepest_first.begin(), deepest_first.end(),
+                   [](const auto& p, const auto& q) { return p.separation < q.separation; });
+  const std::size_t most = shared_ ? 1 : kMostManifolds;
+  for (const TrianglePoint& p : deepest_first) {
+    const auto likeness = [&](const Group& group) { return group.front().normal.dot(p.normal); };
+    const auto best = std::max_element(groups_.begin(), groups_.end(),
+                                       [&](const Group& g, const Group& h) { return likeness(g) < likeness(h); });
+    if (best == groups_.end() || (likeness(*best) < kAlike && groups_.size() < most))
+      groups_.push_back({p});
+    else
+      best->push_back(p);
+  }
+}
+
+/// Of the manifolds that are free the one whose points had the most similar normals, or an empty one, or a new one.
+btPersistentManifold& PointGroups::taken_from(std::vector<btPersistentManifold*>& free, const TrianglePoint& p,
+                                              const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
+  const btVector3 normal = vector_of(first_is_a_ ? Vec3(-p.normal) : p.normal);
+  const auto likeness = [&](const btPersistentManifold* m) {
+    return m->getNumContacts() ? m->getContactPoint(0).m_normalWorldOnB.dot(normal) : kLikeAnEmptyOne;
+  };
+  const auto found =
+      std::max_element(free.begin(), free.end(), [&](const auto* m, const auto* n) { return likeness(m) < likeness(n); });
+  if (found == free.end() || (!shared_ && likeness(*found) < kLikeAnEmptyOne)) {
+    own_.push_back(dispatcher_.getNewManifold(a.getCollisionObject(), b.getCollisionObject()));
+    return *own_.back();
+  }
+  btPersistentManifold& manifold = **found;
+  free.erase(found);
+  return manifold;
+}
+
+/// The chosen points of a group as two bodies' manifold.
+Manifold PointGroups::manifold_of(const Group& group, const Spread& chosen) const {
+  Manifold now;
+  now.normal = first_is_a_ ? group.front().normal : Vec3(-group.front().normal);
+  for (std::uint32_t i = 0; i < chosen.count; ++i) {
+    const TrianglePoint& p = group[chosen.index[i]];
+    ManifoldPoint& point = now.points[now.count++];
+    point.point_a = first_is_a_ ? p.point_a : p.point_b;
+    point.point_b = first_is_a_ ? p.point_b : p.point_a;
+    point.separation = p.separation;
+  }
+  return now;
+}
+
+}  // namespace swiftlet::bullet
