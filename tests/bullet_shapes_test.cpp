@@ -56,19 +56,6 @@ TEST(Oracle, KnowsAnswersThatAreKnown) {
 
 // ---- Shapes that are bodies ------------------------------------------------------------------------------------------------
 
-struct Random {
-  std::mt19937 engine{7};
-  double uniform(double least, double most) { return std::uniform_real_distribution<double>(least, most)(engine); }
-  btVector3 vector(double size) {
-    return btVector3(btScalar(uniform(-1, 1)), btScalar(uniform(-1, 1)), btScalar(uniform(-1, 1))) * btScalar(size);
-  }
-  btTransform transform(double size) {
-    const btQuaternion q(btScalar(uniform(-1, 1)), btScalar(uniform(-1, 1)), btScalar(uniform(-1, 1)),
-                         btScalar(uniform(-1, 1)));
-    return btTransform(q.normalized(), vector(size));
-  }
-};
-
 /// A shape of Bullet's, and what it is: all points within a radius of a polytope.
 struct Known {
   std::shared_ptr<btCollisionShape> shape;
@@ -77,8 +64,6 @@ struct Known {
 };
 
 using Maker = std::function<Known(Random&)>;
-
-Vec3 vec3(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
 Known sphere(Random& r) {
   auto shape = std::make_shared<btSphereShape>(btScalar(r.uniform(0.1, 1)));
@@ -491,39 +476,6 @@ TEST(Triangles, OfOnePlaneAreOnePlane) {
 }
 
 // ---- Motion ----------------------------------------------------------------------------------------------------------------
-
-constexpr btScalar kStep = btScalar(1) / 60;
-
-struct Dynamics {
-  btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher{&configuration};
-  std::optional<HullPairs> hull_pairs;
-  btDbvtBroadphase broadphase;
-  btSequentialImpulseConstraintSolver solver;
-  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
-  std::vector<std::unique_ptr<btRigidBody>> bodies;
-
-  explicit Dynamics(bool with_swiftlet = true) {
-    if (with_swiftlet) hull_pairs.emplace(dispatcher);
-    world.setGravity(btVector3(0, 0, btScalar(-9.81)));
-  }
-  ~Dynamics() {
-    for (const auto& body : bodies) world.removeRigidBody(body.get());
-  }
-  btRigidBody& add(btCollisionShape& shape, const btTransform& in_world, btScalar mass = 0,
-                   const btVector3& velocity = {0, 0, 0}) {
-    btVector3 inertia(0, 0, 0);
-    if (mass > 0) shape.calculateLocalInertia(mass, inertia);
-    btRigidBody& body = *bodies.emplace_back(std::make_unique<btRigidBody>(mass, nullptr, &shape, inertia));
-    body.setWorldTransform(in_world);
-    body.setInterpolationWorldTransform(in_world);
-    body.setLinearVelocity(velocity);
-    body.setActivationState(DISABLE_DEACTIVATION);
-    world.addRigidBody(&body);
-    return body;
-  }
-  void step() { world.stepSimulation(kStep, 0); }
-};
 
 /// A heightfield over [-size, size]^2, up in z.
 struct Field {

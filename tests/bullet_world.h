@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A collision world with and without swiftlet's pairs, and what contactPairTest reports in it.
+// Worlds with and without swiftlet's pairs, and what contactPairTest reports in them.
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -82,9 +84,58 @@ inline Pose pose_of(const btTransform& t) {
   return pose;
 }
 
+inline Vec3 vec3(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+
 inline void expect_near(const btVector3& p, const btVector3& q, btScalar tolerance) {
   EXPECT_LE((p - q).length(), tolerance) << p.x() << " " << p.y() << " " << p.z() << " and " << q.x() << " " << q.y() << " "
                                          << q.z();
 }
+
+struct Random {
+  std::mt19937 engine{7};
+  double uniform(double least, double most) { return std::uniform_real_distribution<double>(least, most)(engine); }
+  btVector3 vector(double size) {
+    return btVector3(btScalar(uniform(-1, 1)), btScalar(uniform(-1, 1)), btScalar(uniform(-1, 1))) * btScalar(size);
+  }
+  btTransform transform(double size) {
+    const btQuaternion q(btScalar(uniform(-1, 1)), btScalar(uniform(-1, 1)), btScalar(uniform(-1, 1)),
+                         btScalar(uniform(-1, 1)));
+    return btTransform(q.normalized(), vector(size));
+  }
+};
+
+inline constexpr btScalar kStep = btScalar(1) / 60;
+
+/// A world of bodies that move, 60 steps a second.
+struct Dynamics {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  std::optional<HullPairs> hull_pairs;
+  btDbvtBroadphase broadphase;
+  btSequentialImpulseConstraintSolver solver;
+  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+  std::vector<std::unique_ptr<btRigidBody>> bodies;
+
+  explicit Dynamics(bool with_swiftlet = true) {
+    if (with_swiftlet) hull_pairs.emplace(dispatcher);
+    world.setGravity(btVector3(0, 0, btScalar(-9.81)));
+  }
+  ~Dynamics() {
+    for (const auto& body : bodies) world.removeRigidBody(body.get());
+  }
+  btRigidBody& add(btCollisionShape& shape, const btTransform& in_world, btScalar mass = 0,
+                   const btVector3& velocity = {0, 0, 0}) {
+    btVector3 inertia(0, 0, 0);
+    if (mass > 0) shape.calculateLocalInertia(mass, inertia);
+    btRigidBody& body = *bodies.emplace_back(std::make_unique<btRigidBody>(mass, nullptr, &shape, inertia));
+    body.setWorldTransform(in_world);
+    body.setInterpolationWorldTransform(in_world);
+    body.setLinearVelocity(velocity);
+    body.setActivationState(DISABLE_DEACTIVATION);
+    world.addRigidBody(&body);
+    return body;
+  }
+  void step() { world.stepSimulation(kStep, 0); }
+};
 
 }  // namespace swiftlet

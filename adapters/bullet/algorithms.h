@@ -54,8 +54,9 @@ btCollisionAlgorithm* create_triangles_algorithm(const Create& create, const btC
                                                  const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
                                                  bool body_is_a, Solid solid);
 
-/// A MeshShape and another one or a plane.
+/// A MeshShape, and another one, a plane or, with its `solid`, a convex body that is no smaller.
 btCollisionAlgorithm* create_mesh_algorithm(const Create& create, const btCollisionAlgorithmConstructionInfo& info,
-                                            const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
+                                            const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
+                                            std::optional<Solid> solid = {});
 
 }  // namespace swiftlet::bullet

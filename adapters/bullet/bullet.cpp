@@ -158,6 +158,14 @@ bool is_ours(Role a, Role b) {
   return (a == Role::Mesh && b != Role::Triangles) || (b == Role::Mesh && a != Role::Triangles);
 }
 
+/// Of a small body and a large one it is the corners of the small one that meet the faces of the large one.
+bool is_no_larger(const MeshShape& mesh, const btCollisionShape& body) {
+  btVector3 middle;
+  btScalar radius;
+  body.getBoundingSphere(middle, radius);
+  return (mesh.mesh().box_max() - mesh.mesh().box_min()).norm() / 2 <= double(radius);
+}
+
 bool is_surface(Role role) { return role == Role::Mesh || role == Role::Triangles; }
 
 }  // namespace
@@ -194,6 +202,9 @@ btCollisionAlgorithm* Create::CreateCollisionAlgorithm(btCollisionAlgorithmConst
       return create_mesh_algorithm(*this, info, *a, *b);
     std::optional<Solid>& solid = second_is ? solid_a : solid_b;
     if (!solid) return others->CreateCollisionAlgorithm(info, a, b);
+    const MeshShape* const mesh = unscaled_mesh(second_is ? shape_b : shape_a);
+    if (mesh && is_no_larger(*mesh, second_is ? shape_a : shape_b))
+      return create_mesh_algorithm(*this, info, *a, *b, std::move(solid));
     return create_triangles_algorithm(*this, info, *a, *b, second_is, std::move(*solid));
   }
   if (!solid_a || !solid_b) return others->CreateCollisionAlgorithm(info, a, b);

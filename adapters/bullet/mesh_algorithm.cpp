@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A MeshShape against another one or a plane. Bullet has no algorithm for two concave shapes.
+// A MeshShape against another one, a plane or a convex body that is no smaller. Bullet has no algorithm for two concave shapes.
 #include <cmath>
 #include <memory>
 #include <new>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <BulletCollision/CollisionDispatch/btConvexConcaveCollisionAlgorithm.h>
@@ -19,10 +20,10 @@ namespace {
 class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
  public:
   MeshAlgorithm(const Create& create, const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper& a,
-                const btCollisionObjectWrapper& b)
+                const btCollisionObjectWrapper& b, std::optional<Solid> solid)
       : btActivatingCollisionAlgorithm(info), create_(create) {
     const bool mesh_is_a = role_of(*a.getCollisionShape()) == Role::Mesh;
-    state_ = std::make_unique<State>(*info.m_dispatcher1, info.m_manifold, a, b, mesh_is_a);
+    state_ = std::make_unique<State>(*info.m_dispatcher1, info.m_manifold, a, b, mesh_is_a, std::move(solid));
   }
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo& info,
@@ -31,14 +32,20 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
     result->setPersistentManifold(&groups.first());
     const bool first_is_a = state_->first_is_a;
     const btCollisionObjectWrapper &first = first_is_a ? *a : *b, &second = first_is_a ? *b : *a;
-    const MeshShape* const mesh = unscaled_mesh(*first.getCollisionShape());
-    if (!mesh || role_of(*second.getCollisionShape()) == Role::Triangles) return groups.clear();  // scaled since then
-    const PlacedMeshShape placed{mesh, pose_of(first.getWorldTransform())};
+    const MeshShape *const mesh = unscaled_mesh(*first.getCollisionShape()),
+                     *const other_mesh = unscaled_mesh(*second.getCollisionShape());
+    const std::optional<Solid>& solid = state_->solid;
+    const bool is_current = solid ? solid->is_current(*second.getCollisionShape())
+                                  : other_mesh || role_of(*second.getCollisionShape()) == Role::Plane;
+    if (!mesh || !is_current) return groups.clear();  // scaled since they met
+    const PlacedMeshShape placed(*mesh, pose_of(first.getWorldTransform()));
     const Placed origin{Body::point(Vec3::Zero()), placed.in_world}, other{origin.body, pose_of(second.getWorldTransform())};
     if (std::isnan(tolerance(origin, other))) return groups.clear();  // no rigid motion
     const double touching = groups.first().getContactBreakingThreshold() + result->m_closestPointDistanceThreshold;
-    if (const MeshShape* const other_mesh = unscaled_mesh(*second.getCollisionShape()))
-      meshes(placed, {other_mesh, other.in_world}, first, second, info.m_timeStep, touching);
+    if (other_mesh)
+      bodies(placed, {*other_mesh, other.in_world}, first, second, info.m_timeStep, touching);
+    else if (solid)
+      bodies(placed, PlacedMeshShape(solid->placed(second)), first, second, info.m_timeStep, touching);
     else
       plane(placed, second, touching);
     if (create_.all_points) {
@@ -59,17 +66,18 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
  private:
   struct State {
     State(btDispatcher& dispatcher, btPersistentManifold* shared, const btCollisionObjectWrapper& a,
-          const btCollisionObjectWrapper& b, bool is_a)
-        : first_is_a(is_a), groups(dispatcher, shared, a, b, is_a) {}
+          const btCollisionObjectWrapper& b, bool is_a, std::optional<Solid> of)
+        : first_is_a(is_a), solid(std::move(of)), groups(dispatcher, shared, a, b, is_a) {}
 
     const bool first_is_a;  ///< a mesh; of two meshes Bullet's first
+    const std::optional<Solid> solid;  ///< the second one, if it is convex
     PointGroups groups;
     MeshPair pair;
     std::vector<TrianglePoint> points;  ///< all, or the nearest alone
     std::vector<PointIds> ids;
   };
 
-  void meshes(const PlacedMeshShape& first, const PlacedMeshShape& second, const btCollisionObjectWrapper& first_object,
+  void bodies(const PlacedMeshShape& first, const PlacedMeshShape& second, const btCollisionObjectWrapper& first_object,
               const btCollisionObjectWrapper& second_object, btScalar time_step, double touching) {
     state_->points.clear();
     if (create_.all_points) {
@@ -101,9 +109,10 @@ static_assert(sizeof(MeshAlgorithm) <= sizeof(btConvexConcaveCollisionAlgorithm)
 }  // namespace
 
 btCollisionAlgorithm* create_mesh_algorithm(const Create& create, const btCollisionAlgorithmConstructionInfo& info,
-                                            const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
+                                            const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
+                                            std::optional<Solid> solid) {
   void* const place = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(MeshAlgorithm));
-  return new (place) MeshAlgorithm(create, info, a, b);
+  return new (place) MeshAlgorithm(create, info, a, b, std::move(solid));
 }
 
 }  // namespace swiftlet::bullet

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <utility>
 
+#include <swiftlet/depth.h>
+
 namespace swiftlet::bullet {
 namespace {
 
@@ -20,9 +22,21 @@ constexpr double kAlike = 0.9;
 
 Vec3 transform(const Pose& pose, const Vec3& p) { return pose.rotation * p + pose.translation; }
 
-TriangleId id_of(const MeshModel& mesh, std::uint32_t triangle) {
-  if (triangle >= mesh.triangle_count()) return {};
-  return {0, int(mesh.source_triangle()[triangle])};
+TriangleId id_of(const PlacedMeshShape& of, std::uint32_t triangle) {
+  if (!of.shape || triangle >= of.mesh().triangle_count()) return {};
+  return {0, int(of.mesh().source_triangle()[triangle])};
+}
+
+/// The body without its radius.
+Body core_of(const Body& body) {
+  const Vec3 p = body.corner(0), q = body.corner(1), r = body.corner(2);
+  switch (body.kind()) {
+    case BodyKind::Model: return *body.model();
+    case BodyKind::Point: return Body::point(p);
+    case BodyKind::Segment: return Body::segment(p, q);
+    case BodyKind::Triangle: return Body::triangle(p, q, r);
+    default: return Body::box(p, q);
+  }
 }
 
 /// Unit, or 0 of a triangle whose corners lie on one line.
@@ -36,6 +50,11 @@ bool holds(const MeshContact& region, const Vec3& p, double around) {
 }
 
 }  // namespace
+
+MeshBody PlacedMeshShape::core() const {
+  if (!shape) return core_of(convex);
+  return shape->is_solid() ? MeshBody::solid(mesh()) : MeshBody(mesh());
+}
 
 MayMeet::MayMeet(const SearchBox& box) : box_(box), width_(box.in_mesh.rotation.cwiseAbs()) {
   const Vec3 middle = transform(box.in_mesh, (box.least + box.most) / 2), half = width_ * (box.most - box.least) / 2;
@@ -141,43 +160,68 @@ class MeshPair::Corners {
     candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
   }
 
+  /// What is known of a vertex, in the other body's frame.
+  struct Near {
+    bool is_through = false;
+    double apart = HUGE_VAL;  ///< from the surface, below 0 where the vertex is beyond it
+    Vec3 up = Vec3::Zero();   ///< unit, away from the surface; 0 unless it is near and known
+    std::uint32_t triangle = kNone;
+  };
+
   /// Adds the contact of a vertex, if it is one. Returns whether it is beyond the other surface.
   bool look(const Candidate& c) {
     const Vec3 own = own_.mesh().vertex(c.vertex), p = transform(in_other_, own);
     const bool was_through = std::binary_search(through_.begin(), through_.end(), c.vertex);
-    const Vec3 before = transform(in_other_before_, own);
-    const double way = (p - before).norm(), reach = step_.beyond + step_.radii;
-    const Body point = Body::point(p);
-    Answer near;
-    bool is_through = was_through;
-    if (other_.shape->is_solid()) {
-      is_through = step_.meet && intersects(other_.core(), point, Pose{}).verdict == Verdict::Overlapping;
-      near = distance(other_.mesh(), point, Pose{}, seed_, {.beyond = is_through ? HUGE_VAL : reach});
-    } else {
-      near = distance(other_.mesh(), point, Pose{}, seed_, {.beyond = was_through ? HUGE_VAL : std::max(reach, way)});
-      if (near.lower <= way && way > 0 &&
-          intersects(other_.mesh(), Body::segment(before, p), Pose{}).verdict == Verdict::Overlapping)
-        is_through = !is_through;
-    }
-    if (near.status == Status::Beyond || near.point_a.hasNaN()) return is_through;
-    const double apart = (p - near.point_a).norm(), separation = (is_through ? -apart : apart) - step_.radii;
-    if (separation > step_.beyond) return is_through;
-    const double nothing = kOnePlace * other_.mesh().extent();
-    Vec3 up = apart > nothing ? Vec3((p - near.point_a) / (is_through ? -apart : apart)) : Vec3::Zero();
-    if (apart <= nothing && other_.shape->is_solid() && seed_.triangle_a < other_.mesh().triangle_count())
-      up = front_of(other_.mesh(), seed_.triangle_a);  // on the surface
-    const Vec3 up_in_own = in_other_.rotation.transpose() * up;
-    if (up == Vec3::Zero() || !patch_.is_supported(own, -up_in_own, kOnePlace * own_.mesh().extent())) return is_through;
-    const PointIds own_first{id_of(own_.mesh(), c.triangle), id_of(other_.mesh(), seed_.triangle_a)};
+    const Near near = other_.shape ? near_mesh(p, transform(in_other_before_, own), was_through) : near_convex(p);
+    const double separation = near.apart - step_.radii;
+    if (near.up == Vec3::Zero() || separation > step_.beyond) return near.is_through;
+    const Vec3 up = in_other_.rotation.transpose() * near.up;  // in the own frame
+    if (!patch_.is_supported(own, -up, kOnePlace * own_.mesh().extent())) return near.is_through;
+    const PointIds ids{id_of(own_, c.triangle), id_of(other_, near.triangle)};
     if (of_a_) {
-      pair_.add(step_, -up_in_own, own - up_in_own * own_.radius(), own - up_in_own * (own_.radius() + separation), separation,
-                own_first);
+      const Vec3 on_own = own - up * own_.radius();
+      pair_.add(step_, -up, on_own, on_own - up * separation, separation, ids);
     } else {
-      const Vec3 on_own = p - up * own_.radius();
-      pair_.add(step_, up, on_own - up * separation, on_own, separation, {own_first.second, own_first.first});
+      const Vec3 on_own = p - near.up * own_.radius();
+      pair_.add(step_, near.up, on_own - near.up * separation, on_own, separation, {ids.second, ids.first});
     }
-    return is_through;
+    return near.is_through;
   }
+
+  Near near_convex(const Vec3& p) {
+    Near near;
+    const Answer answer = signed_distance(core_of(other_.convex), Body::point(p), Pose{}, seed_.pair, {.beyond = reach()});
+    if (answer.status == Status::Beyond || answer.normal.hasNaN()) return near;
+    near.apart = answer.lower, near.up = answer.normal;
+    return near;
+  }
+
+  Near near_mesh(const Vec3& p, const Vec3& before, bool was_through) {
+    Near near;
+    const MeshModel& mesh = other_.mesh();
+    const Body point = Body::point(p);
+    Answer answer;
+    if (other_.is_solid()) {
+      near.is_through = step_.meet && intersects(other_.core(), point, Pose{}).verdict == Verdict::Overlapping;
+      answer = distance(mesh, point, Pose{}, seed_, {.beyond = near.is_through ? HUGE_VAL : reach()});
+    } else {
+      const double way = (p - before).norm();
+      answer = distance(mesh, point, Pose{}, seed_, {.beyond = was_through ? HUGE_VAL : std::max(reach(), way)});
+      const bool crossed = way > 0 && answer.lower <= way &&
+                           intersects(mesh, Body::segment(before, p), Pose{}).verdict == Verdict::Overlapping;
+      near.is_through = was_through != crossed;
+    }
+    near.triangle = seed_.triangle_a;
+    if (answer.status == Status::Beyond || answer.point_a.hasNaN()) return near;
+    const double apart = (p - answer.point_a).norm();
+    near.apart = near.is_through ? -apart : apart;
+    if (apart > kOnePlace * mesh.extent())
+      near.up = (p - answer.point_a) / near.apart;
+    else if (other_.is_solid() && near.triangle < mesh.triangle_count())
+      near.up = front_of(mesh, near.triangle);  // it lies in the surface
+    return near;
+  }
+  double reach() const { return step_.beyond + step_.radii; }
 
   MeshPair& pair_;
   const Step& step_;
@@ -220,7 +264,7 @@ void MeshPair::add_region(const Step& step, const MeshContact& region, std::size
     if (came.dot(normal) < 0) normal = -normal;
   }
   found_.push_back({region.point_a, normal});
-  const PointIds ids{id_of(step.a.mesh(), region.triangle_a), id_of(step.b.mesh(), region.triangle_b)};
+  const PointIds ids{id_of(step.a, region.triangle_a), id_of(step.b, region.triangle_b)};
   for (std::uint32_t i = 0; i < all.count; ++i) {
     const ManifoldPoint& p = all.points[i];
     add(step, normal, p.point_a, p.point_a + normal * p.separation, p.separation, ids);
@@ -240,19 +284,19 @@ std::span<const TrianglePoint> MeshPair::contacts(const PlacedMeshShape& a, cons
   b_in_a_before_ = step.b_in_a;
 
   const bool cross = std::any_of(regions_.begin(), regions_.end(), [](const MeshContact& r) { return r.normal.hasNaN(); });
-  const bool any_solid = a.shape->is_solid() || b.shape->is_solid();
+  const bool any_solid = a.is_solid() || b.is_solid();
   step.meet = cross || (any_solid && intersects(a.core(), b.core(), step.b_in_a, seed_).verdict == Verdict::Overlapping);
   if (step.meet && !cross) {  // one is inside the other as a whole
     const Answer out = signed_distance(a.core(), b.core(), step.b_in_a);
     if (!out.normal.hasNaN() && std::isfinite(out.lower)) {
-      const Vec3 middle = (b.mesh().box_min() + b.mesh().box_max()) / 2, place = transform(step.b_in_a, middle);
-      add(step, out.normal, place - out.normal * out.lower, place, out.lower, {});
+      const Vec3 place = (a.mesh().box_min() + a.mesh().box_max()) / 2;
+      add(step, out.normal, place, place + out.normal * out.lower, out.lower, {});
       known_.clear();
       return points_;
     }
   }
   Corners(*this, step, true).add_points();
-  Corners(*this, step, false).add_points();
+  if (b.shape) Corners(*this, step, false).add_points();
   const std::size_t of_vertices = points_.size();
   found_.clear();
   for (const MeshContact& region : regions_) add_region(step, region, of_vertices);
@@ -267,7 +311,7 @@ std::optional<TrianglePoint> MeshPair::nearest(const PlacedMeshShape& a, const P
   const Answer near = distance(core_a, core_b, step.b_in_a, seed_, {.beyond = beyond + step.radii});
   if (near.status == Status::Beyond) return std::nullopt;
   if (near.lower > 0 && !near.normal.hasNaN()) {
-    const PointIds ids{id_of(a.mesh(), seed_.triangle_a), id_of(b.mesh(), seed_.triangle_b)};
+    const PointIds ids{id_of(a, seed_.triangle_a), id_of(b, seed_.triangle_b)};
     const Vec3 on_a = near.point_a + near.normal * a.radius();
     const double separation = near.lower - step.radii;
     add(step, near.normal, on_a, on_a + near.normal * separation, separation, ids);
@@ -297,7 +341,7 @@ std::vector<TrianglePoint> contacts(const PlacedMeshShape& a, const HalfSpace& b
   std::vector<TrianglePoint> points;
   ids.clear();
   for (const std::uint32_t t : visitor.triangles) {
-    ids.push_back({id_of(a.mesh(), t), {}});
+    ids.push_back({id_of(a, t), {}});
     for (const std::uint32_t v : a.mesh().triangle(t)) {
       const Vec3 p = a.mesh().vertex(v);
       const double height = visitor.up.dot(p), separation = height - ground - a.radius();

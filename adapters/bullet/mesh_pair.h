@@ -56,16 +56,22 @@ void for_triangles(const MeshModel& mesh, const SearchBox& box, const Add& add) 
   visit_triangles(mesh, visitor);
 }
 
-/// A mesh where Bullet holds it.
+/// A mesh where Bullet holds it, or a convex body.
 struct PlacedMeshShape {
-  const MeshShape* shape;
+  PlacedMeshShape(const MeshShape& of, const Pose& at) : shape(&of), in_world(at) {}
+  explicit PlacedMeshShape(const Placed& of) : convex(of.body), in_world(of.in_world) {}
+
+  const MeshShape* shape = nullptr;  ///< null of a convex body
+  Body convex;
   Pose in_world;
 
   const MeshModel& mesh() const { return shape->mesh(); }
-  double radius() const { return shape->getMargin(); }
-  MeshBody surface() const { return {mesh(), radius()}; }
+  bool is_solid() const { return !shape || shape->is_solid(); }
+  double radius() const { return shape ? double(shape->getMargin()) : convex.radius(); }
+  /// The surface and the margin around it.
+  MeshBody surface() const { return shape ? MeshBody(mesh(), radius()) : MeshBody(convex); }
   /// The body without its margin: what it encloses too, if it is a solid.
-  MeshBody core() const { return shape->is_solid() ? MeshBody::solid(mesh()) : MeshBody(mesh()); }
+  MeshBody core() const;
 };
 
 /// Remembers of a convex body and a solid that the body was inside when they met, until it is out.
@@ -79,8 +85,8 @@ class Enclosed {
   enum class State : std::uint8_t { Unknown, Inside, Outside } state_ = State::Unknown;
 };
 
-/// Two meshes. It lives as long as the pair does: from step to step it remembers where they were, and which vertices are beyond
-/// a surface that encloses nothing.
+/// Two meshes, or a mesh and a convex body that is no smaller. It lives as long as the pair does: from step to step it remembers
+/// where they were, and which vertices are beyond a surface that encloses nothing.
 class MeshPair {
  public:
   /// All points of contact, no farther apart than `beyond`, of `a` with `b`. `moved`: how far `a` moved, relative to `b`, in the

@@ -124,7 +124,7 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
     const bool body_is_a = state_->body_is_a;
     const MeshShape* const mesh = unscaled_mesh(*(body_is_a ? b : a).getCollisionShape());
     if (!mesh || !state_->enclosed.may_hold()) return false;
-    const PlacedMeshShape placed{mesh, pose_of((body_is_a ? b : a).getWorldTransform())};
+    const PlacedMeshShape placed(*mesh, pose_of((body_is_a ? b : a).getWorldTransform()));
     const Vec3 centre = state_->solid.centre(*(body_is_a ? a : b).getCollisionShape());
     const std::optional<TrianglePoint> way = state_->enclosed.way_out(placed, body, centre, moved);
     if (!way) return false;
