@@ -535,6 +535,9 @@ TEST(Triangles, NeverPushABodyThrough) {
   expect_no_fall_through(scaled, "scaled mesh");
   Field field(9, 3, flat);
   expect_no_fall_through(*field.shape, "heightfield");
+  bullet::MeshShape mesh(bullet::mesh_of(floor->mesh).value());
+  mesh.setMargin(0);
+  expect_no_fall_through(mesh, "MeshShape");
 }
 
 /// What a slide over a flat floor did to a body, along the floor's normal.
@@ -788,6 +791,7 @@ struct Zoo {
     const auto gimpact = std::make_shared<btGImpactMeshShape>(&pyramid);
     gimpact->updateBound();
     add("btGImpactMeshShape", gimpact);
+    add("MeshShape", std::make_shared<bullet::MeshShape>(bullet::mesh_of(pyramid).value()));
     add("btSdfCollisionShape", std::make_shared<btSdfCollisionShape>());
     add("btEmptyShape", std::make_shared<btEmptyShape>());
     add("btStaticPlaneShape", std::make_shared<btStaticPlaneShape>(btVector3(0, 0, 1), btScalar(1)));
@@ -798,12 +802,14 @@ struct Zoo {
   void add(const char* name, std::shared_ptr<btCollisionShape> shape) { all.emplace_back(name, std::move(shape)); }
 };
 
-/// The rows of the page's table that begin with a class, and who answers.
-std::map<std::string, std::string> table_of_the_page() {
+/// The rows that begin with a class, of the page's table under a heading, and who answers.
+std::map<std::string, std::string> table_of_the_page(const std::string& heading) {
   std::ifstream page(std::string(SWIFTLET_TEST_DIR) + "/../adapters/README.md");
   std::map<std::string, std::string> rows;
+  bool is_below = false;
   for (std::string line; std::getline(page, line);) {
-    if (!line.starts_with("| `bt") && !line.starts_with("| `HullShape`")) continue;
+    if (line.starts_with("#")) is_below = line == heading;
+    if (!is_below || !(line.starts_with("| `bt") || line.starts_with("| `HullShape`") || line.starts_with("| `MeshShape`"))) continue;
     const std::size_t end = line.find(" | ", 2), next = line.find(" | ", end + 3);
     if (end == std::string::npos || next == std::string::npos) continue;
     std::string names = line.substr(2, end - 2);
@@ -818,7 +824,7 @@ std::map<std::string, std::string> table_of_the_page() {
 
 /// The page's table, `answers` and what happens are one and the same, in both tables of the dispatcher and both orders.
 TEST(WhoAnswers, IsWhatThePageSays) {
-  const std::map<std::string, std::string> page = table_of_the_page();
+  const std::map<std::string, std::string> page = table_of_the_page("### Who answers a HullShape's pair");
   Zoo zoo;
   World w, bullets(false);
   std::set<std::string> seen;
@@ -880,6 +886,64 @@ TEST(WhoAnswers, IsWhatThePageSays) {
   std::printf("%d classes of shapes are swiftlet's, %d Bullet's\n", ours, theirs);
 }
 
+/// The same of a mesh, whose rows are a table of their own. What is Bullet's, it answers by the triangles or not at all.
+TEST(WhoAnswers, OfAMeshIsWhatThePageSays) {
+  const std::map<std::string, std::string> page = table_of_the_page("### Who answers a MeshShape's pair");
+  Zoo zoo;
+  World w, bullets(false);
+  btTriangleMesh cube;
+  const btVector3 p(1, 1, 1), q(1, -1, -1), r(-1, 1, -1), s(-1, -1, 1);
+  cube.addTriangle(p, q, r), cube.addTriangle(p, r, s), cube.addTriangle(p, s, q), cube.addTriangle(q, s, r);
+  bullet::MeshShape mesh(bullet::mesh_of(cube).value());
+  std::set<std::string> seen;
+  for (const auto& [name, shape] : zoo.all) {
+    seen.insert(name);
+    ASSERT_TRUE(page.count(name)) << name << " is in no row of the page";
+    const bool is_ours = w.hull_pairs->answers(mesh, *shape), is_compound = shape->isCompound();
+    EXPECT_EQ(is_ours, w.hull_pairs->answers(*shape, mesh));
+    const std::string& who = page.at(name);
+    EXPECT_EQ(is_ours, who == "swiftlet") << name;
+    if (who != "swiftlet" && who != "child by child" && who != "Bullet" && who != "nobody") ADD_FAILURE() << name << ": " << who;
+    if (name == "btGImpactMeshShape" || name == "btEmptyShape" || name == "btSdfCollisionShape") continue;
+    for (const bool mesh_first : {true, false}) {
+      const auto ask = [&](World& world) {
+        const btTransform in_world = at(0.1, 0.05, 2.03);
+        return mesh_first ? closest_points(world, mesh, in_world, *shape, at(0, 0, 0), 3, is_ours && &world == &w)
+                          : closest_points(world, *shape, at(0, 0, 0), mesh, in_world, 3, is_ours && &world == &w);
+      };
+      const auto points = ask(w), theirs = ask(bullets);
+      EXPECT_EQ(points.empty(), who == "nobody") << name;
+      if (is_ours || is_compound) continue;
+      ASSERT_EQ(points.size(), theirs.size()) << name;
+      for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(points[i].distance, theirs[i].distance) << name;
+    }
+  }
+  for (const auto& [name, who] : page) EXPECT_TRUE(seen.count(name)) << name << " is a row of the page, and no shape here";
+}
+
+/// Scaled, a MeshShape is a concave shape of Bullet's, but to a HullShape, which takes its triangles.
+TEST(WhoAnswers, OfAScaledMeshBulletDoes) {
+  World w;
+  const auto floor = terrain(6, 3, flat);
+  bullet::MeshShape mesh(bullet::mesh_of(floor->mesh).value());
+  mesh.setMargin(0);
+  mesh.setLocalScaling(btVector3(1, 1, 2));
+  HullShape hull(bodies::model(bodies::cube()));
+  btSphereShape ball(1);
+  btStaticPlaneShape plane(btVector3(0, 0, 1), 1);
+  EXPECT_TRUE(w.hull_pairs->answers(hull, mesh));
+  EXPECT_FALSE(w.hull_pairs->answers(ball, mesh));
+  EXPECT_FALSE(w.hull_pairs->answers(plane, mesh));
+  EXPECT_FALSE(w.hull_pairs->answers(mesh, mesh));
+  for (btCollisionShape* shape : {static_cast<btCollisionShape*>(&hull), static_cast<btCollisionShape*>(&ball)}) {
+    const auto points = closest_points(w, *shape, at(0.1, 0.2, 1.2), mesh, at(0, 0, 0), 1, shape == &hull);
+    ASSERT_FALSE(points.empty());
+    btScalar least = 9;
+    for (const Point& p : points) least = std::min(least, p.distance);
+    EXPECT_NEAR(least, shape == &hull ? 0.2 - hull.getMargin() : 0.2, 1e-4);
+  }
+}
+
 /// Shapes of the user's own, and types that have no class: nothing that is not named is taken.
 TEST(WhoAnswers, LeavesUnknownTypesAlone) {
   struct Other : btSphereShape {
@@ -892,14 +956,14 @@ TEST(WhoAnswers, LeavesUnknownTypesAlone) {
   for (const auto& [name, shape] : zoo.all) {
     if (w.hull_pairs->answers(hull, *shape)) ours.insert(shape->getShapeType());
   }
-  EXPECT_EQ(ours.size(), 13u);
+  EXPECT_EQ(ours.size(), 14u);
   for (int type = 0; type < MAX_BROADPHASE_COLLISION_TYPES; ++type) {
     if (ours.count(type)) continue;
     EXPECT_FALSE(w.hull_pairs->answers(hull, Other(type))) << type;
   }
   for (const auto& [name, shape] : zoo.all) {
     for (const auto& [other_name, other] : zoo.all) {
-      if (name == "HullShape" || other_name == "HullShape") continue;
+      if (name.find('b') != 0 || other_name.find('b') != 0) continue;  // one of ours
       EXPECT_FALSE(w.hull_pairs->answers(*shape, *other)) << name << " " << other_name;
     }
   }

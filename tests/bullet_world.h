@@ -42,9 +42,10 @@ struct Point {
   btScalar distance;
 };
 
-/// What contactPairTest reports, as seen with `a` first.
+/// What contactPairTest reports, as seen with `a` first. Of a compound, and of triangles that it answers itself, Bullet reports its
+/// own order.
 inline std::vector<Point> closest_points(World& w, btCollisionShape& a, const btTransform& a_in_world, btCollisionShape& b,
-                                         const btTransform& b_in_world, btScalar threshold = 0) {
+                                         const btTransform& b_in_world, btScalar threshold = 0, bool is_ours = true) {
   struct Collector : btCollisionWorld::ContactResultCallback {
     const btCollisionObject* first = nullptr;
     std::vector<Point> points;
@@ -58,7 +59,7 @@ inline std::vector<Point> closest_points(World& w, btCollisionShape& a, const bt
   btCollisionObject object_a, object_b;
   object_a.setCollisionShape(&a), object_b.setCollisionShape(&b);
   object_a.setWorldTransform(a_in_world), object_b.setWorldTransform(b_in_world);
-  if (!b.isCompound()) collector.first = &object_a;  // of a compound Bullet reports the child first, whatever the order
+  if (!b.isCompound() && is_ours) collector.first = &object_a;
   collector.m_closestDistanceThreshold = threshold;
   w.world.contactPairTest(&object_a, &object_b, collector);
   return collector.points;
