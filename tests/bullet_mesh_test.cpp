@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// MeshShapes in Bullet, in both precisions: beside every pair of triangles, beside planes and boxes where a mesh is flat, and in
-// scenes, beside btGImpactMeshShape.
+// MeshShapes in Bullet, in both precisions: beside every pair of triangles, beside planes and boxes where a mesh is flat, and
+// in scenes, beside btGImpactMeshShape.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -135,10 +135,14 @@ TEST(MeshShapes, HaveTheInertiaOfTheirSolid) {
   MeshShape turned(soups::moved(block, turn, Vec3(1, 2, 3)).mesh());
   btVector3 moments;
   const btTransform axes = turned.principal_axes(2, moments);
-  expect_near(axes.getOrigin(), btVector3(1, 2, 3) + [&] {
-    const Vec3 c = turn * Vec3(1.5, -0.5, 2.5);
-    return btVector3(btScalar(c[0]), btScalar(c[1]), btScalar(c[2]));
-  }(), kRounding * 4);
+  expect_near(
+      axes.getOrigin(),
+      btVector3(1, 2, 3) +
+          [&] {
+            const Vec3 c = turn * Vec3(1.5, -0.5, 2.5);
+            return btVector3(btScalar(c[0]), btScalar(c[1]), btScalar(c[2]));
+          }(),
+      kRounding * 4);
   Vec3 sorted = vec3(moments);
   std::sort(sorted.begin(), sorted.end());
   EXPECT_LT((sorted - 2 / 12. * Vec3(10, 26, 34)).norm(), 1e-5);
@@ -349,8 +353,9 @@ TEST(MeshScenes, BodiesSlideAsOnOnePlane) {
     const char* name;
     btCollisionShape* shape;
     double height;
-  } const bodies_of_all_kinds[] = {{"box", &box, 0.3},      {"coin", &coin, 0.15},       {"sphere", &ball, 0.45},
-                                   {"btBoxShape", &bullets_box, 0.3}, {"capsule", &capsule, 0.35}, {"mesh", &brick, 0.34}};
+  } const bodies_of_all_kinds[] = {{"box", &box, 0.3},          {"coin", &coin, 0.15},
+                                   {"sphere", &ball, 0.45},     {"btBoxShape", &bullets_box, 0.3},
+                                   {"capsule", &capsule, 0.35}, {"mesh", &brick, 0.34}};
   for (const auto& [name, shape, height] : bodies_of_all_kinds) {
     const Motion on_plane = slide(plane, *shape, height), on_mesh = slide(ground, *shape, height);
     std::printf("%s: on a plane %.1e m, %.1e m/s, on the mesh %.1e m, %.1e m/s, lost %.4f\n", name, on_plane.rise,
@@ -430,8 +435,11 @@ TEST(MeshScenes, MeshesComeToRest) {
     const char* name;
     btCollisionShape* shape;
     double top, margin;
-  } const grounds[] = {{"plane", &plane, 0, 0}, {"btBoxShape", &table, 1, 0}, {"HullShape", &hull, 1, 0.04},
-                       {"open mesh", &floor, 0, 0.04}, {"solid mesh", &slab, 1, 0.04}};
+  } const grounds[] = {{"plane", &plane, 0, 0},
+                       {"btBoxShape", &table, 1, 0},
+                       {"HullShape", &hull, 1, 0.04},
+                       {"open mesh", &floor, 0, 0.04},
+                       {"solid mesh", &slab, 1, 0.04}};
   for (const auto& [name, ground, top, margin] : grounds) {
     for (MeshShape* shape : {&ring, &brick}) {
       for (const double speed : {0., 4., 8.}) {
@@ -453,7 +461,8 @@ TEST(MeshScenes, MeshesComeToRest) {
 
 /// A ring that hangs on a bar stays on it.
 TEST(MeshScenes, ARingHangsOnItsPeg) {
-  MeshShape ring(soups::scaled(soups::torus(32, 16, 0.2), 0.5).mesh()), bar_mesh(soups::box({-2, -0.1, -0.1}, {2, 0.1, 0.1}).mesh());
+  MeshShape ring(soups::scaled(soups::torus(32, 16, 0.2), 0.5).mesh()),
+      bar_mesh(soups::box({-2, -0.1, -0.1}, {2, 0.1, 0.1}).mesh());
   HullShape bar(bodies::model(bodies::box(2, 0.1, 0.1)));
   for (btCollisionShape* peg : {static_cast<btCollisionShape*>(&bar), static_cast<btCollisionShape*>(&bar_mesh)}) {
     Dynamics d;
@@ -478,8 +487,8 @@ TEST(MeshScenes, SolidsPushOutAndRoomsHold) {
   MeshShape solid(walls.mesh()), hollow(room.mesh()), brick(soups::box({-0.3, -0.2, -0.1}, {0.3, 0.2, 0.1}).mesh());
   HullShape box(bodies::model(bodies::box(0.3, 0.2, 0.1)));
   btSphereShape ball(btScalar(0.3));
-  for (btCollisionShape* shape : {static_cast<btCollisionShape*>(&box), static_cast<btCollisionShape*>(&ball),
-                                  static_cast<btCollisionShape*>(&brick)}) {
+  for (btCollisionShape* shape :
+       {static_cast<btCollisionShape*>(&box), static_cast<btCollisionShape*>(&ball), static_cast<btCollisionShape*>(&brick)}) {
     for (MeshShape* mesh : {&solid, &hollow}) {
       Dynamics d;
       d.world.setGravity(btVector3(0, 0, 0));
@@ -544,7 +553,8 @@ struct Scene {
 /// The same meshes, margins and solver. How deep the deepest vertex of the bodies gets below the ground, and whether they rest.
 TEST(BesideBullet, MeshesInThePlaceOfGImpact) {
   const Scene scenes[] = {
-      {"rings of 1 024 triangles on a flat floor of 1 152", floor_of(24, 4, flat), soups::scaled(soups::torus(32, 16), 0.5), 0.9, 3},
+      {"rings of 1 024 triangles on a flat floor of 1 152", floor_of(24, 4, flat), soups::scaled(soups::torus(32, 16), 0.5),
+       0.9, 3},
       {"bricks of 12 triangles on it", floor_of(24, 4, flat), soups::box({-0.4, -0.3, -0.2}, {0.4, 0.3, 0.2}), 0.9, 3},
       {"rings in a bowl of 2 048", floor_of(32, 3, bowl), soups::scaled(soups::torus(32, 16), 0.4), 1.2, 3},
       {"bricks in it", floor_of(32, 3, bowl), soups::box({-0.4, -0.3, -0.2}, {0.4, 0.3, 0.2}), 1.2, 3}};
@@ -581,7 +591,8 @@ TEST(BesideBullet, MeshesInThePlaceOfGImpact) {
       Random random;
       for (int i = 0; i < 4; ++i) {
         btTransform pose = random.transform(0.1);
-        pose.setOrigin(btVector3(btScalar(1.3 * (i % 2) - 0.6), btScalar(1.3 * (i / 2) - 0.6), btScalar(scene.height + 0.2 * i)));
+        pose.setOrigin(
+            btVector3(btScalar(1.3 * (i % 2) - 0.6), btScalar(1.3 * (i / 2) - 0.6), btScalar(scene.height + 0.2 * i)));
         btRigidBody& body = *d.bodies.emplace_back(std::make_unique<btRigidBody>(btScalar(1), nullptr, shape.get(), inertia));
         body.setWorldTransform(pose), body.setInterpolationWorldTransform(pose);
         body.setLinearVelocity(btVector3(0, 0, btScalar(-scene.speed)));
@@ -614,8 +625,8 @@ TEST(BesideBullet, MeshesInThePlaceOfGImpact) {
         lost += p.z() < -1;
         speed = std::max(speed, double(d.bodies[i]->getLinearVelocity().length()));
       }
-      std::printf("| %s | %s | %.0f | %.1f | %.1f | %d | %d | %.3f |\n", scene.name, ours ? "MeshShape" : "btGImpactMeshShape", us,
-                  1000 * deepest, 1000 * resting, asleep, lost, speed);
+      std::printf("| %s | %s | %.0f | %.1f | %.1f | %d | %d | %.3f |\n", scene.name, ours ? "MeshShape" : "btGImpactMeshShape",
+                  us, 1000 * deepest, 1000 * resting, asleep, lost, speed);
       if (ours) {
         EXPECT_EQ(lost, 0);
         EXPECT_LT(resting, 0.01);

@@ -809,7 +809,8 @@ std::map<std::string, std::string> table_of_the_page(const std::string& heading)
   bool is_below = false;
   for (std::string line; std::getline(page, line);) {
     if (line.starts_with("#")) is_below = line == heading;
-    if (!is_below || !(line.starts_with("| `bt") || line.starts_with("| `HullShape`") || line.starts_with("| `MeshShape`"))) continue;
+    if (!is_below || !(line.starts_with("| `bt") || line.starts_with("| `HullShape`") || line.starts_with("| `MeshShape`")))
+      continue;
     const std::size_t end = line.find(" | ", 2), next = line.find(" | ", end + 3);
     if (end == std::string::npos || next == std::string::npos) continue;
     std::string names = line.substr(2, end - 2);
@@ -903,7 +904,8 @@ TEST(WhoAnswers, OfAMeshIsWhatThePageSays) {
     EXPECT_EQ(is_ours, w.hull_pairs->answers(*shape, mesh));
     const std::string& who = page.at(name);
     EXPECT_EQ(is_ours, who == "swiftlet") << name;
-    if (who != "swiftlet" && who != "child by child" && who != "Bullet" && who != "nobody") ADD_FAILURE() << name << ": " << who;
+    if (who != "swiftlet" && who != "child by child" && who != "Bullet" && who != "nobody")
+      ADD_FAILURE() << name << ": " << who;
     if (name == "btGImpactMeshShape" || name == "btEmptyShape" || name == "btSdfCollisionShape") continue;
     for (const bool mesh_first : {true, false}) {
       const auto ask = [&](World& world) {

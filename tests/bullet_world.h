@@ -42,8 +42,8 @@ struct Point {
   btScalar distance;
 };
 
-/// What contactPairTest reports, as seen with `a` first. Of a compound, and of triangles that it answers itself, Bullet reports its
-/// own order.
+/// What contactPairTest reports, as seen with `a` first. Of a compound, and of triangles that it answers itself, Bullet reports
+/// its own order.
 inline std::vector<Point> closest_points(World& w, btCollisionShape& a, const btTransform& a_in_world, btCollisionShape& b,
                                          const btTransform& b_in_world, btScalar threshold = 0, bool is_ours = true) {
   struct Collector : btCollisionWorld::ContactResultCallback {

@@ -32,8 +32,8 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
     result->setPersistentManifold(&groups.first());
     const bool first_is_a = state_->first_is_a;
     const btCollisionObjectWrapper &first = first_is_a ? *a : *b, &second = first_is_a ? *b : *a;
-    const MeshShape *const mesh = unscaled_mesh(*first.getCollisionShape()),
-                     *const other_mesh = unscaled_mesh(*second.getCollisionShape());
+    const MeshShape *const mesh = unscaled_mesh(*first.getCollisionShape()), *const other_mesh =
+                                                                                 unscaled_mesh(*second.getCollisionShape());
     const std::optional<Solid>& solid = state_->solid;
     const bool is_current = solid ? solid->is_current(*second.getCollisionShape())
                                   : other_mesh || role_of(*second.getCollisionShape()) == Role::Plane;
@@ -69,7 +69,7 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
           const btCollisionObjectWrapper& b, bool is_a, std::optional<Solid> of)
         : first_is_a(is_a), solid(std::move(of)), groups(dispatcher, shared, a, b, is_a) {}
 
-    const bool first_is_a;  ///< a mesh; of two meshes Bullet's first
+    const bool first_is_a;             ///< a mesh; of two meshes Bullet's first
     const std::optional<Solid> solid;  ///< the second one, if it is convex
     PointGroups groups;
     MeshPair pair;

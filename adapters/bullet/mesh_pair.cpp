@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Two meshes meet in regions, of each of which the kernel knows the nearest points and one normal. A body that lies in a bowl
 // has one region and many normals: so each vertex in a region is a place of contact too, along the way to the nearest point of
-// the other surface, where the rule for edges (triangles.h) lets it count. A vertex beyond the other surface is pushed back: of a
-// solid inside is beyond; of any other surface a vertex is beyond that crossed it since both met.
+// the other surface, where the rule for edges (triangles.h) lets it count. A vertex beyond the other surface is pushed back: of
+// a solid inside is beyond; of any other surface a vertex is beyond that crossed it since both met.
 #include "mesh_pair.h"
 
 #include <algorithm>
@@ -65,7 +65,8 @@ bool MayMeet::operator()(const Vec3& box_min, const Vec3& box_max) const {
   if ((box_min.array() > most_.array()).any() || (box_max.array() < least_.array()).any()) return false;
   const Vec3 half = width_.transpose() * (box_max - box_min) / 2;
   const Vec3 middle = box_.in_mesh.rotation.transpose() * ((box_min + box_max) / 2 - box_.in_mesh.translation);
-  return (middle.array() - half.array() <= box_.most.array()).all() && (middle.array() + half.array() >= box_.least.array()).all();
+  return (middle.array() - half.array() <= box_.most.array()).all() &&
+         (middle.array() + half.array() >= box_.least.array()).all();
 }
 
 std::optional<TrianglePoint> Enclosed::way_out(const PlacedMeshShape& mesh, const Placed& body, const Vec3& centre,
@@ -87,7 +88,8 @@ std::optional<TrianglePoint> Enclosed::way_out(const PlacedMeshShape& mesh, cons
 
 /// One step of a pair, in A's frame.
 struct MeshPair::Step {
-  Step(const PlacedMeshShape& of_a, const PlacedMeshShape& of_b, const Vec3& moved, const std::optional<Pose>& before, double beyond_)
+  Step(const PlacedMeshShape& of_a, const PlacedMeshShape& of_b, const Vec3& moved, const std::optional<Pose>& before,
+       double beyond_)
       : a(of_a),
         b(of_b),
         a_in_world(orthonormal(of_a.in_world)),
@@ -144,9 +146,7 @@ class MeshPair::Corners {
       const double around = (transform(in_other_, middle) - transform(in_other_before_, middle)).norm() + before.norm();
       SearchBox box{region.box_min - Vec3::Constant(around), region.box_max + Vec3::Constant(around), Pose{}};
       if (!of_a_) box.in_mesh = inverse(step_.b_in_a);
-      const auto inside = [&](const Vec3& p) {
-        return holds(region, of_a_ ? p : transform(step_.b_in_a, p), around);
-      };
+      const auto inside = [&](const Vec3& p) { return holds(region, of_a_ ? p : transform(step_.b_in_a, p), around); };
       for_triangles(mesh, box, [&](std::uint32_t t, const Vec3& p, const Vec3& q, const Vec3& r) {
         patch_.add(p, q, r);
         const auto [i, j, k] = mesh.triangle(t);
@@ -207,8 +207,8 @@ class MeshPair::Corners {
     } else {
       const double way = (p - before).norm();
       answer = distance(mesh, point, Pose{}, seed_, {.beyond = was_through ? HUGE_VAL : std::max(reach(), way)});
-      const bool crossed = way > 0 && answer.lower <= way &&
-                           intersects(mesh, Body::segment(before, p), Pose{}).verdict == Verdict::Overlapping;
+      const bool crossed =
+          way > 0 && answer.lower <= way && intersects(mesh, Body::segment(before, p), Pose{}).verdict == Verdict::Overlapping;
       near.is_through = was_through != crossed;
     }
     near.triangle = seed_.triangle_a;
@@ -234,9 +234,10 @@ class MeshPair::Corners {
   MeshSeed seed_;
 };
 
-void MeshPair::add(const Step& step, const Vec3& normal, const Vec3& point_a, const Vec3& point_b, double separation, PointIds ids) {
-  points_.push_back({step.a_in_world.rotation * normal, transform(step.a_in_world, point_a), transform(step.a_in_world, point_b),
-                     separation, std::uint32_t(ids_.size()), true});
+void MeshPair::add(const Step& step, const Vec3& normal, const Vec3& point_a, const Vec3& point_b, double separation,
+                   PointIds ids) {
+  points_.push_back({step.a_in_world.rotation * normal, transform(step.a_in_world, point_a),
+                     transform(step.a_in_world, point_b), separation, std::uint32_t(ids_.size()), true});
   ids_.push_back(ids);
 }
 

@@ -85,12 +85,12 @@ class Enclosed {
   enum class State : std::uint8_t { Unknown, Inside, Outside } state_ = State::Unknown;
 };
 
-/// Two meshes, or a mesh and a convex body that is no smaller. It lives as long as the pair does: from step to step it remembers
-/// where they were, and which vertices are beyond a surface that encloses nothing.
+/// Two meshes, or a mesh and a convex body that is no smaller. It lives as long as the pair does: from step to step it
+/// remembers where they were, and which vertices are beyond a surface that encloses nothing.
 class MeshPair {
  public:
-  /// All points of contact, no farther apart than `beyond`, of `a` with `b`. `moved`: how far `a` moved, relative to `b`, in the
-  /// step before; read when both meet. The answer lives until the next call.
+  /// All points of contact, no farther apart than `beyond`, of `a` with `b`. `moved`: how far `a` moved, relative to `b`, in
+  /// the step before; read when both meet. The answer lives until the next call.
   std::span<const TrianglePoint> contacts(const PlacedMeshShape& a, const PlacedMeshShape& b, const Vec3& moved, double beyond);
   /// The nearest or deepest one.
   std::optional<TrianglePoint> nearest(const PlacedMeshShape& a, const PlacedMeshShape& b, double beyond);

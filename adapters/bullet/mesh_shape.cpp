@@ -80,7 +80,9 @@ void MeshShape::processAllTriangles(btTriangleCallback* callback, const btVector
 void MeshShape::getAabb(const btTransform& in_world, btVector3& least, btVector3& most) const {
   const btVector3 one = vector_of(mesh_.box_min()) * scaling_, other = vector_of(mesh_.box_max()) * scaling_;
   const btVector3 half = (other - one).absolute() / 2 + btVector3(getMargin(), getMargin(), getMargin());
-  const btVector3 middle = in_world((one + other) / 2), reach = half.dot3(in_world.getBasis()[0].absolute(), in_world.getBasis()[1].absolute(), in_world.getBasis()[2].absolute());
+  const btVector3 middle = in_world((one + other) / 2),
+                  reach = half.dot3(in_world.getBasis()[0].absolute(), in_world.getBasis()[1].absolute(),
+                                    in_world.getBasis()[2].absolute());
   least = middle - reach, most = middle + reach;
 }
 
@@ -98,7 +100,8 @@ btTransform MeshShape::principal_axes(btScalar mass, btVector3& inertia) const {
   const Vec3 along = solver.eigenvalues();
   inertia = vector_of(double(mass) * (Vec3::Constant(along.sum()) - along));
   btMatrix3x3 basis;
-  for (int row = 0; row < 3; ++row) basis[row] = btVector3(btScalar(axes(row, 0)), btScalar(axes(row, 1)), btScalar(axes(row, 2)));
+  for (int row = 0; row < 3; ++row)
+    basis[row] = btVector3(btScalar(axes(row, 0)), btScalar(axes(row, 1)), btScalar(axes(row, 2)));
   return btTransform(basis, vector_of(Vec3(scale.cwiseProduct(centre_))));
 }
 

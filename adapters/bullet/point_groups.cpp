@@ -43,8 +43,8 @@ void PointGroups::clear() {
   for (btPersistentManifold* manifold : own_) manifold->clearManifold();
 }
 
-/// Bullet's normal is on its second body and points to the first. The result of a compound's child may have the bodies the other
-/// way round.
+/// Bullet's normal is on its second body and points to the first. The result of a compound's child may have the bodies the
+/// other way round.
 void PointGroups::add(const TrianglePoint& p, std::span<const PointIds> ids, const btCollisionObjectWrapper& a,
                       btManifoldResult& result) const {
   const bool a_is_first = result.getBody0Internal() == a.getCollisionObject();

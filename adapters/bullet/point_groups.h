@@ -26,8 +26,8 @@ struct PointIds {
   TriangleId first, second;
 };
 
-/// The manifolds of a pair. Points are the first body's `point_a` and the second one's `point_b`; which of them is Bullet's first
-/// is said once.
+/// The manifolds of a pair. Points are the first body's `point_a` and the second one's `point_b`; which of them is Bullet's
+/// first is said once.
 class PointGroups {
  public:
   /// On `shared`, a manifold of the caller's, or if it is null on manifolds of its own, of which it has at least one.
@@ -45,8 +45,8 @@ class PointGroups {
   /// Adds a point to the manifold that `result` has.
   void add(const TrianglePoint& p, std::span<const PointIds> ids, const btCollisionObjectWrapper& a,
            btManifoldResult& result) const;
-  /// Hands over the points of a step, whose `triangle` is the place in `ids`: each group of them goes to the manifold whose points
-  /// had the most similar normals; at most four of each.
+  /// Hands over the points of a step, whose `triangle` is the place in `ids`: each group of them goes to the manifold whose
+  /// points had the most similar normals; at most four of each.
   void hand_over(std::span<const TrianglePoint> points, std::span<const PointIds> ids, const btCollisionObjectWrapper& a,
                  const btCollisionObjectWrapper& b, btManifoldResult& result);
 

@@ -33,7 +33,7 @@ enum class Role : std::uint8_t {
 
 /// By the shape's type; a HullShape that is scaled is a hull of points, a MeshShape that is hands out triangles.
 Role role_of(const btCollisionShape& shape);
-Role role_of(int proxy_type);  ///< of a shape of this type that is none of swiftlet's
+Role role_of(int proxy_type);                                   ///< of a shape of this type that is none of swiftlet's
 const MeshShape* unscaled_mesh(const btCollisionShape& shape);  ///< null of any other shape
 
 HalfSpace half_space_of(const btCollisionObjectWrapper& body);  ///< of a Plane
@@ -59,8 +59,8 @@ class Solid {
   Role role() const { return role_; }
   /// Whether the shape still is what the model was built of: nobody scaled it or added points.
   bool is_current(const btCollisionShape& shape) const;
-  Placed placed(const btCollisionObjectWrapper& body) const;         ///< of a Hull, Body or Points
-  Vec3 centre(const btCollisionShape& shape) const;                  ///< likewise: in the middle of it, in its frame
+  Placed placed(const btCollisionObjectWrapper& body) const;  ///< of a Hull, Body or Points
+  Vec3 centre(const btCollisionShape& shape) const;           ///< likewise: in the middle of it, in its frame
 
  private:
   explicit Solid(Role role) : role_(role) {}

@@ -59,8 +59,8 @@ Lowest lowest_of(const Body& body, const Vec3& up) {
     return {lowest, Vec3(v.x, v.y, v.z)};
   }
   const Vertices vertices(body);
-  const Vec3* const lowest = std::min_element(vertices.begin(), vertices.end(),
-                                              [&](const Vec3& p, const Vec3& q) { return up.dot(p) < up.dot(q); });
+  const Vec3* const lowest =
+      std::min_element(vertices.begin(), vertices.end(), [&](const Vec3& p, const Vec3& q) { return up.dot(p) < up.dot(q); });
   return {std::uint32_t(lowest - vertices.begin()), *lowest};
 }
 

@@ -170,7 +170,8 @@ class TrianglePair::Meeting {
     if (!alone.normal.hasNaN()) {
       const Vec3 direction = view_.into_b * -alone.normal;
       const bool leads_back = is_apart || up().dot(direction) >= -kOnePlace;  // not through to the other side
-      if (leads_back && pair_.surface_.is_supported(view_.in_b(core_b(alone)), direction, view_.one_place)) return add_all(alone);
+      if (leads_back && pair_.surface_.is_supported(view_.in_b(core_b(alone)), direction, view_.one_place))
+        return add_all(alone);
     }
     if (!t_.has_plane() || (is_apart && face.lower + radii_ < 0)) return;  // apart, and its lowest point is elsewhere
     add_those_over(face);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// swiftlet in Bullet: shapes that hold a model or a mesh, and their pairs in both tables of a dispatcher. In the precision of the
-// Bullet it is compiled with: single as swiftlet::bullet, double as swiftlet::bullet_float64.
+// swiftlet in Bullet: shapes that hold a model or a mesh, and their pairs in both tables of a dispatcher. In the precision of
+// the Bullet it is compiled with: single as swiftlet::bullet, double as swiftlet::bullet_float64.
 #pragma once
 
 #include <memory>
@@ -43,9 +43,9 @@ Result<Model> model_of(const btConvexHullShape& shape);
 inline constexpr int kMeshType = FAST_CONCAVE_MESH_PROXYTYPE;
 
 /// A mesh as a shape of bodies that stand or move, in the place of btBvhTriangleMeshShape and btGImpactMeshShape. To all of
-/// Bullet but HullPairs it is a btConcaveShape that hands out the triangles in a box, by the mesh's tree: rays, sweeps, the debug
-/// drawer and the pairs of convex shapes that HullPairs leaves to Bullet see those. Triangles keep the user's numbers, in part
-/// 0. Its margin, 0.04 as a hull's, is a radius around the triangles.
+/// Bullet but HullPairs it is a btConcaveShape that hands out the triangles in a box, by the mesh's tree: rays, sweeps, the
+/// debug drawer and the pairs of convex shapes that HullPairs leaves to Bullet see those. Triangles keep the user's numbers, in
+/// part 0. Its margin, 0.04 as a hull's, is a radius around the triangles.
 class MeshShape : public btConcaveShape {
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();
@@ -53,15 +53,15 @@ class MeshShape : public btConcaveShape {
   /// Shares the mesh's block. Throws std::invalid_argument where the mesh was cut: its triangles are gone.
   explicit MeshShape(const MeshModel& mesh);
   const MeshModel& mesh() const { return mesh_; }  ///< in double precision, as given
-  /// True if the triangles bound a volume and face outwards: then a body inside is pushed out. Of any other mesh each triangle has
-  /// two sides, and pushes a body back to that from which it came.
+  /// True if the triangles bound a volume and face outwards: then a body inside is pushed out. Of any other mesh each triangle
+  /// has two sides, and pushes a body back to that from which it came.
   bool is_solid() const { return is_solid_; }
-  /// A mesh is rigid: with a local scaling other than 1 its pairs are those of a concave shape of Bullet's with scaled triangles,
-  /// which meets no plane and no other mesh.
+  /// A mesh is rigid: with a local scaling other than 1 its pairs are those of a concave shape of Bullet's with scaled
+  /// triangles, which meets no plane and no other mesh.
   bool is_scaled() const;
-  /// Where a body of this shape and `mass` turns by itself: the centre of mass and the principal axes, in the shape's frame, and
-  /// the moments about these. Of a solid of constant density; of any other mesh of its box. Bullet has a body's origin there: put
-  /// the shape into a btCompoundShape at the inverse of this, or make the mesh of points that it has moved.
+  /// Where a body of this shape and `mass` turns by itself: the centre of mass and the principal axes, in the shape's frame,
+  /// and the moments about these. Of a solid of constant density; of any other mesh of its box. Bullet has a body's origin
+  /// there: put the shape into a btCompoundShape at the inverse of this, or make the mesh of points that it has moved.
   btTransform principal_axes(btScalar mass, btVector3& inertia) const;
 
   void processAllTriangles(btTriangleCallback* callback, const btVector3& least, const btVector3& most) const override;
@@ -77,19 +77,19 @@ class MeshShape : public btConcaveShape {
   MeshModel mesh_;
   bool is_solid_;
   btVector3 scaling_{1, 1, 1};
-  Vec3 centre_;    ///< of mass
-  Mat3 spread_;    ///< mean of the products of coordinates, from the centre: the inertia of mass 1 is its trace less itself
+  Vec3 centre_;  ///< of mass
+  Mat3 spread_;  ///< mean of the products of coordinates, from the centre: the inertia of mass 1 is its trace less itself
 };
 
-/// The mesh of what btBvhTriangleMeshShape and btGImpactMeshShape are made of, in its scaling; triangles are numbered part after
-/// part. Errors: as MeshModel::from_triangles.
+/// The mesh of what btBvhTriangleMeshShape and btGImpactMeshShape are made of, in its scaling; triangles are numbered part
+/// after part. Errors: as MeshModel::from_triangles.
 Result<MeshModel> mesh_of(const btStridingMeshInterface& triangles);
 
 /// Makes the pairs of an unscaled HullShape or MeshShape swiftlet's, in contacts and in closest-point queries, apart or
 /// overlapping: with one another, a sphere, capsule, box, triangle, static plane or hull of points, in either order and as
-/// children of compounds; of a HullShape also with Bullet's triangle meshes and heightfields. All other pairs stay with what the
-/// dispatcher's configuration has for them; adapters/README.md has the table. Create one after the dispatcher and before the
-/// world; it outlives the world.
+/// children of compounds; of a HullShape also with Bullet's triangle meshes and heightfields. All other pairs stay with what
+/// the dispatcher's configuration has for them; adapters/README.md has the table. Create one after the dispatcher and before
+/// the world; it outlives the world.
 class HullPairs {
  public:
   explicit HullPairs(btCollisionDispatcher& dispatcher);  ///< registers itself in both of the dispatcher's tables

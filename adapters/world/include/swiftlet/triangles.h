@@ -49,8 +49,8 @@ class SurfacePatch {
   void clear();
   void add(const Vec3& p, const Vec3& q, const Vec3& r);
   std::span<const SurfaceTriangle> triangles() const { return triangles_; }
-  /// Whether no triangle that holds `p`, to `slack`, has a corner above the plane through p across `direction`, which is unit and
-  /// leads away from the surface. All triangles that hold p must have been added.
+  /// Whether no triangle that holds `p`, to `slack`, has a corner above the plane through p across `direction`, which is unit
+  /// and leads away from the surface. All triangles that hold p must have been added.
   bool is_supported(const Vec3& p, const Vec3& direction, double slack);
 
  private:
@@ -61,8 +61,8 @@ class SurfacePatch {
   double widest_ = 0;                ///< the greatest width of a box along x
 };
 
-/// A convex body and the triangles near it. It lives as long as the pair does: from step to step it remembers each triangle's seed,
-/// and the side on which the body is.
+/// A convex body and the triangles near it. It lives as long as the pair does: from step to step it remembers each triangle's
+/// seed, and the side on which the body is.
 class TrianglePair {
  public:
   void clear();  ///< forgets the triangles, not what is remembered of them
