@@ -48,7 +48,7 @@ inline constexpr int kMeshType = FAST_CONCAVE_MESH_PROXYTYPE;
 /// part 0. Its margin, 0.04 as a hull's, is a radius around the triangles.
 class MeshShape : public btConcaveShape {
  public:
-  BT_DECLARE_ALIGNED_ALLOCATOR();
+  BT_DECLARE_ALIGNED_ALLOCATOR();  ///< Bullet's, as every shape has it
 
   /// Shares the mesh's block. Throws std::invalid_argument where the mesh was cut: its triangles are gone.
   explicit MeshShape(const MeshModel& mesh);
@@ -64,14 +64,16 @@ class MeshShape : public btConcaveShape {
   /// there: put the shape into a btCompoundShape at the inverse of this, or make the mesh of points that it has moved.
   btTransform principal_axes(btScalar mass, btVector3& inertia) const;
 
+  /// Hands out the scaled triangles whose boxes meet this one, in the shape's frame.
   void processAllTriangles(btTriangleCallback* callback, const btVector3& least, const btVector3& most) const override;
+  /// The box of the mesh's box in the world, with the margin.
   void getAabb(const btTransform& in_world, btVector3& least, btVector3& most) const override;
-  void setLocalScaling(const btVector3& scaling) override { scaling_ = scaling; }
-  const btVector3& getLocalScaling() const override { return scaling_; }
+  void setLocalScaling(const btVector3& scaling) override { scaling_ = scaling; }  ///< see `is_scaled`
+  const btVector3& getLocalScaling() const override { return scaling_; }           ///< 1 at first
   /// The moments of inertia about axes through the centre of mass that are parallel to the shape's, of the body that
   /// `principal_axes` speaks of, scaled. Those of Bullet's bodies, whose origin is there and whose axes are the principal ones.
   void calculateLocalInertia(btScalar mass, btVector3& inertia) const override;
-  const char* getName() const override { return "SwiftletMesh"; }
+  const char* getName() const override { return "SwiftletMesh"; }  ///< for debuggers
 
  private:
   MeshModel mesh_;

@@ -31,24 +31,25 @@ enum class Side : std::uint8_t {
 
 /// A triangle of a surface, in the surface's frame.
 struct SurfaceTriangle {
-  SurfaceTriangle(const Vec3& p, const Vec3& q, const Vec3& r);
-  bool has_plane() const { return front != Vec3::Zero(); }
+  SurfaceTriangle(const Vec3& p, const Vec3& q, const Vec3& r);  ///< of three corners
+  bool has_plane() const { return front != Vec3::Zero(); }       ///< false where the corners lie on one line
+  /// The side of its plane on which a point is.
   Side side_of(const Vec3& p) const { return front.dot(p - corners[0]) < 0 ? Side::Back : Side::Front; }
   bool covers(const Vec3& p, double slack) const;  ///< whether p lies above or below it, or beside it by no more than `slack`
-  double distance_from(const Vec3& p) const;
+  double distance_from(const Vec3& p) const;       ///< of a point, in doubles
 
-  std::array<Vec3, 3> corners;
-  Vec3 least, most;  ///< corners of its box
-  Vec3 front;        ///< unit normal, or 0 where the corners lie on one line
+  std::array<Vec3, 3> corners;  ///< in the order in which they were given
+  Vec3 least, most;             ///< corners of its box
+  Vec3 front;                   ///< unit normal, or 0 where the corners lie on one line
 };
 
 /// Some triangles of a surface, and the rule for its edges: a direction of contact is right where no triangle that holds the
 /// point rises above the plane across it.
 class SurfacePatch {
  public:
-  void clear();
-  void add(const Vec3& p, const Vec3& q, const Vec3& r);
-  std::span<const SurfaceTriangle> triangles() const { return triangles_; }
+  void clear();                                                              ///< forgets all triangles
+  void add(const Vec3& p, const Vec3& q, const Vec3& r);                     ///< a triangle by its corners
+  std::span<const SurfaceTriangle> triangles() const { return triangles_; }  ///< in the order of `add`
   /// Whether no triangle that holds `p`, to `slack`, has a corner above the plane through p across `direction`, which is unit
   /// and leads away from the surface. All triangles that hold p must have been added.
   bool is_supported(const Vec3& p, const Vec3& direction, double slack);
