@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "failure.h"
+
+#include <pybind11/numpy.h>
+
+#include <string>
+
+namespace swiftlet::python {
+namespace py = pybind11;
+
+void raise(const Error& error) {
+  const py::module_ errors = py::module_::import("swiftlet._errors");
+  const char* name = error.code == ErrorCode::CannotRead || error.code == ErrorCode::CannotWrite ? "FileError"
+                     : error.code == ErrorCode::Cancelled                                         ? "Cancelled"
+                                                                                                  : "DataError";
+  const py::object type = errors.attr(name);
+  const py::object exception = type(error.message, int(error.code), error.file);
+  PyErr_SetObject(type.ptr(), exception.ptr());
+  throw py::error_already_set();
+}
+
+std::string what_came(py::handle object) {
+  if (!py::isinstance<py::array>(object)) return Py_TYPE(object.ptr())->tp_name;
+  return py::str("{} array of shape {}").format(object.attr("dtype"), object.attr("shape"));
+}
+
+}  // namespace swiftlet::python

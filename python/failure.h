@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The library's errors as Python exceptions.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <utility>
+
+#include <swiftlet/result.h>
+
+namespace swiftlet::python {
+
+/// Raises the class of swiftlet._errors that stands for the error's code, with its attributes `code` and `file`.
+[[noreturn]] void raise(const Error& error);
+
+/// The value, or the error raised.
+template <class T>
+T take(Result<T>&& result) {
+  if (!result) raise(result.error());
+  return std::move(result).value();
+}
+
+/// "float32 array of shape (10, 4, 4)", "list" and the like: what came, for the message of an error.
+std::string what_came(pybind11::handle object);
+
+}  // namespace swiftlet::python
