@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The module swiftlet._build: the builder, which comes under CGAL's GPL. It hands out the bytes of model files, and shares no
+// type with the runtime's module.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <exception>
+#include <optional>
+
+#include <swiftlet/build.h>
+#include <swiftlet/build_mesh.h>
+
+#include "arrays.h"
+#include "crew.h"
+#include "failure.h"
+
+namespace swiftlet::python {
+namespace py = pybind11;
+namespace {
+
+py::bytes bytes_of(std::span<const std::byte> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
+/// Calls the user's function, and looks for signals, while a build goes on.
+class Watch {
+ public:
+  explicit Watch(py::object progress) : progress_(std::move(progress)) {}
+  Progress function() {
+    return [this](double fraction, std::string_view stage) {
+      const py::gil_scoped_acquire acquire;
+      try {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        return progress_.is_none() || progress_(fraction, std::string(stage)).cast<bool>();
+      } catch (...) {
+        raised_ = std::current_exception();
+        return false;
+      }
+    };
+  }
+  void finish() {
+    if (raised_) std::rethrow_exception(raised_);
+  }
+
+ private:
+  py::object progress_;
+  std::exception_ptr raised_;
+};
+
+Mesh to_mesh(py::handle points, py::handle triangles) {
+  Mesh mesh;
+  mesh.points = to_points(points, "vertices");
+  if (!triangles.is_none()) mesh.triangles = to_triangles(triangles, "faces");
+  return mesh;
+}
+
+py::tuple run_read(py::handle path) {
+  const std::string name = to_path(path);
+  std::optional<Result<Mesh>> read;
+  {
+    const py::gil_scoped_release release;
+    read = read_mesh(name);
+  }
+  const Mesh mesh = take(std::move(*read));
+  py::array_t<double> points({py::ssize_t(mesh.points.size()), py::ssize_t(3)});
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) std::copy_n(mesh.points[i].data(), 3, points.mutable_data(py::ssize_t(i), 0));
+  py::array_t<std::uint32_t> triangles({py::ssize_t(mesh.triangles.size()), py::ssize_t(3)});
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) std::copy_n(mesh.triangles[i].data(), 3, triangles.mutable_data(py::ssize_t(i), 0));
+  return py::make_tuple(points, triangles);
+}
+
+py::dict report_of(const BuildReport& r) {
+  py::list levels;
+  for (const LevelReport& l : r.levels) {
+    py::dict level;
+    level["vertices"] = l.vertices, level["faces"] = l.faces, level["triangles"] = l.triangles, level["bytes"] = l.bytes;
+    level["deviation"] = l.deviation, level["volume_ratio"] = l.volume_ratio;
+    levels.append(level);
+  }
+  py::dict d;
+  d["points_read"] = r.points_read, d["triangles_read"] = r.triangles_read, d["duplicates_dropped"] = r.duplicates_dropped;
+  d["interior_dropped"] = r.interior_dropped, d["hull_triangles"] = r.hull_triangles, d["faces_grouped"] = r.faces_grouped;
+  d["volume_ratio"] = r.volume_ratio, d["deepest_dent"] = r.deepest_dent, d["levels"] = levels, d["end"] = r.end;
+  return d;
+}
+
+py::tuple run_build(py::handle points, py::handle triangles, int method, int enclosing, std::optional<double> rate, std::uint32_t cutoff,
+                    int max_levels, double max_deviation, double deviation, std::optional<std::uint64_t> bytes, bool require_convex,
+                    bool require_solid, int resolution, double radius_factor, std::uint32_t map_cells, py::object progress, long threads) {
+  const Mesh mesh = to_mesh(points, triangles);
+  BuildOptions options;
+  if (method < 0 || method > 1) throw py::value_error("method: expected a Method, got " + std::to_string(method));
+  if (enclosing < 0 || enclosing > 1) throw py::value_error("enclosing: expected an Enclosing, got " + std::to_string(enclosing));
+  if (resolution < 0 || resolution > 3) throw py::value_error("resolution: expected a Resolution, got " + std::to_string(resolution));
+  options.method = Method(method), options.enclosing = Enclosing(enclosing), options.rate = rate, options.cutoff = cutoff;
+  options.max_levels = max_levels, options.max_deviation = max_deviation;
+  options.detail.deviation = deviation;
+  if (bytes) options.detail.bytes = *bytes;
+  options.require_convex = require_convex, options.require_solid = require_solid;
+  options.table = {lut::Resolution(resolution), radius_factor, map_cells};
+  Watch watch(std::move(progress));
+  options.progress = watch.function();
+  const unsigned count = thread_count(threads);
+  if (count > 1) options.executor = on_threads(count);
+  std::optional<Result<Built>> built;
+  {
+    const py::gil_scoped_release release;
+    built = build(mesh, options);
+  }
+  watch.finish();
+  const Built result = take(std::move(*built));
+  return py::make_tuple(bytes_of(result.model.bytes()), report_of(result.report));
+}
+
+HullOptions hull_options(std::uint32_t levels, std::uint32_t least_triangles, double bytes_per_triangle, Watch& watch, unsigned threads) {
+  HullOptions options;
+  options.levels = levels, options.least_triangles = least_triangles, options.bytes_per_triangle = bytes_per_triangle;
+  options.progress = watch.function();
+  if (threads > 1) options.executor = on_threads(threads);
+  return options;
+}
+
+py::bytes run_build_mesh(py::handle points, py::handle triangles, std::uint32_t levels, std::uint32_t least_triangles,
+                         double bytes_per_triangle, py::object progress, long threads) {
+  const Mesh mesh = to_mesh(points, triangles);
+  Watch watch(std::move(progress));
+  const HullOptions options = hull_options(levels, least_triangles, bytes_per_triangle, watch, thread_count(threads));
+  std::optional<Result<MeshModel>> built;
+  {
+    const py::gil_scoped_release release;
+    built = build_mesh(mesh, options);
+  }
+  watch.finish();
+  return bytes_of(take(std::move(*built)).bytes());
+}
+
+py::bytes run_rebuild_hulls(py::buffer data, std::uint32_t levels, std::uint32_t least_triangles, double bytes_per_triangle,
+                            py::object progress, long threads) {
+  const py::buffer_info info = data.request();
+  const MeshModel mesh = take(load_mesh(to_bytes(info)));
+  Watch watch(std::move(progress));
+  const HullOptions options = hull_options(levels, least_triangles, bytes_per_triangle, watch, thread_count(threads));
+  std::optional<Result<MeshModel>> built;
+  {
+    const py::gil_scoped_release release;
+    built = rebuild_hulls(mesh, options);
+  }
+  watch.finish();
+  return bytes_of(take(std::move(*built)).bytes());
+}
+
+}  // namespace
+}  // namespace swiftlet::python
+
+PYBIND11_MODULE(_build, module) {
+  using namespace swiftlet::python;
+  namespace py = pybind11;
+  py::options options;
+  options.disable_function_signatures();
+  module.doc() = "The builder behind swiftlet.build. What loads this module comes under CGAL's GPL.";
+  module.def("run_read", &run_read, py::arg("path"), "Points and triangles of a mesh file.");
+  module.def("run_build", &run_build, py::arg("points"), py::arg("triangles"), py::arg("method"), py::arg("enclosing"), py::arg("rate"),
+             py::arg("cutoff"), py::arg("max_levels"), py::arg("max_deviation"), py::arg("deviation"), py::arg("bytes"),
+             py::arg("require_convex"), py::arg("require_solid"), py::arg("resolution"), py::arg("radius_factor"), py::arg("map_cells"),
+             py::arg("progress"), py::arg("threads"), "The bytes of a model, and the report as a dict.");
+  module.def("run_build_mesh", &run_build_mesh, py::arg("points"), py::arg("triangles"), py::arg("levels"), py::arg("least_triangles"),
+             py::arg("bytes_per_triangle"), py::arg("progress"), py::arg("threads"), "The bytes of a mesh with hulls.");
+  module.def("run_rebuild_hulls", &run_rebuild_hulls, py::arg("data"), py::arg("levels"), py::arg("least_triangles"),
+             py::arg("bytes_per_triangle"), py::arg("progress"), py::arg("threads"), "The bytes of the mesh with new hulls.");
+}

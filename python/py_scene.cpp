@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Scenes for Python: each has a lock of its own, which is never waited for while the interpreter's is held.
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <swiftlet/scene.h>
+
+#include "arrays.h"
+#include "crew.h"
+#include "failure.h"
+#include "records.h"
+
+namespace swiftlet::python {
+namespace py = pybind11;
+namespace {
+
+struct HeldScene {
+  Scene scene;
+  unsigned threads = 1;
+  std::mutex mutex;
+  std::atomic<std::thread::id> owner{};
+  std::exception_ptr raised;  ///< by what `ask_only` calls
+};
+
+using ScenePointer = std::shared_ptr<HeldScene>;
+
+/// Locks one scene or two without the interpreter's lock, and runs the work without it.
+template <class Work>
+auto locked(HeldScene& scene, HeldScene& other, Work work) {
+  const std::thread::id me = std::this_thread::get_id();
+  if (scene.owner == me || other.owner == me) throw std::runtime_error("a scene cannot be asked or changed while it asks `ask_only`'s function");
+  Unlocked crew(scene.threads);
+  std::unique_lock<std::mutex> first(scene.mutex, std::defer_lock), second(other.mutex, std::defer_lock);
+  if (&scene == &other)
+    first.lock();
+  else
+    std::lock(first, second);
+  scene.owner = me, other.owner = me;
+  struct Leave {
+    HeldScene &scene, &other;
+    ~Leave() { scene.owner = std::thread::id(), other.owner = std::thread::id(); }
+  } leave{scene, other};
+  scene.raised = nullptr;
+  scene.scene.run_by({crew.executor(), [&crew] { return crew.stopped(); }});
+  auto result = work(scene.scene, other.scene);
+  scene.scene.run_by({});
+  const std::exception_ptr raised = std::exchange(scene.raised, nullptr);
+  crew.finish();
+  if (raised) std::rethrow_exception(raised);
+  return result;
+}
+template <class Work>
+auto locked(HeldScene& scene, Work work) {
+  return locked(scene, scene, [&](Scene& s, Scene&) { return work(s); });
+}
+
+using Id = std::pair<std::uint32_t, std::uint32_t>;
+BodyId to_id(const Id& id) { return {id.first, id.second}; }
+Id from_id(BodyId id) { return {id.index, id.generation}; }
+
+Pose to_pose(py::handle pose, py::handle quaternion) {
+  const PoseRows rows(pose, quaternion_order(quaternion), false, "pose");
+  if (!rows.is_single()) throw py::value_error("pose: expected one, got " + std::to_string(rows.size()));
+  return rows[0];
+}
+
+/// Ids of both sides, (n, 2) each, and the records.
+template <class Pair>
+py::tuple listed(const std::vector<Pair>& pairs) {
+  const auto count = py::ssize_t(pairs.size());
+  py::array_t<std::uint32_t> a({count, py::ssize_t(2)}), b({count, py::ssize_t(2)});
+  const py::array records = new_records(answer_dtype(), pairs.size(), false);
+  auto* into = static_cast<Answer*>(const_cast<void*>(records.data()));
+  for (py::ssize_t i = 0; i < count; ++i) {
+    const Pair& p = pairs[std::size_t(i)];
+    a.mutable_at(i, 0) = p.a.index, a.mutable_at(i, 1) = p.a.generation;
+    b.mutable_at(i, 0) = p.b.index, b.mutable_at(i, 1) = p.b.generation;
+    into[i] = p.answer;
+  }
+  return py::make_tuple(a, b, records);
+}
+
+Options to_options(double absolute, double relative, double beyond, const py::object& steps) {
+  Options options;
+  options.absolute = absolute, options.relative = relative, options.beyond = beyond;
+  if (!steps.is_none()) options.budget.steps = steps.cast<std::uint32_t>();
+  return options;
+}
+
+}  // namespace
+
+void define_scenes(py::module_& module) {
+  py::class_<HeldScene, ScenePointer> c(module, "Scene", R"(Bodies in one world, each with a name, and what is kept of pairs from question to question.
+
+Bodies are named by ids, pairs of an index and a generation that never come back. Poses map a body's frame into the world's. A
+question about all pairs leaves out those whose boxes are proved to be farther apart than asked and lists, in the order of ids, every
+other one that is not proved to be farther; answers are in A's frame about ``relative(pose(a), pose(b))``. The same calls give the
+same bits on any number of threads. Calls of several threads take turns.)");
+  c.def(py::init([](long threads) {
+          auto scene = std::make_shared<HeldScene>();
+          scene->threads = thread_count(threads);
+          return scene;
+        }),
+        py::kw_only(), py::arg("threads") = 1);
+  c.def(
+      "add",
+      [](HeldScene& s, const std::string& name, py::handle body, py::handle pose, py::handle quaternion) {
+        const OwnedBody b = to_body(body, "body");
+        const Pose in_world = to_pose(pose, quaternion);
+        const BodyId id = locked(s, [&](Scene& scene) {
+          return b.is_mesh() ? scene.add(name, b.body(), in_world) : scene.add(name, b.convex(), in_world);
+        });
+        if (id == BodyId{}) throw py::value_error("name: there is a body '" + name + "' already");
+        return from_id(id);
+      },
+      py::arg("name"), py::arg("body"), py::arg("in_world"), py::kw_only(), py::arg("quaternion") = py::none(),
+      "Adds a body and returns its id; an empty name names nothing. ValueError where another body has the name.");
+  c.def(
+      "move",
+      [](HeldScene& s, const Id& id, py::handle pose, py::handle quaternion) {
+        const Pose in_world = to_pose(pose, quaternion);
+        return locked(s, [&](Scene& scene) { return scene.move(to_id(id), in_world); });
+      },
+      py::arg("id"), py::arg("in_world"), py::kw_only(), py::arg("quaternion") = py::none(), "Moves a body; False if `id` names none.");
+  c.def(
+      "remove", [](HeldScene& s, const Id& id) { return locked(s, [&](Scene& scene) { return scene.remove(to_id(id)); }); },
+      py::arg("id"), "Removes a body; False if `id` names none.");
+  c.def(
+      "ask_only",
+      [](const ScenePointer& s, const py::object& asks) {
+        std::function<bool(BodyId, BodyId)> function;
+        if (!asks.is_none()) {
+          // Called and let go with the interpreter's lock.
+          const std::shared_ptr<py::object> held(new py::object(asks), [](py::object* o) {
+            const py::gil_scoped_acquire acquire;
+            delete o;
+          });
+          function = [scene = s.get(), held](BodyId a, BodyId b) {
+            const py::gil_scoped_acquire acquire;
+            if (scene->raised) return false;
+            try {
+              return (*held)(from_id(a), from_id(b)).template cast<bool>();
+            } catch (...) {
+              scene->raised = std::current_exception();
+              return false;
+            }
+          };
+        }
+        locked(*s, [&](Scene& scene) { return scene.ask_only(std::move(function)), 0; });
+      },
+      py::arg("asks"),
+      "Pairs within this scene for which ``asks(a, b)`` is false are left out of all answers; a < b are ids. None: all are asked.");
+  c.def(
+      "find", [](HeldScene& s, const std::string& name) -> py::object {
+        const BodyId id = locked(s, [&](Scene& scene) { return scene.find(name); });
+        return id == BodyId{} ? py::object(py::none()) : py::cast(from_id(id));
+      },
+      py::arg("name"), "The id of the body with this name, or None.");
+  c.def(
+      "has", [](HeldScene& s, const Id& id) { return locked(s, [&](Scene& scene) { return scene.has(to_id(id)); }); }, py::arg("id"),
+      "Whether `id` names a body of this scene.");
+  c.def("__len__", [](HeldScene& s) { return locked(s, [](Scene& scene) { return scene.size(); }); });
+  c.def("bodies", [](HeldScene& s) {
+    std::vector<Id> ids;
+    for (const BodyId id : locked(s, [](Scene& scene) { return scene.bodies(); })) ids.push_back(from_id(id));
+    return ids;
+  }, "All ids, in order.");
+  c.def(
+      "name", [](HeldScene& s, const Id& id) { return locked(s, [&](Scene& scene) { return std::string(scene.name(to_id(id))); }); },
+      py::arg("id"), "A body's name; empty if `id` names none.");
+  c.def(
+      "pose",
+      [](HeldScene& s, const Id& id) {
+        const Pose pose = locked(s, [&](Scene& scene) { return scene.pose(to_id(id)); });
+        const py::object eye = py::module_::import("numpy").attr("eye")(4);
+        return matrices(PoseRows(eye, QuaternionOrder::None, false), [&](std::size_t) { return pose; });
+      },
+      py::arg("id"), "A body's pose in the world, (4, 4); NaN if `id` names none.");
+  const auto other_or = [](const ScenePointer& s, const ScenePointer& other) -> HeldScene& { return other ? *other : *s; };
+  c.def(
+      "overlapping",
+      [=](const ScenePointer& s, const ScenePointer& other) {
+        return listed(locked(*s, other_or(s, other), [](Scene& scene, Scene& o) { return scene.overlapping(o); }));
+      },
+      py::arg("other") = nullptr, "The pairs that are not proved to be disjoint: ids of A (n, 2), ids of B, and records of answers.");
+  c.def(
+      "within",
+      [=](const ScenePointer& s, double threshold, const ScenePointer& other) {
+        return listed(locked(*s, other_or(s, other), [=](Scene& scene, Scene& o) { return scene.within(o, threshold); }));
+      },
+      py::arg("threshold"), py::arg("other") = nullptr,
+      "The pairs that are not proved to be farther apart than `threshold`: ids of A, ids of B, and records.");
+  c.def(
+      "distances",
+      [=](const ScenePointer& s, double beyond, const ScenePointer& other, double absolute, double relative, const py::object& steps) {
+        const Options options = to_options(absolute, relative, beyond, steps);
+        return listed(locked(*s, other_or(s, other), [&](Scene& scene, Scene& o) { return scene.distances(o, options); }));
+      },
+      py::arg("beyond"), py::arg("other") = nullptr, py::kw_only(), py::arg("absolute") = 0.0, py::arg("relative") = 0.0,
+      py::arg("steps") = py::none(),
+      "The pairs that are not proved to be farther apart than `beyond`, with their distances: ids of A, ids of B, and records.");
+  c.def(
+      "nearest",
+      [=](const ScenePointer& s, const ScenePointer& other, double absolute, double relative, double beyond, const py::object& steps)
+          -> py::tuple {
+        const Options options = to_options(absolute, relative, beyond, steps);
+        const NearestPair pair = locked(*s, other_or(s, other), [&](Scene& scene, Scene& o) { return scene.nearest(o, options); });
+        std::vector<ScenePair> found;
+        if (pair.a != BodyId{}) found.push_back(pair);
+        return py::make_tuple(pair.lower) + listed(found);
+      },
+      py::arg("other") = nullptr, py::kw_only(), py::arg("absolute") = 0.0, py::arg("relative") = 0.0,
+      py::arg("beyond") = std::numeric_limits<double>::infinity(), py::arg("steps") = py::none(),
+      "The nearest pair: a bound than which no pair is nearer, then ids of A, ids of B and records, of one row or none.");
+  c.def(
+      "contacts",
+      [=](const ScenePointer& s, const ScenePointer& other, double margin, std::uint32_t most_points, double flatness) -> py::tuple {
+        if (most_points < 1 || most_points > kMostManifoldPoints)
+          throw py::value_error("most_points: expected 1 to " + std::to_string(kMostManifoldPoints));
+        const ManifoldOptions options{margin, most_points, flatness};
+        const std::vector<SceneContact> found =
+            locked(*s, other_or(s, other), [&](Scene& scene, Scene& o) { return scene.contacts(o, options); });
+        py::list manifolds;
+        for (const SceneContact& contact : found) manifolds.append(manifold_parts(contact.manifold));
+        return listed(found) + py::make_tuple(manifolds);
+      },
+      py::arg("other") = nullptr, py::kw_only(), py::arg("margin") = 0.0, py::arg("most_points") = 4u, py::arg("flatness") = 0x1p-21,
+      "The pairs whose signed distance is not proved to be above `margin`: ids of A, ids of B, records, and manifolds. A pair with a\n"
+      "mesh is listed once for each region.");
+  c.def("__repr__", [](HeldScene& s) {
+    return "<swiftlet.Scene: " + std::to_string(locked(s, [](Scene& scene) { return scene.size(); })) + " bodies>";
+  });
+}
+
+}  // namespace swiftlet::python
