@@ -173,10 +173,9 @@ time step to time step. A seed changes the work, never the truth; any bits are l
       throw py::value_error("expected a row below " + std::to_string(s.seeds.size()) + " and " + std::to_string(sizeof(PairSeed)) + " bytes");
     std::memcpy(static_cast<void*>(&s.seeds[row].pair), bytes.data(), sizeof(PairSeed));
   }, py::arg("row"), py::arg("bits"), "Sets the seed of a row for convex bodies from the bytes of a C++ ``PairSeed``.");
-  c.def("__reduce__", [](const py::object& self) {
-    const auto& s = self.cast<const Seeds&>();
-    return py::make_tuple(py::type::of(self).attr("_from_bytes"),
-                          py::make_tuple(py::bytes(reinterpret_cast<const char*>(s.seeds.data()), s.seeds.size() * sizeof(MeshSeed))));
+  c.def("__reduce__", [](const Seeds& s) {
+    const py::bytes bytes(reinterpret_cast<const char*>(s.seeds.data()), s.seeds.size() * sizeof(MeshSeed));
+    return made_again("Seeds", "_from_bytes", py::make_tuple(bytes));
   });
   c.def_static("_from_bytes", [](const std::string& bytes) {
     if (bytes.size() % sizeof(MeshSeed)) throw py::value_error("not the bytes of seeds");

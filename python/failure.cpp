@@ -25,4 +25,8 @@ std::string what_came(py::handle object) {
   return py::str("{} array of shape {}").format(object.attr("dtype"), object.attr("shape"));
 }
 
+py::tuple made_again(const char* type, const char* method, py::tuple arguments) {
+  return py::make_tuple(py::module_::import("swiftlet._unpickle").attr("again"), py::make_tuple(type, method) + arguments);
+}
+
 }  // namespace swiftlet::python

@@ -24,4 +24,7 @@ T take(Result<T>&& result) {
 /// "float32 array of shape (10, 4, 4)", "list" and the like: what came, for the message of an error.
 std::string what_came(pybind11::handle object);
 
+/// What __reduce__ returns: a static method of a class of ours, or for an empty name the class, and its arguments.
+pybind11::tuple made_again(const char* type, const char* method, pybind11::tuple arguments);
+
 }  // namespace swiftlet::python

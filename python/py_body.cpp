@@ -211,10 +211,9 @@ py::array bytes_of(const std::shared_ptr<T>& m) {
 
 template <class Pointer>
 py::tuple reduce(const Pointer& m) {
-  const py::object type = py::type::of(py::cast(m));
-  if (m->mapped.empty()) return py::make_tuple(type.attr("from_bytes"), py::make_tuple(bytes_of(m)));
-  const std::uint64_t hash = unlocked([&] { return m->value.hash(); });
-  return py::make_tuple(type.attr("_map_same"), py::make_tuple(m->mapped, hash));
+  const char* type = std::is_same_v<Pointer, ModelPointer> ? "Model" : "MeshModel";
+  if (m->mapped.empty()) return made_again(type, "from_bytes", py::make_tuple(bytes_of(m)));
+  return made_again(type, "_map_same", py::make_tuple(m->mapped, unlocked([&] { return m->value.hash(); })));
 }
 
 template <class Pointer>
@@ -658,13 +657,12 @@ void define_body(py::class_<OwnedBody>& c) {
   });
   c.def("__reduce__", [](const py::object& self) {
     const auto& b = self.cast<const OwnedBody&>();
-    const py::object type = py::type::of(self);
-    if (kind_of(b) == 0) return py::make_tuple(type, py::make_tuple(self.attr("model"), b.body().radius()));
-    if (b.is_mesh())
-      return py::make_tuple(b.body().is_solid() ? py::object(type.attr("solid")) : type, py::make_tuple(self.attr("mesh"), b.body().radius()));
+    const double radius_of = b.body().radius();
+    if (b.is_mesh()) return made_again("Body", b.body().is_solid() ? "solid" : "", py::make_tuple(self.attr("mesh"), radius_of));
+    if (b.model()) return made_again("Body", "", py::make_tuple(self.attr("model"), radius_of));
     py::list arguments(self.attr("corners"));
-    arguments.append(b.body().radius());
-    return py::make_tuple(type.attr(kKinds[kind_of(b)]), py::tuple(arguments));
+    arguments.append(radius_of);
+    return made_again("Body", kKinds[kind_of(b)], py::tuple(arguments));
   });
 }
 
