@@ -155,8 +155,6 @@ py::bytes run_rebuild_hulls(py::buffer data, std::uint32_t levels, std::uint32_t
 PYBIND11_MODULE(_build, module) {
   using namespace swiftlet::python;
   namespace py = pybind11;
-  py::options options;
-  options.disable_function_signatures();
   module.doc() = "The builder behind swiftlet.build. What loads this module comes under CGAL's GPL.";
   module.def("run_read", &run_read, py::arg("path"), "Points and triangles of a mesh file.");
   module.def("run_build", &run_build, py::arg("points"), py::arg("triangles"), py::arg("method"), py::arg("enclosing"), py::arg("rate"),

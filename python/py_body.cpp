@@ -333,7 +333,7 @@ DataError
                "enclose the first, decided exactly. Options and errors: :meth:`from_arrays`.");
   c.def_static(
       "build", [](const py::args& args, const py::kwargs& options) {
-        return py::module_::import("swiftlet.build").attr("build")(*args, **options).attr("model");
+        return py::module_::import("swiftlet.build").attr("build")(*args, **options).attr("model").cast<py::object>();
       },
       "Builds the convex hull of points, of a mesh file, or of anything with `vertices` and `faces`, with its levels of detail.\n\n"
       "The short form of :func:`swiftlet.build.build`, which says what it takes; that module comes under CGAL's GPL.");

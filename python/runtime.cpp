@@ -14,8 +14,6 @@
 
 PYBIND11_MODULE(_runtime, module) {
   using namespace swiftlet;
-  pybind11::options options;
-  options.disable_function_signatures();
   module.doc() = "What swiftlet's Python modules are made of: bodies, queries over poses, scenes.";
   module.attr("VERSION") = SWIFTLET_VERSION;
   module.attr("NONE") = kNone;

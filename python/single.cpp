@@ -245,11 +245,11 @@ PyMethodDef definition(const char* name, const char* text) {
 
 PyMethodDef pair_methods[] = {
     definition<Query::Distance>(
-        "distance", "distance($self, pose, /, *, absolute=0.0, relative=0.0, beyond=float('inf'), steps=None, finest_level=0)\n--\n\n"
+        "distance", "distance($self, pose, /, *, absolute=0.0, relative=0.0, beyond=1e999, steps=None, finest_level=0)\n--\n\n"
                     "The distance in one pose: see :func:`swiftlet.distance`. Returns an :class:`Answer`."),
     definition<Query::SignedDistance>(
         "signed_distance",
-        "signed_distance($self, pose, /, *, absolute=0.0, relative=0.0, beyond=float('inf'), steps=None, finest_level=0)\n--\n\n"
+        "signed_distance($self, pose, /, *, absolute=0.0, relative=0.0, beyond=1e999, steps=None, finest_level=0)\n--\n\n"
         "The signed distance in one pose: see :func:`swiftlet.signed_distance`. Returns an :class:`Answer`."),
     definition<Query::Intersects>("intersects",
                                   "intersects($self, pose, /, *, steps=None, finest_level=0)\n--\n\n"
