@@ -5,7 +5,7 @@
 import math
 
 import numpy as np
-from conftest import CORNERS, MODELS, SIDES, SOURCE
+from conftest import MODELS, SOURCE
 
 import swiftlet
 
@@ -92,35 +92,12 @@ def models():
 
 
 def cube():
-    """Of tests/bodies.h, its corners and sides in that order."""
-    text = (SOURCE / "tests/bodies.h").read_text()
-    box = text[text.index("inline Polyhedron box(") :]
-    box = box[: box.index("\n}\n")]
-    import re
-
-    corners = [[float(f"{sign}1") for sign in re.findall(r"(-?)\bh[xyz]\b|(-?)[xyz]\b", "")] for _ in ()]
-    assert not corners
-    return parse_box(box)
-
-
-def parse_box(box):
-    import re
-
-    rows = re.findall(r"\{\s*(-?)(\w+),\s*(-?)(\w+),\s*(-?)(\w+)\s*\}", box)
-    points = np.array([[-1.0 if r[k] else 1.0 for k in (0, 2, 4)] for r in rows[:8]])
-    sides = [[int(i) for i in side.split(",")] for side in re.findall(r"add\(\{([\d, ]+)\}\)", box)]
-    return points, sides
+    """tests/bodies.h's, its corners and sides in that order."""
+    corners = [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]]
+    return corners, [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
 
 
 KINDS = ["none", "vertex", "edge", "face"]
-
-
-def number(x):
-    if math.isnan(x):
-        return "nan"
-    if math.isinf(x):
-        return "inf" if x > 0 else "-inf"
-    return x
 
 
 def fields(answer):
