@@ -95,7 +95,8 @@ std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> to_faces(py::h
     if (array.shape(1) > 3) sizes.assign(std::size_t(array.shape(0)), std::uint32_t(array.shape(1)));
     return {indices_of(array, name), std::move(sizes)};
   }
-  if (!py::isinstance<py::sequence>(faces)) throw py::type_error(std::string(name) + ": expected " + kWanted + ", got " + what_came(faces));
+  if (!py::isinstance<py::sequence>(faces))
+    throw py::type_error(std::string(name) + ": expected " + kWanted + ", got " + what_came(faces));
   std::vector<std::uint32_t> corners, sizes;
   for (const py::handle face : faces) {
     const std::vector<std::uint32_t> loop = to_indices(face, name);

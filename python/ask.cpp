@@ -51,23 +51,13 @@ std::vector<Field> answer_fields(std::size_t from) {
   const Answer a;
   const auto at = [&](const auto& member) { return from + offset(a, &member); };
   static_assert(sizeof(FeatureId) == 4 && sizeof(Vec3) == 24);
-  return {{"lower", "f8", at(a.lower)},
-          {"upper", "f8", at(a.upper)},
-          {"normal", "3f8", at(a.normal)},
-          {"point_a", "3f8", at(a.point_a)},
-          {"point_b", "3f8", at(a.point_b)},
-          {"status", "u1", at(a.status)},
-          {"verdict", "u1", at(a.verdict)},
-          {"is_signed", "?", at(a.is_signed)},
-          {"levels_visited", "u1", at(a.levels_visited)},
-          {"level_a", "i2", at(a.level_a)},
-          {"level_b", "i2", at(a.level_b)},
-          {"feature_a", "u4", at(a.feature_a)},
-          {"feature_b", "u4", at(a.feature_b)},
-          {"steps", "u4", at(a.steps)},
-          {"plane_tests", "u4", at(a.plane_tests)},
-          {"radius_a", "f8", at(a.radius_a)},
-          {"radius_b", "f8", at(a.radius_b)}};
+  return {
+      {"lower", "f8", at(a.lower)},         {"upper", "f8", at(a.upper)},        {"normal", "3f8", at(a.normal)},
+      {"point_a", "3f8", at(a.point_a)},    {"point_b", "3f8", at(a.point_b)},   {"status", "u1", at(a.status)},
+      {"verdict", "u1", at(a.verdict)},     {"is_signed", "?", at(a.is_signed)}, {"levels_visited", "u1", at(a.levels_visited)},
+      {"level_a", "i2", at(a.level_a)},     {"level_b", "i2", at(a.level_b)},    {"feature_a", "u4", at(a.feature_a)},
+      {"feature_b", "u4", at(a.feature_b)}, {"steps", "u4", at(a.steps)},        {"plane_tests", "u4", at(a.plane_tests)},
+      {"radius_a", "f8", at(a.radius_a)},   {"radius_b", "f8", at(a.radius_b)}};
 }
 
 py::dtype contact_dtype() {
@@ -137,7 +127,8 @@ struct Seeds {
 class Taken {
  public:
   explicit Taken(Seeds* seeds) : seeds_(seeds) {
-    if (seeds_ && seeds_->in_use.exchange(true)) throw std::runtime_error("seeds: another call is using them; give each its own");
+    if (seeds_ && seeds_->in_use.exchange(true))
+      throw std::runtime_error("seeds: another call is using them; give each its own");
   }
   ~Taken() {
     if (seeds_) seeds_->in_use = false;
@@ -150,7 +141,8 @@ class Taken {
 };
 
 void define_seeds(py::module_& module) {
-  py::class_<Seeds, std::shared_ptr<Seeds>> c(module, "Seeds", R"(Warm starts, one for each row of a batch: ``Seeds(n)`` are cold.
+  py::class_<Seeds, std::shared_ptr<Seeds>> c(module, "Seeds",
+                                              R"(Warm starts, one for each row of a batch: ``Seeds(n)`` are cold.
 
 A query starts from its row's seed and leaves there what the next query of the same pair starts from: keep one for each pair from
 time step to time step. A seed changes the work, never the truth; any bits are legal. One call at a time may use them.)");
@@ -161,18 +153,25 @@ time step to time step. A seed changes the work, never the truth; any bits are l
         }),
         py::arg("count"));
   c.def("__len__", [](const Seeds& s) { return s.seeds.size(); });
-  c.def("reset", [](Seeds& s) {
-    const Taken taken(&s);
-    std::fill(s.seeds.begin(), s.seeds.end(), MeshSeed{});
-  }, "Makes all of them cold.");
-  c.def("set_pair", [](Seeds& s, std::size_t row, py::buffer bits) {
-    const Taken taken(&s);
-    const py::buffer_info info = bits.request();
-    const std::span<const std::byte> bytes = to_bytes(info);
-    if (row >= s.seeds.size() || bytes.size() != sizeof(PairSeed))
-      throw py::value_error("expected a row below " + std::to_string(s.seeds.size()) + " and " + std::to_string(sizeof(PairSeed)) + " bytes");
-    std::memcpy(static_cast<void*>(&s.seeds[row].pair), bytes.data(), sizeof(PairSeed));
-  }, py::arg("row"), py::arg("bits"), "Sets the seed of a row for convex bodies from the bytes of a C++ ``PairSeed``.");
+  c.def(
+      "reset",
+      [](Seeds& s) {
+        const Taken taken(&s);
+        std::fill(s.seeds.begin(), s.seeds.end(), MeshSeed{});
+      },
+      "Makes all of them cold.");
+  c.def(
+      "set_pair",
+      [](Seeds& s, std::size_t row, py::buffer bits) {
+        const Taken taken(&s);
+        const py::buffer_info info = bits.request();
+        const std::span<const std::byte> bytes = to_bytes(info);
+        if (row >= s.seeds.size() || bytes.size() != sizeof(PairSeed))
+          throw py::value_error("expected a row below " + std::to_string(s.seeds.size()) + " and " +
+                                std::to_string(sizeof(PairSeed)) + " bytes");
+        std::memcpy(static_cast<void*>(&s.seeds[row].pair), bytes.data(), sizeof(PairSeed));
+      },
+      py::arg("row"), py::arg("bits"), "Sets the seed of a row for convex bodies from the bytes of a C++ ``PairSeed``.");
   c.def("__reduce__", [](const Seeds& s) {
     const py::bytes bytes(reinterpret_cast<const char*>(s.seeds.data()), s.seeds.size() * sizeof(MeshSeed));
     return made_again("Seeds", "_from_bytes", py::make_tuple(bytes));
@@ -347,8 +346,8 @@ Query query_of(const std::string& name) {
   throw py::value_error("query: expected the name of a query, got '" + name + "'");
 }
 
-Asked to_asked(Query query, double threshold, double absolute, double relative, double beyond, const py::object& steps, int finest_level,
-               const py::object& tuning) {
+Asked to_asked(Query query, double threshold, double absolute, double relative, double beyond, const py::object& steps,
+               int finest_level, const py::object& tuning) {
   Asked asked;
   asked.query = query;
   asked.threshold = threshold;
@@ -361,8 +360,8 @@ Asked to_asked(Query query, double threshold, double absolute, double relative, 
 
 py::object run_query(const std::string& name, py::handle a, py::handle b, py::handle poses, double threshold, double absolute,
                      double relative, double beyond, const py::object& steps, int finest_level, const py::object& tuning,
-                     py::handle index_a, py::handle index_b, const std::shared_ptr<Seeds>& seeds, long threads, py::handle quaternion,
-                     bool copy) {
+                     py::handle index_a, py::handle index_b, const std::shared_ptr<Seeds>& seeds, long threads,
+                     py::handle quaternion, bool copy) {
   const Asked asked = to_asked(query_of(name), threshold, absolute, relative, beyond, steps, finest_level, tuning);
   const unsigned count = thread_count(threads);
   Batch batch{to_side(a, index_a, "a"), to_side(b, index_b, "b"), PoseRows(poses, quaternion_order(quaternion), copy), 0,
@@ -374,7 +373,8 @@ py::object run_query(const std::string& name, py::handle a, py::handle b, py::ha
     batch.count = 0;
   }
   if (seeds && seeds->seeds.size() != batch.count)
-    throw py::value_error("seeds: " + std::to_string(seeds->seeds.size()) + " seeds for " + std::to_string(batch.count) + " rows");
+    throw py::value_error("seeds: " + std::to_string(seeds->seeds.size()) + " seeds for " + std::to_string(batch.count) +
+                          " rows");
   const Taken taken(seeds.get());
   const bool is_single = batch.is_single() && !has_no_rows;
   if (asked.query == Query::Within || asked.query == Query::SignedWithin) {
@@ -403,7 +403,8 @@ struct One {
       : a(to_body(a_, "a")), b(to_body(b_, "b")), poses(poses_, quaternion_order(quaternion), copy) {}
   bool has_mesh() const { return a.is_mesh() || b.is_mesh(); }
   const One& single(const char* what) const {
-    if (!poses.is_single()) throw py::value_error(std::string("pose: ") + what + " takes one, got " + std::to_string(poses.size()));
+    if (!poses.is_single())
+      throw py::value_error(std::string("pose: ") + what + " takes one, got " + std::to_string(poses.size()));
     return *this;
   }
   const One& convex(const char* what) const {
@@ -417,7 +418,8 @@ std::vector<Answer> to_answers(py::handle records, std::size_t count, const char
     throw py::type_error(std::string(name) + ": expected answers, got " + what_came(records));
   const py::array array = py::module_::import("numpy").attr("ascontiguousarray")(records);
   if (array.size() != py::ssize_t(count))
-    throw py::value_error(std::string(name) + ": " + std::to_string(array.size()) + " answers for " + std::to_string(count) + " poses");
+    throw py::value_error(std::string(name) + ": " + std::to_string(array.size()) + " answers for " + std::to_string(count) +
+                          " poses");
   std::vector<Answer> answers(count);
   for (std::size_t i = 0; i < count; ++i) {
     unsigned char raw[sizeof(Answer)];
@@ -432,8 +434,9 @@ std::vector<Answer> to_answers(py::handle records, std::size_t count, const char
   return answers;
 }
 
-py::array run_refine(py::handle a, py::handle b, py::handle poses, py::handle so_far, double absolute, double relative, double beyond,
-                     const py::object& steps, int finest_level, const py::object& tuning, long threads, py::handle quaternion, bool copy) {
+py::array run_refine(py::handle a, py::handle b, py::handle poses, py::handle so_far, double absolute, double relative,
+                     double beyond, const py::object& steps, int finest_level, const py::object& tuning, long threads,
+                     py::handle quaternion, bool copy) {
   const One one(a, b, poses, quaternion, copy);
   one.convex("refine");
   const Asked asked = to_asked(Query::Distance, 0, absolute, relative, beyond, steps, finest_level, tuning);
@@ -502,9 +505,10 @@ py::tuple run_trace(const std::string& name, py::handle a, py::handle b, py::han
   py::array_t<std::uint32_t> pairs({py::ssize_t(proof.count), py::ssize_t(2)});
   for (std::uint32_t k = 0; k < proof.count; ++k)
     pairs.mutable_at(k, 0) = proof.vertex_a[k], pairs.mutable_at(k, 1) = proof.vertex_b[k];
-  return py::make_tuple(
-      record, copied(level_record_dtype(), std::span<const LevelRecord>(trace).first(std::min<std::size_t>(256, answer.answer.levels_visited))),
-      pairs);
+  return py::make_tuple(record,
+                        copied(level_record_dtype(), std::span<const LevelRecord>(trace).first(
+                                                         std::min<std::size_t>(256, answer.answer.levels_visited))),
+                        pairs);
 }
 
 py::tuple run_contacts(py::handle a, py::handle b, py::handle pose, double reach, std::size_t most, const py::object& steps,
@@ -540,15 +544,18 @@ py::tuple run_manifold(py::handle a, py::handle b, py::handle pose, py::handle a
   const One one(a, b, pose, quaternion, copy);
   one.single("manifold");
   if (most_points < 1 || most_points > kMostManifoldPoints)
-    throw py::value_error("most_points: expected 1 to " + std::to_string(kMostManifoldPoints) + ", got " + std::to_string(most_points));
+    throw py::value_error("most_points: expected 1 to " + std::to_string(kMostManifoldPoints) + ", got " +
+                          std::to_string(most_points));
   const ManifoldOptions options{margin, most_points, flatness};
   const Manifold before = manifold_of(previous);
-  if (!one.has_mesh() && py::isinstance<py::array>(answer) && py::reinterpret_borrow<py::array>(answer).dtype().equal(answer_dtype()))
-    return manifold_parts(manifold(one.a.convex(), one.b.convex(), one.poses[0], to_answers(answer, 1, "answer")[0], options, before));
+  if (!one.has_mesh() && py::isinstance<py::array>(answer) &&
+      py::reinterpret_borrow<py::array>(answer).dtype().equal(answer_dtype()))
+    return manifold_parts(
+        manifold(one.a.convex(), one.b.convex(), one.poses[0], to_answers(answer, 1, "answer")[0], options, before));
   const py::dtype contact = contact_dtype();
   if (!py::isinstance<py::array>(answer) || !py::reinterpret_borrow<py::array>(answer).dtype().equal(contact))
-    throw py::type_error("answer: expected " + std::string(one.has_mesh() ? "a contact of `contacts`" : "an answer") + ", got " +
-                         what_came(answer));
+    throw py::type_error("answer: expected " + std::string(one.has_mesh() ? "a contact of `contacts`" : "an answer") +
+                         ", got " + what_came(answer));
   const py::array record = py::module_::import("numpy").attr("ascontiguousarray")(answer);
   if (record.size() != 1) throw py::value_error("answer: expected one contact, got " + std::to_string(record.size()));
   MeshContact c;
@@ -563,7 +570,8 @@ Tuning to_tuning(py::handle tuning) {
   if (tuning.is_none()) return t;
   const auto number = [&](const char* name, int count) {
     const int value = tuning.attr(name).cast<int>();
-    if (value < 0 || value >= count) throw py::value_error(std::string("tuning: no such ") + name + ": " + std::to_string(value));
+    if (value < 0 || value >= count)
+      throw py::value_error(std::string("tuning: no such ") + name + ": " + std::to_string(value));
     return value;
   };
   t.start = StartPolicy(number("start", 5));
@@ -573,13 +581,20 @@ Tuning to_tuning(py::handle tuning) {
   return t;
 }
 
-py::dtype answer_dtype() { return dtype_of(answer_fields(0), sizeof(Answer)); }
+// Made once and never freed: the interpreter may be gone before what is static here.
+py::dtype answer_dtype() {
+  static const auto* made = new py::dtype(dtype_of(answer_fields(0), sizeof(Answer)));
+  return *made;
+}
 
 py::dtype within_dtype() {
-  const Within w;
-  std::vector<Field> fields = answer_fields(offset(w, &w.answer));
-  fields.insert(fields.begin(), {"decision", "u1", offset(w, &w.decision)});
-  return dtype_of(fields, sizeof w);
+  static const auto* made = [] {
+    const Within w;
+    std::vector<Field> fields = answer_fields(offset(w, &w.answer));
+    fields.insert(fields.begin(), {"decision", "u1", offset(w, &w.decision)});
+    return new py::dtype(dtype_of(fields, sizeof w));
+  }();
+  return *made;
 }
 
 py::array new_records(const py::dtype& dtype, std::size_t count, bool is_single) {
@@ -598,19 +613,21 @@ void define_queries(py::module_& module) {
   define_seeds(module);
   const auto none = py::none();
   module.def("run_query", &run_query, py::arg("query"), py::arg("a"), py::arg("b"), py::arg("poses"), py::arg("threshold"),
-             py::arg("absolute"), py::arg("relative"), py::arg("beyond"), py::arg("steps"), py::arg("finest_level"), py::arg("tuning"),
-             py::arg("index_a"), py::arg("index_b"), py::arg("seeds"), py::arg("threads"), py::arg("quaternion"), py::arg("copy"),
+             py::arg("absolute"), py::arg("relative"), py::arg("beyond"), py::arg("steps"), py::arg("finest_level"),
+             py::arg("tuning"), py::arg("index_a"), py::arg("index_b"), py::arg("seeds"), py::arg("threads"),
+             py::arg("quaternion"), py::arg("copy"),
              "Asks a query in each pose; its records, or with closest_features also both sides' sources.");
   module.def("run_refine", &run_refine, py::arg("a"), py::arg("b"), py::arg("poses"), py::arg("so_far"), py::arg("absolute"),
-             py::arg("relative"), py::arg("beyond"), py::arg("steps"), py::arg("finest_level"), py::arg("tuning"), py::arg("threads"),
-             py::arg("quaternion"), py::arg("copy"), "Continues distances from their records.");
-  module.def("run_tolerance", &run_tolerance, py::arg("a"), py::arg("b"), py::arg("poses"), py::arg("quaternion"), py::arg("copy"),
-             "Law 2's bound in each pose.");
+             py::arg("relative"), py::arg("beyond"), py::arg("steps"), py::arg("finest_level"), py::arg("tuning"),
+             py::arg("threads"), py::arg("quaternion"), py::arg("copy"), "Continues distances from their records.");
+  module.def("run_tolerance", &run_tolerance, py::arg("a"), py::arg("b"), py::arg("poses"), py::arg("quaternion"),
+             py::arg("copy"), "Law 2's bound in each pose.");
   module.def("run_check", &run_check, py::arg("a"), py::arg("b"), py::arg("pose"), py::arg("answer"), py::arg("quaternion"),
              py::arg("copy"), "What fails first of an answer; empty if all holds.");
   module.def("run_trace", &run_trace, py::arg("query"), py::arg("a"), py::arg("b"), py::arg("pose"), py::arg("threshold"),
-             py::arg("absolute"), py::arg("relative"), py::arg("beyond"), py::arg("steps"), py::arg("finest_level"), py::arg("tuning"),
-             py::arg("quaternion"), py::arg("copy"), "A record, the level pairs visited, and the proof of an overlap.");
+             py::arg("absolute"), py::arg("relative"), py::arg("beyond"), py::arg("steps"), py::arg("finest_level"),
+             py::arg("tuning"), py::arg("quaternion"), py::arg("copy"),
+             "A record, the level pairs visited, and the proof of an overlap.");
   module.def("run_contacts", &run_contacts, py::arg("a"), py::arg("b"), py::arg("pose"), py::arg("reach"), py::arg("most"),
              py::arg("steps"), py::arg("quaternion"), py::arg("copy"),
              "Status, is_counted, count, steps, plane_tests and records of the regions.");
@@ -625,12 +642,14 @@ void define_queries(py::module_& module) {
         const QuaternionOrder order = quaternion_order(quaternion);
         const PoseRows of_a(a, order, copy, "a_in_world"), of_b(b, order, copy, "b_in_world");
         if (!of_a.is_single() && !of_b.is_single() && of_a.size() != of_b.size())
-          throw py::value_error("b_in_world: " + std::to_string(of_b.size()) + " poses, but a_in_world has " + std::to_string(of_a.size()));
+          throw py::value_error("b_in_world: " + std::to_string(of_b.size()) + " poses, but a_in_world has " +
+                                std::to_string(of_a.size()));
         return matrices(of_a.is_single() ? of_b : of_a, [&](std::size_t i) {
           return relative(of_a[of_a.is_single() ? 0 : i], of_b[of_b.is_single() ? 0 : i]);
         });
       },
-      py::arg("a_in_world"), py::arg("b_in_world"), py::arg("quaternion"), py::arg("copy"), "Poses of B in A's frame, as matrices.");
+      py::arg("a_in_world"), py::arg("b_in_world"), py::arg("quaternion"), py::arg("copy"),
+      "Poses of B in A's frame, as matrices.");
   module.def(
       "run_inverse",
       [](py::handle poses, py::handle quaternion, bool copy) {

@@ -63,9 +63,11 @@ py::tuple run_read(py::handle path) {
   }
   const Mesh mesh = take(std::move(*read));
   py::array_t<double> points({py::ssize_t(mesh.points.size()), py::ssize_t(3)});
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) std::copy_n(mesh.points[i].data(), 3, points.mutable_data(py::ssize_t(i), 0));
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    std::copy_n(mesh.points[i].data(), 3, points.mutable_data(py::ssize_t(i), 0));
   py::array_t<std::uint32_t> triangles({py::ssize_t(mesh.triangles.size()), py::ssize_t(3)});
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) std::copy_n(mesh.triangles[i].data(), 3, triangles.mutable_data(py::ssize_t(i), 0));
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    std::copy_n(mesh.triangles[i].data(), 3, triangles.mutable_data(py::ssize_t(i), 0));
   return py::make_tuple(points, triangles);
 }
 
@@ -84,14 +86,17 @@ py::dict report_of(const BuildReport& r) {
   return d;
 }
 
-py::tuple run_build(py::handle points, py::handle triangles, int method, int enclosing, std::optional<double> rate, std::uint32_t cutoff,
-                    int max_levels, double max_deviation, double deviation, std::optional<std::uint64_t> bytes, bool require_convex,
-                    bool require_solid, int resolution, double radius_factor, std::uint32_t map_cells, py::object progress, long threads) {
+py::tuple run_build(py::handle points, py::handle triangles, int method, int enclosing, std::optional<double> rate,
+                    std::uint32_t cutoff, int max_levels, double max_deviation, double deviation,
+                    std::optional<std::uint64_t> bytes, bool require_convex, bool require_solid, int resolution,
+                    double radius_factor, std::uint32_t map_cells, py::object progress, long threads) {
   const Mesh mesh = to_mesh(points, triangles);
   BuildOptions options;
   if (method < 0 || method > 1) throw py::value_error("method: expected a Method, got " + std::to_string(method));
-  if (enclosing < 0 || enclosing > 1) throw py::value_error("enclosing: expected an Enclosing, got " + std::to_string(enclosing));
-  if (resolution < 0 || resolution > 3) throw py::value_error("resolution: expected a Resolution, got " + std::to_string(resolution));
+  if (enclosing < 0 || enclosing > 1)
+    throw py::value_error("enclosing: expected an Enclosing, got " + std::to_string(enclosing));
+  if (resolution < 0 || resolution > 3)
+    throw py::value_error("resolution: expected a Resolution, got " + std::to_string(resolution));
   options.method = Method(method), options.enclosing = Enclosing(enclosing), options.rate = rate, options.cutoff = cutoff;
   options.max_levels = max_levels, options.max_deviation = max_deviation;
   options.detail.deviation = deviation;
@@ -112,7 +117,8 @@ py::tuple run_build(py::handle points, py::handle triangles, int method, int enc
   return py::make_tuple(bytes_of(result.model.bytes()), report_of(result.report));
 }
 
-HullOptions hull_options(std::uint32_t levels, std::uint32_t least_triangles, double bytes_per_triangle, Watch& watch, unsigned threads) {
+HullOptions hull_options(std::uint32_t levels, std::uint32_t least_triangles, double bytes_per_triangle, Watch& watch,
+                         unsigned threads) {
   HullOptions options;
   options.levels = levels, options.least_triangles = least_triangles, options.bytes_per_triangle = bytes_per_triangle;
   options.progress = watch.function();
@@ -157,12 +163,14 @@ PYBIND11_MODULE(_build, module) {
   namespace py = pybind11;
   module.doc() = "The builder behind swiftlet.build. What loads this module comes under CGAL's GPL.";
   module.def("run_read", &run_read, py::arg("path"), "Points and triangles of a mesh file.");
-  module.def("run_build", &run_build, py::arg("points"), py::arg("triangles"), py::arg("method"), py::arg("enclosing"), py::arg("rate"),
-             py::arg("cutoff"), py::arg("max_levels"), py::arg("max_deviation"), py::arg("deviation"), py::arg("bytes"),
-             py::arg("require_convex"), py::arg("require_solid"), py::arg("resolution"), py::arg("radius_factor"), py::arg("map_cells"),
-             py::arg("progress"), py::arg("threads"), "The bytes of a model, and the report as a dict.");
-  module.def("run_build_mesh", &run_build_mesh, py::arg("points"), py::arg("triangles"), py::arg("levels"), py::arg("least_triangles"),
-             py::arg("bytes_per_triangle"), py::arg("progress"), py::arg("threads"), "The bytes of a mesh with hulls.");
+  module.def("run_build", &run_build, py::arg("points"), py::arg("triangles"), py::arg("method"), py::arg("enclosing"),
+             py::arg("rate"), py::arg("cutoff"), py::arg("max_levels"), py::arg("max_deviation"), py::arg("deviation"),
+             py::arg("bytes"), py::arg("require_convex"), py::arg("require_solid"), py::arg("resolution"),
+             py::arg("radius_factor"), py::arg("map_cells"), py::arg("progress"), py::arg("threads"),
+             "The bytes of a model, and the report as a dict.");
+  module.def("run_build_mesh", &run_build_mesh, py::arg("points"), py::arg("triangles"), py::arg("levels"),
+             py::arg("least_triangles"), py::arg("bytes_per_triangle"), py::arg("progress"), py::arg("threads"),
+             "The bytes of a mesh with hulls.");
   module.def("run_rebuild_hulls", &run_rebuild_hulls, py::arg("data"), py::arg("levels"), py::arg("least_triangles"),
              py::arg("bytes_per_triangle"), py::arg("progress"), py::arg("threads"), "The bytes of the mesh with new hulls.");
 }

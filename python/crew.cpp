@@ -39,7 +39,8 @@ void Unlocked::look() {
 }
 
 bool Unlocked::stopped() {
-  if (!stopped_.load(std::memory_order_relaxed) && std::this_thread::get_id() == owner_ && Clock::now() - looked_ > kBetweenLooks)
+  if (!stopped_.load(std::memory_order_relaxed) && std::this_thread::get_id() == owner_ &&
+      Clock::now() - looked_ > kBetweenLooks)
     look();
   return stopped_.load(std::memory_order_relaxed);
 }

@@ -12,8 +12,8 @@ namespace py = pybind11;
 void raise(const Error& error) {
   const py::module_ errors = py::module_::import("swiftlet._errors");
   const char* name = error.code == ErrorCode::CannotRead || error.code == ErrorCode::CannotWrite ? "FileError"
-                     : error.code == ErrorCode::Cancelled                                         ? "Cancelled"
-                                                                                                  : "DataError";
+                     : error.code == ErrorCode::Cancelled                                        ? "Cancelled"
+                                                                                                 : "DataError";
   const py::object type = errors.attr(name);
   const py::object exception = type(error.message, int(error.code), error.file);
   PyErr_SetObject(type.ptr(), exception.ptr());

@@ -59,7 +59,8 @@ bool PoseRows::read(py::handle poses) {
   if (PyTuple_Check(poses.ptr())) {
     if (PyTuple_GET_SIZE(poses.ptr()) != 2) return false;
     const py::handle r = PyTuple_GET_ITEM(poses.ptr(), 0), t = PyTuple_GET_ITEM(poses.ptr(), 1);
-    if (!is_doubles(r) || !is_doubles(t) || !block(r, 2, 3, 3, first_, rows) || !block(t, 1, 3, 0, second_, more) || rows != more)
+    if (!is_doubles(r) || !is_doubles(t) || !block(r, 2, 3, 3, first_, rows) || !block(t, 1, 3, 0, second_, more) ||
+        rows != more)
       return false;
     form_ = Form::Parts;
   } else {
@@ -102,8 +103,9 @@ PoseRows::PoseRows(py::handle poses, QuaternionOrder order, bool copy, const cha
                          came + (copy ? "" : "; copy=True converts other dtypes and sequences"));
   }
   if (form_ == Form::Quaternion && order_ == QuaternionOrder::None)
-    throw py::value_error(std::string(name) + ": rows of 7 are a translation and a quaternion, whose order must be named: "
-                                              "quaternion=\"xyzw\" or quaternion=\"wxyz\"");
+    throw py::value_error(std::string(name) +
+                          ": rows of 7 are a translation and a quaternion, whose order must be named: "
+                          "quaternion=\"xyzw\" or quaternion=\"wxyz\"");
 }
 
 Pose PoseRows::operator[](std::size_t row) const {
@@ -120,6 +122,13 @@ Pose PoseRows::operator[](std::size_t row) const {
         s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y);
     pose.translation = {first_.at(row, 0), first_.at(row, 1), first_.at(row, 2)};
     return pose;
+  }
+  if (form_ == Form::Matrix && first_.i == 4 * sizeof(double) && first_.j == sizeof(double)) {
+    double m[16];
+    std::memcpy(m, first_.data + py::ssize_t(row) * first_.row, sizeof m);
+    pose.rotation << m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10];
+    pose.translation << m[3], m[7], m[11];
+    return m[12] == 0 && m[13] == 0 && m[14] == 0 && m[15] == 1 ? pose : refused();
   }
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 3; ++i) pose.rotation(i, j) = first_.at(row, i, j);

@@ -18,8 +18,8 @@ enum class QuaternionOrder { None, Xyzw, Wxyz };
 
 QuaternionOrder quaternion_order(pybind11::handle name);  ///< None, "xyzw" or "wxyz", else ValueError
 
-/// Reads float64 arrays of shape (4, 4), (n, 4, 4), (7,), (n, 7), or a tuple of (3, 3) or (n, 3, 3) and (3,) or (n, 3), whatever
-/// their strides. Holds the arrays; reading rows needs no lock.
+/// Reads float64 arrays of shape (4, 4), (n, 4, 4), (7,), (n, 7), or a tuple of (3, 3) or (n, 3, 3) and (3,) or (n, 3),
+/// whatever their strides. Holds the arrays; reading rows needs no lock.
 class PoseRows {
  public:
   /// Raises TypeError or ValueError for anything else, unless `copy`: then what numpy makes of it as float64 is taken.

@@ -49,7 +49,8 @@ Detail detail(double deviation, std::optional<std::uint64_t> bytes) {
 }
 
 TableSpec table_spec(int resolution, double radius_factor, std::uint32_t map_cells) {
-  if (resolution < 0 || resolution > 3) throw py::value_error("resolution: expected a Resolution, got " + std::to_string(resolution));
+  if (resolution < 0 || resolution > 3)
+    throw py::value_error("resolution: expected a Resolution, got " + std::to_string(resolution));
   return {lut::Resolution(resolution), radius_factor, map_cells};
 }
 
@@ -99,7 +100,8 @@ py::list faces_of(const ConvexView& view) {
 
 template <class Class>
 void add_levels(Class& c) {
-  c.def_property_readonly("index", [](const HeldLevel& l) { return l.index; }, "Number of the level: 0 is the exact hull.");
+  c.def_property_readonly(
+      "index", [](const HeldLevel& l) { return l.index; }, "Number of the level: 0 is the exact hull.");
   c.def_property_readonly(
       "vertices", [](const HeldLevel& l) { return column(l.view().vertices, &Vertex::x, 3, py::cast(l.model)); },
       "Vertices, (V, 3) float64, a read-only view of the model's memory; body frame, the caller's unit.");
@@ -133,26 +135,36 @@ void add_levels(Class& c) {
   c.def_property_readonly(
       "support_map", [](const HeldLevel& l) { return view(l.level().support_map, py::cast(l.model)); },
       "Per cell of an octahedron the vertex extreme there and a bound on its error; empty without a map.");
-  c.def_property_readonly("map_side", [](const HeldLevel& l) { return l.level().map_side; }, "The support map has 2 * map_side**2 cells.");
+  c.def_property_readonly(
+      "map_side", [](const HeldLevel& l) { return l.level().map_side; }, "The support map has 2 * map_side**2 cells.");
   c.def_property_readonly(
       "map_frame", [](const HeldLevel& l) { return py::array_t<double>(6, l.level().map_frame.data()); },
       "Rows of an upper triangular matrix M, from the diagonal on: the map is looked up along M n.");
 #define SWIFTLET_NUMBER(name, expression, text) \
-  c.def_property_readonly(name, [](const HeldLevel& l) { return expression; }, text);
-  SWIFTLET_NUMBER("deviation", l.level().deviation, "Bound on the distance of this level's points from level 0, at most 1 % above the truth.")
+  c.def_property_readonly(                      \
+      name, [](const HeldLevel& l) { return expression; }, text);
+  SWIFTLET_NUMBER("deviation", l.level().deviation,
+                  "Bound on the distance of this level's points from level 0, at most 1 % above the truth.")
   SWIFTLET_NUMBER("volume", l.level().volume, "In cubic units; 0 for a body that is not solid.")
   SWIFTLET_NUMBER("edge_length", l.level().edge_length, "Mean length of the level's edges.")
-  SWIFTLET_NUMBER("same_cos2", l.level().same_cos2, "Squared cosine of the turn after which a seed's features are stored again; 0: never.")
-  SWIFTLET_NUMBER("near_cos2", l.level().near_cos2, "Squared cosine of the turn after which they are worse than a cold start; 0: never.")
+  SWIFTLET_NUMBER("same_cos2", l.level().same_cos2,
+                  "Squared cosine of the turn after which a seed's features are stored again; 0: never.")
+  SWIFTLET_NUMBER("near_cos2", l.level().near_cos2,
+                  "Squared cosine of the turn after which they are worse than a cold start; 0: never.")
   SWIFTLET_NUMBER("bytes", l.level().bytes, "Size of this level in the block of a whole model.")
-  SWIFTLET_NUMBER("prefix", l.level().prefix, "Bytes from the beginning of the block to this level's end; 0 if the block lacks it.")
+  SWIFTLET_NUMBER("prefix", l.level().prefix,
+                  "Bytes from the beginning of the block to this level's end; 0 if the block lacks it.")
   SWIFTLET_NUMBER("edge_count", l.level().edge_count, "Number of edges; known of absent levels too.")
-  SWIFTLET_NUMBER("triangle_count", l.level().triangle_count, "Number of triangles, 2 V - 4 for a solid; known of absent levels too.")
+  SWIFTLET_NUMBER("triangle_count", l.level().triangle_count,
+                  "Number of triangles, 2 V - 4 for a solid; known of absent levels too.")
   SWIFTLET_NUMBER("extent", l.view().extent, "Largest absolute coordinate.")
-  SWIFTLET_NUMBER("inner_radius", l.view().inner_radius, "Radius of a ball around `centre` that lies in the body; 0: none is known.")
+  SWIFTLET_NUMBER("inner_radius", l.view().inner_radius,
+                  "Radius of a ball around `centre` that lies in the body; 0: none is known.")
   SWIFTLET_NUMBER("reach", l.view().reach, "Upper bound on the distance of two points of the body; 0: not known.")
 #undef SWIFTLET_NUMBER
-  c.def_property_readonly("centre", [](const HeldLevel& l) { return to_array(l.view().centre); }, "A point of the body, where the line of centres ends.");
+  c.def_property_readonly(
+      "centre", [](const HeldLevel& l) { return to_array(l.view().centre); },
+      "A point of the body, where the line of centres ends.");
   c.def("__repr__", [](const HeldLevel& l) {
     return "<swiftlet.Level " + std::to_string(l.index) + ": " + std::to_string(l.level().triangle_count) +
            " triangles, deviation " + scalar(l.level().deviation) + ">";
@@ -164,7 +176,8 @@ void add_levels(Class& c) {
 /// One level's arrays, owned, as LevelArrays sees them.
 struct OwnedArrays {
   std::vector<Vec3> vertices;
-  std::vector<std::uint32_t> face_vertices, face_sizes, vertex_source, face_source_begin, face_source, child_vertex, child_of_face;
+  std::vector<std::uint32_t> face_vertices, face_sizes, vertex_source, face_source_begin, face_source, child_vertex,
+      child_of_face;
 
   explicit OwnedArrays(py::handle level) {
     vertices = to_points(level.attr("vertices"), "vertices");
@@ -181,7 +194,8 @@ struct OwnedArrays {
   }
 };
 
-ModelPointer from_levels(py::iterable levels, bool repair, int resolution, double radius_factor, std::uint32_t map_cells, long threads) {
+ModelPointer from_levels(py::iterable levels, bool repair, int resolution, double radius_factor, std::uint32_t map_cells,
+                         long threads) {
   const py::object as_level = py::module_::import("swiftlet._arrays").attr("as_level");
   std::vector<OwnedArrays> owned;
   for (const py::handle level : levels) owned.emplace_back(as_level(level));
@@ -327,15 +341,18 @@ Raises
 ------
 DataError
     The arrays are no closed convex surface, decided exactly; the message names the edge and its height.)");
-  c.def_static("from_levels", &from_levels, py::arg("levels"), py::kw_only(), py::arg("repair") = false, py::arg("resolution") = 0,
-               py::arg("radius_factor") = 2.0, py::arg("map_cells") = 4u, py::arg("threads") = 1,
-               "Makes a model of several levels, finest first: :class:`LevelArrays`, or pairs of vertices and faces. Each level must\n"
-               "enclose the first, decided exactly. Options and errors: :meth:`from_arrays`.");
   c.def_static(
-      "build", [](const py::args& args, const py::kwargs& options) {
+      "from_levels", &from_levels, py::arg("levels"), py::kw_only(), py::arg("repair") = false, py::arg("resolution") = 0,
+      py::arg("radius_factor") = 2.0, py::arg("map_cells") = 4u, py::arg("threads") = 1,
+      "Makes a model of several levels, finest first: :class:`LevelArrays`, or pairs of vertices and faces. Each level must\n"
+      "enclose the first, decided exactly. Options and errors: :meth:`from_arrays`.");
+  c.def_static(
+      "build",
+      [](const py::args& args, const py::kwargs& options) {
         return py::module_::import("swiftlet.build").attr("build")(*args, **options).attr("model").cast<py::object>();
       },
-      "Builds the convex hull of points, of a mesh file, or of anything with `vertices` and `faces`, with its levels of detail.\n\n"
+      "Builds the convex hull of points, of a mesh file, or of anything with `vertices` and `faces`, with its levels of "
+      "detail.\n\n"
       "The short form of :func:`swiftlet.build.build`, which says what it takes; that module comes under CGAL's GPL.");
   c.def(
       "save",
@@ -343,15 +360,17 @@ DataError
         const std::string name = to_path(path);
         return take(unlocked([&] { return save(m.value, name); }));
       },
-      py::arg("path"), "Writes a file beside `path`, then renames it, so that a failure leaves the old file intact.\n\n"
-                       "Returns\n-------\nint\n    Bytes written.\n\nRaises\n------\nFileError");
+      py::arg("path"),
+      "Writes a file beside `path`, then renames it, so that a failure leaves the old file intact.\n\n"
+      "Returns\n-------\nint\n    Bytes written.\n\nRaises\n------\nFileError");
   c.def(
       "cut",
       [](const HeldModel& m, double deviation, std::optional<std::uint64_t> bytes) {
         return held(unlocked([&] { return m.value.cut(detail(deviation, bytes)); }));
       },
       py::kw_only(), py::arg("deviation") = 0.0, py::arg("bytes") = py::none(),
-      "Returns the model without the levels that are finer than `deviation` (the body's unit) needs, or beyond the first `bytes`.\n\n"
+      "Returns the model without the levels that are finer than `deviation` (the body's unit) needs, or beyond the first "
+      "`bytes`.\n\n"
       "Two bodies cut for deviations d each answer any distance with an error of at most 2 d.");
   c.def(
       "ensure",
@@ -360,14 +379,18 @@ DataError
         take(unlocked([&] { return more.ensure(level); }));
         return held(std::move(more), m.mapped);
       },
-      py::arg("level"), "Returns the model with `level` and all coarser ones ready for queries, if its block holds them, as that of a\n"
-                        "mapped model does. Raises DataError if the block lacks the level or it is damaged.");
-  c.def("with_table", &with_table, py::kw_only(), py::arg("resolution") = 0, py::arg("radius_factor") = 2.0, py::arg("map_cells") = 4u,
-        "Returns the model with new support maps of about `map_cells` entries per vertex (0 to 64; 0: none) and a start table of a\n"
+      py::arg("level"),
+      "Returns the model with `level` and all coarser ones ready for queries, if its block holds them, as that of a\n"
+      "mapped model does. Raises DataError if the block lacks the level or it is damaged.");
+  c.def("with_table", &with_table, py::kw_only(), py::arg("resolution") = 0, py::arg("radius_factor") = 2.0,
+        py::arg("map_cells") = 4u,
+        "Returns the model with new support maps of about `map_cells` entries per vertex (0 to 64; 0: none) and a start table "
+        "of a\n"
         ":class:`Resolution`, on a sphere of `radius_factor` bounding radii (1 to 1e6).");
   c.def(
       "support", [](const HeldModel& m, py::handle direction) { return m.value.support(to_vec3(direction, "direction")); },
-      py::arg("direction"), "Index of a vertex of the finest level than which no other is farther along `direction` (3,). Exact.");
+      py::arg("direction"),
+      "Index of a vertex of the finest level than which no other is farther along `direction` (3,). Exact.");
   c.def(
       "level",
       [](const ModelPointer& m, int index) {
@@ -386,12 +409,16 @@ DataError
       "All levels, the exact hull first; of those finer than `finest_level` only the numbers are known.");
   c.def_property_readonly(
       "vertices",
-      [](const ModelPointer& m) { return column(m->value.level(m->value.finest_level()).view.vertices, &Vertex::x, 3, py::cast(m)); },
+      [](const ModelPointer& m) {
+        return column(m->value.level(m->value.finest_level()).view.vertices, &Vertex::x, 3, py::cast(m));
+      },
       "Vertices of the finest level present, (V, 3) float64, a read-only view that keeps the model alive.");
   c.def_property_readonly(
       "faces", [](const HeldModel& m) { return triangles_of(m.value.level(m.value.finest_level()).view); },
       "Triangles of the finest level present over `vertices`, (F, 3) uint32, counter-clockwise from outside.");
-#define SWIFTLET_NUMBER(name, expression, text) c.def_property_readonly(name, [](const HeldModel& m) { return expression; }, text);
+#define SWIFTLET_NUMBER(name, expression, text) \
+  c.def_property_readonly(                      \
+      name, [](const HeldModel& m) { return expression; }, text);
   SWIFTLET_NUMBER("level_count", m.value.level_count(), "Number of levels, at least 1.")
   SWIFTLET_NUMBER("finest_level", m.value.finest_level(), "The finest level present; 0 in a whole model.")
   SWIFTLET_NUMBER("map_level", m.value.map_level(), "The finest level with a support map; level_count if there is none.")
@@ -428,14 +455,16 @@ DataError
 template <class T>
 void define_block(py::class_<Held<T>, std::shared_ptr<Held<T>>>& c) {
   using Pointer = std::shared_ptr<Held<T>>;
-  c.def_property_readonly("bytes", &bytes_of<Held<T>>,
-                          "The block, which is what `save` writes: (n,) uint8, a read-only view; of what is mapped the whole file.");
+  c.def_property_readonly(
+      "bytes", &bytes_of<Held<T>>,
+      "The block, which is what `save` writes: (n,) uint8, a read-only view; of what is mapped the whole file.");
   c.def(
       "hash", [](const Held<T>& m) { return unlocked([&] { return m.value.hash(); }); },
       "Hash over all of `bytes`, which it reads; equal blocks have equal hashes. 64 bits.");
   c.def("__reduce__", &reduce<Pointer>);
   c.def("__copy__", [](const Pointer& m) { return m; });
-  c.def("__deepcopy__", [](const Pointer& m, const py::dict&) { return m; }, py::arg("memo"));
+  c.def(
+      "__deepcopy__", [](const Pointer& m, const py::dict&) { return m; }, py::arg("memo"));
   c.def(
       "_repr_svg_", [](const Held<T>& m) { return tool::draw(m.value, "swiftlet"); },
       "The picture that a notebook shows: of a model all levels side by side.");
@@ -491,7 +520,8 @@ void define_mesh(py::class_<HeldMesh, MeshPointer>& c) {
         return held(take(unlocked([&] { return load_mesh(name, detail(deviation, bytes)); })));
       },
       py::arg("path"), py::kw_only(), py::arg("deviation") = 0.0, py::arg("bytes") = py::none(),
-      "Reads a mesh from its file (not an STL or OBJ: :meth:`build` reads these); of one that `deviation` or `bytes` cut only what\n"
+      "Reads a mesh from its file (not an STL or OBJ: :meth:`build` reads these); of one that `deviation` or `bytes` cut only "
+      "what\n"
       "is kept.\n\nRaises\n------\nFileError, DataError");
   c.def_static(
       "map",
@@ -500,7 +530,8 @@ void define_mesh(py::class_<HeldMesh, MeshPointer>& c) {
         return held(take(unlocked([&] { return map_mesh(name); })), name);
       },
       py::arg("path"),
-      "Loads a mesh without a copy: its memory is the mapped file, whose pages processes share. The file's content must not change\n"
+      "Loads a mesh without a copy: its memory is the mapped file, whose pages processes share. The file's content must not "
+      "change\n"
       "while the mesh lives. Pickled, it is its path and hash.");
   c.def_static(
       "salvage",
@@ -509,8 +540,9 @@ void define_mesh(py::class_<HeldMesh, MeshPointer>& c) {
         SalvagedMesh found = take(unlocked([&] { return salvage_mesh(name); }));
         return py::make_tuple(held(std::move(found.mesh)), found.note);
       },
-      py::arg("path"), "Reads the complete levels of nodes of a file that was cut short.\n\nReturns\n-------\nmesh : MeshModel\n"
-                       "note : str\n    What is missing; empty for a whole file.");
+      py::arg("path"),
+      "Reads the complete levels of nodes of a file that was cut short.\n\nReturns\n-------\nmesh : MeshModel\n"
+      "note : str\n    What is missing; empty for a whole file.");
   c.def_static(
       "from_bytes",
       [](py::buffer data) {
@@ -521,7 +553,8 @@ void define_mesh(py::class_<HeldMesh, MeshPointer>& c) {
   c.def_static("_map_same", [](const std::string& path, std::uint64_t hash) {
     return same(held(take(unlocked([&] { return map_mesh(path); })), path), hash);
   });
-  c.def_static("from_arrays", &mesh_from_arrays, py::arg("vertices"), py::arg("faces"), py::kw_only(), py::arg("progress") = py::none(),
+  c.def_static("from_arrays", &mesh_from_arrays, py::arg("vertices"), py::arg("faces"), py::kw_only(),
+               py::arg("progress") = py::none(),
                R"(Makes a mesh of triangles of any topology, without hulls, which takes no builder.
 
 Parameters
@@ -547,7 +580,8 @@ Notes
 -----
 About 2 microseconds and 90 bytes a triangle.)");
   c.def_static(
-      "build", [](const py::args& args, const py::kwargs& options) {
+      "build",
+      [](const py::args& args, const py::kwargs& options) {
         return py::module_::import("swiftlet.build").attr("build_mesh")(*args, **options);
       },
       "Makes a mesh with hulls of a mesh file, or of anything with `vertices` and `faces`.\n\n"
@@ -558,14 +592,17 @@ About 2 microseconds and 90 bytes a triangle.)");
         const std::string name = to_path(path);
         return take(unlocked([&] { return save(m.value, name); }));
       },
-      py::arg("path"), "Writes a file beside `path`, then renames it.\n\nReturns\n-------\nint\n    Bytes written.\n\nRaises\n------\nFileError");
+      py::arg("path"),
+      "Writes a file beside `path`, then renames it.\n\nReturns\n-------\nint\n    Bytes "
+      "written.\n\nRaises\n------\nFileError");
   c.def(
       "cut",
       [](const HeldMesh& m, double deviation, std::optional<std::uint64_t> bytes) {
         return held(unlocked([&] { return m.value.cut(detail(deviation, bytes)); }));
       },
       py::kw_only(), py::arg("deviation") = 0.0, py::arg("bytes") = py::none(),
-      "Returns boxes around the surface, none farther from it than `deviation` (the body's unit), instead of triangles. Distances\n"
+      "Returns boxes around the surface, none farther from it than `deviation` (the body's unit), instead of triangles. "
+      "Distances\n"
       "have the status LEVEL_LIMIT then, and an error of at most the sum of both deviations.");
   c.def(
       "refit",
@@ -574,25 +611,32 @@ About 2 microseconds and 90 bytes a triangle.)");
         return held(take(unlocked([&] { return refit(m.value, points); })));
       },
       py::arg("vertices"),
-      "Returns the mesh with its points moved: `vertices` (V, 3) are the user's, in the order in which it was made from them. The\n"
+      "Returns the mesh with its points moved: `vertices` (V, 3) are the user's, in the order in which it was made from them. "
+      "The\n"
       "tree stays, hulls go (:func:`swiftlet.build.rebuild_hulls`). A quarter of the time of :meth:`from_arrays`.");
   c.def(
-      "deviation_at", [](const HeldMesh& m, int levels) {
-        if (levels < 1 || levels >= m.value.depth()) throw py::index_error("levels: expected 1 to depth - 1, got " + std::to_string(levels));
+      "deviation_at",
+      [](const HeldMesh& m, int levels) {
+        if (levels < 1 || levels >= m.value.depth())
+          throw py::index_error("levels: expected 1 to depth - 1, got " + std::to_string(levels));
         return m.value.deviation(levels);
       },
       py::arg("levels"), "How far a point of the mesh cut after so many levels, 1 to depth - 1, may be from the surface.");
-  c.def_property_readonly("vertices", [](const HeldMesh& m) { return mesh_vertices(m.value); },
-                          "Vertices in the order of the tree, (V, 3) float64. A read-only copy.");
-  c.def_property_readonly("faces", [](const HeldMesh& m) { return mesh_faces(m.value); },
-                          "Triangles in the order of the tree, (F, 3) uint32. A read-only copy.");
+  c.def_property_readonly(
+      "vertices", [](const HeldMesh& m) { return mesh_vertices(m.value); },
+      "Vertices in the order of the tree, (V, 3) float64. A read-only copy.");
+  c.def_property_readonly(
+      "faces", [](const HeldMesh& m) { return mesh_faces(m.value); },
+      "Triangles in the order of the tree, (F, 3) uint32. A read-only copy.");
   c.def_property_readonly(
       "source_vertex", [](const MeshPointer& m) { return view(m->value.source_vertex(), py::cast(m)); },
       "Per vertex the user's point there that a triangle names first, (V,) uint32.");
   c.def_property_readonly(
       "source_triangle", [](const MeshPointer& m) { return view(m->value.source_triangle(), py::cast(m)); },
       "Per triangle the user's triangle, (F,) uint32.");
-#define SWIFTLET_NUMBER(name, expression, text) c.def_property_readonly(name, [](const HeldMesh& m) { return expression; }, text);
+#define SWIFTLET_NUMBER(name, expression, text) \
+  c.def_property_readonly(                      \
+      name, [](const HeldMesh& m) { return expression; }, text);
   SWIFTLET_NUMBER("topology", m.value.topology(), "What the mesh is made of.")
   SWIFTLET_NUMBER("box_min", to_array(m.value.box_min()), "Smallest coordinates, (3,), body frame.")
   SWIFTLET_NUMBER("box_max", to_array(m.value.box_max()), "Largest coordinates, (3,), body frame.")
@@ -617,48 +661,66 @@ void define_body(py::class_<OwnedBody>& c) {
   const auto radius = py::arg("radius") = 0.0;
   c.def(py::init([](const ModelPointer& model, double r) { return OwnedBody(model, r); }), py::arg("model"), radius);
   c.def(py::init([](const MeshPointer& mesh, double r) { return OwnedBody(mesh, r, false); }), py::arg("mesh"), radius);
-  c.def_static("solid", [](const MeshPointer& mesh, double r) { return OwnedBody(mesh, r, true); }, py::arg("mesh"), radius,
-               "A closed mesh and the volume that it encloses. Of a mesh that is not closed queries answer INVALID_BODY.");
-  c.def_static("point", [](py::handle p, double r) { return OwnedBody(Body::point(to_vec3(p, "p"), r)); }, py::arg("p"), radius,
-               "The point p (3,); with a radius a sphere.");
-  c.def_static("segment", [](py::handle p, py::handle q, double r) { return OwnedBody(Body::segment(to_vec3(p, "p"), to_vec3(q, "q"), r)); },
-               py::arg("p"), py::arg("q"), radius, "The segment from p to q; with a radius a capsule.");
-  c.def_static("triangle",
-               [](py::handle p, py::handle q, py::handle r, double rounded) {
-                 return OwnedBody(Body::triangle(to_vec3(p, "p"), to_vec3(q, "q"), to_vec3(r, "r"), rounded));
-               },
-               py::arg("p"), py::arg("q"), py::arg("r"), radius, "A flat triangle with two sides, its vertices in any order.");
-  c.def_static("box",
-               [](py::handle smallest, py::handle largest, double r) {
-                 return OwnedBody(Body::box(to_vec3(smallest, "smallest"), to_vec3(largest, "largest"), r));
-               },
-               py::arg("smallest"), py::arg("largest"), radius, "A box along the frame's axes, by two opposite corners.");
-  c.def_property_readonly("kind", [](const OwnedBody& b) { return py::module_::import("swiftlet._errors").attr("BodyKind")(kind_of(b)); },
-                          "What the body is made of: a :class:`BodyKind`.");
-  c.def_property_readonly("radius", [](const OwnedBody& b) { return b.body().radius(); }, "All that lies within it belongs to the body.");
-  c.def_property_readonly("model", [](const OwnedBody& b) -> py::object {
-    return b.model() ? py::cast(std::const_pointer_cast<HeldModel>(b.model())) : py::object(py::none());
-  }, "The Model, or None.");
-  c.def_property_readonly("mesh", [](const OwnedBody& b) -> py::object {
-    return b.mesh() ? py::cast(std::const_pointer_cast<HeldMesh>(b.mesh())) : py::object(py::none());
-  }, "The MeshModel, or None.");
-  c.def_property_readonly("corners", [](const OwnedBody& b) {
-    constexpr int kCounts[] = {0, 1, 2, 3, 2, 0, 0};
-    const int count = kCounts[kind_of(b)];
-    py::array_t<double> corners({count, 3});
-    for (int k = 0; k < count; ++k) {
-      const Vec3 p = b.convex().corner(k);
-      std::copy_n(p.data(), 3, corners.mutable_data(k, 0));
-    }
-    return corners;
-  }, "The points of a primitive, (k, 3): p, q, r, or a box's smallest and largest corner; empty otherwise.");
+  c.def_static(
+      "solid", [](const MeshPointer& mesh, double r) { return OwnedBody(mesh, r, true); }, py::arg("mesh"), radius,
+      "A closed mesh and the volume that it encloses. Of a mesh that is not closed queries answer INVALID_BODY.");
+  c.def_static(
+      "point", [](py::handle p, double r) { return OwnedBody(Body::point(to_vec3(p, "p"), r)); }, py::arg("p"), radius,
+      "The point p (3,); with a radius a sphere.");
+  c.def_static(
+      "segment",
+      [](py::handle p, py::handle q, double r) { return OwnedBody(Body::segment(to_vec3(p, "p"), to_vec3(q, "q"), r)); },
+      py::arg("p"), py::arg("q"), radius, "The segment from p to q; with a radius a capsule.");
+  c.def_static(
+      "triangle",
+      [](py::handle p, py::handle q, py::handle r, double rounded) {
+        return OwnedBody(Body::triangle(to_vec3(p, "p"), to_vec3(q, "q"), to_vec3(r, "r"), rounded));
+      },
+      py::arg("p"), py::arg("q"), py::arg("r"), radius, "A flat triangle with two sides, its vertices in any order.");
+  c.def_static(
+      "box",
+      [](py::handle smallest, py::handle largest, double r) {
+        return OwnedBody(Body::box(to_vec3(smallest, "smallest"), to_vec3(largest, "largest"), r));
+      },
+      py::arg("smallest"), py::arg("largest"), radius, "A box along the frame's axes, by two opposite corners.");
+  c.def_property_readonly(
+      "kind", [](const OwnedBody& b) { return py::module_::import("swiftlet._errors").attr("BodyKind")(kind_of(b)); },
+      "What the body is made of: a :class:`BodyKind`.");
+  c.def_property_readonly(
+      "radius", [](const OwnedBody& b) { return b.body().radius(); }, "All that lies within it belongs to the body.");
+  c.def_property_readonly(
+      "model",
+      [](const OwnedBody& b) -> py::object {
+        return b.model() ? py::cast(std::const_pointer_cast<HeldModel>(b.model())) : py::object(py::none());
+      },
+      "The Model, or None.");
+  c.def_property_readonly(
+      "mesh",
+      [](const OwnedBody& b) -> py::object {
+        return b.mesh() ? py::cast(std::const_pointer_cast<HeldMesh>(b.mesh())) : py::object(py::none());
+      },
+      "The MeshModel, or None.");
+  c.def_property_readonly(
+      "corners",
+      [](const OwnedBody& b) {
+        constexpr int kCounts[] = {0, 1, 2, 3, 2, 0, 0};
+        const int count = kCounts[kind_of(b)];
+        py::array_t<double> corners({count, 3});
+        for (int k = 0; k < count; ++k) {
+          const Vec3 p = b.convex().corner(k);
+          std::copy_n(p.data(), 3, corners.mutable_data(k, 0));
+        }
+        return corners;
+      },
+      "The points of a primitive, (k, 3): p, q, r, or a box's smallest and largest corner; empty otherwise.");
   c.def("__repr__", [](const OwnedBody& b) {
     return std::string("<swiftlet.Body: ") + kKinds[kind_of(b)] + ", radius " + scalar(b.body().radius()) + ">";
   });
   c.def("__reduce__", [](const py::object& self) {
     const auto& b = self.cast<const OwnedBody&>();
     const double radius_of = b.body().radius();
-    if (b.is_mesh()) return made_again("Body", b.body().is_solid() ? "solid" : "", py::make_tuple(self.attr("mesh"), radius_of));
+    if (b.is_mesh())
+      return made_again("Body", b.body().is_solid() ? "solid" : "", py::make_tuple(self.attr("mesh"), radius_of));
     if (b.model()) return made_again("Body", "", py::make_tuple(self.attr("model"), radius_of));
     py::list arguments(self.attr("corners"));
     arguments.append(radius_of);
@@ -679,7 +741,8 @@ void define_bodies(py::module_& module) {
   py::class_<HeldLevel> level(module, "Level", "A level of a model: arrays that are views of its memory, and numbers.");
   add_levels(level);
 
-  py::class_<HeldModel, ModelPointer> model(module, "Model", R"(A convex body at several levels of detail, immutable, in one block of memory that is also its file.
+  py::class_<HeldModel, ModelPointer> model(
+      module, "Model", R"(A convex body at several levels of detail, immutable, in one block of memory that is also its file.
 
 Made by :meth:`build`, :meth:`from_arrays`, :meth:`load`, :meth:`map` or :meth:`from_bytes`. Level 0 is the exact hull, larger is
 coarser. Any number of threads may query it. Lengths are in the caller's unit.)");
@@ -687,28 +750,34 @@ coarser. Any number of threads may query it. Lengths are in the caller's unit.)"
   define_block<Model>(model);
   model.def("__repr__", [](const HeldModel& m) {
     const Level& fine = m.value.level(m.value.finest_level());
-    return "<swiftlet.Model: " + std::to_string(fine.view.vertices.size()) + " vertices, " + std::to_string(fine.triangle_count) +
-           " triangles, " + std::to_string(m.value.level_count() - m.value.finest_level()) + " of " +
-           std::to_string(m.value.level_count()) + " levels, radius " + scalar(m.value.radius()) + ", " +
-           std::to_string(m.value.bytes().size()) + " bytes" + (m.mapped.empty() ? "" : ", mapped") + ">";
+    return "<swiftlet.Model: " + std::to_string(fine.view.vertices.size()) + " vertices, " +
+           std::to_string(fine.triangle_count) + " triangles, " +
+           std::to_string(m.value.level_count() - m.value.finest_level()) + " of " + std::to_string(m.value.level_count()) +
+           " levels, radius " + scalar(m.value.radius()) + ", " + std::to_string(m.value.bytes().size()) + " bytes" +
+           (m.mapped.empty() ? "" : ", mapped") + ">";
   });
 
-  py::class_<MeshTopology> topology(module, "Topology", "What a mesh is made of, counted after equal points became one vertex.");
+  py::class_<MeshTopology> topology(module, "Topology",
+                                    "What a mesh is made of, counted after equal points became one vertex.");
   topology.def_readonly("components", &MeshTopology::components, "Sets of triangles joined by common edges.");
   topology.def_readonly("open_edges", &MeshTopology::open_edges, "Edges of a single triangle.");
   topology.def_readonly("non_manifold_edges", &MeshTopology::non_manifold_edges, "Edges of more than two triangles.");
   topology.def_readonly("flipped_edges", &MeshTopology::flipped_edges, "Edges that both triangles run along in one direction.");
   topology.def_readonly("flat_triangles", &MeshTopology::flat_triangles, "Triangles whose corners lie on one line, exactly.");
   topology.def_readonly("duplicates", &MeshTopology::duplicates, "Triangles with the corners of an earlier one.");
-  topology.def_readonly("volume", &MeshTopology::volume, "Enclosed, in cubic units, negative if inside out; 0 unless `closed`.");
+  topology.def_readonly("volume", &MeshTopology::volume,
+                        "Enclosed, in cubic units, negative if inside out; 0 unless `closed`.");
   topology.def_property_readonly("closed", &MeshTopology::closed, "True if the triangles bound a volume.");
   topology.def(
       "__eq__", [](const MeshTopology& a, const MeshTopology& b) { return a == b; }, py::is_operator());
   topology.def("__repr__", [](const MeshTopology& t) {
-    return "<swiftlet.Topology: " + std::to_string(t.components) + " components, " + (t.closed() ? "closed" : "not closed") + ">";
+    return "<swiftlet.Topology: " + std::to_string(t.components) + " components, " + (t.closed() ? "closed" : "not closed") +
+           ">";
   });
 
-  py::class_<HeldMesh, MeshPointer> mesh(module, "MeshModel", R"(Triangles of any topology and a tree of boxes over them, immutable, in one block of memory that is also its file.
+  py::class_<HeldMesh, MeshPointer> mesh(
+      module, "MeshModel",
+      R"(Triangles of any topology and a tree of boxes over them, immutable, in one block of memory that is also its file.
 
 The surface alone is the body; ``Body.solid(mesh)`` is what a closed one bounds. Vertices and faces are in the order of the tree,
 and answers name them so; `source_vertex` and `source_triangle` are the user's ids.)");
@@ -721,7 +790,8 @@ and answers name them so; `source_vertex` and `source_triangle` are the user's i
            (m.mapped.empty() ? "" : ", mapped") + ">";
   });
 
-  py::class_<OwnedBody> body(module, "Body", R"(A body of queries: a model, a mesh or a primitive, and all that lies within a radius of it.
+  py::class_<OwnedBody> body(module, "Body",
+                             R"(A body of queries: a model, a mesh or a primitive, and all that lies within a radius of it.
 
 ``Body(model, radius=0)``, ``Body(mesh, radius=0)``, or one of the static methods. Coordinates are in the body's own frame. A
 radius is from 0 to 1e45, else queries answer INVALID_RADIUS. Queries take a Model or MeshModel as it is, too.)");

@@ -28,7 +28,8 @@ using HeldMesh = Held<MeshModel>;
 class OwnedBody {
  public:
   explicit OwnedBody(const Body& primitive) : body_(primitive) {}
-  OwnedBody(std::shared_ptr<const HeldModel> model, double radius) : model_(std::move(model)), body_(Body(model_->value, radius)) {}
+  OwnedBody(std::shared_ptr<const HeldModel> model, double radius)
+      : model_(std::move(model)), body_(Body(model_->value, radius)) {}
   OwnedBody(std::shared_ptr<const HeldMesh> mesh, double radius, bool solid)
       : mesh_(std::move(mesh)), body_(solid ? MeshBody::solid(mesh_->value, radius) : MeshBody(mesh_->value, radius)) {}
 

@@ -36,7 +36,8 @@ using ScenePointer = std::shared_ptr<HeldScene>;
 template <class Work>
 auto locked(HeldScene& scene, HeldScene& other, Work work) {
   const std::thread::id me = std::this_thread::get_id();
-  if (scene.owner == me || other.owner == me) throw std::runtime_error("a scene cannot be asked or changed while it asks `ask_only`'s function");
+  if (scene.owner == me || other.owner == me)
+    throw std::runtime_error("a scene cannot be asked or changed while it asks `ask_only`'s function");
   Unlocked crew(scene.threads);
   std::unique_lock<std::mutex> first(scene.mutex, std::defer_lock), second(other.mutex, std::defer_lock);
   if (&scene == &other)
@@ -98,7 +99,8 @@ Options to_options(double absolute, double relative, double beyond, const py::ob
 }  // namespace
 
 void define_scenes(py::module_& module) {
-  py::class_<HeldScene, ScenePointer> c(module, "Scene", R"(Bodies in one world, each with a name, and what is kept of pairs from question to question.
+  py::class_<HeldScene, ScenePointer> c(
+      module, "Scene", R"(Bodies in one world, each with a name, and what is kept of pairs from question to question.
 
 Bodies are named by ids, pairs of an index and a generation that never come back. Poses map a body's frame into the world's. A
 question about all pairs leaves out those whose boxes are proved to be farther apart than asked and lists, in the order of ids, every
@@ -129,7 +131,8 @@ same bits on any number of threads. Calls of several threads take turns.)");
         const Pose in_world = to_pose(pose, quaternion);
         return locked(s, [&](Scene& scene) { return scene.move(to_id(id), in_world); });
       },
-      py::arg("id"), py::arg("in_world"), py::kw_only(), py::arg("quaternion") = py::none(), "Moves a body; False if `id` names none.");
+      py::arg("id"), py::arg("in_world"), py::kw_only(), py::arg("quaternion") = py::none(),
+      "Moves a body; False if `id` names none.");
   c.def(
       "remove", [](HeldScene& s, const Id& id) { return locked(s, [&](Scene& scene) { return scene.remove(to_id(id)); }); },
       py::arg("id"), "Removes a body; False if `id` names none.");
@@ -157,24 +160,30 @@ same bits on any number of threads. Calls of several threads take turns.)");
         locked(*s, [&](Scene& scene) { return scene.ask_only(std::move(function)), 0; });
       },
       py::arg("asks"),
-      "Pairs within this scene for which ``asks(a, b)`` is false are left out of all answers; a < b are ids. None: all are asked.");
+      "Pairs within this scene for which ``asks(a, b)`` is false are left out of all answers; a < b are ids. None: all are "
+      "asked.");
   c.def(
-      "find", [](HeldScene& s, const std::string& name) -> py::object {
+      "find",
+      [](HeldScene& s, const std::string& name) -> py::object {
         const BodyId id = locked(s, [&](Scene& scene) { return scene.find(name); });
         return id == BodyId{} ? py::object(py::none()) : py::cast(from_id(id));
       },
       py::arg("name"), "The id of the body with this name, or None.");
   c.def(
-      "has", [](HeldScene& s, const Id& id) { return locked(s, [&](Scene& scene) { return scene.has(to_id(id)); }); }, py::arg("id"),
-      "Whether `id` names a body of this scene.");
+      "has", [](HeldScene& s, const Id& id) { return locked(s, [&](Scene& scene) { return scene.has(to_id(id)); }); },
+      py::arg("id"), "Whether `id` names a body of this scene.");
   c.def("__len__", [](HeldScene& s) { return locked(s, [](Scene& scene) { return scene.size(); }); });
-  c.def("bodies", [](HeldScene& s) {
-    std::vector<Id> ids;
-    for (const BodyId id : locked(s, [](Scene& scene) { return scene.bodies(); })) ids.push_back(from_id(id));
-    return ids;
-  }, "All ids, in order.");
   c.def(
-      "name", [](HeldScene& s, const Id& id) { return locked(s, [&](Scene& scene) { return std::string(scene.name(to_id(id))); }); },
+      "bodies",
+      [](HeldScene& s) {
+        std::vector<Id> ids;
+        for (const BodyId id : locked(s, [](Scene& scene) { return scene.bodies(); })) ids.push_back(from_id(id));
+        return ids;
+      },
+      "All ids, in order.");
+  c.def(
+      "name",
+      [](HeldScene& s, const Id& id) { return locked(s, [&](Scene& scene) { return std::string(scene.name(to_id(id))); }); },
       py::arg("id"), "A body's name; empty if `id` names none.");
   c.def(
       "pose",
@@ -190,7 +199,8 @@ same bits on any number of threads. Calls of several threads take turns.)");
       [=](const ScenePointer& s, const ScenePointer& other) {
         return listed(locked(*s, other_or(s, other), [](Scene& scene, Scene& o) { return scene.overlapping(o); }));
       },
-      py::arg("other") = nullptr, "The pairs that are not proved to be disjoint: ids of A (n, 2), ids of B, and records of answers.");
+      py::arg("other") = nullptr,
+      "The pairs that are not proved to be disjoint: ids of A (n, 2), ids of B, and records of answers.");
   c.def(
       "within",
       [=](const ScenePointer& s, double threshold, const ScenePointer& other) {
@@ -200,19 +210,22 @@ same bits on any number of threads. Calls of several threads take turns.)");
       "The pairs that are not proved to be farther apart than `threshold`: ids of A, ids of B, and records.");
   c.def(
       "distances",
-      [=](const ScenePointer& s, double beyond, const ScenePointer& other, double absolute, double relative, const py::object& steps) {
+      [=](const ScenePointer& s, double beyond, const ScenePointer& other, double absolute, double relative,
+          const py::object& steps) {
         const Options options = to_options(absolute, relative, beyond, steps);
         return listed(locked(*s, other_or(s, other), [&](Scene& scene, Scene& o) { return scene.distances(o, options); }));
       },
       py::arg("beyond"), py::arg("other") = nullptr, py::kw_only(), py::arg("absolute") = 0.0, py::arg("relative") = 0.0,
       py::arg("steps") = py::none(),
-      "The pairs that are not proved to be farther apart than `beyond`, with their distances: ids of A, ids of B, and records.");
+      "The pairs that are not proved to be farther apart than `beyond`, with their distances: ids of A, ids of B, and "
+      "records.");
   c.def(
       "nearest",
-      [=](const ScenePointer& s, const ScenePointer& other, double absolute, double relative, double beyond, const py::object& steps)
-          -> py::tuple {
+      [=](const ScenePointer& s, const ScenePointer& other, double absolute, double relative, double beyond,
+          const py::object& steps) -> py::tuple {
         const Options options = to_options(absolute, relative, beyond, steps);
-        const NearestPair pair = locked(*s, other_or(s, other), [&](Scene& scene, Scene& o) { return scene.nearest(o, options); });
+        const NearestPair pair =
+            locked(*s, other_or(s, other), [&](Scene& scene, Scene& o) { return scene.nearest(o, options); });
         std::vector<ScenePair> found;
         if (pair.a != BodyId{}) found.push_back(pair);
         return py::make_tuple(pair.lower) + listed(found);
@@ -222,7 +235,8 @@ same bits on any number of threads. Calls of several threads take turns.)");
       "The nearest pair: a bound than which no pair is nearer, then ids of A, ids of B and records, of one row or none.");
   c.def(
       "contacts",
-      [=](const ScenePointer& s, const ScenePointer& other, double margin, std::uint32_t most_points, double flatness) -> py::tuple {
+      [=](const ScenePointer& s, const ScenePointer& other, double margin, std::uint32_t most_points,
+          double flatness) -> py::tuple {
         if (most_points < 1 || most_points > kMostManifoldPoints)
           throw py::value_error("most_points: expected 1 to " + std::to_string(kMostManifoldPoints));
         const ManifoldOptions options{margin, most_points, flatness};
@@ -232,8 +246,10 @@ same bits on any number of threads. Calls of several threads take turns.)");
         for (const SceneContact& contact : found) manifolds.append(manifold_parts(contact.manifold));
         return listed(found) + py::make_tuple(manifolds);
       },
-      py::arg("other") = nullptr, py::kw_only(), py::arg("margin") = 0.0, py::arg("most_points") = 4u, py::arg("flatness") = 0x1p-21,
-      "The pairs whose signed distance is not proved to be above `margin`: ids of A, ids of B, records, and manifolds. A pair with a\n"
+      py::arg("other") = nullptr, py::kw_only(), py::arg("margin") = 0.0, py::arg("most_points") = 4u,
+      py::arg("flatness") = 0x1p-21,
+      "The pairs whose signed distance is not proved to be above `margin`: ids of A, ids of B, records, and manifolds. A pair "
+      "with a\n"
       "mesh is listed once for each region.");
   c.def("__repr__", [](HeldScene& s) {
     return "<swiftlet.Scene: " + std::to_string(locked(s, [](Scene& scene) { return scene.size(); })) + " bodies>";

@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <optional>
 
-#include <swiftlet/manifold.h>
 #include <swiftlet/depth.h>
+#include <swiftlet/manifold.h>
 #include <swiftlet/mesh_query.h>
 
 #include "pose_rows.h"

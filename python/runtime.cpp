@@ -4,8 +4,8 @@
 #include <pybind11/pybind11.h>
 
 #include <swiftlet/batch.h>
-#include <swiftlet/mesh.h>
 #include <swiftlet/manifold.h>
+#include <swiftlet/mesh.h>
 #include <swiftlet/model_file.h>
 #include <swiftlet/scene.h>
 

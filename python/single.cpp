@@ -23,8 +23,7 @@ namespace {
 // ---- Answer ----------------------------------------------------------------------------------------------------------------
 
 struct AnswerObject {
-  PyObject_HEAD
-  Answer answer;
+  PyObject_HEAD Answer answer;
   int decision;  ///< below 0: none was asked for
 };
 
@@ -92,7 +91,8 @@ PyGetSetDef answer_members[] = {
     {"lower", get_number<&Answer::lower>, nullptr, "Proved lower bound on the distance, in the bodies' unit.", nullptr},
     {"upper", get_number<&Answer::upper>, nullptr, "Proved upper bound.", nullptr},
     {"value", getter<get_value>, nullptr, "Middle of the interval; NaN if a bound is infinite.", nullptr},
-    {"normal", get_vector<&Answer::normal>, nullptr, "Unit, from A to B, in A's frame, (3,); NaN where none is known.", nullptr},
+    {"normal", get_vector<&Answer::normal>, nullptr, "Unit, from A to B, in A's frame, (3,); NaN where none is known.",
+     nullptr},
     {"point_a", get_vector<&Answer::point_a>, nullptr, "Witness point of A in A's frame, (3,).", nullptr},
     {"point_b", get_vector<&Answer::point_b>, nullptr, "Witness point of B in A's frame, (3,).", nullptr},
     {"is_signed", get_number<&Answer::is_signed>, nullptr, "True if the bounds are of the signed distance.", nullptr},
@@ -102,10 +102,12 @@ PyGetSetDef answer_members[] = {
     {"feature_a", get_number<&Answer::feature_a>, nullptr, "Id of the feature of A that holds `point_a`.", nullptr},
     {"feature_b", get_number<&Answer::feature_b>, nullptr, "Id of the feature of B that holds `point_b`.", nullptr},
     {"steps", get_number<&Answer::steps>, nullptr, "Changes of feature; of meshes pairs of nodes opened.", nullptr},
-    {"plane_tests", get_number<&Answer::plane_tests>, nullptr, "Planes and supports evaluated; of meshes pairs of triangles.", nullptr},
+    {"plane_tests", get_number<&Answer::plane_tests>, nullptr, "Planes and supports evaluated; of meshes pairs of triangles.",
+     nullptr},
     {"radius_a", get_number<&Answer::radius_a>, nullptr, "A's radius.", nullptr},
     {"radius_b", get_number<&Answer::radius_b>, nullptr, "B's radius.", nullptr},
-    {"record", getter<get_record>, nullptr, "The answer as a structured array of shape (), as :class:`Answers` holds them.", nullptr},
+    {"record", getter<get_record>, nullptr, "The answer as a structured array of shape (), as :class:`Answers` holds them.",
+     nullptr},
     {nullptr, nullptr, nullptr, nullptr, nullptr}};
 
 PyObject* answer_repr(PyObject* self) {
@@ -125,7 +127,8 @@ void answer_free(PyObject* self) {
 
 PyObject* make_answer_type() {
   static PyType_Slot slots[] = {
-      {Py_tp_doc, const_cast<char*>("What a :class:`Pair` answers: a proved interval, and the points and direction that prove it.")},
+      {Py_tp_doc,
+       const_cast<char*>("What a :class:`Pair` answers: a proved interval, and the points and direction that prove it.")},
       {Py_tp_getset, answer_members},
       {Py_tp_repr, reinterpret_cast<void*>(&answer_repr)},
       {Py_tp_dealloc, reinterpret_cast<void*>(&answer_free)},
@@ -218,7 +221,8 @@ PyObject* method(PyObject* self, PyObject* const* arguments, Py_ssize_t count, P
     }
     if (kDecides && !has_threshold) throw py::type_error("missing argument 'threshold'");
     const PoseRows pose(arguments[0], pair.order, false, "pose");
-    if (!pose.is_single()) throw py::value_error("pose: a Pair takes one, got " + std::to_string(pose.size()) + "; ask swiftlet's functions");
+    if (!pose.is_single())
+      throw py::value_error("pose: a Pair takes one, got " + std::to_string(pose.size()) + "; ask swiftlet's functions");
     if constexpr (kDecides) {
       Within within;
       ask_pair(asked, pair, pose[0], within);
@@ -245,8 +249,9 @@ PyMethodDef definition(const char* name, const char* text) {
 
 PyMethodDef pair_methods[] = {
     definition<Query::Distance>(
-        "distance", "distance($self, pose, /, *, absolute=0.0, relative=0.0, beyond=1e999, steps=None, finest_level=0)\n--\n\n"
-                    "The distance in one pose: see :func:`swiftlet.distance`. Returns an :class:`Answer`."),
+        "distance",
+        "distance($self, pose, /, *, absolute=0.0, relative=0.0, beyond=1e999, steps=None, finest_level=0)\n--\n\n"
+        "The distance in one pose: see :func:`swiftlet.distance`. Returns an :class:`Answer`."),
     definition<Query::SignedDistance>(
         "signed_distance",
         "signed_distance($self, pose, /, *, absolute=0.0, relative=0.0, beyond=1e999, steps=None, finest_level=0)\n--\n\n"
@@ -257,9 +262,10 @@ PyMethodDef pair_methods[] = {
     definition<Query::Within>("within",
                               "within($self, pose, threshold, /, *, steps=None, finest_level=0)\n--\n\n"
                               "Whether the distance is at most `threshold`: read `decision`. Returns an :class:`Answer`."),
-    definition<Query::SignedWithin>("signed_within",
-                                    "signed_within($self, pose, threshold, /, *, steps=None, finest_level=0)\n--\n\n"
-                                    "Whether the signed distance is at most `threshold`: read `decision`. Returns an :class:`Answer`.")};
+    definition<Query::SignedWithin>(
+        "signed_within",
+        "signed_within($self, pose, threshold, /, *, steps=None, finest_level=0)\n--\n\n"
+        "Whether the signed distance is at most `threshold`: read `decision`. Returns an :class:`Answer`.")};
 
 }  // namespace
 
@@ -286,13 +292,17 @@ tuning : Tuning, optional
           return Pair{to_body(a, "a"), to_body(b, "b"), quaternion_order(quaternion), to_tuning(tuning)};
         }),
         py::arg("a"), py::arg("b"), py::kw_only(), py::arg("quaternion") = py::none(), py::arg("tuning") = py::none());
-  c.def("reset", [](Pair& p) { p.seed = {}; }, "Forgets the warm start.");
-  c.def_property_readonly("a", [](const Pair& p) { return p.a; }, "Body A.");
-  c.def_property_readonly("b", [](const Pair& p) { return p.b; }, "Body B.");
+  c.def(
+      "reset", [](Pair& p) { p.seed = {}; }, "Forgets the warm start.");
+  c.def_property_readonly(
+      "a", [](const Pair& p) { return p.a; }, "Body A.");
+  c.def_property_readonly(
+      "b", [](const Pair& p) { return p.b; }, "Body B.");
   c.def_property(
       "seed", [](const Pair& p) { return py::bytes(reinterpret_cast<const char*>(&p.seed.pair), sizeof(PairSeed)); },
       [](Pair& p, const std::string& bits) {
-        if (bits.size() != sizeof(PairSeed)) throw py::value_error("seed: expected " + std::to_string(sizeof(PairSeed)) + " bytes");
+        if (bits.size() != sizeof(PairSeed))
+          throw py::value_error("seed: expected " + std::to_string(sizeof(PairSeed)) + " bytes");
         std::memcpy(static_cast<void*>(&p.seed.pair), bits.data(), bits.size());
       },
       "The warm start of convex bodies, the bytes of a C++ ``PairSeed``; any are legal.");

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using Names = std::set<std::string>;
 
 const fs::path kRoot = fs::path(SWIFTLET_TEST_DIR).parent_path();
-const Names kFolders{"lut", "march", "bvh", "scene", "c", "lod", "tool", "adapters", "yardstick", "bench", "tests"};
+const Names kFolders{"lut", "march", "bvh", "scene", "c", "lod", "tool", "adapters", "python", "yardstick", "bench", "tests"};
 
 /// What a room may include beside itself.
 const std::map<std::string, Names> kBelow{
@@ -156,7 +156,7 @@ TEST(Pages, LinksLeadToFiles) {
     if (entry.path().extension() == ".md") pages.push_back(entry.path());
   }
   for (const char* folder :
-       {"march", "bvh", "scene", "c", "lod", "adapters", "yardstick", "tests", "tests/stability", "bench", "models", "packaging"}) {
+       {"march", "bvh", "scene", "c", "lod", "adapters", "python", "yardstick", "tests", "tests/stability", "bench", "models", "packaging"}) {
     for (const fs::directory_entry& entry : fs::directory_iterator(kRoot / folder)) {
       if (entry.path().extension() == ".md") pages.push_back(entry.path());
     }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The batch over poses in C++, which batches.py times itself beside: swiftlet_python_bench A.swl B.swl POSES THREADS ROUNDS, where
-// POSES is a file of 16 doubles per pose. Prints for each round the nanoseconds per query (poses and room for the
-// answers are there before), then a hash of all intervals.
+// The batch over poses in C++, which batches.py times itself beside: swiftlet_python_bench A.swl B.swl POSES THREADS ROUNDS,
+// where POSES is a file of 16 doubles per pose. Prints for each round the nanoseconds per query, with new room for the answers
+// in each as Python makes it, then a hash of all intervals.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -31,12 +31,14 @@ int main(int argc, char** argv) {
     }
   }
   const Run run{on_threads(unsigned(std::atoi(argv[4])))};
-  std::vector<Answer> answers(poses.size());
+  std::vector<Answer> answers;
   for (int round = 0; round < std::atoi(argv[5]); ++round) {
     const auto begin = std::chrono::steady_clock::now();
-    distance(a.value(), b.value(), poses, answers, {}, run);
+    std::vector<Answer> made(poses.size());
+    distance(a.value(), b.value(), poses, made, {}, run);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     std::printf("%.1f\n", 1e9 * seconds / double(poses.size()));
+    answers.swap(made);
   }
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const Answer& answer : answers) {
