@@ -103,8 +103,8 @@ void define_scenes(py::module_& module) {
       module, "Scene", R"(Bodies in one world, each with a name, and what is kept of pairs from question to question.
 
 Bodies are named by ids, pairs of an index and a generation that never come back. Poses map a body's frame into the world's. A
-question about all pairs leaves out those whose boxes are proved to be farther apart than asked and lists, in the order of ids, every
-other one that is not proved to be farther; answers are in A's frame about ``relative(pose(a), pose(b))``. The same calls give the
+question about all pairs leaves out those whose boxes are proved to be farther apart than asked and lists, in the order of ids,
+every other one that is not proved to be farther; answers are in A's frame about ``relative(pose(a), pose(b))``. The same calls give the
 same bits on any number of threads. Calls of several threads take turns.)");
   c.def(py::init([](long threads) {
           auto scene = std::make_shared<HeldScene>();

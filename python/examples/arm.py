@@ -13,7 +13,7 @@ import numpy as np
 
 import swiftlet
 
-SHOULDER, UPPER_ARM, FOREARM, WRIST_1, WRIST_2 = 0.1273, 0.612, 0.5723, 0.163941, 0.1157  # d1, a2, a3, d4, d5
+SHOULDER, UPPER_ARM, FOREARM = 0.1273, 0.612, 0.5723  # d1, a2, a3
 CACHE = Path(__file__).resolve().parents[2] / "models/cache"
 
 
