@@ -66,7 +66,9 @@ if(SWIFTLET_TOOL)
 endif()
 if(SWIFTLET_PYTHON)
   swiftlet_package(python python3-swiftlet python "The Python package: the runtime, meshes and scenes.")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.9), python3-numpy")
+  math(EXPR python_after "${SWIFTLET_PYTHON_MINOR} + 1")  # an extension module is of one interpreter
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= 3.${SWIFTLET_PYTHON_MINOR}), python3 (<< 3.${python_after}), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   if(SWIFTLET_LOD)
     swiftlet_package(python_build python3-swiftlet-build python

@@ -7,8 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import settings
 
 import swiftlet
+
+settings.register_profile("swiftlet", database=None, derandomize=True)  # nothing is written beside the sources
+settings.load_profile("swiftlet")
 
 SOURCE = Path(os.environ.get("SWIFTLET_SOURCE", Path(__file__).resolve().parents[2]))
 MODELS = SOURCE / "tests/data/models"

@@ -186,7 +186,7 @@ class Vcpkg(unittest.TestCase):
                              ["ON" if f in features else "OFF" for f in ("builder", "tool")])
             # All that is not asked for is off, whatever the defaults are; what installs is on.
             self.assertEqual({k for k in Truth.options if options.get(k, "") != "OFF"} - {"SWIFTLET_LOD", "SWIFTLET_TOOL"},
-                             {"SWIFTLET_INSTALL", "SWIFTLET_FUZZ", "SWIFTLET_BVH", "SWIFTLET_SCENE"})
+                             {"SWIFTLET_INSTALL", "SWIFTLET_FUZZ", "SWIFTLET_PYTHON", "SWIFTLET_BVH", "SWIFTLET_SCENE"})
 
     def test_an_archive_of_another_digest_is_refused(self):
         done, _ = self.run_port([], False)
@@ -235,7 +235,7 @@ class Conan(unittest.TestCase):
             recipe = self.recipe(builder=on, tool=on)
             recipe.generate()
             self.assertEqual(Truth.options - set(recipe.cache_variables),
-                             {"SWIFTLET_INSTALL", "SWIFTLET_FUZZ", "SWIFTLET_BVH", "SWIFTLET_SCENE"})
+                             {"SWIFTLET_INSTALL", "SWIFTLET_FUZZ", "SWIFTLET_PYTHON", "SWIFTLET_BVH", "SWIFTLET_SCENE"})
             self.assertEqual({k for k, v in recipe.cache_variables.items() if v}, {"SWIFTLET_LOD", "SWIFTLET_TOOL"} if on else set())
 
     def test_what_it_exports_can_be_configured(self):
