@@ -60,12 +60,15 @@ def main(program: str, count: int = 1_000_000, rounds: int = 9) -> int:
                     answers = swiftlet.distance(a, b, poses, threads=threads)
                     mine.append((time.perf_counter() - begin) * 1e9 / count)
                 hashes |= {their_hash, hash_of(answers)}
-                python.append(min(mine)), cpp.append(min(map(float, times[::2]))), kept.append(min(map(float, times[1::2])))
+                python.append(min(mine))
+                cpp.append(min(map(float, times[::2])))
+                kept.append(min(map(float, times[1::2])))
                 ratios.append(python[-1] / cpp[-1])
             ours[threads] = median(python)
             wrong += len(hashes) != 1
-            print(f"{threads} thread{'s' if threads > 1 else ' '}  batch in Python {median(python):6.1f}   in C++ {median(cpp):6.1f}"
-                  f", into kept memory {median(kept):6.1f}   ratio {median(ratios):.3f}   hash {' '.join(sorted(hashes))}")  # fmt: skip
+            print(f"{threads} thread{'s' if threads > 1 else ' '}  batch in Python {median(python):6.1f}", end="")
+            print(f"   in C++ {median(cpp):6.1f}, into kept memory {median(kept):6.1f}", end="")
+            print(f"   ratio {median(ratios):.3f}   hash {' '.join(sorted(hashes))}")
     print(f"two threads are {ours[1] / ours[2]:.2f} times one")
 
     pair, some = swiftlet.Pair(a, b), list(poses[:100_000])
