@@ -155,9 +155,7 @@ TEST(Pages, LinksLeadToFiles) {
   for (const fs::directory_entry& entry : fs::directory_iterator(kRoot)) {
     if (entry.path().extension() == ".md") pages.push_back(entry.path());
   }
-  for (const char* folder :
-       {"march", "bvh", "scene", "c", "lod", "adapters", "python", "yardstick", "tests", "tests/stability", "bench", "models", "packaging"}) {
-  for (const char* folder : {"march", "bvh", "scene", "lod", "adapters", "python", "yardstick", "tests", "tests/stability",
+  for (const char* folder : {"march", "bvh", "scene", "c", "lod", "adapters", "python", "yardstick", "tests", "tests/stability",
                              "bench", "models", "packaging"}) {
     for (const fs::directory_entry& entry : fs::directory_iterator(kRoot / folder)) {
       if (entry.path().extension() == ".md") pages.push_back(entry.path());
