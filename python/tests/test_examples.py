@@ -15,6 +15,7 @@ SAYS = {
     "first_distance": ["distance 2.309401076758, proved to", "check: True"],
     "levels": ["level 0:", "to      0:", "cut for 0.05:"],
     "accuracy": ["relative   0.01:"],
+    "ur10_cell": ["15552 configurations", "of 10 pairs in the cell:", "0 undecided"],
     "arm": ["forearm  table", "wrist 2  post"],
 }
 
