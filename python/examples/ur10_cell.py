@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A UR10 in a cell: its clearance over a grid of joint angles, as a map. ur10_cell.py [PICTURE] [--help]
 
-Two sweeps over the same configurations: how far the moving links are from a table and a post, and whether anything overlaps, pairs of
-links that are not neighbours included. (Such pairs are 2 cm apart in all configurations, so that their distance would hide the
-others'.) All pairs of a configuration are one row; poses are made by forward kinematics in the workers. The picture is of the plane of
-shoulder lift and elbow: the least clearance over all other joints, and how many of their combinations are free. Bodies are convex hulls.
+Two sweeps over the same configurations: how far the moving links are from a table and a post, and whether anything overlaps,
+pairs of links that are not neighbours included. (Some of these are 2 cm apart or less in all configurations,
+so that their distance would hide the others'.) All pairs of a configuration are one row; poses are made by forward kinematics in the workers. The
+picture is of the plane of shoulder lift and elbow: the least clearance over all other joints, and how many of their combinations are free. 
+Bodies are convex hulls.
 
 Meshes: models/fetch. Joint origins: ur10_robot.urdf.gz of the meshes' package (Debian's libsimbody-dev), generated from
 ROS-Industrial's ur_description. Metres, radians.
@@ -168,7 +169,9 @@ def main():
         grid, (near, least, histogram) = over(
             in_cell, (Map(per_cell), Least(), Histogram(bins)), "near", absolute=options.absolute, beyond=options.beyond
         )
-        _, (free, verdicts, first) = over(apart + in_cell, (Map(per_cell), Verdicts(), FirstOverlap()), "free", query="intersects")
+        _, (free, verdicts, first) = over(
+            apart + in_cell, (Map(per_cell), Verdicts(), FirstOverlap()), "free", query="intersects"
+        )
         seconds = time.perf_counter() - began
 
     count = len(grid)
@@ -178,7 +181,8 @@ def main():
         print(f"  clearance {low:4.2f} m to {high:4.2f} m: {n}")
     nearest = f"{LINKS[in_cell[least.pair][1]]} and {('table', 'post')[least.pair % 2]}"
     print(f"  least in [{least.lower:.4f}, {least.upper:.4f}] m: {nearest}, configuration {least.index}")
-    print(f"of these and {len(apart)} pairs of links: " + ", ".join(f"{n} {verdict.name.lower()}" for verdict, n in verdicts.items()))
+    found = ", ".join(f"{n} {verdict.name.lower()}" for verdict, n in verdicts.items())
+    print(f"of these and {len(apart)} pairs of links: {found}")
     print("  first that overlaps:", "none" if first is None else f"{first}: {dict(zip(AXES, grid.values(first).round(3)))}")
     if options.picture:
         draw(options.picture, axes, near, free)

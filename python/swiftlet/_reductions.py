@@ -39,8 +39,8 @@ class Rows(NamedTuple):
 class Reduction:
     """A function of answers that may be computed in parts, in any order.
 
-    A subclass gives the three methods. `merge` must be associative and commutative in the bits of its result, as minima, maxima and
-    sums of integers are and sums of floats are not; ties go to the least index. Its `repr` must name its parameters, since a
+    A subclass gives the three methods. `merge` must be associative and commutative in the bits of its result, as minima, maxima
+    and sums of integers are and sums of floats are not; ties go to the least index. Its `repr` must name its parameters, since a
     checkpoint is told from another's by it; :class:`Histogram` shows how.
     """
 
@@ -61,7 +61,7 @@ class Reduction:
 
 
 class LeastDistance(NamedTuple):
-    """What :class:`Least` finds: the least distance of the sweep is in [`lower`, `upper`], and `upper` is that of pose `index`."""
+    """What :class:`Least` finds: the least distance is in [`lower`, `upper`], and `upper` is that of pose `index`."""
 
     lower: float
     upper: float
@@ -91,8 +91,8 @@ class Histogram(Reduction):
     Parameters
     ----------
     edges : array_like of float, shape (m,)
-        Ascending. The result is an int64 array of shape (m + 1,): below ``edges[0]``, from ``edges[i]`` to below ``edges[i + 1]``,
-        and from ``edges[-1]`` on.
+        Ascending. The result is an int64 array of shape (m + 1,): below ``edges[0]``, from ``edges[i]`` to below
+        ``edges[i + 1]``, and from ``edges[-1]`` on.
     """
 
     def __init__(self, edges: Sequence[float]) -> None:
@@ -148,11 +148,11 @@ class Map(Reduction):
     ----------
     per : int
         Poses in a cell; cell c holds those from ``c * per`` on. The result is a structured array over the cells: lower, upper,
-        index and pair as :class:`LeastDistance` has them, `free` and `overlapping` (poses that are proved to be) and `count`: 56 bytes
-        a cell, in the caller's memory.
+        index and pair as :class:`LeastDistance` has them, `free` and `overlapping` (poses that are proved to be) and `count`:
+        56 bytes a cell, in the caller's memory.
     """
 
-    _FIELDS = [("lower", "f8"), ("upper", "f8"), ("index", "i8"), ("pair", "i8"), ("free", "i8"), ("overlapping", "i8"), ("count", "i8")]
+    _FIELDS = [("lower", "f8"), ("upper", "f8"), *((name, "i8") for name in ("index", "pair", "free", "overlapping", "count"))]
 
     def __init__(self, per: int) -> None:
         if per < 1:

@@ -58,7 +58,7 @@ __all__ = [
 
 _QUERIES = ("distance", "signed_distance", "intersects")
 _NOT_OPTIONS = ("threads", "seeds", "index_a", "index_b")
-_IN_FLIGHT = 3  # chunks that each thread has or waits with: enough that none waits for the caller, few enough to keep memory small
+_IN_FLIGHT = 3  # chunks of each thread, running or waiting: enough that none waits for the caller, few in memory
 _DELIVERY_SECONDS = 60
 _PROBES = 5  # blocks of poses by which a checkpoint knows the sweep
 
@@ -165,7 +165,7 @@ class _Job:
         return [reduction.merge(x, y) for reduction, x, y in zip(self.reductions, one, other)]
 
     def digest(self, chunk: int) -> str:
-        """What a checkpoint is of. Callables have no identity that outlives a process, so poses are known by some of their bits."""
+        """What a checkpoint is of. Callables have no identity that outlives a process: poses are known by their bits."""
         hashed = hashlib.sha256()
         sweep = [_VERSION, self.count, chunk, self.query, repr(sorted(self.options.items())), repr(self.reductions)]
         hashed.update(json.dumps(sweep).encode())
@@ -182,13 +182,14 @@ class _Job:
 
 def _nearest(first: int, answers: list[Answers]) -> Rows:
     lower, upper, verdict = (np.stack([getattr(answer, name) for answer in answers]) for name in ("lower", "upper", "verdict"))
+    by_rank = np.array([Verdict.OVERLAPPING, Verdict.UNDECIDED, Verdict.TOUCHING, Verdict.DISJOINT], np.uint8)
     rank = np.array([1, 3, 2, 0])  # of Verdict: the least of a pose's pairs is its verdict
     return Rows(
         first,
         lower.min(axis=0) + 0.0,  # no zero has a sign, so that equal minima have equal bits
         upper.min(axis=0) + 0.0,
         np.argmin(upper, axis=0),
-        np.array([Verdict.OVERLAPPING, Verdict.UNDECIDED, Verdict.TOUCHING, Verdict.DISJOINT], np.uint8)[rank[verdict].min(axis=0)],
+        by_rank[rank[verdict].min(axis=0)],
     )
 
 
@@ -218,8 +219,8 @@ class _Checkpoint:
             raise DataError(f"'{self.path}' is not a checkpoint of a sweep: {error}", ErrorCode.BAD_FORMAT, self.path) from error
         if digest != self.digest:
             raise DataError(
-                f"'{self.path}' is the checkpoint of another sweep: bodies, poses, count, chunk, query, options, reductions or version "
-                "differ; give this one another file, or remove it",
+                f"'{self.path}' is the checkpoint of another sweep: bodies, poses, count, chunk, query, options, reductions or "
+                "version differ; give this one another file, or remove it",
                 ErrorCode.BAD_VALUE,
                 self.path,
             )
@@ -364,8 +365,8 @@ def sweep(
         A pair, or pairs which each pose is about. Models that are mapped go to a cluster's workers as path and hash, others as
         bytes, once to each worker.
     poses : callable, :class:`Grid`, or array
-        ``poses(first, n)`` returns the poses from index `first` on, at most 1 024 at a time, in any form that queries take: of one
-        pair shape (n, 4, 4), (n, 7), or a tuple (R, t); of several pairs a sequence of as many of these. It must be a function of
+        ``poses(first, n)`` returns the poses from index `first` on, at most 1 024 at a time, in any form that queries take: of
+        one pair shape (n, 4, 4), (n, 7), or a tuple (R, t); of several pairs a sequence of as many of these. It must be a function of
         the indices alone. Arrays, and tuples of two, are sent to every worker whole; with several pairs they are not taken.
     reduce : Reduction, or tuple of them
         :class:`Least`, :class:`Histogram`, :class:`FirstOverlap`, :class:`Verdicts`, :class:`Map`, or one's own.
@@ -391,8 +392,8 @@ def sweep(
     Returns
     -------
     object
-        What `reduce` makes of all poses; a tuple if it is one. Same bits on any number of threads or workers, for any `chunk`, and
-        however often workers died or the sweep was resumed.
+        What `reduce` makes of all poses; a tuple if it is one. Same bits on any number of threads or workers, for any `chunk`,
+        and however often workers died or the sweep was resumed.
 
     Raises
     ------

@@ -83,7 +83,8 @@ def test_parts_merge_in_any_order(reduction):
 def test_several_pairs_are_one_row(fat):
     post = swiftlet.Body.point([0.0, 0.0, 3.0], 0.5)
     near, far = orbit(3000), orbit(3000, 4.0)
-    least, verdicts = sweep([fat[0], post], list(fat), lambda i, n: [near[i : i + n], far[i : i + n]], (Least(), Verdicts()), count=3000)
+    made = lambda i, n: [near[i : i + n], far[i : i + n]]  # noqa: E731
+    least, verdicts = sweep([fat[0], post], list(fat), made, (Least(), Verdicts()), count=3000)
     upper = np.stack([swiftlet.distance(fat[0], fat[0], near).upper, swiftlet.distance(post, fat[1], far).upper])
     assert least.upper == upper.min() and least.index == upper.min(axis=0).argmin()
     assert least.pair == upper[:, least.index].argmin() and sum(verdicts.values()) == 3000
@@ -146,7 +147,8 @@ def by_dh(q):
     d, a = [0.1273, 0, 0, 0.163941, 0.1157, 0.0922], [0, -0.612, -0.5723, 0, 0, 0]
     for angle, offset, length, twist in zip(q, d, a, [np.pi / 2, 0, 0, np.pi / 2, -np.pi / 2, 0]):
         c, s, ct, st = np.cos(angle), np.sin(angle), np.cos(twist), np.sin(twist)
-        pose = pose @ np.array([[c, -s * ct, s * st, length * c], [s, c * ct, -c * st, length * s], [0, st, ct, offset], [0, 0, 0, 1]])
+        rows = [c, -s * ct, s * st, length * c], [s, c * ct, -c * st, length * s], [0, st, ct, offset], [0, 0, 0, 1]
+        pose = pose @ np.array(rows)
     return pose
 
 
