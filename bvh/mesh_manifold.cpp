@@ -45,6 +45,7 @@ class ConvexFace {
     level_ = &(**shape_).level((**shape_).finest_level()).view;
   }
   explicit operator bool() const { return level_ != nullptr; }
+  std::size_t vertex_count() const { return level_->vertices.size(); }
   const ConvexView& view() const { return *level_; }
   Vec point(std::uint32_t vertex) const { return apply(in_a_, vec(level_->vertices[vertex])); }
   /// The vertex farthest along `n`.
@@ -367,6 +368,10 @@ bool names_a_region(const MeshContact& contact, const MeshView& a, const MeshVie
          !contact.box_max.hasNaN() && !contact.point_a.hasNaN() && !contact.point_b.hasNaN();
 }
 
+bool names_a_vertex(const MeshView& of, const ConvexFace& body, FeatureId feature) {
+  return feature.kind() != FeatureKind::Vertex || feature.index() < (body ? body.vertex_count() : of.content->vertices.size());
+}
+
 }  // namespace
 
 Manifold manifold(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const MeshContact& contact,
@@ -380,6 +385,7 @@ Manifold manifold(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, cons
   if (at.fault() != Status::Converged || !names_a_region(contact, at.a, at.b)) return manifold;
   const RegionOf in{at, b_in_a, {vec(contact.box_min), vec(contact.box_max)}};
   const ConvexFace body_a(at.a, kAtRest), body_b(at.b, at.motion);
+  if (!names_a_vertex(at.a, body_a, contact.feature_a) || !names_a_vertex(at.b, body_b, contact.feature_b)) return manifold;
   const double margin = options.margin + at.radii.sum();
 
   // The points of the surfaces.

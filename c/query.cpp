@@ -306,7 +306,7 @@ void ask_pairs(const swiftlet_pair* pairs, std::size_t count, const swiftlet_run
         ask_alike<PairQuery, PairSeed>(alike, begin + i, query, to);
     }
   };
-  run_all((count + kPairsPerTask - 1) / kPairsPerTask, run, ask_some, [&](std::size_t task) {
+  run_all((count - 1) / kPairsPerTask + 1, run, ask_some, [&](std::size_t task) {
     for (std::size_t i = task * kPairsPerTask; i < end_of(task); ++i) to.put(i, {});
   });
 }
@@ -323,7 +323,7 @@ void ask_poses(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_po
       for (std::size_t i = chunk * kPosesPerChunk; i < end_of(chunk); ++i)
         to.put(i, query.one(one, other, pose_of(b_in_a + i), seed));
     };
-    run_all((count + kPosesPerChunk - 1) / kPosesPerChunk, run, ask_chunk, [&](std::size_t chunk) {
+    run_all((count - 1) / kPosesPerChunk + 1, run, ask_chunk, [&](std::size_t chunk) {
       for (std::size_t i = chunk * kPosesPerChunk; i < end_of(chunk); ++i) to.put(i, {});
     });
   };

@@ -341,6 +341,10 @@ TEST(MeshContacts, RefuseWhatQueriesRefuse) {
   ASSERT_EQ(contacts(mesh, mesh, shift(1.9, 0, 0), 1, {&contact, 1}).count, 1u);
   EXPECT_EQ(manifold(mesh, mesh, crooked, contact).count, 0u);
   EXPECT_EQ(manifold(mesh, {mesh, kNaN}, shift(1.9, 0, 0), contact).count, 0u);
+  MeshContact stale = contact;  // of a larger mesh
+  stale.feature_a = {FeatureKind::Vertex, 1000000}, stale.point_b -= 3 * stale.normal;
+  EXPECT_EQ(manifold(mesh, mesh, shift(1.9, 0, 0), stale).count, 0u);
+  EXPECT_EQ(manifold(Body::point({0, 0, 0}), mesh, shift(1.9, 0, 0), stale).count, 0u);
   contact.triangle_b = 1000000;
   EXPECT_EQ(manifold(mesh, mesh, shift(1.9, 0, 0), contact).count, 0u);
 }

@@ -640,8 +640,8 @@ typedef struct swiftlet_pair {
 
 // ---- One pair --------------------------------------------------------------------------------------------------------------
 
-// Bodies may be convex or meshes. `seed`, `options` and `effort` may be null. Queries allocate nothing, and write no message
-// where `error` is null.
+// Bodies may be convex or meshes. `seed`, `options` and `effort` may be null. Queries without a trace allocate nothing,
+// and write no message where `error` is null.
 
 /// Gives the distance: exact by default, or within the errors of `options`.
 SWIFTLET_API swiftlet_code swiftlet_distance(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_pose* b_in_a,
