@@ -17,8 +17,6 @@ namespace {
 
 /// Over the body's extent: what is nearer counts as one place, as of a convex body against triangles.
 constexpr double kOnePlace = 0x1p-20;
-/// Directions within 26 degrees of each other are alike.
-constexpr double kAlike = 0.9;
 
 Vec3 transform(const Pose& pose, const Vec3& p) { return pose.rotation * p + pose.translation; }
 

@@ -10,9 +10,6 @@
 namespace swiftlet::bullet {
 namespace {
 
-/// The normals of one manifold's points make smaller angles than this with that of its deepest one; of all others of them have
-/// larger ones. Cosine, of 26 degrees.
-constexpr double kAlike = 0.9;
 /// Points whose normals differ by more than 60 degrees leave nothing to others.
 constexpr btScalar kLikeAnEmptyOne = btScalar(0.5);
 /// As many as a corner of a room has walls, and one more.

@@ -16,6 +16,10 @@
 
 namespace swiftlet::bullet {
 
+/// The cosine of 26 degrees: directions whose cosine is above it are alike. The normals of one manifold's points are like that
+/// of its deepest one, as long as there are manifolds for all others.
+inline constexpr double kAlike = 0.9;
+
 /// What Bullet calls a triangle of a shape; -1 of a shape that has none.
 struct TriangleId {
   int part = -1, index = -1;
