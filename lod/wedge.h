@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether a triangle enters what a convex hull gains by a new vertex, decided exactly. Knows nothing of patches or meshes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "numeric/vec.h"
+
+namespace swiftlet::lod {
+
+using Corners3 = std::array<Vec, 3>;
+
+/// A tetrahedron that a hull gains: it stands on a face of the hull that the new vertex sees.
+///
+/// A face of a tetrahedron is a mask of its corners: bits 0 to 2 those of the base, bit 3 the new vertex.
+struct Wedge {
+  std::array<Vec, 4> corner;  ///< three counter-clockwise seen from the new vertex, which is the last
+  /// Per side of the base: the tetrahedron's face over it, from corner k and k + 1 to the new vertex, is one of the new hull's.
+  std::array<bool, 3> outer;
+  bool base_outer = false;  ///< the base lies on the new hull's boundary
+
+  /// True if that face lies on the new hull's boundary. Corners always do, and so do the edges at the new vertex.
+  bool is_outer(unsigned face) const;
+};
+
+/// True if the triangle meets the part of the wedge that is inside of the new hull.
+bool enters(const Corners3& triangle, const Wedge& wedge);
+
+/// A triangle that a flat hull gains, from an edge that the new vertex sees; the three run counter-clockwise.
+struct FlatWedge {
+  std::array<Vec, 3> corner;    ///< the edge's ends and the new vertex
+  std::array<bool, 2> outer{};  ///< per end of the edge: the side from there to the new vertex is one of the new hull's
+  int u, v;                     ///< coordinates that the plane projects to, one to one and without turning over
+};
+
+/// True if a part of the triangle that is in the wedge's plane meets the wedge where that is inside of the new hull, and the
+/// triangle reaches to the inner side of the plane.
+bool enters(const Corners3& triangle, const FlatWedge& wedge);
+/// True if a segment in the wedge's plane does.
+bool enters(const std::array<Vec, 2>& segment, const FlatWedge& wedge);
+
+}  // namespace swiftlet::lod
