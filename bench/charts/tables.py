@@ -132,7 +132,51 @@ def mesh_contacts(at, others):
             print(f"| {scene} | {microseconds(ours)} | {microseconds(at[scene, 'signed', 'swiftlet boxes'])} | {ours['found']:.2g} |")
 
 
-GROUPS = {"orbit": orbit, "goals": goals, "depth": depth, "manifold": manifold, "mesh": mesh}
+# Milliseconds at 450 MHz [Ehmann & Lin 2001, tables 1 and 2], by our names of scenes and of ways.
+PAPER_SCENES = ["tori", "cup-spoon", "peg-large-ring", "peg-small-ring", "teeth-shifting", "teeth-opening"]
+PAPER = {
+    "intersects": {
+        "CH": [1.510, 0.840, 9.865, 1.410, 43.42, 14.32],
+        "CH(FT)": [0.696, 0.505, 3.505, 0.966, 0.177, 4.190],
+        "OBBs (RAPID)": [2.711, 0.8761, 0.276, 0.459, 0.514, 0.841],
+    },
+    "distance": {
+        "CH": [4.424, 1.728, 11.81, 2.720, 54.73, 20.23],
+        "CH(PC)": [2.452, 1.234, 10.99, 1.910, 11.53, 10.43],
+        "CH(PD)": [2.562, 1.284, 11.88, 2.009, 7.152, 9.937],
+        "CH(FT)": [2.414, 1.058, 4.938, 1.572, 0.184, 7.980],
+        "CH(PC,PD)": [2.498, 1.266, 11.78, 1.969, 1.466, 9.285],
+        "CH(PC,FT)": [2.444, 1.070, 4.975, 1.599, 0.114, 8.090],
+        "CH(PD,FT)": [1.602, 0.923, 5.105, 1.513, 5.529, 7.740],
+        "CH(PC,PD,FT)": [1.612, 0.919, 5.113, 1.526, 5.653, 7.957],
+        "spheres swept (PQP)": [7.492, 3.814, 34.91, 36.61, 0.604, 1.733],
+    },
+}
+
+
+def layer(rows):
+    """SWIFT++'s tables 1 and 2: today's microseconds, and the paper's milliseconds in brackets."""
+    at = {(row["scene"], row["question"], row["series"]): row for row in rows}
+    series = list(dict.fromkeys(row["series"] for row in rows))
+    for question, title in {"intersects": "intersection", "distance10%": "distance to 10 %", "distance": "exact distance"}.items():
+        paper = PAPER.get(question, {})
+        print(f"\n| {title}, us (ms in 2001) | " + " | ".join(PAPER_SCENES) + " |")
+        print("|---" * (len(PAPER_SCENES) + 1) + "|")
+        for name in series + [name for name in paper if name not in series]:
+            cells = []
+            for i, scene in enumerate(PAPER_SCENES):
+                now = microseconds(at[scene, question, name]) if (scene, question, name) in at else ""
+                cells.append(now + (f" ({paper[name][i]:g})" if name in paper else ""))
+            if any(cells):
+                print(f"| {name} | " + " | ".join(cells) + " |")
+    print("\n| a triangle | bytes | us to build |\n|---|---|---|")
+    for name in ["swiftlet", "CH", "fcl", "cgal"]:
+        of = [row for row in rows if row["series"] == name and row["question"] == "intersects"]
+        if of:
+            print(f"| {name} | {statistics.median(row['bytes'] for row in of):.0f} | {statistics.median(row['build_us'] for row in of):.1f} |")
+
+
+GROUPS = {"orbit": orbit, "goals": goals, "depth": depth, "manifold": manifold, "mesh": mesh, "layer": layer}
 
 
 def write_into(path, group, text):

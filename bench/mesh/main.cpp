@@ -210,7 +210,7 @@ const Row* find(const std::vector<Row>& rows, const std::string& question, const
   return nullptr;
 }
 
-bool is_ours(const std::string& series) { return series.starts_with("swiftlet"); }
+bool is_ours(const std::string& series) { return series.starts_with("swiftlet") || series.starts_with("CH"); }
 
 /// How many times as long as ours the fastest other takes; NaN where nobody else answers.
 double gain(const std::vector<Row>& rows, const std::string& question) {
@@ -310,6 +310,13 @@ nlohmann::json json(const Row& r) {
           {"bytes", r.bytes}, {"build_us", r.build_us}, {"found", r.found}};
 }
 
+/// The scenes of [Ehmann & Lin 2001, sec. 8.1].
+bool is_of_paper(const std::string& scene) {
+  constexpr const char* kScenes[] = {"tori",           "cup-spoon",      "peg-large-ring",
+                                     "peg-small-ring", "teeth-shifting", "teeth-opening"};
+  return std::find(std::begin(kScenes), std::end(kScenes), scene) != std::end(kScenes);
+}
+
 swiftlet::MeshModel hulls_of(const swiftlet::Mesh& mesh) {
   swiftlet::Result<swiftlet::MeshModel> model = swiftlet::build_mesh(mesh);
   if (!model) throw std::runtime_error(model.error().message);
@@ -321,12 +328,13 @@ swiftlet::MeshModel hulls_of(const swiftlet::Mesh& mesh) {
 int main(int argc, char** argv) try {
   CLI::App app("Queries about meshes, beside the trees of other libraries");
   std::size_t poses = 200;
-  bool quick = false, as_json = false;
+  bool quick = false, as_json = false, layer = false;
   std::vector<std::string> only;
   std::string meshes = "models/cache", file;
   app.add_option("--poses", poses, "of every scene")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_flag("--quick", quick, "24 poses of every scene");
   app.add_option("--only-scene", only, "scenes whose name holds this");
+  app.add_flag("--layer", layer, "SWIFT++'s six scenes alone, with its trees of hulls beside the others");
   app.add_option("--meshes", meshes, "the folder of the real meshes; without it their scenes are left out")
       ->capture_default_str();
   app.add_option("--csv", file, "writes every row to this file, for tables and charts");
@@ -336,6 +344,7 @@ int main(int argc, char** argv) try {
 
   Rig rig;
   rig.methods.push_back(swiftlet_method("swiftlet", "build_mesh, proved, from the last pose's seed", hulls_of));
+  if (layer) add_hull_trees(rig.methods);
   rig.methods.push_back(swiftlet_method("swiftlet boxes", "the same without hulls, from_triangles", boxes_of));
 #ifdef SWIFTLET_PEER_FCL
   add_fcl(rig.methods);
@@ -353,6 +362,7 @@ int main(int argc, char** argv) try {
   for (const std::string& name : scene_names()) {
     const auto wanted = [&](const std::string& part) { return name.find(part) != std::string::npos; };
     if (!only.empty() && std::none_of(only.begin(), only.end(), wanted)) continue;
+    if (layer && !is_of_paper(name)) continue;
     const std::optional<Scene> scene = make_scene(name, meshes, poses);
     if (!scene) {
       std::fprintf(stderr, "%s: its mesh file is missing: models/fetch\n", name.c_str());

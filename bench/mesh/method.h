@@ -65,5 +65,6 @@ std::unique_ptr<Session> swiftlet_session(MeshModel a, MeshModel b);
 void add_fcl(Methods& methods);         ///< where it is installed
 void add_fcl_native(Methods& methods);  ///< and can be compiled for this machine alone
 std::unique_ptr<Method> cgal_method();
+void add_hull_trees(Methods& methods);  ///< SWIFT++'s, with all sets of its accelerations
 
 }  // namespace swiftlet::bench::mesh

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// SWIFT++'s tree of hulls as a method, once for each set of the paper's accelerations.
+#include <chrono>
+#include <stdexcept>
+#include <string>
+
+#include <swiftlet/build_hull_tree.h>
+#include <swiftlet/hull_tree.h>
+
+#include "method.h"
+
+namespace swiftlet::bench::mesh {
+namespace {
+
+template <class T>
+T needed(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(result).value();
+}
+
+std::size_t bytes_of(const HullTree& tree) {
+  std::size_t bytes = tree.mesh().bytes().size() + 4 * tree.triangles().size();
+  for (const HullNode& node : tree.nodes())
+    bytes += sizeof node + node.hull.bytes().size() + node.classes.size() + 8 * node.vertex_in_child[0].size();
+  return bytes;
+}
+
+/// Both bodies' trees, which all methods of a scene share.
+struct Trees {
+  Trees(const Mesh& mesh_a, const Mesh& mesh_b) : points_a(mesh_a.points), points_b(mesh_b.points) {
+    const auto begin = std::chrono::steady_clock::now();
+    for (const Mesh* mesh : {&mesh_a, &mesh_b}) {
+      const MeshModel model = boxes_of(*mesh);
+      trees.push_back(needed(build_hull_tree(model, needed(decompose(model)))));
+    }
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    build_seconds = taken.count();
+  }
+  bool are_of(const Mesh& a, const Mesh& b) const { return points_a == a.points && points_b == b.points; }
+
+  std::vector<Vec3> points_a, points_b;
+  std::vector<HullTree> trees;
+  double build_seconds = 0;
+};
+
+class HullSession final : public Session {
+ public:
+  HullSession(std::shared_ptr<const Trees> trees, const HullSearch& search) : trees_(std::move(trees)) {
+    for (std::size_t kind = 0; kind < kKinds; ++kind) pairs_.emplace_back(trees_->trees[0], trees_->trees[1], search);
+    for (const HullTree& tree : trees_->trees) bytes += bytes_of(tree);
+    build_seconds = trees_->build_seconds;
+  }
+
+  Reply ask(const Question& question, const Pose& b_in_a) override {
+    HullPair& pair = pairs_[std::size_t(question.kind)];
+    switch (question.kind) {
+      case Kind::Intersects: {
+        const Answer answer = pair.intersects(b_in_a).answer;
+        return {
+            .yes = answer.verdict != Verdict::Disjoint, .failed = answer.status != Status::Converged, .opened = answer.steps};
+      }
+      case Kind::Within: {
+        const Decision decision = pair.within(b_in_a, question.threshold);
+        return {.yes = decision == Decision::Yes, .failed = decision == Decision::Undecided};
+      }
+      case Kind::Distance: {
+        const Answer answer = pair.distance(b_in_a, 0, question.relative).answer;
+        return {.distance = answer.upper, .failed = answer.status != Status::Converged, .opened = answer.steps};
+      }
+      default: return {.failed = true};
+    }
+  }
+
+ private:
+  std::shared_ptr<const Trees> trees_;
+  std::vector<HullPair> pairs_;
+};
+
+class HullMethod final : public Method {
+ public:
+  HullMethod(std::string name, std::string settings, const HullSearch& search,
+             std::shared_ptr<std::shared_ptr<const Trees>> last)
+      : name_(std::move(name)), settings_(std::move(settings)), search_(search), last_(std::move(last)) {}
+  std::string name() const override { return name_; }
+  std::string settings() const override { return settings_; }
+  bool can(const Question& question) const override { return question.kind <= Kind::Distance; }
+  std::unique_ptr<Session> open(const Mesh& a, const Mesh& b) const override {
+    if (!*last_ || !(*last_)->are_of(a, b)) *last_ = std::make_shared<const Trees>(a, b);
+    return std::make_unique<HullSession>(*last_, search_);
+  }
+
+ private:
+  std::string name_, settings_;
+  HullSearch search_;
+  std::shared_ptr<std::shared_ptr<const Trees>> last_;
+};
+
+}  // namespace
+
+void add_hull_trees(Methods& methods) {
+  const auto last = std::make_shared<std::shared_ptr<const Trees>>();
+  const auto add = [&](const char* name, const char* settings, const HullSearch& search) {
+    methods.push_back(std::make_unique<HullMethod>(name, settings, search, last));
+  };
+  HullSearch s;
+  add("CH", "SWIFT++'s tree of hulls, split at midpoints; Algorithm 2", s);
+  s.piece_caching = true, add("CH(PC)", "the last answering pair of pieces first", s);
+  s.piece_caching = false, s.priority = true, add("CH(PD)", "nearest pair of nodes next, 1 000 queued", s);
+  s.piece_caching = true, add("CH(PC,PD)", "both", s);
+  s.piece_caching = s.priority = false, s.front = true, add("CH(FT)", "generalised front, features stored", s);
+  s.features = false, add("CH(FT0)", "the same without stored features", s);
+  s.features = true, s.piece_caching = true, add("CH(PC,FT)", "", s);
+  s.piece_caching = false, s.priority = true, add("CH(PD,FT)", "", s);
+  s.piece_caching = true, add("CH(PC,PD,FT)", "", s);
+}
+
+}  // namespace swiftlet::bench::mesh
