@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <ctime>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -316,6 +317,28 @@ TEST(MeshAnswers, OfPlanesAreThoseOfTheLowestVertex) {
   }
 }
 
+/// As of a hull: a margin that is no radius makes no contact, and none that is not finite.
+TEST(MeshAnswers, TakeNoMarginThatIsNoRadius) {
+  World w;
+  const MeshModel cube = soups::box({-1, -1, -1}, {1, 1, 1}).mesh();
+  for (const btScalar margin :
+       {std::numeric_limits<btScalar>::quiet_NaN(), std::numeric_limits<btScalar>::infinity(), btScalar(-1), btScalar(0.04)}) {
+    MeshShape odd(cube), mesh(cube), small(soups::box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}).mesh());
+    odd.setMargin(margin);
+    HullShape hull(bodies::model(bodies::box(2, 2, 2)));
+    btStaticPlaneShape plane(btVector3(0, 0, 1), 0);
+    for (btCollisionShape* other : {static_cast<btCollisionShape*>(&mesh), static_cast<btCollisionShape*>(&small),
+                                    static_cast<btCollisionShape*>(&hull), static_cast<btCollisionShape*>(&plane)}) {
+      for (const double height : {0.3, 0.99}) {
+        EXPECT_EQ(closest_points(w, odd, at(0, 0, height), *other, at(0, 0, 0)).empty(), margin != btScalar(0.04))
+            << margin << " " << other->getName();
+        EXPECT_EQ(closest_points(w, *other, at(0, 0, 0), odd, at(0, 0, height)).empty(), margin != btScalar(0.04))
+            << margin << " " << other->getName();
+      }
+    }
+  }
+}
+
 // ---- Scenes ----------------------------------------------------------------------------------------------------------------
 
 struct Motion {
@@ -501,6 +524,33 @@ TEST(MeshScenes, SolidsPushOutAndRoomsHold) {
         EXPECT_GT(outside, 2) << shape->getName();
       else
         EXPECT_LT(outside, 2) << shape->getName();
+    }
+  }
+}
+
+/// One solid mesh inside of another leaves it by the nearest wall, as a whole and without a turn, whichever Bullet has first.
+TEST(MeshScenes, SolidsPushOutWholeMeshes) {
+  MeshShape walls(soups::box({-2, -2, -2}, {2, 2, 2}).mesh()),
+      cube(soups::box({-0.25, -0.25, -0.25}, {0.25, 0.25, 0.25}).mesh()), ring(soups::scaled(soups::torus(24, 12), 0.3).mesh());
+  shapes::Random random(1);
+  for (int i = 0; i < 24; ++i) {
+    MeshShape& shape = i % 2 == 0 ? cube : ring;
+    const Vec3 start(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5));
+    const bool is_first = i % 4 < 2;
+    Dynamics d;
+    d.world.setGravity(btVector3(0, 0, 0));
+    if (!is_first) d.add(walls, at(0, 0, 0));
+    const btRigidBody& body = d.add(shape, at(start.x(), start.y(), start.z()), 1);
+    if (is_first) d.add(walls, at(0, 0, 0));
+    for (int step = 0; step < 240; ++step) d.step();
+    const Vec3 p = vec3(body.getWorldTransform().getOrigin());
+    Eigen::Index wall, nearest_wall;
+    const double outside = p.cwiseAbs().maxCoeff(&wall);
+    start.cwiseAbs().maxCoeff(&nearest_wall);
+    EXPECT_GT(outside, 2 + (&shape == &cube ? 0.25 : 0.05)) << start.transpose() << " to " << p.transpose();
+    EXPECT_LT(body.getAngularVelocity().length(), 0.5) << start.transpose();
+    if (&shape == &cube) {
+      EXPECT_EQ(wall, nearest_wall) << start.transpose();
     }
   }
 }

@@ -39,13 +39,16 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
                                   : other_mesh || role_of(*second.getCollisionShape()) == Role::Plane;
     if (!mesh || !is_current) return groups.clear();  // scaled since they met
     const PlacedMeshShape placed(*mesh, pose_of(first.getWorldTransform()));
-    const Placed origin{Body::point(Vec3::Zero()), placed.in_world}, other{origin.body, pose_of(second.getWorldTransform())};
-    if (std::isnan(tolerance(origin, other))) return groups.clear();  // no rigid motion
+    const Placed of_first{Body::point(Vec3::Zero(), mesh->getMargin()), placed.in_world};
+    const Placed of_second = solid ? solid->placed(second)
+                                   : Placed{Body::point(Vec3::Zero(), other_mesh ? other_mesh->getMargin() : 0),
+                                            pose_of(second.getWorldTransform())};
+    if (std::isnan(tolerance(of_first, of_second))) return groups.clear();  // no rigid motion, or a margin that is no radius
     const double touching = groups.first().getContactBreakingThreshold() + result->m_closestPointDistanceThreshold;
     if (other_mesh)
-      bodies(placed, {*other_mesh, other.in_world}, first, second, info.m_timeStep, touching);
+      bodies(placed, {*other_mesh, of_second.in_world}, first, second, info.m_timeStep, touching);
     else if (solid)
-      bodies(placed, PlacedMeshShape(solid->placed(second)), first, second, info.m_timeStep, touching);
+      bodies(placed, PlacedMeshShape(of_second), first, second, info.m_timeStep, touching);
     else
       plane(placed, second, touching);
     if (create_.all_points) {

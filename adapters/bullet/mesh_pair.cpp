@@ -3,7 +3,8 @@
 // Two meshes meet in regions, of each of which the kernel knows the nearest points and one normal. A body that lies in a bowl
 // has one region and many normals: so each vertex in a region is a place of contact too, along the way to the nearest point of
 // the other surface, where the rule for edges (triangles.h) lets it count. A vertex beyond the other surface is pushed back: of
-// a solid inside is beyond; of any other surface a vertex is beyond that crossed it since both met.
+// a solid inside is beyond; of any other surface a vertex is beyond that crossed it since both met. Where one body was inside
+// the other as a whole, no face tells which side is out: it is pushed along the shortest way that separates both until they do.
 #include "mesh_pair.h"
 
 #include <algorithm>
@@ -270,6 +271,21 @@ void MeshPair::add_region(const Step& step, const MeshContact& region, std::size
   }
 }
 
+/// Adds the shortest way that is known to lead out of a solid, at the centre of the smaller body, which it does not turn.
+bool MeshPair::add_way_out(const Step& step) {
+  const Answer out = signed_distance(step.a.core(), step.b.core(), step.b_in_a);
+  if (out.normal.hasNaN() || !std::isfinite(out.lower)) return false;
+  const bool at_b = step.b.shape && step.b.mesh().extent() < step.a.mesh().extent();
+  const MeshModel& smaller = (at_b ? step.b : step.a).mesh();
+  const Vec3 middle = (smaller.box_min() + smaller.box_max()) / 2;
+  const double separation = out.lower - step.radii;
+  const Vec3 way = out.normal * separation, place = at_b ? transform(step.b_in_a, middle) : middle;
+  add(step, out.normal, at_b ? place - way : place, at_b ? place : place + way, separation, {});
+  known_.clear();
+  for (auto& through : through_) through.clear();
+  return true;
+}
+
 std::span<const TrianglePoint> MeshPair::contacts(const PlacedMeshShape& a, const PlacedMeshShape& b, const Vec3& moved,
                                                   double beyond) {
   points_.clear(), ids_.clear();
@@ -285,15 +301,8 @@ std::span<const TrianglePoint> MeshPair::contacts(const PlacedMeshShape& a, cons
   const bool cross = std::any_of(regions_.begin(), regions_.end(), [](const MeshContact& r) { return r.normal.hasNaN(); });
   const bool any_solid = a.is_solid() || b.is_solid();
   step.meet = cross || (any_solid && intersects(a.core(), b.core(), step.b_in_a, seed_).verdict == Verdict::Overlapping);
-  if (step.meet && !cross) {  // one is inside the other as a whole
-    const Answer out = signed_distance(a.core(), b.core(), step.b_in_a);
-    if (!out.normal.hasNaN() && std::isfinite(out.lower)) {
-      const Vec3 place = (a.mesh().box_min() + a.mesh().box_max()) / 2;
-      add(step, out.normal, place, place + out.normal * out.lower, out.lower, {});
-      known_.clear();
-      return points_;
-    }
-  }
+  nested_ = step.meet && (nested_ || !cross);
+  if (nested_ && add_way_out(step)) return points_;
   Corners(*this, step, true).add_points();
   if (b.shape) Corners(*this, step, false).add_points();
   const std::size_t of_vertices = points_.size();

@@ -102,6 +102,7 @@ class MeshPair {
   class Corners;
 
   void add(const Step& step, const Vec3& normal, const Vec3& point_a, const Vec3& point_b, double separation, PointIds ids);
+  bool add_way_out(const Step& step);
   void add_region(const Step& step, const MeshContact& region, std::size_t of_vertices);
 
   std::vector<MeshContact> regions_;
@@ -109,6 +110,7 @@ class MeshPair {
   std::vector<PointIds> ids_;
   std::array<std::vector<std::uint32_t>, 2> through_;  ///< vertices of A, of B, that are beyond the other's surface; sorted
   std::optional<Pose> b_in_a_before_;
+  bool nested_ = false;  ///< since they met one was inside the other as a whole
   struct Known {
     Vec3 place, normal;  ///< of a region of the step before, in A's frame
   };
