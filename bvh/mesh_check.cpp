@@ -89,15 +89,26 @@ struct Parts {
   std::size_t count;
 };
 
+/// Whether the bodies overlap beyond doubt.
+bool meet(const Parts& a, const Parts& b, const Pose& b_in_a) {
+  for (std::size_t i = 0; i < a.count; ++i) {
+    for (std::size_t k = 0; k < b.count; ++k) {
+      if (distance(a[i], b[k], b_in_a).verdict == Verdict::Overlapping) return true;
+    }
+  }
+  return a.encloses(b.of, b_in_a, false) || b.encloses(a.of, b_in_a, true);
+}
+
 /// What is wrong with the interval of an answer about a depth; "" if nothing.
 std::string depth_fault(const Parts& a, const Parts& b, const Pose& b_in_a, const Answer& answer, double law_two) {
   std::ostringstream text;
   text.precision(17);
   if (answer.lower > -HUGE_VAL) {
     const Vec3& n = answer.normal;
-    const double over = a.top(n, {}) + b.top(-n, b_in_a) + answer.lower;
     if (!(std::fabs(n.norm() - 1) <= 1e-15)) return "the normal is no unit vector";
-    if (!(over <= law_two)) text << "moved by " << -answer.lower << " along the normal, the hulls overlap by " << over;
+    const bool by_plane = a.top(n, {}) + b.top(-n, b_in_a) + answer.lower <= law_two;
+    if (!by_plane && meet(a, b, {b_in_a.rotation, b_in_a.translation + (law_two - answer.lower) * n}))
+      text << "moved by " << -answer.lower << " along the normal, the bodies still meet";
   }
   double upper = HUGE_VAL;
   for (std::size_t i = 0; i < a.count; ++i) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Signed distances of meshes. Apart, they are distances. Of an overlap no more is known than an interval: from below what
-// separates the bodies' hulls, and from above what separates two triangles that cross, or two balls around one point.
+// Signed distances of meshes. Apart, they are distances. Of an overlap an interval is known: from below a translation after
+// which a distance is above 0, and from above what separates two triangles that cross, or two balls around one point.
 #include <algorithm>
 #include <cmath>
 
@@ -83,7 +83,15 @@ class Supports {
   std::optional<ShapeOf> shape_;
 };
 
-/// A translation along a unit direction that separates the bodies' hulls.
+/// So many poses are asked about to shorten a way out, and points to enlarge two balls, while each gains one part in so many.
+constexpr int kEscapes = 12, kBalls = 16;
+constexpr double kLeastGain = 0x1p-8;
+/// A way out begins longer than what hulls need, so that the surfaces are apart: by this fraction.
+constexpr double kRoom = 0x1p-10;
+/// Other ways begin with this share of the shortest one, or as two balls part, and are so much longer each time.
+constexpr double kFirstLength = 0x1p-6, kLonger = 4;
+
+/// A translation along a unit direction that separates the bodies.
 struct Way {
   double length = kInfinity;  ///< below 0 if they are so far apart; proved
   Vec n{};                    ///< from A to B
@@ -93,8 +101,9 @@ struct Way {
 /// Bounds the depth of two bodies that are not apart.
 class Depth {
  public:
-  Depth(const MeshBody& a, const MeshBody& b, const Pose& b_in_a)
-      : a_(a), b_(b), pose_(b_in_a), at_(a, b, b_in_a), of_a_(at_.a), of_b_(at_.b) {}
+  /// No more than `steps` are spent on translations that no plane proves.
+  Depth(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, std::uint32_t steps)
+      : a_(a), b_(b), pose_(b_in_a), at_(a, b, b_in_a), of_a_(at_.a), of_b_(at_.b), steps_(steps) {}
 
   /// The shortest of the ways along some directions.
   Way way_out(const Answer& answer, const MeshSeed& seed) {
@@ -112,8 +121,54 @@ class Depth {
     return best;
   }
 
+  /// The shorter ones of the ways that begin as the bodies' hulls part, as two balls part, and as the triangles that met face.
+  Way shorter(Way best, const MeshSeed& seed) {
+    best = shorter(best, best.n, best.length * (1 + kRoom));
+    const auto from = [&](const Vec& direction, double length) {
+      const Vec n = normalised(direction);
+      for (; dot(n, n) > 0.5 && length < best.length; length *= kLonger) {
+        const double before = best.length;
+        best = shorter(best, n, length);
+        if (best.length < before) return;
+      }
+    };
+    if (balls_.of_a >= 0) from(balls_.away_b - balls_.away_a, balls_.sum() * (1 + kRoom));
+    if (at_.a.triangles && at_.b.triangles && seed.triangle_a < at_.a.triangle_count && seed.triangle_b < at_.b.triangle_count)
+      from(normalised(normal(at_.a, seed.triangle_a)) - normalised(rotate(at_.motion, normal(at_.b, seed.triangle_b))),
+           best.length * kFirstLength);
+    return best;
+  }
+
+  /// A way that is no longer than one along which the bodies come apart from `length` on; no plane need part them after it.
+  /// Where they are apart by g, so they are after any translation that differs by less. The nearest translation that a plane
+  /// across their nearest points allows is asked about next, or from there half the way back.
+  Way shorter(Way best, const Vec& n, double length) {
+    Vec free = n * length;
+    MeshSeed seed;
+    Answer answer = after(free, seed);
+    if (!(answer.lower > 0)) return best;
+    for (int left = kEscapes; left > 0;) {
+      const double gap = answer.lower * (1 - kRoom), way = norm(free) - gap;
+      if (!(way > 0)) return best;  // so little that it is none
+      if (way < best.length) {
+        best.length = grown(way), best.n = normalised(free);
+        between_ = vec(answer.point_a) - best.n * (way / 2);
+      }
+      const Vec m = vec(answer.normal);
+      const double height = dot(m, free) - gap;
+      Vec next = height > 0 ? m * height : free * 0.5;
+      for (;; next = (free + next) * 0.5) {
+        if (left-- == 0 || !(norm(next - free) > kLeastGain * best.length)) return best;
+        answer = after(next, seed);
+        if (answer.lower > 0) break;
+      }
+      free = next;
+    }
+    return best;
+  }
+
   /// An upper bound on the signed distance; `at` becomes a point, in A's frame, that proves it, if there is one.
-  double least_upper(const Way& way, const Answer& answer, const MeshSeed& seed, Vec3& at) const {
+  double least_upper(const Way& way, const Answer& answer, const MeshSeed& seed, Vec3& at) {
     double upper = kInfinity;
     if (seed.triangle_a < at_.a.triangle_count && seed.triangle_b < at_.b.triangle_count) {
       upper = signed_distance(part(a_, at_.a, seed.triangle_a), part(b_, at_.b, seed.triangle_b), pose_).upper;
@@ -139,16 +194,56 @@ class Depth {
     const Vec p = way.of_a, q = apply(at_.motion, way.of_b), deepest = (p + q) * 0.5;
     const double height = dot(way.n, deepest);
     const Vec between = (middle(at_.a, false) + middle(at_.b, true)) * 0.5;
-    for (const Vec& point : {deepest, between, between + way.n * (height - dot(way.n, between)), common_middle()}) {
-      const Vec legal = without_tiny(point);
-      const double of_a = free_ball(a_, false, legal, false);
-      if (of_a < 0) continue;
-      if (const double of_b = free_ball(b_, true, legal, false); of_b >= 0) take(rounded_down(of_a + of_b), legal);
+    const auto take_point = [&](const Vec& point) {
+      const Balls balls = balls_around(without_tiny(point));
+      if (balls.sum() > balls_.sum()) balls_ = balls;
+    };
+    for (const Vec& point : {deepest, between, between + way.n * (height - dot(way.n, between)), common_middle()})
+      take_point(point);
+    if (between_) take_point(*between_);
+    // Or beside the triangles that met, on the inner side of both.
+    if (at_.a.triangles && at_.b.triangles && !answer.point_a.hasNaN() && seed.triangle_a < at_.a.triangle_count &&
+        seed.triangle_b < at_.b.triangle_count) {
+      const Vec inward =
+          normalised(normal(at_.a, seed.triangle_a)) + normalised(rotate(at_.motion, normal(at_.b, seed.triangle_b)));
+      for (const double share : {0x1p-3, 0x1p-6, 0x1p-9})
+        take_point(vec(answer.point_a) - normalised(inward) * (share * way.length));
     }
+    if (balls_.of_a < 0) return upper;
+    balls_ = larger(balls_);
+    take(rounded_down(balls_.sum()), balls_.at);
     return upper;
   }
 
  private:
+  /// Two balls around a point, one in each body.
+  struct Balls {
+    double of_a = -1, of_b = -1;
+    Vec at{};
+    Vec away_a{}, away_b{};  ///< unit directions from the nearest point of each surface
+    double sum() const { return of_a + of_b; }
+  };
+  Balls balls_around(const Vec& p) const {
+    Balls balls;
+    balls.at = p;
+    balls.of_a = free_ball(a_, false, p, false, &balls.away_a);
+    if (balls.of_a >= 0) balls.of_b = free_ball(b_, true, p, false, &balls.away_b);
+    return balls.of_b < 0 ? Balls() : balls;
+  }
+  /// Moves the point to where the sum of both radii is greater. Within both balls it stays in both bodies.
+  Balls larger(Balls best) const {
+    double step = 0.5;
+    for (int i = 0; i < kBalls; ++i) {
+      const Balls next = balls_around(without_tiny(best.at + (best.away_a + best.away_b) * (step * min(best.of_a, best.of_b))));
+      if (next.sum() > best.sum()) {
+        best = next;
+      } else {
+        step *= 0.5;
+      }
+    }
+    return best;
+  }
+
   static bool has_volume(const MeshBody& body) { return body.is_solid() || !body.mesh(); }
   static double rounded_down(double x) { return x * (1 - 4 * kU); }
   static Vec without_tiny(Vec p) {
@@ -225,20 +320,33 @@ class Depth {
     }
   }
 
+  /// The bodies' distance after B was moved.
+  Answer after(const Vec& by, MeshSeed& seed) {
+    Pose moved = pose_;
+    moved.translation += eigen(by);
+    Options options;
+    options.budget.steps = steps_;
+    const Answer answer = distance(a_, b_, moved, seed, options);
+    steps_ -= std::min(steps_, answer.steps + answer.plane_tests);
+    return answer;
+  }
+
   /// A radius, proved, of a ball around a point that lies in a body; below 0 if the point is not known to be in it. The point
   /// is in B's frame if `in_b`.
-  double free_ball(const MeshBody& of, bool is_b, const Vec& p, bool in_b) const {
+  double free_ball(const MeshBody& of, bool is_b, const Vec& p, bool in_b, Vec* away = nullptr) const {
     const bool own = is_b == in_b, turned = is_b && !own;  // in its own frame the body takes A's place
     const Pose& at = own ? identity_ : pose_;
     const Body point = Body::point(eigen(p));
     if (!of.mesh()) {
-      const double upper =
-          turned ? signed_distance(point, of.convex(), at).upper : signed_distance(of.convex(), point, at).upper;
-      return upper <= 0 ? -upper : -1;
+      const Answer answer = turned ? signed_distance(point, of.convex(), at) : signed_distance(of.convex(), point, at);
+      // The normal is the way out of the body for the point, or in A's place the way that the point goes.
+      if (away && !answer.normal.hasNaN()) *away = vec(answer.normal) * (turned ? 1.0 : -1.0);
+      return answer.upper <= 0 ? -answer.upper : -1;
     }
     if (!of.is_solid() || !Enclosure(MeshReader::content(*of.mesh()), at, turned).holds(p)) return -1;
     const MeshBody surface(*of.mesh()), guest(point);
     const Answer answer = distance(turned ? guest : surface, turned ? surface : guest, at);
+    if (away && !answer.normal.hasNaN()) *away = vec(answer.normal) * (turned ? -1.0 : 1.0);
     return rounded_down(answer.lower + of.radius());
   }
 
@@ -247,32 +355,43 @@ class Depth {
   const Pose identity_{};
   const MeshSetting at_;
   const Supports of_a_, of_b_;
+  std::uint32_t steps_;
+  Balls balls_;                 ///< the largest so far
+  std::optional<Vec> between_;  ///< in the middle of what the shortest way leaves, where bodies touch after it
 };
 
 /// Makes an answer about a distance of bodies that are not apart one about their depth.
 [[gnu::noinline]] void deepen(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const MeshSeed& seed,
-                              const Options& options, Answer& answer) {
-  Depth depth(a, b, b_in_a);
-  const Way way = depth.way_out(answer, seed);
-  Vec3 at = answer.point_a;
-  const double upper = depth.least_upper(way, answer, seed, at);
-  if (upper < answer.upper) {
-    answer.upper = upper;
-    if (upper < 0) answer.point_a = answer.point_b = at;
+                              const Options& options, double threshold, Answer& answer) {
+  const std::uint32_t spent = answer.steps + answer.plane_tests;
+  Depth depth(a, b, b_in_a, options.budget.steps - std::min(options.budget.steps, spent));
+  Way way = depth.way_out(answer, seed);
+  const double asked = tolerance(a, b, b_in_a);
+  const auto bound = [&] {
+    Vec3 at = answer.point_a;
+    const double upper = depth.least_upper(way, answer, seed, at);
+    if (upper < answer.upper) {
+      answer.upper = upper;
+      if (upper < 0) answer.point_a = answer.point_b = at;
+    }
+    if (answer.upper < 0) answer.verdict = Verdict::Overlapping;
+    answer.lower = min(-way.length, answer.upper), answer.normal = eigen(way.n);
+    return answer.upper - answer.lower <= max(max(options.absolute, options.relative * -answer.upper), asked);
+  };
+  bool narrow = bound();
+  if (!narrow && !(answer.lower > threshold || answer.upper <= threshold)) {
+    way = depth.shorter(way, seed);
+    narrow = bound();
   }
-  if (answer.upper < 0) answer.verdict = Verdict::Overlapping;
-  answer.lower = min(-way.length, answer.upper), answer.normal = eigen(way.n);
-  const double width = answer.upper - answer.lower;
-  const double asked = max(max(options.absolute, options.relative * -answer.upper), tolerance(a, b, b_in_a));
-  if (width <= asked)
+  if (narrow)
     answer.status = Status::Converged;
   else if (answer.status != Status::Budget)
     answer.status = Status::NotConverged;
 }
 
-}  // namespace
-
-Answer signed_distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options) {
+/// A threshold below 0 ends what is done for a depth where the interval is on one side of it.
+Answer signed_distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options,
+                       double threshold) {
   if (!a.mesh() && !b.mesh()) return signed_distance(a.convex(), b.convex(), b_in_a, seed.pair, options);
   Answer answer = distance(a, b, b_in_a, seed, options);
   answer.is_signed = true;
@@ -280,8 +399,14 @@ Answer signed_distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a,
   if (answer.status >= Status::InvalidPose || (!(answer.lower > 0) && (was_cut(a) || was_cut(b))))
     answer.lower = -kInfinity;
   else if (!(answer.lower > 0))
-    deepen(a, b, b_in_a, seed, options, answer);
+    deepen(a, b, b_in_a, seed, options, threshold, answer);
   return answer;
+}
+
+}  // namespace
+
+Answer signed_distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options) {
+  return signed_distance(a, b, b_in_a, seed, options, kUnknown);
 }
 Answer signed_distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Options& options) {
   MeshSeed cold;
@@ -297,7 +422,8 @@ Within signed_within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, d
     if (!(result.answer.lower > 0)) result.answer.lower = -kInfinity, result.answer.normal = Vec3::Constant(kUnknown);
     return result;
   }
-  Within result{Decision::Undecided, signed_distance(a, b, b_in_a, seed, {.beyond = 0, .budget = effort.budget, .tuning = {}})};
+  const Options options{.beyond = 0, .budget = effort.budget, .tuning = {}};
+  Within result{Decision::Undecided, signed_distance(a, b, b_in_a, seed, options, threshold)};
   decide(result, threshold);
   if (result.decision != Decision::Undecided) result.answer.status = Status::Converged;
   return result;

@@ -149,10 +149,14 @@ void judge(Row& row, const Asked& asked, const Scene& scene, const std::vector<T
 
 struct Rig {
   Methods methods;
+  std::vector<std::string> only;  ///< questions; empty: all
   int passes = 3;
   Watch watch;
 
   std::vector<Row> run(const Scene& scene);
+  bool is_wanted(const Asked& asked) const {
+    return only.empty() || std::find(only.begin(), only.end(), asked.name) != only.end();
+  }
 };
 
 std::vector<Row> Rig::run(const Scene& scene) {
@@ -166,7 +170,7 @@ std::vector<Row> Rig::run(const Scene& scene) {
   const double triangles = double(scene.a.triangles.size() + scene.b.triangles.size());
   std::vector<Row> rows;
   for (const Asked& asked : kAsked) {
-    if (!asked.concerns(scene)) continue;
+    if (!asked.concerns(scene) || !is_wanted(asked)) continue;
     std::vector<Question> questions;
     std::vector<Pose> poses;
     std::vector<Truth> asked_truths;
@@ -233,7 +237,7 @@ void print(const Scene& scene, const Methods& methods, const std::vector<Row>& r
   for (const auto& method : methods) std::printf("%15s", method->name().c_str());
   std::printf("%8s  %s\n", "gain", "errors or what was found, and the hashes of ours");
   for (const Asked& asked : kAsked) {
-    if (!asked.concerns(scene)) continue;
+    if (std::none_of(rows.begin(), rows.end(), [&](const Row& row) { return row.question == asked.name; })) continue;
     std::printf("  %-12s", asked.name);
     std::string notes;
     for (const auto& method : methods) {
@@ -327,11 +331,11 @@ swiftlet::MeshModel hulls_of(const swiftlet::Mesh& mesh) {
 
 int main(int argc, char** argv) try {
   CLI::App app("Queries about meshes, beside the trees of other libraries");
-  std::size_t poses = 200;
+  std::size_t poses = 0;
   bool quick = false, as_json = false, layer = false;
   std::vector<std::string> only;
   std::string meshes = "models/cache", file;
-  app.add_option("--poses", poses, "of every scene")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--poses", poses, "of every scene; else 200, with --layer 50")->check(CLI::PositiveNumber);
   app.add_flag("--quick", quick, "24 poses of every scene");
   app.add_option("--only-scene", only, "scenes whose name holds this");
   app.add_flag("--layer", layer, "SWIFT++'s six scenes alone, with its trees of hulls beside the others");
@@ -340,11 +344,14 @@ int main(int argc, char** argv) try {
   app.add_option("--csv", file, "writes every row to this file, for tables and charts");
   app.add_flag("--json", as_json, "JSON instead of the tables");
   CLI11_PARSE(app, argc, argv);
-  if (quick) poses = 24;
+  if (poses == 0) poses = quick ? 24 : layer ? 50 : 200;
 
   Rig rig;
   rig.methods.push_back(swiftlet_method("swiftlet", "build_mesh, proved, from the last pose's seed", hulls_of));
-  if (layer) add_hull_trees(rig.methods);
+  if (layer) {
+    add_hull_trees(rig.methods);
+    rig.only = {"intersects", "distance10%", "distance"};
+  }
   rig.methods.push_back(swiftlet_method("swiftlet boxes", "the same without hulls, from_triangles", boxes_of));
 #ifdef SWIFTLET_PEER_FCL
   add_fcl(rig.methods);
