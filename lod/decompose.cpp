@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <deque>
 #include <numeric>
+#include <span>
 #include <tuple>
 
 #include <swiftlet/mesh_visit.h>
@@ -31,19 +32,20 @@ enum class EdgeKind : std::uint8_t {
   Convex,
   Reflex,  ///< or folded back
   Slit,    ///< one of the triangles has no plane
-  Defect,  ///< open, non-manifold or flipped
+  Defect,  ///< the triangle is joined to none
 };
 
 /// Edge k of triangle t, from corner k to the next, is 3 t + k.
 struct DualGraph {
-  std::vector<std::uint32_t> across;  ///< per edge, the same one of the triangle there; kNone of a defect
+  std::vector<std::uint32_t> across;  ///< per edge, the same one of the triangle that is joined there, or kNone
   std::vector<EdgeKind> kind;
-  std::vector<bool> open;  ///< per edge
+  std::vector<bool> open;  ///< per edge: the surface ends here
   std::vector<bool> slit;  ///< per triangle: its corners lie on one line
 };
 
+/// An edge as one triangle has it.
 struct Side {
-  std::uint32_t low, high, edge;
+  std::uint32_t low, high, third, edge;  ///< third: the triangle's other corner
   bool forward;
 };
 
@@ -63,7 +65,33 @@ EdgeKind kind_of(const Content& mesh, const DualGraph& graph, std::uint32_t edge
                                                                                               : EdgeKind::Reflex;
 }
 
-DualGraph dual_graph(const Content& mesh, Watch& watch) {
+/// Joins the triangles of one edge two by two. Those with the same corners are one triangle given several times: if there are
+/// two different ones, copies that run along the edge in opposite directions are joined in order. What cannot be joined counts.
+void join(std::span<const Side> sides, DualGraph& graph, Decomposition& counts) {
+  const auto second = std::find_if(sides.begin(), sides.end(), [&](const Side& s) { return s.third != sides[0].third; });
+  if (second == sides.end()) {
+    for (const Side& side : sides) graph.open[side.edge] = true;
+    ++counts.open_edges;
+    return;
+  }
+  if (std::any_of(second, sides.end(), [&](const Side& s) { return s.third != second->third; })) {
+    ++counts.non_manifold_edges;
+    return;
+  }
+  const auto joined = [&](const Side& side) { return graph.across[side.edge] != kNone; };
+  bool is_any = false;
+  for (auto side = sides.begin(); side != second; ++side) {
+    const auto other =
+        std::find_if(second, sides.end(), [&](const Side& s) { return s.forward != side->forward && !joined(s); });
+    if (other == sides.end()) continue;
+    graph.across[side->edge] = other->edge, graph.across[other->edge] = side->edge;
+    is_any = true;
+  }
+  if (std::all_of(sides.begin(), sides.end(), joined)) return;
+  ++(is_any ? counts.non_manifold_edges : counts.flipped_edges);
+}
+
+DualGraph dual_graph(const Content& mesh, Decomposition& counts, Watch& watch) {
   const std::size_t count = mesh.triangles.size();
   DualGraph graph{std::vector<std::uint32_t>(3 * count, kNone), std::vector<EdgeKind>(3 * count), std::vector<bool>(3 * count),
                   std::vector<bool>(count)};
@@ -71,20 +99,24 @@ DualGraph dual_graph(const Content& mesh, Watch& watch) {
   sides.reserve(3 * count);
   for (std::uint32_t edge = 0; edge < 3 * count; ++edge) {
     const std::uint32_t v = mesh.triangles[edge / 3][edge % 3], w = mesh.triangles[edge / 3][next(edge) % 3];
-    if (v != w) sides.push_back({std::min(v, w), std::max(v, w), edge, v < w});
+    const std::uint32_t third = mesh.triangles[edge / 3][next(next(edge)) % 3];
+    if (v != w) sides.push_back({std::min(v, w), std::max(v, w), third, edge, v < w});
     if (edge % 3 == 0)
       graph.slit[edge / 3] = exact::collinear(&corner(mesh, edge).x, &corner(mesh, edge + 1).x, &corner(mesh, edge + 2).x);
   }
-  std::sort(sides.begin(), sides.end(),
-            [](const Side& x, const Side& y) { return std::tie(x.low, x.high, x.edge) < std::tie(y.low, y.high, y.edge); });
+  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+    return std::tie(x.low, x.high, x.third, x.edge) < std::tie(y.low, y.high, y.third, y.edge);
+  });
   for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
     while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high) ++end;
-    if (end - i == 1) graph.open[sides[i].edge] = true;
-    if (end - i != 2 || sides[i].forward == sides[i + 1].forward) continue;
-    graph.across[sides[i].edge] = sides[i + 1].edge, graph.across[sides[i + 1].edge] = sides[i].edge;
+    join({sides.data() + i, end - i}, graph, counts);
   }
   for (std::uint32_t edge = 0; edge < 3 * count; ++edge) {
     graph.kind[edge] = kind_of(mesh, graph, edge);
+    if (graph.across[edge] < edge) {
+      counts.reflex_edges += graph.kind[edge] == EdgeKind::Reflex;
+      counts.slit_edges += graph.kind[edge] == EdgeKind::Slit;
+    }
     if (edge % 3 == 0) watch.work();
   }
   return graph;
@@ -118,17 +150,6 @@ std::vector<std::uint32_t> seeds(const DualGraph& graph, Growth growth) {
   return order;
 }
 
-struct Box {
-  Vec3 least = Vec3::Constant(HUGE_VAL), most = Vec3::Constant(-HUGE_VAL);
-  void add(const Vec& p) {
-    least = least.cwiseMin(eigen(p));
-    most = most.cwiseMax(eigen(p));
-  }
-  bool meets(const Vec3& low, const Vec3& high) const {
-    return (low.array() <= most.array()).all() && (high.array() >= least.array()).all();
-  }
-};
-
 class Decomposer {
  public:
   Decomposer(const MeshModel& mesh, Growth growth, Watch& watch)
@@ -137,8 +158,7 @@ class Decomposer {
   Decomposition run() {
     const std::size_t count = content_.triangles.size();
     watch_.begin("edges", 0.05, double(count));
-    graph_ = dual_graph(content_, watch_);
-    count_edges();
+    graph_ = dual_graph(content_, result_, watch_);
     watch_.begin("patches", 1, double(count));
     result_.triangles.reserve(count);
     patch_of_.assign(count, kNone), refused_.assign(count, kNone);
@@ -155,25 +175,16 @@ class Decomposer {
   class Search final : public MeshVisitor {
    public:
     Search(const Decomposer& of, std::span<const W> wedges) : of_(of), wedges_(wedges) {
-      for (const W& wedge : wedges) {
-        Box box;
-        for (const Vec& p : wedge.corner) box.add(p), all_.add(p);
-        boxes_.push_back(box);
-      }
+      for (const W& wedge : wedges) outlines_.emplace_back(wedge, of.content_.extent);
     }
-    bool enters(const Vec3& low, const Vec3& high) override {
-      if (!all_.meets(low, high)) return false;
-      for (std::size_t i = 0; i < wedges_.size(); ++i) {
-        if (boxes_[i].meets(low, high)) return true;
-      }
-      return false;
+    bool enters(const Vec3& least, const Vec3& most) override {
+      return !std::all_of(outlines_.begin(), outlines_.end(), [&](const Outline& o) { return o.is_apart(least, most); });
     }
     bool visit(std::uint32_t triangle) override {
-      Box box;
-      lod::Corners3 t;
-      for (std::size_t k = 0; k < 3; ++k) box.add(t[k] = of_.content_.vertices[of_.content_.triangles[triangle][k]]);
+      const Corners& corners = of_.content_.triangles[triangle];
+      const Corners3 t{of_.content_.vertices[corners[0]], of_.content_.vertices[corners[1]], of_.content_.vertices[corners[2]]};
       for (std::size_t i = 0; i < wedges_.size() && !is_entered_; ++i)
-        is_entered_ = boxes_[i].meets(box.least, box.most) && of_.is_entered_by(triangle, t, wedges_[i]);
+        is_entered_ = !outlines_[i].is_apart(t) && of_.is_entered_by(triangle, t, wedges_[i]);
       return !is_entered_;
     }
     bool is_entered() const { return is_entered_; }
@@ -181,15 +192,14 @@ class Decomposer {
    private:
     const Decomposer& of_;
     std::span<const W> wedges_;
-    Box all_;
-    std::vector<Box> boxes_;
+    std::vector<Outline> outlines_;
     bool is_entered_ = false;
   };
 
-  bool is_entered_by(std::uint32_t triangle, const lod::Corners3& t, const Wedge& wedge) const {
+  bool is_entered_by(std::uint32_t triangle, const Corners3& t, const Wedge& wedge) const {
     return patch_of_[triangle] != patch_ && triangle != tried_ && lod::enters(t, wedge);
   }
-  bool is_entered_by(std::uint32_t triangle, const lod::Corners3& t, const FlatWedge& wedge) const {
+  bool is_entered_by(std::uint32_t triangle, const Corners3& t, const FlatWedge& wedge) const {
     if (patch_of_[triangle] != patch_ && triangle != tried_ && lod::enters(t, wedge)) return true;
     if (!graph_.open[3 * triangle] && !graph_.open[3 * triangle + 1] && !graph_.open[3 * triangle + 2]) return false;
     const auto& [a, b, c] = wedge.corner;
@@ -206,12 +216,6 @@ class Decomposer {
     Search<W> search(*this, wedges);
     visit_triangles(mesh_, search);
     return search.is_entered();
-  }
-
-  void count_edges() {
-    std::uint32_t reflex = 0, slit = 0;
-    for (const EdgeKind kind : graph_.kind) reflex += kind == EdgeKind::Reflex, slit += kind == EdgeKind::Slit;
-    result_.reflex_edges = reflex / 2, result_.slit_edges = slit / 2;
   }
 
   void grow(std::uint32_t seed) {

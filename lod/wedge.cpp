@@ -23,11 +23,15 @@ constexpr unsigned kSideFace[3] = {0b1011, 0b1110, 0b1101}, kBase = 0b0111;
 
 bool is_same(const Vec& a, const Vec& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
+/// Corners in common are the rule, and the exact sign of 0 is dear.
+int orientation(const Vec& a, const Vec& b, const Vec& c, const Vec& d) {
+  return is_same(a, d) || is_same(b, d) || is_same(c, d) ? 0 : exact::orientation(a, b, c, d);
+}
+
 /// On which side of the wedge's face k a point lies: positive outside. Face 3 is the base.
 int outside(const Wedge& w, int k, const Vec& p) {
   const auto& c = w.corner;
-  return k == 3 ? -exact::orientation(c[0], c[1], c[2], p)
-                : exact::orientation(c[std::size_t(k)], c[std::size_t((k + 1) % 3)], c[3], p);
+  return k == 3 ? -orientation(c[0], c[1], c[2], p) : orientation(c[std::size_t(k)], c[std::size_t((k + 1) % 3)], c[3], p);
 }
 
 /// What planes tell; nothing where they do not.
@@ -74,7 +78,7 @@ class ByPlanes {
     int least = 1, most = -1;
     unsigned face = 0;
     for (std::size_t k = 0; k < 4; ++k) {
-      const int side = exact::orientation(t_[0], t_[1], t_[2], w_.corner[k]);
+      const int side = orientation(t_[0], t_[1], t_[2], w_.corner[k]);
       least = std::min(least, side), most = std::max(most, side);
       face |= unsigned(side == 0) << k;
     }
@@ -90,12 +94,12 @@ class ByPlanes {
         int least = 1, most = -1;
         unsigned face = 0;
         for (std::size_t n = 0; n < 4; ++n) {
-          const int side = n == k || n == m ? 0 : exact::orientation(w_.corner[k], t_[edge], w_.corner[m], w_.corner[n]);
+          const int side = n == k || n == m ? 0 : orientation(w_.corner[k], t_[edge], w_.corner[m], w_.corner[n]);
           least = std::min(least, side), most = std::max(most, side);
           face |= unsigned(side == 0) << n;
         }
         if (face == 0b1111 || (least < 0 && most > 0)) continue;
-        const int side = exact::orientation(w_.corner[k], t_[edge], w_.corner[m], rest);
+        const int side = orientation(w_.corner[k], t_[edge], w_.corner[m], rest);
         if (side * (least < 0 ? -1 : 1) <= 0 && parted(face)) return true;
       }
     }
@@ -213,6 +217,52 @@ bool Wedge::is_outer(unsigned face) const {
   }
 }
 
+Outline::Outline(const Wedge& wedge, double size) {
+  const auto& c = wedge.corner;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec& p = c[k];
+    add(cross(c[(k + 1) % 3] - p, c[3] - p), c, size);
+  }
+  add(cross(c[2] - c[0], c[1] - c[0]), c, size);
+}
+Outline::Outline(const FlatWedge& wedge, double size) {
+  const auto& c = wedge.corner;
+  const Vec n = cross(c[1] - c[0], c[2] - c[0]);
+  for (std::size_t k = 0; k < 3; ++k) add(cross(c[(k + 1) % 3] - c[k], n), c, size);
+  add(n, c, size);
+}
+
+void Outline::add(const Vec& outward, std::span<const Vec> corners, double size) {
+  double most = -HUGE_VAL;
+  for (const Vec& p : corners) most = max(most, dot(outward, p));
+  // Any direction will do, as it was rounded. A sum of three products is off by at most 2.0001 * 2^-52 of the sum of their
+  // magnitudes, and boxes of nodes may reach four times as far as the mesh.
+  outward_[count_] = outward;
+  above_[count_] = most + 0x1p-48 * (std::fabs(outward.x) + std::fabs(outward.y) + std::fabs(outward.z)) * size;
+  if (count_++ > 0) return;
+  least_ = Vec3::Constant(HUGE_VAL), most_ = -least_;
+  for (const Vec& p : corners) least_ = least_.cwiseMin(eigen(p)), most_ = most_.cwiseMax(eigen(p));
+}
+
+bool Outline::is_apart(const Vec3& least, const Vec3& most) const {
+  for (int i = 0; i < 3; ++i) {
+    if (least[i] > most_[i] || most[i] < least_[i]) return true;
+  }
+  for (std::size_t k = 0; k < count_; ++k) {
+    const Vec& n = outward_[k];
+    const Vec nearest{n.x > 0 ? least[0] : most[0], n.y > 0 ? least[1] : most[1], n.z > 0 ? least[2] : most[2]};
+    if (dot(n, nearest) > above_[k]) return true;
+  }
+  return false;
+}
+
+bool Outline::is_apart(const Corners3& t) const {
+  for (std::size_t k = 0; k < count_; ++k) {
+    if (min(dot(outward_[k], t[0]), min(dot(outward_[k], t[1]), dot(outward_[k], t[2]))) > above_[k]) return true;
+  }
+  return false;
+}
+
 bool enters(const Corners3& triangle, const Wedge& wedge) {
   if (const std::optional<bool> known = ByPlanes(triangle, wedge).answer()) return *known;
   return enters_exactly(triangle, wedge);
@@ -222,7 +272,7 @@ bool enters(const Corners3& triangle, const FlatWedge& wedge) {
   const auto& [a, b, c] = wedge.corner;
   int least = 1, most = -1;
   for (const Vec& p : triangle) {
-    const int side = exact::orientation(a, b, c, p);
+    const int side = orientation(a, b, c, p);
     least = std::min(least, side), most = std::max(most, side);
   }
   if (least >= 0 || most < 0) return false;

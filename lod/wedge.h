@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "numeric/vec.h"
 
@@ -25,15 +26,35 @@ struct Wedge {
   bool is_outer(unsigned face) const;
 };
 
-/// True if the triangle meets the part of the wedge that is inside of the new hull.
-bool enters(const Corners3& triangle, const Wedge& wedge);
-
 /// A triangle that a flat hull gains, from an edge that the new vertex sees; the three run counter-clockwise.
 struct FlatWedge {
   std::array<Vec, 3> corner;    ///< the edge's ends and the new vertex
   std::array<bool, 2> outer{};  ///< per end of the edge: the side from there to the new vertex is one of the new hull's
   int u, v;                     ///< coordinates that the plane projects to, one to one and without turning over
 };
+
+/// Planes about a wedge that have it on one side by more than rounding, to leave out in doubles what lies beyond them.
+class Outline {
+ public:
+  /// `size`: the largest coordinate of the wedge and of what is asked about.
+  Outline(const Wedge& wedge, double size);
+  Outline(const FlatWedge& wedge, double size);
+  /// True only if the box does not meet the wedge.
+  bool is_apart(const Vec3& least, const Vec3& most) const;
+  /// True only if the triangle does not meet the wedge.
+  bool is_apart(const Corners3& triangle) const;
+
+ private:
+  void add(const Vec& outward, std::span<const Vec> corners, double size);
+
+  std::array<Vec, 4> outward_;
+  std::array<double, 4> above_;
+  std::size_t count_ = 0;
+  Vec3 least_, most_;
+};
+
+/// True if the triangle meets the part of the wedge that is inside of the new hull.
+bool enters(const Corners3& triangle, const Wedge& wedge);
 
 /// True if a part of the triangle that is in the wedge's plane meets the wedge where that is inside of the new hull, and the
 /// triangle reaches to the inner side of the plane.

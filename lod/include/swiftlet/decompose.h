@@ -37,10 +37,13 @@ struct Decomposition {
   std::vector<std::uint32_t> triangles;  ///< each of the mesh's once, by its index there, patch after patch
   std::vector<Patch> patches;            ///< in the order in which they were begun
 
-  // Edges of two triangles across which no patch grows, whatever its hull. Open, non-manifold and flipped edges, across which
-  // none grows either, are counted in MeshTopology.
-  std::uint32_t reflex_edges = 0;  ///< edges at which the surface is concave or folded back onto itself
-  std::uint32_t slit_edges = 0;    ///< edges of a triangle whose corners lie on one line
+  // Edges across which no patch grows. Triangles with the same corners count as one, so that a surface given with both of its
+  // sides has no more defects than one of them.
+  std::uint32_t reflex_edges = 0;        ///< the surface is concave or folded back onto itself; once for each side given
+  std::uint32_t open_edges = 0;          ///< of one triangle
+  std::uint32_t non_manifold_edges = 0;  ///< of more than two triangles, or of two of which one is given more often
+  std::uint32_t flipped_edges = 0;       ///< of two triangles that run along it in the same direction
+  std::uint32_t slit_edges = 0;          ///< of two triangles, the corners of one of which lie on one line
 
   // Triangles that a patch reached across an edge that is none of these and did not take in, counted once for each patch.
   std::uint32_t not_convex = 0;  ///< the triangle or one of the patch would not lie on the boundary of the hull
@@ -56,10 +59,11 @@ struct Decomposition {
 ///   that of a flat open surface is covered by its patch.
 ///
 /// A patch grows from one triangle to another across their common edge, unless the edge is reflex, has more than two triangles,
-/// or its triangles run along it in the same direction. Where triangles lie in one plane they join like others. A triangle
-/// whose corners lie on one line is a patch of its own. The same mesh gives the same patches.
+/// or its triangles run along it in the same direction. Triangles with the same corners count as one there, and each time that
+/// a surface is given it is decomposed: links are often given twice. Where triangles lie in one plane they join like others. A
+/// triangle whose corners lie on one line is a patch of its own. The same mesh gives the same patches.
 ///
-/// Cost: some 50 microseconds a triangle; see lod/README.md. Errors: BadValue for a mesh that was cut, Cancelled.
+/// Cost: some 20 microseconds a triangle; see lod/README.md. Errors: BadValue for a mesh that was cut, Cancelled.
 Result<Decomposition> decompose(const MeshModel& mesh, const DecomposeOptions& options = {});
 
 }  // namespace swiftlet
