@@ -170,6 +170,54 @@ TEST_F(Tool, DrawShowsEveryTriangleOfAMesh) {
   EXPECT_NE(svg.find("not closed"), std::string::npos);
 }
 
+TEST_F(Tool, DecomposeCountsPatchesAndDrawsThem) {
+  if (!kBuilds) GTEST_SKIP() << "this tool has no builder";
+  Soup stairs = box({0, 0, 0}, {1, 1, 1});
+  stairs.add(box({3, 0, 0}, {4, 1, 1}));
+  stairs.add(Soup{{{6, 0, 0}, {7, 0, 0}, {7, 1, 0}, {6, 1, 1}}, {{0, 1, 2}, {0, 2, 3}}});
+  write(folder_ / "stairs.off", off_of(stairs));
+  says("build --mesh stairs.off -o stairs.swm");
+  for (const char* growth : {"", " --growth depth", " --growth breadth", " --growth cresting"}) {
+    for (const char* file : {"stairs.off", "stairs.swm"}) {
+      const json made = says_json("decompose " + std::string(file) + growth + " --draw stairs.svg");
+      EXPECT_EQ(made["path"], file);
+      EXPECT_EQ(made["growth"], *growth ? std::string(growth + 10) : "cresting");
+      EXPECT_EQ(made["triangles"], 26);
+      EXPECT_EQ(made["patches"], 4) << "two boxes and two triangles";
+      EXPECT_EQ(made["triangles_per_patch"]["mean"], 6.5);
+      EXPECT_EQ(made["triangles_per_patch"]["median"], 12);
+      EXPECT_EQ(made["triangles_per_patch"]["largest"], 12);
+      EXPECT_EQ(made["virtual_faces"], 2) << "the backs of the triangles";
+      EXPECT_EQ(made["flat_patches"], 2);
+      EXPECT_EQ(made["edges"], json({{"reflex", 1}, {"open", 4}, {"non_manifold", 0}, {"flipped", 0}, {"slit", 0}}));
+      EXPECT_EQ(made["not_taken"], json({{"not_convex", 0}, {"entered", 0}}));
+      EXPECT_GE(made["seconds"].get<double>(), 0);
+      EXPECT_EQ(made["picture"], "stairs.svg");
+      const std::string svg = content(folder_ / "stairs.svg");
+      EXPECT_EQ(times(svg, "<path"), 26u);
+      EXPECT_TRUE(has(svg, "26 triangles in 4 convex patches"));
+      EXPECT_EQ(svg.find("nan"), std::string::npos);
+    }
+  }
+  const std::string report = says("decompose stairs.off --draw stairs.svg");
+  for (const char* line : {"triangles  26", "patches    4, 2 of them flat", "6.50 triangles each, median 12, largest 12",
+                           "virtual    2", "1 reflex, 4 open, 0 non-manifold", "wrote      stairs.svg"})
+    EXPECT_TRUE(has(report, line)) << line << "\n" << report;
+  EXPECT_FALSE(says_json("decompose stairs.off").contains("picture"));
+
+  write(folder_ / "cloud.off", "OFF\n2 0 0\n0 0 0\n1 0 0\n");
+  says("build --mesh --no-hulls stairs.off -o uncut.swm");
+  says("cut uncut.swm -o cut.swm --deviation 5");
+  before_ = names();
+  refuses("decompose none.off", "none.off");
+  refuses("decompose cloud.off", "without triangles");
+  refuses("decompose cut.swm", "cut.swm: the mesh was cut");
+  refuses("decompose a.swl", "a.swl");
+  refuses("decompose stairs.off --growth sideways", "sideways is none of depth|breadth|cresting", 2);
+  refuses("decompose stairs.off --draw stairs.off", "stairs.off");
+  refuses("decompose stairs.off --draw nowhere/stairs.svg", "nowhere");
+}
+
 TEST_F(Tool, WhatMeshesHaveNotIsRefusedInOneLine) {
   if (!kBuilds) GTEST_SKIP() << "this tool has no builder";
   write(folder_ / "cloud.off", "OFF\n2 0 0\n0 0 0\n1 0 0\n");

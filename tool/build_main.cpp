@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The tool with the builder: adds the word `build`, and reads mesh files wherever a model is expected.
+// The tool with the builder: adds the words `build` and `decompose`, and reads mesh files wherever a model is expected.
 #include <CLI/CLI.hpp>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -23,6 +21,9 @@
 #include <swiftlet/model_file.h>
 
 #include "body/file.h"
+#include "choices.h"
+#include "decompose_word.h"
+#include "progress_bar.h"
 #include "text.h"
 #include "tool.h"
 
@@ -42,28 +43,6 @@ Result<Model> model_of_mesh(const std::filesystem::path& path) {
   if (!built) return built.error();
   return std::move(built).value().model;
 }
-
-/// A bar on stderr, where that is a terminal. It clears its line when it ends.
-class ProgressBar {
- public:
-  explicit ProgressBar(bool wanted) : shown_(wanted && isatty(STDERR_FILENO)) {}
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
-  ~ProgressBar() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-  }
-  bool operator()(double fraction, std::string_view stage) const {
-    if (!shown_) return true;
-    constexpr int kWidth = 40;
-    const int done = std::clamp(int(fraction * kWidth), 0, kWidth);
-    std::fprintf(stderr, "\r\033[K[%s%s] %3.0f %%  %.*s", std::string(std::size_t(done), '#').c_str(),
-                 std::string(std::size_t(kWidth - done), '.').c_str(), 100 * fraction, int(stage.size()), stage.data());
-    return true;
-  }
-
- private:
-  const bool shown_;
-};
 
 struct Request {
   std::string in, out;
@@ -162,26 +141,6 @@ Result<Output> build_word(const Request& request) {
   return Output{request.quiet ? "" : report_text(request, built.value()), dump(report_json(request, built.value()))};
 }
 
-template <class Value>
-using Choices = std::vector<std::pair<std::string, Value>>;
-
-/// An option whose argument is one of a few words.
-template <class Value>
-void add_choice(CLI::App& word, const std::string& name, const Choices<Value>& choices, Value& value, const char* standard,
-                const char* help) {
-  std::string all;
-  for (const auto& [key, ignored] : choices) all += (all.empty() ? "" : "|") + key;
-  const auto read = [name, choices, all, &value](const std::string& text) {
-    for (const auto& [key, meant] : choices) {
-      if (key != text) continue;
-      value = meant;
-      return;
-    }
-    throw CLI::ValidationError(name, text + " is none of " + all);
-  };
-  word.add_option_function<std::string>(name, read, help)->type_name(all)->default_str(standard);
-}
-
 /// The options of `build --mesh` alone.
 void declare_hulls(CLI::App& word, Request& request) {
   HullOptions& o = request.hulls;
@@ -259,5 +218,6 @@ int main(int argc, char** argv) {
   const Word build{"build",
                    "makes a model of a mesh: its hull and coarser levels that enclose it; or, with --mesh, the mesh itself",
                    declare_build};
-  return run_tool(argc, argv, model_of_mesh, {&build, 1});
+  const Word words[] = {build, decompose_word()};
+  return run_tool(argc, argv, model_of_mesh, words);
 }

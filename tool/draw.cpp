@@ -23,6 +23,7 @@ namespace {
 constexpr double kMargin = 28, kGap = 26, kCell = 230, kTallest = 300, kHeading = 78, kCaption = 66;
 constexpr std::size_t kPerRow = 6;
 constexpr int kShades = 40;
+constexpr std::array<double, 3> kDark{38, 60, 92}, kPale{236, 243, 250};  // red, green, blue
 
 struct Point2 {
   double x, y;  // y downwards
@@ -66,6 +67,7 @@ struct Polygon {
   double nearness;
   Vec3 normal;  // unit, towards the eye
   std::vector<Point2> corners;
+  std::array<double, 3> pale = kPale;  // its colour in full light
 
   Polygon(const std::vector<Vec3>& points, const Vec3& across, const Eye& eye)
       : nearness(0), normal(across.dot(eye.towards) < 0 ? -across : across) {
@@ -146,11 +148,22 @@ Vec3 facet_normal(const ConvexView& view, const std::vector<std::uint32_t>& loop
   return normal.stableNormalized();
 }
 
-std::string colour(int shade) {
-  constexpr std::array<double, 3> kDark{38, 60, 92}, kPale{236, 243, 250};
+std::string colour(int shade, const std::array<double, 3>& pale = kPale) {
   const double t = double(shade) / (kShades - 1);
-  const auto mix = [&](std::size_t k) { return int(std::lround(kDark[k] + (kPale[k] - kDark[k]) * t)); };
+  const auto mix = [&](std::size_t k) { return int(std::lround(kDark[k] + (pale[k] - kDark[k]) * t)); };
   return format("#%02x%02x%02x", mix(0), mix(1), mix(2));
+}
+
+/// Colours of numbers that follow one another are far apart on the wheel.
+std::array<double, 3> colour_of_patch(std::uint32_t number) {
+  constexpr double kGolden = 0.6180339887498949;
+  const double turn = number * kGolden, hue = 6 * (turn - std::floor(turn));
+  std::array<double, 3> rgb;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double off = std::fabs(std::fmod(hue + 6 - 2 * double(k), 6) - 3);  // 3 at the colour's own hue, 0 across the wheel
+    rgb[k] = 255 - 150 * (1 - std::clamp(off - 1, 0.0, 1.0));
+  }
+  return rgb;
 }
 
 double edge_width(std::size_t faces) { return std::clamp(14 / std::sqrt(double(faces + 1)), 0.15, 0.9); }
@@ -201,7 +214,7 @@ std::string draw_polygons(std::vector<Polygon> polygons, const Eye& eye, const P
   std::string svg =
       format("<g stroke=\"#16263c\" stroke-opacity=\".45\" stroke-width=\"%.2f\">\n", edge_width(polygons.size()));
   for (const Polygon& polygon : polygons) {
-    svg += "<path fill=\"" + colour(eye.shade(polygon.normal)) + "\" d=\"";
+    svg += "<path fill=\"" + colour(eye.shade(polygon.normal), polygon.pale) + "\" d=\"";
     for (const Point2& p : polygon.corners) svg.append(&p == polygon.corners.data() ? "M" : "L").append(at(place(p)));
     svg += "Z\"/>\n";
   }
@@ -275,6 +288,16 @@ std::string heading(double width, double height, const std::string& title, const
          "</text>\n" + format("<text x=\"%.0f\" y=\"62\" fill=\"#3d4c60\">", kMargin) + what + "</text>\n";
 }
 
+/// As wide as its heading.
+std::string picture(const std::vector<Polygon>& polygons, const Eye& eye, double width, const std::string& title,
+                    const std::string& what) {
+  const Placement place(frame_of(polygons));
+  const double y = kHeading + kGap / 2;
+  return heading(width, y + place.height() + kGap, title, what) +
+         format("<g transform=\"translate(%.1f %.1f)\">\n", kMargin, y) + draw_polygons(polygons, eye, place) +
+         "</g>\n</svg>\n";
+}
+
 }  // namespace
 
 std::string draw(const Model& model, const std::string& title) {
@@ -302,12 +325,18 @@ std::string draw(const Model& model, const std::string& title) {
 
 std::string draw(const MeshModel& mesh, const std::string& title) {
   const Eye eye;
-  const std::vector<Polygon> polygons = polygons_of(mesh, eye);
-  const Placement place(frame_of(polygons));
-  const double y = kHeading + kGap / 2, width = mesh.is_whole() ? 420 : 620;  // as wide as its heading
-  return heading(width, y + place.height() + kGap, title, summary(mesh)) +
-         format("<g transform=\"translate(%.1f %.1f)\">\n", kMargin, y) + draw_polygons(polygons, eye, place) +
-         "</g>\n</svg>\n";
+  return picture(polygons_of(mesh, eye), eye, mesh.is_whole() ? 420 : 620, title, summary(mesh));
+}
+
+std::string draw(const MeshModel& mesh, const std::string& title, std::span<const std::uint32_t> patch_of) {
+  const Eye eye;
+  std::vector<Polygon> polygons = polygons_of(mesh, eye);
+  std::uint32_t count = 0;
+  for (std::size_t t = 0; t < polygons.size(); ++t) {
+    polygons[t].pale = colour_of_patch(patch_of[t]);
+    count = std::max(count, patch_of[t] + 1);
+  }
+  return picture(polygons, eye, 420, title, format("%zu triangles in %u convex patches", polygons.size(), count));
 }
 
 }  // namespace swiftlet::tool

@@ -30,15 +30,15 @@
 #include "text.h"
 
 namespace swiftlet::tool {
-namespace {
 
-constexpr const char* kBodyHelp = "a .swl model, a .swm mesh, or any mesh file for its hull where the tool has the builder";
-
-/// Whether a file is a mesh of `build --mesh`, or is called one.
 bool is_mesh(const std::filesystem::path& path) {
   std::error_code ignored;  // a fifo waits to be opened
   return path.extension() == ".swm" || (std::filesystem::is_regular_file(path, ignored) && is_mesh_file(path));
 }
+
+namespace {
+
+constexpr const char* kBodyHelp = "a .swl model, a .swm mesh, or any mesh file for its hull where the tool has the builder";
 
 Result<LoadedBody> open(const std::string& path, const ModelOfMesh& model_of_mesh) {
   if (is_mesh(path_of(path))) {

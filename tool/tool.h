@@ -36,6 +36,9 @@ using ModelOfMesh = std::function<Result<Model>(const std::filesystem::path&)>;
 /// Refuses what is no number in [least, most]: "... is no number SAID".
 CLI::Validator number_in(double least, double most, const std::string& said);
 
+/// Whether a file is a mesh of `build --mesh`, or is called one.
+bool is_mesh(const std::filesystem::path& path);
+
 /// The options --deviation and --bytes.
 void add_detail(CLI::App& word, Detail& detail);
 
