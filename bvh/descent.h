@@ -100,14 +100,7 @@ class Descent {
     if (pair.lower(square) > 0 && a_.has_hull(entry.a) && b_.has_hull(entry.b) && part_by_hulls(entry)) return;
     const std::array<bool, 2> ends{a_.ends(a), b_.ends(b)};
     const int bottom = top_;
-    float key[kFanOut * kFanOut];
-    for_near_children(pair, most, {entry.a, entry.b}, ends,
-                      [&](std::uint32_t of_a, std::uint32_t of_b, float gap, float centres) {
-                        const float lower = pair.lower(gap);
-                        key[top_ - bottom] = lower + std::sqrt(centres);
-                        stack_[top_++] = {of_a, of_b, lower};
-                      });
-    raise_least(stack_ + bottom, key, top_ - bottom, ends[0] && ends[1] ? 1 : kSortedFew);
+    top_ += open_pair(pair, most, HUGE_VAL, {entry.a, entry.b}, ends, stack_ + top_);
     if (!(ends[0] && ends[1])) return;
     const bool whole = a_.triangle_count > 0 && b_.triangle_count > 0;
     while (top_ > bottom && !done_ && !spent()) {

@@ -33,6 +33,25 @@ static inline Float4 max(Float4 a, Float4 b) {
   return a < b ? b : a;
 #endif
 }
+static inline Float4 min(Float4 a, Float4 b) {
+#if defined(__SSE2__)
+  return _mm_min_ps(b, a);
+#else
+  return b < a ? b : a;
+#endif
+}
+static inline Float4 sqrt(Float4 a) {
+#if defined(__SSE2__)
+  return _mm_sqrt_ps(a);
+#else
+  return Float4{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
+#endif
+}
+/// The least of all four.
+static inline float least(Float4 a) {
+  const Float4 two = min(a, __builtin_shufflevector(a, a, 2, 3, 0, 1));
+  return min(two, lane<1>(two))[0];
+}
 static inline Float4 abs(Float4 a) {
 #if defined(__SSE2__)
   return _mm_andnot_ps(Float4{-0.0f, -0.0f, -0.0f, -0.0f}, a);
@@ -75,6 +94,9 @@ static inline Float8 operator+(Float8 a, Float8 b) { return {a.v + b.v}; }
 static inline Float8 operator-(Float8 a, Float8 b) { return {a.v - b.v}; }
 static inline Float8 operator*(Float8 a, Float8 b) { return {a.v * b.v}; }
 static inline Float8 max(Float8 a, Float8 b) { return {_mm256_max_ps(b.v, a.v)}; }
+static inline Float8 min(Float8 a, Float8 b) { return {_mm256_min_ps(b.v, a.v)}; }
+static inline Float8 sqrt(Float8 a) { return {_mm256_sqrt_ps(a.v)}; }
+static inline float least(Float8 a) { return least(min(Float4(_mm256_castps256_ps128(a.v)), _mm256_extractf128_ps(a.v, 1))); }
 static inline Float8 abs(Float8 a) { return {_mm256_andnot_ps(all8(-0.0f).v, a.v)}; }
 /// Bit i is set if lane i of `a` is at most that of `b`.
 static inline unsigned at_most(Float8 a, Float8 b) { return unsigned(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ))); }
@@ -94,6 +116,9 @@ static inline Float8 operator+(Float8 a, Float8 b) { return {a.lo + b.lo, a.hi +
 static inline Float8 operator-(Float8 a, Float8 b) { return {a.lo - b.lo, a.hi - b.hi}; }
 static inline Float8 operator*(Float8 a, Float8 b) { return {a.lo * b.lo, a.hi * b.hi}; }
 static inline Float8 max(Float8 a, Float8 b) { return {max(a.lo, b.lo), max(a.hi, b.hi)}; }
+static inline Float8 min(Float8 a, Float8 b) { return {min(a.lo, b.lo), min(a.hi, b.hi)}; }
+static inline Float8 sqrt(Float8 a) { return {sqrt(a.lo), sqrt(a.hi)}; }
+static inline float least(Float8 a) { return least(min(a.lo, a.hi)); }
 static inline Float8 abs(Float8 a) { return {abs(a.lo), abs(a.hi)}; }
 static inline unsigned at_most(Float4 a, Float4 b) {
 #if defined(__SSE2__)

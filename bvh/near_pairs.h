@@ -70,15 +70,7 @@ class NearPairs {
     if (!(pair.square() <= most)) return;
     const bool lowest = a.lowest() && b.lowest();
     const int bottom = top_;
-    float key[kFanOut * kFanOut];
-    for_near_children(pair, most, {entry.a, entry.b}, {a.lowest(), b.lowest()},
-                      [&](std::uint32_t of_a, std::uint32_t of_b, float gap, float centres) {
-                        const float lower = pair.lower(gap);
-                        if (double(lower) > reach_over_unit_) return;
-                        key[top_ - bottom] = lower + std::sqrt(centres);
-                        stack_[top_++] = {of_a, of_b, lower};
-                      });
-    raise_least(stack_ + bottom, key, top_ - bottom, lowest ? 1 : kSortedFew);
+    top_ += open_pair(pair, most, reach_over_unit_, {entry.a, entry.b}, {a.lowest(), b.lowest()}, stack_ + top_);
     if (!lowest) return;
     while (top_ > bottom && visitor.goes_on()) {
       const PairEntry next = stack_[--top_];

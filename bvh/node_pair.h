@@ -130,7 +130,7 @@ class NodePair {
 
   /// Squares of the gaps of eight pairs of boxes, and of the distances of their centres.
   struct Near {
-    alignas(32) float gap[kFanOut], centres[kFanOut];
+    Float8 gap, centres;
   };
   /// Compares each child of A with all of B. Returns the children whose squared gap is at most `most`, one bit each.
   unsigned near_a(float most, Near& near) const {
@@ -141,7 +141,7 @@ class NodePair {
       along_b = along_b + squared(abs(load8(in_b_[k])) - (load8(half_in_b_[k]) + all8(extent_b_[k])));
       centres = centres + way * way;
     }
-    store(centres, near.centres);
+    near.centres = centres;
     return chosen(along_a, along_b, all8(bottom_of_b_) - load8(top_a_), most, near.gap) & ((1u << a_.count()) - 1);
   }
   /// The same between each child of B and all of A.
@@ -152,7 +152,7 @@ class NodePair {
       centres = centres + in_a_[k] * in_a_[k];
       along_b = along_b + squared(abs(own_b_[k] + all8(offset_b_[k])) - (half_b_[k] + all8(extent_a_in_b_[k])));
     }
-    store(centres, near.centres);
+    near.centres = centres;
     return chosen(along_a, along_b, bottom_b_ - all8(top_of_a_), most, near.gap) & ((1u << b_.count()) - 1);
   }
   /// The same between each child of B and child `i` of A.
@@ -164,8 +164,19 @@ class NodePair {
       centres = centres + way * way;
       along_b = along_b + squared(abs(own_b_[k] - all8(in_b_[k][i])) - (half_b_[k] + all8(half_in_b_[k][i])));
     }
-    store(centres, near.centres);
+    near.centres = centres;
     return chosen(along_a, along_b, bottom_b_ - all8(top_a_[i]), most, near.gap) & ((1u << b_.count()) - 1);
+  }
+
+  /// Of eight pairs of boxes: a bound on their distance, and how soon to visit them, the least first.
+  struct Ranks {
+    alignas(32) float lower[kFanOut], key[kFanOut];
+  };
+  Ranks rank(const Near& near) const {
+    Ranks ranks;
+    const Float8 bound = max(all8(0), sqrt(near.gap) * all8(1 - kBoundShare) - all8(slack_));
+    store(bound, ranks.lower), store(bound + sqrt(near.centres), ranks.key);
+    return ranks;
   }
 
  private:
@@ -173,10 +184,9 @@ class NodePair {
     const Float8 positive = max(gap, all8(0));
     return positive * positive;
   }
-  static unsigned chosen(Float8 along_a, Float8 along_b, Float8 ahead, float most, float (&square)[kFanOut]) {
-    const Float8 greatest = max(max(along_a, along_b), squared(ahead));
-    store(greatest, square);
-    return at_most(greatest, all8(most));
+  static unsigned chosen(Float8 along_a, Float8 along_b, Float8 ahead, float most, Float8& square) {
+    square = max(max(along_a, along_b), squared(ahead));
+    return at_most(square, all8(most));
   }
 
   const Node &a_, &b_;
@@ -204,19 +214,30 @@ inline constexpr int kMostEntries = 64 * kMostDepth + 8;
 
 /// So many of a pair's children are visited in order; the others as they were found.
 inline constexpr int kSortedFew = 4;
-/// Puts the few of `count` entries that have the least keys last, the least of all at the end.
-static inline void raise_least(PairEntry* entries, float* key, int count, int few) {
+inline constexpr int kMostChildren = kFanOut * kFanOut;
+/// Puts the few of `count` entries that have the least keys last, the least of all at the end. Overwrites keys.
+static inline void raise_least(PairEntry* entries, float (&key)[kMostChildren], int count, int few) {
+  for (int i = count; i % kFanOut != 0; ++i) key[i] = HUGE_VALF;
   for (int end = count - 1; few > 0 && end > 0; --end, --few) {
-    int least = end;
-    for (int i = 0; i < end; ++i) least = key[i] < key[least] ? i : least;
-    std::swap(entries[least], entries[end]), std::swap(key[least], key[end]);
+    Float8 lanes = load8(key);
+    for (int i = kFanOut; i <= end; i += kFanOut) lanes = min(lanes, load8(key + i));
+    const float least_key = least(lanes);
+    int at = end;
+    if (key[end] > least_key) {
+      at = 0;
+      unsigned equal;
+      while ((equal = at_most(load8(key + at), all8(least_key))) == 0) at += kFanOut;
+      at += __builtin_ctz(equal);
+    }
+    std::swap(entries[at], entries[end]);
+    key[at] = key[end], key[end] = HUGE_VALF;
   }
 }
 
 /// From this ratio of sizes on the larger one of two nodes is opened alone.
 inline constexpr float kOneSided = 3;
 
-/// Opens two nodes, or the larger one alone, and calls `near(child_a, child_b, gap, centres)` for each pair of children, or of
+/// Opens two nodes, or the larger one alone, and calls `on_near(child_a, child_b, lower, key)` for each pair of children, or of
 /// a child and the other node, `nodes`, whose squared gap is at most `most`. A node that `ends` has children that are none.
 template <class OnNear>
 static inline void for_near_children(NodePair& pair, float most, std::array<std::uint32_t, 2> nodes, std::array<bool, 2> ends,
@@ -226,27 +247,43 @@ static inline void for_near_children(NodePair& pair, float most, std::array<std:
   const bool only_a = both ? !ends[0] && pair.size_a() > kOneSided * pair.size_b() : ends[1];
   const bool only_b = both ? !ends[1] && pair.size_b() > kOneSided * pair.size_a() : ends[0];
   NodePair::Near near;
+  const auto for_each = [&](unsigned left, const auto& on_child) {
+    if (left == 0) return;
+    const NodePair::Ranks ranks = pair.rank(near);
+    for (; left != 0; left &= left - 1) {
+      const int k = __builtin_ctz(left);
+      on_child(unsigned(k), ranks.lower[k], ranks.key[k]);
+    }
+  };
+  const auto for_each_of_b = [&](std::uint32_t of_a, unsigned left) {
+    for_each(left, [&](unsigned k, float lower, float key) { on_near(of_a, b.first() + k, lower, key); });
+  };
   if (only_b) {
     pair.look_at_b();
-    for (unsigned left = pair.near_b(most, near); left != 0; left &= left - 1) {
-      const int k = __builtin_ctz(left);
-      on_near(nodes[0], b.first() + unsigned(k), near.gap[k], near.centres[k]);
-    }
-    return;
+    return for_each_of_b(nodes[0], pair.near_b(most, near));
   }
   pair.look_at_a();
   if (!only_a) pair.look_at_b();
-  for (unsigned left = pair.near_a(most, near); left != 0; left &= left - 1) {
+  unsigned left = pair.near_a(most, near);
+  if (only_a) return for_each(left, [&](unsigned i, float lower, float key) { on_near(a.first() + i, nodes[1], lower, key); });
+  for (; left != 0; left &= left - 1) {
     const int i = __builtin_ctz(left);
-    if (only_a) {
-      on_near(a.first() + unsigned(i), nodes[1], near.gap[i], near.centres[i]);
-      continue;
-    }
-    for (unsigned left_b = pair.near_b(i, most, near); left_b != 0; left_b &= left_b - 1) {
-      const int k = __builtin_ctz(left_b);
-      on_near(a.first() + unsigned(i), b.first() + unsigned(k), near.gap[k], near.centres[k]);
-    }
+    for_each_of_b(a.first() + unsigned(i), pair.near_b(i, most, near));
   }
+}
+
+/// Writes the pairs of `for_near_children` that may be within `reach`, over the unit, to `found`, those to visit first at the
+/// end. Returns how many there are.
+static inline int open_pair(NodePair& pair, float most, double reach, std::array<std::uint32_t, 2> nodes,
+                            std::array<bool, 2> ends, PairEntry* found) {
+  alignas(32) float keys[kMostChildren];
+  int count = 0;
+  for_near_children(pair, most, nodes, ends, [&](std::uint32_t of_a, std::uint32_t of_b, float lower, float key) {
+    if (double(lower) > reach) return;
+    keys[count] = key, found[count++] = {of_a, of_b, lower};
+  });
+  raise_least(found, keys, count, ends[0] && ends[1] ? 1 : kSortedFew);
+  return count;
 }
 
 }  // namespace
