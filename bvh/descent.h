@@ -31,8 +31,12 @@ class Descent {
     // The seed's pair is that of the hulls, or else of a triangle and a convex body.
     const bool has_hulls = a_.has_hull(0) && b_.has_hull(0);
     if (!has_hulls) kernel_seed_ = seed_.pair;
-    if (seed_.triangle_a < a_.triangle_count && seed_.triangle_b < b_.triangle_count)
+    if (seed_.triangle_a < a_.triangle_count && seed_.triangle_b < b_.triangle_count) {
       measure(seed_.triangle_a, seed_.triangle_b);
+      if (!(finding_.upper < HUGE_VAL) && a_.triangles && b_.triangles &&
+          gap_ahead(seed_.triangle_a, seed_.triangle_b) < limit_ahead_)
+        look(between_middles());  // the seed's direction is of another pose: it no longer parts even its own triangles
+    }
     top_ = 0;
     stack_[top_++] = {0, 0, 0};
     while (top_ > 0 && !done_) {
@@ -81,9 +85,9 @@ class Descent {
   /// The seventh axis before any pair is measured: the seed's, or else from the middle of A to that of B.
   void look_ahead() {
     Vec n{double(seed_.direction[0]), double(seed_.direction[1]), double(seed_.direction[2])};
-    if (!has_range(dot(n, n))) n = apply(motion_, b_.middle) - a_.middle;
-    look(normalised(n));
+    look(has_range(dot(n, n)) ? normalised(n) : between_middles());
   }
+  Vec between_middles() const { return normalised(apply(motion_, b_.middle) - a_.middle); }
   void look(const Vec& n) {
     ahead_ = n, ahead_in_b_ = rotate_back(motion_, n), ahead_of_origin_ = dot(n, motion_.t);
     frame_.look(n);

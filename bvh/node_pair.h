@@ -223,11 +223,9 @@ static inline void raise_least(PairEntry* entries, float (&key)[kMostChildren], 
     for (int i = kFanOut; i <= end; i += kFanOut) lanes = min(lanes, load8(key + i));
     const float least_key = least(lanes);
     int at = end;
-    if (key[end] > least_key) {
-      at = 0;
-      unsigned equal;
-      while ((equal = at_most(load8(key + at), all8(least_key))) == 0) at += kFanOut;
-      at += __builtin_ctz(equal);
+    for (int i = 0; key[at] > least_key && i < end; i += kFanOut) {
+      const unsigned equal = at_most(load8(key + i), all8(least_key));
+      if (equal != 0) at = i + __builtin_ctz(equal);
     }
     std::swap(entries[at], entries[end]);
     key[at] = key[end], key[end] = HUGE_VALF;
