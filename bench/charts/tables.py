@@ -158,17 +158,20 @@ def layer(rows):
     """SWIFT++'s tables 1 and 2: today's microseconds, and the paper's milliseconds in brackets."""
     at = {(row["scene"], row["question"], row["series"]): row for row in rows}
     series = list(dict.fromkeys(row["series"] for row in rows))
+    more = [scene for scene in dict.fromkeys(row["scene"] for row in rows) if scene not in PAPER_SCENES]
     for question, title in {"intersects": "intersection", "distance10%": "distance to 10 %", "distance": "exact distance"}.items():
         paper = PAPER.get(question, {})
-        print(f"\n| {title}, us (ms in 2001) | " + " | ".join(PAPER_SCENES) + " |")
-        print("|---" * (len(PAPER_SCENES) + 1) + "|")
-        for name in series + [name for name in paper if name not in series]:
-            cells = []
-            for i, scene in enumerate(PAPER_SCENES):
-                now = microseconds(at[scene, question, name]) if (scene, question, name) in at else ""
-                cells.append(now + (f" ({paper[name][i]:g})" if name in paper else ""))
-            if any(cells):
-                print(f"| {name} | " + " | ".join(cells) + " |")
+        for scenes, heading in (PAPER_SCENES, f"{title}, us (ms in 2001)"), (more, f"{title}, us"):
+            print(f"\n| {heading} | " + " | ".join(scenes) + " |")
+            print("|---" * (len(scenes) + 1) + "|")
+            for name in series + [name for name in paper if name not in series and scenes is PAPER_SCENES]:
+                cells = []
+                for i, scene in enumerate(scenes):
+                    now = microseconds(at[scene, question, name]) if (scene, question, name) in at else ""
+                    then = f"({paper[name][i]:g})" if scenes is PAPER_SCENES and name in paper else ""
+                    cells.append(" ".join(word for word in (now, then) if word))
+                if any(cells):
+                    print(f"| {name} | " + " | ".join(cells) + " |")
     print("\n| a triangle | bytes | us to build |\n|---|---|---|")
     for name in ["swiftlet", "CH", "fcl", "cgal"]:
         of = [row for row in rows if row["series"] == name and row["question"] == "intersects"]

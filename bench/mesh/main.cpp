@@ -314,10 +314,11 @@ nlohmann::json json(const Row& r) {
           {"bytes", r.bytes}, {"build_us", r.build_us}, {"found", r.found}};
 }
 
-/// The scenes of [Ehmann & Lin 2001, sec. 8.1].
-bool is_of_paper(const std::string& scene) {
-  constexpr const char* kScenes[] = {"tori",           "cup-spoon",      "peg-large-ring",
-                                     "peg-small-ring", "teeth-shifting", "teeth-opening"};
+/// The scenes of [Ehmann & Lin 2001, sec. 8.1], and bodies of few and large convex patches.
+bool is_of_layer(const std::string& scene) {
+  constexpr const char* kScenes[] = {"tori",           "cup-spoon",     "peg-large-ring",  "peg-small-ring",
+                                     "teeth-shifting", "teeth-opening", "comb-frame-near", "comb-frame-random",
+                                     "fetch-near",     "fetch-random",  "ur10-near",       "ur10-random"};
   return std::find(std::begin(kScenes), std::end(kScenes), scene) != std::end(kScenes);
 }
 
@@ -338,7 +339,7 @@ int main(int argc, char** argv) try {
   app.add_option("--poses", poses, "of every scene; else 200, with --layer 50")->check(CLI::PositiveNumber);
   app.add_flag("--quick", quick, "24 poses of every scene");
   app.add_option("--only-scene", only, "scenes whose name holds this");
-  app.add_flag("--layer", layer, "SWIFT++'s six scenes alone, with its trees of hulls beside the others");
+  app.add_flag("--layer", layer, "SWIFT++'s scenes and some more, with its trees of hulls beside the others");
   app.add_option("--meshes", meshes, "the folder of the real meshes; without it their scenes are left out")
       ->capture_default_str();
   app.add_option("--csv", file, "writes every row to this file, for tables and charts");
@@ -369,7 +370,7 @@ int main(int argc, char** argv) try {
   for (const std::string& name : scene_names()) {
     const auto wanted = [&](const std::string& part) { return name.find(part) != std::string::npos; };
     if (!only.empty() && std::none_of(only.begin(), only.end(), wanted)) continue;
-    if (layer && !is_of_paper(name)) continue;
+    if (layer && !is_of_layer(name)) continue;
     const std::optional<Scene> scene = make_scene(name, meshes, poses);
     if (!scene) {
       std::fprintf(stderr, "%s: its mesh file is missing: models/fetch\n", name.c_str());

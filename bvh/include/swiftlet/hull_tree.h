@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // SWIFT++ [Ehmann & Lin 2001]: a binary tree of convex hulls over the convex patches of a surface, and the paper's queries and
-// accelerations, each of which can be had alone. For experiments and comparisons: MeshModel answers the same questions sooner
-// on most bodies, from a tenth of the memory (bench/RESULTS.md). lod's build_hull_tree.h makes the trees.
+// accelerations, each of which can be had alone. MeshModel answers the same questions sooner on most bodies, from a tenth of
+// the memory; near contact of bodies of large patches, as robots' links are, this is sooner (bench/RESULTS.md). lod's
+// build_hull_tree.h makes the trees.
 #pragma once
 
 #include <array>
