@@ -1,23 +1,38 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints one of the generated bodies as OFF, for the demo. Knows shapes.h.
+// Prints one of the generated bodies as OFF, for the demo. Knows shapes.h and soups.h.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
 #include "shapes.h"
+#include "soups.h"
+
+namespace {
+
+template <class M>
+int print(const M& mesh) {
+  std::printf("OFF\n%zu %zu 0\n", mesh.points.size(), mesh.triangles.size());
+  for (const auto& p : mesh.points) std::printf("%.17g %.17g %.17g\n", p.x(), p.y(), p.z());
+  for (const auto& t : mesh.triangles) std::printf("3 %u %u %u\n", t[0], t[1], t[2]);
+  return 0;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace swiftlet;
+  if (argc == 4 && std::strcmp(argv[1], "torus") == 0) {
+    const int around = std::atoi(argv[2]), across = std::atoi(argv[3]);
+    if (around >= 3 && across >= 3) return print(soups::torus(std::uint32_t(around), std::uint32_t(across)));
+  }
   const int triangles = argc > 2 ? std::atoi(argv[2]) : 2000, seed = argc > 3 ? std::atoi(argv[3]) : 1;
   for (const shapes::Family family : shapes::kFamilies) {
     if (argc < 2 || std::strcmp(argv[1], shapes::name(family)) != 0 || triangles < 4 || triangles % 2 != 0) continue;
-    const Mesh mesh = shapes::ellipsoid(shapes::semi_axes(family), std::uint32_t(triangles), std::uint64_t(seed));
-    std::printf("OFF\n%zu %zu 0\n", mesh.points.size(), mesh.triangles.size());
-    for (const Vec3& p : mesh.points) std::printf("%.17g %.17g %.17g\n", p.x(), p.y(), p.z());
-    for (const auto& t : mesh.triangles) std::printf("3 %u %u %u\n", t[0], t[1], t[2]);
-    return 0;
+    return print(shapes::ellipsoid(shapes::semi_axes(family), std::uint32_t(triangles), std::uint64_t(seed)));
   }
-  std::fputs("usage: swiftlet_shape fat|plate|long [even number of triangles = 2000] [seed = 1]\n", stderr);
+  std::fputs("usage: swiftlet_shape fat|plate|long [even number of triangles = 2000] [seed = 1]\n"
+             "       swiftlet_shape torus QUADS_AROUND QUADS_ACROSS\n",
+             stderr);
   return 2;
 }
