@@ -217,31 +217,30 @@ bool Wedge::is_outer(unsigned face) const {
   }
 }
 
-Outline::Outline(const Wedge& wedge, double size) {
+Outline::Outline(const Wedge& wedge, double size) : corner_(wedge.corner), is_outer_{true, true, true, true}, corners_(4) {
   const auto& c = wedge.corner;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec& p = c[k];
-    add(cross(c[(k + 1) % 3] - p, c[3] - p), c, size);
-  }
-  add(cross(c[2] - c[0], c[1] - c[0]), c, size);
+  for (std::size_t k = 0; k < 3; ++k) add(cross(c[(k + 1) % 3] - c[k], c[3] - c[k]), size);
+  add(cross(c[2] - c[0], c[1] - c[0]), size);
 }
-Outline::Outline(const FlatWedge& wedge, double size) {
+Outline::Outline(const FlatWedge& wedge, double size)
+    : corner_{wedge.corner[0], wedge.corner[1], wedge.corner[2]}, is_outer_{wedge.outer[0], wedge.outer[1], true}, corners_(3) {
   const auto& c = wedge.corner;
   const Vec n = cross(c[1] - c[0], c[2] - c[0]);
-  for (std::size_t k = 0; k < 3; ++k) add(cross(c[(k + 1) % 3] - c[k], n), c, size);
-  add(n, c, size);
+  for (std::size_t k = 0; k < 3; ++k) add(cross(c[(k + 1) % 3] - c[k], n), size);
+  add(n, size);
 }
 
-void Outline::add(const Vec& outward, std::span<const Vec> corners, double size) {
+void Outline::add(const Vec& outward, double size) {
   double most = -HUGE_VAL;
-  for (const Vec& p : corners) most = max(most, dot(outward, p));
+  for (std::size_t k = 0; k < corners_; ++k) most = max(most, dot(outward, corner_[k]));
   // Any direction will do, as it was rounded. A sum of three products is off by at most 2.0001 * 2^-52 of the sum of their
   // magnitudes, and boxes of nodes may reach four times as far as the mesh.
   outward_[count_] = outward;
   above_[count_] = most + 0x1p-48 * (std::fabs(outward.x) + std::fabs(outward.y) + std::fabs(outward.z)) * size;
   if (count_++ > 0) return;
-  least_ = Vec3::Constant(HUGE_VAL), most_ = -least_;
-  for (const Vec& p : corners) least_ = least_.cwiseMin(eigen(p)), most_ = most_.cwiseMax(eigen(p));
+  least_ = most_ = eigen(corner_[0]);
+  for (std::size_t k = 1; k < corners_; ++k)
+    least_ = least_.cwiseMin(eigen(corner_[k])), most_ = most_.cwiseMax(eigen(corner_[k]));
 }
 
 bool Outline::is_apart(const Vec3& least, const Vec3& most) const {
@@ -260,7 +259,35 @@ bool Outline::is_apart(const Corners3& t) const {
   for (std::size_t k = 0; k < count_; ++k) {
     if (min(dot(outward_[k], t[0]), min(dot(outward_[k], t[1]), dot(outward_[k], t[2]))) > above_[k]) return true;
   }
+  for (std::size_t k = 0; k < corners_; ++k) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (is_outer_[k] && is_same(t[i], corner_[k]) && is_apart_at(k, t, i)) return true;
+    }
+  }
   return false;
+}
+
+/// Whether a plane through a common corner, at right angles to the difference of the two's directions from there, has all other
+/// corners on its two sides.
+bool Outline::is_apart_at(std::size_t corner, const Corners3& t, std::size_t at) const {
+  const Vec& p = corner_[corner];
+  Vec wedge{0, 0, 0}, triangle{0, 0, 0};
+  for (std::size_t k = 0; k < corners_; ++k) wedge = wedge + (corner_[k] - p);
+  for (const Vec& q : t) triangle = triangle + (q - p);
+  const Vec n = normalised(triangle) - normalised(wedge);
+  // Differences are rounded in their last bit, which adds one part to the sums' two.
+  const auto height = [&](const Vec& q) {
+    const Vec way = q - p, part{n.x * way.x, n.y * way.y, n.z * way.z};
+    const double slack = 0x1p-50 * (std::fabs(part.x) + std::fabs(part.y) + std::fabs(part.z)), sum = part.x + part.y + part.z;
+    return sum > slack ? 1 : sum < -slack ? -1 : 0;
+  };
+  for (std::size_t k = 0; k < corners_; ++k) {
+    if (k != corner && height(corner_[k]) >= 0) return false;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (i != at && height(t[i]) <= 0) return false;
+  }
+  return true;
 }
 
 bool enters(const Corners3& triangle, const Wedge& wedge) {

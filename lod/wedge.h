@@ -41,11 +41,16 @@ class Outline {
   Outline(const FlatWedge& wedge, double size);
   /// True only if the box does not meet the wedge.
   bool is_apart(const Vec3& least, const Vec3& most) const;
-  /// True only if the triangle does not meet the wedge.
+  /// True only if the triangle does not meet the wedge, or in no more than a corner of it on the new hull's boundary.
   bool is_apart(const Corners3& triangle) const;
 
  private:
-  void add(const Vec& outward, std::span<const Vec> corners, double size);
+  void add(const Vec& outward, double size);
+  bool is_apart_at(std::size_t corner, const Corners3& triangle, std::size_t at) const;
+
+  std::array<Vec, 4> corner_;
+  std::array<bool, 4> is_outer_;  ///< per corner: it lies on the new hull's boundary
+  std::size_t corners_ = 0;
 
   std::array<Vec, 4> outward_;
   std::array<double, 4> above_;

@@ -31,8 +31,9 @@ int main(int argc, char** argv) {
     if (argc < 2 || std::strcmp(argv[1], shapes::name(family)) != 0 || triangles < 4 || triangles % 2 != 0) continue;
     return print(shapes::ellipsoid(shapes::semi_axes(family), std::uint32_t(triangles), std::uint64_t(seed)));
   }
-  std::fputs("usage: swiftlet_shape fat|plate|long [even number of triangles = 2000] [seed = 1]\n"
-             "       swiftlet_shape torus QUADS_AROUND QUADS_ACROSS\n",
-             stderr);
+  std::fputs(
+      "usage: swiftlet_shape fat|plate|long [even number of triangles = 2000] [seed = 1]\n"
+      "       swiftlet_shape torus QUADS_AROUND QUADS_ACROSS\n",
+      stderr);
   return 2;
 }
