@@ -33,13 +33,21 @@ class Descent {
     if (!has_hulls) kernel_seed_ = seed_.pair;
     if (seed_.triangle_a < a_.triangle_count && seed_.triangle_b < b_.triangle_count) {
       measure(seed_.triangle_a, seed_.triangle_b);
+      // The seed's direction is of another pose if it no longer parts even its own triangles; so is that of the hulls.
       if (!(finding_.upper < HUGE_VAL) && a_.triangles && b_.triangles &&
-          gap_ahead(seed_.triangle_a, seed_.triangle_b) < limit_ahead_)
-        look(between_middles());  // the seed's direction is of another pose: it no longer parts even its own triangles
+          gap_ahead(seed_.triangle_a, seed_.triangle_b) < limit_ahead_) {
+        look(between_middles());
+        hulls_wait_ = has_hulls;
+      }
     }
     top_ = 0;
     stack_[top_++] = {0, 0, 0};
     while (top_ > 0 && !done_) {
+      if (hulls_wait_ && finding_.nodes >= kHullsWait) {
+        hulls_wait_ = false;
+        if (root_boxes_apart_ && part_by_hulls({0, 0, 0})) top_ = 0;  // nothing below matters
+        continue;
+      }
       const PairEntry entry = stack_[--top_];
       if (double(entry.lower) >= limit_over_unit_) continue;
       if (spent()) {
@@ -53,6 +61,9 @@ class Descent {
   }
 
  private:
+  /// Hulls without a start of use cost as much as so many pairs of nodes, which answer many a threshold question.
+  static constexpr std::uint32_t kHullsWait = 24;
+
   Motion over_unit() const {
     Motion m = motion_;
     m.t = scaled(motion_.t, -unit_);
@@ -101,7 +112,9 @@ class Descent {
     NodePair pair(frame_, a, b);
     const float most = pair.square_of(limit_of_boxes_), square = pair.square();
     if (!(square <= most)) return;
-    if (pair.lower(square) > 0 && a_.has_hull(entry.a) && b_.has_hull(entry.b) && part_by_hulls(entry)) return;
+    const bool boxes_apart = pair.lower(square) > 0;
+    if (entry.a == 0 && entry.b == 0) root_boxes_apart_ = boxes_apart;
+    if (boxes_apart && !hulls_wait_ && a_.has_hull(entry.a) && b_.has_hull(entry.b) && part_by_hulls(entry)) return;
     const std::array<bool, 2> ends{a_.ends(a), b_.ends(b)};
     const int bottom = top_;
     top_ += open_pair(pair, most, HUGE_VAL, {entry.a, entry.b}, ends, stack_ + top_);
@@ -322,7 +335,9 @@ class Descent {
   double limit_over_unit_ = 0, limit_ahead_ = 0;  ///< for `gap_ahead`
   float limit_of_boxes_ = 0;                      ///< the same, rounded up
   bool done_ = false;
-  int few_left_ = 4;          ///< pairs of hulls that are asked though those of the roots are not known to be apart
+  int few_left_ = 4;         ///< pairs of hulls that are asked though those of the roots are not known to be apart
+  bool hulls_wait_ = false;  ///< until `kHullsWait` pairs of nodes were opened
+  bool root_boxes_apart_ = false;
   bool roots_apart_ = false;  ///< their hulls are
   int top_ = 0;
   PairEntry stack_[kMostEntries];
