@@ -98,8 +98,7 @@ class Way {
     if (both_) {
       if (TrianglePair pair(a_, b_, in_.at.motion, in_.at.size); pair.gap(normalised(pair.between_middles())) > in_.at.law_two)
         return false;
-      axes_.emplace(a_, b_, in_.at.motion, in_.at.size);
-      met.depth = axes_->least(met.least);
+      met.depth = axes_of(met.ids).least(met.least);
       return met.depth >= -in_.at.law_two;
     }
     const MeshView &a = in_.at.a, &b = in_.at.b;
@@ -111,10 +110,7 @@ class Way {
   /// How far B must go along the direction until the pair is apart.
   double way(const Met& met) {
     const double most = max(0, overlap(met.ids));
-    if (both_) {
-      axes_.emplace(a_, b_, in_.at.motion, in_.at.size);
-      return min(most, axes_->travel(n_));
-    }
+    if (both_) return min(most, axes_of(met.ids).travel(n_));
     const double slope = dot(met.least, n_);
     return slope > kLeastSlope ? min(most, met.depth / (slope - kSlopeError)) : most;
   }
@@ -123,6 +119,12 @@ class Way {
   Vec normal_b(const Met& met) const { return in_.at.b.triangles ? normal(b_, in_.at.motion) : -met.least; }
 
  private:
+  /// Of the pair that was read last.
+  const PairAxes& axes_of(Ids ids) {
+    if (!axes_ || ids.a != of_axes_.a || ids.b != of_axes_.b) axes_.emplace(a_, b_, in_.at.motion, in_.at.size);
+    of_axes_ = ids;
+    return *axes_;
+  }
   void read(Ids ids) {
     if (in_.at.a.triangles) corners(in_.at.a, ids.a, a_);
     if (in_.at.b.triangles) corners(in_.at.b, ids.b, b_);
@@ -138,6 +140,7 @@ class Way {
   double end_of_a_ = 0, end_of_b_ = 0;  ///< along the direction
   Vec a_[3], b_[3];
   std::optional<PairAxes> axes_;
+  Ids of_axes_{kNone, kNone};
   PairSeed seed_{};
 };
 
@@ -231,12 +234,14 @@ bool parts_all(const RegionOf& in, Way& way, const Vec& n, double& most) {
     return overlap <= max(most, nothing) ? overlap : way.way(of);
   };
   least = HUGE_VAL;
+  double known[kMostTried] = {};  // along each direction tried, the longest way of the pairs that were asked
   for (int round = 0; round < kMostRounds && count > 0; ++round) {
     double of_met = HUGE_VAL;
     Vec best = first;
-    for (const Vec& n : tried) {
+    for (int k = 0; k < tried.size(); ++k) {
+      const Vec& n = tried.begin()[k];
+      double& most = known[k];
       way.turn(n);
-      double most = 0;
       for (int i = 0; i < count && most < of_met; ++i) {
         most = max(most, way_of(met[i], most));
         if (most >= of_met) std::swap(met[i], met[0]);  // it may rule out the next one too

@@ -51,7 +51,8 @@ class PairAxes {
   void add(const Vec& axis) {
     if (!(dot(axis, axis) > 0)) return;
     axis_[count_] = axis;
-    ahead_[count_] = -pair_.gap(axis), back_[count_] = -pair_.gap(-axis);
+    const auto [ahead, back] = pair_.gaps(axis);
+    ahead_[count_] = -ahead, back_[count_] = -back;
     ++count_;
   }
 

@@ -6,6 +6,8 @@
 // kernel.
 #pragma once
 
+#include <array>
+
 #include "mesh_tolerance.h"
 #include "numeric/vec.h"
 #include "numeric/vec4.h"
@@ -50,8 +52,15 @@ class TrianglePair {
   double gap(const Vec& n) const {
     const V3<Vec4> along = repeated4(n);
     const Vec4 a = dot(along, lanes_a_), b = dot(along, lanes_b_);
-    const double gap = dot(n, way_) + (min(min(b[0], b[1]), b[2]) - max(max(a[0], a[1]), a[2]));
-    return gap - (way_error_ + kGapOfWay * length_ + kGapOfSide * side_ + kGapOfItself * std::fabs(gap));
+    return surely(dot(n, way_) + (min(min(b[0], b[1]), b[2]) - max(max(a[0], a[1]), a[2])));
+  }
+  /// The gaps along a unit direction and against it.
+  std::array<double, 2> gaps(const Vec& n) const {
+    const V3<Vec4> along = repeated4(n);
+    const Vec4 a = dot(along, lanes_a_), b = dot(along, lanes_b_);
+    const double way = dot(n, way_);
+    return {surely(way + (min(min(b[0], b[1]), b[2]) - max(max(a[0], a[1]), a[2]))),
+            surely((min(min(a[0], a[1]), a[2]) - max(max(b[0], b[1]), b[2])) - way)};
   }
   /// True if along a face's normal the triangles overlap by no more than `depth`.
   bool faces_part(double depth) const {
@@ -120,6 +129,10 @@ class TrianglePair {
   }
 
  private:
+  /// A gap less what rounding may have added.
+  double surely(double gap) const {
+    return gap - (way_error_ + kGapOfWay * length_ + kGapOfSide * side_ + kGapOfItself * std::fabs(gap));
+  }
   /// A corner over the inside of a triangle: the weights of the triangle's corners in the point below it.
   struct Over {
     int corner;
