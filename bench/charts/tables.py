@@ -117,6 +117,7 @@ def mesh(rows):
 
 def mesh_contacts(at, others):
     """Contacts within reach of near bodies and of those that overlap; then depths."""
+    deep = list(dict.fromkeys(scene for scene, question, _ in at if question == "signed"))
     scenes = list(dict.fromkeys(scene for scene, question, _ in at if question == "contacts"))
     print("\n| contacts: us (how many) | regions, ours | with manifolds: points | " + " | ".join(others_of := [
         other for other in others if any((scene, "contacts", other) in at for scene in scenes)]) + " |")
@@ -126,7 +127,7 @@ def mesh_contacts(at, others):
         cells += [at.get((scene, "contacts", other)) for other in others_of]
         print(f"| {scene} | " + " | ".join(f"{microseconds(row)} ({row['found']:g})" if row else "" for row in cells) + " |")
     print("\n| signed distance | us | without hulls | width of the interval over the depth |\n|---|---|---|---|")
-    for scene in scenes:
+    for scene in deep:
         if (scene, "signed", "swiftlet") in at:
             ours = at[scene, "signed", "swiftlet"]
             print(f"| {scene} | {microseconds(ours)} | {microseconds(at[scene, 'signed', 'swiftlet boxes'])} | {ours['found']:.2g} |")

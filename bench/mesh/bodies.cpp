@@ -77,6 +77,20 @@ Mesh torus(const TorusOptions& o) {
   return mesh;
 }
 
+Mesh gear() {
+  constexpr std::uint32_t kTeeth = 16;
+  constexpr double kHole = 0.4, kRoot = 0.75, kThick = 0.33, kFlank = 0.25;
+  Mesh mesh;
+  // Of each tooth two points at the root and two at the tip; around the wall from outside above to outside below.
+  add_sheet(mesh, 4 * kTeeth, true, 4, true, [&](std::uint32_t i, std::uint32_t j) -> Vec3 {
+    const bool is_outer = j == 0 || j == 3, is_above = j <= 1, is_tip = i % 4 >= 2;
+    const double u = kTurn * (i + (i % 4 == 1 ? kFlank : i % 4 == 2 ? -kFlank : 0)) / (4 * kTeeth);
+    const double r = !is_outer ? kHole : is_tip ? 1 : kRoot;
+    return {r * std::cos(u), r * std::sin(u), is_above ? kThick / 2 : -kThick / 2};
+  });
+  return mesh;
+}
+
 Mesh cup() {
   constexpr std::uint32_t kSides = 80, kRings = 50, kFloor = 8, kWall = 16, kRim = 2;
   static_assert(2 * (kFloor + kWall) + kRim == kRings);

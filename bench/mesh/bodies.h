@@ -25,6 +25,7 @@ Mesh spiral_peg();  ///< 8 000 triangles: a closed tube along a helix about z; h
 /// 40 800 triangles: an open sheet of 2 times 0.8 with seven bumps in a row; `seed` is of the scanner's noise.
 Mesh teeth(std::uint64_t seed);
 
+Mesh gear();   ///< 512 triangles about z: sixteen teeth around a hole, radius 1, thickness 0.33
 Mesh comb();   ///< a bar with eight teeth, each a closed box of 48 triangles
 Mesh frame();  ///< four such boxes around an opening
 

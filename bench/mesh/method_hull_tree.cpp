@@ -28,11 +28,13 @@ std::size_t bytes_of(const HullTree& tree) {
 
 /// Both bodies' trees, which all methods of a scene share.
 struct Trees {
-  Trees(const Mesh& mesh_a, const Mesh& mesh_b) : points_a(mesh_a.points), points_b(mesh_b.points) {
+  Trees(const Mesh& mesh_a, const Mesh& mesh_b, HullSplit split) : points_a(mesh_a.points), points_b(mesh_b.points) {
+    HullTreeOptions options;
+    options.split = split;
     const auto begin = std::chrono::steady_clock::now();
     for (const Mesh* mesh : {&mesh_a, &mesh_b}) {
       const MeshModel model = boxes_of(*mesh);
-      trees.push_back(needed(build_hull_tree(model, needed(decompose(model)))));
+      trees.push_back(needed(build_hull_tree(model, needed(decompose(model)), options)));
     }
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
     build_seconds = taken.count();
@@ -77,42 +79,50 @@ class HullSession final : public Session {
   std::vector<HullPair> pairs_;
 };
 
+/// The trees of the last scene.
+struct Last {
+  HullSplit split;
+  std::shared_ptr<const Trees> trees;
+};
+
 class HullMethod final : public Method {
  public:
-  HullMethod(std::string name, std::string settings, const HullSearch& search,
-             std::shared_ptr<std::shared_ptr<const Trees>> last)
+  HullMethod(std::string name, std::string settings, const HullSearch& search, std::shared_ptr<Last> last)
       : name_(std::move(name)), settings_(std::move(settings)), search_(search), last_(std::move(last)) {}
   std::string name() const override { return name_; }
   std::string settings() const override { return settings_; }
   bool can(const Question& question) const override { return question.kind <= Kind::Distance; }
   std::unique_ptr<Session> open(const Mesh& a, const Mesh& b) const override {
-    if (!*last_ || !(*last_)->are_of(a, b)) *last_ = std::make_shared<const Trees>(a, b);
-    return std::make_unique<HullSession>(*last_, search_);
+    if (!last_->trees || !last_->trees->are_of(a, b)) last_->trees = std::make_shared<const Trees>(a, b, last_->split);
+    return std::make_unique<HullSession>(last_->trees, search_);
   }
 
  private:
   std::string name_, settings_;
   HullSearch search_;
-  std::shared_ptr<std::shared_ptr<const Trees>> last_;
+  std::shared_ptr<Last> last_;
 };
 
 }  // namespace
 
 void add_hull_trees(Methods& methods) {
-  const auto last = std::make_shared<std::shared_ptr<const Trees>>();
-  const auto add = [&](const char* name, const char* settings, const HullSearch& search) {
+  const auto add = [&](const char* name, const char* settings, const HullSearch& search, const std::shared_ptr<Last>& last) {
     methods.push_back(std::make_unique<HullMethod>(name, settings, search, last));
   };
-  HullSearch s;
-  add("CH", "SWIFT++'s tree of hulls, split at midpoints; Algorithm 2", s);
-  s.piece_caching = true, add("CH(PC)", "the last answering pair of pieces first", s);
-  s.piece_caching = false, s.priority = true, add("CH(PD)", "nearest pair of nodes next, 1 000 queued", s);
-  s.piece_caching = true, add("CH(PC,PD)", "both", s);
-  s.piece_caching = s.priority = false, s.front = true, add("CH(FT)", "generalised front, features stored", s);
-  s.features = false, add("CH(FT0)", "the same without stored features", s);
-  s.features = true, s.piece_caching = true, add("CH(PC,FT)", "", s);
-  s.piece_caching = false, s.priority = true, add("CH(PD,FT)", "", s);
-  s.piece_caching = true, add("CH(PC,PD,FT)", "", s);
+  const auto midpoint = std::make_shared<Last>(Last{HullSplit::Midpoint, nullptr});
+  add("CH", "SWIFT++'s tree of hulls, split at midpoints; Algorithm 2", {}, midpoint);
+  add("CH(PC)", "the last answering pair of pieces first", {.piece_caching = true}, midpoint);
+  add("CH(PD)", "the nearest pair of nodes next, 1 000 queued", {.priority = true}, midpoint);
+  add("CH(PC,PD)", "both", {.piece_caching = true, .priority = true}, midpoint);
+  add("CH(FT)", "a generalised front, seeds stored", {.front = true}, midpoint);
+  add("CH(FT0)", "the same without stored seeds", {.front = true, .features = false}, midpoint);
+  add("CH(PC,FT)", "", {.piece_caching = true, .front = true}, midpoint);
+  add("CH(PD,FT)", "", {.priority = true, .front = true}, midpoint);
+  add("CH(PC,PD,FT)", "", {.piece_caching = true, .priority = true, .front = true}, midpoint);
+  const HullSearch front{.priority = true, .front = true};
+  add("median", "CH(PD,FT) of trees split at medians", front, std::make_shared<Last>(Last{HullSplit::Median, nullptr}));
+  add("mean", "at means", front, std::make_shared<Last>(Last{HullSplit::Mean, nullptr}));
+  add("gap", "at the widest gaps", front, std::make_shared<Last>(Last{HullSplit::Gap, nullptr}));
 }
 
 }  // namespace swiftlet::bench::mesh

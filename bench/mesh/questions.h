@@ -21,6 +21,7 @@ struct Asked {
   bool is_apart() const { return kind <= Kind::Distance; }
   /// Contacts are those of bodies that are pressed into each other, or near.
   bool concerns(const Scene& scene) const {
+    if (scene.stance == Stance::Deep) return kind == Kind::SignedDistance;
     if (scene.stance == Stance::Pressed) return !is_apart();
     return is_apart() || (kind != Kind::SignedDistance && scene.stance == Stance::Near);
   }

@@ -151,6 +151,18 @@ void add_opening(Scene& s, std::size_t count) {
   }
 }
 
+/// B turns by up to `tilt` degrees and shifts by up to `shift` in any direction from where it is placed; of these poses those
+/// are taken in which the surfaces cross.
+void add_crossing(Scene& s, std::size_t count, const Turn& turn, const Vec3& at, double tilt, double shift,
+                  std::uint64_t seed) {
+  Random random(seed);
+  while (s.poses.size() < count) {
+    const Pose pose = posed(s, turn.then(random.on_sphere(), random.uniform(0, tilt) * kDegree), at + shift * random.in_ball());
+    if (distance(s.model_a, s.model_b, pose).upper == 0) s.poses.push_back(pose);
+  }
+  s.stance = Stance::Deep;
+}
+
 constexpr double kNearLeast = 0.0005, kNearMost = 0.002, kFarLeast = 0.5, kFarMost = 1.5, kDeepest = 0.05;
 enum Motion { Near, Far, Any, Pressed };
 
@@ -231,6 +243,22 @@ std::vector<Maker> makers() {
              [](const std::filesystem::path&) -> std::optional<Scene> { return pair(comb(), frame()); });
   of_motions("fetch", {Near, Any, Pressed}, of_files("fetch_base.stl", "fetch_gripper.stl"));
   of_motions("ur10", {Near, Any, Pressed}, of_files("ur10_forearm.obj", "ur10_wrist2.obj"));
+  of_bodies("tori-linked", [](std::size_t count) {
+    Scene s = pair(torus({.around = 50, .across = 20, .bend = 0.25}), torus({.around = 50, .across = 20, .wrinkle = 0.25}));
+    add_crossing(s, count, {std::sqrt(0.5), Vec3(std::sqrt(0.5), 0, 0)}, Vec3(1, 0, 0.2), 30, 0.6, 4);
+    return s;
+  });
+  of_bodies("gears-meshed", [](std::size_t count) {
+    Scene s = pair(gear(), gear());
+    add_crossing(s, count, {}, Vec3(1.7, 0, 0), 6, 0.2, 5);
+    return s;
+  });
+  const auto bunnies = of_files("bunny.off", "bunny.off");
+  all.push_back({"bunny-in-bunny", [bunnies](const std::filesystem::path& meshes, std::size_t count) {
+                   std::optional<Scene> s = bunnies(meshes);
+                   if (s) add_crossing(*s, count, {}, Vec3::Zero(), 180, 0.4 * s->radius, 6);
+                   return s;
+                 }});
   return all;
 }
 

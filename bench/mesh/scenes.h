@@ -16,7 +16,7 @@
 namespace swiftlet::bench::mesh {
 
 /// How the bodies of a scene are to each other.
-enum class Stance { Any, Near, Pressed };
+enum class Stance { Any, Near, Pressed, Deep };
 
 struct Scene {
   std::string name;
