@@ -483,6 +483,32 @@ TEST(Decompose, DecomposesASurfaceOnceForEachTimeItIsGiven) {
   expect_true("both sides", both);
 }
 
+TEST(Decompose, SeesTheFacesOfAScrollThatItHasTaken) {
+  // All edges are convex, and after one turn the next one sees the first from outside.
+  for (const double widening : {0.1, -0.06}) {
+    Soup scroll;
+    constexpr std::uint32_t kSteps = 48;
+    for (const double z : {0.0, 1.0}) {
+      for (std::uint32_t i = 0; i <= kSteps; ++i) {
+        const double angle = 4 * std::numbers::pi * i / kSteps, radius = 1 + widening * angle;
+        scroll.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+      }
+    }
+    for (std::uint32_t i = 0; i < kSteps; ++i) {
+      const std::uint32_t up = kSteps + 1;
+      scroll.triangles.insert(scroll.triangles.end(), {{i, i + 1, i + 1 + up}, {i, i + 1 + up, i + up}});
+    }
+    const MeshModel mesh = scroll.mesh();
+    for (const Growth growth : kGrowths) {
+      const Decomposition found = made(mesh, growth);
+      EXPECT_EQ(fault(mesh, found), "");
+      EXPECT_EQ(found.reflex_edges, 0u);
+      EXPECT_GE(found.patches.size(), 2u);
+      EXPECT_GE(found.not_convex + found.entered, 1u);
+    }
+  }
+}
+
 TEST(Decompose, GivesTheSamePatchesEveryTime) {
   const MeshModel mesh = torus(40, 20).mesh();
   for (const Growth growth : kGrowths) {
