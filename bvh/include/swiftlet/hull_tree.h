@@ -25,7 +25,8 @@ enum class FaceClass : std::uint8_t {
   Original,   ///< triangles of the surface cover the face
 };
 
-/// A node: the convex hull of the surface below it. A piece is a node without children, the hull of one patch.
+/// A node: the convex hull of the surface below it. A piece is a node without children, the hull of one patch. Of a copy the
+/// view is that of the node it was copied from.
 struct HullNode {
   Model hull;                                                   ///< one level
   std::vector<std::uint8_t> classes;                            ///< per face of the hull, its FaceClass
@@ -82,16 +83,16 @@ struct HullAnswer {
 };
 
 /// Two bodies and what one query leaves to the next. Both trees must outlive it and not move. Its memory grows to what a query
-/// needs and stays. Of queries laws 1, 2, 4 and 7 hold (LAWS.md); verdicts within law 2's bound of a threshold may depend on
-/// the queries before.
+/// needs and stays. Intervals are true and as narrow as asked (laws 1 and 2 of LAWS.md); within law 2's bound of contact or of
+/// a threshold the verdict may depend on the queries before.
 class HullPair {
  public:
-  HullPair(const HullTree& a, const HullTree& b, const HullSearch& search = {});
+  HullPair(const HullTree& a, const HullTree& b, const HullSearch& search = {});  ///< asks nothing yet
 
-  /// Decides whether the bodies share a point.
+  /// Decides whether the bodies share a point: read `answer.verdict`.
   HullAnswer intersects(const Pose& b_in_a);
-  /// Decides whether the distance is at most `threshold` (>= 0): `verdict` and bounds are as far as that needs; read
-  /// `decision`.
+  /// Decides whether the distance is at most `threshold` (>= 0). Undecided only within law 2's bound of it, or for a pose that
+  /// a query refuses.
   Decision within(const Pose& b_in_a, double threshold);
   /// The distance, exact or as near as `absolute` or `relative` allow. Bodies farther than `beyond` have the status Beyond.
   HullAnswer distance(const Pose& b_in_a, double absolute = 0, double relative = 0,
