@@ -31,7 +31,9 @@ class Descent {
     // The seed's pair is that of the hulls, or else of a triangle and a convex body.
     const bool has_hulls = a_.has_hull(0) && b_.has_hull(0);
     if (!has_hulls) kernel_seed_ = seed_.pair;
+    top_ = 0;
     if (seed_.triangle_a < a_.triangle_count && seed_.triangle_b < b_.triangle_count) {
+      const Vec before = ahead_;
       measure(seed_.triangle_a, seed_.triangle_b);
       // The seed's direction is of another pose if it no longer parts even its own triangles; so is that of the hulls.
       if (!(finding_.upper < HUGE_VAL) && a_.triangles && b_.triangles &&
@@ -39,8 +41,14 @@ class Descent {
         look(between_middles());
         hulls_wait_ = has_hulls;
       }
+      // Near contact the hulls of bodies that are nearly convex answer though their boxes meet, and from where they were cost
+      // less than a pair of nodes or two. Those that met are not asked again.
+      const bool serves = !hulls_wait_ && dot(before, ahead_) > kSameAhead;
+      if (has_hulls && !done_ && serves && seed_.pair.met == 0) {
+        roots_asked_ = true;
+        if (part_by_hulls({0, 0, 0})) return conclude();
+      }
     }
-    top_ = 0;
     stack_[top_++] = {0, 0, 0};
     while (top_ > 0 && !done_) {
       if (hulls_wait_ && finding_.nodes >= kHullsWait) {
@@ -63,6 +71,8 @@ class Descent {
  private:
   /// Hulls without a start of use cost as much as so many pairs of nodes, which answer many a threshold question.
   static constexpr std::uint32_t kHullsWait = 24;
+  /// The cosine of the angle by which a seed's direction may turn and its hulls still begin where they were.
+  static constexpr double kSameAhead = 0.95;
 
   Motion over_unit() const {
     Motion m = motion_;
@@ -113,8 +123,10 @@ class Descent {
     const float most = pair.square_of(limit_of_boxes_), square = pair.square();
     if (!(square <= most)) return;
     const bool boxes_apart = pair.lower(square) > 0;
-    if (entry.a == 0 && entry.b == 0) root_boxes_apart_ = boxes_apart;
-    if (boxes_apart && !hulls_wait_ && a_.has_hull(entry.a) && b_.has_hull(entry.b) && part_by_hulls(entry)) return;
+    const bool of_roots = entry.a == 0 && entry.b == 0;
+    if (of_roots) root_boxes_apart_ = boxes_apart, roots_apart_ = boxes_apart && hulls_apart_;
+    const bool asks = boxes_apart && !hulls_wait_ && !(of_roots && roots_asked_);
+    if (asks && a_.has_hull(entry.a) && b_.has_hull(entry.b) && part_by_hulls(entry)) return;
     const std::array<bool, 2> ends{a_.ends(a), b_.ends(b)};
     const int bottom = top_;
     top_ += open_pair(pair, most, HUGE_VAL, {entry.a, entry.b}, ends, stack_ + top_);
@@ -183,7 +195,7 @@ class Descent {
     options.beyond = limit_;
     const Answer answer = distance(a_.hull(entry.a), b_.hull(entry.b), pose_, seed, options);
     if (!(answer.lower > 0)) return false;
-    roots_apart_ = roots_apart_ || of_roots;
+    hulls_apart_ = hulls_apart_ || of_roots, roots_apart_ = roots_apart_ || (of_roots && root_boxes_apart_);
     if (answer.lower >= limit_) return true;
     const bool on_hulls = answer.feature_a.kind() != FeatureKind::None && answer.feature_b.kind() != FeatureKind::None;
     if (on_hulls && answer.level_a == 0 && answer.level_b == 0) {
@@ -339,6 +351,8 @@ class Descent {
   bool hulls_wait_ = false;  ///< until `kHullsWait` pairs of nodes were opened
   bool root_boxes_apart_ = false;
   bool roots_apart_ = false;  ///< their hulls are
+  bool hulls_apart_ = false;  ///< the roots' hulls, whether their boxes are or not
+  bool roots_asked_ = false;  ///< about their hulls
   int top_ = 0;
   PairEntry stack_[kMostEntries];
 };

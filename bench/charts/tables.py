@@ -146,10 +146,10 @@ PAPER = {
         "CH(PC)": [2.452, 1.234, 10.99, 1.910, 11.53, 10.43],
         "CH(PD)": [2.562, 1.284, 11.88, 2.009, 7.152, 9.937],
         "CH(FT)": [2.414, 1.058, 4.938, 1.572, 0.184, 7.980],
-        "CH(PC,PD)": [2.498, 1.266, 11.78, 1.969, 1.466, 9.285],
-        "CH(PC,FT)": [2.444, 1.070, 4.975, 1.599, 0.114, 8.090],
-        "CH(PD,FT)": [1.602, 0.923, 5.105, 1.513, 5.529, 7.740],
-        "CH(PC,PD,FT)": [1.612, 0.919, 5.113, 1.526, 5.653, 7.957],
+        "CH(PC+PD)": [2.498, 1.266, 11.78, 1.969, 1.466, 9.285],
+        "CH(PC+FT)": [2.444, 1.070, 4.975, 1.599, 0.114, 8.090],
+        "CH(PD+FT)": [1.602, 0.923, 5.105, 1.513, 5.529, 7.740],
+        "CH(PC+PD+FT)": [1.612, 0.919, 5.113, 1.526, 5.653, 7.957],
         "spheres swept (PQP)": [7.492, 3.814, 34.91, 36.61, 0.604, 1.733],
     },
 }
@@ -162,7 +162,7 @@ def layer(rows):
     more = [scene for scene in dict.fromkeys(row["scene"] for row in rows) if scene not in PAPER_SCENES]
     for question, title in {"intersects": "intersection", "distance10%": "distance to 10 %", "distance": "exact distance"}.items():
         paper = PAPER.get(question, {})
-        for scenes, heading in (PAPER_SCENES, f"{title}, us (ms in 2001)"), (more, f"{title}, us"):
+        for scenes, heading in ((PAPER_SCENES, f"{title}, us (ms in 2001)"), (more, f"{title}, us")):
             print(f"\n| {heading} | " + " | ".join(scenes) + " |")
             print("|---" * (len(scenes) + 1) + "|")
             for name in series + [name for name in paper if name not in series and scenes is PAPER_SCENES]:

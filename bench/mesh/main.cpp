@@ -326,6 +326,17 @@ bool is_of_layer(const std::string& scene) {
   return std::find(std::begin(kScenes), std::end(kScenes), scene) != std::end(kScenes);
 }
 
+/// Leaves out the poses in which one of two solids is inside the other: trees of hulls are of solids, all others of surfaces.
+void leave_out_nested(Scene& scene) {
+  const auto solid = [](const swiftlet::MeshModel& mesh) {
+    return mesh.topology().closed() ? swiftlet::MeshBody::solid(mesh) : swiftlet::MeshBody(mesh);
+  };
+  std::erase_if(scene.poses, [&](const Pose& pose) {
+    return distance(scene.model_a, scene.model_b, pose).lower > 0 &&
+           distance(solid(scene.model_a), solid(scene.model_b), pose).upper == 0;
+  });
+}
+
 swiftlet::MeshModel hulls_of(const swiftlet::Mesh& mesh) {
   swiftlet::Result<swiftlet::MeshModel> model = swiftlet::build_mesh(mesh);
   if (!model) throw std::runtime_error(model.error().message);
@@ -375,11 +386,12 @@ int main(int argc, char** argv) try {
     const auto wanted = [&](const std::string& part) { return name.find(part) != std::string::npos; };
     if (!only.empty() && std::none_of(only.begin(), only.end(), wanted)) continue;
     if (layer && !is_of_layer(name)) continue;
-    const std::optional<Scene> scene = make_scene(name, meshes, poses);
+    std::optional<Scene> scene = make_scene(name, meshes, poses);
     if (!scene) {
       std::fprintf(stderr, "%s: its mesh file is missing: models/fetch\n", name.c_str());
       continue;
     }
+    if (layer) leave_out_nested(*scene);
     all.push_back(rig.run(*scene));
     if (!as_json) print(*scene, rig.methods, all.back());
     for (const Row& row : all.back()) out << csv(row) << std::flush;

@@ -113,14 +113,14 @@ void add_hull_trees(Methods& methods) {
   add("CH", "SWIFT++'s tree of hulls, split at midpoints; Algorithm 2", {}, midpoint);
   add("CH(PC)", "the last answering pair of pieces first", {.piece_caching = true}, midpoint);
   add("CH(PD)", "the nearest pair of nodes next, 1 000 queued", {.priority = true}, midpoint);
-  add("CH(PC,PD)", "both", {.piece_caching = true, .priority = true}, midpoint);
+  add("CH(PC+PD)", "both", {.piece_caching = true, .priority = true}, midpoint);
   add("CH(FT)", "a generalised front, seeds stored", {.front = true}, midpoint);
   add("CH(FT0)", "the same without stored seeds", {.front = true, .features = false}, midpoint);
-  add("CH(PC,FT)", "", {.piece_caching = true, .front = true}, midpoint);
-  add("CH(PD,FT)", "", {.priority = true, .front = true}, midpoint);
-  add("CH(PC,PD,FT)", "", {.piece_caching = true, .priority = true, .front = true}, midpoint);
+  add("CH(PC+FT)", "", {.piece_caching = true, .front = true}, midpoint);
+  add("CH(PD+FT)", "", {.priority = true, .front = true}, midpoint);
+  add("CH(PC+PD+FT)", "", {.piece_caching = true, .priority = true, .front = true}, midpoint);
   const HullSearch front{.priority = true, .front = true};
-  add("median", "CH(PD,FT) of trees split at medians", front, std::make_shared<Last>(Last{HullSplit::Median, nullptr}));
+  add("median", "CH(PD+FT) of trees split at medians", front, std::make_shared<Last>(Last{HullSplit::Median, nullptr}));
   add("mean", "at means", front, std::make_shared<Last>(Last{HullSplit::Mean, nullptr}));
   add("gap", "at the widest gaps", front, std::make_shared<Last>(Last{HullSplit::Gap, nullptr}));
 }
