@@ -219,7 +219,7 @@ HullPair::Next HullPair::judge(const Item& item, const Answer& r, Question& ques
                             class_of(b, r.feature_b) != FaceClass::Free;
   const bool answers = has_features || (pieces && a.is_filled && b.is_filled);
   if (!pieces && (!answers || question.every_contact)) return Next::Split;
-  if (!answers) return by_triangles(item, question);
+  if (!answers) return by_surfaces(item, question);
 
   question.lower = min(question.lower, r.lower);
   const bool nearer = r.upper < question.upper || (r.verdict == Verdict::Overlapping && !question.overlapping);
@@ -246,41 +246,28 @@ HullPair::Next HullPair::judge(const Item& item, const Answer& r, Question& ques
   return question.decided() ? Next::Stop : Next::Done;
 }
 
-/// Of two pieces that are not all body, or not known to be: their triangles.
-HullPair::Next HullPair::by_triangles(const Item& item, Question& question) {
+/// Of two pieces one of which is not all body, or not known to be: of that its triangles.
+HullPair::Next HullPair::by_surfaces(const Item& item, Question& question) {
   const HullNode &a = a_.nodes()[item.a], &b = b_.nodes()[item.b];
-  const auto triangle = [](const HullTree& of, std::uint32_t i) {
-    const std::array<std::uint32_t, 3> corners = of.mesh().triangle(of.triangles()[i]);
-    return Body::triangle(of.mesh().vertex(corners[0]), of.mesh().vertex(corners[1]), of.mesh().vertex(corners[2]));
+  const auto body = [](const HullNode& piece) {
+    return piece.surface ? MeshBody(*piece.surface) : MeshBody(swiftlet::Body(piece.hull));
   };
-  HullAnswer best = question.answer;
-  best.node_a = item.a, best.node_b = item.b;
-  best.answer.upper = kInfinity;
-  double lower = kInfinity;
-  for (std::uint32_t i = a.first; i < a.end && best.answer.verdict != Verdict::Overlapping; ++i) {
-    const Body of_a = triangle(a_, i);
-    for (std::uint32_t k = b.first; k < b.end; ++k) {
-      Options options;
-      options.beyond = question.every_contact ? question.stop.above : question.limit;
-      PairSeed cold;
-      const Answer answer = swiftlet::distance(of_a, triangle(b_, k), question.b_in_a, cold, options);
-      ++question.answer.answer.plane_tests;
-      if (answer.status >= Status::InvalidPose) continue;
-      lower = min(lower, answer.lower);
-      if (answer.status == Status::Beyond || !(answer.upper < best.answer.upper)) continue;
-      const std::uint32_t asked = question.answer.answer.steps, looked_at = question.answer.answer.plane_tests;
-      best.answer = answer, best.answer.steps = asked, best.answer.plane_tests = looked_at;
-      best.answer.feature_a = best.answer.feature_b = FeatureId();
-      if (answer.verdict == Verdict::Overlapping) break;
-    }
-  }
-  question.lower = min(question.lower, lower);
-  if (!(best.answer.upper < kInfinity)) return Next::Done;
-  best.answer.lower = lower;
-  if (best.answer.verdict == Verdict::Overlapping) question.overlapping = true, question.lower = 0;
-  if (question.every_contact) contacts_.push_back(best);
-  if (best.answer.upper < question.upper || question.overlapping) {
-    question.upper = best.answer.upper, question.answer = best;
+  Options options;
+  options.beyond = question.beyond();
+  MeshSeed cold;
+  const Answer found = swiftlet::distance(body(a), body(b), question.b_in_a, cold, options);
+  question.answer.answer.plane_tests += found.plane_tests;
+  question.lower = min(question.lower, found.lower);
+  if (found.status == Status::Beyond || !(found.upper < kInfinity)) return Next::Done;
+  HullAnswer here = question.answer;
+  here.node_a = item.a, here.node_b = item.b;
+  const std::uint32_t asked = question.answer.answer.steps, looked_at = question.answer.answer.plane_tests;
+  here.answer = found, here.answer.steps = asked, here.answer.plane_tests = looked_at;
+  here.answer.feature_a = here.answer.feature_b = FeatureId();  // they are of the pieces' surfaces
+  if (question.every_contact) contacts_.push_back(here);
+  if (found.verdict == Verdict::Overlapping) question.overlapping = true, question.lower = 0;
+  if (found.upper < question.upper || question.overlapping) {
+    question.upper = found.upper, question.answer = here;
     cached_a_ = item.a, cached_b_ = item.b, cached_seed_ = item.seed;
     question.set_limit();
   }

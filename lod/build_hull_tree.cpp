@@ -184,7 +184,7 @@ class Construction {
     exact.max_levels = 1, exact.table.map_cells = 0;
     Result<Built> built = build(part, exact);
     if (!built) return built.error();
-    HullNode node{std::move(built).value().model, {}, {}, child, {}, first_[index], end, false};
+    HullNode node{std::move(built).value().model, {}, {}, child, {}, first_[index], end, false, {}};
     Below& below = below_[index];
     const SourceMap source = node.hull.source();
     for (const std::uint32_t p : source.vertex) below.points.push_back(points[p]);
@@ -197,6 +197,11 @@ class Construction {
       const auto is_original = [](std::uint8_t c) { return FaceClass(c) == FaceClass::Original; };
       const bool covers = node.hull.dimension() == 2 && std::any_of(node.classes.begin(), node.classes.end(), is_original);
       node.is_filled = in_solid || covers;
+      if (!node.is_filled) {
+        Result<MeshModel> surface = MeshModel::from_triangles(part.points, part.triangles);
+        if (!surface) return surface.error();
+        node.surface = std::move(surface).value();
+      }
     } else {
       for (std::size_t side = 0; side < 2; ++side)
         node.vertex_in_child[side] = places(below.points, below_[child[side]].points);

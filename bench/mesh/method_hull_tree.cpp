@@ -22,7 +22,8 @@ T needed(Result<T> result) {
 std::size_t bytes_of(const HullTree& tree) {
   std::size_t bytes = tree.mesh().bytes().size() + 4 * tree.triangles().size();
   for (const HullNode& node : tree.nodes())
-    bytes += sizeof node + node.hull.bytes().size() + node.classes.size() + 8 * node.vertex_in_child[0].size();
+    bytes += sizeof node + node.hull.bytes().size() + node.classes.size() + 8 * node.vertex_in_child[0].size() +
+             (node.surface ? node.surface->bytes().size() : 0);
   return bytes;
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <swiftlet/mesh.h>
@@ -36,6 +37,7 @@ struct HullNode {
   std::uint32_t first = 0, end = 0;                             ///< the triangles below it: HullTree::triangles[first .. end)
   /// True of a piece all of which belongs to the body: it lies in the solid, or it is a flat patch that covers its hull.
   bool is_filled = false;
+  std::optional<MeshModel> surface{};  ///< of a piece that is not filled: its triangles
 
   bool is_piece() const { return child[0] == kNone; }  ///< true of a node without children
 };
@@ -126,7 +128,7 @@ class HullPair {
   void search(Question& question);
   Next take(std::uint32_t item, double floor, Question& question);
   Next judge(const Item& item, const Answer& result, Question& question);
-  Next by_triangles(const Item& item, Question& question);
+  Next by_surfaces(const Item& item, Question& question);
   void ask_inside(Question& question);
   std::uint32_t split(std::uint32_t item);
   std::uint32_t new_children();
