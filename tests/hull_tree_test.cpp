@@ -389,6 +389,25 @@ TEST(HullTree, TheFrontGrowsInContactAndFallsBackToTheRoots) {
   EXPECT_EQ(before, 1u);
 }
 
+// An open body is no solid, though a patch of it may be nearly a whole ball: its thousands of triangles are not paired one by one.
+TEST(HullTree, LargePatchesOfOpenBodiesAreSearched) {
+  Soup open = ball(4);
+  open.triangles.pop_back();
+  const Body bowl = body("bowl", open, true);
+  ASSERT_FALSE(bowl.tree.body().is_solid());
+  const MeshModel mesh = open.mesh();
+  for (const HullSearch& search : searches()) {
+    HullPair pair(bowl.tree, bowl.tree, search);
+    for (const double x : {0.5, 1.2, 1.9, 2.1}) {
+      const Pose pose = shift(x, 0.03, 0.02);
+      const Answer answer = pair.distance(pose).answer, truth = distance(mesh, mesh, pose);
+      EXPECT_NEAR(answer.upper, truth.upper, 2 * tolerance(mesh, mesh, pose));
+      EXPECT_EQ(answer.verdict, truth.verdict);
+      EXPECT_LT(answer.plane_tests, 2000u);
+    }
+  }
+}
+
 TEST(HullTree, WhatIsNotOfTheMeshIsRefused) {
   const MeshModel mesh = torus(6, 4).mesh();
   Decomposition patches = one_by_one(mesh);
