@@ -148,7 +148,8 @@ class Depth {
     Answer answer = after(free, seed);
     if (!(answer.lower > 0)) return best;
     for (int left = kEscapes; left > 0;) {
-      const double gap = answer.lower * (1 - kRoom), way = norm(free) - gap;
+      // The moved pose is rounded.
+      const double gap = answer.lower * (1 - kRoom) - 4 * kU * at_.size, way = norm(free) - gap;
       if (!(way > 0)) return best;  // so little that it is none
       if (way < best.length) {
         best.length = grown(way), best.n = normalised(free);
