@@ -123,7 +123,12 @@ class HullPair {
     bool operator<(const Open& other) const { return lower > other.lower; }
   };
   struct Question;
-  enum class Next : std::uint8_t { Done, Split, Stop };
+  /// What comes after a pair.
+  enum class Next : std::uint8_t {
+    Done,   ///< nothing below it matters
+    Split,  ///< its children
+    Stop,   ///< nothing: the question is decided
+  };
 
   void search(Question& question);
   Next take(std::uint32_t item, double floor, Question& question);
