@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -265,9 +266,15 @@ void over_poses(const Asked& asked, const Batch& batch, Record* into, Unlocked& 
   crew.run((batch.count + kPosesPerChunk - 1) / kPosesPerChunk, [&](std::size_t chunk) {
     typename Of::Seed seed;
     const std::size_t end = std::min(batch.count, (chunk + 1) * kPosesPerChunk);
-    for (std::size_t i = chunk * kPosesPerChunk; i < end; ++i) {
-      if (i % Of::kBetweenLooks == 0 && crew.stopped()) return;
-      ask(asked, a, b, batch.pose(i), seed, into[i]);
+    std::array<Pose, Of::kBetweenLooks> poses;  // some at a time: a pose just written is slow to load by wider registers
+    for (std::size_t first = chunk * kPosesPerChunk; first < end; first += poses.size()) {
+      if (crew.stopped()) return;
+      const std::size_t count = std::min(poses.size(), end - first);
+      batch.poses.copy(first, std::span(poses).first(count));
+      for (std::size_t i = 0; i < count; ++i) {
+        batch.poses.prefetch(first + poses.size() + i);
+        ask(asked, a, b, poses[i], seed, into[first + i]);
+      }
     }
   });
 }
@@ -358,10 +365,24 @@ Asked to_asked(Query query, double threshold, double absolute, double relative, 
   return asked;
 }
 
+/// Those of `out` to write again, or new ones.
+py::array records_for(py::handle out, const py::dtype& dtype, std::size_t count, bool is_single) {
+  if (out.is_none()) return new_records(dtype, count, is_single);
+  if (!py::isinstance<py::array>(out) || !py::reinterpret_borrow<py::array>(out).dtype().equal(dtype))
+    throw py::type_error("out: expected answers of the same query, got " + what_came(out));
+  const auto records = py::reinterpret_borrow<py::array>(out);
+  if (records.ndim() != (is_single ? 0 : 1) || records.size() != py::ssize_t(is_single ? 1 : count))
+    throw py::value_error("out: expected " + (is_single ? "one answer" : std::to_string(count) + " rows") + ", got " +
+                          what_came(out));
+  if (!records.writeable() || !(records.flags() & py::array::c_style))
+    throw py::value_error("out: expected rows that are writeable and next to each other");
+  return records;
+}
+
 py::object run_query(const std::string& name, py::handle a, py::handle b, py::handle poses, double threshold, double absolute,
                      double relative, double beyond, const py::object& steps, int finest_level, const py::object& tuning,
                      py::handle index_a, py::handle index_b, const std::shared_ptr<Seeds>& seeds, long threads,
-                     py::handle quaternion, bool copy) {
+                     py::handle quaternion, bool copy, py::handle out) {
   const Asked asked = to_asked(query_of(name), threshold, absolute, relative, beyond, steps, finest_level, tuning);
   const unsigned count = thread_count(threads);
   Batch batch{to_side(a, index_a, "a"), to_side(b, index_b, "b"), PoseRows(poses, quaternion_order(quaternion), copy), 0,
@@ -378,11 +399,11 @@ py::object run_query(const std::string& name, py::handle a, py::handle b, py::ha
   const Taken taken(seeds.get());
   const bool is_single = batch.is_single() && !has_no_rows;
   if (asked.query == Query::Within || asked.query == Query::SignedWithin) {
-    const py::array records = new_records(within_dtype(), batch.count, is_single);
+    const py::array records = records_for(out, within_dtype(), batch.count, is_single);
     ask_all(asked, batch, memory_of<Within>(records), count);
     return records;
   }
-  const py::array records = new_records(answer_dtype(), batch.count, is_single);
+  const py::array records = records_for(out, answer_dtype(), batch.count, is_single);
   if (asked.query != Query::ClosestFeatures) {
     ask_all(asked, batch, memory_of<Answer>(records), count);
     return records;
@@ -615,7 +636,7 @@ void define_queries(py::module_& module) {
   module.def("run_query", &run_query, py::arg("query"), py::arg("a"), py::arg("b"), py::arg("poses"), py::arg("threshold"),
              py::arg("absolute"), py::arg("relative"), py::arg("beyond"), py::arg("steps"), py::arg("finest_level"),
              py::arg("tuning"), py::arg("index_a"), py::arg("index_b"), py::arg("seeds"), py::arg("threads"),
-             py::arg("quaternion"), py::arg("copy"),
+             py::arg("quaternion"), py::arg("copy"), py::arg("out"),
              "Asks a query in each pose; its records, or with closest_features also both sides' sources.");
   module.def("run_refine", &run_refine, py::arg("a"), py::arg("b"), py::arg("poses"), py::arg("so_far"), py::arg("absolute"),
              py::arg("relative"), py::arg("beyond"), py::arg("steps"), py::arg("finest_level"), py::arg("tuning"),

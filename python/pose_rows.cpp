@@ -38,12 +38,6 @@ QuaternionOrder quaternion_order(py::handle name) {
   throw py::value_error("quaternion: expected \"xyzw\" or \"wxyz\", got " + std::string(py::repr(name)));
 }
 
-double PoseRows::Block::at(std::size_t n, int a, int b) const {
-  double x;
-  std::memcpy(&x, data + py::ssize_t(n) * row + a * i + b * j, sizeof x);
-  return x;
-}
-
 bool PoseRows::read(py::handle poses) {
   // Of an array of `inner` dimensions for each pose; rows before them if there is one more.
   const auto block = [](py::handle array, int inner, py::ssize_t a, py::ssize_t b, Block& into, py::ssize_t& rows) {
@@ -65,12 +59,14 @@ bool PoseRows::read(py::handle poses) {
     form_ = Form::Parts;
   } else {
     if (!is_doubles(poses)) return false;
-    if (block(poses, 2, 4, 4, first_, rows))
+    if (block(poses, 2, 4, 4, first_, rows)) {
       form_ = Form::Matrix;
-    else if (block(poses, 1, 7, 0, first_, rows))
+      second_ = {first_.data + 3 * first_.j, first_.row, first_.i, 0};
+    } else if (block(poses, 1, 7, 0, first_, rows)) {
       form_ = Form::Quaternion;
-    else
+    } else {
       return false;
+    }
   }
   held_ = py::reinterpret_borrow<py::object>(poses);
   is_single_ = rows < 0;
@@ -110,33 +106,39 @@ PoseRows::PoseRows(py::handle poses, QuaternionOrder order, bool copy, const cha
 
 Pose PoseRows::operator[](std::size_t row) const {
   Pose pose;
+  copy(row, {&pose, 1});
+  return pose;
+}
+
+void PoseRows::copy(std::size_t first, std::span<Pose> into) const {
   if (form_ == Form::Quaternion) {
-    const int first = order_ == QuaternionOrder::Xyzw ? 3 : 4;
-    const double x = first_.at(row, first), y = first_.at(row, first + 1), z = first_.at(row, first + 2),
-                 w = first_.at(row, order_ == QuaternionOrder::Xyzw ? 6 : 3);
-    const double length2 = w * w + x * x + y * y + z * z;
-    if (!(std::abs(length2 - 1) <= 1e-6)) return refused();
-    const double s = 2 / length2;
-    pose.rotation << 1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y),  //
-        s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x),               //
-        s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y);
-    pose.translation = {first_.at(row, 0), first_.at(row, 1), first_.at(row, 2)};
-    return pose;
+    for (std::size_t n = 0; n < into.size(); ++n) into[n] = of_quaternion(first + n);
+    return;
   }
-  if (form_ == Form::Matrix && first_.i == 4 * sizeof(double) && first_.j == sizeof(double)) {
-    double m[16];
-    std::memcpy(m, first_.data + py::ssize_t(row) * first_.row, sizeof m);
-    pose.rotation << m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10];
-    pose.translation << m[3], m[7], m[11];
-    return m[12] == 0 && m[13] == 0 && m[14] == 0 && m[15] == 1 ? pose : refused();
+  const Block r = first_, t = second_;
+  for (std::size_t n = 0; n < into.size(); ++n) {
+    const std::size_t row = first + n;
+    Pose& pose = into[n];
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) pose.rotation(i, j) = r.at(row, i, j);
+    for (int i = 0; i < 3; ++i) pose.translation[i] = t.at(row, i);
+    if (form_ == Form::Matrix && !(r.at(row, 3, 0) == 0 && r.at(row, 3, 1) == 0 && r.at(row, 3, 2) == 0 && r.at(row, 3, 3) == 1))
+      pose = refused();
   }
-  for (int j = 0; j < 3; ++j)
-    for (int i = 0; i < 3; ++i) pose.rotation(i, j) = first_.at(row, i, j);
-  const bool is_matrix = form_ == Form::Matrix;
-  for (int i = 0; i < 3; ++i) pose.translation[i] = is_matrix ? first_.at(row, i, 3) : second_.at(row, i);
-  if (is_matrix &&
-      !(first_.at(row, 3, 0) == 0 && first_.at(row, 3, 1) == 0 && first_.at(row, 3, 2) == 0 && first_.at(row, 3, 3) == 1))
-    return refused();
+}
+
+Pose PoseRows::of_quaternion(std::size_t row) const {
+  const int first = order_ == QuaternionOrder::Xyzw ? 3 : 4;
+  const double x = first_.at(row, first), y = first_.at(row, first + 1), z = first_.at(row, first + 2),
+               w = first_.at(row, order_ == QuaternionOrder::Xyzw ? 6 : 3);
+  const double length2 = w * w + x * x + y * y + z * z;
+  if (!(std::abs(length2 - 1) <= 1e-6)) return refused();
+  Pose pose;
+  const double s = 2 / length2;
+  pose.rotation << 1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y),  //
+      s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x),               //
+      s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y);
+  pose.translation = {first_.at(row, 0), first_.at(row, 1), first_.at(row, 2)};
   return pose;
 }
 

@@ -7,7 +7,10 @@
 #include <pybind11/pybind11.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <functional>
+#include <span>
 
 #include <swiftlet/pose.h>
 
@@ -29,17 +32,30 @@ class PoseRows {
   std::size_t size() const { return size_; }
   /// A last row that is not (0, 0, 0, 1), and a quaternion that is not unit to 1e-6, give a pose that queries refuse.
   Pose operator[](std::size_t row) const;
+  /// Rows from `first` on, as many as `into` holds.
+  void copy(std::size_t first, std::span<Pose> into) const;
+  /// Asks the memory for a row, which may be none.
+  [[gnu::always_inline]] void prefetch(std::size_t row) const {
+    const std::uintptr_t begin = reinterpret_cast<std::uintptr_t>(first_.data) + row * std::uintptr_t(first_.row);
+    for (const std::uintptr_t line : {begin, begin + 64}) __builtin_prefetch(reinterpret_cast<const void*>(line));
+  }
 
  private:
   struct Block {
     const char* data = nullptr;
     pybind11::ssize_t row = 0, i = 0, j = 0;  ///< strides
-    double at(std::size_t n, int a, int b = 0) const;
+    double at(std::size_t n, int a, int b = 0) const {
+      double x;
+      std::memcpy(&x, data + pybind11::ssize_t(n) * row + a * i + b * j, sizeof x);
+      return x;
+    }
   };
+  Pose of_quaternion(std::size_t row) const;
   bool read(pybind11::handle poses);
   enum class Form { Matrix, Parts, Quaternion } form_ = Form::Matrix;
   QuaternionOrder order_;
-  Block first_, second_;
+  Block first_;   ///< matrices, rotations, or translations and quaternions
+  Block second_;  ///< translations, but for quaternions
   pybind11::object held_;
   std::size_t size_ = 0;
   bool is_single_ = false;

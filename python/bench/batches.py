@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What Python costs: batches beside C++'s on the same poses, two threads beside one, and one pose a call.
 
-batches.py PROGRAM [POSES] [ROUNDS], where PROGRAM is swiftlet_python_bench; both take turns, round by round. Medians, in ns.
+batches.py PROGRAM [POSES] [ROUNDS], where PROGRAM is swiftlet_python_bench; both take turns, round by round. Medians, in ns, with
+new memory for the answers and, by `out`, with memory kept from before.
 """
 
 from __future__ import annotations
@@ -46,30 +47,34 @@ def main(program: str, count: int = 1_000_000, rounds: int = 9) -> int:
     files = MODELS / "fat_a.swl", MODELS / "fat_b.swl"
     a, b = map(swiftlet.Model.load, files)
     poses, wrong = poses_on_orbits(count), 0
-    ours: dict[int, float] = {}
+    ours: dict[tuple[str, int], float] = {}
     with tempfile.NamedTemporaryFile() as file:
         poses.tofile(file.name)
         for threads in (1, 2):
-            python, cpp, kept, ratios, hashes = [], [], [], [], set()
+            kinds = ("new", "kept")  # memory of the answers
+            python, cpp = ({kind: [] for kind in kinds} for _ in range(2))
+            hashes, out = set(), swiftlet.distance(a, b, poses)
             for _ in range(rounds):
                 command = [program, *files, file.name, str(threads), "3"]
                 *times, their_hash = subprocess.run(command, check=True, capture_output=True, text=True).stdout.split()
-                answers, mine = None, []
-                for _ in range(3):
+                mine = {kind: [] for kind in kinds}
+                for kind in kinds * 3:
                     begin = time.perf_counter()
-                    answers = swiftlet.distance(a, b, poses, threads=threads)
-                    mine.append((time.perf_counter() - begin) * 1e9 / count)
-                hashes |= {their_hash, hash_of(answers)}
-                python.append(min(mine))
-                cpp.append(min(map(float, times[::2])))
-                kept.append(min(map(float, times[1::2])))
-                ratios.append(python[-1] / cpp[-1])
-            ours[threads] = median(python)
+                    answers = swiftlet.distance(a, b, poses, threads=threads, out=out if kind == "kept" else None)
+                    mine[kind].append((time.perf_counter() - begin) * 1e9 / count)
+                    hashes |= {their_hash, hash_of(answers)}
+                for place, kind in enumerate(kinds):
+                    python[kind].append(min(mine[kind]))
+                    cpp[kind].append(min(map(float, times[place::2])))
             wrong += len(hashes) != 1
-            print(f"{threads} thread{'s' if threads > 1 else ' '}  batch in Python {median(python):6.1f}", end="")
-            print(f"   in C++ {median(cpp):6.1f}, into kept memory {median(kept):6.1f}", end="")
-            print(f"   ratio {median(ratios):.3f}   hash {' '.join(sorted(hashes))}")
-    print(f"two threads are {ours[1] / ours[2]:.2f} times one")
+            for kind in kinds:
+                ratio = median(x / y for x, y in zip(python[kind], cpp[kind]))
+                ours[kind, threads] = median(python[kind])
+                print(f"{threads} thread{'s' if threads > 1 else ' '}, {kind:4} memory   in Python {ours[kind, threads]:6.1f}", end="")
+                print(f"   in C++ {median(cpp[kind]):6.1f}   ratio {ratio:.3f}")
+            print(f"hash {' '.join(sorted(hashes))}")
+    for kind in kinds:
+        print(f"two threads are {ours[kind, 1] / ours[kind, 2]:.2f} times one, {kind} memory")
 
     pair, some = swiftlet.Pair(a, b), list(poses[:100_000])
     calls = {

@@ -343,7 +343,7 @@ def verify(model: Model | MeshModel) -> str: ...
 def run_query(
     query: str, a: Any, b: Any, poses: Any, threshold: float, absolute: float, relative: float, beyond: float,
     steps: Optional[int], finest_level: int, tuning: Any, index_a: Any, index_b: Any, seeds: Optional[Seeds], threads: int,
-    quaternion: Optional[str], copy: bool,
+    quaternion: Optional[str], copy: bool, out: Any,
 ) -> Any: ...
 def run_refine(
     a: Any, b: Any, poses: Any, so_far: Any, absolute: float, relative: float, beyond: float, steps: Optional[int],

@@ -25,6 +25,11 @@ QUERIES = {
 }
 
 
+def same_fields(a, b):
+    """Whether two answers are the same bits but for those between fields."""
+    return all(a.records[name].tobytes() == b.records[name].tobytes() for name in a.records.dtype.names)
+
+
 def box_distance(translation):
     """Of two boxes of half-width 1 along the axes."""
     return np.linalg.norm(np.maximum(np.abs(translation) - 2, 0), axis=-1)
@@ -75,8 +80,7 @@ def test_any_number_of_threads_gives_the_same_bits(query, bodies, request):
     one = QUERIES[query](a, b, poses)
     for threads in (2, 64):
         many = QUERIES[query](a, b, poses, threads=threads)
-        for name in one.records.dtype.names:
-            assert one.records[name].tobytes() == many.records[name].tobytes(), name
+        assert same_fields(one, many)
 
 
 @pytest.mark.parametrize("query", QUERIES)
@@ -94,6 +98,46 @@ def test_a_chunk_is_a_pair_asked_again_and_again(query, fat):
     pair = swiftlet.Pair(*fat)
     alone = [getattr(pair, query)(pose).record for pose in poses]
     assert same(QUERIES[query](*fat, poses), swiftlet.Answers(np.array(alone, alone[0].dtype)))
+
+
+@pytest.mark.parametrize("query", [name for name in QUERIES if name != "closest_features"])
+def test_answers_are_written_again(query, fat):
+    a, b = fat
+    ask, poses = QUERIES[query], random_poses(1500, 5)
+    out = ask(a, b, poses[::-1].copy())
+    lower = out.lower
+    for threads in (1, 2):
+        assert ask(a, b, poses, threads=threads, out=out) is out
+        assert same_fields(out, ask(a, b, poses))
+    assert np.shares_memory(lower, out.records) and (lower == out.lower).all()
+    single = ask(a, b, poses[0])
+    assert ask(a, b, poses[1], out=single) is single and same_fields(single, ask(a, b, poses[1]))
+
+
+def test_answers_to_write_again_are_refused_by_what_came(fat):
+    a, b = fat
+    poses = random_poses(10, 5)
+    out = swiftlet.distance(a, b, poses)
+    before = out.records.copy()
+    locked = swiftlet.Answers(out.records.copy())
+    locked.records.flags.writeable = False
+    decided = swiftlet.within(a, b, poses, 0.5)
+    for wrong, error, says in (
+        (out.records, TypeError, "expected Answers, got ndarray"),
+        (decided, TypeError, "answers of the same query"),
+        (out[:9], ValueError, "expected 10 rows"),
+        (out[0], ValueError, "expected 10 rows"),
+        (swiftlet.Answers(out.records[None]), ValueError, "expected 10 rows"),
+        (swiftlet.Answers(np.repeat(out.records, 2)[::2]), ValueError, "next to each other"),
+        (locked, ValueError, "writeable"),
+    ):
+        with pytest.raises(error, match=says):
+            swiftlet.distance(a, b, poses, out=wrong)
+    with pytest.raises(ValueError, match="expected one answer"):
+        swiftlet.distance(a, b, poses[0], out=out)
+    with pytest.raises(TypeError, match="same query"):
+        swiftlet.within(a, b, poses, 0.5, out=out)
+    assert before.tobytes() == out.records.tobytes()
 
 
 def test_decisions_are_the_pairs_too(fat):
