@@ -30,7 +30,9 @@ class ByCMake(build_ext):
              f"-DPython_EXECUTABLE={sys.executable}", *shlex.split(os.environ.get("SWIFTLET_CMAKE_ARGS", ""))],
             check=True,
         )  # fmt: skip
-        subprocess.run(["cmake", "--build", build, "--parallel", str(os.cpu_count()), "--target", "swiftlet_python"], check=True)
+        subprocess.run(
+            ["cmake", "--build", build, "--parallel", str(os.cpu_count()), "--target", "swiftlet_python"], check=True
+        )
         package.mkdir(parents=True, exist_ok=True)
         for module in (build / "python/swiftlet").glob("_*.so"):
             self.copy_file(str(module), str(package / module.name))

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What Python costs: batches beside C++'s on the same poses, two threads beside one, and one pose a call.
 
-batches.py PROGRAM [POSES] [ROUNDS], where PROGRAM is swiftlet_python_bench; both take turns, round by round. Medians, in ns, with
-new memory for the answers and, by `out`, with memory kept from before.
+batches.py PROGRAM [POSES] [ROUNDS], where PROGRAM is swiftlet_python_bench; both take turns, round by round. Medians, in ns,
+with new memory for the answers and, by `out`, with memory kept from before.
 """
 
 from __future__ import annotations
@@ -70,7 +70,10 @@ def main(program: str, count: int = 1_000_000, rounds: int = 9) -> int:
             for kind in kinds:
                 ratio = median(x / y for x, y in zip(python[kind], cpp[kind]))
                 ours[kind, threads] = median(python[kind])
-                print(f"{threads} thread{'s' if threads > 1 else ' '}, {kind:4} memory   in Python {ours[kind, threads]:6.1f}", end="")
+                print(
+                    f"{threads} thread{'s' if threads > 1 else ' '}, {kind:4} memory   in Python {ours[kind, threads]:6.1f}",
+                    end="",
+                )
                 print(f"   in C++ {median(cpp[kind]):6.1f}   ratio {ratio:.3f}")
             print(f"hash {' '.join(sorted(hashes))}")
     for kind in kinds:

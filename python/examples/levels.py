@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the swiftlet authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Levels and what they cost: an ellipsoid's levels of detail, and the work of a query for each tolerance. levels.py [PICTURE]"""
+"""Levels and what they cost: an ellipsoid's levels of detail, and a query's work for each tolerance. levels.py [PICTURE]"""
 
 import sys
 
@@ -26,7 +26,9 @@ for tolerance in tolerances:
     answers = swiftlet.distance(model, model, poses, absolute=tolerance, seeds=swiftlet.Seeds(len(poses)))
     work.append(float(answers.plane_tests.mean()))
     error.append(float((answers.upper - answers.lower).max()))
-    print(f"to {tolerance:6g}: {work[-1]:6.1f} plane tests a query, on level {answers.level_a.max()}, widest interval {error[-1]:.1e}")
+    print(
+        f"to {tolerance:6g}: {work[-1]:6.1f} plane tests a query, on level {answers.level_a.max()}, width up to {error[-1]:.1e}"
+    )
     assert (answers.upper - answers.lower <= np.maximum(tolerance, swiftlet.tolerance(model, model, poses))).all()
 
 light = model.cut(deviation=0.05)

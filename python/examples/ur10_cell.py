@@ -3,10 +3,10 @@
 """A UR10 in a cell: its clearance over a grid of joint angles, as a map. ur10_cell.py [PICTURE] [--help]
 
 Two sweeps over the same configurations: how far the moving links are from a table and a post, and whether anything overlaps,
-pairs of links that are not neighbours included. (Some of these are 2 cm apart or less in all configurations,
-so that their distance would hide the others'.) All pairs of a configuration are one row; poses are made by forward kinematics in the workers. The
-picture is of the plane of shoulder lift and elbow: the least clearance over all other joints, and how many of their combinations are free. 
-Bodies are convex hulls.
+pairs of links that are not neighbours included. (Some of these are 2 cm apart or less in all configurations, so that their
+distance would hide the others'.) All pairs of a configuration are one row; poses are made by forward kinematics in the workers.
+The picture is of the plane of shoulder lift and elbow: the least clearance over all other joints, and how many of their
+combinations are free. Bodies are convex hulls.
 
 Meshes: models/fetch. Joint origins: ur10_robot.urdf.gz of the meshes' package (Debian's libsimbody-dev), generated from
 ROS-Industrial's ur_description. Metres, radians.

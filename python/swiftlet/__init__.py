@@ -9,7 +9,7 @@
 >>> swiftlet.distance(box, box, poses).value.round(12)
 array([0., 1., 2.])
 
-A query takes two bodies (a :class:`Model`, a :class:`MeshModel`, or a :class:`Body`) and poses of the second in the first's frame,
+A query takes two bodies (:class:`Model`, :class:`MeshModel` or :class:`Body`) and poses of the second in the first's frame,
 and gives :class:`Answers`: arrays over the poses. ``swiftlet.build`` makes models of points and mesh files; it comes under CGAL's
 GPL, the rest is BSD-3-Clause. ``swiftlet.scene`` asks about many bodies in one world.
 """

@@ -149,7 +149,7 @@ class Answers:
     def __iter__(self) -> Iterator[Answers]:
         return (self[i] for i in range(len(self)))
 
-    def __reduce__(self) -> tuple:
+    def __reduce__(self) -> tuple[Any, ...]:
         return Answers, (self.records,)
 
     def __repr__(self) -> str:
@@ -221,7 +221,7 @@ class Contacts(NamedTuple):
     regions: NDArray[np.void]
     status: Status
     is_counted: bool
-    count: int
+    count: int  # type: ignore[assignment]  # a tuple has a method of this name
     steps: int
     plane_tests: int
 

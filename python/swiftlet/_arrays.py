@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -41,8 +41,7 @@ class LevelArrays:
 
 def as_level(level: Any) -> LevelArrays:
     """A level from a pair of vertices and faces, or as it is."""
-    if not isinstance(level, LevelArrays):
-        level = LevelArrays(*level)
-    if level.face_source is not None and level.face_source_begin is None:
-        level = LevelArrays(**{**level.__dict__, "face_source_begin": np.arange(len(level.face_source) + 1)})
-    return level
+    given = level if isinstance(level, LevelArrays) else LevelArrays(*level)
+    if given.face_source is None or given.face_source_begin is not None:
+        return given
+    return replace(given, face_source_begin=np.arange(len(given.face_source) + 1))

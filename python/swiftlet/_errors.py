@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from enum import IntEnum
+from typing import Any
 
 
 class ErrorCode(IntEnum):
@@ -39,7 +40,7 @@ class Error(Exception):
         self.code = ErrorCode(code)
         self.file = file
 
-    def __reduce__(self) -> tuple:
+    def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (str(self), int(self.code), self.file)
 
 

@@ -87,17 +87,17 @@ def _documented(function: Any) -> Any:
     return function
 
 
-def _ask(query: str, a: Any, b: Any, poses: Any, threshold: float = 0.0, out: Any = None, **options: Any) -> Any:
-    defaults = {"absolute": 0.0, "relative": 0.0, "beyond": inf, "finest_level": 0}
-    return _runtime.run_query(query, a, b, poses, threshold, out=out, **{**defaults, **options})
+def _ask(query: str, a: Any, b: Any, poses: Any, threshold: float = 0.0, **options: Any) -> Any:
+    defaults: dict[str, Any] = {"absolute": 0.0, "relative": 0.0, "beyond": inf, "finest_level": 0, "out": None}
+    return _runtime.run_query(query, a, b, poses, threshold, **{**defaults, **options})
 
 
-def _answers(query: str, a: Any, b: Any, poses: Any, threshold: float = 0.0, *, out: Optional[Answers], **options: Any) -> Answers:
+def _answers(query: str, *arguments: Any, out: Optional[Answers], **options: Any) -> Answers:
     if out is None:
-        return Answers(_ask(query, a, b, poses, threshold, **options))
+        return Answers(_ask(query, *arguments, **options))
     if not isinstance(out, Answers):
         raise TypeError(f"out: expected Answers, got {type(out).__name__}")
-    _ask(query, a, b, poses, threshold, out=out.records, **options)
+    _ask(query, *arguments, out=out.records, **options)
     return out
 
 
@@ -392,7 +392,7 @@ def _record(answer: Any) -> Any:
     if isinstance(answer, np.ndarray) and answer.dtype == _runtime.within_dtype():
         names = _runtime.answer_dtype()
         plain = np.empty(answer.shape, names)
-        for name in names.names:
+        for name in names.names or ():
             plain[name] = answer[name]
         return plain
     return answer
@@ -669,4 +669,3 @@ def inverse(poses: Poses, *, quaternion: Optional[str] = None, copy: bool = Fals
 def matrix(poses: Poses, *, quaternion: Optional[str] = None, copy: bool = False) -> NDArray[np.float64]:
     """Poses of any form as matrices, as queries see them: what they would refuse is NaN."""
     return _runtime.run_matrix(poses, quaternion, copy)
-

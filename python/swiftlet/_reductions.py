@@ -65,7 +65,7 @@ class LeastDistance(NamedTuple):
 
     lower: float
     upper: float
-    index: int
+    index: int  # type: ignore[assignment]  # a tuple has a method of this name
     pair: int
 
 
@@ -171,7 +171,7 @@ class Map(Reduction):
     def result(self, whole: Partial) -> NDArray[np.void]:
         cell, lower, upper, index, pair, counts = whole
         cells = np.empty(len(cell), self._FIELDS)
-        for name, column in zip(cells.dtype.names, (lower, upper, index, pair, *counts.T)):
+        for name, column in zip(cells.dtype.names or (), (lower, upper, index, pair, *counts.T)):
             cells[name] = column
         return cells
 
@@ -184,4 +184,3 @@ class Map(Reduction):
 
     def __repr__(self) -> str:
         return f"Map({self.per})"
-

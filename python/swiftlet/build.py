@@ -43,7 +43,7 @@ class Built(NamedTuple):
     report: dict[str, Any]
 
 
-def read_mesh(path: str | os.PathLike[str]) -> Mesh:
+def read_mesh(path: str | bytes | os.PathLike[Any]) -> Mesh:
     """Reads a mesh file: OBJ, OFF, STL (ascii or binary), PLY, or SWIFT's TRI and POLY, by extension.
 
     Parameters
@@ -137,8 +137,8 @@ def build(
     """
     vertices, faces = _arrays(source)
     block, report = _build.run_build(
-        vertices, faces, method, enclosing, rate, cutoff, max_levels, max_deviation, deviation, bytes, require_convex, require_solid,
-        resolution, radius_factor, map_cells, progress, threads,
+        vertices, faces, method, enclosing, rate, cutoff, max_levels, max_deviation, deviation, bytes, require_convex,
+        require_solid, resolution, radius_factor, map_cells, progress, threads,
     )  # fmt: skip
     return Built(Model.from_bytes(block), report)
 

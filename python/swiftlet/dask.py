@@ -30,7 +30,7 @@ import uuid
 import zipfile
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from math import inf, prod
-from typing import Any, Callable, Iterator, Optional, Sequence, Union
+from typing import Any, Callable, Generator, Iterator, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -216,7 +216,9 @@ class _Checkpoint:
                 widths = file["widths"]
                 whole = [tuple(file[f"part_{r}_{i}"] for i in range(width)) for r, width in enumerate(widths)]
         except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
-            raise DataError(f"'{self.path}' is not a checkpoint of a sweep: {error}", ErrorCode.BAD_FORMAT, self.path) from error
+            raise DataError(
+                f"'{self.path}' is not a checkpoint of a sweep: {error}", ErrorCode.BAD_FORMAT, self.path
+            ) from error
         if digest != self.digest:
             raise DataError(
                 f"'{self.path}' is the checkpoint of another sweep: bodies, poses, count, chunk, query, options, reductions or "
@@ -247,7 +249,10 @@ class _Checkpoint:
             raise FileError(f"cannot write the checkpoint '{self.path}': {error}", ErrorCode.CANNOT_WRITE, self.path) from error
 
 
-def _on_threads(job: _Job, ranges: Iterator[tuple[int, int, int]], threads: int) -> Iterator[tuple[int, list[Partial]]]:
+_Parts = Generator["tuple[int, list[Partial]]", None, None]
+
+
+def _on_threads(job: _Job, ranges: Iterator[tuple[int, int, int]], threads: int) -> _Parts:
     with ThreadPoolExecutor(threads) as pool:
         waiting: dict[Any, int] = {}
         try:
@@ -285,7 +290,7 @@ def _partial_of(token: str, first: int, count: int) -> list[Partial]:
     return job.partial(first, count)
 
 
-def _on_cluster(job: _Job, ranges: Iterator[tuple[int, int, int]], client: Any) -> Iterator[tuple[int, list[Partial]]]:
+def _on_cluster(job: _Job, ranges: Iterator[tuple[int, int, int]], client: Any) -> _Parts:
     from distributed import WorkerPlugin, as_completed
 
     token = f"swiftlet-sweep-{uuid.uuid4().hex}"
@@ -301,7 +306,7 @@ def _on_cluster(job: _Job, ranges: Iterator[tuple[int, int, int]], client: Any) 
 
     client.register_worker_plugin(Delivery(), name=token)
     waiting: dict[Any, int] = {}
-    completed = as_completed(with_results=True)
+    completed: Any = as_completed(with_results=True)  # type: ignore[no-untyped-call]
     threads, counted = 0, -inf
     try:
         while True:
@@ -366,8 +371,9 @@ def sweep(
         bytes, once to each worker.
     poses : callable, :class:`Grid`, or array
         ``poses(first, n)`` returns the poses from index `first` on, at most 1 024 at a time, in any form that queries take: of
-        one pair shape (n, 4, 4), (n, 7), or a tuple (R, t); of several pairs a sequence of as many of these. It must be a function of
-        the indices alone. Arrays, and tuples of two, are sent to every worker whole; with several pairs they are not taken.
+        one pair shape (n, 4, 4), (n, 7), or a tuple (R, t); of several pairs a sequence of as many of these. It must be a
+        function of the indices alone. Arrays, and tuples of two, are sent to every worker whole; with several pairs they are not
+        taken.
     reduce : Reduction, or tuple of them
         :class:`Least`, :class:`Histogram`, :class:`FirstOverlap`, :class:`Verdicts`, :class:`Map`, or one's own.
     count : int, optional

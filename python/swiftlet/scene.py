@@ -33,7 +33,14 @@ class ContactData:
         How deep the bodies are in one another there; below 0 where they are that far apart.
     """
 
-    def __init__(self, names: tuple[str, str], point: NDArray, normal: NDArray, depth: float, features: tuple[int, int]) -> None:
+    def __init__(
+        self,
+        names: tuple[str, str],
+        point: NDArray[np.float64],
+        normal: NDArray[np.float64],
+        depth: float,
+        features: tuple[int, int],
+    ) -> None:
         self.names = set(names)
         self.point = point
         self.normal = normal
@@ -71,7 +78,7 @@ class DistanceData(NamedTuple):
         """The nearest point of the body `name`, in the world, (3,)."""
         return self.points[name]
 
-    def index(self, name: str) -> int:
+    def index(self, name: str) -> int:  # type: ignore[override]  # trimesh names it so
         """The id of the feature that it lies on."""
         return self.features[name]
 
@@ -168,7 +175,7 @@ class CollisionManager:
         contacts : list of ContactData, if `return_data`
         """
         found = _collisions(self, self, return_data)
-        return _result(found, {tuple(sorted(pair)) for pair in found[0]}, return_names, return_data)
+        return _result(found, {(min(pair), max(pair)) for pair in found[0]}, return_names, return_data)
 
     def in_collision_other(self, other_manager: CollisionManager, return_names: bool = False, return_data: bool = False) -> Any:
         """Whether a body of this manager collides with one of the other.
@@ -246,8 +253,10 @@ def _pose(transform: Optional[NDArray[np.float64]]) -> NDArray[np.float64]:
     return np.eye(4) if transform is None else np.asarray(transform, np.float64)
 
 
-def _pairs(first: CollisionManager, second: CollisionManager, a: NDArray, b: NDArray) -> list[tuple[str, str]]:
-    def name(manager: CollisionManager, id: NDArray) -> str:
+def _pairs(
+    first: CollisionManager, second: CollisionManager, a: NDArray[np.uint32], b: NDArray[np.uint32]
+) -> list[tuple[str, str]]:
+    def name(manager: CollisionManager, id: NDArray[np.uint32]) -> str:
         return manager._names[(int(id[0]), int(id[1]))]
 
     return [(name(first, i), name(second, j)) for i, j in zip(a, b)]
@@ -279,7 +288,9 @@ def _collisions(first: CollisionManager, second: CollisionManager, with_contacts
         normal = pose[:3, :3] @ manifold.normal
         for p in manifold.points:
             point = pose[:3, :3] @ ((p["point_a"] + p["point_b"]) / 2) + pose[:3, 3]
-            contacts.append(ContactData(pair, point, normal, -float(p["separation"]), (int(p["feature_a"]), int(p["feature_b"]))))
+            contacts.append(
+                ContactData(pair, point, normal, -float(p["separation"]), (int(p["feature_a"]), int(p["feature_b"])))
+            )
         if not len(manifold.points):
             point = pose[:3, :3] @ ((record["point_a"] + record["point_b"]) / 2) + pose[:3, 3]
             direction = pose[:3, :3] @ record["normal"]
@@ -305,7 +316,7 @@ def _nearest(
     return distance, pair, DistanceData(set(pair), distance, dict(zip(pair, points)), features, answer)
 
 
-def _result(found: Any, names: set, return_names: bool, return_data: bool) -> Any:
+def _result(found: Any, names: set[tuple[str, str]], return_names: bool, return_data: bool) -> Any:
     result = (len(found[0]) > 0, *([names] if return_names else []), *([found[1]] if return_data else []))
     return result if len(result) > 1 else result[0]
 

@@ -12,9 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import swiftlet
-from swiftlet import Body, BodyKind, MeshModel, Model
-
-build = pytest.importorskip("swiftlet.build", reason="the builder is not among what was built", exc_type=ImportError)     if False else __import__("importlib").import_module("swiftlet.build")
+from swiftlet import Body, BodyKind, MeshModel, Model, build
 
 
 class Shape:
@@ -27,7 +25,13 @@ class Shape:
 def test_a_model_is_its_file(fat, tmp_path):
     path = tmp_path / "a.swl"
     assert fat[0].save(path) == path.stat().st_size == fat[0].bytes.size
-    for again in (Model.load(path), Model.load(str(path)), Model.map(path), Model.from_bytes(path.read_bytes()), Model.from_bytes(fat[0].bytes)):
+    for again in (
+        Model.load(path),
+        Model.load(str(path)),
+        Model.map(path),
+        Model.from_bytes(path.read_bytes()),
+        Model.from_bytes(fat[0].bytes),
+    ):
         assert again.hash() == fat[0].hash() and again.bytes.tobytes() == path.read_bytes()
     assert Model.map(path).is_mapped and not Model.load(path).is_mapped
     assert swiftlet.verify(fat[0])

@@ -144,7 +144,9 @@ def test_decisions_are_the_pairs_too(fat):
     poses, pair = orbit(200, 1.9), swiftlet.Pair(*fat)
     assert list(swiftlet.within(*fat, poses, 0.1).decision) == [pair.within(p, 0.1).decision for p in poses]
     pair.reset()
-    assert list(swiftlet.signed_within(*fat, poses, -0.01).decision) == [pair.signed_within(p, threshold=-0.01).decision for p in poses]
+    assert list(swiftlet.signed_within(*fat, poses, -0.01).decision) == [
+        pair.signed_within(p, threshold=-0.01).decision for p in poses
+    ]
     assert set(swiftlet.within(*fat, random_poses(300, 2), 0.2).decision) >= {Decision.YES, Decision.NO}
 
 
@@ -308,7 +310,9 @@ def test_looser_answers_are_true_and_refined(fat):
 def test_closest_features_are_the_users_ids(cube):
     named = swiftlet.Model.from_arrays(CORNERS, [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]],
                                        vertex_source=np.arange(8) + 100, face_source=np.arange(6) + 50)  # fmt: skip
-    found = swiftlet.closest_features(named, Body.point([0, 0, 0]), np.stack([shift(3, 0.2, 0.1), shift(2, 2, 2), shift(2, 2, 0)]))
+    found = swiftlet.closest_features(
+        named, Body.point([0, 0, 0]), np.stack([shift(3, 0.2, 0.1), shift(2, 2, 2), shift(2, 2, 0)])
+    )
     assert found.answers.shape == (3,) and found.source_a.begin.tolist()[-1] == len(found.source_a.triangles)
     assert found.source_a.kind.tolist() == [swiftlet.FeatureKind.FACE, swiftlet.FeatureKind.VERTEX, swiftlet.FeatureKind.EDGE]
     assert found.source_a.triangles[: found.source_a.begin[1]].tolist() == [51]

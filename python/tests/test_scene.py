@@ -33,7 +33,9 @@ def test_scenes_are_all_pairs(fat):
     assert {(i, j) for i, j in zip(a[:, 0], b[:, 0])} == {k for k, v in expected.items() if v.verdict != Verdict.DISJOINT}
     a, b, records = scene.distances(1.0)
     assert {(i, j) for i, j in zip(a[:, 0], b[:, 0])} == {k for k, v in expected.items() if v.lower <= 1}
-    np.testing.assert_allclose([r["lower"] for r in records], [expected[i, j].lower for i, j in zip(a[:, 0], b[:, 0])], atol=1e-12)
+    np.testing.assert_allclose(
+        [r["lower"] for r in records], [expected[i, j].lower for i, j in zip(a[:, 0], b[:, 0])], atol=1e-12
+    )
     assert len(scene.within(1.0)[2]) == len(records)
     scene.ask_only(lambda a, b: a[0] != 3 and b[0] != 3)
     a, b, _ = scene.overlapping()

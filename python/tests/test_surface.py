@@ -189,7 +189,9 @@ def blocks(text):
 
 
 def is_block(head):
-    return bool(re.search(r"\b(namespace|class|struct|enum)\b", head)) or bool(re.search(r"\)\s*(const)?\s*(noexcept)?\s*(:.*)?$", head, re.S))
+    return bool(re.search(r"\b(namespace|class|struct|enum)\b", head)) or bool(
+        re.search(r"\)\s*(const)?\s*(noexcept)?\s*(:.*)?$", head, re.S)
+    )
 
 
 def names(text):
@@ -261,7 +263,11 @@ def test_every_member_has_a_python_name():
     looked_at = 0
     for name, (path, renamed) in MEMBERS.items():
         if path.endswith("()"):
-            known = set(inspect.signature(resolve(path[:-2])).parameters) if "with_table" not in path else parameters_of(resolve(path[:-2]))
+            known = (
+                set(inspect.signature(resolve(path[:-2])).parameters)
+                if "with_table" not in path
+                else parameters_of(resolve(path[:-2]))
+            )
         else:
             thing = resolve(path)
             known = set(dir(thing)) | set(getattr(thing, "__dataclass_fields__", {})) | set(getattr(thing, "_fields", ()))
@@ -338,7 +344,9 @@ def test_stubs_say_what_the_module_holds(module):
             thing = inspect.getattr_static(getattr(loaded, name), method)
             decorators = {d.id for d in declaration.decorator_list if isinstance(d, ast.Name)}
             is_property = isinstance(thing, property) or inspect.isgetsetdescriptor(thing)
-            assert is_property == bool({"property"} & decorators or any(isinstance(d, ast.Attribute) for d in declaration.decorator_list))
+            assert is_property == bool(
+                {"property"} & decorators or any(isinstance(d, ast.Attribute) for d in declaration.decorator_list)
+            )
             assert isinstance(thing, staticmethod) == ("staticmethod" in decorators), method
             if is_property or method.startswith("__"):
                 continue
@@ -357,9 +365,17 @@ def test_every_public_thing_has_a_docstring_of_its_own():
             assert lines and (len(lines) > 1 or not lines[0].startswith(name + "(")), name
             if inspect.isclass(thing):
                 for member, value in vars(thing).items():
-                    if not member.startswith("_") and (callable(value) or isinstance(value, property) or inspect.isgetsetdescriptor(value)):
+                    if not member.startswith("_") and (
+                        callable(value) or isinstance(value, property) or inspect.isgetsetdescriptor(value)
+                    ):
                         assert inspect.getdoc(getattr(thing, member)), f"{name}.{member}"
-    for function in (swiftlet.distance, swiftlet.signed_distance, swiftlet.intersects, swiftlet.within, swiftlet.closest_features):
+    for function in (
+        swiftlet.distance,
+        swiftlet.signed_distance,
+        swiftlet.intersects,
+        swiftlet.within,
+        swiftlet.closest_features,
+    ):
         undocumented = [p for p in inspect.signature(function).parameters if not re.search(rf"\b{p}\b", function.__doc__)]
         assert not undocumented and "<" not in function.__doc__.replace("<=", ""), function.__name__
 

@@ -34,7 +34,9 @@ def test_a_model_may_go_while_others_ask():
     results, poses = [], orbit(60000, 3)
     models = [swiftlet.Model.from_arrays(CORNERS, SIDES) for _ in range(4)]
     threads = [
-        threading.Thread(target=lambda m: results.append(swiftlet.distance(m, swiftlet.Body.point([0, 0, 0]), poses, threads=2)), args=(m,))
+        threading.Thread(
+            target=lambda m: results.append(swiftlet.distance(m, swiftlet.Body.point([0, 0, 0]), poses, threads=2)), args=(m,)
+        )
         for m in models
     ]
     for t in threads:
@@ -77,7 +79,9 @@ def test_a_fork_after_threads_works(fat, while_asking):
     expected = swiftlet.distance(*fat, orbit(5000), threads=4)
     stop, asking = threading.Event(), None
     if while_asking:
-        asking = threading.Thread(target=lambda: [swiftlet.distance(*fat, orbit(5000), threads=2) for _ in iter(stop.is_set, True)])
+        asking = threading.Thread(
+            target=lambda: [swiftlet.distance(*fat, orbit(5000), threads=2) for _ in iter(stop.is_set, True)]
+        )
         asking.start()
     ours, theirs = multiprocessing.get_context("fork").Pipe(False)
     child = multiprocessing.get_context("fork").Process(target=ask_in_child, args=(theirs,))
@@ -112,7 +116,9 @@ print(len(again), (again.status == swiftlet.Status.CONVERGED).all(), flush=True)
 """
 
 
-@pytest.mark.parametrize("bodies, threads, seeds", [("hulls", 1, ""), ("hulls", 2, ""), ("meshes", 2, ""), ("hulls", 2, "seeds")])
+@pytest.mark.parametrize(
+    "bodies, threads, seeds", [("hulls", 1, ""), ("hulls", 2, ""), ("meshes", 2, ""), ("hulls", 2, "seeds")]
+)
 def test_ctrl_c_stops_a_batch_within_100_ms(bodies, threads, seeds):
     command = [sys.executable, "-c", LONG, MODELS / "fat_a.swl", MODELS / "fat_b.swl", bodies, str(threads), seeds]
     took = []
