@@ -69,6 +69,7 @@ if(SWIFTLET_PYTHON)
   math(EXPR python_after "${SWIFTLET_PYTHON_MINOR} + 1")  # an extension module is of one interpreter
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "python3 (>= 3.${SWIFTLET_PYTHON_MINOR}), python3 (<< 3.${python_after}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-swiftlet-build, python3-distributed")  # sweeps on a cluster
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   if(SWIFTLET_LOD)
     swiftlet_package(python_build python3-swiftlet-build python
