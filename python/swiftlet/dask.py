@@ -180,17 +180,19 @@ class _Job:
         return hashed.hexdigest()
 
 
+_BY_RANK = np.array([Verdict.OVERLAPPING, Verdict.UNDECIDED, Verdict.TOUCHING, Verdict.DISJOINT], np.uint8)
+_RANK = np.argsort(_BY_RANK).astype(np.uint8)  # of Verdict: the least of a pose's pairs is its verdict
+
+
 def _nearest(first: int, answers: list[Answers]) -> Rows:
-    lower, upper, verdict = (np.stack([getattr(answer, name) for answer in answers]) for name in ("lower", "upper", "verdict"))
-    by_rank = np.array([Verdict.OVERLAPPING, Verdict.UNDECIDED, Verdict.TOUCHING, Verdict.DISJOINT], np.uint8)
-    rank = np.array([1, 3, 2, 0])  # of Verdict: the least of a pose's pairs is its verdict
-    return Rows(
-        first,
-        lower.min(axis=0) + 0.0,  # no zero has a sign, so that equal minima have equal bits
-        upper.min(axis=0) + 0.0,
-        np.argmin(upper, axis=0),
-        by_rank[rank[verdict].min(axis=0)],
-    )
+    lower, upper, rank = answers[0].lower, answers[0].upper, _RANK[answers[0].verdict]
+    pair = np.zeros(len(lower), np.intp)
+    for i, answer in enumerate(answers[1:], 1):
+        pair[answer.upper < upper] = i
+        lower, upper = np.minimum(lower, answer.lower), np.minimum(upper, answer.upper)
+        rank = np.minimum(rank, _RANK[answer.verdict])
+    # No zero has a sign, so that equal minima have equal bits.
+    return Rows(first, lower + 0.0, upper + 0.0, pair, _BY_RANK[rank])
 
 
 def _body_digest(body: Any) -> bytes:
