@@ -57,7 +57,7 @@ __all__ = [
 ]
 
 _QUERIES = ("distance", "signed_distance", "intersects")
-_NOT_OPTIONS = ("threads", "seeds", "index_a", "index_b")
+_NOT_OPTIONS = ("threads", "seeds", "index_a", "index_b", "out")
 _IN_FLIGHT = 3  # chunks of each thread, running or waiting: enough that none waits for the caller, few in memory
 _DELIVERY_SECONDS = 60
 _PROBES = 5  # blocks of poses by which a checkpoint knows the sweep
@@ -145,19 +145,29 @@ class _Job:
             raise ValueError(f"poses({first}, {count}): expected poses for each of {len(self.a)} pairs, got {len(poses)}")
         return list(poses)
 
-    def rows(self, first: int, count: int) -> Rows:
+    def rows(self, first: int, count: int, memory: Optional[list[Answers]] = None) -> tuple[Rows, list[Answers]]:
+        """About the nearest pairs, and the answers, whose memory the next rows may have."""
         ask = getattr(_queries, self.query)
-        answers = [ask(a, b, poses, **self.options) for a, b, poses in zip(self.a, self.b, self.made(first, count))]
-        for answer in answers:
+        if memory is None or len(memory[0]) != count:
+            memory = [None] * len(self.a)  # type: ignore[list-item]
+        answers = []
+        for a, b, poses, out in zip(self.a, self.b, self.made(first, count), memory):
+            made = len(poses[0] if isinstance(poses, tuple) else poses)
+            answer = ask(a, b, poses, out=out if made == count else None, **self.options)
             if answer.shape != (count,):
                 raise ValueError(f"poses({first}, {count}): expected {count} poses, got {answer.shape}")
-        return _nearest(first, answers)
+            answers.append(answer)
+        return _nearest(first, answers), answers
 
     def partial(self, first: int, count: int) -> list[Partial]:
         """Reduces poses. They are made and asked a block at a time, whatever the chunk: queries start cold at a block, and the
         rounding of a callable may depend on how many poses it makes."""
         end = first + count
-        blocks = [self.rows(begin, min(POSES_PER_CHUNK, end - begin)) for begin in range(first, end, POSES_PER_CHUNK)]
+        blocks: list[Rows] = []
+        memory: Optional[list[Answers]] = None
+        for begin in range(first, end, POSES_PER_CHUNK):
+            block, memory = self.rows(begin, min(POSES_PER_CHUNK, end - begin), memory)
+            blocks.append(block)
         rows = Rows(first, *(np.concatenate(columns) for columns in list(zip(*blocks))[1:]))
         return [reduction.of(rows) for reduction in self.reductions]
 
