@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a sweep costs: one pair over many poses on threads and on a Dask cluster of this machine, side by side.
 
-sweeps.py [POSES [ROUNDS]]. Each round runs all of them, so that what else the machine does meets each; medians. First where one
+sweeps.py [POSES [ROUNDS [CHUNK]]]. Each round runs all of them, so that what else the machine does meets each; medians. First where one
 thread's time goes: making poses by numpy, asking, reducing. `efficiency` is the speed over that of as many single threads.
 """
 
@@ -54,9 +54,9 @@ def shares(a: swiftlet.Model, b: swiftlet.Model, count: int) -> None:
 REDUCTIONS = (Least(), Histogram(np.linspace(0, 4, 65)))
 
 
-def main(count: int = 10_000_000, rounds: int = 3) -> int:
+def main(count: int = 10_000_000, rounds: int = 3, chunk: int = 65536) -> int:
     a, b = (swiftlet.Model.map(MODELS / name) for name in ("fat_a.swl", "fat_b.swl"))
-    print(f"{count} poses of one pair, load {os.getloadavg()[0]:.2f} of {os.cpu_count()} cores; one thread:")
+    print(f"{count} poses of one pair in chunks of {chunk}, load {os.getloadavg()[0]:.2f} of {os.cpu_count()} cores; one thread:")
     shares(a, b, min(count, 1 << 20))
 
     from distributed import Client, LocalCluster
@@ -68,13 +68,13 @@ def main(count: int = 10_000_000, rounds: int = 3) -> int:
         for kind, many in kinds:
             if kind == "thread":
                 begin = time.perf_counter()
-                found = sweep(a, b, poses, REDUCTIONS, count=count, threads=many)
+                found = sweep(a, b, poses, REDUCTIONS, count=count, chunk=chunk, threads=many)
                 seconds = time.perf_counter() - begin
             else:
                 with LocalCluster(n_workers=many, threads_per_worker=1, dashboard_address=None, memory_limit=0) as cluster:
                     with Client(cluster) as client:
                         begin = time.perf_counter()
-                        found = sweep(a, b, poses, REDUCTIONS, count=count, client=client)
+                        found = sweep(a, b, poses, REDUCTIONS, count=count, chunk=chunk, client=client)
                         seconds = time.perf_counter() - begin
             took[kind, many].append(seconds)
             hashes.add(hashlib.sha256(repr([np.asarray(part).tolist() for part in found]).encode()).hexdigest()[:16])
