@@ -164,3 +164,14 @@ def test_the_ur10_stands_where_its_maker_says(monkeypatch):
     for at, angles in zip(flange, q):
         assert np.allclose(at * half_turn, by_dh(angles)[:3, 3], atol=1e-9)
     del sys.modules["ur10_cell"]
+
+
+def test_a_later_block_of_the_wrong_length_is_named() -> None:
+    def poses(first: int, count: int) -> np.ndarray:
+        return np.tile(np.eye(4), (count if first < 1024 else count - 1, 1, 1))
+
+    point = swiftlet.Body.point([0, 0, 0])
+    with pytest.raises(ValueError, match=r"poses\(1024, 1024\): expected 1024 poses"):
+        sweep(point, point, poses, Least(), count=4096)
+    with pytest.raises(TypeError, match="out: a sweep decides it"):
+        sweep(point, point, poses, Least(), count=4096, out=swiftlet.distance(point, point, poses(0, 4)))
