@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Growth over the dual graph by the three tests of [Ehmann & Lin 2001, sec. 4]: what edges say is found out once for all, then
-// a patch's hull decides (patch_hull.h), then the triangles in the boxes of what the hull gains (wedge.h). A triangle that does
-// not fit a hull does not fit a larger one: it is tried once for each patch.
+// a patch's hull decides (patch_hull.h), then the triangles in the boxes of what the hull gains (wedge.h, surface_tree.h). A
+// triangle that does not fit a hull does not fit a larger one: it is tried once for each patch.
 #include <swiftlet/decompose.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -13,12 +13,11 @@
 #include <span>
 #include <tuple>
 
-#include <swiftlet/mesh_visit.h>
-
 #include "mesh_block.h"
 #include "numeric/exact.h"
 #include "patch_hull.h"
-#include "watch.h"
+#include "patches.h"
+#include "surface_tree.h"
 
 namespace swiftlet {
 namespace {
@@ -152,55 +151,33 @@ std::vector<std::uint32_t> seeds(const DualGraph& graph, Growth growth) {
 
 class Decomposer {
  public:
-  Decomposer(const MeshModel& mesh, Growth growth, Watch& watch)
-      : mesh_(mesh), content_(MeshReader::content(mesh)), growth_(growth), watch_(watch), hull_(content_.vertices) {}
+  Decomposer(const MeshModel& mesh, Growth growth, const PatchLimits& limits, Watch& watch)
+      : content_(MeshReader::content(mesh)), growth_(growth), limits_(limits), watch_(watch), hull_(content_.vertices) {}
 
-  Decomposition run() {
+  std::optional<Decomposition> run() {
     const std::size_t count = content_.triangles.size();
-    watch_.begin("edges", 0.05, double(count));
     graph_ = dual_graph(content_, result_, watch_);
-    watch_.begin("patches", 1, double(count));
+    const auto convex_sides = std::size_t(std::count(graph_.kind.begin(), graph_.kind.end(), EdgeKind::Convex));
+    if (convex_sides / 2 > limits_.convex_edges) return std::nullopt;
+    std::vector<bool> open(count);
+    for (std::uint32_t edge = 0; edge < 3 * count; ++edge) open[edge / 3] = open[edge / 3] || graph_.open[edge];
+    tree_.emplace(content_, open);
     result_.triangles.reserve(count);
     patch_of_.assign(count, kNone), refused_.assign(count, kNone);
     for (const std::uint32_t seed : seeds(graph_, growth_)) {
-      if (patch_of_[seed] == kNone) grow(seed);
+      if (patch_of_[seed] != kNone) continue;
+      if (result_.patches.size() == limits_.patches) return std::nullopt;
+      grow(seed);
     }
-    watch_.end();
     return std::move(result_);
   }
 
  private:
-  /// The triangles that may enter what the hull gains; ends at the first that does.
-  template <class W>
-  class Search final : public MeshVisitor {
-   public:
-    Search(const Decomposer& of, std::span<const W> wedges) : of_(of), wedges_(wedges) {
-      for (const W& wedge : wedges) outlines_.emplace_back(wedge, of.content_.extent);
-    }
-    bool enters(const Vec3& least, const Vec3& most) override {
-      return !std::all_of(outlines_.begin(), outlines_.end(), [&](const Outline& o) { return o.is_apart(least, most); });
-    }
-    bool visit(std::uint32_t triangle) override {
-      const Corners& corners = of_.content_.triangles[triangle];
-      const Corners3 t{of_.content_.vertices[corners[0]], of_.content_.vertices[corners[1]], of_.content_.vertices[corners[2]]};
-      for (std::size_t i = 0; i < wedges_.size() && !is_entered_; ++i)
-        is_entered_ = !outlines_[i].is_apart(t) && of_.is_entered_by(triangle, t, wedges_[i]);
-      return !is_entered_;
-    }
-    bool is_entered() const { return is_entered_; }
-
-   private:
-    const Decomposer& of_;
-    std::span<const W> wedges_;
-    std::vector<Outline> outlines_;
-    bool is_entered_ = false;
-  };
-
-  bool is_entered_by(std::uint32_t triangle, const Corners3& t, const Wedge& wedge) const {
-    return patch_of_[triangle] != patch_ && triangle != tried_ && lod::enters(t, wedge);
+  bool is_entered_by(std::uint32_t, const Corners3& t, const Wedge& wedge, const Outline&) const {
+    return lod::enters(t, wedge);
   }
-  bool is_entered_by(std::uint32_t triangle, const Corners3& t, const FlatWedge& wedge) const {
-    if (patch_of_[triangle] != patch_ && triangle != tried_ && lod::enters(t, wedge)) return true;
+  bool is_entered_by(std::uint32_t triangle, const Corners3& t, const FlatWedge& wedge, const Outline& outline) const {
+    if (lod::enters(t, wedge, outline)) return true;
     if (!graph_.open[3 * triangle] && !graph_.open[3 * triangle + 1] && !graph_.open[3 * triangle + 2]) return false;
     const auto& [a, b, c] = wedge.corner;
     for (const Vec& p : t) {
@@ -212,10 +189,15 @@ class Decomposer {
     return false;
   }
   template <class W>
-  bool is_entered(std::span<const W> wedges) const {
-    Search<W> search(*this, wedges);
-    visit_triangles(mesh_, search);
-    return search.is_entered();
+  bool is_entered(std::span<const W> wedges) {
+    outlines_.clear();
+    for (const W& wedge : wedges) outlines_.emplace_back(wedge, content_.extent);
+    return tree_->any(wedges, outlines_, [&](std::uint32_t triangle, std::uint32_t i) {
+      if (patch_of_[triangle] == patch_ || triangle == tried_) return false;
+      const Corners& corners = content_.triangles[triangle];
+      const Corners3 t{content_.vertices[corners[0]], content_.vertices[corners[1]], content_.vertices[corners[2]]};
+      return !outlines_[i].is_apart(t) && is_entered_by(triangle, t, wedges[i], outlines_[i]);
+    });
   }
 
   void grow(std::uint32_t seed) {
@@ -268,12 +250,14 @@ class Decomposer {
     return true;
   }
 
-  const MeshModel& mesh_;
   const Content& content_;
   const Growth growth_;
+  const PatchLimits limits_;
   Watch& watch_;
   DualGraph graph_;
   PatchHull hull_;
+  std::optional<SurfaceTree> tree_;
+  std::vector<Outline> outlines_;                  ///< of the wedges at hand
   std::vector<std::uint32_t> patch_of_, refused_;  ///< per triangle, its patch, and the last one that did not take it
   std::uint32_t patch_ = 0, tried_ = 0;
   Decomposition result_;
@@ -281,10 +265,17 @@ class Decomposer {
 
 }  // namespace
 
+std::optional<Decomposition> lod::decompose(const MeshModel& mesh, Growth growth, const PatchLimits& limits, Watch& watch) {
+  return Decomposer(mesh, growth, limits, watch).run();
+}
+
 Result<Decomposition> decompose(const MeshModel& mesh, const DecomposeOptions& options) try {
   if (!mesh.is_whole()) return Error{ErrorCode::BadValue, "the mesh was cut: it has no triangles"};
   Watch watch(options.progress);
-  return Decomposer(mesh, options.growth, watch).run();
+  watch.begin("patches", 1, 2 * double(mesh.triangle_count()));
+  Decomposition result = *lod::decompose(mesh, options.growth, {}, watch);
+  watch.end();
+  return result;
 } catch (const Cancelled&) {
   return Error{ErrorCode::Cancelled, "the progress callback cancelled the decomposition"};
 }

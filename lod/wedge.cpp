@@ -290,19 +290,56 @@ bool Outline::is_apart_at(std::size_t corner, const Corners3& t, std::size_t at)
   return true;
 }
 
+bool Outline::is_apart_around(const Vec& hub, const Vec& least, const Vec& most) const {
+  std::size_t corner = 0;
+  while (corner < corners_ && !(is_outer_[corner] && is_same(corner_[corner], hub))) ++corner;
+  if (corner == corners_) return false;
+  Vec wedge{0, 0, 0};
+  for (std::size_t k = 0; k < corners_; ++k) wedge = wedge + (corner_[k] - hub);
+  wedge = normalised(wedge);
+  // A plane through the hub parts the two if it has the wedge's other corners on one side and the box on the other, both by
+  // more than rounding: as above, differences, products and sums.
+  constexpr double kRounding = 0x1p-50;
+  const auto parts = [&](const Vec& n) {
+    for (std::size_t k = 0; k < corners_; ++k) {
+      const Vec way = corner_[k] - hub, part{n.x * way.x, n.y * way.y, n.z * way.z};
+      const double slack = kRounding * (std::fabs(part.x) + std::fabs(part.y) + std::fabs(part.z));
+      if (k != corner && !(part.x + part.y + part.z < -slack)) return false;
+    }
+    const Vec low = least - hub, high = most - hub;
+    const Vec part{min(n.x * low.x, n.x * high.x), min(n.y * low.y, n.y * high.y), min(n.z * low.z, n.z * high.z)};
+    return part.x + part.y + part.z > kRounding * (std::fabs(part.x) + std::fabs(part.y) + std::fabs(part.z));
+  };
+  // Planes of the wedge, tilted a little so that they do not meet it elsewhere.
+  constexpr double kTilt = 0x1p-24;
+  for (std::size_t k = 0; k < count_; ++k) {
+    if (parts(normalised(outward_[k]) - wedge * kTilt)) return true;
+  }
+  return parts(normalised((least - hub) + (most - hub)) - wedge);
+}
+
 bool enters(const Corners3& triangle, const Wedge& wedge) {
   if (const std::optional<bool> known = ByPlanes(triangle, wedge).answer()) return *known;
   return enters_exactly(triangle, wedge);
 }
 
-bool enters(const Corners3& triangle, const FlatWedge& wedge) {
+bool enters(const Corners3& triangle, const FlatWedge& wedge, const Outline& outline) {
   const auto& [a, b, c] = wedge.corner;
   int least = 1, most = -1;
-  for (const Vec& p : triangle) {
-    const int side = orientation(a, b, c, p);
-    least = std::min(least, side), most = std::max(most, side);
+  std::array<int, 3> side;
+  std::size_t in_plane = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    side[i] = orientation(a, b, c, triangle[i]);
+    least = std::min(least, side[i]), most = std::max(most, side[i]);
+    if (side[i] == 0) in_plane = i;
   }
   if (least >= 0 || most < 0) return false;
+  if (most == 0) {
+    // A corner or an edge lies in the plane, and nothing else.
+    Corners3 part;
+    for (std::size_t i = 0; i < 3; ++i) part[i] = triangle[side[i] == 0 ? i : in_plane];
+    if (outline.is_apart(part)) return false;
+  }
   const Exact3 at = exact3(a), n = cross(exact3(b) - at, exact3(c) - at);
   std::vector<Exact3> left;
   for (const Vec& p : triangle) left.push_back(exact3(p));

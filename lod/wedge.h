@@ -43,6 +43,9 @@ class Outline {
   bool is_apart(const Vec3& least, const Vec3& most) const;
   /// True only if the triangle does not meet the wedge, or in no more than a corner of it on the new hull's boundary.
   bool is_apart(const Corners3& triangle) const;
+  /// True only if all triangles that have a corner at `hub` and the others in the box meet the wedge in no more than the hub,
+  /// which is a corner of the wedge on the new hull's boundary.
+  bool is_apart_around(const Vec& hub, const Vec& least, const Vec& most) const;
 
  private:
   void add(const Vec& outward, double size);
@@ -62,8 +65,8 @@ class Outline {
 bool enters(const Corners3& triangle, const Wedge& wedge);
 
 /// True if a part of the triangle that is in the wedge's plane meets the wedge where that is inside of the new hull, and the
-/// triangle reaches to the inner side of the plane.
-bool enters(const Corners3& triangle, const FlatWedge& wedge);
+/// /// reaches to the inner side of the plane. `outline`: the wedge's.
+bool enters(const Corners3& triangle, const FlatWedge& wedge, const Outline& outline);
 /// True if a segment in the wedge's plane does.
 bool enters(const std::array<Vec, 2>& segment, const FlatWedge& wedge);
 

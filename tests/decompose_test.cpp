@@ -337,6 +337,47 @@ TEST(Decompose, TakesAConvexBodyAsOnePatch) {
   }
 }
 
+/// A cone over a polygon whose middle is a vertex, too; every other side may be notched, so that the surface has folds.
+Soup cone(std::uint32_t sides, double notch) {
+  Soup soup;
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const double u = 2 * EIGEN_PI * i / sides, r = i % 2 ? 1 : 1 - notch;
+    soup.points.push_back(r * Vec3(std::cos(u), std::sin(u), 0));
+  }
+  soup.points.push_back(Vec3(0, 0, 1)), soup.points.push_back(Vec3(0, 0, 0));
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const std::uint32_t next = (i + 1) % sides;
+    soup.triangles.push_back({i, next, sides});
+    soup.triangles.push_back({next, i, sides + 1});
+  }
+  return soup;
+}
+
+/// Where all triangles around a vertex were tried against each other this took minutes.
+TEST(Decompose, IsNotSlowAtAVertexOfThousandsOfTriangles) {
+  for (const Growth growth : kGrowths) {
+    EXPECT_EQ(made(cone(6000, 0).mesh(), growth).patches.size(), 1u);
+    EXPECT_EQ(made(cone(3000, 0.3).mesh(), growth).patches.size(), 1500u);
+  }
+}
+
+TEST(Decompose, KeepsItsWordAroundAVertexOfMany) {
+  expect_true("cone", cone(100, 0));
+  expect_true("notched cone", cone(100, 0.3));
+  Soup open = cone(90, 0.2);
+  open.triangles.erase(open.triangles.begin() + 31), open.triangles.erase(open.triangles.begin() + 100);
+  expect_true("open cone", open);
+  Soup two = cone(80, 0.25);
+  const Soup other = moved(cone(80, 0.1), Eigen::AngleAxisd(EIGEN_PI, Vec3::UnitX()).toRotationMatrix(), Vec3(0.25, 0, 0));
+  for (const auto& t : other.triangles) {
+    std::array<std::uint32_t, 3> corners = t;
+    for (std::uint32_t& v : corners) v += std::uint32_t(two.points.size());
+    two.triangles.push_back(corners);
+  }
+  two.points.insert(two.points.end(), other.points.begin(), other.points.end());
+  expect_true("two cones with bases in one plane", two);
+}
+
 TEST(Decompose, KeepsPatchesOnTheirHullsWhichTheSurfaceDoesNotEnter) {
   expect_true("torus", torus(24, 12));
   expect_true("thin torus", torus(40, 6, 0.1));
