@@ -23,7 +23,8 @@ class Descent {
         seed_(seed),
         finding_(finding),
         unit_(unit_of_pair(a.unit, b.unit, motion_.t)),
-        frame_(over_unit(), power_of_two(a.unit - unit_), power_of_two(b.unit - unit_)) {}
+        frame_(over_unit(), power_of_two(a.unit - unit_), power_of_two(b.unit - unit_)),
+        by_patches_(a.has_patches() && b.has_patches() && !(a.convex && b.convex)) {}
 
   void run() {
     set_limit();
@@ -43,12 +44,15 @@ class Descent {
       }
       // Near contact the hulls of bodies that are nearly convex answer though their boxes meet, and from where they were cost
       // less than a pair of nodes or two. Those that met are not asked again.
-      const bool serves = !hulls_wait_ && dot(before, ahead_) > kSameAhead;
-      if (has_hulls && !done_ && serves && seed_.pair.met == 0) {
+      serves_ = dot(before, ahead_) > kSameAhead;
+      // A distance without a bound takes far more than that from any start.
+      const bool pays = question_.stop.above == HUGE_VAL || (!hulls_wait_ && serves_);
+      if (has_hulls && !done_ && pays && seed_.pair.met == 0) {
         roots_asked_ = true;
         if (part_by_hulls({0, 0, 0})) return conclude();
       }
     }
+    if (by_patches_) start_at_patches();
     stack_[top_++] = {0, 0, 0};
     while (top_ > 0 && !done_) {
       if (hulls_wait_ && finding_.nodes >= kHullsWait) {
@@ -125,9 +129,14 @@ class Descent {
     const bool boxes_apart = pair.lower(square) > 0;
     const bool of_roots = entry.a == 0 && entry.b == 0;
     if (of_roots) root_boxes_apart_ = boxes_apart, roots_apart_ = boxes_apart && hulls_apart_;
-    const bool asks = boxes_apart && !hulls_wait_ && !(of_roots && roots_asked_);
-    if (asks && a_.has_hull(entry.a) && b_.has_hull(entry.b) && part_by_hulls(entry)) return;
-    const std::array<bool, 2> ends{a_.ends(a), b_.ends(b)};
+    const Patches patches = by_patches_ ? patches_at(entry) : Patches::Elsewhere;
+    if (patches == Patches::Parted) return;
+    const bool at_patches = patches == Patches::Both;
+    const bool asks = (boxes_apart || (at_patches && question_.stop.above > 0)) && !hulls_wait_ && !(of_roots && roots_asked_);
+    if (asks && a_.has_hull(entry.a) && b_.has_hull(entry.b) && part_by_hulls(entry, at_patches)) return;
+    // A patch is kept whole until the other node is one.
+    const std::array<bool, 2> ends{patches == Patches::KeepA || (a_.ends(a) && patches != Patches::KeepB),
+                                   patches == Patches::KeepB || (b_.ends(b) && patches != Patches::KeepA)};
     const int bottom = top_;
     top_ += open_pair(pair, most, HUGE_VAL, {entry.a, entry.b}, ends, stack_ + top_);
     if (!(ends[0] && ends[1])) return;
@@ -137,6 +146,18 @@ class Descent {
       if (double(next.lower) >= limit_over_unit_) continue;
       whole ? measure(next.a, next.b) : bound(entry, next);
     }
+  }
+
+  /// What nodes are as to patches: both are of one, and unasked; asked, and nothing below matters; or one alone is of one.
+  enum class Patches : std::uint8_t { Elsewhere, Both, Parted, KeepA, KeepB };
+  [[gnu::noinline]] Patches patches_at(const PairEntry& entry) const {
+    const PatchPlace of_a = a_.patch_place(entry.a), of_b = b_.patch_place(entry.b);
+    if (of_a == PatchPlace::At && of_b == PatchPlace::At) {
+      if (entry.a != patch_a_ || entry.b != patch_b_) return Patches::Both;
+      return patches_parted_ ? Patches::Parted : Patches::Elsewhere;
+    }
+    if (of_a == PatchPlace::At && of_b == PatchPlace::Above) return Patches::KeepA;
+    return of_a == PatchPlace::Above && of_b == PatchPlace::At ? Patches::KeepB : Patches::Elsewhere;
   }
 
   /// Where a tree ends: a triangle or a convex body or, of a mesh that was cut, a ball around a box.
@@ -186,11 +207,12 @@ class Descent {
   /// Asks for the distance of the hulls of two nodes, whose boxes are apart, and tries the triangles at their nearest points.
   /// True if nothing else in the nodes matters. Where the roots' hulls were not found apart few of those below are asked:
   /// of bodies that interlock they part little that boxes do not part as soon.
-  [[gnu::noinline]] bool part_by_hulls(const PairEntry& entry) {
+  [[gnu::noinline]] bool part_by_hulls(const PairEntry& entry, bool at_patches = false) {
     const bool of_roots = entry.a == 0 && entry.b == 0;
-    if (!of_roots && !roots_apart_ && few_left_-- <= 0) return false;
-    PairSeed cold;
-    PairSeed& seed = of_roots ? seed_.pair : cold;
+    if (!of_roots && !at_patches && !roots_apart_ && few_left_-- <= 0) return false;
+    PairSeed own = warm_;
+    warm_ = {};
+    PairSeed& seed = of_roots ? seed_.pair : own;
     Options options;
     options.beyond = limit_;
     const Answer answer = distance(a_.hull(entry.a), b_.hull(entry.b), pose_, seed, options);
@@ -199,14 +221,32 @@ class Descent {
     if (answer.lower >= limit_) return true;
     const bool on_hulls = answer.feature_a.kind() != FeatureKind::None && answer.feature_b.kind() != FeatureKind::None;
     if (on_hulls && answer.level_a == 0 && answer.level_b == 0) {
-      const std::uint32_t of_a = a_.triangle_at(entry.a, answer.feature_a), of_b = b_.triangle_at(entry.b, answer.feature_b);
+      const Vec p_b = rotate_back(motion_, vec(answer.point_b) - motion_.t);
+      const std::uint32_t of_a = a_.triangle_at(entry.a, answer.feature_a, vec(answer.point_a)),
+                          of_b = b_.triangle_at(entry.b, answer.feature_b, p_b);
       if (of_a < a_.triangle_count && of_b < b_.triangle_count) measure(of_a, of_b);
+      const bool nearest = finding_.triangle_a == of_a && finding_.triangle_b == of_b;
+      if (at_patches && nearest) seed_.patches = {own.a, own.b, own.line_in_a, own.line_in_b, own.normal};
     }
     if (done_ || answer.lower >= limit_) return true;
     if (!(finding_.upper - answer.lower <= question_.law_two)) return false;
     // As near as rounding tells, the nearest points of the hulls are of the surfaces.
     lower_ = min(lower_, answer.lower);
     return true;
+  }
+
+  /// Asks first about the patches that hold the seed's triangles.
+  void start_at_patches() {
+    if (done_ || !serves_) return;
+    patch_a_ = a_.patch_with(seed_.triangle_a), patch_b_ = b_.patch_with(seed_.triangle_b);
+    if (patch_a_ == kNone || patch_b_ == kNone || (patch_a_ == 0 && patch_b_ == 0)) {
+      patch_a_ = kNone;
+      return;
+    }
+    const MeshSeed::Patches& last = seed_.patches;
+    warm_.a = last.a, warm_.b = last.b;
+    warm_.line_in_a = last.line_in_a, warm_.line_in_b = last.line_in_b, warm_.normal = last.normal;
+    patches_parted_ = part_by_hulls({patch_a_, patch_b_, 0}, true);
   }
 
   /// The gap of two triangles along the seventh axis, not yet less its error.
@@ -350,9 +390,14 @@ class Descent {
   int few_left_ = 4;         ///< pairs of hulls that are asked though those of the roots are not known to be apart
   bool hulls_wait_ = false;  ///< until `kHullsWait` pairs of nodes were opened
   bool root_boxes_apart_ = false;
-  bool roots_apart_ = false;  ///< their hulls are
-  bool hulls_apart_ = false;  ///< the roots' hulls, whether their boxes are or not
-  bool roots_asked_ = false;  ///< about their hulls
+  bool roots_apart_ = false;                         ///< their hulls are
+  bool hulls_apart_ = false;                         ///< the roots' hulls, whether their boxes are or not
+  bool roots_asked_ = false;                         ///< about their hulls
+  const bool by_patches_;                            ///< both bodies have some; of a convex body it is the body
+  bool serves_ = false;                              ///< the seed's direction has hardly turned
+  bool patches_parted_ = false;                      ///< nothing else in the seed's patches matters
+  std::uint32_t patch_a_ = kNone, patch_b_ = kNone;  ///< the seed's patches, if they were asked about
+  PairSeed warm_{};                                  ///< for the next pair of hulls
   int top_ = 0;
   PairEntry stack_[kMostEntries];
 };

@@ -27,7 +27,8 @@ Result<MeshModel> MeshModel::from_triangles(std::span<const Vec3> points,
   if (!soup) return soup.error();
   if (!go_on(kWelded)) return cancelled();
   MeshParts parts;
-  if (!grow_tree(soup.value(), parts, [&](double f) { return go_on(kWelded + f * (kBuilt - kWelded)); })) return cancelled();
+  if (!grow_tree(soup.value(), {}, parts, [&](double f) { return go_on(kWelded + f * (kBuilt - kWelded)); }))
+    return cancelled();
   if (!go_on(kBuilt)) return cancelled();
   Result<MeshModel> mesh = MeshReader::read(compose(parts));
   if (mesh) go_on(1);

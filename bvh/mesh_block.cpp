@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <tuple>
 
 namespace swiftlet {
 namespace {
@@ -172,6 +173,34 @@ std::string read_hulls(const MeshHeader& h, const Block& block, MeshReader::Cont
   return offset == h.hull_models.bytes ? "" : "hulls that do not fill their section";
 }
 
+/// Finds out what the marks on nodes say.
+void place_patches(MeshReader::Content& content) {
+  for (const NodeHull& hull : content.hulls) {
+    if (content.nodes[hull.node].of_patch()) content.patch_place.resize(hull.node + 1, PatchPlace::Elsewhere);
+  }
+  std::vector<PatchPlace>& place = content.patch_place;
+  for (std::size_t i = place.size(); i-- > 0;) {
+    const Node& node = content.nodes[i];
+    if (node.of_patch() && content.hull_at(std::uint32_t(i))) {
+      place[i] = PatchPlace::At;
+    } else if (!node.lowest()) {
+      for (std::size_t k = node.first(), end = k + std::size_t(node.count()); k < std::min(end, place.size()); ++k)
+        place[i] = place[k] != PatchPlace::Elsewhere ? PatchPlace::Above : place[i];
+    }
+  }
+  if (!content.is_whole()) return;
+  for (std::uint32_t i = 0; i < place.size(); ++i) {
+    if (place[i] != PatchPlace::At) continue;
+    std::uint32_t low = i, high = i;
+    while (!content.nodes[low].lowest()) low = content.nodes[low].first();
+    while (!content.nodes[high].lowest()) high = content.nodes[high].first() + std::uint32_t(content.nodes[high].count()) - 1;
+    content.patches.push_back(
+        {content.nodes[low].first(), content.nodes[high].first() + std::uint32_t(content.nodes[high].count()), i});
+  }
+  std::sort(content.patches.begin(), content.patches.end(),
+            [](const PatchRange& x, const PatchRange& y) { return std::tie(x.begin, x.node) < std::tie(y.begin, y.node); });
+}
+
 }  // namespace
 
 AlignedBytes compose(const MeshParts& parts) {
@@ -320,6 +349,7 @@ Result<MeshModel> MeshReader::read(Block block) {
   if (const std::string f = fault(h, c.nodes); !f.empty()) return bad("it has " + f);
   c.middle = middle_of(c.nodes[0], h.unit), c.reach = reach_of(c.nodes[0], h.unit);
   if (const std::string f = read_hulls(h, c.block, c); !f.empty()) return bad("it has " + f);
+  place_patches(c);
   for (const std::uint32_t t : c.shells) {
     if (t >= h.triangle_count) return bad("a shell has a triangle that does not exist");
   }

@@ -58,6 +58,13 @@ struct NodeHull {
   Model model;
 };
 
+/// A patch whose node has a hull: its triangles are `begin` to `end` - 1.
+struct PatchRange {
+  std::uint32_t begin, end, node;
+};
+/// Where a node is to the patches that have hulls.
+enum class PatchPlace : std::uint8_t { Elsewhere, Above, At };
+
 struct MeshModel::Content {
   Block block;
   MeshHeader header;
@@ -68,6 +75,8 @@ struct MeshModel::Content {
   std::span<const Node> nodes;
   std::vector<NodeHull> hulls;            ///< sorted by node
   std::vector<std::uint32_t> hull_of;     ///< per node, up to the last that has one, its place in `hulls`, or kNone
+  std::vector<PatchPlace> patch_place;    ///< per node, up to the last of a patch with a hull; empty if there are none
+  std::vector<PatchRange> patches;        ///< sorted by their triangles; empty of a mesh that was cut
   std::span<const std::uint32_t> shells;  ///< per component, one of its triangles
   std::span<const Corners> triangles;
   std::span<const Vec> vertices;

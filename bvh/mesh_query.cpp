@@ -189,31 +189,56 @@ MeshView::MeshView(const MeshBody& body) {
   middle = middle_of(leaf.node, unit), reach = reach_of(leaf.node, unit);
 }
 
-std::uint32_t MeshView::triangle_at(std::uint32_t node, FeatureId feature) const {
+std::uint32_t MeshView::patch_with(std::uint32_t triangle) const {
+  if (convex) return 0;
+  const auto next = std::upper_bound(content->patches.begin(), content->patches.end(), triangle,
+                                     [](std::uint32_t t, const PatchRange& patch) { return t < patch.begin; });
+  return next != content->patches.begin() && triangle < (next - 1)->end ? (next - 1)->node : kNone;
+}
+
+namespace {
+
+/// The least of a point's barycentric coordinates in a triangle, whose plane it is taken into. Below 0 outside.
+double least_share(const Vec& point, const Vec& p, const Vec& q, const Vec& r) {
+  const Vec n = cross(q - p, r - p);
+  const auto share = [&](const Vec& from, const Vec& to) { return dot(cross(to - from, point - from), n); };
+  const double least = min(share(p, q), min(share(q, r), share(r, p)));
+  return least / dot(n, n);
+}
+
+}  // namespace
+
+std::uint32_t MeshView::triangle_at(std::uint32_t node, FeatureId feature, const Vec& point) const {
   if (convex) return 0;
   const NodeHull& hull = *content->hull_at(node);
   const SourceMap source = hull.model.source();
   const ConvexView& view = hull.model.level(0).view;
-  std::uint32_t vertex = feature.index();
-  if (feature.kind() != FeatureKind::Vertex) {
-    // An edge of the surface is one of a triangle that lies in either face at it.
-    const auto of_face = [&](std::uint32_t face) {
-      const bool has_any = face < view.face_first.size() && source.face_begin[face] < source.face_begin[face + 1];
-      return has_any ? source.face[source.face_begin[face]] : kNone;
-    };
-    std::uint32_t triangle, half_edge;
-    if (feature.kind() == FeatureKind::Edge) {
-      half_edge = feature.index();
-      triangle = of_face(view.half_edges[half_edge].face);
-      if (triangle == kNone) triangle = of_face(view.half_edges[view.half_edges[half_edge].twin].face);
-    } else {
-      half_edge = view.face_first[feature.index()];
-      triangle = of_face(feature.index());
+  if (feature.kind() == FeatureKind::Vertex) return hull.first_triangle + source.vertex[feature.index()] / 3;
+
+  // Of the triangles that lie in a face the one that holds the point; an edge of the surface is one of a triangle in either
+  // face at it.
+  std::uint32_t nearest = kNone, looked_at = 0;
+  double most = -HUGE_VAL;
+  const auto look_in = [&](std::uint32_t face) {
+    if (face >= view.face_first.size()) return;
+    for (std::uint32_t i = source.face_begin[face]; i < source.face_begin[face + 1] && most < 0; ++i) {
+      const std::uint32_t t = hull.first_triangle + source.face[i];
+      if (t >= triangle_count || looked_at++ == kMostInFace) return;
+      const auto corner = [&](int k) { return vertices[triangles[t].data()[k]]; };
+      const double share = least_share(point, corner(0), corner(1), corner(2));
+      if (nearest == kNone || share > most) nearest = t, most = share;
     }
-    if (triangle != kNone) return hull.first_triangle + triangle;
-    vertex = view.half_edges[half_edge].head;
+  };
+  std::uint32_t half_edge;
+  if (feature.kind() == FeatureKind::Edge) {
+    half_edge = feature.index();
+    look_in(view.half_edges[half_edge].face);
+    if (most < 0) look_in(view.half_edges[view.half_edges[half_edge].twin].face);
+  } else {
+    half_edge = view.face_first[feature.index()];
+    look_in(feature.index());
   }
-  return hull.first_triangle + source.vertex[vertex] / 3;
+  return nearest != kNone ? nearest : hull.first_triangle + source.vertex[view.half_edges[half_edge].head] / 3;
 }
 
 Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options) {

@@ -19,7 +19,8 @@ inline constexpr int kMostDepth = 16;
 /// all numbers are 0.
 struct alignas(64) Node {
   double origin[3];          ///< body frame; the middle of the box around all children
-  std::uint32_t link;        ///< the first child; bit 28 says that children are triangles; above it their number less one
+  std::uint32_t link;        ///< the first child; bit 27: see `of_patch`; bit 28: children are triangles; above it their number
+                             ///< less one
   float axis[2][3];          ///< body frame: two of the axes; their cross product is the third
   float extent[3];           ///< half the sides of the box around all children, rounded up
   float centre[3][kFanOut];  ///< centres of the children's boxes, along each axis, from the origin
@@ -28,9 +29,13 @@ struct alignas(64) Node {
   static std::uint32_t link_of(std::uint32_t first, std::uint32_t count, bool lowest) {
     return first | std::uint32_t(lowest) << 28 | (count - 1) << 29;
   }
-  std::uint32_t first() const { return link & ((1u << 28) - 1); }
+  std::uint32_t first() const { return link & ((1u << 27) - 1); }
   int count() const { return int(link >> 29) + 1; }
   bool lowest() const { return (link >> 28 & 1) != 0; }
+  /// True if the builder found that its triangles lie on the boundary of their hull: then it is worth asking the node's hull
+  /// also where boxes meet. Nothing rests on that being so.
+  bool of_patch() const { return (link >> 27 & 1) != 0; }
+  void mark_patch() { link |= 1u << 27; }
 };
 static_assert(sizeof(Node) == 256);
 

@@ -35,8 +35,17 @@ struct MeshView {
   bool has_hull(std::uint32_t node) const { return convex || content->hull_at(node); }
   /// Of a node that has one. The hull of a convex body is the body.
   Body hull(std::uint32_t node) const { return convex ? convex->body : Body(content->hull_at(node)->model); }
-  /// A triangle that is likely to hold the point of a feature on level 0 of a node's hull, or kNone.
-  std::uint32_t triangle_at(std::uint32_t node, FeatureId feature) const;
+  /// A triangle that is likely to hold a point of a feature on level 0 of a node's hull.
+  std::uint32_t triangle_at(std::uint32_t node, FeatureId feature, const Vec& point) const;
+  static constexpr std::uint32_t kMostInFace = 128;  ///< triangles of a face that are looked at for that
+
+  PatchPlace patch_place(std::uint32_t node) const {
+    if (convex) return PatchPlace::At;
+    return node < content->patch_place.size() ? content->patch_place[node] : PatchPlace::Elsewhere;
+  }
+  bool has_patches() const { return convex || !content->patch_place.empty(); }
+  /// The node of the patch that holds a triangle, or kNone. A convex body is its own.
+  std::uint32_t patch_with(std::uint32_t triangle) const;
 
   /// False if the finest detail of the body is missing.
   bool is_whole() const {

@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grows the tree from its root. The axes of a node are the principal axes of its surface [Gottschalk, Lin & Manocha 1996]. Its
 // triangles are cut in two where both halves' boxes have the least area times triangles [Wald 2007, in bins], again and again,
-// until there are eight groups or each is few enough for a node of triangles.
+// until there are eight groups or each is few enough for a node of triangles. A patch, where there are any, is cut off as if it
+// were one large triangle [Ehmann & Lin 2001, sec. 5], and cut in its own node alone.
 #include "tree.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <tuple>
 
 #include "fit.h"
 
@@ -17,7 +20,10 @@ namespace {
 
 /// Triangles of the soup, by their place in `Grower::order_`.
 struct Range {
+  enum class Place : std::uint8_t { Above, At, Below };  ///< where patches are, if any are below: At: all are of one patch
+
   std::uint32_t begin, end;
+  Place place = Place::Above;
   std::uint32_t count() const { return end - begin; }
 };
 
@@ -25,14 +31,19 @@ struct Range {
 struct Item {
   Bounds box;
   std::uint32_t triangle;
-  double middle(int axis) const { return box.least[axis] + box.most[axis]; }  ///< twice the middle
+  std::uint32_t patch;  ///< that is not to be cut, or kNone
+  double place[3];      ///< twice the middle of the box of the triangle, or of the patch
+  double middle(int axis) const { return place[axis]; }
 };
 
 /// Some of a node's triangles, by their places in `Grower::order_`, and the box around them.
 struct Group {
   std::uint32_t begin, end;
   Bounds box;
+  bool is_patch = false;   ///< all of them are the triangles of one patch
+  bool has_patch = false;  ///< some of them are
   std::uint32_t count() const { return end - begin; }
+  bool may_be_cut() const { return count() > kFanOut && !is_patch; }
 };
 
 double area(const Bounds& box) {
@@ -48,10 +59,16 @@ constexpr std::uint32_t kLeastShare = 8;
 /// at most (7/8)^7 of a node's triangles, and equal ones an eighth.
 constexpr std::uint32_t kLargestShare = 4;
 constexpr int kEqualDepth = 8;
+/// Down to this depth patches are not cut. They may keep nodes from shrinking: then there are this many levels, two of cheapest
+/// cuts and, of 2^22 triangles, seven of equal ones.
+constexpr int kPatchDepth = 6;
+constexpr std::size_t kMostWithPatches = 1 << 22;
 
 class Grower {
  public:
-  Grower(const Soup& soup, MeshParts& parts) : soup_(soup), parts_(parts), order_(soup.triangles.size()) {
+  Grower(const Soup& soup, std::span<const std::uint32_t> patch_of, MeshParts& parts)
+      : soup_(soup), patch_of_(patch_of), parts_(parts), order_(soup.triangles.size()) {
+    if (order_.size() > kMostWithPatches) patch_of_ = {};
     std::iota(order_.begin(), order_.end(), 0u);
     Bounds box;
     for (const Vec& v : soup.vertices) box.add(v);
@@ -62,7 +79,9 @@ class Grower {
   }
 
   bool grow(const std::function<bool(double)>& go_on) {
-    std::vector<Range> level{{0, std::uint32_t(order_.size())}}, next;
+    const bool is_patch = !patch_of_.empty() && patch_of_[0] != kNone &&
+                          std::ranges::all_of(patch_of_, [&](auto p) { return p == patch_of_[0]; });
+    std::vector<Range> level{{0, std::uint32_t(order_.size()), is_patch ? Range::Place::At : Range::Place::Above}}, next;
     std::size_t done = 0, asked = 0;
     const std::size_t all = order_.size();
     for (parts_.depth = 0; !level.empty(); ++parts_.depth) {
@@ -142,12 +161,28 @@ class Grower {
       so_far = {}, counted = 0;
       for (int bin = 1; bin < kBins; ++bin) {
         so_far.add(box[bin - 1]), counted += count[bin - 1];
-        if (counted * kLeastShare < group.count() || (group.count() - counted) * kLeastShare < group.count()) continue;
+        if (counted == 0 || counted == group.count() || (!group.has_patch && !is_balanced(counted, group.count()))) continue;
         const double cost = area(so_far) * counted + right[bin];
         if (cost < best.cost) best = {cost, axis, middles.least[axis] + bin * width};
       }
     }
     return best;
+  }
+
+  static bool is_balanced(std::uint32_t part, std::uint32_t all) {
+    return part * kLeastShare >= all && (all - part) * kLeastShare >= all;
+  }
+
+  /// Sets what is known of a group from its triangles.
+  void survey(Group& group) const {
+    group.box = {}, group.has_patch = false;
+    const std::uint32_t first = items_[group.begin].patch;
+    group.is_patch = first != kNone;
+    for (std::uint32_t i = group.begin; i < group.end; ++i) {
+      const Item& item = items_[i];
+      group.box.add(item.box);
+      group.has_patch = group.has_patch || item.patch != kNone, group.is_patch = group.is_patch && item.patch == first;
+    }
   }
 
   /// Cuts a group in two; the first half takes its place.
@@ -159,38 +194,62 @@ class Grower {
         if (items_[i].middle(best.axis) < best.place) std::swap(items_[i], items_[middle++]);
       }
     }
-    if ((middle - group.begin) * kLeastShare < group.count() || (group.end - middle) * kLeastShare < group.count()) {
+    const bool is_cut =
+        group.has_patch ? middle > group.begin && middle < group.end : is_balanced(middle - group.begin, group.count());
+    if (!is_cut) {
       int axis = 0;
       for (int k = 1; k < 3; ++k) axis = group.box.side(k) > group.box.side(axis) ? k : axis;
       // No two are equal, so that halves are the same in every library, and so is their order.
       std::sort(items_.begin() + group.begin, items_.begin() + group.end, [axis](const Item& x, const Item& y) {
-        return x.middle(axis) < y.middle(axis) || (x.middle(axis) == y.middle(axis) && x.triangle < y.triangle);
+        return std::tuple(x.middle(axis), x.patch, x.triangle) < std::tuple(y.middle(axis), y.patch, y.triangle);
       });
       middle = group.begin + group.count() / 2;
+      // Not within a patch: where that ends, or begins.
+      const auto within = [&] { return items_[middle].patch != kNone && items_[middle].patch == items_[middle - 1].patch; };
+      while (middle < group.end && within()) ++middle;
+      if (middle == group.end) {
+        middle = group.begin + group.count() / 2;
+        while (within()) --middle;
+      }
     }
     Group right{middle, group.end, {}};
-    group.end = middle, group.box = {};
-    for (Group* half : {&group, &right}) {
-      for (std::uint32_t i = half->begin; i < half->end; ++i) half->box.add(items_[i].box);
-    }
+    group.end = middle;
+    survey(group), survey(right);
     return right;
   }
 
   /// Cuts a node's triangles into groups.
   void cut_all(Range range) {
     while (groups_.size() < kFanOut) {
-      const auto larger = [](const Group& x, const Group& y) { return x.count() < y.count(); };
+      const auto size = [](const Group& x) { return x.may_be_cut() ? x.count() : 0; };
+      const auto larger = [&](const Group& x, const Group& y) { return size(x) < size(y); };
       auto group = std::max_element(groups_.begin(), groups_.end(), larger);
-      if (group->count() <= kFanOut) return;
+      if (!group->may_be_cut()) return;
       const bool equal = parts_.depth >= kEqualDepth;
       if (!equal && group->count() * kLargestShare <= range.count()) {
         const auto wider = [](const Group& x, const Group& y) {
-          return x.count() > kFanOut ? y.count() > kFanOut && area(x.box) < area(y.box) : y.count() > kFanOut;
+          return x.may_be_cut() ? y.may_be_cut() && area(x.box) < area(y.box) : y.may_be_cut();
         };
         group = std::max_element(groups_.begin(), groups_.end(), wider);
       }
       const Group right = cut(*group, equal);
       groups_.insert(group + 1, right);
+    }
+  }
+
+  /// Puts the triangles of each patch in a node's range where the patch is.
+  void place_patches(Range range) {
+    box_of_patch_.clear();
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+      Item& item = items_[i];
+      item.patch = patch_of_[item.triangle];
+      if (item.patch != kNone) box_of_patch_[item.patch].add(item.box);
+    }
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+      Item& item = items_[i];
+      if (item.patch == kNone) continue;
+      const Bounds& box = box_of_patch_[item.patch];
+      for (int axis = 0; axis < 3; ++axis) item.place[axis] = box.least[axis] + box.most[axis];
     }
   }
 
@@ -202,10 +261,12 @@ class Grower {
     items_.resize(order_.size());
     Bounds all;
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      Item item{{}, order_[i]};
+      Item item{{}, order_[i], kNone, {}};
       for (std::size_t k = 0; k < 3; ++k) item.box.add(along.along(corner(order_[i], k)));
+      for (int axis = 0; axis < 3; ++axis) item.place[axis] = item.box.least[axis] + item.box.most[axis];
       all.add(item.box), items_[i] = item;
     }
+    if (!patch_of_.empty() && range.place == Range::Place::Above && parts_.depth < kPatchDepth) place_patches(range);
     groups_.clear();
     const bool lowest = range.count() <= kFanOut;
     if (lowest) {
@@ -213,11 +274,19 @@ class Grower {
       n.link = Node::link_of(range.begin, range.count(), true);
     } else {
       groups_.push_back({range.begin, range.end, all});
+      survey(groups_[0]);
       cut_all(range);
       for (std::uint32_t i = range.begin; i < range.end; ++i) order_[i] = items_[i].triangle;
-      for (const Group& group : groups_) next.push_back({group.begin, group.end});
+      for (const Group& group : groups_) {
+        const auto place = range.place != Range::Place::Above ? Range::Place::Below
+                           : group.is_patch                   ? Range::Place::At
+                                                              : Range::Place::Above;
+        next.push_back({group.begin, group.end, place});
+      }
       n.link = Node::link_of(first_child, std::uint32_t(groups_.size()), false);
     }
+
+    if (range.place == Range::Place::At) n.mark_patch();
 
     Bounds boxes[kFanOut];
     for (std::size_t i = 0; i < groups_.size(); ++i) boxes[i] = groups_[i].box;
@@ -250,18 +319,21 @@ class Grower {
   }
 
   const Soup& soup_;
+  std::span<const std::uint32_t> patch_of_;  ///< per triangle; empty: there are none
   MeshParts& parts_;
   std::vector<std::uint32_t> order_;
   std::vector<Vec> scaled_;
   std::vector<Item> items_;
   std::vector<Group> groups_;  ///< of the node at hand
+  std::map<std::uint32_t, Bounds> box_of_patch_;
 };
 
 }  // namespace
 
-bool grow_tree(const Soup& soup, MeshParts& parts, const std::function<bool(double fraction)>& go_on) {
+bool grow_tree(const Soup& soup, std::span<const std::uint32_t> patch_of, MeshParts& parts,
+               const std::function<bool(double fraction)>& go_on) {
   parts.topology = soup.topology;
-  return Grower(soup, parts).grow(go_on);
+  return Grower(soup, patch_of, parts).grow(go_on);
 }
 
 }  // namespace swiftlet

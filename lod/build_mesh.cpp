@@ -1,16 +1,21 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Hulls for the upper nodes of a mesh's tree.
+// Hulls for the upper nodes of a mesh's tree or, where its convex patches are large, for the nodes that these have of their
+// own.
 #include <swiftlet/build_mesh.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <vector>
 
 #include "mesh_block.h"
 #include "numeric/chunks.h"
-#include "watch.h"
+#include "patches.h"
+#include "tree.h"
+#include "weld.h"
 
 namespace swiftlet {
 namespace {
@@ -22,20 +27,26 @@ struct Place {
   std::uint32_t node, begin, end;
 };
 
-/// The nodes of the upper levels that have triangles enough.
+Place place_of(const MeshReader::Content& mesh, std::uint32_t node) {
+  std::uint32_t low = node, high = node;
+  while (!mesh.nodes[low].lowest()) low = mesh.nodes[low].first();
+  while (!mesh.nodes[high].lowest()) high = mesh.nodes[high].first() + std::uint32_t(mesh.nodes[high].count()) - 1;
+  return {node, mesh.nodes[low].first(), mesh.nodes[high].first() + std::uint32_t(mesh.nodes[high].count())};
+}
+
+/// The root and the nodes of patches or, if there are none, those of the upper levels that have triangles enough.
 std::vector<Place> places(const MeshReader::Content& mesh, const HullOptions& options) {
   std::vector<Place> found;
-  const auto triangles = [&](std::uint32_t node) {
-    std::uint32_t low = node, high = node;
-    while (!mesh.nodes[low].lowest()) low = mesh.nodes[low].first();
-    while (!mesh.nodes[high].lowest()) high = mesh.nodes[high].first() + std::uint32_t(mesh.nodes[high].count()) - 1;
-    return Place{node, mesh.nodes[low].first(), mesh.nodes[high].first() + std::uint32_t(mesh.nodes[high].count())};
-  };
+  for (std::uint32_t node = 0; node < mesh.nodes.size(); ++node) {
+    if (node == 0 || mesh.nodes[node].of_patch()) found.push_back(place_of(mesh, node));
+  }
+  if (found.size() > 1 || mesh.nodes[0].of_patch()) return found;
+  found.clear();
   std::uint32_t begin = 0, end = 1;
   for (std::uint32_t level = 0; level < options.levels && begin < end; ++level) {
     std::uint32_t next = end;
     for (std::uint32_t node = begin; node < end; ++node) {
-      const Place place = triangles(node);
+      const Place place = place_of(mesh, node);
       if (node == 0 || place.end - place.begin >= options.least_triangles) found.push_back(place);
       if (!mesh.nodes[node].lowest()) next += std::uint32_t(mesh.nodes[node].count());
     }
@@ -57,6 +68,13 @@ Result<Model> hull_of(const MeshReader::Content& mesh, const Place& place, const
   return std::move(built).value().model;
 }
 
+bool all_patches_fit(const MeshReader::Content& mesh) {
+  for (std::uint32_t node = 0; node < mesh.nodes.size(); ++node) {
+    if (mesh.nodes[node].of_patch() && !mesh.hull_at(node)) return false;
+  }
+  return true;
+}
+
 Result<MeshModel> with_hulls(const MeshModel& mesh, const HullOptions& options, Watch& watch) {
   const MeshReader::Content& content = MeshReader::content(mesh);
   MeshParts parts = MeshReader::parts(mesh);
@@ -67,14 +85,14 @@ Result<MeshModel> with_hulls(const MeshModel& mesh, const HullOptions& options, 
   watch.begin("hulls", 0.95, work);
   std::vector<std::optional<Result<Model>>> made(wanted.size());
   // The root's alone is large; it is asked cold, and has a support map.
-  const auto make = [&](std::size_t i, std::uint32_t map_cells, const Executor& executor) {
+  const auto make = [&](std::size_t i, const Executor& executor) {
     BuildOptions exact;
-    exact.max_levels = 1, exact.table.map_cells = map_cells, exact.executor = executor;
+    exact.max_levels = 1, exact.table.map_cells = wanted[i].node == 0, exact.executor = executor;
     made[i] = hull_of(content, wanted[i], exact);
     watch.work(double(wanted[i].end - wanted[i].begin));
   };
-  make(0, 1, options.executor);
-  run_tasks(options.executor, wanted.size() - 1, [&](std::size_t task) { make(task + 1, 0, {}); });
+  make(0, options.executor);
+  run_tasks(options.executor, wanted.size() - 1, [&](std::size_t task) { make(task + 1, {}); });
   for (const auto& model : made) {
     if (!*model) return model->error();
   }
@@ -82,8 +100,11 @@ Result<MeshModel> with_hulls(const MeshModel& mesh, const HullOptions& options, 
   watch.begin("block", 1, 1);
   std::vector<std::size_t> by_size(wanted.size());
   std::iota(by_size.begin(), by_size.end(), std::size_t{0});
-  const auto triangles = [&](std::size_t i) { return wanted[i].end - wanted[i].begin; };
-  std::stable_sort(by_size.begin(), by_size.end(), [&](std::size_t x, std::size_t y) { return triangles(x) > triangles(y); });
+  // Patches first.
+  const auto rank = [&](std::size_t i) {
+    return std::pair(content.nodes[wanted[i].node].of_patch(), wanted[i].end - wanted[i].begin);
+  };
+  std::stable_sort(by_size.begin(), by_size.end(), [&](std::size_t x, std::size_t y) { return rank(x) > rank(y); });
   double left = options.bytes_per_triangle * double(mesh.triangle_count()) - double(compose(parts).view().size());
   std::vector<bool> fits(wanted.size());
   for (const std::size_t i : by_size) {
@@ -100,6 +121,79 @@ Result<MeshModel> with_hulls(const MeshModel& mesh, const HullOptions& options, 
   return result;
 }
 
+/// Per triangle of the mesh, the first one with its corners, in any order.
+std::vector<std::uint32_t> firsts(const MeshReader::Content& mesh) {
+  std::map<Corners, std::uint32_t> first;
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    Corners corners = mesh.triangles[t];
+    std::sort(corners.begin(), corners.end());
+    result.push_back(first.try_emplace(corners, t).first->second);
+  }
+  return result;
+}
+
+/// A hull takes some 43 bytes for each of its edges, of which large patches have three quarters of the surface's: where that
+/// exceeds what the block may take, no patches are looked for.
+constexpr double kEdgeBytes = 43, kEdgesInside = 0.75;
+
+/// Per triangle of the user's, its patch if that is large, or kNone; nothing if patches are small. A triangle that is given
+/// several times is in the patch of the first.
+std::optional<std::vector<std::uint32_t>> large_patches(const MeshModel& mesh, const HullOptions& options, Watch& watch) {
+  const MeshReader::Content& content = MeshReader::content(mesh);
+  std::vector<std::uint32_t> first(content.triangles.size()), once;
+  std::iota(first.begin(), first.end(), 0u);
+  std::optional<MeshModel> single;
+  if (mesh.topology().duplicates > 0) {
+    first = firsts(content);
+    Mesh part;
+    for (const Vec& v : content.vertices) part.points.push_back(eigen(v));
+    for (std::uint32_t t = 0; t < first.size(); ++t) {
+      if (first[t] != t) continue;
+      part.triangles.push_back(content.triangles[t]);
+      once.push_back(t);
+    }
+    single = MeshModel::from_triangles(part.points, part.triangles).value();  // as many points and triangles at most
+  }
+  const MeshModel& whole = single ? *single : mesh;
+  watch.begin("patches", 0.9, 2 * double(whole.triangle_count()));
+  // Breadth first begins anywhere, so that a body of small patches has too many of them soon.
+  const double left = options.bytes_per_triangle * double(mesh.triangle_count()) - double(mesh.bytes().size());
+  const std::optional<Decomposition> patches = decompose(
+      whole, Growth::BreadthFirst,
+      {whole.triangle_count() / options.least_patch, std::size_t(max(0.0, left) / (kEdgeBytes * kEdgesInside))}, watch);
+  if (!patches) return std::nullopt;
+  std::vector<std::uint32_t> patch_of(first.size(), kNone);
+  bool any = false;
+  for (std::uint32_t p = 0; p < patches->patches.size(); ++p) {
+    const Patch& patch = patches->patches[p];
+    if (patch.end - patch.first < options.least_triangles) continue;
+    any = true;
+    for (std::uint32_t i = patch.first; i < patch.end; ++i) {
+      const std::uint32_t t = patches->triangles[i];
+      patch_of[single ? once[whole.source_triangle()[t]] : t] = p;
+    }
+  }
+  if (!any) return std::nullopt;
+  std::vector<std::uint32_t> result(first.size());
+  for (std::uint32_t t = 0; t < first.size(); ++t) result[mesh.source_triangle()[t]] = patch_of[first[t]];
+  return result;
+}
+
+/// The mesh with a tree whose nodes follow its patches; nothing if these are small.
+std::optional<Result<MeshModel>> along_patches(const Mesh& mesh, const MeshModel& plain, const HullOptions& options,
+                                               Watch& watch) {
+  const std::optional<std::vector<std::uint32_t>> patch_of = large_patches(plain, options, watch);
+  if (!patch_of) return std::nullopt;
+  watch.begin("tree", 1, 1);
+  const Result<Soup> soup = weld(mesh.points, mesh.triangles);
+  if (!soup) return soup.error();
+  MeshParts parts;
+  grow_tree(soup.value(), *patch_of, parts, [](double) { return true; });
+  watch.end();
+  return MeshReader::read(compose(parts));
+}
+
 }  // namespace
 
 Result<MeshModel> rebuild_hulls(const MeshModel& mesh, const HullOptions& options) try {
@@ -113,18 +207,38 @@ Result<MeshModel> rebuild_hulls(const MeshModel& mesh, const HullOptions& option
   return Error{ErrorCode::Cancelled, "the progress callback cancelled the build"};
 }
 
-Result<MeshModel> build_mesh(const Mesh& mesh, const HullOptions& options) {
-  constexpr double kTreeDone = 0.2;
+Result<MeshModel> build_mesh(const Mesh& mesh, const HullOptions& options) try {
+  constexpr double kTreeDone = 0.2, kPatchesDone = 0.5;
   MeshOptions tree;
   if (options.progress) tree.progress = [&](double done) { return options.progress(kTreeDone * done, "tree"); };
-  const Result<MeshModel> plain = MeshModel::from_triangles(mesh.points, mesh.triangles, tree);
+  Result<MeshModel> plain = MeshModel::from_triangles(mesh.points, mesh.triangles, tree);
   if (!plain) return plain;
-  HullOptions rest = options;
-  if (options.progress)
-    rest.progress = [&](double done, std::string_view stage) {
-      return options.progress(kTreeDone + (1 - kTreeDone) * done, stage);
+  const auto after = [&](double begin, double end) -> Progress {
+    if (!options.progress) return {};
+    return [&options, begin, end](double done, std::string_view stage) {
+      return options.progress(begin + (end - begin) * done, stage);
     };
+  };
+  if (options.least_patch > 0) {
+    const Progress progress = after(kTreeDone, kPatchesDone);
+    Watch watch(progress);
+    if (std::optional<Result<MeshModel>> made = along_patches(mesh, plain.value(), options, watch)) {
+      if (!*made) return *made;
+      HullOptions of_patches = options;
+      of_patches.progress = after(kPatchesDone, 0.9);
+      const Result<MeshModel> hulled = rebuild_hulls(made->value(), of_patches);
+      if (!hulled) return hulled;
+      if (all_patches_fit(MeshReader::content(hulled.value()))) {
+        if (options.progress && !options.progress(1, "block")) throw Cancelled();
+        return hulled;
+      }
+    }
+  }
+  HullOptions rest = options;
+  rest.progress = after(options.least_patch > 0 ? 0.9 : kTreeDone, 1);
   return rebuild_hulls(plain.value(), rest);
+} catch (const Cancelled&) {
+  return Error{ErrorCode::Cancelled, "the progress callback cancelled the build"};
 }
 
 }  // namespace swiftlet

@@ -117,20 +117,22 @@ py::tuple run_build(py::handle points, py::handle triangles, int method, int enc
   return py::make_tuple(bytes_of(result.model.bytes()), report_of(result.report));
 }
 
-HullOptions hull_options(std::uint32_t levels, std::uint32_t least_triangles, double bytes_per_triangle, Watch& watch,
-                         unsigned threads) {
+HullOptions hull_options(std::uint32_t levels, std::uint32_t least_triangles, double bytes_per_triangle,
+                         std::uint32_t least_patch, Watch& watch, unsigned threads) {
   HullOptions options;
   options.levels = levels, options.least_triangles = least_triangles, options.bytes_per_triangle = bytes_per_triangle;
+  options.least_patch = least_patch;
   options.progress = watch.function();
   if (threads > 1) options.executor = on_threads(threads);
   return options;
 }
 
 py::bytes run_build_mesh(py::handle points, py::handle triangles, std::uint32_t levels, std::uint32_t least_triangles,
-                         double bytes_per_triangle, py::object progress, long threads) {
+                         double bytes_per_triangle, std::uint32_t least_patch, py::object progress, long threads) {
   const Mesh mesh = to_mesh(points, triangles);
   Watch watch(std::move(progress));
-  const HullOptions options = hull_options(levels, least_triangles, bytes_per_triangle, watch, thread_count(threads));
+  const HullOptions options =
+      hull_options(levels, least_triangles, bytes_per_triangle, least_patch, watch, thread_count(threads));
   std::optional<Result<MeshModel>> built;
   {
     const py::gil_scoped_release release;
@@ -141,11 +143,12 @@ py::bytes run_build_mesh(py::handle points, py::handle triangles, std::uint32_t 
 }
 
 py::bytes run_rebuild_hulls(py::buffer data, std::uint32_t levels, std::uint32_t least_triangles, double bytes_per_triangle,
-                            py::object progress, long threads) {
+                            std::uint32_t least_patch, py::object progress, long threads) {
   const py::buffer_info info = data.request();
   const MeshModel mesh = take(load_mesh(to_bytes(info)));
   Watch watch(std::move(progress));
-  const HullOptions options = hull_options(levels, least_triangles, bytes_per_triangle, watch, thread_count(threads));
+  const HullOptions options =
+      hull_options(levels, least_triangles, bytes_per_triangle, least_patch, watch, thread_count(threads));
   std::optional<Result<MeshModel>> built;
   {
     const py::gil_scoped_release release;
@@ -169,8 +172,9 @@ PYBIND11_MODULE(_build, module) {
              py::arg("radius_factor"), py::arg("map_cells"), py::arg("progress"), py::arg("threads"),
              "The bytes of a model, and the report as a dict.");
   module.def("run_build_mesh", &run_build_mesh, py::arg("points"), py::arg("triangles"), py::arg("levels"),
-             py::arg("least_triangles"), py::arg("bytes_per_triangle"), py::arg("progress"), py::arg("threads"),
-             "The bytes of a mesh with hulls.");
+             py::arg("least_triangles"), py::arg("bytes_per_triangle"), py::arg("least_patch"), py::arg("progress"),
+             py::arg("threads"), "The bytes of a mesh with hulls.");
   module.def("run_rebuild_hulls", &run_rebuild_hulls, py::arg("data"), py::arg("levels"), py::arg("least_triangles"),
-             py::arg("bytes_per_triangle"), py::arg("progress"), py::arg("threads"), "The bytes of the mesh with new hulls.");
+             py::arg("bytes_per_triangle"), py::arg("least_patch"), py::arg("progress"), py::arg("threads"),
+             "The bytes of the mesh with new hulls.");
 }

@@ -162,6 +162,118 @@ TEST(Hulls, OfConvexBodiesAnswerAtTheRoot) {
   EXPECT_GE(opened_by_boxes, 1000u);
 }
 
+/// A box each of whose sides is cut into cells times cells squares.
+Soup fine_box(std::uint32_t cells, const Vec3& middle, const Vec3& half) {
+  Soup soup;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double way : {-1., 1.}) {
+      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+      const auto first = std::uint32_t(soup.points.size());
+      for (std::uint32_t i = 0; i <= cells; ++i) {
+        for (std::uint32_t j = 0; j <= cells; ++j) {
+          Vec3 p;
+          p[axis] = way, p[u] = 2. * i / cells - 1, p[v] = 2. * j / cells - 1;
+          soup.points.push_back(middle + p.cwiseProduct(half));
+          if (i == cells || j == cells) continue;
+          const std::uint32_t at = first + i * (cells + 1) + j, beside = at + cells + 1;
+          if (way > 0) {
+            soup.triangles.push_back({at, beside, beside + 1}), soup.triangles.push_back({at, beside + 1, at + 1});
+          } else {
+            soup.triangles.push_back({at, beside + 1, beside}), soup.triangles.push_back({at, at + 1, beside + 1});
+          }
+        }
+      }
+    }
+  }
+  return soup;
+}
+
+/// Of the many triangles of a face the one at the hull's nearest point is found, whatever the pose of the query before.
+TEST(Hulls, OfFacesOfManyTrianglesAnswerAtTheRoot) {
+  Random random(35);
+  const MeshModel mesh = hulled(fine_box(8, Vec3::Zero(), Vec3(1, 1, 1)));
+  MeshSeed seed;
+  distance(mesh, mesh, {random.rotation(), 4 * random.on_sphere()}, seed);
+  std::uint64_t opened = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Pose pose{random.rotation(), 4 * random.on_sphere()};
+    const Answer answer = distance(mesh, mesh, pose, seed);
+    EXPECT_NEAR(answer.upper,
+                distance(Body::box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), Body::box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), pose).upper,
+                1e-13);
+    opened += answer.steps;
+  }
+  EXPECT_LE(opened, 200u);
+}
+
+HullOptions along_patches(std::uint32_t least) {
+  HullOptions options;
+  options.least_patch = options.least_triangles = least, options.bytes_per_triangle = 1e6;
+  return options;
+}
+
+/// Boxes that touch no other, in a row: each is a patch.
+Soup boxes_in_a_row(int count, std::uint32_t cells) {
+  Soup soup;
+  for (int i = 0; i < count; ++i) {
+    const Soup one = fine_box(cells, Vec3(0.5 * i, 0, 0), Vec3(0.125, 1, 0.125));
+    for (auto t : one.triangles) {
+      for (std::uint32_t& v : t) v += std::uint32_t(soup.points.size());
+      soup.triangles.push_back(t);
+    }
+    soup.points.insert(soup.points.end(), one.points.begin(), one.points.end());
+  }
+  return soup;
+}
+
+TEST(Patches, HaveNodesAndHullsOfTheirOwnWhereTheyAreLarge) {
+  const Soup row = boxes_in_a_row(11, 3);
+  const MeshModel along = made(build_mesh(mesh_of(row), along_patches(40)));
+  EXPECT_EQ(along.hull_count(), 12u);  // and the root's
+  EXPECT_TRUE(verify(along));
+  EXPECT_EQ(made(load_mesh(along.bytes())).hash(), along.hash());
+  EXPECT_EQ(made(rebuild_hulls(along, along_patches(40))).hash(), along.hash());
+  HullOptions threaded = along_patches(40);
+  threaded.executor = on_threads(3);
+  EXPECT_EQ(made(build_mesh(mesh_of(row), threaded)).hash(), along.hash());
+  // Too small, or too large for the block.
+  EXPECT_EQ(made(build_mesh(mesh_of(row), along_patches(200))).node_count(), row.mesh().node_count());
+  HullOptions tight = along_patches(40), plain = tight;
+  tight.bytes_per_triangle = plain.bytes_per_triangle = 95, plain.least_patch = 0;
+  EXPECT_EQ(made(build_mesh(mesh_of(row), tight)).hash(), made(build_mesh(mesh_of(row), plain)).hash());
+  // Given twice, a surface has each of its patches once.
+  Soup twice = row;
+  twice.triangles.insert(twice.triangles.end(), row.triangles.begin(), row.triangles.end());
+  EXPECT_EQ(made(build_mesh(mesh_of(twice), along_patches(40))).hull_count(), 12u);
+}
+
+TEST(Patches, AnswerAsTrianglesDo) {
+  Random random(36);
+  int apart = 0;
+  for (int i = 0; i < 120; ++i) {
+    const Soup a = i % 3 == 0 ? boxes_in_a_row(4, 1) : any(random), b = i % 2 == 0 ? boxes_in_a_row(3, 2) : any(random);
+    const MeshModel along_a = made(build_mesh(mesh_of(a), along_patches(1))),
+                    along_b = made(build_mesh(mesh_of(b), along_patches(1)));
+    EXPECT_TRUE(verify(along_a));
+    MeshSeed seed;
+    Pose pose = any_pose(random, random.uniform(0.2, 3));
+    for (int step = 0; step < 4; ++step) {
+      const double truth = brute_force(a, b, pose), law_two = tolerance(along_a, along_b, pose);
+      const Answer answer = distance(along_a, along_b, pose, seed);
+      EXPECT_LE(answer.lower, truth + law_two);
+      EXPECT_GE(answer.upper, truth - law_two);
+      EXPECT_LE(answer.upper - answer.lower, law_two);
+      EXPECT_EQ(intersects(along_a, along_b, pose, seed).verdict == Verdict::Disjoint, answer.verdict == Verdict::Disjoint);
+      const Answer loose = distance(along_a, along_b, pose, seed, {.relative = 0.1});
+      EXPECT_LE(loose.lower, truth + law_two);
+      EXPECT_GE(loose.upper, truth - law_two);
+      apart += truth > 0;
+      pose.translation += 0.05 * random.in_ball();
+    }
+  }
+  EXPECT_GE(apart, 200);
+}
+
 TEST(Hulls, ScaleBitForBit) {
   Random random(33);
   for (int i = 0; i < 60; ++i) {

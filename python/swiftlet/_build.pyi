@@ -14,10 +14,10 @@ def run_build(
     radius_factor: float, map_cells: int, progress: Optional[Callable[..., bool]], threads: int,
 ) -> tuple[bytes, dict[str, Any]]: ...
 def run_build_mesh(
-    points: Any, triangles: Any, levels: int, least_triangles: int, bytes_per_triangle: float,
+    points: Any, triangles: Any, levels: int, least_triangles: int, bytes_per_triangle: float, least_patch: int,
     progress: Optional[Callable[..., bool]], threads: int,
 ) -> bytes: ...
 def run_rebuild_hulls(
-    data: Any, levels: int, least_triangles: int, bytes_per_triangle: float, progress: Optional[Callable[..., bool]],
-    threads: int,
+    data: Any, levels: int, least_triangles: int, bytes_per_triangle: float, least_patch: int,
+    progress: Optional[Callable[..., bool]], threads: int,
 ) -> bytes: ...

@@ -149,6 +149,7 @@ def build_mesh(
     levels: int = 4,
     least_triangles: int = 64,
     bytes_per_triangle: float = 120.0,
+    least_patch: int = 0,
     progress: Optional[Callable[[float, str], bool]] = None,
     threads: int = 1,
 ) -> MeshModel:
@@ -163,6 +164,8 @@ def build_mesh(
         Below the root no node of fewer triangles has a hull.
     bytes_per_triangle : float, optional
         The most bytes of the mesh's block: the largest nodes get hulls first.
+    least_patch : int, optional
+        Where convex patches hold so many triangles in the mean, they have nodes and hulls of their own, if these fit. 0: never.
     progress : callable, optional
         Gets the fraction done and the stage; returning False cancels.
     threads : int, optional
@@ -180,7 +183,7 @@ def build_mesh(
     if faces is None:
         raise TypeError("source: expected a path or an object with vertices and faces, got " + type(source).__name__)
     return MeshModel.from_bytes(
-        _build.run_build_mesh(vertices, faces, levels, least_triangles, bytes_per_triangle, progress, threads)
+        _build.run_build_mesh(vertices, faces, levels, least_triangles, bytes_per_triangle, least_patch, progress, threads)
     )
 
 
@@ -190,10 +193,11 @@ def rebuild_hulls(
     levels: int = 4,
     least_triangles: int = 64,
     bytes_per_triangle: float = 120.0,
+    least_patch: int = 0,
     progress: Optional[Callable[[float, str], bool]] = None,
     threads: int = 1,
 ) -> MeshModel:
     """Returns the mesh with new hulls, for example after :meth:`MeshModel.refit`. Options and errors: :func:`build_mesh`."""
     return MeshModel.from_bytes(
-        _build.run_rebuild_hulls(mesh.bytes, levels, least_triangles, bytes_per_triangle, progress, threads)
+        _build.run_rebuild_hulls(mesh.bytes, levels, least_triangles, bytes_per_triangle, least_patch, progress, threads)
     )

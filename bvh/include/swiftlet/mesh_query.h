@@ -17,9 +17,16 @@ namespace swiftlet {
 /// The warm start that one mesh query leaves for the next query of the same pair: the nearest triangles. The caller keeps it;
 /// `MeshSeed{}` is a cold start. Any bits are legal: a seed changes the work, never the truth.
 struct MeshSeed {
+  /// Where the last query of two convex patches ended: what PairSeed holds of bodies that are apart.
+  struct Patches {
+    FeatureId a, b;                                                  ///< features of their hulls
+    std::array<std::int16_t, 3> line_in_a{}, line_in_b{}, normal{};  ///< as PairSeed's
+  };
+
   std::uint32_t triangle_a = kNone, triangle_b = kNone;  ///< the last nearest pair; of a convex body 0
   std::array<float, 3> direction{};                      ///< from A to B, in A's frame; tried as a separating axis
-  PairSeed pair{};  ///< warm start of both bodies' hulls, or else of a triangle and a convex body
+  PairSeed pair{};    ///< warm start of both bodies' hulls, or else of a triangle and a convex body
+  Patches patches{};  ///< of the patches that hold the nearest triangles
 };
 static_assert(sizeof(MeshSeed) <= 128);
 
