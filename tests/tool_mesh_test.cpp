@@ -311,6 +311,7 @@ TEST_F(Tool, BuildMeshGivesHullsAsAsked) {
   EXPECT_EQ(content(folder_ / "other.swm"), bytes_of(soup.mesh()));
   EXPECT_EQ(says_json("build --mesh ball.off -o other.swm --hull-levels 1 --hull-bytes 1000")["hulls"], 1);
   EXPECT_EQ(says_json("build --mesh ball.off -o other.swm --hull-triangles 9999 --hull-bytes 1000")["hulls"], 1);
+  EXPECT_EQ(says_json("build --mesh ball.off -o other.swm --hull-patches 40 --hull-bytes 1000")["hulls"], 1) << "one patch";
   const json many = says_json("build --mesh ball.off -o other.swm --hull-levels 3 --hull-triangles 1 --hull-bytes 1000");
   EXPECT_EQ(many["hulls"].get<std::size_t>(),
             many["levels"][0]["nodes"].get<std::size_t>() + many["levels"][1]["nodes"].get<std::size_t>() +

@@ -153,7 +153,10 @@ void declare_hulls(CLI::App& word, Request& request) {
       word.add_option("--hull-bytes", o.bytes_per_triangle,
                       "hulls may make the file as large as so many bytes a triangle; those of most triangles come first")
           ->capture_default_str()
-          ->check(number_in(0, std::numeric_limits<double>::max(), "from 0 up"))};
+          ->check(number_in(0, std::numeric_limits<double>::max(), "from 0 up")),
+      word.add_option("--hull-patches", o.least_patch,
+                      "where convex patches hold so many triangles in the mean, they have hulls of their own; 0: never")
+          ->capture_default_str()};
   CLI::Option* const none = word.add_flag("--no-hulls", request.no_hulls, "no hulls: sooner built, slower asked from afar");
   for (CLI::Option* const option : about_hulls) none->excludes(option);
 }
