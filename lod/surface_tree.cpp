@@ -16,11 +16,9 @@ namespace {
 double coordinate(const Vec& p, int k) { return k == 0 ? p.x : k == 1 ? p.y : p.z; }
 
 /// Corners in common are the rule, and the exact sign of 0 is dear.
-bool is_one_plane(const Corners3& plane, const Corners3& triangle) {
-  return std::ranges::all_of(triangle, [&](const Vec& p) {
-    const auto is = [&](const Vec& q) { return q.x == p.x && q.y == p.y && q.z == p.z; };
-    return std::ranges::any_of(plane, is) || exact::orientation(plane[0], plane[1], plane[2], p) == 0;
-  });
+int side_of(const Corners3& plane, const Vec& p) {
+  const auto is = [&](const Vec& q) { return q.x == p.x && q.y == p.y && q.z == p.z; };
+  return std::ranges::any_of(plane, is) ? 0 : exact::orientation(plane[0], plane[1], plane[2], p);
 }
 
 }  // namespace
@@ -133,16 +131,19 @@ std::uint32_t SurfaceTree::grow(std::uint32_t begin, std::uint32_t end, const No
   return index;
 }
 
-bool SurfaceTree::lies_in_plane(const FlatWedge& wedge, const Corners3& triangle) {
-  return is_one_plane(wedge.corner, triangle);
+bool SurfaceTree::is_parted(const FlatWedge& wedge, const Corners3& plane) {
+  return std::ranges::all_of(plane, [&](const Vec& p) { return side_of(wedge.corner, p) == 0; });
 }
 
-bool SurfaceTree::lies_in_plane(const Wedge& wedge, const Corners3& triangle) {
-  const auto& c = wedge.corner;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (wedge.outer[k] && is_one_plane({c[k], c[(k + 1) % 3], c[3]}, triangle)) return true;
+bool SurfaceTree::is_parted(const Wedge& wedge, const Corners3& plane) {
+  int least = 1, most = -1;
+  unsigned face = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const int side = side_of(plane, wedge.corner[k]);
+    least = std::min(least, side), most = std::max(most, side);
+    face |= unsigned(side == 0) << k;
   }
-  return wedge.base_outer && is_one_plane({c[0], c[1], c[2]}, triangle);
+  return face != 0b1111 && (least >= 0 || most <= 0) && wedge.is_outer(face);
 }
 
 }  // namespace swiftlet::lod

@@ -58,11 +58,12 @@ class SurfaceTree {
   bool is_ring_apart(const Node&, const Wedge&, const Outline&) const { return false; }
   bool is_ring_apart(const Node& node, const FlatWedge& wedge, const Outline& outline) const {
     const auto at = [&](std::size_t k) { return mesh_.vertices[node.ring[k]]; };
-    return outline.is_apart(eigen(node.around.least), eigen(node.around.most)) && lies_in_plane(wedge, {at(0), at(1), at(2)});
+    return outline.is_apart(eigen(node.around.least), eigen(node.around.most)) && is_parted(wedge, {at(0), at(1), at(2)});
   }
-  /// Of a wedge: in that of a face of it on the new hull's boundary.
-  static bool lies_in_plane(const Wedge& wedge, const Corners3& triangle);
-  static bool lies_in_plane(const FlatWedge& wedge, const Corners3& triangle);
+  /// True if a wedge lies on one side of a plane and meets it in no more than the new hull's boundary; a flat one, if it lies
+  /// in the plane.
+  static bool is_parted(const Wedge& wedge, const Corners3& plane);
+  static bool is_parted(const FlatWedge& wedge, const Corners3& plane);
 
   template <class W>
   bool is_apart(const Node& node, const W& wedge, const Outline& outline) const {
@@ -71,7 +72,7 @@ class SurfaceTree {
       return true;
     if (node.is_ring && is_ring_apart(node, wedge, outline)) return true;
     return node.is_flat && node.end - node.begin > kInLeaf &&
-           lies_in_plane(wedge, {corner(node.plane, 0), corner(node.plane, 1), corner(node.plane, 2)});
+           is_parted(wedge, {corner(node.plane, 0), corner(node.plane, 1), corner(node.plane, 2)});
   }
 
   /// Wedges that are not yet known to be apart are active_[first ..].
