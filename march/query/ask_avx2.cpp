@@ -13,6 +13,11 @@ void ask_by_four(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& see
   answer_bodies(a, b, b_in_a, seed, limits, asked, answer);
 }
 
+void ask_plainly_by_four(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const StopRule& asked,
+                         Answer& answer) {
+  answer_models(a, b, b_in_a, seed, asked, answer);
+}
+
 void ask_hulls_by_four(const ModelPair& pair, const StopRule& asked, PairSeed& seed, Answer& answer, OverlapProof& proof) {
   answer_hulls(pair, asked, seed, answer, proof);
 }

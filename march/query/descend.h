@@ -32,7 +32,8 @@ void go_on(const ModelPair& pair, const StopRule& asked, double exact_width, Pai
 
 /// True if nothing but a walk on the finest pair is likely to bound the distance as narrowly as asked, so that the query begins
 /// there again. `between` leads from A's centre to B's.
-static inline bool is_exact(const ModelPair& pair, const Vec& between, const StopRule& asked) {
+template <class Pair>
+static inline bool is_exact(const Pair& pair, const Vec& between, const StopRule& asked) {
   const StartPolicy start = pair.limits.tuning.start;
   if (asked.is_exact() || asked.is_threshold() || start != StartPolicy::Automatic)
     return asked.is_exact() && start != StartPolicy::Paper;
@@ -44,7 +45,8 @@ static inline bool is_exact(const ModelPair& pair, const Vec& between, const Sto
 Place coarsened(const ModelPair& pair, const StopRule& asked, const Answer& answer, Place found);
 /// Stores in `seed` where the next query begins: at the features `found`, or on a coarser pair that would have answered as
 /// well.
-static inline void keep(const ModelPair& pair, const StopRule& asked, bool exact, const Answer& answer, const Place& found,
+template <class Pair>
+static inline void keep(const Pair& pair, const StopRule& asked, bool exact, const Answer& answer, const Place& found,
                         PairSeed& seed) {
   const Tuning& tuning = pair.limits.tuning;
   const bool stays = exact || tuning.start == StartPolicy::Finest || tuning.start == StartPolicy::Coarsest;
@@ -52,7 +54,8 @@ static inline void keep(const ModelPair& pair, const StopRule& asked, bool exact
     seed.a = kept.start.a, seed.b = kept.start.b;
     seed.level_a = std::uint8_t(kept.level_a), seed.level_b = std::uint8_t(kept.level_b);
   };
-  stays ? store(found) : store(coarsened(pair, asked, answer, found));
+  if (stays) return store(found);
+  in_general(pair, [&](const ModelPair& general) { store(coarsened(general, asked, answer, found)); });
 }
 
 }  // namespace swiftlet

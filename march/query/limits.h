@@ -17,6 +17,22 @@ struct Limits {
   std::span<LevelRecord> trace;  ///< the part of `tuning.trace` that is still unused
 };
 
+// Constants whose address is taken would be symbols that other files share.
+namespace {
+/// The budget and tuning that a caller gets who names none, as constants.
+struct NoLimits {
+  static constexpr Budget budget{};
+  static constexpr Tuning tuning{};
+  static constexpr std::span<LevelRecord> trace{};
+};
+}  // namespace
+/// True if budget and tuning are those of NoLimits.
+static inline bool is_unlimited(const Budget& budget, const Tuning& tuning) {
+  return budget.steps == NoLimits::budget.steps && budget.finest_level <= 0 && tuning.start == StartPolicy::Automatic &&
+         tuning.refinement == NoLimits::tuning.refinement && tuning.plane_rule == PlaneRule::MostViolated && !tuning.careful &&
+         tuning.trace.empty() && !tuning.proof;
+}
+
 /// Writes `record` at `index` of `trace`, or over its last entry if the trace is too short; an empty trace takes nothing.
 static inline void note(std::span<LevelRecord> trace, std::size_t index, const LevelRecord& record) {
   if (!trace.empty()) trace[index < trace.size() ? index : trace.size() - 1] = record;

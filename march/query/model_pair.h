@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include <swiftlet/query.h>
 
@@ -13,9 +14,11 @@
 
 namespace swiftlet {
 
-struct ModelPair {
-  ModelPair(const Shape& of_a, const Shape& of_b, const Motion& m, double error, const Limits& of)
-      : a(of_a), b(of_b), motion(m), pose_error(error), shift(norm(m.t)), limits(of) {}
+/// `ShapeType` is `const Shape` or a reference to it, `LimitsType` NoLimits or a reference to Limits.
+template <class ShapeType, class LimitsType>
+struct PairOf {
+  PairOf(const Shape& of_a, const Shape& of_b, const Motion& m, double error, LimitsType of)
+      : a(of_a), b(of_b), motion(m), pose_error(error), shift(norm(vec4(m.t))), limits(of) {}
 
   /// The greatest width of an exact answer about the exact hulls.
   double law_two() const { return swiftlet::law_two(a.level(0).view, b.level(0).view, shift, pose_error); }
@@ -26,8 +29,8 @@ struct ModelPair {
     return line;
   }
   /// The finest levels that the query may read.
-  int finest_a() const { return finest_allowed(a, limits.budget); }
-  int finest_b() const { return finest_allowed(b, limits.budget); }
+  int finest_a() const { return finest(a); }
+  int finest_b() const { return finest(b); }
   /// The query may use support maps: both bodies have them, and the start policy is Automatic.
   bool has_maps() const {
     return limits.tuning.start == StartPolicy::Automatic && a.map_level() < a.level_count() && b.map_level() < b.level_count();
@@ -67,11 +70,35 @@ struct ModelPair {
   }
   PairView view_at(const Place& place) const { return view_of(a.level(place.level_a), b.level(place.level_b)); }
 
-  const Shape& a;
-  const Shape& b;
+  int finest(const Shape& body) const {
+    if constexpr (std::is_same_v<LimitsType, NoLimits>)
+      return body.finest_level();
+    else
+      return finest_allowed(body, limits.budget);
+  }
+
+  ShapeType a, b;
   const Motion& motion;
   const double pose_error, shift;  ///< `shift` is |t|
-  const Limits& limits;
+  const LimitsType limits;
 };
+using ModelPair = PairOf<const Shape&, const Limits&>;
+/// Two models and no limits. Compilers keep what it holds in registers and fold the limits as long as all that takes a
+/// reference to it is inlined: other functions get a pair of their own, by `in_general`.
+using PlainPair = PairOf<const Shape, NoLimits>;
+
+/// Calls `use` for the same pair as a ModelPair.
+template <class Use>
+[[gnu::always_inline]] static inline void in_general(const ModelPair& pair, const Use& use) {
+  use(pair);
+}
+template <class Use>
+[[gnu::noinline]] static void in_general(const Model& a, const Model& b, const Motion& m, double pose_error, const Use& use) {
+  use(ModelPair(Shape(a), Shape(b), m, pose_error, {NoLimits::budget, NoLimits::tuning}));
+}
+template <class Use>
+[[gnu::always_inline]] static inline void in_general(const PlainPair& pair, const Use& use) {
+  in_general(*pair.a.model(), *pair.b.model(), pair.motion, pair.pose_error, use);
+}
 
 }  // namespace swiftlet

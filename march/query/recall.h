@@ -26,17 +26,22 @@
 namespace swiftlet {
 
 /// Walks on the level pair of `place`, from its features.
-[[gnu::always_inline]] static inline Walk walk_from(const ModelPair& pair, const PairView& view, const Place& place,
+template <class Pair>
+[[gnu::always_inline]] static inline Walk walk_from(const Pair& pair, const PairView& view, const Place& place,
                                                     Answer& answer) {
-  const Limits& limits = pair.limits;
-  const MarchStart from = settled(view, place.start, answer.plane_tests);
-  const std::uint32_t steps_left = limits.budget.steps - std::min(answer.steps, limits.budget.steps);
-  return walk(view, from.a, from.b, limits.tuning.plane_rule, std::min(steps_left, place.trial_steps));
+  FeatureId a = place.start.a, b = place.start.b;
+  if (!is_legal_start(view, a, b)) {
+    const MarchStart legal = made_legal(view, place.start, answer.plane_tests);
+    a = legal.a, b = legal.b;
+  }
+  const std::uint32_t steps_left = pair.limits.budget.steps - std::min(answer.steps, pair.limits.budget.steps);
+  return walk(view, a, b, pair.limits.tuning.plane_rule, std::min(steps_left, place.trial_steps));
 }
 /// Answers from a walk on the level pair of `place` if the tests that end it prove enough. `place` gets the walk's features.
-[[gnu::always_inline]] static inline bool answers(const ModelPair& pair, const PairView& view, const Walk& walked,
-                                                  const Line& line, const StopRule& asked, bool exact, Turn turn,
-                                                  PairSeed& seed, Place& place, Answer& answer) {
+template <class Pair>
+[[gnu::always_inline]] static inline bool answers(const Pair& pair, const PairView& view, const Walk& walked, const Line& line,
+                                                  const StopRule& asked, bool exact, Turn turn, PairSeed& seed, Place& place,
+                                                  Answer& answer) {
   answer.steps += walked.steps;
   answer.plane_tests += walked.plane_tests;
   place.start = {walked.a, walked.b};
@@ -65,23 +70,21 @@ namespace swiftlet {
 }
 
 /// True if the finest pair has maps.
-static inline bool finest_has_maps(const ModelPair& pair) {
+template <class Pair>
+static inline bool finest_has_maps(const Pair& pair) {
   const Place at = pair.finest_mapped();
   return pair.has_maps() && at.level_a == pair.finest_a() && at.level_b == pair.finest_b();
 }
-/// GJK on the maps of `place`, which gets the features where a walk begins.
-[[gnu::noinline]] static SupportGjk nearest_on_maps(const ModelPair& pair, const PairView& view, const Line& line,
-                                                    const PairSeed& seed, Place& place) {
-  const Level &a = pair.a.level(place.level_a), &b = pair.b.level(place.level_b);
-  const AxisSample first = sample_axis(view, Moved4(view), a, b, first_direction(pair, line, last_direction(line.in_a, seed)));
-  const SupportGjk found =
-      support_gjk(view, a, b, pair.deviation(place.level_a, place.level_b), first, [](const SupportGjk& s) { return s.near; });
-  place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
-  return found;
+/// GJK on the maps of two levels, which deviate by `deviation`, from the direction `first` on.
+[[gnu::noinline]] static SupportGjk nearest_on_maps(const PairView& view, const Level& a, const Level& b, double deviation,
+                                                    const Vec4& first) {
+  const AxisSample seen = sample_axis(view, Moved4(view), a, b, first);
+  return support_gjk(view, a, b, deviation, seen, [](const SupportGjk& s) { return s.near; });
 }
 
 /// Answers that the bodies overlap if the vertex pairs that proved it last time still do.
-[[gnu::always_inline]] static inline bool overlaps_as_before(const ModelPair& pair, const PairSeed& seed, Answer& answer,
+template <class Pair>
+[[gnu::always_inline]] static inline bool overlaps_as_before(const Pair& pair, const PairSeed& seed, Answer& answer,
                                                              OverlapProof& proof) {
   const PairView view = pair.view_at({0, 0, {}});
   const auto names = [](const std::array<std::uint32_t, 4>& v, const ConvexView& body) {
@@ -105,7 +108,8 @@ static inline bool finest_has_maps(const ModelPair& pair) {
 
 /// Answers, if that suffices, by what needs no features: the balls around and inside the bodies, the vertices that proved an
 /// overlap, one sample of the maps, which `seen` becomes. `line` has its first half, and gets the second if none of these does.
-[[gnu::always_inline]] static inline bool answers_at_once(const ModelPair& pair, const StopRule& asked, bool exact, Line& line,
+template <class Pair>
+[[gnu::always_inline]] static inline bool answers_at_once(const Pair& pair, const StopRule& asked, bool exact, Line& line,
                                                           PairSeed& seed, AxisSample& seen, Answer& answer,
                                                           OverlapProof& proof) {
   const Tuning& tuning = pair.limits.tuning;
@@ -119,12 +123,16 @@ static inline bool finest_has_maps(const ModelPair& pair) {
   store(turned_line(vec4(line.in_a), pair.motion), line.in_b);
   if (asks || exact || !automatic || !unwatched) return false;
   if (spheres_suffice(pair, line.in_a, asked, answer)) return true;
-  return samples && seed.a.kind() == FeatureKind::None && sample_suffices(pair, line, asked, seed, seen, answer);
+  if (!samples || seed.a.kind() != FeatureKind::None) return false;
+  bool suffices = false;
+  in_general(pair, [&](const ModelPair& general) { suffices = sample_suffices(general, line, asked, seed, seen, answer); });
+  return suffices;
 }
 
 /// As `ask_hulls`.
-[[gnu::always_inline]] static inline void answer_hulls(const ModelPair& pair, const StopRule& asked, PairSeed& seed,
-                                                       Answer& answer, OverlapProof& proof) {
+template <class Pair>
+[[gnu::always_inline]] static inline void answer_hulls(const Pair& pair, const StopRule& asked, PairSeed& seed, Answer& answer,
+                                                       OverlapProof& proof) {
   const Tuning& tuning = pair.limits.tuning;
   Line line;
   store(between_centres(pair.a, pair.b, pair.motion), line.in_a);
@@ -134,27 +142,33 @@ static inline bool finest_has_maps(const ModelPair& pair) {
   if (answers_at_once(pair, asked, exact, line, seed, seen, answer, proof)) return;
   Turn turn;
   Place place = first_place(pair.a, pair.b, line, seed, pair.finest_a(), pair.finest_b(), tuning.start, turn);
+  const auto descends = [&](Place from, const SupportGjk* on_maps, const Walk* walk) {
+    answer.normal.setZero();
+    in_general(pair, [&](const ModelPair& general) {
+      descend(general, line, asked, {seen, on_maps, walk, exact}, from, seed, answer, proof);
+    });
+  };
   const bool walks = !tuning.careful && tuning.start != StartPolicy::Coarsest;
   if (walks && place.start.a.kind() != FeatureKind::None) {
     const PairView view = pair.view_at(place);
     const Walk walked = walk_from(pair, view, place, answer);
     if (answers(pair, view, walked, line, asked, exact, turn, seed, place, answer)) return;
-    answer.normal.setZero();
     const bool lost = walked.end == WalkEnd::Budget && answer.steps < pair.limits.budget.steps;
-    if (!lost) return descend(pair, line, asked, {seen, nullptr, &walked, exact}, place, seed, answer, proof);
+    if (!lost) return descends(place, nullptr, &walked);
     place = coarsest_place(pair.a, pair.b);
   }
-  answer.normal.setZero();
   if (!walks || place.start.a.kind() != FeatureKind::None || !exact || !finest_has_maps(pair))
-    return descend(pair, line, asked, {seen, nullptr, nullptr, exact}, place, seed, answer, proof);
+    return descends(place, nullptr, nullptr);
   place = pair.finest_mapped();
   const PairView view = pair.view_at(place);
-  const SupportGjk found = nearest_on_maps(pair, view, line, seed, place);
-  if (found.simplex.count() == 4) return descend(pair, line, asked, {seen, &found, nullptr, exact}, place, seed, answer, proof);
+  const SupportGjk found = nearest_on_maps(view, pair.a.level(place.level_a), pair.b.level(place.level_b),
+                                           pair.deviation(place.level_a, place.level_b),
+                                           first_direction(pair, line, last_direction(line.in_a, seed)));
+  place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
+  if (found.simplex.count() == 4) return descends(place, &found, nullptr);
   const Walk walked = walk_from(pair, view, place, answer);
   if (answers(pair, view, walked, line, asked, exact, Turn::Some, seed, place, answer)) return;
-  answer.normal.setZero();
-  descend(pair, line, asked, {seen, &found, &walked, exact}, place, seed, answer, proof);
+  descends(place, &found, &walked);
 }
 
 /// As `ask`.
@@ -174,6 +188,41 @@ static inline bool finest_has_maps(const ModelPair& pair) {
     radii.round(limits.trace, answer.levels_visited);
   }
   seal(radii, proof, limits.tuning, answer);
+}
+
+// What is asked: the questions that most queries ask as constants, which compilers fold, or any other one.
+namespace {
+struct Exactly {
+  static constexpr StopRule asked{};
+};
+struct WhetherTheyMeet {
+  static constexpr StopRule asked{0, 0, 0, 0};
+};
+struct Whatever {
+  const StopRule& asked;
+};
+}  // namespace
+
+/// As `answer_bodies`, for two models without radii and without limits.
+template <class Question>
+[[gnu::flatten]] static void answer_plainly(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed,
+                                            const Question& question, Answer& answer) {
+  const Motion m = motion(b_in_a);
+  const PoseQuality quality = pose_quality(m);
+  if (!quality.legal) return refuse(a, b, Status::InvalidPose, false, answer);
+  const PlainPair pair(Shape(a), Shape(b), m, quality.error, NoLimits{});
+  OverlapProof proof;
+  answer_hulls(pair, question.asked, seed, answer, proof);
+  seal({0, 0}, proof, NoLimits::tuning, answer);
+}
+
+/// The same, whatever is asked.
+[[gnu::always_inline]] static inline void answer_models(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed,
+                                                        const StopRule& asked, Answer& answer) {
+  const bool is_narrow = !(asked.absolute > 0 || asked.relative > 0);
+  if (is_narrow && asked.above == 0 && asked.below == 0) return answer_plainly(a, b, b_in_a, seed, WhetherTheyMeet{}, answer);
+  if (is_narrow && !asked.is_threshold() && asked.below <= 0) return answer_plainly(a, b, b_in_a, seed, Exactly{}, answer);
+  answer_plainly(a, b, b_in_a, seed, Whatever{asked}, answer);
 }
 
 }  // namespace swiftlet

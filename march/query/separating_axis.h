@@ -12,7 +12,8 @@
 namespace swiftlet {
 
 /// The direction along which a cold query samples first: `likely`, or, if that is 0, about that of the distance.
-static inline Vec4 first_direction(const ModelPair& pair, const Line& line, const Vec& likely) {
+template <class Pair>
+static inline Vec4 first_direction(const Pair& pair, const Line& line, const Vec& likely) {
   return max_abs(likely) > 0 ? vec4(likely)
                              : between_ellipsoids(pair.a.level(0), pair.b.level(0), pair.motion, vec4(line.in_a));
 }
@@ -30,7 +31,8 @@ static inline Place mapped_for(const ModelPair& pair, const StopRule& asked, dou
 }
 
 /// Fills `answer` with what a sample of the level pair `at` bounds the distance by, except for the status.
-static inline void take_sample(const ModelPair& pair, const PairView& view, const Place& at, const AxisSample& seen,
+template <class Pair>
+static inline void take_sample(const Pair& pair, const PairView& view, const Place& at, const AxisSample& seen,
                                Answer& answer) {
   const double error = pair.deviation(at.level_a, at.level_b),
                upper = norm(vec4(seen.apart)) * (1 + kNormError) + view.point_error();
@@ -48,7 +50,8 @@ static inline void take_sample(const ModelPair& pair, const PairView& view, cons
 /// Fills `answer` and returns true if the bodies are proved to be farther apart than `asked.above`. If the line of centres
 /// proves it and the seed's direction does not, that direction is cleared. `seen` becomes the last sample, on the finest pair
 /// with maps.
-static inline bool separating_axis(const ModelPair& pair, const Vec& between, const StopRule& asked, PairSeed& seed,
+template <class Pair>
+static inline bool separating_axis(const Pair& pair, const Vec& between, const StopRule& asked, PairSeed& seed,
                                    AxisSample& seen, Answer& answer) {
   const Place at = pair.finest_mapped();
   const int level_a = at.level_a, level_b = at.level_b;

@@ -16,7 +16,8 @@ namespace swiftlet {
 
 /// Fills `answer` and returns true if the balls around the bodies are proved to be farther apart than `asked.above`. `between`
 /// leads from A's centre to B's, rounded.
-static inline bool spheres_are_apart(const ModelPair& pair, const Vec& between, const StopRule& asked, Answer& answer) {
+template <class Pair>
+static inline bool spheres_are_apart(const Pair& pair, const Vec& between, const StopRule& asked, Answer& answer) {
   const double radii = pair.a.radius() + pair.b.radius() * stretch_of(pair.pose_error),
                most = radii + max(asked.above, 0) + 2 * pair.law_two(), apart2 = dot(between, between);
   if (!(apart2 > most * most && has_range(apart2))) return false;
@@ -35,7 +36,8 @@ static inline bool spheres_are_apart(const ModelPair& pair, const Vec& between, 
 }
 
 /// Fills `answer` and returns true if the balls around and inside the bodies bound their distance as narrowly as asked.
-static inline bool spheres_suffice(const ModelPair& pair, const Vec& between, const StopRule& asked, Answer& answer) {
+template <class Pair>
+static inline bool spheres_suffice(const Pair& pair, const Vec& between, const StopRule& asked, Answer& answer) {
   const double stretch = stretch_of(pair.pose_error), inside_a = pair.a.level(0).view.inner_radius,
                inside = inside_a + pair.b.level(0).view.inner_radius * (2 - stretch), margin = pair.law_two(),
                around = pair.a.radius() + pair.b.radius() * stretch + margin, length = norm(between),
@@ -53,7 +55,8 @@ static inline bool spheres_suffice(const ModelPair& pair, const Vec& between, co
 }
 
 /// Fills `answer` and returns true if the balls inside the bodies are proved to overlap by more than law 2's bound.
-static inline bool spheres_meet(const ModelPair& pair, const Vec& between, Answer& answer) {
+template <class Pair>
+static inline bool spheres_meet(const Pair& pair, const Vec& between, Answer& answer) {
   const ConvexView &a = pair.a.level(0).view, &b = pair.b.level(0).view;
   const double radii = a.inner_radius + b.inner_radius * (2 - stretch_of(pair.pose_error)), least = radii - 2 * pair.law_two();
   if (!(least > 0 && dot(between, between) < least * least) || pair.finest_a() != 0 || pair.finest_b() != 0) return false;
