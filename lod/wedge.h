@@ -65,7 +65,7 @@ class Outline {
 bool enters(const Corners3& triangle, const Wedge& wedge);
 
 /// True if a part of the triangle that is in the wedge's plane meets the wedge where that is inside of the new hull, and the
-/// /// reaches to the inner side of the plane. `outline`: the wedge's.
+/// triangle reaches to the inner side of the plane. `outline`: the wedge's.
 bool enters(const Corners3& triangle, const FlatWedge& wedge, const Outline& outline);
 /// True if a segment in the wedge's plane does.
 bool enters(const std::array<Vec, 2>& segment, const FlatWedge& wedge);

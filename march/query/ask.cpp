@@ -12,8 +12,8 @@ void ask_by_two(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed
   answer_bodies(a, b, b_in_a, seed, limits, asked, answer);
 }
 
-void ask_plainly_by_two(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const StopRule& asked,
-                        Answer& answer) {
+void ask_models_by_two(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const StopRule& asked,
+                       Answer& answer) {
   answer_models(a, b, b_in_a, seed, asked, answer);
 }
 

@@ -16,16 +16,16 @@ void ask_by_two(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed
                 Answer& answer);
 void ask_by_four(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const StopRule& asked,
                  Answer& answer);
-void ask_plainly_by_two(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const StopRule& asked,
+void ask_models_by_two(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const StopRule& asked,
+                       Answer& answer);
+void ask_models_by_four(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const StopRule& asked,
                         Answer& answer);
-void ask_plainly_by_four(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const StopRule& asked,
-                         Answer& answer);
-/// Answers `asked` for two bodies. `answer` must be a default one. Models without radii and without limits, which most queries
-/// are about, have functions of their own.
+/// Answers `asked` for two bodies. `answer` must be a default one. Most queries are about two models without radii and without
+/// limits: `ask_models` is the same for these, sooner.
 static inline void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits,
                        const StopRule& asked, Answer& answer) {
   if (a.model() && b.model() && a.radius() == 0 && b.radius() == 0 && is_unlimited(limits.budget, limits.tuning))
-    SWIFTLET_BY_WIDTH(ask_plainly)(*a.model(), *b.model(), b_in_a, seed, asked, answer);
+    SWIFTLET_BY_WIDTH(ask_models)(*a.model(), *b.model(), b_in_a, seed, asked, answer);
   else
     SWIFTLET_BY_WIDTH(ask)(a, b, b_in_a, seed, limits, asked, answer);
 }

@@ -13,8 +13,8 @@ void ask_by_four(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& see
   answer_bodies(a, b, b_in_a, seed, limits, asked, answer);
 }
 
-void ask_plainly_by_four(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const StopRule& asked,
-                         Answer& answer) {
+void ask_models_by_four(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const StopRule& asked,
+                        Answer& answer) {
   answer_models(a, b, b_in_a, seed, asked, answer);
 }
 

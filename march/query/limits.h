@@ -17,7 +17,7 @@ struct Limits {
   std::span<LevelRecord> trace;  ///< the part of `tuning.trace` that is still unused
 };
 
-// Constants whose address is taken would be symbols that other files share.
+// Without a namespace of the file's own these constants were symbols that files compiled for other registers share.
 namespace {
 /// The budget and tuning that a caller gets who names none, as constants.
 struct NoLimits {

@@ -14,7 +14,7 @@
 
 namespace swiftlet {
 
-/// `ShapeType` is `const Shape` or a reference to it, `LimitsType` NoLimits or a reference to Limits.
+/// Two bodies in a pose. `ShapeType` is `const Shape` or a reference to it, `LimitsType` NoLimits or a reference to Limits.
 template <class ShapeType, class LimitsType>
 struct PairOf {
   PairOf(const Shape& of_a, const Shape& of_b, const Motion& m, double error, LimitsType of)
@@ -70,6 +70,7 @@ struct PairOf {
   }
   PairView view_at(const Place& place) const { return view_of(a.level(place.level_a), b.level(place.level_b)); }
 
+  /// The finest level of a body that the query may read.
   int finest(const Shape& body) const {
     if constexpr (std::is_same_v<LimitsType, NoLimits>)
       return body.finest_level();

@@ -25,7 +25,8 @@
 
 namespace swiftlet {
 
-/// Walks on the level pair of `place`, from its features.
+/// Walks on the level pair of `place`, from its features. These are read one by one, as they were stored: a load of both would
+/// wait until both stores are done.
 template <class Pair>
 [[gnu::always_inline]] static inline Walk walk_from(const Pair& pair, const PairView& view, const Place& place,
                                                     Answer& answer) {
@@ -190,23 +191,23 @@ template <class Pair>
   seal(radii, proof, limits.tuning, answer);
 }
 
-// What is asked: the questions that most queries ask as constants, which compilers fold, or any other one.
+// What is asked: the two questions that most queries ask, as constants, which compilers fold; or any question.
 namespace {
-struct Exactly {
+struct ExactDistance {
   static constexpr StopRule asked{};
 };
-struct WhetherTheyMeet {
+struct Intersection {
   static constexpr StopRule asked{0, 0, 0, 0};
 };
-struct Whatever {
+struct AnyQuestion {
   const StopRule& asked;
 };
 }  // namespace
 
 /// As `answer_bodies`, for two models without radii and without limits.
 template <class Question>
-[[gnu::flatten]] static void answer_plainly(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed,
-                                            const Question& question, Answer& answer) {
+[[gnu::flatten]] static void answer_question(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed,
+                                             const Question& question, Answer& answer) {
   const Motion m = motion(b_in_a);
   const PoseQuality quality = pose_quality(m);
   if (!quality.legal) return refuse(a, b, Status::InvalidPose, false, answer);
@@ -216,13 +217,15 @@ template <class Question>
   seal({0, 0}, proof, NoLimits::tuning, answer);
 }
 
-/// The same, whatever is asked.
+/// As `ask_models`.
 [[gnu::always_inline]] static inline void answer_models(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed,
                                                         const StopRule& asked, Answer& answer) {
-  const bool is_narrow = !(asked.absolute > 0 || asked.relative > 0);
-  if (is_narrow && asked.above == 0 && asked.below == 0) return answer_plainly(a, b, b_in_a, seed, WhetherTheyMeet{}, answer);
-  if (is_narrow && !asked.is_threshold() && asked.below <= 0) return answer_plainly(a, b, b_in_a, seed, Exactly{}, answer);
-  answer_plainly(a, b, b_in_a, seed, Whatever{asked}, answer);
+  const bool no_error = !(asked.absolute > 0 || asked.relative > 0);
+  if (no_error && asked.above == 0 && asked.below == 0) return answer_question(a, b, b_in_a, seed, Intersection{}, answer);
+  // No distance is less than a `below` of 0.
+  if (no_error && !asked.is_threshold() && asked.below <= 0)
+    return answer_question(a, b, b_in_a, seed, ExactDistance{}, answer);
+  answer_question(a, b, b_in_a, seed, AnyQuestion{asked}, answer);
 }
 
 }  // namespace swiftlet
