@@ -122,6 +122,40 @@ TEST_P(RandomPairs, SpendFarStepsOnCoarseLevels) {
   EXPECT_GT(fine, 0u);
 }
 
+/// Bodies that reach into each other, and sometimes do not: four vertex pairs prove an overlap, and follow the origin when the
+/// bodies turn. Every verdict is checked, every tenth compared with the oracle.
+TEST_P(RandomPairs, ProveOverlapsByVerticesThatFollow) {
+  const Bodies& pair = bodies(GetParam());
+  int overlapping = 0, disjoint = 0, followed = 0;
+  for (const double apart : {0.15, 0.3, 0.5, 0.8, 1.8})
+    for (const double degrees : {1.04, 10.4, 45.4, 400.0}) {
+      const shapes::Orbit motion(11, apart * pair.a.radius(), degrees);
+      PairSeed seed;
+      for (std::uint64_t i = 1; i <= 200; ++i) {
+        const Pose pose = motion.pose(i);
+        const auto before = seed.inside_a;
+        OverlapProof proof;
+        Effort effort;
+        if (i % 2 == 0) effort.tuning.proof = &proof;
+        const Answer answer = intersects(pair.a, pair.b, pose, seed, effort);
+        ASSERT_NE(answer.verdict, Verdict::Undecided);
+        const bool meet = answer.verdict == Verdict::Overlapping;
+        meet ? ++overlapping : ++disjoint;
+        // Of all ways only this one names a vertex of the proof, and only what follows changes.
+        followed += meet && answer.feature_a == FeatureId(FeatureKind::Vertex, seed.inside_a[0]) && seed.inside_a != before;
+        if (i % 10 == 0) {
+          ASSERT_EQ(oracle::distance(pair.meshes.a.points, pair.meshes.b.points, pose).overlapping, meet) << i;
+        }
+        const Check checked = check(pair.a, pair.b, pose, answer, effort.tuning.proof);
+        ASSERT_TRUE(checked) << checked.message;
+      }
+    }
+  std::printf("%s: %d overlapping, %d disjoint, %d by vertices that followed\n", shapes::name(GetParam()), overlapping,
+              disjoint, followed);
+  EXPECT_GT(followed, overlapping / 20);
+  EXPECT_GT(disjoint, 100);
+}
+
 INSTANTIATE_TEST_SUITE_P(Families, RandomPairs, testing::ValuesIn(shapes::kFamilies),
                          [](const auto& family) { return std::string(shapes::name(family.param)); });
 

@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves an overlap by four vertex pairs in doubles: the tetrahedron of their differences holds the origin, and a ball around
-// it. Its four corners, and its four faces, are lanes of vectors.
+// it. Where the origin has left the tetrahedron, it says through which face. Its four corners, and its four faces, are lanes of
+// vectors.
 #pragma once
+
+#include <array>
+#include <bit>
 
 #include <swiftlet/march.h>
 
@@ -10,37 +14,69 @@
 #include "pair/pair_view.h"
 
 namespace swiftlet {
+namespace {
 
-/// True if the four vertex pairs of `proof` prove that the bodies overlap, and the origin is more than twice law 2's bound from
-/// every plane of the tetrahedron of their differences. Doubles decide; what they cannot, is not deep. `common`, if wanted,
-/// becomes a point within law 2's bound of both bodies; where doubles find none, the result is false too.
-static inline bool proves_deep_overlap(const PairView& pair, const OverlapProof& proof, Vec* common = nullptr) {
-  const Vertex *a = pair.a.vertices.data(), *b = pair.b.vertices.data();
-  const auto& [count, of_a, of_b] = proof;
-  const Motion& m = pair.b_in_a;
-  const V3<Vec4> p = transposed(a[of_a[0]], a[of_a[1]], a[of_a[2]], a[of_a[3]]),
-                 q = transposed(b[of_b[0]], b[of_b[1]], b[of_b[2]], b[of_b[3]]);
-  const auto moved = [&q](const Vec& row, double t) { return q.x * row.x + q.y * row.y + q.z * row.z + all(t); };
-  const V3<Vec4> corner = p - V3<Vec4>{moved(m.row_x, m.t.x), moved(m.row_y, m.t.y), moved(m.row_z, m.t.z)};
-  // The faces opposite corners 2, 0, 1 and 3, by normals into the tetrahedron, or all out of it. The first three hold corner 3,
-  // from which the edges lead.
-  const V3<Vec4> edge = corner - V3<Vec4>{lane<3>(corner.x), lane<3>(corner.y), lane<3>(corner.z)};
-  const V3<Vec4> normal = cross(edge, V3<Vec4>{yzx(edge.x), yzx(edge.y), yzx(edge.z)});
-  const auto with = [](const Vec4& three, double fourth) { return vec4(low(three), Vec2{three[2], fourth}); };
-  const V3<Vec4> n{with(normal.x, -sum(normal.x)), with(normal.y, -sum(normal.y)), with(normal.z, -sum(normal.z))};
-  const auto on_face = [&](const Vec4& of) { return with(lane<3>(of), of[0]); };
-  const Vec4 height = -dot(V3<Vec4>{on_face(corner.x), on_face(corner.y), on_face(corner.z)}, n), inside = abs(height);
-  const unsigned in = greater(height, all(0));
-  const double rounding = kTetrahedronError * pair.magnitude * pair.magnitude * pair.magnitude, least = 2 * pair.law_two;
-  const Vec4 surely = inside - all(rounding);
-  const bool deep = greater(surely, all(0)) == 15 && greater(surely * surely, dot(n, n) * (least * least)) == 15;
-  if (!deep || (in != 0 && in != 15)) return false;
-  if (!common) return true;
-  const auto total = [](const Vec4& of) { return (of[0] + of[1]) + (of[2] + of[3]); };
-  const Vec4 weight = with(yzx(inside), inside[3]) * (1 / total(inside));
-  const Vec off{total(corner.x * weight), total(corner.y * weight), total(corner.z * weight)};
-  *common = {total(p.x * weight), total(p.y * weight), total(p.z * weight)};
-  return 4 * dot(off, off) <= pair.law_two * pair.law_two;
+/// The differences of four vertex pairs. Lanes are corners, and faces in the order of the corners across from them: 2, 0, 1, 3.
+struct Tetrahedron {
+  V3<Vec4> of_a, corner;
+  V3<Vec4> normal;  ///< of the faces: all into the tetrahedron, or all out of it
+  Vec4 height;      ///< of the origin along `normal` above the faces, times their lengths
+
+  Tetrahedron(const PairView& pair, const OverlapProof& proof) {
+    const Vertex *a = pair.a.vertices.data(), *b = pair.b.vertices.data();
+    const auto& [count, p, q] = proof;
+    const Motion& m = pair.b_in_a;
+    of_a = transposed(a[p[0]], a[p[1]], a[p[2]], a[p[3]]);
+    const V3<Vec4> of_b = transposed(b[q[0]], b[q[1]], b[q[2]], b[q[3]]);
+    const auto moved = [&of_b](const Vec& row, double t) { return of_b.x * row.x + of_b.y * row.y + of_b.z * row.z + all(t); };
+    corner = of_a - V3<Vec4>{moved(m.row_x, m.t.x), moved(m.row_y, m.t.y), moved(m.row_z, m.t.z)};
+    // The first three faces hold corner 3, from which the edges lead.
+    const V3<Vec4> edge = corner - V3<Vec4>{lane<3>(corner.x), lane<3>(corner.y), lane<3>(corner.z)},
+                   three = cross(edge, V3<Vec4>{yzx(edge.x), yzx(edge.y), yzx(edge.z)});
+    normal = {with(three.x, -sum(three.x)), with(three.y, -sum(three.y)), with(three.z, -sum(three.z))};
+    const auto on_face = [](const Vec4& of) { return with(lane<3>(of), of[0]); };
+    height = -dot(V3<Vec4>{on_face(corner.x), on_face(corner.y), on_face(corner.z)}, normal);
+  }
+
+  /// True if the bodies surely overlap, and the origin is more than twice law 2's bound from every face. Doubles decide; what
+  /// they cannot, is not deep.
+  bool is_deep(const PairView& pair) const {
+    const unsigned in = greater(height, all(0));
+    const double rounding = kTetrahedronError * pair.magnitude * pair.magnitude * pair.magnitude, least = 2 * pair.law_two;
+    const Vec4 surely = abs(height) - all(rounding);
+    const bool deep = greater(surely, all(0)) == 15 && greater(surely * surely, dot(normal, normal) * (least * least)) == 15;
+    return deep && (in == 0 || in == 15);
+  }
+  /// Of a deep one: true if `common` becomes a point within law 2's bound of both bodies; false if doubles find none.
+  bool finds_common(const PairView& pair, Vec& common) const {
+    const Vec4 inside = abs(height), weight = with(yzx(inside), inside[3]) * (1 / total(inside));
+    const Vec off{total(corner.x * weight), total(corner.y * weight), total(corner.z * weight)};
+    common = {total(of_a.x * weight), total(of_a.y * weight), total(of_a.z * weight)};
+    return 4 * dot(off, off) <= pair.law_two * pair.law_two;
+  }
+  /// The face that the origin is the farthest beyond, by its outward normal and the corner across from it; 4 if by none.
+  struct Exit {
+    Vec4 out{};
+    std::size_t across = 4;
+  };
+  Exit exit() const {
+    const double outwards = total(height) < 0 ? 1 : -1;
+    const Vec4 beyond = max(height * outwards, all(0)), beyond2 = beyond / dot(normal, normal) * beyond;
+    const double most = greatest(beyond2);
+    if (!(most > 0)) return {};
+    const int face = std::countr_zero(equal(beyond2, all(most)));
+    return {vec4(normal.x[face], normal.y[face], normal.z[face]) * outwards, std::array<std::size_t, 4>{2, 0, 1, 3}[face]};
+  }
+
+ private:
+  static Vec4 with(const Vec4& three, double fourth) { return vec4(low(three), Vec2{three[2], fourth}); }
+  static double total(const Vec4& of) { return (of[0] + of[1]) + (of[2] + of[3]); }
+};
+
+/// True if the four vertex pairs of `proof` prove that the bodies overlap deeply.
+[[maybe_unused]] bool proves_deep_overlap(const PairView& pair, const OverlapProof& proof) {
+  return Tetrahedron(pair, proof).is_deep(pair);
 }
 
+}  // namespace
 }  // namespace swiftlet

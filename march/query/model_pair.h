@@ -36,7 +36,9 @@ struct PairOf {
     return limits.tuning.start == StartPolicy::Automatic && a.map_level() < a.level_count() && b.map_level() < b.level_count();
   }
   /// The finest level pair that has support maps and that the query may read.
-  Place finest_mapped() const { return {std::max(a.map_level(), finest_a()), std::max(b.map_level(), finest_b()), {}}; }
+  [[gnu::always_inline]] Place finest_mapped() const {
+    return {std::max(a.map_level(), finest_a()), std::max(b.map_level(), finest_b()), {}};
+  }
   /// The most by which the exact hulls may be farther apart than these levels. A pose that is not exactly orthonormal may
   /// stretch B, and its deviation, by 1.5 times its error and a little of second order.
   double deviation(int level_a, int level_b) const {

@@ -83,9 +83,24 @@ static inline bool finest_has_maps(const Pair& pair) {
   return support_gjk(view, a, b, deviation, seen, [](const SupportGjk& s) { return s.near; });
 }
 
-/// Answers that the bodies overlap if the vertex pairs that proved it last time still do.
+/// Makes the tetrahedron of `proof` follow the origin out of a face: the corner across from that is replaced by what the maps
+/// name beyond it. Returns false if that is not as far as the origin, or no other than the face has.
+[[maybe_unused, gnu::noinline, gnu::flatten]] static bool follow(const ModelPair& pair, const Tetrahedron::Exit& exit,
+                                                                 OverlapProof& proof) {
+  const Place at = pair.finest_mapped();
+  const Level &a = pair.a.level(at.level_a), &b = pair.b.level(at.level_b);
+  const PairView view = pair.view_of(a, b);
+  const AxisSample seen = sample_axis(view, Moved4(view), a, b, exit.out);
+  const std::uint32_t va = descendant(pair.a, at.level_a, seen.a), vb = descendant(pair.b, at.level_b, seen.b);
+  for (std::size_t k = 0; k < 4; ++k)
+    if (proof.vertex_a[k] == va && proof.vertex_b[k] == vb) return false;
+  proof.vertex_a[exit.across] = va, proof.vertex_b[exit.across] = vb;
+  return !(seen.gap > 0);
+}
+/// Answers that the bodies overlap if the vertex pairs that proved it last time still do, or do once they have followed the
+/// origin.
 template <class Pair>
-[[gnu::always_inline]] static inline bool overlaps_as_before(const Pair& pair, const PairSeed& seed, Answer& answer,
+[[gnu::always_inline]] static inline bool overlaps_as_before(const Pair& pair, PairSeed& seed, Answer& answer,
                                                              OverlapProof& proof) {
   const PairView view = pair.view_at({0, 0, {}});
   const auto names = [](const std::array<std::uint32_t, 4>& v, const ConvexView& body) {
@@ -93,17 +108,29 @@ template <class Pair>
   };
   if (pair.finest_a() != 0 || pair.finest_b() != 0 || !names(seed.inside_a, view.a) || !names(seed.inside_b, view.b))
     return false;
-  const OverlapProof again{4, seed.inside_a, seed.inside_b};
-  Vec common;
-  if (!proves_deep_overlap(view, again, &common)) return false;
+  OverlapProof now{4, seed.inside_a, seed.inside_b};
+  int steps = 0;
+  for (;; ++steps) {
+    const Tetrahedron tetrahedron(view, now);
+    if (tetrahedron.is_deep(view)) {
+      Vec common;
+      if (!tetrahedron.finds_common(view, common)) return false;
+      answer.point_a = answer.point_b = eigen(common);
+      break;
+    }
+    const Tetrahedron::Exit exit = tetrahedron.exit();
+    bool follows = exit.across < 4 && steps < kOriginSteps && pair.has_maps();
+    if (follows) in_general(pair, [&](const ModelPair& general) { follows = follow(general, exit, now); });
+    if (!follows) return false;
+  }
   answer.status = Status::Converged;
   answer.verdict = Verdict::Overlapping;
   answer.lower = answer.upper = 0;
-  answer.point_a = answer.point_b = eigen(common);
-  answer.feature_a = {FeatureKind::Vertex, seed.inside_a[0]}, answer.feature_b = {FeatureKind::Vertex, seed.inside_b[0]};
+  answer.feature_a = {FeatureKind::Vertex, now.vertex_a[0]}, answer.feature_b = {FeatureKind::Vertex, now.vertex_b[0]};
   answer.levels_visited = 1;
   note(pair.limits.trace, 0, {0, 0, 0, 0});
-  proof = again;
+  if (steps > 0) seed.inside_a = now.vertex_a, seed.inside_b = now.vertex_b;
+  proof = now;
   return true;
 }
 
