@@ -71,7 +71,7 @@ class Deepening {
         finest_b_(pair_.finest_b()) {}
 
   /// `floor`: as `DepthGoal::floor`. `visited`: the number of level pairs that are in the trace already.
-  void run(const PairSeed& seed, double floor = 0, int visited = 0) {
+  [[gnu::flatten]] void run(const PairSeed& seed, double floor = 0, int visited = 0) {
     floor_ = floor;
     levels_visited = visited;
     lower = -kInfinity, upper = kInfinity;
@@ -262,7 +262,8 @@ class Deepening {
     if (goal.error > 0) at = {}, at.direction = direction;  // on a coarse pair bounds are wanted, and no facet
     goal.step_budget = budget_.steps - std::min(steps, budget_.steps);
     found = epa(pair, of_a, of_b, at, goal, plane_tests);
-    return steps += found.steps, found;
+    steps += found.steps;
+    return found;
   }
 
   void solve(const PairSeed& seed, const Vec& direction, double error) {

@@ -61,6 +61,13 @@ static inline Vec2 abs(Vec2 a) {
   return Vec2{std::fabs(a[0]), std::fabs(a[1])};
 #endif
 }
+static inline Vec2 sqrt(Vec2 a) {
+#if defined(__SSE2__)
+  return _mm_sqrt_pd(a);
+#else
+  return Vec2{std::sqrt(a[0]), std::sqrt(a[1])};
+#endif
+}
 /// The whole parts of numbers that are no NaN and fit.
 static inline std::array<std::int32_t, 2> whole(Vec2 a) {
 #if defined(__SSE2__)
@@ -89,6 +96,10 @@ static inline Vec4 lane(const Vec4& a) {
   return {__builtin_shufflevector(a.v, a.v, i, i, i, i)};
 }
 static inline Vec4 yzx(const Vec4& a) { return {__builtin_shufflevector(a.v, a.v, 1, 2, 0, 3)}; }
+/// In each lane what the lane after it, or before it, holds; after the last comes the first.
+static inline Vec4 next(const Vec4& a) { return {__builtin_shufflevector(a.v, a.v, 1, 2, 3, 0)}; }
+static inline Vec4 previous(const Vec4& a) { return {__builtin_shufflevector(a.v, a.v, 3, 0, 1, 2)}; }
+static inline Vec4 sqrt(const Vec4& a) { return {_mm256_sqrt_pd(a.v)}; }
 /// a0 b0 a2 b2 and a1 b1 a3 b3.
 static inline Vec4 even(const Vec4& a, const Vec4& b) { return {__builtin_shufflevector(a.v, b.v, 0, 4, 2, 6)}; }
 static inline Vec4 odd(const Vec4& a, const Vec4& b) { return {__builtin_shufflevector(a.v, b.v, 1, 5, 3, 7)}; }
@@ -111,6 +122,13 @@ static inline Vec4 lane(const Vec4& a) {
   return all(a[i]);
 }
 static inline Vec4 yzx(const Vec4& a) { return {__builtin_shufflevector(a.lo, a.hi, 1, 2), a.lo}; }
+static inline Vec4 next(const Vec4& a) {
+  return {__builtin_shufflevector(a.lo, a.hi, 1, 2), __builtin_shufflevector(a.hi, a.lo, 1, 2)};
+}
+static inline Vec4 previous(const Vec4& a) {
+  return {__builtin_shufflevector(a.hi, a.lo, 1, 2), __builtin_shufflevector(a.lo, a.hi, 1, 2)};
+}
+static inline Vec4 sqrt(const Vec4& a) { return {sqrt(a.lo), sqrt(a.hi)}; }
 static inline Vec4 even(const Vec4& a, const Vec4& b) {
   return {__builtin_shufflevector(a.lo, b.lo, 0, 2), __builtin_shufflevector(a.hi, b.hi, 0, 2)};
 }
@@ -238,10 +256,14 @@ static inline Vec4 normalised(const Vec4& v) {
   return has_range(square) ? v * (1 / std::sqrt(square)) : normalised_far(v);
 }
 
-/// The greatest of four numbers.
+/// The greatest, and the least, of four numbers.
 static inline double greatest(const Vec4& a) {
   const Vec2 pairs = max(low(a), high(a));
   return max(pairs[0], pairs[1]);
+}
+static inline double least(const Vec4& a) {
+  const Vec2 pairs = min(low(a), high(a));
+  return min(pairs[0], pairs[1]);
 }
 
 /// Four dot products of vectors.
@@ -260,5 +282,10 @@ static inline V3<Vec4> transposed(const Point& a, const Point& b, const Point& c
 }
 /// A vector four times.
 static inline V3<Vec4> repeated(const Vec4& a) { return {lane<0>(a), lane<1>(a), lane<2>(a)}; }
+static inline V3<Vec4> repeated(const Vec& a) { return {all(a.x), all(a.y), all(a.z)}; }
+/// The point in one lane.
+static inline Vec vec(const V3<Vec4>& points, std::size_t lane) {
+  return {points.x[int(lane)], points.y[int(lane)], points.z[int(lane)]};
+}
 
 }  // namespace swiftlet

@@ -10,8 +10,7 @@
 
 #include <swiftlet/march.h>
 
-#include "numeric/vec4.h"
-#include "pair/pair_view.h"
+#include "pair/difference.h"
 
 namespace swiftlet {
 namespace {
@@ -22,14 +21,8 @@ struct Tetrahedron {
   V3<Vec4> normal;  ///< of the faces: all into the tetrahedron, or all out of it
   Vec4 height;      ///< of the origin along `normal` above the faces, times their lengths
 
-  Tetrahedron(const PairView& pair, const OverlapProof& proof) {
-    const Vertex *a = pair.a.vertices.data(), *b = pair.b.vertices.data();
-    const auto& [count, p, q] = proof;
-    const Motion& m = pair.b_in_a;
-    of_a = transposed(a[p[0]], a[p[1]], a[p[2]], a[p[3]]);
-    const V3<Vec4> of_b = transposed(b[q[0]], b[q[1]], b[q[2]], b[q[3]]);
-    const auto moved = [&of_b](const Vec& row, double t) { return of_b.x * row.x + of_b.y * row.y + of_b.z * row.z + all(t); };
-    corner = of_a - V3<Vec4>{moved(m.row_x, m.t.x), moved(m.row_y, m.t.y), moved(m.row_z, m.t.z)};
+  Tetrahedron(const PairView& pair, const OverlapProof& proof) : Tetrahedron({pair, proof.vertex_a, proof.vertex_b}) {}
+  explicit Tetrahedron(const Differences& four) : of_a(four.of_a), corner(four.p) {
     // The first three faces hold corner 3, from which the edges lead.
     const V3<Vec4> edge = corner - V3<Vec4>{lane<3>(corner.x), lane<3>(corner.y), lane<3>(corner.z)},
                    three = cross(edge, V3<Vec4>{yzx(edge.x), yzx(edge.y), yzx(edge.z)});
@@ -65,7 +58,7 @@ struct Tetrahedron {
     const double most = greatest(beyond2);
     if (!(most > 0)) return {};
     const int face = std::countr_zero(equal(beyond2, all(most)));
-    return {vec4(normal.x[face], normal.y[face], normal.z[face]) * outwards, std::array<std::size_t, 4>{2, 0, 1, 3}[face]};
+    return {vec4(vec(normal, std::size_t(face))) * outwards, std::array<std::size_t, 4>{2, 0, 1, 3}[face]};
   }
 
  private:
