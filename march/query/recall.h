@@ -152,9 +152,7 @@ template <class Pair>
   if (asks || exact || !automatic || !unwatched) return false;
   if (spheres_suffice(pair, line.in_a, asked, answer)) return true;
   if (!samples || seed.a.kind() != FeatureKind::None) return false;
-  bool suffices = false;
-  in_general(pair, [&](const ModelPair& general) { suffices = sample_suffices(general, line, asked, seed, seen, answer); });
-  return suffices;
+  return sample_suffices(pair, line, asked, seed, seen, answer);
 }
 
 /// As `ask_hulls`.

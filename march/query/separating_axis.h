@@ -19,7 +19,8 @@ static inline Vec4 first_direction(const Pair& pair, const Line& line, const Vec
 }
 
 /// The coarsest pair with maps whose error is likely to be small enough for bodies at most `distance` apart, or the finest.
-static inline Place mapped_for(const ModelPair& pair, const StopRule& asked, double distance) {
+template <class Pair>
+[[gnu::always_inline]] static inline Place mapped_for(const Pair& pair, const StopRule& asked, double distance) {
   const int most_a = pair.a.level_count() - 1, most_b = pair.b.level_count() - 1;
   Place place = pair.finest_mapped();
   while (place.level_a < most_a || place.level_b < most_b) {
@@ -74,8 +75,9 @@ static inline bool separating_axis(const Pair& pair, const Vec& between, const S
 /// Fills `answer` and returns true if one sample bounds the distance as narrowly as asked: along the seed's direction, or, if
 /// that is old, along a new one, which the seed then keeps in place of features: vertices that only maps name are no better
 /// start than none. `seen` becomes the sample, on the level pair where GJK on maps would begin.
-[[maybe_unused, gnu::noinline]] static bool sample_suffices(const ModelPair& pair, const Line& line, const StopRule& asked,
-                                                            PairSeed& seed, AxisSample& seen, Answer& answer) {
+template <class Pair>
+[[gnu::always_inline]] static inline bool sample_suffices(const Pair& pair, const Line& line, const StopRule& asked,
+                                                          PairSeed& seed, AxisSample& seen, Answer& answer) {
   const Place at = mapped_for(pair, asked, norm(line.in_a));
   const PairView view = pair.view_at(at);
   const Vec last = last_direction(line.in_a, seed);
