@@ -1,129 +1,153 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The convex hull of points, grown point by point in doubles [Preparata & Shamos 1985, sec. 3.4.3]. What rounding leaves of it
-// `Model::from_level` repairs or refuses: that a model is convex is proved.
+// The convex hull of points: a facet that points lie above gives way to a cone from the farthest of these [Barber, Dobkin &
+// Huhdanpaa 1996, Quickhull]. Exact signs tell what is above, so that nearly coplanar points are no special case.
 #include <swiftlet/bullet.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
-#include <optional>
-#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include "numeric/exact.h"
+#include "numeric/tolerance.h"
+
 namespace swiftlet::bullet {
 namespace {
 
-/// A point that is no higher than this above a face, over the extent, adds nothing: some hundred times the rounding of a
-/// height.
-constexpr double kNothing = 0x1p-44;
-
 using Index = std::uint32_t;
-using Edge = std::array<Index, 2>;  ///< from and to
 
-struct Face {
+constexpr Index kNobody = ~Index{0};
+constexpr std::size_t after(std::size_t k) { return k == 2 ? 0 : k + 1; }
+
+struct Facet {
   std::array<Index, 3> corners;  ///< counter-clockwise seen from outside
-  Vec3 normal;                   ///< unit
-  double height;
+  std::array<Index, 3> beside;   ///< entry k: the facet across the edge from corner k to the next one
+  std::vector<Index> above;      ///< each point that is not in the hull is above one of the facets: those of this one
+  bool is_gone = false;
 };
 
 class GrowingHull {
  public:
-  explicit GrowingHull(const std::vector<Vec3>& points) : points_(points) {
-    for (const Vec3& p : points) extent_ = std::max(extent_, p.cwiseAbs().maxCoeff());
-  }
+  explicit GrowingHull(const std::vector<Vec3>& points) : points_(points), border_(points.size()) {}
 
-  /// Nothing, or why there is no hull.
-  std::optional<Error> grow() {
-    if (!begin()) return Error{ErrorCode::NotSolid, "the points lie in one plane"};
-    std::vector<Index> order(points_.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::minstd_rand random;
-    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
-    for (const Index p : order) {
-      if (!add(p)) return Error{ErrorCode::NotConvex, "rounding hides which faces are below point " + std::to_string(p)};
+  /// False where the points lie in one plane.
+  bool grow() {
+    if (!begin()) return false;
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      if (!facets_[f].above.empty()) add(farthest_above(facets_[f]), Index(f));
     }
-    return std::nullopt;
+    return true;
   }
-  const std::vector<Face>& faces() const { return faces_; }
+  /// The triangles; coplanar ones are not merged.
+  template <class Visit>
+  void each_facet(Visit visit) const {
+    for (const Facet& f : facets_) {
+      if (!f.is_gone) visit(f.corners);
+    }
+  }
 
  private:
-  /// The point for which `far` is largest.
-  template <class Far>
-  Index farthest(Far far) const {
-    Index most = 0;
-    for (Index i = 1; i < points_.size(); ++i) {
-      if (far(points_[i]) > far(points_[most])) most = i;
-    }
-    return most;
+  const double* at(Index p) const { return points_[p].data(); }
+  int side_of(const std::array<Index, 3>& plane, Index p) const {
+    return exact::orientation(at(plane[0]), at(plane[1]), at(plane[2]), at(p));
+  }
+  bool sees(Index p, const Facet& f) const { return side_of(f.corners, p) > 0; }
+
+  template <class Is>
+  Index first_that(Is is) const {
+    Index p = 0;
+    while (p < points_.size() && !is(p)) ++p;
+    return p;
   }
 
   bool begin() {
-    if (points_.empty()) return false;
-    const Index a = farthest([](const Vec3& p) { return p[0]; });
-    const Index b = farthest([&](const Vec3& p) { return (p - points_[a]).norm(); });
-    const Vec3 line = (points_[b] - points_[a]).stableNormalized();
-    const Index c = farthest([&](const Vec3& p) { return line.cross(p - points_[a]).norm(); });
-    const Vec3 up = line.cross(points_[c] - points_[a]).stableNormalized();
-    const Index d = farthest([&](const Vec3& p) { return std::abs(up.dot(p - points_[a])); });
-    const double height = up.dot(points_[d] - points_[a]);
-    if (!(std::abs(height) > kNothing * extent_)) return false;
-    const std::array<Index, 3> base = height < 0 ? std::array{a, b, c} : std::array{b, a, c};
-    add_face(base);
-    for (std::size_t i = 0; i < 3; ++i) add_face({base[(i + 1) % 3], base[i], d});
+    const auto count = Index(points_.size());
+    const Index b = first_that([&](Index p) { return points_[p] != points_[0]; });
+    if (b == count) return false;
+    const Index c = first_that([&](Index p) { return !exact::collinear(at(0), at(b), at(p)); });
+    if (c == count) return false;
+    std::array<Index, 3> base{0, b, c};
+    const Index d = first_that([&](Index p) { return side_of(base, p) != 0; });
+    if (d == count) return false;
+    if (side_of(base, d) > 0) std::swap(base[1], base[2]);
+    facets_.push_back({base, {1, 2, 3}, {}});
+    for (Index k = 0; k < 3; ++k) facets_.push_back({{base[after(k)], base[k], d}, {0, 1 + (k + 2) % 3, 1 + (k + 1) % 3}, {}});
+    std::vector<Index> all(count);
+    for (Index p = 0; p < count; ++p) all[p] = p;
+    hand_out(all, 0);
     return true;
   }
 
-  void add_face(const std::array<Index, 3>& corners) {
-    const Vec3 &p = points_[corners[0]], &q = points_[corners[1]], &r = points_[corners[2]];
-    const Vec3 normal = (q - p).cross(r - p).stableNormalized();
-    faces_.push_back({corners, normal, normal.dot(p)});
+  Index farthest_above(const Facet& f) const {
+    const Vec3& p = points_[f.corners[0]];
+    const Vec3 normal = (points_[f.corners[1]] - p).cross(points_[f.corners[2]] - p).stableNormalized();
+    const auto height = [&](Index q) { return normal.dot(points_[q] - p); };
+    return *std::max_element(f.above.begin(), f.above.end(), [&](Index q, Index r) { return height(q) < height(r); });
   }
 
-  /// The faces that the point is above give way to a cone over their border, unless it is in the place of a corner. False where
-  /// rounding left them more than one border.
-  bool add(Index point) {
-    const Vec3& p = points_[point];
-    const double nothing = kNothing * extent_;
-    const auto seen =
-        std::partition(faces_.begin(), faces_.end(), [&](const Face& f) { return !(f.normal.dot(p) - f.height > nothing); });
-    std::vector<Edge> edges, border;
-    for (auto f = seen; f != faces_.end(); ++f) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        if ((points_[f->corners[i]] - p).norm() <= nothing) return true;
-        edges.push_back({f->corners[i], f->corners[(i + 1) % 3]});
+  /// Gives each point that is above a facet, of those from `first` on, to one of these.
+  void hand_out(const std::vector<Index>& points, std::size_t first) {
+    for (const Index p : points) {
+      const auto seen =
+          std::find_if(facets_.begin() + std::ptrdiff_t(first), facets_.end(), [&](const Facet& f) { return sees(p, f); });
+      if (seen != facets_.end()) seen->above.push_back(p);
+    }
+  }
+
+  /// The facets that the point is strictly above are connected and have one border, which passes no corner twice. A point that
+  /// was above one of them and is still outside is above one of the new ones.
+  void add(Index point, Index facet) {
+    std::vector<Index> seen{facet};
+    facets_[facet].is_gone = true;
+    Index from = kNobody;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Facet& f = facets_[seen[i]];
+        Facet& other = facets_[f.beside[k]];
+        if (other.is_gone) continue;
+        if (sees(point, other)) {
+          other.is_gone = true;
+          seen.push_back(f.beside[k]);
+        } else {
+          from = f.corners[k];
+          border_[from] = {f.corners[after(k)], f.beside[k]};
+        }
       }
     }
-    std::sort(edges.begin(), edges.end());
-    for (const auto& [from, to] : edges) {
-      if (!std::binary_search(edges.begin(), edges.end(), Edge{to, from})) border.push_back({from, to});
+    std::vector<Index> homeless;
+    for (const Index s : seen) {
+      homeless.insert(homeless.end(), facets_[s].above.begin(), facets_[s].above.end());
+      facets_[s].above = {};
     }
-    if (!is_one_loop(border)) return false;
-    faces_.erase(seen, faces_.end());
-    for (const auto& [from, to] : border) add_face({from, to, point});
-    return true;
+
+    const auto first = Index(facets_.size());
+    const Index start = from;
+    do {
+      const auto [to, outer] = border_[from];
+      const auto here = Index(facets_.size());
+      Facet& other = facets_[outer];
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (other.corners[k] == to && other.corners[after(k)] == from) other.beside[k] = here;
+      }
+      facets_.push_back({{from, to, point}, {outer, here + 1, here - 1}, {}});
+      from = to;
+    } while (from != start);
+    facets_.back().beside[1] = first;
+    facets_[first].beside[2] = Index(facets_.size() - 1);
+    hand_out(homeless, first);
   }
 
-  /// Of edges in the order of their origins.
-  static bool is_one_loop(const std::vector<Edge>& border) {
-    if (border.empty()) return true;
-    Index at = border[0][0];
-    for (std::size_t steps = 1;; ++steps) {
-      const auto next = std::lower_bound(border.begin(), border.end(), Edge{at, 0});
-      if (next == border.end() || (*next)[0] != at) return false;
-      at = (*next)[1];
-      if (at == border[0][0]) return steps == border.size();
-      if (steps == border.size()) return false;
-    }
-  }
-
+  struct Edge {
+    Index to, outer;  ///< the corner where it ends, and the facet across it
+  };
   const std::vector<Vec3>& points_;
-  double extent_ = 0;
-  std::vector<Face> faces_;
+  std::vector<Facet> facets_;
+  std::vector<Edge> border_;  ///< by the corner where an edge begins
 };
 
 }  // namespace
@@ -131,24 +155,26 @@ class GrowingHull {
 Result<Model> model_of(const btVector3* points, int count) {
   std::vector<Vec3> all;
   for (int i = 0; i < count; ++i) all.emplace_back(points[i].x(), points[i].y(), points[i].z());
-  GrowingHull hull(all);
-  if (const auto fault = hull.grow()) return *fault;
-
-  constexpr Index kUnused = ~Index{0};
-  std::vector<Index> number(all.size(), kUnused), triangles;
-  std::vector<Vec3> vertices;
-  for (const Face& f : hull.faces()) {
-    for (const Index corner : f.corners) {
-      if (number[corner] == kUnused) number[corner] = Index(vertices.size()), vertices.push_back(all[corner]);
-      triangles.push_back(number[corner]);
+  for (const Vec3& p : all) {
+    for (const double x : p) {
+      if (!is_legal_coordinate(x)) return Error{ErrorCode::BadValue, "a point has the coordinate " + std::to_string(x)};
     }
   }
+  GrowingHull hull(all);
+  if (!hull.grow()) return Error{ErrorCode::NotSolid, "the points lie in one plane"};
+
+  std::vector<Index> number(all.size(), kNobody), triangles;
+  std::vector<Vec3> vertices;
+  hull.each_facet([&](const std::array<Index, 3>& corners) {
+    for (const Index corner : corners) {
+      if (number[corner] == kNobody) number[corner] = Index(vertices.size()), vertices.push_back(all[corner]);
+      triangles.push_back(number[corner]);
+    }
+  });
   LevelArrays arrays;
   arrays.vertices = vertices;
   arrays.face_vertices = triangles;
-  ModelOptions options;
-  options.repair = true;
-  return Model::from_level(arrays, options);
+  return Model::from_level(arrays);
 }
 
 Result<Model> model_of(const btConvexHullShape& shape) {

@@ -31,10 +31,9 @@ class HullShape : public btConvexHullShape {
   Model model_;
 };
 
-/// The model of the convex hull of points, for hulls of which there is no mesh. Errors: NotSolid where they lie in one plane;
-/// NotConvex or BadValue where doubles cannot tell the hull, as of a turned grid whose points rounding has moved off its faces;
-/// single-precision points are told apart. Cost: the points times the faces, 20 ms for 2 000 points. The builder of
-/// swiftlet::lod takes any points.
+/// The model of the exact convex hull of points, for hulls of which there is no mesh: also of those whose rounding has moved
+/// them off their faces. Errors: NotSolid where all lie in one plane; BadValue of a coordinate that no model may have
+/// (LevelArrays). Cost: 1 ms for 200 corners, 14 ms for 2 000.
 Result<Model> model_of(const btVector3* points, int count);
 /// Of a shape's scaled points.
 Result<Model> model_of(const btConvexHullShape& shape);
