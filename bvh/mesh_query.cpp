@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "body/shape.h"
 #include "mesh_setting.h"
 #include "query/ask.h"
 #include "solid.h"
@@ -19,17 +20,6 @@ Verdict verdict_of(const MeshFinding& found, double law_two) {
   if (found.verdict == Verdict::Overlapping) return Verdict::Overlapping;
   if (found.lower > 0) return Verdict::Disjoint;
   return found.upper <= law_two ? Verdict::Touching : Verdict::Undecided;
-}
-
-Body without_radius(const Body& of) {
-  switch (of.kind()) {
-    case BodyKind::Model: return Body(*of.model());
-    case BodyKind::Point: return Body::point(of.corner(0));
-    case BodyKind::Segment: return Body::segment(of.corner(0), of.corner(1));
-    case BodyKind::Triangle: return Body::triangle(of.corner(0), of.corner(1), of.corner(2));
-    case BodyKind::Box: return Body::box(of.corner(0), of.corner(1));
-  }
-  return of;
 }
 
 /// Half the length of a root's box along a unit direction of its body's frame.

@@ -13,29 +13,14 @@
 
 #include <swiftlet/depth.h>
 
+#include "body/shape.h"
+
 namespace swiftlet::bullet {
 namespace {
-
-/// Over the body's extent: what is nearer counts as one place, as of a convex body against triangles.
-constexpr double kOnePlace = 0x1p-20;
-
-Vec3 transform(const Pose& pose, const Vec3& p) { return pose.rotation * p + pose.translation; }
 
 TriangleId id_of(const PlacedMeshShape& of, std::uint32_t triangle) {
   if (!of.shape || triangle >= of.mesh().triangle_count()) return {};
   return {0, int(of.mesh().source_triangle()[triangle])};
-}
-
-/// The body without its radius.
-Body core_of(const Body& body) {
-  const Vec3 p = body.corner(0), q = body.corner(1), r = body.corner(2);
-  switch (body.kind()) {
-    case BodyKind::Model: return *body.model();
-    case BodyKind::Point: return Body::point(p);
-    case BodyKind::Segment: return Body::segment(p, q);
-    case BodyKind::Triangle: return Body::triangle(p, q, r);
-    default: return Body::box(p, q);
-  }
 }
 
 /// Unit, or 0 of a triangle whose corners lie on one line.
@@ -51,7 +36,7 @@ bool holds(const MeshContact& region, const Vec3& p, double around) {
 }  // namespace
 
 MeshBody PlacedMeshShape::core() const {
-  if (!shape) return core_of(convex);
+  if (!shape) return without_radius(convex);
   return shape->is_solid() ? MeshBody::solid(mesh()) : MeshBody(mesh());
 }
 
@@ -189,7 +174,7 @@ class MeshPair::Corners {
 
   Near near_convex(const Vec3& p) {
     Near near;
-    const Answer answer = signed_distance(core_of(other_.convex), Body::point(p), Pose{}, seed_.pair, {.beyond = reach()});
+    const Answer answer = signed_distance(without_radius(other_.convex), Body::point(p), Pose{}, seed_.pair, {.beyond = reach()});
     if (answer.status == Status::Beyond || answer.normal.hasNaN()) return near;
     near.apart = answer.lower, near.up = answer.normal;
     return near;

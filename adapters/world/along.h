@@ -7,8 +7,6 @@
 
 namespace swiftlet {
 
-Vec3 transform(const Pose& pose, const Vec3& p);
-
 /// Takes a manifold of A's frame into the world's.
 void into_world(const Pose& a_in_world, Manifold& manifold);
 

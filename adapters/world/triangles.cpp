@@ -20,10 +20,6 @@
 namespace swiftlet {
 namespace {
 
-/// Over the body's radius: what is nearer counts as one place. Some units in the last place of single precision, in which
-/// engines keep meshes.
-constexpr double kOnePlace = 0x1p-20;
-
 bool is_less_separated(const TrianglePoint& p, const TrianglePoint& q) { return p.separation < q.separation; }
 
 }  // namespace

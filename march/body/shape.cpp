@@ -145,6 +145,17 @@ Named named(const Body& body) {
 
 }  // namespace
 
+Body without_radius(const Body& body) {
+  switch (body.kind()) {
+    case BodyKind::Model: return Body(*body.model());
+    case BodyKind::Point: return Body::point(body.corner(0));
+    case BodyKind::Segment: return Body::segment(body.corner(0), body.corner(1));
+    case BodyKind::Triangle: return Body::triangle(body.corner(0), body.corner(1), body.corner(2));
+    case BodyKind::Box: return Body::box(body.corner(0), body.corner(1));
+  }
+  return body;
+}
+
 Box box_of(std::span<const Vertex> vertices) {
   Box box{vec(vertices[0]), vec(vertices[0])};
   for (const Vertex& v : vertices) {

@@ -68,6 +68,8 @@ class ShapeOf {
   const Shape shape_;
 };
 
+Body without_radius(const Body& body);
+
 /// The bounding box of vertices, along the axes of their frame.
 struct Box {
   Vec least, most;

@@ -13,6 +13,10 @@
 
 namespace swiftlet {
 
+/// Over a body's radius or extent: what is nearer counts as one place. Some units in the last place of single precision, in
+/// which engines keep meshes.
+inline constexpr double kOnePlace = 0x1p-20;
+
 /// A place of contact with one triangle, in the world's frame.
 struct TrianglePoint {
   Vec3 normal;                     ///< unit, from the body to the surface

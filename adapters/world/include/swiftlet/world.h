@@ -21,6 +21,9 @@ const Model& whole(const Model& model);
 /// within the 1e-6 that a query asks for. Rotations of single precision are off by up to 1e-6 each.
 Pose orthonormal(const Pose& pose);
 
+/// `p`, a point of the pose's own frame, in the frame that it maps to.
+Vec3 transform(const Pose& pose, const Vec3& p);
+
 /// A body where an engine holds it.
 struct Placed {
   Body body;      ///< what it is, with its radius
