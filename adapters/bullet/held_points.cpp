@@ -15,44 +15,62 @@ namespace {
 
 using Places = std::array<btVector3, MANIFOLD_CACHE_SIZE>;
 
-/// The points' places on B, their distances, and how deep the deepest is.
+/// The points' places on B, their normals and distances along these, and how deep the deepest is.
 struct Held {
-  Places on_b;
+  Places on_b, normal;
   std::array<btScalar, MANIFOLD_CACHE_SIZE> distance;
   btScalar deepest = BT_LARGE_FLOAT;
 };
 
-/// False if there is no area, one of the points has left the other body, or the deepest is not as deep as `least`, to `slack`.
-/// The points are places on the bodies: these may have got other margins or, as parts of compounds, other places.
-bool find(const btPersistentManifold& points, const btVector3& normal, double least, btScalar slack, Held& held) {
+/// False if one of the points has left the other body.
+template <class NormalOf>
+bool find(const btPersistentManifold& points, const NormalOf& normal_of, Held& held) {
   const btTransform &a = points.getBody0()->getWorldTransform(), &b = points.getBody1()->getWorldTransform();
   const btScalar far = points.getContactBreakingThreshold();
   for (int i = 0; i < points.getNumContacts(); ++i) {
     const btManifoldPoint& p = points.getContactPoint(i);
-    const btVector3 on_b = b(p.m_localPointB), apart = a(p.m_localPointA) - on_b;
+    const btVector3 normal = normal_of(p), on_b = b(p.m_localPointB), apart = a(p.m_localPointA) - on_b;
     const btScalar distance = apart.dot(normal);
     if (distance > far || (apart - normal * distance).length2() > far * far) return false;
     held.on_b[std::size_t(i)] = on_b;
+    held.normal[std::size_t(i)] = normal;
     held.distance[std::size_t(i)] = distance;
     held.deepest = std::min(held.deepest, distance);
   }
-  return points.getNumContacts() >= 3 && std::fabs(double(held.deepest) - least) <= slack * far;
+  return true;
+}
+
+/// Of points with the normal of this step: false also if there is no area, or the deepest is not as deep as `least`, to
+/// `slack`. The points are places on the bodies: these may have got other margins or, as parts of compounds, other places.
+bool find_area(const btPersistentManifold& points, const btVector3& normal, double least, btScalar slack, Held& held) {
+  return points.getNumContacts() >= 3 &&
+         find(
+             points, [&](const btManifoldPoint&) { return normal; }, held) &&
+         std::fabs(double(held.deepest) - least) <= slack * points.getContactBreakingThreshold();
+}
+
+/// Which of four places lies across from the first one, seen along `n`, and twice the area of all.
+struct Across {
+  int place = 0;
+  btScalar area = -1;
+};
+Across across_from_first(const Places& p, const btVector3& n) {
+  Across found;
+  for (const auto& [k, i, j] : {std::array{1, 2, 3}, {2, 1, 3}, {3, 1, 2}}) {
+    const btScalar of_diagonals = btFabs((p[0] - p[std::size_t(k)]).cross(p[std::size_t(i)] - p[std::size_t(j)]).dot(n));
+    if (of_diagonals > found.area) found = {k, of_diagonals};
+  }
+  return found;
 }
 
 /// Twice the area of three or four places, in any order, seen along `n`.
 btScalar area(const Places& p, int count, const btVector3& n) {
-  const auto across = [&](const btVector3& u, const btVector3& v) { return btFabs(u.cross(v).dot(n)); };
-  if (count == 3) return across(p[1] - p[0], p[2] - p[0]);
-  const btScalar of_diagonals[] = {across(p[0] - p[1], p[2] - p[3]), across(p[0] - p[2], p[1] - p[3]),
-                                   across(p[0] - p[3], p[1] - p[2])};
-  return *std::max_element(std::begin(of_diagonals), std::end(of_diagonals));
+  return count == 3 ? btFabs((p[1] - p[0]).cross(p[2] - p[0]).dot(n)) : across_from_first(p, n).area;
 }
 
 /// Hands each point to Bullet again, which gives it the frictions of this step, calls back and keeps its impulses; but as a
-/// place on both bodies it stays. Bullet's solver goes through the points one by one, and what it leaves undone is always on
-/// the same side of those that it visits in the same order: a tower leans that way more with every step. So the first becomes
-/// the last.
-void take_turns(const Held& held, const btVector3& normal, btManifoldResult& result) {
+/// place on both bodies it stays.
+void keep(const Held& held, btManifoldResult& result) {
   btPersistentManifold& points = *result.getPersistentManifold();
   const int count = points.getNumContacts();
   Places local_a, local_b;
@@ -64,13 +82,30 @@ void take_turns(const Held& held, const btVector3& normal, btManifoldResult& res
     const btManifoldPoint& p = points.getContactPoint(i);
     result.setShapeIdentifiersA(p.m_partId0, p.m_index0);
     result.setShapeIdentifiersB(p.m_partId1, p.m_index1);
-    result.addContactPoint(normal, held.on_b[std::size_t(i)], held.distance[std::size_t(i)]);
+    result.addContactPoint(held.normal[std::size_t(i)], held.on_b[std::size_t(i)], held.distance[std::size_t(i)]);
   }
   for (int i = 0; i < count; ++i) {
     points.getContactPoint(i).m_localPointA = local_a[std::size_t(i)];
     points.getContactPoint(i).m_localPointB = local_b[std::size_t(i)];
   }
+}
+
+/// Bullet's solver goes through the points one by one, and what it leaves undone is always on the same side of those that it
+/// visits in the same order: a tower leans that way more with every step. So the first becomes the last. They are visited along
+/// the border of their area: of an order across it, two sides come last more often than the others.
+void take_turns(const Held& held, btPersistentManifold& points) {
+  const int count = points.getNumContacts();
+  if (count == 4)
+    std::swap(points.getContactPoint(2), points.getContactPoint(across_from_first(held.on_b, held.normal[0]).place));
   for (int i = 1; i < count; ++i) std::swap(points.getContactPoint(i - 1), points.getContactPoint(i));
+}
+
+bool have_one_normal(const btPersistentManifold& points) {
+  for (int i = 1; i < points.getNumContacts(); ++i) {
+    const btVector3 &p = points.getContactPoint(0).m_normalWorldOnB, &q = points.getContactPoint(i).m_normalWorldOnB;
+    if ((p - q).length2() >= kOneNormal * kOneNormal) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -78,20 +113,33 @@ void take_turns(const Held& held, const btVector3& normal, btManifoldResult& res
 bool hold_on(const Manifold& now, btManifoldResult& result) {
   const btVector3 normal = vector_of(-now.normal);
   Held held;
-  if (!find(*result.getPersistentManifold(), normal, now.points[0].separation, kHeldDepth + 2 * kAtRest, held)) return false;
-  take_turns(held, normal, result);
+  if (!find_area(*result.getPersistentManifold(), normal, now.points[0].separation, kHeldDepth + 2 * kAtRest, held))
+    return false;
+  keep(held, result);
+  take_turns(held, *result.getPersistentManifold());
   return true;
 }
 
 bool hold_the_area(const Manifold& now, btManifoldResult& result) {
-  const btPersistentManifold& points = *result.getPersistentManifold();
+  btPersistentManifold& points = *result.getPersistentManifold();
   const btVector3 normal = vector_of(-now.normal);
   Held held;
-  if (now.count < 3 || !find(points, normal, now.points[0].separation, kHeldDepth, held)) return false;
+  if (now.count < 3 || !find_area(points, normal, now.points[0].separation, kHeldDepth, held)) return false;
   Places corners;
   for (std::uint32_t i = 0; i < now.count; ++i) corners[i] = vector_of(now.points[i].point_b);
   if (area(held.on_b, points.getNumContacts(), normal) < kHeldArea * area(corners, int(now.count), normal)) return false;
-  take_turns(held, normal, result);
+  keep(held, result);
+  take_turns(held, points);
+  return true;
+}
+
+bool hold_turned(const btMatrix3x3& turn, btManifoldResult& result) {
+  Held held;
+  const auto turned = [&](const btManifoldPoint& p) { return (turn * p.m_normalWorldOnB).normalized(); };
+  btPersistentManifold& points = *result.getPersistentManifold();
+  if (!find(points, turned, held)) return false;
+  keep(held, result);
+  if (have_one_normal(points)) take_turns(held, points);
   return true;
 }
 

@@ -16,6 +16,8 @@ namespace swiftlet::bullet {
 constexpr btScalar kHeldDepth = btScalar(0.01), kAtRest = btScalar(0.02);
 /// Points stay while they span this share of the area that the best ones span.
 constexpr btScalar kHeldArea = btScalar(0.9);
+/// Normals that differ by less are one. Only points of one normal take turns.
+constexpr btScalar kOneNormal = btScalar(1e-4);
 
 /// Keeps the points of the manifold that `result` fills, unless they have left each other or are not as deep as `now` says: all
 /// get the normal of this step and what the bodies are made of now, and take turns. `now` is of bodies at rest: its points
@@ -24,6 +26,9 @@ bool hold_on(const Manifold& now, btManifoldResult& result);
 
 /// The same if they also stand for the area of this step.
 bool hold_the_area(const Manifold& now, btManifoldResult& result);
+
+/// The same of bodies that did not move against each other, whose normals turned by `turn` since the step before.
+bool hold_turned(const btMatrix3x3& turn, btManifoldResult& result);
 
 /// Bullet adds a point to those of the steps before, or carries the impulse of the one nearby over to it. Those that are near
 /// none of this step's go. `swapped`: the manifold's first body is Bullet's second.

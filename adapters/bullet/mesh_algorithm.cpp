@@ -44,6 +44,7 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
                                    : Placed{Body::point(Vec3::Zero(), other_mesh ? other_mesh->getMargin() : 0),
                                             pose_of(second.getWorldTransform())};
     if (std::isnan(tolerance(of_first, of_second))) return groups.clear();  // no rigid motion, or a margin that is no radius
+    if (create_.all_points && groups.hold(*a, *b, *result)) return;
     const double touching = groups.first().getContactBreakingThreshold() + result->m_closestPointDistanceThreshold;
     if (other_mesh)
       bodies(placed, {*other_mesh, of_second.in_world}, first, second, info.m_timeStep, touching);
@@ -96,10 +97,10 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
   }
 
   void plane(const PlacedMeshShape& mesh, const btCollisionObjectWrapper& object, double touching) {
-    state_->points = contacts(mesh, half_space_of(object), touching, state_->ids);
+    contacts(mesh, half_space_of(object), touching, state_->points, state_->ids);
     if (create_.all_points || state_->points.empty()) return;
     const Spread deepest = spread(state_->points);
-    state_->points = {state_->points[deepest.index[0]]};
+    state_->points.assign(1, TrianglePoint(state_->points[deepest.index[0]]));
   }
 
   const Create& create_;

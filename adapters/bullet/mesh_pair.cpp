@@ -104,48 +104,55 @@ class MeshPair::Corners {
         other_(of_a ? step.b : step.a),
         in_other_(of_a ? inverse(step.b_in_a) : step.b_in_a),
         in_other_before_(of_a ? inverse(step.b_in_a_before) : step.b_in_a_before),
-        through_(pair.through_[of_a ? 0 : 1]) {}
+        through_(pair.through_[of_a ? 0 : 1]),
+        near_(pair.near_) {}
 
   void add_points() {
     gather();
-    std::vector<std::uint32_t> through;
-    for (const Candidate& c : candidates_) {
-      if (look(c)) through.push_back(c.vertex);
+    near_.through.clear();
+    for (const Candidate& c : near_.candidates) {
+      if (look(c)) near_.through.push_back(c.vertex);
     }
-    through_ = std::move(through);
+    through_.swap(near_.through);
   }
 
  private:
-  struct Candidate {
-    std::uint32_t vertex, triangle;
-    bool operator<(const Candidate& other) const { return vertex < other.vertex; }
-    bool operator==(const Candidate& other) const { return vertex == other.vertex; }
-  };
-
-  /// The triangles of the regions, and their vertices there.
+  /// The triangles of the regions, and the own vertices there.
   void gather() {
     const MeshModel& mesh = own_.mesh();
+    near_.own.clear(), near_.other.clear(), near_.others.clear(), near_.candidates.clear();
     for (const MeshContact& region : pair_.regions_) {
       const Vec3 middle = (region.box_min + region.box_max) / 2, before = of_a_ ? step_.moved_in_a : -step_.moved_in_a;
       const double around = (transform(in_other_, middle) - transform(in_other_before_, middle)).norm() + before.norm();
-      SearchBox box{region.box_min - Vec3::Constant(around), region.box_max + Vec3::Constant(around), Pose{}};
-      if (!of_a_) box.in_mesh = inverse(step_.b_in_a);
+      const auto box = [&](double slack, bool in_a) {
+        const Vec3 more = Vec3::Constant(slack);
+        return SearchBox{region.box_min - more, region.box_max + more, in_a ? Pose{} : inverse(step_.b_in_a)};
+      };
       const auto inside = [&](const Vec3& p) { return holds(region, of_a_ ? p : transform(step_.b_in_a, p), around); };
-      for_triangles(mesh, box, [&](std::uint32_t t, const Vec3& p, const Vec3& q, const Vec3& r) {
-        patch_.add(p, q, r);
+      for_triangles(mesh, box(around, of_a_), [&](std::uint32_t t, const Vec3& p, const Vec3& q, const Vec3& r) {
+        near_.own.add(p, q, r);
         const auto [i, j, k] = mesh.triangle(t);
-        if (inside(p)) candidates_.push_back({i, t});
-        if (inside(q)) candidates_.push_back({j, t});
-        if (inside(r)) candidates_.push_back({k, t});
+        if (inside(p)) near_.candidates.push_back({i, t});
+        if (inside(q)) near_.candidates.push_back({j, t});
+        if (inside(r)) near_.candidates.push_back({k, t});
       });
+      if (!other_.shape) continue;
+      const auto add_other = [&](std::uint32_t t, const Vec3& p, const Vec3& q, const Vec3& r) {
+        near_.other.add(p, q, r), near_.others.push_back(t);
+      };
+      for_triangles(other_.mesh(), box(2 * around + reach(), !of_a_), add_other);
     }
-    for (const std::uint32_t v : through_) candidates_.push_back({v, kNone});
-    std::stable_sort(candidates_.begin(), candidates_.end());
-    candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
+    auto& all = near_.candidates;
+    for (const std::uint32_t v : through_) all.push_back({v, kNone});
+    std::sort(all.begin(), all.end(), [](const Candidate& c, const Candidate& d) {
+      return std::pair(c.vertex, c.triangle) < std::pair(d.vertex, d.triangle);
+    });
+    const auto is_same = [](const Candidate& c, const Candidate& d) { return c.vertex == d.vertex; };
+    all.erase(std::unique(all.begin(), all.end(), is_same), all.end());
   }
 
   /// What is known of a vertex, in the other body's frame.
-  struct Near {
+  struct Known {
     bool is_through = false;
     double apart = HUGE_VAL;  ///< from the surface, below 0 where the vertex is beyond it
     Vec3 up = Vec3::Zero();   ///< unit, away from the surface; 0 unless it is near and known
@@ -156,11 +163,11 @@ class MeshPair::Corners {
   bool look(const Candidate& c) {
     const Vec3 own = own_.mesh().vertex(c.vertex), p = transform(in_other_, own);
     const bool was_through = std::binary_search(through_.begin(), through_.end(), c.vertex);
-    const Near near = other_.shape ? near_mesh(p, transform(in_other_before_, own), was_through) : near_convex(p);
+    const Known near = other_.shape ? near_mesh(p, transform(in_other_before_, own), was_through) : near_convex(p);
     const double separation = near.apart - step_.radii;
     if (near.up == Vec3::Zero() || separation > step_.beyond) return near.is_through;
     const Vec3 up = in_other_.rotation.transpose() * near.up;  // in the own frame
-    if (!patch_.is_supported(own, -up, kOnePlace * own_.mesh().extent())) return near.is_through;
+    if (!near_.own.is_supported(own, -up, kOnePlace * own_.mesh().extent())) return near.is_through;
     const PointIds ids{id_of(own_, c.triangle), id_of(other_, near.triangle)};
     if (of_a_) {
       const Vec3 on_own = own - up * own_.radius();
@@ -172,38 +179,47 @@ class MeshPair::Corners {
     return near.is_through;
   }
 
-  Near near_convex(const Vec3& p) {
-    Near near;
-    const Answer answer = signed_distance(without_radius(other_.convex), Body::point(p), Pose{}, seed_.pair, {.beyond = reach()});
+  Known near_convex(const Vec3& p) {
+    Known near;
+    const Answer answer =
+        signed_distance(without_radius(other_.convex), Body::point(p), Pose{}, seed_.pair, {.beyond = reach()});
     if (answer.status == Status::Beyond || answer.normal.hasNaN()) return near;
     near.apart = answer.lower, near.up = answer.normal;
     return near;
   }
 
-  Near near_mesh(const Vec3& p, const Vec3& before, bool was_through) {
-    Near near;
+  Known near_mesh(const Vec3& p, const Vec3& before, bool was_through) {
     const MeshModel& mesh = other_.mesh();
-    const Body point = Body::point(p);
-    Answer answer;
-    if (other_.is_solid()) {
-      near.is_through = step_.meet && intersects(other_.core(), point, Pose{}).verdict == Verdict::Overlapping;
-      answer = distance(mesh, point, Pose{}, seed_, {.beyond = near.is_through ? HUGE_VAL : reach()});
-    } else {
-      const double way = (p - before).norm();
-      answer = distance(mesh, point, Pose{}, seed_, {.beyond = was_through ? HUGE_VAL : std::max(reach(), way)});
-      const bool crossed =
-          way > 0 && answer.lower <= way && intersects(mesh, Body::segment(before, p), Pose{}).verdict == Verdict::Overlapping;
-      near.is_through = was_through != crossed;
-    }
-    near.triangle = seed_.triangle_a;
-    if (answer.status == Status::Beyond || answer.point_a.hasNaN()) return near;
-    const double apart = (p - answer.point_a).norm();
+    const bool is_solid = other_.is_solid();
+    const double one_place = kOnePlace * mesh.extent(), way = is_solid ? 0 : (p - before).norm();
+    Known near;
+    near.is_through = is_solid ? step_.meet && intersects(other_.core(), Body::point(p), Pose{}).verdict == Verdict::Overlapping
+                               : was_through;
+    const auto place = near.is_through ? nearest_of_all(p) : nearest_there(p, std::max(reach(), way + one_place));
+    if (!place) return near;
+    const double apart = (p - place->point).norm();
+    const bool crosses = way > 0 && apart <= way + one_place &&
+                         intersects(mesh, Body::segment(before, p), Pose{}).verdict == Verdict::Overlapping;
+    if (crosses) near.is_through = !was_through;
+    near.triangle = place->triangle;
     near.apart = near.is_through ? -apart : apart;
-    if (apart > kOnePlace * mesh.extent())
-      near.up = (p - answer.point_a) / near.apart;
-    else if (other_.is_solid() && near.triangle < mesh.triangle_count())
+    if (apart > one_place)
+      near.up = (p - place->point) / near.apart;
+    else if (is_solid && near.triangle < mesh.triangle_count())
       near.up = front_of(mesh, near.triangle);  // it lies in the surface
     return near;
+  }
+
+  /// By the triangles of the regions, which hold all that is within reach.
+  std::optional<SurfacePatch::Place> nearest_there(const Vec3& p, double within) {
+    std::optional<SurfacePatch::Place> place = near_.other.nearest_to(p, within);
+    if (place) place->triangle = near_.others[place->triangle];
+    return place;
+  }
+  std::optional<SurfacePatch::Place> nearest_of_all(const Vec3& p) {
+    const Answer answer = distance(other_.mesh(), Body::point(p), Pose{}, seed_);
+    if (answer.point_a.hasNaN()) return std::nullopt;
+    return SurfacePatch::Place{seed_.triangle_a, answer.point_a};
   }
   double reach() const { return step_.beyond + step_.radii; }
 
@@ -213,8 +229,7 @@ class MeshPair::Corners {
   const PlacedMeshShape &own_, &other_;
   const Pose in_other_, in_other_before_;
   std::vector<std::uint32_t>& through_;
-  SurfacePatch patch_;
-  std::vector<Candidate> candidates_;
+  Near& near_;
   MeshSeed seed_;
 };
 
@@ -316,34 +331,35 @@ std::optional<TrianglePoint> MeshPair::nearest(const PlacedMeshShape& a, const P
                            [](const TrianglePoint& p, const TrianglePoint& q) { return p.separation < q.separation; });
 }
 
-std::vector<TrianglePoint> contacts(const PlacedMeshShape& a, const HalfSpace& b, double beyond, std::vector<PointIds>& ids) {
-  struct Visitor final : MeshVisitor {
-    bool enters(const Vec3& box_min, const Vec3& box_max) override {
-      return up.cwiseMax(0).dot(box_min) + up.cwiseMin(0).dot(box_max) <= height;
-    }
-    bool visit(std::uint32_t t) override { return triangles.push_back(t), true; }
-    Vec3 up;
-    double height;
-    std::vector<std::uint32_t> triangles;
-  } visitor;
+void contacts(const PlacedMeshShape& a, const HalfSpace& b, double beyond, std::vector<TrianglePoint>& points,
+              std::vector<PointIds>& ids) {
   const Pose in_world = orthonormal(a.in_world);
-  visitor.up = in_world.rotation.transpose() * b.normal;
+  const Vec3 up = in_world.rotation.transpose() * b.normal;
   const double ground = b.offset - b.normal.dot(in_world.translation);  // of the plane, along `up`
-  visitor.height = ground + a.radius() + beyond;
-  visit_triangles(a.mesh(), visitor);
-  std::vector<TrianglePoint> points;
-  ids.clear();
-  for (const std::uint32_t t : visitor.triangles) {
-    ids.push_back({id_of(a, t), {}});
+  const double highest = ground + a.radius() + beyond;
+  points.clear(), ids.clear();
+  const auto add = [&](std::uint32_t t) {
     for (const std::uint32_t v : a.mesh().triangle(t)) {
       const Vec3 p = a.mesh().vertex(v);
-      const double height = visitor.up.dot(p), separation = height - ground - a.radius();
-      if (height > visitor.height) continue;
+      const double height = up.dot(p), separation = height - ground - a.radius();
+      if (height > highest) continue;
       const Vec3 point = transform(in_world, p) - b.normal * a.radius();
-      points.push_back({-b.normal, point, point - b.normal * separation, separation, std::uint32_t(ids.size() - 1), true});
+      points.push_back({-b.normal, point, point - b.normal * separation, separation, std::uint32_t(ids.size()), true});
     }
-  }
-  return points;
+    ids.push_back({id_of(a, t), {}});
+    return true;
+  };
+  struct Visitor final : MeshVisitor {
+    Visitor(const Vec3& up_, double highest_, const decltype(add)& to) : up(up_), highest(highest_), visited(to) {}
+    bool enters(const Vec3& box_min, const Vec3& box_max) override {
+      return up.cwiseMax(0).dot(box_min) + up.cwiseMin(0).dot(box_max) <= highest;
+    }
+    bool visit(std::uint32_t t) override { return visited(t); }
+    const Vec3& up;
+    const double highest;
+    const decltype(add)& visited;
+  } visitor(up, highest, add);
+  visit_triangles(a.mesh(), visitor);
 }
 
 }  // namespace swiftlet::bullet

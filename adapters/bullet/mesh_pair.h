@@ -100,6 +100,17 @@ class MeshPair {
  private:
   struct Step;
   class Corners;
+  /// A vertex, and one of its triangles.
+  struct Candidate {
+    std::uint32_t vertex, triangle;
+  };
+  /// What `Corners` gathers.
+  struct Near {
+    SurfacePatch own, other;
+    std::vector<std::uint32_t> others;  ///< the triangles of `other`
+    std::vector<Candidate> candidates;
+    std::vector<std::uint32_t> through;
+  };
 
   void add(const Step& step, const Vec3& normal, const Vec3& point_a, const Vec3& point_b, double separation, PointIds ids);
   bool add_way_out(const Step& step);
@@ -115,10 +126,12 @@ class MeshPair {
     Vec3 place, normal;  ///< of a region of the step before, in A's frame
   };
   std::vector<Known> known_, found_;
+  Near near_;
   MeshSeed seed_;
 };
 
 /// The vertices of a mesh that are no farther above a half-space than `beyond`, as points of contact of `a` with it.
-std::vector<TrianglePoint> contacts(const PlacedMeshShape& a, const HalfSpace& b, double beyond, std::vector<PointIds>& ids);
+void contacts(const PlacedMeshShape& a, const HalfSpace& b, double beyond, std::vector<TrianglePoint>& points,
+              std::vector<PointIds>& ids);
 
 }  // namespace swiftlet::bullet

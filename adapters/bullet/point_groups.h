@@ -4,6 +4,7 @@
 // shapes nor where the points come from.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,11 @@ class PointGroups {
   std::span<btPersistentManifold* const> own() const { return own_; }
   void clear();  ///< takes the points out of manifolds of its own
 
+  /// Keeps the points as they were handed over, as places on both bodies with normals of the larger one, while no place of
+  /// either has moved against the other by more than `kAtRest` of the breaking threshold since then: no contact has got deeper
+  /// by more. For shapes that stay what they were. Returns false where a step's points are wanted instead.
+  bool hold(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btManifoldResult& result);
+
   /// Adds a point to the manifold that `result` has.
   void add(const TrianglePoint& p, std::span<const PointIds> ids, const btCollisionObjectWrapper& a,
            btManifoldResult& result) const;
@@ -57,17 +63,26 @@ class PointGroups {
  private:
   /// Points whose normals are alike; the first one is the deepest.
   using Group = std::vector<TrianglePoint>;
+  /// Where the bodies were when points were handed over.
+  struct Rest {
+    btTransform smaller_in_larger;
+    btMatrix3x3 larger_in_world;  ///< of the step before
+    btScalar margins;
+  };
 
   void divide(std::span<const TrianglePoint> points);
-  btPersistentManifold& taken_from(std::vector<btPersistentManifold*>& free, const TrianglePoint& p,
-                                   const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
+  btPersistentManifold& take(const TrianglePoint& p, const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
   Manifold manifold_of(const Group& group, const Spread& chosen) const;
 
   btDispatcher& dispatcher_;
   btPersistentManifold* const shared_;
   const bool first_is_a_;
-  std::vector<btPersistentManifold*> own_;  ///< at least one, unless the caller has one for all
+  std::vector<btPersistentManifold*> own_;   ///< at least one, unless the caller has one for all
+  std::vector<btPersistentManifold*> free_;  ///< those that no group of this step has taken yet
   std::vector<Group> groups_;
+  std::size_t group_count_ = 0;       ///< of this step: the others keep their memory
+  std::vector<std::uint32_t> order_;  ///< of the points, the deepest first
+  std::optional<Rest> rest_;
 };
 
 }  // namespace swiftlet::bullet

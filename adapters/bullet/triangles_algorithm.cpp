@@ -59,6 +59,7 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
       return;
     }
     state_->others.reset();
+    if (create_.all_points && unscaled_mesh(*surface.getCollisionShape()) && groups.hold(*a, *b, *result)) return;
     const double touching = groups.first().getContactBreakingThreshold() + result->m_closestPointDistanceThreshold;
     const Placed placed = state_->solid.placed(body);
     const Pose surface_in_world = pose_of(surface.getWorldTransform());

@@ -40,15 +40,16 @@ bool SurfaceTriangle::covers(const Vec3& p, double slack) const {
   return true;
 }
 
-double SurfaceTriangle::distance_from(const Vec3& p) const {
-  if (has_plane() && covers(p, 0)) return std::abs(front.dot(p - corners[0]));
+Vec3 SurfaceTriangle::nearest_to(const Vec3& p) const {
+  if (has_plane() && covers(p, 0)) return p - front.dot(p - corners[0]) * front;
   double least2 = std::numeric_limits<double>::infinity();
+  Vec3 nearest = corners[0];
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 edge = corners[(i + 1) % 3] - corners[i], away = p - corners[i];
     const double length2 = edge.squaredNorm(), t = length2 > 0 ? std::clamp(edge.dot(away) / length2, 0., 1.) : 0;
-    least2 = std::min(least2, (away - t * edge).squaredNorm());
+    if (const double d2 = (away - t * edge).squaredNorm(); d2 < least2) least2 = d2, nearest = corners[i] + t * edge;
   }
-  return std::sqrt(least2);
+  return nearest;
 }
 
 void SurfacePatch::clear() {
@@ -69,19 +70,40 @@ void SurfacePatch::sort() {
             [&](std::uint32_t i, std::uint32_t j) { return triangles_[i].least[0] < triangles_[j].least[0]; });
 }
 
-bool SurfacePatch::is_supported(const Vec3& p, const Vec3& direction, double slack) {
+template <class Reach, class Visit>
+void SurfacePatch::for_near(double x, const Reach& reach, const Visit& visit) {
   if (by_x_.size() != triangles_.size()) sort();
-  auto next = std::lower_bound(by_x_.begin(), by_x_.end(), p[0] - slack - widest_,
-                               [&](std::uint32_t i, double x) { return triangles_[i].least[0] < x; });
-  for (; next != by_x_.end() && triangles_[*next].least[0] <= p[0] + slack; ++next) {
-    const SurfaceTriangle& t = triangles_[*next];
-    if ((p.array() < t.least.array() - slack).any() || (p.array() > t.most.array() + slack).any()) continue;
-    if (!t.has_plane() || std::abs(t.front.dot(p - t.corners[0])) > slack || !t.covers(p, slack)) continue;
-    for (const Vec3& q : t.corners) {
-      if (direction.dot(q - p) > slack) return false;
-    }
-  }
-  return true;
+  auto next = std::lower_bound(by_x_.begin(), by_x_.end(), x - reach() - widest_,
+                               [&](std::uint32_t i, double least) { return triangles_[i].least[0] < least; });
+  for (; next != by_x_.end() && triangles_[*next].least[0] <= x + reach(); ++next) visit(*next);
+}
+
+bool SurfacePatch::is_supported(const Vec3& p, const Vec3& direction, double slack) {
+  bool is_below = true;
+  for_near(
+      p[0], [&] { return slack; },
+      [&](std::uint32_t i) {
+        const SurfaceTriangle& t = triangles_[i];
+        if ((p.array() < t.least.array() - slack).any() || (p.array() > t.most.array() + slack).any()) return;
+        if (!t.has_plane() || std::abs(t.front.dot(p - t.corners[0])) > slack || !t.covers(p, slack)) return;
+        for (const Vec3& q : t.corners) is_below = is_below && !(direction.dot(q - p) > slack);
+      });
+  return is_below;
+}
+
+std::optional<SurfacePatch::Place> SurfacePatch::nearest_to(const Vec3& p, double reach) {
+  std::optional<Place> nearest;
+  for_near(
+      p[0], [&] { return reach; },
+      [&](std::uint32_t i) {
+        const SurfaceTriangle& t = triangles_[i];
+        if ((p - p.cwiseMax(t.least).cwiseMin(t.most)).squaredNorm() > reach * reach) return;
+        const Vec3 point = t.nearest_to(p);
+        const double apart = (p - point).norm();
+        if (nearest ? apart >= reach : apart > reach) return;
+        nearest = {i, point}, reach = apart;
+      });
+  return nearest;
 }
 
 // ---- A body and the surface ------------------------------------------------------------------------------------------------
@@ -142,7 +164,7 @@ class TrianglePair::Meeting {
 
  private:
   void find() {
-    if (t_.distance_from(view_.centre) > view_.ball.radius + radii_ + view_.beyond) {
+    if ((view_.centre - t_.nearest_to(view_.centre)).norm() > view_.ball.radius + radii_ + view_.beyond) {
       memory_.side = t_.side_of(view_.centre);
       return;
     }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,7 +41,7 @@ struct SurfaceTriangle {
   /// The side of its plane on which a point is.
   Side side_of(const Vec3& p) const { return front.dot(p - corners[0]) < 0 ? Side::Back : Side::Front; }
   bool covers(const Vec3& p, double slack) const;  ///< whether p lies above or below it, or beside it by no more than `slack`
-  double distance_from(const Vec3& p) const;       ///< of a point, in doubles
+  Vec3 nearest_to(const Vec3& p) const;            ///< its nearest point, in doubles
 
   std::array<Vec3, 3> corners;  ///< in the order in which they were given
   Vec3 least, most;             ///< corners of its box
@@ -58,8 +59,19 @@ class SurfacePatch {
   /// and leads away from the surface. All triangles that hold p must have been added.
   bool is_supported(const Vec3& p, const Vec3& direction, double slack);
 
+  /// A point of the surface.
+  struct Place {
+    std::uint32_t triangle;  ///< in the order of `add`
+    Vec3 point;
+  };
+  /// The nearest point to `p`, in doubles; none where no triangle is within `reach`.
+  std::optional<Place> nearest_to(const Vec3& p, double reach);
+
  private:
   void sort();
+  /// Calls `visit` for the number of each triangle whose box along x is no farther from `x` than `reach()`, which may shrink.
+  template <class Reach, class Visit>
+  void for_near(double x, const Reach& reach, const Visit& visit);
 
   std::vector<SurfaceTriangle> triangles_;
   std::vector<std::uint32_t> by_x_;  ///< their numbers, in the order of their boxes' least x
