@@ -68,6 +68,7 @@ class ShapeOf {
   const Shape shape_;
 };
 
+/// The same body with radius 0.
 Body without_radius(const Body& body);
 
 /// The bounding box of vertices, along the axes of their frame.
