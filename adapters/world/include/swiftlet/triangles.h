@@ -62,7 +62,7 @@ class SurfacePatch {
   /// A point of the surface.
   struct Place {
     std::uint32_t triangle;  ///< in the order of `add`
-    Vec3 point;
+    Vec3 point;              ///< in the surface's frame
   };
   /// The nearest point to `p`, in doubles; none where no triangle is within `reach`.
   std::optional<Place> nearest_to(const Vec3& p, double reach);
