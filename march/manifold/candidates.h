@@ -52,12 +52,12 @@ class Candidates {
   Candidates(double farthest, const Manifold& previous);
 
   /// Whether to add the next corner of a border, which goes on from there to `next`: if not, a chord cuts off little. The left
-  /// border's places are mirrored. `rise`: the separation rises from there on if it is at least 0.
-  bool wants(Border border, const Place& at, const Place& next, double rise) {
+  /// border's places are mirrored. `rise()`: the separation rises from there on if it is at least 0.
+  bool wants(Border border, const Place& at, const Place& next, auto&& rise) {
     return !is_crowded_ || cuts(border, at, next) || turns(border, rise);
   }
   /// The same of a corner somewhere between `from` and `to`.
-  bool wants(Border border, const Place& from, const Place& to, const Place& next, double rise) {
+  bool wants(Border border, const Place& from, const Place& to, const Place& next, auto&& rise) {
     return !is_crowded_ || cuts(border, from, to, next) || turns(border, rise);
   }
   /// False if `previous` surely does not name this vertex or half-edge of body 0 or 1.
@@ -98,9 +98,9 @@ class Candidates {
     return (cut_off_[std::size_t(border)] += most) > enough_;
   }
   /// True where the separation stops falling along the border.
-  bool turns(Border border, double rise) {
+  bool turns(Border border, auto&& rise) {
     bool& has_turned = has_turned_[std::size_t(border)];
-    return !has_turned && (has_turned = rise >= 0);
+    return !has_turned && (has_turned = rise() >= 0);
   }
   void append(Border border, const Candidate& candidate);
   void thin();

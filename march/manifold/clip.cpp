@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 
 #include "body/half_edge.h"
@@ -33,15 +34,31 @@ constexpr Border opposite(Border border) { return border == Border::Left ? Borde
 /// A corner as its border sees it: x grows outwards, so that both borders are alike.
 struct Corner {
   Place at;
-  std::uint32_t vertex;
+  std::uint64_t names;  ///< in one word, so that they are stored and loaded together: the vertex, and, above, the half-edge
+  std::uint32_t vertex() const { return std::uint32_t(names); }
+  std::uint32_t half_edge() const { return std::uint32_t(names >> 32); }  ///< of the border, and ends there
 };
+
+/// In one register.
+Place place(Vec2 v) {
+  Place p;
+  __builtin_memcpy(&p, &v, sizeof p);
+  return p;
+}
+
+/// The way from one place to another.
+struct Way : Place {
+  double most;  ///< at least its length: the sum of its coordinates
+};
+Way way(const Place& from, const Place& to) {
+  const Vec2 there = xy(to) - xy(from), sizes = abs(there);
+  return {place(there), sizes[0] + sizes[1]};
+}
 
 /// A side of a border, or a chord that cuts off corners which turn inwards.
 struct Side {
-  Corner from, to;          ///< the lower and the upper end
-  Place way;                ///< from one to the other
-  double most;              ///< at least its length: the sum of its coordinates
-  std::uint32_t half_edge;  ///< the half-edge that ends at `to`; of a chord the last one that it cuts off
+  Corner from, to;  ///< the lower and the upper end
+  Way way;          ///< from one to the other
   bool is_chord;
 
   Place at(double t) const { return from.at + way * t; }
@@ -55,12 +72,6 @@ struct Side {
   double length2() const { return dot(way, way); }
   /// Twice the area of the side and a place, positive where that lies outside.
   double beyond(const Place& place) const { return cross(place - from.at, way); }
-
-  void lead(const Corner& corner, const Place& there, std::uint32_t h) {
-    to = corner, half_edge = h;
-    way = there;
-    most = std::fabs(way.x) + std::fabs(way.y);
-  }
 };
 
 /// On which side of a border's side a place lies whose height is between those of its ends.
@@ -87,97 +98,102 @@ class SeenBorder {
         outwards_(border == Border::Left ? -1 : 1),
         bound_(bound),
         flatness_(face.flatness()),
+        is_left_((dot(cross(body.x, body.y), face.normal()) >= 0) == (border == Border::Right)),
         x_{body.x.x * outwards_, body.y.x},
         y_{body.x.y * outwards_, body.y.y},
         z_{body.x.z * outwards_, body.y.z},
-        shift_{body.shift.x * outwards_, body.shift.y},
-        is_left_((dot(cross(body.x, body.y), face.normal()) >= 0) == (border == Border::Right)) {
+        shift_{body.shift.x * outwards_, body.shift.y} {
     const bool is_point = half_edge == kNone;
-    const Corner lowest = is_point ? corner(0) : end_of(twin(half_edge));
-    side_ = {lowest, lowest, {0, 0}, 0, half_edge, false};
-    if (is_point) return;
-    half_edge_ = is_left_ ? half_edge : face.onward<false>(twin(half_edge));
-    next_ = end_of(half_edge_);
-    ahead_ = next_.at - lowest.at;
+    const Corner lowest = is_point ? corner(0, kNone) : end_of(twin(half_edge));
+    side_ = {lowest, lowest, {{0, 0}, 0}, false};
+    if (!is_point) see(is_left_ ? half_edge : face.onward<false>(twin(half_edge)));
   }
 
   const Side& side() const { return side_; }
   const Corner& end() const { return side_.to; }
   /// The corner after the side, and the way there; have no meaning where both borders have met.
   const Corner& next() const { return next_; }
-  const Place& ahead() const { return ahead_; }
+  const Way& ahead() const { return ahead_; }
   /// A place of the projection as the border sees it, and back.
   Place seen(const Place& place) const { return {place.x * outwards_, place.y}; }
   /// The side as the projection shows it.
   Side plain() const {
     Side side = side_;
-    for (Place* place : {&side.from.at, &side.to.at, &side.way}) *place = seen(*place);
+    for (Place* place : std::initializer_list<Place*>{&side.from.at, &side.to.at, &side.way}) *place = seen(*place);
     return side;
   }
   /// The coordinate along the normal of a vertex, and of a place on the side.
   double z(std::uint32_t vertex) const { return body_.z(vertex); }
   double z_at(double t) const {
-    const double z = body_.z(side_.from.vertex);
-    return z + (body_.z(side_.to.vertex) - z) * t;
+    const double z = body_.z(side_.from.vertex());
+    return z + (body_.z(side_.to.vertex()) - z) * t;
   }
 
   /// Moves on to the next side of the face's convex hull, up to vertex `top`.
   [[gnu::always_inline]] void advance(std::uint32_t top) {
-    side_.from = side_.to, side_.is_chord = false;
-    side_.lead(next_, ahead_, half_edge_);
-    if (half_edge_ == convex_to_) convex_to_ = kNone;
-    do {
-      if (side_.to.vertex == top) return;
-      half_edge_ = onward(side_.half_edge, is_left_);
-      next_ = end_of(half_edge_);
-      ahead_ = next_.at - side_.to.at;
-    } while (!turns_in(ahead_) && extend(half_edge_, top));
+    side_.from = side_.to, side_.to = next_, side_.way = ahead_, side_.is_chord = false;
+    if (side_.to.half_edge() == convex_to_) convex_to_ = kNone;
+    if (side_.to.vertex() == top) return;
+    see(onward(side_.to.half_edge(), is_left_));
+    if (!rises_in(ahead_)) [[unlikely]]
+      straighten(top);
   }
 
   /// Names the edge at a place of the side; of a chord, the edge that it cuts off there.
   FeatureId edge_at(const Place& place) const {
-    std::uint32_t back = twin(side_.half_edge);
+    std::uint32_t back = twin(side_.to.half_edge());
     while (side_.is_chord) {
       const Corner from = end_of(back);
-      if (from.vertex == side_.from.vertex || dot(place - from.at, side_.way) >= 0) break;
+      if (from.vertex() == side_.from.vertex() || dot(place - from.at, side_.way) >= 0) break;
       back = onward(back, !is_left_);
     }
     return {FeatureKind::Edge, std::min(back, twin(back))};
   }
   /// The index of the side's edge; of a chord, of the last one that it cuts off.
-  std::uint32_t edge() const { return std::min(side_.half_edge, twin(side_.half_edge)); }
+  std::uint32_t edge() const { return std::min(side_.to.half_edge(), twin(side_.to.half_edge())); }
 
  private:
   std::uint32_t twin(std::uint32_t half_edge) const { return half_edges_[half_edge].twin; }
-  Corner corner(std::uint32_t vertex) const {
+  Corner corner(std::uint32_t vertex, std::uint32_t half_edge) const {
     const Vertex& v = vertices_[vertex];
-    const Vec2 at = x_ * v.x + y_ * v.y + z_ * v.z + shift_;
-    return {{at[0], at[1]}, vertex};
+    return {place(x_ * v.x + y_ * v.y + z_ * v.z + shift_), vertex | std::uint64_t(half_edge) << 32};
   }
-  Corner end_of(std::uint32_t half_edge) const { return corner(half_edges_[half_edge].head); }
+  Corner end_of(std::uint32_t half_edge) const { return corner(half_edges_[half_edge].head, half_edge); }
   std::uint32_t onward(std::uint32_t h, bool is_left) const { return is_left ? face_.onward<true>(h) : face_.onward<false>(h); }
 
+  /// Knows the corner after the side.
+  void see(std::uint32_t half_edge) {
+    next_ = end_of(half_edge);
+    ahead_ = way(side_.to.at, next_.at);
+  }
+
   bool falls() const { return side_.way.y < -bound_; }
-  /// Whether a way from the end of the side leads inwards, by more than the flatness.
+  /// Whether a way from the end of the side leads inwards, by more than the flatness: mostly the short test of a side that
+  /// rises says so.
+  bool rises_in(const Place& way) const { return cross(way, side_.way) < -flatness_ * side_.way.most && side_.way.y > 0; }
   bool turns_in(const Place& way) const {
     const double out = cross(way, side_.way);
-    if (out < -flatness_ * side_.most && side_.way.y > 0) return true;
-    return out < 0 && out * out > flatness_ * flatness_ * side_.length2() && !falls();
+    return rises_in(way) || (out < 0 && out * out > flatness_ * flatness_ * side_.length2() && !falls());
+  }
+  /// Replaces the side by a chord as long as corners ahead lie beyond it.
+  [[gnu::noinline]] void straighten(std::uint32_t top) {
+    while (!turns_in(ahead_) && extend(next_.half_edge(), top) && side_.to.vertex() != top)
+      see(onward(side_.to.half_edge(), is_left_));
   }
   /// A border of merged facets may turn inwards by up to the face's flatness: corners are looked at until one lies farther
   /// inside of the side than that. If one lies beyond, the side becomes a chord to it, and true is returned. A border that is
   /// jagged by more is followed to the next corner that is no lower. `h` ends at the corner after the side.
-  [[gnu::noinline]] bool extend(std::uint32_t h, std::uint32_t top) {
+  bool extend(std::uint32_t h, std::uint32_t top) {
     if (is_convex(top)) return false;
     for (;; h = onward(h, is_left_)) {
       const Corner corner = end_of(h);
       const double out = side_.beyond(corner.at);
       if (falls() || (out > 0 && out * out > 0.25 * bound_ * bound_ * side_.length2())) {
-        side_.lead(corner, corner.at - side_.from.at, h);
+        side_.to = corner, side_.way = way(side_.from.at, corner.at);
         convex_to_ = kNone;
         return side_.is_chord = true;
       }
-      if (turns_in(corner.at - side_.to.at) || corner.vertex == top) return false;
+      if (turns_in(corner.at - side_.to.at) || corner.vertex() == top) return false;
     }
   }
 
@@ -186,19 +202,18 @@ class SeenBorder {
   /// corner is looked at once.
   bool is_convex(std::uint32_t top) {
     if (falls()) return false;
-    const auto turns = [](const Place& way, const Place& before) {
-      return cross(way, before) <
-             -kCornerError * (std::fabs(way.x) + std::fabs(way.y)) * (std::fabs(before.x) + std::fabs(before.y));
+    const auto turns = [](const Way& way, const Way& before) {
+      return cross(way, before) < -kCornerError * way.most * before.most;
     };
-    if (convex_to_ == kNone && turns(ahead_, side_.way)) convex_to_ = half_edge_;
+    if (convex_to_ == kNone && turns(ahead_, side_.way)) convex_to_ = next_.half_edge();
     if (convex_to_ == kNone) return false;
     Corner corner = end_of(convex_to_);
-    for (Place way = corner.at - end_of(twin(convex_to_)).at; !turns_in(corner.at - side_.to.at) && corner.vertex != top;) {
+    for (Way on = way(end_of(twin(convex_to_)).at, corner.at); !turns_in(corner.at - side_.to.at) && corner.vertex() != top;) {
       const std::uint32_t h = onward(convex_to_, is_left_);
       const Corner next = end_of(h);
-      const Place before = way;
-      way = next.at - corner.at;
-      if (!turns(way, before) || !turns(way, side_.way)) return false;
+      const Way before = on;
+      on = way(corner.at, next.at);
+      if (!turns(on, before) || !turns(on, side_.way)) return false;
       convex_to_ = h, corner = next;
     }
     return true;
@@ -209,13 +224,12 @@ class SeenBorder {
   const HalfEdge* const half_edges_;
   const Vertex* const vertices_;
   const double outwards_, bound_, flatness_;
-  const Vec2 x_, y_, z_, shift_;     ///< where the projection has the body's axes and its origin
   const bool is_left_;               ///< half-edges that point upwards have the face on their left
+  std::uint32_t convex_to_ = kNone;  ///< ahead of the side: up to its end the border surely is convex, if that is known
+  const Vec2 x_, y_, z_, shift_;     ///< where the projection has the body's axes and its origin
   Side side_;                        ///< at the height of the sweep line
   Corner next_;                      ///< the corner after it
-  Place ahead_;                      ///< the way there
-  std::uint32_t half_edge_;          ///< the half-edge that ends there
-  std::uint32_t convex_to_ = kNone;  ///< ahead of the side: up to its end the border surely is convex, if that is known
+  Way ahead_;                        ///< the way there
 };
 
 /// The half-edge of a face that leaves its lowest corner: where the border rises on both sides, by more than the border of
@@ -287,8 +301,8 @@ class Sweep {
   int& leader(Border border) { return leader_[std::size_t(border)]; }
 
   /// Both borders of a face end where they meet.
-  bool is_at_top(int f) const { return at(Border::Left, f).end().vertex == at(Border::Right, f).end().vertex; }
-  void advance(Border border, int f) { at(border, f).advance(at(opposite(border), f).end().vertex); }
+  bool is_at_top(int f) const { return at(Border::Left, f).end().vertex() == at(Border::Right, f).end().vertex(); }
+  void advance(Border border, int f) { at(border, f).advance(at(opposite(border), f).end().vertex()); }
 
   /// Returns true if the side of `p` ends below that of `q`, or at the same height to the left of it.
   static bool is_below(const SeenBorder& p, const SeenBorder& q) {
@@ -336,7 +350,7 @@ class Sweep {
       west_ = other;
     } else {
       leader(Border::Left) = leader(Border::Right) = f;
-      add_corner(Border::Left, f, lowest.at, lowest.vertex);
+      add_corner(Border::Left, f, lowest.at, lowest.vertex());
     }
     return true;
   }
@@ -371,7 +385,7 @@ class Sweep {
   /// Returns true where a border's corner lies outside of the other face's side and led, or inside and did not.
   bool passes_lead(const Place& place, const Side& side, bool leads) const {
     const double area = side.beyond(place);
-    if ((leads ? -area : area) > bound_ * side.most) [[likely]]
+    if ((leads ? -area : area) > bound_ * side.way.most) [[likely]]
       return false;
     return swiftlet::where(place, side, bound_) == (leads ? Where::Outside : Where::Inside);
   }
@@ -401,7 +415,7 @@ class Sweep {
     for (const Border b : kBorders) {
       if (where(top, b, 1 - f) == Where::Outside) return;
     }
-    add_corner(border, f, top, own.end().vertex);
+    add_corner(border, f, top, own.end().vertex());
   }
 
   /// Passes the upper end of a side of face `f`, which leads the border. Of many corners only few are worth their names and
@@ -410,15 +424,17 @@ class Sweep {
   void pass() {
     const SeenBorder& own = at(border, f);
     const Corner& corner = own.end();
-    const bool wanted = is_at_top(f) || corners_.wants(border, corner.at, own.next().at, rise(own, own.ahead()));
-    if (wanted || corners_.may_know(f, corner.vertex)) add_corner(border, f, own.seen(corner.at), corner.vertex, wanted);
+    const bool wanted =
+        is_at_top(f) || corners_.wants(border, corner.at, own.next().at, [&] { return rise(own, own.ahead()); });
+    if (wanted || corners_.may_know(f, corner.vertex())) add_corner(border, f, own.seen(corner.at), corner.vertex(), wanted);
   }
 
   /// Passes the lead on a border to face `f` where its side crosses the one that led.
   void turn_off(Border border, int f) {
     leader(border) = f;
     const SeenBorder &from = at(border, 1 - f), &to = at(border, f);
-    const bool wanted = corners_.wants(border, from.side().from.at, from.end().at, to.end().at, rise(to, to.side().way));
+    const bool wanted =
+        corners_.wants(border, from.side().from.at, from.end().at, to.end().at, [&] { return rise(to, to.side().way); });
     if (wanted || (may_know(f, to) && may_know(1 - f, from))) add_crossing(border, {0, border}, {1, border}, wanted);
   }
 
@@ -462,10 +478,10 @@ class Sweep {
     const Place on_b = b.at(t_b), on_a = a.at(t_a);
     const auto is_near = [&](const Place& place) { return dot(place - on_a, place - on_a) <= bound_ * bound_; };
     for (const Corner* c : {&a.from, &a.to}) {
-      if (is_near(c->at)) return add_corner(border, 0, c->at, c->vertex, wanted);
+      if (is_near(c->at)) return add_corner(border, 0, c->at, c->vertex(), wanted);
     }
     for (const Corner* c : {&b.from, &b.to}) {
-      if (is_near(c->at)) return add_corner(border, 1, c->at, c->vertex, wanted);
+      if (is_near(c->at)) return add_corner(border, 1, c->at, c->vertex(), wanted);
     }
     // A corner within the bound of a side may be farther than that from where the sides cross.
     if (dot(on_b - on_a, on_b - on_a) > 4 * bound_ * bound_) return;
