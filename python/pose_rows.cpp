@@ -122,7 +122,8 @@ void PoseRows::copy(std::size_t first, std::span<Pose> into) const {
     for (int j = 0; j < 3; ++j)
       for (int i = 0; i < 3; ++i) pose.rotation(i, j) = r.at(row, i, j);
     for (int i = 0; i < 3; ++i) pose.translation[i] = t.at(row, i);
-    if (form_ == Form::Matrix && !(r.at(row, 3, 0) == 0 && r.at(row, 3, 1) == 0 && r.at(row, 3, 2) == 0 && r.at(row, 3, 3) == 1))
+    if (form_ == Form::Matrix &&
+        !(r.at(row, 3, 0) == 0 && r.at(row, 3, 1) == 0 && r.at(row, 3, 2) == 0 && r.at(row, 3, 3) == 1))
       pose = refused();
   }
 }

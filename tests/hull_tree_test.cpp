@@ -389,7 +389,8 @@ TEST(HullTree, TheFrontGrowsInContactAndFallsBackToTheRoots) {
   EXPECT_EQ(before, 1u);
 }
 
-// An open body is no solid, though a patch of it may be nearly a whole ball: its thousands of triangles are not paired one by one.
+// An open body is no solid, though a patch of it may be nearly a whole ball: its thousands of triangles are not paired one by
+// one.
 TEST(HullTree, LargePatchesOfOpenBodiesAreSearched) {
   Soup open = ball(4);
   open.triangles.pop_back();

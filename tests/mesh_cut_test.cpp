@@ -169,7 +169,8 @@ TEST(Cut, InsideOfASolidIsNotApart) {
 Model without_its_exact_level() {
   std::array<std::vector<Vec3>, 2> corners;
   for (const int k : {0, 1}) {
-    for (int i = 0; i < 8; ++i) corners[std::size_t(k)].push_back((k + 1) * Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+    for (int i = 0; i < 8; ++i)
+      corners[std::size_t(k)].push_back((k + 1) * Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
   }
   constexpr std::array<std::uint32_t, 24> kSides{0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
   constexpr std::array<std::uint32_t, 6> kSizes{4, 4, 4, 4, 4, 4};

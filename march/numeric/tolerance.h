@@ -298,8 +298,8 @@ inline constexpr double kSameLine = 0.99;
 /// of both bodies, but at most `kMapGjkSteps` times.
 inline constexpr double kNearEdges = 2;
 inline constexpr int kMapGjkSteps = 12;
-/// The tetrahedron that proved an overlap follows the origin by at most so many corners. Of bodies 0.01 of their radius deep that
-/// turn by 45 degrees a query, 16 prove less often, 40 no more often.
+/// The tetrahedron that proved an overlap follows the origin by at most so many corners. Of bodies 0.01 of their radius deep
+/// that turn by 45 degrees a query, 16 prove less often, 40 no more often.
 inline constexpr int kOriginSteps = 24;
 /// Bodies whose map frames differ from a multiple of the identity by less than `kRound` of it are looked at along the line of
 /// centres first; others along the direction between ellipsoids, which `kEllipsoidSteps` steps find. Factor, count.
