@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "body/block.h"
 #include "mesh_setting.h"
 #include "query/ask.h"
 #include "solid.h"
@@ -17,40 +18,107 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-FaceClass class_of(const HullNode& node, FeatureId feature) {
-  if (feature.kind() == FeatureKind::Vertex) return FaceClass::Original;
-  return FaceClass(tag(node.view, feature));
+FaceClass class_of(const HullTree& tree, const HullNode& node, FeatureId feature) {
+  const std::uint8_t* const classes = tree.hulls().classes.data() + node.classes;
+  const HalfEdge* const half_edges = tree.hulls().half_edges.data() + node.half_edges.begin;
+  const std::uint32_t i = feature.index();
+  switch (feature.kind()) {
+    case FeatureKind::Vertex: return FaceClass::Original;
+    case FeatureKind::Face: return FaceClass(classes[i]);
+    case FeatureKind::Edge: {
+      const std::uint32_t left = half_edges[i].face, right = half_edges[half_edges[i].twin].face;
+      return left == kNone ? FaceClass::Free : FaceClass(std::max(classes[left], classes[right]));
+    }
+    default: return FaceClass::Free;
+  }
 }
 
 /// A vertex of a feature that the child has, or no feature.
-FeatureId in_child(const HullNode& parent, FeatureId feature, std::size_t side) {
-  const ConvexView& view = parent.view;
+FeatureId in_child(const HullTree& tree, const HullNode& parent, FeatureId feature, std::size_t side) {
+  const HalfEdge* const half_edges = tree.hulls().half_edges.data() + parent.half_edges.begin;
   const std::uint32_t i = feature.index();
-  const auto there = [&](std::uint32_t v) { return parent.vertex_in_child[side][v]; };
+  const auto there = [&](std::uint32_t v) { return tree.hulls().in_child[parent.in_child + v][side]; };
   const auto start = [](std::uint32_t v) { return v == kNone ? FeatureId() : FeatureId(FeatureKind::Vertex, v); };
   switch (feature.kind()) {
     case FeatureKind::Vertex: return start(there(i));
     case FeatureKind::Edge: {
-      const std::uint32_t head = there(view.half_edges[i].head);
-      return start(head != kNone ? head : there(view.half_edges[view.half_edges[i].twin].head));
+      const std::uint32_t head = there(half_edges[i].head);
+      return start(head != kNone ? head : there(half_edges[half_edges[i].twin].head));
     }
-    case FeatureKind::Face:
+    case FeatureKind::Face: {
+      const ConvexView view = tree.hull(parent);
       for (const std::uint32_t v : FaceLoop(view, i)) {
         if (there(v) != kNone) return start(there(v));
       }
       return {};
+    }
     default: return {};
   }
 }
 
+template <class T>
+std::span<const T> part(const std::vector<T>& all, std::uint32_t begin, std::uint32_t count) {
+  return {all.data() + begin, count};
+}
+template <class T>
+std::span<const T> part(const std::vector<T>& all, HullRange range) {
+  return part(all, range.begin, range.count);
+}
+
+ConvexView view_of(const HullArrays& arrays, const HullNode& node) {
+  return {part(arrays.vertices, node.vertices),
+          part(arrays.half_edges, node.half_edges),
+          part(arrays.face_first, node.face_first),
+          part(arrays.planes, node.planes),
+          part(arrays.classes, node.classes, node.face_first.count),
+          node.extent,
+          node.centre,
+          node.inner_radius,
+          node.reach};
+}
+
+/// A node's hull as the atomic kernel reads it, while a query runs.
+class Hull {
+ public:
+  Hull(const HullTree& tree, const HullNode& node)
+      : level_(level_of(tree, node)), model_(BlockReader::lent(level_, node.radius)) {}
+  Hull(const Hull&) = delete;  ///< `model_` points into this object
+  Hull& operator=(const Hull&) = delete;
+  Body body() const { return Body(model_); }
+
+ private:
+  static Level level_of(const HullTree& tree, const HullNode& node) {
+    Level level;
+    level.view = view_of(tree.hulls(), node);
+    level.edge_length = node.edge_length, level.same_cos2 = node.same_cos2, level.near_cos2 = node.near_cos2;
+    return level;
+  }
+
+  const Level level_;
+  const Model model_;
+};
+
+template <class T>
+std::size_t bytes_of(const std::vector<T>& array) {
+  return array.size() * sizeof(T);
+}
+
 }  // namespace
 
-HullTree::HullTree(MeshModel mesh, std::vector<std::uint32_t> triangles, std::vector<HullNode> nodes)
-    : mesh_(std::move(mesh)), triangles_(std::move(triangles)), nodes_(std::move(nodes)), is_solid_(mesh_.topology().closed()) {
-  for (HullNode& node : nodes_) {
-    node.view = node.hull.level(0).view;
-    node.view.tags = node.classes;
-  }
+HullTree::HullTree(MeshModel mesh, std::vector<std::uint32_t> triangles, HullArrays hulls)
+    : mesh_(std::move(mesh)),
+      triangles_(std::move(triangles)),
+      hulls_(std::move(hulls)),
+      is_solid_(mesh_.topology().closed()) {}
+
+ConvexView HullTree::hull(const HullNode& node) const { return view_of(hulls_, node); }
+
+std::size_t HullTree::bytes() const {
+  std::size_t bytes = mesh_.bytes().size() + bytes_of(triangles_) + bytes_of(hulls_.nodes) + bytes_of(hulls_.vertices) +
+                      bytes_of(hulls_.half_edges) + bytes_of(hulls_.face_first) + bytes_of(hulls_.planes) +
+                      bytes_of(hulls_.classes) + bytes_of(hulls_.in_child);
+  for (const MeshModel& surface : hulls_.surfaces) bytes += surface.bytes().size();
+  return bytes;
 }
 
 /// What is asked, and what is known so far.
@@ -197,8 +265,8 @@ HullPair::Next HullPair::take(std::uint32_t index, double floor, Question& quest
   if (!search_.features) item.seed = {};
   Options options;
   options.beyond = question.beyond();
-  const Answer result = swiftlet::distance(swiftlet::Body(a_.nodes()[item.a].hull), swiftlet::Body(b_.nodes()[item.b].hull),
-                                           question.b_in_a, item.seed, options);
+  const Hull a(a_, a_.nodes()[item.a]), b(b_, b_.nodes()[item.b]);
+  const Answer result = swiftlet::distance(a.body(), b.body(), question.b_in_a, item.seed, options);
   ++asked_, steps_ += result.steps;
   ++question.answer.answer.steps;
   item.lower = max(result.lower, floor);
@@ -215,9 +283,9 @@ HullPair::Next HullPair::judge(const Item& item, const Answer& r, Question& ques
   const HullNode &a = a_.nodes()[item.a], &b = b_.nodes()[item.b];
   const bool pieces = a.is_piece() && b.is_piece();
   // Of hulls that overlap the features are where a walk ended.
-  const bool has_features = r.verdict != Verdict::Overlapping && class_of(a, r.feature_a) != FaceClass::Free &&
-                            class_of(b, r.feature_b) != FaceClass::Free;
-  const bool answers = has_features || (pieces && a.is_filled && b.is_filled);
+  const bool has_features = r.verdict != Verdict::Overlapping && class_of(a_, a, r.feature_a) != FaceClass::Free &&
+                            class_of(b_, b, r.feature_b) != FaceClass::Free;
+  const bool answers = has_features || (pieces && a.is_filled() && b.is_filled());
   if (!pieces && (!answers || question.every_contact)) return Next::Split;
   if (!answers) return by_surfaces(item, question);
 
@@ -249,13 +317,14 @@ HullPair::Next HullPair::judge(const Item& item, const Answer& r, Question& ques
 /// Of two pieces one of which is not all body, or not known to be: of that its triangles.
 HullPair::Next HullPair::by_surfaces(const Item& item, Question& question) {
   const HullNode &a = a_.nodes()[item.a], &b = b_.nodes()[item.b];
-  const auto body = [](const HullNode& piece) {
-    return piece.surface ? MeshBody(*piece.surface) : MeshBody(swiftlet::Body(piece.hull));
+  const Hull hull_a(a_, a), hull_b(b_, b);
+  const auto body = [](const HullTree& tree, const HullNode& piece, const Hull& hull) {
+    return piece.is_filled() ? MeshBody(hull.body()) : MeshBody(tree.hulls().surfaces[piece.surface]);
   };
   Options options;
   options.beyond = question.beyond();
   MeshSeed cold;
-  const Answer found = swiftlet::distance(body(a), body(b), question.b_in_a, cold, options);
+  const Answer found = swiftlet::distance(body(a_, a, hull_a), body(b_, b, hull_b), question.b_in_a, cold, options);
   question.answer.answer.plane_tests += found.plane_tests;
   question.lower = min(question.lower, found.lower);
   if (found.status == Status::Beyond || !(found.upper < kInfinity)) return Next::Done;
@@ -300,9 +369,11 @@ std::uint32_t HullPair::split(std::uint32_t index) {
   const HullNode &a = a_.nodes()[item.a], &b = b_.nodes()[item.b];
   bool of_a = b.is_piece();
   if (!a.is_piece() && !b.is_piece()) {
-    const bool free_a = class_of(a, item.seed.a) == FaceClass::Free, free_b = class_of(b, item.seed.b) == FaceClass::Free;
-    of_a = !item.met && free_a != free_b ? free_a : a.hull.radius() > b.hull.radius();
+    const bool free_a = class_of(a_, a, item.seed.a) == FaceClass::Free,
+               free_b = class_of(b_, b, item.seed.b) == FaceClass::Free;
+    of_a = !item.met && free_a != free_b ? free_a : a.radius > b.radius;
   }
+  const HullTree& tree = of_a ? a_ : b_;
   const HullNode& opened = of_a ? a : b;
   for (std::uint32_t side = 0; side < 2; ++side) {
     Item below{item.a, item.b, {}};
@@ -310,7 +381,7 @@ std::uint32_t HullPair::split(std::uint32_t index) {
     if (search_.start == HullStart::Parent) {
       below.seed.a = item.seed.a, below.seed.b = item.seed.b;
       FeatureId& feature = of_a ? below.seed.a : below.seed.b;
-      feature = in_child(opened, feature, side);
+      feature = in_child(tree, opened, feature, side);
     }
     items_[child + side] = below;
   }
@@ -327,13 +398,17 @@ std::uint32_t HullPair::new_children() {
   return child;
 }
 
-/// Frees all that is below an item.
+/// Frees all that is below an item. What is freed is also what is still to be looked at: trees may be deep.
 void HullPair::drop(std::uint32_t index) {
-  const std::uint32_t child = items_[index].child;
-  if (child == kNone) return;
-  drop(child), drop(child + 1);
-  spare_.push_back(child);
-  items_[index].child = kNone, items_[index].passing = false;
+  const auto part = [&](Item& item) {
+    if (item.child != kNone) spare_.push_back(item.child);
+    item.child = kNone, item.passing = false;
+  };
+  std::size_t next = spare_.size();
+  for (part(items_[index]); next < spare_.size(); ++next) {
+    const std::uint32_t child = spare_[next];
+    part(items_[child]), part(items_[child + 1]);
+  }
 }
 
 /// The pairs without children, nearest first as of the last query.

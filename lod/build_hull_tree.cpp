@@ -9,7 +9,10 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <span>
+#include <unordered_map>
 
+#include "body/block.h"
 #include "fit.h"
 #include "inside.h"
 #include "mesh_block.h"
@@ -22,10 +25,41 @@ namespace {
 using namespace lod;
 using Ids = std::vector<std::uint32_t>;
 
-/// What the hulls above a node need of it.
-struct Below {
-  Ids points;     ///< of the mesh, per vertex of the hull
-  Ids triangles;  ///< of the mesh: those that lie in faces of the hull
+/// A node's hull while the tree is built.
+struct Draft {
+  Model hull;
+  Ids points{};     ///< of the mesh, per vertex of the hull
+  Ids triangles{};  ///< of the mesh: those that lie in faces of the hull
+  std::vector<std::uint8_t> classes{};
+  std::vector<std::array<std::uint32_t, 2>> in_child{};
+  std::optional<MeshModel> surface{};
+
+  const ConvexView& view() const { return hull.level(0).view; }
+};
+
+/// Arrays one after the other, equal ones once.
+template <class T>
+class Pool {
+ public:
+  HullRange add(std::span<const T> array) {
+    const std::span<const std::byte> bytes = std::as_bytes(array);
+    auto& places = places_[hash_of(bytes)];
+    for (const HullRange& place : places) {
+      if (std::ranges::equal(std::as_bytes(std::span(all_).subspan(place.begin, place.count)), bytes)) return place;
+    }
+    places.push_back({std::uint32_t(all_.size()), std::uint32_t(array.size())});
+    all_.insert(all_.end(), array.begin(), array.end());
+    return places.back();
+  }
+  bool is_full() const { return all_.size() > std::uint32_t(-1); }  ///< ranges cannot name its end
+  std::vector<T> take() {
+    all_.shrink_to_fit();
+    return std::move(all_);
+  }
+
+ private:
+  std::vector<T> all_;
+  std::unordered_map<std::uint64_t, std::vector<HullRange>> places_;  ///< by hash
 };
 
 void make_unique(Ids& ids) {
@@ -34,9 +68,9 @@ void make_unique(Ids& ids) {
 }
 
 /// The mesh's points around a face, from the least one on.
-Ids border(const HullNode& node, const Ids& points, std::uint32_t face) {
+Ids border(const Draft& draft, std::uint32_t face) {
   Ids loop;
-  for (const std::uint32_t v : FaceLoop(node.hull.level(0).view, face)) loop.push_back(points[v]);
+  for (const std::uint32_t v : FaceLoop(draft.view(), face)) loop.push_back(draft.points[v]);
   std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
   return loop;
 }
@@ -54,7 +88,7 @@ class Construction {
     split_all(all);
 
     watch_.begin("hulls", 0.99, double(nodes_.size()));
-    below_.resize(nodes_.size());
+    drafts_.resize(nodes_.size());
     std::vector<std::optional<Error>> errors(nodes_.size());
     // Children have greater indices than their parent: from the lowest nodes up, those of one depth are tasks.
     std::vector<Ids> at_depth;
@@ -72,10 +106,7 @@ class Construction {
       }
     }
     watch_.end();
-    std::vector<HullNode> nodes;
-    nodes.reserve(nodes_.size());
-    for (std::optional<HullNode>& node : nodes_) nodes.push_back(std::move(*node));
-    return HullTree(mesh_, std::move(triangles_), std::move(nodes));
+    return packed();
   }
 
  private:
@@ -102,9 +133,9 @@ class Construction {
       Open here = std::move(open.back());
       open.pop_back();
       const std::uint32_t index = std::uint32_t(nodes_.size());
-      nodes_.emplace_back(), child_.push_back({kNone, kNone}), depth_.push_back(here.depth);
-      first_.push_back(std::uint32_t(triangles_.size())), piece_.push_back(kNone);
-      if (here.parent != kNone) child_[here.parent][here.side] = index;
+      nodes_.emplace_back(), depth_.push_back(here.depth), piece_.push_back(kNone);
+      nodes_.back().first = std::uint32_t(triangles_.size());
+      if (here.parent != kNone) nodes_[here.parent].child[here.side] = index;
       if (here.pieces.size() == 1) {
         const Patch& patch = patches_.patches[here.pieces[0]];
         piece_[index] = here.pieces[0];
@@ -151,20 +182,18 @@ class Construction {
 
   /// Makes the hull of a node whose children have theirs.
   std::optional<Error> fill(std::uint32_t index) {
-    const auto& child = child_[index];
-    const bool is_piece = child[0] == kNone;
+    HullNode& node = nodes_[index];
     Ids points, triangles;
-    std::uint32_t end = first_[index];
-    if (is_piece) {
+    if (node.is_piece()) {
       const Patch& patch = patches_.patches[piece_[index]];
-      end += patch.end - patch.first;
-      triangles.assign(triangles_.begin() + first_[index], triangles_.begin() + end);
+      node.end = node.first + patch.end - patch.first;
+      triangles.assign(triangles_.begin() + node.first, triangles_.begin() + node.end);
     } else {
-      for (const std::uint32_t c : child) {
-        points.insert(points.end(), below_[c].points.begin(), below_[c].points.end());
-        triangles.insert(triangles.end(), below_[c].triangles.begin(), below_[c].triangles.end());
+      for (const std::uint32_t c : node.child) {
+        points.insert(points.end(), drafts_[c]->points.begin(), drafts_[c]->points.end());
+        triangles.insert(triangles.end(), drafts_[c]->triangles.begin(), drafts_[c]->triangles.end());
       }
-      end = nodes_[child[1]]->end;
+      node.end = nodes_[node.child[1]].end;
       std::sort(triangles.begin(), triangles.end());
     }
     for (const std::uint32_t t : triangles) {
@@ -184,30 +213,62 @@ class Construction {
     exact.max_levels = 1, exact.table.map_cells = 0;
     Result<Built> built = build(part, exact);
     if (!built) return built.error();
-    HullNode node{std::move(built).value().model, {}, {}, child, {}, first_[index], end, false, {}};
-    Below& below = below_[index];
-    const SourceMap source = node.hull.source();
-    for (const std::uint32_t p : source.vertex) below.points.push_back(points[p]);
-    for (const std::uint32_t t : source.face) below.triangles.push_back(triangles[t]);
+    Draft& draft = drafts_[index].emplace(Draft{std::move(built).value().model});
+    const SourceMap source = draft.hull.source();
+    for (const std::uint32_t p : source.vertex) draft.points.push_back(points[p]);
+    for (const std::uint32_t t : source.face) draft.triangles.push_back(triangles[t]);
 
-    const bool in_solid = is_piece && lies_in_solid(node.hull);
-    classify(node, below, triangles, in_solid);
-    if (is_piece) {
+    const bool in_solid = node.is_piece() && lies_in_solid(draft.hull);
+    classify(node, triangles, in_solid, draft);
+    if (node.is_piece()) {
       // A flat patch that covers one side of its hull is all of it.
       const auto is_original = [](std::uint8_t c) { return FaceClass(c) == FaceClass::Original; };
-      const bool covers = node.hull.dimension() == 2 && std::any_of(node.classes.begin(), node.classes.end(), is_original);
-      node.is_filled = in_solid || covers;
-      if (!node.is_filled) {
+      const bool covers = draft.hull.dimension() == 2 && std::any_of(draft.classes.begin(), draft.classes.end(), is_original);
+      if (!in_solid && !covers) {
         Result<MeshModel> surface = MeshModel::from_triangles(part.points, part.triangles);
         if (!surface) return surface.error();
-        node.surface = std::move(surface).value();
+        draft.surface = std::move(surface).value();
       }
     } else {
-      for (std::size_t side = 0; side < 2; ++side)
-        node.vertex_in_child[side] = places(below.points, below_[child[side]].points);
+      const Ids left = places(draft.points, drafts_[node.child[0]]->points),
+                right = places(draft.points, drafts_[node.child[1]]->points);
+      for (std::size_t v = 0; v < left.size(); ++v) draft.in_child.push_back({left[v], right[v]});
     }
-    nodes_[index] = std::move(node);
     return {};
+  }
+
+  /// The tree, of which nothing but the mesh's own triangles names anything of the mesh.
+  Result<HullTree> packed() {
+    HullArrays hulls;
+    Pool<Vertex> vertices;
+    Pool<HalfEdge> half_edges;
+    Pool<std::uint32_t> face_first;
+    Pool<FacePlane> planes;
+    Pool<std::uint8_t> classes;
+    Pool<std::array<std::uint32_t, 2>> in_child;
+    for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+      HullNode& node = nodes_[i];
+      Draft& draft = *drafts_[i];
+      const Level& level = draft.hull.level(0);
+      node.centre = level.view.centre, node.radius = draft.hull.radius();
+      node.extent = level.view.extent, node.inner_radius = level.view.inner_radius, node.reach = level.view.reach;
+      node.edge_length = float(level.edge_length);
+      node.same_cos2 = float(level.same_cos2), node.near_cos2 = float(level.near_cos2);
+      node.vertices = vertices.add(level.view.vertices), node.half_edges = half_edges.add(level.view.half_edges);
+      node.face_first = face_first.add(level.view.face_first), node.planes = planes.add(level.view.planes);
+      node.classes = classes.add(draft.classes).begin, node.in_child = in_child.add(draft.in_child).begin;
+      if (half_edges.is_full()) return Error{ErrorCode::TooLarge, "the hulls have more than 2^32 half-edges"};
+      if (draft.surface) {
+        node.surface = std::uint32_t(hulls.surfaces.size());
+        hulls.surfaces.push_back(std::move(*draft.surface));
+      }
+      drafts_[i].reset();
+    }
+    hulls.nodes = std::move(nodes_);
+    hulls.nodes.shrink_to_fit(), hulls.surfaces.shrink_to_fit();
+    hulls.vertices = vertices.take(), hulls.half_edges = half_edges.take(), hulls.face_first = face_first.take();
+    hulls.planes = planes.take(), hulls.classes = classes.take(), hulls.in_child = in_child.take();
+    return HullTree(mesh_, std::move(triangles_), std::move(hulls));
   }
 
   /// True if the volume of a piece, which no surface enters, is in the solid: then one point of it is. A mesh may be inside
@@ -232,18 +293,18 @@ class Construction {
   }
 
   /// A face that the surface covers is the surface's, one that a child has keeps its class.
-  void classify(HullNode& node, const Below& below, const Ids& triangles, bool in_solid) const {
-    const ConvexView view = node.hull.level(0).view;
+  void classify(const HullNode& node, const Ids& triangles, bool in_solid, Draft& draft) const {
+    const ConvexView& view = draft.view();
     std::map<Ids, std::uint8_t> known;
     if (!node.is_piece()) {
       for (const std::uint32_t c : node.child) {
-        for (std::uint32_t f = 0; f < nodes_[c]->classes.size(); ++f) {
-          if (nodes_[c]->classes[f] == std::uint8_t(FaceClass::Contained))
-            known.emplace(border(*nodes_[c], below_[c].points, f), nodes_[c]->classes[f]);
+        const Draft& child = *drafts_[c];
+        for (std::uint32_t f = 0; f < child.classes.size(); ++f) {
+          if (child.classes[f] == std::uint8_t(FaceClass::Contained)) known.emplace(border(child, f), child.classes[f]);
         }
       }
     }
-    const SourceMap source = node.hull.source();
+    const SourceMap source = draft.hull.source();
     for (std::uint32_t f = 0; f < view.face_first.size(); ++f) {
       Ids in_face;
       for (std::uint32_t k = source.face_begin[f]; k < source.face_begin[f + 1]; ++k)
@@ -252,10 +313,10 @@ class Construction {
       if (is_covered(view, f, in_face)) {
         c = FaceClass::Original;
       } else if (!known.empty()) {
-        const auto same = known.find(border(node, below.points, f));
+        const auto same = known.find(border(draft, f));
         if (same != known.end()) c = FaceClass(same->second);
       }
-      node.classes.push_back(std::uint8_t(c));
+      draft.classes.push_back(std::uint8_t(c));
     }
   }
 
@@ -316,10 +377,9 @@ class Construction {
   std::vector<Vec3> centres_;  ///< of patches: of their surfaces
   Ids triangles_;
   // Per node.
-  std::vector<std::optional<HullNode>> nodes_;
-  std::vector<std::array<std::uint32_t, 2>> child_;
-  Ids depth_, first_, piece_;
-  std::vector<Below> below_;
+  std::vector<HullNode> nodes_;  ///< without what drafts know, until the end
+  Ids depth_, piece_;
+  std::vector<std::optional<Draft>> drafts_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 // inside solids by rational arithmetic.
 #include <swiftlet/build_hull_tree.h>
 #include <swiftlet/hull_tree.h>
+#include <swiftlet/march.h>
 #include <swiftlet/mesh_query.h>
 
 #include <algorithm>
@@ -220,8 +221,8 @@ class Trial {
   /// Looks at balls first: most are far.
   bool patches_near(std::uint32_t i, std::uint32_t k, const Pose& pose, double reach) const {
     const HullNode &a = a_.tree.nodes()[i], &b = b_.tree.nodes()[k];
-    const Vec3 way = pose.rotation * b.hull.centre() + pose.translation - a.hull.centre();
-    return way.norm() <= reach + a.hull.radius() + b.hull.radius();
+    const Vec3 way = pose.rotation * b.centre + pose.translation - a.centre;
+    return way.norm() <= reach + a.radius + b.radius;
   }
   double patches_apart(std::uint32_t i, std::uint32_t k, const Pose& pose) const {
     const auto part = [](const Body& of, const HullNode& node) {
@@ -321,20 +322,20 @@ TEST(HullTree, AFreeFaceDoesNotAnswer) {
 
 TEST(HullTree, FacesAreOfTheSurfaceExactlyWhereItCoversThem) {
   const Body post = body("posts", posts(), true);
-  const HullNode& root = post.tree.nodes()[0];
+  const ConvexView root = post.tree.hull(post.tree.nodes()[0]);
   int original = 0, free = 0;
-  for (std::uint32_t f = 0; f < root.view.face_first.size(); ++f) {
+  for (std::uint32_t f = 0; f < root.face_first.size(); ++f) {
     Vec3 middle = Vec3::Zero();
     int corners = 0;
     bool top = true;
-    for (const std::uint32_t v : FaceLoop(root.view, f)) {
-      const Vec3 p(root.view.vertices[v].x, root.view.vertices[v].y, root.view.vertices[v].z);
+    for (const std::uint32_t v : FaceLoop(root, f)) {
+      const Vec3 p(root.vertices[v].x, root.vertices[v].y, root.vertices[v].z);
       middle += p, ++corners, top = top && p.z() == 5;
     }
     middle /= corners;
     // The floor and the base's sides are the surface's; of the roof over the posts only their tops are, which are parts of a
     // face.
-    const bool is_original = FaceClass(root.classes[f]) == FaceClass::Original;
+    const bool is_original = FaceClass(root.tags[f]) == FaceClass::Original;
     (is_original ? original : free) += 1;
     EXPECT_FALSE(top && is_original);
     if (middle.z() == 0 || middle.z() == 0.5) {
@@ -354,8 +355,11 @@ TEST(HullTree, EveryNodeHoldsItsTrianglesAndEveryTriangleIsInOnePiece) {
       for (std::uint32_t k = node.first; k < node.end; ++k) {
         if (node.is_piece()) ++times[b.tree.triangles()[k]];
         for (const std::uint32_t v : b.tree.mesh().triangle(b.tree.triangles()[k])) {
-          const Answer in = distance(swiftlet::Body(node.hull), swiftlet::Body::point(b.tree.mesh().vertex(v)), Pose());
-          EXPECT_LE(in.lower, 1e-15);
+          const Vec3 p = b.tree.mesh().vertex(v);
+          const Vertex point{p.x(), p.y(), p.z(), 0, 0};
+          ConvexView alone;
+          alone.vertices = {&point, 1}, alone.extent = p.cwiseAbs().maxCoeff(), alone.centre = p;
+          EXPECT_LE(march(b.tree.hull(node), alone, Pose()).lower, 1e-15);
         }
       }
       for (const std::uint32_t child : node.child) {
@@ -366,6 +370,20 @@ TEST(HullTree, EveryNodeHoldsItsTrianglesAndEveryTriangleIsInOnePiece) {
     }
     EXPECT_EQ(std::count(times.begin(), times.end(), 1), std::ptrdiff_t(times.size()));
   }
+}
+
+TEST(HullTree, WhatHullsHaveAlikeIsStoredOnce) {
+  Soup twice = torus(8, 5);
+  const std::vector<Corners> once = twice.triangles;
+  twice.triangles.insert(twice.triangles.end(), once.begin(), once.end());
+  const Body ring = body("torus, given twice", twice, true);
+  std::size_t vertices = 0, half_edges = 0;
+  for (const HullNode& node : ring.tree.nodes()) vertices += node.vertices.count, half_edges += node.half_edges.count;
+  const HullArrays& arrays = ring.tree.hulls();
+  // The pieces are there twice, and what is above them is of both.
+  EXPECT_LT(4 * arrays.vertices.size(), 3 * vertices);
+  EXPECT_LT(4 * arrays.half_edges.size(), 3 * half_edges);
+  EXPECT_GT(ring.tree.bytes(), sizeof(Vertex) * arrays.vertices.size() + sizeof(HalfEdge) * arrays.half_edges.size());
 }
 
 TEST(HullTree, TheFrontGrowsInContactAndFallsBackToTheRoots) {

@@ -19,14 +19,6 @@ T needed(Result<T> result) {
   return std::move(result).value();
 }
 
-std::size_t bytes_of(const HullTree& tree) {
-  std::size_t bytes = tree.mesh().bytes().size() + 4 * tree.triangles().size();
-  for (const HullNode& node : tree.nodes())
-    bytes += sizeof node + node.hull.bytes().size() + node.classes.size() + 8 * node.vertex_in_child[0].size() +
-             (node.surface ? node.surface->bytes().size() : 0);
-  return bytes;
-}
-
 /// Both bodies' trees, which all methods of a scene share.
 struct Trees {
   Trees(const Mesh& mesh_a, const Mesh& mesh_b, HullSplit split) : points_a(mesh_a.points), points_b(mesh_b.points) {
@@ -51,7 +43,7 @@ class HullSession final : public Session {
  public:
   HullSession(std::shared_ptr<const Trees> trees, const HullSearch& search) : trees_(std::move(trees)) {
     for (std::size_t kind = 0; kind < kKinds; ++kind) pairs_.emplace_back(trees_->trees[0], trees_->trees[1], search);
-    for (const HullTree& tree : trees_->trees) bytes += bytes_of(tree);
+    for (const HullTree& tree : trees_->trees) bytes += tree.bytes();
     build_seconds = trees_->build_seconds;
   }
 

@@ -138,6 +138,9 @@ class BlockReader {
   static Result<Model> refined(const Model& model, int finest);
   /// Returns the sections for a block of the model's levels from `finest` on. These levels must be ready.
   static BlockParts parts(const Model& model, int finest);
+  /// Returns a model of one level whose arrays someone else holds, for queries alone: it has no block, and vertices are their
+  /// own ids. `level` must outlive it and not move.
+  static Model lent(const Level& level, double radius) { return Model(nullptr, {&level, 1}, radius, 1, 0); }
 
  private:
   static Result<Model> with_levels(std::shared_ptr<Model::Content> body, int finest);

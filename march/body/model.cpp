@@ -8,6 +8,7 @@
 
 #include "body/block.h"
 #include "body/half_edge.h"
+#include "body/shape.h"
 #include "body/support.h"
 #include "body/support_map.h"
 #include "body/table.h"
@@ -18,13 +19,15 @@ Result<Model> Model::from_level(const LevelArrays& level, const ModelOptions& op
   return from_levels({&level, 1}, options);
 }
 
-SourceMap Model::source() const { return content_->source; }
+SourceMap Model::source() const { return content_ ? content_->source : SourceMap{}; }
 
 Vec3 Model::centre() const { return content_->levels[0].view.centre; }
 Vec3 Model::box_min() const {
+  if (!content_) return eigen(box_of(levels_->view.vertices).least);
   return Vec3(content_->headers.block.box_min[0], content_->headers.block.box_min[1], content_->headers.block.box_min[2]);
 }
 Vec3 Model::box_max() const {
+  if (!content_) return eigen(box_of(levels_->view.vertices).most);
   return Vec3(content_->headers.block.box_max[0], content_->headers.block.box_max[1], content_->headers.block.box_max[2]);
 }
 double Model::volume() const { return content_->levels[0].volume; }

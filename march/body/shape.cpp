@@ -199,7 +199,10 @@ Vec Shape::size() const {
 }
 
 std::uint32_t source_vertex(const Body& body, const Shape& shape, std::uint32_t vertex) {
-  if (shape.model()) return shape.model()->source().vertex[vertex];
+  if (shape.model()) {
+    const std::span<const std::uint32_t> ids = shape.model()->source().vertex;
+    return ids.empty() ? vertex : ids[vertex];
+  }
   const Named given = named(body);
   const Vec v = vec(shape.level(0).view.vertices[vertex]);
   const auto differs = [&](const Vertex& w) { return w.x != v.x || w.y != v.y || w.z != v.z; };

@@ -112,6 +112,8 @@ ABSENT = {
     "HullTreeOptions": "of HullTree",
     "HullSplit": "of HullTree",
     "HullNode": "of HullTree",
+    "HullRange": "of HullTree",
+    "HullArrays": "of HullTree",
     "FaceClass": "of HullTree",
     "HullPair": "of HullTree",
     "HullSearch": "of HullTree",

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // SWIFT++ [Ehmann & Lin 2001]: a binary tree of convex hulls over the convex patches of a surface, and the paper's queries and
-// accelerations, each of which can be had alone. MeshModel answers the same questions sooner on most bodies, from a tenth of
+// accelerations, each of which can be had alone. MeshModel answers the same questions sooner on most bodies, from a sixth of
 // the memory; near contact of bodies of large patches, as robots' links are, this is sooner (bench/RESULTS.md). lod's
 // build_hull_tree.h makes the trees.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include <swiftlet/mesh.h>
@@ -26,38 +26,59 @@ enum class FaceClass : std::uint8_t {
   Original,   ///< triangles of the surface cover the face
 };
 
-/// A node: the convex hull of the surface below it. A piece is a node without children, the hull of one patch. Of a copy the
-/// view is that of the node it was copied from.
+/// An array of a node: where it begins in that of HullArrays, and how long it is.
+struct HullRange {
+  std::uint32_t begin = 0, count = 0;
+};
+
+/// A node: the convex hull of the surface below it. A piece is a node without children, the hull of one patch.
 struct HullNode {
-  Model hull;                                                   ///< one level
-  std::vector<std::uint8_t> classes;                            ///< per face of the hull, its FaceClass
-  ConvexView view;                                              ///< level 0 of the hull, with `classes` as tags
-  std::array<std::uint32_t, 2> child{kNone, kNone};             ///< of HullTree::nodes; kNone of a piece
-  std::array<std::vector<std::uint32_t>, 2> vertex_in_child{};  ///< per vertex, that of each child's hull; kNone if it has none
-  std::uint32_t first = 0, end = 0;                             ///< the triangles below it: HullTree::triangles[first .. end)
-  /// True of a piece all of which belongs to the body: it lies in the solid, or it is a flat patch that covers its hull.
-  bool is_filled = false;
-  std::optional<MeshModel> surface{};  ///< of a piece that is not filled: its triangles
+  Vec3 centre = Vec3::Zero();                           ///< the hull's area centroid, or the mean of its vertices
+  double radius = 0;                                    ///< the largest distance of a vertex from `centre`, rounded up
+  double extent = 0, inner_radius = 0, reach = 0;       ///< ConvexView's
+  float edge_length = 0, same_cos2 = 0, near_cos2 = 0;  ///< Level's, rounded
+  HullRange vertices, half_edges, face_first, planes;   ///< ConvexView's
+  std::uint32_t classes = 0;                            ///< where they begin: per face, its FaceClass
+  std::uint32_t in_child = 0;                           ///< where they begin: per vertex, HullArrays::in_child; not of a piece
+  std::array<std::uint32_t, 2> child{kNone, kNone};     ///< of HullTree::nodes; kNone of a piece
+  std::uint32_t first = 0, end = 0;                     ///< the triangles below it: HullTree::triangles[first .. end)
+  std::uint32_t surface = kNone;  ///< of a piece that is not filled, its triangles: of HullArrays::surfaces
 
   bool is_piece() const { return child[0] == kNone; }  ///< true of a node without children
+  /// True of a piece all of which belongs to the body: it lies in the solid, or it is a flat patch that covers its hull.
+  bool is_filled() const { return is_piece() && surface == kNone; }
+};
+
+/// What the hulls of a tree are made of. An array that several nodes have alike is there once.
+struct HullArrays {
+  std::vector<HullNode> nodes;       ///< the root first, children after their parent
+  std::vector<Vertex> vertices;      ///< of ConvexView::vertices, as the three that follow of theirs; indices are a hull's own
+  std::vector<HalfEdge> half_edges;  ///< hull by hull
+  std::vector<std::uint32_t> face_first;               ///< hull by hull
+  std::vector<FacePlane> planes;                       ///< hull by hull
+  std::vector<std::uint8_t> classes;                   ///< per face, its FaceClass
+  std::vector<std::array<std::uint32_t, 2>> in_child;  ///< per vertex, that of each child's hull; kNone if it has none
+  std::vector<MeshModel> surfaces;                     ///< of pieces that are not filled, their triangles
 };
 
 /// A surface and the tree over it. If the mesh is closed the body is the solid that it bounds, else the surface.
 class HullTree {
  public:
-  HullTree(MeshModel mesh, std::vector<std::uint32_t> triangles, std::vector<HullNode> nodes);  ///< for the builder
-  HullTree(HullTree&&) = default;                                                               ///< the views stay valid
-  HullTree& operator=(HullTree&&) = default;                                                    ///< likewise
+  HullTree(MeshModel mesh, std::vector<std::uint32_t> triangles, HullArrays hulls);  ///< for the builder
 
   const MeshModel& mesh() const { return mesh_; }                             ///< the surface
   const std::vector<std::uint32_t>& triangles() const { return triangles_; }  ///< the mesh's, piece after piece
-  const std::vector<HullNode>& nodes() const { return nodes_; }               ///< the root first, children after their parent
+  const std::vector<HullNode>& nodes() const { return hulls_.nodes; }         ///< the root first, children after their parent
+  const HullArrays& hulls() const { return hulls_; }                          ///< what the nodes name places in
+  /// The hull of a node, with the faces' classes as tags. It lives as long as the tree stays where it is.
+  ConvexView hull(const HullNode& node) const;
   MeshBody body() const { return is_solid_ ? MeshBody::solid(mesh_) : MeshBody(mesh_); }  ///< what queries are about
+  std::size_t bytes() const;  ///< what all of it takes, the mesh's block included
 
  private:
   MeshModel mesh_;
   std::vector<std::uint32_t> triangles_;
-  std::vector<HullNode> nodes_;
+  HullArrays hulls_;
   bool is_solid_;
 };
 
