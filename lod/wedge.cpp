@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "numeric/exact.h"
+#include "wedge_tolerance.h"
 
 namespace swiftlet::lod {
 namespace {
@@ -40,11 +41,10 @@ class ByPlanes {
   ByPlanes(const Corners3& triangle, const Wedge& wedge) : t_(triangle), w_(wedge) {}
 
   std::optional<bool> answer() {
-    if (is_beyond_face()) return false;
+    if (is_beyond_triangle() || is_beyond_face()) return false;
     for (std::size_t i = 0; i < 3; ++i) {
       if (sign_[0][i] < 0 && sign_[1][i] < 0 && sign_[2][i] < 0 && sign_[3][i] < 0) return true;
     }
-    if (is_beyond_triangle()) return false;
     bool shares = false;
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t k = 0; k < 4; ++k) {
@@ -114,8 +114,7 @@ class ByPlanes {
       for (std::size_t k = 0; k < 4; ++k) {
         for (std::size_t m = k + 1; m < 4; ++m) {
           const Vec n = cross(t_[(i + 1) % 3] - t_[i], w_.corner[m] - w_.corner[k]);
-          // A sum of three products is off by at most 2.0001 * 2^-52 of the sum of their magnitudes.
-          const double slack = 0x1p-49 * (std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z)) * size;
+          const double slack = kHeightsError * (std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z)) * size;
           double low_t = HUGE_VAL, high_t = -HUGE_VAL, low_w = HUGE_VAL, high_w = -HUGE_VAL;
           for (const Vec& p : t_) low_t = min(low_t, dot(n, p)), high_t = max(high_t, dot(n, p));
           for (const Vec& p : w_.corner) low_w = min(low_w, dot(n, p)), high_w = max(high_w, dot(n, p));
@@ -233,10 +232,8 @@ Outline::Outline(const FlatWedge& wedge, double size)
 void Outline::add(const Vec& outward, double size) {
   double most = -HUGE_VAL;
   for (std::size_t k = 0; k < corners_; ++k) most = max(most, dot(outward, corner_[k]));
-  // Any direction will do, as it was rounded. A sum of three products is off by at most 2.0001 * 2^-52 of the sum of their
-  // magnitudes, and boxes of nodes may reach four times as far as the mesh.
   outward_[count_] = outward;
-  above_[count_] = most + 0x1p-48 * (std::fabs(outward.x) + std::fabs(outward.y) + std::fabs(outward.z)) * size;
+  above_[count_] = most + kHeightsError * (std::fabs(outward.x) + std::fabs(outward.y) + std::fabs(outward.z)) * size;
   if (count_++ > 0) return;
   least_ = most_ = eigen(corner_[0]);
   for (std::size_t k = 1; k < corners_; ++k)
@@ -275,10 +272,10 @@ bool Outline::is_apart_at(std::size_t corner, const Corners3& t, std::size_t at)
   for (std::size_t k = 0; k < corners_; ++k) wedge = wedge + (corner_[k] - p);
   for (const Vec& q : t) triangle = triangle + (q - p);
   const Vec n = normalised(triangle) - normalised(wedge);
-  // Differences are rounded in their last bit, which adds one part to the sums' two.
   const auto height = [&](const Vec& q) {
     const Vec way = q - p, part{n.x * way.x, n.y * way.y, n.z * way.z};
-    const double slack = 0x1p-50 * (std::fabs(part.x) + std::fabs(part.y) + std::fabs(part.z)), sum = part.x + part.y + part.z;
+    const double slack = kHeightOverError * (std::fabs(part.x) + std::fabs(part.y) + std::fabs(part.z)),
+                 sum = part.x + part.y + part.z;
     return sum > slack ? 1 : sum < -slack ? -1 : 0;
   };
   for (std::size_t k = 0; k < corners_; ++k) {
@@ -298,20 +295,18 @@ bool Outline::is_apart_around(const Vec& hub, const Vec& least, const Vec& most)
   for (std::size_t k = 0; k < corners_; ++k) wedge = wedge + (corner_[k] - hub);
   wedge = normalised(wedge);
   // A plane through the hub parts the two if it has the wedge's other corners on one side and the box on the other, both by
-  // more than rounding: as above, differences, products and sums.
-  constexpr double kRounding = 0x1p-50;
+  // more than rounding.
   const auto parts = [&](const Vec& n) {
     for (std::size_t k = 0; k < corners_; ++k) {
       const Vec way = corner_[k] - hub, part{n.x * way.x, n.y * way.y, n.z * way.z};
-      const double slack = kRounding * (std::fabs(part.x) + std::fabs(part.y) + std::fabs(part.z));
+      const double slack = kHeightOverError * (std::fabs(part.x) + std::fabs(part.y) + std::fabs(part.z));
       if (k != corner && !(part.x + part.y + part.z < -slack)) return false;
     }
     const Vec low = least - hub, high = most - hub;
     const Vec part{min(n.x * low.x, n.x * high.x), min(n.y * low.y, n.y * high.y), min(n.z * low.z, n.z * high.z)};
-    return part.x + part.y + part.z > kRounding * (std::fabs(part.x) + std::fabs(part.y) + std::fabs(part.z));
+    return part.x + part.y + part.z > kHeightOverError * (std::fabs(part.x) + std::fabs(part.y) + std::fabs(part.z));
   };
   // Planes of the wedge, tilted a little so that they do not meet it elsewhere.
-  constexpr double kTilt = 0x1p-24;
   for (std::size_t k = 0; k < count_; ++k) {
     if (parts(normalised(outward_[k]) - wedge * kTilt)) return true;
   }
