@@ -248,7 +248,8 @@ Result<MeshHeader> MeshReader::read_header(std::span<const std::byte> start) {
   std::memcpy(&h, start.data(), sizeof h);
   if (h.version != kMeshFileVersion) {
     return Error{ErrorCode::BadVersion, "file version " + std::to_string(h.version) + " where this library reads " +
-                                            std::to_string(kMeshFileVersion) + ": build the mesh again"};
+                                            std::to_string(kMeshFileVersion) +
+                                            ": build it again with `swiftlet build --mesh MESH -o FILE`"};
   }
   if (h.header_hash != hash_of_header(h)) return bad("damaged header");
   if (const std::string f = fault(h); !f.empty()) return bad("the header has " + f);

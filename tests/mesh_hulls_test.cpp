@@ -274,6 +274,31 @@ TEST(Patches, AnswerAsTrianglesDo) {
   EXPECT_GE(apart, 200);
 }
 
+// To readers that know no patches the mark of a node is a part of the index of its first child or triangle.
+TEST(Patches, AreRefusedByReadersThatDoNotKnowThem) {
+  const soups::Block block = bytes_of(made(build_mesh(mesh_of(boxes_in_a_row(11, 3)), along_patches(40))));
+  const MeshHeader header = header_of(block);
+  int marked = 0;
+  for (std::uint32_t i = 0; i < header.node_count; ++i) {
+    Node node;
+    const std::size_t at = std::size_t(header.level[0].offset) + i * sizeof node;
+    std::memcpy(&node, block.data() + at, sizeof node);
+    if (!node.of_patch()) continue;
+    ++marked;
+    const std::uint32_t index = node.link & ((1u << 28) - 1);
+    EXPECT_GE(index, std::max(header.node_count, header.triangle_count));
+    // What today's reader says of such an index: the highest bit that it counts as one.
+    node.link ^= 1u << 27 | 1u << 26;
+    soups::Block other = block;
+    std::memcpy(other.data() + at, &node, sizeof node);
+    rehash(other);
+    const Result<MeshModel> read = load_mesh(other);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, ErrorCode::BadFormat);
+  }
+  EXPECT_EQ(marked, 11);
+}
+
 TEST(Hulls, ScaleBitForBit) {
   Random random(33);
   for (int i = 0; i < 60; ++i) {

@@ -327,6 +327,7 @@ TEST_F(MeshFile, OfAnotherVersionSaysSo) {
     ASSERT_FALSE(read);
     EXPECT_EQ(read.error().code, ErrorCode::BadVersion);
     EXPECT_NE(read.error().message.find(std::to_string(version)), std::string::npos) << read.error().message;
+    EXPECT_NE(read.error().message.find("swiftlet build --mesh"), std::string::npos) << read.error().message;
   }
 }
 
