@@ -26,9 +26,9 @@ enum class FaceClass : std::uint8_t {
   Original,   ///< triangles of the surface cover the face
 };
 
-/// An array of a node: where it begins in that of HullArrays, and how long it is.
+/// An array of a node: a part of that of HullArrays.
 struct HullRange {
-  std::uint32_t begin = 0, count = 0;
+  std::uint32_t begin = 0, count = 0;  ///< its first element, its length
 };
 
 /// A node: the convex hull of the surface below it. A piece is a node without children, the hull of one patch.
