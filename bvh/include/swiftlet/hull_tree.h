@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // SWIFT++ [Ehmann & Lin 2001]: a binary tree of convex hulls over the convex patches of a surface, and the paper's queries and
-// accelerations, each of which can be had alone. MeshModel answers the same questions sooner on most bodies, from a sixth of
+// accelerations, each of which can be had alone. MeshModel answers the same questions sooner on most bodies, from a fifth of
 // the memory; near contact of bodies of large patches, as robots' links are, this is sooner (bench/RESULTS.md). lod's
 // build_hull_tree.h makes the trees.
 #pragma once
