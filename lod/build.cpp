@@ -13,6 +13,7 @@
 #include "bake.h"
 #include "hierarchy.h"
 #include "hull.h"
+#include "hull_model.h"
 #include "numeric/chunks.h"
 #include "trace.h"
 
@@ -132,11 +133,20 @@ void describe(const Model& model, BuildReport& report) {
   report.faces_grouped = finest.view.planes.size();
 }
 
+/// A mesh over a power of two, and its hull.
+struct Start {
+  Start(const Mesh& users, const Executor& executor)
+      : scale(unit_scale(users.points)), mesh(scaled(users, scale)), shape(hull(mesh.points, executor)) {}
+
+  double scale;
+  Mesh mesh;
+  Hull shape;
+};
+
 Result<Built> build_watched(const Mesh& users, const BuildOptions& options, Watch& watch) {
   watch.begin("hull", kHullDone, 3);
-  const double scale = unit_scale(users.points);
-  const Mesh mesh = scaled(users, scale);
-  const Hull shape = hull(mesh.points, options.executor);
+  const Start start(users, options.executor);
+  const auto& [scale, mesh, shape] = start;
   watch.work();
   const Polytope body = solid(mesh.points, shape);
   BuildReport report;
@@ -171,6 +181,15 @@ Result<Built> build_watched(const Mesh& users, const BuildOptions& options, Watc
 }
 
 }  // namespace
+
+Result<Model> lod::hull_model(const Mesh& users, const BuildOptions& options) {
+  const Start start(users, options.executor);
+  const Polytope body = solid(start.mesh.points, start.shape);
+  std::vector<std::uint32_t> face_of;
+  if (start.shape.dimension == 3) face_of = triangles_on(start.mesh, start.shape, body);
+  std::string end;
+  return bake(finest_level(users, start.mesh, start.shape, body, face_of), {}, start.scale, options, end);
+}
 
 Result<Built> build(const Mesh& users, const BuildOptions& options) try {
   if (const auto error = problem(options)) return *error;

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "hull_model.h"
 #include "mesh_block.h"
 #include "numeric/chunks.h"
 #include "patches.h"
@@ -63,9 +64,7 @@ Result<Model> hull_of(const MeshReader::Content& mesh, const Place& place, const
     for (const std::uint32_t v : mesh.triangles[t]) part.points.push_back(eigen(mesh.vertices[v]));
     part.triangles.push_back({first, first + 1, first + 2});
   }
-  Result<Built> built = build(part, options);
-  if (!built) return built.error();
-  return std::move(built).value().model;
+  return hull_model(part, options);
 }
 
 bool all_patches_fit(const MeshReader::Content& mesh) {
@@ -87,7 +86,7 @@ Result<MeshModel> with_hulls(const MeshModel& mesh, const HullOptions& options, 
   // The root's alone is large; it is asked cold, and has a support map.
   const auto make = [&](std::size_t i, const Executor& executor) {
     BuildOptions exact;
-    exact.max_levels = 1, exact.table.map_cells = wanted[i].node == 0, exact.executor = executor;
+    exact.table.map_cells = wanted[i].node == 0, exact.executor = executor;
     made[i] = hull_of(content, wanted[i], exact);
     watch.work(double(wanted[i].end - wanted[i].begin));
   };

@@ -357,6 +357,7 @@ class Collapse {
 }  // namespace
 
 Hierarchy hierarchy(const Polytope& level0, const BuildOptions& options, Watch& watch) {
+  if (options.max_levels == 1) return {{}, kMostLevels};
   return options.method == Method::Peel ? peeled(level0, options, watch) : Collapse(level0, options, watch).run();
 }
 
