@@ -75,6 +75,8 @@ class Descent {
  private:
   /// Hulls without a start of use cost as much as so many pairs of nodes, which answer many a threshold question.
   static constexpr std::uint32_t kHullsWait = 24;
+  /// So many pairs of hulls are asked though those of the roots are not known to be apart: bench/COST.md.
+  static constexpr int kHullsUnlessApart = 4;
   /// The cosine of the angle by which a seed's direction may turn and its hulls still begin where they were.
   static constexpr double kSameAhead = 0.95;
 
@@ -209,7 +211,7 @@ class Descent {
   /// of bodies that interlock they part little that boxes do not part as soon.
   [[gnu::noinline]] bool part_by_hulls(const PairEntry& entry, bool at_patches = false) {
     const bool of_roots = entry.a == 0 && entry.b == 0;
-    if (!of_roots && !at_patches && !roots_apart_ && few_left_-- <= 0) return false;
+    if (!of_roots && !at_patches && !roots_apart_ && hulls_left_-- <= 0) return false;
     PairSeed own = warm_;
     warm_ = {};
     PairSeed& seed = of_roots ? seed_.pair : own;
@@ -292,15 +294,7 @@ class Descent {
     };
     if (stop.above <= 0 && crossing()) return;
     if (pair.gap(normalised(pair.between_middles())) >= (stop.is_threshold() ? limit_ : finding_.upper)) return;
-    const NearestPoints points = pair.nearest();
-    const double upper = pair.upper(points.way);
-    Vec n = normalised(points.way);
-    double lower = pair.gap(n);
-    if (upper - lower > question_.law_two && max_abs(points.across) > 0) {
-      Vec across = normalised(points.across);
-      if (dot(across, points.way) < 0) across = -across;
-      if (const double gap = pair.gap(across); gap > lower) lower = gap, n = across;
-    }
+    const auto [points, lower, upper, n] = pair.measured(question_.law_two);
     if (lower > 0 && (upper - lower <= question_.law_two || lower >= limit_)) {
       lower_ = min(lower_, lower);
       if (upper < finding_.upper) nearer(of_a, of_b, a[0], points, n, upper);
@@ -387,7 +381,7 @@ class Descent {
   double limit_over_unit_ = 0, limit_ahead_ = 0;  ///< for `gap_ahead`
   float limit_of_boxes_ = 0;                      ///< the same, rounded up
   bool done_ = false;
-  int few_left_ = 4;         ///< pairs of hulls that are asked though those of the roots are not known to be apart
+  int hulls_left_ = kHullsUnlessApart;
   bool hulls_wait_ = false;  ///< until `kHullsWait` pairs of nodes were opened
   bool root_boxes_apart_ = false;
   bool roots_apart_ = false;                         ///< their hulls are

@@ -84,15 +84,7 @@ class RegionSearch {
       region->lower = 0;
       return;
     }
-    const NearestPoints points = pair.nearest();
-    const double upper = pair.upper(points.way);
-    Vec normal = normalised(points.way);
-    double lower = pair.gap(normal);
-    if (upper - lower > at_.law_two && max_abs(points.across) > 0) {
-      Vec across = normalised(points.across);
-      if (dot(across, points.way) < 0) across = -across;
-      if (const double gap = pair.gap(across); gap > lower) lower = gap, normal = across;
-    }
+    const auto [points, lower, upper, normal] = pair.measured(at_.law_two);
     if (lower >= limit) return;
     Vec met;
     if (lower > 0 && upper - lower <= at_.law_two) {

@@ -30,6 +30,13 @@ struct NearestPoints {
   PartId on_a, on_b;
 };
 
+/// What is known of a distance: nearest points, bounds, and the direction along which the lower one is the triangles' gap.
+struct Measured {
+  NearestPoints points;
+  double lower, upper;
+  Vec normal;
+};
+
 class TrianglePair {
  public:
   /// `b` are corners of B in its own frame. `size` is law 2's size.
@@ -118,6 +125,21 @@ class TrianglePair {
       points.across = cross(cross(side, points.way), side);
     }
     return points;
+  }
+
+  /// Bounds the distance by the nearest points: from above by theirs, from below by the gap along the way between them or, if
+  /// the bounds are then farther apart than `width`, across the features that hold them.
+  Measured measured(double width) const {
+    const NearestPoints points = nearest();
+    const double upper = this->upper(points.way);
+    Vec normal = normalised(points.way);
+    double lower = gap(normal);
+    if (upper - lower > width && max_abs(points.across) > 0) {
+      Vec across = normalised(points.across);
+      if (dot(across, points.way) < 0) across = -across;
+      if (const double along = gap(across); along > lower) lower = along, normal = across;
+    }
+    return {points, lower, upper, normal};
   }
 
   /// True if a side of one passes through the other, at `point`, from A's first corner, and no motion by `depth` parts them:
