@@ -160,7 +160,7 @@ std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, cons
     for (std::uint32_t v = 0; v < hull.vertices.size(); ++v) rank[hull.vertices[v]] = v;
     for (std::uint32_t& point : vertex) point = rank[point];
   }
-  Ids begin(body.points.size() + 1);  // of the triangles with each lowest corner
+  Ids begin(body.points.size() + 1);  // of the triangles with each lowest corner; they are sorted
   for (const Triangle& triangle : body.triangles) ++begin[triangle[0] + 1];
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   Ids found(mesh.triangles.size());
@@ -169,9 +169,13 @@ std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, cons
     const auto& [i, j, k] = mesh.triangles[t];
     const Triangle corners = from_lowest({vertex[i], vertex[j], vertex[k]});
     const bool all_extreme = std::find(corners.begin(), corners.end(), kNone) == corners.end();
-    std::uint32_t on = all_extreme ? begin[corners[0]] : kNone;
-    while (all_extreme && on < begin[corners[0] + 1] && body.triangles[on] != corners) ++on;
-    if (!all_extreme || on == begin[corners[0] + 1]) {
+    std::uint32_t on = kNone;
+    if (all_extreme) {
+      const auto last = body.triangles.begin() + begin[corners[0] + 1];
+      const auto at = std::lower_bound(body.triangles.begin() + begin[corners[0]], last, corners);
+      if (at != last && *at == corners) on = std::uint32_t(at - body.triangles.begin());
+    }
+    if (on == kNone) {
       if (!planes) planes.emplace(body, rounding_of(mesh.points));
       on = planes->find(mesh.points[i], mesh.points[j], mesh.points[k]);
     }
