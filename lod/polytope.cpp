@@ -54,7 +54,8 @@ Mat3 area_covariance(const Polytope& body) {
   return moment / total;
 }
 
-// The half-edges are put in order by their origins; the opposite of one is among the few that leave its end.
+// The half-edges are put in order by their origins; the opposite of one is among those that leave its end, and the side before
+// one of those that leave its origin: it is looked for where there are fewer.
 HalfEdges half_edges(const Polytope& body) {
   const std::uint32_t count = 3 * std::uint32_t(body.triangles.size());
   std::vector<std::uint32_t> begin(body.points.size() + 2), order(count);
@@ -67,9 +68,14 @@ HalfEdges half_edges(const Polytope& body) {
     if (begin[v] < begin[v + 1]) edges.outgoing[v] = order[begin[v + 1] - 1];
   for (std::uint32_t h = 0; h < count; ++h) {
     const std::uint32_t from = origin(body, h), to = origin(body, HalfEdges::next(h));
-    std::uint32_t k = begin[to];
-    while (origin(body, HalfEdges::next(order[k])) != from) ++k;
-    edges.twin[h] = order[k];
+    const bool at_end = begin[to + 1] - begin[to] <= begin[from + 1] - begin[from];
+    std::uint32_t k = begin[at_end ? to : from];
+    if (at_end) {
+      while (origin(body, HalfEdges::next(order[k])) != from) ++k;
+    } else {
+      while (origin(body, HalfEdges::previous(order[k])) != to) ++k;
+    }
+    edges.twin[h] = at_end ? order[k] : HalfEdges::previous(order[k]);
   }
   return edges;
 }

@@ -6,6 +6,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "hull.h"
@@ -97,6 +98,26 @@ TEST(Hull, OfAMillionPointsHalfDuplicatesOrInside) {
   EXPECT_EQ(result.dimension, 3);
   EXPECT_EQ(result.duplicates, 500000u);
   EXPECT_EQ(result.triangles.size(), 2 * result.vertices.size() - 4);
+}
+
+/// Nearly all points lie in planes and lines of others.
+TEST(Hull, HoldsPointsOfSmallLattices) {
+  shapes::Random random(5);
+  int solid_ones = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const int side = 2 + round % 3;
+    std::vector<Vec3> points;
+    for (int i = 0; i < 4 + round % 37; ++i) {
+      Vec3 p;
+      for (double& x : p) x = std::floor(random.uniform() * side);
+      points.push_back(p);
+    }
+    const Hull result = hull(points);
+    if (result.dimension < 3) continue;
+    ++solid_ones;
+    ASSERT_NO_FATAL_FAILURE(expect_hull_of(points, result)) << round;
+  }
+  EXPECT_GT(solid_ones, 2000);
 }
 
 TEST(Hull, IsTheSameInAnyOrderOfPoints) {

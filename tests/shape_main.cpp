@@ -26,6 +26,10 @@ int main(int argc, char** argv) {
     const int around = std::atoi(argv[2]), across = std::atoi(argv[3]);
     if (around >= 3 && across >= 3) return print(soups::torus(std::uint32_t(around), std::uint32_t(across)));
   }
+  if (argc == 3 && std::strcmp(argv[1], "prism") == 0) {
+    const int sides = std::atoi(argv[2]);
+    if (sides >= 3) return print(shapes::prism(std::uint32_t(sides), 1, 2));
+  }
   const int triangles = argc > 2 ? std::atoi(argv[2]) : 2000, seed = argc > 3 ? std::atoi(argv[3]) : 1;
   for (const shapes::Family family : shapes::kFamilies) {
     if (argc < 2 || std::strcmp(argv[1], shapes::name(family)) != 0 || triangles < 4 || triangles % 2 != 0) continue;
@@ -33,7 +37,8 @@ int main(int argc, char** argv) {
   }
   std::fputs(
       "usage: swiftlet_shape fat|plate|long [even number of triangles = 2000] [seed = 1]\n"
-      "       swiftlet_shape torus QUADS_AROUND QUADS_ACROSS\n",
+      "       swiftlet_shape torus QUADS_AROUND QUADS_ACROSS\n"
+      "       swiftlet_shape prism SIDES\n",
       stderr);
   return 2;
 }
