@@ -59,7 +59,7 @@ int Enclosure::passes(const Ray& ray, const Vec& v, const Vec& w) const {
   // The determinant of v, w and the axis, all from the point: v moved along the axis stands for that.
   Vec along = v;
   const bool down = coordinate(v, ray.axis) > 0;
-  (ray.axis == 0 ? along.x : ray.axis == 1 ? along.y : along.z) = down ? -mesh_.extent : mesh_.extent;
+  (ray.axis == 0 ? along.x : ray.axis == 1 ? along.y : along.z) = down ? -mesh_.root.extent : mesh_.root.extent;
   const std::array<const double*, 3> own{&v.x, &w.x, &along.x}, point{&ray.point.x, &ray.point.x, &ray.point.x};
   // Of B all three differences are turned and negative.
   const int sign = is_b_ ? -turn_ * exact::triple_product(point, own, motion_) : exact::triple_product(own, point, motion_);

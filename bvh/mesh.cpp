@@ -44,7 +44,7 @@ std::span<const std::uint32_t> MeshModel::source_triangle() const { return conte
 const MeshTopology& MeshModel::topology() const { return content_->topology; }
 Vec3 MeshModel::box_min() const { return Vec3(content_->header.box_min); }
 Vec3 MeshModel::box_max() const { return Vec3(content_->header.box_max); }
-double MeshModel::extent() const { return content_->extent; }
+double MeshModel::extent() const { return content_->root.extent; }
 std::size_t MeshModel::node_count() const { return content_->nodes.size(); }
 std::size_t MeshModel::hull_count() const { return content_->hulls.size(); }
 bool MeshModel::is_whole() const { return content_->is_whole(); }

@@ -337,7 +337,6 @@ Result<MeshModel> MeshReader::read(Block block) {
   MeshModel::Content& c = *content;
   c.header = h;
   c.topology = {h.components, h.open_edges, h.non_manifold_edges, h.flipped_edges, h.flat_triangles, h.duplicates, h.volume};
-  for (int axis = 0; axis < 3; ++axis) c.extent = std::max({c.extent, std::fabs(h.box_min[axis]), std::fabs(h.box_max[axis])});
   std::uint64_t of_nodes = 0;
   for (std::uint32_t k = 0; k < h.levels; ++k) of_nodes += h.level[k].bytes;
   c.nodes = section_of<Node>(block, {h.level[0].offset, of_nodes, 0});
@@ -348,7 +347,9 @@ Result<MeshModel> MeshReader::read(Block block) {
   c.source_vertex = section_of<std::uint32_t>(block, h.source_vertex);
   c.block = std::move(block);
   if (const std::string f = fault(h, c.nodes); !f.empty()) return bad("it has " + f);
-  c.middle = middle_of(c.nodes[0], h.unit), c.reach = reach_of(c.nodes[0], h.unit);
+  double extent = 0;
+  for (int axis = 0; axis < 3; ++axis) extent = std::max({extent, std::fabs(h.box_min[axis]), std::fabs(h.box_max[axis])});
+  c.root = root_of(c.nodes.data(), h.unit, extent);
   if (const std::string f = read_hulls(h, c.block, c); !f.empty()) return bad("it has " + f);
   place_patches(c);
   for (const std::uint32_t t : c.shells) {

@@ -69,9 +69,7 @@ struct MeshModel::Content {
   Block block;
   MeshHeader header;
   MeshTopology topology;
-  double extent;
-  Vec middle;    ///< of the root's box
-  double reach;  ///< from there to its corners, but for rounding
+  Root root;
   std::span<const Node> nodes;
   std::vector<NodeHull> hulls;            ///< sorted by node
   std::vector<std::uint32_t> hull_of;     ///< per node, up to the last that has one, its place in `hulls`, or kNone

@@ -23,7 +23,7 @@ Verdict verdict_of(const MeshFinding& found, double law_two) {
 }
 
 /// Half the length of a root's box along a unit direction of its body's frame.
-double reach_along(const MeshView& of, const Vec& n) {
+double reach_along(const Root& of, const Vec& n) {
   const Node& root = *of.nodes;
   float third[3];
   third_axis(root.axis, third);
@@ -34,18 +34,17 @@ double reach_along(const MeshView& of, const Vec& n) {
 /// A lower bound on the distance, or a number that is not above 0: the gap of the balls around both roots' boxes or, if it is
 /// not above `enough`, that of the boxes along the line of their middles. `kBoxSlack` of all lengths is far above what rounding
 /// in doubles adds.
-double gap_of_roots(const MeshSetting& at, double enough) {
-  const Vec way = apply(at.motion, at.b.middle) - at.a.middle;
+double gap_of_roots(const Root& a, const Root& b, const Motion& b_in_a, double size, double enough) {
+  const Vec way = apply(b_in_a, b.middle) - a.middle;
   const double square = dot(way, way);
   if (!has_range(square)) return 0;
   const double length = std::sqrt(square);
   const auto gap = [&](double reach_a, double reach_b) {
-    return length - reach_a - reach_b - kBoxSlack * (length + at.size + 2 * (reach_a + reach_b));
+    return length - reach_a - reach_b - kBoxSlack * (length + size + 2 * (reach_a + reach_b));
   };
-  if (const double of_balls = gap(at.a.reach, at.b.reach); of_balls > enough) return of_balls;
+  if (const double of_balls = gap(a.reach, b.reach); of_balls > enough) return of_balls;
   const Vec n = way * (1 / length);
-  return gap(reach_along(at.a, n) * power_of_two(at.a.unit),
-             reach_along(at.b, rotate_back(at.motion, n)) * power_of_two(at.b.unit));
+  return gap(reach_along(a, n) * power_of_two(a.unit), reach_along(b, rotate_back(b_in_a, n)) * power_of_two(b.unit));
 }
 
 Status status_of(const MeshFinding& found, const StopRule& stop, double law_two, bool whole) {
@@ -77,16 +76,35 @@ void look(const MeshSetting& at, const Pose& b_in_a, const StopRule& stop, std::
   found.nodes += first.nodes, found.triangles += first.triangles;
 }
 
-void ask(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Budget& budget, const StopRule& asked,
-         Answer& answer) {
-  const MeshSetting at(a, b, b_in_a);
+/// True of a mesh without a radius that is its surface.
+bool is_plain(const MeshBody& body) { return body.mesh() && !body.is_solid() && body.radius() == 0; }
+
+/// Answers a threshold question about two plain bodies if their roots are apart. It is what most questions about bodies far
+/// from each other end with, before anything of a search is made.
+bool roots_answer(const MeshBody& a, const MeshBody& b, const Motion& b_in_a, const StopRule& stop, Answer& answer) {
+  const Root &of_a = MeshReader::content(*a.mesh()).root, &of_b = MeshReader::content(*b.mesh()).root;
+  const double enough = max(stop.above, 0);
+  const double gap = gap_of_roots(of_a, of_b, b_in_a, max(of_a.extent, of_b.extent) + norm(b_in_a.t), enough);
+  if (!(gap > enough)) return false;
+  answer.status = stop.narrow(gap, answer.upper) ? Status::Converged : Status::Beyond;
+  answer.verdict = Verdict::Disjoint, answer.lower = gap;
+  return true;
+}
+
+/// Asks about the surfaces and, of solids, what is inside them.
+[[gnu::noinline]] void ask_search(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Motion& motion,
+                                  const PoseQuality& quality, MeshSeed& seed, const Budget& budget, const StopRule& asked,
+                                  Answer& answer) {
+  const MeshSetting at(a, b, motion, quality);
   answer.radius_a = a.radius(), answer.radius_b = b.radius();
   if (answer.status = at.fault(); answer.status != Status::Converged) return;
 
   // With radii thresholds are passed by more than rounding may take back.
   const StopRule stop = at.radii.of_hulls(asked, at.law_two).beyond_by(at.radii.none() ? 0 : at.law_two);
   MeshFinding found;
-  if (const double gap = stop.is_threshold() ? gap_of_roots(at, max(stop.above, 0)) : 0; gap > 0 && gap > stop.above) {
+  const double enough = max(stop.above, 0);
+  const bool asks_roots = stop.is_threshold() && !(is_plain(a) && is_plain(b));
+  if (const double gap = asks_roots ? gap_of_roots(at.a, at.b, motion, at.size, enough) : 0; gap > enough) {
     found.lower = gap;
   } else {
     look(at, b_in_a, stop, budget.steps, seed, found);
@@ -101,6 +119,15 @@ void ask(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& see
   }
   answer.status = status_of(found, stop, at.law_two, at.a.is_whole() && at.b.is_whole());
   describe(at, found, answer);
+}
+
+void ask(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Budget& budget, const StopRule& asked,
+         Answer& answer) {
+  const Motion motion = swiftlet::motion(b_in_a);
+  const PoseQuality quality = pose_quality(motion);
+  const bool asks_roots = asked.is_threshold() && quality.legal && is_plain(a) && is_plain(b);
+  if (asks_roots && roots_answer(a, b, motion, asked, answer)) return;
+  ask_search(a, b, b_in_a, motion, quality, seed, budget, asked, answer);
 }
 
 /// Asks about convex bodies alone; `Asker` asks query.h.
@@ -149,7 +176,7 @@ ConvexLeaf::ConvexLeaf(const Body& of) : body(without_radius(of)) {
   is_legal = shape.is_legal();
   if (!is_legal) return;
   const ConvexView& view = (*shape).level(0).view;
-  extent = view.extent, unit = unit_of(extent);
+  const int unit = unit_of(view.extent);
   point = view.vertices.empty() ? vec(body.model()->centre()) : vec(view.vertices[0]);
   const Model* const model = body.model();
   const Box box = model ? Box{vec(model->box_min()), vec(model->box_max())} : box_of(view.vertices);
@@ -160,23 +187,23 @@ ConvexLeaf::ConvexLeaf(const Body& of) : body(without_radius(of)) {
     node.origin[k] = low + (high - low) / 2;
     node.half[k][0] = node.extent[k] = float((max(high - node.origin[k], node.origin[k] - low) + kBoxMargin) * (1 + kFloatUp));
   }
+  root = root_of(&node, unit, view.extent);
 }
 
 MeshView::MeshView(const MeshBody& body) {
   if (const MeshModel* const mesh = body.mesh()) {
     content = &MeshReader::content(*mesh);
-    nodes = content->nodes.data(), triangles = content->triangles.data(), vertices = content->vertices.data();
+    static_cast<Root&>(*this) = content->root;
+    triangles = content->triangles.data(), vertices = content->vertices.data();
     node_count = std::uint32_t(content->nodes.size()), triangle_count = std::uint32_t(content->triangles.size());
-    unit = content->header.unit, extent = content->extent, middle = content->middle, reach = content->reach;
     solid = body.is_solid();
     is_legal = !solid || (content->topology.closed() && content->is_whole());
     return;
   }
   content = nullptr, solid = false;
   const ConvexLeaf& leaf = convex.emplace(body.convex());
-  nodes = &leaf.node, triangles = nullptr, vertices = nullptr, node_count = triangle_count = 1;
-  unit = leaf.unit, extent = leaf.extent, is_legal = leaf.is_legal;
-  middle = middle_of(leaf.node, unit), reach = reach_of(leaf.node, unit);
+  static_cast<Root&>(*this) = leaf.root;
+  triangles = nullptr, vertices = nullptr, node_count = triangle_count = 1, is_legal = leaf.is_legal;
 }
 
 std::uint32_t MeshView::patch_with(std::uint32_t triangle) const {

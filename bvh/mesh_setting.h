@@ -12,7 +12,11 @@ namespace swiftlet {
 
 struct MeshSetting {
   MeshSetting(const MeshBody& of_a, const MeshBody& of_b, const Pose& b_in_a)
-      : a(of_a), b(of_b), motion(swiftlet::motion(b_in_a)), quality(pose_quality(motion)), radii(of_a.radius(), of_b.radius()) {
+      : MeshSetting(of_a, of_b, swiftlet::motion(b_in_a)) {}
+  MeshSetting(const MeshBody& of_a, const MeshBody& of_b, const Motion& b_in_a)
+      : MeshSetting(of_a, of_b, b_in_a, pose_quality(b_in_a)) {}
+  MeshSetting(const MeshBody& of_a, const MeshBody& of_b, const Motion& b_in_a, const PoseQuality& of_pose)
+      : a(of_a), b(of_b), motion(b_in_a), quality(of_pose), radii(of_a.radius(), of_b.radius()) {
     const double extent_a = a.extent + of_a.radius(), extent_b = b.extent + of_b.radius(), shift = norm(motion.t);
     size = max(extent_a, extent_b) + shift;
     law_two = swiftlet::law_two(extent_a, extent_b, shift, quality.error);

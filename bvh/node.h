@@ -58,4 +58,16 @@ static inline double reach_of(const Node& node, int unit) {
   return times_power_of_two(norm(Vec{node.extent[0], node.extent[1], node.extent[2]}), unit);
 }
 
+/// What a pair of bodies is looked at by first.
+struct Root {
+  const Node* nodes;  ///< the first is the root
+  int unit;
+  double extent;  ///< the greatest magnitude of a coordinate
+  Vec middle;     ///< of the root's box
+  double reach;   ///< of the ball around it that holds the box, but for rounding
+};
+static inline Root root_of(const Node* nodes, int unit, double extent) {
+  return {nodes, unit, extent, middle_of(*nodes, unit), reach_of(*nodes, unit)};
+}
+
 }  // namespace swiftlet

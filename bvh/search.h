@@ -20,14 +20,13 @@ struct ConvexLeaf {
 
   Body body;  ///< without its radius
   bool is_legal;
-  double extent = 0;
-  int unit = 0;
+  Root root{};
   Vec point;  ///< of the body
   Node node{};
 };
 
 /// A body as a search reads it.
-struct MeshView {
+struct MeshView : Root {
   explicit MeshView(const MeshBody& body);
   MeshView(const MeshView&) = delete;  ///< `nodes` may point into this object
   MeshView& operator=(const MeshView&) = delete;
@@ -56,15 +55,10 @@ struct MeshView {
   /// True if no node is below the children of a node: these are triangles or, of a mesh that was cut, boxes.
   bool ends(const Node& node) const { return node.lowest() || node.first() >= node_count; }
 
-  const Node* nodes;
   std::uint32_t node_count;
   const Corners* triangles;  ///< null for a convex body
   const Vec* vertices;
   std::uint32_t triangle_count;  ///< 0 of a mesh that was cut; of a convex body 1
-  int unit;
-  double extent;
-  Vec middle;    ///< of the root's box
-  double reach;  ///< of the ball around it that holds the box, but for rounding
   bool is_legal;
   bool solid;  ///< the volume that the mesh encloses belongs to it
   std::optional<ConvexLeaf> convex;

@@ -191,7 +191,7 @@ class Decomposer {
   template <class W>
   bool is_entered(std::span<const W> wedges) {
     outlines_.clear();
-    for (const W& wedge : wedges) outlines_.emplace_back(wedge, content_.extent);
+    for (const W& wedge : wedges) outlines_.emplace_back(wedge, content_.root.extent);
     return tree_->any(wedges, outlines_, [&](std::uint32_t triangle, std::uint32_t i) {
       if (patch_of_[triangle] == patch_ || triangle == tried_) return false;
       const Corners& corners = content_.triangles[triangle];
