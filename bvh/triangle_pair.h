@@ -89,8 +89,7 @@ class TrianglePair {
   NearestPoints nearest() const {
     const V3<Vec4> to_b = rolled(lanes_b_) - lanes_b_, way = repeated4(way_), corner_b = lanes_b_ + way;
     const Vec4 ee = dot(to_b, to_b);
-    double least = HUGE_VAL, s_at = 0, t_at = 0;
-    int i_at = 0, k_at = 0;
+    Vec4 squares[3], of_a[3], of_b[3];
     for (int i = 0; i < 3; ++i) {
       const Vec p = side_a_[i];
       const V3<Vec4> d = repeated4(side_a_[(i + 1) % 3] - p), r = repeated4(p) - corner_b;
@@ -99,11 +98,15 @@ class TrianglePair {
       const Vec4 s0 = clamped((de * er - dr * ee) / max(dd * ee - de * de, tiny()));
       const Vec4 t = clamped((de * s0 + er) / max(ee, tiny())), s = clamped((de * t - dr) / max(dd, tiny()));
       const V3<Vec4> between = r + d * s - to_b * t;
-      const Vec4 square = dot(between, between);
-      for (int k = 0; k < 3; ++k) {
-        if (square[k] < least) least = square[k], s_at = s[k], t_at = t[k], i_at = i, k_at = k;
-      }
+      squares[i] = dot(between, between), of_a[i] = s, of_b[i] = t;
     }
+    // Which pair of sides is nearest no branch could foresee.
+    const Vec4 of_side = min(min(squares[0], squares[1]), squares[2]);
+    double least = min(min(of_side[0], of_side[1]), of_side[2]);
+    const auto at_least = [&](int i) { return (equal(squares[i], all(least)) & 7u) << 3 * i; };
+    const unsigned nearest = at_least(0) | at_least(1) | at_least(2), first = nearest ? __builtin_ctz(nearest) : 0;
+    const int i_at = int(first) / 3, k_at = int(first) % 3;
+    const double s_at = of_a[i_at][k_at], t_at = of_b[i_at][k_at];
     Over over_a, over_b;
     const bool by_b = over(corner_b, side_a_, least, over_a), by_a = over(lanes_a_, b_, least, over_b);
     if (by_a) {
