@@ -22,37 +22,39 @@ class Descent {
         question_(question),
         seed_(seed),
         finding_(finding),
-        unit_(unit_of_pair(a.unit, b.unit, motion_.t)),
-        frame_(over_unit(), power_of_two(a.unit - unit_), power_of_two(b.unit - unit_)),
+        unit_(unit_of_pair(a.root->unit, b.root->unit, motion_.t)),
+        has_hulls_(a.has_hull(0) && b.has_hull(0)),
         by_patches_(a.has_patches() && b.has_patches() && !(a.convex && b.convex)) {}
 
   void run() {
     set_limit();
     look_ahead();
-    // The seed's pair is that of the hulls, or else of a triangle and a convex body.
-    const bool has_hulls = a_.has_hull(0) && b_.has_hull(0);
-    if (!has_hulls) kernel_seed_ = seed_.pair;
     top_ = 0;
     if (seed_.triangle_a < a_.triangle_count && seed_.triangle_b < b_.triangle_count) {
       const Vec before = ahead_;
       measure(seed_.triangle_a, seed_.triangle_b);
+      if (done_) {
+        lower_ = 0;  // of all else nothing is known
+        return conclude();
+      }
       // The seed's direction is of another pose if it no longer parts even its own triangles; so is that of the hulls.
       if (!(finding_.upper < HUGE_VAL) && a_.triangles && b_.triangles &&
           gap_ahead(seed_.triangle_a, seed_.triangle_b) < limit_ahead_) {
         look(between_middles());
-        hulls_wait_ = has_hulls;
+        hulls_wait_ = has_hulls_;
       }
       // Near contact the hulls of bodies that are nearly convex answer though their boxes meet, and from where they were cost
       // less than a pair of nodes or two. Those that met are not asked again.
       serves_ = dot(before, ahead_) > kSameAhead;
       // A distance without a bound takes far more than that from any start.
       const bool pays = question_.stop.above == HUGE_VAL || (!hulls_wait_ && serves_);
-      if (has_hulls && !done_ && pays && seed_.pair.met == 0) {
+      if (has_hulls_ && pays && seed_.pair.met == 0) {
         roots_asked_ = true;
         if (part_by_hulls({0, 0, 0})) return conclude();
       }
     }
     if (by_patches_) start_at_patches();
+    frame_.emplace(motion_, a_.root->unit, b_.root->unit, unit_, ahead_);
     stack_[top_++] = {0, 0, 0};
     while (top_ > 0 && !done_) {
       if (hulls_wait_ && finding_.nodes >= kHullsWait) {
@@ -69,7 +71,6 @@ class Descent {
       open(entry);
     }
     conclude();
-    if (!has_hulls) seed_.pair = kernel_seed_;
   }
 
  private:
@@ -80,11 +81,8 @@ class Descent {
   /// The cosine of the angle by which a seed's direction may turn and its hulls still begin where they were.
   static constexpr double kSameAhead = 0.95;
 
-  Motion over_unit() const {
-    Motion m = motion_;
-    m.t = scaled(motion_.t, -unit_);
-    return m;
-  }
+  /// The seed's pair is that of the hulls, or else of a triangle and a convex body.
+  PairSeed& kernel_seed() { return has_hulls_ ? cold_ : seed_.pair; }
 
   /// Sets the bound from which on nothing matters. Bodies that touch may still overlap elsewhere: what is not apart is never
   /// left out.
@@ -114,10 +112,10 @@ class Descent {
     Vec n{double(seed_.direction[0]), double(seed_.direction[1]), double(seed_.direction[2])};
     look(has_range(dot(n, n)) ? normalised(n) : between_middles());
   }
-  Vec between_middles() const { return normalised(apply(motion_, b_.middle) - a_.middle); }
+  Vec between_middles() const { return normalised(apply(motion_, b_.root->middle) - a_.root->middle); }
   void look(const Vec& n) {
     ahead_ = n, ahead_in_b_ = rotate_back(motion_, n), ahead_of_origin_ = dot(n, motion_.t);
-    frame_.look(n);
+    if (frame_) frame_->look(n);
   }
 
   bool spent() const { return finding_.nodes + finding_.triangles >= question_.steps; }
@@ -125,7 +123,7 @@ class Descent {
   void open(const PairEntry& entry) {
     ++finding_.nodes;
     const Node &a = a_.nodes[entry.a], &b = b_.nodes[entry.b];
-    NodePair pair(frame_, a, b);
+    NodePair pair(*frame_, a, b);
     const float most = pair.square_of(limit_of_boxes_), square = pair.square();
     if (!(square <= most)) return;
     const bool boxes_apart = pair.lower(square) > 0;
@@ -184,14 +182,14 @@ class Descent {
     // So little is no legal coordinate of a point, and within the error.
     for (double* x : {&centre.x, &centre.y, &centre.z}) *x = std::fabs(*x) < kMiddleError / 8 ? 0 : *x;
     const double radius = norm(Vec{n.half[0][k], n.half[1][k], n.half[2][k]}) * (1 + 4 * kAxisError) + kMiddleError;
-    return {Body::point(eigen(scaled(centre, of.unit))), times_power_of_two(radius, of.unit)};
+    return {Body::point(eigen(scaled(centre, of.root->unit))), times_power_of_two(radius, of.root->unit)};
   }
 
   /// Bounds the distance of what two boxes of a mesh that was cut hold: each holds a point of its surface.
   [[gnu::noinline]] void bound(const PairEntry& nodes, const PairEntry& children) {
     ++finding_.triangles;
     const End a = end_of(a_, nodes.a, children.a), b = end_of(b_, nodes.b, children.b);
-    const Answer answer = distance(a.body, b.body, pose_, kernel_seed_);
+    const Answer answer = distance(a.body, b.body, pose_, kernel_seed());
     if (answer.status >= Status::InvalidPose) {
       finding_.refused = done_ = true;
       return;
@@ -310,11 +308,11 @@ class Descent {
     const bool loose = stop.zero == 0 && max(stop.absolute, stop.relative) > 0;
     ClosestFeatures closest;
     if (loose) {
-      closest.answer = distance(a, b, pose_, kernel_seed_, {stop.absolute, stop.relative, limit_, {}, {}});
+      closest.answer = distance(a, b, pose_, kernel_seed(), {stop.absolute, stop.relative, limit_, {}, {}});
     } else {
       ClosestOptions options;
       options.beyond = limit_;
-      closest = closest_features(a, b, pose_, kernel_seed_, options);
+      closest = closest_features(a, b, pose_, kernel_seed(), options);
     }
     const Answer& answer = closest.answer;
     if (answer.status >= Status::InvalidPose) {
@@ -343,9 +341,9 @@ class Descent {
   void nearer(std::uint32_t of_a, std::uint32_t of_b, const Vec& n, double upper) {
     finding_.upper = upper, finding_.normal = n;
     finding_.triangle_a = of_a, finding_.triangle_b = of_b;
-    set_limit();
-    if (dot(n, n) > 0) look(n);
     done_ = upper < question_.stop.below;
+    if (!done_) set_limit();
+    if (dot(n, n) > 0) look(n);
   }
   void overlapping(std::uint32_t of_a, std::uint32_t of_b, const Vec& point_a, const Vec& point_b) {
     finding_.verdict = Verdict::Overlapping;
@@ -371,10 +369,9 @@ class Descent {
   const Motion motion_;
   const MeshQuestion& question_;
   MeshSeed& seed_;
-  PairSeed kernel_seed_;
   MeshFinding& finding_;
-  const int unit_;  ///< exponent of the pair's unit
-  PairFrame frame_;
+  const int unit_;                                ///< exponent of the pair's unit
+  std::optional<PairFrame> frame_;                ///< from the first pair of nodes on
   Vec ahead_{}, ahead_in_b_{};                    ///< a unit direction from A to B, and R^T times it
   double ahead_of_origin_ = 0;                    ///< how far B's origin is along it
   double limit_ = 0, lower_ = HUGE_VAL;           ///< `lower_` is the least bound of a measured pair
@@ -387,11 +384,12 @@ class Descent {
   bool roots_apart_ = false;                         ///< their hulls are
   bool hulls_apart_ = false;                         ///< the roots' hulls, whether their boxes are or not
   bool roots_asked_ = false;                         ///< about their hulls
+  const bool has_hulls_;                             ///< the roots
   const bool by_patches_;                            ///< both bodies have some; of a convex body it is the body
   bool serves_ = false;                              ///< the seed's direction has hardly turned
   bool patches_parted_ = false;                      ///< nothing else in the seed's patches matters
   std::uint32_t patch_a_ = kNone, patch_b_ = kNone;  ///< the seed's patches, if they were asked about
-  PairSeed warm_{};                                  ///< for the next pair of hulls
+  PairSeed warm_{}, cold_{};                         ///< for the next pair of hulls; for the kernel's pairs beside hulls
   int top_ = 0;
   PairEntry stack_[kMostEntries];
 };

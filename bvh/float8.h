@@ -52,6 +52,11 @@ static inline float least(Float4 a) {
   const Float4 two = min(a, __builtin_shufflevector(a, a, 2, 3, 0, 1));
   return min(two, lane<1>(two))[0];
 }
+/// The greatest of all four.
+static inline float greatest(Float4 a) {
+  const Float4 two = max(a, __builtin_shufflevector(a, a, 2, 3, 0, 1));
+  return max(two, lane<1>(two))[0];
+}
 static inline Float4 abs(Float4 a) {
 #if defined(__SSE2__)
   return _mm_andnot_ps(Float4{-0.0f, -0.0f, -0.0f, -0.0f}, a);
@@ -78,6 +83,12 @@ struct Columns {
   }
   Float4 operator*(Float4 v) const { return x * lane<0>(v) + y * lane<1>(v) + z * lane<2>(v); }
 };
+
+/// The sums of three vectors' x, y and z; the last one twice.
+static inline Float4 sums(Float4 a, Float4 b, Float4 c) {
+  const Columns of = Columns::of_rows(a, b, c);
+  return of.x + of.y + of.z;
+}
 
 // Each width has a name of its own, so that no function of the one is taken for a function of the other.
 #if defined(__AVX__)

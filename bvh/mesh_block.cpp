@@ -349,7 +349,7 @@ Result<MeshModel> MeshReader::read(Block block) {
   if (const std::string f = fault(h, c.nodes); !f.empty()) return bad("it has " + f);
   double extent = 0;
   for (int axis = 0; axis < 3; ++axis) extent = std::max({extent, std::fabs(h.box_min[axis]), std::fabs(h.box_max[axis])});
-  c.root = root_of(c.nodes.data(), h.unit, extent);
+  c.root = root_of(c.nodes[0], h.unit, extent);
   if (const std::string f = read_hulls(h, c.block, c); !f.empty()) return bad("it has " + f);
   place_patches(c);
   for (const std::uint32_t t : c.shells) {

@@ -40,7 +40,7 @@ class Supports {
     double bound;
   };
   Vec highest_of_mesh(const Vec& n) const {
-    const double unit = power_of_two(of_.unit);
+    const double unit = power_of_two(of_.root->unit);
     double best = -kInfinity;
     Vec at{};
     Entry stack[(kFanOut - 1) * kMostDepth + 1];
@@ -261,7 +261,7 @@ class Depth {
     return cross(of.vertices[c[1]] - of.vertices[c[0]], of.vertices[c[2]] - of.vertices[c[0]]);
   }
   /// Of the root's box, in A's frame.
-  Vec middle(const MeshView& of, bool is_b) const { return is_b ? apply(at_.motion, of.middle) : of.middle; }
+  Vec middle(const MeshView& of, bool is_b) const { return is_b ? apply(at_.motion, of.root->middle) : of.root->middle; }
   /// The middle of what both bodies' boxes along A's axes have in common, if they have.
   Vec common_middle() const {
     double x[3];

@@ -363,7 +363,7 @@ void grow(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b
   farthest.give(candidates);
   if (!has_least) candidates.add_deepest(witness);
   const bool rests = norm(normal - vec(previous.normal)) <= kRestingTurn * flatness;
-  const double slack = rests ? flatness * max(in.at.a.extent, in.at.b.extent) : 0;
+  const double slack = rests ? flatness * max(in.at.a.root->extent, in.at.b.root->extent) : 0;
   for (const int i : choose(candidates, std::min(options.most_points, kMostManifoldPoints), previous, bound, slack))
     manifold.points[manifold.count++] = placed(in, body_a, body_b, seen, candidates[i]);
 }

@@ -23,12 +23,9 @@ Verdict verdict_of(const MeshFinding& found, double law_two) {
 }
 
 /// Half the length of a root's box along a unit direction of its body's frame.
-double reach_along(const Root& of, const Vec& n) {
-  const Node& root = *of.nodes;
-  float third[3];
-  third_axis(root.axis, third);
-  const auto along = [&n](const float(&axis)[3]) { return std::fabs(n.x * axis[0] + n.y * axis[1] + n.z * axis[2]); };
-  return along(root.axis[0]) * root.extent[0] + along(root.axis[1]) * root.extent[1] + along(third) * root.extent[2];
+double reach_along(const Root& root, const Vec& n) {
+  const Vec4 along = vec4(root.axes_x) * n.x + vec4(root.axes_y) * n.y + vec4(root.axes_z) * n.z;
+  return dot(abs(along), vec4(root.half));
 }
 
 /// A lower bound on the distance, or a number that is not above 0: the gap of the balls around both roots' boxes or, if it is
@@ -44,7 +41,7 @@ double gap_of_roots(const Root& a, const Root& b, const Motion& b_in_a, double s
   };
   if (const double of_balls = gap(a.reach, b.reach); of_balls > enough) return of_balls;
   const Vec n = way * (1 / length);
-  return gap(reach_along(a, n) * power_of_two(a.unit), reach_along(b, rotate_back(b_in_a, n)) * power_of_two(b.unit));
+  return gap(reach_along(a, n), reach_along(b, rotate_back(b_in_a, n)));
 }
 
 Status status_of(const MeshFinding& found, const StopRule& stop, double law_two, bool whole) {
@@ -70,10 +67,10 @@ void look(const MeshSetting& at, const Pose& b_in_a, const StopRule& stop, std::
                             (!at.radii.none() && found.lower <= stop.zero + near && found.upper >= stop.zero - near);
   const bool near_threshold = found.lower <= passed.above && found.upper >= stop.above - at.law_two;
   if (!near_contact && !near_threshold) return;
-  const MeshFinding first = found;
+  const std::uint32_t nodes = found.nodes, triangles = found.triangles;
   seed = {}, found = {};
-  search(at.a, at.b, b_in_a, {stop, at.law_two, at.size, steps - std::min(steps, first.nodes + first.triangles)}, seed, found);
-  found.nodes += first.nodes, found.triangles += first.triangles;
+  search(at.a, at.b, b_in_a, {stop, at.law_two, at.size, steps - std::min(steps, nodes + triangles)}, seed, found);
+  found.nodes += nodes, found.triangles += triangles;
 }
 
 /// True of a mesh without a radius that is its surface.
@@ -100,11 +97,11 @@ bool roots_answer(const MeshBody& a, const MeshBody& b, const Motion& b_in_a, co
   if (answer.status = at.fault(); answer.status != Status::Converged) return;
 
   // With radii thresholds are passed by more than rounding may take back.
-  const StopRule stop = at.radii.of_hulls(asked, at.law_two).beyond_by(at.radii.none() ? 0 : at.law_two);
+  const StopRule stop = at.radii.none() ? asked : at.radii.of_hulls(asked, at.law_two).beyond_by(at.law_two);
   MeshFinding found;
   const double enough = max(stop.above, 0);
   const bool asks_roots = stop.is_threshold() && !(is_plain(a) && is_plain(b));
-  if (const double gap = asks_roots ? gap_of_roots(at.a, at.b, motion, at.size, enough) : 0; gap > enough) {
+  if (const double gap = asks_roots ? gap_of_roots(*at.a.root, *at.b.root, motion, at.size, enough) : 0; gap > enough) {
     found.lower = gap;
   } else {
     look(at, b_in_a, stop, budget.steps, seed, found);
@@ -187,14 +184,14 @@ ConvexLeaf::ConvexLeaf(const Body& of) : body(without_radius(of)) {
     node.origin[k] = low + (high - low) / 2;
     node.half[k][0] = node.extent[k] = float((max(high - node.origin[k], node.origin[k] - low) + kBoxMargin) * (1 + kFloatUp));
   }
-  root = root_of(&node, unit, view.extent);
+  root = root_of(node, unit, view.extent);
 }
 
 MeshView::MeshView(const MeshBody& body) {
   if (const MeshModel* const mesh = body.mesh()) {
     content = &MeshReader::content(*mesh);
-    static_cast<Root&>(*this) = content->root;
-    triangles = content->triangles.data(), vertices = content->vertices.data();
+    root = &content->root, nodes = content->nodes.data(), triangles = content->triangles.data(),
+    vertices = content->vertices.data();
     node_count = std::uint32_t(content->nodes.size()), triangle_count = std::uint32_t(content->triangles.size());
     solid = body.is_solid();
     is_legal = !solid || (content->topology.closed() && content->is_whole());
@@ -202,8 +199,8 @@ MeshView::MeshView(const MeshBody& body) {
   }
   content = nullptr, solid = false;
   const ConvexLeaf& leaf = convex.emplace(body.convex());
-  static_cast<Root&>(*this) = leaf.root;
-  triangles = nullptr, vertices = nullptr, node_count = triangle_count = 1, is_legal = leaf.is_legal;
+  root = &leaf.root, nodes = &leaf.node, triangles = nullptr, vertices = nullptr, node_count = triangle_count = 1,
+  is_legal = leaf.is_legal;
 }
 
 std::uint32_t MeshView::patch_with(std::uint32_t triangle) const {

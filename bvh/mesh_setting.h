@@ -17,7 +17,7 @@ struct MeshSetting {
       : MeshSetting(of_a, of_b, b_in_a, pose_quality(b_in_a)) {}
   MeshSetting(const MeshBody& of_a, const MeshBody& of_b, const Motion& b_in_a, const PoseQuality& of_pose)
       : a(of_a), b(of_b), motion(b_in_a), quality(of_pose), radii(of_a.radius(), of_b.radius()) {
-    const double extent_a = a.extent + of_a.radius(), extent_b = b.extent + of_b.radius(), shift = norm(motion.t);
+    const double extent_a = a.root->extent + of_a.radius(), extent_b = b.root->extent + of_b.radius(), shift = norm(motion.t);
     size = max(extent_a, extent_b) + shift;
     law_two = swiftlet::law_two(extent_a, extent_b, shift, quality.error);
   }

@@ -20,8 +20,8 @@ class NearPairs {
         b_(at.b),
         motion_(at.motion),
         reach_(reach),
-        unit_(unit_of_pair(a_.unit, b_.unit, motion_.t)),
-        frame_(over_unit(), power_of_two(a_.unit - unit_), power_of_two(b_.unit - unit_)),
+        unit_(unit_of_pair(a_.root->unit, b_.root->unit, motion_.t)),
+        frame_(motion_, a_.root->unit, b_.root->unit, unit_, {0, 0, 0}),
         reach_over_unit_(times_power_of_two(reach, -unit_)),
         reach_of_boxes_(reach_over_unit_ < 1e30 ? float(reach_over_unit_ * (1 + kFloatUp)) : HUGE_VALF),
         growth_(reach + at.law_two) {}
@@ -54,11 +54,6 @@ class NearPairs {
   }
 
  private:
-  Motion over_unit() const {
-    Motion m = motion_;
-    m.t = scaled(motion_.t, -unit_);
-    return m;
-  }
   double bound_of(const PairEntry& entry) const { return times_power_of_two(double(entry.lower), unit_); }
 
   template <class Visitor>
@@ -80,7 +75,7 @@ class NearPairs {
 
   /// The box along A's axes of all that a node holds, made larger by what its triangles' own boxes are.
   Box box_around(const MeshView& of, const Node& node, const Motion& in_a) const {
-    const double unit = power_of_two(of.unit);
+    const double unit = power_of_two(of.root->unit);
     float third[3];
     third_axis(node.axis, third);
     const Vec middle = apply(in_a, Vec{node.origin[0], node.origin[1], node.origin[2]} * unit);

@@ -58,16 +58,27 @@ static inline double reach_of(const Node& node, int unit) {
   return times_power_of_two(norm(Vec{node.extent[0], node.extent[1], node.extent[2]}), unit);
 }
 
-/// What a pair of bodies is looked at by first.
+/// The box around a body, that of its tree's root, as a pair of bodies is looked at first. Lengths are in the body's unit.
 struct Root {
-  const Node* nodes;  ///< the first is the root
-  int unit;
+  int unit;       ///< the exponent of what nodes are measured in
   double extent;  ///< the greatest magnitude of a coordinate
-  Vec middle;     ///< of the root's box
-  double reach;   ///< of the ball around it that holds the box, but for rounding
+  Vec middle;
+  double reach;                   ///< of the ball around the middle that holds the box, but for rounding
+  Padded axes_x, axes_y, axes_z;  ///< x of the three axes, y and z
+  Padded half;                    ///< half the sides along them
 };
-static inline Root root_of(const Node* nodes, int unit, double extent) {
-  return {nodes, unit, extent, middle_of(*nodes, unit), reach_of(*nodes, unit)};
+static inline Root root_of(const Node& node, int unit, double extent) {
+  const auto& [x, y] = node.axis;
+  float z[3];
+  third_axis(node.axis, z);
+  return {unit,
+          extent,
+          middle_of(node, unit),
+          reach_of(node, unit),
+          {x[0], y[0], z[0]},
+          {x[1], y[1], z[1]},
+          {x[2], y[2], z[2]},
+          scaled({node.extent[0], node.extent[1], node.extent[2]}, unit)};
 }
 
 }  // namespace swiftlet

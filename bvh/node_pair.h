@@ -30,12 +30,15 @@ struct PairFrame {
   double unit_a, unit_b;     ///< the bodies' units, at most 1
   Float4 ahead, ahead_in_b;  ///< a unit direction from A to B, in A's body frame, and R^T times it
 
-  PairFrame(const Motion& m, double of_a, double of_b) : b_in_a(m), unit_a(of_a), unit_b(of_b) {
+  /// `of_a`, `of_b` and `unit` are exponents of the bodies' units and of the pair's.
+  PairFrame(const Motion& m, int of_a, int of_b, int unit, const Vec& direction)
+      : b_in_a{m.row_x, m.row_y, m.row_z, scaled(m.t, -unit)},
+        unit_a(power_of_two(of_a - unit)),
+        unit_b(power_of_two(of_b - unit)) {
     const auto rounded = [](const Vec& v) { return float4(float(v.x), float(v.y), float(v.z)); };
     back = {rounded(m.row_x), rounded(m.row_y), rounded(m.row_z)};
-    rotation = {rounded({m.row_x.x, m.row_y.x, m.row_z.x}), rounded({m.row_x.y, m.row_y.y, m.row_z.y}),
-                rounded({m.row_x.z, m.row_y.z, m.row_z.z})};
-    look({0, 0, 0});
+    rotation = Columns::of_rows(back.x, back.y, back.z);
+    look(direction);
   }
   void look(const Vec& direction) {
     ahead = float4(float(direction.x), float(direction.y), float(direction.z));
@@ -56,26 +59,25 @@ class NodePair {
     const Float4 offset = float4(float(way.x), float(way.y), float(way.z));
     offset_a_ = of_a * offset, offset_b_ = of_b * (frame.back * offset);
     ahead_a_ = of_a * frame.ahead, ahead_b_ = of_b * frame.ahead_in_b;
-    offset_ahead_ = sum(frame.ahead * offset);
     extent_a_ = load4(a.extent) * unit_a_, extent_b_ = load4(b.extent) * unit_b_;
-    size_a_ = sum(extent_a_), size_b_ = sum(extent_b_);
-    slack_ = kBoxSlack * (size_a_ + size_b_ + sum(abs(offset))) + kLeastBoxSlack;
+    const Float4 lengths = sums(extent_a_, extent_b_, abs(offset));
+    size_a_ = lengths[0], size_b_ = lengths[1];
+    slack_ = kBoxSlack * (size_a_ + size_b_ + lengths[2]) + kLeastBoxSlack;
     const Float4 x = abs(m_[0]), y = abs(m_[1]), z = abs(m_[2]);
     extent_b_in_a_ = x * lane<0>(extent_b_) + y * lane<1>(extent_b_) + z * lane<2>(extent_b_);
-    extent_a_in_b_ = float4(sum(x * extent_a_), sum(y * extent_a_), sum(z * extent_a_));
-    top_of_a_ = sum(abs(ahead_a_) * extent_a_);
-    bottom_of_b_ = offset_ahead_ - sum(abs(ahead_b_) * extent_b_);
+    extent_a_in_b_ = sums(x * extent_a_, y * extent_a_, z * extent_a_);
+    const Float4 along = sums(frame.ahead * offset, abs(ahead_a_) * extent_a_, abs(ahead_b_) * extent_b_);
+    offset_ahead_ = along[0], top_of_a_ = along[1], bottom_of_b_ = along[0] - along[2];
   }
   /// The square of the gap between all of A and all of B.
   float square() const {
     const auto squared = [](Float4 gap) {
       const Float4 positive = max(gap, Float4{0, 0, 0, 0});
-      return sum(positive * positive);
+      return positive * positive;
     };
-    const float ahead = bottom_of_b_ - top_of_a_, along_a = squared(abs(offset_a_) - (extent_a_ + extent_b_in_a_)),
-                along_b = squared(abs(offset_b_) - (extent_b_ + extent_a_in_b_)),
-                greatest = along_a < along_b ? along_b : along_a;
-    return ahead > 0 && ahead * ahead > greatest ? ahead * ahead : greatest;
+    return greatest(sums(squared(abs(offset_a_) - (extent_a_ + extent_b_in_a_)),
+                         squared(abs(offset_b_) - (extent_b_ + extent_a_in_b_)),
+                         squared(float4(bottom_of_b_ - top_of_a_, 0, 0))));
   }
   const Node& a() const { return a_; }
   const Node& b() const { return b_; }
@@ -168,17 +170,6 @@ class NodePair {
     return chosen(along_a, along_b, bottom_b_ - all8(top_a_[i]), most, near.gap) & ((1u << b_.count()) - 1);
   }
 
-  /// Of eight pairs of boxes: a bound on their distance, and how soon to visit them, the least first.
-  struct Ranks {
-    alignas(32) float lower[kFanOut], key[kFanOut];
-  };
-  Ranks rank(const Near& near) const {
-    Ranks ranks;
-    const Float8 bound = max(all8(0), sqrt(near.gap) * all8(1 - kBoundShare) - all8(slack_));
-    store(bound, ranks.lower), store(bound + sqrt(near.centres), ranks.key);
-    return ranks;
-  }
-
  private:
   static Float8 squared(Float8 gap) {
     const Float8 positive = max(gap, all8(0));
@@ -217,6 +208,15 @@ inline constexpr int kSortedFew = 4;
 inline constexpr int kMostChildren = kFanOut * kFanOut;
 /// Puts the few of `count` entries that have the least keys last, the least of all at the end. Overwrites keys.
 static inline void raise_least(PairEntry* entries, float (&key)[kMostChildren], int count, int few) {
+  if (count <= kFanOut) {  // to read keys eight at a time would wait until the last are stored
+    for (int end = count - 1; few > 0 && end > 0; --end, --few) {
+      int at = end;
+      for (int i = 0; i < end; ++i) at = key[i] < key[at] ? i : at;
+      std::swap(entries[at], entries[end]);
+      key[at] = key[end];
+    }
+    return;
+  }
   for (int i = count; i % kFanOut != 0; ++i) key[i] = HUGE_VALF;
   for (int end = count - 1; few > 0 && end > 0; --end, --few) {
     Float8 lanes = load8(key);
@@ -235,51 +235,46 @@ static inline void raise_least(PairEntry* entries, float (&key)[kMostChildren], 
 /// From this ratio of sizes on the larger one of two nodes is opened alone.
 inline constexpr float kOneSided = 3;
 
-/// Opens two nodes, or the larger one alone, and calls `on_near(child_a, child_b, lower, key)` for each pair of children, or of
-/// a child and the other node, `nodes`, whose squared gap is at most `most`. A node that `ends` has children that are none.
-template <class OnNear>
-static inline void for_near_children(NodePair& pair, float most, std::array<std::uint32_t, 2> nodes, std::array<bool, 2> ends,
-                                     const OnNear& on_near) {
+/// Opens two nodes, or the larger one alone: writes the pairs of children, or of a child and the other node, `nodes`, whose
+/// squared gap is at most `most` and that may be within `reach`, over the unit, to `found`, those to visit first at the end.
+/// Returns how many there are. A node that `ends` has children that are none.
+static inline int open_pair(NodePair& pair, float most, double reach, std::array<std::uint32_t, 2> nodes,
+                            std::array<bool, 2> ends, PairEntry* found) {
   const Node &a = pair.a(), &b = pair.b();
   const bool both = ends[0] == ends[1];
   const bool only_a = both ? !ends[0] && pair.size_a() > kOneSided * pair.size_b() : ends[1];
   const bool only_b = both ? !ends[1] && pair.size_b() > kOneSided * pair.size_a() : ends[0];
+
+  // All are compared before any is written: how many are near no branch could foresee, and there is one for all.
+  alignas(32) float gaps[kMostChildren], centres[kMostChildren], keys[kMostChildren];
+  std::uint64_t left = 0;
   NodePair::Near near;
-  const auto for_each = [&](unsigned left, const auto& on_child) {
-    if (left == 0) return;
-    const NodePair::Ranks ranks = pair.rank(near);
-    for (; left != 0; left &= left - 1) {
-      const int k = __builtin_ctz(left);
-      on_child(unsigned(k), ranks.lower[k], ranks.key[k]);
-    }
-  };
-  const auto for_each_of_b = [&](std::uint32_t of_a, unsigned left) {
-    for_each(left, [&](unsigned k, float lower, float key) { on_near(of_a, b.first() + k, lower, key); });
+  const auto keep = [&](int row, unsigned chosen) {
+    store(near.gap, gaps + row * kFanOut), store(near.centres, centres + row * kFanOut);
+    left |= std::uint64_t{chosen} << row * kFanOut;
   };
   if (only_b) {
     pair.look_at_b();
-    return for_each_of_b(nodes[0], pair.near_b(most, near));
+    keep(0, pair.near_b(most, near));
+  } else if (pair.look_at_a(); only_a) {
+    keep(0, pair.near_a(most, near));
+  } else {
+    pair.look_at_b();
+    for (unsigned rows = pair.near_a(most, near); rows != 0; rows &= rows - 1) {
+      const int i = __builtin_ctz(rows);
+      keep(i, pair.near_b(i, most, near));
+    }
   }
-  pair.look_at_a();
-  if (!only_a) pair.look_at_b();
-  unsigned left = pair.near_a(most, near);
-  if (only_a) return for_each(left, [&](unsigned i, float lower, float key) { on_near(a.first() + i, nodes[1], lower, key); });
-  for (; left != 0; left &= left - 1) {
-    const int i = __builtin_ctz(left);
-    for_each_of_b(a.first() + unsigned(i), pair.near_b(i, most, near));
-  }
-}
 
-/// Writes the pairs of `for_near_children` that may be within `reach`, over the unit, to `found`, those to visit first at the
-/// end. Returns how many there are.
-static inline int open_pair(NodePair& pair, float most, double reach, std::array<std::uint32_t, 2> nodes,
-                            std::array<bool, 2> ends, PairEntry* found) {
-  alignas(32) float keys[kMostChildren];
   int count = 0;
-  for_near_children(pair, most, nodes, ends, [&](std::uint32_t of_a, std::uint32_t of_b, float lower, float key) {
-    if (double(lower) > reach) return;
-    keys[count] = key, found[count++] = {of_a, of_b, lower};
-  });
+  for (; left != 0; left &= left - 1) {
+    const int at = __builtin_ctzll(left);
+    const std::uint32_t row = std::uint32_t(at) / kFanOut, lane = std::uint32_t(at) % kFanOut;
+    const float lower = pair.lower(gaps[at]);
+    if (double(lower) > reach) continue;
+    keys[count] = lower + std::sqrt(centres[at]);
+    found[count++] = {only_b ? nodes[0] : a.first() + (only_a ? lane : row), only_a ? nodes[1] : b.first() + lane, lower};
+  }
   raise_least(found, keys, count, ends[0] && ends[1] ? 1 : kSortedFew);
   return count;
 }

@@ -26,7 +26,7 @@ struct ConvexLeaf {
 };
 
 /// A body as a search reads it.
-struct MeshView : Root {
+struct MeshView {
   explicit MeshView(const MeshBody& body);
   MeshView(const MeshView&) = delete;  ///< `nodes` may point into this object
   MeshView& operator=(const MeshView&) = delete;
@@ -55,6 +55,8 @@ struct MeshView : Root {
   /// True if no node is below the children of a node: these are triangles or, of a mesh that was cut, boxes.
   bool ends(const Node& node) const { return node.lowest() || node.first() >= node_count; }
 
+  const Root* root;
+  const Node* nodes;
   std::uint32_t node_count;
   const Corners* triangles;  ///< null for a convex body
   const Vec* vertices;
@@ -79,7 +81,8 @@ struct MeshFinding {
   bool sure = false;                     ///< two triangles cross by more than law 2's bound
   bool cut_short = false;                ///< the budget ended the search
   bool refused = false;                  ///< the kernel refused a body
-  Vec point_a{}, point_b{}, normal{};    ///< where `upper` is finite; the normal is 0 if unknown
+  Vec point_a, point_b;                  ///< where `upper` is finite
+  Vec normal{};                          ///< 0 if unknown
   FeatureId feature_a, feature_b;
   int level_a = 0, level_b = 0;
   std::uint32_t triangle_a = kNone, triangle_b = kNone;
