@@ -40,13 +40,6 @@ static inline Float4 min(Float4 a, Float4 b) {
   return b < a ? b : a;
 #endif
 }
-static inline Float4 sqrt(Float4 a) {
-#if defined(__SSE2__)
-  return _mm_sqrt_ps(a);
-#else
-  return Float4{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
-#endif
-}
 /// The least of all four.
 static inline float least(Float4 a) {
   const Float4 two = min(a, __builtin_shufflevector(a, a, 2, 3, 0, 1));
@@ -64,8 +57,6 @@ static inline Float4 abs(Float4 a) {
   return Float4{std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2]), std::fabs(a[3])};
 #endif
 }
-/// The sum of x, y and z.
-static inline float sum(Float4 a) { return a[0] + a[1] + a[2]; }
 static inline Float4 cross(Float4 a, Float4 b) {
   const auto yzx = [](Float4 v) { return __builtin_shufflevector(v, v, 1, 2, 0, 3); };
   const auto zxy = [](Float4 v) { return __builtin_shufflevector(v, v, 2, 0, 1, 3); };
@@ -106,7 +97,6 @@ static inline Float8 operator-(Float8 a, Float8 b) { return {a.v - b.v}; }
 static inline Float8 operator*(Float8 a, Float8 b) { return {a.v * b.v}; }
 static inline Float8 max(Float8 a, Float8 b) { return {_mm256_max_ps(b.v, a.v)}; }
 static inline Float8 min(Float8 a, Float8 b) { return {_mm256_min_ps(b.v, a.v)}; }
-static inline Float8 sqrt(Float8 a) { return {_mm256_sqrt_ps(a.v)}; }
 static inline float least(Float8 a) { return least(min(Float4(_mm256_castps256_ps128(a.v)), _mm256_extractf128_ps(a.v, 1))); }
 static inline Float8 abs(Float8 a) { return {_mm256_andnot_ps(all8(-0.0f).v, a.v)}; }
 /// Bit i is set if lane i of `a` is at most that of `b`.
@@ -128,7 +118,6 @@ static inline Float8 operator-(Float8 a, Float8 b) { return {a.lo - b.lo, a.hi -
 static inline Float8 operator*(Float8 a, Float8 b) { return {a.lo * b.lo, a.hi * b.hi}; }
 static inline Float8 max(Float8 a, Float8 b) { return {max(a.lo, b.lo), max(a.hi, b.hi)}; }
 static inline Float8 min(Float8 a, Float8 b) { return {min(a.lo, b.lo), min(a.hi, b.hi)}; }
-static inline Float8 sqrt(Float8 a) { return {sqrt(a.lo), sqrt(a.hi)}; }
 static inline float least(Float8 a) { return least(min(a.lo, a.hi)); }
 static inline Float8 abs(Float8 a) { return {abs(a.lo), abs(a.hi)}; }
 static inline unsigned at_most(Float4 a, Float4 b) {
