@@ -21,7 +21,7 @@ Result<Model> Model::from_level(const LevelArrays& level, const ModelOptions& op
 
 SourceMap Model::source() const { return content_ ? content_->source : SourceMap{}; }
 
-Vec3 Model::centre() const { return content_->levels[0].view.centre; }
+Vec3 Model::centre() const { return levels_->view.centre; }
 Vec3 Model::box_min() const {
   if (!content_) return eigen(box_of(levels_->view.vertices).least);
   return Vec3(content_->headers.block.box_min[0], content_->headers.block.box_min[1], content_->headers.block.box_min[2]);

@@ -15,20 +15,18 @@
 namespace swiftlet {
 namespace {
 
-/// The differences of four vertex pairs. Lanes are corners, and faces in the order of the corners across from them: 2, 0, 1, 3.
-struct Tetrahedron {
-  V3<Vec4> of_a, corner;
+/// The tetrahedron of four differences. Lanes of faces are in the order of the corners across from them: 2, 0, 1, 3.
+struct Tetrahedron : Differences {
   V3<Vec4> normal;  ///< of the faces: all into the tetrahedron, or all out of it
   Vec4 height;      ///< of the origin along `normal` above the faces, times their lengths
 
-  Tetrahedron(const PairView& pair, const OverlapProof& proof) : Tetrahedron({pair, proof.vertex_a, proof.vertex_b}) {}
-  explicit Tetrahedron(const Differences& four) : of_a(four.of_a), corner(four.p) {
+  Tetrahedron(const PairView& pair, const OverlapProof& proof) : Differences(pair, proof.vertex_a, proof.vertex_b) {
     // The first three faces hold corner 3, from which the edges lead.
-    const V3<Vec4> edge = corner - V3<Vec4>{lane<3>(corner.x), lane<3>(corner.y), lane<3>(corner.z)},
+    const V3<Vec4> edge = p - V3<Vec4>{lane<3>(p.x), lane<3>(p.y), lane<3>(p.z)},
                    three = cross(edge, V3<Vec4>{yzx(edge.x), yzx(edge.y), yzx(edge.z)});
     normal = {with(three.x, -sum(three.x)), with(three.y, -sum(three.y)), with(three.z, -sum(three.z))};
     const auto on_face = [](const Vec4& of) { return with(lane<3>(of), of[0]); };
-    height = -dot(V3<Vec4>{on_face(corner.x), on_face(corner.y), on_face(corner.z)}, normal);
+    height = -dot(V3<Vec4>{on_face(p.x), on_face(p.y), on_face(p.z)}, normal);
   }
 
   /// True if the bodies surely overlap, and the origin is more than twice law 2's bound from every face. Doubles decide; what
@@ -43,7 +41,7 @@ struct Tetrahedron {
   /// Of a deep one: true if `common` becomes a point within law 2's bound of both bodies; false if doubles find none.
   bool finds_common(const PairView& pair, Vec& common) const {
     const Vec4 inside = abs(height), weight = with(yzx(inside), inside[3]) * (1 / total(inside));
-    const Vec off{total(corner.x * weight), total(corner.y * weight), total(corner.z * weight)};
+    const Vec off{total(p.x * weight), total(p.y * weight), total(p.z * weight)};
     common = {total(of_a.x * weight), total(of_a.y * weight), total(of_a.z * weight)};
     return 4 * dot(off, off) <= pair.law_two * pair.law_two;
   }

@@ -35,7 +35,8 @@ struct PairOf {
   bool has_maps() const {
     return limits.tuning.start == StartPolicy::Automatic && a.map_level() < a.level_count() && b.map_level() < b.level_count();
   }
-  /// The finest level pair that has support maps and that the query may read.
+  /// The finest level pair that has support maps and that the query may read. Always inlined: else it is a symbol of the files
+  /// for AVX2, which may have none (width.h).
   [[gnu::always_inline]] Place finest_mapped() const {
     return {std::max(a.map_level(), finest_a()), std::max(b.map_level(), finest_b()), {}};
   }

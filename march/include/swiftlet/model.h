@@ -254,7 +254,7 @@ class Model {
         map_level_(map_level),
         finest_level_(finest_level) {}
   std::shared_ptr<const Content> content_;
-  const Level* levels_;  ///< points into `content_`
+  const Level* levels_;  ///< points into `content_`, or to what a model without a block was given
   double radius_;
   int level_count_, map_level_, finest_level_;
 };

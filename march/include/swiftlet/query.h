@@ -68,7 +68,8 @@ struct PairSeed {
   std::array<std::int16_t, 3> normal{};                  ///< normal of the answer, times 32767; tried as a separating axis
   std::uint8_t level_a = 0, level_b = 0;                 ///< the levels of `a` and `b`
   std::uint8_t met = 0;                                  ///< not 0: the bodies overlapped
-  std::array<std::uint32_t, 4> inside_a{}, inside_b{};   ///< pairs of vertices of level 0 that proved it; tried again
+  std::array<std::uint32_t, 4> inside_a{}, inside_b{};   ///< pairs of vertices of level 0 that proved it, tried again:
+                                                         ///< one after the other gives way as the bodies move
 };
 static_assert(sizeof(PairSeed) <= 64);
 
