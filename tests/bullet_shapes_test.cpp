@@ -36,6 +36,7 @@
 #include "bullet_world.h"
 #include "make/surface.h"
 #include "numeric/exact.h"
+#include "soups.h"
 
 namespace swiftlet {
 namespace {
@@ -706,12 +707,7 @@ TEST(Triangles, PassAScaledHullOnToBullet) {
   w.world.addCollisionObject(&a), w.world.addCollisionObject(&b);
   const auto deepest = [&] {
     w.world.performDiscreteCollisionDetection();
-    btScalar least = 1;
-    for (int m = 0; m < w.dispatcher.getNumManifolds(); ++m) {
-      const btPersistentManifold& manifold = *w.dispatcher.getManifoldByIndexInternal(m);
-      for (int i = 0; i < manifold.getNumContacts(); ++i) least = std::min(least, manifold.getContactPoint(i).getDistance());
-    }
-    return least;
+    return swiftlet::deepest(w.dispatcher);
   };
   EXPECT_NEAR(deepest(), -0.01, 1e-5);
   hull.setLocalScaling(btVector3(1, 1, btScalar(1.04)));
@@ -745,6 +741,84 @@ TEST(Triangles, MayBePassedAroundTheBorder) {
   EXPECT_NEAR(up(0, -0.21), -1, 1e-5);
   EXPECT_NEAR(up(0, 0.1), -1, 1e-5);  // pushed back down
   w.world.removeCollisionObject(&a), w.world.removeCollisionObject(&b);
+}
+
+// ---- Shapes that are scaled ------------------------------------------------------------------------------------------------
+
+/// A shape that is scaled while it lies on another is what it now is: the pair's contacts are as deep as those of one that
+/// meets anew, and none lies where the shape was.
+TEST(ScaledWhileThePairLives, HasTheContactsOfANewPair) {
+  const std::shared_ptr<Surface> ground = terrain(6, 3, flat);
+  const auto cube = std::make_shared<const MeshModel>(soups::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}).mesh());
+  using Shape = std::shared_ptr<btCollisionShape>;
+  const std::vector<std::pair<std::string, std::function<Shape()>>> uppers{
+      {"HullShape", [] { return std::make_shared<HullShape>(bodies::model(bodies::box(0.5, 0.5, 0.5))); }},
+      {"MeshShape", [&] { return std::make_shared<bullet::MeshShape>(*cube); }},
+      {"btConvexHullShape",
+       [] {
+         auto hull = std::make_shared<btConvexHullShape>();
+         for (int i = 0; i < 8; ++i) hull->addPoint(btVector3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1) * btScalar(0.5));
+         return hull;
+       }},
+      {"btBoxShape", [] { return std::make_shared<btBoxShape>(btVector3(1, 1, 1) * btScalar(0.5)); }},
+      {"btCapsuleShape", [] { return std::make_shared<btCapsuleShapeX>(btScalar(0.5), btScalar(0.8)); }}};
+  struct Ground {
+    std::string name;
+    Shape shape;
+    double z = 0;
+  };
+  const std::vector<Ground> grounds{
+      {"btStaticPlaneShape", std::make_shared<btStaticPlaneShape>(btVector3(0, 0, 1), btScalar(0))},
+      {"HullShape", std::make_shared<HullShape>(bodies::model(bodies::box(3, 3, 0.5))), -0.5},
+      {"large MeshShape", std::make_shared<bullet::MeshShape>(bullet::mesh_of(ground->mesh).value())},
+      {"small MeshShape", std::make_shared<bullet::MeshShape>(soups::box({-0.2, -0.2, -0.5}, {0.2, 0.2, 0}).mesh())},
+      {"btBvhTriangleMeshShape", Shape(ground, ground->shape.get())}};
+  int answered = 0;
+  for (const auto& [upper_name, make] : uppers) {
+    for (const Ground& below : grounds) {
+      const std::string name = upper_name + " on " + below.name;
+      const auto lie = [&below](World& w, btCollisionObject& a, btCollisionObject& b, btCollisionShape& upper) {
+        a.setCollisionShape(&upper), b.setCollisionShape(below.shape.get());
+        a.setWorldTransform(at(0.1, 0.1, 0.49)), b.setWorldTransform(at(0, 0, below.z));
+        w.world.addCollisionObject(&a), w.world.addCollisionObject(&b);
+      };
+      World living;
+      btCollisionObject a, b;
+      const Shape upper = make();
+      if (!living.hull_pairs->answers(*upper, *below.shape)) continue;
+      ++answered;
+      lie(living, a, b, *upper);
+      for (const Vec3& scale : {Vec3(1, 1, 1), Vec3(1.04, 1.04, 1.04), Vec3(0.5, 0.5, 1), Vec3(1, 1, 1.02), Vec3(1, 1, 1)}) {
+        upper->setLocalScaling(btVector3(btScalar(scale[0]), btScalar(scale[1]), btScalar(scale[2])));
+        World fresh;
+        btCollisionObject fresh_a, fresh_b;
+        const Shape same = make();
+        same->setLocalScaling(upper->getLocalScaling());
+        lie(fresh, fresh_a, fresh_b, *same);
+        for (int step = 0; step < 3; ++step) {
+          living.world.performDiscreteCollisionDetection(), fresh.world.performDiscreteCollisionDetection();
+          EXPECT_NEAR(deepest(living.dispatcher), deepest(fresh.dispatcher), 1e-3) << name << ": " << scale.transpose();
+        }
+        btVector3 least, most;
+        upper->getAabb(a.getWorldTransform(), least, most);
+        for (int m = 0; m < living.dispatcher.getNumManifolds(); ++m) {
+          const btPersistentManifold& manifold = *living.dispatcher.getManifoldByIndexInternal(m);
+          for (int i = 0; i < manifold.getNumContacts(); ++i) {
+            const btManifoldPoint& p = manifold.getContactPoint(i);
+            const btVector3& on = manifold.getBody0() == &a ? p.getPositionWorldOnA() : p.getPositionWorldOnB();
+            for (int axis = 0; axis < 3; ++axis) {
+              EXPECT_GE(on[axis], least[axis] - 1e-3) << name << ": " << scale.transpose();
+              EXPECT_LE(on[axis], most[axis] + 1e-3) << name << ": " << scale.transpose();
+            }
+          }
+        }
+        fresh.world.removeCollisionObject(&fresh_a), fresh.world.removeCollisionObject(&fresh_b);
+      }
+      living.world.removeCollisionObject(&a), living.world.removeCollisionObject(&b);
+      EXPECT_EQ(living.dispatcher.getNumManifolds(), 0) << name;
+    }
+  }
+  EXPECT_EQ(answered, 18);
 }
 
 // ---- Who answers -----------------------------------------------------------------------------------------------------------

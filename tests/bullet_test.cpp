@@ -313,10 +313,7 @@ TEST(HullPairs, SeeThatAShapeWasScaled) {
   w.world.addCollisionObject(&object_a), w.world.addCollisionObject(&object_b);
   const auto deepest = [&] {
     w.world.performDiscreteCollisionDetection();
-    const btPersistentManifold& manifold = *w.dispatcher.getManifoldByIndexInternal(0);
-    btScalar least = 1;
-    for (int i = 0; i < manifold.getNumContacts(); ++i) least = std::min(least, manifold.getContactPoint(i).getDistance());
-    return least;
+    return swiftlet::deepest(w.dispatcher);
   };
   EXPECT_NEAR(deepest(), 0.05 - 2 * CONVEX_DISTANCE_MARGIN, kRounding);
   b.setLocalScaling(btVector3(1, 1, btScalar(1.02)));

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <random>
@@ -36,6 +37,16 @@ struct World {
     if (with_swiftlet) hull_pairs.emplace(dispatcher);
   }
 };
+
+/// How deep the deepest point of contact lies, above 0 apart; 1 where there is none.
+inline btScalar deepest(const btCollisionDispatcher& dispatcher) {
+  btScalar least = 1;
+  for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
+    for (int i = 0; i < manifold.getNumContacts(); ++i) least = std::min(least, manifold.getContactPoint(i).getDistance());
+  }
+  return least;
+}
 
 struct Point {
   btVector3 normal_on_b, on_a, on_b;

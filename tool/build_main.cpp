@@ -174,7 +174,7 @@ Action declare_build(CLI::App& word) {
   word.add_option("-o,--output", request->out, "the .swl model or .swm mesh to write")->required();
   word.add_flag("--mesh", request->mesh, "write a .swm mesh of all triangles as they are, with hulls that answer from afar");
   word.add_flag("--quiet", request->quiet, "no progress bar, no report");
-  word.add_option("--threads", request->threads, "how many threads build; the file is the same with any; all cores")
+  word.add_option("--threads", request->threads, "how many threads build; the file is the same with any")
       ->capture_default_str()
       ->check(number_in(1, 1024, "from 1 to 1024"));
   const std::size_t common = word.get_options().size();

@@ -328,7 +328,8 @@ void add_detail(CLI::App& word, Detail& detail) {
   word.add_option("--deviation", detail.deviation, "keep no level finer than the coarsest that deviates less; 0: all")
       ->capture_default_str()
       ->check(number_in(0, std::numeric_limits<double>::infinity(), "from 0 up"));
-  word.add_option("--bytes", detail.bytes, "keep no level that these first bytes of the whole model do not hold");
+  word.add_option("--bytes", detail.bytes,
+                  "keep no level that these first bytes of the whole model do not hold, but the coarsest");
 }
 
 int run_tool(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const Word> more_words) {

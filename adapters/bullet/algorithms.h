@@ -28,7 +28,8 @@ inline btCollisionObjectWrapper wrapped(const btCollisionObject& object) {
   return {nullptr, object.getCollisionShape(), &object, object.getWorldTransform(), -1, -1};
 }
 
-/// An algorithm of the configuration's for the pair, on a manifold of ours if it takes one.
+/// An algorithm of the configuration's for the pair, on a manifold of the caller's if it takes one, else on those that it has:
+/// these live as long as it does.
 class OthersAlgorithm {
  public:
   OthersAlgorithm(const Create& create, btDispatcher& dispatcher, btPersistentManifold* persistent,

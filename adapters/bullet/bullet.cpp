@@ -62,37 +62,47 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
                 const btCollisionObjectWrapper& b, SolidPair solids)
       : btActivatingCollisionAlgorithm(info),
         create_(create),
-        solids_(std::make_unique<SolidPair>(std::move(solids))),
-        persistent_(info.m_manifold) {
-    if (create.all_points) touches_ = std::make_unique<Touches>();
-    if (persistent_) return;
-    persistent_ = m_dispatcher->getNewManifold(a.getCollisionObject(), b.getCollisionObject());
-    owns_persistent_ = true;
+        state_(std::make_unique<State>(std::move(solids))),
+        shared_(info.m_manifold),
+        persistent_(shared_ ? shared_ : m_dispatcher->getNewManifold(a.getCollisionObject(), b.getCollisionObject())) {
+    if (create.all_points) state_->touches = std::make_unique<Touches>();
   }
   ~HullAlgorithm() override {
-    if (owns_persistent_) m_dispatcher->releaseManifold(persistent_);
+    if (!shared_) m_dispatcher->releaseManifold(persistent_);
   }
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo& info,
                         btManifoldResult* result) override {
+    if (state_->watch.changed(*a->getCollisionShape(), *b->getCollisionShape())) clear(), state_->others.reset();
     result->setPersistentManifold(persistent_);
-    if (!answer(*a, *b, *result)) others(*a, *b)->processCollision(a, b, info, result);
-    if (owns_persistent_) result->refreshContactPoints();
+    if (answer(*a, *b, *result)) {
+      if (!shared_) result->refreshContactPoints();
+      state_->others.reset();
+      return;
+    }
+    clear();
+    if (!state_->others) state_->others = std::make_unique<OthersAlgorithm>(create_, *m_dispatcher, shared_, *a, *b);
+    (*state_->others)->processCollision(a, b, info, result);
   }
   btScalar calculateTimeOfImpact(btCollisionObject* a, btCollisionObject* b, const btDispatcherInfo& info,
                                  btManifoldResult* result) override {
-    return others(wrapped(*a), wrapped(*b))->calculateTimeOfImpact(a, b, info, result);
+    return OthersAlgorithm(create_, *m_dispatcher, shared_, wrapped(*a), wrapped(*b))
+        ->calculateTimeOfImpact(a, b, info, result);
   }
   void getAllContactManifolds(btManifoldArray& manifolds) override {
-    if (owns_persistent_) manifolds.push_back(persistent_);
+    if (!shared_) manifolds.push_back(persistent_);
+    if (state_->others) (*state_->others)->getAllContactManifolds(manifolds);
   }
 
  private:
+  void clear() {
+    if (!shared_) persistent_->clearManifold();
+  }
   /// False where it has nothing to say, and the configuration's algorithm shall.
   bool answer(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btManifoldResult& result) {
-    if (!solids_->is_current(a, b)) return false;
+    if (!state_->solids.is_current(a, b)) return false;
     const btScalar touching = persistent_->getContactBreakingThreshold() + result.m_closestPointDistanceThreshold;
-    return touches_ ? add_all(a, b, touching, result) : add_nearest(a, b, touching, result);
+    return state_->touches ? add_all(a, b, touching, result) : add_nearest(a, b, touching, result);
   }
 
   /// Bullet's normal is on B and points to A.
@@ -100,7 +110,7 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
                    btManifoldResult& result) {
     // As far as Bullet's own algorithm looks.
     const btScalar reach = a.getCollisionShape()->getMargin() + b.getCollisionShape()->getMargin() + touching;
-    const Nearest near = solids_->nearest(a, b, reach, seed_);
+    const Nearest near = state_->solids.nearest(a, b, reach, seed_);
     if (near.found == Found::Nothing) return false;
     if (near.found == Found::Nearest)
       result.addContactPoint(vector_of(-near.normal), vector_of(near.point_b), btScalar(near.distance));
@@ -110,19 +120,20 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
   /// Points that hold the area of this step. A manifold of Bullet's that is shared keeps those of others.
   bool add_all(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btScalar touching,
                btManifoldResult& result) {
-    Manifold& now = touches_->manifold;
-    Rest& rest = touches_->rest;
-    const bool holds = owns_persistent_ && persistent_->getBody0() == a.getCollisionObject();
+    SolidPair& solids = state_->solids;
+    Manifold& now = state_->touches->manifold;
+    Rest& rest = state_->touches->rest;
+    const bool holds = !shared_ && persistent_->getBody0() == a.getCollisionObject();
     rest.within = holds ? kAtRest * persistent_->getContactBreakingThreshold() : -1;
-    Found found = solids_->contacts(a, b, touching, seed_, now, rest);
+    Found found = solids.contacts(a, b, touching, seed_, now, rest);
     if (found == Found::AtRest) {
       if (hold_on(now, result)) return true;
       rest.within = -1;
-      found = solids_->contacts(a, b, touching, seed_, now, rest);
+      found = solids.contacts(a, b, touching, seed_, now, rest);
     }
     if (found == Found::Nothing) return false;
     if (holds && hold_the_area(now, result)) return true;
-    if (owns_persistent_) forget_others(*persistent_, now, persistent_->getBody0() != a.getCollisionObject());
+    if (!shared_) forget_others(*persistent_, now, persistent_->getBody0() != a.getCollisionObject());
     for (std::uint32_t i = now.count; i-- > 0;) {  // the deepest is the first and comes last: it takes the place of others
       const ManifoldPoint& p = now.points[i];
       result.addContactPoint(vector_of(-now.normal), vector_of(p.point_b), btScalar(p.separation));
@@ -130,22 +141,25 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
     return true;
   }
 
-  /// The configuration's algorithm on this pair's manifold. It keeps nothing from step to step.
-  OthersAlgorithm others(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) const {
-    return {create_, *m_dispatcher, persistent_, a, b};
-  }
-
-  const Create& create_;
-  std::unique_ptr<SolidPair> solids_;
-  btPersistentManifold* persistent_;
-  PairSeed seed_;
   /// Of the step before; none where closest points are asked for.
   struct Touches {
     Manifold manifold;
     Rest rest;
   };
-  std::unique_ptr<Touches> touches_;
-  bool owns_persistent_ = false;
+  struct State {
+    explicit State(SolidPair pair) : solids(std::move(pair)) {}
+
+    SolidPair solids;
+    Watch watch;
+    std::unique_ptr<Touches> touches;
+    std::unique_ptr<OthersAlgorithm> others;  ///< for as long as swiftlet has nothing to say
+  };
+
+  const Create& create_;
+  std::unique_ptr<State> state_;
+  btPersistentManifold* const shared_;      ///< of the caller's; null: it has one of its own
+  btPersistentManifold* const persistent_;  ///< either
+  PairSeed seed_;
 };
 
 // Bullet's pool hands out blocks of at least this size, whatever size is asked for.

@@ -29,6 +29,7 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo& info,
                         btManifoldResult* result) override {
     PointGroups& groups = state_->groups;
+    if (state_->watch.changed(*a->getCollisionShape(), *b->getCollisionShape())) groups.clear(), state_->others.reset();
     result->setPersistentManifold(&groups.first());
     const bool first_is_a = state_->first_is_a;
     const btCollisionObjectWrapper &first = first_is_a ? *a : *b, &second = first_is_a ? *b : *a;
@@ -37,7 +38,13 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
     const std::optional<Solid>& solid = state_->solid;
     const bool is_current = solid ? solid->is_current(*second.getCollisionShape())
                                   : other_mesh || role_of(*second.getCollisionShape()) == Role::Plane;
-    if (!mesh || !is_current) return groups.clear();  // scaled since they met
+    if (!mesh || !is_current) {  // scaled since they met
+      groups.clear();
+      if (!state_->others) state_->others = std::make_unique<OthersAlgorithm>(create_, *m_dispatcher, groups.shared(), *a, *b);
+      (*state_->others)->processCollision(a, b, info, result);
+      return;
+    }
+    state_->others.reset();
     const PlacedMeshShape placed(*mesh, pose_of(first.getWorldTransform()));
     const Placed of_first{Body::point(Vec3::Zero(), mesh->getMargin()), placed.in_world};
     const Placed of_second = solid ? solid->placed(second)
@@ -65,6 +72,7 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
   }
   void getAllContactManifolds(btManifoldArray& manifolds) override {
     for (btPersistentManifold* manifold : state_->groups.own()) manifolds.push_back(manifold);
+    if (state_->others) (*state_->others)->getAllContactManifolds(manifolds);
   }
 
  private:
@@ -75,10 +83,12 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
 
     const bool first_is_a;             ///< a mesh; of two meshes Bullet's first
     const std::optional<Solid> solid;  ///< the second one, if it is convex
+    Watch watch;
     PointGroups groups;
     MeshPair pair;
     std::vector<TrianglePoint> points;  ///< all, or the nearest alone
     std::vector<PointIds> ids;
+    std::unique_ptr<OthersAlgorithm> others;  ///< for as long as the pair is not ours
   };
 
   void bodies(const PlacedMeshShape& first, const PlacedMeshShape& second, const btCollisionObjectWrapper& first_object,

@@ -48,10 +48,6 @@ struct BySize {
   btMatrix3x3 larger_in_world;
 };
 
-btScalar margins_of(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
-  return a.getCollisionShape()->getMargin() + b.getCollisionShape()->getMargin();
-}
-
 }  // namespace
 
 PointGroups::PointGroups(btDispatcher& dispatcher, btPersistentManifold* shared, const btCollisionObjectWrapper& a,
@@ -70,7 +66,7 @@ void PointGroups::clear() {
 }
 
 bool PointGroups::hold(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btManifoldResult& result) {
-  if (!rest_ || rest_->margins != margins_of(a, b)) return false;
+  if (!rest_) return false;
   const BySize now(a, b);
   if (!(now.moved(rest_->smaller_in_larger) <= kAtRest * first().getContactBreakingThreshold())) return false;
   const btMatrix3x3 turn = now.larger_in_world * rest_->larger_in_world.transpose();
@@ -129,7 +125,7 @@ void PointGroups::hand_over(std::span<const TrianglePoint> points, std::span<con
   rest_.reset();
   if (own_.front()->getBody0() != a.getCollisionObject()) return;
   const BySize now(a, b);
-  rest_ = {now.smaller_in_larger, now.larger_in_world, margins_of(a, b)};
+  rest_ = {now.smaller_in_larger, now.larger_in_world};
 }
 
 /// Points whose normals are alike, beginning with the deepest. A manifold of the caller's has room for one group.

@@ -67,7 +67,6 @@ class PointGroups {
   struct Rest {
     btTransform smaller_in_larger;
     btMatrix3x3 larger_in_world;  ///< of the step before
-    btScalar margins;
   };
 
   void divide(std::span<const TrianglePoint> points);

@@ -167,6 +167,18 @@ Vec3 Solid::centre(const btCollisionShape& shape) const {
   return (body.corner(0) + body.corner(1) + body.corner(2)) / 3;
 }
 
+Watch::Seen Watch::seen(const btCollisionShape& shape) {
+  const bool is_primitive = role_of(shape.getShapeType()) == Role::Body;
+  return {shape.getLocalScaling(), is_primitive ? primitive(shape) : Body::point(Vec3::Zero(), shape.getMargin())};
+}
+
+bool Watch::changed(const btCollisionShape& a, const btCollisionShape& b) {
+  const Seen now_a = seen(a), now_b = seen(b);
+  if (now_a == a_ && now_b == b_) return false;
+  a_ = now_a, b_ = now_b;
+  return true;
+}
+
 /// Single precision leaves the normal's length wrong by an ulp.
 HalfSpace half_space_of(const btCollisionObjectWrapper& body) {
   const auto& plane = static_cast<const btStaticPlaneShape&>(*body.getCollisionShape());

@@ -71,4 +71,22 @@ class Solid {
   btVector3 scaling_{1, 1, 1};
 };
 
+/// Watches the two shapes of a pair: Bullet lets anyone scale a shape between steps, or give it another margin. What was found
+/// of it is void then, such as points of contact, which are places on both.
+class Watch {
+ public:
+  /// Whether a shape is not what it was when this was called last.
+  bool changed(const btCollisionShape& a, const btCollisionShape& b);
+
+ private:
+  struct Seen {
+    btVector3 scaling{0, 0, 0};
+    Body body;  ///< of a primitive; of all else a point with the shape's margin
+    bool operator==(const Seen&) const = default;
+  };
+  static Seen seen(const btCollisionShape& shape);
+
+  Seen a_, b_;
+};
+
 }  // namespace swiftlet::bullet

@@ -52,10 +52,13 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo& info,
                         btManifoldResult* result) override {
     PointGroups& groups = state_->groups;
+    if (state_->watch.changed(*a->getCollisionShape(), *b->getCollisionShape())) groups.clear(), state_->others.reset();
     result->setPersistentManifold(&groups.first());
     const btCollisionObjectWrapper &body = state_->body_is_a ? *a : *b, &surface = state_->body_is_a ? *b : *a;
     if (!is_ours(body, surface)) {
-      others(*a, *b)->processCollision(a, b, info, result);
+      groups.clear();
+      if (!state_->others) state_->others = std::make_unique<OthersAlgorithm>(create_, *m_dispatcher, groups.shared(), *a, *b);
+      (*state_->others)->processCollision(a, b, info, result);
       return;
     }
     state_->others.reset();
@@ -79,7 +82,8 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
 
   btScalar calculateTimeOfImpact(btCollisionObject* a, btCollisionObject* b, const btDispatcherInfo& info,
                                  btManifoldResult* result) override {
-    return others(wrapped(*a), wrapped(*b))->calculateTimeOfImpact(a, b, info, result);
+    return OthersAlgorithm(create_, *m_dispatcher, state_->groups.shared(), wrapped(*a), wrapped(*b))
+        ->calculateTimeOfImpact(a, b, info, result);
   }
 
   void getAllContactManifolds(btManifoldArray& manifolds) override {
@@ -95,11 +99,12 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
 
     const bool body_is_a;
     Solid solid;
+    Watch watch;
     PointGroups groups;
     TrianglePair pair;
     std::vector<PointIds> ids;
     Enclosed enclosed;
-    std::unique_ptr<OthersAlgorithm> others;
+    std::unique_ptr<OthersAlgorithm> others;  ///< for as long as the pair is not ours
   };
 
   /// Whether the body still is what it was, and both poses are rigid motions.
@@ -109,14 +114,6 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
     if (!state_->solid.is_current(*body.getCollisionShape())) return false;
     const Placed point{Body::point(Vec3::Zero()), pose_of(surface.getWorldTransform())};
     return !std::isnan(tolerance(state_->solid.placed(body), point));
-  }
-
-  /// Bullet's algorithm for meshes has a manifold of its own, hence it stays as long as it is wanted.
-  OthersAlgorithm& others(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
-    state_->groups.clear();
-    if (!state_->others)
-      state_->others = std::make_unique<OthersAlgorithm>(create_, *m_dispatcher, state_->groups.shared(), a, b);
-    return *state_->others;
   }
 
   /// Of a body that was inside a solid when both met, and still is.

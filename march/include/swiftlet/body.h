@@ -44,6 +44,8 @@ class Body {
   const Model* model() const { return model_; }  ///< null for a primitive
   /// Point `i` of a primitive: p, q, r in this order, or a box's smallest (0) and largest (1) corner. NaN for any other `i`.
   Vec3 corner(int i) const;
+  /// True if both are made of the same numbers, or borrow the same model.
+  bool operator==(const Body&) const = default;
 
  private:
   Body(BodyKind kind, double radius) : radius_(radius), kind_(kind) {}

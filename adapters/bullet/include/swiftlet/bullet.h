@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // swiftlet in Bullet: shapes that hold a model or a mesh, and their pairs in both tables of a dispatcher. In the precision of
-// the Bullet it is compiled with: single as swiftlet::bullet, double as swiftlet::bullet_float64.
+// the Bullet it is compiled with: CMake's target is swiftlet::bullet for single, swiftlet::bullet_float64 for double.
 #pragma once
 
 #include <memory>
