@@ -69,20 +69,27 @@ btScalar area(const Places& p, int count, const btVector3& n) {
 }
 
 /// Hands each point to Bullet again, which gives it the frictions of this step, calls back and keeps its impulses; but as a
-/// place on both bodies it stays.
+/// place on both bodies it stays. Bullet takes a point for the one whose place on A is nearest: that of all others is far away
+/// meanwhile, since points that have slid may be nearer to another's place than to their own.
 void keep(const Held& held, btManifoldResult& result) {
   btPersistentManifold& points = *result.getPersistentManifold();
+  const btTransform& a = points.getBody0()->getWorldTransform();
+  const btVector3 far(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
   const int count = points.getNumContacts();
   Places local_a, local_b;
   for (int i = 0; i < count; ++i) {
-    local_a[std::size_t(i)] = points.getContactPoint(i).m_localPointA;
+    local_a[std::size_t(i)] = std::exchange(points.getContactPoint(i).m_localPointA, far);
     local_b[std::size_t(i)] = points.getContactPoint(i).m_localPointB;
   }
   for (int i = 0; i < count; ++i) {
-    const btManifoldPoint& p = points.getContactPoint(i);
+    const btVector3 &normal = held.normal[std::size_t(i)], &on_b = held.on_b[std::size_t(i)];
+    const btScalar distance = held.distance[std::size_t(i)];
+    btManifoldPoint& p = points.getContactPoint(i);
+    p.m_localPointA = a.invXform(on_b + normal * distance);
     result.setShapeIdentifiersA(p.m_partId0, p.m_index0);
     result.setShapeIdentifiersB(p.m_partId1, p.m_index1);
-    result.addContactPoint(held.normal[std::size_t(i)], held.on_b[std::size_t(i)], held.distance[std::size_t(i)]);
+    result.addContactPoint(normal, on_b, distance);
+    p.m_localPointA = far;
   }
   for (int i = 0; i < count; ++i) {
     points.getContactPoint(i).m_localPointA = local_a[std::size_t(i)];
