@@ -52,8 +52,11 @@ bool from_walk(const PairView& pair, const Walk& walk, const MarchRule& rule, do
     depth = meeting.depth;
     ++r.steps;
   }
-  const bool apart = r.status == MarchStatus::Disjoint || r.status == MarchStatus::Touching;
-  const bool straightened = apart && leans(pair, c) && straighten(pair, c, r.plane_tests);
+  const bool apart = r.status == MarchStatus::Disjoint || r.status == MarchStatus::Touching || r.status == MarchStatus::Beyond;
+  Certificate straight = c;
+  const bool straightened = apart && leans(pair, c) && straighten(pair, straight, r.plane_tests) &&
+                            (r.status != MarchStatus::Beyond || straight.lower > stop.above);
+  if (straightened) c = straight;
   if (progressed || straightened) name_features(pair, c, r);
   r.lower = c.lower;
   r.upper = max(c.upper, c.lower);
