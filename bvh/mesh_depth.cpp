@@ -368,6 +368,7 @@ class Depth {
   Depth depth(a, b, b_in_a, options.budget.steps - std::min(options.budget.steps, spent));
   Way way = depth.way_out(answer, seed);
   const double asked = tolerance(a, b, b_in_a);
+  const Vec3 nearest = answer.normal;  // from point_a to point_b
   const auto bound = [&] {
     Vec3 at = answer.point_a;
     const double upper = depth.least_upper(way, answer, seed, at);
@@ -376,7 +377,10 @@ class Depth {
       if (upper < 0) answer.point_a = answer.point_b = at;
     }
     if (answer.upper < 0) answer.verdict = Verdict::Overlapping;
-    answer.lower = min(-way.length, answer.upper), answer.normal = eigen(way.n);
+    answer.lower = min(-way.length, answer.upper);
+    const bool apart = answer.lower > 0;  // which the distance, being loose or cut short, did not show
+    answer.normal = apart ? nearest : eigen(way.n);
+    if (apart && answer.verdict == Verdict::Undecided) answer.verdict = Verdict::Disjoint;
     return answer.upper - answer.lower <= max(max(options.absolute, options.relative * -answer.upper), asked);
   };
   bool narrow = bound();

@@ -289,7 +289,8 @@ Within within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double t
   ask(a, b, b_in_a, seed, effort.budget, {0, 0, threshold, threshold}, result.answer);
   decide(result, threshold);
   // The search ended at the first pair that is near enough, whichever that was.
-  if (result.decision == Decision::Yes) result.answer.verdict = Verdict::Undecided, result.answer.lower = 0;
+  if (result.decision == Decision::Yes && result.answer.verdict != Verdict::Overlapping)
+    result.answer.verdict = Verdict::Undecided, result.answer.lower = 0;
   return result;
 }
 Within within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double threshold, const Effort& effort) {
