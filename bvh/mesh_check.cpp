@@ -13,9 +13,11 @@
 
 #include <swiftlet/depth.h>
 
+#include "body/half_edge.h"
 #include "body/shape.h"
 #include "inside.h"
 #include "mesh_block.h"
+#include "query/radii.h"
 #include "search.h"
 #include "weld.h"
 
@@ -41,8 +43,11 @@ struct Parts {
     if (id.kind() == FeatureKind::Edge) return Body::segment(at(c[i % 3]), at(c[(i + 1) % 3]));
     return Body::triangle(at(c[0]), at(c[1]), at(c[2]));
   }
-  bool names(FeatureId id) const {
-    if (!of.mesh()) return true;
+  bool names(FeatureId id, int level) const {
+    if (!of.mesh()) {
+      const ShapeOf shape(of.convex());
+      return level >= 0 && level < (*shape).level_count() && names_feature((*shape).level(level).view, id);
+    }
     const std::size_t triangles = of.mesh()->triangle_count();
     return id.kind() == FeatureKind::Vertex ? id.index() < of.mesh()->vertex_count()
            : id.kind() == FeatureKind::Edge ? id.index() < 3 * triangles
@@ -88,6 +93,8 @@ struct Parts {
   const MeshBody& of;
   std::size_t count;
 };
+
+bool unknown(const Vec3& v) { return std::isnan(v[0]) && std::isnan(v[1]) && std::isnan(v[2]); }
 
 /// Whether the bodies overlap beyond doubt.
 bool meet(const Parts& a, const Parts& b, const Pose& b_in_a) {
@@ -138,6 +145,10 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
   for (const MeshBody* body : {&a, &b}) {
     if (body->mesh() && !body->mesh()->is_whole()) return fail("the triangles of a mesh that was cut are not there");
   }
+  if (Radii(answer) != Radii(a.radius(), b.radius())) return fail("the answer is of other radii");
+  const bool has_normal = !unknown(answer.normal), has_points = !unknown(answer.point_a) || !unknown(answer.point_b);
+  if (has_normal && !(std::fabs(answer.normal.norm() - 1) <= 1e-15)) return fail("the normal is no unit vector");
+  if (has_points && !(answer.point_a.allFinite() && answer.point_b.allFinite())) return fail("a point is no point");
   const Parts of_a(a), of_b(b);
   if (answer.is_signed && !(answer.lower > 0)) {
     if (const std::string fault = depth_fault(of_a, of_b, b_in_a, answer, law_two); !fault.empty()) return fail(fault);
@@ -163,15 +174,21 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
   if (answer.verdict == Verdict::Overlapping && !(upper <= law_two)) return fail("Overlapping, ", lower, " apart");
   if (answer.verdict == Verdict::Touching && !(lower <= law_two)) return fail("Touching, ", lower, " apart");
   if (answer.verdict != Verdict::Overlapping && answer.upper < HUGE_VAL) {
-    if (!of_a.names(answer.feature_a) || !of_b.names(answer.feature_b)) return fail("a feature that does not exist");
+    if (!of_a.names(answer.feature_a, answer.level_a) || !of_b.names(answer.feature_b, answer.level_b))
+      return fail("a feature that does not exist");
     const Body points[] = {Body::point(answer.point_a, answer.radius_a), Body::point(answer.point_b, answer.radius_b)};
-    if (const double off = distance(of_a.feature(answer.feature_a), points[0], {}).lower; off > law_two)
+    if (const double off = distance(of_a.feature(answer.feature_a), points[0], {}).lower; !(off <= law_two))
       return fail("point_a is ", off, " off its feature");
     const Answer far = distance(points[1], of_b.feature(answer.feature_b), b_in_a);
-    if (far.lower > law_two) return fail("point_b is ", far.lower, " off its feature");
-    const double length = (answer.point_b - answer.point_a).norm();
-    if (std::fabs(length - answer.upper) > law_two + answer.upper - answer.lower)
-      return fail("the points are ", length, " apart, upper is ", answer.upper);
+    if (!(far.lower <= law_two)) return fail("point_b is ", far.lower, " off its feature");
+    const Vec3 between = answer.point_b - answer.point_a;
+    if (!(std::fabs(between.norm() - answer.upper) <= law_two + answer.upper - answer.lower))
+      return fail("the points are ", between.norm(), " apart, upper is ", answer.upper);
+    // A loose interval may come with the normal of a plane that parts two parts, of which the points are not the nearest.
+    const Vec3 aside = between - between.norm() * answer.normal;
+    const bool exact = answer.upper - answer.lower <= law_two;
+    if (answer.lower > law_two && !(exact ? aside.norm() <= law_two : between.dot(answer.normal) > 0))
+      return fail("the normal does not lead from point_a to point_b");
   }
   return {true, ""};
 }

@@ -7,6 +7,7 @@
 
 #include <swiftlet/check.h>
 
+#include "body/half_edge.h"
 #include "body/shape.h"
 #include "make/surface.h"
 #include "numeric/exact.h"
@@ -72,10 +73,58 @@ static inline Wide facet_normal(const Motion& m, const Vertex& a, const Vertex& 
   return exact::turned_normal(m, &a.x, &b.x, &c.x);
 }
 
-/// Returns true if `p` is at most `slack` above the plane of every face of the body moved by `m`.
+/// Returns the distance of `p` from the segment that leads from `q` along `way`.
+static inline double from_segment(const Wide& p, const Wide& q, const Wide& way) {
+  const Wide d = p - q;
+  const DoubleDouble square = dot(way, way), share = square.high > 0 ? dot(d, way) / square : 0;
+  return norm(rounded(share > 1 ? d - way : share > 0 ? d - way * share : d));
+}
+
+/// Returns the distance of `p` from the exact facet left of the half-edge `first`, moved by `m`: from its edges or, over its
+/// inside, from its plane.
+static inline double from_facet(const ConvexView& view, const Motion& m, std::uint32_t first, const Wide& p) {
+  const auto head = [&](std::uint32_t h) { return view.vertices[view.half_edges[h].head]; };
+  const auto tail = [&](std::uint32_t h) { return view.vertices[origin(view, h)]; };
+  const Wide normal = facet_normal(m, tail(first), head(first), head(next_in_facet(view, first)));
+  double least = std::numeric_limits<double>::infinity();
+  bool inside = true;
+  std::uint32_t h = first;
+  do {
+    const Wide way = rotated(m, head(h), tail(h)), from = wide(m, vec(tail(h)));
+    least = min(least, from_segment(p, from, way));
+    inside = inside && !(dot(cross(normal, way), p - from) < 0);
+    h = next_in_facet(view, h);
+  } while (h != first);
+  if (!inside) return least;
+  return min(least, std::fabs(double(dot(normal, p - wide(m, vec(tail(first)))))) / norm(rounded(normal)));
+}
+
+/// Returns the distance of `p` from a feature, moved by `m`. The arithmetic is off by less than `kDoubleDoubleError` of all
+/// lengths, far less than law 2's bound.
+static inline double from_feature(const ConvexView& view, const Motion& m, FeatureId feature, const Vec& p) {
+  const std::uint32_t i = feature.index();
+  if (feature.kind() == FeatureKind::Vertex) return norm(rounded(wide(p) - wide(m, vec(view.vertices[i]))));
+  if (feature.kind() == FeatureKind::Edge) {
+    const Vertex &tail = view.vertices[origin(view, i)], &head = view.vertices[view.half_edges[i].head];
+    return from_segment(wide(p), wide(m, vec(tail)), rotated(m, head, tail));
+  }
+  double least = std::numeric_limits<double>::infinity();  // of the facets of a face
+  for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
+    if (view.half_edges[h].face == i && is_first_in_facet(view, h)) least = min(least, from_facet(view, m, h, wide(p)));
+  }
+  return least;
+}
+
+/// Returns true if `p` is at most `slack` away from a body without volume, moved by `m`, or at most `slack` above the plane of
+/// every face of another.
 static inline bool holds(const ConvexView& view, const Motion& m, const Vec& p, double slack) {
-  if (view.face_first.empty() || view.vertices.size() < 4)
-    return true;  // points, segments, triangles: `lower` checks the distance to them
+  // A polygon of n sides has 2 n half-edges, a polyhedron three or more for each vertex.
+  if (view.half_edges.size() <= 2 * view.vertices.size()) {
+    const FeatureKind all = !view.face_first.empty()   ? FeatureKind::Face
+                            : !view.half_edges.empty() ? FeatureKind::Edge
+                                                       : FeatureKind::Vertex;
+    return from_feature(view, m, {all, 0}, p) <= slack;
+  }
   const double outward = dot(m.row_x, cross(m.row_y, m.row_z)) < 0 ? -1 : 1;  // a reflection turns normals inwards
   const double reach = norm(p) + view.extent + norm(m.t);
   bool inside = true;
@@ -113,9 +162,17 @@ struct Checked {
   /// above 0.
   Check interval_holds() const;
   DoubleDouble of_hulls(double bound) const { return DoubleDouble(bound) + at.radii.a() + at.radii.b(); }
+  /// Checks that the normal is unit or unknown, that both points are finite or both unknown, and that both features exist or
+  /// none is named. A `lower` above 0 with a finite `upper` needs points.
+  Check members_hold() const;
   /// Returns true if the answer has both points.
   bool knows_points() const { return !answer.point_a.hasNaN() && !answer.point_b.hasNaN(); }
   Check points_lie_in_their_levels() const;
+  /// Checks points of an interval that is within law 2's bound for the hulls: those of hulls that are apart must lie on the
+  /// features, and all must differ by the signed distance along the normal. Between two vertices, which leave the points no
+  /// choice, the normal may lean by as much as `lower` allows: a threshold question ends at any two that prove enough. So may a
+  /// query that its budget ended.
+  Check points_are_nearest() const;
   /// Checks that the hulls overlap: by the vertices of `proof`, or because no plane separates them.
   Check hulls_overlap(const OverlapProof* proof) const;
   /// Returns a lower bound on the depth of the exact hulls, negative where they are apart: the depth of the finest levels less
@@ -130,7 +187,7 @@ struct Checked {
   const Answer& answer;
   double stretch = 1, radii = 0;
   Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};  ///< of the hulls; the normal is 0 if unknown
-  double touching = 0;                                      ///< law 2's bound for the bodies
+  double touching = 0, narrow = 0;                          ///< law 2's bound for the bodies, and without their radii
   double slack = 0;      ///< the larger of `touching` and law 2's bound for the answer's levels
   double magnitude = 0;  ///< PairView::magnitude of the finest levels
   double deviation = 0;  ///< of the answer's levels: A's plus `stretch` times B's

@@ -56,7 +56,7 @@ Checked::Checked(const Body& of_a, const Body& of_b, const Pose& b_in_a, const A
   radii = at.radii.sum();
   if (!of.normal.hasNaN()) normal = vec(of.normal);
   point_a = vec(of.point_a) - normal * at.radii.a(), point_b = vec(of.point_b) + normal * at.radii.b();
-  touching = at.law_two();
+  touching = at.law_two(), narrow = Radii(0, 0).law_two(a, b, at.motion, error);
   slack = max(pair_view(level_a.view, level_b.view, at.motion, error).law_two, touching);
   magnitude = pair_view(a.level(a.finest_level()).view, b.level(b.finest_level()).view, at.motion, error).magnitude;
   deviation = level_a.deviation + stretch * level_b.deviation;
@@ -84,6 +84,43 @@ Check Checked::interval_holds() const {
       return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap - radii);
   }
   return kPassed;
+}
+
+Check Checked::members_hold() const {
+  const auto is_known = [](const Vec3& v) { return v.allFinite(); };
+  const auto is_unknown = [](const Vec3& v) { return std::isnan(v[0]) && std::isnan(v[1]) && std::isnan(v[2]); };
+  const Vec3 &p = answer.point_a, &q = answer.point_b, &n = answer.normal;
+  if (!is_unknown(n)) {
+    const Wide unit = wide(vec(n));
+    if (!(std::fabs(double(dot(unit, unit) - 1.0)) <= kUnitError)) return failed("the normal's length is %.17g", n.norm());
+  }
+  if (!(is_known(p) && is_known(q)) && !(is_unknown(p) && is_unknown(q))) return failed("a point is no point");
+  if (answer.lower > 0 && std::isfinite(answer.upper) && !is_known(p)) return failed("disjoint without points");
+  const auto named = [](const Shape& body, int level, FeatureId feature) {
+    return names_feature(body.level(level).view, feature);
+  };
+  const bool none = answer.feature_a == FeatureId{} && answer.feature_b == FeatureId{};
+  return none || (named(a, answer.level_a, answer.feature_a) && named(b, answer.level_b, answer.feature_b))
+             ? kPassed
+             : failed("a feature that is not there");
+}
+
+Check Checked::points_are_nearest() const {
+  if (!(std::isfinite(answer.lower) && answer.upper - answer.lower <= narrow) || answer.status == Status::Budget)
+    return kPassed;
+  const bool apart = answer.lower > 0 || (answer.is_signed && double(of_hulls(answer.lower)) > 0);
+  if (apart && answer.feature_a == FeatureId{}) return failed("nearest points without features");
+  if (apart) {
+    const double off_a = from_feature(a.level(answer.level_a).view, kAtRest, answer.feature_a, point_a),
+                 off_b = from_feature(b.level(answer.level_b).view, at.motion, answer.feature_b, point_b);
+    if (!(off_a <= slack)) return failed("point_a is %.17g off its feature", off_a);
+    if (!(off_b <= slack)) return failed("point_b is %.17g off its feature", off_b);
+    if (answer.feature_a.kind() == FeatureKind::Vertex && answer.feature_b.kind() == FeatureKind::Vertex) return kPassed;
+  }
+  const Wide n = wide(normal), between = wide(vec(answer.point_b)) - wide(vec(answer.point_a));
+  const double along = std::clamp(double(dot(between, n)), answer.lower, answer.upper);
+  const double aside = norm(rounded(between - n * DoubleDouble(along)));
+  return aside <= slack + deviation ? kPassed : failed("the points are %.17g off the signed distance along the normal", aside);
 }
 
 Check Checked::points_lie_in_their_levels() const {
@@ -133,6 +170,9 @@ Check check_distance(const Checked& of, const OverlapProof* proof) {
   if (std::isfinite(answer.upper) && !(between && of.knows_points()) && answer.verdict != Verdict::Overlapping &&
       !of.is_near(answer.upper))
     return failed("upper is %.17g, and nothing proves it", answer.upper);
+  if (!answer.is_signed && (answer.verdict == Verdict::Disjoint || answer.verdict == Verdict::Touching)) {
+    if (const Check nearest = of.points_are_nearest(); !nearest) return nearest;
+  }
   switch (answer.verdict) {
     case Verdict::Disjoint: return answer.lower > 0 ? kPassed : failed("disjoint without a lower bound");
     case Verdict::Touching:
@@ -149,6 +189,7 @@ Check check_distance(const Checked& of, const OverlapProof* proof) {
 Check check(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const OverlapProof* proof) {
   const Checked of(a, b, b_in_a, answer);
   if (Check interval = of.interval_holds(); !interval || of.at.fault() != Status::Converged) return interval;
+  if (Check members = of.members_hold(); !members) return members;
   return answer.is_signed ? check_signed(of, proof) : check_distance(of, proof);
 }
 

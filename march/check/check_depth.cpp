@@ -231,12 +231,8 @@ Check check_signed(const Checked& of, const OverlapProof* proof) {
       return failed("lower is %.17g, but the gap along the normal is %.17g", answer.lower, gap - of.radii);
     if (std::isfinite(answer.upper) && !(double(of.of_hulls(answer.upper) - gap) >= -error))
       return failed("upper is %.17g, but the gap along the normal is %.17g", answer.upper, gap - of.radii);
-    if (answer.upper - answer.lower <= of.touching && answer.verdict != Verdict::Undecided) {
-      const Wide between = wide(vec(answer.point_b)) - wide(vec(answer.point_a));
-      const double along = std::clamp(double(dot(between, wide(n))), answer.lower, answer.upper);
-      const double aside = norm(rounded(between - wide(n) * DoubleDouble(along)));
-      if (!(aside <= of.slack + of.deviation))
-        return failed("the points are %.17g off the signed distance along the normal", aside);
+    if (answer.verdict != Verdict::Undecided) {
+      if (const Check nearest = of.points_are_nearest(); !nearest) return nearest;
     }
   }
   if (answer.lower > 0) return check_distance(of, proof);

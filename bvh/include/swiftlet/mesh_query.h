@@ -57,7 +57,8 @@ Answer intersects(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, Mesh
 Answer intersects(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Effort& effort = {});
 
 /// Decides whether the distance is at most `threshold` (>= 0). Ends at the first pair of triangles that decides it; of a Yes
-/// the verdict is Undecided and `lower` is 0, since whether the bodies meet was not asked.
+/// `lower` is 0, and the verdict is Overlapping if that pair proves it, by crossing or by the radii, else Undecided: whether
+/// the bodies meet was not asked.
 Within within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double threshold, MeshSeed& seed,
               const Effort& effort = {});
 /// Decides from a cold start whether the distance is at most `threshold` (>= 0).
@@ -95,9 +96,11 @@ Within signed_within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, d
 double tolerance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a);
 
 /// Recomputes what `answer` claims by brute force over all pairs of triangles, each by a query of the atomic kernel, without
-/// the trees: bounds and verdict must agree with the least distance, and each point must lie on its feature. Of solids a corner
-/// of every triangle is looked for inside the other, by a ray through all triangles. Cost: about 1 microsecond for each pair of
-/// triangles.
+/// the trees: bounds and verdict must agree with the least distance. Radii must be the bodies', the normal unit and both points
+/// numbers, or NaN. Of bodies that do not overlap, if `upper` is finite, features must exist, each point must lie on its
+/// feature and the points be as far apart as the interval says; if `lower` is above law 2's bound, the normal must lead from
+/// `point_a` to `point_b`. Of solids a corner of every triangle is looked for inside the other, by a ray through all triangles.
+/// Cost: about 1 microsecond for each pair of triangles.
 Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answer& answer);
 
 /// Proves that the box of every node holds its triangles, that axes are unit and at right angles, that each triangle is in the

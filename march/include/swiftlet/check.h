@@ -22,10 +22,18 @@ struct Check {
 /// deviations, the verdict with both. An overlap of the hulls is decided exactly: by the vertices of `proof`, which is what
 /// `Tuning::proof` received, or without it by those that a march finds, or by all planes that could separate the hulls. For a
 /// signed answer, the depth of an overlapping or touching pair is recomputed: the least height of the planes that can bound the
-/// Minkowski difference, parallel to a face of A, to a face of B, or to an edge of each; exact signs tell which. Each point
-/// must lie in its body; where the interval is within law 2's bound, the points must differ by the signed distance along the
-/// normal, within that bound. Cost: linear in vertices and faces; for a signed overlap, and for one within rounding of touching
-/// without `proof`, the product of the edges, 0.2 s for 2 000 triangles each.
+/// Minkowski difference, parallel to a face of A, to a face of B, or to an edge of each; exact signs tell which.
+///
+/// The normal must be unit, and both points numbers, or all three NaN where that means nothing; features must be there on the
+/// levels named, or both be none. Each point must lie in its body's level, moved back by the radius: within law 2's bound above
+/// the plane of any face or, where a body is a point, a segment or a polygon, at most as far away. Two rules hold where the
+/// interval is within law 2's bound for the hulls, unless the status is Budget, the verdict Undecided, or an overlap unsigned,
+/// whose points nobody asked to be the nearest. Points of hulls that are apart must lie on the features within that bound. The
+/// points must differ by the signed distance along the normal, within that bound, but for two vertices, where a question of yes
+/// or no may end with a normal that leans as far as `lower` allows.
+///
+/// Cost: linear in vertices and faces; for a signed overlap, and for one within rounding of touching without `proof`, the
+/// product of the edges, 0.2 s for 2 000 triangles each.
 Check check(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const OverlapProof* proof = nullptr);
 
 /// Proves exactly that every level is convex and encloses level 0 and that no vertex is higher above a face's plane than

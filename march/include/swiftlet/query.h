@@ -121,8 +121,8 @@ struct Answer {
   bool is_signed = false;                 ///< `lower` and `upper` bound the signed distance (depth.h)
   std::uint8_t levels_visited = 0;        ///< number of level pairs visited: the records that a complete trace has
   std::int16_t level_a = 0, level_b = 0;  ///< the level pair that answered
-  FeatureId feature_a;  ///< on `level_a`, holds `point_a` on the hull; none where balls around or inside the bodies answered,
-                        ///< which visits no level pair
+  FeatureId feature_a;  ///< on `level_a`, holds `point_a` on the hull if the interval is that of an exact answer; none where
+                        ///< balls around or inside the bodies answered, a proof of an overlap that the seed kept, or a depth
   FeatureId feature_b;  ///< on `level_b`, holds `point_b` on the hull; none where `feature_a` is
   std::uint32_t steps = 0, plane_tests = 0;                           ///< work, as MarchResult counts it, over all levels
   double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved bounds on the distance of the bodies
@@ -130,8 +130,8 @@ struct Answer {
   /// them. NaN where no such direction is known, for example for an overlap of hulls whose depth was not asked for.
   Vec3 normal = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   /// The witness point of A: its point nearest to B, or deepest inside B, on `level_a`, moved by A's radius along the normal.
-  /// point_b - point_a is the signed distance times the normal. For an overlap of hulls whose depth was not asked for, it is
-  /// any point that lies in both hulls within `tolerance`, or NaN if 106-bit arithmetic finds none.
+  /// Of an exact answer point_b - point_a is the signed distance times the normal. For an overlap of hulls whose depth was not
+  /// asked for, it is any point that lies in both hulls within `tolerance`, or NaN if 106-bit arithmetic finds none.
   Vec3 point_a = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   Vec3 point_b = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< the witness point of B
   double radius_a = 0, radius_b = 0;                                        ///< radii of the bodies asked about
