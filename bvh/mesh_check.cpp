@@ -49,6 +49,7 @@ struct Parts {
       return level >= 0 && level < (*shape).level_count() && names_feature((*shape).level(level).view, id);
     }
     const std::size_t triangles = of.mesh()->triangle_count();
+    if (level != 0) return false;
     return id.kind() == FeatureKind::Vertex ? id.index() < of.mesh()->vertex_count()
            : id.kind() == FeatureKind::Edge ? id.index() < 3 * triangles
                                             : id.kind() == FeatureKind::Face && id.index() < triangles;
@@ -145,6 +146,7 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
   for (const MeshBody* body : {&a, &b}) {
     if (body->mesh() && !body->mesh()->is_whole()) return fail("the triangles of a mesh that was cut are not there");
   }
+  if (!(answer.upper >= answer.lower)) return fail("[", answer.lower, ", ", answer.upper, "] is no interval");
   if (Radii(answer) != Radii(a.radius(), b.radius())) return fail("the answer is of other radii");
   const bool has_normal = !unknown(answer.normal), has_points = !unknown(answer.point_a) || !unknown(answer.point_b);
   if (has_normal && !(std::fabs(answer.normal.norm() - 1) <= 1e-15)) return fail("the normal is no unit vector");

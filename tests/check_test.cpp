@@ -19,6 +19,7 @@
 #include <swiftlet/check.h>
 #include <swiftlet/depth.h>
 
+#include "forgeries.h"
 #include "oracle.h"
 #include "shapes.h"
 
@@ -468,6 +469,80 @@ TEST(Check, KnowsPrimitives) {
     }
   }
   EXPECT_GE(std::min(overlapping, apart), 300);
+}
+
+/// Every pair of kinds of bodies, sharp and rounded, apart and, signed, deep in each other.
+TEST(Check, RefusesAForgeryOfAnyMember) {
+  shapes::Random random(15);
+  const Polyhedron hull = body(shapes::random_polytope(30, 2));
+  int apart = 0, deep = 0;
+  for (int i = 0; i < 8; ++i) {
+    const double radius = i % 2 ? random.uniform(0.1, 0.3) : 0;
+    const auto p = [&] { return random.in_ball(); };
+    const Vec3 corner = p();
+    const std::vector<Body> bodies{Body::point(p(), radius),
+                                   Body::segment(p(), p(), radius),
+                                   Body::triangle(p(), p(), p(), radius),
+                                   Body::box(corner, corner + Vec3(1, 0, 1), radius),
+                                   Body::box(corner, corner + Vec3(1, 0.5, 1), radius),
+                                   {hull.model, radius}};
+    for (const Body& a : bodies) {
+      for (const Body& b : bodies) {
+        for (const double away : {4.0, 0.1}) {
+          const Pose pose{random.rotation(), random.on_sphere() * away};
+          const double off = 8 * tolerance(a, b, pose);
+          for (const Answer& s : {distance(a, b, pose), signed_distance(a, b, pose), closest_features(a, b, pose).answer}) {
+            ASSERT_EQ(check(a, b, pose, s).message, "");
+            const bool is_deep = s.is_signed && s.upper < -0.01;
+            if (!(s.lower > 0.01) && !is_deep) continue;
+            (is_deep ? deep : apart) += 1;
+            for (const auto& [what, forge] : forgeries::kForgeries) {
+              Answer wrong = s;
+              forge(wrong, off);
+              EXPECT_NE(check(a, b, pose, wrong).message, "")
+                  << what << " of " << int(a.kind()) << ", " << int(b.kind()) << ", " << s.lower << " apart";
+            }
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GE(apart, 800);
+  EXPECT_GE(deep, 60);
+}
+
+/// A question of yes or no ends with whatever points prove enough, and a coarse level with points of its own.
+TEST(Check, AcceptsWhateverEndsEarly) {
+  shapes::Random random(16);
+  const shapes::Pair fat = shapes::pair(shapes::Family::Fat, 300), plate = shapes::pair(shapes::Family::Plate, 300);
+  const Polyhedron hull = body(fat.a), other = body(plate.a);
+  for (int i = 0; i < 1500; ++i) {
+    const auto p = [&] { return random.in_ball(); };
+    const double radius = i % 3 == 0 ? std::pow(10, random.uniform(-3, 7)) : i % 3 == 1 ? random.uniform(0, 0.3) : 0;
+    const std::vector<Body> bodies{
+        {hull.model, radius}, {other.model}, Body::segment(p(), p(), radius), Body::box(-Vec3::Ones(), Vec3::Ones())};
+    const Body &a = bodies[random.bits() % 4], &b = bodies[random.bits() % 4];
+    Pose pose{random.rotation(),
+              random.on_sphere() * (random.uniform(0, 4) + (a.radius() + b.radius()) * random.uniform(0.99, 1.01))};
+    if (i % 2) pose.rotation = pose.rotation.cast<float>().cast<double>();
+    const double threshold = std::pow(10, random.uniform(-6, 0));
+    PairSeed seed;
+    distance(a, b, {pose.rotation, 1.01 * pose.translation}, seed);
+    const Budget budget{.steps = std::uint32_t(random.bits() % 20), .finest_level = int(random.bits() % 3)};
+    const Answer answers[] = {intersects(a, b, pose, seed),
+                              within(a, b, pose, threshold, seed).answer,
+                              signed_within(a, b, pose, threshold, seed).answer,
+                              signed_within(a, b, pose, -threshold, seed).answer,
+                              distance(a, b, pose, seed, {.beyond = threshold}),
+                              distance(a, b, pose, seed, {.relative = 0.3}),
+                              distance(a, b, pose, seed, {.budget = budget}),
+                              signed_distance(a, b, pose, seed, {.absolute = threshold}),
+                              signed_distance(a, b, pose, seed, {.budget = budget})};
+    for (const Answer& s : answers) {
+      ASSERT_EQ(check(a, b, pose, s).message, "") << i;
+      ASSERT_EQ(check(a, b, pose, refine(a, b, pose, s, seed)).message, "") << i;
+    }
+  }
 }
 
 }  // namespace

@@ -25,6 +25,7 @@
 
 #include "counted_allocations.h"
 #include "folder.h"
+#include "forgeries.h"
 #include "mesh_blocks.h"
 #include "numeric/width.h"
 #include "soups.h"
@@ -644,6 +645,59 @@ TEST(MeshLaw2, CheckAgreesAndFindsOutWhatIsFalse) {
     ASSERT_TRUE(found_out([](Answer& w) { w.point_b += 1e-3 * w.normal; }));
     ASSERT_TRUE(found_out([](Answer& w) { w.feature_a = FeatureId(FeatureKind::Face, 1 << 29); }));
   });
+}
+
+TEST(MeshLaw2, CheckRefusesAForgeryOfAnyMember) {
+  Random random(23);
+  int forged = 0;
+  for (int i = 0; i < 60; ++i) {
+    const auto p = [&] { return Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)); };
+    const double radius = i % 2 ? random.uniform(0.1, 0.3) : 0;
+    const MeshModel mesh = scattered(random, 6, 0.5).mesh(), other = ball(1).mesh();
+    const MeshBody bodies[] = {{mesh, radius},
+                               MeshBody::solid(other, radius),
+                               Body::point(p(), radius),
+                               Body::segment(p(), p(), radius),
+                               Body::triangle(p(), p(), p(), radius),
+                               Body::box(-Vec3::Ones(), Vec3::Ones(), radius)};
+    for (const MeshBody& b : bodies) {
+      const MeshBody& a = bodies[i % 4 / 2];
+      const Pose pose = any_pose(random, 6);
+      for (const Answer& s : {distance(a, b, pose), signed_distance(a, b, pose), closest_features(a, b, pose).answer}) {
+        const Check checked = check(a, b, pose, s);
+        ASSERT_TRUE(checked) << checked.message;
+        if (!(s.lower > 0.01)) continue;
+        ++forged;
+        for (const auto& [what, forge] : forgeries::kForgeries) {
+          Answer wrong = s;
+          forge(wrong, 8 * tolerance(a, b, pose));
+          EXPECT_FALSE(check(a, b, pose, wrong)) << what << ' ' << i;
+        }
+      }
+    }
+  }
+  EXPECT_GE(forged, 300);
+}
+
+/// Bodies that meet by their radii alone: `within` says so, as of convex bodies, and check agrees.
+TEST(MeshLaw2, WithinSaysThatRadiiOverlap) {
+  const MeshModel cube = box({0, 0, 0}, {1, 1, 1}).mesh();
+  for (const double gap : {0.05, 0.15}) {
+    const Body convex = Body::box({0, 0, 0}, {1, 1, 1}, 0.1);
+    const MeshBody round(cube, 0.1);
+    const Pose pose{Mat3::Identity(), {1 + gap, 0.3, 0.2}};
+    for (const double threshold : {0.0, 0.02, 0.05, 0.5}) {
+      const Within of_meshes = within(round, round, pose, threshold), of_bodies = within(convex, convex, pose, threshold);
+      EXPECT_EQ(of_meshes.decision, of_bodies.decision);
+      if (threshold < 0.5) {  // the first pair that is so near proves less
+        EXPECT_EQ(of_meshes.answer.verdict, of_bodies.answer.verdict) << gap << ' ' << threshold;
+      }
+      for (const Answer& s : {of_meshes.answer, signed_within(round, round, pose, threshold).answer}) {
+        const Check checked = check(round, round, pose, s);
+        EXPECT_TRUE(checked) << gap << ' ' << threshold << ": " << checked.message;
+      }
+    }
+  }
 }
 
 TEST(MeshLaw2, ARelativeToleranceIsReachedHoweverLargeTheRadii) {

@@ -262,7 +262,7 @@ Check check_signed(const Checked& of, const OverlapProof* proof) {
     if (const Check overlap = of.hulls_overlap(nullptr); !overlap) return overlap;
   }
   if (answer.verdict == Verdict::Touching) {
-    if (!(answer.upper <= of.touching)) return failed("touching with an upper bound of %.17g", answer.upper);
+    if (!(std::fabs(answer.upper) <= of.touching)) return failed("touching with an upper bound of %.17g", answer.upper);
     if (answer.lower < -of.touching && depth().high < kInfinity && !(double(depth() + of.radii) <= of.touching + doubt))
       return failed("touching, but the depth is %.17g", double(depth()) + of.radii);
   }
