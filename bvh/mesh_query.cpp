@@ -288,9 +288,10 @@ Within within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double t
     return result;
   ask(a, b, b_in_a, seed, effort.budget, {0, 0, threshold, threshold}, result.answer);
   decide(result, threshold);
-  // The search ended at the first pair that is near enough, whichever that was.
-  if (result.decision == Decision::Yes && result.answer.verdict != Verdict::Overlapping)
-    result.answer.verdict = Verdict::Undecided, result.answer.lower = 0;
+  // The search ended at the first pair that is near enough, whichever that was. Its points may overlap by the radii, which an
+  // interval from 0 on says by the verdict alone.
+  const bool by_radii = result.answer.verdict == Verdict::Overlapping && a.radius() + b.radius() > 0;
+  if (result.decision == Decision::Yes && !by_radii) result.answer.verdict = Verdict::Undecided, result.answer.lower = 0;
   return result;
 }
 Within within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double threshold, const Effort& effort) {

@@ -99,8 +99,9 @@ static inline double from_facet(const ConvexView& view, const Motion& m, std::ui
   return min(least, std::fabs(double(dot(normal, p - wide(m, vec(tail(first)))))) / norm(rounded(normal)));
 }
 
-/// Returns the distance of `p` from a feature, moved by `m`. The arithmetic is off by less than `kDoubleDoubleError` of all
-/// lengths, far less than law 2's bound.
+/// Returns the distance of `p` from a feature, moved by `m`; 0 for a face of several facets, which walks take for one up to the
+/// rounding of the input, far above law 2's bound. The arithmetic is off by less than `kDoubleDoubleError` of all lengths, far
+/// less than that bound.
 static inline double from_feature(const ConvexView& view, const Motion& m, FeatureId feature, const Vec& p) {
   const std::uint32_t i = feature.index();
   if (feature.kind() == FeatureKind::Vertex) return norm(rounded(wide(p) - wide(m, vec(view.vertices[i]))));
@@ -108,11 +109,10 @@ static inline double from_feature(const ConvexView& view, const Motion& m, Featu
     const Vertex &tail = view.vertices[origin(view, i)], &head = view.vertices[view.half_edges[i].head];
     return from_segment(wide(p), wide(m, vec(tail)), rotated(m, head, tail));
   }
-  double least = std::numeric_limits<double>::infinity();  // of the facets of a face
   for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
-    if (view.half_edges[h].face == i && is_first_in_facet(view, h)) least = min(least, from_facet(view, m, h, wide(p)));
+    if (view.half_edges[h].face == i && is_diagonal(view, h)) return 0;
   }
-  return least;
+  return from_facet(view, m, view.face_first[i], wide(p));
 }
 
 /// Returns true if `p` is at most `slack` away from a body without volume, moved by `m`, or at most `slack` above the plane of

@@ -57,8 +57,8 @@ Answer intersects(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, Mesh
 Answer intersects(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Effort& effort = {});
 
 /// Decides whether the distance is at most `threshold` (>= 0). Ends at the first pair of triangles that decides it; of a Yes
-/// `lower` is 0, and the verdict is Overlapping if that pair proves it, by crossing or by the radii, else Undecided: whether
-/// the bodies meet was not asked.
+/// `lower` is 0 and the verdict is Undecided, since whether the bodies meet was not asked, or, of bodies with radii,
+/// Overlapping if that pair proves it.
 Within within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double threshold, MeshSeed& seed,
               const Effort& effort = {});
 /// Decides from a cold start whether the distance is at most `threshold` (>= 0).
