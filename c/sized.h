@@ -15,22 +15,29 @@ namespace swiftlet::c {
 
 inline constexpr std::size_t kLargestSize = 4096;  // no struct comes near: a larger size was never set
 
-[[noreturn]] inline void refuse_size(const char* name, std::size_t size, std::size_t least, std::size_t known) {
-  throw Failure{SWIFTLET_BAD_SIZE, std::string(name) + ".size is " + std::to_string(size) + ": it may be from " +
-                                       std::to_string(least) + ", and what exceeds the " + std::to_string(known) +
+template <class T>
+[[noreturn]] void refuse_size(const char* name, std::size_t size, std::size_t least) {
+  throw Failure{SWIFTLET_BAD_SIZE, std::string(name) + ".size is " + std::to_string(size) + ": it may be a multiple of " +
+                                       std::to_string(alignof(T)) + " from " + std::to_string(least) +
+                                       " up, and what exceeds the " + std::to_string(sizeof(T)) +
                                        " bytes of this library must be 0"};
 }
 
-inline bool is_size(std::size_t size, std::size_t least) { return size >= least && size <= kLargestSize && size % 4 == 0; }
+/// Every sizeof is a multiple of the alignment, and what ends at one cuts no pointer, whatever members T gets. (A double it can
+/// cut where 8 bytes are aligned to 4, as on 32-bit x86.)
+template <class T>
+bool is_size(std::size_t size, std::size_t least) {
+  return size >= least && size <= kLargestSize && size % alignof(T) == 0;
+}
 
 /// The bytes of an input of `size` bytes, over the defaults that are in `into`.
 template <class T>
 void read_bytes(const void* from, std::size_t size, std::size_t least, T& into, const char* name) {
-  if (!is_size(size, least)) refuse_size(name, size, least, sizeof(T));
+  if (!is_size<T>(size, least)) refuse_size<T>(name, size, least);
   std::memcpy(&into, from, std::min(size, sizeof(T)));
   const auto* bytes = static_cast<const unsigned char*>(from);
   for (std::size_t i = sizeof(T); i < size; ++i)
-    if (bytes[i]) refuse_size(name, size, least, sizeof(T));
+    if (bytes[i]) refuse_size<T>(name, size, least);
 }
 
 /// An input: the caller's, or `room`, which holds the defaults, with what the caller says.
@@ -45,7 +52,7 @@ const T& read(const T* from, T& room, const char* name, std::size_t least = 8) {
 /// An output that can be written. Null where it may be.
 template <class T>
 void check_output(const T* to, const char* name, std::size_t least = sizeof(T)) {
-  if (to && !is_size(to->size, least)) refuse_size(name, to->size, least, sizeof(T));
+  if (to && !is_size<T>(to->size, least)) refuse_size<T>(name, to->size, least);
 }
 
 /// Writes what `size` says of `value`, whose own size is set to that.
@@ -66,7 +73,7 @@ template <class T>
 swiftlet_code init(const T& defaults, T* to, std::size_t size, swiftlet_error* error) {
   return guard(error, [&] {
     need(to, "options");
-    if (!is_size(size, 8)) refuse_size("options", size, 8, sizeof(T));
+    if (!is_size<T>(size, 8)) refuse_size<T>("options", size, 8);
     write_bytes(defaults, size, to);
   });
 }

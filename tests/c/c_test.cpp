@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
@@ -448,6 +449,121 @@ TEST(C, OlderAndNewerCallersWork) {
   }
   answer.size = size;
   EXPECT_EQ(swiftlet_refine(&a, &b, &pose, &answer, nullptr, nullptr, &answer, nullptr), SWIFTLET_BAD_SIZE) << "it is read";
+}
+
+/// Calls `ask` with a struct of every size, followed by zeros: those that no struct of its alignment has are refused.
+template <class T>
+void only_whole_sizes(const char* type, const T& whole, std::size_t least, const std::function<swiftlet_code(T*)>& ask) {
+  struct {
+    T known;
+    std::uint64_t more[2];
+  } given{};
+  for (std::uint32_t size = 0; size <= sizeof(T) + 8; ++size) {
+    given.known = whole, given.known.size = size;
+    EXPECT_EQ(ask(&given.known) != SWIFTLET_BAD_SIZE, size >= least && size % alignof(T) == 0) << type << " of " << size;
+  }
+}
+
+TEST(C, NoSizeEndsInsideAPointer) {
+  const ModelHandle handle = handle_of(models()[0]);
+  const MeshHandle mesh = handle_of(answers::meshes()[0]);
+  const swiftlet_model* const m = handle.get();
+  const swiftlet_body a = body_of(m), b = ball(0, 0, 9, 1), touching = body_of(mesh.get());
+  const swiftlet_pose pose = plain(Pose{});
+  swiftlet_answer answer{};
+  answer.size = sizeof answer;
+  ASSERT_EQ(swiftlet_distance(&a, &b, &pose, nullptr, nullptr, &answer, Sound()), SWIFTLET_OK);
+  const swiftlet_answer exact = answer;
+  const auto points = [&](const swiftlet_answer* of, const swiftlet_manifold_options* options,
+                          const swiftlet_manifold* previous) {
+    swiftlet_manifold manifold{};
+    manifold.size = sizeof manifold;
+    return swiftlet_contact_points(&a, &b, &pose, of, options, previous, &manifold, nullptr);
+  };
+
+  // Inputs.
+  only_whole_sizes<swiftlet_body>(
+      "body", b, 8, [&](auto* is) { return swiftlet_distance(&a, is, &pose, nullptr, nullptr, &answer, nullptr); });
+  only_whole_sizes<swiftlet_options>("options", {}, 8,
+                                     [&](auto* is) { return swiftlet_distance(&a, &b, &pose, nullptr, is, &answer, nullptr); });
+  only_whole_sizes<swiftlet_effort>(
+      "effort", {}, 8, [&](auto* is) { return swiftlet_intersects(&a, &b, &pose, nullptr, is, &answer, nullptr); });
+  only_whole_sizes<swiftlet_closest_options>("closest_options", {}, 8, [&](auto* is) {
+    return swiftlet_closest_features(&a, &b, &pose, nullptr, is, &answer, nullptr, nullptr, nullptr);
+  });
+  only_whole_sizes<swiftlet_run>(
+      "run", {}, 8, [&](auto* is) { return swiftlet_distance_poses(&a, &b, &pose, 1, nullptr, is, &answer, nullptr); });
+  only_whole_sizes<swiftlet_pair>("pair", {0, 0, &a, &b, pose, nullptr}, sizeof(swiftlet_pair),
+                                  [&](auto* is) { return swiftlet_distance_pairs(is, 1, nullptr, nullptr, &answer, nullptr); });
+  only_whole_sizes<swiftlet_manifold_options>("manifold_options", {0, 4, 0, 0}, 8,
+                                              [&](auto* is) { return points(&exact, is, nullptr); });
+  only_whole_sizes<swiftlet_manifold>("previous", {}, sizeof(swiftlet_manifold),
+                                      [&](auto* is) { return points(&exact, nullptr, is); });
+  only_whole_sizes<swiftlet_answer>("answer read", exact, sizeof(swiftlet_answer),
+                                    [&](auto* is) { return points(is, nullptr, nullptr); });
+  only_whole_sizes<swiftlet_contact>("contact read", {}, sizeof(swiftlet_contact), [&](auto* is) {
+    swiftlet_manifold manifold{};
+    manifold.size = sizeof manifold;
+    return swiftlet_contact_manifold(&touching, &b, &pose, is, nullptr, nullptr, &manifold, nullptr);
+  });
+  const double corners[] = {0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2};
+  const std::uint32_t faces[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  swiftlet_level_arrays level{};
+  level.size = sizeof level, level.vertices = corners, level.vertex_count = 4;
+  level.face_vertices = faces, level.face_vertex_count = 12;
+  const auto model_of = [](const swiftlet_level_arrays* levels, const swiftlet_model_options* options) {
+    swiftlet_model* made = nullptr;
+    const swiftlet_code code = swiftlet_model_from_levels(levels, 1, options, &made, nullptr);
+    swiftlet_model_release(made);
+    return code;
+  };
+  only_whole_sizes<swiftlet_level_arrays>("level_arrays", level, offsetof(swiftlet_level_arrays, face_count),
+                                          [&](auto* is) { return model_of(is, nullptr); });
+  only_whole_sizes<swiftlet_model_options>("model_options", {}, 8, [&](auto* is) { return model_of(&level, is); });
+  only_whole_sizes<swiftlet_march_rule>("march_rule", {}, 8, [&](auto* is) {
+    swiftlet_march_result result{};
+    result.size = sizeof result;
+    return swiftlet_march(m, 0, m, 0, &pose, 0, 0, is, &result, nullptr);
+  });
+
+  // Outputs.
+  only_whole_sizes<swiftlet_answer>("answer", {}, offsetof(swiftlet_answer, normal),
+                                    [&](auto* is) { return swiftlet_distance(&a, &b, &pose, nullptr, nullptr, is, nullptr); });
+  only_whole_sizes<swiftlet_source>("source", {}, sizeof(swiftlet_source), [&](auto* is) {
+    return swiftlet_closest_features(&a, &b, &pose, nullptr, nullptr, &answer, is, nullptr, nullptr);
+  });
+  only_whole_sizes<swiftlet_manifold>("manifold", {}, sizeof(swiftlet_manifold), [&](auto* is) {
+    return swiftlet_contact_points(&a, &b, &pose, &exact, nullptr, nullptr, is, nullptr);
+  });
+  only_whole_sizes<swiftlet_contact_list>("contact_list", {}, sizeof(swiftlet_contact_list), [&](auto* is) {
+    return swiftlet_contacts(&touching, &b, &pose, 1, nullptr, nullptr, 0, is, nullptr);
+  });
+  only_whole_sizes<swiftlet_contact>("contact", {}, sizeof(swiftlet_contact), [&](auto* is) {
+    swiftlet_contact_list found{};
+    found.size = sizeof found;
+    return swiftlet_contacts(&touching, &b, &pose, 1, nullptr, is, 1, &found, nullptr);
+  });
+  only_whole_sizes<swiftlet_model_info>("model_info", {}, offsetof(swiftlet_model_info, centre),
+                                        [&](auto* is) { return swiftlet_model_get_info(m, is, nullptr); });
+  only_whole_sizes<swiftlet_mesh_info>("mesh_info", {}, offsetof(swiftlet_mesh_info, volume),
+                                       [&](auto* is) { return swiftlet_mesh_get_info(mesh.get(), is, nullptr); });
+  only_whole_sizes<swiftlet_level>("level", {}, offsetof(swiftlet_level, vertices),
+                                   [&](auto* is) { return swiftlet_model_get_level(m, 0, is, nullptr); });
+  only_whole_sizes<swiftlet_source_map>("source_map", {}, sizeof(swiftlet_source_map),
+                                        [&](auto* is) { return swiftlet_model_get_source(m, is, nullptr); });
+  only_whole_sizes<swiftlet_check_result>("check_result", {}, 16,
+                                          [&](auto* is) { return swiftlet_model_verify(m, is, nullptr); });
+  only_whole_sizes<swiftlet_march_result>("march_result", {}, offsetof(swiftlet_march_result, normal), [&](auto* is) {
+    return swiftlet_march(m, 0, m, 0, &pose, 0, 0, nullptr, is, nullptr);
+  });
+
+  // Options, by a size of their own. (swiftlet_error has no size that ends inside another member than its text.)
+  for (std::size_t size = 0; size <= sizeof(swiftlet_options) + 8; ++size) {
+    std::uint64_t room[16];
+    EXPECT_EQ(swiftlet_options_init(reinterpret_cast<swiftlet_options*>(room), size, nullptr) == SWIFTLET_OK,
+              size >= 8 && size % alignof(swiftlet_options) == 0)
+        << size;
+  }
 }
 
 /// What old callers were compiled with. A change here breaks them: SOVERSION and the version node count it.

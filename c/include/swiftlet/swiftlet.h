@@ -10,11 +10,12 @@
 /// NULL. A null pointer is an error unless its words allow it. After an error nothing is written but the error. No exception
 /// leaves the library. What bodies or a pose lack is no error but the status of an answer.
 ///
-/// Sizes. A struct whose first member is `size` may grow at its end. The caller sets `size` to what it was compiled with. An
-/// input that is shorter than the library's has the defaults in what it lacks; one that is longer is refused with
-/// SWIFTLET_BAD_SIZE unless the rest is 0 bytes. An output is written as far as `size` says; what a longer one has more is set
-/// to 0. An output shorter than its words allow is refused likewise. In arrays all elements have the first one's size; the
-/// library sets the others'. Other structs, and the values of enumerations, never change within one SOVERSION.
+/// Sizes. A struct whose first member is `size` may grow at its end. The caller sets `size` to what it was compiled with, a
+/// multiple of the struct's alignment, as sizeof always is; any other is refused with SWIFTLET_BAD_SIZE. An input that is
+/// shorter than the library's has the defaults in what it lacks; one that is longer is refused likewise unless the rest is 0
+/// bytes. An output is written as far as `size` says; what a longer one has more is set to 0. An output shorter than its words
+/// allow is refused likewise. In arrays all elements have the first one's size; the library sets the others'. Other structs,
+/// and the values of enumerations, never change within one SOVERSION.
 ///
 /// Threads. Handles may be used by any number of threads at once, and a handle freed by any of them.
 #ifndef SWIFTLET_SWIFTLET_H
@@ -56,7 +57,7 @@ enum {
   SWIFTLET_TOO_LARGE = 10,      ///< more features than 30-bit feature ids can name, or too many levels
   SWIFTLET_CANCELLED = 11,      ///< a callback of the caller's asked to stop
   SWIFTLET_NULL_POINTER = 100,  ///< a pointer that may not be null is
-  SWIFTLET_BAD_SIZE = 101,      ///< the `size` of a struct is too small, or too large and the rest is not 0
+  SWIFTLET_BAD_SIZE = 101,      ///< `size` is too small, no multiple of the alignment, or too large and the rest is not 0
   SWIFTLET_NO_MEMORY = 102,     ///< there is no memory
   SWIFTLET_UNEXPECTED = 103     ///< anything else
 };
