@@ -170,6 +170,15 @@ TEST_F(Tool, DrawShowsEveryTriangleOfAMesh) {
   EXPECT_NE(svg.find("not closed"), std::string::npos);
 }
 
+TEST_F(Tool, OneTriangleIsNotCalledTriangles) {
+  ASSERT_TRUE(save(Soup{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}.mesh(), folder_ / "one.swm"));
+  EXPECT_TRUE(has(says("draw one.swm -o one.svg"), ": 1 triangle, "));
+  EXPECT_TRUE(has(content(folder_ / "one.svg"), ">1 triangle, "));
+  EXPECT_TRUE(has(says("export one.swm -o one.off"), ": 3 vertices, 1 triangle, "));
+  EXPECT_TRUE(has(says("verify one.swm"), "the boxes of 1 node and 0 convex hulls"));
+  EXPECT_TRUE(has(says("distance one.swm a.swl --pose 0,0,5 --contacts 9"), "contacts   1 region within"));
+}
+
 TEST_F(Tool, DecomposeCountsPatchesAndDrawsThem) {
   if (!kBuilds) GTEST_SKIP() << "this tool has no builder";
   Soup stairs = box({0, 0, 0}, {1, 1, 1});

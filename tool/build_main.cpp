@@ -57,9 +57,9 @@ struct Request {
 std::string report_text(const Request& request, const Built& built) {
   const BuildReport& r = built.report;
   std::string text = request.in + "\n";
-  text += format(" read       %zu points, %zu triangles\n", r.points_read, r.triangles_read);
-  text += format(" dropped    %zu duplicates, %zu points that are no corner of the hull\n", r.duplicates_dropped,
-                 r.interior_dropped);
+  text += " read       " + counted(r.points_read, "point") + ", " + counted(r.triangles_read, "triangle") + "\n";
+  text += " dropped    " + counted(r.duplicates_dropped, "duplicate") + ", " +
+          counted(r.interior_dropped, "point that is no corner of the hull", "points that are no corner of the hull") + "\n";
   if (built.model.dimension() == 3) {
     text += format(" grouped    %zu triangles of the hull into %zu faces, %zu of them with more than three vertices\n",
                    r.hull_triangles, r.levels.front().faces, r.faces_grouped);
@@ -119,8 +119,8 @@ Result<Output> build_mesh_file(const Request& request) {
                               {"triangles_read", given.triangles.size()}};
   json.update(mesh_json(mesh));
   json.update({{"seconds_read", reading}, {"seconds_built", building}});
-  std::string text =
-      request.in + format("\n read       %zu points, %zu triangles\n", given.points.size(), given.triangles.size());
+  std::string text = request.in + "\n read       " + counted(given.points.size(), "point") + ", " +
+                     counted(given.triangles.size(), "triangle") + "\n";
   text += mesh_text(mesh) + format(" time       %.1f ms to read, %.1f ms to build\n", 1e3 * reading, 1e3 * building);
   text += " wrote      " + request.out + "\n";
   return Output{request.quiet ? "" : text, dump(json)};

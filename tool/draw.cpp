@@ -255,17 +255,16 @@ std::string caption(const Model& model, int k, double top) {
     if (model.radius() > 0) deviation += format(" (%.2g %%)", 100 * level.deviation / model.radius());
   }
   return line(0, "font-weight=\"bold\" fill=\"#16263c\"", "level " + std::to_string(k)) +
-         line(1, "fill=\"#3d4c60\"", std::to_string(level.triangle_count) + " triangles") +
-         line(2, "fill=\"#3d4c60\"", deviation);
+         line(1, "fill=\"#3d4c60\"", counted(level.triangle_count, "triangle")) + line(2, "fill=\"#3d4c60\"", deviation);
 }
 
 std::string summary(const Model& model) {
   const int finest = model.finest_level(), last = model.level_count() - 1;
-  std::string what = format("%zu triangles, %zu bytes", model.level(finest).triangle_count, model.bytes().size());
+  std::string what = counted(model.level(finest).triangle_count, "triangle") + format(", %zu bytes", model.bytes().size());
   if (last > finest) {
-    what = format("%d levels, %zu to %zu triangles, %zu bytes. Dashed: %s outline. Percent: of the bounding radius",
-                  last + 1 - finest, model.level(finest).triangle_count, model.level(last).triangle_count, model.bytes().size(),
-                  finest == 0 ? "the exact hull's" : "the finest level's");
+    what = format("%d levels, %zu to %s, %zu bytes. Dashed: %s outline. Percent: of the bounding radius", last + 1 - finest,
+                  model.level(finest).triangle_count, counted(model.level(last).triangle_count, "triangle").c_str(),
+                  model.bytes().size(), finest == 0 ? "the exact hull's" : "the finest level's");
   }
   return what;
 }
@@ -274,7 +273,7 @@ std::string summary(const MeshModel& mesh) {
   if (!mesh.is_whole())
     return format("boxes of %d of %d levels, no point of them farther than %.3g from the surface, %zu bytes",
                   mesh.level_count(), mesh.depth(), mesh.deviation(), mesh.bytes().size());
-  return format("%zu triangles, %zu bytes, ", mesh.triangle_count(), mesh.bytes().size()) +
+  return counted(mesh.triangle_count(), "triangle") + format(", %zu bytes, ", mesh.bytes().size()) +
          (mesh.topology().closed() ? "closed" : "not closed");
 }
 
@@ -336,7 +335,8 @@ std::string draw(const MeshModel& mesh, const std::string& title, std::span<cons
     polygons[t].pale = colour_of_patch(patch_of[t]);
     count = std::max(count, patch_of[t] + 1);
   }
-  return picture(polygons, eye, 420, title, format("%zu triangles in %u convex patches", polygons.size(), count));
+  return picture(polygons, eye, 420, title,
+                 counted(polygons.size(), "triangle") + " in " + counted(count, "convex patch", "convex patches"));
 }
 
 }  // namespace swiftlet::tool

@@ -95,7 +95,7 @@ std::string mesh_text(const MeshModel& mesh) {
                    mesh.level_count(), mesh.depth(), mesh.deviation());
     text += format(" triangles  none left of %zu, ", triangles_of_whole(mesh));
   }
-  text += format("%u of them flat, %u duplicates\n", t.flat_triangles, t.duplicates);
+  text += format("%u of them flat, ", t.flat_triangles) + counted(t.duplicates, "duplicate") + "\n";
   text += format(" components %u\n edges      %u open, %u non-manifold, %u flipped\n", t.components, t.open_edges,
                  t.non_manifold_edges, t.flipped_edges);
   text += " volume     " + (t.closed() ? number(t.volume) + (t.volume < 0 ? ", inside out" : "") : "none: not closed") + "\n";
@@ -120,10 +120,9 @@ Result<Output> verify(const LoadedMesh& body) {
   const Check outcome = swiftlet::verify(body.mesh);
   if (!outcome) return in_file(body.path, {ErrorCode::BadValue, outcome.message});
   const std::size_t nodes = body.mesh.node_count(), hulls = body.mesh.hull_count(), triangles = body.mesh.triangle_count();
-  return Output{
-      body.path + format(": verified: the boxes of %zu nodes and %zu convex hulls hold their triangles, each of %zu once\n",
-                         nodes, hulls, triangles),
-      dump({{"path", body.path}, {"verified", true}, {"nodes", nodes}, {"hulls", hulls}, {"triangles", triangles}})};
+  return Output{body.path + ": verified: the boxes of " + counted(nodes, "node") + " and " + counted(hulls, "convex hull") +
+                    format(" hold their triangles, each of %zu once\n", triangles),
+                dump({{"path", body.path}, {"verified", true}, {"nodes", nodes}, {"hulls", hulls}, {"triangles", triangles}})};
 }
 
 Result<MeshBody> shape_of(const LoadedBody& body, bool solid) {
@@ -193,7 +192,7 @@ Json json_of(const Manifold& manifold, const Side& a, const Side& b) {
 
 std::string text_of(const Manifold& manifold) {
   if (manifold.count == 0) return "manifold   none\n";
-  std::string text = format("manifold   %u points along the normal ", manifold.count) + numbers(manifold.normal) + "\n";
+  std::string text = "manifold   " + counted(manifold.count, "point") + " along the normal " + numbers(manifold.normal) + "\n";
   for (std::uint32_t i = 0; i < manifold.count; ++i) {
     const ManifoldPoint& p = manifold.points[i];
     text += "           " + number(p.separation) + " from " + numbers(p.point_a) + "  to  " + numbers(p.point_b) + "\n";
@@ -243,9 +242,8 @@ Result<Output> contacts(const LoadedBody& a, const LoadedBody& b, const Pose& b_
   const auto [found, regions] = all_regions(side_a.body, side_b.body, b_in_a, reach);
 
   Json rows = Json::array();
-  std::string text = std::string("contacts   ") + (found.is_counted ? "" : "at least ") +
-                     format("%u %s within ", found.count, found.count == 1 ? "region" : "regions") + number(reach) +
-                     "; points are in A's frame, normals from A to B\n";
+  std::string text = std::string("contacts   ") + (found.is_counted ? "" : "at least ") + counted(found.count, "region") +
+                     " within " + number(reach) + "; points are in A's frame, normals from A to B\n";
   for (std::size_t i = 0; i < regions.size(); ++i) {
     rows.push_back(json_of(regions[i], side_a, side_b));
     text += format("region %-4zu", i) + text_of(regions[i], side_a, side_b);
@@ -254,8 +252,8 @@ Result<Output> contacts(const LoadedBody& a, const LoadedBody& b, const Pose& b_
     rows.back()["manifold"] = json_of(points, side_a, side_b);
     text += text_of(points);
   }
-  text +=
-      "status     " + in_words(found.status) + format(", %u steps, %u pairs of triangles\n", found.steps, found.plane_tests);
+  text += "status     " + in_words(found.status) + ", " + counted(found.steps, "step") + ", " +
+          counted(found.plane_tests, "pair") + " of triangles\n";
   return Output{text, dump({{"a", path_of_body(a)},
                             {"b", path_of_body(b)},
                             {"b_in_a", tool::json_of(b_in_a)},
@@ -273,7 +271,8 @@ Result<Output> export_mesh(const LoadedMesh& body, const std::filesystem::path& 
   const Result<std::size_t> bytes = write_file(path, off_text(body.mesh));
   if (!bytes) return bytes.error();
   const std::size_t triangles = body.mesh.triangle_count(), vertices = body.mesh.vertex_count();
-  return Output{utf8(path) + format(": %zu vertices, %zu triangles, %zu bytes\n", vertices, triangles, bytes.value()),
+  return Output{utf8(path) + ": " + counted(vertices, "vertex", "vertices") + ", " + counted(triangles, "triangle") +
+                    format(", %zu bytes\n", bytes.value()),
                 dump({{"path", utf8(path)}, {"vertices", vertices}, {"triangles", triangles}, {"bytes", bytes.value()}})};
 }
 
@@ -293,8 +292,9 @@ Result<Output> cut_mesh(const std::string& path, const std::string& to, const De
     return in_file(path, {ErrorCode::BadValue, "has one level of nodes: there is nothing to cut"});
   const Result<std::size_t> bytes = save(mesh, path_of(to));
   if (!bytes) return bytes.error();
-  return Output{to + format(": %d of %d levels of nodes, deviation %.6g, %zu hulls, %zu bytes\n", mesh.level_count(),
-                            mesh.depth(), mesh.deviation(), mesh.hull_count(), bytes.value()),
+  return Output{to +
+                    format(": %d of %d levels of nodes, deviation %.6g, ", mesh.level_count(), mesh.depth(), mesh.deviation()) +
+                    counted(mesh.hull_count(), "hull") + format(", %zu bytes\n", bytes.value()),
                 dump({{"path", to},
                       {"levels", mesh.level_count()},
                       {"depth", mesh.depth()},
@@ -310,9 +310,9 @@ Result<Output> draw_file(const LoadedMesh& body, const std::filesystem::path& pa
   if (!bytes) return bytes.error();
   const bool whole = body.mesh.is_whole();
   const std::size_t count = whole ? body.mesh.triangle_count() : lowest_boxes(body.mesh).size();
-  const char* const what = whole ? "triangles" : "boxes";
-  return Output{utf8(path) + format(": %zu %s, %zu bytes\n", count, what, bytes.value()),
-                dump({{"path", utf8(path)}, {what, count}, {"bytes", bytes.value()}})};
+  const std::string what = whole ? counted(count, "triangle") : counted(count, "box", "boxes");
+  return Output{utf8(path) + ": " + what + format(", %zu bytes\n", bytes.value()),
+                dump({{"path", utf8(path)}, {whole ? "triangles" : "boxes", count}, {"bytes", bytes.value()}})};
 }
 
 }  // namespace swiftlet::tool

@@ -58,6 +58,10 @@ ReadNumber read_number(std::string_view text) {
 
 std::string numbers(const Vec3& v) { return v.hasNaN() ? "none" : number(v.x()) + " " + number(v.y()) + " " + number(v.z()); }
 
+std::string counted(std::size_t count, const std::string& noun, const std::string& plural) {
+  return std::to_string(count) + " " + (count == 1 ? noun : plural.empty() ? noun + "s" : plural);
+}
+
 std::string stem(const std::string& path) { return utf8(path_of(path).stem()); }
 
 Error in_file(const std::string& path, Error error) {

@@ -34,6 +34,9 @@ ReadNumber read_number(std::string_view text);
 /// Three numbers, one blank between; "none" where the answer knows none.
 std::string numbers(const Vec3& v);
 
+/// "1 triangle", "2 triangles". The plural is the noun with "s" where none is given.
+std::string counted(std::size_t count, const std::string& noun, const std::string& plural = {});
+
 /// The file's name without folders and extension.
 std::string stem(const std::string& path);
 

@@ -33,8 +33,6 @@ double degrees(lut::Resolution resolution) {
   return 0;
 }
 
-std::string counted(int levels) { return std::to_string(levels) + (levels == 1 ? " level" : " levels"); }
-
 double per_triangle(std::size_t bytes, const Model& model) {
   return model.level(0).triangle_count > 0 ? double(bytes) / double(model.level(0).triangle_count) : 0;
 }
@@ -280,7 +278,8 @@ Result<Output> verify(const LoadedModel& body) {
   const Check outcome = swiftlet::verify(body.model);
   if (!outcome) return in_file(body.path, {ErrorCode::BadValue, outcome.message});
   const int levels = body.model.level_count();
-  return Output{body.path + ": verified: " + counted(levels) + " convex, enclosing level 0, within the stated deviation\n",
+  return Output{body.path + ": verified: " + counted(std::size_t(levels), "level") +
+                    " convex, enclosing level 0, within the stated deviation\n",
                 dump({{"path", body.path}, {"verified", true}, {"levels", levels}})};
 }
 
@@ -340,8 +339,8 @@ Result<Output> distance(const LoadedBody& a, const LoadedBody& b, const Pose& b_
   if (answer.status == Status::LevelLimit)
     text += "deviation  " + number(deviation_of(a, answer.level_a)) + " of A, " + number(deviation_of(b, answer.level_b)) +
             " of B: how far they may be from the whole bodies\n";
-  text += std::string("verdict    ") + name(answer.verdict) + "\nstatus     " + in_words(answer.status) +
-          format(", %u steps, %u plane tests\n", answer.steps, answer.plane_tests);
+  text += std::string("verdict    ") + name(answer.verdict) + "\nstatus     " + in_words(answer.status) + ", " +
+          counted(answer.steps, "step") + ", " + counted(answer.plane_tests, "plane test") + "\n";
   return Output{text, dump(json)};
 }
 
@@ -374,8 +373,9 @@ Result<Output> cut(const std::string& path, const std::string& to, const Detail&
 Result<Output> draw_file(const LoadedModel& body, const std::filesystem::path& path) {
   const Result<std::size_t> bytes = write_file(path, draw(body.model, stem(body.path)));
   if (!bytes) return bytes.error();
-  return Output{utf8(path) + ": " + counted(body.model.level_count()) + format(", %zu bytes\n", bytes.value()),
-                dump({{"path", utf8(path)}, {"levels", body.model.level_count()}, {"bytes", bytes.value()}})};
+  return Output{
+      utf8(path) + ": " + counted(std::size_t(body.model.level_count()), "level") + format(", %zu bytes\n", bytes.value()),
+      dump({{"path", utf8(path)}, {"levels", body.model.level_count()}, {"bytes", bytes.value()}})};
 }
 
 }  // namespace swiftlet::tool
