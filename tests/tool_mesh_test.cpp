@@ -4,6 +4,8 @@
 #include <swiftlet/mesh_contacts.h>
 #include <swiftlet/mesh_query.h>
 
+#include <csignal>
+
 #include "soups.h"
 #include "tool_runs.h"
 
@@ -177,6 +179,42 @@ TEST_F(Tool, OneTriangleIsNotCalledTriangles) {
   EXPECT_TRUE(has(says("export one.swm -o one.off"), ": 3 vertices, 1 triangle, "));
   EXPECT_TRUE(has(says("verify one.swm"), "the boxes of 1 node and 0 convex hulls"));
   EXPECT_TRUE(has(says("distance one.swm a.swl --pose 0,0,5 --contacts 9"), "contacts   1 region within"));
+}
+
+/// SIGINT comes while a file of the name *.part is there.
+TEST_F(Tool, InterruptedItLeavesNothingHalfWritten) {
+  Soup soup;
+  for (int i = 0; i < 5000; ++i) soup.add(box({2.0 * i, 0, 0}, {2.0 * i + 1, 1, 1}));
+  const MeshModel mesh = soup.mesh();
+  ASSERT_TRUE(save(mesh, folder_ / "large.swm"));
+  const auto part = [this] {
+    for (const std::string& name : names())
+      if (name.ends_with(".part")) return true;
+    return false;
+  };
+  const std::string in = folder_ / "large.swm", out = folder_ / "cut.swm";
+  bool interrupted = false;
+  for (int attempt = 0; attempt < 100 && !interrupted; ++attempt) {
+    std::filesystem::remove(out);
+    const pid_t tool = fork();
+    if (tool == 0) {
+      [[maybe_unused]] const auto silent = std::freopen("/dev/null", "w", stdout);
+      std::signal(SIGINT, SIG_DFL);
+      execl(kTool.c_str(), kTool.c_str(), "cut", in.c_str(), "-o", out.c_str(), static_cast<char*>(nullptr));
+      _exit(127);
+    }
+    int status = 0;
+    bool ended = false;
+    while (!part() && !(ended = waitpid(tool, &status, WNOHANG) != 0)) {
+    }
+    if (ended) continue;  // unseen
+    kill(tool, SIGINT);
+    waitpid(tool, &status, 0);
+    interrupted = WIFSIGNALED(status) && WTERMSIG(status) == SIGINT;
+    EXPECT_FALSE(part());
+    EXPECT_TRUE(content(out) == bytes_of(mesh)) << "the signal waits until the file is whole";
+  }
+  EXPECT_TRUE(interrupted);
 }
 
 TEST_F(Tool, DecomposeCountsPatchesAndDrawsThem) {

@@ -356,6 +356,22 @@ TEST_F(Tool, RefusesToWriteOntoItsInput) {
   refuses_onto("draw", "cube.off", "./cube.off");
 }
 
+TEST_F(Tool, LeavesAloneWhatLiesBesideItsOutput) {
+  const std::string model = content(folder_ / "a.swl");
+  write(folder_ / "b.part", model);
+  write(folder_ / "target", "kept");
+  std::filesystem::create_symlink("target", folder_ / "c.part");
+  for (const std::string& word : writing_words()) {
+    says(word + "c");
+    EXPECT_EQ(content(folder_ / "target"), "kept") << word;
+    EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "c.part") && !std::filesystem::is_symlink(folder_ / "c")) << word;
+  }
+  says("cut b.part -o b");
+  EXPECT_EQ(content(folder_ / "b.part"), model) << "it was read";
+  EXPECT_EQ(content(folder_ / "b"), model);
+  EXPECT_EQ(names(), (std::vector<std::string>{"a.swl", "b", "b.part", "c", "c.part", "cube.off", "target"}));
+}
+
 TEST_F(Tool, ErrorsAreJsonWhereJsonIsAsked) {
   write(folder_ / "damaged.swl", content(folder_ / "a.swl").substr(0, 500));
   write(folder_ / "bent.off", "OFF\n1 0 0\n0 0\n");

@@ -111,7 +111,7 @@ Result<Output> build_mesh_file(const Request& request) {
   if (!built) return in_file(request.in, built.error());
   const double reading = seconds(middle - begin), building = seconds(Clock::now() - middle);
   const MeshModel& mesh = built.value();
-  if (const auto saved = save(mesh, path_of(request.out)); !saved) return saved.error();
+  if (const auto saved = write_file(path_of(request.out), mesh.bytes()); !saved) return saved.error();
 
   nlohmann::ordered_json json{{"path", request.out},
                               {"mesh", request.in},
@@ -137,7 +137,7 @@ Result<Output> build_word(const Request& request) {
     return build_file(request.in, options);
   }();
   if (!built) return built.error();
-  if (const auto saved = save(built.value().model, path_of(request.out)); !saved) return saved.error();
+  if (const auto saved = write_file(path_of(request.out), built.value().model.bytes()); !saved) return saved.error();
   return Output{request.quiet ? "" : report_text(request, built.value()), dump(report_json(request, built.value()))};
 }
 

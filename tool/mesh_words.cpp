@@ -290,7 +290,7 @@ Result<Output> cut_mesh(const std::string& path, const std::string& to, const De
   const MeshModel& mesh = cut.value();
   if (mesh.depth() == 1 && (detail.deviation > 0 || detail.bytes < mesh.bytes().size()))
     return in_file(path, {ErrorCode::BadValue, "has one level of nodes: there is nothing to cut"});
-  const Result<std::size_t> bytes = save(mesh, path_of(to));
+  const Result<std::size_t> bytes = write_file(path_of(to), mesh.bytes());
   if (!bytes) return bytes.error();
   return Output{to +
                     format(": %d of %d levels of nodes, deviation %.6g, ", mesh.level_count(), mesh.depth(), mesh.deviation()) +

@@ -5,15 +5,40 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <csignal>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
-#include <span>
 #include <system_error>
 
 #include "body/file.h"
 
 namespace swiftlet::tool {
+namespace {
+
+volatile std::sig_atomic_t caught = 0;
+
+/// Holds SIGINT and SIGTERM back as long as it lives; then the last one that came does what it would have done.
+class HeldSignals {
+ public:
+  HeldSignals() = default;
+  ~HeldSignals() {
+    std::signal(SIGINT, interrupt_);
+    std::signal(SIGTERM, terminate_);
+    const int signal = caught;
+    caught = 0;
+    if (signal) std::raise(signal);
+  }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+
+ private:
+  static void hold(int signal) { caught = signal; }
+  void (*interrupt_)(int) = std::signal(SIGINT, hold);
+  void (*terminate_)(int) = std::signal(SIGTERM, hold);
+};
+
+}  // namespace
 
 std::string format(const char* pattern, ...) {
   char text[401];
@@ -85,9 +110,14 @@ Result<bool> may_write(const std::filesystem::path& path, const std::filesystem:
   return true;
 }
 
-Result<std::size_t> write_file(const std::filesystem::path& path, const std::string& text) {
+Result<std::size_t> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   if (const auto may = may_write(path); !may) return may.error();
-  return replace_file(path, std::as_bytes(std::span(text)));
+  const HeldSignals held;
+  return replace_file(path, bytes);
+}
+
+Result<std::size_t> write_file(const std::filesystem::path& path, const std::string& text) {
+  return write_file(path, std::as_bytes(std::span(text)));
 }
 
 }  // namespace swiftlet::tool

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -45,7 +46,9 @@ Error in_file(const std::string& path, Error error);
 
 /// Whether a file could be written there, as far as can be told before, and is none of `input`, by whatever name.
 Result<bool> may_write(const std::filesystem::path& path, const std::filesystem::path& input = {});
-/// Writes beside `path` and renames, so that a failure leaves the old file. Returns the bytes written.
+/// `replace_file`, where `may_write`. SIGINT and SIGTERM wait until it is done, so that nothing half-written is left. All files
+/// of the tool are written by it. Returns the bytes written.
+Result<std::size_t> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Result<std::size_t> write_file(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace swiftlet::tool

@@ -362,7 +362,7 @@ Result<Output> cut(const std::string& path, const std::string& to, const Detail&
     return left.value().model.cut(detail);
   }();
   if (!model) return model.error();
-  const Result<std::size_t> bytes = save(model.value(), path_of(to));
+  const Result<std::size_t> bytes = write_file(path_of(to), model.value().bytes());
   if (!bytes) return bytes.error();
   const int finest = model.value().finest_level(), coarsest = model.value().level_count() - 1;
   return Output{

@@ -3,11 +3,15 @@
 #include "body/file.h"
 
 #include <cerrno>
-#include <fstream>
+#include <chrono>
+#include <cstdio>
 #include <system_error>
 
 #ifdef _WIN32
 #define WIN32_LEAN_AND_MEAN
+#include <fcntl.h>
+#include <io.h>
+#include <sys/stat.h>
 #include <windows.h>
 #else
 #include <fcntl.h>
@@ -82,6 +86,38 @@ class OpenFile {
   OpenFile& operator=(const OpenFile&) = delete;
 };
 
+/// A file for writing where nothing was, not even a link; null if there was something.
+std::FILE* make_file(const std::filesystem::path& path) {
+#ifdef _WIN32  // msvcrt's streams have no mode "x"
+  const int made = _wopen(path.c_str(), _O_CREAT | _O_EXCL | _O_WRONLY | _O_BINARY, _S_IREAD | _S_IWRITE);
+  return made < 0 ? nullptr : _wfdopen(made, L"wb");
+#else
+  return std::fopen(path.c_str(), "wbx");
+#endif
+}
+
+/// Writes a file where nothing was. Returns 0, or why nothing is written, as errno; EEXIST: there was something.
+int write_new(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  const auto cause = [] { return errno ? errno : EIO; };
+  errno = 0;
+  std::FILE* const file = make_file(path);
+  if (!file) return cause();
+  errno = 0;
+  int failure = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() ? 0 : cause();
+  if (std::fclose(file) != 0 && !failure) failure = cause();
+  std::error_code ignored;
+  if (failure) std::filesystem::remove(path, ignored);
+  return failure;
+}
+
+/// PATH.XXXX.part, XXXX by the clock: another name for each `attempt`.
+std::filesystem::path part_of(std::filesystem::path path, int attempt) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+  char ending[16];
+  std::snprintf(ending, sizeof ending, ".%04x.part", unsigned(now + attempt) & 0xffffu);
+  return path += ending;
+}
+
 }  // namespace
 
 std::string utf8(const std::filesystem::path& path) {
@@ -112,21 +148,18 @@ Result<OwnedBytes> map_file(const std::filesystem::path& path) {
 
 Result<std::size_t> replace_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   const auto refused = [&path](const std::string& why) { return named(path, {ErrorCode::CannotWrite, why}); };
-  std::filesystem::path part = path;
-  part += ".part";
   std::error_code failure, ignored;
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
     return refused("exists and is no file");
-  errno = 0;
-  std::ofstream file(part, std::ios::binary | std::ios::trunc);
-  file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-  file.close();
-  const int cause = errno;  // as the system's calls below the stream left it
-  if (file) std::filesystem::rename(part, path, failure);
-  if (file && !failure) return bytes.size();
+  std::filesystem::path part;
+  int cause = EEXIST;
+  for (int attempt = 0; cause == EEXIST && attempt < 1000; ++attempt) cause = write_new(part = part_of(path, attempt), bytes);
+  if (cause)
+    return refused("cannot write " + std::to_string(bytes.size()) + " bytes: " + std::generic_category().message(cause));
+  std::filesystem::rename(part, path, failure);
+  if (!failure) return bytes.size();
   std::filesystem::remove(part, ignored);
-  const std::string because = cause ? ": " + std::generic_category().message(cause) : "";
-  return refused(file ? failure.message() : "cannot write " + std::to_string(bytes.size()) + " bytes" + because);
+  return refused(failure.message());
 }
 
 }  // namespace swiftlet

@@ -138,8 +138,8 @@ class MeshBody {
 /// The version of the file format that `save` writes for meshes. Files of any other version are refused.
 inline constexpr std::uint32_t kMeshFileVersion = 2;
 
-/// Writes a file beside `path`, then renames it, so that a failure leaves the old file intact. Returns the bytes written.
-/// Errors: CannotWrite, with the cause.
+/// Writes PATH.XXXX.part, then renames it: a failure leaves the old file, of calls at once one wins whole, and what a killed
+/// process leaves by such a name may be deleted. Returns the bytes written. Errors: CannotWrite, with the cause.
 Result<std::size_t> save(const MeshModel& mesh, const std::filesystem::path& path);
 
 /// Reads a mesh from its file. Checks sizes, hashes and the ranges of indices, and that no number is infinite or NaN; that

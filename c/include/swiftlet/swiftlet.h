@@ -215,7 +215,7 @@ SWIFTLET_API swiftlet_code swiftlet_model_from_bytes(const void* bytes, size_t b
 SWIFTLET_API swiftlet_code swiftlet_model_from_levels(const swiftlet_level_arrays* levels, size_t level_count,
                                                       const swiftlet_model_options* options, swiftlet_model** model,
                                                       swiftlet_error* error);
-/// Writes a file beside `path`, then renames it. `written` receives its bytes and may be null.
+/// Writes a new file beside `path`, PATH.XXXX.part, then renames it. `written` receives its bytes and may be null.
 SWIFTLET_API swiftlet_code swiftlet_model_save(const swiftlet_model* model, const char* path, uint64_t* written,
                                                swiftlet_error* error);
 /// Makes a model without the levels that `detail` leaves out.
@@ -375,7 +375,7 @@ SWIFTLET_API swiftlet_code swiftlet_mesh_salvage(const char* path, char* note, s
 /// Loads a mesh from the bytes of a file, of any alignment, which are copied.
 SWIFTLET_API swiftlet_code swiftlet_mesh_from_bytes(const void* bytes, size_t byte_count, swiftlet_mesh** mesh,
                                                     swiftlet_error* error);
-/// Writes a file beside `path`, then renames it. `written` receives its bytes and may be null.
+/// Writes a new file beside `path`, PATH.XXXX.part, then renames it. `written` receives its bytes and may be null.
 SWIFTLET_API swiftlet_code swiftlet_mesh_save(const swiftlet_mesh* mesh, const char* path, uint64_t* written,
                                               swiftlet_error* error);
 /// Makes the mesh without triangles and without the lower levels of nodes that `detail` allows to leave out.

@@ -19,8 +19,8 @@ inline constexpr std::uint32_t kModelFileVersion = 5;
 
 // Paths are the system's; those in errors are UTF-8.
 
-/// Writes a file beside `path`, then renames it, so that a failure leaves the old file intact. Returns the bytes written.
-/// Errors: CannotWrite, with the cause.
+/// Writes PATH.XXXX.part, then renames it: a failure leaves the old file, of calls at once one wins whole, and what a killed
+/// process leaves by such a name may be deleted. Returns the bytes written. Errors: CannotWrite, with the cause.
 Result<std::size_t> save(const Model& model, const std::filesystem::path& path);
 
 /// Reads the levels of a file that `detail` asks for. Coarse levels come first in the file; levels beyond `detail` are neither
