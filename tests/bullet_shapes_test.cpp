@@ -821,6 +821,38 @@ TEST(ScaledWhileThePairLives, HasTheContactsOfANewPair) {
   EXPECT_EQ(answered, 18);
 }
 
+/// A body that gets another shape of the same kind comes to rest as high as that is.
+TEST(ExchangedWhileThePairLives, AShapeIsTheOneThatTheBodyHas) {
+  const auto hull = [](double half) { return std::make_shared<HullShape>(bodies::model(bodies::box(half, half, half))); };
+  const auto mesh = [](double half) {
+    return std::make_shared<bullet::MeshShape>(soups::box({-half, -half, -half}, {half, half, half}).mesh());
+  };
+  const auto points = [&](double half) {
+    auto shape = std::make_shared<btConvexHullShape>();
+    for (int i = 0; i < 8; ++i) shape->addPoint(hull(half)->getUnscaledPoints()[i]);
+    return shape;
+  };
+  using Shape = std::shared_ptr<btCollisionShape>;
+  using Make = std::function<Shape(double)>;
+  constexpr double kHalves[] = {0.5, 0.3, 0.9};
+  HullShape slab(bodies::model(bodies::box(3, 3, 0.5)));
+  bullet::MeshShape block(soups::box({-3, -3, -0.5}, {3, 3, 0.5}).mesh());
+  for (btCollisionShape* const floor : {static_cast<btCollisionShape*>(&slab), static_cast<btCollisionShape*>(&block)}) {
+    for (const Make& make : {Make(hull), Make(mesh), Make(points)}) {
+      const Shape shapes[] = {make(kHalves[0]), make(kHalves[1]), make(kHalves[2])};  // they outlive the world
+      Dynamics d;
+      d.add(*floor, at(0, 0, -0.5));
+      btRigidBody& body = d.add(*shapes[0], at(0, 0, 0.5 + 0.08), 1);
+      for (int i = 0; i < 3; ++i) {
+        body.setCollisionShape(shapes[i].get());
+        for (int step = 0; step < 200; ++step) d.step();
+        EXPECT_NEAR(body.getWorldTransform().getOrigin().z(), kHalves[i] + 0.08, 0.02)
+            << shapes[i]->getName() << " on " << floor->getName() << ", the " << i << "th";
+      }
+    }
+  }
+}
+
 // ---- Who answers -----------------------------------------------------------------------------------------------------------
 
 /// One shape of every class that Bullet has, each about as large as a cube of side 2 around the origin, and what it borrows.

@@ -11,6 +11,7 @@
 
 #include <swiftlet/build.h>
 
+#include "../adapters/bullet/held_points.h"
 #include "alone.h"
 #include "in_bullet.h"
 #include "rank_sum.h"
@@ -138,6 +139,94 @@ TEST(PointsThatStay, CallBackInEveryStep) {
   scene.step(10);
   gContactAddedCallback = nullptr;
   EXPECT_GE(calls, 10);
+}
+
+/// What Bullet says of contacts to those who count touches or play sounds.
+struct Heard {
+  Heard() {
+    started = ended = 0;
+    gContactStartedCallback = [](btPersistentManifold* const&) { ++started; };
+    gContactEndedCallback = [](btPersistentManifold* const&) { ++ended; };
+  }
+  ~Heard() { gContactStartedCallback = nullptr, gContactEndedCallback = nullptr; }
+  static inline int started, ended;
+};
+
+/// The floor is Bullet's first body, and a body slides farther in a step than points may move to be the same.
+TEST(PointsOfASlidingBody, AreOneContact) {
+  for (const double speed : {0.3, 1., 2., 8.}) {
+    AtRest scene;
+    scene.body->setFriction(0);
+    scene.body->setLinearVelocity(btVector3(btScalar(speed), 0, 0));
+    scene.step(2);
+    const Heard heard;
+    scene.step(100);
+    EXPECT_EQ(heard.started + heard.ended, 0) << speed;
+    EXPECT_GT(scene.body->getWorldTransform().getOrigin().x(), 1.6 * speed);
+    EXPECT_NEAR(scene.height(), 0.25 + kMargin, 0.001) << speed;
+  }
+}
+
+/// Three points, of which the middle one has slid to where the first is on A. Each stays itself, with this step's normal.
+TEST(PointsThatStay, AreThemselvesThoughOneSlidToAnothersPlace) {
+  btBoxShape box(btVector3(1, 1, 1));
+  btCollisionObject a, b;
+  a.setCollisionShape(&box), b.setCollisionShape(&box);
+  b.setWorldTransform(btTransform(btMatrix3x3::getIdentity(), btVector3(0, 0, 2)));
+  const btCollisionObjectWrapper of_a{nullptr, &box, &a, a.getWorldTransform(), -1, -1},
+      of_b{nullptr, &box, &b, b.getWorldTransform(), -1, -1};
+  btPersistentManifold points(&a, &b, 0, btScalar(0.02), btScalar(0.02));
+  btManifoldResult result(&of_a, &of_b);
+  result.setPersistentManifold(&points);
+  const btScalar x_on_a[] = {btScalar(0.5), btScalar(0.515), btScalar(-0.5)},
+                 x_on_b[] = {btScalar(0.5), btScalar(0.501), btScalar(-0.5)}, y[] = {0, 0, btScalar(0.5)};
+  for (int i = 0; i < 3; ++i) {
+    btManifoldPoint p(btVector3(x_on_a[i], y[i], 1), btVector3(x_on_b[i], y[i], -1), btVector3(0, btScalar(0.01), -1), 0);
+    p.m_appliedImpulse = btScalar(1 + i), p.m_lifeTime = 7 + i;
+    points.addManifoldPoint(p);
+  }
+  Manifold now;
+  now.normal = Vec3::UnitZ(), now.count = 3;
+  ASSERT_TRUE(bullet::hold_on(now, result));
+  ASSERT_EQ(points.getNumContacts(), 3);
+  for (int i = 0; i < 3; ++i) {  // the first has become the last
+    const btManifoldPoint& p = points.getContactPoint((i + 2) % 3);
+    EXPECT_EQ(p.m_localPointA.x(), x_on_a[i]) << i;
+    EXPECT_EQ(p.m_localPointB.x(), x_on_b[i]) << i;
+    EXPECT_EQ(p.m_normalWorldOnB.y(), 0) << i;
+    EXPECT_EQ(p.m_appliedImpulse, btScalar(1 + i)) << i;
+    EXPECT_EQ(p.getLifeTime(), 7 + i) << i;
+  }
+}
+
+/// A compound of two prisms is Bullet's second body: its contacts name the child, in every step.
+TEST(PointsThatStay, NameTheChildOfACompound) {
+  AtRest scene;
+  scene.in.world.removeRigidBody(scene.body);
+  btCompoundShape compound;
+  for (const double x : {-1., 1.})
+    compound.addChildShape(btTransform(btMatrix3x3::getIdentity(), btVector3(btScalar(x), 0, 0)),
+                           scene.body->getCollisionShape());
+  btRigidBody pair(1, nullptr, &compound, btVector3(1, 1, 1));
+  pair.setWorldTransform(scene.body->getWorldTransform());
+  scene.in.world.addRigidBody(&pair);
+  int seen = 0;
+  for (int step = 0; step < 40; ++step) {
+    scene.step(1);
+    for (int m = 0; m < scene.in.dispatcher.getNumManifolds(); ++m) {
+      const btPersistentManifold& manifold = *scene.in.dispatcher.getManifoldByIndexInternal(m);
+      const bool pair_is_first = manifold.getBody0() == &pair;
+      for (int i = 0; i < manifold.getNumContacts(); ++i, ++seen) {
+        const btManifoldPoint& p = manifold.getContactPoint(i);
+        const btVector3& on_pair = pair_is_first ? p.m_localPointA : p.m_localPointB;
+        EXPECT_EQ(pair_is_first ? p.m_index0 : p.m_index1, on_pair.x() > 0) << step;
+        EXPECT_EQ(pair_is_first ? p.m_index1 : p.m_index0, -1) << step;
+      }
+    }
+  }
+  EXPECT_GE(seen, 40 * 6);
+  scene.in.world.removeRigidBody(&pair);
+  scene.in.world.addRigidBody(scene.body);
 }
 
 /// A floor below one body of a compound: what the body hangs on goes down with it.

@@ -133,10 +133,11 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
     }
     if (found == Found::Nothing) return false;
     if (holds && hold_the_area(now, result)) return true;
-    if (!shared_) forget_others(*persistent_, now, persistent_->getBody0() != a.getCollisionObject());
+    const bool one_goes = !shared_ && carry_over(*persistent_, now, persistent_->getBody0() != a.getCollisionObject());
     for (std::uint32_t i = now.count; i-- > 0;) {  // the deepest is the first and comes last: it takes the place of others
       const ManifoldPoint& p = now.points[i];
       result.addContactPoint(vector_of(-now.normal), vector_of(p.point_b), btScalar(p.separation));
+      if (one_goes && i + 1 == now.count) persistent_->removeContactPoint(0);
     }
     return true;
   }

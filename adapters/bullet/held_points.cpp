@@ -74,6 +74,7 @@ btScalar area(const Places& p, int count, const btVector3& n) {
 void keep(const Held& held, btManifoldResult& result) {
   btPersistentManifold& points = *result.getPersistentManifold();
   const btTransform& a = points.getBody0()->getWorldTransform();
+  const bool swapped = result.getBody0Internal() != points.getBody0();  // as of a compound's child: Bullet turns the ids again
   const btVector3 far(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
   const int count = points.getNumContacts();
   Places local_a, local_b;
@@ -86,8 +87,8 @@ void keep(const Held& held, btManifoldResult& result) {
     const btScalar distance = held.distance[std::size_t(i)];
     btManifoldPoint& p = points.getContactPoint(i);
     p.m_localPointA = a.invXform(on_b + normal * distance);
-    result.setShapeIdentifiersA(p.m_partId0, p.m_index0);
-    result.setShapeIdentifiersB(p.m_partId1, p.m_index1);
+    result.setShapeIdentifiersA(swapped ? p.m_partId1 : p.m_partId0, swapped ? p.m_index1 : p.m_index0);
+    result.setShapeIdentifiersB(swapped ? p.m_partId0 : p.m_partId1, swapped ? p.m_index0 : p.m_index1);
     result.addContactPoint(normal, on_b, distance);
     p.m_localPointA = far;
   }
@@ -150,17 +151,30 @@ bool hold_turned(const btMatrix3x3& turn, btManifoldResult& result) {
   return true;
 }
 
-void forget_others(btPersistentManifold& points, const Manifold& now, bool swapped) {
-  const btTransform& in_world = points.getBody0()->getWorldTransform();
-  for (int i = points.getNumContacts(); i-- > 0;) {
-    const btVector3 old = in_world(points.getContactPoint(i).m_localPointA);
-    bool stays = false;
-    for (std::uint32_t k = 0; k < now.count; ++k) {
-      const btVector3 p = vector_of(swapped ? now.points[k].point_b : now.points[k].point_a);
-      stays = stays || (p - old).length() < points.getContactBreakingThreshold();
+bool carry_over(btPersistentManifold& points, const Manifold& now, bool swapped) {
+  const btTransform &in_a = points.getBody0()->getWorldTransform(), &in_b = points.getBody1()->getWorldTransform();
+  const btScalar near = points.getContactBreakingThreshold();
+  std::array<bool, MANIFOLD_CACHE_SIZE> goes_on{};
+  for (std::uint32_t k = 0; k < now.count; ++k) {
+    const ManifoldPoint& p = now.points[k];
+    const btVector3 on_a = vector_of(swapped ? p.point_b : p.point_a), on_b = vector_of(swapped ? p.point_a : p.point_b);
+    int nearest = -1;
+    btScalar least = near * near;
+    for (int i = 0; i < points.getNumContacts(); ++i) {
+      const btManifoldPoint& old = points.getContactPoint(i);
+      const btScalar way = btMax((in_a(old.m_localPointA) - on_a).length2(), (in_b(old.m_localPointB) - on_b).length2());
+      if (!goes_on[std::size_t(i)] && way < least) nearest = i, least = way;
     }
-    if (!stays) points.removeContactPoint(i);
+    if (nearest < 0) continue;
+    goes_on[std::size_t(nearest)] = true;
+    points.getContactPoint(nearest).m_localPointA = in_a.invXform(on_a);
   }
+  const bool none_does = std::find(goes_on.begin(), goes_on.end(), true) == goes_on.end();
+  const int kept = none_does && now.count > 0 ? 1 : 0;
+  for (int i = points.getNumContacts(); i-- > kept;) {
+    if (!goes_on[std::size_t(i)]) points.removeContactPoint(i);
+  }
+  return kept == 1 && points.getNumContacts() == 1;
 }
 
 }  // namespace swiftlet::bullet

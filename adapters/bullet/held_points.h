@@ -30,8 +30,11 @@ bool hold_the_area(const Manifold& now, btManifoldResult& result);
 /// The same of bodies that did not move against each other, whose normals turned by `turn` since the step before.
 bool hold_turned(const btMatrix3x3& turn, btManifoldResult& result);
 
-/// Bullet adds a point to those of the steps before, or carries the impulse of the one nearby over to it. Those that are near
-/// none of this step's go. `swapped`: the manifold's first body is Bullet's second.
-void forget_others(btPersistentManifold& points, const Manifold& now, bool swapped);
+/// Before the points of `now` are added: a point of the steps before that lies near one of these on both bodies comes to lie
+/// where that one will, so that Bullet takes both for one, with its impulses; the others go. A point that slid would push on
+/// with what it needed elsewhere: piles then come to rest later. Of a contact that goes on one
+/// point stays in any case, or Bullet would call it ended and begun: true if that is none of this step's. It is the first, and
+/// goes once another has come. `swapped`: the manifold's first body is the second one of `now`.
+bool carry_over(btPersistentManifold& points, const Manifold& now, bool swapped);
 
 }  // namespace swiftlet::bullet

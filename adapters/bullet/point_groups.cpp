@@ -109,8 +109,11 @@ void PointGroups::hand_over(std::span<const TrianglePoint> points, std::span<con
     const Manifold now = manifold_of(group, chosen);
     const bool swapped = manifold.getBody0() != a.getCollisionObject();
     if (shared_ || swapped || !is_flat(group) || !hold_the_area(now, result)) {
-      if (!shared_) forget_others(manifold, now, swapped);
-      for (std::uint32_t i = chosen.count; i-- > 0;) add(group[chosen.index[i]], ids, a, result);  // the deepest comes last
+      const bool one_goes = !shared_ && carry_over(manifold, now, swapped);
+      for (std::uint32_t i = chosen.count; i-- > 0;) {  // the deepest comes last
+        add(group[chosen.index[i]], ids, a, result);
+        if (one_goes && i + 1 == chosen.count) manifold.removeContactPoint(0);
+      }
     }
     if (!shared_) result.refreshContactPoints();
   }

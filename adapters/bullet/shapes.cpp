@@ -139,7 +139,7 @@ std::optional<Solid> Solid::of(const btCollisionShape& shape, HullModels& models
   Solid solid(role_of(shape));
   if (solid.role_ == Role::Bullets || solid.role_ == Role::Mesh || solid.role_ == Role::Triangles) return std::nullopt;
   if (solid.role_ != Role::Points) return solid;
-  solid.model_ = models.of(shape);
+  solid.shape_ = &shape, solid.model_ = models.of(shape);
   if (!solid.model_) return std::nullopt;
   solid.point_count_ = point_count(shape);
   solid.scaling_ = shape.getLocalScaling();
@@ -148,7 +148,8 @@ std::optional<Solid> Solid::of(const btCollisionShape& shape, HullModels& models
 
 bool Solid::is_current(const btCollisionShape& shape) const {
   if (role_ != role_of(shape)) return false;
-  return role_ != Role::Points || (point_count(shape) == point_count_ && shape.getLocalScaling() == scaling_);
+  if (role_ != Role::Points) return true;
+  return &shape == shape_ && point_count(shape) == point_count_ && shape.getLocalScaling() == scaling_;
 }
 
 Placed Solid::placed(const btCollisionObjectWrapper& body) const {
@@ -169,7 +170,7 @@ Vec3 Solid::centre(const btCollisionShape& shape) const {
 
 Watch::Seen Watch::seen(const btCollisionShape& shape) {
   const bool is_primitive = role_of(shape.getShapeType()) == Role::Body;
-  return {shape.getLocalScaling(), is_primitive ? primitive(shape) : Body::point(Vec3::Zero(), shape.getMargin())};
+  return {&shape, shape.getLocalScaling(), is_primitive ? primitive(shape) : Body::point(Vec3::Zero(), shape.getMargin())};
 }
 
 bool Watch::changed(const btCollisionShape& a, const btCollisionShape& b) {

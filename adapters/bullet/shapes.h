@@ -66,13 +66,14 @@ class Solid {
   explicit Solid(Role role) : role_(role) {}
 
   Role role_;
-  std::shared_ptr<const Model> model_;  ///< of Points
+  const btCollisionShape* shape_ = nullptr;  ///< of Points, as are all that follow
+  std::shared_ptr<const Model> model_;
   int point_count_ = 0;
   btVector3 scaling_{1, 1, 1};
 };
 
-/// Watches the two shapes of a pair: Bullet lets anyone scale a shape between steps, or give it another margin. What was found
-/// of it is void then, such as points of contact, which are places on both.
+/// Watches the two shapes of a pair: Bullet lets anyone scale a shape between steps, give it another margin, or a body another
+/// shape. What was found of it is void then, such as points of contact, which are places on both.
 class Watch {
  public:
   /// Whether a shape is not what it was when this was called last.
@@ -80,6 +81,7 @@ class Watch {
 
  private:
   struct Seen {
+    const btCollisionShape* shape = nullptr;
     btVector3 scaling{0, 0, 0};
     Body body;  ///< of a primitive; of all else a point with the shape's margin
     bool operator==(const Seen&) const = default;
