@@ -122,6 +122,7 @@ std::string depth_fault(const Parts& a, const Parts& b, const Pose& b_in_a, cons
   for (std::size_t i = 0; i < a.count; ++i) {
     for (std::size_t k = 0; k < b.count; ++k) upper = std::min(upper, signed_distance(a[i], b[k], b_in_a).lower);
   }
+  if (a.encloses(b.of, b_in_a, false) || b.encloses(a.of, b_in_a, true)) upper = std::min(upper, 0.0);
   if (answer.verdict == Verdict::Overlapping && !answer.point_a.hasNaN())
     upper = std::min(upper, -a.free_ball(answer.point_a, {}, false) - b.free_ball(answer.point_a, b_in_a, true));
   if (!(answer.upper >= upper - law_two)) text << "upper is " << answer.upper << " where only " << upper << " is proved";
@@ -175,7 +176,9 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
   if (answer.verdict == Verdict::Disjoint && overlapping) return fail("Disjoint, but two triangles cross");
   if (answer.verdict == Verdict::Overlapping && !(upper <= law_two)) return fail("Overlapping, ", lower, " apart");
   if (answer.verdict == Verdict::Touching && !(lower <= law_two)) return fail("Touching, ", lower, " apart");
-  if (answer.verdict != Verdict::Overlapping && answer.upper < HUGE_VAL) {
+  // Of bodies that meet, the points may be any one that they share, and a body all around it has no feature there.
+  const bool shared = (answer.point_b - answer.point_a).norm() <= law_two && lower <= law_two;
+  if (answer.verdict != Verdict::Overlapping && answer.upper < HUGE_VAL && !shared) {
     if (!of_a.names(answer.feature_a, answer.level_a) || !of_b.names(answer.feature_b, answer.level_b))
       return fail("a feature that does not exist");
     const Body points[] = {Body::point(answer.point_a, answer.radius_a), Body::point(answer.point_b, answer.radius_b)};
