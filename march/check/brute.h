@@ -99,32 +99,24 @@ static inline double from_facet(const ConvexView& view, const Motion& m, std::ui
   return min(least, std::fabs(double(dot(normal, p - wide(m, vec(tail(first)))))) / norm(rounded(normal)));
 }
 
-/// Returns the distance of `p` from a feature, moved by `m`; 0 for a face of several facets, which walks take for one up to the
-/// rounding of the input, far above law 2's bound. The arithmetic is off by less than `kDoubleDoubleError` of all lengths, far
-/// less than that bound.
-static inline double from_feature(const ConvexView& view, const Motion& m, FeatureId feature, const Vec& p) {
-  const std::uint32_t i = feature.index();
-  if (feature.kind() == FeatureKind::Vertex) return norm(rounded(wide(p) - wide(m, vec(view.vertices[i]))));
-  if (feature.kind() == FeatureKind::Edge) {
-    const Vertex &tail = view.vertices[origin(view, i)], &head = view.vertices[view.half_edges[i].head];
-    return from_segment(wide(p), wide(m, vec(tail)), rotated(m, head, tail));
-  }
+/// Returns the distance of `p` from a body without volume, moved by `m`: a point, a segment or a polygon. The arithmetic is off
+/// by less than `kDoubleDoubleError` of all lengths, far less than law 2's bound.
+static inline double from_flat(const ConvexView& view, const Motion& m, const Vec& p) {
+  const Vertex& first = view.vertices[0];
+  if (view.half_edges.empty()) return norm(rounded(wide(p) - wide(m, vec(first))));
+  if (view.face_first.empty()) return from_segment(wide(p), wide(m, vec(first)), rotated(m, view.vertices[1], first));
+  double least = std::numeric_limits<double>::infinity();
   for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
-    if (view.half_edges[h].face == i && is_diagonal(view, h)) return 0;
+    if (is_first_in_facet(view, h)) least = min(least, from_facet(view, m, h, wide(p)));
   }
-  return from_facet(view, m, view.face_first[i], wide(p));
+  return least;
 }
 
 /// Returns true if `p` is at most `slack` away from a body without volume, moved by `m`, or at most `slack` above the plane of
 /// every face of another.
 static inline bool holds(const ConvexView& view, const Motion& m, const Vec& p, double slack) {
   // A polygon of n sides has 2 n half-edges, a polyhedron three or more for each vertex.
-  if (view.half_edges.size() <= 2 * view.vertices.size()) {
-    const FeatureKind all = !view.face_first.empty()   ? FeatureKind::Face
-                            : !view.half_edges.empty() ? FeatureKind::Edge
-                                                       : FeatureKind::Vertex;
-    return from_feature(view, m, {all, 0}, p) <= slack;
-  }
+  if (view.half_edges.size() <= 2 * view.vertices.size()) return from_flat(view, m, p) <= slack;
   const double outward = dot(m.row_x, cross(m.row_y, m.row_z)) < 0 ? -1 : 1;  // a reflection turns normals inwards
   const double reach = norm(p) + view.extent + norm(m.t);
   bool inside = true;
@@ -168,10 +160,9 @@ struct Checked {
   /// Returns true if the answer has both points.
   bool knows_points() const { return !answer.point_a.hasNaN() && !answer.point_b.hasNaN(); }
   Check points_lie_in_their_levels() const;
-  /// Checks points of an interval that is within law 2's bound for the hulls: those of hulls that are apart must lie on the
-  /// features, and all must differ by the signed distance along the normal. Between two vertices, which leave the points no
-  /// choice, the normal may lean by as much as `lower` allows: a threshold question ends at any two that prove enough. So may a
-  /// query that its budget ended.
+  /// Checks points of an interval that is within law 2's bound for the hulls: they must differ by the signed distance along the
+  /// normal. Of the two vertices named the normal may lean by as much as `lower` allows: a threshold question ends at any two
+  /// that prove enough. So may a query that its budget ended.
   Check points_are_nearest() const;
   /// Checks that the hulls overlap: by the vertices of `proof`, or because no plane separates them.
   Check hulls_overlap(const OverlapProof* proof) const;

@@ -110,13 +110,13 @@ Check Checked::points_are_nearest() const {
   if (!(std::isfinite(answer.lower) && answer.upper - answer.lower <= narrow) || answer.status == Status::Budget)
     return kPassed;
   const bool apart = answer.lower > 0 || (answer.is_signed && double(of_hulls(answer.lower)) > 0);
-  if (apart && answer.feature_a != FeatureId{}) {
-    const double off_a = from_feature(a.level(answer.level_a).view, kAtRest, answer.feature_a, point_a),
-                 off_b = from_feature(b.level(answer.level_b).view, at.motion, answer.feature_b, point_b);
-    if (!(off_a <= slack)) return failed("point_a is %.17g off its feature", off_a);
-    if (!(off_b <= slack)) return failed("point_b is %.17g off its feature", off_b);
-    if (answer.feature_a.kind() == FeatureKind::Vertex && answer.feature_b.kind() == FeatureKind::Vertex) return kPassed;
-  }
+  const auto is_vertex = [&](const Shape& body, int level, FeatureId feature, const Motion& m, const Vec& p) {
+    if (feature.kind() != FeatureKind::Vertex) return false;
+    return norm(rounded(wide(p) - wide(m, vec(body.level(level).view.vertices[feature.index()])))) <= slack;
+  };
+  if (apart && is_vertex(a, answer.level_a, answer.feature_a, kAtRest, point_a) &&
+      is_vertex(b, answer.level_b, answer.feature_b, at.motion, point_b))
+    return kPassed;
   const Wide n = wide(normal), between = wide(vec(answer.point_b)) - wide(vec(answer.point_a));
   const double along = std::clamp(double(dot(between, n)), answer.lower, answer.upper);
   const double aside = norm(rounded(between - n * DoubleDouble(along)));
