@@ -28,20 +28,34 @@ inline btCollisionObjectWrapper wrapped(const btCollisionObject& object) {
   return {nullptr, object.getCollisionShape(), &object, object.getWorldTransform(), -1, -1};
 }
 
-/// An algorithm of the configuration's for the pair, on a manifold of the caller's if it takes one, else on those that it has:
-/// these live as long as it does.
-class OthersAlgorithm {
+/// What the configuration does with a pair for as long as swiftlet has nothing to say: its algorithm, on the manifold `shared`
+/// of the caller's if it takes one, else on manifolds that live as long as it does.
+class Others {
  public:
-  OthersAlgorithm(const Create& create, btDispatcher& dispatcher, btPersistentManifold* persistent,
-                  const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
-  ~OthersAlgorithm();
-  OthersAlgorithm(const OthersAlgorithm&) = delete;
-  OthersAlgorithm& operator=(const OthersAlgorithm&) = delete;
-  btCollisionAlgorithm* operator->() const { return algorithm_; }
+  Others(const Create& create, btDispatcher& dispatcher, btPersistentManifold* shared)
+      : create_(create), dispatcher_(dispatcher), shared_(shared) {}
+
+  void process(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, const btDispatcherInfo& info,
+               btManifoldResult& result);
+  btScalar time_of_impact(btCollisionObject& a, btCollisionObject& b, const btDispatcherInfo& info,
+                          btManifoldResult& result) const;
+  void add_manifolds(btManifoldArray& manifolds) const {
+    if (algorithm_) algorithm_->getAllContactManifolds(manifolds);
+  }
+  void stop() { algorithm_.reset(); }
 
  private:
+  struct Free {
+    btDispatcher* dispatcher;
+    void operator()(btCollisionAlgorithm* algorithm) const;
+  };
+  using Algorithm = std::unique_ptr<btCollisionAlgorithm, Free>;
+  Algorithm make(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) const;
+
+  const Create& create_;
   btDispatcher& dispatcher_;
-  btCollisionAlgorithm* algorithm_;
+  btPersistentManifold* const shared_;
+  Algorithm algorithm_;
 };
 
 /// How fast an object is at a point of the world: what has moved it in the last step.

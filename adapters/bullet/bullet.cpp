@@ -61,10 +61,9 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
   HullAlgorithm(const Create& create, const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper& a,
                 const btCollisionObjectWrapper& b, SolidPair solids)
       : btActivatingCollisionAlgorithm(info),
-        create_(create),
-        state_(std::make_unique<State>(std::move(solids))),
         shared_(info.m_manifold),
-        persistent_(shared_ ? shared_ : m_dispatcher->getNewManifold(a.getCollisionObject(), b.getCollisionObject())) {
+        persistent_(shared_ ? shared_ : m_dispatcher->getNewManifold(a.getCollisionObject(), b.getCollisionObject())),
+        state_(std::make_unique<State>(std::move(solids), Others(create, *m_dispatcher, shared_))) {
     if (create.all_points) state_->touches = std::make_unique<Touches>();
   }
   ~HullAlgorithm() override {
@@ -73,25 +72,23 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo& info,
                         btManifoldResult* result) override {
-    if (state_->watch.changed(*a->getCollisionShape(), *b->getCollisionShape())) clear(), state_->others.reset();
+    if (state_->watch.changed(*a->getCollisionShape(), *b->getCollisionShape())) clear(), state_->others.stop();
     result->setPersistentManifold(persistent_);
     if (answer(*a, *b, *result)) {
       if (!shared_) result->refreshContactPoints();
-      state_->others.reset();
+      state_->others.stop();
       return;
     }
     clear();
-    if (!state_->others) state_->others = std::make_unique<OthersAlgorithm>(create_, *m_dispatcher, shared_, *a, *b);
-    (*state_->others)->processCollision(a, b, info, result);
+    state_->others.process(*a, *b, info, *result);
   }
   btScalar calculateTimeOfImpact(btCollisionObject* a, btCollisionObject* b, const btDispatcherInfo& info,
                                  btManifoldResult* result) override {
-    return OthersAlgorithm(create_, *m_dispatcher, shared_, wrapped(*a), wrapped(*b))
-        ->calculateTimeOfImpact(a, b, info, result);
+    return state_->others.time_of_impact(*a, *b, info, *result);
   }
   void getAllContactManifolds(btManifoldArray& manifolds) override {
     if (!shared_) manifolds.push_back(persistent_);
-    if (state_->others) (*state_->others)->getAllContactManifolds(manifolds);
+    state_->others.add_manifolds(manifolds);
   }
 
  private:
@@ -148,18 +145,17 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
     Rest rest;
   };
   struct State {
-    explicit State(SolidPair pair) : solids(std::move(pair)) {}
+    State(SolidPair pair, Others bullets) : solids(std::move(pair)), others(std::move(bullets)) {}
 
     SolidPair solids;
     Watch watch;
     std::unique_ptr<Touches> touches;
-    std::unique_ptr<OthersAlgorithm> others;  ///< for as long as swiftlet has nothing to say
+    Others others;
   };
 
-  const Create& create_;
-  std::unique_ptr<State> state_;
   btPersistentManifold* const shared_;      ///< of the caller's; null: it has one of its own
   btPersistentManifold* const persistent_;  ///< either
+  std::unique_ptr<State> state_;
   PairSeed seed_;
 };
 
@@ -192,17 +188,26 @@ HullShape::HullShape(const Model& model) : model_(whole(model)) {
 
 bool HullShape::is_scaled() const { return getLocalScaling() != btVector3(1, 1, 1); }
 
-OthersAlgorithm::OthersAlgorithm(const Create& create, btDispatcher& dispatcher, btPersistentManifold* persistent,
-                                 const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b)
-    : dispatcher_(dispatcher) {
-  btCollisionAlgorithmConstructionInfo info(&dispatcher, 0);
-  info.m_manifold = persistent;
-  algorithm_ = create.others->CreateCollisionAlgorithm(info, &a, &b);
+Others::Algorithm Others::make(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) const {
+  btCollisionAlgorithmConstructionInfo info(&dispatcher_, 0);
+  info.m_manifold = shared_;
+  return {create_.others->CreateCollisionAlgorithm(info, &a, &b), Free{&dispatcher_}};
 }
 
-OthersAlgorithm::~OthersAlgorithm() {
-  algorithm_->~btCollisionAlgorithm();
-  dispatcher_.freeCollisionAlgorithm(algorithm_);
+void Others::Free::operator()(btCollisionAlgorithm* algorithm) const {
+  algorithm->~btCollisionAlgorithm();
+  dispatcher->freeCollisionAlgorithm(algorithm);
+}
+
+void Others::process(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, const btDispatcherInfo& info,
+                     btManifoldResult& result) {
+  if (!algorithm_) algorithm_ = make(a, b);
+  algorithm_->processCollision(&a, &b, info, &result);
+}
+
+btScalar Others::time_of_impact(btCollisionObject& a, btCollisionObject& b, const btDispatcherInfo& info,
+                                btManifoldResult& result) const {
+  return make(wrapped(a), wrapped(b))->calculateTimeOfImpact(&a, &b, info, &result);
 }
 
 btCollisionAlgorithm* Create::CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,

@@ -23,13 +23,13 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
                 const btCollisionObjectWrapper& b, std::optional<Solid> solid)
       : btActivatingCollisionAlgorithm(info), create_(create) {
     const bool mesh_is_a = role_of(*a.getCollisionShape()) == Role::Mesh;
-    state_ = std::make_unique<State>(*info.m_dispatcher1, info.m_manifold, a, b, mesh_is_a, std::move(solid));
+    state_ = std::make_unique<State>(create, info, a, b, mesh_is_a, std::move(solid));
   }
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo& info,
                         btManifoldResult* result) override {
     PointGroups& groups = state_->groups;
-    if (state_->watch.changed(*a->getCollisionShape(), *b->getCollisionShape())) groups.clear(), state_->others.reset();
+    if (state_->watch.changed(*a->getCollisionShape(), *b->getCollisionShape())) groups.clear(), state_->others.stop();
     result->setPersistentManifold(&groups.first());
     const bool first_is_a = state_->first_is_a;
     const btCollisionObjectWrapper &first = first_is_a ? *a : *b, &second = first_is_a ? *b : *a;
@@ -40,11 +40,10 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
                                   : other_mesh || role_of(*second.getCollisionShape()) == Role::Plane;
     if (!mesh || !is_current) {  // scaled since they met
       groups.clear();
-      if (!state_->others) state_->others = std::make_unique<OthersAlgorithm>(create_, *m_dispatcher, groups.shared(), *a, *b);
-      (*state_->others)->processCollision(a, b, info, result);
+      state_->others.process(*a, *b, info, *result);
       return;
     }
-    state_->others.reset();
+    state_->others.stop();
     const PlacedMeshShape placed(*mesh, pose_of(first.getWorldTransform()));
     const Placed of_first{Body::point(Vec3::Zero(), mesh->getMargin()), placed.in_world};
     const Placed of_second = solid ? solid->placed(second)
@@ -72,14 +71,17 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
   }
   void getAllContactManifolds(btManifoldArray& manifolds) override {
     for (btPersistentManifold* manifold : state_->groups.own()) manifolds.push_back(manifold);
-    if (state_->others) (*state_->others)->getAllContactManifolds(manifolds);
+    state_->others.add_manifolds(manifolds);
   }
 
  private:
   struct State {
-    State(btDispatcher& dispatcher, btPersistentManifold* shared, const btCollisionObjectWrapper& a,
+    State(const Create& create, const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper& a,
           const btCollisionObjectWrapper& b, bool is_a, std::optional<Solid> of)
-        : first_is_a(is_a), solid(std::move(of)), groups(dispatcher, shared, a, b, is_a) {}
+        : first_is_a(is_a),
+          solid(std::move(of)),
+          groups(*info.m_dispatcher1, info.m_manifold, a, b, is_a),
+          others(create, *info.m_dispatcher1, info.m_manifold) {}
 
     const bool first_is_a;             ///< a mesh; of two meshes Bullet's first
     const std::optional<Solid> solid;  ///< the second one, if it is convex
@@ -88,7 +90,7 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
     MeshPair pair;
     std::vector<TrianglePoint> points;  ///< all, or the nearest alone
     std::vector<PointIds> ids;
-    std::unique_ptr<OthersAlgorithm> others;  ///< for as long as the pair is not ours
+    Others others;  ///< where the pair is not ours
   };
 
   void bodies(const PlacedMeshShape& first, const PlacedMeshShape& second, const btCollisionObjectWrapper& first_object,

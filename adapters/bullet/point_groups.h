@@ -42,7 +42,6 @@ class PointGroups {
   PointGroups(const PointGroups&) = delete;
   PointGroups& operator=(const PointGroups&) = delete;
 
-  btPersistentManifold* shared() const { return shared_; }
   btPersistentManifold& first() const { return shared_ ? *shared_ : *own_.front(); }
   std::span<btPersistentManifold* const> own() const { return own_; }
   void clear();  ///< takes the points out of manifolds of its own

@@ -47,21 +47,20 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
                      const btCollisionObjectWrapper& b, bool body_is_a, Solid solid)
       : btActivatingCollisionAlgorithm(info),
         create_(create),
-        state_(std::make_unique<State>(*info.m_dispatcher1, info.m_manifold, a, b, body_is_a, std::move(solid))) {}
+        state_(std::make_unique<State>(create, info, a, b, body_is_a, std::move(solid))) {}
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo& info,
                         btManifoldResult* result) override {
     PointGroups& groups = state_->groups;
-    if (state_->watch.changed(*a->getCollisionShape(), *b->getCollisionShape())) groups.clear(), state_->others.reset();
+    if (state_->watch.changed(*a->getCollisionShape(), *b->getCollisionShape())) groups.clear(), state_->others.stop();
     result->setPersistentManifold(&groups.first());
     const btCollisionObjectWrapper &body = state_->body_is_a ? *a : *b, &surface = state_->body_is_a ? *b : *a;
     if (!is_ours(body, surface)) {
       groups.clear();
-      if (!state_->others) state_->others = std::make_unique<OthersAlgorithm>(create_, *m_dispatcher, groups.shared(), *a, *b);
-      (*state_->others)->processCollision(a, b, info, result);
+      state_->others.process(*a, *b, info, *result);
       return;
     }
-    state_->others.reset();
+    state_->others.stop();
     if (create_.all_points && unscaled_mesh(*surface.getCollisionShape()) && groups.hold(*a, *b, *result)) return;
     const double touching = groups.first().getContactBreakingThreshold() + result->m_closestPointDistanceThreshold;
     const Placed placed = state_->solid.placed(body);
@@ -82,20 +81,22 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
 
   btScalar calculateTimeOfImpact(btCollisionObject* a, btCollisionObject* b, const btDispatcherInfo& info,
                                  btManifoldResult* result) override {
-    return OthersAlgorithm(create_, *m_dispatcher, state_->groups.shared(), wrapped(*a), wrapped(*b))
-        ->calculateTimeOfImpact(a, b, info, result);
+    return state_->others.time_of_impact(*a, *b, info, *result);
   }
 
   void getAllContactManifolds(btManifoldArray& manifolds) override {
     for (btPersistentManifold* manifold : state_->groups.own()) manifolds.push_back(manifold);
-    if (state_->others) (*state_->others)->getAllContactManifolds(manifolds);
+    state_->others.add_manifolds(manifolds);
   }
 
  private:
   struct State {
-    State(btDispatcher& dispatcher, btPersistentManifold* shared, const btCollisionObjectWrapper& a,
+    State(const Create& create, const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper& a,
           const btCollisionObjectWrapper& b, bool is_a, Solid of)
-        : body_is_a(is_a), solid(std::move(of)), groups(dispatcher, shared, a, b, is_a) {}
+        : body_is_a(is_a),
+          solid(std::move(of)),
+          groups(*info.m_dispatcher1, info.m_manifold, a, b, is_a),
+          others(create, *info.m_dispatcher1, info.m_manifold) {}
 
     const bool body_is_a;
     Solid solid;
@@ -104,7 +105,7 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
     TrianglePair pair;
     std::vector<PointIds> ids;
     Enclosed enclosed;
-    std::unique_ptr<OthersAlgorithm> others;  ///< for as long as the pair is not ours
+    Others others;  ///< where the pair is not ours
   };
 
   /// Whether the body still is what it was, and both poses are rigid motions.
