@@ -25,9 +25,10 @@ class PairAxes {
   }
 
   /// By how much the triangles overlap along the axis along which they do least; negative if they are apart by as much. The
-  /// axis, from A to B.
+  /// axis, from A to B. Points in one place have none: then it is 0, and the overlap infinite.
   double least(Vec& axis) const {
     double found = HUGE_VAL;
+    axis = {0, 0, 0};
     for (int i = 0; i < count_; ++i) {
       if (ahead_[i] < found) found = ahead_[i], axis = axis_[i];
       if (back_[i] < found) found = back_[i], axis = -axis_[i];

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "pair_axes.h"
 #include "soups.h"
 
 namespace swiftlet {
@@ -108,6 +109,14 @@ TEST(MeshManifold, OfEdgesThatCrossIsOnePoint) {
     EXPECT_EQ(m.points[0].feature_a.kind(), FeatureKind::Edge);
     EXPECT_EQ(m.points[0].feature_b.kind(), FeatureKind::Edge);
   }
+}
+
+/// Triangles that are points in one place have no axis that could part them.
+TEST(PairAxes, OfPointsInOnePlaceAreNone) {
+  const Vec point[3] = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}};
+  Vec axis{7, 7, 7};
+  EXPECT_EQ(PairAxes(point, point, motion(Pose{}), 4).least(axis), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(dot(axis, axis), 0);
 }
 
 TEST(MeshManifold, KeepsThePointsOfAPairAtRest) {
