@@ -48,7 +48,7 @@ class PointGroups {
 
   /// Keeps the points as they were handed over, as places on both bodies with normals of the larger one, while no place of
   /// either has moved against the other by more than `kAtRest` of the breaking threshold since then: no contact has got deeper
-  /// by more. For shapes that stay what they were. Returns false where a step's points are wanted instead.
+  /// by more. For shapes that stay what they were, which `Watch` tells. Returns false where a step's points are wanted instead.
   bool hold(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, btManifoldResult& result);
 
   /// Adds a point to the manifold that `result` has.
