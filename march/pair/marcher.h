@@ -117,18 +117,18 @@ class Marcher {
   Move vertex_edge(const P& a, std::uint32_t va, const Q& b, std::uint32_t h) {
     const std::uint32_t v0 = origin(b.view, h), v1 = b.view.half_edges[h].head;
     const Vec4 own = b.own(v0), p = a.point(va), q0 = b.point(v0), u = b.way(b.own(v1) - own), r = p - q0;
-    const double length2 = dot(u, u), s = dot(r, u) / length2;
+    const double length2 = dot(u, u), ru = dot(r, u);
     walk_.plane_tests += 2;
-    if (!(s > 0)) return {vertex(va), vertex(v0), dot(r, r)};
-    if (s >= 1) return {vertex(va), vertex(v1), dot(r - u, r - u)};
-    const Vec4 up = across(r - u * s, u, length2);
+    if (!(ru > 0)) return {vertex(va), vertex(v0), dot(r, r)};
+    if (ru >= length2) return {vertex(va), vertex(v1), dot(r - u, r - u)};
+    const Vec4 up = across(r, u, length2);
     const double distance2 = dot(up, up), length_1 = norm_1(up);
     const SideScan at_b = sides(b, v0, h, b.into(up));
     const RingScan at_a = ring(a, va, a.into(-up), length_1);
     if (!at_b.falls() && !at_a.falls()) {
       const double over_a = proved_rise(a, std::array{va}, -up, at_a.over()),
                    over_b = proved_rise(b, std::array{v0, v1}, up, at_b.over(kAcrossError + Q::kWay, b.reach, length_1));
-      end(a, {-up, -r, p, q0 + u * s, blur_on<Q>(u), over_a, over_b});
+      end(a, {-up, -r, p, q0 + u * (ru / length2), blur_on<Q>(u), over_a, over_b});
       return {vertex(va), edge(h), distance2};
     }
     if (!at_b.falls()) return {along(a, up_ring(a, va, at_a)), edge(h), distance2};
@@ -446,7 +446,7 @@ class Marcher {
     const Vec4 q = body.point(tail), u = body.way(body.own(head) - body.own(tail)), r = seen.point_a - q;
     const double length2 = dot(u, u), s = dot(r, u) / length2;
     if (!(s > 0 && s < 1)) return;
-    const Vec4 up = across(r - u * s, u, length2);
+    const Vec4 up = across(r, u, length2);
     const double over_b = proved_rise(body, std::array{tail, head}, up,
                                       sides(body, tail, h, body.into(up)).over(kAcrossError + Q::kWay, body.reach, norm_1(up)));
     seen = {-up, -r, seen.point_a, q + u * s, blur_on<Q>(u), seen.over_a, over_b};

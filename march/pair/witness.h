@@ -32,10 +32,11 @@ struct Witness {
 };
 static inline Witness swapped(const Witness& w) { return {-w.normal, w.second, w.first}; }
 
-/// The part of `d` at right angles to `u`, whose squared length is `uu`.
+/// The part of `d` at right angles to `u`, whose squared length is `uu`. As a cross product it is at a right angle however much
+/// shorter than `d` it is, where a difference of vectors would have to be taken twice.
 template <class V>
 static inline V across(const V& d, const V& u, double uu) {
-  return d - u * (dot(d, u) / uu);
+  return cross(u, cross(d, u)) * (1 / uu);
 }
 
 /// The direction from one edge's line to another's, and bounds on the sines by which it misses a right angle to either of the
