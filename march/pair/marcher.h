@@ -581,20 +581,17 @@ Move state(Marcher& march, const A& a, FeatureId fa, const B& b, FeatureId fb) {
 /// As `walk`.
 [[gnu::flatten]] Walk walked(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget) {
   Walk result;
-  result.a = a;
-  result.b = b;
-  if (a.kind() == FeatureKind::Edge && b.kind() == FeatureKind::Face) result.a = vertex(origin(pair.a, a.index()));
-  if (b.kind() == FeatureKind::Edge && a.kind() == FeatureKind::Face) result.b = vertex(origin(pair.b, b.index()));
+  if (a.kind() == FeatureKind::Edge && b.kind() == FeatureKind::Face) a = vertex(origin(pair.a, a.index()));
+  if (b.kind() == FeatureKind::Edge && a.kind() == FeatureKind::Face) b = vertex(origin(pair.b, b.index()));
   Marcher march(pair, rule, result);
   const Resting4 resting(pair);
   const Moved4 moved(pair);
   double least2 = kUnknown;
   std::uint32_t stalled = 0;
   for (;;) {
-    const Move move = state(march, resting, result.a, moved, result.b);
-    const bool stays = move.first == result.a && move.second == result.b;
-    result.a = move.first;
-    result.b = move.second;
+    const Move move = state(march, resting, a, moved, b);
+    const bool stays = move.first == a && move.second == b;
+    a = move.first, b = move.second;
     result.steps += !stays;
     if (result.end != WalkEnd::Budget || result.steps >= step_budget) break;
     stalled = move.distance2 < least2 ? 0 : stalled + 1;
@@ -603,6 +600,7 @@ Move state(Marcher& march, const A& a, FeatureId fa, const B& b, FeatureId fb) {
     result.end = WalkEnd::Stalled;
     break;
   }
+  result.a = a, result.b = b;
   return result;
 }
 
