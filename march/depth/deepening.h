@@ -237,7 +237,7 @@ class Deepening {
         if (turns) continue;
       }
       from = settled(apart, from, plane_tests);
-      const Walk w = walk(apart, from.a, from.b, PlaneRule::MostViolated, budget_.steps - std::min(steps, budget_.steps));
+      Walk w = walk(apart, from.a, from.b, PlaneRule::MostViolated, budget_.steps - std::min(steps, budget_.steps));
       steps += w.steps, plane_tests += w.plane_tests;
       if (w.end != WalkEnd::Minimum) {
         if (climbs) break;
@@ -245,6 +245,7 @@ class Deepening {
         continue;
       }
       from = {w.a, w.b};
+      tighten(apart, w.nearest, plane_tests);
       Vec next = normalised(w.nearest.normal);
       at = start_at(pair, from, next);
       const double highest = height_along(next, apart, w.nearest, m.t - pair_.motion.t);

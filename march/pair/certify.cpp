@@ -57,18 +57,24 @@ struct Extreme {
   double slack = 0;
 };
 
+/// A few vertices that are level within rounding, each once.
+struct Plateau {
+  std::array<std::uint32_t, kPlateau> vertices;
+  std::size_t count = 0;
+  /// Returns false if there is no room for `v`.
+  bool add(std::uint32_t v) {
+    if (std::find(vertices.begin(), vertices.begin() + count, v) != vertices.begin() + count) return true;
+    if (count == kPlateau) return false;
+    vertices[count++] = v;
+    return true;
+  }
+};
+
 /// Climbs from `v` in doubles and decides no tie: every vertex that may be as high as the top is visited too, until all
 /// neighbours of visited vertices are visited themselves or certainly below. On an exactly convex body the highest vertex is
 /// then among the visited ones. `std::nullopt` if these are more than `kPlateau`.
 std::optional<Extreme> top(const ConvexView& view, const Slope& slope, std::uint32_t v, std::uint32_t& plane_tests) {
-  std::array<std::uint32_t, kPlateau> plateau;
-  std::size_t count = 0;
-  const auto add = [&](std::uint32_t w) {
-    if (std::find(plateau.begin(), plateau.begin() + count, w) != plateau.begin() + count) return true;
-    if (count == kPlateau) return false;
-    plateau[count++] = w;
-    return true;
-  };
+  Plateau level;
   const double surely = -slope.most_error(view.extent);
   const auto ring = [&](std::uint32_t u, auto visit) {
     const Vertex& record = view.vertices[u];
@@ -81,20 +87,20 @@ std::optional<Extreme> top(const ConvexView& view, const Slope& slope, std::uint
     }
   };
   for (bool rises = true, fits = true; rises;) {
-    rises = false, fits = true, count = 0;
-    add(v);
+    rises = false, fits = true, level.count = 0;
+    level.add(v);
     double most = 0;
     const std::uint32_t from = v;
     ring(from, [&](std::uint32_t w, double rise, double error) {
       if (rise > error && rise > most) most = rise, v = w, rises = true;
-      if (rise >= -error) fits = add(w) && fits;
+      if (rise >= -error) fits = level.add(w) && fits;
     });
     if (!rises && !fits) return std::nullopt;
   }
   bool fits = true;
-  for (std::size_t i = 1; i < count && fits; ++i) {
-    ring(plateau[i], [&](std::uint32_t w, double rise, double error) {
-      if (rise >= -error) fits = add(w) && fits;
+  for (std::size_t i = 1; i < level.count && fits; ++i) {
+    ring(level.vertices[i], [&](std::uint32_t w, double rise, double error) {
+      if (rise >= -error) fits = level.add(w) && fits;
     });
   }
   if (!fits) return std::nullopt;
@@ -102,17 +108,54 @@ std::optional<Extreme> top(const ConvexView& view, const Slope& slope, std::uint
   const Vec p = vec(view.vertices[v]);
   Extreme result{v, 0};
   double height = 0, highest = 0, uncertain = 0;
-  for (std::size_t i = 1; i < count; ++i) {
-    const Vec e = vec(view.vertices[plateau[i]]) - p;
+  for (std::size_t i = 1; i < level.count; ++i) {
+    const Vec e = vec(view.vertices[level.vertices[i]]) - p;
     const double rise = slope.along(e), error = slope.error(e);
-    if (rise > height) result.vertex = plateau[i], height = rise, uncertain = error;
+    if (rise > height) result.vertex = level.vertices[i], height = rise, uncertain = error;
     highest = max(highest, rise + error);
   }
   result.slack = max(0, highest - height + uncertain);
   return result;
 }
 
+/// An upper bound on how far a body rises along a direction, taken at length 1, above the first vertex of `part`: gathers the
+/// vertices around it that are level with it within rounding, until all other neighbours of those are below. On an exactly
+/// convex body one of the gathered ones is extreme. Infinite if they are more than `kPlateau`. `own` is the direction `d` of the
+/// common frame in the body's own.
+double above_plateau(const ConvexView& view, const Vec& own, const Vec& d, const Part& part, std::uint32_t& plane_tests) {
+  const double length_1 = std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z), error = kScanError * view.extent * length_1;
+  const Vec p = vec(view.vertices[part[0]]);
+  Plateau level;
+  for (const std::uint32_t v : part) level.add(v);
+  double most = 0;
+  for (std::size_t i = 0; i < level.count; ++i) {
+    const Vertex& record = view.vertices[level.vertices[i]];
+    const Vec e = vec(record) - p;
+    most = max(most, dot(own, e) + kBesideError * length_1 * norm(e));
+    const double least = dot(own, vec(record)) - error;
+    for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
+      const std::uint32_t w = view.half_edges[h].head;
+      if (!(dot(own, vec(view.vertices[w])) < least) && !level.add(w)) return std::numeric_limits<double>::infinity();
+    }
+    plane_tests += record.ring_count;
+  }
+  return most / norm(d);
+}
+
 }  // namespace
+
+bool tighten(const PairView& pair, Nearest& seen, std::uint32_t& plane_tests) {
+  const auto looks = [&](const auto& body, const Part& part, const Vec& d, double& over) {
+    if (over <= kCloseShare * pair.law_two || part == kNoPart) return false;
+    const double most = above_plateau(body.view, body.into(d), d, part, plane_tests);
+    if (!(most < over)) return false;
+    over = most;
+    return true;
+  };
+  const bool less_a = looks(body_a(pair), seen.part_a, seen.normal, seen.over_a),
+             less_b = looks(body_b(pair), seen.part_b, -seen.normal, seen.over_b);
+  return less_a || less_b;
+}
 
 double gap(const PairView& pair, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack) {
   return gap(pair, vec4(n), vec4(body_b(pair).point(vb) - body_a(pair).point(va)), slack);

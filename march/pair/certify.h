@@ -89,6 +89,9 @@ static inline Doubt certify(const PairView& pair, const Nearest& seen, Proof& pr
   const Vec4 aside = apart - normal * length;
   return dot(aside, aside) > pair.law_two * pair.law_two ? Doubt::Lean : Doubt::None;
 }
+/// Looks closer at a walk's last state, where an `over` of `seen` is unknown or a larger share of law 2's bound than
+/// `kCloseShare`: at the vertices level with its feature. Returns true if one became less.
+bool tighten(const PairView& pair, Nearest& seen, std::uint32_t& plane_tests);
 double gap(const PairView& pair, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack = 0);
 
 /// The distance of vertices `va` of A and `vb` of B plus its rounding error: an upper bound on the bodies' distance.

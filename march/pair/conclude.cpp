@@ -85,6 +85,10 @@ void from_nothing(const PairView& pair, const MarchRule& rule, double zero, Marc
 
 }  // namespace
 
+Doubt certify_closely(const PairView& pair, Nearest& seen, Doubt doubt, std::uint32_t& plane_tests, Proof& proof) {
+  return tighten(pair, seen, plane_tests) ? certify(pair, seen, proof) : doubt;
+}
+
 template <Until until>
 MarchResult conclude(const PairView& pair, const Walk& walk, const MarchRule& rule, double zero) {
   MarchResult r;

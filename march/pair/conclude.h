@@ -24,11 +24,15 @@ static inline bool is_near(const PairView& pair, double lower, double upper, dou
   return lower - pair.law_two <= threshold && threshold <= upper + pair.law_two;
 }
 
+/// Certifies what a walk's last state knows once more if a closer look tells more. Else returns `doubt`, why not at first.
+Doubt certify_closely(const PairView& pair, Nearest& seen, Doubt doubt, std::uint32_t& plane_tests, Proof& proof);
 /// Returns None if the tests of a walk's last state prove the distance within law 2's bound, and neither `zero` nor `beyond`,
 /// where verdicts change, is within rounding of it; `proof` then holds the bounds. Else returns why not.
-static inline Doubt settle(const PairView& pair, const Walk& walk, double zero, double beyond, Proof& proof) {
+static inline Doubt settle(const PairView& pair, Walk& walk, double zero, double beyond, std::uint32_t& plane_tests,
+                           Proof& proof) {
   if (walk.end != WalkEnd::Minimum) return Doubt::NoMinimum;
-  const Doubt doubt = certify(pair, walk.nearest, proof);
+  Doubt doubt = certify(pair, walk.nearest, proof);
+  if (doubt == Doubt::Width || doubt == Doubt::Neighbour) doubt = certify_closely(pair, walk.nearest, doubt, plane_tests, proof);
   if (doubt != Doubt::None) return doubt;
   const bool near = is_near(pair, proof.lower, proof.upper, zero) || is_near(pair, proof.lower, proof.upper, beyond);
   return near ? Doubt::Threshold : Doubt::None;

@@ -29,7 +29,7 @@ MarchResult settled_result(const Walk& walked, const Proof& proof, const MarchRu
 /// marches which start from one another's features do not cycle.
 MarchResult concluded(const PairView& pair, const MarchStart& from, Walk walked, const MarchRule& rule) {
   Proof proof;
-  const Doubt doubt = rule.careful ? Doubt::Asked : settle(pair, walked, 0, rule.beyond, proof);
+  const Doubt doubt = rule.careful ? Doubt::Asked : settle(pair, walked, 0, rule.beyond, walked.plane_tests, proof);
   if (doubt == Doubt::None) return settled_result(walked, proof, rule);
   MarchResult r = conclude<Until::Exact>(pair, walked, rule);
   std::uint32_t tests = 0;

@@ -29,7 +29,6 @@
 #include <array>
 #include <bit>
 #include <limits>
-#include <span>
 
 #include "numeric/vec4.h"
 #include "pair/prism.h"
@@ -88,6 +87,7 @@ struct Rise {
 struct Ending {
   Vec4 normal, apart, point_a, point_b;
   double blur, over_a, over_b;
+  Part part_a, part_b;
 };
 
 class Marcher {
@@ -102,7 +102,7 @@ class Marcher {
     const double length_1 = norm_1(d), distance2 = dot(d, d);
     const RingScan at_a = ring(a, va, a.into(d), length_1), at_b = ring(b, vb, b.into(-d), length_1);
     if (!at_a.falls() && !at_b.falls()) {
-      end(a, {d, d, p, q, 0, proved_rise(a, std::array{va}, d, at_a.over()), proved_rise(b, std::array{vb}, -d, at_b.over())});
+      end(a, {d, d, p, q, 0, at_a.over(), at_b.over(), {va, va, va}, {vb, vb, vb}});
       return {vertex(va), vertex(vb), distance2};
     }
     if (!at_b.falls()) return {along(a, up_ring(a, va, at_a)), vertex(vb), distance2};
@@ -126,9 +126,8 @@ class Marcher {
     const SideScan at_b = sides(b, v0, h, b.into(up));
     const RingScan at_a = ring(a, va, a.into(-up), length_1);
     if (!at_b.falls() && !at_a.falls()) {
-      const double over_a = proved_rise(a, std::array{va}, -up, at_a.over()),
-                   over_b = proved_rise(b, std::array{v0, v1}, up, at_b.over(kAcrossError + Q::kWay, b.reach, length_1));
-      end(a, {-up, -r, p, q0 + u * (ru / length2), blur_on<Q>(u), over_a, over_b});
+      const double over_b = at_b.over(kAcrossError + Q::kWay, b.reach, length_1);
+      end(a, {-up, -r, p, q0 + u * (ru / length2), blur_on<Q>(u), at_a.over(), over_b, {va, va, va}, {v0, v1, v1}});
       return {vertex(va), edge(h), distance2};
     }
     if (!at_b.falls()) return {along(a, up_ring(a, va, at_a)), edge(h), distance2};
@@ -153,13 +152,12 @@ class Marcher {
       if (!look.at_all)
         if (const std::uint32_t side = leave_by_any(b, prism, f, vec(p), look); side != kNone)
           return {vertex(va), edge(side), kUnknown};
-      Ending seen{-n, prism.corner() - p, p, p, 0, below.over(), kUnknown};
+      Ending seen{-n, prism.corner() - p, p, p, 0, below.over(), kUnknown, {va, va, va}, kNoPart};
       if (prism.is_triangle())
         foot_on_facet(b, prism, seen);
       else if (foot_on_face(b, prism, f, height, look.well_inside, seen))
         // A facet within a face has a direction of its own.
         seen.over_a = ring(a, va, a.into(seen.normal), norm_1(seen.normal)).over();
-      seen.over_a = proved_rise(a, std::array{va}, seen.normal, seen.over_a);
       end(a, seen);
       return {vertex(va), face(f), distance2};
     }
@@ -184,11 +182,9 @@ class Marcher {
     const auto [n, tilt_u, tilt_v] = between_edges(u, uu, v, vv, d);
     const SideScan at_a = sides(a, a0, ha, a.into(n)), at_b = sides(b, b0, hb, b.into(-n));
     if (!at_a.falls() && !at_b.falls()) {
-      const double length_1 = norm_1(n), rise_a = at_a.over(tilt_u + P::kWay, a.reach, length_1),
-                   rise_b = at_b.over(tilt_v + Q::kWay, b.reach, length_1),
-                   over_a = proved_rise(a, std::array{a0, a1}, n, rise_a),
-                   over_b = proved_rise(b, std::array{b0, b1}, -n, rise_b);
-      end(a, {n, q0 - p0, p, q, blur_on<P>(u) + blur_on<Q>(v), over_a, over_b});
+      const double length_1 = norm_1(n), over_a = at_a.over(tilt_u + P::kWay, a.reach, length_1),
+                   over_b = at_b.over(tilt_v + Q::kWay, b.reach, length_1);
+      end(a, {n, q0 - p0, p, q, blur_on<P>(u) + blur_on<Q>(v), over_a, over_b, {a0, a1, a1}, {b0, b1, b1}});
       return {edge(ha), edge(hb), distance2};
     }
     const Rise rise_a = at_a.falls() ? up_side(a, a0, ha, at_a) : Rise{kNone, -1, 1},
@@ -202,18 +198,17 @@ class Marcher {
 
  private:
   /// Ends the walk in a minimum. The first argument is the state's first body; `seen` has the bodies in the state's order.
-  void end(const Resting4&, const Ending& seen) {
-    end(seen.normal, seen.apart, seen.point_a, seen.point_b, seen.blur, seen.over_a, seen.over_b);
-  }
+  void end(const Resting4&, const Ending& seen) { end(seen); }
   void end(const Moved4&, const Ending& seen) {
-    end(-seen.normal, -seen.apart, seen.point_b, seen.point_a, seen.blur, seen.over_b, seen.over_a);
+    end({-seen.normal, -seen.apart, seen.point_b, seen.point_a, seen.blur, seen.over_b, seen.over_a, seen.part_b,
+         seen.part_a});
   }
-  void end(const Vec4& normal, const Vec4& apart, const Vec4& point_a, const Vec4& point_b, double blur, double over_a,
-           double over_b) {
+  void end(const Ending& seen) {
     Nearest& nearest = walk_.nearest;
-    store(normal, nearest.normal), store(apart, nearest.apart);
-    store(point_a, nearest.point_a), store(point_b, nearest.point_b);
-    nearest.blur = blur, nearest.over_a = over_a, nearest.over_b = over_b;
+    store(seen.normal, nearest.normal), store(seen.apart, nearest.apart);
+    store(seen.point_a, nearest.point_a), store(seen.point_b, nearest.point_b);
+    nearest.blur = seen.blur, nearest.over_a = seen.over_a, nearest.over_b = seen.over_b;
+    nearest.part_a = seen.part_a, nearest.part_b = seen.part_b;
     walk_.end = WalkEnd::Minimum;
   }
   Move inside(FeatureId first, FeatureId second, double distance2) {
@@ -409,7 +404,8 @@ class Marcher {
     const typename Prism<Q>::Beyond at = prism.beyond(seen.point_a - prism.corner());
     seen.point_b = prism.corner() + u * (-at.v / nn) + v * (-at.u / nn);
     seen.blur = (Q::kWay + kWeightError) * (norm_1(u) + norm_1(v));
-    seen.over_b = proved_rise(body, prism.corners(), n, tilt * body.reach);
+    seen.over_b = tilt * body.reach;
+    seen.part_b = prism.corners();
   }
 
   /// Completes `seen` for the nearest point in a face made of several facets, of which `h` begins one: goes from facet to facet
@@ -447,45 +443,8 @@ class Marcher {
     const double length2 = dot(u, u), s = dot(r, u) / length2;
     if (!(s > 0 && s < 1)) return;
     const Vec4 up = across(r, u, length2);
-    const double over_b = proved_rise(body, std::array{tail, head}, up,
-                                      sides(body, tail, h, body.into(up)).over(kAcrossError + Q::kWay, body.reach, norm_1(up)));
-    seen = {-up, -r, seen.point_a, q + u * s, blur_on<Q>(u), seen.over_a, over_b};
-  }
-
-  /// How far the body rises along `d`, taken at length 1, above the first of a minimum's `corners`: `over`, or, where that is
-  /// not known or counts for too much, what the plateau around the corners proves.
-  template <class Q, std::size_t kCount>
-  double proved_rise(const Q& body, const std::array<std::uint32_t, kCount>& corners, const Vec4& d, double over) {
-    return over <= kCloseShare * pair_.law_two ? over : min(over, above_plateau(body.view, vec(body.into(d)), vec(d), corners));
-  }
-
-  /// Gathers the vertices around `corners` that are level with them within rounding, until all other neighbours of those are
-  /// below: on an exactly convex body one of these is extreme. Returns how far one of them may rise along `own` above the first
-  /// corner, with the direction taken at length 1; infinite if they are more than `kPlateau`. `d` is `own` in the common frame.
-  [[gnu::noinline, gnu::flatten]] double above_plateau(const ConvexView& view, Vec own, Vec d,
-                                                       std::span<const std::uint32_t> corners) {
-    const double length_1 = std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z);
-    std::array<std::uint32_t, kPlateau> level;
-    std::size_t count = std::size_t(std::copy(corners.begin(), corners.end(), level.begin()) - level.begin());
-    const double error = kScanError * view.extent * length_1;
-    const Vec p = vec(view.vertices[corners[0]]);
-    double most = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vertex& record = view.vertices[level[i]];
-      const Vec e = vec(record) - p;
-      most = max(most, dot(own, e) + kBesideError * length_1 * norm(e));
-      const double least = dot(own, vec(record)) - error;
-      for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
-        const std::uint32_t w = view.half_edges[h].head;
-        if (dot(own, vec(view.vertices[w])) < least ||
-            std::find(level.begin(), level.begin() + count, w) != level.begin() + count)
-          continue;
-        if (count == kPlateau) return kUnknown;
-        level[count++] = w;
-      }
-      walk_.plane_tests += record.ring_count;
-    }
-    return most / norm(d);
+    const double over_b = sides(body, tail, h, body.into(up)).over(kAcrossError + Q::kWay, body.reach, norm_1(up));
+    seen = {-up, -r, seen.point_a, q + u * s, blur_on<Q>(u), seen.over_a, over_b, seen.part_a, {tail, head, head}};
   }
 
   /// Follows edge `h`, which leads from `tail` along u to `head`, from its point p at s over face `f`, which rises towards p.

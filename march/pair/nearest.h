@@ -4,9 +4,17 @@
 // rises above its feature. Knows one level pair.
 #pragma once
 
+#include <array>
+#include <cstdint>
+
+#include "body/half_edge.h"
 #include "numeric/vec.h"
 
 namespace swiftlet {
+
+/// A vertex, an edge, a facet or a diagonal within a face, by its vertices, of which the last is repeated.
+using Part = std::array<std::uint32_t, 3>;
+constexpr Part kNoPart{kNone, kNone, kNone};
 
 /// The nearest points of two features of a pair, in the common frame.
 struct Nearest {
@@ -17,6 +25,7 @@ struct Nearest {
   /// Upper bounds on how far A rises along `normal`, taken at length 1, above any vertex of its feature, and B against it above
   /// any of its own. Infinite where the walk's tests do not tell.
   double over_a, over_b;
+  Part part_a, part_b;  ///< what the tests were about: the features, or of a face the facet or the diagonal; kNoPart: the face
 };
 
 }  // namespace swiftlet

@@ -202,7 +202,7 @@ class Descent {
       const PairView pair = view_at(place);
       const bool last = finest(place);
       met_ = MarchStatus::NotConverged;
-      const Walk walked = known ? *known : walk_on(pair, place);
+      Walk walked = known ? *known : walk_on(pair, place);
       spent_ = walked.end == WalkEnd::Budget && answer_.steps >= budget_.steps;
       const bool lost = walked.end == WalkEnd::Budget && !spent_;
       const bool wanted = last || worth_certifying(place, walked);
@@ -274,9 +274,9 @@ class Descent {
   }
 
   /// Certifies a walk and takes over the better bounds; the features of `place` become those of the certificate.
-  void bound(const PairView& pair, Place& place, const Walk& walked) {
+  void bound(const PairView& pair, Place& place, Walk& walked) {
     Proof proof;
-    doubt_ = tuning_.careful ? Doubt::Asked : settle(pair, walked, asked_.zero, asked_.above, proof);
+    doubt_ = tuning_.careful ? Doubt::Asked : settle(pair, walked, asked_.zero, asked_.above, answer_.plane_tests, proof);
     if (doubt_ == Doubt::None) {
       met_ = MarchStatus::Disjoint;
       const Nearest& at = walked.nearest;

@@ -40,14 +40,14 @@ template <class Pair>
 }
 /// Answers from a walk on the level pair of `place` if the tests that end it prove enough. `place` gets the walk's features.
 template <class Pair>
-[[gnu::always_inline]] static inline bool answers(const Pair& pair, const PairView& view, const Walk& walked, const Line& line,
+[[gnu::always_inline]] static inline bool answers(const Pair& pair, const PairView& view, Walk& walked, const Line& line,
                                                   const StopRule& asked, bool exact, Turn turn, PairSeed& seed, Place& place,
                                                   Answer& answer) {
   answer.steps += walked.steps;
   answer.plane_tests += walked.plane_tests;
   place.start = {walked.a, walked.b};
   Proof proof;
-  if (settle(view, walked, asked.zero, asked.above, proof) != Doubt::None) return false;
+  if (settle(view, walked, asked.zero, asked.above, answer.plane_tests, proof) != Doubt::None) return false;
   double upper = proof.upper;
   if (place.level_a != 0 || place.level_b != 0) {
     upper = (upper + pair.deviation(place.level_a, place.level_b)) * (1 + 2 * kU);
@@ -177,7 +177,7 @@ template <class Pair>
   const bool walks = !tuning.careful && tuning.start != StartPolicy::Coarsest;
   if (walks && place.start.a.kind() != FeatureKind::None) {
     const PairView view = pair.view_at(place);
-    const Walk walked = walk_from(pair, view, place, answer);
+    Walk walked = walk_from(pair, view, place, answer);
     if (answers(pair, view, walked, line, asked, exact, turn, seed, place, answer)) return;
     const bool lost = walked.end == WalkEnd::Budget && answer.steps < pair.limits.budget.steps;
     if (!lost) return descends(place, nullptr, &walked);
@@ -192,7 +192,7 @@ template <class Pair>
                                            first_direction(pair, line, last_direction(line.in_a, seed)));
   place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
   if (found.simplex.count() == 4) return descends(place, &found, nullptr);
-  const Walk walked = walk_from(pair, view, place, answer);
+  Walk walked = walk_from(pair, view, place, answer);
   if (answers(pair, view, walked, line, asked, exact, Turn::Some, seed, place, answer)) return;
   descends(place, &found, &walked);
 }
