@@ -26,14 +26,17 @@ struct AxisSample {
   double gap;          ///< between vertices `a` and `b` along `normal`
   double lower;        ///< bound proved along `normal`: the gap less rounding and the maps' uncertainty; may be negative
 };
-/// Samples the maps along `direction`, of any length: it is normalised first, as M n of a short one may underflow. `other` is
-/// B.
+/// Samples the maps along `direction`, of any length: cells do not depend on it, and so need not wait for it, unless it is so
+/// short that M n may underflow. `other` is B.
 [[gnu::flatten]] static inline AxisSample sample_axis(const PairView& pair, const Moved4& other, const Level& a, const Level& b,
                                                       const Vec4& direction) {
-  const Vec4 n = normalised(direction);
-  const auto [top_a, top_b] = look_up(a, n, b, -other.into(n));
-  const Vec4 q = vec4(pair.a.vertices[top_a.vertex]), p = other.point(top_b.vertex) - q;
-  const double excess = top_a.excess + top_b.excess + kMapError * (pair.a.extent + pair.b.extent);
+  const double square = dot(direction, direction);
+  const bool has_length = has_range(square);
+  const Vec4 way = has_length ? direction : normalised_far(direction);
+  const auto [top_a, top_b] = look_up(a, way, b, -other.into(way));
+  const double inverse = has_length ? 1 / std::sqrt(square) : 1;
+  const Vec4 n = way * inverse, q = vec4(pair.a.vertices[top_a.vertex]), p = other.point(top_b.vertex) - q;
+  const double excess = (top_a.excess + top_b.excess) * inverse + kMapError * (pair.a.extent + pair.b.extent);
   return {vec(n), top_a.vertex, top_b.vertex, vec(q), vec(p), dot(n, p), gap(pair, n, p, excess)};
 }
 static inline AxisSample sample_axis(const PairView& pair, const Level& a, const Level& b, const Vec& direction) {
