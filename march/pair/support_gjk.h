@@ -49,9 +49,10 @@ static inline bool is_round(const Level& level) {
   return std::fabs(m[3] - m[0]) + std::fabs(m[5] - m[0]) + std::fabs(m[1]) + std::fabs(m[2]) + std::fabs(m[4]) < kRound * m[0];
 }
 
-/// About the direction of the distance, where `line` is the line of centres: the bodies are taken for ellipsoids, the points
-/// M^T y, |y| <= 1, for the map frame M. The distance h of two of them lies along n where (h + M_a^T M_a / |M_a n| + M_b^T M_b
-/// / |M_b n|) n = `line`. `kEllipsoidSteps` steps take h and the lengths from the last n. Between round bodies, `line`.
+/// About the direction of the distance, at any length, where `line` is the line of centres: the bodies are taken for
+/// ellipsoids, the points M^T y, |y| <= 1, for the map frame M. The distance h of two of them lies along n where (h / |n| +
+/// M_a^T M_a / |M_a n| + M_b^T M_b / |M_b n|) n is along `line`, and h / |n| = (n . `line` - |M_a n| - |M_b n|) / n . n.
+/// `kEllipsoidSteps` steps take these from the last n. Between round bodies, `line`.
 [[gnu::flatten]] static inline Vec4 between_ellipsoids(const Level& a, const Level& b, const Motion& b_in_a, const Vec4& line) {
   if (is_round(a) && is_round(b)) return line;
   using Columns = V3<Vec4>;
@@ -67,16 +68,16 @@ static inline bool is_round(const Level& level) {
                    x.z * rows.x + y.z * rows.y + z.z * rows.z};
   };
   const Columns of_a = square(rows_a), of_b = square(rows_b);
-  Vec4 n = normalised(line);
+  Vec4 n = line;
   for (int k = 0; k < kEllipsoidSteps; ++k) {
     const double wide_a = std::sqrt(dot(n, times(of_a, n))), wide_b = std::sqrt(dot(n, times(of_b, n))),
-                 h = max(0, dot(n, line) - wide_a - wide_b);
+                 h = max(0, (dot(n, line) - wide_a - wide_b) / dot(n, n));
     const Vec4 by_a = all(1 / wide_a), by_b = all(1 / wide_b), x = vec4(1, 0, 0) * h + of_a.x * by_a + of_b.x * by_b,
                y = vec4(0, 1, 0) * h + of_a.y * by_a + of_b.y * by_b, z = vec4(0, 0, 1) * h + of_a.z * by_a + of_b.z * by_b;
     // Cramer's rule, without the determinant, which is positive.
-    n = normalised(times({cross(y, z), cross(z, x), cross(x, y)}, line));
+    n = times({cross(y, z), cross(z, x), cross(x, y)}, line);
   }
-  return n;
+  return has_range(dot(n, n)) ? n : line;
 }
 
 /// The state of the algorithm after a step.
