@@ -138,6 +138,9 @@ inline constexpr double kBesideError = 12 * kU;
 /// and the points of both edges 3 u, 42 u of the extent. The product w . u then errs by 3 u of 1.22 lengths, the quotient by 5
 /// u of 0.7 lengths, and the last difference by 1 u: 8.2 u. Rounded up.
 inline constexpr double kAcrossError = 10 * kU;
+/// Where the squared sine of two edges is above this, whether their lines are nearest within both is told by 2x2 determinants,
+/// whose rounding is then some 2^-30 of them: a wrong answer costs a step, as points are clamped to the edges.
+inline constexpr double kSlimArea = 0x1p-20;
 /// Bounds the error of u x v for computed u and v, relative to |u| |v|: 1 product and 1 difference, 2 u in each coordinate of
 /// terms that make at most 1.2 |u| |v|, and 1 u of the result. Rounded up.
 inline constexpr double kFlatError = 4 * kU;

@@ -175,7 +175,7 @@ class Marcher {
     const Vec4 p = p0 + u * at.s, q = q0 + v * at.t, d = q - p;
     const double distance2 = dot(d, d);
     walk_.plane_tests += 4;
-    const bool end_a = at.s == 0 || at.s == 1, end_b = at.t == 0 || at.t == 1;
+    const bool end_a = at.ends_first(), end_b = at.ends_second();
     if (end_a || end_b) {
       return {end_a ? vertex(at.s == 0 ? a0 : a1) : edge(ha), end_b ? vertex(at.t == 0 ? b0 : b1) : edge(hb), distance2};
     }

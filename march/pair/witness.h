@@ -59,7 +59,10 @@ static inline BetweenEdges<V> between_edges(const V& u, double uu, const V& v, d
 
 /// Nearest points p0 + s u and q0 + t v of two segments.
 struct Parameters {
-  double s, t;  ///< in [0, 1]
+  double s, t;    ///< in [0, 1]
+  bool is_inner;  ///< neither is at an end; known before s and t are
+  bool ends_first() const { return !is_inner && (s == 0 || s == 1); }
+  bool ends_second() const { return !is_inner && (t == 0 || t == 1); }
 };
 /// Follows [Ericson 2004, sec. 5.1.9], then computes s again from t, so that the difference stays perpendicular if the lines
 /// are nearly parallel.
@@ -68,8 +71,13 @@ static inline Parameters nearest_on_segments(const V& p0, const V& u, double uu,
   const auto clamp = [](double x) { return min(1, max(0, x)); };
   const V r = p0 - q0;
   const double uv = dot(u, v), ur = dot(u, r), vr = dot(v, r), area2 = uu * vv - uv * uv;
-  const double s = area2 > 0 ? clamp((uv * vr - ur * vv) / area2) : 0.0, t = clamp((uv * s + vr) / vv);
-  return {clamp((uv * t - ur) / uu), t};
+  const double s_area = uv * vr - ur * vv, t_area = uu * vr - uv * ur;
+  if (area2 > kSlimArea * uu * vv && min(s_area, t_area) > 0 && max(s_area, t_area) < area2) {
+    const double t = t_area / area2;
+    return {clamp((uv * t - ur) / uu), t, true};
+  }
+  const double s = area2 > 0 ? clamp(s_area / area2) : 0.0, t = clamp((uv * s + vr) / vv);
+  return {clamp((uv * t - ur) / uu), t, false};
 }
 
 /// The point of face `f` below `p`, which is in the body's own frame. If `p` is beside the face, negative weights become 0, in
