@@ -291,7 +291,7 @@ inline constexpr int kGjkLimit = 400, kProgressPatience = 8;
 /// An Automatic start walks from the seed's features while the line of centres turned by no more than `kWarmEdges` edges of a
 /// body, at half a step each; a cold start costs about six steps. On a level without a support map it descends from a coarser
 /// level and costs twice that: `kWarmEdgesUnmapped` edges. A walk of `kTrialSteps` is given up for a cold start (ski rental).
-inline constexpr double kWarmEdges = 6, kWarmEdgesUnmapped = 12;
+inline constexpr double kWarmEdges = 5, kWarmEdgesUnmapped = 12;
 /// A seed keeps its line of centres until that has turned by this many edges.
 inline constexpr double kSameEdges = 0.5;
 inline constexpr std::uint32_t kTrialSteps = 16;
