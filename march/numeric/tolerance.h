@@ -132,26 +132,25 @@ inline constexpr double kScanError = 32 * kU;
 /// Bounds the error of a corner's height beside an edge, relative to the distance of the two vertices times |d|_1. The
 /// difference of the two vertices has 1 u, its product with d 3 u, and R^T d, of B, 3 u: 7 u. Rounded up.
 inline constexpr double kBesideError = 12 * kU;
-/// Bounds how far the part of a vector w across an edge is from a right angle to the edge's computed vector u, as a sine. w
-/// itself leads from the nearest point of the edge's line, and leans along u by at most 0.7 of its length if that is above law
-/// 2's bound: s carries 8 u and w 3 u of 2 sqrt(3) extents, 38 u of the extent, over 64 u. Between parallel edges s carries 9 u
-/// and the points of both edges 3 u, 42 u of the extent. The product w . u then errs by 3 u of 1.22 lengths, the quotient by 5
-/// u of 0.7 lengths, and the last difference by 1 u: 8.2 u. Rounded up.
-inline constexpr double kAcrossError = 10 * kU;
 /// Where the squared sine of two edges is above this, whether their lines are nearest within both is told by 2x2 determinants,
 /// whose rounding is then some 2^-30 of them: a wrong answer costs a step, as points are clamped to the edges.
 inline constexpr double kSlimArea = 0x1p-20;
 /// Bounds the error of u x v for computed u and v, relative to |u| |v|: 1 product and 1 difference, 2 u in each coordinate of
 /// terms that make at most 1.2 |u| |v|, and 1 u of the result. Rounded up.
 inline constexpr double kFlatError = 4 * kU;
+/// Bounds how far u x (w x u) / u . u is from a right angle to u, as a sine: u is the computed vector of an edge, and w leads
+/// from one of its points to one at least law 2's bound away from its line. Both products have 3.4 u as above. What the inner
+/// one errs by along u is at most 3.4 u of 2 sqrt(3) extents, over a distance of 64 u of them: the outer one's factors make an
+/// angle whose sine is 0.97, and its error is 3.5 u of its length. The quotient has 1 u: 4.5 u. Rounded up.
+inline constexpr double kAcrossError = 6 * kU;
 /// Bounds the error of cof(R) n, the image of a normal n, relative to |n|: 2 u for each cofactor and 3 u for their sum with n,
 /// (2 sqrt(3) + 3) u in each coordinate, sqrt(3) times that for the vector: 11.2 u. Rounded up.
 inline constexpr double kImageError = 12 * kU;
 /// Bounds the error of a point's depth below a facet's `exact::Plane`, relative to the largest coordinate. The plane's height
 /// has 8.2 u; the normal's 3 u, the products' 3 u and the difference's 1 u count for |p|: 15.2 u times sqrt(3). Rounded up.
 inline constexpr double kInnerError = 32 * kU;
-/// A plane that may lean by more than this share of law 2's bound over a body's reach is held against the rings of the
-/// feature's corners, so that its lean counts only as far as the feature goes.
+/// Where the tests of a walk prove bounds that are too wide, a plane that may lean by more than this share of law 2's bound over
+/// a body's reach is held against the rings of the feature's corners, so that its lean counts only as far as the feature goes.
 inline constexpr double kCloseShare = 0.25;
 /// Bounds the rounding of the sums that make a point of each body from a vertex and at most two vectors, relative to the pair's
 /// magnitude: 2 sums, each u of a vector no longer than the body's points are.
