@@ -149,8 +149,9 @@ inline constexpr double kImageError = 12 * kU;
 /// Bounds the error of a point's depth below a facet's `exact::Plane`, relative to the largest coordinate. The plane's height
 /// has 8.2 u; the normal's 3 u, the products' 3 u and the difference's 1 u count for |p|: 15.2 u times sqrt(3). Rounded up.
 inline constexpr double kInnerError = 32 * kU;
-/// Where the tests of a walk prove bounds that are too wide, a plane that may lean by more than this share of law 2's bound over
-/// a body's reach is held against the rings of the feature's corners, so that its lean counts only as far as the feature goes.
+/// Where the tests of a walk prove bounds that are too wide, a plane that may lean by more than this share of law 2's bound
+/// over a body's reach is held against the rings of the feature's corners, so that its lean counts only as far as the feature
+/// goes.
 inline constexpr double kCloseShare = 0.25;
 /// Bounds the rounding of the sums that make a point of each body from a vertex and at most two vectors, relative to the pair's
 /// magnitude: 2 sums, each u of a vector no longer than the body's points are.
