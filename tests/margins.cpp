@@ -49,7 +49,6 @@ void put(Scene& s, int i, const Vec& v) {
   s[std::size_t(12 + 3 * i)] = v.x, s[std::size_t(13 + 3 * i)] = v.y, s[std::size_t(14 + 3 * i)] = v.z;
 }
 
-double norm_1(const Vec& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
 double sine_of_dot(const Vec& a, const Vec& b) {
   const Exact3 x = exact(a), y = exact(b);
   return std::fabs(rounded(inner(x, y))) / (length(x) * length(y));

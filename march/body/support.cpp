@@ -10,23 +10,21 @@
 namespace swiftlet {
 namespace {
 
-double sum_abs(const Vec& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
-
 /// Orders the vertices of one body exactly along a direction of the common frame: in doubles; in 106 bits where doubles cannot
 /// tell, as for the corners of a face to which the direction is normal; by expansions where 106 bits cannot tell.
 class Ordering {
  public:
-  explicit Ordering(const Vec& n) : n_(n), own_(n), error_(kDotError * sum_abs(n)) {}
+  explicit Ordering(const Vec& n) : n_(n), own_(n), error_(kDotError * norm_1(n)) {}
   Ordering(const Vec& n, const Motion& motion)
-      : n_(n), motion_(&motion), own_(rotate_back(motion, n)), error_(kTurnedSupportError * sum_abs(n)) {}
+      : n_(n), motion_(&motion), own_(rotate_back(motion, n)), error_(kTurnedSupportError * norm_1(n)) {}
 
   /// The sign of n . (w - v), where the pose, if there is one, has moved `w` and `v` into the common frame.
   int compare(const Vertex& w, const Vertex& v) {
     const Vec e = vec(w) - vec(v);
-    const double value = dot(own_, e), bound = error_ * sum_abs(e);
+    const double value = dot(own_, e), bound = error_ * norm_1(e);
     if (value > bound) return 1;
     if (value < -bound) return -1;
-    return compare_ties(w, v, kWideDotError * sum_abs(n_) * sum_abs(e));
+    return compare_ties(w, v, kWideDotError * norm_1(n_) * norm_1(e));
   }
 
  private:

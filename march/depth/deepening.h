@@ -194,15 +194,6 @@ class Deepening {
     return s;
   }
 
-  /// An upper bound on the height of the Minkowski difference along `n`, the unit normal of `seen`, where the walk that saw it
-  /// had B moved by `way`; infinite if the walk does not tell, as where it ended nearer than law 2's bound.
-  static double height_along(const Vec& n, const PairView& moved, const Nearest& seen, const Vec& way) {
-    const Vec apart = seen.point_b - seen.point_a;
-    const double over = seen.over_a + seen.over_b;
-    const bool tells = over <= moved.law_two && dot(apart, apart) > moved.law_two * moved.law_two;
-    return tells ? -gap(moved, vec4(n), vec4(seen.apart - way), over + kPointSumError * moved.magnitude) : kInfinity;
-  }
-
   /// Moves B along a direction until it is free; the features that are nearest then give the next direction, until they span a
   /// facet of the Minkowski difference that holds the nearest point. Returns true if it is proved to. `at` becomes where the
   /// search ended.
@@ -245,11 +236,9 @@ class Deepening {
         continue;
       }
       from = {w.a, w.b};
-      tighten(apart, w.nearest, plane_tests);
       Vec next = normalised(w.nearest.normal);
       at = start_at(pair, from, next);
-      const double highest = height_along(next, apart, w.nearest, m.t - pair_.motion.t);
-      const bool proved = prove_facet(pair, of_a, of_b, at, highest, goal, plane_tests, found);
+      const bool proved = prove_facet(pair, of_a, of_b, at, {apart, w.nearest, m.t - pair_.motion.t}, goal, plane_tests, found);
       steps += found.steps;
       if (proved) return true;
       const bool is_facet = found.upper < kInfinity;

@@ -248,15 +248,17 @@ class FacetProof {
 };
 
 /// As `prove_facet`.
-[[gnu::flatten]] bool proves_facet(const PairView& pair, const Level& a, const Level& b, const DepthStart& start, double upper,
-                                   const DepthGoal& goal, std::uint32_t& plane_tests, Depth& depth) {
+[[gnu::flatten]] bool proves_facet(const PairView& pair, const Level& a, const Level& b, const DepthStart& start,
+                                   const Ceiling& ceiling, const DepthGoal& goal, std::uint32_t& plane_tests, Depth& depth) {
   depth.steps = 0, depth.upper = kInfinity, depth.normal = {0, 0, 0};
   if (start.count < 3) return false;
   FacetProof facet(pair, a, b, start, plane_tests);
   const Vec& n = facet.normal();
   const double off = facet.lower() > 0 ? facet.stand(depth) : kInfinity;
   if (!(off <= pair.law_two)) return false;
+  double upper = ceiling.height(n);
   const auto is_close = [&] { return goal.narrow(facet.lower(), upper) && off + (upper - facet.height()) <= pair.law_two; };
+  if (!is_close() && tighten(ceiling.moved, ceiling.seen, plane_tests)) upper = ceiling.height(n);
   if (!is_close()) ++depth.steps, upper = -supports(pair, n, start.a[0], start.b[0], plane_tests).lower;
   if (!is_close()) return false;
   depth.upper = upper;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pair/certify.h"
 
-#include <algorithm>
+#include <array>
+#include <limits>
 #include <optional>
 
 #include "body/half_edge.h"
@@ -63,7 +64,8 @@ struct Plateau {
   std::size_t count = 0;
   /// Returns false if there is no room for `v`.
   bool add(std::uint32_t v) {
-    if (std::find(vertices.begin(), vertices.begin() + count, v) != vertices.begin() + count) return true;
+    for (std::size_t i = 0; i < count; ++i)
+      if (vertices[i] == v) return true;
     if (count == kPlateau) return false;
     vertices[count++] = v;
     return true;
@@ -120,23 +122,23 @@ std::optional<Extreme> top(const ConvexView& view, const Slope& slope, std::uint
 
 /// An upper bound on how far a body rises along a direction, taken at length 1, above the first vertex of `part`: gathers the
 /// vertices around it that are level with it within rounding, until all other neighbours of those are below. On an exactly
-/// convex body one of the gathered ones is extreme. Infinite if they are more than `kPlateau`. `own` is the direction `d` of the
-/// common frame in the body's own.
+/// convex body one of the gathered ones is extreme. Infinite if they are more than `kPlateau`. `own` is the direction `d` of
+/// the common frame in the body's own.
 double above_plateau(const ConvexView& view, const Vec& own, const Vec& d, const Part& part, std::uint32_t& plane_tests) {
-  const double length_1 = std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z), error = kScanError * view.extent * length_1;
-  const Vec p = vec(view.vertices[part[0]]);
+  const Vertex* vertices = view.vertices.data();
+  const double length_1 = norm_1(d), error = kScanError * view.extent * length_1;
+  const Vec p = vec(vertices[part[0]]);
   Plateau level;
   for (const std::uint32_t v : part) level.add(v);
   double most = 0;
   for (std::size_t i = 0; i < level.count; ++i) {
-    const Vertex& record = view.vertices[level.vertices[i]];
+    const Vertex& record = vertices[level.vertices[i]];
     const Vec e = vec(record) - p;
-    most = max(most, dot(own, e) + kBesideError * length_1 * norm(e));
+    most = max(most, dot(own, e) + kBesideError * length_1 * norm_1(e));
     const double least = dot(own, vec(record)) - error;
-    for (std::uint32_t h = record.ring_begin; h < record.ring_begin + record.ring_count; ++h) {
-      const std::uint32_t w = view.half_edges[h].head;
-      if (!(dot(own, vec(view.vertices[w])) < least) && !level.add(w)) return std::numeric_limits<double>::infinity();
-    }
+    const HalfEdge* ring = view.half_edges.data() + record.ring_begin;
+    for (const HalfEdge* h = ring; h != ring + record.ring_count; ++h)
+      if (!(dot(own, vec(vertices[h->head])) < least) && !level.add(h->head)) return std::numeric_limits<double>::infinity();
     plane_tests += record.ring_count;
   }
   return most / norm(d);
@@ -146,7 +148,7 @@ double above_plateau(const ConvexView& view, const Vec& own, const Vec& d, const
 
 bool tighten(const PairView& pair, Nearest& seen, std::uint32_t& plane_tests) {
   const auto looks = [&](const auto& body, const Part& part, const Vec& d, double& over) {
-    if (over <= kCloseShare * pair.law_two || part == kNoPart) return false;
+    if (over <= kCloseShare * pair.law_two || part[0] == kNone) return false;
     const double most = above_plateau(body.view, body.into(d), d, part, plane_tests);
     if (!(most < over)) return false;
     over = most;

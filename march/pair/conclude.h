@@ -32,7 +32,8 @@ static inline Doubt settle(const PairView& pair, Walk& walk, double zero, double
                            Proof& proof) {
   if (walk.end != WalkEnd::Minimum) return Doubt::NoMinimum;
   Doubt doubt = certify(pair, walk.nearest, proof);
-  if (doubt == Doubt::Width || doubt == Doubt::Neighbour) doubt = certify_closely(pair, walk.nearest, doubt, plane_tests, proof);
+  if (doubt == Doubt::Width || doubt == Doubt::Neighbour)
+    doubt = certify_closely(pair, walk.nearest, doubt, plane_tests, proof);
   if (doubt != Doubt::None) return doubt;
   const bool near = is_near(pair, proof.lower, proof.upper, zero) || is_near(pair, proof.lower, proof.upper, beyond);
   return near ? Doubt::Threshold : Doubt::None;

@@ -200,8 +200,7 @@ class Marcher {
   /// Ends the walk in a minimum. The first argument is the state's first body; `seen` has the bodies in the state's order.
   void end(const Resting4&, const Ending& seen) { end(seen); }
   void end(const Moved4&, const Ending& seen) {
-    end({-seen.normal, -seen.apart, seen.point_b, seen.point_a, seen.blur, seen.over_b, seen.over_a, seen.part_b,
-         seen.part_a});
+    end({-seen.normal, -seen.apart, seen.point_b, seen.point_a, seen.blur, seen.over_b, seen.over_a, seen.part_b, seen.part_a});
   }
   void end(const Ending& seen) {
     Nearest& nearest = walk_.nearest;

@@ -33,7 +33,13 @@ std::uint32_t index(std::uint32_t corner) {
   return std::uint32_t(std::find(corners.begin(), corners.end(), corner) - corners.begin());
 }
 
-constexpr double kUnknown = std::numeric_limits<double>::infinity();
+/// The last state of a walk that tells nothing.
+Nearest unknown() {
+  Nearest seen{};
+  seen.over_a = seen.over_b = std::numeric_limits<double>::infinity();
+  seen.part_a = seen.part_b = kNoPart;
+  return seen;
+}
 
 /// The goal of an exact depth.
 DepthGoal exactly(const PairView& pair) { return {{}, pair.law_two, 0, 0}; }
@@ -85,7 +91,8 @@ TEST(UnitFacetProof, ProvesAFacetByAPartOfIt) {
   start.direction = {0, 0, 1};
   std::uint32_t tests = 0;
   Depth d;
-  ASSERT_TRUE(prove_facet(pair, kLevel, kLevel, start, kUnknown, exactly(pair), tests, d));
+  Nearest seen = unknown();
+  ASSERT_TRUE(prove_facet(pair, kLevel, kLevel, start, {pair, seen, {0, 0, 0}}, exactly(pair), tests, d));
   EXPECT_NEAR(d.lower, 0.1, 1e-14);
   EXPECT_NEAR(d.upper, 0.1, 1e-14);
   EXPECT_EQ(d.normal.z, 1);
@@ -103,7 +110,8 @@ bool is_proved_at(const Vec3& at, std::uint32_t first, const Vec& direction, Dep
     start.a[k] = std::uint32_t(std::find(corners.begin(), corners.end(), first + k) - corners.begin());
   start.direction = direction;
   std::uint32_t tests = 0;
-  return prove_facet(pair, body.level(0), dot.level(0), start, kUnknown, exactly(pair), tests, d);
+  Nearest seen = unknown();
+  return prove_facet(pair, body.level(0), dot.level(0), start, {pair, seen, {0, 0, 0}}, exactly(pair), tests, d);
 }
 
 TEST(UnitFacetProof, ProvesTheNearestFacetAndNoOther) {
