@@ -289,8 +289,9 @@ inline constexpr int kFacetSteps = 32;
 /// `kProgressPatience` bounds those in a row that neither shorten the distance nor raise the lower bound.
 inline constexpr int kGjkLimit = 400, kProgressPatience = 8;
 /// An Automatic start walks from the seed's features while the line of centres turned by no more than `kWarmEdges` edges of a
-/// body, at half a step each; a cold start costs about six steps. On a level without a support map it descends from a coarser
-/// level and costs twice that: `kWarmEdgesUnmapped` edges. A walk of `kTrialSteps` is given up for a cold start (ski rental).
+/// body, at half a step each; a cold start costs about five steps. On a level without a support map it descends from a coarser
+/// level and costs twice that: `kWarmEdgesUnmapped` edges. A depth's cold start costs more too: it walks from twice as far. A
+/// walk of `kTrialSteps` is given up for a cold start (ski rental).
 inline constexpr double kWarmEdges = 5, kWarmEdgesUnmapped = 12;
 /// A seed keeps its line of centres until that has turned by this many edges.
 inline constexpr double kSameEdges = 0.5;

@@ -46,7 +46,11 @@ enum class Turn {
 };
 constexpr double kLineUnit = 32767;  ///< the length of a direction in a seed
 
+/// How far a query walks from a seed's features: where a cold start costs more than for a distance, from twice as far.
+enum class Warm { Near, TwiceAsFar };
+
 /// `a` and `b` are the levels of the seed.
+template <Warm warm = Warm::Near>
 static inline Turn turn_of(const Line& line, const PairSeed& seed, const Level& a, const Level& b) {
   const Vec4 in_a = vec4(line.in_a);
   const double whole = dot(in_a, in_a) * (kLineUnit * kLineUnit), along_a = max(dot(in_a, vec4(seed.line_in_a.data())), 0),
@@ -56,7 +60,8 @@ static inline Turn turn_of(const Line& line, const PairSeed& seed, const Level& 
   if (same_a & same_b) return Turn::Little;
   const auto is_far = [whole](double cos2, const std::array<std::int16_t, 3>& was, const Level& level) {
     const bool known = (was[0] | was[1] | was[2]) != 0;  // not of a seed made by hand
-    return known && cos2 < level.near_cos2 * whole;
+    const double twice = max(0, 2 * level.near_cos2 - 1), near_cos2 = warm == Warm::Near ? level.near_cos2 : twice * twice;
+    return known && cos2 < near_cos2 * whole;
   };
   return (!same_a && is_far(cos2_a, seed.line_in_a, a)) || (!same_b && is_far(cos2_b, seed.line_in_b, b)) ? Turn::Far
                                                                                                           : Turn::Some;
