@@ -266,6 +266,17 @@ static inline double least(const Vec4& a) {
   return min(pairs[0], pairs[1]);
 }
 
+/// The greatest in every lane.
+static inline Vec4 all_greatest(const Vec4& a) {
+#if defined(__AVX__)
+  const Vec4 pairs = max(a, Vec4{__builtin_shufflevector(a.v, a.v, 2, 3, 0, 1)});
+  return max(pairs, Vec4{__builtin_shufflevector(pairs.v, pairs.v, 1, 0, 3, 2)});
+#else
+  const Vec2 pairs = max(a.lo, a.hi), most = max(pairs, __builtin_shufflevector(pairs, pairs, 1, 0));
+  return {most, most};
+#endif
+}
+
 /// Four dot products of vectors.
 static inline Vec4 dots(const Vec4& a, const Vec4& b, const Vec4& c, const Vec4& d, const Vec4& e, const Vec4& f, const Vec4& g,
                         const Vec4& h) {

@@ -246,10 +246,10 @@ class Marcher {
       return dot(repeated(own), transposed(vertices[g[0].head], vertices[g[1].head], vertices[g[2].head], vertices[g[3].head]));
     };
     const Vec4 some = heights(h), others = heights(h + further);
-    const double highest = greatest(max(some, others));
+    const Vec4 highest = all_greatest(max(some, others));
     walk_.plane_tests += vertex.ring_count;
-    const unsigned where = equal(some, all(highest)) | equal(others, all(highest)) << further;
-    return {highest - height, begin + std::uint32_t(std::countr_zero(where))};
+    const unsigned where = equal(some, highest) | equal(others, highest) << further;
+    return {highest[0] - height, begin + std::uint32_t(std::countr_zero(where))};
   }
 
   /// The same for any ring, and for the first neighbour that is higher than the vertex by more than `error`.
