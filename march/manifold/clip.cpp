@@ -485,8 +485,8 @@ class Sweep {
     const SeenBorder &of_a = at(p.border, 0), &of_b = at(q.border, 1);
     // All is seen as A's border sees it.
     const double mirrored = p.border == q.border ? 1 : -1;
-    const auto as_a = [&](const Place& seen_by_b) { return Place{seen_by_b.x * mirrored, seen_by_b.y}; };
-    const Line &a = of_a.side(), b{as_a(of_b.side().from), as_a(of_b.side().to), {as_a(of_b.side().way), 0}};
+    const auto by_other = [&](const Place& place) { return Place{place.x * mirrored, place.y}; };
+    const Line &a = of_a.side(), b{by_other(of_b.side().from), by_other(of_b.side().to), {by_other(of_b.side().way), 0}};
     const double h = b.beyond(a.from), h_to = b.beyond(a.to);
     // If the sides are nearly parallel, the first point on a is uncertain; the last one is the nearest to that on b.
     const double t_b = b.along(a.at(h != h_to ? min(max(h / (h - h_to), 0), 1) : 0)), t_a = a.along(b.at(t_b));
@@ -499,7 +499,7 @@ class Sweep {
     // A corner within the bound of a side may be farther than that from where the sides cross.
     if (dot(on_b - on_a, on_b - on_a) > 4 * bound_ * bound_) return;
     const double z_a = of_a.z_at(t_a), z_b = of_b.z_at(t_b);
-    const Names names(of_a.edge_at(on_a), of_b.edge_at(as_a(on_b)));
+    const Names names(of_a.edge_at(on_a), of_b.edge_at(by_other(on_b)));
     corners_.add(border, {{of_a.seen(on_a).x, on_a.y, z_a}, z_b - z_a, names}, wanted);
   }
 

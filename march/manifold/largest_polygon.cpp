@@ -129,7 +129,7 @@ LargestPolygon largest_polygon(const Candidates& candidates, int first, int most
     polygon.corner[std::size_t(polygon.count++)] = hull[last];
     if (corner > 1) last = before[std::size_t(corner)][std::size_t(last)];
   }
-  if (corners > 0) polygon.corner[std::size_t(polygon.count++)] = hull[0];
+  polygon.corner[std::size_t(polygon.count++)] = hull[0];
   return polygon;
 }
 
