@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include <swiftlet/build.h>
+#include <swiftlet/depth.h>
 
 #include "shapes.h"
 
@@ -68,10 +69,16 @@ void judge(const ManifoldCell& cell, std::span<const Contacts> all, Row& row) {
   row.flagged = row.failed > 0 || row.wrong > 0 || row.error > kOutside;
 }
 
-/// B on A's top, turning and sliding about.
-ManifoldCell stacked(std::string name, const Mesh& mesh, double height, double depth, std::uint32_t poses) {
-  const Model model = std::move(build(mesh.points)).value().model;
-  ManifoldCell cell{std::move(name), model, model, {}};
+}  // namespace
+
+Model prism(std::uint32_t sides) {
+  return std::move(build((sides == 4 ? shapes::cube() : shapes::prism(sides, 1, 1)).points)).value().model;
+}
+
+ManifoldCell stacked(const Model& prism, double depth, std::uint32_t poses) {
+  double height = 0;
+  for (const Vertex& v : prism.level(0).view.vertices) height = std::max(height, 2 * v.z);
+  ManifoldCell cell{"", prism, prism, {}};
   for (std::uint32_t i = 0; i < poses; ++i) {
     Pose pose;
     pose.rotation = shapes::rotation(Vec3::UnitZ(), i * kStep);
@@ -81,15 +88,14 @@ ManifoldCell stacked(std::string name, const Mesh& mesh, double height, double d
   return cell;
 }
 
-}  // namespace
-
 std::vector<ManifoldCell> manifold_cells(const Shelf& shelf, std::uint32_t poses) {
   std::vector<ManifoldCell> cells;
   for (const double depth : kShallow) {
     const std::string end = depth < 1e-3 ? "/touching" : "/shallow";
-    cells.push_back(stacked("box" + end, shapes::cube(), 2, depth, poses));
-    for (const std::uint32_t sides : {12u, 60u, 200u, 1000u})
-      cells.push_back(stacked("prism" + std::to_string(sides) + end, shapes::prism(sides, 1, 1), 1, depth, poses));
+    for (const std::uint32_t sides : {4u, 12u, 60u, 100u, 200u, 400u, 1000u}) {
+      cells.push_back(stacked(prism(sides), depth, poses));
+      cells.back().name = (sides == 4 ? "box" : "prism" + std::to_string(sides)) + end;
+    }
     const Scene scene = shallow(shelf, shapes::Family::Fat, 2'000, 0.1, depth, {1, poses});
     ManifoldCell fat{"fat2000" + end, scene.models[0], scene.models[1], {}};
     for (const Query& query : scene.queries) fat.poses.push_back(query.b_in_a);
@@ -113,12 +119,15 @@ std::vector<Row> measure(const ManifoldCell& cell, int rounds) {
       rows.push_back(row);
     }
   }
+  std::vector<Answer> answers;
+  PairSeed seed;
+  for (const Pose& pose : cell.poses) answers.push_back(signed_distance(cell.a, cell.b, pose, seed));
   std::vector<std::vector<double>> times(rows.size());
   std::vector<Contacts> contacts(cell.poses.size());
   for (int round = 0; round <= rounds; ++round) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const auto begin = std::chrono::steady_clock::now();
-      sessions[i]->ask(cell.poses, contacts);
+      sessions[i]->ask(cell.poses, answers, contacts);
       const double ns = to_ns * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       if (round > 0) times[i].push_back(ns);
       if (round == rounds) judge(cell, contacts, rows[i]);

@@ -18,8 +18,12 @@ struct ManifoldCell {
   std::vector<Pose> poses;
 };
 
-/// Cells of so many poses, that follow one another by 0.1 degrees: boxes, prisms of 12 and of 60 sides upright on one another,
-/// and ellipsoids of 2 000 triangles, a millionth of a unit and a hundredth deep.
+/// An upright prism of so many sides; of 4 a cube.
+Model prism(std::uint32_t sides);
+/// Two equal prisms, one on the other and so deep in it, turning and sliding about by 0.1 degrees a pose.
+ManifoldCell stacked(const Model& prism, double depth, std::uint32_t poses);
+
+/// Cubes, prisms of 12 to 1 000 sides, and ellipsoids of 2 000 triangles, a millionth of a unit and a hundredth deep.
 std::vector<ManifoldCell> manifold_cells(const Shelf& shelf, std::uint32_t poses);
 
 /// Every method coherent and cold, in rounds that alternate; times are medians. Of a row `error` is the farthest that a point

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include <swiftlet/pose.h>
+#include <swiftlet/query.h>
 
 #include "method.h"
 
@@ -32,8 +32,9 @@ struct Contacts {
 class ManifoldSession {
  public:
   virtual ~ManifoldSession() = default;
-  /// One after the other. The outputs are as long as the poses.
-  virtual void ask(std::span<const Pose> poses, std::span<Contacts> contacts) = 0;
+  /// One after the other. The other two are as long as the poses; the answers are our signed distances, for methods that are
+  /// given the direction of the contact and find its points alone.
+  virtual void ask(std::span<const Pose> poses, std::span<const Answer> answers, std::span<Contacts> contacts) = 0;
 };
 
 struct ManifoldMethod {

@@ -29,7 +29,9 @@
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
+#include <BulletCollision/NarrowPhaseCollision/btPolyhedralContactClipping.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 #include "hull.h"
@@ -203,6 +205,15 @@ class GuessSession final : public SessionOf<GuessSession> {
 
 // ---- btConvexConvexAlgorithm ------------------------------------------------------------------------------------------------
 
+Vec3 vec3(const btVector3& v) { return Vec3(v.x(), v.y(), v.z()); }
+
+void append(const btPersistentManifold& manifold, Contacts& contacts) {
+  for (int k = 0; k < manifold.getNumContacts() && contacts.count < Contacts::kMost; ++k) {
+    const btManifoldPoint& p = manifold.getContactPoint(k);
+    contacts.points[contacts.count++] = {vec3(p.getPositionWorldOnA()), vec3(p.getPositionWorldOnB())};
+  }
+}
+
 /// A world's pair: its algorithm, and the manifold of up to four points that it keeps.
 class BulletManifolds final : public ManifoldSession {
  public:
@@ -214,7 +225,7 @@ class BulletManifolds final : public ManifoldSession {
     renew();
   }
   ~BulletManifolds() override { release(); }
-  void ask(std::span<const Pose> poses, std::span<Contacts> contacts) override {
+  void ask(std::span<const Pose> poses, std::span<const Answer>, std::span<Contacts> contacts) override {
     for (std::size_t i = 0; i < poses.size(); ++i) {
       if (cold_) release(), renew();
       object_b_.setWorldTransform(transform_of(poses[i]));
@@ -240,13 +251,7 @@ class BulletManifolds final : public ManifoldSession {
     btManifoldArray manifolds;
     algorithm_->getAllContactManifolds(manifolds);
     c.count = 0;
-    for (int m = 0; m < manifolds.size(); ++m) {
-      for (int k = 0; k < manifolds[m]->getNumContacts() && c.count < Contacts::kMost; ++k) {
-        const btManifoldPoint& p = manifolds[m]->getContactPoint(k);
-        const btVector3 &on_a = p.getPositionWorldOnA(), &on_b = p.getPositionWorldOnB();
-        c.points[c.count++] = {Vec3(on_a.x(), on_a.y(), on_a.z()), Vec3(on_b.x(), on_b.y(), on_b.z())};
-      }
-    }
+    for (int m = 0; m < manifolds.size(); ++m) append(*manifolds[m], c);
   }
 
   const bool cold_;
@@ -256,6 +261,68 @@ class BulletManifolds final : public ManifoldSession {
   btCollisionDispatcher dispatcher_{&configuration_};
   btDispatcherInfo info_;
   btCollisionAlgorithm* algorithm_ = nullptr;
+};
+
+/// The first points that a clipping reports.
+class FirstPoints final : public btDiscreteCollisionDetectorInterface::Result {
+ public:
+  explicit FirstPoints(Contacts& contacts) : contacts_(contacts) { contacts_.count = 0; }
+  void setShapeIdentifiersA(int, int) override {}
+  void setShapeIdentifiersB(int, int) override {}
+  void addContactPoint(const btVector3& normal, const btVector3& on_b, btScalar distance) override {
+    if (contacts_.count < Contacts::kMost) contacts_.points[contacts_.count++] = {vec3(on_b + normal * distance), vec3(on_b)};
+  }
+
+ private:
+  Contacts& contacts_;
+};
+
+enum class Reports { FirstPoints, FourPoints };
+
+/// The part of btConvexConvexAlgorithm that clips, along the normal of a given answer: alone, or with the manifold that keeps
+/// four points of what it reports.
+template <Reports reports>
+class BulletClipping final : public ManifoldSession {
+ public:
+  BulletClipping(const SceneBody& a, const SceneBody& b, bool cold)
+      : cold_(cold), shape_a_(shape_of(a.view)), shape_b_(shape_of(b.view)) {
+    shape_a_->initializePolyhedralFeatures(), shape_b_->initializePolyhedralFeatures();
+    object_a_.setCollisionShape(shape_a_.get()), object_b_.setCollisionShape(shape_b_.get());
+    object_a_.setWorldTransform(btTransform::getIdentity());
+  }
+  void ask(std::span<const Pose> poses, std::span<const Answer> answers, std::span<Contacts> contacts) override {
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      object_b_.setWorldTransform(transform_of(poses[i]));
+      if constexpr (reports == Reports::FirstPoints) {
+        FirstPoints result(contacts[i]);
+        clip(answers[i].normal, result);
+      } else {
+        if (cold_) manifold_.clearManifold();
+        const btCollisionObjectWrapper a(nullptr, shape_a_.get(), &object_a_, object_a_.getWorldTransform(), -1, -1),
+            b(nullptr, shape_b_.get(), &object_b_, object_b_.getWorldTransform(), -1, -1);
+        btManifoldResult result(&a, &b);
+        result.setPersistentManifold(&manifold_);
+        clip(answers[i].normal, result);
+        result.refreshContactPoints();
+        contacts[i].count = 0;
+        append(manifold_, contacts[i]);
+      }
+    }
+  }
+
+ private:
+  void clip(const Vec3& n, btDiscreteCollisionDetectorInterface::Result& result) {
+    const btVector3 from_b_to_a(btScalar(-n[0]), btScalar(-n[1]), btScalar(-n[2]));
+    btPolyhedralContactClipping::clipHullAgainstHull(
+        from_b_to_a, *shape_a_->getConvexPolyhedron(), *shape_b_->getConvexPolyhedron(), object_a_.getWorldTransform(),
+        object_b_.getWorldTransform(), -1, gContactBreakingThreshold, corners_, kept_corners_, result);
+  }
+
+  const bool cold_;
+  std::unique_ptr<btConvexHullShape> shape_a_, shape_b_;
+  btCollisionObject object_a_, object_b_;
+  btPersistentManifold manifold_{&object_a_, &object_b_, 0, gContactBreakingThreshold, gContactBreakingThreshold};
+  btVertexArray corners_, kept_corners_;  // the room that clipping works in, as the algorithm keeps it
 };
 
 template <class SessionType>
@@ -293,6 +360,14 @@ void add_bullet_manifolds(ManifoldMethods& methods) {
                          return std::make_unique<BulletManifolds>(a, b, polyhedral, cold);
                        }});
   }
+  methods.push_back({"bullet clip", std::string(kBuild) + "btPolyhedralContactClipping, given the normal", false,
+                     [](const SceneBody& a, const SceneBody& b, bool cold) {
+                       return std::make_unique<BulletClipping<Reports::FirstPoints>>(a, b, cold);
+                     }});
+  methods.push_back({"bullet clip four", std::string(kBuild) + "the same, and its manifold of four points", true,
+                     [](const SceneBody& a, const SceneBody& b, bool cold) {
+                       return std::make_unique<BulletClipping<Reports::FourPoints>>(a, b, cold);
+                     }});
 }
 
 void add_bullet(Methods& methods) {

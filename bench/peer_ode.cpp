@@ -127,7 +127,7 @@ class OdeManifolds final : public ManifoldSession {
     a_ = arrays_a_.geom(), b_ = arrays_b_.geom();
   }
   ~OdeManifolds() override { dGeomDestroy(a_), dGeomDestroy(b_); }
-  void ask(std::span<const Pose> poses, std::span<Contacts> contacts) override {
+  void ask(std::span<const Pose> poses, std::span<const Answer>, std::span<Contacts> contacts) override {
     std::array<dContactGeom, Contacts::kMost> found;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       Contacts& c = contacts[i];

@@ -86,7 +86,7 @@ bool Farthest::may_take(const Facet& a, const Facet& b) const {
 bool Farthest::is_known(const Candidate& candidate) const {
   const auto first = previous_.points.begin();
   return std::any_of(first, first + std::min(previous_.count, kMostManifoldPoints),
-                     [&](const ManifoldPoint& p) { return is_same(p, candidate); });
+                     [&](const ManifoldPoint& p) { return Names(p) == candidate.names; });
 }
 
 bool Farthest::is_better(const Candidate& candidate, const Candidate& than) const {
@@ -107,7 +107,7 @@ void Farthest::add(const Candidate& candidate) {
   }
   ++count_;
   if (!is_known(candidate)) return;
-  const auto same = std::find_if(known_, known_ + known_count_, [&](const Candidate& c) { return is_same(c, candidate); });
+  const auto same = std::find_if(known_, known_ + known_count_, [&](const Candidate& c) { return c.names == candidate.names; });
   if (same == known_ + known_count_ && known_count_ < int(kMostManifoldPoints)) known_[known_count_++] = candidate;
 }
 

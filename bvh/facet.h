@@ -60,10 +60,10 @@ void face_each_other(const Facet& a, const Facet& b, double bound, const Add& ad
   };
   Shares s;
   for (int k = 0; k < 3; ++k) {
-    if (b.is_face && is_over(b, a.at[k], bound, s)) add(Candidate{a.at[k], height(b, s) - a.at[k].z, a.vertex[k], b.face});
+    if (b.is_face && is_over(b, a.at[k], bound, s)) add({a.at[k], height(b, s) - a.at[k].z, {a.vertex[k], b.face}});
     if (a.is_face && is_over(a, b.at[k], bound, s)) {
       const double z = height(a, s);
-      add(Candidate{{b.at[k].x, b.at[k].y, z}, b.at[k].z - z, a.face, b.vertex[k]});
+      add({{b.at[k].x, b.at[k].y, z}, b.at[k].z - z, {a.face, b.vertex[k]}});
     }
   }
   for (int i = 0; i < 3; ++i) {
@@ -73,7 +73,7 @@ void face_each_other(const Facet& a, const Facet& b, double bound, const Add& ad
       const Vec &p = a.at[i], &to_p = a.at[(i + 1) % 3], &q = b.at[k], &to_q = b.at[(k + 1) % 3];
       if (!cross_at(p, to_p, q, to_q, bound, s)) continue;
       const Vec on_a = p + (to_p - p) * s.first;
-      add(Candidate{on_a, q.z + (to_q.z - q.z) * s.second - on_a.z, a.side[i], b.side[k]});
+      add({on_a, q.z + (to_q.z - q.z) * s.second - on_a.z, {a.side[i], b.side[k]}});
     }
   }
 }

@@ -323,10 +323,11 @@ ManifoldPoint placed(const RegionOf& in, const ConvexFace& face_a, const ConvexF
   const auto vertex = [](const MeshView& of, const ConvexFace& face, const Motion& in_a, FeatureId name) {
     return of.triangles ? apply(in_a, of.vertices[name.index()]) : face.point(name.index());
   };
-  const Vec point_a = c.feature_a.kind() == FeatureKind::Vertex   ? vertex(in.at.a, face_a, kAtRest, c.feature_a)
-                      : c.feature_b.kind() == FeatureKind::Vertex ? vertex(in.at.b, face_b, in.at.motion, c.feature_b) - across
-                                                                  : seen.point(c.on_a);
-  return {eigen(point_a), eigen(point_a + across), c.separation, c.feature_a, c.feature_b};
+  const FeatureId a = c.names.a(), b = c.names.b();
+  const Vec point_a = a.kind() == FeatureKind::Vertex   ? vertex(in.at.a, face_a, kAtRest, a)
+                      : b.kind() == FeatureKind::Vertex ? vertex(in.at.b, face_b, in.at.motion, b) - across
+                                                        : seen.point(c.on_a);
+  return {eigen(point_a), eigen(point_a + across), c.separation, a, b};
 }
 
 /// Fills the manifold of two surfaces from the region's nearest or deepest points.
@@ -408,7 +409,8 @@ Manifold manifold(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, cons
   manifold.face_a = whole(at.a, contact.triangle_a), manifold.face_b = whole(at.b, contact.triangle_b);
   if (separation > margin + at.law_two) return manifold;
   // A crossing's own point, half the depth off each surface.
-  const Candidate witness{{0, 0, separation < 0 ? -separation / 2 : 0}, separation, contact.feature_a, contact.feature_b};
+  const Names names(contact.feature_a, contact.feature_b);
+  const Candidate witness{{0, 0, separation < 0 ? -separation / 2 : 0}, separation, names};
   grow(in, body_a, body_b, witness, normal, middle, margin, options, previous, manifold);
   for (std::uint32_t i = 0; i < manifold.count; ++i) {
     ManifoldPoint& p = manifold.points[i];

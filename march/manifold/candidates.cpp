@@ -3,61 +3,41 @@
 // If there are too many corners, those are left out whose chords cut off little: the bound on that grows with the area.
 #include "manifold/candidates.h"
 
-#include <algorithm>
-
 namespace swiftlet {
 
-Candidates::Candidates(double farthest, const Manifold& previous) : farthest_(farthest), previous_(previous) {
-  for (std::uint32_t i = 0; i < std::min(previous.count, kMostManifoldPoints); ++i) {
-    known_bits_[0] |= std::uint64_t(1) << previous.points[i].feature_a.index() % 64;
-    known_bits_[1] |= std::uint64_t(1) << previous.points[i].feature_b.index() % 64;
+Candidates::Candidates(double farthest, const Manifold& previous)
+    : farthest_(farthest), previous_count_(int(std::min(previous.count, kMostManifoldPoints))) {
+  for (int i = 0; i < previous_count_; ++i) {
+    const ManifoldPoint& point = previous.points[std::size_t(i)];
+    previous_[i] = Names(point);
+    known_bits_[0] |= std::uint64_t(1) << point.feature_a.index() % 64;
+    known_bits_[1] |= std::uint64_t(1) << point.feature_b.index() % 64;
+    known_name_bits_ |= previous_[i].bit();
   }
 }
 
-void Candidates::add(Border border, const Candidate& candidate, bool wanted) {
-  if (!(candidate.separation <= farthest_) || has_named(candidate)) return;
-  const bool knows = known_count_ < int(kMostManifoldPoints) && is_known(candidate);
-  if (knows) known_[std::size_t(known_count_++)] = candidate;
-  if (knows || wanted) least_ = min(least_, candidate.separation);
-  if (wanted) append(border, candidate);
-}
-
-void Candidates::append(Border border, const Candidate& candidate) {
-  if (candidate.separation < deepest_)
-    deepest_ = candidate.separation, deepest_named_ = {candidate.feature_a, candidate.feature_b};
-  if (count_[0] + count_[1] == kMostCorners) thin();
-  const std::size_t side = std::size_t(border);
-  row(border, count_[side]++) = candidate;
-  name_bits_ |= name_bit(candidate);
-  last_[side] = {border == Border::Left ? -candidate.on_a.x : candidate.on_a.x, candidate.on_a.y}, cut_off_[side] = 0;
+/// Keeps a corner beside the rows if `previous` names it.
+void Candidates::keep(const Candidate& candidate) {
+  if (!knows(candidate.names)) return;
+  least_ = min(least_, candidate.separation);
+  const auto end = known_ + known_count_;
+  if (std::any_of(known_, end, [&](const Candidate& other) { return other.names == candidate.names; })) return;
+  *end = candidate, ++known_count_;
 }
 
 void Candidates::add_deepest(const Candidate& candidate) {
   if (!(candidate.separation <= farthest_)) return;
-  bool is_there = false;
-  const auto replace = [&](Candidate& other) {
-    if (!is_same(candidate, other)) return;
-    other = candidate;
-    is_there = true;
-  };
-  std::for_each(all_.begin(), all_.begin() + count_[0], replace);
-  std::for_each(known_.begin(), known_.begin() + known_count_, replace);
+  const auto end = all_.begin() + count_[0];
+  const auto same = std::find_if(all_.begin(), end, [&](const Candidate& other) { return other.names == candidate.names; });
+  count_[0] += same == end;
+  *same = candidate;
   least_ = candidate.separation;
-  if (!is_there) append(Border::Left, candidate);
 }
 
-bool Candidates::has_named(const Candidate& candidate) const {
-  if (!(name_bits_ & name_bit(candidate))) return false;
-  const auto is_named_so = [&](const Candidate& other) { return is_same(candidate, other); };
+bool Candidates::finds(Names names) const {
+  const auto is_named_so = [&](const Candidate& other) { return other.names == names; };
   return std::any_of(all_.begin(), all_.begin() + count_[0], is_named_so) ||
          std::any_of(all_.end() - count_[1], all_.end(), is_named_so);
-}
-
-bool Candidates::is_known(const Candidate& candidate) const {
-  if (!may_know(0, candidate.feature_a.index()) || !may_know(1, candidate.feature_b.index())) return false;
-  const auto first = previous_.points.begin();
-  return std::any_of(first, first + std::min(previous_.count, kMostManifoldPoints),
-                     [&](const ManifoldPoint& p) { return is_same(p, candidate); });
 }
 
 /// Leaves out corners, until a quarter of the room is free, by chords that cut off ever more.
@@ -85,10 +65,13 @@ void Candidates::thin(Border border, Place last, bool keeps_first) {
     const Candidate& c = row(border, i);
     if ((i > 0 || !keeps_first) && i + 1 < count) {
       cut_off += std::fabs(cross(c.place() - last, row(border, i + 1).place() - last));
-      if (cut_off <= enough_ && !is_same(c, deepest_named_)) continue;
+      if (cut_off <= enough_ && c.names != deepest_named_) {
+        keep(c);
+        continue;
+      }
     }
     last = c.place(), cut_off = 0;
-    name_bits_ |= name_bit(c);
+    name_bits_ |= c.names.bit();
     if (kept++ != i) row(border, kept - 1) = c;
   }
   count = kept;
@@ -98,13 +81,9 @@ void Candidates::close() {
   std::move(all_.end() - count_[1], all_.end(), all_.begin() + count_[0]);
   count_[0] += count_[1];
   count_[1] = 0;
-  int kept = 0;
   for (int i = 0; i < known_count_; ++i) {
-    const Candidate& c = known_[std::size_t(i)];
-    const auto is_named_so = [&](const Candidate& other) { return is_same(c, other); };
-    if (!has_named(c) && std::none_of(known_.begin(), known_.begin() + kept, is_named_so)) known_[std::size_t(kept++)] = c;
+    if (!has(known_[i].names)) all_[std::size_t(count_[0]++)] = known_[i];
   }
-  known_count_ = kept;
 }
 
 }  // namespace swiftlet

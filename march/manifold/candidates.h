@@ -3,7 +3,9 @@
 // The corners of a common area that a manifold may be made of: all of them or, of many, those that hold most of the area.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -28,21 +30,34 @@ static inline Place operator*(const Place& p, double s) { return {p.x * s, p.y *
 static inline double dot(const Place& p, const Place& q) { return p.x * q.x + p.y * q.y; }
 static inline double cross(const Place& p, const Place& q) { return p.x * q.y - p.y * q.x; }
 
+/// Both features of a point, in one word.
+class Names {
+ public:
+  Names() = default;
+  Names(FeatureId a, FeatureId b)
+      : bits_(std::bit_cast<std::uint32_t>(a) | std::uint64_t(std::bit_cast<std::uint32_t>(b)) << 32) {}
+  explicit Names(const ManifoldPoint& point) : Names(point.feature_a, point.feature_b) {}
+  FeatureId a() const { return std::bit_cast<FeatureId>(std::uint32_t(bits_)); }
+  FeatureId b() const { return std::bit_cast<FeatureId>(std::uint32_t(bits_ >> 32)); }
+  bool operator==(const Names&) const = default;
+  /// One of 64 bits. Names of other bits are others; equal bits are rare, also among few features.
+  std::uint64_t bit() const { return std::uint64_t(1) << (bits_ * 0x9e3779b97f4a7c15u >> 58); }
+
+ private:
+  std::uint64_t bits_;
+};
+
 /// A possible point of the manifold, projected.
 struct Candidate {
   Vec on_a;           ///< the point of A
   double separation;  ///< by which B's point is farther along the normal
-  FeatureId feature_a, feature_b;
+  Names names;
 
   Place place() const { return {on_a.x, on_a.y}; }
 };
 
-/// Whether two points, of this manifold or the one before, have the same names.
-static inline bool is_same(const auto& point, const auto& other) {
-  return point.feature_a == other.feature_a && point.feature_b == other.feature_b;
-}
-
-inline constexpr int kMostCandidates = kMostCorners + int(kMostManifoldPoints);
+/// The corners, those that the manifold before names in addition, and a deepest point.
+inline constexpr int kMostCandidates = kMostCorners + int(kMostManifoldPoints) + 1;
 
 /// All corners of an area or, of more than `kMostCorners`, as many that hold most of it, the deepest among them. The corners
 /// that `previous` names come in addition, so that what stays does not depend on them.
@@ -65,27 +80,39 @@ class Candidates {
   /// Adds the corner that follows on a border, which is seen from below to above, unless one with its names is kept already:
   /// sides that are nearly parallel may pass the lead twice, and a corner may come as a crossing near it and as itself. A
   /// corner that is not `wanted` is added only if `previous` names it.
-  void add(Border border, const Candidate& candidate, bool wanted);
-  /// Joins both borders into one row around the area, and drops the corners that `previous` names and that are in the row.
+  void add(Border border, const Candidate& candidate, bool wanted) {
+    if (!(candidate.separation <= farthest_) || has(candidate.names)) return;
+    if (!wanted) return keep(candidate);
+    least_ = min(least_, candidate.separation);
+    if (candidate.separation < deepest_) deepest_ = candidate.separation, deepest_named_ = candidate.names;
+    if (count_[0] + count_[1] == kMostCorners) thin();
+    const std::size_t side = std::size_t(border);
+    row(border, count_[side]++) = candidate;
+    name_bits_ |= candidate.names.bit();
+    const Place place = candidate.place();
+    last_[side] = {border == Border::Left ? -place.x : place.x, place.y}, cut_off_[side] = 0;
+  }
+  /// Joins both borders into one row around the area, and the corners that `previous` names in addition.
   void close();
-  /// Adds a point deeper than all corners, after `close`; it takes the place of the corners with its names. It is there whether
+  /// Adds a point deeper than all corners, after `close`; it takes the place of a corner with its names. It is there whether
   /// `previous` names it or not.
   void add_deepest(const Candidate& candidate);
 
-  /// After `close`: the candidates are the row, then the corners that `previous` names.
-  int count() const { return count_[0] + known_count_; }
-  const Candidate& operator[](int i) const { return i < count_[0] ? at(i) : known_[std::size_t(i - count_[0])]; }
-  bool is_known(const Candidate& candidate) const;  ///< whether `previous` names it
-  double least() const { return least_; }           ///< the least separation of all that were added
+  /// After `close`.
+  int count() const { return count_[0]; }
+  const Candidate& operator[](int i) const { return all_[std::size_t(i)]; }
+  double least() const { return least_; }  ///< the least separation of all that were added
+  /// Whether `previous` names a point so.
+  bool knows(Names names) const {
+    return known_name_bits_ & names.bit() &&
+           std::find(previous_, previous_ + previous_count_, names) != previous_ + previous_count_;
+  }
 
  private:
-  const Candidate& at(int i) const { return all_[std::size_t(i)]; }
-  bool has_named(const Candidate& candidate) const;  ///< whether a corner with its names is kept
-  /// One of 64 bits. Candidates of other bits have other names.
-  static std::uint64_t name_bit(const Candidate& c) {
-    return std::uint64_t(1) << (c.feature_a.index() + c.feature_b.index()) % 64;
-  }
-  Candidate& row(Border border, int i) { return all_[std::size_t(border == Border::Left ? i : kMostCorners - 1 - i)]; }
+  /// Whether a corner so named is in a row.
+  bool has(Names names) const { return name_bits_ & names.bit() && finds(names); }
+  bool finds(Names names) const;
+  Candidate& row(Border border, int i) { return all_[std::size_t(border == Border::Left ? i : kMostCandidates - 1 - i)]; }
 
   /// Adds a triangle above the border's last chord to the area that the chord to `next` would cut off.
   bool cuts(Border border, const Place& at, const Place& next) {
@@ -102,26 +129,24 @@ class Candidates {
     bool& has_turned = has_turned_[std::size_t(border)];
     return !has_turned && (has_turned = rise() >= 0);
   }
-  void append(Border border, const Candidate& candidate);
+  void keep(const Candidate& candidate);
   void thin();
   void thin(Border border, Place last, bool keeps_first);
 
   const double farthest_;
-  const Manifold& previous_;
-  std::uint64_t known_bits_[2] = {};  ///< per body, those of the indices that `previous` names, modulo 64
-  std::uint64_t name_bits_ = 0;       ///< those of the corners that are kept
+  std::uint64_t known_bits_[2] = {};                   ///< per body, those of the indices that `previous` names, modulo 64
+  std::uint64_t known_name_bits_ = 0, name_bits_ = 0;  ///< of the points of `previous`, and of the corners that are kept
   double least_ = std::numeric_limits<double>::infinity(), deepest_ = least_;  ///< of all, and of the row
-  struct {
-    FeatureId feature_a, feature_b;
-  } deepest_named_;          ///< names of the first corner of the row with that separation
+  Names deepest_named_;      ///< the first corner of the row with that separation
   bool is_crowded_ = false;  ///< more corners have come than there is room for
   bool has_turned_[2] = {};  ///< per border, as `turns` found
   double enough_ = 0;        ///< twice the area that a chord may cut off
   double cut_off_[2] = {};   ///< twice the area that the chord of each border up to now cuts off, or more
   Place last_[2] = {};       ///< where it begins: the border's last corner that was added
-  int count_[2] = {}, known_count_ = 0;
-  std::array<Candidate, kMostCorners> all_;  ///< the left border from the start, the right one from the end back
-  std::array<Candidate, kMostManifoldPoints> known_;
+  int count_[2] = {}, known_count_ = 0, previous_count_;
+  std::array<Candidate, kMostCandidates> all_;  ///< the left border from the start, the right one from the end back
+  Names previous_[kMostManifoldPoints];
+  Candidate known_[kMostManifoldPoints];  ///< those that `previous` names and that are in no row
 };
 
 }  // namespace swiftlet

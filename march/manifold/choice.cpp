@@ -3,7 +3,7 @@
 #include "manifold/choice.h"
 
 #include <algorithm>
-#include <bitset>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -18,7 +18,8 @@ class Loop {
   Loop(const Candidates& candidates, double bound) : candidates_(&candidates), bound_(bound) {}
 
   int size() const { return size_; }
-  int operator[](int i) const { return corner_[std::size_t(i)]; }
+  int operator[](int i) const { return int(corners_ >> 8 * i & 0xff); }
+  int next(int i) const { return i + 1 == size_ ? 0 : i + 1; }
 
   /// The corner after which `spot` comes: the one before it if it is a corner itself, else the start of the side that makes the
   /// smallest triangle with it.
@@ -26,7 +27,7 @@ class Loop {
     int found = 0;
     double least = std::numeric_limits<double>::infinity();
     for (int side = 0; side < size_; ++side) {
-      if ((is_corner = corner_[std::size_t(side)] == spot)) return previous(side);
+      if ((is_corner = (*this)[side] == spot)) return previous(side);
       if (const double taken = std::fabs(area(side, spot)); taken < least) least = taken, found = side;
     }
     return found;
@@ -35,7 +36,7 @@ class Loop {
   /// How far a place lies from the only corner, or the area that it adds to more of them; 0 where it hardly stands out.
   double gain(int spot) const {
     if (size_ == 1) {
-      const double length = apart(corner_[0], spot);
+      const double length = apart((*this)[0], spot);
       return length > bound_ ? length : 0;
     }
     double area = 0;
@@ -45,101 +46,112 @@ class Loop {
 
   double twice_area() const {
     double sum = 0;
-    for (int side = 1; side + 1 < size_; ++side) sum -= area(side, corner_[0]);
+    for (int side = 1; side + 1 < size_; ++side) sum -= area(side, (*this)[0]);
     return sum;
   }
 
   /// The corners between the sides that see the place give way to it.
   void add(int spot) {
     if (size_ < 2) {
-      if (size_ == 0 || apart(corner_[0], spot) > bound_) corner_[std::size_t(size_++)] = spot;
+      if (size_ == 0 || apart((*this)[0], spot) > bound_) put(size_++, spot);
       return;
     }
+    unsigned seen = 0;
+    for (int side = 0; side < size_; ++side) seen |= unsigned(beyond(side, spot) > 0) << side;
+    const auto sees = [&](int side) { return seen >> side & 1; };
     int first = 0;
-    while (first < size_ && !(beyond(first, spot) > 0 && beyond(previous(first), spot) == 0)) ++first;
+    while (first < size_ && !(sees(first) && !sees(previous(first)))) ++first;
     if (first == size_) return size_ == 2 ? stretch(spot) : void();
-    int after = first;
-    while (after = next(after), after != first && beyond(after, spot) > 0) {
-    }
-    const std::array<int, kMostManifoldPoints> whole = corner_;
-    int count = 0;
-    for (int i = after; i != first; i = next(i)) corner_[std::size_t(count++)] = whole[std::size_t(i)];
-    corner_[std::size_t(count++)] = whole[std::size_t(first)];
-    corner_[std::size_t(count++)] = spot;
-    size_ = count;
+    int after = next(first);
+    while (after != first && sees(after)) after = next(after);
+    if (after > 0) corners_ = corners_ >> 8 * after | corners_ << 8 * (size_ - after);
+    size_ = first - after + 1 + (first < after ? size_ : 0);
+    put(size_++, spot);
   }
 
  private:
+  /// Makes a candidate the last corner.
+  void put(int i, int spot) { corners_ = (corners_ & ((std::uint64_t(1) << 8 * i) - 1)) | std::uint64_t(spot) << 8 * i; }
+
   /// Of three candidates on one line, keeps the two that are farthest apart: the first two may lie nearly in one place.
   void stretch(int spot) {
-    const double from_first = apart(corner_[0], spot), from_second = apart(corner_[1], spot);
-    if (max(from_first, from_second) <= apart(corner_[0], corner_[1])) return;
-    corner_[from_first >= from_second] = spot;
+    const double from_first = apart((*this)[0], spot), from_second = apart((*this)[1], spot);
+    if (max(from_first, from_second) <= apart((*this)[0], (*this)[1])) return;
+    const int first = from_first >= from_second ? (*this)[0] : spot, second = from_first >= from_second ? spot : (*this)[1];
+    put(0, first), put(1, second);
   }
 
-  int next(int i) const { return i + 1 == size_ ? 0 : i + 1; }
   int previous(int i) const { return i == 0 ? size_ - 1 : i - 1; }
-  const Vec& place(int spot) const { return (*candidates_)[spot].on_a; }
-  const Vec& corner(int i) const { return place(corner_[std::size_t(i)]); }
+  Place place(int spot) const { return (*candidates_)[spot].place(); }
+  Place corner(int i) const { return place((*this)[i]); }
 
   double apart(int spot, int other) const {
-    const double dx = place(other).x - place(spot).x, dy = place(other).y - place(spot).y;
-    return std::sqrt(dx * dx + dy * dy);
+    const Place way = place(other) - place(spot);
+    return std::sqrt(dot(way, way));
   }
 
   /// Twice the area of the triangle of a side and a place, positive if the place lies beyond the side.
-  double area(int side, int spot) const {
-    const Vec &p = corner(side), &q = corner(next(side)), &c = place(spot);
-    return (c.x - p.x) * (q.y - p.y) - (c.y - p.y) * (q.x - p.x);
-  }
+  double area(int side, int spot) const { return cross(place(spot) - corner(side), corner(next(side)) - corner(side)); }
   /// The same if the place stands out beyond the side, else 0.
   double beyond(int side, int spot) const {
-    const Vec &p = corner(side), &q = corner(next(side));
-    const double dx = q.x - p.x, dy = q.y - p.y, size = area(side, spot);
-    return size > 0 && size * size > bound_ * bound_ * (dx * dx + dy * dy) ? size : 0;
+    const Place way = corner(next(side)) - corner(side);
+    const double size = cross(place(spot) - corner(side), way);
+    return size > 0 && size * size > bound_ * bound_ * dot(way, way) ? size : 0;
   }
 
   const Candidates* candidates_;
   double bound_;
   int size_ = 0;
-  std::array<int, kMostManifoldPoints> corner_;
+  std::uint64_t corners_ = 0;  ///< in one register: a byte each
 };
+static_assert(kMostManifoldPoints <= 8);
+
+/// Candidates, by a bit each.
+using Set = std::uint32_t;
+static_assert(kMostCandidates < 32);
+Set bit(int i) { return Set(1) << i; }
+
+void each(Set set, auto&& visit) {
+  for (; set != 0; set &= set - 1) visit(std::countr_zero(set));
+}
 
 /// Which of the candidates a manifold gets.
 class Choice {
  public:
   Choice(const Candidates& candidates, int most, double bound, double slack)
       : candidates_(candidates), most_(most), bound_(bound), slack_(slack), loop_(candidates, bound) {
-    for (int i = 0; i < candidates.count(); ++i) known_[std::size_t(i)] = candidates.is_known(candidates[i]);
+    for (int i = 0; i < candidates.count(); ++i) {
+      if (candidates.knows(candidates[i].names)) known_ |= bit(i), ++known_count_;
+    }
   }
 
   Chosen of(const Manifold& previous) {
     Chosen chosen;
     if (candidates_.count() == 0 || most_ == 0) return chosen;
     first_ = deepest(previous);
-    chosen_[std::size_t(first_)] = true;
-    loop_.add(first_);
-    if (int(known_.count()) + !is_known(first_) <= most_)
+    const bool has_choice = candidates_.count() > most_;
+    if (known_count_ + !is_known(first_) <= most_) {
       take(known_);
-    else
-      grow(Among::Known);
-    const bool is_new = size_ == 1, has_choice = most_ > 2 && candidates_.count() > most_;
-    if (!(is_new && has_choice)) grow(Among::All);
-    if (has_choice) give_way(largest_polygon(candidates_, first_, most_, bound_), is_new ? 1 : 1 + kKeptWorth);
+    } else {
+      take(0);
+      grow(known_);
+    }
+    const bool is_new = size_ == 1, has_polygons = has_choice && most_ > 2;
+    if (!(is_new && has_polygons)) grow(all());
+    if (has_polygons) give_way(is_new ? 1 : 1 + kKeptWorth);
     bool is_corner = false;
-    const int before = loop_.before(first_, is_corner);
+    int corner = loop_.before(first_, is_corner);
+    if (is_corner) corner = loop_.next(corner);
     chosen.add(first_);
-    for (int i = 1 + is_corner; i <= loop_.size(); ++i) chosen.add(loop_[(before + i) % loop_.size()]);
+    for (int rest = loop_.size() - is_corner; rest > 0; --rest) chosen.add(loop_[corner = loop_.next(corner)]);
     return chosen;
   }
 
  private:
-  enum class Among { Known, All };
-  using Set = std::bitset<kMostCandidates>;
   static constexpr int kNobody = -1;
 
-  bool is_chosen(int i) const { return chosen_[std::size_t(i)]; }
-  bool is_known(int i) const { return known_[std::size_t(i)]; }
+  Set all() const { return bit(candidates_.count()) - 1; }
+  bool is_known(int i) const { return known_ & bit(i); }
 
   /// The first point of the manifold before if it is nearly the deepest, else the deepest of its points that are, else the
   /// first candidate within a quarter of the bound of the least separation. The rest of the bound is left for the rounding of
@@ -149,71 +161,63 @@ class Choice {
     for (int i = 0; i < candidates_.count(); ++i) {
       const double separation = candidates_[i].separation;
       if (!(separation <= candidates_.least() + (is_known(i) ? slack_ : bound_ / 4))) continue;
-      if (is_known(i) && is_same(previous.points[0], candidates_[i])) return i;
+      if (is_known(i) && Names(previous.points[0]) == candidates_[i].names) return i;
       if (found == kNobody || (is_known(i) && !(is_known(found) && candidates_[found].separation <= separation))) found = i;
     }
     return found;
   }
 
   /// Chooses `first_` and, of `those`, all that stand out.
-  void take(const Set& those) {
-    chosen_ = those;
-    chosen_[std::size_t(first_)] = true;
-    Set before;
-    do {
-      before = chosen_;
-      loop_ = around();
-      chosen_.reset();
-      for (int i = 0; i < loop_.size(); ++i) chosen_[std::size_t(loop_[i])] = true;
-      chosen_[std::size_t(first_)] = true;
-    } while (chosen_ != before);
-    size_ = int(chosen_.count());
+  void take(Set those) {
+    for (Set before = those | bit(first_);; before = chosen_) {
+      loop_ = around(before);
+      chosen_ = bit(first_), size_ = 1;
+      for (int i = 0; i < loop_.size(); ++i) size_ += !(chosen_ & bit(loop_[i])), chosen_ |= bit(loop_[i]);
+      if (chosen_ == before) return;
+    }
   }
 
-  /// Chooses a polygon instead if that has more than `worth` times the area.
-  void give_way(const LargestPolygon& polygon, double worth) {
+  /// Chooses the largest polygon instead if that has more than `worth` times the area.
+  void give_way(double worth) {
     const double enough = worth * loop_.twice_area();
+    const LargestPolygon polygon = largest_polygon(candidates_, first_, most_, bound_, enough);
     if (polygon.twice_area > enough) {
       const Set before = chosen_;
-      Set corners;
-      for (const int corner : polygon) corners[std::size_t(corner)] = true;
+      Set corners = 0;
+      for (const int corner : polygon) corners |= bit(corner);
       take(corners);
       if (!(loop_.twice_area() > enough)) take(before);
     }
-    grow(Among::All);
+    grow(all());
   }
 
-  /// The hull of all chosen candidates. `first_` is added first, so that others in its place do not replace it.
-  Loop around() const {
+  /// The hull of some candidates. `first_` is added first, so that others in its place do not replace it.
+  Loop around(Set those) const {
     Loop loop(candidates_, bound_);
     loop.add(first_);
-    for (int i = 0; i < candidates_.count(); ++i) {
-      if (is_chosen(i) && i != first_) loop.add(i);
-    }
+    each(those & ~bit(first_), [&](int i) { loop.add(i); });
     return loop;
   }
 
   /// Adds what adds most to the area until nothing does.
-  void grow(Among those) {
+  void grow(Set those) {
     for (int rest = candidates_.count(); size_ < most_ && rest > 0; --rest) {
       int found = kNobody;
       double most = 0;
-      for (int i = 0; i < candidates_.count(); ++i) {
-        if (is_chosen(i) || (those == Among::Known && !is_known(i))) continue;
+      each(those & ~chosen_, [&](int i) {
         if (const double gain = loop_.gain(i); gain > most) most = gain, found = i;
-      }
+      });
       if (found == kNobody) return;
-      chosen_[std::size_t(found)] = true;
-      take(chosen_);
+      take(chosen_ | bit(found));
     }
   }
 
   const Candidates& candidates_;
   const int most_;
   const double bound_, slack_;
-  int size_ = 1, first_ = 0;
-  Set known_, chosen_;  ///< of the manifold before, of this one
-  Loop loop_;           ///< around the chosen ones
+  int size_ = 1, first_ = 0, known_count_ = 0;
+  Set known_ = 0, chosen_ = 0;  ///< of the manifold before, of this one
+  Loop loop_;                   ///< around the chosen ones
 };
 
 }  // namespace

@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <utility>
 
 #include "body/half_edge.h"
@@ -55,32 +54,38 @@ Way way(const Place& from, const Place& to) {
   return {place(there), sizes[0] + sizes[1]};
 }
 
-/// A side of a border, or a chord that cuts off corners which turn inwards.
-struct Side {
-  Corner from, to;  ///< the lower and the upper end
-  Way way;          ///< from one to the other
-  bool is_chord;
+/// Two places and the way from one to the other.
+struct Line {
+  Place from, to;
+  Way way;
 
-  Place at(double t) const { return from.at + way * t; }
+  Place at(double t) const { return from + way * t; }
   /// The parameter, 0 at `from` and 1 at `to`, of the point at height `y`.
-  double rise(double y) const { return way.y > 0 ? min(max((y - from.at.y) / way.y, 0), 1) : 0; }
+  double rise(double y) const { return way.y > 0 ? min(max((y - from.y) / way.y, 0), 1) : 0; }
   /// The parameter of the point nearest to `place`.
   double along(const Place& place) const {
-    const double t = dot(place - from.at, way), length2 = this->length2();
+    const double t = dot(place - from, way), length2 = this->length2();
     return length2 > 0 && t > 0 ? min(t / length2, 1) : 0;
   }
   double length2() const { return dot(way, way); }
-  /// Twice the area of the side and a place, positive where that lies outside.
-  double beyond(const Place& place) const { return cross(place - from.at, way); }
+  /// Twice the area of the line and a place, positive where that lies to the right of the way.
+  double beyond(const Place& place) const { return cross(place - from, way); }
+};
+
+/// A side of a border, from its lower to its upper end, or a chord that cuts off corners which turn inwards. What lies to its
+/// right is outside.
+struct Side : Line {
+  std::uint64_t from_names, to_names;  ///< of both corners
+  bool is_chord;
 };
 
 /// On which side of a border's side a place lies whose height is between those of its ends.
 enum class Where { Inside, On, Outside };
-Where where(const Place& place, const Side& side, double bound) {
+Where where(const Place& place, const Line& side, double bound) {
   const double area = side.beyond(place), length2 = side.length2();
   if (area * area > bound * bound * length2) return area > 0 ? Where::Outside : Where::Inside;
   // The line is within the bound; the side itself may not be, if it is nearly horizontal.
-  const double dx = side.way.x, x = place.x - side.from.at.x;
+  const double dx = side.way.x, x = place.x - side.from.x;
   if (x < min(dx, 0) - bound) return length2 - dx * dx > dx * dx ? Where::On : Where::Inside;
   if (x > max(dx, 0) + bound) return length2 - dx * dx > dx * dx ? Where::On : Where::Outside;
   return Where::On;
@@ -90,7 +95,8 @@ Where where(const Place& place, const Side& side, double bound) {
 class SeenBorder {
  public:
   /// Begins at the origin of `half_edge`, a side of the face, or at the only vertex of a body without sides.
-  SeenBorder(const SeenBody& body, const ContactFace& face, Border border, std::uint32_t half_edge, double bound)
+  /// `is_left`: half-edges that point upwards have the face on their left.
+  SeenBorder(const SeenBody& body, const ContactFace& face, Border border, std::uint32_t half_edge, bool is_left, double bound)
       : body_(body),
         face_(face),
         half_edges_(body.view.half_edges.data()),
@@ -98,59 +104,55 @@ class SeenBorder {
         outwards_(border == Border::Left ? -1 : 1),
         bound_(bound),
         flatness_(face.flatness()),
-        is_left_((dot(cross(body.x, body.y), face.normal()) >= 0) == (border == Border::Right)),
+        is_left_(is_left),
         x_{body.x.x * outwards_, body.y.x},
         y_{body.x.y * outwards_, body.y.y},
         z_{body.x.z * outwards_, body.y.z},
         shift_{body.shift.x * outwards_, body.shift.y} {
     const bool is_point = half_edge == kNone;
     const Corner lowest = is_point ? corner(0, kNone) : end_of(twin(half_edge));
-    side_ = {lowest, lowest, {{0, 0}, 0}, false};
+    side_ = {{lowest.at, lowest.at, {{0, 0}, 0}}, lowest.names, lowest.names, false};
     if (!is_point) see(is_left_ ? half_edge : face.onward<false>(twin(half_edge)));
   }
 
   const Side& side() const { return side_; }
-  const Corner& end() const { return side_.to; }
+  Corner start() const { return {side_.from, side_.from_names}; }
+  Corner end() const { return {side_.to, side_.to_names}; }
   /// The corner after the side, and the way there; have no meaning where both borders have met.
   const Corner& next() const { return next_; }
   const Way& ahead() const { return ahead_; }
   /// A place of the projection as the border sees it, and back.
   Place seen(const Place& place) const { return {place.x * outwards_, place.y}; }
-  /// The side as the projection shows it.
-  Side plain() const {
-    Side side = side_;
-    for (Place* place : std::initializer_list<Place*>{&side.from.at, &side.to.at, &side.way}) *place = seen(*place);
-    return side;
-  }
   /// The coordinate along the normal of a vertex, and of a place on the side.
   double z(std::uint32_t vertex) const { return body_.z(vertex); }
   double z_at(double t) const {
-    const double z = body_.z(side_.from.vertex());
-    return z + (body_.z(side_.to.vertex()) - z) * t;
+    const double z = body_.z(start().vertex());
+    return z + (body_.z(end().vertex()) - z) * t;
   }
 
   /// Moves on to the next side of the face's convex hull, up to vertex `top`.
   [[gnu::always_inline]] void advance(std::uint32_t top) {
-    side_.from = side_.to, side_.to = next_, side_.way = ahead_, side_.is_chord = false;
-    if (side_.to.half_edge() == convex_to_) convex_to_ = kNone;
-    if (side_.to.vertex() == top) return;
-    see(onward(side_.to.half_edge(), is_left_));
+    side_.from = side_.to, side_.from_names = side_.to_names, side_.is_chord = false;
+    side_.to = next_.at, side_.to_names = next_.names, side_.way = ahead_;
+    if (end().half_edge() == convex_to_) convex_to_ = kNone;
+    if (end().vertex() == top) return;
+    see(onward(end().half_edge(), is_left_));
     if (!rises_in(ahead_)) [[unlikely]]
       straighten(top);
   }
 
   /// Names the edge at a place of the side; of a chord, the edge that it cuts off there.
   FeatureId edge_at(const Place& place) const {
-    std::uint32_t back = twin(side_.to.half_edge());
+    std::uint32_t back = twin(end().half_edge());
     while (side_.is_chord) {
       const Corner from = end_of(back);
-      if (from.vertex() == side_.from.vertex() || dot(place - from.at, side_.way) >= 0) break;
+      if (from.vertex() == start().vertex() || dot(place - from.at, side_.way) >= 0) break;
       back = onward(back, !is_left_);
     }
     return {FeatureKind::Edge, std::min(back, twin(back))};
   }
   /// The index of the side's edge; of a chord, of the last one that it cuts off.
-  std::uint32_t edge() const { return std::min(side_.to.half_edge(), twin(side_.to.half_edge())); }
+  std::uint32_t edge() const { return std::min(end().half_edge(), twin(end().half_edge())); }
 
  private:
   std::uint32_t twin(std::uint32_t half_edge) const { return half_edges_[half_edge].twin; }
@@ -164,7 +166,7 @@ class SeenBorder {
   /// Knows the corner after the side.
   void see(std::uint32_t half_edge) {
     next_ = end_of(half_edge);
-    ahead_ = way(side_.to.at, next_.at);
+    ahead_ = way(side_.to, next_.at);
   }
 
   bool falls() const { return side_.way.y < -bound_; }
@@ -177,8 +179,8 @@ class SeenBorder {
   }
   /// Replaces the side by a chord as long as corners ahead lie beyond it.
   [[gnu::noinline]] void straighten(std::uint32_t top) {
-    while (!turns_in(ahead_) && extend(next_.half_edge(), top) && side_.to.vertex() != top)
-      see(onward(side_.to.half_edge(), is_left_));
+    while (!turns_in(ahead_) && extend(next_.half_edge(), top) && end().vertex() != top)
+      see(onward(end().half_edge(), is_left_));
   }
   /// A border of merged facets may turn inwards by up to the face's flatness: corners are looked at until one lies farther
   /// inside of the side than that. If one lies beyond, the side becomes a chord to it, and true is returned. A border that is
@@ -189,11 +191,11 @@ class SeenBorder {
       const Corner corner = end_of(h);
       const double out = side_.beyond(corner.at);
       if (falls() || (out > 0 && out * out > 0.25 * bound_ * bound_ * side_.length2())) {
-        side_.to = corner, side_.way = way(side_.from.at, corner.at);
+        side_.to = corner.at, side_.to_names = corner.names, side_.way = way(side_.from, corner.at);
         convex_to_ = kNone;
         return side_.is_chord = true;
       }
-      if (turns_in(corner.at - side_.to.at) || corner.vertex() == top) return false;
+      if (turns_in(corner.at - side_.to) || corner.vertex() == top) return false;
     }
   }
 
@@ -208,7 +210,7 @@ class SeenBorder {
     if (convex_to_ == kNone && turns(ahead_, side_.way)) convex_to_ = next_.half_edge();
     if (convex_to_ == kNone) return false;
     Corner corner = end_of(convex_to_);
-    for (Way on = way(end_of(twin(convex_to_)).at, corner.at); !turns_in(corner.at - side_.to.at) && corner.vertex() != top;) {
+    for (Way on = way(end_of(twin(convex_to_)).at, corner.at); !turns_in(corner.at - side_.to) && corner.vertex() != top;) {
       const std::uint32_t h = onward(convex_to_, is_left_);
       const Corner next = end_of(h);
       const Way before = on;
@@ -281,10 +283,14 @@ class Sweep {
  private:
   Sweep(const Projection& projection, const ContactFace& a, const ContactFace& b, std::uint32_t from_a, std::uint32_t from_b,
         double bound, Candidates& corners)
-      : border_{{projection.a, a, Border::Left, from_a, bound},
-                {projection.b, b, Border::Left, from_b, bound},
-                {projection.a, a, Border::Right, from_a, bound},
-                {projection.b, b, Border::Right, from_b, bound}},
+      : Sweep(projection, a, b, from_a, from_b, is_seen_from_above(projection.a, a), is_seen_from_above(projection.b, b), bound,
+              corners) {}
+  Sweep(const Projection& projection, const ContactFace& a, const ContactFace& b, std::uint32_t from_a, std::uint32_t from_b,
+        bool above_a, bool above_b, double bound, Candidates& corners)
+      : border_{{projection.a, a, Border::Left, from_a, !above_a, bound},
+                {projection.b, b, Border::Left, from_b, !above_b, bound},
+                {projection.a, a, Border::Right, from_a, above_a, bound},
+                {projection.b, b, Border::Right, from_b, above_b, bound}},
         name_{a.name(), b.name()},
         bound_(bound),
         slope_(slope(projection.b, b) - slope(projection.a, a)),
@@ -294,6 +300,11 @@ class Sweep {
         if ((f == 0 ? from_a : from_b) != kNone) advance(border, f);
       }
     }
+  }
+
+  /// Whether half-edges around the face run counter-clockwise in the projection.
+  static bool is_seen_from_above(const SeenBody& body, const ContactFace& face) {
+    return dot(cross(body.x, body.y), face.normal()) >= 0;
   }
 
   SeenBorder& at(Border border, int f) { return border_[2 * std::size_t(border) + std::size_t(f)]; }
@@ -336,7 +347,7 @@ class Sweep {
 
   /// Starts at the higher of the two lowest corners. Returns false if the other face ends below it.
   bool begin() {
-    const auto lowest_of = [&](int f) { return at(Border::Right, f).side().from; };
+    const auto lowest_of = [&](int f) { return at(Border::Right, f).start(); };
     const int f = is_below(lowest_of(0).at, lowest_of(1).at) ? 1 : 0, other = 1 - f;
     const Corner lowest = lowest_of(f);
     for (const Border border : kBorders) {
@@ -370,7 +381,7 @@ class Sweep {
     if (west_ != kNobody && !overlap_begins(border, f)) return true;
     constexpr int other = 1 - f;
     constexpr Border across = opposite(border);
-    const Place& place = at(border, f).end().at;
+    const Place& place = at(border, f).side().to;
     if (is_across(place, at(across, other).side())) {
       if (leader(border) != f) add_crossing(border, {f, border}, {other, border});
       if (leader(across) != other) add_crossing(across, {f, across}, {other, across});
@@ -392,7 +403,7 @@ class Sweep {
 
   /// Returns true if a place of one border lies outside of a side of the other, which sees it mirrored.
   bool is_across(const Place& place, const Side& side) const {
-    return place.x + min(side.from.at.x, side.to.at.x) <= bound_ &&
+    return place.x + min(side.from.x, side.to.x) <= bound_ &&
            swiftlet::where({-place.x, place.y}, side, bound_) == Where::Outside;
   }
 
@@ -423,7 +434,7 @@ class Sweep {
   template <Border border, int f>
   void pass() {
     const SeenBorder& own = at(border, f);
-    const Corner& corner = own.end();
+    const Corner corner = own.end();
     const bool wanted =
         is_at_top(f) || corners_.wants(border, corner.at, own.next().at, [&] { return rise(own, own.ahead()); });
     if (wanted || corners_.may_know(f, corner.vertex())) add_corner(border, f, own.seen(corner.at), corner.vertex(), wanted);
@@ -434,7 +445,7 @@ class Sweep {
     leader(border) = f;
     const SeenBorder &from = at(border, 1 - f), &to = at(border, f);
     const bool wanted =
-        corners_.wants(border, from.side().from.at, from.end().at, to.end().at, [&] { return rise(to, to.side().way); });
+        corners_.wants(border, from.side().from, from.side().to, to.side().to, [&] { return rise(to, to.side().way); });
     if (wanted || (may_know(f, to) && may_know(1 - f, from))) add_crossing(border, {0, border}, {1, border}, wanted);
   }
 
@@ -447,7 +458,8 @@ class Sweep {
   void add_corner(Border border, int f, const Place& place, std::uint32_t v, bool wanted = true) {
     const double depth = depth_at(1 - f, place), z = at(border, f).z(v), z_a = f == 0 ? z : depth, z_b = f == 0 ? depth : z;
     const FeatureId vertex{FeatureKind::Vertex, v};
-    corners_.add(border, {{place.x, place.y, z_a}, z_b - z_a, f == 0 ? vertex : name_[0], f == 0 ? name_[1] : vertex}, wanted);
+    corners_.add(border, {{place.x, place.y, z_a}, z_b - z_a, {f == 0 ? vertex : name_[0], f == 0 ? name_[1] : vertex}},
+                 wanted);
   }
 
   /// The coordinate along the normal at a place of a face: interpolated between its borders, or that of the nearer one outside.
@@ -471,23 +483,24 @@ class Sweep {
   void add_crossing(Border border, Which p, Which q, bool wanted = true) {
     if (p.face == 1) std::swap(p, q);
     const SeenBorder &of_a = at(p.border, 0), &of_b = at(q.border, 1);
-    const Side a = of_a.plain(), b = of_b.plain();
-    const double h = b.beyond(a.from.at), h_to = b.beyond(a.to.at);
+    // All is seen as A's border sees it.
+    const double mirrored = p.border == q.border ? 1 : -1;
+    const auto by_other = [&](const Place& place) { return Place{place.x * mirrored, place.y}; };
+    const Line &a = of_a.side(), b{by_other(of_b.side().from), by_other(of_b.side().to), {by_other(of_b.side().way), 0}};
+    const double h = b.beyond(a.from), h_to = b.beyond(a.to);
     // If the sides are nearly parallel, the first point on a is uncertain; the last one is the nearest to that on b.
     const double t_b = b.along(a.at(h != h_to ? min(max(h / (h - h_to), 0), 1) : 0)), t_a = a.along(b.at(t_b));
     const Place on_b = b.at(t_b), on_a = a.at(t_a);
     const auto is_near = [&](const Place& place) { return dot(place - on_a, place - on_a) <= bound_ * bound_; };
-    for (const Corner* c : {&a.from, &a.to}) {
-      if (is_near(c->at)) return add_corner(border, 0, c->at, c->vertex(), wanted);
-    }
-    for (const Corner* c : {&b.from, &b.to}) {
-      if (is_near(c->at)) return add_corner(border, 1, c->at, c->vertex(), wanted);
-    }
+    if (is_near(a.from)) return add_corner(border, 0, of_a.seen(a.from), of_a.start().vertex(), wanted);
+    if (is_near(a.to)) return add_corner(border, 0, of_a.seen(a.to), of_a.end().vertex(), wanted);
+    if (is_near(b.from)) return add_corner(border, 1, of_a.seen(b.from), of_b.start().vertex(), wanted);
+    if (is_near(b.to)) return add_corner(border, 1, of_a.seen(b.to), of_b.end().vertex(), wanted);
     // A corner within the bound of a side may be farther than that from where the sides cross.
     if (dot(on_b - on_a, on_b - on_a) > 4 * bound_ * bound_) return;
     const double z_a = of_a.z_at(t_a), z_b = of_b.z_at(t_b);
-    corners_.add(border, {{on_a.x, on_a.y, z_a}, z_b - z_a, of_a.edge_at(of_a.seen(on_a)), of_b.edge_at(of_b.seen(on_b))},
-                 wanted);
+    const Names names(of_a.edge_at(on_a), of_b.edge_at(by_other(on_b)));
+    corners_.add(border, {{of_a.seen(on_a).x, on_a.y, z_a}, z_b - z_a, names}, wanted);
   }
 
   static constexpr int kNobody = -1;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 
 namespace swiftlet {
 namespace {
@@ -14,17 +13,20 @@ namespace {
 /// The convex hull of the candidates' places, counter-clockwise.
 class Hull {
  public:
-  explicit Hull(const Candidates& candidates) {
-    std::array<int, kMostCandidates> order;
-    const auto end = order.begin() + candidates.count();
-    std::iota(order.begin(), end, 0);
-    for (int i = 0; i < candidates.count(); ++i) place_[std::size_t(i)] = candidates[i].place();
-    std::sort(order.begin(), end, [&](int i, int j) {
-      const Place &p = place(i), &q = place(j);
-      return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : i < j;
-    });
-    add_chain(order.begin(), end);
-    add_chain(std::reverse_iterator(end), order.rend());
+  explicit Hull(const Candidates& candidates) : candidates_(candidates) {
+    const int count = candidates.count();
+    if (is_clockwise()) {
+      while (size_ < count) add(count - 1 - size_);
+      return;
+    }
+    std::array<Index, kMostCandidates> order;
+    for (int i = 0; i < count; ++i) {
+      int at = i;
+      for (; at > 0 && is_before(i, order[std::size_t(at - 1)]); --at) order[std::size_t(at)] = order[std::size_t(at - 1)];
+      order[std::size_t(at)] = Index(i);
+    }
+    add_chain(order.begin(), order.begin() + count);
+    add_chain(std::reverse_iterator(order.begin() + count), order.rend());
     size_ = std::max(size_, 1);
   }
 
@@ -32,6 +34,11 @@ class Hull {
   int operator[](int i) const { return corner_[std::size_t(i)]; }
   /// The way from the first corner to another.
   Place spoke(int i) const { return place((*this)[i]) - place((*this)[0]); }
+  double twice_area() const {
+    double sum = 0;
+    for (int i = 1; i + 1 < size_; ++i) sum += cross(spoke(i), spoke(i + 1));
+    return sum;
+  }
 
   /// Makes `first` the first corner and returns true, or, if it is inside, the corner farthest from it and returns false. A
   /// corner within the bound of it is in its place.
@@ -45,12 +52,35 @@ class Hull {
     const bool is_corner = away(*begin) <= bound * bound;
     if (!is_corner) begin = std::max_element(corner_.begin(), end, [&](int i, int j) { return away(i) < away(j); });
     std::rotate(corner_.begin(), begin, end);
-    if (is_corner) corner_[0] = first;
+    if (is_corner) corner_[0] = Index(first);
     return is_corner;
   }
 
  private:
-  const Place& place(int spot) const { return place_[std::size_t(spot)]; }
+  using Index = std::uint8_t;
+
+  void add(int spot) { corner_[std::size_t(size_++)] = Index(spot); }
+  Place place(int spot) const { return candidates_[spot].place(); }
+  /// Whether the candidates go once around their hull, as the corners of a clipped area do: all turn right, and the way rises
+  /// once.
+  bool is_clockwise() const {
+    const int count = candidates_.count();
+    Place before = place(0) - place(count - 1);
+    bool turns = true;
+    int peaks = 0;
+    for (int i = 0; i < count && turns; ++i) {
+      const Place way = place(i + 1 < count ? i + 1 : 0) - place(i);
+      turns = cross(before, way) < 0;
+      peaks += before.y > 0 && way.y <= 0;
+      before = way;
+    }
+    return turns && peaks == 1;
+  }
+  /// The order of x, then y; of equal places the first candidate is before.
+  bool is_before(int i, int j) const {
+    const Place p = place(i), q = place(j);
+    return p.x < q.x || (p.x == q.x && p.y < q.y);
+  }
   /// Twice the area of three candidates, positive where they turn left.
   double twice_area(int i, int j, int k) const { return cross(place(j) - place(i), place(k) - place(i)); }
 
@@ -59,25 +89,27 @@ class Hull {
   void add_chain(Iterator spot, Iterator end) {
     for (const int start = size_; spot != end; ++spot) {
       while (size_ > start + 1 && !(twice_area((*this)[size_ - 2], (*this)[size_ - 1], *spot) > 0)) --size_;
-      corner_[std::size_t(size_++)] = *spot;
+      add(*spot);
     }
     --size_;
   }
 
-  std::array<Place, kMostCandidates> place_;  ///< of the candidates
+  const Candidates& candidates_;
   int size_ = 0;
-  std::array<int, kMostCandidates + 1> corner_;
+  std::array<Index, kMostCandidates + 1> corner_;
 };
 
 }  // namespace
 
-LargestPolygon largest_polygon(const Candidates& candidates, int first, int most, double bound) {
+LargestPolygon largest_polygon(const Candidates& candidates, int first, int most, double bound, double enough) {
   Hull hull(candidates);
+  LargestPolygon polygon;
+  if (!(hull.twice_area() > enough)) return polygon;
   const int corners = std::min(hull.begin_with(first, bound) ? most : most - 1, hull.size());
   std::array<Place, kMostCandidates> spoke;
   for (int i = 0; i < hull.size(); ++i) spoke[std::size_t(i)] = hull.spoke(i);
   std::array<double, kMostCandidates> best{};  // twice the area of the best fan that ends at a corner
-  std::array<std::array<std::uint8_t, kMostCandidates>, kMostManifoldPoints> before{};
+  std::array<std::array<std::uint8_t, kMostCandidates>, kMostManifoldPoints> before;
   for (int corner = 2; corner < corners; ++corner) {
     for (int last = hull.size() - 1; last >= corner; --last) {
       double largest = -1;
@@ -92,10 +124,12 @@ LargestPolygon largest_polygon(const Candidates& candidates, int first, int most
     }
   }
   int last = int(std::max_element(best.begin() + (corners - 1), best.begin() + hull.size()) - best.begin());
-  LargestPolygon polygon;
   polygon.twice_area = best[std::size_t(last)];
-  for (int corner = corners - 1; corner >= 0; last = before[std::size_t(corner--)][std::size_t(last)])
+  for (int corner = corners - 1; corner > 0; --corner) {
     polygon.corner[std::size_t(polygon.count++)] = hull[last];
+    if (corner > 1) last = before[std::size_t(corner)][std::size_t(last)];
+  }
+  polygon.corner[std::size_t(polygon.count++)] = hull[0];
   return polygon;
 }
 

@@ -18,9 +18,10 @@ struct LargestPolygon {
   const int* end() const { return corner.data() + count; }
 };
 
-/// Returns the largest polygon of at most `most` corners, 3 or more, all of them candidates and one of them `first`. If `first`
-/// lies inside of the candidates' hull, farther than `bound` from its corners, it is no corner, but counts among `most`, and
-/// the candidate farthest from it is a corner. Cost: `most` times the square of the number of candidates.
-LargestPolygon largest_polygon(const Candidates& candidates, int first, int most, double bound);
+/// Returns the largest polygon of at most `most` corners, 3 or more, all of them candidates and one of them `first`, or none if
+/// not even twice the area of the candidates' hull is more than `enough`. If `first` lies inside of the hull, farther than
+/// `bound` from its corners, it is no corner, but counts among `most`, and the candidate farthest from it is a corner. Cost:
+/// `most` times the square of the number of candidates.
+LargestPolygon largest_polygon(const Candidates& candidates, int first, int most, double bound, double enough);
 
 }  // namespace swiftlet

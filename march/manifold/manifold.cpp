@@ -24,16 +24,18 @@ struct Anchor {
   FeatureId feature_a, feature_b;  ///< that hold them
 };
 
-/// The contact points of a candidate. If one of its features is a vertex, that body's point is the vertex; the other body's
-/// point lies on the line through it along the normal. No points are nearer than `nearest`, but a corner that lies beside a
-/// steep face and counts as inside seems to be.
-ManifoldPoint placed(const PairView& pair, const Projection& projection, const Candidate& c, double nearest) {
+/// Puts the contact points of a candidate where they belong. If one of its features is a vertex, that body's point is the
+/// vertex; the other body's point lies on the line through it along the normal. No points are nearer than `nearest`, but a
+/// corner that lies beside a steep face and counts as inside seems to be.
+void put(ManifoldPoint& point, const PairView& pair, const Projection& projection, const Candidate& c, double nearest) {
   const double separation = max(c.separation, nearest);
   const Vec across = projection.a.n * separation;
-  const Vec point_a = c.feature_a.kind() == FeatureKind::Vertex   ? body_a(pair).point(c.feature_a.index())
-                      : c.feature_b.kind() == FeatureKind::Vertex ? body_b(pair).point(c.feature_b.index()) - across
-                                                                  : projection.point(c.on_a);
-  return {eigen(point_a), eigen(point_a + across), separation, c.feature_a, c.feature_b};
+  const FeatureId a = c.names.a(), b = c.names.b();
+  const Vec point_a = a.kind() == FeatureKind::Vertex   ? body_a(pair).point(a.index())
+                      : b.kind() == FeatureKind::Vertex ? body_b(pair).point(b.index()) - across
+                                                        : projection.point(c.on_a);
+  point.point_a = eigen(point_a), point.point_b = eigen(point_a + across);
+  point.separation = separation, point.feature_a = a, point.feature_b = b;
 }
 
 /// What is asked for, in the range that is allowed.
@@ -52,11 +54,11 @@ void grow(const PairView& pair, const Anchor& w, double margin, double bound, co
   Candidates candidates(margin + bound, previous);
   clip(projection, a, b, bound / 2, candidates);  // a corner counts as inside of a face that it misses by so much
   if (candidates.count() == 0 || w.separation < candidates.least() - bound / 2)
-    candidates.add_deepest({{0, 0, 0}, w.separation, named(pair.a, w.feature_a), named(pair.b, w.feature_b)});
+    candidates.add_deepest({{0, 0, 0}, w.separation, {named(pair.a, w.feature_a), named(pair.b, w.feature_b)}});
   const bool rests = norm(w.normal - vec(previous.normal)) <= kRestingTurn * flatness(options);
   const double slack = rests ? flatness(options) * max(pair.a.extent, pair.b.extent) : 0;
   for (const int i : choose(candidates, std::min(options.most_points, kMostManifoldPoints), previous, bound, slack))
-    manifold.points[manifold.count++] = placed(pair, projection, candidates[i], w.separation - bound / 2);
+    put(manifold.points[manifold.count++], pair, projection, candidates[i], w.separation - bound / 2);
 }
 
 /// `bound` is law 2's for the bodies.
