@@ -32,14 +32,13 @@ class Descent {
     top_ = 0;
     if (seed_.triangle_a < a_.triangle_count && seed_.triangle_b < b_.triangle_count) {
       const Vec before = ahead_;
-      measure(seed_.triangle_a, seed_.triangle_b);
+      const bool is_near = measure(seed_.triangle_a, seed_.triangle_b);
       if (done_) {
         lower_ = 0;  // of all else nothing is known
         return conclude();
       }
       // The seed's direction is of another pose if it no longer parts even its own triangles; so is that of the hulls.
-      if (!(finding_.upper < HUGE_VAL) && a_.triangles && b_.triangles &&
-          gap_ahead(seed_.triangle_a, seed_.triangle_b) < limit_ahead_) {
+      if (is_near && !(finding_.upper < HUGE_VAL)) {
         look(between_middles());
         hulls_wait_ = has_hulls_;
       }
@@ -144,7 +143,7 @@ class Descent {
     while (top_ > bottom && !done_ && !spent()) {
       const PairEntry next = stack_[--top_];
       if (double(next.lower) >= limit_over_unit_) continue;
-      whole ? measure(next.a, next.b) : bound(entry, next);
+      whole ? void(measure(next.a, next.b)) : bound(entry, next);
     }
   }
 
@@ -260,11 +259,18 @@ class Descent {
     return bottom + (ahead_of_origin_ - top);
   }
 
-  /// Bounds the distance of two triangles, or of a triangle and a convex body.
-  void measure(std::uint32_t of_a, std::uint32_t of_b) {
+  /// Bounds the distance of two triangles, or of a triangle and a convex body. True if the seventh axis did not part triangles.
+  bool measure(std::uint32_t of_a, std::uint32_t of_b) {
     ++finding_.triangles;
-    if (!a_.triangles || !b_.triangles) return ask_kernel(of_a, of_b);
-    if (gap_ahead(of_a, of_b) >= limit_ahead_) return;
+    if (!a_.triangles || !b_.triangles) {
+      ask_kernel(of_a, of_b);
+      return false;
+    }
+    const bool is_near = gap_ahead(of_a, of_b) < limit_ahead_;
+    if (is_near) measure_near(of_a, of_b);
+    return is_near;
+  }
+  [[gnu::noinline]] void measure_near(std::uint32_t of_a, std::uint32_t of_b) {
     Vec a[3], b[3];
     corners(a_, of_a, a), corners(b_, of_b, b);
     const TrianglePair pair(a, b, motion_, question_.size);

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "numeric/vec4.h"
+
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
@@ -16,6 +18,15 @@ namespace swiftlet {
 using Float4 = float __attribute__((vector_size(16)));
 
 static inline Float4 float4(float x, float y, float z) { return Float4{x, y, z, 0}; }
+static inline Float4 float4(const Vec4& v) {
+#if defined(__AVX__)
+  return _mm256_cvtpd_ps(v.v);
+#elif defined(__SSE2__)
+  return _mm_movelh_ps(_mm_cvtpd_ps(v.lo), _mm_cvtpd_ps(v.hi));
+#else
+  return Float4{float(v[0]), float(v[1]), float(v[2]), float(v[3])};
+#endif
+}
 /// Three numbers, and a fourth one that follows them in memory.
 static inline Float4 load4(const float* p) {
   Float4 v;
@@ -99,6 +110,14 @@ static inline Float8 max(Float8 a, Float8 b) { return {_mm256_max_ps(b.v, a.v)};
 static inline Float8 min(Float8 a, Float8 b) { return {_mm256_min_ps(b.v, a.v)}; }
 static inline float least(Float8 a) { return least(min(Float4(_mm256_castps256_ps128(a.v)), _mm256_extractf128_ps(a.v, 1))); }
 static inline Float8 abs(Float8 a) { return {_mm256_andnot_ps(all8(-0.0f).v, a.v)}; }
+static inline Float8 joined(Float4 low, Float4 high) { return {_mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1)}; }
+static inline Float4 low(Float8 a) { return _mm256_castps256_ps128(a.v); }
+static inline Float4 high(Float8 a) { return _mm256_extractf128_ps(a.v, 1); }
+/// Lane i of each half in all lanes of that half.
+template <int i>
+static inline Float8 lanes(Float8 a) {
+  return {__builtin_shufflevector(a.v, a.v, i, i, i, i, 4 + i, 4 + i, 4 + i, 4 + i)};
+}
 /// Bit i is set if lane i of `a` is at most that of `b`.
 static inline unsigned at_most(Float8 a, Float8 b) { return unsigned(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ))); }
 #else
@@ -120,6 +139,13 @@ static inline Float8 max(Float8 a, Float8 b) { return {max(a.lo, b.lo), max(a.hi
 static inline Float8 min(Float8 a, Float8 b) { return {min(a.lo, b.lo), min(a.hi, b.hi)}; }
 static inline float least(Float8 a) { return least(min(a.lo, a.hi)); }
 static inline Float8 abs(Float8 a) { return {abs(a.lo), abs(a.hi)}; }
+static inline Float8 joined(Float4 low, Float4 high) { return {low, high}; }
+static inline Float4 low(Float8 a) { return a.lo; }
+static inline Float4 high(Float8 a) { return a.hi; }
+template <int i>
+static inline Float8 lanes(Float8 a) {
+  return {lane<i>(a.lo), lane<i>(a.hi)};
+}
 static inline unsigned at_most(Float4 a, Float4 b) {
 #if defined(__SSE2__)
   return unsigned(_mm_movemask_ps(_mm_cmple_ps(a, b)));
@@ -129,5 +155,8 @@ static inline unsigned at_most(Float4 a, Float4 b) {
 }
 static inline unsigned at_most(Float8 a, Float8 b) { return at_most(a.lo, b.lo) + 16u * at_most(a.hi, b.hi); }
 #endif
+
+/// The sums of x, y and z in each half, in all of its lanes.
+static inline Float8 sums(Float8 a) { return lanes<0>(a) + lanes<1>(a) + lanes<2>(a); }
 
 }  // namespace swiftlet

@@ -17,12 +17,18 @@
 #include "body/shape.h"
 #include "inside.h"
 #include "mesh_block.h"
+#include "numeric/wide.h"
 #include "query/radii.h"
 #include "search.h"
 #include "weld.h"
 
 namespace swiftlet {
 namespace {
+
+bool is_unit(const Vec3& n) {
+  const Wide wide_n = wide(vec(n));
+  return std::fabs(double(dot(wide_n, wide_n) - 1.0)) <= kUnitError;
+}
 
 /// The convex parts of a body, each with the body's radius.
 struct Parts {
@@ -113,7 +119,7 @@ std::string depth_fault(const Parts& a, const Parts& b, const Pose& b_in_a, cons
   text.precision(17);
   if (answer.lower > -HUGE_VAL) {
     const Vec3& n = answer.normal;
-    if (!(std::fabs(n.norm() - 1) <= 1e-15)) return "the normal is no unit vector";
+    if (!is_unit(n)) return "the normal is no unit vector";
     const bool by_plane = a.top(n, {}) + b.top(-n, b_in_a) + answer.lower <= law_two;
     if (!by_plane && meet(a, b, {b_in_a.rotation, b_in_a.translation + (law_two - answer.lower) * n}))
       text << "moved by " << -answer.lower << " along the normal, the bodies still meet";
@@ -150,7 +156,7 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
   if (!(answer.upper >= answer.lower)) return fail("[", answer.lower, ", ", answer.upper, "] is no interval");
   if (Radii(answer) != Radii(a.radius(), b.radius())) return fail("the answer is of other radii");
   const bool has_normal = !unknown(answer.normal), has_points = !unknown(answer.point_a) || !unknown(answer.point_b);
-  if (has_normal && !(std::fabs(answer.normal.norm() - 1) <= 1e-15)) return fail("the normal is no unit vector");
+  if (has_normal && !is_unit(answer.normal)) return fail("the normal is no unit vector");
   if (has_points && !(answer.point_a.allFinite() && answer.point_b.allFinite())) return fail("a point is no point");
   const Parts of_a(a), of_b(b);
   if (answer.is_signed && !(answer.lower > 0)) {

@@ -22,7 +22,7 @@ Verdict verdict_of(const MeshFinding& found, double law_two) {
   return found.upper <= law_two ? Verdict::Touching : Verdict::Undecided;
 }
 
-/// Half the length of a root's box along a unit direction of its body's frame.
+/// Half the length of a root's box along a direction of its body's frame, times the direction's length.
 double reach_along(const Root& root, const Vec& n) {
   const Vec4 along = vec4(root.axes_x) * n.x + vec4(root.axes_y) * n.y + vec4(root.axes_z) * n.z;
   return dot(abs(along), vec4(root.half));
@@ -40,8 +40,9 @@ double gap_of_roots(const Root& a, const Root& b, const Motion& b_in_a, double s
     return length - reach_a - reach_b - kBoxSlack * (length + size + 2 * (reach_a + reach_b));
   };
   if (const double of_balls = gap(a.reach, b.reach); of_balls > enough) return of_balls;
-  const Vec n = way * (1 / length);
-  return gap(reach_along(a, n), reach_along(b, rotate_back(b_in_a, n)));
+  // Boxes are put along the way as it is: to wait for its unit direction would take as long as all else.
+  const double share = 1 / length;
+  return gap(reach_along(a, way) * share, reach_along(b, rotate_back(b_in_a, way)) * share);
 }
 
 Status status_of(const MeshFinding& found, const StopRule& stop, double law_two, bool whole) {

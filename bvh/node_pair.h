@@ -25,16 +25,17 @@ static inline int unit_of_pair(int of_a, int of_b, const Vec& t) {
 /// A pose as boxes need it. Lengths are over the pair's unit, a power of two that is no less than either body's unit and than
 /// the translation, so that no float overflows.
 struct PairFrame {
-  Motion b_in_a;             ///< the translation over the unit
+  V3<Vec4> columns;          ///< of R, over 1 / `unit_b`
+  Vec4 translation;          ///< over the unit
   Columns rotation, back;    ///< R and its transpose
   double unit_a, unit_b;     ///< the bodies' units, at most 1
   Float4 ahead, ahead_in_b;  ///< a unit direction from A to B, in A's body frame, and R^T times it
 
   /// `of_a`, `of_b` and `unit` are exponents of the bodies' units and of the pair's.
   PairFrame(const Motion& m, int of_a, int of_b, int unit, const Vec& direction)
-      : b_in_a{m.row_x, m.row_y, m.row_z, scaled(m.t, -unit)},
-        unit_a(power_of_two(of_a - unit)),
-        unit_b(power_of_two(of_b - unit)) {
+      : translation(vec4(scaled(m.t, -unit))), unit_a(power_of_two(of_a - unit)), unit_b(power_of_two(of_b - unit)) {
+    columns = {vec4(m.row_x.x, m.row_y.x, m.row_z.x) * unit_b, vec4(m.row_x.y, m.row_y.y, m.row_z.y) * unit_b,
+               vec4(m.row_x.z, m.row_y.z, m.row_z.z) * unit_b};
     const auto rounded = [](const Vec& v) { return float4(float(v.x), float(v.y), float(v.z)); };
     back = {rounded(m.row_x), rounded(m.row_y), rounded(m.row_z)};
     rotation = Columns::of_rows(back.x, back.y, back.z);
@@ -46,19 +47,29 @@ struct PairFrame {
   }
 };
 
+/// A matrix twice, which times two vectors is two vectors.
+struct Twice {
+  Float8 x, y, z;
+  explicit Twice(const Columns& m) : x(joined(m.x, m.x)), y(joined(m.y, m.y)), z(joined(m.z, m.z)) {}
+  Float8 operator*(Float8 v) const { return x * lanes<0>(v) + y * lanes<1>(v) + z * lanes<2>(v); }
+};
+
 class NodePair {
  public:
   NodePair(const PairFrame& frame, const Node& a, const Node& b)
       : a_(a), b_(b), unit_a_(float(frame.unit_a)), unit_b_(float(frame.unit_b)) {
     const Float4 x_a = load4(a.axis[0]), y_a = load4(a.axis[1]), x_b = load4(b.axis[0]), y_b = load4(b.axis[1]);
     const Columns of_a = Columns::of_rows(x_a, y_a, cross(x_a, y_a)), of_b = Columns::of_rows(x_b, y_b, cross(x_b, y_b));
-    m_[0] = of_a * (frame.rotation * x_b), m_[1] = of_a * (frame.rotation * y_b);
-    m_[2] = of_a * (frame.rotation * cross(x_b, y_b));
-    const Vec at_b = apply(frame.b_in_a, Vec{b.origin[0], b.origin[1], b.origin[2]} * frame.unit_b);
-    const Vec way = at_b - Vec{a.origin[0], a.origin[1], a.origin[2]} * frame.unit_a;
-    const Float4 offset = float4(float(way.x), float(way.y), float(way.z));
-    offset_a_ = of_a * offset, offset_b_ = of_b * (frame.back * offset);
-    ahead_a_ = of_a * frame.ahead, ahead_b_ = of_b * frame.ahead_in_b;
+    const Twice twice_a(of_a), twice_b(of_b);
+    const V3<Vec4>& r = frame.columns;
+    const Vec4 at_b = (r.x * b.origin[0] + r.y * b.origin[1] + r.z * b.origin[2]) + frame.translation;
+    const Float4 offset = float4(at_b - vec4(a.origin[0], a.origin[1], a.origin[2]) * frame.unit_a);
+    const Float8 x_y = twice_a * (Twice(frame.rotation) * joined(x_b, y_b));
+    const Float8 z_offset = twice_a * joined(frame.rotation * cross(x_b, y_b), offset);
+    const Float8 offset_ahead = twice_b * joined(frame.back * offset, frame.ahead_in_b);
+    m_[0] = low(x_y), m_[1] = high(x_y), m_[2] = low(z_offset);
+    offset_a_ = high(z_offset), offset_b_ = low(offset_ahead);
+    ahead_a_ = of_a * frame.ahead, ahead_b_ = high(offset_ahead);
     extent_a_ = load4(a.extent) * unit_a_, extent_b_ = load4(b.extent) * unit_b_;
     const Float4 lengths = sums(extent_a_, extent_b_, abs(offset));
     size_a_ = lengths[0], size_b_ = lengths[1];
@@ -66,18 +77,17 @@ class NodePair {
     const Float4 x = abs(m_[0]), y = abs(m_[1]), z = abs(m_[2]);
     extent_b_in_a_ = x * lane<0>(extent_b_) + y * lane<1>(extent_b_) + z * lane<2>(extent_b_);
     extent_a_in_b_ = sums(x * extent_a_, y * extent_a_, z * extent_a_);
-    const Float4 along = sums(frame.ahead * offset, abs(ahead_a_) * extent_a_, abs(ahead_b_) * extent_b_);
-    offset_ahead_ = along[0], top_of_a_ = along[1], bottom_of_b_ = along[0] - along[2];
+    const Float8 along = sums(abs(joined(ahead_a_, ahead_b_)) * joined(extent_a_, extent_b_));
+    const Float4 ahead = frame.ahead * offset;
+    offset_ahead_ = (lane<0>(ahead) + lane<1>(ahead) + lane<2>(ahead))[0];
+    top_of_a_ = low(along)[0], bottom_of_b_ = offset_ahead_ - high(along)[0];
   }
   /// The square of the gap between all of A and all of B.
   float square() const {
-    const auto squared = [](Float4 gap) {
-      const Float4 positive = max(gap, Float4{0, 0, 0, 0});
-      return positive * positive;
-    };
-    return greatest(sums(squared(abs(offset_a_) - (extent_a_ + extent_b_in_a_)),
-                         squared(abs(offset_b_) - (extent_b_ + extent_a_in_b_)),
-                         squared(float4(bottom_of_b_ - top_of_a_, 0, 0))));
+    const Float8 reach = joined(extent_a_, extent_b_) + joined(extent_b_in_a_, extent_a_in_b_);
+    const Float8 along = sums(squared(abs(joined(offset_a_, offset_b_)) - reach));
+    const float ahead = bottom_of_b_ > top_of_a_ ? bottom_of_b_ - top_of_a_ : 0;
+    return max(max(low(along), high(along)), Float4{ahead * ahead, 0, 0, 0})[0];
   }
   const Node& a() const { return a_; }
   const Node& b() const { return b_; }

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grows the tree from its root. The axes of a node are the principal axes of its surface [Gottschalk, Lin & Manocha 1996]. Its
 // triangles are cut in two where both halves' boxes have the least area times triangles [Wald 2007, in bins], again and again,
-// until there are eight groups or each is few enough for a node of triangles. A patch, where there are any, is cut off as if it
-// were one large triangle [Ehmann & Lin 2001, sec. 5], and cut in its own node alone.
+// until there are eight groups or each is few enough for a node of triangles, of which few and full ones are made. A patch,
+// where there are any, is cut off as if it were one large triangle [Ehmann & Lin 2001, sec. 5], and cut in its own node alone.
 #include "tree.h"
 
 #include <algorithm>
@@ -59,6 +59,8 @@ constexpr std::uint32_t kLeastShare = 8;
 /// at most (7/8)^7 of a node's triangles, and equal ones an eighth.
 constexpr std::uint32_t kLargestShare = 4;
 constexpr int kEqualDepth = 8;
+/// Where eight nodes of triangles may hold all, each counts as so many triangles, and the largest group is cut: bench/COST.md.
+constexpr std::uint32_t kTrianglesOfNode = 4;
 /// Down to this depth patches are not cut. They may keep nodes from shrinking: then there are this many levels, two of cheapest
 /// cuts and, of 2^22 triangles, seven of equal ones.
 constexpr int kPatchDepth = 6;
@@ -156,19 +158,22 @@ class Grower {
       std::uint32_t counted = 0;
       for (int bin = kBins - 1; bin > 0; --bin) {
         so_far.add(box[bin]), counted += count[bin];
-        right[bin] = counted > 0 ? area(so_far) * counted : 0;
+        right[bin] = counted > 0 ? area(so_far) * weight(counted) : 0;
       }
       so_far = {}, counted = 0;
       for (int bin = 1; bin < kBins; ++bin) {
         so_far.add(box[bin - 1]), counted += count[bin - 1];
         if (counted == 0 || counted == group.count() || (!group.has_patch && !is_balanced(counted, group.count()))) continue;
-        const double cost = area(so_far) * counted + right[bin];
+        const double cost = area(so_far) * weight(counted) + right[bin];
         if (cost < best.cost) best = {cost, axis, middles.least[axis] + bin * width};
       }
     }
     return best;
   }
 
+  std::uint32_t weight(std::uint32_t count) const {
+    return of_few_ ? count + kTrianglesOfNode * ((count + kFanOut - 1) / kFanOut) : count;
+  }
   static bool is_balanced(std::uint32_t part, std::uint32_t all) {
     return part * kLeastShare >= all && (all - part) * kLeastShare >= all;
   }
@@ -220,13 +225,14 @@ class Grower {
 
   /// Cuts a node's triangles into groups.
   void cut_all(Range range) {
+    of_few_ = range.count() <= kFanOut * kFanOut;
     while (groups_.size() < kFanOut) {
       const auto size = [](const Group& x) { return x.may_be_cut() ? x.count() : 0; };
       const auto larger = [&](const Group& x, const Group& y) { return size(x) < size(y); };
       auto group = std::max_element(groups_.begin(), groups_.end(), larger);
       if (!group->may_be_cut()) return;
       const bool equal = parts_.depth >= kEqualDepth;
-      if (!equal && group->count() * kLargestShare <= range.count()) {
+      if (!equal && !of_few_ && group->count() * kLargestShare <= range.count()) {
         const auto wider = [](const Group& x, const Group& y) {
           return x.may_be_cut() ? y.may_be_cut() && area(x.box) < area(y.box) : y.may_be_cut();
         };
@@ -325,6 +331,7 @@ class Grower {
   std::vector<Vec> scaled_;
   std::vector<Item> items_;
   std::vector<Group> groups_;  ///< of the node at hand
+  bool of_few_ = false;        ///< nodes of triangles may be all its children
   std::map<std::uint32_t, Bounds> box_of_patch_;
 };
 

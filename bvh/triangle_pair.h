@@ -40,18 +40,17 @@ struct Measured {
 class TrianglePair {
  public:
   /// `b` are corners of B in its own frame. `size` is law 2's size.
-  TrianglePair(const Vec (&a)[3], const Vec (&b)[3], const Motion& b_in_a, double size)
-      : way_(rotate(b_in_a, b[0]) + (b_in_a.t - a[0])) {
-    side_a_[0] = side_b_[0] = {0, 0, 0};
-    double square = 0;
-    for (int k = 1; k < 3; ++k) {
-      side_a_[k] = a[k] - a[0], side_b_[k] = rotate(b_in_a, b[k] - b[0]);
-      square = max(square, max(dot(side_a_[k], side_a_[k]), dot(side_b_[k], side_b_[k])));
-    }
-    side_ = std::sqrt(square), length_ = norm(way_), way_error_ = kWayOfPairError * size;
-    for (int k = 0; k < 3; ++k) b_[k] = side_b_[k] + way_;
-    lanes_a_ = transposed(side_a_[0], side_a_[1], side_a_[2], side_a_[0]);
-    lanes_b_ = transposed(side_b_[0], side_b_[1], side_b_[2], side_b_[0]);
+  TrianglePair(const Vec (&a)[3], const Vec (&b)[3], const Motion& b_in_a, double size) {
+    lanes_a_ = transposed(a[0], a[1], a[2], a[0]) - repeated4(a[0]);
+    // B's first corner is turned in the lane that is free.
+    const auto but_last = [](double x) { return vec4(Vec2{x, x}, Vec2{x, 0}); };
+    const V3<Vec4> from_first =
+        transposed(b[0], b[1], b[2], b[0]) - V3<Vec4>{but_last(b[0].x), but_last(b[0].y), but_last(b[0].z)};
+    lanes_b_ = {dot(repeated4(b_in_a.row_x), from_first), dot(repeated4(b_in_a.row_y), from_first),
+                dot(repeated4(b_in_a.row_z), from_first)};
+    way_ = vec(lanes_b_, 3) + (b_in_a.t - a[0]);
+    const Vec4 squares = max(dot(lanes_a_, lanes_a_), dot(lanes_b_, lanes_b_));
+    side_ = std::sqrt(max(squares[1], squares[2])), length_ = norm(way_), way_error_ = kWayOfPairError * size;
   }
 
   const Vec& way() const { return way_; }  ///< from A's first corner to B's
@@ -71,7 +70,7 @@ class TrianglePair {
   }
   /// True if along a face's normal the triangles overlap by no more than `depth`.
   bool faces_part(double depth) const {
-    for (const Vec& normal : {cross(side_a_[1], side_a_[2]), cross(side_b_[1], side_b_[2])}) {
+    for (const Vec& normal : {cross(side_a(1), side_a(2)), cross(side_b(1), side_b(2))}) {
       const Vec n = normalised(normal);
       if (dot(n, n) > 0 && max(gap(n), gap(-n)) >= -depth) return true;
     }
@@ -84,15 +83,15 @@ class TrianglePair {
   }
 
   /// The way from the middle of A to the middle of B, about.
-  Vec between_middles() const { return way_ + (side_b_[1] + side_b_[2] - side_a_[1] - side_a_[2]) * (1.0 / 3); }
+  Vec between_middles() const { return way_ + (side_b(1) + side_b(2) - side_a(1) - side_a(2)) * (1.0 / 3); }
 
   NearestPoints nearest() const {
     const V3<Vec4> to_b = rolled(lanes_b_) - lanes_b_, way = repeated4(way_), corner_b = lanes_b_ + way;
     const Vec4 ee = dot(to_b, to_b);
     Vec4 squares[3], of_a[3], of_b[3];
     for (int i = 0; i < 3; ++i) {
-      const Vec p = side_a_[i];
-      const V3<Vec4> d = repeated4(side_a_[(i + 1) % 3] - p), r = repeated4(p) - corner_b;
+      const Vec p = side_a(i);
+      const V3<Vec4> d = repeated4(side_a((i + 1) % 3) - p), r = repeated4(p) - corner_b;
       // [Ericson 2004, 5.1.9], and once more from the second parameter, which may have been clamped.
       const Vec4 dd = dot(d, d), de = dot(d, to_b), dr = dot(d, r), er = dot(to_b, r);
       const Vec4 s0 = clamped((de * er - dr * ee) / max(dd * ee - de * de, tiny()));
@@ -108,18 +107,18 @@ class TrianglePair {
     const int i_at = int(first) / 3, k_at = int(first) % 3;
     const double s_at = of_a[i_at][k_at], t_at = of_b[i_at][k_at];
     Over over_a, over_b;
-    const bool by_b = over(corner_b, side_a_, least, over_a), by_a = over(lanes_a_, b_, least, over_b);
+    const bool by_b = over(corner_b, lanes_a_, least, over_a), by_a = over(lanes_a_, corner_b, least, over_b);
     if (by_a) {
-      const Vec p = side_a_[over_b.corner];
-      return {p, way_ + (combined(side_b_, over_b.weight) - p), over_b.normal, corner(over_b.corner), {Part::Inside, 0}};
+      const Vec p = side_a(over_b.corner);
+      return {p, way_ + (combined(lanes_b_, over_b.weight) - p), over_b.normal, corner(over_b.corner), {Part::Inside, 0}};
     }
     if (by_b) {
-      const Vec p = combined(side_a_, over_a.weight);
-      return {p, way_ + (side_b_[over_a.corner] - p), over_a.normal, {Part::Inside, 0}, corner(over_a.corner)};
+      const Vec p = combined(lanes_a_, over_a.weight);
+      return {p, way_ + (side_b(over_a.corner) - p), over_a.normal, {Part::Inside, 0}, corner(over_a.corner)};
     }
-    const Vec along_a = side_a_[(i_at + 1) % 3] - side_a_[i_at], along_b = side_b_[(k_at + 1) % 3] - side_b_[k_at];
-    const Vec p = side_a_[i_at] + along_a * s_at;
-    NearestPoints points{p, way_ + (side_b_[k_at] + along_b * t_at - p), {0, 0, 0}, place(s_at, i_at), place(t_at, k_at)};
+    const Vec along_a = side_a((i_at + 1) % 3) - side_a(i_at), along_b = side_b((k_at + 1) % 3) - side_b(k_at);
+    const Vec p = side_a(i_at) + along_a * s_at;
+    NearestPoints points{p, way_ + (side_b(k_at) + along_b * t_at - p), {0, 0, 0}, place(s_at, i_at), place(t_at, k_at)};
     // Across a side and a corner: the part of their way that is at right angles to the side.
     if (points.on_a.part == Part::Side && points.on_b.part == Part::Side) {
       points.across = cross(along_a, along_b);
@@ -150,7 +149,8 @@ class TrianglePair {
   bool cross_deeper(double depth, Vec& point) const {
     const double reach = length_ + side_, corner_error = way_error_ + kCornerOfSize * reach;
     const double allowed = (kSideOfCorner * corner_error + kSideOfDepth * depth + kSideOfSize * reach) * reach * reach;
-    return pierces(side_a_, b_, allowed, point) || pierces(b_, side_a_, allowed, point);
+    const Vec a[3] = {side_a(0), side_a(1), side_a(2)}, b[3] = {side_b(0) + way_, side_b(1) + way_, side_b(2) + way_};
+    return pierces(a, b, allowed, point) || pierces(b, a, allowed, point);
   }
 
  private:
@@ -170,8 +170,8 @@ class TrianglePair {
   static V3<Vec4> repeated4(const Vec& v) { return {all(v.x), all(v.y), all(v.z)}; }
   /// The next corner in each lane but the last.
   static V3<Vec4> rolled(const V3<Vec4>& v) { return {yzx(v.x), yzx(v.y), yzx(v.z)}; }
-  static Vec combined(const Vec (&t)[3], const double (&weight)[3]) {
-    return t[0] * weight[0] + t[1] * weight[1] + t[2] * weight[2];
+  static Vec combined(const V3<Vec4>& t, const double (&weight)[3]) {
+    return vec(t, 0) * weight[0] + vec(t, 1) * weight[1] + vec(t, 2) * weight[2];
   }
   static PartId corner(int k) { return {Part::Corner, std::uint8_t(k)}; }
   static PartId place(double parameter, int side) {
@@ -181,7 +181,8 @@ class TrianglePair {
   }
 
   /// Finds the corner nearest to a triangle that it is over, if it is nearer than `least`, which it then becomes.
-  static bool over(const V3<Vec4>& corners, const Vec (&triangle)[3], double& least, Over& found) {
+  static bool over(const V3<Vec4>& corners, const V3<Vec4>& of_triangle, double& least, Over& found) {
+    const Vec triangle[3] = {vec(of_triangle, 0), vec(of_triangle, 1), vec(of_triangle, 2)};
     const Vec normal = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
     const double square = dot(normal, normal);
     if (!(square > 0)) return false;
@@ -225,10 +226,11 @@ class TrianglePair {
     return false;
   }
 
-  Vec side_a_[3], side_b_[3];  ///< from the first corner of each
-  Vec way_;                    ///< from A's first corner to B's
-  Vec b_[3];                   ///< B's corners from A's first
-  V3<Vec4> lanes_a_, lanes_b_;
+  Vec side_a(int k) const { return vec(lanes_a_, std::size_t(k)); }
+  Vec side_b(int k) const { return vec(lanes_b_, std::size_t(k)); }
+
+  V3<Vec4> lanes_a_, lanes_b_;  ///< the corners of each from its first one
+  Vec way_;                     ///< from A's first corner to B's
   double side_, length_, way_error_;
 };
 
