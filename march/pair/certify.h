@@ -71,6 +71,9 @@ static inline double gap(const PairView& pair, const Vec4& n, const Vec4& c, dou
   const Vec4 products = n * c;
   return sum(products) - (kGapError * norm_1(products) + pair.motion_error + slack);
 }
+/// The same between vertices `va` of A and `vb` of B.
+double gap(const PairView& pair, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack = 0);
+
 /// Proves bounds by the tests of a walk's last state alone, and reads nothing else. Returns why they do not tell, or None.
 static inline Doubt certify(const PairView& pair, const Nearest& seen, Proof& proof) {
   const Vec4 along = vec4(seen.normal), apart = vec4(seen.point_b) - vec4(seen.point_a);
@@ -92,7 +95,6 @@ static inline Doubt certify(const PairView& pair, const Nearest& seen, Proof& pr
 /// Looks closer at a walk's last state, where an `over` of `seen` is unknown or a larger share of law 2's bound than
 /// `kCloseShare`: at the vertices level with its feature. Returns true if one became less.
 bool tighten(const PairView& pair, Nearest& seen, std::uint32_t& plane_tests);
-double gap(const PairView& pair, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack = 0);
 
 /// The distance of vertices `va` of A and `vb` of B plus its rounding error: an upper bound on the bodies' distance.
 double apart(const PairView& pair, std::uint32_t va, std::uint32_t vb);
