@@ -283,7 +283,7 @@ class Polytope {
   }
   bool find_triangle(const Vec& hint, std::array<Corner, 9>& found) {
     found[0] = support(hint, 0, 0);
-    const Vec least = least_axis(hint), across = cross(hint, least);
+    const Vec least = least_axis(hint), across = normalised(cross(hint, least));
     const auto is_other = [&](const Corner& c) { return max_abs(c.p - found[0].p) > 0; };
     const auto leaves_line = [&](const Corner& c) { return found[2] = c, !on_line(found); };
     if (!first_of({-hint, least, across}, found[0], found[1], is_other)) return false;

@@ -133,8 +133,7 @@ double above_plateau(const ConvexView& view, const Vec& own, const Vec& d, const
   double most = 0;
   for (std::size_t i = 0; i < level.count; ++i) {
     const Vertex& record = vertices[level.vertices[i]];
-    const Vec e = vec(record) - p;
-    most = max(most, dot(own, e) + kBesideError * length_1 * norm_1(e));
+    if (const Vec e = vec(record) - p; i > 0) most = max(most, dot(own, e) + kBesideError * length_1 * norm(e));
     const double least = dot(own, vec(record)) - error;
     const HalfEdge* ring = view.half_edges.data() + record.ring_begin;
     for (const HalfEdge* h = ring; h != ring + record.ring_count; ++h)

@@ -62,6 +62,22 @@ TEST(UnitEpa, FindsTheSideNearestToTheOriginFromAnyDirection) {
   }
 }
 
+/// Where M is a point there is no plane to begin with: the directions that are tried for one are of length 1 too.
+TEST(UnitEpa, OfTwoPointsHasAUnitNormal) {
+  const Model a = bodies::model(bodies::point({0, 0, 0})), b = bodies::model(bodies::point({1, 2, 3}));
+  for (const Vec3& off : {Vec3(0, 0, 0), Vec3(1e-16, 0, 0), Vec3(0, -1e-16, 3e-16), Vec3(1e-15, 2e-15, -1e-15)}) {
+    const Motion m = motion({Mat3::Identity(), off - Vec3(1, 2, 3)});
+    const PairView pair = pair_view(a.level(0).view, b.level(0).view, m, 0);
+    for (const Vec3& along : {Vec3(1, 1, 1), Vec3(-3, 1, 2), Vec3(1, -1e-3, 0), Vec3(0.2, 0.9, -0.4)}) {
+      DepthStart start;
+      start.direction = vec(Vec3(along.normalized()));
+      std::uint32_t tests = 0;
+      const Depth d = epa(pair, a.level(0), b.level(0), start, exactly(pair), tests);
+      EXPECT_NEAR(norm(d.normal), 1, 1e-15) << off.transpose() << " along " << along.transpose();
+    }
+  }
+}
+
 ///       3           A flat lid: a triangle 0 1 2 at z = 0 and, beyond its sides, 3 4 5 at z = -0.5. A point 0.01 below the
 ///      / \          middle of the small triangle is that deep.
 ///     1---0
