@@ -80,13 +80,20 @@ static inline bool is_round(const Level& level) {
   return has_range(dot(n, n)) ? n : line;
 }
 
+/// True if the supports of a sample lie aside of each other by few edges: a walk from them is cheaper than another step. Supports
+/// that overlap, but by less than `hidden`, count too.
+static inline bool are_near(const AxisSample& seen, const Level& a, const Level& b, double hidden) {
+  const double few = kNearEdges * (a.edge_length + b.edge_length);
+  return seen.gap > -hidden && dot(seen.apart, seen.apart) - seen.gap * seen.gap <= few * few;
+}
+
 /// The state of the algorithm after a step.
 struct SupportGjk {
   AxisSample seen;                                               ///< the last sample
   double most_lower = -std::numeric_limits<double>::infinity();  ///< the greatest `lower` of all samples
   Vec lower_along{0, 0, 0};                                      ///< the normal along which `most_lower` is proved
   double upper = std::numeric_limits<double>::infinity();        ///< about the distance of the points of `feet_of`
-  bool near = false;  ///< some supports were within a few edges of each other across `normal`: a walk is cheaper
+  bool near = false;  ///< some supports were near each other
   std::uint32_t start_a = 0, start_b = 0;  ///< where a walk begins: the first supports that were `near`, else the last
   Simplex simplex;  ///< its nearest point gives the next direction; with four corners, the pair seems to overlap
 };
@@ -108,18 +115,17 @@ static inline Feet feet_of(const PairView& pair, const Simplex& simplex) {
 }
 
 /// Continues from the sample `seen` until `enough` returns true or nothing changes, for at most `kMapGjkSteps` steps. Both
-/// levels have maps. Supports that overlap, but by less than `hidden`, count as `near` too.
+/// levels have maps. `hidden`: as of `are_near`.
 template <class Enough>
 [[gnu::flatten]] static SupportGjk support_gjk(const PairView& pair, const Level& a, const Level& b, double hidden,
                                                const AxisSample& seen, Enough enough) {
-  const double few = kNearEdges * (a.edge_length + b.edge_length);
   const Moved4 other(pair);
   SupportGjk s;
   s.seen = seen;
   for (int steps = 0;; ++steps) {
     if (s.seen.lower > s.most_lower) s.most_lower = s.seen.lower, s.lower_along = s.seen.normal;
     const bool was_near = s.near;
-    s.near = was_near || (s.seen.gap > -hidden && dot(s.seen.apart, s.seen.apart) - s.seen.gap * s.seen.gap <= few * few);
+    s.near = was_near || are_near(s.seen, a, b, hidden);
     if (!was_near) s.start_a = s.seen.a, s.start_b = s.seen.b;
     const bool known = s.simplex.has(s.seen.a, s.seen.b);
     if (!known) s.simplex.add({s.seen.apart, s.seen.a, s.seen.b});

@@ -76,10 +76,16 @@ static inline bool finest_has_maps(const Pair& pair) {
   const Place at = pair.finest_mapped();
   return pair.has_maps() && at.level_a == pair.finest_a() && at.level_b == pair.finest_b();
 }
-/// GJK on the maps of two levels, which deviate by `deviation`, from the direction `first` on.
+/// GJK on the maps of two levels, which deviate by `deviation`, from the direction `first` on, until supports are near. Mostly
+/// the first ones are, and no simplex is made.
 [[gnu::noinline]] static SupportGjk nearest_on_maps(const PairView& view, const Level& a, const Level& b, double deviation,
                                                     const Vec4& first) {
   const AxisSample seen = sample_axis(view, Moved4(view), a, b, first);
+  if (are_near(seen, a, b, deviation)) {
+    SupportGjk at_once;
+    at_once.start_a = seen.a, at_once.start_b = seen.b;
+    return at_once;
+  }
   return support_gjk(view, a, b, deviation, seen, [](const SupportGjk& s) { return s.near; });
 }
 
