@@ -80,8 +80,8 @@ static inline bool is_round(const Level& level) {
   return has_range(dot(n, n)) ? n : line;
 }
 
-/// True if the supports of a sample lie aside of each other by few edges: a walk from them is cheaper than another step. Supports
-/// that overlap, but by less than `hidden`, count too.
+/// True if the supports of a sample lie aside of each other by few edges: a walk from them is cheaper than another step.
+/// Supports that overlap, but by less than `hidden`, count too.
 static inline bool are_near(const AxisSample& seen, const Level& a, const Level& b, double hidden) {
   const double few = kNearEdges * (a.edge_length + b.edge_length);
   return seen.gap > -hidden && dot(seen.apart, seen.apart) - seen.gap * seen.gap <= few * few;
@@ -93,7 +93,7 @@ struct SupportGjk {
   double most_lower = -std::numeric_limits<double>::infinity();  ///< the greatest `lower` of all samples
   Vec lower_along{0, 0, 0};                                      ///< the normal along which `most_lower` is proved
   double upper = std::numeric_limits<double>::infinity();        ///< about the distance of the points of `feet_of`
-  bool near = false;  ///< some supports were near each other
+  bool near = false;                                             ///< some supports were near each other
   std::uint32_t start_a = 0, start_b = 0;  ///< where a walk begins: the first supports that were `near`, else the last
   Simplex simplex;  ///< its nearest point gives the next direction; with four corners, the pair seems to overlap
 };
