@@ -25,8 +25,15 @@
 
 namespace swiftlet {
 
-/// Walks on the level pair of `place`, from its features. These are read one by one, as they were stored: a load of both would
-/// wait until both stores are done.
+/// Walks within the budget and the trial of `place` from legal features on its level pair.
+template <class Pair>
+[[gnu::always_inline]] static inline Walk walk_from(const Pair& pair, const PairView& view, FeatureId a, FeatureId b,
+                                                    const Place& place, const Answer& answer) {
+  const std::uint32_t steps_left = pair.limits.budget.steps - std::min(answer.steps, pair.limits.budget.steps);
+  return walk(view, a, b, pair.limits.tuning.plane_rule, std::min(steps_left, place.trial_steps));
+}
+/// Walks on the level pair of `place`, from its features, which a seed may have named. They are read one by one, as they were
+/// stored: a load of both would wait until both stores are done.
 template <class Pair>
 [[gnu::always_inline]] static inline Walk walk_from(const Pair& pair, const PairView& view, const Place& place,
                                                     Answer& answer) {
@@ -35,8 +42,7 @@ template <class Pair>
     const MarchStart legal = made_legal(view, place.start, answer.plane_tests);
     a = legal.a, b = legal.b;
   }
-  const std::uint32_t steps_left = pair.limits.budget.steps - std::min(answer.steps, pair.limits.budget.steps);
-  return walk(view, a, b, pair.limits.tuning.plane_rule, std::min(steps_left, place.trial_steps));
+  return walk_from(pair, view, a, b, place, answer);
 }
 /// Answers from a walk on the level pair of `place` if the tests that end it prove enough. `place` gets the walk's features.
 template <class Pair>
@@ -198,7 +204,7 @@ template <class Pair>
                                            first_direction(pair, line, last_direction(line.in_a, seed)));
   place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
   if (found.simplex.count() == 4) return descends(place, &found, nullptr);
-  Walk walked = walk_from(pair, view, place, answer);
+  Walk walked = walk_from(pair, view, place.start.a, place.start.b, place, answer);
   if (answers(pair, view, walked, line, asked, exact, Turn::Some, seed, place, answer)) return;
   descends(place, &found, &walked);
 }
