@@ -81,9 +81,7 @@ struct Rise {
   double length2;    ///< squared length of the way to the neighbour
   /// True if the distance falls faster on the way to this one: compares the squares of height over length. Rounding may give a
   /// sliver a `length2` of 0 or less.
-  bool is_steeper(const Rise& other) const {
-    return height * height * other.length2 > other.height * other.height * length2;
-  }
+  bool is_steeper(const Rise& other) const { return height * height * other.length2 > other.height * other.height * length2; }
 };
 
 /// As Nearest.

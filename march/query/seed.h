@@ -117,9 +117,9 @@ static inline Vec direction(const PairSeed& seed) {
 /// The direction stored in `seed` if the line of centres has turned by less than the angle whose cosine is kSameLine, else 0.
 static inline Vec last_direction(const Vec& line, const PairSeed& seed) {
   if ((seed.normal[0] | seed.normal[1] | seed.normal[2]) == 0) return {0, 0, 0};
-  const Vec was{double(seed.line_in_a[0]), double(seed.line_in_a[1]), double(seed.line_in_a[2])};
-  const double along = dot(line, was);
-  const bool same = along > 0 && along * along > kSameLine * kSameLine * dot(line, line) * dot(was, was);
+  const Vec4 was = vec4(seed.line_in_a.data()), now = vec4(line);
+  const double along = dot(now, was);
+  const bool same = along > 0 && along * along > kSameLine * kSameLine * dot(now, now) * dot(was, was);
   return same ? direction(seed) : Vec{0, 0, 0};
 }
 
