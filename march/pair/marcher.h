@@ -79,9 +79,8 @@ struct Rise {
   std::uint32_t to;  ///< a half-edge of the vertex's ring, or a face beside the edge
   double height;     ///< as that of the scan
   double length2;    ///< squared length of the way to the neighbour
-  /// True if the distance falls faster on the way to this one: compares the squares of height over length. Rounding may give a
-  /// sliver a `length2` of 0 or less.
-  bool is_steeper(const Rise& other) const { return height * height * other.length2 > other.height * other.height * length2; }
+  /// The squared rate at which the distance falls. Rounding may give a sliver a `length2` of 0 or less.
+  double rate2() const { return height / max(std::numeric_limits<double>::denorm_min(), length2) * height; }
 };
 
 /// As Nearest.
@@ -110,7 +109,7 @@ class Marcher {
     const Rise from_b = up_ring(b, vb, at_b);
     if (!at_a.falls()) return {vertex(va), along(b, from_b), distance2};
     const Rise from_a = up_ring(a, va, at_a);
-    if (from_a.is_steeper(from_b)) return {along(a, from_a), edge(from_b.to), distance2};
+    if (from_a.rate2() > from_b.rate2()) return {along(a, from_a), edge(from_b.to), distance2};
     return {edge(from_a.to), along(b, from_b), distance2};
   }
 
@@ -135,7 +134,7 @@ class Marcher {
     const Rise from_b = up_side(b, v0, h, at_b);
     if (first_only_ || !at_a.falls()) return {vertex(va), face(from_b.to), distance2};
     const Rise from_a = up_ring(a, va, at_a);
-    if (from_b.is_steeper(from_a)) return {vertex(va), face(from_b.to), distance2};
+    if (from_b.rate2() > from_a.rate2()) return {vertex(va), face(from_b.to), distance2};
     return {along(a, from_a), edge(h), distance2};
   }
 
@@ -190,7 +189,7 @@ class Marcher {
     }
     const Rise rise_a = at_a.falls() ? up_side(a, a0, ha, at_a) : Rise{kNone, -1, 1},
                rise_b = at_b.falls() ? up_side(b, b0, hb, at_b) : Rise{kNone, -1, 1};
-    if (!at_b.falls() || (at_a.falls() && (first_only_ || !rise_b.is_steeper(rise_a))))
+    if (!at_b.falls() || (at_a.falls() && (first_only_ || rise_a.rate2() >= rise_b.rate2())))
       return swapped(edge_over_face(hb, b0, b1, q, v, at.t, a, rise_a.to, distance2));
     return edge_over_face(ha, a0, a1, p, u, at.s, b, rise_b.to, distance2);
   }
