@@ -66,6 +66,7 @@ static inline Vec least_axis(const Vec& v) {
 
 /// The largest magnitude of a coordinate. A NaN may be overlooked.
 static inline double max_abs(const Vec& a) { return max(max(std::fabs(a.x), std::fabs(a.y)), std::fabs(a.z)); }
+/// The sum of the coordinates' magnitudes.
 static inline double norm_1(const Vec& a) { return std::fabs(a.x) + std::fabs(a.y) + std::fabs(a.z); }
 
 /// True if a sum of squares has lost nothing to underflow and is finite.

@@ -120,16 +120,17 @@ std::optional<Extreme> top(const ConvexView& view, const Slope& slope, std::uint
   return result;
 }
 
-/// An upper bound on how far a body rises along a direction, taken at length 1, above the first vertex of `part`: gathers the
-/// vertices around it that are level with it within rounding, until all other neighbours of those are below. On an exactly
+/// An upper bound on how far a body rises along a direction, taken at length 1, above the first vertex of `corners`: gathers
+/// the vertices around them that are level within rounding, until all other neighbours of those are below. On an exactly
 /// convex body one of the gathered ones is extreme. Infinite if they are more than `kPlateau`. `own` is the direction `d` of
 /// the common frame in the body's own.
-double above_plateau(const ConvexView& view, const Vec& own, const Vec& d, const Part& part, std::uint32_t& plane_tests) {
+double above_plateau(const ConvexView& view, const Vec& own, const Vec& d, const FeatureCorners& corners,
+                     std::uint32_t& plane_tests) {
   const Vertex* vertices = view.vertices.data();
   const double length_1 = norm_1(d), error = kScanError * view.extent * length_1;
-  const Vec p = vec(vertices[part[0]]);
+  const Vec p = vec(vertices[corners[0]]);
   Plateau level;
-  for (const std::uint32_t v : part) level.add(v);
+  for (const std::uint32_t v : corners) level.add(v);
   double most = 0;
   for (std::size_t i = 0; i < level.count; ++i) {
     const Vertex& record = vertices[level.vertices[i]];
@@ -146,15 +147,15 @@ double above_plateau(const ConvexView& view, const Vec& own, const Vec& d, const
 }  // namespace
 
 bool tighten(const PairView& pair, Nearest& seen, std::uint32_t& plane_tests) {
-  const auto looks = [&](const auto& body, const Part& part, const Vec& d, double& over) {
-    if (over <= kCloseShare * pair.law_two || part[0] == kNone) return false;
-    const double most = above_plateau(body.view, body.into(d), d, part, plane_tests);
+  const auto looks = [&](const auto& body, const FeatureCorners& corners, const Vec& d, double& over) {
+    if (over <= kCloseShare * pair.law_two || corners[0] == kNone) return false;
+    const double most = above_plateau(body.view, body.into(d), d, corners, plane_tests);
     if (!(most < over)) return false;
     over = most;
     return true;
   };
-  const bool less_a = looks(body_a(pair), seen.part_a, seen.normal, seen.over_a),
-             less_b = looks(body_b(pair), seen.part_b, -seen.normal, seen.over_b);
+  const bool less_a = looks(body_a(pair), seen.corners_a, seen.normal, seen.over_a),
+             less_b = looks(body_b(pair), seen.corners_b, -seen.normal, seen.over_b);
   return less_a || less_b;
 }
 

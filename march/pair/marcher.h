@@ -87,7 +87,7 @@ struct Rise {
 struct Ending {
   Vec4 normal, apart, point_a, point_b;
   double blur, over_a, over_b;
-  Part part_a, part_b;
+  FeatureCorners corners_a, corners_b;
 };
 
 class Marcher {
@@ -152,7 +152,7 @@ class Marcher {
       if (!look.at_all)
         if (const std::uint32_t side = leave_by_any(b, prism, f, vec(p), look); side != kNone)
           return {vertex(va), edge(side), kUnknown};
-      Ending seen{-n, prism.corner() - p, p, p, 0, below.over(), kUnknown, {va, va, va}, kNoPart};
+      Ending seen{-n, prism.corner() - p, p, p, 0, below.over(), kUnknown, {va, va, va}, kNoCorners};
       if (prism.is_triangle())
         foot_on_facet(b, prism, seen);
       else if (foot_on_face(b, prism, f, height, look.well_inside, seen))
@@ -200,14 +200,15 @@ class Marcher {
   /// Ends the walk in a minimum. The first argument is the state's first body; `seen` has the bodies in the state's order.
   void end(const Resting4&, const Ending& seen) { end(seen); }
   void end(const Moved4&, const Ending& seen) {
-    end({-seen.normal, -seen.apart, seen.point_b, seen.point_a, seen.blur, seen.over_b, seen.over_a, seen.part_b, seen.part_a});
+    end({-seen.normal, -seen.apart, seen.point_b, seen.point_a, seen.blur, seen.over_b, seen.over_a, seen.corners_b,
+         seen.corners_a});
   }
   void end(const Ending& seen) {
     Nearest& nearest = walk_.nearest;
     store(seen.normal, nearest.normal), store(seen.apart, nearest.apart);
     store(seen.point_a, nearest.point_a), store(seen.point_b, nearest.point_b);
     nearest.blur = seen.blur, nearest.over_a = seen.over_a, nearest.over_b = seen.over_b;
-    nearest.part_a = seen.part_a, nearest.part_b = seen.part_b;
+    nearest.corners_a = seen.corners_a, nearest.corners_b = seen.corners_b;
     walk_.end = WalkEnd::Minimum;
   }
   Move inside(FeatureId first, FeatureId second, double distance2) {
@@ -404,7 +405,7 @@ class Marcher {
     seen.point_b = prism.corner() + u * (-at.v / nn) + v * (-at.u / nn);
     seen.blur = (Q::kWay + kWeightError) * (norm_1(u) + norm_1(v));
     seen.over_b = tilt * body.reach;
-    seen.part_b = prism.corners();
+    seen.corners_b = prism.corners();
   }
 
   /// Completes `seen` for the nearest point in a face made of several facets, of which `h` begins one: goes from facet to facet
@@ -443,7 +444,7 @@ class Marcher {
     if (!(s > 0 && s < 1)) return;
     const Vec4 up = across(r, u, length2);
     const double over_b = sides(body, tail, h, body.into(up)).over(kAcrossError + Q::kWay, body.reach, norm_1(up));
-    seen = {-up, -r, seen.point_a, q + u * s, blur_on<Q>(u), seen.over_a, over_b, seen.part_a, {tail, head, head}};
+    seen = {-up, -r, seen.point_a, q + u * s, blur_on<Q>(u), seen.over_a, over_b, seen.corners_a, {tail, head, head}};
   }
 
   /// Follows edge `h`, which leads from `tail` along u to `head`, from its point p at s over face `f`, which rises towards p.

@@ -12,9 +12,9 @@
 
 namespace swiftlet {
 
-/// A vertex, an edge, a facet or a diagonal within a face, by its vertices, of which the last is repeated.
-using Part = std::array<std::uint32_t, 3>;
-constexpr Part kNoPart{kNone, kNone, kNone};
+/// The vertices of a vertex, an edge, a facet or a diagonal within a face, of which the last is repeated.
+using FeatureCorners = std::array<std::uint32_t, 3>;
+constexpr FeatureCorners kNoCorners{kNone, kNone, kNone};
 
 /// The nearest points of two features of a pair, in the common frame.
 struct Nearest {
@@ -25,7 +25,9 @@ struct Nearest {
   /// Upper bounds on how far A rises along `normal`, taken at length 1, above any vertex of its feature, and B against it above
   /// any of its own. Infinite where the walk's tests do not tell.
   double over_a, over_b;
-  Part part_a, part_b;  ///< what the tests were about: the features, or of a face the facet or the diagonal; kNoPart: the face
+  /// Of what the tests were about: of each feature or, of a face of many corners, of the facet or the diagonal. kNoCorners: of
+  /// the whole face.
+  FeatureCorners corners_a, corners_b;
 };
 
 }  // namespace swiftlet

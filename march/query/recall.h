@@ -89,7 +89,7 @@ static inline bool finest_has_maps(const Pair& pair) {
   const AxisSample seen = sample_axis(view, Moved4(view), a, b, first);
   if (are_near(seen, a, b, deviation)) {
     SupportGjk at_once;
-    at_once.start_a = seen.a, at_once.start_b = seen.b;
+    at_once.near = true, at_once.start_a = seen.a, at_once.start_b = seen.b;
     return at_once;
   }
   return support_gjk(view, a, b, deviation, seen, [](const SupportGjk& s) { return s.near; });

@@ -37,7 +37,7 @@ std::uint32_t index(std::uint32_t corner) {
 Nearest unknown() {
   Nearest seen{};
   seen.over_a = seen.over_b = std::numeric_limits<double>::infinity();
-  seen.part_a = seen.part_b = kNoPart;
+  seen.corners_a = seen.corners_b = kNoCorners;
   return seen;
 }
 
