@@ -222,7 +222,10 @@ Level described(const BlockHeader& block, const LevelHeader& l) {
   level.map_frame = map_frame(l);
   level.edge_length = l.edge_length;
   level.same_cos2 = cos2_of(kSameEdges, l.vertex_count);
-  level.near_cos2 = cos2_of(l.map_side > 0 ? kWarmEdges : kWarmEdgesUnmapped, l.vertex_count);
+  level.near_cos2 = cos2_of(l.map_side == 0   ? kWarmEdgesUnmapped
+                            : is_round(level) ? kWarmEdgesRound
+                                              : kWarmEdges,
+                            l.vertex_count);
   level.view.extent = l.extent;
   level.view.centre = Vec3(block.centre[0], block.centre[1], block.centre[2]);
   level.view.reach = l.reach;

@@ -289,14 +289,15 @@ inline constexpr int kFacetSteps = 32;
 /// `kProgressPatience` bounds those in a row that neither shorten the distance nor raise the lower bound.
 inline constexpr int kGjkLimit = 400, kProgressPatience = 8;
 /// An Automatic start walks from the seed's features while the line of centres turned by no more than `kWarmEdges` edges of a
-/// body, at half a step each; a cold start costs about five steps. On a level without a support map it descends from a coarser
-/// level and costs twice that: `kWarmEdgesUnmapped` edges. A depth's cold start costs more too: it walks from twice as far. A
-/// walk of `kTrialSteps` is given up for a cold start (ski rental).
-inline constexpr double kWarmEdges = 5, kWarmEdgesUnmapped = 12;
+/// body, at half a step each; a cold start costs about five steps. That of a round body, whose first direction costs next to
+/// nothing, is worth it from `kWarmEdgesRound` edges on; on a level without a support map it descends from a coarser level and
+/// costs twice as much: `kWarmEdgesUnmapped` edges. A depth's cold start costs more too: it walks from twice as far. A walk of
+/// `kTrialSteps` is given up for a cold start (ski rental).
+inline constexpr double kWarmEdges = 5, kWarmEdgesRound = 3, kWarmEdgesUnmapped = 12;
 /// A seed keeps its line of centres until that has turned by this many edges.
 inline constexpr double kSameEdges = 0.5;
 inline constexpr std::uint32_t kTrialSteps = 16;
-/// The seed's direction is tried again while the line of centres turned by less than the angle of this cosine, 8 degrees.
+/// The seed's direction serves while the line of centres turned by less than the angle of this cosine, 8 degrees.
 inline constexpr double kSameLine = 0.99;
 /// A cold start steps along support maps until its two supports lie aside of each other by no more than `kNearEdges` mean edges
 /// of both bodies, but at most `kMapGjkSteps` times.
@@ -305,8 +306,8 @@ inline constexpr int kMapGjkSteps = 12;
 /// The tetrahedron that proved an overlap follows the origin by at most so many corners. Of bodies 0.01 of their radius deep
 /// that turn by 45 degrees a query, 16 prove less often, 40 no more often.
 inline constexpr int kOriginSteps = 24;
-/// Bodies whose map frames differ from a multiple of the identity by less than `kRound` of it are looked at along the line of
-/// centres first; others along the direction between ellipsoids, which `kEllipsoidSteps` steps find. Factor, count.
+/// Bodies whose map frames differ from a multiple of the identity by less than `kRound` of it are taken for balls, others for
+/// ellipsoids, the direction between which `kEllipsoidSteps` steps find. Factor, count.
 inline constexpr double kRound = 0.25;
 inline constexpr int kEllipsoidSteps = 2;
 /// `kMapDoubt` estimates the mean excess of a map of side s, times s^2 over the extent: 5.0 to 5.9 on balls, 0.7 to 2.7 on

@@ -43,41 +43,11 @@ static inline AxisSample sample_axis(const PairView& pair, const Level& a, const
   return sample_axis(pair, Moved4(pair), a, b, vec4(direction));
 }
 
-/// True if a level is about as wide in all directions.
-static inline bool is_round(const Level& level) {
-  const auto& m = level.map_frame;
-  return std::fabs(m[3] - m[0]) + std::fabs(m[5] - m[0]) + std::fabs(m[1]) + std::fabs(m[2]) + std::fabs(m[4]) < kRound * m[0];
-}
-
-/// About the direction of the distance, at any length, where `line` is the line of centres: the bodies are taken for
-/// ellipsoids, the points M^T y, |y| <= 1, for the map frame M. The distance h of two of them lies along n where (h / |n| +
-/// M_a^T M_a / |M_a n| + M_b^T M_b / |M_b n|) n is along `line`, and h / |n| = (n . `line` - |M_a n| - |M_b n|) / n . n.
-/// `kEllipsoidSteps` steps take these from the last n. Between round bodies, `line`.
-[[gnu::flatten]] static inline Vec4 between_ellipsoids(const Level& a, const Level& b, const Motion& b_in_a, const Vec4& line) {
-  if (is_round(a) && is_round(b)) return line;
-  using Columns = V3<Vec4>;
-  const auto &m = a.map_frame, &f = b.map_frame;
-  const Columns turn = transposed(b_in_a.row_x, b_in_a.row_y, b_in_a.row_z, b_in_a.row_z);
-  // The rows of M_a, and those of M_b turned into A's frame.
-  const Columns rows_a{vec4(m[0], m[1], m[2]), vec4(0, m[3], m[4]), vec4(0, 0, m[5])},
-      rows_b{turn.x * f[0] + turn.y * f[1] + turn.z * f[2], turn.y * f[3] + turn.z * f[4], turn.z * f[5]};
-  const auto times = [](const Columns& c, const Vec4& v) { return dot(repeated(v), c); };
-  const auto square = [](const Columns& rows) {  // M^T M
-    const Columns x = repeated(rows.x), y = repeated(rows.y), z = repeated(rows.z);
-    return Columns{x.x * rows.x + y.x * rows.y + z.x * rows.z, x.y * rows.x + y.y * rows.y + z.y * rows.z,
-                   x.z * rows.x + y.z * rows.y + z.z * rows.z};
-  };
-  const Columns of_a = square(rows_a), of_b = square(rows_b);
-  Vec4 n = line;
-  for (int k = 0; k < kEllipsoidSteps; ++k) {
-    const double wide_a = std::sqrt(dot(n, times(of_a, n))), wide_b = std::sqrt(dot(n, times(of_b, n))),
-                 h = max(0, (dot(n, line) - wide_a - wide_b) / dot(n, n));
-    const Vec4 by_a = all(1 / wide_a), by_b = all(1 / wide_b), x = vec4(1, 0, 0) * h + of_a.x * by_a + of_b.x * by_b,
-               y = vec4(0, 1, 0) * h + of_a.y * by_a + of_b.y * by_b, z = vec4(0, 0, 1) * h + of_a.z * by_a + of_b.z * by_b;
-    // Cramer's rule, without the determinant, which is positive.
-    n = times({cross(y, z), cross(z, x), cross(x, y)}, line);
-  }
-  return has_range(dot(n, n)) ? n : line;
+/// A sample along the same direction without the maps' doubt: its vertices are those that climbs from those of `seen` reach.
+static inline AxisSample climbed(const PairView& pair, const AxisSample& seen, std::uint32_t& plane_tests) {
+  const auto [a, b, lower] = supports(pair, seen.normal, seen.a, seen.b, plane_tests);
+  const Vec point = body_a(pair).point(a), apart = body_b(pair).point(b) - point;
+  return {seen.normal, a, b, point, apart, dot(seen.normal, apart), lower};
 }
 
 /// True if the supports of a sample lie aside of each other by few edges: a walk from them is cheaper than another step.

@@ -49,7 +49,8 @@ class Descent {
     const SupportGjk* on_maps = from_.on_maps;
     const bool walked = is_warm(place.start) && !on_maps && march(place, has_maps_, from_.walk);
     const bool seen = on_maps ? on_maps->simplex.count() == 4 && overlap(place, *on_maps) && (record(place), true)
-                              : !walked && has_maps_ && map_gjk(place, last_direction(line_.in_a, seed));
+                              : !walked && has_maps_ &&
+                                    map_gjk(place, sampled() ? vec4(from_.seen.normal) : pair_.first_direction(line_, seed));
     if (!walked && !seen) march(place, false, on_maps ? from_.walk : nullptr);
     const bool met = met_ == MarchStatus::Overlapping;
     if (proof_.count == 4 && answer_.level_a == 0 && answer_.level_b == 0)
@@ -86,6 +87,7 @@ class Descent {
   double deviation(int level_a, int level_b) const { return pair_.deviation(level_a, level_b); }
   /// Certified GJK may have taken one step more than the budget has.
   std::uint32_t steps_left() const { return budget_.steps - std::min(answer_.steps, budget_.steps); }
+  bool sampled() const { return max_abs(from_.seen.normal) > 0; }
   /// The width that the bounds on a coarse pair may have: the allowed width, less 8 u of it for rounding, less the deviation
   /// `error`; 0 on the exact pair. To prove more, such as that coarse levels overlap, takes vertices from all around both.
   double width_left(double error) const { return error > 0 ? max(0, stop_.allowed(answer_.lower) * (1 - 8 * kU) - error) : 0; }
@@ -96,7 +98,8 @@ class Descent {
   void narrow_down(Place& place) {
     if (!finest(place)) place = refined(place);
     const bool mapped = has_maps_ && place.level_a >= a_.map_level() && place.level_b >= b_.map_level();
-    if (mapped && map_gjk(place, vec(answer_.normal))) return;
+    const Vec known = vec(answer_.normal);
+    if (mapped && map_gjk(place, max_abs(known) > 0 ? vec4(known) : pair_.first_direction(line_, {}))) return;
     march(place, false);
   }
 
@@ -117,9 +120,7 @@ class Descent {
   /// each finer one. Returns true if that answers; else `place` becomes where a walk begins. From the first pair on, GJK visits
   /// every finer pair and begins anew there, from the same direction: of two tolerances that begin on the same pair, the looser
   /// one does the same work and stops earlier.
-  bool map_gjk(Place& place, const Vec& likely) {
-    const bool sampled = max_abs(from_.seen.normal) > 0;
-    const Vec direction = sampled ? Vec(from_.seen.normal) : vec(first_direction(pair_, line_, likely));
+  bool map_gjk(Place& place, const Vec4& direction) {
     const Place least = pair_.finest_mapped();
     place = exact_ || asked_.is_threshold() ? least : mapped_for(pair_, asked_, norm(line_.in_a));
     for (bool first = true;; first = false) {
@@ -127,7 +128,7 @@ class Descent {
       const PairView pair = view_at(place);
       const Level &of_a = a_.level(place.level_a), &of_b = b_.level(place.level_b);
       const double error = deviation(place.level_a, place.level_b);
-      const AxisSample seen = sampled && first ? from_.seen : sample_axis(pair, of_a, of_b, direction);
+      const AxisSample seen = sampled() && first ? from_.seen : sample_axis(pair, of_a, of_b, vec(direction));
       const SupportGjk found = support_gjk(pair, of_a, of_b, error, seen, [&](const SupportGjk& s) {
         if (exact_) return s.near;
         const double lower = max(answer_.lower, s.most_lower), upper = min(answer_.upper, s.upper + error);
@@ -136,7 +137,7 @@ class Descent {
         return s.near && !stop_.allows(lower, doubt);
       });
       if (!exact_) take(place, found, pair);
-      if (asked_.is_threshold() && last && !answered() && found.seen.gap > asked_.above) climb(place, found, pair);
+      if (asked_.is_threshold() && last && !answered() && found.seen.gap > asked_.above) climb(place, found.seen, pair);
       if (answered() || (found.simplex.count() == 4 && overlap(place, found))) return record(place), true;
       if (!asked_.is_threshold()) place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
       if (finest(place)) return false;  // a walk on the same pair follows
@@ -146,12 +147,12 @@ class Descent {
     }
   }
 
-  /// Bounds the distance along the direction of `s` by hill climbing, because maps are uncertain by some 1e-3 of a body.
-  void climb(Place& place, const SupportGjk& s, const PairView& pair) {
-    const auto [va, vb, lower] = supports(pair, s.seen.normal, s.seen.a, s.seen.b, answer_.plane_tests);
-    place.start = {{FeatureKind::Vertex, va}, {FeatureKind::Vertex, vb}};
-    const Vec p = body_a(pair).point(va), q = body_b(pair).point(vb);
-    carry(place, {std::max(0.0, lower), apart(pair, va, vb), s.seen.normal, p, q}, pair.law_two);
+  /// Bounds the distance along the direction of `seen` by climbs, because maps are uncertain by some 1e-3 of a body.
+  void climb(Place& place, const AxisSample& seen, const PairView& pair) {
+    const AxisSample top = climbed(pair, seen, answer_.plane_tests);
+    place.start = {{FeatureKind::Vertex, top.a}, {FeatureKind::Vertex, top.b}};
+    carry(place, {std::max(0.0, top.lower), apart(pair, top.a, top.b), top.normal, top.point, top.point + top.apart},
+          pair.law_two);
   }
   void take(Place& place, const SupportGjk& s, const PairView& pair) {
     place.start = {{FeatureKind::Vertex, s.seen.a}, {FeatureKind::Vertex, s.seen.b}};

@@ -28,6 +28,10 @@ struct PairOf {
     store(in_a, line.in_a), store(turned_line(in_a, motion), line.in_b);
     return line;
   }
+  /// The direction along which a cold query samples first.
+  Vec4 first_direction(const Line& line, const PairSeed& seed) const {
+    return swiftlet::first_direction(seed, a.level(0), b.level(0), motion, line.in_a);
+  }
   /// The finest levels that the query may read.
   int finest_a() const { return finest(a); }
   int finest_b() const { return finest(b); }

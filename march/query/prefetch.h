@@ -190,8 +190,7 @@ class Prefetch {
       has_maps_ = a_.has_map() && b_.has_map();
       if (!has_maps_) return;
       const Motion m = motion(q.b_in_a);
-      const Vec line = between(m), last = q.seed ? last_direction(line, *q.seed) : Vec{0, 0, 0};
-      look(m, max_abs(last) > 0 ? last : vec(between_ellipsoids(a_.level(), b_.level(), m, vec4(line))));
+      look(m, vec(first_direction(q.seed ? *q.seed : PairSeed{}, a_.level(), b_.level(), m, between(m))));
     }
     if (!has_maps_) return;
     if constexpr (kStep == 3) a_.vertex(), b_.vertex();
@@ -223,8 +222,8 @@ class Prefetch {
     if constexpr (kStep == 3) {
       has_maps_ = a_.has_map() && b_.has_map();
       if (!has_maps_) return;
-      const Vec line = between(m), last = q.seed ? last_direction(line, *q.seed) : Vec{0, 0, 0};
-      look(m, max_abs(last) > 0 ? last : line);
+      const Vec line = between(m);
+      look(m, q.seed && knows_direction(*q.seed, line) ? direction(*q.seed) : line);
     }
     if constexpr (kStep == 4) a_.vertex(), b_.vertex();
   }

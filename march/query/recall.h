@@ -200,8 +200,7 @@ template <class Pair>
   place = pair.finest_mapped();
   const PairView view = pair.view_at(place);
   const SupportGjk found = nearest_on_maps(view, pair.a.level(place.level_a), pair.b.level(place.level_b),
-                                           pair.deviation(place.level_a, place.level_b),
-                                           first_direction(pair, line, last_direction(line.in_a, seed)));
+                                           pair.deviation(place.level_a, place.level_b), pair.first_direction(line, seed));
   place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
   if (found.simplex.count() == 4) return descends(place, &found, nullptr);
   Walk walked = walk_from(pair, view, place.start.a, place.start.b, place, answer);

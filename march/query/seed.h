@@ -12,6 +12,7 @@
 #include <swiftlet/query.h>
 
 #include "body/shape.h"
+#include "pair/ellipsoids.h"
 #include "pair/pair_view.h"
 
 namespace swiftlet {
@@ -114,13 +115,20 @@ static inline void remember(const Line& line, const Padded& normal, PairSeed& se
 static inline Vec direction(const PairSeed& seed) {
   return {double(seed.normal[0]), double(seed.normal[1]), double(seed.normal[2])};
 }
-/// The direction stored in `seed` if the line of centres has turned by less than the angle whose cosine is kSameLine, else 0.
-static inline Vec last_direction(const Vec& line, const PairSeed& seed) {
-  if ((seed.normal[0] | seed.normal[1] | seed.normal[2]) == 0) return {0, 0, 0};
+/// True if `seed` has a direction and the line of centres has turned by less than the angle whose cosine is kSameLine since.
+static inline bool knows_direction(const PairSeed& seed, const Vec& line) {
+  if ((seed.normal[0] | seed.normal[1] | seed.normal[2]) == 0) return false;
   const Vec4 was = vec4(seed.line_in_a.data()), now = vec4(line);
   const double along = dot(now, was);
-  const bool same = along > 0 && along * along > kSameLine * kSameLine * dot(now, now) * dot(was, was);
-  return same ? direction(seed) : Vec{0, 0, 0};
+  return along > 0 && along * along > kSameLine * kSameLine * dot(now, now) * dot(was, was);
+}
+/// About the direction of the distance, at any length, along which a cold start samples first: the one stored in `seed`, turned
+/// with the line of centres, or, where that is unknown or old, that between ellipsoids. Takes the bodies' levels 0.
+static inline Vec4 first_direction(const PairSeed& seed, const Level& a, const Level& b, const Motion& b_in_a,
+                                   const Vec& line) {
+  constexpr double kOne = 1 / kLineUnit;
+  if (!knows_direction(seed, line)) return between_ellipsoids(a, b, b_in_a, vec4(line));
+  return turned_with_line(a, b, b_in_a, vec4(line), vec4(seed.line_in_a.data()) * kOne, vec4(seed.normal.data()) * kOne);
 }
 
 /// The feature that stands for `feature` of `level` one level finer (`child`) or coarser (`parent`).

@@ -11,13 +11,6 @@
 
 namespace swiftlet {
 
-/// The direction along which a cold query samples first: `likely`, or, if that is 0, about that of the distance.
-template <class Pair>
-static inline Vec4 first_direction(const Pair& pair, const Line& line, const Vec& likely) {
-  return max_abs(likely) > 0 ? vec4(likely)
-                             : between_ellipsoids(pair.a.level(0), pair.b.level(0), pair.motion, vec4(line.in_a));
-}
-
 /// The coarsest pair with maps whose error is likely to be small enough for bodies at most `distance` apart, or the finest.
 template <class Pair>
 [[gnu::always_inline]] static inline Place mapped_for(const Pair& pair, const StopRule& asked, double distance) {
@@ -50,7 +43,7 @@ static inline void take_sample(const Pair& pair, const PairView& view, const Pla
 
 /// Fills `answer` and returns true if the bodies are proved to be farther apart than `asked.above`. If the line of centres
 /// proves it and the seed's direction does not, that direction is cleared. `seen` becomes the last sample, on the finest pair
-/// with maps.
+/// with maps; where only the maps leave it in doubt, after climbs.
 template <class Pair>
 static inline bool separating_axis(const Pair& pair, const Vec& between, const StopRule& asked, PairSeed& seed,
                                    AxisSample& seen, Answer& answer) {
@@ -58,13 +51,18 @@ static inline bool separating_axis(const Pair& pair, const Vec& between, const S
   const int level_a = at.level_a, level_b = at.level_b;
   const Level &of_a = pair.a.level(level_a), &of_b = pair.b.level(level_b);
   const PairView view = pair.view_at(at);
+  const double least = max(asked.above, 0) + pair.law_two();
   const auto clears = [&](const Vec& direction) {
     seen = sample_axis(view, of_a, of_b, direction);
-    return seen.lower > max(asked.above, 0) + pair.law_two();
+    return seen.lower > least;
   };
-  const Vec last = last_direction(between, seed);
-  if (!(max_abs(last) > 0 && clears(last))) {
-    if (!clears(between)) return false;
+  const auto climbs = [&] {
+    if (!(seen.gap > least)) return false;
+    in_general(pair, [&](const ModelPair& general) { seen = climbed(general.view_at(at), seen, answer.plane_tests); });
+    return seen.lower > least;
+  };
+  if (!(knows_direction(seed, between) && clears(direction(seed)))) {
+    if (!clears(between) && !climbs()) return false;
     seed.normal = {};
   }
   take_sample(pair, view, at, seen, answer);
@@ -80,14 +78,13 @@ template <class Pair>
                                                           PairSeed& seed, AxisSample& seen, Answer& answer) {
   const Place at = mapped_for(pair, asked, norm(line.in_a));
   const PairView view = pair.view_at(at);
-  const Vec last = last_direction(line.in_a, seed);
-  seen = sample_axis(view, pair.a.level(at.level_a), pair.b.level(at.level_b), vec(first_direction(pair, line, last)));
+  seen = sample_axis(view, pair.a.level(at.level_a), pair.b.level(at.level_b), vec(pair.first_direction(line, seed)));
   Answer found;
   take_sample(pair, view, at, seen, found);
   if (!asked.narrow(found.lower, found.upper)) return false;
   answer = found;
   answer.status = Status::Converged;
-  if (max_abs(last) == 0) remember(line, seen.normal, seed);
+  if (!knows_direction(seed, line.in_a)) remember(line, seen.normal, seed);
   return true;
 }
 

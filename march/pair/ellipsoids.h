@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// About the direction of a distance: that of the distance between ellipsoids which stand for the bodies, and how it turns with
+// the line of centres. Knows one level pair.
+#pragma once
+
+#include <cmath>
+
+#include "body/support_map.h"
+#include "numeric/vec4.h"
+
+namespace swiftlet {
+
+/// Two levels as ellipsoids in A's frame, the points M^T y, |y| <= 1, for the map frame M. Their distance h lies along n, of
+/// any length, where K n is the line of centres c. K is h / |n| + M_a^T M_a / |M_a n| + M_b^T M_b / |M_b n|, and n . c is h |n|
+/// + |M_a n| + |M_b n|.
+class Ellipsoids {
+ public:
+  using Columns = V3<Vec4>;
+
+  Ellipsoids(const Level& a, const Level& b, const Motion& b_in_a) {
+    const auto &m = a.map_frame, &f = b.map_frame;
+    const Columns turn = transposed(b_in_a.row_x, b_in_a.row_y, b_in_a.row_z, b_in_a.row_z);
+    // The rows of M_a, and those of M_b turned into A's frame.
+    of_a_ = squared({vec4(m[0], m[1], m[2]), vec4(0, m[3], m[4]), vec4(0, 0, m[5])});
+    of_b_ = squared({turn.x * f[0] + turn.y * f[1] + turn.z * f[2], turn.y * f[3] + turn.z * f[4], turn.z * f[5]});
+  }
+
+  /// The adjugate of K(n), and its determinant, which is positive.
+  struct Inverse {
+    Columns adjugate;
+    double determinant;
+    Vec4 operator*(const Vec4& v) const { return times(adjugate, v); }
+  };
+  Inverse inverse(const Vec4& n, const Vec4& line) const {
+    const double wide_a = std::sqrt(dot(n, times(of_a_, n))), wide_b = std::sqrt(dot(n, times(of_b_, n))),
+                 h = max(0, (dot(n, line) - wide_a - wide_b) / dot(n, n));
+    const Vec4 by_a = all(1 / wide_a), by_b = all(1 / wide_b), x = vec4(1, 0, 0) * h + of_a_.x * by_a + of_b_.x * by_b,
+               y = vec4(0, 1, 0) * h + of_a_.y * by_a + of_b_.y * by_b, z = vec4(0, 0, 1) * h + of_a_.z * by_a + of_b_.z * by_b;
+    const Columns adjugate{cross(y, z), cross(z, x), cross(x, y)};
+    return {adjugate, dot(x, adjugate.x)};
+  }
+
+ private:
+  static Vec4 times(const Columns& c, const Vec4& v) { return dot(repeated(v), c); }
+  /// M^T M of the rows of M.
+  static Columns squared(const Columns& rows) {
+    const Columns x = repeated(rows.x), y = repeated(rows.y), z = repeated(rows.z);
+    return {x.x * rows.x + y.x * rows.y + z.x * rows.z, x.y * rows.x + y.y * rows.y + z.y * rows.z,
+            x.z * rows.x + y.z * rows.y + z.z * rows.z};
+  }
+
+  Columns of_a_, of_b_;  ///< M^T M
+};
+
+/// About the direction of the distance, at any length, where `line` is the line of centres: `kEllipsoidSteps` steps take K from
+/// the last n. Between round bodies, `line`.
+[[gnu::flatten]] static inline Vec4 between_ellipsoids(const Level& a, const Level& b, const Motion& b_in_a, const Vec4& line) {
+  if (is_round(a) && is_round(b)) return line;
+  const Ellipsoids bodies(a, b, b_in_a);
+  Vec4 n = line;
+  for (int k = 0; k < kEllipsoidSteps; ++k) n = bodies.inverse(n, line) * line;
+  return has_range(dot(n, n)) ? n : line;
+}
+
+/// The same where the direction is known to have been `n` when the line of centres was along `before`, both of length 1: it
+/// turns by what K makes of the line's turn. Between round bodies, it turns as the line does.
+[[gnu::flatten]] static inline Vec4 turned_with_line(const Level& a, const Level& b, const Motion& b_in_a, const Vec4& line,
+                                                     const Vec4& before, const Vec4& n) {
+  const double length = norm(line);
+  const Vec4 turn = line * (1 / length) - before;
+  if (is_round(a) && is_round(b)) return n + turn;
+  const Ellipsoids::Inverse inverse = Ellipsoids(a, b, b_in_a).inverse(n, line);
+  const Vec4 turned = n + inverse * turn * (length / inverse.determinant);
+  return has_range(dot(turned, turned)) ? turned : n;
+}
+
+}  // namespace swiftlet
