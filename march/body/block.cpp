@@ -235,16 +235,22 @@ double cos2_of(double edges, std::uint32_t vertices) {
   return cosine > 0 ? cosine * cosine : 0;
 }
 
+/// True if a map frame differs little from a multiple of the identity: the level is about as wide in all directions.
+bool is_round(const std::array<double, 6>& m) {
+  return std::fabs(m[3] - m[0]) + std::fabs(m[5] - m[0]) + std::fabs(m[1]) + std::fabs(m[2]) + std::fabs(m[4]) < kRound * m[0];
+}
+
 /// A level with the numbers that the headers give and without arrays.
 Level described(const BlockHeader& block, const LevelHeader& l) {
   Level level;
   level.map_side = l.map_side;
   level.map_frame = map_frame(l);
+  level.is_round = is_round(level.map_frame);
   level.edge_length = l.edge_length;
   level.same_cos2 = cos2_of(kSameEdges, l.vertex_count);
-  level.near_cos2 = cos2_of(l.map_side == 0   ? kWarmEdgesUnmapped
-                            : is_round(level) ? kWarmEdgesRound
-                                              : kWarmEdges,
+  level.near_cos2 = cos2_of(l.map_side == 0  ? kWarmEdgesUnmapped
+                            : level.is_round ? kWarmEdgesRound
+                                             : kWarmEdges,
                             l.vertex_count);
   level.view.extent = l.extent;
   level.view.centre = Vec3(block.centre[0], block.centre[1], block.centre[2]);

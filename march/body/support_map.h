@@ -9,13 +9,11 @@
 // more cells than balls.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include <octahedron.h>
 #include <swiftlet/model.h>
 
-#include "numeric/tolerance.h"
 #include "numeric/vec4.h"
 
 namespace swiftlet {
@@ -37,12 +35,6 @@ static inline std::uint32_t map_entry(std::uint32_t vertex, double excess) {
   std::uint32_t code = 0;
   while (map_excess(code << 24) < excess) ++code;
   return code << 24 | vertex;
-}
-
-/// True if a level is about as wide in all directions.
-static inline bool is_round(const Level& level) {
-  const auto& m = level.map_frame;
-  return std::fabs(m[3] - m[0]) + std::fabs(m[5] - m[0]) + std::fabs(m[1]) + std::fabs(m[2]) + std::fabs(m[4]) < kRound * m[0];
 }
 
 /// M n.

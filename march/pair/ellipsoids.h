@@ -56,7 +56,7 @@ class Ellipsoids {
 /// About the direction of the distance, at any length, where `line` is the line of centres: `kEllipsoidSteps` steps take K from
 /// the last n. Between round bodies, `line`.
 [[gnu::flatten]] static inline Vec4 between_ellipsoids(const Level& a, const Level& b, const Motion& b_in_a, const Vec4& line) {
-  if (is_round(a) && is_round(b)) return line;
+  if (a.is_round && b.is_round) return line;
   const Ellipsoids bodies(a, b, b_in_a);
   Vec4 n = line;
   for (int k = 0; k < kEllipsoidSteps; ++k) n = bodies.inverse(n, line) * line;
@@ -69,7 +69,7 @@ class Ellipsoids {
                                                      const Vec4& before, const Vec4& n) {
   const double length = norm(line);
   const Vec4 turn = line * (1 / length) - before;
-  if (is_round(a) && is_round(b)) return n + turn;
+  if (a.is_round && b.is_round) return n + turn;
   const Ellipsoids::Inverse inverse = Ellipsoids(a, b, b_in_a).inverse(n, line);
   const Vec4 turned = n + inverse * turn * (length / inverse.determinant);
   return has_range(dot(turned, turned)) ? turned : n;

@@ -138,6 +138,7 @@ struct Level {
   std::span<const std::uint32_t> support_map;   ///< per cell of an octahedron around the body, the vertex extreme there and
                                                 ///< a bound on its error; cold queries start here. Empty: no map at this level
   std::uint32_t map_side = 0;                   ///< `support_map` has 2 map_side^2 cells
+  bool is_round = true;                         ///< `map_frame` is about a multiple of the identity
   /// The rows of an upper triangular matrix M, from the diagonal on: `support_map` is looked up along M n.
   std::array<double, 6> map_frame{1, 0, 0, 1, 0, 1};
   double edge_length = 0;               ///< mean length of the level's edges, diagonals included
