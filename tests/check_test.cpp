@@ -545,5 +545,23 @@ TEST(Check, AcceptsWhateverEndsEarly) {
   }
 }
 
+/// Where the supports of maps prove bounds as narrow as an exact answer's, the points may lie on edges, along which the last
+/// direction sampled leans: answers named a corner of each edge, and that direction.
+TEST(Check, AcceptsYesOrNoWhereMapsTellTheDistance) {
+  const Polyhedron needle = body(shapes::pair(shapes::Family::Long, 300).a), square = body(shapes::polygon(4));
+  const Pose pose{Mat3::Identity(), {-1, -1, 0}};
+  const Answer exact = distance(needle, square, pose);
+  ASSERT_EQ(exact.feature_a.kind(), FeatureKind::Edge);
+  const double nearer = 0.99 * exact.lower;
+  for (const Answer& s :
+       {intersects(needle, square, pose), within(needle, square, pose, nearer).answer,
+        distance(needle, square, pose, {.beyond = nearer}), distance(needle, square, pose, {.relative = 0.5})}) {
+    EXPECT_EQ(check(needle, square, pose, s).message, "");
+    if (s.upper - s.lower > tolerance(needle, square, pose)) continue;
+    EXPECT_EQ(s.feature_a.kind(), FeatureKind::Edge);
+    EXPECT_EQ(s.feature_b.kind(), exact.feature_b.kind());
+  }
+}
+
 }  // namespace
 }  // namespace swiftlet

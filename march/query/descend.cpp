@@ -138,7 +138,10 @@ class Descent {
       });
       if (!exact_) take(place, found, pair);
       if (asked_.is_threshold() && last && !answered() && found.seen.gap > asked_.above) climb(place, found.seen, pair);
-      if (answered() || (found.simplex.count() == 4 && overlap(place, found))) return record(place), true;
+      // Bounds that agree as an exact answer's do promise features that hold the points, and a plane that fits them: where the
+      // points lie between several vertices, a walk finds both.
+      const bool lacks_features = found.simplex.count() > 1 && answer_.upper - answer_.lower <= law_two_;
+      if ((answered() && !lacks_features) || (found.simplex.count() == 4 && overlap(place, found))) return record(place), true;
       if (!asked_.is_threshold()) place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
       if (finest(place)) return false;  // a walk on the same pair follows
       record(place);
