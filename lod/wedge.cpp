@@ -108,13 +108,13 @@ class ByPlanes {
   /// By more than rounding, along a direction at right angles to two edges.
   bool are_apart() const {
     double size = 0;
-    for (const Vec& p : t_) size = max(size, max(std::fabs(p.x), max(std::fabs(p.y), std::fabs(p.z))));
-    for (const Vec& p : w_.corner) size = max(size, max(std::fabs(p.x), max(std::fabs(p.y), std::fabs(p.z))));
+    for (const Vec& p : t_) size = max(size, max_abs(p));
+    for (const Vec& p : w_.corner) size = max(size, max_abs(p));
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t k = 0; k < 4; ++k) {
         for (std::size_t m = k + 1; m < 4; ++m) {
           const Vec n = cross(t_[(i + 1) % 3] - t_[i], w_.corner[m] - w_.corner[k]);
-          const double slack = kHeightsError * (std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z)) * size;
+          const double slack = kHeightsError * norm_1(n) * size;
           double low_t = HUGE_VAL, high_t = -HUGE_VAL, low_w = HUGE_VAL, high_w = -HUGE_VAL;
           for (const Vec& p : t_) low_t = min(low_t, dot(n, p)), high_t = max(high_t, dot(n, p));
           for (const Vec& p : w_.corner) low_w = min(low_w, dot(n, p)), high_w = max(high_w, dot(n, p));
@@ -233,7 +233,7 @@ void Outline::add(const Vec& outward, double size) {
   double most = -HUGE_VAL;
   for (std::size_t k = 0; k < corners_; ++k) most = max(most, dot(outward, corner_[k]));
   outward_[count_] = outward;
-  above_[count_] = most + kHeightsError * (std::fabs(outward.x) + std::fabs(outward.y) + std::fabs(outward.z)) * size;
+  above_[count_] = most + kHeightsError * norm_1(outward) * size;
   if (count_++ > 0) return;
   least_ = most_ = eigen(corner_[0]);
   for (std::size_t k = 1; k < corners_; ++k)
@@ -274,8 +274,7 @@ bool Outline::is_apart_at(std::size_t corner, const Corners3& t, std::size_t at)
   const Vec n = normalised(triangle) - normalised(wedge);
   const auto height = [&](const Vec& q) {
     const Vec way = q - p, part{n.x * way.x, n.y * way.y, n.z * way.z};
-    const double slack = kHeightOverError * (std::fabs(part.x) + std::fabs(part.y) + std::fabs(part.z)),
-                 sum = part.x + part.y + part.z;
+    const double slack = kHeightOverError * norm_1(part), sum = part.x + part.y + part.z;
     return sum > slack ? 1 : sum < -slack ? -1 : 0;
   };
   for (std::size_t k = 0; k < corners_; ++k) {
@@ -299,12 +298,12 @@ bool Outline::is_apart_around(const Vec& hub, const Vec& least, const Vec& most)
   const auto parts = [&](const Vec& n) {
     for (std::size_t k = 0; k < corners_; ++k) {
       const Vec way = corner_[k] - hub, part{n.x * way.x, n.y * way.y, n.z * way.z};
-      const double slack = kHeightOverError * (std::fabs(part.x) + std::fabs(part.y) + std::fabs(part.z));
+      const double slack = kHeightOverError * norm_1(part);
       if (k != corner && !(part.x + part.y + part.z < -slack)) return false;
     }
     const Vec low = least - hub, high = most - hub;
     const Vec part{min(n.x * low.x, n.x * high.x), min(n.y * low.y, n.y * high.y), min(n.z * low.z, n.z * high.z)};
-    return part.x + part.y + part.z > kHeightOverError * (std::fabs(part.x) + std::fabs(part.y) + std::fabs(part.z));
+    return part.x + part.y + part.z > kHeightOverError * norm_1(part);
   };
   // Planes of the wedge, tilted a little so that they do not meet it elsewhere.
   for (std::size_t k = 0; k < count_; ++k) {
