@@ -545,6 +545,38 @@ TEST(Check, AcceptsWhateverEndsEarly) {
   }
 }
 
+/// Of a model without its finest levels, balls around the bodies bound the distance, and radii tell of an overlap by levels
+/// that overlap less deep than they deviate, whose points are none of bodies so near.
+TEST(Check, AcceptsWhatIsToldWithoutLevelZero) {
+  shapes::Random random(17);
+  std::vector<Model> cut;
+  for (const shapes::Family family : shapes::kFamilies) {
+    const Model whole = body(shapes::pair(family, 600).a).model;
+    ASSERT_EQ(cut.emplace_back(whole.cut({1.01 * whole.level(1).deviation})).finest_level(), 1);
+  }
+  int overlaps = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double radius = random.uniform(0, i % 2 ? 0.3 : 2), threshold = std::pow(10, random.uniform(-6, 0));
+    const std::vector<Body> bodies{{cut[random.bits() % cut.size()], radius},
+                                   Body::segment(random.in_ball(), random.in_ball(), 0.1 * radius),
+                                   Body::box(-Vec3::Ones(), Vec3::Ones())};
+    const Body &a = bodies[random.bits() % 3], &b = bodies[0];
+    const Pose pose{random.rotation(), random.on_sphere() * random.uniform(0, 4 + radius)};
+    const Budget budget{.steps = std::uint32_t(random.bits() % 20)};
+    for (const Answer& s : {closest_features(a, b, pose, {.beyond = threshold}).answer, within(a, b, pose, threshold).answer,
+                            signed_distance(a, b, pose), signed_distance(a, b, pose, {.absolute = threshold}),
+                            signed_distance(a, b, pose, {.budget = budget})}) {
+      ASSERT_EQ(check(a, b, pose, s).message, "") << i;
+      overlaps += s.is_signed && s.verdict == Verdict::Overlapping;
+      if (!std::isfinite(s.lower) || !std::isfinite(s.upper)) continue;
+      Answer high = s, low = s;
+      high.lower = high.upper = s.upper + 4, low.lower = low.upper = s.lower - 4;
+      for (const Answer& wrong : {high, low}) EXPECT_NE(check(a, b, pose, wrong).message, "") << i;
+    }
+  }
+  EXPECT_GE(overlaps, 1000);
+}
+
 /// Where the supports of maps prove bounds as narrow as an exact answer's, the points may lie on edges, along which the last
 /// direction sampled leans: answers named a corner of each edge, and that direction.
 TEST(Check, AcceptsYesOrNoWhereMapsTellTheDistance) {

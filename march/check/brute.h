@@ -40,13 +40,15 @@ static inline DoubleDouble reach(std::span<const Vertex> vertices, const Wide& d
   return most;
 }
 /// Returns how far the exact hull reaches along `direction`; if level 0 is absent, an upper bound, the least reach of the
-/// levels present, each of which encloses it.
+/// levels present and of the ball around the body, each of which encloses it.
 template <class Placing>
 static inline DoubleDouble reach(const Shape& body, const Wide& direction, Placing place) {
+  const bool is_cut = body.finest_level() > 0;
   DoubleDouble least = reach(body.level(body.finest_level()).view.vertices, direction, place);
-  for (int i = body.finest_level() + 1; body.finest_level() > 0 && i < body.level_count(); ++i) {
-    if (const DoubleDouble h = reach(body.level(i).view.vertices, direction, place); least > h) least = h;
-  }
+  const auto encloses = [&](const DoubleDouble& h) { least = least > h ? h : least; };
+  for (int i = body.finest_level() + 1; is_cut && i < body.level_count(); ++i)
+    encloses(reach(body.level(i).view.vertices, direction, place));
+  if (is_cut) encloses(dot(direction, place(vec(body.level(0).view.centre))) + body.radius() * norm(rounded(direction)));
   return least;
 }
 
@@ -166,11 +168,28 @@ struct Checked {
   Check points_are_nearest() const;
   /// Checks that the hulls overlap: by the vertices of `proof`, or because no plane separates them.
   Check hulls_overlap(const OverlapProof* proof) const;
-  /// Returns a lower bound on the depth of the exact hulls, negative where they are apart: the depth of the finest levels less
-  /// their deviations, which is how much shallower the exact hulls may be. Infinite where all differences lie on a line.
+  /// Returns the depth of the exact hulls, negative where they are apart. Where a level 0 is absent, a lower bound on it: the
+  /// greatest depth of levels that overlap less their deviations, which is how much shallower the exact hulls may be; without
+  /// such levels -infinity. Infinite where all differences lie on a line.
   DoubleDouble least_depth() const;
-  /// Returns true if the points of a march on the finest levels prove that the distance is at most `upper`.
+  /// Returns the least height of the planes that can bound the Minkowski difference of two levels: their depth, or a number
+  /// below 0 where they are apart.
+  DoubleDouble depth_of(int level_a, int level_b) const;
+  /// Returns true if the points of a march on level 0 or, where one is absent, on any levels prove that the distance is at most
+  /// `upper`.
   bool is_near(double upper) const;
+  /// Calls `visit` with the finest levels and, where these are not exact, with all others and the deviation of both: a coarser
+  /// level may be nearer to the exact hull than a finer one, since neither holds the other.
+  template <class Visit>
+  void each_level_pair(Visit visit) const {
+    for (int i = a.finest_level(); i < a.level_count(); ++i) {
+      for (int k = b.finest_level(); k < b.level_count(); ++k) {
+        const double error = a.level(i).deviation + stretch * b.level(k).deviation;
+        visit(i, k, error);
+        if (error == 0) return;
+      }
+    }
+  }
 
   const Pose& pose;  ///< the pose of B in A's frame
   const Setting at;

@@ -144,17 +144,21 @@ Check Checked::hulls_overlap(const OverlapProof* proof) const {
   }
   const DoubleDouble depth = least_depth();
   const double doubt = kHeightError * magnitude;
-  if (double(depth) < -doubt) return failed("overlap of hulls that a plane separates by %.17g", -double(depth));
+  if (double(depth) < -doubt) return failed("overlap of hulls that a plane separates");
   const bool is_deep = depth.high < std::numeric_limits<double>::infinity() && double(depth) > doubt;
   return is_deep || is_near(touching) ? kPassed : failed("overlap that nothing proves");
 }
 
 bool Checked::is_near(double upper) const {
-  const Level &finest_a = a.level(a.finest_level()), &finest_b = b.level(b.finest_level());
-  const MarchResult near = march(finest_a.view, finest_b.view, pose);
-  const Vec near_a = vec(near.point_a), near_b = vec(near.point_b);
-  return holds(finest_a.view, kAtRest, near_a, slack) && holds(finest_b.view, at.motion, near_b, slack) &&
-         norm(near_b - near_a) + finest_a.deviation + stretch * finest_b.deviation <= upper + radii + 2 * slack;
+  bool found = false;
+  each_level_pair([&](int level_a, int level_b, double error) {
+    const ConvexView &view_a = a.level(level_a).view, &view_b = b.level(level_b).view;
+    const MarchResult near = march(view_a, view_b, pose);
+    const Vec near_a = vec(near.point_a), near_b = vec(near.point_b);
+    found = found || (norm(near_b - near_a) + error <= upper + radii + 2 * slack && holds(view_a, kAtRest, near_a, slack) &&
+                      holds(view_b, at.motion, near_b, slack));
+  });
+  return found;
 }
 
 Check check_distance(const Checked& of, const OverlapProof* proof) {

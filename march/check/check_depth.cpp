@@ -210,14 +210,24 @@ class LeastHeight {
 
 }  // namespace
 
-DoubleDouble Checked::least_depth() const {
-  const Level &finest_a = a.level(a.finest_level()), &finest_b = b.level(b.finest_level());
-  const PairView finest = pair_view(finest_a.view, finest_b.view, at.motion, at.quality.error);
-  const int exponent = finest.magnitude > 0 ? kCheckedExponent - exponent_of(finest.magnitude) : 0;
-  const DoubleDouble least = LeastHeight(finest, exponent).find();
+DoubleDouble Checked::depth_of(int level_a, int level_b) const {
+  const PairView pair = pair_view(a.level(level_a).view, b.level(level_b).view, at.motion, at.quality.error);
+  const int exponent = pair.magnitude > 0 ? kCheckedExponent - exponent_of(pair.magnitude) : 0;
+  const DoubleDouble least = LeastHeight(pair, exponent).find();
   if (!(least.high < kInfinity)) return least;
-  return DoubleDouble(HighLow{times_power_of_two(least.high, -exponent), times_power_of_two(least.low, -exponent)}) -
-         (finest_a.deviation + stretch * finest_b.deviation);
+  return HighLow{times_power_of_two(least.high, -exponent), times_power_of_two(least.low, -exponent)};
+}
+
+DoubleDouble Checked::least_depth() const {
+  DoubleDouble most = -kInfinity;
+  each_level_pair([&](int level_a, int level_b, double error) {
+    const DoubleDouble depth = depth_of(level_a, level_b);
+    if (error == 0 || !(depth.high < kInfinity))
+      most = depth;
+    else if (!(depth < 0) && depth - error > most)
+      most = depth - error;
+  });
+  return most;
 }
 
 Check check_signed(const Checked& of, const OverlapProof* proof) {
@@ -249,14 +259,15 @@ Check check_signed(const Checked& of, const OverlapProof* proof) {
       if (const Check in = of.points_lie_in_their_levels(); !in) return in;
     }
     const double apart = of.knows_points() ? norm(of.point_b - of.point_a) + of.deviation : kInfinity;
-    if (const DoubleDouble upper = of.of_hulls(answer.upper); upper.high < 0) {
-      if (!(depth().high < kInfinity)) return failed("upper is %.17g, but the bodies share a plane", answer.upper);
-      if (!(double(-upper - depth()) <= doubt))
-        return failed("upper is %.17g, but the depth is %.17g", answer.upper, double(depth()) + of.radii);
-    } else if (!proved && !(apart <= double(upper) + 2 * of.slack) && !of.is_near(answer.upper)) {
-      // A wide interval around 0 may come with the points of an overlap; any other two points may then prove `upper`.
-      return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart - of.radii);
-    }
+    const DoubleDouble upper = of.of_hulls(answer.upper);
+    // A wide interval around 0 may come with the points of an overlap. Any other two points may then prove `upper`, or coarse
+    // levels that overlap by less than they deviate.
+    const bool is_met = upper.high >= 0 && (proved || apart <= double(upper) + 2 * of.slack || of.is_near(answer.upper));
+    const bool may_be_deep = upper.high < 0 || of.a.finest_level() > 0 || of.b.finest_level() > 0;
+    const bool is_proved = is_met || (may_be_deep && double(-upper - depth()) <= doubt);
+    if (!is_proved && upper.high >= 0) return failed("upper is %.17g, and nothing proves it", answer.upper);
+    if (!is_proved && !(depth().high < kInfinity)) return failed("upper is %.17g, but the bodies share a plane", answer.upper);
+    if (!is_proved) return failed("upper is %.17g, but the depth is %.17g", answer.upper, double(depth()) + of.radii);
   }
   if (answer.verdict == Verdict::Overlapping && !(answer.upper < 0) && !proved) {
     if (const Check overlap = of.hulls_overlap(nullptr); !overlap) return overlap;

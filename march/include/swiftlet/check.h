@@ -18,11 +18,12 @@ struct Check {
 };
 
 /// Recomputes what `answer` claims by brute force over every vertex. `lower` is compared with the gap of the exact hulls along
-/// `normal` (or of the levels present, where level 0 is absent), `upper` with the distance of the two points plus the
-/// deviations, the verdict with both. An overlap of the hulls is decided exactly: by the vertices of `proof`, which is what
-/// `Tuning::proof` received, or without it by those that a march finds, or by all planes that could separate the hulls. For a
-/// signed answer, the depth of an overlapping or touching pair is recomputed: the least height of the planes that can bound the
-/// Minkowski difference, parallel to a face of A, to a face of B, or to an edge of each; exact signs tell which.
+/// `normal` (where level 0 is absent, of the levels present and the balls around the bodies), `upper` with the distance of the
+/// two points plus the deviations, the verdict with both. An overlap of the hulls is decided exactly: by the vertices of
+/// `proof`, which is what `Tuning::proof` received, or without it by those that a march finds, or by all planes that could
+/// separate the hulls. For a signed answer, the depth of an overlapping or touching pair is recomputed: the least height of the
+/// planes that can bound the Minkowski difference, parallel to a face of A, to a face of B, or to an edge of each; exact signs
+/// tell which.
 ///
 /// The normal must be unit, and both points numbers, or all three NaN where that means nothing; features must be there on the
 /// levels named, or both be none. Each point must lie in its body's level, moved back by the radius: within law 2's bound above
