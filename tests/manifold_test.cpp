@@ -495,6 +495,42 @@ TEST(Manifold, OfManySidesKeepsTheSharesOfTheHeader) {
   std::printf("three points keep at least %.3f, four %.3f, eight %.3f\n", worst[3], worst[4], worst[8]);
 }
 
+/// A roof of merged faces on a wide box, its ridge a point somewhere inside: beside that, the others keep what one fewer does.
+TEST(Manifold, OfARoofKeepsTheShareOfOnePointFewer) {
+  Random random(20);
+  constexpr double kLeast[] = {0, 0, 0, 0, 0.28, 0.5, 0, 0, 0.75};
+  double worst[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
+  const Model ground = bodies::model(bodies::box(3, 3, 1));
+  for (int i = 0; i < 60; ++i) {
+    const int sides = 3 + i % 15;
+    const double stretch = std::pow(10, random.uniform(-1, 0));
+    std::vector<Vec3> points, base;
+    for (int k = 0; k < sides; ++k) {
+      const double angle = 2 * std::numbers::pi * (k + random.uniform(0, 0.9)) / sides;
+      base.emplace_back(std::cos(angle), stretch * std::sin(angle), 0);
+      points.push_back(base.back()), points.push_back(base.back() + Vec3::UnitZ());
+    }
+    Vec3 ridge = Vec3::Zero();
+    double sum = 0;
+    for (const Vec3& p : base) {
+      const double weight = std::pow(random.uniform(), 3);
+      ridge += weight * p, sum += weight;
+    }
+    points.push_back(ridge / sum - 1e-8 * Vec3::UnitZ());
+    const Model roof = hull_of({points, {}});
+    const Pose pose = at(0, 0, 1 + 1e-6);
+    const Contacting c{ground, roof, pose, nearest(ground, roof, pose)};
+    for (const std::uint32_t most : {4u, 5u, 8u}) {
+      const Manifold p = manifold(ground, roof, pose, c.answer, {.margin = 1e-3, .most_points = most});
+      expect_sound(c, p, (c.answer.point_b - c.answer.point_a).dot(c.answer.normal), 1e-3);
+      EXPECT_EQ(p.count, std::min(most, std::uint32_t(sides) + 1)) << i;
+      worst[most] = std::min(worst[most], shown_area(p) / oracle::area(base, Vec3::UnitZ()));
+      EXPECT_GE(worst[most], kLeast[most]) << i;
+    }
+  }
+  std::printf("under a roof four points keep at least %.3f, five %.3f, eight %.3f\n", worst[4], worst[5], worst[8]);
+}
+
 TEST(Manifold, OfSliversIsTheIntersectionOfTheirFaces) {
   Random random(5);
   Shares shares;

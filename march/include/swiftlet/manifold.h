@@ -55,6 +55,7 @@ struct ManifoldOptions {
 /// best along the normal. Both contact faces are projected along the normal; the corners of their intersection are the points.
 /// If there are more than `most_points`, those are kept that have the least separation and cover most of the area: four points
 /// keep 0.6 of a round face, eight 0.87; four keep all of a square; of any face three keep at least 0.28, four 0.5, eight 0.78.
+/// A deepest point that is no corner, as merged faces may have, is one of them: the others keep what one point fewer does.
 /// Points of `previous`, this pair's last manifold, are preferred: a pair at rest keeps its points while poses are off by a few
 /// ulps of single precision. The least separation equals the answer's within `tolerance`; where the normal has turned by no
 /// more than 8 `flatness` since `previous`, within `flatness` more, for then other corners take turns as the deepest. The
