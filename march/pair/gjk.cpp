@@ -5,6 +5,7 @@
 // supporting plane.
 #include "pair/gjk.h"
 
+#include <bitset>
 #include <limits>
 
 #include "body/half_edge.h"
@@ -120,21 +121,24 @@ class Contact {
   }
 
   /// The distance from the origin to the nearest facet of the inner polytope; `normal` becomes the facet's outward normal.
-  double nearest_facet(Vec& normal) const {
+  double nearest_facet(Vec& normal) {
     double nearest = std::numeric_limits<double>::infinity();
     for (int i = 0; i < count_; ++i) {
       for (int j = i + 1; j < count_; ++j) {
         for (int k = j + 1; k < count_; ++k) {
+          const auto triple = std::size_t(k * (k - 1) * (k - 2) / 6 + j * (j - 1) / 2 + i);
+          if (is_inner_[triple]) continue;
           const V3<Real>& p = points_[std::size_t(i)].p;
           const Vec n = normalised(rounded(cross(points_[std::size_t(j)].p - p, points_[std::size_t(k)].p - p)));
           if (dot(n, n) == 0) continue;
           const double offset = dot(n, rounded(p));
           bool above = false, below = false;
-          for (int l = 0; l < count_; ++l) {
+          for (int l = 0; l < count_ && !(above && below); ++l) {
             const double height = dot(n, rounded(points_[std::size_t(l)].p)) - offset;
             above = above || height > pair_.point_error();
             below = below || height < -pair_.point_error();
           }
+          is_inner_[triple] = above && below;
           if (above && below) continue;
           const double distance = above ? -offset : offset;
           if (distance < nearest) nearest = distance, normal = above ? -n : n;
@@ -174,6 +178,8 @@ class Contact {
   std::uint32_t& tests_;
   int count_ = 0;
   std::array<Difference<Real>, kContactPoints> points_{};
+  /// Triples with points on both sides: no facet of the inner polytope, whatever points join it.
+  std::bitset<kContactPoints*(kContactPoints - 1) * (kContactPoints - 2) / 6> is_inner_;
 };
 
 /// Which bounds the certificate keeps: the best of all iterates, or plane and points of the last iterate.
