@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "numeric/vec4.h"
+
 namespace swiftlet {
 namespace {
 
@@ -105,29 +107,36 @@ LargestPolygon largest_polygon(const Candidates& candidates, int first, int most
   Hull hull(candidates);
   LargestPolygon polygon;
   if (!(hull.twice_area() > enough)) return polygon;
-  const int corners = std::min(hull.begin_with(first, bound) ? most : most - 1, hull.size());
-  std::array<Place, kMostCandidates> spoke;
-  for (int i = 0; i < hull.size(); ++i) spoke[std::size_t(i)] = hull.spoke(i);
-  std::array<double, kMostCandidates> best{};  // twice the area of the best fan that ends at a corner
-  std::array<std::array<std::uint8_t, kMostCandidates>, kMostManifoldPoints> before;
-  for (int corner = 2; corner < corners; ++corner) {
-    for (int last = hull.size() - 1; last >= corner; --last) {
-      double largest = -1;
-      int from = 0;
-      for (int i = corner - 1; i < last; ++i) {  // no branch, which would often be mispredicted
-        const double area = best[std::size_t(i)] + cross(spoke[std::size_t(i)], spoke[std::size_t(last)]);
-        from = area > largest ? i : from;
-        largest = max(largest, area);
-      }
-      before[std::size_t(corner)][std::size_t(last)] = std::uint8_t(from);
-      best[std::size_t(last)] = largest;
+  const std::size_t size = std::size_t(hull.size()),
+                    corners = std::min(std::size_t(hull.begin_with(first, bound) ? most : most - 1), size);
+  using Row = std::array<double, kMostCandidates>;
+  Row x, y;  // of the spokes
+  for (std::size_t i = 0; i < size; ++i) x[i] = hull.spoke(int(i)).x, y[i] = hull.spoke(int(i)).y;
+  std::array<Row, kMostManifoldPoints>
+      best;  // twice the area of the best fan of so many corners after the first, by its last one
+  best[1].fill(0);
+  const auto grown = [&](std::size_t corner, std::size_t i, std::size_t last) {
+    return best[corner - 1][i] + (x[i] * y[last] - y[i] * x[last]);
+  };
+  for (std::size_t corner = 2; corner < corners; ++corner) {
+    for (std::size_t last = corner; last < size; ++last) {
+      const Vec2 x_last{x[last], x[last]}, y_last{y[last], y[last]};
+      Vec2 pair = {-1, -1};
+      std::size_t i = corner - 1;
+      for (; i + 1 < last; i += 2)
+        pair = max(pair, load2(&best[corner - 1][i]) + (load2(&x[i]) * y_last - load2(&y[i]) * x_last));
+      const double largest = max(pair[0], pair[1]);
+      best[corner][last] = i < last ? max(largest, grown(corner, i, last)) : largest;
     }
   }
-  int last = int(std::max_element(best.begin() + (corners - 1), best.begin() + hull.size()) - best.begin());
-  polygon.twice_area = best[std::size_t(last)];
-  for (int corner = corners - 1; corner > 0; --corner) {
-    polygon.corner[std::size_t(polygon.count++)] = hull[last];
-    if (corner > 1) last = before[std::size_t(corner)][std::size_t(last)];
+  const auto& all = best[corners - 1];
+  std::size_t last = std::size_t(std::max_element(all.begin() + (corners - 1), all.begin() + size) - all.begin());
+  polygon.twice_area = all[last];
+  for (std::size_t corner = corners - 1; corner > 0; --corner) {
+    polygon.corner[std::size_t(polygon.count++)] = hull[int(last)];
+    std::size_t i = corner - 1;
+    while (corner > 1 && i + 1 < last && grown(corner, i, last) != best[corner][last]) ++i;
+    last = i;
   }
   polygon.corner[std::size_t(polygon.count++)] = hull[0];
   return polygon;
