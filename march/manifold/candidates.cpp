@@ -17,7 +17,7 @@ Candidates::Candidates(double farthest, const Manifold& previous)
 }
 
 /// Keeps a corner beside the rows if `previous` names it.
-void Candidates::keep(const Candidate& candidate) {
+void Candidates::keep(Candidate candidate) {
   if (!knows(candidate.names)) return;
   least_ = min(least_, candidate.separation);
   const auto end = known_ + known_count_;

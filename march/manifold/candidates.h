@@ -66,10 +66,10 @@ class Candidates {
   /// Corners with a separation above `farthest` are left out.
   Candidates(double farthest, const Manifold& previous);
 
-  /// Whether to add the next corner of a border, which goes on from there to `next`: if not, a chord cuts off little. The left
+  /// Whether to add the next corner of a border, which goes on from there by `way`: if not, a chord cuts off little. The left
   /// border's places are mirrored. `rise()`: the separation rises from there on if it is at least 0.
-  bool wants(Border border, const Place& at, const Place& next, auto&& rise) {
-    return !is_crowded_ || cuts(border, at, next) || turns(border, rise);
+  bool wants(Border border, const Place& at, const Place& way, auto&& rise) {
+    return !is_crowded_ || cuts(border, at, way) || turns(border, rise);
   }
   /// The same of a corner somewhere between `from` and `to`.
   bool wants(Border border, const Place& from, const Place& to, const Place& next, auto&& rise) {
@@ -77,11 +77,12 @@ class Candidates {
   }
   /// False if `previous` surely does not name this vertex or half-edge of body 0 or 1.
   bool may_know(int body, std::uint32_t index) const { return known_bits_[body] >> (index % 64) & 1; }
-  /// Adds the corner that follows on a border, which is seen from below to above, unless one with its names is kept already:
-  /// sides that are nearly parallel may pass the lead twice, and a corner may come as a crossing near it and as itself. A
-  /// corner that is not `wanted` is added only if `previous` names it.
+  /// Whether to add a corner with these names: not if one is kept already, as sides that are nearly parallel may pass the lead
+  /// twice, and a corner may come as a crossing near it and as itself; one that is not `wanted` only if `previous` names it.
+  bool takes(Names names, bool wanted) const { return !has(names) && (wanted || knows(names)); }
+  /// Adds the corner that follows on a border, which is seen from below to above.
   void add(Border border, const Candidate& candidate, bool wanted) {
-    if (!(candidate.separation <= farthest_) || has(candidate.names)) return;
+    if (!(candidate.separation <= farthest_)) return;
     if (!wanted) return keep(candidate);
     least_ = min(least_, candidate.separation);
     if (candidate.separation < deepest_) deepest_ = candidate.separation, deepest_named_ = candidate.names;
@@ -114,10 +115,9 @@ class Candidates {
   bool finds(Names names) const;
   Candidate& row(Border border, int i) { return all_[std::size_t(border == Border::Left ? i : kMostCandidates - 1 - i)]; }
 
-  /// Adds a triangle above the border's last chord to the area that the chord to `next` would cut off.
-  bool cuts(Border border, const Place& at, const Place& next) {
-    const Place& last = last_[std::size_t(border)];
-    return (cut_off_[std::size_t(border)] += std::fabs(cross(at - last, next - last))) > enough_;
+  /// Adds a triangle above the border's last chord to the area that the chord to the end of `way` would cut off.
+  bool cuts(Border border, const Place& at, const Place& way) {
+    return (cut_off_[std::size_t(border)] += std::fabs(cross(at - last_[std::size_t(border)], way))) > enough_;
   }
   bool cuts(Border border, const Place& from, const Place& to, const Place& next) {
     const Place &last = last_[std::size_t(border)], w = next - last;
@@ -129,7 +129,7 @@ class Candidates {
     bool& has_turned = has_turned_[std::size_t(border)];
     return !has_turned && (has_turned = rise() >= 0);
   }
-  void keep(const Candidate& candidate);
+  void keep(Candidate candidate);
   void thin();
   void thin(Border border, Place last, bool keeps_first);
 

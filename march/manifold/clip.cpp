@@ -60,9 +60,7 @@ struct Line {
   Way way;
 
   Place at(double t) const { return from + way * t; }
-  /// The parameter, 0 at `from` and 1 at `to`, of the point at height `y`.
-  double rise(double y) const { return way.y > 0 ? min(max((y - from.y) / way.y, 0), 1) : 0; }
-  /// The parameter of the point nearest to `place`.
+  /// The parameter, 0 at `from` and 1 at `to`, of the point nearest to `place`.
   double along(const Place& place) const {
     const double t = dot(place - from, way), length2 = this->length2();
     return length2 > 0 && t > 0 ? min(t / length2, 1) : 0;
@@ -118,16 +116,16 @@ class SeenBorder {
   const Side& side() const { return side_; }
   Corner start() const { return {side_.from, side_.from_names}; }
   Corner end() const { return {side_.to, side_.to_names}; }
-  /// The corner after the side, and the way there; have no meaning where both borders have met.
-  const Corner& next() const { return next_; }
+  /// The way to the corner after the side; has no meaning where both borders have met.
   const Way& ahead() const { return ahead_; }
   /// A place of the projection as the border sees it, and back.
   Place seen(const Place& place) const { return {place.x * outwards_, place.y}; }
-  /// The coordinate along the normal of a vertex, and of a place on the side.
+  /// The coordinates along the normal of one or two vertices, and of a place on the side.
   double z(std::uint32_t vertex) const { return body_.z(vertex); }
+  Vec2 z(const Corner& p, const Corner& q) const { return body_.z(p.vertex(), q.vertex()); }
   double z_at(double t) const {
-    const double z = body_.z(start().vertex());
-    return z + (body_.z(end().vertex()) - z) * t;
+    const Vec2 z = body_.z(start().vertex(), end().vertex());
+    return z[0] + (z[1] - z[0]) * t;
   }
 
   /// Moves on to the next side of the face's convex hull, up to vertex `top`.
@@ -172,7 +170,7 @@ class SeenBorder {
   bool falls() const { return side_.way.y < -bound_; }
   /// Whether a way from the end of the side leads inwards, by more than the flatness: mostly the short test of a side that
   /// rises says so.
-  bool rises_in(const Place& way) const { return cross(way, side_.way) < -flatness_ * side_.way.most && side_.way.y > 0; }
+  bool rises_in(const Place& way) const { return cross(side_.way, way) > flatness_ * side_.way.most && side_.way.y > 0; }
   bool turns_in(const Place& way) const {
     const double out = cross(way, side_.way);
     return rises_in(way) || (out < 0 && out * out > flatness_ * flatness_ * side_.length2() && !falls());
@@ -247,8 +245,9 @@ std::uint32_t lowest_side(const SeenBody& body, const ContactFace& face) {
   const double more = 2 * face.flatness();
   for (std::uint32_t h = first;;) {
     const Place place = end_of(h);
+    if (place.y > lowest.y + more) break;
     h = face.onward<true>(h);
-    if (place.y > lowest.y + more || h == first) break;
+    if (h == first) break;
     if (is_lower(place)) lowest = place, side = h;
   }
   const std::uint32_t last = face.onward<false>(twin(first));
@@ -268,13 +267,13 @@ class Sweep {
       : Sweep(projection, a, b, lowest_side(projection.a, a), lowest_side(projection.b, b), bound, corners) {}
 
   void run() {
-    bool goes_on = begin();
-    for (Ending left = ends_first<Border::Left>(), right = ends_first<Border::Right>(); goes_on;) {
+    if (!begin()) return;
+    for (Ending left = ends_first<Border::Left>(), right = ends_first<Border::Right>();;) {
       if (right.y < left.y || (right.y == left.y && is_below(at(Border::Right, right.face), at(Border::Left, left.face)))) {
-        goes_on = right.face == 0 ? step<Border::Right, 0>() : step<Border::Right, 1>();
+        if (!(right.face == 0 ? step<Border::Right, 0>() : step<Border::Right, 1>())) return;
         right = ends_first<Border::Right>();
       } else {
-        goes_on = left.face == 0 ? step<Border::Left, 0>() : step<Border::Left, 1>();
+        if (!(left.face == 0 ? step<Border::Left, 0>() : step<Border::Left, 1>())) return;
         left = ends_first<Border::Left>();
       }
     }
@@ -351,8 +350,10 @@ class Sweep {
     const int f = is_below(lowest_of(0).at, lowest_of(1).at) ? 1 : 0, other = 1 - f;
     const Corner lowest = lowest_of(f);
     for (const Border border : kBorders) {
-      for (const SeenBorder& b = at(border, other); !is_below(lowest.at, b.seen(b.end().at)); advance(border, other)) {
-        if (is_at_top(other)) return false;
+      SeenBorder& b = at(border, other);
+      for (const std::uint32_t top = at(opposite(border), other).end().vertex(); !is_below(lowest.at, b.seen(b.end().at));) {
+        if (b.end().vertex() == top) return false;
+        b.advance(top);
       }
     }
     if (where(lowest.at, Border::Left, other) == Where::Outside) {
@@ -371,6 +372,7 @@ class Sweep {
   bool step() {
     if (!meet<border, f>()) return false;
     if (is_at_top(f)) return end<border, f>(), false;
+    if (leader(border) == f) pass<border, f>();
     advance(border, f);
     return true;
   }
@@ -389,7 +391,6 @@ class Sweep {
       return false;
     }
     if (passes_lead(place, at(border, other).side(), leader(border) == f)) turn_off(border, 1 - leader(border));
-    if (leader(border) == f) pass<border, f>();
     return true;
   }
 
@@ -434,10 +435,9 @@ class Sweep {
   template <Border border, int f>
   void pass() {
     const SeenBorder& own = at(border, f);
-    const Corner corner = own.end();
-    const bool wanted =
-        is_at_top(f) || corners_.wants(border, corner.at, own.next().at, [&] { return rise(own, own.ahead()); });
-    if (wanted || corners_.may_know(f, corner.vertex())) add_corner(border, f, own.seen(corner.at), corner.vertex(), wanted);
+    const std::uint32_t vertex = own.end().vertex();
+    const bool wanted = corners_.wants(border, own.side().to, own.ahead(), [&] { return rise(own, own.ahead()); });
+    if (wanted || corners_.may_know(f, vertex)) add_corner(border, f, own.seen(own.side().to), vertex, wanted);
   }
 
   /// Passes the lead on a border to face `f` where its side crosses the one that led.
@@ -456,22 +456,26 @@ class Sweep {
 
   /// Adds a corner of face `f` that lies within the other face.
   void add_corner(Border border, int f, const Place& place, std::uint32_t v, bool wanted = true) {
-    const double depth = depth_at(1 - f, place), z = at(border, f).z(v), z_a = f == 0 ? z : depth, z_b = f == 0 ? depth : z;
     const FeatureId vertex{FeatureKind::Vertex, v};
-    corners_.add(border, {{place.x, place.y, z_a}, z_b - z_a, {f == 0 ? vertex : name_[0], f == 0 ? name_[1] : vertex}},
-                 wanted);
+    const Names names(f == 0 ? vertex : name_[0], f == 0 ? name_[1] : vertex);
+    if (!corners_.takes(names, wanted)) return;
+    const double depth = depth_at(1 - f, place), z = at(border, f).z(v), z_a = f == 0 ? z : depth, z_b = f == 0 ? depth : z;
+    corners_.add(border, {{place.x, place.y, z_a}, z_b - z_a, names}, wanted);
   }
 
-  /// The coordinate along the normal at a place of a face: interpolated between its borders, or that of the nearer one outside.
+  /// The coordinate along the normal at a place of a face: interpolated between its borders, one in each lane, or that of the
+  /// nearer one outside.
   double depth_at(int f, const Place& place) const {
     const SeenBorder &left = at(Border::Left, f), &right = at(Border::Right, f);
-    const double t_left = left.side().rise(place.y), t_right = right.side().rise(place.y),
-                 x_left = left.seen(left.side().at(t_left)).x, x_right = right.seen(right.side().at(t_right)).x;
-    if (x_left < place.x && place.x < x_right) {
-      const double z = left.z_at(t_left);
-      return z + (right.z_at(t_right) - z) * ((place.x - x_left) / (x_right - x_left));
+    const Side &l = left.side(), &r = right.side();
+    const Vec2 none{0, 0}, rise{l.way.y, r.way.y}, up = (place.y - Vec2{l.from.y, r.from.y}) / rise,
+                                                   t = rise > none ? min(max(up, none), Vec2{1, 1}) : none,
+                                                   x = Vec2{-l.from.x, r.from.x} + Vec2{-l.way.x, r.way.x} * t;
+    if (x[0] < place.x && place.x < x[1]) {
+      const Vec2 from = left.z(left.start(), right.start()), z = from + (left.z(left.end(), right.end()) - from) * t;
+      return z[0] + (z[1] - z[0]) * ((place.x - x[0]) / (x[1] - x[0]));
     }
-    const SeenBorder& nearer = place.x <= x_left ? left : right;
+    const SeenBorder& nearer = place.x <= x[0] ? left : right;
     return nearer.z_at(nearer.side().along(nearer.seen(place)));
   }
 
@@ -498,8 +502,9 @@ class Sweep {
     if (is_near(b.to)) return add_corner(border, 1, of_a.seen(b.to), of_b.end().vertex(), wanted);
     // A corner within the bound of a side may be farther than that from where the sides cross.
     if (dot(on_b - on_a, on_b - on_a) > 4 * bound_ * bound_) return;
-    const double z_a = of_a.z_at(t_a), z_b = of_b.z_at(t_b);
     const Names names(of_a.edge_at(on_a), of_b.edge_at(by_other(on_b)));
+    if (!corners_.takes(names, wanted)) return;
+    const double z_a = of_a.z_at(t_a), z_b = of_b.z_at(t_b);
     corners_.add(border, {{of_a.seen(on_a).x, on_a.y, z_a}, z_b - z_a, names}, wanted);
   }
 
@@ -510,8 +515,8 @@ class Sweep {
   const double bound_;
   const Place slope_;  ///< how the separation changes with x and y
   Candidates& corners_;
-  int west_ = kNobody;  ///< before the intersection begins: the face to the left of the other one
-  int leader_[2] = {};  ///< per border, the face whose border bounds the intersection
+  int west_ = kNobody;                  ///< before the intersection begins: the face to the left of the other one
+  int leader_[2] = {kNobody, kNobody};  ///< per border, the face whose border bounds the intersection
 };
 
 }  // namespace

@@ -19,6 +19,10 @@ struct SeenBody {
     return {dot(x, p) + shift.x, dot(y, p) + shift.y};
   }
   double z(std::uint32_t vertex) const { return dot(n, vec(view.vertices[vertex])) + shift.z; }
+  Vec2 z(std::uint32_t vertex, std::uint32_t other) const {
+    const Vertex &p = view.vertices[vertex], &q = view.vertices[other];
+    return n.x * Vec2{p.x, q.x} + n.y * Vec2{p.y, q.y} + n.z * Vec2{p.z, q.z} + shift.z;
+  }
 };
 
 /// The projections of both bodies of a pair along one normal of the common frame.
