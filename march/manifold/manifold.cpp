@@ -27,22 +27,24 @@ struct Anchor {
 /// Puts the contact points of a candidate where they belong. If one of its features is a vertex, that body's point is the
 /// vertex; the other body's point lies on the line through it along the normal. No points are nearer than `nearest`, but a
 /// corner that lies beside a steep face and counts as inside seems to be.
-void put(ManifoldPoint& point, const PairView& pair, const Projection& projection, const Candidate& c, double nearest) {
+void put(ManifoldPoint& point, const PairView& pair, const Projection& projection, const Radii& radii, const Candidate& c,
+         double nearest) {
   const double separation = max(c.separation, nearest);
   const Vec across = projection.a.n * separation;
   const FeatureId a = c.names.a(), b = c.names.b();
   const Vec point_a = a.kind() == FeatureKind::Vertex   ? body_a(pair).point(a.index())
                       : b.kind() == FeatureKind::Vertex ? body_b(pair).point(b.index()) - across
                                                         : projection.point(c.on_a);
-  point.point_a = eigen(point_a), point.point_b = eigen(point_a + across);
-  point.separation = separation, point.feature_a = a, point.feature_b = b;
+  point.point_a = eigen(point_a + projection.a.n * radii.a());
+  point.point_b = eigen(point_a + across - projection.a.n * radii.b());
+  point.separation = separation - radii.sum(), point.feature_a = a, point.feature_b = b;
 }
 
 /// What is asked for, in the range that is allowed.
 double flatness(const ManifoldOptions& options) { return max(0, min(options.flatness, kMostFlatness)); }
 
-/// Fills the manifold of two hulls; points farther apart than `margin` are left out.
-void grow(const PairView& pair, const Anchor& w, double margin, double bound, const ManifoldOptions& options,
+/// Fills the manifold of two bodies with these hulls; points farther apart than the margin are left out.
+void grow(const PairView& pair, const Radii& radii, const Anchor& w, double bound, const ManifoldOptions& options,
           const Manifold& previous, Manifold& manifold) {
   const ContactFace a(pair.a, w.normal, w.feature_a, previous.face_a, flatness(options)),
       b(pair.b, body_b(pair).into(-w.normal), w.feature_b, previous.face_b, flatness(options));
@@ -51,14 +53,14 @@ void grow(const PairView& pair, const Anchor& w, double margin, double bound, co
   if (b.name().kind() == FeatureKind::Face) manifold.face_b = b.name();
 
   const Projection projection(pair, w.normal, w.point_a, any_side(pair, a, b));
-  Candidates candidates(margin + bound, previous);
+  Candidates candidates(options.margin + radii.sum() + bound, previous);
   clip(projection, a, b, bound / 2, candidates);  // a corner counts as inside of a face that it misses by so much
   if (candidates.count() == 0 || w.separation < candidates.least() - bound / 2)
     candidates.add_deepest({{0, 0, 0}, w.separation, {named(pair.a, w.feature_a), named(pair.b, w.feature_b)}});
   const bool rests = norm(w.normal - vec(previous.normal)) <= kRestingTurn * flatness(options);
   const double slack = rests ? flatness(options) * max(pair.a.extent, pair.b.extent) : 0;
   for (const int i : choose(candidates, std::min(options.most_points, kMostManifoldPoints), previous, bound, slack))
-    put(manifold.points[manifold.count++], pair, projection, candidates[i], w.separation - bound / 2);
+    put(manifold.points[manifold.count++], pair, projection, radii, candidates[i], w.separation - bound / 2);
 }
 
 /// `bound` is law 2's for the bodies.
@@ -90,13 +92,7 @@ Manifold manifold(const Body& a, const Body& b, const Pose& b_in_a, const Answer
   const PairView hulls =
       pair_view(body_a.level(answer.level_a).view, body_b.level(answer.level_b).view, at.motion, at.quality.error);
   const double bound = hulls.law_two + kLawTwo * at.radii.sum();
-  grow(hulls, anchor(hulls, at.radii, answer, bound), options.margin + at.radii.sum(), bound, options, previous, manifold);
-  for (std::uint32_t i = 0; i < manifold.count; ++i) {
-    ManifoldPoint& p = manifold.points[i];
-    p.point_a += answer.normal * at.radii.a();
-    p.point_b -= answer.normal * at.radii.b();
-    p.separation -= at.radii.sum();
-  }
+  grow(hulls, at.radii, anchor(hulls, at.radii, answer, bound), bound, options, previous, manifold);
   return manifold;
 }
 
