@@ -17,12 +17,12 @@ Candidates::Candidates(double farthest, const Manifold& previous)
 }
 
 /// Keeps a corner beside the rows if `previous` names it.
-void Candidates::keep(Candidate candidate) {
+void Candidates::keep(Border border, Candidate candidate) {
   if (!knows(candidate.names)) return;
   least_ = min(least_, candidate.separation);
   const auto end = known_ + known_count_;
   if (std::any_of(known_, end, [&](const Candidate& other) { return other.names == candidate.names; })) return;
-  *end = candidate, ++known_count_;
+  known_border_[known_count_++] = border, *end = candidate;
 }
 
 void Candidates::add_deepest(const Candidate& candidate) {
@@ -66,7 +66,7 @@ void Candidates::thin(Border border, Place last, bool keeps_first) {
     if ((i > 0 || !keeps_first) && i + 1 < count) {
       cut_off += std::fabs(cross(c.place() - last, row(border, i + 1).place() - last));
       if (cut_off <= enough_ && c.names != deepest_named_) {
-        keep(c);
+        keep(border, c);
         continue;
       }
     }
@@ -78,12 +78,16 @@ void Candidates::thin(Border border, Place last, bool keeps_first) {
 }
 
 void Candidates::close() {
+  for (int i = 0; i < known_count_; ++i) {
+    if (has(known_[i].names)) continue;
+    const Border border = known_border_[i];
+    int at = count_[std::size_t(border)]++;
+    for (; at > 0 && row(border, at - 1).place().y > known_[i].place().y; --at) row(border, at) = row(border, at - 1);
+    row(border, at) = known_[i];
+  }
   std::move(all_.end() - count_[1], all_.end(), all_.begin() + count_[0]);
   count_[0] += count_[1];
   count_[1] = 0;
-  for (int i = 0; i < known_count_; ++i) {
-    if (!has(known_[i].names)) all_[std::size_t(count_[0]++)] = known_[i];
-  }
 }
 
 }  // namespace swiftlet

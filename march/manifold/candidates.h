@@ -83,7 +83,7 @@ class Candidates {
   /// Adds the corner that follows on a border, which is seen from below to above.
   void add(Border border, const Candidate& candidate, bool wanted) {
     if (!(candidate.separation <= farthest_)) return;
-    if (!wanted) return keep(candidate);
+    if (!wanted) return keep(border, candidate);
     least_ = min(least_, candidate.separation);
     if (candidate.separation < deepest_) deepest_ = candidate.separation, deepest_named_ = candidate.names;
     if (count_[0] + count_[1] == kMostCorners) thin();
@@ -93,7 +93,7 @@ class Candidates {
     const Place place = candidate.place();
     last_[side] = {border == Border::Left ? -place.x : place.x, place.y}, cut_off_[side] = 0;
   }
-  /// Joins both borders into one row around the area, and the corners that `previous` names in addition.
+  /// Joins both borders into one row around the area, the corners that `previous` names in addition where they lie.
   void close();
   /// Adds a point deeper than all corners, after `close`; it takes the place of a corner with its names. It is there whether
   /// `previous` names it or not.
@@ -129,7 +129,7 @@ class Candidates {
     bool& has_turned = has_turned_[std::size_t(border)];
     return !has_turned && (has_turned = rise() >= 0);
   }
-  void keep(Candidate candidate);
+  void keep(Border border, Candidate candidate);
   void thin();
   void thin(Border border, Place last, bool keeps_first);
 
@@ -147,6 +147,7 @@ class Candidates {
   std::array<Candidate, kMostCandidates> all_;  ///< the left border from the start, the right one from the end back
   Names previous_[kMostManifoldPoints];
   Candidate known_[kMostManifoldPoints];  ///< those that `previous` names and that are in no row
+  Border known_border_[kMostManifoldPoints];
 };
 
 }  // namespace swiftlet
