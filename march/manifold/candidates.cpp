@@ -16,9 +16,8 @@ Candidates::Candidates(double farthest, const Manifold& previous)
   }
 }
 
-/// Keeps a corner beside the rows if `previous` names it.
+/// Keeps a corner that `previous` names beside the rows.
 void Candidates::keep(Border border, Candidate candidate) {
-  if (!knows(candidate.names)) return;
   least_ = min(least_, candidate.separation);
   const auto end = known_ + known_count_;
   if (std::any_of(known_, end, [&](const Candidate& other) { return other.names == candidate.names; })) return;
@@ -46,8 +45,11 @@ void Candidates::thin() {
   const Place lowest = row(count_[0] > 0 ? Border::Left : Border::Right, 0).place();
   double area = 0;
   for (const Border border : {Border::Left, Border::Right}) {
-    for (int i = 1; i < count_[std::size_t(border)]; ++i)
-      area += std::fabs(cross(row(border, i - 1).place() - lowest, row(border, i).place() - lowest));
+    Place before{0, 0};
+    for (int i = 0; i < count_[std::size_t(border)]; ++i) {
+      const Place spoke = row(border, i).place() - lowest;
+      area += std::fabs(cross(before, spoke)), before = spoke;
+    }
   }
   do {
     name_bits_ = 0;
@@ -58,23 +60,24 @@ void Candidates::thin() {
 
 /// The deepest corner and the border's last one stay.
 void Candidates::thin(Border border, Place last, bool keeps_first) {
+  const int on = border == Border::Left ? 1 : -1;
   int& count = count_[std::size_t(border)];
-  int kept = 0;
+  Candidate *c = &row(border, 0), *end = c;
   double cut_off = 0;
-  for (int i = 0; i < count; ++i) {
-    const Candidate& c = row(border, i);
-    if ((i > 0 || !keeps_first) && i + 1 < count) {
-      cut_off += std::fabs(cross(c.place() - last, row(border, i + 1).place() - last));
-      if (cut_off <= enough_ && c.names != deepest_named_) {
-        keep(border, c);
+  for (int rest = count; rest > 0; --rest, c += on) {
+    if (!keeps_first && rest > 1) {
+      cut_off += std::fabs(cross(c->place() - last, c[on].place() - last));
+      if (cut_off <= enough_ && c->names != deepest_named_) {
+        --count;
+        if (knows(c->names)) keep(border, *c);
         continue;
       }
     }
-    last = c.place(), cut_off = 0;
-    name_bits_ |= c.names.bit();
-    if (kept++ != i) row(border, kept - 1) = c;
+    keeps_first = false, last = c->place(), cut_off = 0;
+    name_bits_ |= c->names.bit();
+    if (end != c) *end = *c;
+    end += on;
   }
-  count = kept;
 }
 
 void Candidates::close() {
