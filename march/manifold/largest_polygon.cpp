@@ -33,7 +33,7 @@ class Hull {
   }
 
   int size() const { return size_; }
-  int operator[](int i) const { return corner_[std::size_t(i)]; }
+  int operator[](int i) const { return corner_[std::size_t(begin_ + i < size_ ? begin_ + i : begin_ + i - size_)]; }
   /// The way from the first corner to another.
   Place spoke(int i) const { return place((*this)[i]) - place((*this)[0]); }
   double twice_area() const {
@@ -45,16 +45,21 @@ class Hull {
   /// Makes `first` the first corner and returns true, or, if it is inside, the corner farthest from it and returns false. A
   /// corner within the bound of it is in its place.
   bool begin_with(int first, double bound) {
-    const auto away = [&](int spot) {
-      const Place way = place(spot) - place(first);
+    const Place centre = place(first);
+    const auto away = [&](int i) {
+      const Place way = place((*this)[i]) - centre;
       return dot(way, way);
     };
-    const auto end = corner_.begin() + size_;
-    auto begin = std::min_element(corner_.begin(), end, [&](int i, int j) { return away(i) < away(j); });
-    const bool is_corner = away(*begin) <= bound * bound;
-    if (!is_corner) begin = std::max_element(corner_.begin(), end, [&](int i, int j) { return away(i) < away(j); });
-    std::rotate(corner_.begin(), begin, end);
-    if (is_corner) corner_[0] = Index(first);
+    int nearest = 0, farthest = 0;
+    double least = away(0), most = least;
+    for (int i = 1; i < size_; ++i) {
+      const double length2 = away(i);
+      if (length2 < least) least = length2, nearest = i;
+      if (length2 > most) most = length2, farthest = i;
+    }
+    const bool is_corner = least <= bound * bound;
+    begin_ = is_corner ? nearest : farthest;
+    if (is_corner) corner_[std::size_t(begin_)] = Index(first);
     return is_corner;
   }
 
@@ -97,7 +102,7 @@ class Hull {
   }
 
   const Candidates& candidates_;
-  int size_ = 0;
+  int size_ = 0, begin_ = 0;
   std::array<Index, kMostCandidates + 1> corner_;
 };
 
@@ -111,7 +116,10 @@ LargestPolygon largest_polygon(const Candidates& candidates, int first, int most
                     corners = std::min(std::size_t(hull.begin_with(first, bound) ? most : most - 1), size);
   using Row = std::array<double, kMostCandidates>;
   Row x, y;  // of the spokes
-  for (std::size_t i = 0; i < size; ++i) x[i] = hull.spoke(int(i)).x, y[i] = hull.spoke(int(i)).y;
+  for (std::size_t i = 0; i < size; ++i) {
+    const Place spoke = hull.spoke(int(i));
+    x[i] = spoke.x, y[i] = spoke.y;
+  }
   std::array<Row, kMostManifoldPoints>
       best;  // twice the area of the best fan of so many corners after the first, by its last one
   best[1].fill(0);
