@@ -116,13 +116,12 @@ LargestPolygon largest_polygon(const Candidates& candidates, int first, int most
                     corners = std::min(std::size_t(hull.begin_with(first, bound) ? most : most - 1), size);
   using Row = std::array<double, kMostCandidates>;
   Row x, y;  // of the spokes
-  for (std::size_t i = 0; i < size; ++i) {
-    const Place spoke = hull.spoke(int(i));
-    x[i] = spoke.x, y[i] = spoke.y;
-  }
   std::array<Row, kMostManifoldPoints>
       best;  // twice the area of the best fan of so many corners after the first, by its last one
-  best[1].fill(0);
+  for (std::size_t i = 0; i < size; ++i) {
+    const Place spoke = hull.spoke(int(i));
+    x[i] = spoke.x, y[i] = spoke.y, best[1][i] = 0;
+  }
   const auto grown = [&](std::size_t corner, std::size_t i, std::size_t last) {
     return best[corner - 1][i] + (x[i] * y[last] - y[i] * x[last]);
   };
