@@ -380,7 +380,7 @@ class Sweep {
   /// Handles the upper end of a side of face `f`. Returns false if the intersection ends at or below it.
   template <Border border, int f>
   bool meet() {
-    if (west_ != kNobody && !overlap_begins(border, f)) return true;
+    if (leader(border) == kNobody && !overlap_begins(border, f)) return true;
     constexpr int other = 1 - f;
     constexpr Border across = opposite(border);
     const Place& place = at(border, f).side().to;
@@ -414,7 +414,6 @@ class Sweep {
     if (where(own.seen(own.end().at), f == west_ ? Border::Left : Border::Right, 1 - f) == Where::Outside) return false;
     add_crossing(Border::Left, {west_, Border::Right}, {1 - west_, Border::Left});
     leader(Border::Left) = 1 - west_, leader(Border::Right) = west_;
-    west_ = kNobody;
     return true;
   }
 
@@ -423,7 +422,7 @@ class Sweep {
   void end() {
     const SeenBorder& own = at(border, f);
     const Place top = own.seen(own.end().at);
-    if (!meet<opposite(border), f>() || west_ != kNobody) return;
+    if (!meet<opposite(border), f>() || leader(border) == kNobody) return;
     for (const Border b : kBorders) {
       if (where(top, b, 1 - f) == Where::Outside) return;
     }
@@ -515,8 +514,9 @@ class Sweep {
   const double bound_;
   const Place slope_;  ///< how the separation changes with x and y
   Candidates& corners_;
-  int west_ = kNobody;                  ///< before the intersection begins: the face to the left of the other one
-  int leader_[2] = {kNobody, kNobody};  ///< per border, the face whose border bounds the intersection
+  /// Per border, the face whose border bounds the intersection; `kNobody` before that begins.
+  int leader_[2] = {kNobody, kNobody};
+  int west_ = 0;  ///< before it begins: the face to the left of the other one
 };
 
 }  // namespace

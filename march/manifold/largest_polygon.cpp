@@ -38,7 +38,11 @@ class Hull {
   Place spoke(int i) const { return place((*this)[i]) - place((*this)[0]); }
   double twice_area() const {
     double sum = 0;
-    for (int i = 1; i + 1 < size_; ++i) sum += cross(spoke(i), spoke(i + 1));
+    Place before{0, 0};
+    for (int i = 1; i < size_; ++i) {
+      const Place next = spoke(i);
+      sum += cross(before, next), before = next;
+    }
     return sum;
   }
 
