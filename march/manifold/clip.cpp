@@ -38,6 +38,8 @@ struct Corner {
   std::uint32_t half_edge() const { return std::uint32_t(names >> 32); }  ///< of the border, and ends there
 };
 
+bool is_below(const Place& p, const Place& q) { return p.y < q.y || (p.y == q.y && p.x < q.x); }
+
 /// In one register.
 Place place(Vec2 v) {
   Place p;
@@ -137,6 +139,15 @@ class SeenBorder {
     see(onward(end().half_edge(), is_left_));
     if (!rises_in(ahead_)) [[unlikely]]
       straighten(top);
+  }
+
+  /// Moves on to the side that ends above a place of the projection. Returns false if vertex `top`, the border's end, is below
+  /// it.
+  [[gnu::noinline]] bool rise_above(const Place& place, std::uint32_t top) {
+    for (; !is_below(place, seen(end().at)); advance(top)) {
+      if (end().vertex() == top) return false;
+    }
+    return true;
   }
 
   /// Names the edge at a place of the side; of a chord, the edge that it cuts off there.
@@ -269,7 +280,7 @@ class Sweep {
   void run() {
     if (!begin()) return;
     for (Ending left = ends_first<Border::Left>(), right = ends_first<Border::Right>();;) {
-      if (right.y < left.y || (right.y == left.y && is_below(at(Border::Right, right.face), at(Border::Left, left.face)))) {
+      if (right.y < left.y || (right.y == left.y && ends_below(at(Border::Right, right.face), at(Border::Left, left.face)))) {
         if (!(right.face == 0 ? step<Border::Right, 0>() : step<Border::Right, 1>())) return;
         right = ends_first<Border::Right>();
       } else {
@@ -315,13 +326,12 @@ class Sweep {
   void advance(Border border, int f) { at(border, f).advance(at(opposite(border), f).end().vertex()); }
 
   /// Returns true if the side of `p` ends below that of `q`, or at the same height to the left of it.
-  static bool is_below(const SeenBorder& p, const SeenBorder& q) {
+  static bool ends_below(const SeenBorder& p, const SeenBorder& q) {
     const double y_p = p.end().at.y, y_q = q.end().at.y;
     if (y_p == y_q) [[unlikely]]
       return p.seen(p.end().at).x < q.seen(q.end().at).x;
     return y_p < y_q;
   }
-  static bool is_below(const Place& p, const Place& q) { return p.y < q.y || (p.y == q.y && p.x < q.x); }
   /// The face whose side ends first on a border, and at which height.
   struct Ending {
     int face;
@@ -329,7 +339,7 @@ class Sweep {
   };
   template <Border border>
   Ending ends_first() const {
-    const int face = is_below(at(border, 1), at(border, 0));
+    const int face = ends_below(at(border, 1), at(border, 0));
     return {face, min(at(border, 0).end().at.y, at(border, 1).end().at.y)};
   }
 
@@ -350,11 +360,7 @@ class Sweep {
     const int f = is_below(lowest_of(0).at, lowest_of(1).at) ? 1 : 0, other = 1 - f;
     const Corner lowest = lowest_of(f);
     for (const Border border : kBorders) {
-      SeenBorder& b = at(border, other);
-      for (const std::uint32_t top = at(opposite(border), other).end().vertex(); !is_below(lowest.at, b.seen(b.end().at));) {
-        if (b.end().vertex() == top) return false;
-        b.advance(top);
-      }
+      if (!at(border, other).rise_above(lowest.at, at(opposite(border), other).end().vertex())) return false;
     }
     if (where(lowest.at, Border::Left, other) == Where::Outside) {
       west_ = f;
@@ -384,13 +390,15 @@ class Sweep {
     constexpr int other = 1 - f;
     constexpr Border across = opposite(border);
     const Place& place = at(border, f).side().to;
-    if (is_across(place, at(across, other).side())) {
+    const bool leads = leader(border) == f, passes = passes_lead(place, at(border, other).side(), leads);
+    // A corner beyond the other face's border across is inside of the one here: it leads from here on.
+    if (leads != passes && is_across(place, at(across, other).side())) {
       if (leader(border) != f) add_crossing(border, {f, border}, {other, border});
       if (leader(across) != other) add_crossing(across, {f, across}, {other, across});
       add_crossing(border, {f, border}, {other, across});
       return false;
     }
-    if (passes_lead(place, at(border, other).side(), leader(border) == f)) turn_off(border, 1 - leader(border));
+    if (passes) turn_off(border, leads ? other : f);
     return true;
   }
 
