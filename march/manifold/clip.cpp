@@ -393,12 +393,12 @@ class Sweep {
     const bool leads = leader(border) == f, passes = passes_lead(place, at(border, other).side(), leads);
     // A corner beyond the other face's border across is inside of the one here: it leads from here on.
     if (leads != passes && is_across(place, at(across, other).side())) {
-      if (leader(border) != f) add_crossing(border, {f, border}, {other, border});
-      if (leader(across) != other) add_crossing(across, {f, across}, {other, across});
-      add_crossing(border, {f, border}, {other, across});
+      if (leader(border) != f) add_crossing<border, border>(border);
+      if (leader(across) != other) add_crossing<across, across>(across);
+      add_crossing<f == 0 ? border : across, f == 0 ? across : border>(border);
       return false;
     }
-    if (passes) turn_off(border, leads ? other : f);
+    if (passes) turn_off<border>(leads ? other : f);
     return true;
   }
 
@@ -420,7 +420,10 @@ class Sweep {
   bool overlap_begins(Border border, int f) {
     const SeenBorder& own = at(border, f);
     if (where(own.seen(own.end().at), f == west_ ? Border::Left : Border::Right, 1 - f) == Where::Outside) return false;
-    add_crossing(Border::Left, {west_, Border::Right}, {1 - west_, Border::Left});
+    if (west_ == 0)
+      add_crossing<Border::Right, Border::Left>(Border::Left);
+    else
+      add_crossing<Border::Left, Border::Right>(Border::Left);
     leader(Border::Left) = 1 - west_, leader(Border::Right) = west_;
     return true;
   }
@@ -448,12 +451,13 @@ class Sweep {
   }
 
   /// Passes the lead on a border to face `f` where its side crosses the one that led.
-  void turn_off(Border border, int f) {
+  template <Border border>
+  void turn_off(int f) {
     leader(border) = f;
     const SeenBorder &from = at(border, 1 - f), &to = at(border, f);
     const bool wanted =
         corners_.wants(border, from.side().from, from.side().to, to.side().to, [&] { return rise(to, to.side().way); });
-    if (wanted || (may_know(f, to) && may_know(1 - f, from))) add_crossing(border, {0, border}, {1, border}, wanted);
+    if (wanted || (may_know(f, to) && may_know(1 - f, from))) add_crossing<border, border>(border, wanted);
   }
 
   /// How much the separation rises along a way that a border sees.
@@ -486,33 +490,28 @@ class Sweep {
     return nearer.z_at(nearer.side().along(nearer.seen(place)));
   }
 
-  struct Which {
-    int face;
-    Border border;
-  };
-  /// Adds the point where two sides cross, one of each face, or a corner of either within the bound of it.
-  void add_crossing(Border border, Which p, Which q, bool wanted = true) {
-    if (p.face == 1) std::swap(p, q);
-    const SeenBorder &of_a = at(p.border, 0), &of_b = at(q.border, 1);
+  /// Adds the point where two sides cross, of these borders of A and B, or a corner of either within the bound of it.
+  template <Border on_a, Border on_b>
+  [[gnu::noinline]] void add_crossing(Border border, bool wanted = true) {
+    const SeenBorder &of_a = at(on_a, 0), &of_b = at(on_b, 1);
     // All is seen as A's border sees it.
-    const double mirrored = p.border == q.border ? 1 : -1;
-    const auto by_other = [&](const Place& place) { return Place{place.x * mirrored, place.y}; };
+    const auto by_other = [](const Place& place) { return Place{on_a == on_b ? place.x : -place.x, place.y}; };
     const Line &a = of_a.side(), b{by_other(of_b.side().from), by_other(of_b.side().to), {by_other(of_b.side().way), 0}};
     const double h = b.beyond(a.from), h_to = b.beyond(a.to);
     // If the sides are nearly parallel, the first point on a is uncertain; the last one is the nearest to that on b.
     const double t_b = b.along(a.at(h != h_to ? min(max(h / (h - h_to), 0), 1) : 0)), t_a = a.along(b.at(t_b));
-    const Place on_b = b.at(t_b), on_a = a.at(t_a);
-    const auto is_near = [&](const Place& place) { return dot(place - on_a, place - on_a) <= bound_ * bound_; };
+    const Place spot_b = b.at(t_b), spot = a.at(t_a);
+    const auto is_near = [&](const Place& place) { return dot(place - spot, place - spot) <= bound_ * bound_; };
     if (is_near(a.from)) return add_corner(border, 0, of_a.seen(a.from), of_a.start().vertex(), wanted);
     if (is_near(a.to)) return add_corner(border, 0, of_a.seen(a.to), of_a.end().vertex(), wanted);
     if (is_near(b.from)) return add_corner(border, 1, of_a.seen(b.from), of_b.start().vertex(), wanted);
     if (is_near(b.to)) return add_corner(border, 1, of_a.seen(b.to), of_b.end().vertex(), wanted);
     // A corner within the bound of a side may be farther than that from where the sides cross.
-    if (dot(on_b - on_a, on_b - on_a) > 4 * bound_ * bound_) return;
-    const Names names(of_a.edge_at(on_a), of_b.edge_at(by_other(on_b)));
+    if (dot(spot_b - spot, spot_b - spot) > 4 * bound_ * bound_) return;
+    const Names names(of_a.edge_at(spot), of_b.edge_at(by_other(spot_b)));
     if (!corners_.takes(names, wanted)) return;
     const double z_a = of_a.z_at(t_a), z_b = of_b.z_at(t_b);
-    corners_.add(border, {{of_a.seen(on_a).x, on_a.y, z_a}, z_b - z_a, names}, wanted);
+    corners_.add(border, {{of_a.seen(spot).x, spot.y, z_a}, z_b - z_a, names}, wanted);
   }
 
   static constexpr int kNobody = -1;
