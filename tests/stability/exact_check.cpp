@@ -216,9 +216,11 @@ std::string Judge::witnesses(const Answer& answer) {
   if (!p.allFinite() || !q.allFinite()) return "a witness point is not finite";
   if (const double apart = (q - p).norm(); !(apart >= answer.lower - 2 * law_two_ && apart <= answer.upper + law_two_))
     return text("the points are %a apart, the interval is [%a, %a]", apart, answer.lower, answer.upper);
-  // Their rounding in doubles is a few eps of the points. Those of a touching pair may lie against the normal, as deep as it
-  // overlaps: their distance is then 0.
-  const double aside = ((q - p) - std::max((q - p).dot(answer.normal), 0.) * answer.normal).norm();
+  // Those of a touching pair may lie against the normal, as deep as it overlaps: their distance is then 0.
+  const bool against = answer.verdict == Verdict::Touching && (q - p).dot(answer.normal) < 0;
+  const double distance = against ? 0 : (q - p).norm();
+  // Their rounding in doubles is a few eps of the points.
+  const double aside = ((q - p) - distance * answer.normal).norm();
   if (!(aside <= law_two_ + 16 * kEpsilon * size_))
     return text("the points differ by their distance times the normal only within %g, law 2's bound is %g", aside, law_two_);
   if (!within_law_two(p, vertices_of(a_.model.level(0).view, answer.feature_a), {}))
