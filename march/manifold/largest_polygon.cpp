@@ -119,9 +119,8 @@ LargestPolygon largest_polygon(const Candidates& candidates, int first, int most
   const std::size_t size = std::size_t(hull.size()),
                     corners = std::min(std::size_t(hull.begin_with(first, bound) ? most : most - 1), size);
   using Row = std::array<double, kMostCandidates>;
-  Row x, y;  // of the spokes
-  std::array<Row, kMostManifoldPoints>
-      best;  // twice the area of the best fan of so many corners after the first, by its last one
+  Row x, y;                                   // of the spokes
+  std::array<Row, kMostManifoldPoints> best;  // by corners after the first: twice the best fan's area, by its last corner
   for (std::size_t i = 0; i < size; ++i) {
     const Place spoke = hull.spoke(int(i));
     x[i] = spoke.x, y[i] = spoke.y, best[1][i] = 0;
