@@ -115,12 +115,12 @@ static inline void remember(const Line& line, const Padded& normal, PairSeed& se
 static inline Vec direction(const PairSeed& seed) {
   return {double(seed.normal[0]), double(seed.normal[1]), double(seed.normal[2])};
 }
-/// True if `seed` has a direction and the line of centres has turned by less than the angle whose cosine is kSameLine since.
-static inline bool knows_direction(const PairSeed& seed, const Vec& line) {
+/// True if `seed` has a direction and the line of centres has turned by less since than the angle of this squared cosine.
+static inline bool knows_direction(const PairSeed& seed, const Vec& line, double cos2 = kSameLine * kSameLine) {
   if ((seed.normal[0] | seed.normal[1] | seed.normal[2]) == 0) return false;
   const Vec4 was = vec4(seed.line_in_a.data()), now = vec4(line);
   const double along = dot(now, was);
-  return along > 0 && along * along > kSameLine * kSameLine * dot(now, now) * dot(was, was);
+  return along > 0 && along * along > cos2 * dot(now, now) * dot(was, was);
 }
 /// About the direction of the distance, at any length, along which a cold start samples first: the one stored in `seed`, turned
 /// with the line of centres, or, where that is unknown or old, that between ellipsoids. Takes the bodies' levels 0.

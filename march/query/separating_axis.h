@@ -70,15 +70,20 @@ static inline bool separating_axis(const Pair& pair, const Vec& between, const S
   return true;
 }
 
-/// Fills `answer` and returns true if one sample bounds the distance as narrowly as asked: along the seed's direction, or, if
-/// that is old, along a new one, which the seed then keeps in place of features: vertices that only maps name are no better
-/// start than none. `seen` becomes the sample, on the level pair where GJK on maps would begin.
+/// Fills `answer` and returns true if one sample bounds the distance as narrowly as asked: along the seed's direction, if the
+/// line of centres turned too much for that along one turned with it, or, if that is old, along a new one, which the seed then
+/// keeps in place of features: vertices that only maps name are no better start than none. `seen` becomes the sample, on the
+/// level pair where GJK on maps would begin.
 template <class Pair>
 [[gnu::always_inline]] static inline bool sample_suffices(const Pair& pair, const Line& line, const StopRule& asked,
                                                           PairSeed& seed, AxisSample& seen, Answer& answer) {
-  const Place at = mapped_for(pair, asked, norm(line.in_a));
+  const double length = norm(line.in_a);
+  const Place at = mapped_for(pair, asked, length);
   const PairView view = pair.view_at(at);
-  seen = sample_axis(view, pair.a.level(at.level_a), pair.b.level(at.level_b), vec(pair.first_direction(line, seed)));
+  // Along a direction that is off by an angle, a bound is less by about half the angle's square times what is `length` long.
+  const bool serves = knows_direction(seed, line.in_a, max(kSameLine * kSameLine, 1 - asked.allowed(length) / length));
+  const Vec along = serves ? direction(seed) : vec(pair.first_direction(line, seed));
+  seen = sample_axis(view, pair.a.level(at.level_a), pair.b.level(at.level_b), along);
   Answer found;
   take_sample(pair, view, at, seen, found);
   if (!asked.narrow(found.lower, found.upper)) return false;
