@@ -138,6 +138,8 @@ void add_levels(Class& c) {
   c.def_property_readonly(
       "map_side", [](const HeldLevel& l) { return l.level().map_side; }, "The support map has 2 * map_side**2 cells.");
   c.def_property_readonly(
+      "is_round", [](const HeldLevel& l) { return l.level().is_round; }, "`map_frame` is about a multiple of the identity.");
+  c.def_property_readonly(
       "map_frame", [](const HeldLevel& l) { return py::array_t<double>(6, l.level().map_frame.data()); },
       "Rows of an upper triangular matrix M, from the diagonal on: the map is looked up along M n.");
 #define SWIFTLET_NUMBER(name, expression, text) \

@@ -92,7 +92,7 @@ class Deepening {
     // Coarse pairs may pass a threshold. To a tolerance they cost more than the finest pair, where the walk ends at a facet.
     place_ = stop_.is_threshold() ? coarsest_place(a_, b_) : Place{finest_a_, finest_b_, {}};
     turn_ = seed.met && seed.level_a < a_.level_count() && seed.level_b < b_.level_count()
-                ? turn_of<Warm::TwiceAsFar>(line_, seed, a_.level(seed.level_a), b_.level(seed.level_b))
+                ? turn_of(line_, seed, a_.level(seed.level_a), b_.level(seed.level_b), Warm::TwiceAsFar)
                 : Turn::Far;
     const bool remembers = turn_ != Turn::Far && (seed.normal[0] | seed.normal[1] | seed.normal[2]) != 0;
     Vec direction = remembers ? swiftlet::direction(seed) : lowest_seen();

@@ -28,9 +28,12 @@ struct PairOf {
     store(in_a, line.in_a), store(turned_line(in_a, motion), line.in_b);
     return line;
   }
-  /// The direction along which a cold query samples first. Always inlined: as `finest_mapped`.
+  /// Directions as of `seed`. Always inlined: as `finest_mapped`.
   [[gnu::always_inline]] Vec4 first_direction(const Line& line, const PairSeed& seed) const {
-    return swiftlet::first_direction(seed, a.level(0), b.level(0), motion, line.in_a);
+    return swiftlet::first_direction(seed, a.level(0), b.level(0), motion, line);
+  }
+  [[gnu::always_inline]] Vec4 turned_direction(const Line& line, const PairSeed& seed) const {
+    return swiftlet::turned_direction(seed, a.level(0), b.level(0), motion, line.in_a);
   }
   /// The finest levels that the query may read.
   int finest_a() const { return finest(a); }

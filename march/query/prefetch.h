@@ -190,7 +190,10 @@ class Prefetch {
       has_maps_ = a_.has_map() && b_.has_map();
       if (!has_maps_) return;
       const Motion m = motion(q.b_in_a);
-      look(m, vec(first_direction(q.seed ? *q.seed : PairSeed{}, a_.level(), b_.level(), m, between(m))));
+      const Vec4 in_a = vec4(between(m));
+      Line line;
+      store(in_a, line.in_a), store(turned_line(in_a, m), line.in_b);
+      look(m, vec(first_direction(q.seed ? *q.seed : PairSeed{}, a_.level(), b_.level(), m, line)));
     }
     if (!has_maps_) return;
     if constexpr (kStep == 3) a_.vertex(), b_.vertex();

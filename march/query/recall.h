@@ -159,7 +159,7 @@ template <class Pair>
   if ((asks || seed.met) && automatic && unwatched && spheres_meet(pair, line.in_a, answer)) return true;
   if (seed.met && automatic && overlaps_as_before(pair, seed, answer, proof)) return true;
   const bool samples = !seed.met && pair.limits.trace.empty() && pair.has_maps();
-  if (asks && samples && separating_axis(pair, line.in_a, asked, seed, seen, answer)) return true;
+  if (asks && samples && separating_axis(pair, line, asked, seed, seen, answer)) return true;
   store(turned_line(vec4(line.in_a), pair.motion), line.in_b);
   if (asks || exact || !automatic || !unwatched) return false;
   if (spheres_suffice(pair, line.in_a, asked, answer)) return true;
@@ -179,7 +179,8 @@ template <class Pair>
   seen.normal = {0, 0, 0};
   if (answers_at_once(pair, asked, exact, line, seed, seen, answer, proof)) return;
   Turn turn;
-  Place place = first_place(pair.a, pair.b, line, seed, pair.finest_a(), pair.finest_b(), tuning.start, turn);
+  const Warm warm = asked.is_threshold() ? Warm::TwiceAsFar : Warm::Near;
+  Place place = first_place(pair.a, pair.b, line, seed, pair.finest_a(), pair.finest_b(), tuning.start, warm, turn);
   const auto descends = [&](Place from, const SupportGjk* on_maps, const Walk* walk) {
     answer.normal.setZero();
     in_general(pair, [&](const ModelPair& general) {

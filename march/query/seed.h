@@ -47,19 +47,19 @@ enum class Turn {
 };
 constexpr double kLineUnit = 32767;  ///< the length of a direction in a seed
 
-/// How far a query walks from a seed's features: where a cold start costs more than for a distance, from twice as far.
+/// How far a query walks from a seed's features: where a cold start costs more than for a distance, as for a threshold or a
+/// depth, from twice as far.
 enum class Warm { Near, TwiceAsFar };
 
 /// `a` and `b` are the levels of the seed.
-template <Warm warm = Warm::Near>
-static inline Turn turn_of(const Line& line, const PairSeed& seed, const Level& a, const Level& b) {
+static inline Turn turn_of(const Line& line, const PairSeed& seed, const Level& a, const Level& b, Warm warm) {
   const Vec4 in_a = vec4(line.in_a);
   const double whole = dot(in_a, in_a) * (kLineUnit * kLineUnit), along_a = max(dot(in_a, vec4(seed.line_in_a.data())), 0),
                along_b = max(dot(vec4(line.in_b), vec4(seed.line_in_b.data())), 0), cos2_a = along_a * along_a,
                cos2_b = along_b * along_b;
   const bool same_a = cos2_a >= a.same_cos2 * whole, same_b = cos2_b >= b.same_cos2 * whole;
   if (same_a & same_b) return Turn::Little;
-  const auto is_far = [whole](double cos2, const std::array<std::int16_t, 3>& was, const Level& level) {
+  const auto is_far = [whole, warm](double cos2, const std::array<std::int16_t, 3>& was, const Level& level) {
     const bool known = (was[0] | was[1] | was[2]) != 0;  // not of a seed made by hand
     const double twice = max(0, 2 * level.near_cos2 - 1), near_cos2 = warm == Warm::Near ? level.near_cos2 : twice * twice;
     return known && cos2 < near_cos2 * whole;
@@ -89,7 +89,7 @@ Place place_by_policy(const Shape& a, const Shape& b, const Line& line, const Pa
 /// The place where a query begins, and how far the line of centres has turned if it begins at the seed's features. `finest_a`
 /// and `finest_b` are the finest levels that it may read.
 static inline Place first_place(const Shape& a, const Shape& b, const Line& line, const PairSeed& seed, int finest_a,
-                                int finest_b, StartPolicy policy, Turn& turn) {
+                                int finest_b, StartPolicy policy, Warm warm, Turn& turn) {
   turn = Turn::Some;
   if (policy != StartPolicy::Automatic) return place_by_policy(a, b, line, seed, finest_a, finest_b, policy);
   if (!fits(seed, a, b, finest_a, finest_b)) return coarsest_place(a, b);
@@ -97,7 +97,7 @@ static inline Place first_place(const Shape& a, const Shape& b, const Line& line
   const Level &level_a = a.level(place.level_a), &level_b = b.level(place.level_b);
   const bool has_choice = place.level_a + 1 < a.level_count() || place.level_b + 1 < b.level_count() || level_a.map_side > 0;
   if (!has_choice) return {place.level_a, place.level_b, place.start};
-  turn = turn_of(line, seed, level_a, level_b);
+  turn = turn_of(line, seed, level_a, level_b, warm);
   return turn == Turn::Far ? coarsest_place(a, b) : place;
 }
 
@@ -115,20 +115,27 @@ static inline void remember(const Line& line, const Padded& normal, PairSeed& se
 static inline Vec direction(const PairSeed& seed) {
   return {double(seed.normal[0]), double(seed.normal[1]), double(seed.normal[2])};
 }
-/// True if `seed` has a direction and the line of centres has turned by less since than the angle of this squared cosine.
-static inline bool knows_direction(const PairSeed& seed, const Vec& line, double cos2 = kSameLine * kSameLine) {
+/// True if `seed` has a direction and the line of centres has turned by less than the angle of the cosine kSameLine since.
+static inline bool knows_direction(const PairSeed& seed, const Vec& line) {
   if ((seed.normal[0] | seed.normal[1] | seed.normal[2]) == 0) return false;
   const Vec4 was = vec4(seed.line_in_a.data()), now = vec4(line);
   const double along = dot(now, was);
-  return along > 0 && along * along > cos2 * dot(now, now) * dot(was, was);
+  return along > 0 && along * along > kSameLine * kSameLine * dot(now, now) * dot(was, was);
 }
-/// About the direction of the distance, at any length, along which a cold start samples first: the one stored in `seed`, turned
-/// with the line of centres, or, where that is unknown or old, that between ellipsoids. Takes the bodies' levels 0.
-static inline Vec4 first_direction(const PairSeed& seed, const Level& a, const Level& b, const Motion& b_in_a,
-                                   const Vec& line) {
+/// The direction stored in `seed`, turned with the line of centres.
+static inline Vec4 turned_direction(const PairSeed& seed, const Level& a, const Level& b, const Motion& b_in_a,
+                                    const Vec& line) {
   constexpr double kOne = 1 / kLineUnit;
-  if (!knows_direction(seed, line)) return between_ellipsoids(a, b, b_in_a, vec4(line));
   return turned_with_line(a, b, b_in_a, vec4(line), vec4(seed.line_in_a.data()) * kOne, vec4(seed.normal.data()) * kOne);
+}
+/// About the direction of the distance, at any length, along which a cold start samples first: the one stored in `seed` while
+/// its features would serve, that turned with the line of centres, or, where it is unknown or old, the one between ellipsoids.
+/// Takes the bodies' levels 0.
+static inline Vec4 first_direction(const PairSeed& seed, const Level& a, const Level& b, const Motion& b_in_a,
+                                   const Line& line) {
+  if (!knows_direction(seed, line.in_a)) return between_ellipsoids(a, b, b_in_a, vec4(line.in_a));
+  const bool serves = turn_of(line, seed, a, b, Warm::Near) != Turn::Far;
+  return serves ? vec4(direction(seed)) : turned_direction(seed, a, b, b_in_a, line.in_a);
 }
 
 /// The feature that stands for `feature` of `level` one level finer (`child`) or coarser (`parent`).

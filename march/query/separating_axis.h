@@ -41,12 +41,13 @@ static inline void take_sample(const Pair& pair, const PairView& view, const Pla
   answer.levels_visited = 1;
 }
 
-/// Fills `answer` and returns true if the bodies are proved to be farther apart than `asked.above`. If the line of centres
-/// proves it and the seed's direction does not, that direction is cleared. `seen` becomes the last sample, on the finest pair
-/// with maps; where only the maps leave it in doubt, after climbs.
+/// Fills `answer` and returns true if the bodies are proved to be farther apart than `asked.above`: along the seed's direction,
+/// along that turned with the line of centres, which the seed then keeps, or, if it is unknown or old, along the line of
+/// centres. `line` has its first half, and may get the second. `seen` becomes the last sample, on the finest pair with maps;
+/// where these leave in doubt what is likely, after climbs.
 template <class Pair>
-static inline bool separating_axis(const Pair& pair, const Vec& between, const StopRule& asked, PairSeed& seed,
-                                   AxisSample& seen, Answer& answer) {
+static inline bool separating_axis(const Pair& pair, Line& line, const StopRule& asked, PairSeed& seed, AxisSample& seen,
+                                   Answer& answer) {
   const Place at = pair.finest_mapped();
   const int level_a = at.level_a, level_b = at.level_b;
   const Level &of_a = pair.a.level(level_a), &of_b = pair.b.level(level_b);
@@ -56,34 +57,35 @@ static inline bool separating_axis(const Pair& pair, const Vec& between, const S
     seen = sample_axis(view, of_a, of_b, direction);
     return seen.lower > least;
   };
+  const bool known = knows_direction(seed, line.in_a);
   const auto climbs = [&] {
-    if (!(seen.gap > least)) return false;
+    // Supports along the line of centres are likely to be apart only if those that maps name are by a quarter of the maps'
+    // doubt.
+    if (!(known ? seen.gap > least : 3 * seen.gap + seen.lower > 4 * least)) return false;
     in_general(pair, [&](const ModelPair& general) { seen = climbed(general.view_at(at), seen, answer.plane_tests); });
     return seen.lower > least;
   };
-  if (!(knows_direction(seed, between) && clears(direction(seed)))) {
-    if (!clears(between) && !climbs()) return false;
-    seed.normal = {};
+  if (!(known && clears(direction(seed)))) {
+    if (!clears(known ? vec(pair.turned_direction(line, seed)) : Vec(line.in_a)) && !climbs()) return false;
+    if (known) {
+      store(turned_line(vec4(line.in_a), pair.motion), line.in_b);
+      remember(line, seen.normal, seed);
+    }
   }
   take_sample(pair, view, at, seen, answer);
   answer.status = Status::Beyond;
   return true;
 }
 
-/// Fills `answer` and returns true if one sample bounds the distance as narrowly as asked: along the seed's direction, if the
-/// line of centres turned too much for that along one turned with it, or, if that is old, along a new one, which the seed then
-/// keeps in place of features: vertices that only maps name are no better start than none. `seen` becomes the sample, on the
-/// level pair where GJK on maps would begin.
+/// Fills `answer` and returns true if one sample bounds the distance as narrowly as asked. It is along the pair's first
+/// direction, which the seed then keeps, if that is new, in place of features: vertices that only maps name are no better start
+/// than none. `seen` becomes the sample, on the level pair where GJK on maps would begin.
 template <class Pair>
 [[gnu::always_inline]] static inline bool sample_suffices(const Pair& pair, const Line& line, const StopRule& asked,
                                                           PairSeed& seed, AxisSample& seen, Answer& answer) {
-  const double length = norm(line.in_a);
-  const Place at = mapped_for(pair, asked, length);
+  const Place at = mapped_for(pair, asked, norm(line.in_a));
   const PairView view = pair.view_at(at);
-  // Along a direction that is off by an angle, a bound is less by about half the angle's square times what is `length` long.
-  const bool serves = knows_direction(seed, line.in_a, max(kSameLine * kSameLine, 1 - asked.allowed(length) / length));
-  const Vec along = serves ? direction(seed) : vec(pair.first_direction(line, seed));
-  seen = sample_axis(view, pair.a.level(at.level_a), pair.b.level(at.level_b), along);
+  seen = sample_axis(view, pair.a.level(at.level_a), pair.b.level(at.level_b), vec(pair.first_direction(line, seed)));
   Answer found;
   take_sample(pair, view, at, seen, found);
   if (!asked.narrow(found.lower, found.upper)) return false;

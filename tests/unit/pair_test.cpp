@@ -225,7 +225,8 @@ TEST(UnitSeparatingAxis, AnswersAtOneSampleOrNotAtAll) {
     const CubesAlongX at(x);
     PairSeed seed;
     AxisSample seen;
-    return separating_axis(at.pair, at.pair.line().in_a, {0, 0, 0, 0}, seed, seen, answer);
+    Line line = at.pair.line();
+    return separating_axis(at.pair, line, {0, 0, 0, 0}, seed, seen, answer);
   };
   Answer apart, together;
   EXPECT_TRUE(asked(3, apart));
