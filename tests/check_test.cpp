@@ -19,6 +19,7 @@
 #include <swiftlet/check.h>
 #include <swiftlet/depth.h>
 
+#include "bodies.h"
 #include "forgeries.h"
 #include "oracle.h"
 #include "shapes.h"
@@ -575,6 +576,20 @@ TEST(Check, AcceptsWhatIsToldWithoutLevelZero) {
     }
   }
   EXPECT_GE(overlaps, 1000);
+}
+
+/// A rotation that is not quite orthonormal stretches the ball around B too.
+TEST(Check, TakesTheBallOfACutModelAsTheRotationStretchesIt) {
+  const bodies::Polyhedron octahedron = bodies::octahedron(), box = bodies::box(1.5, 1.5, 1.5);
+  const LevelArrays levels[] = {octahedron.level(), box.level()};
+  const Model whole = Model::from_levels(levels).value(), cut = whole.cut({1.01 * whole.level(1).deviation});
+  ASSERT_EQ(cut.finest_level(), 1);
+  const Body origin = Body::point({0, 0, 0});
+  const Pose stretched{(1 + 0x1p-21) * Mat3::Identity(), {3, 0, 0}};
+  Answer s = distance(origin, cut, stretched);
+  EXPECT_EQ(check(origin, cut, stretched, s).message, "");
+  s.lower = 2, s.normal = {1, 0, 0};
+  EXPECT_NE(check(origin, cut, stretched, s).message, "") << "the distance is 2 - 2^-21";
 }
 
 /// Where the supports of maps prove bounds as narrow as an exact answer's, the points may lie on edges, along which the last

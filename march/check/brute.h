@@ -32,23 +32,23 @@ inline const Check kPassed{true, ""};
 
 /// Returns the largest dot product of `direction` and a vertex, where `place` maps vertices to the common frame.
 template <class Placing>
-static inline DoubleDouble reach(std::span<const Vertex> vertices, const Wide& direction, Placing place) {
+static inline DoubleDouble reach(std::span<const Vertex> vertices, const Wide& direction, Placing place, double = 0) {
   DoubleDouble most = dot(direction, place(vec(vertices[0])));
   for (const Vertex& v : vertices) {
     if (const DoubleDouble h = dot(direction, place(vec(v))); h > most) most = h;
   }
   return most;
 }
-/// Returns how far the exact hull reaches along `direction`; if level 0 is absent, an upper bound, the least reach of the
-/// levels present and of the ball around the body, each of which encloses it.
+/// Returns how far the exact hull reaches along `direction`, which is `length` long in the body's frame; if level 0 is absent,
+/// an upper bound, the least reach of the levels present and of the ball around the body, each of which encloses it.
 template <class Placing>
-static inline DoubleDouble reach(const Shape& body, const Wide& direction, Placing place) {
+static inline DoubleDouble reach(const Shape& body, const Wide& direction, Placing place, double length) {
   const bool is_cut = body.finest_level() > 0;
   DoubleDouble least = reach(body.level(body.finest_level()).view.vertices, direction, place);
   const auto encloses = [&](const DoubleDouble& h) { least = least > h ? h : least; };
   for (int i = body.finest_level() + 1; is_cut && i < body.level_count(); ++i)
     encloses(reach(body.level(i).view.vertices, direction, place));
-  if (is_cut) encloses(dot(direction, place(vec(body.level(0).view.centre))) + body.radius() * norm(rounded(direction)));
+  if (is_cut) encloses(dot(direction, place(vec(body.level(0).view.centre))) + body.radius() * length);
   return least;
 }
 
@@ -56,8 +56,10 @@ static inline DoubleDouble reach(const Shape& body, const Wide& direction, Placi
 template <class Vertices>
 static inline double gap_along(const Vertices& a, const Vertices& b, const Motion& b_in_a, const Vec& n) {
   const Wide direction = wide(n);
-  const DoubleDouble most_a = reach(a, direction, [](const Vec&p) { return wide(p); }),
-                     least_b = -reach(b, -direction, [&](const Vec&p) { return wide(b_in_a, p); });
+  const auto placed = [&](const Vec& p) { return wide(b_in_a, p); };
+  const DoubleDouble most_a = reach(
+                         a, direction, [](const Vec&p) { return wide(p); }, norm(n)),
+                     least_b = -reach(b, -direction, placed, norm(rotate_back(b_in_a, n)));
   return double(least_b - most_a) / norm(n);
 }
 
