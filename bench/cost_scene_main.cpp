@@ -35,7 +35,8 @@ int main(int argc, char** argv) {
   if (argc < 6 || argc > 9) {
     return std::fputs(
                "swiftlet_cost_scene CACHE fat|plate|long TRIANGLES STEP PREFIX [DEVIATION [RATE [LEVELS]]]\n"
-               "step 400: random; d and a step: overlapping by 0.01 of the shortest semi-axis; o and a step: by far.\n"
+               "step 400: random; d and a step: overlapping by 0.01 of the shortest semi-axis; o and a step: by far;\n"
+               "g and a step: 0.01 apart.\n"
                "0 for the deviation or the rate: none. Prints what the model of lod/cost.h expects.\n",
                stderr),
            2;
@@ -45,13 +46,14 @@ int main(int argc, char** argv) {
   if (argc > 7 && std::atof(argv[7]) > 0) options.rate = std::atof(argv[7]);
   if (argc > 8) options.max_levels = std::atoi(argv[8]);
   const Shelf shelf(argv[1], options);
-  const bool deep = argv[4][0] == 'd', far = argv[4][0] == 'o';
-  const double step = std::atof(argv[4] + (deep || far));
+  const bool deep = argv[4][0] == 'd', far = argv[4][0] == 'o', near = argv[4][0] == 'g';
+  const double step = std::atof(argv[4] + (deep || far || near));
   const auto triangles = std::uint32_t(std::atoi(argv[3]));
   for (const shapes::Family family : shapes::kFamilies) {
     if (std::string(argv[2]) != shapes::name(family)) continue;
     constexpr Extent kExtent{4, 500};
     Scene scene = deep          ? shallow(shelf, family, triangles, step, 0.01 * shapes::semi_axes(family).minCoeff(), kExtent)
+                  : near        ? at_distance(shelf, family, triangles, kClose, step, kExtent)
                   : step == 400 ? random_poses(shelf, family, triangles, kExtent)
                                 : orbit(shelf, family, triangles, 2, step, kExtent);
     if (far) scene = overlapping(std::move(scene));
