@@ -69,9 +69,11 @@ class Ellipsoids {
                                                      const Vec4& before, const Vec4& n) {
   const double length = norm(line);
   const Vec4 turn = line * (1 / length) - before;
-  if (a.is_round && b.is_round) return n + turn;
-  const Ellipsoids::Inverse inverse = Ellipsoids(a, b, b_in_a).inverse(n, line);
-  const Vec4 turned = n + inverse * turn * (length / inverse.determinant);
+  Vec4 turned = n + turn;
+  if (!a.is_round || !b.is_round) {
+    const Ellipsoids::Inverse inverse = Ellipsoids(a, b, b_in_a).inverse(n, line);
+    turned = n + inverse * turn * (length / inverse.determinant);
+  }
   return has_range(dot(turned, turned)) ? turned : n;
 }
 

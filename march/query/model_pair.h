@@ -32,8 +32,8 @@ struct PairOf {
   [[gnu::always_inline]] Vec4 first_direction(const Line& line, const PairSeed& seed) const {
     return swiftlet::first_direction(seed, a.level(0), b.level(0), motion, line);
   }
-  [[gnu::always_inline]] Vec4 turned_direction(const Line& line, const PairSeed& seed) const {
-    return swiftlet::turned_direction(seed, a.level(0), b.level(0), motion, line.in_a);
+  [[gnu::always_inline]] Vec4 new_direction(const Line& line, const PairSeed& seed) const {
+    return swiftlet::new_direction(seed, a.level(0), b.level(0), motion, line.in_a);
   }
   /// The finest levels that the query may read.
   int finest_a() const { return finest(a); }

@@ -122,20 +122,18 @@ static inline bool knows_direction(const PairSeed& seed, const Vec& line) {
   const double along = dot(now, was);
   return along > 0 && along * along > kSameLine * kSameLine * dot(now, now) * dot(was, was);
 }
-/// The direction stored in `seed`, turned with the line of centres.
-static inline Vec4 turned_direction(const PairSeed& seed, const Level& a, const Level& b, const Motion& b_in_a,
-                                    const Vec& line) {
+/// About the direction of the distance, at any length: the one stored in `seed`, turned with the line of centres, or, where it
+/// is unknown or old, the one between ellipsoids. Takes the bodies' levels 0.
+static inline Vec4 new_direction(const PairSeed& seed, const Level& a, const Level& b, const Motion& b_in_a, const Vec& line) {
   constexpr double kOne = 1 / kLineUnit;
+  if (!knows_direction(seed, line)) return between_ellipsoids(a, b, b_in_a, vec4(line));
   return turned_with_line(a, b, b_in_a, vec4(line), vec4(seed.line_in_a.data()) * kOne, vec4(seed.normal.data()) * kOne);
 }
-/// About the direction of the distance, at any length, along which a cold start samples first: the one stored in `seed` while
-/// its features would serve, that turned with the line of centres, or, where it is unknown or old, the one between ellipsoids.
-/// Takes the bodies' levels 0.
+/// That along which a cold start samples first: the one stored in `seed` while its features would serve, else a new one.
 static inline Vec4 first_direction(const PairSeed& seed, const Level& a, const Level& b, const Motion& b_in_a,
                                    const Line& line) {
-  if (!knows_direction(seed, line.in_a)) return between_ellipsoids(a, b, b_in_a, vec4(line.in_a));
-  const bool serves = turn_of(line, seed, a, b, Warm::Near) != Turn::Far;
-  return serves ? vec4(direction(seed)) : turned_direction(seed, a, b, b_in_a, line.in_a);
+  const bool serves = knows_direction(seed, line.in_a) && turn_of(line, seed, a, b, Warm::Near) != Turn::Far;
+  return serves ? vec4(direction(seed)) : new_direction(seed, a, b, b_in_a, line.in_a);
 }
 
 /// The feature that stands for `feature` of `level` one level finer (`child`) or coarser (`parent`).

@@ -41,37 +41,44 @@ static inline void take_sample(const Pair& pair, const PairView& view, const Pla
   answer.levels_visited = 1;
 }
 
-/// Fills `answer` and returns true if the bodies are proved to be farther apart than `asked.above`: along the seed's direction,
-/// along that turned with the line of centres, which the seed then keeps, or, if it is unknown or old, along the line of
-/// centres. `line` has its first half, and may get the second. `seen` becomes the last sample, on the finest pair with maps;
-/// where these leave in doubt what is likely, after climbs.
+/// Samples again, on the finest pair with maps, where the first sample `seen` proves less than `least`: along a new direction,
+/// which the seed then keeps, and by climbs where only the maps leave it in doubt. Between round bodies the line of centres,
+/// which is then sampled, is as good as any. `line` has its first half, and gets the second.
+[[maybe_unused, gnu::noinline]] static bool clears_elsewhere(const ModelPair& pair, double least, bool knows, Line& line,
+                                                             PairSeed& seed, AxisSample& seen, std::uint32_t& plane_tests) {
+  const Place at = pair.finest_mapped();
+  const Level &of_a = pair.a.level(at.level_a), &of_b = pair.b.level(at.level_b);
+  const PairView view = pair.view_of(of_a, of_b);
+  const bool has_better = knows || !of_a.is_round || !of_b.is_round;
+  if (has_better) seen = sample_axis(view, of_a, of_b, vec(pair.new_direction(line, seed)));
+  if (!(seen.lower > least)) {
+    // Supports along the line of centres are likely to be apart only if those that maps name are by a quarter of their doubt.
+    if (!(has_better ? seen.gap > least : 3 * seen.gap + seen.lower > 4 * least)) return false;
+    seen = climbed(view, seen, plane_tests);
+    if (!(seen.lower > least)) return false;
+  }
+  store(turned_line(vec4(line.in_a), pair.motion), line.in_b);
+  remember(line, seen.normal, seed);
+  return true;
+}
+/// Fills `answer` and returns true if the bodies are proved to be farther apart than `asked.above`: along the seed's direction
+/// or, if that is unknown or old, along the line of centres, or elsewhere. `line` has its first half, and may get the second.
+/// `seen` becomes the last sample, on the finest pair with maps.
 template <class Pair>
 static inline bool separating_axis(const Pair& pair, Line& line, const StopRule& asked, PairSeed& seed, AxisSample& seen,
                                    Answer& answer) {
   const Place at = pair.finest_mapped();
-  const int level_a = at.level_a, level_b = at.level_b;
-  const Level &of_a = pair.a.level(level_a), &of_b = pair.b.level(level_b);
-  const PairView view = pair.view_at(at);
   const double least = max(asked.above, 0) + pair.law_two();
-  const auto clears = [&](const Vec& direction) {
-    seen = sample_axis(view, of_a, of_b, direction);
-    return seen.lower > least;
-  };
-  const bool known = knows_direction(seed, line.in_a);
-  const auto climbs = [&] {
-    // Supports along the line of centres are likely to be apart only if those that maps name are by a quarter of the maps'
-    // doubt.
-    if (!(known ? seen.gap > least : 3 * seen.gap + seen.lower > 4 * least)) return false;
-    in_general(pair, [&](const ModelPair& general) { seen = climbed(general.view_at(at), seen, answer.plane_tests); });
-    return seen.lower > least;
-  };
-  if (!(known && clears(direction(seed)))) {
-    if (!clears(known ? vec(pair.turned_direction(line, seed)) : Vec(line.in_a)) && !climbs()) return false;
-    if (known) {
-      store(turned_line(vec4(line.in_a), pair.motion), line.in_b);
-      remember(line, seen.normal, seed);
-    }
+  const PairView view = pair.view_at(at);
+  const bool knows = knows_direction(seed, line.in_a);
+  seen = sample_axis(view, pair.a.level(at.level_a), pair.b.level(at.level_b), knows ? direction(seed) : Vec(line.in_a));
+  bool clears = seen.lower > least;
+  if (!clears) {
+    in_general(pair, [&](const ModelPair& general) {
+      clears = clears_elsewhere(general, least, knows, line, seed, seen, answer.plane_tests);
+    });
   }
+  if (!clears) return false;
   take_sample(pair, view, at, seen, answer);
   answer.status = Status::Beyond;
   return true;
