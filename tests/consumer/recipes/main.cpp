@@ -168,6 +168,16 @@ void two_steps_of_contact(const Model& pyramid) {
   }
 }
 
+Pose pose_of(const Eigen::Isometry3d& motion) { return {motion.linear(), motion.translation()}; }
+Pose pose_of(const Eigen::Quaterniond& turn, const Vec3& shift) { return {turn.normalized().toRotationMatrix(), shift}; }
+
+void poses_of_eigen() {
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.5, Vec3(0.6, 0, 0.8)));
+  const Vec3 shift(1, 2, 3);
+  const Pose left = pose_of(Eigen::Isometry3d(Eigen::Translation3d(shift) * turn)), right = pose_of(turn, shift);
+  expect((left.rotation - right.rotation).norm() < 1e-15 && left.translation == right.translation, "both are one motion");
+}
+
 void seeds(const Model& a, const Model& b) {
   swiftlet::PairSeed seed;  // cold; lives as long as the pair
   std::uint32_t warm = 0, cold = 0;
@@ -189,10 +199,10 @@ void asked_of_one_pair(const Model& a, const Model& b, const Pose& b_in_a) {
   const auto near = swiftlet::within(a, b, b_in_a, 0.05, seed).decision;          // Yes, No, Undecided within rounding
   const auto verdict = swiftlet::intersects(a, b, b_in_a, seed).verdict;          // Disjoint, Touching, Overlapping: proved
   const auto ids = swiftlet::closest_features(a, b, b_in_a, seed).source_a;       // the user's own vertices and triangles
-  const auto depth = swiftlet::signed_distance(a, b, b_in_a, seed);               // below 0: so deep, along its normal
-  const auto deep = swiftlet::signed_within(a, b, b_in_a, -0.01, seed).decision;  // deeper than that?
-  const auto contact = swiftlet::manifold(a, b, b_in_a, depth);                   // of bodies that touch: where, by four points
-  const auto holds = swiftlet::check(a, b, b_in_a, exact);                        // recomputes all that an answer claims
+  const auto depth = swiftlet::signed_distance(a, b, b_in_a, seed);               // depth.h: below 0, so deep, along its normal
+  const auto deep = swiftlet::signed_within(a, b, b_in_a, -0.01, seed).decision;  // depth.h: Yes, at least so deep
+  const auto contact = swiftlet::manifold(a, b, b_in_a, depth);                   // manifold.h: where bodies touch, by four points
+  const auto holds = swiftlet::check(a, b, b_in_a, exact);                        // check.h: recomputes all that an answer claims
   expect(rough.upper - rough.lower <= 0.01 * rough.lower, "rough is within 1 %");
   expect(exact.upper - exact.lower <= swiftlet::tolerance(a, b, b_in_a) && bool(holds), "exact is exact, and holds");
   expect(near == swiftlet::Decision::No && deep == near && verdict == swiftlet::Verdict::Disjoint, "they are apart");
@@ -385,6 +395,7 @@ int main(int, char** arguments) {
   const auto rough = many_poses(a, b, poses);
   for (std::size_t i = 0; i < poses.size(); ++i)
     expect(rough[i].lower <= cold[i].upper && cold[i].lower <= rough[i].upper, "at every pose the interval is true");
+  poses_of_eigen();
   seeds(a, a);
   asked_of_one_pair(a, b, poses[0]);
   swiftlet::PairSeed seed;
