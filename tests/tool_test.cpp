@@ -356,6 +356,26 @@ TEST_F(Tool, RefusesToWriteOntoItsInput) {
   refuses_onto("draw", "cube.off", "./cube.off");
 }
 
+TEST_F(Tool, AFileIsCalledWhatItIsOrByNoFormatsName) {
+  const auto misnamed = [this](const std::string& word, const std::string& out, const std::string& extension) {
+    refuses(word + " -o " + out, "is a " + extension + " file", 2);
+  };
+  for (const char* out : {"b.off", "b.STL", "b.swm", "b.svg"}) misnamed("cut a.swl", out, ".swl");
+  misnamed("export a.swl", "b.swl", ".off");
+  misnamed("export a.swl", "b.obj", ".off");
+  misnamed("draw a.swl", "b.off", ".svg");
+  says("cut a.swl -o b.txt");  // read by its first bytes
+  EXPECT_EQ(says_json("info b.txt")["hash"], says_json("info a.swl")["hash"]);
+  EXPECT_EQ(says_json("distance b.txt a.swl --pose 3,0,0")["lower"], says_json("distance a.swl a.swl --pose 3,0,0")["lower"]);
+  if (!kBuilds) return;
+  before_ = names();
+  for (const char* out : {"b.off", "b.swm", "b.obj"}) misnamed("build cube.off", out, ".swl");
+  for (const char* out : {"b.off", "b.swl"}) misnamed("build --mesh cube.off", out, ".swm");
+  refuses("decompose cube.off --draw b.off", "is a .svg file", 2);
+  says("build cube.off --quiet -o hull");
+  EXPECT_EQ(says_json("info hull")["levels"], says_json("info cube.off")["levels"]);
+}
+
 TEST_F(Tool, LeavesAloneWhatLiesBesideItsOutput) {
   const std::string model = content(folder_ / "a.swl");
   write(folder_ / "b.part", model);

@@ -128,6 +128,7 @@ Result<Output> build_mesh_file(const Request& request) {
 
 Result<Output> build_word(const Request& request) {
   if (const auto may = may_write(path_of(request.out), path_of(request.in)); !may) return may.error();
+  expect_name(request.out, request.mesh ? ".swm" : ".swl");
   if (request.mesh) return build_mesh_file(request);
   BuildOptions options = request.options;
   if (request.threads > 1) options.executor = on_threads(request.threads);

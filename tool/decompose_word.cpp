@@ -109,6 +109,7 @@ Result<Output> decompose_file(const Request& request) {
   using Clock = std::chrono::steady_clock;
   if (!request.picture.empty()) {
     if (const auto may = may_write(path_of(request.picture), path_of(request.in)); !may) return may.error();
+    expect_name(request.picture, ".svg");
   }
   const Result<MeshModel> mesh = mesh_at(request.in);
   if (!mesh) return mesh.error();

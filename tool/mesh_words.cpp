@@ -277,7 +277,6 @@ Result<Output> export_mesh(const LoadedMesh& body, const std::filesystem::path& 
 }
 
 Result<Output> cut_mesh(const std::string& path, const std::string& to, const Detail& detail, bool salvaging) {
-  if (const auto may = may_write(path_of(to), path_of(path)); !may) return may.error();
   std::string note;
   const Result<MeshModel> cut = [&]() -> Result<MeshModel> {
     if (!salvaging) return load_mesh(path_of(path), detail);

@@ -11,9 +11,14 @@
 #endif
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <string>
@@ -25,15 +30,44 @@
 #include <swiftlet/mesh.h>
 #include <swiftlet/model_file.h>
 
+#include "body/block.h"
 #include "body/file.h"
 #include "pose_text.h"
 #include "text.h"
 
 namespace swiftlet::tool {
+namespace {
+
+/// Whether the builder reads such files as meshes.
+bool is_mesh_format(const std::string& extension) {
+  constexpr const char* kFormats[] = {".obj", ".off", ".stl", ".ply", ".tri", ".poly"};
+  return std::any_of(std::begin(kFormats), std::end(kFormats), [&](const char* format) { return extension == format; });
+}
+
+/// Whether a file is a model, or is called one.
+bool is_model(const std::filesystem::path& path) {
+  if (path.extension() == ".swl") return true;
+  std::error_code ignored;  // a fifo waits to be opened
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  std::ifstream file(path, std::ios::binary);
+  std::array<std::byte, 8> start{};
+  file.read(reinterpret_cast<char*>(start.data()), start.size());
+  return file && is_model_block(start);
+}
+
+}  // namespace
 
 bool is_mesh(const std::filesystem::path& path) {
   std::error_code ignored;  // a fifo waits to be opened
   return path.extension() == ".swm" || (std::filesystem::is_regular_file(path, ignored) && is_mesh_file(path));
+}
+
+void expect_name(const std::string& path, const char* extension) {
+  std::string found = utf8(path_of(path).extension());
+  std::transform(found.begin(), found.end(), found.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  const bool is_others = is_mesh_format(found) || found == ".swl" || found == ".swm" || found == ".svg";
+  if (is_others && found != extension)
+    throw CLI::ValidationError(path + ": what is written is a " + extension + " file, and no " + found + " file");
 }
 
 namespace {
@@ -46,12 +80,12 @@ Result<LoadedBody> open(const std::string& path, const ModelOfMesh& model_of_mes
     if (!mesh) return mesh.error();
     return LoadedBody(LoadedMesh{path, std::move(mesh).value()});
   }
-  const bool is_model = path_of(path).extension() == ".swl";
-  if (!is_model && !model_of_mesh)
+  const bool is_ours = is_model(path_of(path));
+  if (!is_ours && !model_of_mesh)
     return in_file(path,
                    {ErrorCode::BadFormat,
                     "is no .swl model and no .swm mesh, and this tool was made without the builder that reads mesh files"});
-  Result<Model> model = is_model ? load(path_of(path)) : model_of_mesh(path_of(path));
+  Result<Model> model = is_ours ? load(path_of(path)) : model_of_mesh(path_of(path));
   if (!model) return model.error();
   return LoadedBody(LoadedModel{path, std::move(model).value()});
 }
@@ -73,14 +107,15 @@ Action on_body(CLI::App& word, const ModelOfMesh& model_of_mesh, Do act) {
   };
 }
 
-/// The same that writes a file: act(body, path).
+/// The same that writes a file called so: act(body, path).
 template <class Do>
-Action on_body_to_file(CLI::App& word, const ModelOfMesh& model_of_mesh, const char* help, Do act) {
+Action on_body_to_file(CLI::App& word, const ModelOfMesh& model_of_mesh, const char* extension, const char* help, Do act) {
   const auto in = std::make_shared<std::string>(), out = std::make_shared<std::string>();
   word.add_option("X", *in, kBodyHelp)->required();
   word.add_option("-o,--output", *out, help)->required();
-  return [in, out, model_of_mesh, act]() -> Result<Output> {
+  return [in, out, extension, model_of_mesh, act]() -> Result<Output> {
     if (const auto may = may_write(path_of(*out), path_of(*in)); !may) return may.error();
+    expect_name(*out, extension);
     const Result<LoadedBody> body = open(*in, model_of_mesh);
     if (!body) return body.error();
     return std::visit([&](const auto& loaded) -> Result<Output> { return act(loaded, path_of(*out)); }, body.value());
@@ -114,11 +149,11 @@ Action declare_export(CLI::App& word, const ModelOfMesh& model_of_mesh) {
       return export_mesh(body, out);
     }
   };
-  return on_body_to_file(word, model_of_mesh, "the OFF file to write; its doubles read back bit for bit", write);
+  return on_body_to_file(word, model_of_mesh, ".off", "the OFF file to write; its doubles read back bit for bit", write);
 }
 
 Action declare_draw(CLI::App& word, const ModelOfMesh& model_of_mesh) {
-  return on_body_to_file(word, model_of_mesh, "the SVG file to write",
+  return on_body_to_file(word, model_of_mesh, ".svg", "the SVG file to write",
                          [](const auto& body, const std::filesystem::path& out) { return draw_file(body, out); });
 }
 
@@ -201,7 +236,10 @@ Action declare_cut(CLI::App& word, const ModelOfMesh&) {
   add_detail(word, request->detail);
   word.add_flag("--salvage", request->salvage, "take what is complete of a file that ends early, and say what is missing");
   return [request]() -> Result<Output> {
-    const auto write = is_mesh(path_of(request->in)) ? cut_mesh : cut;
+    const bool of_mesh = is_mesh(path_of(request->in));
+    if (const auto may = may_write(path_of(request->out), path_of(request->in)); !may) return may.error();
+    expect_name(request->out, of_mesh ? ".swm" : ".swl");
+    const auto write = of_mesh ? cut_mesh : cut;
     return write(request->in, request->out, request->detail, request->salvage);
   };
 }

@@ -39,6 +39,10 @@ CLI::Validator number_in(double least, double most, const std::string& said);
 /// Whether a file is a mesh of `build --mesh`, or is called one.
 bool is_mesh(const std::filesystem::path& path);
 
+/// Refuses, as a fault of the command line, to write a file of the format `extension` under the name of another: .swl, .swm,
+/// .svg or a mesh file's. Other names may be as they are, since what a file is its first bytes tell.
+void expect_name(const std::string& path, const char* extension);
+
 /// The options --deviation and --bytes.
 void add_detail(CLI::App& word, Detail& detail);
 

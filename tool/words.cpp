@@ -352,7 +352,6 @@ Result<Output> export_level(const LoadedModel& body, int level, const std::files
 }
 
 Result<Output> cut(const std::string& path, const std::string& to, const Detail& detail, bool salvaging) {
-  if (const auto may = may_write(path_of(to), path_of(path)); !may) return may.error();
   std::string note;
   Result<Model> model = [&]() -> Result<Model> {
     if (!salvaging) return load(path_of(path), detail);

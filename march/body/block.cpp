@@ -326,11 +326,15 @@ std::string take_source(std::span<const std::byte> block, const Headers& h, Sour
 
 }  // namespace
 
+bool is_model_block(std::span<const std::byte> start) {
+  return start.size() >= sizeof kMagic && std::memcmp(start.data(), kMagic, sizeof kMagic) == 0;
+}
+
 Result<Headers> BlockReader::read_headers(std::span<const std::byte> start) {
   Headers h;
   if (start.size() < sizeof h.block) return bad("too short for a swiftlet model");
   std::memcpy(&h.block, start.data(), sizeof h.block);
-  if (std::memcmp(h.block.magic, kMagic, sizeof kMagic) != 0) return bad("not a swiftlet model");
+  if (!is_model_block(start)) return bad("not a swiftlet model");
   if (h.block.version != kModelFileVersion) {
     return Error{ErrorCode::BadVersion, "model version " + std::to_string(h.block.version) + ", this library reads version " +
                                             std::to_string(kModelFileVersion) +

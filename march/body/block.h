@@ -83,6 +83,9 @@ struct Headers {
   int finest(const Detail& detail) const;
 };
 
+/// Whether these first bytes are those of a block, of whatever version.
+bool is_model_block(std::span<const std::byte> start);
+
 /// An error text if a file of `bytes` bytes is not exactly the block that its headers describe, else empty.
 std::string length_fault(const Headers& headers, std::uint64_t bytes);
 
