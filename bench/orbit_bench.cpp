@@ -10,6 +10,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -566,12 +567,18 @@ void goals(const Arguments& arguments, const Field& field, const Shelf& shelf, R
   }
 }
 
+constexpr const char* kGroups[] = {"goals", "depth", "manifold", "orbit", "wide", "error", "triangles", "scenes",
+                                   "fig5",  "fig6",  "fig7",     "fig8",  "fig9", "fig10", "fig11",     "fig12"};
+
 void usage(std::FILE* out) {
   std::fputs(
       "swiftlet_bench [--quick | --all] [--only GROUP]... [--largest TRIANGLES] [--wrong] [--cache DIR] [--meshes DIR]\n"
-      "               [--results DIR]\n"
-      "groups: goals depth manifold orbit wide error triangles scenes fig5 fig6 fig7 fig8 fig9 fig10 fig11 fig12\n"
-      "        (fig11 and fig12 need fig6 to fig10 beside them)\n"
+      "               [--results DIR]\n",
+      out);
+  std::fputs("groups:", out);
+  for (const char* group : kGroups) std::fprintf(out, " %s", group);
+  std::fputs(
+      "\n        (fig11 and fig12 need fig6 to fig10 beside them; ./run bench has mesh and layer, too)\n"
       "--quick  1000 queries a round, three steps; --all adds 200000 triangles and peers in every cell\n"
       "--largest 200000  of the groups triangles and goals: beyond 20000 without --all, with --quick\n"
       "--wrong  adds a method that is 1e-6 off: the table must flag it\n",
@@ -588,7 +595,12 @@ std::optional<Arguments> parse(int argc, char** argv) {
     } else if (word == "--all") {
       arguments.size = Arguments::Size::All;
     } else if (word == "--only") {
-      arguments.only.insert(next());
+      const std::string group = next();
+      if (std::find(std::begin(kGroups), std::end(kGroups), group) == std::end(kGroups)) {
+        std::fprintf(stderr, "--only: there is no group \"%s\"\n", group.c_str());
+        return std::nullopt;
+      }
+      arguments.only.insert(group);
     } else if (word == "--wrong") {
       arguments.wrong = true;
     } else if (word == "--largest") {
