@@ -259,7 +259,7 @@ std::string table(std::span<const Row> rows) {
   std::string result = format("\n%s: %s, %s; %zu queries a round; floor %.1f ns\n", first.group.c_str(), first.scene.c_str(),
                               name(first.question), first.queries, first.floor_ns);
   result += format("  %-26s %9s %6s %7s %8s %6s %6s %8s %8s %7s %8s  %s\n", "", "ns", "spread", "/floor", "error/r", "wrong",
-                   "failed", "steps", "tests", "B/tri", "build s", "hash");
+                   "failed", first.question == Question::Manifold ? "points" : "steps", "tests", "B/tri", "build s", "hash");
   for (const Row& r : rows) {
     result += format("  %-26s %9.1f %5.0f%% %7.2f %8.1e %6zu %6zu %8.2f %8.1f %7.1f %8.3g  %08llx%s\n", r.series.c_str(), r.ns,
                      100 * r.spread, r.ratio(), r.error, r.wrong, r.failed, r.steps, r.plane_tests, r.bytes, r.build_seconds,

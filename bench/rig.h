@@ -57,7 +57,7 @@ struct Row {
   bool flagged = false;  ///< a failure, a wrong verdict, or an error beyond what the method states or was allowed
   std::uint64_t hash = 0;
   bool hash_true = false;             ///< every answer right to 0.5e-9 radii
-  double steps = 0, plane_tests = 0;  ///< per query
+  double steps = 0, plane_tests = 0;  ///< per query; of manifolds `steps` are the points
   double bytes = 0;                   ///< on the heap, per triangle
   double build_seconds = 0;
   int levels = 1;  ///< of the first body
