@@ -46,7 +46,7 @@ std::optional<Error> problem(const Mesh& mesh) {
     for (const double x : mesh.points[v]) {
       if (std::abs(x) > kMostCoordinate) {
         std::ostringstream text;
-        text << "vertex " << v << " has the coordinate " << x;
+        text << "vertex " << v << " has the coordinate " << x << ", beyond the limit of " << kMostCoordinate;
         return Error{ErrorCode::BadValue, text.str()};
       }
     }

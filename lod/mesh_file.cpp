@@ -9,6 +9,7 @@
 #include <array>
 #include <bit>
 #include <cctype>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -17,6 +18,7 @@
 #include <map>
 #include <new>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 namespace swiftlet {
@@ -25,6 +27,7 @@ namespace {
 /// Thrown by the readers, caught in mesh_of_bytes.
 struct Damage {
   std::string what;
+  ErrorCode code = ErrorCode::BadFormat;
 };
 
 struct Soup {
@@ -95,7 +98,10 @@ class Words {
     if (!at_end()) fail(std::string("more after the last ") + last + ": " + shown(next()));
   }
 
-  [[noreturn]] void fail(const std::string& what) const { throw Damage{"line " + std::to_string(line_) + ": " + what}; }
+  std::size_t line() const { return line_; }
+  [[noreturn]] void fail(const std::string& what, ErrorCode code = ErrorCode::BadFormat) const {
+    throw Damage{"line " + std::to_string(line_) + ": " + what, code};
+  }
 
   template <class Number>
   Number number(const std::string& what) {
@@ -106,6 +112,11 @@ class Words {
   Number number_on_line(const std::string& what) {
     const std::string_view word = next_on_line();
     return parse<Number>(word, word, what);
+  }
+  double coordinate(std::string_view word, const std::string& what) const {
+    const double value = parse<double>(word, word, what);
+    if (!std::isfinite(value)) fail(shown(word) + " is not finite, expected " + what, ErrorCode::BadValue);
+    return value;
   }
   /// Of a part of a word.
   template <class Number>
@@ -119,11 +130,12 @@ class Words {
     fail("expected " + what + ", not " + shown(word));
   }
   Vec3 point(const std::string& what) {
-    const double x = number<double>(what), y = number<double>(what), z = number<double>(what);
+    const double x = coordinate(next(), what), y = coordinate(next(), what), z = coordinate(next(), what);
     return {x, y, z};
   }
   Vec3 point_on_line(const std::string& what) {
-    const double x = number_on_line<double>(what), y = number_on_line<double>(what), z = number_on_line<double>(what);
+    const double x = coordinate(next_on_line(), what), y = coordinate(next_on_line(), what),
+                 z = coordinate(next_on_line(), what);
     return {x, y, z};
   }
 
@@ -231,12 +243,13 @@ Soup read_off(std::string_view bytes) {
   return soup;
 }
 
+constexpr const char* kNoObjVertex = " is no vertex: they count from 1, or back from -1, and ";
+
 /// A corner of an OBJ face is v, v/t, v//n or v/t/n, counted from 1 or, if negative, back from the last vertex read.
 std::uint64_t obj_corner(const Words& words, std::string_view word, std::size_t vertex_count) {
   const auto index = words.parse<long long>(word.substr(0, word.find('/')), word, "a vertex");
   const long long count = static_cast<long long>(vertex_count);
-  if (index == 0 || index < -count)
-    words.fail(shown(word) + " is no vertex: they count from 1, or back from -1, and " + std::to_string(count) + " are read");
+  if (index == 0 || index < -count) words.fail(shown(word) + kNoObjVertex + std::to_string(count) + " are read");
   return std::uint64_t(index > 0 ? index - 1 : index + count);
 }
 
@@ -254,6 +267,11 @@ bool is_other_obj_word(std::string_view word) {
 Soup read_obj(std::string_view bytes) {
   Words words(text_of(bytes), '#', 1, '\\');
   Soup soup;
+  struct {
+    std::uint64_t vertex = 0;
+    std::string_view word;
+    std::size_t line = 0;
+  } last;  // the vertex that most must come before
   while (!words.at_end()) {
     const std::string_view keyword = words.next();
     if (keyword == "v") {
@@ -261,8 +279,11 @@ Soup read_obj(std::string_view bytes) {
       words.skip_numbers(kObjColumns);
     } else if (keyword == "f") {
       soup.polygons.emplace_back();
-      for (std::string_view word = words.next_on_line(); !word.empty(); word = words.next_on_line())
-        soup.polygons.back().push_back(obj_corner(words, word, soup.points.size()));
+      for (std::string_view word = words.next_on_line(); !word.empty(); word = words.next_on_line()) {
+        const std::uint64_t vertex = obj_corner(words, word, soup.points.size());
+        if (vertex > last.vertex) last = {vertex, word, words.line()};
+        soup.polygons.back().push_back(vertex);
+      }
     } else if (is_other_obj_word(keyword)) {
       while (!words.next_on_line().empty()) {
       }
@@ -270,6 +291,9 @@ Soup read_obj(std::string_view bytes) {
       words.fail("OBJ has no word " + shown(keyword));
     }
   }
+  if (last.line > 0 && last.vertex >= soup.points.size())
+    throw Damage{"line " + std::to_string(last.line) + ": " + shown(last.word) + kNoObjVertex +
+                 std::to_string(soup.points.size()) + " are there"};
   return soup;
 }
 
@@ -491,6 +515,12 @@ class PlyBody {
     if (!std::all_of(rest.begin(), rest.end(), is_space))
       throw Damage{"goes on after its last element, with " + std::to_string(rest.size()) + " bytes"};
   }
+  /// A number that must be finite, of `what`.
+  void expect_finite(double value, const std::string& what) const {
+    if (std::isfinite(value)) return;
+    if (text_) words_.fail(what + " is not finite", ErrorCode::BadValue);
+    throw Damage{what + " is not finite", ErrorCode::BadValue};
+  }
   /// A size or an index.
   std::uint64_t count(PlyType type, const std::string& what) {
     const double value = next(type);
@@ -538,7 +568,9 @@ Soup read_ply(std::string_view file) {
       for (const PlyProperty& property : element.properties) {
         if (!property.size_type) {
           const double value = body.next(property.type);
-          if (const int k = coordinate_of(property); k < 3) point[k] = value;
+          const int k = coordinate_of(property);
+          if (k < 3) point[k] = value;
+          if (k < 3 && vertices) body.expect_finite(value, numbered("vertex ", i, element.count));
           continue;
         }
         const bool corners = faces && (property.name == "vertex_indices" || property.name == "vertex_index");
@@ -598,7 +630,7 @@ Result<Mesh> lod::mesh_of_bytes(std::string_view bytes, const std::string& exten
   if (const Reader read = reader_of(extension)) return checked(read(bytes));
   return Error{ErrorCode::BadFormat, "unknown extension \"" + extension + "\"; known are .obj .off .stl .ply .tri .poly"};
 } catch (const Damage& damage) {
-  return Error{ErrorCode::BadFormat, damage.what};
+  return Error{damage.code, damage.what};
 } catch (const std::bad_alloc&) {
   return Error{ErrorCode::TooLarge, "is too large for this machine's memory"};
 }
@@ -616,9 +648,12 @@ Result<Mesh> read_mesh(const std::filesystem::path& path) try {
     const std::filesystem::file_status status = std::filesystem::status(path, failure);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
       return named({ErrorCode::CannotRead, "is no regular file"});
+    errno = 0;
     std::ifstream file(path, std::ios::binary);
+    const int cause = errno;
+    if (!file) return named({ErrorCode::CannotRead, cause ? std::generic_category().message(cause) : "cannot be opened"});
     const std::uintmax_t size = std::filesystem::file_size(path, failure);
-    if (!file || failure) return named({ErrorCode::CannotRead, "cannot be opened"});
+    if (failure) return named({ErrorCode::CannotRead, failure.message()});
     if (size > bytes.max_size()) throw std::bad_alloc();
     bytes.resize(std::size_t(size));
     if (!file.read(bytes.data(), std::streamsize(size))) return named({ErrorCode::CannotRead, "cannot be read to its end"});

@@ -142,7 +142,19 @@ TEST(MeshFile, NoPointsIsAnError) {
 }
 
 TEST(MeshFile, NonFiniteVertexIsNamed) {
-  expect_error(read("n.tri", "TRI 2 0  0 0 0  0 nan 0"), ErrorCode::BadValue, "vertex 1");
+  expect_error(read("n.tri", "TRI 2 0  0 0 0  0 nan 0"), ErrorCode::BadValue,
+               "line 1: \"nan\" is not finite, expected three coordinates of vertex 1 of 2");
+  expect_error(read("n.off", "OFF\n2 0 0\n0 0 0\n0 inf 0\n"), ErrorCode::BadValue, "line 4: \"inf\" is not finite");
+  expect_error(read("n.obj", "v 0 0 0\nv 0 0 -inf\n"), ErrorCode::BadValue, "line 2: \"-inf\" is not finite");
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  expect_error(read("n.ply", header + "0 0 0\n0 nan 0\n"), ErrorCode::BadValue, "line 9: vertex 1 of 2 is not finite");
+}
+
+TEST(MeshFile, ObjFacesNameVerticesAsTheFileDoes) {
+  expect_error(read("f.obj", "v 0 0 0\nv 1 0 0\nf 1 2 7\nv 0 1 0\nv 0 0 1\n"), ErrorCode::BadFormat,
+               "line 3: \"7\" is no vertex: they count from 1, or back from -1, and 4 are there");
+  EXPECT_TRUE(read("f.obj", "v 0 0 0\nv 1 0 0\nf 1 2/1 3\nv 0 1 0\n")) << "a face may come before its vertices";
 }
 
 TEST(MeshFile, TextFaultsNameTheLine) {
