@@ -187,6 +187,7 @@ TEST_F(Tool, RefusesBadPosesInOneLine) {
   write(folder_ / "sheared", "1 0 0 0\n0 1 0.01 0\n0 0 1 0\n");
   write(folder_ / "mirror", "1 0 0 0\n0 1 0 0\n0 0 -1 0\n");
   write(folder_ / "short", "1 0 0 0\n0 1 0 0\n");
+  write(folder_ / "letter", "1 0 0 0\n0 1 O 0\n0 0 1 0\n");
   write(folder_ / "words", "one two three\n");
   write(folder_ / "far", "1 0 0 1e46\n0 1 0 0\n0 0 1 0\n");
   write(folder_ / "tiny", "1 0 0 1e-400\n0 1 0 0\n0 0 1 0\n");
@@ -203,7 +204,8 @@ TEST_F(Tool, RefusesBadPosesInOneLine) {
   bad("sheared", "off by 0.01");
   bad("mirror", "mirror image");
   bad("short", "8 numbers");
-  bad("words", "no number");
+  bad("words", "words holds \"one\" in line 1, which is no number");
+  bad("letter", "letter holds \"O\" in line 2, which is no number");
   bad("nowhere", "neither");
   bad("1e46,0,0", "translates by more than 1e+45");
   bad("0,0,-2e45,1,0,0,0", "translates by more than 1e+45");
@@ -220,6 +222,7 @@ TEST_F(Tool, RefusesWhatIsWrongInOneLine) {
   refuses("", "say a word");
   refuses("fly", "no word \"fly\"");
   refuses("--fly", "no word");
+  refuses("--beyond 3", "options follow the word");
   refuses("info", "required");
   refuses("info a.swl --fly", "--fly");
   refuses("info nowhere.swl", "nowhere.swl");
@@ -250,6 +253,17 @@ TEST_F(Tool, AnOptionOutOfItsRangeIsExitCodeTwo) {
     refuses(std::string("build cube.off -o c.swl ") + option, name, 2);
   }
   refuses("info nowhere.swl", "nowhere.swl", 1);
+  for (const char* option : {"--cutoff", "--map", "--bytes", "--mesh --hull-triangles", "--mesh --hull-patches"})
+    refuses("build cube.off -o c " + std::string(option) + " -1", "-1 is no number from 0 up", 2);
+}
+
+TEST_F(Tool, HelpTellsWhatGoesTogetherAndTheExitCodes) {
+  EXPECT_NE(says("--help").find("exit code"), std::string::npos);
+  EXPECT_EQ(says("info --help").find("WORD --help"), std::string::npos);
+  const std::string help = says("distance --help");
+  EXPECT_EQ(help.find("Excludes:"), std::string::npos);
+  EXPECT_NE(help.find("at most this; not with --relative-error"), std::string::npos) << help;
+  EXPECT_NE(help.find("; needs --contacts"), std::string::npos) << help;
 }
 
 TEST_F(Tool, KeepsTheOldFileWhenItFails) {
@@ -474,6 +488,8 @@ TEST_F(Tool, BuildRefusesWhatIsWrongInOneLine) {
   write(folder_ / "damaged.off", "OFF\n3 1 0\n0 0\n");
   before_ = names();
   refuses("build cube.off", "output");
+  refuses("build none.off -o c.swl", "none.off: No such file or directory", 1);
+  refuses("cut cube.off -o c.swl", "cube.off: is a mesh file; cut takes", 1);
   refuses("build nowhere.off -o c.swl", "nowhere.off");
   refuses("build empty.off -o c.swl", "empty.off");
   refuses("build damaged.off -o c.swl", "damaged.off");

@@ -150,14 +150,16 @@ void declare_hulls(CLI::App& word, Request& request) {
           ->capture_default_str()
           ->check(number_in(1, 16, "from 1 to 16")),
       word.add_option("--hull-triangles", o.least_triangles, "no node of fewer triangles has a hull, but the root")
-          ->capture_default_str(),
+          ->capture_default_str()
+          ->check(not_negative()),
       word.add_option("--hull-bytes", o.bytes_per_triangle,
                       "hulls may make the file as large as so many bytes a triangle; those of most triangles come first")
           ->capture_default_str()
           ->check(number_in(0, std::numeric_limits<double>::max(), "from 0 up")),
       word.add_option("--hull-patches", o.least_patch,
                       "where convex patches hold so many triangles in the mean, they have hulls of their own; 0: never")
-          ->capture_default_str()};
+          ->capture_default_str()
+          ->check(not_negative())};
   CLI::Option* const none = word.add_flag("--no-hulls", request.no_hulls, "no hulls: sooner built, slower asked from afar");
   for (CLI::Option* const option : about_hulls) none->excludes(option);
 }
@@ -187,7 +189,7 @@ Action declare_build(CLI::App& word) {
   word.add_option("--rate", o.rate,
                   "triangles of a level over those of the one before, between 0 and 1; none: as queries like it")
       ->check(number_in(std::nextafter(0.0, 1.0), std::nextafter(1.0, 0.0), "between 0 and 1"));
-  word.add_option("--cutoff", o.cutoff, "no level has fewer triangles")->capture_default_str();
+  word.add_option("--cutoff", o.cutoff, "no level has fewer triangles")->capture_default_str()->check(not_negative());
   word.add_option("--levels", o.max_levels, "at most so many, level 0 included, 1 to 32")
       ->capture_default_str()
       ->check(number_in(1, 32, "from 1 to 32"));
@@ -196,7 +198,8 @@ Action declare_build(CLI::App& word) {
       ->check(number_in(0, std::numeric_limits<double>::max(), "from 0 up"));
   add_detail(word, o.detail);
   word.add_option("--map", o.table.map_cells, "entries of the support maps per vertex, 0 to 64; 0: no maps")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(not_negative());
   add_choice(word, "--table", tables, o.table.resolution, "none", "degrees between the samples of the paper's start table");
   word.add_option("--radius-factor", o.table.radius_factor, "its samples lie on a sphere of so many bounding radii, 1 to 1e6")
       ->capture_default_str()

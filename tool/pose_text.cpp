@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -29,21 +30,33 @@ struct Numbers {
   std::vector<double> values;
   std::string beyond;        ///< the first that no double is near
   bool only_numbers = true;  ///< `values` is all there is
+  std::string word{};        ///< else the first that is no number,
+  std::size_t line = 1;      ///< and the line it stands on
 };
+
+constexpr std::size_t kMostShown = 40;  ///< characters of a word, in a message
 
 /// Between any two numbers stand blanks or a comma.
 Numbers read_numbers(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r\n";
+  const std::string_view whole = text;
   Numbers read;
   const auto skip_blanks = [&] { text.remove_prefix(std::min(text.find_first_not_of(kBlank), text.size())); };
   for (skip_blanks(); !text.empty(); skip_blanks()) {
     if (!read.values.empty() && text.front() == ',') text.remove_prefix(1), skip_blanks();
+    const std::string_view word = text.substr(0, text.find_first_of(" \t\r\n,"));
     if (text.starts_with('+')) text.remove_prefix(1);
     const ReadNumber next = read_number(text);
     if (next.is_beyond && read.beyond.empty()) read.beyond = text.substr(0, next.length);
     text.remove_prefix(next.length);
     read.only_numbers = next.length > 0 && (text.empty() || text.front() == ',' || kBlank.find(text.front()) != kBlank.npos);
-    if (!read.only_numbers) break;
+    if (!read.only_numbers) {
+      read.word = word.substr(0, kMostShown);
+      for (char& c : read.word)
+        if (!std::isprint(static_cast<unsigned char>(c))) c = '?';
+      read.line += std::size_t(std::count(whole.data(), word.data(), '\n'));
+      break;
+    }
     read.values.push_back(next.value);
   }
   return read;
@@ -102,7 +115,8 @@ Result<Pose> filed_pose(const std::string& path) {
   const std::string content{std::istreambuf_iterator<char>(file), {}};
   const Numbers read = read_numbers(content);
   const std::vector<double>& values = read.values;
-  if (!read.only_numbers) return bad_pose(path, "holds something that is no number");
+  if (!read.only_numbers)
+    return bad_pose(path, "holds \"" + read.word + "\" in line " + std::to_string(read.line) + ", which is no number");
   if (!read.beyond.empty()) return beyond_range(path, read);
   if (values.size() != 12) return bad_pose(path, "holds " + std::to_string(values.size()) + " numbers; a row-major 3x4 has 12");
   if (!all_finite(values)) return bad_pose(path, "is not finite");

@@ -21,6 +21,7 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -37,6 +38,11 @@
 
 namespace swiftlet::tool {
 namespace {
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return text;
+}
 
 /// Whether the builder reads such files as meshes.
 bool is_mesh_format(const std::string& extension) {
@@ -63,8 +69,7 @@ bool is_mesh(const std::filesystem::path& path) {
 }
 
 void expect_name(const std::string& path, const char* extension) {
-  std::string found = utf8(path_of(path).extension());
-  std::transform(found.begin(), found.end(), found.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string found = lower(utf8(path_of(path).extension()));
   const bool is_others = is_mesh_format(found) || found == ".swl" || found == ".swm" || found == ".svg";
   if (is_others && found != extension)
     throw CLI::ValidationError(path + ": what is written is a " + extension + " file, and no " + found + " file");
@@ -190,12 +195,11 @@ Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
       word.add_option("--max-error", request->asked.query.absolute, "stop when upper - lower is at most this");
   const auto relative =
       word.add_option("--relative-error", request->asked.query.relative, "stop when upper - lower is at most this times lower");
-  const CLI::Validator not_negative = number_in(0, std::numeric_limits<double>::infinity(), "from 0 up");
-  absolute->check(not_negative)->excludes(relative);
-  relative->check(not_negative);
+  absolute->check(not_negative())->excludes(relative);
+  relative->check(not_negative());
   const auto beyond =
       word.add_option("--beyond", request->asked.query.beyond, "stop when the distance is proved greater than this");
-  beyond->check(not_negative);
+  beyond->check(not_negative());
   const auto levels = word.add_flag(
       "--levels", request->asked.levels,
       "show what each level pair proved, coarsest first, and how long a query takes that stops there; of models only");
@@ -236,7 +240,10 @@ Action declare_cut(CLI::App& word, const ModelOfMesh&) {
   add_detail(word, request->detail);
   word.add_flag("--salvage", request->salvage, "take what is complete of a file that ends early, and say what is missing");
   return [request]() -> Result<Output> {
-    const bool of_mesh = is_mesh(path_of(request->in));
+    const std::filesystem::path in = path_of(request->in);
+    const bool of_mesh = is_mesh(in);
+    if (!of_mesh && !is_model(in) && is_mesh_format(lower(utf8(in.extension()))))
+      return in_file(request->in, {ErrorCode::BadFormat, "is a mesh file; cut takes what build makes of it, .swl or .swm"});
     if (const auto may = may_write(path_of(request->out), path_of(request->in)); !may) return may.error();
     expect_name(request->out, of_mesh ? ".swm" : ".swl");
     const auto write = of_mesh ? cut_mesh : cut;
@@ -281,6 +288,26 @@ class Utf8Arguments {
   std::vector<char*> pointers_;
 };
 
+/// Tells which options go together where an option is described, so that its name stays in its column.
+class Help : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string opts = CLI::Formatter::make_option_opts(option);
+    return opts.substr(0, std::min(opts.find(" Needs:"), opts.find(" Excludes:")));
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return CLI::Formatter::make_option_desc(option) + listed("; needs", option->get_needs()) +
+           listed("; not with", option->get_excludes());
+  }
+
+ private:
+  static std::string listed(const char* what, const std::set<CLI::Option*>& options) {
+    std::string text = options.empty() ? "" : what;
+    for (const CLI::Option* option : options) text.append(" ").append(option->get_name());
+    return text;
+  }
+};
+
 /// Tells why there is no output, in one line on stderr or as JSON on stdout, whatever the message holds.
 class Failure {
  public:
@@ -318,6 +345,7 @@ std::string word_fault(int argc, char** argv, const std::vector<Word>& words, bo
     if (first == word.name) return {};
   if (first == "build" && !has_builder)
     return "this tool was made without the builder (SWIFTLET_LOD=OFF) and has no word build";
+  if (first.starts_with('-')) return "\"" + first + "\" is no word; options follow the word, which is one of " + names(words);
   return "there is no word \"" + first + "\"; there are " + names(words);
 }
 
@@ -329,7 +357,7 @@ int run(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const
   CLI::App app("Convex bodies at several levels of detail: how near are they, as precisely as asked?", "swiftlet");
   app.set_version_flag("--version", "swiftlet " SWIFTLET_VERSION);
   app.require_subcommand(1);
-  app.footer("swiftlet WORD --help tells a word's options.");
+  app.formatter(std::make_shared<Help>());
   bool as_json = false;
   Action chosen;
   for (const Word& word : words) {
@@ -337,6 +365,9 @@ int run(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const
     sub->add_flag("--json", as_json, "print JSON");
     sub->final_callback([action = word.declare(*sub), &chosen] { chosen = action; });
   }
+  app.footer(
+      "swiftlet WORD --help tells a word's options. The exit code is 0 where the word did what was asked, 1 where it failed,\n"
+      "2 where the command line is wrong.");
   try {
     app.parse(argc, argv);
     const Result<Output> output = chosen();
@@ -362,12 +393,15 @@ CLI::Validator number_in(double least, double most, const std::string& said) {
   return {fault, ""};
 }
 
+CLI::Validator not_negative() { return number_in(0, std::numeric_limits<double>::infinity(), "from 0 up"); }
+
 void add_detail(CLI::App& word, Detail& detail) {
   word.add_option("--deviation", detail.deviation, "keep no level finer than the coarsest that deviates less; 0: all")
       ->capture_default_str()
-      ->check(number_in(0, std::numeric_limits<double>::infinity(), "from 0 up"));
+      ->check(not_negative());
   word.add_option("--bytes", detail.bytes,
-                  "keep no level that these first bytes of the whole model do not hold, but the coarsest");
+                  "keep no level that these first bytes of the whole model do not hold, but the coarsest")
+      ->check(not_negative());
 }
 
 int run_tool(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const Word> more_words) {

@@ -35,6 +35,8 @@ using ModelOfMesh = std::function<Result<Model>(const std::filesystem::path&)>;
 
 /// Refuses what is no number in [least, most]: "... is no number SAID".
 CLI::Validator number_in(double least, double most, const std::string& said);
+/// Refuses what is no number from 0 up.
+CLI::Validator not_negative();
 
 /// Whether a file is a mesh of `build --mesh`, or is called one.
 bool is_mesh(const std::filesystem::path& path);
