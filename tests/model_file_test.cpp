@@ -44,6 +44,11 @@ ErrorCode code_of(const Result<Model>& m) {
   return m.error().code;
 }
 
+TEST_F(ModelFile, ReadingAValueThatIsAbsentTellsWhy) {
+  EXPECT_DEATH_IF_SUPPORTED((void)load("nowhere.swl").value(), "swiftlet: nowhere.swl: ");
+  EXPECT_DEATH_IF_SUPPORTED((void)Result<int>(1).error(), "there is no error");
+}
+
 TEST_F(ModelFile, ComesBackBitForBit) {
   const Model all[] = {small(),
                        nested(3),

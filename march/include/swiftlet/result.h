@@ -3,7 +3,8 @@
 // `Result`: what functions return where data enters the library, either a value or an error with one sentence on what is wrong.
 #pragma once
 
-#include <cassert>
+#include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <utility>
 #include <variant>
@@ -32,7 +33,8 @@ struct Error {
   std::string file{};   ///< path of the file at fault, as the caller gave it; empty: no file is at fault
 };
 
-/// Holds a value or an `Error`. Reading the one that is absent is misuse and asserts.
+/// Holds a value or an `Error`. Reading the one that is absent is misuse, and ends the program in any build: the error's
+/// message goes to stderr, then `std::abort` is called.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -43,28 +45,33 @@ class [[nodiscard]] Result {
 
   /// Returns true if there is a value.
   explicit operator bool() const { return state_.index() == 0; }
-  /// Returns the value. Asserts that there is one.
+  /// Returns the value. There must be one.
   T& value() & {
-    assert(*this);
+    if (!*this) end(std::get<1>(state_).message.c_str());
     return std::get<0>(state_);
   }
-  /// Returns the value, read only. Asserts that there is one.
+  /// Returns the value, read only. There must be one.
   const T& value() const& {
-    assert(*this);
+    if (!*this) end(std::get<1>(state_).message.c_str());
     return std::get<0>(state_);
   }
-  /// Returns the value, to be moved out of a temporary result. Asserts that there is one.
+  /// Returns the value, to be moved out of a temporary result. There must be one.
   T&& value() && {
-    assert(*this);
+    if (!*this) end(std::get<1>(state_).message.c_str());
     return std::get<0>(std::move(state_));
   }
-  /// Returns the error. Asserts that there is one.
+  /// Returns the error. There must be one.
   const Error& error() const {
-    assert(!*this);
+    if (*this) end("there is no error, there is a value");
     return std::get<1>(state_);
   }
 
  private:
+  [[noreturn]] static void end(const char* message) {
+    std::fprintf(stderr, "swiftlet: %s\n", message);
+    std::abort();
+  }
+
   std::variant<T, Error> state_;
 };
 
