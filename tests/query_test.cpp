@@ -280,5 +280,20 @@ TEST(Distance, RefusesPosesThatAreNone) {
   }
 }
 
+TEST(Distance, AToleranceThatIsNoneAsksForAnExactAnswer) {
+  const Model body = cube();
+  const Pose pose{Mat3::Identity(), {3, 0.25, 0.5}};
+  const Answer exact = distance(body, body, pose);
+  for (const double none : {std::nan(""), -1.0, -HUGE_VAL}) {
+    for (const Options& options : {Options{.absolute = none}, Options{.relative = none}}) {
+      const Answer answer = distance(body, body, pose, options);
+      EXPECT_EQ(answer.status, Status::Converged);
+      EXPECT_LE(answer.upper - answer.lower, tolerance(body, body, pose));
+      EXPECT_EQ(answer.lower, exact.lower);
+    }
+  }
+  EXPECT_EQ(within(body, body, pose, std::nan("")).decision, Decision::Undecided);
+}
+
 }  // namespace
 }  // namespace swiftlet

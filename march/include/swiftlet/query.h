@@ -99,7 +99,8 @@ struct Tuning {
                                    ///< rests on such a proof; else its `count` becomes 0
 };
 
-/// Options of a distance query. The default asks for an exact answer, whose interval is no wider than `tolerance`.
+/// Options of a distance query. The default asks for an exact answer, whose interval is no wider than `tolerance`. An
+/// `absolute` or `relative` that is NaN or negative asks for the same.
 struct Options {
   double absolute = 0;  ///< stop when upper - lower <= max(absolute, relative * (the bound nearer to 0)); the bodies' unit
   double relative = 0;  ///< a fraction of the bound nearer to 0
@@ -178,7 +179,8 @@ struct Within {
   Answer answer;                            ///< its interval is only as narrow as the decision needs
 };
 
-/// Decides whether the distance is at most `threshold` (>= 0). Ends at the first level pair that decides it.
+/// Decides whether the distance is at most `threshold` (>= 0). Ends at the first level pair that decides it. Of a threshold
+/// that is NaN the decision is Undecided, whatever the status.
 Within within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, PairSeed& seed, const Effort& effort = {});
 /// Decides from a cold start whether the distance is at most `threshold` (>= 0).
 Within within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, const Effort& effort = {});
