@@ -201,8 +201,8 @@ void asked_of_one_pair(const Model& a, const Model& b, const Pose& b_in_a) {
   const auto ids = swiftlet::closest_features(a, b, b_in_a, seed).source_a;       // the user's own vertices and triangles
   const auto depth = swiftlet::signed_distance(a, b, b_in_a, seed);               // depth.h: below 0, so deep, along its normal
   const auto deep = swiftlet::signed_within(a, b, b_in_a, -0.01, seed).decision;  // depth.h: Yes, at least so deep
-  const auto contact = swiftlet::manifold(a, b, b_in_a, depth);                   // manifold.h: where bodies touch, by four points
-  const auto holds = swiftlet::check(a, b, b_in_a, exact);                        // check.h: recomputes all that an answer claims
+  const auto contact = swiftlet::manifold(a, b, b_in_a, depth);                   // manifold.h: where they touch: four points
+  const auto holds = swiftlet::check(a, b, b_in_a, exact);                        // check.h: recomputes what an answer claims
   expect(rough.upper - rough.lower <= 0.01 * rough.lower, "rough is within 1 %");
   expect(exact.upper - exact.lower <= swiftlet::tolerance(a, b, b_in_a) && bool(holds), "exact is exact, and holds");
   expect(near == swiftlet::Decision::No && deep == near && verdict == swiftlet::Verdict::Disjoint, "they are apart");
