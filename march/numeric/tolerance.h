@@ -291,8 +291,8 @@ inline constexpr int kGjkLimit = 400, kProgressPatience = 8;
 /// An Automatic start walks from the seed's features while the line of centres turned by no more than `kWarmEdges` edges of a
 /// body, at half a step each; a cold start costs about five steps. That of a round body, whose first direction costs next to
 /// nothing, is worth it from `kWarmEdgesRound` edges on; on a level without a support map it descends from a coarser level and
-/// costs twice as much: `kWarmEdgesUnmapped` edges. A depth's cold start costs more too: it walks from twice as far. A walk of
-/// `kTrialSteps` is given up for a cold start (ski rental).
+/// costs twice as much: `kWarmEdgesUnmapped` edges. Those of a verdict and of a depth cost more too: they walk from twice as
+/// far. A walk of `kTrialSteps` is given up for a cold start (ski rental).
 inline constexpr double kWarmEdges = 5, kWarmEdgesRound = 3, kWarmEdgesUnmapped = 12;
 /// A seed keeps its line of centres until that has turned by this many edges.
 inline constexpr double kSameEdges = 0.5;

@@ -6,7 +6,9 @@
 
 #include <cmath>
 
-#include "body/support_map.h"
+#include <swiftlet/model.h>
+
+#include "numeric/tolerance.h"
 #include "numeric/vec4.h"
 
 namespace swiftlet {
@@ -26,7 +28,7 @@ class Ellipsoids {
     of_b_ = squared({turn.x * f[0] + turn.y * f[1] + turn.z * f[2], turn.y * f[3] + turn.z * f[4], turn.z * f[5]});
   }
 
-  /// The adjugate of K(n), and its determinant, which is positive.
+  /// The inverse of K(n): its adjugate, by which it multiplies, and its determinant, which is positive.
   struct Inverse {
     Columns adjugate;
     double determinant;

@@ -65,7 +65,8 @@ struct PairSeed {
   FeatureId a, b;                                        ///< features of A and B, on `level_a` and `level_b`
   std::array<std::int16_t, 3> line_in_a{}, line_in_b{};  ///< unit line of centres, times 32767: A to B in A's frame, B to A
                                                          ///< in B's; a query drops the features if it turned far
-  std::array<std::int16_t, 3> normal{};                  ///< normal of the answer, times 32767; tried as a separating axis
+  std::array<std::int16_t, 3> normal{};                  ///< normal of the answer, times 32767; tried again, also turned with
+                                                         ///< the line of centres
   std::uint8_t level_a = 0, level_b = 0;                 ///< the levels of `a` and `b`
   std::uint8_t met = 0;                                  ///< not 0: the bodies overlapped
   std::array<std::uint32_t, 4> inside_a{}, inside_b{};   ///< pairs of vertices of level 0 that proved it, tried again:
