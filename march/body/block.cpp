@@ -29,8 +29,8 @@ struct FreeAligned {
   void operator()(std::byte* p) const { ::operator delete[](p, alignment); }
 };
 
-/// Zeroed bytes that begin a cache line, or, where they fill one, a large page, which Linux is asked for: a query of a large
-/// body reads some 20 small pages, more than a processor remembers the places of.
+/// Zeroed bytes that begin a cache line, or, where they fill one, a large page, which Linux is asked for: queries of a large
+/// body read some 20 small pages each, and the TLB holds few of the body's pages.
 std::shared_ptr<std::byte[]> zeroed(std::size_t size) {
   constexpr std::size_t kLargePage = std::size_t{1} << 21;
   const std::align_val_t alignment{size < kLargePage ? 64 : kLargePage};

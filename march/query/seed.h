@@ -133,7 +133,7 @@ static inline Vec4 new_direction(const PairSeed& seed, const Level& a, const Lev
 static inline Vec4 first_direction(const PairSeed& seed, const Level& a, const Level& b, const Motion& b_in_a,
                                    const Line& line) {
   const bool serves = knows_direction(seed, line.in_a) && turn_of(line, seed, a, b, Warm::Near) != Turn::Far;
-  return serves ? vec4(direction(seed)) : new_direction(seed, a, b, b_in_a, line.in_a);
+  return serves ? vec4(seed.normal.data()) : new_direction(seed, a, b, b_in_a, line.in_a);
 }
 
 /// The feature that stands for `feature` of `level` one level finer (`child`) or coarser (`parent`).

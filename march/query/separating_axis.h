@@ -49,7 +49,7 @@ static inline void take_sample(const Pair& pair, const PairView& view, const Pla
   const Place at = pair.finest_mapped();
   const Level &of_a = pair.a.level(at.level_a), &of_b = pair.b.level(at.level_b);
   const PairView view = pair.view_of(of_a, of_b);
-  const bool has_better = knows || !of_a.is_round || !of_b.is_round;
+  const bool has_better = knows || !pair.a.level(0).is_round || !pair.b.level(0).is_round;
   if (has_better) seen = sample_axis(view, of_a, of_b, vec(pair.new_direction(line, seed)));
   if (!(seen.lower > least)) {
     // Supports along the line of centres are likely to be apart only if those that maps name are by a quarter of their doubt.
