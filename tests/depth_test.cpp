@@ -631,5 +631,27 @@ TEST(SignedDistance, PointsAndPlaneBelongToOneOfEquallyDeepFaces) {
   }
 }
 
+/// A corner of A just beyond the edge of B's face at its deepest: the point of the facet is the corner, not one beyond it. The
+/// pose makes B 1e-10 smaller than A, about law 2's bound for such a pose.
+TEST(SignedDistance, PointsBesideAFacetAreOnTheirBodies) {
+  const Polyhedron coin = body(shapes::prism(12, 1, 0.5));
+  shapes::Random random(12);
+  for (int i = 0; i < 30; ++i) {
+    Pose pose{Mat3::Identity(), {0, 0, 0}};
+    for (double& entry : pose.rotation.reshaped()) entry += random.uniform(-1e-11, 1e-11);
+    pose.rotation.diagonal() -= Vec3(random.uniform(0, 1e-10), random.uniform(0, 1e-10), random.uniform(0, 1e-10));
+    const oracle::SignedTruth truth = truth_of(coin, coin, pose);
+    for (std::uint32_t f = 0; f < coin.model.level(0).view.face_first.size(); ++f) {
+      for (std::uint32_t v = 0; v < 24; ++v) {
+        PairSeed seed;
+        seed.met = 1;
+        seed.a = {FeatureKind::Vertex, v}, seed.b = {FeatureKind::Face, f};
+        seed.normal = {0, 0, -32767};
+        EXPECT_EQ(fault(coin, coin, pose, signed_distance(coin, coin, pose, seed), truth), "") << i << ' ' << f << ' ' << v;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace swiftlet
