@@ -5,12 +5,16 @@
 #include "manifold/largest_polygon.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "numeric/vec4.h"
 
 namespace swiftlet {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The convex hull of the candidates' places, counter-clockwise.
 class Hull {
@@ -66,6 +70,19 @@ class Hull {
     if (is_corner) corner_[std::size_t(begin_)] = Index(first);
     return is_corner;
   }
+  /// Makes `first`, which is no corner, the first one, between those of the side that makes the smallest triangle with it.
+  void begin_beside(int first) {
+    int side = 0;
+    double least = kInfinity;
+    for (int i = 0; i < size_; ++i) {
+      const double area = std::fabs(twice_area((*this)[i], (*this)[i + 1 == size_ ? 0 : i + 1], first));
+      if (area < least) least = area, side = i;
+    }
+    const auto middle = corner_.begin() + begin_, at = corner_.begin() + side + 1;
+    std::rotate(corner_.begin(), middle, corner_.begin() + size_);
+    std::copy_backward(at, corner_.begin() + size_, corner_.begin() + size_ + 1);
+    *at = Index(first), begin_ = side + 1, ++size_;
+  }
 
  private:
   using Index = std::uint8_t;
@@ -110,14 +127,10 @@ class Hull {
   std::array<Index, kMostCandidates + 1> corner_;
 };
 
-}  // namespace
-
-LargestPolygon largest_polygon(const Candidates& candidates, int first, int most, double bound, double enough) {
-  Hull hull(candidates);
+/// Returns the largest polygon of at most `most` corners of the hull, the first one of these.
+LargestPolygon best_fan(const Hull& hull, int most) {
   LargestPolygon polygon;
-  if (!(hull.twice_area() > enough)) return polygon;
-  const std::size_t size = std::size_t(hull.size()),
-                    corners = std::min(std::size_t(hull.begin_with(first, bound) ? most : most - 1), size);
+  const std::size_t size = std::size_t(hull.size()), corners = std::min(std::size_t(most), size);
   using Row = std::array<double, kMostCandidates>;
   Row x, y;                                   // of the spokes
   std::array<Row, kMostManifoldPoints> best;  // by corners after the first: twice the best fan's area, by its last corner
@@ -131,7 +144,7 @@ LargestPolygon largest_polygon(const Candidates& candidates, int first, int most
   for (std::size_t corner = 2; corner < corners; ++corner) {
     for (std::size_t last = corner; last < size; ++last) {
       const Vec2 x_last{x[last], x[last]}, y_last{y[last], y[last]};
-      Vec2 pair = {-1, -1};
+      Vec2 pair = {-kInfinity, -kInfinity};
       std::size_t i = corner - 1;
       for (; i + 1 < last; i += 2)
         pair = max(pair, load2(&best[corner - 1][i]) + (load2(&x[i]) * y_last - load2(&y[i]) * x_last));
@@ -150,6 +163,18 @@ LargestPolygon largest_polygon(const Candidates& candidates, int first, int most
   }
   polygon.corner[std::size_t(polygon.count++)] = hull[0];
   return polygon;
+}
+
+}  // namespace
+
+LargestPolygon largest_polygon(const Candidates& candidates, int first, int most, double bound, double enough) {
+  Hull hull(candidates);
+  if (!(hull.twice_area() > enough)) return {};
+  if (hull.begin_with(first, bound)) return best_fan(hull, most);
+  const LargestPolygon without = best_fan(hull, most - 1);
+  hull.begin_beside(first);
+  const LargestPolygon with = best_fan(hull, most);
+  return with.twice_area > without.twice_area ? with : without;
 }
 
 }  // namespace swiftlet
