@@ -495,20 +495,42 @@ TEST(Manifold, OfManySidesKeepsTheSharesOfTheHeader) {
   std::printf("three points keep at least %.3f, four %.3f, eight %.3f\n", worst[3], worst[4], worst[8]);
 }
 
-/// A roof of merged faces on a wide box, its ridge a point somewhere inside: beside that, the others keep what one fewer does.
+/// A roof of merged faces on a wide box.
+struct Roof {
+  std::vector<Vec3> base;
+  Model model;
+  Pose pose = at(0, 0, 1 + 1e-6);
+
+  /// `ridge`: above `base`, 1e-8 high.
+  Roof(const std::vector<Vec3>& corners, const Vec3& ridge) : base(corners), model(hull_of({ends(corners, ridge), {}})) {}
+  static std::vector<Vec3> ends(const std::vector<Vec3>& base, const Vec3& ridge) {
+    std::vector<Vec3> points{ridge - 1e-8 * Vec3::UnitZ()};
+    for (const Vec3& p : base) points.push_back(p), points.push_back(p + Vec3::UnitZ());
+    return points;
+  }
+  /// The share of the base that so many points keep.
+  double share(std::uint32_t most) const {
+    static const Model ground = bodies::model(bodies::box(3, 3, 1));
+    const Answer answer = nearest(ground, model, pose);
+    const Manifold p = manifold(ground, model, pose, answer, {.margin = 1e-3, .most_points = most});
+    expect_sound({ground, model, pose, answer}, p, (answer.point_b - answer.point_a).dot(answer.normal), 1e-3);
+    EXPECT_EQ(p.count, std::min(most, std::uint32_t(base.size()) + 1));
+    return shown_area(p) / oracle::area(base, Vec3::UnitZ());
+  }
+};
+
+/// Its ridge a point somewhere inside: beside that, the others keep what one fewer does.
 TEST(Manifold, OfARoofKeepsTheShareOfOnePointFewer) {
   Random random(20);
   constexpr double kLeast[] = {0, 0, 0, 0, 0.28, 0.5, 0, 0, 0.75};
   double worst[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
-  const Model ground = bodies::model(bodies::box(3, 3, 1));
   for (int i = 0; i < 60; ++i) {
     const int sides = 3 + i % 15;
     const double stretch = std::pow(10, random.uniform(-1, 0));
-    std::vector<Vec3> points, base;
+    std::vector<Vec3> base;
     for (int k = 0; k < sides; ++k) {
       const double angle = 2 * std::numbers::pi * (k + random.uniform(0, 0.9)) / sides;
       base.emplace_back(std::cos(angle), stretch * std::sin(angle), 0);
-      points.push_back(base.back()), points.push_back(base.back() + Vec3::UnitZ());
     }
     Vec3 ridge = Vec3::Zero();
     double sum = 0;
@@ -516,19 +538,20 @@ TEST(Manifold, OfARoofKeepsTheShareOfOnePointFewer) {
       const double weight = std::pow(random.uniform(), 3);
       ridge += weight * p, sum += weight;
     }
-    points.push_back(ridge / sum - 1e-8 * Vec3::UnitZ());
-    const Model roof = hull_of({points, {}});
-    const Pose pose = at(0, 0, 1 + 1e-6);
-    const Contacting c{ground, roof, pose, nearest(ground, roof, pose)};
+    const Roof roof(base, ridge / sum);
     for (const std::uint32_t most : {4u, 5u, 8u}) {
-      const Manifold p = manifold(ground, roof, pose, c.answer, {.margin = 1e-3, .most_points = most});
-      expect_sound(c, p, (c.answer.point_b - c.answer.point_a).dot(c.answer.normal), 1e-3);
-      EXPECT_EQ(p.count, std::min(most, std::uint32_t(sides) + 1)) << i;
-      worst[most] = std::min(worst[most], shown_area(p) / oracle::area(base, Vec3::UnitZ()));
+      worst[most] = std::min(worst[most], roof.share(most));
       EXPECT_GE(worst[most], kLeast[most]) << i;
     }
   }
   std::printf("under a roof four points keep at least %.3f, five %.3f, eight %.3f\n", worst[4], worst[5], worst[8]);
+}
+
+/// Its ridge beside a corner of a square, which four points then nearly keep: the ridge stands for the corner.
+TEST(Manifold, OfARoofKeepsASquareWhoseCornerTheRidgeIsBeside) {
+  const std::vector<Vec3> square{{1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}};
+  for (const double beside : {1e-6, 1e-4, 1e-2, 0.1})
+    EXPECT_GE(Roof(square, {1 - beside, 1 - beside / 3, 0}).share(4), 1 - beside) << beside;
 }
 
 TEST(Manifold, OfSliversIsTheIntersectionOfTheirFaces) {
