@@ -258,8 +258,8 @@ Output info(const LoadedModel& body) {
     text += format(", %.1f per triangle of level 0; level 0 alone %.1f", per_triangle(bytes, model),
                    per_triangle(model.level(0).bytes, model));
   text += "\n";
-  text += format(" of these   %zu headers, %zu support maps, %zu table, %zu the mesh's ids; levels below\n", account.headers,
-                 account.maps, account.table, account.ids);
+  text += format(" made of    the levels below, support maps %zu, the start table %zu, the mesh's ids %zu, headers %zu\n",
+                 account.maps, account.table, account.ids, account.headers);
   text += " hash       " + hash + "\n";
   text += format(" dimension  %d\n", model.dimension());
   text += " centre     " + numbers(model.centre()) + "\n radius     " + number(model.radius()) + "\n";
