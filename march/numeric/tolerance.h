@@ -297,8 +297,9 @@ inline constexpr double kWarmEdges = 5, kWarmEdgesRound = 3, kWarmEdgesUnmapped 
 /// A seed keeps its line of centres until that has turned by this many edges.
 inline constexpr double kSameEdges = 0.5;
 inline constexpr std::uint32_t kTrialSteps = 16;
-/// The seed's direction serves while the line of centres turned by less than the angle of this cosine, 8 degrees.
-inline constexpr double kSameLine = 0.99;
+/// The seed's direction serves while the line of centres turned by less than the angle of `kSameLine`, 8 degrees, and the
+/// search for another begins at it up to that of `kNearLine`, 30 degrees. Cosines.
+inline constexpr double kSameLine = 0.99, kNearLine = 0.866;
 /// A cold start steps along support maps until its two supports lie aside of each other by no more than `kNearEdges` mean edges
 /// of both bodies, but at most `kMapGjkSteps` times.
 inline constexpr double kNearEdges = 2;

@@ -36,7 +36,7 @@ class Ellipsoids {
   };
   Inverse inverse(const Vec4& n, const Vec4& line) const {
     const double wide_a = std::sqrt(dot(n, times(of_a_, n))), wide_b = std::sqrt(dot(n, times(of_b_, n))),
-                 h = max(0, (dot(n, line) - wide_a - wide_b) / dot(n, n));
+                 h = max(0, dot(n, line) - wide_a - wide_b) * (1 / dot(n, n));
     const Vec4 by_a = all(1 / wide_a), by_b = all(1 / wide_b), x = vec4(1, 0, 0) * h + of_a_.x * by_a + of_b_.x * by_b,
                y = vec4(0, 1, 0) * h + of_a_.y * by_a + of_b_.y * by_b, z = vec4(0, 0, 1) * h + of_a_.z * by_a + of_b_.z * by_b;
     const Columns adjugate{cross(y, z), cross(z, x), cross(x, y)};
@@ -56,11 +56,12 @@ class Ellipsoids {
 };
 
 /// About the direction of the distance, at any length, where `line` is the line of centres: `kEllipsoidSteps` steps take K from
-/// the last n. Between round bodies, `line`.
-[[gnu::flatten]] static inline Vec4 between_ellipsoids(const Level& a, const Level& b, const Motion& b_in_a, const Vec4& line) {
+/// the last n, the first from `from`. Between round bodies, `line`.
+[[gnu::flatten]] static inline Vec4 between_ellipsoids(const Level& a, const Level& b, const Motion& b_in_a, const Vec4& line,
+                                                       const Vec4& from) {
   if (a.is_round && b.is_round) return line;
   const Ellipsoids bodies(a, b, b_in_a);
-  Vec4 n = line;
+  Vec4 n = from;
   for (int k = 0; k < kEllipsoidSteps; ++k) n = bodies.inverse(n, line) * line;
   return has_range(dot(n, n)) ? n : line;
 }

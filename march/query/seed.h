@@ -115,19 +115,22 @@ static inline void remember(const Line& line, const Padded& normal, PairSeed& se
 static inline Vec direction(const PairSeed& seed) {
   return {double(seed.normal[0]), double(seed.normal[1]), double(seed.normal[2])};
 }
-/// True if `seed` has a direction and the line of centres has turned by less than the angle of the cosine kSameLine since.
-static inline bool knows_direction(const PairSeed& seed, const Vec& line) {
+/// True if `seed` has a direction and the line of centres has turned by less than the angle of `cosine` since.
+static inline bool knows_direction(const PairSeed& seed, const Vec& line, double cosine = kSameLine) {
   if ((seed.normal[0] | seed.normal[1] | seed.normal[2]) == 0) return false;
   const Vec4 was = vec4(seed.line_in_a.data()), now = vec4(line);
   const double along = dot(now, was);
-  return along > 0 && along * along > kSameLine * kSameLine * dot(now, now) * dot(was, was);
+  return along > 0 && along * along > cosine * cosine * dot(now, now) * dot(was, was);
 }
 /// About the direction of the distance, at any length: the one stored in `seed`, turned with the line of centres, or, where it
-/// is unknown or old, the one between ellipsoids. Takes the bodies' levels 0.
+/// is unknown or old, the one between ellipsoids, found from the stored one or, where that is older, from the line. Takes the
+/// bodies' levels 0.
 static inline Vec4 new_direction(const PairSeed& seed, const Level& a, const Level& b, const Motion& b_in_a, const Vec& line) {
+  const Vec4 stored = vec4(seed.normal.data()), now = vec4(line);
+  if (!knows_direction(seed, line))
+    return between_ellipsoids(a, b, b_in_a, now, knows_direction(seed, line, kNearLine) ? stored : now);
   constexpr double kOne = 1 / kLineUnit;
-  if (!knows_direction(seed, line)) return between_ellipsoids(a, b, b_in_a, vec4(line));
-  return turned_with_line(a, b, b_in_a, vec4(line), vec4(seed.line_in_a.data()) * kOne, vec4(seed.normal.data()) * kOne);
+  return turned_with_line(a, b, b_in_a, now, vec4(seed.line_in_a.data()) * kOne, stored * kOne);
 }
 /// That along which a cold start samples first: the one stored in `seed` while its features would serve, else a new one.
 static inline Vec4 first_direction(const PairSeed& seed, const Level& a, const Level& b, const Motion& b_in_a,
