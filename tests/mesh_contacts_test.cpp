@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contacts of meshes: scenes whose regions anyone can count, and random ones beside brute force over all pairs of triangles in
 // long doubles. What is within rounding of a region's border is decided by two brute forces, one with boxes and a reach a
-// little larger and one with a little smaller ones: where both say the same, so must the query. mesh_exact_test.cpp has exact
-// truth.
+// little larger and one with a little smaller ones. mesh_exact_test.cpp has exact truth.
 #include <swiftlet/mesh_contacts.h>
 
 #include <algorithm>
@@ -130,6 +129,23 @@ TEST(MeshContacts, AreThoseOfBruteForce) {
   }
   EXPECT_GT(told, 780);
   EXPECT_GT(many, 150);
+}
+
+/// Two patches so nearly parallel that the nearest pairs are at the reach, and all others above it by less than law 2's bound:
+/// the query counts some of these and others not, and finds four regions. The judge wanted one, as there is one region if none
+/// of them counts, and one if all do.
+TEST(Regress, RegionsOfPairsAtTheReachWereCountedByTheJudge) {
+  const Soup soup = patch(3, [](double, double) { return 0.0; });
+  const MeshModel mesh = soup.mesh();
+  Pose pose = shift(-0x1.b8201453bf0ep-5, -0x1.fa943d86c97dp-4, 0x1.284b177fa83b6p-33);
+  pose.rotation << 1, 0, 0x1.1ae57db4f79bp-49, 0, 1, 0, -0x1.1ae57db4f79bp-49, 0, 1;
+  const double law_two = tolerance(mesh, mesh, pose), reach = 0x1.2849fc9a2a866p-33 + law_two / 16;
+  const Found found = find(mesh, mesh, pose, reach);
+  EXPECT_GT(found.about.count, 1u);
+  const BrutePairs pairs(soup, soup, pose, law_two / 16, reach + law_two, {});
+  int told = 0;
+  EXPECT_EQ(fault_of(found.regions, pairs, reach, law_two, mesh, mesh, told), "");
+  EXPECT_EQ(told, 0);
 }
 
 // ---- Promises --------------------------------------------------------------------------------------------------------------

@@ -55,7 +55,7 @@ inline constexpr std::size_t kSpareRegions = 64;
 /// around both, until none meet. Those boxes are the regions: each pair within reach is in one. So a table on a floor has four
 /// regions, and a box on a floor of thousands of triangles one. Since boxes are along A's axes, a rotation of A's frame, or
 /// swapping the bodies, may join or part regions whose boxes nearly meet; a power of two changes nothing. A pair whose distance
-/// is above the reach by law 2's bound or less may count as within it.
+/// is above the reach by law 2's bound or less may count as within it, whether others do or not.
 ///
 /// Each interval is as narrow as law 2's bound, and holds the least distance of all pairs of triangles in the region. If
 /// more than `into.size() + kSpareRegions` regions are told apart at a time, the nearest are joined though they do not meet:
