@@ -64,6 +64,15 @@ bool holds(const Loop& loop, const Point2& p) {
   return true;
 }
 
+/// How far a place lies inside of a loop; 0 outside.
+double depth_in(const Loop& loop, const Point2& p, const Frame& frame) {
+  if (loop.size() < 3 || !holds(loop, p)) return 0;
+  Real least = CGAL::squared_distance(p, Kernel::Line_2(loop.back(), loop.front()));
+  for (std::size_t i = 1; i < loop.size(); ++i)
+    least = std::min(least, CGAL::squared_distance(p, Kernel::Line_2(loop[i - 1], loop[i])));
+  return std::sqrt(CGAL::to_double(least / dot(frame.u, frame.u)));
+}
+
 /// Coordinates are stretched by |u| and by |v| = |u| |n|.
 double area_of(const Loop& loop, const Frame& frame) {
   const CGAL::Polygon_2<Kernel> polygon(loop.begin(), loop.end());
@@ -73,7 +82,7 @@ double area_of(const Loop& loop, const Frame& frame) {
 }  // namespace
 
 Overlay overlay(const ConvexView& a, const std::vector<std::uint32_t>& faces_a, const ConvexView& b,
-                const std::vector<std::uint32_t>& faces_b, const Pose& b_in_a, const Vec3& n) {
+                const std::vector<std::uint32_t>& faces_b, const Pose& b_in_a, const Vec3& n, const Vec3& point) {
   const Frame frame(n);
   const Loop loop_a = seen_hull(a, faces_a, Pose{}, frame), loop_b = seen_hull(b, faces_b, b_in_a, frame);
   Loop common, hull;
@@ -93,7 +102,7 @@ Overlay overlay(const ConvexView& a, const std::vector<std::uint32_t>& faces_a, 
     }
   }
   CGAL::convex_hull_2(common.begin(), common.end(), std::back_inserter(hull));
-  return {hull.size(), hull.size() > 2 ? area_of(hull, frame) : 0};
+  return {hull.size(), hull.size() > 2 ? area_of(hull, frame) : 0, depth_in(hull, frame.seen(exact(point)), frame)};
 }
 
 double area(const std::vector<Vec3>& points, const Vec3& n) {
@@ -148,12 +157,22 @@ Vec3 face_normal(const ConvexView& body, FeatureId face) {
 
 std::vector<std::uint32_t> flat_faces(const ConvexView& body, FeatureId face, double flatness) {
   const Vec3 n = face_normal(body, face), p = sides_of(body, face.index())[0][0];
-  std::vector<std::uint32_t> faces{face.index()};
+  std::vector<bool> is_flat(body.face_first.size());
   for (std::uint32_t other = 0; other < body.face_first.size(); ++other) {
     const auto sides = sides_of(body, other);
-    const bool flat = std::all_of(sides.begin(), sides.end(),
-                                  [&](const auto& side) { return n.dot(side[0] - p) >= -flatness * body.extent; });
-    if (other != face.index() && flat && n.dot(face_normal(body, {FeatureKind::Face, other})) > 0) faces.push_back(other);
+    is_flat[other] = std::all_of(sides.begin(), sides.end(),
+                                 [&](const auto& side) { return n.dot(side[0] - p) >= -flatness * body.extent; }) &&
+                     n.dot(face_normal(body, {FeatureKind::Face, other})) > 0;
+  }
+  std::vector<std::uint32_t> faces{face.index()};
+  is_flat[face.index()] = false;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (const HalfEdge& h : body.half_edges) {
+      const std::uint32_t beside = body.half_edges[h.twin].face;
+      if (h.face != faces[i] || beside == kNone || !is_flat[beside]) continue;
+      is_flat[beside] = false;
+      faces.push_back(beside);
+    }
   }
   return faces;
 }

@@ -16,12 +16,13 @@ namespace swiftlet::oracle {
 /// What two faces have in common as a direction shows them.
 struct Overlay {
   std::size_t corners = 0;
-  double area = 0;  ///< across the direction; rounded
+  double area = 0;   ///< across the direction; rounded
+  double depth = 0;  ///< of a point of A's frame: how far it lies inside of the border, or 0; rounded
 };
 
 /// Of the hulls of all corners of some faces of each body.
 Overlay overlay(const ConvexView& a, const std::vector<std::uint32_t>& faces_a, const ConvexView& b,
-                const std::vector<std::uint32_t>& faces_b, const Pose& b_in_a, const Vec3& n);
+                const std::vector<std::uint32_t>& faces_b, const Pose& b_in_a, const Vec3& n, const Vec3& point = Vec3::Zero());
 
 /// The area of the hull of some points, as `n` shows them.
 double area(const std::vector<Vec3>& points, const Vec3& n);
@@ -33,7 +34,8 @@ double height_over(const ConvexView& body, const Pose& in_a, const Vec3& point);
 /// Of a face of the body, in its frame: unit, outwards; rounded.
 Vec3 face_normal(const ConvexView& body, FeatureId face);
 
-/// A face, and after it all others whose corners lie within `flatness` times the extent of its plane and on its side.
+/// A face, and after it all others whose corners lie within `flatness` times the extent of its plane and on its side, and that
+/// sides join to it.
 std::vector<std::uint32_t> flat_faces(const ConvexView& body, FeatureId face, double flatness);
 
 }  // namespace swiftlet::oracle

@@ -317,6 +317,26 @@ TEST(Manifold, OfNearlyCoplanarFacetsIsOneFace) {
   }
 }
 
+/// A face dented by about the flatness falls into pieces, which may touch at a corner: the border was that of another piece
+/// than the contact face's, and 0.02 of its area was left.
+TEST(Manifold, OfAFaceInPiecesIsThePieceAtTheFeatures) {
+  Random random(31);
+  const Model plate = bodies::model(bodies::box(3, 3, 1));
+  Shares shares;
+  for (int i = 0; i < 120; ++i) {
+    const double dent = std::pow(10, random.uniform(-7, -5));
+    bodies::Polyhedron dented = prism(5 + random.bits() % 60, 1, 1);
+    for (Vec3& p : dented.points) p.z() += p.z() > 0 ? dent * random.uniform() : 0;
+    Contacting c{hull_of({dented.points, {}}), plate, at(0.1, 0.2, 2.01), {}};
+    c.b_in_a.rotation = shapes::rotation(random.on_sphere(), std::pow(10, random.uniform(-7, -4)));
+    c.answer = nearest(c.a, c.b, c.b_in_a);
+    SCOPED_TRACE(i);
+    expect_true(c, shares);
+    if (testing::Test::HasFailure()) return;
+  }
+  std::printf("%d areas: four points keep at least %.3f, eight %.3f\n", shares.counted, shares.four, shares.eight);
+}
+
 /// Faces of single precision are planes with a thickness; no point leaves its body for that.
 TEST(Manifold, OfRoundedFacesLiesInBothBodies) {
   Random random(4);

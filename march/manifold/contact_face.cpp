@@ -96,26 +96,31 @@ bool ContactFace::holds(std::uint32_t face) const {
 }
 
 /// A half-edge of the contact face's border. Mostly it is a side of the face; where another facet of the same plane lies
-/// beside that, it is found by going outwards from corner to corner.
+/// beside that, it is found by going outwards from corner to corner. At a corner only those merged faces count that sides join
+/// to the one come from: others may touch it there, which belong to another piece.
 std::uint32_t ContactFace::border() const {
   const std::uint32_t first = view_.face_first[top_];
-  if (!holds(right_face(view_, first))) return first;
+  const auto is_inner = [&](std::uint32_t h) { return holds(right_face(view_, h)); };
+  if (!is_inner(first)) return first;
   const Vec out = point(view_, view_.half_edges[first].head) - point(view_, origin(view_, first));
   const auto height = [&](std::uint32_t v) { return dot(out, point(view_, v)); };
-  const auto flat = [&](std::uint32_t h) { return holds(view_.half_edges[h].face) || holds(right_face(view_, h)); };
-  std::uint32_t corner = kNone, next = view_.half_edges[first].head;
-  while (next != corner) {
-    corner = next;
+  for (std::uint32_t h = first;;) {  // leaves the corner, with a merged face on its left
+    const std::uint32_t corner = origin(view_, h);
     const Vertex& ring = view_.vertices[corner];
-    for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
-      if (height(view_.half_edges[h].head) > height(next) && flat(h)) next = view_.half_edges[h].head;
+    std::uint32_t right = h;
+    while (is_inner(right) && clockwise(ring, right) != h) right = clockwise(ring, right);
+    const bool is_border = !is_inner(right);
+    std::uint32_t next = kNone;
+    double most = height(corner);
+    for (std::uint32_t left = right;; left = counter_clockwise(ring, left)) {
+      const bool is_last = !holds(view_.half_edges[left].face);
+      if (const double of_head = height(view_.half_edges[left].head); of_head > most)
+        most = of_head, next = is_last ? view_.half_edges[left].twin : next_in_face(view_, left);
+      if (is_last || counter_clockwise(ring, left) == right) break;
     }
+    if (next == kNone) return is_border ? right : kNone;
+    h = next;
   }
-  const Vertex& ring = view_.vertices[corner];
-  for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) {
-    if (holds(view_.half_edges[h].face) && !holds(right_face(view_, h))) return h;
-  }
-  return kNone;
 }
 
 }  // namespace swiftlet

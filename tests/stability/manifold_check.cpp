@@ -133,7 +133,7 @@ std::string Judge::area_of(const Manifold& manifold, const ManifoldOptions& opti
   const ConvexView &a = a_.model.level(0).view, &b = b_.model.level(0).view;
   const oracle::Overlay truth = oracle::overlay(
       a, oracle::flat_faces(a, manifold.face_a, std::min(options.flatness, kMostFlatness)), b,
-      oracle::flat_faces(b, manifold.face_b, std::min(options.flatness, kMostFlatness)), b_in_a_, manifold.normal);
+      oracle::flat_faces(b, manifold.face_b, std::min(options.flatness, kMostFlatness)), b_in_a_, manifold.normal, points[0]);
   const double common = truth.area;
   const auto text = [&](const char* what) {
     return std::to_string(manifold.count) + what + std::to_string(shown / common) + " of the area in common";
@@ -145,7 +145,9 @@ std::string Judge::area_of(const Manifold& manifold, const ManifoldOptions& opti
     return flatness_of(options, subject) * view.extent * across * length;
   };
   const double narrow = thin(a_, a, manifold.face_a, Mat3::Identity()) + thin(b_, b, manifold.face_b, b_in_a_.rotation);
-  const double share = kShares[std::min(options.most_points, kMostManifoldPoints)] * (truth.corners > kCorners ? kKept : 1);
+  // Beside a deepest point inside of the area the others keep what one fewer does.
+  const std::uint32_t most = std::min(options.most_points, kMostManifoldPoints);
+  const double share = kShares[truth.depth > bound ? most - 1 : most] * (truth.corners > kCorners ? kKept : 1);
   return shown >= share * common - blur - narrow ? "" : text(" points keep but ");
 }
 

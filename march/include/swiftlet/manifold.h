@@ -42,11 +42,11 @@ struct Manifold {
 struct ManifoldOptions {
   double margin = 0;              ///< points with a separation above this plus `tolerance` are left out
   std::uint32_t most_points = 4;  ///< 1 to kMostManifoldPoints
-  /// A height relative to the body's extent: faces that lie within it of a body's contact face are merged into that face, so
-  /// that the two triangles of a rounded square count as one square. A face that appears narrower than this, seen from the
-  /// side, may count as a line. The default is 4 ulps of single precision, which such squares come from. The faces of a model
-  /// are already flat to 4 ulps of its input's precision: a smaller value does not split them. At most `kMostFlatness`: a
-  /// larger value counts as that.
+  /// A height relative to the body's extent: faces that lie within it of a body's contact face, and that sides join to it, are
+  /// merged into that face, so that the two triangles of a rounded square count as one square. A face that appears narrower
+  /// than this, seen from the side, may count as a line. The default is 4 ulps of single precision, which such squares come
+  /// from. The faces of a model are already flat to 4 ulps of its input's precision: a smaller value does not split them. At
+  /// most `kMostFlatness`: a larger value counts as that.
   double flatness = 0x1p-21;
 };
 
@@ -55,7 +55,7 @@ struct ManifoldOptions {
 /// best along the normal. Both contact faces are projected along the normal; the corners of their intersection are the points.
 /// If there are more than `most_points`, those are kept that have the least separation and cover most of the area: four points
 /// keep 0.6 of a round face, eight 0.87; four keep all of a square; of any face three keep at least 0.28, four 0.5, eight 0.78.
-/// A deepest point that is no corner, as merged faces may have, is one of them: the others keep what one point fewer does.
+/// A deepest point inside of the area, as merged faces may have, is one of them: the others keep what one point fewer does.
 /// Points of `previous`, this pair's last manifold, are preferred: a pair at rest keeps its points while poses are off by a few
 /// ulps of single precision. The least separation equals the answer's within `tolerance`; where the normal has turned by no
 /// more than 8 `flatness` since `previous`, within `flatness` more, for then other corners take turns as the deepest. The
