@@ -574,6 +574,33 @@ TEST(Manifold, OfARoofKeepsASquareWhoseCornerTheRidgeIsBeside) {
     EXPECT_GE(Roof(square, {1 - beside, 1 - beside / 3, 0}).share(4), 1 - beside) << beside;
 }
 
+/// A roof of merged faces whose ridge goes on beyond the other face: the deepest point is where it passes that one's border, on
+/// a side of the area. It counted as one inside, and 0.52 of a long area was left.
+TEST(Manifold, OfARidgeThatPassesTheBorderKeepsTheShareOfAllPoints) {
+  Random random(21);
+  double worst = 1;
+  for (int i = 0; i < 100; ++i) {
+    const double ridge = random.uniform(-0.1, 0.1), stretch = std::pow(10, random.uniform(-1.5, 0));
+    std::vector<Vec3> roof;
+    for (const double x : {-2, 2}) {
+      for (const double y : {-2, 2}) roof.emplace_back(x, y, 0), roof.emplace_back(x, y, 1);
+      roof.emplace_back(x, ridge * x, -1e-8);
+    }
+    bodies::Polyhedron ground = prism(6 + random.bits() % 9, 1, 1);
+    for (Vec3& p : ground.points) p.y() *= stretch;
+    const double turn = random.uniform(0, 7), lean = random.uniform(0, 7);
+    const Mat3 rotation = shapes::rotation({std::cos(lean), std::sin(lean), 0}, 2e-9) * shapes::rotation(Vec3::UnitZ(), turn);
+    const Model a = bodies::model(ground), b = hull_of({roof, {}});
+    const Pose pose = at(0, 0, 0.5 + 1e-6, rotation);
+    const Contacting c{a, b, pose, nearest(a, b, pose)};
+    const Manifold four = manifold(a, b, pose, c.answer, {.margin = 1e-3});
+    expect_sound(c, four, (c.answer.point_b - c.answer.point_a).dot(c.answer.normal), 1e-3);
+    worst = std::min(worst, shown_area(four) / oracle::area(ground.points, Vec3::UnitZ()));
+    EXPECT_GE(worst, 0.57) << i;
+  }
+  std::printf("where a ridge passes the border four points keep at least %.3f\n", worst);
+}
+
 TEST(Manifold, OfSliversIsTheIntersectionOfTheirFaces) {
   Random random(5);
   Shares shares;

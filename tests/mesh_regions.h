@@ -167,15 +167,13 @@ inline std::string fault_of(const std::vector<MeshContact>& found, const BrutePa
     if (same == wide.end()) return "a box larger than its pairs";
     if (f.upper < same->lower - little) return "upper is below the truth";
   }
-  // A pair that rounding leaves open may count or not, and each in its own way. They cannot change the number of regions if each
-  // joins one that is there without it, and no two of those are ever joined.
+  // A pair that rounding leaves open may count or not, and each in its own way. They cannot change the number of regions if
+  // each joins one that is there without it, and no two of those are ever joined.
   const auto joins = [&](const BrutePair& pair) {
     const Place place = place_of(pairs.of_a[pair.i], pairs.of_b[pair.k], reach);
     return std::any_of(narrow.begin(), narrow.end(), [&](const BruteRegion& region) { return meet(region.box, place); });
   };
-  const auto all_join = [&](const BruteRegion& region) {
-    return std::all_of(region.pairs.begin(), region.pairs.end(), joins);
-  };
+  const auto all_join = [&](const BruteRegion& region) { return std::all_of(region.pairs.begin(), region.pairs.end(), joins); };
   if (wide.size() != narrow.size() || !std::all_of(wide.begin(), wide.end(), all_join)) return {};
   ++told;
   return found.size() == wide.size() ? "" : "another count";
