@@ -77,8 +77,10 @@ class FacetProof {
     if (!(std::fabs(sum) > 0)) return kInfinity;
     turned_ = sum < 0;
     weight[1] = max(weight[1] / sum, 0), weight[2] = max(weight[2] / sum, 0);
-    if (const double both = weight[1] + weight[2]; both > 1) weight[1] /= both, weight[2] /= both;  // the sum of all stays 1
-    weight[0] = max(1 - weight[1] - weight[2], 0);
+    weight[0] = 1 - weight[1] - weight[2];
+    if (weight[0] < 0) {  // the sum stays 1
+      weight[1] = weight[1] / (1 - weight[0]), weight[2] = 1 - weight[1], weight[0] = 0;
+    }
     const Vec4 weights =
         beyond ? vec4(Vec2{weight[0], 0}, Vec2{weight[1], weight[2]}) : vec4(Vec2{weight[0], weight[1]}, Vec2{weight[2], 0});
     const auto weighed = [&weights](const V3<Vec4>& points) {
