@@ -297,9 +297,10 @@ inline constexpr double kWarmEdges = 5, kWarmEdgesRound = 3, kWarmEdgesUnmapped 
 /// A seed keeps its line of centres until that has turned by this many edges.
 inline constexpr double kSameEdges = 0.5;
 inline constexpr std::uint32_t kTrialSteps = 16;
-/// The seed's direction serves while the line of centres turned by less than the angle of `kSameLine`, 8 degrees, and the
-/// search for another begins at it up to that of `kNearLine`, 30 degrees. Cosines.
-inline constexpr double kSameLine = 0.99, kNearLine = 0.866;
+/// The seed's direction serves while the line of centres turned by less than the angle of `kSameLine`, 8 degrees. It turns with
+/// that line, between slender bodies up to the angle of `kTurnedLine`, 2 degrees: what ellipsoids tell is farther off before,
+/// and nearer after. Up to that of `kNearLine`, 30 degrees, the search between ellipsoids begins at it. Cosines.
+inline constexpr double kSameLine = 0.99, kTurnedLine = 0.9994, kNearLine = 0.866;
 /// A cold start steps along support maps until its two supports lie aside of each other by no more than `kNearEdges` mean edges
 /// of both bodies, but at most `kMapGjkSteps` times.
 inline constexpr double kNearEdges = 2;

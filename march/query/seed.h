@@ -127,7 +127,7 @@ static inline bool knows_direction(const PairSeed& seed, const Vec& line, double
 /// bodies' levels 0.
 static inline Vec4 new_direction(const PairSeed& seed, const Level& a, const Level& b, const Motion& b_in_a, const Vec& line) {
   const Vec4 stored = vec4(seed.normal.data()), now = vec4(line);
-  if (!knows_direction(seed, line))
+  if (!knows_direction(seed, line, a.is_round && b.is_round ? kSameLine : kTurnedLine))
     return between_ellipsoids(a, b, b_in_a, now, knows_direction(seed, line, kNearLine) ? stored : now);
   constexpr double kOne = 1 / kLineUnit;
   return turned_with_line(a, b, b_in_a, now, vec4(seed.line_in_a.data()) * kOne, stored * kOne);
