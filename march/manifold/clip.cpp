@@ -497,17 +497,25 @@ class Sweep {
     // All is seen as A's border sees it.
     const auto by_other = [](const Place& place) { return Place{on_a == on_b ? place.x : -place.x, place.y}; };
     const Line &a = of_a.side(), b{by_other(of_b.side().from), by_other(of_b.side().to), {by_other(of_b.side().way), 0}};
-    const double h = b.beyond(a.from), h_to = b.beyond(a.to);
-    // If the sides are nearly parallel, the first point on a is uncertain; the last one is the nearest to that on b.
-    const double t_b = b.along(a.at(h != h_to ? min(max(h / (h - h_to), 0), 1) : 0)), t_a = a.along(b.at(t_b));
-    const Place spot_b = b.at(t_b), spot = a.at(t_a);
-    const auto is_near = [&](const Place& place) { return dot(place - spot, place - spot) <= bound_ * bound_; };
-    if (is_near(a.from)) return add_corner(border, 0, of_a.seen(a.from), of_a.start().vertex(), wanted);
-    if (is_near(a.to)) return add_corner(border, 0, of_a.seen(a.to), of_a.end().vertex(), wanted);
-    if (is_near(b.from)) return add_corner(border, 1, of_a.seen(b.from), of_b.start().vertex(), wanted);
-    if (is_near(b.to)) return add_corner(border, 1, of_a.seen(b.to), of_b.end().vertex(), wanted);
+    // Where the lines cross: the parameter on a and that on b, of which neither waits for the other.
+    const Vec2 none{0, 0}, crossed = Vec2{b.beyond(a.from), -a.beyond(b.from)} / cross(b.way, a.way),
+                           t = min(max(none, crossed), Vec2{1, 1});
+    double t_a = t[0], t_b = t[1];
+    Place spot = a.at(t_a), spot_b = b.at(t_b);
+    const auto is_near = [&](const Place& place, double bound2) { return dot(place - spot, place - spot) <= bound2; };
+    const double bound2 = bound_ * bound_;
+    bool meet = is_near(spot_b, bound2);
+    if (!meet) [[unlikely]] {
+      // The sides are nearly parallel, and the point on a is uncertain: the last one is the nearest to that on b.
+      t_b = b.along(spot), spot_b = b.at(t_b), t_a = a.along(spot_b), spot = a.at(t_a);
+      meet = is_near(spot_b, 4 * bound2);
+    }
+    if (is_near(a.from, bound2)) return add_corner(border, 0, of_a.seen(a.from), of_a.start().vertex(), wanted);
+    if (is_near(a.to, bound2)) return add_corner(border, 0, of_a.seen(a.to), of_a.end().vertex(), wanted);
+    if (is_near(b.from, bound2)) return add_corner(border, 1, of_a.seen(b.from), of_b.start().vertex(), wanted);
+    if (is_near(b.to, bound2)) return add_corner(border, 1, of_a.seen(b.to), of_b.end().vertex(), wanted);
     // A corner within the bound of a side may be farther than that from where the sides cross.
-    if (dot(spot_b - spot, spot_b - spot) > 4 * bound_ * bound_) return;
+    if (!meet) return;
     const Names names(of_a.edge_at(spot), of_b.edge_at(by_other(spot_b)));
     if (!corners_.takes(names, wanted)) return;
     const double z_a = of_a.z_at(t_a), z_b = of_b.z_at(t_b);
