@@ -12,6 +12,15 @@
 namespace swiftlet {
 namespace {
 
+/// Candidates, by a bit each.
+using Set = std::uint32_t;
+static_assert(kMostCandidates < 32);
+Set bit(int i) { return Set(1) << i; }
+
+void each(Set set, auto&& visit) {
+  for (; set != 0; set &= set - 1) visit(std::countr_zero(set));
+}
+
 /// The convex hull of candidates' places, counter-clockwise; a place outside by no more than the bound does not change it.
 class Loop {
  public:
@@ -48,6 +57,32 @@ class Loop {
     double sum = 0;
     for (int side = 1; side + 1 < size_; ++side) sum -= area(side, (*this)[0]);
     return sum;
+  }
+
+  /// Makes corners of candidates, two or more, that go around clockwise, as those of a clipped area do. Returns false if they
+  /// do not, or if one may lie within the bound of the line through two others: of the rest `add` makes the same corners. The
+  /// smallest triangle of a convex polygon's corners is one of three neighbours, and its sides are shorter than the border.
+  bool go_round(Set those) {
+    const Place start = place(std::countr_zero(those));
+    Place at = start, first{0, 0}, before{0, 0};
+    double least = std::numeric_limits<double>::infinity(), length = 0;
+    int peaks = 0;
+    const auto turn = [&](const Place& way) {
+      least = min(least, cross(way, before)), length += std::fabs(way.x) + std::fabs(way.y);
+      peaks += before.y > 0 && way.y <= 0;
+      before = way;
+    };
+    put(size_++, std::countr_zero(those));
+    each(those & (those - 1), [&](int i) {
+      const Place next = place(i), way = next - at;
+      if (size_ == 1)
+        first = before = way;
+      else
+        turn(way);
+      at = next, corners_ = corners_ << 8 | std::uint64_t(i), ++size_;
+    });
+    turn(start - at), turn(first);
+    return least > bound_ * length && peaks == 1;
   }
 
   /// The corners between the sides that see the place give way to it.
@@ -106,15 +141,6 @@ class Loop {
 };
 static_assert(kMostManifoldPoints <= 8);
 
-/// Candidates, by a bit each.
-using Set = std::uint32_t;
-static_assert(kMostCandidates < 32);
-Set bit(int i) { return Set(1) << i; }
-
-void each(Set set, auto&& visit) {
-  for (; set != 0; set &= set - 1) visit(std::countr_zero(set));
-}
-
 /// Which of the candidates a manifold gets.
 class Choice {
  public:
@@ -130,12 +156,10 @@ class Choice {
     if (candidates_.count() == 0 || most_ == 0) return chosen;
     first_ = deepest(previous);
     const bool has_choice = candidates_.count() > most_;
-    if (known_count_ + !is_known(first_) <= most_) {
+    if (known_ != 0 && known_count_ + !is_known(first_) <= most_)
       take(known_);
-    } else {
-      take(0);
-      grow(known_);
-    }
+    else
+      loop_.add(first_), chosen_ = bit(first_), grow(known_);
     const bool is_new = size_ == 1, has_polygons = has_choice && most_ > 2;
     if (!(is_new && has_polygons)) grow(all());
     if (has_polygons) give_way(is_new ? 1 : 1 + kKeptWorth);
@@ -193,7 +217,8 @@ class Choice {
 
   /// The hull of some candidates. `first_` is added first, so that others in its place do not replace it.
   Loop around(Set those) const {
-    Loop loop(candidates_, bound_);
+    Loop loop(candidates_, bound_), round = loop;
+    if (those & (those - 1) && round.go_round(those | bit(first_))) return round;
     loop.add(first_);
     each(those & ~bit(first_), [&](int i) { loop.add(i); });
     return loop;
