@@ -53,6 +53,10 @@ class Hull {
   /// Makes `first` the first corner and returns true, or, if it is inside, the corner farthest from it and returns false. A
   /// corner within the bound of it is in its place.
   bool begin_with(int first, double bound) {
+    for (begin_ = 0; begin_ < size_; ++begin_) {
+      if (corner_[std::size_t(begin_)] == first) return true;
+    }
+    begin_ = 0;
     const Place centre = place(first);
     const auto away = [&](int i) {
       const Place way = place((*this)[i]) - centre;
@@ -144,12 +148,10 @@ LargestPolygon best_fan(const Hull& hull, int most) {
   for (std::size_t corner = 2; corner < corners; ++corner) {
     for (std::size_t last = corner; last < size; ++last) {
       const Vec2 x_last{x[last], x[last]}, y_last{y[last], y[last]};
-      Vec2 pair = {-kInfinity, -kInfinity};
-      std::size_t i = corner - 1;
-      for (; i + 1 < last; i += 2)
+      Vec2 pair = {-kInfinity, -kInfinity};  // the lane of `last` itself, if there is one, holds a fan of one triangle less
+      for (std::size_t i = corner - 1; i < last; i += 2)
         pair = max(pair, load2(&best[corner - 1][i]) + (load2(&x[i]) * y_last - load2(&y[i]) * x_last));
-      const double largest = max(pair[0], pair[1]);
-      best[corner][last] = i < last ? max(largest, grown(corner, i, last)) : largest;
+      best[corner][last] = max(pair[0], pair[1]);
     }
   }
   const auto& all = best[corners - 1];
@@ -158,7 +160,7 @@ LargestPolygon best_fan(const Hull& hull, int most) {
   for (std::size_t corner = corners - 1; corner > 0; --corner) {
     polygon.corner[std::size_t(polygon.count++)] = hull[int(last)];
     std::size_t i = corner - 1;
-    while (corner > 1 && i + 1 < last && grown(corner, i, last) != best[corner][last]) ++i;
+    while (corner > 1 && i < last && grown(corner, i, last) != best[corner][last]) ++i;
     last = i;
   }
   polygon.corner[std::size_t(polygon.count++)] = hull[0];
