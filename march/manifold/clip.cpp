@@ -95,7 +95,7 @@ Where where(const Place& place, const Line& side, double bound) {
 class SeenBorder {
  public:
   /// Begins at the origin of `half_edge`, a side of the face, or at the only vertex of a body without sides.
-  /// `is_left`: half-edges that point upwards have the face on their left.
+  /// `is_left`: that, and all half-edges of the border, have the face on their left.
   SeenBorder(const SeenBody& body, const ContactFace& face, Border border, std::uint32_t half_edge, bool is_left, double bound)
       : body_(body),
         face_(face),
@@ -112,7 +112,7 @@ class SeenBorder {
     const bool is_point = half_edge == kNone;
     const Corner lowest = is_point ? corner(0, kNone) : end_of(twin(half_edge));
     side_ = {{lowest.at, lowest.at, {{0, 0}, 0}}, lowest.names, lowest.names, false};
-    if (!is_point) see(is_left_ ? half_edge : face.onward<false>(twin(half_edge)));
+    if (!is_point) see(half_edge);
   }
 
   const Side& side() const { return side_; }
@@ -243,39 +243,44 @@ class SeenBorder {
   Way ahead_;                        ///< the way there
 };
 
-/// The half-edge of a face that leaves its lowest corner: where the border rises on both sides, by more than the border of
-/// merged facets may turn inwards.
-std::uint32_t lowest_side(const SeenBody& body, const ContactFace& face) {
+/// The half-edges of a face that leave its lowest corner, with the face on their left or right: where the border rises on both
+/// sides, by more than the border of merged facets may turn inwards. kNone of a point.
+struct LowestSides {
+  std::uint32_t left = kNone, right = kNone;
+};
+LowestSides lowest_sides(const SeenBody& body, const ContactFace& face) {
   const std::uint32_t first = face.side();
-  if (first == kNone) return kNone;
+  if (first == kNone) return {};
   const auto end_of = [&](std::uint32_t h) { return body.at(body.view.half_edges[h].head); };
   const auto twin = [&](std::uint32_t h) { return body.view.half_edges[h].twin; };
-  std::uint32_t side = first;
+  const std::uint32_t last = face.onward<false>(twin(first));
+  LowestSides sides{first, last};
   Place lowest = end_of(twin(first));
   const auto is_lower = [&](const Place& p) { return p.y < lowest.y || (p.y == lowest.y && p.x < lowest.x); };
   const double more = 2 * face.flatness();
   for (std::uint32_t h = first;;) {
     const Place place = end_of(h);
     if (place.y > lowest.y + more) break;
-    h = face.onward<true>(h);
-    if (h == first) break;
-    if (is_lower(place)) lowest = place, side = h;
+    const std::uint32_t next = face.onward<true>(h);
+    if (next == first) break;
+    if (is_lower(place)) lowest = place, sides = {next, twin(h)};
+    h = next;
   }
-  const std::uint32_t last = face.onward<false>(twin(first));
   for (std::uint32_t h = last;;) {
     const Place place = end_of(h);
     if (place.y > lowest.y + more) break;
-    if (is_lower(place)) lowest = place, side = twin(h);
-    h = face.onward<false>(h);
-    if (h == last) break;
+    const std::uint32_t next = face.onward<false>(h);
+    if (is_lower(place)) lowest = place, sides = {twin(h), next};
+    if (next == last) break;
+    h = next;
   }
-  return side;
+  return sides;
 }
 
 class Sweep {
  public:
   Sweep(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound, Candidates& corners)
-      : Sweep(projection, a, b, lowest_side(projection.a, a), lowest_side(projection.b, b), bound, corners) {}
+      : Sweep(projection, a, b, lowest_sides(projection.a, a), lowest_sides(projection.b, b), bound, corners) {}
 
   void run() {
     if (!begin()) return;
@@ -291,23 +296,23 @@ class Sweep {
   }
 
  private:
-  Sweep(const Projection& projection, const ContactFace& a, const ContactFace& b, std::uint32_t from_a, std::uint32_t from_b,
+  Sweep(const Projection& projection, const ContactFace& a, const ContactFace& b, LowestSides from_a, LowestSides from_b,
         double bound, Candidates& corners)
       : Sweep(projection, a, b, from_a, from_b, is_seen_from_above(projection.a, a), is_seen_from_above(projection.b, b), bound,
               corners) {}
-  Sweep(const Projection& projection, const ContactFace& a, const ContactFace& b, std::uint32_t from_a, std::uint32_t from_b,
+  Sweep(const Projection& projection, const ContactFace& a, const ContactFace& b, LowestSides from_a, LowestSides from_b,
         bool above_a, bool above_b, double bound, Candidates& corners)
-      : border_{{projection.a, a, Border::Left, from_a, !above_a, bound},
-                {projection.b, b, Border::Left, from_b, !above_b, bound},
-                {projection.a, a, Border::Right, from_a, above_a, bound},
-                {projection.b, b, Border::Right, from_b, above_b, bound}},
+      : border_{{projection.a, a, Border::Left, above_a ? from_a.right : from_a.left, !above_a, bound},
+                {projection.b, b, Border::Left, above_b ? from_b.right : from_b.left, !above_b, bound},
+                {projection.a, a, Border::Right, above_a ? from_a.left : from_a.right, above_a, bound},
+                {projection.b, b, Border::Right, above_b ? from_b.left : from_b.right, above_b, bound}},
         name_{a.name(), b.name()},
         bound_(bound),
         slope_(slope(projection.b, b) - slope(projection.a, a)),
         corners_(corners) {
     for (const int f : {0, 1}) {
       for (const Border border : kBorders) {
-        if ((f == 0 ? from_a : from_b) != kNone) advance(border, f);
+        if ((f == 0 ? from_a : from_b).left != kNone) advance(border, f);
       }
     }
   }
@@ -548,7 +553,7 @@ Projection::Projection(const PairView& pair, const Vec& n, const Vec& about, con
   a.y = v * c - u * s;
   const auto seen = [&](const Vec& p) { return Vec{dot(a.x, p), dot(a.y, p), dot(n, p)}; };
   const Moved moved = body_b(pair);
-  a.shift = seen(-middle), b.shift = seen(moved.common({0, 0, 0}) - middle);
+  a.shift = seen(-middle), b.shift = seen(pair.b_in_a.t - middle);
   b.x = moved.into(a.x), b.y = moved.into(a.y), b.n = moved.into(n);
 }
 
