@@ -5,26 +5,22 @@
 #include "manifold/largest_polygon.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "numeric/vec4.h"
 
 namespace swiftlet {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// The convex hull of the candidates' places, counter-clockwise.
+/// The convex hull of the candidates' places, counter-clockwise. It begins with candidate `first` or, if that lies inside of
+/// it, farther than the bound from its corners, with the corner farthest from that.
 class Hull {
  public:
-  explicit Hull(const Candidates& candidates) : candidates_(candidates) {
+  using Row = std::array<double, kMostCandidates + 1>;
+
+  Hull(const Candidates& candidates, int first, double bound) : candidates_(candidates), has_first_(goes_round_from(first)) {
+    if (has_first_) return;
     const int count = candidates.count();
-    if (is_clockwise()) {
-      while (size_ < count) add(count - 1 - size_);
-      return;
-    }
     std::array<Index, kMostCandidates> order;
     for (int i = 0; i < count; ++i) {
       int at = i;
@@ -34,29 +30,51 @@ class Hull {
     add_chain(order.begin(), order.begin() + count);
     add_chain(std::reverse_iterator(order.begin() + count), order.rend());
     size_ = std::max(size_, 1);
+    begin_with(first, bound);
+    twice_area_ = 0;
+    Place before{0, 0};
+    for (int i = 0; i < size_; ++i) {
+      const Place spoke = place((*this)[i]) - place((*this)[0]);
+      x_[std::size_t(i)] = spoke.x, y_[std::size_t(i)] = spoke.y;
+      twice_area_ += cross(before, spoke), before = spoke;
+    }
   }
 
   int size() const { return size_; }
-  int operator[](int i) const { return corner_[std::size_t(begin_ + i < size_ ? begin_ + i : begin_ + i - size_)]; }
-  /// The way from the first corner to another.
-  Place spoke(int i) const { return place((*this)[i]) - place((*this)[0]); }
-  double twice_area() const {
-    double sum = 0;
-    Place before{0, 0};
-    for (int i = 1; i < size_; ++i) {
-      const Place next = spoke(i);
-      sum += cross(before, next), before = next;
-    }
-    return sum;
-  }
+  int operator[](int i) const { return corner_[std::size_t(i)]; }
+  bool has_first() const { return has_first_; }
+  /// The ways from the first corner to all.
+  const Row& x() const { return x_; }
+  const Row& y() const { return y_; }
+  double twice_area() const { return twice_area_; }
 
-  /// Makes `first` the first corner and returns true, or, if it is inside, the corner farthest from it and returns false. A
-  /// corner within the bound of it is in its place.
-  bool begin_with(int first, double bound) {
-    for (begin_ = 0; begin_ < size_; ++begin_) {
-      if (corner_[std::size_t(begin_)] == first) return true;
+ private:
+  using Index = std::uint8_t;
+
+  void add(int spot) { corner_[std::size_t(size_++)] = Index(spot); }
+  Place place(int spot) const { return candidates_[spot].place(); }
+  /// Takes all candidates for the hull, back from the first one. Returns false if they do not go around it clockwise, as the
+  /// corners of a clipped area do: back they all turn left, and the way rises once.
+  bool goes_round_from(int first) {
+    const int count = candidates_.count();
+    const Place start = place(first);
+    Place at = start, before = start - place(first + 1 < count ? first + 1 : 0), spoke{0, 0};
+    int peaks = 0;
+    for (int spot = first; size_ < count;) {
+      x_[std::size_t(size_)] = spoke.x, y_[std::size_t(size_)] = spoke.y;
+      add(spot);
+      spot = spot > 0 ? spot - 1 : count - 1;
+      const Place next = place(spot), way = next - at, to = next - start;
+      if (!(cross(before, way) > 0)) return size_ = 0, false;
+      peaks += before.y > 0 && way.y <= 0;
+      twice_area_ += cross(spoke, to);
+      at = next, before = way, spoke = to;
     }
-    begin_ = 0;
+    if (peaks != 1) size_ = 0;
+    return peaks == 1;
+  }
+  /// A corner within the bound of `first` is in its place.
+  void begin_with(int first, double bound) {
     const Place centre = place(first);
     const auto away = [&](int i) {
       const Place way = place((*this)[i]) - centre;
@@ -69,44 +87,10 @@ class Hull {
       if (length2 < least) least = length2, nearest = i;
       if (length2 > most) most = length2, farthest = i;
     }
-    const bool is_corner = least <= bound * bound;
-    begin_ = is_corner ? nearest : farthest;
-    if (is_corner) corner_[std::size_t(begin_)] = Index(first);
-    return is_corner;
-  }
-  /// Makes `first`, which is no corner, the first one, between those of the side that makes the smallest triangle with it.
-  void begin_beside(int first) {
-    int side = 0;
-    double least = kInfinity;
-    for (int i = 0; i < size_; ++i) {
-      const double area = std::fabs(twice_area((*this)[i], (*this)[i + 1 == size_ ? 0 : i + 1], first));
-      if (area < least) least = area, side = i;
-    }
-    const auto middle = corner_.begin() + begin_, at = corner_.begin() + side + 1;
-    std::rotate(corner_.begin(), middle, corner_.begin() + size_);
-    std::copy_backward(at, corner_.begin() + size_, corner_.begin() + size_ + 1);
-    *at = Index(first), begin_ = side + 1, ++size_;
-  }
-
- private:
-  using Index = std::uint8_t;
-
-  void add(int spot) { corner_[std::size_t(size_++)] = Index(spot); }
-  Place place(int spot) const { return candidates_[spot].place(); }
-  /// Whether the candidates go once around their hull, as the corners of a clipped area do: all turn right, and the way rises
-  /// once.
-  bool is_clockwise() const {
-    const int count = candidates_.count();
-    Place before = place(0) - place(count - 1);
-    bool turns = true;
-    int peaks = 0;
-    for (int i = 0; i < count && turns; ++i) {
-      const Place way = place(i + 1 < count ? i + 1 : 0) - place(i);
-      turns = cross(before, way) < 0;
-      peaks += before.y > 0 && way.y <= 0;
-      before = way;
-    }
-    return turns && peaks == 1;
+    has_first_ = least <= bound * bound;
+    const auto begin = corner_.begin() + (has_first_ ? nearest : farthest);
+    if (has_first_) *begin = Index(first);
+    std::rotate(corner_.begin(), begin, corner_.begin() + size_);
   }
   /// The order of x, then y; of equal places the first candidate is before.
   bool is_before(int i, int j) const {
@@ -127,28 +111,30 @@ class Hull {
   }
 
   const Candidates& candidates_;
-  int size_ = 0, begin_ = 0;
+  int size_ = 0;
+  double twice_area_ = 0;
   std::array<Index, kMostCandidates + 1> corner_;
+  Row x_, y_;
+  bool has_first_;
 };
 
-/// Returns the largest polygon of at most `most` corners of the hull, the first one of these.
-LargestPolygon best_fan(const Hull& hull, int most) {
+}  // namespace
+
+LargestPolygon largest_polygon(const Candidates& candidates, int first, int most, double bound, double enough) {
+  const Hull hull(candidates, first, bound);
   LargestPolygon polygon;
-  const std::size_t size = std::size_t(hull.size()), corners = std::min(std::size_t(most), size);
-  using Row = std::array<double, kMostCandidates>;
-  Row x, y;                                   // of the spokes
-  std::array<Row, kMostManifoldPoints> best;  // by corners after the first: twice the best fan's area, by its last corner
-  for (std::size_t i = 0; i < size; ++i) {
-    const Place spoke = hull.spoke(int(i));
-    x[i] = spoke.x, y[i] = spoke.y, best[1][i] = 0;
-  }
+  if (!(hull.twice_area() > enough)) return polygon;
+  const std::size_t size = std::size_t(hull.size()), corners = std::min(std::size_t(hull.has_first() ? most : most - 1), size);
+  const Hull::Row &x = hull.x(), &y = hull.y();
+  std::array<Hull::Row, kMostManifoldPoints> best;  // by corners after the first: twice the best fan's area, by its last corner
+  std::fill_n(best[1].begin(), size, 0.0);
   const auto grown = [&](std::size_t corner, std::size_t i, std::size_t last) {
     return best[corner - 1][i] + (x[i] * y[last] - y[i] * x[last]);
   };
   for (std::size_t corner = 2; corner < corners; ++corner) {
     for (std::size_t last = corner; last < size; ++last) {
       const Vec2 x_last{x[last], x[last]}, y_last{y[last], y[last]};
-      Vec2 pair = {-kInfinity, -kInfinity};  // the lane of `last` itself, if there is one, holds a fan of one triangle less
+      Vec2 pair = {-1, -1};  // the lane of `last` itself, if there is one, holds a fan of one triangle less, which is no larger
       for (std::size_t i = corner - 1; i < last; i += 2)
         pair = max(pair, load2(&best[corner - 1][i]) + (load2(&x[i]) * y_last - load2(&y[i]) * x_last));
       best[corner][last] = max(pair[0], pair[1]);
@@ -160,23 +146,11 @@ LargestPolygon best_fan(const Hull& hull, int most) {
   for (std::size_t corner = corners - 1; corner > 0; --corner) {
     polygon.corner[std::size_t(polygon.count++)] = hull[int(last)];
     std::size_t i = corner - 1;
-    while (corner > 1 && i < last && grown(corner, i, last) != best[corner][last]) ++i;
+    while (corner > 1 && i + 1 < last && grown(corner, i, last) != best[corner][last]) ++i;
     last = i;
   }
   polygon.corner[std::size_t(polygon.count++)] = hull[0];
   return polygon;
-}
-
-}  // namespace
-
-LargestPolygon largest_polygon(const Candidates& candidates, int first, int most, double bound, double enough) {
-  Hull hull(candidates);
-  if (!(hull.twice_area() > enough)) return {};
-  if (hull.begin_with(first, bound)) return best_fan(hull, most);
-  const LargestPolygon without = best_fan(hull, most - 1);
-  hull.begin_beside(first);
-  const LargestPolygon with = best_fan(hull, most);
-  return with.twice_area > without.twice_area ? with : without;
 }
 
 }  // namespace swiftlet
