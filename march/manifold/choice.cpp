@@ -59,7 +59,7 @@ class Loop {
     return sum;
   }
 
-  /// Makes corners of candidates, two or more, that go around clockwise, as those of a clipped area do. Returns false if they
+  /// Makes corners of candidates that go around clockwise, as those of a clipped area do. Returns false if they
   /// do not, or if one may lie within the bound of the line through two others: of the rest `add` makes the same corners. The
   /// smallest triangle of a convex polygon's corners is one of three neighbours, and its sides are shorter than the border.
   bool go_round(Set those) {
@@ -193,7 +193,13 @@ class Choice {
 
   /// Chooses `first_` and, of `those`, all that stand out.
   void take(Set those) {
-    for (Set before = those | bit(first_);; before = chosen_) {
+    those |= bit(first_);
+    Loop round(candidates_, bound_);
+    if (round.go_round(those)) {
+      loop_ = round, chosen_ = those, size_ = loop_.size();
+      return;
+    }
+    for (Set before = those;; before = chosen_) {
       loop_ = around(before);
       chosen_ = bit(first_), size_ = 1;
       for (int i = 0; i < loop_.size(); ++i) size_ += !(chosen_ & bit(loop_[i])), chosen_ |= bit(loop_[i]);
@@ -217,8 +223,7 @@ class Choice {
 
   /// The hull of some candidates. `first_` is added first, so that others in its place do not replace it.
   Loop around(Set those) const {
-    Loop loop(candidates_, bound_), round = loop;
-    if (those & (those - 1) && round.go_round(those | bit(first_))) return round;
+    Loop loop(candidates_, bound_);
     loop.add(first_);
     each(those & ~bit(first_), [&](int i) { loop.add(i); });
     return loop;
