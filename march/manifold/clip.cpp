@@ -310,11 +310,8 @@ class Sweep {
         bound_(bound),
         slope_(slope(projection.b, b) - slope(projection.a, a)),
         corners_(corners) {
-    for (const int f : {0, 1}) {
-      for (const Border border : kBorders) {
-        if ((f == 0 ? from_a : from_b).left != kNone) advance(border, f);
-      }
-    }
+    if (from_a.left != kNone) advance(Border::Left, 0), advance(Border::Right, 0);
+    if (from_b.left != kNone) advance(Border::Left, 1), advance(Border::Right, 1);
   }
 
   /// Whether half-edges around the face run counter-clockwise in the projection.
@@ -328,7 +325,7 @@ class Sweep {
 
   /// Both borders of a face end where they meet.
   bool is_at_top(int f) const { return at(Border::Left, f).end().vertex() == at(Border::Right, f).end().vertex(); }
-  void advance(Border border, int f) { at(border, f).advance(at(opposite(border), f).end().vertex()); }
+  [[gnu::always_inline]] void advance(Border border, int f) { at(border, f).advance(at(opposite(border), f).end().vertex()); }
 
   /// Returns true if the side of `p` ends below that of `q`, or at the same height to the left of it.
   static bool ends_below(const SeenBorder& p, const SeenBorder& q) {
