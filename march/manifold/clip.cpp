@@ -81,14 +81,18 @@ struct Side : Line {
 
 /// On which side of a border's side a place lies whose height is between those of its ends.
 enum class Where { Inside, On, Outside };
-Where where(const Place& place, const Line& side, double bound) {
-  const double area = side.beyond(place), length2 = side.length2();
-  if (area * area > bound * bound * length2) return area > 0 ? Where::Outside : Where::Inside;
-  // The line is within the bound; the side itself may not be, if it is nearly horizontal.
-  const double dx = side.way.x, x = place.x - side.from.x;
+
+/// The same of a place within the bound of the line. The side itself may be farther, if it is nearly horizontal.
+[[gnu::noinline]] Where near_line(const Place& place, const Line& side, double bound) {
+  const double dx = side.way.x, x = place.x - side.from.x, length2 = side.length2();
   if (x < min(dx, 0) - bound) return length2 - dx * dx > dx * dx ? Where::On : Where::Inside;
   if (x > max(dx, 0) + bound) return length2 - dx * dx > dx * dx ? Where::On : Where::Outside;
   return Where::On;
+}
+[[gnu::always_inline]] inline Where where(const Place& place, const Line& side, double bound) {
+  const double area = side.beyond(place);
+  if (area * area > bound * bound * side.length2()) return area > 0 ? Where::Outside : Where::Inside;
+  return near_line(place, side, bound);
 }
 
 /// One of the two borders of a contact face as a projection shows it, from its lowest corner to its highest.
@@ -358,21 +362,31 @@ class Sweep {
 
   /// Starts at the higher of the two lowest corners. Returns false if the other face ends below it.
   bool begin() {
-    const auto lowest_of = [&](int f) { return at(Border::Right, f).start(); };
-    const int f = is_below(lowest_of(0).at, lowest_of(1).at) ? 1 : 0, other = 1 - f;
-    const Corner lowest = lowest_of(f);
-    for (const Border border : kBorders) {
-      if (!at(border, other).rise_above(lowest.at, at(opposite(border), other).end().vertex())) return false;
-    }
+    const auto lowest_of = [&](int f) { return at(Border::Right, f).start().at; };
+    return is_below(lowest_of(0), lowest_of(1)) ? begin<1>() : begin<0>();
+  }
+
+  /// The same at the lowest corner of face `f`.
+  template <int f>
+  bool begin() {
+    constexpr int other = 1 - f;
+    const Corner lowest = at(Border::Right, f).start();
+    if (!rises_above<Border::Left, other>(lowest.at) || !rises_above<Border::Right, other>(lowest.at)) return false;
     if (where(lowest.at, Border::Left, other) == Where::Outside) {
       west_ = f;
     } else if (where(lowest.at, Border::Right, other) == Where::Outside) {
       west_ = other;
     } else {
       leader(Border::Left) = leader(Border::Right) = f;
-      add_corner(Border::Left, f, lowest.at, lowest.vertex());
+      add_corner<f>(Border::Left, lowest.at, lowest.vertex());
     }
     return true;
+  }
+
+  /// Moves a border on to the side that ends above a place. Returns false if its end is below that.
+  template <Border border, int f>
+  bool rises_above(const Place& place) {
+    return at(border, f).rise_above(place, at(opposite(border), f).end().vertex());
   }
 
   /// Handles the upper end of a side and moves on. Returns false at the end of the intersection.
@@ -439,7 +453,7 @@ class Sweep {
     for (const Border b : kBorders) {
       if (where(top, b, 1 - f) == Where::Outside) return;
     }
-    add_corner(border, f, top, own.end().vertex());
+    add_corner<f>(border, top, own.end().vertex());
   }
 
   /// Passes the upper end of a side of face `f`, which leads the border. Of many corners only few are worth their names and
@@ -449,7 +463,7 @@ class Sweep {
     const SeenBorder& own = at(border, f);
     const std::uint32_t vertex = own.end().vertex();
     const bool wanted = corners_.wants(border, own.side().to, own.ahead(), [&] { return rise(own, own.ahead()); });
-    if (wanted || corners_.may_know(f, vertex)) add_corner(border, f, own.seen(own.side().to), vertex, wanted);
+    if (wanted || corners_.may_know(f, vertex)) add_corner<f>(border, own.seen(own.side().to), vertex, wanted);
   }
 
   /// Passes the lead on a border to face `f` where its side crosses the one that led.
@@ -468,17 +482,20 @@ class Sweep {
   bool may_know(int f, const SeenBorder& border) const { return border.side().is_chord || corners_.may_know(f, border.edge()); }
 
   /// Adds a corner of face `f` that lies within the other face.
-  void add_corner(Border border, int f, const Place& place, std::uint32_t v, bool wanted = true) {
+  template <int f>
+  [[gnu::noinline]] void add_corner(Border border, const Place& place, std::uint32_t v, bool wanted = true) {
     const FeatureId vertex{FeatureKind::Vertex, v};
     const Names names(f == 0 ? vertex : name_[0], f == 0 ? name_[1] : vertex);
     if (!corners_.takes(names, wanted)) return;
-    const double depth = depth_at(1 - f, place), z = at(border, f).z(v), z_a = f == 0 ? z : depth, z_b = f == 0 ? depth : z;
+    const double depth = depth_at<1 - f>(place), z = at(Border::Left, f).z(v), z_a = f == 0 ? z : depth,
+                 z_b = f == 0 ? depth : z;
     corners_.add(border, {{place.x, place.y, z_a}, z_b - z_a, names}, wanted);
   }
 
   /// The coordinate along the normal at a place of a face: interpolated between its borders, one in each lane, or that of the
   /// nearer one outside.
-  double depth_at(int f, const Place& place) const {
+  template <int f>
+  double depth_at(const Place& place) const {
     const SeenBorder &left = at(Border::Left, f), &right = at(Border::Right, f);
     const Side &l = left.side(), &r = right.side();
     const Vec2 none{0, 0}, rise{l.way.y, r.way.y}, up = (place.y - Vec2{l.from.y, r.from.y}) / rise,
@@ -512,10 +529,10 @@ class Sweep {
       t_b = b.along(spot), spot_b = b.at(t_b), t_a = a.along(spot_b), spot = a.at(t_a);
       meet = is_near(spot_b, 4 * bound2);
     }
-    if (is_near(a.from, bound2)) return add_corner(border, 0, of_a.seen(a.from), of_a.start().vertex(), wanted);
-    if (is_near(a.to, bound2)) return add_corner(border, 0, of_a.seen(a.to), of_a.end().vertex(), wanted);
-    if (is_near(b.from, bound2)) return add_corner(border, 1, of_a.seen(b.from), of_b.start().vertex(), wanted);
-    if (is_near(b.to, bound2)) return add_corner(border, 1, of_a.seen(b.to), of_b.end().vertex(), wanted);
+    if (is_near(a.from, bound2)) return add_corner<0>(border, of_a.seen(a.from), of_a.start().vertex(), wanted);
+    if (is_near(a.to, bound2)) return add_corner<0>(border, of_a.seen(a.to), of_a.end().vertex(), wanted);
+    if (is_near(b.from, bound2)) return add_corner<1>(border, of_a.seen(b.from), of_b.start().vertex(), wanted);
+    if (is_near(b.to, bound2)) return add_corner<1>(border, of_a.seen(b.to), of_b.end().vertex(), wanted);
     // A corner within the bound of a side may be farther than that from where the sides cross.
     if (!meet) return;
     const Names names(of_a.edge_at(spot), of_b.edge_at(by_other(spot_b)));
