@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "body/half_edge.h"
@@ -129,6 +130,11 @@ class SeenBorder {
   /// The coordinates along the normal of one or two vertices, and of a place on the side.
   double z(std::uint32_t vertex) const { return body_.z(vertex); }
   Vec2 z(const Corner& p, const Corner& q) const { return body_.z(p.vertex(), q.vertex()); }
+  /// How the coordinate along the normal changes with x and y in the face's plane.
+  Place slope() const {
+    const Vec& m = face_.normal();
+    return Place{dot(body_.x, m), dot(body_.y, m)} * (-1 / dot(body_.n, m));
+  }
   double z_at(double t) const {
     const Vec2 z = body_.z(start().vertex(), end().vertex());
     return z[0] + (z[1] - z[0]) * t;
@@ -312,7 +318,6 @@ class Sweep {
                 {projection.b, b, Border::Right, above_b ? from_b.left : from_b.right, above_b, bound}},
         name_{a.name(), b.name()},
         bound_(bound),
-        slope_(slope(projection.b, b) - slope(projection.a, a)),
         corners_(corners) {
     if (from_a.left != kNone) advance(Border::Left, 0), advance(Border::Right, 0);
     if (from_b.left != kNone) advance(Border::Left, 1), advance(Border::Right, 1);
@@ -347,12 +352,6 @@ class Sweep {
   Ending ends_first() const {
     const int face = ends_below(at(border, 1), at(border, 0));
     return {face, min(at(border, 0).end().at.y, at(border, 1).end().at.y)};
-  }
-
-  /// How the height of a face's plane along the normal changes with x and y.
-  static Place slope(const SeenBody& seen, const ContactFace& face) {
-    const Vec& m = face.normal();
-    return Place{dot(seen.x, m), dot(seen.y, m)} * (-1 / dot(seen.n, m));
   }
 
   Where where(const Place& place, Border border, int f) const {
@@ -477,7 +476,10 @@ class Sweep {
   }
 
   /// How much the separation rises along a way that a border sees.
-  double rise(const SeenBorder& border, const Place& way) const { return dot(slope_, border.seen(way)); }
+  [[gnu::noinline]] double rise(const SeenBorder& border, const Place& way) {
+    if (!slope_) slope_ = at(Border::Left, 1).slope() - at(Border::Left, 0).slope();
+    return dot(*slope_, border.seen(way));
+  }
   /// False if the manifold before surely names no point of this side.
   bool may_know(int f, const SeenBorder& border) const { return border.side().is_chord || corners_.may_know(f, border.edge()); }
 
@@ -546,7 +548,7 @@ class Sweep {
   SeenBorder border_[4];
   const FeatureId name_[2];
   const double bound_;
-  const Place slope_;  ///< how the separation changes with x and y
+  std::optional<Place> slope_;  ///< how the separation changes with x and y, once that is asked for
   Candidates& corners_;
   /// Per border, the face whose border bounds the intersection; `kNobody` before that begins.
   int leader_[2] = {kNobody, kNobody};
