@@ -59,9 +59,9 @@ class Loop {
     return sum;
   }
 
-  /// Makes corners of candidates that go around clockwise, as those of a clipped area do. Returns false if they
-  /// do not, or if one may lie within the bound of the line through two others: of the rest `add` makes the same corners. The
-  /// smallest triangle of a convex polygon's corners is one of three neighbours, and its sides are shorter than the border.
+  /// Makes corners of candidates that go around clockwise, as those of a clipped area do. Returns false if they do not, or if
+  /// one may lie within the bound of the line through two others; else `add` would make the same corners. The smallest triangle
+  /// of a convex polygon's corners is one of three neighbours, and none of its sides is longer than the border.
   bool go_round(Set those) {
     const Place start = place(std::countr_zero(those));
     Place at = start, first{0, 0}, before{0, 0};

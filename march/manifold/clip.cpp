@@ -518,7 +518,7 @@ class Sweep {
     // All is seen as A's border sees it.
     const auto by_other = [](const Place& place) { return Place{on_a == on_b ? place.x : -place.x, place.y}; };
     const Line &a = of_a.side(), b{by_other(of_b.side().from), by_other(of_b.side().to), {by_other(of_b.side().way), 0}};
-    // Where the lines cross: the parameter on a and that on b, of which neither waits for the other.
+    // Where the lines cross, as parameters on a and on b, of which neither waits for the other; 0 where that is 0 / 0.
     const Vec2 none{0, 0}, crossed = Vec2{b.beyond(a.from), -a.beyond(b.from)} / cross(b.way, a.way),
                            t = min(max(none, crossed), Vec2{1, 1});
     double t_a = t[0], t_b = t[1];
