@@ -5,12 +5,16 @@
 #include "manifold/largest_polygon.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "numeric/vec4.h"
 
 namespace swiftlet {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The convex hull of the candidates' places, counter-clockwise. It begins with candidate `first` or, if that lies inside of
 /// it, farther than the bound from its corners, with the corner farthest from that.
@@ -31,13 +35,7 @@ class Hull {
     add_chain(std::reverse_iterator(order.begin() + count), order.rend());
     size_ = std::max(size_, 1);
     begin_with(first, bound);
-    twice_area_ = 0;
-    Place before{0, 0};
-    for (int i = 0; i < size_; ++i) {
-      const Place spoke = place((*this)[i]) - place((*this)[0]);
-      x_[std::size_t(i)] = spoke.x, y_[std::size_t(i)] = spoke.y;
-      twice_area_ += cross(before, spoke), before = spoke;
-    }
+    measure();
   }
 
   int size() const { return size_; }
@@ -47,6 +45,20 @@ class Hull {
   const Row& x() const { return x_; }
   const Row& y() const { return y_; }
   double twice_area() const { return twice_area_; }
+
+  /// Makes `first`, which lies inside, the first corner, between those of the side that makes the smallest triangle with it.
+  void begin_beside(int first) {
+    int side = 0;
+    double least = kInfinity;
+    for (int i = 0; i < size_; ++i) {
+      const double area = std::fabs(twice_area((*this)[i], (*this)[i + 1 < size_ ? i + 1 : 0], first));
+      if (area < least) least = area, side = i;
+    }
+    std::rotate(corner_.begin(), corner_.begin() + side + 1, corner_.begin() + size_);
+    std::copy_backward(corner_.begin(), corner_.begin() + size_, corner_.begin() + size_ + 1);
+    corner_[0] = Index(first), ++size_;
+    measure();
+  }
 
  private:
   using Index = std::uint8_t;
@@ -72,6 +84,15 @@ class Hull {
     }
     if (peaks != 1) size_ = 0;
     return peaks == 1;
+  }
+  void measure() {
+    twice_area_ = 0;
+    Place before{0, 0};
+    for (int i = 0; i < size_; ++i) {
+      const Place spoke = place((*this)[i]) - place((*this)[0]);
+      x_[std::size_t(i)] = spoke.x, y_[std::size_t(i)] = spoke.y;
+      twice_area_ += cross(before, spoke), before = spoke;
+    }
   }
   /// A corner within the bound of `first` is in its place.
   void begin_with(int first, double bound) {
@@ -118,13 +139,10 @@ class Hull {
   bool has_first_;
 };
 
-}  // namespace
-
-LargestPolygon largest_polygon(const Candidates& candidates, int first, int most, double bound, double enough) {
-  const Hull hull(candidates, first, bound);
+/// Returns the largest polygon of at most `most` corners of the hull, the first one of these.
+LargestPolygon best_fan(const Hull& hull, int most) {
   LargestPolygon polygon;
-  if (!(hull.twice_area() > enough)) return polygon;
-  const std::size_t size = std::size_t(hull.size()), corners = std::min(std::size_t(hull.has_first() ? most : most - 1), size);
+  const std::size_t size = std::size_t(hull.size()), corners = std::min(std::size_t(most), size);
   const Hull::Row &x = hull.x(), &y = hull.y();
   std::array<Hull::Row, kMostManifoldPoints> best;  // by corners after the first: twice the best fan's area, by its last corner
   std::fill_n(best[1].begin(), size, 0.0);
@@ -134,7 +152,7 @@ LargestPolygon largest_polygon(const Candidates& candidates, int first, int most
   for (std::size_t corner = 2; corner < corners; ++corner) {
     for (std::size_t last = corner; last < size; ++last) {
       const Vec2 x_last{x[last], x[last]}, y_last{y[last], y[last]};
-      Vec2 pair = {-1, -1};  // the lane of `last` itself, if there is one, holds a fan of one triangle less, which is no larger
+      Vec2 pair = {-kInfinity, -kInfinity};  // the lane of `last` itself, if there is one, holds a fan of one triangle less
       for (std::size_t i = corner - 1; i < last; i += 2)
         pair = max(pair, load2(&best[corner - 1][i]) + (load2(&x[i]) * y_last - load2(&y[i]) * x_last));
       best[corner][last] = max(pair[0], pair[1]);
@@ -146,11 +164,23 @@ LargestPolygon largest_polygon(const Candidates& candidates, int first, int most
   for (std::size_t corner = corners - 1; corner > 0; --corner) {
     polygon.corner[std::size_t(polygon.count++)] = hull[int(last)];
     std::size_t i = corner - 1;
-    while (corner > 1 && i + 1 < last && grown(corner, i, last) != best[corner][last]) ++i;
+    while (corner > 1 && i < last && grown(corner, i, last) != best[corner][last]) ++i;
     last = i;
   }
   polygon.corner[std::size_t(polygon.count++)] = hull[0];
   return polygon;
+}
+
+}  // namespace
+
+LargestPolygon largest_polygon(const Candidates& candidates, int first, int most, double bound, double enough) {
+  Hull hull(candidates, first, bound);
+  if (!(hull.twice_area() > enough)) return {};
+  if (hull.has_first()) return best_fan(hull, most);
+  const LargestPolygon without = best_fan(hull, most - 1);
+  hull.begin_beside(first);
+  const LargestPolygon with = best_fan(hull, most);
+  return with.twice_area > without.twice_area ? with : without;
 }
 
 }  // namespace swiftlet
