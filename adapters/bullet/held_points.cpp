@@ -15,6 +15,9 @@ namespace {
 
 using Places = std::array<btVector3, MANIFOLD_CACHE_SIZE>;
 
+/// Bullet takes a new point for the old one whose place on A is nearest, within the breaking threshold: none is near this one.
+btVector3 far_away() { return {BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT}; }
+
 /// The points' places on B, their normals and distances along these, and how deep the deepest is.
 struct Held {
   Places on_b, normal;
@@ -69,17 +72,16 @@ btScalar area(const Places& p, int count, const btVector3& n) {
 }
 
 /// Hands each point to Bullet again, which gives it the frictions of this step, calls back and keeps its impulses; but as a
-/// place on both bodies it stays. Bullet takes a point for the one whose place on A is nearest: that of all others is far away
-/// meanwhile, since points that have slid may be nearer to another's place than to their own.
+/// place on both bodies it stays. The places of all others are far away meanwhile, since points that have slid may be nearer to
+/// another's place than to their own.
 void keep(const Held& held, btManifoldResult& result) {
   btPersistentManifold& points = *result.getPersistentManifold();
   const btTransform& a = points.getBody0()->getWorldTransform();
   const bool swapped = result.getBody0Internal() != points.getBody0();  // as of a compound's child: Bullet turns the ids again
-  const btVector3 far(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
   const int count = points.getNumContacts();
   Places local_a, local_b;
   for (int i = 0; i < count; ++i) {
-    local_a[std::size_t(i)] = std::exchange(points.getContactPoint(i).m_localPointA, far);
+    local_a[std::size_t(i)] = std::exchange(points.getContactPoint(i).m_localPointA, far_away());
     local_b[std::size_t(i)] = points.getContactPoint(i).m_localPointB;
   }
   for (int i = 0; i < count; ++i) {
@@ -90,7 +92,7 @@ void keep(const Held& held, btManifoldResult& result) {
     result.setShapeIdentifiersA(swapped ? p.m_partId1 : p.m_partId0, swapped ? p.m_index1 : p.m_index0);
     result.setShapeIdentifiersB(swapped ? p.m_partId0 : p.m_partId1, swapped ? p.m_index0 : p.m_index1);
     result.addContactPoint(normal, on_b, distance);
-    p.m_localPointA = far;
+    p.m_localPointA = far_away();
   }
   for (int i = 0; i < count; ++i) {
     points.getContactPoint(i).m_localPointA = local_a[std::size_t(i)];
@@ -174,7 +176,10 @@ bool carry_over(btPersistentManifold& points, const Manifold& now, bool swapped)
   for (int i = points.getNumContacts(); i-- > kept;) {
     if (!goes_on[std::size_t(i)]) points.removeContactPoint(i);
   }
-  return kept == 1 && points.getNumContacts() == 1;
+  const bool one_stays = kept == 1 && points.getNumContacts() == 1;
+  // A place of A may touch another one of B: Bullet would take the new point for this one, with which it would go.
+  if (one_stays) points.getContactPoint(0).m_localPointA = far_away();
+  return one_stays;
 }
 
 }  // namespace swiftlet::bullet
