@@ -114,12 +114,23 @@ std::span<const std::byte> to_bytes(const py::buffer_info& buffer) {
 }
 
 std::string to_path(py::handle path) {
-  const auto encoded = py::reinterpret_steal<py::object>(PyOS_FSPath(path.ptr()));
-  if (!encoded) throw py::error_already_set();
-  if (py::isinstance<py::bytes>(encoded)) return encoded.cast<std::string>();
-  const auto bytes = py::reinterpret_steal<py::bytes>(PyUnicode_EncodeFSDefault(encoded.ptr()));
-  if (!bytes) throw py::error_already_set();
-  return std::string(bytes);
+  PyObject* encoded = nullptr;
+  if (!PyUnicode_FSConverter(path.ptr(), &encoded)) throw py::error_already_set();
+  return std::string(py::reinterpret_steal<py::bytes>(encoded));
+}
+
+std::int64_t to_whole(py::handle number, const char* name, std::int64_t least, std::int64_t most) {
+  const auto wanted = [&] {
+    return std::string(name) + ": expected a whole number from " + std::to_string(least) + " to " + std::to_string(most) +
+           ", got ";
+  };
+  const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(number.ptr()));
+  PyErr_Clear();
+  if (!whole) throw py::type_error(wanted() + what_came(number));
+  int beyond = 0;
+  const std::int64_t value = PyLong_AsLongLongAndOverflow(whole.ptr(), &beyond);
+  if (beyond != 0 || value < least || value > most) throw py::value_error(wanted() + std::string(py::str(whole)));
+  return value;
 }
 
 }  // namespace swiftlet::python

@@ -359,7 +359,7 @@ Asked to_asked(Query query, double threshold, double absolute, double relative, 
   asked.query = query;
   asked.threshold = threshold;
   asked.options.absolute = absolute, asked.options.relative = relative, asked.options.beyond = beyond;
-  if (!steps.is_none()) asked.options.budget.steps = steps.cast<std::uint32_t>();
+  if (!steps.is_none()) asked.options.budget.steps = to_steps(steps);
   asked.options.budget.finest_level = finest_level;
   asked.options.tuning = to_tuning(tuning);
   return asked;
@@ -537,7 +537,7 @@ py::tuple run_contacts(py::handle a, py::handle b, py::handle pose, double reach
   const One one(a, b, pose, quaternion, copy);
   one.single("contacts");
   Budget budget;
-  if (!steps.is_none()) budget.steps = steps.cast<std::uint32_t>();
+  if (!steps.is_none()) budget.steps = to_steps(steps);
   std::vector<MeshContact> into(most);
   Unlocked crew;
   const MeshContacts found = contacts(one.a.body(), one.b.body(), one.poses[0], reach, into, budget);

@@ -92,7 +92,7 @@ py::tuple listed(const std::vector<Pair>& pairs) {
 Options to_options(double absolute, double relative, double beyond, const py::object& steps) {
   Options options;
   options.absolute = absolute, options.relative = relative, options.beyond = beyond;
-  if (!steps.is_none()) options.budget.steps = steps.cast<std::uint32_t>();
+  if (!steps.is_none()) options.budget.steps = to_steps(steps);
   return options;
 }
 

@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <climits>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -169,9 +170,9 @@ void set_option(Asked& asked, const char* name, PyObject* value) {
   const std::string_view key = name;
   const bool is_distance = asked.query == Query::Distance || asked.query == Query::SignedDistance;
   if (key == "steps") {
-    if (value != Py_None) asked.options.budget.steps = py::cast<std::uint32_t>(py::handle(value));
+    if (value != Py_None) asked.options.budget.steps = to_steps(value);
   } else if (key == "finest_level") {
-    asked.options.budget.finest_level = py::cast<int>(py::handle(value));
+    asked.options.budget.finest_level = int(to_whole(value, name, INT_MIN, INT_MAX));
   } else if (key == "absolute" && is_distance) {
     asked.options.absolute = to_double(value, name);
   } else if (key == "relative" && is_distance) {

@@ -135,6 +135,13 @@ def test_errors_name_what_is_wrong(tmp_path):
     ]:
         with pytest.raises((TypeError, ValueError), match=message):
             Model.from_arrays(vertices, faces)
+    cube = Model.from_arrays(CORNERS, SIDES)
+    cube.save(tmp_path / "cube")
+    for path in (str(tmp_path / "cube") + "\0.swl", bytes(tmp_path / "cube") + b"\0.swl"):  # no other file than is named
+        with pytest.raises(ValueError, match="null"):
+            Model.load(path)
+        with pytest.raises(ValueError, match="null"):
+            cube.save(path)
 
 
 def test_meshes(mesh, tmp_path):

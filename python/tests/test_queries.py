@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import swiftlet
+import swiftlet.scene
 from swiftlet import Body, Decision, Status, Verdict
 
 BOX = Body.box([-1, -1, -1], [1, 1, 1])
@@ -249,6 +250,21 @@ def test_no_poses_give_no_answers(query, fat, mesh):
 def test_threads_are_from_1_to_1024(threads):
     with pytest.raises(ValueError, match=f"threads: expected a number from 1 to 1024, got {threads}"):
         swiftlet.distance(BOX, BOX, np.eye(4), threads=threads)
+
+
+@pytest.mark.parametrize("steps, error", [(-1, ValueError), (2**32, ValueError), (2**70, ValueError), (1.5, TypeError)])
+def test_steps_are_a_whole_number(steps, error):
+    scene = swiftlet.scene.Scene()
+    for ask in [
+        lambda: swiftlet.distance(BOX, BOX, np.eye(4), steps=steps),
+        lambda: swiftlet.contacts(BOX, BOX, np.eye(4), 0.1, steps=steps),
+        lambda: swiftlet.Pair(BOX, BOX).distance(np.eye(4), steps=steps),
+        lambda: scene.nearest(steps=steps),
+    ]:
+        with pytest.raises(error, match="steps: expected a whole number from 0 to 4294967295, got "):
+            ask()
+    with pytest.raises(TypeError, match="finest_level: expected a whole number"):
+        swiftlet.Pair(BOX, BOX).distance(np.eye(4), finest_level="all")
 
 
 def test_rows_choose_their_bodies(fat, mesh):
