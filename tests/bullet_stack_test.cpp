@@ -183,6 +183,30 @@ TEST(PointsOfASlidingBody, AreOneContact) {
   }
 }
 
+/// Bullet drops the points of a compound's child that have left each other before it asks for others.
+TEST(PointsOfASlidingBody, AreOneContactWithAPartOfACompound) {
+  for (const double speed : {0.1, 0.3, 0.6, 1.}) {
+    AtRest scene;
+    scene.in.world.removeRigidBody(scene.floor);
+    btCompoundShape compound;
+    compound.addChildShape(scene.floor->getWorldTransform(), scene.floor->getCollisionShape());
+    btRigidBody floor(0, nullptr, &compound);
+    scene.in.world.addRigidBody(&floor);
+    scene.body->setFriction(0);
+    scene.body->setLinearVelocity(btVector3(btScalar(speed), 0, 0));
+    scene.step(2);
+    {
+      const Heard heard;
+      scene.step(100);
+      EXPECT_EQ(heard.started + heard.ended, 0) << speed;
+    }
+    EXPECT_NEAR(scene.body->getLinearVelocity().x(), speed, 1e-4);
+    EXPECT_NEAR(scene.height(), 0.25 + kMargin, 0.001) << speed;
+    scene.in.world.removeRigidBody(&floor);
+    scene.in.world.addRigidBody(scene.floor);
+  }
+}
+
 /// Three points, of which the middle one has slid to where the first is on A. Each stays itself, with this step's normal.
 TEST(PointsThatStay, AreThemselvesThoughOneSlidToAnothersPlace) {
   btBoxShape box(btVector3(1, 1, 1));

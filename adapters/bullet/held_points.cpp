@@ -25,16 +25,23 @@ struct Held {
   btScalar deepest = BT_LARGE_FLOAT;
 };
 
-/// False if one of the points has left the other body.
+bool is_part(const btCollisionObjectWrapper& body) {
+  return body.getCollisionShape() != body.getCollisionObject()->getCollisionShape();
+}
+
+/// False if one of the points has left the other body. Of a compound's part before that: Bullet asks after it has dropped what
+/// left, with the last point the contact, so new points have to come while the old ones are near.
 template <class NormalOf>
-bool find(const btPersistentManifold& points, const NormalOf& normal_of, Held& held) {
+bool find(const btManifoldResult& result, const NormalOf& normal_of, Held& held) {
+  const btPersistentManifold& points = *result.getPersistentManifold();
   const btTransform &a = points.getBody0()->getWorldTransform(), &b = points.getBody1()->getWorldTransform();
   const btScalar far = points.getContactBreakingThreshold();
+  const btScalar aside = is_part(*result.getBody0Wrap()) || is_part(*result.getBody1Wrap()) ? far / 2 : far;
   for (int i = 0; i < points.getNumContacts(); ++i) {
     const btManifoldPoint& p = points.getContactPoint(i);
     const btVector3 normal = normal_of(p), on_b = b(p.m_localPointB), apart = a(p.m_localPointA) - on_b;
     const btScalar distance = apart.dot(normal);
-    if (distance > far || (apart - normal * distance).length2() > far * far) return false;
+    if (distance > far || (apart - normal * distance).length2() > aside * aside) return false;
     held.on_b[std::size_t(i)] = on_b;
     held.normal[std::size_t(i)] = normal;
     held.distance[std::size_t(i)] = distance;
@@ -45,10 +52,11 @@ bool find(const btPersistentManifold& points, const NormalOf& normal_of, Held& h
 
 /// Of points with the normal of this step: false also if there is no area, or the deepest is not as deep as `least`, to
 /// `slack`. The points are places on the bodies: these may have got other margins or, as parts of compounds, other places.
-bool find_area(const btPersistentManifold& points, const btVector3& normal, double least, btScalar slack, Held& held) {
+bool find_area(const btManifoldResult& result, const btVector3& normal, double least, btScalar slack, Held& held) {
+  const btPersistentManifold& points = *result.getPersistentManifold();
   return points.getNumContacts() >= 3 &&
          find(
-             points, [&](const btManifoldPoint&) { return normal; }, held) &&
+             result, [&](const btManifoldPoint&) { return normal; }, held) &&
          std::fabs(double(held.deepest) - least) <= slack * points.getContactBreakingThreshold();
 }
 
@@ -123,8 +131,7 @@ bool have_one_normal(const btPersistentManifold& points) {
 bool hold_on(const Manifold& now, btManifoldResult& result) {
   const btVector3 normal = vector_of(-now.normal);
   Held held;
-  if (!find_area(*result.getPersistentManifold(), normal, now.points[0].separation, kHeldDepth + 2 * kAtRest, held))
-    return false;
+  if (!find_area(result, normal, now.points[0].separation, kHeldDepth + 2 * kAtRest, held)) return false;
   keep(held, result);
   take_turns(held, *result.getPersistentManifold());
   return true;
@@ -134,7 +141,7 @@ bool hold_the_area(const Manifold& now, btManifoldResult& result) {
   btPersistentManifold& points = *result.getPersistentManifold();
   const btVector3 normal = vector_of(-now.normal);
   Held held;
-  if (now.count < 3 || !find_area(points, normal, now.points[0].separation, kHeldDepth, held)) return false;
+  if (now.count < 3 || !find_area(result, normal, now.points[0].separation, kHeldDepth, held)) return false;
   Places corners;
   for (std::uint32_t i = 0; i < now.count; ++i) corners[i] = vector_of(now.points[i].point_b);
   if (area(held.on_b, points.getNumContacts(), normal) < kHeldArea * area(corners, int(now.count), normal)) return false;
@@ -147,7 +154,7 @@ bool hold_turned(const btMatrix3x3& turn, btManifoldResult& result) {
   Held held;
   const auto turned = [&](const btManifoldPoint& p) { return (turn * p.m_normalWorldOnB).normalized(); };
   btPersistentManifold& points = *result.getPersistentManifold();
-  if (!find(points, turned, held)) return false;
+  if (!find(result, turned, held)) return false;
   keep(held, result);
   if (have_one_normal(points)) take_turns(held, points);
   return true;
