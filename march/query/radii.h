@@ -63,7 +63,7 @@ class Radii {
 /// What every query computes first: the shapes of both bodies, their radii, the pose, and whether all of these are legal.
 class Setting {
  public:
-  Setting(const Body& of_a, const Body& of_b, const Pose& b_in_a)
+  [[gnu::always_inline]] Setting(const Body& of_a, const Body& of_b, const Pose& b_in_a)
       : a(of_a), b(of_b), motion(swiftlet::motion(b_in_a)), quality(pose_quality(motion)), radii(of_a, of_b) {}
   /// The status with which the query must be refused, or `Converged` if everything is legal.
   Status fault() const {
