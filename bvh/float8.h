@@ -108,6 +108,9 @@ static inline Float8 operator-(Float8 a, Float8 b) { return {a.v - b.v}; }
 static inline Float8 operator*(Float8 a, Float8 b) { return {a.v * b.v}; }
 static inline Float8 max(Float8 a, Float8 b) { return {_mm256_max_ps(b.v, a.v)}; }
 static inline Float8 min(Float8 a, Float8 b) { return {_mm256_min_ps(b.v, a.v)}; }
+static inline float greatest(Float8 a) {
+  return greatest(max(Float4(_mm256_castps256_ps128(a.v)), _mm256_extractf128_ps(a.v, 1)));
+}
 static inline float least(Float8 a) { return least(min(Float4(_mm256_castps256_ps128(a.v)), _mm256_extractf128_ps(a.v, 1))); }
 static inline Float8 abs(Float8 a) { return {_mm256_andnot_ps(all8(-0.0f).v, a.v)}; }
 static inline Float8 joined(Float4 low, Float4 high) { return {_mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1)}; }
@@ -137,6 +140,7 @@ static inline Float8 operator-(Float8 a, Float8 b) { return {a.lo - b.lo, a.hi -
 static inline Float8 operator*(Float8 a, Float8 b) { return {a.lo * b.lo, a.hi * b.hi}; }
 static inline Float8 max(Float8 a, Float8 b) { return {max(a.lo, b.lo), max(a.hi, b.hi)}; }
 static inline Float8 min(Float8 a, Float8 b) { return {min(a.lo, b.lo), min(a.hi, b.hi)}; }
+static inline float greatest(Float8 a) { return greatest(max(a.lo, a.hi)); }
 static inline float least(Float8 a) { return least(min(a.lo, a.hi)); }
 static inline Float8 abs(Float8 a) { return {abs(a.lo), abs(a.hi)}; }
 static inline Float8 joined(Float4 low, Float4 high) { return {low, high}; }

@@ -126,6 +126,31 @@ void measure_levels(const MeshParts& parts, MeshHeader& header) {
   }
 }
 
+/// Fits the ball of a root around its body's vertices: that of few of them, each the farthest from the ball of those before
+/// [Badoiu & Clarkson 2003].
+void fit_ball(std::span<const Vec> vertices, Root& root) {
+  constexpr int kPoints = 8, kSteps = 64;
+  const auto farthest = [](std::span<const Vec> points, const Vec& from, double& most) {
+    std::size_t found = 0;
+    most = -1;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec way = points[i] - from;
+      if (const double square = dot(way, way); square > most) most = square, found = i;
+    }
+    return points[found];
+  };
+  Vec points[kPoints], centre = root.middle;
+  for (std::size_t count = 0; count < kPoints; ++count) {
+    double square;
+    points[count] = farthest(vertices, centre, square);
+    if (const double reach = std::sqrt(square); reach < root.reach) root.reach = reach, root.centre = centre;
+    for (int step = 1; step <= kSteps; ++step)
+      centre = centre + (farthest({points, count + 1}, centre, square) - centre) * (1.0 / (step + 1));
+  }
+  const Vec aside = root.middle - root.centre;
+  root.aside = root.axes_x * aside.x + root.axes_y * aside.y + root.axes_z * aside.z;
+}
+
 /// Writes a block: the header, whose levels have their sizes, and what follows it, in the order of the file.
 AlignedBytes assemble(MeshHeader header, std::span<const std::byte> nodes,
                       const std::array<std::span<const std::byte>, std::size(kParts)>& data) {
@@ -350,6 +375,7 @@ Result<MeshModel> MeshReader::read(Block block) {
   double extent = 0;
   for (int axis = 0; axis < 3; ++axis) extent = std::max({extent, std::fabs(h.box_min[axis]), std::fabs(h.box_max[axis])});
   c.root = root_of(c.nodes[0], h.unit, extent);
+  if (!c.vertices.empty()) fit_ball(c.vertices, c.root);
   if (const std::string f = read_hulls(h, c.block, c); !f.empty()) return bad("it has " + f);
   place_patches(c);
   for (const std::uint32_t t : c.shells) {

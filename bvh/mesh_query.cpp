@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "body/shape.h"
+#include "float8.h"
 #include "mesh_setting.h"
 #include "query/ask.h"
 #include "solid.h"
@@ -16,33 +17,60 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
 
+/// Two roots' boxes that meet by no more than this share of how far they reach meet by little: the boxes below mostly reach
+/// less by no more.
+constexpr double kMeetLittle = 0.25;
+
 Verdict verdict_of(const MeshFinding& found, double law_two) {
   if (found.verdict == Verdict::Overlapping) return Verdict::Overlapping;
   if (found.lower > 0) return Verdict::Disjoint;
   return found.upper <= law_two ? Verdict::Touching : Verdict::Undecided;
 }
 
-/// Half the length of a root's box along a direction of its body's frame, times the direction's length.
-double reach_along(const Root& root, const Vec& n) {
-  const Vec4 along = vec4(root.axes_x) * n.x + vec4(root.axes_y) * n.y + vec4(root.axes_z) * n.z;
-  return dot(abs(along), vec4(root.half));
+/// A body as it is looked at first.
+struct Top {
+  const Root& root;
+  const Node& node;
+};
+
+/// A direction of the body's frame along its root's axes.
+Vec4 along(const Root& root, const Vec& n) {
+  return vec4(root.axes_x) * n.x + vec4(root.axes_y) * n.y + vec4(root.axes_z) * n.z;
 }
 
-/// A lower bound on the distance, or a number that is not above 0: the gap of the balls around both roots' boxes or, if it is
-/// not above `enough`, that of the boxes along the line of their middles. `kBoxSlack` of all lengths is far above what rounding
-/// in doubles adds.
-double gap_of_roots(const Root& a, const Root& b, const Motion& b_in_a, double size, double enough) {
-  const Vec way = apply(b_in_a, b.middle) - a.middle;
+/// How far the boxes of a root's children reach from the middle of its own along a unit direction, given along its axes.
+double reach_of_children(const Top& top, const Vec4& n) {
+  const Float4 along = float4(n), sizes = abs(along);
+  Float8 reach = all8(0);
+  for (int k = 0; k < 3; ++k)
+    reach = reach + (all8(along[k]) * load8(top.node.centre[k]) + all8(sizes[k]) * load8(top.node.half[k]));
+  return double(greatest(reach)) * power_of_two(top.root.unit);
+}
+
+/// A lower bound on the distance, or a number that is not above `enough`: the gap of the balls around both bodies or, if that
+/// is no answer, along the line of the balls' centres that of both roots' boxes or, of those that meet by little, of the boxes
+/// below. `kBoxSlack` of all lengths is far above what rounding adds.
+double gap_of_roots(const Top& of_a, const Top& of_b, const Motion& b_in_a, double size, double enough) {
+  const Root &a = of_a.root, &b = of_b.root;
+  const Vec way = apply(b_in_a, b.centre) - a.centre;
   const double square = dot(way, way);
   if (!has_range(square)) return 0;
   const double length = std::sqrt(square);
   const auto gap = [&](double reach_a, double reach_b) {
-    return length - reach_a - reach_b - kBoxSlack * (length + size + 2 * (reach_a + reach_b));
+    return length - reach_a - reach_b - kBoxSlack * (length + size + 2 * (a.reach + b.reach));
   };
   if (const double of_balls = gap(a.reach, b.reach); of_balls > enough) return of_balls;
   // Boxes are put along the way as it is: to wait for its unit direction would take as long as all else.
   const double share = 1 / length;
-  return gap(reach_along(a, way) * share, reach_along(b, rotate_back(b_in_a, way)) * share);
+  const Vec4 way_a = along(a, way), way_b = -along(b, rotate_back(b_in_a, way));
+  const double aside_a = dot(way_a, vec4(a.aside)) * share, aside_b = dot(way_b, vec4(b.aside)) * share;
+  const double reach_a = min(aside_a + dot(abs(way_a), vec4(a.half)) * share, a.reach),
+               reach_b = min(aside_b + dot(abs(way_b), vec4(b.half)) * share, b.reach);
+  const double of_boxes = gap(reach_a, reach_b);
+  // Above 0 a threshold is hardly ever answered by the boxes below.
+  if (of_boxes > enough || enough > 0 || of_boxes < -kMeetLittle * (reach_a + reach_b)) return of_boxes;
+  return gap(min(aside_a + reach_of_children(of_a, way_a * all(share)), reach_a),
+             min(aside_b + reach_of_children(of_b, way_b * all(share)), reach_b));
 }
 
 Status status_of(const MeshFinding& found, const StopRule& stop, double law_two, bool whole) {
@@ -80,9 +108,13 @@ bool is_plain(const MeshBody& body) { return body.mesh() && !body.is_solid() && 
 /// Answers a threshold question about two plain bodies if their roots are apart. It is what most questions about bodies far
 /// from each other end with, before anything of a search is made.
 bool roots_answer(const MeshBody& a, const MeshBody& b, const Motion& b_in_a, const StopRule& stop, Answer& answer) {
-  const Root &of_a = MeshReader::content(*a.mesh()).root, &of_b = MeshReader::content(*b.mesh()).root;
+  const auto top_of = [](const MeshBody& body) {
+    const MeshReader::Content& content = MeshReader::content(*body.mesh());
+    return Top{content.root, content.nodes[0]};
+  };
+  const Top of_a = top_of(a), of_b = top_of(b);
   const double enough = max(stop.above, 0);
-  const double gap = gap_of_roots(of_a, of_b, b_in_a, max(of_a.extent, of_b.extent) + norm(b_in_a.t), enough);
+  const double gap = gap_of_roots(of_a, of_b, b_in_a, max(of_a.root.extent, of_b.root.extent) + norm(b_in_a.t), enough);
   if (!(gap > enough)) return false;
   answer.status = stop.narrow(gap, answer.upper) ? Status::Converged : Status::Beyond;
   answer.verdict = Verdict::Disjoint, answer.lower = gap;
@@ -102,7 +134,8 @@ bool roots_answer(const MeshBody& a, const MeshBody& b, const Motion& b_in_a, co
   MeshFinding found;
   const double enough = max(stop.above, 0);
   const bool asks_roots = stop.is_threshold() && !(is_plain(a) && is_plain(b));
-  if (const double gap = asks_roots ? gap_of_roots(*at.a.root, *at.b.root, motion, at.size, enough) : 0; gap > enough) {
+  const Top top_a{*at.a.root, *at.a.nodes}, top_b{*at.b.root, *at.b.nodes};
+  if (const double gap = asks_roots ? gap_of_roots(top_a, top_b, motion, at.size, enough) : 0; gap > enough) {
     found.lower = gap;
   } else {
     look(at, b_in_a, stop, budget.steps, seed, found);

@@ -60,13 +60,15 @@ static inline double reach_of(const Node& node, int unit) {
 
 /// The box around a body, that of its tree's root, as a pair of bodies is looked at first. Lengths are in the body's unit.
 struct Root {
-  int unit;       ///< the exponent of what nodes are measured in
-  double extent;  ///< the greatest magnitude of a coordinate
-  Vec middle;
-  double reach;                   ///< of the ball around the middle that holds the box, but for rounding
+  int unit;                       ///< the exponent of what nodes are measured in
+  double extent;                  ///< the greatest magnitude of a coordinate
+  Vec middle, centre;             ///< of the box, and of a ball around the body
+  double reach;                   ///< the ball's radius, but for rounding
   Padded axes_x, axes_y, axes_z;  ///< x of the three axes, y and z
   Padded half;                    ///< half the sides along them
+  Padded aside;                   ///< from the ball's centre to the box's middle along them
 };
+/// The ball is that around the box.
 static inline Root root_of(const Node& node, int unit, double extent) {
   const auto& [x, y] = node.axis;
   float z[3];
@@ -74,11 +76,13 @@ static inline Root root_of(const Node& node, int unit, double extent) {
   return {unit,
           extent,
           middle_of(node, unit),
+          middle_of(node, unit),
           reach_of(node, unit),
           {x[0], y[0], z[0]},
           {x[1], y[1], z[1]},
           {x[2], y[2], z[2]},
-          scaled({node.extent[0], node.extent[1], node.extent[2]}, unit)};
+          scaled({node.extent[0], node.extent[1], node.extent[2]}, unit),
+          {0, 0, 0}};
 }
 
 }  // namespace swiftlet

@@ -938,6 +938,19 @@ TEST(MeshLaw5, ExactCommonTranslationsChangeNoBit) {
 
 // ---- Law 7 -----------------------------------------------------------------------------------------------------------------
 
+/// What is far from its box's corners is not as near as they are: bodies that balls part need no search.
+TEST(MeshRoots, OfRoundBodiesAnswerWithoutASearch) {
+  const MeshModel mesh = ball(3).mesh();
+  Random random(41);
+  for (int i = 0; i < 200; ++i) {
+    const Answer answer = intersects(mesh, mesh, {random.rotation(), 2.01 * random.on_sphere()});
+    EXPECT_EQ(answer.verdict, Verdict::Disjoint);
+    EXPECT_EQ(answer.steps, 0u) << i;
+    EXPECT_GT(answer.lower, 0.005) << i;
+    EXPECT_LE(answer.lower, 0.03) << i;
+  }
+}
+
 TEST(MeshLaw7, ALatticeOfBoxesEnds) {
   const Soup soup = box({-1, -1, -1}, {1, 1, 1});
   const MeshModel cube = soup.mesh();
