@@ -130,7 +130,8 @@ class TrianglePair {
   }
 
   /// Bounds the distance by the nearest points: from above by theirs, from below by the gap along the way between them or, if
-  /// the bounds are then farther apart than `width`, across the features that hold them.
+  /// the bounds are then farther apart than `width`, across the features that hold them, unless the points lean against that
+  /// direction by more: of a sliver they may, as rounding moves a point along it.
   Measured measured(double width) const {
     const NearestPoints points = nearest();
     const double upper = this->upper(points.way);
@@ -139,7 +140,9 @@ class TrianglePair {
     if (upper - lower > width && max_abs(points.across) > 0) {
       Vec across = normalised(points.across);
       if (dot(across, points.way) < 0) across = -across;
-      if (const double along = gap(across); along > lower) lower = along, normal = across;
+      const Vec aside = points.way - across * dot(across, points.way);
+      const bool leans = dot(aside, aside) > width * width;
+      if (const double along = gap(across); along > lower && !leans) lower = along, normal = across;
     }
     return {points, lower, upper, normal};
   }

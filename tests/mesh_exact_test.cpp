@@ -122,6 +122,23 @@ TEST(Regress, FeetOnNeedlesWereNearerThanTheNeedles) {
   }
 }
 
+/// A corner over a splinter: rounding moved its foot along the splinter by 249 times law 2's bound, and the normal, that of the
+/// face, did not lead there.
+TEST(Regress, FeetOnSplintersLeanedAgainstTheNormal) {
+  Case c;
+  c.a.add({0x1.72dc8689cb168p-2, -0x1.1dfbaf9648945p+0, -0x1.7714607f5fb9p-5},
+          {0x1.a68aebf2450ecp+0, -0x1.403ad88a75a73p-1, -0x1.1df84e152aa61p-2},
+          {0x1.20b498738ab71p-1, -0x1.ad9c5c7059567p+0, -0x1.a688bca2a01e9p+0});
+  c.b.add({-0x1.0d495340e12aep-1, 0x1.94ac93123cf9cp-2, -0x1.532dd6052682p-2},
+          {-0x1.825dc582d536p-6, 0x1.cc1f09ed8ede8p-2, -0x1.31b630d9e8838p+0},
+          {-0x1.d94f8fd339dd9p-2, 0x1.9bb5783fbc8dp-2, -0x1.c34b03a31624dp-2});
+  c.pose.rotation << -0x1.1af7f43c44bc4p-1, -0x1.53aa5e316b548p-1, 0x1.0243818b5375fp-1, 0x1.5cfa8c3013d4ep-1,
+      -0x1.79d06bcd068p-7, 0x1.7698de154ed84p-1, -0x1.eb111ab8a1773p-2, 0x1.7f0fdf7b7b41ep-1, 0x1.d58e7c894dc26p-2;
+  c.pose.translation = {0x1.b1d26998819b6p-1, -0x1.82c612b609a94p-2, -0x1.53a652aa4c938p-3};
+  Random random(1);
+  EXPECT_EQ(examine(c, random).fault, "");
+}
+
 // ---- Large meshes ----------------------------------------------------------------------------------------------------------
 
 constexpr double kMostSeconds = 2;  // of the processor

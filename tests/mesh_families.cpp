@@ -496,7 +496,12 @@ struct Judged {
     if (answer.status != Status::Converged) return "an exact question did not converge";
     if (const std::string bad = verdict_fault(answer); !bad.empty()) return bad;
     if (!(answer.upper - answer.lower <= law_two)) return "the interval is wider than law 2's bound";
-    return "";
+    return leans(answer.point_a, answer.point_b, answer.normal, answer.lower) ? "the points lean against the normal" : "";
+  }
+  /// Whether the points of an exact answer lie on a line that is not along the normal.
+  bool leans(const Vec3& p, const Vec3& q, const Vec3& normal, double lower) const {
+    const Vec3 way = q - p;
+    return lower > law_two && !((way - way.norm() * normal).norm() <= law_two);
   }
 
   /// Touching is said only where no two triangles cross by more than the bound.
@@ -588,6 +593,7 @@ std::string judge_contacts(const Judged& j, Random& random, int& told, int& regi
   regions += int(about.stored);
   if (const std::string f = fault_of(found, pairs, reach, j.law_two, j.a, j.b, told); !f.empty()) return f;
   for (const MeshContact& region : found) {
+    if (j.leans(region.point_a, region.point_b, region.normal, region.lower)) return "points lean against the normal";
     const Manifold m = manifold(j.a, j.b, j.c.pose, region, {.margin = reach});
     if (m.count == 0) {
       if (!(region.lower <= j.law_two)) return "no points although the surfaces are apart";
