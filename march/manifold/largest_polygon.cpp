@@ -139,34 +139,35 @@ class Hull {
   bool has_first_;
 };
 
-/// Returns the largest polygon of at most `most` corners of the hull, the first one of these.
-LargestPolygon best_fan(const Hull& hull, int most) {
-  LargestPolygon polygon;
-  const std::size_t size = std::size_t(hull.size()), corners = std::min(std::size_t(most), size);
+/// Returns the largest polygon of at most `most` corners of the hull, 2 or more, the first one of these.
+[[gnu::noinline]] LargestPolygon best_fan(const Hull& hull, int most) {
+  const std::size_t size = std::size_t(hull.size()), triangles = std::min(std::size_t(most), size) - 2;
   const Hull::Row &x = hull.x(), &y = hull.y();
-  std::array<Hull::Row, kMostManifoldPoints> best;  // by corners after the first: twice the best fan's area, by its last corner
-  std::fill_n(best[1].begin(), size, 0.0);
-  const auto grown = [&](std::size_t corner, std::size_t i, std::size_t last) {
-    return best[corner - 1][i] + (x[i] * y[last] - y[i] * x[last]);
+  std::array<Hull::Row, kMostManifoldPoints - 1> best;  // by triangles: twice the area of the best fan, by its last corner
+  std::fill_n(best[0].begin(), size, 0.0);
+  const auto grown = [&](std::size_t t, std::size_t i, std::size_t last) {
+    return best[t - 1][i] + (x[i] * y[last] - y[i] * x[last]);
   };
-  for (std::size_t corner = 2; corner < corners; ++corner) {
-    for (std::size_t last = corner; last < size; ++last) {
+  for (std::size_t t = 1; t <= triangles; ++t) {
+    for (std::size_t last = t + 1; last < size; ++last) {
       const Vec2 x_last{x[last], x[last]}, y_last{y[last], y[last]};
       Vec2 pair = {-kInfinity, -kInfinity};  // the lane of `last` itself, if there is one, holds a fan of one triangle less
-      for (std::size_t i = corner - 1; i < last; i += 2)
-        pair = max(pair, load2(&best[corner - 1][i]) + (load2(&x[i]) * y_last - load2(&y[i]) * x_last));
-      best[corner][last] = max(pair[0], pair[1]);
+      for (std::size_t i = t; i < last; i += 2)
+        pair = max(pair, load2(&best[t - 1][i]) + (load2(&x[i]) * y_last - load2(&y[i]) * x_last));
+      best[t][last] = max(pair[0], pair[1]);
     }
   }
-  const auto& all = best[corners - 1];
-  std::size_t last = std::size_t(std::max_element(all.begin() + (corners - 1), all.begin() + size) - all.begin());
+  const auto& all = best[triangles];
+  std::size_t last = std::size_t(std::max_element(all.begin() + (triangles + 1), all.begin() + size) - all.begin());
+  LargestPolygon polygon;
   polygon.twice_area = all[last];
-  for (std::size_t corner = corners - 1; corner > 0; --corner) {
+  for (std::size_t t = triangles; t > 0; --t) {
     polygon.corner[std::size_t(polygon.count++)] = hull[int(last)];
-    std::size_t i = corner - 1;
-    while (corner > 1 && i < last && grown(corner, i, last) != best[corner][last]) ++i;
+    std::size_t i = t;
+    while (i < last && grown(t, i, last) != best[t][last]) ++i;
     last = i;
   }
+  polygon.corner[std::size_t(polygon.count++)] = hull[int(last)];
   polygon.corner[std::size_t(polygon.count++)] = hull[0];
   return polygon;
 }
@@ -176,11 +177,11 @@ LargestPolygon best_fan(const Hull& hull, int most) {
 LargestPolygon largest_polygon(const Candidates& candidates, int first, int most, double bound, double enough) {
   Hull hull(candidates, first, bound);
   if (!(hull.twice_area() > enough)) return {};
-  if (hull.has_first()) return best_fan(hull, most);
-  const LargestPolygon without = best_fan(hull, most - 1);
+  LargestPolygon best = best_fan(hull, hull.has_first() ? most : most - 1);
+  if (hull.has_first()) return best;
   hull.begin_beside(first);
   const LargestPolygon with = best_fan(hull, most);
-  return with.twice_area > without.twice_area ? with : without;
+  return with.twice_area > best.twice_area ? with : best;
 }
 
 }  // namespace swiftlet
