@@ -337,6 +337,35 @@ TEST(Manifold, OfAFaceInPiecesIsThePieceAtTheFeatures) {
   std::printf("%d areas: four points keep at least %.3f, eight %.3f\n", shares.counted, shares.four, shares.eight);
 }
 
+/// Corners inside of faces, which nothing but diagonals leave, beside faces merged with these: a way to the border that entered
+/// one went on for ever.
+TEST(Regress, AWayToTheBorderEnteredACornerInsideOfAFace) {
+  Random random(32);
+  const Model plate = bodies::model(bodies::box(3, 3, 1));
+  int inner = 0;
+  for (int i = 0; i < 400; ++i) {
+    std::vector<Vec3> roof{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    for (int k = 0; k < 12; ++k) {
+      const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+      const double bulge = 1e-16 * (2 - x * x - y * y);  // what rounding leaves of that
+      roof.emplace_back(x, y, 1 - 1e-8 * std::fabs(x) + bulge);
+    }
+    for (const double x : {-1, 1})
+      for (const double y : {-1, 1}) roof.emplace_back(x, y, 1 - 1e-8);
+    const Model a = hull_of({roof, {}});
+    const ConvexView& view = a.level(0).view;
+    for (const Vertex& v : view.vertices) {
+      const auto ring = view.half_edges.subspan(v.ring_begin, v.ring_count);
+      inner += std::all_of(ring.begin(), ring.end(), [&](const HalfEdge& h) { return h.face == ring[0].face; });
+    }
+    const Pose pose = at(0, 0, 2 + 1e-6, shapes::rotation(random.on_sphere(), 1e-8));
+    const Contacting c{a, plate, pose, nearest(a, plate, pose)};
+    const Manifold p = manifold(a, plate, pose, c.answer, {.margin = 1e-3});
+    expect_sound(c, p, (c.answer.point_b - c.answer.point_a).dot(c.answer.normal), 1e-3);
+  }
+  EXPECT_GE(inner, 100);
+}
+
 /// Faces of single precision are planes with a thickness; no point leaves its body for that.
 TEST(Manifold, OfRoundedFacesLiesInBothBodies) {
   Random random(4);

@@ -114,7 +114,8 @@ std::uint32_t ContactFace::border() const {
     double most = height(corner);
     for (std::uint32_t left = right;; left = counter_clockwise(ring, left)) {
       const bool is_last = !holds(view_.half_edges[left].face);
-      if (const double of_head = height(view_.half_edges[left].head); of_head > most)
+      const double of_head = height(view_.half_edges[left].head);
+      if (of_head > most && !is_diagonal(view_, left))  // nothing but diagonals may leave a corner inside of a face
         most = of_head, next = is_last ? view_.half_edges[left].twin : next_in_face(view_, left);
       if (is_last || counter_clockwise(ring, left) == right) break;
     }
