@@ -17,17 +17,13 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Two roots' boxes that meet by no more than this share of how far they reach meet by little: the boxes below mostly reach
-/// less by no more.
-constexpr double kMeetLittle = 0.25;
-
 Verdict verdict_of(const MeshFinding& found, double law_two) {
   if (found.verdict == Verdict::Overlapping) return Verdict::Overlapping;
   if (found.lower > 0) return Verdict::Disjoint;
   return found.upper <= law_two ? Verdict::Touching : Verdict::Undecided;
 }
 
-/// A body as it is looked at first.
+/// The root of a body's tree: its box and ball, and its node, which holds the boxes below.
 struct Top {
   const Root& root;
   const Node& node;

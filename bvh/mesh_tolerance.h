@@ -32,6 +32,9 @@ inline constexpr double kEndError = 4 * kU;
 // underflows is far below the second, in the pair's unit. The third is relative to a bound: axes are unit to kAxisError, as far
 // as the rotation is to 1e-6, and a root and a sum of squares carry 5 roundings.
 inline constexpr float kBoxSlack = 0x1p-16f, kLeastBoxSlack = 0x1p-60f, kBoundShare = 0x1p-16f;
+/// Where two roots' boxes overlap along the line of the balls' centres by more than this share of how far they reach along it,
+/// the boxes below are hardly ever apart, and are not asked. A choice of time, no bound rests on it. Dimensionless.
+inline constexpr double kMeetLittle = 0.25;
 /// The share of a node's size by which its box, put along other axes, is made larger: 3 `kAxisError`, as a point is found again
 /// from its coordinates along axes that are not quite at right angles, and what rounding in doubles adds. Dimensionless.
 inline constexpr double kNodeBoxShare = 4 * kAxisError;

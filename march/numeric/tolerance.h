@@ -298,8 +298,8 @@ inline constexpr double kWarmEdges = 5, kWarmEdgesRound = 3, kWarmEdgesUnmapped 
 inline constexpr double kSameEdges = 0.5;
 inline constexpr std::uint32_t kTrialSteps = 16;
 /// The seed's direction serves while the line of centres turned by less than the angle of `kSameLine`, 8 degrees. It turns with
-/// that line, between slender bodies up to the angle of `kTurnedLine`, 2 degrees: what ellipsoids tell is farther off before,
-/// and nearer after. Up to that of `kNearLine`, 30 degrees, the search between ellipsoids begins at it. Cosines.
+/// that line, between slender bodies up to the angle of `kTurnedLine`, 2 degrees; beyond, the direction between ellipsoids is
+/// nearer to the true one. Up to that of `kNearLine`, 30 degrees, the search between ellipsoids begins at it. Cosines.
 inline constexpr double kSameLine = 0.99, kTurnedLine = 0.9994, kNearLine = 0.866;
 /// A cold start steps along support maps until its two supports lie aside of each other by no more than `kNearEdges` mean edges
 /// of both bodies, but at most `kMapGjkSteps` times.
