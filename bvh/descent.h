@@ -3,14 +3,19 @@
 // The way down two trees, nearest boxes first [Quinlan 1994]: pairs of nodes whose boxes are no nearer than the limit are left
 // out, and pairs of triangles that are not are measured. The limit follows the least distance so far and the question, and all
 // that was left out is no nearer than the last limit: so bounds in floats cost an exact answer nothing but time.
+//
+// With a front the way begins where the last search's ended. All pairs of triangles are below the front's own, always: a pair
+// leaves it only when those that it was opened into are there, and one that was never looked at has no bound.
 #pragma once
 
-#include "node_pair.h"
+#include "pair_bounds.h"
 #include "triangle_names.h"
 
 namespace swiftlet {
 namespace {  // compiled once for each width of registers: see numeric/width.h
 
+/// A search; `kFront`: from a front, which it writes.
+template <bool kFront>
 class Descent {
  public:
   Descent(const MeshView& a, const MeshView& b, const Pose& b_in_a, const MeshQuestion& question, MeshSeed& seed,
@@ -54,21 +59,10 @@ class Descent {
     }
     if (by_patches_) start_at_patches();
     frame_.emplace(motion_, a_.root->unit, b_.root->unit, unit_, ahead_);
-    stack_[top_++] = {0, 0, 0};
-    while (top_ > 0 && !done_) {
-      if (hulls_wait_ && finding_.nodes >= kHullsWait) {
-        hulls_wait_ = false;
-        if (root_boxes_apart_ && part_by_hulls({0, 0, 0})) top_ = 0;  // nothing below matters
-        continue;
-      }
-      const PairEntry entry = stack_[--top_];
-      if (double(entry.lower) >= limit_over_unit_) continue;
-      if (spent()) {
-        ++top_;  // it is still to do
-        break;
-      }
-      open(entry);
-    }
+    if constexpr (kFront)
+      start_at_front();
+    else
+      start_at(0, 0, 0, kNoPlace);
     conclude();
   }
 
@@ -117,14 +111,225 @@ class Descent {
     if (frame_) frame_->look(n);
   }
 
+  // ---- The front ----
+
+  using Front = FrontReader::State;
+  FrontPlace place_of(int entry) const { return kFront ? places_[std::size_t(entry)] : kNoPlace; }
+
+  /// Looks at the pairs of the front that may be near, those nearer than half the limit first; or begins it, or does without.
+  void start_at_front() {
+    Front& front = *question_.front;
+    const Root& root_b = *b_.root;
+    const Vec middle = scaled(root_b.middle, -unit_);
+    middle_b_ = float4(float(middle.x), float(middle.y), float(middle.z));
+    const double half = times_power_of_two(norm(root_b.half), -unit_);
+    const bool uses = front.moves_to(motion_, unit_, scaled(apply(motion_, root_b.middle), -unit_), half);
+    gone_ = float(front.gone), turned_ = float(front.turned);
+    if (!uses || front.begins) {
+      start_at(0, 0, 0, uses ? begin(float(half)) : kNoPlace);
+    } else {
+      look_again(find_near());
+    }
+    front.settle(uses, done_, finding_.nodes, finding_.triangles, asked_);
+  }
+  /// Puts the roots into an empty front.
+  FrontPlace begin(float half_of_b) {
+    Front& front = *question_.front;
+    const std::uint32_t group = front.take({0, 0, FrontKind::NodesOfB, 1}, kArmOfNode * half_of_b * (1 + kBoundShare));
+    FrontBounds& bounds = front.bounds[group] = {};
+    for (float& h : bounds.h) h = -HUGE_VALF;
+    bounds.h[0] = HUGE_VALF, front.end_of(group) = -HUGE_VALF;
+    return kFanOut * group;
+  }
+
+  /// Finds the pairs whose bounds are no farther than the limit. Returns how many there are.
+  std::uint32_t find_near() {
+    Front& front = *question_.front;
+    const Columns rotation = frame_->rotation;
+    const Float4 translation = float4(frame_->translation);
+    Float8 x[3], y[3], z[3], t[3];
+    for (int k = 0; k < 3; ++k) {
+      x[k] = all8(rotation.x[k]), y[k] = all8(rotation.y[k]), z[k] = all8(rotation.z[k]), t[k] = all8(translation[k]);
+    }
+    const Float8 turned = all8(turned_), limit = all8(limit_of_boxes_), past = all8(limit_of_boxes_ + gone_ + kFrontSlack);
+    std::uint32_t count = 0;
+    for (std::uint32_t first = 0; first < front.groups; first += kFanOut) {
+      const Float8 left = load8(front.ends[first / kFanOut].of) - turned * load8(front.arms[first / kFanOut].of);
+      for (unsigned ended = at_most(left, past); ended != 0; ended &= ended - 1) {
+        const std::uint32_t group = first + std::uint32_t(__builtin_ctz(ended));
+        if (front.ids[group].live == 0 || group >= front.groups) continue;
+        ++asked_;
+        const FrontBounds& of = front.bounds[group];
+        const Float8 c[3] = {load8(of.c[0]), load8(of.c[1]), load8(of.c[2])};
+        Float8 bound = all8(0) - load8(of.h) - turned * load8(of.r);
+        for (int k = 0; k < 3; ++k) bound = bound + load8(of.n[k]) * (x[k] * c[0] + y[k] * c[1] + z[k] * c[2] + t[k]);
+        unsigned near = at_most(bound, limit) & front.ids[group].live;
+        if (near == 0) {
+          front.end_of(group) = least(bound) + gone_ + front.arm_of(group) * turned_;
+          continue;
+        }
+        alignas(32) float bounds[kFanOut];
+        store(bound, bounds);
+        for (; near != 0; near &= near - 1) {
+          const std::uint32_t i = std::uint32_t(__builtin_ctz(near));
+          front.near[count++] = {bounds[i], group * kFanOut + i};
+        }
+      }
+    }
+    return count;
+  }
+  void look_again(std::uint32_t count) {
+    const float soon = limit_of_boxes_ / 2;
+    float left = HUGE_VALF;
+    for (const bool soonest : {true, false}) {
+      for (std::uint32_t k = 0; k < count; ++k) {
+        const Front::Near near = question_.front->near[k];
+        if ((near.bound <= soon) != soonest || double(near.bound) >= limit_over_unit_ || parted_) continue;
+        if (done_ || spent())
+          left = near.bound < left ? near.bound : left;
+        else
+          look_again(near);
+      }
+    }
+    if (parted_ || !(left < HUGE_VALF)) return;
+    lower_ = min(lower_, max(0, times_power_of_two(double(left), unit_)));
+    cut_ = true;
+  }
+  void look_again(const Front::Near& near) {
+    Front& front = *question_.front;
+    const std::uint32_t group = near.place / kFanOut, i = near.place % kFanOut;
+    const FrontIds ids = front.ids[group];
+    const float lower = near.bound > 0 ? near.bound : 0;
+    front.end_of(group) = -HUGE_VALF;  // next time it is asked whatever becomes of this pair
+    switch (ids.kind) {
+      case FrontKind::NodesOfB: return start_at(ids.a, ids.b + i, lower, near.place);
+      case FrontKind::NodesOfA: return start_at(ids.a + i, ids.b, lower, near.place);
+      case FrontKind::Rows: return open({ids.a, ids.b, lower}, near.place, 1u << i);
+      case FrontKind::Triangles:
+        measure(ids.a, ids.b + i);
+        if (times_power_of_two(apart_, -unit_) > double(near.bound) + 2 * kFrontSlack) put_triangles(near.place, ids.b + i);
+    }
+  }
+
+  /// Writes what was found of two nodes that were opened, and says where the pairs on the stack from `bottom` on belong. Where
+  /// there is no room, the nodes stay, and what is below them is not written.
+  void write(const PairEntry& entry, FrontPlace place, const NodePair& pair, const Opened& opened, bool lowest, unsigned rows,
+             int bottom) {
+    Front& front = *question_.front;
+    const auto say = [&](auto place_of_pair) {
+      for (int i = bottom; i < top_; ++i) places_[i] = place_of_pair(stack_[i]);
+    };
+    const bool both = !opened.only_a && !opened.only_b;
+    const unsigned all_a = (1u << pair.a().count()) - 1, all_b = (1u << pair.b().count()) - 1;
+    const unsigned parted = both ? all_a & rows & ~opened.rows : 0;
+    const std::uint32_t groups = both ? std::uint32_t(parted != 0) + std::uint32_t(__builtin_popcount(opened.rows)) : 1;
+    if (place == kNoPlace || front.room() < groups) return say([](const PairEntry&) { return kNoPlace; });
+    const PairBounds bounds(*frame_, pair);
+    const float arm = bounds.arm(middle_b_);
+    const std::uint32_t first_a = pair.a().first(), first_b = pair.b().first();
+    if (opened.only_a || parted != 0) {
+      const FrontIds ids = lowest ? FrontIds{entry.a, entry.b, FrontKind::Rows, parted}
+                                  : FrontIds{first_a, entry.b, FrontKind::NodesOfA, opened.only_a ? all_a : parted};
+      const PairBounds::Balls balls = bounds.balls_of_all();
+      const std::uint32_t group = put(ids, arm, bounds.of_a(balls), balls);
+      if (opened.only_a) say([&](const PairEntry& child) { return kFanOut * group + (child.a - first_a); });
+    }
+    if (opened.only_b) {
+      const PairBounds::Balls balls = bounds.balls_of_children();
+      const std::uint32_t group = put({entry.a, first_b, FrontKind::NodesOfB, all_b}, arm, bounds.of_b(balls), balls);
+      say([&](const PairEntry& child) { return kFanOut * group + (child.b - first_b); });
+    } else if (both && opened.rows != 0) {
+      const PairBounds::Balls balls = bounds.balls_of_children();
+      std::uint32_t group_of[kFanOut];
+      for (unsigned left = opened.rows; left != 0; left &= left - 1) {
+        const int i = __builtin_ctz(left);
+        const FrontKind kind = lowest ? FrontKind::Triangles : FrontKind::NodesOfB;
+        group_of[i] = put({first_a + std::uint32_t(i), first_b, kind, all_b}, arm, bounds.of_b(balls, i), balls);
+      }
+      say([&](const PairEntry& child) { return kFanOut * group_of[child.a - first_a] + (child.b - first_b); });
+    }
+    front.drop(place);
+  }
+  /// Puts eight pairs into a new group, which it returns.
+  std::uint32_t put(const FrontIds& ids, float arm, const PairBounds::Bounds& made, const PairBounds::Balls& balls) {
+    Front& front = *question_.front;
+    const std::uint32_t group = front.take(ids, arm);
+    FrontBounds& to = front.bounds[group];
+    for (int k = 0; k < 3; ++k) store(made.n[k], to.n[k]), store(balls.c[k], to.c[k]);
+    store(balls.r, to.r);
+    store(made.h - all8(turned_) * balls.r + all8(kFrontSlack), to.h);
+    alignas(32) float gaps[kFanOut];
+    store(made.gap, gaps);
+    float nearest = HUGE_VALF;
+    for (unsigned i = 0; i < kFanOut; ++i) {
+      if ((ids.live >> i & 1) == 0) {
+        to.h[i] = -HUGE_VALF;
+      } else if (gaps[i] > 0) {
+        nearest = gaps[i] < nearest ? gaps[i] : nearest;
+      } else {
+        to.h[i] = HUGE_VALF, nearest = -HUGE_VALF;
+      }
+    }
+    front.end_of(group) = nearest - kFrontSlack + gone_ + arm * turned_;
+    return group;
+  }
+  /// Puts a new bound to a pair, whose group is then asked next time.
+  void put(FrontPlace place, const PairBound& made) {
+    Front& front = *question_.front;
+    FrontBounds& to = front.bounds[place / kFanOut];
+    const std::uint32_t i = place % kFanOut;
+    for (int k = 0; k < 3; ++k) to.n[k][i] = made.n[k], to.c[k][i] = made.c[k];
+    to.r[i] = made.r, to.h[i] = made.h - turned_ * made.r + kFrontSlack;
+    front.end_of(place / kFanOut) = -HUGE_VALF;
+  }
+  /// Puts what parted the triangles that were measured last.
+  void put_triangles(FrontPlace place, std::uint32_t of_b) {
+    Vec b[3];
+    corners(b_, of_b, b);
+    const Vec c = (b[0] + b[1] + b[2]) * (1.0 / 3);
+    const double square = max(dot(b[0] - c, b[0] - c), max(dot(b[1] - c, b[1] - c), dot(b[2] - c, b[2] - c)));
+    const double share = power_of_two(-unit_);
+    const auto rounded = [](const Vec& v) { return float4(float(v.x), float(v.y), float(v.z)); };
+    put(place, {rounded(across_), rounded(c * share), float((dot(across_, apply(motion_, c)) - apart_) * share),
+                float(std::sqrt(square) * share) * (1 + kBoundShare)});
+  }
+
   bool spent() const { return finding_.nodes + finding_.triangles >= question_.steps; }
 
-  void open(const PairEntry& entry) {
+  /// Goes down from a pair of nodes. It is that of a place in the front, or of kNoPlace.
+  void start_at(std::uint32_t a, std::uint32_t b, float lower, FrontPlace place) {
+    stack_[top_] = {a, b, lower};
+    if constexpr (kFront) places_[top_] = place;
+    ++top_;
+    go_down();
+  }
+  void go_down() {
+    while (top_ > 0 && !done_) {
+      if (hulls_wait_ && finding_.nodes >= kHullsWait) {
+        hulls_wait_ = false;
+        if (root_boxes_apart_ && part_by_hulls({0, 0, 0})) top_ = 0, parted_ = true;  // nothing else matters
+        continue;
+      }
+      const PairEntry entry = stack_[--top_];
+      if (double(entry.lower) >= limit_over_unit_) continue;
+      if (spent()) {
+        ++top_;  // it is still to do
+        break;
+      }
+      open(entry, place_of(top_));
+    }
+  }
+
+  /// Opens two nodes; of the lowest ones only so many `rows` of pairs of triangles.
+  void open(const PairEntry& entry, FrontPlace place, unsigned rows = ~0u) {
     ++finding_.nodes;
     const Node &a = a_.nodes[entry.a], &b = b_.nodes[entry.b];
     NodePair pair(*frame_, a, b);
     const float most = pair.square_of(limit_of_boxes_), square = pair.square();
-    if (!(square <= most)) return;
+    if (!(square <= most)) {
+      if (kFront && place != kNoPlace) put(place, PairBounds(*frame_, pair).whole(square));
+      return;
+    }
     const bool boxes_apart = pair.lower(square) > 0;
     const bool of_roots = entry.a == 0 && entry.b == 0;
     if (of_roots) root_boxes_apart_ = boxes_apart, roots_apart_ = boxes_apart && hulls_apart_;
@@ -137,8 +342,11 @@ class Descent {
     const std::array<bool, 2> ends{patches == Patches::KeepA || (a_.ends(a) && patches != Patches::KeepB),
                                    patches == Patches::KeepB || (b_.ends(b) && patches != Patches::KeepA)};
     const int bottom = top_;
-    top_ += open_pair(pair, most, HUGE_VAL, {entry.a, entry.b}, ends, stack_ + top_);
-    if (!(ends[0] && ends[1])) return;
+    Opened opened;
+    top_ += open_pair(pair, most, HUGE_VAL, {entry.a, entry.b}, ends, stack_ + top_, rows, kFront ? &opened : nullptr);
+    const bool lowest = ends[0] && ends[1];
+    if constexpr (kFront) write(entry, place, pair, opened, lowest, rows, bottom);
+    if (!lowest) return;
     const bool whole = a_.triangle_count > 0 && b_.triangle_count > 0;
     while (top_ > bottom && !done_ && !spent()) {
       const PairEntry next = stack_[--top_];
@@ -266,7 +474,9 @@ class Descent {
       ask_kernel(of_a, of_b);
       return false;
     }
-    const bool is_near = gap_ahead(of_a, of_b) < limit_ahead_;
+    const double ahead = gap_ahead(of_a, of_b);
+    const bool is_near = ahead < limit_ahead_;
+    if constexpr (kFront) across_ = ahead_, apart_ = ahead;
     if (is_near) measure_near(of_a, of_b);
     return is_near;
   }
@@ -299,6 +509,7 @@ class Descent {
     if (stop.above <= 0 && crossing()) return;
     if (pair.gap(normalised(pair.between_middles())) >= (stop.is_threshold() ? limit_ : finding_.upper)) return;
     const auto [points, lower, upper, n] = pair.measured(question_.law_two);
+    if constexpr (kFront) across_ = n, apart_ = lower;
     if (lower > 0 && (upper - lower <= question_.law_two || lower >= limit_)) {
       lower_ = min(lower_, lower);
       if (upper < finding_.upper) nearer(of_a, of_b, a[0], points, n, upper);
@@ -364,7 +575,7 @@ class Descent {
     double lower = min(limit_, lower_);
     for (int i = 0; i < top_; ++i) lower = min(lower, times_power_of_two(double(stack_[i].lower), unit_));
     finding_.lower = finding_.verdict == Verdict::Overlapping ? 0 : max(0, min(lower, finding_.upper));
-    finding_.cut_short = top_ > 0 && !done_;
+    finding_.cut_short = (top_ > 0 || cut_) && !done_;
     if (finding_.triangle_a != kNone) seed_.triangle_a = finding_.triangle_a, seed_.triangle_b = finding_.triangle_b;
     float* const direction = seed_.direction.data();
     direction[0] = float(ahead_.x), direction[1] = float(ahead_.y), direction[2] = float(ahead_.z);
@@ -396,8 +607,17 @@ class Descent {
   bool patches_parted_ = false;                      ///< nothing else in the seed's patches matters
   std::uint32_t patch_a_ = kNone, patch_b_ = kNone;  ///< the seed's patches, if they were asked about
   PairSeed warm_{}, cold_{};                         ///< for the next pair of hulls; for the kernel's pairs beside hulls
+  bool parted_ = false;                              ///< the roots' hulls are far enough from each other
   int top_ = 0;
   PairEntry stack_[kMostEntries];
+
+  bool cut_ = false;                              ///< pairs of the front are still to do
+  std::uint32_t asked_ = 0;                       ///< groups of the front
+  float gone_ = 0, turned_ = 0;                   ///< as the front's
+  Float4 middle_b_{};                             ///< of B's root, in B's frame, over the unit
+  Vec across_{};                                  ///< a direction that parted the triangles that were measured last
+  double apart_ = 0;                              ///< and how far; not above 0 if none did
+  FrontPlace places_[kFront ? kMostEntries : 1];  ///< of the stack's entries in the front
 };
 
 }  // namespace

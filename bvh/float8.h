@@ -68,6 +68,31 @@ static inline Float4 abs(Float4 a) {
   return Float4{std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2]), std::fabs(a[3])};
 #endif
 }
+static inline Float4 sqrt(Float4 a) {
+#if defined(__SSE2__)
+  return _mm_sqrt_ps(a);
+#else
+  return Float4{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
+#endif
+}
+/// `size`, which is not below 0, with the sign of `of`.
+static inline Float4 with_sign(Float4 size, Float4 of) {
+#if defined(__SSE2__)
+  return _mm_or_ps(size, _mm_and_ps(Float4{-0.0f, -0.0f, -0.0f, -0.0f}, of));
+#else
+  return Float4{std::copysign(size[0], of[0]), std::copysign(size[1], of[1]), std::copysign(size[2], of[2]),
+                std::copysign(size[3], of[3])};
+#endif
+}
+/// In each lane `a` where p is at least q, else `b`.
+static inline Float4 where_at_least(Float4 p, Float4 q, Float4 a, Float4 b) {
+#if defined(__SSE2__)
+  const Float4 chosen = _mm_cmpge_ps(p, q);
+  return _mm_or_ps(_mm_and_ps(chosen, a), _mm_andnot_ps(chosen, b));
+#else
+  return p >= q ? a : b;
+#endif
+}
 static inline Float4 cross(Float4 a, Float4 b) {
   const auto yzx = [](Float4 v) { return __builtin_shufflevector(v, v, 1, 2, 0, 3); };
   const auto zxy = [](Float4 v) { return __builtin_shufflevector(v, v, 2, 0, 1, 3); };
@@ -106,6 +131,8 @@ static inline void store(Float8 a, float* p) { _mm256_store_ps(p, a.v); }
 static inline Float8 operator+(Float8 a, Float8 b) { return {a.v + b.v}; }
 static inline Float8 operator-(Float8 a, Float8 b) { return {a.v - b.v}; }
 static inline Float8 operator*(Float8 a, Float8 b) { return {a.v * b.v}; }
+static inline Float8 operator/(Float8 a, Float8 b) { return {a.v / b.v}; }
+static inline Float8 sqrt(Float8 a) { return {_mm256_sqrt_ps(a.v)}; }
 static inline Float8 max(Float8 a, Float8 b) { return {_mm256_max_ps(b.v, a.v)}; }
 static inline Float8 min(Float8 a, Float8 b) { return {_mm256_min_ps(b.v, a.v)}; }
 static inline float greatest(Float8 a) {
@@ -113,6 +140,12 @@ static inline float greatest(Float8 a) {
 }
 static inline float least(Float8 a) { return least(min(Float4(_mm256_castps256_ps128(a.v)), _mm256_extractf128_ps(a.v, 1))); }
 static inline Float8 abs(Float8 a) { return {_mm256_andnot_ps(all8(-0.0f).v, a.v)}; }
+/// `size`, which is not below 0, with the sign of `of`.
+static inline Float8 with_sign(Float8 size, Float8 of) { return {_mm256_or_ps(size.v, _mm256_and_ps(all8(-0.0f).v, of.v))}; }
+/// In each lane `a` where p is at least q, else `b`.
+static inline Float8 where_at_least(Float8 p, Float8 q, Float8 a, Float8 b) {
+  return {_mm256_blendv_ps(b.v, a.v, _mm256_cmp_ps(p.v, q.v, _CMP_GE_OQ))};
+}
 static inline Float8 joined(Float4 low, Float4 high) { return {_mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1)}; }
 static inline Float4 low(Float8 a) { return _mm256_castps256_ps128(a.v); }
 static inline Float4 high(Float8 a) { return _mm256_extractf128_ps(a.v, 1); }
@@ -138,11 +171,17 @@ static inline void store(Float8 a, float* p) {
 static inline Float8 operator+(Float8 a, Float8 b) { return {a.lo + b.lo, a.hi + b.hi}; }
 static inline Float8 operator-(Float8 a, Float8 b) { return {a.lo - b.lo, a.hi - b.hi}; }
 static inline Float8 operator*(Float8 a, Float8 b) { return {a.lo * b.lo, a.hi * b.hi}; }
+static inline Float8 operator/(Float8 a, Float8 b) { return {a.lo / b.lo, a.hi / b.hi}; }
+static inline Float8 sqrt(Float8 a) { return {sqrt(a.lo), sqrt(a.hi)}; }
 static inline Float8 max(Float8 a, Float8 b) { return {max(a.lo, b.lo), max(a.hi, b.hi)}; }
 static inline Float8 min(Float8 a, Float8 b) { return {min(a.lo, b.lo), min(a.hi, b.hi)}; }
 static inline float greatest(Float8 a) { return greatest(max(a.lo, a.hi)); }
 static inline float least(Float8 a) { return least(min(a.lo, a.hi)); }
 static inline Float8 abs(Float8 a) { return {abs(a.lo), abs(a.hi)}; }
+static inline Float8 with_sign(Float8 size, Float8 of) { return {with_sign(size.lo, of.lo), with_sign(size.hi, of.hi)}; }
+static inline Float8 where_at_least(Float8 p, Float8 q, Float8 a, Float8 b) {
+  return {where_at_least(p.lo, q.lo, a.lo, b.lo), where_at_least(p.hi, q.hi, a.hi, b.hi)};
+}
 static inline Float8 joined(Float4 low, Float4 high) { return {low, high}; }
 static inline Float4 low(Float8 a) { return a.lo; }
 static inline Float4 high(Float8 a) { return a.hi; }

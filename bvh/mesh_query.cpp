@@ -79,13 +79,22 @@ Status status_of(const MeshFinding& found, const StopRule& stop, double law_two,
   return whole ? Status::NotConverged : Status::LevelLimit;
 }
 
+/// The memory of a front that is to serve both bodies, or null.
+FrontReader::State* serving(MeshFront* front, const MeshSetting& at, const MeshBody& a, const MeshBody& b) {
+  FrontReader::State* const state = front ? FrontReader::state(*front) : nullptr;
+  if (!state || !a.mesh() || !b.mesh() || !at.a.is_whole() || !at.b.is_whole()) return nullptr;
+  if (at.a.has_patches() && at.b.has_patches()) return nullptr;
+  state->serve(*a.mesh(), *b.mesh());
+  return state;
+}
+
 /// Searches. Within law 2's bound of contact of the surfaces or of the bodies, or of a threshold, what is seen first decides
 /// the verdict: there a cold search does, so that no seed can [law 3].
 void look(const MeshSetting& at, const Pose& b_in_a, const StopRule& stop, std::uint32_t steps, MeshSeed& seed,
-          MeshFinding& found) {
-  const bool cold = seed.triangle_a == kNone && seed.direction == MeshSeed{}.direction;
+          FrontReader::State* front, MeshFinding& found) {
+  const bool cold = !front && seed.triangle_a == kNone && seed.direction == MeshSeed{}.direction;
   const StopRule passed = cold ? stop : stop.beyond_by(at.law_two);
-  search(at.a, at.b, b_in_a, {passed, at.law_two, at.size, steps}, seed, found);
+  search(at.a, at.b, b_in_a, {passed, at.law_two, at.size, steps, front}, seed, found);
   if (cold || found.sure || found.cut_short || found.refused || found.upper < passed.below) return;
   const double near = 3 * at.law_two;
   const bool near_contact = found.verdict == Verdict::Overlapping || found.upper <= near ||
@@ -119,8 +128,8 @@ bool roots_answer(const MeshBody& a, const MeshBody& b, const Motion& b_in_a, co
 
 /// Asks about the surfaces and, of solids, what is inside them.
 [[gnu::noinline]] void ask_search(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Motion& motion,
-                                  const PoseQuality& quality, MeshSeed& seed, const Budget& budget, const StopRule& asked,
-                                  Answer& answer) {
+                                  const PoseQuality& quality, MeshSeed& seed, MeshFront* front, const Budget& budget,
+                                  const StopRule& asked, Answer& answer) {
   const MeshSetting at(a, b, motion, quality);
   answer.radius_a = a.radius(), answer.radius_b = b.radius();
   if (answer.status = at.fault(); answer.status != Status::Converged) return;
@@ -134,7 +143,7 @@ bool roots_answer(const MeshBody& a, const MeshBody& b, const Motion& b_in_a, co
   if (const double gap = asks_roots ? gap_of_roots(top_a, top_b, motion, at.size, enough) : 0; gap > enough) {
     found.lower = gap;
   } else {
-    look(at, b_in_a, stop, budget.steps, seed, found);
+    look(at, b_in_a, stop, budget.steps, seed, serving(front, at, a, b), found);
   }
   const bool any_solid = at.a.solid || at.b.solid;
   if (any_solid && found.verdict != Verdict::Overlapping && !found.refused && !(found.upper < stop.below))
@@ -148,13 +157,13 @@ bool roots_answer(const MeshBody& a, const MeshBody& b, const Motion& b_in_a, co
   describe(at, found, answer);
 }
 
-void ask(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Budget& budget, const StopRule& asked,
-         Answer& answer) {
+void ask(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, MeshFront* front, const Budget& budget,
+         const StopRule& asked, Answer& answer) {
   const Motion motion = swiftlet::motion(b_in_a);
   const PoseQuality quality = pose_quality(motion);
   const bool asks_roots = asked.is_threshold() && quality.legal && is_plain(a) && is_plain(b);
   if (asks_roots && roots_answer(a, b, motion, asked, answer)) return;
-  ask_search(a, b, b_in_a, motion, quality, seed, budget, asked, answer);
+  ask_search(a, b, b_in_a, motion, quality, seed, front, budget, asked, answer);
 }
 
 /// Asks about convex bodies alone; `Asker` asks query.h.
@@ -285,12 +294,64 @@ std::uint32_t MeshView::triangle_at(std::uint32_t node, FeatureId feature, const
   return nearest != kNone ? nearest : hull.first_triangle + source.vertex[view.half_edges[half_edge].head] / 3;
 }
 
-Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options) {
+// Each query without a front and with one.
+namespace {
+
+Answer distance_from(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, MeshFront* front,
+                     const Options& options) {
   Answer answer;
   if (both_convex(a, b, seed, [&](const Body& x, const Body& y, PairSeed& s) { answer = distance(x, y, b_in_a, s, options); }))
     return answer;
-  ask(a, b, b_in_a, seed, options.budget, {options.absolute, options.relative, options.beyond, 0}, answer);
+  ask(a, b, b_in_a, seed, front, options.budget, {options.absolute, options.relative, options.beyond, 0}, answer);
   return answer;
+}
+
+Answer intersects_from(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, MeshFront* front,
+                       const Effort& effort) {
+  Answer answer;
+  if (both_convex(a, b, seed, [&](const Body& x, const Body& y, PairSeed& s) { answer = intersects(x, y, b_in_a, s, effort); }))
+    return answer;
+  ask(a, b, b_in_a, seed, front, effort.budget, {0, 0, 0, 0}, answer);
+  decide(answer);
+  return answer;
+}
+
+Within within_from(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double threshold, MeshSeed& seed, MeshFront* front,
+                   const Effort& effort) {
+  Within result;
+  if (both_convex(a, b, seed,
+                  [&](const Body& x, const Body& y, PairSeed& s) { result = within(x, y, b_in_a, threshold, s, effort); }))
+    return result;
+  ask(a, b, b_in_a, seed, front, effort.budget, {0, 0, threshold, threshold}, result.answer);
+  decide(result, threshold);
+  // The search ended at the first pair that is near enough, whichever that was. Its points may overlap by the radii, which an
+  // interval from 0 on says by the verdict alone.
+  const bool by_radii = result.answer.verdict == Verdict::Overlapping && a.radius() + b.radius() > 0;
+  if (result.decision == Decision::Yes && !by_radii) result.answer.verdict = Verdict::Undecided, result.answer.lower = 0;
+  return result;
+}
+
+ClosestFeatures features_from(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, MeshFront* front,
+                              const ClosestOptions& options) {
+  ClosestFeatures result;
+  if (both_convex(a, b, seed,
+                  [&](const Body& x, const Body& y, PairSeed& s) { result = closest_features(x, y, b_in_a, s, options); }))
+    return result;
+  ask(a, b, b_in_a, seed, front, {options.steps, 0}, {0, 0, options.beyond, -kInfinity}, result.answer);
+  const Answer& answer = result.answer;
+  result.source_a = source_feature(a, answer.feature_a, answer.level_a);
+  result.source_b = source_feature(b, answer.feature_b, answer.level_b);
+  return result;
+}
+
+}  // namespace
+
+Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options) {
+  return distance_from(a, b, b_in_a, seed, nullptr, options);
+}
+Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, MeshFront& front,
+                const Options& options) {
+  return distance_from(a, b, b_in_a, seed, &front, options);
 }
 Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Options& options) {
   MeshSeed cold;
@@ -298,12 +359,11 @@ Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const 
 }
 
 Answer intersects(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Effort& effort) {
-  Answer answer;
-  if (both_convex(a, b, seed, [&](const Body& x, const Body& y, PairSeed& s) { answer = intersects(x, y, b_in_a, s, effort); }))
-    return answer;
-  ask(a, b, b_in_a, seed, effort.budget, {0, 0, 0, 0}, answer);
-  decide(answer);
-  return answer;
+  return intersects_from(a, b, b_in_a, seed, nullptr, effort);
+}
+Answer intersects(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, MeshFront& front,
+                  const Effort& effort) {
+  return intersects_from(a, b, b_in_a, seed, &front, effort);
 }
 Answer intersects(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Effort& effort) {
   MeshSeed cold;
@@ -312,17 +372,11 @@ Answer intersects(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, cons
 
 Within within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double threshold, MeshSeed& seed,
               const Effort& effort) {
-  Within result;
-  if (both_convex(a, b, seed,
-                  [&](const Body& x, const Body& y, PairSeed& s) { result = within(x, y, b_in_a, threshold, s, effort); }))
-    return result;
-  ask(a, b, b_in_a, seed, effort.budget, {0, 0, threshold, threshold}, result.answer);
-  decide(result, threshold);
-  // The search ended at the first pair that is near enough, whichever that was. Its points may overlap by the radii, which an
-  // interval from 0 on says by the verdict alone.
-  const bool by_radii = result.answer.verdict == Verdict::Overlapping && a.radius() + b.radius() > 0;
-  if (result.decision == Decision::Yes && !by_radii) result.answer.verdict = Verdict::Undecided, result.answer.lower = 0;
-  return result;
+  return within_from(a, b, b_in_a, threshold, seed, nullptr, effort);
+}
+Within within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double threshold, MeshSeed& seed, MeshFront& front,
+              const Effort& effort) {
+  return within_from(a, b, b_in_a, threshold, seed, &front, effort);
 }
 Within within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double threshold, const Effort& effort) {
   MeshSeed cold;
@@ -331,15 +385,11 @@ Within within(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double t
 
 ClosestFeatures closest_features(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed,
                                  const ClosestOptions& options) {
-  ClosestFeatures result;
-  if (both_convex(a, b, seed,
-                  [&](const Body& x, const Body& y, PairSeed& s) { result = closest_features(x, y, b_in_a, s, options); }))
-    return result;
-  ask(a, b, b_in_a, seed, {options.steps, 0}, {0, 0, options.beyond, -kInfinity}, result.answer);
-  const Answer& answer = result.answer;
-  result.source_a = source_feature(a, answer.feature_a, answer.level_a);
-  result.source_b = source_feature(b, answer.feature_b, answer.level_b);
-  return result;
+  return features_from(a, b, b_in_a, seed, nullptr, options);
+}
+ClosestFeatures closest_features(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, MeshFront& front,
+                                 const ClosestOptions& options) {
+  return features_from(a, b, b_in_a, seed, &front, options);
 }
 ClosestFeatures closest_features(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const ClosestOptions& options) {
   MeshSeed cold;

@@ -41,6 +41,26 @@ inline constexpr double kNodeBoxShare = 4 * kAxisError;
 /// A double times one more than this is, as a float, not below it: two roundings of floats. Dimensionless.
 inline constexpr double kFloatUp = 0x1p-22;
 
+// ---- Fronts, in floats --------------------------------------------------------------------------------------------------
+
+// A front's bound n (R c + t) - h - T r, as search and writer compute it, over the pair's unit, v = 2^-24: entries of R and t
+// are off by v of themselves, c, of length 2 at most, is a float; a coordinate of R c + t carries 5 v of 4 and 2 v of 6, all
+// three 56 v, times n again 4 v of 6; T r is at most 4, h at most 12, and each sum 1 v of itself: less than 128 v in all, once
+// for each of the two; and n is longer than 1 by 3 kAxisError at most, of a bound of at most 8: 192 v. Rounded up. What
+// rounding did to the gap that the bound began with is taken off before (`kBoundShare`, `kBoxSlack`).
+inline constexpr float kFrontSlack = 0x1p-15f;
+/// The most that B turns and goes while a front lasts: T, in radians, and W, over the pair's unit. The sums of a group's end,
+/// of at most 16, are then within `kFrontSlack` too.
+inline constexpr double kMostTurned = 1, kMostGone = 4;
+/// The difference of two rotations stretches no vector by more than the root of half the sum of its squares: two singular
+/// values are equal and one is 0. Legal ones are off by less than 2e-6 each, which may add their sum and `kHalfRoot` of their
+/// sums.
+inline constexpr double kHalfRoot = 0.70711, kTurnSlack = 1e-5;
+/// How far the balls of a pair's children, of their own boxes and of triangles in them reach from the middle of the node's box,
+/// over half its diagonal D: an own box is at most D from the middle along each of its axes on either side, so that its
+/// middle and half its diagonal are at most the root of 6 times D; a triangle's, 7 / 3. Rounded up.
+inline constexpr float kArmOfNode = 2.5f;
+
 // ---- Pairs of triangles, in doubles -------------------------------------------------------------------------------------
 
 // The way from A's first corner to B's, in A's frame: a coordinate of a rotated corner carries 3 u of its length, at most the

@@ -181,6 +181,8 @@ class NodePair {
   }
 
  private:
+  friend class PairBounds;
+
   static Float8 squared(Float8 gap) {
     const Float8 positive = max(gap, all8(0));
     return positive * positive;
@@ -242,14 +244,21 @@ static inline void raise_least(PairEntry* entries, float (&key)[kMostChildren], 
   }
 }
 
+/// How two nodes were opened.
+struct Opened {
+  bool only_a, only_b;  ///< one of them alone
+  unsigned rows;        ///< of both: the children of A that are near B, one bit each
+};
+
 /// From this ratio of sizes on the larger one of two nodes is opened alone.
 inline constexpr float kOneSided = 3;
 
 /// Opens two nodes, or the larger one alone: writes the pairs of children, or of a child and the other node, `nodes`, whose
 /// squared gap is at most `most` and that may be within `reach`, over the unit, to `found`, those to visit first at the end.
-/// Returns how many there are. A node that `ends` has children that are none.
+/// Returns how many there are. A node that `ends` has children that are none. Where both are opened, of A's children only
+/// `rows` are. If asked for, `opened` receives how.
 static inline int open_pair(NodePair& pair, float most, double reach, std::array<std::uint32_t, 2> nodes,
-                            std::array<bool, 2> ends, PairEntry* found) {
+                            std::array<bool, 2> ends, PairEntry* found, unsigned rows = ~0u, Opened* opened = nullptr) {
   const Node &a = pair.a(), &b = pair.b();
   const bool both = ends[0] == ends[1];
   const bool only_a = both ? !ends[0] && pair.size_a() > kOneSided * pair.size_b() : ends[1];
@@ -270,11 +279,14 @@ static inline int open_pair(NodePair& pair, float most, double reach, std::array
     keep(0, pair.near_a(most, near));
   } else {
     pair.look_at_b();
-    for (unsigned rows = pair.near_a(most, near); rows != 0; rows &= rows - 1) {
+    rows &= pair.near_a(most, near);
+    if (opened) opened->rows = rows;
+    for (; rows != 0; rows &= rows - 1) {
       const int i = __builtin_ctz(rows);
       keep(i, pair.near_b(i, most, near));
     }
   }
+  if (opened) opened->only_a = only_a, opened->only_b = only_b;
 
   int count = 0;
   for (; left != 0; left &= left - 1) {

@@ -9,7 +9,10 @@ namespace swiftlet {
 
 void search_by_two(const MeshView& a, const MeshView& b, const Pose& b_in_a, const MeshQuestion& question, MeshSeed& seed,
                    MeshFinding& finding) {
-  Descent(a, b, b_in_a, question, seed, finding).run();
+  if (question.front && !question.front->rests())
+    Descent<true>(a, b, b_in_a, question, seed, finding).run();
+  else
+    Descent<false>(a, b, b_in_a, question, seed, finding).run();
 }
 
 }  // namespace swiftlet

@@ -7,6 +7,7 @@
 
 #include <swiftlet/mesh_query.h>
 
+#include "front.h"
 #include "mesh_block.h"
 #include "numeric/vec.h"
 #include "numeric/width.h"
@@ -69,9 +70,10 @@ struct MeshView {
 /// What is asked about the surfaces, without radii.
 struct MeshQuestion {
   StopRule stop;
-  double law_two;       ///< law 2's bound for the bodies
-  double size;          ///< law 2's size
-  std::uint32_t steps;  ///< the most pairs of nodes and triangles to look at
+  double law_two;                       ///< law 2's bound for the bodies
+  double size;                          ///< law 2's size
+  std::uint32_t steps;                  ///< the most pairs of nodes and triangles to look at
+  FrontReader::State* front = nullptr;  ///< null, or that of two whole meshes
 };
 
 /// What is known of the surfaces.

@@ -4,6 +4,7 @@
 // triangles in long doubles (soups.h); mesh_exact_test.cpp has exact truth.
 #include <swiftlet/mesh_batch.h>
 #include <swiftlet/mesh_contacts.h>
+#include <swiftlet/mesh_front.h>
 #include <swiftlet/mesh_query.h>
 #include <swiftlet/mesh_visit.h>
 
@@ -1023,9 +1024,12 @@ TEST(MeshLaw8, QueriesAllocateNothing) {
   { const std::vector<int> proof(10); }
   EXPECT_EQ(allocations - before, 1) << "allocations are not counted";
   const Body sphere = Body::point({0, 0, 0}, 0.5);
+  MeshFront front;
   for (const Case& c : cases()) {
     MeshSeed seed;
     before = allocations;
+    distance(c.mesh_a, c.mesh_b, c.pose, seed, front);
+    intersects(c.mesh_a, c.mesh_b, c.pose, seed, front);
     distance(c.mesh_a, c.mesh_b, c.pose, seed);
     intersects(c.mesh_a, c.mesh_b, c.pose, seed);
     within(c.mesh_a, c.mesh_b, c.pose, 0.1, seed);
