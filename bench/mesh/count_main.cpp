@@ -33,8 +33,10 @@ struct Work {
 }
 
 int main(int argc, char** argv) try {
+  const bool with_fronts = argc > 1 && std::string(argv[1]) == "--front";
+  if (with_fronts) --argc, ++argv;
   if (argc < 3) {
-    std::fputs("swiftlet_mesh_count SCENE QUESTION [POSES [MESHES [FILE FILE]]]\nscenes:", stderr);
+    std::fputs("swiftlet_mesh_count [--front] SCENE QUESTION [POSES [MESHES [FILE FILE]]]\nscenes:", stderr);
     for (const std::string& name : scene_names()) std::fprintf(stderr, " %s", name.c_str());
     std::fputs("\nquestions:", stderr);
     for (const Asked& asked : kAsked) std::fprintf(stderr, " %s", asked.name);
@@ -52,8 +54,8 @@ int main(int argc, char** argv) try {
     if (!model) throw std::runtime_error(model.error().message);
     return std::move(model).value();
   };
-  const auto session =
-      argc > 6 ? swiftlet_session(load(argv[5]), load(argv[6])) : swiftlet_session(scene->model_a, scene->model_b);
+  const auto session = argc > 6 ? swiftlet_session(load(argv[5]), load(argv[6]), with_fronts)
+                                : swiftlet_session(scene->model_a, scene->model_b, with_fronts);
   std::vector<Question> questions;
   std::vector<swiftlet::Pose> poses;
   for (const swiftlet::Pose& pose : scene->poses) {

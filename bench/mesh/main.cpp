@@ -369,6 +369,8 @@ int main(int argc, char** argv) try {
     rig.only = {"intersects", "distance10%", "distance"};
   }
   rig.methods.push_back(swiftlet_method("swiftlet boxes", "the same without hulls, from_triangles", boxes_of));
+  if (!layer)
+    rig.methods.push_back(swiftlet_method("swiftlet front", "build_mesh, from the last pose's seed and front", hulls_of, true));
 #ifdef SWIFTLET_PEER_FCL
   add_fcl(rig.methods);
 #endif

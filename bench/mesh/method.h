@@ -60,8 +60,8 @@ class Method {
 using Methods = std::vector<std::unique_ptr<Method>>;
 using MakeModel = MeshModel (*)(const Mesh&);
 MeshModel boxes_of(const Mesh& mesh);  ///< ours without hulls
-std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, MakeModel make);
-std::unique_ptr<Session> swiftlet_session(MeshModel a, MeshModel b);
+std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, MakeModel make, bool with_fronts = false);
+std::unique_ptr<Session> swiftlet_session(MeshModel a, MeshModel b, bool with_fronts = false);
 void add_fcl(Methods& methods);         ///< where it is installed
 void add_fcl_native(Methods& methods);  ///< and can be compiled for this machine alone
 std::unique_ptr<Method> cgal_method();

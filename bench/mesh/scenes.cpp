@@ -61,16 +61,17 @@ Pose posed(const Scene& s, const Turn& turn, const Vec3& at) {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// B comes from outside along a direction until the gap is as wanted; direction and B turn by one degree a query. Where the
-/// last bit of the way leads past a ledge, the gap stays a little wider. From there it goes on by up to `deepest` r.
-void add_approach(Scene& s, std::size_t count, double least, double most, std::uint64_t seed, double deepest = 0) {
+/// B comes from outside along a direction until the gap is as wanted; direction and B turn by so many degrees a query. Where
+/// the last bit of the way leads past a ledge, the gap stays a little wider. From there it goes on by up to `deepest` r.
+void add_approach(Scene& s, std::size_t count, double least, double most, std::uint64_t seed, double degrees = 1,
+                  double deepest = 0) {
   Random random(seed);
   Turn turn, sky;
   turn = turn.then(random.on_sphere(), 2);
   const Vec3 axis = random.on_sphere(), pole = random.on_sphere(), start = random.on_sphere();
   for (std::size_t i = 0; i < count; ++i) {
-    turn = turn.then(axis, kDegree);
-    sky = sky.then(pole, kDegree);
+    turn = turn.then(axis, degrees * kDegree);
+    sky = sky.then(pole, degrees * kDegree);
     const Vec3 direction = (sky.matrix() * start).normalized();
     const double gap = random.uniform(least, most) * s.radius;
     double away = 2 * s.radius + gap;
@@ -164,14 +165,16 @@ void add_crossing(Scene& s, std::size_t count, const Turn& turn, const Vec3& at,
 }
 
 constexpr double kNearLeast = 0.0005, kNearMost = 0.002, kFarLeast = 0.5, kFarMost = 1.5, kDeepest = 0.05;
-enum Motion { Near, Far, Any, Pressed };
+constexpr double kSlow = 0.1;  // degrees a query
+enum Motion { Near, Far, Any, Pressed, Slow };
 
 void add(Scene& s, Motion motion, std::size_t count) {
   constexpr std::uint64_t kSeed = 22;
   if (motion == Near) add_approach(s, count, kNearLeast, kNearMost, kSeed);
   if (motion == Far) add_approach(s, count, kFarLeast, kFarMost, kSeed);
   if (motion == Any) add_random(s, count, kSeed);
-  if (motion == Pressed) add_approach(s, count, kNearLeast, kNearMost, kSeed, kDeepest);
+  if (motion == Pressed) add_approach(s, count, kNearLeast, kNearMost, kSeed, 1, kDeepest);
+  if (motion == Slow) add_approach(s, count, kNearLeast, kNearMost, kSeed, kSlow);
   s.stance = motion == Near ? Stance::Near : motion == Pressed ? Stance::Pressed : Stance::Any;
 }
 
@@ -216,7 +219,7 @@ std::vector<Maker> makers() {
   });
   const auto of_motions = [&](const std::string& name, std::initializer_list<Motion> motions, auto make) {
     for (const Motion motion : motions) {
-      constexpr const char* kNames[] = {"near", "far", "random", "pressed"};
+      constexpr const char* kNames[] = {"near", "far", "random", "pressed", "slow"};
       all.push_back({name + "-" + kNames[motion],
                      [make, motion](const std::filesystem::path& meshes, std::size_t count) -> std::optional<Scene> {
                        std::optional<Scene> s = make(meshes);
@@ -233,15 +236,15 @@ std::vector<Maker> makers() {
       return pair(mesh_a.value(), mesh_b.value());
     };
   };
-  of_motions("elephant", {Near, Far, Any, Pressed}, of_files("elephant.off", "elephant.off"));
-  of_motions("bunny", {Near, Far, Any, Pressed}, of_files("bunny.off", "bunny.off"));
+  of_motions("elephant", {Near, Far, Any, Pressed, Slow}, of_files("elephant.off", "elephant.off"));
+  of_motions("bunny", {Near, Far, Any, Pressed, Slow}, of_files("bunny.off", "bunny.off"));
   of_motions("torus400", {Near, Any, Pressed}, [](const std::filesystem::path&) -> std::optional<Scene> {
     const Mesh mesh = torus({.around = 20, .across = 10});
     return pair(mesh, mesh);
   });
   of_motions("comb-frame", {Near, Any, Pressed},
              [](const std::filesystem::path&) -> std::optional<Scene> { return pair(comb(), frame()); });
-  of_motions("fetch", {Near, Any, Pressed}, of_files("fetch_base.stl", "fetch_gripper.stl"));
+  of_motions("fetch", {Near, Any, Pressed, Slow}, of_files("fetch_base.stl", "fetch_gripper.stl"));
   of_motions("ur10", {Near, Any, Pressed}, of_files("ur10_forearm.obj", "ur10_wrist2.obj"));
   of_bodies("tori-linked", [](std::size_t count) {
     Scene s = pair(torus({.around = 50, .across = 20, .bend = 0.25}), torus({.around = 50, .across = 20, .wrinkle = 0.25}));
