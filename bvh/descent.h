@@ -620,5 +620,18 @@ class Descent {
   FrontPlace places_[kFront ? kMostEntries : 1];  ///< of the stack's entries in the front
 };
 
+/// Searches, with a front if the question has one that does not rest. Each search has a frame of its own on the stack: one with
+/// a front needs more.
+template <bool kFront>
+[[gnu::noinline]] void search_from(const MeshView& a, const MeshView& b, const Pose& b_in_a, const MeshQuestion& question,
+                                   MeshSeed& seed, MeshFinding& finding) {
+  Descent<kFront>(a, b, b_in_a, question, seed, finding).run();
+}
+void descend(const MeshView& a, const MeshView& b, const Pose& b_in_a, const MeshQuestion& question, MeshSeed& seed,
+             MeshFinding& finding) {
+  const bool from_front = question.front && !question.front->rests();
+  (from_front ? search_from<true> : search_from<false>)(a, b, b_in_a, question, seed, finding);
+}
+
 }  // namespace
 }  // namespace swiftlet

@@ -9,10 +9,7 @@ namespace swiftlet {
 
 void search_by_two(const MeshView& a, const MeshView& b, const Pose& b_in_a, const MeshQuestion& question, MeshSeed& seed,
                    MeshFinding& finding) {
-  if (question.front && !question.front->rests())
-    Descent<true>(a, b, b_in_a, question, seed, finding).run();
-  else
-    Descent<false>(a, b, b_in_a, question, seed, finding).run();
+  descend(a, b, b_in_a, question, seed, finding);
 }
 
 }  // namespace swiftlet
