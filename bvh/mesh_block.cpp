@@ -149,6 +149,8 @@ void fit_ball(std::span<const Vec> vertices, Root& root) {
   }
   const Vec aside = root.middle - root.centre;
   root.aside = root.axes_x * aside.x + root.axes_y * aside.y + root.axes_z * aside.z;
+  root.inside = min(min(root.half.x - std::fabs(root.aside.x), root.half.y - std::fabs(root.aside.y)),
+                    root.half.z - std::fabs(root.aside.z));
 }
 
 /// Writes a block: the header, whose levels have their sizes, and what follows it, in the order of the file.

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "body/shape.h"
-#include "float8.h"
 #include "mesh_setting.h"
 #include "query/ask.h"
 #include "solid.h"
@@ -21,52 +20,6 @@ Verdict verdict_of(const MeshFinding& found, double law_two) {
   if (found.verdict == Verdict::Overlapping) return Verdict::Overlapping;
   if (found.lower > 0) return Verdict::Disjoint;
   return found.upper <= law_two ? Verdict::Touching : Verdict::Undecided;
-}
-
-/// The root of a body's tree: its box and ball, and its node, which holds the boxes below.
-struct Top {
-  const Root& root;
-  const Node& node;
-};
-
-/// A direction of the body's frame along its root's axes.
-Vec4 along(const Root& root, const Vec& n) {
-  return vec4(root.axes_x) * n.x + vec4(root.axes_y) * n.y + vec4(root.axes_z) * n.z;
-}
-
-/// How far the boxes of a root's children reach from the middle of its own along a unit direction, given along its axes.
-double reach_of_children(const Top& top, const Vec4& n) {
-  const Float4 along = float4(n), sizes = abs(along);
-  Float8 reach = all8(0);
-  for (int k = 0; k < 3; ++k)
-    reach = reach + (all8(along[k]) * load8(top.node.centre[k]) + all8(sizes[k]) * load8(top.node.half[k]));
-  return double(greatest(reach)) * power_of_two(top.root.unit);
-}
-
-/// A lower bound on the distance, or a number that is not above `enough`: the gap of the balls around both bodies or, if that
-/// is no answer, along the line of the balls' centres that of both roots' boxes or, of those that meet by little, of the boxes
-/// below. `kBoxSlack` of all lengths is far above what rounding adds.
-double gap_of_roots(const Top& of_a, const Top& of_b, const Motion& b_in_a, double size, double enough) {
-  const Root &a = of_a.root, &b = of_b.root;
-  const Vec way = apply(b_in_a, b.centre) - a.centre;
-  const double square = dot(way, way);
-  if (!has_range(square)) return 0;
-  const double length = std::sqrt(square);
-  const auto gap = [&](double reach_a, double reach_b) {
-    return length - reach_a - reach_b - kBoxSlack * (length + size + 2 * (a.reach + b.reach));
-  };
-  if (const double of_balls = gap(a.reach, b.reach); of_balls > enough) return of_balls;
-  // Boxes are put along the way as it is: to wait for its unit direction would take as long as all else.
-  const double share = 1 / length;
-  const Vec4 way_a = along(a, way), way_b = -along(b, rotate_back(b_in_a, way));
-  const double aside_a = dot(way_a, vec4(a.aside)) * share, aside_b = dot(way_b, vec4(b.aside)) * share;
-  const double reach_a = min(aside_a + dot(abs(way_a), vec4(a.half)) * share, a.reach),
-               reach_b = min(aside_b + dot(abs(way_b), vec4(b.half)) * share, b.reach);
-  const double of_boxes = gap(reach_a, reach_b);
-  // Above 0 a threshold is hardly ever answered by the boxes below.
-  if (of_boxes > enough || enough > 0 || of_boxes < -kMeetLittle * (reach_a + reach_b)) return of_boxes;
-  return gap(min(aside_a + reach_of_children(of_a, way_a * all(share)), reach_a),
-             min(aside_b + reach_of_children(of_b, way_b * all(share)), reach_b));
 }
 
 Status status_of(const MeshFinding& found, const StopRule& stop, double law_two, bool whole) {
@@ -110,27 +63,10 @@ void look(const MeshSetting& at, const Pose& b_in_a, const StopRule& stop, std::
 /// True of a mesh without a radius that is its surface.
 bool is_plain(const MeshBody& body) { return body.mesh() && !body.is_solid() && body.radius() == 0; }
 
-/// Answers a threshold question about two plain bodies if their roots are apart. It is what most questions about bodies far
-/// from each other end with, before anything of a search is made.
-bool roots_answer(const MeshBody& a, const MeshBody& b, const Motion& b_in_a, const StopRule& stop, Answer& answer) {
-  const auto top_of = [](const MeshBody& body) {
-    const MeshReader::Content& content = MeshReader::content(*body.mesh());
-    return Top{content.root, content.nodes[0]};
-  };
-  const Top of_a = top_of(a), of_b = top_of(b);
-  const double enough = max(stop.above, 0);
-  const double gap = gap_of_roots(of_a, of_b, b_in_a, max(of_a.root.extent, of_b.root.extent) + norm(b_in_a.t), enough);
-  if (!(gap > enough)) return false;
-  answer.status = stop.narrow(gap, answer.upper) ? Status::Converged : Status::Beyond;
-  answer.verdict = Verdict::Disjoint, answer.lower = gap;
-  return true;
-}
-
 /// Asks about the surfaces and, of solids, what is inside them.
-[[gnu::noinline]] void ask_search(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Motion& motion,
-                                  const PoseQuality& quality, MeshSeed& seed, MeshFront* front, const Budget& budget,
-                                  const StopRule& asked, Answer& answer) {
-  const MeshSetting at(a, b, motion, quality);
+[[gnu::noinline]] void ask_search(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, Placed& placed, MeshSeed& seed,
+                                  MeshFront* front, const Budget& budget, const StopRule& asked, Answer& answer) {
+  const MeshSetting at(a, b, placed.motion, placed.quality);
   answer.radius_a = a.radius(), answer.radius_b = b.radius();
   if (answer.status = at.fault(); answer.status != Status::Converged) return;
 
@@ -140,7 +76,7 @@ bool roots_answer(const MeshBody& a, const MeshBody& b, const Motion& b_in_a, co
   const double enough = max(stop.above, 0);
   const bool asks_roots = stop.is_threshold() && !(is_plain(a) && is_plain(b));
   const Top top_a{*at.a.root, *at.a.nodes}, top_b{*at.b.root, *at.b.nodes};
-  if (const double gap = asks_roots ? gap_of_roots(top_a, top_b, motion, at.size, enough) : 0; gap > enough) {
+  if (const double gap = asks_roots ? gap_of_roots(top_a, top_b, b_in_a, enough, placed) : 0; gap > enough) {
     found.lower = gap;
   } else {
     look(at, b_in_a, stop, budget.steps, seed, serving(front, at, a, b), found);
@@ -159,11 +95,23 @@ bool roots_answer(const MeshBody& a, const MeshBody& b, const Motion& b_in_a, co
 
 void ask(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, MeshFront* front, const Budget& budget,
          const StopRule& asked, Answer& answer) {
-  const Motion motion = swiftlet::motion(b_in_a);
-  const PoseQuality quality = pose_quality(motion);
-  const bool asks_roots = asked.is_threshold() && quality.legal && is_plain(a) && is_plain(b);
-  if (asks_roots && roots_answer(a, b, motion, asked, answer)) return;
-  ask_search(a, b, b_in_a, motion, quality, seed, front, budget, asked, answer);
+  Placed placed;
+  // It is what most questions about bodies far from each other end with, before anything of a search is made.
+  if (asked.is_threshold() && is_plain(a) && is_plain(b)) {
+    const auto top_of = [](const MeshBody& body) {
+      const MeshReader::Content& content = MeshReader::content(*body.mesh());
+      return Top{content.root, content.nodes[0]};
+    };
+    const double enough = max(asked.above, 0), gap = gap_of_roots(top_of(a), top_of(b), b_in_a, enough, placed);
+    if (gap > enough) {
+      answer.status = asked.narrow(gap, answer.upper) ? Status::Converged : Status::Beyond;
+      answer.verdict = Verdict::Disjoint, answer.lower = gap;
+      return;
+    }
+  } else {
+    placed.motion = motion(b_in_a), placed.quality = pose_quality(placed.motion);
+  }
+  ask_search(a, b, b_in_a, placed, seed, front, budget, asked, answer);
 }
 
 /// Asks about convex bodies alone; `Asker` asks query.h.

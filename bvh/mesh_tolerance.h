@@ -32,9 +32,17 @@ inline constexpr double kEndError = 4 * kU;
 // underflows is far below the second, in the pair's unit. The third is relative to a bound: axes are unit to kAxisError, as far
 // as the rotation is to 1e-6, and a root and a sum of squares carry 5 roundings.
 inline constexpr float kBoxSlack = 0x1p-16f, kLeastBoxSlack = 0x1p-60f, kBoundShare = 0x1p-16f;
+// It is also what is taken from bounds on two roots, of all lengths together: the distance of the balls' centres, law 2's size
+// and the balls' diameters. In doubles errors are far below it. The gap of the boxes below both roots is computed in floats:
+// the way carries 1 rounding of floats, products with the rotation and with a body's axes 4 each, those with boxes 4, and the
+// sums 3, less than 2^-20 of all lengths; with the first and the last of the above that is less than 2^-17.
 /// Where two roots' boxes overlap along the line of the balls' centres by more than this share of how far they reach along it,
-/// the boxes below are hardly ever apart, and are not asked. A choice of time, no bound rests on it. Dimensionless.
-inline constexpr double kMeetLittle = 0.25;
+/// or half of it if they shall be farther apart than a threshold, the boxes below are hardly ever apart, and are not asked. A
+/// choice of time, no bound rests on it. Dimensionless.
+inline constexpr double kMeetLittle = 0.35;
+/// What is added to the squares of half the sides of two roots' boxes, over the square of all that they reach, where a
+/// direction is sought that parts them: flat boxes have one, too. No bound rests on it. Dimensionless.
+inline constexpr float kLeastSpread = 0x1p-9f;
 /// The share of a node's size by which its box, put along other axes, is made larger: 3 `kAxisError`, as a point is found again
 /// from its coordinates along axes that are not quite at right angles, and what rounding in doubles adds. Dimensionless.
 inline constexpr double kNodeBoxShare = 4 * kAxisError;

@@ -64,25 +64,37 @@ struct Root {
   double extent;                  ///< the greatest magnitude of a coordinate
   Vec middle, centre;             ///< of the box, and of a ball around the body
   double reach;                   ///< the ball's radius, but for rounding
+  double inside;                  ///< how far the ball's centre is from the box's sides; below 0 outside
   Padded axes_x, axes_y, axes_z;  ///< x of the three axes, y and z
   Padded half;                    ///< half the sides along them
   Padded aside;                   ///< from the ball's centre to the box's middle along them
+  /// The sum of the products of each half side with itself: x of them, y and z. In floats, over the square of 2^unit.
+  alignas(16) float spread[3][4];
 };
 /// The ball is that around the box.
 static inline Root root_of(const Node& node, int unit, double extent) {
   const auto& [x, y] = node.axis;
   float z[3];
   third_axis(node.axis, z);
-  return {unit,
-          extent,
-          middle_of(node, unit),
-          middle_of(node, unit),
-          reach_of(node, unit),
-          {x[0], y[0], z[0]},
-          {x[1], y[1], z[1]},
-          {x[2], y[2], z[2]},
-          scaled({node.extent[0], node.extent[1], node.extent[2]}, unit),
-          {0, 0, 0}};
+  const Vec half = scaled({node.extent[0], node.extent[1], node.extent[2]}, unit);
+  Root root{unit,
+            extent,
+            middle_of(node, unit),
+            middle_of(node, unit),
+            reach_of(node, unit),
+            min(min(half.x, half.y), half.z),
+            {x[0], y[0], z[0]},
+            {x[1], y[1], z[1]},
+            {x[2], y[2], z[2]},
+            half,
+            {0, 0, 0},
+            {}};
+  const float* const axis[3] = {x, y, z};
+  for (int k = 0; k < 3; ++k) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) root.spread[i][j] += node.extent[k] * node.extent[k] * axis[k][i] * axis[k][j];
+  }
+  return root;
 }
 
 }  // namespace swiftlet

@@ -11,6 +11,7 @@
 #include "mesh_block.h"
 #include "numeric/vec.h"
 #include "numeric/width.h"
+#include "pair/pair_view.h"
 #include "pair/stop_rule.h"
 
 namespace swiftlet {
@@ -90,6 +91,25 @@ struct MeshFinding {
   std::uint32_t triangle_a = kNone, triangle_b = kNone;
   std::uint32_t nodes = 0, triangles = 0;  ///< pairs opened, and looked at
 };
+
+/// The root of a body's tree: its box and ball, and its node, which holds the boxes below.
+struct Top {
+  const Root& root;
+  const Node& node;
+};
+/// A pose as queries read it.
+struct Placed {
+  Motion motion;
+  PoseQuality quality;
+};
+double gap_of_roots_by_two(const Top& a, const Top& b, const Pose& b_in_a, double enough, Placed& placed);
+double gap_of_roots_by_four(const Top& a, const Top& b, const Pose& b_in_a, double enough, Placed& placed);
+/// A lower bound on the distance, or a number that is not above `enough`: the gap of the balls around both bodies or, if that
+/// is no answer, along the line of the balls' centres that of both roots' boxes or, where these meet by little, that of the
+/// boxes below along a better direction. `placed` receives the pose; of an illegal one the bound is 0.
+static inline double gap_of_roots(const Top& a, const Top& b, const Pose& b_in_a, double enough, Placed& placed) {
+  return SWIFTLET_BY_WIDTH(gap_of_roots)(a, b, b_in_a, enough, placed);
+}
 
 void search_by_two(const MeshView& a, const MeshView& b, const Pose& b_in_a, const MeshQuestion& question, MeshSeed& seed,
                    MeshFinding& finding);
