@@ -77,9 +77,11 @@ static inline double gap_between(const Top& of_a, const Top& of_b, const Pose& p
   if (dot(outside, outside) <= within * within) return 0;
   // Boxes are put along the way as it is: to wait for its unit direction would take as long as all else.
   const Vec4 way_b = -along(b, rotate_back(b_in_a, way));
-  const Vec4 asides = way_a * vec4(a.aside) + way_b * vec4(b.aside),
-             halves = abs(way_a) * vec4(a.half) + abs(way_b) * vec4(b.half);
-  const double reach_of_boxes = sum(asides + halves) * (1 / length), of_boxes = length - reach_of_boxes - slack;
+  const double share = 1 / length;
+  const auto reach_along = [&](const Root& of, const Vec4& n) {
+    return min(sum(n * vec4(of.aside) + abs(n) * vec4(of.half)) * share, of.reach);
+  };
+  const double reach_of_boxes = reach_along(a, way_a) + reach_along(b, way_b), of_boxes = length - reach_of_boxes - slack;
   if (of_boxes > enough) return of_boxes;
   if (of_boxes < enough - (enough > 0 ? kMeetLittle / 2 : kMeetLittle) * reach_of_boxes) return 0;
   return gap_of_children(of_a, of_b, b_in_a, reach + reach_of_boxes + enough, enough) - slack;
