@@ -316,7 +316,7 @@ TEST_F(ModelFile, BoundsThatAreNoLengthsAreRefused) {
   }
   for (const float bad : {0.0f, -1.0f, 17.0f, float(kInfinity), std::nanf("")})
     EXPECT_TRUE(refused(level_header_at(1) + offsetof(LevelHeader, map_frame), bad)) << bad;
-  EXPECT_TRUE(refused(level_header_at(1) + offsetof(LevelHeader, unused), 1u));
+  EXPECT_TRUE(refused(level_header_at(1) + offsetof(LevelHeader, rims), 1u)) << "small faces are no rims";
 }
 
 /// Every query from several poses and seeds, cold and garbage. What a hostile model may cost is bounded, what it answers is an

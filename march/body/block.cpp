@@ -177,11 +177,12 @@ bool is_frame(std::span<const float, 6> frame) {
 std::string fault(const LevelHeader& l, bool finest, bool coarsest) {
   if (l.section.bytes != section_bytes(l, finest, coarsest)) return "has the wrong size";
   if (l.vertex_count < 1) return "is empty";
-  if (!finite({l.deviation, l.volume, l.edge_length, l.reach}) || l.unused != 0 || !(l.reach >= 0) || !is_frame(l.map_frame) ||
+  if (!finite({l.deviation, l.volume, l.edge_length, l.reach}) || !(l.reach >= 0) || !is_frame(l.map_frame) ||
       !(l.extent == 0 || (l.extent >= kLeastExtent && l.extent <= kMostCoordinate)) || !(l.deviation >= 0) ||
       (finest && l.deviation != 0))
     return "has a number out of range";
-  if (l.plane_count > l.face_count || l.half_edge_count > kMaxIndex || l.vertex_count > kMaxIndex) return "has bad counts";
+  if (l.rims > l.plane_count || l.plane_count > l.face_count || l.half_edge_count > kMaxIndex || l.vertex_count > kMaxIndex)
+    return "has bad counts";
   return l.map_side > kMaxMapSide ? "has a support map whose side is out of range" : "";
 }
 
@@ -252,6 +253,7 @@ Level described(const BlockHeader& block, const LevelHeader& l) {
                             : level.is_round ? kWarmEdgesRound
                                              : kWarmEdges,
                             l.vertex_count);
+  level.view.rims = l.rims;
   level.view.extent = l.extent;
   level.view.centre = Vec3(block.centre[0], block.centre[1], block.centre[2]);
   level.view.reach = l.reach;
@@ -296,6 +298,7 @@ std::string take_level(std::span<const std::byte> block, const Headers& h, std::
   if (!coarsest) level.parent_face = cursor.take<std::uint32_t>(l.face_count);
   std::string fault = topology_fault(level.view);
   if (fault.empty()) fault = plane_fault(level.view);
+  if (fault.empty()) fault = rim_fault(level.view);
   if (fault.empty()) {
     fault = link_fault(level, i == 0 ? 0 : h.levels[i - 1].vertex_count, i == 0 ? 0 : h.levels[i - 1].face_count,
                        coarsest ? 0 : h.levels[i + 1].vertex_count);

@@ -57,7 +57,7 @@ struct LevelHeader {
   std::uint32_t vertex_count, half_edge_count, face_count, plane_count;
   std::uint64_t edge_count, triangle_count;
   double extent, deviation, volume, edge_length;
-  std::uint32_t map_side, unused;  ///< `unused` is 0
+  std::uint32_t map_side, rims;  ///< ConvexView::rims
   double reach;
   float map_frame[6] = {1, 0, 0, 1, 0, 1};  ///< Level::map_frame over the extent
 };

@@ -81,6 +81,22 @@ std::string plane_fault(const ConvexView& v) {
   return "";
 }
 
+std::string rim_fault(const ConvexView& v) {
+  for (std::uint32_t f = 0; f < v.rims; ++f) {
+    const std::uint32_t first = v.face_first[f];
+    const Vec n = vec(v.planes[f]);
+    const double least = dot(n, vec(v.vertices[origin(v, first)])) - kRimDrop * v.extent;
+    std::uint32_t h = first, corner = origin(v, first);
+    do {
+      const std::uint32_t beyond = origin(v, previous_in_face(v, v.half_edges[h].twin));
+      if (origin(v, h) != corner || v.vertices[corner++].ring_begin != h || !(dot(n, vec(v.vertices[beyond])) < least))
+        return "rim " + std::to_string(f);
+      h = next_in_face(v, h);
+    } while (h != first);
+  }
+  return "";
+}
+
 std::string link_fault(const Level& level, std::size_t finer_vertices, std::size_t finer_faces, std::size_t coarser_vertices) {
   if (!all_below(level.child_vertex, finer_vertices)) return "child of a vertex";
   for (const FeatureId h : level.child_face) {

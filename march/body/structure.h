@@ -18,6 +18,8 @@ std::string topology_fault(const ConvexView& view);
 /// Checks that face normals have length 1 up to `kUnitNormalError` and no coordinate too small for exact heights, and that
 /// thicknesses and heights are finite and not negative.
 std::string plane_fault(const ConvexView& view);
+/// Checks that the rims are what ConvexView and `kRimDrop` say. Requires that topology and planes are without fault.
+std::string rim_fault(const ConvexView& view);
 /// Checks that children and parents exist, given the numbers of vertices and faces of the finer and the coarser level.
 std::string link_fault(const Level& level, std::size_t finer_vertices, std::size_t finer_faces, std::size_t coarser_vertices);
 

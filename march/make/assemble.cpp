@@ -219,6 +219,7 @@ LevelHeader level_header(const Draft& d) {
   header.half_edge_count = std::uint32_t(s.half_edges.size());
   header.face_count = std::uint32_t(s.face_first.size());
   header.plane_count = std::uint32_t(s.planes.size());
+  header.rims = s.rims;
   std::size_t borders = 0;
   double length = 0;
   for (std::uint32_t h = 0; h < s.half_edges.size(); ++h) {

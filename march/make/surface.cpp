@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From faces to half-edges: fan the faces into triangles, prove that they close to one sphere, prove convexity by exact signs
 // [Mehlhorn et al. 1999], merge exactly coplanar triangles to facets, drop vertices that are no corners, group nearly coplanar
-// facets to walking faces, order the half-edges along a space-filling curve.
+// facets to walking faces, order the half-edges along rims and a space-filling curve.
 #include "make/surface.h"
 
 #include <algorithm>
@@ -678,6 +678,54 @@ std::vector<Index> along_curve(const Input& in, std::vector<Index> corners) {
   return corners;
 }
 
+/// A face whose corners are numbered one after the other: see ConvexView::rims.
+struct Rim {
+  Index group;
+  std::vector<Index> sides;  ///< of facets, counter-clockwise
+};
+
+/// The rims of a body, those of most corners first. Of faces that share a corner only one is a rim.
+std::vector<Rim> rims_of(const Input& in, const std::vector<Side>& sides, const std::vector<Index>& group) {
+  const auto group_of = [&](Index s) { return group[sides[s].facet]; };
+  const auto is_diagonal = [&](Index s) { return group_of(s) == group_of(sides[s].twin); };
+  const auto previous = [&](Index s) {
+    for (s = sides[s].before; is_diagonal(s);) s = sides[sides[s].twin].before;
+    return s;
+  };
+  std::vector<Index> size(group.size(), 0), any_side(group.size(), kNone), large;
+  for (Index s = Index(sides.size()); s-- > 0;) {
+    if (!is_diagonal(s)) ++size[group_of(s)], any_side[group_of(s)] = s;
+  }
+  for (Index g = 0; g < group.size(); ++g) {
+    if (size[g] >= kLeastRim) large.push_back(g);
+  }
+  std::stable_sort(large.begin(), large.end(), [&](Index a, Index b) { return size[a] > size[b]; });
+
+  const double drop = 2 * kRimDrop * extent_of(in.points);
+  std::vector<bool> taken(in.points.size(), false);
+  std::vector<Rim> rims;
+  for (const Index g : large) {
+    Rim rim{g, {}};
+    Index s = any_side[g];
+    do {
+      rim.sides.push_back(s);
+      s = previous(s);
+    } while (s != any_side[g]);
+    std::reverse(rim.sides.begin(), rim.sides.end());
+    Loop corners, beyond;
+    for (const Index side : rim.sides) {
+      corners.push_back(sides[side].tail), beyond.push_back(sides[previous(sides[side].twin)].tail);
+    }
+    const Vec n = normalised(area_vector<double>(in, corners)), p = in.point(corners[0]);
+    if (!std::all_of(beyond.begin(), beyond.end(), [&](Index v) { return dot(n, in.point(v) - p) < -drop; }) ||
+        std::any_of(corners.begin(), corners.end(), [&](Index v) { return taken[v]; }))
+      continue;
+    for (const Index v : corners) taken[v] = true;
+    rims.push_back(std::move(rim));
+  }
+  return rims;
+}
+
 /// Returns the plane of a face without FacePlane::over. Its normal is computed in 106 bits: in doubles the area of a sliver may
 /// vanish.
 FacePlane plane_of(const Input& in, double extent, const Loop& border, const Loop& members) {
@@ -694,19 +742,29 @@ Surface link(const Input& in, const Facets& facets, const Executor& executor) {
   const std::vector<Side> sides = sides_of(facets, in.points.size());
   const std::vector<Index> group = Grouping(in, facets, sides, executor).groups();
 
-  std::vector<bool> is_corner(in.points.size());
-  for (const Side& side : sides) is_corner[side.tail] = true;
-  std::vector<Index> corners;
-  for (Index v = 0; v < is_corner.size(); ++v) {
-    if (is_corner[v]) corners.push_back(v);
+  const std::vector<Rim> rims = rims_of(in, sides, group);
+  out.rims = std::uint32_t(rims.size());
+
+  std::vector<bool> is_left(in.points.size());
+  for (const Side& side : sides) is_left[side.tail] = true;
+  for (const Rim& rim : rims) {
+    for (const Index s : rim.sides) out.vertex_input.push_back(sides[s].tail), is_left[sides[s].tail] = false;
   }
-  out.vertex_input = along_curve(in, corners);
+  std::vector<Index> left;
+  for (Index v = 0; v < is_left.size(); ++v) {
+    if (is_left[v]) left.push_back(v);
+  }
+  left = along_curve(in, std::move(left));
+  out.vertex_input.insert(out.vertex_input.end(), left.begin(), left.end());
   out.input_vertex.assign(in.points.size(), kNone);
   for (Index i = 0; i < out.vertex_input.size(); ++i) out.input_vertex[out.vertex_input[i]] = i;
 
   // Half-edges ring by ring: counter-clockwise around a tail, the next side is the twin of the preceding side of the facet.
   std::vector<Index> any_side(in.points.size(), kNone), half_edge(sides.size(), kNone);
   for (Index s = Index(sides.size()); s-- > 0;) any_side[sides[s].tail] = s;
+  for (const Rim& rim : rims) {
+    for (const Index s : rim.sides) any_side[sides[s].tail] = s;
+  }
   std::vector<Index> order;
   for (const Index v : out.vertex_input) {
     const Vec p = in.point(v);
@@ -720,9 +778,10 @@ Surface link(const Input& in, const Facets& facets, const Executor& executor) {
     out.vertices.push_back({p.x, p.y, p.z, begin, Index(order.size()) - begin});
   }
 
-  // Number the faces: those with a plane first, then triangles, both in the order of their vertices.
+  // Number the faces: rims first, then others with a plane, then triangles, in the order of their vertices.
   std::vector<Index> members(facets.loops.size(), 0), number(facets.loops.size(), kNone), sequence;
   for (const Index g : group) ++members[g];
+  for (const Rim& rim : rims) number[rim.group] = 0, sequence.push_back(rim.group);
   for (const Index s : order) {
     const Index g = group[sides[s].facet];
     if (number[g] == kNone) number[g] = 0, sequence.push_back(g);
@@ -844,6 +903,7 @@ ConvexView Surface::view() const {
   v.half_edges = half_edges;
   v.face_first = face_first;
   v.extent = extent;
+  v.rims = rims;
   return v;
 }
 

@@ -23,6 +23,7 @@ struct Surface {
   std::vector<std::uint32_t> input_vertex;  ///< per input vertex, the index in `vertices`; kNone if it is no vertex of the hull
   std::vector<std::uint32_t> input_face;    ///< per input face, the face in `face_first` that contains it
   int dimension = 3;
+  std::uint32_t rims = 0;
   double extent = 0, volume = 0;
 
   ConvexView view() const;

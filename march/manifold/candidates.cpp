@@ -8,10 +8,7 @@ namespace swiftlet {
 Candidates::Candidates(double farthest, const Manifold& previous)
     : farthest_(farthest), previous_count_(int(std::min(previous.count, kMostManifoldPoints))) {
   for (int i = 0; i < previous_count_; ++i) {
-    const ManifoldPoint& point = previous.points[std::size_t(i)];
-    previous_[i] = Names(point);
-    known_bits_[0] |= std::uint64_t(1) << point.feature_a.index() % 64;
-    known_bits_[1] |= std::uint64_t(1) << point.feature_b.index() % 64;
+    previous_[i] = Names(previous.points[std::size_t(i)]);
     known_name_bits_ |= previous_[i].bit();
   }
 }

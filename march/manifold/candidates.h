@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include <swiftlet/manifold.h>
 
@@ -75,8 +76,8 @@ class Candidates {
   bool wants(Border border, const Place& from, const Place& to, const Place& next, auto&& rise) {
     return !is_crowded_ || cuts(border, from, to, next) || turns(border, rise);
   }
-  /// False if `previous` surely does not name this vertex or half-edge of body 0 or 1.
-  bool may_know(int body, std::uint32_t index) const { return known_bits_[body] >> (index % 64) & 1; }
+  /// What `previous` names.
+  std::span<const Names> previous() const { return {previous_, std::size_t(previous_count_)}; }
   /// Whether to add a corner with these names: not if one is kept already, as sides that are nearly parallel may pass the lead
   /// twice, and a corner may come as a crossing near it and as itself; one that is not `wanted` only if `previous` names it.
   bool takes(Names names, bool wanted) const { return !has(names) && (wanted || knows(names)); }
@@ -134,7 +135,6 @@ class Candidates {
   void thin(Border border, Place last, bool keeps_first);
 
   const double farthest_;
-  std::uint64_t known_bits_[2] = {};                   ///< per body, those of the indices that `previous` names, modulo 64
   std::uint64_t known_name_bits_ = 0, name_bits_ = 0;  ///< of the points of `previous`, and of the corners that are kept
   double least_ = std::numeric_limits<double>::infinity(), deepest_ = least_;  ///< of all, and of the row
   Names deepest_named_;      ///< the first corner of the row with that separation

@@ -36,7 +36,8 @@ struct Corner {
   Place at;
   std::uint64_t names;  ///< in one word, so that they are stored and loaded together: the vertex, and, above, the half-edge
   std::uint32_t vertex() const { return std::uint32_t(names); }
-  std::uint32_t half_edge() const { return std::uint32_t(names >> 32); }  ///< of the border, and ends there
+  /// Of the border, and ends there; of a rim either half-edge of that edge.
+  std::uint32_t half_edge() const { return std::uint32_t(names >> 32); }
 };
 
 bool is_below(const Place& p, const Place& q) { return p.y < q.y || (p.y == q.y && p.x < q.x); }
@@ -115,9 +116,8 @@ class SeenBorder {
         z_{body.x.z * outwards_, body.y.z},
         shift_{body.shift.x * outwards_, body.shift.y} {
     const bool is_point = half_edge == kNone;
-    const Corner lowest = is_point ? corner(0, kNone) : end_of(twin(half_edge));
-    side_ = {{lowest.at, lowest.at, {{0, 0}, 0}}, lowest.names, lowest.names, false};
-    if (!is_point) see(half_edge);
+    begin_at(is_point ? corner(0, kNone) : end_of(twin(half_edge)));
+    if (!is_point) see(end_of(half_edge));
   }
 
   const Side& side() const { return side_; }
@@ -144,9 +144,9 @@ class SeenBorder {
   [[gnu::always_inline]] void advance(std::uint32_t top) {
     side_.from = side_.to, side_.from_names = side_.to_names, side_.is_chord = false;
     side_.to = next_.at, side_.to_names = next_.names, side_.way = ahead_;
-    if (end().half_edge() == convex_to_) convex_to_ = kNone;
+    if (side_.to_names == convex_to_) convex_to_ = kNowhere;
     if (end().vertex() == top) return;
-    see(onward(end().half_edge(), is_left_));
+    see(after(end()));
     if (!rises_in(ahead_)) [[unlikely]]
       straighten(top);
   }
@@ -154,6 +154,7 @@ class SeenBorder {
   /// Moves on to the side that ends above a place of the projection. Returns false if vertex `top`, the border's end, is below
   /// it.
   [[gnu::noinline]] bool rise_above(const Place& place, std::uint32_t top) {
+    if (face_.is_rim()) leap_below(place.y - 2 * flatness_, top);
     for (; !is_below(place, seen(end().at)); advance(top)) {
       if (end().vertex() == top) return false;
     }
@@ -162,7 +163,7 @@ class SeenBorder {
 
   /// Names the edge at a place of the side; of a chord, the edge that it cuts off there.
   FeatureId edge_at(const Place& place) const {
-    std::uint32_t back = twin(end().half_edge());
+    std::uint32_t back = back_from(end());
     while (side_.is_chord) {
       const Corner from = end_of(back);
       if (from.vertex() == start().vertex() || dot(place - from.at, side_.way) >= 0) break;
@@ -170,22 +171,54 @@ class SeenBorder {
     }
     return {FeatureKind::Edge, std::min(back, twin(back))};
   }
-  /// The index of the side's edge; of a chord, of the last one that it cuts off.
-  std::uint32_t edge() const { return std::min(end().half_edge(), twin(end().half_edge())); }
 
  private:
+  static constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
+
   std::uint32_t twin(std::uint32_t half_edge) const { return half_edges_[half_edge].twin; }
-  Corner corner(std::uint32_t vertex, std::uint32_t half_edge) const {
-    const Vertex& v = vertices_[vertex];
-    return {place(x_ * v.x + y_ * v.y + z_ * v.z + shift_), vertex | std::uint64_t(half_edge) << 32};
+  Corner corner(std::uint64_t names) const {
+    const Vertex& v = vertices_[std::uint32_t(names)];
+    return {place(x_ * v.x + y_ * v.y + z_ * v.z + shift_), names};
   }
+  Corner corner(std::uint32_t vertex, std::uint32_t half_edge) const { return corner(vertex | std::uint64_t(half_edge) << 32); }
   Corner end_of(std::uint32_t half_edge) const { return corner(half_edges_[half_edge].head, half_edge); }
   std::uint32_t onward(std::uint32_t h, bool is_left) const { return is_left ? face_.onward<true>(h) : face_.onward<false>(h); }
+  /// The corner after this one, of which a rim reads the vertex alone.
+  Corner after(const Corner& corner) const {
+    if (!face_.is_rim()) return end_of(onward(corner.half_edge(), is_left_));
+    const std::uint32_t here = corner.vertex(), next = on(here, 1);
+    return this->corner(next, vertices_[is_left_ ? here : next].ring_begin);
+  }
+  /// The half-edge along the border from a corner to the one before.
+  std::uint32_t back_from(const Corner& corner) const {
+    const std::uint32_t h = corner.half_edge();
+    return half_edges_[h].head == corner.vertex() ? twin(h) : h;
+  }
+  /// Of a rim: the corner so many after vertex `v`.
+  std::uint32_t on(std::uint32_t v, std::uint32_t count) const {
+    return face_.corner(v, is_left_ ? count : face_.corner_count() - count);
+  }
 
+  /// Stands at a corner, as if a side without length ended there.
+  void begin_at(const Corner& corner) { side_ = {{corner.at, corner.at, {{0, 0}, 0}}, corner.names, corner.names, false}; }
   /// Knows the corner after the side.
-  void see(std::uint32_t half_edge) {
-    next_ = end_of(half_edge);
+  void see(const Corner& corner) {
+    next_ = corner;
     ahead_ = way(side_.to, next_.at);
+  }
+
+  /// Of a rim: moves on to a side that ends no higher than `y`, mostly the last one before the border rises above that.
+  void leap_below(double y, std::uint32_t top) {
+    const std::uint32_t here = end().vertex();
+    std::uint32_t low = 0, high = is_left_ ? face_.count(here, top) : face_.count(top, here);
+    while (high - low > 1) {
+      const std::uint32_t middle = low + (high - low) / 2;
+      (corner(on(here, middle), kNone).at.y <= y ? low : high) = middle;
+    }
+    if (low < 2) return;
+    begin_at(after(corner(on(here, low - 2), kNone)));
+    see(after(end()));
+    advance(top);
   }
 
   bool falls() const { return side_.way.y < -bound_; }
@@ -198,20 +231,18 @@ class SeenBorder {
   }
   /// Replaces the side by a chord as long as corners ahead lie beyond it.
   [[gnu::noinline]] void straighten(std::uint32_t top) {
-    while (!turns_in(ahead_) && extend(next_.half_edge(), top) && end().vertex() != top)
-      see(onward(end().half_edge(), is_left_));
+    while (!turns_in(ahead_) && extend(top) && end().vertex() != top) see(after(end()));
   }
   /// A border of merged facets may turn inwards by up to the face's flatness: corners are looked at until one lies farther
   /// inside of the side than that. If one lies beyond, the side becomes a chord to it, and true is returned. A border that is
-  /// jagged by more is followed to the next corner that is no lower. `h` ends at the corner after the side.
-  bool extend(std::uint32_t h, std::uint32_t top) {
+  /// jagged by more is followed to the next corner that is no lower.
+  bool extend(std::uint32_t top) {
     if (is_convex(top)) return false;
-    for (;; h = onward(h, is_left_)) {
-      const Corner corner = end_of(h);
+    for (Corner corner = next_;; corner = after(corner)) {
       const double out = side_.beyond(corner.at);
       if (falls() || (out > 0 && out * out > 0.25 * bound_ * bound_ * side_.length2())) {
         side_.to = corner.at, side_.to_names = corner.names, side_.way = way(side_.from, corner.at);
-        convex_to_ = kNone;
+        convex_to_ = kNowhere;
         return side_.is_chord = true;
       }
       if (turns_in(corner.at - side_.to) || corner.vertex() == top) return false;
@@ -226,16 +257,15 @@ class SeenBorder {
     const auto turns = [](const Way& way, const Way& before) {
       return cross(way, before) < -kCornerError * way.most * before.most;
     };
-    if (convex_to_ == kNone && turns(ahead_, side_.way)) convex_to_ = next_.half_edge();
-    if (convex_to_ == kNone) return false;
-    Corner corner = end_of(convex_to_);
-    for (Way on = way(end_of(twin(convex_to_)).at, corner.at); !turns_in(corner.at - side_.to) && corner.vertex() != top;) {
-      const std::uint32_t h = onward(convex_to_, is_left_);
-      const Corner next = end_of(h);
+    if (convex_to_ == kNowhere && turns(ahead_, side_.way)) convex_to_ = next_.names;
+    if (convex_to_ == kNowhere) return false;
+    Corner corner = this->corner(convex_to_);
+    for (Way on = way(end_of(back_from(corner)).at, corner.at); !turns_in(corner.at - side_.to) && corner.vertex() != top;) {
+      const Corner next = after(corner);
       const Way before = on;
       on = way(corner.at, next.at);
       if (!turns(on, before) || !turns(on, side_.way)) return false;
-      convex_to_ = h, corner = next;
+      convex_to_ = next.names, corner = next;
     }
     return true;
   }
@@ -245,13 +275,22 @@ class SeenBorder {
   const HalfEdge* const half_edges_;
   const Vertex* const vertices_;
   const double outwards_, bound_, flatness_;
-  const bool is_left_;               ///< half-edges that point upwards have the face on their left
-  std::uint32_t convex_to_ = kNone;  ///< ahead of the side: up to its end the border surely is convex, if that is known
-  const Vec2 x_, y_, z_, shift_;     ///< where the projection has the body's axes and its origin
-  Side side_;                        ///< at the height of the sweep line
-  Corner next_;                      ///< the corner after it
-  Way ahead_;                        ///< the way there
+  const bool is_left_;  ///< half-edges that point upwards have the face on their left
+  std::uint64_t convex_to_ =
+      kNowhere;  ///< a corner's names, ahead of the side: up to there the border surely is convex, if that is known
+  const Vec2 x_, y_, z_, shift_;  ///< where the projection has the body's axes and its origin
+  Side side_;                     ///< at the height of the sweep line
+  Corner next_;                   ///< the corner after it
+  Way ahead_;                     ///< the way there
 };
+
+/// The vertices, modulo 64, of a vertex or an edge that the body has, else none.
+std::uint64_t vertex_bits(const ConvexView& view, FeatureId feature) {
+  if (!names_feature(view, feature) || feature.kind() == FeatureKind::Face) return 0;
+  const auto bit = [](std::uint32_t vertex) { return std::uint64_t(1) << vertex % 64; };
+  if (feature.kind() == FeatureKind::Vertex) return bit(feature.index());
+  return bit(view.half_edges[feature.index()].head) | bit(origin(view, feature.index()));
+}
 
 /// The half-edges of a face that leave its lowest corner, with the face on their left or right: where the border rises on both
 /// sides, by more than the border of merged facets may turn inwards. kNone of a point.
@@ -319,6 +358,10 @@ class Sweep {
         name_{a.name(), b.name()},
         bound_(bound),
         corners_(corners) {
+    for (const Names& names : corners.previous()) {
+      known_bits_[0] |= vertex_bits(projection.a.view, names.a());
+      known_bits_[1] |= vertex_bits(projection.b.view, names.b());
+    }
     if (from_a.left != kNone) advance(Border::Left, 0), advance(Border::Right, 0);
     if (from_b.left != kNone) advance(Border::Left, 1), advance(Border::Right, 1);
   }
@@ -462,7 +505,7 @@ class Sweep {
     const SeenBorder& own = at(border, f);
     const std::uint32_t vertex = own.end().vertex();
     const bool wanted = corners_.wants(border, own.side().to, own.ahead(), [&] { return rise(own, own.ahead()); });
-    if (wanted || corners_.may_know(f, vertex)) add_corner<f>(border, own.seen(own.side().to), vertex, wanted);
+    if (wanted || may_know(f, vertex)) add_corner<f>(border, own.seen(own.side().to), vertex, wanted);
   }
 
   /// Passes the lead on a border to face `f` where its side crosses the one that led.
@@ -480,8 +523,12 @@ class Sweep {
     if (!slope_) slope_ = at(Border::Left, 1).slope() - at(Border::Left, 0).slope();
     return dot(*slope_, border.seen(way));
   }
-  /// False if the manifold before surely names no point of this side.
-  bool may_know(int f, const SeenBorder& border) const { return border.side().is_chord || corners_.may_know(f, border.edge()); }
+  /// False if the manifold before surely names neither this vertex of a body nor an edge that ends there.
+  bool may_know(int f, std::uint32_t vertex) const { return known_bits_[f] >> (vertex % 64) & 1; }
+  /// False if it surely names no point of this side.
+  bool may_know(int f, const SeenBorder& border) const {
+    return border.side().is_chord || (may_know(f, border.start().vertex()) && may_know(f, border.end().vertex()));
+  }
 
   /// Adds a corner of face `f` that lies within the other face.
   template <int f>
@@ -550,6 +597,8 @@ class Sweep {
   const double bound_;
   std::optional<Place> slope_;  ///< how the separation changes with x and y, once that is asked for
   Candidates& corners_;
+  /// Per body, the vertices that the manifold before names, alone or by an edge, modulo 64.
+  std::uint64_t known_bits_[2] = {};
   /// Per border, the face whose border bounds the intersection; `kNobody` before that begins.
   int leader_[2] = {kNobody, kNobody};
   int west_ = 0;  ///< before it begins: the face to the left of the other one

@@ -71,6 +71,12 @@ ContactFace::ContactFace(const ConvexView& view, const Vec& n, FeatureId feature
   flatness_ = max(flatness_, height);
   normal_ = normal_of(view, top_);
   least_height_ = dot(normal_, point(view, origin(view, view.face_first[top_]))) - height;
+  if (top_ < view.rims) {  // no face is merged with it
+    side_ = view.face_first[top_];
+    first_corner_ = origin(view, side_);
+    corner_count_ = origin(view, previous_in_face(view, side_)) + 1 - first_corner_;
+    return;
+  }
   side_ = border();
   if (side_ != kNone) return;
   least_height_ = std::numeric_limits<double>::infinity();  // rounding hid the border: the face alone has one

@@ -29,6 +29,16 @@ class ContactFace {
   double flatness() const { return flatness_; }
   /// A half-edge of the border, which leaves the face on its left; kNone of a point.
   std::uint32_t side() const { return side_; }
+  /// Whether the border's corners are those of a rim (ConvexView::rims), so that each is found by its index alone.
+  bool is_rim() const { return corner_count_ != 0; }
+  /// Of a rim: how many corners it has, and the corner `count` corners on from corner `v`, counter-clockwise.
+  std::uint32_t corner_count() const { return corner_count_; }
+  std::uint32_t corner(std::uint32_t v, std::uint32_t count) const {
+    const std::uint32_t i = v - first_corner_ + count;
+    return first_corner_ + (i < corner_count_ ? i : i - corner_count_);
+  }
+  /// Of a rim: how many corners on, counter-clockwise, `to` is from `from`.
+  std::uint32_t count(std::uint32_t from, std::uint32_t to) const { return to >= from ? to - from : to + corner_count_ - from; }
   /// The half-edge that goes on along the border where `h` ends, and leaves the face on the same side as `h`.
   template <bool is_left>
   std::uint32_t onward(std::uint32_t h) const {
@@ -55,7 +65,7 @@ class ContactFace {
   const ConvexView& view_;
   const HalfEdge* const half_edges_ = view_.half_edges.data();
   const Vertex* const vertices_ = view_.vertices.data();
-  std::uint32_t top_ = kNone, side_ = kNone;
+  std::uint32_t top_ = kNone, side_ = kNone, first_corner_ = 0, corner_count_ = 0;
   double flatness_ = 0, least_height_ = 0;  ///< the least height along the normal
   Vec normal_{0, 0, 0};
 };

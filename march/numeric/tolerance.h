@@ -250,6 +250,12 @@ inline constexpr double kLeastNormalEntry = 0x1p-500;
 /// The relative precision to which a level's deviation is measured: a tenth of the 1 % that the design allows above the truth.
 inline constexpr double kDeviationPrecision = 1e-3;
 
+/// A rim (ConvexView::rims) has at least so many corners when it is made.
+inline constexpr std::uint32_t kLeastRim = 16;
+/// At each side of a rim, the face beyond has its previous corner lower than the rim's plane by more than this times the
+/// extent: no contact face merges the two. Above `kMostFlatness` by more than rounding; a rim that is made has twice as much.
+inline constexpr double kRimDrop = 0x1.2p-10;
+
 // ---- Manifolds -------------------------------------------------------------------------------------------------------------
 
 /// Two faces count as facing a normal equally where their cosines differ by no more than this: an angle of 2^-21, 4 ulps of

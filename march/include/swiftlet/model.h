@@ -89,6 +89,8 @@ struct ConvexView {
   Vec3 centre = Vec3::Zero();                 ///< any point of the body; the line of centres of a cold start ends here
   double inner_radius = 0;  ///< radius of a ball around `centre` that lies in the body; 0: none is known, as on coarser levels
   double reach = 0;         ///< upper bound on the distance of two points of the body; 0: not known, nor are FacePlane::over
+  std::uint32_t rims = 0;   ///< the faces [0, rims) are rims, large ones whose vertices are numbered one after the other,
+                           ///< counter-clockwise from the origin of the first half-edge, and whose half-edges begin their rings
 };
 
 /// Says which levels of a model to keep: the coarsest always, and finer ones as far as both members allow. Two bodies whose
