@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <thread>
 #include <vector>
@@ -14,6 +15,7 @@
 #include <Eigen/Geometry>
 
 #include "numeric/width.h"
+#include "painted_stack.h"
 #include "soups.h"
 
 namespace swiftlet {
@@ -163,6 +165,25 @@ TEST(MeshFront, SavesWorkWhereBodiesMoveLittle) {
   EXPECT_LT(saved, 0.5 * plain);
   front.clear();
   EXPECT_EQ(front.size(), 0u);
+}
+
+TEST(MeshFront, UsesTheStackThatTheHeaderTells) {
+  Walk walk(torus(24, 12), ball(3), 1, 0.1);
+  MeshFront front;
+  MeshSeed plain_seed, seed;
+  PaintedStack stack;
+  std::size_t plain = 0, most = 0;
+  for (int i = -5; i < 40; ++i) {
+    const Pose& pose = walk.next();
+    const std::size_t used = stack.use([&] { distance(walk.mesh_a, walk.mesh_b, pose, plain_seed); }),
+                      used_with = stack.use([&] { distance(walk.mesh_a, walk.mesh_b, pose, seed, front); });
+    if (i < 0) continue;  // what is called for the first time is looked up by the loader, on this stack
+    plain = std::max(plain, used), most = std::max(most, used_with);
+  }
+  EXPECT_GT(front.size(), 0u);
+  std::printf("bytes of stack: %zu, with a front %zu\n", plain, most);
+  if (!kIsMeasured) GTEST_SKIP() << "not optimised, or with a sanitizer's own variables";
+  EXPECT_LE(most, plain + (7u << 10));
 }
 
 /// Law 1, and what a budget left to do is done next time.

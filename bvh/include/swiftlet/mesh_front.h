@@ -47,7 +47,7 @@ class MeshFront {
 // The queries of mesh_query.h with a front beside the seed. What they say holds; `steps` and `plane_tests` count what was
 // opened and looked at, and `Budget::steps` limits it. It does not limit the look at the front itself: some 15 instructions for
 // each pair that may be near, none of them more than once. Answers depend on seed and front as law 3 allows; the same calls in
-// the same order give the same bits. They use 6 kB of stack more.
+// the same order give the same bits. They use 7 kB of stack more.
 
 /// `distance` with a front.
 Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, MeshFront& front,
