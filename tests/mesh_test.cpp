@@ -30,6 +30,7 @@
 #include "mesh_blocks.h"
 #include "numeric/width.h"
 #include "soups.h"
+#include "upper_halves.h"
 
 namespace swiftlet {
 namespace {
@@ -1428,6 +1429,28 @@ TEST(MeshBatches, AnswerAsTheQueriesDoOnAnyNumberOfThreads) {
       ASSERT_EQ(met[i].verdict, intersects(q.a, q.b, q.b_in_a).verdict);
     }
   }
+}
+
+// ---- Registers -------------------------------------------------------------------------------------------------------------
+
+TEST(MeshRegisters, AreLeftAsTheyWere) {
+  if (!upper_halves_can_be_seen()) GTEST_SKIP() << "this processor does not tell";
+  use_upper_halves();
+  ASSERT_TRUE(upper_halves_are_in_use());
+  const MeshModel a = torus(24, 12).mesh(), b = ball(3).mesh();
+  Random random(11);
+  MeshSeed seeds[4];
+  MeshFront front;
+  int left = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Pose pose{random.rotation(), random.uniform(0, i % 2 ? 2 : 8) * random.on_sphere()};
+    left += leaves_upper_halves_in_use([&] { distance(a, b, pose, seeds[0]); });
+    left += leaves_upper_halves_in_use([&] { intersects(a, b, pose, seeds[1]); });
+    left += leaves_upper_halves_in_use([&] { within(a, b, pose, random.uniform(0, 2), seeds[2]); });
+    left += leaves_upper_halves_in_use([&] { distance(a, b, pose, seeds[3], front); });
+    left += leaves_upper_halves_in_use([&] { closest_features(a, b, pose); });
+  }
+  EXPECT_EQ(left, 0);
 }
 
 }  // namespace

@@ -12,10 +12,12 @@
 
 #include <swiftlet/build.h>
 #include <swiftlet/check.h>
+#include <swiftlet/depth.h>
 #include <swiftlet/query.h>
 
 #include "oracle.h"
 #include "shapes.h"
+#include "upper_halves.h"
 
 namespace swiftlet {
 namespace {
@@ -293,6 +295,27 @@ TEST(Distance, AToleranceThatIsNoneAsksForAnExactAnswer) {
     }
   }
   EXPECT_EQ(within(body, body, pose, std::nan("")).decision, Decision::Undecided);
+}
+
+TEST(Registers, AreLeftAsTheyWere) {
+  if (!upper_halves_can_be_seen()) GTEST_SKIP() << "this processor does not tell";
+  use_upper_halves();
+  ASSERT_TRUE(upper_halves_are_in_use());
+  for (const shapes::Family family : {shapes::Family::Fat, shapes::Family::Plate, shapes::Family::Long}) {
+    const Bodies& of = bodies(family);
+    shapes::Random random(12);
+    PairSeed seeds[4];
+    int left = 0;
+    for (int i = 0; i < 500; ++i) {
+      const Pose pose{random.rotation(), random.uniform(0, i % 2 ? 2 : 6) * random.on_sphere()};
+      left += leaves_upper_halves_in_use([&] { distance(of.a, of.b, pose, seeds[0]); });
+      left += leaves_upper_halves_in_use([&] { intersects(of.a, of.b, pose, seeds[1]); });
+      left += leaves_upper_halves_in_use([&] { within(of.a, of.b, pose, random.uniform(0, 2), seeds[2]); });
+      left += leaves_upper_halves_in_use([&] { signed_distance(of.a, of.b, pose, seeds[3]); });
+      left += leaves_upper_halves_in_use([&] { closest_features(of.a, of.b, pose); });
+    }
+    EXPECT_EQ(left, 0);
+  }
 }
 
 }  // namespace
