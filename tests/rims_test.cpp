@@ -23,12 +23,13 @@ namespace {
 using namespace bodies;
 using shapes::Random;
 
-/// The hull of regular polygons around the z axis, each with a height and a radius.
-Model turned(std::uint32_t sides, const std::vector<std::pair<double, double>>& profile, const Mat3& turn = Mat3::Identity()) {
+/// The hull of regular polygons around the z axis, or sectors of them, each with a height and a radius.
+Model turned(std::uint32_t sides, const std::vector<std::pair<double, double>>& profile, const Mat3& turn = Mat3::Identity(),
+             double whole = 2 * std::numbers::pi) {
   std::vector<Vec3> points;
   for (const auto& [z, radius] : profile) {
     for (std::uint32_t i = 0; i < sides; ++i) {
-      const double angle = 2 * std::numbers::pi * i / sides;
+      const double angle = whole * i / sides;
       points.push_back(turn * Vec3(radius * std::cos(angle), radius * std::sin(angle), z));
     }
   }
@@ -111,7 +112,33 @@ void expect_same(const Manifold& a, const Manifold& b) {
   }
 }
 
-/// Coins, wheels, cones and boxes of any size on one another, anywhere, turned, tilted, warm and cold.
+/// A half disc: its border rises by twenty sides on one side of it and by one on the other.
+TEST(Rims, OfAHalfDiscAreReadAsItsFaceIs) {
+  std::vector<Vec3> points, small;
+  for (const double z : {0., 0.5}) {
+    for (int i = 0; i <= 20; ++i)
+      points.emplace_back(std::cos(std::numbers::pi * i / 20), std::sin(std::numbers::pi * i / 20), z);
+  }
+  for (int i = 0; i < 8; ++i) small.emplace_back(i & 1 ? 0.1 : -0.1, i & 2 ? 0.1 : -0.1, i & 4 ? 0 : -0.5);
+  const Model half = must(build(points)).model, box = must(build(small)).model, plain = must(load(with_rims(half, 0)));
+  ASSERT_EQ(half.level(0).view.rims, 2u);
+  for (int turn = 0; turn < 360; turn += 3) {
+    for (double x = -0.7; x < 0.75; x += 0.2) {
+      Pose pose;
+      pose.rotation = shapes::rotation(Vec3::UnitZ(), turn * std::numbers::pi / 180);
+      pose.translation = Vec3(0, 0, 1e-4) - pose.rotation * Vec3(x, 0.15, 0);
+      const Answer answer = signed_distance(box, half, pose);
+      const Manifold manifold = swiftlet::manifold(box, half, pose, answer, {.margin = 0.01});
+      ASSERT_EQ(manifold.count, 4u) << turn << ' ' << x;
+      expect_same(manifold, swiftlet::manifold(box, plain, pose, answer, {.margin = 0.01}));
+      const Answer swapped = signed_distance(half, box, inverse(pose));
+      expect_same(swiftlet::manifold(half, box, inverse(pose), swapped, {.margin = 0.01}),
+                  swiftlet::manifold(plain, box, inverse(pose), swapped, {.margin = 0.01}));
+    }
+  }
+}
+
+/// Coins, wheels, cones, their sectors and boxes of any size on one another, anywhere, turned, tilted, warm and cold.
 TEST(Rims, AreReadAsOtherFacesAre) {
   Random random(2);
   std::uint32_t of_four = 0, of_many = 0;
@@ -121,6 +148,7 @@ TEST(Rims, AreReadAsOtherFacesAre) {
       const double radius = std::exp(random.uniform(-2, 1));
       const std::pair<double, double> top{0.3, radius}, bottom{-0.3, radius * random.uniform(0.5, 1)};
       if (random.bits() % 3 == 0) return turned(sides, {bottom, {0.2, radius * 1.1}, top}, random.rotation());
+      if (random.bits() % 3 == 0) return turned(sides, {bottom, top}, random.rotation(), random.uniform(0.5, 6));
       return turned(sides, {bottom, top}, random.bits() % 2 ? random.rotation() : Mat3::Identity());
     };
     const Model a = body(), b = body();

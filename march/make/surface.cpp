@@ -678,6 +678,13 @@ std::vector<Index> along_curve(const Input& in, std::vector<Index> corners) {
   return corners;
 }
 
+/// The unit normal of a face, computed in 106 bits: in doubles the area of a sliver may vanish.
+Vec normal_of(const Input& in, const Loop& border) {
+  const auto entry = [](double x) { return std::fabs(x) < kLeastNormalEntry ? 0 : x; };
+  const Vec area = normalised(rounded(area_vector<DoubleDouble>(in, border)));
+  return {entry(area.x), entry(area.y), entry(area.z)};
+}
+
 /// A face whose corners are numbered one after the other: see ConvexView::rims.
 struct Rim {
   Index group;
@@ -716,7 +723,7 @@ std::vector<Rim> rims_of(const Input& in, const std::vector<Side>& sides, const 
     for (const Index side : rim.sides) {
       corners.push_back(sides[side].tail), beyond.push_back(sides[previous(sides[side].twin)].tail);
     }
-    const Vec n = normalised(area_vector<double>(in, corners)), p = in.point(corners[0]);
+    const Vec n = normal_of(in, corners), p = in.point(corners[0]);
     if (!std::all_of(beyond.begin(), beyond.end(), [&](Index v) { return dot(n, in.point(v) - p) < -drop; }) ||
         std::any_of(corners.begin(), corners.end(), [&](Index v) { return taken[v]; }))
       continue;
@@ -726,12 +733,9 @@ std::vector<Rim> rims_of(const Input& in, const std::vector<Side>& sides, const 
   return rims;
 }
 
-/// Returns the plane of a face without FacePlane::over. Its normal is computed in 106 bits: in doubles the area of a sliver may
-/// vanish.
+/// Returns the plane of a face without FacePlane::over.
 FacePlane plane_of(const Input& in, double extent, const Loop& border, const Loop& members) {
-  const auto entry = [](double x) { return std::fabs(x) < kLeastNormalEntry ? 0 : x; };
-  const Vec area = normalised(rounded(area_vector<DoubleDouble>(in, border))), p = in.point(border[0]);
-  const Vec n{entry(area.x), entry(area.y), entry(area.z)};
+  const Vec n = normal_of(in, border), p = in.point(border[0]);
   double thickness = 0;
   for (const Index v : members) thickness = std::max(thickness, std::fabs(dot(n, in.point(v) - p)));
   return {n.x, n.y, n.z, thickness + 8 * kU * extent, 0};

@@ -207,13 +207,16 @@ class SeenBorder {
     ahead_ = way(side_.to, next_.at);
   }
 
-  /// Of a rim: moves on to a side that ends no higher than `y`, mostly the last one before the border rises above that.
+  /// Of a rim: moves on to a side that ends no higher than `y` and rises, so that all before it do, mostly the last such side.
+  /// Beyond the highest corner, which may come before `top`, sides fall or rise by the flatness at most.
   void leap_below(double y, std::uint32_t top) {
     const std::uint32_t here = end().vertex();
+    const auto place_on = [&](std::uint32_t count) { return corner(on(here, count), kNone).at; };
     std::uint32_t low = 0, high = is_left_ ? face_.count(here, top) : face_.count(top, here);
     while (high - low > 1) {
       const std::uint32_t middle = low + (high - low) / 2;
-      (corner(on(here, middle), kNone).at.y <= y ? low : high) = middle;
+      const double height = place_on(middle).y;
+      (height <= y && height - place_on(middle - 1).y > 2 * flatness_ ? low : high) = middle;
     }
     if (low < 2) return;
     begin_at(after(corner(on(here, low - 2), kNone)));
