@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
 
 #include <CGAL/Simple_cartesian.h>
 #include <Eigen/Geometry>
@@ -51,22 +52,29 @@ bool share_a_point(const Triangle<Number>& a, const Triangle<Number>& b) {
   return side.is_degenerate() ? with(side.source(), b) : with(side, b);
 }
 
-/// The least translation that parts two triangles; 0 if they are apart, or in one plane.
-Real depth(const Triangle<Real>& a, const Triangle<Real>& b) {
-  std::vector<Point<Real>> axes;
-  const auto side = [](const Triangle<Real>& t, std::size_t k) { return t[(k + 1) % 3] - t[k]; };
+/// The least translation that parts two triangles; 0 if they are apart, or in one plane. Of slivers only that of rationals is
+/// right.
+template <class Scalar>
+double depth(const Triangle<Scalar>& a, const Triangle<Scalar>& b) {
+  std::vector<Point<Scalar>> axes;
+  const auto side = [](const Triangle<Scalar>& t, std::size_t k) { return t[(k + 1) % 3] - t[k]; };
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < 3; ++k) axes.push_back(cross(side(a, i), side(b, k)));
   }
   for (const auto* t : {&a, &b}) axes.push_back(cross(side(*t, 0), side(*t, 1)));
+  const auto rounded = [](const Scalar& x) {
+    if constexpr (std::is_same_v<Scalar, Real>)
+      return x;
+    else
+      return Real(CGAL::to_double(x));
+  };
   Real least = HUGE_VALL;
-  for (const Point<Real>& axis : axes) {
-    const Real length = std::sqrt(dot(axis, axis));
+  for (const Point<Scalar>& axis : axes) {
+    const Real length = std::sqrt(rounded(dot(axis, axis)));
     if (!(length > 0)) continue;
-    const Point<Real> n = axis * (1 / length);
-    least = std::min({least, -gap(a, b, n), -gap(b, a, n)});
+    least = std::min({least, -rounded(gap(a, b, axis)) / length, -rounded(gap(b, a, axis)) / length});
   }
-  return least < HUGE_VALL ? std::max<Real>(least, 0) : 0;
+  return least < HUGE_VALL ? double(std::max<Real>(least, 0)) : 0;
 }
 
 }  // namespace
@@ -109,8 +117,10 @@ Truth truth(const Soup& a, const Soup& b, const Pose& pose) {
     if (squared == 0) break;
   }
   if (best.squared > 0) return best;
-  for (const auto& s : guess_a)
-    for (const auto& t : guess_b) best.depth = std::max(best.depth, double(depth(s, t)));
+  for (std::size_t i = 0; i < guess_a.size(); ++i) {
+    for (std::size_t k = 0; k < guess_b.size(); ++k)
+      if (depth(guess_a[i], guess_b[k]) > best.depth) best.depth = std::max(best.depth, depth(exact_a[i], exact_b[k]));
+  }
   return best;
 }
 
