@@ -157,7 +157,7 @@ class Descent {
       const Float8 left = load8(front.ends[first / kFanOut].of) - turned * load8(front.arms[first / kFanOut].of);
       for (unsigned ended = at_most(left, past); ended != 0; ended &= ended - 1) {
         const std::uint32_t group = first + std::uint32_t(__builtin_ctz(ended));
-        if (front.ids[group].live == 0 || group >= front.groups) continue;
+        if (group >= front.groups || front.ids[group].live == 0) continue;
         ++asked_;
         const FrontBounds& of = front.bounds[group];
         const Float8 c[3] = {load8(of.c[0]), load8(of.c[1]), load8(of.c[2])};

@@ -52,7 +52,7 @@ void look(const MeshSetting& at, const Pose& b_in_a, const StopRule& stop, std::
   const double near = 3 * at.law_two;
   const bool near_contact = found.verdict == Verdict::Overlapping || found.upper <= near ||
                             (!at.radii.none() && found.lower <= stop.zero + near && found.upper >= stop.zero - near);
-  const bool near_threshold = found.lower <= passed.above && found.upper >= stop.above - at.law_two;
+  const bool near_threshold = found.lower <= passed.above && found.upper >= stop.above - near;
   if (!near_contact && !near_threshold) return;
   const std::uint32_t nodes = found.nodes, triangles = found.triangles;
   seed = {}, found = {};

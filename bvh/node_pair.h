@@ -57,7 +57,7 @@ struct Twice {
 class NodePair {
  public:
   NodePair(const PairFrame& frame, const Node& a, const Node& b)
-      : a_(a), b_(b), unit_a_(float(frame.unit_a)), unit_b_(float(frame.unit_b)) {
+      : a_(a), b_(b), unit_a_(float(frame.unit_a)), unit_b_(float(frame.unit_b)), direction_(frame.ahead) {
     const Float4 x_a = load4(a.axis[0]), y_a = load4(a.axis[1]), x_b = load4(b.axis[0]), y_b = load4(b.axis[1]);
     const Columns of_a = Columns::of_rows(x_a, y_a, cross(x_a, y_a)), of_b = Columns::of_rows(x_b, y_b, cross(x_b, y_b));
     const Twice twice_a(of_a), twice_b(of_b);
@@ -194,6 +194,7 @@ class NodePair {
 
   const Node &a_, &b_;
   float unit_a_, unit_b_, size_a_, size_b_, slack_, offset_ahead_;
+  Float4 direction_;            ///< that of the search when the pair was made; hulls that are asked since may have turned it
   Float4 m_[3];                 ///< B's axes in A's node frame
   Float4 offset_a_, offset_b_;  ///< from A's origin to B's, along the axes of each
   Float4 ahead_a_, ahead_b_;

@@ -41,7 +41,7 @@ class PairBounds {
     const float gap = std::sqrt(square);
     PairBound bound;
     if (max(squares[0], squares[1]) < square) {
-      bound.n = frame_.ahead;
+      bound.n = pair_.direction_;
     } else {
       const Float4 signed_b = with_sign(gap_b, way_b);
       const Float4 along_a = squares[0] >= squares[1] ? with_sign(gap_a, way_a)
@@ -145,7 +145,7 @@ class PairBounds {
     Float8 at = all8(0);
     for (int k = 0; k < 3; ++k) {
       const Float8 by_axes = all8(axes_a_.x[k]) * by_a[0] + all8(axes_a_.y[k]) * by_a[1] + all8(axes_a_.z[k]) * by_a[2];
-      made.n[k] = where_at_least(square, square_ahead, by_axes, all8(frame_.ahead[k]));
+      made.n[k] = where_at_least(square, square_ahead, by_axes, all8(pair_.direction_[k]));
       at = at + made.n[k] * balls.at[k];
     }
     made.gap = gap * all8(1 - kBoundShare) - all8(pair_.slack_);

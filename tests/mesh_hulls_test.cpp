@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hulls of nodes: how they are built, what a block with them must be, and that queries with them answer as those without.
 #include <swiftlet/build_mesh.h>
-#include <swiftlet/mesh_query.h>
+#include <swiftlet/mesh_front.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
 #include <stdexcept>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -377,6 +381,81 @@ TEST(HullsOfFiles, WithAnyNumberAreRefusedOrHarmless) {
   }
   EXPECT_GE(loaded, 100);
   EXPECT_GE(refused, 1000);
+}
+
+// ---- Fronts ----------------------------------------------------------------------------------------------------------------
+
+/// What an adversary's search found: two meshes, a front's capacity, queries with the seeds that they began with, and a pose at
+/// which triangles cross. Numbers are hexadecimal.
+class Replay {
+ public:
+  explicit Replay(const std::string& file) : in_(file) {
+    if (!in_) throw std::runtime_error(file + ": cannot be read");
+  }
+  Soup soup() {
+    Soup soup;
+    soup.points.resize(count()), soup.triangles.resize(count());
+    for (Vec3& p : soup.points) p = vector();
+    for (Corners& t : soup.triangles) {
+      for (std::uint32_t& v : t) v = count();
+    }
+    return soup;
+  }
+  std::uint32_t count() { return std::uint32_t(std::stoul(word())); }
+  double number() { return std::stod(word()); }
+  Pose pose() {
+    Pose pose;
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) pose.rotation(i, k) = number();
+    }
+    pose.translation = vector();
+    return pose;
+  }
+  MeshSeed seed() {
+    std::array<std::uint32_t, sizeof(MeshSeed) / 4> words;
+    for (std::uint32_t& w : words) w = count();
+    MeshSeed seed;
+    std::memcpy(static_cast<void*>(&seed), words.data(), sizeof seed);
+    return seed;
+  }
+
+ private:
+  Vec3 vector() {
+    const double x = number(), y = number(), z = number();
+    return {x, y, z};
+  }
+  std::string word() {
+    std::string word;
+    in_ >> word;
+    return word;
+  }
+  std::ifstream in_;
+};
+
+TEST(Regress, AFrontKeptAGapAlongADirectionThatHullsHadTurned) {
+  Replay replay(SWIFTLET_TEST_DIR "/data/fronts/hulls.txt");
+  const MeshModel a = hulled(replay.soup()), b = hulled(replay.soup());
+  MeshFront front(replay.count());
+  MeshSeed seed;
+  for (std::uint32_t rest = replay.count(); rest > 0; --rest) {
+    const std::uint32_t question = replay.count();
+    const double threshold = replay.number();
+    Options options;
+    options.absolute = replay.number(), options.relative = replay.number(), options.beyond = replay.number();
+    options.budget.steps = replay.count();
+    seed = replay.seed();
+    const Pose pose = replay.pose();
+    if (question == 3)
+      within(a, b, pose, threshold, seed, front, {.budget = options.budget});
+    else if (question == 4)
+      intersects(a, b, pose, seed, front, {.budget = options.budget});
+    else
+      distance(a, b, pose, seed, front, options);
+  }
+  const Pose pose = replay.pose();
+  ASSERT_GT(front.size(), 0u);
+  ASSERT_EQ(intersects(a, b, pose).verdict, Verdict::Overlapping);
+  EXPECT_EQ(intersects(a, b, pose, seed, front).verdict, Verdict::Overlapping);
 }
 
 }  // namespace
