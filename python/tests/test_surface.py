@@ -90,6 +90,7 @@ RENAMED = {
     "Effort": "intersects",
 }
 ABSENT = {
+    "MeshFront": "spares microseconds of one query between small steps; a call from Python takes as many",
     "MeshVisitor": "of visit_triangles",
     "visit_triangles": "a call for each box; in Python the triangles are arrays, for a tree of the caller's",
     "ConvexView": "a view of a model's memory for marches in C++; its arrays are Level's",
