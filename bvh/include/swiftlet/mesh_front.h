@@ -26,13 +26,13 @@ namespace swiftlet {
 /// As a seed it is for one query at a time. Queries allocate nothing.
 class MeshFront {
  public:
-  static constexpr std::size_t kPairs = 16384;
+  static constexpr std::size_t kPairs = 16384;  ///< the capacity unless another is asked for
   /// Memory for `pairs` pairs of nodes and triangles, rounded down to a multiple of 8: 44 bytes each. A query near contact of
   /// two meshes of 5 000 triangles keeps some 1 000, one of 70 000 some 5 000. With 0 it is of no use, and does no harm.
   explicit MeshFront(std::size_t pairs = kPairs);
   ~MeshFront();
-  MeshFront(MeshFront&&) noexcept;  ///< what was moved from may only be assigned to, or used as one of capacity 0
-  MeshFront& operator=(MeshFront&&) noexcept;
+  MeshFront(MeshFront&&) noexcept;             ///< what was moved from may only be assigned to, or used as one of capacity 0
+  MeshFront& operator=(MeshFront&&) noexcept;  ///< as the constructor
 
   std::size_t capacity() const;  ///< in pairs
   std::size_t size() const;      ///< places that are taken, in pairs
