@@ -749,17 +749,17 @@ Surface link(const Input& in, const Facets& facets, const Executor& executor) {
   const std::vector<Rim> rims = rims_of(in, sides, group);
   out.rims = std::uint32_t(rims.size());
 
-  std::vector<bool> is_left(in.points.size());
-  for (const Side& side : sides) is_left[side.tail] = true;
+  std::vector<bool> is_other(in.points.size());
+  for (const Side& side : sides) is_other[side.tail] = true;
   for (const Rim& rim : rims) {
-    for (const Index s : rim.sides) out.vertex_input.push_back(sides[s].tail), is_left[sides[s].tail] = false;
+    for (const Index s : rim.sides) out.vertex_input.push_back(sides[s].tail), is_other[sides[s].tail] = false;
   }
-  std::vector<Index> left;
-  for (Index v = 0; v < is_left.size(); ++v) {
-    if (is_left[v]) left.push_back(v);
+  std::vector<Index> others;
+  for (Index v = 0; v < is_other.size(); ++v) {
+    if (is_other[v]) others.push_back(v);
   }
-  left = along_curve(in, std::move(left));
-  out.vertex_input.insert(out.vertex_input.end(), left.begin(), left.end());
+  others = along_curve(in, std::move(others));
+  out.vertex_input.insert(out.vertex_input.end(), others.begin(), others.end());
   out.input_vertex.assign(in.points.size(), kNone);
   for (Index i = 0; i < out.vertex_input.size(); ++i) out.input_vertex[out.vertex_input[i]] = i;
 

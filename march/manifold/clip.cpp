@@ -278,13 +278,12 @@ class SeenBorder {
   const HalfEdge* const half_edges_;
   const Vertex* const vertices_;
   const double outwards_, bound_, flatness_;
-  const bool is_left_;  ///< half-edges that point upwards have the face on their left
-  std::uint64_t convex_to_ =
-      kNowhere;  ///< a corner's names, ahead of the side: up to there the border surely is convex, if that is known
-  const Vec2 x_, y_, z_, shift_;  ///< where the projection has the body's axes and its origin
-  Side side_;                     ///< at the height of the sweep line
-  Corner next_;                   ///< the corner after it
-  Way ahead_;                     ///< the way there
+  const bool is_left_;                  ///< half-edges that point upwards have the face on their left
+  std::uint64_t convex_to_ = kNowhere;  ///< names the corner ahead up to which the border surely is convex, if known
+  const Vec2 x_, y_, z_, shift_;        ///< where the projection has the body's axes and its origin
+  Side side_;                           ///< at the height of the sweep line
+  Corner next_;                         ///< the corner after it
+  Way ahead_;                           ///< the way there
 };
 
 /// The vertices, modulo 64, of a vertex or an edge that the body has, else none.
