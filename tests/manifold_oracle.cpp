@@ -150,9 +150,32 @@ std::vector<std::array<Vec3, 2>> sides_of(const ConvexView& body, std::uint32_t 
 
 Vec3 face_normal(const ConvexView& body, FeatureId face) {
   const auto sides = sides_of(body, face.index());
-  Vec3 sum = Vec3::Zero();
-  for (const auto& [p, q] : sides) sum += (p - sides[0][0]).cross(q - sides[0][0]);
-  return sum.normalized();
+  const Vector3 first = exact(sides[0][0]);
+  Vector3 sum(0, 0, 0);
+  for (const auto& [p, q] : sides) sum += CGAL::cross_product(exact(p) - first, exact(q) - first);
+  const Real square = dot(sum, sum);
+  if (square == 0) return Vec3::Zero();
+  const auto rounded = [&](const Real& x) {  // of a lazy number `to_double` alone is right to 1e-5
+    const double cosine = std::sqrt(CGAL::to_double(CGAL::exact(Real(x * x / square))));
+    return x < 0 ? -cosine : cosine;
+  };
+  return {rounded(sum.x()), rounded(sum.y()), rounded(sum.z())};
+}
+
+bool faces_best(const ConvexView& body, const Vec3& n, FeatureId feature, FeatureId face) {
+  const auto facing = [&](std::uint32_t f) {
+    const Vec3 normal = f < body.planes.size() ? Vec3(body.planes[f].x, body.planes[f].y, body.planes[f].z)
+                                               : face_normal(body, {FeatureKind::Face, f});
+    return normal.isZero() ? -1 : normal.dot(n);
+  };
+  const auto is_at_feature = [&](const HalfEdge& h) {
+    if (feature.kind() == FeatureKind::Vertex) return h.head == feature.index();
+    if (feature.kind() == FeatureKind::Face) return h.face == feature.index();
+    return h.twin == feature.index() || body.half_edges[h.twin].twin == feature.index();
+  };
+  const double most = facing(face.index()) + 0x1p-42;
+  return std::none_of(body.half_edges.begin(), body.half_edges.end(),
+                      [&](const HalfEdge& h) { return h.face != kNone && is_at_feature(h) && facing(h.face) > most; });
 }
 
 std::vector<std::uint32_t> flat_faces(const ConvexView& body, FeatureId face, double flatness) {

@@ -31,8 +31,13 @@ double area(const std::vector<Vec3>& points, const Vec3& n);
 /// deep under its surface. 0 of a body without facets. `in_a`: where the body is.
 double height_over(const ConvexView& body, const Pose& in_a, const Vec3& point);
 
-/// Of a face of the body, in its frame: unit, outwards; rounded.
+/// Of a face of the body, in its frame: unit, outwards; rounded at last, so that it is that of a sliver too; 0 of corners on
+/// one line.
 Vec3 face_normal(const ConvexView& body, FeatureId face);
+
+/// Whether a face of the body faces as well along `n`, a unit vector of its frame, as any face at a feature: within 2^-42, as
+/// cosines. A face that is no triangle has the normal that the model states.
+bool faces_best(const ConvexView& body, const Vec3& n, FeatureId feature, FeatureId face);
 
 /// A face, and after it all others whose corners lie within `flatness` times the extent of its plane and on its side, and that
 /// sides join to it.

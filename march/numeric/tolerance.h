@@ -261,6 +261,9 @@ inline constexpr double kRimDrop = 0x1.2p-10;
 /// Two faces count as facing a normal equally where their cosines differ by no more than this: an angle of 2^-21, 4 ulps of
 /// single precision, lowers a cosine by half its square. Dimensionless.
 inline constexpr double kSameFacing = 0x1p-43;
+/// Where the squared sine of two edges of a triangle is above this, the direction of their cross product in doubles is right to
+/// half of `kSameFacing`: `kCrossError` over the sine. Elsewhere it comes from `exact::plane`. Dimensionless.
+inline constexpr double kSliverArea = 0x1p-12;
 /// The points of a manifold give way to others that have more area by more than this fraction. That is enough to keep the
 /// corners of a regular polygon, of which any four opposite ones are equally good, from taking turns.
 inline constexpr double kKeptWorth = 0.0625;

@@ -92,6 +92,20 @@ std::string Judge::manifold(const Manifold& manifold, const Answer& answer, cons
   if (manifold.count == 0)
     return answer.upper > options.margin || options.most_points == 0 ? "" : "no point, but the bodies are near enough";
   if (n != answer.normal) return "another normal than the answer's";
+  // Where the answer's feature is a vertex that does not hold the point, the manifold looks for the feature that does.
+  const auto is_badly_chosen = [&](const Subject& subject, const Pose& pose, const Vec3& own_n, const Vec3& point,
+                                   FeatureId feature, FeatureId face) {
+    const ConvexView& view = subject.model.level(0).view;
+    return face.kind() == FeatureKind::Face &&
+           (feature.kind() != FeatureKind::Vertex ||
+            oracle::is_within({&point, 1}, vertices_of(view, feature), pose, bound / 2)) &&
+           !oracle::faces_best(view, own_n, feature, face);
+  };
+  if (is_badly_chosen(a_, Pose{}, n, answer.point_a - answer.radius_a * n, answer.feature_a, manifold.face_a))
+    return "another face of A at the answer's feature faces better";
+  if (is_badly_chosen(b_, b_in_a_, -(b_in_a_.rotation.transpose() * n), answer.point_b + answer.radius_b * n, answer.feature_b,
+                      manifold.face_b))
+    return "another face of B at the answer's feature faces better";
   double least = manifold.points[0].separation;
   for (std::uint32_t i = 0; i < manifold.count; ++i) {
     const ManifoldPoint& p = manifold.points[i];
