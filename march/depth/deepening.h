@@ -288,8 +288,9 @@ class Deepening {
     feature_a = feature_of(of_a.view, found.active, found.active.a);
     feature_b = feature_of(of_b.view, found.active, found.active.b);
     if (error > 0 || !stop_.is_exact()) return;  // the points need not lie on the surfaces
-    feature_a = feature_at_a(pair, feature_a, point_a, plane_tests);
-    feature_b = feature_at_b(pair, feature_b, point_b, plane_tests);
+    const HeldPoint a = held_at_a(pair, feature_a, point_a, plane_tests), b = held_at_b(pair, feature_b, point_b, plane_tests);
+    feature_a = a.feature, point_a = a.point;
+    feature_b = b.feature, point_b = b.point;
   }
 
   const ModelPair pair_;

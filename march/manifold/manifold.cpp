@@ -71,8 +71,8 @@ Anchor anchor(const PairView& pair, const Radii& radii, const Answer& answer, do
   const double seen = dot(n, point_b - point_a),
                proved = min(max(seen, answer.lower + radii.sum()), answer.upper + radii.sum());
   std::uint32_t tests = 0;
-  return {n, point_a, std::fabs(seen - proved) <= bound ? proved : seen, feature_at_a(pair, answer.feature_a, point_a, tests),
-          feature_at_b(pair, answer.feature_b, point_b, tests)};
+  return {n, point_a, std::fabs(seen - proved) <= bound ? proved : seen,
+          held_at_a(pair, answer.feature_a, point_a, tests).feature, held_at_b(pair, answer.feature_b, point_b, tests).feature};
 }
 
 bool exists(const Shape& body, int level, FeatureId feature) {

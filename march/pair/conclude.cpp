@@ -17,13 +17,15 @@ MarchStatus status_of(const PairView& pair, const StopRule& stop, const Certific
   return c.lower > 0 ? MarchStatus::Disjoint : MarchStatus::Near;
 }
 
-/// Names in `r` the features that hold the points of `c`, the certificate at which certified GJK ended.
-void name_features(const PairView& pair, const Certificate& c, MarchResult& r) {
-  r.a = feature_of(pair.a, c.active, c.active.a);
-  r.b = feature_of(pair.b, c.active, c.active.b);
+/// Names in `r` the features that hold its points, which the pairs of `active` make.
+void name_features(const PairView& pair, const ActiveSet& active, MarchResult& r) {
+  r.a = feature_of(pair.a, active, active.a);
+  r.b = feature_of(pair.b, active, active.b);
   if (r.status == MarchStatus::Overlapping) return;  // there are no nearest points
-  r.a = feature_at_a(pair, r.a, c.point_a, r.plane_tests);
-  r.b = feature_at_b(pair, r.b, c.point_b, r.plane_tests);
+  const HeldPoint a = held_at_a(pair, r.a, vec(r.point_a), r.plane_tests),
+                  b = held_at_b(pair, r.b, vec(r.point_b), r.plane_tests);
+  r.a = a.feature, r.point_a = eigen(a.point);
+  r.b = b.feature, r.point_b = eigen(b.point);
 }
 
 /// Fills `r` from the end of a walk. True if `r` is so near a threshold that another start might prove another verdict.
@@ -57,12 +59,12 @@ bool from_walk(const PairView& pair, const Walk& walk, const MarchRule& rule, do
   const bool straightened = apart && leans(pair, c) && straighten(pair, straight, r.plane_tests) &&
                             (r.status != MarchStatus::Beyond || straight.lower > stop.above);
   if (straightened) c = straight;
-  if (progressed || straightened) name_features(pair, c, r);
   r.lower = c.lower;
   r.upper = max(c.upper, c.lower);
   r.normal = eigen(c.normal);
   r.point_a = eigen(c.point_a);
   r.point_b = eigen(c.point_b);
+  if (progressed || straightened) name_features(pair, c.active, r);
   const bool deep = r.status == MarchStatus::Overlapping && depth > pair.law_two;
   const auto near = [&](double threshold) { return is_near(pair, r.lower, r.upper, threshold); };
   return r.upper - r.lower <= 2 * pair.law_two && !deep && (near(0) || near(zero) || near(rule.beyond));

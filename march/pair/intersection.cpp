@@ -456,17 +456,23 @@ class IntersectionSearch {
   std::array<Cell, 2> cell_{};           ///< per body, the last cell that `locate` visited
 };
 
-/// The distance from p to the segment from q0 to q1.
-double off_segment(const Vec& p, const Vec& q0, const Vec& q1) {
+/// The point of a segment or a facet nearest to some point p, and its distance from p.
+struct Foot {
+  double off;
+  Vec point;
+};
+
+Foot foot_on_segment(const Vec& p, const Vec& q0, const Vec& q1) {
   const Vec u = q1 - q0, r = p - q0;
   const double t = dot(r, u) / dot(u, u);
-  return norm(r - u * (t > 0 ? min(t, 1) : 0.0));
+  const Vec along = u * (t > 0 ? min(t, 1) : 0.0);
+  return {norm(r - along), q0 + along};
 }
 
-/// The distance from p to the facet on the left of a half-edge if p lies above or below that by less than `most`, else `most`.
+/// The foot of p on the facet on the left of a half-edge if p lies above or below that by less than `most`; else p, `most` off.
 /// In 106 bits: of a sliver the plane and the sides are noise in doubles, which tell only that p is outside the facet's box.
 template <class Body>
-double off_facet(const Body& body, std::uint32_t facet, const Vec& p, double most) {
+Foot foot_on_facet(const Body& body, std::uint32_t facet, const Vec& p, double most) {
   const ConvexView& view = body.view;
   const auto each_side = [&](auto visit) {
     std::uint32_t h = facet;
@@ -482,51 +488,55 @@ double off_facet(const Body& body, std::uint32_t facet, const Vec& p, double mos
     high = {max(high.x, tail.x), max(high.y, tail.y), max(high.z, tail.z)};
   });
   const Vec before = low - p, beyond = p - high;
-  if (max(max(max(before.x, beyond.x), max(before.y, beyond.y)), max(before.z, beyond.z)) >= most) return most;
+  if (max(max(max(before.x, beyond.x), max(before.y, beyond.y)), max(before.z, beyond.z)) >= most) return {most, p};
   // Twice the area of the triangle that a side makes with p, along its normal; their sum is that of the facet.
   const auto seen = [&](const Vec& tail, const Vec& tip) { return cross(wide(tail) - wide(p), wide(tip) - wide(p)); };
   Wide n{0, 0, 0};
   each_side([&](const Vec& tail, const Vec& tip) { n = n + seen(tail, tip); });
   bool inside = true;
   each_side([&](const Vec& tail, const Vec& tip) { inside = inside && !(dot(seen(tail, tip), n) < 0); });
-  const double height = std::fabs(rounded(dot(n, wide(first) - wide(p)))), length = norm(rounded(n));
-  return inside && height < most * length ? height / length : most;
+  const double depth = rounded(dot(n, wide(first) - wide(p))), length = norm(rounded(n)), off = std::fabs(depth);
+  if (!inside || !(off < most * length)) return {most, p};
+  return {off / length, p + rounded(n) * (1 / length) * (depth / length)};
 }
 
 template <class Body>
-FeatureId feature_at(const Body& body, FeatureId known, const Vec& p, double bound, std::uint32_t& tests) {
+HeldPoint held_at(const Body& body, FeatureId known, const Vec& p, double bound, std::uint32_t& tests) {
   const ConvexView& view = body.view;
-  if (known.kind() != FeatureKind::Vertex || norm(p - body.point(known.index())) <= bound) return known;
-  double least = 2 * bound;
+  if (known.kind() != FeatureKind::Vertex || norm(p - body.point(known.index())) <= bound) return {known, p};
+  Foot least{2 * bound, p};
   std::uint32_t nearest = kNone;
   for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
     // The plane of a sliver is uncertain, its sides are not: the distance to the sides counts too.
-    double off = off_segment(p, body.point(origin(view, h)), body.point(view.half_edges[h].head));
-    if (is_first_in_facet(view, h)) off = min(off, off_facet(body, h, p, least));
-    if (off < least) least = off, nearest = h;
+    const auto take = [&](const Foot& foot) {
+      if (foot.off < least.off) least = foot, nearest = h;
+    };
+    take(foot_on_segment(p, body.point(origin(view, h)), body.point(view.half_edges[h].head)));
+    if (is_first_in_facet(view, h)) take(foot_on_facet(body, h, p, least.off));
     ++tests;
   }
-  if (nearest == kNone) return known;
+  if (nearest == kNone) return {known, p};
+  const Vec held = least.off <= bound ? p : least.point;
   FeatureId smallest{view.half_edges[nearest].face == kNone ? FeatureKind::Edge : FeatureKind::Face,
                      view.half_edges[nearest].face == kNone ? nearest : view.half_edges[nearest].face};
   std::uint32_t h = nearest;
   do {
-    const std::uint32_t v0 = origin(view, h), v1 = view.half_edges[h].head;
-    if (norm(p - body.point(v0)) <= bound) return {FeatureKind::Vertex, v0};
-    if (!is_diagonal(view, h) && off_segment(p, body.point(v0), body.point(v1)) <= bound) smallest = {FeatureKind::Edge, h};
+    const Vec tail = body.point(origin(view, h)), head = body.point(view.half_edges[h].head);
+    if (norm(held - tail) <= bound) return {{FeatureKind::Vertex, origin(view, h)}, held};
+    if (!is_diagonal(view, h) && foot_on_segment(held, tail, head).off <= bound) smallest = {FeatureKind::Edge, h};
     h = next_in_facet(view, h);
   } while (h != nearest);
-  return smallest;
+  return {smallest, held};
 }
 
 }  // namespace
 
 // The points of B are known up to the pair's rounding.
-FeatureId feature_at_a(const PairView& pair, FeatureId known, const Vec& p, std::uint32_t& plane_tests) {
-  return feature_at(body_a(pair), known, p, pair.law_two - pair.motion_error, plane_tests);
+HeldPoint held_at_a(const PairView& pair, FeatureId known, const Vec& p, std::uint32_t& plane_tests) {
+  return held_at(body_a(pair), known, p, pair.law_two - pair.motion_error, plane_tests);
 }
-FeatureId feature_at_b(const PairView& pair, FeatureId known, const Vec& p, std::uint32_t& plane_tests) {
-  return feature_at(body_b(pair), known, p, pair.law_two - pair.motion_error, plane_tests);
+HeldPoint held_at_b(const PairView& pair, FeatureId known, const Vec& p, std::uint32_t& plane_tests) {
+  return held_at(body_b(pair), known, p, pair.law_two - pair.motion_error, plane_tests);
 }
 
 Intersection intersection(const PairView& pair, const OverlapProof& proof, std::uint32_t& plane_tests) {

@@ -25,11 +25,18 @@ struct Intersection {
 /// working memory [Chazelle 1992].
 Intersection intersection(const PairView& pair, const OverlapProof& proof, std::uint32_t& plane_tests);
 
+/// A feature and a point of the common frame that it holds.
+struct HeldPoint {
+  FeatureId feature;
+  Vec point;
+};
+
 /// The feature that holds `p`, a point of the common frame within law 2's bound of the surface. Returns `known` unless that is
 /// a vertex farther from `p` than the bound. Then searches all facets and returns the smallest feature within the bound, or
 /// `known` if no facet is within twice the bound. The search is needed because certified GJK and the depth, near 0 or near the
-/// surface, may end on vertices that no one feature holds, and name one of them.
-FeatureId feature_at_a(const PairView& pair, FeatureId known, const Vec& p, std::uint32_t& plane_tests);
-FeatureId feature_at_b(const PairView& pair, FeatureId known, const Vec& p, std::uint32_t& plane_tests);
+/// surface, may end on vertices that no one feature holds, and name one of them. Bodies that touch may overlap by all of the
+/// bound, and rounding may leave a point deeper still: it is moved to the nearest point of the surface then.
+HeldPoint held_at_a(const PairView& pair, FeatureId known, const Vec& p, std::uint32_t& plane_tests);
+HeldPoint held_at_b(const PairView& pair, FeatureId known, const Vec& p, std::uint32_t& plane_tests);
 
 }  // namespace swiftlet

@@ -277,5 +277,25 @@ TEST(UnitIntersection, LiesOnBothSurfaces) {
   EXPECT_NE(found.b.kind(), FeatureKind::None);
 }
 
+/// Where bodies touch by overlapping as deep as law 2's bound, rounding puts points deeper.
+TEST(UnitIntersection, MovesToTheSurfaceWhatNoFeatureHolds) {
+  const Cubes at({3, 0, 0});  // the sides at x = 1 and 2 face each other
+  const double bound = at.pair.law_two - at.pair.motion_error;
+  std::uint32_t tests = 0;
+  const auto expect_held = [&](double depth, bool moves, FeatureId side_a, FeatureId side_b) {
+    const Vec a{1 - depth, 0.5, 0.25}, b{2 + depth, 0.5, 0.25};
+    const HeldPoint of_a = held_at_a(at.pair, vertex(0), a, tests), of_b = held_at_b(at.pair, vertex(0), b, tests);
+    EXPECT_EQ(of_a.feature, side_a) << depth;
+    EXPECT_EQ(of_b.feature, side_b) << depth;
+    EXPECT_NEAR(of_a.point.x, moves ? 1 : a.x, 0x1p-52);
+    EXPECT_NEAR(of_b.point.x, moves ? 2 : b.x, 0x1p-51);
+    EXPECT_EQ(of_a.point.y, 0.5);
+    EXPECT_EQ(of_b.point.z, 0.25);
+  };
+  expect_held(0.5 * bound, false, face(0, 1), face(0, -1));
+  expect_held(1.5 * bound, true, face(0, 1), face(0, -1));
+  expect_held(3 * bound, false, vertex(0), vertex(0));
+}
+
 }  // namespace
 }  // namespace swiftlet
