@@ -649,13 +649,15 @@ TEST(Manifold, OfSliversIsTheIntersectionOfTheirFaces) {
   expect_much_kept(shares);
 }
 
-/// A cube of many squares, turned, has triangles along its edges as thin as rounding. Their planes were rounding too, as doubles
-/// computed them: such a triangle was the contact face where it seemed to face best, and nearly nothing was left of the area.
+/// A cube of many squares, turned, has triangles along its edges as thin as rounding. Their planes were rounding too, as
+/// doubles computed them: such a triangle was the contact face where it seemed to face best, and nearly nothing was left of the
+/// area.
 TEST(Manifold, GrowsFromTheFaceThatFacesBestBesideSlivers) {
   Random random(33);
   const Model plate = bodies::model(bodies::box(3, 3, 1));
   for (int i = 0; i < 400; ++i) {
-    const Model cube = hull_of(shapes::moved(shapes::meshed_cube(2 + random.bits() % 4), {random.rotation(), random.in_ball()}));
+    const Model cube =
+        hull_of(shapes::moved(shapes::meshed_cube(2 + random.bits() % 4), {random.rotation(), random.in_ball()}));
     const Pose pose = at(5, 0, 0, random.rotation());
     const Answer answer = nearest(cube, plate, pose);
     const Manifold p = manifold(cube, plate, pose, answer, {.margin = kInfinity});

@@ -135,19 +135,22 @@ std::string Judge::manifold(const Manifold& manifold, const Answer& answer, cons
 std::string Judge::area_of(const Manifold& manifold, const ManifoldOptions& options, double bound) const {
   std::vector<Vec3> points;
   for (std::uint32_t i = 0; i < manifold.count; ++i) points.push_back(manifold.points[i].point_a);
+  const Vec3 &n = manifold.normal, first = points[0];
+  const double shown = oracle::area(points, n), length = a_.extent + b_.extent, blur = 16 * bound * length;
+  // A deepest point inside of the area comes first, and is not on its border.
+  std::vector<Vec3> border(points.begin() + 1, points.end());
+  double bordered = oracle::area(border, n);
+  if (bordered < shown - blur) border = points, bordered = shown;
   Vec3 around = Vec3::Zero();
-  for (std::uint32_t i = 0; i < manifold.count; ++i) {
-    const Vec3 p = points[i] - points[0], q = points[i + 1 == manifold.count ? 0 : i + 1] - points[0];
-    around += p.cross(q);
-  }
-  const double shown = oracle::area(points, manifold.normal), length = a_.extent + b_.extent, blur = 16 * bound * length;
-  if (!(std::fabs(around.dot(manifold.normal) / 2 - shown) <= blur)) return "the points are not in order around their area";
+  for (std::size_t i = 0; i < border.size(); ++i)
+    around += (border[i] - first).cross(border[i + 1 == border.size() ? 0 : i + 1] - first);
+  if (!(std::fabs(around.dot(n) / 2 - bordered) <= blur)) return "the points are not in order around their area";
   if (!std::isinf(options.margin) || manifold.face_a.kind() != FeatureKind::Face || manifold.face_b.kind() != FeatureKind::Face)
     return "";
   const ConvexView &a = a_.model.level(0).view, &b = b_.model.level(0).view;
-  const oracle::Overlay truth = oracle::overlay(
-      a, oracle::flat_faces(a, manifold.face_a, std::min(options.flatness, kMostFlatness)), b,
-      oracle::flat_faces(b, manifold.face_b, std::min(options.flatness, kMostFlatness)), b_in_a_, manifold.normal, points[0]);
+  const oracle::Overlay truth =
+      oracle::overlay(a, oracle::flat_faces(a, manifold.face_a, std::min(options.flatness, kMostFlatness)), b,
+                      oracle::flat_faces(b, manifold.face_b, std::min(options.flatness, kMostFlatness)), b_in_a_, n, first);
   const double common = truth.area;
   const auto text = [&](const char* what) {
     return std::to_string(manifold.count) + what + std::to_string(shown / common) + " of the area in common";

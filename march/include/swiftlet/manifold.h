@@ -35,7 +35,7 @@ struct Manifold {
   FeatureId face_a;            ///< the contact face of A, on the answer's level; `FeatureId{}` where A has no faces
   FeatureId face_b;            ///< the contact face of B, on the answer's level
   std::uint32_t count = 0;     ///< number of points; 0: the bodies are farther apart than `margin`, or the answer allows none
-  std::array<ManifoldPoint, kMostManifoldPoints> points{};  ///< [0, count): around the area, the one of least separation first
+  std::array<ManifoldPoint, kMostManifoldPoints> points{};  ///< [0, count): around the area, the deepest, maybe inside, first
 };
 
 /// Options of a manifold. Lengths are in the bodies' unit.
