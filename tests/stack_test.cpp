@@ -58,13 +58,16 @@ Most measured(const Body& a, const Body& b, int poses) {
 TEST(Stack, OfAQueryIsWhatItsCostLineSays) {
   const Model fat = bodies::must(build(shapes::ellipsoid({1, 1, 1}, 500, 1))).model,
               plate = bodies::must(build(shapes::ellipsoid({1, 1, 0.1}, 400, 2))).model,
-              prism = bodies::must(build(shapes::box({0.5, 0.5, 1}))).model;
+              prism = bodies::must(build(shapes::box({0.5, 0.5, 1}))).model,
+              slivers = bodies::must(build(shapes::moved(shapes::meshed_cube(4), {shapes::Random(1).rotation(), Vec3::Zero()})))
+                            .model;
   const Body triangle = Body::triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), box = Body::box({-1, -1, -1}, {1, 1, 1});
   Most most;
   for (const auto& [a, b] : {std::pair<Body, Body>{fat, fat},
                              {fat, plate},
                              {plate, prism},
                              {prism, prism},
+                             {slivers, slivers},
                              {fat, triangle},
                              {triangle, triangle},
                              {box, prism}}) {

@@ -13,12 +13,12 @@
 namespace swiftlet::exact {
 namespace {
 
-/// An exact number. The 2 098 bits of the range of doubles fit in `kParts` doubles, because each part of a compressed expansion
-/// but the last has 52 bits below it.
-class Expansion {
+/// An exact number: the sum of at most `kParts` doubles.
+template <int kParts>
+class ExpansionOf {
  public:
-  Expansion() = default;
-  explicit Expansion(double value) { *this += value; }
+  ExpansionOf() = default;
+  explicit ExpansionOf(double value) { *this += value; }
 
   int sign() const { return count_ == 0 ? 0 : part_[count_ - 1] > 0 ? 1 : -1; }
   /// The number rounded to 100 bits.
@@ -36,7 +36,7 @@ class Expansion {
   }
 
   /// [Shewchuk 1997, Grow-Expansion] with zeros eliminated.
-  Expansion& operator+=(double b) {
+  ExpansionOf& operator+=(double b) {
     if (count_ == kParts) compress();
     double carry = b;
     int kept = 0;
@@ -49,9 +49,9 @@ class Expansion {
     count_ = kept;
     return *this;
   }
-  Expansion& operator+=(HighLow b) { return *this += b.low, *this += b.high; }
+  ExpansionOf& operator+=(HighLow b) { return *this += b.low, *this += b.high; }
   /// Adds a * b, or subtracts it.
-  void add_product(const Expansion& a, const Expansion& b, int sign = 1) {
+  void add_product(const ExpansionOf& a, const ExpansionOf& b, int sign = 1) {
     for (int i = 0; i < a.count_; ++i) {
       for (int j = 0; j < b.count_; ++j) *this += two_product(sign * a.part_[i], b.part_[j]);
     }
@@ -59,8 +59,6 @@ class Expansion {
   }
 
  private:
-  static constexpr int kParts = 48;
-
   /// [Shewchuk 1997, Compress].
   void compress() {
     if (count_ < 2) return;
@@ -85,6 +83,9 @@ class Expansion {
   int count_ = 0;
   double part_[kParts];
 };
+/// The 2 098 bits of the range of doubles fit in it, because each part of a compressed expansion but the last has 52 bits below
+/// it.
+using Expansion = ExpansionOf<48>;
 
 Expansion difference(double a, double b) {
   Expansion e;
@@ -131,13 +132,18 @@ V3<DoubleDouble> wide_difference(const double b[3], const double a[3]) {
   return {two_sum(b[0], -a[0]), two_sum(b[1], -a[1]), two_sum(b[2], -a[2])};
 }
 
-/// True if p q - r s is exactly 0.
-bool vanishes(const DoubleDouble& p, const DoubleDouble& q, const DoubleDouble& r, const DoubleDouble& s) {
-  Expansion sum;
+/// p q - r s, exactly: eight products of two parts each.
+ExpansionOf<16> determinant(const DoubleDouble& p, const DoubleDouble& q, const DoubleDouble& r, const DoubleDouble& s) {
+  ExpansionOf<16> sum;
   for (const auto& [f, g] : {std::pair{p, q}, std::pair{r, -s}}) {
     for (const double x : {f.low, f.high}) sum += two_product(x, g.low), sum += two_product(x, g.high);
   }
-  return sum.sign() == 0;
+  return sum;
+}
+/// The same rounded to 100 bits. Its stack is that of one short expansion: manifolds need planes where their own is deepest.
+[[gnu::noinline]] DoubleDouble rounded_determinant(const DoubleDouble& p, const DoubleDouble& q, const DoubleDouble& r,
+                                                   const DoubleDouble& s) {
+  return determinant(p, q, r, s).rounded();
 }
 
 /// a - (R b + t), times 2^exponent, exactly.
@@ -201,7 +207,8 @@ bool collinear(const double a[3], const double b[3], const double c[3]) {
       certain(rough.z, u.x * v.y, u.y * v.x))
     return false;
   const V3<DoubleDouble> p = wide_difference(b, a), q = wide_difference(c, a);
-  return vanishes(p.y, q.z, p.z, q.y) && vanishes(p.z, q.x, p.x, q.z) && vanishes(p.x, q.y, p.y, q.x);
+  return determinant(p.y, q.z, p.z, q.y).sign() == 0 && determinant(p.z, q.x, p.x, q.z).sign() == 0 &&
+         determinant(p.x, q.y, p.y, q.x).sign() == 0;
 }
 
 Plane plane(const Vec& a, const Vec& b, const Vec& c) {
@@ -209,7 +216,8 @@ Plane plane(const Vec& a, const Vec& b, const Vec& c) {
   V3<DoubleDouble> n = cross(u, v);
   const auto largest = [](const V3<DoubleDouble>& w) { return max_abs({w.x.high, w.y.high, w.z.high}); };
   if (largest(n) < kLeastWideArea * largest(u) * largest(v)) {
-    n = rounded(cross3(difference3(&b.x, &a.x), difference3(&c.x, &a.x)));
+    n = {rounded_determinant(u.y, v.z, u.z, v.y), rounded_determinant(u.z, v.x, u.x, v.z),
+         rounded_determinant(u.x, v.y, u.y, v.x)};
   }
   const Unit unit = unit_of({n.x.high, n.y.high, n.z.high});
   const V3<DoubleDouble> p{DoubleDouble(a.x), DoubleDouble(a.y), DoubleDouble(a.z)};
