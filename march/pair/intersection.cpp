@@ -516,7 +516,7 @@ HeldPoint held_at(const Body& body, FeatureId known, const Vec& p, double bound,
     ++tests;
   }
   if (nearest == kNone) return {known, p};
-  const Vec held = least.off <= bound ? p : least.point;
+  const Vec held = least.off <= bound ? p : least.point + (p - least.point) * (bound / least.off);
   FeatureId smallest{view.half_edges[nearest].face == kNone ? FeatureKind::Edge : FeatureKind::Face,
                      view.half_edges[nearest].face == kNone ? nearest : view.half_edges[nearest].face};
   std::uint32_t h = nearest;

@@ -35,7 +35,7 @@ struct HeldPoint {
 /// a vertex farther from `p` than the bound. Then searches all facets and returns the smallest feature within the bound, or
 /// `known` if no facet is within twice the bound. The search is needed because certified GJK and the depth, near 0 or near the
 /// surface, may end on vertices that no one feature holds, and name one of them. Bodies that touch may overlap by all of the
-/// bound, and rounding may leave a point deeper still: it is moved to the nearest point of the surface then.
+/// bound, and rounding may leave a point deeper still: it is moved towards the surface then, to the bound.
 HeldPoint held_at_a(const PairView& pair, FeatureId known, const Vec& p, std::uint32_t& plane_tests);
 HeldPoint held_at_b(const PairView& pair, FeatureId known, const Vec& p, std::uint32_t& plane_tests);
 
