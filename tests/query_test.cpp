@@ -13,6 +13,7 @@
 #include <swiftlet/build.h>
 #include <swiftlet/check.h>
 #include <swiftlet/depth.h>
+#include <swiftlet/manifold.h>
 #include <swiftlet/query.h>
 
 #include "oracle.h"
@@ -311,7 +312,9 @@ TEST(Registers, AreLeftAsTheyWere) {
       left += leaves_upper_halves_in_use([&] { distance(of.a, of.b, pose, seeds[0]); });
       left += leaves_upper_halves_in_use([&] { intersects(of.a, of.b, pose, seeds[1]); });
       left += leaves_upper_halves_in_use([&] { within(of.a, of.b, pose, random.uniform(0, 2), seeds[2]); });
-      left += leaves_upper_halves_in_use([&] { signed_distance(of.a, of.b, pose, seeds[3]); });
+      Answer answer;
+      left += leaves_upper_halves_in_use([&] { answer = signed_distance(of.a, of.b, pose, seeds[3]); });
+      left += leaves_upper_halves_in_use([&] { manifold(of.a, of.b, pose, answer); });
       left += leaves_upper_halves_in_use([&] { closest_features(of.a, of.b, pose); });
     }
     EXPECT_EQ(left, 0);

@@ -5,6 +5,7 @@
 
 #include "manifold/candidates.h"
 #include "manifold/contact_face.h"
+#include "numeric/width.h"
 #include "pair/pair_view.h"
 
 namespace swiftlet {
@@ -41,9 +42,15 @@ struct Projection {
 /// A side of one of two faces, in the common frame; 0 where both are points.
 Vec any_side(const PairView& pair, const ContactFace& a, const ContactFace& b);
 
+void clip_by_two(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound, Candidates& corners);
+void clip_by_four(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound, Candidates& corners);
 /// Adds the corners of the intersection to `corners`, each border's from below to above, and closes it. A corner that lies
 /// outside of the other face by less than `bound`, which covers the rounding of the pair's points, counts as inside. Cost: the
 /// sum of the sides of both faces.
-void clip(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound, Candidates& corners);
+static inline void clip(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
+                        Candidates& corners) {
+  SWIFTLET_BY_WIDTH(clip)(projection, a, b, bound, corners);
+  corners.close();
+}
 
 }  // namespace swiftlet
