@@ -17,13 +17,14 @@
 int main(int argc, char** argv) {
   using namespace swiftlet;
   using namespace swiftlet::bench;
-  if (argc != 3 && argc != 4)
-    return std::fputs("swiftlet_cost_manifold MODEL SIDES|SERIES [ROUNDS]: writes a model, or asks about it\n", stderr), 2;
+  if (argc < 3 || argc > 5)
+    return std::fputs("swiftlet_cost_manifold MODEL SIDES|SERIES [ROUNDS [POSES]]: writes a model, or asks about it\n", stderr),
+           2;
   const std::string file = argv[1], series = argv[2];
   if (const int sides = std::atoi(argv[2]); sides >= 3) return save(prism(std::uint32_t(sides)), file) ? 0 : 1;
   const Result<Model> model = load(file);
   if (!model) return std::fprintf(stderr, "%s\n", model.error().message.c_str()), 1;
-  const ManifoldCell cell = stacked(model.value(), 1e-6, 64);
+  const ManifoldCell cell = stacked(model.value(), 1e-6, argc == 5 ? std::uint32_t(std::atoi(argv[4])) : 64);
   const SceneBody body{&cell.a, cell.a.level(0).view, 0};
   std::vector<Answer> answers;
   PairSeed seed;
@@ -34,7 +35,7 @@ int main(int argc, char** argv) {
       if (series != method.name + (cold ? " cold" : "")) continue;
       const auto session = method.open(body, body, cold);
       double least = std::numeric_limits<double>::infinity();
-      for (int rest = argc == 4 ? std::atoi(argv[3]) : 1; rest > 0; --rest) {
+      for (int rest = argc > 3 ? std::atoi(argv[3]) : 1; rest > 0; --rest) {
         const auto begin = std::chrono::steady_clock::now();
         session->ask(cell.poses, answers, contacts);
         least = std::min(least, std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count());

@@ -3,6 +3,7 @@
 #include "mesh_families.h"
 
 #include <swiftlet/build_mesh.h>
+#include <swiftlet/mesh_front.h>
 
 #include <algorithm>
 #include <functional>
@@ -584,6 +585,39 @@ std::string judge(const Judged& j, Random& random) {
   return "";
 }
 
+/// The same with a front that lay between the meshes at poses nearby before, asked whatever came.
+std::string judge_fronts(const Judged& j, Random& random) {
+  const double d = approximate(j.truth), size = std::max(j.a.extent(), j.b.extent());
+  MeshSeed seed;
+  MeshFront front(random.bits() % 2 ? 1024 : 64);
+  const double turn = std::pow(10, random.uniform(-7, -1));
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 half = turn * random.in_ball();
+    const Mat3 turned = shapes::from_quaternion(std::sqrt(1 - half.squaredNorm()), half) * j.c.pose.rotation;
+    const Pose pose{turned, j.c.pose.translation + turn * size * random.in_ball()};
+    switch (random.bits() % 3) {
+      case 0: distance(j.a, j.b, pose, seed, front); break;
+      case 1: intersects(j.a, j.b, pose, seed, front); break;
+      default: within(j.a, j.b, pose, d * random.uniform(0.5, 1.5), seed, front);
+    }
+  }
+  if (random.bits() % 2) {
+    const double threshold = d * (random.bits() % 2 ? random.uniform(0, 2) : 1);
+    const Within w = within(j.a, j.b, j.c.pose, threshold, seed, front);
+    if (const std::string f = j.fault(w.answer); !f.empty()) return "within: " + f;
+    if (w.decision == Decision::Yes && !at_most(j.truth, threshold)) return "within says Yes wrongly";
+    if (w.decision == Decision::No && at_most(j.truth, threshold)) return "within says No wrongly";
+    if (w.decision == Decision::Undecided && std::fabs(threshold - d) > j.law_two) return "within is undecided";
+  }
+  const Answer met = intersects(j.a, j.b, j.c.pose, seed, front);
+  if (const std::string f = j.fault(met); !f.empty()) return "intersects: " + f;
+  if (const std::string f = j.verdict_fault(met); !f.empty()) return "intersects: " + f;
+  if (const std::string f = j.exact_fault(distance(j.a, j.b, j.c.pose, seed, front)); !f.empty()) return "distance: " + f;
+  const ClosestFeatures closest = closest_features(j.a, j.b, j.c.pose, seed, front);
+  if (const std::string f = j.exact_fault(closest.answer); !f.empty()) return "closest_features: " + f;
+  return "";
+}
+
 /// The regions of contact and their manifolds, within a reach a little above the distance, or far above it.
 std::string judge_contacts(const Judged& j, Random& random, int& told, int& regions) {
   const double d = approximate(j.truth);
@@ -663,6 +697,10 @@ Examined examine(const Case& c, Random& random) {
   if (result.fault.empty()) {
     result.fault = judge_contacts(judged, random, result.told, result.regions);
     if (!result.fault.empty()) result.fault = "contacts: " + result.fault;
+  }
+  if (result.fault.empty()) {
+    result.fault = judge_fronts(judged, random);
+    if (!result.fault.empty()) result.fault = "with a front: " + result.fault;
   }
   result.answer = distance(a, b, c.pose);
   result.width = (result.answer.upper - result.answer.lower) / judged.law_two;
