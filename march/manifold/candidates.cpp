@@ -3,6 +3,8 @@
 // If there are too many corners, those are left out whose chords cut off little: the bound on that grows with the area.
 #include "manifold/candidates.h"
 
+#include <algorithm>
+
 namespace swiftlet {
 
 Candidates::Candidates(double farthest, const Manifold& previous)
@@ -34,6 +36,10 @@ bool Candidates::finds(Names names) const {
   const auto is_named_so = [&](const Candidate& other) { return other.names == names; };
   return std::any_of(all_.begin(), all_.begin() + count_[0], is_named_so) ||
          std::any_of(all_.end() - count_[1], all_.end(), is_named_so);
+}
+
+bool Candidates::names_before(Names names) const {
+  return std::find(previous_, previous_ + previous_count_, names) != previous_ + previous_count_;
 }
 
 /// Leaves out corners, until a quarter of the room is free, by chords that cut off ever more.

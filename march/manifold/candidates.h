@@ -3,7 +3,6 @@
 // The corners of a common area that a manifold may be made of: all of them or, of many, those that hold most of the area.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -80,9 +79,9 @@ class Candidates {
   std::span<const Names> previous() const { return {previous_, std::size_t(previous_count_)}; }
   /// Whether to add a corner with these names: not if one is kept already, as sides that are nearly parallel may pass the lead
   /// twice, and a corner may come as a crossing near it and as itself; one that is not `wanted` only if `previous` names it.
-  bool takes(Names names, bool wanted) const { return !has(names) && (wanted || knows(names)); }
+  [[gnu::always_inline]] bool takes(Names names, bool wanted) const { return !has(names) && (wanted || knows(names)); }
   /// Adds the corner that follows on a border, which is seen from below to above.
-  void add(Border border, const Candidate& candidate, bool wanted) {
+  [[gnu::always_inline]] void add(Border border, const Candidate& candidate, bool wanted) {
     if (!(candidate.separation <= farthest_)) return;
     if (!wanted) return keep(border, candidate);
     least_ = min(least_, candidate.separation);
@@ -105,22 +104,20 @@ class Candidates {
   const Candidate& operator[](int i) const { return all_[std::size_t(i)]; }
   double least() const { return least_; }  ///< the least separation of all that were added
   /// Whether `previous` names a point so.
-  bool knows(Names names) const {
-    return known_name_bits_ & names.bit() &&
-           std::find(previous_, previous_ + previous_count_, names) != previous_ + previous_count_;
-  }
+  [[gnu::always_inline]] bool knows(Names names) const { return known_name_bits_ & names.bit() && names_before(names); }
 
  private:
   /// Whether a corner so named is in a row.
-  bool has(Names names) const { return name_bits_ & names.bit() && finds(names); }
+  [[gnu::always_inline]] bool has(Names names) const { return name_bits_ & names.bit() && finds(names); }
   bool finds(Names names) const;
+  bool names_before(Names names) const;
   Candidate& row(Border border, int i) { return all_[std::size_t(border == Border::Left ? i : kMostCandidates - 1 - i)]; }
 
   /// Adds a triangle above the border's last chord to the area that the chord to the end of `way` would cut off.
-  bool cuts(Border border, const Place& at, const Place& way) {
+  [[gnu::always_inline]] bool cuts(Border border, const Place& at, const Place& way) {
     return (cut_off_[std::size_t(border)] += std::fabs(cross(at - last_[std::size_t(border)], way))) > enough_;
   }
-  bool cuts(Border border, const Place& from, const Place& to, const Place& next) {
+  [[gnu::always_inline]] bool cuts(Border border, const Place& from, const Place& to, const Place& next) {
     const Place &last = last_[std::size_t(border)], w = next - last;
     const double most = max(std::fabs(cross(from - last, w)), std::fabs(cross(to - last, w)));
     return (cut_off_[std::size_t(border)] += most) > enough_;

@@ -15,12 +15,12 @@ struct SeenBody {
   const ConvexView& view;
   Vec x, y, n;  ///< the axes in the body's own frame, right-handed where the pose does not mirror
   Vec shift;
-  Place at(std::uint32_t vertex) const {
+  [[gnu::always_inline]] Place at(std::uint32_t vertex) const {
     const Vec p = vec(view.vertices[vertex]);
     return {dot(x, p) + shift.x, dot(y, p) + shift.y};
   }
-  double z(std::uint32_t vertex) const { return dot(n, vec(view.vertices[vertex])) + shift.z; }
-  Vec2 z(std::uint32_t vertex, std::uint32_t other) const {
+  [[gnu::always_inline]] double z(std::uint32_t vertex) const { return dot(n, vec(view.vertices[vertex])) + shift.z; }
+  [[gnu::always_inline]] Vec2 z(std::uint32_t vertex, std::uint32_t other) const {
     const Vertex &p = view.vertices[vertex], &q = view.vertices[other];
     return n.x * Vec2{p.x, q.x} + n.y * Vec2{p.y, q.y} + n.z * Vec2{p.z, q.z} + shift.z;
   }

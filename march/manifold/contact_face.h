@@ -41,7 +41,7 @@ class ContactFace {
   std::uint32_t count(std::uint32_t from, std::uint32_t to) const { return to >= from ? to - from : to + corner_count_ - from; }
   /// The half-edge that goes on along the border where `h` ends, and leaves the face on the same side as `h`.
   template <bool is_left>
-  std::uint32_t onward(std::uint32_t h) const {
+  [[gnu::always_inline]] std::uint32_t onward(std::uint32_t h) const {
     const HalfEdge& last = half_edges_[h];
     const Vertex& ring = vertices_[last.head];
     const std::uint32_t first = ring.ring_begin, end = first + ring.ring_count;
@@ -56,7 +56,7 @@ class ContactFace {
  private:
   bool holds(std::uint32_t face) const;
   /// The same; `h` ends at a corner of the face, which mostly decides.
-  bool holds(std::uint32_t face, std::uint32_t h) const {
+  [[gnu::always_inline]] bool holds(std::uint32_t face, std::uint32_t h) const {
     if (face == top_) return face != kNone;
     return dot(normal_, vec(vertices_[half_edges_[h].head])) >= least_height_ && holds(face);
   }

@@ -5,13 +5,13 @@
 // differently. Answers are the same, bit for bit.
 //
 // A file for AVX2 may define no symbol but the functions whose names end in _by_four: the linker might take a function that it
-// shares with other files, as inline ones are, for theirs too, and these run on any processor. Without optimisation such
-// functions are not inlined, and these files are empty.
+// shares with other files, as inline ones are, for theirs too, and these run on any processor. Without optimisation, or for
+// size, such functions are not inlined, and these files are empty.
 #pragma once
 
 #include <cstdint>
 
-#if SWIFTLET_AVX2 && defined(__OPTIMIZE__)
+#if SWIFTLET_AVX2 && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 #define SWIFTLET_BY_FOUR 1
 #if defined(__AVX__)
 #define SWIFTLET_BY_WIDTH(name) name##_by_four
