@@ -30,14 +30,10 @@
 
 namespace swiftlet {
 
-void signed_distance_by_two(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options,
-                            Answer& answer);
-void signed_within_by_two(const Body& a, const Body& b, const Pose& b_in_a, double threshold, PairSeed& seed,
-                          const Effort& effort, Within& result);
-void signed_distance_by_four(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options,
-                             Answer& answer);
-void signed_within_by_four(const Body& a, const Body& b, const Pose& b_in_a, double threshold, PairSeed& seed,
-                           const Effort& effort, Within& result);
+SWIFTLET_BOTH_WIDTHS(void, signed_distance, const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed,
+                     const Options& options, Answer& answer);
+SWIFTLET_BOTH_WIDTHS(void, signed_within, const Body& a, const Body& b, const Pose& b_in_a, double threshold, PairSeed& seed,
+                     const Effort& effort, Within& result);
 
 namespace {
 

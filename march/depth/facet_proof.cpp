@@ -7,8 +7,8 @@
 
 namespace swiftlet {
 
-bool prove_facet_by_two(const PairView& pair, const Level& a, const Level& b, const DepthStart& start, const Ceiling& ceiling,
-                        const DepthGoal& goal, std::uint32_t& plane_tests, Depth& depth) {
+bool SWIFTLET_OF_WIDTH(prove_facet)(const PairView& pair, const Level& a, const Level& b, const DepthStart& start,
+                                    const Ceiling& ceiling, const DepthGoal& goal, std::uint32_t& plane_tests, Depth& depth) {
   return proves_facet(pair, a, b, start, ceiling, goal, plane_tests, depth);
 }
 

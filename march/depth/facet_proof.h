@@ -31,10 +31,8 @@ struct Ceiling {
   }
 };
 
-bool prove_facet_by_two(const PairView& pair, const Level& a, const Level& b, const DepthStart& start, const Ceiling& ceiling,
-                        const DepthGoal& goal, std::uint32_t& plane_tests, Depth& depth);
-bool prove_facet_by_four(const PairView& pair, const Level& a, const Level& b, const DepthStart& start, const Ceiling& ceiling,
-                         const DepthGoal& goal, std::uint32_t& plane_tests, Depth& depth);
+SWIFTLET_BOTH_WIDTHS(bool, prove_facet, const PairView& pair, const Level& a, const Level& b, const DepthStart& start,
+                     const Ceiling& ceiling, const DepthGoal& goal, std::uint32_t& plane_tests, Depth& depth);
 /// Returns true if the start's three or four vertex pairs are proved to make a facet of the Minkowski difference that holds the
 /// point of its surface nearest to the origin; `depth` is filled if so. The start's direction is the facet's unit normal, that
 /// of `ceiling`, which is looked at closely where it tells too little; where that does too, supports are climbed to. Otherwise

@@ -1,17 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The proof of depth with registers of four doubles, compiled for AVX2: see width.h.
-#include "depth/facet_proof.h"
+#include "numeric/width.h"
 
 #if SWIFTLET_BY_FOUR
-#include "depth/facet_prover.h"
-
-namespace swiftlet {
-
-bool prove_facet_by_four(const PairView& pair, const Level& a, const Level& b, const DepthStart& start, const Ceiling& ceiling,
-                         const DepthGoal& goal, std::uint32_t& plane_tests, Depth& depth) {
-  return proves_facet(pair, a, b, start, ceiling, goal, plane_tests, depth);
-}
-
-}  // namespace swiftlet
+#include "depth/facet_proof.cpp"
 #endif

@@ -21,6 +21,13 @@
 #else
 #define SWIFTLET_BY_WIDTH(name) name##_by_two
 #endif
+// The name under which a file for either width defines a function, and the declarations of both.
+#if defined(__AVX__)
+#define SWIFTLET_OF_WIDTH(name) name##_by_four
+#else
+#define SWIFTLET_OF_WIDTH(name) name##_by_two
+#endif
+#define SWIFTLET_BOTH_WIDTHS(result, name, ...) result name##_by_two(__VA_ARGS__), name##_by_four(__VA_ARGS__)
 
 namespace swiftlet {
 

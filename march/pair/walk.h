@@ -29,8 +29,7 @@ struct Walk {
   Nearest nearest;  ///< with Minimum: what the last state knows
 };
 
-Walk walk_by_two(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget);
-Walk walk_by_four(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget);
+SWIFTLET_BOTH_WIDTHS(Walk, walk, const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget);
 /// `a` and `b` name features of the pair's views, not both faces.
 static inline Walk walk(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget) {
   return SWIFTLET_BY_WIDTH(walk)(pair, a, b, rule, step_budget);
