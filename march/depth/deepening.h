@@ -129,7 +129,7 @@ class Deepening {
   bool narrow(double floor) const { return stop_.narrow(max(lower, floor), upper); }
 
   void store(PairSeed& seed) const {
-    turn_ == Turn::Little ? remember(normal, seed) : remember(line_, normal, seed);
+    turn_ == Turn::Little ? remember(vec4(normal), seed) : remember(line_, normal, seed);
     seed.a = feature_a, seed.b = feature_b;
     seed.level_a = std::uint8_t(place_.level_a), seed.level_b = std::uint8_t(place_.level_b);
     seed.met = true;

@@ -244,8 +244,8 @@ static inline double sum(const Vec4& a) { return a[0] + a[1] + a[2]; }
 static inline double dot(const Vec4& a, const Vec4& b) { return sum(a * b); }
 static inline Vec4 cross(const Vec4& a, const Vec4& b) { return yzx(a * yzx(b) - yzx(a) * b); }
 static inline double norm_1(const Vec4& a) { return sum(abs(a)); }
-// Of vectors whose squares leave the range of doubles.
-[[maybe_unused, gnu::noinline, gnu::cold]] static double norm_of_far(const Vec4& v) { return norm(vec(v)); }
+// Of vectors whose squares leave the range of doubles. By value: a vector whose address is known elsewhere has to be in memory.
+[[maybe_unused, gnu::noinline, gnu::cold]] static double norm_of_far(Vec4 v) { return norm(vec(v)); }
 [[maybe_unused, gnu::noinline, gnu::cold]] static Vec4 normalised_far(const Vec4& v) { return vec4(normalised(vec(v))); }
 static inline double norm(const Vec4& v) {
   const double square = dot(v, v);

@@ -36,11 +36,14 @@ struct Certificate {
 /// support vertices: in doubles, and if that is not within law 2's bound, by exact comparisons.
 Certificate certify(const PairView& pair, const Witness& seen, std::uint32_t& plane_tests);
 
-/// Proved bounds on the distance of two polytopes that are apart, within law 2's bound, with plane and points that fit.
-struct Proof {
+/// Proved bounds on the distance of two polytopes that are apart, within law 2's bound, with plane and points that fit. `V` as
+/// of NearestOf.
+template <class V>
+struct ProofOf {
   double lower, upper;
-  Padded normal;  ///< unit, from A to B
+  V normal;  ///< unit, from A to B
 };
+using Proof = ProofOf<Padded>;
 /// True if the bounds agree within law 2's bound, but `point_b` - `point_a` differs from its length times `normal` by more than
 /// that. Bounds that agree so leave the plane room to lean by the root of law 2's: by 1e-8, say, between nearly parallel faces.
 static inline bool leans(const PairView& pair, const Certificate& c) {
@@ -75,22 +78,28 @@ static inline double gap(const PairView& pair, const Vec4& n, const Vec4& c, dou
 double gap(const PairView& pair, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack = 0);
 
 /// Proves bounds by the tests of a walk's last state alone, and reads nothing else. Returns why they do not tell, or None.
-static inline Doubt certify(const PairView& pair, const Nearest& seen, Proof& proof) {
-  const Vec4 along = vec4(seen.normal), apart = vec4(seen.point_b) - vec4(seen.point_a);
-  const double square = dot(along, along), apart2 = dot(apart, apart), over = seen.over_a + seen.over_b;
+static inline Doubt certify(const PairView& pair, const NearestOf<Vec4>& seen, ProofOf<Vec4>& proof) {
+  Vec4 apart = seen.point_b - seen.point_a;
+  const double square = dot(seen.normal, seen.normal), apart2 = dot(apart, apart), over = seen.over_a + seen.over_b;
   if (!(over <= pair.law_two)) return over < std::numeric_limits<double>::infinity() ? Doubt::Width : Doubt::Neighbour;
   if (!has_range(square)) return Doubt::Width;
   const double length = std::sqrt(apart2);
   // Nearer points may lie aside along an edge (kAcrossError), or have a length that underflowed.
   if (!(length > pair.law_two)) return Doubt::Threshold;
-  const Vec4 normal = along * (1 / std::sqrt(square));
-  store(normal, proof.normal);
-  proof.lower = gap(pair, normal, vec4(seen.apart), over);
+  proof.normal = seen.normal * (1 / std::sqrt(square));
+  proof.lower = gap(pair, proof.normal, seen.apart, over);
   proof.upper = max(proof.lower, length * (1 + kNormError) + pair.motion_error + kPointSumError * pair.magnitude + seen.blur);
   if (!(proof.lower > pair.law_two)) return Doubt::Threshold;
   if (!(proof.upper - proof.lower <= pair.law_two)) return Doubt::Width;
-  const Vec4 aside = apart - normal * length;
+  Vec4 aside = apart - proof.normal * length;
   return dot(aside, aside) > pair.law_two * pair.law_two ? Doubt::Lean : Doubt::None;
+}
+static inline Doubt certify(const PairView& pair, const Nearest& seen, Proof& proof) {
+  ProofOf<Vec4> found{};
+  const Doubt doubt = certify(pair, loaded(seen), found);
+  proof.lower = found.lower, proof.upper = found.upper;
+  store(found.normal, proof.normal);
+  return doubt;
 }
 /// Looks closer at a walk's last state, where an `over` of `seen` is unknown or a larger share of law 2's bound than
 /// `kCloseShare`: at the vertices level with its feature. Returns true if one became less.

@@ -49,7 +49,7 @@ class Prism {
   };
   /// `r` leads from `corner()` to a point. Of a triangle only: beyond the third side a point is -(u + v + |normal|^2).
   Beyond beyond(const Vec4& r) const {
-    const Vec4 c = cross(normal_, r);
+    Vec4 c = cross(normal_, r);
     return {dot(u_, c) * sense_, -dot(v_, c) * sense_};
   }
 
@@ -64,8 +64,8 @@ class Prism {
   template <class Visit>
   std::uint32_t each_side(const Body& body, const Vec4& p, const Vec4& e, Visit visit) const {
     if (!is_triangle_) return each_of_many(body.local(p), body.into(e), visit);
-    const Beyond at = beyond(p - corner_), by = beyond(e);
-    const Vec4 third = v_ - u_;
+    Beyond at = beyond(p - corner_), by = beyond(e);
+    Vec4 third = v_ - u_;
     const double at_third = -(at.u + at.v + dot(normal_, normal_)), by_third = -(by.u + by.v);
     visit(Sides{dots(u_, u_, third, third, v_, v_, v_, v_), vec4(Vec2{at.u, at_third}, Vec2{at.v, at.v}),
                 vec4(Vec2{by.u, by_third}, Vec2{by.v, by.v})},
@@ -85,11 +85,11 @@ class Prism {
   /// each next one brings it farther, and returns that one: the nearest side, if `from` is not far.
   template <class Visit>
   std::uint32_t nearest_side(const Body& body, std::uint32_t from, const Vec4& p, const Vec4& e, Visit visit) const {
-    const Vec own_p = vec(body.local(p)), own_e = vec(body.into(e)), own_normal = vec(own_normal_);
+    Vec own_p = vec(body.local(p)), own_e = vec(body.into(e)), own_normal = vec(own_normal_);
     const auto look = [&](std::uint32_t h) {
-      const Vec tail = vec(view_.vertices[origin(view_, h)]), u = vec(view_.vertices[view_.half_edges[h].head]) - tail,
-                out = cross(u, own_normal);
-      const Side side{dot(u, u), dot(own_p - tail, out), dot(own_e, out)};
+      Vec tail = vec(view_.vertices[origin(view_, h)]), u = vec(view_.vertices[view_.half_edges[h].head]) - tail,
+          out = cross(u, own_normal);
+      Side side{dot(u, u), dot(own_p - tail, out), dot(own_e, out)};
       visit(side, h);
       return Side{side.uu, side.beyond + side.slope, 0}.beyond2();
     };
@@ -110,7 +110,7 @@ class Prism {
   template <class Visit>
   std::uint32_t each_of_many(const Vec4& p, const Vec4& e, Visit visit) const {
     const ConvexView& view = view_;
-    const V3<Vec4> own_normal = repeated(own_normal_), from = repeated(p), way = repeated(e);
+    V3<Vec4> own_normal = repeated(own_normal_), from = repeated(p), way = repeated(e);
     std::array<std::uint32_t, 4> sides;
     std::array<const Vertex*, 4> tail, head;
     const Vertex* corner = &view.vertices[origin(view, first_)];
@@ -125,8 +125,8 @@ class Prism {
         h = next_in_face(view, h);
         ++count;
       }
-      const V3<Vec4> tails = transposed(*tail[0], *tail[1], *tail[2], *tail[3]),
-                     u = transposed(*head[0], *head[1], *head[2], *head[3]) - tails, out = cross(u, own_normal);
+      V3<Vec4> tails = transposed(*tail[0], *tail[1], *tail[2], *tail[3]),
+               u = transposed(*head[0], *head[1], *head[2], *head[3]) - tails, out = cross(u, own_normal);
       visit(Sides{dot(u, u), dot(from - tails, out), dot(way, out)}, [&](int i) { return sides[std::size_t(i)]; });
     } while (h != first_);
     return count;
@@ -140,7 +140,7 @@ class Prism {
     if (!is_triangle) return;
     const Vertex& record = view.vertices[root];
     before_ = counter_clockwise(record, h);
-    const Vec4 q = vec4(record);
+    Vec4 q = vec4(record);
     u_ = body.way(body.own(view.half_edges[h].head) - q);
     v_ = body.way(body.own(view.half_edges[before_].head) - q);
     normal_ = cross(u_, v_) * sense_;

@@ -12,26 +12,31 @@
 
 namespace swiftlet {
 
-void ask_by_two(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const StopRule& asked,
-                Answer& answer);
-void ask_by_four(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const StopRule& asked,
-                 Answer& answer);
-void ask_models_by_two(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const StopRule& asked,
-                       Answer& answer);
-void ask_models_by_four(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, const StopRule& asked,
-                        Answer& answer);
+SWIFTLET_BOTH_WIDTHS(void, ask, const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits,
+                     const StopRule& asked, Answer& answer);
+SWIFTLET_BOTH_WIDTHS(void, ask_models, const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed,
+                     const StopRule& asked, Answer& answer);
+SWIFTLET_BOTH_WIDTHS(Answer, ask_distance, const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed);
+/// True if both bodies are models without radii: most are.
+static inline bool are_models(const Body& a, const Body& b) {
+  return a.model() && b.model() && a.radius() == 0 && b.radius() == 0;
+}
+/// The exact distance of two models without limits.
+static inline Answer ask_distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed) {
+  return SWIFTLET_BY_WIDTH(ask_distance)(a, b, b_in_a, seed);
+}
 /// Answers `asked` for two bodies. `answer` must be a default one. Most queries are about two models without radii and without
 /// limits: `ask_models` is the same for these, sooner.
 static inline void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits,
                        const StopRule& asked, Answer& answer) {
-  if (a.model() && b.model() && a.radius() == 0 && b.radius() == 0 && is_unlimited(limits.budget, limits.tuning))
+  if (are_models(a, b) && is_unlimited(limits.budget, limits.tuning))
     SWIFTLET_BY_WIDTH(ask_models)(*a.model(), *b.model(), b_in_a, seed, asked, answer);
   else
     SWIFTLET_BY_WIDTH(ask)(a, b, b_in_a, seed, limits, asked, answer);
 }
 
-void ask_hulls_by_two(const ModelPair& pair, const StopRule& asked, PairSeed& seed, Answer& answer, OverlapProof& proof);
-void ask_hulls_by_four(const ModelPair& pair, const StopRule& asked, PairSeed& seed, Answer& answer, OverlapProof& proof);
+SWIFTLET_BOTH_WIDTHS(void, ask_hulls, const ModelPair& pair, const StopRule& asked, PairSeed& seed, Answer& answer,
+                     OverlapProof& proof);
 /// Answers `asked` for the hulls of two bodies. Thresholds are passed by more than law 2's bound. An unknown normal becomes 0.
 /// `proof` must be empty, and is filled if the levels of the answer overlap.
 static inline void ask_hulls(const ModelPair& pair, const StopRule& asked, PairSeed& seed, Answer& answer,

@@ -52,6 +52,14 @@ void ask_on(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, co
   seal(radii, proof, limits.tuning, answer);
 }
 
+/// As `distance`, whatever is asked.
+[[gnu::noinline]] Answer any_distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed,
+                                      const Options& options) {
+  Answer answer;
+  ask(a, b, b_in_a, seed, {options.budget, options.tuning}, {options.absolute, options.relative, options.beyond, 0}, answer);
+  return answer;
+}
+
 }  // namespace
 
 SourceFeature source_feature(const Body& body, FeatureId feature) {
@@ -75,9 +83,10 @@ double Answer::value() const {
 }
 
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options) {
-  Answer answer;
-  ask(a, b, b_in_a, seed, {options.budget, options.tuning}, {options.absolute, options.relative, options.beyond, 0}, answer);
-  return answer;
+  const bool exact = !(options.absolute > 0 || options.relative > 0) && options.beyond == -kNever;
+  if (exact && are_models(a, b) && is_unlimited(options.budget, options.tuning))
+    return ask_distance(*a.model(), *b.model(), b_in_a, seed);
+  return any_distance(a, b, b_in_a, seed, options);
 }
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, const Options& options) {
   PairSeed cold;

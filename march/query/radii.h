@@ -90,11 +90,11 @@ static inline bool separates(const Answer& answer, const OverlapProof& proof) {
 }
 /// Completes `answer`: adds the radii, sets an unknown normal and unknown points to NaN, and copies `proof` to `tuning`.
 static inline void seal(const Radii& radii, const OverlapProof& proof, const Tuning& tuning, Answer& answer) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity(), kNaN = std::numeric_limits<double>::quiet_NaN();
   answer.radius_a = radii.a(), answer.radius_b = radii.b();
   if (tuning.proof) *tuning.proof = proof;
-  if (!(answer.lower > 0) && (!separates(answer, proof) || answer.normal.isZero(0))) answer.normal.setConstant(kUnknown);
-  if (!(answer.upper < kInfinity)) answer.point_a.setConstant(kUnknown), answer.point_b.setConstant(kUnknown);
+  if (!(answer.lower > 0) && (!separates(answer, proof) || answer.normal.isZero(0))) answer.normal.setConstant(kNaN);
+  if (!(answer.upper < kInfinity)) answer.point_a.setConstant(kNaN), answer.point_b.setConstant(kNaN);
 }
 
 /// Ends a question of yes or no: it is answered once `lower` is beyond the threshold, and the status then is Converged.

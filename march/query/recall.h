@@ -10,6 +10,7 @@
 #include <swiftlet/query.h>
 
 #include "pair/conclude.h"
+#include "pair/marcher.h"
 #include "pair/start.h"
 #include "pair/stop_rule.h"
 #include "pair/tetrahedron.h"
@@ -30,7 +31,7 @@ template <class Pair>
 [[gnu::always_inline]] static inline Walk walk_from(const Pair& pair, const PairView& view, FeatureId a, FeatureId b,
                                                     const Place& place, const Answer& answer) {
   const std::uint32_t steps_left = pair.limits.budget.steps - std::min(answer.steps, pair.limits.budget.steps);
-  return walk(view, a, b, pair.limits.tuning.plane_rule, std::min(steps_left, place.trial_steps));
+  return walked(view, a, b, pair.limits.tuning.plane_rule, std::min(steps_left, place.trial_steps));
 }
 /// Walks on the level pair of `place`, from its features, which a seed may have named. They are read one by one, as they were
 /// stored: a load of both would wait until both stores are done.
@@ -71,7 +72,7 @@ template <class Pair>
   answer.levels_visited = 1;
   note(pair.limits.trace, 0, {place.level_a, place.level_b, answer.lower, answer.upper, answer.steps, answer.plane_tests});
   keep(pair, asked, exact, answer, place, seed);
-  turn == Turn::Little ? remember(proof.normal, seed) : remember(line, proof.normal, seed);
+  turn == Turn::Little ? remember(vec4(proof.normal), seed) : remember(line, proof.normal, seed);
   seed.met = false;
   return true;
 }
@@ -167,20 +168,12 @@ template <class Pair>
   return sample_suffices(pair, line, asked, seed, seen, answer);
 }
 
-/// As `ask_hulls`.
+/// Answers from `place` on. `known` is the walk from its features, if that is not null.
 template <class Pair>
-[[gnu::always_inline]] static inline void answer_hulls(const Pair& pair, const StopRule& asked, PairSeed& seed, Answer& answer,
-                                                       OverlapProof& proof) {
+[[gnu::always_inline]] static inline void answer_from(const Pair& pair, const StopRule& asked, bool exact, const Line& line,
+                                                      const AxisSample& seen, Turn turn, Place place, const Walk* known,
+                                                      PairSeed& seed, Answer& answer, OverlapProof& proof) {
   const Tuning& tuning = pair.limits.tuning;
-  Line line;
-  store(between_centres(pair.a, pair.b, pair.motion), line.in_a);
-  const bool exact = is_exact(pair, line.in_a, asked);
-  AxisSample seen;
-  seen.normal = {0, 0, 0};
-  if (answers_at_once(pair, asked, exact, line, seed, seen, answer, proof)) return;
-  Turn turn;
-  const Warm warm = asked.is_threshold() ? Warm::TwiceAsFar : Warm::Near;
-  Place place = first_place(pair.a, pair.b, line, seed, pair.finest_a(), pair.finest_b(), tuning.start, warm, turn);
   const auto descends = [&](Place from, const SupportGjk* on_maps, const Walk* walk) {
     answer.normal.setZero();
     in_general(pair, [&](const ModelPair& general) {
@@ -190,7 +183,7 @@ template <class Pair>
   const bool walks = !tuning.careful && tuning.start != StartPolicy::Coarsest;
   if (walks && place.start.a.kind() != FeatureKind::None) {
     const PairView view = pair.view_at(place);
-    Walk walked = walk_from(pair, view, place, answer);
+    Walk walked = known ? *known : walk_from(pair, view, place, answer);
     if (answers(pair, view, walked, line, asked, exact, turn, seed, place, answer)) return;
     const bool lost = walked.end == WalkEnd::Budget && answer.steps < pair.limits.budget.steps;
     if (!lost) return descends(place, nullptr, &walked);
@@ -207,6 +200,23 @@ template <class Pair>
   Walk walked = walk_from(pair, view, place.start.a, place.start.b, place, answer);
   if (answers(pair, view, walked, line, asked, exact, Turn::Some, seed, place, answer)) return;
   descends(place, &found, &walked);
+}
+
+/// As `ask_hulls`.
+template <class Pair>
+[[gnu::always_inline]] static inline void answer_hulls(const Pair& pair, const StopRule& asked, PairSeed& seed, Answer& answer,
+                                                       OverlapProof& proof) {
+  Line line;
+  store(between_centres(pair.a, pair.b, pair.motion), line.in_a);
+  const bool exact = is_exact(pair, line.in_a, asked);
+  AxisSample seen;
+  seen.normal = {0, 0, 0};
+  if (answers_at_once(pair, asked, exact, line, seed, seen, answer, proof)) return;
+  Turn turn;
+  const Warm warm = asked.is_threshold() ? Warm::TwiceAsFar : Warm::Near;
+  const Place place =
+      first_place(pair.a, pair.b, line, seed, pair.finest_a(), pair.finest_b(), pair.limits.tuning.start, warm, turn);
+  answer_from(pair, asked, exact, line, seen, turn, place, nullptr, seed, answer, proof);
 }
 
 /// As `ask`.
@@ -254,14 +264,95 @@ template <class Question>
   seal({0, 0}, proof, NoLimits::tuning, answer);
 }
 
+/// As `recalled_distance`, whatever the pose and the seed are.
+[[gnu::noinline]] static Answer distance_anew(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed) {
+  Answer answer;
+  answer_question(a, b, b_in_a, seed, ExactDistance{}, answer);
+  return answer;
+}
+/// The same from `place` on. `known` is the walk from its features, if that is not null.
+[[gnu::noinline, gnu::flatten]] static Answer distance_from(const Model& a, const Model& b, const Motion& m, double pose_error,
+                                                            const Line& line, Turn turn, const Place& place, const Walk* known,
+                                                            PairSeed& seed) {
+  const PlainPair pair(Shape(a), Shape(b), m, pose_error, NoLimits{});
+  Answer answer;
+  OverlapProof proof;
+  AxisSample seen;
+  seen.normal = {0, 0, 0};
+  answer_from(pair, ExactDistance::asked, true, line, seen, turn, place, known, seed, answer, proof);
+  seal({0, 0}, proof, NoLimits::tuning, answer);
+  return answer;
+}
+
+/// As `ask_distance`. Mostly the seed's features are the nearest ones still, on levels 0: their state is then the whole walk
+/// and its tests the proof, and what this function holds stays in registers. Whatever else may follow gets copies: a vector or
+/// a view whose address another function knows would be kept in memory here, too.
+[[gnu::flatten]] static Answer recalled_distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed) {
+  const Motion m = motion(b_in_a);
+  PoseQuality quality = pose_quality(m);
+  FeatureId fa = seed.a, fb = seed.b;
+  const bool coarse = (seed.level_a | seed.level_b | a.finest_level() | b.finest_level()) != 0;
+  if (!quality.legal || seed.met || coarse || !is_state(fa, fb)) return distance_anew(a, b, b_in_a, seed);
+
+  const Level &level_a = a.level(0), &level_b = b.level(0);
+  Vec4 in_a = between_centres(Shape(a), Shape(b), m), in_b = turned_line(in_a, m);
+  const auto go_on = [&](Turn turn, Place place, const Walk* known) {
+    Line line;
+    store(in_a, line.in_a), store(in_b, line.in_b);
+    return distance_from(a, b, m, quality.error, line, turn, place, known, seed);
+  };
+  const Place coarsest = coarsest_place(Shape(a), Shape(b));
+  if (!names_feature(level_a.view, fa) || !names_feature(level_b.view, fb)) {
+    const bool cold = fa.kind() == FeatureKind::None;
+    return cold ? go_on(Turn::Some, coarsest, nullptr) : distance_anew(a, b, b_in_a, seed);
+  }
+  const bool has_choice = has_other_start(Shape(a), Shape(b), 0, 0);
+  const Turn turn = has_choice ? turn_of(in_a, in_b, seed, level_a, level_b, Warm::Near) : Turn::Some;
+  if (turn == Turn::Far) return go_on(turn, coarsest, nullptr);
+
+  const Place place{0, 0, {fa, fb}, has_choice ? kTrialSteps : ~0u};
+  PairView view = pair_view(level_a.view, level_b.view, m, norm(vec4(m.t)), quality.error);
+  Ending seen;
+  Marcher march(view, PlaneRule::MostViolated, seen);
+  const Move move = state(march, Resting4(view), fa, Moved4(view), fb);
+  std::uint32_t steps = 0, plane_tests = march.plane_tests();
+  if (march.ended() != WalkEnd::Minimum) [[unlikely]] {
+    const PairView same = view;
+    const Walk walk = walked_on(same, fa, fb, move, march.ended(), plane_tests, place.trial_steps);
+    if (walk.end != WalkEnd::Minimum) return go_on(turn, place, &walk);
+    seen = loaded(walk.nearest);
+    fa = walk.a, fb = walk.b, steps = walk.steps, plane_tests = walk.plane_tests;
+  }
+  ProofOf<Vec4> proof;
+  // Where this proves bounds, `lower` is farther from 0 than they are from each other: no verdict is in doubt.
+  if (certify(view, seen, proof) != Doubt::None) [[unlikely]] {
+    Walk walk{WalkEnd::Minimum, fa, fb, steps, plane_tests, {}};
+    store(seen, walk.nearest);
+    return go_on(turn, place, &walk);
+  }
+  seed.a = fa, seed.b = fb;
+  turn == Turn::Little ? remember(proof.normal, seed) : remember(in_a, in_b, proof.normal, seed);
+  return {.status = Status::Converged,
+          .verdict = Verdict::Disjoint,
+          .levels_visited = 1,
+          .feature_a = fa,
+          .feature_b = fb,
+          .steps = steps,
+          .plane_tests = plane_tests,
+          .lower = proof.lower,
+          .upper = proof.upper,
+          .normal = eigen(vec(proof.normal)),
+          .point_a = eigen(vec(seen.point_a)),
+          .point_b = eigen(vec(seen.point_b))};
+}
+
 /// As `ask_models`.
 [[gnu::always_inline]] static inline void answer_models(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed,
                                                         const StopRule& asked, Answer& answer) {
   const bool no_error = !(asked.absolute > 0 || asked.relative > 0);
   if (no_error && asked.above == 0 && asked.below == 0) return answer_question(a, b, b_in_a, seed, Intersection{}, answer);
   // No distance is less than a `below` of 0.
-  if (no_error && !asked.is_threshold() && asked.below <= 0)
-    return answer_question(a, b, b_in_a, seed, ExactDistance{}, answer);
+  if (no_error && !asked.is_threshold() && asked.below <= 0) return void(answer = recalled_distance(a, b, b_in_a, seed));
   answer_question(a, b, b_in_a, seed, AnyQuestion{asked}, answer);
 }
 

@@ -51,12 +51,11 @@ constexpr double kLineUnit = 32767;  ///< the length of a direction in a seed
 /// depth, from twice as far.
 enum class Warm { Near, TwiceAsFar };
 
-/// `a` and `b` are the levels of the seed.
-static inline Turn turn_of(const Line& line, const PairSeed& seed, const Level& a, const Level& b, Warm warm) {
-  const Vec4 in_a = vec4(line.in_a);
+/// `a` and `b` are the levels of the seed, `in_a` and `in_b` the line of centres.
+static inline Turn turn_of(const Vec4& in_a, const Vec4& in_b, const PairSeed& seed, const Level& a, const Level& b,
+                           Warm warm) {
   const double whole = dot(in_a, in_a) * (kLineUnit * kLineUnit), along_a = max(dot(in_a, vec4(seed.line_in_a.data())), 0),
-               along_b = max(dot(vec4(line.in_b), vec4(seed.line_in_b.data())), 0), cos2_a = along_a * along_a,
-               cos2_b = along_b * along_b;
+               along_b = max(dot(in_b, vec4(seed.line_in_b.data())), 0), cos2_a = along_a * along_a, cos2_b = along_b * along_b;
   const bool same_a = cos2_a >= a.same_cos2 * whole, same_b = cos2_b >= b.same_cos2 * whole;
   if (same_a & same_b) return Turn::Little;
   const auto is_far = [whole, warm](double cos2, const std::array<std::int16_t, 3>& was, const Level& level) {
@@ -66,6 +65,9 @@ static inline Turn turn_of(const Line& line, const PairSeed& seed, const Level& 
   };
   return (!same_a && is_far(cos2_a, seed.line_in_a, a)) || (!same_b && is_far(cos2_b, seed.line_in_b, b)) ? Turn::Far
                                                                                                           : Turn::Some;
+}
+static inline Turn turn_of(const Line& line, const PairSeed& seed, const Level& a, const Level& b, Warm warm) {
+  return turn_of(vec4(line.in_a), vec4(line.in_b), seed, a, b, warm);
 }
 
 /// The finest level of a body that a query may read.
@@ -86,6 +88,10 @@ static inline bool fits(const PairSeed& seed, const Shape& a, const Shape& b, in
 Place place_by_policy(const Shape& a, const Shape& b, const Line& line, const PairSeed& seed, int finest_a, int finest_b,
                       StartPolicy policy);
 
+/// True if a query may also begin elsewhere than at the features of these levels: on coarser ones or on maps.
+static inline bool has_other_start(const Shape& a, const Shape& b, int level_a, int level_b) {
+  return level_a + 1 < a.level_count() || level_b + 1 < b.level_count() || a.level(level_a).map_side > 0;
+}
 /// The place where a query begins, and how far the line of centres has turned if it begins at the seed's features. `finest_a`
 /// and `finest_b` are the finest levels that it may read.
 static inline Place first_place(const Shape& a, const Shape& b, const Line& line, const PairSeed& seed, int finest_a,
@@ -95,8 +101,7 @@ static inline Place first_place(const Shape& a, const Shape& b, const Line& line
   if (!fits(seed, a, b, finest_a, finest_b)) return coarsest_place(a, b);
   const Place place{seed.level_a, seed.level_b, {seed.a, seed.b}, kTrialSteps};
   const Level &level_a = a.level(place.level_a), &level_b = b.level(place.level_b);
-  const bool has_choice = place.level_a + 1 < a.level_count() || place.level_b + 1 < b.level_count() || level_a.map_side > 0;
-  if (!has_choice) return {place.level_a, place.level_b, place.start};
+  if (!has_other_start(a, b, place.level_a, place.level_b)) return {place.level_a, place.level_b, place.start};
   turn = turn_of(line, seed, level_a, level_b, warm);
   return turn == Turn::Far ? coarsest_place(a, b) : place;
 }
@@ -104,13 +109,16 @@ static inline Place first_place(const Shape& a, const Shape& b, const Line& line
 /// Stores a unit vector, of which no coordinate may be above 1 by rounding.
 static inline void pack(const Vec4& unit, std::array<std::int16_t, 3>& units) { store_units(unit * kLineUnit, units.data()); }
 /// Stores an answer's normal in the seed.
-static inline void remember(const Padded& normal, PairSeed& seed) { pack(vec4(normal) * (1 - 4 * kU), seed.normal); }
+static inline void remember(const Vec4& normal, PairSeed& seed) { pack(normal * (1 - 4 * kU), seed.normal); }
 /// Stores the line of centres and an answer's normal in the seed.
-static inline void remember(const Line& line, const Padded& normal, PairSeed& seed) {
+static inline void remember(const Vec4& in_a, const Vec4& in_b, const Vec4& normal, PairSeed& seed) {
   remember(normal, seed);
-  const double length = norm(line.in_a), inverse = length > 0 ? (1 - 4 * kU) / length : 0;  // so that no coordinate is above 1
+  const double length = norm(in_a), inverse = length > 0 ? (1 - 4 * kU) / length : 0;  // so that no coordinate is above 1
   const double scale = std::isfinite(inverse) ? inverse : 0;  // centres nearer than 1e-308 count as one point
-  pack(vec4(line.in_a) * scale, seed.line_in_a), pack(vec4(line.in_b) * scale, seed.line_in_b);
+  pack(in_a * scale, seed.line_in_a), pack(in_b * scale, seed.line_in_b);
+}
+static inline void remember(const Line& line, const Padded& normal, PairSeed& seed) {
+  remember(vec4(line.in_a), vec4(line.in_b), vec4(normal), seed);
 }
 static inline Vec direction(const PairSeed& seed) {
   return {double(seed.normal[0]), double(seed.normal[1]), double(seed.normal[2])};
