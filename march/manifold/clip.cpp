@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Projections, and the sweep with registers that every processor of the target has: see width.h.
 #include "manifold/clip.h"
 
 #include <cmath>
 
 #include "body/half_edge.h"
-#include "manifold/sweep.h"
 
 namespace swiftlet {
 
@@ -32,10 +30,6 @@ Vec any_side(const PairView& pair, const ContactFace& a, const ContactFace& b) {
   };
   if (a.side() != kNone) return along(body_a(pair), a.side());
   return b.side() != kNone ? along(body_b(pair), b.side()) : Vec{0, 0, 0};
-}
-
-void clip_by_two(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound, Candidates& corners) {
-  Sweep(projection, a, b, bound, corners).run();
 }
 
 }  // namespace swiftlet

@@ -42,8 +42,8 @@ struct Projection {
 /// A side of one of two faces, in the common frame; 0 where both are points.
 Vec any_side(const PairView& pair, const ContactFace& a, const ContactFace& b);
 
-void clip_by_two(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound, Candidates& corners);
-void clip_by_four(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound, Candidates& corners);
+SWIFTLET_BOTH_WIDTHS(void, clip, const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
+                     Candidates& corners);
 /// Adds the corners of the intersection to `corners`, each border's from below to above, and closes it. A corner that lies
 /// outside of the other face by less than `bound`, which covers the rounding of the pair's points, counts as inside. Cost: the
 /// sum of the sides of both faces.

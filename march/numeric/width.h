@@ -22,7 +22,7 @@
 #define SWIFTLET_BY_WIDTH(name) name##_by_two
 #endif
 // The name under which a file for either width defines a function, and the declarations of both.
-#if defined(__AVX__)
+#if defined(SWIFTLET_FOR_AVX2)
 #define SWIFTLET_OF_WIDTH(name) name##_by_four
 #else
 #define SWIFTLET_OF_WIDTH(name) name##_by_two

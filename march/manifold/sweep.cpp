@@ -633,4 +633,10 @@ class Sweep {
 };
 
 }  // namespace
+
+void SWIFTLET_OF_WIDTH(clip)(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
+                             Candidates& corners) {
+  Sweep(projection, a, b, bound, corners).run();
+}
+
 }  // namespace swiftlet

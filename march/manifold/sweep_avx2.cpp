@@ -1,0 +1,9 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The sweep, compiled for AVX2: see width.h.
+#define SWIFTLET_FOR_AVX2
+#include "numeric/width.h"
+
+#if SWIFTLET_BY_FOUR
+#include "manifold/sweep.cpp"
+#endif
