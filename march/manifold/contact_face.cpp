@@ -24,15 +24,18 @@ Vec area_of(const ConvexView& view, std::uint32_t face) {
   return sum;
 }
 
-/// The unit normal of a face; 0 of a triangle that has none. The plane of a face without one of its own is that of a triangle:
-/// of a sliver doubles know nothing.
-Vec normal_of(const ConvexView& view, std::uint32_t face) {
-  if (face < view.planes.size()) return vec(view.planes[face]);
+/// The unit normal of a face without a plane of its own, which is a triangle; 0 of one that has none. Of a sliver doubles know
+/// nothing.
+[[gnu::noinline]] Vec normal_of_triangle(const ConvexView& view, std::uint32_t face) {
   const std::uint32_t h = view.face_first[face];
   const Vec p = point(view, origin(view, h)), q = point(view, view.half_edges[h].head),
             r = point(view, view.half_edges[next_in_face(view, h)].head), u = q - p, v = r - p, area = cross(u, v);
   const bool is_sliver = !(dot(area, area) > kSliverArea * dot(u, u) * dot(v, v));
   return is_sliver ? exact::plane(p, q, r).normal : normalised(area);
+}
+
+Vec normal_of(const ConvexView& view, std::uint32_t face) {
+  return face < view.planes.size() ? vec(view.planes[face]) : normal_of_triangle(view, face);
 }
 
 template <class Visit>
