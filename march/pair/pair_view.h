@@ -70,12 +70,10 @@ struct PoseQuality {
 static inline PoseQuality pose_quality(const Motion& m) {
   const Vec4 x = vec4(m.row_x), y = vec4(m.row_y), z = vec4(m.row_z);
   const Vec4 squares = abs(x * x + y * y + z * z - all(1)), across = abs(x * yzx(x) + y * yzx(y) + z * yzx(z));
-  // A NaN or an infinity in a column of R is also in the column's square, which the comparison refuses. With a translation
-  // above kMostCoordinate exact signs and squares overflow, and a climb may not end.
-  const bool legal = ((at_most(squares, all(kOrthonormality)) & at_most(across, all(kOrthonormality)) &
-                       at_most(abs(vec4(m.t)), all(kMostCoordinate))) &
-                      7) == 7;
   const Vec4 most = max(squares, across);
+  // A NaN or an infinity in a column of R is also in the column's square, which `most` keeps and the comparison refuses. With a
+  // translation above kMostCoordinate exact signs and squares overflow, and a climb may not end.
+  const bool legal = ((at_most(most, all(kOrthonormality)) & at_most(abs(vec4(m.t)), all(kMostCoordinate))) & 7) == 7;
   return {legal, max(max(most[0], most[1]), most[2])};
 }
 

@@ -270,15 +270,15 @@ template <class Question>
   answer_question(a, b, b_in_a, seed, ExactDistance{}, answer);
   return answer;
 }
-/// The same from `place` on. `known` is the walk from its features, if that is not null.
+/// The same from the end of `known` on, a walk on levels 0, or cold if that is null.
 [[gnu::noinline, gnu::flatten]] static Answer distance_from(const Model& a, const Model& b, const Motion& m, double pose_error,
-                                                            const Line& line, Turn turn, const Place& place, const Walk* known,
-                                                            PairSeed& seed) {
+                                                            const Line& line, Turn turn, const Walk* known, PairSeed& seed) {
   const PlainPair pair(Shape(a), Shape(b), m, pose_error, NoLimits{});
   Answer answer;
   OverlapProof proof;
   AxisSample seen;
   seen.normal = {0, 0, 0};
+  const Place place = known ? Place{0, 0, {known->a, known->b}} : coarsest_place(pair.a, pair.b);
   answer_from(pair, ExactDistance::asked, true, line, seen, turn, place, known, seed, answer, proof);
   seal({0, 0}, proof, NoLimits::tuning, answer);
   return answer;
@@ -296,21 +296,19 @@ template <class Question>
 
   const Level &level_a = a.level(0), &level_b = b.level(0);
   Vec4 in_a = between_centres(Shape(a), Shape(b), m), in_b = turned_line(in_a, m);
-  const auto go_on = [&](Turn turn, Place place, const Walk* known) {
+  const auto go_on = [&](Turn turn, const Walk* known) {
     Line line;
     store(in_a, line.in_a), store(in_b, line.in_b);
-    return distance_from(a, b, m, quality.error, line, turn, place, known, seed);
+    return distance_from(a, b, m, quality.error, line, turn, known, seed);
   };
-  const Place coarsest = coarsest_place(Shape(a), Shape(b));
   if (!names_feature(level_a.view, fa) || !names_feature(level_b.view, fb)) {
     const bool cold = fa.kind() == FeatureKind::None;
-    return cold ? go_on(Turn::Some, coarsest, nullptr) : distance_anew(a, b, b_in_a, seed);
+    return cold ? go_on(Turn::Some, nullptr) : distance_anew(a, b, b_in_a, seed);
   }
   const bool has_choice = has_other_start(Shape(a), Shape(b), 0, 0);
   const Turn turn = has_choice ? turn_of(in_a, in_b, seed, level_a, level_b, Warm::Near) : Turn::Some;
-  if (turn == Turn::Far) return go_on(turn, coarsest, nullptr);
+  if (turn == Turn::Far) return go_on(turn, nullptr);
 
-  const Place place{0, 0, {fa, fb}, has_choice ? kTrialSteps : ~0u};
   PairView view = pair_view(level_a.view, level_b.view, m, norm(vec4(m.t)), quality.error);
   Ending seen;
   Marcher march(view, PlaneRule::MostViolated, seen);
@@ -318,17 +316,19 @@ template <class Question>
   std::uint32_t steps = 0, plane_tests = march.plane_tests();
   if (march.ended() != WalkEnd::Minimum) [[unlikely]] {
     const PairView same = view;
-    const Walk walk = walked_on(same, fa, fb, move, march.ended(), plane_tests, place.trial_steps);
-    if (walk.end != WalkEnd::Minimum) return go_on(turn, place, &walk);
+    const Walk walk = walked_on(same, fa, fb, move, march.ended(), plane_tests, has_choice ? kTrialSteps : ~0u);
+    if (walk.end != WalkEnd::Minimum) return go_on(turn, &walk);
     seen = loaded(walk.nearest);
     fa = walk.a, fb = walk.b, steps = walk.steps, plane_tests = walk.plane_tests;
   }
   ProofOf<Vec4> proof;
   // Where this proves bounds, `lower` is farther from 0 than they are from each other: no verdict is in doubt.
   if (certify(view, seen, proof) != Doubt::None) [[unlikely]] {
-    Walk walk{WalkEnd::Minimum, fa, fb, steps, plane_tests, {}};
-    store(seen, walk.nearest);
-    return go_on(turn, place, &walk);
+    // The last state once more, so that not all of it is kept.
+    const PairView same = view;
+    Walk walk = walked(same, fa, fb, PlaneRule::MostViolated, 1);
+    walk.steps = steps, walk.plane_tests = plane_tests;
+    return go_on(turn, &walk);
   }
   seed.a = fa, seed.b = fb;
   turn == Turn::Little ? remember(proof.normal, seed) : remember(in_a, in_b, proof.normal, seed);
