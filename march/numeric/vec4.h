@@ -91,10 +91,14 @@ static inline Vec4 operator-(const Vec4& a) { return {-a.v}; }
 static inline Vec4 max(const Vec4& a, const Vec4& b) { return {_mm256_max_pd(b.v, a.v)}; }
 static inline Vec4 min(const Vec4& a, const Vec4& b) { return {_mm256_min_pd(b.v, a.v)}; }
 static inline Vec4 abs(const Vec4& a) { return {_mm256_andnot_pd(all(-0.0).v, a.v)}; }
+// One shuffle of single lanes across the register's halves takes as long as two products. Two others are sooner there.
 template <int i>
 static inline Vec4 lane(const Vec4& a) {
+  if constexpr (i == 1) return {_mm256_broadcastsd_pd(_mm_unpackhi_pd(low(a), low(a)))};
   return {__builtin_shufflevector(a.v, a.v, i, i, i, i)};
 }
+static inline Vec4 halves_swapped(const Vec4& a) { return {_mm256_permute2f128_pd(a.v, a.v, 1)}; }
+static inline Vec4 zxy(const Vec4& a) { return {_mm256_shuffle_pd(halves_swapped(a).v, a.v, 0b1100)}; }
 static inline Vec4 yzx(const Vec4& a) { return {__builtin_shufflevector(a.v, a.v, 1, 2, 0, 3)}; }
 /// In each lane what the lane after it, or before it, holds; after the last comes the first.
 static inline Vec4 next(const Vec4& a) { return {__builtin_shufflevector(a.v, a.v, 1, 2, 3, 0)}; }
@@ -242,7 +246,11 @@ static inline Vec vec(const Vec4& a) { return {a[0], a[1], a[2]}; }
 /// The sum of x, y and z, and the dot product of such vectors.
 static inline double sum(const Vec4& a) { return a[0] + a[1] + a[2]; }
 static inline double dot(const Vec4& a, const Vec4& b) { return sum(a * b); }
+#if defined(__AVX__)
+static inline Vec4 cross(const Vec4& a, const Vec4& b) { return zxy(zxy(a) * b - a * zxy(b)); }
+#else
 static inline Vec4 cross(const Vec4& a, const Vec4& b) { return yzx(a * yzx(b) - yzx(a) * b); }
+#endif
 static inline double norm_1(const Vec4& a) { return sum(abs(a)); }
 // Of vectors whose squares leave the range of doubles. By value: a vector whose address is known elsewhere has to be in memory.
 [[maybe_unused, gnu::noinline, gnu::cold]] static double norm_of_far(Vec4 v) { return norm(vec(v)); }
@@ -269,7 +277,7 @@ static inline double least(const Vec4& a) {
 /// The greatest in every lane.
 static inline Vec4 all_greatest(const Vec4& a) {
 #if defined(__AVX__)
-  const Vec4 pairs = max(a, Vec4{__builtin_shufflevector(a.v, a.v, 2, 3, 0, 1)});
+  const Vec4 pairs = max(a, halves_swapped(a));
   return max(pairs, Vec4{__builtin_shufflevector(pairs.v, pairs.v, 1, 0, 3, 2)});
 #else
   const Vec2 pairs = max(a.lo, a.hi), most = max(pairs, __builtin_shufflevector(pairs, pairs, 1, 0));
