@@ -16,10 +16,7 @@
 // A border passes on the lead only where the other face's border is farther inside by more than a bound, so that sides that lie
 // on one another up to rounding do not cross. The order of the corners from below is exact for their rounded coordinates.
 //
-// Each file that includes this compiles it for the registers of its own flags: see clip.cpp. Nothing here is defined for
-// others.
-#pragma once
-
+// Compiled for the registers that every processor of the target has, and for AVX2: see width.h.
 #include <algorithm>
 #include <cmath>
 #include <optional>
