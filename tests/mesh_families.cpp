@@ -501,6 +501,14 @@ struct Judged {
     }
     return "";
   }
+  /// And with whether the distance is at most a threshold.
+  std::string within_fault(const Within& w, double threshold) const {
+    if (const std::string f = fault(w.answer); !f.empty()) return "within: " + f;
+    if (w.decision == Decision::Yes && !at_most(truth, threshold)) return "within says Yes wrongly";
+    if (w.decision == Decision::No && at_most(truth, threshold)) return "within says No wrongly";
+    const bool is_clear = std::fabs(threshold - approximate(truth)) > law_two;
+    return w.decision == Decision::Undecided && is_clear ? "within is undecided" : "";
+  }
   /// And with one to an exact question.
   std::string exact_fault(const Answer& answer) const {
     if (const std::string any = fault(answer); !any.empty()) return any;
@@ -567,10 +575,7 @@ std::string judge(const Judged& j, Random& random) {
   for (const double threshold : {d * 0.5, d + 2 * j.law_two, d - 2 * j.law_two, d, d * random.uniform(0, 2)}) {
     if (!(threshold >= 0)) continue;
     const Within w = within(j.a, j.b, j.c.pose, threshold, seed);
-    if (const std::string f = j.fault(w.answer); !f.empty()) return "within: " + f;
-    if (w.decision == Decision::Yes && !at_most(j.truth, threshold)) return "within says Yes wrongly";
-    if (w.decision == Decision::No && (at_most(j.truth, threshold))) return "within says No wrongly";
-    if (w.decision == Decision::Undecided && std::fabs(threshold - d) > j.law_two) return "within is undecided";
+    if (const std::string f = j.within_fault(w, threshold); !f.empty()) return f;
   }
   for (const Options& options :
        {Options{.relative = 0.1}, Options{.absolute = 0.05 * (d + j.law_two)}, Options{.beyond = d * random.uniform(0, 2)},
@@ -604,10 +609,7 @@ std::string judge_fronts(const Judged& j, Random& random) {
   if (random.bits() % 2) {
     const double threshold = d * (random.bits() % 2 ? random.uniform(0, 2) : 1);
     const Within w = within(j.a, j.b, j.c.pose, threshold, seed, front);
-    if (const std::string f = j.fault(w.answer); !f.empty()) return "within: " + f;
-    if (w.decision == Decision::Yes && !at_most(j.truth, threshold)) return "within says Yes wrongly";
-    if (w.decision == Decision::No && at_most(j.truth, threshold)) return "within says No wrongly";
-    if (w.decision == Decision::Undecided && std::fabs(threshold - d) > j.law_two) return "within is undecided";
+    if (const std::string f = j.within_fault(w, threshold); !f.empty()) return f;
   }
   const Answer met = intersects(j.a, j.b, j.c.pose, seed, front);
   if (const std::string f = j.fault(met); !f.empty()) return "intersects: " + f;

@@ -33,7 +33,7 @@ Vec area_of(const ConvexView& view, std::uint32_t face) {
   const bool is_sliver = !(dot(area, area) > kSliverArea * dot(u, u) * dot(v, v));
   return is_sliver ? exact::plane(p, q, r).normal : normalised(area);
 }
-
+/// The unit normal of a face; 0 of a triangle that has none.
 Vec normal_of(const ConvexView& view, std::uint32_t face) {
   return face < view.planes.size() ? vec(view.planes[face]) : normal_of_triangle(view, face);
 }
