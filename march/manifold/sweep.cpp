@@ -316,11 +316,12 @@ std::uint32_t corner_below(const SeenBody& body, const ContactFace& face, std::u
   return corner;
 }
 
-/// The half-edges of a face that leave its lowest corner, with the face on their left or right: where the border rises on both
-/// sides, by more than the border of merged facets may turn inwards. kNone of a point.
+/// The half-edges of a face that leave its lowest corner, with the face on their left or right. kNone of a point.
 struct LowestSides {
   std::uint32_t left = kNone, right = kNone;
 };
+/// Looks at all corners: those that lie in a row up to rounding may follow one another to and fro. Those of a rim do not,
+/// because the body goes down beyond each side, and turn inwards by no more than the flatness.
 LowestSides lowest_sides(const SeenBody& body, const ContactFace& face) {
   std::uint32_t first = face.side();
   if (first == kNone) return {};
@@ -331,21 +332,20 @@ LowestSides lowest_sides(const SeenBody& body, const ContactFace& face) {
   LowestSides sides{first, last};
   Place lowest = end_of(twin(first));
   const auto is_lower = [&](const Place& p) { return p.y < lowest.y || (p.y == lowest.y && p.x < lowest.x); };
-  const double more = 2 * face.flatness();
+  const auto surely_rises = [&](const Place& p) { return face.is_rim() && p.y > lowest.y + 2 * face.flatness(); };
   for (std::uint32_t h = first;;) {
     const Place place = end_of(h);
-    if (place.y > lowest.y + more) break;
+    if (surely_rises(place)) break;
     const std::uint32_t next = face.onward<true>(h);
-    if (next == first) break;
+    if (next == first) return sides;
     if (is_lower(place)) lowest = place, sides = {next, twin(h)};
     h = next;
   }
   for (std::uint32_t h = last;;) {
     const Place place = end_of(h);
-    if (place.y > lowest.y + more) break;
+    if (surely_rises(place)) break;
     const std::uint32_t next = face.onward<false>(h);
     if (is_lower(place)) lowest = place, sides = {twin(h), next};
-    if (next == last) break;
     h = next;
   }
   return sides;
