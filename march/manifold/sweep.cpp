@@ -122,6 +122,7 @@ class SeenBorder {
   }
 
   const Side& side() const { return side_; }
+  double flatness() const { return flatness_; }
   Corner start() const { return {side_.from, side_.from_names}; }
   Corner end() const { return {side_.to, side_.to_names}; }
   /// The way to the corner after the side; has no meaning where both borders have met.
@@ -320,9 +321,8 @@ std::uint32_t corner_below(const SeenBody& body, const ContactFace& face, std::u
 struct LowestSides {
   std::uint32_t left = kNone, right = kNone;
 };
-/// Looks at all corners: those that lie in a row up to rounding may follow one another to and fro. Those of a rim do not,
-/// because the body goes down beyond each side, and turn inwards by no more than the flatness.
-LowestSides lowest_sides(const SeenBody& body, const ContactFace& face) {
+/// Looks at corners on both sides until the border has risen by `more`.
+LowestSides lowest_sides(const SeenBody& body, const ContactFace& face, double more) {
   std::uint32_t first = face.side();
   if (first == kNone) return {};
   if (face.is_rim()) first = body.view.vertices[corner_below(body, face, origin(body.view, first))].ring_begin;
@@ -332,20 +332,20 @@ LowestSides lowest_sides(const SeenBody& body, const ContactFace& face) {
   LowestSides sides{first, last};
   Place lowest = end_of(twin(first));
   const auto is_lower = [&](const Place& p) { return p.y < lowest.y || (p.y == lowest.y && p.x < lowest.x); };
-  const auto surely_rises = [&](const Place& p) { return face.is_rim() && p.y > lowest.y + 2 * face.flatness(); };
   for (std::uint32_t h = first;;) {
     const Place place = end_of(h);
-    if (surely_rises(place)) break;
+    if (place.y > lowest.y + more) break;
     const std::uint32_t next = face.onward<true>(h);
-    if (next == first) return sides;
+    if (next == first) break;
     if (is_lower(place)) lowest = place, sides = {next, twin(h)};
     h = next;
   }
   for (std::uint32_t h = last;;) {
     const Place place = end_of(h);
-    if (surely_rises(place)) break;
+    if (place.y > lowest.y + more) break;
     const std::uint32_t next = face.onward<false>(h);
     if (is_lower(place)) lowest = place, sides = {twin(h), next};
+    if (next == last) break;
     h = next;
   }
   return sides;
@@ -353,8 +353,14 @@ LowestSides lowest_sides(const SeenBody& body, const ContactFace& face) {
 
 class Sweep {
  public:
-  Sweep(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound, Candidates& corners)
-      : Sweep(projection, a, b, lowest_sides(projection.a, a), lowest_sides(projection.b, b), bound, corners) {}
+  /// Of each face the borders rise by `more` times its flatness around the corner that counts as the lowest.
+  Sweep(const Projection& projection, const ContactFace& a, const ContactFace& b, double more, double bound,
+        Candidates& corners)
+      : Sweep(projection, a, b, lowest_sides(projection.a, a, more * a.flatness()),
+              lowest_sides(projection.b, b, more * b.flatness()), bound, corners) {}
+
+  /// Whether both faces open upwards where the borders begin, as they do at a corner.
+  bool begins_at_corners() const { return opens(0) && opens(1); }
 
   void run() {
     if (!begin()) return;
@@ -391,6 +397,11 @@ class Sweep {
     if (from_b.left != kNone) advance(Border::Left, 1), advance(Border::Right, 1);
   }
 
+  bool opens(int f) const {
+    const SeenBorder &left = at(Border::Left, f), &right = at(Border::Right, f);
+    const Way &l = left.side().way, &r = right.side().way;
+    return !left.side().is_chord && !right.side().is_chord && r.x * l.y + l.x * r.y >= left.flatness() * max(l.most, r.most);
+  }
   /// Whether half-edges around the face run counter-clockwise in the projection.
   static bool is_seen_from_above(const SeenBody& body, const ContactFace& face) {
     return dot(cross(body.x, body.y), face.normal()) >= 0;
@@ -631,9 +642,14 @@ class Sweep {
 
 }  // namespace
 
+/// Corners that lie in a row up to rounding may follow one another to and fro: where that seems to hide the lowest one all are
+/// looked at.
 void SWIFTLET_OF_WIDTH(clip)(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
                              Candidates& corners) {
-  Sweep(projection, a, b, bound, corners).run();
+  Sweep sweep(projection, a, b, 2, bound, corners);
+  if (sweep.begins_at_corners()) [[likely]]
+    return sweep.run();
+  Sweep(projection, a, b, std::numeric_limits<double>::infinity(), bound, corners).run();
 }
 
 }  // namespace swiftlet
