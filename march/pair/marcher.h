@@ -74,12 +74,11 @@ struct SideScan {
   std::uint32_t left, right;     ///< the edges from the half-edge's origin to these corners
   double height() const { return max(left_rise, right_rise); }
   bool falls() const { return height() > 0; }
-  std::uint32_t tests() const { return left == kNone ? 0 : 2; }
   /// As RingScan::over, of a direction that misses a right angle to the edge by a sine of at most `tilt` and has `length_1`.
   double over(double tilt, double reach, double length_1) const {
     const double over = tilt * reach;
     // At a right angle to the edge the corners are below too if they are by more than the tilt and rounding can lift them.
-    return left == kNone || height() < -(over + kBesideError * reach) * length_1 ? over : kUnknown;
+    return height() < -(over + kBesideError * reach) * length_1 ? over : kUnknown;
   }
 };
 
@@ -134,8 +133,7 @@ class Marcher {
     if (ru >= length2) return {vertex(va), vertex(v1), dot(r - u, r - u)};
     Vec4 up = across(r, u, length2);
     const double distance2 = dot(up, up), length_1 = norm_1(up);
-    SideScan at_b = sides(b, v0, h, b.into(up));
-    plane_tests_ += at_b.tests();
+    SideScan at_b = sides(b, v0, h, b.into(up), plane_tests_);
     RingScan at_a = ring(a, va, a.into(-up), length_1);
     if (!at_b.falls() && !at_a.falls()) [[likely]] {
       const double over_b = at_b.over(kAcrossError + Q::kWay, b.reach, length_1);
@@ -193,8 +191,7 @@ class Marcher {
       return {end_a ? vertex(at.s == 0 ? a0 : a1) : edge(ha), end_b ? vertex(at.t == 0 ? b0 : b1) : edge(hb), distance2};
     }
     auto [n, tilt_u, tilt_v] = between_edges(u, uu, v, vv, d);
-    SideScan at_a = sides(a, a0, ha, a.into(n)), at_b = sides(b, b0, hb, b.into(-n));
-    plane_tests_ += at_a.tests() + at_b.tests();
+    SideScan at_a = sides(a, a0, ha, a.into(n), plane_tests_), at_b = sides(b, b0, hb, b.into(-n), plane_tests_);
     if (!at_a.falls() && !at_b.falls()) [[likely]] {
       const double length_1 = norm_1(n), over_a = at_a.over(tilt_u + P::kWay, a.reach, length_1),
                    over_b = at_b.over(tilt_v + Q::kWay, b.reach, length_1);
@@ -297,10 +294,11 @@ class Marcher {
   /// Compares edge `h`, which begins at vertex `v0`, with the faces beside it along `own`, in the body's own frame: with their
   /// other edges at `v0`.
   template <class Q>
-  static SideScan sides(const Q& body, std::uint32_t v0, std::uint32_t h, const Vec4& own) {
+  static SideScan sides(const Q& body, std::uint32_t v0, std::uint32_t h, const Vec4& own, std::uint32_t& tests) {
     const Vertex& record = body.view.vertices[v0];
     const std::uint32_t left = counter_clockwise(record, h), right = clockwise(record, h);
     if (left == h) return {-kUnknown, -kUnknown, kNone, kNone};  // a segment
+    tests += 2;
     Vec4 q0 = vec4(record), to_left = body.own(body.view.half_edges[left].head) - q0,
          to_right = body.own(body.view.half_edges[right].head) - q0;
     return {dot(own, to_left), dot(own, to_right), left, right};
@@ -462,11 +460,12 @@ class Marcher {
     const std::uint32_t tail = origin(body.view, h), head = body.view.half_edges[h].head;
     Vec4 q = body.point(tail), u = body.way(body.own(head) - body.own(tail)), r = seen.point_a - q;
     const double length2 = dot(u, u), s = dot(r, u) / length2;
-    if (!(s > 0 && s < 1)) return 0;
+    std::uint32_t tests = 0;
+    if (!(s > 0 && s < 1)) return tests;
     Vec4 up = across(r, u, length2);
-    const double over_b = sides(body, tail, h, body.into(up)).over(kAcrossError + Q::kWay, body.reach, norm_1(up));
+    const double over_b = sides(body, tail, h, body.into(up), tests).over(kAcrossError + Q::kWay, body.reach, norm_1(up));
     seen = {-up, -r, seen.point_a, q + u * s, blur_on<Q>(u), seen.over_a, over_b, seen.corners_a, {tail, head, head}};
-    return 2;
+    return tests;
   }
 
   /// Follows edge `h`, which leads from `tail` along u to `head`, from its point p at s over face `f`, which rises towards p.

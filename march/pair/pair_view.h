@@ -79,7 +79,7 @@ static inline PoseQuality pose_quality(const Motion& m) {
 
 /// The greatest width of an exact answer, which is at most law 2's bound of the pair. `shift` is |t|.
 static inline double law_two(double extent_a, double extent_b, double shift, double pose_error) {
-  return max((kLawTwo + 2 * max(pose_error - kOrthonormalityError, 0)) * (max(extent_a, extent_b) + shift), kLeastWidth);
+  return max((kLawTwo + 2 * max(0, pose_error - kOrthonormalityError)) * (max(extent_a, extent_b) + shift), kLeastWidth);
 }
 static inline double law_two(const ConvexView& a, const ConvexView& b, double shift, double pose_error) {
   return law_two(a.extent, b.extent, shift, pose_error);
@@ -87,6 +87,13 @@ static inline double law_two(const ConvexView& a, const ConvexView& b, double sh
 
 /// Bounds how many times longer a pose within `pose_error` of a rigid motion makes a vector: the root of 1 + 3 `pose_error`.
 static inline double stretch_of(double pose_error) { return 1 + 2 * pose_error; }
+
+/// |t| of a legal pose, whose square is no infinity.
+static inline double shift_of(const Motion& m) {
+  const Vec4 t = vec4(m.t);
+  const double square = dot(t, t);
+  return square >= kLeastSquare ? std::sqrt(square) : norm_of_far(t);
+}
 
 /// At least the distance of any two points of a body, in its own frame.
 static inline double reach(const ConvexView& view) { return view.reach > 0 ? view.reach : 2 * kSqrt3 * view.extent; }

@@ -18,6 +18,10 @@ void SWIFTLET_OF_WIDTH(ask_models)(const Model& a, const Model& b, const Pose& b
 Answer SWIFTLET_OF_WIDTH(ask_distance)(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed) {
   return recalled_distance(a, b, b_in_a, seed);
 }
+[[gnu::flatten]] Answer SWIFTLET_OF_WIDTH(ask_intersection)(const Model& a, const Model& b, const Pose& b_in_a,
+                                                            PairSeed& seed) {
+  return answered_intersection(a, b, b_in_a, seed);
+}
 void SWIFTLET_OF_WIDTH(ask_hulls)(const ModelPair& pair, const StopRule& asked, PairSeed& seed, Answer& answer,
                                   OverlapProof& proof) {
   answer_hulls(pair, asked, seed, answer, proof);

@@ -3,6 +3,9 @@
 // Answers a question about distance: see recall.h.
 #pragma once
 
+#include <bit>
+#include <cstdint>
+
 #include <swiftlet/query.h>
 
 #include "numeric/width.h"
@@ -17,19 +20,24 @@ SWIFTLET_BOTH_WIDTHS(void, ask, const Body& a, const Body& b, const Pose& b_in_a
 SWIFTLET_BOTH_WIDTHS(void, ask_models, const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed,
                      const StopRule& asked, Answer& answer);
 SWIFTLET_BOTH_WIDTHS(Answer, ask_distance, const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed);
+SWIFTLET_BOTH_WIDTHS(Answer, ask_intersection, const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed);
 /// True if both bodies are models without radii: most are.
 static inline bool are_models(const Body& a, const Body& b) {
-  return a.model() && b.model() && a.radius() == 0 && b.radius() == 0;
+  return a.model() && b.model() && (std::bit_cast<std::uint64_t>(a.radius()) | std::bit_cast<std::uint64_t>(b.radius())) == 0;
 }
 /// The exact distance of two models without limits.
 static inline Answer ask_distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed) {
   return SWIFTLET_BY_WIDTH(ask_distance)(a, b, b_in_a, seed);
 }
+/// Whether two models meet, without limits.
+static inline Answer ask_intersection(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed) {
+  return SWIFTLET_BY_WIDTH(ask_intersection)(a, b, b_in_a, seed);
+}
 /// Answers `asked` for two bodies. `answer` must be a default one. Most queries are about two models without radii and without
 /// limits: `ask_models` is the same for these, sooner.
 static inline void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits,
                        const StopRule& asked, Answer& answer) {
-  if (are_models(a, b) && is_unlimited(limits.budget, limits.tuning))
+  if (are_models(a, b) && limits_in(limits.budget, limits.tuning) == 0)
     SWIFTLET_BY_WIDTH(ask_models)(*a.model(), *b.model(), b_in_a, seed, asked, answer);
   else
     SWIFTLET_BY_WIDTH(ask)(a, b, b_in_a, seed, limits, asked, answer);

@@ -3,6 +3,10 @@
 // How far and how a query may go. Plain data, no algorithm.
 #pragma once
 
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <span>
 
 #include <swiftlet/query.h>
@@ -26,11 +30,17 @@ struct NoLimits {
   static constexpr std::span<LevelRecord> trace{};
 };
 }  // namespace
-/// True if budget and tuning are those of NoLimits.
-static inline bool is_unlimited(const Budget& budget, const Tuning& tuning) {
-  return budget.steps == NoLimits::budget.steps && budget.finest_level <= 0 && tuning.start == StartPolicy::Automatic &&
-         tuning.refinement == NoLimits::tuning.refinement && tuning.plane_rule == PlaneRule::MostViolated && !tuning.careful &&
-         tuning.trace.empty() && !tuning.proof;
+/// The four choices of a tuning in one word.
+static inline std::uint32_t choices(const Tuning& tuning) {
+  static_assert(offsetof(Tuning, careful) == offsetof(Tuning, start) + 3 && sizeof(Tuning::careful) == 1);
+  std::uint32_t word;
+  std::memcpy(&word, reinterpret_cast<const char*>(&tuning) + offsetof(Tuning, start), sizeof word);
+  return word;
+}
+/// 0 if budget and tuning are, word by word, those of NoLimits.
+static inline std::uint64_t limits_in(const Budget& budget, const Tuning& tuning) {
+  return (std::bit_cast<std::uint64_t>(budget) ^ std::bit_cast<std::uint64_t>(NoLimits::budget)) |
+         (choices(tuning) ^ choices(NoLimits::tuning)) | tuning.trace.size() | std::uintptr_t(tuning.proof);
 }
 
 /// Writes `record` at `index` of `trace`, or over its last entry if the trace is too short; an empty trace takes nothing.

@@ -18,7 +18,7 @@ namespace swiftlet {
 template <class ShapeType, class LimitsType>
 struct PairOf {
   PairOf(const Shape& of_a, const Shape& of_b, const Motion& m, double error, LimitsType of)
-      : a(of_a), b(of_b), motion(m), pose_error(error), shift(norm(vec4(m.t))), limits(of) {}
+      : a(of_a), b(of_b), motion(m), pose_error(error), shift(shift_of(m)), limits(of) {}
 
   /// The greatest width of an exact answer about the exact hulls.
   double law_two() const { return swiftlet::law_two(a.level(0).view, b.level(0).view, shift, pose_error); }

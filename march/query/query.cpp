@@ -83,8 +83,9 @@ double Answer::value() const {
 }
 
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options) {
-  const bool exact = !(options.absolute > 0 || options.relative > 0) && options.beyond == -kNever;
-  if (exact && are_models(a, b) && is_unlimited(options.budget, options.tuning))
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+  const std::uint64_t errors = bits(options.absolute) | bits(options.relative) | (bits(options.beyond) ^ bits(-kNever));
+  if ((errors | limits_in(options.budget, options.tuning)) == 0 && are_models(a, b))
     return ask_distance(*a.model(), *b.model(), b_in_a, seed);
   return any_distance(a, b, b_in_a, seed, options);
 }
@@ -105,6 +106,8 @@ Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so
 }
 
 Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Effort& effort) {
+  if (limits_in(effort.budget, effort.tuning) == 0 && are_models(a, b))
+    return ask_intersection(*a.model(), *b.model(), b_in_a, seed);
   Answer answer;
   ask(a, b, b_in_a, seed, {effort.budget, effort.tuning}, {0, 0, 0, 0}, answer);
   decide(answer);

@@ -291,8 +291,8 @@ template <class Question>
   const Motion m = motion(b_in_a);
   PoseQuality quality = pose_quality(m);
   FeatureId fa = seed.a, fb = seed.b;
-  const bool coarse = (seed.level_a | seed.level_b | a.finest_level() | b.finest_level()) != 0;
-  if (!quality.legal || seed.met || coarse || !is_state(fa, fb)) return distance_anew(a, b, b_in_a, seed);
+  const bool other = (seed.level_a | seed.level_b | seed.met | a.finest_level() | b.finest_level()) != 0;
+  if (!quality.legal || other || !is_state(fa, fb)) return distance_anew(a, b, b_in_a, seed);
 
   const Level &level_a = a.level(0), &level_b = b.level(0);
   Vec4 in_a = between_centres(Shape(a), Shape(b), m), in_b = turned_line(in_a, m);
@@ -309,7 +309,7 @@ template <class Question>
   const Turn turn = has_choice ? turn_of(in_a, in_b, seed, level_a, level_b, Warm::Near) : Turn::Some;
   if (turn == Turn::Far) return go_on(turn, nullptr);
 
-  PairView view = pair_view(level_a.view, level_b.view, m, norm(vec4(m.t)), quality.error);
+  PairView view = pair_view(level_a.view, level_b.view, m, shift_of(m), quality.error);
   Ending seen;
   Marcher march(view, PlaneRule::MostViolated, seen);
   const Move move = state(march, Resting4(view), fa, Moved4(view), fb);
@@ -346,13 +346,20 @@ template <class Question>
           .point_b = eigen(vec(seen.point_b))};
 }
 
+/// As `ask_intersection`.
+[[gnu::always_inline]] static inline Answer answered_intersection(const Model& a, const Model& b, const Pose& b_in_a,
+                                                                  PairSeed& seed) {
+  Answer answer;
+  answer_question(a, b, b_in_a, seed, Intersection{}, answer);
+  decide(answer);
+  return answer;
+}
 /// As `ask_models`.
 [[gnu::always_inline]] static inline void answer_models(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed,
                                                         const StopRule& asked, Answer& answer) {
-  const bool no_error = !(asked.absolute > 0 || asked.relative > 0);
-  if (no_error && asked.above == 0 && asked.below == 0) return answer_question(a, b, b_in_a, seed, Intersection{}, answer);
   // No distance is less than a `below` of 0.
-  if (no_error && !asked.is_threshold() && asked.below <= 0) return void(answer = recalled_distance(a, b, b_in_a, seed));
+  const bool exact = !(asked.absolute > 0 || asked.relative > 0) && !asked.is_threshold() && asked.below <= 0;
+  if (exact) return void(answer = ask_distance(a, b, b_in_a, seed));
   answer_question(a, b, b_in_a, seed, AnyQuestion{asked}, answer);
 }
 

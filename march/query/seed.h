@@ -30,9 +30,8 @@ struct Line {
 };
 /// From A's centre to B's, in A's frame.
 static inline Vec4 between_centres(const Shape& a, const Shape& b, const Motion& m) {
-  const Vec4 centre_b = vec4(vec(b.level(0).view.centre)), z = vec4(m.row_z);
-  return dots(vec4(m.row_x), centre_b, vec4(m.row_y), centre_b, z, centre_b, z, centre_b) + vec4(m.t) -
-         vec4(vec(a.level(0).view.centre));
+  const V3<Vec4> columns = transposed(m.row_x, m.row_y, m.row_z, m.row_z);
+  return dot(repeated(vec(b.level(0).view.centre)), columns) + vec4(m.t) - vec4(vec(a.level(0).view.centre));
 }
 /// From B's centre to A's in B's frame, where `in_a` leads the other way in A's.
 static inline Vec4 turned_line(const Vec4& in_a, const Motion& m) {
@@ -54,8 +53,8 @@ enum class Warm { Near, TwiceAsFar };
 /// `a` and `b` are the levels of the seed, `in_a` and `in_b` the line of centres.
 static inline Turn turn_of(const Vec4& in_a, const Vec4& in_b, const PairSeed& seed, const Level& a, const Level& b,
                            Warm warm) {
-  const double whole = dot(in_a, in_a) * (kLineUnit * kLineUnit), along_a = max(dot(in_a, vec4(seed.line_in_a.data())), 0),
-               along_b = max(dot(in_b, vec4(seed.line_in_b.data())), 0), cos2_a = along_a * along_a, cos2_b = along_b * along_b;
+  const double whole = dot(in_a, in_a) * (kLineUnit * kLineUnit), along_a = max(0, dot(in_a, vec4(seed.line_in_a.data()))),
+               along_b = max(0, dot(in_b, vec4(seed.line_in_b.data()))), cos2_a = along_a * along_a, cos2_b = along_b * along_b;
   const bool same_a = cos2_a >= a.same_cos2 * whole, same_b = cos2_b >= b.same_cos2 * whole;
   if (same_a & same_b) return Turn::Little;
   const auto is_far = [whole, warm](double cos2, const std::array<std::int16_t, 3>& was, const Level& level) {
@@ -90,7 +89,7 @@ Place place_by_policy(const Shape& a, const Shape& b, const Line& line, const Pa
 
 /// True if a query may also begin elsewhere than at the features of these levels: on coarser ones or on maps.
 static inline bool has_other_start(const Shape& a, const Shape& b, int level_a, int level_b) {
-  return level_a + 1 < a.level_count() || level_b + 1 < b.level_count() || a.level(level_a).map_side > 0;
+  return ((a.level_count() - level_a) | (b.level_count() - level_b)) > 1 || a.level(level_a).map_side > 0;
 }
 /// The place where a query begins, and how far the line of centres has turned if it begins at the seed's features. `finest_a`
 /// and `finest_b` are the finest levels that it may read.
