@@ -29,12 +29,12 @@ static inline FeatureId named(const ConvexView& v, FeatureId feature) {
 
 /// The half-edge before `half_edge`, clockwise, in the ring of `vertex`. `vertex` is the origin of `half_edge`.
 static inline std::uint32_t clockwise(const Vertex& vertex, std::uint32_t half_edge) {
-  return (half_edge == vertex.ring_begin ? half_edge + vertex.ring_count : half_edge) - 1;
+  return half_edge - 1 + (half_edge == vertex.ring_begin ? vertex.ring_count : 0);
 }
 
 /// The half-edge after `half_edge`, counter-clockwise, in the ring of `vertex`. `vertex` is the origin of `half_edge`.
 static inline std::uint32_t counter_clockwise(const Vertex& vertex, std::uint32_t half_edge) {
-  return half_edge + 1 == vertex.ring_begin + vertex.ring_count ? vertex.ring_begin : half_edge + 1;
+  return half_edge + 1 - (half_edge + 1 == vertex.ring_begin + vertex.ring_count ? vertex.ring_count : 0);
 }
 
 /// The half-edge that follows `half_edge` around the exact facet on its left.

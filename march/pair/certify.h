@@ -82,7 +82,7 @@ static inline Doubt certify(const PairView& pair, const NearestOf<Vec4>& seen, P
   Vec4 apart = seen.point_b - seen.point_a;
   const double square = dot(seen.normal, seen.normal), apart2 = dot(apart, apart), over = seen.over_a + seen.over_b;
   if (!(over <= pair.law_two)) return over < std::numeric_limits<double>::infinity() ? Doubt::Width : Doubt::Neighbour;
-  if (!has_range(square)) return Doubt::Width;
+  if (!(square >= kLeastSquare)) return Doubt::Width;  // squares of legal coordinates are finite
   const double length = std::sqrt(apart2);
   // Nearer points may lie aside along an edge (kAcrossError), or have a length that underflowed.
   if (!(length > pair.law_two)) return Doubt::Threshold;
