@@ -76,12 +76,9 @@ static inline std::uint32_t previous_in_face(const ConvexView& v, std::uint32_t 
 
 /// True if `h`, which may hold any bits, names a feature of `view`.
 static inline bool names_feature(const ConvexView& view, FeatureId h) {
-  switch (h.kind()) {
-    case FeatureKind::Vertex: return h.index() < view.vertices.size();
-    case FeatureKind::Edge: return h.index() < view.half_edges.size();
-    case FeatureKind::Face: return h.index() < view.face_first.size();
-    default: return false;
-  }
+  if (h.kind() == FeatureKind::Vertex) return h.index() < view.vertices.size();
+  if (h.kind() == FeatureKind::Edge) return h.index() < view.half_edges.size();
+  return h.kind() == FeatureKind::Face && h.index() < view.face_first.size();
 }
 
 }  // namespace swiftlet

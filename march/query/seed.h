@@ -105,16 +105,17 @@ static inline Place first_place(const Shape& a, const Shape& b, const Line& line
   return turn == Turn::Far ? coarsest_place(a, b) : place;
 }
 
-/// Stores a unit vector, of which no coordinate may be above 1 by rounding.
-static inline void pack(const Vec4& unit, std::array<std::int16_t, 3>& units) { store_units(unit * kLineUnit, units.data()); }
+/// What a vector of length 1 is multiplied by to be stored: a little less than the unit, since rounding may have made it
+/// longer.
+constexpr double kStoredLength = kLineUnit * (1 - 4 * kU);
 /// Stores an answer's normal in the seed.
-static inline void remember(const Vec4& normal, PairSeed& seed) { pack(normal * (1 - 4 * kU), seed.normal); }
+static inline void remember(const Vec4& normal, PairSeed& seed) { store_units(normal * kStoredLength, seed.normal.data()); }
 /// Stores the line of centres and an answer's normal in the seed.
 static inline void remember(const Vec4& in_a, const Vec4& in_b, const Vec4& normal, PairSeed& seed) {
   remember(normal, seed);
-  const double length = norm(in_a), inverse = length > 0 ? (1 - 4 * kU) / length : 0;  // so that no coordinate is above 1
-  const double scale = std::isfinite(inverse) ? inverse : 0;  // centres nearer than 1e-308 count as one point
-  pack(in_a * scale, seed.line_in_a), pack(in_b * scale, seed.line_in_b);
+  const double length = norm(in_a), inverse = length > 0 ? kStoredLength / length : 0;
+  const double scale = std::isfinite(inverse) ? inverse : 0;  // centres nearer than 2e-304 count as one point
+  store_units(in_a * scale, seed.line_in_a.data()), store_units(in_b * scale, seed.line_in_b.data());
 }
 static inline void remember(const Line& line, const Padded& normal, PairSeed& seed) {
   remember(vec4(line.in_a), vec4(line.in_b), vec4(normal), seed);
