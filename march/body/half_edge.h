@@ -76,9 +76,11 @@ static inline std::uint32_t previous_in_face(const ConvexView& v, std::uint32_t 
 
 /// True if `h`, which may hold any bits, names a feature of `view`.
 static inline bool names_feature(const ConvexView& view, FeatureId h) {
-  if (h.kind() == FeatureKind::Vertex) return h.index() < view.vertices.size();
-  if (h.kind() == FeatureKind::Edge) return h.index() < view.half_edges.size();
-  return h.kind() == FeatureKind::Face && h.index() < view.face_first.size();
+  std::size_t count = 0;
+  if (h.kind() == FeatureKind::Vertex) count = view.vertices.size();
+  if (h.kind() == FeatureKind::Edge) count = view.half_edges.size();
+  if (h.kind() == FeatureKind::Face) count = view.face_first.size();
+  return h.index() < count;
 }
 
 }  // namespace swiftlet

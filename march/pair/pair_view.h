@@ -79,7 +79,8 @@ static inline PoseQuality pose_quality(const Motion& m) {
 
 /// The greatest width of an exact answer, which is at most law 2's bound of the pair. `shift` is |t|.
 static inline double law_two(double extent_a, double extent_b, double shift, double pose_error) {
-  return max((kLawTwo + 2 * max(0, pose_error - kOrthonormalityError)) * (max(extent_a, extent_b) + shift), kLeastWidth);
+  return max((kLawTwo + 2 * (max(pose_error, kOrthonormalityError) - kOrthonormalityError)) * (max(extent_a, extent_b) + shift),
+             kLeastWidth);
 }
 static inline double law_two(const ConvexView& a, const ConvexView& b, double shift, double pose_error) {
   return law_two(a.extent, b.extent, shift, pose_error);

@@ -53,8 +53,11 @@ enum class Warm { Near, TwiceAsFar };
 /// `a` and `b` are the levels of the seed, `in_a` and `in_b` the line of centres.
 static inline Turn turn_of(const Vec4& in_a, const Vec4& in_b, const PairSeed& seed, const Level& a, const Level& b,
                            Warm warm) {
-  const double whole = dot(in_a, in_a) * (kLineUnit * kLineUnit), along_a = max(0, dot(in_a, vec4(seed.line_in_a.data()))),
-               along_b = max(0, dot(in_b, vec4(seed.line_in_b.data()))), cos2_a = along_a * along_a, cos2_b = along_b * along_b;
+  constexpr double kTiny =
+      std::numeric_limits<double>::min();  // its square is 0; of two numbers one is chosen sooner than of 0
+  const double whole = dot(in_a, in_a) * (kLineUnit * kLineUnit), along_a = max(dot(in_a, vec4(seed.line_in_a.data())), kTiny),
+               along_b = max(dot(in_b, vec4(seed.line_in_b.data())), kTiny), cos2_a = along_a * along_a,
+               cos2_b = along_b * along_b;
   const bool same_a = cos2_a >= a.same_cos2 * whole, same_b = cos2_b >= b.same_cos2 * whole;
   if (same_a & same_b) return Turn::Little;
   const auto is_far = [whole, warm](double cos2, const std::array<std::int16_t, 3>& was, const Level& level) {
