@@ -646,10 +646,10 @@ class Sweep {
 /// looked at.
 void SWIFTLET_OF_WIDTH(clip)(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
                              Candidates& corners) {
-  Sweep sweep(projection, a, b, 2, bound, corners);
-  if (sweep.begins_at_corners()) [[likely]]
-    return sweep.run();
-  Sweep(projection, a, b, std::numeric_limits<double>::infinity(), bound, corners).run();
+  for (const double more : {2.0, std::numeric_limits<double>::infinity()}) {
+    Sweep sweep(projection, a, b, more, bound, corners);
+    if (std::isinf(more) || sweep.begins_at_corners()) return sweep.run();
+  }
 }
 
 }  // namespace swiftlet
