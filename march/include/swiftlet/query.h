@@ -123,8 +123,9 @@ struct Answer {
   bool is_signed = false;                 ///< `lower` and `upper` bound the signed distance (depth.h)
   std::uint8_t levels_visited = 0;        ///< number of level pairs visited: the records that a complete trace has
   std::int16_t level_a = 0, level_b = 0;  ///< the level pair that answered
-  FeatureId feature_a;  ///< on `level_a`, holds `point_a` on the hull if the interval is that of an exact answer; none where
-                        ///< balls around or inside the bodies answered, a proof of an overlap that the seed kept, or a depth
+  FeatureId feature_a;  ///< on `level_a`, holds `point_a` on the hull if a distance's interval is that of an exact answer; of
+                        ///< a question of yes or no it may be that of the last sample; none where balls around or inside the
+                        ///< bodies answered, a proof of an overlap that the seed kept, or a depth
   FeatureId feature_b;  ///< on `level_b`, holds `point_b` on the hull; none where `feature_a` is
   std::uint32_t steps = 0, plane_tests = 0;                           ///< work, as MarchResult counts it, over all levels
   double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved bounds on the distance of the bodies
