@@ -25,7 +25,8 @@ static inline FeatureId named(const ConvexView& v, FeatureId feature) {
   return {FeatureKind::Edge, v.half_edges[feature.index()].twin};
 }
 
-// Steps around a ring use arithmetic instead of branches, some of which would be mispredicted in every ring.
+// Steps around a ring choose a number to add, for which g++ has a conditional move. A choice of two indices becomes a branch,
+// and some of these would be mispredicted in every ring.
 
 /// The half-edge before `half_edge`, clockwise, in the ring of `vertex`. `vertex` is the origin of `half_edge`.
 static inline std::uint32_t clockwise(const Vertex& vertex, std::uint32_t half_edge) {

@@ -397,6 +397,7 @@ class Sweep {
     if (from_b.left != kNone) advance(Border::Left, 1), advance(Border::Right, 1);
   }
 
+  /// Whether the borders of face `f` begin in two directions, at sides that are no chords.
   bool opens(int f) const {
     const SeenBorder &left = at(Border::Left, f), &right = at(Border::Right, f);
     const Way &l = left.side().way, &r = right.side().way;
@@ -642,8 +643,9 @@ class Sweep {
 
 }  // namespace
 
-/// Corners that lie in a row up to rounding may follow one another to and fro: where that seems to hide the lowest one all are
-/// looked at.
+/// The border of merged facets may turn inwards by the flatness: where it has risen by twice as much, it mostly goes on rising.
+/// But corners that lie in a row up to rounding may follow one another to and fro: where both borders begin in one direction,
+/// or at a chord, a lower corner may be hidden, and all corners are looked at.
 void SWIFTLET_OF_WIDTH(clip)(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
                              Candidates& corners) {
   for (const double more : {2.0, std::numeric_limits<double>::infinity()}) {

@@ -3,9 +3,9 @@
 // Answers a question about distance: see recall.h.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
+#include <double_bits.h>
 #include <swiftlet/query.h>
 
 #include "numeric/width.h"
@@ -21,9 +21,9 @@ SWIFTLET_BOTH_WIDTHS(void, ask_models, const Model& a, const Model& b, const Pos
                      const StopRule& asked, Answer& answer);
 SWIFTLET_BOTH_WIDTHS(Answer, ask_distance, const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed);
 SWIFTLET_BOTH_WIDTHS(Answer, ask_intersection, const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed);
-/// True if both bodies are models without radii: most are.
+/// True if both bodies are models without radii: most are. False for a radius of -0, with the same answers.
 static inline bool are_models(const Body& a, const Body& b) {
-  return a.model() && b.model() && (std::bit_cast<std::uint64_t>(a.radius()) | std::bit_cast<std::uint64_t>(b.radius())) == 0;
+  return a.model() && b.model() && (bit_cast<std::uint64_t>(a.radius()) | bit_cast<std::uint64_t>(b.radius())) == 0;
 }
 /// The exact distance of two models without limits.
 static inline Answer ask_distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed) {

@@ -3,12 +3,12 @@
 // How far and how a query may go. Plain data, no algorithm.
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
 
+#include <double_bits.h>
 #include <swiftlet/query.h>
 
 namespace swiftlet {
@@ -37,9 +37,9 @@ static inline std::uint32_t choices(const Tuning& tuning) {
   std::memcpy(&word, reinterpret_cast<const char*>(&tuning) + offsetof(Tuning, start), sizeof word);
   return word;
 }
-/// 0 if budget and tuning are, word by word, those of NoLimits.
+/// 0 if budget and tuning are, word by word, those of NoLimits. Words are joined, so that one branch tells.
 static inline std::uint64_t limits_in(const Budget& budget, const Tuning& tuning) {
-  return (std::bit_cast<std::uint64_t>(budget) ^ std::bit_cast<std::uint64_t>(NoLimits::budget)) |
+  return (bit_cast<std::uint64_t>(budget) ^ bit_cast<std::uint64_t>(NoLimits::budget)) |
          (choices(tuning) ^ choices(NoLimits::tuning)) | tuning.trace.size() | std::uintptr_t(tuning.proof);
 }
 

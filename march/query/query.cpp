@@ -83,7 +83,7 @@ double Answer::value() const {
 }
 
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options) {
-  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+  const auto bits = [](double x) { return bit_cast<std::uint64_t>(x); };
   const std::uint64_t errors = bits(options.absolute) | bits(options.relative) | (bits(options.beyond) ^ bits(-kNever));
   if ((errors | limits_in(options.budget, options.tuning)) == 0 && are_models(a, b))
     return ask_distance(*a.model(), *b.model(), b_in_a, seed);

@@ -53,7 +53,7 @@ enum class Warm { Near, TwiceAsFar };
 /// `a` and `b` are the levels of the seed, `in_a` and `in_b` the line of centres.
 static inline Turn turn_of(const Vec4& in_a, const Vec4& in_b, const PairSeed& seed, const Level& a, const Level& b,
                            Warm warm) {
-  // A negative cosine counts as 0, and so does the square of this number, of which g++ makes one instruction less than of 0.
+  // In place of a negative cosine stands a number whose square is 0: a maximum with 0 itself takes g++ one instruction more.
   constexpr double kTiny = std::numeric_limits<double>::min();
   const double whole = dot(in_a, in_a) * (kLineUnit * kLineUnit), along_a = max(dot(in_a, vec4(seed.line_in_a.data())), kTiny),
                along_b = max(dot(in_b, vec4(seed.line_in_b.data())), kTiny), cos2_a = along_a * along_a,
