@@ -66,6 +66,11 @@ class Candidates {
   /// Corners with a separation above `farthest` are left out.
   Candidates(double farthest, const Manifold& previous);
 
+  /// Begins anew, and leaves out corners whose chords cut off no more than half of `enough` from the first one on. Both borders
+  /// begin at `lowest`.
+  void begin(const Place& lowest, double enough);
+  double enough() const { return enough_; }
+  double farthest() const { return farthest_; }
   /// Whether to add the next corner of a border, which goes on from there by `way`: if not, a chord cuts off little. The left
   /// border's places are mirrored. `rise()`: the separation rises from there on if it is at least 0.
   bool wants(Border border, const Place& at, const Place& way, auto&& rise) {
@@ -99,6 +104,8 @@ class Candidates {
   /// `previous` names it or not.
   void add_deepest(const Candidate& candidate);
 
+  /// How many corners both borders have.
+  int found() const { return count_[0] + count_[1]; }
   /// After `close`.
   int count() const { return count_[0]; }
   const Candidate& operator[](int i) const { return all_[std::size_t(i)]; }

@@ -42,14 +42,22 @@ struct Projection {
 /// A side of one of two faces, in the common frame; 0 where both are points.
 Vec any_side(const PairView& pair, const ContactFace& a, const ContactFace& b);
 
+/// Does as `clip`, by halving: of two rims, or a rim and a face of few corners. If there are many, it adds those that hold
+/// nearly all of the area, the deepest, and those that the manifold before names. Returns false, and adds nothing, if a border
+/// may turn outwards or the faces hardly overlap. Cost: the logarithm of the sides of both faces for each corner.
+bool clip_by_halving(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
+                     Candidates& corners);
+
 SWIFTLET_BOTH_WIDTHS(void, clip, const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
                      Candidates& corners);
 /// Adds the corners of the intersection to `corners`, each border's from below to above, and closes it. A corner that lies
 /// outside of the other face by less than `bound`, which covers the rounding of the pair's points, counts as inside. Cost: the
-/// sum of the sides of both faces.
+/// sum of the sides of both faces, or that of halving.
 static inline void clip(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
                         Candidates& corners) {
-  SWIFTLET_BY_WIDTH(clip)(projection, a, b, bound, corners);
+  const bool is_large = a.corner_count() + b.corner_count() >= kManyCorners;
+  if (!(is_large && clip_by_halving(projection, a, b, bound, corners)))
+    SWIFTLET_BY_WIDTH(clip)(projection, a, b, bound, corners);
   corners.close();
 }
 

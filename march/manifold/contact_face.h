@@ -23,6 +23,8 @@ class ContactFace {
 
   /// The face; of a body without faces its edge, or its vertex.
   FeatureId name() const;
+  /// False of a body without faces.
+  bool has_plane() const { return top_ != kNone; }
   /// Of the face, unit, own frame; 0 of a body without faces.
   const Vec& normal() const { return normal_; }
   /// The height within which its corners lie in one plane, a length: the border may turn inwards by about as much.

@@ -24,13 +24,10 @@
 
 #include "body/half_edge.h"
 #include "manifold/clip.h"
-#include "numeric/vec4.h"
+#include "manifold/line.h"
 
 namespace swiftlet {
 namespace {
-
-constexpr Border kBorders[] = {Border::Left, Border::Right};
-constexpr Border opposite(Border border) { return border == Border::Left ? Border::Right : Border::Left; }
 
 /// A corner as its border sees it: x grows outwards, so that both borders are alike.
 struct Corner {
@@ -41,62 +38,12 @@ struct Corner {
   std::uint32_t half_edge() const { return std::uint32_t(names >> 32); }
 };
 
-bool is_below(const Place& p, const Place& q) { return p.y < q.y || (p.y == q.y && p.x < q.x); }
-
-/// In one register.
-Place place(Vec2 v) {
-  Place p;
-  __builtin_memcpy(&p, &v, sizeof p);
-  return p;
-}
-
-/// The way from one place to another.
-struct Way : Place {
-  double most;  ///< at least its length: the sum of its coordinates
-};
-Way way(const Place& from, const Place& to) {
-  const Vec2 there = xy(to) - xy(from), sizes = abs(there);
-  return {place(there), sizes[0] + sizes[1]};
-}
-
-/// Two places and the way from one to the other.
-struct Line {
-  Place from, to;
-  Way way;
-
-  Place at(double t) const { return from + way * t; }
-  /// The parameter, 0 at `from` and 1 at `to`, of the point nearest to `place`.
-  double along(const Place& place) const {
-    const double t = dot(place - from, way), length2 = this->length2();
-    return length2 > 0 && t > 0 ? min(t / length2, 1) : 0;
-  }
-  double length2() const { return dot(way, way); }
-  /// Twice the area of the line and a place, positive where that lies to the right of the way.
-  double beyond(const Place& place) const { return cross(place - from, way); }
-};
-
 /// A side of a border, from its lower to its upper end, or a chord that cuts off corners which turn inwards. What lies to its
 /// right is outside.
 struct Side : Line {
   std::uint64_t from_names, to_names;  ///< of both corners
   bool is_chord;
 };
-
-/// On which side of a border's side a place lies whose height is between those of its ends.
-enum class Where { Inside, On, Outside };
-
-/// The same of a place within the bound of the line. The side itself may be farther, if it is nearly horizontal.
-[[gnu::noinline]] Where near_line(const Place& place, const Line& side, double bound) {
-  const double dx = side.way.x, x = place.x - side.from.x, length2 = side.length2();
-  if (x < min(dx, 0) - bound) return length2 - dx * dx > dx * dx ? Where::On : Where::Inside;
-  if (x > max(dx, 0) + bound) return length2 - dx * dx > dx * dx ? Where::On : Where::Outside;
-  return Where::On;
-}
-[[gnu::always_inline]] inline Where where(const Place& place, const Line& side, double bound) {
-  const double area = side.beyond(place);
-  if (area * area > bound * bound * side.length2()) return area > 0 ? Where::Outside : Where::Inside;
-  return near_line(place, side, bound);
-}
 
 /// One of the two borders of a contact face as a projection shows it, from its lowest corner to its highest.
 class SeenBorder {
@@ -121,6 +68,7 @@ class SeenBorder {
     if (!is_point) see(end_of(half_edge));
   }
 
+  const SeenBody& body() const { return body_; }
   const Side& side() const { return side_; }
   double flatness() const { return flatness_; }
   Corner start() const { return {side_.from, side_.from_names}; }
@@ -129,9 +77,8 @@ class SeenBorder {
   const Way& ahead() const { return ahead_; }
   /// A place of the projection as the border sees it, and back.
   Place seen(const Place& place) const { return {place.x * outwards_, place.y}; }
-  /// The coordinates along the normal of one or two vertices, and of a place on the side.
+  /// The coordinate along the normal of a vertex, and of a place on the side.
   double z(std::uint32_t vertex) const { return body_.z(vertex); }
-  Vec2 z(const Corner& p, const Corner& q) const { return body_.z(p.vertex(), q.vertex()); }
   /// How the coordinate along the normal changes with x and y in the face's plane.
   Place slope() const {
     const Vec& m = face_.normal();
@@ -578,21 +525,12 @@ class Sweep {
     corners_.add(border, {{place.x, place.y, z_a}, z_b - z_a, names}, wanted);
   }
 
-  /// The coordinate along the normal at a place of a face: interpolated between its borders, one in each lane, or that of the
-  /// nearer one outside.
+  /// The coordinate along the normal at a place of a face.
   template <int f>
   double depth_at(const Place& place) const {
     const SeenBorder &left = at(Border::Left, f), &right = at(Border::Right, f);
-    const Side &l = left.side(), &r = right.side();
-    const Vec2 none{0, 0}, rise{l.way.y, r.way.y}, up = (place.y - Vec2{l.from.y, r.from.y}) / rise,
-                                                   t = rise > none ? min(max(up, none), Vec2{1, 1}) : none,
-                                                   x = Vec2{-l.from.x, r.from.x} + Vec2{-l.way.x, r.way.x} * t;
-    if (x[0] < place.x && place.x < x[1]) {
-      const Vec2 from = left.z(left.start(), right.start()), z = from + (left.z(left.end(), right.end()) - from) * t;
-      return z[0] + (z[1] - z[0]) * ((place.x - x[0]) / (x[1] - x[0]));
-    }
-    const SeenBorder& nearer = place.x <= x[0] ? left : right;
-    return nearer.z_at(nearer.side().along(nearer.seen(place)));
+    return depth_between(left.body(), left.side(), right.side(), {left.start().vertex(), left.end().vertex()},
+                         {right.start().vertex(), right.end().vertex()}, place);
   }
 
   /// Adds the point where two sides cross, of these borders of A and B, or a corner of either within the bound of it.
@@ -602,29 +540,18 @@ class Sweep {
     // All is seen as A's border sees it.
     const auto by_other = [](const Place& place) { return Place{on_a == on_b ? place.x : -place.x, place.y}; };
     const Line &a = of_a.side(), b{by_other(of_b.side().from), by_other(of_b.side().to), {by_other(of_b.side().way), 0}};
-    // Where the lines cross, as parameters on a and on b, of which neither waits for the other; 0 where that is 0 / 0.
-    const Vec2 none{0, 0}, crossed = Vec2{b.beyond(a.from), -a.beyond(b.from)} / cross(b.way, a.way),
-                           t = min(max(none, crossed), Vec2{1, 1});
-    double t_a = t[0], t_b = t[1];
-    Place spot = a.at(t_a), spot_b = b.at(t_b);
-    const auto is_near = [&](const Place& place, double bound2) { return dot(place - spot, place - spot) <= bound2; };
     const double bound2 = bound_ * bound_;
-    bool meet = is_near(spot_b, bound2);
-    if (!meet) [[unlikely]] {
-      // The sides are nearly parallel, and the point on a is uncertain: the last one is the nearest to that on b.
-      t_b = b.along(spot), spot_b = b.at(t_b), t_a = a.along(spot_b), spot = a.at(t_a);
-      meet = is_near(spot_b, 4 * bound2);
-    }
-    if (is_near(a.from, bound2)) return add_corner<0>(border, of_a.seen(a.from), of_a.start().vertex(), wanted);
-    if (is_near(a.to, bound2)) return add_corner<0>(border, of_a.seen(a.to), of_a.end().vertex(), wanted);
-    if (is_near(b.from, bound2)) return add_corner<1>(border, of_a.seen(b.from), of_b.start().vertex(), wanted);
-    if (is_near(b.to, bound2)) return add_corner<1>(border, of_a.seen(b.to), of_b.end().vertex(), wanted);
+    const Crossing at = crossing(a, b, bound2);
+    if (are_near(a.from, at.on_a, bound2)) return add_corner<0>(border, of_a.seen(a.from), of_a.start().vertex(), wanted);
+    if (are_near(a.to, at.on_a, bound2)) return add_corner<0>(border, of_a.seen(a.to), of_a.end().vertex(), wanted);
+    if (are_near(b.from, at.on_a, bound2)) return add_corner<1>(border, of_a.seen(b.from), of_b.start().vertex(), wanted);
+    if (are_near(b.to, at.on_a, bound2)) return add_corner<1>(border, of_a.seen(b.to), of_b.end().vertex(), wanted);
     // A corner within the bound of a side may be farther than that from where the sides cross.
-    if (!meet) return;
-    const Names names(of_a.edge_at(spot), of_b.edge_at(by_other(spot_b)));
+    if (!at.meet) return;
+    const Names names(of_a.edge_at(at.on_a), of_b.edge_at(by_other(at.on_b)));
     if (!corners_.takes(names, wanted)) return;
-    const double z_a = of_a.z_at(t_a), z_b = of_b.z_at(t_b);
-    corners_.add(border, {{of_a.seen(spot).x, spot.y, z_a}, z_b - z_a, names}, wanted);
+    const double z_a = of_a.z_at(at.t_a), z_b = of_b.z_at(at.t_b);
+    corners_.add(border, {{of_a.seen(at.on_a).x, at.on_a.y, z_a}, z_b - z_a, names}, wanted);
   }
 
   static constexpr int kNobody = -1;

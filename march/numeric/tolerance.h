@@ -276,6 +276,19 @@ inline constexpr int kMostCorners = 20;
 /// What a chord between such corners may cut off at first, over the area up to there, and by which factor that grows until few
 /// corners stay.
 inline constexpr double kLeastChord = 0x1p-9, kChordGrowth = 4;
+/// Contact faces whose rims have so many corners in all are intersected by halving, in less time than by a sweep. A count.
+inline constexpr std::uint32_t kManyCorners = 256;
+/// Halving goes on where a border may have an area this many times that which a chord may cut off.
+inline constexpr double kSplitArea = 8;
+/// Where halving left out corners and has found fewer than so many, it begins anew, and chords may cut off less by this factor.
+inline constexpr int kFewCorners = kMostCorners / 2;
+inline constexpr double kFinerChord = 0x1p-4;
+/// The least part of the extent of the faces' common area that halving takes for that within the farthest separation.
+inline constexpr double kLeastPart = 0x1p-20;
+/// Halving is for common areas wider than this times the bound within which a corner counts as inside.
+inline constexpr double kSurelyCommon = 4;
+/// Least cosine of the angle between a face's normal and that of the projection where halving takes the border for convex.
+inline constexpr double kLeastFacing = 0x1p-4;
 /// Bounds the error of the cross product of two sides of a projected border, whose corners count as exact, relative to the
 /// product of the sums of their coordinates: 2 differences, 1 product and 1 difference, 4 u of terms that this sum bounds.
 /// Rounded up.
@@ -286,6 +299,9 @@ inline constexpr double kSweepCos = 40.0 / 41, kSweepSin = 9.0 / 41;
 
 // ---- Bounds on work: counts and dimensionless factors -----------------------------------------------------------------------
 
+/// Halving between contact faces: how many edges it keeps in mind, more than it takes to halve 65 536 corners; how many it
+/// looks for on a border; at how many heights it seeks the common area.
+inline constexpr int kMostEdges = 14, kMostSplits = 128, kWidthSteps = 16;
 /// A walk is given to certified GJK after this many states in a row that do not shorten the distance. In exact arithmetic there
 /// are at most three (face, edge, vertex); twelve leaves room for rounding on a flat spot.
 inline constexpr std::uint32_t kStallLimit = 12;

@@ -60,8 +60,9 @@ struct ManifoldOptions {
 /// ulps of single precision. The least separation equals the answer's within `tolerance`; where the normal has turned by no
 /// more than 8 `flatness` since `previous`, within `flatness` more, for then other corners take turns as the deepest. The
 /// manifold is empty if the answer has no normal (as a distance has none in an overlap), other radii than the bodies, or levels
-/// or features that the bodies lack. Allocates nothing; uses 6.9 kB of stack. Cost: the sum of both faces' sides, but
-/// where the border of a merged contact face turns in and out by less than `flatness`: there at most the square of its sides.
+/// or features that the bodies lack. Allocates nothing; uses 9.1 kB of stack. Cost: the sum of both faces' sides;
+/// beyond 256 sides in all, of faces whose corners are numbered one after the other (`ConvexView::rims`), their logarithm;
+/// where the border of a merged contact face turns in and out by less than `flatness`, at most the square of its sides.
 Manifold manifold(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const ManifoldOptions& options = {},
                   const Manifold& previous = {});
 
