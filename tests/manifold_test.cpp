@@ -899,6 +899,42 @@ TEST(Manifold, IsSoundOfAnyBodiesAndAnyManifoldBefore) {
   }
 }
 
+/// As faces of many sides are halved: of any size, flush, turned or tilted, after manifolds that name any of their features.
+TEST(Manifold, OfManySidesIsSoundAfterAnyManifoldBefore) {
+  Random random(29);
+  for (const double scale : {1., 1e-40, 1e40}) {
+    const Mat3 turn = random.rotation();
+    const Model round = bodies::model(bodies::moved(prism(200, 1, 1), scale * turn)),
+                few = bodies::model(bodies::moved(prism(6, 1.2, 1), scale * turn));
+    for (int i = 0; i < 100; ++i) {
+      const Model& under = i % 3 == 0 ? few : round;
+      Pose pose = random_top(random, random.uniform(-1.5, 1.5), random.uniform(-1, 1));
+      pose.rotation = turn * pose.rotation * turn.transpose();
+      pose.translation = scale * turn * (pose.translation + Vec3(0, 0, 1.5));
+      const Answer far = nearest(under, round, pose);
+      if (far.normal.hasNaN()) continue;
+      pose.translation -= (far.lower + (i % 2 ? 1e-4 : -1e-6) * scale) * far.normal;
+      Contacting c{under, round, pose, signed_distance(under, round, pose)};
+      Manifold before = absurd(random);
+      before.count = kMostManifoldPoints;
+      for (ManifoldPoint& p : before.points) {
+        const auto any_of = [&](const Model& m) {
+          const ConvexView& view = m.level(0).view;
+          const auto kind = 1 + random.bits() % 3;
+          const std::size_t count = kind == 1 ? view.vertices.size() : kind == 2 ? view.half_edges.size() : 1;
+          return FeatureId(FeatureKind(kind), std::uint32_t(random.bits() % count));
+        };
+        p.feature_a = any_of(under), p.feature_b = any_of(round);
+      }
+      const ManifoldOptions options{.margin = scale * std::pow(10, random.uniform(-6, 0)),
+                                    .most_points = 1 + std::uint32_t(random.bits() % kMostManifoldPoints)};
+      const Manifold p = manifold(under, round, pose, c.answer, options, before);
+      expect_sound(c, p, c.answer.lower, options.margin);
+      ASSERT_FALSE(testing::Test::HasFailure()) << scale << ' ' << i;
+    }
+  }
+}
+
 TEST(Manifold, OfAnAnswerOfOtherModelsIsNone) {
   const Model whole = hull_of(shapes::ellipsoid({1, 1, 0.5}, 2000, 3)), cut = whole.cut({0.1}),
               cube = bodies::model(bodies::cube());

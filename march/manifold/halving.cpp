@@ -3,14 +3,12 @@
 // The intersection of two convex polygons whose corners are found by their index. A border of it is sought between two of its
 // corners, p and q:
 //
-//           x          The edges beside p and q meet in x when prolonged. All of the border between them lies in the triangle
-//         . /|         p x q. As long as that is large, the middle corner of the polygon that has more corners there is tried:
-//       .  / |         it is a corner of the intersection, or the other polygon's edge beside it is an edge of the
-//       intersection,
-//     q   r  |         whose ends are found by halving too. Then the same is done below and above what was found. Of polygons
-//     of
-//       .  \ |         n and m corners that takes log n + log m steps, and a few corners of any polygon hold nearly all of its
-//         .  p         area.
+//           x      The edges beside p and q meet in x when prolonged: all of the border between them lies in the triangle
+//         . /|     p x q. As long as that is large, the middle corner of the polygon that has more corners there is tried. It
+//       .  / |     is a corner of the intersection, or the other polygon's edge beside it is an edge of the intersection,
+//     q   r  |     whose ends are found by halving too. Then the same is done below and above what was found. Of n and m
+//       .  \ |     corners an edge takes log n + log m steps, and a few corners of any polygon hold nearly all of its area.
+//         .  p
 //
 // The deepest corner is sought the same way: of two edges, along the lower of which the separation falls upwards, while it
 // rises along the upper one, it is between them.
@@ -49,7 +47,7 @@ class Outline {
         highest_(count_ > 0 ? extreme(on(lowest_, count_ / 2), -1) : 0) {}
 
   /// Whether the face is seen from the front or the back, and its border, if it is no rim, turns inwards at all of few corners.
-  bool is_clear() const { return count_ > 2 && std::fabs(dot(body_.n, face_.normal())) > kLeastFacing; }
+  bool is_clear() const { return count_ > 2 && lowest_ != highest_ && std::fabs(dot(body_.n, face_.normal())) > kLeastFacing; }
   const SeenBody& body() const { return body_; }
   const ContactFace& face() const { return face_; }
   std::uint32_t count() const { return count_; }
@@ -238,6 +236,7 @@ Place at_height(const Line& line, double y) {
 /// Face 0 or 1; where the borders of both cross; an end of the intersection, which is added apart.
 using Of = std::uint8_t;
 constexpr Of kCrossing = 2, kTip = 3;
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
 /// A corner of the intersection on one of its borders, and the edge there.
 struct Knot {
@@ -248,7 +247,6 @@ struct Knot {
   std::uint32_t corner;   ///< of the face's border
   std::uint32_t side[2];  ///< of each face's border, that at this height: the leader's is the edge, both cross at a crossing
 };
-constexpr double kUnknown = std::numeric_limits<double>::infinity();
 bool is_same(const Knot& p, const Knot& q) {
   if (p.face != q.face) return false;
   return p.face == kCrossing ? p.side[0] == q.side[0] && p.side[1] == q.side[1] : p.corner == q.corner;
@@ -259,7 +257,7 @@ struct Edge {
   Knot low, high;
 };
 
-/// Corners of one border's faces.
+/// Corners of one border, at most one for each point of a manifold.
 class Known {
  public:
   struct Corner {
@@ -287,11 +285,15 @@ class Halving {
         middle_(height_of_middle(1) - height_of_middle(0)),
         corners_(corners) {}
 
-  /// Returns false if no height is found at which the faces surely have something in common.
+  /// Returns false, and has added nothing, if no height is found at which the faces surely have something in common.
   bool run() {
     const Width width = find_width();
     if (!(width.x > 0)) return false;
     const Tip bottom = tip<false>(width.y), top = tip<true>(width.y);
+    for (const Border border : kBorders) {
+      const Knot &low = bottom.knot[std::size_t(border)], &high = top.knot[std::size_t(border)];
+      if (low.side[0] > high.side[0] || low.side[1] > high.side[1]) return false;  // borders level up to rounding
+    }
     // Of a round face a small part within the farthest separation has this power of its share of the extent.
     const double height = top.at.y - bottom.at.y, falls = std::fabs(slope_.x) * 2 * width.x + std::fabs(slope_.y) * height,
                  counts = corners_.farthest() - middle_, part = counts < falls ? max(counts / falls, kLeastPart) : 1;
@@ -402,8 +404,9 @@ class Halving {
       std::uint32_t size() const { return up ? out - in : in - out; }
       std::uint32_t middle() const { return up ? in + size() / 2 : in - size() / 2; }
     };
-    const auto range = [&](const Chain& chain) {
-      return Range{chain.side_at(inside, 0.5) + !up, chain.side_at(outside, up) + up};
+    const auto range = [&](const Chain& chain) {  // where a border is level up to rounding, sides may come in another order
+      const std::uint32_t in = chain.side_at(inside, 0.5), out = chain.side_at(outside, up);
+      return Range{in + !up, up ? std::max(in, out) + 1 : std::min(in, out)};
     };
     Range of_p = range(p), of_q = range(q);
     while (of_p.size() > 1 || of_q.size() > 1) {
@@ -577,7 +580,7 @@ class Halving {
   void recall(const Names& names) {
     const FeatureId of[2] = {names.a(), names.b()};
     for (const int f : {0, 1}) {
-      if (of[f].kind() != FeatureKind::Vertex) continue;
+      if (of[f].kind() != FeatureKind::Vertex || of[1 - f] != name_[1 - f]) continue;
       for (const Border border : kBorders) {
         const std::uint32_t k = chain(border, f).corner(of[f].index());
         if (k != kNone) known_[std::size_t(border)].add({f, k});
@@ -633,7 +636,6 @@ class Halving {
     corners_.add(border, {{place.x, place.y, z_a}, z_b - z_a, names}, wanted);
   }
 
-  static constexpr int kTip = 3;  ///< as Knot::face: a tip, which is added apart
   const Outline* const outline_[2];
   const Chain chain_[2][2];  ///< of each border, those of both faces
   const FeatureId name_[2];
