@@ -112,14 +112,14 @@ bodies::Polyhedron uneven_prism(Random& random, std::uint32_t sides, double radi
   const auto way = random.bits() % 3;
   for (std::uint32_t i = 0; i < sides; ++i) {
     const double even = (i + 0.5) / sides, any = random.uniform(0, 1),
-                 crowd = std::floor(3 * any) / 3 + 0.02 * random.uniform(0, 1);
+                 crowd = std::floor(3 * any) / 3 + 0.1 * random.uniform(0, 1);
     angles.push_back(begin + whole * (way == 0 ? even : way == 1 || i % 8 == 0 ? any : crowd));
   }
   std::sort(angles.begin(), angles.end());
   std::vector<Eigen::Vector2d> base;
   double before = angles.back() - 2 * std::numbers::pi;
   for (const double angle : angles) {
-    if (angle - before < 1e-4) continue;
+    if (angle - before < 1e-5) continue;
     base.emplace_back(radius * std::cos(angle), radius * stretch * std::sin(angle)), before = angle;
   }
   return prism(base, 1);
@@ -309,12 +309,13 @@ TEST(Manifold, OfManyUnevenSidesIsTheIntersectionOfTheirFaces) {
   Shares shares;
   for (int i = 0; i < 60; ++i) {
     const auto sides = [&](bool few) {
-      return few ? 3 + std::uint32_t(random.bits() % 13) : 160 + std::uint32_t(random.bits() % 300);
+      return few ? 3 + std::uint32_t(random.bits() % 13) : kManyCorners * 5 / 4 + std::uint32_t(random.bits() % 40);
     };
     const auto body = [&](bool few) {
       return few ? prism(sides(true), random.uniform(0.3, 2), 1) : uneven_prism(random, sides(false), random.uniform(0.3, 2));
     };
     const bodies::Polyhedron a = body(i % 4 == 1), b = body(i % 4 == 2);
+    ASSERT_GE(std::max(a.sizes[0], b.sizes[0]), kManyCorners) << "a sweep finds these";
     const Contacting c = stacked(a, 0.5, b, random_top(random, random.uniform(-1, 1), random.uniform(-1, 1)),
                                  any(kGaps, random), random.bits() % 2 ? random.rotation() : Mat3::Identity());
     if (is_apart(c)) expect_true(c, shares);
@@ -376,7 +377,7 @@ TEST(Manifold, OfAFaceInPiecesIsThePieceAtTheFeatures) {
   Random random(31);
   const Model plate = bodies::model(bodies::box(3, 3, 1));
   Shares shares;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 120; ++i) {
     const double dent = std::pow(10, random.uniform(-7, -5));
     bodies::Polyhedron dented = prism(5 + random.bits() % 60, 1, 1);
     for (Vec3& p : dented.points) p.z() += p.z() > 0 ? dent * random.uniform() : 0;
@@ -902,6 +903,7 @@ TEST(Manifold, IsSoundOfAnyBodiesAndAnyManifoldBefore) {
 /// As faces of many sides are halved: of any size, flush, turned or tilted, after manifolds that name any of their features.
 TEST(Manifold, OfManySidesIsSoundAfterAnyManifoldBefore) {
   Random random(29);
+  int full = 0;
   for (const double scale : {1., 1e-40, 1e40}) {
     const Mat3 turn = random.rotation();
     const Model round = bodies::model(bodies::moved(prism(260, 1, 1), scale * turn)),
@@ -930,9 +932,11 @@ TEST(Manifold, OfManySidesIsSoundAfterAnyManifoldBefore) {
                                     .most_points = 1 + std::uint32_t(random.bits() % kMostManifoldPoints)};
       const Manifold p = manifold(under, round, pose, c.answer, options, before);
       expect_sound(c, p, c.answer.lower, options.margin);
+      full += p.count > 2;
       ASSERT_FALSE(testing::Test::HasFailure()) << scale << ' ' << i;
     }
   }
+  EXPECT_GE(full, 15);
 }
 
 TEST(Manifold, OfAnAnswerOfOtherModelsIsNone) {

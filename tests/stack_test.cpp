@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <new>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -83,7 +84,7 @@ TEST(Stack, OfAQueryIsWhatItsCostLineSays) {
     const std::size_t used = stack.use([&] { signed_distance(prism, box, pose, seed); });
     if (i > 0) resting = std::max(resting, used);
   }
-  const Model coin = bodies::must(build(shapes::prism(160, 1, 1))).model;
+  const Model coin = bodies::must(build(shapes::prism(260, 1, 1))).model;
   for (const Body& floor : {Body(coin), Body(prism)}) {  // found by halving
     alignas(Manifold) unsigned char points[sizeof(Manifold)];
     Manifold before;

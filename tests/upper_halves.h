@@ -10,7 +10,7 @@
 namespace swiftlet {
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-/// True if the processor tells whether they are in use. With a sanitizer others use them too.
+/// True if the processor tells whether they are in use, and no sanitizer's own code uses them.
 inline bool upper_halves_can_be_seen() {
   unsigned a = 0, b = 0, c = 0, d = 0;
   if (!__get_cpuid(1, &a, &b, &c, &d) || (c & bit_OSXSAVE) == 0 || (c & bit_AVX) == 0) return false;

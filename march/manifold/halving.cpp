@@ -143,11 +143,11 @@ class Chain {
                        : outline.steps(outline.highest(), outline.lowest())),
         start_(outline.lowest() + (goes_on_ ? 0 : outline.count())),
         count_(outline.count()),
-        corners_(&outline[0]),
-        outwards_(border == Border::Left ? -1 : 1) {
+        corners_(&outline[0]) {
     const SeenBody& body = outline.body();
-    x_ = {body.x.x * outwards_, body.x.y * outwards_, body.x.z * outwards_};
-    shift_ = {body.shift.x * outwards_, body.shift.y};
+    const double outwards = border == Border::Left ? -1 : 1;
+    x_ = body.x * outwards;
+    shift_ = {body.shift.x * outwards, body.shift.y};
   }
 
   std::uint32_t size() const { return size_; }
@@ -222,9 +222,8 @@ class Chain {
   const bool goes_on_;  ///< upwards, corners follow in the order of their numbers
   const std::uint32_t size_, start_, count_;
   const Vertex* const corners_;  ///< of the face
-  const double outwards_;
-  Vec x_;        ///< the axis in the body's frame
-  Place shift_;  ///< where its origin is seen
+  Vec x_;                        ///< the axis in the body's frame
+  Place shift_;                  ///< where its origin is seen
 };
 
 /// The place of a line at a height.
@@ -234,16 +233,16 @@ Place at_height(const Line& line, double y) {
 }
 
 /// Face 0 or 1; where the borders of both cross; an end of the intersection, which is added apart.
-using Of = std::uint8_t;
-constexpr Of kCrossing = 2, kTip = 3;
-constexpr double kUnknown = std::numeric_limits<double>::infinity();
+using Owner = std::uint8_t;
+constexpr Owner kCrossing = 2, kTip = 3;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A corner of the intersection on one of its borders, and the edge there.
 struct Knot {
   Place at;
   Place way;              ///< the edge's, upwards
-  Of leader;              ///< the face that has the edge
-  Of face;                ///< of which this is a corner, or a crossing or tip
+  Owner leader;           ///< the face that has the edge
+  Owner face;             ///< of which this is a corner, or a crossing or tip
   std::uint32_t corner;   ///< of the face's border
   std::uint32_t side[2];  ///< of each face's border, that at this height: the leader's is the edge, both cross at a crossing
 };
@@ -294,9 +293,9 @@ class Halving {
       const Knot &low = bottom.knot[std::size_t(border)], &high = top.knot[std::size_t(border)];
       if (low.side[0] > high.side[0] || low.side[1] > high.side[1]) return false;  // borders level up to rounding
     }
-    // Of a round face a small part within the farthest separation has this power of its share of the extent.
-    const double height = top.at.y - bottom.at.y, falls = std::fabs(slope_.x) * 2 * width.x + std::fabs(slope_.y) * height,
-                 counts = corners_.farthest() - middle_, part = counts < falls ? max(counts / falls, kLeastPart) : 1;
+    // The part of the separation's range that is not above the farthest one: of a round area a part t holds about t^1.5.
+    const double height = top.at.y - bottom.at.y, range = std::fabs(slope_.x) * 2 * width.x + std::fabs(slope_.y) * height,
+                 allowed = corners_.farthest() - middle_, part = allowed < range ? max(allowed / range, kLeastPart) : 1;
     const double area = width.x * height;
     for (double share = kLeastChord * part * std::sqrt(part);; share *= kFinerChord) {
       corners_.begin(bottom.at, share * area);
@@ -334,7 +333,7 @@ class Halving {
   }
   double rise(Border border, const Place& way) const { return dot(slope_, seen(border, way)); }
   double separation(Border border, const Place& place) const { return middle_ + rise(border, place); }
-  bool is_near(Border border, const Place& place) const { return separation(border, place) <= corners_.farthest(); }
+  bool is_within(Border border, const Place& place) const { return separation(border, place) <= corners_.farthest(); }
 
   /// Finds a height at which the intersection is wider than rounding makes it, halfway up if it is, and that width.
   struct Width {
@@ -387,7 +386,7 @@ class Halving {
       const Chain& own = chain(border, f);
       const std::uint32_t k = up ? own.size() - 1 : 0;
       Knot& knot = tip.knot[std::size_t(border)];
-      knot = {seen(border, at), own.side(k).way, Of(f), Of(f), k + up, {}};
+      knot = {seen(border, at), own.side(k).way, Owner(f), Owner(f), k + up, {}};
       knot.side[f] = k, knot.side[g] = beside[std::size_t(border)];
     }
     return tip;
@@ -426,7 +425,7 @@ class Halving {
     Tip tip{at, kCrossing, {}, {}, {}};
     tip.of[f] = of_f, tip.of[g] = of_g, tip.side[f] = k, tip.side[g] = j;
     Knot &on_p = tip.knot[std::size_t(of_f)], &on_q = tip.knot[std::size_t(of_g)];
-    on_p = {spot, side_p.way, Of(f), kTip, up, {}}, on_q = {seen(of_g, at), side_q.way, Of(g), kTip, up, {}};
+    on_p = {spot, side_p.way, Owner(f), kTip, up, {}}, on_q = {seen(of_g, at), side_q.way, Owner(g), kTip, up, {}};
     on_p.side[f] = k, on_p.side[g] = chain(of_f, g).side_at(at.y, up);
     on_q.side[g] = j, on_q.side[f] = chain(of_g, f).side_at(at.y, up);
     return tip;
@@ -451,7 +450,7 @@ class Halving {
     if (where(place, beside, bound_) == Where::Outside)
       return {end<false>(border, g, beside, j, k - 1, low), end<true>(border, g, beside, j, k, high)};
     for (Knot* knot : {&found.low, &found.high}) {
-      knot->at = place, knot->leader = knot->face = Of(f), knot->corner = k;
+      knot->at = place, knot->leader = knot->face = Owner(f), knot->corner = k;
       knot->side[f] = knot == &found.low ? k - 1 : k, knot->side[g] = j;
     }
     found.low.way = place - own.at(k - 1), found.high.way = own.at(k + 1) - place;
@@ -463,7 +462,7 @@ class Halving {
   Knot end(Border border, int f, const Line& line, std::uint32_t k, std::uint32_t beside, const Knot& limit) const {
     const int g = 1 - f;
     Knot knot = limit;
-    knot.way = line.way, knot.leader = Of(f);
+    knot.way = line.way, knot.leader = Owner(f);
     if (limit.leader == f && limit.side[f] == k) return knot;
     const Chain& other = chain(border, g);
     const Place place = up ? line.to : line.from;
@@ -472,7 +471,7 @@ class Halving {
     if (up ? place.y <= limit.at.y : place.y >= limit.at.y) {
       const std::uint32_t at_place = other.side_at(place.y, low, high, beside);
       if (where(place, other.side(at_place), bound_) != Where::Outside) {
-        knot.at = place, knot.face = Of(f), knot.corner = k + up, knot.side[g] = at_place;
+        knot.at = place, knot.face = Owner(f), knot.corner = k + up, knot.side[g] = at_place;
         return knot;
       }
       (up ? high : low) = at_place;
@@ -492,12 +491,12 @@ class Halving {
     std::size_t count = 0;
     const Knot bottom = low;
     Knot next = top, last = low;
-    bool was_near = is_near(border, bottom.at);
+    bool was_within = is_within(border, bottom.at);
     const auto pass = [&](const Knot& knot) {
       if (is_same(last, knot)) return;
-      const bool near = is_near(border, last.at), ends_near = near && !(was_near && is_near(border, knot.at));
-      if (!is_same(last, bottom)) offer(border, last, knot.at - last.at, ends_near);
-      last = knot, was_near = near;
+      const bool within = is_within(border, last.at), ends_within = within && !(was_within && is_within(border, knot.at));
+      if (!is_same(last, bottom)) offer(border, last, knot.at - last.at, ends_within);
+      last = knot, was_within = within;
     };
     for (int rest = kMostSplits;; --rest) {
       if (rest > 0 && count < ahead.size() && holds_more(border, low, next)) {
@@ -518,7 +517,7 @@ class Halving {
     if (is_same(low, high) || (low.leader == high.leader && low.side[low.leader] == high.side[low.leader])) return false;
     const Place chord = high.at - low.at;
     const double out_low = cross(low.way, chord), out_high = cross(chord, high.way), turn = cross(low.way, high.way),
-                 out = turn > 0 ? out_high / turn : kUnknown;  // along the lower edge, to where both meet
+                 out = turn > 0 ? out_high / turn : kInfinity;  // along the lower edge, to where both meet
     if (!(out_low > 0 && out_high > 0)) return false;
     const double at_low = separation(border, low.at), at_high = separation(border, high.at),
                  at_apex = at_low + rise(border, low.way) * out, least = min(min(at_low, at_high), at_apex),

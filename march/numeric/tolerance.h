@@ -299,8 +299,9 @@ inline constexpr double kSweepCos = 40.0 / 41, kSweepSin = 9.0 / 41;
 
 // ---- Bounds on work: counts and dimensionless factors -----------------------------------------------------------------------
 
-/// Halving between contact faces: how many edges it keeps in mind, more than it takes to halve 65 536 corners; how many it
-/// looks for on a border; at how many heights it seeks the common area.
+/// Halving between contact faces: how many edges of a border wait for what lies below them, how many it looks for on a border,
+/// and at how many heights it seeks the common area. What would need more is left out: if that is the deepest corner, the
+/// answer's own point takes its place.
 inline constexpr int kMostEdges = 14, kMostSplits = 128, kWidthSteps = 16;
 /// A walk is given to certified GJK after this many states in a row that do not shorten the distance. In exact arithmetic there
 /// are at most three (face, edge, vertex); twelve leaves room for rounding on a flat spot.
