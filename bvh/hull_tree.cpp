@@ -16,8 +16,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 FaceClass class_of(const HullTree& tree, const HullNode& node, FeatureId feature) {
   const std::uint8_t* const classes = tree.hulls().classes.data() + node.classes;
   const HalfEdge* const half_edges = tree.hulls().half_edges.data() + node.half_edges.begin;

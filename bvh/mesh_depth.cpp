@@ -16,7 +16,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// So often is the best direction turned towards a lower height.
 constexpr int kTurns = 16;
 

@@ -14,7 +14,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 Verdict verdict_of(const MeshFinding& found, double law_two) {
   if (found.verdict == Verdict::Overlapping) return Verdict::Overlapping;

@@ -33,7 +33,7 @@ void fill_table(BlockParts& parts, const TableSpec& spec, std::span<const Vertex
     const auto i = std::uint32_t(task);
     const std::array<double, 3> direction = lut::sample(resolution, i);
     const Vec point = centre + Vec{direction[0], direction[1], direction[2]} * distance;
-    double least2 = std::numeric_limits<double>::infinity();
+    double least2 = kInfinity;
     for (std::uint32_t v = 0; v < vertices.size(); ++v) {
       const Vec d = vec(vertices[v]) - point;
       if (const double d2 = dot(d, d); d2 < least2) least2 = d2, table[i] = v;

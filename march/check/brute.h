@@ -90,7 +90,7 @@ static inline double from_facet(const ConvexView& view, const Motion& m, std::ui
   const auto head = [&](std::uint32_t h) { return view.vertices[view.half_edges[h].head]; };
   const auto tail = [&](std::uint32_t h) { return view.vertices[origin(view, h)]; };
   const Wide normal = facet_normal(m, tail(first), head(first), head(next_in_facet(view, first)));
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   bool inside = true;
   std::uint32_t h = first;
   do {
@@ -109,7 +109,7 @@ static inline double from_flat(const ConvexView& view, const Motion& m, const Ve
   const Vertex& first = view.vertices[0];
   if (view.half_edges.empty()) return norm(rounded(wide(p) - wide(m, vec(first))));
   if (view.face_first.empty()) return from_segment(wide(p), wide(m, vec(first)), rotated(m, view.vertices[1], first));
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
     if (is_first_in_facet(view, h)) least = min(least, from_facet(view, m, h, wide(p)));
   }

@@ -77,7 +77,7 @@ Check Checked::interval_holds() const {
   const auto has = [](const Shape& body, int level) { return level >= body.finest_level() && level < body.level_count(); };
   if (!has(a, answer.level_a) || !has(b, answer.level_b))
     return failed("levels (%d, %d) are not there", int(answer.level_a), int(answer.level_b));
-  if (!(answer.upper >= answer.lower && answer.upper > -std::numeric_limits<double>::infinity()))
+  if (!(answer.upper >= answer.lower && answer.upper > -kInfinity))
     return failed("[%.17g, %.17g] is no interval", answer.lower, answer.upper);
   if (answer.lower > 0) {
     const double gap = gap_along(a, b, at.motion, normal);
@@ -145,7 +145,7 @@ Check Checked::hulls_overlap(const OverlapProof* proof) const {
   const DoubleDouble depth = least_depth();
   const double doubt = kHeightError * magnitude;
   if (double(depth) < -doubt) return failed("overlap of hulls that a plane separates");
-  const bool is_deep = depth.high < std::numeric_limits<double>::infinity() && double(depth) > doubt;
+  const bool is_deep = depth.high<kInfinity&& double(depth)> doubt;
   return is_deep || is_near(touching) ? kPassed : failed("overlap that nothing proves");
 }
 

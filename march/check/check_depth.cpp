@@ -15,8 +15,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Returns v * 2^exponent.
 Wide scaled(const Wide& v, int exponent) {
   const auto scale = [&](const DoubleDouble& x) {

@@ -37,8 +37,6 @@ SWIFTLET_BOTH_WIDTHS(void, signed_within, const Body& a, const Body& b, const Po
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// The vertices of a feature in order; of a face with more than four, the first four.
 struct Span {
   int count = 0;

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 
 #include "numeric/vec.h"
 #include "pair/certify.h"
@@ -56,13 +55,13 @@ enum class DepthEnd : std::uint8_t {
 /// are apart.
 struct Depth {
   DepthEnd end = DepthEnd::NotConverged;
-  double lower = 0;                                        ///< proved if it is above 0
-  double upper = std::numeric_limits<double>::infinity();  ///< proved by the supports along `normal`
-  Vec normal{0, 0, 0};                                     ///< unit, from A to B: B is free when moved along it by `upper`
-  Vec point_a{0, 0, 0}, point_b{0, 0, 0};                  ///< witness points: point_a - point_b is the depth times `normal`
-  ActiveSet active;                                        ///< the vertex pairs and weights that make the points
-  FeatureId feature_a, feature_b;                          ///< features that hold the points, if the start named them
-  std::uint32_t steps = 0;                                 ///< number of supports computed
+  double lower = 0;                        ///< proved if it is above 0
+  double upper = kInfinity;                ///< proved by the supports along `normal`
+  Vec normal{0, 0, 0};                     ///< unit, from A to B: B is free when moved along it by `upper`
+  Vec point_a{0, 0, 0}, point_b{0, 0, 0};  ///< witness points: point_a - point_b is the depth times `normal`
+  ActiveSet active;                        ///< the vertex pairs and weights that make the points
+  FeatureId feature_a, feature_b;          ///< features that hold the points, if the start named them
+  std::uint32_t steps = 0;                 ///< number of supports computed
 };
 
 }  // namespace swiftlet

@@ -16,8 +16,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// A cone of directions spanned by `x`, `y` and `z`, counter-clockwise seen from outside: mostly a cell of the octahedron.
 struct Cone {
   Vec x, y, z;

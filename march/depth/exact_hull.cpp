@@ -9,7 +9,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 static_assert(ExactHull::kMostFacets <= 256, "a facet's index is a byte");
 
 constexpr std::size_t after(std::size_t e) { return e == 2 ? 0 : e + 1; }

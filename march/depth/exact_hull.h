@@ -49,7 +49,7 @@ class ExactHull {
   const Vec& corner(int k) const { return corner_[std::size_t(k)]; }
   /// Facets have indices below this; some of them may be gone.
   int facet_count() const { return facet_count_; }
-  bool is_gone(int k) const { return facet_[std::size_t(k)].height == std::numeric_limits<double>::infinity(); }
+  bool is_gone(int k) const { return facet_[std::size_t(k)].height == kInfinity; }
   void set_above(int k, double above) { facet_[std::size_t(k)].above = above; }
   const HullFacet& facet(int k) const { return facet_[std::size_t(k)]; }
 

@@ -26,8 +26,7 @@ struct Ceiling {
     const Vec apart = seen.point_b - seen.point_a;
     const double over = seen.over_a + seen.over_b;
     const bool tells = over <= moved.law_two && dot(apart, apart) > moved.law_two * moved.law_two;
-    return tells ? -gap(moved, vec4(n), vec4(seen.apart - way), over + kPointSumError * moved.magnitude)
-                 : std::numeric_limits<double>::infinity();
+    return tells ? -gap(moved, vec4(n), vec4(seen.apart - way), over + kPointSumError * moved.magnitude) : kInfinity;
   }
 };
 

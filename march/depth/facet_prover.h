@@ -25,7 +25,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "body/support.h"
 #include "body/support_map.h"
@@ -36,8 +35,6 @@
 
 namespace swiftlet {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A polygon of three or four points of M, and the surface below it.
 class FacetProof {

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <string>
 
@@ -882,7 +881,7 @@ double reach_of(const ConvexView& view) {
   const Box box = box_of(view.vertices);
   Vec mean{0, 0, 0};
   for (const Vertex& v : view.vertices) mean = mean + vec(v) * (1.0 / double(view.vertices.size()));
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (const Vec& centre : {box.least * 0.5 + box.most * 0.5, mean}) {
     double radius = 0;
     for (const Vertex& v : view.vertices) radius = max(radius, norm(vec(v) - centre));

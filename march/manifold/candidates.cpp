@@ -17,7 +17,7 @@ Candidates::Candidates(double farthest, const Manifold& previous)
 
 void Candidates::begin(const Place& lowest, double enough) {
   is_crowded_ = true, enough_ = enough;
-  least_ = deepest_ = std::numeric_limits<double>::infinity();
+  least_ = deepest_ = kInfinity;
   name_bits_ = 0, known_count_ = 0;
   for (const int side : {0, 1}) cut_off_[side] = 0, count_[side] = 0, has_turned_[side] = false;
   last_[0] = {-lowest.x, lowest.y}, last_[1] = lowest;

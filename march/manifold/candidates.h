@@ -7,7 +7,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 
 #include <swiftlet/manifold.h>
@@ -140,13 +139,13 @@ class Candidates {
 
   const double farthest_;
   std::uint64_t known_name_bits_ = 0, name_bits_ = 0;  ///< of the points of `previous`, and of the corners that are kept
-  double least_ = std::numeric_limits<double>::infinity(), deepest_ = least_;  ///< of all, and of the row
-  Names deepest_named_;      ///< the first corner of the row with that separation
-  bool is_crowded_ = false;  ///< more corners have come than there is room for
-  bool has_turned_[2] = {};  ///< per border, as `turns` found
-  double enough_ = 0;        ///< twice the area that a chord may cut off
-  double cut_off_[2] = {};   ///< twice the area that the chord of each border up to now cuts off, or more
-  Place last_[2] = {};       ///< where it begins: the border's last corner that was added
+  double least_ = kInfinity, deepest_ = least_;        ///< of all, and of the row
+  Names deepest_named_;                                ///< the first corner of the row with that separation
+  bool is_crowded_ = false;                            ///< more corners have come than there is room for
+  bool has_turned_[2] = {};                            ///< per border, as `turns` found
+  double enough_ = 0;                                  ///< twice the area that a chord may cut off
+  double cut_off_[2] = {};  ///< twice the area that the chord of each border up to now cuts off, or more
+  Place last_[2] = {};      ///< where it begins: the border's last corner that was added
   int count_[2] = {}, known_count_ = 0, previous_count_;
   std::array<Candidate, kMostCandidates> all_;  ///< the left border from the start, the right one from the end back
   Names previous_[kMostManifoldPoints];

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "manifold/largest_polygon.h"
 
@@ -34,7 +33,7 @@ class Loop {
   /// smallest triangle with it.
   int before(int spot, bool& is_corner) const {
     int found = 0;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (int side = 0; side < size_; ++side) {
       if ((is_corner = (*this)[side] == spot)) return previous(side);
       if (const double taken = std::fabs(area(side, spot)); taken < least) least = taken, found = side;
@@ -65,7 +64,7 @@ class Loop {
   bool go_round(Set those) {
     const Place start = place(std::countr_zero(those));
     Place at = start, first{0, 0}, before{0, 0};
-    double least = std::numeric_limits<double>::infinity(), length = 0;
+    double least = kInfinity, length = 0;
     int peaks = 0;
     const auto turn = [&](const Place& way) {
       least = min(least, cross(way, before)), length += std::fabs(way.x) + std::fabs(way.y);

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "manifold/contact_face.h"
 
-#include <limits>
-
 #include "body/half_edge.h"
 #include "numeric/exact.h"
 #include "numeric/tolerance.h"
@@ -57,7 +55,7 @@ std::uint32_t best_facing(const ConvexView& view, const Vec& n, FeatureId featur
   std::uint32_t chosen = kNone;
   double most = -2;
   const auto size = [&](std::uint32_t face) {
-    return FeatureId(FeatureKind::Face, face) == before ? std::numeric_limits<double>::infinity() : norm(area_of(view, face));
+    return FeatureId(FeatureKind::Face, face) == before ? kInfinity : norm(area_of(view, face));
   };
   each_face_at(view, feature, [&](std::uint32_t face) {
     if (face == kNone || face == chosen) return;
@@ -90,7 +88,7 @@ ContactFace::ContactFace(const ConvexView& view, const Vec& n, FeatureId feature
   }
   side_ = border();
   if (side_ != kNone) return;
-  least_height_ = std::numeric_limits<double>::infinity();  // rounding hid the border: the face alone has one
+  least_height_ = kInfinity;  // rounding hid the border: the face alone has one
   side_ = border();
 }
 

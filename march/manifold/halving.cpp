@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "body/half_edge.h"
 #include "manifold/clip.h"
@@ -235,7 +234,6 @@ Place at_height(const Line& line, double y) {
 /// Face 0 or 1; where the borders of both cross; an end of the intersection, which is added apart.
 using Owner = std::uint8_t;
 constexpr Owner kCrossing = 2, kTip = 3;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A corner of the intersection on one of its borders, and the edge there.
 struct Knot {

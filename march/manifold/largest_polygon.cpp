@@ -7,14 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "numeric/vec4.h"
 
 namespace swiftlet {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The convex hull of the candidates' places, counter-clockwise. It begins with candidate `first` or, if that lies inside of
 /// it, farther than the bound from its corners, with the corner farthest from that.

@@ -575,7 +575,7 @@ class Sweep {
 /// or at a chord, a lower corner may be hidden, and all corners are looked at.
 void SWIFTLET_OF_WIDTH(clip)(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
                              Candidates& corners) {
-  for (const double more : {2.0, std::numeric_limits<double>::infinity()}) {
+  for (const double more : {2.0, kInfinity}) {
     Sweep sweep(projection, a, b, more, bound, corners);
     if (std::isinf(more) || sweep.begins_at_corners()) return sweep.run();
   }

@@ -15,6 +15,8 @@
 
 namespace swiftlet {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// Three numbers. Real is double, or DoubleDouble where doubles are not precise enough.
 template <class Real>
 struct V3 {
@@ -70,9 +72,7 @@ static inline double max_abs(const Vec& a) { return max(max(std::fabs(a.x), std:
 static inline double norm_1(const Vec& a) { return std::fabs(a.x) + std::fabs(a.y) + std::fabs(a.z); }
 
 /// True if a sum of squares has lost nothing to underflow and is finite.
-static inline bool has_range(double square) {
-  return square >= kLeastSquare && square < std::numeric_limits<double>::infinity();
-}
+static inline bool has_range(double square) { return square >= kLeastSquare && square < kInfinity; }
 /// `v` times 2^exponent.
 static inline Vec scaled(const Vec& v, int exponent) {
   return {times_power_of_two(v.x, exponent), times_power_of_two(v.y, exponent), times_power_of_two(v.z, exponent)};

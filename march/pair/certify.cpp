@@ -3,7 +3,6 @@
 #include "pair/certify.h"
 
 #include <array>
-#include <limits>
 #include <optional>
 
 #include "body/half_edge.h"
@@ -138,7 +137,7 @@ double above_plateau(const ConvexView& view, const Vec& own, const Vec& d, const
     const double least = dot(own, vec(record)) - error;
     const HalfEdge* ring = view.half_edges.data() + record.ring_begin;
     for (const HalfEdge* h = ring; h != ring + record.ring_count; ++h)
-      if (!(dot(own, vec(vertices[h->head])) < least) && !level.add(h->head)) return std::numeric_limits<double>::infinity();
+      if (!(dot(own, vec(vertices[h->head])) < least) && !level.add(h->head)) return kInfinity;
     plane_tests += record.ring_count;
   }
   return most / norm(d);

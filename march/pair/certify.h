@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 
 #include <swiftlet/march.h>
 
@@ -81,7 +80,7 @@ double gap(const PairView& pair, const Vec& n, std::uint32_t va, std::uint32_t v
 static inline Doubt certify(const PairView& pair, const NearestOf<Vec4>& seen, ProofOf<Vec4>& proof) {
   Vec4 apart = seen.point_b - seen.point_a;
   const double square = dot(seen.normal, seen.normal), apart2 = dot(apart, apart), over = seen.over_a + seen.over_b;
-  if (!(over <= pair.law_two)) return over < std::numeric_limits<double>::infinity() ? Doubt::Width : Doubt::Neighbour;
+  if (!(over <= pair.law_two)) return over < kInfinity ? Doubt::Width : Doubt::Neighbour;
   if (!(square >= kLeastSquare)) return Doubt::Width;  // squares of legal coordinates are finite
   const double length = std::sqrt(apart2);
   // Nearer points may lie aside along an edge (kAcrossError), or have a length that underflowed.

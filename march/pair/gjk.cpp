@@ -6,7 +6,6 @@
 #include "pair/gjk.h"
 
 #include <bitset>
-#include <limits>
 
 #include "body/half_edge.h"
 #include "numeric/exact.h"
@@ -110,7 +109,7 @@ class Contact {
   double inner_radius() const {
     std::array<V3<DoubleDouble>, 4> p;
     for (std::size_t k = 0; k < 4; ++k) p[k] = difference<DoubleDouble>(pair_, points_[k].a, points_[k].b).p;
-    double radius = std::numeric_limits<double>::infinity();
+    double radius = kInfinity;
     for (std::size_t k = 0; k < 4; ++k) {
       const V3<DoubleDouble>&a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4], n = cross(b - a, c - a);
       const double length = norm(rounded(n)), offset = rounded(dot(n, a)), apex = rounded(dot(n, p[k] - a));
@@ -122,7 +121,7 @@ class Contact {
 
   /// The distance from the origin to the nearest facet of the inner polytope; `normal` becomes the facet's outward normal.
   double nearest_facet(Vec& normal) {
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = kInfinity;
     for (int i = 0; i < count_; ++i) {
       for (int j = i + 1; j < count_; ++j) {
         for (int k = j + 1; k < count_; ++k) {
@@ -200,7 +199,7 @@ class GjkDescent {
       const NearestOrigin<Real> nearest = nearest_to_origin(set_, count_);
       keep(nearest);
       const double distance = std::sqrt(nearest.norm2);
-      if (keep_bounds_ == Keep::Last) m.certificate.lower = 0, m.certificate.upper = std::numeric_limits<double>::infinity();
+      if (keep_bounds_ == Keep::Last) m.certificate.lower = 0, m.certificate.upper = kInfinity;
       take_points(m.certificate);
       if (nearest.holds_origin || distance <= rounding<Real>(pair_)) {
         met_ = true;
@@ -297,7 +296,7 @@ class GjkDescent {
   std::array<Real, 4> weight_{};
   int count_ = 0;
   /// The least distance and the greatest lower bound of all iterates so far; the latter may be negative.
-  double least_ = std::numeric_limits<double>::infinity(), greatest_ = -least_;
+  double least_ = kInfinity, greatest_ = -least_;
   bool met_ = false;
 };
 

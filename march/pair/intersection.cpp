@@ -17,7 +17,6 @@
 #include "pair/intersection.h"
 
 #include <array>
-#include <limits>
 #include <optional>
 
 #include "body/half_edge.h"
@@ -30,8 +29,6 @@ namespace swiftlet {
 namespace {
 
 using Quad = std::array<std::uint32_t, 4>;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// True for a solid: three edges or more meet in each of its vertices, but only two in a vertex of a flat polygon.
 bool bounds_solid(const ConvexView& view) { return view.vertices[0].ring_count > 2; }

@@ -48,7 +48,7 @@ struct Move {
   double distance2;  ///< squared distance of the features that the state leaves, for `kStallLimit`
 };
 
-constexpr double kUnknown = std::numeric_limits<double>::infinity();
+constexpr double kUnknown = kInfinity;
 
 /// A vertex compared with its ring along a direction.
 struct RingScan {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pair/simplex.h"
 
-#include <limits>
-
 namespace swiftlet {
 namespace {
 
@@ -59,7 +57,7 @@ void Simplex::add_third(const Corner& r) {
 
 void Simplex::add_fourth(const Corner& apex) {
   const Simplex base = *this;
-  double least2 = std::numeric_limits<double>::infinity();
+  double least2 = kInfinity;
   for (const auto& [i, j, opposite] : {std::array{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}) {
     const Vec n = cross(base[i].p - apex.p, base[j].p - apex.p);
     const double height = dot(n, base[opposite].p - apex.p), from_origin = dot(n, apex.p);
@@ -69,7 +67,7 @@ void Simplex::add_fourth(const Corner& apex) {
     face.add_third(apex);
     if (const double d2 = dot(face.nearest_, face.nearest_); d2 < least2) least2 = d2, *this = face;
   }
-  if (least2 < std::numeric_limits<double>::infinity()) return;
+  if (least2 < kInfinity) return;
   corner_[3] = apex, count_ = 4;
 }
 

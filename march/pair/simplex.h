@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include <swiftlet/march.h>
 
@@ -61,7 +60,7 @@ struct NearestOrigin {
   std::array<int, 4> index{};
   std::array<Real, 4> weight{};
   V3<Real> point{Real(0), Real(0), Real(0)};
-  double norm2 = std::numeric_limits<double>::infinity();
+  double norm2 = kInfinity;
   bool holds_origin = false;  ///< the simplex has four corners and holds the origin
 };
 
@@ -74,7 +73,7 @@ template <class Real>
 static inline NearestOrigin<Real> nearest_to_origin(const std::array<Difference<Real>, 4>& set, int count) {
   NearestOrigin<Real> best;
   const Real zero(0);
-  double least_cut = std::numeric_limits<double>::infinity();
+  double least_cut = kInfinity;
   const auto offer = [&](int n, std::array<int, 4> index, std::array<Real, 4> weight, const V3<Real>& point) {
     const Real norm2 = dot(point, point);
     Real cut = zero;

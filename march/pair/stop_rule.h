@@ -4,8 +4,6 @@
 // and not what they are bounds of.
 #pragma once
 
-#include <limits>
-
 #include "numeric/vec.h"
 
 namespace swiftlet {
@@ -13,13 +11,13 @@ namespace swiftlet {
 /// Bounds suffice when they are narrow, or on one side of a threshold. Lengths are in the bodies' unit.
 struct StopRule {
   double absolute = 0, relative = 0;  ///< allowed width: a length, or a fraction of `lower` - `zero` if that is larger
-  double above = std::numeric_limits<double>::infinity();   ///< enough when `lower` exceeds this
-  double below = -std::numeric_limits<double>::infinity();  ///< enough when `upper` is less than this
-  double zero = 0;                                          ///< the relative width counts from here: where rounded bodies touch
-  double rounding = 0;                                      ///< the allowed width is reduced by this
-  double least = 0;                                         ///< a width that is always allowed
+  double above = kInfinity;           ///< enough when `lower` exceeds this
+  double below = -kInfinity;          ///< enough when `upper` is less than this
+  double zero = 0;                    ///< the relative width counts from here: where rounded bodies touch
+  double rounding = 0;                ///< the allowed width is reduced by this
+  double least = 0;                   ///< a width that is always allowed
 
-  bool is_threshold() const { return above < std::numeric_limits<double>::infinity(); }
+  bool is_threshold() const { return above < kInfinity; }
   bool is_exact() const { return !(absolute > 0 || relative > 0 || is_threshold()); }
   /// The most that bounds may be apart at this `lower`. If it is not above 0, no bounds are narrow.
   double allowed(double lower) const { return max(max(absolute, relative * (lower - zero)) - rounding, least); }

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 
 #include <swiftlet/march.h>
 
@@ -59,11 +58,11 @@ static inline bool are_near(const AxisSample& seen, const Level& a, const Level&
 
 /// The state of the algorithm after a step.
 struct SupportGjk {
-  AxisSample seen;                                               ///< the last sample
-  double most_lower = -std::numeric_limits<double>::infinity();  ///< the greatest `lower` of all samples
-  Vec lower_along{0, 0, 0};                                      ///< the normal along which `most_lower` is proved
-  double upper = std::numeric_limits<double>::infinity();        ///< about the distance of the points of `feet_of`
-  bool near = false;                                             ///< some supports were near each other
+  AxisSample seen;                         ///< the last sample
+  double most_lower = -kInfinity;          ///< the greatest `lower` of all samples
+  Vec lower_along{0, 0, 0};                ///< the normal along which `most_lower` is proved
+  double upper = kInfinity;                ///< about the distance of the points of `feet_of`
+  bool near = false;                       ///< some supports were near each other
   std::uint32_t start_a = 0, start_b = 0;  ///< where a walk begins: the first supports that were `near`, else the last
   Simplex simplex;  ///< its nearest point gives the next direction; with four corners, the pair seems to overlap
 };

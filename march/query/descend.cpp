@@ -194,7 +194,7 @@ class Descent {
   void take_overlap(const PairView& pair, const Place& place, const Vec& normal, const OverlapProof& proof) {
     met_ = MarchStatus::Overlapping;
     answer_.lower = 0;
-    answer_.upper = std::numeric_limits<double>::infinity();
+    answer_.upper = kInfinity;
     const Vec common = surely_common_point(pair, proof);
     carry(place, {0, 0, normal, common, common, proof}, pair.law_two);
   }

@@ -63,7 +63,7 @@ struct PairOf {
   /// About the least error to which anything but a walk on the exact pair bounds the distance.
   double least_error() const {
     const int coarser_a = std::min(1, a.level_count() - 1), coarser_b = std::min(1, b.level_count() - 1);
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     if (coarser_a + coarser_b > 0) least = deviation(coarser_a, coarser_b);
     return has_maps() ? min(least, map_error(finest_mapped())) : least;
   }

@@ -12,7 +12,7 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kNever = -std::numeric_limits<double>::infinity();  // no upper bound is this low
+constexpr double kNever = -kInfinity;  // no upper bound is this low
 
 /// Copies `so_far` to `answer` as an unsigned answer with `status` and no work of its own.
 void restate(const Answer& so_far, Status status, Answer& answer) {

@@ -12,8 +12,6 @@
 namespace swiftlet {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 Verdict verdict(double lower, double upper, double law_two) {
   if (upper < 0) return Verdict::Overlapping;
   if (lower > 0) return Verdict::Disjoint;

@@ -85,12 +85,12 @@ void refuse(const Body& a, const Body& b, Status why, bool is_signed, Answer& an
 /// True if the normal proves the lower bound. The level pair that `proof` is about may overlap although a coarser pair, which
 /// proved the bound, is disjoint: levels enclose the body, not each other.
 static inline bool separates(const Answer& answer, const OverlapProof& proof) {
-  if (answer.is_signed) return answer.lower > -std::numeric_limits<double>::infinity();
+  if (answer.is_signed) return answer.lower > -kInfinity;
   return answer.lower > 0 || proof.count == 0;
 }
 /// Completes `answer`: adds the radii, sets an unknown normal and unknown points to NaN, and copies `proof` to `tuning`.
 static inline void seal(const Radii& radii, const OverlapProof& proof, const Tuning& tuning, Answer& answer) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity(), kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   answer.radius_a = radii.a(), answer.radius_b = radii.b();
   if (tuning.proof) *tuning.proof = proof;
   if (!(answer.lower > 0) && (!separates(answer, proof) || answer.normal.isZero(0))) answer.normal.setConstant(kNaN);
