@@ -91,10 +91,12 @@ static inline Vec4 operator-(const Vec4& a) { return {-a.v}; }
 static inline Vec4 max(const Vec4& a, const Vec4& b) { return {_mm256_max_pd(b.v, a.v)}; }
 static inline Vec4 min(const Vec4& a, const Vec4& b) { return {_mm256_min_pd(b.v, a.v)}; }
 static inline Vec4 abs(const Vec4& a) { return {_mm256_andnot_pd(all(-0.0).v, a.v)}; }
-// One shuffle of single lanes across the register's halves takes as long as two products. Two others are sooner there.
 template <int i>
 static inline Vec4 lane(const Vec4& a) {
+#if defined(__AVX2__)
+  // One shuffle of single lanes across the register's halves takes as long as two products. Two others are sooner there.
   if constexpr (i == 1) return {_mm256_broadcastsd_pd(_mm_unpackhi_pd(low(a), low(a)))};
+#endif
   return {__builtin_shufflevector(a.v, a.v, i, i, i, i)};
 }
 static inline Vec4 halves_swapped(const Vec4& a) { return {_mm256_permute2f128_pd(a.v, a.v, 1)}; }
