@@ -1114,6 +1114,49 @@ TEST(Law10NearContact, FromNothingALooserToleranceNeverCostsMore) {
   EXPECT_GT(near, 600);
 }
 
+/// A cold loose distance may end at the first features near enough for a sample's bound. All kinds of features end some.
+TEST(Law10EarlyEnd, LooseColdDistancesEndBeforeTheNearestFeatures) {
+  shapes::Random random(91);
+  int early = 0, longer = 0, kinds[3][3] = {};
+  double steps = 0, all_steps = 0;
+  for (const shapes::Family family : shapes::kFamilies) {
+    const shapes::Pair meshes = shapes::pair(family, 2000);
+    const Model a = bodies::must(build(meshes.a)).model, b = bodies::must(build(meshes.b)).model;
+    for (int i = 0; i < 400; ++i) {
+      const Pose pose{random.rotation(), (i % 2 ? 2 : 2.2) * a.radius() * random.on_sphere()};
+      const Answer exact = distance(a, b, pose);
+      if (exact.verdict != Verdict::Disjoint) continue;
+      for (const double error : {0.005, 0.01, 0.02, 0.05}) {
+        Options options;
+        options.absolute = error * a.radius();
+        PairSeed seed;
+        const Answer loose = distance(a, b, pose, seed, options);
+        ASSERT_EQ(loose.status, Status::Converged);
+        ASSERT_LE(loose.upper - loose.lower, options.absolute);
+        ASSERT_LE(loose.lower, exact.upper);
+        ASSERT_GE(loose.upper, exact.lower);
+        const Check passed = check(a, b, pose, loose);
+        ASSERT_TRUE(passed) << shapes::name(family) << ", pose " << i << ", error " << error << ": " << passed.message;
+        // The next query walks on from there, or, where no features were kept, begins anew.
+        const Answer next = distance(a, b, pose, seed);
+        ASSERT_NEAR(next.lower, exact.lower, tolerance(a, b, pose));
+        steps += loose.steps, all_steps += exact.steps;
+        longer += loose.steps + loose.plane_tests > exact.steps + exact.plane_tests;
+        const bool walked = loose.steps > 0 || loose.plane_tests > 0;
+        if (!walked || loose.level_a != 0 || loose.upper - loose.lower <= tolerance(a, b, pose)) continue;
+        ++early, ++kinds[int(loose.feature_a.kind()) - 1][int(loose.feature_b.kind()) - 1];
+      }
+    }
+  }
+  EXPECT_EQ(longer, 0);
+  EXPECT_GT(early, 1000);
+  EXPECT_LT(steps, all_steps / 2);
+  EXPECT_GT(kinds[1][1], 100);  // edges
+  EXPECT_GT(kinds[0][1], 10);   // a vertex of either body and an edge
+  EXPECT_GT(kinds[1][0], 10);
+  std::printf("%d ended early, %.2f of the steps\n", early, steps / all_steps);
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, Law10, testing::ValuesIn(shapes::kFamilies),
                          [](const auto& shape) { return shapes::name(shape.param); });
 

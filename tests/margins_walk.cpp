@@ -187,7 +187,8 @@ void attack_once(Random& random, const State& state, bool loose, Walks& result) 
   const Motion m = motion(pose);
   const PlaneRule rule = random.bits() & 1 ? PlaneRule::MostViolated : PlaneRule::FirstViolated;
   const PairView pair = pair_view(view_a, view_b, m, pose_error);
-  const Walk end = (loose ? loose_walk : walk)(pair, {FeatureKind::Vertex, 0}, {FeatureKind::Vertex, 0}, rule, 100);
+  const FeatureId first{FeatureKind::Vertex, 0};
+  const Walk end = loose ? loose_walk(pair, first, first, rule, 100) : walk(pair, first, first, rule, 100);
   if (end.end != WalkEnd::Minimum || !is_feature(view_a, end.a, state.corners_a) || !is_feature(view_b, end.b, state.corners_b))
     return;
   ++result.count;

@@ -247,6 +247,7 @@ Level described(const BlockHeader& block, const LevelHeader& l) {
   level.map_side = l.map_side;
   level.map_frame = map_frame(l);
   level.is_round = is_round(level.map_frame);
+  level.map_doubt = l.map_side == 0 ? 0 : kMapDoubt * l.extent / (double(l.map_side) * double(l.map_side));
   level.edge_length = l.edge_length;
   level.same_cos2 = cos2_of(kSameEdges, l.vertex_count);
   level.near_cos2 = cos2_of(l.map_side == 0  ? kWarmEdgesUnmapped

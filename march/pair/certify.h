@@ -76,6 +76,12 @@ static inline double gap(const PairView& pair, const Vec4& n, const Vec4& c, dou
 /// The same between vertices `va` of A and `vb` of B.
 double gap(const PairView& pair, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack = 0);
 
+/// An upper bound on the distance of two bodies by the points where a walk ended, which are `length` apart.
+template <class V>
+static inline double upper_at(const PairView& pair, const NearestOf<V>& seen, double length) {
+  return length * (1 + kNormError) + pair.motion_error + kPointSumError * pair.magnitude + seen.blur;
+}
+
 /// Proves bounds by the tests of a walk's last state alone, and reads nothing else. Returns why they do not tell, or None.
 static inline Doubt certify(const PairView& pair, const NearestOf<Vec4>& seen, ProofOf<Vec4>& proof) {
   Vec4 apart = seen.point_b - seen.point_a;
@@ -87,7 +93,7 @@ static inline Doubt certify(const PairView& pair, const NearestOf<Vec4>& seen, P
   if (!(length > pair.law_two)) return Doubt::Threshold;
   proof.normal = seen.normal * (1 / std::sqrt(square));
   proof.lower = gap(pair, proof.normal, seen.apart, over);
-  proof.upper = max(proof.lower, length * (1 + kNormError) + pair.motion_error + kPointSumError * pair.magnitude + seen.blur);
+  proof.upper = max(proof.lower, upper_at(pair, seen, length));
   if (!(proof.lower > pair.law_two)) return Doubt::Threshold;
   if (!(proof.upper - proof.lower <= pair.law_two)) return Doubt::Width;
   Vec4 aside = apart - proof.normal * length;

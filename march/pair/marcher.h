@@ -93,15 +93,29 @@ struct Rise {
 
 using Ending = NearestOf<Vec4>;
 
+/// Whether features are near enough to end a walk: if `early`, from a squared distance on, else never.
+template <bool early>
+struct Enough {
+  explicit Enough(double of) : distance2(of) {}
+  bool operator()(double other) const { return other <= distance2; }
+  const double distance2;
+};
+template <>
+struct Enough<false> {
+  explicit Enough(double) {}
+  bool operator()(double) const { return false; }
+};
+
 /// All states are one function, which keeps a marcher and its bodies in registers as long as no other knows their addresses:
 /// what is no part of it gets copies, and returns what it found. Vectors here are no constants, which g++ 12 keeps in memory.
-/// `Seen` is NearestOf<Vec4> or <Padded>.
-template <class Seen>
+/// `Seen` is NearestOf<Vec4> or <Padded>. If `early`, vertices and edges near enough end the walk, before anything beside them
+/// is looked at.
+template <class Seen, bool early = false>
 class Marcher {
  public:
-  /// The state that ends the walk in a minimum writes `seen`.
-  Marcher(const PairView& pair, PlaneRule rule, Seen& seen)
-      : pair_(pair), seen_(seen), first_only_(rule == PlaneRule::FirstViolated) {}
+  /// The state that ends the walk in a minimum, or near enough, writes `seen`.
+  Marcher(const PairView& pair, PlaneRule rule, Seen& seen, double enough2 = -1)
+      : pair_(pair), seen_(seen), is_enough_(enough2), first_only_(rule == PlaneRule::FirstViolated) {}
 
   WalkEnd ended() const { return ended_; }
   std::uint32_t plane_tests() const { return plane_tests_; }
@@ -110,6 +124,7 @@ class Marcher {
   Move vertex_vertex(const P& a, std::uint32_t va, const Q& b, std::uint32_t vb) {
     Vec4 p = a.point(va), q = b.point(vb), d = q - p;
     const double length_1 = norm_1(d), distance2 = dot(d, d);
+    if (is_enough_(distance2)) return end_early(a, p, q, 0), Move{vertex(va), vertex(vb), distance2};
     RingScan at_a = ring(a, va, a.into(d), length_1), at_b = ring(b, vb, b.into(-d), length_1);
     if (!at_a.falls() && !at_b.falls()) [[likely]] {
       end(a, {d, d, p, q, 0, at_a.over(), at_b.over(), {va, va, va}, {vb, vb, vb}});
@@ -133,6 +148,10 @@ class Marcher {
     if (ru >= length2) return {vertex(va), vertex(v1), dot(r - u, r - u)};
     Vec4 up = across(r, u, length2);
     const double distance2 = dot(up, up), length_1 = norm_1(up);
+    if (is_enough_(distance2)) {
+      end_early(a, p, q0 + u * (ru / length2), blur_on<Q>(u));
+      return {vertex(va), edge(h), distance2};
+    }
     SideScan at_b = sides(b, v0, h, b.into(up), plane_tests_);
     RingScan at_a = ring(a, va, a.into(-up), length_1);
     if (!at_b.falls() && !at_a.falls()) [[likely]] {
@@ -186,6 +205,10 @@ class Marcher {
     Vec4 p = p0 + u * at.s, q = q0 + v * at.t, d = q - p;
     const double distance2 = dot(d, d);
     plane_tests_ += 4;
+    if (is_enough_(distance2)) {
+      end_early(a, p, q, blur_on<P>(u) + blur_on<Q>(v));
+      return {edge(ha), edge(hb), distance2};
+    }
     const bool end_a = at.ends_first(), end_b = at.ends_second();
     if (end_a || end_b) [[unlikely]] {
       return {end_a ? vertex(at.s == 0 ? a0 : a1) : edge(ha), end_b ? vertex(at.t == 0 ? b0 : b1) : edge(hb), distance2};
@@ -209,14 +232,20 @@ class Marcher {
 
  private:
   /// Ends the walk in a minimum. The first argument is the state's first body; `seen` has the bodies in the state's order.
-  void end(const Resting4&, const Ending& seen) { end(seen); }
-  void end(const Moved4&, const Ending& seen) {
+  void end(const Resting4&, const Ending& seen, WalkEnd as = WalkEnd::Minimum) { end(seen, as); }
+  void end(const Moved4&, const Ending& seen, WalkEnd as = WalkEnd::Minimum) {
     end({-seen.normal, -seen.apart, seen.point_b, seen.point_a, seen.blur, seen.over_b, seen.over_a, seen.corners_b,
-         seen.corners_a});
+         seen.corners_a},
+        as);
   }
-  void end(const Ending& seen) {
+  void end(const Ending& seen, WalkEnd as) {
     store(seen, seen_);
-    ended_ = WalkEnd::Minimum;
+    ended_ = as;
+  }
+  /// Ends the walk at points of its features.
+  template <class P>
+  void end_early(const P& first, const Vec4& p, const Vec4& q, double blur) {
+    end(first, {q - p, q - p, p, q, blur, kUnknown, kUnknown, kNoCorners, kNoCorners}, WalkEnd::Enough);
   }
   Move inside(FeatureId first, FeatureId second, double distance2) {
     ended_ = WalkEnd::Inside;
@@ -543,6 +572,7 @@ class Marcher {
 
   const PairView& pair_;
   Seen& seen_;
+  [[no_unique_address]] const Enough<early> is_enough_;
   const bool first_only_;
   WalkEnd ended_ = WalkEnd::Budget;
   std::uint32_t plane_tests_ = 0;
@@ -555,8 +585,8 @@ class Marcher {
 }
 
 /// Runs the state of a feature pair. A face with an edge or a face is no state: a vertex or an edge of one is as near.
-template <class Seen, class A, class B>
-Move state(Marcher<Seen>& march, const A& a, FeatureId fa, const B& b, FeatureId fb) {
+template <class March, class A, class B>
+Move state(March& march, const A& a, FeatureId fa, const B& b, FeatureId fb) {
   using enum FeatureKind;
   const std::uint32_t i = fa.index(), j = fb.index();
   switch (fa.kind()) {
@@ -571,13 +601,14 @@ Move state(Marcher<Seen>& march, const A& a, FeatureId fa, const B& b, FeatureId
   }
 }
 
-/// As `walk`.
-[[maybe_unused, gnu::noinline, gnu::flatten]] Walk walked(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule,
-                                                          std::uint32_t step_budget) {
+/// As `walk`; only if `early` does `enough2` count.
+template <bool early>
+[[gnu::noinline, gnu::flatten]] Walk walked(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule,
+                                            std::uint32_t step_budget, double enough2 = -1) {
   Walk result;
   if (a.kind() == FeatureKind::Edge && b.kind() == FeatureKind::Face) a = vertex(origin(pair.a, a.index()));
   if (b.kind() == FeatureKind::Edge && a.kind() == FeatureKind::Face) b = vertex(origin(pair.b, b.index()));
-  Marcher march(pair, rule, result.nearest);
+  Marcher<Nearest, early> march(pair, rule, result.nearest, enough2);
   Resting4 resting(pair);
   Moved4 moved(pair);
   double least2 = kUnknown;
@@ -605,7 +636,7 @@ Move state(Marcher<Seen>& march, const A& a, FeatureId fa, const B& b, FeatureId
   const bool moved = move.first != a || move.second != b;
   Walk walk;
   if (ended == WalkEnd::Budget)
-    walk = walked(pair, move.first, move.second, PlaneRule::MostViolated, step_budget - moved);
+    walk = walked<false>(pair, move.first, move.second, PlaneRule::MostViolated, step_budget - moved);
   else
     walk.end = ended, walk.a = move.first, walk.b = move.second;
   walk.steps += moved, walk.plane_tests += plane_tests;

@@ -18,13 +18,14 @@ struct StopRule {
   double least = 0;                   ///< a width that is always allowed
 
   bool is_threshold() const { return above < kInfinity; }
-  bool is_exact() const { return !(absolute > 0 || relative > 0 || is_threshold()); }
+  bool is_loose() const { return absolute > 0 || relative > 0; }
+  bool is_exact() const { return !(is_loose() || is_threshold()); }
   /// The most that bounds may be apart at this `lower`. If it is not above 0, no bounds are narrow.
   double allowed(double lower) const { return max(max(absolute, relative * (lower - zero)) - rounding, least); }
   bool allows(double lower, double width) const { return allowed(lower) > 0 && width <= allowed(lower); }
   bool narrow(double lower, double upper) const { return allows(lower, upper - lower); }
   bool passed(double lower, double upper) const { return lower > above || upper < below; }
-  bool met(double lower, double upper) const { return narrow(lower, upper) || passed(lower, upper); }
+  [[gnu::always_inline]] bool met(double lower, double upper) const { return narrow(lower, upper) || passed(lower, upper); }
 
   /// The same with thresholds that are passed only by more than `margin`.
   StopRule beyond_by(double margin) const {

@@ -19,6 +19,7 @@ enum class WalkEnd : std::uint8_t {
   Minimum,  ///< no Voronoi plane of either feature is violated
   Inside,   ///< a vertex is below a face, or an edge passes through one: overlap, or a start behind the body
   Stalled,  ///< kStallLimit states in a row did not shorten the distance
+  Enough,   ///< the features are as near as was asked
   Budget,
 };
 
@@ -26,13 +27,16 @@ struct Walk {
   WalkEnd end = WalkEnd::Budget;
   FeatureId a, b;  ///< kinds VV, VE, EV, EE, VF, FV; with Inside also EF and FE
   std::uint32_t steps = 0, plane_tests = 0;
-  Nearest nearest;  ///< with Minimum: what the last state knows
+  Nearest nearest;  ///< with Minimum: what the last state knows; with Enough its points and `blur`
 };
 
-SWIFTLET_BOTH_WIDTHS(Walk, walk, const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget);
-/// `a` and `b` name features of the pair's views, not both faces.
-static inline Walk walk(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget) {
-  return SWIFTLET_BY_WIDTH(walk)(pair, a, b, rule, step_budget);
+SWIFTLET_BOTH_WIDTHS(Walk, walk, const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget,
+                     double enough2);
+/// `a` and `b` name features of the pair's views, not both faces. Ends at features whose squared distance is at most `enough2`,
+/// if that is not negative.
+static inline Walk walk(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget,
+                        double enough2 = -1) {
+  return SWIFTLET_BY_WIDTH(walk)(pair, a, b, rule, step_budget, enough2);
 }
 
 }  // namespace swiftlet

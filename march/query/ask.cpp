@@ -16,7 +16,11 @@ void SWIFTLET_OF_WIDTH(ask_models)(const Model& a, const Model& b, const Pose& b
   answer_models(a, b, b_in_a, seed, asked, answer);
 }
 Answer SWIFTLET_OF_WIDTH(ask_distance)(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed) {
-  return recalled_distance(a, b, b_in_a, seed);
+  return recalled_distance(a, b, b_in_a, seed, ExactDistance{});
+}
+Answer SWIFTLET_OF_WIDTH(ask_loosely)(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, double absolute,
+                                      double relative) {
+  return recalled_distance(a, b, b_in_a, seed, LooseDistance{{absolute, relative}});
 }
 [[gnu::flatten]] Answer SWIFTLET_OF_WIDTH(ask_intersection)(const Model& a, const Model& b, const Pose& b_in_a,
                                                             PairSeed& seed) {

@@ -20,6 +20,8 @@ SWIFTLET_BOTH_WIDTHS(void, ask, const Body& a, const Body& b, const Pose& b_in_a
 SWIFTLET_BOTH_WIDTHS(void, ask_models, const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed,
                      const StopRule& asked, Answer& answer);
 SWIFTLET_BOTH_WIDTHS(Answer, ask_distance, const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed);
+SWIFTLET_BOTH_WIDTHS(Answer, ask_loosely, const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, double absolute,
+                     double relative);
 SWIFTLET_BOTH_WIDTHS(Answer, ask_intersection, const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed);
 /// True if both bodies are models without radii: most are. False for a radius of -0, with the same answers.
 static inline bool are_models(const Body& a, const Body& b) {
@@ -28,6 +30,11 @@ static inline bool are_models(const Body& a, const Body& b) {
 /// The exact distance of two models without limits.
 static inline Answer ask_distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed) {
   return SWIFTLET_BY_WIDTH(ask_distance)(a, b, b_in_a, seed);
+}
+/// The same within the error `absolute` or `relative`, of which one is positive.
+static inline Answer ask_loosely(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, double absolute,
+                                 double relative) {
+  return SWIFTLET_BY_WIDTH(ask_loosely)(a, b, b_in_a, seed, absolute, relative);
 }
 /// Whether two models meet, without limits.
 static inline Answer ask_intersection(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed) {

@@ -234,7 +234,8 @@ class Descent {
 
   Walk walk_on(const PairView& pair, const Place& place) {
     const MarchStart from = settled(pair, place.start, answer_.plane_tests);
-    const Walk walked = walk(pair, from.a, from.b, tuning_.plane_rule, std::min(steps_left(), place.trial_steps));
+    const double enough2 = tuning_.careful ? -1 : enough2_of(pair_, place, stop_, answer_.lower);
+    const Walk walked = walk(pair, from.a, from.b, tuning_.plane_rule, std::min(steps_left(), place.trial_steps), enough2);
     answer_.steps += walked.steps;
     answer_.plane_tests += walked.plane_tests;
     return walked;
@@ -245,7 +246,8 @@ class Descent {
   /// may answer, or for a trace.
   bool worth_certifying(const Place& place, const Walk& walked) const {
     const double error = deviation(place.level_a, place.level_b);
-    return walked.end == WalkEnd::Minimum || !trace_.empty() || stop_.allows(0, error) || error < stop_.below;
+    return walked.end == WalkEnd::Minimum || walked.end == WalkEnd::Enough || !trace_.empty() || stop_.allows(0, error) ||
+           error < stop_.below;
   }
 
   /// Bounds on the distance of one level pair, and the normal, points and overlap proof that go with them.
@@ -279,6 +281,11 @@ class Descent {
 
   /// Certifies a walk and takes over the better bounds; the features of `place` become those of the certificate.
   void bound(const PairView& pair, Place& place, Walk& walked) {
+    if (walked.end == WalkEnd::Enough) {
+      const Nearest& at = walked.nearest;
+      const double upper = upper_at(pair, at, norm(at.point_b - at.point_a));
+      return carry(place, {answer_.lower, upper, vec(answer_.normal), at.point_a, at.point_b}, pair.law_two);
+    }
     Proof proof;
     doubt_ = tuning_.careful ? Doubt::Asked : settle(pair, walked, asked_.zero, asked_.above, answer_.plane_tests, proof);
     if (doubt_ == Doubt::None) {

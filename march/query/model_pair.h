@@ -21,7 +21,9 @@ struct PairOf {
       : a(of_a), b(of_b), motion(m), pose_error(error), shift(shift_of(m)), limits(of) {}
 
   /// The greatest width of an exact answer about the exact hulls.
-  double law_two() const { return swiftlet::law_two(a.level(0).view, b.level(0).view, shift, pose_error); }
+  [[gnu::always_inline]] double law_two() const {
+    return swiftlet::law_two(a.level(0).view, b.level(0).view, shift, pose_error);
+  }
   Line line() const {
     const Vec4 in_a = between_centres(a, b, motion);
     Line line;
@@ -29,11 +31,14 @@ struct PairOf {
     return line;
   }
   /// Directions as of `seed`. Always inlined: as `finest_mapped`.
+  [[gnu::always_inline]] Vec4 first_direction(const Line& line, const PairSeed& seed, const SinceStored& since) const {
+    return swiftlet::first_direction(seed, since, a.level(0), b.level(0), motion, line);
+  }
   [[gnu::always_inline]] Vec4 first_direction(const Line& line, const PairSeed& seed) const {
-    return swiftlet::first_direction(seed, a.level(0), b.level(0), motion, line);
+    return first_direction(line, seed, SinceStored(seed, line.in_a));
   }
   [[gnu::always_inline]] Vec4 new_direction(const Line& line, const PairSeed& seed) const {
-    return swiftlet::new_direction(seed, a.level(0), b.level(0), motion, line.in_a);
+    return swiftlet::new_direction(seed, SinceStored(seed, line.in_a), a.level(0), b.level(0), motion, line.in_a);
   }
   /// The finest levels that the query may read.
   int finest_a() const { return finest(a); }
@@ -47,25 +52,26 @@ struct PairOf {
   [[gnu::always_inline]] Place finest_mapped() const {
     return {std::max(a.map_level(), finest_a()), std::max(b.map_level(), finest_b()), {}};
   }
+  [[gnu::always_inline]] bool finest_has_maps() const {
+    return has_maps() && a.map_level() <= finest_a() && b.map_level() <= finest_b();
+  }
   /// The most by which the exact hulls may be farther apart than these levels. A pose that is not exactly orthonormal may
   /// stretch B, and its deviation, by 1.5 times its error and a little of second order.
   double deviation(int level_a, int level_b) const {
     return a.level(level_a).deviation + b.level(level_b).deviation * stretch_of(pose_error);
   }
-  /// An estimate, not a bound, of the error of what the support maps say about the exact hulls: the deviation, and a doubt for
-  /// each map that is proportional to the square of its cells' width.
+  /// An estimate, not a bound, of the error of what the support maps say about the exact hulls.
   double map_error(const Place& place) const {
-    const auto doubt = [](const Level& level) {
-      return kMapDoubt * level.view.extent / double(level.map_side * level.map_side);
-    };
-    return deviation(place.level_a, place.level_b) + doubt(a.level(place.level_a)) + doubt(b.level(place.level_b));
+    return deviation(place.level_a, place.level_b) + a.level(place.level_a).map_doubt + b.level(place.level_b).map_doubt;
   }
   /// About the least error to which anything but a walk on the exact pair bounds the distance.
   double least_error() const {
+    const Place mapped = finest_mapped();
+    if (finest_has_maps()) return map_error(mapped);
     const int coarser_a = std::min(1, a.level_count() - 1), coarser_b = std::min(1, b.level_count() - 1);
     double least = kInfinity;
     if (coarser_a + coarser_b > 0) least = deviation(coarser_a, coarser_b);
-    return has_maps() ? min(least, map_error(finest_mapped())) : least;
+    return has_maps() ? min(least, map_error(mapped)) : least;
   }
   /// True if bodies whose centres are `length` apart are so near, by the balls inside, that the vertices of a sample, which lie
   /// about a quarter of an edge of each body aside of each other, are likely to be more than `allowed` farther apart than the

@@ -193,7 +193,8 @@ class Prefetch {
       const Vec4 in_a = vec4(between(m));
       Line line;
       store(in_a, line.in_a), store(turned_line(in_a, m), line.in_b);
-      look(m, vec(first_direction(q.seed ? *q.seed : PairSeed{}, a_.level(), b_.level(), m, line)));
+      const PairSeed seed = q.seed ? *q.seed : PairSeed{};
+      look(m, vec(first_direction(seed, SinceStored(seed, line.in_a), a_.level(), b_.level(), m, line)));
     }
     if (!has_maps_) return;
     if constexpr (kStep == 3) a_.vertex(), b_.vertex();
@@ -226,7 +227,7 @@ class Prefetch {
       has_maps_ = a_.has_map() && b_.has_map();
       if (!has_maps_) return;
       const Vec line = between(m);
-      look(m, q.seed && knows_direction(*q.seed, line) ? direction(*q.seed) : line);
+      look(m, q.seed && SinceStored(*q.seed, line).serves() ? direction(*q.seed) : line);
     }
     if constexpr (kStep == 4) a_.vertex(), b_.vertex();
   }

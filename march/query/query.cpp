@@ -60,6 +60,15 @@ void ask_on(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, co
   return answer;
 }
 
+/// As `distance`. Most questions that allow an error have no other limit.
+[[gnu::noinline]] Answer distance_within(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed,
+                                         const Options& options) {
+  const bool loose = options.absolute > 0 || options.relative > 0, limited = limits_in(options.budget, options.tuning) != 0;
+  if (loose && !limited && options.beyond == -kNever && are_models(a, b))
+    return ask_loosely(*a.model(), *b.model(), b_in_a, seed, options.absolute, options.relative);
+  return any_distance(a, b, b_in_a, seed, options);
+}
+
 }  // namespace
 
 SourceFeature source_feature(const Body& body, FeatureId feature) {
@@ -87,7 +96,7 @@ Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed
   const std::uint64_t errors = bits(options.absolute) | bits(options.relative) | (bits(options.beyond) ^ bits(-kNever));
   if ((errors | limits_in(options.budget, options.tuning)) == 0 && are_models(a, b))
     return ask_distance(*a.model(), *b.model(), b_in_a, seed);
-  return any_distance(a, b, b_in_a, seed, options);
+  return distance_within(a, b, b_in_a, seed, options);
 }
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, const Options& options) {
   PairSeed cold;

@@ -29,39 +29,48 @@ namespace swiftlet {
 /// Walks within the budget and the trial of `place` from legal features on its level pair.
 template <class Pair>
 [[gnu::always_inline]] static inline Walk walk_from(const Pair& pair, const PairView& view, FeatureId a, FeatureId b,
-                                                    const Place& place, const Answer& answer) {
+                                                    const Place& place, const Answer& answer, double enough2 = -1) {
   const std::uint32_t steps_left = pair.limits.budget.steps - std::min(answer.steps, pair.limits.budget.steps);
-  return walked(view, a, b, pair.limits.tuning.plane_rule, std::min(steps_left, place.trial_steps));
+  const PlaneRule rule = pair.limits.tuning.plane_rule;
+  const std::uint32_t most = std::min(steps_left, place.trial_steps);
+  return enough2 >= 0 ? walked<true>(view, a, b, rule, most, enough2) : walked<false>(view, a, b, rule, most);
 }
 /// Walks on the level pair of `place`, from its features, which a seed may have named. They are read one by one, as they were
 /// stored: a load of both would wait until both stores are done.
 template <class Pair>
-[[gnu::always_inline]] static inline Walk walk_from(const Pair& pair, const PairView& view, const Place& place,
-                                                    Answer& answer) {
+[[gnu::always_inline]] static inline Walk walk_from(const Pair& pair, const PairView& view, const Place& place, Answer& answer,
+                                                    double enough2) {
   FeatureId a = place.start.a, b = place.start.b;
   if (!is_legal_start(view, a, b)) {
     const MarchStart legal = made_legal(view, place.start, answer.plane_tests);
     a = legal.a, b = legal.b;
   }
-  return walk_from(pair, view, a, b, place, answer);
+  return walk_from(pair, view, a, b, place, answer, enough2);
 }
-/// Answers from a walk on the level pair of `place` if the tests that end it prove enough. `place` gets the walk's features.
+/// Answers from a walk on the level pair of `place` if the tests that end it, or `bound` beside features near enough, prove
+/// enough. `place` gets the walk's features.
 template <class Pair>
-[[gnu::always_inline]] static inline bool answers(const Pair& pair, const PairView& view, Walk& walked, const Line& line,
-                                                  const StopRule& asked, bool exact, Turn turn, PairSeed& seed, Place& place,
-                                                  Answer& answer) {
+[[gnu::always_inline]] static inline bool answers(const Pair& pair, const PairView& view, Walk& walked, const LowerBound& bound,
+                                                  const Line& line, const StopRule& asked, bool exact, Turn turn,
+                                                  PairSeed& seed, Place& place, Answer& answer) {
   answer.steps += walked.steps;
   answer.plane_tests += walked.plane_tests;
   place.start = {walked.a, walked.b};
   Proof proof;
-  if (settle(view, walked, asked.zero, asked.above, answer.plane_tests, proof) != Doubt::None) return false;
+  const bool early = asked.is_loose() && walked.end == WalkEnd::Enough;
+  if (early) {
+    const Nearest& at = walked.nearest;
+    proof = {max(0, bound.lower), upper_at(view, at, norm(at.point_b - at.point_a)), bound.normal};
+  } else if (settle(view, walked, asked.zero, asked.above, answer.plane_tests, proof) != Doubt::None) {
+    return false;
+  }
   double upper = proof.upper;
-  if (place.level_a != 0 || place.level_b != 0) {
+  if (early || place.level_a != 0 || place.level_b != 0) {
     upper = (upper + pair.deviation(place.level_a, place.level_b)) * (1 + 2 * kU);
     if (!asked.beyond_by(pair.law_two()).met(proof.lower, upper)) return false;
   }
   answer.status = proof.lower > asked.above ? Status::Beyond : Status::Converged;
-  answer.verdict = Verdict::Disjoint;
+  answer.verdict = proof.lower > 0 ? Verdict::Disjoint : Verdict::Undecided;
   answer.lower = proof.lower;
   answer.upper = upper;
   answer.normal = eigen(proof.normal);
@@ -77,19 +86,14 @@ template <class Pair>
   return true;
 }
 
-/// True if the finest pair has maps.
-template <class Pair>
-static inline bool finest_has_maps(const Pair& pair) {
-  const Place at = pair.finest_mapped();
-  return pair.has_maps() && at.level_a == pair.finest_a() && at.level_b == pair.finest_b();
-}
-/// GJK on the maps of two levels, which deviate by `deviation`, from the direction `first` on, until supports are near. Mostly
-/// the first ones are, and no simplex is made.
+/// GJK on the maps of two levels, which deviate by `deviation`, until supports are near: from the sample `known` on, or, if
+/// that is null, from the direction `first`. Mostly the first ones are, and no simplex is made.
 [[gnu::noinline]] static SupportGjk nearest_on_maps(const PairView& view, const Level& a, const Level& b, double deviation,
-                                                    const Vec4& first) {
-  const AxisSample seen = sample_axis(view, Moved4(view), a, b, first);
+                                                    const AxisSample* known, const Vec4& first) {
+  const AxisSample seen = known ? *known : sample_axis(view, Moved4(view), a, b, first);
   if (are_near(seen, a, b, deviation)) {
     SupportGjk at_once;
+    at_once.most_lower = seen.lower, at_once.lower_along = seen.normal;
     at_once.near = true, at_once.start_a = seen.a, at_once.start_b = seen.b;
     return at_once;
   }
@@ -148,7 +152,8 @@ template <class Pair>
 }
 
 /// Answers, if that suffices, by what needs no features: the balls around and inside the bodies, the vertices that proved an
-/// overlap, one sample of the maps, which `seen` becomes. `line` has its first half, and gets the second if none of these does.
+/// overlap, of verdicts a sample of the maps, which `seen` becomes. `line` has its first half, and gets the second if none of
+/// these does.
 template <class Pair>
 [[gnu::always_inline]] static inline bool answers_at_once(const Pair& pair, const StopRule& asked, bool exact, Line& line,
                                                           PairSeed& seed, AxisSample& seen, Answer& answer,
@@ -162,17 +167,15 @@ template <class Pair>
   const bool samples = !seed.met && pair.limits.trace.empty() && pair.has_maps();
   if (asks && samples && separating_axis(pair, line, asked, seed, seen, answer)) return true;
   store(turned_line(vec4(line.in_a), pair.motion), line.in_b);
-  if (asks || exact || !automatic || !unwatched) return false;
-  if (spheres_suffice(pair, line.in_a, asked, answer)) return true;
-  if (!samples || seed.a.kind() != FeatureKind::None) return false;
-  return sample_suffices(pair, line, asked, seed, seen, answer);
+  return !asks && !exact && automatic && unwatched && spheres_suffice(pair, line.in_a, asked, answer);
 }
 
-/// Answers from `place` on. `known` is the walk from its features, if that is not null.
+/// Answers from `place` on. `known` is the walk from its features, if that is not null. `seen` is a sample of the pair's maps,
+/// if it has a direction, on the level pair where GJK on maps begins, and `bound` what samples have proved.
 template <class Pair>
 [[gnu::always_inline]] static inline void answer_from(const Pair& pair, const StopRule& asked, bool exact, const Line& line,
-                                                      const AxisSample& seen, Turn turn, Place place, const Walk* known,
-                                                      PairSeed& seed, Answer& answer, OverlapProof& proof) {
+                                                      const AxisSample& seen, LowerBound& bound, Turn turn, Place place,
+                                                      const Walk* known, PairSeed& seed, Answer& answer, OverlapProof& proof) {
   const Tuning& tuning = pair.limits.tuning;
   const auto descends = [&](Place from, const SupportGjk* on_maps, const Walk* walk) {
     answer.normal.setZero();
@@ -183,22 +186,27 @@ template <class Pair>
   const bool walks = !tuning.careful && tuning.start != StartPolicy::Coarsest;
   if (walks && place.start.a.kind() != FeatureKind::None) {
     const PairView view = pair.view_at(place);
-    Walk walked = known ? *known : walk_from(pair, view, place, answer);
-    if (answers(pair, view, walked, line, asked, exact, turn, seed, place, answer)) return;
+    const double enough2 = enough2_of(pair, place, asked, bound.lower);
+    Walk walked = known ? *known : walk_from(pair, view, place, answer, enough2);
+    if (answers(pair, view, walked, bound, line, asked, exact, turn, seed, place, answer)) return;
     const bool lost = walked.end == WalkEnd::Budget && answer.steps < pair.limits.budget.steps;
     if (!lost) return descends(place, nullptr, &walked);
     place = coarsest_place(pair.a, pair.b);
   }
-  if (!walks || place.start.a.kind() != FeatureKind::None || !exact || !finest_has_maps(pair))
+  if (!walks || place.start.a.kind() != FeatureKind::None || !(exact || bound.is_known()) || !pair.finest_has_maps())
     return descends(place, nullptr, nullptr);
   place = pair.finest_mapped();
   const PairView view = pair.view_at(place);
+  const bool sampled = bound.is_known() && max_abs(seen.normal) > 0;
   const SupportGjk found = nearest_on_maps(view, pair.a.level(place.level_a), pair.b.level(place.level_b),
-                                           pair.deviation(place.level_a, place.level_b), pair.first_direction(line, seed));
+                                           pair.deviation(place.level_a, place.level_b), sampled ? &seen : nullptr,
+                                           sampled ? vec4(seen.normal) : pair.first_direction(line, seed));
   place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
   if (found.simplex.count() == 4) return descends(place, &found, nullptr);
-  Walk walked = walk_from(pair, view, place.start.a, place.start.b, place, answer);
-  if (answers(pair, view, walked, line, asked, exact, Turn::Some, seed, place, answer)) return;
+  if (!(found.most_lower < bound.lower)) bound = {found.most_lower, found.lower_along};
+  const double enough2 = enough2_of(pair, place, asked, bound.lower);
+  Walk walked = walk_from(pair, view, place.start.a, place.start.b, place, answer, enough2);
+  if (answers(pair, view, walked, bound, line, asked, exact, Turn::Some, seed, place, answer)) return;
   descends(place, &found, &walked);
 }
 
@@ -216,7 +224,12 @@ template <class Pair>
   const Warm warm = asked.is_threshold() ? Warm::TwiceAsFar : Warm::Near;
   const Place place =
       first_place(pair.a, pair.b, line, seed, pair.finest_a(), pair.finest_b(), pair.limits.tuning.start, warm, turn);
-  answer_from(pair, asked, exact, line, seen, turn, place, nullptr, seed, answer, proof);
+  const Tuning& tuning = pair.limits.tuning;
+  LowerBound bound;
+  const bool samples = asked.is_loose() && !asked.is_threshold() && !exact && place.start.a.kind() == FeatureKind::None &&
+                       !seed.met && pair.has_maps() && pair.limits.trace.empty() && !tuning.proof && !tuning.careful;
+  if (samples && samples_suffice(pair, line, asked, seed, seen, bound, answer)) return;
+  answer_from(pair, asked, exact, line, seen, bound, turn, place, nullptr, seed, answer, proof);
 }
 
 /// As `ask`.
@@ -242,6 +255,11 @@ template <class Pair>
 namespace {
 struct ExactDistance {
   static constexpr StopRule asked{};
+  static constexpr bool is_loose = false;
+};
+struct LooseDistance {
+  StopRule asked;
+  static constexpr bool is_loose = true;
 };
 struct Intersection {
   static constexpr StopRule asked{0, 0, 0, 0};
@@ -265,47 +283,77 @@ template <class Question>
 }
 
 /// As `recalled_distance`, whatever the pose and the seed are.
-[[gnu::noinline]] static Answer distance_anew(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed) {
+template <class Question>
+[[gnu::noinline]] static Answer distance_anew(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed,
+                                              const Question& question) {
   Answer answer;
-  answer_question(a, b, b_in_a, seed, ExactDistance{}, answer);
+  answer_question(a, b, b_in_a, seed, question, answer);
   return answer;
 }
-/// The same from the end of `known` on, a walk on levels 0, or cold if that is null.
+/// The same from the end of `known` on, a walk on the level pair of `place`, or cold if that is null.
+template <class Question>
 [[gnu::noinline, gnu::flatten]] static Answer distance_from(const Model& a, const Model& b, const Motion& m, double pose_error,
-                                                            const Line& line, Turn turn, const Walk* known, PairSeed& seed) {
+                                                            const Line& line, Turn turn, Place place, const Walk* known,
+                                                            PairSeed& seed, const Question& question) {
   const PlainPair pair(Shape(a), Shape(b), m, pose_error, NoLimits{});
   Answer answer;
   OverlapProof proof;
   AxisSample seen;
   seen.normal = {0, 0, 0};
-  const Place place = known ? Place{0, 0, {known->a, known->b}} : coarsest_place(pair.a, pair.b);
-  answer_from(pair, ExactDistance::asked, true, line, seen, turn, place, known, seed, answer, proof);
+  place = known ? Place{place.level_a, place.level_b, {known->a, known->b}} : coarsest_place(pair.a, pair.b);
+  const bool exact = !Question::is_loose || is_exact(pair, line.in_a, question.asked);
+  LowerBound bound;
+  const bool at_once = !exact && !known &&
+                       (spheres_suffice(pair, line.in_a, question.asked, answer) ||
+                        (pair.has_maps() && samples_suffice(pair, line, question.asked, seed, seen, bound, answer)));
+  if (!at_once) answer_from(pair, question.asked, exact, line, seen, bound, turn, place, known, seed, answer, proof);
   seal({0, 0}, proof, NoLimits::tuning, answer);
   return answer;
 }
+/// Answers a loose question by a sample, if that suffices, and is likely to for `stricter`.
+[[gnu::noinline, gnu::flatten]] static bool sampled_distance(const Model& a, const Model& b, const Motion& m, double pose_error,
+                                                             const Line& line, PairSeed& seed, const StopRule& asked,
+                                                             const StopRule& stricter, Answer& answer) {
+  const PlainPair pair(Shape(a), Shape(b), m, pose_error, NoLimits{});
+  if (!pair.has_maps() || is_exact(pair, line.in_a, stricter)) return false;
+  AxisSample seen;
+  LowerBound bound;
+  if (!samples_suffice(pair, line, asked, seed, seen, bound, answer)) return false;
+  seal({0, 0}, OverlapProof(), NoLimits::tuning, answer);
+  return true;
+}
 
-/// As `ask_distance`. Mostly the seed's features are the nearest ones still, on levels 0: their state is then the whole walk
-/// and its tests the proof, and what this function holds stays in registers. Whatever else may follow gets copies: a vector or
-/// a view whose address another function knows would be kept in memory here, too.
-[[gnu::flatten]] static Answer recalled_distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed) {
+/// As `ask_distance`. Mostly the seed's features are the nearest ones still: their state is then the whole walk and its tests
+/// the proof, and what this function holds stays in registers. Whatever else may follow gets copies: a vector or a view whose
+/// address another function knows would be kept in memory here, too.
+template <class Question>
+[[gnu::flatten]] static Answer recalled_distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed,
+                                                 const Question& question) {
   const Motion m = motion(b_in_a);
   PoseQuality quality = pose_quality(m);
   FeatureId fa = seed.a, fb = seed.b;
-  const bool other = (seed.level_a | seed.level_b | seed.met | a.finest_level() | b.finest_level()) != 0;
-  if (!quality.legal || other || !is_state(fa, fb)) return distance_anew(a, b, b_in_a, seed);
+  const bool other = (seed.met |
+                      (Question::is_loose ? seed.level_a >= a.level_count() || seed.level_b >= b.level_count()
+                                          : (seed.level_a | seed.level_b) != 0) |
+                      a.finest_level() | b.finest_level()) != 0;
+  if (!quality.legal || other || !is_state(fa, fb)) return distance_anew(a, b, b_in_a, seed, question);
 
-  const Level &level_a = a.level(0), &level_b = b.level(0);
+  const int on_a = Question::is_loose ? seed.level_a : 0, on_b = Question::is_loose ? seed.level_b : 0;
+  const Level &level_a = a.level(on_a), &level_b = b.level(on_b);
   Vec4 in_a = between_centres(Shape(a), Shape(b), m), in_b = turned_line(in_a, m);
+  const auto line = [&] {
+    Line stored;
+    store(in_a, stored.in_a), store(in_b, stored.in_b);
+    return stored;
+  };
   const auto go_on = [&](Turn turn, const Walk* known) {
-    Line line;
-    store(in_a, line.in_a), store(in_b, line.in_b);
-    return distance_from(a, b, m, quality.error, line, turn, known, seed);
+    return distance_from(a, b, m, quality.error, line(), turn, {on_a, on_b, {}}, known, seed, question);
   };
   if (!names_feature(level_a.view, fa) || !names_feature(level_b.view, fb)) {
     const bool cold = fa.kind() == FeatureKind::None;
-    return cold ? go_on(Turn::Some, nullptr) : distance_anew(a, b, b_in_a, seed);
+    return cold ? go_on(Turn::Some, nullptr) : distance_anew(a, b, b_in_a, seed, question);
   }
-  const bool has_choice = has_other_start(Shape(a), Shape(b), 0, 0);
+  const bool has_choice = has_other_start(Shape(a), Shape(b), on_a, on_b);
   const Turn turn = has_choice ? turn_of(in_a, in_b, seed, level_a, level_b, Warm::Near) : Turn::Some;
   if (turn == Turn::Far) return go_on(turn, nullptr);
 
@@ -315,6 +363,17 @@ template <class Question>
   const Move move = state(march, Resting4(view), fa, Moved4(view), fb);
   std::uint32_t steps = 0, plane_tests = march.plane_tests();
   if (march.ended() != WalkEnd::Minimum) [[unlikely]] {
+    if constexpr (Question::is_loose) {
+      // Half as much is left to a sample as to a cold start, as a walk of a few states is the alternative.
+      const StopRule half{question.asked.absolute / 2, question.asked.relative / 2};
+      const double doubt = a.level(0).map_doubt + b.level(0).map_doubt;
+      Answer answer;
+      if (half.allows(norm(in_a), doubt) &&
+          sampled_distance(a, b, m, quality.error, line(), seed, question.asked, half, answer)) {
+        answer.plane_tests = plane_tests;
+        return answer;
+      }
+    }
     const PairView same = view;
     const Walk walk = walked_on(same, fa, fb, move, march.ended(), plane_tests, has_choice ? kTrialSteps : ~0u);
     if (walk.end != WalkEnd::Minimum) return go_on(turn, &walk);
@@ -323,10 +382,16 @@ template <class Question>
   }
   ProofOf<Vec4> proof;
   // Where this proves bounds, `lower` is farther from 0 than they are from each other: no verdict is in doubt.
-  if (certify(view, seen, proof) != Doubt::None) [[unlikely]] {
+  bool is_proved = certify(view, seen, proof) == Doubt::None;
+  if constexpr (Question::is_loose) {
+    const double error = level_a.deviation + level_b.deviation * stretch_of(quality.error);
+    if (error > 0) proof.upper = (proof.upper + error) * (1 + 2 * kU);
+    is_proved = is_proved && (error == 0 || question.asked.narrow(proof.lower, proof.upper));
+  }
+  if (!is_proved) [[unlikely]] {
     // The last state once more, so that not all of it is kept.
     const PairView same = view;
-    Walk walk = walked(same, fa, fb, PlaneRule::MostViolated, 1);
+    Walk walk = walked<false>(same, fa, fb, PlaneRule::MostViolated, 1);
     walk.steps = steps, walk.plane_tests = plane_tests;
     return go_on(turn, &walk);
   }
@@ -335,6 +400,8 @@ template <class Question>
   return {.status = Status::Converged,
           .verdict = Verdict::Disjoint,
           .levels_visited = 1,
+          .level_a = std::int16_t(on_a),
+          .level_b = std::int16_t(on_b),
           .feature_a = fa,
           .feature_b = fb,
           .steps = steps,

@@ -126,28 +126,38 @@ static inline void remember(const Line& line, const Padded& normal, PairSeed& se
 static inline Vec direction(const PairSeed& seed) {
   return {double(seed.normal[0]), double(seed.normal[1]), double(seed.normal[2])};
 }
-/// True if `seed` has a direction and the line of centres has turned by less than the angle of `cosine` since.
-static inline bool knows_direction(const PairSeed& seed, const Vec& line, double cosine = kSameLine) {
-  if ((seed.normal[0] | seed.normal[1] | seed.normal[2]) == 0) return false;
-  const Vec4 was = vec4(seed.line_in_a.data()), now = vec4(line);
-  const double along = dot(now, was);
-  return along > 0 && along * along > cosine * cosine * dot(now, now) * dot(was, was);
-}
+/// How far the line of centres has turned since a seed's direction was stored. Always inlined, as `PairOf::finest_mapped`.
+class SinceStored {
+ public:
+  [[gnu::always_inline]] SinceStored(const PairSeed& seed, const Vec& line) {
+    if ((seed.normal[0] | seed.normal[1] | seed.normal[2]) == 0) return;
+    const Vec4 was = vec4(seed.line_in_a.data()), now = vec4(line);
+    along_ = dot(now, was);
+    whole2_ = dot(now, now) * dot(was, was);
+  }
+  /// By less than the angle of `cosine`. False if the seed has no direction.
+  [[gnu::always_inline]] bool within(double cosine) const { return along_ > 0 && along_ * along_ > cosine * cosine * whole2_; }
+  [[gnu::always_inline]] bool serves() const { return within(kSameLine); }
+
+ private:
+  double along_ = -1, whole2_ = 0;
+};
 /// About the direction of the distance, at any length: the one stored in `seed`, turned with the line of centres, or, where it
 /// is unknown or old, the one between ellipsoids, found from the stored one or, where that is older, from the line. Takes the
 /// bodies' levels 0.
-static inline Vec4 new_direction(const PairSeed& seed, const Level& a, const Level& b, const Motion& b_in_a, const Vec& line) {
+static inline Vec4 new_direction(const PairSeed& seed, const SinceStored& since, const Level& a, const Level& b,
+                                 const Motion& b_in_a, const Vec& line) {
   const Vec4 stored = vec4(seed.normal.data()), now = vec4(line);
-  if (!knows_direction(seed, line, a.is_round && b.is_round ? kSameLine : kTurnedLine))
-    return between_ellipsoids(a, b, b_in_a, now, knows_direction(seed, line, kNearLine) ? stored : now);
+  if (!since.within(a.is_round && b.is_round ? kSameLine : kTurnedLine))
+    return between_ellipsoids(a, b, b_in_a, now, since.within(kNearLine) ? stored : now);
   constexpr double kOne = 1 / kLineUnit;
   return turned_with_line(a, b, b_in_a, now, vec4(seed.line_in_a.data()) * kOne, stored * kOne);
 }
 /// That along which a cold start samples first: the one stored in `seed` while its features would serve, else a new one.
-static inline Vec4 first_direction(const PairSeed& seed, const Level& a, const Level& b, const Motion& b_in_a,
-                                   const Line& line) {
-  const bool serves = knows_direction(seed, line.in_a) && turn_of(line, seed, a, b, Warm::Near) != Turn::Far;
-  return serves ? vec4(seed.normal.data()) : new_direction(seed, a, b, b_in_a, line.in_a);
+static inline Vec4 first_direction(const PairSeed& seed, const SinceStored& since, const Level& a, const Level& b,
+                                   const Motion& b_in_a, const Line& line) {
+  const bool serves = since.serves() && turn_of(line, seed, a, b, Warm::Near) != Turn::Far;
+  return serves ? vec4(seed.normal.data()) : new_direction(seed, since, a, b, b_in_a, line.in_a);
 }
 
 /// The feature that stands for `feature` of `level` one level finer (`child`) or coarser (`parent`).

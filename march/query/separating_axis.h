@@ -24,15 +24,18 @@ template <class Pair>
   return place;
 }
 
-/// Fills `answer` with what a sample of the level pair `at` bounds the distance by, except for the status.
+/// An upper bound on the distance by the vertices of a sample of the level pair `at`.
 template <class Pair>
-static inline void take_sample(const Pair& pair, const PairView& view, const Place& at, const AxisSample& seen,
-                               Answer& answer) {
+static inline double upper_of(const Pair& pair, const PairView& view, const Place& at, const AxisSample& seen) {
   const double error = pair.deviation(at.level_a, at.level_b),
                upper = norm(vec4(seen.apart)) * (1 + kNormError) + view.point_error();
+  return max(max(0, seen.lower), error > 0 ? (upper + error) * (1 + 2 * kU) : upper);
+}
+/// Fills `answer` with what a sample of the level pair `at` bounds the distance by, except for the status.
+static inline void take_sample(const Place& at, const AxisSample& seen, double upper, Answer& answer) {
   answer.verdict = seen.lower > 0 ? Verdict::Disjoint : Verdict::Undecided;
   answer.lower = max(0, seen.lower);
-  answer.upper = max(answer.lower, error > 0 ? (upper + error) * (1 + 2 * kU) : upper);
+  answer.upper = upper;
   answer.normal = eigen(seen.normal);
   answer.point_a = eigen(seen.point);
   answer.point_b = eigen(seen.point + seen.apart);
@@ -70,7 +73,7 @@ static inline bool separating_axis(const Pair& pair, Line& line, const StopRule&
   const Place at = pair.finest_mapped();
   const double least = max(asked.above, 0) + pair.law_two();
   const PairView view = pair.view_at(at);
-  const bool knows = knows_direction(seed, line.in_a);
+  const bool knows = SinceStored(seed, line.in_a).serves();
   seen = sample_axis(view, pair.a.level(at.level_a), pair.b.level(at.level_b), knows ? direction(seed) : Vec(line.in_a));
   bool clears = seen.lower > least;
   if (!clears) {
@@ -79,27 +82,44 @@ static inline bool separating_axis(const Pair& pair, Line& line, const StopRule&
     });
   }
   if (!clears) return false;
-  take_sample(pair, view, at, seen, answer);
+  take_sample(at, seen, upper_of(pair, view, at, seen), answer);
   answer.status = Status::Beyond;
   return true;
 }
 
-/// Fills `answer` and returns true if one sample bounds the distance as narrowly as asked. It is along the pair's first
-/// direction, which the seed then keeps, if that is new, in place of features: vertices that only maps name are no better start
-/// than none. `seen` becomes the sample, on the level pair where GJK on maps would begin.
+/// A bound proved by a sample of maps, and its direction.
+struct LowerBound {
+  double lower = -kInfinity;
+  Vec normal{0, 0, 0};
+  bool is_known() const { return lower > -kInfinity; }
+};
+
+/// Samples along the pair's first direction the coarsest level pair whose maps are likely to be precise enough, then, if a walk
+/// on the finest pair may follow, that. Fills `answer` and returns true if one bounds the distance as narrowly as asked; the
+/// seed then keeps the direction, if that is new, in place of features: vertices that only maps name are no better start than
+/// none. `seen` becomes the last sample, and `bound` what it proves.
 template <class Pair>
-[[gnu::always_inline]] static inline bool sample_suffices(const Pair& pair, const Line& line, const StopRule& asked,
-                                                          PairSeed& seed, AxisSample& seen, Answer& answer) {
-  const Place at = mapped_for(pair, asked, norm(line.in_a));
-  const PairView view = pair.view_at(at);
-  seen = sample_axis(view, pair.a.level(at.level_a), pair.b.level(at.level_b), vec(pair.first_direction(line, seed)));
-  Answer found;
-  take_sample(pair, view, at, seen, found);
-  if (!asked.narrow(found.lower, found.upper)) return false;
-  answer = found;
-  answer.status = Status::Converged;
-  if (!knows_direction(seed, line.in_a)) remember(line, seen.normal, seed);
-  return true;
+[[gnu::always_inline]] static inline bool samples_suffice(const Pair& pair, const Line& line, const StopRule& asked,
+                                                          PairSeed& seed, AxisSample& seen, LowerBound& bound, Answer& answer) {
+  const SinceStored since(seed, line.in_a);
+  const Place least = pair.finest_mapped();
+  Place at = mapped_for(pair, asked, norm(line.in_a));
+  Vec4 along = pair.first_direction(line, seed, since);
+  for (;;) {
+    const PairView view = pair.view_at(at);
+    seen = sample_axis(view, Moved4(view), pair.a.level(at.level_a), pair.b.level(at.level_b), along);
+    const double upper = upper_of(pair, view, at, seen);
+    if (asked.narrow(max(0, seen.lower), upper)) {
+      take_sample(at, seen, upper, answer);
+      answer.status = Status::Converged;
+      if (!since.serves()) remember(line, seen.normal, seed);
+      seed.a = seed.b = {};
+      return true;
+    }
+    bound = {seen.lower, seen.normal};
+    if (!pair.finest_has_maps() || (at.level_a == least.level_a && at.level_b == least.level_b)) return false;
+    at = least, along = vec4(seen.normal);
+  }
 }
 
 }  // namespace swiftlet

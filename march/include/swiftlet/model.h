@@ -143,6 +143,7 @@ struct Level {
   bool is_round = true;                         ///< `map_frame` is about a multiple of the identity
   /// The rows of an upper triangular matrix M, from the diagonal on: `support_map` is looked up along M n.
   std::array<double, 6> map_frame{1, 0, 0, 1, 0, 1};
+  double map_doubt = 0;                 ///< about the mean error of a look-up in `support_map`, a length
   double edge_length = 0;               ///< mean length of the level's edges, diagonals included
   double same_cos2 = 0, near_cos2 = 0;  ///< squared cosines of the turns after which a seed's features are stored again, and
                                         ///< after which they are worse than a cold start; 0: never
