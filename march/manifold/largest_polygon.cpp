@@ -51,7 +51,7 @@ class Hull {
       const double area = std::fabs(twice_area((*this)[i], (*this)[i + 1 < size_ ? i + 1 : 0], first));
       if (area < least) least = area, side = i;
     }
-    std::rotate(corner_.begin(), corner_.begin() + side + 1, corner_.begin() + size_);
+    begin_at(side + 1);
     std::copy_backward(corner_.begin(), corner_.begin() + size_, corner_.begin() + size_ + 1);
     corner_[0] = Index(first), ++size_;
     measure();
@@ -106,9 +106,16 @@ class Hull {
       if (length2 > most) most = length2, farthest = i;
     }
     has_first_ = least <= bound * bound;
-    const auto begin = corner_.begin() + (has_first_ ? nearest : farthest);
-    if (has_first_) *begin = Index(first);
-    std::rotate(corner_.begin(), begin, corner_.begin() + size_);
+    begin_at(has_first_ ? nearest : farthest);
+    if (has_first_) corner_[0] = Index(first);
+  }
+  /// Of std::rotate in place g++ 12 warns that it may write beyond the array.
+  void begin_at(int corner) {
+    const auto old = corner_;
+    for (int i = 0, from = corner; i < size_; ++i, ++from) {
+      if (from >= size_) from = 0;
+      corner_[std::size_t(i)] = old[std::size_t(from)];
+    }
   }
   /// The order of x, then y; of equal places the first candidate is before.
   bool is_before(int i, int j) const {
