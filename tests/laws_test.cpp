@@ -1114,7 +1114,7 @@ TEST(Law10NearContact, FromNothingALooserToleranceNeverCostsMore) {
   EXPECT_GT(near, 600);
 }
 
-/// A cold loose distance may end at the first features near enough for a sample's bound. All kinds of features end some.
+/// A cold loose distance may end at the first features near enough for a sample's bound: edges, or a vertex and an edge.
 TEST(Law10EarlyEnd, LooseColdDistancesEndBeforeTheNearestFeatures) {
   shapes::Random random(91);
   int early = 0, longer = 0, kinds[3][3] = {};

@@ -145,7 +145,7 @@ Check Checked::hulls_overlap(const OverlapProof* proof) const {
   const DoubleDouble depth = least_depth();
   const double doubt = kHeightError * magnitude;
   if (double(depth) < -doubt) return failed("overlap of hulls that a plane separates");
-  const bool is_deep = depth.high<kInfinity&& double(depth)> doubt;
+  const bool is_deep = double(depth) > doubt && depth.high != kInfinity;
   return is_deep || is_near(touching) ? kPassed : failed("overlap that nothing proves");
 }
 

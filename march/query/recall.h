@@ -26,10 +26,10 @@
 
 namespace swiftlet {
 
-/// Walks within the budget and the trial of `place` from legal features on its level pair.
+/// Walks within the budget and the trial of `place` from legal features on its level pair; `enough2` as of `walk`.
 template <class Pair>
 [[gnu::always_inline]] static inline Walk walk_from(const Pair& pair, const PairView& view, FeatureId a, FeatureId b,
-                                                    const Place& place, const Answer& answer, double enough2 = -1) {
+                                                    const Place& place, const Answer& answer, double enough2) {
   const std::uint32_t steps_left = pair.limits.budget.steps - std::min(answer.steps, pair.limits.budget.steps);
   const PlaneRule rule = pair.limits.tuning.plane_rule;
   const std::uint32_t most = std::min(steps_left, place.trial_steps);
