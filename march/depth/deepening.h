@@ -201,6 +201,8 @@ class Deepening {
     if (far)
       from = {{FeatureKind::Vertex, about_farthest(a_, place_.level_a, n)},
               {FeatureKind::Vertex, about_farthest(b_, place_.level_b, other.into(-n))}};
+    else
+      from = settled(pair, from, plane_tests);
     for (int round = 0; round < kSlides; ++round) {
       std::uint32_t va = any_vertex(pair.a, from.a), vb = any_vertex(pair.b, from.b);
       if (climbs) va = ascend(pair.a, n, va, plane_tests), vb = ascend(pair.b, other.into(-n), vb, plane_tests);
@@ -221,7 +223,6 @@ class Deepening {
         n = seen.seen.normal;
         if (turns) continue;
       }
-      from = settled(apart, from, plane_tests);
       Walk w = walk(apart, from.a, from.b, PlaneRule::MostViolated, budget_.steps - std::min(steps, budget_.steps));
       steps += w.steps, plane_tests += w.plane_tests;
       if (w.end != WalkEnd::Minimum) {
@@ -242,15 +243,14 @@ class Deepening {
       climbs = far || is_facet;
       n = next;
     }
-    at = start_at(pair, settled(pair, from, plane_tests), n);
+    at = start_at(pair, from, n);
     return false;
   }
 
   /// The depth of one level pair: proved at the local minimum near the seed's features, else found by EPA, which costs more.
   Depth depth_of(const PairView& pair, const Level& of_a, const Level& of_b, const PairSeed& seed, const Vec& direction,
                  DepthGoal goal) {
-    const bool fits = turn_ != Turn::Far && seed.level_a == place_.level_a && seed.level_b == place_.level_b &&
-                      names_feature(pair.a, seed.a) && names_feature(pair.b, seed.b);
+    const bool fits = turn_ != Turn::Far && seed.level_a == place_.level_a && seed.level_b == place_.level_b;
     Depth found;
     DepthStart at;
     at.direction = direction;

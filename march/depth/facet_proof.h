@@ -23,10 +23,12 @@ struct Ceiling {
   /// An upper bound on the height along `n`, the unit normal of `seen`; infinite if the walk does not tell, as where it ended
   /// nearer than law 2's bound.
   double height(const Vec& n) const {
-    const Vec apart = seen.point_b - seen.point_a;
+    const Vec4 apart = vec4(seen.point_b) - vec4(seen.point_a), from = vec4(seen.apart), by = vec4(way);
     const double over = seen.over_a + seen.over_b;
     const bool tells = over <= moved.law_two && dot(apart, apart) > moved.law_two * moved.law_two;
-    return tells ? -gap(moved, vec4(n), vec4(seen.apart - way), over + kPointSumError * moved.magnitude) : kInfinity;
+    // What rounds the two vectors is not in the gap of their difference.
+    const double rounding = kU * sum(abs(from) + abs(by));
+    return tells ? -gap(moved, vec4(n), from - by, over + rounding) : kInfinity;
   }
 };
 

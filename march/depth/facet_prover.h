@@ -49,14 +49,16 @@ class FacetProof {
         sides_(std::size_t(start.count)),
         rim_(pair, lanes(start.a), lanes(start.b)),
         normal_(start.direction) {
-    const Vec4 height = dot(repeated(normal_), rim_.p);
-    height_ = least(height);
+    const V3<Vec4>&p = rim_.p, n = repeated(normal_);
+    const Vec4 x = n.x * p.x, y = n.y * p.y, z = n.z * p.z, height = x + y + z;
+    height_ = least(height), height_error_ = kGapError * greatest(abs(x) + abs(y) + abs(z));
     flat_ = greatest(height) - height_ <= pair.law_two / 8;
   }
 
   const Vec& normal() const { return normal_; }
-  double height() const { return height_; }                       ///< of the polygon's lowest corner along the normal
-  double lower() const { return height_ - pair_.point_error(); }  ///< `height()` less the rounding bound
+  double height() const { return height_; }  ///< of the polygon's lowest corner along the normal
+  /// `height()` less what bounds its rounding, as that of a `gap`.
+  double lower() const { return height_ - (height_error_ + pair_.motion_error); }
 
   /// Finds the point of the polygon over the origin and returns its distance from `normal()` * `height()`; infinite if there is
   /// none. Within law 2's bound, the point's vertex pairs, weights and witness points are written to `depth`.
@@ -190,10 +192,13 @@ class FacetProof {
   /// True if the origin is surely below a triangle that is as high as the polygon; `height()` becomes that of the lowest
   /// corner.
   bool is_beside(const Triangle& of) {
-    double low = height_;
-    for (const std::uint8_t k : of.corner) low = min(low, dot(normal_, p_[k]));
+    double low = height_, error = height_error_;
+    for (const std::uint8_t k : of.corner) {
+      const Vec products{normal_.x * p_[k].x, normal_.y * p_[k].y, normal_.z * p_[k].z};
+      low = min(low, products.x + products.y + products.z), error = max(error, kGapError * norm_1(products));
+    }
     const bool is = of.distance > 0 && height_ - low <= pair_.law_two / 8;
-    if (is) height_ = low;
+    if (is) height_ = low, height_error_ = error;
     return is;
   }
 
@@ -241,7 +246,7 @@ class FacetProof {
   const std::size_t sides_;  ///< the number of the polygon's corners
   const Differences rim_;    ///< these corners
   std::size_t points_, triangles_;
-  double height_;
+  double height_, height_error_;
   bool flat_, turned_;  ///< `turned_`: clockwise seen from where the normal points
   Vec normal_;
   std::array<Vec, kFacetPoints> p_;  ///< the polygon's corners first, then the tip
@@ -259,11 +264,15 @@ class FacetProof {
   if (!(off <= pair.law_two)) return false;
   double upper = ceiling.height(n);
   const auto is_close = [&] { return goal.narrow(facet.lower(), upper) && off + (upper - facet.height()) <= pair.law_two; };
-  if (!is_close() && tighten(ceiling.moved, ceiling.seen, plane_tests)) upper = ceiling.height(n);
-  if (!is_close()) ++depth.steps, upper = -supports(pair, n, start.a[0], start.b[0], plane_tests).lower;
-  if (!is_close()) return false;
+  bool close = is_close();
+  while (!close && tighten(ceiling.moved, ceiling.seen, plane_tests)) upper = ceiling.height(n), close = is_close();
+  if (!close) {
+    ++depth.steps, upper = -supports(pair, n, start.a[0], start.b[0], plane_tests).lower;
+    if (!is_close()) return false;
+  }
   depth.upper = upper;
-  if (!facet.closes(depth.normal) || !is_close()) return false;
+  const double height = facet.height();
+  if (!facet.closes(depth.normal) || (facet.height() < height && !is_close())) return false;
   const double lower = facet.lower();
   depth.end = goal.passed(lower, upper) || !goal.hopeless(lower, upper) ? DepthEnd::Converged : DepthEnd::NotConverged;
   depth.lower = lower;

@@ -138,6 +138,12 @@ inline constexpr double kSlimArea = 0x1p-20;
 /// Bounds the error of u x v for computed u and v, relative to |u| |v|: 1 product and 1 difference, 2 u in each coordinate of
 /// terms that make at most 1.2 |u| |v|, and 1 u of the result. Rounded up.
 inline constexpr double kFlatError = 4 * kU;
+/// A normal n = u x v whose tilt, `kFlatError` over the sine of u and v, is between these is righted: what it has of their
+/// plane is taken away. The products of n with both vectors have 3 u, two differences 1 u each: 5 u, within `kAcrossError`.
+/// What is taken along either vector is at most twice the tilt over the square of the sine, 2^-20 of n, and its roundings count
+/// as little. Together they turn n by at most 2.5 times the tilt: once for its error, and by both 3 u over the sine.
+inline constexpr double kLeastTilt = 12 * kU, kMostTilt = kFlatError * 0x1p10;
+inline constexpr double kRightedTurn = 3;  ///< bounds that turn, and what the righted normal misses by itself, in tilts
 /// Bounds how far u x (w x u) / u . u is from a right angle to u, as a sine: u is the computed vector of an edge, and w leads
 /// from one of its points to one at least law 2's bound away from its line. Both products have 3.4 u as above. What the inner
 /// one errs by along u is at most 3.4 u of 2 sqrt(3) extents, over a distance of 64 u of them: the outer one's factors make an

@@ -287,6 +287,11 @@ static inline Vec4 all_greatest(const Vec4& a) {
 #endif
 }
 
+/// Two dot products of vectors.
+static inline Vec2 dots(const Vec4& a, const Vec4& b, const Vec4& c, const Vec4& d) {
+  const Vec4 p = a * b, q = c * d, x_z = even(p, q);
+  return low(x_z) + low(odd(p, q)) + high(x_z);
+}
 /// Four dot products of vectors.
 static inline Vec4 dots(const Vec4& a, const Vec4& b, const Vec4& c, const Vec4& d, const Vec4& e, const Vec4& f, const Vec4& g,
                         const Vec4& h) {

@@ -146,16 +146,17 @@ double above_plateau(const ConvexView& view, const Vec& own, const Vec& d, const
 }  // namespace
 
 bool tighten(const PairView& pair, Nearest& seen, std::uint32_t& plane_tests) {
-  const auto looks = [&](const auto& body, const FeatureCorners& corners, const Vec& d, double& over) {
+  const auto looks = [&](const auto& body, FeatureCorners& corners, const Vec& d, double& over) {
     if (over <= kCloseShare * pair.law_two || corners[0] == kNone) return false;
     const double most = above_plateau(body.view, body.into(d), d, corners, plane_tests);
+    corners = kNoCorners;
     if (!(most < over)) return false;
     over = most;
     return true;
   };
-  const bool less_a = looks(body_a(pair), seen.corners_a, seen.normal, seen.over_a),
-             less_b = looks(body_b(pair), seen.corners_b, -seen.normal, seen.over_b);
-  return less_a || less_b;
+  const auto looks_at_a = [&] { return looks(body_a(pair), seen.corners_a, seen.normal, seen.over_a); };
+  const auto looks_at_b = [&] { return looks(body_b(pair), seen.corners_b, -seen.normal, seen.over_b); };
+  return seen.over_a > seen.over_b ? looks_at_a() || looks_at_b() : looks_at_b() || looks_at_a();
 }
 
 double gap(const PairView& pair, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack) {

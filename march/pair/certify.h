@@ -106,8 +106,8 @@ static inline Doubt certify(const PairView& pair, const Nearest& seen, Proof& pr
   store(found.normal, proof.normal);
   return doubt;
 }
-/// Looks closer at a walk's last state, where an `over` of `seen` is unknown or a larger share of law 2's bound than
-/// `kCloseShare`: at the vertices level with its feature. Returns true if one became less.
+/// Looks closer at a walk's last state: at the vertices level with the feature whose `over` is the larger one, once, if that is
+/// unknown or a larger share of law 2's bound than `kCloseShare`. Returns true if an `over` became less.
 bool tighten(const PairView& pair, Nearest& seen, std::uint32_t& plane_tests);
 
 /// The distance of vertices `va` of A and `vb` of B plus its rounding error: an upper bound on the bodies' distance.

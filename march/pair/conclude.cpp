@@ -88,7 +88,9 @@ void from_nothing(const PairView& pair, const MarchRule& rule, double zero, Marc
 }  // namespace
 
 Doubt certify_closely(const PairView& pair, Nearest& seen, Doubt doubt, std::uint32_t& plane_tests, Proof& proof) {
-  return tighten(pair, seen, plane_tests) ? certify(pair, seen, proof) : doubt;
+  while ((doubt == Doubt::Width || doubt == Doubt::Neighbour) && tighten(pair, seen, plane_tests))
+    doubt = certify(pair, seen, proof);
+  return doubt;
 }
 
 template <Until until>

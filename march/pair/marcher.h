@@ -75,11 +75,12 @@ struct SideScan {
   double height() const { return max(left_rise, right_rise); }
   bool falls() const { return height() > 0; }
   /// As RingScan::over, of a direction that misses a right angle to the edge by a sine of at most `tilt` and has `length_1`.
-  double over(double tilt, double reach, double length_1) const {
-    const double over = tilt * reach;
+  /// The direction along which the heights were taken misses that right angle by at most `scanned`.
+  double over(double tilt, double scanned, double reach, double length_1) const {
     // At a right angle to the edge the corners are below too if they are by more than the tilt and rounding can lift them.
-    return height() < -(over + kBesideError * reach) * length_1 ? over : kUnknown;
+    return height() < -(scanned * reach + kBesideError * reach) * length_1 ? tilt * reach : kUnknown;
   }
+  double over(double tilt, double reach, double length_1) const { return over(tilt, tilt, reach, length_1); }
 };
 
 /// A neighbour that rises.
@@ -216,8 +217,14 @@ class Marcher {
     auto [n, tilt_u, tilt_v] = between_edges(u, uu, v, vv, d);
     SideScan at_a = sides(a, a0, ha, a.into(n), plane_tests_), at_b = sides(b, b0, hb, b.into(-n), plane_tests_);
     if (!at_a.falls() && !at_b.falls()) [[likely]] {
-      const double length_1 = norm_1(n), over_a = at_a.over(tilt_u + P::kWay, a.reach, length_1),
-                   over_b = at_b.over(tilt_v + Q::kWay, b.reach, length_1);
+      const double length_1 = norm_1(n);
+      double over_a = at_a.over(tilt_u + P::kWay, a.reach, length_1), over_b = at_b.over(tilt_v + Q::kWay, b.reach, length_1);
+      if (tilt_u > kLeastTilt && tilt_u < kMostTilt) {
+        const double turned = kRightedTurn * tilt_u,
+                     right_a = at_a.over(kAcrossError + P::kWay, turned + P::kWay, a.reach, length_1),
+                     right_b = at_b.over(kAcrossError + Q::kWay, turned + Q::kWay, b.reach, length_1);
+        if (max(right_a, right_b) < kUnknown) n = righted(n, u, uu, v, vv), over_a = right_a, over_b = right_b;
+      }
       end(a, {n, q0 - p0, p, q, blur_on<P>(u) + blur_on<Q>(v), over_a, over_b, {a0, a1, a1}, {b0, b1, b1}});
       return {edge(ha), edge(hb), distance2};
     }
@@ -330,7 +337,8 @@ class Marcher {
     tests += 2;
     Vec4 q0 = vec4(record), to_left = body.own(body.view.half_edges[left].head) - q0,
          to_right = body.own(body.view.half_edges[right].head) - q0;
-    return {dot(own, to_left), dot(own, to_right), left, right};
+    const Vec2 rises = dots(own, to_left, own, to_right);
+    return {rises[0], rises[1], left, right};
   }
 
   /// The way over the face beside edge `h` that a scan found.

@@ -53,9 +53,4 @@ Witness witness(const A& a, FeatureId fa, const B& b, FeatureId fb) {
 
 Witness witness(const PairView& pair, FeatureId a, FeatureId b) { return witness(body_a(pair), a, body_b(pair), b); }
 
-std::uint32_t any_vertex(const ConvexView& view, FeatureId feature) {
-  if (feature.kind() == FeatureKind::Vertex) return feature.index();
-  return origin(view, feature.kind() == FeatureKind::Edge ? feature.index() : view.face_first[feature.index()]);
-}
-
 }  // namespace swiftlet

@@ -57,6 +57,14 @@ static inline BetweenEdges<V> between_edges(const V& u, double uu, const V& v, d
   return {dot(n, d) < 0 ? -n : n, tilt, tilt};
 }
 
+/// A normal that such edges gave, at a right angle to both of them but for `kAcrossError`: less what lies in their plane. Their
+/// `tilt` must be below `kMostTilt`.
+template <class V>
+static inline V righted(const V& n, const V& u, double uu, const V& v, double vv) {
+  const double scale = 1 / dot(n, n), uv = dot(u, v), un = dot(u, n), vn = dot(v, n);
+  return n - u * ((un * vv - vn * uv) * scale) - v * ((vn * uu - un * uv) * scale);
+}
+
 /// Nearest points p0 + s u and q0 + t v of two segments.
 struct Parameters {
   double s, t;    ///< in [0, 1]
@@ -115,6 +123,9 @@ Vec face_normal(const Q& body, std::uint32_t f) {
 Witness witness(const PairView& pair, FeatureId a, FeatureId b);
 
 /// A vertex of a feature.
-std::uint32_t any_vertex(const ConvexView& view, FeatureId feature);
+static inline std::uint32_t any_vertex(const ConvexView& view, FeatureId feature) {
+  const std::uint32_t i = feature.index();
+  return feature.kind() == FeatureKind::Vertex ? i : origin(view, feature.kind() == FeatureKind::Face ? view.face_first[i] : i);
+}
 
 }  // namespace swiftlet
