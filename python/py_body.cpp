@@ -149,6 +149,10 @@ void add_levels(Class& c) {
                   "Bound on the distance of this level's points from level 0, at most 1 % above the truth.")
   SWIFTLET_NUMBER("volume", l.level().volume, "In cubic units; 0 for a body that is not solid.")
   SWIFTLET_NUMBER("map_doubt", l.level().map_doubt, "About the mean error of a look-up in `support_map`, a length.")
+  SWIFTLET_NUMBER(
+      "scale_around", l.level().scale_around,
+      "With M of `map_frame`: the body lies in the ellipsoid `centre` + scale_around M^T y, |y| <= 1; inf: not known.")
+  SWIFTLET_NUMBER("scale_inside", l.level().scale_inside, "The body holds the ellipsoid of this scale; 0: not known.")
   SWIFTLET_NUMBER("edge_length", l.level().edge_length, "Mean length of the level's edges.")
   SWIFTLET_NUMBER("same_cos2", l.level().same_cos2,
                   "Squared cosine of the turn after which a seed's features are stored again; 0: never.")

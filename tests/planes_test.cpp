@@ -284,6 +284,72 @@ TEST(InnerRadius, IsThatOfTheLargestBallAroundTheCentre) {
   EXPECT_EQ((*ShapeOf(Body::box({0, 0, 0}, {1, 1, 0}))).level(0).view.inner_radius, 0);
 }
 
+/// Expects that the ellipsoids of a level lie around it and inside it, and that neither could be nearer by a millionth, the one
+/// inside by that and what rounds a plane. Returns whether they are known.
+bool expect_ellipsoids(const Level& level) {
+  if (!(level.scale_around < kInfinity)) {
+    EXPECT_EQ(level.scale_inside, 0);
+    return false;
+  }
+  const ConvexView& view = level.view;
+  std::array<Number, 6> m;
+  for (std::size_t k = 0; k < 6; ++k) m[k] = Number(level.map_frame[k]);
+  const Point centre{Number(view.centre.x()), Number(view.centre.y()), Number(view.centre.z())};
+  const std::vector<Point> points = rational_points(view);
+  const auto from_centre = [&](const Point& p) -> Point { return {p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]}; };
+  const auto square = [](const Number& x, const Number& y, const Number& z) -> Number { return x * x + y * y + z * z; };
+  const Number around(level.scale_around), inside(level.scale_inside), millionth(0x1p-20);
+  Number farthest2(0);
+  bool tight = inside == 0;
+  for (const Point& p : points) {
+    const Point x = from_centre(p);
+    const Number a = x[0] / m[0], b = (x[1] - m[1] * a) / m[3], c = (x[2] - m[2] * a - m[4] * b) / m[5];
+    farthest2 = std::max(farthest2, square(a, b, c));
+  }
+  EXPECT_LE(farthest2, around * around);
+  EXPECT_GE(farthest2, around * around * (1 - millionth));
+  for (std::uint32_t h = 0; h < view.half_edges.size() && !view.face_first.empty(); ++h) {
+    const Point &a = points[origin(view, h)], &b = points[view.half_edges[h].head],
+                &c = points[view.half_edges[next_in_facet(view, h)].head];
+    Point u, v;
+    for (std::size_t i = 0; i < 3; ++i) u[i] = b[i] - a[i], v[i] = c[i] - a[i];
+    const Point n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]}, w = from_centre(a);
+    const Number depth = n[0] * w[0] + n[1] * w[1] + n[2] * w[2],
+                 wide2 = square(m[0] * n[0] + m[1] * n[1] + m[2] * n[2], m[3] * n[1] + m[4] * n[2], m[5] * n[2]);
+    if (inside == 0) continue;
+    EXPECT_GE(depth, 0);
+    EXPECT_GE(depth * depth, inside * inside * wide2);
+    const double rounding = 64 * kU * view.extent * std::sqrt(CGAL::to_double(square(n[0], n[1], n[2])));
+    tight =
+        tight || CGAL::to_double(depth) - rounding <= level.scale_inside * (1 + 0x1p-20) * std::sqrt(CGAL::to_double(wide2));
+  }
+  EXPECT_TRUE(tight) << "an ellipsoid of a scale above " << level.scale_inside << " is inside";
+  return true;
+}
+
+TEST(Ellipsoids, LieAroundTheBodyAndInsideIt) {
+  std::uint64_t seed = 900;
+  int known = 0, unknown = 0, inside = 0;
+  std::vector<Mesh> bodies = parts();
+  for (const Mesh& mesh : {shapes::tetrahedron(), shapes::octahedron(), shapes::icosahedron(), shapes::sliver(),
+                           shapes::random_polytope(40, 1), shapes::pair(shapes::Family::Plate, 200).a,
+                           shapes::pair(shapes::Family::Long, 200).b, shapes::polygon(9), shapes::segment(3), shapes::point()})
+    bodies.push_back(mesh);
+  for (const Mesh& part : bodies) {
+    for (const Mesh& mesh : turned(part, seed++)) {
+      const Model model = built(mesh);
+      (expect_ellipsoids(model.level(0)) ? known : unknown) += 1;
+      inside += model.level(0).scale_inside > 0;
+      if (model.level_count() > 1) {
+        EXPECT_EQ(model.level(1).scale_inside, 0);
+      }
+    }
+  }
+  EXPECT_GT(known, 50);
+  EXPECT_GT(inside, 50);
+  EXPECT_GT(unknown, 0) << "slivers have none";
+}
+
 TEST(Reach, PrimitivesKnowIt) {
   shapes::Random random(9);
   const auto point = [&] { return Vec3(random.in_ball() + Vec3(1, 2, 3)); };

@@ -162,7 +162,8 @@ std::string fault(const BlockHeader& h) {
                                h.box_max[0], h.box_max[1], h.box_max[2]});
   const bool near = std::all_of(h.centre, h.centre + 3, [](double c) { return std::fabs(c) <= kMostCoordinate; });
   if (!numbers || !near || h.resolution > 3 || h.dimension > 3 || !(h.radius_factor >= 1) || !(h.radius >= 0) ||
-      !(h.inner_radius >= 0) || h.map_cells > kMostMapCells)
+      !(h.inner_radius >= 0) || !(h.scale_around >= 0) || !(h.scale_inside >= 0 && h.scale_inside < kInfinity) ||
+      h.map_cells > kMostMapCells)
     return "a number in the header is out of range";
   return {};
 }
@@ -377,7 +378,9 @@ Result<Model> BlockReader::read(Block block, int finest) {
   const int count = int(headers.value().levels.size());
   auto body = std::make_shared<Model::Content>(Model::Content{std::move(block), std::move(headers).value(), count, {}, {}, {}});
   for (const LevelHeader& l : body->headers.levels) body->levels.push_back(described(body->headers.block, l));
-  body->levels[0].view.inner_radius = body->headers.block.inner_radius;
+  const BlockHeader& block_header = body->headers.block;
+  body->levels[0].view.inner_radius = block_header.inner_radius;
+  body->levels[0].scale_around = block_header.scale_around, body->levels[0].scale_inside = block_header.scale_inside;
   if (const std::string f = take_maps(body->block.bytes, body->headers, body->levels); !f.empty()) return bad(f);
   return with_levels(std::move(body), finest);
 }

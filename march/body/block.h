@@ -44,13 +44,13 @@ struct BlockHeader {
   std::uint64_t total_bytes, header_hash;  ///< the hash of all headers, taken with header_hash at 0
   std::uint32_t dimension, resolution;
   double radius_factor;
-  double centre[3], radius, inner_radius, box_min[3], box_max[3];
+  double centre[3], radius, inner_radius, scale_around, scale_inside, box_min[3], box_max[3];
   Section maps, table, source;
   std::uint64_t source_face_count;
   std::uint32_t map_cells;     ///< TableSpec::map_cells
   std::uint32_t finest_level;  ///< the finest level that the block holds
 };
-static_assert(sizeof(BlockHeader) == 224);
+static_assert(sizeof(BlockHeader) == 240);
 
 struct LevelHeader {
   Section section;

@@ -9,6 +9,7 @@
 // more cells than balls.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <octahedron.h>
@@ -38,9 +39,15 @@ static inline std::uint32_t map_entry(std::uint32_t vertex, double excess) {
 }
 
 /// M n.
-static inline Vec into_map(const Level& level, const Vec& n) {
-  const auto& m = level.map_frame;
+static inline Vec into_map(const std::array<double, 6>& m, const Vec& n) {
   return {m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.y + m[4] * n.z, m[5] * n.z};
+}
+static inline Vec into_map(const Level& level, const Vec& n) { return into_map(level.map_frame, n); }
+
+/// M^-T x.
+static inline Vec unmapped(const std::array<double, 6>& m, const Vec& x) {
+  const double a = x.x / m[0], b = (x.y - m[1] * a) / m[3];
+  return {a, b, (x.z - m[2] * a - m[4] * b) / m[5]};
 }
 
 /// A direction n for which M n is `m`.

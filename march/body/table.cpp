@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "body/ellipsoid.h"
 #include "body/half_edge.h"
 #include "body/support.h"
 #include "body/support_map.h"
@@ -88,16 +89,15 @@ void write_frame(LevelHeader& header, const ConvexView& view) {
   const double a = std::sqrt(xx + least), b = xy / a, c = xz / a, d = std::sqrt(max(yy - b * b, 0) + least),
                e = (yz - b * c) / d, f = std::sqrt(max(zz - c * c - e * e, 0) + least);
   const Vec o = vec(view.vertices[0]);
+  const std::array<double, 6> frame{a, b, c, d, e, f};
   double low[3] = {}, high[3] = {};  // of the points M^-T (x - o), with x and o in extents
   for (const Vertex& v : view.vertices) {
-    const Vec p = (vec(v) - o) * (view.extent > 0 ? 1 / view.extent : 0);
-    const double x = p.x / a, y = (p.y - b * x) / d, z = (p.z - c * x - e * y) / f;
+    const auto [x, y, z] = unmapped(frame, (vec(v) - o) * (view.extent > 0 ? 1 / view.extent : 0));
     for (const auto& [k, image] : {std::pair{0u, x}, {1u, y}, {2u, z}}) {
       low[k] = min(low[k], image), high[k] = max(high[k], image);
     }
   }
   const double scale = max(max(high[0] - low[0], high[1] - low[1]), high[2] - low[2]) / 2 * kFrameSlack;
-  const std::array<double, 6> frame{a, b, c, d, e, f};
   double sum = 0;
   for (std::size_t k = 0; k < 6; ++k) sum += std::fabs(frame[k] * scale);
   for (std::size_t k = 0; k < 6; ++k) {
@@ -162,8 +162,7 @@ double excess_at(const std::array<double, 6>& frame, const Vec& n, const Vec& ab
 
 void fill_maps(BlockParts& parts, const TableSpec& spec, std::span<const ConvexView> levels, const Executor& executor) {
   parts.header.map_cells = spec.map_cells;
-  if (spec.map_cells == 0) return;
-  for (std::size_t i = parts.header.finest_level; i < levels.size(); ++i) {
+  for (std::size_t i = parts.header.finest_level; i < levels.size() && spec.map_cells > 0; ++i) {
     LevelHeader& header = parts.level_headers[i];
     const std::size_t count = levels[i].vertices.size();
     if (count > kMapVertices) continue;
@@ -173,6 +172,11 @@ void fill_maps(BlockParts& parts, const TableSpec& spec, std::span<const ConvexV
     const auto bytes = std::as_bytes(std::span(map));
     parts.maps.insert(parts.maps.end(), bytes.begin(), bytes.end());
   }
+  if (parts.header.finest_level > 0) return;
+  const std::array<double, 6> frame = map_frame(parts.level_headers[0]);
+  const Vec centre{parts.header.centre[0], parts.header.centre[1], parts.header.centre[2]};
+  parts.header.scale_around = scale_around(levels[0], centre, frame);
+  parts.header.scale_inside = scale_inside(levels[0], centre, frame);
 }
 
 }  // namespace swiftlet

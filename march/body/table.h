@@ -23,8 +23,8 @@ std::string spec_fault(const TableSpec& spec);
 void fill_table(BlockParts& parts, const TableSpec& spec, std::span<const Vertex> vertices, const Executor& executor = {});
 
 /// Fills the support maps of `levels`, given finest first: for each cell the support vertex of its middle, and the most by
-/// which any other vertex is higher over the cell. Cost: a climb per cell and corner, mostly of one ring. Sets `maps` and what
-/// the headers say of them.
+/// which any other vertex is higher over the cell; and the ellipsoids of level 0, if that is given. Cost: a climb per cell and
+/// corner, mostly of one ring. Sets `maps` and what the headers say of them.
 void fill_maps(BlockParts& parts, const TableSpec& spec, std::span<const ConvexView> levels, const Executor& executor = {});
 
 /// A bound on how much `above` rises along a direction whose image by the map frame is a corner of a cell, and of which `n` is

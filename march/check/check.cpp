@@ -4,6 +4,7 @@
 // deviations in `verify`, and for an overlap or an upper bound that neither planes nor the answer's points prove.
 #include <swiftlet/check.h>
 
+#include "body/ellipsoid.h"
 #include "body/support.h"
 #include "body/support_map.h"
 #include "body/table.h"
@@ -233,6 +234,12 @@ Check verify(const Model& model) {
       return failed("level %d: its reach is %.17g, provable are %.17g", i, view.reach, reach);
     if (view.inner_radius > 0 && !(view.inner_radius <= inner_radius_of(view, vec(view.centre))))
       return failed("level %d: nothing proves that a ball of radius %.17g is inside", i, view.inner_radius);
+    if (const Vec centre = vec(view.centre); level.scale_around < kInfinity || level.scale_inside > 0) {
+      if (!(level.scale_around >= scale_around(view, centre, level.map_frame)))
+        return failed("level %d: nothing proves that an ellipsoid of scale %.17g is around it", i, level.scale_around);
+      if (!(level.scale_inside <= scale_inside(view, centre, level.map_frame)))
+        return failed("level %d: nothing proves that an ellipsoid of scale %.17g is inside", i, level.scale_inside);
+    }
     if (i == 0) continue;
     if (vertex_outside(exact_hull, view) != kNone) return failed("level %d does not enclose level 0", i);
     MarchStart start;

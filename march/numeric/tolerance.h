@@ -118,6 +118,18 @@ inline constexpr double kPointError = 7 * kU;
 /// 1 of the product, 2 of the sums. The root halves these and adds 1; rounded up.
 inline constexpr double kNormError = 5 * kU;
 
+/// Ellipsoids are known of bodies up to so slender: the norm of the map frame M times that of its inverse is at most this.
+inline constexpr double kMostSlender = 256;
+/// The ellipsoid around a body is larger, and the one inside it smaller, by this share of their size: far more than what M n
+/// and M^-T x lose, which is at most `kMostSlender` times the 12 u of three divisions, six products and sums, and x itself.
+inline constexpr double kEllipsoidSlack = 0x1p-24;
+/// The inverse of a pose within `pose_error` of a rigid motion differs from its transpose by at most 3 of it, which counts
+/// `kMostSlender` times where a direction is taken into an ellipsoid's frame. Rounded up.
+inline constexpr double kSlenderTurn = 4 * kMostSlender;
+/// By how many times law 2's bound two ellipsoids have to overlap along the line of centres: a slender body is that much less
+/// deep there, and the rounding of the line counts as much. Rounded up.
+inline constexpr double kSlenderLine = 4 * kMostSlender;
+
 // ---- Rounding of a walk's tests (marcher.h) -------------------------------------------------------------------------------
 // The tests that end a walk also prove bounds. A direction d is taken exactly as it was computed; how far it is from the one
 // that was meant shows in the bounds. R is the pose's matrix as it was given: none of these terms needs it to be orthonormal.

@@ -93,7 +93,7 @@ static inline void seal(const Radii& radii, const OverlapProof& proof, const Tun
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   answer.radius_a = radii.a(), answer.radius_b = radii.b();
   if (tuning.proof) *tuning.proof = proof;
-  if (!(answer.lower > 0) && (!separates(answer, proof) || answer.normal.isZero(0))) answer.normal.setConstant(kNaN);
+  if (!(answer.lower > 0) && (!separates(answer, proof) || max_abs(vec(answer.normal)) == 0)) answer.normal.setConstant(kNaN);
   if (!(answer.upper < kInfinity)) answer.point_a.setConstant(kNaN), answer.point_b.setConstant(kNaN);
 }
 

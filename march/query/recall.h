@@ -152,8 +152,8 @@ template <class Pair>
 }
 
 /// Answers, if that suffices, by what needs no features: the balls around and inside the bodies, the vertices that proved an
-/// overlap, of verdicts a sample of the maps, which `seen` becomes. `line` has its first half, and gets the second if none of
-/// these does.
+/// overlap, of verdicts a sample of the maps, which `seen` becomes. `line` has its first half, and gets the second if the balls
+/// do not.
 template <class Pair>
 [[gnu::always_inline]] static inline bool answers_at_once(const Pair& pair, const StopRule& asked, bool exact, Line& line,
                                                           PairSeed& seed, AxisSample& seen, Answer& answer,
@@ -163,10 +163,13 @@ template <class Pair>
              unwatched = pair.limits.trace.empty() && !tuning.proof && !tuning.careful;
   if (asks && automatic && unwatched && spheres_are_apart(pair, line.in_a, asked, answer)) return true;
   if ((asks || seed.met) && automatic && unwatched && spheres_meet(pair, line.in_a, answer)) return true;
+  store(turned_line(vec4(line.in_a), pair.motion), line.in_b);
+  const bool likely = seed.met || (asks && are_close(pair, line.in_a));
+  if (likely && automatic && unwatched && ellipsoids_meet(pair, line, answer)) return true;
+  if (asks && !seed.met && automatic && unwatched && ellipsoids_are_apart(pair, line, asked, answer)) return true;
   if (seed.met && automatic && overlaps_as_before(pair, seed, answer, proof)) return true;
   const bool samples = !seed.met && pair.limits.trace.empty() && pair.has_maps();
   if (asks && samples && separating_axis(pair, line, asked, seed, seen, answer)) return true;
-  store(turned_line(vec4(line.in_a), pair.motion), line.in_b);
   return !asks && !exact && automatic && unwatched && spheres_suffice(pair, line.in_a, asked, answer);
 }
 

@@ -46,8 +46,8 @@ static inline void take_sample(const Place& at, const AxisSample& seen, double u
 
 /// Samples again, on the finest pair with maps, where the first sample `seen` proves less than `least`: along a new direction,
 /// which the seed then keeps, and by climbs where only the maps leave it in doubt. Between round bodies the line of centres,
-/// which is then sampled, is as good as any. `line` has its first half, and gets the second.
-[[maybe_unused, gnu::noinline]] static bool clears_elsewhere(const ModelPair& pair, double least, bool knows, Line& line,
+/// which is then sampled, is as good as any.
+[[maybe_unused, gnu::noinline]] static bool clears_elsewhere(const ModelPair& pair, double least, bool knows, const Line& line,
                                                              PairSeed& seed, AxisSample& seen, std::uint32_t& plane_tests) {
   const Place at = pair.finest_mapped();
   const Level &of_a = pair.a.level(at.level_a), &of_b = pair.b.level(at.level_b);
@@ -60,15 +60,14 @@ static inline void take_sample(const Place& at, const AxisSample& seen, double u
     seen = climbed(view, seen, plane_tests);
     if (!(seen.lower > least)) return false;
   }
-  store(turned_line(vec4(line.in_a), pair.motion), line.in_b);
   remember(line, seen.normal, seed);
   return true;
 }
 /// Fills `answer` and returns true if the bodies are proved to be farther apart than `asked.above`: along the seed's direction
-/// or, if that is unknown or old, along the line of centres, or elsewhere. `line` has its first half, and may get the second.
+/// or, if that is unknown or old, along the line of centres, or elsewhere.
 /// `seen` becomes the last sample, on the finest pair with maps.
 template <class Pair>
-static inline bool separating_axis(const Pair& pair, Line& line, const StopRule& asked, PairSeed& seed, AxisSample& seen,
+static inline bool separating_axis(const Pair& pair, const Line& line, const StopRule& asked, PairSeed& seed, AxisSample& seen,
                                    Answer& answer) {
   const Place at = pair.finest_mapped();
   const double least = max(asked.above, 0) + pair.law_two();

@@ -15,7 +15,7 @@
 namespace swiftlet {
 
 /// The version of the file format that `save` writes. Files of any other version are refused.
-inline constexpr std::uint32_t kModelFileVersion = 5;
+inline constexpr std::uint32_t kModelFileVersion = 6;
 
 // Paths are the system's; those in errors are UTF-8.
 
