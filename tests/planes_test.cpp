@@ -11,14 +11,18 @@
 
 #include <CGAL/Exact_rational.h>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <swiftlet/body.h>
 #include <swiftlet/build.h>
+#include <swiftlet/check.h>
 #include <swiftlet/model.h>
+#include <swiftlet/query.h>
 
 #include "bodies.h"
 #include "body/half_edge.h"
 #include "body/shape.h"
+#include "oracle.h"
 #include "random.h"
 #include "shapes.h"
 
@@ -348,6 +352,83 @@ TEST(Ellipsoids, LieAroundTheBodyAndInsideIt) {
   EXPECT_GT(known, 50);
   EXPECT_GT(inside, 50);
   EXPECT_GT(unknown, 0) << "slivers have none";
+}
+
+/// A body that touches one of its ellipsoids in a point, in its own frame: the way there, or along the normal there, from its
+/// centre, and how far it reaches along that way.
+struct Reaching {
+  Vec3 way;
+  double reach;
+};
+Eigen::Matrix3d map_matrix(const Level& level) {
+  const auto& m = level.map_frame;
+  Eigen::Matrix3d of;
+  of << m[0], m[1], m[2], 0, m[3], m[4], 0, 0, m[5];
+  return of;
+}
+/// The normal of the ellipsoid around the body at its farthest vertex.
+Reaching around(const Level& level) {
+  const Eigen::Matrix3d m = map_matrix(level);
+  Vec3 farthest = Vec3::Zero();
+  for (const Vertex& v : level.view.vertices) {
+    const Vec3 y = m.transpose().inverse() * (Vec3(v.x, v.y, v.z) - level.view.centre);
+    if (y.norm() > farthest.norm()) farthest = y;
+  }
+  const Vec3 way = (m.inverse() * farthest).normalized();
+  return {way, level.scale_around * (m * way).norm()};
+}
+/// The way to where the ellipsoid inside the body touches a facet.
+Reaching inside(const Level& level) {
+  const Eigen::Matrix3d m = map_matrix(level);
+  const ConvexView& view = level.view;
+  const auto point = [&](std::uint32_t v) { return Vec3(view.vertices[v].x, view.vertices[v].y, view.vertices[v].z); };
+  double nearest = kInfinity;
+  Vec3 normal = Vec3::UnitX();
+  for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
+    const Vec3 a = point(origin(view, h)), b = point(view.half_edges[h].head),
+               c = point(view.half_edges[next_in_facet(view, h)].head), n = (b - a).cross(c - a);
+    const double scale = n.dot(a - view.centre) / (m * n).norm();
+    if (scale < nearest) nearest = scale, normal = n;
+  }
+  const Vec3 way = (m.transpose() * (m * normal)).normalized();
+  return {way, level.scale_inside / (m.transpose().inverse() * way).norm()};
+}
+
+/// Two bodies whose ellipsoids touch on the line of centres where they touch the bodies themselves, or miss that by little.
+TEST(Ellipsoids, AnswerRightWhereTheyTouch) {
+  shapes::Random random(77);
+  std::vector<Model> models;
+  for (const shapes::Family family : {shapes::Family::Fat, shapes::Family::Plate, shapes::Family::Long})
+    models.push_back(built(shapes::pair(family, 200).a));
+  for (const Mesh& mesh : {shapes::cube(), shapes::random_polytope(40, 3), shapes::tetrahedron()})
+    for (const Mesh& one : turned(mesh, 5)) models.push_back(built(one));
+  int apart = 0, meeting = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Model &a = models[random.bits() % models.size()], &b = models[random.bits() % models.size()];
+    const bool meets = i % 2;
+    const Level &of_a = a.level(0), &of_b = b.level(0);
+    if (meets && !(of_a.scale_inside > 0 && of_b.scale_inside > 0)) continue;
+    const Reaching from_a = meets ? inside(of_a) : around(of_a), from_b = meets ? inside(of_b) : around(of_b);
+    Pose pose;
+    pose.rotation = (Eigen::AngleAxisd(random.uniform(0, 6), from_a.way) *
+                     Eigen::Quaterniond::FromTwoVectors(from_b.way, Vec3(-from_a.way)))
+                        .toRotationMatrix();
+    if (random.bits() & 1) pose.rotation = pose.rotation.cast<float>().cast<double>();
+    const double off = random.uniform(-1, 1) * std::exp2(-random.uniform(4, 52)),
+                 length = (from_a.reach + from_b.reach) * (1 + off);
+    pose.translation = of_a.view.centre + length * from_a.way - pose.rotation * of_b.view.centre;
+    const Answer answer = intersects(a, b, pose);
+    const oracle::Truth truth = oracle::distance(bodies::points_of(of_a.view), bodies::points_of(of_b.view), pose);
+    if (answer.verdict == Verdict::Disjoint) {
+      EXPECT_TRUE(oracle::holds(truth, answer.lower, kInfinity));
+    }
+    EXPECT_NE(answer.verdict, truth.overlapping ? Verdict::Disjoint : Verdict::Overlapping);
+    EXPECT_TRUE(bool(check(a, b, pose, answer)));
+    const bool told = answer.feature_a.kind() == FeatureKind::None;  // no feature is named
+    apart += told && answer.verdict == Verdict::Disjoint, meeting += told && answer.verdict == Verdict::Overlapping;
+  }
+  EXPECT_GT(apart, 300);
+  EXPECT_GT(meeting, 300);
 }
 
 TEST(Reach, PrimitivesKnowIt) {

@@ -9,6 +9,7 @@
 
 #include "body/half_edge.h"
 #include "body/shape.h"
+#include "body/support_map.h"
 #include "make/surface.h"
 #include "numeric/exact.h"
 #include "numeric/tolerance.h"
@@ -32,23 +33,28 @@ inline const Check kPassed{true, ""};
 
 /// Returns the largest dot product of `direction` and a vertex, where `place` maps vertices to the common frame.
 template <class Placing>
-static inline DoubleDouble reach(std::span<const Vertex> vertices, const Wide& direction, Placing place, double = 0) {
+static inline DoubleDouble reach(std::span<const Vertex> vertices, const Wide& direction, Placing place, const Vec& = {}) {
   DoubleDouble most = dot(direction, place(vec(vertices[0])));
   for (const Vertex& v : vertices) {
     if (const DoubleDouble h = dot(direction, place(vec(v))); h > most) most = h;
   }
   return most;
 }
-/// Returns how far the exact hull reaches along `direction`, which is `length` long in the body's frame; if level 0 is absent,
-/// an upper bound, the least reach of the levels present and of the ball around the body, each of which encloses it.
+/// Returns how far the exact hull reaches along `direction`, which is `own` in the body's frame; if level 0 is absent, an upper
+/// bound, the least reach of the levels present and of the ball and the ellipsoid around the body, each of which encloses it.
 template <class Placing>
-static inline DoubleDouble reach(const Shape& body, const Wide& direction, Placing place, double length) {
+static inline DoubleDouble reach(const Shape& body, const Wide& direction, Placing place, const Vec& own) {
   const bool is_cut = body.finest_level() > 0;
   DoubleDouble least = reach(body.level(body.finest_level()).view.vertices, direction, place);
   const auto encloses = [&](const DoubleDouble& h) { least = least > h ? h : least; };
   for (int i = body.finest_level() + 1; is_cut && i < body.level_count(); ++i)
     encloses(reach(body.level(i).view.vertices, direction, place));
-  if (is_cut) encloses(dot(direction, place(vec(body.level(0).view.centre))) + body.radius() * length);
+  if (is_cut) {
+    const Level& exact = body.level(0);
+    const DoubleDouble centre = dot(direction, place(vec(exact.view.centre)));
+    encloses(centre + body.radius() * norm(own));
+    if (exact.scale_around < kInfinity) encloses(centre + exact.scale_around * norm(into_map(exact, own)));
+  }
   return least;
 }
 
@@ -58,8 +64,8 @@ static inline double gap_along(const Vertices& a, const Vertices& b, const Motio
   const Wide direction = wide(n);
   const auto placed = [&](const Vec& p) { return wide(b_in_a, p); };
   const DoubleDouble most_a = reach(
-                         a, direction, [](const Vec&p) { return wide(p); }, norm(n)),
-                     least_b = -reach(b, -direction, placed, norm(rotate_back(b_in_a, n)));
+                         a, direction, [](const Vec&p) { return wide(p); }, n),
+                     least_b = -reach(b, -direction, placed, rotate_back(b_in_a, -n));
   return double(least_b - most_a) / norm(n);
 }
 
@@ -199,10 +205,10 @@ struct Checked {
   const Answer& answer;
   double stretch = 1, radii = 0;
   Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};  ///< of the hulls; the normal is 0 if unknown
-  double touching = 0, narrow = 0;                          ///< law 2's bound for the bodies, and without their radii
-  double slack = 0;      ///< the larger of `touching` and law 2's bound for the answer's levels
-  double magnitude = 0;  ///< PairView::magnitude of the finest levels
-  double deviation = 0;  ///< of the answer's levels: A's plus `stretch` times B's
+  double touching = 0, narrow = 0;  ///< law 2's bound for the bodies, and without their radii, but with what these round
+  double slack = 0;                 ///< the larger of `touching` and law 2's bound for the answer's levels
+  double magnitude = 0;             ///< PairView::magnitude of the finest levels
+  double deviation = 0;             ///< of the answer's levels: A's plus `stretch` times B's
 };
 
 /// Checks an answer about a distance.

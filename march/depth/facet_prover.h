@@ -271,8 +271,8 @@ class FacetProof {
     if (!is_close()) return false;
   }
   depth.upper = upper;
-  const double height = facet.height();
-  if (!facet.closes(depth.normal) || (facet.height() < height && !is_close())) return false;
+  const double lower_before = facet.lower();
+  if (!facet.closes(depth.normal) || (facet.lower() < lower_before && !is_close())) return false;
   const double lower = facet.lower();
   depth.end = goal.passed(lower, upper) || !goal.hopeless(lower, upper) ? DepthEnd::Converged : DepthEnd::NotConverged;
   depth.lower = lower;

@@ -74,6 +74,7 @@ static inline bool spheres_suffice(const Pair& pair, const Vec& between, const S
 static inline void take_common(const Vec& common, Answer& answer) {
   answer.status = Status::Converged;
   answer.verdict = Verdict::Overlapping;
+  answer.normal.setZero();
   answer.lower = answer.upper = 0;
   answer.point_a = answer.point_b = eigen(common);
 }
