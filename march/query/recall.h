@@ -164,12 +164,14 @@ template <class Pair>
   if (asks && automatic && unwatched && spheres_are_apart(pair, line.in_a, asked, answer)) return true;
   if ((asks || seed.met) && automatic && unwatched && spheres_meet(pair, line.in_a, answer)) return true;
   store(turned_line(vec4(line.in_a), pair.motion), line.in_b);
-  const bool likely = seed.met || (asks && are_close(pair, line.in_a));
+  // Where the seed has a direction that a sample has told, ellipsoids did not.
+  const bool knows = asks && !seed.met && SinceStored(seed, line.in_a).serves(),
+             likely = seed.met || (asks && !knows && are_close(pair, line.in_a));
   if (likely && automatic && unwatched && ellipsoids_meet(pair, line, answer)) return true;
-  if (asks && !seed.met && automatic && unwatched && ellipsoids_are_apart(pair, line, asked, answer)) return true;
+  if (asks && !seed.met && !knows && automatic && unwatched && ellipsoids_are_apart(pair, line, asked, answer)) return true;
   if (seed.met && automatic && overlaps_as_before(pair, seed, answer, proof)) return true;
   const bool samples = !seed.met && pair.limits.trace.empty() && pair.has_maps();
-  if (asks && samples && separating_axis(pair, line, asked, seed, seen, answer)) return true;
+  if (asks && samples && separating_axis(pair, line, asked, knows, seed, seen, answer)) return true;
   return !asks && !exact && automatic && unwatched && spheres_suffice(pair, line.in_a, asked, answer);
 }
 

@@ -64,15 +64,14 @@ static inline void take_sample(const Place& at, const AxisSample& seen, double u
   return true;
 }
 /// Fills `answer` and returns true if the bodies are proved to be farther apart than `asked.above`: along the seed's direction
-/// or, if that is unknown or old, along the line of centres, or elsewhere.
-/// `seen` becomes the last sample, on the finest pair with maps.
+/// if it `knows` one that still serves, else along the line of centres, or elsewhere. `seen` becomes the last sample, on the
+/// finest pair with maps.
 template <class Pair>
-static inline bool separating_axis(const Pair& pair, const Line& line, const StopRule& asked, PairSeed& seed, AxisSample& seen,
-                                   Answer& answer) {
+static inline bool separating_axis(const Pair& pair, const Line& line, const StopRule& asked, bool knows, PairSeed& seed,
+                                   AxisSample& seen, Answer& answer) {
   const Place at = pair.finest_mapped();
   const double least = max(asked.above, 0) + pair.law_two();
   const PairView view = pair.view_at(at);
-  const bool knows = SinceStored(seed, line.in_a).serves();
   seen = sample_axis(view, pair.a.level(at.level_a), pair.b.level(at.level_b), knows ? direction(seed) : Vec(line.in_a));
   bool clears = seen.lower > least;
   if (!clears) {
