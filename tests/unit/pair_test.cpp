@@ -226,7 +226,7 @@ TEST(UnitSeparatingAxis, AnswersAtOneSampleOrNotAtAll) {
     PairSeed seed;
     AxisSample seen;
     Line line = at.pair.line();
-    return separating_axis(at.pair, line, {0, 0, 0, 0}, seed, seen, answer);
+    return separating_axis(at.pair, line, {0, 0, 0, 0}, SinceStored(seed, line.in_a).serves(), seed, seen, answer);
   };
   Answer apart, together;
   EXPECT_TRUE(asked(3, apart));
