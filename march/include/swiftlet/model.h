@@ -143,10 +143,10 @@ struct Level {
   bool is_round = true;                         ///< `map_frame` is about a multiple of the identity
   /// The rows of an upper triangular matrix M, from the diagonal on: `support_map` is looked up along M n.
   std::array<double, 6> map_frame{1, 0, 0, 1, 0, 1};
-  /// With M, ellipsoids around the body and inside it, of level 0: the body lies within the points `view.centre` +
-  /// `scale_around` M^T y with |y| <= 1, and holds those of `scale_inside`. Infinite and 0 where none is known, as on coarser
-  /// levels.
-  double scale_around = std::numeric_limits<double>::infinity(), scale_inside = 0;
+  /// With M, an ellipsoid around the body: it lies within the points `view.centre` + `scale_around` M^T y with |y| <= 1.
+  /// Infinite where none is known, as on coarser levels.
+  double scale_around = std::numeric_limits<double>::infinity();
+  double scale_inside = 0;  ///< the scale of an ellipsoid that the body holds; 0 where none is known, as on coarser levels
   double map_doubt = 0;                 ///< about the mean error of a look-up in `support_map`, a length
   double edge_length = 0;               ///< mean length of the level's edges, diagonals included
   double same_cos2 = 0, near_cos2 = 0;  ///< squared cosines of the turns after which a seed's features are stored again, and
