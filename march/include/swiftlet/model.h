@@ -147,8 +147,8 @@ struct Level {
   /// Infinite where none is known, as on coarser levels.
   double scale_around = std::numeric_limits<double>::infinity();
   double scale_inside = 0;  ///< the scale of an ellipsoid that the body holds; 0 where none is known, as on coarser levels
-  double map_doubt = 0;                 ///< about the mean error of a look-up in `support_map`, a length
-  double edge_length = 0;               ///< mean length of the level's edges, diagonals included
+  double map_doubt = 0;     ///< about the mean error of a look-up in `support_map`, a length
+  double edge_length = 0;   ///< mean length of the level's edges, diagonals included
   double same_cos2 = 0, near_cos2 = 0;  ///< squared cosines of the turns after which a seed's features are stored again, and
                                         ///< after which they are worse than a cold start; 0: never
   double deviation = 0;    ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
