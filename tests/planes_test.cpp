@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // What a level says of its body beyond its faces, against rationals over all vertices: how high the body rises above the planes
-// of its polygons, and how far apart two of its points are.
+// of its polygons, how far apart two of its points are, and which ball and ellipsoids bound it.
 #include <algorithm>
 #include <array>
 #include <cmath>

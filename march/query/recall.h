@@ -151,9 +151,9 @@ template <class Pair>
   return true;
 }
 
-/// Answers, if that suffices, by what needs no features: the balls around and inside the bodies, the vertices that proved an
-/// overlap, of verdicts a sample of the maps, which `seen` becomes. `line` has its first half, and gets the second if the balls
-/// do not.
+/// Answers, if that suffices, by what needs no features: the balls and ellipsoids around and inside the bodies, the vertices
+/// that proved an overlap, of verdicts a sample of the maps, which `seen` becomes. `line` has its first half, and gets the
+/// second if the balls do not answer.
 template <class Pair>
 [[gnu::always_inline]] static inline bool answers_at_once(const Pair& pair, const StopRule& asked, bool exact, Line& line,
                                                           PairSeed& seed, AxisSample& seen, Answer& answer,
@@ -164,7 +164,7 @@ template <class Pair>
   if (asks && automatic && unwatched && spheres_are_apart(pair, line.in_a, asked, answer)) return true;
   if ((asks || seed.met) && automatic && unwatched && spheres_meet(pair, line.in_a, answer)) return true;
   store(turned_line(vec4(line.in_a), pair.motion), line.in_b);
-  // Where the seed has a direction that a sample has told, ellipsoids did not.
+  // Where a sample gave the seed its direction, the ellipsoids had not answered: they are not asked again.
   const bool knows = asks && !seed.met && SinceStored(seed, line.in_a).serves(),
              likely = seed.met || (asks && !knows && are_close(pair, line.in_a));
   if (likely && automatic && unwatched && ellipsoids_meet(pair, line, answer)) return true;
