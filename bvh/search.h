@@ -108,7 +108,7 @@ double gap_of_roots_by_four(const Top& a, const Top& b, const Pose& b_in_a, doub
 /// is no answer, along the line of the balls' centres that of both roots' boxes or, where these meet by little, that of the
 /// boxes below along a better direction. `placed` receives the pose; of an illegal one the bound is 0.
 static inline double gap_of_roots(const Top& a, const Top& b, const Pose& b_in_a, double enough, Placed& placed) {
-  return SWIFTLET_BY_WIDTH(gap_of_roots)(a, b, b_in_a, enough, placed);
+  return SWIFTLET_BY_WIDTH(gap_of_roots, a, b, b_in_a, enough, placed);
 }
 
 void search_by_two(const MeshView& a, const MeshView& b, const Pose& b_in_a, const MeshQuestion& question, MeshSeed& seed,
@@ -118,7 +118,7 @@ void search_by_four(const MeshView& a, const MeshView& b, const Pose& b_in_a, co
 /// Answers `question`. `finding` must be a default one; `seed` receives the nearest pair.
 static inline void search(const MeshView& a, const MeshView& b, const Pose& b_in_a, const MeshQuestion& question,
                           MeshSeed& seed, MeshFinding& finding) {
-  SWIFTLET_BY_WIDTH(search)(a, b, b_in_a, question, seed, finding);
+  SWIFTLET_BY_WIDTH(search, a, b, b_in_a, question, seed, finding);
 }
 
 }  // namespace swiftlet

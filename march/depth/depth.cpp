@@ -19,7 +19,7 @@ void signed_within_by_two(const Body& a, const Body& b, const Pose& b_in_a, doub
 
 Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options) {
   Answer answer;
-  SWIFTLET_BY_WIDTH(signed_distance)(a, b, b_in_a, seed, options, answer);
+  SWIFTLET_BY_WIDTH(signed_distance, a, b, b_in_a, seed, options, answer);
   return answer;
 }
 Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, const Options& options) {
@@ -29,7 +29,7 @@ Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, const O
 
 Within signed_within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, PairSeed& seed, const Effort& effort) {
   Within result;
-  SWIFTLET_BY_WIDTH(signed_within)(a, b, b_in_a, threshold, seed, effort, result);
+  SWIFTLET_BY_WIDTH(signed_within, a, b, b_in_a, threshold, seed, effort, result);
   return result;
 }
 Within signed_within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, const Effort& effort) {

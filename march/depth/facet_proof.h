@@ -41,7 +41,7 @@ SWIFTLET_BOTH_WIDTHS(bool, prove_facet, const PairView& pair, const Level& a, co
 /// of any length along which the difference is seen to be no higher, or 0. `a` and `b` are the levels of the pair's views.
 static inline bool prove_facet(const PairView& pair, const Level& a, const Level& b, const DepthStart& start,
                                const Ceiling& ceiling, const DepthGoal& goal, std::uint32_t& plane_tests, Depth& depth) {
-  return SWIFTLET_BY_WIDTH(prove_facet)(pair, a, b, start, ceiling, goal, plane_tests, depth);
+  return SWIFTLET_BY_WIDTH(prove_facet, pair, a, b, start, ceiling, goal, plane_tests, depth);
 }
 
 }  // namespace swiftlet

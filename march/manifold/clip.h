@@ -57,7 +57,7 @@ static inline void clip(const Projection& projection, const ContactFace& a, cons
                         Candidates& corners) {
   const bool is_large = a.corner_count() + b.corner_count() >= kManyCorners;
   if (!(is_large && clip_by_halving(projection, a, b, bound, corners)))
-    SWIFTLET_BY_WIDTH(clip)(projection, a, b, bound, corners);
+    SWIFTLET_BY_WIDTH(clip, projection, a, b, bound, corners);
   corners.close();
 }
 

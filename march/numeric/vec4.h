@@ -68,6 +68,14 @@ static inline Vec2 sqrt(Vec2 a) {
   return Vec2{std::sqrt(a[0]), std::sqrt(a[1])};
 #endif
 }
+/// Bit i is set if lane i of `a` is at least that of `b`.
+static inline unsigned at_least(Vec2 a, Vec2 b) {
+#if defined(__SSE2__)
+  return _mm_movemask_pd(_mm_cmpge_pd(a, b));
+#else
+  return (a[0] >= b[0]) + 2u * (a[1] >= b[1]);
+#endif
+}
 /// The whole parts of numbers that are no NaN and fit.
 static inline std::array<std::int32_t, 2> whole(Vec2 a) {
 #if defined(__SSE2__)
@@ -287,11 +295,12 @@ static inline Vec4 all_greatest(const Vec4& a) {
 #endif
 }
 
-/// Two dot products of vectors.
-static inline Vec2 dots(const Vec4& a, const Vec4& b, const Vec4& c, const Vec4& d) {
-  const Vec4 p = a * b, q = c * d, x_z = even(p, q);
+/// The sums of x, y and z of two vectors, and two dot products.
+static inline Vec2 sums(const Vec4& p, const Vec4& q) {
+  const Vec4 x_z = even(p, q);
   return low(x_z) + low(odd(p, q)) + high(x_z);
 }
+static inline Vec2 dots(const Vec4& a, const Vec4& b, const Vec4& c, const Vec4& d) { return sums(a * b, c * d); }
 /// Four dot products of vectors.
 static inline Vec4 dots(const Vec4& a, const Vec4& b, const Vec4& c, const Vec4& d, const Vec4& e, const Vec4& f, const Vec4& g,
                         const Vec4& h) {

@@ -14,12 +14,12 @@
 #if SWIFTLET_AVX2 && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 #define SWIFTLET_BY_FOUR 1
 #if defined(__AVX__)
-#define SWIFTLET_BY_WIDTH(name) name##_by_four
+#define SWIFTLET_BY_WIDTH(name, ...) name##_by_four(__VA_ARGS__)
 #else
-#define SWIFTLET_BY_WIDTH(name) (by_four() ? name##_by_four : name##_by_two)
+#define SWIFTLET_BY_WIDTH(name, ...) (by_four() ? name##_by_four(__VA_ARGS__) : name##_by_two(__VA_ARGS__))
 #endif
 #else
-#define SWIFTLET_BY_WIDTH(name) name##_by_two
+#define SWIFTLET_BY_WIDTH(name, ...) name##_by_two(__VA_ARGS__)
 #endif
 // The name under which a file for either width defines a function, and the declarations of both.
 #if defined(SWIFTLET_FOR_AVX2)

@@ -71,7 +71,8 @@ Supports supports(const PairView& pair, const Vec& n, std::uint32_t start_a, std
 /// be negative.
 static inline double gap(const PairView& pair, const Vec4& n, const Vec4& c, double slack) {
   const Vec4 products = n * c;
-  return sum(products) - (kGapError * norm_1(products) + pair.motion_error + slack);
+  const Vec2 total = sums(products, abs(products));
+  return total[0] - (kGapError * total[1] + pair.motion_error + slack);
 }
 /// The same between vertices `va` of A and `vb` of B.
 double gap(const PairView& pair, const Vec& n, std::uint32_t va, std::uint32_t vb, double slack = 0);
@@ -85,13 +86,14 @@ static inline double upper_at(const PairView& pair, const NearestOf<V>& seen, do
 /// Proves bounds by the tests of a walk's last state alone, and reads nothing else. Returns why they do not tell, or None.
 static inline Doubt certify(const PairView& pair, const NearestOf<Vec4>& seen, ProofOf<Vec4>& proof) {
   Vec4 apart = seen.point_b - seen.point_a;
-  const double square = dot(seen.normal, seen.normal), apart2 = dot(apart, apart), over = seen.over_a + seen.over_b;
+  const Vec2 squares = dots(seen.normal, seen.normal, apart, apart), lengths = sqrt(squares);
+  const double over = seen.over_a + seen.over_b;
   if (!(over <= pair.law_two)) return over < kInfinity ? Doubt::Width : Doubt::Neighbour;
-  if (!(square >= kLeastSquare)) return Doubt::Width;  // squares of legal coordinates are finite
-  const double length = std::sqrt(apart2);
+  if (!(squares[0] >= kLeastSquare)) return Doubt::Width;  // squares of legal coordinates are finite
+  const double length = lengths[1];
   // Nearer points may lie aside along an edge (kAcrossError), or have a length that underflowed.
   if (!(length > pair.law_two)) return Doubt::Threshold;
-  proof.normal = seen.normal * (1 / std::sqrt(square));
+  proof.normal = seen.normal * (1 / lengths[0]);
   proof.lower = gap(pair, proof.normal, seen.apart, over);
   proof.upper = max(proof.lower, upper_at(pair, seen, length));
   if (!(proof.lower > pair.law_two)) return Doubt::Threshold;

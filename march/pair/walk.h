@@ -36,7 +36,7 @@ SWIFTLET_BOTH_WIDTHS(Walk, walk, const PairView& pair, FeatureId a, FeatureId b,
 /// if that is not negative.
 static inline Walk walk(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget,
                         double enough2 = -1) {
-  return SWIFTLET_BY_WIDTH(walk)(pair, a, b, rule, step_budget, enough2);
+  return SWIFTLET_BY_WIDTH(walk, pair, a, b, rule, step_budget, enough2);
 }
 
 }  // namespace swiftlet

@@ -29,25 +29,25 @@ static inline bool are_models(const Body& a, const Body& b) {
 }
 /// The exact distance of two models without limits.
 static inline Answer ask_distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed) {
-  return SWIFTLET_BY_WIDTH(ask_distance)(a, b, b_in_a, seed);
+  return SWIFTLET_BY_WIDTH(ask_distance, a, b, b_in_a, seed);
 }
 /// The same within the error `absolute` or `relative`, of which one is positive.
 static inline Answer ask_loosely(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, double absolute,
                                  double relative) {
-  return SWIFTLET_BY_WIDTH(ask_loosely)(a, b, b_in_a, seed, absolute, relative);
+  return SWIFTLET_BY_WIDTH(ask_loosely, a, b, b_in_a, seed, absolute, relative);
 }
 /// Whether two models meet, without limits.
 static inline Answer ask_intersection(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed) {
-  return SWIFTLET_BY_WIDTH(ask_intersection)(a, b, b_in_a, seed);
+  return SWIFTLET_BY_WIDTH(ask_intersection, a, b, b_in_a, seed);
 }
 /// Answers `asked` for two bodies. `answer` must be a default one. Most queries are about two models without radii and without
 /// limits: `ask_models` is the same for these, sooner.
 static inline void ask(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits,
                        const StopRule& asked, Answer& answer) {
   if (are_models(a, b) && limits_in(limits.budget, limits.tuning) == 0)
-    SWIFTLET_BY_WIDTH(ask_models)(*a.model(), *b.model(), b_in_a, seed, asked, answer);
+    SWIFTLET_BY_WIDTH(ask_models, *a.model(), *b.model(), b_in_a, seed, asked, answer);
   else
-    SWIFTLET_BY_WIDTH(ask)(a, b, b_in_a, seed, limits, asked, answer);
+    SWIFTLET_BY_WIDTH(ask, a, b, b_in_a, seed, limits, asked, answer);
 }
 
 SWIFTLET_BOTH_WIDTHS(void, ask_hulls, const ModelPair& pair, const StopRule& asked, PairSeed& seed, Answer& answer,
@@ -56,7 +56,7 @@ SWIFTLET_BOTH_WIDTHS(void, ask_hulls, const ModelPair& pair, const StopRule& ask
 /// `proof` must be empty, and is filled if the levels of the answer overlap.
 static inline void ask_hulls(const ModelPair& pair, const StopRule& asked, PairSeed& seed, Answer& answer,
                              OverlapProof& proof) {
-  SWIFTLET_BY_WIDTH(ask_hulls)(pair, asked, seed, answer, proof);
+  SWIFTLET_BY_WIDTH(ask_hulls, pair, asked, seed, answer, proof);
 }
 
 /// A feature of a body's level 0 by the user's ids.

@@ -337,11 +337,11 @@ template <class Question>
   const Motion m = motion(b_in_a);
   PoseQuality quality = pose_quality(m);
   FeatureId fa = seed.a, fb = seed.b;
-  const bool other = (seed.met |
-                      (Question::is_loose ? seed.level_a >= a.level_count() || seed.level_b >= b.level_count()
-                                          : (seed.level_a | seed.level_b) != 0) |
-                      a.finest_level() | b.finest_level()) != 0;
-  if (!quality.legal || other || !is_state(fa, fb)) return distance_anew(a, b, b_in_a, seed, question);
+  unsigned other = Question::is_loose ? seed.met | (seed.level_a >= a.level_count()) | (seed.level_b >= b.level_count())
+                                      : seed.level_a | seed.level_b | seed.met;
+  other |= a.finest_level() | b.finest_level();
+  if (other != 0) return distance_anew(a, b, b_in_a, seed, question);
+  if (!quality.legal || !is_state(fa, fb)) return distance_anew(a, b, b_in_a, seed, question);
 
   const int on_a = Question::is_loose ? seed.level_a : 0, on_b = Question::is_loose ? seed.level_b : 0;
   const Level &level_a = a.level(on_a), &level_b = b.level(on_b);

@@ -54,19 +54,19 @@ enum class Warm { Near, TwiceAsFar };
 static inline Turn turn_of(const Vec4& in_a, const Vec4& in_b, const PairSeed& seed, const Level& a, const Level& b,
                            Warm warm) {
   // In place of a negative cosine stands a number whose square is 0: a maximum with 0 itself takes g++ one instruction more.
-  constexpr double kTiny = std::numeric_limits<double>::min();
-  const double whole = dot(in_a, in_a) * (kLineUnit * kLineUnit), along_a = max(dot(in_a, vec4(seed.line_in_a.data())), kTiny),
-               along_b = max(dot(in_b, vec4(seed.line_in_b.data())), kTiny), cos2_a = along_a * along_a,
-               cos2_b = along_b * along_b;
-  const bool same_a = cos2_a >= a.same_cos2 * whole, same_b = cos2_b >= b.same_cos2 * whole;
-  if (same_a & same_b) return Turn::Little;
+  const Vec2 along = dots(in_a, vec4(seed.line_in_a.data()), in_b, vec4(seed.line_in_b.data())),
+             cosines = max(along, Vec2{} + std::numeric_limits<double>::min()), cos2 = cosines * cosines;
+  const double whole = dot(in_a, in_a) * (kLineUnit * kLineUnit);
+  const unsigned same = at_least(cos2, Vec2{a.same_cos2, b.same_cos2} * whole);
+  if (same == 3) return Turn::Little;
   const auto is_far = [whole, warm](double cos2, const std::array<std::int16_t, 3>& was, const Level& level) {
     const bool known = (was[0] | was[1] | was[2]) != 0;  // not of a seed made by hand
     const double twice = max(0, 2 * level.near_cos2 - 1), near_cos2 = warm == Warm::Near ? level.near_cos2 : twice * twice;
     return known && cos2 < near_cos2 * whole;
   };
-  return (!same_a && is_far(cos2_a, seed.line_in_a, a)) || (!same_b && is_far(cos2_b, seed.line_in_b, b)) ? Turn::Far
-                                                                                                          : Turn::Some;
+  const bool is_far_in_a = !(same & 1) && is_far(cos2[0], seed.line_in_a, a),
+             is_far_in_b = !(same & 2) && is_far(cos2[1], seed.line_in_b, b);
+  return is_far_in_a || is_far_in_b ? Turn::Far : Turn::Some;
 }
 static inline Turn turn_of(const Line& line, const PairSeed& seed, const Level& a, const Level& b, Warm warm) {
   return turn_of(vec4(line.in_a), vec4(line.in_b), seed, a, b, warm);
