@@ -85,11 +85,10 @@ struct SideScan {
 
 /// A neighbour that rises.
 struct Rise {
-  std::uint32_t to;  ///< a half-edge of the vertex's ring, or a face beside the edge
+  std::uint32_t to;  ///< a half-edge of the vertex's ring
   double height;     ///< as that of the scan
   double length2;    ///< squared length of the way to the neighbour
-  /// The squared rate at which the distance falls. Rounding may give a sliver a `length2` of 0 or less.
-  double rate2() const { return height / max(std::numeric_limits<double>::denorm_min(), length2) * height; }
+  double rate2() const { return height / length2 * height; }  ///< squared rate at which the distance falls
 };
 
 using Ending = NearestOf<Vec4>;
@@ -154,18 +153,14 @@ class Marcher {
       return {vertex(va), edge(h), distance2};
     }
     SideScan at_b = sides(b, v0, h, b.into(up), plane_tests_);
+    if (at_b.falls()) return {vertex(va), face(up_side(b, h, at_b)), distance2};
     RingScan at_a = ring(a, va, a.into(-up), length_1);
-    if (!at_b.falls() && !at_a.falls()) [[likely]] {
+    if (!at_a.falls()) [[likely]] {
       const double over_b = at_b.over(kAcrossError + Q::kWay, b.reach, length_1);
       end(a, {-up, -r, p, q0 + u * (ru / length2), blur_on<Q>(u), at_a.over(), over_b, {va, va, va}, {v0, v1, v1}});
       return {vertex(va), edge(h), distance2};
     }
-    if (!at_b.falls()) return {along(a, up_ring(a, va, at_a)), edge(h), distance2};
-    Rise from_b = up_side(b, v0, h, at_b);
-    if (first_only_ || !at_a.falls()) return {vertex(va), face(from_b.to), distance2};
-    Rise from_a = up_ring(a, va, at_a);
-    if (from_b.rate2() > from_a.rate2()) return {vertex(va), face(from_b.to), distance2};
-    return {along(a, from_a), edge(h), distance2};
+    return {along(a, up_ring(a, va, at_a)), edge(h), distance2};
   }
 
   template <class P, class Q>
@@ -228,11 +223,9 @@ class Marcher {
       end(a, {n, q0 - p0, p, q, blur_on<P>(u) + blur_on<Q>(v), over_a, over_b, {a0, a1, a1}, {b0, b1, b1}});
       return {edge(ha), edge(hb), distance2};
     }
-    Rise rise_a = at_a.falls() ? up_side(a, a0, ha, at_a) : Rise{kNone, -1, 1},
-         rise_b = at_b.falls() ? up_side(b, b0, hb, at_b) : Rise{kNone, -1, 1};
-    if (!at_b.falls() || (at_a.falls() && (first_only_ || rise_a.rate2() >= rise_b.rate2())))
-      return swapped(edge_over_face(hb, b0, b1, q, v, at.t, a, rise_a.to, distance2));
-    return edge_over_face(ha, a0, a1, p, u, at.s, b, rise_b.to, distance2);
+    if (at_a.falls() && (first_only_ || at_a.height() >= at_b.height()))
+      return swapped(edge_over_face(hb, b0, b1, q, v, at.t, a, up_side(a, ha, at_a), distance2));
+    return edge_over_face(ha, a0, a1, p, u, at.s, b, up_side(b, hb, at_b), distance2);
   }
 
   static Move swapped(const Move& m) { return {m.second, m.first, m.distance2}; }
@@ -341,14 +334,11 @@ class Marcher {
     return {rises[0], rises[1], left, right};
   }
 
-  /// The way over the face beside edge `h` that a scan found.
+  /// The face beside edge `h` that rises, by a scan.
   template <class Q>
-  Rise up_side(const Q& body, std::uint32_t v0, std::uint32_t h, const SideScan& scan) const {
-    const HalfEdge* edges = body.view.half_edges.data();
+  std::uint32_t up_side(const Q& body, std::uint32_t h, const SideScan& scan) const {
     const bool is_left = scan.left_rise > (first_only_ ? 0 : scan.right_rise);
-    Vec4 p = body.own(v0), u = body.own(edges[h].head) - p, r = body.own(edges[is_left ? scan.left : scan.right].head) - p;
-    const double ru = dot(r, u);
-    return {edges[is_left ? h : scan.right].face, scan.height(), dot(r, r) - ru * ru / dot(u, u)};
+    return body.view.half_edges[is_left ? h : scan.right].face;
   }
 
   /// A face of more than `kManySides` sides that the walk has looked at around, and the side that it is near.

@@ -59,10 +59,10 @@ static inline Turn turn_of(const Vec4& in_a, const Vec4& in_b, const PairSeed& s
   const double whole = dot(in_a, in_a) * (kLineUnit * kLineUnit);
   const unsigned same = at_least(cos2, Vec2{a.same_cos2, b.same_cos2} * whole);
   if (same == 3) return Turn::Little;
-  const auto is_far = [whole, warm](double cos2, const std::array<std::int16_t, 3>& was, const Level& level) {
+  const auto is_far = [whole, warm](double cosine2, const std::array<std::int16_t, 3>& was, const Level& level) {
     const bool known = (was[0] | was[1] | was[2]) != 0;  // not of a seed made by hand
     const double twice = max(0, 2 * level.near_cos2 - 1), near_cos2 = warm == Warm::Near ? level.near_cos2 : twice * twice;
-    return known && cos2 < near_cos2 * whole;
+    return known && cosine2 < near_cos2 * whole;
   };
   const bool is_far_in_a = !(same & 1) && is_far(cos2[0], seed.line_in_a, a),
              is_far_in_b = !(same & 2) && is_far(cos2[1], seed.line_in_b, b);
