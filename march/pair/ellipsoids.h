@@ -23,8 +23,9 @@ class Ellipsoids {
   Ellipsoids(const Level& a, const Level& b, const Motion& b_in_a) {
     const auto &m = a.map_frame, &f = b.map_frame;
     const Columns turn = transposed(b_in_a.row_x, b_in_a.row_y, b_in_a.row_z, b_in_a.row_z);
-    // The rows of M_a, and those of M_b turned into A's frame.
-    of_a_ = squared({vec4(m[0], m[1], m[2]), vec4(0, m[3], m[4]), vec4(0, 0, m[5])});
+    // M^T M by the rows of M_a, and by those of M_b turned into A's frame.
+    const Vec4 x = vec4(m[0], m[1], m[2]), y = vec4(0, m[3], m[4]), z = vec4(0, 0, m[5]);
+    of_a_ = {x * m[0], x * m[1] + y * m[3], x * m[2] + y * m[4] + z * m[5]};
     of_b_ = squared({turn.x * f[0] + turn.y * f[1] + turn.z * f[2], turn.y * f[3] + turn.z * f[4], turn.z * f[5]});
   }
 
@@ -35,10 +36,12 @@ class Ellipsoids {
     Vec4 operator*(const Vec4& v) const { return times(adjugate, v); }
   };
   Inverse inverse(const Vec4& n, const Vec4& line) const {
-    const double wide_a = std::sqrt(dot(n, times(of_a_, n))), wide_b = std::sqrt(dot(n, times(of_b_, n))),
-                 h = max(0, dot(n, line) - wide_a - wide_b) * (1 / dot(n, n));
-    const Vec4 by_a = all(1 / wide_a), by_b = all(1 / wide_b), x = vec4(1, 0, 0) * h + of_a_.x * by_a + of_b_.x * by_b,
-               y = vec4(0, 1, 0) * h + of_a_.y * by_a + of_b_.y * by_b, z = vec4(0, 0, 1) * h + of_a_.z * by_a + of_b_.z * by_b;
+    const Vec4 along = dots(n, times(of_a_, n), n, times(of_b_, n), n, line, n, n);
+    const Vec2 wide = sqrt(low(along)), by = Vec2{1, 1} / wide;
+    const Vec4 by_a = all(by[0]), by_b = all(by[1]);
+    const double h = max(0, along[2] - wide[0] - wide[1]) / along[3];
+    const Vec4 x = vec4(h, 0, 0) + of_a_.x * by_a + of_b_.x * by_b, y = vec4(0, h, 0) + of_a_.y * by_a + of_b_.y * by_b,
+               z = vec4(0, 0, h) + of_a_.z * by_a + of_b_.z * by_b;
     const Columns adjugate{cross(y, z), cross(z, x), cross(x, y)};
     return {adjugate, dot(x, adjugate.x)};
   }

@@ -194,7 +194,7 @@ class Prefetch {
       Line line;
       store(in_a, line.in_a), store(turned_line(in_a, m), line.in_b);
       const PairSeed seed = q.seed ? *q.seed : PairSeed{};
-      look(m, vec(first_direction(seed, SinceStored(seed, line.in_a), a_.level(), b_.level(), m, line)));
+      look(m, vec(first_direction(seed, SinceStored(seed, line.in_a), Turn::Some, a_.level(), b_.level(), m, line)));
     }
     if (!has_maps_) return;
     if constexpr (kStep == 3) a_.vertex(), b_.vertex();

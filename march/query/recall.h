@@ -205,7 +205,7 @@ template <class Pair>
   const bool sampled = bound.is_known() && max_abs(seen.normal) > 0;
   const SupportGjk found = nearest_on_maps(view, pair.a.level(place.level_a), pair.b.level(place.level_b),
                                            pair.deviation(place.level_a, place.level_b), sampled ? &seen : nullptr,
-                                           sampled ? vec4(seen.normal) : pair.first_direction(line, seed));
+                                           sampled ? vec4(seen.normal) : pair.first_direction(line, seed, turn));
   place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
   if (found.simplex.count() == 4) return descends(place, &found, nullptr);
   if (!(found.most_lower < bound.lower)) bound = {found.most_lower, found.lower_along};
@@ -354,13 +354,13 @@ template <class Question>
   const auto go_on = [&](Turn turn, const Walk* known) {
     return distance_from(a, b, m, quality.error, line(), turn, {on_a, on_b, {}}, known, seed, question);
   };
+  const bool has_choice = has_other_start(Shape(a), Shape(b), on_a, on_b);
+  const Turn turn = has_choice ? turn_of(in_a, in_b, seed, level_a, level_b, Warm::Near) : Turn::Some;
+  if (turn == Turn::Far) return go_on(turn, nullptr);
   if (!names_feature(level_a.view, fa) || !names_feature(level_b.view, fb)) {
     const bool cold = fa.kind() == FeatureKind::None;
     return cold ? go_on(Turn::Some, nullptr) : distance_anew(a, b, b_in_a, seed, question);
   }
-  const bool has_choice = has_other_start(Shape(a), Shape(b), on_a, on_b);
-  const Turn turn = has_choice ? turn_of(in_a, in_b, seed, level_a, level_b, Warm::Near) : Turn::Some;
-  if (turn == Turn::Far) return go_on(turn, nullptr);
 
   PairView view = pair_view(level_a.view, level_b.view, m, shift_of(m), quality.error);
   Ending seen;
