@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "body/block.h"
+#include "body/half_edge.h"
 #include "mesh_setting.h"
 #include "query/ask.h"
 #include "solid.h"
@@ -88,6 +89,7 @@ class Hull {
   static Level level_of(const HullTree& tree, const HullNode& node) {
     Level level;
     level.view = view_of(tree.hulls(), node);
+    level.feature_count = feature_count(level.view);
     level.edge_length = node.edge_length, level.same_cos2 = node.same_cos2, level.near_cos2 = node.near_cos2;
     return level;
   }

@@ -153,6 +153,13 @@ void add_levels(Class& c) {
       "scale_around", l.level().scale_around,
       "With M of `map_frame`: the body lies in the ellipsoid `centre` + scale_around M^T y, |y| <= 1; inf: not known.")
   SWIFTLET_NUMBER("scale_inside", l.level().scale_inside, "The body holds the ellipsoid of this scale; 0: not known.")
+  c.def_property_readonly(
+      "feature_count",
+      [](const HeldLevel& l) {
+        const auto& counts = l.level().feature_count;
+        return py::make_tuple(counts[1], counts[2], counts[3]);
+      },
+      "Numbers of vertices, half-edges and faces; 0 on absent levels.");
   SWIFTLET_NUMBER("edge_length", l.level().edge_length, "Mean length of the level's edges.")
   SWIFTLET_NUMBER("same_cos2", l.level().same_cos2,
                   "Squared cosine of the turn after which a seed's features are stored again; 0: never.")

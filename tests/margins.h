@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Attacks on the rounding margins of a walk's last state: operands searched for by hill climbing until the kernel's own
-// expressions err as much as they can, judged by exact arithmetic that shares nothing with march; and small bodies whose
-// neighbours lie at the very margins, judged whole.
+// Attacks on the rounding margins of a walk's last state and of the ellipsoids that tell verdicts: operands searched for by hill
+// climbing until the kernel's own expressions err as much as they can, judged by exact arithmetic that shares nothing with
+// march; and small bodies whose neighbours lie at the very margins, judged whole.
 #pragma once
 
 #include <array>
@@ -17,7 +17,8 @@ namespace swiftlet::margins {
 /// Numbers in threes: the rows of R, t, then vectors p0 to p3, whose meaning is the kind's.
 using Scene = std::array<double, 24>;
 
-/// One margin, in units of u times what it is relative to; `foot turn` in units of the pose's error.
+/// One margin, in units of u times what it is relative to; those of turns in units of the pose's error, or of the tilt, and
+/// `slender line` in law 2's bounds.
 struct Kind {
   const char* name;
   double margin;  ///< as the kernel uses it

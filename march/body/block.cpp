@@ -17,6 +17,7 @@
 
 #include <swiftlet/model_file.h>
 
+#include "body/half_edge.h"
 #include "body/structure.h"
 #include "body/support_map.h"
 #include "numeric/tolerance.h"
@@ -295,6 +296,7 @@ std::string take_level(std::span<const std::byte> block, const Headers& h, std::
   const auto half_edges = cursor.take<HalfEdge>(l.half_edge_count);
   level.view.half_edges = half_edges;
   level.view.face_first = cursor.take<std::uint32_t>(l.face_count);
+  level.feature_count = feature_count(level.view);
   if (i != 0) level.child_vertex = cursor.take<std::uint32_t>(l.vertex_count);
   if (i != 0) level.child_face = cursor.take<FeatureId>(l.face_count);
   if (!coarsest) level.parent_face = cursor.take<std::uint32_t>(l.face_count);

@@ -18,7 +18,7 @@ bool is_stout(const std::array<double, 6>& frame) {
   double squares = 0, of_inverse = 0;
   for (const double entry : frame) squares += entry * entry;
   for (const Vec& axis : {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}}) {
-    const Vec column = unmapped(frame, axis);
+    const Vec column = ball_coordinates(frame, axis);
     of_inverse += dot(column, column);
   }
   return std::sqrt(squares) * std::sqrt(of_inverse) <= kMostSlender;
@@ -29,7 +29,7 @@ bool is_stout(const std::array<double, 6>& frame) {
 double scale_around(const ConvexView& view, const Vec& centre, const std::array<double, 6>& frame) {
   if (!(view.extent > 0) || !is_stout(frame)) return kInfinity;
   double most = 0;
-  for (const Vertex& v : view.vertices) most = max(most, norm(unmapped(frame, vec(v) - centre)));
+  for (const Vertex& v : view.vertices) most = max(most, norm(ball_coordinates(frame, vec(v) - centre)));
   return most * (1 + kEllipsoidSlack);
 }
 

@@ -3,6 +3,7 @@
 // Steps from half-edge to half-edge of a ConvexView. Knows the data structure, nothing of coordinates.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <swiftlet/model.h>
@@ -82,6 +83,16 @@ static inline bool names_feature(const ConvexView& view, FeatureId h) {
   if (h.kind() == FeatureKind::Edge) count = view.half_edges.size();
   if (h.kind() == FeatureKind::Face) count = view.face_first.size();
   return h.index() < count;
+}
+
+/// `Level::feature_count` of a level with this view.
+static inline std::array<std::uint32_t, 4> feature_count(const ConvexView& view) {
+  return {0, std::uint32_t(view.vertices.size()), std::uint32_t(view.half_edges.size()), std::uint32_t(view.face_first.size())};
+}
+/// True if `h`, which may hold any bits, names a feature of `level`. By one look: kinds change from query to query, and
+/// processors would guess branches wrong.
+static inline bool names_feature(const Level& level, FeatureId h) {
+  return h.index() < level.feature_count[std::size_t(h.kind())];
 }
 
 }  // namespace swiftlet

@@ -44,8 +44,8 @@ static inline Vec into_map(const std::array<double, 6>& m, const Vec& n) {
 }
 static inline Vec into_map(const Level& level, const Vec& n) { return into_map(level.map_frame, n); }
 
-/// M^-T x.
-static inline Vec unmapped(const std::array<double, 6>& m, const Vec& x) {
+/// M^-T x: the y for which x is M^T y. In an ellipsoid's frame it has length 1 on the surface.
+static inline Vec ball_coordinates(const std::array<double, 6>& m, const Vec& x) {
   const double a = x.x / m[0], b = (x.y - m[1] * a) / m[3];
   return {a, b, (x.z - m[2] * a - m[4] * b) / m[5]};
 }

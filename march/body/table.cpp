@@ -92,7 +92,7 @@ void write_frame(LevelHeader& header, const ConvexView& view) {
   const std::array<double, 6> frame{a, b, c, d, e, f};
   double low[3] = {}, high[3] = {};  // of the points M^-T (x - o), with x and o in extents
   for (const Vertex& v : view.vertices) {
-    const auto [x, y, z] = unmapped(frame, (vec(v) - o) * (view.extent > 0 ? 1 / view.extent : 0));
+    const auto [x, y, z] = ball_coordinates(frame, (vec(v) - o) * (view.extent > 0 ? 1 / view.extent : 0));
     for (const auto& [k, image] : {std::pair{0u, x}, {1u, y}, {2u, z}}) {
       low[k] = min(low[k], image), high[k] = max(high[k], image);
     }

@@ -120,14 +120,18 @@ inline constexpr double kNormError = 5 * kU;
 
 /// Ellipsoids are known of bodies up to so slender: the norm of the map frame M times that of its inverse is at most this.
 inline constexpr double kMostSlender = 256;
-/// The ellipsoid around a body is larger, and the one inside it smaller, by this share of their size: far more than what M n
-/// and M^-T x lose, which is at most `kMostSlender` times the 12 u of three divisions, six products and sums, and x itself.
+/// The ellipsoid around a body is larger, and the one inside it smaller, by this share of their size: far more than what they
+/// lose along a direction n. M n and M^-T x each lose 3 u of the terms that may cancel, which are `kMostSlender` times as large
+/// at most, and the lengths of both and their product 8 u.
 inline constexpr double kEllipsoidSlack = 0x1p-24;
-/// The inverse of a pose within `pose_error` of a rigid motion differs from its transpose by at most 3 of it, which counts
-/// `kMostSlender` times where a direction is taken into an ellipsoid's frame. Rounded up.
-inline constexpr double kSlenderTurn = 4 * kMostSlender;
-/// By how many times law 2's bound two ellipsoids have to overlap along the line of centres: a slender body is that much less
-/// deep there, and the rounding of the line counts as much. Rounded up.
+/// By how many times a pose's error a line may be shorter in an ellipsoid than what the transposed rotation says. The inverse is
+/// the transpose less E R^-1 for E = R^T R - I, whose Frobenius norm is at most 3 errors. Where A = M^-T changes lengths by up
+/// to k = `kMostSlender`, y . A E A^-1 y is at most 1.5 sqrt(2 + 2 K^2) = 272 errors for unit y and K = (k + 1 / k) / 2, as
+/// |A^T y| |A^-1 y| <= K. Rounded up.
+inline constexpr double kSlenderTurn = 2 * kMostSlender;
+/// By how many times law 2's bound two ellipsoids have to overlap along the line of centres. The rounding of the line, 13 / 64
+/// of the bound, counts K times as above: 26. Bodies that overlap by so much along the line are deep by a bound in any
+/// direction.
 inline constexpr double kSlenderLine = 4 * kMostSlender;
 
 // ---- Rounding of a walk's tests (marcher.h) -------------------------------------------------------------------------------

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Voronoi marching [Ehmann & Lin 2000, sec. 5.1]. Each state finds the nearest points of its two closed features. If a point is
 // on its feature's boundary, the walk drops to that boundary feature. Else it goes to the neighbour that rises highest along
-// the direction between the points; if both features have one that rises, to the one on the way to which the distance falls
-// faster. Mirrored states run with the roles swapped.
+// the direction between the points. If both features have one that rises, two vertices go to the one on the way to which the
+// distance falls faster and two edges over the face that rises higher; beside an edge and a vertex the faces are asked first,
+// as they cost less. Mirrored states run with the roles swapped.
 //
 //     VV  --ring-->  VE  --ring-->  EE  --face--> over the face
 //     VV <--clamp--  VE <--clamp--  EE
@@ -71,7 +72,7 @@ struct RingScan {
 /// An edge compared with the faces beside it along a direction.
 struct SideScan {
   double left_rise, right_rise;  ///< how far the neighbouring corners rise above the edge, times the direction's length
-  std::uint32_t left, right;     ///< the edges from the half-edge's origin to these corners
+  std::uint32_t right;           ///< the edge from the half-edge's origin to the right one
   double height() const { return max(left_rise, right_rise); }
   bool falls() const { return height() > 0; }
   /// As RingScan::over, of a direction that misses a right angle to the edge by a sine of at most `tilt` and has `length_1`.
@@ -326,12 +327,12 @@ class Marcher {
   static SideScan sides(const Q& body, std::uint32_t v0, std::uint32_t h, const Vec4& own, std::uint32_t& tests) {
     const Vertex& record = body.view.vertices[v0];
     const std::uint32_t left = counter_clockwise(record, h), right = clockwise(record, h);
-    if (left == h) return {-kUnknown, -kUnknown, kNone, kNone};  // a segment
+    if (left == h) return {-kUnknown, -kUnknown, kNone};  // a segment
     tests += 2;
     Vec4 q0 = vec4(record), to_left = body.own(body.view.half_edges[left].head) - q0,
          to_right = body.own(body.view.half_edges[right].head) - q0;
     const Vec2 rises = dots(own, to_left, own, to_right);
-    return {rises[0], rises[1], left, right};
+    return {rises[0], rises[1], right};
   }
 
   /// The face beside edge `h` that rises, by a scan.
@@ -604,8 +605,12 @@ template <bool early>
 [[gnu::noinline, gnu::flatten]] Walk walked(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule,
                                             std::uint32_t step_budget, double enough2 = -1) {
   Walk result;
-  if (a.kind() == FeatureKind::Edge && b.kind() == FeatureKind::Face) a = vertex(origin(pair.a, a.index()));
-  if (b.kind() == FeatureKind::Edge && a.kind() == FeatureKind::Face) b = vertex(origin(pair.b, b.index()));
+  if (!is_state(a, b)) [[unlikely]] {
+    if (a.kind() == FeatureKind::Edge)
+      a = vertex(origin(pair.a, a.index()));
+    else
+      b = vertex(origin(pair.b, b.index()));
+  }
   Marcher<Nearest, early> march(pair, rule, result.nearest, enough2);
   Resting4 resting(pair);
   Moved4 moved(pair);

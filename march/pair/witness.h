@@ -54,7 +54,7 @@ static inline BetweenEdges<V> between_edges(const V& u, double uu, const V& v, d
   // If the edges are parallel within rounding, the direction of their cross product is noise.
   if (!(nn > kU * uu * vv)) return {across(d, u, uu), kAcrossError, kAcrossError + kFlatError + std::sqrt(nn) / lengths};
   const double tilt = kFlatError * lengths / std::sqrt(nn);
-  return {dot(n, d) < 0 ? -n : n, tilt, tilt};
+  return {n * std::copysign(1.0, dot(n, d)), tilt, tilt};  // either sense is as likely: no branch
 }
 
 /// A normal that such edges gave, at a right angle to both of them but for `kAcrossError`: less what lies in their plane. Their

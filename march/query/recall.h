@@ -357,7 +357,7 @@ template <class Question>
   const bool has_choice = has_other_start(Shape(a), Shape(b), on_a, on_b);
   const Turn turn = has_choice ? turn_of(in_a, in_b, seed, level_a, level_b, Warm::Near) : Turn::Some;
   if (turn == Turn::Far) return go_on(turn, nullptr);
-  if (!names_feature(level_a.view, fa) || !names_feature(level_b.view, fb)) {
+  if (!names_feature(level_a, fa) || !names_feature(level_b, fb)) {
     const bool cold = fa.kind() == FeatureKind::None;
     return cold ? go_on(Turn::Some, nullptr) : distance_anew(a, b, b_in_a, seed, question);
   }

@@ -99,7 +99,7 @@ static inline bool spheres_meet(const Pair& pair, const Vec& between, Answer& an
 template <class Pair>
 static inline bool ellipsoids_meet(const Pair& pair, const Line& line, Answer& answer) {
   const Level &a = pair.a.level(0), &b = pair.b.level(0);
-  const Vec way_a = unmapped(a.map_frame, line.in_a), way_b = unmapped(b.map_frame, line.in_b);
+  const Vec way_a = ball_coordinates(a.map_frame, line.in_a), way_b = ball_coordinates(b.map_frame, line.in_b);
   const double share_a = a.scale_inside / std::sqrt(dot(way_a, way_a)), share_b = b.scale_inside / std::sqrt(dot(way_b, way_b)),
                share = share_a + share_b, beyond = share * (1 - kSlenderTurn * pair.pose_error) - (1 + kEllipsoidSlack),
                least = kSlenderLine * pair.law_two();

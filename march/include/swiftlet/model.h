@@ -149,6 +149,7 @@ struct Level {
   double scale_inside = 0;  ///< the scale of an ellipsoid that the body holds; 0 where none is known, as on coarser levels
   double map_doubt = 0;     ///< about the mean error of a look-up in `support_map`, a length
   double edge_length = 0;   ///< mean length of the level's edges, diagonals included
+  std::array<std::uint32_t, 4> feature_count{};  ///< by FeatureKind: vertices, half-edges and faces; 0 on absent levels
   double same_cos2 = 0, near_cos2 = 0;  ///< squared cosines of the turns after which a seed's features are stored again, and
                                         ///< after which they are worse than a cold start; 0: never
   double deviation = 0;    ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
