@@ -20,7 +20,7 @@ Answer SWIFTLET_OF_WIDTH(ask_distance)(const Model& a, const Model& b, const Pos
 }
 Answer SWIFTLET_OF_WIDTH(ask_loosely)(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, double absolute,
                                       double relative) {
-  return recalled_distance(a, b, b_in_a, seed, LooseDistance{{absolute, relative}});
+  return recalled_distance(a, b, b_in_a, seed, LooseDistance{absolute, relative});
 }
 [[gnu::flatten]] Answer SWIFTLET_OF_WIDTH(ask_intersection)(const Model& a, const Model& b, const Pose& b_in_a,
                                                             PairSeed& seed) {

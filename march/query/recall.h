@@ -256,21 +256,25 @@ template <class Pair>
   seal(radii, proof, limits.tuning, answer);
 }
 
-// What is asked: the two questions that most queries ask, as constants, which compilers fold; or any question.
+// What is asked: the questions that most queries ask, whose other limits are constants that compilers fold; or any question.
 namespace {
 struct ExactDistance {
-  static constexpr StopRule asked{};
   static constexpr bool is_loose = false;
+  static constexpr StopRule rule{};
+  const StopRule& asked() const { return rule; }
 };
 struct LooseDistance {
-  StopRule asked;
   static constexpr bool is_loose = true;
+  double absolute, relative;
+  StopRule asked() const { return {absolute, relative}; }
 };
 struct Intersection {
-  static constexpr StopRule asked{0, 0, 0, 0};
+  static constexpr StopRule rule{0, 0, 0, 0};
+  const StopRule& asked() const { return rule; }
 };
 struct AnyQuestion {
-  const StopRule& asked;
+  const StopRule& rule;
+  const StopRule& asked() const { return rule; }
 };
 }  // namespace
 
@@ -283,7 +287,7 @@ template <class Question>
   if (!quality.legal) return refuse(a, b, Status::InvalidPose, false, answer);
   const PlainPair pair(Shape(a), Shape(b), m, quality.error, NoLimits{});
   OverlapProof proof;
-  answer_hulls(pair, question.asked, seed, answer, proof);
+  answer_hulls(pair, question.asked(), seed, answer, proof);
   seal({0, 0}, proof, NoLimits::tuning, answer);
 }
 
@@ -306,24 +310,25 @@ template <class Question>
   AxisSample seen;
   seen.normal = {0, 0, 0};
   place = known ? Place{place.level_a, place.level_b, {known->a, known->b}} : coarsest_place(pair.a, pair.b);
-  const bool exact = !Question::is_loose || is_exact(pair, line.in_a, question.asked);
+  const StopRule& asked = question.asked();
+  const bool exact = !Question::is_loose || is_exact(pair, line.in_a, asked);
   LowerBound bound;
   const bool at_once = !exact && !known &&
-                       (spheres_suffice(pair, line.in_a, question.asked, answer) ||
-                        (pair.has_maps() && samples_suffice(pair, line, question.asked, seed, seen, bound, answer)));
-  if (!at_once) answer_from(pair, question.asked, exact, line, seen, bound, turn, place, known, seed, answer, proof);
+                       (spheres_suffice(pair, line.in_a, asked, answer) ||
+                        (pair.has_maps() && samples_suffice(pair, line, asked, seed, seen, bound, answer)));
+  if (!at_once) answer_from(pair, asked, exact, line, seen, bound, turn, place, known, seed, answer, proof);
   seal({0, 0}, proof, NoLimits::tuning, answer);
   return answer;
 }
 /// Answers a loose question by a sample, if that suffices, and is likely to for `stricter`.
 [[gnu::noinline, gnu::flatten]] static bool sampled_distance(const Model& a, const Model& b, const Motion& m, double pose_error,
-                                                             const Line& line, PairSeed& seed, const StopRule& asked,
-                                                             const StopRule& stricter, Answer& answer) {
+                                                             const Line& line, PairSeed& seed, const LooseDistance& question,
+                                                             const LooseDistance& stricter, Answer& answer) {
   const PlainPair pair(Shape(a), Shape(b), m, pose_error, NoLimits{});
-  if (!pair.has_maps() || is_exact(pair, line.in_a, stricter)) return false;
+  if (!pair.has_maps() || is_exact(pair, line.in_a, stricter.asked())) return false;
   AxisSample seen;
   LowerBound bound;
-  if (!samples_suffice(pair, line, asked, seed, seen, bound, answer)) return false;
+  if (!samples_suffice(pair, line, question.asked(), seed, seen, bound, answer)) return false;
   seal({0, 0}, OverlapProof(), NoLimits::tuning, answer);
   return true;
 }
@@ -354,6 +359,7 @@ template <class Question>
   const auto go_on = [&](Turn turn, const Walk* known) {
     return distance_from(a, b, m, quality.error, line(), turn, {on_a, on_b, {}}, known, seed, question);
   };
+  if (Question::is_loose && fa.kind() == FeatureKind::None) return go_on(Turn::Some, nullptr);  // as samples leave it
   const bool has_choice = has_other_start(Shape(a), Shape(b), on_a, on_b);
   const Turn turn = has_choice ? turn_of(in_a, in_b, seed, level_a, level_b, Warm::Near) : Turn::Some;
   if (turn == Turn::Far) return go_on(turn, nullptr);
@@ -370,11 +376,11 @@ template <class Question>
   if (march.ended() != WalkEnd::Minimum) [[unlikely]] {
     if constexpr (Question::is_loose) {
       // Half as much is left to a sample as to a cold start, as a walk of a few states is the alternative.
-      const StopRule half{question.asked.absolute / 2, question.asked.relative / 2};
+      const LooseDistance half{question.absolute / 2, question.relative / 2};
       const double doubt = a.level(0).map_doubt + b.level(0).map_doubt;
       Answer answer;
-      if (half.allows(norm(in_a), doubt) &&
-          sampled_distance(a, b, m, quality.error, line(), seed, question.asked, half, answer)) {
+      if (half.asked().allows(norm(in_a), doubt) &&
+          sampled_distance(a, b, m, quality.error, line(), seed, question, half, answer)) {
         answer.plane_tests = plane_tests;
         return answer;
       }
@@ -391,7 +397,7 @@ template <class Question>
   if constexpr (Question::is_loose) {
     const double error = level_a.deviation + level_b.deviation * stretch_of(quality.error);
     if (error > 0) proof.upper = (proof.upper + error) * (1 + 2 * kU);
-    is_proved = is_proved && (error == 0 || question.asked.narrow(proof.lower, proof.upper));
+    is_proved = is_proved && (error == 0 || question.asked().narrow(proof.lower, proof.upper));
   }
   if (!is_proved) [[unlikely]] {
     // The last state once more, so that not all of it is kept.
