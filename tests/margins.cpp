@@ -387,9 +387,7 @@ double around(const std::array<double, 6>& m, const Vec& v) {
   view.vertices = {&vertex, 1}, view.extent = max_abs(v);
   return scale_around(view, {0, 0, 0}, m);
 }
-bool is_slender(const std::array<double, 6>& m) {
-  return min(m[0], min(m[3], m[5])) > 0 && around(m, {1, 0, 0}) < kInfinity;
-}
+bool is_slender(const std::array<double, 6>& m) { return min(m[0], min(m[3], m[5])) > 0 && around(m, {1, 0, 0}) < kInfinity; }
 /// p2 a point of a body around the origin: how far the ellipsoid around it falls short of it along the ellipsoid's own normal
 /// there, without the slack.
 double around_error(const Scene& s) {
@@ -413,8 +411,8 @@ double slender_turn(const Scene& s) {
   return rounded(truth2 - asked2) / (std::sqrt(rounded(truth2)) + long_asked) / long_asked / pose_error;
 }
 Mat3 rotation(Random& random);
-/// p2 and p3 centres of B and A: by how much of law 2's bound less of the line between them lies in the ellipsoid of a body than
-/// the rounded line says.
+/// p2 and p3 centres of B and A: by how much of law 2's bound less of the line between them lies in the ellipsoid of a body
+/// than the rounded line says.
 double slender_line(const Scene& s) {
   const std::array<double, 6> m = frame(s);
   const Motion b_in_a = pose(s);
@@ -439,9 +437,7 @@ void put_frame(Random& random, Scene& s, const Mat3& axes) {
   }
 }
 /// In any directions, or nearly along the axes.
-void slender_frame(Random& random, Scene& s) {
-  put_frame(random, s, random.bits() & 1 ? random.rotation() : rotation(random));
-}
+void slender_frame(Random& random, Scene& s) { put_frame(random, s, random.bits() & 1 ? random.rotation() : rotation(random)); }
 /// The pose's error changes the line where the frame is the most slender; half of the line is along either axis of these.
 void slender_pose(Random& random, Scene& s) {
   Mat3 error;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Attacks on the rounding margins of a walk's last state and of the ellipsoids that tell verdicts: operands searched for by hill
-// climbing until the kernel's own expressions err as much as they can, judged by exact arithmetic that shares nothing with
+// Attacks on the rounding margins of a walk's last state and of the ellipsoids that tell verdicts: operands searched for by
+// hill climbing until the kernel's own expressions err as much as they can, judged by exact arithmetic that shares nothing with
 // march; and small bodies whose neighbours lie at the very margins, judged whole.
 #pragma once
 

@@ -19,8 +19,10 @@ void print(const Scene& scene) {
 constexpr double kRounded = 0x1p-40;
 
 bool attack_margins(std::uint64_t count) {
-  std::printf("margins in u (foot turn, slender turn: in pose errors; righted turn: in tilts; slender line: in law 2's bounds)\n%-20s %8s %8s %8s %10s  %s\n", "", "margin", "needed", "largest",
-              "judged", "half of needed");
+  std::printf(
+      "margins in u (foot turn, slender turn: in pose errors; righted turn: in tilts; slender line: in law 2's bounds)\n%-20s "
+      "%8s %8s %8s %10s  %s\n",
+      "", "margin", "needed", "largest", "judged", "half of needed");
   bool good = true;
   for (const Kind& kind : kinds()) {
     const Attack found = attack(kind, count);

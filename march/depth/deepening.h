@@ -300,12 +300,20 @@ class Deepening {
   Place place_{};
 };
 
+/// How far the points of `s` are from where its bounds put them along its normal.
+double aside(const Answer& s) {
+  const Vec n = vec(s.normal), between = vec(s.point_b) - vec(s.point_a);
+  const double along = min(max(dot(between, n), s.lower), max(s.lower, s.upper));
+  return norm(between - n * along);
+}
+
 /// Writes the depth found into `s`: minus its upper bound is `lower`; normal, levels, points and features as far as known.
 void take(const Deepening& deep, Answer& s) {
   s.lower = -deep.upper;
   s.normal = eigen(deep.normal);
   s.level_a = std::int16_t(deep.level_a), s.level_b = std::int16_t(deep.level_b);
-  if (deep.has_points && s.verdict != Verdict::Touching) {  // a touching answer's own are as near, on any shape
+  // A touching answer's own are as near, on any shape, but lie apart along a normal of their own.
+  if (deep.has_points && (s.verdict != Verdict::Touching || !(aside(s) <= deep.pair().law_two()))) {
     s.point_a = eigen(deep.point_a), s.point_b = eigen(deep.point_b);
     s.feature_a = deep.feature_a, s.feature_b = deep.feature_b;
   }

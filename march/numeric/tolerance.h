@@ -124,9 +124,9 @@ inline constexpr double kMostSlender = 256;
 /// lose along a direction n. M n and M^-T x each lose 3 u of the terms that may cancel, which are `kMostSlender` times as large
 /// at most, and the lengths of both and their product 8 u.
 inline constexpr double kEllipsoidSlack = 0x1p-24;
-/// By how many times a pose's error a line may be shorter in an ellipsoid than what the transposed rotation says. The inverse is
-/// the transpose less E R^-1 for E = R^T R - I, whose Frobenius norm is at most 3 errors. Where A = M^-T changes lengths by up
-/// to k = `kMostSlender`, y . A E A^-1 y is at most 1.5 sqrt(2 + 2 K^2) = 272 errors for unit y and K = (k + 1 / k) / 2, as
+/// By how many times a pose's error a line may be shorter in an ellipsoid than what the transposed rotation says. The inverse
+/// is the transpose less E R^-1 for E = R^T R - I, whose Frobenius norm is at most 3 errors. Where A = M^-T changes lengths by
+/// up to k = `kMostSlender`, y . A E A^-1 y is at most 1.5 sqrt(2 + 2 K^2) = 272 errors for unit y and K = (k + 1 / k) / 2, as
 /// |A^T y| |A^-1 y| <= K. Rounded up.
 inline constexpr double kSlenderTurn = 2 * kMostSlender;
 /// By how many times law 2's bound two ellipsoids have to overlap along the line of centres. The rounding of the line, 13 / 64

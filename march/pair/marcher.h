@@ -86,9 +86,9 @@ struct SideScan {
 
 /// A neighbour that rises.
 struct Rise {
-  std::uint32_t to;  ///< a half-edge of the vertex's ring
-  double height;     ///< as that of the scan
-  double length2;    ///< squared length of the way to the neighbour
+  std::uint32_t to;                                           ///< a half-edge of the vertex's ring
+  double height;                                              ///< as that of the scan
+  double length2;                                             ///< squared length of the way to the neighbour
   double rate2() const { return height / length2 * height; }  ///< squared rate at which the distance falls
 };
 
