@@ -372,7 +372,7 @@ void large_shift(Random& random, Scene& s) {
   for (std::size_t i = 12; i < 15; ++i) s[i] *= std::exp2(-random.uniform(20, 60));
 }
 
-/// p0 and p1 a map frame M: its Frobenius norm times that of its inverse.
+/// p0 and p1 hold a map frame.
 std::array<double, 6> frame(const Scene& s) { return {s[12], s[13], s[14], s[15], s[16], s[17]}; }
 /// The vector M^-T x times the product of M's diagonal.
 Exact3 ball_coordinates_by(const std::array<double, 6>& m, const Exact3& x) {
@@ -387,14 +387,17 @@ double around(const std::array<double, 6>& m, const Vec& v) {
   view.vertices = {&vertex, 1}, view.extent = max_abs(v);
   return scale_around(view, {0, 0, 0}, m);
 }
-bool is_slender(const std::array<double, 6>& m) { return min(m[0], min(m[3], m[5])) > 0 && around(m, {1, 0, 0}) < kInfinity; }
+/// The kernel takes M for a frame of ellipsoids.
+bool has_ellipsoid(const std::array<double, 6>& m) {
+  return min(m[0], min(m[3], m[5])) > 0 && around(m, {1, 0, 0}) < kInfinity;
+}
 /// p2 a point of a body around the origin: how far the ellipsoid around it falls short of it along the ellipsoid's own normal
 /// there, without the slack.
 double around_error(const Scene& s) {
   const std::array<double, 6> m = frame(s);
   const Vec w = p(s, 2), n = from_map(m, ball_coordinates(m, w)), way = into_map(m, n);
   const double scale = around(m, w);
-  if (!(is_slender(m) && has_range(dot(way, way)))) return -1;
+  if (!(has_ellipsoid(m) && has_range(dot(way, way)))) return -1;
   const Dyadic height = inner(exact(n), exact(w));
   return (rounded(height - Dyadic(scale * std::sqrt(dot(way, way)))) / rounded(height) + kEllipsoidSlack) / kU;
 }
@@ -402,7 +405,7 @@ double around_error(const Scene& s) {
 double slender_turn(const Scene& s) {
   const std::array<double, 6> m = frame(s);
   const double pose_error = pose_quality(pose(s)).error;
-  if (pose_error < 1e-9 || !is_slender(m)) return -1;
+  if (pose_error < 1e-9 || !has_ellipsoid(m)) return -1;
   const Matrix r = exact(pose(s));
   const Exact3 x = exact(p(s, 2)), asked = ball_coordinates_by(m, transposed(r) * x),
                truth = ball_coordinates_by(m, transposed(cofactors(r)) * x);
@@ -410,7 +413,6 @@ double slender_turn(const Scene& s) {
   const double long_asked = std::sqrt(rounded(asked2));
   return rounded(truth2 - asked2) / (std::sqrt(rounded(truth2)) + long_asked) / long_asked / pose_error;
 }
-Mat3 rotation(Random& random);
 /// p2 and p3 centres of B and A: by how much of law 2's bound less of the line between them lies in the ellipsoid of a body
 /// than the rounded line says.
 double slender_line(const Scene& s) {
@@ -418,7 +420,7 @@ double slender_line(const Scene& s) {
   const Motion b_in_a = pose(s);
   const Vec line = apply(b_in_a, p(s, 2)) - p(s, 3);
   const double bound = law_two(max_abs(p(s, 3)), max_abs(p(s, 2)), norm(b_in_a.t), pose_quality(b_in_a).error);
-  if (!(is_slender(m) && max_abs(line) > 0)) return -1;
+  if (!(has_ellipsoid(m) && max_abs(line) > 0)) return -1;
   const Exact3 asked = ball_coordinates_by(m, exact(line)),
                truth = ball_coordinates_by(m, exact(b_in_a) * exact(p(s, 2)) + exact(b_in_a.t) - exact(p(s, 3)));
   const Dyadic asked2 = inner(asked, asked), truth2 = inner(truth, truth);
@@ -436,6 +438,7 @@ void put_frame(Random& random, Scene& s, const Mat3& axes) {
     return;
   }
 }
+Mat3 rotation(Random& random);
 /// In any directions, or nearly along the axes.
 void slender_frame(Random& random, Scene& s) { put_frame(random, s, random.bits() & 1 ? random.rotation() : rotation(random)); }
 /// The pose's error changes the line where the frame is the most slender; half of the line is along either axis of these.

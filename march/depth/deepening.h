@@ -312,7 +312,7 @@ void take(const Deepening& deep, Answer& s) {
   s.lower = -deep.upper;
   s.normal = eigen(deep.normal);
   s.level_a = std::int16_t(deep.level_a), s.level_b = std::int16_t(deep.level_b);
-  // A touching answer's own are as near, on any shape, but lie apart along a normal of their own.
+  // A touching answer keeps its own points, which are as near, unless they lie too far aside of the depth's normal.
   if (deep.has_points && (s.verdict != Verdict::Touching || !(aside(s) <= deep.pair().law_two()))) {
     s.point_a = eigen(deep.point_a), s.point_b = eigen(deep.point_b);
     s.feature_a = deep.feature_a, s.feature_b = deep.feature_b;

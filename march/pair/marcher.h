@@ -3,8 +3,8 @@
 // Voronoi marching [Ehmann & Lin 2000, sec. 5.1]. Each state finds the nearest points of its two closed features. If a point is
 // on its feature's boundary, the walk drops to that boundary feature. Else it goes to the neighbour that rises highest along
 // the direction between the points. If both features have one that rises, two vertices go to the one on the way to which the
-// distance falls faster and two edges over the face that rises higher; beside an edge and a vertex the faces are asked first,
-// as they cost less. Mirrored states run with the roles swapped.
+// distance falls faster and two edges over the face that rises higher; of an edge and a vertex the faces beside the edge are
+// asked first, as they cost less. Mirrored states run with the roles swapped.
 //
 //     VV  --ring-->  VE  --ring-->  EE  --face--> over the face
 //     VV <--clamp--  VE <--clamp--  EE
