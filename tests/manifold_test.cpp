@@ -508,6 +508,43 @@ TEST(Manifold, OfCornersOnSidesLosesNone) {
   }
 }
 
+/// A triangle or a quadrilateral whose corners lie on a lattice of 4 by 4 places, counter-clockwise.
+std::vector<Eigen::Vector2d> on_lattice(Random& random) {
+  for (;;) {
+    std::vector<Eigen::Vector2d> p;
+    const auto corners = 3 + random.bits() % 2;
+    for (std::size_t i = 0; i < corners; ++i) p.emplace_back(double(random.bits() % 4), double(random.bits() % 4));
+    const auto turns = [&](std::size_t i) {
+      const Eigen::Vector2d u = p[(i + 1) % corners] - p[i], v = p[(i + 2) % corners] - p[(i + 1) % corners];
+      return u.x() * v.y() - u.y() * v.x() > 0;
+    };
+    bool is_convex = true;
+    for (std::size_t i = 0; i < corners; ++i) is_convex &= turns(i);
+    if (is_convex) return p;
+  }
+}
+
+/// Corners lie on corners and on sides, sides on sides, up to rounding, more often than not.
+TEST(Manifold, OfFourSidesOnALatticeIsTheIntersectionOfTheirFaces) {
+  Random random(41);
+  Shares shares;
+  int sides[2] = {};
+  for (int i = 0; i < 1500; ++i) {
+    const auto a = on_lattice(random), b = on_lattice(random);
+    const Pose on_top = at(double(random.bits() % 3) - 1, double(random.bits() % 3) - 1, 0);
+    const Contacting c = stacked(prism(a, 1), 0.5, prism(b, 1), on_top, any(kGaps, random),
+                                 random.bits() % 4 ? random.rotation() : Mat3::Identity());
+    ++sides[a.size() == 4], ++sides[b.size() == 4];
+    if (is_apart(c)) expect_true(c, shares);
+    ASSERT_FALSE(testing::Test::HasFailure()) << i;
+  }
+  EXPECT_GE(std::min(sides[0], sides[1]), 400);
+  EXPECT_GE(shares.counted, 800);
+  std::printf("%d areas: four points keep at least %.3f, eight %.3f\n", shares.counted, shares.four, shares.eight);
+  EXPECT_GE(shares.four, 0.6);
+  EXPECT_GE(shares.eight, 0.9999);
+}
+
 /// Tips that are farthest apart are not the corners to keep.
 TEST(Manifold, OfALongFaceKeepsItsShoulders) {
   bodies::Polyhedron hexagon;

@@ -24,6 +24,10 @@ struct SeenBody {
     const Vertex &p = view.vertices[vertex], &q = view.vertices[other];
     return n.x * Vec2{p.x, q.x} + n.y * Vec2{p.y, q.y} + n.z * Vec2{p.z, q.z} + shift.z;
   }
+  /// The same as a function.
+  auto heights() const {
+    return [this](std::uint32_t vertex, std::uint32_t other) { return z(vertex, other); };
+  }
 };
 
 /// The projections of both bodies of a pair along one normal of the common frame.
@@ -42,6 +46,11 @@ struct Projection {
 /// A side of one of two faces, in the common frame; 0 where both are points.
 Vec any_side(const PairView& pair, const ContactFace& a, const ContactFace& b);
 
+/// Does as `clip`, of two faces of three or four sides whose corners surely turn inwards. Returns false, and adds nothing, of
+/// others. Adds all corners to the left border, clockwise.
+bool clip_four_sides(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
+                     Candidates& corners);
+
 /// Does as `clip`, by halving: of two rims, or a rim and a face of few corners. If there are many, it adds those that hold
 /// nearly all of the area, the deepest, and those that the manifold before names. Returns false, and adds nothing, if a border
 /// may turn outwards or the faces hardly overlap. Cost: the logarithm of the sides of both faces for each corner.
@@ -56,7 +65,7 @@ SWIFTLET_BOTH_WIDTHS(void, clip, const Projection& projection, const ContactFace
 static inline void clip(const Projection& projection, const ContactFace& a, const ContactFace& b, double bound,
                         Candidates& corners) {
   const bool is_large = a.corner_count() + b.corner_count() >= kManyCorners;
-  if (!(is_large && clip_by_halving(projection, a, b, bound, corners)))
+  if (is_large ? !clip_by_halving(projection, a, b, bound, corners) : !clip_four_sides(projection, a, b, bound, corners))
     SWIFTLET_BY_WIDTH(clip, projection, a, b, bound, corners);
   corners.close();
 }

@@ -609,7 +609,7 @@ class Halving {
     if (!corners_.takes(names, wanted)) return;
     const Chain &left = chain(Border::Left, g), &right = chain(Border::Right, g);
     const std::uint32_t l = there.side[0], r = there.side[1];
-    const double depth = depth_between(outline_[g]->body(), left.side(l), right.side(r), left.ends(l), right.ends(r), place),
+    const double depth = depth_between(outline_[g]->body().heights(), left.side(l), right.side(r), left.ends(l), right.ends(r), place),
                  z = outline_[f]->body().z(v), z_a = f == 0 ? z : depth, z_b = f == 0 ? depth : z;
     corners_.add(border, {{place.x, place.y, z_a}, z_b - z_a, names}, wanted);
   }

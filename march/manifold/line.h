@@ -94,17 +94,18 @@ struct Ends {
 };
 /// The coordinate along the normal at a place of a face: interpolated between a side of its left border and one of its right
 /// border, one in each lane, or that of the nearer one outside.
-[[gnu::always_inline]] inline double depth_between(const SeenBody& body, const Line& left, const Line& right,
-                                                   const Ends& at_left, const Ends& at_right, const Place& place) {
+/// `z_of(u, v)`: that of two vertices.
+[[gnu::always_inline]] inline double depth_between(auto&& z_of, const Line& left, const Line& right, const Ends& at_left,
+                                                   const Ends& at_right, const Place& place) {
   const Vec2 none{0, 0}, rise{left.way.y, right.way.y},
       up = (place.y - Vec2{left.from.y, right.from.y}) / rise, t = rise > none ? min(max(up, none), Vec2{1, 1}) : none,
       x = Vec2{-left.from.x, right.from.x} + Vec2{-left.way.x, right.way.x} * t;
   if (x[0] < place.x && place.x < x[1]) [[likely]] {
-    const Vec2 from = body.z(at_left.from, at_right.from), z = from + (body.z(at_left.to, at_right.to) - from) * t;
+    const Vec2 from = z_of(at_left.from, at_right.from), z = from + (z_of(at_left.to, at_right.to) - from) * t;
     return z[0] + (z[1] - z[0]) * ((place.x - x[0]) / (x[1] - x[0]));
   }
   const bool is_left = place.x <= x[0];
-  const Vec2 z = is_left ? body.z(at_left.from, at_left.to) : body.z(at_right.from, at_right.to);
+  const Vec2 z = is_left ? z_of(at_left.from, at_left.to) : z_of(at_right.from, at_right.to);
   return z[0] + (z[1] - z[0]) * (is_left ? left.along({-place.x, place.y}) : right.along(place));
 }
 

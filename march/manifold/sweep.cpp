@@ -529,7 +529,7 @@ class Sweep {
   template <int f>
   double depth_at(const Place& place) const {
     const SeenBorder &left = at(Border::Left, f), &right = at(Border::Right, f);
-    return depth_between(left.body(), left.side(), right.side(), {left.start().vertex(), left.end().vertex()},
+    return depth_between(left.body().heights(), left.side(), right.side(), {left.start().vertex(), left.end().vertex()},
                          {right.start().vertex(), right.end().vertex()}, place);
   }
 
