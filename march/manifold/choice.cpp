@@ -3,22 +3,15 @@
 #include "manifold/choice.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "manifold/largest_polygon.h"
+#include "manifold/set.h"
 
 namespace swiftlet {
 namespace {
 
-/// Candidates, by a bit each.
-using Set = std::uint32_t;
-static_assert(kMostCandidates < 32);
-Set bit(int i) { return Set(1) << i; }
-
-void each(Set set, auto&& visit) {
-  for (; set != 0; set &= set - 1) visit(std::countr_zero(set));
-}
+static_assert(kMostCandidates < 32);  // a Set holds them
 
 /// The convex hull of candidates' places, counter-clockwise; a place outside by no more than the bound does not change it.
 class Loop {
@@ -62,7 +55,7 @@ class Loop {
   /// one may lie within the bound of the line through two others; else `add` would make the same corners. The smallest triangle
   /// of a convex polygon's corners is one of three neighbours, and none of its sides is longer than the border.
   bool go_round(Set those) {
-    const Place start = place(std::countr_zero(those));
+    const Place start = place(lowest(those));
     Place at = start, first{0, 0}, before{0, 0};
     double least = kInfinity, length = 0;
     int peaks = 0;
@@ -71,7 +64,7 @@ class Loop {
       peaks += before.y > 0 && way.y <= 0;
       before = way;
     };
-    put(size_++, std::countr_zero(those));
+    put(size_++, lowest(those));
     each(those & (those - 1), [&](int i) {
       const Place next = place(i), way = next - at;
       if (size_ == 1)
@@ -173,7 +166,7 @@ class Choice {
  private:
   static constexpr int kNobody = -1;
 
-  Set all() const { return bit(candidates_.count()) - 1; }
+  Set all() const { return below(candidates_.count()); }
   bool is_known(int i) const { return known_ & bit(i); }
 
   /// The first point of the manifold before if it is nearly the deepest, else the deepest of its points that are, else the

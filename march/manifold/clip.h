@@ -24,10 +24,6 @@ struct SeenBody {
     const Vertex &p = view.vertices[vertex], &q = view.vertices[other];
     return n.x * Vec2{p.x, q.x} + n.y * Vec2{p.y, q.y} + n.z * Vec2{p.z, q.z} + shift.z;
   }
-  /// The same as a function.
-  auto heights() const {
-    return [this](std::uint32_t vertex, std::uint32_t other) { return z(vertex, other); };
-  }
 };
 
 /// The projections of both bodies of a pair along one normal of the common frame.

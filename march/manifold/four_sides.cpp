@@ -12,48 +12,40 @@
 // A corner that lies on a side, up to the bound, counts as within it: it is a corner of the intersection, and no end of a side
 // that crosses. Corners come in the order in which they lie around the intersection, but for such that rounding has moved.
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 
 #include "body/half_edge.h"
 #include "manifold/clip.h"
 #include "manifold/line.h"
+#include "manifold/set.h"
 
 namespace swiftlet {
 namespace {
 
-/// Sides or corners of a polygon, by a bit each.
-using Set = std::uint32_t;
-
-void each(Set set, auto&& visit) {
-  for (; set != 0; set &= set - 1) visit(std::uint32_t(std::countr_zero(set)));
-}
-
 /// A contact face of three or four sides as a projection shows it. Side i goes from corner i to the next one.
 class Polygon {
  public:
-  static constexpr std::uint32_t kMostSides = 4;
+  static constexpr int kMostSides = 4;
 
   /// Has no sides if there are more, or a corner may not turn inwards by more than the flatness.
   Polygon(const SeenBody& body, const ContactFace& face, double bound) : body_(body), name_(face.name()) {
     if (!face.has_plane() || face.is_rim()) return;
     const bool is_from_above = dot(cross(body.x, body.y), face.normal()) >= 0;
-    const bool is_small =
-        is_from_above ? go_round<false>(face, twin(face.side())) : go_round<true>(face, face.side());
+    const bool is_small = is_from_above ? go_round<false>(face, twin(face.side())) : go_round<true>(face, face.side());
     if (!is_small || !measure(bound, face.flatness())) count_ = 0;
   }
 
-  std::uint32_t count() const { return count_; }
-  Set every() const { return (Set(1) << count_) - 1; }
-  std::uint32_t next(std::uint32_t i) const { return i + 1 < count_ ? i + 1 : 0; }
+  int count() const { return count_; }
+  Set every() const { return below(count_); }
+  int next(int i) const { return i + 1 < count_ ? i + 1 : 0; }
   FeatureId name() const { return name_; }
-  FeatureId vertex(std::uint32_t i) const { return {FeatureKind::Vertex, vertex_[i]}; }
-  FeatureId edge(std::uint32_t i) const { return {FeatureKind::Edge, std::min(half_edge_[i], twin(half_edge_[i]))}; }
-  const Place& at(std::uint32_t i) const { return at_[i]; }
-  Line side(std::uint32_t i) const { return {at(i), at(i + 1), way(at(i), at(i + 1))}; }
+  FeatureId vertex(int i) const { return {FeatureKind::Vertex, vertex_[i]}; }
+  FeatureId edge(int i) const { return {FeatureKind::Edge, std::min(half_edge_[i], twin(half_edge_[i]))}; }
+  const Place& at(int i) const { return at_[i]; }
+  Line side(int i) const { return {at(i), at(i + 1), way(at(i), at(i + 1))}; }
   /// The coordinate along the normal, of a corner and of a place on a side.
-  double z(std::uint32_t i) const { return z_[i]; }
-  double z_on(std::uint32_t i, double t) const { return z_[i] + (z_[i + 1] - z_[i]) * t; }
+  double z(int i) const { return z_[i]; }
+  double z_on(int i, double t) const { return z_[i] + (z_[i + 1] - z_[i]) * t; }
 
   /// Of which sides a place is surely inside, and outside.
   struct Found {
@@ -66,23 +58,22 @@ class Polygon {
 
   /// The coordinate along the normal at a place of the face.
   double z_at(const Place& place) const {
-    const Set below = at_most(y_, all(place.y)) & every();
-    std::uint32_t left, right;  // sides, the left one of which rises through this height and the right one falls
-    if (below != 0 && below != every()) [[likely]] {
-      const Set ends_below = below >> 1 | (below & 1) << (count_ - 1);
-      left = std::uint32_t(std::countr_zero(below & ~ends_below)), right = std::uint32_t(std::countr_zero(ends_below & ~below));
+    const Set begins_below = at_most(y_, all(place.y)) & every();
+    const Set ends_below = begins_below >> 1 | (begins_below & 1) << (count_ - 1);
+    int left, right;  // sides, the left one of which rises through this height and the right one falls
+    if (begins_below != 0 && begins_below != every()) [[likely]] {
+      left = lowest(begins_below & ~ends_below), right = lowest(ends_below & ~begins_below);
     } else {
-      const bool is_above = below != 0;
+      const bool is_above = begins_below != 0;
       const auto is_lower = [](const Place& p, const Place& q) { return p.y < q.y; };
       const auto tip = is_above ? std::max_element(at_, at_ + count_, is_lower) : std::min_element(at_, at_ + count_, is_lower);
-      const std::uint32_t after = std::uint32_t(tip - at_), before = (after == 0 ? count_ : after) - 1;
+      const int after = int(tip - at_), before = (after == 0 ? count_ : after) - 1;
       left = is_above ? before : after, right = is_above ? after : before;
     }
-    const auto mirrored = [&](std::uint32_t i) { return swiftlet::place(xy(at(i)) * Vec2{-1, 1}); };
+    const auto mirrored = [&](int i) { return swiftlet::place(xy(at(i)) * Vec2{-1, 1}); };
     const auto line = [](const Place& from, const Place& to) { return Line{from, to, way(from, to)}; };
-    return depth_between([&](std::uint32_t i, std::uint32_t j) { return Vec2{z_[i], z_[j]}; },
-                         line(mirrored(left), mirrored(left + 1)), line(at(right + 1), at(right)), {left, left + 1},
-                         {right + 1, right}, place);
+    return depth_between(line(mirrored(left), mirrored(left + 1)), line(at(right + 1), at(right)), Vec2{z(left), z(right + 1)},
+                         Vec2{z(left + 1), z(right)}, place);
   }
 
  private:
@@ -122,10 +113,11 @@ class Polygon {
 
   const SeenBody& body_;
   const FeatureId name_;
-  std::uint32_t count_ = 0, vertex_[kMostSides], half_edge_[kMostSides];
-  Vec4 x_, y_, way_x_, way_y_;     ///< of corners and of sides
-  Vec4 limit_;                     ///< the length of a side times the bound
-  Place at_[kMostSides + 1];       ///< after the last corner comes the first again
+  int count_ = 0;
+  std::uint32_t vertex_[kMostSides], half_edge_[kMostSides];
+  Vec4 x_, y_, way_x_, way_y_;  ///< of corners and of sides
+  Vec4 limit_;                  ///< the length of a side times the bound
+  Place at_[kMostSides + 1];    ///< after the last corner comes the first again
   double z_[kMostSides + 1];
 };
 
@@ -134,57 +126,55 @@ class Overlay {
  public:
   Overlay(const Polygon& a, const Polygon& b, double bound, Candidates& corners)
       : a_(a), b_(b), bound2_(bound * bound), corners_(corners) {
-    for (std::uint32_t i = 0; i < a.count(); ++i) of_a_[i] = b.find(a.at(i)), in_b_ |= Set(of_a_[i].out == 0) << i;
-    for (std::uint32_t j = 0; j < b.count(); ++j) of_b_[j] = a.find(b.at(j)), rest_ |= Set(of_b_[j].out == 0) << j;
+    for (int i = 0; i < a.count(); ++i) of_a_[i] = b.find(a.at(i)), in_b_ |= bit(i) * Set(of_a_[i].out == 0);
+    for (int j = 0; j < b.count(); ++j) of_b_[j] = a.find(b.at(j)), rest_ |= bit(j) * Set(of_b_[j].out == 0);
   }
 
   void run() {
-    for (std::uint32_t i = 0; i < a_.count(); ++i) {
+    for (int i = 0; i < a_.count(); ++i) {
       const Found &from = of_a_[i], &to = of_a_[a_.next(i)];
       if (from.out == 0) add_corner<0>(a_, b_, i);
-      each(from.out & to.in, [&](std::uint32_t j) {
+      each(from.out & to.in, [&](int j) {
         if (is_parted_by(i, j, b_.next(j))) add_crossing(i, j);
       });
       bool leaves = false;
-      each(from.in & to.out, [&](std::uint32_t j) {
+      each(from.in & to.out, [&](int j) {
         if (is_parted_by(i, b_.next(j), j)) add_crossing(i, j), follow_b(b_.next(j)), leaves = true;
       });
-      if (!leaves) each(to.out & ~(from.in | from.out), [&](std::uint32_t j) { follow_b(b_.next(j)); });
+      if (!leaves) each(to.out & ~(from.in | from.out), [&](int j) { follow_b(b_.next(j)); });
     }
-    for (std::uint32_t j = 0; rest_ != 0; j = b_.next(j)) follow_b(j);
+    for (int j = 0; rest_ != 0; j = b_.next(j)) follow_b(j);
   }
 
  private:
   using Found = Polygon::Found;
 
   /// Whether of two corners of B one is surely inside of side `i` of A, the other outside.
-  bool is_parted_by(std::uint32_t i, std::uint32_t inside, std::uint32_t outside) const {
-    return (of_b_[inside].in & of_b_[outside].out) >> i & 1;
-  }
+  bool is_parted_by(int i, int inside, int outside) const { return has(of_b_[inside].in & of_b_[outside].out, i); }
 
   /// Adds the corners of B from `j` on that lie in A and have not come yet.
-  void follow_b(std::uint32_t j) {
-    for (; rest_ >> j & 1; j = b_.next(j)) {
-      rest_ &= ~(Set(1) << j);
+  void follow_b(int j) {
+    for (; has(rest_, j); j = b_.next(j)) {
+      rest_ &= ~bit(j);
       const bool is_on_side = of_b_[j].in != a_.every();
       if (!(is_on_side && is_corner_of_a(b_.at(j)))) add_corner<1>(b_, a_, j);
     }
   }
   bool is_corner_of_a(const Place& place) const {
     bool found = false;
-    each(in_b_, [&](std::uint32_t i) { found |= are_near(a_.at(i), place, bound2_); });
+    each(in_b_, [&](int i) { found |= are_near(a_.at(i), place, bound2_); });
     return found;
   }
 
   /// Adds a corner of body `f`.
   template <int f>
-  void add_corner(const Polygon& own, const Polygon& other, std::uint32_t i) {
+  void add_corner(const Polygon& own, const Polygon& other, int i) {
     const FeatureId vertex = own.vertex(i);
     const Place& place = own.at(i);
     const double z = own.z(i), there = other.z_at(place), z_a = f == 0 ? z : there, z_b = f == 0 ? there : z;
     add(place, z_a, z_b, f == 0 ? Names(vertex, other.name()) : Names(other.name(), vertex));
   }
-  void add_crossing(std::uint32_t i, std::uint32_t j) {
+  void add_crossing(int i, int j) {
     const Crossing at = crossing(a_.side(i), b_.side(j), bound2_);
     if (at.meet) add(at.on_a, a_.z_on(i, at.t_a), b_.z_on(j, at.t_b), Names(a_.edge(i), b_.edge(j)));
   }

@@ -167,7 +167,6 @@ class Chain {
     const Place from = at(k), to = at(k + 1);
     return {from, to, way(from, to)};
   }
-  Ends ends(std::uint32_t k) const { return {vertex(k), vertex(k + 1)}; }
   /// The edge that is a side.
   FeatureId edge(std::uint32_t k) const {
     const ConvexView& view = outline_.body().view;
@@ -609,7 +608,9 @@ class Halving {
     if (!corners_.takes(names, wanted)) return;
     const Chain &left = chain(Border::Left, g), &right = chain(Border::Right, g);
     const std::uint32_t l = there.side[0], r = there.side[1];
-    const double depth = depth_between(outline_[g]->body().heights(), left.side(l), right.side(r), left.ends(l), right.ends(r), place),
+    const SeenBody& body = outline_[g]->body();
+    const double depth = depth_between(left.side(l), right.side(r), body.z(left.vertex(l), right.vertex(r)),
+                                       body.z(left.vertex(l + 1), right.vertex(r + 1)), place),
                  z = outline_[f]->body().z(v), z_a = f == 0 ? z : depth, z_b = f == 0 ? depth : z;
     corners_.add(border, {{place.x, place.y, z_a}, z_b - z_a, names}, wanted);
   }

@@ -88,25 +88,19 @@ struct Crossing {
   return {t_a, t_b, on_a, on_b, meet};
 }
 
-/// The vertices at which a side begins and ends.
-struct Ends {
-  std::uint32_t from, to;
-};
 /// The coordinate along the normal at a place of a face: interpolated between a side of its left border and one of its right
-/// border, one in each lane, or that of the nearer one outside.
-/// `z_of(u, v)`: that of two vertices.
-[[gnu::always_inline]] inline double depth_between(auto&& z_of, const Line& left, const Line& right, const Ends& at_left,
-                                                   const Ends& at_right, const Place& place) {
+/// border, one in each lane, or that of the nearer one outside. `lower`, `upper`: that of both sides' ends.
+[[gnu::always_inline]] inline double depth_between(const Line& left, const Line& right, Vec2 lower, Vec2 upper,
+                                                   const Place& place) {
   const Vec2 none{0, 0}, rise{left.way.y, right.way.y},
       up = (place.y - Vec2{left.from.y, right.from.y}) / rise, t = rise > none ? min(max(up, none), Vec2{1, 1}) : none,
       x = Vec2{-left.from.x, right.from.x} + Vec2{-left.way.x, right.way.x} * t;
   if (x[0] < place.x && place.x < x[1]) [[likely]] {
-    const Vec2 from = z_of(at_left.from, at_right.from), z = from + (z_of(at_left.to, at_right.to) - from) * t;
+    const Vec2 z = lower + (upper - lower) * t;
     return z[0] + (z[1] - z[0]) * ((place.x - x[0]) / (x[1] - x[0]));
   }
-  const bool is_left = place.x <= x[0];
-  const Vec2 z = is_left ? z_of(at_left.from, at_left.to) : z_of(at_right.from, at_right.to);
-  return z[0] + (z[1] - z[0]) * (is_left ? left.along({-place.x, place.y}) : right.along(place));
+  if (place.x <= x[0]) return lower[0] + (upper[0] - lower[0]) * left.along({-place.x, place.y});
+  return lower[1] + (upper[1] - lower[1]) * right.along(place);
 }
 
 }  // namespace

@@ -529,8 +529,8 @@ class Sweep {
   template <int f>
   double depth_at(const Place& place) const {
     const SeenBorder &left = at(Border::Left, f), &right = at(Border::Right, f);
-    return depth_between(left.body().heights(), left.side(), right.side(), {left.start().vertex(), left.end().vertex()},
-                         {right.start().vertex(), right.end().vertex()}, place);
+    return depth_between(left.side(), right.side(), left.body().z(left.start().vertex(), right.start().vertex()),
+                         left.body().z(left.end().vertex(), right.end().vertex()), place);
   }
 
   /// Adds the point where two sides cross, of these borders of A and B, or a corner of either within the bound of it.

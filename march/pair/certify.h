@@ -19,8 +19,8 @@ namespace swiftlet {
 /// At most four vertex pairs with convex weights, which make one point of each body. Certified GJK starts from an active set.
 struct ActiveSet {
   int count = 0;
-  std::array<std::uint32_t, 4> a{}, b{};
-  std::array<double, 4> weight{};
+  std::array<std::uint32_t, 4> a, b;  ///< entries from `count` on have no meaning
+  std::array<double, 4> weight;
 };
 
 struct Certificate {
