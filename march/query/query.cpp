@@ -60,13 +60,23 @@ void ask_on(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, co
   return answer;
 }
 
+/// True if the finest maps of two models, which have all levels, are hardly ever as precise as asked. An exact distance is
+/// answered sooner then.
+bool is_finer_than_maps(const Model& a, const Model& b, const Options& options) {
+  const Level &of_a = a.level(0), &of_b = b.level(0);
+  const bool are_whole = (a.finest_level() | b.finest_level()) == 0, have_maps = of_a.map_side > 0 && of_b.map_side > 0;
+  return are_whole && have_maps && !(options.relative > 0) && options.absolute < of_a.map_doubt + of_b.map_doubt;
+}
+
 /// As `distance`. Most questions that allow an error have no other limit.
 [[gnu::noinline]] Answer distance_within(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed,
                                          const Options& options) {
   const bool loose = options.absolute > 0 || options.relative > 0, limited = limits_in(options.budget, options.tuning) != 0;
-  if (loose && !limited && options.beyond == -kNever && are_models(a, b))
-    return ask_loosely(*a.model(), *b.model(), b_in_a, seed, options.absolute, options.relative);
-  return any_distance(a, b, b_in_a, seed, options);
+  if (!(loose && !limited && options.beyond == -kNever && are_models(a, b))) return any_distance(a, b, b_in_a, seed, options);
+  const Model &of_a = *a.model(), &of_b = *b.model();
+  return is_finer_than_maps(of_a, of_b, options)
+             ? ask_distance(of_a, of_b, b_in_a, seed)
+             : ask_loosely(of_a, of_b, b_in_a, seed, options.absolute, options.relative);
 }
 
 }  // namespace
