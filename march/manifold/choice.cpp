@@ -85,7 +85,7 @@ class Loop {
     }
     unsigned seen = 0;
     for (int side = 0; side < size_; ++side) seen |= unsigned(beyond(side, spot) > 0) << side;
-    const auto sees = [&](int side) { return seen >> side & 1; };
+    const auto sees = [seen](int side) { return seen >> side & 1; };
     int first = 0;
     while (first < size_ && !(sees(first) && !sees(previous(first)))) ++first;
     if (first == size_) return size_ == 2 ? stretch(spot) : void();

@@ -74,9 +74,8 @@ bool is_finer_than_maps(const Model& a, const Model& b, const Options& options) 
   const bool loose = options.absolute > 0 || options.relative > 0, limited = limits_in(options.budget, options.tuning) != 0;
   if (!(loose && !limited && options.beyond == -kNever && are_models(a, b))) return any_distance(a, b, b_in_a, seed, options);
   const Model &of_a = *a.model(), &of_b = *b.model();
-  return is_finer_than_maps(of_a, of_b, options)
-             ? ask_distance(of_a, of_b, b_in_a, seed)
-             : ask_loosely(of_a, of_b, b_in_a, seed, options.absolute, options.relative);
+  return is_finer_than_maps(of_a, of_b, options) ? ask_distance(of_a, of_b, b_in_a, seed)
+                                                 : ask_loosely(of_a, of_b, b_in_a, seed, options.absolute, options.relative);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ std::string query(Input input);
 std::string hulls(Input input);
 #if SWIFTLET_FUZZ_MESHES
 /// A pose, a seed, options and two soups of few triangles: meshes made, with hulls and without, as surfaces and as solids,
-/// moved to other points and cut; verified, asked, compared with brute force.
+/// moved to other points and cut; verified, asked, also with a front that lay at a pose nearby, compared with brute force.
 std::string triangles(Input input);
 /// The block of a mesh whose hashes and size are made right. Loaded, salvaged or refused; a loaded one answers every query, is
 /// cut, moved, and ends.

@@ -136,6 +136,7 @@ void write_triangles(Folder folder) {
       }
       for (int k = 0; k < 3 * count; ++k) bytes += packed(std::uint8_t(random.bits()));
     }
+    bytes += packed(std::int8_t(i % 5 - 2), std::int8_t(0), std::int8_t(1), std::uint8_t(i % 12));
     folder.add(bytes);
   }
 }

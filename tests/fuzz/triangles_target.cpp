@@ -10,6 +10,7 @@
 
 #include <swiftlet/build_mesh.h>
 #include <swiftlet/mesh_contacts.h>
+#include <swiftlet/mesh_front.h>
 #include <swiftlet/mesh_query.h>
 
 #include <CGAL/Exact_rational.h>
@@ -170,11 +171,17 @@ std::string triangles(Input input) {
                met = intersects(x, y, pose, other);
   const Within w = within(x, y, pose, threshold, seed);
   const ClosestFeatures closest = closest_features(x, y, pose, seed);
+  Pose before = pose;
+  for (double& t : before.translation) t += bytes.take<std::int8_t>() / 64.0;
+  MeshFront front(std::size_t(1) << bytes.take<std::uint8_t>() % 12);
+  MeshSeed kept = other;
+  (void)intersects(x, y, before, kept, front), (void)distance(x, y, before, kept, front, options);
+  const Answer beside = distance(x, y, pose, kept, front), met_beside = intersects(x, y, pose, kept, front);
   const double bound = tolerance(x, y, pose);
   if (!is_legal(pose)) return loose.status == Status::InvalidPose && std::isnan(bound) ? "" : "a pose that is not refused";
   const auto fault_beside = [&](double truth) -> std::string {
     const double slack = bound / 16;
-    for (const Answer* answer : {&loose, &exact, &met, &w.answer, &closest.answer})
+    for (const Answer* answer : {&loose, &exact, &met, &w.answer, &closest.answer, &beside, &met_beside})
       if (const std::string f = fault(*answer, truth, slack, bound); !f.empty()) return f;
     if (w.decision == Decision::Yes && truth > threshold + slack) return "Yes wrongly";
     if (w.decision == Decision::No && truth < threshold - slack) return "No wrongly";
@@ -183,11 +190,11 @@ std::string triangles(Input input) {
   if (!fault_beside(brute_force(soup_a, soup_b, pose)).empty()) {
     if (const std::string f = fault_beside(exact_distance(soup_a, soup_b, pose)); !f.empty()) return f;
   }
-  for (const Answer* answer : {&exact, &closest.answer}) {
+  for (const Answer* answer : {&exact, &closest.answer, &beside}) {
     if (answer->status != Status::Converged || !(answer->upper - answer->lower <= bound)) return "wider than law 2's bound";
     if (const Check checked = check(x, y, pose, *answer); !checked) return checked.message;
   }
-  if (met.verdict == Verdict::Undecided) return "intersects is undecided";
+  if (met.verdict == Verdict::Undecided || met_beside.verdict == Verdict::Undecided) return "intersects is undecided";
   const Answer deep = signed_distance(x, y, pose, seed);
   if (const std::string f = depth_fault(deep, soup_a, soup_b, pose, bound); !f.empty()) return f;
   if (exact.lower > 2 * bound && !(deep.lower <= exact.upper && exact.lower <= deep.upper))
