@@ -414,5 +414,20 @@ TEST_F(DetailTest, CorruptCutModelsAreFoundByHashesOrHarmless) {
   EXPECT_GE(accepted, 2000);
 }
 
+/// Maps of level 0 are read without that level: an error smaller than theirs is not asked as an exact distance, which coarser
+/// levels do not answer.
+TEST_F(DetailTest, ErrorsSmallerThanThoseOfMapsAreMetWithoutLevelZero) {
+  const bodies::Polyhedron box = bodies::box(1, 1, 1), around = bodies::box(1.00001, 1.00001, 1.00001);
+  const LevelArrays levels[] = {box.level(), around.level()};
+  const Model whole = must(Model::from_levels(levels)), mapped = must(map(saved(whole), down_to(whole, 1)));
+  ASSERT_EQ(mapped.finest_level(), 1);
+  ASSERT_GT(mapped.level(0).map_doubt, 3 * mapped.level(1).deviation);
+  answers::Poses poses(9);
+  for (int i = 0; i < 100; ++i) {
+    const Answer answer = distance(mapped, whole, poses.next(), {.absolute = 3 * mapped.level(1).deviation});
+    if (answer.verdict == Verdict::Disjoint) EXPECT_EQ(answer.status, Status::Converged);
+  }
+}
+
 }  // namespace
 }  // namespace swiftlet
