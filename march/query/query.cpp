@@ -64,8 +64,8 @@ void ask_on(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, co
 /// answered sooner then.
 bool is_finer_than_maps(const Model& a, const Model& b, const Options& options) {
   const Level &of_a = a.level(0), &of_b = b.level(0);
-  const bool are_whole = (a.finest_level() | b.finest_level()) == 0, have_maps = of_a.map_side > 0 && of_b.map_side > 0;
-  return are_whole && have_maps && !(options.relative > 0) && options.absolute < of_a.map_doubt + of_b.map_doubt;
+  return options.absolute < of_a.map_doubt + of_b.map_doubt && !(options.relative > 0) && of_a.map_side > 0 &&
+         of_b.map_side > 0 && (a.finest_level() | b.finest_level()) == 0;
 }
 
 /// As `distance`. Most questions that allow an error have no other limit.
