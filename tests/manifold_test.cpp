@@ -524,7 +524,7 @@ std::vector<Eigen::Vector2d> on_lattice(Random& random) {
   }
 }
 
-/// Corners lie on corners and on sides, sides on sides, up to rounding, more often than not.
+/// Corners lie on corners and on sides, and sides on sides, up to rounding, as often as lattices make them.
 TEST(Manifold, OfFourSidesOnALatticeIsTheIntersectionOfTheirFaces) {
   Random random(41);
   Shares shares;

@@ -91,7 +91,8 @@ class Polygon {
     std::fill(vertex_ + count_, vertex_ + kMostSides, vertex_[0]);
     return count_ > 2;
   }
-  /// Projects the corners. The fourth corner of a triangle is the first one, its fourth side a point.
+  /// Projects the corners. The fourth corner of a triangle is the first one, and its fourth side a point, of which no place is
+  /// inside or outside. Returns true if the border surely turns inwards at every corner, by more than the flatness.
   bool measure(double bound, double flatness) {
     const Vertex* v = body_.view.vertices.data();
     const V3<Vec4> p = transposed(v[vertex_[0]], v[vertex_[1]], v[vertex_[2]], v[vertex_[3]]);
@@ -100,14 +101,14 @@ class Polygon {
     const auto after = [](const Vec4& lanes) { return swiftlet::next(lanes); };
     way_x_ = after(x_) - x_, way_y_ = after(y_) - y_;
     limit_ = sqrt(way_x_ * way_x_ + way_y_ * way_y_) * bound;
-    // A place is stored as it is loaded.
+    // Both numbers of a place are stored by one store: a load of both would wait for two.
     const Vec4 z = along(body_.n, body_.shift.z), evens = even(x_, y_), odds = odd(x_, y_);
     at_[0] = place(low(evens)), at_[1] = place(low(odds)), at_[2] = place(high(evens)), at_[3] = place(high(odds));
     at_[4] = at_[0];
     for (const int i : {0, 1, 2, 3}) z_[i] = z[i];
     z_[4] = z_[0];
     const Vec4 sizes = abs(way_x_) + abs(way_y_), turns = after(way_x_) * way_y_ - after(way_y_) * way_x_;
-    const Set ends = count_ == 4 ? 0xf : 0x3;  // of the triangle's last side all is said
+    const Set ends = count_ == 4 ? 0xf : 0x3;  // a triangle turns by one area everywhere, and two corners have all its sides
     return (greater(turns, max(sizes, after(sizes)) * flatness) & ends) == ends;
   }
 
@@ -126,10 +127,11 @@ class Overlay {
  public:
   Overlay(const Polygon& a, const Polygon& b, double bound, Candidates& corners)
       : a_(a), b_(b), bound2_(bound * bound), corners_(corners) {
-    for (int i = 0; i < a.count(); ++i) of_a_[i] = b.find(a.at(i)), in_b_ |= bit(i) * Set(of_a_[i].out == 0);
-    for (int j = 0; j < b.count(); ++j) of_b_[j] = a.find(b.at(j)), rest_ |= bit(j) * Set(of_b_[j].out == 0);
+    for (int i = 0; i < a.count(); ++i) of_a_[i] = b.find(a.at(i)), in_b_ |= Set(of_a_[i].out == 0) << i;
+    for (int j = 0; j < b.count(); ++j) of_b_[j] = a.find(b.at(j)), rest_ |= Set(of_b_[j].out == 0) << j;
   }
 
+  /// Goes around A. Each of its sides enters B at most once, then leaves it at most once.
   void run() {
     for (int i = 0; i < a_.count(); ++i) {
       const Found &from = of_a_[i], &to = of_a_[a_.next(i)];
@@ -141,6 +143,7 @@ class Overlay {
       each(from.in & to.out, [&](int j) {
         if (is_parted_by(i, b_.next(j), j)) add_crossing(i, j), follow_b(b_.next(j)), leaves = true;
       });
+      // Where side i begins on a side of B and leaves it, nothing crosses, and B's corners after that side follow too.
       if (!leaves) each(to.out & ~(from.in | from.out), [&](int j) { follow_b(b_.next(j)); });
     }
     for (int j = 0; rest_ != 0; j = b_.next(j)) follow_b(j);
@@ -166,7 +169,7 @@ class Overlay {
     return found;
   }
 
-  /// Adds a corner of body `f`.
+  /// Adds a corner of body `f` that lies in the other face.
   template <int f>
   void add_corner(const Polygon& own, const Polygon& other, int i) {
     const FeatureId vertex = own.vertex(i);

@@ -60,8 +60,8 @@ void ask_on(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, co
   return answer;
 }
 
-/// True if the finest maps of two models, which have all levels, are hardly ever as precise as asked. An exact distance is
-/// answered sooner then.
+/// True if the finest maps of two models, which have all levels, are hardly ever as precise as asked, as `is_exact` finds
+/// without a relative error. An exact distance is answered sooner then.
 bool is_finer_than_maps(const Model& a, const Model& b, const Options& options) {
   const Level &of_a = a.level(0), &of_b = b.level(0);
   return options.absolute < of_a.map_doubt + of_b.map_doubt && !(options.relative > 0) && of_a.map_side > 0 &&
