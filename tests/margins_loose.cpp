@@ -16,7 +16,7 @@ constexpr double kNoError = 0;
 namespace swiftlet {
 
 Walk loose_walk(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget) {
-  return walked<false>(pair, a, b, rule, step_budget);
+  return walked_by(rule, pair, a, b, step_budget, -1);
 }
 
 }  // namespace swiftlet

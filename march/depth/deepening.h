@@ -218,7 +218,7 @@ class Deepening {
       if (far && has_maps) {
         const SupportGjk seen =
             support_gjk(apart, of_a, of_b, 0, sample_axis(apart, of_a, of_b, n), [](const SupportGjk& s) { return s.near; });
-        from = {{FeatureKind::Vertex, seen.start_a}, {FeatureKind::Vertex, seen.start_b}};
+        from = seen.start;
         const bool turns = dot(seen.seen.normal, n) < kSlideTurn;
         n = seen.seen.normal;
         if (turns) continue;

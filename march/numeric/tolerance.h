@@ -325,9 +325,8 @@ inline constexpr double kSweepCos = 40.0 / 41, kSweepSin = 9.0 / 41;
 /// and at how many heights it seeks the common area. What would need more is left out: if that is the deepest corner, the
 /// answer's own point takes its place.
 inline constexpr int kMostEdges = 14, kMostSplits = 128, kWidthSteps = 16;
-/// A walk is given to certified GJK after this many states in a row that do not shorten the distance. In exact arithmetic there
-/// are at most three (face, edge, vertex); twelve leaves room for rounding on a flat spot.
-inline constexpr std::uint32_t kStallLimit = 12;
+/// From this many steps on a walk looks whether it comes back to where it was. A count, a power of two.
+inline constexpr std::uint32_t kUnwatchedSteps = 16;
 /// A walk that comes back over a face of more sides than this looks at the sides near the last one; the state that ends it
 /// looks at all. A count.
 inline constexpr std::uint32_t kManySides = 16;

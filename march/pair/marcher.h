@@ -46,7 +46,6 @@ constexpr FeatureId face(std::uint32_t index) { return {FeatureKind::Face, index
 /// Where a state leads: the next features, in the order of the state's arguments. A minimum leads to itself.
 struct Move {
   FeatureId first, second;
-  double distance2;  ///< squared distance of the features that the state leaves, for `kStallLimit`
 };
 
 constexpr double kUnknown = kInfinity;
@@ -94,29 +93,28 @@ struct Rise {
 
 using Ending = NearestOf<Vec4>;
 
-/// Whether features are near enough to end a walk: if `early`, from a squared distance on, else never.
+/// Whether features that are `apart` are near enough to end a walk: if `early`, from a squared distance on, else never.
 template <bool early>
 struct Enough {
   explicit Enough(double of) : distance2(of) {}
-  bool operator()(double other) const { return other <= distance2; }
+  bool operator()(const Vec4& apart) const { return dot(apart, apart) <= distance2; }
   const double distance2;
 };
 template <>
 struct Enough<false> {
   explicit Enough(double) {}
-  bool operator()(double) const { return false; }
+  bool operator()(const Vec4&) const { return false; }
 };
 
 /// All states are one function, which keeps a marcher and its bodies in registers as long as no other knows their addresses:
 /// what is no part of it gets copies, and returns what it found. Vectors here are no constants, which g++ 12 keeps in memory.
 /// `Seen` is NearestOf<Vec4> or <Padded>. If `early`, vertices and edges near enough end the walk, before anything beside them
 /// is looked at.
-template <class Seen, bool early = false>
+template <class Seen, bool early = false, PlaneRule rule = PlaneRule::MostViolated>
 class Marcher {
  public:
   /// The state that ends the walk in a minimum, or near enough, writes `seen`.
-  Marcher(const PairView& pair, PlaneRule rule, Seen& seen, double enough2 = -1)
-      : pair_(pair), seen_(seen), is_enough_(enough2), first_only_(rule == PlaneRule::FirstViolated) {}
+  explicit Marcher(const PairView& pair, Seen& seen, double enough2 = -1) : pair_(pair), seen_(seen), is_enough_(enough2) {}
 
   WalkEnd ended() const { return ended_; }
   std::uint32_t plane_tests() const { return plane_tests_; }
@@ -124,19 +122,19 @@ class Marcher {
   template <class P, class Q>
   Move vertex_vertex(const P& a, std::uint32_t va, const Q& b, std::uint32_t vb) {
     Vec4 p = a.point(va), q = b.point(vb), d = q - p;
-    const double length_1 = norm_1(d), distance2 = dot(d, d);
-    if (is_enough_(distance2)) return end_early(a, p, q, 0), Move{vertex(va), vertex(vb), distance2};
+    const double length_1 = norm_1(d);
+    if (is_enough_(d)) return end_early(a, p, q, 0), Move{vertex(va), vertex(vb)};
     RingScan at_a = ring(a, va, a.into(d), length_1), at_b = ring(b, vb, b.into(-d), length_1);
     if (!at_a.falls() && !at_b.falls()) [[likely]] {
       end(a, {d, d, p, q, 0, at_a.over(), at_b.over(), {va, va, va}, {vb, vb, vb}});
-      return {vertex(va), vertex(vb), distance2};
+      return {vertex(va), vertex(vb)};
     }
-    if (!at_b.falls()) return {along(a, up_ring(a, va, at_a)), vertex(vb), distance2};
+    if (!at_b.falls()) return {along(a, up_ring(a, va, at_a)), vertex(vb)};
     Rise from_b = up_ring(b, vb, at_b);
-    if (!at_a.falls()) return {vertex(va), along(b, from_b), distance2};
+    if (!at_a.falls()) return {vertex(va), along(b, from_b)};
     Rise from_a = up_ring(a, va, at_a);
-    if (from_a.rate2() > from_b.rate2()) return {along(a, from_a), edge(from_b.to), distance2};
-    return {edge(from_a.to), along(b, from_b), distance2};
+    if (from_a.rate2() > from_b.rate2()) return {along(a, from_a), edge(from_b.to)};
+    return {edge(from_a.to), along(b, from_b)};
   }
 
   template <class P, class Q>
@@ -145,23 +143,23 @@ class Marcher {
     Vec4 own = b.own(v0), p = a.point(va), q0 = b.point(v0), u = b.way(b.own(v1) - own), r = p - q0;
     const double length2 = dot(u, u), ru = dot(r, u);
     plane_tests_ += 2;
-    if (!(ru > 0)) return {vertex(va), vertex(v0), dot(r, r)};
-    if (ru >= length2) return {vertex(va), vertex(v1), dot(r - u, r - u)};
+    if (!(ru > 0)) return {vertex(va), vertex(v0)};
+    if (ru >= length2) return {vertex(va), vertex(v1)};
     Vec4 up = across(r, u, length2);
-    const double distance2 = dot(up, up), length_1 = norm_1(up);
-    if (is_enough_(distance2)) {
+    const double length_1 = norm_1(up);
+    if (is_enough_(up)) {
       end_early(a, p, q0 + u * (ru / length2), blur_on<Q>(u));
-      return {vertex(va), edge(h), distance2};
+      return {vertex(va), edge(h)};
     }
     SideScan at_b = sides(b, v0, h, b.into(up), plane_tests_);
-    if (at_b.falls()) return {vertex(va), face(up_side(b, h, at_b)), distance2};
+    if (at_b.falls()) return {vertex(va), face(up_side(b, h, at_b))};
     RingScan at_a = ring(a, va, a.into(-up), length_1);
     if (!at_a.falls()) [[likely]] {
       const double over_b = at_b.over(kAcrossError + Q::kWay, b.reach, length_1);
       end(a, {-up, -r, p, q0 + u * (ru / length2), blur_on<Q>(u), at_a.over(), over_b, {va, va, va}, {v0, v1, v1}});
-      return {vertex(va), edge(h), distance2};
+      return {vertex(va), edge(h)};
     }
-    return {along(a, up_ring(a, va, at_a)), edge(h), distance2};
+    return {along(a, up_ring(a, va, at_a)), edge(h)};
   }
 
   template <class P, class Q>
@@ -169,15 +167,15 @@ class Marcher {
     Prism prism(b, f);
     Vec4 p = a.point(va);
     Look look = leave(b, prism, f, p, false);
-    if (look.side != kNone) return {vertex(va), edge(look.side), kUnknown};
+    if (look.side != kNone) return {vertex(va), edge(look.side)};
     const Vec4& n = prism.normal();
-    const double height = prism.height(p), distance2 = height / dot(n, n) * height;
-    if (!(height > 0)) return inside(vertex(va), face(f), distance2);
+    const double height = prism.height(p);
+    if (!(height > 0)) return inside(vertex(va), face(f));
     RingScan below = ring(a, va, a.into(-n), norm_1(n));
     if (!below.falls()) [[likely]] {
       if (!look.at_all) {
         look = leave(b, prism, f, p, true);  // a minimum is to be tested by all
-        if (look.side != kNone) return {vertex(va), edge(look.side), kUnknown};
+        if (look.side != kNone) return {vertex(va), edge(look.side)};
       }
       Ending seen{-n, prism.corner() - p, p, p, 0, below.over(), kUnknown, {va, va, va}, kNoCorners};
       if (prism.is_triangle())
@@ -186,10 +184,10 @@ class Marcher {
         // A facet within a face has a direction of its own.
         seen.over_a = ring(a, va, a.into(seen.normal), norm_1(seen.normal)).over();
       end(a, seen);
-      return {vertex(va), face(f), distance2};
+      return {vertex(va), face(f)};
     }
     const std::uint32_t h = below.to(), to = a.view.half_edges[h].head;
-    return over_face(h, to, p, a.way(a.own(to) - a.own(va)), b, prism, f, distance2);
+    return over_face(h, to, p, a.way(a.own(to) - a.own(va)), b, prism, f);
   }
 
   template <class P, class Q>
@@ -200,15 +198,14 @@ class Marcher {
     const double uu = dot(u, u), vv = dot(v, v);
     Parameters at = nearest_on_segments(p0, u, uu, q0, v, vv);
     Vec4 p = p0 + u * at.s, q = q0 + v * at.t, d = q - p;
-    const double distance2 = dot(d, d);
     plane_tests_ += 4;
-    if (is_enough_(distance2)) {
+    if (is_enough_(d)) {
       end_early(a, p, q, blur_on<P>(u) + blur_on<Q>(v));
-      return {edge(ha), edge(hb), distance2};
+      return {edge(ha), edge(hb)};
     }
     const bool end_a = at.ends_first(), end_b = at.ends_second();
     if (end_a || end_b) [[unlikely]] {
-      return {end_a ? vertex(at.s == 0 ? a0 : a1) : edge(ha), end_b ? vertex(at.t == 0 ? b0 : b1) : edge(hb), distance2};
+      return {end_a ? vertex(at.s == 0 ? a0 : a1) : edge(ha), end_b ? vertex(at.t == 0 ? b0 : b1) : edge(hb)};
     }
     auto [n, tilt_u, tilt_v] = between_edges(u, uu, v, vv, d);
     SideScan at_a = sides(a, a0, ha, a.into(n), plane_tests_), at_b = sides(b, b0, hb, b.into(-n), plane_tests_);
@@ -222,14 +219,14 @@ class Marcher {
         if (max(right_a, right_b) < kUnknown) n = righted(n, u, uu, v, vv), over_a = right_a, over_b = right_b;
       }
       end(a, {n, q0 - p0, p, q, blur_on<P>(u) + blur_on<Q>(v), over_a, over_b, {a0, a1, a1}, {b0, b1, b1}});
-      return {edge(ha), edge(hb), distance2};
+      return {edge(ha), edge(hb)};
     }
     if (at_a.falls() && (first_only_ || at_a.height() >= at_b.height()))
-      return swapped(edge_over_face(hb, b0, b1, q, v, at.t, a, up_side(a, ha, at_a), distance2));
-    return edge_over_face(ha, a0, a1, p, u, at.s, b, up_side(b, hb, at_b), distance2);
+      return swapped(edge_over_face(hb, b0, b1, q, v, at.t, a, up_side(a, ha, at_a)));
+    return edge_over_face(ha, a0, a1, p, u, at.s, b, up_side(b, hb, at_b));
   }
 
-  static Move swapped(const Move& m) { return {m.second, m.first, m.distance2}; }
+  static Move swapped(const Move& m) { return {m.second, m.first}; }
 
  private:
   /// Ends the walk in a minimum. The first argument is the state's first body; `seen` has the bodies in the state's order.
@@ -248,9 +245,9 @@ class Marcher {
   void end_early(const P& first, const Vec4& p, const Vec4& q, double blur) {
     end(first, {q - p, q - p, p, q, blur, kUnknown, kUnknown, kNoCorners, kNoCorners}, WalkEnd::Enough);
   }
-  Move inside(FeatureId first, FeatureId second, double distance2) {
+  Move inside(FeatureId first, FeatureId second) {
     ended_ = WalkEnd::Inside;
-    return {first, second, distance2};
+    return {first, second};
   }
 
   /// How far a computed point of an edge along `u` may be beside the edge: by the error of `u`, and of u times a number up
@@ -499,10 +496,10 @@ class Marcher {
   /// Follows edge `h`, which leads from `tail` along u to `head`, from its point p at s over face `f`, which rises towards p.
   template <class Q>
   Move edge_over_face(std::uint32_t h, std::uint32_t tail, std::uint32_t head, const Vec4& p, const Vec4& u, double s,
-                      const Q& body, std::uint32_t f, double distance2) {
+                      const Q& body, std::uint32_t f) {
     Prism prism(body, f);
     const bool forward = dot(prism.normal(), u) < 0;
-    return over_face(h, forward ? head : tail, p, u * (forward ? 1 - s : -s), body, prism, f, distance2);
+    return over_face(h, forward ? head : tail, p, u * (forward ? 1 - s : -s), body, prism, f);
   }
 
   /// Follows the part p + x e of edge `h` that falls towards face `f`, x from 0 to 1 at vertex `to`. Leads to `to` and the
@@ -510,7 +507,7 @@ class Marcher {
   /// first.
   template <class Q>
   Move over_face(std::uint32_t h, std::uint32_t to, const Vec4& p, const Vec4& e, const Q& body, const Prism<Q>& prism,
-                 std::uint32_t f, double distance2) {
+                 std::uint32_t f) {
     Exit exit;
     Border& known = border(body);
     if (prism.is_triangle()) {
@@ -522,9 +519,9 @@ class Marcher {
       known.side = exit.nearest;
     }
     plane_tests_ += exit.tests;
-    if (exit.at > 0 && !(prism.height(p) + exit.at * dot(prism.normal(), e) > 0)) return inside(edge(h), face(f), distance2);
-    if (exit.side == kNone) return {vertex(to), face(f), distance2};
-    return {edge(h), edge(exit.side), distance2};
+    if (exit.at > 0 && !(prism.height(p) + exit.at * dot(prism.normal(), e) > 0)) return inside(edge(h), face(f));
+    if (exit.side == kNone) return {vertex(to), face(f)};
+    return {edge(h), edge(exit.side)};
   }
   /// Where p + x e leaves a prism: at x = `at`, through `side`; not before x = 1 if that is kNone.
   struct Exit {
@@ -572,7 +569,7 @@ class Marcher {
   const PairView& pair_;
   Seen& seen_;
   [[no_unique_address]] const Enough<early> is_enough_;
-  const bool first_only_;
+  static constexpr bool first_only_ = rule == PlaneRule::FirstViolated;
   WalkEnd ended_ = WalkEnd::Budget;
   std::uint32_t plane_tests_ = 0;
   std::array<Border, 2> borders_;  ///< of A's face and of B's
@@ -600,49 +597,54 @@ Move state(March& march, const A& a, FeatureId fa, const B& b, FeatureId fb) {
   }
 }
 
-/// As `walk`; only if `early` does `enough2` count.
-template <bool early>
-[[gnu::noinline, gnu::flatten]] Walk walked(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule,
-                                            std::uint32_t step_budget, double enough2 = -1) {
+/// As `walk`, from features that have a state; only if `early` does `enough2` count.
+template <bool early, PlaneRule rule = PlaneRule::MostViolated>
+[[gnu::noinline, gnu::flatten]] Walk walked(const PairView& pair, FeatureId a, FeatureId b, std::uint32_t step_budget,
+                                            double enough2 = -1) {
   Walk result;
-  if (!is_state(a, b)) [[unlikely]] {
-    if (a.kind() == FeatureKind::Edge)
-      a = vertex(origin(pair.a, a.index()));
-    else
-      b = vertex(origin(pair.b, b.index()));
-  }
-  Marcher<Nearest, early> march(pair, rule, result.nearest, enough2);
+  Marcher<Nearest, early, rule> march(pair, result.nearest, enough2);
   Resting4 resting(pair);
   Moved4 moved(pair);
-  double least2 = kUnknown;
-  std::uint32_t steps = 0, stalled = 0;
-  for (;;) {
+  std::uint32_t steps = 0;
+  FeatureId mark_a, mark_b;  // where the walk was after the last power of two of steps [Brent 1980]
+  for (const std::uint32_t unwatched = std::min(step_budget, kUnwatchedSteps);;) {
     Move move = state(march, resting, a, moved, b);
-    steps += move.first != a || move.second != b;
     a = move.first, b = move.second;
     result.end = march.ended();
-    if (result.end != WalkEnd::Budget || steps >= step_budget) break;
-    stalled = move.distance2 < least2 ? 0 : stalled + 1;
-    least2 = min(least2, move.distance2);
-    if (stalled < kStallLimit) continue;
-    result.end = WalkEnd::Stalled;
-    break;
+    if (result.end != WalkEnd::Budget) break;
+    if (++steps < unwatched) continue;
+    if (steps >= step_budget) break;
+    if (a == mark_a && b == mark_b) {
+      result.end = WalkEnd::Stalled;
+      break;
+    }
+    if (std::has_single_bit(steps)) mark_a = a, mark_b = b;
   }
   result.a = a, result.b = b;
   result.steps = steps, result.plane_tests = march.plane_tests();
   return result;
 }
 
-/// The same whose first state, that of `a` and `b`, has led to `move`, after `plane_tests`, and `ended` the walk or not.
-[[maybe_unused]] Walk walked_on(const PairView& pair, FeatureId a, FeatureId b, const Move& move, WalkEnd ended,
-                                std::uint32_t plane_tests, std::uint32_t step_budget) {
-  const bool moved = move.first != a || move.second != b;
-  Walk walk;
-  if (ended == WalkEnd::Budget)
-    walk = walked<false>(pair, move.first, move.second, PlaneRule::MostViolated, step_budget - moved);
-  else
-    walk.end = ended, walk.a = move.first, walk.b = move.second;
-  walk.steps += moved, walk.plane_tests += plane_tests;
+/// The same from any features and by any rule. The paper's is for comparison.
+[[maybe_unused]] Walk walked_by(PlaneRule rule, const PairView& pair, FeatureId a, FeatureId b, std::uint32_t step_budget,
+                                double enough2) {
+  if (!is_state(a, b)) [[unlikely]] {
+    if (a.kind() == FeatureKind::Edge)
+      a = vertex(origin(pair.a, a.index()));
+    else
+      b = vertex(origin(pair.b, b.index()));
+  }
+  if (rule == PlaneRule::FirstViolated) [[unlikely]]
+    return walked<true, PlaneRule::FirstViolated>(pair, a, b, step_budget, enough2);
+  return enough2 >= 0 ? walked<true>(pair, a, b, step_budget, enough2) : walked<false>(pair, a, b, step_budget);
+}
+
+/// The same whose first state has led to `move`, after `plane_tests`, and `ended` the walk or not.
+[[maybe_unused]] Walk walked_on(const PairView& pair, const Move& move, WalkEnd ended, std::uint32_t plane_tests,
+                                std::uint32_t step_budget) {
+  Walk walk = ended == WalkEnd::Budget ? walked<false>(pair, move.first, move.second, step_budget - 1)
+                                       : Walk{ended, move.first, move.second, 0, 0, {}};
+  walk.steps += ended == WalkEnd::Budget, walk.plane_tests += plane_tests;
   return walk;
 }
 

@@ -5,6 +5,7 @@
 // a table of directions, a support map, without a climb. Every step proves bounds. Knows one level pair.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include <swiftlet/march.h>
@@ -56,15 +57,68 @@ static inline bool are_near(const AxisSample& seen, const Level& a, const Level&
   return seen.gap > -hidden && dot(seen.apart, seen.apart) - seen.gap * seen.gap <= few * few;
 }
 
+/// A face around a vertex, and how far another point is above it along a direction.
+struct FaceBelow {
+  std::uint32_t face = kNone;  ///< none is known
+  double gap = kInfinity;
+};
+/// The face around vertex `v` that is below the point at `way` from `v`, seen against the outward direction `n`: both in the
+/// body's own frame. Of a ring of fewer than four edges, or more than a mask has bits, none is known. It is a place to begin
+/// at, and no proof: in a pose that mirrors, it is another one.
+[[gnu::always_inline]] static inline FaceBelow face_below(const ConvexView& view, std::uint32_t v, const Vec4& way,
+                                                          const Vec4& n) {
+  const Vertex* vertices = view.vertices.data();
+  const Vertex& record = vertices[v];
+  const HalfEdge* ring = view.half_edges.data() + record.ring_begin;
+  const std::uint32_t count = record.ring_count, last = count - 4;
+  if (count < 4 || count > 31) return {};
+  // Edges counter-clockwise of the way, up to half a turn, fall along this vector: the first one ends the face.
+  const Vec4 p = vec4(record), along = cross(way, n), height = all(dot(along, p));
+  const auto falls = [&](std::uint32_t i) {
+    const HalfEdge* h = ring + i;
+    return greater(height, dot(repeated(along),
+                               transposed(vertices[h[0].head], vertices[h[1].head], vertices[h[2].head], vertices[h[3].head])))
+           << i;
+  };
+  std::uint32_t fallen = falls(last);
+  for (std::uint32_t i = 0; i < last; i += 4) fallen |= falls(i);
+  const std::uint32_t next_fallen = fallen >> 1 | fallen << (count - 1), begins = next_fallen & ~fallen & ((1u << count) - 1);
+  if (begins == 0) return {};
+  const std::uint32_t i = std::uint32_t(std::countr_zero(begins)), j = i + 1 == count ? 0 : i + 1;
+  const Vec4 normal = cross(vec4(vertices[ring[i].head]) - p, vec4(vertices[ring[j].head]) - p);
+  const Vec2 heights = dots(normal, way, normal, n);
+  if (!(heights[1] > 0)) return {};
+  return {ring[i].face, heights[0] / heights[1]};
+}
+
+static inline MarchStart supports_of(const AxisSample& seen) {
+  return {{FeatureKind::Vertex, seen.a}, {FeatureKind::Vertex, seen.b}};
+}
+/// Where a walk begins from supports that are near each other: at both vertices. If these lie farther aside of each other than
+/// they are apart, the vector between them tells little of the direction between the bodies. Then it is a vertex and the face
+/// below it, of either body's the one that is nearer along the normal. `other` is B.
+[[gnu::flatten]] static inline MarchStart start_from(const PairView& pair, const Moved4& other, const AxisSample& seen) {
+  MarchStart start = supports_of(seen);
+  if (dot(seen.apart, seen.apart) < 2 * seen.gap * seen.gap) return start;
+  const Vec4 way = vec4(seen.apart), n = vec4(seen.normal);
+  const FaceBelow of_a = face_below(pair.a, seen.a, way, n),
+                  of_b = face_below(pair.b, seen.b, other.into(-way), other.into(-n));
+  if (of_b.gap < of_a.gap)
+    start.b = {FeatureKind::Face, of_b.face};
+  else if (of_a.face != kNone)
+    start.a = {FeatureKind::Face, of_a.face};
+  return start;
+}
+
 /// The state of the algorithm after a step.
 struct SupportGjk {
-  AxisSample seen;                         ///< the last sample
-  double most_lower = -kInfinity;          ///< the greatest `lower` of all samples
-  Vec lower_along{0, 0, 0};                ///< the normal along which `most_lower` is proved
-  double upper = kInfinity;                ///< about the distance of the points of `feet_of`
-  bool near = false;                       ///< some supports were near each other
-  std::uint32_t start_a = 0, start_b = 0;  ///< where a walk begins: the first supports that were `near`, else the last
-  Simplex simplex;  ///< its nearest point gives the next direction; with four corners, the pair seems to overlap
+  AxisSample seen;                 ///< the last sample
+  double most_lower = -kInfinity;  ///< the greatest `lower` of all samples
+  Vec lower_along{0, 0, 0};        ///< the normal along which `most_lower` is proved
+  double upper = kInfinity;        ///< about the distance of the points of `feet_of`
+  bool near = false;               ///< some supports were near each other
+  MarchStart start;                ///< where a walk begins: from the first supports that were `near`, else at the last
+  Simplex simplex;                 ///< its nearest point gives the next direction; with four corners, the pair seems to overlap
 };
 
 /// A point of A, the vector from it to a point of B, and an upper bound on the distance of the bodies.
@@ -95,7 +149,7 @@ template <class Enough>
     if (s.seen.lower > s.most_lower) s.most_lower = s.seen.lower, s.lower_along = s.seen.normal;
     const bool was_near = s.near;
     s.near = was_near || are_near(s.seen, a, b, hidden);
-    if (!was_near) s.start_a = s.seen.a, s.start_b = s.seen.b;
+    if (!was_near) s.start = s.near ? start_from(pair, other, s.seen) : supports_of(s.seen);
     const bool known = s.simplex.has(s.seen.a, s.seen.b);
     if (!known) s.simplex.add({s.seen.apart, s.seen.a, s.seen.b});
     const Vec4 nearest = vec4(s.simplex.nearest());

@@ -9,7 +9,7 @@ namespace swiftlet {
 
 Walk SWIFTLET_OF_WIDTH(walk)(const PairView& pair, FeatureId a, FeatureId b, PlaneRule rule, std::uint32_t step_budget,
                              double enough2) {
-  return enough2 >= 0 ? walked<true>(pair, a, b, rule, step_budget, enough2) : walked<false>(pair, a, b, rule, step_budget);
+  return walked_by(rule, pair, a, b, step_budget, enough2);
 }
 
 }  // namespace swiftlet

@@ -142,7 +142,7 @@ class Descent {
       // points lie between several vertices, a walk finds both.
       const bool lacks_features = found.simplex.count() > 1 && answer_.upper - answer_.lower <= law_two_;
       if ((answered() && !lacks_features) || (found.simplex.count() == 4 && overlap(place, found))) return record(place), true;
-      if (!asked_.is_threshold()) place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
+      if (!asked_.is_threshold()) place.start = found.start;
       if (finest(place)) return false;  // a walk on the same pair follows
       record(place);
       if (last) return place = refined(place), false;

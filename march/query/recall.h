@@ -31,9 +31,8 @@ template <class Pair>
 [[gnu::always_inline]] static inline Walk walk_from(const Pair& pair, const PairView& view, FeatureId a, FeatureId b,
                                                     const Place& place, const Answer& answer, double enough2) {
   const std::uint32_t steps_left = pair.limits.budget.steps - std::min(answer.steps, pair.limits.budget.steps);
-  const PlaneRule rule = pair.limits.tuning.plane_rule;
   const std::uint32_t most = std::min(steps_left, place.trial_steps);
-  return enough2 >= 0 ? walked<true>(view, a, b, rule, most, enough2) : walked<false>(view, a, b, rule, most);
+  return walked_by(pair.limits.tuning.plane_rule, view, a, b, most, enough2);
 }
 /// Walks on the level pair of `place`, from its features, which a seed may have named. They are read one by one, as they were
 /// stored: a load of both would wait until both stores are done.
@@ -87,14 +86,16 @@ template <class Pair>
 }
 
 /// GJK on the maps of two levels, which deviate by `deviation`, until supports are near: from the sample `known` on, or, if
-/// that is null, from the direction `first`. Mostly the first ones are, and no simplex is made.
+/// that is null, from the direction `first`. Mostly the first ones are, and no simplex is made. A function of its own, as what
+/// it needs would widen the frame of every question.
 [[gnu::noinline]] static SupportGjk nearest_on_maps(const PairView& view, const Level& a, const Level& b, double deviation,
                                                     const AxisSample* known, const Vec4& first) {
-  const AxisSample seen = known ? *known : sample_axis(view, Moved4(view), a, b, first);
+  const Moved4 other(view);
+  const AxisSample seen = known ? *known : sample_axis(view, other, a, b, first);
   if (are_near(seen, a, b, deviation)) {
     SupportGjk at_once;
     at_once.most_lower = seen.lower, at_once.lower_along = seen.normal;
-    at_once.near = true, at_once.start_a = seen.a, at_once.start_b = seen.b;
+    at_once.near = true, at_once.start = start_from(view, other, seen);
     return at_once;
   }
   return support_gjk(view, a, b, deviation, seen, [](const SupportGjk& s) { return s.near; });
@@ -206,7 +207,7 @@ template <class Pair>
   const SupportGjk found = nearest_on_maps(view, pair.a.level(place.level_a), pair.b.level(place.level_b),
                                            pair.deviation(place.level_a, place.level_b), sampled ? &seen : nullptr,
                                            sampled ? vec4(seen.normal) : pair.first_direction(line, seed, turn));
-  place.start = {{FeatureKind::Vertex, found.start_a}, {FeatureKind::Vertex, found.start_b}};
+  place.start = found.start;
   if (found.simplex.count() == 4) return descends(place, &found, nullptr);
   if (!(found.most_lower < bound.lower)) bound = {found.most_lower, found.lower_along};
   const double enough2 = enough2_of(pair, place, asked, bound.lower);
@@ -370,7 +371,7 @@ template <class Question>
 
   PairView view = pair_view(level_a.view, level_b.view, m, shift_of(m), quality.error);
   Ending seen;
-  Marcher march(view, PlaneRule::MostViolated, seen);
+  Marcher march(view, seen);
   const Move move = state(march, Resting4(view), fa, Moved4(view), fb);
   std::uint32_t steps = 0, plane_tests = march.plane_tests();
   if (march.ended() != WalkEnd::Minimum) [[unlikely]] {
@@ -386,7 +387,7 @@ template <class Question>
       }
     }
     const PairView same = view;
-    const Walk walk = walked_on(same, fa, fb, move, march.ended(), plane_tests, has_choice ? kTrialSteps : ~0u);
+    const Walk walk = walked_on(same, move, march.ended(), plane_tests, has_choice ? kTrialSteps : ~0u);
     if (walk.end != WalkEnd::Minimum) return go_on(turn, &walk);
     seen = loaded(walk.nearest);
     fa = walk.a, fb = walk.b, steps = walk.steps, plane_tests = walk.plane_tests;
@@ -402,7 +403,7 @@ template <class Question>
   if (!is_proved) [[unlikely]] {
     // The last state once more, so that not all of it is kept.
     const PairView same = view;
-    Walk walk = walked<false>(same, fa, fb, PlaneRule::MostViolated, 1);
+    Walk walk = walked<false>(same, fa, fb, 1);
     walk.steps = steps, walk.plane_tests = plane_tests;
     return go_on(turn, &walk);
   }

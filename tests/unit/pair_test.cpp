@@ -18,6 +18,7 @@
 #include "pair/gjk.h"
 #include "pair/intersection.h"
 #include "pair/pair_view.h"
+#include "pair/pair_view4.h"
 #include "pair/stop_rule.h"
 #include "pair/support_gjk.h"
 #include "pair/walk.h"
@@ -205,6 +206,58 @@ TEST(UnitSupportGjk, SamplesAnAxis) {
   EXPECT_EQ(s.gap, 1);
   EXPECT_LE(s.lower, 1);
   EXPECT_GT(s.lower, 0.749);
+}
+
+/// Of the octahedron |x| + |y| + |z| <= 1 the face below a point beside a corner is that of the point's octant, and the point
+/// is |y| + |z| farther above it than above the corner.
+TEST(UnitSupportGjk, FindsTheFaceBelowAPoint) {
+  const Model octahedron = bodies::model(bodies::octahedron());
+  const ConvexView& view = octahedron.level(0).view;
+  const auto at = [&](double x, double y, double z) {
+    for (std::uint32_t v = 0; v < view.vertices.size(); ++v)
+      if (norm(vec(view.vertices[v]) - Vec{x, y, z}) == 0) return v;
+    throw std::logic_error("no such corner");
+  };
+  const auto corners_of = [&](std::uint32_t f) {
+    Vec sum{0, 0, 0};
+    for (const std::uint32_t v : FaceLoop(view, f)) sum = sum + vec(view.vertices[v]);
+    return sum;
+  };
+  for (const double x : {-1.0, 1.0}) {
+    for (const Vec& aside : {Vec{0, 0.25, 0.5}, Vec{0, -0.5, 0.25}, Vec{0, 0.125, -0.25}, Vec{0, -0.25, -0.125}}) {
+      const FaceBelow below = face_below(view, at(x, 0, 0), vec4(x * 0.375, aside.y, aside.z), vec4(x, 0, 0));
+      ASSERT_NE(below.face, kNone);
+      const Vec corners = corners_of(below.face);
+      EXPECT_EQ(corners.x, x);
+      EXPECT_EQ(corners.y, std::copysign(1, aside.y));
+      EXPECT_EQ(corners.z, std::copysign(1, aside.z));
+      EXPECT_EQ(below.gap, 0.375 + norm_1(aside));
+    }
+  }
+  const Model tetrahedron = bodies::model(bodies::tetrahedron());  // rings of three
+  EXPECT_EQ(face_below(tetrahedron.level(0).view, 0, vec4(1, 2, 3), vec4(1, 1, 1)).face, kNone);
+}
+
+/// Between corners aside of each other a walk begins at a corner and the face below it that is nearer, far from each other at
+/// both corners.
+TEST(UnitSupportGjk, BeginsAtTheFaceBelowACornerAside) {
+  const Model octahedron = bodies::model(bodies::octahedron()),
+              flat = bodies::model(bodies::moved(bodies::octahedron(), Mat3(Vec3(1, 4, 4).asDiagonal())));
+  const auto begin = [](const Model& a, const Model& b, const Vec3& t) {
+    const Motion m = motion({Mat3::Identity(), t});
+    const PairView pair = pair_view(a.level(0).view, b.level(0).view, m, 0);
+    return start_from(pair, Moved4(pair), sample_axis(pair, a.level(0), b.level(0), {1, 0, 0}));
+  };
+  const MarchStart far = begin(octahedron, octahedron, {4, 0.25, 0.125});
+  EXPECT_EQ(far.a.kind(), FeatureKind::Vertex);
+  EXPECT_EQ(far.b.kind(), FeatureKind::Vertex);
+  // What is flatter has the face that is nearer: |y| + |z| over 4.
+  const MarchStart near_b = begin(octahedron, flat, {2.0625, 0.25, 0.125}),
+                   near_a = begin(flat, octahedron, {2.0625, 0.25, 0.125});
+  EXPECT_EQ(near_b.a.kind(), FeatureKind::Vertex);
+  EXPECT_EQ(near_b.b.kind(), FeatureKind::Face);
+  EXPECT_EQ(near_a.a.kind(), FeatureKind::Face);
+  EXPECT_EQ(near_a.b.kind(), FeatureKind::Vertex);
 }
 
 // ---- Separating axis ------------------------------------------------------------------------------------------------------
