@@ -3,6 +3,7 @@
 // The atomic kernel: every kind of body against every other, from every start, under every stop rule. Truth is the oracle's.
 #include <swiftlet/check.h>
 #include <swiftlet/march.h>
+#include <swiftlet/query.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,8 @@
 
 #include "bodies.h"
 #include "oracle.h"
+#include "pair/pair_view.h"
+#include "pair/walk.h"
 #include "shapes.h"
 
 namespace swiftlet {
@@ -463,6 +466,43 @@ TEST(March, ReflectionsOfCornersAndFacesAreAnsweredAsGiven) {
       }
     }
   }
+}
+
+/// From vertices anywhere, behind the body too, some walks between plates go round in circles for ever. They end where they
+/// come back, and the query that began there is answered elsewhere.
+TEST(March, WalksThatComeBackEnd) {
+  const Model plate = model(bodies::body_of(shapes::ellipsoid({1, 0.8, 0.02}, 1000, 3)));
+  const ConvexView& view = plate.level(0).view;
+  const std::uint32_t vertices = std::uint32_t(view.vertices.size());
+  shapes::Random random(4);
+  const auto any_vertex = [&] { return FeatureId{FeatureKind::Vertex, std::uint32_t(random.uniform(0, vertices))}; };
+  const std::size_t most = most_steps(view, view);
+  int came_back = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const Pose pose{random.rotation(), 1.5 * random.on_sphere()};
+    const Motion m = motion(pose);
+    const PairView pair = pair_view(view, view, m, 0);
+    const FeatureId a = any_vertex(), b = any_vertex();
+    const Walk w = walk(pair, a, b, PlaneRule::MostViolated, ~0u);
+    ASSERT_NE(w.end, WalkEnd::Budget);
+    ASSERT_LE(w.steps, most);
+    if (w.end != WalkEnd::Stalled) continue;
+    ++came_back;
+    bool is_circle = false;
+    for (std::uint32_t steps = 1; steps < w.steps && !is_circle; ++steps) {
+      const Walk again = walk(pair, w.a, w.b, PlaneRule::MostViolated, steps);
+      is_circle = again.a == w.a && again.b == w.b;
+    }
+    EXPECT_TRUE(is_circle) << i;
+    PairSeed cold;
+    const Answer answer = distance(plate, plate, pose, cold);
+    const MarchResult marched = march(view, view, pose, {a, b});
+    EXPECT_EQ(marched.status == MarchStatus::Disjoint, answer.verdict == Verdict::Disjoint) << i;
+    EXPECT_LE(marched.lower, answer.upper) << i;
+    EXPECT_GE(marched.upper, answer.lower) << i;
+  }
+  std::printf("%d of 10 000 walks came back\n", came_back);
+  EXPECT_GE(came_back, 10);
 }
 
 /// Coins that nearly lie on each other: the walk goes around the rim from one side to the other, and a look at all sides of a

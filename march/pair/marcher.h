@@ -108,8 +108,8 @@ struct Enough<false> {
 
 /// All states are one function, which keeps a marcher and its bodies in registers as long as no other knows their addresses:
 /// what is no part of it gets copies, and returns what it found. Vectors here are no constants, which g++ 12 keeps in memory.
-/// `Seen` is NearestOf<Vec4> or <Padded>. If `early`, vertices and edges near enough end the walk, before anything beside them
-/// is looked at.
+/// `Seen` is NearestOf<Vec4> or <Padded>. If `early`, vertices, edges and triangles near enough end the walk, before anything
+/// beside them is looked at.
 template <class Seen, bool early = false, PlaneRule rule = PlaneRule::MostViolated>
 class Marcher {
  public:
@@ -171,6 +171,12 @@ class Marcher {
     const Vec4& n = prism.normal();
     const double height = prism.height(p);
     if (!(height > 0)) return inside(vertex(va), face(f));
+    if (early && prism.is_triangle() && is_enough_(n * (height / dot(n, n)))) {
+      Ending seen{-n, prism.corner() - p, p, p, 0, kUnknown, kUnknown, kNoCorners, kNoCorners};
+      foot_on_facet(b, prism, seen);
+      end_early(a, p, seen.point_b, seen.blur);
+      return {vertex(va), face(f)};
+    }
     RingScan below = ring(a, va, a.into(-n), norm_1(n));
     if (!below.falls()) [[likely]] {
       if (!look.at_all) {

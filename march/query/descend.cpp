@@ -283,8 +283,8 @@ class Descent {
   void bound(const PairView& pair, Place& place, Walk& walked) {
     if (walked.end == WalkEnd::Enough) {
       const Nearest& at = walked.nearest;
-      const double upper = upper_at(pair, at, norm(at.point_b - at.point_a));
-      return carry(place, {answer_.lower, upper, vec(answer_.normal), at.point_a, at.point_b}, pair.law_two);
+      const Proof found = near_enough(pair, at, answer_.lower, vec(answer_.normal));
+      return carry(place, {answer_.lower, found.upper, found.normal, at.point_a, at.point_b}, pair.law_two);
     }
     Proof proof;
     doubt_ = tuning_.careful ? Doubt::Asked : settle(pair, walked, asked_.zero, asked_.above, answer_.plane_tests, proof);

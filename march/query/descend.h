@@ -41,15 +41,15 @@ static inline bool is_exact(const Pair& pair, const Vec& between, const StopRule
   return allowed < pair.least_error() || pair.is_near(length, allowed);
 }
 
-/// The squared distance of features of the level pair `place` that is enough where the bodies are at least `lower` apart;
-/// negative if none is, as where nothing proves yet that they are apart.
+/// The squared distance of features of the level pair `place` that is enough where the bodies are at least `lower` apart, or 0
+/// apart; negative if none is.
 template <class Pair>
 [[gnu::always_inline]] static inline double enough2_of(const Pair& pair, const Place& place, const StopRule& asked,
                                                        double lower) {
-  if (!asked.is_loose() || !(lower > 0)) return -1;
-  const double most =
-      (lower + asked.allowed(lower) - pair.deviation(place.level_a, place.level_b)) * (1 - 8 * kU) - 2 * pair.law_two();
-  return most > lower && has_range(most * most) ? most * most : -1;
+  if (!asked.is_loose()) return -1;
+  const double least = max(0, lower), allowed = asked.allowed(least),
+               most = (least + allowed - pair.deviation(place.level_a, place.level_b)) * (1 - 8 * kU) - 2 * pair.law_two();
+  return allowed > 0 && most > least && has_range(most * most) ? most * most : -1;
 }
 
 /// The ancestors of the features at `found`, on the coarsest level pair that would have answered as well.

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
 #include <swiftlet/query.h>
 
@@ -58,8 +59,7 @@ template <class Pair>
   Proof proof;
   const bool early = asked.is_loose() && walked.end == WalkEnd::Enough;
   if (early) {
-    const Nearest& at = walked.nearest;
-    proof = {max(0, bound.lower), upper_at(view, at, norm(at.point_b - at.point_a)), bound.normal};
+    proof = near_enough(view, walked.nearest, bound.lower, bound.normal);
   } else if (settle(view, walked, asked.zero, asked.above, answer.plane_tests, proof) != Doubt::None) {
     return false;
   }
@@ -173,7 +173,7 @@ template <class Pair>
   if (seed.met && automatic && overlaps_as_before(pair, seed, answer, proof)) return true;
   const bool samples = !seed.met && pair.limits.trace.empty() && pair.has_maps();
   if (asks && samples && separating_axis(pair, line, asked, knows, seed, seen, answer)) return true;
-  return !asks && !exact && automatic && unwatched && spheres_suffice(pair, line.in_a, asked, answer);
+  return !asks && !exact && automatic && unwatched && spheres_suffice(pair, line.in_a, norm(line.in_a), asked, answer);
 }
 
 /// Answers from `place` on. `known` is the walk from its features, if that is not null. `seen` is a sample of the pair's maps,
@@ -312,10 +312,12 @@ template <class Question>
   seen.normal = {0, 0, 0};
   place = known ? Place{place.level_a, place.level_b, {known->a, known->b}} : coarsest_place(pair.a, pair.b);
   const StopRule& asked = question.asked();
-  const bool exact = !Question::is_loose || is_exact(pair, line.in_a, asked);
+  // Where a sample answered, and balls did not now, another one may.
+  const bool was_sampled = Question::is_loose && seed.a.kind() == FeatureKind::None && has_direction(seed),
+             exact = !Question::is_loose || (!was_sampled && is_exact(pair, line.in_a, asked));
   LowerBound bound;
   const bool at_once = !exact && !known &&
-                       (spheres_suffice(pair, line.in_a, asked, answer) ||
+                       ((!was_sampled && spheres_suffice(pair, line.in_a, norm(line.in_a), asked, answer)) ||
                         (pair.has_maps() && samples_suffice(pair, line, asked, seed, seen, bound, answer)));
   if (!at_once) answer_from(pair, asked, exact, line, seen, bound, turn, place, known, seed, answer, proof);
   seal({0, 0}, proof, NoLimits::tuning, answer);
@@ -360,7 +362,26 @@ template <class Question>
   const auto go_on = [&](Turn turn, const Walk* known) {
     return distance_from(a, b, m, quality.error, line(), turn, {on_a, on_b, {}}, known, seed, question);
   };
-  if (Question::is_loose && fa.kind() == FeatureKind::None) return go_on(Turn::Some, nullptr);  // as samples leave it
+  if constexpr (Question::is_loose) {
+    if (fa.kind() == FeatureKind::None) {  // as balls and samples leave it
+      const PlainPair pair(Shape(a), Shape(b), m, quality.error, NoLimits{});
+      const double length = norm(in_a);
+      Answer answer;
+      if (spheres_suffice(pair, vec(in_a), length, question.asked(), answer)) return answer;
+      const bool serves = question.asked().allows(length, shortened(in_a, in_b, seed));
+      if (serves && level_a.map_side > 0 && level_b.map_side > 0) {
+        const PairView view = pair_view(level_a.view, level_b.view, m, shift_of(m), quality.error);
+        const AxisSample seen = sample_axis(view, Moved4(view), level_a, level_b, vec4(std::as_const(seed).normal.data()));
+        const double upper = upper_of(view, level_a.deviation + level_b.deviation * stretch_of(quality.error), seen);
+        if (question.asked().narrow(max(0, seen.lower), upper)) {
+          take_sample({on_a, on_b, {}}, seen, upper, answer);
+          answer.status = Status::Converged;
+          return answer;
+        }
+      }
+      return go_on(Turn::Some, nullptr);
+    }
+  }
   const bool has_choice = has_other_start(Shape(a), Shape(b), on_a, on_b);
   const Turn turn = has_choice ? turn_of(in_a, in_b, seed, level_a, level_b, Warm::Near) : Turn::Some;
   if (turn == Turn::Far) return go_on(turn, nullptr);
@@ -379,11 +400,12 @@ template <class Question>
       // Half as much is left to a sample as to a cold start, as a walk of a few states is the alternative.
       const LooseDistance half{question.absolute / 2, question.relative / 2};
       const double doubt = a.level(0).map_doubt + b.level(0).map_doubt;
-      Answer answer;
-      if (half.asked().allows(norm(in_a), doubt) &&
-          sampled_distance(a, b, m, quality.error, line(), seed, question, half, answer)) {
-        answer.plane_tests = plane_tests;
-        return answer;
+      if (half.asked().allows(norm(in_a), doubt)) {
+        Answer answer;
+        if (sampled_distance(a, b, m, quality.error, line(), seed, question, half, answer)) {
+          answer.plane_tests = plane_tests;
+          return answer;
+        }
       }
     }
     const PairView same = view;

@@ -72,6 +72,13 @@ static inline Turn turn_of(const Line& line, const PairSeed& seed, const Level& 
   return turn_of(vec4(line.in_a), vec4(line.in_b), seed, a, b, warm);
 }
 
+/// How much shorter the line of centres is along what it was when the seed was stored, in the body in which that is more. A
+/// sample along the direction stored then is likely to be about as much wider.
+static inline double shortened(const Vec4& in_a, const Vec4& in_b, const PairSeed& seed) {
+  const Vec2 along = dots(in_a, vec4(seed.line_in_a.data()), in_b, vec4(seed.line_in_b.data()));
+  return norm(in_a) - std::min(along[0], along[1]) * (1 / kLineUnit);
+}
+
 /// The finest level of a body that a query may read.
 static inline int finest_allowed(const Shape& body, const Budget& budget) {
   return std::clamp(budget.finest_level, body.finest_level(), body.level_count() - 1);
@@ -126,11 +133,13 @@ static inline void remember(const Line& line, const Padded& normal, PairSeed& se
 static inline Vec direction(const PairSeed& seed) {
   return {double(seed.normal[0]), double(seed.normal[1]), double(seed.normal[2])};
 }
+/// True unless the seed is new.
+static inline bool has_direction(const PairSeed& seed) { return (seed.normal[0] | seed.normal[1] | seed.normal[2]) != 0; }
 /// How far the line of centres has turned since a seed's direction was stored. Always inlined, as `PairOf::finest_mapped`.
 class SinceStored {
  public:
   [[gnu::always_inline]] SinceStored(const PairSeed& seed, const Vec& line) {
-    if ((seed.normal[0] | seed.normal[1] | seed.normal[2]) == 0) return;
+    if (!has_direction(seed)) return;
     const Vec4 was = vec4(seed.line_in_a.data()), now = vec4(line);
     along_ = dot(now, was);
     whole2_ = dot(now, now) * dot(was, was);

@@ -24,12 +24,10 @@ template <class Pair>
   return place;
 }
 
-/// An upper bound on the distance by the vertices of a sample of the level pair `at`.
-template <class Pair>
-static inline double upper_of(const Pair& pair, const PairView& view, const Place& at, const AxisSample& seen) {
-  const double error = pair.deviation(at.level_a, at.level_b),
-               upper = norm(vec4(seen.apart)) * (1 + kNormError) + view.point_error();
-  return max(max(0, seen.lower), error > 0 ? (upper + error) * (1 + 2 * kU) : upper);
+/// An upper bound on the distance by the vertices of a sample of a level pair that deviates by `deviation`.
+static inline double upper_of(const PairView& view, double deviation, const AxisSample& seen) {
+  const double upper = norm(vec4(seen.apart)) * (1 + kNormError) + view.point_error();
+  return max(max(0, seen.lower), deviation > 0 ? (upper + deviation) * (1 + 2 * kU) : upper);
 }
 /// Fills `answer` with what a sample of the level pair `at` bounds the distance by, except for the status.
 static inline void take_sample(const Place& at, const AxisSample& seen, double upper, Answer& answer) {
@@ -80,7 +78,7 @@ static inline bool separating_axis(const Pair& pair, const Line& line, const Sto
     });
   }
   if (!clears) return false;
-  take_sample(at, seen, upper_of(pair, view, at, seen), answer);
+  take_sample(at, seen, upper_of(view, pair.deviation(at.level_a, at.level_b), seen), answer);
   answer.status = Status::Beyond;
   return true;
 }
@@ -99,19 +97,19 @@ struct LowerBound {
 template <class Pair>
 [[gnu::always_inline]] static inline bool samples_suffice(const Pair& pair, const Line& line, const StopRule& asked,
                                                           PairSeed& seed, AxisSample& seen, LowerBound& bound, Answer& answer) {
-  const SinceStored since(seed, line.in_a);
   const Place least = pair.finest_mapped();
   Place at = mapped_for(pair, asked, norm(line.in_a));
-  Vec4 along = pair.first_direction(line, seed, since);
+  Vec4 along = pair.new_direction(line, seed);
   for (;;) {
     const PairView view = pair.view_at(at);
     seen = sample_axis(view, Moved4(view), pair.a.level(at.level_a), pair.b.level(at.level_b), along);
-    const double upper = upper_of(pair, view, at, seen);
+    const double upper = upper_of(view, pair.deviation(at.level_a, at.level_b), seen);
     if (asked.narrow(max(0, seen.lower), upper)) {
       take_sample(at, seen, upper, answer);
       answer.status = Status::Converged;
-      if (!since.serves()) remember(line, seen.normal, seed);
+      remember(line, seen.normal, seed);
       seed.a = seed.b = {};
+      seed.level_a = std::uint8_t(at.level_a), seed.level_b = std::uint8_t(at.level_b);
       return true;
     }
     bound = {seen.lower, seen.normal};

@@ -52,12 +52,14 @@ static inline bool ellipsoids_are_apart(const Pair& pair, const Line& line, cons
 }
 
 /// Fills `answer` and returns true if the balls around and inside the bodies bound their distance as narrowly as asked.
+/// `between`, which is `length` long, leads from A's centre to B's.
 template <class Pair>
-static inline bool spheres_suffice(const Pair& pair, const Vec& between, const StopRule& asked, Answer& answer) {
+static inline bool spheres_suffice(const Pair& pair, const Vec& between, double length, const StopRule& asked, Answer& answer) {
   const double stretch = stretch_of(pair.pose_error), inside_a = pair.a.level(0).view.inner_radius,
-               inside = inside_a + pair.b.level(0).view.inner_radius * (2 - stretch), margin = pair.law_two(),
-               around = pair.a.radius() + pair.b.radius() * stretch + margin, length = norm(between),
-               lower = max(0, length - around), upper = length - inside + margin;
+               inside = inside_a + pair.b.level(0).view.inner_radius * (2 - stretch),
+               around = pair.a.radius() + pair.b.radius() * stretch;
+  if (!asked.allows(length - around, min(length, around) - inside)) return false;  // nor do they with rounding
+  const double margin = pair.law_two(), lower = max(0, length - around - margin), upper = length - inside + margin;
   if (!(length - inside > margin && asked.narrow(lower, upper)) || pair.finest_a() != 0 || pair.finest_b() != 0) return false;
   const Vec normal = between * (1 / length), point_a = vec(pair.a.level(0).view.centre) + normal * inside_a;
   answer.status = Status::Converged;

@@ -67,7 +67,7 @@ struct PairSeed {
                                                          ///< in B's; a query drops the features if it turned far
   std::array<std::int16_t, 3> normal{};                  ///< normal of the answer, times 32767; tried again, also turned with
                                                          ///< the line of centres
-  std::uint8_t level_a = 0, level_b = 0;                 ///< the levels of `a` and `b`
+  std::uint8_t level_a = 0, level_b = 0;                 ///< the levels of `a` and `b`; without these, those last sampled
   std::uint8_t met = 0;                                  ///< not 0: the bodies overlapped
   std::array<std::uint32_t, 4> inside_a{}, inside_b{};   ///< pairs of vertices of level 0 that proved it, tried again:
                                                          ///< one after the other gives way as the bodies move
