@@ -1131,11 +1131,42 @@ TEST(Law10SmallErrors, GetTheExactDistance) {
   }
 }
 
-/// A cold loose distance may end at the first features near enough for a sample's bound: edges, or a vertex and an edge. Errors
-/// smaller than these are exact.
+/// A sample that answered is taken again, without any step and without a word in the seed, while its direction serves; after a
+/// jump, and for a smaller error, there is another answer.
+TEST(Law10Samples, AreTakenAgainWhileTheirDirectionServes) {
+  shapes::Random random(93);
+  for (const shapes::Family family : shapes::kFamilies) {
+    const shapes::Pair meshes = shapes::pair(family, 2000);
+    const Model a = bodies::must(build(meshes.a)).model, b = bodies::must(build(meshes.b)).model;
+    const Vec3 axis = random.on_sphere(), spin = random.on_sphere(), from = axis.unitOrthogonal();
+    PairSeed seed;
+    int again = 0;
+    for (int i = 0; i < 400; ++i) {
+      const double degree = std::acos(-1) / 180;
+      Pose pose{shapes::rotation(spin, i * degree), 2.3 * a.radius() * (shapes::rotation(axis, i * degree) * from)};
+      if (i % 50 == 49) pose = {random.rotation(), 2.3 * a.radius() * random.on_sphere()};
+      const double error = (i % 10 == 9 ? 0.002 : 0.04) * a.radius();
+      const PairSeed before = seed;
+      const Answer loose = distance(a, b, pose, seed, {.absolute = error}), exact = distance(a, b, pose);
+      ASSERT_EQ(loose.status, Status::Converged);
+      ASSERT_LE(loose.upper - loose.lower, error);
+      ASSERT_LE(loose.lower, exact.upper);
+      ASSERT_GE(loose.upper, exact.lower);
+      const Check passed = check(a, b, pose, loose);
+      ASSERT_TRUE(passed) << shapes::name(family) << ", pose " << i << ": " << passed.message;
+      if (seed.a.kind() == FeatureKind::None) ASSERT_EQ(loose.steps, 0u);
+      again += seed.a.kind() == FeatureKind::None && std::memcmp(&before, &seed, sizeof seed) == 0;
+    }
+    std::printf("%s: %d of 400 sampled as before\n", shapes::name(family), again);
+    EXPECT_GT(again, 100);
+  }
+}
+
+/// A cold loose distance may end at the first features near enough for a sample's bound, or for 0: edges, a vertex and an edge,
+/// or a vertex and a triangle. Errors smaller than these are exact.
 TEST(Law10EarlyEnd, LooseColdDistancesEndBeforeTheNearestFeatures) {
   shapes::Random random(91);
-  int early = 0, longer = 0, kinds[3][3] = {};
+  int early = 0, longer = 0, undecided = 0, kinds[3][3] = {};
   double steps = 0, all_steps = 0;
   for (const shapes::Family family : shapes::kFamilies) {
     const shapes::Pair meshes = shapes::pair(family, 2000);
@@ -1155,6 +1186,8 @@ TEST(Law10EarlyEnd, LooseColdDistancesEndBeforeTheNearestFeatures) {
         ASSERT_GE(loose.upper, exact.lower);
         const Check passed = check(a, b, pose, loose);
         ASSERT_TRUE(passed) << shapes::name(family) << ", pose " << i << ", error " << error << ": " << passed.message;
+        ASSERT_EQ(loose.verdict == Verdict::Undecided, loose.lower == 0);
+        undecided += loose.lower == 0 && loose.steps + loose.plane_tests > 0;
         // The next query walks on from there, or, where no features were kept, begins anew.
         const Answer next = distance(a, b, pose, seed);
         ASSERT_NEAR(next.lower, exact.lower, tolerance(a, b, pose));
@@ -1172,6 +1205,9 @@ TEST(Law10EarlyEnd, LooseColdDistancesEndBeforeTheNearestFeatures) {
   EXPECT_GT(kinds[1][1], 100);  // edges
   EXPECT_GT(kinds[0][1], 10);   // a vertex of either body and an edge
   EXPECT_GT(kinds[1][0], 10);
+  EXPECT_GT(kinds[0][2], 10);  // a vertex of either body and a triangle
+  EXPECT_GT(kinds[2][0], 10);
+  EXPECT_GT(undecided, 100);
   std::printf("%d ended early, %.2f of the steps\n", early, steps / all_steps);
 }
 
