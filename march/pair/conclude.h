@@ -39,15 +39,6 @@ static inline Doubt settle(const PairView& pair, Walk& walk, double zero, double
   return near ? Doubt::Threshold : Doubt::None;
 }
 
-/// The bounds of a walk that ended near enough, where `lower` is known along `normal`. If no normal is, which is 0, the way
-/// between the points stands for it.
-static inline Proof near_enough(const PairView& pair, const Nearest& at, double lower, const Vec& normal) {
-  const Vec apart = at.point_b - at.point_a;
-  const double length = norm(apart);
-  const bool has_way = max_abs(normal) == 0 && length > pair.point_error();
-  return {max(0, lower), upper_at(pair, at, length), has_way ? apart * (1 / length) : normal};
-}
-
 /// Proves bounds from the end of a walk by climbs and certified GJK. Verdicts change at the distances 0, `zero` and the rule's
 /// `beyond`: within rounding of these, the result is that of a cold start if the budget allows one.
 template <Until until = Until::Narrow>

@@ -234,7 +234,8 @@ class Descent {
 
   Walk walk_on(const PairView& pair, const Place& place) {
     const MarchStart from = settled(pair, place.start, answer_.plane_tests);
-    const double enough2 = tuning_.careful ? -1 : enough2_of(pair_, place, stop_, answer_.lower);
+    const double lower = answer_.lower > 0 ? answer_.lower : -kInfinity,
+                 enough2 = tuning_.careful ? -1 : enough2_of(pair_, place, stop_, lower);
     const Walk walked = walk(pair, from.a, from.b, tuning_.plane_rule, std::min(steps_left(), place.trial_steps), enough2);
     answer_.steps += walked.steps;
     answer_.plane_tests += walked.plane_tests;
@@ -283,8 +284,8 @@ class Descent {
   void bound(const PairView& pair, Place& place, Walk& walked) {
     if (walked.end == WalkEnd::Enough) {
       const Nearest& at = walked.nearest;
-      const Proof found = near_enough(pair, at, answer_.lower, vec(answer_.normal));
-      return carry(place, {answer_.lower, found.upper, found.normal, at.point_a, at.point_b}, pair.law_two);
+      const double upper = upper_at(pair, at, norm(at.point_b - at.point_a));
+      return carry(place, {answer_.lower, upper, vec(answer_.normal), at.point_a, at.point_b}, pair.law_two);
     }
     Proof proof;
     doubt_ = tuning_.careful ? Doubt::Asked : settle(pair, walked, asked_.zero, asked_.above, answer_.plane_tests, proof);

@@ -42,11 +42,11 @@ static inline bool is_exact(const Pair& pair, const Vec& between, const StopRule
 }
 
 /// The squared distance of features of the level pair `place` that is enough where the bodies are at least `lower` apart, or 0
-/// apart; negative if none is.
+/// apart, along a direction that is known; negative if none is, or `lower` is infinite.
 template <class Pair>
 [[gnu::always_inline]] static inline double enough2_of(const Pair& pair, const Place& place, const StopRule& asked,
                                                        double lower) {
-  if (!asked.is_loose()) return -1;
+  if (!asked.is_loose() || !(lower > -kInfinity)) return -1;
   const double least = max(0, lower), allowed = asked.allowed(least),
                most = (least + allowed - pair.deviation(place.level_a, place.level_b)) * (1 - 8 * kU) - 2 * pair.law_two();
   return allowed > 0 && most > least && has_range(most * most) ? most * most : -1;

@@ -59,7 +59,8 @@ template <class Pair>
   Proof proof;
   const bool early = asked.is_loose() && walked.end == WalkEnd::Enough;
   if (early) {
-    proof = near_enough(view, walked.nearest, bound.lower, bound.normal);
+    const Nearest& at = walked.nearest;
+    proof = {max(0, bound.lower), upper_at(view, at, norm(at.point_b - at.point_a)), bound.normal};
   } else if (settle(view, walked, asked.zero, asked.above, answer.plane_tests, proof) != Doubt::None) {
     return false;
   }
@@ -216,6 +217,13 @@ template <class Pair>
   descends(place, &found, &walked);
 }
 
+/// As `samples_suffice`, in a function of its own: what it needs would widen the frame of every question.
+[[maybe_unused, gnu::noinline]] static bool any_sample_suffices(const ModelPair& pair, const Line& line, const StopRule& asked,
+                                                                PairSeed& seed, AxisSample& seen, LowerBound& bound,
+                                                                Answer& answer) {
+  return samples_suffice(pair, line, asked, seed, seen, bound, answer);
+}
+
 /// As `ask_hulls`.
 template <class Pair>
 [[gnu::always_inline]] static inline void answer_hulls(const Pair& pair, const StopRule& asked, PairSeed& seed, Answer& answer,
@@ -234,7 +242,13 @@ template <class Pair>
   LowerBound bound;
   const bool samples = asked.is_loose() && !asked.is_threshold() && !exact && place.start.a.kind() == FeatureKind::None &&
                        !seed.met && pair.has_maps() && pair.limits.trace.empty() && !tuning.proof && !tuning.careful;
-  if (samples && samples_suffice(pair, line, asked, seed, seen, bound, answer)) return;
+  bool suffice = false;
+  if (samples) {
+    in_general(pair, [&](const ModelPair& general) {
+      suffice = any_sample_suffices(general, line, asked, seed, seen, bound, answer);
+    });
+  }
+  if (suffice) return;
   answer_from(pair, asked, exact, line, seen, bound, turn, place, nullptr, seed, answer, proof);
 }
 
@@ -368,7 +382,7 @@ template <class Question>
       const double length = norm(in_a);
       Answer answer;
       if (spheres_suffice(pair, vec(in_a), length, question.asked(), answer)) return answer;
-      const bool serves = question.asked().allows(length, shortened(in_a, in_b, seed));
+      const bool serves = has_direction(seed) && question.asked().allows(length, shortened(in_a, in_b, seed));
       if (serves && level_a.map_side > 0 && level_b.map_side > 0) {
         const PairView view = pair_view(level_a.view, level_b.view, m, shift_of(m), quality.error);
         const AxisSample seen = sample_axis(view, Moved4(view), level_a, level_b, vec4(std::as_const(seed).normal.data()));

@@ -162,11 +162,12 @@ static inline Vec4 new_direction(const PairSeed& seed, const SinceStored& since,
   constexpr double kOne = 1 / kLineUnit;
   return turned_with_line(a, b, b_in_a, now, vec4(seed.line_in_a.data()) * kOne, stored * kOne);
 }
-/// That along which a cold start samples first: the one stored in `seed` while its features would serve, else a new one.
-/// `known` is how far the line has turned if that is known to be Far, else Some.
+/// That along which a cold start samples first: the one stored in `seed` while its features, if it has any, would serve, else a
+/// new one. `known` is how far the line has turned if that is known to be Far, else Some.
 static inline Vec4 first_direction(const PairSeed& seed, const SinceStored& since, Turn known, const Level& a, const Level& b,
                                    const Motion& b_in_a, const Line& line) {
-  const bool serves = known != Turn::Far && since.serves() && turn_of(line, seed, a, b, Warm::Near) != Turn::Far;
+  const bool serves = known != Turn::Far && seed.a.kind() != FeatureKind::None && since.serves() &&
+                      turn_of(line, seed, a, b, Warm::Near) != Turn::Far;
   return serves ? vec4(seed.normal.data()) : new_direction(seed, since, a, b, b_in_a, line.in_a);
 }
 
