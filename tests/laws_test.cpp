@@ -1131,7 +1131,7 @@ TEST(Law10SmallErrors, GetTheExactDistance) {
   }
 }
 
-/// A sample that answered is taken again, without any step and without a word in the seed, while its direction serves; after a
+/// A sample that answered is taken again, without any step and without writing to the seed, while its direction serves; after a
 /// jump, and for a smaller error, there is another answer.
 TEST(Law10Samples, AreTakenAgainWhileTheirDirectionServes) {
   shapes::Random random(93);

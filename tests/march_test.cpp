@@ -468,8 +468,8 @@ TEST(March, ReflectionsOfCornersAndFacesAreAnsweredAsGiven) {
   }
 }
 
-/// From vertices anywhere, behind the body too, some walks between plates go round in circles for ever. They end where they
-/// come back, and the query that began there is answered elsewhere.
+/// From vertices anywhere, behind the body too, some walks between plates cycle. They end where they come back, and the query
+/// is answered by other means.
 TEST(March, WalksThatComeBackEnd) {
   const Model plate = model(bodies::body_of(shapes::ellipsoid({1, 0.8, 0.02}, 1000, 3)));
   const ConvexView& view = plate.level(0).view;
@@ -488,12 +488,12 @@ TEST(March, WalksThatComeBackEnd) {
     ASSERT_LE(w.steps, most);
     if (w.end != WalkEnd::Stalled) continue;
     ++came_back;
-    bool is_circle = false;
-    for (std::uint32_t steps = 1; steps < w.steps && !is_circle; ++steps) {
+    bool is_cycle = false;
+    for (std::uint32_t steps = 1; steps < w.steps && !is_cycle; ++steps) {
       const Walk again = walk(pair, w.a, w.b, PlaneRule::MostViolated, steps);
-      is_circle = again.a == w.a && again.b == w.b;
+      is_cycle = again.a == w.a && again.b == w.b;
     }
-    EXPECT_TRUE(is_circle) << i;
+    EXPECT_TRUE(is_cycle) << i;
     PairSeed cold;
     const Answer answer = distance(plate, plate, pose, cold);
     const MarchResult marched = march(view, view, pose, {a, b});

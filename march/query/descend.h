@@ -42,7 +42,7 @@ static inline bool is_exact(const Pair& pair, const Vec& between, const StopRule
 }
 
 /// The squared distance of features of the level pair `place` that is enough where the bodies are at least `lower` apart, or 0
-/// apart, along a direction that is known; negative if none is, or `lower` is infinite.
+/// apart if that is negative; negative if none is. Without a bound and its direction `lower` is minus infinity, and none is.
 template <class Pair>
 [[gnu::always_inline]] static inline double enough2_of(const Pair& pair, const Place& place, const StopRule& asked,
                                                        double lower) {

@@ -326,7 +326,7 @@ template <class Question>
   seen.normal = {0, 0, 0};
   place = known ? Place{place.level_a, place.level_b, {known->a, known->b}} : coarsest_place(pair.a, pair.b);
   const StopRule& asked = question.asked();
-  // Where a sample answered, and balls did not now, another one may.
+  // A sample gave the seed its direction, and the balls do not answer this query: another sample is tried at once.
   const bool was_sampled = Question::is_loose && seed.a.kind() == FeatureKind::None && has_direction(seed),
              exact = !Question::is_loose || (!was_sampled && is_exact(pair, line.in_a, asked));
   LowerBound bound;

@@ -90,8 +90,8 @@ struct LowerBound {
   bool is_known() const { return lower > -kInfinity; }
 };
 
-/// Samples along a new direction the coarsest level pair whose maps are likely to be precise enough, then, if a walk
-/// on the finest pair may follow, that. Fills `answer` and returns true if one bounds the distance as narrowly as asked; the
+/// Samples along a new direction the coarsest level pair whose maps are likely to be precise enough, then the finest pair, if a
+/// walk on that may follow. Fills `answer` and returns true if one bounds the distance as narrowly as asked; the
 /// seed then keeps the direction and the levels in place of features: vertices that only maps name are no better start than
 /// none. `seen` becomes the last sample, and `bound` what it proves.
 template <class Pair>
