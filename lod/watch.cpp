@@ -20,7 +20,7 @@ void Watch::work(double units) {
   while (!done_.compare_exchange_weak(done, done + units, std::memory_order_relaxed)) {
   }
   if (std::this_thread::get_id() != thread_) {
-    if (cancelled_.load(std::memory_order_relaxed)) throw Cancelled{};
+    if (stopped_.load(std::memory_order_acquire)) std::rethrow_exception(stop_);
   } else if (done + units >= due_) {
     report(begin_ + (end_ - begin_) * std::min(1.0, (done + units) / units_));
   }
@@ -36,7 +36,8 @@ void Watch::report(double fraction) {
   try {
     if (!progress_(reported_, stage_)) throw Cancelled{};
   } catch (...) {
-    cancelled_ = true;
+    stop_ = std::current_exception();
+    stopped_.store(true, std::memory_order_release);
     throw;
   }
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -17,7 +18,7 @@ struct Cancelled {};
 
 /// Turns work, in units that only its stage knows, into calls of the progress callback: one wherever the fraction done grew by
 /// `kStride`, and one where a stage begins. Throws Cancelled where that returns false. Work may be told of on any thread, but
-/// the callback is called on that which made the watch; the others throw Cancelled when it has.
+/// the callback is called on that which made the watch; once it has thrown, the others throw the same.
 class Watch {
  public:
   explicit Watch(const Progress& progress) : progress_(progress) {}
@@ -39,7 +40,8 @@ class Watch {
   std::string stage_;
   double begin_ = 0, end_ = 0, units_ = 1, due_ = 0, reported_ = 0;
   std::atomic<double> done_ = 0;
-  std::atomic<bool> cancelled_ = false;
+  std::exception_ptr stop_;  ///< what the thread that made the watch threw; to be read if `stopped_`
+  std::atomic<bool> stopped_ = false;
 };
 
 }  // namespace swiftlet::lod
