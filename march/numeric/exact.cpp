@@ -3,6 +3,7 @@
 // Expansions [Shewchuk 1997]: a number is the sum of few doubles that do not overlap, the least first. All are on the stack.
 #include "numeric/exact.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -51,7 +52,8 @@ class ExpansionOf {
   }
   ExpansionOf& operator+=(HighLow b) { return *this += b.low, *this += b.high; }
   /// Adds a * b, or subtracts it.
-  void add_product(const ExpansionOf& a, const ExpansionOf& b, int sign = 1) {
+  template <int kPartsOfA, int kPartsOfB>
+  void add_product(const ExpansionOf<kPartsOfA>& a, const ExpansionOf<kPartsOfB>& b, int sign = 1) {
     for (int i = 0; i < a.count_; ++i) {
       for (int j = 0; j < b.count_; ++j) *this += two_product(sign * a.part_[i], b.part_[j]);
     }
@@ -80,31 +82,39 @@ class ExpansionOf {
     count_ = kept;
   }
 
+  template <int>
+  friend class ExpansionOf;
   int count_ = 0;
   double part_[kParts];
 };
-/// The 2 098 bits of the range of doubles fit in it, because each part of a compressed expansion but the last has 52 bits below
-/// it.
-using Expansion = ExpansionOf<48>;
+/// The 2 098 bits of the range of doubles fit in so many parts, because each part of a compressed expansion but the last has 52
+/// bits below it.
+constexpr int kMostParts = 48;
+/// Room for a sum of so many doubles.
+template <int kDoubles>
+using SumOf = ExpansionOf<std::min(kDoubles, kMostParts)>;
 
-Expansion difference(double a, double b) {
-  Expansion e;
+SumOf<2> difference(double a, double b) {
+  SumOf<2> e;
   return e += two_sum(a, -b);
 }
 
-using Expansion3 = std::array<Expansion, 3>;
+template <int kParts>
+using Expansion3 = std::array<ExpansionOf<kParts>, 3>;
 
-Expansion3 exactly(const Vec& v) { return {Expansion(v.x), Expansion(v.y), Expansion(v.z)}; }
-Expansion3 difference3(const double a[3], const double b[3]) {
+Expansion3<1> exactly(const Vec& v) { return {SumOf<1>(v.x), SumOf<1>(v.y), SumOf<1>(v.z)}; }
+Expansion3<2> difference3(const double a[3], const double b[3]) {
   return {difference(a[0], b[0]), difference(a[1], b[1]), difference(a[2], b[2])};
 }
-Expansion dot3(const Expansion3& a, const Expansion3& b) {
-  Expansion sum;
+template <int kPartsOfA, int kPartsOfB>
+auto dot3(const Expansion3<kPartsOfA>& a, const Expansion3<kPartsOfB>& b) {
+  SumOf<3 * 2 * kPartsOfA * kPartsOfB> sum;
   for (std::size_t k = 0; k < 3; ++k) sum.add_product(a[k], b[k]);
   return sum;
 }
-Expansion3 cross3(const Expansion3& a, const Expansion3& b) {
-  Expansion3 product;
+template <int kPartsOfA, int kPartsOfB>
+auto cross3(const Expansion3<kPartsOfA>& a, const Expansion3<kPartsOfB>& b) {
+  std::array<SumOf<2 * 2 * kPartsOfA * kPartsOfB>, 3> product;
   for (std::size_t k = 0; k < 3; ++k) {
     product[k].add_product(a[(k + 1) % 3], b[(k + 2) % 3]);
     product[k].add_product(a[(k + 2) % 3], b[(k + 1) % 3], -1);
@@ -133,8 +143,8 @@ V3<DoubleDouble> wide_difference(const double b[3], const double a[3]) {
 }
 
 /// p q - r s, exactly: eight products of two parts each.
-ExpansionOf<16> determinant(const DoubleDouble& p, const DoubleDouble& q, const DoubleDouble& r, const DoubleDouble& s) {
-  ExpansionOf<16> sum;
+SumOf<16> determinant(const DoubleDouble& p, const DoubleDouble& q, const DoubleDouble& r, const DoubleDouble& s) {
+  SumOf<16> sum;
   for (const auto& [f, g] : {std::pair{p, q}, std::pair{r, -s}}) {
     for (const double x : {f.low, f.high}) sum += two_product(x, g.low), sum += two_product(x, g.high);
   }
@@ -147,10 +157,10 @@ ExpansionOf<16> determinant(const DoubleDouble& p, const DoubleDouble& q, const 
 }
 
 /// a - (R b + t), times 2^exponent, exactly.
-Expansion3 offset3(const double a[3], const double b[3], const Motion& m, int exponent) {
+Expansion3<8> offset3(const double a[3], const double b[3], const Motion& m, int exponent) {
   const auto scaled = [exponent](double x) { return times_power_of_two(x, exponent); };
   const auto coordinate = [&](double from, const Vec& row, double t) {
-    Expansion e(scaled(from));
+    SumOf<8> e(scaled(from));
     e += -scaled(t);
     for (const auto& [r, x] : {HighLow{row.x, b[0]}, HighLow{row.y, b[1]}, HighLow{row.z, b[2]}})
       e += two_product(-r, scaled(x));
@@ -173,19 +183,22 @@ int offset_determinant_sign(const std::array<const double*, 3>& a, const std::ar
 }
 
 /// R (w - v).
-Expansion3 rotated(const Motion& m, const double w[3], const double v[3]) {
-  const Expansion3 d = difference3(w, v);
-  return {dot3(exactly(m.row_x), d), dot3(exactly(m.row_y), d), dot3(exactly(m.row_z), d)};
+auto rotated(const Motion& m, const double w[3], const double v[3]) {
+  const auto d = difference3(w, v);
+  return std::array{dot3(exactly(m.row_x), d), dot3(exactly(m.row_y), d), dot3(exactly(m.row_z), d)};
 }
 
 /// R (b - a) x R (c - a), computed as the matrix of R's cofactors times (b - a) x (c - a), to which it is equal for any R.
-Expansion3 turned_cross(const Motion& m, const double a[3], const double b[3], const double c[3]) {
-  const Expansion3 n = cross3(difference3(b, a), difference3(c, a));
+auto turned_cross(const Motion& m, const double a[3], const double b[3], const double c[3]) {
+  const auto n = cross3(difference3(b, a), difference3(c, a));
   const auto coordinate = [&](const Vec& row, const Vec& other) { return dot3(cross3(exactly(row), exactly(other)), n); };
-  return {coordinate(m.row_y, m.row_z), coordinate(m.row_z, m.row_x), coordinate(m.row_x, m.row_y)};
+  return std::array{coordinate(m.row_y, m.row_z), coordinate(m.row_z, m.row_x), coordinate(m.row_x, m.row_y)};
 }
 
-Wide rounded(const Expansion3& v) { return {v[0].rounded(), v[1].rounded(), v[2].rounded()}; }
+template <int kParts>
+Wide rounded(const Expansion3<kParts>& v) {
+  return {v[0].rounded(), v[1].rounded(), v[2].rounded()};
+}
 
 }  // namespace
 

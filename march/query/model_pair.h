@@ -31,12 +31,8 @@ struct PairOf {
     return line;
   }
   /// Directions as of `seed`. Always inlined: as `finest_mapped`.
-  [[gnu::always_inline]] Vec4 first_direction(const Line& line, const PairSeed& seed, const SinceStored& since,
-                                              Turn known = Turn::Some) const {
-    return swiftlet::first_direction(seed, since, known, a.level(0), b.level(0), motion, line);
-  }
   [[gnu::always_inline]] Vec4 first_direction(const Line& line, const PairSeed& seed, Turn known = Turn::Some) const {
-    return first_direction(line, seed, SinceStored(seed, line.in_a), known);
+    return swiftlet::first_direction(seed, SinceStored(seed, line.in_a), known, a.level(0), b.level(0), motion, line);
   }
   [[gnu::always_inline]] Vec4 new_direction(const Line& line, const PairSeed& seed) const {
     return swiftlet::new_direction(seed, SinceStored(seed, line.in_a), a.level(0), b.level(0), motion, line.in_a);

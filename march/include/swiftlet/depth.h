@@ -15,7 +15,7 @@ namespace swiftlet {
 /// that of `distance`. In a shallow overlap, a walk to a locally least depth and one to three support points that prove it to
 /// be the least of all. In a deep overlap, one support climb for each point of an expanding polytope, mostly 5 to 30; if many
 /// facets of the Minkowski difference are almost equally deep, as many as march/README.md says under law 7. Allocates nothing;
-/// uses 16 kB of stack, or 32 kB where a polytope is expanded. Errors are statuses, and the interval is always true. Source:
+/// uses 10 kB of stack, or 26 kB where a polytope is expanded. Errors are statuses, and the interval is always true. Source:
 /// [van den Bergen 2001]; proof: march/README.md.
 Answer signed_distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options = {});
 /// Returns the signed distance, from a cold start.

@@ -147,7 +147,7 @@ static_assert(sizeof(Answer) == 128);
 /// Returns the distance between `a` and `b`, where `b_in_a` maps B's frame into A's: exact by default, or within the errors of
 /// `options`. The interval is always true; errors are statuses. `seed` holds what the last query of this pair left, and
 /// receives the warm start for the next. Cost: law 7 bounds the steps (march.h). Allocates nothing; uses 4 kB of stack, and
-/// 13 kB where only exact arithmetic decides a sign.
+/// 10 kB where only exact arithmetic decides a sign.
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options = {});
 /// Returns the distance, from a cold start.
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, const Options& options = {});
