@@ -466,7 +466,7 @@ TEST(SolidStack, OfAQueryIsWhatItsCostLineSays) {
   std::printf("bytes of stack: %zu\n", most);
   EXPECT_GE(most, 10000u) << "nothing was measured";
   if (!kIsMeasured) GTEST_SKIP() << "not optimised, or with a sanitizer's own variables";
-  EXPECT_LE(most, 40u << 10);
+  EXPECT_LE(most, 34'000u);
 }
 
 }  // namespace

@@ -44,8 +44,8 @@ static_assert(sizeof(MeshSeed) <= 128);
 // vertex is in the other's box, which no budget limits.
 
 /// Returns the distance between `a` and `b`, where `b_in_a` maps B's frame into A's: exact by default, or within the errors of
-/// `options`. The interval is always true. Cost: see bench/RESULTS.md. Allocates nothing; uses 16 kB of stack, and up
-/// to 40 where only exact arithmetic decides.
+/// `options`. The interval is always true. Cost: see bench/RESULTS.md. Allocates nothing; uses 21 kB of stack, and up
+/// to 34 where only exact arithmetic decides.
 Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options = {});
 /// Returns the distance, from a cold start.
 Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Options& options = {});
@@ -79,7 +79,7 @@ ClosestFeatures closest_features(const MeshBody& a, const MeshBody& b, const Pos
 /// The status is NotConverged where this interval is wider than asked, and law 2 does not hold for it; the less is asked, the
 /// less is done. Nor does law 3: the interval of an overlap depends on the seed, but is always true. Bodies that only touch
 /// have an interval of the same kind. Of a mesh that was cut, `lower` is minus infinity unless it is above 0. Cost: that of
-/// `distance`, and of an overlap that of some 40 distances, which share what the budget leaves: 0.1 to 5 milliseconds; up to 48
+/// `distance`, and of an overlap that of some 40 distances, which share what the budget leaves: 0.1 to 5 milliseconds; up to 37
 /// kB of stack.
 Answer signed_distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options = {});
 /// Returns the signed distance, from a cold start.
