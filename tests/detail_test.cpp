@@ -425,7 +425,9 @@ TEST_F(DetailTest, ErrorsSmallerThanThoseOfMapsAreMetWithoutLevelZero) {
   answers::Poses poses(9);
   for (int i = 0; i < 100; ++i) {
     const Answer answer = distance(mapped, whole, poses.next(), {.absolute = 3 * mapped.level(1).deviation});
-    if (answer.verdict == Verdict::Disjoint) EXPECT_EQ(answer.status, Status::Converged);
+    if (answer.verdict == Verdict::Disjoint) {
+      EXPECT_EQ(answer.status, Status::Converged);
+    }
   }
 }
 
