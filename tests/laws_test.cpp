@@ -1154,7 +1154,9 @@ TEST(Law10Samples, AreTakenAgainWhileTheirDirectionServes) {
       ASSERT_GE(loose.upper, exact.lower);
       const Check passed = check(a, b, pose, loose);
       ASSERT_TRUE(passed) << shapes::name(family) << ", pose " << i << ": " << passed.message;
-      if (seed.a.kind() == FeatureKind::None) ASSERT_EQ(loose.steps, 0u);
+      if (seed.a.kind() == FeatureKind::None) {
+        ASSERT_EQ(loose.steps, 0u);
+      }
       again += seed.a.kind() == FeatureKind::None && std::memcmp(&before, &seed, sizeof seed) == 0;
     }
     std::printf("%s: %d of 400 sampled as before\n", shapes::name(family), again);
