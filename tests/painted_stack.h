@@ -44,7 +44,7 @@ class PaintedStack {
   static void run() { (*work_)(); }
   static constexpr unsigned char kPaint = 0xa5;
   static inline const std::function<void()>* work_ = nullptr;
-  static constexpr std::size_t kBytes = 256 << 10;
+  static constexpr std::size_t kBytes = kIsMeasured ? 256 << 10 : 1 << 20;  ///< frames of sanitizers are large
   struct alignas(64) Bytes : std::array<unsigned char, kBytes> {};
   std::unique_ptr<Bytes> stack_ = std::make_unique<Bytes>();
   std::size_t top_;
