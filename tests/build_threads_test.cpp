@@ -139,7 +139,7 @@ TEST(BuildThreads, WhatTheCallbackThrowsArrives) {
   BuildOptions options;
   options.executor = on_threads(3);
   const Mesh mesh = shapes::ellipsoid(Vec3(1, 1, 1), 6000, 1);
-  for (const double at : {0.0, 0.1, 0.5, 1.0}) {  // the last is told of whatever the other threads did
+  for (const double at : {0.0, 0.1, 0.5, 1.0}) {  // a build that ends reports 1 on any number of threads
     options.progress = [&](double fraction, std::string_view) {
       if (fraction >= at) throw std::runtime_error("enough");
       return true;
