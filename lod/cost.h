@@ -29,7 +29,7 @@ inline constexpr Asked kAsked[] = {{0, 0.4}, {0.001, 0.2}, {0.01, 0.2}, {0.1, 0.
 
 /// The constants. Instructions but where said.
 struct QueryCost {
-  double mapped_vertices = 4096;   ///< the finest level with a support map has at most so many: march's kMappedVertices
+  double mapped_vertices = 4096;   ///< levels of more were not mapped by the kernel that this is fitted to
   double legal_pose = 880;         ///< what any query takes before and after
   double sample = 460;             ///< one direction along the maps of both bodies
   double first_slack = 0.2;        ///< of error that deviations leave, for which one sample is enough;

@@ -84,7 +84,7 @@ class Collapser {
     std::string end;
   };
   /// How many the level after one of so many triangles is to have: `rate` times as many, no fewer than the cutoff. Where no
-  /// rate is asked for, levels too fine for a support map are as far apart as queries like them.
+  /// rate is asked for, fine levels are as far apart as queries like them.
   std::size_t target(std::size_t triangles) const {
     const double vertices = double(triangles) / 2 + 2;
     double next = options_.rate.value_or(kRate) * double(triangles);

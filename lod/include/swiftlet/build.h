@@ -57,8 +57,8 @@ struct BuildOptions {
   Method method = Method::Collapse;        ///< how a level is simplified
   Enclosing enclosing = Enclosing::Tight;  ///< how it is made to enclose level 0
   /// Number of triangles of a level divided by that of the next finer level, in (0, 1); Peel removes as many as it can. Empty:
-  /// 0.25 for levels with support maps, and for finer levels what costs queries least; a level then has no more triangles than
-  /// an error of 10, 1 or 0.1 % of the radius needs, if that saves enough of them.
+  /// 0.25 while the next level has at most 4 096 vertices, and above what costs queries least; a level then has no more
+  /// triangles than an error of 10, 1 or 0.1 % of the radius needs, if that saves enough of them.
   std::optional<double> rate;
   std::uint32_t cutoff = 60;  ///< least number of triangles of a level; a solid has at least 4
   int max_levels = 32;        ///< 1 to 32, level 0 included

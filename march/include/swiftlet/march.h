@@ -90,12 +90,11 @@ struct MarchResult {
 };
 
 /// Marches from `start` to the nearest features of `a` and `b`. Allocates nothing.
-/// Law 7: at most 2 * (12 |A| |B| + 1) steps, where |X| counts vertices, half-edges and faces: a state that shortens the
-/// distance never returns, twelve states in a row that do not shorten it end the walk, and within rounding of a threshold a
-/// cold walk follows. The most ever seen is |A| + |B|; on 2 000 triangles about 50. If the bodies overlap, finding features
-/// that share a point takes about as many plane tests again as a cold march. If one body lies inside the other, it takes 1 to 5
-/// for each feature of both, whatever the ratio of their sizes: 1 000 vertices in 1 000 take 0.4 ms, or 6 ms where doubles
-/// cannot tell the surfaces apart.
+/// Law 7: a walk ends within 16 + 3 n steps on n feature pairs, where a pair counts once for each side of a large face that the
+/// walk may remember (march/README.md), and within rounding of a threshold a cold walk follows. The most ever seen is |A| +
+/// |B|; on 2 000 triangles about 50. If the bodies overlap, finding features that share a point takes about as many plane tests
+/// again as a cold march. If one body lies inside the other, it takes 1 to 5 for each feature of both, whatever the ratio of
+/// their sizes: 1 000 vertices in 1 000 take 0.4 ms, or 6 ms where doubles cannot tell the surfaces apart.
 MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, const MarchStart& start = {},
                   const MarchRule& rule = {});
 
