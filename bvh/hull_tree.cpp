@@ -251,7 +251,7 @@ void HullPair::search(Question& question) {
       std::push_heap(queue_.begin(), queue_.end());
     }
   }
-  if (!question.decided() && !question.every_contact) ask_inside(question);
+  if (!question.decided()) ask_inside(question);
   if (search_.front) raise_front();
 }
 

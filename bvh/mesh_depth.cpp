@@ -381,7 +381,8 @@ class Depth {
     const bool apart = answer.lower > 0;  // which the distance, being loose or cut short, did not show
     answer.normal = apart ? nearest : eigen(way.n);
     if (apart && answer.verdict == Verdict::Undecided) answer.verdict = Verdict::Disjoint;
-    return answer.upper - answer.lower <= max(max(options.absolute, options.relative * -answer.upper), asked);
+    return answer.upper - answer.lower <=
+           max(max(allowed_error(options.absolute), allowed_error(options.relative) * -answer.upper), asked);
   };
   bool narrow = bound();
   if (!narrow && !(answer.lower > threshold || answer.upper <= threshold)) {

@@ -250,7 +250,8 @@ Answer distance_from(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, M
   Answer answer;
   if (both_convex(a, b, seed, [&](const Body& x, const Body& y, PairSeed& s) { answer = distance(x, y, b_in_a, s, options); }))
     return answer;
-  ask(a, b, b_in_a, seed, front, options.budget, {options.absolute, options.relative, options.beyond, 0}, answer);
+  ask(a, b, b_in_a, seed, front, options.budget,
+      {allowed_error(options.absolute), allowed_error(options.relative), options.beyond, 0}, answer);
   return answer;
 }
 

@@ -354,7 +354,8 @@ NearestPair Scene::nearest(const Scene& other, const Options& options) {
   } else {
     answer = distance(a.body, b.body, b_in_a, first.seed, options);
   }
-  const auto is_unknown = [](const Answer& x) { return !(x.upper < kInfinity); };
+  // A pair that is beyond has no upper bound either.
+  const auto is_unknown = [](const Answer& x) { return x.status != Status::Beyond && !(x.upper < kInfinity); };
   content_->kept_with(other.content_).nearest = first;
   if (is_unknown(answer) || answer.upper <= 0) return {{first.a, first.b, answer}, 0};
 
@@ -363,7 +364,8 @@ NearestPair Scene::nearest(const Scene& other, const Options& options) {
   Kept& k = content_->near(other.content_, so_far.beyond);
   double lower = kInfinity;
   // Each round asks twice as many pairs, up to the least distance of the rounds before.
-  for (std::size_t begin = 0, count = kPairsPerTask; begin < k.near.size() && so_far.beyond > 0; begin += count, count *= 2) {
+  for (std::size_t begin = 0, count = kPairsPerTask; begin < k.near.size() && so_far.beyond >= 0 && nearest.answer.upper > 0;
+       begin += count, count *= 2) {
     std::vector<std::uint32_t> round;
     for (const std::uint32_t i : std::span(k.near).subspan(begin, std::min(count, k.near.size() - begin))) {
       const double gap = squared_gap(c.tree.box(k.pairs[i].a.index), o.tree.box(k.pairs[i].b.index));
@@ -419,7 +421,7 @@ void list_contacts(const KeptPair& pair, const PairQuery& q, const Answer& answe
   found.push_back({{pair.a, pair.b, answer}, manifold(q.a, q.b, q.b_in_a, answer, options, last.first())});
 }
 
-/// One for each region; of a body inside a solid, whose surfaces do not meet, how deep it is.
+/// One for each region; of a body inside a solid, whose surfaces do not meet, how deep it is, however near they are.
 void list_contacts(const KeptPair& pair, const MeshPairQuery& q, const Answer& answer, const ManifoldOptions& options,
                    LastContacts last, std::vector<SceneContact>& found) {
   std::vector<MeshContact> regions;
@@ -428,12 +430,18 @@ void list_contacts(const KeptPair& pair, const MeshPairQuery& q, const Answer& a
     regions.resize(kSpareRegions + std::max<std::size_t>(2 * regions.size(), told.count));
     told = contacts(q.a, q.b, q.b_in_a, options.margin, regions);
   } while (told.status == Status::Budget);  // there are more
-  if (told.stored == 0) {
+  const std::span stored = std::span(regions).first(told.stored);
+  const auto is_apart = [](const MeshContact& region) {
+    return region.verdict != Verdict::Overlapping && region.verdict != Verdict::Touching;
+  };
+  if (std::all_of(stored.begin(), stored.end(), is_apart)) {
     const bool is_inside = answer.verdict == Verdict::Overlapping;
-    found.push_back({{pair.a, pair.b, is_inside ? signed_distance(q.a, q.b, q.b_in_a, *q.seed) : answer}, {}});
-    return;
+    if (is_inside || stored.empty()) {
+      found.push_back({{pair.a, pair.b, is_inside ? signed_distance(q.a, q.b, q.b_in_a, *q.seed) : answer}, {}});
+      return;
+    }
   }
-  for (const MeshContact& region : std::span(regions).first(told.stored)) {
+  for (const MeshContact& region : stored) {
     Answer one = answer;
     one.status = told.status, one.verdict = region.verdict, one.lower = region.lower, one.upper = region.upper;
     one.normal = region.normal, one.point_a = region.point_a, one.point_b = region.point_b;

@@ -440,6 +440,36 @@ TEST(HullTree, WhatIsNotOfTheMeshIsRefused) {
   EXPECT_EQ(build_hull_tree(mesh, one_by_one(mesh), options).error().code, ErrorCode::Cancelled);
 }
 
+/// A box whose faces are dented: its pieces do not hold the middle.
+Soup dented_box() {
+  Soup soup;
+  for (int i = 0; i < 8; ++i) soup.points.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+  for (std::uint32_t side = 0; side < 6; ++side) {
+    const std::uint32_t axis = side / 2, u = (axis + 1) % 3, v = (axis + 2) % 3, base = side % 2 << axis;
+    const std::uint32_t corners[] = {base, base | 1u << u, base | 1u << u | 1u << v, base | 1u << v};
+    Vec3 middle = Vec3::Zero();
+    middle[axis] = side % 2 ? 0.7 : -0.7;
+    const auto centre = std::uint32_t(soup.points.size());
+    soup.points.push_back(middle);
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const std::uint32_t from = corners[k], to = corners[(k + 1) % 4];
+      soup.triangles.push_back(side % 2 ? std::array{centre, from, to} : std::array{centre, to, from});
+    }
+  }
+  return soup;
+}
+
+TEST(HullTree, ContactsOfASolidInASolidAreOneOverlap) {
+  const Body outer = body("dented box", dented_box(), true), inner = body("small", scaled(dented_box(), 0.05), true);
+  HullPair pair(outer.tree, inner.tree);
+  ASSERT_EQ(pair.intersects({}).answer.verdict, Verdict::Overlapping);
+  for (const double reach : {0.0, 0.1, 0.5, 2.0}) {
+    const std::vector<HullAnswer>& found = pair.contacts({}, reach);
+    ASSERT_EQ(found.size(), 1u) << reach;
+    EXPECT_EQ(found[0].answer.verdict, Verdict::Overlapping);
+  }
+}
+
 TEST(HullTree, BadPosesAreStatuses) {
   const Body ring = body("torus", torus(6, 4), true);
   HullPair pair(ring.tree, ring.tree);

@@ -336,6 +336,50 @@ TEST(Scene, FindsASolidInASolid) {
   }
 }
 
+/// However near the surfaces are: their regions are apart, the bodies are not.
+TEST(Scene, FindsASolidInASolidBesideItsWall) {
+  const MeshModel outer = soups::ball(2).mesh(), inner = soups::scaled(soups::ball(1), 0.25).mesh();
+  Pose aside;
+  aside.translation = {0.7, 0, 0};
+  for (const bool solid : {false, true}) {
+    Scene scene;
+    (void)scene.add("outer", solid ? MeshBody::solid(outer) : MeshBody(outer), {});
+    (void)scene.add("inner", inner, aside);
+    const auto contacts = scene.contacts({.margin = 0.2});
+    ASSERT_GE(contacts.size(), 1u);
+    for (const SceneContact& contact : contacts)
+      EXPECT_EQ(contact.answer.verdict, solid ? Verdict::Overlapping : Verdict::Disjoint);
+    if (solid) {
+      EXPECT_LT(contacts[0].answer.upper, -0.25);
+    }
+  }
+}
+
+/// In whatever order the bodies came, and whatever bound is asked for.
+TEST(Scene, TheNearestPairIsTheOneThatOverlaps) {
+  const MeshModel ball = soups::ball(2).mesh();
+  const std::vector<MeshBody> bodies{MeshBody(ball), MeshBody(Body(models()[0]))};
+  for (const MeshBody& body : bodies) {
+    std::vector<int> order{0, 1, 2, 3};
+    const double places[4][2] = {{0, 0}, {1.45, 1.45}, {50, 0}, {50.5, 0}};
+    do {
+      for (const double beyond : {0.0, 0.1, 10.0, kInfinity}) {
+        Scene scene;
+        for (const int i : order) {
+          Pose pose;
+          pose.translation = {places[i][0], places[i][1], 0};
+          (void)scene.add(std::to_string(i), body, pose);
+        }
+        const NearestPair nearest = scene.nearest({.beyond = beyond});
+        ASSERT_TRUE(scene.has(nearest.a));
+        EXPECT_EQ(nearest.answer.verdict, Verdict::Overlapping);
+        EXPECT_EQ(nearest.answer.upper, 0);
+        EXPECT_EQ(nearest.lower, 0);
+      }
+    } while (std::next_permutation(order.begin(), order.end()));
+  }
+}
+
 /// Every pair of triangles of every pair of meshes, in long doubles.
 TEST(Scene, FindsMeshesAsTheirTrianglesAre) {
   Random random(23);

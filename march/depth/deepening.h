@@ -391,7 +391,7 @@ void make_signed(std::span<LevelRecord> trace, int visited) {
   const Setting at(a, b, b_in_a);
   if (const Status fault = at.fault(); fault != Status::Converged) return refuse(a, b, fault, true, answer);
   Limits limits(options.budget, options.tuning);
-  Deepening deep(at, limits, {options.absolute, options.relative});
+  Deepening deep(at, limits, {allowed_error(options.absolute), allowed_error(options.relative)});
   OverlapProof proof;
   if (seed.met) deep.run(seed);
   if (deep.proved()) {
@@ -399,7 +399,7 @@ void make_signed(std::span<LevelRecord> trace, int visited) {
     overlap_part(deep, answer);
     return finish(at, limits, proof, answer);
   }
-  const StopRule of_bodies{options.absolute, options.relative, options.beyond};
+  const StopRule of_bodies{allowed_error(options.absolute), allowed_error(options.relative), options.beyond};
   const int visited = deep.levels_visited;
   if (!limits.trace.empty()) limits.trace = limits.trace.last(std::max(1, int(limits.trace.size()) - visited));
   const StopRule of_hulls = at.radii.of_hulls(of_bodies, at.law_two());

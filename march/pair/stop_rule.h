@@ -8,6 +8,9 @@
 
 namespace swiftlet {
 
+/// An error that a caller allows: one that is NaN or negative asks for none.
+static inline double allowed_error(double asked) { return asked > 0 ? asked : 0; }
+
 /// Bounds suffice when they are narrow, or on one side of a threshold. Lengths are in the bodies' unit.
 struct StopRule {
   double absolute = 0, relative = 0;  ///< allowed width: a length, or a fraction of `lower` - `zero` if that is larger

@@ -14,6 +14,11 @@ namespace {
 
 constexpr double kNever = -kInfinity;  // no upper bound is this low
 
+/// What a distance's options ask for.
+StopRule rule_of(const Options& options) {
+  return {allowed_error(options.absolute), allowed_error(options.relative), options.beyond, 0};
+}
+
 /// Copies `so_far` to `answer` as an unsigned answer with `status` and no work of its own.
 void restate(const Answer& so_far, Status status, Answer& answer) {
   answer = so_far;
@@ -31,13 +36,21 @@ bool tells_distance(const Answer& answer) {
 /// Answers `asked` like `ask`, but goes on from `so_far`, if that tells anything of the distance.
 void ask_on(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const StopRule& asked,
             const Answer& so_far, Answer& answer) {
-  if (!tells_distance(so_far)) return ask(a, b, b_in_a, seed, limits, asked, answer);
+  if (so_far.status == Status::NotAsked) return ask(a, b, b_in_a, seed, limits, asked, answer);
   if (limits.tuning.proof) *limits.tuning.proof = {};
   const Setting at(a, b, b_in_a);
   const Radii& radii = at.radii;
   if (const Status fault = at.fault(); fault != Status::Converged) return refuse(a, b, fault, false, answer);
   if (Radii(so_far) != radii) return refuse(a, b, Status::InvalidRadius, false, answer);
-  if (!radii.none() && so_far.verdict == Verdict::Overlapping) return restate(so_far, Status::Converged, answer);
+  const bool overlaps = !so_far.is_signed && so_far.verdict == Verdict::Overlapping;
+  if (overlaps && !limits.tuning.proof) return restate(so_far, Status::Converged, answer);
+  if (!tells_distance(so_far)) {
+    // Balls or ellipsoids answered, which name no features.
+    const bool suffices = so_far.status < Status::InvalidPose && (so_far.lower > 0 || !so_far.is_signed) && !overlaps &&
+                          asked.met(so_far.lower, so_far.upper);
+    if (!suffices) return ask(a, b, b_in_a, seed, limits, asked, answer);
+    return restate(so_far, so_far.lower > asked.above ? Status::Beyond : Status::Converged, answer);
+  }
   answer = radii.of_hulls(so_far);
   // An answer that is exact for the bodies counts as exact for the hulls, even if rounding with the radii widened it.
   const double law_two = at.law_two(), exact_width = so_far.upper - so_far.lower <= law_two ? answer.upper - answer.lower : 0;
@@ -56,7 +69,7 @@ void ask_on(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, co
 [[gnu::noinline]] Answer any_distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed,
                                       const Options& options) {
   Answer answer;
-  ask(a, b, b_in_a, seed, {options.budget, options.tuning}, {options.absolute, options.relative, options.beyond, 0}, answer);
+  ask(a, b, b_in_a, seed, {options.budget, options.tuning}, rule_of(options), answer);
   return answer;
 }
 
@@ -74,8 +87,9 @@ bool is_finer_than_maps(const Model& a, const Model& b, const Options& options) 
   const bool loose = options.absolute > 0 || options.relative > 0, limited = limits_in(options.budget, options.tuning) != 0;
   if (!(loose && !limited && options.beyond == -kNever && are_models(a, b))) return any_distance(a, b, b_in_a, seed, options);
   const Model &of_a = *a.model(), &of_b = *b.model();
-  return is_finer_than_maps(of_a, of_b, options) ? ask_distance(of_a, of_b, b_in_a, seed)
-                                                 : ask_loosely(of_a, of_b, b_in_a, seed, options.absolute, options.relative);
+  return is_finer_than_maps(of_a, of_b, options)
+             ? ask_distance(of_a, of_b, b_in_a, seed)
+             : ask_loosely(of_a, of_b, b_in_a, seed, allowed_error(options.absolute), allowed_error(options.relative));
 }
 
 }  // namespace
@@ -114,8 +128,7 @@ Answer distance(const Body& a, const Body& b, const Pose& b_in_a, const Options&
 
 Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so_far, PairSeed& seed, const Options& options) {
   Answer answer;
-  ask_on(a, b, b_in_a, seed, {options.budget, options.tuning}, {options.absolute, options.relative, options.beyond, 0}, so_far,
-         answer);
+  ask_on(a, b, b_in_a, seed, {options.budget, options.tuning}, rule_of(options), so_far, answer);
   return answer;
 }
 Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so_far, const Options& options) {

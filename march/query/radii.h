@@ -101,9 +101,10 @@ static inline void seal(const Radii& radii, const OverlapProof& proof, const Tun
 static inline void decide(Answer& answer) {
   if (answer.status == Status::Beyond) answer.status = Status::Converged;
 }
-/// The same, and reads off the answer whether the distance is at most `threshold`.
+/// The same, and reads off the answer whether the distance is at most `threshold`. Where the query was refused, nothing tells.
 static inline void decide(Within& result, double threshold) {
   decide(result.answer);
+  if (result.answer.status >= Status::InvalidPose) return;
   if (result.answer.lower > threshold) result.decision = Decision::No;
   if (result.answer.upper <= threshold) result.decision = Decision::Yes;
 }

@@ -26,7 +26,7 @@ class Answers:
     Attributes
     ----------
     records : ndarray
-        Structured, of shape S, 128 bytes a row.
+        Structured, of shape S, 128 bytes a row, 136 of `within`.
     """
 
     __slots__ = ("records",)

@@ -11,7 +11,7 @@ from typing import Any
 class ErrorCode(IntEnum):
     """The kind of an :class:`Error`."""
 
-    CANNOT_READ = 0  #: the file is missing, unreadable, or ends early
+    CANNOT_READ = 0  #: the file is missing or unreadable
     CANNOT_WRITE = 1  #: the file cannot be created or the disk is full; nothing half-written is left
     BAD_FORMAT = 2  #: the data are not in the format expected, or damaged
     BAD_VERSION = 3  #: a format version that this library does not read

@@ -280,7 +280,7 @@ def _collisions(first: CollisionManager, second: CollisionManager, with_contacts
     names, contacts = [], []
     for pair, id, record, parts in zip(_pairs(first, second, a, b), a, records, manifolds):
         _known(pair, record)
-        if record["verdict"] not in (Verdict.OVERLAPPING, Verdict.TOUCHING):
+        if record["verdict"] == Verdict.DISJOINT:
             continue
         names.append(pair)
         pose = first._scene.pose((int(id[0]), int(id[1])))

@@ -84,6 +84,24 @@ def test_collisions_are_told_as_trimesh_tells_them():
         m.set_transform("a", np.eye(4))
 
 
+def test_what_is_undecided_collides_with_contacts_as_without():
+    rng = np.random.default_rng(1)
+    points = rng.normal(size=(2000, 3))
+    body = swiftlet.Model.build(points / np.linalg.norm(points, axis=1)[:, None] * [3, 1, 0.3]).cut(deviation=0.05)
+    m = CollisionManager()
+    m.add_object("a", body, np.eye(4))
+    seen = set()
+    for x in np.linspace(4.8, 6, 61):
+        pose = np.eye(4)
+        pose[:3, 3] = [x, 0.9, 0.1]
+        m.add_object("b", body, pose)
+        plain = m.in_collision_internal(return_names=True)
+        assert m.in_collision_internal(return_names=True, return_data=True)[:2] == plain
+        seen.add(int(swiftlet.distance(body, body, pose[None]).verdict[0]))
+        m.remove_object("b")
+    assert Verdict.UNDECIDED in seen
+
+
 def test_distances_are_told_as_trimesh_tells_them():
     m = manager(a=0, b=3.5, c=9)
     distance, names, data = m.min_distance_internal(return_names=True, return_data=True)

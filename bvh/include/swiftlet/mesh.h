@@ -83,7 +83,8 @@ class MeshModel {
   double deviation() const { return is_whole() ? 0 : deviation(level_count()); }  ///< that of this mesh
   /// Returns the mesh without the triangles and without the lower levels of nodes that `detail` allows to leave out: what is
   /// left is boxes around the surface, none farther from it than `deviation`. Any distance is then answered with an error of at
-  /// most the sum of both meshes' deviations, status LevelLimit, and no feature. A mesh of one level is returned as it is.
+  /// most the sum of both meshes' deviations, status LevelLimit, and no feature; of a solid, InvalidBody. A mesh of one level
+  /// is returned as it is.
   MeshModel cut(const Detail& detail) const;
   std::span<const std::byte> bytes() const;  ///< the block, which is what `save` writes
   std::uint64_t hash() const;                ///< hash over all of `bytes()`, which it reads; equal blocks have equal hashes
@@ -113,7 +114,7 @@ class MeshBody {
   MeshBody(const MeshModel&&, double radius = 0) = delete;  ///< a temporary mesh would not outlive the expression
   /// A closed mesh, the volume that it encloses and all points within `radius` of these. Enclosed is a point from which a ray
   /// crosses the surface an odd number of times, whichever way triangles face: components within others are cavities. Queries
-  /// answer InvalidBody unless `topology().closed()`.
+  /// answer InvalidBody unless `topology().closed()` and `is_whole()`.
   static MeshBody solid(const MeshModel& mesh, double radius = 0) {
     MeshBody body(mesh, radius);
     body.is_solid_ = true;

@@ -45,7 +45,7 @@ typedef int32_t swiftlet_code;
 /// Codes. Up to SWIFTLET_CANCELLED those of C++'s ErrorCode, plus 1.
 enum {
   SWIFTLET_OK = 0,              ///< done
-  SWIFTLET_CANNOT_READ = 1,     ///< the file is missing, unreadable, or ends early
+  SWIFTLET_CANNOT_READ = 1,     ///< the file is missing or unreadable
   SWIFTLET_CANNOT_WRITE = 2,    ///< the file cannot be created or the disk is full; nothing half-written is left
   SWIFTLET_BAD_FORMAT = 3,      ///< the data are not in the format expected, or damaged
   SWIFTLET_BAD_VERSION = 4,     ///< a format version that this library does not read
@@ -285,7 +285,7 @@ typedef struct swiftlet_level {
   uint32_t map_side;                     ///< `support_map` has 2 map_side^2 cells
   double deviation;                      ///< bound on the distance of this level's points from level 0
   double volume;                         ///< in cubic units; 0 for a body that is not solid
-  const swiftlet_vertex* vertices;       ///< null on levels finer than the finest present, as all arrays
+  const swiftlet_vertex* vertices;       ///< null on levels finer than the finest present, as all arrays but `support_map`
   size_t vertex_count;                   ///< vertices
   const swiftlet_half_edge* half_edges;  ///< sorted by origin
   size_t half_edge_count;                ///< half-edges, two for each edge
@@ -339,7 +339,8 @@ SWIFTLET_API swiftlet_code swiftlet_model_support(const swiftlet_model* model, c
 /// Shows the start table, a vertex of level 0 per sample; null and 0 if there is none.
 SWIFTLET_API swiftlet_code swiftlet_model_get_table(const swiftlet_model* model, const uint32_t** table, size_t* count,
                                                     swiftlet_error* error);
-/// Finds a vertex of level 0 that faces `direction`, by one look-up, as a start of swiftlet_march; 0 if there is no table.
+/// Finds a vertex of level 0 that faces `direction`, by one look-up, as a start of swiftlet_march, in the table or else
+/// the support maps; 0 if there is neither.
 SWIFTLET_API swiftlet_code swiftlet_model_table_start(const swiftlet_model* model, const double* direction,
                                                       swiftlet_feature* vertex, swiftlet_error* error);
 /// Shows the block, which is what swiftlet_model_save writes. It lives as long as the model.
@@ -390,22 +391,22 @@ SWIFTLET_API void swiftlet_mesh_release(const swiftlet_mesh* mesh);
 
 /// What a mesh is, and its topology, counted after equal points became one vertex. Size: at least up to `triangle_count`.
 typedef struct swiftlet_mesh_info {
-  uint32_t size;                    ///< of this struct, set by the caller
-  int32_t is_closed;                ///< 1 if the triangles bound a volume: what SWIFTLET_BODY_SOLID needs
-  uint64_t vertex_count;            ///< vertices kept; 0 of a mesh that was cut
-  uint64_t triangle_count;          ///< as many as were given; 0 likewise
-  double volume;                    ///< enclosed, negative for a surface that is inside out; 0 unless closed
-  double box_min[3];                ///< body frame: smallest coordinates
-  double box_max[3];                ///< body frame: largest coordinates
-  double extent;                    ///< largest absolute coordinate
-  double deviation;                 ///< how far a point of a mesh that was cut may be from the surface; else 0
-  uint64_t node_count;              ///< nodes of the tree
-  uint64_t hull_count;              ///< nodes that have a convex hull
-  int32_t is_whole;                 ///< 1 unless the mesh was cut
-  int32_t level_count;              ///< levels of nodes that the mesh has
-  int32_t depth;                    ///< levels of nodes of the whole tree
-  uint32_t components;              ///< sets of triangles joined by common edges
-  uint32_t open_edges;              ///< edges of a single triangle
+  uint32_t size;            ///< of this struct, set by the caller
+  int32_t is_closed;        ///< 1 if the triangles bound a volume: what SWIFTLET_BODY_SOLID needs, of a mesh that is not cut
+  uint64_t vertex_count;    ///< vertices kept; 0 of a mesh that was cut
+  uint64_t triangle_count;  ///< as many as were given; 0 likewise
+  double volume;            ///< enclosed, negative for a surface that is inside out; 0 unless closed
+  double box_min[3];        ///< body frame: smallest coordinates
+  double box_max[3];        ///< body frame: largest coordinates
+  double extent;            ///< largest absolute coordinate
+  double deviation;         ///< how far a point of a mesh that was cut may be from the surface; else 0
+  uint64_t node_count;      ///< nodes of the tree
+  uint64_t hull_count;      ///< nodes that have a convex hull
+  int32_t is_whole;         ///< 1 unless the mesh was cut
+  int32_t level_count;      ///< levels of nodes that the mesh has
+  int32_t depth;            ///< levels of nodes of the whole tree
+  uint32_t components;      ///< sets of triangles joined by common edges
+  uint32_t open_edges;      ///< edges of a single triangle
   uint32_t non_manifold_edges;      ///< edges of more than two triangles
   uint32_t flipped_edges;           ///< edges that their two triangles run along in the same direction
   uint32_t flat_triangles;          ///< triangles whose corners lie on one line
@@ -809,7 +810,7 @@ typedef struct swiftlet_contact_list {
 
 /// Finds every region where the bodies are within `reach` (>= 0) of each other, nearest first. `contacts` has room for
 /// `capacity`; if there are more, it gets the nearest ones; it may be null if `capacity` is 0. `budget` may be null. Allocates
-/// 176 bytes for each contact that there is room for.
+/// 160 bytes for each contact that there is room for.
 SWIFTLET_API swiftlet_code swiftlet_contacts(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_pose* b_in_a,
                                              double reach, const swiftlet_budget* budget, swiftlet_contact* contacts,
                                              size_t capacity, swiftlet_contact_list* found, swiftlet_error* error);

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What callers may pass, and what a query may go on from: refused poses, errors that are no numbers, answers of other queries.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include <soups.h>
+#include <swiftlet/depth.h>
+#include <swiftlet/mesh_query.h>
+#include <swiftlet/model_file.h>
+
+namespace swiftlet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity(), kNaN = std::numeric_limits<double>::quiet_NaN();
+
+Pose shift(double x, double y, double z) {
+  Pose pose;
+  pose.translation = {x, y, z};
+  return pose;
+}
+
+const Model& round_model() {
+  static const Model model = load(SWIFTLET_TEST_DIR "/data/models/fat_a.swl").value();
+  return model;
+}
+
+void expect_same(const Answer& x, const Answer& y) {
+  EXPECT_EQ(x.status, y.status);
+  EXPECT_EQ(x.verdict, y.verdict);
+  EXPECT_EQ(x.lower, y.lower);
+  EXPECT_EQ(x.upper, y.upper);
+}
+
+TEST(Boundaries, ARefusedPoseDecidesNoThreshold) {
+  Pose twice;
+  twice.rotation *= 2;
+  const Body box = Body::box({-1, -1, -1}, {1, 1, 1});
+  const MeshModel mesh = soups::ball(1).mesh();
+  for (const double threshold : {-1.0, 0.0, 1.0, kInfinity}) {
+    for (const Within& within :
+         {swiftlet::within(box, box, twice, threshold), swiftlet::within(mesh, mesh, twice, threshold)}) {
+      EXPECT_EQ(within.answer.status, Status::InvalidPose);
+      EXPECT_EQ(within.decision, Decision::Undecided);
+    }
+  }
+}
+
+TEST(Boundaries, AnErrorThatIsNaNOrNegativeAsksForTheExactDistance) {
+  const MeshModel mesh = soups::ball(3).mesh();
+  const Body ball(round_model(), 0.25);
+  const Pose mesh_pose = shift(2.5, 0.4, 0.1), ball_pose = shift(2.5, 0.3, 0.2);
+  for (const StartPolicy start : {StartPolicy::Automatic, StartPolicy::Paper, StartPolicy::Coarsest}) {
+    Options exact;
+    exact.tuning.start = start;
+    const Answer of_mesh = distance(mesh, mesh, mesh_pose, exact), of_ball = distance(ball, ball, ball_pose, exact),
+                 deep = signed_distance(ball, ball, shift(1, 0.1, 0), exact);
+    ASSERT_EQ(of_mesh.status, Status::Converged);
+    for (const double absolute : {0.0, -1.0, kNaN, -kInfinity}) {
+      for (const double relative : {0.0, -0.5, -2.0, kNaN}) {
+        Options asked = exact;
+        asked.absolute = absolute, asked.relative = relative;
+        expect_same(distance(mesh, mesh, mesh_pose, asked), of_mesh);
+        expect_same(distance(ball, ball, ball_pose, asked), of_ball);
+        expect_same(signed_distance(ball, ball, shift(1, 0.1, 0), asked), deep);
+      }
+    }
+  }
+}
+
+TEST(Boundaries, RefineKeepsWhatIsProvedWithoutFeatures) {
+  const Body body = round_model();
+  const Answer meets = intersects(body, body, shift(0, 0.1, 0.2));
+  ASSERT_EQ(meets.verdict, Verdict::Overlapping);
+  expect_same(refine(body, body, shift(0, 0.1, 0.2), meets, {.absolute = 0.5}), meets);
+  expect_same(refine(body, body, shift(0, 0.1, 0.2), meets), meets);
+
+  const Answer apart = distance(body, body, shift(6, 0, 0), {.absolute = 1});
+  ASSERT_EQ(apart.feature_a.kind(), FeatureKind::None);
+  ASSERT_GT(apart.upper - apart.lower, 0.01);
+  expect_same(refine(body, body, shift(6, 0, 0), apart, {.absolute = 1}), apart);
+  const Answer exact = refine(body, body, shift(6, 0, 0), apart);
+  EXPECT_LE(exact.upper - exact.lower, 1e-13);
+  EXPECT_GE(exact.lower, apart.lower - 1e-13);
+
+  const Body thin(round_model(), 0.1), thick(round_model(), 0.2);
+  const Pose poses[] = {shift(0, 0.1, 0.2), shift(6, 0, 0)};
+  for (const Pose& pose : poses) {
+    const Answer of_thin = distance(thin, thin, pose, {.absolute = 1});
+    EXPECT_EQ(refine(thick, thick, pose, of_thin).status, Status::InvalidRadius);
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet
