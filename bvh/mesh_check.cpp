@@ -39,6 +39,12 @@ struct Parts {
     const auto at = [&](std::size_t k) { return of.mesh()->vertex(corners[k]); };
     return Body::triangle(at(0), at(1), at(2), of.radius());
   }
+  /// How far points of a convex body's level may be off the body; of a mesh 0.
+  double deviation(int level) const {
+    if (of.mesh()) return 0;
+    const ShapeOf shape(of.convex());
+    return (*shape).level(level).deviation;
+  }
   /// The part that a feature belongs to, as a body without a radius: a point, a segment or a triangle; of a convex body all.
   Body feature(FeatureId id) const {
     if (!of.mesh()) return of.convex();
@@ -49,10 +55,12 @@ struct Parts {
     if (id.kind() == FeatureKind::Edge) return Body::segment(at(c[i % 3]), at(c[(i + 1) % 3]));
     return Body::triangle(at(c[0]), at(c[1]), at(c[2]));
   }
-  bool names(FeatureId id, int level) const {
+  /// `loose`: of an answer that balls may have given, which names no feature of a convex body.
+  bool names(FeatureId id, int level, bool loose) const {
     if (!of.mesh()) {
       const ShapeOf shape(of.convex());
-      return level >= 0 && level < (*shape).level_count() && names_feature((*shape).level(level).view, id);
+      if (level < 0 || level >= (*shape).level_count()) return false;
+      return (loose && id.kind() == FeatureKind::None) || names_feature((*shape).level(level).view, id);
     }
     const std::size_t triangles = of.mesh()->triangle_count();
     if (level != 0) return false;
@@ -185,15 +193,18 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
   // Of bodies that meet, the points may be any one that they share, and a body all around it has no feature there.
   const bool shared = (answer.point_b - answer.point_a).norm() <= law_two && lower <= law_two;
   if (answer.verdict != Verdict::Overlapping && answer.upper < HUGE_VAL && !shared) {
-    if (!of_a.names(answer.feature_a, answer.level_a) || !of_b.names(answer.feature_b, answer.level_b))
+    const bool loose = answer.upper - answer.lower > law_two;
+    if (!of_a.names(answer.feature_a, answer.level_a, loose) || !of_b.names(answer.feature_b, answer.level_b, loose))
       return fail("a feature that does not exist");
     const Body points[] = {Body::point(answer.point_a, answer.radius_a), Body::point(answer.point_b, answer.radius_b)};
-    if (const double off = distance(of_a.feature(answer.feature_a), points[0], {}).lower; !(off <= law_two))
+    if (const double off = distance(of_a.feature(answer.feature_a), points[0], {}).lower;
+        !(off <= law_two + of_a.deviation(answer.level_a)))
       return fail("point_a is ", off, " off its feature");
     const Answer far = distance(points[1], of_b.feature(answer.feature_b), b_in_a);
-    if (!(far.lower <= law_two)) return fail("point_b is ", far.lower, " off its feature");
+    if (!(far.lower <= law_two + of_b.deviation(answer.level_b))) return fail("point_b is ", far.lower, " off its feature");
     const Vec3 between = answer.point_b - answer.point_a;
-    if (!(std::fabs(between.norm() - answer.upper) <= law_two + answer.upper - answer.lower))
+    const double coarse = of_a.deviation(answer.level_a) + of_b.deviation(answer.level_b);
+    if (!(std::fabs(between.norm() - answer.upper) <= law_two + answer.upper - answer.lower + coarse))
       return fail("the points are ", between.norm(), " apart, upper is ", answer.upper);
     // A loose interval may come with the normal of a plane that parts two parts, of which the points are not the nearest.
     const Vec3 aside = between - between.norm() * answer.normal;

@@ -70,6 +70,29 @@ TEST(Boundaries, AnErrorThatIsNaNOrNegativeAsksForTheExactDistance) {
   }
 }
 
+TEST(Boundaries, CheckAcceptsLooseAnswersOfAMeshAndAConvexBody) {
+  soups::Soup triangle;
+  triangle.add({-0.5, -0.4, 0}, {0.6, -0.3, 0.1}, {0, 0.7, -0.1});
+  const MeshModel mesh = triangle.mesh();
+  const Body body = round_model();
+  int coarse = 0, without = 0;
+  for (int k = 0; k < 40; ++k) {
+    const Pose pose = shift(0.1 * (k % 5), 0.2 - 0.1 * (k % 3), 1.2 + 0.1 * k);
+    for (const double absolute : {0.0, 0.001, 0.03, 0.1, 0.15, 0.2, 0.3, 1.0}) {
+      const Answer answer = distance(body, mesh, pose, {.absolute = absolute}),
+                   turned = distance(mesh, body, pose, {.absolute = absolute});
+      coarse += answer.level_a > 0 || turned.level_b > 0, without += answer.feature_a.kind() == FeatureKind::None;
+      EXPECT_EQ(check(body, mesh, pose, answer).message, "") << k << ", " << absolute;
+      EXPECT_EQ(check(mesh, body, pose, turned).message, "") << k << ", " << absolute;
+      Answer forged = answer;
+      forged.point_a += 0.5 * Vec3(1, 1, 1);
+      EXPECT_FALSE(check(body, mesh, pose, forged).ok);
+    }
+  }
+  EXPECT_GE(coarse, 4);
+  EXPECT_GT(without, 5);
+}
+
 TEST(Boundaries, RefineKeepsWhatIsProvedWithoutFeatures) {
   const Body body = round_model();
   const Answer meets = intersects(body, body, shift(0, 0.1, 0.2));

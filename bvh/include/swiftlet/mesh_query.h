@@ -31,10 +31,10 @@ struct MeshSeed {
 static_assert(sizeof(MeshSeed) <= 128);
 
 // Answers are those of query.h, with these readings. `normal` is the unit direction from `point_a` to `point_b`, and no plane
-// across it need separate the bodies. Features are named as MeshModel says, on level 0; one of a triangle may be the whole
-// triangle where a vertex or an edge of it holds the point too. `steps` counts pairs of nodes that were opened, `plane_tests`
-// pairs of triangles that were looked at; `Budget::steps` limits their sum. `Budget::finest_level` and `Tuning` concern hulls:
-// of a mesh they say nothing. Two convex bodies are answered by query.h.
+// across it need separate the bodies. Features of a mesh are named as MeshModel says, on level 0; one of a triangle may be the
+// whole triangle where a vertex or an edge of it holds the point too. `steps` counts pairs of nodes that were opened,
+// `plane_tests` pairs of triangles that were looked at; `Budget::steps` limits their sum. `Budget::finest_level` and `Tuning`
+// concern hulls: of a mesh they say nothing. Two convex bodies are answered by query.h.
 //
 // Of a solid (MeshBody::solid) the surfaces are searched first; where they do not cross, exact signs tell whether a component
 // of one body is inside the other. Then the verdict is Overlapping, the distance 0, and both points are one point that lies in
