@@ -237,11 +237,16 @@ py::array bytes_of(const std::shared_ptr<T>& m) {
   return view(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()), py::cast(m));
 }
 
-template <class Pointer>
-py::tuple reduce(const Pointer& m) {
-  const char* type = std::is_same_v<Pointer, ModelPointer> ? "Model" : "MeshModel";
-  if (m->mapped.empty()) return made_again(type, "from_bytes", py::make_tuple(bytes_of(m)));
-  return made_again(type, "_map_same", py::make_tuple(m->mapped, unlocked([&] { return m->value.hash(); })));
+py::tuple reduce(const MeshPointer& m) {
+  if (m->mapped.empty()) return made_again("MeshModel", "from_bytes", py::make_tuple(bytes_of(m)));
+  return made_again("MeshModel", "_map_same", py::make_tuple(m->mapped, unlocked([&] { return m->value.hash(); })));
+}
+/// A mapped model is mapped again to the level that it had: finer ones would give other answers.
+py::tuple reduce(const ModelPointer& m) {
+  if (m->mapped.empty()) return made_again("Model", "from_bytes", py::make_tuple(bytes_of(m)));
+  const int finest = m->value.finest_level();
+  const std::optional<std::uint64_t> bytes = finest > 0 ? std::optional(m->value.level(finest).prefix) : std::nullopt;
+  return made_again("Model", "_map_same", py::make_tuple(m->mapped, unlocked([&] { return m->value.hash(); }), bytes));
 }
 
 template <class Pointer>
@@ -315,8 +320,8 @@ levels finer than asked no page is touched until :meth:`ensure`. Pickled, it is 
       },
       py::arg("data"), py::kw_only(), py::arg("deviation") = 0.0, py::arg("bytes") = py::none(),
       "Loads a model from the bytes of a file, any contiguous buffer, which are copied. Parameters and errors: :meth:`load`.");
-  c.def_static("_map_same", [](const std::string& path, std::uint64_t hash) {
-    return same(held(take(unlocked([&] { return map(path); })), path), hash);
+  c.def_static("_map_same", [](const std::string& path, std::uint64_t hash, std::optional<std::uint64_t> bytes) {
+    return same(held(take(unlocked([&] { return map(path, detail(0, bytes)); })), path), hash);
   });
   c.def_static(
       "from_arrays",
@@ -475,7 +480,7 @@ void define_block(py::class_<Held<T>, std::shared_ptr<Held<T>>>& c) {
   c.def(
       "hash", [](const Held<T>& m) { return unlocked([&] { return m.value.hash(); }); },
       "Hash over all of `bytes`, which it reads; equal blocks have equal hashes. 64 bits.");
-  c.def("__reduce__", &reduce<Pointer>);
+  c.def("__reduce__", [](const Pointer& m) { return reduce(m); });
   c.def("__copy__", [](const Pointer& m) { return m; });
   c.def(
       "__deepcopy__", [](const Pointer& m, const py::dict&) { return m; }, py::arg("memo"));

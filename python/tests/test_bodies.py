@@ -78,6 +78,10 @@ def test_pickles_are_bytes_or_a_path_and_hash(fat, mesh, tmp_path):
     fat[0].save(path)
     mapped = pickle.dumps(Model.map(path))
     assert len(mapped) < 500 and pickle.loads(mapped).is_mapped
+    for bytes in (None, *(fat[0].level(k).prefix for k in range(fat[0].level_count))):
+        part = Model.map(path, bytes=bytes)
+        assert pickle.loads(pickle.dumps(part)).finest_level == part.finest_level
+    assert part.finest_level == fat[0].level_count - 1 > 0
     fat[1].save(path)
     with pytest.raises(swiftlet.DataError, match="is not the file"):
         pickle.loads(mapped)
