@@ -125,7 +125,7 @@ struct Answer {
   std::int16_t level_a = 0, level_b = 0;  ///< the level pair that answered
   FeatureId feature_a;  ///< on `level_a`, holds `point_a` on the hull if a distance's interval is that of an exact answer; of
                         ///< a question of yes or no it may be that of the last sample; none where balls around or inside the
-                        ///< bodies answered, a proof of an overlap that the seed kept, or a depth
+                        ///< bodies answered, a proof of an overlap that the seed kept, or a depth's polytope
   FeatureId feature_b;  ///< on `level_b`, holds `point_b` on the hull; none where `feature_a` is
   std::uint32_t steps = 0, plane_tests = 0;                           ///< work, as MarchResult counts it, over all levels
   double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved bounds on the distance of the bodies
@@ -187,7 +187,8 @@ Within within(const Body& a, const Body& b, const Pose& b_in_a, double threshold
 /// Decides from a cold start whether the distance is at most `threshold` (>= 0).
 Within within(const Body& a, const Body& b, const Pose& b_in_a, double threshold, const Effort& effort = {});
 
-/// A nearest feature by the user's own ids.
+/// A nearest feature by the user's own ids. A primitive's points are 0, 1, ... in the order given; of a box with volume corner
+/// i has the largest x, y and z where bits 0, 1 and 2 of i are set.
 struct SourceFeature {
   FeatureKind kind = FeatureKind::None;  ///< None if the answer is not on level 0
   std::array<std::uint32_t, 2> vertices{kNone,

@@ -13,7 +13,7 @@ namespace swiftlet {
 
 /// The kind of an `Error`.
 enum class ErrorCode {
-  CannotRead,    ///< the file is missing, unreadable, or ends early
+  CannotRead,    ///< the file is missing or unreadable
   CannotWrite,   ///< the file cannot be created or the disk is full; nothing half-written is left
   BadFormat,     ///< the data are not in the format expected, or damaged
   BadVersion,    ///< a format version that this library does not read
