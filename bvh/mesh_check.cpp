@@ -193,8 +193,8 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
   // Of bodies that meet, the points may be any one that they share, and a body all around it has no feature there.
   const bool shared = (answer.point_b - answer.point_a).norm() <= law_two && lower <= law_two;
   if (answer.verdict != Verdict::Overlapping && answer.upper < HUGE_VAL && !shared) {
-    const bool loose = answer.upper - answer.lower > law_two;
-    if (!of_a.names(answer.feature_a, answer.level_a, loose) || !of_b.names(answer.feature_b, answer.level_b, loose))
+    const bool exact = answer.upper - answer.lower <= law_two;
+    if (!of_a.names(answer.feature_a, answer.level_a, !exact) || !of_b.names(answer.feature_b, answer.level_b, !exact))
       return fail("a feature that does not exist");
     const Body points[] = {Body::point(answer.point_a, answer.radius_a), Body::point(answer.point_b, answer.radius_b)};
     if (const double off = distance(of_a.feature(answer.feature_a), points[0], {}).lower;
@@ -208,7 +208,6 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
       return fail("the points are ", between.norm(), " apart, upper is ", answer.upper);
     // A loose interval may come with the normal of a plane that parts two parts, of which the points are not the nearest.
     const Vec3 aside = between - between.norm() * answer.normal;
-    const bool exact = answer.upper - answer.lower <= law_two;
     if (answer.lower > law_two && !(exact ? aside.norm() <= law_two : between.dot(answer.normal) > 0))
       return fail("the normal does not lead from point_a to point_b");
   }

@@ -431,15 +431,13 @@ void list_contacts(const KeptPair& pair, const MeshPairQuery& q, const Answer& a
     told = contacts(q.a, q.b, q.b_in_a, options.margin, regions);
   } while (told.status == Status::Budget);  // there are more
   const std::span stored = std::span(regions).first(told.stored);
-  const auto is_apart = [](const MeshContact& region) {
-    return region.verdict != Verdict::Overlapping && region.verdict != Verdict::Touching;
+  const auto meet = [](const MeshContact& region) {
+    return region.verdict == Verdict::Overlapping || region.verdict == Verdict::Touching;
   };
-  if (std::all_of(stored.begin(), stored.end(), is_apart)) {
-    const bool is_inside = answer.verdict == Verdict::Overlapping;
-    if (is_inside || stored.empty()) {
-      found.push_back({{pair.a, pair.b, is_inside ? signed_distance(q.a, q.b, q.b_in_a, *q.seed) : answer}, {}});
-      return;
-    }
+  const bool is_inside = answer.verdict == Verdict::Overlapping && std::none_of(stored.begin(), stored.end(), meet);
+  if (is_inside || stored.empty()) {
+    found.push_back({{pair.a, pair.b, is_inside ? signed_distance(q.a, q.b, q.b_in_a, *q.seed) : answer}, {}});
+    return;
   }
   for (const MeshContact& region : stored) {
     Answer one = answer;

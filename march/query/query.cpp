@@ -43,11 +43,12 @@ void ask_on(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, co
   if (const Status fault = at.fault(); fault != Status::Converged) return refuse(a, b, fault, false, answer);
   if (Radii(so_far) != radii) return refuse(a, b, Status::InvalidRadius, false, answer);
   const bool overlaps = !so_far.is_signed && so_far.verdict == Verdict::Overlapping;
-  if (overlaps && !limits.tuning.proof) return restate(so_far, Status::Converged, answer);
+  if (overlaps && limits.tuning.proof) return ask(a, b, b_in_a, seed, limits, asked, answer);  // the proof is found again
+  if (overlaps) return restate(so_far, Status::Converged, answer);
   if (!tells_distance(so_far)) {
     // Balls or ellipsoids answered, which name no features.
-    const bool suffices = so_far.status < Status::InvalidPose && (so_far.lower > 0 || !so_far.is_signed) && !overlaps &&
-                          asked.met(so_far.lower, so_far.upper);
+    const bool suffices =
+        so_far.status < Status::InvalidPose && (so_far.lower > 0 || !so_far.is_signed) && asked.met(so_far.lower, so_far.upper);
     if (!suffices) return ask(a, b, b_in_a, seed, limits, asked, answer);
     return restate(so_far, so_far.lower > asked.above ? Status::Beyond : Status::Converged, answer);
   }
