@@ -387,6 +387,11 @@ Result<MeshModel> MeshReader::read(Block block) {
     if (std::max({corners[0], corners[1], corners[2]}) >= h.vertex_count)
       return bad("triangle " + std::to_string(&corners - c.triangles.data()) + " has a vertex that does not exist");
   }
+  std::vector<bool> is_named(c.source_triangle.size());
+  for (const std::uint32_t source : c.source_triangle) {
+    if (source >= is_named.size() || is_named[source]) return bad("the sources of its triangles are not each of them once");
+    is_named[source] = true;
+  }
   const double largest = power_of_two(h.unit);
   for (const Vec& v : c.vertices) {
     const auto legal = [&](double x) { return x == 0 || (std::fabs(x) >= kLeastExtent && std::fabs(x) <= largest); };

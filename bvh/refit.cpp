@@ -107,10 +107,7 @@ Result<MeshModel> refit(const MeshModel& mesh, std::span<const Vec3> points) {
   fit_tree(over_unit, parts.triangles, parts.nodes);
 
   std::vector<std::uint32_t> at(parts.triangles.size());  // by the user's numbers, in whose order sums are made
-  for (std::uint32_t t = 0; t < at.size(); ++t) {
-    const std::uint32_t source = parts.source_triangle[t];  // of a file they may be any numbers
-    if (source < at.size()) at[source] = t;
-  }
+  for (std::uint32_t t = 0; t < at.size(); ++t) at[parts.source_triangle[t]] = t;
   CornerSums sums;
   for (const std::uint32_t t : at) {
     const Corners& c = parts.triangles[t];

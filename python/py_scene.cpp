@@ -250,7 +250,7 @@ same bits on any number of threads. Calls of several threads take turns.)");
       py::arg("flatness") = 0x1p-21,
       "The pairs whose signed distance is not proved to be above `margin`: ids of A, ids of B, records, and manifolds. A pair "
       "with a\n"
-      "mesh is listed once for each region.");
+      "mesh is listed once for each region; of a margin below 0 once, with its depth and no points.");
   c.def("__repr__", [](HeldScene& s) {
     return "<swiftlet.Scene: " + std::to_string(locked(s, [](Scene& scene) { return scene.size(); })) + " bodies>";
   });

@@ -387,14 +387,17 @@ NearestPair Scene::nearest(const Scene& other, const Options& options) {
 
 namespace {
 
-/// A question about contacts: of convex bodies how deep, of meshes whether there are any.
+/// A question about contacts: how deep; of meshes whether there are any, unless only deep ones are asked for.
 struct AskContact {
   double margin;
   void operator()(std::span<const PairQuery> pairs, std::span<Answer> answers) const {
     signed_distance(pairs, answers, {.beyond = margin});
   }
   void operator()(std::span<const MeshPairQuery> pairs, std::span<Answer> answers) const {
-    distance(pairs, answers, {.beyond = margin});
+    if (margin < 0)
+      signed_distance(pairs, answers, {.beyond = margin});
+    else
+      distance(pairs, answers, {.beyond = margin});
   }
 };
 
@@ -421,7 +424,8 @@ void list_contacts(const KeptPair& pair, const PairQuery& q, const Answer& answe
   found.push_back({{pair.a, pair.b, answer}, manifold(q.a, q.b, q.b_in_a, answer, options, last.first())});
 }
 
-/// One for each region; of a body inside a solid, whose surfaces do not meet, how deep it is, however near they are.
+/// One for each region; of a body inside a solid, whose surfaces do not meet, how deep it is, however near they are. Below a
+/// margin of 0 there are no regions, and the answer is the depth.
 void list_contacts(const KeptPair& pair, const MeshPairQuery& q, const Answer& answer, const ManifoldOptions& options,
                    LastContacts last, std::vector<SceneContact>& found) {
   std::vector<MeshContact> regions;
@@ -434,7 +438,8 @@ void list_contacts(const KeptPair& pair, const MeshPairQuery& q, const Answer& a
   const auto meet = [](const MeshContact& region) {
     return region.verdict == Verdict::Overlapping || region.verdict == Verdict::Touching;
   };
-  const bool is_inside = answer.verdict == Verdict::Overlapping && std::none_of(stored.begin(), stored.end(), meet);
+  const bool is_inside =
+      options.margin >= 0 && answer.verdict == Verdict::Overlapping && std::none_of(stored.begin(), stored.end(), meet);
   if (is_inside || stored.empty()) {
     found.push_back({{pair.a, pair.b, is_inside ? signed_distance(q.a, q.b, q.b_in_a, *q.seed) : answer}, {}});
     return;

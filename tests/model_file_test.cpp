@@ -227,6 +227,7 @@ TEST_F(ModelFile, EveryTruncationIsRefused) {
   EXPECT_EQ(code_of(load(longer)), ErrorCode::BadFormat);
   EXPECT_EQ(code_of(load(write_file("cut.swl", std::span(whole).first(whole.size() - 1)))), ErrorCode::BadFormat);
   EXPECT_EQ(code_of(load(write_file("empty.swl", {}))), ErrorCode::BadFormat);
+  EXPECT_EQ(code_of(map(path("empty.swl"))), ErrorCode::BadFormat);
 }
 
 TEST_F(ModelFile, ForeignFilesAreNamedSo) {

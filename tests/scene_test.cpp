@@ -355,6 +355,31 @@ TEST(Scene, FindsASolidInASolidBesideItsWall) {
   }
 }
 
+/// Of a mesh as of a convex body: pairs that are proved to be less deep are left out.
+TEST(Scene, AMarginBelowZeroAsksForDepth) {
+  const MeshModel ball = soups::ball(2).mesh();
+  const Body convex(models()[0]);
+  for (const double aside : {0.25, 1.875, 2.5}) {  // deep, by less than 0.2, apart
+    Pose pose;
+    pose.translation = {aside, 0, 0};
+    for (const MeshBody& other : {MeshBody::solid(ball), MeshBody(ball), MeshBody(convex)}) {
+      Scene scene;
+      (void)scene.add("ball", MeshBody::solid(ball), {});
+      (void)scene.add("other", other, pose);
+      const auto contacts = scene.contacts({.margin = -0.2});
+      MeshSeed seed;
+      const Answer depth = signed_distance(MeshBody::solid(ball), other, pose, seed);
+      ASSERT_EQ(contacts.size(), depth.lower <= -0.2 ? 1u : 0u);
+      EXPECT_EQ(depth.lower <= -0.2, aside == 0.25);
+      if (contacts.empty()) continue;
+      EXPECT_EQ(contacts[0].answer.verdict, Verdict::Overlapping);
+      EXPECT_LT(contacts[0].answer.lower, -0.2);
+      EXPECT_LE(contacts[0].answer.upper, 0);
+      EXPECT_EQ(contacts[0].manifold.count, 0u);
+    }
+  }
+}
+
 /// In whatever order the bodies came, and whatever bound is asked for.
 TEST(Scene, TheNearestPairIsTheOneThatOverlaps) {
   const MeshModel ball = soups::ball(2).mesh();

@@ -47,10 +47,7 @@ MeshMeeting in_world(const PlacedMesh& a, const PlacedMesh& b, const Setting& at
 
 std::vector<std::array<std::uint32_t, 3>> triangles_in_users_order(const MeshModel& mesh) {
   std::vector<std::array<std::uint32_t, 3>> triangles(mesh.triangle_count());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const std::uint32_t source = mesh.source_triangle()[i];  // of a file it may be any number
-    if (source < triangles.size()) triangles[source] = mesh.triangle(i);
-  }
+  for (std::size_t i = 0; i < triangles.size(); ++i) triangles[mesh.source_triangle()[i]] = mesh.triangle(i);
   return triangles;
 }
 

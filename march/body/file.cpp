@@ -137,7 +137,7 @@ Result<OwnedBytes> map_file(const std::filesystem::path& path) {
   const OpenFile file(path);
   if (!file.is_open()) return named(path, {ErrorCode::CannotRead, last_failure()});
   const std::uint64_t size = file.size();
-  if (size == 0) return named(path, {ErrorCode::CannotRead, "is empty, or no file"});
+  if (size == 0) return named(path, {ErrorCode::BadFormat, "is empty"});
   if (size > std::uint64_t{PTRDIFF_MAX})
     return named(path, {ErrorCode::CannotRead, "is larger than what this machine can address"});
   auto pages = file.pages(std::size_t(size));

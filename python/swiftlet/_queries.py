@@ -46,11 +46,14 @@ _PARAMETERS = """a, b : Model, MeshModel or Body
         (3,) or (n, 3); or (7,) or (n, 7), translation and quaternion, whose order `quaternion` names. Any strides; never
         copied. A pose that is not finite or not orthonormal to 1e-6 has the status INVALID_POSE in its row."""
 
-_COMMON = """steps : int, optional
-        At most so many changes of feature; then the status is BUDGET and the interval true.
+_STEPS = """steps : int, optional
+        At most so many changes of feature; then the status is BUDGET and the interval true."""
+
+_BUDGET = f"""{_STEPS}
     finest_level : int, optional
-        No level finer is read; then the status is LEVEL_LIMIT.
-    tuning : Tuning, optional
+        No level finer is read; then the status is LEVEL_LIMIT."""
+
+_COMMON = """tuning : Tuning, optional
     index_a, index_b : array_like of int, shape (n,), optional
         Which body of the sequence each row is about. Rows then start cold, unless they have seeds.
     seeds : Seeds, optional
@@ -81,7 +84,15 @@ _ERRORS = """absolute : float, optional
 
 
 def _documented(function: Any) -> Any:
-    parts = {"PARAMETERS": _PARAMETERS, "ERRORS": _ERRORS, "COMMON": _COMMON, "OUT": _OUT, "RAISES": _RAISES}
+    parts = {
+        "PARAMETERS": _PARAMETERS,
+        "ERRORS": _ERRORS,
+        "STEPS": _STEPS,
+        "BUDGET": _BUDGET,
+        "COMMON": _COMMON,
+        "OUT": _OUT,
+        "RAISES": _RAISES,
+    }
     for name, text in parts.items():
         function.__doc__ = function.__doc__.replace(f"<{name}>", text.rstrip())
     return function
@@ -127,6 +138,7 @@ def distance(
     ----------
     <PARAMETERS>
     <ERRORS>
+    <BUDGET>
     <COMMON>
     <OUT>
 
@@ -176,6 +188,7 @@ def signed_distance(
     ----------
     <PARAMETERS>
     <ERRORS>
+    <BUDGET>
     <COMMON>
     <OUT>
 
@@ -222,6 +235,7 @@ def intersects(
     Parameters
     ----------
     <PARAMETERS>
+    <BUDGET>
     <COMMON>
     <OUT>
 
@@ -269,6 +283,7 @@ def within(
     <PARAMETERS>
     threshold : float
         At least 0, in the bodies' unit.
+    <BUDGET>
     <COMMON>
     <OUT>
 
@@ -316,6 +331,7 @@ def signed_within(
     <PARAMETERS>
     threshold : float
         Of either sign, in the bodies' unit.
+    <BUDGET>
     <COMMON>
     <OUT>
 
@@ -361,6 +377,7 @@ def closest_features(
     <PARAMETERS>
     beyond : float, optional
         Stop when ``lower > beyond``.
+    <STEPS>
     <COMMON>
 
     Returns
@@ -667,5 +684,9 @@ def inverse(poses: Poses, *, quaternion: Optional[str] = None, copy: bool = Fals
 
 
 def matrix(poses: Poses, *, quaternion: Optional[str] = None, copy: bool = False) -> NDArray[np.float64]:
-    """Poses of any form as matrices, as queries see them: what they would refuse is NaN."""
+    """Poses of any form as matrices.
+
+    A quaternion that is not unit, or a last row that is not (0, 0, 0, 1), has a translation of NaN; all others stay what they
+    are, those that queries refuse too.
+    """
     return _runtime.run_matrix(poses, quaternion, copy)

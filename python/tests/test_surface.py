@@ -377,10 +377,17 @@ def test_every_public_thing_has_a_docstring_of_its_own():
         swiftlet.signed_distance,
         swiftlet.intersects,
         swiftlet.within,
+        swiftlet.signed_within,
         swiftlet.closest_features,
+        swiftlet.refine,
+        swiftlet.manifold,
     ):
-        undocumented = [p for p in inspect.signature(function).parameters if not re.search(rf"\b{p}\b", function.__doc__)]
-        assert not undocumented and "<" not in function.__doc__.replace("<=", ""), function.__name__
+        parameters = inspect.signature(function).parameters
+        section = re.search(r"\n *Parameters\n *-+\n(.*?)\n *\n *Returns\n", function.__doc__, re.S)
+        lines = re.findall(r"^    (\w+(?:, \w+)*) :", section[1], re.M)
+        documented = [name for line in lines for name in line.split(", ")]
+        assert sorted(documented) == sorted(parameters), function.__name__
+        assert "<" not in function.__doc__.replace("<=", ""), function.__name__
 
 
 def test_the_version_is_cmakes():

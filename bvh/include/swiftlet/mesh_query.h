@@ -44,7 +44,7 @@ static_assert(sizeof(MeshSeed) <= 128);
 // vertex is in the other's box, which no budget limits.
 
 /// Returns the distance between `a` and `b`, where `b_in_a` maps B's frame into A's: exact by default, or within the errors of
-/// `options`. The interval is always true. Cost: see bench/RESULTS.md. Allocates nothing; uses 21 kB of stack, and up
+/// `options`. The interval is always true. Cost: see bench/RESULTS.md. Allocates nothing; uses 22 kB of stack, and up
 /// to 34 where only exact arithmetic decides.
 Answer distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options = {});
 /// Returns the distance, from a cold start.

@@ -129,8 +129,9 @@ struct Answer {
   FeatureId feature_b;  ///< on `level_b`, holds `point_b` on the hull; none where `feature_a` is
   std::uint32_t steps = 0, plane_tests = 0;                           ///< work, as MarchResult counts it, over all levels
   double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved bounds on the distance of the bodies
-  /// Unit, from A to B: the gap of the bodies along it proves `lower`; if they overlap, moving B along it by -lower separates
-  /// them. NaN where no such direction is known, for example for an overlap of hulls whose depth was not asked for.
+  /// Unit, from A to B: the gap of the bodies along it proves `lower`; of a signed answer below 0, moving B along it by -lower
+  /// separates them; of another overlap, by radii alone, the hulls are apart along it. NaN where no such direction is known,
+  /// for example for an overlap of hulls whose depth was not asked for.
   Vec3 normal = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   /// The witness point of A: its point nearest to B, or deepest inside B, on `level_a`, moved by A's radius along the normal.
   /// Of an exact answer point_b - point_a is the signed distance times the normal. For an overlap of hulls whose depth was not

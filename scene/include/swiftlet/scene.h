@@ -109,8 +109,8 @@ class Scene {
   NearestPair nearest(const Scene& other, const Options& options = {});
   /// Lists the pairs whose signed distance is not proved to be above options.margin, with it and the contact manifold, which
   /// keeps the points of the last call's. A pair with a mesh is listed once for each region in which the bodies are as near
-  /// (mesh_contacts.h), with the region's interval; of a body inside a solid, whose surface it does not meet, with the
-  /// depth's and no points.
+  /// (mesh_contacts.h), with the region's interval; of a body inside a solid, whose surface it does not meet, and of a margin
+  /// below 0, once with the depth's interval and no points.
   std::vector<SceneContact> contacts(const Scene& other, const ManifoldOptions& options = {});
 
   /// As above, of the pairs within this scene.
