@@ -399,7 +399,9 @@ class Depth {
 Answer signed_distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options,
                        double threshold) {
   if (!a.mesh() && !b.mesh()) return signed_distance(a.convex(), b.convex(), b_in_a, seed.pair, options);
-  Answer answer = distance(a, b, b_in_a, seed, options);
+  Options apart = options;
+  if (apart.beyond < 0) apart.beyond = 0;  // a distance that ends earlier does not tell that the bodies are apart
+  Answer answer = distance(a, b, b_in_a, seed, apart);
   answer.is_signed = true;
   const auto was_cut = [](const MeshBody& body) { return body.mesh() && !body.mesh()->is_whole(); };
   if (answer.status >= Status::InvalidPose || (!(answer.lower > 0) && (was_cut(a) || was_cut(b))))

@@ -192,8 +192,9 @@ time step to time step. A seed changes the work, never the truth; any bits are l
 /// Bodies of one side, and which of them each row is about.
 struct Side {
   std::vector<OwnedBody> bodies;
-  std::vector<std::uint32_t> rows;  ///< empty: all rows are about bodies[0]
-  const OwnedBody& at(std::size_t row) const { return bodies[rows.empty() ? 0 : rows[row]]; }
+  bool is_indexed = false;          ///< else all rows are about bodies[0]
+  std::vector<std::uint32_t> rows;  ///< of those that are
+  const OwnedBody& at(std::size_t row) const { return bodies[is_indexed ? rows[row] : 0]; }
 };
 
 Side to_side(py::handle bodies, py::handle index, const std::string& name) {
@@ -206,6 +207,7 @@ Side to_side(py::handle bodies, py::handle index, const std::string& name) {
   if (!py::isinstance<py::sequence>(bodies))
     throw py::type_error(name + ": with " + index_name + " expected a sequence of bodies, got " + what_came(bodies));
   for (const py::handle body : py::reinterpret_borrow<py::sequence>(bodies)) side.bodies.push_back(to_body(body, name.c_str()));
+  side.is_indexed = true;
   side.rows = to_indices(index, index_name.c_str());
   for (std::size_t i = 0; i < side.rows.size(); ++i)
     if (side.rows[i] >= side.bodies.size())
@@ -220,7 +222,7 @@ struct Batch {
   std::size_t count;
   std::vector<MeshSeed>* seeds;
   Pose pose(std::size_t row) const { return poses[poses.is_single() ? 0 : row]; }
-  bool is_single() const { return poses.is_single() && a.rows.empty() && b.rows.empty(); }
+  bool is_single() const { return poses.is_single() && !a.is_indexed && !b.is_indexed; }
   bool has_meshes() const {
     const auto any = [](const Side& side) {
       return std::any_of(side.bodies.begin(), side.bodies.end(), [](const OwnedBody& body) { return body.is_mesh(); });
@@ -238,8 +240,8 @@ std::size_t row_count(const Side& a, const Side& b, const PoseRows& poses) {
                             " elsewhere");
     count = rows, is_known = true;
   };
-  if (!a.rows.empty()) agree(a.rows.size(), "index_a");
-  if (!b.rows.empty()) agree(b.rows.size(), "index_b");
+  if (a.is_indexed) agree(a.rows.size(), "index_a");
+  if (b.is_indexed) agree(b.rows.size(), "index_b");
   return count;
 }
 
@@ -318,8 +320,9 @@ void over_rows(const Asked& asked, const Batch& batch, Record* into, Unlocked& c
 
 template <class Record>
 void ask_all(const Asked& asked, const Batch& batch, Record* into, unsigned threads) {
+  if (batch.count == 0) return;
   Unlocked crew(threads);
-  const bool is_one_pair = batch.a.rows.empty() && batch.b.rows.empty() && !batch.seeds;
+  const bool is_one_pair = !batch.a.is_indexed && !batch.b.is_indexed && !batch.seeds;
   if (batch.has_meshes()) {
     is_one_pair ? over_poses<OfMeshes>(asked, batch, into, crew) : over_rows<OfMeshes>(asked, batch, into, crew);
   } else {
@@ -388,16 +391,11 @@ py::object run_query(const std::string& name, py::handle a, py::handle b, py::ha
   Batch batch{to_side(a, index_a, "a"), to_side(b, index_b, "b"), PoseRows(poses, quaternion_order(quaternion), copy), 0,
               seeds ? &seeds->seeds : nullptr};
   batch.count = row_count(batch.a, batch.b, batch.poses);
-  const bool has_no_rows = (!index_a.is_none() && batch.a.rows.empty()) || (!index_b.is_none() && batch.b.rows.empty());
-  if (has_no_rows) {
-    if (!batch.poses.is_single() && batch.count > 0) throw py::value_error("index_a, index_b: no rows, but there are poses");
-    batch.count = 0;
-  }
   if (seeds && seeds->seeds.size() != batch.count)
     throw py::value_error("seeds: " + std::to_string(seeds->seeds.size()) + " seeds for " + std::to_string(batch.count) +
                           " rows");
   const Taken taken(seeds.get());
-  const bool is_single = batch.is_single() && !has_no_rows;
+  const bool is_single = batch.is_single();
   if (asked.query == Query::Within || asked.query == Query::SignedWithin) {
     const py::array records = records_for(out, within_dtype(), batch.count, is_single);
     ask_all(asked, batch, memory_of<Within>(records), count);

@@ -31,7 +31,7 @@ class Watch {
       const py::gil_scoped_acquire acquire;
       try {
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        return progress_.is_none() || progress_(fraction, std::string(stage)).cast<bool>();
+        return progress_.is_none() || goes_on(progress_(fraction, std::string(stage)));
       } catch (...) {
         raised_ = std::current_exception();
         return false;

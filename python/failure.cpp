@@ -15,9 +15,15 @@ void raise(const Error& error) {
                      : error.code == ErrorCode::Cancelled                                        ? "Cancelled"
                                                                                                  : "DataError";
   const py::object type = errors.attr(name);
-  const py::object exception = type(error.message, int(error.code), error.file);
+  const py::object exception = type(decoded(error.message), int(error.code), decoded(error.file));
   PyErr_SetObject(type.ptr(), exception.ptr());
   throw py::error_already_set();
+}
+
+py::str decoded(const std::string& text) {
+  PyObject* const decoded = PyUnicode_DecodeFSDefaultAndSize(text.data(), py::ssize_t(text.size()));
+  if (!decoded) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(decoded);
 }
 
 std::string what_came(py::handle object) {

@@ -5,6 +5,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
 #include <utility>
 
 #include <swiftlet/result.h>
@@ -20,6 +21,12 @@ T take(Result<T>&& result) {
   if (!result) raise(result.error());
   return std::move(result).value();
 }
+
+/// Text that may hold a path's bytes, as os.fsdecode has them.
+pybind11::str decoded(const std::string& text);
+
+/// What a progress callback returned: whether it lets the work go on. None does.
+inline bool goes_on(const pybind11::object& returned) { return returned.is_none() || returned.cast<bool>(); }
 
 /// "float32 array of shape (10, 4, 4)", "list" and the like: what came, for the message of an error.
 std::string what_came(pybind11::handle object);

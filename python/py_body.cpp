@@ -239,14 +239,15 @@ py::array bytes_of(const std::shared_ptr<T>& m) {
 
 py::tuple reduce(const MeshPointer& m) {
   if (m->mapped.empty()) return made_again("MeshModel", "from_bytes", py::make_tuple(bytes_of(m)));
-  return made_again("MeshModel", "_map_same", py::make_tuple(m->mapped, unlocked([&] { return m->value.hash(); })));
+  return made_again("MeshModel", "_map_same", py::make_tuple(py::bytes(m->mapped), unlocked([&] { return m->value.hash(); })));
 }
 /// A mapped model is mapped again to the level that it had: finer ones would give other answers.
 py::tuple reduce(const ModelPointer& m) {
   if (m->mapped.empty()) return made_again("Model", "from_bytes", py::make_tuple(bytes_of(m)));
   const int finest = m->value.finest_level();
   const std::optional<std::uint64_t> bytes = finest > 0 ? std::optional(m->value.level(finest).prefix) : std::nullopt;
-  return made_again("Model", "_map_same", py::make_tuple(m->mapped, unlocked([&] { return m->value.hash(); }), bytes));
+  return made_again("Model", "_map_same",
+                    py::make_tuple(py::bytes(m->mapped), unlocked([&] { return m->value.hash(); }), bytes));
 }
 
 template <class Pointer>
@@ -307,7 +308,7 @@ levels finer than asked no page is touched until :meth:`ensure`. Pickled, it is 
       [](py::handle path) {
         const std::string name = to_path(path);
         Salvaged found = take(unlocked([&] { return salvage(name); }));
-        return py::make_tuple(held(std::move(found.model)), found.note);
+        return py::make_tuple(held(std::move(found.model)), decoded(found.note));
       },
       py::arg("path"),
       "Reads the complete levels of a file that was cut short.\n\nReturns\n-------\nmodel : Model\nnote : str\n"
@@ -320,7 +321,8 @@ levels finer than asked no page is touched until :meth:`ensure`. Pickled, it is 
       },
       py::arg("data"), py::kw_only(), py::arg("deviation") = 0.0, py::arg("bytes") = py::none(),
       "Loads a model from the bytes of a file, any contiguous buffer, which are copied. Parameters and errors: :meth:`load`.");
-  c.def_static("_map_same", [](const std::string& path, std::uint64_t hash, std::optional<std::uint64_t> bytes) {
+  c.def_static("_map_same", [](py::handle name, std::uint64_t hash, std::optional<std::uint64_t> bytes) {
+    const std::string path = to_path(name);
     return same(held(take(unlocked([&] { return map(path, detail(0, bytes)); })), path), hash);
   });
   c.def_static(
@@ -500,7 +502,7 @@ MeshPointer mesh_from_arrays(py::handle vertices, py::handle faces, const py::ob
     const py::gil_scoped_acquire acquire;
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      return progress.is_none() || progress(fraction).cast<bool>();
+      return progress.is_none() || goes_on(progress(fraction));
     } catch (...) {
       raised = std::current_exception();
       return false;
@@ -557,7 +559,7 @@ void define_mesh(py::class_<HeldMesh, MeshPointer>& c) {
       [](py::handle path) {
         const std::string name = to_path(path);
         SalvagedMesh found = take(unlocked([&] { return salvage_mesh(name); }));
-        return py::make_tuple(held(std::move(found.mesh)), found.note);
+        return py::make_tuple(held(std::move(found.mesh)), decoded(found.note));
       },
       py::arg("path"),
       "Reads the complete levels of nodes of a file that was cut short.\n\nReturns\n-------\nmesh : MeshModel\n"
@@ -569,7 +571,8 @@ void define_mesh(py::class_<HeldMesh, MeshPointer>& c) {
         return held(take(load_mesh(to_bytes(info))));
       },
       py::arg("data"), "Loads a mesh from the bytes of a file, any contiguous buffer, which are copied.");
-  c.def_static("_map_same", [](const std::string& path, std::uint64_t hash) {
+  c.def_static("_map_same", [](py::handle name, std::uint64_t hash) {
+    const std::string path = to_path(name);
     return same(held(take(unlocked([&] { return map_mesh(path); })), path), hash);
   });
   c.def_static("from_arrays", &mesh_from_arrays, py::arg("vertices"), py::arg("faces"), py::kw_only(),

@@ -216,8 +216,10 @@ PyObject* method(PyObject* self, PyObject* const* arguments, Py_ssize_t count, P
       for (Py_ssize_t k = 0; k < PyTuple_GET_SIZE(names); ++k) {
         const char* name = PyUnicode_AsUTF8(PyTuple_GET_ITEM(names, k));
         if (!name) throw py::error_already_set();
+        const bool is_threshold = std::string_view(name) == "threshold";
+        if (is_threshold && has_threshold) throw py::type_error("got multiple values for argument 'threshold'");
         set_option(asked, name, arguments[count + k]);
-        has_threshold = has_threshold || std::string_view(name) == "threshold";
+        has_threshold = has_threshold || is_threshold;
       }
     }
     if (kDecides && !has_threshold) throw py::type_error("missing argument 'threshold'");
@@ -261,11 +263,11 @@ PyMethodDef pair_methods[] = {
                                   "intersects($self, pose, /, *, steps=None, finest_level=0)\n--\n\n"
                                   "Whether the bodies share a point: read `verdict`. Returns an :class:`Answer`."),
     definition<Query::Within>("within",
-                              "within($self, pose, threshold, /, *, steps=None, finest_level=0)\n--\n\n"
+                              "within($self, pose, /, threshold, *, steps=None, finest_level=0)\n--\n\n"
                               "Whether the distance is at most `threshold`: read `decision`. Returns an :class:`Answer`."),
     definition<Query::SignedWithin>(
         "signed_within",
-        "signed_within($self, pose, threshold, /, *, steps=None, finest_level=0)\n--\n\n"
+        "signed_within($self, pose, /, threshold, *, steps=None, finest_level=0)\n--\n\n"
         "Whether the signed distance is at most `threshold`: read `decision`. Returns an :class:`Answer`.")};
 
 }  // namespace

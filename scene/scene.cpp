@@ -336,8 +336,10 @@ std::vector<ScenePair> Scene::distances(const Scene& other, const Options& optio
 NearestPair Scene::nearest(const Scene& other, const Options& options) {
   const Content &c = *content_, &o = *other.content_;
   const auto wanted = [&](BodyId a, BodyId b) { return &c != &o || !c.asks || c.asks(a, b); };
+  Options so_far = options;
+  if (std::isnan(so_far.beyond)) so_far.beyond = kInfinity;
   NearestPair nearest;
-  nearest.lower = options.beyond;
+  nearest.lower = so_far.beyond;
   // The nearest pair of the last call, or one of near boxes, bounds the search.
   KeptPair first = content_->kept_with(other.content_).nearest;
   if (!c.has(first.a) || !o.has(first.b) || !wanted(first.a, first.b)) {
@@ -359,8 +361,7 @@ NearestPair Scene::nearest(const Scene& other, const Options& options) {
   content_->kept_with(other.content_).nearest = first;
   if (is_unknown(answer) || answer.upper <= 0) return {{first.a, first.b, answer}, 0};
 
-  Options so_far = options;
-  so_far.beyond = std::min(options.beyond, answer.upper);
+  so_far.beyond = std::min(so_far.beyond, answer.upper);
   Kept& k = content_->near(other.content_, so_far.beyond);
   double lower = kInfinity;
   // Each round asks twice as many pairs, up to the least distance of the rounds before.
@@ -463,7 +464,8 @@ std::vector<SceneContact> Scene::contacts(const Scene& other, const ManifoldOpti
     const auto is_before = [](const auto& x, const auto& y) { return before(x.a, x.b, y.a, y.b); };
     const auto first = std::lower_bound(k.contacts.begin(), k.contacts.end(), pair, is_before);
     const auto end = std::upper_bound(first, k.contacts.end(), pair, is_before);
-    list_contacts(pair, query, answer, options, {{first, end}, none}, found);
+    const bool is_same = first != end && first->a == pair.a && first->b == pair.b;  // and no body that had its place before
+    list_contacts(pair, query, answer, options, {is_same ? std::span(first, end) : std::span<SceneContact>(), none}, found);
   };
   k.contacts = content_->ask_all<SceneContact, Answer>(*other.content_, k, k.near, AskContact{options.margin}, list);
   return k.contacts;

@@ -357,27 +357,85 @@ TEST(Scene, FindsASolidInASolidBesideItsWall) {
 
 /// Of a mesh as of a convex body: pairs that are proved to be less deep are left out.
 TEST(Scene, AMarginBelowZeroAsksForDepth) {
-  const MeshModel ball = soups::ball(2).mesh();
+  const MeshModel ball = soups::ball(2).mesh(), shell = soups::scaled(soups::ball(2), 3).mesh();
   const Body convex(models()[0]);
-  for (const double aside : {0.25, 1.875, 2.5}) {  // deep, by less than 0.2, apart
-    Pose pose;
-    pose.translation = {aside, 0, 0};
-    for (const MeshBody& other : {MeshBody::solid(ball), MeshBody(ball), MeshBody(convex)}) {
-      Scene scene;
-      (void)scene.add("ball", MeshBody::solid(ball), {});
-      (void)scene.add("other", other, pose);
-      const auto contacts = scene.contacts({.margin = -0.2});
-      MeshSeed seed;
-      const Answer depth = signed_distance(MeshBody::solid(ball), other, pose, seed);
-      ASSERT_EQ(contacts.size(), depth.lower <= -0.2 ? 1u : 0u);
-      EXPECT_EQ(depth.lower <= -0.2, aside == 0.25);
-      if (contacts.empty()) continue;
-      EXPECT_EQ(contacts[0].answer.verdict, Verdict::Overlapping);
-      EXPECT_LT(contacts[0].answer.lower, -0.2);
-      EXPECT_LE(contacts[0].answer.upper, 0);
-      EXPECT_EQ(contacts[0].manifold.count, 0u);
+  int listed = 0, left_out = 0;
+  for (const double radius : {0.0, 0.1}) {
+    for (const double aside : {0.25, 1.875, 2.5}) {  // deep, nearly apart, apart
+      Pose pose;
+      pose.translation = {aside, 0, 0};
+      const MeshBody solid = MeshBody::solid(ball, radius);
+      for (const MeshBody& other : {solid, MeshBody(ball, radius), MeshBody(shell, radius), MeshBody(convex)}) {
+        const Answer depth = signed_distance(solid, other, pose);
+        for (const double margin : {-0.01, -0.2}) {
+          const Answer stopped = signed_distance(solid, other, pose, {.beyond = margin});
+          EXPECT_LE(stopped.lower, depth.upper);
+          EXPECT_GE(stopped.upper, depth.lower);
+          EXPECT_EQ(stopped.lower > 0, depth.lower > 0) << radius << ' ' << aside << ' ' << margin;
+          Scene scene;
+          (void)scene.add("ball", solid, {});
+          (void)scene.add("other", other, pose);
+          const auto contacts = scene.contacts({.margin = margin});
+          ASSERT_EQ(contacts.size(), depth.lower <= margin ? 1u : 0u) << radius << ' ' << aside << ' ' << margin;
+          contacts.empty() ? ++left_out : ++listed;
+          if (contacts.empty()) continue;
+          EXPECT_EQ(contacts[0].answer.verdict, Verdict::Overlapping);
+          EXPECT_LE(contacts[0].answer.lower, margin);
+          EXPECT_LE(contacts[0].answer.upper, 0);
+          EXPECT_EQ(contacts[0].manifold.count, 0u);
+        }
+      }
     }
   }
+  EXPECT_GE(listed, 12);
+  EXPECT_GE(left_out, 12);
+}
+
+/// A body that takes the place of one that was removed has no contacts from before.
+TEST(Scene, ContactsOfARemovedBodyGoWithIt) {
+  Random random(31);
+  const Body floor = Body::box({-2, -2, -1}, {2, 2, 1}), block = Body::box({-1, -1, -1}, {1, 1, 1});
+  for (int i = 0; i < 300; ++i) {
+    const auto above = [&] {
+      const double turn = random.uniform(0, 6);
+      Pose pose;
+      pose.rotation << std::cos(turn), -std::sin(turn), 0, std::sin(turn), std::cos(turn), 0, 0, 0, 1;
+      pose.translation = {random.uniform(-1, 1), random.uniform(-1, 1), 2};
+      return pose;
+    };
+    const Pose first = above(), second = above();
+    Scene used, fresh;
+    (void)used.add("floor", floor, {});
+    const BodyId gone = used.add("block", block, first);
+    (void)used.contacts({.margin = 0.01});
+    used.remove(gone);
+    for (Scene* scene : {&used, &fresh}) {
+      if (scene == &fresh) (void)fresh.add("floor", floor, {});
+      ASSERT_EQ(scene->add("block", block, second).index, gone.index);
+    }
+    const ManifoldOptions options{.margin = 0.01, .most_points = 2};
+    const auto contacts = used.contacts(options), wanted = fresh.contacts(options);
+    ASSERT_EQ(contacts.size(), 1u);
+    ASSERT_EQ(wanted.size(), 1u);
+    const Manifold &m = contacts[0].manifold, &w = wanted[0].manifold;
+    ASSERT_EQ(m.count, w.count);
+    for (std::uint32_t k = 0; k < m.count; ++k) EXPECT_EQ(m.points[k].point_a, w.points[k].point_a) << i;
+  }
+}
+
+/// As a distance takes it: it bounds nothing.
+TEST(Scene, TheNearestPairUpToNaNIsTheNearest) {
+  Scene scene;
+  for (const double x : {0.0, 50.0, 53.0}) {
+    Pose pose;
+    pose.translation = {x, 0, 0};
+    (void)scene.add("", Body(models()[0]), pose);
+  }
+  const NearestPair nearest = scene.nearest({.beyond = kNaN}), wanted = scene.nearest();
+  EXPECT_EQ(nearest.a, wanted.a);
+  EXPECT_EQ(nearest.b, wanted.b);
+  EXPECT_EQ(nearest.lower, wanted.lower);
+  EXPECT_TRUE(scene.has(nearest.a));
 }
 
 /// In whatever order the bodies came, and whatever bound is asked for.

@@ -144,7 +144,10 @@ class Answers:
         return len(self.records)
 
     def __getitem__(self, rows: Any) -> Answers:
-        return Answers(np.asarray(self.records[rows], self.records.dtype))
+        chosen = self.records[rows]
+        if chosen.dtype != self.records.dtype:
+            raise TypeError(f"expected rows, got {rows!r}: fields are attributes, and columns of `records`")
+        return Answers(np.asarray(chosen))
 
     def __iter__(self) -> Iterator[Answers]:
         return (self[i] for i in range(len(self)))

@@ -87,7 +87,7 @@ def build(
     resolution: int = Resolution.NONE,
     radius_factor: float = 2.0,
     map_cells: int = 4,
-    progress: Optional[Callable[[float, str], bool]] = None,
+    progress: Optional[Callable[[float, str], Optional[bool]]] = None,
     threads: int = 1,
 ) -> Built:
     """Builds the model of a convex hull with its levels of detail.
@@ -150,7 +150,7 @@ def build_mesh(
     least_triangles: int = 64,
     bytes_per_triangle: float = 120.0,
     least_patch: int = 0,
-    progress: Optional[Callable[[float, str], bool]] = None,
+    progress: Optional[Callable[[float, str], Optional[bool]]] = None,
     threads: int = 1,
 ) -> MeshModel:
     """Makes a mesh whose upper nodes have convex hulls, which answer bodies that are apart by one march.
@@ -194,7 +194,7 @@ def rebuild_hulls(
     least_triangles: int = 64,
     bytes_per_triangle: float = 120.0,
     least_patch: int = 0,
-    progress: Optional[Callable[[float, str], bool]] = None,
+    progress: Optional[Callable[[float, str], Optional[bool]]] = None,
     threads: int = 1,
 ) -> MeshModel:
     """Returns the mesh with new hulls, for example after :meth:`MeshModel.refit`. Options and errors: :func:`build_mesh`."""

@@ -227,7 +227,7 @@ class _Checkpoint:
                 digest, done = str(file["sweep"]), np.unpackbits(file["done"], count=len(self.done)).astype(bool)
                 widths = file["widths"]
                 whole = [tuple(file[f"part_{r}_{i}"] for i in range(width)) for r, width in enumerate(widths)]
-        except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+        except (OSError, ValueError, TypeError, AttributeError, KeyError, EOFError, zipfile.BadZipFile) as error:
             raise DataError(
                 f"'{self.path}' is not a checkpoint of a sweep: {error}", ErrorCode.BAD_FORMAT, self.path
             ) from error
@@ -241,7 +241,7 @@ class _Checkpoint:
         self.done = done
         return whole
 
-    def save(self, whole: Optional[list[Partial]]) -> None:
+    def save(self, whole: Optional[list[Partial]], is_done: NDArray[np.bool_]) -> None:
         if whole is None:
             return  # nothing is done
         parts = {f"part_{r}_{i}": array for r, partial in enumerate(whole) for i, array in enumerate(partial)}
@@ -251,7 +251,7 @@ class _Checkpoint:
         try:
             with tempfile.NamedTemporaryFile(dir=folder, prefix=os.path.basename(self.path), delete=False) as file:
                 beside = file.name
-                np.savez(file, sweep=np.array(self.digest), done=np.packbits(self.done), widths=widths, **parts)
+                np.savez(file, sweep=np.array(self.digest), done=np.packbits(is_done), widths=widths, **parts)
                 file.flush()
                 os.fsync(file.fileno())
             os.replace(beside, self.path)
@@ -448,27 +448,30 @@ def sweep(
     kept = None if checkpoint is None else _Checkpoint(checkpoint, job.digest(chunk), chunks)
     if kept:
         whole = kept.load()
+    is_done = np.zeros(chunks, bool) if kept is None else kept.done
     report = _Bar() if progress is True else progress
-    undone = range(chunks) if kept is None else np.flatnonzero(~kept.done).tolist()
+    undone = np.flatnonzero(~is_done).tolist()
     ranges = ((i, i * chunk, min(chunk, job.count - i * chunk)) for i in undone)
     done = job.count - sum(min(chunk, job.count - i * chunk) for i in undone)
     parts = _on_threads(job, ranges, threads) if client is None else _on_cluster(job, ranges, client)
     saved = time.monotonic()
+    state = whole, is_done
     try:
         for i, partial in parts:
-            whole = partial if whole is None else job.merged(whole, partial)
+            merged = partial if state[0] is None else job.merged(state[0], partial)
+            is_done = state[1].copy()
+            is_done[i] = True
+            state = merged, is_done  # one store: whatever a signal ends, no chunk is counted twice
             done += min(chunk, job.count - i * chunk)
-            if kept:
-                kept.done[i] = True
-                if time.monotonic() - saved > every:
-                    kept.save(whole)
-                    saved = time.monotonic()
+            if kept and time.monotonic() - saved > every:
+                kept.save(*state)
+                saved = time.monotonic()
             if report and report(done, job.count) is False:
                 raise Cancelled("the progress callback asked to stop", ErrorCode.CANCELLED)
     finally:
         parts.close()
         if kept:
-            kept.save(whole)
-    assert whole is not None
-    results = tuple(reduction.result(part) for reduction, part in zip(reductions, whole))
+            kept.save(*state)
+    assert state[0] is not None
+    results = tuple(reduction.result(part) for reduction, part in zip(reductions, state[0]))
     return results if isinstance(reduce, tuple) else results[0]

@@ -250,7 +250,10 @@ class CollisionManager:
 
 
 def _pose(transform: Optional[NDArray[np.float64]]) -> NDArray[np.float64]:
-    return np.eye(4) if transform is None else np.asarray(transform, np.float64)
+    pose = np.eye(4) if transform is None else np.asarray(transform, np.float64)
+    if pose.shape != (4, 4):
+        raise TypeError(f"transform: expected an array of shape (4, 4), got {pose.shape}")
+    return pose
 
 
 def _pairs(

@@ -3,6 +3,7 @@
 """Models and meshes: made, read, kept, refused."""
 
 import gc
+import os
 import pickle
 
 import numpy as np
@@ -118,6 +119,29 @@ def test_pictures_and_words(fat, mesh):
     assert "3 of 3 levels" in repr(fat[0]) and "closed" in repr(mesh) and "Level 1" in repr(fat[0].level(1))
 
 
+@pytest.mark.skipif(os.name != "posix", reason="paths are Unicode there")
+def test_paths_may_be_any_bytes(fat, mesh, tmp_path):
+    for body, load, map in (
+        (fat[0], Model.load, Model.map),
+        (mesh, MeshModel.load, MeshModel.map),
+    ):
+        path = os.fsencode(tmp_path) + b"/\xff"
+        for name in (path, os.fsdecode(path)):
+            with pytest.raises(swiftlet.FileError) as raised:
+                load(name)
+            assert raised.value.file == os.fsdecode(path)
+        with pytest.raises(swiftlet.FileError):
+            body.save(path + b"/none")
+        body.save(path)
+        mapped = pickle.loads(pickle.dumps(map(path)))
+        assert mapped.is_mapped and mapped.hash() == body.hash()
+        with open(path, "wb") as file:
+            file.write(bytes(body.bytes)[:100])
+        with pytest.raises(swiftlet.DataError):
+            load(path)
+        os.remove(path)
+
+
 def test_errors_name_what_is_wrong(tmp_path):
     with pytest.raises(OSError) as raised:
         Model.load(tmp_path / "none.swl")
@@ -162,6 +186,7 @@ def test_meshes(mesh, tmp_path):
     assert swiftlet.is_mesh_file(tmp_path / "m.swm")
     with pytest.raises(swiftlet.Cancelled):
         MeshModel.from_arrays(CORNERS, TRIANGLES, progress=lambda f: False)
+    assert MeshModel.from_arrays(CORNERS, TRIANGLES, progress=lambda f: None).faces.shape == (12, 3)
     with pytest.raises(ZeroDivisionError):
         MeshModel.from_arrays(CORNERS, TRIANGLES, progress=lambda f: 1 / 0)
 
@@ -190,6 +215,7 @@ def test_the_builder_takes_points_files_and_shapes(tmp_path):
     assert build.rebuild_hulls(bare).hull_count >= 1 and swiftlet.verify(hulled)
     with pytest.raises(swiftlet.Cancelled):
         build.build(points, progress=lambda fraction, stage: False)
+    assert build.build(points, progress=lambda fraction, stage: None).model.level_count > 0
     with pytest.raises(swiftlet.DataError, match="cutoff|rate"):
         build.build(points, rate=2.0)
     with pytest.raises(TypeError):

@@ -109,6 +109,36 @@ def test_resumes_after_an_interruption(fat, expected, tmp_path):
     file.write_bytes(file.read_bytes()[:100])
     with pytest.raises(swiftlet.DataError, match="not a checkpoint"):
         sweep(*fat, POSES, ALL, chunk=1024, checkpoint=file)
+    np.save(tmp_path / "other.npy", np.zeros(3))
+    with pytest.raises(swiftlet.DataError, match="not a checkpoint"):
+        sweep(*fat, POSES, ALL, chunk=1024, checkpoint=tmp_path / "other.npy")
+
+
+class Interrupting(int):
+    """A count whose use number `at` is interrupted, as Ctrl-C interrupts any line."""
+
+    uses, at = 0, 0
+
+    def __sub__(self, other):
+        Interrupting.uses += 1
+        if Interrupting.uses == Interrupting.at:
+            raise KeyboardInterrupt
+        return int(self) - other
+
+
+def test_no_interruption_counts_a_chunk_twice(fat, tmp_path):
+    interrupted = 0
+    for at in range(1, 40):
+        file = tmp_path / f"{at}.npz"
+        Interrupting.uses, Interrupting.at = 0, at
+        try:
+            sweep(*fat, POSES, Verdicts(), count=Interrupting(len(POSES)), checkpoint=file, chunk=1024)
+        except KeyboardInterrupt:
+            interrupted += 1
+        Interrupting.at = 0
+        verdicts = sweep(*fat, POSES, Verdicts(), count=Interrupting(len(POSES)), checkpoint=file, chunk=1024)
+        assert sum(verdicts.values()) == len(POSES), at
+    assert interrupted > 20
 
 
 def test_says_what_is_wrong(fat):

@@ -98,7 +98,22 @@ def test_a_chunk_is_a_pair_asked_again_and_again(query, fat):
     poses = orbit(500)
     pair = swiftlet.Pair(*fat)
     alone = [getattr(pair, query)(pose).record for pose in poses]
-    assert same(QUERIES[query](*fat, poses), swiftlet.Answers(np.array(alone, alone[0].dtype)))
+    answers = QUERIES[query](*fat, poses)
+    assert same(answers, swiftlet.Answers(np.array(alone, alone[0].dtype)))
+    assert answers[5].lower == answers.lower[5] and answers[::100].shape == (5,) and answers[answers.lower > 0].shape
+    with pytest.raises(TypeError, match="expected rows, got 'lower'"):
+        answers["lower"]
+
+
+@pytest.mark.parametrize("query", ["within", "signed_within"])
+def test_a_threshold_has_one_place(query):
+    ask = getattr(swiftlet.Pair(BOX, BOX), query)
+    assert ask(shift(3), 1.5).decision == swiftlet.Decision.YES and ask(shift(3), 0.5).decision == swiftlet.Decision.NO
+    with pytest.raises(TypeError, match="missing argument 'threshold'"):
+        ask(shift(3))
+    assert ask(shift(3), threshold=1.5).decision == swiftlet.Decision.YES
+    with pytest.raises(TypeError, match="multiple values"):
+        ask(shift(3), 0.5, threshold=1.5)
 
 
 @pytest.mark.parametrize("query", [name for name in QUERIES if name != "closest_features"])
@@ -278,6 +293,9 @@ def test_rows_choose_their_bodies(fat, mesh):
     one_pose = swiftlet.distance(a, [mesh, BOX], shift(3), index_a=[0, 1, 2], index_b=[0, 0, 1])
     assert one_pose.shape == (3,) and abs(one_pose.value[2] - 1) < 1e-14
     assert swiftlet.distance(a, BOX, shift(3), index_a=np.zeros(0, int)).shape == (0,)
+    assert swiftlet.distance([], [], shift(3), index_a=[], index_b=[]).shape == (0,)
+    with pytest.raises(ValueError, match="index_b: 3 rows, but there are 0"):
+        swiftlet.distance(a, [BOX], shift(3), index_a=[], index_b=[0, 0, 0])
     with pytest.raises(IndexError, match="entry 1 is 3, of 3 bodies"):
         swiftlet.distance(a, BOX, shift(3), index_a=[0, 3])
     with pytest.raises(ValueError, match="index_a: 2 rows, but there are 3"):

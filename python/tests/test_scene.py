@@ -82,6 +82,10 @@ def test_collisions_are_told_as_trimesh_tells_them():
     assert m.in_collision_other(other) is False
     with pytest.raises(ValueError, match="a not in collision manager"):
         m.set_transform("a", np.eye(4))
+    for transform in (np.eye(3), np.eye(4)[:3]):
+        with pytest.raises(TypeError, match=r"transform: expected an array of shape \(4, 4\)"):
+            m.add_object("b", BOX, transform)
+    assert len(m.scene) == 2 and m.in_collision_single(BOX, shift(3)) is True  # the refused ones replaced nothing
 
 
 def test_what_is_undecided_collides_with_contacts_as_without():
