@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -35,11 +34,14 @@ struct Soup {
   std::vector<std::vector<std::uint64_t>> polygons;
 };
 
-bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)); }
+// Letters and blanks are ASCII's, whatever the program's locale.
+
+bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 std::string lower(std::string_view text) {
   std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
   return result;
 }
 
@@ -47,7 +49,7 @@ std::string lower(std::string_view text) {
 std::string shown(std::string_view word) {
   constexpr std::size_t kMost = 40;
   std::string text = "\"";
-  for (const char c : word.substr(0, kMost)) text += std::isprint(static_cast<unsigned char>(c)) ? c : '?';
+  for (const char c : word.substr(0, kMost)) text += c >= ' ' && c <= '~' ? c : '?';
   return text += word.size() > kMost ? "...\"" : "\"";
 }
 
@@ -181,20 +183,23 @@ class Words {
   std::size_t line_;
 };
 
-std::uint64_t corner(Words& words, const std::string& face, std::uint64_t vertex_count) {
-  const auto index = words.number<long long>("a vertex of " + face);
-  if (index < 0 || std::uint64_t(index) >= vertex_count)
-    words.fail(face + " names vertex " + std::to_string(index) + " of " + std::to_string(vertex_count));
-  return std::uint64_t(index);
+/// How the index of a corner is read: by `number`, or by `number_on_line` where every face has a line of its own.
+using ReadIndex = long long (Words::*)(const std::string& what);
+
+std::uint64_t face_size(Words& words, const std::string& face) {
+  return words.number<std::uint64_t>("the number of vertices of " + face);
 }
 
-/// Size and corners, counted from 0; the size only where the format gives it.
-std::vector<std::uint64_t> polygon(Words& words, std::uint64_t f, std::uint64_t face_count, std::uint64_t vertex_count,
-                                   bool sized) {
-  const std::string face = numbered("face ", f, face_count);
-  const auto size = sized ? words.number<std::uint64_t>("the number of vertices of " + face) : 3;
+/// Corners, counted from 0.
+std::vector<std::uint64_t> polygon(Words& words, ReadIndex read, const std::string& face, std::uint64_t size,
+                                   std::uint64_t vertex_count) {
   std::vector<std::uint64_t> corners;
-  for (std::uint64_t k = 0; k < size; ++k) corners.push_back(corner(words, face, vertex_count));
+  for (std::uint64_t k = 0; k < size; ++k) {
+    const long long index = (words.*read)("a vertex of " + face);
+    if (index < 0 || std::uint64_t(index) >= vertex_count)
+      words.fail(face + " names vertex " + std::to_string(index) + " of " + std::to_string(vertex_count));
+    corners.push_back(std::uint64_t(index));
+  }
   return corners;
 }
 
@@ -209,8 +214,11 @@ Soup read_swift(std::string_view bytes) {
              face_count = words.number<std::uint64_t>("the count of faces");
   for (std::uint64_t v = 0; v < vertex_count; ++v)
     soup.points.push_back(words.point("three coordinates of " + numbered("vertex ", v, vertex_count)));
-  for (std::uint64_t f = 0; f < face_count; ++f)
-    soup.polygons.push_back(polygon(words, f, face_count, vertex_count, magic == "POLY"));
+  for (std::uint64_t f = 0; f < face_count; ++f) {
+    const std::string face = numbered("face ", f, face_count);
+    const std::uint64_t size = magic == "POLY" ? face_size(words, face) : 3;
+    soup.polygons.push_back(polygon(words, &Words::number<long long>, face, size, vertex_count));
+  }
   words.expect_end("face");
   return soup;
 }
@@ -218,7 +226,8 @@ Soup read_swift(std::string_view bytes) {
 constexpr int kOffColumns = 9;  // a normal, a colour, a place in a texture
 constexpr int kObjColumns = 4;  // a weight, a colour
 
-/// As read_swift, but every vertex has a line of its own; there, and behind a face, more numbers (normals, colours) may follow.
+/// As read_swift's POLY, but every vertex and every face has a line of its own, where more numbers (normals, colours) may
+/// follow.
 Soup read_off(std::string_view bytes) {
   Words words(text_of(bytes), '#');
   std::string_view magic = words.next();
@@ -236,7 +245,9 @@ Soup read_off(std::string_view bytes) {
     words.skip_numbers(kOffColumns);
   }
   for (std::uint64_t f = 0; f < face_count; ++f) {
-    soup.polygons.push_back(polygon(words, f, face_count, vertex_count, true));
+    const std::string face = numbered("face ", f, face_count);
+    const std::uint64_t size = face_size(words, face);
+    soup.polygons.push_back(polygon(words, &Words::number_on_line<long long>, face, size, vertex_count));
     words.skip_numbers(kOffColumns);
   }
   words.expect_end("face");
@@ -340,7 +351,7 @@ constexpr std::size_t kStlHeader = 80, kStlFacet = 50;
 
 /// Header, count, and per facet a normal, three corners and two bytes.
 Soup read_binary_stl(std::string_view bytes) {
-  if (bytes.size() < kStlHeader + 4) throw Damage{"is no STL file: too short, and does not begin with \"solid\""};
+  if (bytes.size() < kStlHeader + 4) throw Damage{"is no STL file: too short, and no text that begins with \"solid\""};
   Numbers numbers(bytes.substr(kStlHeader), false);
   const auto count = numbers.next<std::uint32_t>();
   if ((bytes.size() - kStlHeader - 4) / kStlFacet < count)
@@ -378,7 +389,8 @@ Soup read_text_stl(std::string_view text) {
     std::string_view word = words.next();
     for (; lower(word) == "facet"; word = words.next()) {
       expect("normal");
-      for (int k = 0; k < 3; ++k) words.next();
+      for (int k = 0; k < 3; ++k)
+        if (words.next_on_line().empty()) words.fail("expected three numbers of a normal, and the line ends");
       expect("outer"), expect("loop");
       soup.polygons.emplace_back();
       for (int k = 0; k < 3; ++k) {
@@ -394,13 +406,16 @@ Soup read_text_stl(std::string_view text) {
   return soup;
 }
 
+/// A binary header may say "solid" too: what fits its count of facets is binary, and so is what has a NUL there. Of fewer than
+/// 2^24 facets the count has one.
 Soup read_stl(std::string_view bytes) {
   std::uint32_t count = 0;
   if (bytes.size() >= kStlHeader + 4) std::memcpy(&count, bytes.data() + kStlHeader, sizeof count);
-  const bool fits = bytes.size() == kStlHeader + 4 + kStlFacet * std::uint64_t{count};  // binary headers may say "solid" too
+  const bool fits = bytes.size() == kStlHeader + 4 + kStlFacet * std::uint64_t{count};
   if (fits) return read_binary_stl(bytes);
   const std::string_view text = text_of(bytes);
-  return lower(Words(text).next()) == "solid" ? read_text_stl(text) : read_binary_stl(bytes);
+  const bool has_nul = bytes.substr(0, kStlHeader + 4).find('\0') != std::string_view::npos;
+  return !has_nul && lower(Words(text).next()) == "solid" ? read_text_stl(text) : read_binary_stl(bytes);
 }
 
 // ---- PLY --------------------------------------------------------------------------------------------------------------------
@@ -542,13 +557,17 @@ int coordinate_of(const PlyProperty& property) {
   return named ? property.name[0] - 'x' : 3;
 }
 
-void expect_coordinates(const PlyElement& element) {
-  std::array<int, 4> found{};
-  for (const PlyProperty& property : element.properties) ++found[std::size_t(coordinate_of(property))];
-  for (const char name : {'x', 'y', 'z'}) {
-    if (const int count = found[std::size_t(name - 'x')]; count != 1)
-      throw Damage{std::string("its vertices have ") + (count == 0 ? "no" : "more than one") + " property " + name};
-  }
+/// Whether a property is the list of a face's corners.
+bool lists_corners(const PlyProperty& property) {
+  return property.size_type && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+/// Refuses elements that have not just one such property.
+template <class Is>
+void expect_one(const PlyElement& element, const char* elements, const std::string& name, const Is& is) {
+  const auto count = std::count_if(element.properties.begin(), element.properties.end(), is);
+  if (count != 1)
+    throw Damage{std::string("its ") + elements + " have " + (count == 0 ? "no" : "more than one") + " property " + name};
 }
 
 Soup read_ply(std::string_view file) {
@@ -559,7 +578,9 @@ Soup read_ply(std::string_view file) {
   for (const PlyElement& element : header.elements) {
     if (element.properties.empty()) continue;  // takes no room
     const bool vertices = element.name == "vertex", faces = element.name == "face";
-    if (vertices) expect_coordinates(element);
+    for (int k = 0; vertices && k < 3; ++k)
+      expect_one(element, "vertices", {char('x' + k)}, [k](const PlyProperty& p) { return coordinate_of(p) == k; });
+    if (faces && element.count > 0) expect_one(element, "faces", "vertex_indices or vertex_index", lists_corners);
     const std::string what = element.name + " ";
     for (std::uint64_t i = 0; i < element.count; ++i) {
       Vec3 point = Vec3::Zero();
@@ -573,7 +594,7 @@ Soup read_ply(std::string_view file) {
           if (k < 3 && vertices) body.expect_finite(value, numbered("vertex ", i, element.count));
           continue;
         }
-        const bool corners = faces && (property.name == "vertex_indices" || property.name == "vertex_index");
+        const bool corners = faces && lists_corners(property);
         const std::string where = numbered(what.c_str(), i, element.count);
         const std::uint64_t size = body.count(*property.size_type, where + " has a list of size ");
         for (std::uint64_t k = 0; k < size; ++k) {

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include <array>
+#include <clocale>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -90,6 +91,20 @@ TEST(MeshFile, ReadsEveryFormat) {
 }
 
 TEST(MeshFile, ExtensionIsCaseInsensitive) { expect_tetrahedron(read("T.OFF", kOff)); }
+
+TEST(MeshFile, LettersAreAsciiInAnyLocale) {  // a Turkish I becomes no i
+  std::string upper = kStl;
+  for (char& c : upper)
+    if (c >= 'a' && c <= 'z') c = char(c - 'a' + 'A');
+  for (const char* name : {"C", "tr_TR.UTF-8", "tr_TR.ISO-8859-9"}) {
+    if (!std::setlocale(LC_ALL, name)) continue;
+    expect_tetrahedron(read("T.STL", upper));
+    expect_tetrahedron(read("T.TRI", kTri));
+    expect_error(read("l.tri", "TRI\xa0 1 0 0 0 0"), ErrorCode::BadFormat, "line 1: expected TRI or POLY");
+    expect_error(read("l.tri", "TRI \xfd 0"), ErrorCode::BadFormat, "not \"?\"");
+  }
+  std::setlocale(LC_ALL, "C");
+}
 
 TEST(MeshFile, PointCloudIsLegal) {
   const auto mesh = read("cloud.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
@@ -305,9 +320,14 @@ TEST(MeshFile, MissingColumnsAreAnError) {
                "line 2: expected three coordinates, and the line ends");
   expect_error(read("m.off", "OFF\n3 0 0\n0 0 0\n1 0\n0 1 0\n"), ErrorCode::BadFormat,
                "line 4: expected three coordinates of vertex 1 of 3, and the line ends");
+  for (const std::string faces : {"3 0 1\n3 0 1 2\n3 0 1 3\n3 1 2 3\n", "3 0 1 # 2\n3\n"})
+    expect_error(read("m.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n" + faces), ErrorCode::BadFormat,
+                 "line 7: expected a vertex of face 0 of 3, and the line ends");
   expect_error(read("m.tri", "TRI 2 0  0 0 0  1 0"), ErrorCode::BadFormat, "three coordinates of vertex 1 of 2");
   expect_error(read("m.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0\nvertex 1 0 0\nvertex 0 1 0\n"),
                ErrorCode::BadFormat, "line 5");
+  expect_error(read("m.stl", "solid\nfacet normal 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"),
+               ErrorCode::BadFormat, "line 2: expected three numbers of a normal, and the line ends");
   expect_error(read("m.ply", std::string(kPly).replace(kPly.find("1 0 0"), 5, "1 0")), ErrorCode::BadFormat,
                "line 11: expected a number, and the line ends");
   for (const std::string axis : {"x", "y", "z"}) {
@@ -319,6 +339,20 @@ TEST(MeshFile, MissingColumnsAreAnError) {
     expect_error(read("m.ply", std::string(kPly).replace(kPly.find(line), 0, line)), ErrorCode::BadFormat,
                  "more than one property " + axis);
   }
+}
+
+TEST(MeshFile, PlyFacesHaveOneListOfCorners) {
+  const std::string line = "property list uchar int vertex_indices\n";
+  const auto with = [&](const std::string& lines) { return std::string(kPly).replace(kPly.find(line), line.size(), lines); };
+  const std::string other = "property list uchar int vertex_index\n";
+  expect_tetrahedron(read("f.ply", with(other)));
+  for (const std::string& lines : {line + line, line + other, other + "property int flags\n" + line})
+    expect_error(read("f.ply", with(lines)), ErrorCode::BadFormat, "its faces have more than one property vertex_indices");
+  for (const char* lines : {"property list uchar int vertices\n", "property int vertex_indices\n"})
+    expect_error(read("f.ply", with(lines)), ErrorCode::BadFormat, "its faces have no property vertex_indices");
+  EXPECT_TRUE(read("f.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty double y\nproperty double z\n"
+                   "element face 0\nproperty int flags\nend_header\n0 0 0\n"));
 }
 
 TEST(MeshFile, MoreColumnsAreNoPoints) {
@@ -384,6 +418,10 @@ TEST(MeshFile, EmptyFilesAreAnError) {
 TEST(MeshFile, BinaryStlCutShortIsAnError) {
   const std::string whole = binary_stl();
   for (std::size_t size : {10, 83, 100, 150, 283}) EXPECT_FALSE(read("cut.stl", whole.substr(0, size))) << size << " bytes";
+  const std::string solid = std::string(whole).replace(0, 5, "solid");
+  expect_tetrahedron(read("cut.stl", solid));
+  expect_error(read("cut.stl", solid.substr(0, 283)), ErrorCode::BadFormat, "ends early: 283 bytes for 4 facets");
+  expect_error(read("cut.stl", solid + "1"), ErrorCode::BadFormat, "goes on after its last facet");
 }
 
 TEST(MeshFile, DamagedFilesNeverCrash) {
