@@ -4,17 +4,21 @@
 #include <swiftlet/build.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <sstream>
 #include <string>
+#include <utility>
 
 #include "bake.h"
+#include "body/table.h"
 #include "hierarchy.h"
 #include "hull.h"
 #include "hull_model.h"
 #include "numeric/chunks.h"
+#include "numeric/tolerance.h"
 #include "trace.h"
 
 namespace swiftlet {
@@ -22,8 +26,14 @@ namespace {
 
 using namespace lod;
 
-constexpr double kHullDone = 0.15;        ///< of a build
-constexpr double kMostCoordinate = 1e45;  ///< LevelArrays::vertices; beyond, squares of what is built on the way overflow
+constexpr double kHullDone = 0.15;  ///< of a build
+
+/// With at most so many digits, whatever the program's locale.
+std::string decimal(double value, int digits = 6) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits).ptr;
+  return {text.data(), end};
+}
 
 std::optional<Error> problem(const BuildOptions& options) {
   const auto bad = [](const char* message) { return Error{ErrorCode::BadValue, message}; };
@@ -33,9 +43,14 @@ std::optional<Error> problem(const BuildOptions& options) {
     return bad("max_deviation must be finite and not negative");
   if (options.method > Method::Peel || options.enclosing > Enclosing::Scale)
     return bad("method or enclosing is none that there is");
-  if (!std::isfinite(options.table.radius_factor) || options.table.radius_factor < 1)
-    return bad("table.radius_factor must be at least 1");
+  if (std::string fault = spec_fault(options.table); !fault.empty()) return Error{ErrorCode::BadValue, std::move(fault)};
   return std::nullopt;
+}
+
+Error past_limit(std::size_t vertex, double x, double limit) {
+  const char* const where = std::abs(x) < limit ? ", below" : ", beyond";
+  return {ErrorCode::BadValue,
+          "vertex " + std::to_string(vertex) + " has the coordinate " + decimal(x) + where + " the limit of " + decimal(limit)};
 }
 
 std::optional<Error> problem(const Mesh& mesh) {
@@ -44,11 +59,7 @@ std::optional<Error> problem(const Mesh& mesh) {
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     if (!mesh.points[v].allFinite()) return Error{ErrorCode::BadValue, "vertex " + std::to_string(v) + " is not finite"};
     for (const double x : mesh.points[v]) {
-      if (std::abs(x) > kMostCoordinate) {
-        std::ostringstream text;
-        text << "vertex " << v << " has the coordinate " << x << ", beyond the limit of " << kMostCoordinate;
-        return Error{ErrorCode::BadValue, text.str()};
-      }
+      if (std::abs(x) > kMostCoordinate) return past_limit(v, x, kMostCoordinate);
     }
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -56,6 +67,14 @@ std::optional<Error> problem(const Mesh& mesh) {
       if (corner >= mesh.points.size())
         return Error{ErrorCode::BadValue, "triangle " + std::to_string(t) + " names vertex " + std::to_string(corner) + " of " +
                                               std::to_string(mesh.points.size())};
+  return std::nullopt;
+}
+
+/// What is small is refused of the hull's vertices alone.
+std::optional<Error> problem(const Mesh& users, const Hull& shape) {
+  for (const std::uint32_t v : shape.vertices)
+    for (const double x : users.points[v])
+      if (!is_legal_coordinate(x)) return past_limit(v, x, kLeastCoordinate);
   return std::nullopt;
 }
 
@@ -118,9 +137,15 @@ Finest finest_level(const Mesh& users, const Mesh& mesh, const Hull& shape, cons
   return finest;
 }
 
-bool has_dents(const Mesh& mesh, const Polytope& body, const BuildReport& report, double scale) {
+/// What makes the mesh not convex. Dents between vertices of the hull have no depth, but they lack volume.
+std::optional<Error> dents(const Mesh& mesh, const Polytope& body, const BuildReport& report, double scale) {
   const double rounding = rounding_of(mesh.points);
-  return report.deepest_dent * scale > rounding || report.volume_ratio < 1 - rounding * area(body) / volume(body);
+  if (report.deepest_dent * scale > rounding)
+    return Error{ErrorCode::NotConvex, "the mesh has dents, the deepest " + decimal(report.deepest_dent)};
+  if (report.volume_ratio < 1 - rounding * area(body) / volume(body))
+    return Error{ErrorCode::NotConvex,
+                 "the mesh has dents: its volume is " + decimal(report.volume_ratio, 15) + " of the hull's"};
+  return std::nullopt;
 }
 
 void describe(const Model& model, BuildReport& report) {
@@ -147,6 +172,7 @@ Result<Built> build_watched(const Mesh& users, const BuildOptions& options, Watc
   watch.begin("hull", kHullDone, 3);
   const Start start(users, options.executor);
   const auto& [scale, mesh, shape] = start;
+  if (const auto error = problem(users, shape)) return *error;
   watch.work();
   const Polytope body = solid(mesh.points, shape);
   BuildReport report;
@@ -162,8 +188,8 @@ Result<Built> build_watched(const Mesh& users, const BuildOptions& options, Watc
       if (task == 2) report.deepest_dent = deepest_dent(mesh, shape, body) / scale;
     });
     watch.work();
-    if (options.require_convex && has_dents(mesh, body, report, scale))
-      return Error{ErrorCode::NotConvex, "the mesh has dents, the deepest " + std::to_string(report.deepest_dent)};
+    if (options.require_convex)
+      if (const auto error = dents(mesh, body, report, scale)) return *error;
     BuildOptions in_scale = options;
     in_scale.detail.deviation *= scale;
     levels = hierarchy(body, in_scale, watch);

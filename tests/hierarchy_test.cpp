@@ -284,6 +284,12 @@ TEST(Hierarchy, OptionsOutOfRangeAreRefused) {
   EXPECT_TRUE(refused([&](BuildOptions& o) { o.max_deviation = nan; }));
   EXPECT_TRUE(refused([&](BuildOptions& o) { o.max_deviation = -1; }));
   EXPECT_TRUE(refused([&](BuildOptions& o) { o.table.radius_factor = nan; }));
+  for (const auto change :
+       {+[](BuildOptions& o) { o.table.map_cells = 65; }, +[](BuildOptions& o) { o.table.radius_factor = 2e6; }})
+    EXPECT_TRUE(refused([&](BuildOptions& o) {
+      change(o);
+      o.progress = [](double, std::string_view) { return ADD_FAILURE() << "before the hull is made", true; };
+    }));
   Mesh broken = shapes::cube();
   broken.points[3].y() = nan;
   EXPECT_EQ(build(broken).error().code, ErrorCode::BadValue);
@@ -291,6 +297,19 @@ TEST(Hierarchy, OptionsOutOfRangeAreRefused) {
   broken.triangles[0][1] = 99;
   EXPECT_EQ(build(broken).error().code, ErrorCode::BadValue);
   EXPECT_EQ(build(Mesh{}).error().code, ErrorCode::Empty);
+}
+
+TEST(Hierarchy, ACoordinateTooSmallIsNamedAsTheUserNumbersIt) {
+  std::vector<Vec3> points{{0.1, 0.1, 0.1}, {0.2, 0.1, 0.1}, {0, 0, 1}, {0, 0, -1}, {0, 1, 0}, {0, -1, 0}, {-1, 0, 0}};
+  points.push_back({1, 1e-80, 0});
+  const auto refused = build(points);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::BadValue);
+  EXPECT_EQ(refused.error().message, "vertex 7 has the coordinate 1e-80, below the limit of 1e-70");
+  points[7].y() = 1e46;
+  EXPECT_EQ(build(points).error().message, "vertex 7 has the coordinate 1e+46, beyond the limit of 1e+45");
+  points[7].y() = 0, points[0].x() = 1e-80;
+  EXPECT_TRUE(build(points)) << "the point is no vertex of the hull";
 }
 
 TEST(Hierarchy, EndsAtTheLevelsAndDeviationAsked) {

@@ -171,6 +171,27 @@ TEST(Trace, MeasuresADent) {
   EXPECT_EQ(refused.error().code, ErrorCode::NotConvex);
 }
 
+TEST(Trace, RefusedDentsAreToldByDepthOrVolume) {
+  BuildOptions strict;
+  strict.require_convex = true;
+  const auto told = [&](const Mesh& mesh) {
+    const auto refused = build(mesh, strict);
+    return refused ? "nothing" : refused.error().message;
+  };
+  Mesh cube = shapes::cube();  // of side 2
+  const auto side = cube.triangles.front();
+  const Vec3 middle = (cube.points[side[0]] + cube.points[side[1]] + cube.points[side[2]]) / 3;
+  const Vec3 normal = (cube.points[side[1]] - cube.points[side[0]]).cross(cube.points[side[2]] - cube.points[side[0]]);
+  cube.points.push_back(middle - 1e-9 * normal.normalized());
+  cube.triangles.erase(cube.triangles.begin());
+  for (std::size_t k = 0; k < 3; ++k) cube.triangles.push_back({side[k], side[(k + 1) % 3], 8});
+  EXPECT_EQ(told(cube), "the mesh has dents, the deepest 1e-09");
+  // An octahedron without one of its eighths, whose vertices are all extreme.
+  const Mesh dented{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+                    {{0, 1, 4}, {1, 2, 4}, {0, 4, 2}, {2, 3, 0}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}}};
+  EXPECT_EQ(told(dented), "the mesh has dents: its volume is 0.75 of the hull's");
+}
+
 TEST(Trace, RoundingIsNoDent) {
   const Pose turn{shapes::rotation(Vec3(1, 2, 3).normalized(), 0.7), Vec3::Zero()};
   BuildOptions strict;

@@ -248,12 +248,12 @@ TEST_F(Tool, AnOptionOutOfItsRangeIsExitCodeTwo) {
   if (!kBuilds) return;
   for (const char* option :
        {"--rate 0", "--rate 1", "--rate nan", "--levels 0", "--levels 33", "--cutoff -3", "--max-deviation -1",
-        "--max-deviation inf", "--radius-factor 0.5", "--radius-factor 1e7", "--table 3"}) {
+        "--max-deviation inf", "--radius-factor 0.5", "--radius-factor 1e7", "--map -1", "--map 65", "--table 3"}) {
     const std::string name(option, std::strchr(option, ' '));
     refuses(std::string("build cube.off -o c.swl ") + option, name, 2);
   }
   refuses("info nowhere.swl", "nowhere.swl", 1);
-  for (const char* option : {"--cutoff", "--map", "--bytes", "--mesh --hull-triangles", "--mesh --hull-patches"})
+  for (const char* option : {"--cutoff", "--bytes", "--mesh --hull-triangles", "--mesh --hull-patches"})
     refuses("build cube.off -o c " + std::string(option) + " -1", "-1 is no number from 0 up", 2);
 }
 
@@ -443,7 +443,7 @@ TEST_F(Tool, ErrorsAreJsonWhereJsonIsAsked) {
   }
   fails("build -o b.swl bent.off", 1, "BadFormat", "bent.off");
   fails("build -o b.swl bent.off --map x", 2, "BadValue", nullptr);
-  fails("build -o b.swl cube.off --map 65", 1, "BadValue", "cube.off");
+  fails("build -o b.swl cube.off --map 65", 2, "BadValue", nullptr);
   fails("build -o b.swl nowhere.off", 1, "CannotRead", "nowhere.off");
 }
 

@@ -199,7 +199,7 @@ Action declare_build(CLI::App& word) {
   add_detail(word, o.detail);
   word.add_option("--map", o.table.map_cells, "entries of the support maps per vertex, 0 to 64; 0: no maps")
       ->capture_default_str()
-      ->check(not_negative());
+      ->check(number_in(0, 64, "from 0 to 64"));
   add_choice(word, "--table", tables, o.table.resolution, "none", "degrees between the samples of the paper's start table");
   word.add_option("--radius-factor", o.table.radius_factor, "its samples lie on a sphere of so many bounding radii, 1 to 1e6")
       ->capture_default_str()
