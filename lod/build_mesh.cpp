@@ -158,9 +158,10 @@ std::optional<std::vector<std::uint32_t>> large_patches(const MeshModel& mesh, c
   watch.begin("patches", 0.9, 2 * double(whole.triangle_count()));
   // Breadth first begins anywhere, so that a body of small patches has too many of them soon.
   const double left = options.bytes_per_triangle * double(mesh.triangle_count()) - double(mesh.bytes().size());
-  const std::optional<Decomposition> patches = decompose(
-      whole, Growth::BreadthFirst,
-      {whole.triangle_count() / options.least_patch, std::size_t(max(0.0, left) / (kEdgeBytes * kEdgesInside))}, watch);
+  const double all = 3 * double(whole.triangle_count());  // more than its edges; what bytes leave may be beyond integers
+  const PatchLimits limits{whole.triangle_count() / options.least_patch,
+                           std::size_t(std::clamp(left / (kEdgeBytes * kEdgesInside), 0.0, all))};
+  const std::optional<Decomposition> patches = decompose(whole, Growth::BreadthFirst, limits, watch);
   if (!patches) return std::nullopt;
   std::vector<std::uint32_t> patch_of(first.size(), kNone);
   bool any = false;

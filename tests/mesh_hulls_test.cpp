@@ -8,6 +8,7 @@
 #include <array>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -245,6 +246,11 @@ TEST(Patches, HaveNodesAndHullsOfTheirOwnWhereTheyAreLarge) {
   HullOptions tight = along_patches(40), plain = tight;
   tight.bytes_per_triangle = plain.bytes_per_triangle = 95, plain.least_patch = 0;
   EXPECT_EQ(made(build_mesh(mesh_of(row), tight)).hash(), made(build_mesh(mesh_of(row), plain)).hash());
+  HullOptions endless = along_patches(40);
+  for (const double bytes : {1e17, 1e300, std::numeric_limits<double>::infinity()}) {
+    endless.bytes_per_triangle = bytes;
+    EXPECT_EQ(made(build_mesh(mesh_of(row), endless)).hash(), along.hash()) << bytes;
+  }
   // Given twice, a surface has each of its patches once.
   Soup twice = row;
   twice.triangles.insert(twice.triangles.end(), row.triangles.begin(), row.triangles.end());
