@@ -66,7 +66,8 @@ TEST_F(Tool, CutLeavesTheFinestLevelsOut) {
   EXPECT_EQ(answer["status"], "LevelLimit");
   EXPECT_EQ(answer["level_a"], 1);
   EXPECT_EQ(answer["level_b"], 0);
-  EXPECT_EQ(says_json("draw b.swl -o b.svg")["levels"], 2);
+  EXPECT_EQ(says_json("draw b.swl -o b.svg")["levels"], 1) << "those that are there";
+  EXPECT_NE(says("draw b.swl -o b.svg").find("b.svg: 1 level, "), std::string::npos);
   EXPECT_EQ(says_json("cut a.swl -o whole.swl")["finest_level"], 0);
   EXPECT_EQ(content(folder_ / "whole.swl"), content(folder_ / "a.swl"));
   before_ = names();
@@ -122,6 +123,15 @@ TEST_F(Tool, DrawWritesOnePanelPerLevel) {
   EXPECT_EQ(svg.find("level 2"), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(says_json("draw a.swl -o a.svg")["levels"], 2);
+}
+
+TEST_F(Tool, DrawWritesXmlOfAnyName) {
+  const std::string name = "a\xff&\xc3\xa4\xe2\x82";  // &, an umlaut, and what is no UTF-8
+  std::error_code failure;
+  std::filesystem::copy_file(folder_ / "a.swl", folder_ / (name + ".swl"), failure);
+  if (failure) GTEST_SKIP() << "no file may have such a name here";
+  says("draw '" + name + ".swl' -o a.svg");
+  EXPECT_NE(content(folder_ / "a.svg").find("a\xef\xbf\xbd&amp;\xc3\xa4\xef\xbf\xbd"), std::string::npos);
 }
 
 TEST_F(Tool, DistanceAnswersInTheFrameOfA) {
@@ -191,6 +201,10 @@ TEST_F(Tool, RefusesBadPosesInOneLine) {
   write(folder_ / "words", "one two three\n");
   write(folder_ / "far", "1 0 0 1e46\n0 1 0 0\n0 0 1 0\n");
   write(folder_ / "tiny", "1 0 0 1e-400\n0 1 0 0\n0 0 1 0\n");
+  write(folder_ / "empty", "");
+  write(folder_ / "locked", "1 0 0 0\n0 1 0 0\n0 0 1 0\n");
+  std::filesystem::permissions(folder_ / "locked", std::filesystem::perms::none);
+  std::filesystem::create_directory(folder_ / "folder");
   before_ = names();
   const auto bad = [&](const std::string& pose, const std::string& why) {
     refuses("distance a.swl a.swl --pose " + pose, why, 2);
@@ -213,6 +227,9 @@ TEST_F(Tool, RefusesBadPosesInOneLine) {
   bad("0,1e-400,0", "1e-400, which is beyond the range of doubles");
   bad("0,1e400,0", "1e400, which is beyond the range of doubles");
   bad("tiny", "1e-400, which is beyond the range of doubles");
+  bad("empty", "empty: is empty");
+  refuses("distance a.swl a.swl --pose folder", "swiftlet: folder: is no regular file", 1);
+  if (geteuid() != 0) refuses("distance a.swl a.swl --pose locked", "swiftlet: locked: Permission denied", 1);
 }
 
 TEST_F(Tool, RefusesWhatIsWrongInOneLine) {
@@ -436,6 +453,7 @@ TEST_F(Tool, ErrorsAreJsonWhereJsonIsAsked) {
   }
   fails("distance a.swl a.swl --pose 1,2", 2, "BadValue", nullptr);
   fails("distance a.swl a.swl --pose 1,2,3 --max-error -1", 2, "BadValue", nullptr);
+  fails("distance a.swl a.swl --pose .", 1, "CannotRead", ".");
   fails("export a.swl --level 7 -o b.off", 2, "BadValue", nullptr);
   if (!kBuilds) {
     fails("build cube.off -o b.swl", 2, "BadValue", nullptr);

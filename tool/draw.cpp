@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "body/half_edge.h"
@@ -123,9 +124,12 @@ struct Placement {
 
 std::string at(const Point2& p) { return format("%.2f %.2f", p.x, p.y); }
 
+/// As XML has it. Bytes that are no UTF-8 become U+FFFD, as in JSON.
 std::string escaped(const std::string& text) {
+  using nlohmann::json;
+  const std::string valid = json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
   std::string result;
-  for (char c : text) {
+  for (char c : valid) {
     if (c == '&')
       result += "&amp;";
     else if (c == '<')

@@ -8,8 +8,6 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -111,9 +109,10 @@ Result<Pose> typed_pose(const std::string& text, const std::vector<double>& valu
 }
 
 Result<Pose> filed_pose(const std::string& path) {
-  std::ifstream file(path_of(path), std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
-  const Numbers read = read_numbers(content);
+  const Result<OwnedBytes> file = map_file(path_of(path));
+  if (!file) return file.error();
+  const auto& [owner, bytes] = file.value();
+  const Numbers read = read_numbers({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   const std::vector<double>& values = read.values;
   if (!read.only_numbers)
     return bad_pose(path, "holds \"" + read.word + "\" in line " + std::to_string(read.line) + ", which is no number");
@@ -134,7 +133,10 @@ Result<Pose> read_pose(const std::string& text) {
   std::error_code ignored;
   if (const Numbers read = read_numbers(text); read.only_numbers && !read.values.empty())
     return read.beyond.empty() ? typed_pose(text, read.values) : beyond_range(text, read);
-  if (std::filesystem::is_regular_file(path_of(text), ignored)) return filed_pose(text);
+  const std::filesystem::path path = path_of(text);
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_regular_file(status)) return filed_pose(text);
+  if (std::filesystem::exists(status)) return named(path, {ErrorCode::CannotRead, "is no regular file"});
   return bad_pose("\"" + text + "\"", "is neither x,y,z nor x,y,z,qw,qx,qy,qz nor a file");
 }
 

@@ -11,8 +11,8 @@
 namespace swiftlet::tool {
 
 /// "x,y,z", or "x,y,z,qw,qx,qy,qz" with a quaternion of any length but 0, or the path of a file that holds the row-major 3x4
-/// [R t], taken as it stands. Errors: neither of these; a number that is not finite; an R that is no rotation to
-/// 1e-6; a t beyond 1e45.
+/// [R t], taken as it stands. Errors: CannotRead of a file; BadFormat of an empty one; BadValue of a text that is neither of
+/// these, a number that is not finite, an R that is no rotation to 1e-6, and a t beyond 1e45.
 Result<Pose> read_pose(const std::string& text);
 
 }  // namespace swiftlet::tool

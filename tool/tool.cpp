@@ -165,7 +165,7 @@ Action declare_draw(CLI::App& word, const ModelOfMesh& model_of_mesh) {
 Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   struct Request {
     std::string a, b;
-    Pose b_in_a;
+    Result<Pose> b_in_a = Pose{};
     Asked asked;
   };
   const auto request = std::make_shared<Request>();
@@ -186,9 +186,9 @@ Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   word.add_option("A", request->a, kBodyHelp)->required();
   word.add_option("B", request->b, kBodyHelp)->required();
   const auto take_pose = [request](const std::string& text) {
-    const Result<Pose> pose = read_pose(text);
-    if (!pose) throw CLI::ValidationError("--pose", pose.error().message);
-    request->b_in_a = pose.value();
+    request->b_in_a = read_pose(text);
+    if (!request->b_in_a && request->b_in_a.error().code != ErrorCode::CannotRead)
+      throw CLI::ValidationError("--pose", request->b_in_a.error().message);
   };
   word.add_option_function<std::string>("--pose", take_pose, "of B in A's frame, see below")->required();
   const auto absolute =
@@ -212,6 +212,7 @@ Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   for (CLI::Option* const other : {absolute, relative, beyond, levels, is_signed}) reach->excludes(other);
   word.add_flag("--manifold", request->asked.manifolds, "of each region the few points that stand for it")->needs(reach);
   return [request, model_of_mesh]() -> Result<Output> {
+    if (!request->b_in_a) return request->b_in_a.error();
     const Result<LoadedBody> a = open(request->a, model_of_mesh);
     if (!a) return a.error();
     const Result<LoadedBody> b = open(request->b, model_of_mesh);
@@ -220,7 +221,7 @@ Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
       if (request->asked.levels && std::holds_alternative<LoadedMesh>(body)) no_levels("--levels", path_of_body(body));
     }
     const auto answer = request->asked.reach ? contacts : distance;
-    return answer(a.value(), b.value(), request->b_in_a, request->asked);
+    return answer(a.value(), b.value(), request->b_in_a.value(), request->asked);
   };
 }
 

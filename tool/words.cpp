@@ -372,9 +372,9 @@ Result<Output> cut(const std::string& path, const std::string& to, const Detail&
 Result<Output> draw_file(const LoadedModel& body, const std::filesystem::path& path) {
   const Result<std::size_t> bytes = write_file(path, draw(body.model, stem(body.path)));
   if (!bytes) return bytes.error();
-  return Output{
-      utf8(path) + ": " + counted(std::size_t(body.model.level_count()), "level") + format(", %zu bytes\n", bytes.value()),
-      dump({{"path", utf8(path)}, {"levels", body.model.level_count()}, {"bytes", bytes.value()}})};
+  const int levels = body.model.level_count() - body.model.finest_level();  // that are there
+  return Output{utf8(path) + ": " + counted(std::size_t(levels), "level") + format(", %zu bytes\n", bytes.value()),
+                dump({{"path", utf8(path)}, {"levels", levels}, {"bytes", bytes.value()}})};
 }
 
 }  // namespace swiftlet::tool
