@@ -10,6 +10,7 @@
 #include <ctime>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <tuple>
 #include <vector>
 
@@ -257,6 +258,10 @@ TEST(MeshGeometry, HonourFclsErrors) {
   }
   EXPECT_GT(apart, 30);
   EXPECT_GT(looser, 30) << "nothing was left undone";
+}
+
+TEST(MeshGeometry, RefuseAMeshThatWasCut) {
+  EXPECT_THROW(fcl::Mesh<::fcl::OBBRSSd>(soups::torus(64, 32).mesh().cut({.deviation = 10})), std::invalid_argument);
 }
 
 TEST(MeshGeometry, OfFclsOwnAreTheSameTriangles) {

@@ -3,6 +3,7 @@
 #include <swiftlet/fcl_mesh.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include <swiftlet/mesh_contacts.h>
 #include <swiftlet/world.h>
@@ -44,6 +45,10 @@ MeshMeeting in_world(const PlacedMesh& a, const PlacedMesh& b, const Setting& at
 }
 
 }  // namespace
+
+MeshHolder::MeshHolder(const MeshModel& mesh) : mesh_(mesh) {
+  if (!mesh.is_whole()) throw std::invalid_argument("the mesh was cut: it has no triangles");
+}
 
 std::vector<std::array<std::uint32_t, 3>> triangles_in_users_order(const MeshModel& mesh) {
   std::vector<std::array<std::uint32_t, 3>> triangles(mesh.triangle_count());

@@ -23,8 +23,8 @@ class MeshHolder {
   const MeshModel& mesh() const { return mesh_; }  ///< in double precision, as given
 
  protected:
-  /// Shares the mesh's block.
-  explicit MeshHolder(const MeshModel& mesh) : mesh_(mesh) {}
+  /// Shares the mesh's block. Throws std::invalid_argument where the mesh was cut: it has no triangles.
+  explicit MeshHolder(const MeshModel& mesh);
   ~MeshHolder() = default;
 
  private:
@@ -39,7 +39,7 @@ std::vector<std::array<std::uint32_t, 3>> triangles_in_users_order(const MeshMod
 template <class BV>
 class Mesh final : public ::fcl::BVHModel<BV>, public MeshHolder {
  public:
-  /// Shares the mesh's block, and builds FCL's tree.
+  /// Shares the mesh's block, and builds FCL's tree. Throws std::invalid_argument where the mesh was cut: it has no triangles.
   explicit Mesh(const MeshModel& mesh) : MeshHolder(mesh) {
     using Scalar = typename BV::S;
     std::vector<::fcl::Vector3<Scalar>> points;
