@@ -15,14 +15,14 @@ namespace {
 struct Setting {
   Setting(const PlacedMesh& a, const PlacedMesh& b)
       : a_in_world(orthonormal(a.in_world)), b_in_a(relative(a_in_world, orthonormal(b.in_world))) {}
-  /// All regions where the surfaces touch or cross.
-  std::vector<MeshContact> regions(const PlacedMesh& a, const PlacedMesh& b) const {
+  /// All regions where the surfaces cross, or touch: are no farther apart than `touching`.
+  std::vector<MeshContact> regions(const PlacedMesh& a, const PlacedMesh& b, double touching) const {
     std::vector<MeshContact> found(16);
     MeshContacts told;
-    while ((told = contacts(a.body, b.body, b_in_a, 0, found)).status == Status::Budget)
+    while ((told = contacts(a.body, b.body, b_in_a, touching, found)).status == Status::Budget)
       found.resize(std::max<std::size_t>(2 * found.size(), told.count));
     found.resize(told.stored);
-    std::erase_if(found, [](const MeshContact& region) { return region.verdict == Verdict::Disjoint; });
+    std::erase_if(found, [touching](const MeshContact& region) { return region.lower > touching; });
     return found;
   }
   Vec3 in_world(const Vec3& p_a) const { return a_in_world.rotation * p_a + a_in_world.translation; }
@@ -40,6 +40,7 @@ MeshMeeting in_world(const PlacedMesh& a, const PlacedMesh& b, const Setting& at
           answer.lower,
           users_triangle(a.body, seed.triangle_a),
           users_triangle(b.body, seed.triangle_b),
+          answer.normal.hasNaN() ? Vec3(Vec3::Zero()) : Vec3(at.a_in_world.rotation * answer.normal),
           at.in_world(answer.point_a),
           at.in_world(answer.point_b)};
 }
@@ -60,7 +61,7 @@ std::vector<MeshTouch> touches_of(const PlacedMesh& a, const PlacedMesh& b) {
   const Setting at(a, b);
   const double touching = tolerance(a.body, b.body, at.b_in_a);
   std::vector<MeshTouch> touches;
-  for (const MeshContact& region : at.regions(a, b)) {
+  for (const MeshContact& region : at.regions(a, b, touching)) {
     MeshTouch touch{users_triangle(a.body, region.triangle_a), users_triangle(b.body, region.triangle_b)};
     const Manifold points = manifold(a.body, b.body, at.b_in_a, region, {.margin = touching});
     touch.normal = at.a_in_world.rotation * points.normal;

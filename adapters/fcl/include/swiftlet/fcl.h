@@ -351,7 +351,10 @@ struct MeshFunctions {
       result.addContact(
           {&o1, &o2, t.triangle_a, t.triangle_b, t.point.template cast<S>(), t.normal.template cast<S>(), S(t.depth)});
     }
-    if (touches.empty()) result.addContact({&o1, &o2, found.triangle_a, found.triangle_b});
+    if (!touches.empty()) return;
+    const Vec3 between = (found.point_a + found.point_b) / 2;
+    result.addContact(
+        {&o1, &o2, found.triangle_a, found.triangle_b, between.template cast<S>(), found.normal.template cast<S>(), S(0)});
   }
   static void hand_out(const MeshMeeting& found, const Geometry& o1, const Geometry& o2,
                        const ::fcl::DistanceRequest<S>& request, ::fcl::DistanceResult<S>& result) {
