@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <random>
 #include <set>
@@ -228,6 +229,46 @@ TEST(Flat, HoldsAFaceByItsCorners) {
       EXPECT_NEAR(contact.normal[2], -1, 1e-12);
     }
   }
+}
+
+/// A component of the normal may be smaller than any coordinate of a body.
+TEST(Flat, MayLeanHoweverLittle) {
+  const fcl::Convex<double> cube(bodies::model(bodies::cube()));
+  const fcl::Solver<double> solver;
+  for (const double lean : {1e-60, 1e-80, 1e-300}) {
+    for (const Vec3& normal : {Vec3(lean, 0, 1), Vec3(0, lean, 1), Vec3(-lean, lean, 1)}) {
+      const ::fcl::Halfspaced ground(normal, 0);
+      const ::fcl::Planed plane(normal, 0);
+      for (const Geometry<double>* const flat :
+           {static_cast<const Geometry<double>*>(&ground), static_cast<const Geometry<double>*>(&plane)}) {
+        EXPECT_EQ(measure<double>(cube, at<double>(0, 0, 1.5), *flat, at<double>(0, 0, 0), solver).min_distance, 0.5);
+        EXPECT_EQ(collide<double>(cube, at<double>(0, 0, 0.75), *flat, at<double>(0, 0, 0), solver).numContacts(), 4u);
+      }
+    }
+  }
+}
+
+/// FCL's solvers would end the program.
+TEST(Flat, HasNoDistanceInAPoseThatIsNone) {
+  const fcl::Convex<double> cube(bodies::model(bodies::cube()));
+  const ::fcl::Convexd& plain = cube;
+  const ::fcl::Halfspaced ground(Vec3(0, 0, 1), 0);
+  const ::fcl::Planed plane(Vec3(0, 0, 1), 0);
+  const fcl::Solver<double> solver;
+  const Transform<double> nowhere = at<double>(0, 0, std::numeric_limits<double>::quiet_NaN());
+  const auto expect_none = [&](const auto& flat) {
+    for (const bool is_signed : {false, true}) {
+      const auto result = measure<double>(cube, nowhere, flat, at<double>(0, 0, 0), solver, is_signed);
+      EXPECT_EQ(result.min_distance, ::fcl::DistanceResultd().min_distance);
+      EXPECT_EQ(result.o1, nullptr);
+    }
+    double distance = 0;
+    Vec3 p = Vec3::Zero(), q = Vec3::Zero();
+    EXPECT_FALSE(solver.shapeDistance(flat, at<double>(0, 0, 0), plain, nowhere, &distance, &p, &q));
+    EXPECT_TRUE(std::isnan(distance) && p.hasNaN() && q.hasNaN());
+  };
+  expect_none(ground);
+  expect_none(plane);
 }
 
 // ---- Triangles -------------------------------------------------------------------------------------------------------------

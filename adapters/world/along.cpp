@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <Eigen/Geometry>
+
+#include "numeric/tolerance.h"
 
 namespace swiftlet {
 
@@ -15,6 +18,10 @@ Pose orthonormal(const Pose& pose) {
 }
 
 Vec3 transform(const Pose& pose, const Vec3& p) { return pose.rotation * p + pose.translation; }
+
+Vec3 legal(const Vec3& p) {
+  return p.unaryExpr([](double x) { return std::abs(x) < kLeastCoordinate ? 0 : x; });
+}
 
 void into_world(const Pose& a_in_world, Manifold& manifold) {
   manifold.normal = a_in_world.rotation * manifold.normal;

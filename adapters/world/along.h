@@ -7,6 +7,9 @@
 
 namespace swiftlet {
 
+/// The point with coordinates that no body may have put to 0.
+Vec3 legal(const Vec3& p);
+
 /// Takes a manifold of A's frame into the world's.
 void into_world(const Pose& a_in_world, Manifold& manifold);
 

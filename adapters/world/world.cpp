@@ -73,7 +73,7 @@ Placed part_below(const Placed& a, const HalfSpace& b) {
   const Model& model = *a.body.model();
   const Vec3 centre = transform(a.in_world, model.centre()), foot = centre - b.normal * (b.normal.dot(centre) - b.offset);
   const Vec3 side = b.normal.unitOrthogonal() * model.radius(), other = b.normal.cross(side);
-  return {Body::triangle(4 * side, 4 * other - 4 * side, -4 * other - 4 * side), {Mat3::Identity(), foot}};
+  return {Body::triangle(legal(4 * side), legal(4 * other - 4 * side), legal(-4 * other - 4 * side)), {Mat3::Identity(), foot}};
 }
 
 Pair pair_of(const Placed& a, const Placed& part, double beyond) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <type_traits>
@@ -182,6 +183,7 @@ struct ShapeSolver {
     if constexpr (may_be_ours<Shape1, Shape2>) {
       const Nearest near = nearest(operand(s1, tf1), operand(s2, tf2), seed);
       if (near.found != Found::Nothing) return is_apart(near, distance, p1, p2);
+      if (is_flat<Shape1, Shape2>) return nothing(distance, p1, p2);
     }
     return others.shapeDistance(s1, tf1, s2, tf2, distance, p1, p2);
   }
@@ -192,6 +194,7 @@ struct ShapeSolver {
     if constexpr (may_be_ours<Shape1, Shape2>) {
       const Nearest near = nearest(operand(s1, tf1), operand(s2, tf2), seed);
       if (near.found != Found::Nothing) return hand_out(near, distance, p1, p2), near.verdict != Verdict::Overlapping;
+      if (is_flat<Shape1, Shape2>) return nothing(distance, p1, p2);
     }
     return others.shapeSignedDistance(s1, tf1, s2, tf2, distance, p1, p2);
   }
@@ -244,6 +247,10 @@ struct ShapeSolver {
   /// Whether one of them can hold a model.
   template <class... Shapes>
   static constexpr bool may_be_ours = (std::is_same_v<Shapes, ::fcl::Convex<S>> || ...);
+  /// Whether one of them is flat: FCL's solvers have no distance to it, and end the program where they are asked.
+  template <class... Shapes>
+  static constexpr bool is_flat = ((std::is_same_v<Shapes, ::fcl::Halfspace<S>> || std::is_same_v<Shapes, ::fcl::Plane<S>>) ||
+                                   ...);
 
   /// Whether they share a point, and where; nothing where the kernel does not answer.
   std::optional<bool> meets(const Operand& a, const Operand& b, Point* contact, S* depth, Point* normal) const {
@@ -262,6 +269,13 @@ struct ShapeSolver {
     if (distance) *distance = S(near.distance);
     if (p1) *p1 = near.point_a.template cast<S>();
     if (p2) *p2 = near.point_b.template cast<S>();
+  }
+  /// A distance that nobody knows: NaN, which FCL's results do not take.
+  static bool nothing(S* distance, Point* p1, Point* p2) {
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    const Vec3 nowhere = Vec3::Constant(kUnknown);
+    hand_out({.distance = kUnknown, .point_a = nowhere, .point_b = nowhere}, distance, p1, p2);
+    return false;
   }
   static bool is_apart(const Nearest& near, S* distance, Point* p1, Point* p2) {
     hand_out(near, distance, p1, p2);
