@@ -30,6 +30,7 @@
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
 #include <BulletCollision/Gimpact/btGImpactShape.h>
 #include <Eigen/Geometry>
+#include <swiftlet/triangles.h>
 
 #include "bodies.h"
 #include "brute_force.h"
@@ -717,6 +718,36 @@ TEST(Triangles, PassAScaledHullOnToBullet) {
   EXPECT_NEAR(deepest(), -0.01, 1e-5);
   w.world.removeCollisionObject(&a), w.world.removeCollisionObject(&b);
   EXPECT_EQ(w.dispatcher.getNumManifolds(), 0);
+}
+
+/// A margin of the mesh's that is no radius makes the pair Bullet's.
+TEST(Triangles, WithAMarginBelow0AreBullets) {
+  World w, bullets(false);
+  const auto floor = terrain(6, 3, flat);
+  HullShape hull(bodies::model(bodies::box(0.5, 0.5, 0.5)));
+  const auto deepest = [&](World& in) {
+    btScalar least = 1;
+    for (const Point& p : closest_points(in, hull, at(0.1, 0.2, 0.4), *floor->shape, at(0, 0, 0), 0, false))
+      least = std::min(least, p.distance);
+    return least;
+  };
+  for (const double margin : {0., 0.04}) {
+    floor->shape->setMargin(btScalar(margin));
+    EXPECT_NEAR(deepest(w), -0.1 - hull.getMargin() - margin, 1e-5);
+  }
+  floor->shape->setMargin(btScalar(-0.01));
+  EXPECT_LT(deepest(w), 0);
+  EXPECT_EQ(deepest(w), deepest(bullets));
+}
+
+/// Engines have corners as near to 0 as rounding leaves them.
+TEST(Triangles, HaveCornersHoweverNearTo0) {
+  const Model cube = bodies::model(bodies::box(0.5, 0.5, 0.5));
+  for (const double tiny : {0., 1e-60, 1e-80, -1e-300}) {
+    TrianglePair pair;
+    pair.add(0, {-4, -4, tiny}, {4, -4, 0}, {0, 4, tiny});
+    EXPECT_EQ(pair.contacts({Body(cube), Pose{Mat3::Identity(), {0, 0, 0.4}}}, Pose{}, 0, Vec3::Zero(), 0).size(), 4u) << tiny;
+  }
 }
 
 /// Around the border of a sheet, a body may come to its other side.

@@ -108,12 +108,13 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
     Others others;  ///< where the pair is not ours
   };
 
-  /// Whether the body still is what it was, and both poses are rigid motions.
+  /// Whether the body still is what it was, both poses are rigid motions, and the margin of Bullet's triangles is a radius.
   bool is_ours(const btCollisionObjectWrapper& body, const btCollisionObjectWrapper& surface) const {
     const Role role = role_of(*surface.getCollisionShape());
     if (role != Role::Mesh && !(role == Role::Triangles && state_->solid.role() == Role::Hull)) return false;
     if (!state_->solid.is_current(*body.getCollisionShape())) return false;
-    const Placed point{Body::point(Vec3::Zero()), pose_of(surface.getWorldTransform())};
+    const double radius = role == Role::Triangles ? surface.getCollisionShape()->getMargin() : 0;
+    const Placed point{Body::point(Vec3::Zero(), radius), pose_of(surface.getWorldTransform())};
     return !std::isnan(tolerance(state_->solid.placed(body), point));
   }
 

@@ -126,7 +126,7 @@ void TrianglePair::clear() {
 }
 
 void TrianglePair::add(std::uint64_t name, const Vec3& p, const Vec3& q, const Vec3& r) {
-  surface_.add(p, q, r);
+  surface_.add(legal(p), legal(q), legal(r));
   now_.push_back({name, {}, Side::Front});
 }
 
