@@ -30,6 +30,7 @@
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
 #include <BulletCollision/Gimpact/btGImpactShape.h>
 #include <Eigen/Geometry>
+
 #include <swiftlet/triangles.h>
 
 #include "bodies.h"
@@ -320,6 +321,24 @@ TEST(Planes, AreAnsweredByTheLowestVertex) {
     EXPECT_NEAR(vec3(forth[0].normal_on_b).dot(up), 1, kRounding * 2);
     expect_near(forth[0].on_a - forth[0].on_b, forth[0].normal_on_b * forth[0].distance, kRounding * 4);
     expect_mirrored(forth[0], back[0]);
+  }
+}
+
+TEST(Planes, HoldASinglePoint) {
+  World w;
+  const Vec3 place(0, 0, 0);
+  LevelArrays arrays;
+  arrays.vertices = {&place, 1};
+  HullShape point(Model::from_level(arrays).value());
+  btStaticPlaneShape plane(btVector3(0, 0, 1), 0);
+  for (const double margin : {0.04, 0.}) {
+    point.setMargin(btScalar(margin));
+    EXPECT_TRUE(closest_points(w, point, at(3, 2, 10), plane, at(0, 0, 0)).empty());
+    const auto touching = closest_points(w, point, at(3, 2, -0.5), plane, at(0, 0, 0));
+    ASSERT_EQ(touching.size(), 1u);
+    EXPECT_NEAR(touching[0].distance, -0.5 - margin, kRounding);
+    expect_near(touching[0].normal_on_b, btVector3(0, 0, 1), kRounding);
+    expect_near(touching[0].on_b, btVector3(3, 2, 0), kRounding * 4);
   }
 }
 

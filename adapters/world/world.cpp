@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <swiftlet/world.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <Eigen/Geometry>
@@ -9,6 +10,7 @@
 #include <swiftlet/depth.h>
 
 #include "along.h"
+#include "numeric/tolerance.h"
 
 namespace swiftlet {
 namespace {
@@ -68,11 +70,12 @@ Found contacts(const Placed& a, const Body& b, const Pair& pair, double beyond, 
   return pair.found;
 }
 
-/// A triangle in the half-space's plane, below a model and larger.
+/// A triangle in the half-space's plane, below a model and larger, also than one of a single point.
 Placed part_below(const Placed& a, const HalfSpace& b) {
   const Model& model = *a.body.model();
   const Vec3 centre = transform(a.in_world, model.centre()), foot = centre - b.normal * (b.normal.dot(centre) - b.offset);
-  const Vec3 side = b.normal.unitOrthogonal() * model.radius(), other = b.normal.cross(side);
+  const double size = std::max({model.radius(), a.body.radius(), kLeastExtent});
+  const Vec3 side = b.normal.unitOrthogonal() * size, other = b.normal.cross(side);
   return {Body::triangle(legal(4 * side), legal(4 * other - 4 * side), legal(-4 * other - 4 * side)), {Mat3::Identity(), foot}};
 }
 
