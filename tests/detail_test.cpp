@@ -341,7 +341,7 @@ TEST_F(DetailTest, ProcessesThatMapOneFileGiveTheSameAnswers) {
 
 TEST_F(DetailTest, WhatCannotBeMappedIsAnError) {
   EXPECT_EQ(map(path("missing.swl")).error().code, ErrorCode::CannotRead);
-  EXPECT_EQ(map(write_file("empty.swl", {})).error().code, ErrorCode::CannotRead);
+  EXPECT_EQ(map(write_file("empty.swl", {})).error().code, ErrorCode::BadFormat);
   EXPECT_EQ(map(path("")).error().code, ErrorCode::CannotRead);  // a directory
   const Bytes whole = bytes_of(nested(2));
   EXPECT_EQ(map(write_file("cut.swl", std::span(whole).first(whole.size() - 1))).error().code, ErrorCode::BadFormat);
