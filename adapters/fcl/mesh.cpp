@@ -40,7 +40,6 @@ MeshMeeting in_world(const PlacedMesh& a, const PlacedMesh& b, const Setting& at
           answer.lower,
           users_triangle(a.body, seed.triangle_a),
           users_triangle(b.body, seed.triangle_b),
-          answer.normal.hasNaN() ? Vec3(Vec3::Zero()) : Vec3(at.a_in_world.rotation * answer.normal),
           at.in_world(answer.point_a),
           at.in_world(answer.point_b)};
 }

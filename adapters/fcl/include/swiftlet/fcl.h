@@ -367,8 +367,8 @@ struct MeshFunctions {
     }
     if (!touches.empty()) return;
     const Vec3 between = (found.point_a + found.point_b) / 2;
-    result.addContact(
-        {&o1, &o2, found.triangle_a, found.triangle_b, between.template cast<S>(), found.normal.template cast<S>(), S(0)});
+    const ::fcl::Vector3<S> unknown = ::fcl::Vector3<S>::Zero();
+    result.addContact({&o1, &o2, found.triangle_a, found.triangle_b, between.template cast<S>(), unknown, S(0)});
   }
   static void hand_out(const MeshMeeting& found, const Geometry& o1, const Geometry& o2,
                        const ::fcl::DistanceRequest<S>& request, ::fcl::DistanceResult<S>& result) {

@@ -78,7 +78,6 @@ struct MeshMeeting {
   Verdict verdict = Verdict::Undecided;                 ///< of the bodies
   double distance = 0;                                  ///< the certified lower bound
   int triangle_a = -1, triangle_b = -1;                 ///< the user's triangles where they are nearest; -1 of a convex body
-  Vec3 normal = Vec3::Zero();                           ///< unit, from 1 to 2; 0 where it is not known, as of a crossing
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< where they are nearest, or of a crossing
   /// Whether the kernel answers.
   bool is_known() const {
