@@ -440,7 +440,7 @@ void list_contacts(const KeptPair& pair, const MeshPairQuery& q, const Answer& a
     return region.verdict == Verdict::Overlapping || region.verdict == Verdict::Touching;
   };
   const bool is_inside =
-      options.margin >= 0 && answer.verdict == Verdict::Overlapping && std::none_of(stored.begin(), stored.end(), meet);
+      !(options.margin < 0) && answer.verdict == Verdict::Overlapping && std::none_of(stored.begin(), stored.end(), meet);
   if (is_inside || stored.empty()) {
     found.push_back({{pair.a, pair.b, is_inside ? signed_distance(q.a, q.b, q.b_in_a, *q.seed) : answer}, {}});
     return;

@@ -241,9 +241,11 @@ class _Checkpoint:
         self.done = done
         return whole
 
-    def save(self, whole: Optional[list[Partial]], is_done: NDArray[np.bool_]) -> None:
+    def save(self, whole: Optional[list[Partial]], last: Optional[int]) -> None:
         if whole is None:
             return  # nothing is done
+        if last is not None:
+            self.done[last] = True
         parts = {f"part_{r}_{i}": array for r, partial in enumerate(whole) for i, array in enumerate(partial)}
         widths = np.array([len(partial) for partial in whole])
         folder = os.path.dirname(os.path.abspath(self.path))
@@ -251,7 +253,7 @@ class _Checkpoint:
         try:
             with tempfile.NamedTemporaryFile(dir=folder, prefix=os.path.basename(self.path), delete=False) as file:
                 beside = file.name
-                np.savez(file, sweep=np.array(self.digest), done=np.packbits(is_done), widths=widths, **parts)
+                np.savez(file, sweep=np.array(self.digest), done=np.packbits(self.done), widths=widths, **parts)
                 file.flush()
                 os.fsync(file.fileno())
             os.replace(beside, self.path)
@@ -448,30 +450,29 @@ def sweep(
     kept = None if checkpoint is None else _Checkpoint(checkpoint, job.digest(chunk), chunks)
     if kept:
         whole = kept.load()
-    is_done = np.zeros(chunks, bool) if kept is None else kept.done
     report = _Bar() if progress is True else progress
-    undone = np.flatnonzero(~is_done).tolist()
+    undone = range(chunks) if kept is None else np.flatnonzero(~kept.done).tolist()
     ranges = ((i, i * chunk, min(chunk, job.count - i * chunk)) for i in undone)
     done = job.count - sum(min(chunk, job.count - i * chunk) for i in undone)
     parts = _on_threads(job, ranges, threads) if client is None else _on_cluster(job, ranges, client)
     saved = time.monotonic()
-    state = whole, is_done
+    latest: tuple[Optional[list[Partial]], Optional[int]] = whole, None  # what the chunks gave, and which of them came last
     try:
         for i, partial in parts:
-            merged = partial if state[0] is None else job.merged(state[0], partial)
-            is_done = state[1].copy()
-            is_done[i] = True
-            state = merged, is_done  # one store: whatever a signal ends, no chunk is counted twice
+            merged = partial if latest[0] is None else job.merged(latest[0], partial)
+            latest = merged, i  # one store: wherever a signal comes, no chunk is counted twice
             done += min(chunk, job.count - i * chunk)
-            if kept and time.monotonic() - saved > every:
-                kept.save(*state)
-                saved = time.monotonic()
+            if kept:
+                kept.done[i] = True
+                if time.monotonic() - saved > every:
+                    kept.save(*latest)
+                    saved = time.monotonic()
             if report and report(done, job.count) is False:
                 raise Cancelled("the progress callback asked to stop", ErrorCode.CANCELLED)
     finally:
         parts.close()
         if kept:
-            kept.save(*state)
-    assert state[0] is not None
-    results = tuple(reduction.result(part) for reduction, part in zip(reductions, state[0]))
+            kept.save(*latest)
+    assert latest[0] is not None
+    results = tuple(reduction.result(part) for reduction, part in zip(reductions, latest[0]))
     return results if isinstance(reduce, tuple) else results[0]

@@ -16,8 +16,8 @@
 namespace swiftlet {
 
 /// A region where two surfaces are within reach of each other, and its nearest pair of triangles; of solids too it is of their
-/// surfaces, and none tells that one body is inside the other. Numbers that mean nothing are
-/// NaN, features that mean nothing `FeatureId{}`.
+/// surfaces, and none tells that one body is inside the other. Numbers that mean nothing are NaN, features that mean nothing
+/// `FeatureId{}`.
 struct MeshContact {
   double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved bounds on the bodies' distance in the region
   Verdict verdict = Verdict::Undecided;  ///< Overlapping where two of its triangles cross, by exact signs, or the radii overlap
