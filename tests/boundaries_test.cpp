@@ -3,6 +3,8 @@
 // What callers may pass, and what a query may go on from: refused poses, errors that are no numbers, answers of other queries.
 #include <gtest/gtest.h>
 
+#include "bodies.h"
+
 #include <limits>
 #include <string>
 
@@ -93,6 +95,63 @@ TEST(Boundaries, CheckAcceptsLooseAnswersOfAMeshAndAConvexBody) {
   EXPECT_GT(without, 5);
 }
 
+TEST(Boundaries, AnOverlapIsBeyondNothingThatItsDepthIsNot) {
+  const Model cube = bodies::model(bodies::cube()), nested = bodies::nested(3);
+  int overlaps = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Pose pose{bodies::rotation(1 + i % 7, i % 5, i % 11, i % 13 - 6), Vec3(i % 17 - 8, i % 23 - 11, i % 29 - 14) * 0.1};
+    for (const Body& body : {Body(cube), Body(nested), Body::box({-1, -1, -1}, {1, 1, 1}), Body(cube, 0.25)}) {
+      for (const double beyond : {-0.3, -2.0}) {
+        const Answer answer = signed_distance(body, cube, pose, {.beyond = beyond});
+        EXPECT_TRUE(answer.status != Status::Beyond || answer.lower > beyond) << i << ", " << answer.lower;
+        overlaps += answer.upper < beyond;
+      }
+    }
+  }
+  EXPECT_GE(overlaps, 100);
+}
+
+TEST(Boundaries, RefineToCoarserLevelsKeepsWhatIsProved) {
+  const Model nested = bodies::nested(3);
+  Options finer, coarser;
+  finer.budget.finest_level = 1, coarser.budget.finest_level = 2;
+  int wide = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Pose pose{bodies::rotation(1 + i % 7, i % 5, i % 11, i % 13 - 6), Vec3(i % 17 - 8, i % 23 - 11, i % 29 - 14) * 0.3};
+    const Answer before = distance(nested, nested, pose, finer), after = refine(nested, nested, pose, before, coarser);
+    const double law_two = tolerance(nested, nested, pose);
+    EXPECT_LE(after.upper - after.lower, before.upper - before.lower + law_two) << i;
+    EXPECT_GE(after.lower, before.lower - law_two) << i;
+    EXPECT_EQ(check(nested, nested, pose, after).message, "") << i;
+    wide += before.lower > 0 && before.level_a < 2;
+  }
+  EXPECT_GE(wide, 100);
+}
+
+TEST(Boundaries, ARadiusBelowLawTwoMakesNoTouchOfADeepOverlap) {
+  const Model cube = bodies::model(bodies::cube());
+  int deep = 0;
+  for (int i = 0; i < 13 * 13 * 13; ++i) {
+    const Pose pose = shift((i % 13 - 6) / 4., (i / 13 % 13 - 6) / 4., (i / 169 - 6) / 4.);
+    const Vec3 overlap = Vec3(2, 2, 2) - pose.translation.cwiseAbs();  // of cubes from -1 to 1
+    for (const double radius : {1e-15, 1e-18}) {
+      const Body rounded(cube, radius);
+      Effort spent;
+      for (const std::uint32_t steps : {0u, 2u}) {
+        spent.budget.steps = steps;
+        for (const Answer& answer :
+             {distance(cube, rounded, pose, {.absolute = 0.1}), distance(cube, rounded, pose, {.budget = {steps, 0}}),
+              intersects(cube, rounded, pose, spent)}) {
+          if (overlap.minCoeff() < 0.01) continue;
+          ++deep;
+          EXPECT_NE(answer.verdict, Verdict::Touching) << pose.translation.transpose() << ", " << radius;
+        }
+      }
+    }
+  }
+  EXPECT_GE(deep, 1000);
+}
+
 TEST(Boundaries, RefineKeepsWhatIsProvedWithoutFeatures) {
   const Body body = round_model();
   const Answer meets = intersects(body, body, shift(0, 0.1, 0.2));
@@ -107,6 +166,29 @@ TEST(Boundaries, RefineKeepsWhatIsProvedWithoutFeatures) {
   const Answer exact = refine(body, body, shift(6, 0, 0), apart);
   EXPECT_LE(exact.upper - exact.lower, 1e-13);
   EXPECT_GE(exact.lower, apart.lower - 1e-13);
+
+  // Found anew, a distance is no wider than the balls said, however little may be spent on it.
+  for (const double radius : {0.0, 0.25}) {
+    const Body rounded(round_model(), radius);
+    const Answer by_balls = distance(rounded, rounded, shift(6, 0, 0), {.absolute = 1});
+    ASSERT_EQ(by_balls.feature_a.kind(), FeatureKind::None);
+    for (const std::uint32_t steps : {0u, 1u, 2u}) {
+      const Answer spent = refine(rounded, rounded, shift(6, 0, 0), by_balls, {.budget = {steps, 0}});
+      EXPECT_LE(spent.upper - spent.lower, by_balls.upper - by_balls.lower + tolerance(rounded, rounded, shift(6, 0, 0)));
+      EXPECT_EQ(check(rounded, rounded, shift(6, 0, 0), spent).message, "") << steps;
+    }
+  }
+  OverlapProof proof;
+  const Model cube = bodies::model(bodies::cube());
+  const Answer deep = intersects(cube, cube, shift(0.5, 0.25, 0.125));
+  ASSERT_EQ(deep.verdict, Verdict::Overlapping);
+  for (const std::uint32_t steps : {0u, 1u, 2u}) {
+    Options asked{.budget = {steps, 0}};
+    asked.tuning.proof = &proof;
+    const Answer again = refine(cube, cube, shift(0.5, 0.25, 0.125), deep, asked);
+    EXPECT_EQ(again.verdict, Verdict::Overlapping);
+    EXPECT_EQ(check(cube, cube, shift(0.5, 0.25, 0.125), again, &proof).message, "");
+  }
 
   const Body thin(round_model(), 0.1), thick(round_model(), 0.2);
   const Pose poses[] = {shift(0, 0.1, 0.2), shift(6, 0, 0)};

@@ -402,7 +402,8 @@ void make_signed(std::span<LevelRecord> trace, int visited) {
   const StopRule of_bodies{allowed_error(options.absolute), allowed_error(options.relative), options.beyond};
   const int visited = deep.levels_visited;
   if (!limits.trace.empty()) limits.trace = limits.trace.last(std::max(1, int(limits.trace.size()) - visited));
-  const StopRule of_hulls = at.radii.of_hulls(of_bodies, at.law_two());
+  StopRule of_hulls = at.radii.of_hulls(of_bodies, at.law_two());
+  of_hulls.above = max(of_hulls.above, 0);  // a distance of 0, which any overlap has, is beyond nothing
   ask_hulls({*at.a, *at.b, at.motion, at.quality.error, limits}, of_hulls, seed, answer, proof);
   make_signed(limits.trace, answer.levels_visited);
   limits.trace = options.tuning.trace;

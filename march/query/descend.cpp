@@ -65,13 +65,16 @@ class Descent {
     finish(place);
   }
 
-  /// Goes on from where another descent ended, as `answer_` says.
+  /// Goes on from where another query ended, as `answer_` says; where that names no features, or such as may not be read, from
+  /// the seed on.
   void go_on(PairSeed& seed, double exact_width) {
-    Place place{std::clamp(int(answer_.level_a), a_.finest_level(), a_.level_count() - 1),
-                std::clamp(int(answer_.level_b), b_.finest_level(), b_.level_count() - 1),
-                {answer_.feature_a, answer_.feature_b}};
+    Place place{answer_.level_a, answer_.level_b, {answer_.feature_a, answer_.feature_b}};
     answer_.steps = answer_.plane_tests = 0;
     answer_.levels_visited = 0;
+    if (!is_warm(place.start) || !may_read(a_, finest_a_, place.level_a) || !may_read(b_, finest_b_, place.level_b)) {
+      Turn turn;
+      return start(first_place(a_, b_, line_, seed, finest_a_, finest_b_, tuning_.start, Warm::Near, turn), seed);
+    }
     place.start = settled(view_at(place), place.start, answer_.plane_tests);
     met_ = met_before(exact_width);
     if (!answered() && met_ == MarchStatus::NotConverged) narrow_down(place);
@@ -82,6 +85,7 @@ class Descent {
  private:
   static bool is_warm(const MarchStart& start) { return start.a.kind() != FeatureKind::None; }
   static bool same_levels(const Place& x, const Place& y) { return x.level_a == y.level_a && x.level_b == y.level_b; }
+  static bool may_read(const Shape& body, int finest, int level) { return level >= finest && level < body.level_count(); }
   bool finest(const Place& place) const { return place.level_a == finest_a_ && place.level_b == finest_b_; }
   PairView view_at(const Place& place) const { return pair_.view_at(place); }
   double deviation(int level_a, int level_b) const { return pair_.deviation(level_a, level_b); }
@@ -193,8 +197,7 @@ class Descent {
   }
   void take_overlap(const PairView& pair, const Place& place, const Vec& normal, const OverlapProof& proof) {
     met_ = MarchStatus::Overlapping;
-    answer_.lower = 0;
-    answer_.upper = kInfinity;
+    if (place.level_a == 0 && place.level_b == 0) answer_.lower = 0;
     const Vec common = surely_common_point(pair, proof);
     carry(place, {0, 0, normal, common, common, proof}, pair.law_two);
   }

@@ -28,11 +28,6 @@ void restate(const Answer& so_far, Status status, Answer& answer) {
   answer.is_signed = false;
 }
 
-/// True if a distance query can go on from `answer`.
-bool tells_distance(const Answer& answer) {
-  return answer.feature_a.kind() != FeatureKind::None && (answer.lower > 0 || !answer.is_signed);
-}
-
 /// Answers `asked` like `ask`, but goes on from `so_far`, if that tells anything of the distance.
 void ask_on(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Limits& limits, const StopRule& asked,
             const Answer& so_far, Answer& answer) {
@@ -43,14 +38,19 @@ void ask_on(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, co
   if (const Status fault = at.fault(); fault != Status::Converged) return refuse(a, b, fault, false, answer);
   if (Radii(so_far) != radii) return refuse(a, b, Status::InvalidRadius, false, answer);
   const bool overlaps = !so_far.is_signed && so_far.verdict == Verdict::Overlapping;
-  if (overlaps && limits.tuning.proof) return ask(a, b, b_in_a, seed, limits, asked, answer);  // the proof is found again
+  const bool tells = (so_far.lower > 0 || !so_far.is_signed) && so_far.status < Status::InvalidPose,
+             has_features = so_far.feature_a.kind() != FeatureKind::None;  // else balls or ellipsoids answered
+  if (overlaps && limits.tuning.proof) {                                   // the proof is found again
+    ask(a, b, b_in_a, seed, limits, asked, answer);
+    if (answer.verdict == Verdict::Overlapping) return;
+    *limits.tuning.proof = {};
+  }
   if (overlaps) return restate(so_far, Status::Converged, answer);
-  if (!tells_distance(so_far)) {
-    // Balls or ellipsoids answered, which name no features.
-    const bool suffices =
-        so_far.status < Status::InvalidPose && (so_far.lower > 0 || !so_far.is_signed) && asked.met(so_far.lower, so_far.upper);
-    if (!suffices) return ask(a, b, b_in_a, seed, limits, asked, answer);
+  if (tells && !has_features && asked.met(so_far.lower, so_far.upper))
     return restate(so_far, so_far.lower > asked.above ? Status::Beyond : Status::Converged, answer);
+  if (!tells || !has_features) {
+    ask(a, b, b_in_a, seed, limits, asked, answer);
+    return tells ? radii.keep_better(so_far, at.law_two(), answer) : void();
   }
   answer = radii.of_hulls(so_far);
   // An answer that is exact for the bodies counts as exact for the hulls, even if rounding with the radii widened it.

@@ -50,10 +50,31 @@ Answer Radii::of_hulls(Answer of) const {
   return of;
 }
 
+void Radii::keep_better(Answer so_far, double rounding, Answer& answer) const {
+  if (answer.status >= Status::InvalidPose || answer.verdict == Verdict::Overlapping) return;
+  const bool lower = so_far.lower > answer.lower + rounding, upper = so_far.upper + rounding < answer.upper;
+  const Radii back(-a_, -b_);
+  back.move_points(so_far), back.move_points(answer);
+  if (lower) {
+    answer.lower = so_far.lower;
+    answer.normal = so_far.normal;
+    answer.verdict = so_far.verdict;
+  }
+  if (upper) {
+    answer.upper = max(so_far.upper, answer.lower);
+    answer.point_a = so_far.point_a, answer.point_b = so_far.point_b;
+    answer.feature_a = so_far.feature_a, answer.feature_b = so_far.feature_b;
+    answer.level_a = so_far.level_a, answer.level_b = so_far.level_b;
+  }
+  move_points(answer);
+}
+
 void Radii::round(Answer& answer, OverlapProof& proof, double law_two) const {
   const double low = lower(answer.lower), high = upper(answer.upper);
   if (answer.verdict != Verdict::Overlapping) {
-    answer.verdict = verdict(low, high, law_two);
+    // A distance of 0 that is not known to be a touch may be of hulls deep in each other.
+    const bool may_overlap = !(answer.lower > 0) && answer.verdict != Verdict::Touching;
+    answer.verdict = verdict(may_overlap ? -kInfinity : low, high, law_two);
     if (!separates(answer, proof)) answer.normal.setZero();
     proof = {};
     move_points(answer);
@@ -96,6 +117,7 @@ double Radii::lower(double of_hulls) const { return less(of_hulls, -kInfinity); 
 double Radii::upper(double of_hulls) const { return less(of_hulls, kInfinity); }
 
 void Radii::move_points(Answer& answer) const {
+  if (answer.normal.hasNaN()) return;  // none is known, and no point has been moved
   answer.point_a = eigen(vec(answer.point_a) + vec(answer.normal) * a_);
   answer.point_b = eigen(vec(answer.point_b) - vec(answer.normal) * b_);
 }

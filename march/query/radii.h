@@ -39,6 +39,10 @@ class Radii {
   /// Turns an answer about the bodies back into one about their hulls, as far as it determines that.
   Answer of_hulls(Answer of) const;
 
+  /// Carries what `so_far`, another answer about the bodies' distance, proves by more than `rounding` better over to `answer`:
+  /// the normal with `lower`; points, features and levels with `upper`.
+  void keep_better(Answer so_far, double rounding, Answer& answer) const;
+
   /// Turns an answer about the hulls' distance into one about the bodies'. Clears `proof` unless the hulls overlap.
   void round(Answer& answer, OverlapProof& proof, double law_two) const;
   /// Turns an answer about the hulls' signed distance into one about the bodies'.
