@@ -512,6 +512,25 @@ TEST(Check, RefusesAForgeryOfAnyMember) {
   EXPECT_GE(deep, 60);
 }
 
+TEST(Check, RefusesAVerdictThatItsBoundsDoNotHave) {
+  const Model cube = bodies::model(bodies::cube());
+  const auto says = [&](const Vec3& t, bool is_signed, Verdict verdict) {
+    const Pose pose{Mat3::Identity(), t};
+    Answer answer = is_signed ? signed_distance(cube, cube, pose) : distance(cube, cube, pose);
+    EXPECT_EQ(check(cube, cube, pose, answer).message, "");
+    answer.verdict = verdict;
+    return check(cube, cube, pose, answer).message;
+  };
+  const Vec3 deep(0.5, 0.25, 0.125), apart(3, 0, 0), level(2, 0.25, 0.125);
+  EXPECT_NE(says(deep, false, Verdict::Touching), "");
+  EXPECT_NE(says(deep, true, Verdict::Touching), "");
+  EXPECT_NE(says(deep, true, Verdict::Undecided), "");
+  EXPECT_NE(says(apart, false, Verdict::Undecided), "");
+  EXPECT_NE(says(apart, true, Verdict::Undecided), "");
+  EXPECT_EQ(says(level, false, Verdict::Touching), "");
+  EXPECT_EQ(says(level, true, Verdict::Touching), "");
+}
+
 /// A question of yes or no ends with whatever points prove enough, and a coarse level with points of its own.
 TEST(Check, AcceptsWhateverEndsEarly) {
   shapes::Random random(16);

@@ -5,6 +5,7 @@
 #include <swiftlet/model.h>
 #include <swiftlet/model_file.h>
 
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -829,6 +830,54 @@ Model tampered(const Model& m, const std::function<void(Bytes&)>& change) {
   return must(load(block));
 }
 
+TEST(Model, PolygonsThatGoAroundTwiceAreRefused) {
+  const auto loop = [](int n, int step) {
+    std::vector<Vec3> corners;
+    for (int i = 0; i < n; ++i) {
+      const double angle = 2 * std::numbers::pi * i * step / n;
+      corners.push_back({std::cos(angle), std::sin(angle), 0});
+    }
+    return two_sided(corners);
+  };
+  EXPECT_EQ(model(loop(7, 1)).dimension(), 2);
+  for (const int step : {2, 3}) refusal(loop(7, step), ErrorCode::NotConvex);
+  const std::vector<Vec3> dented{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 1, 0}, {0, 2, 0}};
+  refusal(two_sided(dented), ErrorCode::NotConvex);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(model(loop(100000, 1)).dimension(), 2);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));  // minutes where every pair is looked at
+}
+
+TEST(Model, OfEdgesWithoutFacesIsRefused) {
+  const auto append = [](std::vector<std::byte>& to, const auto& from) {
+    const auto bytes = std::as_bytes(std::span(from));
+    to.insert(to.end(), bytes.begin(), bytes.end());
+  };
+  const auto message = [](const BlockParts& parts) {
+    const AlignedBytes block = compose(parts);
+    const Result<Model> loaded = load(block.view());
+    return loaded ? std::string() : loaded.error().message;
+  };
+  const Model octahedron = nested(1, {false, {lut::Resolution::None, 2, 0}});
+  const ConvexView& view = octahedron.level(0).view;
+  BlockParts net = BlockReader::parts(octahedron, 0);
+  std::vector<HalfEdge> edges(view.half_edges.begin(), view.half_edges.end());
+  for (HalfEdge& h : edges) h.face = kNone;
+  net.levels[0].clear(), net.source.clear();
+  append(net.levels[0], view.vertices), append(net.levels[0], edges);
+  net.level_headers[0].face_count = net.level_headers[0].plane_count = net.level_headers[0].rims = 0;
+  net.header.source_face_count = 0;
+  append(net.source, std::vector<std::uint32_t>(view.vertices.size() + 1, 0));
+  expect_says(message(net), "no faces");
+
+  const Model line = model(segment({0, 0, 0}, {1, 0, 0}), {false, {lut::Resolution::None, 2, 0}});
+  BlockParts twice = BlockReader::parts(line, 0);
+  EXPECT_EQ(message(twice), "");
+  twice.level_headers.push_back(twice.level_headers[0]), twice.levels.push_back(twice.levels[0]);
+  append(twice.levels[1], std::vector<std::uint32_t>(2, 0));
+  expect_says(message(twice), "a level without faces has no others");
+}
+
 TEST(Verify, FindsWhatTheHashesCannot) {
   const Model m = nested();
   const auto vertex_at = [](const Bytes& block, std::size_t level, std::size_t v) {
@@ -884,6 +933,28 @@ TEST(Verify, FindsWhatTheHashesCannot) {
     ++low;
   }
   EXPECT_GE(low, 1);
+
+  const Model thin = tampered(turned, [&](Bytes& block) {  // turned about its first corner, over which nothing rises
+    const FacePlane& plane = planes[0];
+    const Vec3 n = Vec3(plane.x, plane.y, plane.z), lean = (n + 1e-3 * n.unitOrthogonal()).normalized();
+    write(block, vertex_at(block, 0, 8), FacePlane{lean[0], lean[1], lean[2], 0, 1});
+  });
+  expect_says(verify(thin).message, "face 0 is thicker");
+
+  const auto with = [&](std::size_t at, double value) {
+    return verify(tampered(m, [&](Bytes& block) { write(block, at, value); })).message;
+  };
+  expect_says(with(offsetof(BlockHeader, radius), std::nextafter(m.radius(), 0)), "around");
+  const Model aside = tampered(m, [&](Bytes& block) {
+    write(block, offsetof(BlockHeader, centre), 7.0), write(block, offsetof(BlockHeader, radius), 20.0);
+    write(block, offsetof(BlockHeader, inner_radius), 0.0), write(block, offsetof(BlockHeader, scale_inside), 0.0);
+    write(block, offsetof(BlockHeader, scale_around), std::numeric_limits<double>::infinity());
+  });
+  expect_says(verify(aside).message, "the centre is outside");
+  for (int axis = 0; axis < 3; ++axis) {
+    expect_says(with(offsetof(BlockHeader, box_min) + 8 * axis, std::nextafter(m.box_min()[axis], 2)), "box");
+    expect_says(with(offsetof(BlockHeader, box_max) + 8 * axis, std::nextafter(m.box_max()[axis], -2)), "box");
+  }
 }
 
 }  // namespace

@@ -301,6 +301,7 @@ std::string take_level(std::span<const std::byte> block, const Headers& h, std::
   if (i != 0) level.child_face = cursor.take<FeatureId>(l.face_count);
   if (!coarsest) level.parent_face = cursor.take<std::uint32_t>(l.face_count);
   std::string fault = topology_fault(level.view);
+  if (fault.empty() && h.levels.size() > 1 && l.face_count == 0) fault = "a level without faces has no others";
   if (fault.empty()) fault = plane_fault(level.view);
   if (fault.empty()) fault = rim_fault(level.view);
   if (fault.empty()) {

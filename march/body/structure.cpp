@@ -30,6 +30,8 @@ bool all_below(const auto& values, std::size_t limit) {
 
 std::string topology_fault(const ConvexView& v) {
   const std::size_t half_edges = v.half_edges.size(), faces = v.face_first.size();
+  const bool is_point = v.vertices.size() == 1 && half_edges == 0, is_segment = v.vertices.size() == 2 && half_edges == 2;
+  if (faces == 0 && !is_point && !is_segment) return "no faces";
   std::uint64_t next_ring = 0;
   for (std::size_t i = 0; i < v.vertices.size(); ++i) {
     const Vertex& r = v.vertices[i];

@@ -186,6 +186,9 @@ struct Checked {
   /// Returns true if the points of a march on level 0 or, where one is absent, on any levels prove that the distance is at most
   /// `upper`.
   bool is_near(double upper) const;
+  /// Returns true if the gap along the normal or the depth proves that the bodies overlap by no more than touching ones do, or
+  /// if they share a plane, where nothing tells.
+  bool is_shallow() const;
   /// Calls `visit` with the finest levels and, where these are not exact, with all others and the deviation of both: a coarser
   /// level may be nearer to the exact hull than a finer one, since neither holds the other.
   template <class Visit>

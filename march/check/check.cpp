@@ -45,6 +45,27 @@ std::uint32_t over_fault(const ConvexView& view) {
   return kNone;
 }
 
+/// Returns a face from whose plane a vertex is farther than the plane says, or kNone.
+std::uint32_t thickness_fault(const ConvexView& view) {
+  for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
+    const std::uint32_t f = view.half_edges[h].face;
+    if (f >= view.planes.size()) continue;
+    const FacePlane& plane = view.planes[f];
+    const Vec on = vec(view.vertices[origin(view, view.face_first[f])]), p = vec(view.vertices[origin(view, h)]);
+    if (!(thickness_at(vec(plane), on, p, view.extent) <= plane.thickness)) return f;
+  }
+  return kNone;
+}
+
+/// True if a point is in the body, up to law 2's bound.
+bool surely_holds(const ConvexView& body, const Vec& p) {
+  const Vertex record{p.x, p.y, p.z, 0, 0};
+  ConvexView point;
+  point.vertices = {&record, 1};
+  point.extent = max_abs(p);
+  return march(point, body, Pose{}).lower <= kLawTwo * body.extent;
+}
+
 }  // namespace
 
 Checked::Checked(const Body& of_a, const Body& of_b, const Pose& b_in_a, const Answer& of)
@@ -164,6 +185,13 @@ bool Checked::is_near(double upper) const {
   return found;
 }
 
+bool Checked::is_shallow() const {
+  const double doubt = kHeightError * (magnitude + radii), most = touching + doubt;
+  if (gap_along(a, b, at.motion, normal) - radii >= -most) return true;
+  const DoubleDouble depth = least_depth();
+  return !(depth.high < kInfinity) || double(depth + radii) <= most;
+}
+
 Check check_distance(const Checked& of, const OverlapProof* proof) {
   const Answer& answer = of.answer;
   if (!(answer.lower >= 0)) return failed("lower is %.17g of a distance", answer.lower);
@@ -183,12 +211,13 @@ Check check_distance(const Checked& of, const OverlapProof* proof) {
   switch (answer.verdict) {
     case Verdict::Disjoint: return answer.lower > 0 ? kPassed : failed("disjoint without a lower bound");
     case Verdict::Touching:
-      return answer.upper <= of.touching ? kPassed : failed("touching with an upper bound of %.17g", answer.upper);
+      if (!(answer.upper <= of.touching)) return failed("touching with an upper bound of %.17g", answer.upper);
+      return of.is_shallow() ? kPassed : failed("touching, but nothing proves that the bodies are not deep in each other");
     case Verdict::Overlapping:
       if (answer.upper != 0) return failed("overlapping with an upper bound of %.17g", answer.upper);
       if (of.radii > 0 && apart <= of.radii + 2 * of.touching && (between || of.radii > 2 * of.slack)) return kPassed;
       return between ? failed("overlap of radii with points %.17g apart", apart) : of.hulls_overlap(proof);
-    case Verdict::Undecided: break;
+    case Verdict::Undecided: return answer.lower > 0 ? failed("undecided with a lower bound of %.17g", answer.lower) : kPassed;
   }
   return kPassed;
 }
@@ -203,6 +232,7 @@ Check check(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answ
 Check verify(const Model& model) {
   if (model.finest_level() > 0) return failed("level 0 is not there: nothing tells whether the others enclose it");
   const ConvexView& exact_hull = model.level(0).view;
+  const Vec middle = vec(exact_hull.centre);
   for (int i = 0; i < model.level_count(); ++i) {
     const Level& level = model.level(i);
     const ConvexView& view = level.view;
@@ -232,6 +262,8 @@ Check verify(const Model& model) {
       return failed("level %d: its support map is wrong in cell %u", i, unsigned(cell));
     if (const std::uint32_t f = over_fault(view); f != kNone)
       return failed("level %d: a vertex is higher above the plane of face %u than %.17g", i, unsigned(f), view.planes[f].over);
+    if (const std::uint32_t f = thickness_fault(view); f != kNone)
+      return failed("level %d: face %u is thicker than %.17g", i, unsigned(f), view.planes[f].thickness);
     if (const double reach = reach_of(view); !(view.reach >= reach))
       return failed("level %d: its reach is %.17g, provable are %.17g", i, view.reach, reach);
     if (view.inner_radius > 0 && !(view.inner_radius <= inner_radius_of(view, vec(view.centre))))
@@ -256,6 +288,13 @@ Check verify(const Model& model) {
         return failed("level %d: a vertex is %.17g from level 0, the deviation is %.17g", i, r.lower, level.deviation);
     }
   }
+  // These come last: a march needs a body that is convex.
+  if (!surely_holds(exact_hull, middle)) return failed("the centre is outside");
+  const Box box = box_of(exact_hull.vertices);
+  if (eigen(box.least) != model.box_min() || eigen(box.most) != model.box_max())
+    return failed("the box is not that of level 0");
+  if (const double radius = outer_radius_of(exact_hull, middle); !(model.radius() >= radius))
+    return failed("nothing proves that a ball of radius %.17g is around it", model.radius());
   return kPassed;
 }
 

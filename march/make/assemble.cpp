@@ -261,10 +261,8 @@ void describe(BlockHeader& header, const Surface& surface) {
   const ConvexView view = surface.view();
   const Vec c = centroid(view);
   const Box box = box_of(view.vertices);
-  double radius = 0;
-  for (const Vertex& v : view.vertices) radius = std::max(radius, norm(vec(v) - c));
   header.dimension = std::uint32_t(surface.dimension);
-  header.radius = radius * (1 + kNormError);
+  header.radius = outer_radius_of(view, c);
   for (const auto& [to, from] : {std::pair{header.centre, c}, {header.box_min, box.least}, {header.box_max, box.most}}) {
     to[0] = from.x, to[1] = from.y, to[2] = from.z;
   }

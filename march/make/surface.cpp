@@ -494,14 +494,20 @@ Result<Facets> two_sided(const Input& in) {
   int drop = 0;
   while (drop < 2 && turn_sign(in, loop[0], loop[1], loop[2], (drop + 1) % 3, (drop + 2) % 3) == 0) ++drop;
   const int x = (drop + 1) % 3, y = (drop + 2) % 3;
-  int winding = 0;
+  // A polygon is convex if it turns to one side at all corners, and once around: then its sides run twice the other way along
+  // x.
+  const int winding = turn_sign(in, loop[0], loop[1], loop[2], x, y);
+  int first = 0, last = 0, changes = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const Index a = loop[i], b = loop[(i + 1) % n];
-    for (std::size_t k = 2; k < n; ++k) {
-      const int sign = turn_sign(in, a, b, loop[(i + k) % n], x, y);
-      if (winding == 0) winding = sign;
-      if (sign == 0 || sign != winding) return not_convex("the polygon is not strictly convex at vertex " + std::to_string(b));
-    }
+    const Index a = loop[i], b = loop[(i + 1) % n], c = loop[(i + 2) % n];
+    const int sign = turn_sign(in, a, b, c, x, y), way = (in.at(b)[x] > in.at(a)[x]) - (in.at(b)[x] < in.at(a)[x]);
+    if (sign == 0 || sign != winding) return not_convex("the polygon is not strictly convex at vertex " + std::to_string(b));
+    if (way == 0) continue;
+    if (first == 0) first = last = way;
+    changes += way != last;
+    if (changes > 2)
+      return not_convex("the polygon is not strictly convex: it goes around more than once at vertex " + std::to_string(a));
+    last = way;
   }
   return Facets{{Loop(loop.begin(), loop.end()), Loop(in.faces[1].begin(), in.faces[1].end())}, {0, 1}};
 }
@@ -736,8 +742,8 @@ std::vector<Rim> rims_of(const Input& in, const std::vector<Side>& sides, const 
 FacePlane plane_of(const Input& in, double extent, const Loop& border, const Loop& members) {
   const Vec n = normal_of(in, border), p = in.point(border[0]);
   double thickness = 0;
-  for (const Index v : members) thickness = std::max(thickness, std::fabs(dot(n, in.point(v) - p)));
-  return {n.x, n.y, n.z, thickness + 8 * kU * extent, 0};
+  for (const Index v : members) thickness = std::max(thickness, thickness_at(n, p, in.point(v), extent));
+  return {n.x, n.y, n.z, thickness, 0};
 }
 
 Surface link(const Input& in, const Facets& facets, const Executor& executor) {
@@ -888,6 +894,12 @@ double reach_of(const ConvexView& view) {
     least = min(least, radius);
   }
   return 2 * least * (1 + 8 * kU);
+}
+
+double outer_radius_of(const ConvexView& view, const Vec& centre) {
+  double radius = 0;
+  for (const Vertex& v : view.vertices) radius = max(radius, norm(vec(v) - centre));
+  return radius * (1 + kNormError);
 }
 
 double inner_radius_of(const ConvexView& view, const Vec& centre) {

@@ -47,6 +47,15 @@ double height_over(const ConvexView& view, const Vec& n, std::uint32_t v);
 /// is that of the bounding box or the mean of the vertices. Cost: linear in the vertices.
 double reach_of(const ConvexView& view);
 
+/// Returns the radius, rounded up, of a ball around `centre` that holds the body. Cost: linear in the vertices.
+double outer_radius_of(const ConvexView& view, const Vec& centre);
+
+/// Returns a bound on the distance of `p` from the plane through `on` with the unit normal `n`, for points of a body of
+/// `extent`.
+static inline double thickness_at(const Vec& n, const Vec& on, const Vec& p, double extent) {
+  return std::fabs(dot(n, p - on)) + 8 * kU * extent;
+}
+
 /// Returns the radius, rounded down, of a ball around `centre` that the body holds; 0 if there is none. Cost: linear in the
 /// facets.
 double inner_radius_of(const ConvexView& view, const Vec& centre);
