@@ -84,8 +84,9 @@ struct LevelRecord {
 
 /// Limits on a query. The interval of a query that ends at a limit is true, and the status names the limit.
 struct Budget {
-  std::uint32_t steps = ~0u;  ///< sum over all levels: changes of feature in walks, supports in depths; not time
-  int finest_level = 0;       ///< no level finer than this is read; a model may lack it
+  std::uint32_t steps = ~0u;  ///< sum over all levels: changes of feature in walks, supports in depths; not time. What is begun
+                              ///< is ended: a distance may take two more, a depth the supports of its first polytope, up to 24
+  int finest_level = 0;  ///< no level finer than this is read; a model may lack it
 };
 
 /// Settings for experts: how a query proceeds, and what it reports beside its answer. The answer is true with any settings.
