@@ -6,6 +6,7 @@
 
 #if defined(__linux__)
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
 #endif
@@ -154,6 +155,25 @@ TEST_F(ModelFile, WhereNothingMayBeWrittenNothingIs) {  // also for root, whom a
   const Result<std::size_t> saved = save(small(), "/proc/m.swl");
   ASSERT_FALSE(saved);
   EXPECT_EQ(saved.error().code, ErrorCode::CannotWrite);
+}
+
+TEST_F(ModelFile, WhatTheUserMayNotReadCannotBeRead) {
+  const auto file = path("m.swl");
+  ASSERT_TRUE(save(small(), file));
+  std::filesystem::permissions(file, std::filesystem::perms::none);
+  const uid_t user = geteuid();
+  if (user == 0 && seteuid(65534) != 0) GTEST_SKIP() << "root may read all, and may be nobody else here";
+  const Result<Model> loaded = load(file), mapped = map(file);
+  const Result<Salvaged> salvaged = salvage(file);
+  ASSERT_EQ(seteuid(user), 0);
+  const auto cannot_read = [](const auto& result) {
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::CannotRead);
+    EXPECT_NE(result.error().message.find("m.swl: Permission denied"), std::string::npos) << result.error().message;
+  };
+  cannot_read(loaded);
+  cannot_read(mapped);
+  cannot_read(salvaged);
 }
 
 TEST_F(ModelFile, AFullDiskLeavesTheOldFile) {  // or rather one that takes no larger files

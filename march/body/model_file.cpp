@@ -4,6 +4,7 @@
 #include <swiftlet/model_file.h>
 
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <system_error>
 
@@ -23,7 +24,9 @@ Result<File> open(const std::filesystem::path& path) {
   std::error_code failure;
   const std::uint64_t bytes = std::filesystem::file_size(path, failure);
   if (failure) return named(path, {ErrorCode::CannotRead, failure.message()});
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
+  if (!file) return named(path, {ErrorCode::CannotRead, std::generic_category().message(errno ? errno : EIO)});
   std::array<std::byte, kMostHeaderBytes> start;
   file.read(reinterpret_cast<char*>(start.data()), start.size());
   Result<Headers> headers = BlockReader::read_headers(std::span(start).first(std::size_t(file.gcount())));
