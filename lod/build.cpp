@@ -141,7 +141,8 @@ Finest finest_level(const Mesh& users, const Mesh& mesh, const Hull& shape, cons
 std::optional<Error> dents(const Mesh& mesh, const Polytope& body, const BuildReport& report, double scale) {
   const double rounding = rounding_of(mesh.points);
   if (report.deepest_dent * scale > rounding)
-    return Error{ErrorCode::NotConvex, "the mesh has dents, the deepest " + decimal(report.deepest_dent)};
+    return Error{ErrorCode::NotConvex,
+                 "the mesh has dents: the vertex deepest inside the hull is " + decimal(report.deepest_dent) + " deep"};
   if (report.volume_ratio < 1 - rounding * area(body) / volume(body))
     return Error{ErrorCode::NotConvex,
                  "the mesh has dents: its volume is " + decimal(report.volume_ratio, 15) + " of the hull's"};
@@ -184,7 +185,10 @@ Result<Built> build_watched(const Mesh& users, const BuildOptions& options, Watc
   if (shape.dimension == 3) {
     run_tasks(options.executor, 3, [&](std::size_t task) {
       if (task == 0) face_of = triangles_on(mesh, shape, body);
-      if (task == 1) report.volume_ratio = volume_ratio(mesh, body);
+      if (task == 1) {
+        const std::optional<double> ratio = volume_ratio(mesh, body);
+        report.closed = ratio.has_value(), report.volume_ratio = ratio.value_or(1);
+      }
       if (task == 2) report.deepest_dent = deepest_dent(mesh, shape, body) / scale;
     });
     watch.work();

@@ -184,14 +184,13 @@ std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, cons
   return found;
 }
 
-double volume_ratio(const Mesh& mesh, const Polytope& body) {
+std::optional<double> volume_ratio(const Mesh& mesh, const Polytope& body) {
   const Ids first = first_of_equals(mesh.points);
   Polytope surface{mesh.points, mesh.triangles};
   for (Triangle& triangle : surface.triangles)
     for (std::uint32_t& corner : triangle) corner = first[corner];
-  return !surface.triangles.empty() && closes(surface.triangles, surface.points.size())
-             ? std::abs(volume(surface)) / volume(body)
-             : 1;
+  if (surface.triangles.empty() || !closes(surface.triangles, surface.points.size())) return std::nullopt;
+  return std::abs(volume(surface)) / volume(body);
 }
 
 double deepest_dent(const Mesh& mesh, const Hull& hull, const Polytope& body) {

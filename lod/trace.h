@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <swiftlet/build.h>
@@ -21,10 +22,11 @@ double rounding_of(std::span<const Vec3> points);
 /// with its corners where there is one; 0xffffffff for none.
 std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, const Polytope& body);
 
-/// The mesh's volume over the hull's; 1 where an edge of the mesh lacks its opposite.
-double volume_ratio(const Mesh& mesh, const Polytope& body);
+/// The mesh's volume over the hull's; none where an edge of the mesh lacks its opposite.
+std::optional<double> volume_ratio(const Mesh& mesh, const Polytope& body);
 
-/// The greatest distance from the hull's surface of a vertex that the mesh's triangles use.
+/// The greatest distance from the hull's surface of a vertex that the mesh's triangles use. Edges and triangles between them
+/// may be deeper.
 double deepest_dent(const Mesh& mesh, const Hull& hull, const Polytope& body);
 
 }  // namespace swiftlet::lod

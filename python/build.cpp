@@ -82,7 +82,8 @@ py::dict report_of(const BuildReport& r) {
   py::dict d;
   d["points_read"] = r.points_read, d["triangles_read"] = r.triangles_read, d["duplicates_dropped"] = r.duplicates_dropped;
   d["interior_dropped"] = r.interior_dropped, d["hull_triangles"] = r.hull_triangles, d["faces_grouped"] = r.faces_grouped;
-  d["volume_ratio"] = r.volume_ratio, d["deepest_dent"] = r.deepest_dent, d["levels"] = levels, d["end"] = r.end;
+  d["closed"] = r.closed, d["volume_ratio"] = r.volume_ratio, d["deepest_dent"] = r.deepest_dent, d["levels"] = levels,
+  d["end"] = r.end;
   return d;
 }
 

@@ -66,6 +66,7 @@ void expect_same_everywhere(const Mesh& mesh, BuildOptions options, const std::s
     ASSERT_TRUE(built) << name;
     EXPECT_TRUE(bytes_of(built.value().model) == expected) << name;
     EXPECT_EQ(built.value().report.end, alone.value().report.end) << name;
+    EXPECT_EQ(built.value().report.closed, alone.value().report.closed) << name;
     EXPECT_EQ(built.value().report.volume_ratio, alone.value().report.volume_ratio) << name;
     EXPECT_EQ(built.value().report.deepest_dent, alone.value().report.deepest_dent) << name;
   }

@@ -185,7 +185,7 @@ TEST(Trace, RefusedDentsAreToldByDepthOrVolume) {
   cube.points.push_back(middle - 1e-9 * normal.normalized());
   cube.triangles.erase(cube.triangles.begin());
   for (std::size_t k = 0; k < 3; ++k) cube.triangles.push_back({side[k], side[(k + 1) % 3], 8});
-  EXPECT_EQ(told(cube), "the mesh has dents, the deepest 1e-09");
+  EXPECT_EQ(told(cube), "the mesh has dents: the vertex deepest inside the hull is 1e-09 deep");
   // An octahedron without one of its eighths, whose vertices are all extreme.
   const Mesh dented{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
                     {{0, 1, 4}, {1, 2, 4}, {0, 4, 2}, {2, 3, 0}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}}};

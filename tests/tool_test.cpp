@@ -488,6 +488,23 @@ TEST_F(Tool, BuildsAModelAndTellsWhatItDid) {
   EXPECT_EQ(says_json("info c.swl")["levels"], says_json("info cube.off")["levels"]);
 }
 
+TEST_F(Tool, BuildTellsOfDentsAndVolumeWhatIsMeasured) {
+  if (!kBuilds) GTEST_SKIP() << "this tool has no builder";
+  const std::string convex = says("build cube.off -o c.swl");
+  EXPECT_NE(convex.find("the vertex deepest inside the hull is 0 deep\n"), std::string::npos) << convex;
+  EXPECT_NE(convex.find(" volume     1 of the hull's\n"), std::string::npos) << convex;
+  EXPECT_EQ(says_json("build cube.off -o c.swl")["volume_ratio"], 1);
+  write(folder_ / "open.off",  // the cube with a triangle to its middle in place of a side
+        "OFF\n9 6 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n0.5 0.5 0.5\n"
+        "4 0 4 6 2\n4 1 3 7 5\n4 0 1 5 4\n4 2 6 7 3\n4 0 2 3 1\n3 4 5 8\n");
+  const std::string open = says("build open.off -o c.swl");
+  EXPECT_NE(open.find("the vertex deepest inside the hull is 0.5 deep\n"), std::string::npos) << open;
+  EXPECT_NE(open.find(" volume     not closed: no volume\n"), std::string::npos) << open;
+  const json report = says_json("build open.off -o c.swl");
+  EXPECT_EQ(report["volume_ratio"], nullptr);
+  EXPECT_EQ(report["deepest_dent"], 0.5);
+}
+
 TEST_F(Tool, TakesMeshesForModels) {
   if (!kBuilds) GTEST_SKIP() << "this tool has no builder";
   const json answer = says_json("distance cube.off a.swl --pose 3,0.5,0.5");

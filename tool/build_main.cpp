@@ -63,7 +63,8 @@ std::string report_text(const Request& request, const Built& built) {
   if (built.model.dimension() == 3) {
     text += format(" grouped    %zu triangles of the hull into %zu faces, %zu of them with more than three vertices\n",
                    r.hull_triangles, r.levels.front().faces, r.faces_grouped);
-    text += format(" dents      the deepest %.6g; the mesh's volume is %.6g of the hull's\n", r.deepest_dent, r.volume_ratio);
+    text += format(" dents      the vertex deepest inside the hull is %.6g deep\n", r.deepest_dent);
+    text += r.closed ? format(" volume     %.6g of the hull's\n", r.volume_ratio) : " volume     not closed: no volume\n";
   }
   text += levels_text(built.model) + " ended      " + r.end + "\n wrote      " + request.out;
   return text + format(", %zu bytes\n", built.model.bytes().size());
@@ -81,7 +82,7 @@ nlohmann::ordered_json report_json(const Request& request, const Built& built) {
           {"interior_dropped", r.interior_dropped},
           {"hull_triangles", r.hull_triangles},
           {"faces_grouped", r.faces_grouped},
-          {"volume_ratio", r.volume_ratio},
+          {"volume_ratio", r.closed ? nlohmann::ordered_json(r.volume_ratio) : nullptr},
           {"deepest_dent", r.deepest_dent},
           {"levels", levels_json(built.model)},
           {"end", r.end}};

@@ -34,9 +34,10 @@ class Built(NamedTuple):
     ----------
     model : Model
     report : dict
-        points_read, triangles_read, duplicates_dropped, interior_dropped, hull_triangles, faces_grouped, volume_ratio,
-        deepest_dent, end (why the hierarchy ended), and levels: a list with each one's vertices, faces, triangles, bytes,
-        deviation, volume_ratio.
+        points_read, triangles_read, duplicates_dropped, interior_dropped, hull_triangles, faces_grouped, closed (whether
+        the mesh has a volume), volume_ratio (that over the hull's; 1 where it has none), deepest_dent (how deep inside the
+        hull the mesh's deepest vertex is), end (why the hierarchy ended), and levels: a list with each one's vertices, faces,
+        triangles, bytes, deviation, volume_ratio.
     """
 
     model: Model

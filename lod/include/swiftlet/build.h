@@ -86,8 +86,11 @@ struct BuildReport {
   std::size_t duplicates_dropped = 0;               ///< number of points equal to an earlier one
   std::size_t interior_dropped = 0;  ///< number of points that are no vertex of the hull: inside it, in a face or on an edge
   std::size_t hull_triangles = 0, faces_grouped = 0;  ///< triangles of the hull; its faces of more than three vertices
-  double volume_ratio = 1;                            ///< mesh over hull; 1 for convex input, and if the mesh is not closed
-  double deepest_dent = 0;          ///< distance from the hull's surface to the mesh vertex deepest inside; the mesh's unit
+  bool closed = false;      ///< the hull is solid, and each edge of the mesh's triangles has its opposite: it has a volume
+  double volume_ratio = 1;  ///< the mesh's volume over the hull's, 1 for convex input; 1, not measured, where not `closed`
+  /// Distance from the hull's surface to the vertex deepest inside, of those that triangles name; edges and triangles may be
+  /// deeper. The mesh's unit.
+  double deepest_dent = 0;
   std::vector<LevelReport> levels;  ///< level 0 first; also those that BuildOptions::detail drops
   std::string end;                  ///< why the hierarchy ended where it did
 };
