@@ -14,6 +14,13 @@ TEST_F(Tool, TellsItsVersionAndWords) {
   EXPECT_EQ(help.find("\n  build ") != std::string::npos, kBuilds);
 }
 
+TEST_F(Tool, OutputThatCannotBeWrittenIsAFailure) {
+  for (const std::string arguments : {"--help", "--version", "info --help", "info a.swl"}) {
+    EXPECT_EQ(run(arguments + " >/dev/full 2>err; echo $?").out, "1\n") << arguments;
+    EXPECT_EQ(content(folder_ / "err"), "swiftlet: cannot write to standard output\n") << arguments;
+  }
+}
+
 TEST_F(Tool, HelpOfDistanceNamesTheFrame) {
   const std::string help = says("distance --help");
   EXPECT_NE(help.find("A's frame"), std::string::npos);

@@ -22,6 +22,7 @@
 #include <limits>
 #include <memory>
 #include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -369,15 +370,19 @@ int run(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const
   app.footer(
       "swiftlet WORD --help tells a word's options. The exit code is 0 where the word did what was asked, 1 where it failed,\n"
       "2 where the command line is wrong.");
+  const auto write = [&fail](const std::string& text) {
+    return Failure::write(text) ? 0 : fail({ErrorCode::CannotWrite, "cannot write to standard output"}, 1);
+  };
   try {
     app.parse(argc, argv);
     const Result<Output> output = chosen();
     if (!output) return fail(output.error(), 1);
     if (!as_json && !output.value().note.empty()) std::fprintf(stderr, "swiftlet: %s\n", output.value().note.c_str());
-    if (Failure::write(as_json ? output.value().json : output.value().text)) return 0;
-    return fail({ErrorCode::CannotWrite, "cannot write to standard output"}, 1);
+    return write(as_json ? output.value().json : output.value().text);
   } catch (const CLI::Success& help_or_version) {
-    return app.exit(help_or_version);
+    std::ostringstream text;
+    app.exit(help_or_version, text);
+    return write(text.str());
   } catch (const CLI::ParseError& fault) {
     return fail({ErrorCode::BadValue, fault.what()}, 2);
   }
