@@ -649,7 +649,7 @@ Result<Mesh> checked(Soup soup) {
 
 Result<Mesh> lod::mesh_of_bytes(std::string_view bytes, const std::string& extension) try {
   if (const Reader read = reader_of(extension)) return checked(read(bytes));
-  return Error{ErrorCode::BadFormat, "unknown extension \"" + extension + "\"; known are .obj .off .stl .ply .tri .poly"};
+  return Error{ErrorCode::BadFormat, "unknown extension \"" + extension + "\"; mesh files are .obj .off .stl .ply .tri .poly"};
 } catch (const Damage& damage) {
   return Error{damage.code, damage.what};
 } catch (const std::bad_alloc&) {
@@ -662,13 +662,14 @@ Result<Mesh> read_mesh(const std::filesystem::path& path) try {
     error.file = path.string();
     return error;
   };
+  std::error_code failure;  // a fifo waits to be opened, a device need not end
+  const std::filesystem::file_status status = std::filesystem::status(path, failure);
+  if (!std::filesystem::exists(status)) return named({ErrorCode::CannotRead, failure.message()});
+  if (!std::filesystem::is_regular_file(status))
+    return named({ErrorCode::CannotRead, std::filesystem::is_directory(status) ? "is a folder" : "is no regular file"});
   const std::string extension = lower(path.extension().string());
   std::string bytes;
   if (reader_of(extension)) {
-    std::error_code failure;  // a fifo waits to be opened, a device need not end
-    const std::filesystem::file_status status = std::filesystem::status(path, failure);
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-      return named({ErrorCode::CannotRead, "is no regular file"});
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     const int cause = errno;

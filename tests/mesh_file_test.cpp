@@ -127,13 +127,15 @@ TEST(MeshFile, KeepsDoublesBitForBit) {
 }
 
 TEST(MeshFile, MissingFileIsNamed) {
-  expect_error(read_mesh("/nowhere/at_all.off"), ErrorCode::CannotRead, "/nowhere/at_all.off");
+  expect_error(read_mesh("/nowhere/at_all.off"), ErrorCode::CannotRead, "/nowhere/at_all.off: No such file");
+  expect_error(read_mesh("/nowhere/at_all"), ErrorCode::CannotRead, "/nowhere/at_all: No such file");
+  expect_error(read_mesh("/"), ErrorCode::CannotRead, "is a folder");
 }
 
 TEST(MeshFile, DirectoryIsNoFile) {
   const auto path = std::filesystem::temp_directory_path() / "swiftlet_directory.off";
   std::filesystem::create_directory(path);
-  expect_error(read_mesh(path), ErrorCode::CannotRead, "is no regular file");
+  expect_error(read_mesh(path), ErrorCode::CannotRead, "is a folder");
   std::filesystem::remove(path);
 }
 

@@ -472,6 +472,20 @@ TEST_F(Tool, ErrorsAreJsonWhereJsonIsAsked) {
   fails("build -o b.swl nowhere.off", 1, "CannotRead", "nowhere.off");
 }
 
+TEST_F(Tool, ANameThatIsNoFileIsToldSo) {
+  refuses("info nofile", "swiftlet: nofile: No such file or directory", 1);
+  refuses("info .", kBuilds ? "swiftlet: .: is a folder" : "swiftlet: .: Is a directory", 1);
+  refuses("info \"\"", "the name after \"info\" is empty", 2);
+  refuses("export a.swl -o \"\"", "the name after \"-o\" is empty", 2);
+  write(folder_ / "cube.mesh", "");
+  before_ = names();
+  if (!kBuilds) return refuses("info cube.mesh", "without the builder", 1);
+  refuses("info cube.mesh", "unknown extension \".mesh\"; mesh files are .obj", 1);
+  refuses("decompose a.swl", "a.swl: is a model; decompose takes the mesh, a mesh file or a .swm", 1);
+  refuses("decompose b.swl", "b.swl: No such file", 1);
+  refuses("decompose nofile", "nofile: No such file", 1);
+}
+
 TEST_F(Tool, WithoutTheBuilderAMeshIsAClearError) {
   if (kBuilds) GTEST_SKIP() << "this tool has the builder";
   refuses("build cube.off -o c.swl", "without the builder");

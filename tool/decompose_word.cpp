@@ -36,6 +36,9 @@ const char* name(Growth growth) {
 
 Result<MeshModel> mesh_at(const std::string& path) {
   if (is_mesh(path_of(path))) return load_mesh(path_of(path));
+  std::error_code ignored;
+  if (is_model(path_of(path)) && std::filesystem::exists(path_of(path), ignored))
+    return in_file(path, {ErrorCode::BadFormat, "is a model; decompose takes the mesh, a mesh file or a .swm"});
   const Result<Mesh> read = read_mesh(path_of(path));
   if (!read) return in_file(path, read.error());
   if (read.value().triangles.empty())

@@ -51,7 +51,8 @@ bool is_mesh_format(const std::string& extension) {
   return std::any_of(std::begin(kFormats), std::end(kFormats), [&](const char* format) { return extension == format; });
 }
 
-/// Whether a file is a model, or is called one.
+}  // namespace
+
 bool is_model(const std::filesystem::path& path) {
   if (path.extension() == ".swl") return true;
   std::error_code ignored;  // a fifo waits to be opened
@@ -61,8 +62,6 @@ bool is_model(const std::filesystem::path& path) {
   file.read(reinterpret_cast<char*>(start.data()), start.size());
   return file && is_model_block(start);
 }
-
-}  // namespace
 
 bool is_mesh(const std::filesystem::path& path) {
   std::error_code ignored;  // a fifo waits to be opened
@@ -87,11 +86,13 @@ Result<LoadedBody> open(const std::string& path, const ModelOfMesh& model_of_mes
     return LoadedBody(LoadedMesh{path, std::move(mesh).value()});
   }
   const bool is_ours = is_model(path_of(path));
-  if (!is_ours && !model_of_mesh)
+  std::error_code ignored;
+  const bool is_file = std::filesystem::is_regular_file(path_of(path), ignored);
+  if (!is_ours && !model_of_mesh && is_file)
     return in_file(path,
                    {ErrorCode::BadFormat,
                     "is no .swl model and no .swm mesh, and this tool was made without the builder that reads mesh files"});
-  Result<Model> model = is_ours ? load(path_of(path)) : model_of_mesh(path_of(path));
+  Result<Model> model = is_ours || !model_of_mesh ? load(path_of(path)) : model_of_mesh(path_of(path));
   if (!model) return model.error();
   return LoadedBody(LoadedModel{path, std::move(model).value()});
 }
@@ -338,11 +339,14 @@ std::string names(const std::vector<Word>& words) {
   return all;
 }
 
-/// What CLI11 would call an unexpected argument or a missing subcommand; empty when the first argument is none of these.
+/// What CLI11 would call an unexpected argument or a missing subcommand, or would take though it is empty: no name and no
+/// number is. Nothing where there is no such fault.
 std::string word_fault(int argc, char** argv, const std::vector<Word>& words, bool has_builder) {
   if (argc < 2) return "say a word: " + names(words) + "; swiftlet --help tells more";
   const std::string first = argv[1];
   if (first == "-h" || first == "--help" || first == "--version") return {};
+  for (int i = 2; i < argc; ++i)
+    if (!*argv[i]) return "the name after \"" + std::string(argv[i - 1]) + "\" is empty";
   for (const Word& word : words)
     if (first == word.name) return {};
   if (first == "build" && !has_builder)

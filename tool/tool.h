@@ -38,6 +38,8 @@ CLI::Validator number_in(double least, double most, const std::string& said);
 /// Refuses what is no number from 0 up.
 CLI::Validator not_negative();
 
+/// Whether a file is a model, or is called one.
+bool is_model(const std::filesystem::path& path);
 /// Whether a file is a mesh of `build --mesh`, or is called one.
 bool is_mesh(const std::filesystem::path& path);
 
