@@ -151,6 +151,18 @@ TEST_F(ModelFile, PathsMayHoldBlanksAndLettersOfAnyScript) {
 }
 
 #if defined(__linux__)
+TEST_F(ModelFile, NamesMayBeAsLongAsFileSystemsTake) {
+  for (const std::size_t bytes : {246, 255}) {
+    std::string name = "小さい.swl";
+    name.insert(0, bytes - name.size(), 'x');
+    const auto file = path(name.c_str());
+    ASSERT_TRUE(save(small(), file)) << bytes;
+    EXPECT_EQ(must(load(file)).hash(), small().hash());
+    std::filesystem::remove(file);
+    EXPECT_TRUE(std::filesystem::is_empty(path(""))) << bytes;
+  }
+}
+
 TEST_F(ModelFile, WhereNothingMayBeWrittenNothingIs) {  // also for root, whom a folder's own flags do not stop
   const Result<std::size_t> saved = save(small(), "/proc/m.swl");
   ASSERT_FALSE(saved);

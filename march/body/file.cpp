@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "body/file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -110,12 +111,16 @@ int write_new(const std::filesystem::path& path, std::span<const std::byte> byte
   return failure;
 }
 
-/// PATH.XXXX.part, XXXX by the clock: another name for each `attempt`.
+/// PATH.XXXX.part, XXXX by the clock: another name for each `attempt`. Of a name that would have more than 255 bytes, which is
+/// what file systems take, whole letters of UTF-8 are left out at the end of PATH.
 std::filesystem::path part_of(std::filesystem::path path, int attempt) {
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   char ending[16];
-  std::snprintf(ending, sizeof ending, ".%04x.part", unsigned(now + attempt) & 0xffffu);
-  return path += ending;
+  const int ending_bytes = std::snprintf(ending, sizeof ending, ".%04x.part", unsigned(now + attempt) & 0xffffu);
+  const std::u8string name = path.filename().u8string();
+  std::size_t kept = std::min(name.size(), std::size_t(255 - ending_bytes));
+  while (kept > 0 && kept < name.size() && (name[kept] & 0xc0) == 0x80) --kept;
+  return path.replace_filename(name.substr(0, kept)) += ending;
 }
 
 }  // namespace
