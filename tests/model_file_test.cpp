@@ -163,6 +163,17 @@ TEST_F(ModelFile, NamesMayBeAsLongAsFileSystemsTake) {
   }
 }
 
+TEST_F(ModelFile, SaveKeepsTheModeOfTheFileThatItReplaces) {
+  using std::filesystem::perms;
+  const auto file = path("m.swl");
+  ASSERT_TRUE(save(small(), file));
+  for (const perms mode : {perms::owner_read | perms::owner_write, perms::owner_read | perms::group_read}) {
+    std::filesystem::permissions(file, mode);
+    ASSERT_TRUE(save(nested(3), file));
+    EXPECT_EQ(std::filesystem::status(file).permissions(), mode);
+  }
+}
+
 TEST_F(ModelFile, WhereNothingMayBeWrittenNothingIs) {  // also for root, whom a folder's own flags do not stop
   const Result<std::size_t> saved = save(small(), "/proc/m.swl");
   ASSERT_FALSE(saved);

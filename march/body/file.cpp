@@ -161,6 +161,8 @@ Result<std::size_t> replace_file(const std::filesystem::path& path, std::span<co
   for (int attempt = 0; cause == EEXIST && attempt < 1000; ++attempt) cause = write_new(part = part_of(path, attempt), bytes);
   if (cause)
     return refused("cannot write " + std::to_string(bytes.size()) + " bytes: " + std::generic_category().message(cause));
+  const std::filesystem::file_status replaced = std::filesystem::symlink_status(path, ignored);
+  if (std::filesystem::is_regular_file(replaced)) std::filesystem::permissions(part, replaced.permissions(), ignored);
   std::filesystem::rename(part, path, failure);
   if (!failure) return bytes.size();
   std::filesystem::remove(part, ignored);

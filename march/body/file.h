@@ -31,9 +31,9 @@ struct OwnedBytes {
 /// The pages of a file, which stay as they are when another file takes its place. Errors: CannotRead.
 Result<OwnedBytes> map_file(const std::filesystem::path& path);
 
-/// Writes a new file beside `path`, PATH.XXXX.part, PATH cut where that name were too long, then renames it, so that a failure
-/// leaves the old file and nothing beside it. Of calls at once, by threads or processes, one wins whole. Returns the bytes
-/// written. Errors: CannotWrite.
+/// Writes a new file beside `path`, PATH.XXXX.part, PATH cut where that name were too long, with the mode of the file that it
+/// replaces, then renames it, so that a failure leaves the old file and nothing beside it. Of calls at once, by threads or
+/// processes, one wins whole. Returns the bytes written. Errors: CannotWrite.
 Result<std::size_t> replace_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 }  // namespace swiftlet
