@@ -41,6 +41,7 @@ std::optional<Error> problem(const BuildOptions& options) {
   if (options.max_levels < 1 || options.max_levels > 32) return bad("max_levels must be from 1 to 32");
   if (!(options.max_deviation >= 0) || !std::isfinite(options.max_deviation))
     return bad("max_deviation must be finite and not negative");
+  if (!(options.detail.deviation >= 0)) return bad("detail.deviation must not be negative");
   if (options.method > Method::Peel || options.enclosing > Enclosing::Scale)
     return bad("method or enclosing is none that there is");
   if (std::string fault = spec_fault(options.table); !fault.empty()) return Error{ErrorCode::BadValue, std::move(fault)};
@@ -143,7 +144,7 @@ std::optional<Error> dents(const Mesh& mesh, const Polytope& body, const BuildRe
   if (report.deepest_dent * scale > rounding)
     return Error{ErrorCode::NotConvex,
                  "the mesh has dents: the vertex deepest inside the hull is " + decimal(report.deepest_dent) + " deep"};
-  if (report.volume_ratio < 1 - rounding * area(body) / volume(body))
+  if (report.volume_ratio < 1 - rounding * area(body) / precise_volume(body))
     return Error{ErrorCode::NotConvex,
                  "the mesh has dents: its volume is " + decimal(report.volume_ratio, 15) + " of the hull's"};
   return std::nullopt;
@@ -195,6 +196,8 @@ Result<Built> build_watched(const Mesh& users, const BuildOptions& options, Watc
     if (options.require_convex)
       if (const auto error = dents(mesh, body, report, scale)) return *error;
     BuildOptions in_scale = options;
+    // A coarsest level as coarse as the detail allows would be dropped again where `max_deviation` is less.
+    if (options.max_deviation > 0) in_scale.detail.deviation = std::min(options.detail.deviation, options.max_deviation);
     in_scale.detail.deviation *= scale;
     levels = hierarchy(body, in_scale, watch);
   } else if (options.require_solid) {

@@ -123,7 +123,7 @@ class Words {
   /// Of a part of a word.
   template <class Number>
   Number parse(std::string_view digits, std::string_view word, const std::string& what) const {
-    if (digits.starts_with('+')) digits.remove_prefix(1);
+    if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
     Number value{};
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (!digits.empty() && error == std::errc() && end == digits.data() + digits.size()) return value;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles are found by corners, else by a climb to where their plane would touch the hull. Depths are bounded by a few planes
-// first.
+// Triangles are found by corners, else by a climb to where their plane would touch the hull, else by the hull's plane beside
+// them. Depths are bounded by a few planes first.
 #include "trace.h"
 
 #include <swiftlet/lut.h>
@@ -17,6 +17,9 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+
+#include "numeric/exact.h"
+#include "numeric/wide.h"
 
 namespace swiftlet::lod {
 namespace {
@@ -102,11 +105,50 @@ class PlaneFinder {
   std::uint32_t last_ = 0;
 };
 
-using Kernel = CGAL::Simple_cartesian<double>;
-using Faces = std::vector<Kernel::Triangle_3>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Faces::const_iterator>>>;
+/// The hull's triangles and their planes. Which triangle is nearest is found in doubles, so that beside a needle it may be
+/// another one; how deep a point is below a plane is right to rounding, however thin the triangle.
+class HullFaces {
+ public:
+  explicit HullFaces(const Polytope& body) : body_(body), planes_(body.triangles.size()) {
+    for (const auto& [a, b, c] : body.triangles) triangles_.emplace_back(cgal(a), cgal(b), cgal(c));
+    tree_.emplace(triangles_.cbegin(), triangles_.cend());
+  }
+  /// A triangle about as near to `p` as any.
+  std::uint32_t about_nearest(const Vec3& p) const {
+    return std::uint32_t(tree_->closest_point_and_primitive({p.x(), p.y(), p.z()}).second - triangles_.cbegin());
+  }
+  /// How far `p` is below the plane of a triangle.
+  double depth(std::uint32_t triangle, const Vec3& p) { return normal(triangle).dot(corner(triangle) - p); }
+  /// The least depth of `p` below any plane, which is its distance from the hull's surface; or any depth that is at most
+  /// `enough`.
+  double depth(const Vec3& p, double enough) {
+    double least = depth(about_nearest(p), p);
+    for (std::uint32_t t = 0; t < planes_.size() && least > enough; ++t) least = std::min(least, depth(t, p));
+    return least;
+  }
+  const Vec3& normal(std::uint32_t triangle) {
+    Vec3& normal = planes_[triangle];
+    if (!normal.isZero()) return normal;
+    const auto& [a, b, c] = body_.triangles[triangle];
+    return normal = eigen(exact::plane(vec(body_.points[a]), vec(body_.points[b]), vec(body_.points[c])).normal);
+  }
 
-Kernel::Point_3 cgal(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+ private:
+  using Kernel = CGAL::Simple_cartesian<double>;
+  using Triangles = std::vector<Kernel::Triangle_3>;
+  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
+
+  const Vec3& corner(std::uint32_t triangle) const { return body_.points[body_.triangles[triangle][0]]; }
+  Kernel::Point_3 cgal(std::uint32_t vertex) const {
+    const Vec3& p = body_.points[vertex];
+    return {p.x(), p.y(), p.z()};
+  }
+
+  const Polytope& body_;
+  Triangles triangles_;
+  std::optional<Tree> tree_;
+  std::vector<Vec3> planes_;  ///< normals; 0 before they are asked for
+};
 
 /// No less than the depth of a point, from the supports in a few directions: most points are seen not to be the deepest by it.
 class CoarseDepth {
@@ -153,6 +195,15 @@ double rounding_of(std::span<const Vec3> points) {
   return 8 * size * (floats ? 0x1p-24 : 0x1p-53);
 }
 
+double precise_volume(const Polytope& body) {
+  if (body.triangles.empty()) return 0;
+  const Wide apex = wide(vec(body.points[body.triangles.front()[0]]));
+  const auto from_apex = [&](std::uint32_t v) { return wide(vec(body.points[v])) - apex; };
+  DoubleDouble six_times = 0;
+  for (const auto& [a, b, c] : body.triangles) six_times = six_times + dot(from_apex(a), cross(from_apex(b), from_apex(c)));
+  return double(six_times) / 6;
+}
+
 std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, const Polytope& body) {
   Ids vertex = first_of_equals(mesh.points);  // per point, the hull's vertex there
   {
@@ -165,6 +216,15 @@ std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, cons
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   Ids found(mesh.triangles.size());
   std::optional<PlaneFinder> planes;  // of a triangulated hull every triangle is found by its corners
+  std::optional<HullFaces> faces;
+  const double rounding = rounding_of(mesh.points);
+  // The plane of a small triangle leans by more than rounding over a large face: the hull's plane there is asked too.
+  const auto by_face = [&](const Vec3& p, const Vec3& q, const Vec3& r) {
+    if (!faces) faces.emplace(body);
+    const std::uint32_t on = faces->about_nearest((p + q + r) / 3);
+    const auto is_on = [&](const Vec3& point) { return std::abs(faces->depth(on, point)) <= rounding; };
+    return is_on(p) && is_on(q) && is_on(r) && faces->normal(on).dot(area_normal(p, q, r)) > 0 ? on : kNone;
+  };
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [i, j, k] = mesh.triangles[t];
     const Triangle corners = from_lowest({vertex[i], vertex[j], vertex[k]});
@@ -176,9 +236,10 @@ std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, cons
       if (at != last && *at == corners) on = std::uint32_t(at - body.triangles.begin());
     }
     if (on == kNone) {
-      if (!planes) planes.emplace(body, rounding_of(mesh.points));
+      if (!planes) planes.emplace(body, rounding);
       on = planes->find(mesh.points[i], mesh.points[j], mesh.points[k]);
     }
+    if (on == kNone) on = by_face(mesh.points[i], mesh.points[j], mesh.points[k]);
     found[t] = on;
   }
   return found;
@@ -190,16 +251,13 @@ std::optional<double> volume_ratio(const Mesh& mesh, const Polytope& body) {
   for (Triangle& triangle : surface.triangles)
     for (std::uint32_t& corner : triangle) corner = first[corner];
   if (surface.triangles.empty() || !closes(surface.triangles, surface.points.size())) return std::nullopt;
-  return std::abs(volume(surface)) / volume(body);
+  return std::abs(precise_volume(surface)) / precise_volume(body);
 }
 
 double deepest_dent(const Mesh& mesh, const Hull& hull, const Polytope& body) {
   const Ids inner = inner_vertices(mesh, hull);
   if (inner.empty()) return 0;
-  Faces faces;
-  for (const auto& [a, b, c] : body.triangles)
-    faces.emplace_back(cgal(body.points[a]), cgal(body.points[b]), cgal(body.points[c]));
-  const Tree tree(faces.cbegin(), faces.cend());
+  HullFaces faces(body);
   const CoarseDepth bound(body);
 
   std::vector<std::pair<double, std::uint32_t>> at_most;
@@ -208,7 +266,7 @@ double deepest_dent(const Mesh& mesh, const Hull& hull, const Polytope& body) {
   double deepest = 0;
   for (const auto& [depth, v] : at_most) {
     if (depth <= deepest) break;
-    deepest = std::max(deepest, std::sqrt(tree.squared_distance(cgal(mesh.points[v]))));
+    deepest = std::max(deepest, faces.depth(mesh.points[v], deepest));
   }
   return deepest;
 }

@@ -22,6 +22,9 @@ double rounding_of(std::span<const Vec3> points);
 /// with its corners where there is one; 0xffffffff for none.
 std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, const Polytope& body);
 
+/// The volume of a closed surface, summed in 106 bits: that of a thin body may be less than what doubles lose.
+double precise_volume(const Polytope& body);
+
 /// The mesh's volume over the hull's; none where an edge of the mesh lacks its opposite.
 std::optional<double> volume_ratio(const Mesh& mesh, const Polytope& body);
 

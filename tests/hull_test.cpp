@@ -202,5 +202,62 @@ TEST(Trace, RoundingIsNoDent) {
   }
 }
 
+/// A plate of size 1 x 1 x t, each of whose sides is a grid of 4 x 4 squares.
+Mesh meshed_plate(double t, const Pose& turn) {
+  Mesh plate = shapes::meshed_cube(4);
+  for (Vec3& p : plate.points) p = turn.rotation * Vec3(p.x() / 2, p.y() / 2, p.z() / 2 * t);
+  return plate;
+}
+
+TEST(Trace, ThinPlatesHaveNoDentsAndAllTheirTriangles) {
+  BuildOptions strict;
+  strict.require_convex = true;
+  strict.max_levels = 1;
+  shapes::Random random(3);
+  std::size_t lost = 0, triangles = 0;
+  for (const double t : {0.1, 1e-2, 1e-3, 1e-6, 1e-9}) {
+    for (int k = 0; k < 20; ++k) {
+      const Mesh plate = meshed_plate(t, {random.rotation(), Vec3::Zero()});
+      const auto built = build(plate, strict);
+      ASSERT_TRUE(built) << t << ": " << built.error().message;
+      EXPECT_LE(built.value().report.deepest_dent, rounding_of(plate.points)) << t;
+      triangles += plate.triangles.size(), lost += plate.triangles.size() - built.value().model.source().face.size();
+    }
+  }
+  EXPECT_LE(lost, triangles / 100);
+}
+
+TEST(Trace, TetrahedraHaveNoDentsHoweverFlat) {
+  BuildOptions strict;
+  strict.require_convex = true;
+  shapes::Random random(5);
+  int solids = 0;
+  for (int k = 0; k < 1000; ++k) {
+    Mesh flat;
+    for (int i = 0; i < 4; ++i) {
+      const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+      flat.points.push_back({x, y, 0.3 * x + 0.7 * y});
+    }
+    flat.triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}};
+    const auto built = build(flat, strict);
+    if (!built && built.error().message.find("dents") == std::string::npos) continue;
+    ASSERT_TRUE(built) << k << ": " << built.error().message;
+    if (built.value().model.dimension() != 3 || built.value().model.level(0).view.vertices.size() != 4) continue;
+    ++solids;
+    EXPECT_NEAR(built.value().report.volume_ratio, 1, 1e-12) << k;
+  }
+  EXPECT_GE(solids, 500);
+}
+
+TEST(Trace, ADetailCoarserThanTheCoarsestLevelLeavesThatLevel) {
+  BuildOptions options;
+  options.max_deviation = 0.05, options.detail.deviation = 0.2;
+  const auto built = build(shapes::ellipsoid({1, 1, 1}, 1000, 1), options);
+  ASSERT_TRUE(built) << built.error().message;
+  EXPECT_LT(built.value().model.level(built.value().model.finest_level()).triangle_count, 900u);
+  options.detail.deviation = -1;
+  EXPECT_EQ(build(shapes::cube(), options).error().code, ErrorCode::BadValue);
+}
+
 }  // namespace
 }  // namespace swiftlet::lod

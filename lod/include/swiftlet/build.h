@@ -60,7 +60,7 @@ struct BuildOptions {
   /// 0.25 while the next level has at most 4 096 vertices, and above what costs queries least; a level then has no more
   /// triangles than an error of 10, 1 or 0.1 % of the radius needs, if that saves enough of them.
   std::optional<double> rate;
-  std::uint32_t cutoff = 60;  ///< least number of triangles of a level; a solid has at least 4
+  std::uint32_t cutoff = 60;  ///< least number of triangles that a level is simplified to, at least 4; enclosing may drop some
   int max_levels = 32;        ///< 1 to 32, level 0 included
   double max_deviation = 0;   ///< the hierarchy ends before a level that deviates more, in the mesh's unit; 0: no limit
   /// Which of the levels built the model keeps; `detail.bytes` counts bytes of the whole model's block. With Collapse, levels

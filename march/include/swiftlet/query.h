@@ -86,7 +86,7 @@ struct LevelRecord {
 struct Budget {
   std::uint32_t steps = ~0u;  ///< sum over all levels: changes of feature in walks, supports in depths; not time. What is begun
                               ///< is ended: a distance may take two more, a depth the supports of its first polytope, up to 24
-  int finest_level = 0;  ///< no level finer than this is read; a model may lack it
+  int finest_level = 0;       ///< no level finer than this is read; a model may lack it
 };
 
 /// Settings for experts: how a query proceeds, and what it reports beside its answer. The answer is true with any settings.
