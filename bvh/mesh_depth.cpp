@@ -88,8 +88,9 @@ constexpr int kEscapes = 12, kBalls = 16;
 constexpr double kLeastGain = 0x1p-8;
 /// A way out begins longer than what hulls need, so that the surfaces are apart: by this fraction.
 constexpr double kRoom = 0x1p-10;
-/// Other ways begin with this share of the shortest one, or as two balls part, and are so much longer each time.
-constexpr double kFirstLength = 0x1p-6, kLonger = 4;
+/// Other ways begin with this share of the shortest one, or as two balls part, with `kLeastLength` of it or more; they are so
+/// much longer each time.
+constexpr double kFirstLength = 0x1p-6, kLeastLength = 0x1p-20, kLonger = 4;
 
 /// A translation along a unit direction that separates the bodies.
 struct Way {
@@ -126,7 +127,8 @@ class Depth {
     best = shorter(best, best.n, best.length * (1 + kRoom));
     const auto from = [&](const Vec& direction, double length) {
       const Vec n = normalised(direction);
-      for (; dot(n, n) > 0.5 && length < best.length; length *= kLonger) {
+      length = max(length, best.length * kLeastLength);  // balls where bodies touch have no size
+      for (; dot(n, n) > 0.5 && length < best.length && steps_ > 0; length *= kLonger) {
         const double before = best.length;
         best = shorter(best, n, length);
         if (best.length < before) return;

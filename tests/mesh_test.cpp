@@ -1042,6 +1042,52 @@ TEST(MeshLaw7, EveryFiniteTranslationEnds) {
   EXPECT_GE(met, 500);
 }
 
+/// A prism whose face is the letter C, which opens along x and stands along `up`; closed, one unit wide.
+Soup hook(int up) {
+  const double face[8][2] = {{-0.25, -1}, {1, -1}, {1, -0.75}, {0, -0.75}, {0, 0.75}, {1, 0.75}, {1, 1}, {-0.25, 1}};
+  Soup soup;
+  for (const double side : {-0.5, 0.5}) {
+    for (const auto& [x, y] : face) {
+      Vec3 p(x, side, side);
+      p[up] = y;
+      soup.points.push_back(p);
+    }
+  }
+  for (const Corners& c : {Corners{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 7}, {4, 5, 6}, {4, 6, 7}}) {
+    soup.triangles.push_back({c[0], c[2], c[1]});
+    soup.triangles.push_back({c[0] + 8, c[1] + 8, c[2] + 8});
+  }
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    const std::uint32_t next = (i + 1) % 8;
+    soup.triangles.insert(soup.triangles.end(), {{i, next, next + 8}, {i, next + 8, i + 8}});
+  }
+  return soup;
+}
+
+/// No plane parts two hooks that touch, and no ball is in both: the search for a way out has no length to begin with.
+TEST(MeshLaw7, SignedDistancesOfSolidsThatTouchEnd) {
+  const Soup a = hook(2), b = hook(1);
+  const MeshModel mesh_a = a.mesh(), mesh_b = b.mesh();
+  ASSERT_TRUE(mesh_a.topology().closed() && mesh_b.topology().closed());
+  for (const Vec3& turn : {Vec3(-1, -1, 1), Vec3(-1, 1, -1)}) {
+    for (const Vec3& aside : {Vec3(0, 0, 0), Vec3(0, 0.0625, 0.03125)}) {
+      const Pose pose{turn.asDiagonal(), aside};
+      ASSERT_EQ(brute_force(a, b, pose), 0);
+      for (const std::uint32_t steps : {0u, 100u, Budget().steps}) {
+        const Options options{.budget = {.steps = steps}};
+        for (const bool swapped : {false, true}) {
+          const Answer answer = swapped
+                                    ? signed_distance(MeshBody::solid(mesh_b), MeshBody::solid(mesh_a), inverse(pose), options)
+                                    : signed_distance(MeshBody::solid(mesh_a), MeshBody::solid(mesh_b), pose, options);
+          EXPECT_LE(answer.lower, 0);
+          EXPECT_GE(answer.lower, -2.5);
+          EXPECT_GE(answer.upper, -tolerance(mesh_a, mesh_b, pose));
+        }
+      }
+    }
+  }
+}
+
 // ---- Law 8 -----------------------------------------------------------------------------------------------------------------
 
 TEST(MeshLaw8, QueriesAllocateNothing) {
