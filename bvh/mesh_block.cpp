@@ -47,6 +47,30 @@ std::span<const T> section_of(const Block& block, const Section& section) {
   return {reinterpret_cast<const T*>(block.bytes.data() + section.offset), std::size_t(section.bytes / sizeof(T))};
 }
 
+/// What lies one after the other behind a header, gaps apart, each with its name.
+std::vector<std::pair<Section, std::string>> sections_of(const MeshHeader& h) {
+  std::vector<std::pair<Section, std::string>> sections;
+  for (std::uint32_t k = 0; k < h.levels; ++k) sections.emplace_back(h.level[k], "nodes of level " + std::to_string(k));
+  for (const Part& part : kParts) sections.emplace_back(h.*part.section, part.name);
+  return sections;
+}
+
+/// What is wrong with where a header says that its sections lie: each has its size and follows the one before, so that all
+/// together are no larger than the file.
+std::string misplaced(const MeshHeader& h) {
+  for (std::size_t i = 0; i < std::size(kParts); ++i) {
+    if ((h.*kParts[i].section).bytes != held(h, i) * kParts[i].size)
+      return std::string("the size of its ") + kParts[i].name + " does not fit its header";
+  }
+  std::uint64_t offset = sizeof h;
+  for (const auto& [section, name] : sections_of(h)) {
+    offset = aligned(offset);
+    if (section.offset != offset) return "its " + name + " do not begin where they should";
+    offset += section.bytes;
+  }
+  return h.total_bytes == offset ? "" : "its size does not fit its header";
+}
+
 std::string fault(const MeshHeader& h) {
   if (h.triangle_count == 0 || h.triangle_count > kMostTriangles || h.vertex_count == 0 || h.node_count == 0 ||
       h.vertex_count > 3 * std::uint64_t{kMostTriangles} || h.node_count > kMostTriangles)
@@ -180,15 +204,21 @@ AlignedBytes assemble(MeshHeader header, std::span<const std::byte> nodes,
   return block;
 }
 
+std::string named(const HullRecord& r, const std::string& what) {
+  return "the hull of node " + std::to_string(r.node) + ": " + what;
+}
+/// What is wrong with a record before which there are hulls of nodes below `node`, and `offset` bytes of their models.
+std::string fault(const MeshHeader& h, const HullRecord& r, std::size_t node, std::uint64_t offset) {
+  if (r.node < node) return "hulls out of order";
+  return r.offset == offset && r.bytes <= h.hull_models.bytes - offset ? "" : named(r, "its model is not in the file");
+}
+
 /// The hulls that a block holds, or what is wrong with them.
 std::string read_hulls(const MeshHeader& h, const Block& block, MeshReader::Content& content) {
   std::uint64_t offset = 0;
-  const auto named = [](const HullRecord& r, const std::string& what) {
-    return "the hull of node " + std::to_string(r.node) + ": " + what;
-  };
   for (const HullRecord& r : section_of<HullRecord>(block, h.hulls)) {
-    if (r.node >= content.nodes.size() || r.node < content.hull_of.size()) return "hulls out of order";
-    if (r.offset != offset || r.bytes > h.hull_models.bytes - offset) return named(r, "its model is not in the file");
+    if (r.node >= content.nodes.size()) return "hulls out of order";
+    if (std::string f = fault(h, r, content.hull_of.size(), offset); !f.empty()) return f;
     const auto at = std::size_t(h.hull_models.offset + offset);
     Result<Model> model = BlockReader::read(Block{block.owner, block.bytes.subspan(at, std::size_t(r.bytes))});
     if (!model) return named(r, model.error().message);
@@ -297,6 +327,8 @@ Result<MeshModel> MeshReader::cut(std::span<const std::byte> bytes, std::uint32_
   const Result<MeshHeader> whole = read_header(bytes);
   if (!whole) return whole.error();
   MeshHeader header = whole.value();
+  const auto bad = [](const std::string& what) { return Error{ErrorCode::BadFormat, what}; };
+  if (const std::string f = misplaced(header); !f.empty()) return bad(f);
   // Not all of it is where it says: a section's end may be beyond what is left, or lie about it.
   const auto is_whole = [&](const Section& s) {
     return s.offset <= bytes.size() && s.bytes <= bytes.size() - s.offset &&
@@ -305,18 +337,21 @@ Result<MeshModel> MeshReader::cut(std::span<const std::byte> bytes, std::uint32_
   std::vector<std::byte> nodes;
   for (std::uint32_t k = 0; k < levels; ++k) {
     const Section& level = header.level[k];
-    if (!is_whole(level)) return Error{ErrorCode::BadFormat, "nodes of level " + std::to_string(k) + " are missing or damaged"};
+    if (!is_whole(level)) return bad("nodes of level " + std::to_string(k) + " are missing or damaged");
     const auto of_level = bytes.subspan(std::size_t(level.offset), std::size_t(level.bytes));
     nodes.insert(nodes.end(), of_level.begin(), of_level.end());
   }
   std::vector<HullRecord> hulls;
   std::vector<std::byte> models;
-  if (is_whole(header.hulls) && is_whole(header.hull_models) && header.hulls.bytes == held(header, 0) * sizeof(HullRecord)) {
+  if (is_whole(header.hulls) && is_whole(header.hull_models)) {
+    std::uint64_t offset = 0;
     for (std::uint32_t i = 0; i < header.hull_count; ++i) {
       HullRecord r;
       std::memcpy(&r, bytes.data() + header.hulls.offset + i * sizeof r, sizeof r);
       if (r.node >= nodes.size() / sizeof(Node)) break;
-      if (r.offset > header.hull_models.bytes || r.bytes > header.hull_models.bytes - r.offset) break;
+      const std::size_t next = hulls.empty() ? 0 : std::size_t{hulls.back().node} + 1;
+      if (const std::string f = fault(header, r, next, offset); !f.empty()) return bad("it has " + f);
+      offset = aligned(offset + r.bytes);
       const auto model = bytes.subspan(std::size_t(header.hull_models.offset + r.offset), std::size_t(r.bytes));
       hulls.push_back({r.node, r.first_triangle, models.size(), r.bytes});
       models.insert(models.end(), model.begin(), model.end());
@@ -334,25 +369,12 @@ Result<MeshModel> MeshReader::read(Block block) {
   const Result<MeshHeader> header = read_header(block.bytes);
   if (!header) return header.error();
   const MeshHeader& h = header.value();
-  // What lies one after the other, gaps apart, each with its name.
-  std::vector<std::pair<Section, std::string>> sections;
-  for (std::uint32_t k = 0; k < h.levels; ++k) sections.emplace_back(h.level[k], "nodes of level " + std::to_string(k));
-  for (std::size_t i = 0; i < std::size(kParts); ++i) {
-    sections.emplace_back(h.*kParts[i].section, kParts[i].name);
-    if ((h.*kParts[i].section).bytes != held(h, i) * kParts[i].size)
-      return bad(std::string("the size of its ") + kParts[i].name + " does not fit its header");
-  }
-  std::uint64_t offset = sizeof h;
-  for (const auto& [section, name] : sections) {
-    offset = aligned(offset);
-    if (section.offset != offset) return bad("its " + name + " do not begin where they should");
-    offset += section.bytes;
-  }
-  if (h.total_bytes != offset) return bad("its size does not fit its header");
-  if (block.bytes.size() != offset)
-    return bad("it has " + std::to_string(block.bytes.size()) + " bytes where its header says " + std::to_string(offset));
+  if (const std::string f = misplaced(h); !f.empty()) return bad(f);
+  if (block.bytes.size() != h.total_bytes)
+    return bad("it has " + std::to_string(block.bytes.size()) + " bytes where its header says " +
+               std::to_string(h.total_bytes));
   std::uint64_t end = sizeof h;
-  for (const auto& [section, name] : sections) {
+  for (const auto& [section, name] : sections_of(h)) {
     const auto gap = block.bytes.subspan(std::size_t(end), std::size_t(section.offset - end));
     if (std::any_of(gap.begin(), gap.end(), [](std::byte b) { return b != std::byte{0}; })) return bad("damaged padding");
     end = section.offset + section.bytes;

@@ -10,10 +10,11 @@
 
 namespace {
 std::atomic<long> allocations{0};
+std::atomic<std::size_t> allocated_bytes{0};  // in all, whether or not they were freed
 }  // namespace
 // Not inline: GCC would see malloc meet delete. The nothrow form too: sanitizers insist that new and delete come in pairs.
 [[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
+  ++allocations, allocated_bytes += size;
   return std::malloc(size ? size : 1);
 }
 [[gnu::noinline]] void* operator new(std::size_t size) {

@@ -355,6 +355,67 @@ TEST_F(MeshFile, ThatNamesATriangleTwiceOrNoneIsRefused) {
   }
 }
 
+/// The block with these bytes as its hulls and their models.
+soups::Block with_hulls(const soups::Block& block, std::span<const HullRecord> hulls, const soups::Block& models) {
+  MeshHeader header = header_of(block);
+  header.hull_count = std::uint32_t(hulls.size()), header.hull_units = std::uint32_t(models.size() / 64);
+  soups::Block made(sizeof header);
+  const auto put = [&](Section& s, std::span<const std::byte> bytes) {
+    made.resize((made.size() + 63) / 64 * 64);
+    s = {made.size(), bytes.size(), 0};
+    made.insert(made.end(), bytes.begin(), bytes.end());
+  };
+  const auto copy = [&](Section& s) { put(s, std::span<const std::byte>(block).subspan(s.offset, s.bytes)); };
+  for (std::uint32_t k = 0; k < header.levels; ++k) copy(header.level[k]);
+  put(header.hulls, std::as_bytes(hulls)), put(header.hull_models, models);
+  for (Section* s : {&header.shells, &header.triangles, &header.vertices, &header.source_triangle, &header.source_vertex})
+    copy(*s);
+  header.total_bytes = made.size();
+  std::memcpy(made.data(), &header, sizeof header);
+  rehash(made);
+  return made;
+}
+
+/// Hulls that all name the same bytes as their models are not copied before they are refused.
+TEST_F(MeshFile, WithHullsThatShareTheirModelsTakesNoMoreMemoryThanItIsLarge) {
+  const MeshModel mesh = ball(4).mesh();
+  ASSERT_GE(mesh.depth(), 2);
+  constexpr std::size_t kModels = 1 << 16;
+  for (const std::uint32_t step : {0u, 1u}) {  // all of one node, or each of one of its own
+    std::vector<HullRecord> hulls;
+    for (std::uint32_t i = 0; i < 1000; ++i) hulls.push_back({i * step, 0, 0, kModels});
+    const soups::Block block = with_hulls(bytes_of(mesh), hulls, soups::Block(kModels));
+    const std::filesystem::path shared = write_file("shared.swm", block),
+                                cut_short = write_file("short.swm", std::span(block).first(block.size() - 1));
+    const std::size_t before = allocated_bytes;
+    const auto expect_refused = [&](const auto& read) {
+      ASSERT_FALSE(read);
+      EXPECT_EQ(read.error().code, ErrorCode::BadFormat);
+      EXPECT_NE(read.error().message.find("hull"), std::string::npos) << read.error().message;
+    };
+    expect_refused(load_mesh(shared, {.deviation = mesh.deviation(mesh.depth() - 1) * 1.5}));
+    expect_refused(salvage_mesh(cut_short));
+    expect_refused(load_mesh(shared));
+    EXPECT_LE(allocated_bytes - before, 16 * block.size());
+  }
+}
+/// Nor are levels of nodes that do.
+TEST_F(MeshFile, WithLevelsInOnePlaceIsRefused) {
+  const MeshModel mesh = ball(4).mesh();
+  ASSERT_GE(mesh.depth(), 3);
+  soups::Block block = bytes_of(mesh);
+  MeshHeader header = header_of(block);
+  header.level[1].offset = header.level[0].offset;
+  std::memcpy(block.data(), &header, sizeof header);
+  rehash(block);
+  write_file("one.swm", block);
+  for (const Detail& detail : {Detail{}, Detail{.deviation = mesh.deviation(2) * 1.5}}) {
+    const Result<MeshModel> read = load_mesh(path("one.swm"), detail);
+    ASSERT_FALSE(read);
+    EXPECT_NE(read.error().message.find("begin"), std::string::npos) << read.error().message;
+  }
+}
+
 template <class T>
 T some(Random& random) {
   if constexpr (std::is_floating_point_v<T>) {
