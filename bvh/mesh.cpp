@@ -92,13 +92,16 @@ Result<SalvagedMesh> salvage_mesh(const std::filesystem::path& path) {
     if (!mesh) return named(path, mesh.error());
     return SalvagedMesh{std::move(mesh).value(), ""};
   }
+  const std::string length =
+      "it has " + std::to_string(bytes.size()) + " bytes where its header says " + std::to_string(h.total_bytes) + ": ";
   const std::uint32_t levels = MeshReader::levels(h, {0, bytes.size()});
-  Result<MeshModel> mesh = MeshReader::cut(bytes, std::min(levels, h.levels));
+  if (levels == h.depth)
+    return named(path, {ErrorCode::BadFormat, length + "of a mesh of one level none can be left out, and the last " +
+                                                  std::to_string(h.total_bytes - bytes.size()) + " bytes are missing"});
+  Result<MeshModel> mesh = MeshReader::cut(bytes, levels);
   if (!mesh) return named(path, mesh.error());
-  return SalvagedMesh{std::move(mesh).value(), utf8(path) + ": it has " + std::to_string(bytes.size()) +
-                                                   " bytes where its header says " + std::to_string(h.total_bytes) + ": " +
-                                                   std::to_string(levels) + " of " + std::to_string(h.depth) +
-                                                   " levels of nodes are complete"};
+  return SalvagedMesh{std::move(mesh).value(), utf8(path) + ": " + length + std::to_string(levels) + " of " +
+                                                   std::to_string(h.depth) + " levels of nodes are complete"};
 }
 
 Result<MeshModel> map_mesh(const std::filesystem::path& path) {

@@ -111,8 +111,8 @@ class MeshReader {
   static Result<MeshHeader> read_header(std::span<const std::byte> start);
   /// The levels of nodes that `detail` asks for; all of them if it wants the whole mesh.
   static std::uint32_t levels(const MeshHeader& header, const Detail& detail);
-  /// A mesh of the first `levels` levels of nodes, fewer than the block's, in a block of its own. What follows them may be cut
-  /// off: hulls are kept if all of them are there.
+  /// A mesh of the first `levels` levels of nodes, fewer than the whole tree's, in a block of its own. What follows them may be
+  /// cut off: hulls are kept if all of them are there.
   static Result<MeshModel> cut(std::span<const std::byte> bytes, std::uint32_t levels);
   /// The parts of a whole mesh.
   static MeshParts parts(const MeshModel& mesh);

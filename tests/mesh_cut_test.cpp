@@ -282,5 +282,19 @@ TEST_F(CutFile, ThatEndsEarlyIsSalvaged) {
   EXPECT_FALSE(salvage_mesh(file)) << "its nodes are damaged";
 }
 
+/// Of one level nothing can be left out: the file is refused as short, and not for what a cut block would lack.
+TEST_F(CutFile, OfOneLevelThatEndsEarlyIsRefusedAsShort) {
+  const soups::Block whole = bytes_of(tetrahedron().mesh());
+  for (std::size_t missing = 1; missing + sizeof(MeshHeader) <= whole.size(); missing += 7) {
+    const Result<SalvagedMesh> salvaged = salvage_mesh(write_file("one.swm", std::span(whole).first(whole.size() - missing)));
+    ASSERT_FALSE(salvaged);
+    EXPECT_EQ(salvaged.error().code, ErrorCode::BadFormat);
+    for (const std::string& part :
+         {"one.swm: it has " + std::to_string(whole.size() - missing) + " bytes", "header says " + std::to_string(whole.size()),
+          std::string("one level"), "last " + std::to_string(missing) + " bytes"})
+      EXPECT_NE(salvaged.error().message.find(part), std::string::npos) << salvaged.error().message;
+  }
+}
+
 }  // namespace
 }  // namespace swiftlet

@@ -162,7 +162,7 @@ struct SalvagedMesh {
 };
 
 /// Reads the complete levels of nodes of a file that was cut short, as `MeshModel::cut` leaves them. Errors: as `load_mesh`,
-/// but BadFormat for a short file only if not even the root is complete.
+/// but BadFormat for a short file only if not even the root is complete, or of a mesh of one level: it has none to leave out.
 Result<SalvagedMesh> salvage_mesh(const std::filesystem::path& path);
 
 /// True if a file begins as a mesh's does.
