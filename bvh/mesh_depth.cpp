@@ -106,6 +106,8 @@ class Depth {
   Depth(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, std::uint32_t steps)
       : a_(a), b_(b), pose_(b_in_a), at_(a, b, b_in_a), of_a_(at_.a), of_b_(at_.b), steps_(steps) {}
 
+  bool is_whole() const { return at_.a.is_whole() && at_.b.is_whole(); }
+
   /// The shortest of the ways along some directions.
   Way way_out(const Answer& answer, const MeshSeed& seed) {
     if (at_.a.has_hull(0) && at_.b.has_hull(0)) return way_of_hulls();
@@ -179,8 +181,10 @@ class Depth {
     const auto take = [&](double depth, const Vec& p) {
       if (-depth < upper) upper = -depth, at = eigen(p);
     };
-    // Vertices of one body inside the other: those that are deepest, and the one that the query found.
+    // Vertices of one body inside the other: those that are deepest, and the one that the query found. A vertex of a coarser
+    // level need not be a point of the body.
     const auto take_vertex = [&](const Vec& p, bool of_b) {
+      if (!(of_b ? at_.b : at_.a).is_whole()) return;
       const double free = free_ball(of_b ? a_ : b_, !of_b, p, of_b);
       if (free >= 0) take(rounded_down(free + (of_b ? b_ : a_).radius()), of_b ? apply(at_.motion, p) : p);
     };
@@ -394,7 +398,7 @@ class Depth {
   if (narrow)
     answer.status = Status::Converged;
   else if (answer.status != Status::Budget)
-    answer.status = Status::NotConverged;
+    answer.status = depth.is_whole() ? Status::NotConverged : Status::LevelLimit;
 }
 
 /// A threshold below 0 ends what is done for a depth where the interval is on one side of it.

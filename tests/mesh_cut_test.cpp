@@ -206,6 +206,37 @@ TEST(Cut, ConvexModelBesideAMeshIsOfItsFinestLevel) {
   EXPECT_LE(inside.point_a.cwiseAbs().maxCoeff(), 1);  // a point of the exact hull
 }
 
+/// Corners of a coarser level are no points of the exact hull: an overlap of theirs is none.
+TEST(Cut, ConvexModelHasTheDepthOfItsExactHull) {
+  const Model cut = without_its_exact_level();
+  const MeshModel cube = box({-1, -1, -1}, {1, 1, 1}).mesh();
+  Random random(45);
+  int apart = 0, overlapping = 0, limited = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Pose pose{Mat3::Identity(), Vec3(random.uniform(-4, 4), random.uniform(-2, 2), random.uniform(-2, 2))};
+    const Vec3 gap = pose.translation.cwiseAbs() - Vec3(2, 2, 2);
+    const double depth = gap.maxCoeff(), truth = depth > 0 ? gap.cwiseMax(0).norm() : depth;
+    (depth > 0 ? apart : overlapping)++;
+    for (const bool swapped : {false, true}) {
+      const MeshBody solid = MeshBody::solid(cube), model = Body(cut);
+      const MeshBody &a = swapped ? model : solid, &b = swapped ? solid : model;
+      const Pose at = swapped ? inverse(pose) : pose;
+      const Answer answer = signed_distance(a, b, at);
+      EXPECT_LE(answer.lower, truth + 1e-12);
+      EXPECT_GE(answer.upper, truth - 1e-12);
+      EXPECT_TRUE(answer.status == Status::LevelLimit || answer.upper - answer.lower <= tolerance(a, b, at));
+      limited += answer.status == Status::LevelLimit;
+      for (const double threshold : {-0.5, -1e-3}) {
+        const Decision decision = signed_within(a, b, at, threshold).decision;
+        EXPECT_TRUE(decision == Decision::Undecided || (decision == Decision::Yes) == (truth <= threshold)) << truth;
+      }
+    }
+  }
+  EXPECT_GE(apart, 50);
+  EXPECT_GE(overlapping, 50);
+  EXPECT_GE(limited, 200);
+}
+
 TEST(Cut, ScalesBitForBit) {
   Random random(43);
   for (int i = 0; i < 100; ++i) {

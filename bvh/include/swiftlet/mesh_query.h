@@ -76,11 +76,11 @@ ClosestFeatures closest_features(const MeshBody& a, const MeshBody& b, const Pos
 /// computes the depth of meshes; the interval is what can be proved of it. Moving B along `normal` by -lower leaves the bodies
 /// apart or touching, though no plane need separate them then. Any translation by less than -upper leaves them overlapping: it
 /// does not part two triangles that cross, or else two balls, one in each solid, around the point that both points then are.
-/// The status is NotConverged where this interval is wider than asked, and law 2 does not hold for it; the less is asked, the
-/// less is done. Nor does law 3: the interval of an overlap depends on the seed, but is always true. Bodies that only touch
-/// have an interval of the same kind. Of a mesh that was cut, `lower` is minus infinity unless it is above 0. Cost: that of
-/// `distance`, and of an overlap that of some 40 distances, which share what the budget leaves: 0.1 to 5 milliseconds; up to 37
-/// kB of stack.
+/// The status is NotConverged where this interval is wider than asked, or LevelLimit if a convex model lacks its finest level,
+/// and law 2 does not hold for it; the less is asked, the less is done. Nor does law 3: the interval of an overlap depends on
+/// the seed, but is always true. Bodies that only touch have an interval of the same kind. Of a mesh that was cut, `lower` is
+/// minus infinity unless it is above 0. Cost: that of `distance`, and of an overlap that of some 40 distances, which share what
+/// the budget leaves: 0.1 to 5 milliseconds; up to 37 kB of stack.
 Answer signed_distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, const Options& options = {});
 /// Returns the signed distance, from a cold start.
 Answer signed_distance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Options& options = {});
