@@ -22,7 +22,7 @@ class RegionSearch {
         regions_(regions),
         finding_(finding),
         pairs_(at, question.reach),
-        beyond_(question.reach < HUGE_VAL ? next_above(question.reach) : HUGE_VAL) {}
+        beyond_(next_above(question.reach)) {}
 
   void run() {
     const double left = pairs_.run(*this);

@@ -32,8 +32,9 @@ static inline double times_power_of_two(double x, int exponent) {
   return x * power_of_two(exponent > 1023 ? 1023 : exponent < -1022 ? -1022 : exponent);
 }
 
-/// The next double above x, which is finite.
+/// The next double above x; infinity and NaN are their own.
 static inline double next_above(double x) {
+  if (!(x < std::numeric_limits<double>::infinity())) return x;
   if (x == 0) return std::numeric_limits<double>::denorm_min();
   const auto bits = bit_cast<std::uint64_t>(x);
   return bit_cast<double>(x > 0 ? bits + 1 : bits - 1);

@@ -3,6 +3,7 @@
 // The direction tables: every bin, every border between bins, and directions that are none. Knows only lut.
 #include <swiftlet/lut.h>
 
+#include <double_bits.h>
 #include <octahedron.h>
 
 #include <cmath>
@@ -193,6 +194,16 @@ TEST(Octahedron, MiddlesAreInTheirCellsAndNoDirectionIsInSomeCell) {
                                {-kInfinity, 1, nan}})
       EXPECT_LT(octahedron_cell(side, d[0], d[1], d[2]), octahedron_cell_count(side));
   }
+}
+
+TEST(DoubleBits, NeighboursAreThoseOfTheStandardLibrary) {
+  const double most = std::numeric_limits<double>::max(), least = std::numeric_limits<double>::denorm_min();
+  for (const double x : {0.0, -0.0, 1.0, -1.0, 0x1p-1022, -0x1p-1022, least, -least, most, -most, kInfinity, -kInfinity}) {
+    EXPECT_EQ(next_above(x), std::nextafter(x, kInfinity)) << x;
+    EXPECT_EQ(next_below(x), std::nextafter(x, -kInfinity)) << x;
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(next_above(nan)) && std::isnan(next_below(nan)));
 }
 
 }  // namespace

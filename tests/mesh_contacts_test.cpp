@@ -348,8 +348,15 @@ TEST(MeshContacts, RefuseWhatQueriesRefuse) {
   EXPECT_EQ(status_of(Body::point({kNaN, 0, 0}), {}, 1), Status::InvalidBody);
   EXPECT_EQ(status_of(mesh, {}, -1), Status::Converged);  // nothing is nearer than that
   EXPECT_EQ(status_of(mesh, {}, kNaN), Status::NotConverged);
-  EXPECT_EQ(find(mesh, mesh, shift(5, 0, 0), kInfinity).about.count, 1u);
-  EXPECT_EQ(find(mesh, mesh, shift(5, 0, 0), 1e300).about.count, 1u);
+  for (const double reach : {1e300, std::numeric_limits<double>::max(), kInfinity}) {
+    for (const double radius : {0.0, 0.25}) {
+      const Found found = find({mesh, radius}, {mesh, radius}, shift(5, 0, 0), reach);
+      EXPECT_TRUE(found.about.is_counted);
+      ASSERT_EQ(found.about.count, 1u);
+      EXPECT_NEAR(found.regions[0].lower, 3 - 2 * radius, 1e-12);
+      EXPECT_NEAR(found.regions[0].upper, 3 - 2 * radius, 1e-12);
+    }
+  }
 
   MeshContact nowhere;
   EXPECT_EQ(manifold(mesh, mesh, {}, nowhere).count, 0u);
