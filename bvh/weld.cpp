@@ -128,7 +128,8 @@ Result<Vec> vertex_at(std::span<const Vec3> points, std::uint32_t point) {
 
 void CornerSums::add(const Vec& a, const Vec& b, const Vec& c) {
   flat_ += exact::collinear(&a.x, &b.x, &c.x);
-  volume_ += dot(a, cross(b, c));
+  if (!from_) from_ = a;
+  volume_ += dot(a - *from_, cross(b - *from_, c - *from_));
 }
 void CornerSums::put(MeshTopology& topology) const {
   topology.flat_triangles = flat_;

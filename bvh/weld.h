@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,7 +36,8 @@ class CornerSums {
 
  private:
   std::uint32_t flat_ = 0;
-  double volume_ = 0;
+  std::optional<Vec> from_;  ///< the first corner: volumes are summed from it, so that none is as large as the mesh is far away
+  double volume_ = 0;        ///< six times that
 };
 
 /// Fills in `topology` and `shells`. Returns, per triangle, the first one of its component.

@@ -76,6 +76,25 @@ TEST(Mesh, OfClosedSurfacesKnowsTheirVolume) {
   EXPECT_NEAR(together({unit_box(), unit_box(3)}).mesh().topology().volume, 2, 1e-14);
 }
 
+/// Far from the origin, too, as made and as refitted: held against long doubles, summed from the middle of the vertices.
+TEST(Mesh, OfClosedSurfacesKnowsTheirVolumeFarAway) {
+  for (const double away : {0.0, 1e3, 1e5, 1e6, 1e8}) {
+    for (const Soup& shape : {scaled(ball(3), 0.1), reversed(scaled(torus(12, 8), 0.5)), box({0, 0, 0}, {1, 2, 0.5})}) {
+      const Soup soup = moved(shape, Mat3::Identity(), away * Vec3(1, -1, 0.75));
+      Eigen::Matrix<long double, 3, 1> middle = Eigen::Matrix<long double, 3, 1>::Zero();
+      for (const Vec3& p : soup.points) middle += p.cast<long double>() / soup.points.size();
+      long double truth = 0;
+      for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+        const auto at = [&](std::size_t k) { return (soup.corner(t, k).cast<long double>() - middle).eval(); };
+        truth += at(0).dot(at(1).cross(at(2))) / 6;
+      }
+      const MeshModel mesh = soup.mesh();
+      EXPECT_NEAR(mesh.topology().volume, double(truth), 1e-13) << away;
+      EXPECT_NEAR(refit(shape.mesh(), soup.points).value().topology().volume, double(truth), 1e-13) << away;
+    }
+  }
+}
+
 TEST(Mesh, CountsWhatIsNotClosed) {
   Soup open = unit_box();
   open.triangles.pop_back();
