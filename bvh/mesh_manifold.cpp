@@ -70,7 +70,8 @@ struct Met {
   double depth;
 };
 
-/// How far B must go along a direction until pairs are apart.
+/// How far B must go along a direction until pairs are apart, and so are all points within the radii of them: by the sum of the
+/// radii, along the axis that parts them.
 class Way {
  public:
   Way(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b) : in_(in), body_a_(body_a), body_b_(body_b) {}
@@ -81,18 +82,18 @@ class Way {
     if (body_a_) end_of_a_ = dot(n, body_a_.point(body_a_.support(n)));
     if (body_b_) end_of_b_ = dot(n, body_b_.point(body_b_.support(-n)));
   }
-  /// How far both overlap along the direction: by more B need not go.
+  /// How far both overlap along the direction, with their radii: by more B need not go.
   double overlap(Ids ids) {
     read(ids);
-    if (both_) return -TrianglePair(a_, b_, in_.at.motion, in_.at.size).gap(n_);
+    if (both_) return radii_ - TrianglePair(a_, b_, in_.at.motion, in_.at.size).gap(n_);
     if (in_.at.a.triangles) end_of_a_ = max(max(dot(n_, a_[0]), dot(n_, a_[1])), dot(n_, a_[2]));
     if (in_.at.b.triangles) {
       const auto along = [&](int k) { return dot(n_, apply(in_.at.motion, b_[k])); };
       end_of_b_ = min(min(along(0), along(1)), along(2));
     }
-    return end_of_a_ - end_of_b_ + in_.at.law_two;
+    return end_of_a_ - end_of_b_ + in_.at.law_two + radii_;
   }
-  /// Fills all of `met` but its ids. Returns false if the pair is apart by more than law 2's bound.
+  /// Fills all of `met` but its ids. Returns false if the pair, without radii, is apart by more than law 2's bound.
   bool meets(Met& met) {
     read(met.ids);
     if (both_) {
@@ -110,9 +111,9 @@ class Way {
   /// How far B must go along the direction until the pair is apart.
   double way(const Met& met) {
     const double most = max(0, overlap(met.ids));
-    if (both_) return min(most, axes_of(met.ids).travel(n_));
+    if (both_) return min(most, axes_of(met.ids).travel(n_, radii_));
     const double slope = dot(met.least, n_);
-    return slope > kLeastSlope ? min(most, met.depth / (slope - kSlopeError)) : most;
+    return slope > kLeastSlope ? min(most, (met.depth + radii_) / (slope - kSlopeError)) : most;
   }
   /// Unit normals of both triangles, of the pair that `meets` was last asked about; of a convex body the way's.
   Vec normal_a(const Met& met) const { return in_.at.a.triangles ? normal(a_, kAtRest) : met.least; }
@@ -136,6 +137,7 @@ class Way {
   const RegionOf& in_;
   const ConvexFace &body_a_, &body_b_;
   const bool both_ = in_.at.a.triangles && in_.at.b.triangles;
+  const double radii_ = in_.at.radii.sum();
   Vec n_{0, 0, 0};
   double end_of_a_ = 0, end_of_b_ = 0;  ///< along the direction
   Vec a_[3], b_[3];
@@ -185,24 +187,28 @@ class Tried {
   Vec at_[kMostTried];
 };
 
-/// True if along `n` each pair of the region that meets overlaps by law 2's bound at most: by `most`.
+/// The way that is none but for the radii: twice law 2's bound more than their sum.
+double nothing(const RegionOf& in) { return 2 * in.at.law_two + in.at.radii.sum(); }
+
+/// True if along `n` each pair of the region that meets overlaps by `nothing` at most: by `most`, its radii included.
 bool parts_all(const RegionOf& in, Way& way, const Vec& n, double& most) {
   if (!(dot(n, n) > 0)) return false;
   way.turn(n);
-  most = 0;
+  most = in.at.radii.sum();
   bool parts = true;
   for_pairs(in, in.at.law_two, [&](Ids ids) {
     const double overlap = way.overlap(ids);
-    if (Met met{ids, {}, 0}; overlap > 2 * in.at.law_two && way.meets(met)) return parts = false;
-    most = max(most, min(overlap, 2 * in.at.law_two));
+    if (Met met{ids, {}, 0}; overlap > nothing(in) && way.meets(met)) return parts = false;
+    most = max(most, min(overlap, nothing(in)));
     return true;
   });
   return parts;
 }
 
-/// Chooses the normal along which B has the least way to go until all pairs that meet are apart; `first` if the way is nothing.
-/// Returns the way; if no pair meets, or no direction parts them, it is infinite. Of more than `kMostMet` pairs some are looked
-/// at; of all others the one that has the longest way along the normal found joins these, until that is no longer than theirs.
+/// Chooses the normal along which B has the least way to go until all pairs that meet are apart with their radii; `first` if
+/// the way is nothing. Returns the way; if no pair meets, or no direction parts them, it is infinite. Of more than `kMostMet`
+/// pairs some are looked at; of all others the one that has the longest way along the normal found joins these, until that is
+/// no longer than theirs.
 [[gnu::noinline]] double choose_normal(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b, const Vec& first,
                                        Vec& normal) {
   Way way(in, body_a, body_b);
@@ -228,10 +234,10 @@ bool parts_all(const RegionOf& in, Way& way, const Vec& n, double& most) {
   });
   tried.add_both(normalised(sum_a - sum_b)), tried.add_both(normalised(sum_a)), tried.add_both(normalised(sum_b));
 
-  const double nothing = 2 * in.at.law_two;
+  const double none = nothing(in);
   const auto way_of = [&](const Met& of, double most) {
     const double overlap = way.overlap(of.ids);
-    return overlap <= max(most, nothing) ? overlap : way.way(of);
+    return overlap <= max(most, none) ? overlap : way.way(of);
   };
   least = HUGE_VAL;
   double known[kMostTried] = {};  // along each direction tried, the longest way of the pairs that were asked
@@ -255,12 +261,12 @@ bool parts_all(const RegionOf& in, Way& way, const Vec& n, double& most) {
     way.turn(best);
     for_pairs(in, in.at.law_two, [&](Ids ids) {
       Met other{ids, {}, 0};
-      if (way.overlap(ids) > max(most, nothing) && !way.meets(other)) return true;
+      if (way.overlap(ids) > max(most, none) && !way.meets(other)) return true;
       if (const double along = way_of(other, most); along > most) most = along, worst = other;
       return true;
     });
     if (most < least) least = most, normal = best;
-    if (most <= max(of_met, nothing)) break;
+    if (most <= max(of_met, none)) break;
     met[kMostMet - 1 - round] = worst;
     tried.add(worst.least);
   }
@@ -403,7 +409,7 @@ Manifold manifold(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, cons
   if (!has_normal || separation <= at.law_two) {
     const double way = choose_normal(in, body_a, body_b, normal, normal);
     if (way == HUGE_VAL && !has_normal) return manifold;
-    if (way < HUGE_VAL) separation = -way;
+    if (way < HUGE_VAL) separation = -(way - at.radii.sum());
   }
   manifold.normal = eigen(normal);
   manifold.face_a = whole(at.a, contact.triangle_a), manifold.face_b = whole(at.b, contact.triangle_b);

@@ -35,13 +35,13 @@ class PairAxes {
     }
     return found;
   }
-  /// How far B must go along a unit direction until an axis parts it from A, rounded up; infinite if none does so. 0 if they
-  /// are apart.
-  double travel(const Vec& n) const {
+  /// How far B must go along a unit direction until an axis parts it from A by `room`, rounded up; infinite if none does so. 0
+  /// if they are that far apart.
+  double travel(const Vec& n, double room) const {
     double found = HUGE_VAL;
     for (int i = 0; i < count_; ++i) {
       const double slope = dot(axis_[i], n), along = slope > 0 ? ahead_[i] : back_[i];
-      if (std::fabs(slope) > kLeastSlope) found = min(found, along / (std::fabs(slope) - kSlopeError));
+      if (std::fabs(slope) > kLeastSlope) found = min(found, (along + room) / (std::fabs(slope) - kSlopeError));
     }
     return max(0, found);
   }

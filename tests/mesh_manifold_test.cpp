@@ -227,5 +227,58 @@ TEST(MeshManifold, PointsLieOnBothSurfacesAndTheWayParts) {
   EXPECT_LT(empty, 100);
 }
 
+/// A roof of two slopes, and below it two triangles that its slopes cross: upwards, radii cost more than their sum.
+TEST(MeshManifold, TheWayAlongALeaningAxisIsLongerForRadii) {
+  const MeshModel roof = Soup{{{0, -4, 0}, {0, 4, 0}, {-4, 0, -4}, {4, 0, -4}}, {{0, 1, 2}, {0, 1, 3}}}.mesh(),
+                  plates = Soup{{{-0.9, -0.5, -1}, {-0.9, 0.5, -1}, {-3, 0, -1}, {0.9, -0.5, -1}, {0.9, 0.5, -1}, {3, 0, -1}},
+                                {{0, 1, 2}, {3, 4, 5}}}
+                               .mesh();
+  for (const double radius : {0.0, 0.1, 0.25}) {
+    std::array<MeshContact, 2> found;
+    const MeshBody a(roof, radius), b(plates, radius);
+    ASSERT_EQ(contacts(a, b, {}, 1, found).count, 1u);
+    const Manifold m = manifold(a, b, {}, found[0]);
+    ASSERT_GT(m.count, 0u);
+    EXPECT_NEAR(m.normal.z(), 1, 1e-15);
+    EXPECT_NEAR(m.points[0].separation, -0.1 - 2 * radius * std::sqrt(2.0), 1e-12);
+  }
+}
+
+/// Every pair that crosses within the region is as far apart as both radii once B has gone the way.
+TEST(MeshManifold, TheWayPartsWhatIsWithinTheRadii) {
+  Random random(46);
+  int crossing = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Soup a = any(random), b = any(random);
+    const Pose pose = any_pose(random, 2);
+    const MeshModel x = a.mesh(), y = b.mesh();
+    const double of_a = random.uniform(0, 0.2), of_b = i % 3 ? random.uniform(0, 0.2) : 0;
+    std::vector<MeshContact> found(16);
+    found.resize(contacts({x, of_a}, {y, of_b}, pose, 0.01, found).stored);
+    for (const MeshContact& contact : found) {
+      if (!contact.normal.hasNaN()) continue;  // surfaces that are apart
+      const Manifold m = manifold({x, of_a}, {y, of_b}, pose, contact, {.margin = 0.01});
+      ASSERT_GT(m.count, 0u);
+      const Pose moved{pose.rotation, pose.translation - m.points[0].separation * m.normal};
+      const auto of_s = triangles<Real>(a), of_t = triangles<Real>(b, pose), after = triangles<Real>(b, moved);
+      const Eigen::AlignedBox3d box(contact.box_min, contact.box_max);
+      for (const auto& s : of_s) {
+        for (std::size_t t = 0; t < of_t.size(); ++t) {
+          if (nearest(s, of_t[t]).squared > 0) continue;
+          Eigen::AlignedBox3d around_s, around_t;
+          for (std::size_t k = 0; k < 3; ++k) {
+            around_s.extend(Vec3(double(s[k].x), double(s[k].y), double(s[k].z)));
+            around_t.extend(Vec3(double(of_t[t][k].x), double(of_t[t][k].y), double(of_t[t][k].z)));
+          }
+          if (!box.contains(around_s.intersection(around_t))) continue;
+          ++crossing;
+          EXPECT_GE(std::sqrt(nearest(s, after[t]).squared), of_a + of_b - 1e-13) << i;
+        }
+      }
+    }
+  }
+  EXPECT_GT(crossing, 200);
+}
+
 }  // namespace
 }  // namespace swiftlet

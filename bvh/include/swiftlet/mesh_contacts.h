@@ -75,8 +75,9 @@ MeshContacts contacts(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, 
 /// Normal. Where the surfaces are apart it is the contact's. Where triangles cross, or touch within law 2's bound, it is that
 /// direction of few along which B has the least way to go until each pair of triangles of the region that meets now is apart:
 /// of the normals of these triangles, the means of them, and the shortest ways of single pairs. Each pair is proved apart, by
-/// an axis along which the two do not overlap once B has gone the way; pairs that do not meet now may meet then. The first
-/// point's separation is minus the way. It is the depth of the triangles that cross, and not of closed bodies.
+/// an axis along which the two do not overlap once B has gone the way; pairs that do not meet now may meet then. Whether a pair
+/// meets is asked without the radii, and a pair is apart once it is so with them. The first point's separation is minus the
+/// way. It is the depth of the triangles that cross, and not of closed bodies.
 ///
 /// Points. All pairs of the region are projected along the normal; corners of one triangle over the other, and sides that
 /// cross, lie on both surfaces within 2^-20 of law 2's size, mostly within twice `tolerance`. Their separations are from the
