@@ -67,8 +67,12 @@ MeshContacts contacts(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, 
   }
   result.count = std::uint32_t(regions.size());
   result.stored = std::uint32_t(std::min(regions.size(), into.size()));
-  result.is_counted = !finding.cut_short && !regions.overflowed();
-  if (!result.is_counted || result.stored < result.count) result.status = Status::Budget;
+  const bool all_seen = !finding.cut_short && !regions.overflowed(), whole = at.a.is_whole() && at.b.is_whole();
+  result.is_counted = all_seen && whole;
+  if (!all_seen || result.stored < result.count)
+    result.status = Status::Budget;
+  else if (!whole)
+    result.status = Status::LevelLimit;
   choose_nearest(regions, into);
   for (MeshContact& region : into.first(result.stored)) describe(at, region);
   return result;

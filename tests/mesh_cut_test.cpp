@@ -5,6 +5,7 @@
 #include <swiftlet/mesh_query.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -235,6 +236,33 @@ TEST(Cut, ConvexModelHasTheDepthOfItsExactHull) {
   EXPECT_GE(apart, 50);
   EXPECT_GE(overlapping, 50);
   EXPECT_GE(limited, 200);
+}
+
+/// Regions of a coarser level may be none of the body's: they are not counted, and their intervals hold its distance.
+TEST(Cut, ConvexModelHasContactsThatAreNotCounted) {
+  const Model cut = without_its_exact_level();
+  const MeshModel cube = box({-1, -1, -1}, {1, 1, 1}).mesh();
+  int stored = 0, none = 0;
+  for (const double x : {2.01, 2.1, 2.2, 5.0}) {  // the exact hull is apart by x - 2, and the coarse one by x - 3
+    const Pose pose{Mat3::Identity(), Vec3(x, 0.1, 0.2)};
+    for (const bool swapped : {false, true}) {
+      std::array<MeshContact, 4> found;
+      const MeshContacts told =
+          swapped ? contacts(Body(cut), cube, inverse(pose), 0.25, found) : contacts(cube, Body(cut), pose, 0.25, found);
+      EXPECT_FALSE(told.is_counted);
+      EXPECT_EQ(told.status, Status::LevelLimit);
+      stored += int(told.stored), none += told.stored == 0;
+      for (std::uint32_t i = 0; i < told.stored; ++i) {
+        EXPECT_LE(found[i].lower, x - 2);
+        EXPECT_GE(found[i].upper, x - 2);
+        EXPECT_NE(found[i].verdict, Verdict::Overlapping);
+      }
+      std::span<MeshContact> no_room;
+      EXPECT_EQ(contacts(cube, Body(cut), pose, 0.25, no_room).status, told.stored > 0 ? Status::Budget : Status::LevelLimit);
+    }
+  }
+  EXPECT_EQ(stored, 6);
+  EXPECT_EQ(none, 2);
 }
 
 TEST(Cut, ScalesBitForBit) {

@@ -171,7 +171,7 @@ Regions all_regions(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, do
   for (std::size_t room = kLeastRoom; room <= kMostRoom; room *= 4) {
     all.contacts.resize(room);
     all.found = contacts(a, b, b_in_a, reach, all.contacts);
-    if (all.found.is_counted && all.found.stored == all.found.count) break;
+    if (all.found.status != Status::Budget) break;
   }
   all.contacts.resize(all.found.stored);
   return all;

@@ -34,8 +34,9 @@ struct MeshContact {
 
 /// What `contacts` found.
 struct MeshContacts {
-  /// Converged: all regions are stored. Budget: not all are, as the span is too short or the steps came to an end. Else as of
-  /// other queries.
+  /// Converged: all regions are stored. Budget: not all are, as the span is too short or the steps came to an end. LevelLimit:
+  /// a mesh was cut, and nothing is stored, or a convex model lacks level 0: all regions within reach of its finest level are
+  /// stored, but some may be beyond that of the body, and some be none. Else as of other queries.
   Status status = Status::NotAsked;
   bool is_counted = false;        ///< `count` is the number of regions
   std::uint32_t count = 0;        ///< regions in all; unless `is_counted`, as many as were told apart
@@ -58,10 +59,11 @@ inline constexpr std::size_t kSpareRegions = 64;
 /// swapping the bodies, may join or part regions whose boxes nearly meet; a power of two changes nothing. A pair whose distance
 /// is above the reach by law 2's bound or less may count as within it, whether others do or not.
 ///
-/// Each interval is as narrow as law 2's bound, and holds the least distance of all pairs of triangles in the region. If
-/// more than `into.size() + kSpareRegions` regions are told apart at a time, the nearest are joined though they do not meet:
-/// then `count` is a lower bound of the true number, and `is_counted` false. If `budget` ends the search, the bounds are true,
-/// `count` tells the regions so far, and what was not looked at may join them or add others.
+/// Each interval is as narrow as law 2's bound, or as the levels that a convex model has allow, and holds the least distance of
+/// all pairs of triangles in the region. If more than `into.size() + kSpareRegions` regions are told apart at a time, the
+/// nearest are joined though they do not meet: then `count` is a lower bound of the true number, and `is_counted` false. If
+/// `budget` ends the search, the bounds are true, `count` tells the regions so far, and what was not looked at may join them or
+/// add others.
 ///
 /// Cost: that of all pairs of triangles within reach but those inside of a region that is no farther, at 0.1 to 0.3
 /// microseconds each, and for each a look at the regions so far. Starts cold. Allocates nothing; uses 32 kB of stack, and up
@@ -90,6 +92,9 @@ MeshContacts contacts(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, 
 /// The manifold is empty if the bodies or the pose are refused, if the contact names no region of them, or if its distance is
 /// above `margin`. A region has one normal: of a box that touches wall and floor within one region, the points are on one
 /// of both.
+///
+/// Of a convex model without level 0 normal, way and points are those of its finest level, which holds the body: points may lie
+/// outside of it by the level's deviation, and no separation is above the body's.
 ///
 /// Of two convex bodies: manifold.h's, of their signed distance. Cost: 0.1 to 0.3 microseconds for each pair of triangles
 /// within reach in the region, and some 100 more where triangles cross or touch. Allocates nothing; uses 32 kB of stack, and up
