@@ -138,8 +138,10 @@ void look_inside(const MeshView& a, const MeshView& b, const Pose& b_in_a, const
   for (const bool solid_is_b : {false, true}) {
     const MeshView &solid = solid_is_b ? b : a, &guest = solid_is_b ? a : b;
     if (!solid.solid || too_far_apart(solid, finding.lower)) continue;
-    if (guest.content && guest.triangle_count == 0) {  // nothing tells where its components are
-      finding.lower = 0;
+    if (guest.content && guest.triangle_count == 0) {
+      // Nothing tells where its components are, unless a plane parts all of it from the solid.
+      Placed placed;
+      if (!(gap_of_roots({*a.root, *a.nodes}, {*b.root, *b.nodes}, b_in_a, 0, placed) > 0)) finding.lower = 0;
       continue;
     }
     Visit visit(solid, guest, b_in_a, solid_is_b, question, finding);

@@ -166,6 +166,27 @@ TEST(Cut, InsideOfASolidIsNotApart) {
   EXPECT_EQ(distance(MeshBody::solid(outer), cut, {Mat3::Identity(), Vec3(30, 0, 0)}).verdict, Verdict::Disjoint);
 }
 
+/// Where a plane parts it from a solid, the interval is as narrow as beside a surface.
+TEST(Cut, BesideASolidIsAsPreciseAsBesideASurface) {
+  const Soup cube = box({-1, -1, -1}, {1, 1, 1}), small = scaled(ball(3), 0.5);
+  const MeshModel outer = cube.mesh(), whole = small.mesh();
+  Random random(47);
+  for (int levels = 2; levels < whole.depth(); ++levels) {
+    const MeshModel cut = cut_after(whole, levels);
+    for (int i = 0; i < 20; ++i) {
+      const Pose pose{random.rotation(), Vec3(1.6 + 0.02 * i + cut.deviation(), 0.1, -0.2)};
+      const double truth = distance_by_all_pairs(cube, small, pose);
+      for (const Answer& answer :
+           {distance(MeshBody::solid(outer), cut, pose), distance(cut, MeshBody::solid(outer), inverse(pose))}) {
+        EXPECT_LE(answer.lower, truth + 1e-12);
+        EXPECT_GE(answer.upper, truth - 1e-12);
+        EXPECT_LE(answer.upper - answer.lower, cut.deviation() + 1e-12);
+        EXPECT_EQ(answer.verdict, Verdict::Disjoint);
+      }
+    }
+  }
+}
+
 /// A hull with one coarse level, both from eight corners: the coarse one twice as large.
 Model without_its_exact_level() {
   std::array<std::vector<Vec3>, 2> corners;

@@ -83,8 +83,9 @@ class MeshModel {
   double deviation() const { return is_whole() ? 0 : deviation(level_count()); }  ///< that of this mesh
   /// Returns the mesh without the triangles and without the lower levels of nodes that `detail` allows to leave out: what is
   /// left is boxes around the surface, none farther from it than `deviation`. Any distance is then answered with an error of at
-  /// most the sum of both meshes' deviations, status LevelLimit, and no feature; of a solid, InvalidBody. A mesh of one level
-  /// is returned as it is.
+  /// most the sum of both meshes' deviations, status LevelLimit, and no feature; as a solid it is InvalidBody. Beside another
+  /// solid `lower` is 0 unless the trees' roots show a plane between both: nothing tells which parts are inside. A mesh of one
+  /// level is returned as it is.
   MeshModel cut(const Detail& detail) const;
   std::span<const std::byte> bytes() const;  ///< the block, which is what `save` writes
   std::uint64_t hash() const;                ///< hash over all of `bytes()`, which it reads; equal blocks have equal hashes
