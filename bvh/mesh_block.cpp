@@ -71,6 +71,9 @@ std::string misplaced(const MeshHeader& h) {
   return h.total_bytes == offset ? "" : "its size does not fit its header";
 }
 
+/// No coordinate of a legal mesh is larger.
+double most_coordinate(const MeshHeader& h) { return min(power_of_two(h.unit), kMostCoordinate); }
+
 std::string fault(const MeshHeader& h) {
   if (h.triangle_count == 0 || h.triangle_count > kMostTriangles || h.vertex_count == 0 || h.node_count == 0 ||
       h.vertex_count > 3 * std::uint64_t{kMostTriangles} || h.node_count > kMostTriangles)
@@ -79,7 +82,7 @@ std::string fault(const MeshHeader& h) {
   if (h.depth < 1 || h.depth > kMostDepth || h.levels < 1 || h.levels > h.depth || h.components > h.triangle_count ||
       h.unit < -160 || h.unit > 160)
     return "a depth or unit out of range";
-  const double largest = power_of_two(h.unit);
+  const double largest = most_coordinate(h);
   for (int axis = 0; axis < 3; ++axis) {
     if (!(h.box_min[axis] <= h.box_max[axis] && h.box_min[axis] >= -largest && h.box_max[axis] <= largest))
       return "a box out of range";
@@ -414,7 +417,7 @@ Result<MeshModel> MeshReader::read(Block block) {
     if (source >= is_named.size() || is_named[source]) return bad("the sources of its triangles are not each of them once");
     is_named[source] = true;
   }
-  const double largest = power_of_two(h.unit);
+  const double largest = most_coordinate(h);
   for (const Vec& v : c.vertices) {
     const auto legal = [&](double x) { return x == 0 || (std::fabs(x) >= kLeastExtent && std::fabs(x) <= largest); };
     if (!legal(v.x) || !legal(v.y) || !legal(v.z))

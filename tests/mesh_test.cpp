@@ -395,6 +395,32 @@ soups::Block with_hulls(const soups::Block& block, std::span<const HullRecord> h
   return made;
 }
 
+/// Coordinates that `from_triangles` refuses are refused of a file, too, whatever unit it names.
+TEST_F(MeshFile, WithCoordinatesBeyondTheLargestIsRefused) {
+  const auto larger = [](int shift) {
+    soups::Block block = bytes_of(scaled(tetrahedron(), 0x1p149).mesh());
+    MeshHeader header = header_of(block);
+    header.unit += shift;
+    for (double* x : {header.box_min, header.box_max})
+      for (int k = 0; k < 3; ++k) x[k] = std::ldexp(x[k], shift);
+    std::memcpy(block.data(), &header, sizeof header);
+    for (std::size_t at = header.vertices.offset; at < header.vertices.offset + header.vertices.bytes; at += sizeof(double)) {
+      double x;
+      std::memcpy(&x, block.data() + at, sizeof x);
+      x = std::ldexp(x, shift);
+      std::memcpy(block.data() + at, &x, sizeof x);
+    }
+    rehash(block);
+    return block;
+  };
+  EXPECT_TRUE(load_mesh(larger(0)));
+  for (const int shift : {1, 4, 10}) {
+    const Result<MeshModel> read = load_mesh(larger(shift));
+    ASSERT_FALSE(read) << shift;
+    EXPECT_EQ(read.error().code, ErrorCode::BadFormat);
+  }
+}
+
 /// Hulls that all name the same bytes as their models are not copied before they are refused.
 TEST_F(MeshFile, WithHullsThatShareTheirModelsTakesNoMoreMemoryThanItIsLarge) {
   const MeshModel mesh = ball(4).mesh();
