@@ -177,6 +177,7 @@ HullAnswer HullPair::distance(const Pose& b_in_a, double absolute, double relati
 
 const std::vector<HullAnswer>& HullPair::contacts(const Pose& b_in_a, double reach) {
   contacts_.clear();
+  if (std::isnan(reach)) return contacts_;
   Question question(a_, b_, b_in_a, {0, 0, reach});
   question.every_contact = true;
   search(question);

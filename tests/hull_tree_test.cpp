@@ -478,6 +478,7 @@ TEST(HullTree, BadPosesAreStatuses) {
   EXPECT_EQ(pair.distance(bad).answer.status, Status::InvalidPose);
   EXPECT_EQ(pair.within(bad, 1), Decision::Undecided);
   EXPECT_TRUE(pair.contacts(bad, 1).empty());
+  EXPECT_TRUE(pair.contacts({}, std::numeric_limits<double>::quiet_NaN()).empty());
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ class HullPair {
   HullAnswer distance(const Pose& b_in_a, double absolute = 0, double relative = 0,
                       double beyond = std::numeric_limits<double>::infinity());
   /// All pairs of pieces within `reach`, each with its distance, in no order: the local minima and more. Bodies that overlap
-  /// give one contact, an overlap.
+  /// give one contact, an overlap. None if `reach` is NaN.
   const std::vector<HullAnswer>& contacts(const Pose& b_in_a, double reach);
 
   std::uint64_t asked() const { return asked_; }  ///< pairs of nodes asked about, by all queries so far
