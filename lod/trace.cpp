@@ -109,7 +109,7 @@ class PlaneFinder {
 /// another one; how deep a point is below a plane is right to rounding, however thin the triangle.
 class HullFaces {
  public:
-  explicit HullFaces(const Polytope& body) : body_(body), planes_(body.triangles.size()) {
+  explicit HullFaces(const Polytope& body) : body_(body), planes_(body.triangles.size(), Vec3::Zero()) {
     for (const auto& [a, b, c] : body.triangles) triangles_.emplace_back(cgal(a), cgal(b), cgal(c));
     tree_.emplace(triangles_.cbegin(), triangles_.cend());
   }
