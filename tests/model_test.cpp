@@ -652,6 +652,9 @@ TEST(Model, SourceIdsAreTheUsers) {
   std::swap(begin[4], begin[6]);
   EXPECT_EQ(Model::from_level(arrays).error().code, ErrorCode::BadValue);
   std::swap(begin[4], begin[6]);
+  begin[0] = begin[1] = begin[2];  // the first id would be of no face
+  EXPECT_EQ(Model::from_level(arrays).error().code, ErrorCode::BadValue);
+  begin[0] = begin[1] = 0;
   vertex.pop_back();
   arrays.vertex_source = vertex;
   EXPECT_EQ(Model::from_level(arrays).error().code, ErrorCode::BadValue);

@@ -274,7 +274,7 @@ Result<std::uint64_t> write_source(BlockParts& parts, const LevelArrays& arrays,
   const bool own_ids = arrays.face_source_begin.empty();
   if (!own_ids) {
     const auto& begin = arrays.face_source_begin;
-    if (begin.size() != inputs + 1 || begin.back() != arrays.face_source.size() ||
+    if (begin.size() != inputs + 1 || begin.front() != 0 || begin.back() != arrays.face_source.size() ||
         !std::is_sorted(begin.begin(), begin.end())) {
       return Error{ErrorCode::BadValue, "face_source_begin does not fit the faces"};
     }
