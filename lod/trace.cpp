@@ -109,7 +109,7 @@ class PlaneFinder {
 /// another one; how deep a point is below a plane is right to rounding, however thin the triangle.
 class HullFaces {
  public:
-  explicit HullFaces(const Polytope& body) : body_(body), planes_(body.triangles.size(), Vec3::Zero()) {
+  explicit HullFaces(const Polytope& body) : body_(body), normals_(body.triangles.size(), Vec3::Zero()) {
     for (const auto& [a, b, c] : body.triangles) triangles_.emplace_back(cgal(a), cgal(b), cgal(c));
     tree_.emplace(triangles_.cbegin(), triangles_.cend());
   }
@@ -123,11 +123,11 @@ class HullFaces {
   /// `enough`.
   double depth(const Vec3& p, double enough) {
     double least = depth(about_nearest(p), p);
-    for (std::uint32_t t = 0; t < planes_.size() && least > enough; ++t) least = std::min(least, depth(t, p));
+    for (std::uint32_t t = 0; t < normals_.size() && least > enough; ++t) least = std::min(least, depth(t, p));
     return least;
   }
   const Vec3& normal(std::uint32_t triangle) {
-    Vec3& normal = planes_[triangle];
+    Vec3& normal = normals_[triangle];
     if (!normal.isZero()) return normal;
     const auto& [a, b, c] = body_.triangles[triangle];
     return normal = eigen(exact::plane(vec(body_.points[a]), vec(body_.points[b]), vec(body_.points[c])).normal);
@@ -147,7 +147,7 @@ class HullFaces {
   const Polytope& body_;
   Triangles triangles_;
   std::optional<Tree> tree_;
-  std::vector<Vec3> planes_;  ///< normals; 0 before they are asked for
+  std::vector<Vec3> normals_;  ///< 0 before they are asked for
 };
 
 /// No less than the depth of a point, from the supports in a few directions: most points are seen not to be the deepest by it.

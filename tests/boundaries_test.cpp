@@ -3,8 +3,6 @@
 // What callers may pass, and what a query may go on from: refused poses, errors that are no numbers, answers of other queries.
 #include <gtest/gtest.h>
 
-#include "bodies.h"
-
 #include <limits>
 #include <string>
 
@@ -12,6 +10,8 @@
 #include <swiftlet/depth.h>
 #include <swiftlet/mesh_query.h>
 #include <swiftlet/model_file.h>
+
+#include "bodies.h"
 
 namespace swiftlet {
 namespace {

@@ -108,6 +108,7 @@ TEST_F(CaseJudge, CatchesAWrongVerdict) {
       EXPECT_NE(of_bent(gap, bend), Fault::None) << int(v) << " at " << gap;
     }
   }
+  EXPECT_NE(of_bent(1e-6, [](Answer& a) { a.verdict = Verdict::Undecided; }), Fault::None);
   EXPECT_EQ(of_within(1, 2, Decision::No), Fault::WrongVerdict);
   EXPECT_EQ(of_within(1, .5, Decision::Yes), Fault::WrongVerdict);
   EXPECT_EQ(of_within(1, 1 + 1e-12, Decision::Undecided), Fault::WrongVerdict);

@@ -13,7 +13,8 @@ namespace swiftlet {
 
 // Each function returns an error text, or an empty string if all is well.
 
-/// Checks that rings, twins and face loops fit together, so that every walk over them stays inside and every loop closes.
+/// Checks that rings, twins and face loops fit together, so that every walk over them stays inside and every loop closes. Only
+/// a point and a segment have no faces.
 std::string topology_fault(const ConvexView& view);
 /// Checks that face normals have length 1 up to `kUnitNormalError` and no coordinate too small for exact heights, and that
 /// thicknesses and heights are finite and not negative.

@@ -494,17 +494,15 @@ Result<Facets> two_sided(const Input& in) {
   int drop = 0;
   while (drop < 2 && turn_sign(in, loop[0], loop[1], loop[2], (drop + 1) % 3, (drop + 2) % 3) == 0) ++drop;
   const int x = (drop + 1) % 3, y = (drop + 2) % 3;
-  // A polygon is convex if it turns to one side at all corners, and once around: then its sides run twice the other way along
-  // x.
+  // A polygon is convex if it turns to one side at all corners, and goes around once: along x its sides then turn back twice.
   const int winding = turn_sign(in, loop[0], loop[1], loop[2], x, y);
-  int first = 0, last = 0, changes = 0;
+  int last = 0, changes = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Index a = loop[i], b = loop[(i + 1) % n], c = loop[(i + 2) % n];
     const int sign = turn_sign(in, a, b, c, x, y), way = (in.at(b)[x] > in.at(a)[x]) - (in.at(b)[x] < in.at(a)[x]);
     if (sign == 0 || sign != winding) return not_convex("the polygon is not strictly convex at vertex " + std::to_string(b));
     if (way == 0) continue;
-    if (first == 0) first = last = way;
-    changes += way != last;
+    changes += last != 0 && way != last;
     if (changes > 2)
       return not_convex("the polygon is not strictly convex: it goes around more than once at vertex " + std::to_string(a));
     last = way;

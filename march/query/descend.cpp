@@ -65,13 +65,12 @@ class Descent {
     finish(place);
   }
 
-  /// Goes on from where another query ended, as `answer_` says; where that names no features, or such as may not be read, from
-  /// the seed on.
+  /// Goes on from where another query ended, as `answer_` says; from the seed on if the levels of its features may not be read.
   void go_on(PairSeed& seed, double exact_width) {
     Place place{answer_.level_a, answer_.level_b, {answer_.feature_a, answer_.feature_b}};
     answer_.steps = answer_.plane_tests = 0;
     answer_.levels_visited = 0;
-    if (!is_warm(place.start) || !may_read(a_, finest_a_, place.level_a) || !may_read(b_, finest_b_, place.level_b)) {
+    if (!may_read(a_, finest_a_, place.level_a) || !may_read(b_, finest_b_, place.level_b)) {
       Turn turn;
       return start(first_place(a_, b_, line_, seed, finest_a_, finest_b_, tuning_.start, Warm::Near, turn), seed);
     }

@@ -40,7 +40,8 @@ void ask_on(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, co
   const bool overlaps = !so_far.is_signed && so_far.verdict == Verdict::Overlapping;
   const bool tells = (so_far.lower > 0 || !so_far.is_signed) && so_far.status < Status::InvalidPose,
              has_features = so_far.feature_a.kind() != FeatureKind::None;  // else balls or ellipsoids answered
-  if (overlaps && limits.tuning.proof) {                                   // the proof is found again
+  if (overlaps && limits.tuning.proof) {
+    // The proof is found again, if the budget suffices.
     ask(a, b, b_in_a, seed, limits, asked, answer);
     if (answer.verdict == Verdict::Overlapping) return;
     *limits.tuning.proof = {};
