@@ -73,7 +73,9 @@ bool closes(const std::vector<Triangle>& triangles, std::size_t point_count) {
 class PlaneFinder {
  public:
   PlaneFinder(const Polytope& body, double rounding)
-      : body_(body), climber_(body), edges_(half_edges(body)), rounding_(rounding) {}
+      : body_(body), climber_(body), edges_(half_edges(body)), rounding_(rounding), diameter_(0) {
+    for (const Vec3& p : body.points) diameter_ = std::max(diameter_, 2 * (p - body.points[0]).norm());
+  }
 
   /// The largest hull triangle at the vertex where the plane of p, q, r touches, if all lie on one plane; else kNone.
   std::uint32_t find(const Vec3& p, const Vec3& q, const Vec3& r) {
@@ -96,12 +98,20 @@ class PlaneFinder {
     } while (h != first);
     return best;
   }
+  /// False if p, q, r, which were last asked about, are farther below the hull than a plane of it may lean by the rounding of
+  /// three points: by that over the triangle's altitude.
+  bool may_lean(const Vec3& p, const Vec3& q, const Vec3& r) const {
+    const Vec3 twice = area_normal(p, q, r), normal = twice.normalized();
+    const double longest = std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()}),
+                 below = normal.dot(body_.points[last_] - p);
+    return !(below * twice.norm() > 2 * rounding_ * longest * diameter_);
+  }
 
  private:
   const Polytope& body_;
   Climber climber_;
   HalfEdges edges_;
-  double rounding_;
+  double rounding_, diameter_;  ///< `diameter_` is that of a ball around the first vertex
   std::uint32_t last_ = 0;
 };
 
@@ -239,7 +249,8 @@ std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, cons
       if (!planes) planes.emplace(body, rounding);
       on = planes->find(mesh.points[i], mesh.points[j], mesh.points[k]);
     }
-    if (on == kNone) on = by_face(mesh.points[i], mesh.points[j], mesh.points[k]);
+    if (on == kNone && planes->may_lean(mesh.points[i], mesh.points[j], mesh.points[k]))
+      on = by_face(mesh.points[i], mesh.points[j], mesh.points[k]);
     found[t] = on;
   }
   return found;
