@@ -240,6 +240,42 @@ TEST(SignedDistance, TakesAnySeed) {
   }
 }
 
+/// Where another last bit of a bound decides, a seed that a deeper pose left gives what a cold start does.
+TEST(SignedDistance, NoSeedDecidesWithinRoundingOfAThreshold) {
+  shapes::Random random(15);
+  const auto within_bounds = [&](double bound) { return random.uniform(-1.5, 1.5) * bound; };
+  int decisions = 0, touching = 0;
+  for (const shapes::Family family : shapes::kFamilies) {
+    const Scenery scene = scenery(family, 60, 40, 16);
+    for (const Pose& pose : scene.poses) {
+      const Answer deep = signed_distance(scene.a, scene.b, pose);
+      for (int k = 0; k < 10; ++k) {
+        const auto left_by = [&](Pose p) {
+          PairSeed seed;
+          p.translation -= std::pow(10, random.uniform(-14, -2)) * (deep.normal + .1 * random.in_ball());
+          signed_distance(scene.a, scene.b, p, seed);
+          return seed;
+        };
+        const double bound = tolerance(scene.a, scene.b, pose), threshold = deep.value() + within_bounds(bound);
+        PairSeed seed = left_by(pose);
+        const Decision cold = signed_within(scene.a, scene.b, pose, threshold).decision;
+        EXPECT_EQ(signed_within(scene.a, scene.b, pose, threshold, seed).decision, cold);
+        decisions += cold == Decision::Undecided;
+
+        const Body a{scene.a.model, random.uniform(0, .1) * bound}, b{scene.b.model, random.uniform(0, .1) * bound};
+        Pose contact = pose;
+        contact.translation += (within_bounds(bound) - deep.value()) * deep.normal;
+        seed = left_by(contact);
+        const Verdict verdict = signed_distance(a, b, contact).verdict;
+        EXPECT_EQ(signed_distance(a, b, contact, seed).verdict, verdict);
+        touching += verdict == Verdict::Touching;
+      }
+    }
+  }
+  EXPECT_GE(decisions, 100);
+  EXPECT_GE(touching, 100);
+}
+
 TEST(SignedDistance, IsContinuousThroughContact) {
   for (const shapes::Family family : shapes::kFamilies) {
     const Scenery scene = scenery(family, 300, 4, 10);

@@ -63,8 +63,18 @@ Span triangle_below(const Body& body, FeatureId face, const Vec& p) {
   return {3, {c.vertex[0], c.vertex[1], c.vertex[2]}};
 }
 
+/// What a search has found.
+struct Found {
+  DepthEnd end = DepthEnd::NotConverged;
+  double lower = -kInfinity, upper = kInfinity;  ///< bounds on the depth of the exact hulls
+  Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};
+  bool has_points = false;
+  FeatureId feature_a, feature_b;
+  int level_a = 0, level_b = 0;
+};
+
 /// The search for the depth, from level pair to finer level pair until the bounds suffice.
-class Deepening {
+class Deepening : public Found {
  public:
   Deepening(const Setting& at, const Limits& limits, const StopRule& asked)
       : pair_(*at.a, *at.b, at.motion, at.quality.error, limits),
@@ -105,11 +115,19 @@ class Deepening {
     if (end == DepthEnd::NotConverged && answered()) end = DepthEnd::Converged;
   }
 
-  /// Bounds the depth of touching bodies by their height along a unit direction. `floor`: as `run`'s.
+  /// Runs from a cold start. What is known stays if the budget ends that.
+  void run_anew() {
+    const Found known = *this;
+    run({}, 0, levels_visited);
+    if (end == DepthEnd::Budget) Found::operator=(known);
+  }
+
+  /// Bounds the depth of touching bodies by their height along a unit direction, whatever was known of it. `floor`: as `run`'s.
   void touch(const Vec& n, FeatureId from_a, FeatureId from_b, double floor) {
     place_ = {finest_a_, finest_b_, {}};
     const PairView pair = pair_.view_at(place_);
     floor_ = floor;
+    lower = -kInfinity, has_points = false;
     ++steps, upper = -supports(pair, n, any_vertex(pair.a, from_a), any_vertex(pair.b, from_b), plane_tests).lower;
     normal = n, level_a = finest_a_, level_b = finest_b_;
     end = answered() ? DepthEnd::Converged : DepthEnd::NotConverged;
@@ -123,6 +141,8 @@ class Deepening {
   /// True if the depth is surely above law 2's bound: the bodies overlap and do not count as touching.
   bool proved() const { return lower > law_two_; }
 
+  /// True if no other start decides a threshold otherwise: the bounds pass it by more than law 2's bound, or the start was cold.
+  bool decided() const { return turn_ == Turn::Far || stop_.passed(lower, upper) || end == DepthEnd::Budget; }
   /// True if the bounds are narrow enough, with `floor` as the lower bound if that is better.
   bool narrow(double floor) const { return stop_.narrow(max(lower, floor), upper); }
 
@@ -135,12 +155,6 @@ class Deepening {
 
   const ModelPair& pair() const { return pair_; }
 
-  DepthEnd end = DepthEnd::NotConverged;
-  double lower = -kInfinity, upper = kInfinity;  ///< bounds on the depth of the exact hulls
-  Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};
-  bool has_points = false;
-  FeatureId feature_a, feature_b;
-  int level_a = 0, level_b = 0;
   std::uint32_t steps = 0, plane_tests = 0;
   int levels_visited = 0;
 
@@ -413,8 +427,13 @@ void make_signed(std::span<LevelRecord> trace, int visited) {
     PairSeed here = touching ? seed : PairSeed{};  // features at which bodies overlap need not be the deepest
     here.met = touching;
     const double floor = -answer.upper;  // the depth is at least minus the distance's upper bound
-    if (touching && !answer.normal.hasNaN()) deep.touch(vec(answer.normal), answer.feature_a, answer.feature_b, floor);
-    if (deep.end != DepthEnd::Apart && (deep.steps == 0 || !deep.narrow(floor))) deep.run(here, floor, answer.levels_visited);
+    bool known = deep.end == DepthEnd::Apart || (deep.steps > 0 && deep.narrow(floor));
+    if (touching) known = false;  // within rounding of contact what a seed told does not count
+    if (touching && !answer.normal.hasNaN()) {
+      deep.touch(vec(answer.normal), answer.feature_a, answer.feature_b, floor);
+      known = deep.narrow(floor);
+    }
+    if (!known) deep.run(here, floor, answer.levels_visited);
     if (deep.end == DepthEnd::Apart)
       part(deep, answer);
     else
@@ -440,6 +459,7 @@ void make_signed(std::span<LevelRecord> trace, int visited) {
   if (of_hulls < 0) {
     Deepening deep(at, limits, {0, 0, -of_hulls, -of_hulls});
     deep.run(seed);
+    if (!deep.decided()) deep.run_anew();  // within rounding of the threshold a cold start decides
     if (deep.proved()) deep.store(seed);
     overlap_part(deep, result.answer);
   } else {
