@@ -345,7 +345,7 @@ void grow(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b
   const auto contact_face = [&](const ConvexFace& body, const Vec& n, const Motion& in_a, FeatureId before,
                                 std::optional<ContactFace>& face) {
     if (body)
-      face.emplace(body.view(), rotate_back(in_a, n), FeatureId(FeatureKind::Vertex, body.support(n)), before, flatness);
+      face.emplace(body.view(), rotate_back(in_a, n), FeatureId(FeatureKind::Vertex, body.support(n)), before, flatness, 0);
   };
   contact_face(body_a, normal, kAtRest, previous.face_a, face_a);
   contact_face(body_b, -normal, in.at.motion, previous.face_b, face_b);

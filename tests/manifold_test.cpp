@@ -303,6 +303,44 @@ TEST(Manifold, OfPrismsIsTheIntersectionOfTheirFaces) {
   expect_much_kept(shares);
 }
 
+/// Bodies exactly in contact: the feature that holds the common point is often a side of one of them, at its edge.
+TEST(Manifold, OfBodiesInContactIsOfTheFacesThatFaceEachOther) {
+  Random random(29);
+  int touching = 0, beside = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const auto body = [&] {
+      return random.bits() % 2 ? bodies::box(1 + double(random.bits() % 3), 1, 0.5)
+                               : prism(3 + std::uint32_t(random.bits() % 6), 1, 1);
+    };
+    const double gap = any(std::array{0., -0x1p-50, 0x1p-50}, random);
+    const Mat3 turn = random.bits() % 2 ? random.rotation() : Mat3::Identity();
+    const Pose top = random_top(random, random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7));
+    Contacting c = stacked(body(), 0.5, body(), top, gap, turn);
+    c.answer = signed_distance(c.a, c.b, c.b_in_a);
+    ASSERT_EQ(c.answer.status, Status::Converged);
+    const auto cosine = [&](const Model& model, FeatureId face, const Vec3& n) {
+      std::vector<Vec3> corners;
+      for (const std::uint32_t v : FaceLoop(model.level(0).view, face.index())) {
+        const Vertex& at = model.level(0).view.vertices[v];
+        corners.emplace_back(at.x, at.y, at.z);
+      }
+      return (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized().dot(n);
+    };
+    const Vec3 n = c.answer.normal, n_b = -(c.b_in_a.rotation.transpose() * n);
+    const Manifold p = manifold(c.a, c.b, c.b_in_a, c.answer, {.margin = 1e-2});
+    ASSERT_GT(cosine(c.a, p.face_a, n), 0.99) << i;
+    ASSERT_GT(cosine(c.b, p.face_b, n_b), 0.99) << i;
+    ASSERT_GE(p.count, 3u) << i;
+    const auto is_beside = [&](const Model& model, FeatureId feature, const Vec3& along) {
+      return feature.kind() == FeatureKind::Face && cosine(model, feature, along) < 0.5;
+    };
+    touching += c.answer.verdict == Verdict::Touching;
+    beside += is_beside(c.a, c.answer.feature_a, n) || is_beside(c.b, c.answer.feature_b, n_b);
+  }
+  EXPECT_GE(touching, 1000);
+  EXPECT_GE(beside, 10);
+}
+
 /// Faces of many corners on one another and on faces of few, whose sides are found by halving.
 TEST(Manifold, OfManyUnevenSidesIsTheIntersectionOfTheirFaces) {
   Random random(27);
@@ -602,6 +640,43 @@ TEST(Manifold, OfSidesNearlyOnOneLineCostsTheirSum) {
 
 /// Of many corners few are candidates: beside all of them by brute force, a few points keep as much as the header says. Round
 /// and stretched faces, anywhere on one another, down to lenses of a thousandth of their width.
+/// A round face, and beside each of its sides a triangle that falls by too little to lie elsewhere. The contact face is one of
+/// these; at each corner of the border the round face is asked whether it belongs to it.
+TEST(Manifold, OfSliversAroundAFaceCostsTheirSum) {
+  const Model plate = bodies::model(bodies::box(3, 3, 0.5));
+  const auto cheapest = [&](std::uint32_t sides) {
+    const double turn = std::numbers::pi / sides, bulge = (1 - std::cos(turn)) / 2;
+    const auto on_circle = [&](std::uint32_t i, double scale, double z) {
+      const double radius = scale * (i % 2 ? 1 - bulge : 1);
+      return Vec3(radius * std::cos(i * turn), radius * std::sin(i * turn), z);
+    };
+    bodies::Polyhedron coin;
+    for (std::uint32_t i = 0; i < 2 * sides; ++i) coin.points.push_back(on_circle(i, 1, i % 2 ? -1e-7 * bulge : 0));
+    for (std::uint32_t i = 0; i < 2 * sides; ++i) coin.points.push_back(on_circle(i, 0.5, -1));
+    for (std::uint32_t i = 0; i < sides; ++i) coin.corners.push_back(2 * i);
+    for (std::uint32_t i = 0; i < 2 * sides; ++i) coin.corners.push_back(4 * sides - 1 - i);
+    coin.sizes = {sides, 2 * sides};
+    for (std::uint32_t i = 0; i < 2 * sides; i += 2) {
+      const std::uint32_t tip = i + 1, next = (i + 2) % (2 * sides), low = 2 * sides;
+      coin.add({i, tip, next}), coin.add({i, low + i, low + tip}), coin.add({i, low + tip, tip});
+      coin.add({tip, low + tip, next}), coin.add({next, low + tip, low + next});
+    }
+    const Model model = std::move(Model::from_level(coin.level(), {true, {}})).value();
+    const Mat3 tilt = shapes::rotation(Vec3(-std::sin(turn), std::cos(turn), 0), 2e-6);
+    const Pose pose = at(0, 0, 0.501, tilt);
+    const Answer answer = nearest(model, plate, pose);
+    double least = kInfinity;
+    for (int round = 0; round < 9; ++round) {
+      const auto begin = std::chrono::steady_clock::now();
+      const Manifold p = manifold(model, plate, pose, answer, {.margin = 1});
+      least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+      EXPECT_EQ(p.count, 4u);
+    }
+    return least;
+  };
+  EXPECT_LE(cheapest(1024), 9 * cheapest(256));  // four times as many sides
+}
+
 TEST(Manifold, OfManySidesKeepsTheSharesOfTheHeader) {
   Random random(18);
   constexpr double kLeast[] = {0, 0, 0, 0.28, 0.5, 0, 0, 0, 0.78}, kRound[] = {0, 0, 0, 0, 0.6, 0, 0, 0, 0.87};
@@ -1317,9 +1392,12 @@ TEST(Manifold, OfBodiesFarFromTheirOriginsStays) {
 TEST(Manifold, OfAPairAtRestKeepsItsPointsUnderNoise) {
   Random random(17);
   for (const std::uint32_t sides : {4u, 12u, 40u, 200u}) {
-    const Model upper = bodies::model(prism(sides, 1, 1)), lower = sides == 4 ? bodies::model(bodies::box(3, 2, 0.5)) : upper;
+    const Model upper = bodies::model(prism(sides, 1, 1)), slab = sides == 4 ? bodies::model(bodies::box(3, 2, 0.5)) : upper;
     const Mat3 turn = random.rotation();
-    for (const auto& [twist, slide, tilt] : {std::tuple{0.4, 0.03, 0.}, std::tuple{1.1, 0.3, 0.}, std::tuple{0.7, 0.2, 1e-6}}) {
+    for (const auto& [twist, slide, tilt] :
+         {std::tuple{0.4, 0.03, 0.}, std::tuple{1.1, 0.3, 0.}, std::tuple{0.7, 0.2, 1e-6}, std::tuple{0., 0., 0.}}) {
+      const bool is_flush = slide == 0;
+      const Model& lower = is_flush ? upper : slab;
       const auto noisy = [&](const Mat3& rotation, const Vec3& translation) {
         const auto off = [&](double x) {
           const float f = float(x), ulp = std::nextafter(std::fabs(f), std::numeric_limits<float>::infinity()) - std::fabs(f);
@@ -1344,7 +1422,8 @@ TEST(Manifold, OfAPairAtRestKeepsItsPointsUnderNoise) {
         changes += step > 0 && !same_names(now, before);
         before = now;
       }
-      EXPECT_EQ(changes, 0) << sides << " sides, turned by " << twist;
+      // Flush faces' corners get their names when the pair is at rest, and many of them then give way to one another.
+      EXPECT_LE(changes, is_flush ? 100 : 0) << sides << " sides, turned by " << twist;
     }
   }
 }

@@ -141,7 +141,8 @@ class Deepening : public Found {
   /// True if the depth is surely above law 2's bound: the bodies overlap and do not count as touching.
   bool proved() const { return lower > law_two_; }
 
-  /// True if no other start decides a threshold otherwise: the bounds pass it by more than law 2's bound, or the start was cold.
+  /// True if no other start decides a threshold otherwise: the bounds pass it by more than law 2's bound, or the start was
+  /// cold.
   bool decided() const { return turn_ == Turn::Far || stop_.passed(lower, upper) || end == DepthEnd::Budget; }
   /// True if the bounds are narrow enough, with `floor` as the lower bound if that is better.
   bool narrow(double floor) const { return stop_.narrow(max(lower, floor), upper); }

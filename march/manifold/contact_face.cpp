@@ -49,6 +49,30 @@ void each_face_at(const ConvexView& view, FeatureId feature, Visit visit) {
   }
 }
 
+bool looks_along(const ConvexView& view, const Vec& n, std::uint32_t face) {
+  return dot(normal_of(view, face), n) >= 1 - kSameFacing;
+}
+
+/// What of a feature touches a plane with the normal n: its highest corner, or the side between two that are level within
+/// `bound`; of a face that looks along n or has more of them, the face. A feature that holds the nearest point may do so at its
+/// border alone, as a side wall under the edge of a lid does.
+FeatureId highest_of(const ConvexView& view, const Vec& n, FeatureId feature, double bound) {
+  const auto height = [&](std::uint32_t h) { return dot(n, point(view, origin(view, h))); };
+  const auto between = [&](std::uint32_t h, std::uint32_t next) {
+    const double first = height(h), second = height(next);
+    if (std::fabs(first - second) <= bound) return FeatureId(FeatureKind::Edge, h);
+    return FeatureId(FeatureKind::Vertex, origin(view, first > second ? h : next));
+  };
+  if (feature.kind() == FeatureKind::Edge) return between(feature.index(), view.half_edges[feature.index()].twin);
+  if (feature.kind() != FeatureKind::Face || looks_along(view, n, feature.index())) return feature;
+  std::uint32_t top = view.face_first[feature.index()];
+  for (std::uint32_t h = next_in_face(view, top), first = top; h != first; h = next_in_face(view, h))
+    if (height(h) > height(top)) top = h;
+  const FeatureId on = between(top, next_in_face(view, top)), back = between(previous_in_face(view, top), top);
+  if (on.kind() == FeatureKind::Edge && back.kind() == FeatureKind::Edge) return feature;
+  return on.kind() == FeatureKind::Edge ? on : back;
+}
+
 /// The face that faces along n best. Among equals it is the face of the manifold before, else the largest, because its plane is
 /// the most accurate.
 std::uint32_t best_facing(const ConvexView& view, const Vec& n, FeatureId feature, FeatureId before) {
@@ -69,9 +93,10 @@ std::uint32_t best_facing(const ConvexView& view, const Vec& n, FeatureId featur
 
 }  // namespace
 
-ContactFace::ContactFace(const ConvexView& view, const Vec& n, FeatureId feature, FeatureId before, double flatness)
+ContactFace::ContactFace(const ConvexView& view, const Vec& n, FeatureId feature, FeatureId before, double flatness,
+                         double bound)
     : view_(view), flatness_(kWalkingFaceUlps * kFloatUlp * view.extent) {
-  top_ = best_facing(view, n, feature, before);
+  top_ = best_facing(view, n, highest_of(view, n, feature, bound), before);
   if (top_ == kNone) {
     side_ = view.half_edges.empty() ? kNone : 0;
     return;
@@ -88,7 +113,7 @@ ContactFace::ContactFace(const ConvexView& view, const Vec& n, FeatureId feature
   }
   side_ = border();
   if (side_ != kNone) return;
-  least_height_ = kInfinity;  // rounding hid the border: the face alone has one
+  least_height_ = kInfinity, asked_ = kNone;  // rounding hid the border: the face alone has one
   side_ = border();
 }
 
@@ -101,13 +126,16 @@ FeatureId ContactFace::name() const {
 bool ContactFace::holds(std::uint32_t face) const {
   if (face == top_ || face == kNone) return face != kNone;
   if (!(dot(normal_, normal_of(view_, face)) > 0.5)) return false;  // a side of a thin body, or its other face
+  if (face == asked_) return held_;
   const std::uint32_t first = view_.face_first[face];
   std::uint32_t h = first;
+  bool is_held = true;
   do {
-    if (!(dot(normal_, point(view_, view_.half_edges[h].head)) >= least_height_)) return false;
+    is_held = dot(normal_, point(view_, view_.half_edges[h].head)) >= least_height_;
     h = next_in_face(view_, h);
-  } while (h != first);
-  return true;
+  } while (is_held && h != first);
+  if (face < view_.planes.size()) asked_ = face, held_ = is_held;
+  return is_held;
 }
 
 /// A half-edge of the contact face's border. Mostly it is a side of the face; where another facet of the same plane lies

@@ -12,14 +12,14 @@
 
 namespace swiftlet {
 
-/// The face at a feature that faces best along a direction, merged with the faces beside it that lie within some height of its
-/// plane. They are one piece without holes, because a face enclosed by them has all its corners there too. The edge of a body
-/// without faces is its border.
+/// The face that faces best along a direction of those where a feature is highest along it, merged with the faces beside it
+/// that lie within some height of its plane. They are one piece without holes, because a face enclosed by them has all its
+/// corners there too. The edge of a body without faces is its border.
 class ContactFace {
  public:
   /// `n`: unit, own frame, outwards. `before`, a face of the body, is preferred as long as none faces better. `flatness`: the
-  /// height over the body's extent.
-  ContactFace(const ConvexView& view, const Vec& n, FeatureId feature, FeatureId before, double flatness);
+  /// height over the body's extent. Corners count as level within `bound`.
+  ContactFace(const ConvexView& view, const Vec& n, FeatureId feature, FeatureId before, double flatness, double bound);
 
   /// The face; of a body without faces its edge, or its vertex.
   FeatureId name() const;
@@ -70,6 +70,9 @@ class ContactFace {
   std::uint32_t top_ = kNone, side_ = kNone, first_corner_ = 0, corner_count_ = 0;
   double flatness_ = 0, least_height_ = 0;  ///< the least height along the normal
   Vec normal_{0, 0, 0};
+  mutable std::uint32_t asked_ =
+      kNone;                   ///< the face of many corners that `holds` was asked about last, beside each of which it is
+  mutable bool held_ = false;  ///< what it said
 };
 
 }  // namespace swiftlet

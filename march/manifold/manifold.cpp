@@ -46,21 +46,32 @@ double flatness(const ManifoldOptions& options) { return max(0, min(options.flat
 /// Fills the manifold of two bodies with these hulls; points farther apart than the margin are left out.
 void grow(const PairView& pair, const Radii& radii, const Anchor& w, double bound, const ManifoldOptions& options,
           const Manifold& previous, Manifold& manifold) {
-  const ContactFace a(pair.a, w.normal, w.feature_a, previous.face_a, flatness(options)),
-      b(pair.b, body_b(pair).into(-w.normal), w.feature_b, previous.face_b, flatness(options));
+  const ContactFace a(pair.a, w.normal, w.feature_a, previous.face_a, flatness(options), bound),
+      b(pair.b, body_b(pair).into(-w.normal), w.feature_b, previous.face_b, flatness(options), bound);
   manifold.normal = eigen(w.normal);
   if (a.name().kind() == FeatureKind::Face) manifold.face_a = a.name();
   if (b.name().kind() == FeatureKind::Face) manifold.face_b = b.name();
 
   const Projection projection(pair, w.normal, w.point_a, any_side(pair, a, b));
-  Candidates candidates(options.margin + radii.sum() + bound, previous);
-  clip(projection, a, b, bound / 2, candidates);  // a corner counts as inside of a face that it misses by so much
-  if (candidates.count() == 0 || w.separation < candidates.least() - bound / 2)
-    candidates.add_deepest({{0, 0, 0}, w.separation, {named(pair.a, w.feature_a), named(pair.b, w.feature_b)}});
   const bool rests = norm(w.normal - vec(previous.normal)) <= kRestingTurn * flatness(options);
   const double slack = rests ? flatness(options) * max(pair.a.extent, pair.b.extent) : 0;
-  for (const int i : choose(candidates, std::min(options.most_points, kMostManifoldPoints), previous, bound, slack))
-    put(manifold.points[manifold.count++], pair, projection, radii, candidates[i], w.separation - bound / 2);
+  const std::uint32_t most = std::min(options.most_points, kMostManifoldPoints);
+  int kept = -1;  // points of the manifold before, which is not to lose any at rest
+  for (const double beside :
+       {bound / 2, kRestingSlide * slack}) {  // a corner counts as inside of a face that it misses by so much
+    if (kept >= int(std::min(previous.count, most)) || beside < bound / 2) break;
+    Candidates candidates(options.margin + radii.sum() + bound, previous);
+    clip(projection, a, b, beside, candidates);
+    if (candidates.count() == 0 || w.separation < candidates.least() - bound / 2)
+      candidates.add_deepest({{0, 0, 0}, w.separation, {named(pair.a, w.feature_a), named(pair.b, w.feature_b)}});
+    const Chosen chosen = choose(candidates, most, previous, bound, slack);
+    const auto known =
+        int(std::count_if(chosen.begin(), chosen.end(), [&](int i) { return candidates.knows(candidates[i].names); }));
+    if (known <= kept) break;
+    kept = known, manifold.count = 0;
+    for (const int i : chosen)
+      put(manifold.points[manifold.count++], pair, projection, radii, candidates[i], w.separation - bound / 2);
+  }
 }
 
 /// `bound` is law 2's for the bodies.

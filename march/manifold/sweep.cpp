@@ -386,10 +386,11 @@ class Sweep {
     return swiftlet::where(b.seen(place), b.side(), bound_);
   }
 
-  /// Starts at the higher of the two lowest corners. Returns false if the other face ends below it.
+  /// Starts at the higher of the two lowest corners, or at A's if they are one up to the bound, so that of faces which lie on
+  /// one another A's always leads. Returns false if the other face ends below it.
   bool begin() {
-    const auto lowest_of = [&](int f) { return at(Border::Right, f).start().at; };
-    return is_below(lowest_of(0), lowest_of(1)) ? begin<1>() : begin<0>();
+    const Place of_a = at(Border::Right, 0).start().at, of_b = at(Border::Right, 1).start().at;
+    return is_below(of_a, of_b) && !are_near(of_a, of_b, bound_ * bound_) ? begin<1>() : begin<0>();
   }
 
   /// The same at the lowest corner of face `f`.

@@ -292,6 +292,10 @@ inline constexpr double kKeptWorth = 0.0625;
 /// A pair is at rest where the normal has turned since the manifold before by no more than this times the flatness of contact
 /// faces: poses whose entries are off by 4 ulps of single precision turn it by 2^-19 at most. Radians.
 inline constexpr double kRestingTurn = 8;
+/// Where a pair at rest has lost a point of the manifold before, corners count as inside of a face that they miss by no more
+/// than this times the flatness of contact faces: both bodies' places are off by 4 ulps of single precision. Relative to the
+/// larger body's extent.
+inline constexpr double kRestingSlide = 2;
 /// The most corners of a common area that a manifold is chosen from, beside those of the previous manifold; of more, those stay
 /// whose chords cut off equal areas, three quarters of as many or more. A count.
 inline constexpr int kMostCorners = 20;

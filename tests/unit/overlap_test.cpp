@@ -158,7 +158,7 @@ TEST(UnitClip, OfTwoSquaresIsTheirCommonSquare) {
   const Motion above = motion({Mat3::Identity(), {1.5, 0.5, 2}});
   const PairView pair = pair_view(kLevel.view, kLevel.view, above, 0);
   const FeatureId top{FeatureKind::Vertex, index(6)}, bottom{FeatureKind::Vertex, index(0)};
-  const ContactFace a(pair.a, {0, 0, 1}, top, {}, 0), b(pair.b, {0, 0, -1}, bottom, {}, 0);
+  const ContactFace a(pair.a, {0, 0, 1}, top, {}, 0, 0), b(pair.b, {0, 0, -1}, bottom, {}, 0, 0);
   const Projection along_z(pair, {0, 0, 1}, {0.75, 0, 1}, any_side(pair, a, b));
   const Manifold none;
   Candidates found(1, none);

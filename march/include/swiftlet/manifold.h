@@ -19,7 +19,7 @@ inline constexpr double kMostFlatness = 0x1p-10;
 /// A place of contact: one point of each body, both on one line along the manifold's normal. In A's frame.
 struct ManifoldPoint {
   Vec3 point_a = Vec3::Zero();  ///< in A, below its surface by no more than `flatness` allows
-  Vec3 point_b = Vec3::Zero();  ///< in B: `point_a` + `separation` * normal, within twice `tolerance`
+  Vec3 point_b = Vec3::Zero();  ///< in B: `point_a` + `separation` * normal, within twice `tolerance`; or beside B, at rest
   double separation = 0;        ///< along the normal, in the bodies' unit; negative where the bodies overlap
   /// The feature of A that `point_a` lies on, within twice `tolerance`, at the answer's level. Both are a vertex of one body
   /// and the contact face of the other, or an edge of each, named by its half-edge of lower index, or, of a deepest point that
@@ -51,18 +51,21 @@ struct ManifoldOptions {
 };
 
 /// Returns the manifold around the nearest or deepest features of `answer`, which must be an exact answer about these bodies in
-/// this pose: a signed one, or one of bodies that are apart. The contact face of a body is the face at that feature that faces
-/// best along the normal. Both contact faces are projected along the normal; the corners of their intersection are the points.
-/// If there are more than `most_points`, those are kept that have the least separation and cover most of the area: four points
-/// keep 0.6 of a round face, eight 0.87; four keep all of a square; of any face three keep at least 0.28, four 0.5, eight 0.78.
-/// A deepest point inside of the area, as merged faces may have, is one of them: the others keep what one point fewer does.
-/// Points of `previous`, this pair's last manifold, are preferred: a pair at rest keeps its points while poses are off by a few
-/// ulps of single precision. The least separation equals the answer's within `tolerance`; where the normal has turned by no
-/// more than 8 `flatness` since `previous`, within `flatness` more, for then other corners take turns as the deepest. The
-/// manifold is empty if the answer has no normal (as a distance has none in an overlap), other radii than the bodies, or levels
-/// or features that the bodies lack. Allocates nothing; uses 9.1 kB of stack. Cost: the sum of both faces' sides;
-/// beyond 256 sides in all, of faces whose corners are numbered one after the other (`ConvexView::rims`), their logarithm;
-/// where the border of a merged contact face turns in and out by less than `flatness`, at most the square of its sides.
+/// this pose: a signed one, or one of bodies that are apart. The contact face of a body is, of the faces where that feature
+/// reaches farthest along the normal, the one that faces best along it. Both contact faces are projected along the normal; the
+/// corners of their intersection are the points. If there are more than `most_points`, those are kept that have the least
+/// separation and cover most of the area: four points keep 0.6 of a round face, eight 0.87; four keep all of a square; of any
+/// face three keep at least 0.28, four 0.5, eight 0.78. A deepest point inside of the area, as merged faces may have, is one of
+/// them: the others keep what one point fewer does. Points of `previous`, this pair's last manifold, are preferred: a pair at
+/// rest keeps its points while poses are off by a few ulps of single precision. The least separation equals the answer's within
+/// `tolerance`; where the normal has turned by no more than 8 `flatness` since `previous`, within `flatness` more, for then
+/// other corners take turns as the deepest. Where the exact corners then lack a point of `previous`, corners that miss the
+/// other face by no more than twice `flatness` count as inside of it, and the other body's point lies beside it by as much:
+/// faces that are flush with each other keep their points. The manifold is empty if the answer has no normal (as a distance has
+/// none in an overlap), other radii than the bodies, or levels or features that the bodies lack. Allocates nothing; uses 9.1 kB
+/// of stack. Cost: the sum of both faces' sides; beyond 256 sides in all, of faces whose corners are numbered one after the
+/// other (`ConvexView::rims`), their logarithm; where the border of a merged contact face turns in and out by less than
+/// `flatness`, at most the square of its sides.
 Manifold manifold(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const ManifoldOptions& options = {},
                   const Manifold& previous = {});
 
