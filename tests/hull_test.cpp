@@ -9,6 +9,8 @@
 #include <cmath>
 #include <set>
 
+#include <swiftlet/query.h>
+
 #include "hull.h"
 #include "shapes.h"
 #include "trace.h"
@@ -247,6 +249,36 @@ TEST(Trace, TetrahedraHaveNoDentsHoweverFlat) {
     EXPECT_NEAR(built.value().report.volume_ratio, 1, 1e-12) << k;
   }
   EXPECT_GE(solids, 500);
+}
+
+/// From either side a flat body's face is the one that looks there, and its triangles are those of that side.
+TEST(Trace, OfAFlatBodyTheSideThatFacesIsNamed) {
+  const Mesh square{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}}},
+      triangle{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}};
+  const Model box = build(shapes::box({0.2, 0.1, 0.3})).value().model;
+  shapes::Random random(6);
+  for (const Mesh* mesh : {&square, &triangle}) {
+    const Model flat = build(*mesh).value().model;
+    const auto is_up = [&](std::uint32_t source) { return source < mesh->triangles.size() / 2; };
+    int faces = 0;
+    for (int k = 0; k < 400; ++k) {
+      const bool is_above = k % 2;
+      const double x = random.uniform(-0.5, 0.5);
+      const Pose pose{random.rotation(), {x, x - random.uniform(0, 0.4), is_above ? 1. : -1.}};
+      for (const Body& body : {Body::point({0, 0, 0}), Body(box)}) {
+        PairSeed seed;
+        for (int round = 0; round < 2; ++round) {
+          const ClosestFeatures nearest = closest_features(flat, body, pose, seed);
+          const auto named = nearest.source_a.triangles;
+          faces += !named.empty();
+          EXPECT_TRUE(named.empty() || is_up(named[0]) == is_above) << k;
+        }
+        const auto swapped = closest_features(body, flat, inverse(pose)).source_b.triangles;
+        EXPECT_TRUE(swapped.empty() || is_up(swapped[0]) == is_above) << k;
+      }
+    }
+    EXPECT_GE(faces, 1000);
+  }
 }
 
 TEST(Trace, ADetailCoarserThanTheCoarsestLevelLeavesThatLevel) {

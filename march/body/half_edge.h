@@ -68,6 +68,11 @@ static inline std::uint32_t next_in_face(const ConvexView& v, std::uint32_t half
   return h;
 }
 
+/// The other face of a flat body, which looks the other way; kNone of a solid.
+static inline std::uint32_t other_side(const ConvexView& v, std::uint32_t face) {
+  return v.face_first.size() == 2 ? 1 - face : kNone;
+}
+
 /// The half-edge that `half_edge` follows around the face on its left.
 static inline std::uint32_t previous_in_face(const ConvexView& v, std::uint32_t half_edge) {
   const Vertex& ring = v.vertices[origin(v, half_edge)];

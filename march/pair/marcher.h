@@ -170,7 +170,10 @@ class Marcher {
     if (look.side != kNone) return {vertex(va), edge(look.side)};
     const Vec4& n = prism.normal();
     const double height = prism.height(p);
-    if (!(height > 0)) return inside(vertex(va), face(f));
+    if (!(height > 0)) {
+      const std::uint32_t below = height < 0 ? other_side(b.view, f) : kNone;
+      return below == kNone ? inside(vertex(va), face(f)) : Move{vertex(va), face(below)};
+    }
     if (early && prism.is_triangle() && is_enough_(n * (height / dot(n, n)))) {
       Ending seen{-n, prism.corner() - p, p, p, 0, kUnknown, kUnknown, kNoCorners, kNoCorners};
       foot_on_facet(b, prism, seen);
@@ -505,7 +508,12 @@ class Marcher {
                       const Q& body, std::uint32_t f) {
     Prism prism(body, f);
     const bool forward = dot(prism.normal(), u) < 0;
-    return over_face(h, forward ? head : tail, p, u * (forward ? 1 - s : -s), body, prism, f);
+    Move move = over_face(h, forward ? head : tail, p, u * (forward ? 1 - s : -s), body, prism, f);
+    const std::uint32_t below = other_side(body.view, f);
+    if (below == kNone || ended_ != WalkEnd::Inside || !(prism.height(p) < 0)) [[likely]]
+      return move;
+    ended_ = WalkEnd::Budget;  // the edge gets farther from a flat body, which was seen from its other side
+    return {vertex(forward ? tail : head), face(below)};
   }
 
   /// Follows the part p + x e of edge `h` that falls towards face `f`, x from 0 to 1 at vertex `to`. Leads to `to` and the
