@@ -62,9 +62,18 @@ struct Tally {
   double most = 0;
 };
 
-/// Expects of every plane the least double that no vertex's height exceeds.
+/// Expects of every plane the least double that no vertex's height exceeds, and a thickness within which its face lies.
 void expect_least(const ConvexView& view, Tally& tally) {
   const std::vector<Point> points = rational_points(view);
+  for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
+    const std::uint32_t f = view.half_edges[h].face;
+    if (f >= view.planes.size()) continue;
+    const Point n = rational(view.planes[f]), &p = points[origin(view, h)], &on = points[origin(view, view.face_first[f])];
+    Number height = 0, length2 = 0;
+    for (std::size_t i = 0; i < 3; ++i) height += n[i] * (p[i] - on[i]), length2 += n[i] * n[i];
+    const Number thickness = view.planes[f].thickness;
+    ASSERT_LE(height * height, thickness * thickness * length2) << "face " << f << " is thicker";
+  }
   for (std::uint32_t f = 0; f < view.planes.size(); ++f) {
     const double over = view.planes[f].over;
     const Number most = highest(view, points, f);

@@ -62,7 +62,7 @@ struct ManifoldOptions {
 /// other corners take turns as the deepest. Where the exact corners then lack a point of `previous`, corners that miss the
 /// other face by no more than twice `flatness` count as inside of it, and the other body's point lies beside it by as much:
 /// faces that are flush with each other keep their points. The manifold is empty if the answer has no normal (as a distance has
-/// none in an overlap), other radii than the bodies, or levels or features that the bodies lack. Allocates nothing; uses 9.1 kB
+/// none in an overlap), other radii than the bodies, or levels or features that the bodies lack. Allocates nothing; uses 9.3 kB
 /// of stack. Cost: the sum of both faces' sides; beyond 256 sides in all, of faces whose corners are numbered one after the
 /// other (`ConvexView::rims`), their logarithm; where the border of a merged contact face turns in and out by less than
 /// `flatness`, at most the square of its sides.
