@@ -37,8 +37,9 @@ static inline std::uint32_t octahedron_cell(std::uint32_t side, double x, double
 
 /// The point (i, j) of the grid on a half of the octahedron |x| + |y| + |z| = side, i and j in 0..2 side: even on the borders
 /// between cells, odd in their middle. `lower` is cell / side^2, the cell's row and column are (j - 1) / 2 and (i - 1) / 2 of
-/// its middle. A cell is flat, or along x = 0 or y = 0 two triangles with its corners; so a function that is convex over all
-/// directions and grows with their length is largest over a cell at a corner.
+/// its middle. A cell is flat, or along x = 0 or y = 0 two triangles with its corners, or in the middle of an odd side four
+/// around the pole; so a function that is convex over all directions and grows with their length is largest over a cell at a
+/// corner or at that pole.
 static inline std::array<double, 3> octahedron_point(std::uint32_t side, std::uint32_t lower, std::uint32_t i,
                                                      std::uint32_t j) {
   const double p = double(i) - side, q = double(j) - side, z = side - std::max(std::fabs(p), std::fabs(q));

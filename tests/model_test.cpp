@@ -881,6 +881,39 @@ TEST(Model, OfEdgesWithoutFacesIsRefused) {
   expect_says(message(twice), "a level without faces has no others");
 }
 
+/// The middle cell of a map of odd side is around a pole, where a body may be higher above a vertex than at the cell's corners.
+TEST(Verify, LooksAtThePoleInsideACell) {
+  Polyhedron gem{
+      {{1, 0, 0}, {0.8, 0.8, 0}, {0, 1, 0}, {-0.8, 0.8, 0}, {-1, 0, 0}, {-0.8, -0.8, 0}, {0, -1, 0}, {0.8, -0.8, 0}}, {}, {}};
+  gem.points.emplace_back(0, 0, 1), gem.points.emplace_back(0, 0, -1);
+  for (std::uint32_t k = 0; k < 8; ++k) gem.add({k, (k + 1) % 8, 8}), gem.add({(k + 1) % 8, k, 9});
+  const Model m = model(gem, {false, {lut::Resolution::None, 2, 64}});
+  const std::uint32_t side = m.level(0).map_side;
+  ASSERT_EQ(side % 2, 1u);
+  for (std::uint32_t v = 0; v < 10; ++v) {
+    const auto forged = [&](std::uint32_t excess) {
+      return tampered(m, [&](Bytes& block) {
+        auto header = read<BlockHeader>(block, 0);
+        auto level = read<LevelHeader>(block, level_header_at(0));
+        // So that an entry has an excess between what is needed at the corners and at the pole.
+        for (float& x : level.map_frame) x *= 1.025f;
+        header.scale_inside *= 0.9;
+        write(block, 0, header), write(block, level_header_at(0), level);
+        write(block, std::size_t(header.maps.offset) + 4 * (side * side / 2), excess << 24 | v);
+      });
+    };
+    std::uint32_t excess = 0;
+    while (excess < 255 && !verify(forged(excess))) ++excess;
+    const Model verified = forged(excess);
+    ASSERT_TRUE(verify(verified)) << v;
+    const Level& level = verified.level(0);
+    const Vec pole = from_map(level.map_frame, {0, 0, 1});
+    double most = -kInfinity;
+    for (const Vertex& top : level.view.vertices) most = std::max(most, dot(pole, vec(top)));
+    EXPECT_LE(most - dot(pole, vec(level.view.vertices[v])), look_up(level, pole).excess) << v;
+  }
+}
+
 TEST(Verify, FindsWhatTheHashesCannot) {
   const Model m = nested();
   const auto vertex_at = [](const Bytes& block, std::size_t level, std::size_t v) {

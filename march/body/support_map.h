@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Support maps: a table of directions gives an approximate support vertex v without a climb, and a bound on its error, the
 // excess. The support function h(n) of a body is convex in n and n . v is linear, so over a cell of directions h(n) - n . v is
-// largest at a corner of the cell.
+// largest at a corner of the cell or at a pole of the octahedron in its middle, where v is the highest.
 //
 // Directions are looked up as M n, where M is the level's map frame. The heights of the body's points x along n are those of
 // the points M^-T x along M n, and these make a body that is about as wide in all directions. So plates and needles need no

@@ -14,25 +14,35 @@
 namespace swiftlet {
 namespace {
 
-/// Returns a cell of the level's support map whose error bound is too small, or kNone. Corners of a cell suffice: over the cell
-/// the body's height above the cell's vertex is largest at a corner. Requires an exactly convex body: its heights are climbed
-/// to.
+/// Returns a cell of the level's support map whose error bound is too small, or kNone. Corners of a cell suffice, and of one
+/// around a pole of the octahedron the pole: over the cell the body's height above the cell's vertex is largest at one of
+/// these. Requires an exactly convex body: its heights are climbed to.
 std::uint32_t map_fault(const Level& level) {
   const std::uint32_t side = level.map_side;
+  if (!(level.view.extent > 0)) return kNone;
   std::vector<std::uint32_t> tops((side + 1) * (side + 1));  // highest vertices at the corners of the cells of one half
   std::uint32_t tests = 0, near = 0;
   for (std::uint32_t cell = 0; cell < lut::octahedron_cell_count(side); ++cell) {
     const std::uint32_t lower = cell / (side * side), row = cell / side % side, column = cell % side;
+    const std::uint32_t entry = level.support_map[cell];
+    const auto direction = [&](std::uint32_t i, std::uint32_t j) {
+      const std::array<double, 3> d = lut::octahedron_point(side, lower, i, j);
+      return from_map(level.map_frame, {d[0] / side, d[1] / side, d[2] / side});
+    };
+    const auto is_too_small = [&](const Vec& n, std::uint32_t top) {
+      const Vec above = vec(level.view.vertices[top]) - vec(level.view.vertices[map_vertex(entry)]);
+      return !(excess_at(level.map_frame, n, above) <= map_excess(entry));
+    };
     for (const std::uint32_t corner : {0, 1, 2, 3}) {
       const std::uint32_t i = column + corner % 2, j = row + corner / 2;
-      const std::array<double, 3> d = lut::octahedron_point(side, lower, 2 * i, 2 * j);
-      const Vec n = from_map(level.map_frame, {d[0] / side, d[1] / side, d[2] / side});
+      const Vec n = direction(2 * i, 2 * j);
       std::uint32_t& top = tops[j * (side + 1) + i];
       if (corner == 3 || row == 0 || column == 0) top = near = support(level.view, rescaled(n), near, tests);
-      const std::uint32_t entry = level.support_map[cell];
-      const Vec above = vec(level.view.vertices[top]) - vec(level.view.vertices[map_vertex(entry)]);
-      if (!(excess_at(level.map_frame, n, above) <= map_excess(entry)) && level.view.extent > 0) return cell;
+      if (is_too_small(n, top)) return cell;
     }
+    const bool has_pole = 2 * row + 1 == side && 2 * column + 1 == side;
+    const Vec pole = direction(side, side);
+    if (has_pole && is_too_small(pole, support(level.view, rescaled(pole), near, tests))) return cell;
   }
   return kNone;
 }
