@@ -629,5 +629,40 @@ TEST(Check, AcceptsYesOrNoWhereMapsTellTheDistance) {
   }
 }
 
+// ---- Answers of infinite bounds, and of enumerators that are none ----------------------------------------------------------
+
+TEST(Check, RefusesPointsOutsideOfTheBodiesWhateverTheBounds) {
+  const Model cube = bodies::model(bodies::cube());
+  const Vec3 outside(1e6, 0, 0);
+  for (const Vec3& t : {Vec3(3, 0.25, 0.125), Vec3(0.5, 0.25, 0.125)}) {
+    const Pose pose{Mat3::Identity(), t};
+    for (Answer s : {distance(cube, cube, pose), signed_distance(cube, cube, pose)}) {
+      s.upper = kInfinity;
+      if (!(s.lower > 0)) s.verdict = Verdict::Undecided;
+      EXPECT_EQ(check(cube, cube, pose, s).message, "");
+      Answer of_a = s, of_b = s, unknown = s;
+      of_a.point_a = outside, of_b.point_b = -outside;
+      for (const Answer& wrong : {of_a, of_b}) EXPECT_NE(check(cube, cube, pose, wrong).message, "") << t[0];
+      unknown.point_a.setConstant(kNaN), unknown.point_b.setConstant(kNaN);
+      EXPECT_EQ(check(cube, cube, pose, unknown).message, "");
+    }
+  }
+}
+
+TEST(Check, RefusesWhatIsNoStatusOrNoVerdict) {
+  const Model cube = bodies::model(bodies::cube());
+  Pose illegal;
+  illegal.rotation *= 2;
+  for (const Pose& pose : {Pose{Mat3::Identity(), {3, 0, 0}}, Pose{Mat3::Identity(), {0.5, 0.25, 0.125}}, illegal}) {
+    for (const Answer& s : {distance(cube, cube, pose), signed_distance(cube, cube, pose)}) {
+      EXPECT_EQ(check(cube, cube, pose, s).message, "");
+      Answer no_status = s, no_verdict = s;
+      no_status.status = Status(int(Status::InvalidBody) + 1), no_verdict.verdict = Verdict(int(Verdict::Overlapping) + 1);
+      EXPECT_EQ(check(cube, cube, pose, no_status).message, "9 is no status");
+      EXPECT_EQ(check(cube, cube, pose, no_verdict).message, "4 is no verdict");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace swiftlet

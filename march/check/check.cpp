@@ -97,6 +97,8 @@ Checked::Checked(const Body& of_a, const Body& of_b, const Pose& b_in_a, const A
 }
 
 Check Checked::interval_holds() const {
+  if (answer.status > Status::InvalidBody) return failed("%d is no status", int(answer.status));
+  if (answer.verdict > Verdict::Overlapping) return failed("%d is no verdict", int(answer.verdict));
   const Status fault = at.fault();
   const auto is_refusal = [](Status s) {
     return s == Status::InvalidPose || s == Status::InvalidRadius || s == Status::InvalidBody;
@@ -207,11 +209,8 @@ Check check_distance(const Checked& of, const OverlapProof* proof) {
   if (!(answer.lower >= 0)) return failed("lower is %.17g of a distance", answer.lower);
   const bool between = max_abs(of.normal) > 0;  // else the points are common to both hulls
   const double apart = norm(of.point_b - of.point_a) + of.deviation;
-  if (std::isfinite(answer.upper) && of.knows_points()) {
-    if (between && !(apart <= answer.upper + of.radii + 2 * of.slack))
-      return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart - of.radii);
-    if (const Check in = of.points_lie_in_their_levels(); !in) return in;
-  }
+  if (between && of.knows_points() && !(apart <= answer.upper + of.radii + 2 * of.slack))
+    return failed("upper is %.17g, but the points prove only %.17g", answer.upper, apart - of.radii);
   if (std::isfinite(answer.upper) && !(between && of.knows_points()) && answer.verdict != Verdict::Overlapping &&
       !of.is_near(answer.upper))
     return failed("upper is %.17g, and nothing proves it", answer.upper);
@@ -236,6 +235,9 @@ Check check(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answ
   const Checked of(a, b, b_in_a, answer);
   if (Check interval = of.interval_holds(); !interval || of.at.fault() != Status::Converged) return interval;
   if (Check members = of.members_hold(); !members) return members;
+  if (of.knows_points()) {
+    if (Check in = of.points_lie_in_their_levels(); !in) return in;
+  }
   return answer.is_signed ? check_signed(of, proof) : check_distance(of, proof);
 }
 

@@ -255,9 +255,6 @@ Check check_signed(const Checked& of, const OverlapProof* proof) {
   };
   const bool proved = proof && proof->count > 0 && check_proof(of.a.level(0).view, of.b.level(0).view, of.at.motion, *proof);
   if (std::isfinite(answer.upper)) {
-    if (of.knows_points()) {
-      if (const Check in = of.points_lie_in_their_levels(); !in) return in;
-    }
     const double apart = of.knows_points() ? norm(of.point_b - of.point_a) + of.deviation : kInfinity;
     const DoubleDouble upper = of.of_hulls(answer.upper);
     // A wide interval around 0 may come with the points of an overlap. Any other two points may then prove `upper`, or coarse

@@ -25,10 +25,10 @@ struct Check {
 /// planes that can bound the Minkowski difference, parallel to a face of A, to a face of B, or to an edge of each; exact signs
 /// tell which.
 ///
-/// The normal must be unit, and both points numbers, or all three NaN where that means nothing; features must be there on the
-/// levels named, or both be none. Each point must lie in its body's level, moved back by the radius: within law 2's bound above
-/// the plane of any face or, where a body is a point, a segment or a polygon, at most as far away. Where the interval is
-/// within law 2's bound for the hulls, the points must differ by the signed distance along the normal, within that bound,
+/// The status and the verdict must be ones that there are, the normal unit, and both points numbers, or all three NaN where
+/// that means nothing; features must be there on the levels named, or both be none. Each point that is known must lie in its
+/// body's level, moved back by the radius: within law 2's bound above the plane of any face or, where a body is a point, a
+/// segment or a polygon, at most as far away. Where the interval is within law 2's bound for the hulls, the points must differ by the signed distance along the normal, within that bound,
 /// unless the status is Budget, the verdict Undecided, or an overlap unsigned, whose points nobody asked to be the nearest; and
 /// but for the two vertices named, where a question of yes or no may end with a normal that leans as far as `lower` allows.
 /// Whether other features hold the points is not looked at: such a question names those of its last sample.
