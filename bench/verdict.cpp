@@ -76,7 +76,7 @@ Truth certify(std::span<const SceneBody> bodies, std::span<const BodyPair> pairs
     const Model &a = *bodies[pairs[query.pair].a].model, &b = *bodies[pairs[query.pair].b].model;
     OverlapProof proof;
     const Answer answer = distance(a, b, query.b_in_a, {.tuning = {.proof = &proof}});
-    const Check checked = check(a, b, query.b_in_a, answer, &proof);
+    const Check checked = check(a, b, query.b_in_a, answer, Question::Exact, &proof);
     Certified certified;
     if (checked && answer.status == Status::Converged) {
       certified = {answer.lower, answer.upper, answer.verdict == Verdict::Disjoint, answer.verdict == Verdict::Overlapping};
@@ -100,7 +100,7 @@ Truth certify_depths(std::span<const SceneBody> bodies, std::span<const BodyPair
     const Model &a = *bodies[pairs[query.pair].a].model, &b = *bodies[pairs[query.pair].b].model;
     const Answer answer = signed_distance(a, b, query.b_in_a);
     Certified certified;
-    const bool checked = truth.queries.size() % kCheckEvery != 0 || check(a, b, query.b_in_a, answer);
+    const bool checked = truth.queries.size() % kCheckEvery != 0 || check(a, b, query.b_in_a, answer, Question::Exact);
     if (checked && answer.status == Status::Converged && answer.upper < 0) {
       certified = {-answer.upper, -answer.lower, true, false};
       truth.widest = std::max(truth.widest, answer.upper - answer.lower);

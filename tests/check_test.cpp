@@ -74,7 +74,7 @@ struct Problem {
     answer.point_b = near.witness_b - (free.translation - pose.translation);
   }
 
-  std::string refusal(const Answer& s) const { return check(a, b, pose, s).message; }
+  std::string refusal(const Answer& s) const { return check(a, b, pose, s, Question::Exact).message; }
 
   const Polyhedron &a, &b;
   Pose pose;
@@ -132,7 +132,7 @@ void for_each_coincidence(int count, std::uint64_t seed, const std::function<voi
 
 TEST(CheckOfDepth, AcceptsAPrismInItself) {
   const Polyhedron prism = square_prism();
-  EXPECT_EQ(check(prism, prism, {}, signed_distance(prism, prism, {})).message, "");
+  EXPECT_EQ(check(prism, prism, {}, signed_distance(prism, prism, {}), Question::Exact).message, "");
   EXPECT_EQ(Problem(prism, prism, {}).refusal(Problem(prism, prism, {}).answer), "");
 }
 
@@ -274,7 +274,7 @@ TEST(CheckOfDepth, TakesOffRadii) {
     s.lower -= sum + ulp, s.upper -= sum - ulp;
     s.verdict = s.upper < 0 ? Verdict::Overlapping : Verdict::Disjoint;
     s.point_a += a.radius() * s.normal, s.point_b -= b.radius() * s.normal;
-    const auto refusal = [&](const Answer& answer) { return check(a, b, p.pose, answer).message; };
+    const auto refusal = [&](const Answer& answer) { return check(a, b, p.pose, answer, Question::Exact).message; };
     ASSERT_EQ(refusal(s), "") << p.truth.distance << " " << sum;
     ASSERT_NE(p.refusal(s), "");
     for (const double factor : {2.0, 10.0, 100.0}) {
@@ -455,8 +455,9 @@ TEST(Check, KnowsPrimitives) {
         const Pose pose{random.rotation(), random.in_ball() * 1.5};
         OverlapProof proof;
         const Answer near = distance(a, b, pose, {.tuning = {.proof = &proof}}), deep = signed_distance(a, b, pose);
-        for (const Answer& s : {near, deep, intersects(a, b, pose)}) EXPECT_EQ(check(a, b, pose, s).message, "");
-        EXPECT_EQ(check(a, b, pose, near, &proof).message, "");
+        for (const Answer& s : {near, deep}) EXPECT_EQ(check(a, b, pose, s, Question::Exact).message, "");
+        EXPECT_EQ(check(a, b, pose, intersects(a, b, pose)).message, "");
+        EXPECT_EQ(check(a, b, pose, near, Question::Exact, &proof).message, "");
         (near.verdict == Verdict::Overlapping ? overlapping : apart) += 1;
         const double off = 4 * tolerance(a, b, pose);
         for (Answer wrong : {near, deep}) {
@@ -493,14 +494,14 @@ TEST(Check, RefusesAForgeryOfAnyMember) {
           const Pose pose{random.rotation(), random.on_sphere() * away};
           const double off = 8 * tolerance(a, b, pose);
           for (const Answer& s : {distance(a, b, pose), signed_distance(a, b, pose), closest_features(a, b, pose).answer}) {
-            ASSERT_EQ(check(a, b, pose, s).message, "");
+            ASSERT_EQ(check(a, b, pose, s, Question::Exact).message, "");
             const bool is_deep = s.is_signed && s.upper < -0.01;
             if (!(s.lower > 0.01) && !is_deep) continue;
             (is_deep ? deep : apart) += 1;
             for (const auto& [what, forge] : forgeries::kForgeries) {
               Answer wrong = s;
               forge(wrong, off);
-              EXPECT_NE(check(a, b, pose, wrong).message, "")
+              EXPECT_NE(check(a, b, pose, wrong, Question::Exact).message, "")
                   << what << " of " << int(a.kind()) << ", " << int(b.kind()) << ", " << s.lower << " apart";
             }
           }
@@ -627,6 +628,58 @@ TEST(Check, AcceptsYesOrNoWhereMapsTellTheDistance) {
     EXPECT_EQ(s.feature_a.kind(), FeatureKind::Edge);
     EXPECT_EQ(s.feature_b.kind(), exact.feature_b.kind());
   }
+}
+
+// ---- Which question was asked ----------------------------------------------------------------------------------------------
+
+/// Crossing edges one apart: points aside along an edge by 1e-8 are farther apart by less than a double tells.
+TEST(Check, ExactAnswersHaveTheNearestPoints) {
+  const Body a = Body::segment({-1, 0, 0}, {1, 0, 0}), b = Body::segment({0, -1, 1}, {0, 1, 1});
+  for (const bool is_signed : {false, true}) {
+    Answer s = is_signed ? signed_distance(a, b, {}) : distance(a, b, {});
+    EXPECT_EQ(check(a, b, {}, s, Question::Exact).message, "");
+    s.point_b[1] += 1e-8;
+    EXPECT_EQ(check(a, b, {}, s).message, "") << "a threshold may end with them";
+    EXPECT_NE(check(a, b, {}, s, Question::Exact).message, "");
+    s.point_b[1] += 1e-5;
+    EXPECT_NE(check(a, b, {}, s).message, "");
+  }
+}
+
+TEST(Check, ExactAnswersOfVerticesHaveTheNormalBetweenThem) {
+  const Body a = Body::point({0, 0, 0}), b = Body::point({0, 0, 1});
+  Answer s = distance(a, b, {});
+  EXPECT_EQ(check(a, b, {}, s, Question::Exact).message, "");
+  s.normal[0] = 1e-9;
+  EXPECT_EQ(check(a, b, {}, s).message, "");
+  EXPECT_NE(check(a, b, {}, s, Question::Exact).message, "");
+}
+
+TEST(Check, ExactAnswersAreNarrow) {
+  const Model cube = bodies::model(bodies::cube());
+  for (const Vec3& t : {Vec3(3, 0, 0), Vec3(0.5, 0.25, 0.125)}) {
+    const Pose pose{Mat3::Identity(), t};
+    Answer s = signed_distance(cube, cube, pose);
+    EXPECT_EQ(check(cube, cube, pose, s, Question::Exact).message, "");
+    s.lower -= 0.25;
+    EXPECT_EQ(check(cube, cube, pose, s).message, "");
+    EXPECT_NE(check(cube, cube, pose, s, Question::Exact).message, "");
+    s.status = Status::Budget;
+    EXPECT_EQ(check(cube, cube, pose, s, Question::Exact).message, "");
+  }
+}
+
+/// A threshold of depth may end with bounds as near as those of the exact depth before the deepest points are known. They were
+/// refused as 6e-10 off the normal.
+TEST(Check, AcceptsThresholdsThatEndBesideTheDepth) {
+  const Body box = Body::box({0, -2, 0}, {2, 2, 2}), edge = Body::segment({2, 0, -1}, {2, 0, 1});
+  Pose pose{Mat3::Identity(), {-1, 1, 2}};
+  pose.rotation(1, 0) = 0x1.7728e51ff60bfp-29, pose.rotation(0, 1) = -pose.rotation(1, 0);
+  pose.rotation(0, 2) = 0x1.a0e39a7162b7ap-31, pose.rotation(2, 0) = -pose.rotation(0, 2);
+  pose.rotation(1, 2) = 0x1.e70483fe586bp-31, pose.rotation(2, 1) = -pose.rotation(1, 2);
+  const Answer s = signed_within(box, edge, pose, -1.25).answer;
+  ASSERT_LE(s.upper - s.lower, tolerance(box, edge, pose));
+  EXPECT_EQ(check(box, edge, pose, s).message, "");
 }
 
 // ---- Answers of infinite bounds, and of enumerators that are none ----------------------------------------------------------

@@ -457,7 +457,7 @@ std::string ask(const Model& a, const Model& b, bool converges) {
   PairSeed seed;
   for (const Pose& pose : poses) {
     const Answer answer = distance(a, b, pose, seed);
-    if (const Check checked = check(a, b, pose, answer); !checked) return "distance: " + checked.message;
+    if (const Check checked = check(a, b, pose, answer, Question::Exact); !checked) return "distance: " + checked.message;
     if (converges && answer.status != Status::Converged) return "a distance did not converge";
     if (converges && signed_distance(a, b, pose, seed).status != Status::Converged) return "a signed distance did not converge";
   }

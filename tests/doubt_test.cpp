@@ -179,7 +179,7 @@ void expect_the_same_carefully(const Model& a, const Model& b, const std::vector
     ASSERT_LE(std::fabs(answer.lower - proved.lower), bound);
     ASSERT_LE(std::fabs(answer.upper - proved.upper), bound);
     for (const Answer& one : {answer, proved}) {
-      const Check checked = check(a, b, pose, one);
+      const Check checked = check(a, b, pose, one, Question::Exact);
       ASSERT_TRUE(checked) << checked.message;
     }
     const MarchResult found = march(view_a, view_b, pose, start),

@@ -157,7 +157,7 @@ static inline Check check_proof(const ConvexView& a, const ConvexView& b, const 
 
 /// An answer, the bodies and pose it is about, and quantities that every check of an answer needs.
 struct Checked {
-  Checked(const Body& of_a, const Body& of_b, const Pose& b_in_a, const Answer& of);
+  Checked(const Body& of_a, const Body& of_b, const Pose& b_in_a, const Answer& of, Question asked);
 
   /// Checks that the answer refuses the pose, a radius or a body if and only if that is illegal. Of other answers, checks that
   /// radii and levels are those of the bodies, that the interval is one, and that the gap along the normal proves a `lower`
@@ -170,9 +170,10 @@ struct Checked {
   /// Returns true if the answer has both points.
   bool knows_points() const { return !answer.point_a.hasNaN() && !answer.point_b.hasNaN(); }
   Check points_lie_in_their_levels() const;
+  /// Checks that the interval of an exact answer is within law 2's bound.
+  Check is_narrow() const;
   /// Checks points of an interval that is within law 2's bound for the hulls: they must differ by the signed distance along the
-  /// normal. Of the two vertices named the normal may lean by as much as `lower` allows: a threshold question ends at any two
-  /// that prove enough. So may a query that its budget ended.
+  /// normal. Where no exact distance was asked for the normal may lean by as much as the bounds allow.
   Check points_are_nearest() const;
   /// Checks that the hulls overlap: by the vertices of `proof`, or because no plane separates them.
   Check hulls_overlap(const OverlapProof* proof) const;
@@ -206,6 +207,7 @@ struct Checked {
   const Setting at;
   const Shape &a, &b;
   const Answer& answer;
+  const bool is_exact;  ///< an exact distance was asked for
   double stretch = 1, radii = 0;
   Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};  ///< of the hulls; the normal is 0 if unknown
   double touching = 0, narrow = 0;  ///< law 2's bound for the bodies, and without their radii, but with what these round

@@ -86,7 +86,8 @@ std::string Judge::fault(const Answer& answer, bool exact) const {
   const bool holds =
       answer.is_signed && truth_.overlapping ? answer.lower <= 0 : oracle::holds(truth_, answer.lower, answer.upper);
   if (!holds) return wrong("the interval does not hold the truth");
-  if (const Check checked = check(a_, b_, b_in_a_, answer, &proof_); !checked) return wrong(checked.message.c_str());
+  if (const Check checked = check(a_, b_, b_in_a_, answer, exact ? Question::Exact : Question::Any, &proof_); !checked)
+    return wrong(checked.message.c_str());
   if (answer.status == Status::NotConverged || answer.status == Status::InvalidPose) return wrong("not converged");
   if (answer.verdict == Verdict::Overlapping && !truth_.overlapping) return wrong("no overlap");
   if (answer.verdict == Verdict::Disjoint && truth_.overlapping) return wrong("not disjoint");

@@ -67,7 +67,8 @@ Judgement judge_verdict(const Problem& p, Verdict verdict) {
 }
 
 /// What holds of an answer to any question.
-Judgement judge_claims(const Problem& p, const Model& a, const Model& b, const Answer& answer, const OverlapProof& proof) {
+Judgement judge_claims(const Problem& p, const Model& a, const Model& b, const Answer& answer, Question asked,
+                       const OverlapProof& proof) {
   if (answer.status != Status::Converged) return fault(Fault::NotConverged, "status %d", int(answer.status));
   const bool is_apart = answer.verdict == Verdict::Disjoint || answer.verdict == Verdict::Touching,
              has_normal = !is_apart || answer.normal.allFinite(),
@@ -79,7 +80,7 @@ Judgement judge_claims(const Problem& p, const Model& a, const Model& b, const A
   if (!in_interval(p.in_world, answer.lower, answer.upper, p.world_bound))
     return fault(Fault::WrongDistance, "[%.17g, %.17g] is farther than %.3g from %.17g in the world", answer.lower,
                  answer.upper, p.world_bound, p.in_world.distance);
-  if (const Check c = check(a, b, p.b_in_a, answer, &proof); !c) return {Fault::WrongDistance, c.message};
+  if (const Check c = check(a, b, p.b_in_a, answer, asked, &proof); !c) return {Fault::WrongDistance, c.message};
   return {};
 }
 
@@ -106,7 +107,8 @@ Case swapped(const Case& c) {
 }
 
 Judgement judge_exact(const Problem& p, const Model& a, const Model& b, const Answer& answer, const OverlapProof& proof) {
-  if (Judgement j = judge_intersects(p, a, b, answer, proof); j.fault != Fault::None) return j;
+  if (Judgement j = judge_claims(p, a, b, answer, Question::Exact, proof); j.fault != Fault::None) return j;
+  if (Judgement j = judge_verdict(p, answer.verdict); j.fault != Fault::None) return j;
   if (!(answer.upper - answer.lower <= p.bound))
     return fault(Fault::WrongDistance, "[%.17g, %.17g] is wider than law 2's %.3g", answer.lower, answer.upper, p.bound);
   const Vec3 apart = answer.point_b - answer.point_a;
@@ -116,13 +118,13 @@ Judgement judge_exact(const Problem& p, const Model& a, const Model& b, const An
 }
 
 Judgement judge_intersects(const Problem& p, const Model& a, const Model& b, const Answer& answer, const OverlapProof& proof) {
-  if (Judgement j = judge_claims(p, a, b, answer, proof); j.fault != Fault::None) return j;
+  if (Judgement j = judge_claims(p, a, b, answer, Question::Any, proof); j.fault != Fault::None) return j;
   return judge_verdict(p, answer.verdict);
 }
 
 Judgement judge_within(const Problem& p, const Model& a, const Model& b, double threshold, const Within& within,
                        const OverlapProof& proof) {
-  if (Judgement j = judge_claims(p, a, b, within.answer, proof); j.fault != Fault::None) return j;
+  if (Judgement j = judge_claims(p, a, b, within.answer, Question::Any, proof); j.fault != Fault::None) return j;
   const int truth = oracle::compare(p.asked, threshold);
   const bool right = within.decision == Decision::Yes  ? truth <= 0
                      : within.decision == Decision::No ? truth > 0
@@ -154,7 +156,7 @@ Judgement judge_signed(const Problem& p, const Model& a, const Model& b, const A
   const Vec3 aside = answer.point_b - answer.point_a - (answer.lower + answer.upper) / 2 * answer.normal;
   if (!(aside.norm() <= 2 * p.bound))
     return fault(wrong, "the points are %.17g off the signed distance along the normal", aside.norm());
-  if (const Check c = check(a, b, p.b_in_a, answer, &proof); !c) return {wrong, c.message};
+  if (const Check c = check(a, b, p.b_in_a, answer, Question::Exact, &proof); !c) return {wrong, c.message};
   return judge_verdict(p, answer.verdict);
 }
 

@@ -3,6 +3,7 @@
 // Checkers that recompute the certificates of answers and models by brute force: slow and plain. Laws by number: LAWS.md.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <swiftlet/query.h>
@@ -17,6 +18,12 @@ struct Check {
   explicit operator bool() const { return ok; }
 };
 
+/// What an answer is one to, as far as it does not tell itself.
+enum class Question : std::uint8_t {
+  Any,    ///< any question
+  Exact,  ///< `distance`, `signed_distance` or `closest_features` without an allowed error: what these promise is checked too
+};
+
 /// Recomputes what `answer` claims by brute force over every vertex. `lower` is compared with the gap of the exact hulls along
 /// `normal` (where level 0 is absent, of the levels present and the balls around the bodies), `upper` with the distance of the
 /// two points plus the deviations, the verdict with both. An overlap of the hulls is decided exactly: by the vertices of
@@ -28,13 +35,21 @@ struct Check {
 /// The status and the verdict must be ones that there are, the normal unit, and both points numbers, or all three NaN where
 /// that means nothing; features must be there on the levels named, or both be none. Each point that is known must lie in its
 /// body's level, moved back by the radius: within law 2's bound above the plane of any face or, where a body is a point, a
-/// segment or a polygon, at most as far away. Where the interval is within law 2's bound for the hulls, the points must differ by the signed distance along the normal, within that bound,
-/// unless the status is Budget, the verdict Undecided, or an overlap unsigned, whose points nobody asked to be the nearest; and
-/// but for the two vertices named, where a question of yes or no may end with a normal that leans as far as `lower` allows.
-/// Whether other features hold the points is not looked at: such a question names those of its last sample.
+/// segment or a polygon, at most as far away. Which features hold the points is not looked at: a threshold question names those
+/// of its last sample.
+///
+/// The interval of an exact answer that is Converged must be within law 2's bound. Where an interval is, of the hulls, the
+/// points of an exact answer must differ by the signed distance along the normal, within that bound, unless the status is
+/// Budget or Beyond, the verdict Undecided, or an overlap unsigned, whose points nobody asked to be the nearest. Any other
+/// question may end so near by chance, at a threshold or an allowed error, before the nearest features are found: its points
+/// may differ aside of the normal too, as far as bounds that near let it lean: about the root of law 2's bound times the
+/// distance.
 ///
 /// Cost: linear in vertices and faces; for a signed overlap, and for one within rounding of touching without `proof`, the
 /// product of the edges, 0.2 s for 2 000 triangles each.
+Check check(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, Question asked,
+            const OverlapProof* proof = nullptr);
+/// Recomputes what `answer` claims, whatever was asked.
 Check check(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const OverlapProof* proof = nullptr);
 
 /// Proves exactly that every level is convex and encloses level 0 and that no vertex is higher above a face's plane than
