@@ -21,7 +21,9 @@ struct Pose {
 };
 
 /// Returns the pose of B in A's frame, given both poses in a common frame. Translations are subtracted first, so that a common
-/// translation that is exact in double changes no bit. A's rotation is inverted, not transposed.
+/// translation that is exact in double changes no bit. A's rotation is inverted, not transposed. The errors of both rotations
+/// add up, so that two legal ones, rounded to single precision, may have a relative one that is InvalidPose; rotations made of
+/// quaternions that are normalised in double are orthonormal to 1e-15.
 Pose relative(const Pose& a_in_world, const Pose& b_in_world);
 
 /// Returns the pose that undoes `pose`; its rotation is the matrix inverse of `pose.rotation`.
