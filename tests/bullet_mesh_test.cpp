@@ -537,6 +537,57 @@ TEST(MeshScenes, MeshesComeToRest) {
   }
 }
 
+/// Which vertices are beyond an open surface, and on which side of its triangles a body is, holds of these shapes alone.
+TEST(MeshScenes, AnotherMeshIsMetAnew) {
+  const auto walled = [](double x, double) { return x > 2 ? 4. : 0.; };  // its box reaches as high as the bodies
+  MeshShape trough(floor_of(8, 4, walled).mesh()), block(soups::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}).mesh()),
+      raised(soups::box({-0.5, -0.5, 0.2}, {0.5, 0.5, 0.5}).mesh());
+  Soup pyramid = soups::tetrahedron();
+  for (Vec3& p : pyramid.points) p[2] += 2;
+  MeshShape of_fewer_vertices(pyramid.mesh());
+  for (MeshShape* next : {&raised, &of_fewer_vertices}) {
+    Dynamics d;
+    d.add(trough, at(0, 0, 0));
+    btRigidBody& body = d.add(block, at(0.07, 0.13, 0.6), 1, btVector3(0, 0, -12));
+    d.step(), d.step();
+    ASSERT_LT(deepest(d.dispatcher), -0.1) << "its corners are not beyond the floor";
+    body.setCollisionShape(next);
+    d.world.performDiscreteCollisionDetection();
+    EXPECT_EQ(d.dispatcher.getNumManifolds(), 1);
+    EXPECT_EQ(deepest(d.dispatcher), 1) << "it is above the floor";
+  }
+
+  Soup sheet = floor_of(1, 4, flat);
+  MeshShape floor(sheet.mesh());
+  for (auto& [p, q, r] : sheet.triangles) std::swap(q, r);
+  MeshShape turned_over(sheet.mesh());
+  btSphereShape ball(btScalar(0.5));
+  btCapsuleShapeZ capsule(btScalar(0.4), btScalar(0.2));
+  for (btCollisionShape* shape : {static_cast<btCollisionShape*>(&ball), static_cast<btCollisionShape*>(&capsule)}) {
+    Dynamics d;
+    btRigidBody& ground = d.add(floor, at(0, 0, 0));
+    const btRigidBody& body = d.add(*shape, at(0.3, 0.2, 0.5), 1);
+    d.step();
+    ASSERT_LT(deepest(d.dispatcher), 0);
+    ground.setCollisionShape(&turned_over);
+    for (int step = 0; step < 60; ++step) d.step();
+    EXPECT_NEAR(body.getWorldTransform().getOrigin().z(), 0.54, 0.02) << shape->getName();
+  }
+}
+
+/// A ball that grows while its centre is beyond a surface still belongs on the side from which it came.
+TEST(MeshScenes, ABodyThatGrowsKeepsItsSide) {
+  MeshShape floor(floor_of(8, 4, flat).mesh());
+  Dynamics d;
+  d.add(floor, at(0, 0, 0));
+  btSphereShape ball(btScalar(0.5));
+  const btRigidBody& body = d.add(ball, at(0.3, 0.2, 0.6), 1, btVector3(0, 0, -40));
+  d.step();
+  ASSERT_LT(body.getWorldTransform().getOrigin().z(), 0);
+  for (int step = 0; step < 60; ++step) ball.setUnscaledRadius(btScalar(0.5 + 0.001 * step)), d.step();
+  EXPECT_GT(body.getWorldTransform().getOrigin().z(), 0.5);
+}
+
 /// A ring that hangs on a bar stays on it.
 TEST(MeshScenes, ARingHangsOnItsPeg) {
   MeshShape ring(soups::scaled(soups::torus(32, 16, 0.2), 0.5).mesh()),

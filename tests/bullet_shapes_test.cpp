@@ -903,6 +903,68 @@ TEST(ExchangedWhileThePairLives, AShapeIsTheOneThatTheBodyHas) {
   }
 }
 
+/// Memory for one shape at a time.
+class Place {
+ public:
+  Place() = default;
+  ~Place() { clear(); }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+  template <class Shape, class... Arguments>
+  Shape& make(Arguments&&... arguments) {
+    static_assert(sizeof(Shape) <= sizeof memory_);
+    clear();
+    Shape* const made = ::new (static_cast<void*>(memory_)) Shape(std::forward<Arguments>(arguments)...);
+    shape_ = made;
+    return *made;
+  }
+
+ private:
+  void clear() {
+    if (shape_) std::exchange(shape_, nullptr)->~btCollisionShape();
+  }
+  alignas(16) std::byte memory_[1024];
+  btCollisionShape* shape_ = nullptr;
+};
+
+/// A shape that is made where another was destroyed has its address, and may have as many points.
+TEST(ExchangedWhileThePairLives, AShapeInThePlaceOfAnotherIsAnother) {
+  using Make = std::function<btCollisionShape&(Place&, double)>;
+  const auto cube = [](double half) { return bodies::model(bodies::box(half, half, half)); };
+  const Make hull = [&](Place& place, double half) -> btCollisionShape& { return place.make<HullShape>(cube(half)); };
+  const Make mesh = [](Place& place, double half) -> btCollisionShape& {
+    return place.make<bullet::MeshShape>(soups::box({-half, -half, -half}, {half, half, half}).mesh());
+  };
+  const Make points = [&](Place& place, double half) -> btCollisionShape& {
+    auto& shape = place.make<btConvexHullShape>();
+    for (int i = 0; i < 8; ++i) shape.addPoint(HullShape(cube(half)).getUnscaledPoints()[i]);
+    return shape;
+  };
+  const Make plane = [](Place& place, double half) -> btCollisionShape& {
+    return place.make<btStaticPlaneShape>(btVector3(0, 0, 1), btScalar(half));
+  };
+  const auto expect_rest = [&](const Make& below, const Make& above, std::initializer_list<std::array<double, 2>> halves) {
+    const double margins = &below == &plane ? 0.04 : 0.08;
+    Place floor, place;
+    Dynamics d;
+    btRigidBody *ground = nullptr, *body = nullptr;
+    for (const auto& [half_below, half_above] : halves) {
+      btCollisionShape &lower = below(floor, half_below), &upper = above(place, half_above);
+      if (!ground) ground = &d.add(lower, at(0, 0, 0)), body = &d.add(upper, at(0, 0, half_below + half_above + margins), 1);
+      ground->setCollisionShape(&lower), body->setCollisionShape(&upper);
+      for (int step = 0; step < 200; ++step) d.step();
+      EXPECT_NEAR(body->getWorldTransform().getOrigin().z(), half_below + half_above + margins, 0.02)
+          << upper.getName() << " of " << half_above << " on " << lower.getName() << " of " << half_below;
+    }
+  };
+  for (const Make* below : {&hull, &mesh}) {
+    for (const Make* above : {&hull, &mesh, &points}) expect_rest(*below, *above, {{2, 0.5}, {2, 0.3}, {2, 0.9}});
+  }
+  for (const Make* below : {&hull, &mesh, &plane}) {
+    for (const Make* above : {&hull, &mesh}) expect_rest(*below, *above, {{2, 0.5}, {1.8, 0.5}, {1.9, 0.5}});
+  }
+}
+
 // ---- Who answers -----------------------------------------------------------------------------------------------------------
 
 /// One shape of every class that Bullet has, each about as large as a cube of side 2 around the origin, and what it borrows.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <swiftlet/bullet.h>
 
+#include <algorithm>
 #include <deque>
 #include <memory>
 #include <new>
@@ -72,7 +73,9 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo& info,
                         btManifoldResult* result) override {
-    if (state_->watch.changed(*a->getCollisionShape(), *b->getCollisionShape())) clear(), state_->others.stop();
+    const Watch::Change of_a = state_->watch_a.look(*a->getCollisionShape()),
+                        of_b = state_->watch_b.look(*b->getCollisionShape());
+    if (std::max(of_a, of_b) != Watch::Change::None) clear(), state_->others.stop();
     result->setPersistentManifold(persistent_);
     if (answer(*a, *b, *result)) {
       if (!shared_) result->refreshContactPoints();
@@ -148,7 +151,7 @@ class HullAlgorithm final : public btActivatingCollisionAlgorithm {
     State(SolidPair pair, Others bullets) : solids(std::move(pair)), others(std::move(bullets)) {}
 
     SolidPair solids;
-    Watch watch;
+    Watch watch_a, watch_b;
     std::unique_ptr<Touches> touches;
     Others others;
   };

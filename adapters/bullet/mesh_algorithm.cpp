@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // A MeshShape against another one, a plane or a convex body that is no smaller. Bullet has no algorithm for two concave shapes.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <new>
@@ -29,7 +30,7 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo& info,
                         btManifoldResult* result) override {
     PointGroups& groups = state_->groups;
-    if (state_->watch.changed(*a->getCollisionShape(), *b->getCollisionShape())) groups.clear(), state_->others.stop();
+    forget(std::max(state_->watch_a.look(*a->getCollisionShape()), state_->watch_b.look(*b->getCollisionShape())));
     result->setPersistentManifold(&groups.first());
     const bool first_is_a = state_->first_is_a;
     const btCollisionObjectWrapper &first = first_is_a ? *a : *b, &second = first_is_a ? *b : *a;
@@ -85,13 +86,19 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
 
     const bool first_is_a;             ///< a mesh; of two meshes Bullet's first
     const std::optional<Solid> solid;  ///< the second one, if it is convex
-    Watch watch;
+    Watch watch_a, watch_b;
     PointGroups groups;
     MeshPair pair;
     std::vector<TrianglePoint> points;  ///< all, or the nearest alone
     std::vector<PointIds> ids;
     Others others;  ///< where the pair is not ours
   };
+
+  void forget(Watch::Change change) {
+    if (change == Watch::Change::None) return;
+    state_->groups.clear(), state_->others.stop();
+    if (change == Watch::Change::Form) state_->pair.forget_vertices();
+  }
 
   void bodies(const PlacedMeshShape& first, const PlacedMeshShape& second, const btCollisionObjectWrapper& first_object,
               const btCollisionObjectWrapper& second_object, btScalar time_step, double touching) {

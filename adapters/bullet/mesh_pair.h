@@ -94,6 +94,8 @@ class MeshPair {
   std::span<const TrianglePoint> contacts(const PlacedMeshShape& a, const PlacedMeshShape& b, const Vec3& moved, double beyond);
   /// The nearest or deepest one.
   std::optional<TrianglePoint> nearest(const PlacedMeshShape& a, const PlacedMeshShape& b, double beyond);
+  /// Forgets which vertices are beyond a surface, where one of both meshes is another now. Normals are remembered by places.
+  void forget_vertices() { through_ = {}; }
   /// By the `triangle` of a point.
   std::span<const PointIds> ids() const { return ids_; }
 

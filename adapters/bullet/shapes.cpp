@@ -19,8 +19,12 @@ namespace {
 /// Of so many kept models those go that no pair uses.
 constexpr std::size_t kMostModels = 1024;
 
-/// Of a mesh none, which does not say when it changes.
-int point_count(const btCollisionShape& shape) { return static_cast<const btPolyhedralConvexShape&>(shape).getNumVertices(); }
+const HullShape* hull_shape(const btCollisionShape& shape) {
+  return shape.getShapeType() == CONVEX_HULL_SHAPE_PROXYTYPE ? dynamic_cast<const HullShape*>(&shape) : nullptr;
+}
+const MeshShape* mesh_shape(const btCollisionShape& shape) {
+  return shape.getShapeType() == kMeshType ? dynamic_cast<const MeshShape*>(&shape) : nullptr;
+}
 
 std::vector<btVector3> vertices_of(const btCollisionShape& shape) {
   std::vector<btVector3> vertices;
@@ -115,13 +119,13 @@ Role role_of(int proxy_type) {
 }
 
 const MeshShape* unscaled_mesh(const btCollisionShape& shape) {
-  const auto* const mesh = dynamic_cast<const MeshShape*>(&shape);
+  const MeshShape* const mesh = mesh_shape(shape);
   return mesh && !mesh->is_scaled() ? mesh : nullptr;
 }
 
 Role role_of(const btCollisionShape& shape) {
-  if (const auto* const mesh = dynamic_cast<const MeshShape*>(&shape)) return mesh->is_scaled() ? Role::Triangles : Role::Mesh;
-  const auto* const hull = dynamic_cast<const HullShape*>(&shape);
+  if (const MeshShape* const mesh = mesh_shape(shape)) return mesh->is_scaled() ? Role::Triangles : Role::Mesh;
+  const HullShape* const hull = hull_shape(shape);
   return hull && !hull->is_scaled() ? Role::Hull : role_of(shape.getShapeType());
 }
 
@@ -135,21 +139,46 @@ std::shared_ptr<const Model> HullModels::of(const btCollisionShape& shape) {
   return models_[hash] = built ? std::make_shared<const Model>(std::move(built).value()) : nullptr;
 }
 
+Form::Signs Form::signs_of(const btCollisionShape& shape) {
+  Signs signs{.shape = &shape, .type = shape.getShapeType()};
+  const Role role = role_of(signs.type);
+  if (role == Role::Body) return signs;
+  signs.scaling = shape.getLocalScaling();
+  if (const MeshShape* const mesh = mesh_shape(shape)) {
+    signs.block = mesh->mesh().bytes().data();
+  } else if (role == Role::Points) {
+    const auto& points = static_cast<const btPolyhedralConvexAabbCachingShape&>(shape);
+    signs.point_count = points.getNumVertices();
+    points.getNonvirtualAabb(btTransform::getIdentity(), signs.least, signs.most, 0);
+    if (const HullShape* const hull = hull_shape(shape)) signs.block = hull->model().bytes().data();
+  } else if (role == Role::Plane) {
+    const auto& plane = static_cast<const btStaticPlaneShape&>(shape);
+    signs.least = plane.getPlaneNormal(), signs.most.setX(plane.getPlaneConstant());
+  } else if (role == Role::Triangles) {
+    shape.getAabb(btTransform::getIdentity(), signs.least, signs.most);
+  }
+  return signs;
+}
+
+Form::Form(const btCollisionShape& shape) : signs_(signs_of(shape)) {
+  if (const HullShape* const hull = hull_shape(shape)) kept_ = hull->model();
+  if (const MeshShape* const mesh = mesh_shape(shape)) kept_ = mesh->mesh();
+}
+
+bool Form::is_of(const btCollisionShape& shape) const { return signs_ == signs_of(shape); }
+
 std::optional<Solid> Solid::of(const btCollisionShape& shape, HullModels& models) {
   Solid solid(role_of(shape));
   if (solid.role_ == Role::Bullets || solid.role_ == Role::Mesh || solid.role_ == Role::Triangles) return std::nullopt;
   if (solid.role_ != Role::Points) return solid;
-  solid.shape_ = &shape, solid.model_ = models.of(shape);
+  solid.model_ = models.of(shape);
   if (!solid.model_) return std::nullopt;
-  solid.point_count_ = point_count(shape);
-  solid.scaling_ = shape.getLocalScaling();
+  solid.form_ = Form(shape);
   return solid;
 }
 
 bool Solid::is_current(const btCollisionShape& shape) const {
-  if (role_ != role_of(shape)) return false;
-  if (role_ != Role::Points) return true;
-  return &shape == shape_ && point_count(shape) == point_count_ && shape.getLocalScaling() == scaling_;
+  return role_ == role_of(shape) && (role_ != Role::Points || form_.is_of(shape));
 }
 
 Placed Solid::placed(const btCollisionObjectWrapper& body) const {
@@ -168,16 +197,14 @@ Vec3 Solid::centre(const btCollisionShape& shape) const {
   return (body.corner(0) + body.corner(1) + body.corner(2)) / 3;
 }
 
-Watch::Seen Watch::seen(const btCollisionShape& shape) {
-  const bool is_primitive = role_of(shape.getShapeType()) == Role::Body;
-  return {&shape, shape.getLocalScaling(), is_primitive ? primitive(shape) : Body::point(Vec3::Zero(), shape.getMargin())};
-}
-
-bool Watch::changed(const btCollisionShape& a, const btCollisionShape& b) {
-  const Seen now_a = seen(a), now_b = seen(b);
-  if (now_a == a_ && now_b == b_) return false;
-  a_ = now_a, b_ = now_b;
-  return true;
+Watch::Change Watch::look(const btCollisionShape& shape) {
+  const bool is_primitive = role_of(shape.getShapeType()) == Role::Body, is_same = form_.is_of(shape);
+  const Body size = is_primitive ? primitive(shape) : Body::point(Vec3::Zero(), shape.getMargin());
+  if (is_same && size == size_) return Change::None;
+  size_ = size;
+  if (is_same) return Change::Size;
+  form_ = Form(shape);
+  return Change::Form;
 }
 
 /// Single precision leaves the normal's length wrong by an ulp.

@@ -3,10 +3,13 @@
 // What Bullet's shapes are to the kernel. The table of adapters/README.md in code; knows no algorithm.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <unordered_map>
+#include <variant>
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
@@ -50,14 +53,38 @@ class HullModels {
   std::unordered_map<std::uint64_t, std::shared_ptr<const Model>> models_;  ///< by a hash of the points; null: there is none
 };
 
-/// A convex shape or plane, as the kernel sees it. Borrows the shape.
+/// Tells a shape, in its scaling, from every other one, also from one that is made at its address once it is gone. Neither its
+/// margin nor the size of a primitive is part of it. The cost does not depend on the shape, so not all is compared: of a hull
+/// of points the number of these and the box around them, of Bullet's triangles the box, which has their margin.
+class Form {
+ public:
+  Form() = default;  ///< of no shape
+  explicit Form(const btCollisionShape& shape);
+  bool is_of(const btCollisionShape& shape) const;
+
+ private:
+  struct Signs {
+    const btCollisionShape* shape = nullptr;
+    const std::byte* block = nullptr;  ///< of a HullShape or MeshShape
+    int type = INVALID_SHAPE_PROXYTYPE, point_count = 0;
+    btVector3 scaling{0, 0, 0};               ///< none of a primitive, as its size has it
+    btVector3 least{0, 0, 0}, most{0, 0, 0};  ///< corners of the box; of a plane its normal, and how far it lies along that
+    bool operator==(const Signs&) const = default;
+  };
+  static Signs signs_of(const btCollisionShape& shape);
+
+  Signs signs_;
+  std::variant<std::monostate, Model, MeshModel> kept_;  ///< keeps the block, so that no other one gets its address
+};
+
+/// A convex shape or plane, as the kernel sees it.
 class Solid {
  public:
   /// None where the kernel sees nothing in the shape.
   static std::optional<Solid> of(const btCollisionShape& shape, HullModels& models);
 
   Role role() const { return role_; }
-  /// Whether the shape still is what the model was built of: nobody scaled it or added points.
+  /// Whether the shape still is what the model was built of.
   bool is_current(const btCollisionShape& shape) const;
   Placed placed(const btCollisionObjectWrapper& body) const;  ///< of a Hull, Body or Points
   Vec3 centre(const btCollisionShape& shape) const;           ///< likewise: in the middle of it, in its frame
@@ -66,29 +93,25 @@ class Solid {
   explicit Solid(Role role) : role_(role) {}
 
   Role role_;
-  const btCollisionShape* shape_ = nullptr;  ///< of Points, as are all that follow
+  Form form_;  ///< of Points, as is the model
   std::shared_ptr<const Model> model_;
-  int point_count_ = 0;
-  btVector3 scaling_{1, 1, 1};
 };
 
-/// Watches the two shapes of a pair: Bullet lets anyone scale a shape between steps, give it another margin, or a body another
-/// shape. What was found of it is void then, such as points of contact, which are places on both.
+/// Watches a shape of a pair: Bullet lets anyone scale a shape between steps, give it another margin, or its body another
+/// shape. Points of contact, which are places on both shapes, are void then.
 class Watch {
  public:
-  /// Whether a shape is not what it was when this was called last.
-  bool changed(const btCollisionShape& a, const btCollisionShape& b);
+  enum class Change : std::uint8_t {
+    None,
+    Size,  ///< another margin, or another size of a primitive
+    Form   ///< another shape or scaling: its features are not those that it had
+  };
+  /// Since this was called last.
+  Change look(const btCollisionShape& shape);
 
  private:
-  struct Seen {
-    const btCollisionShape* shape = nullptr;
-    btVector3 scaling{0, 0, 0};
-    Body body;  ///< of a primitive; of all else a point with the shape's margin
-    bool operator==(const Seen&) const = default;
-  };
-  static Seen seen(const btCollisionShape& shape);
-
-  Seen a_, b_;
+  Form form_;
+  Body size_;  ///< of a primitive; of all else a point with the shape's margin
 };
 
 }  // namespace swiftlet::bullet

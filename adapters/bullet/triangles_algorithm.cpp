@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A convex body against the triangles of a concave shape: those that lie in its box, all in one step. Bullet's own algorithm
 // asks for triangle by triangle, and knows neither edges nor sides.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <new>
@@ -52,9 +53,9 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo& info,
                         btManifoldResult* result) override {
     PointGroups& groups = state_->groups;
-    if (state_->watch.changed(*a->getCollisionShape(), *b->getCollisionShape())) groups.clear(), state_->others.stop();
-    result->setPersistentManifold(&groups.first());
     const btCollisionObjectWrapper &body = state_->body_is_a ? *a : *b, &surface = state_->body_is_a ? *b : *a;
+    look(*body.getCollisionShape(), *surface.getCollisionShape());
+    result->setPersistentManifold(&groups.first());
     if (!is_ours(body, surface)) {
       groups.clear();
       state_->others.process(*a, *b, info, *result);
@@ -100,13 +101,21 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
 
     const bool body_is_a;
     Solid solid;
-    Watch watch;
+    Watch watch_body, watch_surface;
     PointGroups groups;
     TrianglePair pair;
     std::vector<PointIds> ids;
     Enclosed enclosed;
     Others others;  ///< where the pair is not ours
   };
+
+  /// Forgets what was found of shapes that are others now; the sides of a surface are those of its triangles.
+  void look(const btCollisionShape& body, const btCollisionShape& surface) {
+    const Watch::Change of_body = state_->watch_body.look(body), of_surface = state_->watch_surface.look(surface);
+    if (std::max(of_body, of_surface) == Watch::Change::None) return;
+    state_->groups.clear(), state_->others.stop();
+    if (of_surface == Watch::Change::Form) state_->pair = TrianglePair(), state_->enclosed = Enclosed();
+  }
 
   /// Whether the body still is what it was, both poses are rigid motions, and the margin of Bullet's triangles is a radius.
   bool is_ours(const btCollisionObjectWrapper& body, const btCollisionObjectWrapper& surface) const {
