@@ -1162,6 +1162,33 @@ TEST(WhoAnswers, OfAScaledMeshBulletDoes) {
   }
 }
 
+/// What is no body, as by its margin, is Bullet's; a MeshShape whose margin is no radius touches nothing.
+TEST(WhoAnswers, OfMarginsThatAreNoRadiusBulletDoes) {
+  World w, bullets(false);
+  HullShape hull(bodies::model(bodies::cube())), odd(bodies::model(bodies::cube()));
+  odd.setMargin(btScalar(-0.5));
+  const auto floor = terrain(6, 3, flat), sunk = terrain(6, 3, flat);
+  sunk->shape->setMargin(btScalar(-0.01));
+  bullet::MeshShape small(soups::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}).mesh()), large(bullet::mesh_of(floor->mesh).value());
+  btSphereShape ball(1), nothing(-1);
+  btStaticPlaneShape plane(btVector3(0, 0, 1), 0);
+  for (btCollisionShape* shape : {static_cast<btCollisionShape*>(&ball), static_cast<btCollisionShape*>(floor->shape.get()),
+                                  static_cast<btCollisionShape*>(&plane), static_cast<btCollisionShape*>(&small),
+                                  static_cast<btCollisionShape*>(&large), static_cast<btCollisionShape*>(&hull)}) {
+    EXPECT_TRUE(w.hull_pairs->answers(hull, *shape)) << shape->getName();
+    EXPECT_FALSE(w.hull_pairs->answers(odd, *shape)) << shape->getName();
+    EXPECT_FALSE(w.hull_pairs->answers(*shape, odd)) << shape->getName();
+    std::vector<Point> ours = closest_points(w, odd, at(0, 0, 0.4), *shape, at(0, 0, 0), 0, false),
+                       theirs = closest_points(bullets, odd, at(0, 0, 0.4), *shape, at(0, 0, 0), 0, false);
+    ASSERT_EQ(ours.size(), theirs.size()) << shape->getName();
+    for (std::size_t i = 0; i < ours.size(); ++i) EXPECT_EQ(ours[i].distance, theirs[i].distance) << shape->getName();
+  }
+  EXPECT_FALSE(w.hull_pairs->answers(hull, *sunk->shape));
+  EXPECT_FALSE(w.hull_pairs->answers(hull, nothing));
+  large.setMargin(-1);
+  EXPECT_TRUE(w.hull_pairs->answers(hull, large));
+}
+
 /// Shapes of the user's own, and types that have no class: nothing that is not named is taken.
 TEST(WhoAnswers, LeavesUnknownTypesAlone) {
   struct Other : btSphereShape {

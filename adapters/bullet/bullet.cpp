@@ -263,10 +263,14 @@ HullPairs::HullPairs(btCollisionDispatcher& dispatcher) : entries_(std::make_uni
 HullPairs::~HullPairs() = default;
 
 bool HullPairs::answers(const btCollisionShape& a, const btCollisionShape& b) const {
-  const auto has_model = [&](const btCollisionShape& shape) {
-    return role_of(shape) != Role::Points || entries_->models.of(shape) != nullptr;
+  const auto is_taken = [&](const btCollisionShape& shape) {
+    const Role role = role_of(shape);
+    if (role == Role::Mesh || role == Role::Plane) return true;
+    if (role == Role::Triangles) return is_legal(Body::point(Vec3::Zero(), shape.getMargin()));
+    const std::optional<Solid> solid = Solid::of(shape, entries_->models);
+    return solid && is_legal(solid->body(shape));
   };
-  return is_ours(role_of(a), role_of(b)) && has_model(a) && has_model(b);
+  return is_ours(role_of(a), role_of(b)) && is_taken(a) && is_taken(b);
 }
 
 }  // namespace swiftlet::bullet

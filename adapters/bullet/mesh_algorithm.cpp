@@ -37,9 +37,10 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
     const MeshShape *const mesh = unscaled_mesh(*first.getCollisionShape()), *const other_mesh =
                                                                                  unscaled_mesh(*second.getCollisionShape());
     const std::optional<Solid>& solid = state_->solid;
-    const bool is_current = solid ? solid->is_current(*second.getCollisionShape())
-                                  : other_mesh || role_of(*second.getCollisionShape()) == Role::Plane;
-    if (!mesh || !is_current) {  // scaled since they met
+    const btCollisionShape& other = *second.getCollisionShape();
+    const bool is_ours =
+        solid ? solid->is_current(other) && is_legal(solid->body(other)) : other_mesh || role_of(other) == Role::Plane;
+    if (!mesh || !is_ours) {  // scaled since they met, or no body
       groups.clear();
       state_->others.process(*a, *b, info, *result);
       return;

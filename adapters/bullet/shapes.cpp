@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shapes.h"
 
+#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -181,12 +182,14 @@ bool Solid::is_current(const btCollisionShape& shape) const {
   return role_ == role_of(shape) && (role_ != Role::Points || form_.is_of(shape));
 }
 
-Placed Solid::placed(const btCollisionObjectWrapper& body) const {
-  const btCollisionShape& shape = *body.getCollisionShape();
-  const Pose in_world = pose_of(body.getWorldTransform());
-  if (role_ == Role::Hull) return {Body(static_cast<const HullShape&>(shape).model(), shape.getMargin()), in_world};
-  if (role_ == Role::Points) return {Body(*model_, shape.getMargin()), in_world};
-  return {primitive(shape), in_world};
+Body Solid::body(const btCollisionShape& shape) const {
+  if (role_ == Role::Hull) return Body(static_cast<const HullShape&>(shape).model(), shape.getMargin());
+  if (role_ == Role::Points) return Body(*model_, shape.getMargin());
+  return primitive(shape);
+}
+
+Placed Solid::placed(const btCollisionObjectWrapper& object) const {
+  return {body(*object.getCollisionShape()), pose_of(object.getWorldTransform())};
 }
 
 Vec3 Solid::centre(const btCollisionShape& shape) const {
@@ -196,6 +199,8 @@ Vec3 Solid::centre(const btCollisionShape& shape) const {
   if (body.kind() != BodyKind::Triangle) return Vec3::Zero();
   return (body.corner(0) + body.corner(1) + body.corner(2)) / 3;
 }
+
+bool is_legal(const Body& body) { return !std::isnan(tolerance(body, Body::point(Vec3::Zero()), Pose{})); }
 
 Watch::Change Watch::look(const btCollisionShape& shape) {
   const bool is_primitive = role_of(shape.getShapeType()) == Role::Body, is_same = form_.is_of(shape);

@@ -86,7 +86,8 @@ class Solid {
   Role role() const { return role_; }
   /// Whether the shape still is what the model was built of.
   bool is_current(const btCollisionShape& shape) const;
-  Placed placed(const btCollisionObjectWrapper& body) const;  ///< of a Hull, Body or Points
+  Body body(const btCollisionShape& shape) const;             ///< of a Hull, Body or Points; borrows the model
+  Placed placed(const btCollisionObjectWrapper& body) const;  ///< likewise
   Vec3 centre(const btCollisionShape& shape) const;           ///< likewise: in the middle of it, in its frame
 
  private:
@@ -96,6 +97,9 @@ class Solid {
   Form form_;  ///< of Points, as is the model
   std::shared_ptr<const Model> model_;
 };
+
+/// Whether queries take the body: its numbers are coordinates, and its radius is one.
+bool is_legal(const Body& body);
 
 /// Watches a shape of a pair: Bullet lets anyone scale a shape between steps, give it another margin, or its body another
 /// shape. Points of contact, which are places on both shapes, are void then.

@@ -84,8 +84,8 @@ Pair pair_of(const Placed& a, const Placed& part, double beyond) {
   if (tolerance(a.body, part.body, pair.b_in_a) >= 0)
     pair.answer = above(a.body, part.body, pair.b_in_a, Side::Front, normal_of(part.body, Side::Front));
   else
-    pair.found = Found::Nothing;  // no rigid motion
-  if (pair.answer.lower > beyond) pair.found = Found::Beyond;
+    pair.found = Found::Nothing;  // no rigid motion, or no body
+  if (pair.found == Found::Nearest && pair.answer.lower > beyond) pair.found = Found::Beyond;
   return pair;
 }
 

@@ -98,8 +98,8 @@ class HullPairs {
   HullPairs(const HullPairs&) = delete;
   HullPairs& operator=(const HullPairs&) = delete;
 
-  /// Whether pairs of these two shapes are swiftlet's; of children of compounds their own shapes decide. Of a hull of points
-  /// this builds the model, unless a pair has it.
+  /// Whether pairs of these two shapes are swiftlet's, as they now are and in poses that are rigid motions; of children of
+  /// compounds their own shapes decide. Of a hull of points this builds the model, unless a pair has it.
   bool answers(const btCollisionShape& a, const btCollisionShape& b) const;
 
  private:
