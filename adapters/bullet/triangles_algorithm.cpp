@@ -28,7 +28,8 @@ class Gather final : public btTriangleCallback {
  public:
   Gather(TrianglePair& pair, std::vector<PointIds>& ids) : pair_(pair), ids_(ids) {}
 
-  /// Both triangles of a square of a heightfield come with the same numbers, one after the other.
+  /// In some versions of Bullet both triangles of a heightfield's square have the same numbers, one after the other; in 3.24
+  /// no two triangles have.
   void processTriangle(btVector3* corners, int part, int index) override {
     const TriangleId id{part, index};
     const bool is_second = !ids_.empty() && ids_.back().second == id;
