@@ -236,7 +236,6 @@ swiftlet_code swiftlet_model_ensure(const swiftlet_model* model, int32_t level, 
   return guard(error, [&] {
     need(ensured, "ensured");
     Model copied = model_of(model);
-    level_of(copied, level);
     must(copied.ensure(level));
     hand_out(std::move(copied), ensured);
   });

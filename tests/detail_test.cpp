@@ -247,7 +247,7 @@ TEST_F(DetailTest, LevelsAddedLaterAnswerAsIfTheyHadBeenThereAndSeedsFit) {
     ASSERT_FALSE(lacking);
     EXPECT_EQ(lacking.error().code, ErrorCode::BadValue);
     EXPECT_EQ(cut.finest_level(), coarsest);
-    EXPECT_FALSE(grown.ensure(-1));
+    for (const int level : {-1, m.level_count()}) EXPECT_EQ(grown.ensure(level).error().code, ErrorCode::BadValue) << level;
   }
 }
 

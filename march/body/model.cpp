@@ -83,12 +83,12 @@ Model Model::cut(const Detail& detail) const {
 }
 
 Result<int> Model::ensure(int level) {
+  const auto present = int(content_->headers.block.finest_level);
+  if (level < present || level >= level_count_) {
+    return Error{ErrorCode::BadValue, "level " + std::to_string(level) + " is not in this model, which has levels " +
+                                          std::to_string(present) + " to " + std::to_string(level_count_ - 1)};
+  }
   if (level < finest_level_) {
-    const auto present = int(content_->headers.block.finest_level);
-    if (level < present) {
-      return Error{ErrorCode::BadValue, "level " + std::to_string(level) + " is not in this model, whose finest is level " +
-                                            std::to_string(present)};
-    }
     Result<Model> finer = BlockReader::refined(*this, level);
     if (!finer) return finer.error();
     *this = std::move(finer).value();

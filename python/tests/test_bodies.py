@@ -106,6 +106,9 @@ def test_cuts_and_ensured_levels(fat, tmp_path):
     assert mapped.finest_level == 1 and mapped.ensure(0).finest_level == 0 and mapped.finest_level == 1
     with pytest.raises(swiftlet.DataError):
         coarse.ensure(0)
+    for level in (-1, fat[0].level_count):
+        with pytest.raises(swiftlet.DataError, match=f"level {level} is not in this model"):
+            fat[0].ensure(level)
     path.write_bytes(path.read_bytes()[: fat[0].level(1).prefix + 10])
     with pytest.raises(swiftlet.DataError):
         Model.load(path)

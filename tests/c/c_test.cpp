@@ -700,6 +700,8 @@ TEST(C, FilesOfModelsAndMeshes) {
   ASSERT_EQ(swiftlet_model_load(model_path.c_str(), nullptr, &m[0], Sound()), SWIFTLET_OK);
   ASSERT_EQ(swiftlet_model_map(model_path.c_str(), &coarse, &m[1], Sound()), SWIFTLET_OK);
   ASSERT_EQ(swiftlet_model_ensure(m[1], 0, &m[2], Sound()), SWIFTLET_OK);
+  for (const int level : {-1, models()[0].level_count()})
+    EXPECT_EQ(swiftlet_model_ensure(m[2], level, &m[3], nullptr), SWIFTLET_BAD_VALUE) << level;
   ASSERT_EQ(swiftlet_model_salvage(model_path.c_str(), note, sizeof note, &m[3], Sound()), SWIFTLET_OK);
   EXPECT_STREQ(note, "");
   for (int i = 0; i < 4; ++i) {

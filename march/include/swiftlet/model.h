@@ -233,7 +233,7 @@ class Model {
   int dimension() const;                     ///< 3 solid, 2 flat, 1 segment, 0 point
   /// Returns the model without the levels that `detail` leaves out, in a block of its own. Cost: a copy of the levels kept.
   Model cut(const Detail& detail) const;
-  /// Makes `level` (>= 0) and all coarser levels ready for queries, if the block holds them, as that of a mapped model does.
+  /// Makes `level` and all coarser levels ready for queries, if the block holds them, as that of a mapped model does.
   /// Checks their hashes and structure; returns finest_level(). Copies made earlier do not change; seeds stay valid. No query
   /// may read this very object meanwhile. Errors: BadValue if the block lacks the level, BadFormat if it is damaged; both leave
   /// the model unchanged.
