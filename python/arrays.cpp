@@ -10,7 +10,7 @@ namespace swiftlet::python {
 namespace py = pybind11;
 namespace {
 
-/// A contiguous array of float64 or int64, converted from a dtype that the other holds.
+/// A contiguous array of float64 or int64, converted as numpy's assignment does: to float64 rounded, to int64 modulo 2^64.
 template <class T>
 py::array_t<T> converted(py::handle object, const char* name, const char* wanted, bool (*fits)(char kind)) {
   const py::module_ numpy = py::module_::import("numpy");

@@ -37,7 +37,7 @@ pybind11::array frozen(pybind11::array array);
 pybind11::array to_array(const Vec3& v);
 pybind11::array to_array(std::span<const std::uint32_t> values);
 
-/// Points of shape (n, 3) of any dtype that float64 holds exactly; else an error that names `name`.
+/// Points of shape (n, 3), floats or integers of any width, rounded to float64; else an error that names `name`.
 std::vector<Vec3> to_points(pybind11::handle points, const char* name);
 Vec3 to_vec3(pybind11::handle point, const char* name);
 /// Indices of shape (n,), each from 0 to 2^32 - 1.

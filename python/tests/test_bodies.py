@@ -116,6 +116,13 @@ def test_cuts_and_ensured_levels(fat, tmp_path):
     assert salvaged.finest_level == 1 and note
 
 
+def test_numbers_of_any_width_are_rounded():
+    for dtype in (np.int64, np.uint64, np.longdouble):
+        assert Body.point(np.array([2**53 + 1, 0, 1], dtype)).corners[0].tolist() == [2**53, 0, 1]
+    with pytest.raises(TypeError):
+        Body.point(np.array([1, 2, 3], complex))
+
+
 def test_pictures_and_words(fat, mesh):
     for body in (fat[0], mesh):
         assert body._repr_svg_().lstrip().startswith(("<svg", "<?xml"))
