@@ -143,22 +143,24 @@ class Outputs {
   std::size_t stride_ = 0;
 };
 
-Outputs<swiftlet_answer> answers_to(swiftlet_answer* answers, bool may_be_null = false) {
-  if (!may_be_null) need(answers, "answers");
-  return {answers, "answers", offsetof(swiftlet_answer, normal)};
-}
+/// As the header calls them: of one pair `answer`, of many `answers`.
+enum class Count : bool { One, Many };
 
 struct AnswersOnly {
   Outputs<swiftlet_answer> answers;
-  explicit AnswersOnly(swiftlet_answer* to) : answers(answers_to(to)) {}
+  AnswersOnly(Count count, swiftlet_answer* to) : answers(to, name(count), kLeast) { need(to, name(count)); }
   void put(std::size_t i, const Answer& answer) const { answers.put(i, answer); }
+
+  static const char* name(Count count) { return count == Count::One ? "answer" : "answers"; }
+  static constexpr std::size_t kLeast = offsetof(swiftlet_answer, normal);
 };
 
 struct Decisions {
   std::int32_t* decisions;
   Outputs<swiftlet_answer> answers;
-  Decisions(std::int32_t* to, swiftlet_answer* answers_or_null) : decisions(to), answers(answers_to(answers_or_null, true)) {
-    need(to, "decisions");
+  Decisions(Count count, std::int32_t* to, swiftlet_answer* answers_or_null)
+      : decisions(to), answers(answers_or_null, AnswersOnly::name(count), AnswersOnly::kLeast) {
+    need(to, count == Count::One ? "decision" : "decisions");
   }
   void put(std::size_t i, const Within& within) const {
     decisions[i] = std::int32_t(within.decision);
@@ -167,12 +169,12 @@ struct Decisions {
 };
 
 struct Features {
-  Outputs<swiftlet_answer> answers;
+  AnswersOnly answers;
   Outputs<swiftlet_source> sources_a, sources_b;
-  Features(swiftlet_answer* to, swiftlet_source* a, swiftlet_source* b)
-      : answers(answers_to(to)),
-        sources_a(a, "sources_a", sizeof(swiftlet_source)),
-        sources_b(b, "sources_b", sizeof(swiftlet_source)) {}
+  Features(Count count, swiftlet_answer* to, swiftlet_source* a, swiftlet_source* b)
+      : answers(count, to),
+        sources_a(a, count == Count::One ? "source_a" : "sources_a", sizeof(swiftlet_source)),
+        sources_b(b, count == Count::One ? "source_b" : "sources_b", sizeof(swiftlet_source)) {}
   void put(std::size_t i, const ClosestFeatures& found) const {
     answers.put(i, found.answer);
     sources_a.put(i, found.source_a);
@@ -374,7 +376,7 @@ swiftlet_code swiftlet_closest_options_init(swiftlet_closest_options* options, s
 swiftlet_code swiftlet_distance(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_pose* b_in_a,
                                 swiftlet_seed* seed, const swiftlet_options* options, swiftlet_answer* answer,
                                 swiftlet_error* error) {
-  return guard(error, [&] { ask(a, b, b_in_a, seed, Distance(options), AnswersOnly(answer)); });
+  return guard(error, [&] { ask(a, b, b_in_a, seed, Distance(options), AnswersOnly(Count::One, answer)); });
 }
 
 swiftlet_code swiftlet_refine(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_pose* b_in_a,
@@ -385,7 +387,7 @@ swiftlet_code swiftlet_refine(const swiftlet_body* a, const swiftlet_body* b, co
     need(!body_a.is_mesh() && !body_b.is_mesh(), "an answer about meshes is not refined");
     AskedOptions asked(options);
     const Report report(asked.report, asked.options.tuning);
-    const AnswersOnly to(answer);
+    const AnswersOnly to(Count::One, answer);
     auto kept = seed_of<PairSeed>(seed);
     const Answer result =
         refine(body_a.convex(), body_b.convex(), pose_of(b_in_a), answer_of(so_far, "so_far"), kept, asked.options);
@@ -398,31 +400,32 @@ swiftlet_code swiftlet_refine(const swiftlet_body* a, const swiftlet_body* b, co
 swiftlet_code swiftlet_signed_distance(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_pose* b_in_a,
                                        swiftlet_seed* seed, const swiftlet_options* options, swiftlet_answer* answer,
                                        swiftlet_error* error) {
-  return guard(error, [&] { ask(a, b, b_in_a, seed, SignedDistance(options), AnswersOnly(answer)); });
+  return guard(error, [&] { ask(a, b, b_in_a, seed, SignedDistance(options), AnswersOnly(Count::One, answer)); });
 }
 
 swiftlet_code swiftlet_intersects(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_pose* b_in_a,
                                   swiftlet_seed* seed, const swiftlet_effort* effort, swiftlet_answer* answer,
                                   swiftlet_error* error) {
-  return guard(error, [&] { ask(a, b, b_in_a, seed, Intersects(effort), AnswersOnly(answer)); });
+  return guard(error, [&] { ask(a, b, b_in_a, seed, Intersects(effort), AnswersOnly(Count::One, answer)); });
 }
 
 swiftlet_code swiftlet_within(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_pose* b_in_a, double threshold,
                               swiftlet_seed* seed, const swiftlet_effort* effort, int32_t* decision, swiftlet_answer* answer,
                               swiftlet_error* error) {
-  return guard(error, [&] { ask(a, b, b_in_a, seed, IsWithin(threshold, effort), Decisions(decision, answer)); });
+  return guard(error, [&] { ask(a, b, b_in_a, seed, IsWithin(threshold, effort), Decisions(Count::One, decision, answer)); });
 }
 
 swiftlet_code swiftlet_signed_within(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_pose* b_in_a,
                                      double threshold, swiftlet_seed* seed, const swiftlet_effort* effort, int32_t* decision,
                                      swiftlet_answer* answer, swiftlet_error* error) {
-  return guard(error, [&] { ask(a, b, b_in_a, seed, IsSignedWithin(threshold, effort), Decisions(decision, answer)); });
+  return guard(error,
+               [&] { ask(a, b, b_in_a, seed, IsSignedWithin(threshold, effort), Decisions(Count::One, decision, answer)); });
 }
 
 swiftlet_code swiftlet_closest_features(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_pose* b_in_a,
                                         swiftlet_seed* seed, const swiftlet_closest_options* options, swiftlet_answer* answer,
                                         swiftlet_source* source_a, swiftlet_source* source_b, swiftlet_error* error) {
-  return guard(error, [&] { ask(a, b, b_in_a, seed, Closest(options), Features(answer, source_a, source_b)); });
+  return guard(error, [&] { ask(a, b, b_in_a, seed, Closest(options), Features(Count::One, answer, source_a, source_b)); });
 }
 
 swiftlet_code swiftlet_tolerance(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_pose* b_in_a, double* to,
@@ -441,21 +444,21 @@ swiftlet_code swiftlet_tolerance(const swiftlet_body* a, const swiftlet_body* b,
 swiftlet_code swiftlet_distance_pairs(const swiftlet_pair* pairs, size_t count, const swiftlet_options* options,
                                       const swiftlet_run* run, swiftlet_answer* answers, swiftlet_error* error) {
   return guard(error, [&] {
-    if (count) ask_pairs(pairs, count, run, Distance(options), AnswersOnly(answers));
+    if (count) ask_pairs(pairs, count, run, Distance(options), AnswersOnly(Count::Many, answers));
   });
 }
 
 swiftlet_code swiftlet_signed_distance_pairs(const swiftlet_pair* pairs, size_t count, const swiftlet_options* options,
                                              const swiftlet_run* run, swiftlet_answer* answers, swiftlet_error* error) {
   return guard(error, [&] {
-    if (count) ask_pairs(pairs, count, run, SignedDistance(options), AnswersOnly(answers));
+    if (count) ask_pairs(pairs, count, run, SignedDistance(options), AnswersOnly(Count::Many, answers));
   });
 }
 
 swiftlet_code swiftlet_intersects_pairs(const swiftlet_pair* pairs, size_t count, const swiftlet_effort* effort,
                                         const swiftlet_run* run, swiftlet_answer* answers, swiftlet_error* error) {
   return guard(error, [&] {
-    if (count) ask_pairs(pairs, count, run, Intersects(effort), AnswersOnly(answers));
+    if (count) ask_pairs(pairs, count, run, Intersects(effort), AnswersOnly(Count::Many, answers));
   });
 }
 
@@ -463,7 +466,7 @@ swiftlet_code swiftlet_within_pairs(const swiftlet_pair* pairs, size_t count, do
                                     const swiftlet_run* run, int32_t* decisions, swiftlet_answer* answers,
                                     swiftlet_error* error) {
   return guard(error, [&] {
-    if (count) ask_pairs(pairs, count, run, IsWithin(threshold, effort), Decisions(decisions, answers));
+    if (count) ask_pairs(pairs, count, run, IsWithin(threshold, effort), Decisions(Count::Many, decisions, answers));
   });
 }
 
@@ -471,7 +474,7 @@ swiftlet_code swiftlet_signed_within_pairs(const swiftlet_pair* pairs, size_t co
                                            const swiftlet_effort* effort, const swiftlet_run* run, int32_t* decisions,
                                            swiftlet_answer* answers, swiftlet_error* error) {
   return guard(error, [&] {
-    if (count) ask_pairs(pairs, count, run, IsSignedWithin(threshold, effort), Decisions(decisions, answers));
+    if (count) ask_pairs(pairs, count, run, IsSignedWithin(threshold, effort), Decisions(Count::Many, decisions, answers));
   });
 }
 
@@ -479,7 +482,7 @@ swiftlet_code swiftlet_closest_features_pairs(const swiftlet_pair* pairs, size_t
                                               const swiftlet_run* run, swiftlet_answer* answers, swiftlet_source* sources_a,
                                               swiftlet_source* sources_b, swiftlet_error* error) {
   return guard(error, [&] {
-    if (count) ask_pairs(pairs, count, run, Closest(options), Features(answers, sources_a, sources_b));
+    if (count) ask_pairs(pairs, count, run, Closest(options), Features(Count::Many, answers, sources_a, sources_b));
   });
 }
 
@@ -489,7 +492,7 @@ swiftlet_code swiftlet_distance_poses(const swiftlet_body* a, const swiftlet_bod
                                       const swiftlet_options* options, const swiftlet_run* run, swiftlet_answer* answers,
                                       swiftlet_error* error) {
   return guard(error, [&] {
-    if (count) ask_poses(a, b, b_in_a, count, run, Distance(options), AnswersOnly(answers));
+    if (count) ask_poses(a, b, b_in_a, count, run, Distance(options), AnswersOnly(Count::Many, answers));
   });
 }
 
@@ -497,7 +500,7 @@ swiftlet_code swiftlet_signed_distance_poses(const swiftlet_body* a, const swift
                                              size_t count, const swiftlet_options* options, const swiftlet_run* run,
                                              swiftlet_answer* answers, swiftlet_error* error) {
   return guard(error, [&] {
-    if (count) ask_poses(a, b, b_in_a, count, run, SignedDistance(options), AnswersOnly(answers));
+    if (count) ask_poses(a, b, b_in_a, count, run, SignedDistance(options), AnswersOnly(Count::Many, answers));
   });
 }
 
@@ -505,7 +508,7 @@ swiftlet_code swiftlet_intersects_poses(const swiftlet_body* a, const swiftlet_b
                                         size_t count, const swiftlet_effort* effort, const swiftlet_run* run,
                                         swiftlet_answer* answers, swiftlet_error* error) {
   return guard(error, [&] {
-    if (count) ask_poses(a, b, b_in_a, count, run, Intersects(effort), AnswersOnly(answers));
+    if (count) ask_poses(a, b, b_in_a, count, run, Intersects(effort), AnswersOnly(Count::Many, answers));
   });
 }
 
@@ -513,7 +516,7 @@ swiftlet_code swiftlet_within_poses(const swiftlet_body* a, const swiftlet_body*
                                     double threshold, const swiftlet_effort* effort, const swiftlet_run* run,
                                     int32_t* decisions, swiftlet_answer* answers, swiftlet_error* error) {
   return guard(error, [&] {
-    if (count) ask_poses(a, b, b_in_a, count, run, IsWithin(threshold, effort), Decisions(decisions, answers));
+    if (count) ask_poses(a, b, b_in_a, count, run, IsWithin(threshold, effort), Decisions(Count::Many, decisions, answers));
   });
 }
 
@@ -522,7 +525,8 @@ swiftlet_code swiftlet_signed_within_poses(const swiftlet_body* a, const swiftle
                                            const swiftlet_run* run, int32_t* decisions, swiftlet_answer* answers,
                                            swiftlet_error* error) {
   return guard(error, [&] {
-    if (count) ask_poses(a, b, b_in_a, count, run, IsSignedWithin(threshold, effort), Decisions(decisions, answers));
+    if (count)
+      ask_poses(a, b, b_in_a, count, run, IsSignedWithin(threshold, effort), Decisions(Count::Many, decisions, answers));
   });
 }
 
@@ -531,6 +535,6 @@ swiftlet_code swiftlet_closest_features_poses(const swiftlet_body* a, const swif
                                               swiftlet_answer* answers, swiftlet_source* sources_a, swiftlet_source* sources_b,
                                               swiftlet_error* error) {
   return guard(error, [&] {
-    if (count) ask_poses(a, b, b_in_a, count, run, Closest(options), Features(answers, sources_a, sources_b));
+    if (count) ask_poses(a, b, b_in_a, count, run, Closest(options), Features(Count::Many, answers, sources_a, sources_b));
   });
 }

@@ -640,6 +640,17 @@ TEST(C, ErrorsSayWhatIsWrong) {
   body.kind = 77;
   EXPECT_EQ(swiftlet_distance(&body, &body, &pose, nullptr, nullptr, &answer, &error), SWIFTLET_BAD_VALUE);
   EXPECT_STREQ(error.message, "a.kind is 77, no kind of body");
+  body.kind = SWIFTLET_BODY_POINT;
+  EXPECT_EQ(swiftlet_distance(&body, &body, &pose, nullptr, nullptr, nullptr, &error), SWIFTLET_NULL_POINTER);
+  EXPECT_STREQ(error.message, "answer is null");
+  EXPECT_EQ(swiftlet_within(&body, &body, &pose, 1, nullptr, nullptr, nullptr, &answer, &error), SWIFTLET_NULL_POINTER);
+  EXPECT_STREQ(error.message, "decision is null");
+  EXPECT_EQ(swiftlet_distance_poses(&body, &body, &pose, 1, nullptr, nullptr, nullptr, &error), SWIFTLET_NULL_POINTER);
+  EXPECT_STREQ(error.message, "answers is null");
+  swiftlet_source source{};
+  EXPECT_EQ(swiftlet_closest_features(&body, &body, &pose, nullptr, nullptr, &answer, nullptr, &source, &error),
+            SWIFTLET_BAD_SIZE);
+  EXPECT_EQ(std::string(error.message).rfind("source_b.size is 0", 0), 0u) << error.message;
   for (swiftlet_code code : {0, 1, 5, 11, 100, 101, 102, 103}) EXPECT_STRNE(swiftlet_code_text(code), swiftlet_code_text(-1));
 }
 
