@@ -12,6 +12,10 @@
 #include <map>
 #include <set>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 #include <broad_phase.h>
 #include <random.h>
 #include <soups.h>
@@ -515,6 +519,20 @@ TEST(Scene, MissesNoPairThatTouches) {
   EXPECT_GT(touching, 300);
 }
 
+/// Where coordinates in the world are rounded by more than boxes are larger than bodies.
+TEST(Scene, FindsWhatTouchesFarFromTheOrigin) {
+  for (const double far : {1e12, 1e15}) {
+    const double ulp = std::nextafter(far, 2 * far) - far;
+    for (int i = 0; i < 64; ++i) {
+      const double end = 1 + ulp * i / 64;
+      Scene scene;
+      (void)scene.add("", Body::box({0, 0, 0}, {end, 1, 1}), {.translation = {far, 0, 0}});
+      (void)scene.add("", Body::box({end - 1, 0, 0}, {end, 1, 1}), {.translation = {far + 1, 0, 0}});
+      EXPECT_EQ(scene.overlapping().size(), 1u) << far << ' ' << i;
+    }
+  }
+}
+
 TEST(Scene, NamesIdsAndChurn) {
   Random random(7);
   Scene scene;
@@ -703,6 +721,48 @@ TEST(Scene, WarmAsCold) {
 TEST(Scene, WithMeshesWarmAsCold) {
   const auto [warm, cold] = steps_warm_and_cold(any_mesh_body);
   EXPECT_LT(4 * warm, 3 * cold);
+}
+
+/// Bytes of the heap that are in use.
+std::size_t heap() {
+#if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
+  const auto info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+#else
+  return 0;  // nothing tells
+#endif
+}
+
+/// By what the steps after the first hundred make the heap grow: turn(step).
+std::ptrdiff_t growth(const auto& turn) {
+  std::size_t before = 0;
+  for (int step = 0; step < 4000; ++step) {
+    if (step == 100) before = heap();
+    turn(step);
+  }
+  return std::ptrdiff_t(heap() - before);
+}
+constexpr std::ptrdiff_t kLittle = 20'000;  // a hundredth of what 3 900 seeds take
+
+TEST(Scene, ForgetsScenesThatAreGone) {
+  Scene scene(cubes()[0], Pose{});
+  EXPECT_LE(growth([&](int) { EXPECT_EQ(scene.overlapping(Scene(cubes()[0], Pose{})).size(), 1u); }), kLittle);
+}
+
+TEST(Scene, UsesThePlacesOfRemovedBodiesAgain) {
+  Scene scene(cubes()[0], Pose{});
+  EXPECT_LE(growth([&](int) { EXPECT_TRUE(scene.remove(scene.add("name", cubes()[0], Pose{}))); }), kLittle);
+}
+
+TEST(Scene, ForgetsPairsThatParted) {
+  Scene scene;
+  const BodyId visitor = scene.add("", cubes()[0], Pose{});
+  for (int i = 0; i < 4000; ++i) (void)scene.add("", cubes()[0], {.translation = {2.0 * i, 0, 0}});
+  const auto visit = [&](int step) {
+    scene.move(visitor, {.translation = {2.0 * step, 0.5, 0}});
+    EXPECT_EQ(scene.overlapping().size(), 1u);
+  };
+  EXPECT_LE(growth(visit), kLittle);
 }
 
 TEST(Scene, AsksOnlyWhatIsWanted) {
