@@ -14,15 +14,29 @@
 
 namespace swiftlet {
 
-/// A directory of one test's own, gone after it.
+/// A new directory, gone with this.
+class Folder {
+ public:
+  Folder() {
+    std::random_device random;
+    do {
+      path_ = std::filesystem::temp_directory_path() / ("swiftlet_test_" + std::to_string(random()));
+    } while (!std::filesystem::create_directory(path_));  // it is another's
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A test with a folder of its own.
 class FolderTest : public testing::Test {
  protected:
-  FolderTest() : folder_(std::filesystem::temp_directory_path() / ("swiftlet_test_" + std::to_string(std::random_device{}()))) {
-    std::filesystem::create_directory(folder_);
-  }
-  ~FolderTest() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path path(const char* name) const { return folder_ / name; }
+  std::filesystem::path path(const char* name) const { return folder_.path() / name; }
   std::filesystem::path write_file(const char* name, std::span<const std::byte> bytes) const {
     std::ofstream(path(name), std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
@@ -30,7 +44,7 @@ class FolderTest : public testing::Test {
   }
 
  private:
-  std::filesystem::path folder_;
+  Folder folder_;
 };
 
 }  // namespace swiftlet

@@ -15,25 +15,16 @@
 
 #include <swiftlet/build.h>
 
+#include "folder.h"
+
 namespace swiftlet {
 namespace {
 
-/// A file that lives as long as this.
-class File {
- public:
-  File(const std::string& name, const std::string& bytes)
-      : path_(std::filesystem::temp_directory_path() / ("swiftlet_" + std::string(test_name()) + "_" + name)) {
-    std::ofstream(path_, std::ios::binary) << bytes;
-  }
-  ~File() { std::filesystem::remove(path_); }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  static const char* test_name() { return testing::UnitTest::GetInstance()->current_test_info()->name(); }
-  std::filesystem::path path_;
-};
-
-Result<Mesh> read(const std::string& name, const std::string& bytes) { return read_mesh(File(name, bytes).path()); }
+Result<Mesh> read(const std::string& name, const std::string& bytes) {
+  const Folder folder;
+  std::ofstream(folder.path() / name, std::ios::binary) << bytes;
+  return read_mesh(folder.path() / name);
+}
 
 // A tetrahedron: the origin and the three unit axes.
 const std::string kOff = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
@@ -133,22 +124,20 @@ TEST(MeshFile, MissingFileIsNamed) {
 }
 
 TEST(MeshFile, DirectoryIsNoFile) {
-  const auto path = std::filesystem::temp_directory_path() / "swiftlet_directory.off";
-  std::filesystem::create_directory(path);
-  expect_error(read_mesh(path), ErrorCode::CannotRead, "is a folder");
-  std::filesystem::remove(path);
+  const Folder folder;
+  std::filesystem::create_directory(folder.path() / "t.off");
+  expect_error(read_mesh(folder.path() / "t.off"), ErrorCode::CannotRead, "is a folder");
 }
 
 TEST(MeshFile, DevicesAndPipesAreNoFiles) {  // the one has no end, the other none yet
-  const auto path = std::filesystem::temp_directory_path() / "swiftlet_endless.obj";
-  std::filesystem::remove(path);
+  const Folder folder;
+  const auto path = folder.path() / "endless.obj";
   std::filesystem::create_symlink("/dev/zero", path);
   expect_error(read_mesh(path), ErrorCode::CannotRead, "is no regular file");
   EXPECT_EQ(read_mesh(path).error().file, path.string());
   std::filesystem::remove(path);
   ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
   expect_error(read_mesh(path), ErrorCode::CannotRead, "is no regular file");
-  std::filesystem::remove(path);
 }
 
 TEST(MeshFile, UnknownExtensionIsNamed) { expect_error(read("t.step", kOff), ErrorCode::BadFormat, ".step"); }

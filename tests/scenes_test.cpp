@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "folder.h"
 #include "oracle.h"
 
 namespace swiftlet {
@@ -16,7 +17,8 @@ namespace {
 using namespace yardstick;
 
 const Shelf& shelf() {
-  static const Shelf shelf(std::filesystem::temp_directory_path() / "swiftlet-scenes-test");
+  static const Folder folder;
+  static const Shelf shelf(folder.path());
   return shelf;
 }
 
@@ -102,7 +104,7 @@ TEST(Scenes, UnequalPairsComeAsNearAsTheirRadii) {
 }
 
 TEST(Scenes, CrowdAsksItsPairsInTurn) {
-  const Scene scene = crowd(shelf(), 200, 10.4, 3);
+  const Scene scene = crowd(shelf(), 20, 10.4, 3);
   ASSERT_EQ(scene.pairs.size(), 100u);
   ASSERT_EQ(scene.queries.size(), 300u);
   for (std::uint32_t i = 0; i < 300; ++i) EXPECT_EQ(scene.queries[i].pair, i % 100);
@@ -110,14 +112,13 @@ TEST(Scenes, CrowdAsksItsPairsInTurn) {
 }
 
 TEST(Scenes, BodiesAreBuiltOnce) {
-  const std::filesystem::path directory = std::filesystem::temp_directory_path() / "swiftlet-shelf-test";
-  std::filesystem::remove_all(directory);
-  const Shelf fresh(directory), again(directory);
+  const Folder folder;
+  const Shelf fresh(folder.path()), again(folder.path());
   const Shelf::Entry built = fresh.ellipsoid(shapes::Family::Plate, 200, 2),
                      loaded = again.ellipsoid(shapes::Family::Plate, 200, 2);
   EXPECT_EQ(built.model.hash(), loaded.model.hash());
   EXPECT_NEAR(built.build_seconds, loaded.build_seconds, 1e-4 * built.build_seconds) << "what building took, not loading";
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory), {}), 2) << "one model, one time";
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2) << "one model, one time";
 }
 
 }  // namespace

@@ -21,6 +21,7 @@
 
 #include "answers.h"
 #include "c_questions.h"
+#include "folder.h"
 #include "mesh_answers.h"
 
 namespace swiftlet {
@@ -697,7 +698,8 @@ TEST(C, ModelsShowWhatTheyHold) {
 }
 
 TEST(C, FilesOfModelsAndMeshes) {
-  const std::string folder = testing::TempDir(), model_path = folder + "c_ä.swl", mesh_path = folder + "c_ä.swm";
+  const Folder folder;
+  const std::string path = folder.path().string(), model_path = path + "/c_ä.swl", mesh_path = path + "/c_ä.swm";
   const ModelHandle model = handle_of(models()[0]);
   const MeshModel made = answers::meshes()[0];
   const MeshHandle mesh = handle_of(made);
