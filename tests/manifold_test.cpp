@@ -331,6 +331,9 @@ TEST(Manifold, OfBodiesInContactIsOfTheFacesThatFaceEachOther) {
     ASSERT_GT(cosine(c.a, p.face_a, n), 0.99) << i;
     ASSERT_GT(cosine(c.b, p.face_b, n_b), 0.99) << i;
     ASSERT_GE(p.count, 3u) << i;
+    // No corner is nearer for counting as inside of a face.
+    const double seen = (c.answer.point_b - c.answer.point_a).dot(n);
+    EXPECT_GE(least(p), std::clamp(seen, c.answer.lower, c.answer.upper) - 0.51 * c.bound()) << i;
     const auto is_beside = [&](const Model& model, FeatureId feature, const Vec3& along) {
       return feature.kind() == FeatureKind::Face && cosine(model, feature, along) < 0.5;
     };
@@ -681,6 +684,7 @@ TEST(Manifold, OfManySidesKeepsTheSharesOfTheHeader) {
   Random random(18);
   constexpr double kLeast[] = {0, 0, 0, 0.28, 0.5, 0, 0, 0, 0.78}, kRound[] = {0, 0, 0, 0, 0.6, 0, 0, 0, 0.87};
   double worst[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
+  int asked = 0;
   for (int i = 0; i < 60; ++i) {
     const std::uint32_t sides = i == 0 ? 1000 : 60 + std::uint32_t(random.bits() % 60);
     const double stretch = i % 3 ? std::pow(10, random.uniform(-1.5, 0)) : 1, twist = i % 2 ? 0 : random.uniform(-0.1, 0.1);
@@ -701,6 +705,7 @@ TEST(Manifold, OfManySidesKeepsTheSharesOfTheHeader) {
       const ConvexView& view = c.a.level(0).view;
       if (truth == 0) truth = oracle::overlay(view, {p.face_a.index()}, view, {p.face_b.index()}, pose, p.normal).area;
       if (truth < 1e-9) break;
+      ++asked;
       const double share = shown_area(p) / truth;
       worst[most] = std::min(worst[most], share);
       EXPECT_GE(share, i % 4 == 0 ? std::max(kLeast[most], kRound[most]) : kLeast[most]) << i << ": " << most << " points";
@@ -708,6 +713,7 @@ TEST(Manifold, OfManySidesKeepsTheSharesOfTheHeader) {
     }
   }
   std::printf("three points keep at least %.3f, four %.3f, eight %.3f\n", worst[3], worst[4], worst[8]);
+  EXPECT_GE(asked, 150);
 }
 
 /// A roof of merged faces on a wide box.
@@ -835,6 +841,22 @@ TEST(Manifold, GrowsFromTheFaceThatFacesBestBesideSlivers) {
 
 const Mat3 kEighthAboutX = shapes::rotation(Vec3::UnitX(), std::numbers::pi / 4),
            kQuarterAboutZ = shapes::rotation(Vec3::UnitZ(), std::numbers::pi / 2);
+
+TEST(Manifold, OfAnyLargerFlatnessIsThatOfTheLargest) {
+  const double height = 2 * kMostFlatness;
+  std::vector<Vec3> points{{-1, 0, 1}, {1, 0, 1}};
+  for (int i = 0; i < 8; ++i) points.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? -1 : 1 - height);
+  const Model roof = hull_of({points, {}}), plate = bodies::model(bodies::box(3, 3, 1));
+  const Pose pose = at(0, 0, 2 + 1e-9);
+  const Answer answer = nearest(roof, plate, pose);
+  const Manifold largest = manifold(roof, plate, pose, answer, {.margin = 1, .flatness = kMostFlatness});
+  EXPECT_NEAR(shown_area(largest), 2, 1e-6) << "one side of the roof";
+  for (const double flatness : {2 * kMostFlatness, 1.0, kInfinity}) {
+    const Manifold larger = manifold(roof, plate, pose, answer, {.margin = 1, .flatness = flatness});
+    ASSERT_EQ(larger.count, largest.count) << flatness;
+    for (std::uint32_t k = 0; k < larger.count; ++k) EXPECT_EQ(larger.points[k].point_a, largest.points[k].point_a) << flatness;
+  }
+}
 
 TEST(Manifold, OfAnEdgeOnAFaceIsItsTwoEnds) {
   const Model cube = bodies::model(bodies::cube());
@@ -1082,9 +1104,11 @@ TEST(Manifold, OfAnAnswerOfOtherModelsIsNone) {
 /// Points chosen anew beside those of the manifold before move no more.
 TEST(Manifold, OfTheSamePoseStays) {
   Random random(14);
+  int asked = 0;
   for (int i = 0; i < 100; ++i) {
     const Contacting c = i % 2 ? stacked_prisms(random, 12, 7) : stacked_boxes(random);
     if (!is_apart(c)) continue;
+    ++asked;
     const ManifoldOptions options{.margin = kInfinity, .most_points = 3 + std::uint32_t(i % 6)};
     const Manifold first = manifold(c.a, c.b, c.b_in_a, c.answer, options),
                    again = manifold(c.a, c.b, c.b_in_a, c.answer, options, first);
@@ -1096,6 +1120,7 @@ TEST(Manifold, OfTheSamePoseStays) {
       EXPECT_TRUE(kept) << i;
     }
   }
+  EXPECT_GE(asked, 90);
 }
 
 // ---- Laws -------------------------------------------------------------------------------------------------------------------
@@ -1103,9 +1128,11 @@ TEST(Manifold, OfTheSamePoseStays) {
 /// B moved along the normal changes the separations by that and nothing else: bodies that overlap have the same manifold.
 TEST(Manifold, IsTheSameAtAnyDepth) {
   Random random(6);
+  int asked = 0;
   for (int i = 0; i < 300; ++i) {
     const Contacting c = i % 2 ? stacked_boxes(random) : random_hulls(random);
     if (!is_apart(c)) continue;
+    ++asked;
     const ManifoldOptions options{.margin = kInfinity};
     const Manifold near = manifold(c.a, c.b, c.b_in_a, c.answer, options);
     const double depth = random.uniform(0, 0.1);
@@ -1118,20 +1145,24 @@ TEST(Manifold, IsTheSameAtAnyDepth) {
       EXPECT_NEAR(shown_area(deep), shown_area(near), 1e-9 + 0.4 * shown_area(near)) << i;
     }
   }
+  EXPECT_GE(asked, 290);
 }
 
 /// Depth's own answers: deep in one another, the deepest point is the depth.
 TEST(Manifold, HoldsTheDepthOfOverlappingBodies) {
   Random random(11);
+  int asked = 0;
   for (int i = 0; i < 200; ++i) {
     Contacting c = i % 2 ? stacked_boxes(random) : random_hulls(random);
     if (!is_apart(c)) continue;
     c.b_in_a.translation -= random.uniform(0, 0.2) * c.answer.normal + 0.05 * random.in_ball();
     const Answer deep = signed_distance(c.a, c.b, c.b_in_a);
     if (deep.normal.hasNaN()) continue;
+    ++asked;
     c.answer.normal = deep.normal;
     expect_sound(c, manifold(c.a, c.b, c.b_in_a, deep, {.margin = kInfinity}), deep.lower, kInfinity);
   }
+  EXPECT_GE(asked, 190);
 }
 
 /// A loose answer is on a coarser level, and so is its manifold: cubes around octahedra.
@@ -1184,10 +1215,12 @@ TEST(Manifold, OfPrimitivesIsThatOfTheirModels) {
 
 TEST(Manifold, IsMirroredUnderSwap) {
   Random random(7);
+  int asked = 0;
   for (int i = 0; i < 300; ++i) {
     const bool is_round = i % 10 == 0;
     const Contacting c = is_round ? stacked_prisms(random, 140, 120) : i % 2 ? stacked_boxes(random) : random_hulls(random);
     if (!is_apart(c)) continue;
+    ++asked;
     const ManifoldOptions options{.margin = kInfinity, .most_points = 8};
     const Manifold forth = manifold(c.a, c.b, c.b_in_a, c.answer, options);
     Contacting s{c.b, c.a, inverse(c.b_in_a), c.answer};
@@ -1201,6 +1234,7 @@ TEST(Manifold, IsMirroredUnderSwap) {
     const double part = is_round ? 0.1 * shown_area(forth) : 0;
     EXPECT_NEAR(shown_area(forth), shown_area(back), part + 16 * c.bound() * (c.a.extent() + c.b.extent())) << i;
   }
+  EXPECT_GE(asked, 290);
 }
 
 TEST(Manifold, ScalesBitForBit) {
