@@ -123,6 +123,44 @@ TEST_P(Refine, NarrowsTheIntervalWhicheverQueryBegan) {
   EXPECT_GE(spent, 30);
 }
 
+/// Balls bound a distance and name no features; where a budget ends the query at once some of that is better than what it
+/// found.
+TEST_P(Refine, KeepsWhatBallsToldWhereTheBudgetIsSpent) {
+  shapes::Random random(5);
+  int begun = 0, kept = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Pose pose{random.rotation(), random.on_sphere() * random.uniform(2, 6)};
+    for (const double radius : {0.0, 0.05}) {
+      const Body a(a_, radius), b(b_, radius / 2);
+      const double bound = tolerance(a, b, pose);
+      const Answer so_far = distance(a, b, pose, {.relative = random.uniform(0.1, 1)});
+      if (so_far.feature_a.kind() != FeatureKind::None) continue;
+      ++begun;
+      for (const int finest : {0, a_.level_count() - 1}) {
+        const Answer finer = refine(a, b, pose, so_far, {.budget = {.steps = 0, .finest_level = finest}});
+        ASSERT_LE(finer.lower, finer.upper);
+        ASSERT_GE(finer.lower, so_far.lower - bound);
+        ASSERT_LE(finer.upper, so_far.upper + bound);
+        const Check checked = check(a, b, pose, finer);
+        ASSERT_TRUE(checked) << checked.message;
+        Answer wrong = so_far;  // of bodies that were nearer: so is the result, but it is an interval
+        wrong.lower *= 0.1, wrong.upper *= 0.2;
+        const Answer of_wrong = refine(a, b, pose, wrong, {.budget = {.steps = 0, .finest_level = finest}});
+        ASSERT_LE(of_wrong.lower, of_wrong.upper);
+        if (finer.feature_a.kind() != FeatureKind::None) continue;
+        ++kept;
+        ASSERT_TRUE(finer.level_a == so_far.level_a && finer.level_b == so_far.level_b);
+        ASSERT_LE((finer.point_a - so_far.point_a).norm(), 3 * radius + bound);
+        ASSERT_LE((finer.point_b - so_far.point_b).norm(), 3 * radius + bound);
+      }
+    }
+  }
+  EXPECT_GE(begun, 100);
+  if (GetParam() == shapes::Family::Fat) {  // as balls are
+    EXPECT_GE(kept, 100);
+  }
+}
+
 TEST_P(Refine, EndsFromAnyFeatures) {
   shapes::Random random(4);
   for (int i = 0; i < 500; ++i) {
