@@ -136,7 +136,8 @@ std::vector<Row> measure(const ManifoldCell& cell, int rounds) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::sort(times[i].begin(), times[i].end());
     rows[i].ns = times[i][times[i].size() / 2];
-    rows[i].spread = (times[i].back() - times[i].front()) / rows[i].ns;
+    const auto quartile = [&](std::size_t k) { return times[i][k * (times[i].size() - 1) / 4]; };
+    rows[i].spread = (quartile(3) - quartile(1)) / rows[i].ns;
   }
   return rows;
 }

@@ -3,6 +3,7 @@
 // Which methods meet on which scenes, and in which file of results. The paper's figures 5 to 12 [Ehmann & Lin 2000, sec. 6],
 // and what came after: error, size, other motions, other pairs. Knows scenes and the rig; no clock and no truth of its own.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -604,7 +605,12 @@ std::optional<Arguments> parse(int argc, char** argv) {
     } else if (word == "--wrong") {
       arguments.wrong = true;
     } else if (word == "--largest") {
-      arguments.largest = std::uint32_t(std::max(0, std::atoi(next().c_str())));
+      const std::string count = next();
+      const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), arguments.largest);
+      if (error != std::errc() || end != count.data() + count.size()) {
+        std::fprintf(stderr, "--largest: \"%s\" is no number of triangles\n", count.c_str());
+        return std::nullopt;
+      }
     } else if (word == "--cache") {
       arguments.cache = next();
     } else if (word == "--meshes") {
