@@ -89,6 +89,11 @@ void add_fields(const auto& answer, Fingerprint& print) {
 }  // namespace
 
 void append(const Answer& answer, std::vector<std::uint64_t>& words) { visit(answer, Words{words}); }
+bool same_bits(const Answer& a, const Answer& b) {
+  std::vector<std::uint64_t> words_a, words_b;
+  append(a, words_a), append(b, words_b);
+  return words_a == words_b;
+}
 
 void Fingerprint::add(std::uint64_t word) {
   hash = (hash ^ word) * 0x100000001b3u;

@@ -41,6 +41,7 @@ class Poses {
 
 /// Every field of an answer, bit for bit, steps included.
 void append(const Answer& answer, std::vector<std::uint64_t>& words);
+bool same_bits(const Answer& a, const Answer& b);
 
 struct Fingerprint {
   std::uint64_t hash = 0xcbf29ce484222325u, answers = 0;

@@ -221,11 +221,7 @@ PairSeed random_seed(const Model& a, const Model& b, shapes::Random& random) {
   seed.b = some_feature(b.level(seed.level_b).view, random);
   return seed;
 }
-bool same_bits(const Answer& a, const Answer& b) {
-  std::vector<std::uint64_t> words_a, words_b;
-  answers::append(a, words_a), answers::append(b, words_b);
-  return words_a == words_b;
-}
+using answers::same_bits;
 constexpr StartPolicy kPolicies[] = {StartPolicy::Automatic, StartPolicy::Paper, StartPolicy::Finest, StartPolicy::Coarsest,
                                      StartPolicy::Table};
 constexpr Refinement kRefinements[] = {Refinement::Single, Refinement::SingleSingle, Refinement::DoubleDouble};

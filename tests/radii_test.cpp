@@ -146,11 +146,7 @@ void expect_true(const Case& c, const Answer& answer, const OverlapProof& proof)
 }
 Answer exact(const Case& c, const Options& options = {}) { return distance(c.body_a(), c.body_b(), c.pose, options); }
 
-bool same_bits(const Answer& a, const Answer& b) {
-  std::vector<std::uint64_t> words_a, words_b;
-  answers::append(a, words_a), answers::append(b, words_b);
-  return words_a == words_b;
-}
+using answers::same_bits;
 
 TEST(Radii, CasesAreOfEveryVerdict) {
   int apart = 0, shallow = 0, hulls = 0, barely = 0;
