@@ -484,14 +484,16 @@ py::array run_tolerance(py::handle a, py::handle b, py::handle poses, py::handle
   return result;
 }
 
-std::string run_check(py::handle a, py::handle b, py::handle pose, py::handle answer, py::handle quaternion, bool copy) {
+std::string run_check(py::handle a, py::handle b, py::handle pose, py::handle answer, bool exact, py::handle quaternion,
+                      bool copy) {
   const One one(a, b, pose, quaternion, copy);
   one.single("check");
   const std::vector<Answer> answers = to_answers(answer, 1, "answer");
   Unlocked crew;
   std::optional<Check> result;
-  result = one.has_mesh() ? check(one.a.body(), one.b.body(), one.poses[0], answers[0])
-                          : check(one.a.convex(), one.b.convex(), one.poses[0], answers[0]);
+  result = one.has_mesh()
+               ? check(one.a.body(), one.b.body(), one.poses[0], answers[0])
+               : check(one.a.convex(), one.b.convex(), one.poses[0], answers[0], exact ? Question::Exact : Question::Any);
   crew.finish();
   return result->ok ? std::string() : result->message;
 }
@@ -641,8 +643,8 @@ void define_queries(py::module_& module) {
              py::arg("threads"), py::arg("quaternion"), py::arg("copy"), "Continues distances from their records.");
   module.def("run_tolerance", &run_tolerance, py::arg("a"), py::arg("b"), py::arg("poses"), py::arg("quaternion"),
              py::arg("copy"), "Law 2's bound in each pose.");
-  module.def("run_check", &run_check, py::arg("a"), py::arg("b"), py::arg("pose"), py::arg("answer"), py::arg("quaternion"),
-             py::arg("copy"), "What fails first of an answer; empty if all holds.");
+  module.def("run_check", &run_check, py::arg("a"), py::arg("b"), py::arg("pose"), py::arg("answer"), py::arg("exact"),
+             py::arg("quaternion"), py::arg("copy"), "What fails first of an answer; empty if all holds.");
   module.def("run_trace", &run_trace, py::arg("query"), py::arg("a"), py::arg("b"), py::arg("pose"), py::arg("threshold"),
              py::arg("absolute"), py::arg("relative"), py::arg("beyond"), py::arg("steps"), py::arg("finest_level"),
              py::arg("tuning"), py::arg("quaternion"), py::arg("copy"),

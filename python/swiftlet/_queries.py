@@ -489,6 +489,7 @@ def check(
     pose: Poses,
     answer: Answers | _runtime.Answer,
     *,
+    exact: bool = False,
     quaternion: Optional[str] = None,
     copy: bool = False,
 ) -> Check:
@@ -500,6 +501,9 @@ def check(
     pose : ndarray of float64, or tuple of two
         One, as :func:`distance` takes it.
     answer : Answers of shape (), or Answer
+    exact : bool, default False
+        An exact distance or signed distance of convex bodies was asked for: that the interval is within :func:`tolerance`, and
+        the points the nearest, is checked too.
     quaternion, copy : optional
         As :func:`distance` has them.
 
@@ -512,7 +516,7 @@ def check(
     -----
     Linear in vertices and faces; of meshes about 1 microsecond for each pair of triangles. C++: check.h, mesh_query.h.
     """
-    message = _runtime.run_check(a, b, pose, _record(answer), quaternion, copy)
+    message = _runtime.run_check(a, b, pose, _record(answer), exact, quaternion, copy)
     return Check(not message, message)
 
 

@@ -362,6 +362,9 @@ def test_checks_hold_and_catch(fat):
     wrong.records["upper"] += 0.1
     refused = swiftlet.check(*fat, pose, wrong)
     assert not refused and "lower" in refused.message
+    loose = swiftlet.distance(*fat, pose, absolute=0.5)
+    assert swiftlet.check(*fat, pose, answer, exact=True) and swiftlet.check(*fat, pose, loose)
+    assert "exact" in swiftlet.check(*fat, pose, loose, exact=True).message
 
 
 def test_a_trace_tells_what_levels_cost(fat):

@@ -94,6 +94,7 @@ ABSENT = {
     "MeshVisitor": "of visit_triangles",
     "visit_triangles": "a call for each box; in Python the triangles are arrays, for a tree of the caller's",
     "ConvexView": "a view of a model's memory for marches in C++; its arrays are Level's",
+    "Question": "check's exact=",
     "Executor": "runs C++ tasks; Python says threads=",
     "on_threads": "as Executor",
     "Run": "a C++ executor and stop function; Python says threads=, and Ctrl-C stops",

@@ -60,8 +60,10 @@ class Judge {
   /// The manifold of an exact answer of these bodies: its normal; as many points as fit and are asked for, none farther apart
   /// than the margin and law 2's bound; each pair named, no two alike, one above the other, on the vertices and edges that it
   /// names, within law 2's bound in both bodies and below their surfaces by no more than the flatness; the first as deep as the
-  /// answer says; in order around an area which is most of what both contact faces have in common, by exact clipping.
-  std::string manifold(const Manifold& manifold, const Answer& answer, const ManifoldOptions& options) const;
+  /// answer says; in order around an area which is most of what both contact faces have in common, by exact clipping. Where the
+  /// pair was at rest since `before`, points may lie beside their features by twice the flatness.
+  std::string manifold(const Manifold& manifold, const Answer& answer, const ManifoldOptions& options,
+                       const Manifold& before = {}) const;
 
   /// The distance by exact minimum norm, found at the first call; from then on every interval and verdict is held against it.
   const oracle::Truth& truth();

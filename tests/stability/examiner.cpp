@@ -260,12 +260,12 @@ void Pair::manifolds(const Answer& answer) {
   options.margin = margins[random.bits() % std::size(margins)];
   if (random.bits() % 2) options.most_points = 1 + std::uint32_t(random.bits() % kMostManifoldPoints);
   if (random.bits() % 4 == 0) options.flatness = 0;
-  const Manifold first = manifold(a_.model, b_.model, b_in_a_, answer, options, examiner_.manifold_),
+  const Manifold before = examiner_.manifold_, first = manifold(a_.model, b_.model, b_in_a_, answer, options, before),
                  again = manifold(a_.model, b_.model, b_in_a_, answer, options, first);
   examiner_.manifold_ = first;
   for (const Manifold* p : {&first, &again}) {
     count(*p);
-    judged(judge_.manifold(*p, answer, options), p == &first ? "manifold" : "manifold, again,", {});
+    judged(judge_.manifold(*p, answer, options, before), p == &first ? "manifold" : "manifold, again,", {});
   }
   require(same_points(first, again), "a manifold does not keep its points");
 }
