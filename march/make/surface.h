@@ -52,10 +52,10 @@ double reach_of(const ConvexView& view);
 double outer_radius_of(const ConvexView& view, const Vec& centre);
 
 /// Returns a bound on the distance of `p` from the plane through `on` with the normal `n`, unit up to `kUnitNormalError`, for
-/// points of a body of `extent`. Products that underflow count for less than u^2 of that.
+/// points of a body of `extent`.
 static inline double thickness_at(const Vec& n, const Vec& on, const Vec& p, double extent) {
   const Vec d = p - on, terms{n.x * d.x, n.y * d.y, n.z * d.z};
-  return (std::fabs(dot(n, d)) + kThicknessError * norm_1(terms)) * (1 + 2 * kUnitNormalError) + kU * kU * extent;
+  return (std::fabs(dot(n, d)) + kThicknessError * norm_1(terms)) * (1 + 2 * kUnitNormalError) + kThicknessFloor * extent;
 }
 
 /// Returns the radius, rounded down, of a ball around `centre` that the body holds; 0 if there is none. Cost: linear in the

@@ -55,7 +55,7 @@ bool looks_along(const ConvexView& view, const Vec& n, std::uint32_t face) {
 
 /// What of a feature touches a plane with the normal n: its highest corner, or the side between two that are level within
 /// `bound`; of a face that looks along n or has more of them, the face. A feature that holds the nearest point may do so at its
-/// border alone, as a side wall under the edge of a lid does.
+/// border alone, as a side face does under the edge of a top face.
 FeatureId highest_of(const ConvexView& view, const Vec& n, FeatureId feature, double bound) {
   const auto height = [&](std::uint32_t h) { return dot(n, point(view, origin(view, h))); };
   const auto between = [&](std::uint32_t h, std::uint32_t next) {

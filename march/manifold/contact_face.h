@@ -70,9 +70,9 @@ class ContactFace {
   std::uint32_t top_ = kNone, side_ = kNone, first_corner_ = 0, corner_count_ = 0;
   double flatness_ = 0, least_height_ = 0;  ///< the least height along the normal
   Vec normal_{0, 0, 0};
-  mutable std::uint32_t asked_ =
-      kNone;                   ///< the face of many corners that `holds` was asked about last, beside each of which it is
-  mutable bool held_ = false;  ///< what it said
+  // What `holds` said last of a face with a plane, which corner after corner of the border may ask about.
+  mutable std::uint32_t asked_ = kNone;
+  mutable bool held_ = false;
 };
 
 }  // namespace swiftlet

@@ -56,9 +56,10 @@ void grow(const PairView& pair, const Radii& radii, const Anchor& w, double boun
   const bool rests = norm(w.normal - vec(previous.normal)) <= kRestingTurn * flatness(options);
   const double slack = rests ? flatness(options) * max(pair.a.extent, pair.b.extent) : 0;
   const std::uint32_t most = std::min(options.most_points, kMostManifoldPoints);
-  int kept = -1;  // points of the manifold before, which is not to lose any at rest
-  for (const double beside :
-       {bound / 2, kRestingSlide * slack}) {  // a corner counts as inside of a face that it misses by so much
+  // A corner counts as inside of a face that it misses by no more than `beside`: by rounding, or, where a pair at rest has lost
+  // points of the manifold before, by the noise of its poses, if that finds more of them.
+  int kept = -1;
+  for (const double beside : {bound / 2, kRestingSlide * slack}) {
     if (kept >= int(std::min(previous.count, most)) || beside < bound / 2) break;
     Candidates candidates(options.margin + radii.sum() + bound, previous);
     clip(projection, a, b, beside, candidates);

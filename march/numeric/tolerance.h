@@ -267,8 +267,9 @@ inline constexpr double kFloatUlp = 0x1p-23, kDoubleUlp = 0x1p-52;
 /// rounding errors and far below what would mislead a walk. Dimensionless.
 inline constexpr double kUnitNormalError = 1e-9;
 /// Bounds the error of n . (p - q) relative to the computed sum of its terms' magnitudes: 1 difference, 1 product and 2 sums
-/// have 4 u of the terms, whose computed sum may lack 4 u of itself. Rounded up.
-inline constexpr double kThicknessError = 5 * kU;
+/// have 4 u of the terms, whose computed sum may lack 4 u of itself. Rounded up. `kThicknessFloor`, relative to the extent, is
+/// more than products lose that underflow.
+inline constexpr double kThicknessError = 5 * kU, kThicknessFloor = kU * kU;
 /// A coordinate of a stored normal is 0 or at least this in magnitude: smaller ones are stored as 0, and refused in files. The
 /// exact height of a vertex along the normal then has no bit below 2^-900. Dimensionless.
 inline constexpr double kLeastNormalEntry = 0x1p-500;

@@ -512,7 +512,7 @@ class Marcher {
     const std::uint32_t below = other_side(body.view, f);
     if (below == kNone || ended_ != WalkEnd::Inside || !(prism.height(p) < 0)) [[likely]]
       return move;
-    ended_ = WalkEnd::Budget;  // the edge gets farther from a flat body, which was seen from its other side
+    ended_ = WalkEnd::Budget;  // the edge is below face `f` of a flat body, and so above its other face
     return {vertex(forward ? tail : head), face(below)};
   }
 
