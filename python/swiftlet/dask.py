@@ -21,14 +21,15 @@ from __future__ import annotations
 
 import hashlib
 import json
+import operator
 import os
 import sys
-import tempfile
 import threading
 import time
 import uuid
 import zipfile
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from contextlib import suppress
 from math import inf, prod
 from typing import Any, Callable, Generator, Iterator, Optional, Sequence, Union
 
@@ -97,6 +98,14 @@ class Grid:
         return np.stack([axis[i] for axis, i in zip(self.axes, at)], axis=-1)
 
 
+def _whole(number: Any, name: str) -> int:
+    """An int of any whole number, as NumPy's are: what is written to a checkpoint must be one."""
+    try:
+        return operator.index(number)
+    except TypeError:
+        raise TypeError(f"{name}: expected a whole number, got {type(number).__name__}") from None
+
+
 class _Given:
     """Poses that are there, as a function of indices."""
 
@@ -126,7 +135,7 @@ class _Job:
         self.poses = poses if callable(poses) else _Given(poses)
         if count is None and not hasattr(self.poses, "__len__"):
             raise ValueError("count: a callable `poses` without a length needs it")
-        self.count = len(self.poses) if count is None else count
+        self.count = len(self.poses) if count is None else _whole(count, "count")
         if self.count < 1:
             raise ValueError(f"count: expected at least one pose, got {self.count}")
         if query not in _QUERIES:
@@ -216,18 +225,21 @@ class _Checkpoint:
     """Which chunks are done, and what they gave: a NumPy .npz file without pickles, replaced whole."""
 
     def __init__(self, path: Any, digest: str, chunks: int) -> None:
-        self.path, self.digest = os.fspath(path), digest
+        self.path, self.digest = os.fsdecode(path), digest
         self.done = np.zeros(chunks, bool)
 
     def load(self) -> Optional[list[Partial]]:
         if not os.path.exists(self.path):
             return None
         try:
+            with zipfile.ZipFile(self.path) as archive:  # NumPy reads what a damaged header says, which may be less than all
+                if damaged := archive.testzip():
+                    raise ValueError(f"{damaged} is damaged")
             with np.load(self.path, allow_pickle=False) as file:
                 digest, done = str(file["sweep"]), np.unpackbits(file["done"], count=len(self.done)).astype(bool)
                 widths = file["widths"]
                 whole = [tuple(file[f"part_{r}_{i}"] for i in range(width)) for r, width in enumerate(widths)]
-        except (OSError, ValueError, TypeError, AttributeError, KeyError, EOFError, zipfile.BadZipFile) as error:
+        except Exception as error:  # of which kind, only the damage decides
             raise DataError(
                 f"'{self.path}' is not a checkpoint of a sweep: {error}", ErrorCode.BAD_FORMAT, self.path
             ) from error
@@ -248,18 +260,18 @@ class _Checkpoint:
             self.done[last] = True
         parts = {f"part_{r}_{i}": array for r, partial in enumerate(whole) for i, array in enumerate(partial)}
         widths = np.array([len(partial) for partial in whole])
-        folder = os.path.dirname(os.path.abspath(self.path))
-        beside = None
+        beside = os.path.join(os.path.dirname(os.path.abspath(self.path)), f"sweep-{uuid.uuid4().hex}")
         try:
-            with tempfile.NamedTemporaryFile(dir=folder, prefix=os.path.basename(self.path), delete=False) as file:
-                beside = file.name
+            with open(beside, "xb", opener=lambda name, flags: os.open(name, flags, 0o600)) as file:
                 np.savez(file, sweep=np.array(self.digest), done=np.packbits(self.done), widths=widths, **parts)
                 file.flush()
                 os.fsync(file.fileno())
             os.replace(beside, self.path)
-        except OSError as error:
-            if beside is not None and os.path.exists(beside):
+        except BaseException as error:  # Ctrl-C too leaves nothing beside the checkpoint
+            with suppress(OSError):
                 os.remove(beside)
+            if not isinstance(error, OSError):
+                raise
             raise FileError(f"cannot write the checkpoint '{self.path}': {error}", ErrorCode.CANNOT_WRITE, self.path) from error
 
 
@@ -438,6 +450,7 @@ def sweep(
             raise TypeError(f"reduce: expected a Reduction or a tuple of them, got {type(reduction).__name__}")
     if not reductions:
         raise ValueError("reduce: expected at least one")
+    chunk, threads = _whole(chunk, "chunk"), _whole(threads, "threads")
     if chunk < 1 or chunk % POSES_PER_CHUNK:
         raise ValueError(f"chunk: expected a multiple of {POSES_PER_CHUNK}, got {chunk}")
     if threads < 1:
@@ -467,7 +480,8 @@ def sweep(
                 if time.monotonic() - saved > every:
                     kept.save(*latest)
                     saved = time.monotonic()
-            if report and report(done, job.count) is False:
+            go_on = report(done, job.count) if report else None
+            if go_on is not None and not go_on:
                 raise Cancelled("the progress callback asked to stop", ErrorCode.CANCELLED)
     finally:
         parts.close()

@@ -114,31 +114,97 @@ def test_resumes_after_an_interruption(fat, expected, tmp_path):
         sweep(*fat, POSES, ALL, chunk=1024, checkpoint=tmp_path / "other.npy")
 
 
-class Interrupting(int):
-    """A count whose use number `at` is interrupted, as Ctrl-C interrupts any line."""
+def interrupted_at(line, function):
+    """Calls the function, and raises KeyboardInterrupt before so many lines of `sweep` have run, as Ctrl-C may at any."""
+    left = line
 
-    uses, at = 0, 0
-
-    def __sub__(self, other):
-        Interrupting.uses += 1
-        if Interrupting.uses == Interrupting.at:
+    def trace(frame, event, _):
+        nonlocal left
+        if frame.f_code is not sweep.__code__:
+            return None
+        left -= event == "line"
+        if left == 0:
             raise KeyboardInterrupt
-        return int(self) - other
+        return trace
+
+    before = sys.gettrace()
+    sys.settrace(trace)
+    try:
+        function()
+    finally:
+        sys.settrace(before)
 
 
 def test_no_interruption_counts_a_chunk_twice(fat, tmp_path):
     interrupted = 0
-    for at in range(1, 40):
-        file = tmp_path / f"{at}.npz"
-        Interrupting.uses, Interrupting.at = 0, at
+    for line in range(15, 120, 3):
+        file = tmp_path / f"{line}.npz"
+
+        def ask():
+            return sweep(*fat, POSES, Verdicts(), checkpoint=file, chunk=1024)
+
         try:
-            sweep(*fat, POSES, Verdicts(), count=Interrupting(len(POSES)), checkpoint=file, chunk=1024)
+            interrupted_at(line, ask)
         except KeyboardInterrupt:
             interrupted += 1
-        Interrupting.at = 0
-        verdicts = sweep(*fat, POSES, Verdicts(), count=Interrupting(len(POSES)), checkpoint=file, chunk=1024)
-        assert sum(verdicts.values()) == len(POSES), at
+        assert sum(ask().values()) == len(POSES), line
     assert interrupted > 20
+
+
+@pytest.mark.parametrize("function", ["numpy.savez", "os.fsync", "os.replace"])
+@pytest.mark.parametrize("error, raised", [(KeyboardInterrupt, KeyboardInterrupt), (OSError, swiftlet.FileError)])
+def test_no_interruption_leaves_files(fat, tmp_path, monkeypatch, function, error, raised):
+    def fail(*_, **__):
+        raise error
+
+    def ask(**options):
+        return sweep(*fat, POSES, Verdicts(), chunk=1024, checkpoint=tmp_path / "sweep.npz", **options)
+
+    with pytest.raises(swiftlet.Cancelled):
+        ask(progress=lambda done, _: done < 6000)
+    before = (tmp_path / "sweep.npz").read_bytes()
+    with monkeypatch.context() as patch, pytest.raises(raised):
+        patch.setattr(function, fail)
+        ask()
+    assert os.listdir(tmp_path) == ["sweep.npz"] and (tmp_path / "sweep.npz").read_bytes() == before
+    assert sum(ask().values()) == len(POSES)
+
+
+def test_a_damaged_checkpoint_is_told_so(fat, tmp_path):
+    file = tmp_path / "sweep.npz"
+
+    def ask():
+        return sweep(*fat, POSES[:3000], Verdicts(), chunk=1024, checkpoint=file)
+
+    expected, whole = ask(), file.read_bytes()
+    entry = whole.index(b"PK\x01\x02")  # of the archive's directory: then versions, flags and method
+    done = whole.index(b"'shape': (1,)")
+    for at, byte in [(entry + 6, 235), (entry + 8, 1), (entry + 8, 32), (entry + 10, 1), (entry + 10, 8), (done + 10, ord("0"))]:
+        damaged = bytearray(whole)
+        damaged[at] = byte
+        file.write_bytes(damaged)
+        with pytest.raises(swiftlet.DataError, match="is not a checkpoint of a sweep"):
+            ask()
+    file.write_bytes(whole)
+    assert ask() == expected
+
+
+@pytest.mark.parametrize("stop", [False, np.False_, 0])
+def test_progress_cancels_by_whatever_is_false(fat, stop):
+    with pytest.raises(swiftlet.Cancelled):
+        sweep(*fat, POSES, Verdicts(), progress=lambda done, count: stop)
+    for go_on in (None, True, np.True_):
+        assert sum(sweep(*fat, POSES, Verdicts(), progress=lambda done, count: go_on).values()) == len(POSES)
+
+
+def test_numpys_whole_numbers_are_taken(fat, tmp_path):
+    options = dict(count=np.int64(3000), chunk=np.uint32(1024), threads=np.int8(2))
+    for checkpoint in (None, tmp_path / "sweep.npz", os.fsencode(tmp_path / "bytes.npz")):
+        assert sum(sweep(*fat, POSES, Verdicts(), checkpoint=checkpoint, **options).values()) == 3000
+    assert sum(sweep(*fat, POSES, Verdicts(), checkpoint=tmp_path / "sweep.npz", count=3000, chunk=1024).values()) == 3000
+    for name in options:
+        with pytest.raises(TypeError, match=f"{name}: expected a whole number, got float"):
+            sweep(*fat, POSES, Verdicts(), **{**options, name: 1024.0})
 
 
 def test_says_what_is_wrong(fat):
