@@ -35,4 +35,10 @@ py::tuple made_again(const char* type, const char* method, py::tuple arguments) 
   return py::make_tuple(py::module_::import("swiftlet._unpickle").attr("again"), py::make_tuple(type, method) + arguments);
 }
 
+void refuse_pickles(py::handle type) {
+  type.attr("__reduce__") = py::cpp_function(
+      [](py::handle self) -> py::object { throw py::type_error("cannot pickle '" + what_came(self) + "' object"); },
+      py::name("__reduce__"), py::is_method(type));
+}
+
 }  // namespace swiftlet::python

@@ -34,4 +34,8 @@ std::string what_came(pybind11::handle object);
 /// What __reduce__ returns: a static method of a class of ours, or for an empty name the class, and its arguments.
 pybind11::tuple made_again(const char* type, const char* method, pybind11::tuple arguments);
 
+/// Pickling objects of the type is TypeError. By protocols 0 and 1 Python would make an object of a base class without a value,
+/// at which pybind11 aborts.
+void refuse_pickles(pybind11::handle type);
+
 }  // namespace swiftlet::python

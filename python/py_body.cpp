@@ -762,6 +762,7 @@ OwnedBody to_body(py::handle object, const char* name) {
 void define_bodies(py::module_& module) {
   py::class_<HeldLevel> level(module, "Level", "A level of a model: arrays that are views of its memory, and numbers.");
   add_levels(level);
+  refuse_pickles(level);
 
   py::class_<HeldModel, ModelPointer> model(
       module, "Model", R"(A convex body at several levels of detail, immutable, in one block of memory that is also its file.
@@ -781,6 +782,7 @@ coarser. Any number of threads may query it. Lengths are in the caller's unit.)"
 
   py::class_<MeshTopology> topology(module, "Topology",
                                     "What a mesh is made of, counted after equal points became one vertex.");
+  refuse_pickles(topology);
   topology.def_readonly("components", &MeshTopology::components, "Sets of triangles joined by common edges.");
   topology.def_readonly("open_edges", &MeshTopology::open_edges, "Edges of a single triangle.");
   topology.def_readonly("non_manifold_edges", &MeshTopology::non_manifold_edges, "Edges of more than two triangles.");

@@ -106,6 +106,7 @@ Bodies are named by ids, pairs of an index and a generation that never come back
 question about all pairs leaves out those whose boxes are proved to be farther apart than asked and lists, in the order of ids,
 every other one that is not proved to be farther; answers are in A's frame about ``relative(pose(a), pose(b))``. The same calls give the
 same bits on any number of threads. Calls of several threads take turns.)");
+  refuse_pickles(c);
   c.def(py::init([](long threads) {
           auto scene = std::make_shared<HeldScene>();
           scene->threads = thread_count(threads);

@@ -277,6 +277,7 @@ void define_single(py::module_& module) {
   if (!type) throw py::error_already_set();
   answer_type = reinterpret_cast<PyTypeObject*>(type.ptr());
   module.attr("Answer") = type;
+  refuse_pickles(type);
 
   py::class_<Pair> c(module, "Pair", R"(Two bodies and the warm start between them, asked one pose at a time.
 
@@ -295,6 +296,7 @@ tuning : Tuning, optional
           return Pair{to_body(a, "a"), to_body(b, "b"), quaternion_order(quaternion), to_tuning(tuning)};
         }),
         py::arg("a"), py::arg("b"), py::kw_only(), py::arg("quaternion") = py::none(), py::arg("tuning") = py::none());
+  refuse_pickles(c);
   c.def(
       "reset", [](Pair& p) { p.seed = {}; }, "Forgets the warm start.");
   c.def_property_readonly(

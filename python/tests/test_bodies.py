@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import swiftlet
+import swiftlet.scene
 from swiftlet import Body, BodyKind, MeshModel, Model, build
 
 
@@ -95,6 +96,19 @@ def test_pickles_are_bytes_or_a_path_and_hash(fat, mesh, tmp_path):
         assert again.kind == body.kind and again.radius == body.radius and (again.corners == body.corners).all()
     assert [b.kind for b in bodies[:3]] == [BodyKind.MODEL, BodyKind.MESH, BodyKind.SOLID]
     assert bodies[0].model.hash() == fat[0].hash() and bodies[1].mesh.hash() == mesh.hash() and bodies[3].model is None
+
+
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+def test_pickles_by_any_protocol_are_whole_or_refused(fat, mesh, protocol):
+    for body in (fat[0], mesh):
+        assert pickle.loads(pickle.dumps(body, protocol)).hash() == body.hash()
+    assert (pickle.loads(pickle.dumps(Body.point([1, 2, 3], 4), protocol)).corners == [1, 2, 3]).all()
+    assert len(pickle.loads(pickle.dumps(swiftlet.Seeds(3), protocol))) == 3
+    pair = swiftlet.Pair(*fat)
+    answer = pair.distance(shift(3))
+    for refused in (fat[0].level(0), mesh.topology, pair, answer, swiftlet.scene.Scene(), swiftlet.scene.CollisionManager()):
+        with pytest.raises(TypeError, match=r"cannot pickle 'swiftlet\._runtime\.(Level|Topology|Pair|Answer|Scene)' object"):
+            pickle.dumps(refused, protocol)
 
 
 def test_cuts_and_ensured_levels(fat, tmp_path):
