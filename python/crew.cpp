@@ -19,6 +19,16 @@ namespace {
 
 constexpr auto kBetweenLooks = std::chrono::milliseconds(10);
 
+/// Takes the interpreter's lock. Where the interpreter is ending it would end this thread, a daemon's, by unwinding it, which
+/// destructors and handlers do not let through: then the thread stays here until the process ends.
+void restore(PyThreadState* state) {
+  try {
+    PyEval_RestoreThread(state);
+  } catch (...) {
+    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+  }
+}
+
 }  // namespace
 
 Unlocked::Unlocked(unsigned threads) : state_(PyEval_SaveThread()), threads_(threads), process_(getpid()) {}
@@ -26,12 +36,12 @@ Unlocked::Unlocked(unsigned threads) : state_(PyEval_SaveThread()), threads_(thr
 Unlocked::~Unlocked() { take_back(); }
 
 void Unlocked::take_back() {
-  if (state_) PyEval_RestoreThread(state_), state_ = nullptr;
+  if (state_) restore(state_), state_ = nullptr;
 }
 
 void Unlocked::look() {
   looked_ = Clock::now();
-  PyEval_RestoreThread(state_);
+  restore(state_);
   const bool raised = PyErr_CheckSignals() != 0;
   state_ = PyEval_SaveThread();  // what was raised stays with this thread's state
   forked_ = getpid() != process_;

@@ -1,14 +1,21 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes for Python: each has a lock of its own, which is never waited for while the interpreter's is held.
+// Scenes for Python: each has a lock of its own, which is never waited for while the interpreter's is held. A wait ends by a
+// signal, and where threads would wait for each other for ever.
 #include <pybind11/stl.h>
 
 #include <atomic>
+#include <chrono>
+#include <cstddef>
 #include <cstring>
 #include <exception>
+#include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <swiftlet/scene.h>
@@ -25,12 +32,74 @@ namespace {
 struct HeldScene {
   Scene scene;
   unsigned threads = 1;
-  std::mutex mutex;
+  std::timed_mutex mutex;
   std::atomic<std::thread::id> owner{};
-  std::exception_ptr raised;  ///< by what `ask_only` calls
+  py::object asks;            ///< what `ask_only` was given; read and changed with the interpreter's lock
+  std::exception_ptr raised;  ///< by it
 };
 
 using ScenePointer = std::shared_ptr<HeldScene>;
+
+/// Which scene each thread waits for. A thread that waits within `ask_only`'s function holds another scene meanwhile.
+class Waiting {
+ public:
+  /// Whether the scene could be locked within 10 ms. Throws where its owner waits, in the end, for this thread.
+  static bool got(std::unique_lock<std::timed_mutex>& lock, const HeldScene& scene) {
+    if (lock.try_lock()) return true;
+    const Waiting waiting(scene);
+    return lock.try_lock_for(std::chrono::milliseconds(10));
+  }
+
+ private:
+  explicit Waiting(const HeldScene& scene) {
+    const std::lock_guard<std::mutex> guard(mutex_);
+    const HeldScene* wanted = &scene;
+    // A thread that has just got its scene may still be listed, so that owners may seem to go round without end. What leads to
+    // this thread is true: whoever waits for a scene that this one holds waits still.
+    for (std::size_t k = 0; wanted && k <= all_.size(); ++k) {
+      const std::thread::id owner = wanted->owner;
+      if (owner == std::this_thread::get_id())
+        throw std::runtime_error("two threads ask each other's scenes within functions of `ask_only`: neither can go on");
+      const auto found = all_.find(owner);
+      wanted = found == all_.end() ? nullptr : found->second;
+    }
+    all_[std::this_thread::get_id()] = &scene;
+  }
+  ~Waiting() {
+    const std::lock_guard<std::mutex> guard(mutex_);
+    all_.erase(std::this_thread::get_id());
+  }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+
+  static inline std::mutex mutex_;
+  static inline auto& all_ = *new std::map<std::thread::id, const HeldScene*>;  // threads may wait when the interpreter ends
+};
+
+/// The locks of one scene or two: while it waits for one it does not hold the other.
+class Locks {
+ public:
+  Locks(HeldScene& scene, HeldScene& other, Unlocked& crew) : scene_(scene), other_(other) {
+    std::unique_lock<std::timed_mutex> first(scene.mutex, std::defer_lock), second(other.mutex, std::defer_lock);
+    const HeldScene *of_first = &scene, *of_second = &other;
+    while (!Waiting::got(first, *of_first) || (&scene != &other && !second.try_lock())) {
+      if (crew.stopped()) crew.finish();  // raises what a signal's handler did
+      if (first) first.unlock(), std::swap(first, second), std::swap(of_first, of_second);
+    }
+    first.release(), second.release();
+    scene.owner = other.owner = std::this_thread::get_id();
+  }
+  ~Locks() {
+    scene_.owner = other_.owner = std::thread::id();
+    scene_.mutex.unlock();
+    if (&scene_ != &other_) other_.mutex.unlock();
+  }
+  Locks(const Locks&) = delete;
+  Locks& operator=(const Locks&) = delete;
+
+ private:
+  HeldScene &scene_, &other_;
+};
 
 /// Locks one scene or two without the interpreter's lock, and runs the work without it.
 template <class Work>
@@ -39,16 +108,7 @@ auto locked(HeldScene& scene, HeldScene& other, Work work) {
   if (scene.owner == me || other.owner == me)
     throw std::runtime_error("a scene cannot be asked or changed while it asks `ask_only`'s function");
   Unlocked crew(scene.threads);
-  std::unique_lock<std::mutex> first(scene.mutex, std::defer_lock), second(other.mutex, std::defer_lock);
-  if (&scene == &other)
-    first.lock();
-  else
-    std::lock(first, second);
-  scene.owner = me, other.owner = me;
-  struct Leave {
-    HeldScene &scene, &other;
-    ~Leave() { scene.owner = std::thread::id(), other.owner = std::thread::id(); }
-  } leave{scene, other};
+  const Locks locks(scene, other, crew);
   scene.raised = nullptr;
   scene.scene.run_by({crew.executor(), [&crew] { return crew.stopped(); }});
   auto result = work(scene.scene, other.scene);
@@ -96,6 +156,31 @@ Options to_options(double absolute, double relative, double beyond, const py::ob
   return options;
 }
 
+/// Lets Python's collector see what `ask_only` was given, which may refer to the scene.
+void collect(PyHeapTypeObject* heap) {
+  // None where the object has no scene yet, or no more.
+  static constexpr auto scene_of = [](PyObject* self) -> HeldScene* {
+    const auto* instance = reinterpret_cast<py::detail::instance*>(self);
+    if (!instance->simple_layout || !instance->simple_holder_constructed) return nullptr;
+    return static_cast<HeldScene*>(instance->simple_value_holder[0]);
+  };
+  PyTypeObject& type = heap->ht_type;
+  type.tp_flags |= Py_TPFLAGS_HAVE_GC;
+  type.tp_traverse = [](PyObject* self, visitproc visit, void* arg) {
+    Py_VISIT(Py_TYPE(self));
+    if (const HeldScene* scene = scene_of(self)) Py_VISIT(scene->asks.ptr());
+    return 0;
+  };
+  type.tp_clear = [](PyObject* self) {
+    if (HeldScene* scene = scene_of(self)) scene->asks = py::none();
+    return 0;
+  };
+  type.tp_dealloc = [](PyObject* self) {
+    PyObject_GC_UnTrack(self);
+    reinterpret_cast<PyTypeObject*>(py::detail::get_internals().instance_base)->tp_dealloc(self);
+  };
+}
+
 }  // namespace
 
 void define_scenes(py::module_& module) {
@@ -105,7 +190,8 @@ void define_scenes(py::module_& module) {
 Bodies are named by ids, pairs of an index and a generation that never come back. Poses map a body's frame into the world's. A
 question about all pairs leaves out those whose boxes are proved to be farther apart than asked and lists, in the order of ids,
 every other one that is not proved to be farther; answers are in A's frame about ``relative(pose(a), pose(b))``. The same calls give the
-same bits on any number of threads. Calls of several threads take turns.)");
+same bits on any number of threads. Calls of several threads take turns.)",
+      py::custom_type_setup(&collect));
   refuse_pickles(c);
   c.def(py::init([](long threads) {
           auto scene = std::make_shared<HeldScene>();
@@ -139,30 +225,34 @@ same bits on any number of threads. Calls of several threads take turns.)");
       py::arg("id"), "Removes a body; False if `id` names none.");
   c.def(
       "ask_only",
-      [](const ScenePointer& s, const py::object& asks) {
+      [](HeldScene& s, py::object asks) {
         std::function<bool(BodyId, BodyId)> function;
         if (!asks.is_none()) {
-          // Called and let go with the interpreter's lock.
-          const std::shared_ptr<py::object> held(new py::object(asks), [](py::object* o) {
+          function = [&s](BodyId a, BodyId b) {
             const py::gil_scoped_acquire acquire;
-            delete o;
-          });
-          function = [scene = s.get(), held](BodyId a, BodyId b) {
-            const py::gil_scoped_acquire acquire;
-            if (scene->raised) return false;
+            if (s.raised) return false;
             try {
-              return (*held)(from_id(a), from_id(b)).template cast<bool>();
+              return s.asks(from_id(a), from_id(b)).cast<bool>();
             } catch (...) {
-              scene->raised = std::current_exception();
+              s.raised = std::current_exception();
               return false;
             }
           };
         }
-        locked(*s, [&](Scene& scene) { return scene.ask_only(std::move(function)), 0; });
+        locked(s, [&](Scene& scene) {
+          scene.ask_only(std::move(function));
+          const py::gil_scoped_acquire acquire;
+          std::swap(s.asks, asks);
+          return 0;
+        });
       },
       py::arg("asks"),
       "Pairs within this scene for which ``asks(a, b)`` is false are left out of all answers; a < b are ids. None: all are "
-      "asked.");
+      "asked.\n\n"
+      "The function may ask other scenes; to ask or change one of the question that calls it is RuntimeError. So is to wait "
+      "for a "
+      "scene\n"
+      "whose question waits, in another thread's function, for this one.");
   c.def(
       "find",
       [](HeldScene& s, const std::string& name) -> py::object {

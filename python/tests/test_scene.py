@@ -2,7 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scenes, against all pairs asked one by one, and in trimesh's words."""
 
+import gc
 import math
+import sys
+import weakref
 
 import numpy as np
 import pytest
@@ -52,6 +55,35 @@ def test_scenes_are_all_pairs(fat):
     assert scene.remove(ids[4]) and not scene.remove(ids[4]) and not scene.has(ids[4]) and len(scene) == 24
     with pytest.raises(ValueError, match="'5' already"):
         scene.add("5", BOX, np.eye(4))
+
+
+@pytest.mark.parametrize("kind", [Scene, type("Derived", (Scene,), {})])
+def test_a_scene_that_its_function_knows_is_collected(kind):
+    class Robot:
+        def __init__(self):
+            self.scene = kind()
+            self.scene.ask_only(self.may_meet)
+            self.scene.add("a", BOX, shift(0))
+            self.scene.add("b", BOX, shift(1))
+
+        def may_meet(self, a, b):
+            gc.collect()
+            return self.scene is not None
+
+    robot, function = Robot(), lambda a, b: True
+    held = weakref.ref(robot)
+    assert len(robot.scene.overlapping()[2]) == 1
+    del robot
+    gc.collect()
+    assert held() is None
+    scene, before = kind(), sys.getrefcount(function)
+    scene.ask_only(function)
+    assert sys.getrefcount(function) == before + 1
+    scene.ask_only(None)
+    assert sys.getrefcount(function) == before
+    scene.ask_only(function)
+    del scene
+    assert sys.getrefcount(function) == before
 
 
 def manager(**bodies):

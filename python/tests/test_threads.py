@@ -201,3 +201,102 @@ def test_a_scene_is_asked_by_threads():
     for t in threads:
         t.join()
     assert len(scene) == 20
+
+
+@pytest.mark.parametrize("several", [False, True])
+def test_ctrl_c_ends_a_wait_for_a_scene(several):
+    scene, other, asked, leave = Scene(), Scene(), threading.Event(), threading.Event()
+    box = swiftlet.Body.box([-1, -1, -1], [1, 1, 1])
+    for k in range(2):
+        scene.add(f"{k}", box, shift(k))
+    scene.ask_only(lambda a, b: (asked.set(), leave.wait(60))[1])
+    thread = threading.Thread(target=scene.overlapping)
+    thread.start()
+    assert asked.wait(60)
+
+    def alarm(*_):
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGALRM, alarm)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        began = time.monotonic()
+        with pytest.raises(KeyboardInterrupt):
+            other.overlapping(scene) if several else len(scene)
+        assert time.monotonic() - began < 30
+    finally:
+        signal.signal(signal.SIGALRM, before)
+        leave.set()
+        thread.join()
+    assert len(scene) == 2 and len(other) == 0 and len(other.overlapping(scene)[2]) == 0
+
+
+DAEMON = """
+import sys, threading
+import numpy as np
+import swiftlet
+from swiftlet.scene import Scene
+
+model, asked, never = swiftlet.Model.load(sys.argv[1]), threading.Event(), threading.Event()
+poses = np.tile(np.eye(4), (3_000_000, 1, 1))
+poses[:, 0, 3] = 3
+scene = Scene()
+for name in "ab":
+    scene.add(name, model, np.eye(4))
+scene.ask_only(lambda a, b: (asked.set(), never.wait()))
+threading.Thread(target=scene.overlapping, daemon=True).start()
+asked.wait()
+threading.Thread(target=lambda: len(scene), daemon=True).start()
+for threads in (1, 2):
+    threading.Thread(target=lambda n: swiftlet.distance(model, model, poses, threads=n), args=(threads,), daemon=True).start()
+never.wait(0.1)
+"""
+
+
+def test_the_interpreter_ends_while_daemons_wait_and_ask():
+    for _ in range(3):
+        ended = subprocess.run([sys.executable, "-c", DAEMON, MODELS / "fat_a.swl"], capture_output=True, text=True, timeout=120)
+        assert ended.returncode == 0, ended.stderr
+
+
+def test_functions_that_wait_for_each_other_are_told_so():
+    box = swiftlet.Body.box([-1, -1, -1], [1, 1, 1])
+    scenes, barrier, ended = [Scene() for _ in range(3)], threading.Barrier(3), []
+    for scene in scenes:
+        for k in range(2):
+            scene.add(f"{k}", box, shift(k))
+    for k in range(3):
+        scenes[k].ask_only(lambda a, b, other=scenes[(k + 1) % 3]: barrier.wait(60) is not None and len(other) > 0)
+
+    def ask(scene):
+        try:
+            ended.append(len(scene.overlapping()[2]))
+        except RuntimeError as error:
+            ended.append(str(error))
+
+    threads = [threading.Thread(target=ask, args=(scene,), daemon=True) for scene in scenes]
+    for t in threads:
+        t.start()
+    for t in threads:
+        t.join(60)
+    refused = [e for e in ended if e != 1]
+    assert len(ended) == 3 and len(refused) == 1 and "neither can go on" in refused[0]
+
+
+def test_scenes_are_asked_about_each_other_by_threads():
+    box = swiftlet.Body.box([-1, -1, -1], [1, 1, 1])
+    scenes = [Scene() for _ in range(3)]
+    for k, scene in enumerate(scenes):
+        scene.add("a", box, shift(k))
+    found = []
+
+    def ask(one, other):
+        for _ in range(300):
+            found.append(len(scenes[one].overlapping(scenes[other])[2]))
+
+    threads = [threading.Thread(target=ask, args=pair) for pair in ((0, 1), (1, 0), (1, 2), (2, 1), (0, 2), (2, 0))]
+    for t in threads:
+        t.start()
+    for t in threads:
+        t.join()
+    assert found == [1] * 1800
