@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 #include <vector>
 
 #include <swiftlet/check.h>
@@ -257,7 +259,13 @@ Pointer same(Pointer m, std::uint64_t hash) {
   return m;
 }
 
-std::string absolute(const std::string& path) { return std::filesystem::absolute(path).string(); }
+/// What a mapped model is pickled by.
+std::string absolute(const std::string& path) {
+  std::error_code failure;
+  const std::filesystem::path found = std::filesystem::absolute(path, failure);
+  if (failure) raise({ErrorCode::CannotRead, (path.empty() ? "''" : path) + ": " + failure.message(), path});
+  return found.string();
+}
 
 void define_model(py::class_<HeldModel, ModelPointer>& c) {
   c.def_static(

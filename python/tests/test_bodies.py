@@ -166,6 +166,18 @@ def test_paths_may_be_any_bytes(fat, mesh, tmp_path):
         os.remove(path)
 
 
+@pytest.mark.skipif(os.name != "posix", reason="no other system removes a folder that is in use")
+def test_paths_from_nowhere_are_file_errors(tmp_path, monkeypatch):
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+    for map in (Model.map, MeshModel.map):
+        for name in ("", "relative.swl", b"relative.swl"):
+            with pytest.raises(swiftlet.FileError) as raised:
+                map(name)
+            assert raised.value.code == swiftlet.ErrorCode.CANNOT_READ and raised.value.file == os.fsdecode(name)
+
+
 def test_errors_name_what_is_wrong(tmp_path):
     with pytest.raises(OSError) as raised:
         Model.load(tmp_path / "none.swl")
