@@ -26,16 +26,27 @@ bool is_integer(char kind) { return kind == 'i' || kind == 'u'; }
   throw py::value_error(std::string(name) + ": expected " + wanted + ", got " + what_came(came));
 }
 
-std::uint32_t index(std::int64_t value, const char* name, std::size_t at) {
-  if (value < 0 || value > 0xffffffffll)
-    throw py::value_error(std::string(name) + ": entry " + std::to_string(at) + " is " + std::to_string(value) +
-                          ", which is no index");
-  return std::uint32_t(value);
+/// Integers of any width, modulo 2^64, and whether they came without a sign.
+struct Integers {
+  py::array_t<std::int64_t> array;
+  bool is_unsigned;
+};
+
+Integers integers(py::handle object, const char* name, const char* wanted) {
+  const py::array array = py::module_::import("numpy").attr("asarray")(object);
+  return {converted<std::int64_t>(array, name, wanted, is_integer), array.dtype().kind() == 'u'};
 }
 
-std::vector<std::uint32_t> indices_of(const py::array_t<std::int64_t>& array, const char* name) {
-  std::vector<std::uint32_t> result(std::size_t(array.size()));
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = index(array.data()[i], name, i);
+std::vector<std::uint32_t> indices_of(const Integers& integers, const char* name) {
+  std::vector<std::uint32_t> result(std::size_t(integers.array.size()));
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const std::int64_t value = integers.array.data()[i];
+    if (value < 0 || value > 0xffffffffll)
+      throw py::value_error(std::string(name) + ": entry " + std::to_string(i) + " is " +
+                            (integers.is_unsigned ? std::to_string(std::uint64_t(value)) : std::to_string(value)) +
+                            ", which is no index");
+    result[i] = std::uint32_t(value);
+  }
   return result;
 }
 
@@ -70,16 +81,16 @@ Vec3 to_vec3(py::handle point, const char* name) {
 
 std::vector<std::uint32_t> to_indices(py::handle indices, const char* name) {
   constexpr const char* kWanted = "integers of shape (n,)";
-  const auto array = converted<std::int64_t>(indices, name, kWanted, is_integer);
-  if (array.ndim() != 1) refuse(name, kWanted, array);
-  return indices_of(array, name);
+  const Integers whole = integers(indices, name, kWanted);
+  if (whole.array.ndim() != 1) refuse(name, kWanted, whole.array);
+  return indices_of(whole, name);
 }
 
 std::vector<std::array<std::uint32_t, 3>> to_triangles(py::handle triangles, const char* name) {
   constexpr const char* kWanted = "integers of shape (n, 3)";
-  const auto array = converted<std::int64_t>(triangles, name, kWanted, is_integer);
-  if (array.size() > 0 && (array.ndim() != 2 || array.shape(1) != 3)) refuse(name, kWanted, array);
-  const std::vector<std::uint32_t> flat = indices_of(array, name);
+  const Integers whole = integers(triangles, name, kWanted);
+  if (whole.array.size() > 0 && (whole.array.ndim() != 2 || whole.array.shape(1) != 3)) refuse(name, kWanted, whole.array);
+  const std::vector<std::uint32_t> flat = indices_of(whole, name);
   std::vector<std::array<std::uint32_t, 3>> result(flat.size() / 3);
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = {flat[3 * i], flat[3 * i + 1], flat[3 * i + 2]};
   return result;
@@ -88,12 +99,13 @@ std::vector<std::array<std::uint32_t, 3>> to_triangles(py::handle triangles, con
 std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> to_faces(py::handle faces, const char* name) {
   constexpr const char* kWanted = "integers of shape (n, 3), or a sequence of loops of three or more vertices";
   if (py::isinstance<py::array>(faces)) {
-    const auto array = converted<std::int64_t>(faces, name, kWanted, is_integer);
+    const Integers whole = integers(faces, name, kWanted);
+    const auto& array = whole.array;
     if (array.size() == 0) return {};
     if (array.ndim() != 2 || array.shape(1) < 3) refuse(name, kWanted, array);
     std::vector<std::uint32_t> sizes;
     if (array.shape(1) > 3) sizes.assign(std::size_t(array.shape(0)), std::uint32_t(array.shape(1)));
-    return {indices_of(array, name), std::move(sizes)};
+    return {indices_of(whole, name), std::move(sizes)};
   }
   if (!py::isinstance<py::sequence>(faces))
     throw py::type_error(std::string(name) + ": expected " + kWanted + ", got " + what_came(faces));
@@ -117,20 +129,6 @@ std::string to_path(py::handle path) {
   PyObject* encoded = nullptr;
   if (!PyUnicode_FSConverter(path.ptr(), &encoded)) throw py::error_already_set();
   return std::string(py::reinterpret_steal<py::bytes>(encoded));
-}
-
-std::int64_t to_whole(py::handle number, const char* name, std::int64_t least, std::int64_t most) {
-  const auto wanted = [&] {
-    return std::string(name) + ": expected a whole number from " + std::to_string(least) + " to " + std::to_string(most) +
-           ", got ";
-  };
-  const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(number.ptr()));
-  PyErr_Clear();
-  if (!whole) throw py::type_error(wanted() + what_came(number));
-  int beyond = 0;
-  const std::int64_t value = PyLong_AsLongLongAndOverflow(whole.ptr(), &beyond);
-  if (beyond != 0 || value < least || value > most) throw py::value_error(wanted() + std::string(py::str(whole)));
-  return value;
 }
 
 }  // namespace swiftlet::python

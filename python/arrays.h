@@ -50,9 +50,5 @@ std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> to_faces(pybin
 std::span<const std::byte> to_bytes(const pybind11::buffer_info& buffer);
 /// str, bytes or os.PathLike; no byte of it is 0.
 std::string to_path(pybind11::handle path);
-/// A whole number; another type or one beyond these is an error that names `name`.
-std::int64_t to_whole(pybind11::handle number, const char* name, std::int64_t least, std::int64_t most);
-/// A budget's.
-inline std::uint32_t to_steps(pybind11::handle steps) { return std::uint32_t(to_whole(steps, "steps", 0, 0xffffffff)); }
 
 }  // namespace swiftlet::python

@@ -7,8 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 #include <memory>
+#include <new>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -20,6 +23,7 @@
 #include <swiftlet/mesh_contacts.h>
 #include <swiftlet/mesh_query.h>
 
+#include "arguments.h"
 #include "arrays.h"
 #include "crew.h"
 #include "failure.h"
@@ -116,6 +120,19 @@ py::array copied(const py::dtype& dtype, std::span<const T> records) {
   return result;
 }
 
+/// So many, whose number is an argument.
+template <class T>
+std::vector<T> allocated(const Whole& count, const char* name) {
+  const std::int64_t whole = to_whole(count, name, 0, std::numeric_limits<std::int64_t>::max());
+  try {
+    return std::vector<T>(std::size_t(whole));
+  } catch (const std::length_error&) {
+  } catch (const std::bad_alloc&) {
+  }
+  PyErr_SetString(PyExc_MemoryError, (std::string(name) + ": no memory for " + std::to_string(whole)).c_str());
+  throw py::error_already_set();
+}
+
 // ---- Seeds -----------------------------------------------------------------------------------------------------------------
 
 /// One for each row: of convex bodies the pair's, of meshes the whole.
@@ -147,9 +164,9 @@ void define_seeds(py::module_& module) {
 
 A query starts from its row's seed and leaves there what the next query of the same pair starts from: keep one for each pair from
 time step to time step. A seed changes the work, never the truth; any bits are legal. One call at a time may use them.)");
-  c.def(py::init([](std::size_t count) {
+  c.def(py::init([](const Whole& count) {
           auto s = std::make_shared<Seeds>();
-          s->seeds.resize(count);
+          s->seeds = allocated<MeshSeed>(count, "count");
           return s;
         }),
         py::arg("count"));
@@ -163,7 +180,8 @@ time step to time step. A seed changes the work, never the truth; any bits are l
       "Makes all of them cold.");
   c.def(
       "set_pair",
-      [](Seeds& s, std::size_t row, py::buffer bits) {
+      [](Seeds& s, const Whole& at, py::buffer bits) {
+        const auto row = std::size_t(to_whole(at, "row", 0, std::numeric_limits<std::int64_t>::max()));
         const Taken taken(&s);
         const py::buffer_info info = bits.request();
         const std::span<const std::byte> bytes = to_bytes(info);
@@ -349,21 +367,24 @@ py::tuple sources(std::span<const ClosestFeatures> found, SourceFeature ClosestF
   return py::make_tuple(kinds, vertices, begins, to_array(std::span<const std::uint32_t>(triangles)));
 }
 
-Query query_of(const std::string& name) {
+Query query_of(py::handle query) {
+  if (!py::isinstance<py::str>(query)) throw py::type_error("query: expected the name of a query, got " + what_came(query));
+  const auto name = query.cast<std::string>();
   constexpr const char* kNames[] = {"distance", "signed_distance", "intersects", "within", "signed_within", "closest_features"};
   for (int k = 0; k < 6; ++k)
     if (name == kNames[k]) return Query(k);
   throw py::value_error("query: expected the name of a query, got '" + name + "'");
 }
 
-Asked to_asked(Query query, double threshold, double absolute, double relative, double beyond, const py::object& steps,
-               int finest_level, const py::object& tuning) {
+Asked to_asked(Query query, const Real& threshold, const Real& absolute, const Real& relative, const Real& beyond,
+               const py::object& steps, const Whole& finest_level, const py::object& tuning) {
   Asked asked;
   asked.query = query;
-  asked.threshold = threshold;
-  asked.options.absolute = absolute, asked.options.relative = relative, asked.options.beyond = beyond;
+  asked.threshold = to_double(threshold, "threshold");
+  asked.options.absolute = to_double(absolute, "absolute"), asked.options.relative = to_double(relative, "relative");
+  asked.options.beyond = to_double(beyond, "beyond");
   if (!steps.is_none()) asked.options.budget.steps = to_steps(steps);
-  asked.options.budget.finest_level = finest_level;
+  asked.options.budget.finest_level = to_int(finest_level, "finest_level");
   asked.options.tuning = to_tuning(tuning);
   return asked;
 }
@@ -382,12 +403,19 @@ py::array records_for(py::handle out, const py::dtype& dtype, std::size_t count,
   return records;
 }
 
-py::object run_query(const std::string& name, py::handle a, py::handle b, py::handle poses, double threshold, double absolute,
-                     double relative, double beyond, const py::object& steps, int finest_level, const py::object& tuning,
-                     py::handle index_a, py::handle index_b, const std::shared_ptr<Seeds>& seeds, long threads,
-                     py::handle quaternion, bool copy, py::handle out) {
+std::shared_ptr<Seeds> to_seeds(py::handle seeds) {
+  if (seeds.is_none()) return nullptr;
+  if (!py::isinstance<Seeds>(seeds)) throw py::type_error("seeds: expected Seeds, got " + what_came(seeds));
+  return seeds.cast<std::shared_ptr<Seeds>>();
+}
+
+py::object run_query(py::handle name, py::handle a, py::handle b, py::handle poses, const Real& threshold, const Real& absolute,
+                     const Real& relative, const Real& beyond, const py::object& steps, const Whole& finest_level,
+                     const py::object& tuning, py::handle index_a, py::handle index_b, py::handle given_seeds,
+                     const Whole& threads, py::handle quaternion, Flag copy, py::handle out) {
   const Asked asked = to_asked(query_of(name), threshold, absolute, relative, beyond, steps, finest_level, tuning);
-  const unsigned count = thread_count(threads);
+  const unsigned count = to_threads(threads);
+  const std::shared_ptr<Seeds> seeds = to_seeds(given_seeds);
   Batch batch{to_side(a, index_a, "a"), to_side(b, index_b, "b"), PoseRows(poses, quaternion_order(quaternion), copy), 0,
               seeds ? &seeds->seeds : nullptr};
   batch.count = row_count(batch.a, batch.b, batch.poses);
@@ -453,16 +481,16 @@ std::vector<Answer> to_answers(py::handle records, std::size_t count, const char
   return answers;
 }
 
-py::array run_refine(py::handle a, py::handle b, py::handle poses, py::handle so_far, double absolute, double relative,
-                     double beyond, const py::object& steps, int finest_level, const py::object& tuning, long threads,
-                     py::handle quaternion, bool copy) {
+py::array run_refine(py::handle a, py::handle b, py::handle poses, py::handle so_far, const Real& absolute,
+                     const Real& relative, const Real& beyond, const py::object& steps, const Whole& finest_level,
+                     const py::object& tuning, const Whole& threads, py::handle quaternion, Flag copy) {
   const One one(a, b, poses, quaternion, copy);
   one.convex("refine");
-  const Asked asked = to_asked(Query::Distance, 0, absolute, relative, beyond, steps, finest_level, tuning);
+  const Asked asked = to_asked(Query::Distance, py::float_(0.0), absolute, relative, beyond, steps, finest_level, tuning);
   const std::vector<Answer> before = to_answers(so_far, one.poses.size(), "so_far");
   const py::array records = new_records(answer_dtype(), before.size(), one.poses.is_single());
   Answer* into = memory_of<Answer>(records);
-  Unlocked crew(thread_count(threads));
+  Unlocked crew(to_threads(threads));
   crew.run((before.size() + kPosesPerChunk - 1) / kPosesPerChunk, [&](std::size_t chunk) {
     const std::size_t end = std::min(before.size(), (chunk + 1) * kPosesPerChunk);
     for (std::size_t i = chunk * kPosesPerChunk; i < end && (i % 32 || !crew.stopped()); ++i)
@@ -472,7 +500,7 @@ py::array run_refine(py::handle a, py::handle b, py::handle poses, py::handle so
   return records;
 }
 
-py::array run_tolerance(py::handle a, py::handle b, py::handle poses, py::handle quaternion, bool copy) {
+py::array run_tolerance(py::handle a, py::handle b, py::handle poses, py::handle quaternion, Flag copy) {
   const One one(a, b, poses, quaternion, copy);
   std::vector<py::ssize_t> shape;
   if (!one.poses.is_single()) shape.push_back(py::ssize_t(one.poses.size()));
@@ -484,8 +512,8 @@ py::array run_tolerance(py::handle a, py::handle b, py::handle poses, py::handle
   return result;
 }
 
-std::string run_check(py::handle a, py::handle b, py::handle pose, py::handle answer, bool exact, py::handle quaternion,
-                      bool copy) {
+std::string run_check(py::handle a, py::handle b, py::handle pose, py::handle answer, Flag exact, py::handle quaternion,
+                      Flag copy) {
   const One one(a, b, pose, quaternion, copy);
   one.single("check");
   const std::vector<Answer> answers = to_answers(answer, 1, "answer");
@@ -498,9 +526,9 @@ std::string run_check(py::handle a, py::handle b, py::handle pose, py::handle an
   return result->ok ? std::string() : result->message;
 }
 
-py::tuple run_trace(const std::string& name, py::handle a, py::handle b, py::handle pose, double threshold, double absolute,
-                    double relative, double beyond, const py::object& steps, int finest_level, const py::object& tuning,
-                    py::handle quaternion, bool copy) {
+py::tuple run_trace(py::handle name, py::handle a, py::handle b, py::handle pose, const Real& threshold, const Real& absolute,
+                    const Real& relative, const Real& beyond, const py::object& steps, const Whole& finest_level,
+                    const py::object& tuning, py::handle quaternion, Flag copy) {
   const One one(a, b, pose, quaternion, copy);
   one.single("trace").convex("trace");
   Asked asked = to_asked(query_of(name), threshold, absolute, relative, beyond, steps, finest_level, tuning);
@@ -532,15 +560,16 @@ py::tuple run_trace(const std::string& name, py::handle a, py::handle b, py::han
                         pairs);
 }
 
-py::tuple run_contacts(py::handle a, py::handle b, py::handle pose, double reach, std::size_t most, const py::object& steps,
-                       py::handle quaternion, bool copy) {
+py::tuple run_contacts(py::handle a, py::handle b, py::handle pose, const Real& reach, const Whole& most,
+                       const py::object& steps, py::handle quaternion, Flag copy) {
+  const double within = to_double(reach, "reach");
   const One one(a, b, pose, quaternion, copy);
   one.single("contacts");
   Budget budget;
   if (!steps.is_none()) budget.steps = to_steps(steps);
-  std::vector<MeshContact> into(most);
+  std::vector<MeshContact> into = allocated<MeshContact>(most, "most");
   Unlocked crew;
-  const MeshContacts found = contacts(one.a.body(), one.b.body(), one.poses[0], reach, into, budget);
+  const MeshContacts found = contacts(one.a.body(), one.b.body(), one.poses[0], within, into, budget);
   crew.finish();
   return py::make_tuple(int(found.status), found.is_counted, found.count, found.steps, found.plane_tests,
                         copied(contact_dtype(), std::span<const MeshContact>(into).first(found.stored)));
@@ -560,14 +589,11 @@ Manifold manifold_of(py::handle parts) {
   return m;
 }
 
-py::tuple run_manifold(py::handle a, py::handle b, py::handle pose, py::handle answer, double margin, std::uint32_t most_points,
-                       double flatness, py::handle previous, py::handle quaternion, bool copy) {
+py::tuple run_manifold(py::handle a, py::handle b, py::handle pose, py::handle answer, const Real& margin,
+                       const Whole& most_points, const Real& flatness, py::handle previous, py::handle quaternion, Flag copy) {
   const One one(a, b, pose, quaternion, copy);
   one.single("manifold");
-  if (most_points < 1 || most_points > kMostManifoldPoints)
-    throw py::value_error("most_points: expected 1 to " + std::to_string(kMostManifoldPoints) + ", got " +
-                          std::to_string(most_points));
-  const ManifoldOptions options{margin, most_points, flatness};
+  const ManifoldOptions options = to_manifold_options(margin, most_points, flatness);
   const Manifold before = manifold_of(previous);
   if (!one.has_mesh() && py::isinstance<py::array>(answer) &&
       py::reinterpret_borrow<py::array>(answer).dtype().equal(answer_dtype()))
@@ -589,17 +615,23 @@ py::tuple run_manifold(py::handle a, py::handle b, py::handle pose, py::handle a
 Tuning to_tuning(py::handle tuning) {
   Tuning t;
   if (tuning.is_none()) return t;
+  const auto member = [&](const char* name) -> py::object {
+    if (!py::hasattr(tuning, name)) throw py::type_error("tuning: expected a Tuning, got " + what_came(tuning));
+    return tuning.attr(name);
+  };
   const auto number = [&](const char* name, int count) {
-    const int value = tuning.attr(name).cast<int>();
-    if (value < 0 || value >= count)
-      throw py::value_error(std::string("tuning: no such ") + name + ": " + std::to_string(value));
-    return value;
+    return to_whole(member(name), (std::string("tuning.") + name).c_str(), 0, count - 1);
   };
   t.start = StartPolicy(number("start", 5));
   t.refinement = Refinement(number("refinement", 3));
   t.plane_rule = PlaneRule(number("plane_rule", 2));
-  t.careful = tuning.attr("careful").cast<bool>();
+  t.careful = is_true(member("careful"));
   return t;
+}
+
+ManifoldOptions to_manifold_options(const Real& margin, const Whole& most_points, const Real& flatness) {
+  return {to_double(margin, "margin"), std::uint32_t(to_whole(most_points, "most_points", 1, kMostManifoldPoints)),
+          to_double(flatness, "flatness")};
 }
 
 // Made once and never freed: the interpreter may be gone before what is static here.
@@ -659,7 +691,7 @@ void define_queries(py::module_& module) {
   module.def("within_dtype", &within_dtype, "The dtype of a record with a decision.");
   module.def(
       "run_relative",
-      [](py::handle a, py::handle b, py::handle quaternion, bool copy) {
+      [](py::handle a, py::handle b, py::handle quaternion, Flag copy) {
         const QuaternionOrder order = quaternion_order(quaternion);
         const PoseRows of_a(a, order, copy, "a_in_world"), of_b(b, order, copy, "b_in_world");
         if (!of_a.is_single() && !of_b.is_single() && of_a.size() != of_b.size())
@@ -673,14 +705,14 @@ void define_queries(py::module_& module) {
       "Poses of B in A's frame, as matrices.");
   module.def(
       "run_inverse",
-      [](py::handle poses, py::handle quaternion, bool copy) {
+      [](py::handle poses, py::handle quaternion, Flag copy) {
         const PoseRows rows(poses, quaternion_order(quaternion), copy);
         return matrices(rows, [&](std::size_t i) { return inverse(rows[i]); });
       },
       py::arg("poses"), py::arg("quaternion"), py::arg("copy"), "The poses that undo these, as matrices.");
   module.def(
       "run_matrix",
-      [](py::handle poses, py::handle quaternion, bool copy) {
+      [](py::handle poses, py::handle quaternion, Flag copy) {
         const PoseRows rows(poses, quaternion_order(quaternion), copy);
         return matrices(rows, [&](std::size_t i) { return rows[i]; });
       },

@@ -12,6 +12,7 @@
 #include <swiftlet/build.h>
 #include <swiftlet/build_mesh.h>
 
+#include "arguments.h"
 #include "arrays.h"
 #include "crew.h"
 #include "failure.h"
@@ -87,26 +88,26 @@ py::dict report_of(const BuildReport& r) {
   return d;
 }
 
-py::tuple run_build(py::handle points, py::handle triangles, int method, int enclosing, std::optional<double> rate,
-                    std::uint32_t cutoff, int max_levels, double max_deviation, double deviation,
-                    std::optional<std::uint64_t> bytes, bool require_convex, bool require_solid, int resolution,
-                    double radius_factor, std::uint32_t map_cells, py::object progress, long threads) {
+py::tuple run_build(py::handle points, py::handle triangles, const Whole& method, const Whole& enclosing, const Real& rate,
+                    const Whole& cutoff, const Whole& max_levels, const Real& max_deviation, const Real& deviation,
+                    const Whole& bytes, Flag require_convex, Flag require_solid, const Whole& resolution,
+                    const Real& radius_factor, const Whole& map_cells, py::object progress, const Whole& threads) {
   const Mesh mesh = to_mesh(points, triangles);
   BuildOptions options;
-  if (method < 0 || method > 1) throw py::value_error("method: expected a Method, got " + std::to_string(method));
-  if (enclosing < 0 || enclosing > 1)
-    throw py::value_error("enclosing: expected an Enclosing, got " + std::to_string(enclosing));
-  if (resolution < 0 || resolution > 3)
-    throw py::value_error("resolution: expected a Resolution, got " + std::to_string(resolution));
-  options.method = Method(method), options.enclosing = Enclosing(enclosing), options.rate = rate, options.cutoff = cutoff;
-  options.max_levels = max_levels, options.max_deviation = max_deviation;
-  options.detail.deviation = deviation;
-  if (bytes) options.detail.bytes = *bytes;
+  options.method = Method(to_whole(method, "method", 0, 1));
+  options.enclosing = Enclosing(to_whole(enclosing, "enclosing", 0, 1));
+  if (!rate.is_none()) options.rate = to_double(rate, "rate");
+  options.cutoff = to_count(cutoff, "cutoff");
+  options.max_levels = to_int(max_levels, "max_levels");
+  options.max_deviation = to_double(max_deviation, "max_deviation");
+  options.detail.deviation = to_double(deviation, "deviation");
+  if (const auto kept = to_bytes_kept(bytes)) options.detail.bytes = *kept;
   options.require_convex = require_convex, options.require_solid = require_solid;
-  options.table = {lut::Resolution(resolution), radius_factor, map_cells};
+  options.table = {lut::Resolution(to_whole(resolution, "resolution", 0, 3)), to_double(radius_factor, "radius_factor"),
+                   to_count(map_cells, "map_cells")};
   Watch watch(std::move(progress));
   options.progress = watch.function();
-  const unsigned count = thread_count(threads);
+  const unsigned count = to_threads(threads);
   if (count > 1) options.executor = on_threads(count);
   std::optional<Result<Built>> built;
   {
@@ -118,22 +119,24 @@ py::tuple run_build(py::handle points, py::handle triangles, int method, int enc
   return py::make_tuple(bytes_of(result.model.bytes()), report_of(result.report));
 }
 
-HullOptions hull_options(std::uint32_t levels, std::uint32_t least_triangles, double bytes_per_triangle,
-                         std::uint32_t least_patch, Watch& watch, unsigned threads) {
+HullOptions hull_options(const Whole& levels, const Whole& least_triangles, const Real& bytes_per_triangle,
+                         const Whole& least_patch, Watch& watch, const Whole& threads) {
   HullOptions options;
-  options.levels = levels, options.least_triangles = least_triangles, options.bytes_per_triangle = bytes_per_triangle;
-  options.least_patch = least_patch;
+  options.levels = to_count(levels, "levels");
+  options.least_triangles = to_count(least_triangles, "least_triangles");
+  options.bytes_per_triangle = to_double(bytes_per_triangle, "bytes_per_triangle");
+  options.least_patch = to_count(least_patch, "least_patch");
   options.progress = watch.function();
-  if (threads > 1) options.executor = on_threads(threads);
+  const unsigned count = to_threads(threads);
+  if (count > 1) options.executor = on_threads(count);
   return options;
 }
 
-py::bytes run_build_mesh(py::handle points, py::handle triangles, std::uint32_t levels, std::uint32_t least_triangles,
-                         double bytes_per_triangle, std::uint32_t least_patch, py::object progress, long threads) {
+py::bytes run_build_mesh(py::handle points, py::handle triangles, const Whole& levels, const Whole& least_triangles,
+                         const Real& bytes_per_triangle, const Whole& least_patch, py::object progress, const Whole& threads) {
   const Mesh mesh = to_mesh(points, triangles);
   Watch watch(std::move(progress));
-  const HullOptions options =
-      hull_options(levels, least_triangles, bytes_per_triangle, least_patch, watch, thread_count(threads));
+  const HullOptions options = hull_options(levels, least_triangles, bytes_per_triangle, least_patch, watch, threads);
   std::optional<Result<MeshModel>> built;
   {
     const py::gil_scoped_release release;
@@ -143,13 +146,12 @@ py::bytes run_build_mesh(py::handle points, py::handle triangles, std::uint32_t 
   return bytes_of(take(std::move(*built)).bytes());
 }
 
-py::bytes run_rebuild_hulls(py::buffer data, std::uint32_t levels, std::uint32_t least_triangles, double bytes_per_triangle,
-                            std::uint32_t least_patch, py::object progress, long threads) {
+py::bytes run_rebuild_hulls(py::buffer data, const Whole& levels, const Whole& least_triangles, const Real& bytes_per_triangle,
+                            const Whole& least_patch, py::object progress, const Whole& threads) {
   const py::buffer_info info = data.request();
   const MeshModel mesh = take(load_mesh(to_bytes(info)));
   Watch watch(std::move(progress));
-  const HullOptions options =
-      hull_options(levels, least_triangles, bytes_per_triangle, least_patch, watch, thread_count(threads));
+  const HullOptions options = hull_options(levels, least_triangles, bytes_per_triangle, least_patch, watch, threads);
   std::optional<Result<MeshModel>> built;
   {
     const py::gil_scoped_release release;

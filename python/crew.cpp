@@ -117,10 +117,4 @@ void Unlocked::finish() {
   if (forked_) throw std::runtime_error("a handler of a signal forked while a batch ran: in the child it has no answer");
 }
 
-unsigned thread_count(long threads) {
-  if (threads < 1 || threads > 1024)
-    throw py::value_error("threads: expected a number from 1 to 1024, got " + std::to_string(threads));
-  return unsigned(threads);
-}
-
 }  // namespace swiftlet::python

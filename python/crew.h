@@ -47,7 +47,4 @@ class Unlocked {
   bool forked_ = false;
 };
 
-/// At least 1 and at most 1 024, else ValueError.
-unsigned thread_count(long threads);
-
 }  // namespace swiftlet::python

@@ -10,6 +10,8 @@
 
 #include <swiftlet/result.h>
 
+#include "arguments.h"
+
 namespace swiftlet::python {
 
 /// Raises the class of swiftlet._errors that stands for the error's code, with its attributes `code` and `file`.
@@ -26,7 +28,7 @@ T take(Result<T>&& result) {
 pybind11::str decoded(const std::string& text);
 
 /// What a progress callback returned: whether it lets the work go on. None does.
-inline bool goes_on(const pybind11::object& returned) { return returned.is_none() || returned.cast<bool>(); }
+inline bool goes_on(pybind11::handle returned) { return returned.is_none() || is_true(returned); }
 
 /// "float32 array of shape (10, 4, 4)", "list" and the like: what came, for the message of an error.
 std::string what_came(pybind11::handle object);

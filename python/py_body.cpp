@@ -17,6 +17,7 @@
 #include <swiftlet/mesh_query.h>
 #include <swiftlet/model_file.h>
 
+#include "arguments.h"
 #include "arrays.h"
 #include "crew.h"
 #include "draw.h"
@@ -43,17 +44,16 @@ MeshPointer held(MeshModel&& mesh, std::string mapped = {}) {
   return std::make_shared<HeldMesh>(HeldMesh{std::move(mesh), std::move(mapped)});
 }
 
-Detail detail(double deviation, std::optional<std::uint64_t> bytes) {
+Detail to_detail(const Real& deviation, const Whole& bytes) {
   Detail d;
-  d.deviation = deviation;
-  if (bytes) d.bytes = *bytes;
+  d.deviation = to_double(deviation, "deviation");
+  if (const auto kept = to_bytes_kept(bytes)) d.bytes = *kept;
   return d;
 }
 
-TableSpec table_spec(int resolution, double radius_factor, std::uint32_t map_cells) {
-  if (resolution < 0 || resolution > 3)
-    throw py::value_error("resolution: expected a Resolution, got " + std::to_string(resolution));
-  return {lut::Resolution(resolution), radius_factor, map_cells};
+TableSpec to_table_spec(const Whole& resolution, const Real& radius_factor, const Whole& map_cells) {
+  return {lut::Resolution(to_whole(resolution, "resolution", 0, 3)), to_double(radius_factor, "radius_factor"),
+          to_count(map_cells, "map_cells")};
 }
 
 std::string scalar(double x) { return py::cast<std::string>(py::str("{:.6g}").format(x)); }
@@ -210,8 +210,8 @@ struct OwnedArrays {
   }
 };
 
-ModelPointer from_levels(py::iterable levels, bool repair, int resolution, double radius_factor, std::uint32_t map_cells,
-                         long threads) {
+ModelPointer from_levels(py::iterable levels, Flag repair, const Whole& resolution, const Real& radius_factor,
+                         const Whole& map_cells, const Whole& threads) {
   const py::object as_level = py::module_::import("swiftlet._arrays").attr("as_level");
   std::vector<OwnedArrays> owned;
   for (const py::handle level : levels) owned.emplace_back(as_level(level));
@@ -219,8 +219,8 @@ ModelPointer from_levels(py::iterable levels, bool repair, int resolution, doubl
   for (const OwnedArrays& level : owned) arrays.push_back(level.arrays());
   ModelOptions options;
   options.repair = repair;
-  options.table = table_spec(resolution, radius_factor, map_cells);
-  Unlocked crew(thread_count(threads));
+  options.table = to_table_spec(resolution, radius_factor, map_cells);
+  Unlocked crew(to_threads(threads));
   options.executor = crew.executor();
   std::optional<Result<Model>> model;
   model = Model::from_levels(arrays, options);
@@ -228,8 +228,8 @@ ModelPointer from_levels(py::iterable levels, bool repair, int resolution, doubl
   return held(take(std::move(*model)));
 }
 
-ModelPointer with_table(const HeldModel& m, int resolution, double radius_factor, std::uint32_t map_cells) {
-  const TableSpec spec = table_spec(resolution, radius_factor, map_cells);
+ModelPointer with_table(const HeldModel& m, const Whole& resolution, const Real& radius_factor, const Whole& map_cells) {
+  const TableSpec spec = to_table_spec(resolution, radius_factor, map_cells);
   return held(take(unlocked([&] { return m.value.with_table(spec); })));
 }
 
@@ -270,9 +270,10 @@ std::string absolute(const std::string& path) {
 void define_model(py::class_<HeldModel, ModelPointer>& c) {
   c.def_static(
       "load",
-      [](py::handle path, double deviation, std::optional<std::uint64_t> bytes) {
+      [](py::handle path, const Real& deviation, const Whole& bytes) {
         const std::string name = to_path(path);
-        return held(take(unlocked([&] { return load(name, detail(deviation, bytes)); })));
+        const Detail detail = to_detail(deviation, bytes);
+        return held(take(unlocked([&] { return load(name, detail); })));
       },
       py::arg("path"), py::kw_only(), py::arg("deviation") = 0.0, py::arg("bytes") = py::none(),
       R"(Reads a model file.
@@ -302,9 +303,10 @@ Notes
 One pass over the bytes read, which checks sizes, hashes and topology; geometry is for :func:`verify`.)");
   c.def_static(
       "map",
-      [](py::handle path, double deviation, std::optional<std::uint64_t> bytes) {
+      [](py::handle path, const Real& deviation, const Whole& bytes) {
         const std::string name = absolute(to_path(path));
-        return held(take(unlocked([&] { return map(name, detail(deviation, bytes)); })), name);
+        const Detail detail = to_detail(deviation, bytes);
+        return held(take(unlocked([&] { return map(name, detail); })), name);
       },
       py::arg("path"), py::kw_only(), py::arg("deviation") = 0.0, py::arg("bytes") = py::none(),
       R"(Loads a model without a copy: its memory is the mapped file, whose pages processes share.
@@ -323,20 +325,22 @@ levels finer than asked no page is touched until :meth:`ensure`. Pickled, it is 
       "    What is missing; empty for a whole file.");
   c.def_static(
       "from_bytes",
-      [](py::buffer data, double deviation, std::optional<std::uint64_t> bytes) {
+      [](py::buffer data, const Real& deviation, const Whole& bytes) {
         const py::buffer_info info = data.request();
-        return held(take(load(to_bytes(info), detail(deviation, bytes))));
+        return held(take(load(to_bytes(info), to_detail(deviation, bytes))));
       },
       py::arg("data"), py::kw_only(), py::arg("deviation") = 0.0, py::arg("bytes") = py::none(),
       "Loads a model from the bytes of a file, any contiguous buffer, which are copied. Parameters and errors: :meth:`load`.");
   c.def_static("_map_same", [](py::handle name, std::uint64_t hash, std::optional<std::uint64_t> bytes) {
     const std::string path = to_path(name);
-    return same(held(take(unlocked([&] { return map(path, detail(0, bytes)); })), path), hash);
+    Detail detail;
+    if (bytes) detail.bytes = *bytes;
+    return same(held(take(unlocked([&] { return map(path, detail); })), path), hash);
   });
   c.def_static(
       "from_arrays",
-      [](py::object vertices, py::object faces, py::object vertex_source, py::object face_source, bool repair, int resolution,
-         double radius_factor, std::uint32_t map_cells, long threads) {
+      [](py::object vertices, py::object faces, py::object vertex_source, py::object face_source, Flag repair,
+         const Whole& resolution, const Real& radius_factor, const Whole& map_cells, const Whole& threads) {
         const py::object level = py::module_::import("swiftlet._arrays")
                                      .attr("LevelArrays")(vertices, faces, py::arg("vertex_source") = vertex_source,
                                                           py::arg("face_source") = face_source);
@@ -394,8 +398,9 @@ DataError
       "Returns\n-------\nint\n    Bytes written.\n\nRaises\n------\nFileError");
   c.def(
       "cut",
-      [](const HeldModel& m, double deviation, std::optional<std::uint64_t> bytes) {
-        return held(unlocked([&] { return m.value.cut(detail(deviation, bytes)); }));
+      [](const HeldModel& m, const Real& deviation, const Whole& bytes) {
+        const Detail detail = to_detail(deviation, bytes);
+        return held(unlocked([&] { return m.value.cut(detail); }));
       },
       py::kw_only(), py::arg("deviation") = 0.0, py::arg("bytes") = py::none(),
       "Returns the model without the levels that are finer than `deviation` (the body's unit) needs, or beyond the first "
@@ -403,9 +408,10 @@ DataError
       "Two bodies cut for deviations d each answer any distance with an error of at most 2 d.");
   c.def(
       "ensure",
-      [](const HeldModel& m, int level) {
+      [](const HeldModel& m, const Whole& level) {
         Model more = m.value;
-        take(unlocked([&] { return more.ensure(level); }));
+        const int wanted = to_int(level, "level");
+        take(unlocked([&] { return more.ensure(wanted); }));
         return held(std::move(more), m.mapped);
       },
       py::arg("level"),
@@ -422,7 +428,8 @@ DataError
       "Index of a vertex of the finest level than which no other is farther along `direction` (3,). Exact.");
   c.def(
       "level",
-      [](const ModelPointer& m, int index) {
+      [](const ModelPointer& m, const Whole& number) {
+        const int index = to_int(number, "index");
         if (index < 0 || index >= m->value.level_count())
           throw py::index_error("level " + std::to_string(index) + " of " + std::to_string(m->value.level_count()));
         return HeldLevel{m, index};
@@ -544,9 +551,10 @@ py::array mesh_faces(const MeshModel& mesh) {
 void define_mesh(py::class_<HeldMesh, MeshPointer>& c) {
   c.def_static(
       "load",
-      [](py::handle path, double deviation, std::optional<std::uint64_t> bytes) {
+      [](py::handle path, const Real& deviation, const Whole& bytes) {
         const std::string name = to_path(path);
-        return held(take(unlocked([&] { return load_mesh(name, detail(deviation, bytes)); })));
+        const Detail detail = to_detail(deviation, bytes);
+        return held(take(unlocked([&] { return load_mesh(name, detail); })));
       },
       py::arg("path"), py::kw_only(), py::arg("deviation") = 0.0, py::arg("bytes") = py::none(),
       "Reads a mesh from its file (not an STL or OBJ: :meth:`build` reads these); of one that `deviation` or `bytes` cut only "
@@ -627,8 +635,9 @@ About 2 microseconds and 90 bytes a triangle.)");
       "written.\n\nRaises\n------\nFileError");
   c.def(
       "cut",
-      [](const HeldMesh& m, double deviation, std::optional<std::uint64_t> bytes) {
-        return held(unlocked([&] { return m.value.cut(detail(deviation, bytes)); }));
+      [](const HeldMesh& m, const Real& deviation, const Whole& bytes) {
+        const Detail detail = to_detail(deviation, bytes);
+        return held(unlocked([&] { return m.value.cut(detail); }));
       },
       py::kw_only(), py::arg("deviation") = 0.0, py::arg("bytes") = py::none(),
       "Returns boxes around the surface, none farther from it than `deviation` (the body's unit), instead of triangles. "
@@ -646,7 +655,8 @@ About 2 microseconds and 90 bytes a triangle.)");
       "tree stays, hulls go (:func:`swiftlet.build.rebuild_hulls`). A quarter of the time of :meth:`from_arrays`.");
   c.def(
       "deviation_at",
-      [](const HeldMesh& m, int levels) {
+      [](const HeldMesh& m, const Whole& number) {
+        const int levels = to_int(number, "levels");
         if (levels < 1 || levels >= m.value.depth())
           throw py::index_error("levels: expected 1 to depth - 1, got " + std::to_string(levels));
         return m.value.deviation(levels);
@@ -687,30 +697,37 @@ constexpr const char* kKinds[] = {"model", "point", "segment", "triangle", "box"
 
 int kind_of(const OwnedBody& b) { return b.is_mesh() ? 5 + b.body().is_solid() : int(b.convex().kind()); }
 
+double to_radius(const Real& radius) { return to_double(radius, "radius"); }
+
 void define_body(py::class_<OwnedBody>& c) {
   const auto radius = py::arg("radius") = 0.0;
-  c.def(py::init([](const ModelPointer& model, double r) { return OwnedBody(model, r); }), py::arg("model"), radius);
-  c.def(py::init([](const MeshPointer& mesh, double r) { return OwnedBody(mesh, r, false); }), py::arg("mesh"), radius);
+  c.def(py::init([](const ModelPointer& model, const Real& r) { return OwnedBody(model, to_radius(r)); }),
+        py::arg("model").none(false), radius);
+  c.def(py::init([](const MeshPointer& mesh, const Real& r) { return OwnedBody(mesh, to_radius(r), false); }),
+        py::arg("mesh").none(false), radius);
   c.def_static(
-      "solid", [](const MeshPointer& mesh, double r) { return OwnedBody(mesh, r, true); }, py::arg("mesh"), radius,
+      "solid", [](const MeshPointer& mesh, const Real& r) { return OwnedBody(mesh, to_radius(r), true); },
+      py::arg("mesh").none(false), radius,
       "A closed mesh and the volume that it encloses. Of a mesh that is not closed queries answer INVALID_BODY.");
   c.def_static(
-      "point", [](py::handle p, double r) { return OwnedBody(Body::point(to_vec3(p, "p"), r)); }, py::arg("p"), radius,
-      "The point p (3,); with a radius a sphere.");
+      "point", [](py::handle p, const Real& r) { return OwnedBody(Body::point(to_vec3(p, "p"), to_radius(r))); }, py::arg("p"),
+      radius, "The point p (3,); with a radius a sphere.");
   c.def_static(
       "segment",
-      [](py::handle p, py::handle q, double r) { return OwnedBody(Body::segment(to_vec3(p, "p"), to_vec3(q, "q"), r)); },
+      [](py::handle p, py::handle q, const Real& r) {
+        return OwnedBody(Body::segment(to_vec3(p, "p"), to_vec3(q, "q"), to_radius(r)));
+      },
       py::arg("p"), py::arg("q"), radius, "The segment from p to q; with a radius a capsule.");
   c.def_static(
       "triangle",
-      [](py::handle p, py::handle q, py::handle r, double rounded) {
-        return OwnedBody(Body::triangle(to_vec3(p, "p"), to_vec3(q, "q"), to_vec3(r, "r"), rounded));
+      [](py::handle p, py::handle q, py::handle r, const Real& rounded) {
+        return OwnedBody(Body::triangle(to_vec3(p, "p"), to_vec3(q, "q"), to_vec3(r, "r"), to_radius(rounded)));
       },
       py::arg("p"), py::arg("q"), py::arg("r"), radius, "A flat triangle with two sides, its vertices in any order.");
   c.def_static(
       "box",
-      [](py::handle smallest, py::handle largest, double r) {
-        return OwnedBody(Body::box(to_vec3(smallest, "smallest"), to_vec3(largest, "largest"), r));
+      [](py::handle smallest, py::handle largest, const Real& r) {
+        return OwnedBody(Body::box(to_vec3(smallest, "smallest"), to_vec3(largest, "largest"), to_radius(r)));
       },
       py::arg("smallest"), py::arg("largest"), radius, "A box along the frame's axes, by two opposite corners.");
   c.def_property_readonly(

@@ -20,6 +20,7 @@
 
 #include <swiftlet/scene.h>
 
+#include "arguments.h"
 #include "arrays.h"
 #include "crew.h"
 #include "failure.h"
@@ -149,9 +150,10 @@ py::tuple listed(const std::vector<Pair>& pairs) {
   return py::make_tuple(a, b, records);
 }
 
-Options to_options(double absolute, double relative, double beyond, const py::object& steps) {
+Options to_options(const Real& absolute, const Real& relative, const Real& beyond, const py::object& steps) {
   Options options;
-  options.absolute = absolute, options.relative = relative, options.beyond = beyond;
+  options.absolute = to_double(absolute, "absolute"), options.relative = to_double(relative, "relative");
+  options.beyond = to_double(beyond, "beyond");
   if (!steps.is_none()) options.budget.steps = to_steps(steps);
   return options;
 }
@@ -193,9 +195,9 @@ every other one that is not proved to be farther; answers are in A's frame about
 same bits on any number of threads. Calls of several threads take turns.)",
       py::custom_type_setup(&collect));
   refuse_pickles(c);
-  c.def(py::init([](long threads) {
+  c.def(py::init([](const Whole& threads) {
           auto scene = std::make_shared<HeldScene>();
-          scene->threads = thread_count(threads);
+          scene->threads = to_threads(threads);
           return scene;
         }),
         py::kw_only(), py::arg("threads") = 1);
@@ -226,13 +228,15 @@ same bits on any number of threads. Calls of several threads take turns.)",
   c.def(
       "ask_only",
       [](HeldScene& s, py::object asks) {
+        if (!asks.is_none() && !PyCallable_Check(asks.ptr()))
+          throw py::type_error("asks: expected a function or None, got " + what_came(asks));
         std::function<bool(BodyId, BodyId)> function;
         if (!asks.is_none()) {
           function = [&s](BodyId a, BodyId b) {
             const py::gil_scoped_acquire acquire;
             if (s.raised) return false;
             try {
-              return s.asks(from_id(a), from_id(b)).cast<bool>();
+              return is_true(s.asks(from_id(a), from_id(b)));
             } catch (...) {
               s.raised = std::current_exception();
               return false;
@@ -294,14 +298,15 @@ same bits on any number of threads. Calls of several threads take turns.)",
       "The pairs that are not proved to be disjoint: ids of A (n, 2), ids of B, and records of answers.");
   c.def(
       "within",
-      [=](const ScenePointer& s, double threshold, const ScenePointer& other) {
+      [=](const ScenePointer& s, const Real& number, const ScenePointer& other) {
+        const double threshold = to_double(number, "threshold");
         return listed(locked(*s, other_or(s, other), [=](Scene& scene, Scene& o) { return scene.within(o, threshold); }));
       },
       py::arg("threshold"), py::arg("other") = nullptr,
       "The pairs that are not proved to be farther apart than `threshold`: ids of A, ids of B, and records.");
   c.def(
       "distances",
-      [=](const ScenePointer& s, double beyond, const ScenePointer& other, double absolute, double relative,
+      [=](const ScenePointer& s, const Real& beyond, const ScenePointer& other, const Real& absolute, const Real& relative,
           const py::object& steps) {
         const Options options = to_options(absolute, relative, beyond, steps);
         return listed(locked(*s, other_or(s, other), [&](Scene& scene, Scene& o) { return scene.distances(o, options); }));
@@ -312,7 +317,7 @@ same bits on any number of threads. Calls of several threads take turns.)",
       "records.");
   c.def(
       "nearest",
-      [=](const ScenePointer& s, const ScenePointer& other, double absolute, double relative, double beyond,
+      [=](const ScenePointer& s, const ScenePointer& other, const Real& absolute, const Real& relative, const Real& beyond,
           const py::object& steps) -> py::tuple {
         const Options options = to_options(absolute, relative, beyond, steps);
         const NearestPair pair =
@@ -326,11 +331,9 @@ same bits on any number of threads. Calls of several threads take turns.)",
       "The nearest pair: a bound than which no pair is nearer, then ids of A, ids of B and records, of one row or none.");
   c.def(
       "contacts",
-      [=](const ScenePointer& s, const ScenePointer& other, double margin, std::uint32_t most_points,
-          double flatness) -> py::tuple {
-        if (most_points < 1 || most_points > kMostManifoldPoints)
-          throw py::value_error("most_points: expected 1 to " + std::to_string(kMostManifoldPoints));
-        const ManifoldOptions options{margin, most_points, flatness};
+      [=](const ScenePointer& s, const ScenePointer& other, const Real& margin, const Whole& most_points,
+          const Real& flatness) -> py::tuple {
+        const ManifoldOptions options = to_manifold_options(margin, most_points, flatness);
         const std::vector<SceneContact> found =
             locked(*s, other_or(s, other), [&](Scene& scene, Scene& o) { return scene.contacts(o, options); });
         py::list manifolds;

@@ -13,6 +13,7 @@
 #include <swiftlet/manifold.h>
 #include <swiftlet/mesh_query.h>
 
+#include "arguments.h"
 #include "pose_rows.h"
 #include "py_body.h"
 
@@ -29,8 +30,9 @@ struct Asked {
   ClosestOptions closest() const { return {options.beyond, options.budget.steps, options.tuning}; }
 };
 
-/// A tuple (start, refinement, plane_rule, careful), or None.
+/// A Tuning of swiftlet's, or None.
 Tuning to_tuning(pybind11::handle tuning);
+ManifoldOptions to_manifold_options(const Real& margin, const Whole& most_points, const Real& flatness);
 
 /// Asks one question about two bodies that are both convex, or of which one is a mesh.
 inline void ask(const Asked& q, const auto& a, const auto& b, const Pose& pose, auto& seed, Answer& into) {

@@ -4,7 +4,6 @@
 #include <pybind11/stl.h>
 
 #include <array>
-#include <climits>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -13,6 +12,7 @@
 #include <swiftlet/depth.h>
 #include <swiftlet/mesh_query.h>
 
+#include "arguments.h"
 #include "arrays.h"
 #include "failure.h"
 #include "records.h"
@@ -157,22 +157,13 @@ Pair& pair_of(PyObject* self) {
   return *static_cast<Pair*>(value);
 }
 
-double to_double(PyObject* object, const char* name) {
-  const double x = PyFloat_AsDouble(object);
-  if (x == -1 && PyErr_Occurred()) {
-    PyErr_Clear();
-    throw py::type_error(std::string(name) + ": expected a number, got " + what_came(object));
-  }
-  return x;
-}
-
 void set_option(Asked& asked, const char* name, PyObject* value) {
   const std::string_view key = name;
   const bool is_distance = asked.query == Query::Distance || asked.query == Query::SignedDistance;
   if (key == "steps") {
     if (value != Py_None) asked.options.budget.steps = to_steps(value);
   } else if (key == "finest_level") {
-    asked.options.budget.finest_level = int(to_whole(value, name, INT_MIN, INT_MAX));
+    asked.options.budget.finest_level = to_int(value, name);
   } else if (key == "absolute" && is_distance) {
     asked.options.absolute = to_double(value, name);
   } else if (key == "relative" && is_distance) {

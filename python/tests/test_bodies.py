@@ -178,6 +178,56 @@ def test_paths_from_nowhere_are_file_errors(tmp_path, monkeypatch):
             assert raised.value.code == swiftlet.ErrorCode.CANNOT_READ and raised.value.file == os.fsdecode(name)
 
 
+def test_arguments_are_named_where_they_are_wrong(fat, mesh, tmp_path):
+    path = tmp_path / "a.swl"
+    fat[0].save(path)
+    points = np.random.default_rng(3).normal(size=(30, 3))
+    shape = Shape(CORNERS, TRIANGLES)
+    for call, message in [
+        (lambda: Model.load(path, deviation="fine"), "deviation: expected a number, got str"),
+        (lambda: Model.load(path, bytes=1.5), "bytes: expected a whole number from 0 to .*, got float"),
+        (lambda: Model.map(path, deviation=None), "deviation: expected a number, got NoneType"),
+        (lambda: Model.from_bytes(fat[0].bytes, bytes=-1), "bytes: .*, got -1"),
+        (lambda: Model.from_arrays(CORNERS, SIDES, threads=2.0), "threads: expected a whole number from 1 to 1024, got float"),
+        (lambda: Model.from_arrays(CORNERS, SIDES, threads=2**70), "threads: .*, got 1180591620717411303424"),
+        (lambda: Model.from_arrays(CORNERS, SIDES, repair=np.zeros(2)), "ambiguous"),
+        (lambda: Model.from_levels([(CORNERS, SIDES)], resolution=4), "resolution: expected a whole number from 0 to 3, got 4"),
+        (lambda: fat[0].with_table(map_cells=2**32), "map_cells: .*, got 4294967296"),
+        (lambda: fat[0].with_table(radius_factor="2"), "radius_factor: expected a number, got str"),
+        (lambda: fat[0].cut(deviation=10**400), "deviation: expected a number, got one that float64 cannot hold"),
+        (lambda: fat[0].ensure("all"), "level: expected a whole number"),
+        (lambda: fat[0].level(1.0), "index: expected a whole number"),
+        (lambda: mesh.cut(deviation=[]), "deviation: expected a number, got list"),
+        (lambda: mesh.deviation_at(1.0), "levels: expected a whole number"),
+        (lambda: MeshModel.load(path, bytes="all"), "bytes: expected a whole number"),
+        (lambda: Body(fat[0], "thick"), "radius: expected a number, got str"),
+        (lambda: Body.box([0, 0, 0], [1, 1, 1], None), "radius: expected a number, got NoneType"),
+        (lambda: Body.point([0, 0, 0], radius=1j), "radius: expected a number, got complex"),
+        (lambda: Body(None), "incompatible constructor arguments"),
+        (lambda: Body.solid(None), "incompatible function arguments"),
+        (lambda: build.build(points, cutoff=-1), "cutoff: expected a whole number from 0 to 4294967295, got -1"),
+        (lambda: build.build(points, method="collapse"), "method: expected a whole number from 0 to 1, got str"),
+        (lambda: build.build(points, rate="half"), "rate: expected a number, got str"),
+        (lambda: build.build(points, max_levels=2.0), "max_levels: expected a whole number"),
+        (lambda: build.build(points, threads=0), "threads: .*, got 0"),
+        (lambda: build.build_mesh(shape, levels=1.0), "levels: expected a whole number"),
+        (lambda: build.build_mesh(shape, bytes_per_triangle=None), "bytes_per_triangle: expected a number, got NoneType"),
+        (lambda: build.rebuild_hulls(mesh, least_patch=-1), "least_patch: .*, got -1"),
+        (lambda: build.build(points, progress=lambda fraction, stage: np.zeros(2)), "ambiguous"),
+    ]:
+        with pytest.raises((TypeError, ValueError), match=message) as raised:
+            call()
+        assert len(str(raised.value)) < 500
+    assert build.build(points, progress=lambda fraction, stage: "go on").report == build.build(points, rate=None).report
+    with pytest.raises(swiftlet.Cancelled):
+        build.build(points, progress=lambda fraction, stage: "")
+    numpys = Model.from_arrays(CORNERS, SIDES, threads=np.int8(2), map_cells=np.uint32(4))
+    assert numpys.hash() == Model.from_arrays(CORNERS, SIDES).hash()
+    assert Model.load(path, deviation=np.float32(0), bytes=None).finest_level == 0
+    with pytest.raises(ValueError, match=f"entry 2 is {2**64 - 1}, which is no index"):
+        Model.from_arrays(CORNERS, np.array([[0, 1, 2**64 - 1]], np.uint64))
+
+
 def test_errors_name_what_is_wrong(tmp_path):
     with pytest.raises(OSError) as raised:
         Model.load(tmp_path / "none.swl")

@@ -263,7 +263,7 @@ def test_no_poses_give_no_answers(query, fat, mesh):
 
 @pytest.mark.parametrize("threads", [0, -1, 1025])
 def test_threads_are_from_1_to_1024(threads):
-    with pytest.raises(ValueError, match=f"threads: expected a number from 1 to 1024, got {threads}"):
+    with pytest.raises(ValueError, match=f"threads: expected a whole number from 1 to 1024, got {threads}"):
         swiftlet.distance(BOX, BOX, np.eye(4), threads=threads)
 
 
@@ -280,6 +280,58 @@ def test_steps_are_a_whole_number(steps, error):
             ask()
     with pytest.raises(TypeError, match="finest_level: expected a whole number"):
         swiftlet.Pair(BOX, BOX).distance(np.eye(4), finest_level="all")
+
+
+def test_arguments_are_named_where_they_are_wrong(fat):
+    pose, answer = np.eye(4), swiftlet.distance(*fat, shift(3))
+    for call, message in [
+        (lambda: swiftlet.distance(*fat, pose, threads=2.0), "threads: expected a whole number from 1 to 1024, got float"),
+        (lambda: swiftlet.distance(*fat, pose, threads=2**70), "threads: expected a whole number from 1 to 1024, got 1180591620"),
+        (lambda: swiftlet.distance(*fat, pose, finest_level=1.0), "finest_level: expected a whole number .*, got float"),
+        (lambda: swiftlet.distance(*fat, pose, absolute="x"), "absolute: expected a number, got str"),
+        (lambda: swiftlet.distance(*fat, pose, relative=None), "relative: expected a number, got NoneType"),
+        (lambda: swiftlet.distance(*fat, pose, beyond=np.zeros(3)), "beyond: expected a number, got float64 array of shape"),
+        (lambda: swiftlet.distance(*fat, pose, beyond=10**400), "beyond: expected a number, got one that float64 cannot hold"),
+        (lambda: swiftlet.distance(*fat, pose, seeds=3), "seeds: expected Seeds, got int"),
+        (lambda: swiftlet.distance(*fat, pose, copy=np.zeros(2)), "ambiguous"),
+        (lambda: swiftlet.distance(*fat, pose, tuning=3), "tuning: expected a Tuning, got int"),
+        (lambda: swiftlet.distance(*fat, pose, tuning=swiftlet.Tuning(start="x")), "tuning.start: expected a whole .*, got str"),
+        (lambda: swiftlet.Pair(*fat, tuning=swiftlet.Tuning(plane_rule=2)), "tuning.plane_rule: .* from 0 to 1, got 2"),
+        (lambda: swiftlet.Pair(*fat).distance(pose, relative=10**400), "relative: expected a number, got one that float64"),
+        (lambda: swiftlet.within(*fat, pose, None), "threshold: expected a number, got NoneType"),
+        (lambda: swiftlet.closest_features(*fat, pose, beyond="far"), "beyond: expected a number, got str"),
+        (lambda: swiftlet.refine(*fat, shift(3), answer, threads="all"), "threads: expected a whole number"),
+        (lambda: swiftlet.check(*fat, shift(3), answer, exact=np.zeros(2)), "ambiguous"),
+        (lambda: swiftlet.trace(1, *fat, pose), "query: expected the name of a query, got int"),
+        (lambda: swiftlet.trace("distance", *fat, pose, threshold="x"), "threshold: expected a number, got str"),
+        (lambda: swiftlet.contacts(*fat, pose, "near"), "reach: expected a number, got str"),
+        (lambda: swiftlet.contacts(*fat, pose, 1, most=-1), "most: expected a whole number from 0 to .*, got -1"),
+        (lambda: swiftlet.manifold(*fat, shift(3), answer, margin=None), "margin: expected a number, got NoneType"),
+        (lambda: swiftlet.manifold(*fat, shift(3), answer, most_points=1.0), "most_points: .* 1 to 8, got float"),
+        (lambda: swiftlet.Seeds(-1), "count: expected a whole number from 0 to .*, got -1"),
+        (lambda: swiftlet.Seeds(2.0), "count: expected a whole number"),
+        (lambda: swiftlet.Seeds(1).set_pair("first", b""), "row: expected a whole number"),
+        (lambda: swiftlet.distance([BOX], BOX, pose, index_a=[2**64 - 1]), f"index_a: entry 0 is {2**64 - 1}, which is no index"),
+    ]:
+        with pytest.raises((TypeError, ValueError), match=message) as raised:
+            call()
+        assert len(str(raised.value)) < 200
+    with pytest.raises(MemoryError, match=f"count: no memory for {2**62}"):
+        swiftlet.Seeds(2**62)
+    with pytest.raises(MemoryError, match=f"most: no memory for {2**62}"):
+        swiftlet.contacts(*fat, pose, 1, most=2**62)
+
+
+def test_what_a_number_raises_is_raised(fat):
+    class Raising:
+        def __index__(self):
+            raise KeyboardInterrupt
+
+        __float__ = __index__
+
+    for name in ("threads", "relative", "steps"):
+        with pytest.raises(KeyboardInterrupt):
+            swiftlet.distance(*fat, np.eye(4), **{name: Raising()})
 
 
 def test_rows_choose_their_bodies(fat, mesh):
@@ -385,7 +437,7 @@ def test_manifolds_of_a_box_on_a_box(cube):
     np.testing.assert_allclose(points.points["separation"], -0.1, atol=1e-12)
     again = swiftlet.manifold(cube, cube, pose, swiftlet.Pair(cube, cube).signed_distance(pose), previous=points)
     assert again.points.tobytes() == points.points.tobytes()
-    with pytest.raises(ValueError, match="1 to 8"):
+    with pytest.raises(ValueError, match="from 1 to 8, got 9"):
         swiftlet.manifold(cube, cube, pose, swiftlet.signed_distance(cube, cube, pose), most_points=9)
 
 

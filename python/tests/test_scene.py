@@ -57,6 +57,40 @@ def test_scenes_are_all_pairs(fat):
         scene.add("5", BOX, np.eye(4))
 
 
+def two_boxes():
+    scene = Scene()
+    for name, x in (("a", 0), ("b", 1)):
+        scene.add(name, BOX, shift(x))
+    return scene
+
+
+@pytest.mark.parametrize("answer, asked", [(None, 0), ([], 0), ("", 0), (np.False_, 0), ("yes", 1), ([0], 1), (np.True_, 1)])
+def test_functions_answer_by_what_is_true(answer, asked):
+    scene = two_boxes()
+    scene.ask_only(lambda a, b: answer)
+    assert len(scene.overlapping()[2]) == asked
+
+
+def test_arguments_are_named_where_they_are_wrong():
+    scene = two_boxes()
+    for call, message in [
+        (lambda: Scene(threads=2.0), "threads: expected a whole number from 1 to 1024, got float"),
+        (lambda: CollisionManager(threads=0), "threads: .*, got 0"),
+        (lambda: scene.ask_only(3), "asks: expected a function or None, got int"),
+        (lambda: scene.within("near"), "threshold: expected a number, got str"),
+        (lambda: scene.distances(None), "beyond: expected a number, got NoneType"),
+        (lambda: scene.distances(1, relative="x"), "relative: expected a number, got str"),
+        (lambda: scene.nearest(absolute=[]), "absolute: expected a number, got list"),
+        (lambda: scene.contacts(margin="x"), "margin: expected a number, got str"),
+        (lambda: scene.contacts(most_points=9), "most_points: expected a whole number from 1 to 8, got 9"),
+    ]:
+        with pytest.raises((TypeError, ValueError), match=message):
+            call()
+    scene.ask_only(lambda a, b: np.zeros(2))
+    with pytest.raises(ValueError, match="ambiguous"):
+        scene.overlapping()
+
+
 @pytest.mark.parametrize("kind", [Scene, type("Derived", (Scene,), {})])
 def test_a_scene_that_its_function_knows_is_collected(kind):
     class Robot:
