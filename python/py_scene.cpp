@@ -253,10 +253,8 @@ same bits on any number of threads. Calls of several threads take turns.)",
       py::arg("asks"),
       "Pairs within this scene for which ``asks(a, b)`` is false are left out of all answers; a < b are ids. None: all are "
       "asked.\n\n"
-      "The function may ask other scenes; to ask or change one of the question that calls it is RuntimeError. So is to wait "
-      "for a "
-      "scene\n"
-      "whose question waits, in another thread's function, for this one.");
+      "The function may ask other scenes; to ask or change one of the question that calls it is RuntimeError. So is to "
+      "wait\nfor a scene whose question waits, in another thread's function, for this one.");
   c.def(
       "find",
       [](HeldScene& s, const std::string& name) -> py::object {
