@@ -575,6 +575,56 @@ TEST(MeshScenes, AnotherMeshIsMetAnew) {
   }
 }
 
+/// A vertex is beyond an open surface wherever it went through: by a face, an edge or a vertex, in one step or with a stop in
+/// the surface; and it is no longer when it went back. A sheet that has triangles for either side is one surface.
+TEST(MeshScenes, OpenSurfacesHoldWhatGoesThroughTheirEdges) {
+  Soup halves = floor_of(1, 2, flat), both_sides = halves, two_ways = halves, quarters;
+  for (const auto& [p, q, r] : halves.triangles) both_sides.triangles.push_back({q, p, r});
+  two_ways.add({-2, -2, 0}, {-2, 2, 0}, {2, -2, 0}), two_ways.add({2, 2, 0}, {2, -2, 0}, {-2, 2, 0});  // cut otherwise
+  quarters.points = {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}, {0, 0, 0}};
+  for (std::uint32_t k = 0; k < 4; ++k) quarters.triangles.push_back({k, (k + 1) % 4, 4});
+  Soup cone;  // its tip is at -0.5
+  cone.points = {{0, 0, -0.5}, {0.5, 0, 0.5}, {-0.25, 0.5, 0.5}, {-0.25, -0.5, 0.5}};
+  cone.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
+  MeshShape block(soups::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}).mesh()), pointed(cone.mesh());
+  const struct {
+    const char* name;
+    const Soup& soup;
+    bool with_block;  ///< no vertex of it is inside the block, which would leave that by the nearest side
+  } sheets[] = {
+      {"halves", halves, true}, {"both sides", both_sides, true}, {"two ways", two_ways, true}, {"quarters", quarters, false}};
+  const std::vector<double> heights[] = {{0.03, -0.05, -0.2, -0.4, -0.6},
+                                         {0.03, 0., -0.05, -0.3, -0.6},
+                                         {0.03, 0., 0.03, 0., -0.05, 0.01, 0., -0.3, -0.6}};  // of the lowest point
+  for (const auto& [name, sheet, with_block] : sheets) {
+    MeshShape floor(sheet.mesh());
+    for (MeshShape* shape : {&pointed, &block}) {
+      if (shape == &block && !with_block) continue;
+      for (const double aside : {0., 0.125, 0.1}) {
+        for (const std::vector<double>& way : heights) {
+          Dynamics d;
+          d.add(floor, at(0, 0, 0));
+          btRigidBody& body = d.add(*shape, at(0, 0, 2), 1);
+          for (std::size_t i = 0; i < way.size(); ++i) {
+            SCOPED_TRACE(testing::Message() << (shape == &block ? "block" : "cone") << " on " << name << ", " << aside
+                                            << " aside, " << way[i] << " high, step " << i);
+            body.setWorldTransform(at(aside, aside / 3, 0.5 + way[i]));
+            body.setLinearVelocity(btVector3(0, 0, i == 0 ? 0 : btScalar((way[i] - way[i - 1]) / kStep)));
+            d.world.performDiscreteCollisionDetection();
+            for (int m = 0; m < d.dispatcher.getNumManifolds(); ++m) {
+              const btPersistentManifold& manifold = *d.dispatcher.getManifoldByIndexInternal(m);
+              const double up = manifold.getBody0() == &body ? 1 : -1;
+              for (int k = 0; k < manifold.getNumContacts(); ++k)
+                EXPECT_GT(up * double(manifold.getContactPoint(k).m_normalWorldOnB.z()), 0.9);
+            }
+            EXPECT_NEAR(deepest(d.dispatcher), way[i] - shape->getMargin() - floor.getMargin(), 1e-6);
+          }
+        }
+      }
+    }
+  }
+}
+
 /// A ball that grows while its centre is beyond a surface still belongs on the side from which it came.
 TEST(MeshScenes, ABodyThatGrowsKeepsItsSide) {
   MeshShape floor(floor_of(8, 4, flat).mesh());

@@ -14,6 +14,7 @@
 #include <swiftlet/depth.h>
 
 #include "body/shape.h"
+#include "through.h"
 
 namespace swiftlet::bullet {
 namespace {
@@ -198,9 +199,7 @@ class MeshPair::Corners {
     const auto place = near.is_through ? nearest_of_all(p) : nearest_there(p, std::max(reach(), way + one_place));
     if (!place) return near;
     const double apart = (p - place->point).norm();
-    const bool crosses = way > 0 && apart <= way + one_place &&
-                         intersects(mesh, Body::segment(before, p), Pose{}).verdict == Verdict::Overlapping;
-    if (crosses) near.is_through = !was_through;
+    if (way > 0 && apart <= way + one_place && leads_through(mesh, before, p)) near.is_through = !was_through;
     near.triangle = place->triangle;
     near.apart = near.is_through ? -apart : apart;
     if (apart > one_place)
