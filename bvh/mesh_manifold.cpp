@@ -33,6 +33,11 @@ struct RegionOf {
   const MeshSetting& at;
   const Pose& b_in_a;
   Box box;
+  double slack = 0;  ///< what the noise of poses may move: by so much radii count as larger, and pairs meet that are apart
+
+  double radii() const { return at.radii.sum() + slack; }
+  /// Pairs that are no farther apart meet.
+  double near() const { return at.law_two + slack; }
 };
 
 /// A convex body's vertices; a mesh has none.
@@ -62,12 +67,12 @@ class ConvexFace {
 
 // ---- The normal of surfaces that meet --------------------------------------------------------------------------------------
 
-/// A pair of triangles, or of a triangle and a convex body, that meet or are within law 2's bound of it. The shortest way of B
-/// to be apart; known of a convex body at once, and of two triangles by their axes.
+/// A pair of triangles, or of a triangle and a convex body, that meets. The shortest way of B to be apart; known of a convex
+/// body at once, and of two triangles by their axes.
 struct Met {
   Ids ids;
   Vec least;
-  double depth;
+  double depth;  ///< negative if they are apart
 };
 
 /// How far B must go along a direction until pairs are apart, and so are all points within the radii of them: by the sum of the
@@ -93,19 +98,19 @@ class Way {
     }
     return end_of_a_ - end_of_b_ + in_.at.law_two + radii_;
   }
-  /// Fills all of `met` but its ids. Returns false if the pair, without radii, is apart by more than law 2's bound.
+  /// Fills all of `met` but its ids. Returns false if the pair, without radii, is farther apart than what meets.
   bool meets(Met& met) {
     read(met.ids);
     if (both_) {
-      if (TrianglePair pair(a_, b_, in_.at.motion, in_.at.size); pair.gap(normalised(pair.between_middles())) > in_.at.law_two)
+      if (TrianglePair pair(a_, b_, in_.at.motion, in_.at.size); pair.gap(normalised(pair.between_middles())) > in_.near())
         return false;
       met.depth = axes_of(met.ids).least(met.least);
-      return met.depth >= -in_.at.law_two;
+      return met.depth >= -in_.near();
     }
     const MeshView &a = in_.at.a, &b = in_.at.b;
     const Answer answer = signed_distance(body_of(a, met.ids.a), body_of(b, met.ids.b), in_.b_in_a, seed_);
-    if (answer.status >= Status::InvalidPose || answer.normal.hasNaN() || answer.lower > in_.at.law_two) return false;
-    met.least = vec(answer.normal), met.depth = max(0, -answer.lower);
+    if (answer.status >= Status::InvalidPose || answer.normal.hasNaN() || answer.lower > in_.near()) return false;
+    met.least = vec(answer.normal), met.depth = -answer.lower;
     return true;
   }
   /// How far B must go along the direction until the pair is apart.
@@ -137,7 +142,7 @@ class Way {
   const RegionOf& in_;
   const ConvexFace &body_a_, &body_b_;
   const bool both_ = in_.at.a.triangles && in_.at.b.triangles;
-  const double radii_ = in_.at.radii.sum();
+  const double radii_ = in_.radii();
   Vec n_{0, 0, 0};
   double end_of_a_ = 0, end_of_b_ = 0;  ///< along the direction
   Vec a_[3], b_[3];
@@ -171,49 +176,50 @@ template <class OnPair>
 /// Directions to try, each once.
 class Tried {
  public:
-  void add(const Vec& n) {
-    if (!(dot(n, n) > 0) || count_ == kMostTried) return;
-    for (int i = 0; i < count_; ++i)
-      if (dot(n, at_[i]) > 1 - kSameDirection) return;
-    at_[count_++] = n;
+  void add(const Vec& n, bool is_face = false) {
+    if (!(dot(n, n) > 0)) return;
+    int i = 0;
+    while (i < count_ && dot(n, at_[i]) <= 1 - kSameDirection) ++i;
+    if (i == kMostTried || (i < count_ && (is_face_[i] || !is_face))) return;
+    at_[i] = n, is_face_[i] = is_face;
+    count_ = std::max(count_, i + 1);
   }
-  void add_both(const Vec& n) { add(n), add(-n); }
+  void add_both(const Vec& n, bool is_face = false) { add(n, is_face), add(-n, is_face); }
   int size() const { return count_; }
-  const Vec* begin() const { return at_; }
-  const Vec* end() const { return at_ + count_; }
+  const Vec& operator[](int i) const { return at_[i]; }
+  /// Whether it is a triangle's normal.
+  bool is_face(int i) const { return is_face_[i]; }
 
  private:
   int count_ = 0;
   Vec at_[kMostTried];
+  bool is_face_[kMostTried];
 };
 
 /// The way that is none but for the radii: twice law 2's bound more than their sum.
-double nothing(const RegionOf& in) { return 2 * in.at.law_two + in.at.radii.sum(); }
+double nothing(const RegionOf& in) { return 2 * in.at.law_two + in.radii(); }
 
-/// True if along `n` each pair of the region that meets overlaps by `nothing` at most: by `most`, its radii included.
-bool parts_all(const RegionOf& in, Way& way, const Vec& n, double& most) {
+/// True if along `n` each pair of the region that meets overlaps by `nothing` at most.
+bool parts_all(const RegionOf& in, Way& way, const Vec& n) {
   if (!(dot(n, n) > 0)) return false;
   way.turn(n);
-  most = in.at.radii.sum();
   bool parts = true;
-  for_pairs(in, in.at.law_two, [&](Ids ids) {
-    const double overlap = way.overlap(ids);
-    if (Met met{ids, {}, 0}; overlap > nothing(in) && way.meets(met)) return parts = false;
-    most = max(most, min(overlap, nothing(in)));
-    return true;
+  for_pairs(in, in.near(), [&](Ids ids) {
+    Met met{ids, {}, 0};
+    return parts = !(way.overlap(ids) > nothing(in) && way.meets(met));
   });
   return parts;
 }
 
-/// Chooses the normal along which B has the least way to go until all pairs that meet are apart with their radii; `first` if
-/// the way is nothing. Returns the way; if no pair meets, or no direction parts them, it is infinite. Of more than `kMostMet`
-/// pairs some are looked at; of all others the one that has the longest way along the normal found joins these, until that is
-/// no longer than theirs.
-[[gnu::noinline]] double choose_normal(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b, const Vec& first,
-                                       Vec& normal) {
+/// Makes `normal` the direction along which B has the least way to go until all pairs that meet are apart with their radii; it
+/// stays if the way along it is nothing. A triangle's normal is preferred if the way along it is longer by no more than the
+/// slack: along the border of faces that are flush a few pairs are parted aslant by that much less. Returns false if no pair
+/// meets. Of more than `kMostMet` pairs some are looked at; of all others the one that has the longest way along the normal
+/// found joins these, until that is no longer than theirs.
+[[gnu::noinline]] bool choose_normal(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b, Vec& normal) {
   Way way(in, body_a, body_b);
-  double least = HUGE_VAL;
-  if (parts_all(in, way, first, least)) return least;
+  const Vec first = normal;
+  if (parts_all(in, way, first)) return true;
 
   Met met[kMostMet];
   int count = 0;
@@ -221,7 +227,7 @@ bool parts_all(const RegionOf& in, Way& way, const Vec& n, double& most) {
   Tried tried;
   tried.add(first);
   Vec sum_a{0, 0, 0}, sum_b{0, 0, 0};
-  for_pairs(in, in.at.law_two, [&](Ids ids) {
+  for_pairs(in, in.near(), [&](Ids ids) {
     if (count == kMostMet) return is_all = false;
     Met& last = met[count];
     last.ids = ids;
@@ -229,7 +235,8 @@ bool parts_all(const RegionOf& in, Way& way, const Vec& n, double& most) {
     ++count;
     const Vec a = way.normal_a(last), b = way.normal_b(last);
     sum_a = sum_a + a, sum_b = sum_b + b;
-    if (tried.size() + 11 + kMostRounds <= kMostTried) tried.add_both(a), tried.add_both(b), tried.add(last.least);
+    if (tried.size() + 11 + kMostRounds <= kMostTried)
+      tried.add_both(a, in.at.a.triangles), tried.add_both(b, in.at.b.triangles), tried.add(last.least);
     return true;
   });
   tried.add_both(normalised(sum_a - sum_b)), tried.add_both(normalised(sum_a)), tried.add_both(normalised(sum_b));
@@ -239,27 +246,27 @@ bool parts_all(const RegionOf& in, Way& way, const Vec& n, double& most) {
     const double overlap = way.overlap(of.ids);
     return overlap <= max(most, none) ? overlap : way.way(of);
   };
-  least = HUGE_VAL;
+  double least = HUGE_VAL;
   double known[kMostTried] = {};  // along each direction tried, the longest way of the pairs that were asked
   for (int round = 0; round < kMostRounds && count > 0; ++round) {
     double of_met = HUGE_VAL;
     Vec best = first;
     for (int k = 0; k < tried.size(); ++k) {
-      const Vec& n = tried.begin()[k];
+      const double price = tried.is_face(k) ? 0 : in.slack;
       double& most = known[k];
-      way.turn(n);
-      for (int i = 0; i < count && most < of_met; ++i) {
+      way.turn(tried[k]);
+      for (int i = 0; i < count && most + price < of_met; ++i) {
         most = max(most, way_of(met[i], most));
-        if (most >= of_met) std::swap(met[i], met[0]);  // it may rule out the next one too
+        if (most + price >= of_met) std::swap(met[i], met[0]);  // it may rule out the next one too
       }
-      if (most < of_met) of_met = most, best = n;
+      if (most + price < of_met) of_met = most + price, best = tried[k];
     }
     if (of_met >= least) break;
-    if (is_all) return normal = best, of_met;
+    if (is_all) return normal = best, true;
     double most = 0;
     Met worst{};
     way.turn(best);
-    for_pairs(in, in.at.law_two, [&](Ids ids) {
+    for_pairs(in, in.near(), [&](Ids ids) {
       Met other{ids, {}, 0};
       if (way.overlap(ids) > max(most, none) && !way.meets(other)) return true;
       if (const double along = way_of(other, most); along > most) most = along, worst = other;
@@ -270,8 +277,25 @@ bool parts_all(const RegionOf& in, Way& way, const Vec& n, double& most) {
     met[kMostMet - 1 - round] = worst;
     tried.add(worst.least);
   }
-  return least;
+  return least < HUGE_VAL;
 }
+
+/// How far B must go along `n` until all pairs that meet are apart with their radii; infinite if no pair meets.
+[[gnu::noinline]] double way_along(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b, const Vec& n) {
+  Way way(in, body_a, body_b);
+  way.turn(n);
+  double most = -HUGE_VAL;
+  for_pairs(in, in.near(), [&](Ids ids) {
+    Met met{ids, {}, 0};
+    const double overlap = way.overlap(ids);
+    if (overlap > most && way.meets(met)) most = max(max(most, 0), overlap <= nothing(in) ? overlap : way.way(met));
+    return true;
+  });
+  return most >= 0 ? most : HUGE_VAL;
+}
+
+/// What is asked for, in the range that is allowed.
+double flatness(const ManifoldOptions& options) { return max(0, min(options.flatness, kMostFlatness)); }
 
 // ---- The points ------------------------------------------------------------------------------------------------------------
 
@@ -339,7 +363,7 @@ ManifoldPoint placed(const RegionOf& in, const ConvexFace& face_a, const ConvexF
 /// Fills the manifold of two surfaces from the region's nearest or deepest points.
 void grow(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b, const Candidate& witness, const Vec& normal,
           const Vec& middle, double margin, const ManifoldOptions& options, const Manifold& previous, Manifold& manifold) {
-  const double bound = in.at.law_two, flatness = max(0, min(options.flatness, kMostFlatness)), least = witness.separation;
+  const double bound = in.at.law_two, flatness = swiftlet::flatness(options), least = witness.separation;
   const NormalView seen(normal, middle);
   std::optional<ContactFace> face_a, face_b;
   const auto contact_face = [&](const ConvexFace& body, const Vec& n, const Motion& in_a, FeatureId before,
@@ -350,29 +374,41 @@ void grow(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b
   contact_face(body_a, normal, kAtRest, previous.face_a, face_a);
   contact_face(body_b, -normal, in.at.motion, previous.face_b, face_b);
 
-  Farthest farthest(previous, bound);
-  const auto look = [&](const Facet& a, const Facet& b) {
-    if (b.box.least.z - a.box.most.z > margin + bound || b.box.most.z - a.box.least.z < least - bound ||
-        !farthest.may_take(a, b))
-      return;
-    face_each_other(a, b, bound / 2, [&](const Candidate& c) {
-      if (c.separation >= least - bound && c.separation <= margin + bound) farthest.add(c);
-    });
-  };
-  for_pairs(in, max(margin, std::fabs(least)) + bound, [&](Ids ids) {
-    for_facets(in.at.a, kAtRest, ids.a, body_a, face_a ? &*face_a : nullptr, seen, [&](const Facet& a) {
-      for_facets(in.at.b, in.at.motion, ids.b, body_b, face_b ? &*face_b : nullptr, seen, [&](const Facet& b) { look(a, b); });
-    });
-    return true;
-  });
-  Candidates candidates(margin + bound, previous);
-  const bool has_least = farthest.least() <= least + bound + kNarrowest * in.at.size;
-  farthest.give(candidates);
-  if (!has_least) candidates.add_deepest(witness);
   const bool rests = norm(normal - vec(previous.normal)) <= kRestingTurn * flatness;
   const double slack = rests ? flatness * max(in.at.a.root->extent, in.at.b.root->extent) : 0;
-  for (const int i : choose(candidates, std::min(options.most_points, kMostManifoldPoints), previous, bound, slack))
-    manifold.points[manifold.count++] = placed(in, body_a, body_b, seen, candidates[i]);
+  const std::uint32_t most = std::min(options.most_points, kMostManifoldPoints);
+  // As of two convex bodies: where a pair at rest has lost points of the manifold before, what misses a facet by no more than
+  // the noise of poses counts as over it, if that finds more of them.
+  int kept = -1;
+  for (const double beside : {bound / 2, kRestingSlide * slack}) {
+    if (kept >= int(std::min(previous.count, most)) || beside < bound / 2) break;
+    Farthest farthest(previous, 2 * beside);
+    const auto look = [&](const Facet& a, const Facet& b) {
+      if (b.box.least.z - a.box.most.z > margin + bound || b.box.most.z - a.box.least.z < least - 2 * beside ||
+          !farthest.may_take(a, b))
+        return;
+      face_each_other(a, b, beside, [&](const Candidate& c) {
+        if (c.separation >= least - 2 * beside && c.separation <= margin + bound) farthest.add(c);
+      });
+    };
+    for_pairs(in, max(max(margin, std::fabs(least)), 2 * beside) + bound, [&](Ids ids) {
+      for_facets(in.at.a, kAtRest, ids.a, body_a, face_a ? &*face_a : nullptr, seen, [&](const Facet& a) {
+        for_facets(in.at.b, in.at.motion, ids.b, body_b, face_b ? &*face_b : nullptr, seen,
+                   [&](const Facet& b) { look(a, b); });
+      });
+      return true;
+    });
+    Candidates candidates(margin + bound, previous);
+    const bool has_least = farthest.least() <= least + bound + kNarrowest * in.at.size;
+    farthest.give(candidates);
+    if (!has_least) candidates.add_deepest(witness);
+    const Chosen chosen = choose(candidates, most, previous, bound, slack);
+    const auto known =
+        int(std::count_if(chosen.begin(), chosen.end(), [&](int i) { return candidates.knows(candidates[i].names); }));
+    if (known <= kept) break;
+    kept = known, manifold.count = 0;
+    for (const int i : chosen) manifold.points[manifold.count++] = placed(in, body_a, body_b, seen, candidates[i]);
+  }
 }
 
 bool names_a_region(const MeshContact& contact, const MeshView& a, const MeshView& b) {
@@ -407,9 +443,12 @@ Manifold manifold(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, cons
   double separation = dot(normal, point_b - point_a);
   Vec middle = point_a;
   if (!has_normal || separation <= at.law_two) {
-    const double way = choose_normal(in, body_a, body_b, normal, normal);
-    if (way == HUGE_VAL && !has_normal) return manifold;
-    if (way < HUGE_VAL) separation = -(way - at.radii.sum());
+    // Faces that are flush with each other cross, touch or are apart as the noise of the poses has it, and would need a way of
+    // no more than that along their own plane: chosen with slack, the normal parts them where they face each other.
+    RegionOf with_slack = in;
+    with_slack.slack = kRestingSlide * flatness(options) * max(at.a.root->extent, at.b.root->extent);
+    if (!choose_normal(with_slack, body_a, body_b, normal) && !has_normal) return manifold;
+    if (const double way = way_along(in, body_a, body_b, normal); way < HUGE_VAL) separation = -(way - at.radii.sum());
   }
   manifold.normal = eigen(normal);
   manifold.face_a = whole(at.a, contact.triangle_a), manifold.face_b = whole(at.b, contact.triangle_b);

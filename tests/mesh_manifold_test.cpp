@@ -119,24 +119,95 @@ TEST(PairAxes, OfPointsInOnePlaceAreNone) {
   EXPECT_EQ(dot(axis, axis), 0);
 }
 
+/// A pair at rest, A below B.
+struct Resting {
+  const char* name;
+  MeshBody a, b;
+  Vec3 at;  ///< B's place, where both touch
+  double angle = 0;
+};
+Pose resting(const Resting& pair, double gap, double noise, Random& random) {
+  const Vec3 turn = noise * random.in_ball();
+  const Mat3 rotation =
+      (Eigen::AngleAxisd(pair.angle, Vec3::UnitZ()) * Eigen::Quaterniond(1, turn[0], turn[1], turn[2]).normalized())
+          .toRotationMatrix();
+  return {rotation, pair.at + Vec3(0, 0, gap) + noise * random.in_ball()};
+}
+struct RestingPairs {
+  const MeshModel cube = box({-1, -1, 0}, {1, 1, 2}).mesh(), ground = floor_of(17, 5).mesh(), tile = floor_of(9, 1).mesh(),
+                  halves = floor_of(1, 5).mesh();
+  const Body convex = Body::box({-1, -1, 0}, {1, 1, 2});
+  const Vec3 above{0, 0, 2};
+  const std::vector<Resting> all{{"a cube on a floor", ground, cube, {0.1037, 0.2041, 0}, 0.3},
+                                 {"on a tile of its size", tile, cube, {0, 0, 0}},
+                                 {"on a floor, its corners over a diagonal", halves, cube, {0, 0, 0}},
+                                 {"on an equal one", cube, cube, above},
+                                 {"on an equal convex one", convex, cube, above},
+                                 {"a convex one on an equal mesh", cube, convex, above}};
+};
+
 TEST(MeshManifold, KeepsThePointsOfAPairAtRest) {
-  const MeshModel body = box({-1, -1, 0}, {1, 1, 2}).mesh(), ground = floor_of(17, 5).mesh();
+  const RestingPairs pairs;
   Random random(7);
-  Manifold previous;
-  for (int i = 0; i < 50; ++i) {
-    Pose pose = shift(0.1037, 0.2041, 0.001);
-    pose.rotation = Eigen::AngleAxisd(0.3, Vec3::UnitZ()).toRotationMatrix();
-    pose.translation += 1e-7 * random.in_ball();
+  for (const Resting& pair : pairs.all) {
+    for (const double gap : {1e-3, -1e-3}) {
+      Manifold previous;
+      int kept = 0;
+      for (int i = 0; i < 100; ++i) {
+        const Pose pose = resting(pair, gap, 1e-7, random);
+        MeshContact contact;
+        ASSERT_EQ(contacts(pair.a, pair.b, pose, 0.02, {&contact, 1}).count, 1u);
+        const Manifold m = manifold(pair.a, pair.b, pose, contact, {.margin = 0.02}, previous);
+        ASSERT_EQ(m.count, 4u) << pair.name;
+        const bool all_known = std::all_of(m.points.begin(), m.points.begin() + 4, [&](const ManifoldPoint& now) {
+          return std::any_of(previous.points.begin(), previous.points.begin() + 4, [&](const ManifoldPoint& p) {
+            return p.feature_a == now.feature_a && p.feature_b == now.feature_b;
+          });
+        });
+        kept += i > 0 && all_known;
+        for (std::uint32_t k = 0; k < 4; ++k) EXPECT_NEAR(m.points[k].separation, gap, 1e-6) << pair.name;
+        previous = m;
+      }
+      EXPECT_EQ(kept, 99) << pair.name << ", " << gap;
+    }
+  }
+}
+
+/// What faces that are flush have of sides that cross is noise: they are parted where they face each other.
+TEST(MeshManifold, PartsFlushFacesWhereTheyFaceEachOther) {
+  const RestingPairs pairs;
+  Random random(17);
+  for (const Resting& pair : pairs.all) {
+    for (const double gap : {-1e-2, -1e-3, -1e-5, -1e-6, 0.0}) {
+      for (const double noise : {1e-7, 1e-8, 1e-16}) {
+        for (int i = 0; i < 40; ++i) {
+          const Pose pose = resting(pair, gap, noise, random);
+          MeshContact contact;
+          ASSERT_EQ(contacts(pair.a, pair.b, pose, 0.02, {&contact, 1}).count, 1u);
+          const Manifold m = manifold(pair.a, pair.b, pose, contact, {.margin = 0.02});
+          EXPECT_LT((m.normal - Vec3::UnitZ()).norm(), 1e-5) << pair.name << ", " << gap << ", " << noise;
+          ASSERT_EQ(m.count, 4u) << pair.name << ", " << gap << ", " << noise;
+          EXPECT_NEAR(m.points[0].separation, gap, 4 * noise + 1e-13) << pair.name;
+        }
+      }
+    }
+  }
+}
+
+/// In exact contact no nearest pair of points has a direction that means anything; any rotation hides which one is right.
+TEST(MeshManifold, OfExactContactFacesAlongTheFace) {
+  Random random(27);
+  for (int i = 0; i < 300; ++i) {
+    const Mat3 turn = random.rotation();
+    const MeshModel ground = moved(floor_of(i % 2 ? 9 : 1, 5), turn, Vec3::Zero()).mesh(),
+                    body = box({-0.5, -0.5, 0}, {0.5, 0.5, 1}).mesh();
+    const Mat3 yaw = Eigen::AngleAxisd(random.uniform(-3, 3), Vec3::UnitZ()).toRotationMatrix();
+    const Pose pose{turn * yaw, turn * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), (i % 3 - 1) * 1e-15)};
     MeshContact contact;
     ASSERT_EQ(contacts(ground, body, pose, 0.02, {&contact, 1}).count, 1u);
-    const Manifold m = manifold(ground, body, pose, contact, {.margin = 0.02}, previous);
-    ASSERT_EQ(m.count, 4u);
-    for (std::uint32_t k = 0; i > 0 && k < 4; ++k) {
-      EXPECT_TRUE(std::any_of(previous.points.begin(), previous.points.begin() + 4, [&](const ManifoldPoint& p) {
-        return p.feature_a == m.points[k].feature_a && p.feature_b == m.points[k].feature_b;
-      }));
-    }
-    previous = m;
+    const Manifold m = manifold(ground, body, pose, contact, {.margin = 0.02});
+    EXPECT_LT((m.normal - turn * Vec3::UnitZ()).norm(), 1e-12) << i;
+    EXPECT_EQ(m.count, 4u);
   }
 }
 
