@@ -4,6 +4,7 @@
 #include "solid.h"
 
 #include "body/shape.h"
+#include "boxes.h"
 #include "inside.h"
 #include "numeric/vec4.h"
 
@@ -75,7 +76,9 @@ class Visit {
       const Vec beside = legal(middle + n * (share * size));
       if (own.holds(beside) && deep(beside, {})) return true;
     }
-    return false;
+    // Of solids whose vertices all lie in each other's faces, as boxes moved along a side.
+    const Vec between = middle_in_common();
+    return own.holds(between) && deep(between, {});
   }
 
  private:
@@ -87,6 +90,23 @@ class Visit {
       if (tried(i)) return true;
     }
     return false;
+  }
+  static Box box_around(const MeshView& mesh) {
+    const MeshHeader& h = mesh.content->header;
+    return {{h.box_min[0], h.box_min[1], h.box_min[2]}, {h.box_max[0], h.box_max[1], h.box_max[2]}};
+  }
+  /// The middle of what the guest's box and the one around the solid's, in the guest's frame, have in common.
+  Vec middle_in_common() const {
+    const Motion to_guest = swiftlet::motion(solid_is_b_ ? pose_ : inverse(pose_));
+    const Box box = box_around(solid_);
+    Box turned;
+    for (int i = 0; i < 8; ++i) {
+      const Vec corner{(i & 1 ? box.most : box.least).x, (i & 2 ? box.most : box.least).y, (i & 4 ? box.most : box.least).z},
+          at = apply(to_guest, corner);
+      turned = i == 0 ? Box{at, at} : around(turned, {at, at});
+    }
+    const Box both = common(box_around(guest_), turned);
+    return legal((both.least + both.most) * 0.5);
   }
   /// The point with coordinates that no body may have put to 0.
   static Vec legal(Vec p) {

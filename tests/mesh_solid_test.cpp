@@ -401,6 +401,24 @@ TEST(Solid, WithACavityIsApartFromWhatIsInIt) {
   EXPECT_EQ(in_wall.feature_b.kind(), FeatureKind::Vertex);
 }
 
+/// All that two equal boxes moved along a lattice have inside each other may be far from their vertices and middles.
+TEST(Solid, ThatIsFlushAllAroundOverlaps) {
+  const Soup cube = box({-2, -2, -2}, {2, 2, 2});
+  const MeshModel mesh = cube.mesh();
+  const Body convex = Body::box({-2, -2, -2}, {2, 2, 2});
+  const MeshBody solid = MeshBody::solid(mesh);
+  Random random(8);
+  for (int i = 0; i < 7 * 7 * 7; ++i) {
+    const Pose pose{i % 2 ? lattice_rotation(random) : Mat3::Identity(), Vec3(i % 7 - 3, i / 7 % 7 - 3, i / 49 - 3)};
+    EXPECT_EQ(intersects(solid, solid, pose).verdict, Verdict::Overlapping) << pose.translation.transpose();
+    EXPECT_EQ(intersects(solid, convex, pose).verdict, Verdict::Overlapping) << pose.translation.transpose();
+    EXPECT_EQ(intersects(convex, solid, pose).verdict, Verdict::Overlapping) << pose.translation.transpose();
+    const Answer answer = distance(solid, convex, pose);
+    EXPECT_EQ(answer.verdict, Verdict::Overlapping);
+    EXPECT_TRUE(check(solid, convex, pose, answer));
+  }
+}
+
 /// Surfaces that touch without crossing say nothing about volumes.
 TEST(Solid, ThatTouchesFromInsideOverlaps) {
   const MeshModel outer = large().mesh();
