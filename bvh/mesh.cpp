@@ -113,6 +113,7 @@ Result<MeshModel> map_mesh(const std::filesystem::path& path) {
 }
 
 bool is_mesh_file(const std::filesystem::path& path) {
+  if (!irregularity(path).empty()) return false;
   std::ifstream file(path, std::ios::binary);
   std::array<std::byte, 8> start{};
   file.read(reinterpret_cast<char*>(start.data()), start.size());

@@ -8,6 +8,10 @@
 #include <swiftlet/mesh_query.h>
 #include <swiftlet/mesh_visit.h>
 
+#if defined(__linux__)
+#include <sys/stat.h>
+#endif
+
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
@@ -17,7 +21,9 @@
 #include <new>
 #include <numeric>
 #include <set>
+#include <string>
 #include <thread>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -304,6 +310,26 @@ TEST_F(MeshFile, ThatIsMissingOrAnotherIsRefusedByName) {
   ASSERT_FALSE(saved);
   EXPECT_EQ(saved.error().code, ErrorCode::CannotWrite);
 }
+
+#if defined(__linux__)
+/// A pipe would wait for who writes into it.
+TEST_F(MeshFile, ThatIsNoRegularOneIsToldSo) {
+  ASSERT_EQ(mkfifo(path("pipe.swm").c_str(), 0600), 0);
+  std::filesystem::create_directory(path("folder.swm"));
+  const auto cannot_read = [](const auto& result, const std::string& why) {
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::CannotRead);
+    EXPECT_TRUE(result.error().message.ends_with(why)) << result.error().message;
+  };
+  for (const auto& [name, why] :
+       {std::pair("pipe.swm", "pipe.swm: is no regular file"), std::pair("folder.swm", "folder.swm: Is a directory")}) {
+    cannot_read(load_mesh(path(name)), why);
+    cannot_read(map_mesh(path(name)), why);
+    cannot_read(salvage_mesh(path(name)), why);
+    EXPECT_FALSE(is_mesh_file(path(name)));
+  }
+}
+#endif
 
 TEST_F(MeshFile, DamagedOrCutOffIsRefused) {
   Random random(6);

@@ -6,6 +6,7 @@
 
 #if defined(__linux__)
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -19,6 +20,7 @@
 #include <string>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -178,6 +180,23 @@ TEST_F(ModelFile, WhereNothingMayBeWrittenNothingIs) {  // also for root, whom a
   const Result<std::size_t> saved = save(small(), "/proc/m.swl");
   ASSERT_FALSE(saved);
   EXPECT_EQ(saved.error().code, ErrorCode::CannotWrite);
+}
+
+/// A pipe would wait for who writes into it.
+TEST_F(ModelFile, WhatIsNoRegularFileIsToldSo) {
+  ASSERT_EQ(mkfifo(path("pipe.swl").c_str(), 0600), 0);
+  std::filesystem::create_directory(path("folder.swl"));
+  const auto cannot_read = [](const auto& result, const std::string& why) {
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::CannotRead);
+    EXPECT_TRUE(result.error().message.ends_with(why)) << result.error().message;
+  };
+  for (const auto& [name, why] :
+       {std::pair("pipe.swl", "pipe.swl: is no regular file"), std::pair("folder.swl", "folder.swl: Is a directory")}) {
+    cannot_read(load(path(name)), why);
+    cannot_read(map(path(name)), why);
+    cannot_read(salvage(path(name)), why);
+  }
 }
 
 TEST_F(ModelFile, WhatTheUserMayNotReadCannotBeRead) {

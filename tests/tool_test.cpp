@@ -3,6 +3,8 @@
 // The command line tool, run as a user runs it: by its path, with its output, its one line of complaint and its exit code.
 #include "tool_runs.h"
 
+#include <sys/stat.h>
+
 namespace swiftlet {
 namespace {
 
@@ -470,6 +472,18 @@ TEST_F(Tool, ErrorsAreJsonWhereJsonIsAsked) {
   fails("build -o b.swl bent.off --map x", 2, "BadValue", nullptr);
   fails("build -o b.swl cube.off --map 65", 2, "BadValue", nullptr);
   fails("build -o b.swl nowhere.off", 1, "CannotRead", "nowhere.off");
+}
+
+/// A pipe would wait for who writes into it.
+TEST_F(Tool, APipeThatIsCalledAModelIsToldSo) {
+  for (const char* const name : {"pipe.swm", "pipe.swl"}) ASSERT_EQ(mkfifo((folder_ / name).c_str(), 0600), 0);
+  before_ = names();
+  for (const std::string name : {"pipe.swm", "pipe.swl"}) {
+    for (const std::string word : {"info ", "verify ", "distance --pose 1,2,3 a.swl ", "distance a.swl --pose 1,2,3 ",
+                                   "draw -o b.svg ", "export -o b.off ", "cut -o b ", "cut --salvage -o b "})
+      refuses(word + name, name + ": is no regular file", 1);
+  }
+  if (kBuilds) refuses("decompose pipe.swm", "pipe.swm: is no regular file", 1);
 }
 
 TEST_F(Tool, ANameThatIsNoFileIsToldSo) {

@@ -55,18 +55,14 @@ bool is_mesh_format(const std::string& extension) {
 
 bool is_model(const std::filesystem::path& path) {
   if (path.extension() == ".swl") return true;
-  std::error_code ignored;  // a fifo waits to be opened
-  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  if (!irregularity(path).empty()) return false;
   std::ifstream file(path, std::ios::binary);
   std::array<std::byte, 8> start{};
   file.read(reinterpret_cast<char*>(start.data()), start.size());
   return file && is_model_block(start);
 }
 
-bool is_mesh(const std::filesystem::path& path) {
-  std::error_code ignored;  // a fifo waits to be opened
-  return path.extension() == ".swm" || (std::filesystem::is_regular_file(path, ignored) && is_mesh_file(path));
-}
+bool is_mesh(const std::filesystem::path& path) { return path.extension() == ".swm" || is_mesh_file(path); }
 
 void expect_name(const std::string& path, const char* extension) {
   const std::string found = lower(utf8(path_of(path).extension()));

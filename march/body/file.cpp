@@ -138,7 +138,20 @@ Error named(const std::filesystem::path& path, Error error) {
   return error;
 }
 
+std::string irregularity(const std::filesystem::path& path) {
+  using std::filesystem::file_type;
+  std::error_code ignored;
+  switch (std::filesystem::status(path, ignored).type()) {
+    case file_type::regular:
+    case file_type::not_found:
+    case file_type::none: return {};
+    case file_type::directory: return std::generic_category().message(EISDIR);
+    default: return "is no regular file";
+  }
+}
+
 Result<OwnedBytes> map_file(const std::filesystem::path& path) {
+  if (const std::string fault = irregularity(path); !fault.empty()) return named(path, {ErrorCode::CannotRead, fault});
   const OpenFile file(path);
   if (!file.is_open()) return named(path, {ErrorCode::CannotRead, last_failure()});
   const std::uint64_t size = file.size();

@@ -22,13 +22,18 @@ std::filesystem::path path_of(const std::string& utf8);
 /// The error with its file's name, in `file` and before its message.
 Error named(const std::filesystem::path& path, Error error);
 
+/// Why `path` is no regular file, if something else is there, such as a folder, or a pipe, which would wait for who writes into
+/// it; empty where nothing is there, too: why that cannot be read, the system tells.
+std::string irregularity(const std::filesystem::path& path);
+
 /// Bytes and their owner: heap memory, or a mapping of a file that ends with it.
 struct OwnedBytes {
   std::shared_ptr<const std::byte[]> owner;
   std::span<const std::byte> bytes;
 };
 
-/// The pages of a file, which stay as they are when another file takes its place. Errors: CannotRead.
+/// The pages of a file, which stay as they are when another file takes its place. Errors: CannotRead, of what is no
+/// regular file too, and BadFormat of an empty one.
 Result<OwnedBytes> map_file(const std::filesystem::path& path);
 
 /// Writes a new file beside `path`, PATH.XXXX.part, PATH cut where that name were too long, with the mode of the file that it

@@ -21,6 +21,7 @@ struct File {
 };
 
 Result<File> open(const std::filesystem::path& path) {
+  if (const std::string fault = irregularity(path); !fault.empty()) return named(path, {ErrorCode::CannotRead, fault});
   std::error_code failure;
   const std::uint64_t bytes = std::filesystem::file_size(path, failure);
   if (failure) return named(path, {ErrorCode::CannotRead, failure.message()});
