@@ -3,6 +3,7 @@
 // The command line tool, run as a user runs it: by its path, with its output, its one line of complaint and its exit code.
 #include "tool_runs.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 
 namespace swiftlet {
@@ -143,6 +144,14 @@ TEST_F(Tool, DrawWritesXmlOfAnyName) {
   EXPECT_NE(content(folder_ / "a.svg").find("a\xef\xbf\xbd&amp;\xc3\xa4\xef\xbf\xbd"), std::string::npos);
 }
 
+/// Of Unicode XML has no U+FFFE and U+FFFF.
+TEST_F(Tool, DrawWritesNoCharacterThatXmlHasNot) {
+  const std::string name = "a\xef\xbf\xbe-\xef\xbf\xbf-\xef\xbf\xbc\xef\xbe\xbe";
+  std::filesystem::copy_file(folder_ / "a.swl", folder_ / (name + ".swl"));
+  says("draw '" + name + ".swl' -o a.svg");
+  EXPECT_NE(content(folder_ / "a.svg").find(">a\xef\xbf\xbd-\xef\xbf\xbd-\xef\xbf\xbc\xef\xbe\xbe<"), std::string::npos);
+}
+
 TEST_F(Tool, DistanceAnswersInTheFrameOfA) {
   const json answer = says_json("distance a.swl a.swl --pose 2,0,0");
   const double truth = 2 - 2.0 / 3;
@@ -218,25 +227,28 @@ TEST_F(Tool, RefusesBadPosesInOneLine) {
   const auto bad = [&](const std::string& pose, const std::string& why) {
     refuses("distance a.swl a.swl --pose " + pose, why, 2);
   };
+  const auto bad_file = [&](const std::string& pose, const std::string& why) {
+    refuses("distance a.swl a.swl --pose " + pose, why, 1);
+  };
   bad("1,2", "2 numbers");
   bad("1,2,3,4", "4 numbers");
   bad("1,nan,3", "not finite");
   bad("1,2,3,inf,0,0,0", "not finite");
   bad("1,2,3,0,0,0,0", "zero quaternion");
   bad("1,2,x", "neither");
-  bad("sheared", "off by 0.01");
-  bad("mirror", "mirror image");
-  bad("short", "8 numbers");
-  bad("words", "words holds \"one\" in line 1, which is no number");
-  bad("letter", "letter holds \"O\" in line 2, which is no number");
+  bad_file("sheared", "off by 0.01");
+  bad_file("mirror", "mirror image");
+  bad_file("short", "8 numbers");
+  bad_file("words", "words holds \"one\" in line 1, which is no number");
+  bad_file("letter", "letter holds \"O\" in line 2, which is no number");
   bad("nowhere", "neither");
   bad("1e46,0,0", "translates by more than 1e+45");
   bad("0,0,-2e45,1,0,0,0", "translates by more than 1e+45");
-  bad("far", "translates by more than 1e+45");
+  bad_file("far", "translates by more than 1e+45");
   bad("0,1e-400,0", "1e-400, which is beyond the range of doubles");
   bad("0,1e400,0", "1e400, which is beyond the range of doubles");
-  bad("tiny", "1e-400, which is beyond the range of doubles");
-  bad("empty", "empty: is empty");
+  bad_file("tiny", "1e-400, which is beyond the range of doubles");
+  bad_file("empty", "empty: is empty");
   refuses("distance a.swl a.swl --pose folder", "swiftlet: folder: is no regular file", 1);
   if (geteuid() != 0) refuses("distance a.swl a.swl --pose locked", "swiftlet: locked: Permission denied", 1);
 }
@@ -435,6 +447,8 @@ TEST_F(Tool, LeavesAloneWhatLiesBesideItsOutput) {
 TEST_F(Tool, ErrorsAreJsonWhereJsonIsAsked) {
   write(folder_ / "damaged.swl", content(folder_ / "a.swl").substr(0, 500));
   write(folder_ / "bent.off", "OFF\n1 0 0\n0 0\n");
+  write(folder_ / "bent.pose", "1 0 0 0\n0 1 0\n");
+  write(folder_ / "mirror.pose", "1 0 0 0\n0 1 0 0\n0 0 -1 0\n");
   before_ = names();
   const auto fails = [&](const std::string& arguments, int code, const std::string& kind, const json& file) {
     const Ran plain = run(arguments), ran = run(arguments + " --json");
@@ -463,6 +477,8 @@ TEST_F(Tool, ErrorsAreJsonWhereJsonIsAsked) {
   fails("distance a.swl a.swl --pose 1,2", 2, "BadValue", nullptr);
   fails("distance a.swl a.swl --pose 1,2,3 --max-error -1", 2, "BadValue", nullptr);
   fails("distance a.swl a.swl --pose .", 1, "CannotRead", ".");
+  fails("distance a.swl a.swl --pose bent.pose", 1, "BadValue", "bent.pose");
+  fails("distance a.swl a.swl --pose mirror.pose", 1, "BadValue", "mirror.pose");
   fails("export a.swl --level 7 -o b.off", 2, "BadValue", nullptr);
   if (!kBuilds) {
     fails("build cube.off -o b.swl", 2, "BadValue", nullptr);
@@ -472,6 +488,63 @@ TEST_F(Tool, ErrorsAreJsonWhereJsonIsAsked) {
   fails("build -o b.swl bent.off --map x", 2, "BadValue", nullptr);
   fails("build -o b.swl cube.off --map 65", 2, "BadValue", nullptr);
   fails("build -o b.swl nowhere.off", 1, "CannotRead", "nowhere.off");
+}
+
+TEST_F(Tool, JsonIsAskedWhereTheOptionIsRead) {
+  const auto fails = [this](const std::string& arguments, bool as_json) {
+    const Ran ran = run(arguments);
+    EXPECT_GT(ran.code, 0) << arguments;
+    EXPECT_EQ(ran.out.starts_with("{"), as_json) << arguments << "\n" << ran.out;
+    EXPECT_EQ(ran.err.empty(), as_json) << arguments << "\n" << ran.err;
+  };
+  for (const std::string word : {"info nowhere", "info nowhere --fly", "info"}) {
+    for (const char* said : {" --json", " --json=true", " --json=1", " --json=false --json"}) fails(word + said, true);
+    for (const char* said : {"", " --json=false", " --json=0", " -- --json"}) fails(word + said, false);
+  }
+  EXPECT_TRUE(says("info a.swl --json=true").starts_with("{"));
+  EXPECT_FALSE(says("info a.swl --json=false").starts_with("{"));
+  fails("export nowhere.swl -o --json", false);  // a file's name
+  fails("export nowhere.swl -o --json --json", true);
+}
+
+/// A terminal, and what is written to it.
+class Terminal {
+ public:
+  Terminal() : master_(posix_openpt(O_RDWR | O_NOCTTY)) {
+    if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0) return;
+    path_ = ptsname(master_);
+    slave_ = open(path_.c_str(), O_RDWR | O_NOCTTY);
+    fcntl(master_, F_SETFL, O_NONBLOCK);
+  }
+  ~Terminal() { close(slave_), close(master_); }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  bool is_open() const { return slave_ >= 0; }
+  const std::string& path() const { return path_; }
+  std::string written() const {
+    std::string text;
+    char part[256];
+    for (ssize_t bytes; (bytes = read(master_, part, sizeof part)) > 0;) text.append(part, std::size_t(bytes));
+    return text;
+  }
+
+ private:
+  int master_, slave_ = -1;
+  std::string path_;
+};
+
+TEST_F(Tool, WithJsonNothingIsDrawnOnATerminal) {
+  if (!kBuilds) GTEST_SKIP() << "this tool has no builder";
+  const Terminal terminal;
+  if (!terminal.is_open()) GTEST_SKIP() << "there are no terminals here";
+  for (const std::string word : {"build cube.off -o c.swl", "build --mesh cube.off -o c.swm", "decompose cube.off"}) {
+    EXPECT_EQ(run(word + " >said 2>" + terminal.path() + " && cat said").code, 0) << word;
+    EXPECT_NE(terminal.written().find("%"), std::string::npos) << word;
+    const Ran ran = run(word + " --json >said 2>" + terminal.path() + " && cat said");
+    EXPECT_TRUE(json::accept(ran.out)) << word << "\n" << ran.out;
+    EXPECT_EQ(terminal.written(), "") << word;
+  }
 }
 
 /// A pipe would wait for who writes into it.
@@ -487,6 +560,7 @@ TEST_F(Tool, APipeThatIsCalledAModelIsToldSo) {
 }
 
 TEST_F(Tool, ANameThatIsNoFileIsToldSo) {
+  refuses("export a.swl -o " + std::string(256, 'x'), "x: File name too long", 1);
   refuses("info nofile", "swiftlet: nofile: No such file or directory", 1);
   refuses("info .", kBuilds ? "swiftlet: .: is a folder" : "swiftlet: .: Is a directory", 1);
   refuses("info \"\"", "the name after \"info\" is empty", 2);

@@ -52,6 +52,7 @@ struct Request {
   BuildOptions options;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   bool quiet = false;
+  bool bar = true;  ///< of the progress, on a terminal
 };
 
 std::string report_text(const Request& request, const Built& built) {
@@ -100,7 +101,7 @@ Result<Output> build_mesh_file(const Request& request) {
     return in_file(request.in, {ErrorCode::Empty, "is a cloud of points without triangles; without --mesh they make a hull"});
   const auto middle = Clock::now();
   const auto built = [&] {
-    const ProgressBar bar(!request.quiet);
+    const ProgressBar bar(request.bar);
     if (request.no_hulls)
       return MeshModel::from_triangles(given.points, given.triangles,
                                        {.progress = [&bar](double fraction) { return bar(fraction, "tree"); }});
@@ -134,7 +135,7 @@ Result<Output> build_word(const Request& request) {
   BuildOptions options = request.options;
   if (request.threads > 1) options.executor = on_threads(request.threads);
   const auto built = [&]() -> Result<Built> {
-    const ProgressBar bar(!request.quiet);
+    const ProgressBar bar(request.bar);
     options.progress = [&bar](double fraction, std::string_view stage) { return bar(fraction, stage); };
     return build_file(request.in, options);
   }();
@@ -211,11 +212,12 @@ Action declare_build(CLI::App& word) {
   word.add_flag("--require-solid", o.require_solid, "refuse flat, collinear and single-point input");
   const std::vector<CLI::Option*> options = word.get_options();
   for (std::size_t i = common; i < options.size(); ++i) options[i]->group(i < of_meshes ? "With --mesh" : "Without --mesh");
-  return [request, options, common, of_meshes] {
+  return [request, options, common, of_meshes, &word] {
     for (std::size_t i = common; i < options.size(); ++i) {
       if (options[i]->count() > 0 && request->mesh != (i < of_meshes))
         throw CLI::ValidationError(options[i]->get_name(), request->mesh ? "is not for --mesh" : "is for --mesh alone");
     }
+    request->bar = !request->quiet && !asks_for_json(word);
     return build_word(*request);
   };
 }

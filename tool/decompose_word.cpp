@@ -25,6 +25,7 @@ using Json = nlohmann::ordered_json;
 struct Request {
   std::string in, picture;
   Growth growth = Growth::Cresting;
+  bool bar = true;  ///< of the progress, on a terminal
 };
 
 const Choices<Growth> kGrowths{
@@ -118,7 +119,7 @@ Result<Output> decompose_file(const Request& request) {
   if (!mesh) return mesh.error();
   const auto begin = Clock::now();
   const auto made = [&] {
-    const ProgressBar bar(true);
+    const ProgressBar bar(request.bar);
     DecomposeOptions options;
     options.growth = request.growth;
     options.progress = [&bar](double fraction, std::string_view stage) { return bar(fraction, stage); };
@@ -144,7 +145,10 @@ Action declare_decompose(CLI::App& word) {
   add_choice(word, "--growth", kGrowths, request->growth, "cresting",
              "how patches grow: depth first, breadth first, or breadth first from far off reflex edges");
   word.add_option("--draw", request->picture, "an .svg to write, a colour for each patch");
-  return [request] { return decompose_file(*request); };
+  return [request, &word] {
+    request->bar = !asks_for_json(word);
+    return decompose_file(*request);
+  };
 }
 
 }  // namespace

@@ -124,7 +124,7 @@ struct Placement {
 
 std::string at(const Point2& p) { return format("%.2f %.2f", p.x, p.y); }
 
-/// As XML has it. Bytes that are no UTF-8 become U+FFFD, as in JSON.
+/// As XML has it. Bytes that are no UTF-8 become U+FFFD, as in JSON, and so do U+FFFE and U+FFFF.
 std::string escaped(const std::string& text) {
   using nlohmann::json;
   const std::string valid = json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
@@ -136,6 +136,8 @@ std::string escaped(const std::string& text) {
       result += "&lt;";
     else if (c == '>')
       result += "&gt;";
+    else if (result.ends_with("\xef\xbf") && (c == '\xbe' || c == '\xbf'))
+      result += '\xbd';  // the last byte of U+FFFE and U+FFFF
     else if (static_cast<unsigned char>(c) >= ' ')
       result += c;
   }

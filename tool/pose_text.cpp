@@ -108,11 +108,8 @@ Result<Pose> typed_pose(const std::string& text, const std::vector<double>& valu
   return legal(text, pose);
 }
 
-Result<Pose> filed_pose(const std::string& path) {
-  const Result<OwnedBytes> file = map_file(path_of(path));
-  if (!file) return file.error();
-  const auto& [owner, bytes] = file.value();
-  const Numbers read = read_numbers({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+Result<Pose> pose_of_text(const std::string& path, std::string_view text) {
+  const Numbers read = read_numbers(text);
   const std::vector<double>& values = read.values;
   if (!read.only_numbers)
     return bad_pose(path, "holds \"" + read.word + "\" in line " + std::to_string(read.line) + ", which is no number");
@@ -125,6 +122,17 @@ Result<Pose> filed_pose(const std::string& path) {
     pose.translation[row] = values[std::size_t(4 * row + 3)];
   }
   return legal(path, pose);
+}
+
+Result<Pose> filed_pose(const std::string& path) {
+  const Result<OwnedBytes> file = map_file(path_of(path));
+  if (!file) return file.error();
+  const auto& [owner, bytes] = file.value();
+  const Result<Pose> pose = pose_of_text(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (pose) return pose;
+  Error error = pose.error();
+  error.file = path;
+  return error;
 }
 
 }  // namespace

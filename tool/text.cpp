@@ -96,12 +96,13 @@ Error in_file(const std::string& path, Error error) {
 }
 
 Result<bool> may_write(const std::filesystem::path& path, const std::filesystem::path& input) {
-  std::error_code ignored;
-  const auto refused = [&](const char* why) { return named(path, {ErrorCode::CannotWrite, why}); };
+  std::error_code ignored, failure;
+  const auto refused = [&](const std::string& why) { return named(path, {ErrorCode::CannotWrite, why}); };
   if (std::filesystem::equivalent(path, input, ignored)) return refused("is the input itself");
   if (std::filesystem::is_directory(path, ignored)) return refused("is a folder");
   // A link too: the rename would replace it, /dev/stdout for one.
-  const std::filesystem::file_type kind = std::filesystem::symlink_status(path, ignored).type();
+  const std::filesystem::file_type kind = std::filesystem::symlink_status(path, failure).type();
+  if (kind == std::filesystem::file_type::none) return refused(failure.message());
   if (kind == std::filesystem::file_type::symlink) return refused("is a link, which would be replaced");
   if (kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::regular)
     return refused("is no regular file");

@@ -179,13 +179,15 @@ Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
       "A signed distance below 0 is minus the depth of an overlap: the length of the least translation that separates. Of\n"
       "meshes it is an interval that is seldom narrow. Of a mesh that was cut the distance is an interval, too: as wide as\n"
       "the deviations of both meshes together.\n"
+      "JSON has no infinite numbers: a lower bound that is null is minus infinity, an upper one infinity. A point or a\n"
+      "direction that is null is not known.\n"
       "With --contacts the answer is a list, nearest first, of all regions where the surfaces are within REACH of each\n"
       "other, each with its nearest pair of triangles.");
   word.add_option("A", request->a, kBodyHelp)->required();
   word.add_option("B", request->b, kBodyHelp)->required();
   const auto take_pose = [request](const std::string& text) {
     request->b_in_a = read_pose(text);
-    if (!request->b_in_a && request->b_in_a.error().code != ErrorCode::CannotRead)
+    if (!request->b_in_a && request->b_in_a.error().file.empty())  // a file's fault is not the command line's
       throw CLI::ValidationError("--pose", request->b_in_a.error().message);
   };
   word.add_option_function<std::string>("--pose", take_pose, "of B in A's frame, see below")->required();
@@ -307,11 +309,22 @@ class Help : public CLI::Formatter {
   }
 };
 
+/// Whether a command line that CLI11 does not take asks for JSON: the last --json or --json=VALUE before a "--".
+bool asks_for_json(int argc, char** argv) {
+  bool asked = false;
+  for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
+    const std::string word = argv[i], said = "--json=";
+    if (word == "--json") asked = true;
+    if (word.starts_with(said)) CLI::detail::lexical_cast(word.substr(said.size()), asked);
+  }
+  return asked;
+}
+
 /// Tells why there is no output, in one line on stderr or as JSON on stdout, whatever the message holds.
 class Failure {
  public:
-  Failure(int argc, char** argv)
-      : as_json_(std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; })) {}
+  explicit Failure(bool as_json) : as_json_(as_json) {}
+  void set_json(bool as_json) { as_json_ = as_json; }
   int operator()(Error error, int code) const {
     while (!error.message.empty() && error.message.back() == '\n') error.message.pop_back();
     for (char& c : error.message)
@@ -351,7 +364,7 @@ std::string word_fault(int argc, char** argv, const std::vector<Word>& words, bo
   return "there is no word \"" + first + "\"; there are " + names(words);
 }
 
-int run(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const Word> more_words, const Failure& fail) {
+int run(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const Word> more_words, Failure& fail) {
   const std::vector<Word> words = all_words(model_of_mesh, more_words);
   if (const std::string fault = word_fault(argc, argv, words, bool(model_of_mesh)); !fault.empty())
     return fail({ErrorCode::BadValue, fault}, 2);
@@ -375,6 +388,7 @@ int run(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const
   };
   try {
     app.parse(argc, argv);
+    fail.set_json(as_json);
     const Result<Output> output = chosen();
     if (!output) return fail(output.error(), 1);
     if (!as_json && !output.value().note.empty()) std::fprintf(stderr, "swiftlet: %s\n", output.value().note.c_str());
@@ -401,6 +415,8 @@ CLI::Validator number_in(double least, double most, const std::string& said) {
 
 CLI::Validator not_negative() { return number_in(0, std::numeric_limits<double>::infinity(), "from 0 up"); }
 
+bool asks_for_json(const CLI::App& word) { return word.get_option("--json")->as<bool>(); }
+
 void add_detail(CLI::App& word, Detail& detail) {
   word.add_option("--deviation", detail.deviation, "keep no level finer than the coarsest that deviates less; 0: all")
       ->capture_default_str()
@@ -413,7 +429,7 @@ void add_detail(CLI::App& word, Detail& detail) {
 int run_tool(int argc, char** argv, const ModelOfMesh& model_of_mesh, std::span<const Word> more_words) {
   Utf8Arguments arguments(argc, argv);
   argv = arguments.begin();
-  const Failure fail(argc, argv);
+  Failure fail(asks_for_json(argc, argv));
   try {
     return run(argc, argv, model_of_mesh, more_words, fail);
   } catch (const std::bad_alloc&) {

@@ -47,12 +47,16 @@ bool is_mesh(const std::filesystem::path& path);
 /// .svg or a mesh file's. Other names may be as they are, since what a file is its first bytes tell.
 void expect_name(const std::string& path, const char* extension);
 
+/// Whether --json is said, once the command line is read.
+bool asks_for_json(const CLI::App& word);
+
 /// The options --deviation and --bytes.
 void add_detail(CLI::App& word, Detail& detail);
 
 /// Does what the command line says and returns the exit code: 0, 1 where a word failed, 2 where the command line is wrong, an
 /// option out of its range included. Then stderr holds one line, "swiftlet: ...", and stdout nothing; with --json stdout holds
-/// `error_json`, and stderr nothing. What is to be noted of a success is one line on stderr too, unless with --json.
+/// `error_json`, and stderr nothing, no progress bar either. What is to be noted of a success is one line on stderr too, unless
+/// with --json.
 int run_tool(int argc, char** argv, const ModelOfMesh& model_of_mesh = {}, std::span<const Word> more_words = {});
 
 }  // namespace swiftlet::tool
