@@ -153,6 +153,20 @@ TEST(Touching, Collides) {
   all(float(), 1e-5);
 }
 
+/// The depth of bodies that touch is `tolerance`, which single precision may not hold: then its least normal number.
+TEST(Touching, HasADepthHoweverSmallTheBodies) {
+  const double size = 1e-32f;
+  const fcl::Convex<float> cube(bodies::model(bodies::box(size, size, size)));
+  const ::fcl::Boxf box(float(2 * size), float(2 * size), float(2 * size));
+  const fcl::Solver<float> solver;
+  for (const Geometry<float>* const other :
+       {static_cast<const Geometry<float>*>(&cube), static_cast<const Geometry<float>*>(&box)}) {
+    const auto touching = collide<float>(cube, at<float>(0, 0, 0), *other, at<float>(0, 0, 2 * size), solver);
+    ASSERT_GE(touching.numContacts(), 1u);
+    for (std::size_t i = 0; i < touching.numContacts(); ++i) EXPECT_GT(touching.getContact(i).penetration_depth, 0);
+  }
+}
+
 // ---- Half-spaces and planes ------------------------------------------------------------------------------------------------
 
 template <class S>

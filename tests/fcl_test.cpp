@@ -153,6 +153,21 @@ TEST(Distance, AndPointsHoldForAnyPose) {
   std::printf("%d pairs: farthest from the exact distance %.1e, FCL's own %.1e\n", apart, worst, libccd_worst);
 }
 
+/// Of bodies that only touch the signed distance may be below 0 by rounding.
+TEST(Distance, IsMinusOneOrNotBelowZero) {
+  const Convex cube(bodies::model(bodies::cube()));
+  const Solver solver;
+  RandomPoses poses;
+  int touching = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Transform there = poses.next(1), beside = there * at(2, 0, 0);
+    const double distance = measure(cube, there, cube, beside, solver).distance;
+    EXPECT_TRUE(distance == -1 || distance >= 0) << distance;
+    touching += distance != -1;
+  }
+  EXPECT_GT(touching, 100);
+}
+
 TEST(Distance, SwapsItsPoints) {
   const Convex a(stored("fat_a")), b(stored("long"));
   const Solver solver;

@@ -5,6 +5,7 @@
 // swiftlet::fcl.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -139,6 +140,11 @@ struct Touch {
   Vec3 point = Vec3::Zero();   ///< between the bodies
   double depth = 0;            ///< above 0, as FCL wants it: `tolerance` where they only touch
 };
+/// A depth in FCL's scalar: above 0 also where single precision has none so small.
+template <class S>
+S depth_of(double depth) {
+  return std::max(S(depth), std::numeric_limits<S>::min());
+}
 /// One to four of two solids that touch or overlap; none of bodies that are apart, or that no direction leads out of.
 std::vector<Touch> touches(const Operand& a, const Operand& b, PairSeed& seed);
 /// The deepest, where `nearest` finds one.
@@ -169,7 +175,7 @@ struct ShapeSolver {
       if (verdict != Verdict::Undecided) {
         if (!contacts) return true;
         for (const Touch& t : touches(a, b, seed)) {
-          contacts->emplace_back(t.normal.template cast<S>(), t.point.template cast<S>(), S(t.depth));
+          contacts->emplace_back(t.normal.template cast<S>(), t.point.template cast<S>(), depth_of<S>(t.depth));
         }
         return true;
       }
@@ -261,7 +267,7 @@ struct ShapeSolver {
     const std::optional<Touch> touch = deepest_touch(a, b, seed);
     if (!touch) return {};
     if (contact) *contact = touch->point.template cast<S>();
-    if (depth) *depth = S(touch->depth);
+    if (depth) *depth = depth_of<S>(touch->depth);
     if (normal) *normal = touch->normal.template cast<S>();
     return true;
   }
@@ -279,6 +285,7 @@ struct ShapeSolver {
   }
   static bool is_apart(const Nearest& near, S* distance, Point* p1, Point* p2) {
     hand_out(near, distance, p1, p2);
+    if (distance) *distance = S(std::max(near.distance, 0.0));  // bodies that touch overlap up to rounding
     if (near.verdict != Verdict::Overlapping) return true;
     if (distance) *distance = -1;  // FCL's word for a collision
     return false;
@@ -362,8 +369,8 @@ struct MeshFunctions {
     if (request.enable_contact) touches = touches_of(a, b);
     for (const MeshTouch& t : touches) {
       if (result.numContacts() >= request.num_max_contacts) return;
-      result.addContact(
-          {&o1, &o2, t.triangle_a, t.triangle_b, t.point.template cast<S>(), t.normal.template cast<S>(), S(t.depth)});
+      result.addContact({&o1, &o2, t.triangle_a, t.triangle_b, t.point.template cast<S>(), t.normal.template cast<S>(),
+                         depth_of<S>(t.depth)});
     }
     if (!touches.empty()) return;
     const Vec3 between = (found.point_a + found.point_b) / 2;
