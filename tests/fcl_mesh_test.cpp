@@ -309,10 +309,12 @@ TEST(MeshGeometry, LeaveTheRestToFcl) {
   const ::fcl::BVHModel<::fcl::OBBRSSd> theirs(ours);
   const fcl::Solver<double> solver;
   const ::fcl::detail::GJKSolver_libccd<double> fcls;
-  Transform<double> stretched = at<double>(0, 0, 3);
-  stretched.linear() *= 1.5;
-  EXPECT_EQ(measure<double>(ours, stretched, ours, at<double>(0, 0, 0), solver).min_distance,
-            measure<double>(ours, stretched, ours, at<double>(0, 0, 0), fcls).min_distance);
+  for (const double by : {1.01, 1.5, 2.}) {
+    Transform<double> stretched = at<double>(0, 0, 4);
+    stretched.linear() *= by;
+    EXPECT_EQ(measure<double>(ours, stretched, ours, at<double>(0, 0, 0), solver).min_distance,
+              measure<double>(ours, stretched, ours, at<double>(0, 0, 0), fcls).min_distance);
+  }
   EXPECT_EQ(measure<double>(theirs, at<double>(0, 0, 3), ours, at<double>(0, 0, 0), solver).min_distance,
             measure<double>(theirs, at<double>(0, 0, 3), ours, at<double>(0, 0, 0), fcls).min_distance);
   const ::fcl::Coned cone(1, 1);

@@ -262,27 +262,64 @@ TEST(Flat, MayLeanHoweverLittle) {
   }
 }
 
+Transform<double> stretched(double by) {
+  Transform<double> t = Transform<double>::Identity();
+  t.linear() *= by;
+  return t;
+}
+
+/// Poses that are no rigid motion.
+std::vector<Transform<double>> no_poses() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity(), kNan = std::numeric_limits<double>::quiet_NaN();
+  return {at<double>(0, 0, kNan), at<double>(kInfinity, 0, 0), stretched(1.01), stretched(2), stretched(0.5), stretched(kNan)};
+}
+
 /// FCL's solvers would end the program.
 TEST(Flat, HasNoDistanceInAPoseThatIsNone) {
   const fcl::Convex<double> cube(bodies::model(bodies::cube()));
   const ::fcl::Convexd& plain = cube;
-  const ::fcl::Halfspaced ground(Vec3(0, 0, 1), 0);
-  const ::fcl::Planed plane(Vec3(0, 0, 1), 0);
+  const ::fcl::Halfspaced ground(Vec3(0, 0, 1), -2);
+  const ::fcl::Planed plane(Vec3(0, 0, 1), -2);
   const fcl::Solver<double> solver;
-  const Transform<double> nowhere = at<double>(0, 0, std::numeric_limits<double>::quiet_NaN());
-  const auto expect_none = [&](const auto& flat) {
+  const auto expect_none = [&](const auto& flat, const Transform<double>& hull_there, const Transform<double>& flat_there) {
     for (const bool is_signed : {false, true}) {
-      const auto result = measure<double>(cube, nowhere, flat, at<double>(0, 0, 0), solver, is_signed);
+      const auto result = measure<double>(cube, hull_there, flat, flat_there, solver, is_signed);
       EXPECT_EQ(result.min_distance, ::fcl::DistanceResultd().min_distance);
       EXPECT_EQ(result.o1, nullptr);
     }
     double distance = 0;
     Vec3 p = Vec3::Zero(), q = Vec3::Zero();
-    EXPECT_FALSE(solver.shapeDistance(flat, at<double>(0, 0, 0), plain, nowhere, &distance, &p, &q));
+    EXPECT_FALSE(solver.shapeDistance(flat, flat_there, plain, hull_there, &distance, &p, &q));
     EXPECT_TRUE(std::isnan(distance) && p.hasNaN() && q.hasNaN());
   };
-  expect_none(ground);
-  expect_none(plane);
+  const Transform<double> here = at<double>(0, 0, 0);
+  for (const Transform<double>& nowhere : no_poses()) {
+    expect_none(ground, nowhere, here);
+    expect_none(plane, nowhere, here);
+    expect_none(ground, here, nowhere);
+    expect_none(plane, here, nowhere);
+  }
+  for (const double by : {1 + 2e-4, 1 - 2e-4}) {  // is given back, as to any body
+    EXPECT_NEAR(measure<double>(cube, here, ground, stretched(by), solver).min_distance, 1, 1e-12);
+    EXPECT_NEAR(measure<double>(cube, here, plane, stretched(by), solver).min_distance, 1, 1e-12);
+  }
+}
+
+/// FCL's solvers would end the program there, too; with a half-space they do not, and are asked.
+TEST(Flat, APlaneMeetsNothingInAPoseThatIsNone) {
+  const fcl::Convex<double> cube(bodies::model(bodies::cube()));
+  const ::fcl::Planed plane(Vec3(0, 0, 1), 0);
+  const fcl::Solver<double> solver;
+  const Transform<double> here = at<double>(0, 0, 0);
+  ASSERT_TRUE(collide<double>(cube, here, plane, here, solver).isCollision());
+  for (const Transform<double>& nowhere : no_poses()) {
+    for (const bool contacts : {true, false}) {
+      EXPECT_FALSE(collide<double>(cube, nowhere, plane, here, solver, contacts).isCollision());
+      EXPECT_FALSE(collide<double>(cube, here, plane, nowhere, solver, contacts).isCollision());
+      EXPECT_FALSE(collide<double>(plane, nowhere, cube, here, solver, contacts).isCollision());
+      EXPECT_FALSE(collide<double>(plane, here, cube, nowhere, solver, contacts).isCollision());
+    }
+  }
 }
 
 // ---- Triangles -------------------------------------------------------------------------------------------------------------

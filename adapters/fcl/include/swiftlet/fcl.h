@@ -112,11 +112,15 @@ template <class S>
 Operand operand(const ::fcl::TriangleP<S>& shape, const ::fcl::Transform3<S>& tf) {
   return triangle<S>(shape.a, shape.b, shape.c, pose_of(tf));
 }
+/// Whether it is a pose that a `Placed` may have: its rotation is orthonormal to 5e-4.
+bool is_rigid(const Pose& pose);
 /// Of a shape with a normal `n` and an offset `d`, whose length single precision leaves wrong by an ulp.
 template <class Flat, class Shape, class S>
-Flat flat(const Shape& shape, const ::fcl::Transform3<S>& tf) {
-  const Vec3 n = shape.n.template cast<double>(), up = (pose_of(tf).rotation * n).normalized();
-  return {up, up.dot(pose_of(tf).translation) + double(shape.d) / n.norm()};
+Operand flat(const Shape& shape, const ::fcl::Transform3<S>& tf) {
+  const Pose pose = pose_of(tf);
+  if (!is_rigid(pose)) return {};
+  const Vec3 n = shape.n.template cast<double>(), up = (pose.rotation * n).normalized();
+  return Flat{up, up.dot(pose.translation) + double(shape.d) / n.norm()};
 }
 template <class S>
 Operand operand(const ::fcl::Halfspace<S>& shape, const ::fcl::Transform3<S>& tf) {
@@ -129,6 +133,8 @@ Operand operand(const ::fcl::Plane<S>& shape, const ::fcl::Transform3<S>& tf) {
 
 // The kernel answers where one of both holds a model and the other one is anything it knows.
 
+/// Whether it holds a model, in whichever pose.
+bool is_model(const Operand& operand);
 /// Whether they share a point; Undecided: the kernel does not answer.
 Verdict meeting(const Operand& a, const Operand& b, PairSeed& seed);
 /// How far apart or how deep; Found::Nothing: the kernel does not answer.
@@ -179,6 +185,7 @@ struct ShapeSolver {
         }
         return true;
       }
+      if (is_plane<Shape1, Shape2> && (is_model(a) || is_model(b))) return false;
     }
     return others.shapeIntersect(s1, tf1, s2, tf2, contacts);
   }
@@ -257,6 +264,9 @@ struct ShapeSolver {
   template <class... Shapes>
   static constexpr bool is_flat = ((std::is_same_v<Shapes, ::fcl::Halfspace<S>> || std::is_same_v<Shapes, ::fcl::Plane<S>>) ||
                                    ...);
+  /// Whether one of them is a plane, of which FCL's solvers know no collision either.
+  template <class... Shapes>
+  static constexpr bool is_plane = (std::is_same_v<Shapes, ::fcl::Plane<S>> || ...);
 
   /// Whether they share a point, and where; nothing where the kernel does not answer.
   std::optional<bool> meets(const Operand& a, const Operand& b, Point* contact, S* depth, Point* normal) const {
