@@ -355,5 +355,19 @@ TEST(HullPairs, AcceptRotationsOfSinglePrecision) {
   }
 }
 
+/// Nothing is given back to what is farther off: of twice a rotation one step would make a reflection, which queries take.
+TEST(HullPairs, AnswerNothingWhereAPoseIsNoRigidMotion) {
+  World w;
+  HullShape a(bodies::model(bodies::cube())), b(bodies::model(bodies::cube()));
+  const auto twice = [](const btTransform& t) {
+    return btTransform(t.getBasis() * btMatrix3x3(2, 0, 0, 0, 2, 0, 0, 0, 2), t.getOrigin());
+  };
+  const btTransform here = at(0, 0, 0), there = at(3, 0, 0);
+  EXPECT_EQ(closest_points(w, a, here, b, there, 4).size(), 1u);
+  EXPECT_TRUE(closest_points(w, a, here, b, twice(there), 4).empty());
+  EXPECT_TRUE(closest_points(w, a, twice(here), b, there, 4).empty());
+  EXPECT_TRUE(closest_points(w, a, twice(here), b, twice(there), 4).empty());
+}
+
 }  // namespace
 }  // namespace swiftlet

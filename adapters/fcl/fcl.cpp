@@ -28,8 +28,6 @@ HalfSpace facing(const Placed& model, const Plane& plane) {
 
 Pair pair_of(const Operand& first, const Operand& second) {
   Pair pair{std::get_if<Placed>(&first), std::get_if<Placed>(&second), {}, false};
-  for (const Placed* const placed : {pair.a, pair.b})  // of twice a rotation `orthonormal` makes a reflection
-    if (placed && !is_rigid(placed->in_world)) return {};
   if (pair.a && pair.b) return is_model(pair.a) || is_model(pair.b) ? pair : Pair{};
   pair.is_swapped = !pair.a;
   const Operand& flat = pair.is_swapped ? first : second;
@@ -56,11 +54,6 @@ Nearest nearest(const Pair& p, PairSeed& seed) {
 }
 
 }  // namespace
-
-bool is_rigid(const Pose& pose) {
-  constexpr double kMostError = 5e-4;  // of what `orthonormal` takes
-  return ((pose.rotation.transpose() * pose.rotation - Mat3::Identity()).array().abs() <= kMostError).all();
-}
 
 bool is_model(const Operand& operand) { return is_model(std::get_if<Placed>(&operand)); }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include <swiftlet/fcl.h>
 #include <swiftlet/mesh_contacts.h>
 #include <swiftlet/world.h>
 
@@ -76,13 +75,11 @@ std::vector<MeshTouch> touches_of(const PlacedMesh& a, const PlacedMesh& b) {
 }
 
 MeshMeeting meeting_of(const PlacedMesh& a, const PlacedMesh& b, MeshSeed& seed) {
-  if (!is_rigid(a.in_world) || !is_rigid(b.in_world)) return {.status = Status::InvalidPose};
   const Setting at(a, b);
   return in_world(a, b, at, intersects(a.body, b.body, at.b_in_a, seed), seed);
 }
 
 MeshMeeting distance_of(const PlacedMesh& a, const PlacedMesh& b, const Options& options, MeshSeed& seed) {
-  if (!is_rigid(a.in_world) || !is_rigid(b.in_world)) return {.status = Status::InvalidPose};
   const Setting at(a, b);
   return in_world(a, b, at, distance(a.body, b.body, at.b_in_a, seed, options), seed);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -12,7 +13,13 @@
 
 namespace swiftlet {
 
+bool is_rigid(const Pose& pose) {
+  constexpr double kMostError = 5e-4;
+  return ((pose.rotation.transpose() * pose.rotation - Mat3::Identity()).array().abs() <= kMostError).all();
+}
+
 Pose orthonormal(const Pose& pose) {
+  if (!is_rigid(pose)) return {Mat3::Constant(std::numeric_limits<double>::quiet_NaN()), pose.translation};
   const Mat3 gram = pose.rotation.transpose() * pose.rotation;
   return {pose.rotation * (1.5 * Mat3::Identity() - 0.5 * gram), pose.translation};
 }

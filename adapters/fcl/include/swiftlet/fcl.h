@@ -112,8 +112,6 @@ template <class S>
 Operand operand(const ::fcl::TriangleP<S>& shape, const ::fcl::Transform3<S>& tf) {
   return triangle<S>(shape.a, shape.b, shape.c, pose_of(tf));
 }
-/// Whether it is a pose that a `Placed` may have: its rotation is orthonormal to 5e-4.
-bool is_rigid(const Pose& pose);
 /// Of a shape with a normal `n` and an offset `d`, whose length single precision leaves wrong by an ulp.
 template <class Flat, class Shape, class S>
 Operand flat(const Shape& shape, const ::fcl::Transform3<S>& tf) {

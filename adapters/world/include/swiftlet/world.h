@@ -17,8 +17,12 @@ namespace swiftlet {
 /// The model itself. Throws std::invalid_argument where it lacks level 0 (Detail): an engine would be handed a larger hull.
 const Model& whole(const Model& model);
 
+/// Whether a rotation is orthonormal to 5e-4 in each entry of R^T R.
+bool is_rigid(const Pose& pose);
+
 /// One Newton step of the polar decomposition: |R^T R - I| = e becomes 3/4 e^2, 5e-4 becomes 2e-7. Two such rotations stay
-/// within the 1e-6 that a query asks for. Rotations of single precision are off by up to 1e-6 each.
+/// within the 1e-6 that a query asks for. Rotations of single precision are off by up to 1e-6 each. One that is not rigid
+/// becomes NaN, which every query refuses: of twice a rotation the step would make a reflection.
 Pose orthonormal(const Pose& pose);
 
 /// `p`, a point of the pose's own frame, in the frame that it maps to.
