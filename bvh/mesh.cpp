@@ -4,7 +4,6 @@
 #include <swiftlet/mesh.h>
 
 #include <algorithm>
-#include <cstring>
 #include <fstream>
 #include <system_error>
 
@@ -64,7 +63,7 @@ Result<std::size_t> save(const MeshModel& mesh, const std::filesystem::path& pat
 
 Result<MeshModel> load_mesh(std::span<const std::byte> bytes) {
   AlignedBytes block(bytes.size());
-  std::memcpy(block.data(), bytes.data(), bytes.size());
+  std::copy(bytes.begin(), bytes.end(), block.data());
   return MeshReader::read(std::move(block));
 }
 

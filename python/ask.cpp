@@ -199,7 +199,7 @@ time step to time step. A seed changes the work, never the truth; any bits are l
     if (bytes.size() % sizeof(MeshSeed)) throw py::value_error("not the bytes of seeds");
     auto s = std::make_shared<Seeds>();
     s->seeds.resize(bytes.size() / sizeof(MeshSeed));
-    std::memcpy(static_cast<void*>(s->seeds.data()), bytes.data(), bytes.size());
+    if (!bytes.empty()) std::memcpy(static_cast<void*>(s->seeds.data()), bytes.data(), bytes.size());
     return s;
   });
   c.def("__repr__", [](const Seeds& s) { return "<swiftlet.Seeds: " + std::to_string(s.seeds.size()) + ">"; });
