@@ -48,7 +48,7 @@ struct Way {
     const int turn = passes(t.p, t.q);
     return passes(t.q, t.r) == turn && passes(t.r, t.p) == turn;
   }
-  /// On which side its line passes that from u to v.
+  /// On which side the line through both ends passes the line from u to v.
   int passes(const Vec3& u, const Vec3& v) const {
     const int sign = exact::orientation(from.data(), to.data(), u.data(), v.data());
     return sign != 0 ? sign : leading_sign(from, to, u, v);
