@@ -309,8 +309,8 @@ class Help : public CLI::Formatter {
   }
 };
 
-/// Whether a command line asks for JSON, as far as that shows before CLI11 has read it: the last --json or --json=VALUE before a
-/// "--".
+/// Whether a command line asks for JSON, as far as that shows before CLI11 has read it: by the last --json or --json=VALUE
+/// before a "--".
 bool asks_for_json(int argc, char** argv) {
   bool asked = false;
   for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
