@@ -34,13 +34,22 @@ bool is_named(const ConvexView& view, FeatureId feature) {
   return false;
 }
 
-/// What a manifold takes for one face, over the extent: what is asked for, or what the faces are flat to by themselves, 4 ulps
-/// of the corners' own precision.
-double flatness_of(const ManifoldOptions& options, const Subject& subject) {
+/// What a model's faces are flat to by themselves, over the extent: 4 ulps of the corners' own precision.
+double own_flatness(const Subject& subject) {
   const auto is_single = [](const Vertex& v) { return float(v.x) == v.x && float(v.y) == v.y && float(v.z) == v.z; };
   const std::span<const Vertex> corners = subject.model.level(0).view.vertices;
-  const double own = std::all_of(corners.begin(), corners.end(), is_single) ? 0x1p-21 : 0x1p-50;
-  return std::max(std::min(options.flatness, kMostFlatness), own);
+  return std::all_of(corners.begin(), corners.end(), is_single) ? 0x1p-21 : 0x1p-50;
+}
+/// What a manifold takes for one face, over the extent: what is asked for, or what the faces are flat to by themselves.
+double flatness_of(const ManifoldOptions& options, const Subject& subject) {
+  return std::max(std::min(options.flatness, kMostFlatness), own_flatness(subject));
+}
+
+/// Whether a point is a corner of what the contact faces have in common; a deepest point that is none is the answer's.
+bool is_corner(const Manifold& manifold, const ManifoldPoint& p) {
+  const bool is_of_a = p.feature_a.kind() == FeatureKind::Vertex && p.feature_b == manifold.face_b,
+             is_of_b = p.feature_b.kind() == FeatureKind::Vertex && p.feature_a == manifold.face_a;
+  return is_of_a || is_of_b || (p.feature_a.kind() == FeatureKind::Edge && p.feature_b.kind() == FeatureKind::Edge);
 }
 
 /// Of one body: a point less its radius, what it is said to lie on, the contact face, and where the body is.
@@ -144,6 +153,7 @@ std::string Judge::area_of(const Manifold& manifold, const ManifoldOptions& opti
   const double shown = oracle::area(points, n), length = a_.extent + b_.extent, blur = 16 * bound * length;
   // A deepest point inside of the area comes first, and is not on its border.
   std::vector<Vec3> border(points.begin() + 1, points.end());
+  const std::vector<Vec3> corners = is_corner(manifold, manifold.points[0]) ? points : border;
   double bordered = oracle::area(border, n);
   if (bordered < shown - blur) border = points, bordered = shown;
   Vec3 around = Vec3::Zero();
@@ -160,7 +170,10 @@ std::string Judge::area_of(const Manifold& manifold, const ManifoldOptions& opti
   const auto text = [&](const char* what) {
     return std::to_string(manifold.count) + what + std::to_string(shown / common) + " of the area in common";
   };
-  if (!(shown <= common + blur)) return text(" points span ");
+  // The answer's point may lie on a facet that is merged into another face, and so beside the contact face by its flatness.
+  const double aside =
+      is_corner(manifold, manifold.points[0]) ? 0 : own_flatness(a_) * a_.extent + own_flatness(b_) * b_.extent;
+  if (!(shown <= common + blur + aside * length && oracle::area(corners, n) <= common + blur)) return text(" points span ");
   // Faces that are one within the flatness are a line where they are seen narrower than that.
   const auto thin = [&](const Subject& subject, const ConvexView& view, FeatureId face, const Mat3& rotation) {
     const double across = (rotation * oracle::face_normal(view, face)).cross(manifold.normal).norm();

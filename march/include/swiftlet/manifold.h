@@ -55,17 +55,17 @@ struct ManifoldOptions {
 /// reaches farthest along the normal, the one that faces best along it. Both contact faces are projected along the normal; the
 /// corners of their intersection are the points. If there are more than `most_points`, those are kept that have the least
 /// separation and cover most of the area: four points keep 0.6 of a round face, eight 0.87; four keep all of a square; of any
-/// face three keep at least 0.28, four 0.5, eight 0.78. A deepest point inside of the area, as merged faces may have, is one of
-/// them: the others keep what one point fewer does. Points of `previous`, this pair's last manifold, are preferred: a pair at
-/// rest keeps its points while poses are off by a few ulps of single precision. The least separation equals the answer's within
-/// `tolerance`; where the normal has turned by no more than 8 `flatness` since `previous`, within `flatness` more, for then
-/// other corners take turns as the deepest. Where the exact corners then lack a point of `previous`, corners that miss the
-/// other face by no more than twice `flatness` count as inside of it, and the other body's point lies beside it by as much:
-/// faces that are flush with each other keep their points. The manifold is empty if the answer has no normal (as a distance has
-/// none in an overlap), other radii than the bodies, or levels or features that the bodies lack. Allocates nothing; uses 9.3 kB
-/// of stack. Cost: the sum of both faces' sides; beyond 256 sides in all, of faces whose corners are numbered one after the
-/// other (`ConvexView::rims`), their logarithm; where the border of a merged contact face turns in and out by less than
-/// `flatness`, at most the square of its sides.
+/// face three keep at least 0.28, four 0.5, eight 0.78. A deepest point inside of the area, as merged faces may have, or beside
+/// it by no more than these are flat, is one of them: the others keep what one point fewer does. Points of `previous`, this
+/// pair's last manifold, are preferred: a pair at rest keeps its points while poses are off by a few ulps of single precision.
+/// The least separation equals the answer's within `tolerance`; where the normal has turned by no more than 8 `flatness` since
+/// `previous`, within `flatness` more, for then other corners take turns as the deepest. Where the exact corners then lack a
+/// point of `previous`, corners that miss the other face by no more than twice `flatness` count as inside of it, and the other
+/// body's point lies beside it by as much: faces that are flush with each other keep their points. The manifold is empty if the
+/// answer has no normal (as a distance has none in an overlap), other radii than the bodies, or levels or features that the
+/// bodies lack. Allocates nothing; uses 9.3 kB of stack. Cost: the sum of both faces' sides; beyond 256 sides in all, of faces
+/// whose corners are numbered one after the other (`ConvexView::rims`), their logarithm; where the border of a merged contact
+/// face turns in and out by less than `flatness`, at most the square of its sides.
 Manifold manifold(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const ManifoldOptions& options = {},
                   const Manifold& previous = {});
 
