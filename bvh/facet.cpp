@@ -25,6 +25,14 @@ void Facet::measure() {
   area = cross(u, v);
   box = {least_of(least_of(at[0], at[1]), at[2]), most_of(most_of(at[0], at[1]), at[2])};
   is_face = std::fabs(area) > kNarrowest * max(max(dot(u, u), dot(v, v)), dot(w, w));
+  names = bit_of(face);
+  for (int k = 0; k < 3; ++k) names |= bit_of(vertex[k]) | bit_of(side[k]);
+}
+
+bool Facet::may_name(FeatureId feature) const {
+  if (!(names & bit_of(feature))) return false;
+  return is_fan || feature == face || std::find(vertex, vertex + 3, feature) != vertex + 3 ||
+         std::find(side, side + 3, feature) != side + 3;
 }
 
 bool is_over(const Facet& facet, const Vec& place, double bound, Shares& shares) {
@@ -58,12 +66,7 @@ bool cross_at(const Vec& p, const Vec& to_p, const Vec& q, const Vec& to_q, doub
   return true;
 }
 
-Farthest::Farthest(const Manifold& previous, double bound) : previous_(previous), bound_(bound) {
-  for (std::uint32_t i = 0; i < std::min(previous.count, kMostManifoldPoints); ++i) {
-    known_bits_[0] |= bit_of(previous.points[i].feature_a);
-    known_bits_[1] |= bit_of(previous.points[i].feature_b);
-  }
-}
+Farthest::Farthest(const Manifold& previous, double bound) : previous_(previous), bound_(bound) {}
 
 bool Farthest::may_take(const Facet& a, const Facet& b) const {
   const Vec least = most_of(a.box.least, b.box.least), most = least_of(a.box.most, b.box.most);
@@ -75,12 +78,9 @@ bool Farthest::may_take(const Facet& a, const Facet& b) const {
     const double along = x * kCos[i] + y * sine(i), half = half_x * std::fabs(kCos[i]) + half_y * sine(i);
     if (half + along >= far_[i] - bound_ || half - along >= far_[i + kHalf] - bound_) return true;
   }
-  const auto bits = [](const Facet& f) {
-    std::uint64_t all = bit_of(f.face);
-    for (int k = 0; k < 3; ++k) all |= bit_of(f.vertex[k]) | bit_of(f.side[k]);
-    return all;
-  };
-  return previous_.count > 0 && (bits(a) & known_bits_[0]) && (bits(b) & known_bits_[1]);
+  const auto first = previous_.points.begin();
+  return std::any_of(first, first + std::min(previous_.count, kMostManifoldPoints),
+                     [&](const ManifoldPoint& p) { return a.may_name(p.feature_a) && b.may_name(p.feature_b); });
 }
 
 bool Farthest::is_known(const Candidate& candidate) const {

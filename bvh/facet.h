@@ -31,12 +31,16 @@ struct Facet {
   FeatureId vertex[3];  ///< their names
   FeatureId side[3];    ///< names of the sides from each to the next; none of a diagonal
   FeatureId face;
-  double area = 0;       ///< twice the projected area, positive if counter-clockwise
-  bool is_face = false;  ///< it is not seen from the side: what lies over it has a height
-  Box box;               ///< around the corners
+  double area = 0;          ///< twice the projected area, positive if counter-clockwise
+  bool is_face = false;     ///< it is not seen from the side: what lies over it has a height
+  Box box;                  ///< around the corners
+  std::uint64_t names = 0;  ///< one bit for each name's index, modulo 64
+  bool is_fan = false;      ///< it stands for a whole fan, and has the box and the bits of all of that alone
 
-  /// Sets the last three from the corners.
+  /// Sets area, face, box and bits from the corners and names.
   void measure();
+  /// Whether the feature may be one of those that it names.
+  bool may_name(FeatureId feature) const;
 };
 
 /// Calls `add(candidate)` for each place where the facets face each other: corners of one over the other, and sides that cross.
@@ -83,7 +87,8 @@ class Farthest {
  public:
   Farthest(const Manifold& previous, double bound);
 
-  /// Whether a candidate of these facets may change what is kept. Of many triangles of a flat contact few do.
+  /// Whether a candidate of these facets may change what is kept: their boxes and names tell. Of many triangles of a flat
+  /// contact few do.
   bool may_take(const Facet& a, const Facet& b) const;
   void add(const Candidate& candidate);
   /// The least separation of all; infinite if there are none.
@@ -99,7 +104,6 @@ class Farthest {
 
   const Manifold& previous_;
   const double bound_;
-  std::uint64_t known_bits_[2] = {};  ///< per body, those of the indices that `previous` names, modulo 64
   int count_ = 0, known_count_ = 0;
   Candidate deepest_, at_[2 * kHalf], known_[kMostManifoldPoints];
   double far_[2 * kHalf];

@@ -23,6 +23,8 @@ namespace {
 constexpr int kMostMet = 64, kMostTried = 40;
 /// So often pairs that were not kept are looked for.
 constexpr int kMostRounds = 8;
+/// A contact face that leans more from the direction along which its body ends tells little of where that is.
+constexpr double kLeastCosine = 0.5;
 
 struct Ids {
   std::uint32_t a, b;
@@ -43,7 +45,7 @@ struct RegionOf {
 /// A convex body's vertices; a mesh has none.
 class ConvexFace {
  public:
-  /// The contact face of `of` along `n`, a direction of A's frame into which `in_a` moves the body.
+  /// `in_a` moves the body into A's frame, where directions and points are.
   ConvexFace(const MeshView& of, const Motion& in_a) : in_a_(in_a) {
     if (of.triangles) return;
     shape_.emplace(of.convex->body);
@@ -58,6 +60,11 @@ class ConvexFace {
     std::uint32_t tests = 0;
     return swiftlet::support(*level_, rotate_back(in_a_, n), 0, tests);
   }
+  /// The contact face at that vertex.
+  ContactFace contact_face(const Vec& n, FeatureId before = {}, double flatness = 0) const {
+    return {*level_, rotate_back(in_a_, n), FeatureId(FeatureKind::Vertex, support(n)), before, flatness, 0};
+  }
+  Vec direction(const Vec& own) const { return rotate(in_a_, own); }
 
  private:
   const Motion& in_a_;
@@ -84,19 +91,25 @@ class Way {
   /// Looks along `n`, a unit direction, from now on.
   void turn(const Vec& n) {
     n_ = n;
-    if (body_a_) end_of_a_ = dot(n, body_a_.point(body_a_.support(n)));
-    if (body_b_) end_of_b_ = dot(n, body_b_.point(body_b_.support(-n)));
+    if (both_) return;
+    const ConvexFace& body = body_a_ ? body_a_ : body_b_;
+    const auto end = [&](const Vec& out) { return dot(out, body.point(body.support(out))); };
+    out_ = body_a_ ? n : -n, face_ = body.direction(body.contact_face(out_).normal());
+    const double cosine = dot(face_, out_);
+    face_ = cosine > kLeastCosine ? face_ * (1 / cosine) : out_;
+    body_end_ = end(out_), face_end_ = end(face_), norm_of_face_ = norm(face_);
   }
-  /// How far both overlap along the direction, with their radii: by more B need not go.
+  /// How far both overlap along the direction, with their radii.
   double overlap(Ids ids) {
     read(ids);
     if (both_) return radii_ - TrianglePair(a_, b_, in_.at.motion, in_.at.size).gap(n_);
-    if (in_.at.a.triangles) end_of_a_ = max(max(dot(n_, a_[0]), dot(n_, a_[1])), dot(n_, a_[2]));
-    if (in_.at.b.triangles) {
-      const auto along = [&](int k) { return dot(n_, apply(in_.at.motion, b_[k])); };
-      end_of_b_ = min(min(along(0), along(1)), along(2));
-    }
-    return end_of_a_ - end_of_b_ + in_.at.law_two + radii_;
+    return body_end_ - least_of_triangle(out_) + in_.at.law_two + radii_;
+  }
+  /// B need not go farther: their overlap; a triangle and a convex body are apart, too, where the triangle is above the plane
+  /// of the body's contact face.
+  double most_way(Ids ids) {
+    const double most = overlap(ids);
+    return both_ ? most : min(most, face_end_ - least_of_triangle(face_) + (in_.at.law_two + radii_) * norm_of_face_);
   }
   /// Fills all of `met` but its ids. Returns false if the pair, without radii, is farther apart than what meets.
   bool meets(Met& met) {
@@ -115,7 +128,7 @@ class Way {
   }
   /// How far B must go along the direction until the pair is apart.
   double way(const Met& met) {
-    const double most = max(0, overlap(met.ids));
+    const double most = max(0, most_way(met.ids));
     if (both_) return min(most, axes_of(met.ids).travel(n_, radii_));
     const double slope = dot(met.least, n_);
     return slope > kLeastSlope ? min(most, (met.depth + radii_) / (slope - kSlopeError)) : most;
@@ -125,6 +138,12 @@ class Way {
   Vec normal_b(const Met& met) const { return in_.at.b.triangles ? normal(b_, in_.at.motion) : -met.least; }
 
  private:
+  /// How far the triangle of a pair with a convex body reaches against a direction.
+  double least_of_triangle(const Vec& along) const {
+    if (body_b_) return min(min(dot(along, a_[0]), dot(along, a_[1])), dot(along, a_[2]));
+    const auto at = [&](int k) { return dot(along, apply(in_.at.motion, b_[k])); };
+    return min(min(at(0), at(1)), at(2));
+  }
   /// Of the pair that was read last.
   const PairAxes& axes_of(Ids ids) {
     if (!axes_ || ids.a != of_axes_.a || ids.b != of_axes_.b) axes_.emplace(a_, b_, in_.at.motion, in_.at.size);
@@ -144,11 +163,40 @@ class Way {
   const bool both_ = in_.at.a.triangles && in_.at.b.triangles;
   const double radii_ = in_.radii();
   Vec n_{0, 0, 0};
-  double end_of_a_ = 0, end_of_b_ = 0;  ///< along the direction
+  // Of a convex body: the way out of it along the direction, and across its contact face, as long as gives 1 along the
+  // direction; and the body's ends along both.
+  Vec out_{0, 0, 0}, face_{0, 0, 0};
+  double body_end_ = 0, face_end_ = 0, norm_of_face_ = 1;
   Vec a_[3], b_[3];
   std::optional<PairAxes> axes_;
   Ids of_axes_{kNone, kNone};
   PairSeed seed_{};
+};
+
+/// The way that is none but for the radii: twice law 2's bound more than their sum.
+double nothing(const RegionOf& in) { return 2 * in.at.law_two + in.radii(); }
+
+/// The longest way along one direction of the pairs that were looked at. One of which it is certain that it is longer than
+/// those that were asked by no more than twice law 2's bound counts with that and is not asked: of the many pairs of faces that
+/// are flush all but few.
+class LongestWay {
+ public:
+  bool settles(const RegionOf& in, double most_way) {
+    if (most_way > asked_ + 2 * in.at.law_two) return false;
+    most_ = max(most_, most_way);
+    return true;
+  }
+  /// Returns whether it is the longest of those that were asked.
+  bool add(double way) {
+    const bool is_longest = way > asked_;
+    asked_ = max(asked_, way), most_ = max(most_, way);
+    return is_longest;
+  }
+  double asked() const { return asked_; }
+  double most() const { return most_; }
+
+ private:
+  double asked_ = 0, most_ = 0;
 };
 
 /// Visits the pairs of triangles whose boxes both meet the region's.
@@ -196,9 +244,6 @@ class Tried {
   bool is_face_[kMostTried];
 };
 
-/// The way that is none but for the radii: twice law 2's bound more than their sum.
-double nothing(const RegionOf& in) { return 2 * in.at.law_two + in.radii(); }
-
 /// True if along `n` each pair of the region that meets overlaps by `nothing` at most.
 bool parts_all(const RegionOf& in, Way& way, const Vec& n) {
   if (!(dot(n, n) > 0)) return false;
@@ -242,38 +287,36 @@ bool parts_all(const RegionOf& in, Way& way, const Vec& n) {
   tried.add_both(normalised(sum_a - sum_b)), tried.add_both(normalised(sum_a)), tried.add_both(normalised(sum_b));
 
   const double none = nothing(in);
-  const auto way_of = [&](const Met& of, double most) {
-    const double overlap = way.overlap(of.ids);
-    return overlap <= max(most, none) ? overlap : way.way(of);
-  };
   double least = HUGE_VAL;
-  double known[kMostTried] = {};  // along each direction tried, the longest way of the pairs that were asked
+  LongestWay known[kMostTried];  // along each direction tried
   for (int round = 0; round < kMostRounds && count > 0; ++round) {
     double of_met = HUGE_VAL;
     Vec best = first;
     for (int k = 0; k < tried.size(); ++k) {
       const double price = tried.is_face(k) ? 0 : in.slack;
-      double& most = known[k];
+      LongestWay& longest = known[k];
       way.turn(tried[k]);
-      for (int i = 0; i < count && most + price < of_met; ++i) {
-        most = max(most, way_of(met[i], most));
-        if (most + price >= of_met) std::swap(met[i], met[0]);  // it may rule out the next one too
+      for (int i = 0; i < count && longest.most() + price < of_met; ++i) {
+        const double most = way.most_way(met[i].ids);
+        if (!longest.settles(in, most)) longest.add(most <= none ? most : way.way(met[i]));
+        if (longest.most() + price >= of_met) std::swap(met[i], met[0]);  // it may rule out the next one too
       }
-      if (most + price < of_met) of_met = most + price, best = tried[k];
+      if (longest.most() + price < of_met) of_met = longest.most() + price, best = tried[k];
     }
     if (of_met >= least) break;
     if (is_all) return normal = best, true;
-    double most = 0;
+    LongestWay longest;
     Met worst{};
     way.turn(best);
     for_pairs(in, in.near(), [&](Ids ids) {
       Met other{ids, {}, 0};
-      if (way.overlap(ids) > max(most, none) && !way.meets(other)) return true;
-      if (const double along = way_of(other, most); along > most) most = along, worst = other;
+      const double most = way.most_way(ids);
+      if (longest.settles(in, most) || (most > none && !way.meets(other))) return true;
+      if (longest.add(most <= none ? most : way.way(other))) worst = other;
       return true;
     });
-    if (most < least) least = most, normal = best;
-    if (most <= max(of_met, none)) break;
+    if (longest.most() < least) least = longest.most(), normal = best;
+    if (longest.asked() <= max(of_met, none)) break;
     met[kMostMet - 1 - round] = worst;
     tried.add(worst.least);
   }
@@ -284,14 +327,16 @@ bool parts_all(const RegionOf& in, Way& way, const Vec& n) {
 [[gnu::noinline]] double way_along(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b, const Vec& n) {
   Way way(in, body_a, body_b);
   way.turn(n);
-  double most = -HUGE_VAL;
+  LongestWay longest;
+  bool meets = false;
   for_pairs(in, in.near(), [&](Ids ids) {
     Met met{ids, {}, 0};
-    const double overlap = way.overlap(ids);
-    if (overlap > most && way.meets(met)) most = max(max(most, 0), overlap <= nothing(in) ? overlap : way.way(met));
+    const double most = way.most_way(ids);
+    if ((meets && longest.settles(in, most)) || !way.meets(met)) return true;
+    meets = true, longest.add(most <= nothing(in) ? most : way.way(met));
     return true;
   });
-  return most >= 0 ? most : HUGE_VAL;
+  return meets ? longest.most() : HUGE_VAL;
 }
 
 /// What is asked for, in the range that is allowed.
@@ -299,29 +344,76 @@ double flatness(const ManifoldOptions& options) { return max(0, min(options.flat
 
 // ---- The points ------------------------------------------------------------------------------------------------------------
 
-/// Calls `on_facet` for the triangle, or for those of a fan over a convex body's contact face.
-template <class OnFacet>
-void for_facets(const MeshView& of, const Motion& in_a, std::uint32_t triangle, const ConvexFace& body,
-                const ContactFace* contact_face, const NormalView& seen, const OnFacet& on_facet) {
-  Facet facet;
-  if (of.triangles) {
-    Vec corner[3];
-    corners(of, triangle, corner);
-    for (int k = 0; k < 3; ++k) {
-      facet.at[k] = seen.at(apply(in_a, corner[k]));
-      facet.vertex[k] = {FeatureKind::Vertex, of.triangles[triangle][std::size_t(k)]};
-      facet.side[k] = side(triangle, k);
-    }
-    facet.face = whole(of, triangle);
-    facet.measure();
-    return on_facet(facet);
+/// One of both surfaces as the projection shows it: a triangle of a mesh at a time, or the contact face of a convex body, which
+/// is a fan of triangles.
+class Seen {
+ public:
+  /// `n`: outwards, in A's frame, as is what `in_a` makes of the body. The rest as of ContactFace.
+  Seen(const MeshView& of, const Motion& in_a, const ConvexFace& body, const NormalView& view, const Vec& n, FeatureId before,
+       double flatness)
+      : of_(of), in_a_(in_a), body_(body), view_(view) {
+    if (!body) return;
+    face_.emplace(body.contact_face(n, before, flatness));
+    fan_.is_fan = true;
+    const Vec normal = body.direction(face_->normal()), out = {dot(view.x, normal), dot(view.y, normal), dot(view.n, normal)};
+    if (std::fabs(out.z) > kLeastCosine) rise_ = {-out.x / out.z, -out.y / out.z};
+    each_of_fan([&](const Facet& facet) {
+      fan_.box = fan_.names == 0 ? facet.box : around(fan_.box, facet.box), fan_.names |= facet.names;
+      for (const Vec& corner : facet.at)
+        least_off_ = min(least_off_, corner.z - of_plane(corner)), most_off_ = max(most_off_, corner.z - of_plane(corner));
+    });
   }
-  const ConvexView& view = body.view();
-  facet.face = contact_face->name();
+  bool is_fan() const { return face_.has_value(); }
+  /// A box around what of the fan may be over a triangle, and the names of all.
+  Facet fan_over(const Facet& triangle) const {
+    Facet over = fan_;
+    const double z[3] = {of_plane(triangle.at[0]), of_plane(triangle.at[1]), of_plane(triangle.at[2])};
+    over.box.least.z = max(over.box.least.z, min(min(z[0], z[1]), z[2]) + least_off_);
+    over.box.most.z = min(over.box.most.z, max(max(z[0], z[1]), z[2]) + most_off_);
+    return over;
+  }
+  template <class OnFacet>
+  void each_of_fan(const OnFacet& on_facet) const;
+  Facet triangle(std::uint32_t triangle) const;
+
+ private:
+  Vec at(const Vec& point) const { return view_.at(apply(in_a_, point)); }
+  double of_plane(const Vec& seen) const { return rise_.x * seen.x + rise_.y * seen.y; }
+
+  const MeshView& of_;
+  const Motion& in_a_;
+  const ConvexFace& body_;
+  const NormalView& view_;
+  std::optional<ContactFace> face_;
+  Facet fan_;
+  Place rise_{0, 0};                                      ///< of the fan's plane, per unit of x and y
+  double least_off_ = HUGE_VAL, most_off_ = -least_off_;  ///< how far above it through the middle corners are
+};
+
+Facet Seen::triangle(std::uint32_t triangle) const {
+  Facet facet;
+  Vec corner[3];
+  corners(of_, triangle, corner);
+  for (int k = 0; k < 3; ++k) {
+    facet.at[k] = at(corner[k]);
+    facet.vertex[k] = {FeatureKind::Vertex, of_.triangles[triangle][std::size_t(k)]};
+    facet.side[k] = side(triangle, k);
+  }
+  facet.face = whole(of_, triangle);
+  facet.measure();
+  return facet;
+}
+
+template <class OnFacet>
+void Seen::each_of_fan(const OnFacet& on_facet) const {
+  const ConvexView& view = body_.view();
+  const ContactFace& face = *face_;
+  Facet facet;
+  facet.face = face.name();
   const auto put = [&](int k, std::uint32_t v) {
-    facet.at[k] = seen.at(body.point(v)), facet.vertex[k] = {FeatureKind::Vertex, v};
+    facet.at[k] = view_.at(body_.point(v)), facet.vertex[k] = {FeatureKind::Vertex, v};
   };
-  const std::uint32_t first = contact_face->side();
+  const std::uint32_t first = face.side();
   if (first == kNone) {
     for (int k = 0; k < 3; ++k) put(k, 0);
     facet.measure();
@@ -331,12 +423,12 @@ void for_facets(const MeshView& of, const Motion& in_a, std::uint32_t triangle, 
   const std::uint32_t top = origin(view, first);
   put(0, top), put(1, view.half_edges[first].head);
   facet.side[0] = edge(first);
-  for (std::uint32_t h = contact_face->onward<true>(first);; h = contact_face->onward<true>(h)) {
+  for (std::uint32_t h = face.onward<true>(first);; h = face.onward<true>(h)) {
     const bool is_last = view.half_edges[h].head == top;
     if (is_last && facet.side[0].kind() == FeatureKind::None) break;  // the fan's last triangle has had this side
     put(2, view.half_edges[h].head);
     facet.side[1] = edge(h);
-    const std::uint32_t next = is_last ? h : contact_face->onward<true>(h);
+    const std::uint32_t next = is_last ? h : face.onward<true>(h);
     facet.side[2] = !is_last && view.half_edges[next].head == top ? edge(next) : FeatureId();
     facet.measure();
     on_facet(facet);
@@ -365,14 +457,8 @@ void grow(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b
           const Vec& middle, double margin, const ManifoldOptions& options, const Manifold& previous, Manifold& manifold) {
   const double bound = in.at.law_two, flatness = swiftlet::flatness(options), least = witness.separation;
   const NormalView seen(normal, middle);
-  std::optional<ContactFace> face_a, face_b;
-  const auto contact_face = [&](const ConvexFace& body, const Vec& n, const Motion& in_a, FeatureId before,
-                                std::optional<ContactFace>& face) {
-    if (body)
-      face.emplace(body.view(), rotate_back(in_a, n), FeatureId(FeatureKind::Vertex, body.support(n)), before, flatness, 0);
-  };
-  contact_face(body_a, normal, kAtRest, previous.face_a, face_a);
-  contact_face(body_b, -normal, in.at.motion, previous.face_b, face_b);
+  const Seen of_a(in.at.a, kAtRest, body_a, seen, normal, previous.face_a, flatness),
+      of_b(in.at.b, in.at.motion, body_b, seen, -normal, previous.face_b, flatness);
 
   const bool rests = norm(normal - vec(previous.normal)) <= kRestingTurn * flatness;
   const double slack = rests ? flatness * max(in.at.a.root->extent, in.at.b.root->extent) : 0;
@@ -383,19 +469,25 @@ void grow(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b
   for (const double beside : {bound / 2, kRestingSlide * slack}) {
     if (kept >= int(std::min(previous.count, most)) || beside < bound / 2) break;
     Farthest farthest(previous, 2 * beside);
+    const auto is_wanted = [&](const Facet& a, const Facet& b) {
+      return b.box.least.z - a.box.most.z <= margin + bound && b.box.most.z - a.box.least.z >= least - 2 * beside &&
+             farthest.may_take(a, b);
+    };
     const auto look = [&](const Facet& a, const Facet& b) {
-      if (b.box.least.z - a.box.most.z > margin + bound || b.box.most.z - a.box.least.z < least - 2 * beside ||
-          !farthest.may_take(a, b))
-        return;
+      if (!is_wanted(a, b)) return;
       face_each_other(a, b, beside, [&](const Candidate& c) {
         if (c.separation >= least - 2 * beside && c.separation <= margin + bound) farthest.add(c);
       });
     };
     for_pairs(in, max(max(margin, std::fabs(least)), 2 * beside) + bound, [&](Ids ids) {
-      for_facets(in.at.a, kAtRest, ids.a, body_a, face_a ? &*face_a : nullptr, seen, [&](const Facet& a) {
-        for_facets(in.at.b, in.at.motion, ids.b, body_b, face_b ? &*face_b : nullptr, seen,
-                   [&](const Facet& b) { look(a, b); });
-      });
+      if (of_a.is_fan()) {
+        const Facet b = of_b.triangle(ids.b);
+        if (is_wanted(of_a.fan_over(b), b)) of_a.each_of_fan([&](const Facet& a) { look(a, b); });
+      } else if (const Facet a = of_a.triangle(ids.a); !of_b.is_fan()) {
+        look(a, of_b.triangle(ids.b));
+      } else if (is_wanted(a, of_b.fan_over(a))) {
+        of_b.each_of_fan([&](const Facet& b) { look(a, b); });
+      }
       return true;
     });
     Candidates candidates(margin + bound, previous);

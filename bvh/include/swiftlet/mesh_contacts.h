@@ -80,10 +80,10 @@ MeshContacts contacts(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, 
 /// has no say in it: a pair that is nearer than a slack of twice `flatness` times the larger body's extent meets too, is apart
 /// once it is farther, and a triangle's normal gives way to no other direction that is shorter by less. So faces that are flush
 /// are parted where they face each other, whether beside that they cross, touch or miss. The way along the normal is that of
-/// the pairs that meet now, without the slack. Each is proved apart, by an axis along which the two do not overlap once B has
-/// gone the way; pairs that do not meet now may meet then. Whether a pair meets is asked without the radii, and a pair is apart
-/// once it is so with them. The first point's separation is minus the way. It is the depth of the triangles that cross, and not
-/// of closed bodies.
+/// the pairs that meet now, without the slack, or longer by up to twice law 2's bound. Each is proved apart, by an axis along
+/// which the two do not overlap once B has gone the way; pairs that do not meet now may meet then. Whether a pair meets is
+/// asked without the radii, and a pair is apart once it is so with them. The first point's separation is minus the way. It is
+/// the depth of the triangles that cross, and not of closed bodies.
 ///
 /// Points. All pairs of the region are projected along the normal; corners of one triangle over the other, and sides that
 /// cross, lie on both surfaces within 2^-20 of law 2's size, mostly within twice `tolerance`; at rest the other body's point
@@ -102,9 +102,10 @@ MeshContacts contacts(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, 
 /// outside of it by the level's deviation, and no separation is above the body's.
 ///
 /// Of two convex bodies: manifold.h's, of their signed distance. Cost: 0.1 to 0.3 microseconds for each pair of triangles
-/// within reach in the region, times the sides of its contact face if one is a convex body, and once more where a pair at rest
-/// would lose points; some 100 more where triangles cross or touch; and where most do, as in soups that cross each other, 10 to
-/// 20 for each pair whose boxes meet. Allocates nothing; uses 32 kB of stack, and up to 64 if one is a convex body.
+/// within reach in the region; if one is a convex body, for those at the region's border 0.02 for each side of its contact
+/// face; all once more where a pair at rest would lose points; some 100 more where triangles cross or touch; and where most do,
+/// as in soups that cross each other, 10 to 20 for each pair whose boxes meet. Allocates nothing; uses 32 kB of stack, and up
+/// to 64 if one is a convex body.
 Manifold manifold(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const MeshContact& contact,
                   const ManifoldOptions& options = {}, const Manifold& previous = {});
 
