@@ -669,6 +669,37 @@ TEST(Check, ExactAnswersAreNarrow) {
   }
 }
 
+/// Coarse levels hold points that are on no body: an exact answer was taken whose points these alone hold.
+TEST(Check, ExactAnswersHavePointsOfBodies) {
+  const Model ball = build(shapes::random_polytope(300, 5)).value().model;
+  const int coarse = ball.level_count() - 1;
+  ASSERT_GT(ball.level(coarse).deviation, 1e-3);
+  for (const double away : {3.0, 1.5}) {
+    const Pose pose{Mat3::Identity(), {away, 0.2, 0.1}};
+    for (const Answer& s : {distance(ball, ball, pose), signed_distance(ball, ball, pose)}) {
+      if (!s.is_signed && !(s.lower > 0)) continue;
+      EXPECT_EQ(check(ball, ball, pose, s, Question::Exact).message, "");
+      for (const Vec3& way : {s.normal, Vec3(-s.normal), s.normal.unitOrthogonal()}) {
+        Answer wrong = s;
+        wrong.level_a = wrong.level_b = std::int16_t(coarse);
+        wrong.feature_a = wrong.feature_b = {};
+        wrong.point_a += 1e-3 * way;
+        EXPECT_NE(check(ball, ball, pose, wrong, Question::Exact).message, "") << away;
+      }
+    }
+  }
+}
+
+TEST(Check, ExactAnswersAreDecided) {
+  const Model cube = bodies::model(bodies::cube());
+  const Pose pose{Mat3::Identity(), {0.5, 0.25, 0.125}};
+  Answer s = distance(cube, cube, pose);
+  ASSERT_EQ(s.verdict, Verdict::Overlapping);
+  EXPECT_EQ(check(cube, cube, pose, s, Question::Exact).message, "");
+  s.verdict = Verdict::Undecided;
+  EXPECT_NE(check(cube, cube, pose, s, Question::Exact).message, "");
+}
+
 /// A threshold of depth may end with bounds as near as those of the exact depth before the deepest points are known. They were
 /// refused as 6e-10 off the normal.
 TEST(Check, AcceptsThresholdsThatEndBesideTheDepth) {

@@ -25,6 +25,7 @@ inline constexpr Forgery kForgeries[] = {
     {"refused", [](Answer& s, double) { s.status = Status::InvalidPose; }},
     {"touching", [](Answer& s, double) { s.verdict = Verdict::Touching; }},
     {"the other verdict", [](Answer& s, double) { s.verdict = s.lower > 0 ? Verdict::Overlapping : Verdict::Disjoint; }},
+    {"undecided", [](Answer& s, double) { s.verdict = Verdict::Undecided; }},
     {"a level of A", [](Answer& s, double) { s.level_a = 77; }},
     {"a level of B", [](Answer& s, double) { s.level_b = -1; }},
     {"no such vertex of A",

@@ -208,6 +208,7 @@ struct Checked {
   const Shape &a, &b;
   const Answer& answer;
   const bool is_exact;  ///< an exact distance was asked for
+  bool is_certain() const { return is_exact && answer.status == Status::Converged; }
   double stretch = 1, radii = 0;
   Vec normal{0, 0, 0}, point_a{0, 0, 0}, point_b{0, 0, 0};  ///< of the hulls; the normal is 0 if unknown
   double touching = 0, narrow = 0;  ///< law 2's bound for the bodies, and without their radii, but with what these round

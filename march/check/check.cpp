@@ -144,9 +144,7 @@ Check Checked::members_hold() const {
 
 Check Checked::is_narrow() const {
   const double width = answer.upper - answer.lower, allowed = touching + (radii > 0 ? 8 * kU * std::fabs(answer.lower) : 0);
-  return !is_exact || answer.status != Status::Converged || width <= allowed
-             ? kPassed
-             : failed("exact, but the bounds are %.17g apart", width);
+  return !is_certain() || width <= allowed ? kPassed : failed("exact, but the bounds are %.17g apart", width);
 }
 
 Check Checked::points_are_nearest() const {
@@ -160,6 +158,8 @@ Check Checked::points_are_nearest() const {
   // -lower along n: aside^2 <= lower^2 - upper^2.
   const bool may_lean = !is_exact || answer.status == Status::Beyond;
   const double lean = may_lean ? std::sqrt(2 * (narrow + 2 * slack) * norm(point_b - point_a)) : 0;
+  if (is_certain() && !(deviation <= touching))
+    return failed("exact, but the points are of levels that deviate by %.17g", deviation);
   return aside <= slack + deviation + lean ? kPassed
                                            : failed("the points are %.17g off the signed distance along the normal", aside);
 }
@@ -231,7 +231,10 @@ Check check_distance(const Checked& of, const OverlapProof* proof) {
       if (answer.upper != 0) return failed("overlapping with an upper bound of %.17g", answer.upper);
       if (of.radii > 0 && apart <= of.radii + 2 * of.touching && (between || of.radii > 2 * of.slack)) return kPassed;
       return between ? failed("overlap of radii with points %.17g apart", apart) : of.hulls_overlap(proof);
-    case Verdict::Undecided: return answer.lower > 0 ? failed("undecided with a lower bound of %.17g", answer.lower) : kPassed;
+    case Verdict::Undecided:
+      if (answer.lower > 0) return failed("undecided with a lower bound of %.17g", answer.lower);
+      return !of.is_certain() || answer.is_signed || of.is_shallow() ? kPassed
+                                                                     : failed("undecided of bodies deep in each other");
   }
   return kPassed;
 }

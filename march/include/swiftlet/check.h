@@ -38,7 +38,8 @@ enum class Question : std::uint8_t {
 /// segment or a polygon, at most as far away. Which features hold the points is not looked at: a threshold question names those
 /// of its last sample.
 ///
-/// The interval of an exact answer that is Converged must be within law 2's bound. Where an interval is, of the hulls, the
+/// The interval of an exact answer that is Converged must be within law 2's bound, and so must its levels be of the bodies
+/// where it has points between them; Undecided, it must be within that of contact. Where an interval is, of the hulls, the
 /// points of an exact answer must differ by the signed distance along the normal, within that bound, unless the status is
 /// Budget or Beyond, the verdict Undecided, or an overlap unsigned, whose points nobody asked to be the nearest. Any other
 /// question may end so near by chance, at a threshold or an allowed error, before the nearest features are found: its points
@@ -53,9 +54,9 @@ Check check(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answ
 Check check(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answer, const OverlapProof* proof = nullptr);
 
 /// Proves exactly that every level is convex and encloses level 0 and that no vertex is higher above a face's plane than
-/// FacePlane::over, and by certified bounds that every deviation, reach and support map holds. (That links and tables name
-/// features is checked whenever a model is made or read.) Fails if level 0 is absent. Cost: a support climb per face, a
-/// distance query per vertex, all vertices per cell of a map.
+/// FacePlane::over, and by certified bounds that every reach and support map holds and every deviation within law 2's bound.
+/// (That links and tables name features is checked whenever a model is made or read.) Fails if level 0 is absent. Cost: a
+/// support climb per face, a distance query per vertex, all vertices per cell of a map.
 Check verify(const Model& model);
 
 }  // namespace swiftlet
