@@ -426,6 +426,57 @@ TEST(MeshScenes, AStackStandsOnAMesh) {
   }
 }
 
+/// Rings touch along a circle, with many points that are about equally deep and others beside them that do not touch.
+TEST(MeshScenes, AStackOfRingsStands) {
+  MeshShape floor(floor_of(1, 8, flat).mesh()), ring(soups::torus(24, 12, 0.3).mesh());
+  for (const bool turned : {false, true}) {
+    Random random{std::mt19937(5)};
+    Dynamics d;
+    d.add(floor, at(0, 0, 0));
+    constexpr int kRings = 4;
+    for (int i = 0; i < kRings; ++i) {
+      btTransform pose = at(random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01), 0.39 + 0.69 * i);
+      if (turned) pose.setRotation(btQuaternion(btVector3(0, 0, 1), btScalar(random.uniform(-3, 3))));
+      d.add(ring, pose, 1);
+    }
+    for (int step = 0; step < 400; ++step) {
+      d.step();
+      ASSERT_GT(deepest(d.dispatcher), -0.06) << turned << ", step " << step;
+    }
+    for (int i = 0; i < kRings; ++i)
+      EXPECT_NEAR(d.bodies[std::size_t(i) + 1]->getWorldTransform().getOrigin().z(), 0.38 + 0.68 * i, 0.05) << turned;
+  }
+}
+
+/// The middle of a plate is behind the outer slopes of what it lies on, where it bears on a rim alone.
+TEST(MeshScenes, APlateLiesOnARim) {
+  MeshShape floor(floor_of(1, 8, flat).mesh()), ring(soups::torus(24, 12, 0.3).mesh());
+  const auto crater = [](double x, double y) { return std::max(0., 0.3 - std::abs(std::hypot(x, y) - 1) * 0.9); };
+  MeshShape rim(floor_of(48, 4, crater).mesh());
+  btBoxShape plate(btVector3(btScalar(1.2), btScalar(1.2), btScalar(0.1)));
+  HullShape hull(bodies::model(bodies::box(1.16, 1.16, 0.06)));
+  for (btConvexShape* shape : {static_cast<btConvexShape*>(&plate), static_cast<btConvexShape*>(&hull)}) {
+    Random random{std::mt19937(5)};
+    Dynamics on_ring;
+    on_ring.add(floor, at(0, 0, 0));
+    on_ring.add(ring, at(random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01), 0.34), 1);
+    btRigidBody& body = on_ring.add(*shape, at(random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01), 0.82), 1);
+    for (int step = 0; step < 400; ++step) {
+      on_ring.step();
+      ASSERT_GT(deepest(on_ring.dispatcher), -0.1) << step;
+    }
+    EXPECT_NEAR(body.getWorldTransform().getOrigin().z(), 0.8, 0.08);
+    for (const double height : {1., 3., 6.}) {
+      Dynamics on_rim;
+      on_rim.add(rim, at(0, 0, 0));
+      btRigidBody& falling = on_rim.add(*shape, at(0.01, 0.02, 0.4 + height), 1);
+      for (int step = 0; step < 400; ++step) on_rim.step();
+      EXPECT_NEAR(falling.getWorldTransform().getOrigin().z(), 0.3 + 0.1 + 0.04, 0.04) << height;
+      EXPECT_GT(deepest(on_rim.dispatcher), -0.05);
+    }
+  }
+}
+
 /// Nothing is allocated in a step in which bodies slide, once the memory of the first steps is there.
 TEST(MeshScenes, BodiesThatSlideAllocateNothing) {
   MeshShape floor(floor_of(24, 6, flat).mesh()), brick(soups::box({-0.4, -0.3, -0.2}, {0.4, 0.3, 0.2}).mesh());

@@ -591,6 +591,25 @@ void print(const char* name, const Slide& s) {
   std::printf("  %s: %.1e m, %.1e m/s, lost %.1f %%\n", name, s.rise, s.speed, 100 * s.lost);
 }
 
+TEST(Triangles, SpreadOverWhatTouches) {
+  const auto at_place = [](double x, double y, double separation) {
+    return TrianglePoint{-Vec3::UnitZ(), {x, y, separation}, {x, y, 0}, separation, 0, false};
+  };
+  const auto chosen = [](const std::vector<TrianglePoint>& points) {
+    const Spread spread = swiftlet::spread(points, 1e-4);
+    return std::set<std::uint32_t>(spread.index.begin(), spread.index.begin() + spread.count);
+  };
+  // The deepest of a line is in its middle.
+  EXPECT_EQ(chosen({at_place(0, 0, -2), at_place(-1, 0, -1), at_place(0.5, 1e-9, -1), at_place(0.9, 0, -1)}),
+            (std::set<std::uint32_t>{0, 1, 3}));
+  // Points beside that do not touch span more.
+  const std::vector<TrianglePoint> both{at_place(1, 0, -1e-3), at_place(-1, 0, -1e-3), at_place(0, 1, 0),
+                                        at_place(0, -1, 5e-5), at_place(3, 3, 0.01),   at_place(-3, -3, 0.01),
+                                        at_place(-3, 3, 2e-4)};
+  EXPECT_EQ(chosen(both), (std::set<std::uint32_t>{0, 1, 2, 3}));
+  EXPECT_EQ(chosen({both[0], both[4], both[5], both[6]}), (std::set<std::uint32_t>{0, 1, 2, 3}));
+}
+
 TEST(Triangles, LetABoxSlideAsOnOnePlane) {
   constexpr double kUlp = 0x1p-20;  // of places 8 to 16 m away in single precision
   HullShape hull(bodies::model(bodies::box(0.5, 0.4, 0.25)));

@@ -119,7 +119,7 @@ class MeshAlgorithm final : public btActivatingCollisionAlgorithm {
   void plane(const PlacedMeshShape& mesh, const btCollisionObjectWrapper& object, double touching) {
     contacts(mesh, half_space_of(object), touching, state_->points, state_->ids);
     if (create_.all_points || state_->points.empty()) return;
-    const Spread deepest = spread(state_->points);
+    const Spread deepest = spread(state_->points, 0);
     state_->points.assign(1, TrianglePoint(state_->points[deepest.index[0]]));
   }
 

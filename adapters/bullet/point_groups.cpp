@@ -104,7 +104,7 @@ void PointGroups::hand_over(std::span<const TrianglePoint> points, std::span<con
   for (std::size_t g = 0; g < group_count_; ++g) {
     const Group& group = groups_[g];
     btPersistentManifold& manifold = take(group.front(), a, b);
-    const Spread chosen = spread(group);
+    const Spread chosen = spread(group, kAtRest * first().getContactBreakingThreshold());
     result.setPersistentManifold(&manifold);
     const Manifold now = manifold_of(group, chosen);
     const bool swapped = manifold.getBody0() != a.getCollisionObject();

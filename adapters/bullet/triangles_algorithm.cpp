@@ -71,7 +71,9 @@ class TrianglesAlgorithm final : public btActivatingCollisionAlgorithm {
     const Vec3 moved = create_.all_points ? moved_by(body, surface, info.m_timeStep) : Vec3::Zero();
     if (add_way_out(placed, *a, *b, moved, *result)) return;
     gather(body, surface, touching);
-    const auto points = state_->pair.contacts(placed, surface_in_world, radius, moved, touching);
+    const MeshShape* const mesh = unscaled_mesh(*surface.getCollisionShape());
+    const bool is_solid = mesh && mesh->is_solid();
+    const auto points = state_->pair.contacts(placed, surface_in_world, radius, moved, touching, is_solid);
     if (create_.all_points) {
       groups.hand_over(points, state_->ids, *a, *b, *result);
       return;

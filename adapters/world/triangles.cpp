@@ -113,9 +113,11 @@ struct TrianglePair::View {
   Body a;
   Pose a_in_world, b_in_a;
   Mat3 into_b;
-  Ball ball;    ///< around the body, without its radius, in its frame
-  Vec3 centre;  ///< the ball's, in the surface's frame
+  Ball ball;     ///< around the body, without its radius, in its frame
+  Vec3 centre;   ///< the ball's, in the surface's frame
+  Vec3 moved_a;  ///< how far the body moved since the step before, in its frame
   double radius, beyond, one_place;
+  bool is_solid;
 
   Vec3 in_b(const Vec3& p_a) const { return into_b * (p_a - b_in_a.translation); }
 };
@@ -127,19 +129,15 @@ void TrianglePair::clear() {
 
 void TrianglePair::add(std::uint64_t name, const Vec3& p, const Vec3& q, const Vec3& r) {
   surface_.add(legal(p), legal(q), legal(r));
-  now_.push_back({name, {}, Side::Front});
+  now_.push_back({name, {}});
 }
 
-/// Recalls what is known of each triangle; of a new one, on which side the body was `before`.
-void TrianglePair::recall(const Vec3& before) {
-  for (std::size_t i = 0; i < now_.size(); ++i) {
-    Memory& memory = now_[i];
+/// Recalls what is known of each triangle.
+void TrianglePair::recall() {
+  for (Memory& memory : now_) {
     const auto known = std::lower_bound(memories_.begin(), memories_.end(), memory.name,
                                         [](const Memory& m, std::uint64_t name) { return m.name < name; });
-    if (known != memories_.end() && known->name == memory.name)
-      memory = *known;
-    else
-      memory.side = surface_.triangles()[i].side_of(before);
+    if (known != memories_.end() && known->name == memory.name) memory = *known;
   }
 }
 
@@ -165,9 +163,10 @@ class TrianglePair::Meeting {
  private:
   void find() {
     if ((view_.centre - t_.nearest_to(view_.centre)).norm() > view_.ball.radius + radii_ + view_.beyond) {
-      memory_.side = t_.side_of(view_.centre);
+      memory_.is_met = memory_.is_over = false;
       return;
     }
+    if (t_.has_plane() && !view_.is_solid && !memory_.is_met) meet();
     Answer face;
     if (t_.has_plane()) {
       face = above_face();
@@ -176,18 +175,21 @@ class TrianglePair::Meeting {
     }
     const Answer alone = signed_distance(view_.a, b_, view_.b_in_a, memory_.seed, {.beyond = view_.beyond});
     bool is_apart = alone.lower + radii_ > 0;
-    if (t_.has_plane() && is_apart && t_.side_of(view_.centre) != memory_.side) {
-      if (may_have_gone_around(alone)) {
-        memory_.side = t_.side_of(view_.centre);
-        face = above_face();
-      } else {
-        is_apart = false;
+    if (t_.has_plane() && is_apart && !view_.is_solid) {
+      const Side before = memory_.side;
+      if (see(alone, view_.b_in_a) && memory_.side != before) {
+        if (may_have_gone_around(alone)) {
+          face = above_face();
+        } else {
+          memory_.side = before, is_apart = false;
+        }
       }
     }
     if (alone.status == Status::Beyond) return;
     if (!alone.normal.hasNaN()) {
       const Vec3 direction = view_.into_b * -alone.normal;
-      const bool leads_back = is_apart || up().dot(direction) >= -kOnePlace;  // not through to the other side
+      // Not through to the other side, nor across a solid.
+      const bool leads_back = (is_apart && !view_.is_solid) || up().dot(direction) >= -kOnePlace;
       if (leads_back && pair_.surface_.is_supported(view_.in_b(core_b(alone)), direction, view_.one_place))
         return add_all(alone);
     }
@@ -200,6 +202,27 @@ class TrianglePair::Meeting {
     add(face.normal, on_b - face.normal * alone.lower, on_b, alone.lower);
   }
 
+  /// Finds the side on which the body was in the step before: where its nearest point was or, if they overlapped, its centre.
+  void meet() {
+    memory_.is_met = true;
+    memory_.side = t_.side_of(view_.centre - view_.into_b * view_.moved_a);
+    Pose before = view_.b_in_a;
+    before.translation += view_.moved_a;
+    PairSeed seed;
+    const Answer alone = distance(view_.a, b_, before, seed);
+    if (alone.lower + radii_ > 0) see(alone, before);
+  }
+  /// Learns from the nearest points of both, which are apart, on which side the body is. Where the triangle's is on its border,
+  /// another triangle may be between: this says no more than where nothing else is known. Returns whether it says anything.
+  bool see(const Answer& alone, const Pose& b_in_a) {
+    if (alone.normal.hasNaN()) return false;
+    const double height = t_.front.dot(b_in_a.rotation.transpose() * -alone.normal);
+    const Vec3 at = b_in_a.rotation.transpose() * (core_b(alone) - b_in_a.translation);
+    const bool is_over = t_.covers(at, -view_.one_place);
+    if (std::abs(height) <= kOnePlace || (memory_.is_over && !is_over)) return false;
+    memory_.side = height < 0 ? Side::Back : Side::Front, memory_.is_over = is_over;
+    return true;
+  }
   /// Whether the body, apart from the triangle but for its radius and on the other side than remembered, came there around the
   /// border. A point or segment may have passed through since the step before: it is then below the triangle.
   bool may_have_gone_around(const Answer& alone) const {
@@ -246,16 +269,17 @@ class TrianglePair::Meeting {
 };
 
 std::span<const TrianglePoint> TrianglePair::contacts(const Placed& a, const Pose& surface, double radius, const Vec3& moved,
-                                                      double beyond) {
+                                                      double beyond, bool is_solid) {
   points_.clear();
   const Pose a_in_world = orthonormal(a.in_world), surface_in_world = orthonormal(surface);
   const Pose b_in_a = relative(a_in_world, surface_in_world);
   const Mat3 into_b = b_in_a.rotation.transpose();
   const Ball ball = ball_around(a.body);
   const double size = a.body.model() ? ball.radius : ball.radius + a.body.radius();
-  View view{a.body, a_in_world, b_in_a, into_b, ball, {}, radius, beyond, kOnePlace * size};
+  View view{a.body, a_in_world, b_in_a, into_b, ball, {}, {}, radius, beyond, kOnePlace * size, is_solid};
   view.centre = view.in_b(ball.centre);
-  recall(view.centre - surface_in_world.rotation.transpose() * moved);
+  view.moved_a = a_in_world.rotation.transpose() * moved;
+  recall();
   for (std::uint32_t i = 0; i < now_.size(); ++i) Meeting(*this, view, i).add_points();
 
   memories_.assign(now_.begin(), now_.end());
@@ -270,28 +294,39 @@ double twice_area(const Vec3& normal, const Vec3& p, const Vec3& q, const Vec3& 
 
 }  // namespace
 
-Spread spread(std::span<const TrianglePoint> points) {
+Spread spread(std::span<const TrianglePoint> points, double touching) {
   Spread chosen;
-  const auto take_most = [&](auto&& gain) {
-    double most = 0;
-    std::uint32_t found = 0;
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-      if (const double g = gain(points[i]); g > most) most = g, found = i;
-    }
-    if (most > 0) chosen.index[chosen.count++] = found;
-    return most > 0;
-  };
   const auto place = [&](std::uint32_t i) -> const Vec3& { return points[chosen.index[i]].point_b; };
+  const auto take_most = [&](double least, auto&& gain) {
+    for (const double farthest : {touching, std::numeric_limits<double>::infinity()}) {
+      double most = least;
+      std::uint32_t found = 0;
+      for (std::uint32_t i = 0; i < points.size(); ++i) {
+        if (points[i].separation > farthest) continue;
+        if (const double g = gain(points[i].point_b); g > most) most = g, found = i;
+      }
+      if (most <= least) continue;
+      chosen.index[chosen.count++] = found;
+      return true;
+    }
+    return false;
+  };
   if (points.empty()) return chosen;
   const auto deepest = std::min_element(points.begin(), points.end(), is_less_separated);
   chosen.index[chosen.count++] = std::uint32_t(deepest - points.begin());
   const Vec3& n = deepest->normal;
-  if (!take_most([&](const TrianglePoint& p) { return (p.point_b - place(0)).squaredNorm(); })) return chosen;
-  if (!take_most([&](const TrianglePoint& p) { return std::abs(twice_area(n, place(0), place(1), p.point_b)); })) return chosen;
+  if (!take_most(0, [&](const Vec3& p) { return (p - place(0)).squaredNorm(); })) return chosen;
+  const Vec3 line = place(1) - place(0);
+  if (!take_most(kOnePlace * line.squaredNorm(),
+                 [&](const Vec3& p) { return std::abs(twice_area(n, place(0), place(1), p)); })) {
+    // All lie on one line, such as a body's edge: its other end.
+    take_most(0, [&](const Vec3& p) { return line.dot(place(0) - p); });
+    return chosen;
+  }
   if (twice_area(n, place(0), place(1), place(2)) < 0) std::swap(chosen.index[1], chosen.index[2]);
-  take_most([&](const TrianglePoint& p) {
+  take_most(0, [&](const Vec3& p) {
     double gain = 0;
-    for (std::uint32_t i = 0; i < 3; ++i) gain = std::max(gain, -twice_area(n, place(i), place((i + 1) % 3), p.point_b));
+    for (std::uint32_t i = 0; i < 3; ++i) gain = std::max(gain, -twice_area(n, place(i), place((i + 1) % 3), p));
     return gain;
   });
   return chosen;

@@ -89,20 +89,22 @@ class TrianglePair {
   /// All points of contact of the body `a` with the triangles that were added, no farther apart than `beyond`; the triangles
   /// have a radius. Those that touch the body's neighbourhood must all be there, because they are each other's neighbours.
   /// `moved`: how far the body's centre moved, relative to the surface, since the step before: a triangle that is new counts
-  /// as met from the side on which the body was. The answer lives until the next call.
-  std::span<const TrianglePoint> contacts(const Placed& a, const Pose& surface, double radius, const Vec3& moved,
-                                          double beyond);
+  /// as met from the side on which the body was. Those of a solid are met from the front. The answer lives until the next call.
+  std::span<const TrianglePoint> contacts(const Placed& a, const Pose& surface, double radius, const Vec3& moved, double beyond,
+                                          bool is_solid = false);
 
  private:
   struct Memory {
     std::uint64_t name;
     PairSeed seed;
-    Side side;  ///< on which the body is
+    Side side = Side::Front;  ///< on which the body is
+    bool is_met = false;      ///< the side is known; else the body has been far away
+    bool is_over = false;     ///< the body was over the triangle's inside there: no edge is between
   };
   struct View;
   class Meeting;
 
-  void recall(const Vec3& before);
+  void recall();
 
   SurfacePatch surface_;
   std::vector<Memory> now_;       ///< of each triangle
@@ -115,7 +117,8 @@ struct Spread {
   std::array<std::uint32_t, 4> index{};  ///< [0, count): the deepest first
   std::uint32_t count = 0;               ///< at most four
 };
-/// Of points whose normals are alike, chooses the deepest, and those that span the largest area with it.
-Spread spread(std::span<const TrianglePoint> points);
+/// Of points whose normals are alike, chooses the deepest, and those that span the largest area with it, or the ends of the
+/// line on which all lie. Points that are farther apart than `touching` bear nothing yet: they come after all others.
+Spread spread(std::span<const TrianglePoint> points, double touching);
 
 }  // namespace swiftlet
