@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <queue>
+#include <utility>
 
 namespace swiftlet {
 namespace {
 
 /// A leaf's box is larger than its item's by this share of the longest side.
 constexpr double kRoom = 0.0625;
+/// A leaf's box that is larger than its item's by more than this share is too large. An item that has kept its size moves out
+/// of a leaf's box before.
+constexpr double kTooMuchRoom = 4 * kRoom;
 /// Into so many tasks a search is cut, at least, where the trees are large enough.
 constexpr std::size_t kTasks = 256;
 
@@ -36,12 +40,12 @@ bool holds(const Box& outer, const Box& inner) {
   return true;
 }
 
-Box roomy(Box box) {
+Box larger(Box box, double share) {
   double side = 0;
   for (std::size_t i = 0; i < 3; ++i) side = std::max(side, box.max[i] - box.min[i]);
   for (std::size_t i = 0; i < 3; ++i) {
-    box.min[i] -= kRoom * side;
-    box.max[i] += kRoom * side;
+    box.min[i] -= share * side;
+    box.max[i] += share * side;
   }
   return box;
 }
@@ -58,12 +62,13 @@ void BoxTree::put(std::uint32_t item, const Box& box) {
   if (leaf == kNothing) {
     leaf = new_node();
     nodes_[leaf].child = {item, kNothing};
-  } else if (holds(nodes_[leaf].box, box)) {
+    nodes_[leaf].height = nodes_[leaf].shortest = 0;
+  } else if (holds(nodes_[leaf].box, box) && holds(larger(box, kTooMuchRoom), nodes_[leaf].box)) {
     return;
   } else {
     take_out(leaf);
   }
-  nodes_[leaf].box = roomy(box);
+  nodes_[leaf].box = larger(box, kRoom);
   insert(leaf);
 }
 
@@ -89,19 +94,26 @@ void BoxTree::insert(std::uint32_t leaf) {
     nodes_[leaf].parent = kNothing;
     return;
   }
-  // Downwards as long as a child promises less growth of all surfaces than a new parent here.
+  // Downwards as long as a child promises less growth of all surfaces than a new parent here, which puts all below it a level
+  // deeper. Where all boxes are equal the lower child; none whose leaves are all as deep as they may be: not both are such, as
+  // the root's shortest way is that of a balanced tree at most.
   const Box box = nodes_[leaf].box;
-  std::uint32_t sibling = root_;
-  while (!nodes_[sibling].is_leaf()) {
+  const std::uint32_t most = most_height();
+  std::uint32_t sibling = root_, depth = 0;
+  for (; !nodes_[sibling].is_leaf(); ++depth) {
     const Node& node = nodes_[sibling];
     const double here = area(both(node.box, box)), inherited = here - area(node.box);
-    std::array<double, 2> cost;
+    std::array<double, 2> cost, surface;
     for (std::size_t i = 0; i < 2; ++i) {
       const Node& child = nodes_[node.child[i]];
-      cost[i] = inherited + area(both(child.box, box)) - (child.is_leaf() ? 0 : area(child.box));
+      surface[i] = area(child.box);
+      cost[i] = inherited + area(both(child.box, box)) - (child.is_leaf() ? 0 : surface[i]);
     }
-    const std::size_t better = cost[1] < cost[0];
-    if (here <= cost[better]) break;
+    const bool are_equal = here == surface[0] && here == surface[1];
+    const bool is_right_lower = nodes_[node.child[1]].height < nodes_[node.child[0]].height;
+    std::size_t better = are_equal ? is_right_lower : cost[1] < cost[0];
+    if (depth + 1 + nodes_[node.child[better]].shortest + 1u > most) better = 1 - better;
+    if (here <= cost[better] && !are_equal && depth + 1 + node.height <= most) break;
     sibling = node.child[better];
   }
   const std::uint32_t parent = new_node(), above = nodes_[sibling].parent;
@@ -113,7 +125,7 @@ void BoxTree::insert(std::uint32_t leaf) {
     nodes_[above].child[nodes_[above].child[1] == sibling] = parent;
   }
   nodes_[sibling].parent = nodes_[leaf].parent = parent;
-  refit(parent);
+  refit(parent, depth);
 }
 
 void BoxTree::take_out(std::uint32_t leaf) {
@@ -129,20 +141,29 @@ void BoxTree::take_out(std::uint32_t leaf) {
     root_ = sibling;
   } else {
     nodes_[above].child[nodes_[above].child[1] == parent] = sibling;
-    refit(above);
+    std::uint32_t depth = 0;
+    for (std::uint32_t node = above; (node = nodes_[node].parent) != kNothing;) ++depth;
+    refit(above, depth);
   }
 }
 
-void BoxTree::refit(std::uint32_t node) {
-  for (; node != kNothing; node = nodes_[node].parent) {
-    Node& n = nodes_[node];
-    n.box = both(nodes_[n.child[0]].box, nodes_[n.child[1]].box);
-    rotate(node);
+void BoxTree::fit(std::uint32_t node) {
+  Node& n = nodes_[node];
+  const Node &left = nodes_[n.child[0]], &right = nodes_[n.child[1]];
+  n.box = both(left.box, right.box);
+  n.height = std::uint16_t(1 + std::max(left.height, right.height));
+  n.shortest = std::uint16_t(1 + std::min(left.shortest, right.shortest));
+}
+
+void BoxTree::refit(std::uint32_t node, std::uint32_t depth) {
+  for (; node != kNothing; node = nodes_[node].parent, --depth) {
+    fit(node);
+    rotate(node, depth);
   }
 }
 
-/// Exchanges a child for a child of the other where that makes the other's surface least.
-void BoxTree::rotate(std::uint32_t node) {
+/// Exchanges a child for a child of the other where that makes the other's surface least, unless a leaf would be too deep then.
+void BoxTree::rotate(std::uint32_t node, std::uint32_t depth) {
   double best = 0;
   std::size_t side = 0, grandchild = 0;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -157,10 +178,29 @@ void BoxTree::rotate(std::uint32_t node) {
   if (best <= 0) return;
   const std::uint32_t lower = nodes_[node].child[side];
   std::uint32_t &up = nodes_[lower].child[grandchild], &down = nodes_[node].child[1 - side];
+  const std::uint32_t stays = nodes_[lower].child[1 - grandchild];
+  const std::uint32_t below_lower = 1u + std::max(nodes_[down].height, nodes_[stays].height);
+  const std::uint32_t height = 1 + std::max<std::uint32_t>(nodes_[up].height, below_lower);
+  if (height > nodes_[node].height && depth + height > most_height()) return;
   std::swap(up, down);
   nodes_[up].parent = lower;
   nodes_[down].parent = node;
-  nodes_[lower].box = both(nodes_[nodes_[lower].child[0]].box, nodes_[nodes_[lower].child[1]].box);
+  fit(lower);
+  fit(node);
+}
+
+std::uint32_t BoxTree::height() const {
+  std::uint32_t highest = 0;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> to_do;
+  if (root_ != kNothing) to_do.emplace_back(root_, 0);
+  while (!to_do.empty()) {
+    const auto [node, depth] = to_do.back();
+    to_do.pop_back();
+    highest = std::max(highest, depth);
+    if (nodes_[node].is_leaf()) continue;
+    for (const std::uint32_t child : nodes_[node].child) to_do.emplace_back(child, depth + 1);
+  }
+  return highest;
 }
 
 template <class Split>

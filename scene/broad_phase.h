@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // A dynamic tree of boxes [Catto 2019, Dynamic Bounding Volume Hierarchies]: leaves are the boxes of items and a little more,
-// so that small moves change nothing; inserted where the surface grows least, kept flat by rotations. Knows boxes and items by
-// number, not bodies.
+// so that small moves change nothing; inserted where the surface grows least, kept good by rotations. Both give way where the
+// tree would become too high, as where boxes coincide or nest. Knows boxes and items by number, not bodies.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -50,6 +51,13 @@ class BoxTree {
   /// Removes the item, which must be there.
   void remove(std::uint32_t item);
   const Box& box(std::uint32_t item) const { return boxes_[item]; }
+  /// The box of its leaf.
+  const Box& leaf_box(std::uint32_t item) const { return nodes_[leaf_[item]].box; }
+  /// How deep the deepest leaf is; the root is 0 deep. Counts.
+  std::uint32_t height() const;
+  /// No leaf is deeper: three times what a balanced tree needs for as many items as there have been at once, and so many
+  /// levels more that trees of ordinary scenes, large boxes above small ones, keep the shape that surfaces want.
+  std::uint32_t most_height() const { return 3 * std::uint32_t(std::bit_width(leaf_.size())) + 16; }
 
   /// Pairs of items whose boxes have a squared gap that is not above `most`, sorted; each once.
   std::vector<Pair> near(const BoxTree& other, double most, const Executor& executor = {}) const;
@@ -62,12 +70,15 @@ class BoxTree {
     Box box;
     std::uint32_t parent;
     std::array<std::uint32_t, 2> child;  ///< of a leaf: its item, and nothing
+    std::uint16_t height, shortest;      ///< how far down the farthest and the nearest leaf are
     bool is_leaf() const { return child[1] == kNothing; }
   };
   void insert(std::uint32_t leaf);
   void take_out(std::uint32_t leaf);
-  void refit(std::uint32_t node);
-  void rotate(std::uint32_t node);
+  /// Of the node, which is that deep, and all above it.
+  void refit(std::uint32_t node, std::uint32_t depth);
+  void fit(std::uint32_t node);
+  void rotate(std::uint32_t node, std::uint32_t depth);
   std::uint32_t new_node();
   /// Calls split(a, b) for the node pairs below one that is not of two leaves.
   template <class Split>

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -234,6 +235,74 @@ TEST(BoxTree, FindsWhatBruteForceFinds) {
       trees[which].nearest(trees[other], [&](BoxTree::Pair) { return ++all, false; });
       EXPECT_EQ(all, trees[which].near(trees[other], kInfinity).size());
     }
+  }
+}
+
+Box cube_box(double side, double x = 0) { return {{x - side, -side, -side}, {x + side, side, side}}; }
+
+/// Where surfaces alone would make a chain: as many levels as boxes.
+TEST(BoxTree, IsNoChainWhateverTheBoxes) {
+  constexpr std::uint32_t kCount = 3000, kMost = 3 * 12 + 16;
+  Random random(5);
+  std::vector<double> any(kCount);
+  for (double& x : any) x = random.uniform(0.5, 100);
+  const std::function<Box(std::uint32_t)> families[] = {
+      [](std::uint32_t) { return cube_box(1); },                                         // equal
+      [](std::uint32_t) { return cube_box(1e50); },                                      // of refused poses
+      [](std::uint32_t) { return Box{}; },                                               // without surface
+      [](std::uint32_t i) { return cube_box(1.0 + i); },                                 // nested, outwards
+      [](std::uint32_t i) { return cube_box(1.0 + kCount - i); },                        // nested, inwards
+      [&](std::uint32_t i) { return cube_box(any[i]); },                                 // nested
+      [](std::uint32_t i) { return cube_box(std::exp2(i % 100), std::exp2(i % 100)); },  // each as large as all before
+      [](std::uint32_t i) {
+        return Box{{double(i), 0, 0}, {double(i) + 1, 0, 0}};
+      },                                                                                       // in a row
+      [&](std::uint32_t i) { return i % 2 ? cube_box(any[i]) : cube_box(0.01, 10 * any[i]); }  // small ones in large ones
+  };
+  BoxTree tree, one;
+  one.put(0, cube_box(1));
+  for (std::size_t family = 0; family < std::size(families); ++family) {
+    SCOPED_TRACE(family);
+    BoxTree own;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      own.put(i, families[family](i));
+      tree.put(i, families[family](i));  // moves those of the last family
+      if (i % 100) continue;
+      EXPECT_LE(own.height(), 3 * std::log2(i + 1) + 3 + 16);
+      EXPECT_LE(tree.height(), kMost);
+    }
+    EXPECT_LE(own.height(), kMost);
+    EXPECT_LE(tree.height(), kMost);
+    for (std::uint32_t i = 0; i < kCount; i += 3) own.remove(i);
+    for (std::uint32_t i = 0; i < kCount; i += 3) own.put(i, families[(family + 1) % std::size(families)](i));
+    EXPECT_LE(own.height(), kMost);
+    EXPECT_EQ(own.near(one, kInfinity).size(), kCount);
+  }
+}
+
+/// Where surfaces prefer no child, the tree is at most half as high again as a balanced one.
+TEST(BoxTree, IsBalancedWhereBoxesAreEqual) {
+  BoxTree tree;
+  for (std::uint32_t i = 0; i < 4096; ++i) tree.put(i, cube_box(1));
+  EXPECT_LE(tree.height(), 12u * 3 / 2);
+}
+
+/// The box of a pose that was refused once does not stay, and an item that shakes does not lose its leaf's.
+TEST(BoxTree, ShrinksALeafThatIsMuchTooLarge) {
+  BoxTree tree;
+  tree.put(0, cube_box(1));
+  for (std::uint32_t i = 1; i < 20; ++i) tree.put(i, cube_box(1, 3 * i));
+  const Box before = tree.leaf_box(0);
+  tree.put(0, cube_box(1e50));
+  EXPECT_LE(tree.leaf_box(0).min[0], -1e50);
+  EXPECT_EQ(tree.near(tree, 0).size(), 19u);
+  tree.put(0, cube_box(1));
+  EXPECT_EQ(tree.leaf_box(0).min, before.min);
+  EXPECT_EQ(tree.leaf_box(0).max, before.max);
+  for (const double x : {0.12, -0.12, 0.0, 0.124, -0.124}) {
+    tree.put(0, cube_box(1, x));
+    EXPECT_EQ(tree.leaf_box(0).min, before.min) << x;
+    EXPECT_EQ(tree.leaf_box(0).max, before.max) << x;
   }
 }
 
