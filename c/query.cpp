@@ -216,7 +216,7 @@ void run_all(std::size_t count, const swiftlet_run* given, const auto& task, con
   std::vector<std::atomic<bool>> done(count);
   std::atomic<bool> stopped = false;
   const auto unless_stopped = [&](std::size_t i) {
-    if (run.stop && run.stop(run.stop_data)) {
+    if (run.stop && (stopped || run.stop(run.stop_data))) {
       stopped = true;
       return;
     }

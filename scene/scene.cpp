@@ -4,6 +4,7 @@
 #include <swiftlet/scene.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <span>
@@ -171,11 +172,15 @@ struct Scene::Content {
     const std::size_t tasks = (near.size() + kPairsPerTask - 1) / kPairsPerTask;
     std::vector<std::vector<Found>> found(tasks);
     std::vector<char> done(tasks);
+    std::atomic<bool> stopped = false;
     const auto some = [&](std::size_t task) {
       return near.subspan(task * kPairsPerTask).first(std::min(kPairsPerTask, near.size() - task * kPairsPerTask));
     };
     const auto run_one = [&](std::size_t task) {
-      if (run.stop && run.stop()) return;
+      if (run.stop && (stopped || run.stop())) {
+        stopped = true;
+        return;
+      }
       std::vector<PairQuery> queries;
       std::vector<MeshPairQuery> mesh_queries;
       queries.reserve(kPairsPerTask);

@@ -861,6 +861,10 @@ TEST(Scene, WhatWasStoppedIsListedAsNotAsked) {
   const auto pairs = scene.within(0.000999);
   EXPECT_GT(pairs.size(), 50u);
   for (const ScenePair& pair : pairs) EXPECT_EQ(pair.answer.status, Status::NotAsked);
+  tasks = 0;
+  scene.run_by({.stop = [&tasks] { return ++tasks == 2; }});
+  EXPECT_EQ(scene.within(0.000999).size(), pairs.size()) << "it stays stopped";
+  EXPECT_EQ(tasks, 2);
   scene.run_by({});
   EXPECT_TRUE(scene.within(0.000999).empty());
 }

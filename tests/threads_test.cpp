@@ -411,6 +411,27 @@ TEST_F(Threads, AStoppedBatchKeepsWhatIsDoneAndLeavesTheRest) {
   }
 }
 
+/// As of a time slice, or a flag that is reset: `stop` is true on its second call alone.
+TEST_F(Threads, AStopHoldsForTheRestOfTheBatch) {
+  const std::vector<Pose> poses = many_poses();
+  const Body a = models()[0], b = models()[1];
+  std::vector<PairQuery> pairs;
+  for (const Pose& pose : poses) pairs.push_back({a, b, pose, nullptr});
+  for (const Query& query : queries()) {
+    SCOPED_TRACE(query.name);
+    const auto done = [&](const auto& of_all, std::size_t per_task, const auto& ask) {
+      int calls = 0;
+      const std::vector<Fields> found = ask(swiftlet::Run{{}, [&calls] { return ++calls == 2; }});
+      EXPECT_EQ(calls, 2);
+      return tasks_done(found, of_all, query.untouched, per_task);
+    };
+    EXPECT_EQ(done(query.over_pairs(pairs, {}), 32, [&](const auto& run) { return query.over_pairs(pairs, run); }), 1u);
+    EXPECT_EQ(done(query.over_poses(a, b, poses, {}), kPosesPerChunk,
+                   [&](const auto& run) { return query.over_poses(a, b, poses, run); }),
+              1u);
+  }
+}
+
 TEST_F(Threads, BatchesShareNeitherATraceNorAProof) {
   LevelRecord record{.steps = 77};
   OverlapProof proof{.count = 77};

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cstddef>
 #include <span>
@@ -14,11 +15,15 @@ namespace swiftlet {
 
 inline constexpr std::size_t kPairsPerTask = 32;  // so few that threads end together, so many that taking a task costs nothing
 
-/// Runs task(0) to task(count - 1) until it is told to stop.
+/// Runs task(0) to task(count - 1) until it is told to stop, once.
 template <class Task>
 void run_all(std::size_t count, const Run& run, const Task& task) {
+  std::atomic<bool> stopped = false;
   const auto unless_stopped = [&](std::size_t i) {
-    if (!run.stop || !run.stop()) task(i);
+    if (run.stop && (stopped.load(std::memory_order_relaxed) || run.stop()))
+      stopped.store(true, std::memory_order_relaxed);
+    else
+      task(i);
   };
   if (run.executor) return run.executor(count, unless_stopped);
   for (std::size_t i = 0; i < count; ++i) unless_stopped(i);

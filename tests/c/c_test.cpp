@@ -257,6 +257,7 @@ TEST(C, MarchesAsCpp) {
 // ---- Batches ---------------------------------------------------------------------------------------------------------------
 
 int32_t stop_after(void* left) { return static_cast<std::atomic<int>*>(left)->fetch_sub(1) <= 0; }
+int32_t stop_once(void* left) { return static_cast<std::atomic<int>*>(left)->fetch_sub(1) == 1; }
 
 void run_backwards(std::size_t count, swiftlet_task task, void* context, void* data) {
   for (std::size_t i = count; i > 0; --i) task(context, i - 1);
@@ -364,6 +365,14 @@ TEST(C, BatchesStopAndSayWhatIsWrong) {
   EXPECT_EQ(answers[1023].status, SWIFTLET_STATUS_CONVERGED);
   EXPECT_EQ(answers[1024].status, SWIFTLET_STATUS_NOT_ASKED);
   EXPECT_EQ(answers[2999].status, SWIFTLET_STATUS_NOT_ASKED);
+  left = 2;
+  run.stop = stop_once;
+  EXPECT_EQ(swiftlet_distance_poses(&point, &point, poses.data(), poses.size(), nullptr, &run, answers.data(), nullptr),
+            SWIFTLET_CANCELLED);
+  EXPECT_EQ(left, 0);
+  EXPECT_EQ(answers[1023].status, SWIFTLET_STATUS_CONVERGED);
+  EXPECT_EQ(answers[1024].status, SWIFTLET_STATUS_NOT_ASKED);
+  EXPECT_EQ(answers[2999].status, SWIFTLET_STATUS_NOT_ASKED) << "it stays stopped";
 
   swiftlet_executor* lazy = nullptr;
   ASSERT_EQ(swiftlet_executor_create(run_nothing, nullptr, &lazy, Sound()), SWIFTLET_OK);

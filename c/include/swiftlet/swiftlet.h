@@ -120,7 +120,8 @@ typedef void (*swiftlet_task)(void* context, size_t index);
 /// Calls task(context, 0) to task(context, count - 1), each once, in any order, on any threads, and returns when all are done.
 /// `data` is the caller's. It must not throw.
 typedef void (*swiftlet_execute)(size_t count, swiftlet_task task, void* context, void* data);
-/// Returns not 0 to stop. Asked before each task, on the thread that is about to run it. `data` is the caller's.
+/// Returns not 0 to stop: no further task of the batch begins. Asked before each task until then, on the thread that is about
+/// to run it. `data` is the caller's.
 typedef int32_t (*swiftlet_stop)(void* data);
 
 /// Makes an executor of the calling thread and `thread_count` - 1 of its own, which wait as long as it lives. `thread_count` is

@@ -24,8 +24,8 @@ struct PairQuery {
 /// How a batch runs.
 struct Run {
   Executor executor{};  ///< runs the tasks of the batch; empty: the calling thread does
-  /// Asked before each task, on the thread that is about to run it; empty: never. Once it is true no further task begins; the
-  /// answers of tasks that did not run stay unchanged.
+  /// Asked before each task, on the thread that is about to run it; empty: never. Once it is true it is asked no more, and no
+  /// further task begins; the answers of tasks that did not run stay unchanged.
   std::function<bool()> stop{};
 };
 
