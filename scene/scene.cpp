@@ -28,8 +28,9 @@ constexpr std::size_t kPairsPerTask = 64;  // as in a batch, but small enough th
 /// at most 3.5 extents, by 1.5e-6 of them. Both are a fifth of this share together. So a pair that is left out is proved
 /// farther apart by the boxes, in the world's frame and in A's, and by more than a query may doubt.
 constexpr double kSlack = 0x1p-14;
-/// What rounding adds to a box far from the origin, relative to its translation, 8 u; and what is lost below normal numbers.
-constexpr double kFar = 0x1p-50, kTiny = 1e-290;
+/// What rounding adds to a box far from the origin, relative to its translation, 8 u; and more than law 2's bound is at least,
+/// 2^-450. Of two boxes the gap is smaller by 2^-448: where it is not 0, squares of reaches that could leave it out are normal.
+constexpr double kFar = 0x1p-50, kTiny = 0x1p-449;
 /// Larger than any body in any pose that queries take.
 constexpr double kAnywhere = 1e50;
 
@@ -364,7 +365,7 @@ NearestPair Scene::nearest(const Scene& other, const Options& options) {
   // A pair that is beyond has no upper bound either.
   const auto is_unknown = [](const Answer& x) { return x.status != Status::Beyond && !(x.upper < kInfinity); };
   content_->kept_with(other.content_).nearest = first;
-  if (is_unknown(answer) || answer.upper <= 0) return {{first.a, first.b, answer}, 0};
+  if (!(answer.lower > so_far.beyond) && (is_unknown(answer) || answer.upper <= 0)) return {{first.a, first.b, answer}, 0};
 
   so_far.beyond = std::min(so_far.beyond, answer.upper);
   Kept& k = content_->near(other.content_, so_far.beyond);

@@ -852,6 +852,47 @@ TEST(Scene, AsksOnlyWhatIsWanted) {
   EXPECT_EQ(scene.nearest().a, BodyId{});
 }
 
+/// Below a distance of 1e-162 squares are 0; law 2's bound is 2^-450 at least.
+TEST(Scene, ListsPairsAtDistancesWhoseSquaresAreNone) {
+  for (int exponent = -1060; exponent < -400; exponent += 3) {
+    for (const Vec3& direction : {Vec3(1, 1, 1), Vec3(1, 0, 0), Vec3(0.7, -0.1, 0)}) {
+      const Vec3 aside = std::ldexp(1, exponent) * direction;
+      Scene scene;
+      (void)scene.add("", Body::point({0, 0, 0}), Pose{});
+      (void)scene.add("", Body::point({0, 0, 0}), Pose{.translation = aside});
+      const Body point = Body::point({0, 0, 0});
+      const Pose pose = relative(Pose{}, {.translation = aside});
+      SCOPED_TRACE(exponent);
+      EXPECT_EQ(scene.overlapping().size(), intersects(point, point, pose).verdict != Verdict::Disjoint);
+      for (const double share : {0.0, 0.5, 0.999, 1.0, 1.001, 2.0}) {
+        const double threshold = share * aside.stableNorm();
+        EXPECT_EQ(scene.within(threshold).size(), within(point, point, pose, threshold).decision != Decision::No);
+        EXPECT_EQ(scene.distances({.beyond = threshold}).size(), distance(point, point, pose).lower <= threshold);
+      }
+    }
+  }
+}
+
+/// No pair is as near as a number below 0, as `distances` says, whatever is refused.
+TEST(Scene, TheNearestPairIsNotBeyond) {
+  Scene scene;
+  for (const double x : {0.0, 0.5, 0.75}) (void)scene.add("", cubes()[0], Pose{.translation = {x, 0, 0}});
+  for (const double beyond : {-1.0, -0.0, 0.0, 1.0, kNaN}) {
+    SCOPED_TRACE(beyond);
+    const NearestPair nearest = scene.nearest({.beyond = beyond});
+    const bool is_found = !(beyond < 0);
+    EXPECT_EQ(scene.has(nearest.a), is_found);
+    EXPECT_EQ(nearest.lower, is_found ? 0 : beyond);
+    EXPECT_EQ(scene.distances({.beyond = beyond}).empty(), !is_found);
+  }
+  Scene refused;
+  for (const double x : {0.0, 9.0}) (void)refused.add("", Body::point({0, 0, 0}, -1), Pose{.translation = {x, 0, 0}});
+  EXPECT_TRUE(refused.distances({.beyond = -1}).empty());
+  EXPECT_EQ(refused.nearest({.beyond = -1}).a, BodyId{});
+  EXPECT_EQ(refused.distances({.beyond = 0}).size(), 1u);
+  EXPECT_EQ(refused.nearest({.beyond = 0}).answer.status, Status::InvalidRadius);
+}
+
 TEST(Scene, WhatWasStoppedIsListedAsNotAsked) {
   Scene scene;
   for (int i = 0; i < 300; ++i) (void)scene.add("", cubes()[0], Pose{.translation = {1.001 * i, 0, 0}});
