@@ -50,7 +50,8 @@ class GivenBody {
   Body convex() const;
   MeshBody mesh() const {
     if (!is_mesh()) return convex();
-    const MeshModel& mesh = mesh_of(body_.mesh, name_);
+    need_handle(body_.mesh, ".mesh");
+    const MeshModel& mesh = mesh_of(body_.mesh);
     return body_.kind == SWIFTLET_BODY_SOLID ? MeshBody::solid(mesh, body_.radius) : MeshBody(mesh, body_.radius);
   }
 
@@ -60,6 +61,9 @@ class GivenBody {
     room_ = {};
     return read(from, room_, name);
   }
+  void need_handle(const void* handle, const char* member) const {
+    if (!handle) throw Failure{SWIFTLET_NULL_POINTER, std::string(name_) + member + " is null"};
+  }
   swiftlet_body room_;  ///< written where the caller's is of another size
   const swiftlet_body& body_;
   const char* name_;
@@ -68,7 +72,7 @@ class GivenBody {
 inline Body GivenBody::convex() const {
   const auto point = [&](int i) { return Vec3(body_.points[i]); };
   switch (body_.kind) {
-    case SWIFTLET_BODY_MODEL: return Body(model_of(body_.model, name_), body_.radius);
+    case SWIFTLET_BODY_MODEL: need_handle(body_.model, ".model"); return Body(model_of(body_.model), body_.radius);
     case SWIFTLET_BODY_POINT: return Body::point(point(0), body_.radius);
     case SWIFTLET_BODY_SEGMENT: return Body::segment(point(0), point(1), body_.radius);
     case SWIFTLET_BODY_TRIANGLE: return Body::triangle(point(0), point(1), point(2), body_.radius);
@@ -222,10 +226,11 @@ inline Answer answer_of(const swiftlet_answer* given, const char* name) {
   to.lower = from.lower, to.upper = from.upper;
   to.normal = Vec3(from.normal), to.point_a = Vec3(from.point_a), to.point_b = Vec3(from.point_b);
   to.feature_a = feature_of(from.feature_a), to.feature_b = feature_of(from.feature_b);
-  to.level_a = std::int16_t(from.level_a), to.level_b = std::int16_t(from.level_b);
+  to.level_a = narrow<std::int16_t>(from.level_a, "answer.level_a");
+  to.level_b = narrow<std::int16_t>(from.level_b, "answer.level_b");
   to.steps = from.steps, to.plane_tests = from.plane_tests;
   to.radius_a = from.radius_a, to.radius_b = from.radius_b;
-  to.levels_visited = std::uint8_t(from.levels_visited);
+  to.levels_visited = narrow<std::uint8_t>(from.levels_visited, "answer.levels_visited");
   return to;
 }
 

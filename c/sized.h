@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <string>
 
 #include "failure.h"
@@ -85,6 +86,16 @@ Enum enumerator(std::int32_t value, Enum last, const char* name) {
     throw Failure{SWIFTLET_BAD_VALUE,
                   std::string(name) + " is " + std::to_string(value) + ", not from 0 to " + std::to_string(std::int32_t(last))};
   return Enum(value);
+}
+
+/// A number of a narrower type.
+template <class To>
+To narrow(std::int64_t value, const char* name) {
+  using Limits = std::numeric_limits<To>;
+  if (value < Limits::min() || value > Limits::max())
+    throw Failure{SWIFTLET_BAD_VALUE, std::string(name) + " is " + std::to_string(value) + ", not from " +
+                                          std::to_string(Limits::min()) + " to " + std::to_string(Limits::max())};
+  return To(value);
 }
 
 }  // namespace swiftlet::c

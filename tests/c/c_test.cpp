@@ -651,6 +651,21 @@ TEST(C, ErrorsSayWhatIsWrong) {
   EXPECT_EQ(swiftlet_distance(&body, &body, &pose, nullptr, nullptr, &answer, &error), SWIFTLET_BAD_VALUE);
   EXPECT_STREQ(error.message, "a.kind is 77, no kind of body");
   body.kind = SWIFTLET_BODY_POINT;
+  swiftlet_body without = body;  // no handle
+  for (const auto& [kind, text] : {std::pair(SWIFTLET_BODY_MODEL, "a.model is null"),
+                                   {SWIFTLET_BODY_MESH, "a.mesh is null"},
+                                   {SWIFTLET_BODY_SOLID, "a.mesh is null"}}) {
+    without.kind = kind;
+    EXPECT_EQ(swiftlet_distance(&without, &body, &pose, nullptr, nullptr, &answer, &error), SWIFTLET_NULL_POINTER);
+    EXPECT_STREQ(error.message, text);
+  }
+  without.kind = SWIFTLET_BODY_MODEL;
+  std::vector<swiftlet_pair> pairs(80, {sizeof(swiftlet_pair), 0, &body, &body, pose, nullptr});
+  std::vector<swiftlet_answer> answers(pairs.size(), answer);
+  pairs[70].b = &without;
+  EXPECT_EQ(swiftlet_distance_pairs(pairs.data(), pairs.size(), nullptr, nullptr, answers.data(), &error),
+            SWIFTLET_NULL_POINTER);
+  EXPECT_STREQ(error.message, "pair 70: b.model is null");
   EXPECT_EQ(swiftlet_distance(&body, &body, &pose, nullptr, nullptr, nullptr, &error), SWIFTLET_NULL_POINTER);
   EXPECT_STREQ(error.message, "answer is null");
   EXPECT_EQ(swiftlet_within(&body, &body, &pose, 1, nullptr, nullptr, nullptr, &answer, &error), SWIFTLET_NULL_POINTER);
@@ -662,6 +677,38 @@ TEST(C, ErrorsSayWhatIsWrong) {
             SWIFTLET_BAD_SIZE);
   EXPECT_EQ(std::string(error.message).rfind("source_b.size is 0", 0), 0u) << error.message;
   for (swiftlet_code code : {0, 1, 5, 11, 100, 101, 102, 103}) EXPECT_STRNE(swiftlet_code_text(code), swiftlet_code_text(-1));
+}
+
+/// A number of an answer that C++ has no room for is not taken for another one.
+TEST(C, AnswersOfNoLevelAreRefused) {
+  const swiftlet_body a = ball(0, 0, 0, 1), b = ball(0, 0, 5, 1);
+  const swiftlet_pose pose = plain(Pose{});
+  swiftlet_answer good{};
+  good.size = sizeof good;
+  ASSERT_EQ(swiftlet_distance(&a, &b, &pose, nullptr, nullptr, &good, Sound()), SWIFTLET_OK);
+  const auto says = [&](const swiftlet_answer& answer, const char* text) {
+    swiftlet_error error{sizeof error, 0, ""};
+    swiftlet_check_result result{sizeof result, 7, "?"};
+    swiftlet_manifold manifold{};
+    manifold.size = sizeof manifold;
+    swiftlet_answer refined = good;
+    EXPECT_EQ(swiftlet_check(&a, &b, &pose, &answer, nullptr, &result, &error), SWIFTLET_BAD_VALUE);
+    EXPECT_STREQ(error.message, text);
+    EXPECT_EQ(result.ok, 7);
+    EXPECT_EQ(swiftlet_contact_points(&a, &b, &pose, &answer, nullptr, nullptr, &manifold, nullptr), SWIFTLET_BAD_VALUE);
+    EXPECT_EQ(swiftlet_refine(&a, &b, &pose, &answer, nullptr, nullptr, &refined, nullptr), SWIFTLET_BAD_VALUE);
+  };
+  swiftlet_answer bad = good;
+  bad.level_a = 65536;
+  says(bad, "answer.level_a is 65536, not from -32768 to 32767");
+  bad = good, bad.level_b = -65536;
+  says(bad, "answer.level_b is -65536, not from -32768 to 32767");
+  bad = good, bad.levels_visited = 256;
+  says(bad, "answer.levels_visited is 256, not from 0 to 255");
+  bad = good, bad.level_b = 7;
+  swiftlet_check_result result{sizeof result, 7, "?"};
+  EXPECT_EQ(swiftlet_check(&a, &b, &pose, &bad, nullptr, &result, Sound()), SWIFTLET_OK);
+  EXPECT_EQ(result.ok, 0) << "a level that is not there is the answer's fault";
 }
 
 TEST(C, ModelsShowWhatTheyHold) {
