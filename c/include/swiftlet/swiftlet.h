@@ -14,7 +14,8 @@
 /// multiple of the struct's alignment, as sizeof always is; any other is refused with SWIFTLET_BAD_SIZE. An input that is
 /// shorter than the library's has the defaults in what it lacks; one that is longer is refused likewise unless the rest is 0
 /// bytes. An output is written as far as `size` says; what a longer one has more is set to 0. An output shorter than its words
-/// allow is refused likewise. In arrays all elements have the first one's size; the library sets the others'. Other structs,
+/// allow is refused likewise. In arrays all elements have the first one's size: the others' is not read, and the library sets
+/// it in outputs. Other structs,
 /// and the values of enumerations, never change within one SOVERSION.
 ///
 /// Threads. Handles may be used by any number of threads at once, and a handle freed by any of them.
@@ -62,8 +63,8 @@ enum {
   SWIFTLET_UNEXPECTED = 103     ///< anything else
 };
 
-/// Receives what was wrong. Its size: at least 16; `message` goes as far as the size says, so it may be longer or shorter than
-/// here.
+/// Receives what was wrong. Its size: any from 16 up; `message` goes as far as the size says, so it may be longer or shorter
+/// than here. Of a smaller size nothing is written: the code that the function returns says what was wrong.
 typedef struct swiftlet_error {
   uint32_t size;       ///< of this struct in bytes, set by the caller
   swiftlet_code code;  ///< that which the function returned; unchanged if that is SWIFTLET_OK
@@ -643,8 +644,8 @@ typedef struct swiftlet_pair {
 
 // ---- One pair --------------------------------------------------------------------------------------------------------------
 
-// Bodies may be convex or meshes. `seed`, `options` and `effort` may be null. Queries without a trace allocate nothing,
-// and write no message where `error` is null.
+// Bodies may be convex or meshes. `seed`, `options` and `effort` may be null. Queries without a trace allocate nothing.
+// A call that fails may, even where `error` is null.
 
 /// Gives the distance: exact by default, or within the errors of `options`.
 SWIFTLET_API swiftlet_code swiftlet_distance(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_pose* b_in_a,

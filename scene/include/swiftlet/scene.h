@@ -54,7 +54,9 @@ struct SceneContact : ScenePair {
 ///
 /// A question about all pairs leaves out those whose boxes are proved to be farther apart than asked. It lists, in the order of
 /// (a, b), every other pair that its query does not prove to be farther apart; `answer` says what is proved of it. A body or
-/// pose that queries refuse may be anywhere: its pairs are all listed, and the status of their answers says why.
+/// pose that queries refuse may be anywhere: its pairs are all listed, and the status of their answers says why. Of two poses
+/// that queries take the relative one may still be refused, as rotations are rigid to barely 1e-6 or it translates by more than
+/// 1e45: then the pair is listed if its boxes are near, and otherwise taken to be far apart.
 ///
 /// The same calls in the same order give the same bits, whatever the executor. Seeds change the work, never the truth (LAWS.md,
 /// law 3). Questions allocate. One thread at a time may use a scene; several may ask about the same `other`, if that rests
