@@ -601,6 +601,12 @@ TEST(Model, ChildrenCanBeGiven) {
   const auto source = [&](std::uint32_t v) { return m.source().vertex[v]; };
   for (const std::uint32_t c : m.level(1).child_vertex) EXPECT_EQ(source(c), 4u);
   for (const FeatureId c : m.level(1).child_face) EXPECT_EQ(source(c.index()), 5u);
+  child_of_face[2] = 6;
+  const Result<Model> none = Model::from_levels(arrays);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::BadValue);
+  EXPECT_EQ(none.error().message, "level 1: face 2 has the child 6, no vertex of the finer level");
+  child_of_face[2] = 5;
   child[3] = 6;
   const Result<Model> bad = Model::from_levels(arrays);
   ASSERT_FALSE(bad);

@@ -169,6 +169,9 @@ Result<bool> link_to_finer(Draft& level, const LevelArrays& arrays, const Draft&
   }
   std::vector<std::uint32_t> removed(view.face_first.size(), kNone);
   for (std::size_t f = 0; f < arrays.child_of_face.size() && f < level.surface.input_face.size(); ++f) {
+    if (arrays.child_of_face[f] >= finer.surface.input_vertex.size())
+      return Error{ErrorCode::BadValue, name + "face " + std::to_string(f) + " has the child " +
+                                            std::to_string(arrays.child_of_face[f]) + ", no vertex of the finer level"};
     removed[level.surface.input_face[f]] = ours(arrays.child_of_face[f]);
   }
   for (std::uint32_t f = 0; f < view.face_first.size(); ++f) {
