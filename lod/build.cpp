@@ -171,11 +171,12 @@ struct Start {
 };
 
 Result<Built> build_watched(const Mesh& users, const BuildOptions& options, Watch& watch) {
-  watch.begin("hull", kHullDone, 3);
+  const auto size = double(users.points.size() + users.triangles.size());
+  watch.begin("hull", kHullDone, 2 * size);  // the hull, and what becomes of each point and triangle in it
   const Start start(users, options.executor);
   const auto& [scale, mesh, shape] = start;
   if (const auto error = problem(users, shape)) return *error;
-  watch.work();
+  watch.work(size);
   const Polytope body = solid(mesh.points, shape);
   BuildReport report;
   report.points_read = mesh.points.size(), report.triangles_read = mesh.triangles.size();
@@ -185,14 +186,17 @@ Result<Built> build_watched(const Mesh& users, const BuildOptions& options, Watc
   std::vector<std::uint32_t> face_of;
   if (shape.dimension == 3) {
     run_tasks(options.executor, 3, [&](std::size_t task) {
-      if (task == 0) face_of = triangles_on(mesh, shape, body);
+      if (task == 0) face_of = triangles_on(mesh, shape, body, watch);
       if (task == 1) {
         const std::optional<double> ratio = volume_ratio(mesh, body);
         report.closed = ratio.has_value(), report.volume_ratio = ratio.value_or(1);
       }
-      if (task == 2) report.deepest_dent = deepest_dent(mesh, shape, body) / scale;
+      if (task == 2) {
+        PlaneTree planes(body);
+        report.deepest_dent = deepest_dent(mesh, shape, body, planes, watch) / scale;
+      }
     });
-    watch.work();
+    watch.work(0);
     if (options.require_convex)
       if (const auto error = dents(mesh, body, report, scale)) return *error;
     BuildOptions in_scale = options;
@@ -219,7 +223,9 @@ Result<Model> lod::hull_model(const Mesh& users, const BuildOptions& options) {
   const Start start(users, options.executor);
   const Polytope body = solid(start.mesh.points, start.shape);
   std::vector<std::uint32_t> face_of;
-  if (start.shape.dimension == 3) face_of = triangles_on(start.mesh, start.shape, body);
+  const Progress unasked;
+  Watch watch(unasked);
+  if (start.shape.dimension == 3) face_of = triangles_on(start.mesh, start.shape, body, watch);
   std::string end;
   return bake(finest_level(users, start.mesh, start.shape, body, face_of), {}, start.scale, options, end);
 }

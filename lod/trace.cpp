@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangles are found by corners, else by a climb to where their plane would touch the hull, else by the hull's plane beside
-// them. Depths are bounded by a few planes first.
+// them, unless a tree of the hull's planes tells that the triangle is below all. Depths are bounded by a few planes first.
 #include "trace.h"
 
 #include <swiftlet/lut.h>
@@ -129,13 +129,6 @@ class HullFaces {
   }
   /// How far `p` is below the plane of a triangle.
   double depth(std::uint32_t triangle, const Vec3& p) { return normal(triangle).dot(corner(triangle) - p); }
-  /// The least depth of `p` below any plane, which is its distance from the hull's surface; or any depth that is at most
-  /// `enough`.
-  double depth(const Vec3& p, double enough) {
-    double least = depth(about_nearest(p), p);
-    for (std::uint32_t t = 0; t < normals_.size() && least > enough; ++t) least = std::min(least, depth(t, p));
-    return least;
-  }
   const Vec3& normal(std::uint32_t triangle) {
     Vec3& normal = normals_[triangle];
     if (!normal.isZero()) return normal;
@@ -214,7 +207,7 @@ double precise_volume(const Polytope& body) {
   return double(six_times) / 6;
 }
 
-std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, const Polytope& body) {
+std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, const Polytope& body, Watch& watch) {
   Ids vertex = first_of_equals(mesh.points);  // per point, the hull's vertex there
   {
     Ids rank(mesh.points.size(), kNone);
@@ -227,11 +220,16 @@ std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, cons
   Ids found(mesh.triangles.size());
   std::optional<PlaneFinder> planes;  // of a triangulated hull every triangle is found by its corners
   std::optional<HullFaces> faces;
+  PlaneTree below(body);
   const double rounding = rounding_of(mesh.points);
   // The plane of a small triangle leans by more than rounding over a large face: the hull's plane there is asked too.
+  // Where no plane is near, all triangles may be about equally near, and finding the nearest takes as long as looking at all.
   const auto by_face = [&](const Vec3& p, const Vec3& q, const Vec3& r) {
+    const Vec3 middle = (p + q + r) / 3;
+    const double near = 8 * rounding;  // no less than that of three corners within `rounding`, in doubles
+    if (below.depth(middle, near) > near) return kNone;
     if (!faces) faces.emplace(body);
-    const std::uint32_t on = faces->about_nearest((p + q + r) / 3);
+    const std::uint32_t on = faces->about_nearest(middle);
     const auto is_on = [&](const Vec3& point) { return std::abs(faces->depth(on, point)) <= rounding; };
     return is_on(p) && is_on(q) && is_on(r) && faces->normal(on).dot(area_normal(p, q, r)) > 0 ? on : kNone;
   };
@@ -252,6 +250,7 @@ std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, cons
     if (on == kNone && planes->may_lean(mesh.points[i], mesh.points[j], mesh.points[k]))
       on = by_face(mesh.points[i], mesh.points[j], mesh.points[k]);
     found[t] = on;
+    watch.work();
   }
   return found;
 }
@@ -265,10 +264,9 @@ std::optional<double> volume_ratio(const Mesh& mesh, const Polytope& body) {
   return std::abs(precise_volume(surface)) / precise_volume(body);
 }
 
-double deepest_dent(const Mesh& mesh, const Hull& hull, const Polytope& body) {
+double deepest_dent(const Mesh& mesh, const Hull& hull, const Polytope& body, PlaneTree& planes, Watch& watch) {
   const Ids inner = inner_vertices(mesh, hull);
   if (inner.empty()) return 0;
-  HullFaces faces(body);
   const CoarseDepth bound(body);
 
   std::vector<std::pair<double, std::uint32_t>> at_most;
@@ -277,7 +275,8 @@ double deepest_dent(const Mesh& mesh, const Hull& hull, const Polytope& body) {
   double deepest = 0;
   for (const auto& [depth, v] : at_most) {
     if (depth <= deepest) break;
-    deepest = std::max(deepest, faces.depth(mesh.points[v], deepest));
+    deepest = std::max(deepest, planes.depth(mesh.points[v], deepest));
+    watch.work();
   }
   return deepest;
 }

@@ -11,6 +11,8 @@
 #include <swiftlet/build.h>
 
 #include "hull.h"
+#include "plane_tree.h"
+#include "watch.h"
 
 namespace swiftlet::lod {
 
@@ -19,8 +21,8 @@ namespace swiftlet::lod {
 double rounding_of(std::span<const Vec3> points);
 
 /// Per triangle of the user's, the hull triangle on whose plane its corners lie up to rounding and whose normal agrees, that
-/// with its corners where there is one; 0xffffffff for none.
-std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, const Polytope& body);
+/// with its corners where there is one; 0xffffffff for none. Tells one unit of work per triangle.
+std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, const Polytope& body, Watch& watch);
 
 /// The volume of a closed surface, summed in 106 bits: that of a thin body may be less than what doubles lose.
 double precise_volume(const Polytope& body);
@@ -29,7 +31,7 @@ double precise_volume(const Polytope& body);
 std::optional<double> volume_ratio(const Mesh& mesh, const Polytope& body);
 
 /// The greatest distance from the hull's surface of a vertex that the mesh's triangles use. Edges and triangles between them
-/// may be deeper.
-double deepest_dent(const Mesh& mesh, const Hull& hull, const Polytope& body);
+/// may be deeper. `planes` are those of `body`. Tells one unit of work per vertex that is none of the hull's.
+double deepest_dent(const Mesh& mesh, const Hull& hull, const Polytope& body, PlaneTree& planes, Watch& watch);
 
 }  // namespace swiftlet::lod

@@ -7,11 +7,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <set>
+#include <span>
 
 #include <swiftlet/query.h>
 
 #include "hull.h"
+#include "numeric/exact.h"
 #include "shapes.h"
 #include "trace.h"
 
@@ -136,7 +140,9 @@ TEST(Trace, EveryTriangleOfAMeshedCubeLiesOnAFace) {
   for (const Mesh& mesh : {plain, shapes::moved(plain, turn), shapes::float_rounded(shapes::moved(plain, turn))}) {
     const Hull shape = hull(mesh.points);
     const Polytope body = solid(mesh.points, shape);
-    const std::vector<std::uint32_t> face_of = triangles_on(mesh, shape, body);
+    const Progress unasked;
+    Watch watch(unasked);
+    const std::vector<std::uint32_t> face_of = triangles_on(mesh, shape, body, watch);
     ASSERT_EQ(face_of.size(), mesh.triangles.size());
     for (std::size_t t = 0; t < face_of.size(); ++t) {
       ASSERT_LT(face_of[t], body.triangles.size()) << t;
@@ -171,6 +177,63 @@ TEST(Trace, MeasuresADent) {
   const auto refused = build(mesh, strict);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::NotConvex);
+}
+
+/// A round hull and another one of `radius` around its middle, all of whose points are about as far from all faces.
+Mesh round_in_round(double radius) {
+  Mesh mesh = shapes::ellipsoid(Vec3(1, 1, 1), 6000, 1);
+  const Mesh outer = mesh;
+  for (const Vec3& p : outer.points) mesh.points.push_back(radius * p);
+  for (const auto& [a, b, c] : outer.triangles) {
+    const auto shift = std::uint32_t(outer.points.size());
+    mesh.triangles.push_back({a + shift, b + shift, c + shift});
+  }
+  return mesh;
+}
+
+TEST(Trace, DentsInTheMiddleOfARoundHullLookAtFewPlanes) {
+  const Progress unasked;
+  for (const double radius : {0.3, 0.1, 0.01, 1e-3, 1e-6, 1e-12}) {
+    const Mesh mesh = round_in_round(radius);
+    const Hull shape = hull(mesh.points);
+    const Polytope body = solid(mesh.points, shape);
+    PlaneTree planes(body);
+    Watch watch(unasked);
+    const double deepest = deepest_dent(mesh, shape, body, planes, watch);
+    double expected = 0;
+    PlaneTree all(body);
+    for (const Vec3& p : std::span(mesh.points).last(mesh.points.size() / 2)) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const auto& [a, b, c] : body.triangles) {
+        const exact::Plane plane = exact::plane(vec(body.points[a]), vec(body.points[b]), vec(body.points[c]));
+        least = std::min(least, eigen(plane.normal).dot(body.points[a] - p));
+      }
+      ASSERT_EQ(all.depth(p, -1), least) << radius;
+      expected = std::max(expected, least);
+    }
+    EXPECT_EQ(deepest, expected) << radius;
+    const double each = double(planes.looked_at()) / double(mesh.points.size() / 2);
+    std::printf("radius %g: %.1f planes and boxes per vertex, of %zu planes\n", radius, each, body.triangles.size());
+    EXPECT_LE(each, 200) << radius;
+  }
+}
+
+TEST(Trace, DentsTellOfProgressAndAreCancelled) {
+  const Mesh mesh = round_in_round(0.01);
+  BuildOptions options;
+  options.max_levels = 1;
+  int calls = 0, wanted = 1000;
+  options.progress = [&](double, std::string_view stage) {
+    calls += stage == "hull";
+    return calls < wanted;
+  };
+  ASSERT_TRUE(build(mesh, options));
+  EXPECT_GE(calls, 20);
+  wanted = calls - 3, calls = 0;  // the last ones are of dents
+  const auto built = build(mesh, options);
+  ASSERT_FALSE(built);
+  EXPECT_EQ(built.error().code, ErrorCode::Cancelled);
+  EXPECT_EQ(calls, wanted);
 }
 
 TEST(Trace, RefusedDentsAreToldByDepthOrVolume) {
