@@ -12,6 +12,7 @@
 #include <set>
 #include <span>
 
+#include <swiftlet/check.h>
 #include <swiftlet/query.h>
 
 #include "hull.h"
@@ -264,6 +265,19 @@ TEST(Trace, RoundingIsNoDent) {
   for (const Mesh& mesh : {shapes::meshed_cube(5), shapes::prism(50, 1, 1), shapes::dodecahedron()}) {
     EXPECT_TRUE(build(shapes::moved(mesh, turn), strict));
     EXPECT_TRUE(build(shapes::float_rounded(shapes::moved(mesh, turn)), strict));
+  }
+}
+
+TEST(Trace, FacesOfAnyLegalThinnessHaveANormal) {
+  const Vec3 along = Vec3(1.1, 0.3, 0), up(0, 1, 0);
+  for (const double half : {1e-20, 1e-30, 1e-33, 1e-40, 1e-60}) {
+    const auto built = build(std::vector<Vec3>{along, -along, half * up, -0.7 * half * up});
+    ASSERT_TRUE(built) << half << ": " << built.error().message;
+    const ConvexView& view = built.value().model.level(0).view;
+    ASSERT_EQ(view.planes.size(), 2u) << half;
+    EXPECT_EQ(std::abs(view.planes[0].z), 1) << half;
+    EXPECT_EQ(view.planes[1].z, -view.planes[0].z) << half;
+    EXPECT_TRUE(verify(built.value().model)) << half;
   }
 }
 

@@ -681,10 +681,23 @@ std::vector<Index> along_curve(const Input& in, std::vector<Index> corners) {
   return corners;
 }
 
-/// The unit normal of a face, computed in 106 bits: in doubles the area of a sliver may vanish.
+/// Twice the vector area of a loop, its triangles' computed by expansions: of a convex one it is right however thin.
+Vec exact_area_vector(const Input& in, const Loop& loop) {
+  Wide sum{0, 0, 0};
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+    sum = sum + exact::edge_normal(in.at(loop[0]), in.at(loop[i]), kAtRest, in.at(loop[i + 1]), in.at(loop[0]));
+  return rounded(sum);
+}
+
+/// The unit normal of a face, computed in 106 bits, since in doubles the area of a sliver may vanish, or by expansions where it
+/// may in 106 bits.
 Vec normal_of(const Input& in, const Loop& border) {
   const auto entry = [](double x) { return std::fabs(x) < kLeastNormalEntry ? 0 : x; };
-  const Vec area = normalised(rounded(area_vector<DoubleDouble>(in, border)));
+  double size = 0;
+  for (const Index v : border) size = std::max(size, max_abs(in.point(v) - in.point(border[0])));
+  const Vec twice = rounded(area_vector<DoubleDouble>(in, border));
+  const bool is_lost = max_abs(twice) < kLeastWideArea * double(border.size()) * size * size;
+  const Vec area = normalised(is_lost ? exact_area_vector(in, border) : twice);
   return {entry(area.x), entry(area.y), entry(area.z)};
 }
 
