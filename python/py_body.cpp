@@ -169,7 +169,7 @@ void add_levels(Class& c) {
                   "Squared cosine of the turn after which they are worse than a cold start; 0: never.")
   SWIFTLET_NUMBER("bytes", l.level().bytes, "Size of this level in the block of a whole model.")
   SWIFTLET_NUMBER("prefix", l.level().prefix,
-                  "Bytes from the beginning of the block to this level's end; 0 if the block lacks it.")
+                  "Bytes from the beginning of the block to this level's end, of level 0 all; 0 if the block lacks it.")
   SWIFTLET_NUMBER("edge_count", l.level().edge_count, "Number of edges; known of absent levels too.")
   SWIFTLET_NUMBER("triangle_count", l.level().triangle_count,
                   "Number of triangles, 2 V - 4 for a solid; known of absent levels too.")
@@ -321,7 +321,8 @@ levels finer than asked no page is touched until :meth:`ensure`. Pickled, it is 
         return py::make_tuple(held(std::move(found.model)), decoded(found.note));
       },
       py::arg("path"),
-      "Reads the complete levels of a file that was cut short.\n\nReturns\n-------\nmodel : Model\nnote : str\n"
+      "Reads the complete levels of a file that was cut short, up to `Level.prefix`.\n\nReturns\n-------\nmodel : Model\nnote "
+      ": str\n"
       "    What is missing; empty for a whole file.");
   c.def_static(
       "from_bytes",

@@ -132,9 +132,9 @@ TEST_F(DetailTest, CutAtBuildLoadMapAndSaveIsTheSameModel) {
       }
       EXPECT_EQ(must(load(saved(cut, "cut.swl"))).hash(), cut.hash());
       EXPECT_EQ(must(map(path("cut.swl"))).finest_level(), k);
-      if (k > 0) {
-        EXPECT_EQ(m.cut({0, by_bytes.bytes - 1}).finest_level(), std::min(k + 1, m.level_count() - 1));
-      }
+      EXPECT_EQ(m.level(k).prefix, by_bytes.bytes) << "of level 0 the table and the source map count too";
+      EXPECT_EQ(cut.level(k).prefix, cut.bytes().size());
+      EXPECT_EQ(m.cut({0, by_bytes.bytes - 1}).finest_level(), std::min(k + 1, m.level_count() - 1));
     }
     EXPECT_EQ(m.cut({0, 0}).finest_level(), m.level_count() - 1) << "the coarsest always comes along";
     EXPECT_EQ(m.cut({kInfinity}).finest_level(), m.level_count() - 1);

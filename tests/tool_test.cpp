@@ -61,6 +61,7 @@ TEST_F(Tool, InfoAccountsForEveryByte) {
     sum += level["bytes"].get<std::size_t>();
   }
   EXPECT_EQ(sum, info["bytes"]);
+  EXPECT_EQ(info["levels"][0]["prefix"], info["bytes"]) << "the table and the source map belong to level 0";
 }
 
 TEST_F(Tool, CutLeavesTheFinestLevelsOut) {

@@ -135,7 +135,8 @@ AlignedBytes compose(const BlockParts& parts) {
 }
 
 std::uint64_t Headers::prefix(int level) const {
-  if (level <= int(block.finest_level)) return block.total_bytes;
+  if (level < int(block.finest_level)) return 0;
+  if (level == int(block.finest_level)) return block.total_bytes;
   const Section& section = levels[std::size_t(level)].section;
   return section.offset + section.bytes;
 }
@@ -263,7 +264,6 @@ Level described(const BlockHeader& block, const LevelHeader& l) {
   level.deviation = l.deviation;
   level.volume = l.volume;
   level.bytes = l.section.bytes;
-  level.prefix = l.section.offset == 0 ? 0 : end_of(l.section);
   level.edge_count = l.edge_count;
   level.triangle_count = l.triangle_count;
   return level;
@@ -380,7 +380,10 @@ Result<Model> BlockReader::read(Block block, int finest) {
   if (headers.value().prefix(finest) > block.bytes.size()) return bad("ends before level " + std::to_string(finest) + " does");
   const int count = int(headers.value().levels.size());
   auto body = std::make_shared<Model::Content>(Model::Content{std::move(block), std::move(headers).value(), count, {}, {}, {}});
-  for (const LevelHeader& l : body->headers.levels) body->levels.push_back(described(body->headers.block, l));
+  for (const LevelHeader& l : body->headers.levels) {
+    body->levels.push_back(described(body->headers.block, l));
+    body->levels.back().prefix = body->headers.prefix(int(body->levels.size()) - 1);
+  }
   const BlockHeader& block_header = body->headers.block;
   body->levels[0].view.inner_radius = block_header.inner_radius;
   body->levels[0].scale_around = block_header.scale_around, body->levels[0].scale_inside = block_header.scale_inside;

@@ -77,7 +77,8 @@ struct Headers {
   BlockHeader block;
   std::vector<LevelHeader> levels;  ///< finest first
 
-  /// Bytes from the block's start to the end of `level`, after all coarser levels; all bytes if `level` is the finest.
+  /// Level::prefix: bytes from the block's start to the end of `level`, after all coarser levels; all bytes if `level` is the
+  /// block's finest; 0 if the block lacks it.
   std::uint64_t prefix(int level) const;
   /// The finest level in the block that `detail` allows.
   int finest(const Detail& detail) const;

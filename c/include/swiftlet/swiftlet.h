@@ -307,7 +307,8 @@ typedef struct swiftlet_level {
   double reach;                          ///< upper bound on the distance of two points of the body; 0: not known
   double edge_length;                    ///< mean length of the edges, diagonals included
   uint64_t bytes;                        ///< size of this level in the block of a whole model
-  uint64_t prefix;                       ///< bytes from the block's beginning to this level's end; 0 if the block lacks it
+  uint64_t prefix;                       ///< bytes from the block's beginning to this level's end, of level 0 all; 0 if the
+                                         ///< block lacks it
   uint64_t edge_count;                   ///< edges without diagonals
   uint64_t triangle_count;               ///< 2 V - 4 for a solid
 } swiftlet_level;

@@ -97,7 +97,8 @@ struct ConvexView {
 /// finest levels deviate by d each answer any distance with an error of at most 2 d.
 struct Detail {
   double deviation = 0;  ///< keep no level finer than the coarsest one with a smaller deviation, in the body's unit; 0: all
-  std::uint64_t bytes = ~std::uint64_t{0};  ///< keep only levels that lie wholly in this many first bytes of the block
+  /// Keep only levels that lie wholly in this many first bytes of the block, as Level::prefix counts them.
+  std::uint64_t bytes = ~std::uint64_t{0};
 };
 
 /// The range of a face's vertices, counter-clockwise seen from outside, diagonals skipped: `for (std::uint32_t v :
@@ -152,10 +153,12 @@ struct Level {
   std::array<std::uint32_t, 4> feature_count{};  ///< by FeatureKind: vertices, half-edges and faces; 0 on absent levels
   double same_cos2 = 0, near_cos2 = 0;  ///< squared cosines of the turns after which a seed's features are stored again, and
                                         ///< after which they are worse than a cold start; 0: never
-  double deviation = 0;    ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
-  double volume = 0;       ///< in cubic units; 0 for a body that is not solid
-  std::size_t bytes = 0;   ///< size of this level in the block of a whole model
-  std::size_t prefix = 0;  ///< bytes from the beginning of the model's block to this level's end; 0 if the block lacks it
+  double deviation = 0;   ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
+  double volume = 0;      ///< in cubic units; 0 for a body that is not solid
+  std::size_t bytes = 0;  ///< size of this level in the block of a whole model
+  /// Bytes from the beginning of the model's block to this level's end; of level 0 all bytes: the start table and the source
+  /// map, which come last, belong to it. 0 if the block lacks the level.
+  std::size_t prefix = 0;
   std::size_t edge_count = 0, triangle_count = 0;  ///< edges without diagonals; triangles: 2 V - 4 for a solid
 };
 

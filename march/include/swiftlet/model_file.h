@@ -44,7 +44,8 @@ struct Salvaged {
   std::string note;  ///< one sentence that says what is missing; empty for a whole file
 };
 
-/// Reads the complete levels of a file that was cut short.
+/// Reads the complete levels of a file that was cut short. Level 0 is complete with the start table and the source map, which
+/// come last: up to Level::prefix.
 /// Errors: as `load`, but BadFormat for a short file only if not even the coarsest level is complete.
 Result<Salvaged> salvage(const std::filesystem::path& path);
 
