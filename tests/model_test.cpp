@@ -993,6 +993,22 @@ TEST(Verify, FindsWhatTheHashesCannot) {
     write(block, offsetof(BlockHeader, scale_around), std::numeric_limits<double>::infinity());
   });
   expect_says(verify(aside).message, "the centre is outside");
+  expect_says(verify(tampered(m, [](Bytes& block) { write(block, offsetof(BlockHeader, dimension), 2u); })).message,
+              "level 0 has dimension 3, not 2");
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string level = "level " + std::to_string(i);
+    const Level& of = m.level(int(i));
+    const auto of_level = [&](std::size_t at, auto value) {
+      return verify(tampered(m, [&](Bytes& block) { write(block, level_header_at(i) + at, value); })).message;
+    };
+    expect_says(of_level(offsetof(LevelHeader, edge_count), std::uint64_t{5}), level + " has " + std::to_string(of.edge_count));
+    expect_says(of_level(offsetof(LevelHeader, triangle_count), std::uint64_t{5}),
+                level + " has " + std::to_string(of.triangle_count) + " triangles, not 5");
+    for (const double wrong : {1e30, -1.0, 1.0001 * of.edge_length, 0.9999 * of.edge_length})
+      expect_says(of_level(offsetof(LevelHeader, edge_length), wrong), level + ": its edges are");
+    for (const double wrong : {1e9, -of.volume, 1.0001 * of.volume, 0.9999 * of.volume})
+      expect_says(of_level(offsetof(LevelHeader, volume), wrong), level + ": its volume is");
+  }
   for (int axis = 0; axis < 3; ++axis) {
     expect_says(with(offsetof(BlockHeader, box_min) + 8 * axis, std::nextafter(m.box_min()[axis], 2)), "box");
     expect_says(with(offsetof(BlockHeader, box_max) + 8 * axis, std::nextafter(m.box_max()[axis], -2)), "box");

@@ -76,6 +76,46 @@ bool surely_holds(const ConvexView& body, const Vec& p) {
   return march(point, body, Pose{}).lower <= kLawTwo * body.extent;
 }
 
+/// Recomputes the numbers of level `i` that prove nothing: dimension, edges, triangles, edge length and volume. `dimension` is
+/// that of the level's surface. Lengths and volumes are compared up to the rounding of their sums.
+Check numbers_hold(const Model& model, int i, int dimension) {
+  const Level& level = model.level(i);
+  const ConvexView& view = level.view;
+  if (model.dimension() != dimension) return failed("level %d has dimension %d, not %d", i, dimension, model.dimension());
+  std::size_t borders = 0;
+  double length = 0;
+  for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
+    borders += !is_diagonal(view, h);
+    length += norm(vec(view.vertices[view.half_edges[h].head]) - vec(view.vertices[origin(view, h)]));
+  }
+  const auto count = [](std::size_t n) { return static_cast<unsigned long long>(n); };
+  if (level.edge_count != borders / 2)
+    return failed("level %d has %llu edges, not %llu", i, count(borders / 2), count(level.edge_count));
+  const std::size_t triangles = dimension >= 2 ? 2 * view.vertices.size() - 4 : 0;
+  if (level.triangle_count != triangles)
+    return failed("level %d has %llu triangles, not %llu", i, count(triangles), count(level.triangle_count));
+  const double halves = double(view.half_edges.size()), mean = view.half_edges.empty() ? 0 : length / halves;
+  if (!(std::fabs(level.edge_length - mean) <= 2 * kU * (halves + 4) * mean))
+    return failed("level %d: its edges are %.17g long, not %.17g", i, mean, level.edge_length);
+  const Vec apex = vec(view.vertices[0]);
+  const double reach = reach_of(view), size = reach * reach * reach;
+  double six_times = 0, terms = 0;
+  if (dimension == 3) {
+    for (std::uint32_t first = 0; first < view.half_edges.size(); ++first) {
+      if (!is_first_in_facet(view, first)) continue;
+      const Vec p = vec(view.vertices[origin(view, first)]) - apex;
+      for (std::uint32_t h = next_in_facet(view, first); view.half_edges[h].head != origin(view, first);
+           h = next_in_facet(view, h)) {
+        const Vec q = vec(view.vertices[origin(view, h)]) - apex, r = vec(view.vertices[view.half_edges[h].head]) - apex;
+        six_times += dot(cross(p, q), r), terms += 1;
+      }
+    }
+  }
+  if (!(std::fabs(6 * level.volume - six_times) <= 32 * kU * terms * size))
+    return failed("level %d: its volume is %.17g, not %.17g", i, six_times / 6, level.volume);
+  return kPassed;
+}
+
 }  // namespace
 
 Checked::Checked(const Body& of_a, const Body& of_b, const Pose& b_in_a, const Answer& of, Question asked)
@@ -298,6 +338,7 @@ Check verify(const Model& model) {
       if (!(level.scale_inside <= scale_inside(view, centre, level.map_frame)))
         return failed("level %d: nothing proves that an ellipsoid of scale %.17g is inside", i, level.scale_inside);
     }
+    if (const Check numbers = numbers_hold(model, i, surface.value().dimension); !numbers) return numbers;
     if (i == 0) continue;
     if (vertex_outside(exact_hull, view) != kNone) return failed("level %d does not enclose level 0", i);
     MarchStart start;
