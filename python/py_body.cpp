@@ -147,8 +147,9 @@ void add_levels(Class& c) {
 #define SWIFTLET_NUMBER(name, expression, text) \
   c.def_property_readonly(                      \
       name, [](const HeldLevel& l) { return expression; }, text);
-  SWIFTLET_NUMBER("deviation", l.level().deviation,
-                  "Bound on the distance of this level's points from level 0, at most 1 % above the truth.")
+  SWIFTLET_NUMBER(
+      "deviation", l.level().deviation,
+      "Bound on the distance of this level's points from level 0, above the truth by at most 1 % of it and rounding.")
   SWIFTLET_NUMBER("volume", l.level().volume, "In cubic units; 0 for a body that is not solid.")
   SWIFTLET_NUMBER("map_doubt", l.level().map_doubt, "About the mean error of a look-up in `support_map`, a length.")
   SWIFTLET_NUMBER(

@@ -153,7 +153,8 @@ struct Level {
   std::array<std::uint32_t, 4> feature_count{};  ///< by FeatureKind: vertices, half-edges and faces; 0 on absent levels
   double same_cos2 = 0, near_cos2 = 0;  ///< squared cosines of the turns after which a seed's features are stored again, and
                                         ///< after which they are worse than a cold start; 0: never
-  double deviation = 0;   ///< bound on the distance of this level's points from level 0, at most 1 % above the truth
+  double deviation = 0;   ///< bound on the distance of this level's points from level 0, above the truth by at most 1 % of it
+                          ///< and law 2's bound
   double volume = 0;      ///< in cubic units; 0 for a body that is not solid
   std::size_t bytes = 0;  ///< size of this level in the block of a whole model
   /// Bytes from the beginning of the model's block to this level's end; of level 0 all bytes: the start table and the source
@@ -242,8 +243,8 @@ class Model {
   /// the model unchanged.
   Result<int> ensure(int level);
 
-  /// Returns a support vertex of the finest level: no other is farther along `direction` (body frame, any length). Exact. Cost:
-  /// hill climbing from a look-up.
+  /// Returns a support vertex of the finest level: no other is farther along `direction` (body frame, any length). Exact if its
+  /// coordinates are 0 or at least 1e-300 of the largest one; smaller ones may count as 0. Cost: hill climbing from a look-up.
   std::uint32_t support(const Vec3& direction) const;
 
   TableSpec table_spec() const;                  ///< what `table()` and the support maps were filled from
