@@ -18,6 +18,7 @@
 #include "hull.h"
 #include "hull_model.h"
 #include "numeric/chunks.h"
+#include "numeric/exact.h"
 #include "numeric/tolerance.h"
 #include "trace.h"
 
@@ -106,14 +107,14 @@ void list_sources(const std::vector<std::uint32_t>& face_of, std::size_t faces, 
   begin.pop_back();
 }
 
-/// A flat body has two sides; a triangle is on the one whose normal it shares.
+/// A flat body has two sides; a triangle is on the one whose normal it shares. The sign of a sliver's is exact.
 std::vector<std::uint32_t> sides_of(const Mesh& mesh, const Hull& shape) {
-  Vec3 normal = Vec3::Zero();
-  for (std::size_t k = 2; k < shape.vertices.size(); ++k)
-    normal += area_normal(mesh.points[shape.vertices[0]], mesh.points[shape.vertices[k - 1]], mesh.points[shape.vertices[k]]);
+  const auto normal = [&mesh](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    return eigen(exact::plane(vec(mesh.points[a]), vec(mesh.points[b]), vec(mesh.points[c])).normal);
+  };
+  const Vec3 front = normal(shape.vertices[0], shape.vertices[1], shape.vertices[2]);
   std::vector<std::uint32_t> side;
-  for (const auto& [a, b, c] : mesh.triangles)
-    side.push_back(normal.dot(area_normal(mesh.points[a], mesh.points[b], mesh.points[c])) < 0);
+  for (const auto& [a, b, c] : mesh.triangles) side.push_back(front.dot(normal(a, b, c)) < 0);
   return side;
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Exact_rational.h>
 
 #include <algorithm>
 #include <cmath>
@@ -326,6 +327,47 @@ TEST(Trace, TetrahedraHaveNoDentsHoweverFlat) {
     EXPECT_NEAR(built.value().report.volume_ratio, 1, 1e-12) << k;
   }
   EXPECT_GE(solids, 500);
+}
+
+/// Slivers of a flat body are on the side whose normal they share exactly.
+TEST(Trace, OfAFlatBodyEverySliverIsOnItsSide) {
+  shapes::Random random(8);
+  using Rational = CGAL::Exact_rational;
+  int slivers = 0;
+  for (int round = 0; round < 200; ++round) {
+    Mesh mesh;
+    for (int i = 0; i < 12; ++i) {
+      const double t = random.uniform(0, 1);
+      mesh.points.push_back(i < 4 ? Vec3(random.uniform(0, 1), random.uniform(0, 1), 0)
+                                  : Vec3(t, t * (1 + 1e-15 * random.uniform(-1, 1)), 0));
+    }
+    for (std::uint32_t k = 4; k + 2 < 12; ++k)
+      mesh.triangles.push_back({k, k + 1, k + 2}), mesh.triangles.push_back({k + 1, k, k + 2});
+    const auto built = build(mesh);
+    ASSERT_TRUE(built) << built.error().message;
+    const Model& flat = built.value().model;
+    ASSERT_EQ(flat.dimension(), 2);
+    const auto turn = [](const Vec3& a, const Vec3& b, const Vec3& c) {
+      return CGAL::sign((Rational(b.x()) - a.x()) * (Rational(c.y()) - a.y()) -
+                        (Rational(b.y()) - a.y()) * (Rational(c.x()) - a.x()));
+    };
+    const SourceMap source = flat.source();
+    for (std::uint32_t f = 0; f < 2; ++f) {
+      std::vector<Vec3> loop;
+      for (const std::uint32_t v : FaceLoop(flat.level(0).view, f)) {
+        const Vertex& p = flat.level(0).view.vertices[v];
+        loop.emplace_back(p.x, p.y, p.z);
+      }
+      const auto front = turn(loop[0], loop[1], loop[2]);
+      for (std::uint32_t k = source.face_begin[f]; k < source.face_begin[f + 1]; ++k) {
+        const auto& [a, b, c] = mesh.triangles[source.face[k]];
+        const auto side = turn(mesh.points[a], mesh.points[b], mesh.points[c]);
+        EXPECT_NE(side, -front) << round;
+        slivers += side != CGAL::ZERO;
+      }
+    }
+  }
+  EXPECT_GE(slivers, 2000);
 }
 
 /// From either side a flat body's face is the one that looks there, and its triangles are those of that side.
