@@ -39,6 +39,7 @@ std::string decimal(double value, int digits = 6) {
 std::optional<Error> problem(const BuildOptions& options) {
   const auto bad = [](const char* message) { return Error{ErrorCode::BadValue, message}; };
   if (options.rate && !(*options.rate > 0 && *options.rate < 1)) return bad("rate must lie between 0 and 1, without either");
+  if (options.cutoff < 4) return bad("cutoff must be at least 4");
   if (options.max_levels < 1 || options.max_levels > 32) return bad("max_levels must be from 1 to 32");
   if (!(options.max_deviation >= 0) || !std::isfinite(options.max_deviation))
     return bad("max_deviation must be finite and not negative");

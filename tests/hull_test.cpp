@@ -410,5 +410,19 @@ TEST(Trace, ADetailCoarserThanTheCoarsestLevelLeavesThatLevel) {
   EXPECT_EQ(build(shapes::cube(), options).error().code, ErrorCode::BadValue);
 }
 
+TEST(Trace, WhatIsBelowALimitIsToldWithTheLimit) {
+  for (const std::uint32_t cutoff : {0u, 3u}) {
+    BuildOptions options;
+    options.cutoff = cutoff;
+    const auto refused = build(shapes::cube(), options);
+    ASSERT_FALSE(refused) << cutoff;
+    EXPECT_EQ(refused.error().code, ErrorCode::BadValue);
+    EXPECT_EQ(refused.error().message, "cutoff must be at least 4");
+  }
+  Mesh tiny = shapes::cube();
+  for (Vec3& p : tiny.points) p *= 1e-50;
+  EXPECT_EQ(build(tiny).error().message, "the body's extent is 1e-50, below the limit of 1e-45");
+}
+
 }  // namespace
 }  // namespace swiftlet::lod

@@ -470,7 +470,7 @@ TEST(Model, CoordinatesOutOfRangeAreNamed) {
   }
   Polyhedron tiny = octahedron();
   for (Vec3& p : tiny.points) p *= 1e-50;
-  expect_says(refusal(tiny, ErrorCode::BadValue), "extent");
+  expect_says(refusal(tiny, ErrorCode::BadValue), "the body's extent is 1e-50, below the limit of 1e-45");
 }
 
 // ---- Flatter bodies --------------------------------------------------------------------------------------------------------

@@ -292,6 +292,8 @@ TEST_F(Tool, AnOptionOutOfItsRangeIsExitCodeTwo) {
     refuses(std::string("build cube.off -o c.swl ") + option, name, 2);
   }
   refuses("info nowhere.swl", "nowhere.swl", 1);
+  for (const char* cutoff : {"0", "3"})
+    refuses("build cube.off -o c.swl --cutoff " + std::string(cutoff), std::string(cutoff) + " is no number from 4 up", 2);
   for (const char* option : {"--cutoff", "--bytes", "--mesh --hull-triangles", "--mesh --hull-patches"})
     refuses("build cube.off -o c " + std::string(option) + " -1", "-1 is no number from 0 up", 2);
 }

@@ -191,9 +191,10 @@ Action declare_build(CLI::App& word) {
   word.add_option("--rate", o.rate,
                   "triangles of a level over those of the one before, between 0 and 1; none: as queries like it")
       ->check(number_in(std::nextafter(0.0, 1.0), std::nextafter(1.0, 0.0), "between 0 and 1"));
-  word.add_option("--cutoff", o.cutoff, "no level is simplified to fewer triangles")
+  word.add_option("--cutoff", o.cutoff, "no level is simplified to fewer triangles, 4 or more")
       ->capture_default_str()
-      ->check(not_negative());
+      ->check(not_negative())
+      ->check(number_in(4, std::numeric_limits<std::uint32_t>::max(), "from 4 up"));
   word.add_option("--levels", o.max_levels, "at most so many, level 0 included, 1 to 32")
       ->capture_default_str()
       ->check(number_in(1, 32, "from 1 to 32"));

@@ -70,7 +70,7 @@ Result<Input> read_input(const LevelArrays& level) {
     }
   }
   if (const double extent = extent_of(in.points); extent > 0 && extent < kLeastExtent)
-    return bad_value("the body's extent is " + text(extent));
+    return bad_value("the body's extent is " + text(extent) + ", below the limit of " + text(kLeastExtent));
   std::size_t at = 0;
   const bool triangles = level.face_sizes.empty();
   if (triangles && level.face_vertices.size() % 3 != 0) return bad_value("face_vertices is no list of triangles");

@@ -105,7 +105,7 @@ def build(
     rate : float, optional
         Triangles of a level over those of the next finer one, in (0, 1); None: what costs queries least.
     cutoff : int, optional
-        Least number of triangles that a level is simplified to; enclosing may drop some.
+        Least number of triangles that a level is simplified to, at least 4; enclosing may drop some.
     max_levels : int, optional
         1 to 32, level 0 included.
     max_deviation : float, optional
