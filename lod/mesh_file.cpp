@@ -274,7 +274,7 @@ bool is_other_obj_word(std::string_view word) {
   return std::any_of(std::begin(kOthers), std::end(kOthers), [word](const char* other) { return word == other; });
 }
 
-/// Vertices and faces. A line goes on where it ends in a backslash.
+/// Vertices and faces. A line goes on where it ends in a backslash; one of other words may not swallow a vertex or face so.
 Soup read_obj(std::string_view bytes) {
   Words words(text_of(bytes), '#', 1, '\\');
   Soup soup;
@@ -296,7 +296,11 @@ Soup read_obj(std::string_view bytes) {
         soup.polygons.back().push_back(vertex);
       }
     } else if (is_other_obj_word(keyword)) {
-      while (!words.next_on_line().empty()) {
+      for (std::size_t line = words.line();; line = words.line()) {
+        const std::string_view word = words.next_on_line();
+        if (word.empty()) break;
+        if (words.line() != line && (word == "v" || word == "f"))
+          words.fail("begins with " + shown(word) + ", but the line before it ends in a backslash and so goes on here");
       }
     } else {
       words.fail("OBJ has no word " + shown(keyword));
@@ -430,6 +434,15 @@ std::optional<PlyType> ply_type(std::string_view name) {
   return std::nullopt;
 }
 
+/// Whether a number is one of a type; any is of floats.
+bool is_of(PlyType type, double value) {
+  constexpr std::pair<double, double> kRanges[] = {{-0x1p7, 0x1p7 - 1}, {0, 0x1p8 - 1},        {-0x1p15, 0x1p15 - 1},
+                                                   {0, 0x1p16 - 1},     {-0x1p31, 0x1p31 - 1}, {0, 0x1p32 - 1}};
+  if (type == PlyType::Float || type == PlyType::Double) return true;
+  const auto& [least, most] = kRanges[std::size_t(type)];
+  return value >= least && value <= most && value == std::floor(value);
+}
+
 struct PlyProperty {
   std::string name;
   PlyType type;
@@ -463,7 +476,11 @@ PlyHeader read_ply_header(std::string_view bytes) {
     if (header.lines == 1 && keyword != "ply") fail("expected ply");
     if (std::find(std::begin(kKeywords), std::end(kKeywords), keyword) == std::end(kKeywords))
       fail("unknown keyword " + shown(keyword));
-    if (keyword == "format") header.format = words.next();
+    if (keyword == "format") {
+      header.format = words.next();
+      const std::string_view version = words.next();
+      if (!version.empty() && version != "1.0") fail("version " + shown(version) + " of PLY, expected 1.0");
+    }
     if (keyword == "element") {
       const std::string name(words.next());
       std::uint64_t count = 0;
@@ -501,7 +518,12 @@ class PlyBody {
       throw Damage{"unknown format " + shown(header.format)};
   }
   double next(PlyType type) {
-    if (text_) return words_.number_on_line<double>("a number");
+    if (text_) {
+      const std::string_view word = words_.next_on_line();
+      const double value = words_.parse<double>(word, word, "a number");
+      if (!is_of(type, value)) words_.fail(shown(word) + " is no number of its property's type");
+      return value;
+    }
     switch (type) {
       case PlyType::Int8: return numbers_.next<std::int8_t>();
       case PlyType::UInt8: return numbers_.next<std::uint8_t>();
@@ -542,7 +564,10 @@ class PlyBody {
     constexpr double kMost = 0x1p32;  // what no type of PLY exceeds that counts
     if (value >= 0 && value < kMost && value == std::floor(value)) return std::uint64_t(value);
     std::array<char, 32> digits;
-    throw Damage{what + std::string(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr)};
+    const std::string fault =
+        what + std::string(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
+    if (text_) words_.fail(fault);
+    throw Damage{fault};
   }
 
  private:

@@ -214,6 +214,16 @@ TEST(MeshFile, ObjLinesGoOnAfterABackslash) {
   expect_tetrahedron(read("l.obj", "v 0 0 0\nv 1 \\\n0 0\nv 0 1 0\r\nv 0 0 1\nf 1 \\\r\n3 \\\n2\nf 1 2 4\nf 2 3 4\nf 1 4 3"));
   expect_error(read("l.obj", "v 0 0 0\nv 1 \\\n0 0\nv 0 x 0\n"), ErrorCode::BadFormat,
                "line 4: expected three coordinates, not \"x\"");
+  for (const std::string& line : {"mtllib C:\\red\\", "o \\", "vn 0 0 \\", "g a \\\nb\\"}) {
+    for (const char* end : {"\n", "\r\n", "\r"}) {
+      const std::size_t lines = 2 + std::size_t(std::count(line.begin(), line.end(), '\n'));
+      for (const char* swallowed : {"v 7 7 7", "f 1 2 3"})
+        expect_error(read("l.obj", line + end + swallowed + "\n" + kObj), ErrorCode::BadFormat,
+                     "line " + std::to_string(lines) + ": begins with \"" + swallowed[0] + "\"");
+    }
+    expect_tetrahedron(read("l.obj", line + "\n\n" + kObj));
+  }
+  expect_tetrahedron(read("l.obj", "# C:\\\n" + kObj));
 }
 
 TEST(MeshFile, NumbersBeyondDoublesAreNamed) {
@@ -252,6 +262,33 @@ TEST(MeshFile, PlyInAllThreeFormatsAgrees) {
                "line 3: a property of no");
   expect_error(read("u.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n"), ErrorCode::BadFormat,
                "unknown type \"real\"");
+}
+
+TEST(MeshFile, PlyNumbersInTextAreOfTheirTypes) {
+  const auto with = [](const std::string& type, const std::string& value) {
+    return read("t.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty " + type +
+                             " y\nproperty float z\nend_header\n0 " + value + " 0\n");
+  };
+  constexpr std::pair<const char*, std::pair<const char*, const char*>> kEnds[] = {{"char", {"-128", "127"}},
+                                                                                   {"uchar", {"0", "255"}},
+                                                                                   {"int16", {"-32768", "32767"}},
+                                                                                   {"ushort", {"0", "65535"}},
+                                                                                   {"int", {"-2147483648", "2147483647"}},
+                                                                                   {"uint32", {"0", "4294967295"}}};
+  constexpr const char* kBeyond[][2] = {
+      {"-129", "128"},     {"-1", "256"}, {"-32769", "32768"}, {"-1", "65536"}, {"-2147483649", "2147483648"},
+      {"-1", "4294967296"}};
+  for (std::size_t i = 0; i < std::size(kEnds); ++i) {
+    const auto& [type, ends] = kEnds[i];
+    for (const char* end : {ends.first, ends.second}) EXPECT_TRUE(with(type, end)) << type << ' ' << end;
+    EXPECT_TRUE(with(type, "7.0")) << type;
+    for (const char* wrong : {kBeyond[i][0], kBeyond[i][1], "1.5", "inf", "nan"})
+      expect_error(with(type, wrong), ErrorCode::BadFormat,
+                   "line 8: \"" + std::string(wrong) + "\" is no number of its property's type");
+  }
+  for (const char* type : {"float", "double"}) EXPECT_TRUE(with(type, "1.5"));
+  expect_error(read("t.ply", std::string(kPly).replace(kPly.find("1.0"), 3, "2.0")), ErrorCode::BadFormat,
+               "line 2: version \"2.0\" of PLY, expected 1.0");
 }
 
 /// Every text format.
