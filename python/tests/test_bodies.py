@@ -302,8 +302,10 @@ def test_the_builder_takes_points_files_and_shapes(tmp_path):
     with pytest.raises(swiftlet.Cancelled):
         build.build(points, progress=lambda fraction, stage: False)
     assert build.build(points, progress=lambda fraction, stage: None).model.level_count > 0
-    with pytest.raises(swiftlet.DataError, match="cutoff|rate"):
+    with pytest.raises(swiftlet.DataError, match="rate"):
         build.build(points, rate=2.0)
+    with pytest.raises(swiftlet.DataError, match="cutoff must be at least 4"):
+        build.build(points, cutoff=3)
     with pytest.raises(TypeError):
         build.build_mesh(points)
     with pytest.raises(swiftlet.FileError):
