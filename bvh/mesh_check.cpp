@@ -190,6 +190,7 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
   if (answer.verdict == Verdict::Disjoint && overlapping) return fail("Disjoint, but two triangles cross");
   if (answer.verdict == Verdict::Overlapping && !(upper <= law_two)) return fail("Overlapping, ", lower, " apart");
   if (answer.verdict == Verdict::Touching && !(lower <= law_two)) return fail("Touching, ", lower, " apart");
+  if (answer.verdict == Verdict::Undecided && answer.lower > 0) return fail("undecided with a lower bound of ", answer.lower);
   // Of bodies that meet, the points may be any one that they share, and a body all around it has no feature there.
   const bool shared = (answer.point_b - answer.point_a).norm() <= law_two && lower <= law_two;
   if (answer.verdict != Verdict::Overlapping && answer.upper < HUGE_VAL && !shared) {

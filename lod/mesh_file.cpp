@@ -20,6 +20,8 @@
 #include <system_error>
 #include <utility>
 
+#include "triangulate.h"
+
 namespace swiftlet {
 namespace {
 
@@ -664,8 +666,7 @@ Result<Mesh> checked(Soup soup) {
       if (corner >= mesh.points.size())
         return Error{ErrorCode::BadFormat,
                      face() + " names vertex " + std::to_string(corner) + " of " + std::to_string(mesh.points.size())};
-    for (std::size_t k = 2; k < polygon.size(); ++k)
-      mesh.triangles.push_back({std::uint32_t(polygon[0]), std::uint32_t(polygon[k - 1]), std::uint32_t(polygon[k])});
+    lod::triangulate(mesh.points, polygon, mesh.triangles);
   }
   return mesh;
 }

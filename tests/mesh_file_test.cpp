@@ -6,12 +6,16 @@
 
 #include <array>
 #include <clocale>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include <swiftlet/build.h>
 
@@ -102,6 +106,46 @@ TEST(MeshFile, PointCloudIsLegal) {
   ASSERT_TRUE(mesh) << mesh.error().message;
   EXPECT_EQ(mesh.value().points.size(), 3u);
   EXPECT_TRUE(mesh.value().triangles.empty());
+}
+
+/// By its triangles, all wound as the polygon is: the area of a fan that reaches out of a concave one would be larger.
+TEST(MeshFile, ConcavePolygonsAreCutInside) {
+  const auto area = [](const Mesh& mesh) {
+    double sum = 0;
+    for (const auto& [p, q, r] : mesh.triangles)
+      sum += (mesh.points[q] - mesh.points[p]).cross(mesh.points[r] - mesh.points[p]).norm() / 2;
+    return sum;
+  };
+  // An arrow whose notch no corner but one sees across, at every place in the order, both ways round, tilted.
+  const std::vector<Vec3> arrow{{0, 0, 0}, {4, 1, 2}, {0, 4, 0}, {1, 1.5, 0.5}};
+  for (const bool back : {false, true}) {
+    for (std::size_t first = 0; first < 4; ++first) {
+      std::ostringstream obj;
+      for (std::size_t k = 0; k < 4; ++k)
+        obj << "v " << arrow[back ? (first + 4 - k) % 4 : (first + k) % 4].transpose() << '\n';
+      obj << "f 1 2 3 4\n";
+      const Result<Mesh> mesh = read("arrow.obj", obj.str());
+      ASSERT_TRUE(mesh);
+      ASSERT_EQ(mesh.value().triangles.size(), 2u);
+      EXPECT_NEAR(area(mesh.value()), std::sqrt(5.0) / 2 * 6, 1e-12) << back << first;
+      const auto& [p, q, r] = mesh.value().triangles[0];
+      const Vec3& at = mesh.value().points[p];
+      EXPECT_EQ((mesh.value().points[q] - at).cross(mesh.value().points[r] - at)[2] < 0, back);
+    }
+  }
+  // A comb of 40 teeth, and an hourglass, which crosses itself and stays a fan.
+  std::ostringstream comb;
+  comb << "v -1 -1 0\nv 41 -1 0\n";
+  for (int k = 40; k >= 0; --k) comb << "v " << k << (k % 2 ? " 5 0\n" : " 0 0\n");
+  comb << "f";
+  for (int k = 1; k <= 43; ++k) comb << ' ' << k;
+  const Result<Mesh> teeth = read("comb.obj", comb.str());
+  ASSERT_TRUE(teeth);
+  EXPECT_EQ(teeth.value().triangles.size(), 41u);
+  EXPECT_NEAR(area(teeth.value()), 41 + 100, 1e-9);
+  const Result<Mesh> crossed = read("crossed.obj", "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 3 0\nf 1 2 3 4\n");
+  ASSERT_TRUE(crossed);
+  EXPECT_EQ(crossed.value().triangles, (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
 }
 
 TEST(MeshFile, PolygonsAreFanned) {
@@ -214,7 +258,7 @@ TEST(MeshFile, ObjLinesGoOnAfterABackslash) {
   expect_tetrahedron(read("l.obj", "v 0 0 0\nv 1 \\\n0 0\nv 0 1 0\r\nv 0 0 1\nf 1 \\\r\n3 \\\n2\nf 1 2 4\nf 2 3 4\nf 1 4 3"));
   expect_error(read("l.obj", "v 0 0 0\nv 1 \\\n0 0\nv 0 x 0\n"), ErrorCode::BadFormat,
                "line 4: expected three coordinates, not \"x\"");
-  for (const std::string& line : {"mtllib C:\\red\\", "o \\", "vn 0 0 \\", "g a \\\nb\\"}) {
+  for (const std::string line : {"mtllib C:\\red\\", "o \\", "vn 0 0 \\", "g a \\\nb\\"}) {
     for (const char* end : {"\n", "\r\n", "\r"}) {
       const std::size_t lines = 2 + std::size_t(std::count(line.begin(), line.end(), '\n'));
       for (const char* swallowed : {"v 7 7 7", "f 1 2 3"})

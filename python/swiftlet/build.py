@@ -54,7 +54,7 @@ def read_mesh(path: str | bytes | os.PathLike[Any]) -> Mesh:
     Returns
     -------
     Mesh
-        Polygons are fans of triangles.
+        Polygons become triangles, concave ones too.
 
     Raises
     ------

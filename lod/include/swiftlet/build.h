@@ -20,8 +20,8 @@
 
 namespace swiftlet {
 
-/// Points and the triangles over them; polygons become fans of triangles. The model is the convex hull of the points; the
-/// triangles only give its faces their source ids.
+/// Points and the triangles over them; `read_mesh` makes triangles of polygons, concave ones too. The model is the convex hull
+/// of the points; the triangles only give its faces their source ids.
 struct Mesh {
   std::vector<Vec3> points;                             ///< in the frame and unit of the model
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `points`; any winding; may be empty
