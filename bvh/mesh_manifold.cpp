@@ -176,9 +176,9 @@ class Way {
 /// The way that is none but for the radii: twice law 2's bound more than their sum.
 double nothing(const RegionOf& in) { return 2 * in.at.law_two + in.radii(); }
 
-/// The longest way along one direction of the pairs that were looked at. One of which it is certain that it is longer than
-/// those that were asked by no more than twice law 2's bound counts with that and is not asked: of the many pairs of faces that
-/// are flush all but few.
+/// The longest way along one direction of the pairs that were looked at. A pair whose bound, `Way::most_way`, exceeds the ways
+/// of those that were asked by no more than twice law 2's bound counts with its bound and is not asked. Faces that are flush
+/// have many pairs, of which few are asked.
 class LongestWay {
  public:
   bool settles(const RegionOf& in, double most_way) {

@@ -4,8 +4,8 @@
 #include "plane_tree.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <array>
+#include <utility>
 
 #include "numeric/exact.h"
 

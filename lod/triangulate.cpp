@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "triangulate.h"
 
-#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -20,7 +19,7 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Traits = CGAL::Projection_traits_3<Kernel>;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Traits>;
-/// Of a face: how many sides of the polygon are between it and the outside; -1 while that is unknown.
+/// Of a face: 1 inside of the polygon, 0 outside, -1 while that is unknown.
 using FaceBase = CGAL::Constrained_triangulation_face_base_2<Traits, CGAL::Triangulation_face_base_with_info_2<int, Traits>>;
 using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Traits, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
                                                             CGAL::No_constraint_intersection_tag>;
@@ -40,11 +39,11 @@ std::optional<Triangles> inside(std::span<const Vec3> points, std::span<const st
   for (const auto face : plane.all_face_handles()) face->info() = -1;
   std::vector<std::pair<Delaunay::Face_handle, int>> to_do{{plane.infinite_face(), 0}};
   while (!to_do.empty()) {
-    const auto [face, sides] = to_do.back();
+    const auto [face, is_inside] = to_do.back();
     to_do.pop_back();
     if (face->info() >= 0) continue;
-    face->info() = sides;
-    for (int i = 0; i < 3; ++i) to_do.emplace_back(face->neighbor(i), (sides + face->is_constrained(i)) % 2);
+    face->info() = is_inside;
+    for (int i = 0; i < 3; ++i) to_do.emplace_back(face->neighbor(i), is_inside != int(face->is_constrained(i)));
   }
   Triangles found;
   for (const auto face : plane.finite_face_handles())

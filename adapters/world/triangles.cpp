@@ -212,8 +212,9 @@ class TrianglePair::Meeting {
     const Answer alone = distance(view_.a, b_, before, seed);
     if (alone.lower + radii_ > 0) see(alone, before);
   }
-  /// Learns from the nearest points of both, which are apart, on which side the body is. Where the triangle's is on its border,
-  /// another triangle may be between: this says no more than where nothing else is known. Returns whether it says anything.
+  /// Learns the body's side from the nearest points of both, which are apart. Where the triangle's point is on its border, the
+  /// body may be beside it, over another triangle: then a side stays that was learnt from a point inside. Returns whether it
+  /// learnt one.
   bool see(const Answer& alone, const Pose& b_in_a) {
     if (alone.normal.hasNaN()) return false;
     const double height = t_.front.dot(b_in_a.rotation.transpose() * -alone.normal);

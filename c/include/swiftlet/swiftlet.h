@@ -15,8 +15,7 @@
 /// shorter than the library's has the defaults in what it lacks; one that is longer is refused likewise unless the rest is 0
 /// bytes. An output is written as far as `size` says; what a longer one has more is set to 0. An output shorter than its words
 /// allow is refused likewise. In arrays all elements have the first one's size: the others' is not read, and the library sets
-/// it in outputs. Other structs,
-/// and the values of enumerations, never change within one SOVERSION.
+/// it in outputs. Other structs, and the values of enumerations, never change within one SOVERSION.
 ///
 /// Threads. Handles may be used by any number of threads at once, and a handle freed by any of them.
 #ifndef SWIFTLET_SWIFTLET_H

@@ -29,10 +29,9 @@ struct Mesh {
 
 /// Reads a mesh file: OBJ, OFF, STL (ascii or binary), PLY, or SWIFT's TRI and POLY, by extension. A point cloud is legal.
 /// Text is UTF-8, with or without a byte order mark; lines end in LF, CR LF or CR. Nothing that may hold a point is skipped:
-/// a missing column, a word that OBJ or PLY does not have, a vertex on a line that another one continues by a backslash, and
-/// anything after the last element are errors.
-/// Errors: no points, a non-finite point (named), not a regular file, anything that the format's reader refuses (with the line,
-/// if known).
+/// a missing column, a word that OBJ or PLY does not have, a vertex or face that a backslash joins to a line of another word,
+/// and anything after the last element are errors. Errors: no points, a non-finite point (named), not a regular file, anything
+/// that the format's reader refuses (with the line, if known).
 Result<Mesh> read_mesh(const std::filesystem::path& path);
 
 /// How a coarse level is simplified from the next finer one.
