@@ -508,6 +508,25 @@ TEST(Regress, SliversLedAWalkToAFaceThatIsNone) {
   }
 }
 
+/// Where a budget ended both distance and depth, the levels of an answer were the depth's, the points those of a coarser level.
+TEST(Regress, APlatesPointLayOnAnotherLevelThanTold) {
+  const double thick = 0x1p-51;
+  const Polyhedron plate = body({{0, 0, thick / 2}, {1, 0, thick}, {1, 0, 0}, {0, 2, thick / 2}, {0, 2, thick}, {2, 1, thick}},
+                                {.max_levels = 2, .cutoff = 4});
+  ASSERT_EQ(plate.model.level_count(), 2);
+  shapes::Random random(8);
+  int coarse = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Body point = Body::point(random.in_ball());
+    for (std::uint32_t steps = 0; steps < 6; ++steps) {
+      const Answer s = signed_distance(plate, point, Pose(), {.budget = {.steps = steps}});
+      ASSERT_EQ(check(plate, point, Pose(), s).message, "") << i << ' ' << steps << ' ' << describe(s);
+      coarse += s.level_a == 1;
+    }
+  }
+  EXPECT_GE(coarse, 100);
+}
+
 /// A segment across a body of a millionth of its length.
 TEST(Regress, DoublesSawNoFacetOfANeedlesDifferences) {
   const Vec3 end{-0x1.3dc666fbddb4ep-2, 0x1.76f8120aa2b8fp-3, -0x1.62fb87835852dp-2};

@@ -1004,6 +1004,8 @@ TEST(Verify, FindsWhatTheHashesCannot) {
     expect_says(of_level(offsetof(LevelHeader, edge_count), std::uint64_t{5}), level + " has " + std::to_string(of.edge_count));
     expect_says(of_level(offsetof(LevelHeader, triangle_count), std::uint64_t{5}),
                 level + " has " + std::to_string(of.triangle_count) + " triangles, not 5");
+    for (const double wrong : {1e30, (1 + 1e-14) * of.view.extent})
+      expect_says(of_level(offsetof(LevelHeader, extent), wrong), level + ": its extent is");
     for (const double wrong : {1e30, -1.0, 1.0001 * of.edge_length, 0.9999 * of.edge_length})
       expect_says(of_level(offsetof(LevelHeader, edge_length), wrong), level + ": its edges are");
     for (const double wrong : {1e9, -of.volume, 1.0001 * of.volume, 0.9999 * of.volume})

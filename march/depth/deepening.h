@@ -322,16 +322,17 @@ double aside(const Answer& s) {
   return norm(between - n * along);
 }
 
-/// Writes the depth found into `s`: minus its upper bound is `lower`; normal, levels, points and features as far as known.
+/// Writes the depth found into `s`: minus its upper bound is `lower`; normal, points and what holds them as far as known.
 void take(const Deepening& deep, Answer& s) {
   s.lower = -deep.upper;
   s.normal = eigen(deep.normal);
-  s.level_a = std::int16_t(deep.level_a), s.level_b = std::int16_t(deep.level_b);
   // A touching answer keeps its own points, which are as near, unless they lie too far aside of the depth's normal.
-  if (deep.has_points && (s.verdict != Verdict::Touching || !(aside(s) <= deep.pair().law_two()))) {
-    s.point_a = eigen(deep.point_a), s.point_b = eigen(deep.point_b);
-    s.feature_a = deep.feature_a, s.feature_b = deep.feature_b;
-  }
+  const bool has_points = !s.point_a.hasNaN(), rests = s.verdict == Verdict::Touching && aside(s) <= deep.pair().law_two();
+  if (deep.has_points ? rests : has_points) return;
+  s.level_a = std::int16_t(deep.level_a), s.level_b = std::int16_t(deep.level_b);
+  if (!deep.has_points) return;
+  s.point_a = eigen(deep.point_a), s.point_b = eigen(deep.point_b);
+  s.feature_a = deep.feature_a, s.feature_b = deep.feature_b;
 }
 
 void add_work(const Deepening& deep, Answer& s) {

@@ -55,9 +55,9 @@ Check check(const Body& a, const Body& b, const Pose& b_in_a, const Answer& answ
 
 /// Proves exactly that every level is convex and encloses level 0 and that no vertex is higher above a face's plane than
 /// FacePlane::over, and by certified bounds that every reach and support map holds and every deviation within law 2's bound.
-/// The dimension, volumes, numbers of edges and triangles and mean lengths of edges are recomputed; a deviation may be larger
-/// than need be. (That links and tables name features is checked whenever a model is made or read.) Fails if level 0 is absent.
-/// Cost: a support climb per face, a distance query per vertex, all vertices per cell of a map.
+/// The dimension, extents, volumes, numbers of edges and triangles and mean lengths of edges are recomputed; a deviation may be
+/// larger than need be. (That links and tables name features is checked whenever a model is made or read.) Fails if level 0 is
+/// absent. Cost: a support climb per face, a distance query per vertex, all vertices per cell of a map.
 Check verify(const Model& model);
 
 }  // namespace swiftlet
