@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A batch on some threads beside as many processes that ask one by one: what sharing a process costs. Both answer the same
 // pairs in the same order of poses, each with its own seeds, in turns.
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +13,7 @@
 
 #include <swiftlet/batch.h>
 
+#include "median.h"
 #include "scenes.h"
 
 namespace swiftlet::bench {
@@ -114,11 +114,6 @@ Timed in_processes(Load& load, unsigned count) {
   for (unsigned k = 0; k < count; ++k) wait(nullptr);
   for (const int end : {ready[0], ready[1], go[0], go[1], done[0], done[1]}) close(end);
   return t;
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
-  return values[values.size() / 2];
 }
 
 }  // namespace

@@ -25,6 +25,7 @@
 #include <swiftlet/scene.h>
 
 #include "hull.h"
+#include "median.h"
 #include "random.h"
 #include "scenes.h"
 
@@ -206,11 +207,6 @@ double milliseconds(clockid_t clock, const std::function<void()>& work) {
   const double begin = now();
   work();
   return now() - begin;
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
-  return values[values.size() / 2];
 }
 
 struct Row {

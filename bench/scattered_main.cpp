@@ -16,6 +16,7 @@
 #include <swiftlet/batch.h>
 #include <swiftlet/check.h>
 
+#include "median.h"
 #include "random.h"
 #include "scenes.h"
 
@@ -106,11 +107,6 @@ class Load {
   std::vector<PairSeed> seeds_;
   std::vector<Answer> answers_;
 };
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
 
 using Ask = void (*)(std::span<const PairQuery>, std::span<Answer>, const Run&);
 struct Question {

@@ -21,6 +21,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "median.h"
 #include "method.h"
 #include "questions.h"
 #include "scenes.h"
@@ -29,16 +30,10 @@ namespace {
 
 using namespace swiftlet::bench::mesh;
 using swiftlet::Pose;
+using swiftlet::bench::median;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kClose = 1e-9;  // distances that differ by less, in radii, are taken for the same
-
-double median(std::vector<double> values) {
-  if (values.empty()) return NAN;
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return (values[(n - 1) / 2] + values[n / 2]) / 2;
-}
 
 /// Times one query: by the clock, without what that adds itself; a longer query, during which another program may have run, by
 /// the thread's own time, which is dearer to read.
