@@ -25,7 +25,8 @@ struct Pair {
 };
 
 Pair pair_of(const Placed& a, const Placed& b, double beyond, PairSeed& seed) {
-  Pair pair{orthonormal(a.in_world), b_in_a(a, b)};
+  const Pose a_in_world = orthonormal(a.in_world);
+  Pair pair{a_in_world, relative(a_in_world, orthonormal(b.in_world))};
   pair.answer = signed_distance(a.body, b.body, pair.b_in_a, seed, {.beyond = beyond});
   if (pair.answer.status == Status::Beyond)
     pair.found = Found::Beyond;
@@ -63,8 +64,10 @@ void note(const Manifold& manifold, const Pose& b_in_a, Rest& rest) {
 Found contacts(const Placed& a, const Body& b, const Pair& pair, double beyond, std::uint32_t most_points, Manifold& manifold,
                Rest* rest = nullptr) {
   const ManifoldOptions options{.margin = beyond, .most_points = most_points};
+  Manifold before = manifold;  // of it names and normal are read
+  before.normal = pair.a_in_world.rotation.transpose() * before.normal;
   manifold =
-      pair.found == Found::Nearest ? swiftlet::manifold(a.body, b, pair.b_in_a, pair.answer, options, manifold) : Manifold{};
+      pair.found == Found::Nearest ? swiftlet::manifold(a.body, b, pair.b_in_a, pair.answer, options, before) : Manifold{};
   if (rest) note(manifold, pair.b_in_a, *rest);
   into_world(pair.a_in_world, manifold);
   return pair.found;
@@ -80,7 +83,8 @@ Placed part_below(const Placed& a, const HalfSpace& b) {
 }
 
 Pair pair_of(const Placed& a, const Placed& part, double beyond) {
-  Pair pair{orthonormal(a.in_world), b_in_a(a, part)};
+  const Pose a_in_world = orthonormal(a.in_world);
+  Pair pair{a_in_world, relative(a_in_world, orthonormal(part.in_world))};
   if (tolerance(a.body, part.body, pair.b_in_a) >= 0)
     pair.answer = above(a.body, part.body, pair.b_in_a, Side::Front, normal_of(part.body, Side::Front));
   else
