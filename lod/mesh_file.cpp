@@ -372,7 +372,10 @@ Soup read_binary_stl(std::string_view bytes) {
     soup.polygons.emplace_back();
     for (int k = 0; k < 3; ++k) {
       const auto x = numbers.next<float>(), y = numbers.next<float>(), z = numbers.next<float>();
-      soup.polygons.back().push_back(welder.index(Vec3(x, y, z)));
+      const Vec3 corner(x, y, z);
+      if (!corner.allFinite())
+        throw Damage{numbered("facet ", f, count) + " has a corner that is not finite", ErrorCode::BadValue};
+      soup.polygons.back().push_back(welder.index(corner));
     }
     numbers.skip(2);
   }
@@ -656,8 +659,6 @@ Result<Mesh> checked(Soup soup) {
   Mesh mesh{std::move(soup.points), {}};
   if (mesh.points.empty()) return Error{ErrorCode::Empty, "has no points"};
   if (mesh.points.size() > std::uint32_t(-1)) return Error{ErrorCode::TooLarge, "has more points than 32 bits number"};
-  for (std::size_t v = 0; v < mesh.points.size(); ++v)
-    if (!mesh.points[v].allFinite()) return Error{ErrorCode::BadValue, "vertex " + std::to_string(v) + " is not finite"};
   for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
     const std::vector<std::uint64_t>& polygon = soup.polygons[f];
     const auto face = [&] { return numbered("face ", f, soup.polygons.size()); };

@@ -56,6 +56,10 @@ std::optional<Triangles> inside(std::span<const Vec3> points, std::span<const st
 
 }  // namespace
 
+/// CGAL multiplies a normal by ways in the polygon, and its exact arithmetic takes no infinity. Legal coordinates make none
+/// longer.
+constexpr double kLongestNormal = 1e150;
+
 void triangulate(std::span<const Vec3> points, std::span<const std::uint64_t> polygon, Triangles& triangles) {
   const Vec3& first = points[polygon[0]];
   const auto area = [&](std::size_t k) -> Vec3 { return (points[polygon[k - 1]] - first).cross(points[polygon[k]] - first); };
@@ -63,7 +67,7 @@ void triangulate(std::span<const Vec3> points, std::span<const std::uint64_t> po
   for (std::size_t k = 2; k < polygon.size(); ++k) normal += area(k);
   bool is_fan = true;
   for (std::size_t k = 2; k < polygon.size(); ++k) is_fan = is_fan && !(area(k).dot(normal) < 0);
-  if (!is_fan) {
+  if (!is_fan && normal.cwiseAbs().maxCoeff() <= kLongestNormal) {
     if (const std::optional<Triangles> found = inside(points, polygon, normal)) {
       triangles.insert(triangles.end(), found->begin(), found->end());
       return;

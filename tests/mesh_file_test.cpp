@@ -148,6 +148,17 @@ TEST(MeshFile, ConcavePolygonsAreCutInside) {
   EXPECT_EQ(crossed.value().triangles, (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
 }
 
+/// CGAL's exact arithmetic takes no infinity, which the length of such a polygon's normal is.
+TEST(MeshFile, ConcavePolygonsBeyondAllLimitsAreRead) {
+  for (const char* far : {"1e100", "1e150", "1e153", "1e155", "1e200", "1e308"}) {
+    const std::string x = far;
+    const Result<Mesh> mesh =
+        read("far.off", "OFF\n5 1 0\n0 0 0\n0 1 0\n1 0 0\n" + x + " " + x + " 0\n-" + x + " " + x + " 0\n5 0 1 2 3 4\n");
+    ASSERT_TRUE(mesh) << far;
+    EXPECT_EQ(mesh.value().triangles.size(), 3u);
+  }
+}
+
 TEST(MeshFile, PolygonsAreFanned) {
   const auto mesh = read("q.poly", "POLY 4 1  0 0 0  1 0 0  1 1 0  0 1 0  4 0 1 2 3");
   ASSERT_TRUE(mesh) << mesh.error().message;
@@ -199,6 +210,12 @@ TEST(MeshFile, NonFiniteVertexIsNamed) {
   const std::string header =
       "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
   expect_error(read("n.ply", header + "0 0 0\n0 nan 0\n"), ErrorCode::BadValue, "line 9: vertex 1 of 2 is not finite");
+}
+
+TEST(MeshFile, NonFiniteCornerOfAFacetIsNamed) {
+  std::string stl = binary_stl();
+  stl.replace(84 + 50 + 12 + 16, 4, std::string("\0\0\xc0\x7f", 4));  // NaN
+  expect_error(read("n.stl", stl), ErrorCode::BadValue, "facet 1 of 4 has a corner that is not finite");
 }
 
 TEST(MeshFile, ObjFacesNameVerticesAsTheFileDoes) {
