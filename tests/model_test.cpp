@@ -685,6 +685,8 @@ TEST(Model, TableHoldsTheNearestVertexPerSample) {
       // The same levels with another table are the model built with it, bit for bit.
       EXPECT_EQ(model(b).with_table({r, factor}).value().hash(), m.hash());
       EXPECT_EQ(bytes_of(model(b).with_table({r, factor}).value()), bytes_of(m));
+      const TableSpec without_maps{r, factor, 0};
+      EXPECT_EQ(m.with_table(without_maps).value().hash(), model(b, {false, without_maps}).hash());
     }
   }
   for (const double factor : {0.99, -1.0, 1e7, kInfinity, std::nan("")}) {

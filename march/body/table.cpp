@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -162,10 +163,11 @@ double excess_at(const std::array<double, 6>& frame, const Vec& n, const Vec& ab
 
 void fill_maps(BlockParts& parts, const TableSpec& spec, std::span<const ConvexView> levels, const Executor& executor) {
   parts.header.map_cells = spec.map_cells;
-  for (std::size_t i = parts.header.finest_level; i < levels.size() && spec.map_cells > 0; ++i) {
+  for (std::size_t i = parts.header.finest_level; i < levels.size(); ++i) {
     LevelHeader& header = parts.level_headers[i];
     const std::size_t count = levels[i].vertices.size();
-    if (count > kMapVertices) continue;
+    std::copy_n(LevelHeader{}.map_frame, std::size(header.map_frame), header.map_frame);
+    if (spec.map_cells == 0 || count > kMapVertices) continue;
     write_frame(header, levels[i]);
     header.map_side = std::clamp(std::uint32_t(std::sqrt(double(count) * spec.map_cells / 2)), kLeastMapSide, kMaxMapSide);
     const std::vector<std::uint32_t> map = support_map(levels[i], header.map_side, map_frame(header), executor);
