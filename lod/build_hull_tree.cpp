@@ -388,7 +388,9 @@ Result<HullTree> build_hull_tree(const MeshModel& mesh, const Decomposition& pat
   std::vector<bool> seen(mesh.triangle_count());
   std::size_t count = 0;
   for (const Patch& patch : patches.patches) {
-    for (std::uint32_t i = patch.first; i < patch.end && i < patches.triangles.size(); ++i) {
+    if (patch.first >= patch.end || patch.end > patches.triangles.size())
+      return Error{ErrorCode::BadValue, "a patch is no range of the decomposition's triangles"};
+    for (std::uint32_t i = patch.first; i < patch.end; ++i) {
       const std::uint32_t t = patches.triangles[i];
       if (t < seen.size() && !seen[t]) seen[t] = true, ++count;
     }

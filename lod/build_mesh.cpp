@@ -194,12 +194,17 @@ std::optional<Result<MeshModel>> along_patches(const Mesh& mesh, const MeshModel
   return MeshReader::read(compose(parts));
 }
 
-}  // namespace
-
-Result<MeshModel> rebuild_hulls(const MeshModel& mesh, const HullOptions& options) try {
+std::optional<Error> problem(const HullOptions& options) {
   if (options.levels < 1 || options.levels > std::uint32_t(kMostDepth))
     return Error{ErrorCode::BadValue, "levels must be from 1 to " + std::to_string(kMostDepth)};
   if (!(options.bytes_per_triangle >= 0)) return Error{ErrorCode::BadValue, "bytes_per_triangle must be a number from 0 on"};
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<MeshModel> rebuild_hulls(const MeshModel& mesh, const HullOptions& options) try {
+  if (const std::optional<Error> error = problem(options)) return *error;
   if (!mesh.is_whole()) return Error{ErrorCode::BadValue, "the mesh was cut: it has no triangles"};
   Watch watch(options.progress);
   return with_hulls(mesh, options, watch);
@@ -208,7 +213,8 @@ Result<MeshModel> rebuild_hulls(const MeshModel& mesh, const HullOptions& option
 }
 
 Result<MeshModel> build_mesh(const Mesh& mesh, const HullOptions& options) try {
-  constexpr double kTreeDone = 0.2, kPatchesDone = 0.5;
+  if (const std::optional<Error> error = problem(options)) return *error;
+  constexpr double kTreeDone = 0.2, kPatchesDone = 0.5, kPatchHullsDone = 0.9;
   MeshOptions tree;
   if (options.progress) tree.progress = [&](double done) { return options.progress(kTreeDone * done, "tree"); };
   Result<MeshModel> plain = MeshModel::from_triangles(mesh.points, mesh.triangles, tree);
@@ -225,7 +231,7 @@ Result<MeshModel> build_mesh(const Mesh& mesh, const HullOptions& options) try {
     if (std::optional<Result<MeshModel>> made = along_patches(mesh, plain.value(), options, watch)) {
       if (!*made) return *made;
       HullOptions of_patches = options;
-      of_patches.progress = after(kPatchesDone, 0.9);
+      of_patches.progress = after(kPatchesDone, kPatchHullsDone);
       const Result<MeshModel> hulled = rebuild_hulls(made->value(), of_patches);
       if (!hulled) return hulled;
       if (all_patches_fit(MeshReader::content(hulled.value()))) {
@@ -235,7 +241,7 @@ Result<MeshModel> build_mesh(const Mesh& mesh, const HullOptions& options) try {
     }
   }
   HullOptions rest = options;
-  rest.progress = after(options.least_patch > 0 ? 0.9 : kTreeDone, 1);
+  rest.progress = after(options.least_patch > 0 ? kPatchHullsDone : kTreeDone, 1);
   return rebuild_hulls(plain.value(), rest);
 } catch (const Cancelled&) {
   return Error{ErrorCode::Cancelled, "the progress callback cancelled the build"};

@@ -435,6 +435,9 @@ TEST(HullTree, WhatIsNotOfTheMeshIsRefused) {
   patches = one_by_one(mesh);
   patches.patches.pop_back();
   EXPECT_EQ(build_hull_tree(mesh, patches).error().code, ErrorCode::BadValue);
+  patches = one_by_one(mesh);
+  patches.patches.back().end += 1;  // was read beyond the end
+  EXPECT_EQ(build_hull_tree(mesh, patches).error().code, ErrorCode::BadValue);
   HullTreeOptions options;
   options.progress = [](double, std::string_view) { return false; };
   EXPECT_EQ(build_hull_tree(mesh, one_by_one(mesh), options).error().code, ErrorCode::Cancelled);

@@ -94,7 +94,10 @@ TEST(BuildMesh, RefusesWhatNoMeshIs) {
   EXPECT_EQ(build_mesh(mesh_of(ball(1)), options).error().code, ErrorCode::BadValue);
   options = {};
   options.bytes_per_triangle = std::nan("");
-  EXPECT_EQ(build_mesh(mesh_of(ball(1)), options).error().code, ErrorCode::BadValue);
+  for (const std::uint32_t least_patch : {0u, 2u}) {
+    options.least_patch = least_patch;
+    EXPECT_EQ(build_mesh(mesh_of(ball(1)), options).error().code, ErrorCode::BadValue);
+  }
 }
 
 /// Points, segments and flat pieces have hulls too.

@@ -72,8 +72,9 @@ class HullTree {
   const HullArrays& hulls() const { return hulls_; }                          ///< what the nodes name places in
   /// The hull of a node, with the faces' classes as tags. It lives as long as the tree stays where it is.
   ConvexView hull(const HullNode& node) const;
-  MeshBody body() const { return is_solid_ ? MeshBody::solid(mesh_) : MeshBody(mesh_); }  ///< what queries are about
-  std::size_t bytes() const;  ///< what all of it takes, the mesh's block included
+  MeshBody body() const& { return is_solid_ ? MeshBody::solid(mesh_) : MeshBody(mesh_); }  ///< what queries are about
+  MeshBody body() const&& = delete;  ///< a temporary tree would not outlive the expression
+  std::size_t bytes() const;         ///< what all of it takes, the mesh's block included
 
  private:
   MeshModel mesh_;
@@ -111,6 +112,10 @@ struct HullAnswer {
 class HullPair {
  public:
   HullPair(const HullTree& a, const HullTree& b, const HullSearch& search = {});  ///< asks nothing yet
+  /// A temporary tree would not outlive the expression.
+  HullPair(const HullTree&&, const HullTree&, const HullSearch& = {}) = delete;
+  HullPair(const HullTree&, const HullTree&&, const HullSearch& = {}) = delete;
+  HullPair(const HullTree&&, const HullTree&&, const HullSearch& = {}) = delete;
 
   /// Decides whether the bodies share a point: read `answer.verdict`.
   HullAnswer intersects(const Pose& b_in_a);
