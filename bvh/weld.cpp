@@ -5,23 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <string>
 #include <tuple>
 
+#include "numeric/decimal.h"
 #include "numeric/exact.h"
 
 namespace swiftlet {
 namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
-
-std::string text(double x) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.17g", x);
-  return digits;
-}
 
 /// Numbers of vertices by their coordinates: open addressing in a table at least twice as large as what it holds.
 class VertexTable {
@@ -119,7 +113,7 @@ Result<Vec> vertex_at(std::span<const Vec3> points, std::uint32_t point) {
   Vec p = vec(points[point]);
   for (double* x : {&p.x, &p.y, &p.z}) {
     if (!(*x == 0 || (std::fabs(*x) >= kLeastExtent && std::fabs(*x) <= kMostCoordinate)))
-      return Error{ErrorCode::BadValue, "point " + std::to_string(point) + " has the coordinate " + text(*x) +
+      return Error{ErrorCode::BadValue, "point " + std::to_string(point) + " has the coordinate " + decimal(*x, 17) +
                                             ", which is neither 0 nor from 1e-45 to 1e45 in magnitude"};
     *x += 0.0;  // -0 becomes 0, which it is equal to
   }

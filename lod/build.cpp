@@ -4,8 +4,6 @@
 #include <swiftlet/build.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -18,6 +16,7 @@
 #include "hull.h"
 #include "hull_model.h"
 #include "numeric/chunks.h"
+#include "numeric/decimal.h"
 #include "numeric/exact.h"
 #include "numeric/tolerance.h"
 #include "trace.h"
@@ -28,13 +27,6 @@ namespace {
 using namespace lod;
 
 constexpr double kHullDone = 0.15;  ///< of a build
-
-/// With at most so many digits, whatever the program's locale.
-std::string decimal(double value, int digits = 6) {
-  std::array<char, 32> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits).ptr;
-  return {text.data(), end};
-}
 
 std::optional<Error> problem(const BuildOptions& options) {
   const auto bad = [](const char* message) { return Error{ErrorCode::BadValue, message}; };
@@ -52,8 +44,8 @@ std::optional<Error> problem(const BuildOptions& options) {
 
 Error past_limit(std::size_t vertex, double x, double limit) {
   const char* const where = std::abs(x) < limit ? ", below" : ", beyond";
-  return {ErrorCode::BadValue,
-          "vertex " + std::to_string(vertex) + " has the coordinate " + decimal(x) + where + " the limit of " + decimal(limit)};
+  return {ErrorCode::BadValue, "vertex " + std::to_string(vertex) + " has the coordinate " + decimal(x, 6) + where +
+                                   " the limit of " + decimal(limit, 6)};
 }
 
 std::optional<Error> problem(const Mesh& mesh) {
@@ -145,7 +137,7 @@ std::optional<Error> dents(const Mesh& mesh, const Polytope& body, const BuildRe
   const double rounding = rounding_of(mesh.points);
   if (report.deepest_dent * scale > rounding)
     return Error{ErrorCode::NotConvex,
-                 "the mesh has dents: the vertex deepest inside the hull is " + decimal(report.deepest_dent) + " deep"};
+                 "the mesh has dents: the vertex deepest inside the hull is " + decimal(report.deepest_dent, 6) + " deep"};
   if (report.volume_ratio < 1 - rounding * area(body) / precise_volume(body))
     return Error{ErrorCode::NotConvex,
                  "the mesh has dents: its volume is " + decimal(report.volume_ratio, 15) + " of the hull's"};

@@ -13,6 +13,7 @@
 
 #include <Eigen/Geometry>
 
+#include "numeric/decimal.h"
 #include "numeric/exact.h"
 #include "numeric/tolerance.h"
 
@@ -155,9 +156,12 @@ class GrowingHull {
 Result<Model> model_of(const btVector3* points, int count) {
   std::vector<Vec3> all;
   for (int i = 0; i < count; ++i) all.emplace_back(points[i].x(), points[i].y(), points[i].z());
-  for (const Vec3& p : all) {
-    for (const double x : p) {
-      if (!is_legal_coordinate(x)) return Error{ErrorCode::BadValue, "a point has the coordinate " + std::to_string(x)};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (const double x : all[i]) {
+      if (!is_legal_coordinate(x))
+        return Error{ErrorCode::BadValue, "point " + std::to_string(i) + " has the coordinate " + decimal(x, 6) +
+                                              "; legal are 0 and " + decimal(kLeastCoordinate, 6) + " to " +
+                                              decimal(kMostCoordinate, 6) + " in magnitude"};
     }
   }
   GrowingHull hull(all);

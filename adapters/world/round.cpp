@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "numeric/decimal.h"
+
 namespace swiftlet {
 namespace {
 
@@ -93,12 +95,13 @@ struct Arrays {
 Result<Model> round(Kind kind, double radius, double half_height, double deviation) {
   for (const double length : {radius, half_height, deviation}) {
     if (!(length > 0 && std::isfinite(length)))
-      return Error{ErrorCode::BadValue, "a length of a round body is " + std::to_string(length)};
+      return Error{ErrorCode::BadValue,
+                   "a length of a round body is " + decimal(length, 6) + "; it must be positive and finite"};
   }
   std::size_t sides = kFewestSides;
   while (radius * overshoot(directions(sides)) * (1 + 0x1p-7) > deviation) {
     if ((sides *= 2) > kMostSides)
-      return Error{ErrorCode::BadValue, "a deviation of " + std::to_string(deviation / radius) + " radii takes too many sides"};
+      return Error{ErrorCode::BadValue, "a deviation of " + decimal(deviation / radius, 6) + " radii takes too many sides"};
   }
   std::vector<Arrays> kept{{kind, directions(kSidesWithin * sides), radius, half_height}};
   for (std::size_t n = sides; n >= kFewestSides; n /= kRefinement) {

@@ -15,6 +15,7 @@
 #include "body/shape.h"
 #include "body/support.h"
 #include "numeric/chunks.h"
+#include "numeric/decimal.h"
 #include "numeric/exact.h"
 #include "numeric/tolerance.h"
 #include "numeric/vec.h"
@@ -28,11 +29,6 @@ using Loop = std::vector<Index>;
 
 Error bad_value(std::string message) { return {ErrorCode::BadValue, std::move(message)}; }
 Error not_convex(std::string message) { return {ErrorCode::NotConvex, std::move(message)}; }
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.3g", value);
-  return buffer;
-}
 std::string edge_text(Index u, Index v) { return "edge (" + std::to_string(u) + ", " + std::to_string(v) + ")"; }
 
 double extent_of(std::span<const Vec3> points) {
@@ -66,11 +62,11 @@ Result<Input> read_input(const LevelArrays& level) {
   }
   for (std::size_t i = 0; i < in.points.size(); ++i) {
     for (const double x : {in.points[i][0], in.points[i][1], in.points[i][2]}) {
-      if (!is_legal_coordinate(x)) return bad_value("vertex " + std::to_string(i) + " has the coordinate " + text(x));
+      if (!is_legal_coordinate(x)) return bad_value("vertex " + std::to_string(i) + " has the coordinate " + decimal(x, 3));
     }
   }
   if (const double extent = extent_of(in.points); extent > 0 && extent < kLeastExtent)
-    return bad_value("the body's extent is " + text(extent) + ", below the limit of " + text(kLeastExtent));
+    return bad_value("the body's extent is " + decimal(extent, 3) + ", below the limit of " + decimal(kLeastExtent, 3));
   std::size_t at = 0;
   const bool triangles = level.face_sizes.empty();
   if (triangles && level.face_vertices.size() % 3 != 0) return bad_value("face_vertices is no list of triangles");
@@ -357,7 +353,7 @@ class Mesh {
     const V3<DoubleDouble> n = cross(from_first(a.v[1]), from_first(a.v[2]));
     const double height = double(dot(n, from_first(v))) / norm(rounded(n));
     return not_convex("reflex " + edge_text(a.v[i], a.v[next(i)]) + ": vertex " + std::to_string(v) + " is " +
-                      (height > 0 ? text(height) + " " : "") + "above face " + std::to_string(a.input));
+                      (height > 0 ? decimal(height, 3) + " " : "") + "above face " + std::to_string(a.input));
   }
 
   /// Returns `p` with coordinates below kLeastCoordinate set to 0, as exact signs require.

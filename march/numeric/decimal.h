@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 the swiftlet authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Numbers in error texts.
+#pragma once
+
+#include <charconv>
+#include <cstdio>
+#include <string>
+
+namespace swiftlet {
+
+/// With at most so many digits, up to 17; whatever the program's locale, where the library can.
+inline std::string decimal(double value, int digits) {
+  char text[32];
+#ifdef __cpp_lib_to_chars
+  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr};
+#else  // libc++ before 14 has these for integers alone
+  return {text, std::size_t(std::snprintf(text, sizeof text, "%.*g", digits, value))};
+#endif
+}
+
+}  // namespace swiftlet
