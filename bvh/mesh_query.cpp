@@ -64,7 +64,7 @@ void look(const MeshSetting& at, const Pose& b_in_a, const StopRule& stop, std::
 bool is_plain(const MeshBody& body) { return body.mesh() && !body.is_solid() && body.radius() == 0; }
 
 /// Asks about the surfaces and, of solids, what is inside them.
-[[gnu::noinline]] void ask_search(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, Placed& placed, MeshSeed& seed,
+[[gnu::noinline]] void ask_search(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, QueryPose& placed, MeshSeed& seed,
                                   MeshFront* front, const Budget& budget, const StopRule& asked, Answer& answer) {
   const MeshSetting at(a, b, placed.motion, placed.quality);
   answer.radius_a = a.radius(), answer.radius_b = b.radius();
@@ -95,7 +95,7 @@ bool is_plain(const MeshBody& body) { return body.mesh() && !body.is_solid() && 
 
 void ask(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, MeshSeed& seed, MeshFront* front, const Budget& budget,
          const StopRule& asked, Answer& answer) {
-  Placed placed;
+  QueryPose placed;
   // It is what most questions about bodies far from each other end with, before anything of a search is made.
   if (asked.is_threshold() && is_plain(a) && is_plain(b)) {
     const auto top_of = [](const MeshBody& body) {

@@ -60,7 +60,7 @@ static inline double gap_of_children(const Top& of_a, const Top& of_b, const Mot
 }
 
 /// See `gap_of_roots`.
-static inline double gap_between(const Top& of_a, const Top& of_b, const Pose& pose, double enough, Placed& placed) {
+static inline double gap_between(const Top& of_a, const Top& of_b, const Pose& pose, double enough, QueryPose& placed) {
   placed.motion = motion(pose), placed.quality = pose_quality(placed.motion);
   if (!placed.quality.legal) return 0;
   const Root &a = of_a.root, &b = of_b.root;

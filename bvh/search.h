@@ -98,16 +98,16 @@ struct Top {
   const Node& node;
 };
 /// A pose as queries read it.
-struct Placed {
+struct QueryPose {
   Motion motion;
   PoseQuality quality;
 };
-double gap_of_roots_by_two(const Top& a, const Top& b, const Pose& b_in_a, double enough, Placed& placed);
-double gap_of_roots_by_four(const Top& a, const Top& b, const Pose& b_in_a, double enough, Placed& placed);
+double gap_of_roots_by_two(const Top& a, const Top& b, const Pose& b_in_a, double enough, QueryPose& placed);
+double gap_of_roots_by_four(const Top& a, const Top& b, const Pose& b_in_a, double enough, QueryPose& placed);
 /// A lower bound on the distance, or a number that is not above `enough`: the gap of the balls around both bodies or, if that
 /// is no answer, along the line of the balls' centres that of both roots' boxes or, where these meet by little, that of the
 /// boxes below along a better direction. `placed` receives the pose; of an illegal one the bound is 0.
-static inline double gap_of_roots(const Top& a, const Top& b, const Pose& b_in_a, double enough, Placed& placed) {
+static inline double gap_of_roots(const Top& a, const Top& b, const Pose& b_in_a, double enough, QueryPose& placed) {
   return SWIFTLET_BY_WIDTH(gap_of_roots, a, b, b_in_a, enough, placed);
 }
 

@@ -9,7 +9,7 @@
 
 namespace swiftlet {
 
-double gap_of_roots_by_four(const Top& a, const Top& b, const Pose& b_in_a, double enough, Placed& placed) {
+double gap_of_roots_by_four(const Top& a, const Top& b, const Pose& b_in_a, double enough, QueryPose& placed) {
   return gap_between(a, b, b_in_a, enough, placed);
 }
 

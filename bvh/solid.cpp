@@ -160,7 +160,7 @@ void look_inside(const MeshView& a, const MeshView& b, const Pose& b_in_a, const
     if (!solid.solid || too_far_apart(solid, finding.lower)) continue;
     if (guest.content && guest.triangle_count == 0) {
       // Nothing tells where its components are, unless a plane parts all of it from the solid.
-      Placed placed;
+      QueryPose placed;
       if (!(gap_of_roots({*a.root, *a.nodes}, {*b.root, *b.nodes}, b_in_a, 0, placed) > 0)) finding.lower = 0;
       continue;
     }

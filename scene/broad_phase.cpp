@@ -18,8 +18,8 @@ constexpr double kTooMuchRoom = 4 * kRoom;
 /// Into so many tasks a search is cut, at least, where the trees are large enough.
 constexpr std::size_t kTasks = 256;
 
-Box both(const Box& a, const Box& b) {
-  Box box;
+Bounds both(const Bounds& a, const Bounds& b) {
+  Bounds box;
   for (std::size_t i = 0; i < 3; ++i) {
     box.min[i] = std::min(a.min[i], b.min[i]);
     box.max[i] = std::max(a.max[i], b.max[i]);
@@ -28,19 +28,19 @@ Box both(const Box& a, const Box& b) {
 }
 
 /// Half the surface.
-double area(const Box& box) {
+double area(const Bounds& box) {
   const double x = box.max[0] - box.min[0], y = box.max[1] - box.min[1], z = box.max[2] - box.min[2];
   return x * y + y * z + z * x;
 }
 
-bool holds(const Box& outer, const Box& inner) {
+bool holds(const Bounds& outer, const Bounds& inner) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (inner.min[i] < outer.min[i] || inner.max[i] > outer.max[i]) return false;
   }
   return true;
 }
 
-Box larger(Box box, double share) {
+Bounds larger(Bounds box, double share) {
   double side = 0;
   for (std::size_t i = 0; i < 3; ++i) side = std::max(side, box.max[i] - box.min[i]);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -52,7 +52,7 @@ Box larger(Box box, double share) {
 
 }  // namespace
 
-void BoxTree::put(std::uint32_t item, const Box& box) {
+void BoxTree::put(std::uint32_t item, const Bounds& box) {
   if (item >= leaf_.size()) {
     leaf_.resize(item + 1, kNothing);
     boxes_.resize(item + 1);
@@ -97,7 +97,7 @@ void BoxTree::insert(std::uint32_t leaf) {
   // Downwards as long as a child promises less growth of all surfaces than a new parent here, which puts all below it a level
   // deeper. Where all boxes are equal the lower child; none whose leaves are all as deep as they may be: not both are such, as
   // the root's shortest way is that of a balanced tree at most.
-  const Box box = nodes_[leaf].box;
+  const Bounds box = nodes_[leaf].box;
   const std::uint32_t most = most_height();
   std::uint32_t sibling = root_, depth = 0;
   for (; !nodes_[sibling].is_leaf(); ++depth) {
@@ -169,7 +169,7 @@ void BoxTree::rotate(std::uint32_t node, std::uint32_t depth) {
   for (std::size_t i = 0; i < 2; ++i) {
     const Node& lower = nodes_[nodes_[node].child[i]];
     if (lower.is_leaf()) continue;
-    const Box& other = nodes_[nodes_[node].child[1 - i]].box;
+    const Bounds& other = nodes_[nodes_[node].child[1 - i]].box;
     for (std::size_t k = 0; k < 2; ++k) {
       const double less = area(lower.box) - area(both(other, nodes_[lower.child[1 - k]].box));
       if (less > best) best = less, side = i, grandchild = k;

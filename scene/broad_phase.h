@@ -17,13 +17,13 @@
 
 namespace swiftlet {
 
-/// All points between two corners.
-struct Box {
+/// A box along the axes of the world.
+struct Bounds {
   std::array<double, 3> min, max;
 };
 
 /// The square of the distance of two boxes, to rounding.
-inline double squared_gap(const Box& a, const Box& b) {
+inline double squared_gap(const Bounds& a, const Bounds& b) {
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const double gap = std::max(0.0, std::max(a.min[i] - b.max[i], b.min[i] - a.max[i]));
@@ -47,12 +47,12 @@ class BoxTree {
   };
 
   /// Adds the item, or moves it. Items are small numbers.
-  void put(std::uint32_t item, const Box& box);
+  void put(std::uint32_t item, const Bounds& box);
   /// Removes the item, which must be there.
   void remove(std::uint32_t item);
-  const Box& box(std::uint32_t item) const { return boxes_[item]; }
+  const Bounds& box(std::uint32_t item) const { return boxes_[item]; }
   /// The box of its leaf.
-  const Box& leaf_box(std::uint32_t item) const { return nodes_[leaf_[item]].box; }
+  const Bounds& leaf_box(std::uint32_t item) const { return nodes_[leaf_[item]].box; }
   /// How deep the deepest leaf is; the root is 0 deep. Counts.
   std::uint32_t height() const;
   /// No leaf is deeper: three times what a balanced tree needs for as many items as there have been at once, and so many
@@ -67,7 +67,7 @@ class BoxTree {
  private:
   static constexpr std::uint32_t kNothing = ~0u;
   struct alignas(64) Node {
-    Box box;
+    Bounds box;
     std::uint32_t parent;
     std::array<std::uint32_t, 2> child;  ///< of a leaf: its item, and nothing
     std::uint16_t height, shortest;      ///< how far down the farthest and the nearest leaf are
@@ -89,7 +89,7 @@ class BoxTree {
   Pair items(const BoxTree& other, std::uint32_t a, std::uint32_t b) const;
 
   std::vector<Node> nodes_;
-  std::vector<Box> boxes_;           ///< per item, as it was put
+  std::vector<Bounds> boxes_;        ///< per item, as it was put
   std::vector<std::uint32_t> leaf_;  ///< per item
   std::vector<std::uint32_t> free_;
   std::uint32_t root_ = kNothing;

@@ -20,7 +20,7 @@ namespace swiftlet {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity(), kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kPairsPerTask = 64;  // as in a batch, but small enough that their answers stay in a core's cache
+constexpr std::size_t kPairsPerTask = 64;  // so few that their answers stay in a core's cache
 
 /// Boxes are larger by this share of the body's extent and radius, and reaches by this share of themselves. Of near bodies law
 /// 2's bound is at most 64 * 2^-53 + 2e-6 times 2.8 times the sum of their extents, radii and the reach, as neither is farther
@@ -35,8 +35,8 @@ constexpr double kFar = 0x1p-50, kTiny = 0x1p-449;
 constexpr double kAnywhere = 1e50;
 
 /// The box of a part of a body, given by centre and half sides in its frame, in the world.
-Box box_of(const Vec3& centre, const Vec3& half, double slack, const Pose& in_world) {
-  Box box;
+Bounds box_of(const Vec3& centre, const Vec3& half, double slack, const Pose& in_world) {
+  Bounds box;
   for (int i = 0; i < 3; ++i) {
     const auto row = in_world.rotation.row(i);
     const double t = in_world.translation[i];
@@ -50,7 +50,7 @@ Box box_of(const Vec3& centre, const Vec3& half, double slack, const Pose& in_wo
 }
 
 /// A box that holds the body, and all that its queries may take for it; of what they refuse, one that holds everything.
-Box box_of(const MeshBody& body, const Pose& in_world) {
+Bounds box_of(const MeshBody& body, const Pose& in_world) {
   const Body& convex = body.convex();
   const Model* const model = convex.model();
   const MeshModel* const mesh = body.mesh();
@@ -71,9 +71,9 @@ Box box_of(const MeshBody& body, const Pose& in_world) {
   }
   const double extent = std::max(lowest.cwiseAbs().maxCoeff(), highest.cwiseAbs().maxCoeff());
   const double slack = body.radius() + kSlack * (extent + body.radius());
-  Box box = box_of((lowest + highest) / 2, (highest - lowest) / 2, slack, in_world);
+  Bounds box = box_of((lowest + highest) / 2, (highest - lowest) / 2, slack, in_world);
   if (model) {  // of a round body the ball is the smaller one
-    const Box ball = box_of(model->centre(), Vec3::Zero(), slack + model->radius(), in_world);
+    const Bounds ball = box_of(model->centre(), Vec3::Zero(), slack + model->radius(), in_world);
     for (std::size_t i = 0; i < 3; ++i) {
       box.min[i] = std::max(box.min[i], ball.min[i]);
       box.max[i] = std::min(box.max[i], ball.max[i]);

@@ -15,7 +15,7 @@ Candidates::Candidates(double farthest, const Manifold& previous)
   }
 }
 
-void Candidates::begin(const Place& lowest, double enough) {
+void Candidates::begin(const PlanePoint& lowest, double enough) {
   is_crowded_ = true, enough_ = enough;
   least_ = deepest_ = kInfinity;
   name_bits_ = 0, known_count_ = 0;
@@ -53,12 +53,12 @@ bool Candidates::names_before(Names names) const {
 /// Leaves out corners, until a quarter of the room is free, by chords that cut off ever more.
 void Candidates::thin() {
   is_crowded_ = true;
-  const Place lowest = row(count_[0] > 0 ? Border::Left : Border::Right, 0).place();
+  const PlanePoint lowest = row(count_[0] > 0 ? Border::Left : Border::Right, 0).place();
   double area = 0;
   for (const Border border : {Border::Left, Border::Right}) {
-    Place before{0, 0};
+    PlanePoint before{0, 0};
     for (int i = 0; i < count_[std::size_t(border)]; ++i) {
-      const Place spoke = row(border, i).place() - lowest;
+      const PlanePoint spoke = row(border, i).place() - lowest;
       area += std::fabs(cross(before, spoke)), before = spoke;
     }
   }
@@ -70,7 +70,7 @@ void Candidates::thin() {
 }
 
 /// The deepest corner and the border's last one stay.
-void Candidates::thin(Border border, Place last, bool keeps_first) {
+void Candidates::thin(Border border, PlanePoint last, bool keeps_first) {
   const int on = border == Border::Left ? 1 : -1;
   int& count = count_[std::size_t(border)];
   Candidate *c = &row(border, 0), *end = c;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -19,25 +18,24 @@ namespace swiftlet {
 /// The borders of an area between its lowest and its highest corner.
 enum class Border : std::uint8_t { Left, Right };
 
-/// A place in the projection.
-struct Place {
+/// A point of the plane that both faces are projected to.
+struct PlanePoint {
   double x, y;
 };
-static inline Place operator+(const Place& p, const Place& q) { return {p.x + q.x, p.y + q.y}; }
-static inline Place operator-(const Place& p, const Place& q) { return {p.x - q.x, p.y - q.y}; }
-static inline Place operator*(const Place& p, double s) { return {p.x * s, p.y * s}; }
-static inline double dot(const Place& p, const Place& q) { return p.x * q.x + p.y * q.y; }
-static inline double cross(const Place& p, const Place& q) { return p.x * q.y - p.y * q.x; }
+static inline PlanePoint operator+(const PlanePoint& p, const PlanePoint& q) { return {p.x + q.x, p.y + q.y}; }
+static inline PlanePoint operator-(const PlanePoint& p, const PlanePoint& q) { return {p.x - q.x, p.y - q.y}; }
+static inline PlanePoint operator*(const PlanePoint& p, double s) { return {p.x * s, p.y * s}; }
+static inline double dot(const PlanePoint& p, const PlanePoint& q) { return p.x * q.x + p.y * q.y; }
+static inline double cross(const PlanePoint& p, const PlanePoint& q) { return p.x * q.y - p.y * q.x; }
 
 /// Both features of a point, in one word.
 class Names {
  public:
   Names() = default;
-  Names(FeatureId a, FeatureId b)
-      : bits_(std::bit_cast<std::uint32_t>(a) | std::uint64_t(std::bit_cast<std::uint32_t>(b)) << 32) {}
+  Names(FeatureId a, FeatureId b) : bits_(bit_cast<std::uint32_t>(a) | std::uint64_t(bit_cast<std::uint32_t>(b)) << 32) {}
   explicit Names(const ManifoldPoint& point) : Names(point.feature_a, point.feature_b) {}
-  FeatureId a() const { return std::bit_cast<FeatureId>(std::uint32_t(bits_)); }
-  FeatureId b() const { return std::bit_cast<FeatureId>(std::uint32_t(bits_ >> 32)); }
+  FeatureId a() const { return bit_cast<FeatureId>(std::uint32_t(bits_)); }
+  FeatureId b() const { return bit_cast<FeatureId>(std::uint32_t(bits_ >> 32)); }
   bool operator==(const Names&) const = default;
   /// One of 64 bits. Names of other bits are others; equal bits are rare, also among few features.
   std::uint64_t bit() const { return std::uint64_t(1) << (bits_ * 0x9e3779b97f4a7c15u >> 58); }
@@ -52,7 +50,7 @@ struct Candidate {
   double separation;  ///< by which B's point is farther along the normal
   Names names;
 
-  Place place() const { return {on_a.x, on_a.y}; }
+  PlanePoint place() const { return {on_a.x, on_a.y}; }
 };
 
 /// The corners, those that the manifold before names in addition, and a deepest point.
@@ -67,16 +65,16 @@ class Candidates {
 
   /// Begins anew, and leaves out corners whose chords cut off no more than half of `enough` from the first one on. Both borders
   /// begin at `lowest`.
-  void begin(const Place& lowest, double enough);
+  void begin(const PlanePoint& lowest, double enough);
   double enough() const { return enough_; }
   double farthest() const { return farthest_; }
   /// Whether to add the next corner of a border, which goes on from there by `way`: if not, a chord cuts off little. The left
   /// border's places are mirrored. `rise()`: the separation rises from there on if it is at least 0.
-  bool wants(Border border, const Place& at, const Place& way, auto&& rise) {
+  bool wants(Border border, const PlanePoint& at, const PlanePoint& way, auto&& rise) {
     return !is_crowded_ || cuts(border, at, way) || turns(border, rise);
   }
   /// The same of a corner somewhere between `from` and `to`.
-  bool wants(Border border, const Place& from, const Place& to, const Place& next, auto&& rise) {
+  bool wants(Border border, const PlanePoint& from, const PlanePoint& to, const PlanePoint& next, auto&& rise) {
     return !is_crowded_ || cuts(border, from, to, next) || turns(border, rise);
   }
   /// What `previous` names.
@@ -94,7 +92,7 @@ class Candidates {
     const std::size_t side = std::size_t(border);
     row(border, count_[side]++) = candidate;
     name_bits_ |= candidate.names.bit();
-    const Place place = candidate.place();
+    const PlanePoint place = candidate.place();
     last_[side] = {border == Border::Left ? -place.x : place.x, place.y}, cut_off_[side] = 0;
   }
   /// Joins both borders into one row around the area, the corners that `previous` names in addition where they lie.
@@ -120,11 +118,11 @@ class Candidates {
   Candidate& row(Border border, int i) { return all_[std::size_t(border == Border::Left ? i : kMostCandidates - 1 - i)]; }
 
   /// Adds a triangle above the border's last chord to the area that the chord to the end of `way` would cut off.
-  [[gnu::always_inline]] bool cuts(Border border, const Place& at, const Place& way) {
+  [[gnu::always_inline]] bool cuts(Border border, const PlanePoint& at, const PlanePoint& way) {
     return (cut_off_[std::size_t(border)] += std::fabs(cross(at - last_[std::size_t(border)], way))) > enough_;
   }
-  [[gnu::always_inline]] bool cuts(Border border, const Place& from, const Place& to, const Place& next) {
-    const Place &last = last_[std::size_t(border)], w = next - last;
+  [[gnu::always_inline]] bool cuts(Border border, const PlanePoint& from, const PlanePoint& to, const PlanePoint& next) {
+    const PlanePoint &last = last_[std::size_t(border)], w = next - last;
     const double most = max(std::fabs(cross(from - last, w)), std::fabs(cross(to - last, w)));
     return (cut_off_[std::size_t(border)] += most) > enough_;
   }
@@ -135,7 +133,7 @@ class Candidates {
   }
   void keep(Border border, Candidate candidate);
   void thin();
-  void thin(Border border, Place last, bool keeps_first);
+  void thin(Border border, PlanePoint last, bool keeps_first);
 
   const double farthest_;
   std::uint64_t known_name_bits_ = 0, name_bits_ = 0;  ///< of the points of `previous`, and of the corners that are kept
@@ -144,8 +142,8 @@ class Candidates {
   bool is_crowded_ = false;                            ///< more corners have come than there is room for
   bool has_turned_[2] = {};                            ///< per border, as `turns` found
   double enough_ = 0;                                  ///< twice the area that a chord may cut off
-  double cut_off_[2] = {};  ///< twice the area that the chord of each border up to now cuts off, or more
-  Place last_[2] = {};      ///< where it begins: the border's last corner that was added
+  double cut_off_[2] = {};   ///< twice the area that the chord of each border up to now cuts off, or more
+  PlanePoint last_[2] = {};  ///< where it begins: the border's last corner that was added
   int count_[2] = {}, known_count_ = 0, previous_count_;
   std::array<Candidate, kMostCandidates> all_;  ///< the left border from the start, the right one from the end back
   Names previous_[kMostManifoldPoints];

@@ -55,18 +55,18 @@ class Loop {
   /// one may lie within the bound of the line through two others; else `add` would make the same corners. The smallest triangle
   /// of a convex polygon's corners is one of three neighbours, and none of its sides is longer than the border.
   bool go_round(Set those) {
-    const Place start = place(lowest(those));
-    Place at = start, first{0, 0}, before{0, 0};
+    const PlanePoint start = place(lowest(those));
+    PlanePoint at = start, first{0, 0}, before{0, 0};
     double least = kInfinity, length = 0;
     int peaks = 0;
-    const auto turn = [&](const Place& way) {
+    const auto turn = [&](const PlanePoint& way) {
       least = min(least, cross(way, before)), length += std::fabs(way.x) + std::fabs(way.y);
       peaks += before.y > 0 && way.y <= 0;
       before = way;
     };
     put(size_++, lowest(those));
     each(those & (those - 1), [&](int i) {
-      const Place next = place(i), way = next - at;
+      const PlanePoint next = place(i), way = next - at;
       if (size_ == 1)
         first = before = way;
       else
@@ -109,11 +109,11 @@ class Loop {
   }
 
   int previous(int i) const { return i == 0 ? size_ - 1 : i - 1; }
-  Place place(int spot) const { return (*candidates_)[spot].place(); }
-  Place corner(int i) const { return place((*this)[i]); }
+  PlanePoint place(int spot) const { return (*candidates_)[spot].place(); }
+  PlanePoint corner(int i) const { return place((*this)[i]); }
 
   double apart(int spot, int other) const {
-    const Place way = place(other) - place(spot);
+    const PlanePoint way = place(other) - place(spot);
     return std::sqrt(dot(way, way));
   }
 
@@ -121,7 +121,7 @@ class Loop {
   double area(int side, int spot) const { return cross(place(spot) - corner(side), corner(next(side)) - corner(side)); }
   /// The same if the place stands out beyond the side, else 0.
   double beyond(int side, int spot) const {
-    const Place way = corner(next(side)) - corner(side);
+    const PlanePoint way = corner(next(side)) - corner(side);
     const double size = cross(place(spot) - corner(side), way);
     return size > 0 && size * size > bound_ * bound_ * dot(way, way) ? size : 0;
   }

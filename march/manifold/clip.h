@@ -15,7 +15,7 @@ struct SeenBody {
   const ConvexView& view;
   Vec x, y, n;  ///< the axes in the body's own frame, right-handed where the pose does not mirror
   Vec shift;
-  [[gnu::always_inline]] Place at(std::uint32_t vertex) const {
+  [[gnu::always_inline]] PlanePoint at(std::uint32_t vertex) const {
     const Vec p = vec(view.vertices[vertex]);
     return {dot(x, p) + shift.x, dot(y, p) + shift.y};
   }

@@ -41,7 +41,7 @@ class Polygon {
   FeatureId name() const { return name_; }
   FeatureId vertex(int i) const { return {FeatureKind::Vertex, vertex_[i]}; }
   FeatureId edge(int i) const { return {FeatureKind::Edge, std::min(half_edge_[i], twin(half_edge_[i]))}; }
-  const Place& at(int i) const { return at_[i]; }
+  const PlanePoint& at(int i) const { return at_[i]; }
   Line side(int i) const { return {at(i), at(i + 1), way(at(i), at(i + 1))}; }
   /// The coordinate along the normal, of a corner and of a place on a side.
   double z(int i) const { return z_[i]; }
@@ -51,13 +51,13 @@ class Polygon {
   struct Found {
     Set in, out;
   };
-  [[gnu::always_inline]] Found find(const Place& place) const {
+  [[gnu::always_inline]] Found find(const PlanePoint& place) const {
     const Vec4 area = (all(place.x) - x_) * way_y_ - (all(place.y) - y_) * way_x_;
     return {greater(area, limit_), greater(-limit_, area)};
   }
 
   /// The coordinate along the normal at a place of the face.
-  double z_at(const Place& place) const {
+  double z_at(const PlanePoint& place) const {
     const Set begins_below = at_most(y_, all(place.y)) & every();
     const Set ends_below = begins_below >> 1 | (begins_below & 1) << (count_ - 1);
     int left, right;  // sides, the left one of which rises through this height and the right one falls
@@ -65,13 +65,13 @@ class Polygon {
       left = lowest(begins_below & ~ends_below), right = lowest(ends_below & ~begins_below);
     } else {
       const bool is_above = begins_below != 0;
-      const auto is_lower = [](const Place& p, const Place& q) { return p.y < q.y; };
+      const auto is_lower = [](const PlanePoint& p, const PlanePoint& q) { return p.y < q.y; };
       const auto tip = is_above ? std::max_element(at_, at_ + count_, is_lower) : std::min_element(at_, at_ + count_, is_lower);
       const int after = int(tip - at_), before = (after == 0 ? count_ : after) - 1;
       left = is_above ? before : after, right = is_above ? after : before;
     }
     const auto mirrored = [&](int i) { return swiftlet::place(xy(at(i)) * Vec2{-1, 1}); };
-    const auto line = [](const Place& from, const Place& to) { return Line{from, to, way(from, to)}; };
+    const auto line = [](const PlanePoint& from, const PlanePoint& to) { return Line{from, to, way(from, to)}; };
     return depth_between(line(mirrored(left), mirrored(left + 1)), line(at(right + 1), at(right)), Vec2{z(left), z(right + 1)},
                          Vec2{z(left + 1), z(right)}, place);
   }
@@ -116,9 +116,9 @@ class Polygon {
   const FeatureId name_;
   int count_ = 0;
   std::uint32_t vertex_[kMostSides], half_edge_[kMostSides];
-  Vec4 x_, y_, way_x_, way_y_;  ///< of corners and of sides
-  Vec4 limit_;                  ///< the length of a side times the bound
-  Place at_[kMostSides + 1];    ///< after the last corner comes the first again
+  Vec4 x_, y_, way_x_, way_y_;     ///< of corners and of sides
+  Vec4 limit_;                     ///< the length of a side times the bound
+  PlanePoint at_[kMostSides + 1];  ///< after the last corner comes the first again
   double z_[kMostSides + 1];
 };
 
@@ -163,7 +163,7 @@ class Overlay {
       if (!(is_on_side && is_corner_of_a(b_.at(j)))) add_corner<1>(b_, a_, j);
     }
   }
-  bool is_corner_of_a(const Place& place) const {
+  bool is_corner_of_a(const PlanePoint& place) const {
     bool found = false;
     each(in_b_, [&](int i) { found |= are_near(a_.at(i), place, bound2_); });
     return found;
@@ -173,7 +173,7 @@ class Overlay {
   template <int f>
   void add_corner(const Polygon& own, const Polygon& other, int i) {
     const FeatureId vertex = own.vertex(i);
-    const Place& place = own.at(i);
+    const PlanePoint& place = own.at(i);
     const double z = own.z(i), there = other.z_at(place), z_a = f == 0 ? z : there, z_b = f == 0 ? there : z;
     add(place, z_a, z_b, f == 0 ? Names(vertex, other.name()) : Names(other.name(), vertex));
   }
@@ -181,7 +181,7 @@ class Overlay {
     const Crossing at = crossing(a_.side(i), b_.side(j), bound2_);
     if (at.meet) add(at.on_a, a_.z_on(i, at.t_a), b_.z_on(j, at.t_b), Names(a_.edge(i), b_.edge(j)));
   }
-  void add(const Place& place, double z_a, double z_b, const Names& names) {
+  void add(const PlanePoint& place, double z_a, double z_b, const Names& names) {
     corners_.add(Border::Left, {{place.x, place.y, z_a}, z_b - z_a, names}, true);
   }
 

@@ -72,11 +72,11 @@ class Outline {
     const HalfEdge* half_edges = body_.view.half_edges.data();
     const double sense = is_from_above_ ? 1 : -1;
     std::uint32_t count = 0, h = face_.side();
-    Place at = body_.at(origin(body_.view, h)), before = body_.at(half_edges[h].head) - at;
+    PlanePoint at = body_.at(origin(body_.view, h)), before = body_.at(half_edges[h].head) - at;
     at = at + before;
     do {
       const std::uint32_t next = face_.onward<true>(h);
-      const Place there = body_.at(half_edges[next].head), way = there - at;
+      const PlanePoint there = body_.at(half_edges[next].head), way = there - at;
       const double most = max(std::fabs(way.x) + std::fabs(way.y), std::fabs(before.x) + std::fabs(before.y));
       if (count == FewCorners::kMost || !(sense * cross(before, way) > face_.flatness() * most)) return 0;
       few.corner[count] = body_.view.vertices[half_edges[h].head], few.vertex[count++] = half_edges[h].head;
@@ -159,12 +159,12 @@ class Chain {
     return k <= size_ ? k : kNone;
   }
   double y(std::uint32_t k) const { return dot(outline_.body().y, vec(corners_[number(k)])) + shift_.y; }
-  Place at(std::uint32_t k) const {
+  PlanePoint at(std::uint32_t k) const {
     const Vec p = vec(corners_[number(k)]);
     return {dot(x_, p) + shift_.x, dot(outline_.body().y, p) + shift_.y};
   }
   Line side(std::uint32_t k) const {
-    const Place from = at(k), to = at(k + 1);
+    const PlanePoint from = at(k), to = at(k + 1);
     return {from, to, way(from, to)};
   }
   /// The edge that is a side.
@@ -221,11 +221,11 @@ class Chain {
   const std::uint32_t size_, start_, count_;
   const Vertex* const corners_;  ///< of the face
   Vec x_;                        ///< the axis in the body's frame
-  Place shift_;                  ///< where its origin is seen
+  PlanePoint shift_;             ///< where its origin is seen
 };
 
 /// The place of a line at a height.
-Place at_height(const Line& line, double y) {
+PlanePoint at_height(const Line& line, double y) {
   const double rise = line.way.y, t = rise > 0 ? max(0, min((y - line.from.y) / rise, 1)) : 0;
   return {line.from.x + line.way.x * t, y};
 }
@@ -236,8 +236,8 @@ constexpr Owner kCrossing = 2, kTip = 3;
 
 /// A corner of the intersection on one of its borders, and the edge there.
 struct Knot {
-  Place at;
-  Place way;              ///< the edge's, upwards
+  PlanePoint at;
+  PlanePoint way;         ///< the edge's, upwards
   Owner leader;           ///< the face that has the edge
   Owner face;             ///< of which this is a corner, or a crossing or tip
   std::uint32_t corner;   ///< of the face's border
@@ -310,17 +310,19 @@ class Halving {
 
  private:
   const Chain& chain(Border border, int f) const { return chain_[std::size_t(border)][f]; }
-  static Place seen(Border border, const Place& place) { return {border == Border::Left ? -place.x : place.x, place.y}; }
+  static PlanePoint seen(Border border, const PlanePoint& place) {
+    return {border == Border::Left ? -place.x : place.x, place.y};
+  }
   /// A side of one border as the other sees it.
   static Line mirrored(const Line& side) {
     return {seen(Border::Left, side.from), seen(Border::Left, side.to), {seen(Border::Left, side.way), side.way.most}};
   }
 
   /// How the coordinate along the normal changes with x and y in the plane of face `f`.
-  Place slope(int f) const {
+  PlanePoint slope(int f) const {
     const SeenBody& body = outline_[f]->body();
     const Vec& m = outline_[f]->face().normal();
-    return Place{dot(body.x, m), dot(body.y, m)} * (-1 / dot(body.n, m));
+    return PlanePoint{dot(body.x, m), dot(body.y, m)} * (-1 / dot(body.n, m));
   }
   /// That coordinate of the plane at 0.
   double height_of_middle(int f) const {
@@ -328,9 +330,9 @@ class Halving {
     const std::uint32_t v = outline_[f]->vertex(0);
     return body.z(v) - dot(slope(f), body.at(v));
   }
-  double rise(Border border, const Place& way) const { return dot(slope_, seen(border, way)); }
-  double separation(Border border, const Place& place) const { return middle_ + rise(border, place); }
-  bool is_within(Border border, const Place& place) const { return separation(border, place) <= corners_.farthest(); }
+  double rise(Border border, const PlanePoint& way) const { return dot(slope_, seen(border, way)); }
+  double separation(Border border, const PlanePoint& place) const { return middle_ + rise(border, place); }
+  bool is_within(Border border, const PlanePoint& place) const { return separation(border, place) <= corners_.farthest(); }
 
   /// Finds a height at which the intersection is wider than rounding makes it, halfway up if it is, and that width.
   struct Width {
@@ -359,7 +361,7 @@ class Halving {
 
   /// Where the intersection begins or ends: at a corner of face `face`, or where the borders `of` of both faces cross.
   struct Tip {
-    Place at;
+    PlanePoint at;
     int face;
     Border of[2];
     std::uint32_t side[2];  ///< that cross
@@ -372,7 +374,7 @@ class Halving {
       return right.at(up ? right.size() : 0);
     };
     const int f = is_below(end(0), end(1)) == up ? 0 : 1, g = 1 - f;
-    const Place at = end(f);
+    const PlanePoint at = end(f);
     const std::uint32_t beside[2] = {chain(Border::Left, g).side_at(at.y, up), chain(Border::Right, g).side_at(at.y, up)};
     for (const Border border : kBorders) {
       const Line side = chain(border, g).side(beside[std::size_t(border)]);
@@ -410,7 +412,7 @@ class Halving {
       const Chain &halved = halves_p ? p : q, &other = halves_p ? q : p;
       Range &here = halves_p ? of_p : of_q, &there = halves_p ? of_q : of_p;
       const std::uint32_t k = here.middle();
-      const Place at = halved.at(k);
+      const PlanePoint at = halved.at(k);
       const std::uint32_t j = other.side_at(at.y, std::min(there.in, there.out), std::max(there.in, there.out) - 1);
       const bool is_inside = at.x + at_height(other.side(j), at.y).x > 0;
       (is_inside ? here.in : here.out) = k;
@@ -418,7 +420,7 @@ class Halving {
     }
     const std::uint32_t k = std::min(of_p.in, of_p.out), j = std::min(of_q.in, of_q.out);
     const Line side_p = p.side(k), side_q = q.side(j);
-    const Place spot = crossing(side_p, mirrored(side_q), bound_ * bound_).on_a, at = seen(of_f, spot);
+    const PlanePoint spot = crossing(side_p, mirrored(side_q), bound_ * bound_).on_a, at = seen(of_f, spot);
     Tip tip{at, kCrossing, {}, {}, {}};
     tip.of[f] = of_f, tip.of[g] = of_g, tip.side[f] = k, tip.side[g] = j;
     Knot &on_p = tip.knot[std::size_t(of_f)], &on_q = tip.knot[std::size_t(of_g)];
@@ -441,7 +443,7 @@ class Halving {
       return found;
     }
     const std::uint32_t k = low.side[f] + (count[f] + 1) / 2;
-    const Place place = own.at(k);
+    const PlanePoint place = own.at(k);
     const std::uint32_t j = other.side_at(place.y, low.side[g], high.side[g], low.side[g] + (count[g] + 1) / 2);
     const Line beside = other.side(j);
     if (where(place, beside, bound_) == Where::Outside)
@@ -462,7 +464,7 @@ class Halving {
     knot.way = line.way, knot.leader = Owner(f);
     if (limit.leader == f && limit.side[f] == k) return knot;
     const Chain& other = chain(border, g);
-    const Place place = up ? line.to : line.from;
+    const PlanePoint place = up ? line.to : line.from;
     std::uint32_t low = up ? beside : limit.side[g], high = up ? limit.side[g] : beside;
     knot.side[f] = k;
     if (up ? place.y <= limit.at.y : place.y >= limit.at.y) {
@@ -512,7 +514,7 @@ class Halving {
   /// Whether the border between two knots may hold much, or the deepest corner, or the last one within the farthest separation.
   bool holds_more(Border border, const Knot& low, const Knot& high) {
     if (is_same(low, high) || (low.leader == high.leader && low.side[low.leader] == high.side[low.leader])) return false;
-    const Place chord = high.at - low.at;
+    const PlanePoint chord = high.at - low.at;
     const double out_low = cross(low.way, chord), out_high = cross(chord, high.way), turn = cross(low.way, high.way),
                  out = turn > 0 ? out_high / turn : kInfinity;  // along the lower edge, to where both meet
     if (!(out_low > 0 && out_high > 0)) return false;
@@ -531,13 +533,13 @@ class Halving {
   void keep(Border border, const Knot& low, const Knot& high, const Known::Corner& corner) {
     const int f = corner.face, g = 1 - f;
     if (!(low.side[f] < corner.k && corner.k <= high.side[f])) return;
-    const Place place = chain(border, f).at(corner.k);
+    const PlanePoint place = chain(border, f).at(corner.k);
     const std::uint32_t j = chain(border, g).side_at(place.y, low.side[g], high.side[g], low.side[g]);
     if (where(place, chain(border, g).side(j), bound_) == Where::Outside) return;
     add_corner(border, f, chain(border, f).vertex(corner.k), seen(border, place), false, beside(border, g, j, place.y));
   }
   /// Adds a corner that chords would miss, whose next one is `way` ahead, or that the manifold before names, or if it has to.
-  void offer(Border border, const Knot& knot, const Place& way, bool has_to) {
+  void offer(Border border, const Knot& knot, const PlanePoint& way, bool has_to) {
     const bool wanted = corners_.wants(border, knot.at, way, [&] { return rise(border, way); }) || has_to;
     is_whole_ &= wanted;
     const Known& known = known_[std::size_t(border)];
@@ -601,7 +603,7 @@ class Halving {
     return k + 1 == j ? k : j + 1 == k ? j : kNone;
   }
   /// As Sweep does.
-  void add_corner(Border border, int f, std::uint32_t v, const Place& place, bool wanted, const Beside& there) {
+  void add_corner(Border border, int f, std::uint32_t v, const PlanePoint& place, bool wanted, const Beside& there) {
     const int g = 1 - f;
     const FeatureId vertex{FeatureKind::Vertex, v};
     const Names names(f == 0 ? vertex : name_[0], f == 0 ? name_[1] : vertex);
@@ -619,7 +621,7 @@ class Halving {
     const Line a = of_a.side(side[0]), side_b = of_b.side(side[1]), b = of[0] == of[1] ? side_b : mirrored(side_b);
     const double bound2 = bound_ * bound_;
     const Crossing at = crossing(a, b, bound2);
-    const auto add_end = [&](int f, const Place& place, std::uint32_t v) {
+    const auto add_end = [&](int f, const PlanePoint& place, std::uint32_t v) {
       add_corner(border, f, v, seen(of[0], place), wanted, beside(1 - f, place.y));
     };
     if (are_near(a.from, at.on_a, bound2)) return add_end(0, a.from, of_a.vertex(side[0]));
@@ -630,7 +632,7 @@ class Halving {
     const Names names(of_a.edge(side[0]), of_b.edge(side[1]));
     if (!corners_.takes(names, wanted)) return;
     const double z_a = of_a.z_on(side[0], at.t_a), z_b = of_b.z_on(side[1], at.t_b);
-    const Place place = seen(of[0], at.on_a);
+    const PlanePoint place = seen(of[0], at.on_a);
     corners_.add(border, {{place.x, place.y, z_a}, z_b - z_a, names}, wanted);
   }
 
@@ -638,8 +640,8 @@ class Halving {
   const Chain chain_[2][2];  ///< of each border, those of both faces
   const FeatureId name_[2];
   const double bound_;
-  const Place slope_;    ///< how the separation changes with x and y
-  const double middle_;  ///< what it is at 0
+  const PlanePoint slope_;  ///< how the separation changes with x and y
+  const double middle_;     ///< what it is at 0
   Candidates& corners_;
   bool is_whole_ = true;  ///< no corner is left out
   Known known_[2];        ///< of each border, what the manifold before names

@@ -61,19 +61,19 @@ class Hull {
   using Index = std::uint8_t;
 
   void add(int spot) { corner_[std::size_t(size_++)] = Index(spot); }
-  Place place(int spot) const { return candidates_[spot].place(); }
+  PlanePoint place(int spot) const { return candidates_[spot].place(); }
   /// Takes all candidates for the hull, back from the first one. Returns false if they do not go around it clockwise, as the
   /// corners of a clipped area do: back they all turn left, and the way rises once.
   bool goes_round_from(int first) {
     const int count = candidates_.count();
-    const Place start = place(first);
-    Place at = start, before = start - place(first + 1 < count ? first + 1 : 0), spoke{0, 0};
+    const PlanePoint start = place(first);
+    PlanePoint at = start, before = start - place(first + 1 < count ? first + 1 : 0), spoke{0, 0};
     int peaks = 0;
     for (int spot = first; size_ < count;) {
       x_[std::size_t(size_)] = spoke.x, y_[std::size_t(size_)] = spoke.y;
       add(spot);
       spot = spot > 0 ? spot - 1 : count - 1;
-      const Place next = place(spot), way = next - at, to = next - start;
+      const PlanePoint next = place(spot), way = next - at, to = next - start;
       if (!(cross(before, way) > 0)) return size_ = 0, false;
       peaks += before.y > 0 && way.y <= 0;
       twice_area_ += cross(spoke, to);
@@ -84,18 +84,18 @@ class Hull {
   }
   void measure() {
     twice_area_ = 0;
-    Place before{0, 0};
+    PlanePoint before{0, 0};
     for (int i = 0; i < size_; ++i) {
-      const Place spoke = place((*this)[i]) - place((*this)[0]);
+      const PlanePoint spoke = place((*this)[i]) - place((*this)[0]);
       x_[std::size_t(i)] = spoke.x, y_[std::size_t(i)] = spoke.y;
       twice_area_ += cross(before, spoke), before = spoke;
     }
   }
   /// A corner within the bound of `first` is in its place.
   void begin_with(int first, double bound) {
-    const Place centre = place(first);
+    const PlanePoint centre = place(first);
     const auto away = [&](int i) {
-      const Place way = place((*this)[i]) - centre;
+      const PlanePoint way = place((*this)[i]) - centre;
       return dot(way, way);
     };
     int nearest = 0, farthest = 0;
@@ -119,7 +119,7 @@ class Hull {
   }
   /// The order of x, then y; of equal places the first candidate is before.
   bool is_before(int i, int j) const {
-    const Place p = place(i), q = place(j);
+    const PlanePoint p = place(i), q = place(j);
     return p.x < q.x || (p.x == q.x && p.y < q.y);
   }
   /// Twice the area of three candidates, positive where they turn left.

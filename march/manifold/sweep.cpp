@@ -31,7 +31,7 @@ namespace {
 
 /// A corner as its border sees it: x grows outwards, so that both borders are alike.
 struct Corner {
-  Place at;
+  PlanePoint at;
   std::uint64_t names;  ///< in one word, so that they are stored and loaded together: the vertex, and, above, the half-edge
   std::uint32_t vertex() const { return std::uint32_t(names); }
   /// Of the border, and ends there; of a rim either half-edge of that edge.
@@ -76,13 +76,13 @@ class SeenBorder {
   /// The way to the corner after the side; has no meaning where both borders have met.
   const Way& ahead() const { return ahead_; }
   /// A place of the projection as the border sees it, and back.
-  Place seen(const Place& place) const { return {place.x * outwards_, place.y}; }
+  PlanePoint seen(const PlanePoint& place) const { return {place.x * outwards_, place.y}; }
   /// The coordinate along the normal of a vertex, and of a place on the side.
   double z(std::uint32_t vertex) const { return body_.z(vertex); }
   /// How the coordinate along the normal changes with x and y in the face's plane.
-  Place slope() const {
+  PlanePoint slope() const {
     const Vec& m = face_.normal();
-    return Place{dot(body_.x, m), dot(body_.y, m)} * (-1 / dot(body_.n, m));
+    return PlanePoint{dot(body_.x, m), dot(body_.y, m)} * (-1 / dot(body_.n, m));
   }
   double z_at(double t) const {
     const Vec2 z = body_.z(start().vertex(), end().vertex());
@@ -102,7 +102,7 @@ class SeenBorder {
 
   /// Moves on to the side that ends above a place of the projection. Returns false if vertex `top`, the border's end, is below
   /// it.
-  [[gnu::noinline]] bool rise_above(const Place& place, std::uint32_t top) {
+  [[gnu::noinline]] bool rise_above(const PlanePoint& place, std::uint32_t top) {
     if (face_.is_rim()) leap_below(place.y - 2 * flatness_, top);
     for (; !is_below(place, seen(end().at)); advance(top)) {
       if (end().vertex() == top) return false;
@@ -111,7 +111,7 @@ class SeenBorder {
   }
 
   /// Names the edge at a place of the side; of a chord, the edge that it cuts off there.
-  FeatureId edge_at(const Place& place) const {
+  FeatureId edge_at(const PlanePoint& place) const {
     std::uint32_t back = back_from(end());
     while (side_.is_chord) {
       const Corner from = end_of(back);
@@ -176,8 +176,8 @@ class SeenBorder {
   bool falls() const { return side_.way.y < -bound_; }
   /// Whether a way from the end of the side leads inwards, by more than the flatness: mostly the short test of a side that
   /// rises says so.
-  bool rises_in(const Place& way) const { return cross(side_.way, way) > flatness_ * side_.way.most && side_.way.y > 0; }
-  bool turns_in(const Place& way) const {
+  bool rises_in(const PlanePoint& way) const { return cross(side_.way, way) > flatness_ * side_.way.most && side_.way.y > 0; }
+  bool turns_in(const PlanePoint& way) const {
     const double out = cross(way, side_.way);
     return rises_in(way) || (out < 0 && out * out > flatness_ * flatness_ * side_.length2() && !falls());
   }
@@ -277,10 +277,10 @@ LowestSides lowest_sides(const SeenBody& body, const ContactFace& face, double m
   const auto twin = [&](std::uint32_t h) { return body.view.half_edges[h].twin; };
   const std::uint32_t last = face.onward<false>(twin(first));
   LowestSides sides{first, last};
-  Place lowest = end_of(twin(first));
-  const auto is_lower = [&](const Place& p) { return p.y < lowest.y || (p.y == lowest.y && p.x < lowest.x); };
+  PlanePoint lowest = end_of(twin(first));
+  const auto is_lower = [&](const PlanePoint& p) { return p.y < lowest.y || (p.y == lowest.y && p.x < lowest.x); };
   for (std::uint32_t h = first;;) {
-    const Place place = end_of(h);
+    const PlanePoint place = end_of(h);
     if (place.y > lowest.y + more) break;
     const std::uint32_t next = face.onward<true>(h);
     if (next == first) break;
@@ -288,7 +288,7 @@ LowestSides lowest_sides(const SeenBody& body, const ContactFace& face, double m
     h = next;
   }
   for (std::uint32_t h = last;;) {
-    const Place place = end_of(h);
+    const PlanePoint place = end_of(h);
     if (place.y > lowest.y + more) break;
     const std::uint32_t next = face.onward<false>(h);
     if (is_lower(place)) lowest = place, sides = {twin(h), next};
@@ -381,7 +381,7 @@ class Sweep {
     return {face, min(at(border, 0).end().at.y, at(border, 1).end().at.y)};
   }
 
-  Where where(const Place& place, Border border, int f) const {
+  Where where(const PlanePoint& place, Border border, int f) const {
     const SeenBorder& b = at(border, f);
     return swiftlet::where(b.seen(place), b.side(), bound_);
   }
@@ -389,7 +389,7 @@ class Sweep {
   /// Starts at the higher of the two lowest corners, or at A's if they are one up to the bound, so that of faces which lie on
   /// one another A's always leads. Returns false if the other face ends below it.
   bool begin() {
-    const Place of_a = at(Border::Right, 0).start().at, of_b = at(Border::Right, 1).start().at;
+    const PlanePoint of_a = at(Border::Right, 0).start().at, of_b = at(Border::Right, 1).start().at;
     return is_below(of_a, of_b) && !are_near(of_a, of_b, bound_ * bound_) ? begin<1>() : begin<0>();
   }
 
@@ -412,7 +412,7 @@ class Sweep {
 
   /// Moves a border on to the side that ends above a place. Returns false if its end is below that.
   template <Border border, int f>
-  bool rises_above(const Place& place) {
+  bool rises_above(const PlanePoint& place) {
     return at(border, f).rise_above(place, at(opposite(border), f).end().vertex());
   }
 
@@ -432,7 +432,7 @@ class Sweep {
     if (leader(border) == kNobody && !overlap_begins(border, f)) return true;
     constexpr int other = 1 - f;
     constexpr Border across = opposite(border);
-    const Place& place = at(border, f).side().to;
+    const PlanePoint& place = at(border, f).side().to;
     const bool leads = leader(border) == f, passes = passes_lead(place, at(border, other).side(), leads);
     // A corner beyond the other face's border across is inside of the one here: it leads from here on.
     if (leads != passes && is_across(place, at(across, other).side())) {
@@ -446,7 +446,7 @@ class Sweep {
   }
 
   /// Returns true where a border's corner lies outside of the other face's side and led, or inside and did not.
-  bool passes_lead(const Place& place, const Side& side, bool leads) const {
+  bool passes_lead(const PlanePoint& place, const Side& side, bool leads) const {
     const double area = side.beyond(place);
     if ((leads ? -area : area) > bound_ * side.way.most) [[likely]]
       return false;
@@ -454,7 +454,7 @@ class Sweep {
   }
 
   /// Returns true if a place of one border lies outside of a side of the other, which sees it mirrored.
-  bool is_across(const Place& place, const Side& side) const {
+  bool is_across(const PlanePoint& place, const Side& side) const {
     return place.x + min(side.from.x, side.to.x) <= bound_ &&
            swiftlet::where({-place.x, place.y}, side, bound_) == Where::Outside;
   }
@@ -475,7 +475,7 @@ class Sweep {
   template <Border border, int f>
   void end() {
     const SeenBorder& own = at(border, f);
-    const Place top = own.seen(own.end().at);
+    const PlanePoint top = own.seen(own.end().at);
     if (!meet<opposite(border), f>() || leader(border) == kNobody) return;
     for (const Border b : kBorders) {
       if (where(top, b, 1 - f) == Where::Outside) return;
@@ -504,7 +504,7 @@ class Sweep {
   }
 
   /// How much the separation rises along a way that a border sees.
-  [[gnu::noinline]] double rise(const SeenBorder& border, const Place& way) {
+  [[gnu::noinline]] double rise(const SeenBorder& border, const PlanePoint& way) {
     if (!slope_) slope_ = at(Border::Left, 1).slope() - at(Border::Left, 0).slope();
     return dot(*slope_, border.seen(way));
   }
@@ -517,7 +517,7 @@ class Sweep {
 
   /// Adds a corner of face `f` that lies within the other face.
   template <int f>
-  [[gnu::noinline]] void add_corner(Border border, const Place& place, std::uint32_t v, bool wanted = true) {
+  [[gnu::noinline]] void add_corner(Border border, const PlanePoint& place, std::uint32_t v, bool wanted = true) {
     const FeatureId vertex{FeatureKind::Vertex, v};
     const Names names(f == 0 ? vertex : name_[0], f == 0 ? name_[1] : vertex);
     if (!corners_.takes(names, wanted)) return;
@@ -528,7 +528,7 @@ class Sweep {
 
   /// The coordinate along the normal at a place of a face.
   template <int f>
-  double depth_at(const Place& place) const {
+  double depth_at(const PlanePoint& place) const {
     const SeenBorder &left = at(Border::Left, f), &right = at(Border::Right, f);
     return depth_between(left.side(), right.side(), left.body().z(left.start().vertex(), right.start().vertex()),
                          left.body().z(left.end().vertex(), right.end().vertex()), place);
@@ -539,7 +539,7 @@ class Sweep {
   [[gnu::noinline]] void add_crossing(Border border, bool wanted = true) {
     const SeenBorder &of_a = at(on_a, 0), &of_b = at(on_b, 1);
     // All is seen as A's border sees it.
-    const auto by_other = [](const Place& place) { return Place{on_a == on_b ? place.x : -place.x, place.y}; };
+    const auto by_other = [](const PlanePoint& place) { return PlanePoint{on_a == on_b ? place.x : -place.x, place.y}; };
     const Line &a = of_a.side(), b{by_other(of_b.side().from), by_other(of_b.side().to), {by_other(of_b.side().way), 0}};
     const double bound2 = bound_ * bound_;
     const Crossing at = crossing(a, b, bound2);
@@ -560,7 +560,7 @@ class Sweep {
   SeenBorder border_[4];
   const FeatureId name_[2];
   const double bound_;
-  std::optional<Place> slope_;  ///< how the separation changes with x and y, once that is asked for
+  std::optional<PlanePoint> slope_;  ///< how the separation changes with x and y, once that is asked for
   Candidates& corners_;
   /// Per body, the vertices that the manifold before names, alone or by an edge, modulo 64.
   std::uint64_t known_bits_[2] = {};

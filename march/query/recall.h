@@ -283,7 +283,7 @@ struct LooseDistance {
   double absolute, relative;
   StopRule asked() const { return {absolute, relative}; }
 };
-struct Intersection {
+struct AnyOverlap {
   static constexpr StopRule rule{0, 0, 0, 0};
   const StopRule& asked() const { return rule; }
 };
@@ -465,7 +465,7 @@ template <class Question>
 [[gnu::always_inline]] static inline Answer answered_intersection(const Model& a, const Model& b, const Pose& b_in_a,
                                                                   PairSeed& seed) {
   Answer answer;
-  answer_question(a, b, b_in_a, seed, Intersection{}, answer);
+  answer_question(a, b, b_in_a, seed, AnyOverlap{}, answer);
   decide(answer);
   return answer;
 }
