@@ -119,13 +119,12 @@ py::tuple run_build(py::handle points, py::handle triangles, const Whole& method
   return py::make_tuple(bytes_of(result.model.bytes()), report_of(result.report));
 }
 
-HullOptions hull_options(const Whole& levels, const Whole& least_triangles, const Real& bytes_per_triangle,
-                         const Whole& least_patch, Watch& watch, const Whole& threads) {
+HullOptions hull_options(const Whole& levels, const Whole& least_triangles, const Real& bytes_per_triangle, Watch& watch,
+                         const Whole& threads) {
   HullOptions options;
   options.levels = to_count(levels, "levels");
   options.least_triangles = to_count(least_triangles, "least_triangles");
   options.bytes_per_triangle = to_double(bytes_per_triangle, "bytes_per_triangle");
-  options.least_patch = to_count(least_patch, "least_patch");
   options.progress = watch.function();
   const unsigned count = to_threads(threads);
   if (count > 1) options.executor = on_threads(count);
@@ -136,7 +135,8 @@ py::bytes run_build_mesh(py::handle points, py::handle triangles, const Whole& l
                          const Real& bytes_per_triangle, const Whole& least_patch, py::object progress, const Whole& threads) {
   const Mesh mesh = to_mesh(points, triangles);
   Watch watch(std::move(progress));
-  const HullOptions options = hull_options(levels, least_triangles, bytes_per_triangle, least_patch, watch, threads);
+  HullOptions options = hull_options(levels, least_triangles, bytes_per_triangle, watch, threads);
+  options.least_patch = to_count(least_patch, "least_patch");
   std::optional<Result<MeshModel>> built;
   {
     const py::gil_scoped_release release;
@@ -147,11 +147,11 @@ py::bytes run_build_mesh(py::handle points, py::handle triangles, const Whole& l
 }
 
 py::bytes run_rebuild_hulls(py::buffer data, const Whole& levels, const Whole& least_triangles, const Real& bytes_per_triangle,
-                            const Whole& least_patch, py::object progress, const Whole& threads) {
+                            py::object progress, const Whole& threads) {
   const py::buffer_info info = data.request();
   const MeshModel mesh = take(load_mesh(to_bytes(info)));
   Watch watch(std::move(progress));
-  const HullOptions options = hull_options(levels, least_triangles, bytes_per_triangle, least_patch, watch, threads);
+  const HullOptions options = hull_options(levels, least_triangles, bytes_per_triangle, watch, threads);
   std::optional<Result<MeshModel>> built;
   {
     const py::gil_scoped_release release;
@@ -178,6 +178,5 @@ PYBIND11_MODULE(_build, module) {
              py::arg("least_triangles"), py::arg("bytes_per_triangle"), py::arg("least_patch"), py::arg("progress"),
              py::arg("threads"), "The bytes of a mesh with hulls.");
   module.def("run_rebuild_hulls", &run_rebuild_hulls, py::arg("data"), py::arg("levels"), py::arg("least_triangles"),
-             py::arg("bytes_per_triangle"), py::arg("least_patch"), py::arg("progress"), py::arg("threads"),
-             "The bytes of the mesh with new hulls.");
+             py::arg("bytes_per_triangle"), py::arg("progress"), py::arg("threads"), "The bytes of the mesh with new hulls.");
 }

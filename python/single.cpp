@@ -69,9 +69,8 @@ PyObject* get_number(PyObject* self, void*) {
     return PyLong_FromLongLong(value);
 }
 template <auto kMember>
-PyObject* get_vector(PyObject* self, void* closure) {
-  (void)closure;
-  return to_array(object_of(self).answer.*kMember).release().ptr();
+PyObject* get_vector(const AnswerObject& a) {
+  return to_array(a.answer.*kMember).release().ptr();
 }
 PyObject* get_status(const AnswerObject& a) { return member("Status", int(a.answer.status)); }
 PyObject* get_verdict(const AnswerObject& a) { return member("Verdict", int(a.answer.verdict)); }
@@ -92,10 +91,10 @@ PyGetSetDef answer_members[] = {
     {"lower", get_number<&Answer::lower>, nullptr, "Proved lower bound on the distance, in the bodies' unit.", nullptr},
     {"upper", get_number<&Answer::upper>, nullptr, "Proved upper bound.", nullptr},
     {"value", getter<get_value>, nullptr, "Middle of the interval; NaN if a bound is infinite.", nullptr},
-    {"normal", get_vector<&Answer::normal>, nullptr, "Unit, from A to B, in A's frame, (3,); NaN where none is known.",
+    {"normal", getter<get_vector<&Answer::normal>>, nullptr, "Unit, from A to B, in A's frame, (3,); NaN where none is known.",
      nullptr},
-    {"point_a", get_vector<&Answer::point_a>, nullptr, "Witness point of A in A's frame, (3,).", nullptr},
-    {"point_b", get_vector<&Answer::point_b>, nullptr, "Witness point of B in A's frame, (3,).", nullptr},
+    {"point_a", getter<get_vector<&Answer::point_a>>, nullptr, "Witness point of A in A's frame, (3,).", nullptr},
+    {"point_b", getter<get_vector<&Answer::point_b>>, nullptr, "Witness point of B in A's frame, (3,).", nullptr},
     {"is_signed", get_number<&Answer::is_signed>, nullptr, "True if the bounds are of the signed distance.", nullptr},
     {"level_a", get_number<&Answer::level_a>, nullptr, "The level of A that answered.", nullptr},
     {"level_b", get_number<&Answer::level_b>, nullptr, "The level of B that answered.", nullptr},

@@ -212,7 +212,8 @@ class Contacts(NamedTuple):
         Structured, nearest first: lower, upper, normal, point_a, point_b, verdict, feature_a, feature_b, triangle_a,
         triangle_b, box_min, box_max.
     status : Status
-        CONVERGED: all regions are here. BUDGET: not all are.
+        CONVERGED: all regions are here. BUDGET: not all are. LEVEL_LIMIT: a mesh was cut, and none are here, or a convex
+        model lacks level 0: those of its finest level are here, and some may be none of the body.
     is_counted : bool
         `count` is the number of regions.
     count : int

@@ -18,6 +18,6 @@ def run_build_mesh(
     progress: Optional[Callable[..., Optional[bool]]], threads: int,
 ) -> bytes: ...
 def run_rebuild_hulls(
-    data: Any, levels: int, least_triangles: int, bytes_per_triangle: float, least_patch: int,
+    data: Any, levels: int, least_triangles: int, bytes_per_triangle: float,
     progress: Optional[Callable[..., Optional[bool]]], threads: int,
 ) -> bytes: ...

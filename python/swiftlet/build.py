@@ -194,11 +194,11 @@ def rebuild_hulls(
     levels: int = 4,
     least_triangles: int = 64,
     bytes_per_triangle: float = 120.0,
-    least_patch: int = 0,
     progress: Optional[Callable[[float, str], Optional[bool]]] = None,
     threads: int = 1,
 ) -> MeshModel:
-    """Returns the mesh with new hulls, for example after :meth:`MeshModel.refit`. Options and errors: :func:`build_mesh`."""
+    """Returns the mesh with new hulls, for example after :meth:`MeshModel.refit`. Its tree stays:
+    patches have the nodes that they had. Options and errors: :func:`build_mesh`."""
     return MeshModel.from_bytes(
-        _build.run_rebuild_hulls(mesh.bytes, levels, least_triangles, bytes_per_triangle, least_patch, progress, threads)
+        _build.run_rebuild_hulls(mesh.bytes, levels, least_triangles, bytes_per_triangle, progress, threads)
     )

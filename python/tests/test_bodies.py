@@ -212,7 +212,8 @@ def test_arguments_are_named_where_they_are_wrong(fat, mesh, tmp_path):
         (lambda: build.build(points, threads=0), "threads: .*, got 0"),
         (lambda: build.build_mesh(shape, levels=1.0), "levels: expected a whole number"),
         (lambda: build.build_mesh(shape, bytes_per_triangle=None), "bytes_per_triangle: expected a number, got NoneType"),
-        (lambda: build.rebuild_hulls(mesh, least_patch=-1), "least_patch: .*, got -1"),
+        (lambda: build.build_mesh(shape, least_patch=-1), "least_patch: .*, got -1"),
+        (lambda: build.rebuild_hulls(mesh, least_triangles=-1), "least_triangles: .*, got -1"),
         (lambda: build.build(points, progress=lambda fraction, stage: np.zeros(2)), "ambiguous"),
     ]:
         with pytest.raises((TypeError, ValueError), match=message) as raised:
