@@ -129,7 +129,7 @@ struct HullPair::Question {
     set_limit();
   }
 
-  /// Sets the bound from which on nothing matters, as descent.h does.
+  /// Sets the bound from which on nothing matters. What rounding takes from it is within law 2's bound.
   void set_limit() {
     limit = kInfinity;
     if (upper < kInfinity)

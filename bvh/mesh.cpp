@@ -20,7 +20,7 @@ Result<MeshModel> MeshModel::from_triangles(std::span<const Vec3> points,
   // Shares of the time that the steps take.
   constexpr double kWelded = 0.3, kBuilt = 0.95;
   const auto go_on = [&](double fraction) { return !options.progress || options.progress(fraction); };
-  const auto cancelled = [] { return Error{ErrorCode::Cancelled, "the build was cancelled"}; };
+  const auto cancelled = [] { return Error{ErrorCode::Cancelled, "the progress callback cancelled the build"}; };
   if (!go_on(0)) return cancelled();
   Result<Soup> soup = weld(points, triangles);
   if (!soup) return soup.error();

@@ -89,7 +89,8 @@ struct Parts {
     }
     return most + n.norm() * of.radius();
   }
-  /// The radius of a ball around a point of A's frame that lies in the body, if the point is inside; else 0.
+  /// The radius of a ball around a point of A's frame that lies in the body, if the point is inside; else a mesh's
+  /// radius, and 0 of a convex body.
   double free_ball(const Vec3& p, const Pose& at, bool is_b) const {
     if (!of.mesh()) {
       const Body point = Body::point(p);

@@ -65,7 +65,7 @@ swiftlet_code tell(swiftlet_error* error) noexcept {
 const char* swiftlet_code_text(swiftlet_code code) {
   switch (code) {
     case SWIFTLET_OK: return "done";
-    case SWIFTLET_CANNOT_READ: return "the file is missing, unreadable, or ends early";
+    case SWIFTLET_CANNOT_READ: return "the file is missing or unreadable";
     case SWIFTLET_CANNOT_WRITE: return "the file cannot be written";
     case SWIFTLET_BAD_FORMAT: return "the data are not in the format expected, or damaged";
     case SWIFTLET_BAD_VERSION: return "a format version that this library does not read";

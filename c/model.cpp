@@ -197,7 +197,7 @@ swiftlet_code swiftlet_model_from_levels(const swiftlet_level_arrays* levels, si
     need(model, "model");
     need(levels, "levels");
     std::vector<LevelArrays> arrays;
-    const std::size_t stride = levels->size;
+    const std::size_t stride = level_count > 0 ? levels->size : 0;
     for (std::size_t i = 0; i < level_count; ++i) {
       swiftlet_level_arrays level{};
       read_bytes(reinterpret_cast<const char*>(levels) + i * stride, stride, offsetof(swiftlet_level_arrays, face_count), level,

@@ -17,7 +17,6 @@
 namespace swiftlet::lod {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr std::size_t kTrianglesPerTask = 4096;
 /// A pass looks at one edge in so many: few enough to take them nearly in the order of their errors. From 4 to 32, levels
 /// deviate alike.

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the choice of levels costs the queries, and the choice that costs least. Knows numbers, no geometry.
 //
-//     cold  = samples(error, V)                  at the finest mapped level that may answer, or else at the finest mapped one
-//             + refine(V' / V)                   to the level below it,
-//             + refine(V'' / V') + between ...   and on to the finest that the error needs
-//     warm  = proof + turn sqrt(V) transition    on the level that answers
+//     cold  = legal_pose + sample * samples(error)                 where a mapped level answers, or else
+//             walked(V)                                            at the finest mapped level
+//             + refine(V' / V)                                     to the level below it,
+//             + refine(V'' / V') + between ...                     and on to the finest that the error needs
+//     warm  = proof + transition * steps_per_edge * turn sqrt(V)   on the level that answers
 //
 // in instructions of one query, as callgrind counts them: lod/README.md has the counts that the constants come from, and
 // bench/levels compares anew. A coarse level that a query need not visit costs it nothing; what it costs are bytes.

@@ -35,8 +35,7 @@ class Starts {
   }
 
  private:
-  static constexpr std::uint32_t kNone = 0xffffffffu;
-  std::vector<std::uint32_t> start_;
+  static std::vector<std::uint32_t> start_;
   std::uint32_t last_ = 0;
 };
 

@@ -11,7 +11,7 @@
 
 #include <Eigen/Geometry>
 
-#include <swiftlet/pose.h>
+#include <swiftlet/model.h>
 
 namespace swiftlet::lod {
 

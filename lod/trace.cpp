@@ -25,7 +25,6 @@ namespace swiftlet::lod {
 namespace {
 
 using Ids = std::vector<std::uint32_t>;
-constexpr std::uint32_t kNone = 0xffffffffu;
 
 bool before(const Vec3& p, const Vec3& q) {
   return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);

@@ -21,7 +21,7 @@ namespace swiftlet::lod {
 double rounding_of(std::span<const Vec3> points);
 
 /// Per triangle of the user's, the hull triangle on whose plane its corners lie up to rounding and whose normal agrees, that
-/// with its corners where there is one; 0xffffffff for none. Tells one unit of work per triangle.
+/// with its corners where there is one; kNone for none. Tells one unit of work per triangle.
 std::vector<std::uint32_t> triangles_on(const Mesh& mesh, const Hull& hull, const Polytope& body, Watch& watch);
 
 /// The volume of a closed surface, summed in 106 bits: that of a thin body may be less than what doubles lose.

@@ -512,7 +512,7 @@ TEST(Regress, SliversLedAWalkToAFaceThatIsNone) {
 TEST(Regress, APlatesPointLayOnAnotherLevelThanTold) {
   const double thick = 0x1p-51;
   const Polyhedron plate = body({{0, 0, thick / 2}, {1, 0, thick}, {1, 0, 0}, {0, 2, thick / 2}, {0, 2, thick}, {2, 1, thick}},
-                                {.max_levels = 2, .cutoff = 4});
+                                {.cutoff = 4, .max_levels = 2});
   ASSERT_EQ(plate.model.level_count(), 2);
   shapes::Random random(8);
   int coarse = 0;

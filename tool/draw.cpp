@@ -293,7 +293,7 @@ std::string heading(double width, double height, const std::string& title, const
          "</text>\n" + format("<text x=\"%.0f\" y=\"62\" fill=\"#3d4c60\">", kMargin) + what + "</text>\n";
 }
 
-/// As wide as its heading.
+/// `width`: what the heading needs at least.
 std::string picture(const std::vector<Polygon>& polygons, const Eye& eye, double width, const std::string& title,
                     const std::string& what) {
   const Placement place(frame_of(polygons));

@@ -359,8 +359,8 @@ std::string word_fault(int argc, char** argv, const std::vector<Word>& words, bo
     if (!*argv[i]) return "the name after \"" + std::string(argv[i - 1]) + "\" is empty";
   for (const Word& word : words)
     if (first == word.name) return {};
-  if (first == "build" && !has_builder)
-    return "this tool was made without the builder (SWIFTLET_LOD=OFF) and has no word build";
+  if (!has_builder && (first == "build" || first == "decompose"))
+    return "this tool was made without the builder (SWIFTLET_LOD=OFF) and has no word " + first;
   if (first.starts_with('-')) return "\"" + first + "\" is no word; options follow the word, which is one of " + names(words);
   return "there is no word \"" + first + "\"; there are " + names(words);
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The command line: words, options, and where output and errors go. Knows nothing of what the words do, nor of meshes.
+// The command line: words, options, and where output and errors go. Knows nothing of what the words do.
 #pragma once
 
 #include <filesystem>

@@ -16,6 +16,7 @@ namespace {
 constexpr btScalar kLikeAnEmptyOne = btScalar(0.5);
 /// As many as a corner of a room has walls, and one more.
 constexpr std::size_t kMostManifolds = 4;
+
 /// Whether the points of a group have one normal: those of an area.
 bool is_flat(std::span<const TrianglePoint> group) {
   return std::all_of(group.begin(), group.end(), [&](const TrianglePoint& p) {

@@ -46,7 +46,7 @@ std::vector<btVector3> vertices_of(const btCollisionShape& shape) {
   return vertices;
 }
 
-/// FNV-1a of the coordinates.
+/// FNV-1a over coordinates as words; after each product its high bits are folded into the low ones.
 std::uint64_t hash_of(const std::vector<btVector3>& vertices) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const btVector3& v : vertices) {

@@ -115,7 +115,8 @@ struct Model::Content {
   std::span<const std::uint32_t> table;
 };
 
-/// FNV-1a over 8-byte words, the last one filled up with zeros. It detects damage, not malice.
+/// FNV-1a over 8-byte words, the last one filled up with zeros; after each product the high half is folded into the low one. It
+/// detects damage, not malice.
 std::uint64_t hash_of(std::span<const std::byte> bytes);
 
 /// The sections from which `compose` makes a block. Levels finer than `header.finest_level` have empty sections; if there are

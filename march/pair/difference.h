@@ -40,11 +40,6 @@ struct Differences {
 };
 }  // namespace
 
-template <class Real>
-static inline bool same(const Difference<Real>& p, const Difference<Real>& q) {
-  return p.a == q.a && p.b == q.b;
-}
-
 /// A bound on the rounding error of a difference, and of a convex combination of differences, in `Real`. A length.
 template <class Real>
 static inline double rounding(const PairView& s) {

@@ -105,7 +105,7 @@ class Workers {
   Workers& operator=(const Workers&) = delete;
 
   void run(std::size_t tasks, const std::function<void(std::size_t)>& task) {
-    const std::lock_guard<std::mutex> rotate(turn_);
+    const std::lock_guard<std::mutex> lock(turn_);
     tasks_ = tasks;
     task_ = &task;
     for (std::size_t range = 0; range < next_.size(); ++range) next_[range] = begin(range);

@@ -156,12 +156,12 @@ class Descent {
   /// Bounds the distance along the direction of `seen` by climbs, because maps are uncertain by some 1e-3 of a body.
   void climb(Place& place, const AxisSample& seen, const PairView& pair) {
     const AxisSample top = climbed(pair, seen, answer_.plane_tests);
-    place.start = {{FeatureKind::Vertex, top.a}, {FeatureKind::Vertex, top.b}};
+    place.start = supports_of(top);
     carry(place, {std::max(0.0, top.lower), apart(pair, top.a, top.b), top.normal, top.point, top.point + top.apart},
           pair.law_two);
   }
   void take(Place& place, const SupportGjk& s, const PairView& pair) {
-    place.start = {{FeatureKind::Vertex, s.seen.a}, {FeatureKind::Vertex, s.seen.b}};
+    place.start = supports_of(s.seen);
     const Feet feet =
         s.simplex.count() < 4 ? feet_of(pair, s.simplex) : Feet{s.seen.point, s.seen.apart, apart(pair, s.seen.a, s.seen.b)};
     carry(place, {std::max(0.0, s.most_lower), feet.upper, s.lower_along, feet.point, feet.point + feet.apart}, pair.law_two);

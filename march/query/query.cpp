@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The distance queries: each states when its bounds suffice and passes that to `ask`. Knows nothing of how `ask` answers.
+// The distance queries: each states when its bounds suffice and passes that to `ask`.
 #include <swiftlet/query.h>
 
 #include "body/half_edge.h"
@@ -11,8 +11,6 @@
 
 namespace swiftlet {
 namespace {
-
-constexpr double kNever = -kInfinity;  // no upper bound is this low
 
 /// What a distance's options ask for.
 StopRule rule_of(const Options& options) {
@@ -87,7 +85,7 @@ bool is_finer_than_maps(const Model& a, const Model& b, const Options& options) 
 [[gnu::noinline]] Answer distance_within(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed,
                                          const Options& options) {
   const bool loose = options.absolute > 0 || options.relative > 0, limited = limits_in(options.budget, options.tuning) != 0;
-  if (!(loose && !limited && options.beyond == -kNever && are_models(a, b))) return any_distance(a, b, b_in_a, seed, options);
+  if (!(loose && !limited && options.beyond == kInfinity && are_models(a, b))) return any_distance(a, b, b_in_a, seed, options);
   const Model &of_a = *a.model(), &of_b = *b.model();
   return is_finer_than_maps(of_a, of_b, options)
              ? ask_distance(of_a, of_b, b_in_a, seed)
@@ -118,7 +116,7 @@ double Answer::value() const {
 
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options) {
   const auto bits = [](double x) { return bit_cast<std::uint64_t>(x); };
-  const std::uint64_t errors = bits(options.absolute) | bits(options.relative) | (bits(options.beyond) ^ bits(-kNever));
+  const std::uint64_t errors = bits(options.absolute) | bits(options.relative) | (bits(options.beyond) ^ bits(kInfinity));
   if ((errors | limits_in(options.budget, options.tuning)) == 0 && are_models(a, b))
     return ask_distance(*a.model(), *b.model(), b_in_a, seed);
   return distance_within(a, b, b_in_a, seed, options);
@@ -166,7 +164,7 @@ ClosestFeatures closest_features(const Body& a, const Body& b, const Pose& b_in_
                                  const ClosestOptions& options) {
   const Budget budget{options.steps, 0};
   ClosestFeatures result;
-  ask(a, b, b_in_a, seed, {budget, options.tuning}, {0, 0, options.beyond, kNever}, result.answer);
+  ask(a, b, b_in_a, seed, {budget, options.tuning}, {0, 0, options.beyond}, result.answer);
   if (result.answer.level_a == 0) result.source_a = source_feature(a, result.answer.feature_a);
   if (result.answer.level_b == 0) result.source_b = source_feature(b, result.answer.feature_b);
   return result;

@@ -15,7 +15,7 @@ namespace swiftlet {
 
 inline constexpr std::size_t kPairsPerTask = 32;  // so few that threads end together, so many that taking a task costs nothing
 
-/// Runs task(0) to task(count - 1) until it is told to stop, once.
+/// Runs task(0) to task(count - 1). Once `stop` has returned true, no further task begins.
 template <class Task>
 void run_all(std::size_t count, const Run& run, const Task& task) {
   std::atomic<bool> stopped = false;

@@ -8,8 +8,12 @@
 // Ellipsoids have slack for all but the rounding of the vector between the centres.
 #pragma once
 
+#include <cmath>
+
 #include <swiftlet/query.h>
 
+#include "body/support_map.h"
+#include "numeric/tolerance.h"
 #include "pair/stop_rule.h"
 #include "query/model_pair.h"
 

@@ -102,7 +102,8 @@ class MeshModel {
 /// new axes where the surface has turned; hulls are dropped (rebuild_hulls in build_mesh.h). Queries are as true as of a mesh
 /// made anew, and slower as far as triangles that were neighbours no longer are. Of points that were equal the first one is
 /// read: they must move alike. Points that come to be equal are not joined: `topology` counts flat triangles and the volume
-/// anew, not what edges say. With no point moved, and without hulls, the bytes are the same. Cost: about a quarter of
+/// anew, not what edges say. With no point moved, and without hulls, the bytes are the same, unless triangles are flat up to
+/// rounding, which tell no axes. Cost: about a quarter of
 /// `from_triangles`. Errors: BadValue for a coordinate, too few points, or a mesh that was cut.
 Result<MeshModel> refit(const MeshModel& mesh, std::span<const Vec3> points);
 

@@ -342,7 +342,7 @@ SWIFTLET_API swiftlet_code swiftlet_model_support(const swiftlet_model* model, c
 SWIFTLET_API swiftlet_code swiftlet_model_get_table(const swiftlet_model* model, const uint32_t** table, size_t* count,
                                                     swiftlet_error* error);
 /// Finds a vertex of level 0 that faces `direction`, by one look-up, as a start of swiftlet_march, in the table or else
-/// the support maps; 0 if there is neither.
+/// the support maps; 0 if there is neither, or level 0 is absent.
 SWIFTLET_API swiftlet_code swiftlet_model_table_start(const swiftlet_model* model, const double* direction,
                                                       swiftlet_feature* vertex, swiftlet_error* error);
 /// Shows the block, which is what swiftlet_model_save writes. It lives as long as the model.

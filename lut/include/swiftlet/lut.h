@@ -25,7 +25,7 @@ std::uint32_t sample_count(Resolution resolution);
 std::array<double, 3> sample(Resolution resolution, std::uint32_t index);
 
 /// Returns the index of the sample nearest to `direction` (any length), first in altitude, then in azimuth. The zero vector
-/// gives the north pole. Cost: constant, no trigonometry.
+/// gives the north pole. Requires a resolution other than None. Cost: constant, no trigonometry.
 std::uint32_t nearest(Resolution resolution, const std::array<double, 3>& direction);
 
 }  // namespace swiftlet::lut

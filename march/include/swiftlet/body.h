@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include <swiftlet/model.h>
 #include <swiftlet/pose.h>
