@@ -16,12 +16,12 @@ constexpr double kCos[] = {1, 0.92387953251128674,  0.70710678118654752,  0.3826
 double sine(int i) { return i < 4 ? kCos[4 - i] : kCos[i - 4]; }
 
 std::uint64_t bit_of(FeatureId feature) { return std::uint64_t(1) << feature.index() % 64; }
-Place flat(const Vec& v) { return {v.x, v.y}; }
+PlanePoint flat(const Vec& v) { return {v.x, v.y}; }
 
 }  // namespace
 
 void Facet::measure() {
-  const Place u = flat(at[1]) - flat(at[0]), v = flat(at[2]) - flat(at[0]), w = v - u;
+  const PlanePoint u = flat(at[1]) - flat(at[0]), v = flat(at[2]) - flat(at[0]), w = v - u;
   area = cross(u, v);
   box = {least_of(least_of(at[0], at[1]), at[2]), most_of(most_of(at[0], at[1]), at[2])};
   is_face = std::fabs(area) > kNarrowest * max(max(dot(u, u), dot(v, v)), dot(w, w));
@@ -36,10 +36,10 @@ bool Facet::may_name(FeatureId feature) const {
 }
 
 bool is_over(const Facet& facet, const Vec& place, double bound, Shares& shares) {
-  const Place p = flat(place), first = flat(facet.at[0]), u = flat(facet.at[1]) - first, v = flat(facet.at[2]) - first;
+  const PlanePoint p = flat(place), first = flat(facet.at[0]), u = flat(facet.at[1]) - first, v = flat(facet.at[2]) - first;
   const double sign = facet.area < 0 ? -1 : 1;
   for (int k = 0; k < 3; ++k) {
-    const Place from = flat(facet.at[k]), side = flat(facet.at[(k + 1) % 3]) - from;
+    const PlanePoint from = flat(facet.at[k]), side = flat(facet.at[(k + 1) % 3]) - from;
     const double beside = sign * cross(side, p - from);
     if (beside < 0 && beside * beside > bound * bound * dot(side, side)) return false;
   }
@@ -53,7 +53,7 @@ bool is_over(const Facet& facet, const Vec& place, double bound, Shares& shares)
 }
 
 bool cross_at(const Vec& p, const Vec& to_p, const Vec& q, const Vec& to_q, double bound, Shares& shares) {
-  const Place d = flat(to_p) - flat(p), e = flat(to_q) - flat(q), way = flat(q) - flat(p);
+  const PlanePoint d = flat(to_p) - flat(p), e = flat(to_q) - flat(q), way = flat(q) - flat(p);
   const double dd = dot(d, d), ee = dot(e, e), sine = cross(d, e);
   if (!(sine * sine > kNarrowest * kNarrowest * dd * ee)) return false;
   const double s = cross(way, e) / sine, t = cross(way, d) / sine;

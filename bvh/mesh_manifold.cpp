@@ -386,7 +386,7 @@ class Seen {
   const NormalView& view_;
   std::optional<ContactFace> face_;
   Facet fan_;
-  Place rise_{0, 0};                                      ///< of the fan's plane, per unit of x and y
+  PlanePoint rise_{0, 0};                                 ///< of the fan's plane, per unit of x and y
   double least_off_ = HUGE_VAL, most_off_ = -least_off_;  ///< how far above it through the middle corners are
 };
 

@@ -7,6 +7,8 @@
 #include <queue>
 #include <utility>
 
+#include "numeric/chunks.h"
+
 namespace swiftlet {
 namespace {
 
@@ -18,8 +20,8 @@ constexpr double kTooMuchRoom = 4 * kRoom;
 /// Into so many tasks a search is cut, at least, where the trees are large enough.
 constexpr std::size_t kTasks = 256;
 
-Bounds both(const Bounds& a, const Bounds& b) {
-  Bounds box;
+WorldBox both(const WorldBox& a, const WorldBox& b) {
+  WorldBox box;
   for (std::size_t i = 0; i < 3; ++i) {
     box.min[i] = std::min(a.min[i], b.min[i]);
     box.max[i] = std::max(a.max[i], b.max[i]);
@@ -28,19 +30,19 @@ Bounds both(const Bounds& a, const Bounds& b) {
 }
 
 /// Half the surface.
-double area(const Bounds& box) {
+double area(const WorldBox& box) {
   const double x = box.max[0] - box.min[0], y = box.max[1] - box.min[1], z = box.max[2] - box.min[2];
   return x * y + y * z + z * x;
 }
 
-bool holds(const Bounds& outer, const Bounds& inner) {
+bool holds(const WorldBox& outer, const WorldBox& inner) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (inner.min[i] < outer.min[i] || inner.max[i] > outer.max[i]) return false;
   }
   return true;
 }
 
-Bounds larger(Bounds box, double share) {
+WorldBox larger(WorldBox box, double share) {
   double side = 0;
   for (std::size_t i = 0; i < 3; ++i) side = std::max(side, box.max[i] - box.min[i]);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -52,7 +54,7 @@ Bounds larger(Bounds box, double share) {
 
 }  // namespace
 
-void BoxTree::put(std::uint32_t item, const Bounds& box) {
+void BoxTree::put(std::uint32_t item, const WorldBox& box) {
   if (item >= leaf_.size()) {
     leaf_.resize(item + 1, kNothing);
     boxes_.resize(item + 1);
@@ -97,7 +99,7 @@ void BoxTree::insert(std::uint32_t leaf) {
   // Downwards as long as a child promises less growth of all surfaces than a new parent here, which puts all below it a level
   // deeper. Where all boxes are equal the lower child; none whose leaves are all as deep as they may be: not both are such, as
   // the root's shortest way is that of a balanced tree at most.
-  const Bounds box = nodes_[leaf].box;
+  const WorldBox box = nodes_[leaf].box;
   const std::uint32_t most = most_height();
   std::uint32_t sibling = root_, depth = 0;
   for (; !nodes_[sibling].is_leaf(); ++depth) {
@@ -169,7 +171,7 @@ void BoxTree::rotate(std::uint32_t node, std::uint32_t depth) {
   for (std::size_t i = 0; i < 2; ++i) {
     const Node& lower = nodes_[nodes_[node].child[i]];
     if (lower.is_leaf()) continue;
-    const Bounds& other = nodes_[nodes_[node].child[1 - i]].box;
+    const WorldBox& other = nodes_[nodes_[node].child[1 - i]].box;
     for (std::size_t k = 0; k < 2; ++k) {
       const double less = area(lower.box) - area(both(other, nodes_[lower.child[1 - k]].box));
       if (less > best) best = less, side = i, grandchild = k;
@@ -250,7 +252,7 @@ std::vector<BoxTree::Pair> BoxTree::near(const BoxTree& other, double most, cons
       step(other, most, nodes, to_do, found_by[task]);
     }
   };
-  run_all(executor, found_by.size(), search);
+  run_tasks(executor, found_by.size(), search);
   for (const std::vector<Pair>& more : found_by) found.insert(found.end(), more.begin(), more.end());
   sort(found);
   return found;

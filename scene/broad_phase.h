@@ -17,26 +17,19 @@
 
 namespace swiftlet {
 
-/// A box along the axes of the world.
-struct Bounds {
+/// Along the axes of the world.
+struct WorldBox {
   std::array<double, 3> min, max;
 };
 
 /// The square of the distance of two boxes, to rounding.
-inline double squared_gap(const Bounds& a, const Bounds& b) {
+inline double squared_gap(const WorldBox& a, const WorldBox& b) {
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const double gap = std::max(0.0, std::max(a.min[i] - b.max[i], b.min[i] - a.max[i]));
     sum += gap * gap;
   }
   return sum;
-}
-
-/// Runs task(0) to task(count - 1) as `Executor` says; a single one, and without an executor all, on the calling thread.
-template <class Task>
-void run_all(const Executor& executor, std::size_t count, const Task& task) {
-  if (executor && count > 1) return executor(count, task);
-  for (std::size_t i = 0; i < count; ++i) task(i);
 }
 
 class BoxTree {
@@ -47,12 +40,12 @@ class BoxTree {
   };
 
   /// Adds the item, or moves it. Items are small numbers.
-  void put(std::uint32_t item, const Bounds& box);
+  void put(std::uint32_t item, const WorldBox& box);
   /// Removes the item, which must be there.
   void remove(std::uint32_t item);
-  const Bounds& box(std::uint32_t item) const { return boxes_[item]; }
+  const WorldBox& box(std::uint32_t item) const { return boxes_[item]; }
   /// The box of its leaf.
-  const Bounds& leaf_box(std::uint32_t item) const { return nodes_[leaf_[item]].box; }
+  const WorldBox& leaf_box(std::uint32_t item) const { return nodes_[leaf_[item]].box; }
   /// How deep the deepest leaf is; the root is 0 deep. Counts.
   std::uint32_t height() const;
   /// No leaf is deeper: three times what a balanced tree needs for as many items as there have been at once, and so many
@@ -67,7 +60,7 @@ class BoxTree {
  private:
   static constexpr std::uint32_t kNothing = ~0u;
   struct alignas(64) Node {
-    Bounds box;
+    WorldBox box;
     std::uint32_t parent;
     std::array<std::uint32_t, 2> child;  ///< of a leaf: its item, and nothing
     std::uint16_t height, shortest;      ///< how far down the farthest and the nearest leaf are
@@ -89,7 +82,7 @@ class BoxTree {
   Pair items(const BoxTree& other, std::uint32_t a, std::uint32_t b) const;
 
   std::vector<Node> nodes_;
-  std::vector<Bounds> boxes_;        ///< per item, as it was put
+  std::vector<WorldBox> boxes_;      ///< per item, as it was put
   std::vector<std::uint32_t> leaf_;  ///< per item
   std::vector<std::uint32_t> free_;
   std::uint32_t root_ = kNothing;

@@ -15,6 +15,7 @@
 #include <swiftlet/mesh_contacts.h>
 
 #include "broad_phase.h"
+#include "numeric/chunks.h"
 
 namespace swiftlet {
 namespace {
@@ -35,8 +36,8 @@ constexpr double kFar = 0x1p-50, kTiny = 0x1p-449;
 constexpr double kAnywhere = 1e50;
 
 /// The box of a part of a body, given by centre and half sides in its frame, in the world.
-Bounds box_of(const Vec3& centre, const Vec3& half, double slack, const Pose& in_world) {
-  Bounds box;
+WorldBox box_of(const Vec3& centre, const Vec3& half, double slack, const Pose& in_world) {
+  WorldBox box;
   for (int i = 0; i < 3; ++i) {
     const auto row = in_world.rotation.row(i);
     const double t = in_world.translation[i];
@@ -50,7 +51,7 @@ Bounds box_of(const Vec3& centre, const Vec3& half, double slack, const Pose& in
 }
 
 /// A box that holds the body, and all that its queries may take for it; of what they refuse, one that holds everything.
-Bounds box_of(const MeshBody& body, const Pose& in_world) {
+WorldBox box_of(const MeshBody& body, const Pose& in_world) {
   const Body& convex = body.convex();
   const Model* const model = convex.model();
   const MeshModel* const mesh = body.mesh();
@@ -71,9 +72,9 @@ Bounds box_of(const MeshBody& body, const Pose& in_world) {
   }
   const double extent = std::max(lowest.cwiseAbs().maxCoeff(), highest.cwiseAbs().maxCoeff());
   const double slack = body.radius() + kSlack * (extent + body.radius());
-  Bounds box = box_of((lowest + highest) / 2, (highest - lowest) / 2, slack, in_world);
+  WorldBox box = box_of((lowest + highest) / 2, (highest - lowest) / 2, slack, in_world);
   if (model) {  // of a round body the ball is the smaller one
-    const Bounds ball = box_of(model->centre(), Vec3::Zero(), slack + model->radius(), in_world);
+    const WorldBox ball = box_of(model->centre(), Vec3::Zero(), slack + model->radius(), in_world);
     for (std::size_t i = 0; i < 3; ++i) {
       box.min[i] = std::max(box.min[i], ball.min[i]);
       box.max[i] = std::min(box.max[i], ball.max[i]);
@@ -209,7 +210,7 @@ struct Scene::Content {
       }
       done[task] = true;
     };
-    run_all(run.executor, tasks, run_one);
+    run_tasks(run.executor, tasks, run_one);
     std::vector<Found> all;
     for (std::size_t task = 0; task < tasks; ++task) {
       if (done[task]) {

@@ -197,7 +197,7 @@ void expect_as_brute_force(Scene& scene, const Scene& other, double reach) {
 TEST(BoxTree, FindsWhatBruteForceFinds) {
   Random random(1);
   BoxTree trees[2];
-  std::map<std::uint32_t, Box> boxes[2];
+  std::map<std::uint32_t, WorldBox> boxes[2];
   for (int step = 0; step < 3000; ++step) {
     const std::size_t which = random.bits() % 2;
     const auto item = std::uint32_t(random.bits() % 60);
@@ -205,7 +205,7 @@ TEST(BoxTree, FindsWhatBruteForceFinds) {
       trees[which].remove(item);
       boxes[which].erase(item);
     } else {
-      Box box;
+      WorldBox box;
       const double size = std::ldexp(1, int(random.bits() % 12) - 10), far = random.bits() % 50 ? 0 : 1e12;
       for (std::size_t i = 0; i < 3; ++i) {
         box.min[i] = std::round(8 * random.uniform(-5, 5)) / 8 + far;
@@ -238,7 +238,7 @@ TEST(BoxTree, FindsWhatBruteForceFinds) {
   }
 }
 
-Box cube_box(double side, double x = 0) { return {{x - side, -side, -side}, {x + side, side, side}}; }
+WorldBox cube_box(double side, double x = 0) { return {{x - side, -side, -side}, {x + side, side, side}}; }
 
 /// Where surfaces alone would make a chain: as many levels as boxes.
 TEST(BoxTree, IsNoChainWhateverTheBoxes) {
@@ -246,16 +246,16 @@ TEST(BoxTree, IsNoChainWhateverTheBoxes) {
   Random random(5);
   std::vector<double> any(kCount);
   for (double& x : any) x = random.uniform(0.5, 100);
-  const std::function<Box(std::uint32_t)> families[] = {
+  const std::function<WorldBox(std::uint32_t)> families[] = {
       [](std::uint32_t) { return cube_box(1); },                                         // equal
       [](std::uint32_t) { return cube_box(1e50); },                                      // of refused poses
-      [](std::uint32_t) { return Box{}; },                                               // without surface
+      [](std::uint32_t) { return WorldBox{}; },                                          // without surface
       [](std::uint32_t i) { return cube_box(1.0 + i); },                                 // nested, outwards
       [](std::uint32_t i) { return cube_box(1.0 + kCount - i); },                        // nested, inwards
       [&](std::uint32_t i) { return cube_box(any[i]); },                                 // nested
       [](std::uint32_t i) { return cube_box(std::exp2(i % 100), std::exp2(i % 100)); },  // each as large as all before
       [](std::uint32_t i) {
-        return Box{{double(i), 0, 0}, {double(i) + 1, 0, 0}};
+        return WorldBox{{double(i), 0, 0}, {double(i) + 1, 0, 0}};
       },                                                                                       // in a row
       [&](std::uint32_t i) { return i % 2 ? cube_box(any[i]) : cube_box(0.01, 10 * any[i]); }  // small ones in large ones
   };
@@ -292,7 +292,7 @@ TEST(BoxTree, ShrinksALeafThatIsMuchTooLarge) {
   BoxTree tree;
   tree.put(0, cube_box(1));
   for (std::uint32_t i = 1; i < 20; ++i) tree.put(i, cube_box(1, 3 * i));
-  const Box before = tree.leaf_box(0);
+  const WorldBox before = tree.leaf_box(0);
   tree.put(0, cube_box(1e50));
   EXPECT_LE(tree.leaf_box(0).min[0], -1e50);
   EXPECT_EQ(tree.near(tree, 0).size(), 19u);

@@ -134,7 +134,7 @@ Checked::Checked(const Body& of_a, const Body& of_b, const Pose& b_in_a, const A
   if (!of.normal.hasNaN()) normal = vec(of.normal);
   point_a = vec(of.point_a) - normal * at.radii.a(), point_b = vec(of.point_b) + normal * at.radii.b();
   // Radii round each bound outwards, by at most 4 u of it.
-  touching = at.law_two(),
+  touching = at.law_two();
   narrow = Radii(0, 0).law_two(a, b, at.motion, error) + (radii > 0 ? 8 * kU * std::fabs(of.lower) : 0);
   slack = max(pair_view(level_a.view, level_b.view, at.motion, error).law_two, touching);
   magnitude = pair_view(a.level(a.finest_level()).view, b.level(b.finest_level()).view, at.motion, error).magnitude;

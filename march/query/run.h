@@ -11,6 +11,8 @@
 
 #include <swiftlet/batch.h>
 
+#include "numeric/chunks.h"
+
 namespace swiftlet {
 
 inline constexpr std::size_t kPairsPerTask = 32;  // so few that threads end together, so many that taking a task costs nothing
@@ -25,8 +27,7 @@ void run_all(std::size_t count, const Run& run, const Task& task) {
     else
       task(i);
   };
-  if (run.executor) return run.executor(count, unless_stopped);
-  for (std::size_t i = 0; i < count; ++i) unless_stopped(i);
+  run_tasks(run.executor, count, unless_stopped);
 }
 
 /// Asks in each pose; within a chunk each query starts from the `Seed` of the one before.
