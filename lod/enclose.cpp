@@ -35,7 +35,7 @@ class Starts {
   }
 
  private:
-  static std::vector<std::uint32_t> start_;
+  std::vector<std::uint32_t> start_;
   std::uint32_t last_ = 0;
 };
 
