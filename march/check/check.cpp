@@ -76,17 +76,12 @@ bool surely_holds(const ConvexView& body, const Vec& p) {
   return march(point, body, Pose{}).lower <= kLawTwo * body.extent;
 }
 
-/// Recomputes the numbers of level `i` that prove nothing: dimension, extent, edges, triangles, edge length and volume.
-/// `dimension` is that of the level's surface. Lengths and volumes are compared up to the rounding of their sums; an extent
-/// that is too small does not load.
+/// Recomputes the numbers of level `i` that prove nothing: dimension, edges, triangles, edge length and volume.
+/// `dimension` is that of the level's surface. Lengths and volumes are compared up to the rounding of their sums.
 Check numbers_hold(const Model& model, int i, int dimension) {
   const Level& level = model.level(i);
   const ConvexView& view = level.view;
   if (model.dimension() != dimension) return failed("level %d has dimension %d, not %d", i, dimension, model.dimension());
-  double extent = 0;
-  for (const Vertex& v : view.vertices) extent = max(extent, max_abs(vec(v)));
-  if (!(view.extent <= extent * (1 + 8 * kU)))
-    return failed("level %d: its extent is %.17g, not %.17g", i, extent, view.extent);
   std::size_t borders = 0;
   double length = 0;
   for (std::uint32_t h = 0; h < view.half_edges.size(); ++h) {
@@ -327,6 +322,10 @@ Check verify(const Model& model) {
     if (!surface) return {false, "level " + std::to_string(i) + ": " + surface.error().message};
     if (surface.value().vertices.size() != view.vertices.size())
       return failed("level %d: a vertex is no corner of the hull", i);
+    double extent = 0;  // one that is too small does not load
+    for (const Vertex& v : view.vertices) extent = max(extent, max_abs(vec(v)));
+    if (!(view.extent <= extent * (1 + 8 * kU)))
+      return failed("level %d: its extent is %.17g, not %.17g", i, extent, view.extent);
     if (const std::uint32_t cell = map_fault(level); cell != kNone)
       return failed("level %d: its support map is wrong in cell %u", i, unsigned(cell));
     if (const std::uint32_t f = over_fault(view); f != kNone)
