@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
+// The middle of what several rounds of a benchmark took.
 #pragma once
 
 #include <algorithm>

@@ -54,11 +54,11 @@ std::optional<Triangles> inside(std::span<const Vec3> points, std::span<const st
   return std::nullopt;
 }
 
-}  // namespace
-
 /// CGAL multiplies a normal by ways in the polygon, and its exact arithmetic takes no infinity. Legal coordinates make none
 /// longer.
 constexpr double kLongestNormal = 1e150;
+
+}  // namespace
 
 void triangulate(std::span<const Vec3> points, std::span<const std::uint64_t> polygon, Triangles& triangles) {
   const Vec3& first = points[polygon[0]];

@@ -411,6 +411,26 @@ TEST_F(Threads, AStoppedBatchKeepsWhatIsDoneAndLeavesTheRest) {
   }
 }
 
+/// A thread pool of the user's need not outlive an exception.
+TEST_F(Threads, WhatAStopThrowsPassesNoExecutor) {
+  const Body a = models()[0], b = models()[1];
+  std::vector<PairQuery> pairs;
+  for (const Pose& pose : many_poses()) pairs.push_back({a, b, pose, nullptr});
+  std::vector<Answer> answers(pairs.size());
+  bool passed = false;
+  const Executor guarded = [&passed](std::size_t count, const std::function<void(std::size_t)>& task) {
+    try {
+      for (std::size_t i = 0; i < count; ++i) task(i);
+    } catch (...) {
+      passed = true;
+      throw;
+    }
+  };
+  const swiftlet::Run run{guarded, []() -> bool { throw std::runtime_error("stop"); }};
+  EXPECT_THROW(distance(pairs, answers, Options(), run), std::runtime_error);
+  EXPECT_FALSE(passed);
+}
+
 /// As of a time slice, or a flag that is reset: `stop` is true on its second call alone.
 TEST_F(Threads, AStopHoldsForTheRestOfTheBatch) {
   const std::vector<Pose> poses = many_poses();

@@ -13,8 +13,7 @@
 namespace swiftlet::tool {
 
 /// An SVG of all levels side by side, finest first: orthographic, seen from the front, the right and a little above, z up, all
-/// to one scale. Over each coarser level lies the outline of the finest that is
-/// there. Cost: about 40 bytes per triangle.
+/// to one scale. Over each coarser level lies the outline of the finest that is there. Cost: about 40 bytes per triangle.
 std::string draw(const Model& model, const std::string& title);
 
 /// An SVG of the mesh from there, each triangle over those that are farther away by their middles, from whichever side it is

@@ -64,10 +64,9 @@ void note(const Manifold& manifold, const Pose& b_in_a, Rest& rest) {
 Found contacts(const Placed& a, const Body& b, const Pair& pair, double beyond, std::uint32_t most_points, Manifold& manifold,
                Rest* rest = nullptr) {
   const ManifoldOptions options{.margin = beyond, .most_points = most_points};
-  Manifold before = manifold;  // of it names and normal are read
-  before.normal = pair.a_in_world.rotation.transpose() * before.normal;
+  manifold.normal = pair.a_in_world.rotation.transpose() * manifold.normal;  // names and normal alone are read of the last one
   manifold =
-      pair.found == Found::Nearest ? swiftlet::manifold(a.body, b, pair.b_in_a, pair.answer, options, before) : Manifold{};
+      pair.found == Found::Nearest ? swiftlet::manifold(a.body, b, pair.b_in_a, pair.answer, options, manifold) : Manifold{};
   if (rest) note(manifold, pair.b_in_a, *rest);
   into_world(pair.a_in_world, manifold);
   return pair.found;

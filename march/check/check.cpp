@@ -322,9 +322,7 @@ Check verify(const Model& model) {
     if (!surface) return {false, "level " + std::to_string(i) + ": " + surface.error().message};
     if (surface.value().vertices.size() != view.vertices.size())
       return failed("level %d: a vertex is no corner of the hull", i);
-    double extent = 0;  // one that is too small does not load
-    for (const Vertex& v : view.vertices) extent = max(extent, max_abs(vec(v)));
-    if (!(view.extent <= extent * (1 + 8 * kU)))
+    if (const double extent = surface.value().extent; !(view.extent <= extent * (1 + 8 * kU)))  // too small a one does not load
       return failed("level %d: its extent is %.17g, not %.17g", i, extent, view.extent);
     if (const std::uint32_t cell = map_fault(level); cell != kNone)
       return failed("level %d: its support map is wrong in cell %u", i, unsigned(cell));

@@ -10,6 +10,8 @@
 
 #include <swiftlet/manifold.h>
 
+#include <double_bits.h>
+
 #include "numeric/tolerance.h"
 #include "numeric/vec.h"
 

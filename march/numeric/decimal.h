@@ -4,12 +4,13 @@
 #pragma once
 
 #include <charconv>
+#include <cstddef>
 #include <cstdio>
 #include <string>
 
 namespace swiftlet {
 
-/// With at most so many digits, up to 17; whatever the program's locale, where the library can.
+/// Writes a number with at most `digits` digits, 1 to 17; with a point in any locale, where the library can.
 inline std::string decimal(double value, int digits) {
   char text[32];
 #ifdef __cpp_lib_to_chars

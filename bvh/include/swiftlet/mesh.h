@@ -103,8 +103,8 @@ class MeshModel {
 /// made anew, and slower as far as triangles that were neighbours no longer are. Of points that were equal the first one is
 /// read: they must move alike. Points that come to be equal are not joined: `topology` counts flat triangles and the volume
 /// anew, not what edges say. With no point moved, and without hulls, the bytes are the same, unless triangles are flat up to
-/// rounding, which tell no axes. Cost: about a quarter of
-/// `from_triangles`. Errors: BadValue for a coordinate, too few points, or a mesh that was cut.
+/// rounding: their areas, which weigh the axes, are then rounding errors. Cost: about a quarter of `from_triangles`. Errors:
+/// BadValue for a coordinate, too few points, or a mesh that was cut.
 Result<MeshModel> refit(const MeshModel& mesh, std::span<const Vec3> points);
 
 /// A body of mesh queries: a mesh, which is its surface, the solid that a closed mesh bounds, or any convex `Body`. It is a

@@ -66,9 +66,9 @@ inline constexpr std::size_t kSpareRegions = 64;
 /// add others.
 ///
 /// Cost: that of all pairs of triangles within reach but those inside of a region that is no farther, at 0.1 to 0.3
-/// microseconds each, and for each a look at the regions so far. Pairs as near as the nearest to within law 2's bound, as those
-/// of two tips of many triangles, take 3 to 7 microseconds. Starts cold. Allocates nothing; uses 32 kB of stack, and up to 48
-/// where only exact arithmetic decides.
+/// microseconds each, and for each a look at the regions so far. Of pairs as near as the nearest to within law 2's bound, as at
+/// two tips of many triangles, each may be left to the atomic kernel, which costs far more. Starts cold. Allocates nothing;
+/// uses 32 kB of stack, and up to 48 where only exact arithmetic decides.
 MeshContacts contacts(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, double reach, std::span<MeshContact> into,
                       const Budget& budget = {});
 

@@ -34,9 +34,8 @@ struct HullOptions {
 /// option out of its range.
 Result<MeshModel> build_mesh(const Mesh& mesh, const HullOptions& options = {});
 
-/// Returns the mesh with new hulls, for example after `refit`. Its tree stays: patches have the nodes that they had,
-/// and `least_patch` is not read. Errors:
-/// BadValue for an option out of its range or a mesh that was cut, and Cancelled.
+/// Returns the mesh with new hulls, for example after `refit`. Its tree stays: patches have the nodes that they had, and
+/// `least_patch` is not read. Errors: BadValue for an option out of its range or a mesh that was cut, and Cancelled.
 Result<MeshModel> rebuild_hulls(const MeshModel& mesh, const HullOptions& options = {});
 
 }  // namespace swiftlet
