@@ -376,14 +376,11 @@ class Descent {
     if (of.triangle_count > 0) return {body_of(of, child), 0};
     const Node& n = of.nodes[node];
     const std::uint32_t k = child - n.first();
-    float third[3];
-    third_axis(n.axis, third);
-    const float* const rows[3] = {n.axis[0], n.axis[1], third};
-    const auto axis = [&](int l) { return Vec{rows[l][0], rows[l][1], rows[l][2]}; };
+    const Axes axes = axes_of(n);
     Vec off{0, 0, 0};  // from the origin; what the axes lack of right angles is mended once
     for (int times = 0; times < 2; ++times) {
       const Vec before = off;
-      for (int l = 0; l < 3; ++l) off = off + axis(l) * (double(n.centre[l][k]) - dot(axis(l), before));
+      for (int l = 0; l < 3; ++l) off = off + axes.row[l] * (double(n.centre[l][k]) - dot(axes.row[l], before));
     }
     Vec centre = Vec{n.origin[0], n.origin[1], n.origin[2]} + off;
     // So little is no legal coordinate of a point, and within the error.

@@ -12,12 +12,6 @@
 
 namespace swiftlet {
 
-/// The rows of a matrix: three axes.
-struct Axes {
-  Vec row[3];
-  Vec along(const Vec& v) const { return {dot(row[0], v), dot(row[1], v), dot(row[2], v)}; }
-};
-
 /// Smallest and largest coordinates along axes.
 struct Bounds {
   double least[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -48,13 +42,6 @@ static inline Axes principal_axes(const Eigen::Matrix3d& square) {
 static inline void put_axes(const Axes& axes, Node& n) {
   for (int k = 0; k < 2; ++k)
     n.axis[k][0] = float(axes.row[k].x), n.axis[k][1] = float(axes.row[k].y), n.axis[k][2] = float(axes.row[k].z);
-}
-/// The axes of a node as its readers see them.
-static inline Axes axes_of(const Node& n) {
-  float third[3];
-  third_axis(n.axis, third);
-  const auto row = [](const float(&f)[3]) { return Vec{f[0], f[1], f[2]}; };
-  return {{row(n.axis[0]), row(n.axis[1]), row(third)}};
 }
 
 /// Sets the origin, the extent and the boxes of a node whose children have these bounds along its axes.

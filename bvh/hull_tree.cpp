@@ -170,7 +170,7 @@ Decision HullPair::within(const Pose& b_in_a, double threshold) {
 }
 
 HullAnswer HullPair::distance(const Pose& b_in_a, double absolute, double relative, double beyond) {
-  Question question(a_, b_, b_in_a, {absolute, relative, beyond});
+  Question question(a_, b_, b_in_a, {allowed_error(absolute), allowed_error(relative), beyond});
   search(question);
   return conclude(question);
 }

@@ -100,7 +100,7 @@ std::string fault(const MeshHeader& h) {
 /// Checks nodes level by level: the children of one are all of the next, one after the other, so that a way down ends after
 /// `depth` steps, whatever the boxes say.
 std::string fault(const MeshHeader& h, std::span<const Node> nodes) {
-  std::uint64_t child = 1, triangles = 0, level_end = 0;
+  std::uint64_t child = 1, level_end = 0;
   std::uint32_t level = 0;
   for (std::uint64_t i = 0; i < nodes.size(); ++i) {
     if (i == level_end) {
@@ -110,7 +110,6 @@ std::string fault(const MeshHeader& h, std::span<const Node> nodes) {
     const Node& node = nodes[i];
     const std::uint64_t count = std::uint64_t(node.count());
     if (node.lowest()) {
-      triangles += count;
       if (node.first() + count > h.triangle_count) return "node " + std::to_string(i) + " with triangles that do not exist";
     } else {
       if (node.first() != child) return "node " + std::to_string(i) + " with children out of order";
@@ -127,7 +126,16 @@ std::string fault(const MeshHeader& h, std::span<const Node> nodes) {
   }
   if (h.levels < h.depth) return child > nodes.size() && child <= h.node_count ? "" : "nodes that are too few or too many";
   if (child != nodes.size() || nodes.size() != h.node_count) return "nodes that are too few or too many";
-  return triangles == h.triangle_count ? "" : "nodes that miss triangles";
+  // Each triangle is below one lowest node if those of children follow one another, from the first to the last.
+  const std::vector<TriangleRange> below = triangles_below(nodes);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::uint32_t first = nodes[i].first();
+    for (std::uint32_t k = 1; !nodes[i].lowest() && k < std::uint32_t(nodes[i].count()); ++k) {
+      if (below[first + k].begin != below[first + k - 1].end)
+        return "node " + std::to_string(i) + " with triangles out of order";
+    }
+  }
+  return below[0].begin == 0 && below[0].end == h.triangle_count ? "" : "nodes that miss triangles";
 }
 
 /// The size of each level of nodes, and how far the boxes below it reach from the surface inside them: a bound, since
@@ -294,6 +302,15 @@ AlignedBytes compose(const MeshParts& parts) {
                   {std::as_bytes(std::span(hulls)), models, std::as_bytes(std::span(parts.shells)),
                    std::as_bytes(std::span(parts.triangles)), std::as_bytes(std::span(parts.vertices)),
                    std::as_bytes(std::span(parts.source_triangle)), std::as_bytes(std::span(parts.source_vertex))});
+}
+
+std::vector<TriangleRange> triangles_below(std::span<const Node> nodes) {
+  std::vector<TriangleRange> below(nodes.size());
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    const std::uint32_t first = nodes[i].first(), end = first + std::uint32_t(nodes[i].count());
+    below[i] = nodes[i].lowest() ? TriangleRange{first, end} : TriangleRange{below[first].begin, below[end - 1].end};
+  }
+  return below;
 }
 
 bool is_mesh_block(std::span<const std::byte> start) {

@@ -100,6 +100,13 @@ struct MeshParts {
 };
 AlignedBytes compose(const MeshParts& parts);
 
+/// Triangles from `begin` to `end` - 1.
+struct TriangleRange {
+  std::uint32_t begin, end;
+};
+/// The triangles below each node, which lie one after the other. The children of a node come after it.
+std::vector<TriangleRange> triangles_below(std::span<const Node> nodes);
+
 /// True if a file that begins with these bytes is a mesh's.
 bool is_mesh_block(std::span<const std::byte> start);
 

@@ -55,15 +55,15 @@ struct Parts {
     if (id.kind() == FeatureKind::Edge) return Body::segment(at(c[i % 3]), at(c[(i + 1) % 3]));
     return Body::triangle(at(c[0]), at(c[1]), at(c[2]));
   }
+  bool has_level(int level) const { return level >= 0 && level < (of.mesh() ? 1 : (*ShapeOf(of.convex())).level_count()); }
   /// `loose`: of an answer that balls may have given, which names no feature of a convex body.
   bool names(FeatureId id, int level, bool loose) const {
+    if (!has_level(level)) return false;
     if (!of.mesh()) {
       const ShapeOf shape(of.convex());
-      if (level < 0 || level >= (*shape).level_count()) return false;
       return (loose && id.kind() == FeatureKind::None) || names_feature((*shape).level(level).view, id);
     }
     const std::size_t triangles = of.mesh()->triangle_count();
-    if (level != 0) return false;
     return id.kind() == FeatureKind::Vertex ? id.index() < of.mesh()->vertex_count()
            : id.kind() == FeatureKind::Edge ? id.index() < 3 * triangles
                                             : id.kind() == FeatureKind::Face && id.index() < triangles;
@@ -88,6 +88,18 @@ struct Parts {
       for (const Vertex& v : (*shape).level(0).view.vertices) add(eigen(vec(v)));
     }
     return most + n.norm() * of.radius();
+  }
+  /// The distance of a point of A's frame from the body, with its volume if it is solid; 0 if the point is unknown.
+  double distance_to(const Vec3& p, const Pose& at, bool is_b) const {
+    if (p.hasNaN()) return 0;
+    if (of.is_solid() && Enclosure(MeshReader::content(*of.mesh()), at, is_b).holds_without_tree(vec(p))) return 0;
+    const Body point = Body::point(p);
+    double least = HUGE_VAL;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Body part = (*this)[i];
+      least = std::min(least, (is_b ? distance(point, part, at) : distance(part, point, at)).lower);
+    }
+    return least;
   }
   /// The radius of a ball around a point of A's frame that lies in the body, if the point is inside; else a mesh's
   /// radius, and 0 of a convex body.
@@ -174,28 +186,44 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
     met.is_signed = false, met.lower = 0, met.upper = std::max(answer.upper, 0.0);
     return check(a, b, b_in_a, met);
   }
-  double lower = HUGE_VAL, upper = HUGE_VAL;
+  double lower = HUGE_VAL, upper = HUGE_VAL, touching_depth = 0;
   bool overlapping = false;
   for (std::size_t i = 0; i < of_a.count; ++i) {
     for (std::size_t k = 0; k < of_b.count; ++k) {
       const Answer pair = distance(of_a[i], of_b[k], b_in_a);
       lower = std::min(lower, pair.lower), upper = std::min(upper, pair.upper);
-      overlapping = overlapping || pair.verdict == Verdict::Overlapping;
+      if (pair.verdict != Verdict::Overlapping) continue;
+      overlapping = true;
+      if (answer.verdict == Verdict::Touching)
+        touching_depth = std::max(touching_depth, -signed_distance(of_a[i], of_b[k], b_in_a).upper);
     }
   }
-  if (lower > 0 && !overlapping && (of_a.encloses(b, b_in_a, false) || of_b.encloses(a, b_in_a, true)))
+  if (lower > 0 && !overlapping && (of_a.encloses(b, b_in_a, false) || of_b.encloses(a, b_in_a, true))) {
+    if (answer.verdict == Verdict::Touching && lower > law_two) return fail("Touching, but one body is inside the other");
     lower = upper = 0, overlapping = true;
+  }
   // Each bound here is within law 2's bound of the truth, and so is what the answer may claim.
   if (!(answer.lower <= upper)) return fail("lower is ", answer.lower, " where the distance is at most ", upper);
   if (!(answer.upper >= lower)) return fail("upper is ", answer.upper, " where the distance is at least ", lower);
   if (answer.verdict == Verdict::Disjoint && overlapping) return fail("Disjoint, but two triangles cross");
   if (answer.verdict == Verdict::Overlapping && !(upper <= law_two)) return fail("Overlapping, ", lower, " apart");
   if (answer.verdict == Verdict::Touching && !(lower <= law_two)) return fail("Touching, ", lower, " apart");
+  if (touching_depth > law_two) return fail("Touching, but two parts are ", touching_depth, " in each other");
   if (answer.verdict == Verdict::Undecided && answer.lower > 0) return fail("undecided with a lower bound of ", answer.lower);
   // Of bodies that meet, the points may be any one that they share, and a body all around it has no feature there.
   const bool shared = (answer.point_b - answer.point_a).norm() <= law_two && lower <= law_two;
-  if (answer.verdict != Verdict::Overlapping && answer.upper < HUGE_VAL && !shared) {
-    const bool exact = answer.upper - answer.lower <= law_two;
+  const bool exact = answer.upper - answer.lower <= law_two;
+  if (answer.verdict == Verdict::Overlapping || shared) {
+    const auto names = [](const Parts& of, FeatureId id, int level) {
+      return of.has_level(level) && (id.kind() == FeatureKind::None || of.names(id, level, true));
+    };
+    if (!names(of_a, answer.feature_a, answer.level_a) || !names(of_b, answer.feature_b, answer.level_b))
+      return fail("a feature that does not exist");
+    if (const double off = of_a.distance_to(answer.point_a, {}, false) - of_a.deviation(answer.level_a); off > law_two)
+      return fail("point_a is ", off, " off its body");
+    if (const double off = of_b.distance_to(answer.point_b, b_in_a, true) - of_b.deviation(answer.level_b); off > law_two)
+      return fail("point_b is ", off, " off its body");
+  } else if (answer.upper < HUGE_VAL) {
     if (!of_a.names(answer.feature_a, answer.level_a, !exact) || !of_b.names(answer.feature_b, answer.level_b, !exact))
       return fail("a feature that does not exist");
     const Body points[] = {Body::point(answer.point_a, answer.radius_a), Body::point(answer.point_b, answer.radius_b)};
@@ -222,41 +250,33 @@ Check verify(const MeshModel& mesh) {
     return Check{false, "node " + std::to_string(node) + ": " + what};
   };
   if (!mesh.is_whole()) return {false, "the mesh was cut: nothing tells whether its boxes hold the surface"};
-  // The triangles below each node lie one after the other.
-  struct Range {
-    std::uint32_t begin, end;
-  };
-  std::vector<Range> below(c.nodes.size());
+  const std::vector<TriangleRange> below = triangles_below(c.nodes);
   std::vector<bool> seen(c.triangles.size());
   for (std::size_t i = c.nodes.size(); i-- > 0;) {
     const Node& node = c.nodes[i];
     const std::uint32_t first = node.first(), last = first + std::uint32_t(node.count()) - 1;
-    below[i] = node.lowest() ? Range{first, last + 1} : Range{below[first].begin, below[last].end};
     for (std::uint32_t child = first; child <= last; ++child) {
       if (node.lowest() && seen[child]) return fail(i, "triangle " + std::to_string(child) + " is in another one too");
       if (node.lowest()) seen[child] = true;
       if (!node.lowest() && child > first && below[child].begin != below[child - 1].end) return fail(i, "children apart");
     }
-    float third[3];
-    third_axis(node.axis, third);
-    const Vec axis[3] = {{node.axis[0][0], node.axis[0][1], node.axis[0][2]},
-                         {node.axis[1][0], node.axis[1][1], node.axis[1][2]},
-                         {third[0], third[1], third[2]}};
+    const Axes axes = axes_of(node);
     for (int k = 0; k < 3; ++k) {
       for (int l = 0; l <= k; ++l) {
-        if (!(std::fabs(dot(axis[k], axis[l]) - (k == l)) <= kAxisError)) return fail(i, "axes that are not orthonormal");
+        if (!(std::fabs(dot(axes.row[k], axes.row[l]) - (k == l)) <= kAxisError))
+          return fail(i, "axes that are not orthonormal");
       }
     }
     const Vec origin{node.origin[0], node.origin[1], node.origin[2]};
     for (int child = 0; child < node.count(); ++child) {
       const std::uint32_t at = first + std::uint32_t(child);
-      const Range range = node.lowest() ? Range{at, at + 1} : below[at];
+      const TriangleRange range = node.lowest() ? TriangleRange{at, at + 1} : below[at];
       for (std::uint32_t t = range.begin; t < range.end; ++t) {
         for (const std::uint32_t v : c.triangles[t]) {
           const Vec p = scaled(c.vertices[v], -c.header.unit) - origin;
           for (int k = 0; k < 3; ++k) {
             // Off by 4 u of |p| and by u of the vertex and the origin, which the margin of the box holds twice over.
-            const double off = std::fabs(dot(axis[k], p) - double(node.centre[k][child]));
+            const double off = std::fabs(dot(axes.row[k], p) - double(node.centre[k][child]));
             if (!(off <= double(node.half[k][child])) ||
                 !(off <= double(node.extent[k]) + std::fabs(double(node.centre[k][child]))))
               return fail(i, "triangle " + std::to_string(t) + " reaches out of its box");

@@ -58,11 +58,8 @@ class Supports {
         }
         continue;
       }
-      float third[3];
-      third_axis(node.axis, third);
-      const float* const axes[3] = {node.axis[0], node.axis[1], third};
-      double along[3];
-      for (int k = 0; k < 3; ++k) along[k] = n.x * axes[k][0] + n.y * axes[k][1] + n.z * axes[k][2];
+      const Vec of_n = axes_of(node).along(n);
+      const double along[3] = {of_n.x, of_n.y, of_n.z};
       const double base = dot(n, Vec{node.origin[0], node.origin[1], node.origin[2]});
       const int bottom = top;
       for (int i = 0; i < node.count(); ++i) {
@@ -307,11 +304,7 @@ class Depth {
     }
   }
   void try_axes(const MeshView& of, bool is_b, Way& best) const {
-    float third[3];
-    third_axis(of.nodes->axis, third);
-    const auto vector = [](const float(&n)[3]) { return Vec{n[0], n[1], n[2]}; };
-    for (const Vec& n : {vector(of.nodes->axis[0]), vector(of.nodes->axis[1]), vector(third)})
-      try_both(is_b ? rotate(at_.motion, n) : n, best);
+    for (const Vec& n : axes_of(*of.nodes).row) try_both(is_b ? rotate(at_.motion, n) : n, best);
   }
   /// Turns the direction against the vertices that bound it, by less and less: the height is convex around its least.
   void descend(Way& best) const {

@@ -144,7 +144,6 @@ void describe(const MeshSetting& at, const MeshFinding& found, Answer& answer) {
   answer.verdict = verdict_of(found, at.law_two);
   answer.feature_a = found.feature_a, answer.feature_b = found.feature_b;
   answer.level_a = std::int16_t(found.level_a), answer.level_b = std::int16_t(found.level_b);
-  const bool has_normal = dot(found.normal, found.normal) > 0;
   answer.normal = eigen(found.normal);
   if (answer.upper < kInfinity) answer.point_a = eigen(found.point_a), answer.point_b = eigen(found.point_b);
   if (!at.radii.none()) {
@@ -152,7 +151,7 @@ void describe(const MeshSetting& at, const MeshFinding& found, Answer& answer) {
     if (answer.verdict != Verdict::Overlapping) answer.verdict = Verdict::Disjoint;  // `round` tells from the bounds
     at.radii.round(answer, none, at.law_two);
   }
-  if (!has_normal || answer.verdict == Verdict::Overlapping) answer.normal = Vec3::Constant(kUnknown);
+  if (found.verdict == Verdict::Overlapping || answer.normal.isZero(0)) answer.normal = Vec3::Constant(kUnknown);
 }
 
 ConvexLeaf::ConvexLeaf(const Body& of) : body(without_radius(of)) {

@@ -76,13 +76,11 @@ class NearPairs {
   /// The box along A's axes of all that a node holds, made larger by what its triangles' own boxes are.
   Box box_around(const MeshView& of, const Node& node, const Motion& in_a) const {
     const double unit = power_of_two(of.root->unit);
-    float third[3];
-    third_axis(node.axis, third);
+    const Axes axes = axes_of(node);
     const Vec middle = apply(in_a, Vec{node.origin[0], node.origin[1], node.origin[2]} * unit);
     Vec half{0, 0, 0};
     for (int k = 0; k < 3; ++k) {
-      const float* const axis = k < 2 ? node.axis[k] : third;
-      const Vec along = rotate(in_a, {axis[0], axis[1], axis[2]});
+      const Vec along = rotate(in_a, axes.row[k]);
       half = half + Vec{std::fabs(along.x), std::fabs(along.y), std::fabs(along.z)} * (node.extent[k] * unit);
     }
     const double size = (double(node.extent[0]) + node.extent[1] + node.extent[2]) * unit;

@@ -47,6 +47,19 @@ static inline void third_axis(const float (&axis)[2][3], float (&third)[3]) {
   }
 }
 
+/// The rows of a matrix: three axes.
+struct Axes {
+  Vec row[3];
+  Vec along(const Vec& v) const { return {dot(row[0], v), dot(row[1], v), dot(row[2], v)}; }
+};
+/// The axes of a node as its readers see them.
+static inline Axes axes_of(const Node& n) {
+  float third[3];
+  third_axis(n.axis, third);
+  const auto row = [](const float(&f)[3]) { return Vec{f[0], f[1], f[2]}; };
+  return {{row(n.axis[0]), row(n.axis[1]), row(third)}};
+}
+
 /// The exponent of the unit of a body of this extent. A body that is one point at its origin has the smallest unit there is.
 static inline int unit_of(double extent) { return exponent_of(max(extent, kLeastExtent)) + 1; }
 

@@ -51,18 +51,13 @@ struct Moments {
   }
 };
 
-/// Puts boxes around the triangles below each node, whose corners are over the mesh's unit. Triangles below a node lie one
-/// after the other.
+/// Puts boxes around the triangles below each node, whose corners are over the mesh's unit.
 void fit_tree(std::span<const Vec> vertices, std::span<const Corners> triangles, std::vector<Node>& nodes) {
-  struct Range {
-    std::uint32_t begin, end;
-  };
-  std::vector<Range> below(nodes.size());
+  const std::vector<TriangleRange> below = triangles_below(nodes);
   std::vector<Moments> moments(nodes.size());
   for (std::size_t i = nodes.size(); i-- > 0;) {
     Node& node = nodes[i];
     const std::uint32_t first = node.first(), count = std::uint32_t(node.count());
-    below[i] = node.lowest() ? Range{first, first + count} : Range{below[first].begin, below[first + count - 1].end};
     for (std::uint32_t child = first; child < first + count; ++child) {
       const auto corner = [&](std::size_t k) { return vertices[triangles[child][k]]; };
       moments[i].add(node.lowest() ? Moments(corner(0), corner(1), corner(2)) : moments[child]);
@@ -71,7 +66,8 @@ void fit_tree(std::span<const Vec> vertices, std::span<const Corners> triangles,
     const Axes along = axes_of(node);
     Bounds boxes[kFanOut];
     for (std::uint32_t child = 0; child < count; ++child) {
-      const Range range = node.lowest() ? Range{first + child, first + child + 1} : below[first + child];
+      const std::uint32_t at = first + child;
+      const TriangleRange range = node.lowest() ? TriangleRange{at, at + 1} : below[at];
       for (std::uint32_t t = range.begin; t < range.end; ++t) {
         for (const std::uint32_t v : triangles[t]) boxes[child].add(along.along(vertices[v]));
       }

@@ -305,6 +305,38 @@ TEST(Flat, HasNoDistanceInAPoseThatIsNone) {
   }
 }
 
+/// Of solids and triangles, too. FCL's solver ends the program of a distance there.
+TEST(Shapes, MeetNothingInAPoseThatIsNotFinite) {
+  const fcl::Convex<double> cube(bodies::model(bodies::cube()));
+  const ::fcl::Convexd& plain = cube;
+  const ::fcl::Sphered ball(1);
+  const ::fcl::Boxd box(1, 1, 1);
+  const fcl::Solver<double> solver;
+  const Transform<double> here = at<double>(0, 0, 0);
+  const Vec3 p(0, 0, 0), q(1, 0, 0), r(0, 1, 0);
+  for (const Transform<double>& nowhere : no_poses()) {
+    if (nowhere.matrix().allFinite()) continue;
+    for (const Geometry<double>* const other :
+         {static_cast<const Geometry<double>*>(&cube), static_cast<const Geometry<double>*>(&ball),
+          static_cast<const Geometry<double>*>(&box)}) {
+      for (const auto& [hull_there, there] : {std::pair(here, nowhere), std::pair(nowhere, here)}) {
+        EXPECT_FALSE(collide<double>(cube, hull_there, *other, there, solver).isCollision());
+        EXPECT_FALSE(collide<double>(*other, there, cube, hull_there, solver, false).isCollision());
+        for (const bool is_signed : {false, true})
+          EXPECT_EQ(measure<double>(cube, hull_there, *other, there, solver, is_signed).o1, nullptr);
+      }
+    }
+    double distance = 0;
+    EXPECT_FALSE(solver.shapeTriangleIntersect(plain, nowhere, p, q, r));
+    EXPECT_FALSE(solver.shapeTriangleIntersect(plain, here, p, q, r, nowhere));
+    EXPECT_FALSE(solver.shapeTriangleDistance(plain, nowhere, p, q, r, &distance));
+    EXPECT_TRUE(std::isnan(distance));
+    distance = 0;
+    EXPECT_FALSE(solver.shapeTriangleDistance(plain, here, p, q, r, nowhere, &distance));
+    EXPECT_TRUE(std::isnan(distance));
+  }
+}
+
 /// FCL's solvers would end the program there, too; with a half-space they do not, and are asked.
 TEST(Flat, APlaneMeetsNothingInAPoseThatIsNone) {
   const fcl::Convex<double> cube(bodies::model(bodies::cube()));

@@ -473,6 +473,22 @@ TEST(HullTree, ContactsOfASolidInASolidAreOneOverlap) {
   }
 }
 
+/// As of any distance, it asks for the exact one.
+TEST(HullTree, AnErrorThatIsNoNumberIsZero) {
+  const Body ring = body("torus", torus(6, 4), true);
+  HullPair pair(ring.tree, ring.tree);
+  const Pose apart{Mat3::Identity(), {5, 0.1, 0.2}};
+  const Answer exact = pair.distance(apart).answer;
+  ASSERT_EQ(exact.status, Status::Converged);
+  for (const double none : {std::numeric_limits<double>::quiet_NaN(), -1.0, -std::numeric_limits<double>::infinity()}) {
+    for (const Answer& answer : {pair.distance(apart, none).answer, pair.distance(apart, 0, none).answer}) {
+      EXPECT_EQ(answer.status, Status::Converged) << none;
+      EXPECT_EQ(answer.lower, exact.lower) << none;
+      EXPECT_EQ(answer.upper, exact.upper) << none;
+    }
+  }
+}
+
 TEST(HullTree, BadPosesAreStatuses) {
   const Body ring = body("torus", torus(6, 4), true);
   HullPair pair(ring.tree, ring.tree);

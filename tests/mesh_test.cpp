@@ -400,6 +400,32 @@ TEST_F(MeshFile, ThatNamesATriangleTwiceOrNoneIsRefused) {
   }
 }
 
+/// Whoever asks for the triangles below a node gets those from its first to its last.
+TEST_F(MeshFile, WithTrianglesBelowNodesOutOfOrderIsRefused) {
+  const MeshModel mesh = ball(3).mesh();
+  const soups::Block good = bytes_of(mesh);
+  const MeshHeader header = header_of(good);
+  ASSERT_GE(header.levels, 3u);
+  const std::uint32_t last = header.levels - 1;
+  const std::size_t count = header.level[last].bytes / sizeof(Node);
+  int refused = 0;
+  for (std::size_t i = 1; i < count; ++i) {
+    soups::Block block = good;
+    Node nodes[2];
+    const std::size_t at[2] = {header.level[last].offset, header.level[last].offset + i * sizeof(Node)};
+    for (int k = 0; k < 2; ++k) std::memcpy(nodes + k, block.data() + at[k], sizeof(Node));
+    if (!nodes[0].lowest() || !nodes[1].lowest()) continue;
+    for (int k = 0; k < 2; ++k) std::memcpy(block.data() + at[k], nodes + 1 - k, sizeof(Node));
+    rehash(block);
+    const Result<MeshModel> read = load_mesh(block);
+    ASSERT_FALSE(read) << i;
+    EXPECT_EQ(read.error().code, ErrorCode::BadFormat);
+    EXPECT_NE(read.error().message.find("triangles"), std::string::npos) << read.error().message;
+    ++refused;
+  }
+  EXPECT_GE(refused, 20);
+}
+
 /// The block with these bytes as its hulls and their models.
 soups::Block with_hulls(const soups::Block& block, std::span<const HullRecord> hulls, const soups::Block& models) {
   MeshHeader header = header_of(block);
@@ -791,6 +817,9 @@ TEST(MeshLaw2, CheckAgreesAndFindsOutWhatIsFalse) {
     ASSERT_TRUE(found_out([](Answer& w) { w.status = Status::NotAsked; }));
     if (answer.verdict == Verdict::Overlapping) {
       ASSERT_TRUE(found_out([](Answer& w) { w.verdict = Verdict::Disjoint; }));
+      ASSERT_TRUE(found_out([&](Answer& w) { w.point_a = w.point_b = Vec3::Constant(64 * (1 + c.mesh_a.extent())); }));
+      ASSERT_TRUE(found_out([](Answer& w) { w.feature_b = FeatureId(FeatureKind::Face, 1 << 29); }));
+      ASSERT_TRUE(found_out([](Answer& w) { w.level_a = 1; }));
     }
     if (c.truth < 0.01) return;
     ASSERT_TRUE(found_out([&](Answer& w) { w.upper = w.lower = answer.lower - 4 * c.law_two(); }));
@@ -800,6 +829,24 @@ TEST(MeshLaw2, CheckAgreesAndFindsOutWhatIsFalse) {
     ASSERT_TRUE(found_out([](Answer& w) { w.point_b += 1e-3 * w.normal; }));
     ASSERT_TRUE(found_out([](Answer& w) { w.feature_a = FeatureId(FeatureKind::Face, 1 << 29); }));
   });
+}
+
+/// What is deep in each other does not touch: of surfaces that cross, and of a solid all around a smaller one.
+TEST(MeshLaw2, CheckTellsDeepOverlapsFromTouches) {
+  const MeshModel large = ball(2).mesh(), small = scaled(ball(2), 0.25).mesh();
+  const Pose inside{Mat3::Identity(), {0.1, 0, 0}}, across{Mat3::Identity(), {1, 0.1, 0.2}};
+  const auto expect_refused = [](const MeshBody& a, const MeshBody& b, const Pose& pose, const char* why) {
+    Answer answer = intersects(a, b, pose);
+    ASSERT_EQ(answer.verdict, Verdict::Overlapping);
+    EXPECT_TRUE(check(a, b, pose, answer)) << check(a, b, pose, answer).message;
+    answer.verdict = Verdict::Touching;
+    const Check checked = check(a, b, pose, answer);
+    EXPECT_FALSE(checked);
+    EXPECT_NE(checked.message.find(why), std::string::npos) << checked.message;
+  };
+  expect_refused(large, small, across, "in each other");
+  expect_refused(MeshBody::solid(large), small, inside, "inside the other");
+  expect_refused(Body::box({-1, -1, -1}, {1, 1, 1}), small, across, "in each other");
 }
 
 TEST(MeshLaw2, CheckRefusesAForgeryOfAnyMember) {
@@ -853,6 +900,31 @@ TEST(MeshLaw2, WithinSaysThatRadiiOverlap) {
       }
     }
   }
+}
+
+/// The hulls are apart, and so is their normal known, in every question.
+TEST(MeshLaw2, BodiesThatOverlapByRadiiAloneKeepTheirNormal) {
+  Random random(24);
+  int overlapping = 0;
+  for (int i = 0; i < 60; ++i) {
+    const MeshModel a = scattered(random, 4, 0.5).mesh(), b = scattered(random, 4, 0.5).mesh();
+    const Pose pose = any_pose(random, 4);
+    const Answer hulls = distance(a, b, pose);
+    if (!(hulls.lower > 0.01)) continue;
+    const MeshBody round_a(a, 0.7 * hulls.upper), round_b(b, 0.6 * hulls.upper);
+    for (const Answer& answer :
+         {distance(round_a, round_b, pose), intersects(round_a, round_b, pose), within(round_a, round_b, pose, 0).answer,
+          closest_features(round_a, round_b, pose).answer, signed_distance(round_a, round_b, pose)}) {
+      ++overlapping;
+      EXPECT_EQ(answer.verdict, Verdict::Overlapping);
+      EXPECT_NEAR(answer.normal.norm(), 1, 1e-15);
+      const Check checked = check(round_a, round_b, pose, answer);
+      EXPECT_TRUE(checked) << checked.message;
+    }
+    const Answer exact = closest_features(round_a, round_b, pose).answer;
+    EXPECT_LE((exact.normal - hulls.normal).norm(), 1e-12);
+  }
+  EXPECT_GE(overlapping, 200);
 }
 
 TEST(MeshLaw2, ARelativeToleranceIsReachedHoweverLargeTheRadii) {

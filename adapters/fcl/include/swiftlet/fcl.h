@@ -184,6 +184,7 @@ struct ShapeSolver {
         return true;
       }
       if (is_plane<Shape1, Shape2> && (is_model(a) || is_model(b))) return false;
+      if (!are_somewhere(tf1, tf2)) return false;
     }
     return others.shapeIntersect(s1, tf1, s2, tf2, contacts);
   }
@@ -194,7 +195,7 @@ struct ShapeSolver {
     if constexpr (may_be_ours<Shape1, Shape2>) {
       const Nearest near = nearest(operand(s1, tf1), operand(s2, tf2), seed);
       if (near.found != Found::Nothing) return is_apart(near, distance, p1, p2);
-      if (is_flat<Shape1, Shape2>) return nothing(distance, p1, p2);
+      if (is_flat<Shape1, Shape2> || !are_somewhere(tf1, tf2)) return nothing(distance, p1, p2);
     }
     return others.shapeDistance(s1, tf1, s2, tf2, distance, p1, p2);
   }
@@ -205,7 +206,7 @@ struct ShapeSolver {
     if constexpr (may_be_ours<Shape1, Shape2>) {
       const Nearest near = nearest(operand(s1, tf1), operand(s2, tf2), seed);
       if (near.found != Found::Nothing) return hand_out(near, distance, p1, p2), near.verdict != Verdict::Overlapping;
-      if (is_flat<Shape1, Shape2>) return nothing(distance, p1, p2);
+      if (is_flat<Shape1, Shape2> || !are_somewhere(tf1, tf2)) return nothing(distance, p1, p2);
     }
     return others.shapeSignedDistance(s1, tf1, s2, tf2, distance, p1, p2);
   }
@@ -216,6 +217,7 @@ struct ShapeSolver {
     if constexpr (may_be_ours<Shape>) {
       const std::optional<bool> found = meets(operand(s, tf), triangle<S>(p, q, r, {}), contact, depth, normal);
       if (found) return *found;
+      if (!are_somewhere(tf)) return false;
     }
     return others.shapeTriangleIntersect(s, tf, p, q, r, contact, depth, normal);
   }
@@ -226,6 +228,7 @@ struct ShapeSolver {
     if constexpr (may_be_ours<Shape>) {
       const std::optional<bool> found = meets(operand(s, tf1), triangle<S>(p, q, r, pose_of(tf2)), contact, depth, normal);
       if (found) return *found;
+      if (!are_somewhere(tf1, tf2)) return false;
     }
     return others.shapeTriangleIntersect(s, tf1, p, q, r, tf2, contact, depth, normal);
   }
@@ -236,6 +239,7 @@ struct ShapeSolver {
     if constexpr (may_be_ours<Shape>) {
       const Nearest near = nearest(operand(s, tf), triangle<S>(p, q, r, {}), seed);
       if (near.found != Found::Nothing) return is_apart(near, distance, p1, p2);
+      if (!are_somewhere(tf)) return nothing(distance, p1, p2);
     }
     return others.shapeTriangleDistance(s, tf, p, q, r, distance, p1, p2);
   }
@@ -245,6 +249,7 @@ struct ShapeSolver {
     if constexpr (may_be_ours<Shape>) {
       const Nearest near = nearest(operand(s, tf1), triangle<S>(p, q, r, pose_of(tf2)), seed);
       if (near.found != Found::Nothing) return is_apart(near, distance, p1, p2);
+      if (!are_somewhere(tf1, tf2)) return nothing(distance, p1, p2);
     }
     return others.shapeTriangleDistance(s, tf1, p, q, r, tf2, distance, p1, p2);
   }
@@ -265,6 +270,12 @@ struct ShapeSolver {
   /// Whether one of them is a plane, of which FCL's solvers know no collision either.
   template <class... Shapes>
   static constexpr bool is_plane = (std::is_same_v<Shapes, ::fcl::Plane<S>> || ...);
+
+  /// Whether all poses are finite: libccd ends the program where one is not.
+  template <class... Transforms>
+  static bool are_somewhere(const Transforms&... tf) {
+    return (tf.matrix().allFinite() && ...);
+  }
 
   /// Whether they share a point, and where; nothing where the kernel does not answer.
   std::optional<bool> meets(const Operand& a, const Operand& b, Point* contact, S* depth, Point* normal) const {
