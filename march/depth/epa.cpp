@@ -122,12 +122,13 @@ class Polytope {
   /// these directions the hull of M and the far points is as high as M; elsewhere it is no lower.
   bool begin(const Cone& cone) {
     lower_ = 0, rim_ = 0;
+    moved_ = (kGridError + 4 * kPlaneHeightFloor) * pair_.magnitude;  // coordinates of far points are below 4 * `binade_`
     std::array<Corner, 4> corners{support(normalised(cone.x + cone.y + cone.z), 0, 0)};
     std::size_t count = 1;
     for (const Vec& edge : {cross(cone.x, cone.y), cross(cone.y, cone.z), cross(cone.z, cone.x)}) {
       const int exponent = exponent_of(binade_) - exponent_of(max_abs(edge)) + 1;
       const Vec far = scaled(edge, exponent);
-      corners[count++] = {on_grid(-far), kNone, kNone};
+      corners[count++] = {on_grid(wide(-far)), kNone, kNone};
     }
     if (exact::orientation(corners[0].p, corners[1].p, corners[2].p, corners[3].p) == 0) return false;
     close(corners);
@@ -214,16 +215,16 @@ class Polytope {
 
   // ---- Points of M ----
 
-  /// The nearest point whose coordinates are multiples of 2 u * `binade_`.
-  Vec on_grid(const Vec& p) const {
-    const auto snapped = [this](double x) {
-      const double anchor = std::copysign(binade_, x);
-      return std::fabs(x) < binade_ ? (x + anchor) - anchor : x;
+  /// The nearest point whose coordinates are multiples of 2 u * `binade_`, rounded once.
+  Vec on_grid(const Wide& p) const {
+    const auto snapped = [this](const DoubleDouble& x) {
+      const double anchor = std::copysign(binade_, rounded(x));
+      return std::fabs(rounded(x)) < binade_ ? rounded(x + anchor) - anchor : rounded(x);
     };
     return {snapped(p.x), snapped(p.y), snapped(p.z)};
   }
-  Corner corner_of(std::uint32_t a, std::uint32_t b) const {
-    return {on_grid(rounded(difference<DoubleDouble>(pair_, a, b).p)), a, b};
+  [[gnu::noinline]] Corner corner_of(std::uint32_t a, std::uint32_t b) const {
+    return {on_grid(difference<DoubleDouble>(pair_, a, b).p), a, b};
   }
   Corner corner(std::uint8_t k) const { return {hull_.corner(k), vertex_pair_[k].a, vertex_pair_[k].b}; }
   bool is_far(const HullFacet& f) const {
@@ -357,7 +358,7 @@ class Polytope {
   std::uint32_t& plane_tests_;
   const bool exact_;     ///< the facet itself is wanted: narrow bounds alone leave its plane room to lean
   const double binade_;  ///< the largest power of two that is at most the magnitude
-  const double moved_;   ///< bound on what the grid and the rounding of planes add to the hull's heights
+  double moved_;         ///< bound on what the grid and the rounding of planes add to the hull's heights
   double lower_ = 0;
   int rim_ = 0;  ///< number of corners of the start's polygon
   std::uint32_t steps_ = 0;
