@@ -99,15 +99,11 @@ bool Enclosure::holds(const Vec& point) const {
   stack[top++] = 0;
   while (top > 0) {
     const Node& node = mesh_.nodes[stack[--top]];
-    float third[3];
-    third_axis(node.axis, third);
-    double at[3], along[3];  // the ray's start from the node's origin, and its direction
-    const float* const axes[3] = {node.axis[0], node.axis[1], third};
-    for (int k = 0; k < 3; ++k) {
-      const float* const n = axes[k];
-      at[k] = dot(Vec{n[0], n[1], n[2]}, from - Vec{node.origin[0], node.origin[1], node.origin[2]});
-      along[k] = n[ray.axis] * ray.direction;
-    }
+    const Axes axes = axes_of(node);
+    const Vec start = axes.along(from - Vec{node.origin[0], node.origin[1], node.origin[2]});
+    const double at[3] = {start.x, start.y, start.z};
+    double along[3];  // the ray's direction
+    for (int k = 0; k < 3; ++k) along[k] = eigen(axes.row[k])[ray.axis] * ray.direction;
     for (int i = 0; i < node.count(); ++i) {
       double off[3], half[3];
       bool meets = true;

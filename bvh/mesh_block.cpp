@@ -257,13 +257,9 @@ void place_patches(MeshReader::Content& content) {
     }
   }
   if (!content.is_whole()) return;
+  const std::vector<TriangleRange> below = place.empty() ? std::vector<TriangleRange>() : triangles_below(content.nodes);
   for (std::uint32_t i = 0; i < place.size(); ++i) {
-    if (place[i] != PatchPlace::At) continue;
-    std::uint32_t low = i, high = i;
-    while (!content.nodes[low].lowest()) low = content.nodes[low].first();
-    while (!content.nodes[high].lowest()) high = content.nodes[high].first() + std::uint32_t(content.nodes[high].count()) - 1;
-    content.patches.push_back(
-        {content.nodes[low].first(), content.nodes[high].first() + std::uint32_t(content.nodes[high].count()), i});
+    if (place[i] == PatchPlace::At) content.patches.push_back({below[i].begin, below[i].end, i});
   }
   std::sort(content.patches.begin(), content.patches.end(),
             [](const PatchRange& x, const PatchRange& y) { return std::tie(x.begin, x.node) < std::tie(y.begin, y.node); });

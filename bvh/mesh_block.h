@@ -25,6 +25,12 @@ namespace swiftlet {
 
 using Corners = std::array<std::uint32_t, 3>;
 
+/// The point with coordinates that no body may have put to 0.
+static inline Vec legal(Vec p) {
+  for (double* const x : {&p.x, &p.y, &p.z}) *x = std::fabs(*x) < kLeastCoordinate ? 0 : *x;
+  return p;
+}
+
 struct MeshHeader {
   char magic[8];
   std::uint32_t version, depth;

@@ -17,6 +17,7 @@
 #include "body/shape.h"
 #include "inside.h"
 #include "mesh_block.h"
+#include "numeric/tolerance.h"
 #include "numeric/wide.h"
 #include "query/radii.h"
 #include "search.h"
@@ -29,6 +30,13 @@ bool is_unit(const Vec3& n) {
   const Wide wide_n = wide(vec(n));
   return std::fabs(double(dot(wide_n, wide_n) - 1.0)) <= kUnitError;
 }
+
+/// Whether the kernel takes it as a point.
+bool is_point(const Vec3& p) {
+  const Vec q = legal(vec(p));
+  return is_legal_coordinate(q.x) && is_legal_coordinate(q.y) && is_legal_coordinate(q.z);
+}
+Body point_at(const Vec3& p, double radius = 0) { return Body::point(eigen(legal(vec(p))), radius); }
 
 /// The convex parts of a body, each with the body's radius.
 struct Parts {
@@ -84,16 +92,19 @@ struct Parts {
     if (of.mesh()) {
       for (std::size_t v = 0; v < of.mesh()->vertex_count(); ++v) add(of.mesh()->vertex(v));
     } else {
-      const ShapeOf shape(of.convex());
-      for (const Vertex& v : (*shape).level(0).view.vertices) add(eigen(vec(v)));
+      const ShapeOf shape(of.convex());  // without level 0 a coarser one, which holds the body
+      const Body& convex = of.convex();
+      const int finest = convex.model() ? convex.model()->finest_level() : 0;
+      for (const Vertex& v : (*shape).level(finest).view.vertices) add(eigen(vec(v)));
     }
     return most + n.norm() * of.radius();
   }
-  /// The distance of a point of A's frame from the body, with its volume if it is solid; 0 if the point is unknown.
+  /// The distance of a point of A's frame from the body, with its volume if it is solid; at least so much. Infinite of what is
+  /// no point of a body.
   double distance_to(const Vec3& p, const Pose& at, bool is_b) const {
-    if (p.hasNaN()) return 0;
+    if (!is_point(p)) return HUGE_VAL;
     if (of.is_solid() && Enclosure(MeshReader::content(*of.mesh()), at, is_b).holds_without_tree(vec(p))) return 0;
-    const Body point = Body::point(p);
+    const Body point = point_at(p);
     double least = HUGE_VAL;
     for (std::size_t i = 0; i < count; ++i) {
       const Body part = (*this)[i];
@@ -101,18 +112,17 @@ struct Parts {
     }
     return least;
   }
-  /// The radius of a ball around a point of A's frame that lies in the body, if the point is inside; else a mesh's
-  /// radius, and 0 of a convex body.
+  /// The radius of a ball around a point of A's frame that lies in the body, for a point that does; at most so much.
   double free_ball(const Vec3& p, const Pose& at, bool is_b) const {
     if (!of.mesh()) {
-      const Body point = Body::point(p);
+      const Body point = point_at(p);
       return std::max(0.0, -(is_b ? signed_distance(point, of.convex(), at) : signed_distance(of.convex(), point, at)).lower);
     }
     if (!of.is_solid() || !Enclosure(MeshReader::content(*of.mesh()), at, is_b).holds_without_tree(vec(p))) return of.radius();
     double least = HUGE_VAL;
     for (std::size_t i = 0; i < count; ++i) {
       const MeshBody plain(*of.mesh());
-      const Body part = Parts(plain)[i], point = Body::point(p);
+      const Body part = Parts(plain)[i], point = point_at(p);
       least = std::min(least, (is_b ? distance(point, part, at) : distance(part, point, at)).upper);
     }
     return least + of.radius();
@@ -124,11 +134,12 @@ struct Parts {
 
 bool unknown(const Vec3& v) { return std::isnan(v[0]) && std::isnan(v[1]) && std::isnan(v[2]); }
 
-/// Whether the bodies overlap beyond doubt.
-bool meet(const Parts& a, const Parts& b, const Pose& b_in_a) {
+/// Whether the bodies overlap, or one is a model whose finest level leaves that open.
+bool may_meet(const Parts& a, const Parts& b, const Pose& b_in_a) {
   for (std::size_t i = 0; i < a.count; ++i) {
     for (std::size_t k = 0; k < b.count; ++k) {
-      if (distance(a[i], b[k], b_in_a).verdict == Verdict::Overlapping) return true;
+      const Verdict verdict = distance(a[i], b[k], b_in_a).verdict;
+      if (verdict == Verdict::Overlapping || verdict == Verdict::Undecided) return true;
     }
   }
   return a.encloses(b.of, b_in_a, false) || b.encloses(a.of, b_in_a, true);
@@ -142,7 +153,7 @@ std::string depth_fault(const Parts& a, const Parts& b, const Pose& b_in_a, cons
     const Vec3& n = answer.normal;
     if (!is_unit(n)) return "the normal is no unit vector";
     const bool by_plane = a.top(n, {}) + b.top(-n, b_in_a) + answer.lower <= law_two;
-    if (!by_plane && meet(a, b, {b_in_a.rotation, b_in_a.translation + (law_two - answer.lower) * n}))
+    if (!by_plane && may_meet(a, b, {b_in_a.rotation, b_in_a.translation + (law_two - answer.lower) * n}))
       text << "moved by " << -answer.lower << " along the normal, the bodies still meet";
   }
   double upper = HUGE_VAL;
@@ -150,8 +161,10 @@ std::string depth_fault(const Parts& a, const Parts& b, const Pose& b_in_a, cons
     for (std::size_t k = 0; k < b.count; ++k) upper = std::min(upper, signed_distance(a[i], b[k], b_in_a).lower);
   }
   if (a.encloses(b.of, b_in_a, false) || b.encloses(a.of, b_in_a, true)) upper = std::min(upper, 0.0);
-  if (answer.verdict == Verdict::Overlapping && !answer.point_a.hasNaN())
-    upper = std::min(upper, -a.free_ball(answer.point_a, {}, false) - b.free_ball(answer.point_a, b_in_a, true));
+  const Vec3& p = answer.point_a;
+  if (answer.verdict == Verdict::Overlapping && a.distance_to(p, {}, false) <= law_two &&
+      b.distance_to(p, b_in_a, true) <= law_two)
+    upper = std::min(upper, -a.free_ball(p, {}, false) - b.free_ball(p, b_in_a, true));
   if (!(answer.upper >= upper - law_two)) text << "upper is " << answer.upper << " where only " << upper << " is proved";
   return text.str();
 }
@@ -178,7 +191,7 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
   if (Radii(answer) != Radii(a.radius(), b.radius())) return fail("the answer is of other radii");
   const bool has_normal = !unknown(answer.normal), has_points = !unknown(answer.point_a) || !unknown(answer.point_b);
   if (has_normal && !is_unit(answer.normal)) return fail("the normal is no unit vector");
-  if (has_points && !(answer.point_a.allFinite() && answer.point_b.allFinite())) return fail("a point is no point");
+  if (has_points && !(is_point(answer.point_a) && is_point(answer.point_b))) return fail("a point is no point");
   const Parts of_a(a), of_b(b);
   if (answer.is_signed && !(answer.lower > 0)) {
     if (const std::string fault = depth_fault(of_a, of_b, b_in_a, answer, law_two); !fault.empty()) return fail(fault);
@@ -219,6 +232,7 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
     };
     if (!names(of_a, answer.feature_a, answer.level_a) || !names(of_b, answer.feature_b, answer.level_b))
       return fail("a feature that does not exist");
+    if (!has_points) return {true, ""};
     if (const double off = of_a.distance_to(answer.point_a, {}, false) - of_a.deviation(answer.level_a); off > law_two)
       return fail("point_a is ", off, " off its body");
     if (const double off = of_b.distance_to(answer.point_b, b_in_a, true) - of_b.deviation(answer.level_b); off > law_two)
@@ -226,7 +240,7 @@ Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answ
   } else if (answer.upper < HUGE_VAL) {
     if (!of_a.names(answer.feature_a, answer.level_a, !exact) || !of_b.names(answer.feature_b, answer.level_b, !exact))
       return fail("a feature that does not exist");
-    const Body points[] = {Body::point(answer.point_a, answer.radius_a), Body::point(answer.point_b, answer.radius_b)};
+    const Body points[] = {point_at(answer.point_a, answer.radius_a), point_at(answer.point_b, answer.radius_b)};
     if (const double off = distance(of_a.feature(answer.feature_a), points[0], {}).lower;
         !(off <= law_two + of_a.deviation(answer.level_a)))
       return fail("point_a is ", off, " off its feature");

@@ -170,7 +170,7 @@ class Depth {
   }
 
   /// An upper bound on the signed distance; `at` becomes a point, in A's frame, that proves it, if there is one.
-  double least_upper(const Way& way, const Answer& answer, const MeshSeed& seed, Vec3& at) {
+  double least_upper(const Way& way, const Answer& answer, const MeshSeed& seed, std::optional<Vec3>& at) {
     double upper = kInfinity;
     if (seed.triangle_a < at_.a.triangle_count && seed.triangle_b < at_.b.triangle_count) {
       upper = signed_distance(part(a_, at_.a, seed.triangle_a), part(b_, at_.b, seed.triangle_b), pose_).upper;
@@ -199,7 +199,7 @@ class Depth {
     const double height = dot(way.n, deepest);
     const Vec between = (middle(at_.a, false) + middle(at_.b, true)) * 0.5;
     const auto take_point = [&](const Vec& point) {
-      const Balls balls = balls_around(without_tiny(point));
+      const Balls balls = balls_around(legal(point));
       if (balls.sum() > balls_.sum()) balls_ = balls;
     };
     for (const Vec& point : {deepest, between, between + way.n * (height - dot(way.n, between)), common_middle()})
@@ -238,7 +238,7 @@ class Depth {
   Balls larger(Balls best) const {
     double step = 0.5;
     for (int i = 0; i < kBalls; ++i) {
-      const Balls next = balls_around(without_tiny(best.at + (best.away_a + best.away_b) * (step * min(best.of_a, best.of_b))));
+      const Balls next = balls_around(legal(best.at + (best.away_a + best.away_b) * (step * min(best.of_a, best.of_b))));
       if (next.sum() > best.sum()) {
         best = next;
       } else {
@@ -250,10 +250,6 @@ class Depth {
 
   static bool has_volume(const MeshBody& body) { return body.is_solid() || !body.mesh(); }
   static double rounded_down(double x) { return x * (1 - 4 * kU); }
-  static Vec without_tiny(Vec p) {
-    for (double* const x : {&p.x, &p.y, &p.z}) *x = std::fabs(*x) < kLeastCoordinate ? 0 : *x;
-    return p;
-  }
   static Body part(const MeshBody& body, const MeshView& view, std::uint32_t triangle) {
     if (!view.triangles) return body.convex();
     const auto at = [&](std::size_t k) { return eigen(view.vertices[view.triangles[triangle][k]]); };
@@ -369,11 +365,11 @@ class Depth {
   const double asked = tolerance(a, b, b_in_a);
   const Vec3 nearest = answer.normal;  // from point_a to point_b
   const auto bound = [&] {
-    Vec3 at = answer.point_a;
+    std::optional<Vec3> at;  // a point in both bodies, where balls around it prove the bound
     const double upper = depth.least_upper(way, answer, seed, at);
     if (upper < answer.upper) {
       answer.upper = upper;
-      if (upper < 0) answer.point_a = answer.point_b = at;
+      if (upper < 0 && at) answer.point_a = answer.point_b = *at;
     }
     if (answer.upper < 0) answer.verdict = Verdict::Overlapping;
     answer.lower = min(-way.length, answer.upper);

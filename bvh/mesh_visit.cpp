@@ -11,14 +11,10 @@ namespace swiftlet {
 namespace {
 
 bool enters(MeshVisitor& visitor, const Node& node, double unit) {
-  float third[3];
-  third_axis(node.axis, third);
-  const float* const axes[3] = {node.axis[0], node.axis[1], third};
+  const Axes axes = axes_of(node);
   const double size = double(node.extent[0]) + node.extent[1] + node.extent[2];
   Vec3 half = Vec3::Constant(kNodeBoxShare * size);
-  for (int k = 0; k < 3; ++k) {
-    for (int i = 0; i < 3; ++i) half[i] += std::fabs(double(axes[k][i])) * node.extent[k];
-  }
+  for (int k = 0; k < 3; ++k) half += eigen(axes.row[k]).cwiseAbs() * double(node.extent[k]);
   const Vec3 middle(node.origin[0], node.origin[1], node.origin[2]);
   return visitor.enters((middle - half) * unit, (middle + half) * unit);
 }

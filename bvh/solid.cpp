@@ -108,11 +108,6 @@ class Visit {
     const Box both = common(box_around(guest_), turned);
     return legal((both.least + both.most) * 0.5);
   }
-  /// The point with coordinates that no body may have put to 0.
-  static Vec legal(Vec p) {
-    for (double* const x : {&p.x, &p.y, &p.z}) *x = std::fabs(*x) < kLeastCoordinate ? 0 : *x;
-    return p;
-  }
   /// True if a point of the guest is farther than law 2's bound from the solid's surface.
   bool is_off(const Vec& p) const {
     const MeshView point(MeshBody(Body::point(eigen(p))));

@@ -219,18 +219,19 @@ inline swiftlet_answer plain(const Answer& from) {
 inline Answer answer_of(const swiftlet_answer* given, const char* name) {
   swiftlet_answer room{};
   const swiftlet_answer& from = read(given, room, name, sizeof(swiftlet_answer));
+  const auto member = [name](const char* of) { return std::string(name) + "." + of; };
   Answer to;
-  to.status = enumerator(from.status, Status::InvalidBody, "answer.status");
-  to.verdict = enumerator(from.verdict, Verdict::Overlapping, "answer.verdict");
+  to.status = enumerator(from.status, Status::InvalidBody, member("status"));
+  to.verdict = enumerator(from.verdict, Verdict::Overlapping, member("verdict"));
   to.is_signed = from.is_signed != 0;
   to.lower = from.lower, to.upper = from.upper;
   to.normal = Vec3(from.normal), to.point_a = Vec3(from.point_a), to.point_b = Vec3(from.point_b);
   to.feature_a = feature_of(from.feature_a), to.feature_b = feature_of(from.feature_b);
-  to.level_a = narrow<std::int16_t>(from.level_a, "answer.level_a");
-  to.level_b = narrow<std::int16_t>(from.level_b, "answer.level_b");
+  to.level_a = narrow<std::int16_t>(from.level_a, member("level_a"));
+  to.level_b = narrow<std::int16_t>(from.level_b, member("level_b"));
   to.steps = from.steps, to.plane_tests = from.plane_tests;
   to.radius_a = from.radius_a, to.radius_b = from.radius_b;
-  to.levels_visited = narrow<std::uint8_t>(from.levels_visited, "answer.levels_visited");
+  to.levels_visited = narrow<std::uint8_t>(from.levels_visited, member("levels_visited"));
   return to;
 }
 

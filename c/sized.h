@@ -81,20 +81,20 @@ swiftlet_code init(const T& defaults, T* to, std::size_t size, swiftlet_error* e
 
 /// An enumerator of a C++ enumeration whose last one is given.
 template <class Enum>
-Enum enumerator(std::int32_t value, Enum last, const char* name) {
+Enum enumerator(std::int32_t value, Enum last, const std::string& name) {
   if (value < 0 || value > std::int32_t(last))
     throw Failure{SWIFTLET_BAD_VALUE,
-                  std::string(name) + " is " + std::to_string(value) + ", not from 0 to " + std::to_string(std::int32_t(last))};
+                  name + " is " + std::to_string(value) + ", not from 0 to " + std::to_string(std::int32_t(last))};
   return Enum(value);
 }
 
 /// A number of a narrower type.
 template <class To>
-To narrow(std::int64_t value, const char* name) {
+To narrow(std::int64_t value, const std::string& name) {
   using Limits = std::numeric_limits<To>;
   if (value < Limits::min() || value > Limits::max())
-    throw Failure{SWIFTLET_BAD_VALUE, std::string(name) + " is " + std::to_string(value) + ", not from " +
-                                          std::to_string(Limits::min()) + " to " + std::to_string(Limits::max())};
+    throw Failure{SWIFTLET_BAD_VALUE, name + " is " + std::to_string(value) + ", not from " + std::to_string(Limits::min()) +
+                                          " to " + std::to_string(Limits::max())};
   return To(value);
 }
 

@@ -5,7 +5,6 @@
 #include <swiftlet/build_mesh.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -28,18 +27,13 @@ struct Place {
   std::uint32_t node, begin, end;
 };
 
-Place place_of(const MeshReader::Content& mesh, std::uint32_t node) {
-  std::uint32_t low = node, high = node;
-  while (!mesh.nodes[low].lowest()) low = mesh.nodes[low].first();
-  while (!mesh.nodes[high].lowest()) high = mesh.nodes[high].first() + std::uint32_t(mesh.nodes[high].count()) - 1;
-  return {node, mesh.nodes[low].first(), mesh.nodes[high].first() + std::uint32_t(mesh.nodes[high].count())};
-}
-
 /// The root and the nodes of patches or, if there are none, those of the upper levels that have triangles enough.
 std::vector<Place> places(const MeshReader::Content& mesh, const HullOptions& options) {
+  const std::vector<TriangleRange> below = triangles_below(mesh.nodes);
+  const auto place_of = [&](std::uint32_t node) { return Place{node, below[node].begin, below[node].end}; };
   std::vector<Place> found;
   for (std::uint32_t node = 0; node < mesh.nodes.size(); ++node) {
-    if (node == 0 || mesh.nodes[node].of_patch()) found.push_back(place_of(mesh, node));
+    if (node == 0 || mesh.nodes[node].of_patch()) found.push_back(place_of(node));
   }
   if (found.size() > 1 || mesh.nodes[0].of_patch()) return found;
   found.clear();
@@ -47,7 +41,7 @@ std::vector<Place> places(const MeshReader::Content& mesh, const HullOptions& op
   for (std::uint32_t level = 0; level < options.levels && begin < end; ++level) {
     std::uint32_t next = end;
     for (std::uint32_t node = begin; node < end; ++node) {
-      const Place place = place_of(mesh, node);
+      const Place place = place_of(node);
       if (node == 0 || place.end - place.begin >= options.least_triangles) found.push_back(place);
       if (!mesh.nodes[node].lowest()) next += std::uint32_t(mesh.nodes[node].count());
     }

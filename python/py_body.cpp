@@ -47,6 +47,8 @@ MeshPointer held(MeshModel&& mesh, std::string mapped = {}) {
 Detail to_detail(const Real& deviation, const Whole& bytes) {
   Detail d;
   d.deviation = to_double(deviation, "deviation");
+  if (!(d.deviation >= 0))
+    throw py::value_error("deviation: expected a number from 0 on, got " + py::cast<std::string>(py::repr(deviation)));
   if (const auto kept = to_bytes_kept(bytes)) d.bytes = *kept;
   return d;
 }

@@ -322,6 +322,24 @@ TEST(MeshGeometry, LeaveTheRestToFcl) {
             measure<double>(ours, at<double>(0, 0, 3), cone, at<double>(0, 0, 0), fcls).min_distance);
 }
 
+/// libccd would end the program of what FCL asks it about triangles.
+TEST(MeshGeometry, MeetNothingInAPoseThatIsNotFinite) {
+  const fcl::Mesh<::fcl::OBBRSSd> ours(known_meshes()[0].mesh);
+  const ::fcl::Boxd box(1, 1, 1);
+  const fcl::Solver<double> solver;
+  const Transform<double> here = at<double>(0, 0, 0);
+  for (const double x : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    const Transform<double> nowhere = at<double>(x, 0, 0);
+    for (const auto& [mesh_there, there] : {std::pair(here, nowhere), std::pair(nowhere, here)}) {
+      for (const Geometry<double>* const other :
+           {static_cast<const Geometry<double>*>(&box), static_cast<const Geometry<double>*>(&ours)}) {
+        EXPECT_FALSE(collide<double>(ours, mesh_there, *other, there, solver).isCollision());
+        EXPECT_EQ(measure<double>(ours, mesh_there, *other, there, solver).o1, nullptr);
+      }
+    }
+  }
+}
+
 struct Met {
   std::size_t pairs = 0;  ///< that collide
   int steps_apart = 0;    ///< in which none do

@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bodies.h"
 #include "painted_stack.h"
 #include "solid_truth.h"
 
@@ -278,6 +279,36 @@ TEST(MeshDepth, OfConvexBodiesIsTheKernels) {
     EXPECT_EQ(std::memcmp(&of_mesh, &plain, sizeof plain), 0);
     EXPECT_EQ(signed_within(MeshBody(a), MeshBody(b), pose, -0.1).decision, signed_within(a, b, pose, -0.1).decision);
   }
+}
+
+/// Forgeries that one of check's proofs each would have to believe.
+TEST(MeshDepth, CheckRefusesADepthThatNothingProves) {
+  const MeshModel small = scaled(box({-1, -1, -1}, {1, 1, 1}), 0.125).mesh();
+  const Body block = Body::box({-1, -1, -1}, {1, 1, 1});
+  const Pose pose = shift(1.115, 0.1, 0.2);  // 0.01 deep
+  const Answer answer = signed_distance(block, small, pose);
+  ASSERT_TRUE(check(block, small, pose, answer)) << check(block, small, pose, answer).message;
+  ASSERT_EQ(answer.verdict, Verdict::Overlapping);
+  const auto refuses = [&](const MeshBody& a, const Pose& at, const Vec3& point_a, const Vec3& point_b, double upper) {
+    Answer forged = answer;
+    forged.point_a = point_a, forged.point_b = point_b, forged.upper = upper, forged.lower = upper - 0.05;
+    return !check(a, small, at, forged);
+  };
+  EXPECT_TRUE(refuses(block, pose, Vec3::Zero(), answer.point_b, -0.9)) << "a ball in one body alone";
+  EXPECT_TRUE(refuses(block, pose, {1e-80, 0, 0}, {1e-80, 0, 0}, -999)) << "a ball around no point of the kernel's";
+  Answer aside = intersects(block, small, pose);
+  aside.point_a = aside.point_b = {1e-80, 0, 0};
+  EXPECT_FALSE(check(block, small, pose, aside)) << "so little is 0, and not in the small one";
+  const Model nested = bodies::nested();
+  const Result<Model> cut = nested.cut({.deviation = 0.5 * nested.level(nested.level_count() - 1).deviation});
+  ASSERT_TRUE(cut);
+  ASSERT_GT(cut.value().finest_level(), 0);
+  const Pose deep = shift(0.1, 0, 0);
+  const Body coarse(cut.value());
+  Answer shallow = signed_distance(coarse, small, deep);
+  shallow.lower = shallow.upper = -1e-6;
+  shallow.status = Status::Converged;
+  EXPECT_FALSE(check(coarse, small, deep, shallow)) << "a translation that does not part them";
 }
 
 TEST(MeshDepth, SaysWhatItDoesNotKnow) {

@@ -91,6 +91,24 @@ TEST_F(ModelFile, SaveReplacesAndLeavesNothingBeside) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file.parent_path()), {}), 1);
 }
 
+TEST_F(ModelFile, SaveWritesWhereALinkLeads) {
+  std::filesystem::create_directory(path("there"));
+  std::error_code no_links_here;
+  std::filesystem::create_symlink("there/m.swl", path("second"), no_links_here);
+  std::filesystem::create_symlink("second", path("first"), no_links_here);
+  if (no_links_here) GTEST_SKIP() << "no symbolic links here";
+  for (const Model& model : {small(), nested(3)}) {  // where nothing was, and where a file was
+    ASSERT_TRUE(save(model, path("first")));
+    EXPECT_EQ(must(load(path("there/m.swl"))).hash(), model.hash());
+    EXPECT_TRUE(std::filesystem::is_symlink(path("first")) && std::filesystem::is_symlink(path("second")));
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("there")), {}), 1);
+  std::filesystem::create_symlink("other", path("one"));
+  std::filesystem::create_symlink("one", path("other"));
+  EXPECT_EQ(save(small(), path("one")).error().code, ErrorCode::CannotWrite);
+  EXPECT_TRUE(std::filesystem::is_symlink(path("one")));
+}
+
 TEST_F(ModelFile, SaveLeavesAloneWhatLiesBeside) {
   const std::byte kept[] = {std::byte{7}};
   const auto other = write_file("m.swl.part", kept), target = write_file("target", kept);

@@ -611,9 +611,17 @@ TEST(Model, ChildrenCanBeGiven) {
   const Result<Model> bad = Model::from_levels(arrays);
   ASSERT_FALSE(bad);
   EXPECT_EQ(bad.error().code, ErrorCode::BadValue);
-  child.pop_back();
-  arrays[1].child_vertex = child;
-  EXPECT_FALSE(Model::from_levels(arrays));
+  for (const std::size_t wrong : {7, 9}) {
+    child.assign(wrong, 4), arrays[1].child_vertex = child;
+    EXPECT_EQ(Model::from_levels(arrays).error().message,
+              "level 1: child_vertex has " + std::to_string(wrong) + " entries for 8 vertices");
+  }
+  arrays[1].child_vertex = {};
+  for (const std::size_t wrong : {5, 7}) {
+    child_of_face.assign(wrong, 5), arrays[1].child_of_face = child_of_face;
+    EXPECT_EQ(Model::from_levels(arrays).error().message,
+              "level 1: child_of_face has " + std::to_string(wrong) + " entries for 6 faces");
+  }
 }
 
 TEST(Model, OnlySolidsHaveCoarserLevels) {

@@ -441,10 +441,18 @@ TEST_F(Tool, LeavesAloneWhatLiesBesideItsOutput) {
     EXPECT_EQ(content(folder_ / "target"), "kept") << word;
     EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "c.part") && !std::filesystem::is_symlink(folder_ / "c")) << word;
   }
+  std::filesystem::create_symlink("target", folder_ / "link");
+  says("cut a.swl -o link");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "link"));
+  EXPECT_EQ(content(folder_ / "target"), model);
+  std::filesystem::remove(folder_ / "link");
+  std::filesystem::create_symlink("missing/target", folder_ / "link");
+  before_ = names();
+  refuses("cut a.swl -o link", "its folder does not exist", 1);
   says("cut b.part -o b");
   EXPECT_EQ(content(folder_ / "b.part"), model) << "it was read";
   EXPECT_EQ(content(folder_ / "b"), model);
-  EXPECT_EQ(names(), (std::vector<std::string>{"a.swl", "b", "b.part", "c", "c.part", "cube.off", "target"}));
+  EXPECT_EQ(names(), (std::vector<std::string>{"a.swl", "b", "b.part", "c", "c.part", "cube.off", "link", "target"}));
 }
 
 TEST_F(Tool, ErrorsAreJsonWhereJsonIsAsked) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,30 @@ TEST(World, AManifoldStaysWhicheverWayTheBodiesStand) {
   for (const Vec3& turn : {Vec3(1.57, 0, 0), Vec3(0.8, -0.3, 0.5)}) {
     const Mat3 turned = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
     EXPECT_LE(changes(made.value(), turned), upright);
+  }
+}
+
+/// Such a model has no level 0: what its finest level says of a half-space holds the body.
+TEST(World, AModelWithoutItsLevelZeroStandsOnItsFinest) {
+  constexpr double kDeviation = 0.01;
+  const Result<Model> made = cylinder(1, 1, kDeviation);
+  ASSERT_TRUE(made);
+  ASSERT_GT(made.value().finest_level(), 0);
+  const HalfSpace ground{Vec3::UnitZ(), 0};
+  for (const double turn : {0.0, 0.3, 1.2, 1.5707963267948966}) {
+    const double reach = std::cos(turn) + std::sin(turn);  // of the cylinder, below its middle
+    for (const double height : {5.0, reach + 2e-2, reach - 2e-2}) {
+      const Mat3 lean = Eigen::AngleAxisd(turn, Vec3::UnitX()).toRotationMatrix();
+      const Placed body{Body(made.value()), {lean, {0, 0, height}}};
+      const Nearest near = nearest(body, ground, 10);
+      ASSERT_EQ(near.found, Found::Nearest);
+      EXPECT_LE(near.distance, height - reach + 1e-12);
+      EXPECT_GE(near.distance, height - reach - kDeviation - 1e-12);
+      EXPECT_EQ(near.verdict, height > reach ? Verdict::Disjoint : Verdict::Overlapping);
+      Manifold manifold;
+      ASSERT_EQ(contacts(body, ground, 10, 4, manifold), Found::Nearest);
+      EXPECT_GE(manifold.count, 1u);
+    }
   }
 }
 

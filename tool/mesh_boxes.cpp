@@ -13,17 +13,13 @@ std::vector<OrientedBox> lowest_boxes(const MeshModel& mesh) {
   const double unit = std::ldexp(1.0, content.header.unit);
   std::vector<OrientedBox> boxes;
   for (const Node& node : content.nodes) {
-    float third[3];
-    third_axis(node.axis, third);
-    const Vec3 axis[3] = {{node.axis[0][0], node.axis[0][1], node.axis[0][2]},
-                          {node.axis[1][0], node.axis[1][1], node.axis[1][2]},
-                          {third[0], third[1], third[2]}};
+    const Axes axes = axes_of(node);
     for (int child = 0; child < node.count(); ++child) {
       if (!node.lowest() && node.first() + std::uint32_t(child) < content.nodes.size()) continue;
       OrientedBox box{Vec3(node.origin), {}};
       for (int k = 0; k < 3; ++k) {
-        box.middle += double(node.centre[k][child]) * axis[k];
-        box.half[std::size_t(k)] = unit * double(node.half[k][child]) * axis[k];
+        box.middle += double(node.centre[k][child]) * eigen(axes.row[k]);
+        box.half[std::size_t(k)] = unit * double(node.half[k][child]) * eigen(axes.row[k]);
       }
       box.middle *= unit;
       boxes.push_back(box);

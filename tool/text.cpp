@@ -100,13 +100,11 @@ Result<bool> may_write(const std::filesystem::path& path, const std::filesystem:
   const auto refused = [&](const std::string& why) { return named(path, {ErrorCode::CannotWrite, why}); };
   if (std::filesystem::equivalent(path, input, ignored)) return refused("is the input itself");
   if (std::filesystem::is_directory(path, ignored)) return refused("is a folder");
-  // A link too: the rename would replace it, /dev/stdout for one.
-  const std::filesystem::file_type kind = std::filesystem::symlink_status(path, failure).type();
+  const std::filesystem::file_type kind = std::filesystem::status(path, failure).type();
   if (kind == std::filesystem::file_type::none) return refused(failure.message());
-  if (kind == std::filesystem::file_type::symlink) return refused("is a link, which would be replaced");
   if (kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::regular)
     return refused("is no regular file");
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const std::filesystem::path target = target_of(path), folder = target.has_parent_path() ? target.parent_path() : ".";
   if (!std::filesystem::is_directory(folder, ignored)) return refused("its folder does not exist");
   return true;
 }

@@ -69,7 +69,7 @@ struct Lowest {
 Lowest lowest_of(const Body& body, const Vec3& up) {
   if (const Model* const model = body.model()) {
     const std::uint32_t lowest = model->support(-up);
-    const Vertex& v = model->level(0).view.vertices[lowest];
+    const Vertex& v = model->level(model->finest_level()).view.vertices[lowest];
     return {lowest, Vec3(v.x, v.y, v.z)};
   }
   const Vertices vertices(body);
@@ -104,11 +104,17 @@ Answer above(const Body& a, const Body& triangle, const Pose& b_in_a, Side side,
   answer.status = Status::Converged;
   answer.is_signed = true;
   answer.feature_a = {FeatureKind::Vertex, lowest};
+  double outside = 0;  // how far the model's finest level reaches beyond the body
+  if (const Model* const model = a.model()) {
+    answer.level_a = std::int16_t(model->finest_level());
+    outside = model->level(model->finest_level()).deviation;
+  }
   answer.feature_b = {FeatureKind::Face, side == Side::Front ? 0u : 1u};
   answer.radius_a = a.radius();
   answer.radius_b = triangle.radius();
-  answer.lower = answer.upper = height - a.radius() - triangle.radius();
-  answer.verdict = answer.lower > 0 ? Verdict::Disjoint : Verdict::Overlapping;
+  answer.lower = height - a.radius() - triangle.radius();
+  answer.upper = answer.lower + outside;
+  answer.verdict = answer.lower > 0 ? Verdict::Disjoint : answer.upper <= 0 ? Verdict::Overlapping : Verdict::Undecided;
   answer.normal = -up;
   answer.point_a = p - up * a.radius();
   answer.point_b = p - up * (height - triangle.radius());

@@ -150,6 +150,14 @@ std::string irregularity(const std::filesystem::path& path) {
   }
 }
 
+std::filesystem::path target_of(std::filesystem::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code none;
+  for (int links = 0; links < kMostLinks && std::filesystem::is_symlink(path, none); ++links)
+    path = path.parent_path() / std::filesystem::read_symlink(path, none);
+  return path;
+}
+
 Result<OwnedBytes> map_file(const std::filesystem::path& path) {
   if (const std::string fault = irregularity(path); !fault.empty()) return named(path, {ErrorCode::CannotRead, fault});
   const OpenFile file(path);
@@ -157,15 +165,17 @@ Result<OwnedBytes> map_file(const std::filesystem::path& path) {
   const std::uint64_t size = file.size();
   if (size == 0) return named(path, {ErrorCode::BadFormat, "is empty"});
   if (size > std::uint64_t{PTRDIFF_MAX})
-    return named(path, {ErrorCode::CannotRead, "is larger than what this machine can address"});
+    return named(path, {ErrorCode::TooLarge, "is larger than what this machine can address"});
   auto pages = file.pages(std::size_t(size));
   if (!pages) return named(path, {ErrorCode::CannotRead, last_failure()});
   const std::byte* const begin = pages.get();
   return OwnedBytes{std::move(pages), {begin, std::size_t(size)}};
 }
 
-Result<std::size_t> replace_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  const auto refused = [&path](const std::string& why) { return named(path, {ErrorCode::CannotWrite, why}); };
+Result<std::size_t> replace_file(const std::filesystem::path& name, std::span<const std::byte> bytes) {
+  const auto refused = [&name](const std::string& why) { return named(name, {ErrorCode::CannotWrite, why}); };
+  const std::filesystem::path path = target_of(name);
+  if (std::error_code none; std::filesystem::is_symlink(path, none)) return refused(std::generic_category().message(ELOOP));
   std::error_code failure, ignored;
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
     return refused("exists and is no file");

@@ -26,6 +26,9 @@ Error named(const std::filesystem::path& path, Error error);
 /// it; empty where nothing is there, too: why that cannot be read, the system tells.
 std::string irregularity(const std::filesystem::path& path);
 
+/// What a path names, or where its symbolic links lead, whether or not anything is there; a link of those that end nowhere.
+std::filesystem::path target_of(std::filesystem::path path);
+
 /// Bytes and their owner: heap memory, or a mapping of a file that ends with it.
 struct OwnedBytes {
   std::shared_ptr<const std::byte[]> owner;
@@ -33,12 +36,12 @@ struct OwnedBytes {
 };
 
 /// The pages of a file, which stay as they are when another file takes its place. Errors: CannotRead, of what is no
-/// regular file too, and BadFormat of an empty one.
+/// regular file too, BadFormat of an empty one, and TooLarge.
 Result<OwnedBytes> map_file(const std::filesystem::path& path);
 
-/// Writes a new file beside `path`, PATH.XXXX.part, PATH cut where that name were too long, with the mode of the file that it
-/// replaces, then renames it, so that a failure leaves the old file and nothing beside it. Of calls at once, by threads or
-/// processes, one wins whole. Returns the bytes written. Errors: CannotWrite.
-Result<std::size_t> replace_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+/// Writes a new file beside `name`, PATH.XXXX.part, PATH cut where that name were too long, with the mode of the file that it
+/// replaces, then renames it, so that a failure leaves the old file and nothing beside it. A symbolic link stays, and leads to
+/// the new file. Of calls at once, by threads or processes, one wins whole. Returns the bytes written. Errors: CannotWrite.
+Result<std::size_t> replace_file(const std::filesystem::path& name, std::span<const std::byte> bytes);
 
 }  // namespace swiftlet

@@ -4,7 +4,6 @@
 // signs. No polytope is expanded.
 #include <swiftlet/check.h>
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>

@@ -3,7 +3,6 @@
 // Makes a Model of surfaces, finest first [Ehmann & Lin 2000, sec. 4.3]: proves enclosure, measures deviations, fills links and
 // tables. Knows all levels of one model, no poses.
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include <swiftlet/march.h>
@@ -13,7 +12,6 @@
 #include "body/table.h"
 #include "make/surface.h"
 #include "numeric/chunks.h"
-#include "numeric/exact.h"
 #include "pair/certify.h"
 #include "pair/start.h"
 #include "pair/walk.h"
@@ -153,6 +151,14 @@ std::uint32_t kept_face(const ConvexView& level, std::uint32_t face, const std::
 Result<bool> link_to_finer(Draft& level, const LevelArrays& arrays, const Draft& finer, const std::string& name,
                            const Executor& executor) {
   const ConvexView view = level.surface.view(), fine = finer.surface.view();
+  const auto lacks = [&](std::size_t has, const char* member, std::size_t wants, const char* of) -> Error {
+    return {ErrorCode::BadValue, name + member + " has " + std::to_string(has) + " entries for " + std::to_string(wants) + of};
+  };
+  const std::size_t vertices = level.surface.input_vertex.size(), faces = level.surface.input_face.size();
+  if (const std::size_t has = arrays.child_vertex.size(); has != 0 && has != vertices)
+    return lacks(has, "child_vertex", vertices, " vertices");
+  if (const std::size_t has = arrays.child_of_face.size(); has != 0 && has != faces)
+    return lacks(has, "child_of_face", faces, " faces");
   const auto ours = [&](std::uint32_t input) {
     return input < finer.surface.input_vertex.size() ? finer.surface.input_vertex[input] : kNone;
   };
@@ -160,7 +166,7 @@ Result<bool> link_to_finer(Draft& level, const LevelArrays& arrays, const Draft&
     level.child_vertex = nearest_vertices(view, fine, executor);
   } else {
     for (const std::uint32_t input : level.surface.vertex_input) {
-      const std::uint32_t child = input < arrays.child_vertex.size() ? ours(arrays.child_vertex[input]) : kNone;
+      const std::uint32_t child = ours(arrays.child_vertex[input]);
       if (child == kNone)
         return Error{ErrorCode::BadValue,
                      name + "vertex " + std::to_string(input) + " has no child among the finer level's vertices"};
@@ -168,7 +174,7 @@ Result<bool> link_to_finer(Draft& level, const LevelArrays& arrays, const Draft&
     }
   }
   std::vector<std::uint32_t> removed(view.face_first.size(), kNone);
-  for (std::size_t f = 0; f < arrays.child_of_face.size() && f < level.surface.input_face.size(); ++f) {
+  for (std::size_t f = 0; f < arrays.child_of_face.size(); ++f) {
     if (arrays.child_of_face[f] >= finer.surface.input_vertex.size())
       return Error{ErrorCode::BadValue, name + "face " + std::to_string(f) + " has the child " +
                                             std::to_string(arrays.child_of_face[f]) + ", no vertex of the finer level"};

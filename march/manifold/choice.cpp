@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "manifold/choice.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "manifold/largest_polygon.h"

@@ -20,7 +20,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "body/half_edge.h"
 #include "manifold/clip.h"

@@ -5,7 +5,6 @@
 #include "query/descend.h"
 #include "pair/certify.h"
 #include "pair/conclude.h"
-#include "pair/gjk.h"
 #include "pair/overlap.h"
 #include "pair/start.h"
 #include "pair/support_gjk.h"
@@ -16,7 +15,6 @@
 #include "query/separating_axis.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace swiftlet {
 namespace {

@@ -4,8 +4,6 @@
 #include "query/seed.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "body/half_edge.h"
 #include "body/support_map.h"

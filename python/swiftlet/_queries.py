@@ -72,7 +72,8 @@ _OUT = """out : Answers, optional
 _RAISES = """TypeError, ValueError
         Arguments of another kind, dtype or shape; the message says what came and what is wanted.
     KeyboardInterrupt
-        Ctrl-C ends a batch within 100 ms; its answers are dropped, seeds are valid as ever."""
+        Ctrl-C ends a batch within 100 ms, or when the queries that were begun have ended; its answers are dropped, seeds are
+        valid as ever."""
 
 _ERRORS = """absolute : float, optional
         Stop when ``upper - lower <= max(absolute, relative * lower)``; the bodies' unit. 0: exact, within `tolerance`.
@@ -657,6 +658,8 @@ def manifold(
     -----
     C++: manifold.h, mesh_contacts.h.
     """
+    if not (previous is None or isinstance(previous, Manifold)):
+        raise TypeError(f"previous: expected a Manifold, got {type(previous).__name__}")
     before = None if previous is None else tuple(previous)
     parts = _runtime.run_manifold(a, b, pose, _record(answer), margin, most_points, flatness, before, quaternion, copy)
     return Manifold(*parts)

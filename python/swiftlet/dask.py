@@ -38,7 +38,7 @@ from numpy.typing import NDArray
 
 from . import _queries
 from ._answers import Answers
-from ._errors import Cancelled, DataError, ErrorCode, FileError, Verdict
+from ._errors import Cancelled, DataError, ErrorCode, FileError, Status, Verdict
 from ._queries import AnyBody
 from ._reductions import FirstOverlap, Histogram, Least, LeastDistance, Map, Partial, Reduction, Rows, Verdicts
 from ._runtime import POSES_PER_CHUNK, Body
@@ -159,12 +159,18 @@ class _Job:
         ask = getattr(_queries, self.query)
         if memory is None or len(memory[0]) != count:
             memory = [None] * len(self.a)  # type: ignore[list-item]
-        answers = []
+        answers: list[Answers] = []
         for a, b, poses, out in zip(self.a, self.b, self.made(first, count), memory):
             made = len(poses[0] if isinstance(poses, tuple) else poses)
             answer = ask(a, b, poses, out=out if made == count else None, **self.options)
             if answer.shape != (count,):
                 raise ValueError(f"poses({first}, {count}): expected {count} poses, got {answer.shape}")
+            if (refused := answer.status >= Status.INVALID_POSE).any():
+                i = int(refused.argmax())
+                status = Status(int(answer.status[i]))
+                what = f"pose {first + i}" if status == Status.INVALID_POSE else "a or b"
+                pair = f" of pair {len(answers)}" if self.several else ""
+                raise ValueError(f"{what}{pair}: {status.name}, see swiftlet.Status")
             answers.append(answer)
         return _nearest(first, answers), answers
 
@@ -225,7 +231,9 @@ class _Checkpoint:
     """Which chunks are done, and what they gave: a NumPy .npz file without pickles, replaced whole."""
 
     def __init__(self, path: Any, digest: str, chunks: int) -> None:
-        self.path, self.digest = os.fsdecode(path), digest
+        self.path, self.digest = os.path.realpath(os.fsdecode(path)), digest
+        if os.path.exists(self.path) and not os.path.isfile(self.path):
+            raise FileError(f"the checkpoint '{self.path}' is no regular file", ErrorCode.CANNOT_WRITE, self.path)
         self.done = np.zeros(chunks, bool)
 
     def load(self) -> Optional[list[Partial]]:
@@ -260,7 +268,7 @@ class _Checkpoint:
             self.done[last] = True
         parts = {f"part_{r}_{i}": array for r, partial in enumerate(whole) for i, array in enumerate(partial)}
         widths = np.array([len(partial) for partial in whole])
-        beside = os.path.join(os.path.dirname(os.path.abspath(self.path)), f"sweep-{uuid.uuid4().hex}")
+        beside = os.path.join(os.path.dirname(self.path), f"sweep-{uuid.uuid4().hex}")
         try:
             with open(beside, "xb", opener=lambda name, flags: os.open(name, flags, 0o600)) as file:
                 np.savez(file, sweep=np.array(self.digest), done=np.packbits(self.done), widths=widths, **parts)
@@ -430,7 +438,8 @@ def sweep(
     Raises
     ------
     TypeError, ValueError
-        Arguments, or what `poses` returned. The first poses are made and asked in this process, before any worker has them.
+        Arguments, or what `poses` returned, as a pose that the query refuses: it is named. The first poses are made and asked in
+        this process, before any worker has them.
     DataError
         The checkpoint is of another sweep, or none. It knows poses by up to 5 blocks of 1 024 of them, evenly spread.
     FileError

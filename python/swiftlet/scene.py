@@ -233,6 +233,7 @@ class CollisionManager:
         names : (str, str) or None, if `return_names`
             A name of this manager, then one of the other.
         data : DistanceData or None, if `return_data`
+            By names: of two bodies of one name only the other manager's point and feature.
         """
         distance, names, data = _nearest(self, other_manager)
         return _distance(distance, names, data, return_names, return_data)

@@ -195,6 +195,8 @@ def test_arguments_are_named_where_they_are_wrong(fat, mesh, tmp_path):
         (lambda: fat[0].with_table(map_cells=2**32), "map_cells: .*, got 4294967296"),
         (lambda: fat[0].with_table(radius_factor="2"), "radius_factor: expected a number, got str"),
         (lambda: fat[0].cut(deviation=10**400), "deviation: expected a number, got one that float64 cannot hold"),
+        (lambda: fat[0].cut(deviation=float("nan")), "deviation: expected a number from 0 on, got nan"),
+        (lambda: mesh.cut(deviation=-1), "deviation: expected a number from 0 on, got -1"),
         (lambda: fat[0].ensure("all"), "level: expected a whole number"),
         (lambda: fat[0].level(1.0), "index: expected a whole number"),
         (lambda: mesh.cut(deviation=[]), "deviation: expected a number, got list"),

@@ -170,6 +170,24 @@ def test_no_interruption_leaves_files(fat, tmp_path, monkeypatch, function, erro
     assert sum(ask().values()) == len(POSES)
 
 
+def test_a_pose_that_is_refused_is_named(fat):
+    poses = POSES.copy()
+    poses[2500, 0, 0] = 3
+    with pytest.raises(ValueError, match="pose 2500: INVALID_POSE"):
+        sweep(*fat, poses, Verdicts(), chunk=1024)
+
+
+def test_a_checkpoint_is_a_regular_file_where_links_lead(fat, tmp_path):
+    (tmp_path / "there").mkdir()
+    os.symlink("there/sweep.npz", tmp_path / "link.npz")
+    for _ in range(2):
+        sweep(*fat, POSES, Verdicts(), chunk=1024, checkpoint=tmp_path / "link.npz")
+        assert os.path.islink(tmp_path / "link.npz") and (tmp_path / "there" / "sweep.npz").is_file()
+    for other in (os.devnull, tmp_path):
+        with pytest.raises(swiftlet.FileError, match="is no regular file"):
+            sweep(*fat, POSES, Verdicts(), chunk=1024, checkpoint=other)
+
+
 def test_a_damaged_checkpoint_is_told_so(fat, tmp_path):
     file = tmp_path / "sweep.npz"
 

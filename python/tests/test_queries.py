@@ -437,6 +437,8 @@ def test_manifolds_of_a_box_on_a_box(cube):
     np.testing.assert_allclose(points.points["separation"], -0.1, atol=1e-12)
     again = swiftlet.manifold(cube, cube, pose, swiftlet.Pair(cube, cube).signed_distance(pose), previous=points)
     assert again.points.tobytes() == points.points.tobytes()
+    with pytest.raises(TypeError, match="previous: expected a Manifold, got tuple"):
+        swiftlet.manifold(cube, cube, pose, swiftlet.distance(cube, cube, pose), previous=(1, 2))
     with pytest.raises(ValueError, match="from 1 to 8, got 9"):
         swiftlet.manifold(cube, cube, pose, swiftlet.signed_distance(cube, cube, pose), most_points=9)
 

@@ -696,7 +696,8 @@ TEST(C, AnswersOfNoLevelAreRefused) {
     EXPECT_STREQ(error.message, text);
     EXPECT_EQ(result.ok, 7);
     EXPECT_EQ(swiftlet_contact_points(&a, &b, &pose, &answer, nullptr, nullptr, &manifold, nullptr), SWIFTLET_BAD_VALUE);
-    EXPECT_EQ(swiftlet_refine(&a, &b, &pose, &answer, nullptr, nullptr, &refined, nullptr), SWIFTLET_BAD_VALUE);
+    EXPECT_EQ(swiftlet_refine(&a, &b, &pose, &answer, nullptr, nullptr, &refined, &error), SWIFTLET_BAD_VALUE);
+    EXPECT_EQ(std::string(error.message), "so_far" + std::string(text).substr(std::strlen("answer")));
   };
   swiftlet_answer bad = good;
   bad.level_a = 65536;

@@ -800,12 +800,13 @@ typedef struct swiftlet_contact {
 
 /// What swiftlet_contacts found: MeshContacts of C++. All members are written.
 typedef struct swiftlet_contact_list {
-  uint32_t size;         ///< of this struct, set by the caller
-  int32_t status;        ///< CONVERGED: all regions are stored; BUDGET: not all are
-  int32_t is_counted;    ///< 1: `count` is the number of regions
-  uint32_t count;        ///< regions in all; unless `is_counted`, as many as were told apart
-  uint32_t stored;       ///< regions that the array holds
-  uint32_t steps;        ///< pairs of nodes that were opened
+  uint32_t size;       ///< of this struct, set by the caller
+  int32_t status;      ///< CONVERGED: all regions are stored; BUDGET: not all are; LEVEL_LIMIT: a mesh was cut, and nothing is
+                       ///< stored, or a model lacks level 0, and regions are those of its finest level; else as of queries
+  int32_t is_counted;  ///< 1: `count` is the number of regions
+  uint32_t count;      ///< regions in all; unless `is_counted`, as many as were told apart
+  uint32_t stored;     ///< regions that the array holds
+  uint32_t steps;      ///< pairs of nodes that were opened
   uint32_t plane_tests;  ///< pairs of triangles that were looked at
   uint32_t reserved;     ///< 0
 } swiftlet_contact_list;

@@ -104,7 +104,7 @@ MarchResult march(const ConvexView& a, const ConvexView& b, const Pose& b_in_a, 
 FeatureId table_start(const Model& model, const Vec3& direction);
 
 /// Returns the caller's tag of a face, or the largest tag among the faces at an edge or vertex; 0 without tags, and for
-/// `FeatureId{}`.
+/// `FeatureId{}`. The feature must be one of the view's.
 std::uint8_t tag(const ConvexView& view, FeatureId feature);
 
 }  // namespace swiftlet

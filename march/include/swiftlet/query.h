@@ -37,8 +37,8 @@ enum class Verdict : std::uint8_t {
   Disjoint,     ///< lower > 0
   Touching,     ///< the signed distance is within `tolerance` of 0; lower may still be above 0. Bodies in one
                 ///< common plane that overlap in it are Touching too, since their depth is 0
-  Overlapping,  ///< the bodies share a point: proved by an OverlapProof (Tuning::proof), by points of the hulls whose distance
-                ///< is less than the sum of the radii, or by upper < 0
+  Overlapping,  ///< the bodies share a point: proved by an OverlapProof (Tuning::proof), by balls or ellipsoids inside both, by
+                ///< points of the hulls whose distance is less than the sum of the radii, or by upper < 0
 };
 
 /// By how many levels a query descends where a level pair does not answer [Ehmann & Lin 2000, sec. 5.2].
@@ -125,8 +125,8 @@ struct Answer {
   std::uint8_t levels_visited = 0;        ///< number of level pairs visited: the records that a complete trace has
   std::int16_t level_a = 0, level_b = 0;  ///< the level pair that answered
   FeatureId feature_a;  ///< on `level_a`, holds `point_a` on the hull if a distance's interval is that of an exact answer; of
-                        ///< a question of yes or no it may be that of the last sample; none where balls around or inside the
-                        ///< bodies answered, a proof of an overlap that the seed kept, or a depth's polytope
+                        ///< a question of yes or no it may be that of the last sample; none where balls or ellipsoids around
+                        ///< or inside the bodies answered, or no point is known
   FeatureId feature_b;  ///< on `level_b`, holds `point_b` on the hull; none where `feature_a` is
   std::uint32_t steps = 0, plane_tests = 0;                           ///< work, as MarchResult counts it, over all levels
   double lower = 0, upper = std::numeric_limits<double>::infinity();  ///< proved bounds on the distance of the bodies

@@ -154,6 +154,12 @@ std::vector<Touch> touches(const Operand& a, const Operand& b, PairSeed& seed);
 /// The deepest, where `nearest` finds one.
 std::optional<Touch> deepest_touch(const Operand& a, const Operand& b, PairSeed& seed);
 
+/// Whether all poses are finite: libccd ends the program where one is not.
+template <class... Transforms>
+bool are_somewhere(const Transforms&... tf) {
+  return (tf.matrix().allFinite() && ...);
+}
+
 /// What a Solver is but for meshes of ours, which FCL's functions of shapes do not bring to a solver as a whole.
 template <class S_, class Others = ::fcl::detail::GJKSolver_libccd<S_>>
 struct ShapeSolver {
@@ -271,12 +277,6 @@ struct ShapeSolver {
   template <class... Shapes>
   static constexpr bool is_plane = (std::is_same_v<Shapes, ::fcl::Plane<S>> || ...);
 
-  /// Whether all poses are finite: libccd ends the program where one is not.
-  template <class... Transforms>
-  static bool are_somewhere(const Transforms&... tf) {
-    return (tf.matrix().allFinite() && ...);
-  }
-
   /// Whether they share a point, and where; nothing where the kernel does not answer.
   std::optional<bool> meets(const Operand& a, const Operand& b, Point* contact, S* depth, Point* normal) const {
     const Verdict verdict = meeting(a, b, seed);
@@ -359,6 +359,7 @@ struct MeshFunctions {
         if (found.verdict != Verdict::Disjoint) add_contacts(*a, *b, found, *o1, *o2, request, result);
         return result.numContacts();
       }
+      if (!are_somewhere(tf1, tf2)) return result.numContacts();
     }
     const auto& fcls = ::fcl::getCollisionFunctionLookTable<Asked>().collision_matrix;
     return fcls[o1->getNodeType()][o2->getNodeType()](o1, tf1, o2, tf2, solver, request, result);
@@ -375,6 +376,7 @@ struct MeshFunctions {
         hand_out(found, *o1, *o2, request, result);
         return result.min_distance;
       }
+      if (!are_somewhere(tf1, tf2)) return result.min_distance;
     }
     const auto& fcls = ::fcl::getDistanceFunctionLookTable<Asked>().distance_matrix;
     return fcls[o1->getNodeType()][o2->getNodeType()](o1, tf1, o2, tf2, solver, request, result);
