@@ -102,7 +102,7 @@ double tolerance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a);
 /// far apart as the interval says; if `lower` is above law 2's bound, the normal must lead from `point_a` to `point_b`. Of
 /// bodies that touch, no two parts may be deeper in each other than law 2's bound. Of solids a corner of every triangle is
 /// looked for inside the other, by a ray through all triangles. Cost: about 1 microsecond for each pair of triangles, and of a
-/// depth, or of Touching, 10 for each pair that crosses.
+/// depth, or of Touching, a signed distance of each pair that crosses.
 Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answer& answer);
 
 /// Proves that the box of every node holds its triangles, that axes are unit and at right angles, that each triangle is in the
