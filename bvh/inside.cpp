@@ -101,8 +101,8 @@ bool Enclosure::holds(const Vec& point) const {
     const Node& node = mesh_.nodes[stack[--top]];
     const Axes axes = axes_of(node);
     const Vec start = axes.along(from - Vec{node.origin[0], node.origin[1], node.origin[2]});
-    const double at[3] = {start.x, start.y, start.z};
-    double along[3];  // the ray's direction
+    const double at[3] = {start.x, start.y, start.z};  // the ray's start from the node's origin, along the node's axes
+    double along[3];                                   // the ray's direction along them
     for (int k = 0; k < 3; ++k) along[k] = eigen(axes.row[k])[ray.axis] * ray.direction;
     for (int i = 0; i < node.count(); ++i) {
       double off[3], half[3];

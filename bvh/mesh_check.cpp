@@ -31,7 +31,7 @@ bool is_unit(const Vec3& n) {
   return std::fabs(double(dot(wide_n, wide_n) - 1.0)) <= kUnitError;
 }
 
-/// Whether the kernel takes it as a point.
+/// Whether a query takes it as a point; coordinates too small for one count as 0.
 bool is_point(const Vec3& p) {
   const Vec q = legal(vec(p));
   return is_legal_coordinate(q.x) && is_legal_coordinate(q.y) && is_legal_coordinate(q.z);
@@ -92,15 +92,14 @@ struct Parts {
     if (of.mesh()) {
       for (std::size_t v = 0; v < of.mesh()->vertex_count(); ++v) add(of.mesh()->vertex(v));
     } else {
-      const ShapeOf shape(of.convex());  // without level 0 a coarser one, which holds the body
-      const Body& convex = of.convex();
-      const int finest = convex.model() ? convex.model()->finest_level() : 0;
-      for (const Vertex& v : (*shape).level(finest).view.vertices) add(eigen(vec(v)));
+      const ShapeOf shape(of.convex());
+      const Model* const model = of.convex().model();  // whose finest level holds the body
+      for (const Vertex& v : (*shape).level(model ? model->finest_level() : 0).view.vertices) add(eigen(vec(v)));
     }
     return most + n.norm() * of.radius();
   }
-  /// The distance of a point of A's frame from the body, with its volume if it is solid; at least so much. Infinite of what is
-  /// no point of a body.
+  /// A lower bound on the distance of a point, in A's frame, from the body, of a solid from its volume. Infinite where a query
+  /// would refuse the point.
   double distance_to(const Vec3& p, const Pose& at, bool is_b) const {
     if (!is_point(p)) return HUGE_VAL;
     if (of.is_solid() && Enclosure(MeshReader::content(*of.mesh()), at, is_b).holds_without_tree(vec(p))) return 0;
@@ -112,7 +111,7 @@ struct Parts {
     }
     return least;
   }
-  /// The radius of a ball around a point of A's frame that lies in the body, for a point that does; at most so much.
+  /// An upper bound on the radius of a ball around a point, in A's frame, that lies in the body. The point must lie in it.
   double free_ball(const Vec3& p, const Pose& at, bool is_b) const {
     if (!of.mesh()) {
       const Body point = point_at(p);

@@ -39,9 +39,10 @@ struct OwnedBytes {
 /// regular file too, BadFormat of an empty one, and TooLarge.
 Result<OwnedBytes> map_file(const std::filesystem::path& path);
 
-/// Writes a new file beside `name`, PATH.XXXX.part, PATH cut where that name were too long, with the mode of the file that it
-/// replaces, then renames it, so that a failure leaves the old file and nothing beside it. A symbolic link stays, and leads to
-/// the new file. Of calls at once, by threads or processes, one wins whole. Returns the bytes written. Errors: CannotWrite.
+/// Writes a new file PATH.XXXX.part, where PATH is the target of `name`, cut where that were too long, with the mode of the
+/// file that it replaces, then renames it, so that a failure leaves the old file and nothing beside it. Symbolic links stay,
+/// and lead to the new file. Of calls at once, by threads or processes, one wins whole. Returns the bytes written. Errors:
+/// CannotWrite.
 Result<std::size_t> replace_file(const std::filesystem::path& name, std::span<const std::byte> bytes);
 
 }  // namespace swiftlet

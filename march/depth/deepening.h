@@ -172,7 +172,7 @@ class Deepening : public Found {
     if (a_.map_level() == a_.level_count() || b_.map_level() == b_.level_count()) return lowest;
     double least = kInfinity;
     for (const Vec& axis : {lowest, across(a_), rotate(pair_.motion, across(b_))}) {
-      if (max_abs(axis) == 0) continue;  // of bodies with one centre there is no line
+      if (max_abs(axis) == 0) continue;  // bodies with one centre have no line of centres
       const Vec n = dot(axis, line_.in_a) < 0 ? -axis : axis, own = rotate_back(pair_.motion, -n);
       const Vec p = vec(view_a.vertices[about_farthest(a_, finest_a_, n)]),
                 q = vec(view_b.vertices[about_farthest(b_, finest_b_, own)]);

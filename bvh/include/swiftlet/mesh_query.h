@@ -97,12 +97,12 @@ double tolerance(const MeshBody& a, const MeshBody& b, const Pose& b_in_a);
 
 /// Recomputes what `answer` claims by brute force over all pairs of triangles, each by a query of the atomic kernel, without
 /// the trees: bounds and verdict must agree with the least distance. Radii must be the bodies', the normal unit and both points
-/// numbers, or NaN. Of bodies that overlap, or share the point that both are, each point must lie in its body and features
+/// numbers, or NaN. Where the bodies overlap, or both points are one that they share, each must lie in its body and features
 /// exist or be none. Else, if `upper` is finite, features must exist, each point must lie on its feature and the points be as
 /// far apart as the interval says; if `lower` is above law 2's bound, the normal must lead from `point_a` to `point_b`. Of
 /// bodies that touch, no two parts may be deeper in each other than law 2's bound. Of solids a corner of every triangle is
-/// looked for inside the other, by a ray through all triangles. Cost: about 1 microsecond for each pair of triangles, and of a
-/// depth, or of Touching, a signed distance of each pair that crosses.
+/// looked for inside the other, by a ray through all triangles. Cost: about 1 microsecond for each pair of triangles; of a
+/// depth also a signed distance of each pair, of Touching of each that crosses.
 Check check(const MeshBody& a, const MeshBody& b, const Pose& b_in_a, const Answer& answer);
 
 /// Proves that the box of every node holds its triangles, that axes are unit and at right angles, that each triangle is in the

@@ -156,7 +156,7 @@ std::optional<Touch> deepest_touch(const Operand& a, const Operand& b, PairSeed&
 
 /// Whether all poses are finite: libccd ends the program where one is not.
 template <class... Transforms>
-bool are_somewhere(const Transforms&... tf) {
+bool are_finite(const Transforms&... tf) {
   return (tf.matrix().allFinite() && ...);
 }
 
@@ -190,7 +190,7 @@ struct ShapeSolver {
         return true;
       }
       if (is_plane<Shape1, Shape2> && (is_model(a) || is_model(b))) return false;
-      if (!are_somewhere(tf1, tf2)) return false;
+      if (!are_finite(tf1, tf2)) return false;
     }
     return others.shapeIntersect(s1, tf1, s2, tf2, contacts);
   }
@@ -201,7 +201,7 @@ struct ShapeSolver {
     if constexpr (may_be_ours<Shape1, Shape2>) {
       const Nearest near = nearest(operand(s1, tf1), operand(s2, tf2), seed);
       if (near.found != Found::Nothing) return is_apart(near, distance, p1, p2);
-      if (is_flat<Shape1, Shape2> || !are_somewhere(tf1, tf2)) return nothing(distance, p1, p2);
+      if (is_flat<Shape1, Shape2> || !are_finite(tf1, tf2)) return nothing(distance, p1, p2);
     }
     return others.shapeDistance(s1, tf1, s2, tf2, distance, p1, p2);
   }
@@ -212,7 +212,7 @@ struct ShapeSolver {
     if constexpr (may_be_ours<Shape1, Shape2>) {
       const Nearest near = nearest(operand(s1, tf1), operand(s2, tf2), seed);
       if (near.found != Found::Nothing) return hand_out(near, distance, p1, p2), near.verdict != Verdict::Overlapping;
-      if (is_flat<Shape1, Shape2> || !are_somewhere(tf1, tf2)) return nothing(distance, p1, p2);
+      if (is_flat<Shape1, Shape2> || !are_finite(tf1, tf2)) return nothing(distance, p1, p2);
     }
     return others.shapeSignedDistance(s1, tf1, s2, tf2, distance, p1, p2);
   }
@@ -223,7 +223,7 @@ struct ShapeSolver {
     if constexpr (may_be_ours<Shape>) {
       const std::optional<bool> found = meets(operand(s, tf), triangle<S>(p, q, r, {}), contact, depth, normal);
       if (found) return *found;
-      if (!are_somewhere(tf)) return false;
+      if (!are_finite(tf)) return false;
     }
     return others.shapeTriangleIntersect(s, tf, p, q, r, contact, depth, normal);
   }
@@ -234,7 +234,7 @@ struct ShapeSolver {
     if constexpr (may_be_ours<Shape>) {
       const std::optional<bool> found = meets(operand(s, tf1), triangle<S>(p, q, r, pose_of(tf2)), contact, depth, normal);
       if (found) return *found;
-      if (!are_somewhere(tf1, tf2)) return false;
+      if (!are_finite(tf1, tf2)) return false;
     }
     return others.shapeTriangleIntersect(s, tf1, p, q, r, tf2, contact, depth, normal);
   }
@@ -245,7 +245,7 @@ struct ShapeSolver {
     if constexpr (may_be_ours<Shape>) {
       const Nearest near = nearest(operand(s, tf), triangle<S>(p, q, r, {}), seed);
       if (near.found != Found::Nothing) return is_apart(near, distance, p1, p2);
-      if (!are_somewhere(tf)) return nothing(distance, p1, p2);
+      if (!are_finite(tf)) return nothing(distance, p1, p2);
     }
     return others.shapeTriangleDistance(s, tf, p, q, r, distance, p1, p2);
   }
@@ -255,7 +255,7 @@ struct ShapeSolver {
     if constexpr (may_be_ours<Shape>) {
       const Nearest near = nearest(operand(s, tf1), triangle<S>(p, q, r, pose_of(tf2)), seed);
       if (near.found != Found::Nothing) return is_apart(near, distance, p1, p2);
-      if (!are_somewhere(tf1, tf2)) return nothing(distance, p1, p2);
+      if (!are_finite(tf1, tf2)) return nothing(distance, p1, p2);
     }
     return others.shapeTriangleDistance(s, tf1, p, q, r, tf2, distance, p1, p2);
   }
@@ -359,7 +359,7 @@ struct MeshFunctions {
         if (found.verdict != Verdict::Disjoint) add_contacts(*a, *b, found, *o1, *o2, request, result);
         return result.numContacts();
       }
-      if (!are_somewhere(tf1, tf2)) return result.numContacts();
+      if (!are_finite(tf1, tf2)) return result.numContacts();
     }
     const auto& fcls = ::fcl::getCollisionFunctionLookTable<Asked>().collision_matrix;
     return fcls[o1->getNodeType()][o2->getNodeType()](o1, tf1, o2, tf2, solver, request, result);
@@ -376,7 +376,7 @@ struct MeshFunctions {
         hand_out(found, *o1, *o2, request, result);
         return result.min_distance;
       }
-      if (!are_somewhere(tf1, tf2)) return result.min_distance;
+      if (!are_finite(tf1, tf2)) return result.min_distance;
     }
     const auto& fcls = ::fcl::getDistanceFunctionLookTable<Asked>().distance_matrix;
     return fcls[o1->getNodeType()][o2->getNodeType()](o1, tf1, o2, tf2, solver, request, result);
