@@ -49,7 +49,8 @@ void print_time(const Body& a, const Body& b, const std::vector<Pose>& poses, co
   double sum = 0;
   for (int round = 0; round < kRounds; ++round) {
     const Clock::time_point begin = Clock::now();
-    for (const Pose& pose : poses) sum += distance(a, b, pose, seed, options).upper;
+    for (const Pose& pose : poses)
+      sum += options.absolute > 0 ? distance(a, b, pose, seed, options).upper : distance(a, b, pose, seed).upper;
     ns.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count() / double(poses.size()));
   }
   std::sort(ns.begin(), ns.end());
@@ -82,8 +83,10 @@ int main(int argc, char** argv) {
     const auto count = [&](const auto& answer) { steps += answer.steps, tests += answer.plane_tests; };
     if (question == "signed_distance")
       count(signed_distance(a, b, pose, seed, options));
+    else if (question == "intersects")
+      count(intersects(a, b, pose, seed));
     else
-      count(question == "intersects" ? intersects(a, b, pose, seed) : distance(a, b, pose, seed, options));
+      count(argc == 4 ? distance(a, b, pose, seed, options) : distance(a, b, pose, seed));
   }
   const double n = double(poses.size());
   std::printf("queries %.0f steps %.2f tests %.1f\n", n, steps / n, tests / n);

@@ -16,6 +16,7 @@
 #include <swiftlet/manifold.h>
 #include <swiftlet/query.h>
 
+#include "answers.h"
 #include "oracle.h"
 #include "shapes.h"
 #include "upper_halves.h"
@@ -258,6 +259,29 @@ TEST(Distance, EndsWhateverTheOptionsBitsAre) {  // an order of refinement that 
       EXPECT_EQ(answer.status, Status::Converged);
       EXPECT_LE(answer.lower, expected.upper);
       EXPECT_GE(answer.upper, expected.lower);
+    }
+  }
+}
+
+TEST(Distance, WithoutOptionsIsThatOfTheDefaultOnes) {
+  const Bodies& pair = bodies(shapes::Family::Long);
+  const std::array<Body, 6> kinds{pair.a,
+                                  pair.b,
+                                  Body(pair.a, 0.25),
+                                  Body::box({-1, -0.5, -0.25}, {1, 0.5, 0.25}),
+                                  Body::segment({0, 0, -1}, {0, 0, 1}, 0.5),
+                                  Body()};
+  for (const Body& a : kinds) {
+    for (const Body& b : kinds) {
+      shapes::Random random(11);
+      PairSeed plain, with_options, verdict, with_effort;
+      for (int i = 0; i < 40; ++i) {
+        const Pose pose{random.rotation(), random.uniform(0, 3) * random.on_sphere()};
+        for (int again = 0; again < 2; ++again) {  // from another pose's seed, then from this one's
+          EXPECT_TRUE(same_bits(distance(a, b, pose, plain), distance(a, b, pose, with_options, {})));
+          EXPECT_TRUE(same_bits(intersects(a, b, pose, verdict), intersects(a, b, pose, with_effort, {})));
+        }
+      }
     }
   }
 }

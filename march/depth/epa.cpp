@@ -122,7 +122,7 @@ class Polytope {
   /// these directions the hull of M and the far points is as high as M; elsewhere it is no lower.
   bool begin(const Cone& cone) {
     lower_ = 0, rim_ = 0;
-    moved_ = (kGridError + 4 * kPlaneHeightFloor) * pair_.magnitude;  // coordinates of far points are below 4 * `binade_`
+    moved_ = (kGridError + kConeHeightFloor) * pair_.magnitude;
     std::array<Corner, 4> corners{support(normalised(cone.x + cone.y + cone.z), 0, 0)};
     std::size_t count = 1;
     for (const Vec& edge : {cross(cone.x, cone.y), cross(cone.y, cone.z), cross(cone.z, cone.x)}) {

@@ -61,8 +61,9 @@ inline constexpr double kWideTripleProductError = 0x1p-96;
 inline constexpr double kLeastWideArea = 0x1p-40;
 /// Bound the error of `exact::Plane::height`. `kPlaneHeightError` is relative to the height: 5 u for the normal's length and 2
 /// u for the product, rounded up. `kPlaneHeightFloor` is relative to the largest coordinate: the normal's error of 2^-57, which
-/// counts where the height is small beside the points, rounded up.
-inline constexpr double kPlaneHeightError = 8 * kU, kPlaneHeightFloor = kU / 8;
+/// counts where the height is small beside the points, rounded up. Corners of a cone of `Polytope` are below four times the
+/// largest coordinate: `kConeHeightFloor` is for planes through these.
+inline constexpr double kPlaneHeightError = 8 * kU, kPlaneHeightFloor = kU / 8, kConeHeightFloor = 4 * kPlaneHeightFloor;
 /// The determinant of three differences a - (R b + t): 1 product and 4 sums for each, then 2 products, 1 difference, 2 sums.
 inline constexpr double kOffsetTripleProductError = 26 * kU;
 /// Bounds the error of six times the volume of a tetrahedron of the origin and three of four differences a - (R b + t),
@@ -203,8 +204,9 @@ inline constexpr double kMapError = 2048 * kU;
 /// Bounds the rounding of a direction n whose M n is a corner of a cell: at that M n is off by at most this times |M| |n| in
 /// each coordinate. A substitution by rows of up to 3 terms has 3 u [Higham 2002, th. 8.5], the corner itself 1 u; rounded up.
 inline constexpr double kFrameError = 5 * kU;
-/// Times this a map frame is made larger, so that its rounding to float32, 2^-24 of each entry, cannot make it too small.
-/// Factor.
+/// Times this a map frame is made larger, as its rounding to float32, 2^-24 of each entry, may make it too small. Of slender
+/// bodies that lie obliquely that may take more: points M^-T x then differ by up to 2^-16 more than 2, for which `kMapError`
+/// has room. Factor.
 inline constexpr double kFrameSlack = 1 + 0x1p-20;
 /// Of the trace of the moments of a level's surface, this is added to each of the three, so that the map frame of a flat body
 /// has an inverse. Directions along which a body is thinner than 1 : 100 are looked up among more cells than they need.

@@ -73,6 +73,15 @@ void ask_on(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, co
   return answer;
 }
 
+/// As `intersects`, whatever limits it.
+[[gnu::noinline]] Answer any_intersection(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed,
+                                          const Effort& effort) {
+  Answer answer;
+  ask(a, b, b_in_a, seed, {effort.budget, effort.tuning}, {0, 0, 0, 0}, answer);
+  decide(answer);
+  return answer;
+}
+
 /// True if the finest maps of two models, which have all levels, are hardly ever as precise as asked, as `is_exact` finds
 /// without a relative error. An exact distance is answered sooner then.
 bool is_finer_than_maps(const Model& a, const Model& b, const Options& options) {
@@ -121,6 +130,9 @@ Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed
     return ask_distance(*a.model(), *b.model(), b_in_a, seed);
   return distance_within(a, b, b_in_a, seed, options);
 }
+Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
+  return are_models(a, b) ? ask_distance(*a.model(), *b.model(), b_in_a, seed) : any_distance(a, b, b_in_a, seed, {});
+}
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, const Options& options) {
   PairSeed cold;
   return distance(a, b, b_in_a, cold, options);
@@ -139,10 +151,10 @@ Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so
 Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Effort& effort) {
   if (limits_in(effort.budget, effort.tuning) == 0 && are_models(a, b))
     return ask_intersection(*a.model(), *b.model(), b_in_a, seed);
-  Answer answer;
-  ask(a, b, b_in_a, seed, {effort.budget, effort.tuning}, {0, 0, 0, 0}, answer);
-  decide(answer);
-  return answer;
+  return any_intersection(a, b, b_in_a, seed, effort);
+}
+Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
+  return are_models(a, b) ? ask_intersection(*a.model(), *b.model(), b_in_a, seed) : any_intersection(a, b, b_in_a, seed, {});
 }
 Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, const Effort& effort) {
   PairSeed cold;

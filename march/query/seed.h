@@ -99,7 +99,7 @@ Place place_by_policy(const Shape& a, const Shape& b, const Line& line, const Pa
 
 /// True if a query may also begin elsewhere than at the features of these levels: on coarser ones or on maps.
 static inline bool has_other_start(const Shape& a, const Shape& b, int level_a, int level_b) {
-  return ((a.level_count() - level_a) | (b.level_count() - level_b)) > 1 || a.level(level_a).map_side > 0;
+  return a.level(level_a).map_side > 0 || ((a.level_count() - level_a) | (b.level_count() - level_b)) > 1;
 }
 /// The place where a query begins, and how far the line of centres has turned if it begins at the seed's features. `finest_a`
 /// and `finest_b` are the finest levels that it may read.

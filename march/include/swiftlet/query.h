@@ -150,7 +150,9 @@ static_assert(sizeof(Answer) == 128);
 /// `options`. The interval is always true; errors are statuses. `seed` holds what the last query of this pair left, and
 /// receives the warm start for the next. Cost: law 7 bounds the steps (march.h). Allocates nothing; uses 4 kB of stack, and
 /// 10 kB where only exact arithmetic decides a sign.
-Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options = {});
+Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options);
+/// Returns the exact distance, as the default options ask for; these need not be made and looked at.
+Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed);
 /// Returns the distance, from a cold start.
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, const Options& options = {});
 
@@ -166,7 +168,9 @@ Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so
 Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so_far, const Options& options = {});
 
 /// Decides whether the bodies share a point: read `verdict`. Ends at the first level pair that is proved disjoint.
-Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Effort& effort = {});
+Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Effort& effort);
+/// Decides the same without limits; these need not be made and looked at.
+Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed);
 /// Decides from a cold start whether the bodies share a point.
 Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, const Effort& effort = {});
 
