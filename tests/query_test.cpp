@@ -278,8 +278,8 @@ TEST(Distance, WithoutOptionsIsThatOfTheDefaultOnes) {
       for (int i = 0; i < 40; ++i) {
         const Pose pose{random.rotation(), random.uniform(0, 3) * random.on_sphere()};
         for (int again = 0; again < 2; ++again) {  // from another pose's seed, then from this one's
-          EXPECT_TRUE(same_bits(distance(a, b, pose, plain), distance(a, b, pose, with_options, {})));
-          EXPECT_TRUE(same_bits(intersects(a, b, pose, verdict), intersects(a, b, pose, with_effort, {})));
+          EXPECT_TRUE(answers::same_bits(distance(a, b, pose, plain), distance(a, b, pose, with_options, {})));
+          EXPECT_TRUE(answers::same_bits(intersects(a, b, pose, verdict), intersects(a, b, pose, with_effort, {})));
         }
       }
     }
