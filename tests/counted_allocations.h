@@ -3,6 +3,7 @@
 // Counts what a program allocates. One file of a program may include this.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
@@ -23,3 +24,26 @@ std::atomic<std::size_t> allocated_bytes{0};  // in all, whether or not they wer
 }
 [[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
 [[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+// Types of wider alignment, as nodes and registers are, have operators of their own.
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
+  ++allocations, allocated_bytes += size;
+  const auto unit = std::size_t(alignment);
+  return std::aligned_alloc(unit, (std::max<std::size_t>(size, 1) + unit - 1) / unit * unit);
+}
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
+  if (void* p = operator new(size, alignment, std::nothrow)) return p;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+
+namespace {
+/// True if allocations of either alignment are counted. The calls are no expressions, which compilers may leave out.
+bool allocations_are_counted() {
+  const long before = allocations;
+  ::operator delete(::operator new(1));
+  constexpr std::align_val_t kWide{64};
+  ::operator delete(::operator new(1, kWide), kWide);
+  return allocations - before == 2;
+}
+}  // namespace

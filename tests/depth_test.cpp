@@ -367,6 +367,7 @@ TEST(SignedDistance, StopsAtABudgetAndAtALevel) {
       EXPECT_TRUE(s.status == Status::Budget || s.status == Status::Converged) << int(s.status);
       EXPECT_LE(s.lower, exact.upper);
       EXPECT_GE(s.upper, exact.lower);
+      EXPECT_TRUE(std::isfinite(s.lower)) << budget;
     }
     for (int level = 1; level < scene.a.model.level_count(); ++level) {
       const Answer s = signed_distance(scene.a, scene.b, pose, {.budget = {.finest_level = level}});
@@ -378,6 +379,53 @@ TEST(SignedDistance, StopsAtABudgetAndAtALevel) {
   Pose illegal;
   illegal.rotation(0, 0) = 2;
   EXPECT_EQ(signed_distance(scene.a, scene.b, illegal).status, Status::InvalidPose);
+}
+
+/// Of models whose finest level is a box around the body, the bounds, normal and points are those of the boxes. Polytopes were
+/// given up there, as they are where a finer level follows: the points were corners far aside of each other.
+TEST(SignedDistance, OfACoarseLevelIsThatOfItsOwnPolytope) {
+  shapes::Random random(51);
+  int deep = 0, shallow = 0;
+  for (int i = 0; i < 150; ++i) {
+    const auto boxed = [&] {
+      const Vec3 side{random.uniform(0.2, 1), random.uniform(0.2, 1), random.uniform(0.2, 1)};
+      bodies::Polyhedron inner = bodies::octahedron();
+      const bodies::Polyhedron box = bodies::box(side.x(), side.y(), side.z());
+      for (Vec3& p : inner.points) p = p.normalized().cwiseProduct(0.9 * side);
+      const LevelArrays levels[] = {inner.level(), box.level()};
+      return Polyhedron{box.points, bodies::must(Model::from_levels(levels))};
+    };
+    const Polyhedron whole_a = boxed(), whole_b = boxed();
+    const auto coarse = [](const Polyhedron& of) {
+      return Polyhedron{of.points, of.model.cut({1.01 * of.model.level(1).deviation})};
+    };
+    const Polyhedron a = coarse(whole_a), b = coarse(whole_b);
+    ASSERT_EQ(a.model.finest_level(), 1);
+    // Stacked, a little askew and hardly in each other, or anywhere.
+    const double up = a.points[0].cwiseAbs().z() + b.points[0].cwiseAbs().z();
+    const Pose pose = i % 2 ? Pose{shapes::rotation(random.on_sphere(), 1e-7), Vec3(0.1, -0.1, up - 1e-6)}
+                            : Pose{random.rotation(), 0.5 * random.in_ball()};
+    const oracle::SignedTruth truth = truth_of(a, b, pose);
+    const double bound = tolerance(a, b, pose), error = a.model.level(1).deviation + b.model.level(1).deviation;
+    if (truth.sign > 0) continue;
+    ++(truth.distance > -1e-5 ? shallow : deep);
+    PairSeed seed;
+    for (int round = 0; round < 3; ++round) {
+      for (const Answer& s :
+           {signed_distance(a, b, pose, seed), signed_distance(whole_a, whole_b, pose, {.budget = {.finest_level = 1}})}) {
+        EXPECT_EQ(s.status, Status::LevelLimit) << i;
+        EXPECT_NEAR(s.lower, truth.distance, bound) << i;
+        EXPECT_LE(s.upper, std::max(truth.distance + error, 0.0) + error * 1e-6 + bound) << i;
+        EXPECT_LE((s.point_b - s.point_a - s.normal * s.lower).norm(), 2 * bound) << i;
+        EXPECT_TRUE(oracle::is_within(a.points, Points{s.point_a}, Pose{}, bound)) << i;
+        EXPECT_TRUE(oracle::is_within(Points{s.point_b}, b.points, pose, bound)) << i;
+        EXPECT_TRUE(oracle::is_apart_along(a.points, b.points, pose, s.normal, s.lower)) << i;
+      }
+      EXPECT_TRUE(check(a, b, pose, signed_distance(a, b, pose, seed))) << i;
+    }
+  }
+  EXPECT_GE(deep, 40);
+  EXPECT_GE(shallow, 70);
 }
 
 TEST(SignedWithin, DecidesOnBothSidesOfTheThreshold) {

@@ -555,9 +555,20 @@ void mutate(soups::Block& block, Random& random) {
   }
 }
 
+/// Whether a feature is one of the mesh's triangles, their edges or vertices, or none.
+bool exists(FeatureId id, const MeshModel& mesh) {
+  switch (id.kind()) {
+    case FeatureKind::None: return true;
+    case FeatureKind::Vertex: return id.index() < mesh.vertex_count();
+    case FeatureKind::Edge: return id.index() < 3 * mesh.triangle_count();
+    default: return id.index() < mesh.triangle_count();
+  }
+}
 /// An answer about a file that lies: any interval, and names of what exists.
 void expect_harmless(const MeshModel& a, const MeshModel& b, const Answer& answer) {
   if (answer.status >= Status::InvalidPose) return;
+  ASSERT_TRUE(exists(answer.feature_a, a));
+  ASSERT_TRUE(exists(answer.feature_b, b));
   ASSERT_LE(answer.lower, answer.upper);
   ASSERT_GE(answer.lower, 0);
   ASSERT_LE(std::uint64_t(answer.steps), 2 * std::uint64_t(a.node_count()) * b.node_count() * 18);
@@ -592,7 +603,8 @@ TEST_F(MeshFile, ThatLiesUnderGoodHashesIsHarmless) {
       expect_harmless(*a, *b, within(*a, *b, pose, 0.1, seed).answer);
       const ClosestFeatures closest = closest_features(*a, *b, pose, seed);
       expect_harmless(*a, *b, closest.answer);
-      for (const std::uint32_t id : closest.source_a.triangles) ASSERT_NE(id, id + 1);  // it is read
+      for (const std::uint32_t id : closest.source_a.triangles) ASSERT_LT(id, a->triangle_count());
+      for (const std::uint32_t id : closest.source_b.triangles) ASSERT_LT(id, b->triangle_count());
       if (HasFatalFailure()) FAIL() << "mutation " << i;
     }
   }
@@ -975,7 +987,7 @@ MeshSeed garbage(Random& random) {
 TEST(MeshLaw3, AnySeedGivesTheSameAnswer) {
   Random random(20);
   MeshSeed stale;
-  int otherwise = 0, verdicts[4] = {0, 0, 0, 0};
+  int verdicts[4] = {0, 0, 0, 0};
   for_each_case([&](const Case& c) {
     const Answer cold = exact(c), cold_met = intersects(c.mesh_a, c.mesh_b, c.pose);
     ++verdicts[int(cold.verdict)];
@@ -987,7 +999,6 @@ TEST(MeshLaw3, AnySeedGivesTheSameAnswer) {
       expect_law_two(c, other);
       ASSERT_LE(std::fabs(cold.lower - other.lower), c.law_two());
       ASSERT_LE(std::fabs(cold.upper - other.upper), c.law_two());
-      otherwise += cold.verdict != other.verdict;
       ASSERT_EQ(cold.verdict, other.verdict) << cold.lower << ' ' << other.lower;
       const Answer met = intersects(c.mesh_a, c.mesh_b, c.pose, seed);
       expect_true(c, met);
@@ -1061,16 +1072,13 @@ TEST(MeshLaw3, NoSeedDecidesWhetherBodiesWithRadiiTouch) {
 
 TEST(MeshLaw3, SameSeedSameBitsWithRegistersOfAnyWidth) {
   Random random(21);
-  const bool both = set_width(Width::Four);
-  int different_widths = 0;
+  if (!set_width(Width::Four)) GTEST_SKIP() << "meshes know one width here";
   for_each_case([&](const Case& c) {
     const MeshSeed seed = garbage(random);
     std::vector<Answer> answers;
     std::vector<MeshSeed> left;
     for (const Width width : {Width::Two, Width::Four, Width::Two}) {
-      if (width == Width::Four && !both) continue;
       ASSERT_TRUE(set_width(width));
-      ++different_widths;
       left.push_back(seed);
       answers.push_back(distance(c.mesh_a, c.mesh_b, c.pose, left.back()));
       answers.push_back(intersects(c.mesh_a, c.mesh_b, c.pose, left.back()));
@@ -1084,7 +1092,7 @@ TEST(MeshLaw3, SameSeedSameBitsWithRegistersOfAnyWidth) {
       ASSERT_EQ(std::memcmp(&s.direction, &left[0].direction, sizeof s.direction), 0);
     }
   });
-  set_width(both ? Width::Four : Width::Two);
+  set_width(Width::Four);
 }
 
 // ---- Law 4 -----------------------------------------------------------------------------------------------------------------
@@ -1295,14 +1303,12 @@ TEST(MeshLaw7, SignedDistancesOfSolidsThatTouchEnd) {
 // ---- Law 8 -----------------------------------------------------------------------------------------------------------------
 
 TEST(MeshLaw8, QueriesAllocateNothing) {
-  long before = allocations;
-  ::operator delete(::operator new(1));  // unlike an expression's, no compiler leaves these out
-  EXPECT_EQ(allocations - before, 1) << "allocations are not counted";
+  ASSERT_TRUE(allocations_are_counted());
   const Body sphere = Body::point({0, 0, 0}, 0.5);
   MeshFront front;
   for (const Case& c : cases()) {
     MeshSeed seed;
-    before = allocations;
+    const long before = allocations;
     distance(c.mesh_a, c.mesh_b, c.pose, seed, front);
     intersects(c.mesh_a, c.mesh_b, c.pose, seed, front);
     distance(c.mesh_a, c.mesh_b, c.pose, seed);

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -16,37 +16,41 @@
 namespace swiftlet {
 namespace {
 
-/// In how many of 58 steps the features that a manifold names are others than in the step before, while the upper of two equal
-/// cylinders trembles on the lower one by single precision. `turn` turns the stack in the world.
+/// In how many of 58 steps a manifold has points where the one of the step before has none, while the upper of two equal
+/// cylinders trembles on the lower one by single precision. `turn` turns the stack in the world. Names are not compared: where
+/// a corner of each cylinder is, the point may be either's.
 int changes(const Model& model, const Mat3& turn) {
+  constexpr double kTremble = 1e-7;  // at most, in each coordinate, and as an angle
   const Placed below{Body(model), {turn, Vec3::Zero()}};
   PairSeed seed;
   Manifold manifold;
-  std::vector<std::pair<FeatureId, FeatureId>> before;
+  std::vector<Vec3> before;
   int changed = 0;
   for (int step = 1; step < 60; ++step) {
-    const double tremble = 5e-8 * (step * 7 % 5 - 2);
-    const Mat3 lean = Eigen::AngleAxisd(tremble, Vec3(step % 2, step % 3, step % 4).normalized()).toRotationMatrix();
+    const double tremble = kTremble * (step * 7 % 5 - 2) / 2;
+    const Mat3 lean = Eigen::AngleAxisd(tremble, Vec3(1 + step % 2, step % 3, step % 4).normalized()).toRotationMatrix();
     const Placed above{Body(model), {turn * lean, turn * Vec3(tremble, -tremble, 2 - 1e-6)}};
     EXPECT_EQ(contacts(below, above, 0.01, 4, seed, manifold), Found::Nearest);
-    std::vector<std::pair<FeatureId, FeatureId>> names;
-    for (std::uint32_t i = 0; i < manifold.count; ++i)
-      names.emplace_back(manifold.points[i].feature_a, manifold.points[i].feature_b);
-    changed += step > 1 && names != before;
-    before = names;
+    EXPECT_EQ(manifold.count, 4u);
+    std::vector<Vec3> points;
+    for (std::uint32_t i = 0; i < manifold.count; ++i) points.push_back(manifold.points[i].point_a);
+    changed +=
+        step > 1 && !std::all_of(points.begin(), points.end(), [&](const Vec3& p) {
+          return std::any_of(before.begin(), before.end(), [&](const Vec3& q) { return (p - q).norm() < 10 * kTremble; });
+        });
+    before = points;
   }
   return changed;
 }
 
-/// The last manifold's normal, in the world's frame, was compared with one in A's: no pair was at rest.
+/// The last manifold's normal, in the world's frame, was compared with one in A's: no pair was at rest, and points changed in
+/// 58 of 58 steps of a stack that lies aside.
 TEST(World, AManifoldStaysWhicheverWayTheBodiesStand) {
   const Result<Model> made = cylinder(1, 1, 0.01);
   ASSERT_TRUE(made);
-  const int upright = changes(made.value(), Mat3::Identity());
-  EXPECT_LE(upright, 40);
-  for (const Vec3& turn : {Vec3(1.57, 0, 0), Vec3(0.8, -0.3, 0.5)}) {
+  for (const Vec3& turn : {Vec3(0, 0, 0), Vec3(1.57, 0, 0), Vec3(0.8, -0.3, 0.5)}) {
     const Mat3 turned = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
-    EXPECT_LE(changes(made.value(), turned), upright);
+    EXPECT_LE(changes(made.value(), turned), 1) << turn.transpose();
   }
 }
 

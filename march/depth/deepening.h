@@ -102,12 +102,11 @@ class Deepening : public Found {
     Vec direction = remembers ? swiftlet::direction(seed) : lowest_seen();
     for (;;) {
       const double error = deviation();
-      const bool last = place_.level_a == finest_a_ && place_.level_b == finest_b_;
       const std::uint32_t steps_before = steps, tests_before = plane_tests;
       solve(seed, direction, error);
       note(trace_, std::size_t(levels_visited++),
            {place_.level_a, place_.level_b, -upper, -lower, steps - steps_before, plane_tests - tests_before});
-      if (last || end == DepthEnd::Apart || end == DepthEnd::Budget || answered()) break;
+      if (is_finest() || end == DepthEnd::Apart || end == DepthEnd::Budget || answered()) break;
       direction = normal;
       place_ = {std::max(place_.level_a - 1, finest_a_), std::max(place_.level_b - 1, finest_b_), {}};
     }
@@ -161,6 +160,8 @@ class Deepening : public Found {
 
  private:
   double deviation() const { return pair_.deviation(place_.level_a, place_.level_b); }
+  /// True if no finer level pair may be read.
+  bool is_finest() const { return place_.level_a == finest_a_ && place_.level_b == finest_b_; }
   bool answered() const { return stop_.met(max(lower, floor_), upper); }
 
   /// The direction along which support maps show the Minkowski difference lowest: the line of centres, or the axis across the
@@ -270,10 +271,11 @@ class Deepening : public Found {
     Depth found;
     DepthStart at;
     at.direction = direction;
-    if ((fits || goal.error == 0) && steps < budget_.steps &&
+    const bool wants_facet = goal.error == 0 || goal.is_finest;  // on a coarse pair bounds are wanted, and no facet
+    if ((fits || wants_facet) && steps < budget_.steps &&
         slide(pair, of_a, of_b, fits ? MarchStart{seed.a, seed.b} : MarchStart{}, goal, at, found))
       return found;
-    if (goal.error > 0) at = {}, at.direction = direction;  // on a coarse pair bounds are wanted, and no facet
+    if (!wants_facet) at = {}, at.direction = direction;
     goal.step_budget = budget_.steps - std::min(steps, budget_.steps);
     found = epa(pair, of_a, of_b, at, goal, plane_tests);
     steps += found.steps;
@@ -283,9 +285,11 @@ class Deepening : public Found {
   void solve(const PairSeed& seed, const Vec& direction, double error) {
     const Level &of_a = a_.level(place_.level_a), &of_b = b_.level(place_.level_b);
     const PairView pair = pair_.view_at(place_);
-    const Depth found = depth_of(pair, of_a, of_b, seed, direction, {stop_, pair.law_two, error, floor_});
+    const Depth found = depth_of(pair, of_a, of_b, seed, direction, {stop_, pair.law_two, error, is_finest(), floor_});
     end = found.end;
     if (found.lower > 0) lower = max(lower, error > 0 ? (found.lower - error) - 2 * kU * (found.lower + error) : found.lower);
+    if (end == DepthEnd::Converged && error > 0 && !stop_.met(max(lower, floor_), min(upper, found.upper)))
+      end = DepthEnd::NotConverged;  // the depth of these levels is known, and that is not as precise as asked
     if (found.upper > upper + law_two_) return;
     upper = found.upper;
     normal = found.normal;
@@ -297,7 +301,7 @@ class Deepening : public Found {
     if (feature_a.kind() != FeatureKind::None) return;
     feature_a = feature_of(of_a.view, found.active, found.active.a);
     feature_b = feature_of(of_b.view, found.active, found.active.b);
-    if (error > 0 || !stop_.is_exact()) return;  // the points need not lie on the surfaces
+    if ((error > 0 && !is_finest()) || !stop_.is_exact()) return;  // the points need not lie on the surfaces
     const HeldPoint a = held_at_a(pair, feature_a, point_a, plane_tests), b = held_at_b(pair, feature_b, point_b, plane_tests);
     feature_a = a.feature, point_a = a.point;
     feature_b = b.feature, point_b = b.point;

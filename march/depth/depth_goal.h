@@ -16,22 +16,24 @@ namespace swiftlet {
 /// When bounds `lower` and `upper` on the depth of the level pair are good enough.
 struct DepthGoal {
   /// `asked` is about the exact hulls, whose depth is less by at most `of_error`. `law_two` is that of the level pair.
-  DepthGoal(const StopRule& asked, double law_two, double of_error, double of_floor)
-      : stop(asked.at_least(law_two)), error(of_error), floor(of_floor) {
+  DepthGoal(const StopRule& asked, double law_two, double of_error, bool finest, double of_floor)
+      : stop(asked.at_least(law_two)), error(of_error), is_finest(finest), floor(of_floor) {
     stop.zero += error, stop.rounding += error, stop.above += error;
   }
 
   StopRule stop;
-  double error;  ///< 0 if the levels are the exact hulls
+  double error;    ///< 0 if the levels are the exact hulls
+  bool is_finest;  ///< no finer level pair follows: the depth of this one is found, also where that is not as precise as asked
   double
       floor;  ///< used in place of a `lower` of 0 or less: a lower bound known otherwise, or one below which nothing is asked
   std::uint32_t step_budget = ~0u;  ///< the most supports to compute
 
   bool narrow(double lower, double upper) const { return stop.narrow(lower > 0 ? lower : floor, upper); }
   bool passed(double lower, double upper) const { return stop.passed(lower, upper); }
-  /// True if no bounds on this level pair can suffice, because its `error` takes up the width that is allowed.
+  /// True if no bounds on this level pair can suffice, because its `error` takes up the width that is allowed, and a finer one
+  /// follows.
   bool hopeless(double lower, double upper) const {
-    return error > 0 && stop.allowed(upper) <= stop.least && upper <= stop.above && lower >= stop.below;
+    return error > 0 && !is_finest && stop.allowed(upper) <= stop.least && upper <= stop.above && lower >= stop.below;
   }
 };
 

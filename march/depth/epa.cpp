@@ -153,10 +153,13 @@ class Polytope {
         best_ = {facet.above, facet.normal};
         return End::Enough;
       }
-      if (steps_ >= goal_.step_budget) return End::Budget;
+      const Corner from = nearest_corner(facet);
+      if (steps_ >= goal_.step_budget) {
+        if (best_.height == kInfinity) support(facet.normal, from.a, from.b);  // any plane bounds the depth
+        return End::Budget;
+      }
       if (hull_.corner_count() == ExactHull::kMostPoints) return End::Full;
-      const Corner from = nearest_corner(facet),
-                   ahead = is_starts(facet) || goal_.error > 0 ? from : climb(facet.normal, from.a, from.b);
+      const Corner ahead = is_starts(facet) || goal_.error > 0 ? from : climb(facet.normal, from.a, from.b);
       if (leads_on(next, ahead)) {
         add(ahead, next);
         continue;

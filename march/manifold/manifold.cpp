@@ -79,11 +79,12 @@ void grow(const PairView& pair, const Radii& radii, const Anchor& w, double boun
 Anchor anchor(const PairView& pair, const Radii& radii, const Answer& answer, double bound) {
   const Vec n = vec(answer.normal), point_a = vec(answer.point_a) - n * radii.a(),
             point_b = vec(answer.point_b) + n * radii.b();
-  // The points of a touching pair may be one, which is as far from the interval as law 2 allows.
+  // The points of a touching pair may be one, and those of a depth that a budget ended need not be as far apart as it is. The
+  // distance of bodies that overlap by their radii is 0, and only its points tell how deep they do.
   const double seen = dot(n, point_b - point_a),
                proved = min(max(seen, answer.lower + radii.sum()), answer.upper + radii.sum());
   std::uint32_t tests = 0;
-  return {n, point_a, std::fabs(seen - proved) <= bound ? proved : seen,
+  return {n, point_a, answer.is_signed || std::fabs(seen - proved) <= bound ? proved : seen,
           held_at_a(pair, answer.feature_a, point_a, tests).feature, held_at_b(pair, answer.feature_b, point_b, tests).feature};
 }
 

@@ -78,7 +78,9 @@ Judge::Judge(const Model& a, const Model& b, const Pose& b_in_a, const OverlapPr
       b_(b),
       b_in_a_(b_in_a),
       proof_(proof),
-      truth_(oracle::distance(bodies::points_of(a.level(0).view), bodies::points_of(b.level(0).view), b_in_a)),
+      points_a_(bodies::points_of(a.level(0).view)),
+      points_b_(bodies::points_of(b.level(0).view)),
+      truth_(oracle::distance(points_a_, points_b_, b_in_a)),
       law_two_(tolerance(a, b, b_in_a)) {}
 
 std::string Judge::fault(const Answer& answer, bool exact) const {
@@ -86,6 +88,9 @@ std::string Judge::fault(const Answer& answer, bool exact) const {
   const bool holds =
       answer.is_signed && truth_.overlapping ? answer.lower <= 0 : oracle::holds(truth_, answer.lower, answer.upper);
   if (!holds) return wrong("the interval does not hold the truth");
+  if (answer.is_signed && truth_.overlapping && std::isfinite(answer.lower) && !answer.normal.hasNaN() &&
+      !oracle::is_apart_along(points_a_, points_b_, b_in_a_, answer.normal, answer.lower))
+    return wrong("the normal does not prove lower");
   if (const Check checked = check(a_, b_, b_in_a_, answer, exact ? Question::Exact : Question::Any, &proof_); !checked)
     return wrong(checked.message.c_str());
   if (answer.status == Status::NotConverged || answer.status == Status::InvalidPose) return wrong("not converged");

@@ -32,7 +32,8 @@ class Judge {
   Judge(const Model& a, const Model& b, const Pose& b_in_a, const OverlapProof& proof);
 
   /// What is wrong with an answer to any question; law 2 too where an exact one was asked for without a budget. The truth knows
-  /// no depth: of an overlap's signed distance it holds the sign, and the check the rest.
+  /// no depth: of an overlap's signed distance the oracle holds the sign and that the normal proves `lower`, the check the
+  /// rest.
   std::string fault(const Answer& answer, bool exact) const;
   std::string fault(const Within& within, double threshold) const;
   /// With its manifold: points of both bodies, one above the other, the least as far apart as the answer says.
@@ -44,6 +45,7 @@ class Judge {
   const Model& b_;
   const Pose& b_in_a_;
   const OverlapProof& proof_;
+  std::vector<Vec3> points_a_, points_b_;
   oracle::Truth truth_;
   double law_two_;
 };

@@ -335,12 +335,4 @@ void Pair::count(const Manifold& manifold) {
   }
 }
 
-bool same_bits(const Answer& one, const Answer& other) {
-  const auto same = [](const Vec3& v, const Vec3& w) { return v == w || (v.hasNaN() && w.hasNaN()); };
-  return one.status == other.status && one.verdict == other.verdict && one.lower == other.lower && one.upper == other.upper &&
-         same(one.normal, other.normal) && same(one.point_a, other.point_a) && same(one.point_b, other.point_b) &&
-         one.level_a == other.level_a && one.level_b == other.level_b && one.feature_a == other.feature_a &&
-         one.feature_b == other.feature_b && one.steps == other.steps && one.plane_tests == other.plane_tests;
-}
-
 }  // namespace swiftlet::stability

@@ -129,7 +129,4 @@ class Pair {
   bool has_failed_ = false;
 };
 
-/// Equal in every bit.
-bool same_bits(const Answer& one, const Answer& other);
-
 }  // namespace swiftlet::stability

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <string>
 
+#include "answers.h"
 #include "bodies.h"
 #include "mesh_pairs.h"
 
@@ -434,7 +435,8 @@ void far_offsets(Examiner& examiner, std::uint64_t) {
 /// Whether `large` is `answer` times s in every bit.
 bool is_scaled(Answer answer, const Answer& large, double s) {
   answer.lower *= s, answer.upper *= s, answer.point_a *= s, answer.point_b *= s;
-  return same_bits(answer, large);
+  answer.radius_a *= s, answer.radius_b *= s;
+  return answers::same_bits(answer, large);
 }
 bool is_scaled(const MarchResult& r, const MarchResult& large, double s) {
   return large.status == r.status && large.lower == s * r.lower && large.upper == s * r.upper && large.normal == r.normal &&

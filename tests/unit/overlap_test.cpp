@@ -42,7 +42,7 @@ Nearest unknown() {
 }
 
 /// The goal of an exact depth.
-DepthGoal exactly(const PairView& pair) { return {{}, pair.law_two, 0, 0}; }
+DepthGoal exactly(const PairView& pair) { return {{}, pair.law_two, 0, true, 0}; }
 
 void expect_depth(const Depth& d) {
   EXPECT_EQ(d.end, DepthEnd::Converged);

@@ -105,7 +105,8 @@ TEST(UnitWalk, EndsAtItsBudget) {
 
 // ---- Certificates ---------------------------------------------------------------------------------------------------------
 
-/// Of the nearest features both bounds are the distance; of others they hold it.
+/// Of the nearest features both bounds are the distance; of others they hold it, and the upper one is no more than the farthest
+/// vertices are apart.
 TEST(UnitCertify, BoundsHoldTheDistanceWhateverTheFeatures) {
   const Cubes at({3, 0.5, 0.25});  // faces 1 apart
   std::uint32_t tests = 0;
@@ -113,9 +114,15 @@ TEST(UnitCertify, BoundsHoldTheDistanceWhateverTheFeatures) {
   const Certificate right = certified(face(0, 1), vertex(0));
   EXPECT_NEAR(right.lower, 1, 1e-14);
   EXPECT_GE(right.upper, 1);
-  const Certificate wrong = certified(vertex(0), vertex(6));
-  EXPECT_LE(wrong.lower, 1);
-  EXPECT_GE(wrong.upper, 1);
+  EXPECT_NEAR(right.upper, 1, 1e-14);
+  for (std::uint32_t a = 0; a < 8; ++a) {
+    for (std::uint32_t b = 0; b < 8; ++b) {
+      const Certificate any = certified(vertex(a), vertex(b));
+      EXPECT_LE(any.lower, 1);
+      EXPECT_GE(any.upper, 1);
+      EXPECT_LE(any.upper, std::sqrt(5 * 5 + 2.5 * 2.5 + 2.25 * 2.25) + 1e-14);
+    }
+  }
 }
 
 // ---- GJK ------------------------------------------------------------------------------------------------------------------
