@@ -36,6 +36,7 @@ if(SWIFTLET_C)
   install(FILES ${PROJECT_BINARY_DIR}/swiftlet-c.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT c)
 endif()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES package.xml DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/swiftlet COMPONENT march)  # where ROS looks, by REP 136
 
 # The packages hold static libraries, but for C: before 1.0 no minor version is binary compatible with the one before.
 if(NOT PROJECT_IS_TOP_LEVEL OR BUILD_SHARED_LIBS)

@@ -193,8 +193,8 @@ Action declare_distance(CLI::App& word, const ModelOfMesh& model_of_mesh) {
   word.add_option_function<std::string>("--pose", take_pose, "of B in A's frame, see below")->required();
   const auto absolute =
       word.add_option("--max-error", request->asked.query.absolute, "stop when upper - lower is at most this");
-  const auto relative =
-      word.add_option("--relative-error", request->asked.query.relative, "stop when upper - lower is at most this times lower");
+  const auto relative = word.add_option("--relative-error", request->asked.query.relative,
+                                        "stop when upper - lower is at most this times the bound nearer to 0");
   absolute->check(not_negative())->excludes(relative);
   relative->check(not_negative());
   const auto beyond =

@@ -75,6 +75,7 @@ class Swiftlet(ConanFile):
         self.cpp_info.set_property("cmake_find_mode", "none")
         self.cpp_info.builddirs = [os.path.join("lib", "cmake", "swiftlet")]
         self.cpp_info.set_property("pkg_config_name", "swiftlet")
-        self.cpp_info.libs = (["swiftlet_lod"] if self.options.builder else []) + ["swiftlet_march", "swiftlet_lut"]
+        self.cpp_info.libs = (["swiftlet_lod"] if self.options.builder else []) + [
+            "swiftlet_scene", "swiftlet_bvh", "swiftlet_march", "swiftlet_lut"]
         if self.settings.os in ("Linux", "FreeBSD"):
             self.cpp_info.system_libs = ["pthread"]

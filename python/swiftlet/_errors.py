@@ -20,7 +20,7 @@ class ErrorCode(IntEnum):
     NOT_CONVEX = 6  #: a reflex edge, or faces that do not close to one convex surface
     NOT_SOLID = 7  #: flat, collinear or a single point where a solid was required
     NOT_ENCLOSING = 8  #: a coarser level does not enclose level 0
-    TOO_LARGE = 9  #: more features than 30-bit feature ids can name, or too many levels
+    TOO_LARGE = 9  #: more features than 30-bit feature ids can name, or more than the format or machine holds
     CANCELLED = 10  #: the progress callback asked to stop
 
 

@@ -76,7 +76,7 @@ _RAISES = """TypeError, ValueError
         valid as ever."""
 
 _ERRORS = """absolute : float, optional
-        Stop when ``upper - lower <= max(absolute, relative * lower)``; the bodies' unit. 0: exact, within `tolerance`.
+        Stop when ``upper - lower <= max(absolute, relative * (the bound nearer to 0))``; the bodies' unit. 0: exact, within `tolerance`.
     relative : float, optional
         A fraction of the bound nearer to 0.
     beyond : float, optional

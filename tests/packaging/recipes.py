@@ -261,11 +261,11 @@ class Conan(unittest.TestCase):
     def test_names_the_libraries_and_the_configuration_that_are_installed(self):
         recipe = self.recipe(builder=True)
         recipe.package_info()
-        self.assertEqual(recipe.cpp_info.libs, ["swiftlet_lod", "swiftlet_march", "swiftlet_lut"])
+        self.assertEqual(recipe.cpp_info.libs, ["swiftlet_lod", "swiftlet_scene", "swiftlet_bvh", "swiftlet_march", "swiftlet_lut"])
         in_pc = re.findall(r"-l(\w+)", re.search(r"^Libs:.*$", read("swiftlet.pc.in"), re.M).group(0))
         plain = self.recipe()
         plain.package_info()
-        self.assertEqual(plain.cpp_info.libs, in_pc)
+        self.assertEqual(plain.cpp_info.libs, ["swiftlet_scene", "swiftlet_bvh", *in_pc])
         self.assertEqual(plain.cpp_info.builddirs, ["lib/cmake/swiftlet"])
         self.assertIn("set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/swiftlet)", read("CMakeLists.txt"))
 

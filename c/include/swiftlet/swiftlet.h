@@ -54,7 +54,7 @@ enum {
   SWIFTLET_NOT_CONVEX = 7,      ///< a reflex edge, or faces that do not close to one convex surface
   SWIFTLET_NOT_SOLID = 8,       ///< flat, collinear or a single point where a solid was required
   SWIFTLET_NOT_ENCLOSING = 9,   ///< a coarser level does not enclose level 0
-  SWIFTLET_TOO_LARGE = 10,      ///< more features than 30-bit feature ids can name, or too many levels
+  SWIFTLET_TOO_LARGE = 10,      ///< more than 30-bit feature ids can name, or the format or machine holds
   SWIFTLET_CANCELLED = 11,      ///< a callback of the caller's asked to stop
   SWIFTLET_NULL_POINTER = 100,  ///< a pointer that may not be null is
   SWIFTLET_BAD_SIZE = 101,      ///< `size` is too small, no multiple of the alignment, or too large and the rest is not 0

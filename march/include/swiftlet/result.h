@@ -22,7 +22,7 @@ enum class ErrorCode {
   NotConvex,     ///< a reflex edge, or faces that do not close to one convex surface
   NotSolid,      ///< flat, collinear or a single point where a solid was required
   NotEnclosing,  ///< a coarser level does not enclose level 0
-  TooLarge,      ///< more features than 30-bit feature ids can name, or too many levels
+  TooLarge,      ///< more features than 30-bit feature ids can name, too many levels, or more than the format or machine holds
   Cancelled,     ///< the progress callback asked to stop
 };
 
