@@ -15,6 +15,7 @@
 #include <swiftlet/build.h>
 #include <swiftlet/check.h>
 #include <swiftlet/depth.h>
+#include <swiftlet/manifold.h>
 
 #include "bodies.h"
 #include "case.h"
@@ -368,6 +369,7 @@ TEST(SignedDistance, StopsAtABudgetAndAtALevel) {
       EXPECT_LE(s.lower, exact.upper);
       EXPECT_GE(s.upper, exact.lower);
       EXPECT_TRUE(std::isfinite(s.lower)) << budget;
+      EXPECT_LE(s.steps, budget + 26);
     }
     for (int level = 1; level < scene.a.model.level_count(); ++level) {
       const Answer s = signed_distance(scene.a, scene.b, pose, {.budget = {.finest_level = level}});
@@ -379,6 +381,35 @@ TEST(SignedDistance, StopsAtABudgetAndAtALevel) {
   Pose illegal;
   illegal.rotation(0, 0) = 2;
   EXPECT_EQ(signed_distance(scene.a, scene.b, illegal).status, Status::InvalidPose);
+}
+
+/// A distance and then a depth each took the whole budget, warm and cold.
+TEST(SignedDistance, SpendsItsBudgetOnce) {
+  const Scenery scene = scenery(shapes::Family::Long, 2000, 40, 13);
+  PairSeed warm;
+  for (const Pose& pose : scene.poses) {
+    for (const std::uint32_t budget : {3u, 10u, 20u, 40u}) {
+      const Options options{.budget = {.steps = budget, .finest_level = budget == 20}};
+      for (const Answer& s :
+           {signed_distance(scene.a, scene.b, pose, options), signed_distance(scene.a, scene.b, pose, warm, options)})
+        EXPECT_LE(s.steps, budget + 26);
+    }
+  }
+}
+
+/// Of more facets than a polytope has points the best is found again from a cone, whose far points were all that a loose
+/// search had beside its plane: the answer had no points, or one point for both.
+TEST(SignedDistance, HasPointsWhereManyFacetsAreAsDeepAndAnErrorIsAllowed) {
+  const Polyhedron prism = body(shapes::prism(128, 0.3, 2));
+  const Body ball = Body::point(Vec3::Zero(), 0.2);
+  PairSeed seed;
+  for (int round = 0; round < 2; ++round) {
+    const Answer s = signed_distance(prism, ball, Pose{}, seed, {.absolute = 1e-4});
+    EXPECT_EQ(s.status, Status::Converged);
+    EXPECT_LE(s.normal.dot(s.point_b - s.point_a), -0.499);
+    EXPECT_EQ(check(prism, ball, Pose{}, s).message, "");
+    EXPECT_GE(manifold(prism, ball, Pose{}, s).count, 1u);
+  }
 }
 
 /// Of models whose finest level is a box around the body, the bounds, normal and points are those of the boxes. Polytopes were
@@ -423,9 +454,33 @@ TEST(SignedDistance, OfACoarseLevelIsThatOfItsOwnPolytope) {
       }
       EXPECT_TRUE(check(a, b, pose, signed_distance(a, b, pose, seed))) << i;
     }
+    // Of an error that is met the status is Converged, from any seed; every threshold outside of the interval is decided.
+    const Answer exact = signed_distance(a, b, pose);
+    for (const double relative : {0.01, 0.1, 0.5, 2.}) {
+      PairSeed cold;
+      for (int round = 0; round < 2; ++round) {
+        const Answer s = signed_distance(a, b, pose, cold, {.relative = relative});
+        const bool is_met = s.upper - s.lower <= std::max(-relative * s.upper, 0.0);
+        EXPECT_EQ(s.status, is_met ? Status::Converged : Status::LevelLimit) << i << ' ' << relative;
+      }
+    }
+    for (const double t : {exact.lower - 0.01, exact.upper, exact.upper + 1e-9, 0.0, 0.01}) {
+      const Decision decision = signed_within(a, b, pose, t).decision;
+      if (t < exact.lower - bound) EXPECT_EQ(decision, Decision::No) << i << ' ' << t;
+      if (t > exact.upper + bound) EXPECT_EQ(decision, Decision::Yes) << i << ' ' << t;
+    }
   }
   EXPECT_GE(deep, 40);
   EXPECT_GE(shallow, 70);
+}
+
+/// The bodies overlap by their radii by as much as the threshold says, and their hulls too: the bound of 0 on the hulls'
+/// distance, less the radii, was rounded up past the threshold.
+TEST(SignedWithin, DecidesWhereTheRadiiMakeTheThreshold) {
+  const Body plate = Body::box({-0.5, -0.5, -0.1}, {0.5, 0.5, 0.1}, 0.05), rod = Body::segment({-0.5, 0, 0}, {0.5, 0, 0}, 0.2);
+  for (const double t : {-0.24, -0.25, -0.26, -0.34})
+    EXPECT_EQ(signed_within(plate, rod, Pose{}, t).decision, Decision::Yes) << t;
+  EXPECT_EQ(signed_within(plate, rod, Pose{}, -0.36).decision, Decision::No);
 }
 
 TEST(SignedWithin, DecidesOnBothSidesOfTheThreshold) {

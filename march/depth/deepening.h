@@ -114,6 +114,9 @@ class Deepening : public Found {
     if (end == DepthEnd::NotConverged && answered()) end = DepthEnd::Converged;
   }
 
+  /// Takes steps that were spent elsewhere off the budget.
+  void spend(std::uint32_t spent) { budget_.steps -= std::min(spent, budget_.steps); }
+
   /// Runs from a cold start. What is known stays if the budget ends that.
   void run_anew() {
     const Found known = *this;
@@ -310,7 +313,7 @@ class Deepening : public Found {
   const ModelPair pair_;
   const Shape &a_, &b_;
   const Line line_;
-  const Budget& budget_;
+  Budget budget_;
   const std::span<LevelRecord> trace_;
   const double law_two_;
   const StopRule stop_;
@@ -349,7 +352,7 @@ void add_work(const Deepening& deep, Answer& s) {
 /// Joins `s`, the answer of a distance that is not surely above 0, and the depth into one interval.
 void join(const Deepening& deep, Answer& s, OverlapProof& proof, PairSeed& seed) {
   const bool overlapping = deep.proved() || s.verdict == Verdict::Overlapping;
-  if (s.status == Status::Converged) s.status = deep.status();
+  if (s.status == Status::Converged || s.status == Status::LevelLimit) s.status = deep.status();
   if (overlapping) s.verdict = Verdict::Overlapping;
   s.upper = min(overlapping ? min(s.upper, 0) : s.upper, -deep.lower);
   if (s.upper < 0) proof = {};
@@ -387,14 +390,18 @@ void overlap_part(const Deepening& deep, Answer& s) {
   add_work(deep, s);
 }
 
-/// Turns a signed answer about the hulls, and its trace, into those about the bodies.
-void finish(const Setting& at, const Limits& limits, OverlapProof& proof, Answer& s) {
+/// Turns a signed answer about the hulls, and its trace, into those about the bodies, of which `asked` asks.
+void finish(const Setting& at, const Limits& limits, const StopRule& asked, OverlapProof& proof, Answer& s) {
   s.is_signed = true;
   if (!(s.lower > -kInfinity)) s.normal.setZero();
   if (!at.radii.none()) {
     at.radii.round_signed(limits.trace, s.levels_visited);
     at.radii.round_signed(s, proof, at.law_two());
   }
+  // An error relative to the bodies' depth may be met where one relative to the hulls' is not.
+  const StopRule enough = asked.at_least(at.law_two());
+  const bool is_narrow = s.lower > 0 ? enough.narrow(s.lower, s.upper) : enough.narrow(-s.upper, -s.lower);
+  if (s.status == Status::LevelLimit && is_narrow) s.status = Status::Converged;
   seal(at.radii, proof, limits.tuning, s);
 }
 
@@ -414,18 +421,23 @@ void make_signed(std::span<LevelRecord> trace, int visited) {
   Limits limits(options.budget, options.tuning);
   Deepening deep(at, limits, {allowed_error(options.absolute), allowed_error(options.relative)});
   OverlapProof proof;
+  const StopRule of_bodies{allowed_error(options.absolute), allowed_error(options.relative), options.beyond};
   if (seed.met) deep.run(seed);
   if (deep.proved()) {
     deep.store(seed);
     overlap_part(deep, answer);
-    return finish(at, limits, proof, answer);
+    return finish(at, limits, of_bodies, proof, answer);
   }
-  const StopRule of_bodies{allowed_error(options.absolute), allowed_error(options.relative), options.beyond};
   const int visited = deep.levels_visited;
   if (!limits.trace.empty()) limits.trace = limits.trace.last(std::max(1, int(limits.trace.size()) - visited));
   StopRule of_hulls = at.radii.of_hulls(of_bodies, at.law_two());
   of_hulls.above = max(of_hulls.above, 0);  // a distance of 0, which any overlap has, is beyond nothing
-  ask_hulls({*at.a, *at.b, at.motion, at.quality.error, limits}, of_hulls, seed, answer, proof);
+  Budget left = options.budget;
+  left.steps -= std::min(deep.steps, left.steps);
+  Limits rest(left, options.tuning);
+  rest.trace = limits.trace;
+  ask_hulls({*at.a, *at.b, at.motion, at.quality.error, rest}, of_hulls, seed, answer, proof);
+  deep.spend(answer.steps);
   make_signed(limits.trace, answer.levels_visited);
   limits.trace = options.tuning.trace;
   answer.levels_visited = std::uint8_t(answer.levels_visited + visited);
@@ -451,7 +463,7 @@ void make_signed(std::span<LevelRecord> trace, int visited) {
     }
   }
   add_work(deep, answer);
-  finish(at, limits, proof, answer);
+  finish(at, limits, of_bodies, proof, answer);
 }
 
 /// As `signed_within`. `result` must be a default one.
@@ -470,11 +482,24 @@ void make_signed(std::span<LevelRecord> trace, int visited) {
     if (deep.proved()) deep.store(seed);
     overlap_part(deep, result.answer);
   } else {
-    ask_hulls({*at.a, *at.b, at.motion, at.quality.error, limits}, {0, 0, of_hulls, of_hulls}, seed, result.answer, proof);
-    make_signed(limits.trace, result.answer.levels_visited);
-    if (!(result.answer.lower > 0)) result.answer.lower = -kInfinity;
+    Answer& s = result.answer;
+    ask_hulls({*at.a, *at.b, at.motion, at.quality.error, limits}, {0, 0, of_hulls, of_hulls}, seed, s, proof);
+    make_signed(limits.trace, s.levels_visited);
+    if (!(s.lower > 0)) s.lower = -kInfinity;
+    const bool is_decided = s.upper < of_hulls || (at.radii.none() && s.upper <= of_hulls);
+    if (s.lower < 0 && s.status != Status::Budget && !is_decided) {
+      // The bodies touch where hulls are a radius deep in each other, or levels deviate by more than the threshold.
+      Deepening deep(at, limits, {0, 0, -of_hulls, -of_hulls});
+      deep.spend(s.steps);
+      deep.run({}, -s.upper, s.levels_visited);
+      if (deep.end == DepthEnd::Apart)
+        part(deep, s);
+      else
+        join(deep, s, proof, seed);
+      add_work(deep, s);
+    }
   }
-  finish(at, limits, proof, result.answer);
+  finish(at, limits, {}, proof, result.answer);
   decide(result, threshold);
 }
 

@@ -188,9 +188,12 @@ class Polytope {
   /// Writes to `depth` the witness points whose difference is the nearest point, their vertex pairs and weights.
   void witness(Depth& depth) {
     // Of several facets as low, points and plane must belong to one.
-    const NearestFacet nearest = nearest_point(best_.normal * best_.height);
+    const Vec at = best_.normal * best_.height;
+    NearestFacet nearest = nearest_point(at);
+    // A loose search that began in a cone may end while far points are beside the best plane.
+    if (is_far(hull_.facet(nearest.facet))) nearest = nearest_of(at, -1, [this](int k) { return !is_far(hull_.facet(k)); });
+    if (nearest.facet < 0) return;
     const HullFacet& facet = hull_.facet(nearest.facet);
-    if (is_far(facet)) return;
     depth.active.count = 0;
     depth.point_a = depth.point_b = {0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -328,14 +331,18 @@ class Polytope {
   /// The facets' point below the origin that is nearest to `to`: with 0, the point of the polytope's surface nearest to the
   /// origin. A facet higher than `best_` by over law 2's bound is skipped.
   NearestFacet nearest_point(const Vec& to = {0, 0, 0}) {
+    const double most = best_.height + pair_.law_two;
+    return nearest_of(to, hull_.lowest(), [&](int k) { return hull_.facet(k).height <= most; });
+  }
+  /// The same of `first`, unless that is -1, and of the facets that serve; -1 if there is none.
+  template <class Serves>
+  NearestFacet nearest_of(const Vec& to, int first, Serves serves) const {
     const auto off = [to = wide(to)](const Foot& at) { return dot(at.point - to, at.point - to); };
-    const int lowest = hull_.lowest();
-    NearestFacet best{lowest, foot_of(hull_.facet(lowest))};
+    NearestFacet best{first, first < 0 ? Foot{} : foot_of(hull_.facet(first))};
     for (int k = 0; k < hull_.facet_count(); ++k) {
-      const HullFacet& facet = hull_.facet(k);
-      if (k == lowest || facet.height > best_.height + pair_.law_two) continue;
-      const Foot at = foot_of(facet);
-      if (off(at) < off(best.foot)) best = {k, at};
+      if (k == first || !serves(k)) continue;
+      const Foot at = foot_of(hull_.facet(k));
+      if (best.facet < 0 || off(at) < off(best.foot)) best = {k, at};
     }
     return best;
   }
@@ -378,13 +385,14 @@ std::array<Cone, 4> quarters(const Cone& c) {
 
 bool ends_all(End end) { return end == End::TooCoarse || end == End::Apart || end == End::Budget; }
 
-/// Lowers `lower` to a proved bound on the heights over a cone: by one polytope, or if that is full, by one for each quarter.
-End cover(Polytope& polytope, const Cone& cone, int depth, double& lower) {
+/// Lowers `lower` to a proved bound on the heights over a cone: by one polytope, or if that is full, by one for each quarter,
+/// `most` times.
+End cover(Polytope& polytope, const Cone& cone, int most, double& lower) {
   End end = polytope.begin(cone) ? polytope.grow(true) : End::Flat;
-  if (end == End::Full && depth < kDepthCells) {
+  if (end == End::Full && most > 0) {
     end = End::Enough;
     for (const Cone& quarter : quarters(cone)) {
-      if (const End of = cover(polytope, quarter, depth + 1, lower); of != End::Enough) end = of;
+      if (const End of = cover(polytope, quarter, most - 1, lower); of != End::Enough) end = of;
       if (ends_all(end)) return end;
     }
     return end;
@@ -393,14 +401,15 @@ End cover(Polytope& polytope, const Cone& cone, int depth, double& lower) {
   return end;
 }
 
-/// Covers all directions, octant by octant; `lower` becomes the lower bound, or 0 if the search ends early.
-End cover_all(Polytope& polytope, double& lower) {
+/// Covers all directions, octant by octant, each divided up to `most` times; `lower` becomes the lower bound, or 0 if the
+/// search ends early.
+End cover_all(Polytope& polytope, int most, double& lower) {
   End end = End::Enough;
   lower = kInfinity;
   for (int octant = 0; octant < 8; ++octant) {
     const Vec x{octant & 1 ? -1.0 : 1.0, 0, 0}, y{0, octant & 2 ? -1.0 : 1.0, 0}, z{0, 0, octant & 4 ? -1.0 : 1.0};
     const bool odd = x.x * y.y * z.z < 0;
-    if (const End of = cover(polytope, odd ? Cone{x, z, y} : Cone{x, y, z}, 0, lower); of != End::Enough) end = of;
+    if (const End of = cover(polytope, odd ? Cone{x, z, y} : Cone{x, y, z}, most, lower); of != End::Enough) end = of;
     if (ends_all(end)) return lower = 0, end;
   }
   return end;
@@ -422,7 +431,9 @@ Depth epa(const PairView& pair, const Level& a, const Level& b, const DepthStart
   End end = has_facets ? polytope.grow() : End::Flat;
   depth.lower = max(0, polytope.lower());
   if (end == End::Full) {
-    end = cover_all(polytope, depth.lower);
+    // The bounds of levels that deviate are no narrower than that.
+    const bool is_rough = goal.error > 0 && goal.stop.is_exact();
+    end = cover_all(polytope, is_rough ? kRoughDepthCells : kDepthCells, depth.lower);
     depth.lower = max(0, depth.lower);
     has_facets = polytope.begin(about(polytope.best().normal));
     if (has_facets) polytope.grow(false, depth.lower);  // finds the best plane's facet again, for the points

@@ -87,7 +87,7 @@ Found contacts(const Placed& a, const Placed& b, double beyond, std::uint32_t mo
 /// face's sides.
 Found contacts(const Placed& a, const HalfSpace& b, double beyond, std::uint32_t most_points, Manifold& manifold);
 
-/// Of the bodies, exactly; Undecided: a pose is no rigid motion.
+/// Of the bodies, exactly; Undecided: a pose is no rigid motion, or models lack the levels that tell.
 Verdict meeting(const Placed& a, const Placed& b, PairSeed& seed);
 
 }  // namespace swiftlet
