@@ -390,6 +390,12 @@ void overlap_part(const Deepening& deep, Answer& s) {
   add_work(deep, s);
 }
 
+/// True if a signed answer is as narrow as asked: an error relative to the bodies' depth may be met where one relative to the
+/// hulls' is not.
+[[gnu::noinline]] bool is_met(const StopRule& asked, const Answer& s) {
+  return s.lower > 0 ? asked.narrow(s.lower, s.upper) : asked.narrow(-s.upper, -s.lower);
+}
+
 /// Turns a signed answer about the hulls, and its trace, into those about the bodies, of which `asked` asks.
 void finish(const Setting& at, const Limits& limits, const StopRule& asked, OverlapProof& proof, Answer& s) {
   s.is_signed = true;
@@ -398,10 +404,7 @@ void finish(const Setting& at, const Limits& limits, const StopRule& asked, Over
     at.radii.round_signed(limits.trace, s.levels_visited);
     at.radii.round_signed(s, proof, at.law_two());
   }
-  // An error relative to the bodies' depth may be met where one relative to the hulls' is not.
-  const StopRule enough = asked.at_least(at.law_two());
-  const bool is_narrow = s.lower > 0 ? enough.narrow(s.lower, s.upper) : enough.narrow(-s.upper, -s.lower);
-  if (s.status == Status::LevelLimit && is_narrow) s.status = Status::Converged;
+  if (s.status == Status::LevelLimit && is_met(asked.at_least(at.law_two()), s)) s.status = Status::Converged;
   seal(at.radii, proof, limits.tuning, s);
 }
 
