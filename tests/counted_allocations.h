@@ -39,7 +39,7 @@ std::atomic<std::size_t> allocated_bytes{0};  // in all, whether or not they wer
 
 namespace {
 /// True if allocations of either alignment are counted. The calls are no expressions, which compilers may leave out.
-bool allocations_are_counted() {
+[[maybe_unused]] bool allocations_are_counted() {
   const long before = allocations;
   ::operator delete(::operator new(1));
   constexpr std::align_val_t kWide{64};

@@ -383,18 +383,20 @@ TEST(SignedDistance, StopsAtABudgetAndAtALevel) {
   EXPECT_EQ(signed_distance(scene.a, scene.b, illegal).status, Status::InvalidPose);
 }
 
-/// A distance and then a depth each took the whole budget, warm and cold.
+/// A distance and then a depth each took the whole budget. The distances walk from the coarsest levels here, for many steps.
 TEST(SignedDistance, SpendsItsBudgetOnce) {
   const Scenery scene = scenery(shapes::Family::Long, 2000, 40, 13);
-  PairSeed warm;
+  int both = 0;
   for (const Pose& pose : scene.poses) {
-    for (const std::uint32_t budget : {3u, 10u, 20u, 40u}) {
-      const Options options{.budget = {.steps = budget, .finest_level = budget == 20}};
-      for (const Answer& s :
-           {signed_distance(scene.a, scene.b, pose, options), signed_distance(scene.a, scene.b, pose, warm, options)})
-        EXPECT_LE(s.steps, budget + 26);
-    }
+    const Tuning tuning{.start = StartPolicy::Coarsest};
+    const std::uint32_t of_distance = distance(scene.a, scene.b, pose, {.tuning = tuning}).steps,
+                        of_depth = signed_distance(scene.a, scene.b, pose, {.tuning = tuning}).steps - of_distance;
+    const std::uint32_t budget = std::max(of_distance, of_depth);
+    both += of_distance + of_depth > budget + 26;
+    const Answer s = signed_distance(scene.a, scene.b, pose, {.budget = {.steps = budget}, .tuning = tuning});
+    EXPECT_LE(s.steps, budget + 26);
   }
+  EXPECT_GE(both, 10);
 }
 
 /// Of more facets than a polytope has points the best is found again from a cone, whose far points were all that a loose
@@ -474,13 +476,27 @@ TEST(SignedDistance, OfACoarseLevelIsThatOfItsOwnPolytope) {
   EXPECT_GE(shallow, 70);
 }
 
-/// The bodies overlap by their radii by as much as the threshold says, and their hulls too: the bound of 0 on the hulls'
-/// distance, less the radii, was rounded up past the threshold.
+/// The threshold is minus the sum of the radii, and the hulls overlap. The bound of 0 on the hulls' distance, less the radii,
+/// was rounded up past the threshold.
 TEST(SignedWithin, DecidesWhereTheRadiiMakeTheThreshold) {
   const Body plate = Body::box({-0.5, -0.5, -0.1}, {0.5, 0.5, 0.1}, 0.05), rod = Body::segment({-0.5, 0, 0}, {0.5, 0, 0}, 0.2);
   for (const double t : {-0.24, -0.25, -0.26, -0.34})
     EXPECT_EQ(signed_within(plate, rod, Pose{}, t).decision, Decision::Yes) << t;
   EXPECT_EQ(signed_within(plate, rod, Pose{}, -0.36).decision, Decision::No);
+}
+
+/// Within law 2's bound of contact no depth can tell more than the distance does.
+TEST(SignedWithin, OfTouchingCubesTakesWhatADistanceDoes) {
+  const Polyhedron cube = body(shapes::cube());
+  shapes::Random random(61);
+  for (int i = 0; i < 50; ++i) {
+    const Pose pose{Mat3::Identity(), {2, 2 * random.uniform(-1, 1), 2 * random.uniform(-1, 1)}};
+    for (const double t : {0.0, tolerance(cube, cube, pose) / 2}) {
+      const Within w = signed_within(cube, cube, pose, t);
+      EXPECT_EQ(w.answer.status, Status::Converged);
+      EXPECT_LE(w.answer.steps, within(cube, cube, pose, t).answer.steps);
+    }
+  }
 }
 
 TEST(SignedWithin, DecidesOnBothSidesOfTheThreshold) {

@@ -64,6 +64,11 @@ TEST(World, DepthsOfNestedCylindersTakeMilliseconds) {
   EXPECT_NEAR(s.lower, -1.4, 2e-5);
   EXPECT_LE(s.upper, -1.3998);
   EXPECT_LE(s.steps, 50'000u);
+  // Nor more where the levels' deviation leaves an error, or a threshold, out of reach.
+  EXPECT_LE(signed_distance(outer.value(), inner.value(), Pose{}, {.absolute = 1e-9}).steps, 50'000u);
+  const Within w = signed_within(outer.value(), inner.value(), Pose{}, -1.4);
+  EXPECT_EQ(w.decision, Decision::Undecided);
+  EXPECT_LE(w.answer.steps, 50'000u);
 }
 
 /// Such a model has no level 0: what its finest level says of a half-space holds the body.

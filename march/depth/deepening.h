@@ -115,7 +115,8 @@ class Deepening : public Found {
   }
 
   /// Takes steps that were spent elsewhere off the budget.
-  void spend(std::uint32_t spent) { budget_.steps -= std::min(spent, budget_.steps); }
+  void spend(std::uint32_t spent) { budget_.steps = steps_left(budget_.steps, spent); }
+  std::uint32_t left() const { return steps_left(budget_.steps, steps); }
 
   /// Runs from a cold start. What is known stays if the budget ends that.
   void run_anew() {
@@ -243,7 +244,7 @@ class Deepening : public Found {
         n = seen.seen.normal;
         if (turns) continue;
       }
-      Walk w = walk(apart, from.a, from.b, PlaneRule::MostViolated, budget_.steps - std::min(steps, budget_.steps));
+      Walk w = walk(apart, from.a, from.b, PlaneRule::MostViolated, left());
       steps += w.steps, plane_tests += w.plane_tests;
       if (w.end != WalkEnd::Minimum) {
         if (climbs) break;
@@ -274,12 +275,11 @@ class Deepening : public Found {
     Depth found;
     DepthStart at;
     at.direction = direction;
-    const bool wants_facet = goal.error == 0 || goal.is_finest;  // on a coarse pair bounds are wanted, and no facet
-    if ((fits || wants_facet) && steps < budget_.steps &&
+    if ((fits || goal.wants_facet()) && steps < budget_.steps &&
         slide(pair, of_a, of_b, fits ? MarchStart{seed.a, seed.b} : MarchStart{}, goal, at, found))
       return found;
-    if (!wants_facet) at = {}, at.direction = direction;
-    goal.step_budget = budget_.steps - std::min(steps, budget_.steps);
+    if (!goal.wants_facet()) at = {}, at.direction = direction;
+    goal.step_budget = left();
     found = epa(pair, of_a, of_b, at, goal, plane_tests);
     steps += found.steps;
     return found;
@@ -288,7 +288,8 @@ class Deepening : public Found {
   void solve(const PairSeed& seed, const Vec& direction, double error) {
     const Level &of_a = a_.level(place_.level_a), &of_b = b_.level(place_.level_b);
     const PairView pair = pair_.view_at(place_);
-    const Depth found = depth_of(pair, of_a, of_b, seed, direction, {stop_, pair.law_two, error, is_finest(), floor_});
+    const DepthGoal goal(stop_, pair.law_two, error, is_finest(), floor_);
+    const Depth found = depth_of(pair, of_a, of_b, seed, direction, goal);
     end = found.end;
     if (found.lower > 0) lower = max(lower, error > 0 ? (found.lower - error) - 2 * kU * (found.lower + error) : found.lower);
     if (end == DepthEnd::Converged && error > 0 && !stop_.met(max(lower, floor_), min(upper, found.upper)))
@@ -304,7 +305,7 @@ class Deepening : public Found {
     if (feature_a.kind() != FeatureKind::None) return;
     feature_a = feature_of(of_a.view, found.active, found.active.a);
     feature_b = feature_of(of_b.view, found.active, found.active.b);
-    if ((error > 0 && !is_finest()) || !stop_.is_exact()) return;  // the points need not lie on the surfaces
+    if (!goal.wants_facet() || !stop_.is_exact()) return;  // the points need not lie on the surfaces
     const HeldPoint a = held_at_a(pair, feature_a, point_a, plane_tests), b = held_at_b(pair, feature_b, point_b, plane_tests);
     feature_a = a.feature, point_a = a.point;
     feature_b = b.feature, point_b = b.point;
@@ -436,7 +437,7 @@ void make_signed(std::span<LevelRecord> trace, int visited) {
   StopRule of_hulls = at.radii.of_hulls(of_bodies, at.law_two());
   of_hulls.above = max(of_hulls.above, 0);  // a distance of 0, which any overlap has, is beyond nothing
   Budget left = options.budget;
-  left.steps -= std::min(deep.steps, left.steps);
+  left.steps = deep.left();
   Limits rest(left, options.tuning);
   rest.trace = limits.trace;
   ask_hulls({*at.a, *at.b, at.motion, at.quality.error, rest}, of_hulls, seed, answer, proof);
@@ -455,7 +456,8 @@ void make_signed(std::span<LevelRecord> trace, int visited) {
       deep.touch(vec(answer.normal), answer.feature_a, answer.feature_b, floor);
       known = deep.narrow(floor);
     }
-    if (!known) deep.run(here, floor, answer.levels_visited);
+    const bool is_spent = deep.end == DepthEnd::Budget && deep.left() == 0;  // what is known stays
+    if (!known && !is_spent) deep.run(here, floor, answer.levels_visited);
     if (deep.end == DepthEnd::Apart)
       part(deep, answer);
     else
@@ -489,9 +491,11 @@ void make_signed(std::span<LevelRecord> trace, int visited) {
     ask_hulls({*at.a, *at.b, at.motion, at.quality.error, limits}, {0, 0, of_hulls, of_hulls}, seed, s, proof);
     make_signed(limits.trace, s.levels_visited);
     if (!(s.lower > 0)) s.lower = -kInfinity;
-    const bool is_decided = s.upper < of_hulls || (at.radii.none() && s.upper <= of_hulls);
-    if (s.lower < 0 && s.status != Status::Budget && !is_decided) {
-      // The bodies touch where hulls are a radius deep in each other, or levels deviate by more than the threshold.
+    // With radii, a threshold of about minus their sum asks whether the hulls overlap, which a distance of 0 does not tell. Nor
+    // does one of levels that deviate by more than the threshold.
+    const bool tells_little = !at.radii.none() || s.status == Status::LevelLimit;
+    if (s.lower < 0 && s.status != Status::Budget && tells_little && !(s.upper < of_hulls)) {
+      const Status of_distance = s.status;
       Deepening deep(at, limits, {0, 0, -of_hulls, -of_hulls});
       deep.spend(s.steps);
       deep.run({}, -s.upper, s.levels_visited);
@@ -499,11 +503,14 @@ void make_signed(std::span<LevelRecord> trace, int visited) {
         part(deep, s);
       else
         join(deep, s, proof, seed);
+      if (s.status == Status::NotConverged) s.status = of_distance;  // touching, within law 2's bound
       add_work(deep, s);
     }
   }
   finish(at, limits, {}, proof, result.answer);
   decide(result, threshold);
+  if (result.decision != Decision::Undecided && result.answer.status == Status::LevelLimit)
+    result.answer.status = Status::Converged;
 }
 
 }  // namespace

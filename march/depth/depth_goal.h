@@ -30,11 +30,12 @@ struct DepthGoal {
 
   bool narrow(double lower, double upper) const { return stop.narrow(lower > 0 ? lower : floor, upper); }
   bool passed(double lower, double upper) const { return stop.passed(lower, upper); }
-  /// True if no bounds on this level pair can suffice, because its `error` takes up the width that is allowed, and a finer one
-  /// follows.
-  bool hopeless(double lower, double upper) const {
-    return error > 0 && !is_finest && stop.allowed(upper) <= stop.least && upper <= stop.above && lower >= stop.below;
-  }
+  /// True if no lower bound on this level pair can suffice, because its `error` takes up the width that is allowed.
+  bool is_too_coarse(double upper) const { return error > 0 && stop.allowed(upper) <= stop.least && upper <= stop.above; }
+  /// True if no bounds on it can, and a finer level pair follows.
+  bool hopeless(double lower, double upper) const { return !is_finest && is_too_coarse(upper) && lower >= stop.below; }
+  /// True if a facet of the Minkowski difference is wanted, with its points. Where a finer level pair follows, bounds suffice.
+  bool wants_facet() const { return error == 0 || is_finest; }
 };
 
 /// Where the search begins: up to four vertex pairs, ideally those whose differences are the corners of a facet of the

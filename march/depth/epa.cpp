@@ -159,7 +159,7 @@ class Polytope {
         return End::Budget;
       }
       if (hull_.corner_count() == ExactHull::kMostPoints) return End::Full;
-      const Corner ahead = is_starts(facet) || goal_.error > 0 ? from : climb(facet.normal, from.a, from.b);
+      const Corner ahead = is_starts(facet) || !goal_.wants_facet() ? from : climb(facet.normal, from.a, from.b);
       if (leads_on(next, ahead)) {
         add(ahead, next);
         continue;
@@ -191,7 +191,8 @@ class Polytope {
     const Vec at = best_.normal * best_.height;
     NearestFacet nearest = nearest_point(at);
     // A loose search that began in a cone may end while far points are beside the best plane.
-    if (is_far(hull_.facet(nearest.facet))) nearest = nearest_of(at, -1, [this](int k) { return !is_far(hull_.facet(k)); });
+    if (is_far(hull_.facet(nearest.facet)))
+      nearest = nearest_of(at, -1, [this](int k) { return !hull_.is_gone(k) && !is_far(hull_.facet(k)); });
     if (nearest.facet < 0) return;
     const HullFacet& facet = hull_.facet(nearest.facet);
     depth.active.count = 0;
@@ -431,8 +432,7 @@ Depth epa(const PairView& pair, const Level& a, const Level& b, const DepthStart
   End end = has_facets ? polytope.grow() : End::Flat;
   depth.lower = max(0, polytope.lower());
   if (end == End::Full) {
-    // The bounds of levels that deviate are no narrower than that.
-    const bool is_rough = goal.error > 0 && goal.stop.is_exact();
+    const bool is_rough = goal.is_too_coarse(polytope.best().height);
     end = cover_all(polytope, is_rough ? kRoughDepthCells : kDepthCells, depth.lower);
     depth.lower = max(0, depth.lower);
     has_facets = polytope.begin(about(polytope.best().normal));

@@ -87,7 +87,7 @@ class Descent {
   PairView view_at(const Place& place) const { return pair_.view_at(place); }
   double deviation(int level_a, int level_b) const { return pair_.deviation(level_a, level_b); }
   /// Certified GJK may have taken one step more than the budget has.
-  std::uint32_t steps_left() const { return budget_.steps - std::min(answer_.steps, budget_.steps); }
+  std::uint32_t steps_left() const { return swiftlet::steps_left(budget_.steps, answer_.steps); }
   bool sampled() const { return max_abs(from_.seen.normal) > 0; }
   /// The width that the bounds on a coarse pair may have: the allowed width, less 8 u of it for rounding, less the deviation
   /// `error`; 0 on the exact pair. To prove more, such as that coarse levels overlap, takes vertices from all around both.

@@ -3,6 +3,7 @@
 // How far and how a query may go. Plain data, no algorithm.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -42,6 +43,9 @@ static inline std::uint64_t limits_in(const Budget& budget, const Tuning& tuning
   return (bit_cast<std::uint64_t>(budget) ^ bit_cast<std::uint64_t>(NoLimits::budget)) |
          (choices(tuning) ^ choices(NoLimits::tuning)) | tuning.trace.size() | std::uintptr_t(tuning.proof);
 }
+
+/// What is left of a budget of `most` steps.
+static inline std::uint32_t steps_left(std::uint32_t most, std::uint32_t taken) { return most - std::min(taken, most); }
 
 /// Writes `record` at `index` of `trace`, or over its last entry if the trace is too short; an empty trace takes nothing.
 static inline void note(std::span<LevelRecord> trace, std::size_t index, const LevelRecord& record) {

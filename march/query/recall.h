@@ -31,8 +31,7 @@ namespace swiftlet {
 template <class Pair>
 [[gnu::always_inline]] static inline Walk walk_from(const Pair& pair, const PairView& view, FeatureId a, FeatureId b,
                                                     const Place& place, const Answer& answer, double enough2) {
-  const std::uint32_t steps_left = pair.limits.budget.steps - std::min(answer.steps, pair.limits.budget.steps);
-  const std::uint32_t most = std::min(steps_left, place.trial_steps);
+  const std::uint32_t most = std::min(steps_left(pair.limits.budget.steps, answer.steps), place.trial_steps);
   return walked_by(pair.limits.tuning.plane_rule, view, a, b, most, enough2);
 }
 /// Walks on the level pair of `place`, from its features, which a seed may have named. They are read one by one, as they were

@@ -22,8 +22,8 @@ enum class Status : std::uint8_t {
   Converged,      ///< the interval is as narrow as asked, or the verdict is proved
   Beyond,         ///< stopped early because lower > options.beyond
   Budget,         ///< the query used up `Budget::steps`; the interval is true
-  LevelLimit,     ///< a level that the tolerance needs is absent from a model or finer than the budget allows; the interval
-                  ///< is true, and as narrow as the levels that the answer names allow
+  LevelLimit,     ///< a level that the tolerance needs is absent from a model or finer than the budget allows; the interval is
+                  ///< true, and, unless hundreds of faces share a depth, as narrow as the levels that the answer names allow
   NotConverged,   ///< the interval is true but wider than asked. Known only for depths of meshes (mesh_query.h), for depths
                   ///< that hundreds of faces share, and for needles and plates as thin as law 2's bound (README.md, Limits)
   InvalidPose,    ///< the pose is not finite, translates beyond 1e45 or is not orthonormal to 1e-6: nothing is known
@@ -151,7 +151,7 @@ static_assert(sizeof(Answer) == 128);
 /// receives the warm start for the next. Cost: law 7 bounds the steps (march.h). Allocates nothing; uses 4 kB of stack, and
 /// 10 kB where only exact arithmetic decides a sign.
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options);
-/// Returns the exact distance, as the default options ask for; these need not be made and looked at.
+/// Returns the exact distance, as with default options, and sooner, since none are read.
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed);
 /// Returns the distance, from a cold start.
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, const Options& options = {});
@@ -169,7 +169,7 @@ Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so
 
 /// Decides whether the bodies share a point: read `verdict`. Ends at the first level pair that is proved disjoint.
 Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Effort& effort);
-/// Decides the same without limits; these need not be made and looked at.
+/// Decides the same as with the default effort, and sooner, since none is read.
 Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed);
 /// Decides from a cold start whether the bodies share a point.
 Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, const Effort& effort = {});
