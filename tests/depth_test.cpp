@@ -468,8 +468,9 @@ TEST(SignedDistance, OfACoarseLevelIsThatOfItsOwnPolytope) {
     }
     for (const double t : {exact.lower - 0.01, exact.upper, exact.upper + 1e-9, 0.0, 0.01}) {
       const Decision decision = signed_within(a, b, pose, t).decision;
-      if (t < exact.lower - bound) EXPECT_EQ(decision, Decision::No) << i << ' ' << t;
-      if (t > exact.upper + bound) EXPECT_EQ(decision, Decision::Yes) << i << ' ' << t;
+      const bool is_below = t<exact.lower - bound, is_above = t> exact.upper + bound;
+      EXPECT_TRUE(!is_below || decision == Decision::No) << i << ' ' << t;
+      EXPECT_TRUE(!is_above || decision == Decision::Yes) << i << ' ' << t;
     }
   }
   EXPECT_GE(deep, 40);
@@ -630,8 +631,10 @@ TEST(Regress, SliversLedAWalkToAFaceThatIsNone) {
 /// Where a budget ended both distance and depth, the levels of an answer were the depth's, the points those of a coarser level.
 TEST(Regress, APlatesPointLayOnAnotherLevelThanTold) {
   const double thick = 0x1p-51;
-  const Polyhedron plate = body({{0, 0, thick / 2}, {1, 0, thick}, {1, 0, 0}, {0, 2, thick / 2}, {0, 2, thick}, {2, 1, thick}},
-                                {.cutoff = 4, .max_levels = 2});
+  BuildOptions two_levels;
+  two_levels.cutoff = 4, two_levels.max_levels = 2;
+  const Polyhedron plate =
+      body({{0, 0, thick / 2}, {1, 0, thick}, {1, 0, 0}, {0, 2, thick / 2}, {0, 2, thick}, {2, 1, thick}}, two_levels);
   ASSERT_EQ(plate.model.level_count(), 2);
   shapes::Random random(8);
   int coarse = 0;
