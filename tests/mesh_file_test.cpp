@@ -150,10 +150,9 @@ TEST(MeshFile, ConcavePolygonsAreCutInside) {
 
 /// CGAL's exact arithmetic takes no infinity, which the length of such a polygon's normal is.
 TEST(MeshFile, ConcavePolygonsBeyondAllLimitsAreRead) {
-  for (const char* far : {"1e100", "1e150", "1e153", "1e155", "1e200", "1e308"}) {
-    const std::string x = far;
-    const Result<Mesh> mesh =
-        read("far.off", "OFF\n5 1 0\n0 0 0\n0 1 0\n1 0 0\n" + x + " " + x + " 0\n-" + x + " " + x + " 0\n5 0 1 2 3 4\n");
+  for (const std::string far : {"1e100", "1e150", "1e153", "1e155", "1e200", "1e308"}) {
+    const Result<Mesh> mesh = read(
+        "far.off", "OFF\n5 1 0\n0 0 0\n0 1 0\n1 0 0\n" + far + " " + far + " 0\n-" + far + " " + far + " 0\n5 0 1 2 3 4\n");
     ASSERT_TRUE(mesh) << far;
     EXPECT_EQ(mesh.value().triangles.size(), 3u);
   }
