@@ -28,7 +28,7 @@ enum class Status : std::uint8_t {
                   ///< that hundreds of faces share, and for needles and plates as thin as law 2's bound (README.md, Limits)
   InvalidPose,    ///< the pose is not finite, translates beyond 1e45 or is not orthonormal to 1e-6: nothing is known
   InvalidRadius,  ///< a radius is not a number from 0 to 1e45, or `refine` got an answer of other radii: nothing is known
-  InvalidBody,    ///< an empty body, a coordinate that no model may have, a box turned inside out, a solid that is not closed
+  InvalidBody,    ///< an empty body, an illegal coordinate, a box turned inside out, an open solid: nothing is known
 };
 
 /// What is proved about the two bodies as closed sets.
