@@ -31,8 +31,8 @@ class Swiftlet(ConanFile):
         self.version = re.search(r"project\(swiftlet VERSION ([0-9.]+)", listing).group(1)
 
     def export_sources(self):
-        for pattern in ("CMakeLists.txt", "packages.cmake", "swiftlet*", "LICENSE", "CHANGELOG.md", "lut/*", "march/*",
-                        "bvh/*", "scene/*", "lod/*", "tool/*", "tests/data/models/fat_*.swl"):
+        for pattern in ("CMakeLists.txt", "packages.cmake", "package.xml", "swiftlet*", "LICENSE", "CHANGELOG.md", "lut/*",
+                        "march/*", "bvh/*", "scene/*", "lod/*", "tool/*", "tests/data/models/fat_*.swl"):
             copy(self, pattern, src=self._root, dst=self.export_sources_folder)
 
     def layout(self):
