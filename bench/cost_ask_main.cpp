@@ -41,7 +41,7 @@ void print_doubts(const Body& a, const Body& b, const std::vector<Pose>& poses, 
 }
 
 /// Prints what a distance takes, in ns: the fastest and the median round over all poses, and the mean distance.
-void print_time(const Body& a, const Body& b, const std::vector<Pose>& poses, const Options& options) {
+void print_time(const Model& a, const Model& b, const std::vector<Pose>& poses, const Options& options) {
   constexpr int kRounds = 60;
   using Clock = std::chrono::steady_clock;
   std::vector<double> ns;
@@ -73,20 +73,21 @@ int main(int argc, char** argv) {
   std::fclose(file);
   Options options;
   if (argc == 4) options.absolute = std::atof(argv[3]) * model_a.value().radius();
-  const Body a = model_a.value(), b = model_b.value();
+  const Model &a = model_a.value(), &b = model_b.value();
   if (question == "doubts") return print_doubts(a, b, poses, options), 0;
   if (question == "time") return print_time(a, b, poses, options), 0;
+  const Body body_a = a, body_b = b;
   PairSeed seed;
   double steps = 0, tests = 0;
   for (const Pose& pose : poses) {
     if (question == "cold") seed = {};
     const auto count = [&](const auto& answer) { steps += answer.steps, tests += answer.plane_tests; };
     if (question == "signed_distance")
-      count(signed_distance(a, b, pose, seed, options));
+      count(signed_distance(body_a, body_b, pose, seed, options));
     else if (question == "intersects")
       count(intersects(a, b, pose, seed));
     else
-      count(argc == 4 ? distance(a, b, pose, seed, options) : distance(a, b, pose, seed));
+      count(argc == 4 ? distance(body_a, body_b, pose, seed, options) : distance(a, b, pose, seed));
   }
   const double n = double(poses.size());
   std::printf("queries %.0f steps %.2f tests %.1f\n", n, steps / n, tests / n);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include <swiftlet/depth.h>
@@ -31,8 +32,8 @@ Outcome outcome_of(const Answer& answer) {
 
 class SwiftletSession final : public SessionOf<SwiftletSession> {
  public:
-  SwiftletSession(const Options& options, std::span<const SceneBody> bodies, std::span<const BodyPair> pairs)
-      : options_(options) {
+  SwiftletSession(const std::optional<Options>& options, std::span<const SceneBody> bodies, std::span<const BodyPair> pairs)
+      : has_options_(options), options_(options.value_or(Options{})) {
     for (const SceneBody& body : bodies) {
       preparation_.seconds += body.build_seconds;
       preparation_.heap_bytes += body.model->bytes().size();
@@ -41,11 +42,13 @@ class SwiftletSession final : public SessionOf<SwiftletSession> {
   }
   Outcome distance(std::uint32_t pair, const Pose& b_in_a) override {
     State& s = pairs_[pair];
-    return outcome_of(swiftlet::distance(s.a, s.b, b_in_a, s.seed, options_));
+    return outcome_of(has_options_ ? swiftlet::distance(s.a, s.b, b_in_a, s.seed, options_)
+                                   : swiftlet::distance(*s.a.model(), *s.b.model(), b_in_a, s.seed));
   }
   Outcome intersects(std::uint32_t pair, const Pose& b_in_a) override {
     State& s = pairs_[pair];
-    return outcome_of(swiftlet::intersects(s.a, s.b, b_in_a, s.seed, {options_.budget, options_.tuning}));
+    return outcome_of(has_options_ ? swiftlet::intersects(s.a, s.b, b_in_a, s.seed, {options_.budget, options_.tuning})
+                                   : swiftlet::intersects(*s.a.model(), *s.b.model(), b_in_a, s.seed));
   }
   Outcome depth(std::uint32_t pair, const Pose& b_in_a) override {
     State& s = pairs_[pair];
@@ -78,7 +81,7 @@ class SwiftletSession final : public SessionOf<SwiftletSession> {
 
 class SwiftletMethod final : public Method {
  public:
-  SwiftletMethod(std::string name, std::string settings, const Options& options)
+  SwiftletMethod(std::string name, std::string settings, const std::optional<Options>& options)
       : name_(std::move(name)), settings_(std::move(settings)), options_(options) {}
   std::string name() const override { return name_; }
   std::string settings() const override { return settings_; }
@@ -96,14 +99,15 @@ class SwiftletMethod final : public Method {
 
  private:
   std::string name_, settings_;
-  Options options_;
+  std::optional<Options> options_;
 };
 
 void add_swiftlet(Methods& methods) {
+  methods.push_back(
+      swiftlet_method("swiftlet", "as shipped: automatic start, both bodies one level at a time, most violated plane", {}));
   const auto add = [&](const char* name, const char* settings, const Tuning& tuning) {
-    methods.push_back(std::make_unique<SwiftletMethod>(name, settings, Options{.tuning = tuning}));
+    methods.push_back(swiftlet_method(name, settings, Options{.tuning = tuning}));
   };
-  add("swiftlet", "as shipped: automatic start, both bodies one level at a time, most violated plane", {});
   add("swiftlet table", "starts on level 0 from the tables, no hierarchy, no seed", {.start = StartPolicy::Table});
   add("swiftlet finest", "starts on level 0 from the last features, no hierarchy", {.start = StartPolicy::Finest});
   add("swiftlet coarsest", "starts on the coarsest pair, always", {.start = StartPolicy::Coarsest});
@@ -212,7 +216,7 @@ class PlainMethod final : public Method {
 
 }  // namespace
 
-std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, const Options& options) {
+std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, const std::optional<Options>& options) {
   return std::make_unique<SwiftletMethod>(std::move(name), std::move(settings), options);
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -121,8 +122,8 @@ using Methods = std::vector<std::unique_ptr<Method>>;
 Methods all_methods();
 /// The baselines and the peers, each as its users run it where a timed row leaves something out: for verdicts, not for clocks.
 Methods judged_methods();
-/// Ours with other options. The models that a session is opened with decide levels and table.
-std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, const Options& options);
+/// Ours with options, or asked without. The models that a session is opened with decide levels and table.
+std::unique_ptr<Method> swiftlet_method(std::string name, std::string settings, const std::optional<Options>& options);
 /// Our walk alone, by another rule than `plain` in all_methods.
 std::unique_ptr<Method> plain_method(std::string name, std::string settings, PlaneRule rule, bool table = false);
 /// The peers that the build did not find.

@@ -91,7 +91,7 @@ class Field {
     if (arguments.wrong) everyone_.push_back(std::make_unique<WrongMethod>());
     const auto figure = [&](const char* name, StartPolicy start, Refinement refinement, PlaneRule rule = {}) {
       const Tuning tuning{.start = start, .refinement = refinement, .plane_rule = rule};
-      figures_.push_back(swiftlet_method(name, "of the paper's figures", {.tuning = tuning}));
+      figures_.push_back(swiftlet_method(name, "of the paper's figures", Options{.tuning = tuning}));
     };
     figure("finest first", StartPolicy::Finest, Refinement::SingleSingle, PlaneRule::FirstViolated);
     for (const auto& [start, policy] : kStarts) {

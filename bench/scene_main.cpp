@@ -205,7 +205,7 @@ void measure_scene(const std::vector<Shape>& shapes, std::ostream& csv) {
     });
     std::vector<SceneBody> bodies;
     for (const Model& model : models) bodies.push_back({&model, {}, 0}), row.bytes += model.bytes().size();
-    const auto session = swiftlet_method("swiftlet", "", {.absolute = tolerance})->open(bodies, crowd.pairs);
+    const auto session = swiftlet_method("swiftlet", "", Options{.absolute = tolerance})->open(bodies, crowd.pairs);
     std::vector<Outcome> found = measure(row, *session, crowd, kinds, truth, csv);
     if (tolerance == 0) whole = std::move(models), truth = std::move(found);
   }

@@ -286,6 +286,24 @@ TEST(Distance, WithoutOptionsIsThatOfTheDefaultOnes) {
   }
 }
 
+TEST(Distance, OfModelsIsThatOfTheirBodies) {
+  const Bodies& pair = bodies(shapes::Family::Plate);
+  const Model cut = pair.b.cut({.deviation = 0.1});
+  for (const Model* b : {&pair.a, &pair.b, &cut}) {
+    shapes::Random random(13);
+    PairSeed of_models, of_bodies, verdict, verdict_of_bodies;
+    for (int i = 0; i < 200; ++i) {
+      const Pose pose{random.rotation(), random.uniform(0, 3) * random.on_sphere()};
+      for (int again = 0; again < 2; ++again) {
+        EXPECT_TRUE(
+            answers::same_bits(distance(pair.a, *b, pose, of_models), distance(Body(pair.a), Body(*b), pose, of_bodies)));
+        EXPECT_TRUE(answers::same_bits(intersects(pair.a, *b, pose, verdict),
+                                       intersects(Body(pair.a), Body(*b), pose, verdict_of_bodies)));
+      }
+    }
+  }
+}
+
 TEST(Distance, RefusesPosesThatAreNone) {
   const Model body = cube();
   const double nan = std::nan(""), infinity = HUGE_VAL;

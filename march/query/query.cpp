@@ -133,6 +133,7 @@ Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
   return are_models(a, b) ? ask_distance(*a.model(), *b.model(), b_in_a, seed) : any_distance(a, b, b_in_a, seed, {});
 }
+Answer distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed) { return ask_distance(a, b, b_in_a, seed); }
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, const Options& options) {
   PairSeed cold;
   return distance(a, b, b_in_a, cold, options);
@@ -155,6 +156,9 @@ Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& se
 }
 Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
   return are_models(a, b) ? ask_intersection(*a.model(), *b.model(), b_in_a, seed) : any_intersection(a, b, b_in_a, seed, {});
+}
+Answer intersects(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed) {
+  return ask_intersection(a, b, b_in_a, seed);
 }
 Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, const Effort& effort) {
   PairSeed cold;

@@ -219,6 +219,15 @@ Answer Pair::loose(PairSeed& seed, const Options& options) {
   return answer;
 }
 
+Answer Pair::coarse_depth(PairSeed& seed, const Options& options) {
+  const PairSeed start = seed;
+  OverlapProof proof;
+  const Answer answer = signed_distance(a_.model, b_.model, b_in_a_, seed, proving(options, proof));
+  count(answer);
+  judged(judge_.coarse(answer, proof), "signed distance, coarse,", start);
+  return answer;
+}
+
 Answer Pair::exact_depth(PairSeed& seed) {
   const PairSeed start = seed;
   OverlapProof proof;

@@ -95,6 +95,9 @@ class Pair {
   /// The distance to whatever precision, budget or level.
   Answer loose(PairSeed& seed, const Options& options);
 
+  /// The signed distance on coarse levels.
+  Answer coarse_depth(PairSeed& seed, const Options& options);
+
   /// The exact signed distance, and again from where that ended.
   Answer exact_depth(PairSeed& seed);
 

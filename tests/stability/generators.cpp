@@ -823,6 +823,7 @@ void coarse_levels(Examiner& examiner, std::uint64_t) {
     for (const int finest : {1, 2, 3}) {
       options.budget.finest_level = finest;
       pair.loose(warm, options);
+      pair.coarse_depth(warm, options);
     }
     options.budget.finest_level = 0;
     options.budget.steps = below(random, 6);

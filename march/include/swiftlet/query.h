@@ -153,6 +153,8 @@ static_assert(sizeof(Answer) == 128);
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options);
 /// Returns the exact distance, as with default options, and sooner, since none are read.
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed);
+/// Returns the same of two models without radii, and sooner, since no bodies are made of them.
+Answer distance(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed);
 /// Returns the distance, from a cold start.
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, const Options& options = {});
 
@@ -171,6 +173,8 @@ Answer refine(const Body& a, const Body& b, const Pose& b_in_a, const Answer& so
 Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Effort& effort);
 /// Decides the same as with the default effort, and sooner, since none is read.
 Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed);
+/// Decides the same of two models without radii, and sooner, since no bodies are made of them.
+Answer intersects(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed);
 /// Decides from a cold start whether the bodies share a point.
 Answer intersects(const Body& a, const Body& b, const Pose& b_in_a, const Effort& effort = {});
 
