@@ -101,14 +101,10 @@ static inline Vec4 min(const Vec4& a, const Vec4& b) { return {_mm256_min_pd(b.v
 static inline Vec4 abs(const Vec4& a) { return {_mm256_andnot_pd(all(-0.0).v, a.v)}; }
 template <int i>
 static inline Vec4 lane(const Vec4& a) {
-#if defined(__AVX2__)
-  // One shuffle of single lanes across the register's halves takes as long as two products. Two others are sooner there.
-  if constexpr (i == 1) return {_mm256_broadcastsd_pd(_mm_unpackhi_pd(low(a), low(a)))};
-#endif
   return {__builtin_shufflevector(a.v, a.v, i, i, i, i)};
 }
 static inline Vec4 halves_swapped(const Vec4& a) { return {_mm256_permute2f128_pd(a.v, a.v, 1)}; }
-static inline Vec4 zxy(const Vec4& a) { return {_mm256_shuffle_pd(halves_swapped(a).v, a.v, 0b1100)}; }
+static inline Vec4 zxy(const Vec4& a) { return {__builtin_shufflevector(a.v, a.v, 2, 0, 1, 3)}; }
 static inline Vec4 yzx(const Vec4& a) { return {__builtin_shufflevector(a.v, a.v, 1, 2, 0, 3)}; }
 /// In each lane what the lane after it, or before it, holds; after the last comes the first.
 static inline Vec4 next(const Vec4& a) { return {__builtin_shufflevector(a.v, a.v, 1, 2, 3, 0)}; }
