@@ -75,6 +75,7 @@ class SwiftletSession final : public SessionOf<SwiftletSession> {
     Body a, b;
     PairSeed seed;
   };
+  bool has_options_;
   Options options_;
   std::vector<State> pairs_;
 };
