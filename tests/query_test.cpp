@@ -289,6 +289,7 @@ TEST(Distance, WithoutOptionsIsThatOfTheDefaultOnes) {
 TEST(Distance, OfModelsIsThatOfTheirBodies) {
   const Bodies& pair = bodies(shapes::Family::Plate);
   const Model cut = pair.b.cut({.deviation = 0.1});
+  ASSERT_GT(cut.finest_level(), 0);
   for (const Model* b : {&pair.a, &pair.b, &cut}) {
     shapes::Random random(13);
     PairSeed of_models, of_bodies, verdict, verdict_of_bodies;

@@ -11,6 +11,7 @@
 
 #include <CGAL/Gmpzf.h>
 
+#include "bodies.h"
 #include "depth_check.h"
 
 namespace swiftlet::stability {
@@ -238,16 +239,12 @@ std::string Judge::coarse(const Answer& answer, const OverlapProof& proof) {
   if (std::string wrong = interval(answer, proof); !wrong.empty()) return wrong;
   if (answer.status != Status::Converged && answer.status != Status::LevelLimit)
     return text("the status is %d", int(answer.status));
-  const auto all_of = [](const Level& level) {
-    std::vector<Vec3> points;
-    for (const Vertex& v : level.view.vertices) points.emplace_back(v.x, v.y, v.z);
-    return points;
-  };
+  const Level &a = a_.model.level(answer.level_a), &b = b_.model.level(answer.level_b);
   const Vec3 &p = answer.point_a, &q = answer.point_b;
   if (!p.allFinite() || !q.allFinite()) return "a witness point is not finite";
-  if (!within_law_two(p, all_of(a_.model.level(answer.level_a)), {})) return "point_a is not on its level of A";
-  if (!within_law_two(q, all_of(b_.model.level(answer.level_b)), b_in_a_)) return "point_b is not on its level of B";
-  const double error = a_.model.level(answer.level_a).deviation + b_.model.level(answer.level_b).deviation + 2 * law_two_;
+  if (!within_law_two(p, bodies::points_of(a.view), {})) return "point_a is not on its level of A";
+  if (!within_law_two(q, bodies::points_of(b.view), b_in_a_)) return "point_b is not on its level of B";
+  const double error = a.deviation + b.deviation + 2 * law_two_;
   const double apart = (q - p).norm(), least = std::max(answer.lower - error, -answer.upper - 2 * law_two_),
                most = std::max(answer.upper, -answer.lower) + error;
   return least <= apart && apart <= most ? "" : text("the points are %a apart, not %a to %a", apart, least, most);

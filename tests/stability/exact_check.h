@@ -51,8 +51,8 @@ class Judge {
   /// both bodies, and differ by the signed distance times the normal.
   std::string exact(const Answer& answer, const OverlapProof& proof = {});
 
-  /// A signed answer that ended on coarse levels: `interval`, and its points lie within law 2's bound of the levels named, and
-  /// are as far apart as the interval says, up to these levels' deviations.
+  /// A signed answer that ended on coarse levels: `interval`, and its status is Converged or LevelLimit. Its points lie within
+  /// law 2's bound of the levels named, and are as far apart as the interval says, up to these levels' deviations.
   std::string coarse(const Answer& answer, const OverlapProof& proof = {});
 
   /// The answer to `intersects`: `interval`, and it converged with a verdict.

@@ -210,22 +210,21 @@ Answer Pair::exact(PairSeed& seed, const Options& options) {
   return answer;
 }
 
-Answer Pair::loose(PairSeed& seed, const Options& options) {
+Answer Pair::limited(Query query, Judgement judgement, const char* name, PairSeed& seed, const Options& options) {
   const PairSeed start = seed;
   OverlapProof proof;
-  const Answer answer = distance(a_.model, b_.model, b_in_a_, seed, proving(options, proof));
+  const Answer answer = query(a_.model, b_.model, b_in_a_, seed, proving(options, proof));
   count(answer);
-  judged(judge_.interval(answer, proof), "distance, not exact,", start);
+  judged((judge_.*judgement)(answer, proof), name, start);
   return answer;
 }
 
+Answer Pair::loose(PairSeed& seed, const Options& options) {
+  return limited(distance, &Judge::interval, "distance, not exact,", seed, options);
+}
+
 Answer Pair::coarse_depth(PairSeed& seed, const Options& options) {
-  const PairSeed start = seed;
-  OverlapProof proof;
-  const Answer answer = signed_distance(a_.model, b_.model, b_in_a_, seed, proving(options, proof));
-  count(answer);
-  judged(judge_.coarse(answer, proof), "signed distance, coarse,", start);
-  return answer;
+  return limited(signed_distance, &Judge::coarse, "signed distance, coarse,", seed, options);
 }
 
 Answer Pair::exact_depth(PairSeed& seed) {

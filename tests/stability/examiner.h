@@ -116,6 +116,9 @@ class Pair {
   double law_two() const { return judge_.law_two(); }
 
  private:
+  using Query = Answer (*)(const Body&, const Body&, const Pose&, PairSeed&, const Options&);
+  using Judgement = std::string (Judge::*)(const Answer&, const OverlapProof&);
+  Answer limited(Query query, Judgement judgement, const char* name, PairSeed& seed, const Options& options);
   Answer examine(PairSeed& seed, std::uint64_t choice);
   Answer compare(PairSeed& seed, std::uint64_t choice);
   void count(const Answer& answer) { examiner_.count(answer); }
