@@ -230,6 +230,35 @@ TEST(Judge, FlagsCoarseAnswersThatAreNotTrue) {
   EXPECT_NE(Judge(a, a, pose).interval(answer), "");
 }
 
+TEST(Judge, FlagsEveryFieldOfADepthOfACoarseLevel) {
+  const auto leveled = [](std::uint64_t seed) {
+    const Mesh mesh = shapes::random_polytope(200, seed);
+    return make_subject(mesh.points, bodies::must(build(mesh, {.cutoff = 12})).model);
+  };
+  const Subject a = leveled(1), b = leveled(2);
+  const Pose pose{shapes::Random(4).rotation(), {0.8, 0.7, 0.5}};
+  const Answer answer = signed_distance(a.model, b.model, pose, {.budget = {.finest_level = 1}});
+  ASSERT_LT(answer.upper, 0);
+  ASSERT_GT(answer.level_a + answer.level_b, 0);
+  EXPECT_EQ(Judge(a, b, pose).coarse(answer), "");
+  const auto flagged = [&](const char* what, const std::function<void(Answer&)>& change) {
+    Answer changed = answer;
+    change(changed);
+    EXPECT_NE(Judge(a, b, pose).coarse(changed), "") << what;
+  };
+  flagged("a budget ended it", [](Answer& s) { s.status = Status::Budget; });
+  flagged("deeper", [](Answer& s) { s.lower /= 2; });
+  flagged("shallower", [&](Answer& s) { s.upper = 2 * s.lower; });
+  flagged("A's point out of A", [](Answer& s) { s.point_a += 1e-9 * s.normal; });
+  flagged("B's point out of B", [](Answer& s) { s.point_b -= 1e-9 * s.normal; });
+  flagged("no point", [](Answer& s) { s.point_b.setConstant(std::nan("")); });
+  flagged("a corner of A far aside", [&](Answer& s) {
+    for (const Vec3& corner : bodies::points_of(a.model.level(s.level_a).view))
+      if ((corner - s.point_b).norm() > (s.point_a - s.point_b).norm()) s.point_a = corner;
+  });
+  flagged("one point of both", [](Answer& s) { s.point_b = s.point_a; });
+}
+
 TEST(Judge, RefusesModelsOfOtherPoints) {
   std::vector<Vec3> points = bodies::cube().points;
   points[3].x() = std::nextafter(points[3].x(), 0);
