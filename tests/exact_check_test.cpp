@@ -231,9 +231,11 @@ TEST(Judge, FlagsCoarseAnswersThatAreNotTrue) {
 }
 
 TEST(Judge, FlagsEveryFieldOfADepthOfACoarseLevel) {
-  const auto leveled = [](std::uint64_t seed) {
+  BuildOptions options;
+  options.cutoff = 12;
+  const auto leveled = [&options](std::uint64_t seed) {
     const Mesh mesh = shapes::random_polytope(200, seed);
-    return make_subject(mesh.points, bodies::must(build(mesh, {.cutoff = 12})).model);
+    return make_subject(mesh.points, bodies::must(build(mesh, options)).model);
   };
   const Subject a = leveled(1), b = leveled(2);
   const Pose pose{shapes::Random(4).rotation(), {0.8, 0.7, 0.5}};
