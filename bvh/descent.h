@@ -69,7 +69,7 @@ class Descent {
  private:
   /// Hulls without a start of use cost as much as so many pairs of nodes, which answer many a threshold question.
   static constexpr std::uint32_t kHullsWait = 24;
-  /// So many pairs of hulls are asked though those of the roots are not known to be apart: bench/COST.md.
+  /// So many pairs of hulls are asked though those of the roots are not known to be apart: bench/TRIED.md.
   static constexpr int kHullsUnlessApart = 4;
   /// The cosine of the angle by which a seed's direction may turn and its hulls still begin where they were.
   static constexpr double kSameAhead = 0.95;

@@ -13,7 +13,7 @@
 namespace swiftlet {
 namespace {
 
-// Instructions, about: choices of time, no bound rests on them. bench/COST.md.
+// Instructions, about: choices of time, no bound rests on them. bench/TRIED.md.
 constexpr double kPlainNode = 1200, kPlainTriangle = 600, kFrontNode = 2300, kFrontTriangle = 750, kGroup = 110, kAnyGroup = 3;
 /// A plain search that opens fewer nodes has nothing to spare, nor has one that ended before all was looked at.
 constexpr std::uint32_t kLeastNodes = 8;

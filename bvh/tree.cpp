@@ -59,7 +59,7 @@ constexpr std::uint32_t kLeastShare = 8;
 /// at most (7/8)^7 of a node's triangles, and equal ones an eighth.
 constexpr std::uint32_t kLargestShare = 4;
 constexpr int kEqualDepth = 8;
-/// Where eight nodes of triangles may hold all, each counts as so many triangles, and the largest group is cut: bench/COST.md.
+/// Where eight nodes of triangles may hold all, each counts as so many triangles, and the largest group is cut: bench/TRIED.md.
 constexpr std::uint32_t kTrianglesOfNode = 4;
 /// Down to this depth patches are not cut. They may keep nodes from shrinking: then there are this many levels, two of cheapest
 /// cuts and, of 2^22 triangles, seven of equal ones.

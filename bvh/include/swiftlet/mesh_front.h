@@ -17,7 +17,7 @@ namespace swiftlet {
 /// at again. A front that is full keeps pairs farther up, with less use.
 ///
 /// It pays near contact where the bodies turn and move by less than the size of their triangles a query: at turns of 0.1 degree
-/// such queries take 0.26 to 1 of the instructions, at 0.01 degree 0.1 to 0.3 (bench/COST.md). Where it does not, queries
+/// such queries take 0.26 to 1 of the instructions, at 0.01 degree 0.1 to 0.3 (bench/TRIED.md). Where it does not, queries
 /// do without for up to 512 of them, unless the motion slows down before, and take 1 to 4 % more. It serves every question,
 /// in any order; of questions that have thresholds far from each other, each is better served by a front of its own. Of a pair
 /// with a convex body, with a mesh that was cut, or of two meshes with convex patches it stays empty. Other meshes than last
