@@ -399,7 +399,7 @@ TEST(SignedDistance, SpendsItsBudgetOnce) {
   EXPECT_GE(both, 10);
 }
 
-/// Of more facets than a polytope has points the best is found again from a cone, whose far points were all that a loose
+/// Of more facets than a polytope has points the best is found again from a cone, whose ideal points were all that a loose
 /// search had beside its plane: the answer had no points, or one point for both.
 TEST(SignedDistance, HasPointsWhereManyFacetsAreAsDeepAndAnErrorIsAllowed) {
   const Polyhedron prism = body(shapes::prism(128, 0.3, 2));
@@ -411,6 +411,51 @@ TEST(SignedDistance, HasPointsWhereManyFacetsAreAsDeepAndAnErrorIsAllowed) {
     EXPECT_LE(s.normal.dot(s.point_b - s.point_a), -0.499);
     EXPECT_EQ(check(prism, ball, Pose{}, s).message, "");
     EXPECT_GE(manifold(prism, ball, Pose{}, s).count, 1u);
+  }
+}
+
+/// About one centre nearly every facet of the difference of round bodies is as deep as any other, more than a polytope has room
+/// for: all directions are covered cone by cone. Each cone's polytope reached far beyond its directions: of 1 000 vertices a
+/// depth took 4.7 million steps and ended NotConverged.
+TEST(SignedDistance, OfRoundBodiesAboutOneCentreTakesAFewStepsAVertex) {
+  for (const int count : {400, 2000}) {
+    Points points;
+    for (int i = 0; i < count / 2; ++i) {
+      const double z = (i + 0.5) / (count / 2), turn = 2.399963229728653 * i, r = std::sqrt(1 - z * z);
+      // Coordinates of single precision: three times such a point is a double, and so is its opposite.
+      const Vec3 p(float(r * std::cos(turn)), float(r * std::sin(turn)), float(z));
+      points.push_back(p), points.push_back(-p);
+    }
+    const Polyhedron ball = body(points), centre{{Vec3::Zero()}, bodies::model(bodies::point(Vec3::Zero()))};
+    Points thrice = points;
+    for (Vec3& p : thrice) p *= 3;
+    const Polyhedron large = body(thrice);
+    // A ball that is its own mirror image less one `times` as large is 1 + times such balls.
+    const oracle::SignedTruth truth = truth_of(ball, centre, Pose{});
+    const auto expect = [&](const Body& inner, double times, std::uint32_t vertices) {
+      const Answer s = signed_distance(ball, inner, Pose{});
+      EXPECT_EQ(s.status, Status::Converged) << count << ' ' << times << ' ' << describe(s);
+      EXPECT_GE(oracle::compare(truth, s.lower / (1 + times)), 0) << describe(s);
+      EXPECT_LE(oracle::compare(truth, s.upper / (1 + times)), 0) << describe(s);
+      EXPECT_EQ(check(ball, inner, Pose{}, s, Question::Exact).message, "");
+      EXPECT_LE(s.steps, 4 * vertices) << count << ' ' << times;
+      for (const double off : {0.999, 1.001}) {
+        const Within w = signed_within(ball, inner, Pose{}, off * s.lower);
+        EXPECT_EQ(w.decision, off > 1 ? Decision::No : Decision::Yes);
+        EXPECT_LE(w.answer.steps, 4 * vertices);
+      }
+    };
+    expect(centre, 0, std::uint32_t(count));
+    expect(ball, 1, std::uint32_t(2 * count));
+    expect(large, 3, std::uint32_t(2 * count));
+    // Turned, it has more facets than both.
+    const Pose turned{shapes::rotation(Vec3(1, 2, 3).normalized(), 0.3), Vec3(0.001, 0, 0)};
+    const Answer s = signed_distance(ball, ball, turned);
+    EXPECT_EQ(s.status, Status::Converged) << describe(s);
+    if (count < 1000) {
+      EXPECT_EQ(check(ball, ball, turned, s, Question::Exact).message, "");
+    }
+    EXPECT_LE(s.steps, 8 * std::uint32_t(count));
   }
 }
 

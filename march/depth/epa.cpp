@@ -27,7 +27,7 @@ struct Plane {
   Vec normal{0, 0, 0};
 };
 
-/// A point of M rounded to the grid, and the vertex pair whose difference it is; kNone for both at a point far off M.
+/// A point of M rounded to the grid, and the vertex pair whose difference it is.
 struct Corner {
   Vec p;
   std::uint32_t a, b;
@@ -118,21 +118,13 @@ class Polytope {
     return true;
   }
 
-  /// Begins with one point of M and three far ones that are not above the origin along any direction of the cone. Along
-  /// these directions the hull of M and the far points is as high as M; elsewhere it is no lower.
-  bool begin(const Cone& cone) {
+  /// Begins with one point of M and all that lies from there along the directions that no direction of the cone leans towards:
+  /// along the cone's directions the hull of M and these is as high as M, along others it is unbounded.
+  void begin(const Cone& cone) {
     lower_ = 0, rim_ = 0;
-    moved_ = (kGridError + kConeHeightFloor) * pair_.magnitude;
-    std::array<Corner, 4> corners{support(normalised(cone.x + cone.y + cone.z), 0, 0)};
-    std::size_t count = 1;
-    for (const Vec& edge : {cross(cone.x, cone.y), cross(cone.y, cone.z), cross(cone.z, cone.x)}) {
-      const int exponent = exponent_of(binade_) - exponent_of(max_abs(edge)) + 1;
-      const Vec far = scaled(edge, exponent);
-      corners[count++] = {on_grid(wide(-far)), kNone, kNone};
-    }
-    if (exact::orientation(corners[0].p, corners[1].p, corners[2].p, corners[3].p) == 0) return false;
-    close(corners);
-    return true;
+    const Corner first = support(normalised(cone.x + cone.y + cone.z), 0, 0);
+    hull_.begin({-cross(cone.x, cone.y), -cross(cone.y, cone.z), -cross(cone.z, cone.x)}, first.p);
+    vertex_pair_[3] = {first.a, first.b};
   }
 
   /// Adds the support along the lowest facet's normal until the goal is met and, unless `bounds_only`, the best plane is that
@@ -146,14 +138,14 @@ class Polytope {
       if (goal_.hopeless(lower_, best_.height)) return End::TooCoarse;
       if (best_.height < -pair_.law_two) return End::Apart;
       if (narrow(lower_) && bounds_only) return End::Enough;
-      if (narrow(lower_)) next = nearest_point().facet;
+      if (const int nearest = narrow(lower_) ? nearest_point().facet : -1; nearest >= 0) next = nearest;
       const HullFacet& facet = hull_.sharpened(next);
       if (facet.above < kInfinity) {
         if (!goal_.narrow(lower_, facet.above)) return End::Stuck;
         best_ = {facet.above, facet.normal};
         return End::Enough;
       }
-      const Corner from = nearest_corner(facet);
+      const Corner from = first_corner(facet);
       if (steps_ >= goal_.step_budget) {
         if (best_.height == kInfinity) support(facet.normal, from.a, from.b);  // any plane bounds the depth
         return End::Budget;
@@ -190,9 +182,8 @@ class Polytope {
     // Of several facets as low, points and plane must belong to one.
     const Vec at = best_.normal * best_.height;
     NearestFacet nearest = nearest_point(at);
-    // A loose search that began in a cone may end while far points are beside the best plane.
-    if (is_far(hull_.facet(nearest.facet)))
-      nearest = nearest_of(at, -1, [this](int k) { return !hull_.is_gone(k) && !is_far(hull_.facet(k)); });
+    // A loose search that began in a cone may end before a facet of M is as low as the best plane.
+    if (nearest.facet < 0) nearest = nearest_of(at, -1, [](const HullFacet& f) { return f.height < kInfinity; });
     if (nearest.facet < 0) return;
     const HullFacet& facet = hull_.facet(nearest.facet);
     depth.active.count = 0;
@@ -234,9 +225,6 @@ class Polytope {
     return {on_grid(difference<DoubleDouble>(pair_, a, b).p), a, b};
   }
   Corner corner(std::uint8_t k) const { return {hull_.corner(k), vertex_pair_[k].a, vertex_pair_[k].b}; }
-  bool is_far(const HullFacet& f) const {
-    return vertex_pair_[f.corner[0]].a == kNone || vertex_pair_[f.corner[1]].a == kNone || vertex_pair_[f.corner[2]].a == kNone;
-  }
   /// True if a facet is part of the start's polygon, which is mostly a facet of M.
   bool is_starts(const HullFacet& f) const {
     return std::all_of(f.corner.begin(), f.corner.end(), [&](std::uint8_t k) { return of_start(k); });
@@ -330,32 +318,34 @@ class Polytope {
   // ---- The facets ----
 
   /// The facets' point below the origin that is nearest to `to`: with 0, the point of the polytope's surface nearest to the
-  /// origin. A facet higher than `best_` by over law 2's bound is skipped.
+  /// origin. A facet higher than `best_` by over law 2's bound is skipped. -1 if the others have ideal corners.
   NearestFacet nearest_point(const Vec& to = {0, 0, 0}) {
     const double most = best_.height + pair_.law_two;
-    return nearest_of(to, hull_.lowest(), [&](int k) { return hull_.facet(k).height <= most; });
+    return nearest_of(to, hull_.lowest(), [most](const HullFacet& f) { return f.height <= most; });
   }
-  /// The same of `first`, unless that is -1, and of the facets that serve; -1 if there is none.
+  /// The same of `first`, unless that is -1, and of the facets that serve.
   template <class Serves>
   NearestFacet nearest_of(const Vec& to, int first, Serves serves) const {
     const auto off = [to = wide(to)](const Foot& at) { return dot(at.point - to, at.point - to); };
-    NearestFacet best{first, first < 0 ? Foot{} : foot_of(hull_.facet(first))};
-    for (int k = 0; k < hull_.facet_count(); ++k) {
-      if (k == first || !serves(k)) continue;
-      const Foot at = foot_of(hull_.facet(k));
+    NearestFacet best{-1, {}};
+    const auto consider = [&](int k) {
+      const HullFacet& f = hull_.facet(k);
+      if (hull_.has_ideal(f)) return;
+      const Foot at = foot_of(f);
       if (best.facet < 0 || off(at) < off(best.foot)) best = {k, at};
+    };
+    if (first >= 0) consider(first);
+    for (int k = 0; k < hull_.facet_count(); ++k) {
+      if (k != first && serves(hull_.facet(k))) consider(k);
     }
     return best;
   }
   Foot foot_of(const HullFacet& f) const {
     return foot_on(wide(hull_.corner(f.corner[0])), wide(hull_.corner(f.corner[1])), wide(hull_.corner(f.corner[2])), f.height);
   }
-  /// A corner of the facet that is a point of M, or if all are far points, corner 0, which is one.
-  Corner nearest_corner(const HullFacet& f) const {
-    for (const std::uint8_t k : f.corner) {
-      if (vertex_pair_[k].a != kNone) return corner(k);
-    }
-    return corner(0);
+  /// The facet's first corner that is a point of M.
+  Corner first_corner(const HullFacet& f) const {
+    return corner(*std::find_if_not(f.corner.begin(), f.corner.end(), [this](std::uint8_t k) { return hull_.is_ideal(k); }));
   }
   /// True if adding `c` makes the polytope grow above `facet`, and the supporting plane along its normal is not needed.
   bool leads_on(int facet, const Corner& c) const {
@@ -369,7 +359,7 @@ class Polytope {
   std::uint32_t& plane_tests_;
   const bool exact_;     ///< the facet itself is wanted: narrow bounds alone leave its plane room to lean
   const double binade_;  ///< the largest power of two that is at most the magnitude
-  double moved_;         ///< bound on what the grid and the rounding of planes add to the hull's heights
+  const double moved_;   ///< bound on what the grid and the rounding of planes add to the hull's heights
   double lower_ = 0;
   int rim_ = 0;  ///< number of corners of the start's polygon
   std::uint32_t steps_ = 0;
@@ -389,7 +379,8 @@ bool ends_all(End end) { return end == End::TooCoarse || end == End::Apart || en
 /// Lowers `lower` to a proved bound on the heights over a cone: by one polytope, or if that is full, by one for each quarter,
 /// `most` times.
 End cover(Polytope& polytope, const Cone& cone, int most, double& lower) {
-  End end = polytope.begin(cone) ? polytope.grow(true) : End::Flat;
+  polytope.begin(cone);
+  End end = polytope.grow(true);
   if (end == End::Full && most > 0) {
     end = End::Enough;
     for (const Cone& quarter : quarters(cone)) {
@@ -428,15 +419,15 @@ Depth epa(const PairView& pair, const Level& a, const Level& b, const DepthStart
           std::uint32_t& plane_tests) {
   Polytope polytope(pair, a, b, goal, plane_tests);
   Depth depth;
-  bool has_facets = polytope.begin(start);
+  const bool has_facets = polytope.begin(start);
   End end = has_facets ? polytope.grow() : End::Flat;
   depth.lower = max(0, polytope.lower());
   if (end == End::Full) {
     const bool is_rough = goal.is_too_coarse(polytope.best().height);
     end = cover_all(polytope, is_rough ? kRoughDepthCells : kDepthCells, depth.lower);
     depth.lower = max(0, depth.lower);
-    has_facets = polytope.begin(about(polytope.best().normal));
-    if (has_facets) polytope.grow(false, depth.lower);  // finds the best plane's facet again, for the points
+    polytope.begin(about(polytope.best().normal));
+    polytope.grow(false, depth.lower);  // finds the best plane's facet again, for the points
   }
   if (has_facets) polytope.witness(depth);
   if (end == End::Enough || (end == End::Flat && polytope.narrow(0))) depth.end = DepthEnd::Converged;

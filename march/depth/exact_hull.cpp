@@ -12,12 +12,25 @@ namespace {
 static_assert(ExactHull::kMostFacets <= 256, "a facet's index is a byte");
 
 constexpr std::size_t after(std::size_t e) { return e == 2 ? 0 : e + 1; }
+constexpr Vec kOrigin{0, 0, 0};
 
 }  // namespace
 
+/// The corners of a facet in order, the ideal ones last. Not all are ideal.
+std::array<ExactHull::Index, 3> ExactHull::ideal_last(const HullFacet& f) const {
+  std::size_t first = 2;
+  if (has_ideal(f)) {
+    while (is_ideal(f.corner[first]) || !is_ideal(f.corner[after(after(first))])) first = after(first);
+  }
+  return {f.corner[first], f.corner[after(first)], f.corner[after(after(first))]};
+}
+
 /// Computes the plane of a new facet in doubles, its height less the error bound; a sliver is made sharp at once.
 void ExactHull::stand(HullFacet& f) const {
-  const Vec &p = corner_[f.corner[2]], u = corner_[f.corner[0]] - p, v = corner_[f.corner[1]] - p, n = cross(u, v);
+  const auto [a, b, c] = ideal_last(f);
+  const Vec& p = corner_[a];
+  const auto from_p = [&](Index k) { return is_ideal(k) ? corner_[k] : corner_[k] - p; };
+  const Vec u = from_p(b), v = from_p(c), n = cross(u, v);
   const double area = norm(n), error = kCrossError * std::sqrt(dot(u, u) * dot(v, v));
   f.above = kInfinity;
   f.is_sharp = !(4 * error < area);
@@ -27,7 +40,10 @@ void ExactHull::stand(HullFacet& f) const {
 }
 
 void ExactHull::sharpen(HullFacet& f) const {
-  const exact::Plane plane = exact::plane(corner_[f.corner[2]], corner_[f.corner[0]], corner_[f.corner[1]]);
+  const auto [a, b, c] = ideal_last(f);
+  const Vec& p = corner_[a];
+  const auto from_p = [&](Index k) { return is_ideal(k) ? wide(corner_[k]) : wide(corner_[k]) - wide(p); };
+  const exact::Plane plane = exact::plane(p, from_p(b), from_p(c));
   f.normal = plane.normal, f.height = plane.height, f.is_sharp = true;
 }
 
@@ -50,8 +66,20 @@ int ExactHull::lowest() {
 
 void ExactHull::begin(const std::array<Vec, 4>& points) {
   for (std::size_t k = 0; k < 4; ++k) corner_[k] = points[k];
+  ideal_count_ = 0;
+  begin_tetrahedron(exact::orientation(points[0], points[1], points[2], points[3]) > 0);
+}
+
+void ExactHull::begin(const std::array<Vec, 3>& directions, const Vec& point) {
+  for (std::size_t k = 0; k < 3; ++k) corner_[k] = directions[k];
+  corner_[3] = point;
+  ideal_count_ = 3;
+  begin_tetrahedron(exact::orientation(kOrigin, directions[0], directions[1], directions[2]) < 0);
+}
+
+/// Makes the facets of the first four corners. `turned`: corner 3 lies where the others are counter-clockwise.
+void ExactHull::begin_tetrahedron(bool turned) {
   corner_count_ = 4, facet_count_ = 4, free_count_ = 0;
-  const bool turned = exact::orientation(points[0], points[1], points[2], points[3]) > 0;
   // Facet k lies opposite corner k. Across an edge of facet k lies the facet opposite the corner that this edge leaves out.
   for (std::size_t k = 0; k < 4; ++k) {
     HullFacet& f = facet_[k];
@@ -59,13 +87,22 @@ void ExactHull::begin(const std::array<Vec, 4>& points) {
     f.corner = {face[0], face[1], face[2]};
     if (turned) std::swap(f.corner[1], f.corner[2]);
     for (std::size_t e = 0; e < 3; ++e) f.beside[e] = f.corner[after(after(e))];
-    stand(f);
+    if (k == 3 && ideal_count_ == 3)
+      f.height = f.above = kInfinity, f.is_sharp = true;
+    else
+      stand(f);
   }
 }
 
 bool ExactHull::sees(int facet, const Vec& p) const {
   const HullFacet& f = facet_[std::size_t(facet)];
-  return exact::orientation(corner_[f.corner[0]], corner_[f.corner[1]], corner_[f.corner[2]], p) > 0;
+  if (!has_ideal(f)) return exact::orientation(corner_[f.corner[0]], corner_[f.corner[1]], corner_[f.corner[2]], p) > 0;
+  if (f.height == kInfinity) return false;  // no point is beyond the plane at infinity
+  const auto [first, second, third] = ideal_last(f);
+  const Vec &a = corner_[first], &b = corner_[second], &c = corner_[third];
+  // The sign of the determinant of the three corners as seen from p, of an ideal one its direction.
+  if (is_ideal(second)) return exact::compare_along_normal(&kOrigin.x, &b.x, &c.x, &p.x, &a.x) > 0;
+  return exact::compare_along_normal(&p.x, &a.x, &b.x, &kOrigin.x, &c.x) > 0;
 }
 
 int ExactHull::seen_from(const Vec& p) const {

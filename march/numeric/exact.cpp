@@ -224,16 +224,18 @@ bool collinear(const double a[3], const double b[3], const double c[3]) {
 }
 
 Plane plane(const Vec& a, const Vec& b, const Vec& c) {
-  const V3<DoubleDouble> u = wide_difference(&b.x, &a.x), v = wide_difference(&c.x, &a.x);
-  V3<DoubleDouble> n = cross(u, v);
-  const auto largest = [](const V3<DoubleDouble>& w) { return max_abs({w.x.high, w.y.high, w.z.high}); };
+  return plane(a, wide_difference(&b.x, &a.x), wide_difference(&c.x, &a.x));
+}
+
+Plane plane(const Vec& p, const Wide& u, const Wide& v) {
+  Wide n = cross(u, v);
+  const auto largest = [](const Wide& w) { return max_abs({w.x.high, w.y.high, w.z.high}); };
   if (largest(n) < kLeastWideArea * largest(u) * largest(v)) {
     n = {rounded_determinant(u.y, v.z, u.z, v.y), rounded_determinant(u.z, v.x, u.x, v.z),
          rounded_determinant(u.x, v.y, u.y, v.x)};
   }
   const Unit unit = unit_of({n.x.high, n.y.high, n.z.high});
-  const V3<DoubleDouble> p{DoubleDouble(a.x), DoubleDouble(a.y), DoubleDouble(a.z)};
-  return {unit.n, double(dot(n, p)) * unit.scale};
+  return {unit.n, double(dot(n, wide(p))) * unit.scale};
 }
 
 int compare_along(const double n[3], const double w[3], const double v[3]) {

@@ -32,6 +32,9 @@ struct Plane {
   double height;  ///< above the origin; off by at most kPlaneHeightError * height + kPlaneHeightFloor * the largest coordinate
 };
 Plane plane(const Vec& a, const Vec& b, const Vec& c);
+/// The plane through `p` along two vectors, seen counter-clockwise from the first to the second; the error of its height is of
+/// p's coordinates.
+Plane plane(const Vec& p, const Wide& u, const Wide& v);
 
 /// The sign of n . (w - v).
 int compare_along(const double n[3], const double w[3], const double v[3]);

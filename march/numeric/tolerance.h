@@ -61,9 +61,8 @@ inline constexpr double kWideTripleProductError = 0x1p-96;
 inline constexpr double kLeastWideArea = 0x1p-40;
 /// Bound the error of `exact::Plane::height`. `kPlaneHeightError` is relative to the height: 5 u for the normal's length and 2
 /// u for the product, rounded up. `kPlaneHeightFloor` is relative to the largest coordinate: the normal's error of 2^-57, which
-/// counts where the height is small beside the points, rounded up. Corners of a cone of `Polytope` are below four times the
-/// largest coordinate: `kConeHeightFloor` is for planes through these.
-inline constexpr double kPlaneHeightError = 8 * kU, kPlaneHeightFloor = kU / 8, kConeHeightFloor = 4 * kPlaneHeightFloor;
+/// counts where the height is small beside the points, rounded up.
+inline constexpr double kPlaneHeightError = 8 * kU, kPlaneHeightFloor = kU / 8;
 /// The determinant of three differences a - (R b + t): 1 product and 4 sums for each, then 2 products, 1 difference, 2 sums.
 inline constexpr double kOffsetTripleProductError = 26 * kU;
 /// Bounds the error of six times the volume of a tetrahedron of the origin and three of four differences a - (R b + t),

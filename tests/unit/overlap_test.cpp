@@ -10,11 +10,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
+#include <set>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "bodies.h"
 #include "depth/epa.h"
+#include "depth/exact_hull.h"
 #include "depth/facet_proof.h"
 #include "manifold/clip.h"
 #include "pair/pair_view.h"
@@ -74,6 +78,71 @@ TEST(UnitEpa, OfTwoPointsHasAUnitNormal) {
       std::uint32_t tests = 0;
       const Depth d = epa(pair, a.level(0), b.level(0), start, exactly(pair), tests);
       EXPECT_NEAR(norm(d.normal), 1, 1e-15) << off.transpose() << " along " << along.transpose();
+    }
+  }
+}
+
+/// Points with whole coordinates, and from each the three directions in which the hull is unbounded. In doubles all is exact:
+/// no point is above a plane through a facet's corners, and the hull's least height along the cone that leans towards none of
+/// the directions is that of a facet.
+TEST(UnitExactHull, IsUnboundedAlongIdealCornersAlone) {
+  std::mt19937 random(5);
+  const auto whole = [&](int most) { return double(int(random() % unsigned(2 * most + 1)) - most); };
+  for (int round = 0; round < 60; ++round) {
+    const int most = round % 2 ? 3 : 1000;  // few values: many points in one plane
+    std::array<Vec, 3> direction;
+    do
+      for (Vec& d : direction) d = {whole(4), whole(4), whole(4)};
+    while (dot(cross(direction[0], direction[1]), direction[2]) == 0);
+    std::vector<Vec> points(60);
+    for (Vec& p : points) p = {whole(most), whole(most), whole(most)};
+    ExactHull hull;
+    hull.begin(direction, points[0]);
+    for (const Vec& p : points) {
+      if (const int facet = hull.seen_from(p); facet >= 0) hull.add(p, facet);
+      EXPECT_LT(hull.seen_from(p), 0);
+    }
+    int facets = 0, infinite = 0;
+    for (int k = 0; k < hull.facet_count(); ++k) {
+      const HullFacet& f = hull.facet(k);
+      if (hull.is_gone(k)) {
+        infinite += hull.is_ideal(f.corner[0]) && hull.is_ideal(f.corner[1]) && hull.is_ideal(f.corner[2]);
+        continue;
+      }
+      ++facets;
+      // The facet's plane: through its points, along its directions.
+      Vec foot{0, 0, 0};
+      for (const std::uint8_t c : f.corner) foot = hull.is_ideal(c) ? foot : hull.corner(c);
+      std::vector<Vec> along;
+      for (const std::uint8_t c : f.corner) {
+        const Vec v = hull.is_ideal(c) ? hull.corner(c) : hull.corner(c) - foot;
+        if (max_abs(v) > 0) along.push_back(v);
+      }
+      ASSERT_EQ(along.size(), 2u);
+      Vec n = cross(along[0], along[1]);
+      ASSERT_GT(max_abs(n), 0);
+      if (dot(n, f.normal) < 0) n = -n;
+      EXPECT_NEAR(norm(f.normal - normalised(n)), 0, 1e-14);
+      for (const Vec& p : points) EXPECT_LE(dot(n, p - foot), 0);
+      for (const Vec& d : direction) EXPECT_LE(dot(n, d), 0);
+    }
+    EXPECT_EQ(infinite, 1);
+    // Euler's formula for triangles, ideal corners and the plane at infinity counted: each point of the hull is a corner.
+    std::set<int> corners;
+    for (int k = 0; k < hull.facet_count(); ++k) {
+      if (!hull.is_gone(k)) corners.insert(hull.facet(k).corner.begin(), hull.facet(k).corner.end());
+    }
+    EXPECT_EQ(facets + infinite, 2 * int(corners.size()) - 4);
+    const HullFacet& lowest = hull.facet(hull.lowest());
+    for (int i = 0; i < 200; ++i) {
+      Vec n{whole(50), whole(50), whole(50)};
+      if (std::any_of(direction.begin(), direction.end(), [&](const Vec& d) { return dot(n, d) > 0; }) || max_abs(n) == 0)
+        continue;
+      double height = -kInfinity;
+      for (const Vec& p : points) height = max(height, dot(normalised(n), p));
+      if (lowest.height > 0) {
+        EXPECT_GE(height, lowest.height * (1 - 1e-14));
+      }
     }
   }
 }
