@@ -89,6 +89,8 @@ swiftlet_contact plain(const MeshContact& from) {
   return to;
 }
 
+static_assert(int(Question::Any) == SWIFTLET_QUESTION_ANY && int(Question::Exact) == SWIFTLET_QUESTION_EXACT);
+
 /// A result of a check that can be written.
 void need_result(const swiftlet_check_result* result) {
   need(result, "result");
@@ -156,20 +158,21 @@ swiftlet_code swiftlet_contact_manifold(const swiftlet_body* a, const swiftlet_b
 }
 
 swiftlet_code swiftlet_check(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_pose* b_in_a,
-                             const swiftlet_answer* answer, const swiftlet_overlap_proof* proof, swiftlet_check_result* result,
-                             swiftlet_error* error) {
+                             const swiftlet_answer* answer, int32_t asked, const swiftlet_overlap_proof* proof,
+                             swiftlet_check_result* result, swiftlet_error* error) {
   return guard(error, [&] {
     const GivenBody body_a(a, "a"), body_b(b, "b");
     need_result(result);
-    const Answer asked = answer_of(answer, "answer");
+    need(asked == SWIFTLET_QUESTION_ANY || asked == SWIFTLET_QUESTION_EXACT, "asked is no question");
+    const Answer claimed = answer_of(answer, "answer");
     const Pose pose = pose_of(b_in_a);
     if (body_a.is_mesh() || body_b.is_mesh()) {
       need(!proof, "of meshes there is no proof of an overlap");
-      return hand_out(check(body_a.mesh(), body_b.mesh(), pose, asked), result);
+      return hand_out(check(body_a.mesh(), body_b.mesh(), pose, claimed), result);
     }
     const OverlapProof proved = proof ? proof_of(*proof) : OverlapProof{};
     need(proved.count <= proved.vertex_a.size(), "proof.count is above 4");
-    hand_out(check(body_a.convex(), body_b.convex(), pose, asked, proof ? &proved : nullptr), result);
+    hand_out(check(body_a.convex(), body_b.convex(), pose, claimed, Question(asked), proof ? &proved : nullptr), result);
   });
 }
 

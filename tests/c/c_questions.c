@@ -148,7 +148,7 @@ int questions_of_nothing(const swiftlet_model* model, const swiftlet_mesh* mesh)
   REFUSED(swiftlet_contacts(&point, &point, &pose, 1, NULL, NULL, 3, &found, &e));
   REFUSED(swiftlet_contacts(&point, &point, &pose, 1, NULL, NULL, 0, NULL, &e));
   REFUSED(swiftlet_contact_manifold(&point, &point, &pose, NULL, NULL, NULL, &manifold, &e));
-  REFUSED(swiftlet_check(&point, &point, &pose, NULL, NULL, &result, &e));
+  REFUSED(swiftlet_check(&point, &point, &pose, NULL, 0, NULL, &result, &e));
   REFUSED(swiftlet_march(NULL, 0, model, 0, &pose, 0, 0, NULL, NULL, &e));
   REFUSED(swiftlet_march(model, 0, model, 0, NULL, 0, 0, NULL, NULL, &e));
   point.kind = SWIFTLET_BODY_MODEL;

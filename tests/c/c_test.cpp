@@ -131,7 +131,9 @@ struct Beside {
       EXPECT_TRUE(same(refine(a, b, pose, rough), c.refined));
       EXPECT_TRUE(same(manifold(a, b, pose, depth), c.manifold));
       swiftlet_check_result checked{sizeof checked, 7, "?"};
-      EXPECT_EQ(swiftlet_check(&plain_a, &plain_b, &b_in_a, &c.signed_distance, nullptr, &checked, Sound()), SWIFTLET_OK);
+      EXPECT_EQ(
+          swiftlet_check(&plain_a, &plain_b, &b_in_a, &c.signed_distance, SWIFTLET_QUESTION_EXACT, nullptr, &checked, Sound()),
+          SWIFTLET_OK);
       EXPECT_TRUE(checked.ok == 1 && checked.message[0] == 0) << checked.message;
     }
     if constexpr (kConvex) {
@@ -692,7 +694,7 @@ TEST(C, AnswersOfNoLevelAreRefused) {
     swiftlet_manifold manifold{};
     manifold.size = sizeof manifold;
     swiftlet_answer refined = good;
-    EXPECT_EQ(swiftlet_check(&a, &b, &pose, &answer, nullptr, &result, &error), SWIFTLET_BAD_VALUE);
+    EXPECT_EQ(swiftlet_check(&a, &b, &pose, &answer, SWIFTLET_QUESTION_ANY, nullptr, &result, &error), SWIFTLET_BAD_VALUE);
     EXPECT_STREQ(error.message, text);
     EXPECT_EQ(result.ok, 7);
     EXPECT_EQ(swiftlet_contact_points(&a, &b, &pose, &answer, nullptr, nullptr, &manifold, nullptr), SWIFTLET_BAD_VALUE);
@@ -708,8 +710,31 @@ TEST(C, AnswersOfNoLevelAreRefused) {
   says(bad, "answer.levels_visited is 256, not from 0 to 255");
   bad = good, bad.level_b = 7;
   swiftlet_check_result result{sizeof result, 7, "?"};
-  EXPECT_EQ(swiftlet_check(&a, &b, &pose, &bad, nullptr, &result, Sound()), SWIFTLET_OK);
+  EXPECT_EQ(swiftlet_check(&a, &b, &pose, &bad, SWIFTLET_QUESTION_ANY, nullptr, &result, Sound()), SWIFTLET_OK);
   EXPECT_EQ(result.ok, 0) << "a level that is not there is the answer's fault";
+}
+
+/// A true interval that is wider than law 2 allows is an answer to some question, not to an exact one.
+TEST(C, ChecksWhatWasAsked) {
+  const swiftlet_body a = ball(0, 0, 0, 1), b = ball(0, 0, 5, 1);
+  const swiftlet_pose pose = plain(Pose{});
+  swiftlet_answer answer{};
+  answer.size = sizeof answer;
+  ASSERT_EQ(swiftlet_distance(&a, &b, &pose, nullptr, nullptr, &answer, Sound()), SWIFTLET_OK);
+  const auto holds = [&](std::int32_t asked) {
+    swiftlet_check_result result{sizeof result, 7, "?"};
+    EXPECT_EQ(swiftlet_check(&a, &b, &pose, &answer, asked, nullptr, &result, Sound()), SWIFTLET_OK);
+    return result.ok;
+  };
+  EXPECT_EQ(holds(SWIFTLET_QUESTION_ANY), 1);
+  EXPECT_EQ(holds(SWIFTLET_QUESTION_EXACT), 1);
+  answer.lower -= 0.01;
+  EXPECT_EQ(holds(SWIFTLET_QUESTION_ANY), 1);
+  EXPECT_EQ(holds(SWIFTLET_QUESTION_EXACT), 0);
+  swiftlet_check_result result{sizeof result, 7, "?"};
+  swiftlet_error error{sizeof error, 0, ""};
+  EXPECT_EQ(swiftlet_check(&a, &b, &pose, &answer, 2, nullptr, &result, &error), SWIFTLET_BAD_VALUE);
+  EXPECT_STREQ(error.message, "asked is no question");
 }
 
 TEST(C, ModelsShowWhatTheyHold) {

@@ -834,9 +834,16 @@ typedef struct swiftlet_check_result {
   char message[504];  ///< what failed first, with numbers; empty when ok; ends with 0
 } swiftlet_check_result;
 
-/// Recomputes what `answer` claims by brute force. `proof`, which convex bodies alone have, may be null.
+/// What an answer is one to, as far as it does not tell itself: Question of C++.
+enum {
+  SWIFTLET_QUESTION_ANY = 0,   ///< any question
+  SWIFTLET_QUESTION_EXACT = 1  ///< a distance, a signed distance or closest features without an allowed error
+};
+
+/// Recomputes what `answer` claims by brute force; of convex bodies, where `asked` is SWIFTLET_QUESTION_EXACT, also that it is
+/// as narrow and its points as near as such an answer promises. `proof`, which convex bodies alone have, may be null.
 SWIFTLET_API swiftlet_code swiftlet_check(const swiftlet_body* a, const swiftlet_body* b, const swiftlet_pose* b_in_a,
-                                          const swiftlet_answer* answer, const swiftlet_overlap_proof* proof,
+                                          const swiftlet_answer* answer, int32_t asked, const swiftlet_overlap_proof* proof,
                                           swiftlet_check_result* result, swiftlet_error* error);
 /// Proves all that a model file claims.
 SWIFTLET_API swiftlet_code swiftlet_model_verify(const swiftlet_model* model, swiftlet_check_result* result,
