@@ -259,6 +259,31 @@ void each_signed_answer(const std::vector<Model>& models, int rounds, Take take)
   });
 }
 
+/// Bodies about nearly one centre, among them a ball, of which more facets are about as deep than a polytope has corners.
+template <class Take>
+void each_nested_answer(std::vector<Model> models, int rounds, Take take) {
+  models.push_back(bodies::model(bodies::ball(3)));
+  Poses poses(4);
+  PairSeed warm;
+  Options loose, limited;
+  loose.relative = 0.001;
+  each_pose(models, rounds, poses, [&](const Model& a, const Model& b, Asked asked, Pose pose) {
+    const auto took = [&](const char* query, const char* how, const Answer& answer) {
+      asked.query = query, asked.how = how;
+      take(asked, answer);
+    };
+    pose.translation *= asked.round % 2 ? 0 : 0x1p-20;
+    if (asked.round < 2) pose.rotation.setIdentity();
+    const Answer deep = signed_distance(a, b, pose, warm);
+    took("nested", "warm", deep);
+    took("nested", "swapped", signed_distance(b, a, inverse(pose)));
+    took("nested", "loose", signed_distance(a, b, pose, loose));
+    limited.budget.steps = 100 * std::uint32_t(asked.round % 7);
+    took("nested", "limited", signed_distance(a, b, pose, limited));
+    took("nested", "within", signed_within(a, b, pose, deep.lower * 1.001).answer);
+  });
+}
+
 template <class Take>
 void each_manifold(const std::vector<Model>& models, int rounds, Take take) {
   Poses poses(3);
@@ -287,6 +312,7 @@ template <class Collect>
 void each_kind(const std::vector<Model>& models, int rounds, Collect collect) {
   collect("answers", [&](auto take) { each_answer(models, rounds, take); });
   collect("signed", [&](auto take) { each_signed_answer(models, rounds, take); });
+  collect("nested", [&](auto take) { each_nested_answer(models, rounds, take); });
   collect("manifolds", [&](auto take) { each_manifold(models, rounds, take); });
 #if SWIFTLET_MESH_ANSWERS
   collect("meshes", [&](auto take) { each_mesh_answer(models, rounds, take); });
@@ -332,7 +358,7 @@ std::string text(const Print& print) {
 namespace {
 
 /// Of one kind of answers: prime to the numbers of ways in which a pose is asked, so that each way is in the sample.
-constexpr std::uint64_t kSampled[] = {13, 5, 5, 37, 31, 37};
+constexpr std::uint64_t kSampled[] = {13, 5, 21, 5, 37, 31, 37};
 
 std::string hex(std::uint64_t hash) { return text("%016" PRIx64, hash); }
 

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <numeric>
 #include <span>
 #include <stdexcept>
@@ -75,6 +77,30 @@ inline Polyhedron two_sided(std::vector<Vec3> loop) {
   std::reverse_copy(b.corners.begin(), b.corners.begin() + n, b.corners.begin() + n);
   b.sizes = {n, n};
   return b;
+}
+/// The octahedron, each of its triangles cut into four so many times, with all points on the unit sphere: 8, 32, 128, 512
+/// faces. Sums, products, quotients and square roots only, so the same everywhere.
+inline Polyhedron ball(int rounds) {
+  Polyhedron body = octahedron();
+  for (; rounds > 0; --rounds) {
+    Polyhedron finer;
+    finer.points = body.points;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle;
+    const auto between = [&](std::uint32_t i, std::uint32_t j) {
+      const auto [at, is_new] =
+          middle.try_emplace(std::pair(std::min(i, j), std::max(i, j)), std::uint32_t(finer.points.size()));
+      const Vec3 sum = body.points[i] + body.points[j];
+      if (is_new) finer.points.push_back(sum / std::sqrt(sum.x() * sum.x() + sum.y() * sum.y() + sum.z() * sum.z()));
+      return at->second;
+    };
+    for (std::size_t f = 0; f < body.corners.size(); f += 3) {
+      const std::uint32_t i = body.corners[f], j = body.corners[f + 1], k = body.corners[f + 2], ij = between(i, j),
+                          jk = between(j, k), ki = between(k, i);
+      finer.add({i, ij, ki}), finer.add({ij, j, jk}), finer.add({ki, jk, k}), finer.add({ij, jk, ki});
+    }
+    body = finer;
+  }
+  return body;
 }
 inline Polyhedron segment(const Vec3& p, const Vec3& q) { return {{p, q}, {}, {}}; }
 inline Polyhedron point(const Vec3& p) { return {{p}, {}, {}}; }
