@@ -24,8 +24,8 @@ struct DepthGoal {
   StopRule stop;
   double error;    ///< 0 if the levels are the exact hulls
   bool is_finest;  ///< no finer level pair follows: the depth of this one is found, also where that is not as precise as asked
-  double
-      floor;  ///< used in place of a `lower` of 0 or less: a lower bound known otherwise, or one below which nothing is asked
+  /// Used in place of a `lower` of 0 or less: a lower bound that is known otherwise, or one below which nothing is asked.
+  double floor;
   std::uint32_t step_budget = ~0u;  ///< the most supports to compute
 
   bool narrow(double lower, double upper) const { return stop.narrow(lower > 0 ? lower : floor, upper); }
