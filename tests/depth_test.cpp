@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include <swiftlet/build.h>
@@ -457,6 +458,90 @@ TEST(SignedDistance, OfRoundBodiesAboutOneCentreTakesAFewStepsAVertex) {
     }
     EXPECT_LE(s.steps, 8 * std::uint32_t(count));
   }
+}
+
+/// Points on the unit sphere, spread evenly around its pole up to an angle.
+Points cap(int count, double angle) {
+  Points points;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - (1 - std::cos(angle)) * (i + 0.5) / count, turn = 2.399963229728653 * i, r = std::sqrt(1 - z * z);
+    points.emplace_back(r * std::cos(turn), r * std::sin(turn), z);
+  }
+  return points;
+}
+Points ball(int count) { return cap(count, std::numbers::pi); }
+
+/// Hundreds of facets within a degree are as deep. Cones were divided down to 1.4 degrees, and points sought in one of 0.9:
+/// where it had more facets than a polytope, Converged answers had points up to 6e-4 aside, or the depth was 4 % off and
+/// NotConverged.
+TEST(SignedDistance, OfADomeHasItsPoints) {
+  const Body centre = Body::point(Vec3::Zero());
+  for (const double degrees : {0.1, 0.5, 1.0, 2.0}) {
+    for (const int count : {320, 1000}) {
+      const double angle = degrees * std::numbers::pi / 180;
+      Points points = cap(count, angle);
+      const double rim = (1 - 5 * std::sin(0.9 * angle)) / std::cos(0.9 * angle);
+      for (const double x : {-5., 5.})
+        for (const double y : {-5., 5.}) points.emplace_back(x, y, rim), points.emplace_back(x, y, -5);
+      const Polyhedron dome = body(points);
+      const Answer s = signed_distance(dome, centre, Pose{});
+      EXPECT_EQ(fault(dome, {{Vec3::Zero()}, bodies::model(bodies::point(Vec3::Zero()))}, Pose{}, s), "") << degrees;
+      EXPECT_EQ(check(dome, centre, Pose{}, s, Question::Exact).message, "") << degrees << ' ' << count;
+    }
+  }
+}
+
+/// A budget that ended while directions were covered took back the lower bound that one polytope had proved; one that ended
+/// while points were sought left Converged answers whose points were one.
+TEST(SignedDistance, KeepsWhatABudgetFoundOfManyFacetsAsDeep) {
+  const Polyhedron round = body(ball(300));
+  const Body centre = Body::point(Vec3::Zero());
+  const std::uint32_t all = signed_distance(round, centre, Pose{}).steps;
+  int ended = 0;
+  for (std::uint32_t budget = 130; budget <= all + 5; budget += budget + 30 < all ? 37 : 1) {
+    const Answer s = signed_distance(round, centre, Pose{}, {.budget = {.steps = budget}});
+    EXPECT_LE(s.upper, -0.96) << budget;
+    EXPECT_EQ(check(round, centre, Pose{}, s, Question::Exact).message, "") << budget << ' ' << describe(s);
+    ended += s.status == Status::Budget;
+    EXPECT_TRUE(s.status == Status::Budget || s.status == Status::Converged) << int(s.status);
+    EXPECT_LE(s.steps, budget + 26);
+  }
+  EXPECT_GE(ended, 20);
+  EXPECT_EQ(signed_distance(round, centre, Pose{}, {.budget = {.steps = all}}).status, Status::Converged);
+}
+
+/// Far from the origin law 2's bound is larger than the heights of facets differ, and points were sought among ideal ones
+/// alone.
+TEST(SignedDistance, OfABallFarFromTheOriginHasItsPoints) {
+  for (const int count : {900, 1100}) {
+    const Polyhedron round = body(ball(count));
+    for (const double far : {0x1p37, 0x1p38, 0x1p39, 0x1p40}) {
+      const Vec3 offset(0.5 * far, -0.7 * far, 0.9 * far);
+      Pose pose;
+      pose.translation = offset;
+      const Body centre = Body::point(-offset);
+      EXPECT_EQ(check(round, centre, pose, signed_distance(round, centre, pose), Question::Exact).message, "") << far;
+    }
+  }
+}
+
+/// A loose search may end with an exact interval: its points were of a neighbouring facet, 2e-3 aside of the normal.
+TEST(SignedDistance, OfALooseSearchHasItsPointsOnTheNormal) {
+  int narrow = 0;
+  for (int count = 150; count < 300; count += 26) {
+    const Polyhedron round = body(ball(count));
+    for (const double relative : {1e-2, 1e-4, 1e-6}) {
+      for (const double turn : {0., 0.3, 0.6}) {
+        const Pose pose{shapes::rotation(Vec3(1, 2, 3).normalized(), turn), Vec3::Zero()};
+        const Answer s = signed_distance(round, round, pose, {.relative = relative});
+        EXPECT_EQ(check(round, round, pose, s).message, "") << count << ' ' << relative << ' ' << turn;
+        const Vec3 between = s.point_b - s.point_a;
+        EXPECT_LE((between - s.normal * between.dot(s.normal)).norm(), 2 * tolerance(round, round, pose)) << count;
+        narrow += s.upper - s.lower <= tolerance(round, round, pose);
+      }
+    }
+  }
+  EXPECT_GE(narrow, 1);
 }
 
 /// Of models whose finest level is a box around the body, the bounds, normal and points are those of the boxes. Polytopes were

@@ -128,17 +128,16 @@ class Polytope {
   }
 
   /// Adds the support along the lowest facet's normal until the goal is met and, unless `bounds_only`, the best plane is that
-  /// of the facet with the nearest point: of several facets as low, points and plane must belong to one. `lowest` is a lower
-  /// bound over more directions than this polytope's; no higher one is used.
-  End grow(bool bounds_only = false, double lowest = kInfinity) {
+  /// of the facet with the nearest point: of several facets as low, points and plane must belong to one.
+  End grow(bool bounds_only = false) {
     for (;;) {
       int next = hull_.lowest();
-      lower_ = min(lowest, below(hull_.facet(next).height));
+      lower_ = below(hull_.facet(next).height);
       if (goal_.passed(lower_, best_.height)) return End::Enough;
       if (goal_.hopeless(lower_, best_.height)) return End::TooCoarse;
       if (best_.height < -pair_.law_two) return End::Apart;
       if (narrow(lower_) && bounds_only) return End::Enough;
-      if (const int nearest = narrow(lower_) ? nearest_point().facet : -1; nearest >= 0) next = nearest;
+      if (narrow(lower_)) next = nearest_point().facet;
       const HullFacet& facet = hull_.sharpened(next);
       if (facet.above < kInfinity) {
         if (!goal_.narrow(lower_, facet.above)) return End::Stuck;
@@ -170,6 +169,31 @@ class Polytope {
     }
   }
 
+  /// Adds supports above the facet by which the ray along the plane's normal leaves the polytope, until M leaves by the same.
+  /// An exact search takes the plane of that facet for `plane` if it is no higher, and goes on along its normal.
+  End leave_along(Plane& plane) {
+    for (int turns = 0;;) {
+      const int lowest = hull_.lowest();
+      const bool is_inside = hull_.facet(lowest).height > 0;
+      const int next = is_inside ? left_by(plane.normal) : lowest;
+      const HullFacet& facet = hull_.sharpened(next);
+      if (facet.above == kInfinity) {
+        if (steps_ >= goal_.step_budget) return End::Budget;
+        if (hull_.corner_count() == ExactHull::kMostPoints) return End::Full;
+        const Corner from = first_corner(facet);
+        Corner top = climb(facet.normal, from.a, from.b);
+        if (!hull_.sees(next, top.p)) top = support_exactly(facet.normal, top.a, top.b);
+        if (hull_.sees(next, top.p))
+          add(top, next);
+        else
+          hull_.set_above(next, last_.height);
+        continue;
+      }
+      if (!is_inside || !exact_ || facet.above > plane.height || turns++ == kSlides) return End::Enough;
+      plane = {facet.above, facet.normal};
+    }
+  }
+
   /// A proved lower bound on the heights of M, over all directions or the cone; 0 before one is proved.
   double lower() const { return lower_; }
   const Plane& best() const { return best_; }
@@ -181,22 +205,21 @@ class Polytope {
   void witness(Depth& depth) {
     // Of several facets as low, points and plane must belong to one.
     const Vec at = best_.normal * best_.height;
-    NearestFacet nearest = nearest_point(at);
-    // A loose search that began in a cone may end before a facet of M is as low as the best plane.
-    if (nearest.facet < 0) nearest = nearest_of(at, -1, [](const HullFacet& f) { return f.height < kInfinity; });
-    if (nearest.facet < 0) return;
-    const HullFacet& facet = hull_.facet(nearest.facet);
-    depth.active.count = 0;
-    depth.point_a = depth.point_b = {0, 0, 0};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double weight = rounded(nearest.foot.weight[k]);
-      if (weight == 0) continue;
-      const VertexPair of = vertex_pair_[facet.corner[k]];
-      const auto slot = std::size_t(depth.active.count++);
-      depth.active.a[slot] = of.a, depth.active.b[slot] = of.b, depth.active.weight[slot] = weight;
-      depth.point_a = depth.point_a + body_a(pair_).point(of.a) * weight;
-      depth.point_b = depth.point_b + body_b(pair_).point(of.b) * weight;
-    }
+    const NearestFacet nearest = nearest_point(at);
+    write_points(hull_.facet(nearest.facet), nearest.foot.weight, depth);
+  }
+  /// The same of the points whose difference is where the ray along `n` leaves the polytope.
+  void witness_along(const Vec& n, Depth& depth) const {
+    const HullFacet& facet = hull_.facet(left_by(n));
+    const auto corner_at = [&](std::size_t k) { return wide(hull_.corner(facet.corner[k])); };
+    const Wide a = corner_at(0), b = corner_at(1), c = corner_at(2), along = wide(n);
+    std::array weight{dot(along, cross(b, c)), dot(along, cross(c, a)), dot(along, cross(a, b))};
+    const DoubleDouble zero(0);
+    for (DoubleDouble& w : weight) w = w > zero ? w : zero;
+    const DoubleDouble sum = weight[0] + weight[1] + weight[2];
+    if (!(sum > zero)) return;
+    for (DoubleDouble& w : weight) w = w / sum;
+    write_points(facet, weight, depth);
   }
 
  private:
@@ -317,26 +340,46 @@ class Polytope {
 
   // ---- The facets ----
 
+  /// The facet by which the ray along `n` leaves the polytope; what surrounds the origin has one.
+  int left_by(const Vec& n) const {
+    int best = 0;
+    double most = -kInfinity;
+    for (int k = 0; k < hull_.facet_count(); ++k) {
+      if (hull_.is_gone(k)) continue;
+      const HullFacet& f = hull_.facet(k);
+      const Vec &a = hull_.corner(f.corner[0]), &b = hull_.corner(f.corner[1]), &c = hull_.corner(f.corner[2]);
+      const double u = dot(n, cross(b, c)), v = dot(n, cross(c, a)), w = dot(n, cross(a, b)), sum = u + v + w;
+      if (!(sum > 0)) continue;
+      if (const double least = min(u, min(v, w)) / sum; least > most) best = k, most = least;
+    }
+    return best;
+  }
+  /// Writes the points that are so many shares of a facet's vertex pairs.
+  void write_points(const HullFacet& facet, const std::array<DoubleDouble, 3>& weights, Depth& depth) const {
+    depth.active.count = 0;
+    depth.point_a = depth.point_b = {0, 0, 0};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double weight = rounded(weights[k]);
+      if (weight == 0) continue;
+      const VertexPair of = vertex_pair_[facet.corner[k]];
+      const auto slot = std::size_t(depth.active.count++);
+      depth.active.a[slot] = of.a, depth.active.b[slot] = of.b, depth.active.weight[slot] = weight;
+      depth.point_a = depth.point_a + body_a(pair_).point(of.a) * weight;
+      depth.point_b = depth.point_b + body_b(pair_).point(of.b) * weight;
+    }
+  }
+
   /// The facets' point below the origin that is nearest to `to`: with 0, the point of the polytope's surface nearest to the
-  /// origin. A facet higher than `best_` by over law 2's bound is skipped. -1 if the others have ideal corners.
+  /// origin. A facet higher than `best_` by over law 2's bound is skipped.
   NearestFacet nearest_point(const Vec& to = {0, 0, 0}) {
     const double most = best_.height + pair_.law_two;
-    return nearest_of(to, hull_.lowest(), [most](const HullFacet& f) { return f.height <= most; });
-  }
-  /// The same of `first`, unless that is -1, and of the facets that serve.
-  template <class Serves>
-  NearestFacet nearest_of(const Vec& to, int first, Serves serves) const {
     const auto off = [to = wide(to)](const Foot& at) { return dot(at.point - to, at.point - to); };
-    NearestFacet best{-1, {}};
-    const auto consider = [&](int k) {
-      const HullFacet& f = hull_.facet(k);
-      if (hull_.has_ideal(f)) return;
-      const Foot at = foot_of(f);
-      if (best.facet < 0 || off(at) < off(best.foot)) best = {k, at};
-    };
-    if (first >= 0) consider(first);
+    const int lowest = hull_.lowest();
+    NearestFacet best{lowest, foot_of(hull_.facet(lowest))};
     for (int k = 0; k < hull_.facet_count(); ++k) {
-      if (k != first && serves(hull_.facet(k))) consider(k);
+      if (k == lowest || hull_.facet(k).height > most) continue;
+      const Foot at = foot_of(hull_.facet(k));
+      if (off(at) < off(best.foot)) best = {k, at};
     }
     return best;
   }
@@ -377,14 +420,15 @@ std::array<Cone, 4> quarters(const Cone& c) {
 bool ends_all(End end) { return end == End::TooCoarse || end == End::Apart || end == End::Budget; }
 
 /// Lowers `lower` to a proved bound on the heights over a cone: by one polytope, or if that is full, by one for each quarter,
-/// `most` times.
-End cover(Polytope& polytope, const Cone& cone, int most, double& lower) {
+/// as long as so many `cones` are left, divided `most` times.
+End cover(Polytope& polytope, const Cone& cone, int most, int& cones, double& lower) {
   polytope.begin(cone);
   End end = polytope.grow(true);
-  if (end == End::Full && most > 0) {
+  if (end == End::Full && most > 0 && cones >= 4) {
     end = End::Enough;
+    cones -= 4;
     for (const Cone& quarter : quarters(cone)) {
-      if (const End of = cover(polytope, quarter, most - 1, lower); of != End::Enough) end = of;
+      if (const End of = cover(polytope, quarter, most - 1, cones, lower); of != End::Enough) end = of;
       if (ends_all(end)) return end;
     }
     return end;
@@ -393,24 +437,20 @@ End cover(Polytope& polytope, const Cone& cone, int most, double& lower) {
   return end;
 }
 
-/// Covers all directions, octant by octant, each divided up to `most` times; `lower` becomes the lower bound, or 0 if the
-/// search ends early.
-End cover_all(Polytope& polytope, int most, double& lower) {
+/// Covers all directions, octant by octant, by at most so many `cones`; `lower` becomes the lower bound, or 0 if the search
+/// ends early.
+End cover_all(Polytope& polytope, int cones, double& lower) {
   End end = End::Enough;
   lower = kInfinity;
+  cones -= 8;
   for (int octant = 0; octant < 8; ++octant) {
     const Vec x{octant & 1 ? -1.0 : 1.0, 0, 0}, y{0, octant & 2 ? -1.0 : 1.0, 0}, z{0, 0, octant & 4 ? -1.0 : 1.0};
     const bool odd = x.x * y.y * z.z < 0;
-    if (const End of = cover(polytope, odd ? Cone{x, z, y} : Cone{x, y, z}, most, lower); of != End::Enough) end = of;
+    const Cone cone = odd ? Cone{x, z, y} : Cone{x, y, z};
+    if (const End of = cover(polytope, cone, kConeQuarters, cones, lower); of != End::Enough) end = of;
     if (ends_all(end)) return lower = 0, end;
   }
   return end;
-}
-
-/// A narrow cone about a direction.
-Cone about(const Vec& n) {
-  const Vec u = normalised(cross(n, least_axis(n))), v = cross(n, u);
-  return {n + u * kNarrowCone, n + (v * kSqrt3 - u) * (kNarrowCone / 2), n - (v * kSqrt3 + u) * (kNarrowCone / 2)};
 }
 
 }  // namespace
@@ -422,19 +462,29 @@ Depth epa(const PairView& pair, const Level& a, const Level& b, const DepthStart
   const bool has_facets = polytope.begin(start);
   End end = has_facets ? polytope.grow() : End::Flat;
   depth.lower = max(0, polytope.lower());
+  Plane best;
   if (end == End::Full) {
     const bool is_rough = goal.is_too_coarse(polytope.best().height);
-    end = cover_all(polytope, is_rough ? kRoughDepthCells : kDepthCells, depth.lower);
-    depth.lower = max(0, depth.lower);
-    polytope.begin(about(polytope.best().normal));
-    polytope.grow(false, depth.lower);  // finds the best plane's facet again, for the points
+    double lower;
+    end = cover_all(polytope, is_rough ? kRoughDepthCones : kDepthCones, lower);
+    depth.lower = max(depth.lower, lower);
+    best = polytope.best();
+    // No polytope holds the place of the best plane: the last one is of some cone.
+    DepthStart at;
+    at.direction = best.normal;
+    if (end != End::Apart && polytope.begin(at)) {
+      if (const End left = polytope.leave_along(best); end == End::Enough) end = left;
+      polytope.witness_along(best.normal, depth);
+    }
+  } else {
+    best = polytope.best();
+    if (has_facets) polytope.witness(depth);
   }
-  if (has_facets) polytope.witness(depth);
   if (end == End::Enough || (end == End::Flat && polytope.narrow(0))) depth.end = DepthEnd::Converged;
   if (end == End::Apart) depth.end = DepthEnd::Apart;
   if (end == End::Budget) depth.end = DepthEnd::Budget;
-  depth.upper = end == End::Apart ? polytope.best().height : max(polytope.best().height, depth.lower);
-  depth.normal = polytope.best().normal;
+  depth.upper = end == End::Apart ? best.height : max(best.height, depth.lower);
+  depth.normal = best.normal;
   depth.steps = polytope.steps();
   return depth;
 }

@@ -12,8 +12,8 @@
 namespace swiftlet {
 
 /// Bounds the depth of `pair` from `start` until `goal` is met. `a` and `b` are the levels of the pair's views. Allocates
-/// nothing. Law 7: at most 36 * 4^kDepthCells * kDepthPoints supports: of each polytope all turns but two add a point, and a
-/// turn asks for three at most.
+/// nothing. Law 7: at most 4 * kDepthCones * kDepthPoints supports: of each polytope all turns but two add a point, and a turn
+/// asks for three at most.
 Depth epa(const PairView& pair, const Level& a, const Level& b, const DepthStart& start, const DepthGoal& goal,
           std::uint32_t& plane_tests);
 

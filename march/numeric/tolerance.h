@@ -405,10 +405,9 @@ inline constexpr double kSlideBy = 2, kSlideTurn = 0.98;
 /// round bodies that overlap by a third of their size.
 inline constexpr std::size_t kFacetPoints = 64;
 /// `kDepthPoints` is the most points of the inner polytope: overlaps by a tenth of the bodies take 10 to 30. A depth that needs
-/// more is proved octant by octant, and an octant by its quarters, divided up to `kDepthCells` times;
-/// `kRoughDepthCells` times where the levels' deviation makes the bounds wider than asked anyway.
-inline constexpr int kDepthPoints = 128, kDepthCells = 6, kRoughDepthCells = 2;
-/// The half-angle of the cone that is searched for the facet of a known plane; any angle shows all of its corners. Radians.
-inline constexpr double kNarrowCone = 0x1p-6;
+/// more is proved octant by octant, and an octant by its quarters, up to `kDepthCones` in all; `kRoughDepthCones` where the
+/// levels' deviation makes the bounds wider than asked anyway. A cone is divided up to `kConeQuarters` times: its corners are
+/// multiples of 2^-24, whose cross products are exact. Counts.
+inline constexpr int kDepthPoints = 128, kDepthCones = 1 << 15, kRoughDepthCones = 1 << 7, kConeQuarters = 24;
 
 }  // namespace swiftlet

@@ -23,9 +23,9 @@ enum class Status : std::uint8_t {
   Beyond,         ///< stopped early because lower > options.beyond
   Budget,         ///< the query used up `Budget::steps`; the interval is true
   LevelLimit,     ///< a level that the tolerance needs is absent from a model or finer than the budget allows; the interval is
-                  ///< true, and, unless ten thousand faces share a depth, as narrow as the levels that it names allow
+                  ///< true, and, unless millions of faces share a depth, as narrow as the levels that it names allow
   NotConverged,   ///< the interval is true but wider than asked. Known only for depths of meshes (mesh_query.h), for depths
-                  ///< that ten thousand faces share, and for needles and plates as thin as law 2's bound (README.md, Limits)
+                  ///< that millions of faces share, and for needles and plates as thin as law 2's bound (README.md, Limits)
   InvalidPose,    ///< the pose is not finite, translates beyond 1e45 or is not orthonormal to 1e-6: nothing is known
   InvalidRadius,  ///< a radius is not a number from 0 to 1e45, or `refine` got an answer of other radii: nothing is known
   InvalidBody,    ///< an empty body, an illegal coordinate, a box turned inside out, an open solid: nothing is known
