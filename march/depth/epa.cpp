@@ -411,44 +411,54 @@ class Polytope {
   std::array<VertexPair, ExactHull::kMostPoints> vertex_pair_;
 };
 
-/// Divides a cone into four.
-std::array<Cone, 4> quarters(const Cone& c) {
-  const Vec xy = (c.x + c.y) * 0.5, yz = (c.y + c.z) * 0.5, zx = (c.z + c.x) * 0.5;
-  return {{{c.x, xy, zx}, {xy, c.y, yz}, {zx, yz, c.z}, {xy, yz, zx}}};
-}
+/// One of the cones that all directions are divided into: octants are divided into quarters, and these again, `depth` times.
+/// `index` counts those of one depth in order, so that the quarters of a cone follow each other.
+struct Cell {
+  std::uint64_t index = 0;
+  int depth = 0;
 
-bool ends_all(End end) { return end == End::TooCoarse || end == End::Apart || end == End::Budget; }
-
-/// Lowers `lower` to a proved bound on the heights over a cone: by one polytope, or if that is full, by one for each quarter,
-/// as long as so many `cones` are left, divided `most` times.
-End cover(Polytope& polytope, const Cone& cone, int most, int& cones, double& lower) {
-  polytope.begin(cone);
-  End end = polytope.grow(true);
-  if (end == End::Full && most > 0 && cones >= 4) {
-    end = End::Enough;
-    cones -= 4;
-    for (const Cone& quarter : quarters(cone)) {
-      if (const End of = cover(polytope, quarter, most - 1, cones, lower); of != End::Enough) end = of;
-      if (ends_all(end)) return end;
+  Cone cone() const {
+    const auto octant = index >> 2 * depth;
+    const Vec x{octant & 1 ? -1.0 : 1.0, 0, 0}, y{0, octant & 2 ? -1.0 : 1.0, 0}, z{0, 0, octant & 4 ? -1.0 : 1.0};
+    Cone c = x.x * y.y * z.z < 0 ? Cone{x, z, y} : Cone{x, y, z};
+    for (int k = depth; k-- > 0;) {
+      const Vec xy = (c.x + c.y) * 0.5, yz = (c.y + c.z) * 0.5, zx = (c.z + c.x) * 0.5;
+      const auto quarter = index >> 2 * k & 3;
+      c = quarter == 0   ? Cone{c.x, xy, zx}
+          : quarter == 1 ? Cone{xy, c.y, yz}
+          : quarter == 2 ? Cone{zx, yz, c.z}
+                         : Cone{xy, yz, zx};
     }
-    return end;
+    return c;
   }
-  lower = min(lower, polytope.lower());
-  return end;
-}
+  Cell first_quarter() const { return {4 * index, depth + 1}; }
+  /// The cell after this one and its quarters; the ninth octant after the last.
+  Cell next() const {
+    Cell after{index + 1, depth};
+    while (after.depth > 0 && after.index % 4 == 0) after = {after.index / 4, after.depth - 1};
+    return after;
+  }
+  bool is_end() const { return depth == 0 && index == 8; }
+};
 
-/// Covers all directions, octant by octant, by at most so many `cones`; `lower` becomes the lower bound, or 0 if the search
-/// ends early.
-End cover_all(Polytope& polytope, int cones, double& lower) {
+/// Covers all directions: octant by octant, each that is full by its quarters, as long as there are less than so many `cones`.
+/// `lower` becomes the lower bound, or 0 if the search ends early.
+End cover(Polytope& polytope, int cones, double& lower) {
   End end = End::Enough;
   lower = kInfinity;
   cones -= 8;
-  for (int octant = 0; octant < 8; ++octant) {
-    const Vec x{octant & 1 ? -1.0 : 1.0, 0, 0}, y{0, octant & 2 ? -1.0 : 1.0, 0}, z{0, 0, octant & 4 ? -1.0 : 1.0};
-    const bool odd = x.x * y.y * z.z < 0;
-    const Cone cone = odd ? Cone{x, z, y} : Cone{x, y, z};
-    if (const End of = cover(polytope, cone, kConeQuarters, cones, lower); of != End::Enough) end = of;
-    if (ends_all(end)) return lower = 0, end;
+  for (Cell cell; !cell.is_end();) {
+    polytope.begin(cell.cone());
+    const End of = polytope.grow(true);
+    if (of == End::TooCoarse || of == End::Apart || of == End::Budget) return lower = 0, of;
+    if (of == End::Full && cell.depth < kConeQuarters && cones >= 4) {
+      cones -= 4;
+      cell = cell.first_quarter();
+      continue;
+    }
+    if (of != End::Enough) end = of;
+    lower = min(lower, polytope.lower());
+    cell = cell.next();
   }
   return end;
 }
@@ -466,7 +476,7 @@ Depth epa(const PairView& pair, const Level& a, const Level& b, const DepthStart
   if (end == End::Full) {
     const bool is_rough = goal.is_too_coarse(polytope.best().height);
     double lower;
-    end = cover_all(polytope, is_rough ? kRoughDepthCones : kDepthCones, lower);
+    end = cover(polytope, is_rough ? kRoughDepthCones : kDepthCones, lower);
     depth.lower = max(depth.lower, lower);
     best = polytope.best();
     // No polytope holds the place of the best plane: the last one is of some cone.
