@@ -205,6 +205,15 @@ std::vector<Chain> chains() {
   return all;
 }
 
+/// A function of a query's name, of how it was asked and of its answer: calls take(asked, answer).
+template <class Take>
+auto taker(Asked& asked, Take& take) {
+  return [&](std::string_view query, std::string_view how, const Answer& answer) {
+    asked.query = query, asked.how = how;
+    take(asked, answer);
+  };
+}
+
 /// Calls take(asked, answer) for each answer; so do those below.
 template <class Take>
 void each_answer(const std::vector<Model>& models, int rounds, Take take) {
@@ -215,10 +224,7 @@ void each_answer(const std::vector<Model>& models, int rounds, Take take) {
   PairSeed loose, tested, near, met;
   each_pose(models, rounds, poses, [&](const Model& a, const Model& b, Asked asked, const Pose& pose) {
     if (asked.round == 0) policies = chains(), loose = tested = near = met = {};
-    const auto took = [&](const char* query, std::string_view how, const Answer& answer) {
-      asked.query = query, asked.how = how;
-      take(asked, answer);
-    };
+    const auto took = taker(asked, take);
     for (Chain& c : policies) took("distance", c.how, distance(a, b, pose, c.seed, c.options));
     PairSeed random = poses.seed();
     took("distance", "cold", distance(a, b, pose));
@@ -241,10 +247,7 @@ void each_signed_answer(const std::vector<Model>& models, int rounds, Take take)
   Options loose, limited;
   loose.relative = 0.01;
   each_pose(models, rounds, poses, [&](const Model& a, const Model& b, Asked asked, Pose pose) {
-    const auto took = [&](const char* query, const char* how, const Answer& answer) {
-      asked.query = query, asked.how = how;
-      take(asked, answer);
-    };
+    const auto took = taker(asked, take);
     if (asked.round % 4) pose.translation *= 0.25;  // mostly inside one another
     PairSeed random = poses.seed();
     took("signed_distance", "warm", signed_distance(a, b, pose, warm));
@@ -268,10 +271,7 @@ void each_nested_answer(std::vector<Model> models, int rounds, Take take) {
   Options loose, limited;
   loose.relative = 0.001;
   each_pose(models, rounds, poses, [&](const Model& a, const Model& b, Asked asked, Pose pose) {
-    const auto took = [&](const char* query, const char* how, const Answer& answer) {
-      asked.query = query, asked.how = how;
-      take(asked, answer);
-    };
+    const auto took = taker(asked, take);
     pose.translation *= asked.round % 2 ? 0 : 0x1p-20;
     if (asked.round < 2) pose.rotation.setIdentity();
     const Answer deep = signed_distance(a, b, pose, warm);

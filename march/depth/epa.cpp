@@ -16,7 +16,7 @@
 namespace swiftlet {
 namespace {
 
-/// A cone of directions spanned by `x`, `y` and `z`, counter-clockwise seen from outside: mostly a cell of the octahedron.
+/// A cone of directions spanned by `x`, `y` and `z`, counter-clockwise seen from outside.
 struct Cone {
   Vec x, y, z;
 };
@@ -197,7 +197,6 @@ class Polytope {
   /// A proved lower bound on the heights of M, over all directions or the cone; 0 before one is proved.
   double lower() const { return lower_; }
   const Plane& best() const { return best_; }
-  bool exact() const { return exact_; }
   std::uint32_t steps() const { return steps_; }
   bool narrow(double lower) const { return goal_.narrow(lower, best_.height); }
 
@@ -211,9 +210,7 @@ class Polytope {
   /// The same of the points whose difference is where the ray along `n` leaves the polytope.
   void witness_along(const Vec& n, Depth& depth) const {
     const HullFacet& facet = hull_.facet(left_by(n));
-    const auto corner_at = [&](std::size_t k) { return wide(hull_.corner(facet.corner[k])); };
-    const Wide a = corner_at(0), b = corner_at(1), c = corner_at(2), along = wide(n);
-    std::array weight{dot(along, cross(b, c)), dot(along, cross(c, a)), dot(along, cross(a, b))};
+    std::array<DoubleDouble, 3> weight = shares<DoubleDouble>(facet, n);
     const DoubleDouble zero(0);
     for (DoubleDouble& w : weight) w = w > zero ? w : zero;
     const DoubleDouble sum = weight[0] + weight[1] + weight[2];
@@ -340,15 +337,21 @@ class Polytope {
 
   // ---- The facets ----
 
+  /// The barycentric coordinates, times a number, of the point in which the line along `n` passes a facet's plane.
+  template <class Real>
+  std::array<Real, 3> shares(const HullFacet& f, const Vec& n) const {
+    const auto corner_at = [&](std::size_t k) { return widened<Real>(hull_.corner(f.corner[k])); };
+    const V3<Real> a = corner_at(0), b = corner_at(1), c = corner_at(2), along = widened<Real>(n);
+    return {dot(along, cross(b, c)), dot(along, cross(c, a)), dot(along, cross(a, b))};
+  }
   /// The facet by which the ray along `n` leaves the polytope; what surrounds the origin has one.
   int left_by(const Vec& n) const {
     int best = 0;
     double most = -kInfinity;
     for (int k = 0; k < hull_.facet_count(); ++k) {
       if (hull_.is_gone(k)) continue;
-      const HullFacet& f = hull_.facet(k);
-      const Vec &a = hull_.corner(f.corner[0]), &b = hull_.corner(f.corner[1]), &c = hull_.corner(f.corner[2]);
-      const double u = dot(n, cross(b, c)), v = dot(n, cross(c, a)), w = dot(n, cross(a, b)), sum = u + v + w;
+      const auto [u, v, w] = shares<double>(hull_.facet(k), n);
+      const double sum = u + v + w;
       if (!(sum > 0)) continue;
       if (const double least = min(u, min(v, w)) / sum; least > most) best = k, most = least;
     }
@@ -441,8 +444,8 @@ struct Cell {
   bool is_end() const { return depth == 0 && index == 8; }
 };
 
-/// Covers all directions: octant by octant, each that is full by its quarters, as long as there are less than so many `cones`.
-/// `lower` becomes the lower bound, or 0 if the search ends early.
+/// Covers all directions: octant by octant, each that is full by its quarters, by at most so many `cones` in all. `lower`
+/// becomes the lower bound, or 0 if the search ends early.
 End cover(Polytope& polytope, int cones, double& lower) {
   End end = End::Enough;
   lower = kInfinity;
@@ -475,7 +478,7 @@ Depth epa(const PairView& pair, const Level& a, const Level& b, const DepthStart
   Plane best;
   if (end == End::Full) {
     const bool is_rough = goal.is_too_coarse(polytope.best().height);
-    double lower;
+    double lower = 0;
     end = cover(polytope, is_rough ? kRoughDepthCones : kDepthCones, lower);
     depth.lower = max(depth.lower, lower);
     best = polytope.best();

@@ -32,8 +32,8 @@ struct Plane {
   double height;  ///< above the origin; off by at most kPlaneHeightError * height + kPlaneHeightFloor * the largest coordinate
 };
 Plane plane(const Vec& a, const Vec& b, const Vec& c);
-/// The plane through `p` along two vectors, seen counter-clockwise from the first to the second; the error of its height is of
-/// p's coordinates.
+/// The plane through `p` along two vectors, seen counter-clockwise from the first to the second. The error of its height is as
+/// above, of the largest coordinate of `p`.
 Plane plane(const Vec& p, const Wide& u, const Wide& v);
 
 /// The sign of n . (w - v).

@@ -82,12 +82,13 @@ TEST(UnitEpa, OfTwoPointsHasAUnitNormal) {
   }
 }
 
-/// Points with whole coordinates, and from each the three directions in which the hull is unbounded. In doubles all is exact:
-/// no point is above a plane through a facet's corners, and the hull's least height along the cone that leans towards none of
-/// the directions is that of a facet.
+/// The hull of points and of three directions in which it goes on without end. All coordinates are whole, so that doubles tell
+/// exactly that no point is above a facet's plane. Along directions that lean towards none of the three, the points are at
+/// least as high as the lowest facet.
 TEST(UnitExactHull, IsUnboundedAlongIdealCornersAlone) {
   std::mt19937 random(5);
   const auto whole = [&](int most) { return double(int(random() % unsigned(2 * most + 1)) - most); };
+  int heights = 0;
   for (int round = 0; round < 60; ++round) {
     const int most = round % 2 ? 3 : 1000;  // few values: many points in one plane
     std::array<Vec, 3> direction;
@@ -142,9 +143,11 @@ TEST(UnitExactHull, IsUnboundedAlongIdealCornersAlone) {
       for (const Vec& p : points) height = max(height, dot(normalised(n), p));
       if (lowest.height > 0) {
         EXPECT_GE(height, lowest.height * (1 - 1e-14));
+        ++heights;
       }
     }
   }
+  EXPECT_GE(heights, 100);
 }
 
 ///       3           A flat lid: a triangle 0 1 2 at z = 0 and, beyond its sides, 3 4 5 at z = -0.5. A point 0.01 below the
