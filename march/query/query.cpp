@@ -82,23 +82,20 @@ void ask_on(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, co
   return answer;
 }
 
-/// True if the finest maps of two models, which have all levels, are hardly ever as precise as asked, as `is_exact` finds
+/// True if the finest maps of two models, which have all levels, are hardly ever as precise as `absolute`, as `is_exact` finds
 /// without a relative error. An exact distance is answered sooner then.
-bool is_finer_than_maps(const Model& a, const Model& b, const Options& options) {
+bool is_finer_than_maps(const Model& a, const Model& b, double absolute) {
   const Level &of_a = a.level(0), &of_b = b.level(0);
-  return options.absolute < of_a.map_doubt + of_b.map_doubt && !(options.relative > 0) && of_a.map_side > 0 &&
-         of_b.map_side > 0 && (a.finest_level() | b.finest_level()) == 0;
+  return absolute < of_a.map_doubt + of_b.map_doubt && of_a.map_side > 0 && of_b.map_side > 0 &&
+         (a.finest_level() | b.finest_level()) == 0;
 }
 
-/// As `distance`. Most questions that allow an error have no other limit.
-[[gnu::noinline]] Answer distance_within(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed,
-                                         const Options& options) {
-  const bool loose = options.absolute > 0 || options.relative > 0, limited = limits_in(options.budget, options.tuning) != 0;
-  if (!(loose && !limited && options.beyond == kInfinity && are_models(a, b))) return any_distance(a, b, b_in_a, seed, options);
-  const Model &of_a = *a.model(), &of_b = *b.model();
-  return is_finer_than_maps(of_a, of_b, options)
-             ? ask_distance(of_a, of_b, b_in_a, seed)
-             : ask_loosely(of_a, of_b, b_in_a, seed, allowed_error(options.absolute), allowed_error(options.relative));
+/// As `distance`, of two models without limits.
+[[gnu::noinline]] Answer distance_within(const Model& a, const Model& b, const Pose& b_in_a, PairSeed& seed, double absolute,
+                                         double relative) {
+  absolute = allowed_error(absolute), relative = allowed_error(relative);
+  const bool exact = !(relative > 0) && (!(absolute > 0) || is_finer_than_maps(a, b, absolute));
+  return exact ? ask_distance(a, b, b_in_a, seed) : ask_loosely(a, b, b_in_a, seed, absolute, relative);
 }
 
 }  // namespace
@@ -125,10 +122,10 @@ double Answer::value() const {
 
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed, const Options& options) {
   const auto bits = [](double x) { return bit_cast<std::uint64_t>(x); };
-  const std::uint64_t errors = bits(options.absolute) | bits(options.relative) | (bits(options.beyond) ^ bits(kInfinity));
-  if ((errors | limits_in(options.budget, options.tuning)) == 0 && are_models(a, b))
-    return ask_distance(*a.model(), *b.model(), b_in_a, seed);
-  return distance_within(a, b, b_in_a, seed, options);
+  const std::uint64_t limits = limits_in(options.budget, options.tuning) | (bits(options.beyond) ^ bits(kInfinity));
+  if (limits != 0 || !are_models(a, b)) return any_distance(a, b, b_in_a, seed, options);
+  if ((bits(options.absolute) | bits(options.relative)) == 0) return ask_distance(*a.model(), *b.model(), b_in_a, seed);
+  return distance_within(*a.model(), *b.model(), b_in_a, seed, options.absolute, options.relative);
 }
 Answer distance(const Body& a, const Body& b, const Pose& b_in_a, PairSeed& seed) {
   return are_models(a, b) ? ask_distance(*a.model(), *b.model(), b_in_a, seed) : any_distance(a, b, b_in_a, seed, {});
