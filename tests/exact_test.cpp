@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -174,6 +175,41 @@ TEST(Exact, CompareAlongTurnedIsTheDotsSign) {
     }
     census.expect_each_at_least(kTries / 8);
   }
+}
+
+/// Two columns of a determinant that are one point make it nothing, and two that change places turn its sign, however small a
+/// translation is beside the bodies: its square underflows.
+TEST(Exact, ATripleProductTurnsItsSignWithItsPoints) {
+  std::mt19937_64 engine(8);
+  const auto draw = [&](int exponent) {
+    const auto number = [&] { return std::ldexp(std::uniform_real_distribution<double>(-1, 1)(engine), exponent); };
+    return Doubles{number(), number(), number()};
+  };
+  int signs = 0;
+  for (int exponent = 0; exponent >= -1060; exponent -= 20) {
+    for (int i = 0; i < 200; ++i) {
+      Motion m = motion(Pose{});
+      const Doubles turn = draw(-30), t = draw(exponent);
+      m.row_x.y = turn[0], m.row_y.x = -turn[0], m.row_x.z = turn[1], m.row_z.x = -turn[1], m.row_y.z = turn[2],
+      m.row_z.y = -turn[2];
+      m.t.x = t[0], m.t.y = t[1], m.t.z = t[2];
+      const Doubles v = draw(-66), p = i % 2 ? v : draw(-66), q = draw(-66), r = draw(-66);
+      const auto product = [&](const Doubles& x, const Doubles& y, const Doubles& z) {
+        return triple_product({v.data(), v.data(), v.data()}, {x.data(), y.data(), z.data()}, m);
+      };
+      for (const auto& [x, y] : {std::pair{p, q}, std::pair{q, p}}) {
+        EXPECT_EQ(product(x, x, y), 0) << exponent;
+        EXPECT_EQ(product(x, y, x), 0) << exponent;
+        EXPECT_EQ(product(y, x, x), 0) << exponent;
+      }
+      const int sign = product(p, q, r);
+      EXPECT_EQ(product(q, p, r), -sign) << exponent;
+      EXPECT_EQ(product(q, r, p), sign) << exponent;
+      EXPECT_EQ(product(p, r, q), -sign) << exponent;
+      signs += sign != 0;
+    }
+  }
+  EXPECT_GE(signs, 10'000);
 }
 
 // ---- The origin in a tetrahedron -------------------------------------------------------------------------------------------

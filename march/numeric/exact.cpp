@@ -168,8 +168,26 @@ Expansion3<8> offset3(const double a[3], const double b[3], const Motion& m, int
   return {coordinate(a[0], m.row_x, m.t.x), coordinate(a[1], m.row_y, m.t.y), coordinate(a[2], m.row_z, m.t.z)};
 }
 
+/// (a - c) - R (b - d), times 2^exponent, exactly.
+Expansion3<14> way3(const double a[3], const double c[3], const double b[3], const double d[3], const Motion& m, int exponent) {
+  const auto scaled = [exponent](double x, double y) {
+    return two_sum(times_power_of_two(x, exponent), -times_power_of_two(y, exponent));
+  };
+  const auto coordinate = [&](HighLow of_a, const Vec& row) {
+    SumOf<14> e;
+    e += of_a;
+    for (const auto& [r, x] :
+         {std::pair{row.x, scaled(b[0], d[0])}, std::pair{row.y, scaled(b[1], d[1])}, std::pair{row.z, scaled(b[2], d[2])}})
+      e += two_product(-r, x.low), e += two_product(-r, x.high);
+    return e;
+  };
+  return {coordinate(scaled(a[0], c[0]), m.row_x), coordinate(scaled(a[1], c[1]), m.row_y),
+          coordinate(scaled(a[2], c[2]), m.row_z)};
+}
+
 /// The sign of the determinant of the three a[k] - (R b[k] + t), computed at a scale where products of three coordinates stay
-/// far from the ends of the range of doubles, however small the translation is beside the bodies.
+/// far from the ends of the range of doubles. The middle difference is subtracted from the others, so that no product has two
+/// factors of the translation, however small that is beside the bodies.
 int offset_determinant_sign(const std::array<const double*, 3>& a, const std::array<const double*, 3>& b, const Motion& m) {
   double largest = max_abs(m.t);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -177,8 +195,8 @@ int offset_determinant_sign(const std::array<const double*, 3>& a, const std::ar
   }
   if (largest == 0) return 0;
   const int exponent = kProductExponent - exponent_of(largest);
-  return dot3(cross3(offset3(a[0], b[0], m, exponent), offset3(a[1], b[1], m, exponent)), offset3(a[2], b[2], m, exponent))
-      .sign();
+  const auto less_middle = [&](std::size_t k) { return way3(a[k], a[1], b[k], b[1], m, exponent); };
+  return dot3(cross3(less_middle(0), offset3(a[1], b[1], m, exponent)), less_middle(2)).sign();
 }
 
 /// R (w - v).

@@ -203,12 +203,13 @@ class IntersectionSearch {
   }
 
   /// Moves `at` within its fan to the triangle that holds a direction. Returns the side of the facet beyond which the direction
-  /// lies, or kNone. `left` is the sign of the direction's side of the plane through the apex and two corners.
+  /// lies, or kNone. `left` is the sign of the direction's side of the plane through the apex and two corners. Where products
+  /// underflow, signs may contradict each other, and only the count ends the way.
   template <class Left>
   std::uint32_t beyond(int k, Cell& at, Left left) const {
     const ConvexView& own = view(k);
     const std::uint32_t root = origin(own, at.first);
-    for (;;) {
+    for (std::size_t steps = own.half_edges.size(); steps > 0; --steps) {
       const std::uint32_t tail = origin(own, at.side), head = own.half_edges[at.side].head;
       if (left(root, tail) < 0) {
         if (tail == own.half_edges[at.first].head) return at.first;
@@ -221,6 +222,7 @@ class IntersectionSearch {
         return left(tail, head) < 0 ? at.side : kNone;
       }
     }
+    return kNone;
   }
 
   /// Where a vertex lies: `side` is 1 outside a body, 0 on its surface, -1 inside; `facet` is the facet it lies beyond or in.
