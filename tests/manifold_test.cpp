@@ -609,6 +609,49 @@ TEST(Manifold, OfFourSidesOnALatticeIsTheIntersectionOfTheirFaces) {
   EXPECT_GE(shares.eight, 0.9999);
 }
 
+/// Beyond a corner a place may be within a bound of the lines of both sides, but not of the sides: the sharper the corner, the
+/// farther.
+TEST(Manifold, AtRestMissesNoFaceByMoreThanTwiceItsFlatness) {
+  using Corners = std::vector<Eigen::Vector2d>;
+  int beside = 0, beyond = 0;
+  for (const Corners& corners : {Corners{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, Corners{{0, 0}, {8, -0.25}, {8, 0.25}},
+                                 Corners{{0, 0}, {4, -0.5}, {8, 0}, {4, 0.5}}}) {
+    const Model body = bodies::model(prism(corners, 1));
+    const double slack = 2 * ManifoldOptions{}.flatness * body.level(0).view.extent;
+    const auto miss = [&](const Vec3& own) {  // of the face by a point
+      double out = -kInfinity;
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Eigen::Vector2d from = corners[i], side = corners[(i + 1) % corners.size()] - from, way = own.head<2>() - from;
+        if (side.x() * way.y() - side.y() * way.x() >= 0) continue;
+        const double t = std::clamp(way.dot(side) / side.squaredNorm(), 0., 1.), distance = (way - t * side).norm();
+        out = out == -kInfinity ? distance : std::min(out, distance);
+      }
+      return std::max(out, 0.);
+    };
+    const double height = body.box_max().z() - body.box_min().z() + 1e-3;
+    const auto asked_at = [&](double x, double y, const Manifold& before) {
+      const Pose pose = at(x, y, height);
+      return manifold(body, body, pose, nearest(body, body, pose), {.margin = kInfinity}, before);
+    };
+    const Manifold flush = asked_at(0, 0, {});
+    for (int turn = 0; turn < 64; ++turn) {
+      for (const double share : {0.3, 0.7, 0.9, 1.2, 5., 20.}) {
+        const double x = share * slack * std::cos(turn * 0.1), y = share * slack * std::sin(turn * 0.1);
+        const Manifold now = asked_at(x, y, flush);
+        ASSERT_GT(now.count, 0u);
+        for (std::uint32_t i = 0; i < now.count; ++i) {
+          const double of_a = miss(now.points[i].point_a), of_b = miss(now.points[i].point_b - Vec3(x, y, 0));
+          EXPECT_LE(std::max(of_a, of_b), slack * 1.000001) << corners.size() << " corners, " << share << ", turn " << turn;
+          beside += std::max(of_a, of_b) > 0.2 * slack;
+        }
+        beyond += share > 1;
+      }
+    }
+  }
+  EXPECT_GE(beside, 200);
+  EXPECT_GE(beyond, 500);
+}
+
 /// Tips that are farthest apart are not the corners to keep.
 TEST(Manifold, OfALongFaceKeepsItsShoulders) {
   bodies::Polyhedron hexagon;

@@ -28,7 +28,8 @@ class Polygon {
   static constexpr int kMostSides = 4;
 
   /// Has no sides if there are more, or a corner may not turn inwards by more than the flatness.
-  Polygon(const SeenBody& body, const ContactFace& face, double bound) : body_(body), name_(face.name()) {
+  Polygon(const SeenBody& body, const ContactFace& face, double bound)
+      : body_(body), name_(face.name()), bound2_(bound * bound) {
     if (!face.has_plane() || face.is_rim()) return;
     const bool is_from_above = dot(cross(body.x, body.y), face.normal()) >= 0;
     const bool is_small = is_from_above ? go_round<false>(face, twin(face.side())) : go_round<true>(face, face.side());
@@ -47,13 +48,17 @@ class Polygon {
   double z(int i) const { return z_[i]; }
   double z_on(int i, double t) const { return z_[i] + (z_[i + 1] - z_[i]) * t; }
 
-  /// Of which sides a place is surely inside, and outside.
+  /// Of which sides a place is inside, and outside, by more than the bound. A place within the bound of every side's line, but
+  /// of no side, lies beyond a corner, and is outside of the sides that it is beyond.
   struct Found {
     Set in, out;
   };
   [[gnu::always_inline]] Found find(const PlanePoint& place) const {
     const Vec4 area = (all(place.x) - x_) * way_y_ - (all(place.y) - y_) * way_x_;
-    return {greater(area, limit_), greater(-limit_, area)};
+    Found found{greater(area, limit_), greater(-limit_, area)};
+    const Set beyond = greater(all(0), area);
+    if (found.out == 0 && beyond != 0 && !is_beside(beyond, place)) found.out = beyond;
+    return found;
   }
 
   /// The coordinate along the normal at a place of the face.
@@ -79,6 +84,15 @@ class Polygon {
  private:
   std::uint32_t twin(std::uint32_t half_edge) const { return body_.view.half_edges[half_edge].twin; }
 
+  /// True if a place is within the bound of one of these sides.
+  bool is_beside(Set sides, const PlanePoint& place) const {
+    bool found = false;
+    each(sides, [&](int i) {
+      const Line at = side(i);
+      found |= are_near(at.at(at.along(place)), place, bound2_);
+    });
+    return found;
+  }
   /// Notes the corners along the border from half-edge `first` on. Returns false if there are many.
   template <bool is_left>
   bool go_round(const ContactFace& face, std::uint32_t first) {
@@ -114,6 +128,7 @@ class Polygon {
 
   const SeenBody& body_;
   const FeatureId name_;
+  const double bound2_;
   int count_ = 0;
   std::uint32_t vertex_[kMostSides], half_edge_[kMostSides];
   Vec4 x_, y_, way_x_, way_y_;     ///< of corners and of sides
