@@ -199,27 +199,53 @@ class LongestWay {
   double asked_ = 0, most_ = 0;
 };
 
-/// Visits the pairs of triangles whose boxes both meet the region's.
-template <class OnPair>
+/// Visits the pairs of triangles whose boxes both meet the region's and are wanted.
+template <class OnPair, class IsWanted>
 struct InRegion {
   const NearPairs& pairs;
   const Box& box;
   OnPair on_pair;  ///< returns false to end the search
+  IsWanted is_wanted;
   bool going = true;
 
   bool goes_on() const { return going; }
-  bool skips(const NearPairs::Boxes& boxes, double) const { return !meet(boxes.a, box) || !meet(boxes.b, box); }
+  bool skips(const NearPairs::Boxes& boxes, double) const {
+    return !meet(boxes.a, box) || !meet(boxes.b, box) || !is_wanted(boxes);
+  }
   void visit(std::uint32_t a, std::uint32_t b, double) {
     const NearPairs::Boxes boxes = pairs.boxes(a, b);
     if (meet(boxes.a, boxes.b) && !skips(boxes, 0)) going = on_pair(Ids{a, b});
   }
 };
-template <class OnPair>
-[[gnu::noinline]] void for_pairs(const RegionOf& in, double reach, const OnPair& on_pair) {
+/// Boxes are grown by `reach`.
+template <class OnPair, class IsWanted>
+[[gnu::noinline]] void for_pairs(const RegionOf& in, double reach, const OnPair& on_pair, const IsWanted& is_wanted) {
   NearPairs pairs(in.at, reach);
-  InRegion<const OnPair&> visitor{pairs, in.box, on_pair};
+  InRegion<const OnPair&, const IsWanted&> visitor{pairs, in.box, on_pair, is_wanted};
   pairs.run(visitor);
 }
+template <class OnPair>
+void for_pairs(const RegionOf& in, double reach, const OnPair& on_pair) {
+  for_pairs(in, reach, on_pair, [](const NearPairs::Boxes&) { return true; });
+}
+
+/// What may face each other along a normal: places of B that lie over places of A, or aside of these by `beside` at most, and
+/// from `least` to `most` farther along the normal.
+struct Facing {
+  const NormalView& view;
+  double beside, least, most;
+
+  /// False if two boxes, grown by `reach`, hold no such places.
+  bool may_be_in(const NearPairs::Boxes& boxes, double reach) const {
+    const Vec way = (boxes.b.least + boxes.b.most - boxes.a.least - boxes.a.most) * 0.5;
+    const double grown = reach * (2 - 32 * kU);  // rounding took no more
+    const Vec half = (boxes.a.most - boxes.a.least + boxes.b.most - boxes.b.least) * 0.5 - Vec{grown, grown, grown};
+    const auto half_along = [&](const Vec& n) { return dot(Vec{std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)}, half); };
+    const auto apart = [&](const Vec& n) { return std::fabs(dot(way, n)) > half_along(n) + beside; };
+    const double along = dot(way, view.n), half_way = half_along(view.n);
+    return !(apart(view.x) || apart(view.y) || along - half_way > most || along + half_way < least);
+  }
+};
 
 /// Directions to try, each once.
 class Tried {
@@ -479,7 +505,7 @@ void grow(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b
         if (c.separation >= least - 2 * beside && c.separation <= margin + bound) farthest.add(c);
       });
     };
-    for_pairs(in, max(max(margin, std::fabs(least)), 2 * beside) + bound, [&](Ids ids) {
+    const auto look_at = [&](Ids ids) {
       if (of_a.is_fan()) {
         const Facet b = of_b.triangle(ids.b);
         if (is_wanted(of_a.fan_over(b), b)) of_a.each_of_fan([&](const Facet& a) { look(a, b); });
@@ -489,7 +515,10 @@ void grow(const RegionOf& in, const ConvexFace& body_a, const ConvexFace& body_b
         of_b.each_of_fan([&](const Facet& b) { look(a, b); });
       }
       return true;
-    });
+    };
+    const Facing facing{seen, 2 * beside, least - 2 * beside, margin + bound};
+    const double reach = max(max(margin, std::fabs(least)), 2 * beside) + bound;
+    for_pairs(in, reach, look_at, [&](const NearPairs::Boxes& boxes) { return facing.may_be_in(boxes, reach); });
     Candidates candidates(margin + bound, previous);
     const bool has_least = farthest.least() <= least + bound + kNarrowest * in.at.size;
     farthest.give(candidates);
