@@ -50,13 +50,17 @@ WorldBox box_of(const Vec3& centre, const Vec3& half, double slack, const Pose& 
   return box;
 }
 
-/// A box that holds the body, and all that its queries may take for it; of what they refuse, one that holds everything.
+/// True if queries refuse the body or its pose.
+bool is_refused(const MeshBody& body, const Pose& in_world) {
+  const Body& convex = body.convex();
+  return std::isnan(body.mesh() ? tolerance(body, body, in_world) : tolerance(convex, convex, in_world));
+}
+
+/// A box that holds the body, and all that its queries may take for it.
 WorldBox box_of(const MeshBody& body, const Pose& in_world) {
   const Body& convex = body.convex();
   const Model* const model = convex.model();
   const MeshModel* const mesh = body.mesh();
-  if (std::isnan(mesh ? tolerance(body, body, in_world) : tolerance(convex, convex, in_world)))
-    return {{-kAnywhere, -kAnywhere, -kAnywhere}, {kAnywhere, kAnywhere, kAnywhere}};
   Vec3 lowest, highest;
   if (mesh) {
     lowest = mesh->box_min(), highest = mesh->box_max();
@@ -119,7 +123,26 @@ struct Scene::Content {
     std::string name{};
     std::uint32_t generation = 0;
     bool taken = false;
+    bool refused = false;
+
+    /// Its box in the world; of what is refused, one that holds everything.
+    WorldBox box() const {
+      if (refused) return {{-kAnywhere, -kAnywhere, -kAnywhere}, {kAnywhere, kAnywhere, kAnywhere}};
+      return box_of(body, in_world);
+    }
   };
+  /// The pose that a query of two places is asked in: where one is refused its own, since the relative one of two poses may be
+  /// legal where neither is.
+  static Pose b_in_a(const Place& a, const Place& b) {
+    return a.refused ? a.in_world : b.refused ? b.in_world : relative(a.in_world, b.in_world);
+  }
+  /// Puts a place where it is to be.
+  void put(BodyId id, const Pose& in_world) {
+    Place& place = places[id.index];
+    place.in_world = in_world;
+    place.refused = is_refused(place.body, in_world);
+    tree.put(id.index, place.box());
+  }
   static bool are_convex(const Place& a, const Place& b) { return !a.body.mesh() && !b.body.mesh(); }
   std::vector<Place> places;
   std::vector<std::uint32_t> free;
@@ -190,9 +213,9 @@ struct Scene::Content {
         KeptPair& pair = k.pairs[i];
         const Place &a = places[pair.a.index], &b = other.places[pair.b.index];
         if (are_convex(a, b))
-          queries.push_back({a.body.convex(), b.body.convex(), relative(a.in_world, b.in_world), &pair.seed.pair});
+          queries.push_back({a.body.convex(), b.body.convex(), b_in_a(a, b), &pair.seed.pair});
         else
-          mesh_queries.push_back({a.body, b.body, relative(a.in_world, b.in_world), &pair.seed});
+          mesh_queries.push_back({a.body, b.body, b_in_a(a, b), &pair.seed});
       }
       std::vector<AnyAnswer> answers(queries.size()), mesh_answers(mesh_queries.size());
       ask(std::span<const PairQuery>(queries), std::span(answers));
@@ -253,19 +276,16 @@ BodyId Scene::add(std::string_view name, const MeshBody& body, const Pose& in_wo
     place.model = std::make_unique<const Model>(*body.convex().model());
     place.body = Body(*place.model, body.radius());
   }
-  place.in_world = in_world;
   place.name = name;
   place.taken = true;
   if (!name.empty()) c.names.emplace(name, id);
-  c.tree.put(id.index, box_of(place.body, in_world));
+  c.put(id, in_world);
   return id;
 }
 
 bool Scene::move(BodyId id, const Pose& in_world) {
   if (!has(id)) return false;
-  Content::Place& place = content_->places[id.index];
-  place.in_world = in_world;
-  content_->tree.put(id.index, box_of(place.body, in_world));
+  content_->put(id, in_world);
   return true;
 }
 
@@ -355,7 +375,7 @@ NearestPair Scene::nearest(const Scene& other, const Options& options) {
     first = {c.id(pair->a), o.id(pair->b)};
   }
   const Content::Place &a = c.places[first.a.index], &b = o.places[first.b.index];
-  const Pose b_in_a = relative(a.in_world, b.in_world);
+  const Pose b_in_a = Content::b_in_a(a, b);
   Answer answer;
   if (Content::are_convex(a, b)) {
     const PairQuery query{a.body.convex(), b.body.convex(), b_in_a, &first.seed.pair};

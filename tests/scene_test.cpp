@@ -695,6 +695,13 @@ TEST(Scene, WhatQueriesRefuseIsListedWithItsStatus) {
   EXPECT_EQ(scene.nearest().answer.status, Status::Converged);
   bad = {.rotation = 1.1 * Mat3::Identity()};
   EXPECT_EQ(scene.overlapping(Scene(models()[0], bad)).size(), 2u);
+  // The relative pose of two that err alike is legal.
+  Scene alike;
+  (void)alike.add("a", models()[0], bad);
+  bad.translation[0] = 100;
+  (void)alike.add("b", models()[1], bad);
+  EXPECT_EQ(alike.overlapping().at(0).answer.status, Status::InvalidPose);
+  EXPECT_EQ(alike.nearest().answer.status, Status::InvalidPose);
   EXPECT_EQ(scene.overlapping(Scene(Body(), Pose{})).at(1).answer.status, Status::InvalidBody);
   EXPECT_EQ(scene.overlapping(Scene(Body(models()[0], -1), Pose{})).at(0).answer.status, Status::InvalidRadius);
   EXPECT_EQ(scene.within(kNaN).size(), 1u) << "no pair is proved farther apart than NaN";
