@@ -238,7 +238,7 @@ struct Facing {
   /// False if two boxes, grown by `reach`, hold no such places.
   bool may_be_in(const NearPairs::Boxes& boxes, double reach) const {
     const Vec way = (boxes.b.least + boxes.b.most - boxes.a.least - boxes.a.most) * 0.5;
-    const double grown = reach * (2 - 32 * kU);  // rounding took no more
+    const double grown = 2 * reach * (1 - kGrownError);
     const Vec half = (boxes.a.most - boxes.a.least + boxes.b.most - boxes.b.least) * 0.5 - Vec{grown, grown, grown};
     const auto half_along = [&](const Vec& n) { return dot(Vec{std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)}, half); };
     const auto apart = [&](const Vec& n) { return std::fabs(dot(way, n)) > half_along(n) + beside; };

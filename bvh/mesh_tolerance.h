@@ -131,5 +131,8 @@ inline constexpr double kBoxHeightError = 64 * kU;
 /// A length of a translation along a direction whose length is off by 4.5 u: what separates is longer by its square, 9 u, and
 /// radii by 4.5 u, the last sums by 3 u. Relative to itself, rounded up.
 inline constexpr double kMoveError = 24 * kU;
+/// What rounding may take from the reach by which two boxes are grown, as a share of it: sums of four coordinates, each rounded
+/// when its box grew, lose 10 u of it. What they lose of the coordinates law 2's bound exceeds, by which boxes are grown too.
+inline constexpr double kGrownError = 16 * kU;
 
 }  // namespace swiftlet
