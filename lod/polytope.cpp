@@ -127,6 +127,12 @@ Climber::Graph::Graph(const Polytope& solid)
   }
   nodes.push_back({Vec3::Zero(), std::uint32_t(near.size()), 0});
   for (std::uint32_t& v : near) v = node[v];
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    if (nodes[i + 1].begin - nodes[i].begin > kManyNeighbours)
+      std::sort(near.begin() + nodes[i].begin, near.begin() + nodes[i + 1].begin);
+  }
+  boxes.resize((near.size() + kBlock - 1) / kBlock);
+  for (std::size_t k = 0; k < near.size(); ++k) boxes[k / kBlock].extend(nodes[near[k]].point);
 }
 
 Climber::Climber(const Polytope& body)
@@ -138,18 +144,31 @@ std::span<const std::uint32_t> Climber::neighbours(std::uint32_t vertex) const {
   return {graph_->neighbour.data() + graph_->begin[vertex], graph_->begin[vertex + 1] - graph_->begin[vertex]};
 }
 
+/// Of a vertex with many neighbours, blocks of these are left out that no point of a box around them exceeds: products and sums
+/// round so that a box's height along the direction is no less than that of any point in it.
 std::uint32_t Climber::climb(const Vec3& direction, std::uint32_t start) const {
   const std::vector<Node>& nodes = graph_->nodes;
   const std::vector<std::uint32_t>& near = graph_->near;
+  const auto top = [&](const Eigen::AlignedBox3d& box) {
+    return direction.dot(Vec3((direction.array() > 0).select(box.max(), box.min())));
+  };
   std::uint32_t best = graph_->node[start];
   std::uint32_t& found = found_[lut::octahedron_cell(side_, direction.x(), direction.y(), direction.z())];
   double height = direction.dot(nodes[best].point);
   if (const double known = direction.dot(nodes[found].point); known > height) height = known, best = found;
-  while (true) {
-    const std::uint32_t from = best;
-    for (std::uint32_t k = nodes[from].begin; k < nodes[from + 1].begin; ++k) {
+  const auto look = [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t k = begin; k < end; ++k) {
       const double to_height = direction.dot(nodes[near[k]].point);
       if (to_height > height) height = to_height, best = near[k];
+    }
+  };
+  while (true) {
+    const std::uint32_t from = best, begin = nodes[from].begin, end = nodes[from + 1].begin;
+    if (end - begin <= kManyNeighbours) {
+      look(begin, end);
+    } else {
+      for (std::uint32_t block = begin / kBlock; block * kBlock < end; ++block)
+        if (top(graph_->boxes[block]) > height) look(std::max(begin, block * kBlock), std::min(end, (block + 1) * kBlock));
     }
     if (best == from) break;
   }

@@ -71,8 +71,10 @@ class Climber {
     const Polytope& body;
     std::vector<std::uint32_t> begin, neighbour;  ///< per vertex
     std::vector<Node> nodes;                      ///< along a curve, and one more where neighbours end
-    std::vector<std::uint32_t> node, near;        ///< of each vertex; neighbours of the nodes
+    std::vector<std::uint32_t> node, near;        ///< of each vertex; neighbours of the nodes, those of many along the curve
+    std::vector<Eigen::AlignedBox3d> boxes;       ///< around each `kBlock` of these
   };
+  static constexpr std::uint32_t kBlock = 32, kManyNeighbours = 2 * kBlock;
   std::shared_ptr<const Graph> graph_;
   std::uint32_t side_;                        ///< of a cube of directions
   mutable std::vector<std::uint32_t> found_;  ///< per cell of it, the node last found there; the first one where none was

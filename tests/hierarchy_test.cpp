@@ -11,11 +11,14 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <string>
 
 #include "cost.h"
 #include "hull.h"
 #include "peel.h"
+#include "polytope.h"
+#include "random.h"
 #include "shapes.h"
 
 namespace swiftlet {
@@ -408,6 +411,29 @@ TEST(Cost, AScenePaysForItsTolerance) {
   }
   const std::vector<lod::LevelSize> fatter{{100002, 0}, {4000, 0.0012}, {2000, 0.0024}, {80, 0.045}};
   EXPECT_LT(lod::expected_cost(cost, levels), lod::expected_cost(cost, fatter));
+}
+
+/// Two cones on one base, of rings of thousands and of four. A climb from an apex leaves blocks of its ring out, and ends at
+/// the top all the same.
+TEST(Climber, FindsTheTopFromAVertexOfManyEdges) {
+  shapes::Random random(3);
+  std::vector<Vec3> points{{0, 0, 1}, {0, 0, -1}};
+  for (int i = 0; i < 3000; ++i)
+    points.push_back({std::cos(2 * std::numbers::pi * i / 3000), std::sin(2 * std::numbers::pi * i / 3000), 0});
+  const lod::Polytope body = lod::solid(points, lod::hull(points));
+  const lod::Climber climber(body);
+  std::size_t most = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 direction = random.on_sphere();
+    double top = 0;
+    for (const Vec3& p : body.points) top = std::max(top, direction.dot(p));
+    const auto start = std::uint32_t(random.bits() % body.points.size());
+    for (const std::uint32_t from : {start, climber.climb(Vec3(0, 0, i % 2 ? 1 : -1), 0)}) {
+      most = std::max(most, climber.neighbours(from).size());
+      EXPECT_EQ(direction.dot(body.points[climber.climb(direction, from)]), top);
+    }
+  }
+  EXPECT_EQ(most, 3000u);
 }
 
 TEST(Peel, ImportancesAreThoseComputedByHand) {

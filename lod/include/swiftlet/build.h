@@ -103,9 +103,8 @@ struct Built {
 
 /// Builds a model from a mesh. Deterministic: the same input and options give the same bytes, whatever the executor and its
 /// threads. Cost: on one thread about 15 microseconds per triangle, some 60 on bodies of a few thousand.
-/// CGAL's quickhull takes time that grows with the square of a face's corners, and what finds levels' deviations nearly with
-/// the square of a vertex's edges: 7 s for a prism of 4 000 sides, 16 s for two cones of as many on one base
-/// (`build/bin/swiftlet_shape prism 4000`, `cone 4000`).
+/// CGAL's quickhull takes time that grows with the square of a face's corners: 7 s for a prism of 4 000 sides
+/// (`build/bin/swiftlet_shape prism 4000`).
 /// Errors: Empty, BadValue (names the option, vertex or triangle), TooLarge, NotConvex and NotSolid where the options refuse,
 /// Cancelled.
 Result<Built> build(const Mesh& mesh, const BuildOptions& options = {});
