@@ -93,10 +93,13 @@ PoseRows::PoseRows(py::handle poses, QuaternionOrder order, bool copy, const cha
     } else {
       came = what_came(poses);
     }
-    throw py::type_error(std::string(name) +
-                         ": expected float64 of shape (4, 4), (n, 4, 4), (7,) or (n, 7), or a tuple of rotations (3, 3) or "
-                         "(n, 3, 3) and translations (3,) or (n, 3), got " +
-                         came + (copy ? "" : "; copy=True converts other dtypes and sequences"));
+    throw py::type_error(
+        std::string(name) +
+        ": expected float64 of shape (4, 4), (n, 4, 4), (7,) or (n, 7), or a tuple of rotations (3, 3) or "
+        "(n, 3, 3) and translations (3,) or (n, 3), got " +
+        came +
+        (copy ? ""
+              : "; numpy.asarray(..., float) converts other dtypes and sequences, as does copy=True of calls that take it"));
   }
   if (form_ == Form::Quaternion && order_ == QuaternionOrder::None)
     throw py::value_error(std::string(name) +
