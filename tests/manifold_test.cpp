@@ -484,6 +484,35 @@ TEST(Regress, AWayToTheBorderEnteredACornerInsideOfAFace) {
   EXPECT_GE(inner, 100);
 }
 
+/// Corners that rounding leaves beside a side, inside of a face or outside of it. A way to the border at right angles to that
+/// side ended at one inside, since none beside it was farther out, and a single facet stood for the face. A corner inside of
+/// the face across was taken for all that touches there.
+TEST(Regress, ACornerBesideASideHidesTheFace) {
+  Random random(33);
+  const Model plate = bodies::model(bodies::box(3, 3, 1));
+  for (const double noise : {2e-16, 1e-12, 1e-9}) {
+    int missed = 0;
+    for (int i = 0; i < 2000; ++i) {
+      std::vector<Vec3> roof;
+      for (const double x : {-1, 1})
+        for (const double y : {-1, 1})
+          for (const double z : {0, 1}) roof.emplace_back(x, y, z);
+      for (int k = 0; k < 12; ++k) {
+        const double x = k < 4 ? random.uniform(-1, 1) : (k % 2 ? 1 : -1) * (1 - noise * random.uniform());
+        roof.emplace_back(x, random.uniform(-1, 1), 1 + noise * random.uniform());
+      }
+      const Mat3 turn = random.rotation();
+      const Model a = hull_of({bodies::moved({roof, {}, {}}, turn).points, {}});
+      Pose b_in_a;
+      b_in_a.rotation = turn * shapes::rotation(random.on_sphere(), noise);
+      b_in_a.translation = turn * Vec3(0, 0, 2 + 1e-6);
+      const Manifold p = manifold(a, plate, b_in_a, nearest(a, plate, b_in_a), {.margin = 1e-3, .most_points = 8});
+      missed += shown_area(p) < 3.9;
+    }
+    EXPECT_EQ(missed, 0) << noise;
+  }
+}
+
 /// Faces of single precision are planes with a thickness; no point leaves its body for that.
 TEST(Manifold, OfRoundedFacesLiesInBothBodies) {
   Random random(4);

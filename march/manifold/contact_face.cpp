@@ -36,52 +36,71 @@ Vec normal_of(const ConvexView& view, std::uint32_t face) {
   return face < view.planes.size() ? vec(view.planes[face]) : normal_of_triangle(view, face);
 }
 
-template <class Visit>
-void each_face_at(const ConvexView& view, FeatureId feature, Visit visit) {
-  switch (feature.kind()) {
-    case FeatureKind::None: break;
-    case FeatureKind::Face: visit(feature.index()); break;
-    case FeatureKind::Edge: visit(view.half_edges[feature.index()].face), visit(right_face(view, feature.index())); break;
-    case FeatureKind::Vertex: {
-      const Vertex& ring = view.vertices[feature.index()];
-      for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) visit(view.half_edges[h].face);
-    }
-  }
-}
-
 bool looks_along(const ConvexView& view, const Vec& n, std::uint32_t face) {
   return dot(normal_of(view, face), n) >= 1 - kSameFacing;
 }
 
-/// What of a feature touches a plane with the normal n: its highest corner, or the side between two that are level within
-/// `bound`; of a face that looks along n or has more of them, the face. A feature that holds the nearest point may do so at its
-/// border alone, as a side face does under the edge of a top face.
+template <class Visit>
+void each_face_around(const ConvexView& view, std::uint32_t vertex, Visit visit) {
+  const Vertex& ring = view.vertices[vertex];
+  for (std::uint32_t h = ring.ring_begin; h < ring.ring_begin + ring.ring_count; ++h) visit(view.half_edges[h].face);
+}
+
+/// The feature of a body's faces that touches a plane with the normal n where this one does: of an edge that is not level
+/// within `bound`, the higher corner; of a corner or a diagonal inside of a face, the face.
 FeatureId highest_of(const ConvexView& view, const Vec& n, FeatureId feature, double bound) {
-  const auto height = [&](std::uint32_t h) { return dot(n, point(view, origin(view, h))); };
-  const auto between = [&](std::uint32_t h, std::uint32_t next) {
-    const double first = height(h), second = height(next);
-    if (std::fabs(first - second) <= bound) return FeatureId(FeatureKind::Edge, h);
-    return FeatureId(FeatureKind::Vertex, origin(view, first > second ? h : next));
-  };
-  if (feature.kind() == FeatureKind::Edge) return between(feature.index(), view.half_edges[feature.index()].twin);
-  if (feature.kind() != FeatureKind::Face || looks_along(view, n, feature.index())) return feature;
-  std::uint32_t top = view.face_first[feature.index()];
-  for (std::uint32_t h = next_in_face(view, top), first = top; h != first; h = next_in_face(view, h))
-    if (height(h) > height(top)) top = h;
-  const FeatureId on = between(top, next_in_face(view, top)), back = between(previous_in_face(view, top), top);
-  if (on.kind() == FeatureKind::Edge && back.kind() == FeatureKind::Edge) return feature;
-  return on.kind() == FeatureKind::Edge ? on : back;
+  if (feature.kind() == FeatureKind::Edge) {
+    const std::uint32_t h = feature.index(), tail = origin(view, h), head = view.half_edges[h].head;
+    const double rise = dot(n, point(view, head) - point(view, tail));
+    if (std::fabs(rise) <= bound) return is_diagonal(view, h) ? FeatureId(FeatureKind::Face, right_face(view, h)) : feature;
+    feature = {FeatureKind::Vertex, rise > 0 ? head : tail};
+  }
+  if (feature.kind() != FeatureKind::Vertex || view.half_edges.empty()) return feature;
+  const std::uint32_t face = view.half_edges[view.vertices[feature.index()].ring_begin].face;
+  bool is_inside = face != kNone;
+  each_face_around(view, feature.index(), [&](std::uint32_t beside) { is_inside &= beside == face; });
+  return is_inside ? FeatureId(FeatureKind::Face, face) : feature;
+}
+
+/// Visits the faces that may touch a plane with the normal n where a feature does. A face that holds the nearest point but does
+/// not look along n touches the plane at its border, as a side face does under the edge of a top face: with the faces beyond
+/// its sides that are level within `bound`, or those around its highest corner.
+template <class Visit>
+void each_touching(const ConvexView& view, const Vec& n, FeatureId feature, double bound, Visit visit) {
+  feature = highest_of(view, n, feature, bound);
+  const std::uint32_t i = feature.index();
+  switch (feature.kind()) {
+    case FeatureKind::None: return;
+    case FeatureKind::Vertex: return each_face_around(view, i, visit);
+    case FeatureKind::Edge: return visit(view.half_edges[i].face), visit(right_face(view, i));
+    case FeatureKind::Face: visit(i);
+  }
+  if (looks_along(view, n, i)) return;
+  const std::uint32_t first = view.face_first[i];
+  const auto height = [&](std::uint32_t v) { return dot(n, point(view, v)); };
+  std::uint32_t top = origin(view, first);
+  for (std::uint32_t h = next_in_face(view, first); h != first; h = next_in_face(view, h))
+    if (height(origin(view, h)) > height(top)) top = origin(view, h);
+  const double least = height(top) - bound;
+  bool is_side = false;
+  std::uint32_t h = first;
+  do {
+    if (height(origin(view, h)) >= least && height(view.half_edges[h].head) >= least)
+      visit(right_face(view, h)), is_side = true;
+    h = next_in_face(view, h);
+  } while (h != first);
+  if (!is_side) each_face_around(view, top, visit);
 }
 
 /// The face that faces along n best. Among equals it is the face of the manifold before, else the largest, because its plane is
 /// the most accurate.
-std::uint32_t best_facing(const ConvexView& view, const Vec& n, FeatureId feature, FeatureId before) {
+std::uint32_t best_facing(const ConvexView& view, const Vec& n, FeatureId feature, FeatureId before, double bound) {
   std::uint32_t chosen = kNone;
   double most = -2;
   const auto size = [&](std::uint32_t face) {
     return FeatureId(FeatureKind::Face, face) == before ? kInfinity : norm(area_of(view, face));
   };
-  each_face_at(view, feature, [&](std::uint32_t face) {
+  each_touching(view, n, feature, bound, [&](std::uint32_t face) {
     if (face == kNone || face == chosen) return;
     const Vec normal = normal_of(view, face);
     const double cosine = dot(normal, normal) > 0 ? dot(normal, n) : -1;
@@ -96,7 +115,7 @@ std::uint32_t best_facing(const ConvexView& view, const Vec& n, FeatureId featur
 ContactFace::ContactFace(const ConvexView& view, const Vec& n, FeatureId feature, FeatureId before, double flatness,
                          double bound)
     : view_(view), flatness_(kWalkingFaceUlps * kFloatUlp * view.extent) {
-  top_ = best_facing(view, n, highest_of(view, n, feature, bound), before);
+  top_ = best_facing(view, n, feature, before, bound);
   if (top_ == kNone) {
     side_ = view.half_edges.empty() ? kNone : 0;
     return;
@@ -139,13 +158,16 @@ bool ContactFace::holds(std::uint32_t face) const {
 }
 
 /// A half-edge of the contact face's border. Mostly it is a side of the face; where another facet of the same plane lies
-/// beside that, it is found by going outwards from corner to corner. At a corner only those merged faces count that sides join
-/// to the one come from: others may touch it there, which belong to another piece.
+/// beside that, it is found by going outwards from corner to corner, along a direction at right angles to few sides: corners
+/// inside of the face may be as far out as a side up to rounding, and so the farthest. The way follows diagonals too, as faces
+/// merged with others may turn inwards. At a corner only those merged faces count that sides join to the one come from: others
+/// may touch it there, which belong to another piece.
 std::uint32_t ContactFace::border() const {
   const std::uint32_t first = view_.face_first[top_];
   const auto is_inner = [&](std::uint32_t h) { return holds(right_face(view_, h)); };
   if (!is_inner(first)) return first;
-  const Vec out = point(view_, view_.half_edges[first].head) - point(view_, origin(view_, first));
+  const Vec way = point(view_, view_.half_edges[first].head) - point(view_, origin(view_, first)),
+            out = way * kSweepCos + cross(normal_, way) * kSweepSin;
   const auto height = [&](std::uint32_t v) { return dot(out, point(view_, v)); };
   for (std::uint32_t h = first;;) {  // leaves the corner, with a merged face on its left
     const std::uint32_t corner = origin(view_, h);
@@ -158,8 +180,7 @@ std::uint32_t ContactFace::border() const {
     for (std::uint32_t left = right;; left = counter_clockwise(ring, left)) {
       const bool is_last = !holds(view_.half_edges[left].face);
       const double of_head = height(view_.half_edges[left].head);
-      if (of_head > most && !is_diagonal(view_, left))  // nothing but diagonals may leave a corner inside of a face
-        most = of_head, next = is_last ? view_.half_edges[left].twin : next_in_face(view_, left);
+      if (of_head > most) most = of_head, next = is_last ? view_.half_edges[left].twin : next_in_facet(view_, left);
       if (is_last || counter_clockwise(ring, left) == right) break;
     }
     if (next == kNone) return is_border ? right : kNone;
