@@ -324,7 +324,8 @@ inline constexpr double kLeastFacing = 0x1p-4;
 /// product of the sums of their coordinates: 2 differences, 1 product and 1 difference, 4 u of terms that this sum bounds.
 /// Rounded up.
 inline constexpr double kCornerError = 8 * kU;
-/// Cosine and sine of 12.7 degrees: the angle between the first side of a face and the line that sweeps over it. No side of a
+/// Cosine and sine of 12.7 degrees: the angle between the first side of a face and the line that sweeps over it, or the way to
+/// its border. No side of a
 /// regular polygon of up to 20 corners is then within 0.1 degrees of the line.
 inline constexpr double kSweepCos = 40.0 / 41, kSweepSin = 9.0 / 41;
 
@@ -357,10 +358,11 @@ inline constexpr std::uint32_t kTrialSteps = 16;
 /// that line, between slender bodies up to the angle of `kTurnedLine`, 2 degrees; beyond, the direction between ellipsoids is
 /// nearer to the true one. Up to that of `kNearLine`, 30 degrees, the search between ellipsoids begins at it. Cosines.
 inline constexpr double kSameLine = 0.99, kTurnedLine = 0.9994, kNearLine = 0.866;
-/// A cold start steps along support maps until its two supports lie aside of each other by no more than `kNearEdges` mean edges
-/// of both bodies, but at most `kMapGjkSteps` times.
+/// A cold start looks along support maps until its two supports lie aside of each other by no more than `kNearEdges` mean edges
+/// of both bodies: at most `kEllipsoidLooks` more times along directions between ellipsoids, then in at most `kMapGjkSteps`
+/// steps of GJK.
 inline constexpr double kNearEdges = 2;
-inline constexpr int kMapGjkSteps = 12;
+inline constexpr int kEllipsoidLooks = 4, kMapGjkSteps = 12;
 /// The tetrahedron that proved an overlap follows the origin by at most so many corners. Of bodies 0.01 of their radius deep
 /// that turn by 45 degrees a query, 16 prove less often, 40 no more often.
 inline constexpr int kOriginSteps = 24;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// About the direction of a distance: that of the distance between ellipsoids which stand for the bodies, and how it turns with
-// the line of centres. Knows one level pair.
+// About the direction of a distance: that of the distance between ellipsoids which stand for the bodies, how it turns with the
+// line of centres, and where it leads on from supports that were seen. Knows one level pair.
 #pragma once
 
 #include <cmath>
@@ -44,6 +44,15 @@ class Ellipsoids {
                z = vec4(0, 0, h) + of_a_.z * by_a + of_b_.z * by_b;
     const Columns adjugate{cross(y, z), cross(z, x), cross(x, y)};
     return {adjugate, dot(x, adjugate.x)};
+  }
+
+  /// About the direction, at any length, of the distance between these ellipsoids moved so that `apart` leads from the support
+  /// of A along n to that of B against it: a step from n to the direction of the distance of bodies that are curved like them.
+  Vec4 onward(const Vec4& n, const Vec4& apart) const {
+    const Vec4 of_a = times(of_a_, n), of_b = times(of_b_, n);
+    const Vec2 by = Vec2{1, 1} / sqrt(dots(n, of_a, n, of_b));
+    const Vec4 line = apart + of_a * all(by[0]) + of_b * all(by[1]);
+    return inverse(n, line) * line;
   }
 
  private:

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
-// GJK on support maps for a cold start [Gilbert, Johnson & Keerthi 1988]. The direction is at first about that between
-// ellipsoids, between round bodies the line of centres, and turns towards that of the distance. Each support is one look-up in
-// a table of directions, a support map, without a climb. Every step proves bounds. Knows one level pair.
+// A cold start on support maps. The direction is at first about that between ellipsoids, between round bodies the line of
+// centres, and turns towards that of the distance: by what ellipsoids make of the supports seen, or by the steps of GJK
+// [Gilbert, Johnson & Keerthi 1988]. Each support is one look-up in a table of directions, a support map, without a climb.
+// Every look proves bounds. Knows one level pair.
 #pragma once
 
 #include <bit>
@@ -12,6 +13,7 @@
 
 #include "body/support_map.h"
 #include "pair/certify.h"
+#include "pair/ellipsoids.h"
 #include "pair/pair_view.h"
 #include "pair/pair_view4.h"
 #include "pair/simplex.h"
@@ -50,11 +52,33 @@ static inline AxisSample climbed(const PairView& pair, const AxisSample& seen, s
   return {seen.normal, a, b, point, apart, dot(seen.normal, apart), lower};
 }
 
+/// The squared length by which the supports of a sample lie aside of each other.
+static inline double aside2(const AxisSample& seen) { return dot(seen.apart, seen.apart) - seen.gap * seen.gap; }
 /// True if the supports of a sample lie aside of each other by few edges: a walk from them is cheaper than another step.
 /// Supports that overlap, but by less than `hidden`, count too.
 static inline bool are_near(const AxisSample& seen, const Level& a, const Level& b, double hidden) {
   const double few = kNearEdges * (a.edge_length + b.edge_length);
-  return seen.gap > -hidden && dot(seen.apart, seen.apart) - seen.gap * seen.gap <= few * few;
+  return seen.gap > -hidden && aside2(seen) <= few * few;
+}
+
+/// The last of the samples that follow `seen`, each along the direction between ellipsoids moved to the supports of the one
+/// before, as long as the gap grows, supports are not near, and each look halves what they lie aside. Of bodies curved about as
+/// ellipsoids are one or two looks come near, however fine the bodies are, where steps of GJK take the more the finer they are;
+/// of others the first look tells. `hidden`: as of `are_near`.
+static inline AxisSample best_sample(const PairView& pair, const Moved4& other, const Level& a, const Level& b, double hidden,
+                                     const AxisSample& seen) {
+  const Ellipsoids bodies(a, b, pair.b_in_a);
+  AxisSample best = seen;
+  for (int looks = 0; looks < kEllipsoidLooks && !are_near(best, a, b, hidden); ++looks) {
+    const Vec4 way = bodies.onward(vec4(best.normal), vec4(best.apart));
+    if (!has_range(dot(way, way))) break;
+    const AxisSample next = sample_axis(pair, other, a, b, way);
+    if (!(next.gap > best.gap)) break;
+    const bool goes_on = 4 * aside2(next) < aside2(best);
+    best = next;
+    if (!goes_on) break;
+  }
+  return best;
 }
 
 /// A face around a vertex, and how far another point is above it along a direction.
@@ -94,7 +118,7 @@ struct FaceBelow {
 static inline MarchStart supports_of(const AxisSample& seen) {
   return {{FeatureKind::Vertex, seen.a}, {FeatureKind::Vertex, seen.b}};
 }
-/// Where a walk begins from supports that are near each other: at both vertices. If these lie farther aside of each other than
+/// Where a walk begins from supports: at both vertices. If these lie farther aside of each other than
 /// they are apart, the vector between them tells little of the direction between the bodies. Then it is a vertex and the face
 /// below it, of either body's the one that is nearer along the normal. `other` is B.
 [[gnu::flatten]] static inline MarchStart start_from(const PairView& pair, const Moved4& other, const AxisSample& seen) {
@@ -110,10 +134,10 @@ static inline MarchStart supports_of(const AxisSample& seen) {
   return start;
 }
 
-/// The state of the algorithm after a step.
+/// The state of a cold start after a look.
 struct SupportGjk {
   AxisSample seen;                 ///< the last sample
-  double most_lower = -kInfinity;  ///< the greatest `lower` of all samples
+  double most_lower = -kInfinity;  ///< the greatest `lower` of the samples that were kept
   Vec lower_along{0, 0, 0};        ///< the normal along which `most_lower` is proved
   double upper = kInfinity;        ///< about the distance of the points of `feet_of`
   bool near = false;               ///< some supports were near each other
@@ -157,6 +181,26 @@ template <class Enough>
     if (known || s.simplex.count() == 4 || !(s.upper > pair.point_error()) || enough(s) || steps == kMapGjkSteps) return s;
     s.seen = sample_axis(pair, other, a, b, nearest);
   }
+}
+
+/// Where a walk begins at a sample, without `seen` and simplex.
+static inline SupportGjk found_at(const PairView& pair, const Moved4& other, const AxisSample& seen) {
+  SupportGjk found;
+  found.most_lower = seen.lower, found.lower_along = seen.normal;
+  found.near = true, found.start = start_from(pair, other, seen);
+  return found;
+}
+/// Where a walk begins on from a sample whose supports are not near: at the best sample if it has come near, else where GJK
+/// does. A function of its own: mostly the first supports are near.
+[[maybe_unused, gnu::noinline, gnu::flatten]] static SupportGjk search_maps(const PairView& pair, const Level& a,
+                                                                            const Level& b, double hidden,
+                                                                            const AxisSample& known) {
+  const Moved4 other(pair);
+  const AxisSample seen = best_sample(pair, other, a, b, hidden, known);
+  if (!are_near(seen, a, b, hidden)) return support_gjk(pair, a, b, hidden, seen, [](const SupportGjk& s) { return s.near; });
+  SupportGjk found = found_at(pair, other, seen);
+  found.seen = seen;
+  return found;
 }
 
 }  // namespace swiftlet

@@ -129,7 +129,9 @@ class Descent {
       const PairView pair = view_at(place);
       const Level &of_a = a_.level(place.level_a), &of_b = b_.level(place.level_b);
       const double error = deviation(place.level_a, place.level_b);
-      const AxisSample seen = sampled() && first ? from_.seen : sample_axis(pair, of_a, of_b, vec(direction));
+      const Moved4 other(pair);
+      const AxisSample known = sampled() && first ? from_.seen : sample_axis(pair, other, of_a, of_b, direction),
+                       seen = best_sample(pair, other, of_a, of_b, error, known);
       const SupportGjk found = support_gjk(pair, of_a, of_b, error, seen, [&](const SupportGjk& s) {
         if (exact_) return s.near;
         const double lower = max(answer_.lower, s.most_lower), upper = min(answer_.upper, s.upper + error);

@@ -15,8 +15,8 @@ namespace swiftlet {
 
 /// What a query has found out before it descends.
 struct Beginning {
-  AxisSample seen;                      ///< on the pair where GJK on maps would begin; its normal is 0 if nothing was sampled
-  const SupportGjk* on_maps = nullptr;  ///< where GJK on the maps of the first place ended
+  AxisSample seen;  ///< on the pair where a search of the maps would begin; its normal is 0 if nothing was sampled
+  const SupportGjk* on_maps = nullptr;  ///< where the search of the first place's maps ended
   const Walk* walk = nullptr;           ///< a walk on the first place that did not answer, counted already
   bool exact = false;                   ///< as `is_exact`
 };

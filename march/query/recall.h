@@ -85,20 +85,14 @@ template <class Pair>
   return true;
 }
 
-/// GJK on the maps of two levels, which deviate by `deviation`, until supports are near: from the sample `known` on, or, if
-/// that is null, from the direction `first`. Mostly the first ones are, and no simplex is made. A function of its own, as what
-/// it needs would widen the frame of every question.
+/// A place on the maps of two levels, which deviate by `deviation`, where a walk may begin: from the sample `known` on, or, if
+/// that is null, from the direction `first`. Mostly the first supports are near. A function of its own, as what it needs would
+/// widen the frame of every question.
 [[gnu::noinline]] static SupportGjk nearest_on_maps(const PairView& view, const Level& a, const Level& b, double deviation,
                                                     const AxisSample* known, const Vec4& first) {
   const Moved4 other(view);
   const AxisSample seen = known ? *known : sample_axis(view, other, a, b, first);
-  if (are_near(seen, a, b, deviation)) {
-    SupportGjk at_once;
-    at_once.most_lower = seen.lower, at_once.lower_along = seen.normal;
-    at_once.near = true, at_once.start = start_from(view, other, seen);
-    return at_once;
-  }
-  return support_gjk(view, a, b, deviation, seen, [](const SupportGjk& s) { return s.near; });
+  return are_near(seen, a, b, deviation) ? found_at(view, other, seen) : search_maps(view, a, b, deviation, seen);
 }
 
 /// Makes the tetrahedron of `proof` follow the origin out of a face: the corner across from that is replaced by what the maps
@@ -177,7 +171,7 @@ template <class Pair>
 }
 
 /// Answers from `place` on. `known` is the walk from its features, if that is not null. `seen` is a sample of the pair's maps,
-/// if it has a direction, on the level pair where GJK on maps begins, and `bound` what samples have proved.
+/// if it has a direction, on the level pair whose maps are searched, and `bound` what samples have proved.
 template <class Pair>
 [[gnu::always_inline]] static inline void answer_from(const Pair& pair, const StopRule& asked, bool exact, const Line& line,
                                                       const AxisSample& seen, LowerBound& bound, Turn turn, Place place,

@@ -215,6 +215,30 @@ TEST(UnitSupportGjk, SamplesAnAxis) {
   EXPECT_GT(s.lower, 0.749);
 }
 
+/// Between a fine plate and a fine needle, supports along the line of centres are mostly not near each other. What follows them
+/// comes near, and is a bound on the distance still.
+TEST(UnitSupportGjk, FollowsEllipsoidsUntilSupportsAreNear) {
+  const Model plate = bodies::model(bodies::moved(bodies::ball(4), Mat3(Vec3(4, 4, 0.5).asDiagonal()))),
+              needle = bodies::model(bodies::moved(bodies::ball(4), Mat3(Vec3(4, 0.5, 0.5).asDiagonal())));
+  const Level &a = plate.level(0), &b = needle.level(0);
+  int far = 0, came_near = 0;
+  for (int k = 0; k < 100; ++k) {
+    const Mat3 turn = bodies::rotation(1 + k % 3, k % 5 - 2, k % 7 - 3, k % 11 - 5);
+    const Pose pose{turn, Vec3(k % 13 - 6, k % 17 - 8, k % 19 - 9).normalized() * 10};
+    const Motion m = motion(pose);
+    const PairView pair = pair_view(a.view, b.view, m, 0);
+    const Moved4 other(pair);
+    const AxisSample seen = sample_axis(pair, other, a, b, vec4(vec(pose.translation)));
+    if (are_near(seen, a, b, 0)) continue;
+    ++far;
+    const AxisSample best = best_sample(pair, other, a, b, 0, seen);
+    came_near += are_near(best, a, b, 0);
+    EXPECT_LE(best.lower, distance(plate, needle, pose).upper);
+  }
+  EXPECT_GE(far, 90);
+  EXPECT_GE(came_near, 0.95 * far);
+}
+
 /// Of the octahedron |x| + |y| + |z| <= 1 the face below a point beside a corner is that of the point's octant, and the point
 /// is |y| + |z| farther above it than above the corner.
 TEST(UnitSupportGjk, FindsTheFaceBelowAPoint) {
