@@ -41,8 +41,8 @@ static_assert(sizeof(MeshSeed) <= 128);
 // both; its features are a vertex of the body inside and none of the other. Where the surfaces touch within law 2's bound and
 // do not cross, a point that is inside by more than this bound is looked for among a few: if there is none, the verdict is
 // Touching, as of surfaces. Cost: some 10 ns for each component of the one body and one or two microseconds for each whose
-// vertex is in the other's box; where the surfaces touch, 13 to 62 for each whose vertex is in the other body, as how far inside
-// is asked then. No budget limits that.
+// vertex is in the other's box; where the surfaces touch, 13 to 62 for each whose vertex is in the other body, as how far
+// inside is asked then. No budget limits that.
 
 /// Returns the distance between `a` and `b`, where `b_in_a` maps B's frame into A's: exact by default, or within the errors of
 /// `options`. The interval is always true. Cost: see bench/RESULTS.md. Allocates nothing; uses 22 kB of stack, and up
