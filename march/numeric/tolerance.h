@@ -325,8 +325,7 @@ inline constexpr double kLeastFacing = 0x1p-4;
 /// Rounded up.
 inline constexpr double kCornerError = 8 * kU;
 /// Cosine and sine of 12.7 degrees: the angle between the first side of a face and the line that sweeps over it, or the way to
-/// its border. No side of a
-/// regular polygon of up to 20 corners is then within 0.1 degrees of the line.
+/// its border. No side of a regular polygon of up to 20 corners is then within 0.1 degrees of the line.
 inline constexpr double kSweepCos = 40.0 / 41, kSweepSin = 9.0 / 41;
 
 // ---- Bounds on work: counts and dimensionless factors -----------------------------------------------------------------------

@@ -62,9 +62,9 @@ static inline bool are_near(const AxisSample& seen, const Level& a, const Level&
 }
 
 /// The last of the samples that follow `seen`, each along the direction between ellipsoids moved to the supports of the one
-/// before, as long as the gap grows, supports are not near, and each look halves what they lie aside. Of bodies curved about as
-/// ellipsoids are one or two looks come near, however fine the bodies are, where steps of GJK take the more the finer they are;
-/// of others the first look tells. `hidden`: as of `are_near`.
+/// before, as long as the gap grows, supports are not near, and each look halves the length by which they lie aside. Between
+/// bodies curved about as ellipsoids are, one or two looks come near, however fine the bodies are; GJK takes more steps the
+/// finer they are. Between others the first look does not halve that length, and GJK follows. `hidden`: as of `are_near`.
 static inline AxisSample best_sample(const PairView& pair, const Moved4& other, const Level& a, const Level& b, double hidden,
                                      const AxisSample& seen) {
   const Ellipsoids bodies(a, b, pair.b_in_a);
@@ -118,9 +118,9 @@ struct FaceBelow {
 static inline MarchStart supports_of(const AxisSample& seen) {
   return {{FeatureKind::Vertex, seen.a}, {FeatureKind::Vertex, seen.b}};
 }
-/// Where a walk begins from supports: at both vertices. If these lie farther aside of each other than
-/// they are apart, the vector between them tells little of the direction between the bodies. Then it is a vertex and the face
-/// below it, of either body's the one that is nearer along the normal. `other` is B.
+/// Where a walk begins from supports: at both vertices. If these lie farther aside of each other than they are apart, the
+/// vector between them tells little of the direction between the bodies. Then it is a vertex and the face below it, of either
+/// body's the one that is nearer along the normal. `other` is B.
 [[gnu::flatten]] static inline MarchStart start_from(const PairView& pair, const Moved4& other, const AxisSample& seen) {
   MarchStart start = supports_of(seen);
   if (dot(seen.apart, seen.apart) < 2 * seen.gap * seen.gap) return start;
