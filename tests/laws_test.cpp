@@ -1113,6 +1113,31 @@ TEST(Law10NearContact, FromNothingALooserToleranceNeverCostsMore) {
   EXPECT_GT(near, 600);
 }
 
+/// Between broad faces with fine rims no sample's vertices are near the nearest points, but those of a simplex are: cold, a
+/// tolerance saves the walk around the rim.
+TEST(Law10BroadFaces, AreAnsweredByASearchOfTheMaps) {
+  const Model coin = bodies::must(build(shapes::prism(90, 1, 0.4))).model;
+  shapes::Random random(91);
+  std::uint64_t exact = 0, loose = 0;
+  int searched = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Pose pose{random.rotation(), random.uniform(1.5, 3) * random.on_sphere()};
+    PairSeed cold, other;
+    const Answer truth = distance(coin, coin, pose, cold), answer = distance(coin, coin, pose, other, {.absolute = 0.1});
+    if (truth.verdict != Verdict::Disjoint) continue;
+    ASSERT_EQ(answer.status, Status::Converged);
+    ASSERT_LE(answer.lower, truth.upper);
+    ASSERT_GE(answer.upper, truth.lower);
+    ASSERT_LE(answer.upper - answer.lower, 0.1);
+    const Check judged = check(coin, coin, pose, answer);
+    ASSERT_TRUE(judged) << i << ": " << judged.message;
+    exact += truth.steps, loose += answer.steps, searched += answer.steps == 0;
+  }
+  std::printf("steps: exact %d, to 0.1 %d\n", int(exact), int(loose));
+  EXPECT_GT(searched, 100);
+  EXPECT_LT(4 * loose, exact);
+}
+
 /// An error smaller than what the finest maps are likely to prove asks for the exact distance.
 TEST(Law10SmallErrors, GetTheExactDistance) {
   shapes::Random random(92);

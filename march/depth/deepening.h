@@ -237,7 +237,7 @@ class Deepening : public Found {
       m.t = m.t + n * (height * kSlideBy);
       const PairView apart = moved_by(pair, m, height * kSlideBy);
       if (far && has_maps) {
-        const SupportGjk seen = search_maps(apart, of_a, of_b, 0, sample_axis(apart, of_a, of_b, n));
+        const SupportGjk seen = search_maps(apart, of_a, of_b, 0, kExact, sample_axis(apart, of_a, of_b, n));
         from = seen.start;
         const bool turns = dot(seen.seen.normal, n) < kSlideTurn;
         n = seen.seen.normal;

@@ -362,6 +362,9 @@ inline constexpr double kSameLine = 0.99, kTurnedLine = 0.9994, kNearLine = 0.86
 /// steps of GJK.
 inline constexpr double kNearEdges = 2;
 inline constexpr int kEllipsoidLooks = 4, kMapGjkSteps = 12;
+/// Another look along a direction between ellipsoids follows one after which supports lie aside of each other by less than this
+/// times what they did before.
+inline constexpr double kLookShare = 0.5;
 /// The tetrahedron that proved an overlap follows the origin by at most so many corners. Of bodies 0.01 of their radius deep
 /// that turn by 45 degrees a query, 16 prove less often, 40 no more often.
 inline constexpr int kOriginSteps = 24;

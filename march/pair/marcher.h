@@ -356,6 +356,12 @@ class Marcher {
   Border& border(const Q&) {
     return borders_[std::is_same_v<Q, Moved4>];
   }
+  template <class Q>
+  static bool is_rim(const Q& body, std::uint32_t f) {
+    return f < body.view.rims && !first_only_;
+  }
+  /// How far the point below another may be from where own coordinates show it.
+  double foot_margin() const { return (kFootError + kFootTurn * pair_.pose_error) * pair_.magnitude; }
   /// What is known of a point in a face's prism.
   struct Look {
     std::uint32_t side = kNone;     ///< that the point is farthest beyond; kNone if it is inside the prism
@@ -374,9 +380,10 @@ class Marcher {
       look.tests = prism.each_side(body, p, all(0), [&](const auto& sides, const auto& half_edge) {
         go_out(sides, half_edge, first_only_, farthest2, look.side);
       });
+    } else if (is_rim(body, f)) {
+      look = look_on_rim<Q>(body, prism, vec(p), foot_margin());
     } else if (all_sides || known.face != f) {
-      const double margin = (kFootError + kFootTurn * pair_.pose_error) * pair_.magnitude;
-      look = look_around<Q>(body, prism, vec(p), margin, first_only_);
+      look = look_around<Q>(body, prism, vec(p), foot_margin(), first_only_);
       if (look.nearest != kNone) known = {f, look.nearest};
     } else {
       look = look_nearby<Q>(body, prism, vec(p), known.side);
@@ -410,6 +417,14 @@ class Marcher {
       go_out(sides, half_edge, first_only, farthest2, look.side);
     });
     if (look.tests > kManySides && !first_only) look.nearest = look.side != kNone ? look.side : nearest;
+    return look;
+  }
+  template <class Q>
+  [[gnu::noinline, gnu::flatten]] static Look look_on_rim(Q body, Prism<Q> prism, Vec p, double margin) {
+    const typename Prism<Q>::OnRim at = prism.on_rim(body, vec4(p), margin);
+    Look look;
+    if (!at.inside) look = look_nearby(body, prism, p, at.side);
+    look.at_all = true, look.well_inside = at.well_inside, look.tests += at.tests;
     return look;
   }
   template <class Q>
@@ -526,6 +541,8 @@ class Marcher {
     Border& known = border(body);
     if (prism.is_triangle()) {
       exit.tests = prism.each_side(body, p, e, [&](const auto& sides, const auto& half_edge) { exit.pass(sides, half_edge); });
+    } else if (is_rim(body, f)) {
+      exit = exit_from_rim<Q>(body, prism, vec(p), vec(e));
     } else if (known.face != f) {
       exit = exit_by_any<Q>(body, prism, vec(p), vec(e));
     } else {
@@ -565,7 +582,15 @@ class Marcher {
         prism.each_side(body, vec4(p), vec4(e), [&](const auto& sides, const auto& half_edge) { exit.pass(sides, half_edge); });
     return exit;
   }
-  /// The same by sides near `side`, which the walk was near before.
+  template <class Q>
+  [[gnu::noinline, gnu::flatten]] static Exit exit_from_rim(Q body, Prism<Q> prism, Vec p, Vec e) {
+    const typename Prism<Q>::OnRim end = prism.on_rim(body, vec4(p + e), 0);
+    Exit exit;
+    if (!end.inside) exit = exit_nearby(body, prism, p, e, end.side);
+    exit.tests += end.tests;
+    return exit;
+  }
+  /// The same by sides near `side`.
   template <class Q>
   [[gnu::noinline, gnu::flatten]] static Exit exit_nearby(Q body, Prism<Q> prism, Vec p, Vec e, std::uint32_t side) {
     Exit exit;

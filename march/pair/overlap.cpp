@@ -84,12 +84,12 @@ bool meet(const PairView& pair, const MarchStart& met, std::uint32_t behind_a, s
     const int i = a.highest(n), j = b.highest(-n);
     const Vec p = b.point[j] - a.point[i];
     if (dot(n, p) > 0 || simplex.has(a.vertex[i], b.vertex[j])) return false;
-    simplex.add({p, a.vertex[i], b.vertex[j]});
-    if (simplex.count() == 4) {
+    add(simplex, {p, a.vertex[i], b.vertex[j]});
+    if (simplex.count == 4) {
       proof = simplex.proof();
       return proves_deep_overlap(pair, proof);
     }
-    n = simplex.nearest();
+    n = simplex.nearest;
   }
   return false;
 }

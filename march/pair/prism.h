@@ -105,6 +105,51 @@ class Prism {
     return from;
   }
 
+  /// A point beside a rim (ConvexView::rims), whose corner 0 makes a triangle with each side.
+  struct OnRim {
+    std::uint32_t side = kNone;                ///< its triangle holds the point, or, of a point outside, it is likely near
+    bool inside = false, well_inside = false;  ///< the second: by more than the margin
+    std::uint32_t tests = 0;
+  };
+  /// Finds that triangle by halving. A point in it is in the face, whatever the other sides are.
+  OnRim on_rim(const Body& body, const Vec4& p, double margin) const {
+    const std::uint32_t root = origin(view_, first_), last = origin(view_, previous_in_face(view_, first_)) - root;
+    const Vertex* corners = &view_.vertices[root];
+    const Vec own_p = vec(body.local(p)), n = vec(own_normal_), corner_0 = vec(corners[0]), along = cross(own_p - corner_0, n);
+    OnRim at;
+    // How far to the left of the line from corner 0 to another the point is, and of a side, for both times its length.
+    struct Left {
+      double of, length2;
+      bool by(double least) const { return of > 0 && of * of > least * least * length2; }
+      Left reversed() const { return {-of, length2}; }
+    };
+    const auto left_of_line = [&](std::uint32_t k) {
+      const Vec way = vec(corners[k]) - corner_0;
+      ++at.tests;
+      return Left{dot(way, along), dot(way, way)};
+    };
+    const auto left_of_side = [&](std::uint32_t k) {
+      const Vec tail = vec(corners[k]), way = vec(corners[k == last ? 0 : k + 1]) - tail;
+      ++at.tests;
+      return Left{dot(own_p - tail, cross(n, way)), dot(way, way)};
+    };
+    std::uint32_t from = 1, to = last;
+    while (to - from > 1) {
+      const std::uint32_t middle = (from + to) / 2;
+      (left_of_line(middle).of > 0 ? from : to) = middle;
+    }
+    at.side = corners[from].ring_begin;
+    const Left of_first = left_of_side(0), of_last = left_of_side(last), of_side = left_of_side(from);
+    at.inside = of_first.of > 0 && of_last.of > 0 && of_side.of > 0;
+    at.well_inside = at.inside && of_first.by(margin) && of_last.by(margin) && of_side.by(margin);
+    // Where the point is as near to a line, the side beyond it counts too.
+    for (std::uint32_t k = from; at.well_inside && k > 1 && !left_of_line(k).by(margin); --k)
+      at.well_inside = left_of_side(k - 1).by(margin);
+    for (std::uint32_t k = from + 1; at.well_inside && k < last && !left_of_line(k).reversed().by(margin); ++k)
+      at.well_inside = left_of_side(k).by(margin);
+    return at;
+  }
+
  private:
   /// `p` and `e` are in the body's own frame.
   template <class Visit>

@@ -1,57 +1,105 @@
 // SPDX-FileCopyrightText: 2026 the swiftlet authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The simplex step of GJK [Gilbert, Johnson & Keerthi 1988]: the point nearest to the origin in the hull of at most four points
-// of the Minkowski difference. Two solvers: `Simplex` for a cold start, which takes only a direction from the point, and
+// of the Minkowski difference. Two solvers: `add` for a cold start, which takes a direction from the point, and
 // `nearest_to_origin` for certified GJK, which takes its bounds from it.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include <swiftlet/march.h>
 
+#include "numeric/vec4.h"
 #include "pair/difference.h"
 
 namespace swiftlet {
 
-/// The solver in doubles: the corners that hold the nearest point of those added so far. It tests the Voronoi regions of
-/// [Ericson 2004, sec. 5.1] that hold the newest corner. With `nearest_to_origin` instead, a whole cold query takes up to 14 %
-/// more instructions.
-class Simplex {
- public:
+/// The corners that hold the nearest point of those added so far.
+struct Simplex {
   struct Corner {
     Vec p;  ///< vertex `vb` of B less vertex `va` of A, in the common frame
     std::uint32_t va, vb;
   };
 
-  int count() const { return count_; }  ///< 4: the simplex holds the origin
-  const Corner& operator[](int k) const { return corner_[k]; }
-  double weight(int k) const { return weight_[k]; }  ///< of at most three corners; they sum to 1, but for rounding
-  /// The point of the simplex nearest to the origin. It is off the weighted sum of the corners by rounding.
-  const Vec& nearest() const { return nearest_; }
   bool has(std::uint32_t va, std::uint32_t vb) const {
-    for (int k = 0; k < count_; ++k) {
-      if (corner_[k].va == va && corner_[k].vb == vb) return true;
+    for (int k = 0; k < count; ++k) {
+      if (corner[k].va == va && corner[k].vb == vb) return true;
     }
     return false;
   }
-  /// Adds a corner and drops those that do not hold the nearest point, taking for granted that the new one does.
-  void add(const Corner& corner);
-  OverlapProof proof() const;
+  int heaviest() const { return int(std::max_element(weight.begin(), weight.begin() + count) - weight.begin()); }
+  OverlapProof proof() const {
+    return {
+        4, {corner[0].va, corner[1].va, corner[2].va, corner[3].va}, {corner[0].vb, corner[1].vb, corner[2].vb, corner[3].vb}};
+  }
 
- private:
-  void add_second(const Corner& q);
-  void add_third(const Corner& r);
-  void add_fourth(const Corner& apex);
-  void keep(const Corner& only);
-  void keep(const Corner& p, const Corner& q, double share_p);
-
-  std::array<Corner, 4> corner_;
-  std::array<double, 3> weight_;
-  Vec nearest_;
-  int count_ = 0;
+  std::array<Corner, 4> corner;
+  std::array<double, 3> weight;  ///< of at most three corners; they sum to 1, but for rounding
+  Vec nearest;                   ///< to the origin; off the weighted sum of the corners by rounding
+  int count = 0;                 ///< of the corners; 4: the simplex holds the origin
 };
+
+/// The solver in doubles. Adds a corner and drops those that do not hold the nearest point, taking for granted that the new one
+/// does: so the point lies there, on an edge from there, or in a face beside it [Ericson 2004, sec. 5.1]. Edges to the old
+/// corners are lanes of vectors, and so are faces, each between a lane's edge and the next lane's.
+static inline void add(Simplex& simplex, const Simplex::Corner& corner) {
+  const int count = simplex.count;
+  std::array<Simplex::Corner, 4>& old = simplex.corner;
+  if (count == 0) {
+    old[0] = corner, simplex.weight[0] = 1, simplex.nearest = corner.p, simplex.count = 1;
+    return;
+  }
+  const auto of_next = [](const V3<Vec4>& v) { return V3<Vec4>{yzx(v.x), yzx(v.y), yzx(v.z)}; };
+  const Vec &second = old[count > 1 ? 1 : 0].p, &third = old[count > 2 ? 2 : 0].p;
+  const V3<Vec4> newest = repeated(corner.p), edge = transposed(old[0].p, second, third, third) - newest, next = of_next(edge);
+
+  unsigned faces = count == 2 ? 1 : 0;  // those that the origin is not on the inner side of
+  if (count == 3) {
+    const V3<Vec4> n = cross(edge, next);
+    const Vec4 height = dot(n, of_next(next)), origin = -dot(n, newest), none = all(0);
+    faces = ~(greater(height, none) & greater(origin, none)) & ~(greater(none, height) & greater(none, origin)) & 7;
+    if (faces == 0) {
+      old[3] = corner, simplex.count = 4;
+      return;
+    }
+  }
+  const unsigned edges = count == 1 ? 1 : (faces | faces << 1 | faces >> 2) & 7;
+
+  const Vec4 length2 = dot(edge, edge), along = -dot(edge, newest), both = dot(edge, next), next_length2 = yzx(length2),
+             next_along = yzx(along);
+  const Vec4 u = along * next_length2 - next_along * both, v = next_along * length2 - along * both,
+             area2 = length2 * next_length2 - both * both, w = area2 - u - v;
+  const Vec4 share = min(max(all(0), along / length2), all(1));  // 0 of an edge without length
+  // By how much the squared norm of the nearest point is less than that of the corner.
+  const Vec4 gain_on = share * (along + along - share * length2), gain_in = (u * along + v * next_along) / area2;
+  int i = 0, j = 0;
+  double of_i = 0, of_j = 0, of_newest = 1, gain = 0;
+  for (unsigned left = edges; left != 0; left &= left - 1) {
+    const int k = std::countr_zero(left);
+    if (gain_on[k] > gain) gain = gain_on[k], i = k, of_i = share[k], of_newest = 1 - of_i;
+  }
+  for (unsigned left = faces & greater(min(min(u, v), w), all(0)); left != 0; left &= left - 1) {
+    const int k = std::countr_zero(left);
+    if (!(gain_in[k] >= gain)) continue;
+    const double scale = 1 / area2[k];
+    gain = gain_in[k], i = k, j = k + 1, of_i = u[k] * scale, of_j = v[k] * scale, of_newest = w[k] * scale;
+  }
+  if (j == 3) i = 0, j = 2, std::swap(of_i, of_j);
+
+  const Vec kept_i = old[i].p, kept_j = old[j].p;
+  int kept = 0;
+  const auto keep = [&](const Simplex::Corner& c, double weight) {
+    if (weight > 0) old[kept] = c, simplex.weight[kept++] = weight;
+  };
+  keep(old[i], of_i), keep(old[j], of_j), keep(corner, of_newest);
+  simplex.count = kept;
+  simplex.nearest = corner.p + (kept_i - corner.p) * of_i + (kept_j - corner.p) * of_j;
+}
 
 /// The point of a simplex nearest to the origin, as a convex combination of its corners.
 template <class Real>

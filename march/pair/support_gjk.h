@@ -17,6 +17,7 @@
 #include "pair/pair_view.h"
 #include "pair/pair_view4.h"
 #include "pair/simplex.h"
+#include "pair/stop_rule.h"
 
 namespace swiftlet {
 
@@ -74,7 +75,7 @@ static inline AxisSample best_sample(const PairView& pair, const Moved4& other, 
     if (!has_range(dot(way, way))) break;
     const AxisSample next = sample_axis(pair, other, a, b, way);
     if (!(next.gap > best.gap)) break;
-    const bool goes_on = 4 * aside2(next) < aside2(best);
+    const bool goes_on = aside2(next) < kLookShare * kLookShare * aside2(best);
     best = next;
     if (!goes_on) break;
   }
@@ -153,9 +154,9 @@ struct Feet {
 /// The points of both bodies that the simplex's weights make of its corners.
 static inline Feet feet_of(const PairView& pair, const Simplex& simplex) {
   Feet feet{{0, 0, 0}, {0, 0, 0}, 0};
-  for (int k = 0; k < simplex.count(); ++k) {
-    feet.point = feet.point + body_a(pair).point(simplex[k].va) * simplex.weight(k);
-    feet.apart = feet.apart + simplex[k].p * simplex.weight(k);
+  for (int k = 0; k < simplex.count; ++k) {
+    feet.point = feet.point + body_a(pair).point(simplex.corner[k].va) * simplex.weight[k];
+    feet.apart = feet.apart + simplex.corner[k].p * simplex.weight[k];
   }
   feet.upper = norm(feet.apart) * (1 + kNormError) + pair.point_error();
   return feet;
@@ -175,10 +176,10 @@ template <class Enough>
     s.near = was_near || are_near(s.seen, a, b, hidden);
     if (!was_near) s.start = s.near ? start_from(pair, other, s.seen) : supports_of(s.seen);
     const bool known = s.simplex.has(s.seen.a, s.seen.b);
-    if (!known) s.simplex.add({s.seen.apart, s.seen.a, s.seen.b});
-    const Vec4 nearest = vec4(s.simplex.nearest());
-    s.upper = s.simplex.count() == 4 ? 0 : norm(nearest);
-    if (known || s.simplex.count() == 4 || !(s.upper > pair.point_error()) || enough(s) || steps == kMapGjkSteps) return s;
+    if (!known) add(s.simplex, {s.seen.apart, s.seen.a, s.seen.b});
+    const Vec4 nearest = vec4(s.simplex.nearest);
+    s.upper = s.simplex.count == 4 ? 0 : norm(nearest);
+    if (known || s.simplex.count == 4 || !(s.upper > pair.point_error()) || enough(s) || steps == kMapGjkSteps) return s;
     s.seen = sample_axis(pair, other, a, b, nearest);
   }
 }
@@ -191,13 +192,16 @@ static inline SupportGjk found_at(const PairView& pair, const Moved4& other, con
   return found;
 }
 /// Where a walk begins on from a sample whose supports are not near: at the best sample if it has come near, else where GJK
-/// does. A function of its own: mostly the first supports are near.
+/// does, unless its bounds are as narrow as `asked` before. A function of its own: mostly the first supports are near.
 [[maybe_unused, gnu::noinline, gnu::flatten]] static SupportGjk search_maps(const PairView& pair, const Level& a,
                                                                             const Level& b, double hidden,
-                                                                            const AxisSample& known) {
+                                                                            const StopRule& asked, const AxisSample& known) {
   const Moved4 other(pair);
   const AxisSample seen = best_sample(pair, other, a, b, hidden, known);
-  if (!are_near(seen, a, b, hidden)) return support_gjk(pair, a, b, hidden, seen, [](const SupportGjk& s) { return s.near; });
+  if (!are_near(seen, a, b, hidden)) {
+    return support_gjk(pair, a, b, hidden, seen,
+                       [&](const SupportGjk& s) { return s.near || asked.narrow(max(0, s.most_lower), s.upper + hidden); });
+  }
   SupportGjk found = found_at(pair, other, seen);
   found.seen = seen;
   return found;

@@ -46,7 +46,7 @@ class Descent {
   void start(Place place, PairSeed& seed) {
     const SupportGjk* on_maps = from_.on_maps;
     const bool walked = is_warm(place.start) && !on_maps && march(place, has_maps_, from_.walk);
-    const bool seen = on_maps ? on_maps->simplex.count() == 4 && overlap(place, *on_maps) && (record(place), true)
+    const bool seen = on_maps ? on_maps->simplex.count == 4 && overlap(place, *on_maps) && (record(place), true)
                               : !walked && has_maps_ &&
                                     map_gjk(place, sampled() ? vec4(from_.seen.normal) : pair_.first_direction(line_, seed));
     if (!walked && !seen) march(place, false, on_maps ? from_.walk : nullptr);
@@ -143,8 +143,8 @@ class Descent {
       if (asked_.is_threshold() && last && !answered() && found.seen.gap > asked_.above) climb(place, found.seen, pair);
       // Bounds that agree as an exact answer's do promise features that hold the points, and a plane that fits them: where the
       // points lie between several vertices, a walk finds both.
-      const bool lacks_features = found.simplex.count() > 1 && answer_.upper - answer_.lower <= law_two_;
-      if ((answered() && !lacks_features) || (found.simplex.count() == 4 && overlap(place, found))) return record(place), true;
+      const bool lacks_features = found.simplex.count > 1 && answer_.upper - answer_.lower <= law_two_;
+      if ((answered() && !lacks_features) || (found.simplex.count == 4 && overlap(place, found))) return record(place), true;
       if (!asked_.is_threshold()) place.start = found.start;
       if (finest(place)) return false;  // a walk on the same pair follows
       record(place);
@@ -163,7 +163,7 @@ class Descent {
   void take(Place& place, const SupportGjk& s, const PairView& pair) {
     place.start = supports_of(s.seen);
     const Feet feet =
-        s.simplex.count() < 4 ? feet_of(pair, s.simplex) : Feet{s.seen.point, s.seen.apart, apart(pair, s.seen.a, s.seen.b)};
+        s.simplex.count < 4 ? feet_of(pair, s.simplex) : Feet{s.seen.point, s.seen.apart, apart(pair, s.seen.a, s.seen.b)};
     carry(place, {std::max(0.0, s.most_lower), feet.upper, s.lower_along, feet.point, feet.point + feet.apart}, pair.law_two);
   }
 

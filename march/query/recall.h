@@ -85,14 +85,14 @@ template <class Pair>
   return true;
 }
 
-/// A place on the maps of two levels, which deviate by `deviation`, where a walk may begin: from the sample `known` on, or, if
-/// that is null, from the direction `first`. Mostly the first supports are near. A function of its own, as what it needs would
-/// widen the frame of every question.
+/// A place on the maps of two levels, which deviate by `deviation`, where a walk may begin, or bounds that answer `asked`: from
+/// the sample `known` on, or, if that is null, from the direction `first`. Mostly the first supports are near. A function of
+/// its own, as what it needs would widen the frame of every question.
 [[gnu::noinline]] static SupportGjk nearest_on_maps(const PairView& view, const Level& a, const Level& b, double deviation,
-                                                    const AxisSample* known, const Vec4& first) {
+                                                    const StopRule& asked, const AxisSample* known, const Vec4& first) {
   const Moved4 other(view);
   const AxisSample seen = known ? *known : sample_axis(view, other, a, b, first);
-  return are_near(seen, a, b, deviation) ? found_at(view, other, seen) : search_maps(view, a, b, deviation, seen);
+  return are_near(seen, a, b, deviation) ? found_at(view, other, seen) : search_maps(view, a, b, deviation, asked, seen);
 }
 
 /// Makes the tetrahedron of `proof` follow the origin out of a face: the corner across from that is replaced by what the maps
@@ -197,12 +197,21 @@ template <class Pair>
     return descends(place, nullptr, nullptr);
   place = pair.finest_mapped();
   const PairView view = pair.view_at(place);
-  const bool sampled = bound.is_known() && max_abs(seen.normal) > 0;
-  const SupportGjk found = nearest_on_maps(view, pair.a.level(place.level_a), pair.b.level(place.level_b),
-                                           pair.deviation(place.level_a, place.level_b), sampled ? &seen : nullptr,
-                                           sampled ? vec4(seen.normal) : pair.first_direction(line, seed, turn));
+  // A walk leaves features from which the next query goes on. Where the line of centres has turned too far for that, the points
+  // of a search answer as well.
+  const bool sampled = bound.is_known() && max_abs(seen.normal) > 0, turned = !exact && !SinceStored(seed, line.in_a).serves();
+  const SupportGjk found = nearest_on_maps(
+      view, pair.a.level(place.level_a), pair.b.level(place.level_b), pair.deviation(place.level_a, place.level_b),
+      turned ? asked : kExact, sampled ? &seen : nullptr, sampled ? vec4(seen.normal) : pair.first_direction(line, seed, turn));
   place.start = found.start;
-  if (found.simplex.count() == 4) return descends(place, &found, nullptr);
+  if (found.simplex.count == 4) return descends(place, &found, nullptr);
+  if (turned && search_suffices(view, pair.deviation(place.level_a, place.level_b), asked, found, place, answer)) {
+    remember(line, found.lower_along, seed);
+    keep(pair, asked, exact, answer, place, seed);
+    // Vertices that only maps name are a good start on coarser levels alone.
+    if (seed.level_a == place.level_a && seed.level_b == place.level_b) seed.a = seed.b = {};
+    return;
+  }
   if (!(found.most_lower < bound.lower)) bound = {found.most_lower, found.lower_along};
   const double enough2 = enough2_of(pair, place, asked, bound.lower);
   Walk walked = walk_from(pair, view, place.start.a, place.start.b, place, answer, enough2);

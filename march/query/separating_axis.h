@@ -42,6 +42,22 @@ static inline void take_sample(const Place& at, const AxisSample& seen, double u
   answer.levels_visited = 1;
 }
 
+/// Answers by the points of the simplex where a search of the maps of `place` ended, which deviate by `deviation`, if these
+/// bound the distance as narrowly as asked. `place` gets the vertices that weigh the most.
+static inline bool search_suffices(const PairView& view, double deviation, const StopRule& asked, const SupportGjk& found,
+                                   Place& place, Answer& answer) {
+  if (found.simplex.count == 0) return false;
+  const Simplex::Corner& corner = found.simplex.corner[std::size_t(found.simplex.heaviest())];
+  const Feet feet = feet_of(view, found.simplex);
+  const AxisSample points{found.lower_along, corner.va, corner.vb, feet.point, feet.apart, found.seen.gap, found.most_lower};
+  const double upper = upper_of(view, deviation, points);
+  if (!asked.narrow(max(0, points.lower), upper)) return false;
+  take_sample(place, points, upper, answer);
+  answer.status = Status::Converged;
+  place.start = supports_of(points);
+  return true;
+}
+
 /// Samples again, on the finest pair with maps, where the first sample `seen` proves less than `least`: along a new direction,
 /// which the seed then keeps, and by climbs where only the maps leave it in doubt. Between round bodies the line of centres,
 /// which is then sampled, is as good as any.

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -19,6 +21,8 @@
 #include "pair/intersection.h"
 #include "pair/pair_view.h"
 #include "pair/pair_view4.h"
+#include "pair/prism.h"
+#include "pair/simplex.h"
 #include "pair/stop_rule.h"
 #include "pair/support_gjk.h"
 #include "pair/walk.h"
@@ -182,10 +186,10 @@ TEST(UnitSimplex, FindsTheNearestPointOfASegmentATriangleAndATetrahedron) {
   const double distances[] = {std::sqrt(3), 1, std::sqrt(1.0 / 3), 0};
   Simplex simplex;
   for (std::uint32_t k = 0; k < 4; ++k) {
-    simplex.add({corners[k], k, k});
-    EXPECT_EQ(simplex.count(), int(k + 1));
+    add(simplex, {corners[k], k, k});
+    EXPECT_EQ(simplex.count, int(k + 1));
     if (k < 3) {
-      EXPECT_NEAR(norm(simplex.nearest()), distances[k], 1e-15);
+      EXPECT_NEAR(norm(simplex.nearest), distances[k], 1e-15);
     }
     EXPECT_TRUE(simplex.has(k, k));
   }
@@ -194,13 +198,100 @@ TEST(UnitSimplex, FindsTheNearestPointOfASegmentATriangleAndATetrahedron) {
 /// A corner that the nearest point does not need goes: of a triangle whose third corner is far the side stays.
 TEST(UnitSimplex, ForgetsWhatDoesNotHoldTheNearestPoint) {
   Simplex simplex;
-  simplex.add({{5, 5, 0}, 0, 0});
-  simplex.add({{1, 1, 0}, 1, 1});
+  add(simplex, {{5, 5, 0}, 0, 0});
+  add(simplex, {{1, 1, 0}, 1, 1});
   EXPECT_FALSE(simplex.has(0, 0));
-  simplex.add({{1, -1, 0}, 2, 2});
-  EXPECT_EQ(simplex.count(), 2);
-  EXPECT_EQ(simplex.nearest().x, 1);
-  EXPECT_EQ(simplex.nearest().y, 0);
+  add(simplex, {{1, -1, 0}, 2, 2});
+  EXPECT_EQ(simplex.count, 2);
+  EXPECT_EQ(simplex.nearest.x, 1);
+  EXPECT_EQ(simplex.nearest.y, 0);
+}
+
+/// GJK with bodies of random points, to its end: what is nearest after each corner is what the other solver finds among that
+/// corner and those before.
+TEST(UnitSimplex, AgreesWithTheSolverOfAllSubsets) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  int of_count[5] = {0, 0, 0, 0, 0};
+  for (int body = 0; body < 500; ++body) {
+    std::vector<Vec> points;
+    const Vec centre = Vec{normal(random), normal(random), normal(random)} * double(body % 3);
+    for (int i = 0; i < 12; ++i) points.push_back(centre + Vec{normal(random), normal(random), normal(random)});
+    Simplex simplex;
+    simplex.nearest = {1, 0, 0};
+    for (int steps = 0; steps < 20 && simplex.count < 4; ++steps) {
+      std::uint32_t lowest = 0;
+      for (std::uint32_t i = 1; i < points.size(); ++i)
+        if (dot(points[i], simplex.nearest) < dot(points[lowest], simplex.nearest)) lowest = i;
+      if (simplex.has(lowest, lowest)) break;
+      std::array<Difference<double>, 4> set;
+      for (int k = 0; k < simplex.count; ++k) set[std::size_t(k)].p = simplex.corner[std::size_t(k)].p;
+      set[std::size_t(simplex.count)].p = points[lowest];
+      const NearestOrigin<double> expected = nearest_to_origin(set, simplex.count + 1);
+      add(simplex, {points[lowest], lowest, lowest});
+      ++of_count[simplex.count];
+      ASSERT_EQ(simplex.count, expected.count) << body;
+      if (simplex.count == 4) break;
+      ASSERT_NEAR(norm(simplex.nearest - expected.point), 0, 1e-12) << body;
+      Vec sum{0, 0, 0};
+      for (std::size_t k = 0; k < std::size_t(simplex.count); ++k) sum = sum + simplex.corner[k].p * simplex.weight[k];
+      ASSERT_NEAR(norm(simplex.nearest - sum), 0, 1e-12) << body;
+    }
+  }
+  for (int count = 1; count <= 4; ++count) EXPECT_GT(of_count[count], 100) << count;
+}
+
+/// A prism over a polygon of uneven sides: on its top face a point is where all of its sides say it is.
+TEST(UnitPrism, PlacesAPointOnARimAsAllSidesDo) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform;
+  int outside = 0, well_inside = 0, nearly_outside = 0;
+  for (const std::uint32_t n : {16u, 17u, 40u, 200u}) {
+    std::vector<double> angles(n);
+    for (std::uint32_t i = 0; i < n; ++i) angles[i] = 2 * std::numbers::pi * (i + 0.9 * uniform(random)) / n;
+    bodies::Polyhedron body;
+    for (const double z : {-1., 1.})
+      for (const double angle : angles) body.points.emplace_back(std::cos(angle), 0.7 * std::sin(angle), z);
+    for (std::uint32_t i = 0; i < n; ++i) body.add({i, (i + 1) % n, n + (i + 1) % n, n + i});
+    for (std::uint32_t i = 0; i < n; ++i) body.corners.push_back(n - 1 - i);
+    for (std::uint32_t i = 0; i < n; ++i) body.corners.push_back(n + i);
+    body.sizes.push_back(n), body.sizes.push_back(n);
+    const Model model = bodies::model(body);
+    const ConvexView& view = model.level(0).view;
+    ASSERT_EQ(view.rims, 2u);
+    const std::uint32_t top = view.planes[0].z > 0 ? 0 : 1;
+    std::vector<Vec> loop;
+    for (const std::uint32_t v : FaceLoop(view, top)) loop.push_back(vec(view.vertices[v]));
+    const Motion still = motion({Mat3::Identity(), Vec3::Zero()});
+    const PairView pair = pair_view(view, view, still, 0);
+    const Resting4 resting(pair);
+    const Prism<Resting4> prism(resting, top);
+    for (int i = 0; i < 4000; ++i) {
+      // On any ray from corner 0 or the centre, near the border every other time.
+      const double angle = 2 * std::numbers::pi * uniform(random),
+                   far = i % 2 ? 1 + 0.02 * (uniform(random) - 0.5) : uniform(random);
+      const Vec from = i % 3 == 0 ? loop[i / 3 % n] : Vec{0, 0, 1}, to{std::cos(angle), 0.7 * std::sin(angle), 1};
+      const Vec p = Vec{from.x, from.y, 1 + uniform(random)} + Vec{to.x - from.x, to.y - from.y, 0} * far;
+      double nearest = kInfinity;  // how far it is inside the side that it is nearest to
+      for (std::uint32_t k = 0; k < n; ++k) {
+        const Vec tail = loop[k], way = loop[(k + 1) % n] - tail;
+        nearest = std::min(nearest, (way.x * (p.y - tail.y) - way.y * (p.x - tail.x)) / std::hypot(way.x, way.y));
+      }
+      constexpr double kMargin = 0.003;
+      if (std::fabs(nearest) < 1e-12 || std::fabs(nearest - kMargin) < 1e-12) continue;
+      const Prism<Resting4>::OnRim at = prism.on_rim(resting, vec4(p), kMargin);
+      ASSERT_EQ(at.inside, nearest > 0) << n << " sides, " << i;
+      ASSERT_EQ(at.well_inside, nearest > kMargin) << n << " sides, " << i;
+      const double from_corner_0 = norm(p - Vec{loop.back().x, loop.back().y, p.z});
+      EXPECT_TRUE(from_corner_0 < 0.2 || int(at.tests) < 7 + std::bit_width(n)) << at.tests << " of " << n << " sides, " << i;
+      outside += nearest < 0;
+      well_inside += nearest > kMargin;
+      nearly_outside += nearest > 0 && nearest < kMargin;
+    }
+  }
+  EXPECT_GT(outside, 1000);
+  EXPECT_GT(well_inside, 1000);
+  EXPECT_GT(nearly_outside, 500);
 }
 
 /// One look-up along the line of centres: the supports are corners of the facing sides. The cells beside an axis hold
