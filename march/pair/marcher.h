@@ -380,14 +380,10 @@ class Marcher {
       look.tests = prism.each_side(body, p, all(0), [&](const auto& sides, const auto& half_edge) {
         go_out(sides, half_edge, first_only_, farthest2, look.side);
       });
-    } else if (is_rim(body, f)) {
-      look = look_on_rim<Q>(body, prism, vec(p), foot_margin());
-    } else if (all_sides || known.face != f) {
-      look = look_around<Q>(body, prism, vec(p), foot_margin(), first_only_);
-      if (look.nearest != kNone) known = {f, look.nearest};
     } else {
-      look = look_nearby<Q>(body, prism, vec(p), known.side);
-      known.side = look.nearest;
+      look = look_at_sides<Q>(body, prism, is_rim(body, f), vec(p), foot_margin(),
+                              all_sides || known.face != f ? kNone : known.side);
+      if (look.nearest != kNone) known = {f, look.nearest};
     }
     plane_tests_ += look.tests;
     return look;
@@ -404,8 +400,21 @@ class Marcher {
     farthest2 = most;
   }
 
+  /// Looks at the sides of a face of many: of a rim where halving leads, else at all, or only near the side `known`. One
+  /// function for all ways, as each call of it copies body and prism.
   template <class Q>
-  [[gnu::noinline, gnu::flatten]] static Look look_around(Q body, Prism<Q> prism, Vec p, double margin, bool first_only) {
+  [[gnu::noinline, gnu::flatten]] static Look look_at_sides(Q body, Prism<Q> prism, bool rim, Vec p, double margin,
+                                                            std::uint32_t known) {
+    if (!rim) return known == kNone ? look_around(body, prism, p, margin) : look_nearby(body, prism, p, known);
+    const typename Prism<Q>::OnRim at = prism.on_rim(body, vec4(p), margin);
+    Look look;
+    if (!at.inside) look = look_nearby(body, prism, p, at.side);
+    look.at_all = true, look.well_inside = at.well_inside, look.nearest = kNone;
+    look.tests += at.tests;
+    return look;
+  }
+  template <class Q>
+  static Look look_around(const Q& body, const Prism<Q>& prism, const Vec& p, double margin) {
     Look look;
     std::uint32_t nearest = kNone;
     double farthest2 = 0, least2 = kUnknown;
@@ -414,21 +423,13 @@ class Marcher {
       look.well_inside &= greater(all(0), sides.beyond) == 15 && greater(distance2, all(margin * margin)) == 15;
       if (const double least = -greatest(-distance2); least < least2)
         least2 = least, nearest = half_edge(std::countr_zero(equal(distance2, all(least))));
-      go_out(sides, half_edge, first_only, farthest2, look.side);
+      go_out(sides, half_edge, first_only_, farthest2, look.side);
     });
-    if (look.tests > kManySides && !first_only) look.nearest = look.side != kNone ? look.side : nearest;
+    if (look.tests > kManySides && !first_only_) look.nearest = look.side != kNone ? look.side : nearest;
     return look;
   }
   template <class Q>
-  [[gnu::noinline, gnu::flatten]] static Look look_on_rim(Q body, Prism<Q> prism, Vec p, double margin) {
-    const typename Prism<Q>::OnRim at = prism.on_rim(body, vec4(p), margin);
-    Look look;
-    if (!at.inside) look = look_nearby(body, prism, p, at.side);
-    look.at_all = true, look.well_inside = at.well_inside, look.tests += at.tests;
-    return look;
-  }
-  template <class Q>
-  [[gnu::noinline, gnu::flatten]] static Look look_nearby(Q body, Prism<Q> prism, Vec p, std::uint32_t side) {
+  static Look look_nearby(const Q& body, const Prism<Q>& prism, const Vec& p, std::uint32_t side) {
     Look look;
     look.at_all = false;
     double farthest2 = 0;
@@ -541,13 +542,9 @@ class Marcher {
     Border& known = border(body);
     if (prism.is_triangle()) {
       exit.tests = prism.each_side(body, p, e, [&](const auto& sides, const auto& half_edge) { exit.pass(sides, half_edge); });
-    } else if (is_rim(body, f)) {
-      exit = exit_from_rim<Q>(body, prism, vec(p), vec(e));
-    } else if (known.face != f) {
-      exit = exit_by_any<Q>(body, prism, vec(p), vec(e));
     } else {
-      exit = exit_nearby<Q>(body, prism, vec(p), vec(e), known.side);
-      known.side = exit.nearest;
+      exit = exit_by_sides<Q>(body, prism, is_rim(body, f), vec(p), vec(e), known.face == f ? known.side : kNone);
+      if (exit.nearest != kNone) known.side = exit.nearest;
     }
     plane_tests_ += exit.tests;
     if (exit.at > 0 && !(prism.height(p) + exit.at * dot(prism.normal(), e) > 0)) return inside(edge(h), face(f));
@@ -575,24 +572,28 @@ class Marcher {
       if (lane >= 0) side = half_edge(lane);
     }
   };
+  /// As `look_at_sides`.
   template <class Q>
-  [[gnu::noinline, gnu::flatten]] static Exit exit_by_any(Q body, Prism<Q> prism, Vec p, Vec e) {
+  [[gnu::noinline, gnu::flatten]] static Exit exit_by_sides(Q body, Prism<Q> prism, bool rim, Vec p, Vec e,
+                                                            std::uint32_t known) {
+    if (!rim) return known == kNone ? exit_by_any(body, prism, p, e) : exit_nearby(body, prism, p, e, known);
+    const typename Prism<Q>::OnRim end = prism.on_rim(body, vec4(p + e), 0);
+    Exit exit;
+    if (!end.inside) exit = exit_nearby(body, prism, p, e, end.side);
+    exit.nearest = kNone;
+    exit.tests += end.tests;
+    return exit;
+  }
+  template <class Q>
+  static Exit exit_by_any(const Q& body, const Prism<Q>& prism, const Vec& p, const Vec& e) {
     Exit exit;
     exit.tests =
         prism.each_side(body, vec4(p), vec4(e), [&](const auto& sides, const auto& half_edge) { exit.pass(sides, half_edge); });
     return exit;
   }
-  template <class Q>
-  [[gnu::noinline, gnu::flatten]] static Exit exit_from_rim(Q body, Prism<Q> prism, Vec p, Vec e) {
-    const typename Prism<Q>::OnRim end = prism.on_rim(body, vec4(p + e), 0);
-    Exit exit;
-    if (!end.inside) exit = exit_nearby(body, prism, p, e, end.side);
-    exit.tests += end.tests;
-    return exit;
-  }
   /// The same by sides near `side`.
   template <class Q>
-  [[gnu::noinline, gnu::flatten]] static Exit exit_nearby(Q body, Prism<Q> prism, Vec p, Vec e, std::uint32_t side) {
+  static Exit exit_nearby(const Q& body, const Prism<Q>& prism, const Vec& p, const Vec& e, std::uint32_t side) {
     Exit exit;
     exit.nearest = prism.nearest_side(body, side, vec4(p), vec4(e), [&](const auto& seen, std::uint32_t half_edge) {
       ++exit.tests;

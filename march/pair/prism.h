@@ -105,13 +105,14 @@ class Prism {
     return from;
   }
 
-  /// A point beside a rim (ConvexView::rims), whose corner 0 makes a triangle with each side.
+  /// Where a point is beside a rim (ConvexView::rims): lines from corner 0 to the other corners cut the face into triangles,
+  /// one for each side.
   struct OnRim {
-    std::uint32_t side = kNone;                ///< its triangle holds the point, or, of a point outside, it is likely near
-    bool inside = false, well_inside = false;  ///< the second: by more than the margin
+    std::uint32_t side = kNone;  ///< that of the triangle that holds the point; of a point outside, a likely near one
+    bool inside = false, well_inside = false;  ///< inside the face, and by more than the margin
     std::uint32_t tests = 0;
   };
-  /// Finds that triangle by halving. A point in it is in the face, whatever the other sides are.
+  /// Finds the triangle by halving. A point in it is in the face, whatever the other sides are.
   OnRim on_rim(const Body& body, const Vec4& p, double margin) const {
     const std::uint32_t root = origin(view_, first_), last = origin(view_, previous_in_face(view_, first_)) - root;
     const Vertex* corners = &view_.vertices[root];
@@ -142,7 +143,7 @@ class Prism {
     const Left of_first = left_of_side(0), of_last = left_of_side(last), of_side = left_of_side(from);
     at.inside = of_first.of > 0 && of_last.of > 0 && of_side.of > 0;
     at.well_inside = at.inside && of_first.by(margin) && of_last.by(margin) && of_side.by(margin);
-    // Where the point is as near to a line, the side beyond it counts too.
+    // Where the point is nearer to a line than the margin, the side beyond the line counts too.
     for (std::uint32_t k = from; at.well_inside && k > 1 && !left_of_line(k).by(margin); --k)
       at.well_inside = left_of_side(k - 1).by(margin);
     for (std::uint32_t k = from + 1; at.well_inside && k < last && !left_of_line(k).reversed().by(margin); ++k)
