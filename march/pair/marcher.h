@@ -348,7 +348,7 @@ class Marcher {
     return body.view.half_edges[is_left ? h : scan.right].face;
   }
 
-  /// A face of more than `kManySides` sides that the walk has looked at around, and the side that it is near.
+  /// A face of many sides that the walk has looked at, and the side that it is near.
   struct Border {
     std::uint32_t face = kNone, side = kNone;
   };
@@ -365,9 +365,9 @@ class Marcher {
   /// What is known of a point in a face's prism.
   struct Look {
     std::uint32_t side = kNone;     ///< that the point is farthest beyond; kNone if it is inside the prism
-    bool at_all = true;             ///< all sides were looked at
+    bool at_all = true;             ///< it is not beyond any side that was not looked at
     bool well_inside = true;        ///< false if the point below may be outside a face of many corners by rounding
-    std::uint32_t nearest = kNone;  ///< of a face of more than `kManySides` sides
+    std::uint32_t nearest = kNone;  ///< of a face of many sides, the one to look near next time
     std::uint32_t tests = 0;
   };
   /// Looks at all sides, or, unless it has to, only at those near the one that the walk was near before.
@@ -400,16 +400,18 @@ class Marcher {
     farthest2 = most;
   }
 
-  /// Looks at the sides of a face of many: of a rim where halving leads, else at all, or only near the side `known`. One
-  /// function for all ways, as each call of it copies body and prism.
+  /// Looks at the sides of a face of many: near the side `known`, if it is one; else of a rim at those where halving leads, of
+  /// another face at all. One function for all ways, as each call of it copies body and prism.
   template <class Q>
   [[gnu::noinline, gnu::flatten]] static Look look_at_sides(Q body, Prism<Q> prism, bool rim, Vec p, double margin,
                                                             std::uint32_t known) {
-    if (!rim) return known == kNone ? look_around(body, prism, p, margin) : look_nearby(body, prism, p, known);
-    const typename Prism<Q>::OnRim at = prism.on_rim(body, vec4(p), margin);
     Look look;
+    if (known != kNone) look = look_nearby(body, prism, p, known);
+    if (!rim) return known == kNone ? look_around(body, prism, p, margin) : look;
+    if (look.side != kNone) return look;
+    const typename Prism<Q>::OnRim at = prism.on_rim(body, vec4(p), margin);
     if (!at.inside) look = look_nearby(body, prism, p, at.side);
-    look.at_all = true, look.well_inside = at.well_inside, look.nearest = kNone;
+    look.at_all = true, look.well_inside = at.well_inside;
     look.tests += at.tests;
     return look;
   }

@@ -108,7 +108,7 @@ class Prism {
   /// Where a point is beside a rim (ConvexView::rims): lines from corner 0 to the other corners cut the face into triangles,
   /// one for each side.
   struct OnRim {
-    std::uint32_t side = kNone;  ///< that of the triangle that holds the point; of a point outside, a likely near one
+    std::uint32_t side = kNone;  ///< that of the triangle that holds the point, or one that the point is not inside of
     bool inside = false, well_inside = false;  ///< inside the face, and by more than the margin
     std::uint32_t tests = 0;
   };
@@ -139,8 +139,8 @@ class Prism {
       const std::uint32_t middle = (from + to) / 2;
       (left_of_line(middle).of > 0 ? from : to) = middle;
     }
-    at.side = corners[from].ring_begin;
     const Left of_first = left_of_side(0), of_last = left_of_side(last), of_side = left_of_side(from);
+    at.side = corners[!(of_first.of > 0) ? 0 : !(of_last.of > 0) ? last : from].ring_begin;
     at.inside = of_first.of > 0 && of_last.of > 0 && of_side.of > 0;
     at.well_inside = at.inside && of_first.by(margin) && of_last.by(margin) && of_side.by(margin);
     // Where the point is nearer to a line than the margin, the side beyond the line counts too.

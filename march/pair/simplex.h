@@ -76,7 +76,8 @@ static inline void add(Simplex& simplex, const Simplex::Corner& corner) {
              area2 = length2 * next_length2 - both * both, w = area2 - u - v;
   const Vec4 share = min(max(all(0), along / length2), all(1));  // 0 of an edge without length
   // By how much the squared norm of the nearest point is less than that of the corner.
-  const Vec4 gain_on = share * (along + along - share * length2), gain_in = (u * along + v * next_along) / area2;
+  const Vec4 gain_on = share * (along + along - share * length2), scale = all(1) / area2,
+             gain_in = u * scale * along + v * scale * next_along;
   int i = 0, j = 0;
   double of_i = 0, of_j = 0, of_newest = 1, gain = 0;
   for (unsigned left = edges; left != 0; left &= left - 1) {
@@ -86,8 +87,8 @@ static inline void add(Simplex& simplex, const Simplex::Corner& corner) {
   for (unsigned left = faces & greater(min(min(u, v), w), all(0)); left != 0; left &= left - 1) {
     const int k = std::countr_zero(left);
     if (!(gain_in[k] >= gain)) continue;
-    const double scale = 1 / area2[k];
-    gain = gain_in[k], i = k, j = k + 1, of_i = u[k] * scale, of_j = v[k] * scale, of_newest = w[k] * scale;
+    gain = gain_in[k], i = k, j = k + 1;
+    of_i = u[k] * scale[k], of_j = v[k] * scale[k], of_newest = w[k] * scale[k];
   }
   if (j == 3) i = 0, j = 2, std::swap(of_i, of_j);
 

@@ -197,15 +197,15 @@ template <class Pair>
     return descends(place, nullptr, nullptr);
   place = pair.finest_mapped();
   const PairView view = pair.view_at(place);
-  // A walk leaves features from which the next query goes on. Where the line of centres has turned too far for that, the points
-  // of a search answer as well.
-  const bool sampled = bound.is_known() && max_abs(seen.normal) > 0, turned = !exact && !SinceStored(seed, line.in_a).serves();
+  // Cold, the points of a search of the maps answer too. Where the last direction serves still, a walk does, whose features the
+  // next query goes on from.
+  const bool sampled = bound.is_known() && max_abs(seen.normal) > 0, cold = !exact && !SinceStored(seed, line.in_a).serves();
   const SupportGjk found = nearest_on_maps(
       view, pair.a.level(place.level_a), pair.b.level(place.level_b), pair.deviation(place.level_a, place.level_b),
-      turned ? asked : kExact, sampled ? &seen : nullptr, sampled ? vec4(seen.normal) : pair.first_direction(line, seed, turn));
+      cold ? asked : kExact, sampled ? &seen : nullptr, sampled ? vec4(seen.normal) : pair.first_direction(line, seed, turn));
   place.start = found.start;
   if (found.simplex.count == 4) return descends(place, &found, nullptr);
-  if (turned && search_suffices(view, pair.deviation(place.level_a, place.level_b), asked, found, place, answer)) {
+  if (cold && search_suffices(view, pair.deviation(place.level_a, place.level_b), asked, found, place, answer)) {
     remember(line, found.lower_along, seed);
     keep(pair, asked, exact, answer, place, seed);
     // Vertices that only maps name are a good start on coarser levels alone.

@@ -282,6 +282,9 @@ TEST(UnitPrism, PlacesAPointOnARimAsAllSidesDo) {
       const Prism<Resting4>::OnRim at = prism.on_rim(resting, vec4(p), kMargin);
       ASSERT_EQ(at.inside, nearest > 0) << n << " sides, " << i;
       ASSERT_EQ(at.well_inside, nearest > kMargin) << n << " sides, " << i;
+      const Vec tail = vec(view.vertices[origin(view, at.side)]),
+                way = vec(view.vertices[view.half_edges[at.side].head]) - tail;
+      ASSERT_EQ(way.x * (p.y - tail.y) - way.y * (p.x - tail.x) > 0, at.inside) << n << " sides, " << i;
       EXPECT_LT(int(prism.on_rim(resting, vec4(p), 1e-14).tests), 7 + std::bit_width(n)) << n << " sides, " << i;
       outside += nearest < 0;
       well_inside += nearest > kMargin;
