@@ -405,11 +405,11 @@ class Marcher {
   template <class Q>
   [[gnu::noinline, gnu::flatten]] static Look look_at_sides(Q body, Prism<Q> prism, bool rim, Vec p, double margin,
                                                             std::uint32_t known) {
-    Look look;
-    if (known != kNone) look = look_nearby(body, prism, p, known);
-    if (!rim) return known == kNone ? look_around(body, prism, p, margin) : look;
-    if (look.side != kNone) return look;
+    if (known != kNone) return look_nearby(body, prism, p, known);
+    if (!rim) return look_around(body, prism, p, margin);
     const typename Prism<Q>::OnRim at = prism.on_rim(body, vec4(p), margin);
+    Look look;
+    look.nearest = at.side;
     if (!at.inside) look = look_nearby(body, prism, p, at.side);
     look.at_all = true, look.well_inside = at.well_inside;
     look.tests += at.tests;
@@ -546,7 +546,7 @@ class Marcher {
       exit.tests = prism.each_side(body, p, e, [&](const auto& sides, const auto& half_edge) { exit.pass(sides, half_edge); });
     } else {
       exit = exit_by_sides<Q>(body, prism, is_rim(body, f), vec(p), vec(e), known.face == f ? known.side : kNone);
-      if (exit.nearest != kNone) known.side = exit.nearest;
+      if (exit.nearest != kNone) known = {f, exit.nearest};
     }
     plane_tests_ += exit.tests;
     if (exit.at > 0 && !(prism.height(p) + exit.at * dot(prism.normal(), e) > 0)) return inside(edge(h), face(f));
@@ -578,11 +578,12 @@ class Marcher {
   template <class Q>
   [[gnu::noinline, gnu::flatten]] static Exit exit_by_sides(Q body, Prism<Q> prism, bool rim, Vec p, Vec e,
                                                             std::uint32_t known) {
-    if (!rim) return known == kNone ? exit_by_any(body, prism, p, e) : exit_nearby(body, prism, p, e, known);
+    if (known != kNone) return exit_nearby(body, prism, p, e, known);
+    if (!rim) return exit_by_any(body, prism, p, e);
     const typename Prism<Q>::OnRim end = prism.on_rim(body, vec4(p + e), 0);
     Exit exit;
+    exit.nearest = end.side;
     if (!end.inside) exit = exit_nearby(body, prism, p, e, end.side);
-    exit.nearest = kNone;
     exit.tests += end.tests;
     return exit;
   }
