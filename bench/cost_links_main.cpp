@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Asks for the distance of every two of some models, for callgrind: see cost. Bodies as they are made, with broad faces, fine
 // rims and slivers, where scenes of the bench have smooth ones.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <swiftlet/model_file.h>
@@ -76,7 +78,8 @@ std::vector<Query> queries_of(const std::vector<Model>& models, double gap, doub
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 5) return std::fputs("swiftlet_cost_links GAP DEGREES ERROR MODEL...: lengths in radii\n", stderr), 2;
+  if (argc < 5)
+    return std::fputs("swiftlet_cost_links GAP DEGREES ERROR MODEL...: gap in mean radii, error in radii of A\n", stderr), 2;
   std::vector<Model> models;
   for (int i = 4; i < argc; ++i) {
     Result<Model> loaded = load(argv[i]);

@@ -337,7 +337,7 @@ inline constexpr int kMostEdges = 14, kMostSplits = 128, kWidthSteps = 16;
 /// From this many steps on a walk looks whether it comes back to where it was. A count, a power of two.
 inline constexpr std::uint32_t kUnwatchedSteps = 16;
 /// A walk that comes back over a face of more sides than this looks at the sides near the last one; the state that ends it
-/// looks at all. A count.
+/// looks at all, or of a rim at those where halving leads. A count.
 inline constexpr std::uint32_t kManySides = 16;
 /// The most facets of one face that are visited for the one below a point.
 inline constexpr int kFacetSteps = 32;

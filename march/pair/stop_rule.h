@@ -44,10 +44,7 @@ struct StopRule {
   }
 };
 
-// Without a namespace of the file's own it was a symbol that files compiled for other registers share.
-namespace {
 /// Allows no width and knows no threshold.
 constexpr StopRule kExact{};
-}  // namespace
 
 }  // namespace swiftlet

@@ -277,8 +277,7 @@ template <class Pair>
 namespace {
 struct ExactDistance {
   static constexpr bool is_loose = false;
-  static constexpr StopRule rule{};
-  const StopRule& asked() const { return rule; }
+  const StopRule& asked() const { return kExact; }
 };
 struct LooseDistance {
   static constexpr bool is_loose = true;

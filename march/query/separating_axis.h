@@ -43,8 +43,8 @@ static inline void take_sample(const Place& at, const AxisSample& seen, double u
 }
 
 /// Answers by the points of the simplex where a search of the maps of `place` ended, which deviate by `deviation`, if these
-/// bound the distance as narrowly as asked, and as an answer whose features need not hold its points. `place` gets the vertices
-/// that weigh the most.
+/// bound the distance as narrowly as asked, but not so narrowly that the features have to hold the points. `place` gets the
+/// corner that weighs the most, which the answer names as its features.
 static inline bool search_suffices(const PairView& view, double deviation, const StopRule& asked, const SupportGjk& found,
                                    Place& place, Answer& answer) {
   if (found.simplex.count == 0) return false;
@@ -52,8 +52,8 @@ static inline bool search_suffices(const PairView& view, double deviation, const
   const Feet feet = feet_of(view, found.simplex);
   const AxisSample points{found.lower_along, corner.va, corner.vb, feet.point, feet.apart, found.seen.gap, found.most_lower};
   const double upper = upper_of(view, deviation, points);
-  const bool needs_features = found.simplex.count > 1 && upper - points.lower <= view.law_two;
-  if (needs_features || !asked.narrow(max(0, points.lower), upper)) return false;
+  const bool lacks_features = found.simplex.count > 1 && upper - points.lower <= view.law_two;
+  if (lacks_features || !asked.narrow(max(0, points.lower), upper)) return false;
   take_sample(place, points, upper, answer);
   answer.status = Status::Converged;
   place.start = supports_of(points);

@@ -267,7 +267,7 @@ TEST(UnitPrism, PlacesAPointOnARimAsAllSidesDo) {
     const Resting4 resting(pair);
     const Prism<Resting4> prism(resting, top);
     for (int i = 0; i < 4000; ++i) {
-      // On any ray from corner 0 or the centre, near the border every other time.
+      // On a ray from a corner or the centre, near its other end every other time.
       const double angle = 2 * std::numbers::pi * uniform(random),
                    far = i % 2 ? 1 + 0.02 * (uniform(random) - 0.5) : uniform(random);
       const Vec from = i % 3 == 0 ? loop[i / 3 % n] : Vec{0, 0, 1}, to{std::cos(angle), 0.7 * std::sin(angle), 1};
