@@ -87,7 +87,7 @@ class Loop {
     const auto sees = [seen](int side) { return seen >> side & 1; };
     int first = 0;
     while (first < size_ && !(sees(first) && !sees(previous(first)))) ++first;
-    if (first == size_) return size_ == 2 ? stretch(spot) : void();
+    if (first == size_) return stretch(spot);
     int after = next(first);
     while (after != first && sees(after)) after = next(after);
     if (after > 0) corners_ = corners_ >> 8 * after | corners_ << 8 * (size_ - after);
@@ -99,12 +99,13 @@ class Loop {
   /// Makes a candidate the last corner.
   void put(int i, int spot) { corners_ = (corners_ & ((std::uint64_t(1) << 8 * i) - 1)) | std::uint64_t(spot) << 8 * i; }
 
-  /// Of three candidates on one line, keeps the two that are farthest apart: the first two may lie nearly in one place.
+  /// A corner that ends a line, or a sliver, gives way to a place that lies on beyond it, where no side sees it.
   void stretch(int spot) {
-    const double from_first = apart((*this)[0], spot), from_second = apart((*this)[1], spot);
-    if (max(from_first, from_second) <= apart((*this)[0], (*this)[1])) return;
-    const int first = from_first >= from_second ? (*this)[0] : spot, second = from_first >= from_second ? spot : (*this)[1];
-    put(0, first), put(1, second);
+    for (int i = 0; i < size_; ++i) {
+      const PlanePoint way = place(spot) - corner(i);
+      const auto is_past = [&](int other) { return dot(way, corner(i) - corner(other)) > 0; };
+      if (is_past(next(i)) && is_past(previous(i)) && dot(way, way) > 4 * bound_ * bound_) return put(i, spot);
+    }
   }
 
   int previous(int i) const { return i == 0 ? size_ - 1 : i - 1; }

@@ -100,13 +100,19 @@ std::uint32_t best_facing(const ConvexView& view, const Vec& n, FeatureId featur
   const auto size = [&](std::uint32_t face) {
     return FeatureId(FeatureKind::Face, face) == before ? kInfinity : norm(area_of(view, face));
   };
-  each_touching(view, n, feature, bound, [&](std::uint32_t face) {
+  const auto visit = [&](std::uint32_t face) {
     if (face == kNone || face == chosen) return;
     const Vec normal = normal_of(view, face);
     const double cosine = dot(normal, normal) > 0 ? dot(normal, n) : -1;
     if (cosine < most - kSameFacing || (cosine <= most + kSameFacing && size(face) <= size(chosen))) return;
     chosen = face, most = cosine;
-  });
+  };
+  each_touching(view, n, feature, bound, visit);
+  // Where slivers touch, the face that looks along n may lie beyond some.
+  for (double last = -3; chosen != kNone && most > last + kSameFacing && most < 1 - kSameFacing;) {
+    last = most;
+    each_touching(view, n, {FeatureKind::Face, chosen}, bound, visit);
+  }
   return chosen;
 }
 
