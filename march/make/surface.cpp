@@ -546,8 +546,8 @@ bool all_float(const Input& in) {
   });
 }
 
-/// Groups facets to walking faces. The facets of a group lie within kWalkingFaceUlps of one plane, their normals within 60
-/// degrees of its normal, and together they form a disc.
+/// Groups facets to walking faces. The facets of a group lie within kWalkingFaceUlps of one plane, their normals within
+/// kWalkingFaceCosine of its normal, and together they form a disc.
 class Grouping {
  public:
   Grouping(const Input& in, const Facets& facets, const std::vector<Side>& sides, const Executor& executor)
@@ -600,7 +600,7 @@ class Grouping {
   /// Returns true if the facet belongs to no group when that of `seed` grows.
   bool is_free(Index facet, Index seed) const { return group_[facet] == kNone && !(alone_[facet] && is_before(facet, seed)); }
   bool is_near(Index facet, const Vec& n, const Vec& p) const {
-    if (!(dot(normalised(area_[facet]), n) > 0.5)) return false;
+    if (!(dot(normalised(area_[facet]), n) > kWalkingFaceCosine)) return false;
     return std::all_of(facets_.loops[facet].begin(), facets_.loops[facet].end(),
                        [&](Index v) { return std::fabs(dot(n, in_.point(v) - p)) <= tolerance_; });
   }

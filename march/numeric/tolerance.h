@@ -261,6 +261,10 @@ inline constexpr double kExitError = 16;
 /// the body's extent. Each coordinate of a rounded planar polygon is off by half an ulp, sqrt(3)/2 for the vector; the plane
 /// through three such points is off by as much at each of them, and extrapolated up to twice.
 inline constexpr double kWalkingFaceUlps = 4;
+/// And while their normals are within 0.01 of the face's: a cosine, dimensionless. Beside the edge of a rounded body slivers
+/// join corners that are in one line but for rounding, and face anywhere. Merged with a face, they would name it where a walk
+/// beside its border has to cross them.
+inline constexpr double kWalkingFaceCosine = 0.99995;
 /// The ulp of the input, relative to its extent: `kFloatUlp` when every coordinate is a float32, else `kDoubleUlp`.
 inline constexpr double kFloatUlp = 0x1p-23, kDoubleUlp = 0x1p-52;
 
