@@ -172,6 +172,14 @@ static inline unsigned at_most(const Vec4& a, const Vec4& b) {
 #endif
 
 static inline Vec4 operator*(const Vec4& a, double s) { return a * all(s); }
+/// The lanes of `a` where `x` is above 0, else those of `b`.
+static inline Vec4 where_positive(const Vec4& x, const Vec4& a, const Vec4& b) {
+#if defined(__AVX__)
+  return {x.v > 0 ? a.v : b.v};
+#else
+  return {x.lo > 0 ? a.lo : b.lo, x.hi > 0 ? a.hi : b.hi};
+#endif
+}
 static inline Vec4 vec4(double x, double y, double z) { return vec4(Vec2{x, y}, Vec2{z, z}); }
 // Coordinates of a vector are loaded one by one: they may have been stored so a moment ago, and a wider load would wait until
 // that is done, for 10 ns. Records of a model are at rest.

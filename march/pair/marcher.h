@@ -14,7 +14,10 @@
 // Differences from the paper: nearest points on closed features instead of clipped intervals with derivatives, so that no state
 // carries values from the one before (the paper's stale values loop); vertex to vertex in one step where the distance falls
 // along the whole edge; an edge is followed over a face and down to where it ends in one step, so that edge and face are no
-// state.
+// state; out of a face over the side that is nearest, as the one that is passed by most may end far away.
+//
+// So each step leads to features that are nearer, or as near and of fewer dimensions, and a walk ends. Rounding can break this
+// where faces are flat only up to the input's precision, and so do the two sides of a flat body.
 //
 // States are computed in the common frame, and directions are turned into a body's own frame to compare its vertices. The
 // comparisons that end a walk are a proof too: on an exactly convex body a vertex is extreme along d if all neighbours are
@@ -231,8 +234,8 @@ class Marcher {
       return {edge(ha), edge(hb)};
     }
     if (at_a.falls() && (first_only_ || at_a.height() >= at_b.height()))
-      return swapped(edge_over_face(hb, b0, b1, q, v, at.t, a, up_side(a, ha, at_a)));
-    return edge_over_face(ha, a0, a1, p, u, at.s, b, up_side(b, hb, at_b));
+      return swapped(edge_over_face(hb, b0, b1, q, v, at.t, a, up_side(a, ha, at_a), ha));
+    return edge_over_face(ha, a0, a1, p, u, at.s, b, up_side(b, hb, at_b), hb);
   }
 
   static Move swapped(const Move& m) { return {m.second, m.first}; }
@@ -362,83 +365,24 @@ class Marcher {
   }
   /// How far the point below another may be from where own coordinates show it.
   double foot_margin() const { return (kFootError + kFootTurn * pair_.pose_error) * pair_.magnitude; }
-  /// What is known of a point in a face's prism.
-  struct Look {
-    std::uint32_t side = kNone;     ///< that the point is farthest beyond; kNone if it is inside the prism
-    bool at_all = true;             ///< it is not beyond any side that was not looked at
-    bool well_inside = true;        ///< false if the point below may be outside a face of many corners by rounding
-    std::uint32_t nearest = kNone;  ///< of a face of many sides, the one to look near next time
-    std::uint32_t tests = 0;
-  };
-  /// Looks at all sides, or, unless it has to, only at those near the one that the walk was near before.
+  /// Looks where `p` is over face `f`: of many sides, unless it has to at all, only at those that the walk was near before.
   template <class Q>
   Look leave(const Q& body, const Prism<Q>& prism, std::uint32_t f, const Vec4& p, bool all_sides) {
     Border& known = border(body);
     Look look;
     if (prism.is_triangle()) {
-      double farthest2 = 0;
-      look.tests = prism.each_side(body, p, all(0), [&](const auto& sides, const auto& half_edge) {
-        go_out(sides, half_edge, first_only_, farthest2, look.side);
+      double nearness = 0;
+      look.tests = 3;
+      prism.each_side(p, all(0), [&](const Sides& sides, const auto& half_edge) {
+        go_out<first_only_>(sides, half_edge, nearness, look.side);
       });
     } else {
-      look = look_at_sides<Q>(body, prism, is_rim(body, f), vec(p), foot_margin(),
-                              all_sides || known.face != f ? kNone : known.side);
+      look =
+          prism.polygon(is_rim(body, f))
+              .template look<first_only_>(vec(body.local(p)), foot_margin(), all_sides || known.face != f ? kNone : known.side);
       if (look.nearest != kNone) known = {f, look.nearest};
     }
     plane_tests_ += look.tests;
-    return look;
-  }
-  /// Makes `out` the side that is passed by most, squared: by more than `farthest2`.
-  template <class Sides>
-  static void go_out(const Sides& sides, const auto& half_edge, bool first_only, double& farthest2, std::uint32_t& out) {
-    Vec4 beyond = max(sides.beyond, all(0));
-    if (greater(beyond, all(0)) == 0 || (first_only && out != kNone)) return;
-    Vec4 violation2 = beyond / sides.uu * beyond;  // in this order, as eighth powers of small lengths underflow
-    const double most = greatest(violation2);
-    if (!(most > farthest2)) return;
-    out = half_edge(std::countr_zero(first_only ? greater(violation2, all(0)) : equal(violation2, all(most))));
-    farthest2 = most;
-  }
-
-  /// Looks at the sides of a face of many: near the side `known`, if it is one; else of a rim at those where halving leads, of
-  /// another face at all. One function for all ways, as each call of it copies body and prism.
-  template <class Q>
-  [[gnu::noinline, gnu::flatten]] static Look look_at_sides(Q body, Prism<Q> prism, bool rim, Vec p, double margin,
-                                                            std::uint32_t known) {
-    if (known != kNone) return look_nearby(body, prism, p, known);
-    if (!rim) return look_around(body, prism, p, margin);
-    const typename Prism<Q>::OnRim at = prism.on_rim(body, vec4(p), margin);
-    Look look;
-    look.nearest = at.side;
-    if (!at.inside) look = look_nearby(body, prism, p, at.side);
-    look.at_all = true, look.well_inside = at.well_inside;
-    look.tests += at.tests;
-    return look;
-  }
-  template <class Q>
-  static Look look_around(const Q& body, const Prism<Q>& prism, const Vec& p, double margin) {
-    Look look;
-    std::uint32_t nearest = kNone;
-    double farthest2 = 0, least2 = kUnknown;
-    look.tests = prism.each_side(body, vec4(p), all(0), [&](const auto& sides, const auto& half_edge) {
-      const Vec4 distance2 = sides.beyond / sides.uu * sides.beyond;
-      look.well_inside &= greater(all(0), sides.beyond) == 15 && greater(distance2, all(margin * margin)) == 15;
-      if (const double least = -greatest(-distance2); least < least2)
-        least2 = least, nearest = half_edge(std::countr_zero(equal(distance2, all(least))));
-      go_out(sides, half_edge, first_only_, farthest2, look.side);
-    });
-    if (look.tests > kManySides && !first_only_) look.nearest = look.side != kNone ? look.side : nearest;
-    return look;
-  }
-  template <class Q>
-  static Look look_nearby(const Q& body, const Prism<Q>& prism, const Vec& p, std::uint32_t side) {
-    Look look;
-    look.at_all = false;
-    double farthest2 = 0;
-    look.nearest = prism.nearest_side(body, side, vec4(p), all(0), [&](const auto& seen, std::uint32_t half_edge) {
-      ++look.tests;
-      if (seen.beyond2() > farthest2) farthest2 = seen.beyond2(), look.side = half_edge;
-    });
     return look;
   }
 
@@ -490,7 +434,8 @@ class Marcher {
       if (next_in_facet(body.view, next_in_facet(body.view, facet.second())) != h) break;  // no triangle
       std::uint32_t out = kNone;
       bool leaves_face = false;
-      tests += facet.each_side(body, seen.point_a, all(0), [&](const auto& sides, const auto& half_edge) {
+      tests += 3;
+      facet.each_side(seen.point_a, all(0), [&](const Sides& sides, const auto& half_edge) {
         Vec4 beyond = max(sides.beyond, all(0)), violation2 = beyond / sides.uu * beyond;
         const double most = greatest(violation2);
         if (most > 0) out = half_edge(std::countr_zero(equal(violation2, all(most))));
@@ -520,13 +465,14 @@ class Marcher {
     return tests;
   }
 
-  /// Follows edge `h`, which leads from `tail` along u to `head`, from its point p at s over face `f`, which rises towards p.
+  /// Follows edge `h`, which leads from `tail` along u to `head`, from its point p at s over face `f`, which rises towards p
+  /// beside its edge `from`.
   template <class Q>
   Move edge_over_face(std::uint32_t h, std::uint32_t tail, std::uint32_t head, const Vec4& p, const Vec4& u, double s,
-                      const Q& body, std::uint32_t f) {
+                      const Q& body, std::uint32_t f, std::uint32_t from) {
     Prism prism(body, f);
     const bool forward = dot(prism.normal(), u) < 0;
-    Move move = over_face(h, forward ? head : tail, p, u * (forward ? 1 - s : -s), body, prism, f);
+    Move move = over_face(h, forward ? head : tail, p, u * (forward ? 1 - s : -s), body, prism, f, from);
     const std::uint32_t below = other_side(body.view, f);
     if (below == kNone || ended_ != WalkEnd::Inside || !(prism.height(p) < 0)) [[likely]]
       return move;
@@ -539,74 +485,26 @@ class Marcher {
   /// first.
   template <class Q>
   Move over_face(std::uint32_t h, std::uint32_t to, const Vec4& p, const Vec4& e, const Q& body, const Prism<Q>& prism,
-                 std::uint32_t f) {
+                 std::uint32_t f, std::uint32_t from = kNone) {
     Exit exit;
     Border& known = border(body);
     if (prism.is_triangle()) {
-      exit.tests = prism.each_side(body, p, e, [&](const auto& sides, const auto& half_edge) { exit.pass(sides, half_edge); });
+      double nearness = 0;
+      exit.tests = 3;
+      prism.each_side(p, e, [&](const Sides& sides, const auto& half_edge) {
+        exit.template pass<first_only_, false>(sides, half_edge, nearness);
+      });
     } else {
-      exit = exit_by_sides<Q>(body, prism, is_rim(body, f), vec(p), vec(e), known.face == f ? known.side : kNone);
+      if (from != kNone && body.view.half_edges[from].face != f) from = body.view.half_edges[from].twin;
+      exit = prism.polygon(is_rim(body, f))
+                 .template exit<first_only_>(vec(body.local(p)), vec(body.into(e)), known.face == f ? known.side : kNone, from);
       if (exit.nearest != kNone) known = {f, exit.nearest};
+      if (exit.side == from && from != kNone) ended_ = WalkEnd::Stalled;  // the edges cross but for rounding
     }
     plane_tests_ += exit.tests;
     if (exit.at > 0 && !(prism.height(p) + exit.at * dot(prism.normal(), e) > 0)) return inside(edge(h), face(f));
     if (exit.side == kNone) return {vertex(to), face(f)};
     return {edge(h), edge(exit.side)};
-  }
-  /// Where p + x e leaves a prism: at x = `at`, through `side`; not before x = 1 if that is kNone.
-  struct Exit {
-    double at = 1;
-    std::uint32_t side = kNone;
-    std::uint32_t nearest = kNone;  ///< of a face of many sides, the one that p + e is near
-    std::uint32_t tests = 0;
-    template <class Sides>
-    void pass(const Sides& sides, const auto& half_edge) {
-      int lane = -1;
-      if (const unsigned outside = greater(sides.beyond, all(0)); outside != 0) {
-        at = 0, lane = std::bit_width(outside) - 1;
-      } else {
-        for (unsigned leaving = greater(sides.beyond + sides.slope, all(0)); leaving != 0; leaving &= leaving - 1) {
-          const int i = std::countr_zero(leaving);
-          const double beyond = sides.beyond[i], slope = sides.slope[i];
-          if (-beyond < at * slope) at = -beyond / slope, lane = i;
-        }
-      }
-      if (lane >= 0) side = half_edge(lane);
-    }
-  };
-  /// As `look_at_sides`.
-  template <class Q>
-  [[gnu::noinline, gnu::flatten]] static Exit exit_by_sides(Q body, Prism<Q> prism, bool rim, Vec p, Vec e,
-                                                            std::uint32_t known) {
-    if (known != kNone) return exit_nearby(body, prism, p, e, known);
-    if (!rim) return exit_by_any(body, prism, p, e);
-    const typename Prism<Q>::OnRim end = prism.on_rim(body, vec4(p + e), 0);
-    Exit exit;
-    exit.nearest = end.side;
-    if (!end.inside) exit = exit_nearby(body, prism, p, e, end.side);
-    exit.tests += end.tests;
-    return exit;
-  }
-  template <class Q>
-  static Exit exit_by_any(const Q& body, const Prism<Q>& prism, const Vec& p, const Vec& e) {
-    Exit exit;
-    exit.tests =
-        prism.each_side(body, vec4(p), vec4(e), [&](const auto& sides, const auto& half_edge) { exit.pass(sides, half_edge); });
-    return exit;
-  }
-  /// The same by sides near `side`.
-  template <class Q>
-  static Exit exit_nearby(const Q& body, const Prism<Q>& prism, const Vec& p, const Vec& e, std::uint32_t side) {
-    Exit exit;
-    exit.nearest = prism.nearest_side(body, side, vec4(p), vec4(e), [&](const auto& seen, std::uint32_t half_edge) {
-      ++exit.tests;
-      if (seen.beyond > 0)
-        exit.at = 0, exit.side = half_edge;
-      else if (seen.beyond + seen.slope > 0 && -seen.beyond < exit.at * seen.slope)
-        exit.at = -seen.beyond / seen.slope, exit.side = half_edge;
-    });
-    if (exit.side != kNone) exit.nearest = exit.side;
-    return exit;
   }
 
   const PairView& pair_;

@@ -129,7 +129,7 @@ class Refinement(IntEnum):
 class PlaneRule(IntEnum):
     """Which violated Voronoi plane a step follows [sec. 5.1]."""
 
-    MOST_VIOLATED = 0  #: the plane that the point is farthest beyond
+    MOST_VIOLATED = 0  #: the nearest side of a face that the point is beyond; of a vertex, the highest neighbour
     FIRST_VIOLATED = 1  #: the first one found
 
 

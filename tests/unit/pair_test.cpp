@@ -265,7 +265,7 @@ TEST(UnitPrism, PlacesAPointOnARimAsAllSidesDo) {
     const Motion still = motion({Mat3::Identity(), Vec3::Zero()});
     const PairView pair = pair_view(view, view, still, 0);
     const Resting4 resting(pair);
-    const Prism<Resting4> prism(resting, top);
+    const Polygon polygon = Prism<Resting4>(resting, top).polygon(true);
     for (int i = 0; i < 4000; ++i) {
       // On a ray from a corner or the centre, near its other end every other time.
       const double angle = 2 * std::numbers::pi * uniform(random),
@@ -279,13 +279,13 @@ TEST(UnitPrism, PlacesAPointOnARimAsAllSidesDo) {
       }
       constexpr double kMargin = 0.003;
       if (std::fabs(nearest) < 1e-12 || std::fabs(nearest - kMargin) < 1e-12) continue;
-      const Prism<Resting4>::OnRim at = prism.on_rim(resting, vec4(p), kMargin);
+      const Polygon::OnRim at = polygon.on_rim(p, kMargin);
       ASSERT_EQ(at.inside, nearest > 0) << n << " sides, " << i;
       ASSERT_EQ(at.well_inside, nearest > kMargin) << n << " sides, " << i;
       const Vec tail = vec(view.vertices[origin(view, at.side)]),
                 way = vec(view.vertices[view.half_edges[at.side].head]) - tail;
       ASSERT_EQ(way.x * (p.y - tail.y) - way.y * (p.x - tail.x) > 0, at.inside) << n << " sides, " << i;
-      EXPECT_LT(int(prism.on_rim(resting, vec4(p), 1e-14).tests), 7 + std::bit_width(n)) << n << " sides, " << i;
+      EXPECT_LT(int(polygon.on_rim(p, 1e-14).tests), 7 + std::bit_width(n)) << n << " sides, " << i;
       outside += nearest < 0;
       well_inside += nearest > kMargin;
       nearly_outside += nearest > 0 && nearest < kMargin;

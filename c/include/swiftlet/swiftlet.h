@@ -476,7 +476,7 @@ enum {
 };
 /// Which violated Voronoi plane a step follows: PlaneRule of C++.
 enum {
-  SWIFTLET_PLANE_RULE_MOST_VIOLATED = 0,  ///< the plane that the point is farthest beyond; the default
+  SWIFTLET_PLANE_RULE_MOST_VIOLATED = 0,  ///< the nearest side that the point is beyond; the default
   SWIFTLET_PLANE_RULE_FIRST_VIOLATED = 1  ///< the first one found
 };
 /// Why a walk's own tests were not the proof: Doubt of C++.

@@ -15,7 +15,8 @@ namespace swiftlet {
 
 /// Which violated Voronoi plane a step follows [Ehmann & Lin 2000, sec. 5.1].
 enum class PlaneRule : std::uint8_t {
-  MostViolated,   ///< the plane that the point is farthest beyond; at a vertex, that of the neighbour highest towards the point
+  MostViolated,   ///< of a triangle the side that the point is farthest beyond, of a larger face the nearest such side; at a
+                  ///< vertex, the plane of the neighbour highest towards the point
   FirstViolated,  ///< the first one found
 };
 
