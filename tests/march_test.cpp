@@ -539,7 +539,7 @@ TEST(March, WalksThatComeBackEnd) {
   const auto any_vertex = [&] { return FeatureId{FeatureKind::Vertex, std::uint32_t(random.uniform(0, vertices))}; };
   const std::size_t most = most_steps(view, view);
   int came_back = 0;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < 1000000; ++i) {
     const Pose pose{random.rotation(), 1.5 * random.on_sphere()};
     const Motion m = motion(pose);
     const PairView pair = pair_view(view, view, m, 0);
@@ -562,7 +562,7 @@ TEST(March, WalksThatComeBackEnd) {
     EXPECT_LE(marched.lower, answer.upper) << i;
     EXPECT_GE(marched.upper, answer.lower) << i;
   }
-  std::printf("%d of 100 000 walks came back\n", came_back);
+  std::printf("%d of 1 000 000 walks came back\n", came_back);
   EXPECT_GE(came_back, 5);
 }
 

@@ -540,6 +540,14 @@ V3<Real> area_vector(const Input& in, const Loop& loop) {
   return sum;
 }
 
+/// The same, of a sliver in 106 bits: in doubles rounding is what makes its direction.
+Vec area_of(const Input& in, const Loop& loop) {
+  const Vec area = area_vector<double>(in, loop);
+  double size = 0;
+  for (const Index v : loop) size = std::max(size, max_abs(in.point(v) - in.point(loop[0])));
+  return dot(area, area) > kSliverArea * (size * size) * (size * size) ? area : rounded(area_vector<DoubleDouble>(in, loop));
+}
+
 bool all_float(const Input& in) {
   return std::all_of(in.points.begin(), in.points.end(), [](const Vec3& p) {
     return double(float(p[0])) == p[0] && double(float(p[1])) == p[1] && double(float(p[2])) == p[2];
@@ -557,7 +565,7 @@ class Grouping {
     for (Index s = Index(sides.size()); s-- > 0;) first_side_[sides[s].facet] = s;
     area_.resize(count);
     over_chunks(executor, count, kPerTask, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t f = begin; f < end; ++f) area_[f] = area_vector<double>(in, facets.loops[f]);
+      for (std::size_t f = begin; f < end; ++f) area_[f] = area_of(in, facets.loops[f]);
     });
     tolerance_ = kWalkingFaceUlps * (all_float(in) ? kFloatUlp : kDoubleUlp) * extent_of(in.points);
     alone_.resize(count);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "manifold/contact_face.h"
 
+#include <utility>
+
 #include "body/half_edge.h"
 #include "numeric/exact.h"
 #include "numeric/tolerance.h"
@@ -62,6 +64,27 @@ FeatureId highest_of(const ConvexView& view, const Vec& n, FeatureId feature, do
   return is_inside ? FeatureId(FeatureKind::Face, face) : feature;
 }
 
+/// Visits the faces beyond those sides of a face that are highest along n within `bound`. Returns the corner that is highest,
+/// and whether there is such a side.
+template <class Visit>
+std::pair<std::uint32_t, bool> each_beyond_top(const ConvexView& view, const Vec& n, std::uint32_t face, double bound,
+                                               Visit visit) {
+  const std::uint32_t first = view.face_first[face];
+  const auto height = [&](std::uint32_t v) { return dot(n, point(view, v)); };
+  std::uint32_t top = origin(view, first);
+  for (std::uint32_t h = next_in_face(view, first); h != first; h = next_in_face(view, h))
+    if (height(origin(view, h)) > height(top)) top = origin(view, h);
+  const double least = height(top) - bound;
+  bool is_side = false;
+  std::uint32_t h = first;
+  do {
+    if (height(origin(view, h)) >= least && height(view.half_edges[h].head) >= least)
+      visit(right_face(view, h)), is_side = true;
+    h = next_in_face(view, h);
+  } while (h != first);
+  return {top, is_side};
+}
+
 /// Visits the faces that may touch a plane with the normal n where a feature does. A face that holds the nearest point but does
 /// not look along n touches the plane at its border, as a side face does under the edge of a top face: with the faces beyond
 /// its sides that are level within `bound`, or those around its highest corner.
@@ -76,19 +99,7 @@ void each_touching(const ConvexView& view, const Vec& n, FeatureId feature, doub
     case FeatureKind::Face: visit(i);
   }
   if (looks_along(view, n, i)) return;
-  const std::uint32_t first = view.face_first[i];
-  const auto height = [&](std::uint32_t v) { return dot(n, point(view, v)); };
-  std::uint32_t top = origin(view, first);
-  for (std::uint32_t h = next_in_face(view, first); h != first; h = next_in_face(view, h))
-    if (height(origin(view, h)) > height(top)) top = origin(view, h);
-  const double least = height(top) - bound;
-  bool is_side = false;
-  std::uint32_t h = first;
-  do {
-    if (height(origin(view, h)) >= least && height(view.half_edges[h].head) >= least)
-      visit(right_face(view, h)), is_side = true;
-    h = next_in_face(view, h);
-  } while (h != first);
+  const auto [top, is_side] = each_beyond_top(view, n, i, bound, visit);
   if (!is_side) each_face_around(view, top, visit);
 }
 
@@ -111,7 +122,7 @@ std::uint32_t best_facing(const ConvexView& view, const Vec& n, FeatureId featur
   // Where slivers touch, the face that looks along n may lie beyond some.
   for (double last = -3; chosen != kNone && most > last + kSameFacing && most < 1 - kSameFacing;) {
     last = most;
-    each_touching(view, n, {FeatureKind::Face, chosen}, bound, visit);
+    each_beyond_top(view, n, chosen, bound, visit);
   }
   return chosen;
 }

@@ -16,8 +16,9 @@
 // along the whole edge; an edge is followed over a face and down to where it ends in one step, so that edge and face are no
 // state; out of a face over the side that is nearest, as the one that is passed by most may end far away.
 //
-// So each step leads to features that are nearer, or as near and of fewer dimensions, and a walk ends. Rounding can break this
-// where faces are flat only up to the input's precision, and so do the two sides of a flat body.
+// So each step leads to features that are nearer, or as near and of fewer dimensions, and a walk ends. Not where a walk that
+// comes back over a face of more than `kManySides` sides looks at a few of them only, between flat bodies, whose two sides are
+// in one place, and where faces are flat up to rounding only.
 //
 // States are computed in the common frame, and directions are turned into a body's own frame to compare its vertices. The
 // comparisons that end a walk are a proof too: on an exactly convex body a vertex is extreme along d if all neighbours are
@@ -140,7 +141,8 @@ class Marcher {
     return {edge(from_a.to), along(b, from_b)};
   }
 
-  template <class P, class Q>
+  /// If `is_level`, what rises beside the features does so by rounding only.
+  template <bool is_level = false, class P, class Q>
   Move vertex_edge(const P& a, std::uint32_t va, const Q& b, std::uint32_t h) {
     const std::uint32_t v0 = origin(b.view, h), v1 = b.view.half_edges[h].head;
     Vec4 own = b.own(v0), p = a.point(va), q0 = b.point(v0), u = b.way(b.own(v1) - own), r = p - q0;
@@ -155,9 +157,9 @@ class Marcher {
       return {vertex(va), edge(h)};
     }
     SideScan at_b = sides(b, v0, h, b.into(up), plane_tests_);
-    if (at_b.falls()) return {vertex(va), face(up_side(b, h, at_b))};
+    if (!is_level && at_b.falls()) return {vertex(va), face(up_side(b, h, at_b))};
     RingScan at_a = ring(a, va, a.into(-up), length_1);
-    if (!at_a.falls()) [[likely]] {
+    if (is_level || !at_a.falls()) [[likely]] {
       const double over_b = at_b.over(kAcrossError + Q::kWay, b.reach, length_1);
       end(a, {-up, -r, p, q0 + u * (ru / length2), blur_on<Q>(u), at_a.over(), over_b, {va, va, va}, {v0, v1, v1}});
       return {vertex(va), edge(h)};
@@ -202,7 +204,7 @@ class Marcher {
     return over_face(h, to, p, a.way(a.own(to) - a.own(va)), b, prism, f);
   }
 
-  template <class P, class Q>
+  template <bool is_level = false, class P, class Q>
   Move edge_edge(const P& a, std::uint32_t ha, const Q& b, std::uint32_t hb) {
     const std::uint32_t a0 = origin(a.view, ha), a1 = a.view.half_edges[ha].head, b0 = origin(b.view, hb),
                         b1 = b.view.half_edges[hb].head;
@@ -221,7 +223,7 @@ class Marcher {
     }
     auto [n, tilt_u, tilt_v] = between_edges(u, uu, v, vv, d);
     SideScan at_a = sides(a, a0, ha, a.into(n), plane_tests_), at_b = sides(b, b0, hb, b.into(-n), plane_tests_);
-    if (!at_a.falls() && !at_b.falls()) [[likely]] {
+    if (is_level || (!at_a.falls() && !at_b.falls())) [[likely]] {
       const double length_1 = norm_1(n);
       double over_a = at_a.over(tilt_u + P::kWay, a.reach, length_1), over_b = at_b.over(tilt_v + Q::kWay, b.reach, length_1);
       if (tilt_u > kLeastTilt && tilt_u < kMostTilt) {
@@ -495,15 +497,17 @@ class Marcher {
         exit.template pass<first_only_, false>(sides, half_edge, nearness);
       });
     } else {
-      if (from != kNone && body.view.half_edges[from].face != f) from = body.view.half_edges[from].twin;
       exit = prism.polygon(is_rim(body, f))
-                 .template exit<first_only_>(vec(body.local(p)), vec(body.into(e)), known.face == f ? known.side : kNone, from);
+                 .template exit<first_only_>(
+                     vec(body.local(p)), vec(body.into(e)), known.face == f ? known.side : kNone,
+                     from == kNone || body.view.half_edges[from].face == f ? from : body.view.half_edges[from].twin);
       if (exit.nearest != kNone) known = {f, exit.nearest};
-      if (exit.side == from && from != kNone) ended_ = WalkEnd::Stalled;  // the edges cross but for rounding
     }
     plane_tests_ += exit.tests;
     if (exit.at > 0 && !(prism.height(p) + exit.at * dot(prism.normal(), e) > 0)) return inside(edge(h), face(f));
     if (exit.side == kNone) return {vertex(to), face(f)};
+    if (exit.at == 0 && from != kNone && (exit.side == from || exit.side == body.view.half_edges[from].twin))
+      ended_ = WalkEnd::Stalled;
     return {edge(h), edge(exit.side)};
   }
 
@@ -538,6 +542,27 @@ Move state(March& march, const A& a, FeatureId fa, const B& b, FeatureId fb) {
   }
 }
 
+/// Ends a walk that stalled at an edge and a vertex or an edge there, for a closer look to tell whether nothing rises beside
+/// them. Slivers rise or fall by rounding, and lead a walk to and fro between them and their sides.
+[[maybe_unused, gnu::noinline, gnu::cold]] void take_as_level(const PairView& pair, Walk& walk) {
+  using enum FeatureKind;
+  Marcher<Nearest> march(pair, walk.nearest);
+  const Resting4 a(pair);
+  const Moved4 b(pair);
+  FeatureId fa = walk.a, fb = walk.b;
+  if (fa.kind() == Face || fb.kind() == Face) {
+    const Move side = state(march, a, fa, b, fb);
+    fa = side.first, fb = side.second;
+  }
+  if (march.ended() == WalkEnd::Budget) {
+    if (fa.kind() == Edge && fb.kind() == Edge) march.edge_edge<true>(a, fa.index(), b, fb.index());
+    if (fa.kind() == Vertex && fb.kind() == Edge) march.vertex_edge<true>(a, fa.index(), b, fb.index());
+    if (fa.kind() == Edge && fb.kind() == Vertex) march.vertex_edge<true>(b, fb.index(), a, fa.index());
+  }
+  walk.plane_tests += march.plane_tests();
+  if (march.ended() == WalkEnd::Minimum) walk.end = WalkEnd::Minimum, walk.a = fa, walk.b = fb;
+}
+
 /// As `walk`, from features that have a state; only if `early` does `enough2` count.
 template <bool early, PlaneRule rule = PlaneRule::MostViolated>
 [[gnu::noinline, gnu::flatten]] Walk walked(const PairView& pair, FeatureId a, FeatureId b, std::uint32_t step_budget,
@@ -563,6 +588,7 @@ template <bool early, PlaneRule rule = PlaneRule::MostViolated>
   }
   result.a = a, result.b = b;
   result.steps = steps, result.plane_tests = march.plane_tests();
+  if (result.end == WalkEnd::Stalled) take_as_level(pair, result);
   return result;
 }
 
@@ -583,9 +609,10 @@ template <bool early, PlaneRule rule = PlaneRule::MostViolated>
 /// The same whose first state has led to `move`, after `plane_tests`, and `ended` the walk or not.
 [[maybe_unused]] Walk walked_on(const PairView& pair, const Move& move, WalkEnd ended, std::uint32_t plane_tests,
                                 std::uint32_t step_budget) {
-  Walk walk = ended == WalkEnd::Budget ? walked<false>(pair, move.first, move.second, step_budget - 1)
-                                       : Walk{ended, move.first, move.second, 0, 0, {}};
-  walk.steps += ended == WalkEnd::Budget, walk.plane_tests += plane_tests;
+  const bool goes_on = ended == WalkEnd::Budget || ended == WalkEnd::Stalled;
+  Walk walk =
+      goes_on ? walked<false>(pair, move.first, move.second, step_budget - 1) : Walk{ended, move.first, move.second, 0, 0, {}};
+  walk.steps += goes_on, walk.plane_tests += plane_tests;
   return walk;
 }
 
