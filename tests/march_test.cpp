@@ -495,8 +495,8 @@ std::vector<Vec3> corners_of(const ConvexView& view, FeatureId feature) {
   return corners;
 }
 
-/// Each step leads to features that are nearer, or as near and of fewer dimensions, so that no walk between faces that are flat
-/// comes back. From vertices anywhere, behind the body too.
+/// Each step leads to features that are no farther, up to 1e-12, and no walk comes back: between faces that are flat but for
+/// the rounding of doubles, from vertices anywhere, behind the body too.
 TEST(March, NoStepLeadsAway) {
   const std::vector<Named> all = {{"plate", model(bodies::body_of(shapes::ellipsoid({1, 0.8, 0.02}, 1000, 3)))},
                                   {"gem", model(gem(40, 5, 1))},
@@ -529,8 +529,8 @@ TEST(March, NoStepLeadsAway) {
   }
 }
 
-/// Between flat triangles some walks come back to where they were, as an edge that gets below one is above its other face. They
-/// end there, and the query is answered by other means.
+/// Between flat triangles, whose two sides are in one place, a few walks come back to where they were. They end there, and the
+/// query is answered by other means.
 TEST(March, WalksThatComeBackEnd) {
   const Model flat = model(bodies::two_sided(shapes::polygon(3).points));
   const ConvexView& view = flat.level(0).view;

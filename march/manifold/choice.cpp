@@ -99,7 +99,8 @@ class Loop {
   /// Makes a candidate the last corner.
   void put(int i, int spot) { corners_ = (corners_ & ((std::uint64_t(1) << 8 * i) - 1)) | std::uint64_t(spot) << 8 * i; }
 
-  /// A corner that ends a line, or a sliver, gives way to a place that lies on beyond it, where no side sees it.
+  /// A corner that ends a line, or a sliver, gives way to a place beyond it that no side sees, if that is farther than twice
+  /// the bound: at a right angle or a blunt one no such place is.
   void stretch(int spot) {
     for (int i = 0; i < size_; ++i) {
       const PlanePoint way = place(spot) - corner(i);

@@ -18,7 +18,7 @@ namespace swiftlet {
 enum class WalkEnd : std::uint8_t {
   Minimum,  ///< no Voronoi plane of either feature is violated
   Inside,   ///< a vertex is below a face, or an edge passes through one: overlap, or a start behind the body
-  Stalled,  ///< it came back to features where it had been
+  Stalled,  ///< it came back to features where it had been, or crossed the side that it came from
   Enough,   ///< the features are as near as was asked
   Budget,
 };
